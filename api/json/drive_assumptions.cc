@@ -1,0 +1,96 @@
+#include "api/json/drive_assumptions.h"
+
+namespace slipway::api::json {
+namespace {
+
+constexpr NumberRule kMapMetres{"m", -1e8, 1e8};
+constexpr std::size_t kMostEffects = 50;
+constexpr std::uint64_t kLargestExactWhole = 9'007'199'254'740'991;  // 2^53 - 1
+
+void read_limits(ObjectReader& reader, sim::DriveLimits& limits) {
+  auto object = reader.object("limits", kOptional);
+  if (!object) return;
+  object->number("max_slip", kOptional, {"1", 0.0, 1.0, true}, limits.max_slip_ratio);
+  object->angle_deg("max_tilt_deg", kOptional, {"deg", 0.0, 60.0, true}, limits.max_tilt_rad);
+  object->number("max_current_a", kOptional, {"A", 0.0, 100.0, true}, limits.max_current_a);
+  object->number("max_sinkage_m", kOptional, {"m", 0.0, 1.0, true}, limits.max_sinkage_m);
+  object->number("min_clearance_m", kOptional, {"m", 0.0, 2.0}, limits.min_clearance_m);
+  object->refuse_unknown();
+}
+
+void read_parameters(ObjectReader& effect, sim::EffectSetting& setting) {
+  const JsonValue* const parameters = effect.member("parameters", kOptional);
+  if (parameters == nullptr) return;
+  const std::string pointer = child_pointer(effect.pointer(), "parameters");
+  if (!parameters->is(JsonValue::Kind::kObject)) {
+    effect.fault("parameters", "parameters = " + describe(*parameters) + ", must be an object");
+    return;
+  }
+  // Which keys there are, and their ranges, is the effect catalogue's to say.
+  for (std::size_t i = 0; i < parameters->keys.size(); ++i) {
+    const std::string& key = parameters->keys[i];
+    double value = 0.0;
+    if (read_number(parameters->elements[i], child_pointer(pointer, key), key, {}, value, effect.faults())) {
+      setting.parameters[key] = value;
+    }
+  }
+}
+
+}  // namespace
+
+void read_drive_assumptions(ObjectReader& reader, DriveAssumptions& drive) {
+  read_limits(reader, drive.limits);
+  for (const Element& element : reader.list("effects", kOptional, {0, kMostEffects})) {
+    ObjectReader effect(*element.value, element.pointer, reader.faults());
+    sim::EffectSetting& setting = drive.effects.emplace_back();  // also when faulty: the indices must stay
+    effect.text("name", kRequired, {.most = 64}, setting.name);
+    read_parameters(effect, setting);
+    effect.refuse_unknown();
+  }
+  reader.whole("draws", kOptional, 1, RequestLimits::kDraws, drive.draws);
+  reader.whole("seed", kOptional, std::uint64_t{0}, kLargestExactWhole, drive.seed);
+  reader.number("speed_m_s", kOptional, {"m/s", 0.0, 10.0, true}, drive.speed_m_s);
+}
+
+void write_drive_assumptions(Writer& w, const DriveAssumptions& drive) {
+  w.key("limits").begin_object();
+  w.exact("max_slip", drive.limits.max_slip_ratio);
+  w.angle_deg("max_tilt_deg", drive.limits.max_tilt_rad);
+  w.exact("max_current_a", drive.limits.max_current_a);
+  w.exact("max_sinkage_m", drive.limits.max_sinkage_m);
+  w.exact("min_clearance_m", drive.limits.min_clearance_m);
+  w.end_object();
+  w.key("effects").begin_array();
+  for (const sim::EffectSetting& effect : drive.effects) {
+    w.begin_object().text("name", effect.name).key("parameters").begin_object();
+    for (const auto& [key, value] : effect.parameters) w.exact(key, value);
+    w.end_object().end_object();
+  }
+  w.end_array();
+  w.whole("draws", drive.draws);
+  w.whole("seed", static_cast<std::int64_t>(drive.seed));
+  if (drive.speed_m_s) w.exact("speed_m_s", *drive.speed_m_s);
+}
+
+void read_waypoint(const JsonValue& value, const std::string& pointer, planner::Waypoint& out,
+                   std::vector<Fault>& faults) {
+  ObjectReader reader(value, pointer, faults);
+  reader.number("x_m", kRequired, kMapMetres, out.x_m);
+  reader.number("y_m", kRequired, kMapMetres, out.y_m);
+  reader.angle_deg("yaw_deg", kOptional, {"deg", -360.0, 360.0}, out.yaw_rad);
+  reader.refuse_unknown();
+}
+
+void write_waypoint(Writer& w, const planner::Waypoint& waypoint) {
+  w.begin_object().exact("x_m", waypoint.x_m).exact("y_m", waypoint.y_m);
+  if (waypoint.yaw_rad) w.angle_deg("yaw_deg", *waypoint.yaw_rad);
+  w.end_object();
+}
+
+void read_names(ObjectReader& reader, std::string& terrain, std::string& rover) {
+  const TextRule name{.most = 64, .is_name = true};
+  reader.text("terrain", kRequired, name, terrain);
+  reader.text("rover", kRequired, name, rover);
+}
+
+}  // namespace slipway::api::json

@@ -1,0 +1,142 @@
+#include "api/json/rover_file.h"
+
+#include <algorithm>
+
+#include "api/faults.h"
+#include "api/json/parse.h"
+#include "api/json/strict_reader.h"
+
+namespace slipway::api::json {
+namespace {
+
+constexpr NumberRule kBodyMetres{"m", -10.0, 10.0};
+constexpr std::size_t kMostSources = 50;
+
+bool read_point(ObjectReader& reader, std::string_view key, Eigen::Vector3d& out) {
+  std::vector<double> xyz;
+  if (!reader.numbers(key, kRequired, {3, 3}, kBodyMetres, xyz)) return false;
+  out = Eigen::Vector3d(xyz[0], xyz[1], xyz[2]);
+  return true;
+}
+
+void read_wheels(ObjectReader& reader, sim::RoverModel& rover) {
+  for (const Element& element : reader.list("wheels", kRequired, {6, 6})) {
+    ObjectReader object(*element.value, element.pointer, reader.faults());
+    sim::WheelModel& wheel = rover.wheels.emplace_back();
+    object.text("name", kRequired, {.most = 2, .is_name = true}, wheel.name);
+    read_point(object, "position_m", wheel.position_m);
+    object.number("radius_m", kRequired, {"m", 0.0, 1.0, true}, wheel.radius_m);
+    object.number("width_m", kRequired, {"m", 0.0, 1.0, true}, wheel.width_m);
+    object.boolean("steerable", kRequired, wheel.steerable);
+    object.refuse_unknown();
+    wheel.side = wheel.name.starts_with('r') ? sim::Side::kRight : sim::Side::kLeft;
+  }
+}
+
+void read_suspension(ObjectReader& reader, sim::RoverModel& rover) {
+  auto object = reader.object("suspension", kRequired);
+  if (!object) return;
+  std::size_t type = 0;
+  object->choice("type", kRequired, {"rocker_bogie"}, type);
+  read_point(*object, "rocker_pivot_m", rover.suspension.rocker_pivot_m);
+  read_point(*object, "bogie_pivot_m", rover.suspension.bogie_pivot_m);
+  std::vector<std::string> carried;
+  object->texts("bogie_wheels", kRequired, {2, 2}, {.most = 1}, carried);
+  object->refuse_unknown();
+  for (sim::WheelModel& wheel : rover.wheels) {
+    wheel.on_bogie = wheel.name.size() == 2 &&
+                     std::find(carried.begin(), carried.end(), wheel.name.substr(1)) != carried.end();
+  }
+}
+
+void read_drive(ObjectReader& reader, sim::RoverModel& rover) {
+  auto object = reader.object("drive", kRequired);
+  if (!object) return;
+  sim::DriveMotor& drive = rover.drive;
+  object->number("torque_constant_nm_per_a", kRequired, {"N m/A", 0.0, 10.0, true}, drive.torque_constant_nm_per_a);
+  object->number("gear_ratio", kRequired, {"1", 1.0, 1e5}, drive.gear_ratio);
+  object->number("gear_efficiency", kRequired, {"1", 0.0, 1.0, true}, drive.gear_efficiency);
+  object->number("no_load_current_a", kRequired, {"A", 0.0, 10.0}, drive.no_load_current_a);
+  object->angle_deg("max_wheel_rate_deg_s", kRequired, {"deg/s", 0.0, 5000.0, true}, drive.max_wheel_rate_rad_s);
+  object->number("bus_voltage_v", kRequired, {"V", 0.0, 400.0, true}, drive.bus_voltage_v);
+  object->number("resistance_ohm", kOptional, {"ohm", 0.0, 1000.0, true}, drive.resistance_ohm);
+  object->number("max_current_a", kOptional, {"A", 0.0, 1000.0, true}, drive.max_current_a);
+  object->refuse_unknown();
+}
+
+void read_body(ObjectReader& reader, sim::RoverModel& rover) {
+  reader.number("belly_clearance_m", kRequired, {"m", 0.0, 2.0, true}, rover.belly_clearance_m);
+  reader.number("body_length_m", kRequired, {"m", 0.0, 10.0, true}, rover.body_length_m);
+  reader.number("body_width_m", kRequired, {"m", 0.0, 10.0, true}, rover.body_width_m);
+  reader.angle_deg("max_tilt_deg", kRequired, {"deg", 0.0, 60.0, true}, rover.max_tilt_rad);
+  reader.number("cruise_speed_m_s", kRequired, {"m/s", 0.0, 5.0, true}, rover.cruise_speed_m_s);
+  reader.angle_deg("turn_rate_deg_s", kRequired, {"deg/s", 0.0, 100.0, true}, rover.turn_rate_rad_s);
+  reader.number("min_turn_radius_m", kRequired, {"m", 0.0, 100.0}, rover.min_turn_radius_m);
+}
+
+void write_point(Writer& w, std::string_view key, const Eigen::Vector3d& p) {
+  w.key(key).begin_array().exact(p.x()).exact(p.y()).exact(p.z()).end_array();
+}
+
+}  // namespace
+
+Result<sim::RoverModel> read_rover_file(std::string_view bytes) {
+  const auto document = parse(bytes);
+  if (!document) return fail(document.error());
+  sim::RoverModel rover;
+  std::vector<Fault> faults;
+  ObjectReader reader(*document, "", faults);
+  std::size_t format = 0;
+  reader.choice("format", kRequired, {"rover/1"}, format);
+  reader.text("name", kRequired, {.most = 64, .is_name = true}, rover.name);
+  reader.text("summary", kRequired, {.most = 500}, rover.summary);
+  reader.texts("sources", kRequired, {1, kMostSources}, {.most = 500}, rover.sources);
+  reader.texts("assumed", kRequired, {0, kMostSources}, {}, rover.assumed);
+  reader.number("mass_kg", kRequired, {"kg", 0.0, 5000.0, true}, rover.mass_kg);
+  read_point(reader, "com_m", rover.com_m);
+  read_wheels(reader, rover);
+  read_suspension(reader, rover);
+  read_drive(reader, rover);
+  read_body(reader, rover);
+  reader.refuse_unknown();
+  // What holds between the numbers can only be asked of a rover whose numbers were read.
+  if (faults.empty()) faults = sim::faults_of(rover);
+  if (!faults.empty()) return fail(ErrorCode::kUnreadableData, summary_of(faults), faults);
+  return rover;
+}
+
+void write_rover(Writer& w, const sim::RoverModel& rover) {
+  w.begin_object().text("format", "rover/1").text("name", rover.name).text("summary", rover.summary);
+  w.texts("sources", rover.sources).texts("assumed", rover.assumed);
+  w.exact("mass_kg", rover.mass_kg);
+  write_point(w, "com_m", rover.com_m);
+  w.key("wheels").begin_array();
+  std::vector<std::string> on_bogie;
+  for (const sim::WheelModel& wheel : rover.wheels) {
+    w.begin_object().text("name", wheel.name);
+    write_point(w, "position_m", wheel.position_m);
+    w.exact("radius_m", wheel.radius_m).exact("width_m", wheel.width_m).boolean("steerable", wheel.steerable);
+    w.end_object();
+    if (wheel.on_bogie && wheel.side == sim::Side::kLeft) on_bogie.push_back(wheel.name.substr(1));
+  }
+  w.end_array();
+  w.key("suspension").begin_object().text("type", "rocker_bogie");
+  write_point(w, "rocker_pivot_m", rover.suspension.rocker_pivot_m);
+  write_point(w, "bogie_pivot_m", rover.suspension.bogie_pivot_m);
+  w.texts("bogie_wheels", on_bogie).end_object();
+  const sim::DriveMotor& drive = rover.drive;
+  w.key("drive").begin_object().exact("torque_constant_nm_per_a", drive.torque_constant_nm_per_a);
+  w.exact("gear_ratio", drive.gear_ratio).exact("gear_efficiency", drive.gear_efficiency);
+  w.exact("no_load_current_a", drive.no_load_current_a);
+  w.angle_deg("max_wheel_rate_deg_s", drive.max_wheel_rate_rad_s).exact("bus_voltage_v", drive.bus_voltage_v);
+  if (drive.resistance_ohm) w.exact("resistance_ohm", *drive.resistance_ohm);
+  if (drive.max_current_a) w.exact("max_current_a", *drive.max_current_a);
+  w.end_object();
+  w.exact("belly_clearance_m", rover.belly_clearance_m);
+  w.exact("body_length_m", rover.body_length_m).exact("body_width_m", rover.body_width_m);
+  w.angle_deg("max_tilt_deg", rover.max_tilt_rad).exact("cruise_speed_m_s", rover.cruise_speed_m_s);
+  w.angle_deg("turn_rate_deg_s", rover.turn_rate_rad_s).exact("min_turn_radius_m", rover.min_turn_radius_m);
+  w.end_object();
+}
+
+}  // namespace slipway::api::json

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "api/json/json_value.h"
+#include "api/json/writer.h"
+#include "core/result.h"
+#include "sim/rover_model.h"
+
+namespace slipway::api::json {
+
+// Reads a rover's file ("rover/1"): the keys of a drive campaign's rover, and what planning needs beside them. All
+// faults together, those of sim::faults_of too.
+Result<sim::RoverModel> read_rover_file(std::string_view bytes);
+
+// The same keys, so that what is served can be put into a file again.
+void write_rover(Writer& w, const sim::RoverModel& rover);
+
+}  // namespace slipway::api::json

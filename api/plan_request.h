@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "planner/plan.h"
+#include "sim/drive_prediction.h"
+#include "sim/effect_catalogue.h"
+
+namespace slipway::api {
+
+// What a drive is predicted with, whether its path is planned or given. The defaults are those of the rooms below.
+struct DriveAssumptions {
+  sim::DriveLimits limits;
+  std::vector<sim::EffectSetting> effects;
+  int draws = sim::RiskOptions{}.draws;
+  std::uint64_t seed = 1;
+  std::optional<double> speed_m_s;  // nothing: the rover's cruise speed
+};
+
+// POST /v1/plans: how do we get from start to goal?
+struct PlanRequest {
+  std::string terrain;
+  std::string rover;
+  planner::Waypoint start, goal;
+  std::vector<planner::Waypoint> waypoints;  // visited in order
+  std::vector<planner::Polygon> keep_out;
+  planner::Weights weights;
+  int routes = planner::PlanProblem{}.routes;
+  std::vector<std::string> planners;  // empty: the catalogue's default set
+  DriveAssumptions drive;
+};
+
+// What a request's reader found: all that could be read, and every fault. With faults, the request is only good for
+// finding more of them.
+template <class Request>
+struct Reading {
+  Request request;
+  std::vector<Fault> faults;
+};
+
+// What one request may ask for: more is refused by the readers.
+struct RequestLimits {
+  static constexpr std::size_t kBodyBytes = std::size_t{1} << 20U;
+  static constexpr std::size_t kWaypoints = 50;
+  static constexpr std::size_t kKeepOuts = 200;
+  static constexpr std::size_t kKeepOutCorners = 500;
+  static constexpr std::size_t kPathCorners = 2000;
+  static constexpr double kPathLength_m = 20'000.0;
+  static constexpr int kRoutes = 8;
+  static constexpr int kDraws = 500;
+};
+
+}  // namespace slipway::api

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "api/plan_request.h"
+
+namespace slipway::api {
+
+// POST /v1/predictions: what do the wheels do on this path?
+struct PredictionRequest {
+  std::string terrain;
+  std::string rover;
+  std::vector<planner::Waypoint> path;  // corners, joined by turns in place and straight drives
+  DriveAssumptions drive;
+};
+
+}  // namespace slipway::api

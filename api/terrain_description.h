@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dem/soil_map.h"
+
+namespace slipway::api {
+
+enum class SoilSource {
+  kNone,      // all of it is unknown ground
+  kRaster,    // a class raster
+  kPolygons,  // a GeoJSON file of units
+};
+
+// What terrain.json says of a terrain. File names are plain names inside the terrain's own folder.
+struct TerrainDescription {
+  std::string name;
+  std::string title;
+  std::string elevation_file;
+  double gravity_m_s2 = 0.0;
+  SoilSource soil_source = SoilSource::kNone;
+  std::string soil_file;
+  std::string soil_property;  // of the polygons: which property is the label
+  dem::PolygonCoordinates soil_coordinates = dem::PolygonCoordinates::kMap;
+  std::vector<dem::SoilClass> legend;
+  std::string assumption;  // why these classes are believed to be these soils
+  std::optional<std::string> stops_file;
+  std::optional<std::string> provenance_file;
+};
+
+}  // namespace slipway::api

@@ -1,0 +1,57 @@
+#include "core/error_code.h"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+namespace slipway {
+namespace {
+
+constexpr std::array kRows{
+    ErrorRow{ErrorCode::kMalformedJson, "malformed_json", 400,
+             "The body is not one JSON document; mend the syntax at the place named."},
+    ErrorRow{ErrorCode::kInvalidRequest, "invalid_request", 422,
+             "The request was read but values in it are not allowed; each fault names its place and range."},
+    ErrorRow{ErrorCode::kNotFound, "not_found", 404, "Nothing is known under this address."},
+    ErrorRow{ErrorCode::kMethodNotAllowed, "method_not_allowed", 405,
+             "The address exists but not with this method; see the Allow header."},
+    ErrorRow{ErrorCode::kNotAcceptable, "not_acceptable", 406,
+             "The answer exists only in the media types named in the detail."},
+    ErrorRow{ErrorCode::kRequestTimeout, "request_timeout", 408,
+             "The request did not arrive in time; send it again without pauses."},
+    ErrorRow{ErrorCode::kConflict, "conflict", 409,
+             "The job's state does not allow this; read the job and decide again."},
+    ErrorRow{ErrorCode::kPayloadTooLarge, "payload_too_large", 413, "Send a body below the limit named."},
+    ErrorRow{ErrorCode::kUnsupportedMediaType, "unsupported_media_type", 415,
+             "Send Content-Type: application/json without Content-Encoding."},
+    ErrorRow{ErrorCode::kRangeNotSatisfiable, "range_not_satisfiable", 416, "Send at most one range."},
+    ErrorRow{ErrorCode::kHeaderTooLarge, "header_too_large", 431, "Send fewer or shorter headers."},
+    ErrorRow{ErrorCode::kTooManyJobs, "too_many_jobs", 503,
+             "The queue is full; try again after the time in Retry-After."},
+    ErrorRow{ErrorCode::kUnreadableRaster, "unreadable_raster", 422,
+             "The raster can't be used as it is; the detail says why and what would mend it."},
+    ErrorRow{ErrorCode::kUnsupportedCrs, "unsupported_crs", 422,
+             "Reproject the raster into a metric projected system with the command in the detail."},
+    ErrorRow{ErrorCode::kUnreadableData, "unreadable_data", 422,
+             "A data file can't be used as it is; each fault names its place."},
+    ErrorRow{ErrorCode::kOffMap, "off_map", 422, "The place lies outside the terrain; choose one inside its extent."},
+    ErrorRow{ErrorCode::kNoData, "no_data", 422, "The terrain has no elevation there; choose another place."},
+    ErrorRow{ErrorCode::kNotConverged, "not_converged", 500,
+             "A solver gave up; the detail says which and where. Please report it."},
+    ErrorRow{ErrorCode::kCancelled, "cancelled", 409, "The work was dismissed before it ended."},
+    ErrorRow{ErrorCode::kStorage, "storage", 503,
+             "The job store could not be written or read; nothing was accepted. Try again."},
+    ErrorRow{ErrorCode::kInternal, "internal", 500, "A promise inside the program was broken. Please report it."},
+};
+
+}  // namespace
+
+std::span<const ErrorRow> error_table() { return kRows; }
+
+const ErrorRow& error_row(ErrorCode code) {
+  const auto row = std::find_if(kRows.begin(), kRows.end(), [code](const ErrorRow& r) { return r.code == code; });
+  if (row == kRows.end()) throw std::logic_error("an error code has no row in the error table");
+  return *row;
+}
+
+}  // namespace slipway

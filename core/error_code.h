@@ -1,0 +1,45 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace slipway {
+
+// Every way in which a correct caller can be refused. One row each in error_table().
+enum class ErrorCode {
+  kMalformedJson,
+  kInvalidRequest,
+  kNotFound,
+  kMethodNotAllowed,
+  kNotAcceptable,
+  kRequestTimeout,
+  kConflict,
+  kPayloadTooLarge,
+  kUnsupportedMediaType,
+  kRangeNotSatisfiable,
+  kHeaderTooLarge,
+  kTooManyJobs,
+  kUnreadableRaster,
+  kUnsupportedCrs,
+  kUnreadableData,
+  kOffMap,
+  kNoData,
+  kNotConverged,
+  kCancelled,
+  kStorage,
+  kInternal,
+};
+
+struct ErrorRow {
+  ErrorCode code;
+  std::string_view name;  // the name in problem documents and in documentation
+  int http_status;
+  std::string_view help;  // one sentence: what the caller can do
+};
+
+// The one table of errors: the HTTP status, the problem's type and docs/errors.md all come from here.
+std::span<const ErrorRow> error_table();
+
+const ErrorRow& error_row(ErrorCode code);
+
+}  // namespace slipway

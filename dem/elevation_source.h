@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "core/result.h"
+#include "dem/grid_geometry.h"
+#include "dem/terrain.h"
+
+namespace slipway::dem {
+
+// What is known of an elevation raster without reading its cells.
+struct ElevationInfo {
+  GridGeometry geometry;
+  std::string crs_name;  // "Mars2000 Equidistant Cylindrical clon0"
+  std::string crs_wkt;
+  std::string body;  // "Mars", "Moon", "Earth" or "other", from the ellipsoid's semi-major axis
+  double semi_major_axis_m = 0.0;
+  std::string data_type;  // "Float32", "Int16", ...
+  bool scaled = false;    // heights are scale * stored + offset
+};
+
+// An elevation raster on disk: opened fast, read by windows. Thread-safe (reads are serialised: GDAL datasets
+// are not).
+class ElevationSource {
+ public:
+  virtual ~ElevationSource() = default;
+  virtual const ElevationInfo& info() const = 0;
+  // The cells that meet the extent, plus two cells around them where the raster has them, so that heights and
+  // normals inside the extent are those of the whole raster. Errors: off_map where they don't meet,
+  // invalid_request above kMostWindowCells, unreadable_raster where the file is damaged (names the window).
+  virtual Result<std::shared_ptr<const Terrain>> read(const Extent& extent) const = 0;
+};
+
+constexpr long long kMostWindowCells = 36'000'000;  // 6,000 x 6,000 cells, 180 MB in memory
+
+// Opens a raster of an allowed driver as elevation: one band, float or scaled integer, square to the map
+// axes, in a metric projected system. Refused with the reason, and the command that would convert it: degree
+// pixels, a west-positive axis, feet, a rotated or south-up grid, no CRS. Nothing but this path is read: no
+// network, no sidecar outside it, no other driver.
+Result<std::shared_ptr<const ElevationSource>> open_elevation(const std::filesystem::path& path);
+
+}  // namespace slipway::dem

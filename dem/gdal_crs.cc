@@ -1,0 +1,172 @@
+#include "dem/gdal_crs.h"
+
+#include <cpl_conv.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <string_view>
+
+namespace slipway::dem {
+namespace {
+
+struct CplFree {
+  void operator()(char* text) const { CPLFree(text); }
+};
+using CplText = std::unique_ptr<char, CplFree>;
+
+std::string proj_string(const OGRSpatialReference& crs) {
+  char* text = nullptr;
+  const OGRErr failed = crs.exportToProj4(&text);
+  const CplText owned(text);
+  if (failed != OGRERR_NONE || text == nullptr) return {};
+  std::string answer(text);
+  while (!answer.empty() && answer.back() == ' ') answer.pop_back();
+  return answer;
+}
+
+// The axes of an ellipsoid as PROJ writes them: "+R=3396190" or "+a=... +b=...". The datum's own numbers,
+// never a datum's name: PROJ has no names for other worlds.
+std::string proj_ellipsoid(const OGRSpatialReference& crs) {
+  const double a = crs.GetSemiMajor();
+  const double b = crs.GetSemiMinor();
+  return a == b ? fmt::format("+R={}", a) : fmt::format("+a={} +b={}", a, b);
+}
+
+// A projection around a place in degrees. On a sphere the equidistant cylindrical one that planetary maps
+// use; on an ellipsoid transverse Mercator, because PROJ has equidistant cylindrical in its spherical form
+// only.
+std::string local_projection(const OGRSpatialReference& crs, double longitude_deg, double latitude_deg) {
+  const double lon = std::round(longitude_deg * 1e4) / 1e4;
+  const double lat = std::round(latitude_deg * 1e4) / 1e4;
+  const std::string ellipsoid = proj_ellipsoid(crs);
+  if (crs.GetSemiMajor() == crs.GetSemiMinor()) {
+    return fmt::format("+proj=eqc +lat_ts={} +lat_0=0 +lon_0={} {} +units=m +no_defs", lat, lon, ellipsoid);
+  }
+  return fmt::format("+proj=tmerc +lat_0={} +lon_0={} +k=1 +x_0=0 +y_0=0 {} +units=m +no_defs", lat, lon,
+                     ellipsoid);
+}
+
+tl::unexpected<Error> refuse(const std::string& reason, const std::string& remedy) {
+  const std::string sentence = fmt::format("{} Convert it with: {}", reason, remedy);
+  return fail(ErrorCode::kUnsupportedCrs, sentence, {{"", sentence}});
+}
+
+// GeoTIFF forgets that a planetographic CRS counts longitude towards the west, but keeps its name.
+bool named_planetographic(const OGRSpatialReference& crs) {
+  for (const char* node : {"PROJCS", "GEOGCS"}) {
+    const char* name = crs.GetAttrValue(node);
+    if (name != nullptr && std::string_view(name).find("Ographic") != std::string_view::npos) return true;
+  }
+  return false;
+}
+
+// Axes to the south are let through: polar projections name their axes after meridians, and x and y of the
+// raster are right all the same.
+bool has_west_axis(const OGRSpatialReference& crs) {
+  for (const char* node : {"PROJCS", "GEOGCS"}) {
+    for (int axis = 0; axis < 2; ++axis) {
+      OGRAxisOrientation orientation = OAO_Other;
+      if (crs.GetAxis(node, axis, &orientation) != nullptr && orientation == OAO_West) return true;
+    }
+  }
+  return false;
+}
+
+tl::unexpected<Error> refuse_west_positive(const OGRSpatialReference& crs, const RasterCentre& centre,
+                                           const std::string& file) {
+  const std::string east_positive =
+      crs.IsGeographic() ? local_projection(crs, -centre.x, centre.y) : local_projection(crs, 0.0, 0.0);
+  return refuse(
+      fmt::format(
+          "{} is in \"{}\", a system with a west-positive axis (planetographic on most worlds), which "
+          "mirrors the map without a warning.",
+          file, crs.GetName()),
+      fmt::format(
+          "{} (where its x in truth grows towards the east, correct the label instead: gdal_translate "
+          "-a_srs {} {} {})",
+          warp_command(fmt::format("-t_srs {}", shell_word(east_positive)), file), shell_word(east_positive),
+          shell_word(file), shell_word(converted_name(file))));
+}
+
+std::string metre_version(const OGRSpatialReference& crs) {
+  OGRSpatialReference metres(crs);
+  metres.SetLinearUnitsAndUpdateParameters(SRS_UL_METER, 1.0);
+  return proj_string(metres);
+}
+
+}  // namespace
+
+std::string shell_word(const std::string& text) {
+  constexpr std::string_view kPlain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-";
+  if (!text.empty() && text.front() != '-' && text.find_first_not_of(kPlain) == std::string::npos)
+    return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string converted_name(const std::string& file) {
+  return std::filesystem::path(file).stem().string() + "_m.tif";
+}
+
+std::string warp_command(const std::string& options, const std::string& file) {
+  return fmt::format("gdalwarp {}{}-r bilinear {} {}", options, options.empty() ? "" : " ", shell_word(file),
+                     shell_word(converted_name(file)));
+}
+
+Result<void> check_metric_projection(const OGRSpatialReference* crs, const RasterCentre& centre,
+                                     const std::string& file) {
+  if (crs == nullptr || crs->IsEmpty()) {
+    return refuse(
+        fmt::format("{} has no coordinate reference system.", file),
+        fmt::format(
+            "gdal_translate -a_srs '+proj=eqc +lat_ts=0 +lon_0=0 +R=3396190 +units=m +no_defs' {} {}, "
+            "with the projection it was made in (this one is an example, on the Mars sphere)",
+            shell_word(file), shell_word(converted_name(file))));
+  }
+  if (has_west_axis(*crs) || named_planetographic(*crs)) return refuse_west_positive(*crs, centre, file);
+  if (crs->IsGeographic()) {
+    return refuse(
+        fmt::format("{} has pixels in degrees (\"{}\"); slopes need metres.", file, crs->GetName()),
+        warp_command(fmt::format("-t_srs {}", shell_word(local_projection(*crs, centre.x, centre.y))), file));
+  }
+  if (!crs->IsProjected()) {
+    return refuse(fmt::format("{} is in \"{}\", which is not a projected system.", file, crs->GetName()),
+                  warp_command(fmt::format("-t_srs {}", shell_word(local_projection(*crs, 0.0, 0.0))), file));
+  }
+  const char* unit = nullptr;
+  const double metres_per_unit = crs->GetLinearUnits(&unit);
+  if (std::abs(metres_per_unit - 1.0) > 1e-9) {
+    return refuse(fmt::format("{} is in \"{}\", whose unit is {} ({} m), not the metre.", file,
+                              crs->GetName(), unit == nullptr ? "unknown" : unit, metres_per_unit),
+                  warp_command(fmt::format("-t_srs {}", shell_word(metre_version(*crs))), file));
+  }
+  return {};
+}
+
+void describe_crs(const OGRSpatialReference& crs, ElevationInfo& info) {
+  const char* name = crs.GetName();
+  info.crs_name = name == nullptr ? "" : name;
+  char* text = nullptr;
+  const std::array<const char*, 2> options{"FORMAT=WKT2_2019", nullptr};
+  crs.exportToWkt(&text, options.data());
+  const CplText owned(text);
+  info.crs_wkt = text == nullptr ? "" : text;
+  info.semi_major_axis_m = crs.GetSemiMajor();
+  // Local and polar radii are in use as spheres, so a body is a range.
+  const double a = info.semi_major_axis_m;
+  if (a > 3'370'000.0 && a < 3'400'000.0) {
+    info.body = "Mars";
+  } else if (a > 1'734'000.0 && a < 1'740'000.0) {
+    info.body = "Moon";
+  } else if (a > 6'350'000.0 && a < 6'380'000.0) {
+    info.body = "Earth";
+  } else {
+    info.body = "other";
+  }
+}
+
+}  // namespace slipway::dem

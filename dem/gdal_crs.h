@@ -1,0 +1,35 @@
+#pragma once
+
+#include <ogr_spatialref.h>
+
+#include <string>
+
+#include "core/result.h"
+#include "dem/elevation_source.h"
+
+namespace slipway::dem {
+
+// A place in the raster's own CRS, around which a refusal suggests a projection.
+struct RasterCentre {
+  double x = 0.0;
+  double y = 0.0;
+};
+
+// The promise that map coordinates are metres, x east and y north. Otherwise the reason, and the command that
+// would convert `file` (a name without a folder).
+Result<void> check_metric_projection(const OGRSpatialReference* crs, const RasterCentre& centre,
+                                     const std::string& file);
+
+// Name, WKT, body and semi-major axis of a CRS that passed the check.
+void describe_crs(const OGRSpatialReference& crs, ElevationInfo& info);
+
+// "gdalwarp -t_srs '...' -r bilinear in.tif in_m.tif", ready to be pasted into a shell.
+std::string warp_command(const std::string& options, const std::string& file);
+
+// What a command calls its output: "elevation_m.tif" for "elevation.img".
+std::string converted_name(const std::string& file);
+
+// A word for a POSIX shell: in single quotes unless it is plain.
+std::string shell_word(const std::string& text);
+
+}  // namespace slipway::dem

@@ -1,0 +1,122 @@
+#include "dem/gdal_file_fence.h"
+
+#include <cpl_conv.h>
+#include <cpl_http.h>
+#include <cpl_string.h>
+#include <cpl_vsi_virtual.h>
+#include <ogr_srs_api.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <set>
+#include <string>
+#include <string_view>
+
+namespace slipway::dem {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The canonical folder this thread is admitted to; empty: none.
+thread_local fs::path admitted_folder;
+
+bool admitted(const char* name) {
+  if (admitted_folder.empty()) return false;
+  std::error_code ignored;
+  const fs::path path = fs::weakly_canonical(name, ignored);
+  if (ignored) return false;
+  const auto parted = std::mismatch(admitted_folder.begin(), admitted_folder.end(), path.begin(), path.end());
+  return parted.first == admitted_folder.end();
+}
+
+class RefusingFiles : public VSIFilesystemHandler {
+ public:
+  using VSIFilesystemHandler::Open;
+  VSIVirtualHandle* Open(const char* /*name*/, const char* /*access*/, bool /*set_error*/,
+                         CSLConstList /*options*/) override {
+    errno = EACCES;
+    return nullptr;
+  }
+  int Stat(const char* /*name*/, VSIStatBufL* /*status*/, int /*flags*/) override {
+    errno = EACCES;
+    return -1;
+  }
+  // The base class would open a URL-like handle of its own for these.
+  VSIDIR* OpenDir(const char* /*path*/, int /*depth*/, const char* const* /*options*/) override {
+    return nullptr;
+  }
+};
+
+// Plain files. Whatever is not overridden here (writing, removing, listing) is refused by the base class.
+class AdmittedFiles final : public RefusingFiles {
+ public:
+  explicit AdmittedFiles(VSIFilesystemHandler& plain) : plain_(plain) {}
+
+  using VSIFilesystemHandler::Open;
+  VSIVirtualHandle* Open(const char* name, const char* access, bool set_error,
+                         CSLConstList options) override {
+    const std::string_view mode(access);
+    const bool reads = mode.find_first_of("wa+") == std::string_view::npos;
+    if (reads && admitted(name)) return plain_.Open(name, access, set_error, options);
+    return RefusingFiles::Open(name, access, set_error, options);
+  }
+  int Stat(const char* name, VSIStatBufL* status, int flags) override {
+    return admitted(name) ? plain_.Stat(name, status, flags) : RefusingFiles::Stat(name, status, flags);
+  }
+
+ private:
+  VSIFilesystemHandler& plain_;
+};
+
+// Null would mean "not mine" and hand the request to GDAL's own client: a refusal is an answer with an error
+// in it.
+CPLHTTPResult* refuse_request(const char* /*url*/, CSLConstList /*options*/, GDALProgressFunc /*progress*/,
+                              void* /*progress_data*/, CPLHTTPFetchWriteFunc /*write*/, void* /*write_data*/,
+                              void* /*user_data*/) {
+  auto* answer = static_cast<CPLHTTPResult*>(CPLCalloc(1, sizeof(CPLHTTPResult)));
+  answer->nStatus = -1;
+  answer->pszErrBuf = CPLStrdup("network requests are refused");
+  return answer;
+}
+
+}  // namespace
+
+void raise_file_fence() {
+  // The handlers that are replaced stay reachable for the life of the process: files may still be open in
+  // them.
+  static std::set<VSIFilesystemHandler*> replaced;
+  static bool raised = false;
+  if (raised) return;
+  raised = true;
+
+  // GDAL owns what is installed and deletes each handler once.
+  VSIFilesystemHandler* plain = VSIFileManager::GetHandler("a plain file");
+  VSIFileManager::InstallHandler("", new AdmittedFiles(*plain));
+  replaced.insert(plain);
+
+  auto* refusing = new RefusingFiles;
+  const CPLStringList prefixes(VSIFileManager::GetPrefixes(), TRUE);
+  for (int i = 0; i < prefixes.Count(); ++i) {
+    const std::string prefix(prefixes[i]);
+    if (prefix == "/vsimem/") continue;
+    replaced.insert(VSIFileManager::GetHandler(prefix.c_str()));
+    VSIFileManager::InstallHandler(prefix, refusing);
+  }
+  // An alias that GetPrefixes() leaves out.
+  replaced.insert(VSIFileManager::GetHandler("/vsicurl?"));
+  VSIFileManager::InstallHandler("/vsicurl?", refusing);
+
+  CPLHTTPSetFetchCallback(refuse_request, nullptr);
+  OSRSetPROJEnableNetwork(0);
+}
+
+FolderAdmission::FolderAdmission(const fs::path& file) {
+  std::error_code ignored;
+  admitted_folder = fs::weakly_canonical(file, ignored).parent_path();
+}
+
+FolderAdmission::~FolderAdmission() {
+  admitted_folder.clear();
+}
+
+}  // namespace slipway::dem

@@ -1,0 +1,166 @@
+#include "dem/gdal_raster.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "dem/gdal_crs.h"
+
+namespace slipway::dem {
+namespace {
+
+namespace fs = std::filesystem;
+
+using GeoTransform = std::array<double, 6>;
+
+// Collects reasons, so that one attempt tells all that must be mended.
+class Refusals {
+ public:
+  void add(const Error& error) {
+    if (!first_) first_ = error.code;
+    detail_ += (detail_.empty() ? "" : " ") + error.detail;
+    faults_.insert(faults_.end(), error.faults.begin(), error.faults.end());
+  }
+  void add(const std::string& sentence) {
+    add(Error{ErrorCode::kUnreadableRaster, sentence, {{"", sentence}}});
+  }
+  bool empty() const { return !first_; }
+  tl::unexpected<Error> error() && { return fail(*first_, std::move(detail_), std::move(faults_)); }
+
+ private:
+  std::optional<ErrorCode> first_;
+  std::string detail_;
+  std::vector<Fault> faults_;
+};
+
+// Only a plain file's name goes on to GDAL, and as an absolute path, which no driver takes for anything else.
+Result<fs::path> regular_file(const fs::path& path) {
+  std::error_code problem;
+  const fs::file_status status = fs::status(path, problem);
+  const std::string name = path.filename().string();
+  if (!fs::exists(status)) {
+    return fail(ErrorCode::kUnreadableRaster, fmt::format("{} does not exist or may not be read.", name));
+  }
+  if (!fs::is_regular_file(status)) {
+    return fail(ErrorCode::kUnreadableRaster, fmt::format("{} is not a regular file.", name));
+  }
+  const fs::path absolute = fs::canonical(path, problem);
+  if (problem) return fail(ErrorCode::kUnreadableRaster, fmt::format("{} has no absolute path.", name));
+  return absolute;
+}
+
+void check_band(GDALDataset& dataset, const std::string& file, Refusals& refusals) {
+  const int bands = dataset.GetRasterCount();
+  if (bands != 1) {
+    refusals.add(fmt::format("{} has {} bands, must be 1. Convert it with: gdal_translate -b 1 {} {}", file,
+                             bands, shell_word(file), shell_word(converted_name(file))));
+  }
+  if (dataset.GetRasterXSize() < 2 || dataset.GetRasterYSize() < 2) {
+    refusals.add(fmt::format("{} has {} rows and {} columns, must be at least 2 of each.", file,
+                             dataset.GetRasterYSize(), dataset.GetRasterXSize()));
+  }
+  if (bands < 1) return;
+  GDALRasterBand& band = *dataset.GetRasterBand(1);
+  const GDALDataType type = band.GetRasterDataType();
+  if (GDALDataTypeIsComplex(type) != 0) {
+    refusals.add(
+        fmt::format("{} holds complex numbers ({}). Convert it with: gdal_translate -ot Float32 {} {}", file,
+                    GDALGetDataTypeName(type), shell_word(file), shell_word(converted_name(file))));
+  }
+  int block_columns = 0;
+  int block_rows = 0;
+  band.GetBlockSize(&block_columns, &block_rows);
+  // Doubles: the product of two large blocks overflows even 64-bit integers in a forged header.
+  const double bytes = static_cast<double>(block_columns) * block_rows * GDALGetDataTypeSizeBytes(type);
+  if (!(block_columns > 0 && block_rows > 0 && bytes <= static_cast<double>(kMostBlockBytes))) {
+    refusals.add(
+        fmt::format("{} is stored in blocks of {} x {} cells, {:.0f} MB each, must be at most {} MB. Convert "
+                    "it with: gdal_translate -co TILED=YES -co COMPRESS=DEFLATE {} {}",
+                    file, block_rows, block_columns, bytes / 1e6, kMostBlockBytes / 1'000'000,
+                    shell_word(file), shell_word(converted_name(file))));
+  }
+}
+
+std::optional<GeoTransform> check_grid(GDALDataset& dataset, const std::string& file, Refusals& refusals) {
+  GeoTransform g{};
+  if (dataset.GetGeoTransform(g.data()) != CE_None) {
+    refusals.add(
+        fmt::format("{} does not say where its grid lies. Convert it with: gdal_translate -a_ullr WEST NORTH "
+                    "EAST SOUTH {} {}, with its edges in metres.",
+                    file, shell_word(file), shell_word(converted_name(file))));
+    return std::nullopt;
+  }
+  for (const double coefficient : g) {
+    if (!std::isfinite(coefficient) || std::abs(coefficient) > 1e12) {
+      refusals.add(fmt::format("{} has a grid at {}, which is nowhere on a map.", file, coefficient));
+      return std::nullopt;
+    }
+  }
+  if (g[2] != 0.0 || g[4] != 0.0) {
+    refusals.add(fmt::format("{} has a grid that is rotated against the map axes. Convert it with: {}", file,
+                             warp_command("", file)));
+  } else if (g[1] <= 0.0 || g[5] >= 0.0) {
+    refusals.add(fmt::format(
+        "{} has its first cell in the {}{}, must be north-up and west-left. Convert it with: {}", file,
+        g[5] >= 0.0 ? "south" : "north", g[1] <= 0.0 ? "-east" : "-west", warp_command("", file)));
+  }
+  return g;
+}
+
+GridGeometry grid_geometry(GDALDataset& dataset, const GeoTransform& g) {
+  return {.rows = dataset.GetRasterYSize(),
+          .columns = dataset.GetRasterXSize(),
+          .west_m = g[0],
+          .north_m = g[3],
+          .cell_x_m = g[1],
+          .cell_y_m = -g[5]};
+}
+
+RasterCentre centre_of(GDALDataset& dataset, const GeoTransform& g) {
+  const double column = 0.5 * dataset.GetRasterXSize();
+  const double row = 0.5 * dataset.GetRasterYSize();
+  return {g[0] + column * g[1] + row * g[2], g[3] + column * g[4] + row * g[5]};
+}
+
+}  // namespace
+
+std::string describe(const CellWindow& window) {
+  return fmt::format("rows {} to {}, columns {} to {}", window.row, window.row + window.rows - 1,
+                     window.column, window.column + window.columns - 1);
+}
+
+Result<CheckedRaster> open_checked_raster(const fs::path& path, const GdalSession& session) {
+  const std::string file = path.filename().string();
+  const Result<fs::path> absolute = regular_file(path);
+  if (!absolute) return fail(absolute.error());
+  CheckedRaster raster;
+  raster.dataset.reset(GDALDataset::Open(absolute->c_str(),
+                                         GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
+                                         allowed_raster_drivers(), nullptr, nullptr));
+  if (!raster.dataset) {
+    return fail(
+        ErrorCode::kUnreadableRaster,
+        fmt::format(
+            "{} is not a readable raster of a supported format (GeoTIFF, ASCII grid, PDS, PDS4, ISIS, "
+            "ENVI, EHdr): {}",
+            file, session.complaints()));
+  }
+  Refusals refusals;
+  check_band(*raster.dataset, file, refusals);
+  const std::optional<GeoTransform> grid = check_grid(*raster.dataset, file, refusals);
+  const OGRSpatialReference* crs = raster.dataset->GetSpatialRef();
+  const Result<void> metric =
+      check_metric_projection(crs, grid ? centre_of(*raster.dataset, *grid) : RasterCentre{}, file);
+  if (!metric) refusals.add(metric.error());
+  if (!refusals.empty()) return std::move(refusals).error();
+
+  raster.info.geometry = grid_geometry(*raster.dataset, *grid);
+  raster.info.data_type = GDALGetDataTypeName(raster.dataset->GetRasterBand(1)->GetRasterDataType());
+  describe_crs(*crs, raster.info);
+  return raster;
+}
+
+}  // namespace slipway::dem

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cpl_error.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dem/gdal_file_fence.h"
+
+namespace slipway::dem {
+
+// One operation on GDAL by one thread. The first one in the process registers the allowed drivers and raises
+// the file fence. While it lives, what GDAL complains of is gathered here and nothing reaches stderr.
+// Sessions don't nest.
+class GdalSession {
+ public:
+  // Work in memory: no file may be opened.
+  GdalSession();
+  // Work on this file and on what lies in its folder.
+  explicit GdalSession(const std::filesystem::path& file);
+  ~GdalSession();
+  GdalSession(const GdalSession&) = delete;
+  GdalSession& operator=(const GdalSession&) = delete;
+
+  // Everything GDAL complained of so far, joined by "; ", with folders taken out of file names.
+  std::string complaints() const;
+
+ private:
+  static void CPL_STDCALL gather(CPLErr severity, CPLErrorNum number, const char* message);
+
+  std::vector<std::string> complaints_;
+  std::string folder_;
+  std::unique_ptr<FolderAdmission> admission_;
+};
+
+// The raster drivers a file may be read with, by GDAL's short names, ended by a null pointer.
+const char* const* allowed_raster_drivers();
+
+}  // namespace slipway::dem

@@ -1,0 +1,140 @@
+#include <fmt/format.h>
+#include <ogr_spatialref.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "dem/gdal_crs.h"
+#include "dem/gdal_raster.h"
+#include "dem/soil_legend.h"
+#include "dem/soil_map.h"
+
+namespace slipway::dem {
+namespace {
+
+bool is_integer(GDALDataType type) {
+  return type == GDT_Byte || type == GDT_Int16 || type == GDT_UInt16 || type == GDT_Int32 ||
+         type == GDT_UInt32;
+}
+
+// Whether coordinates in one CRS are coordinates in the other, over this extent, to a hundredth of a cell.
+// Files name the same system in many ways, so that names decide nothing.
+bool same_place(const OGRSpatialReference& crs, const ElevationInfo& ground, const Extent& extent,
+                double cell_m) {
+  OGRSpatialReference map;
+  if (map.importFromWkt(ground.crs_wkt.c_str()) != OGRERR_NONE) return false;
+  if (std::abs(crs.GetSemiMajor() - map.GetSemiMajor()) > 0.01) return false;
+  OGRSpatialReference from(crs);
+  from.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  map.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  const std::unique_ptr<OGRCoordinateTransformation> transformation(
+      OGRCreateCoordinateTransformation(&from, &map));
+  if (!transformation) return false;
+  std::array<double, 4> x{extent.west_m, extent.east_m, extent.west_m, extent.east_m};
+  std::array<double, 4> y{extent.north_m, extent.north_m, extent.south_m, extent.south_m};
+  const std::array<double, 4> x_before = x;
+  const std::array<double, 4> y_before = y;
+  if (transformation->Transform(4, x.data(), y.data()) == FALSE) return false;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (!(std::hypot(x[i] - x_before[i], y[i] - y_before[i]) < 0.01 * cell_m)) return false;
+  }
+  return true;
+}
+
+Result<void> check_class_raster(const CheckedRaster& raster, const ElevationInfo& ground,
+                                const std::string& file) {
+  GDALRasterBand& band = *raster.dataset->GetRasterBand(1);
+  if (!is_integer(band.GetRasterDataType())) {
+    return fail(
+        ErrorCode::kUnreadableRaster,
+        fmt::format(
+            "{} holds {} values, must hold whole numbers (classes). Convert it with: gdal_translate -ot "
+            "Int16 {} {}",
+            file, raster.info.data_type, shell_word(file), shell_word(converted_name(file))));
+  }
+  const GridGeometry& geometry = raster.info.geometry;
+  if (!same_place(*raster.dataset->GetSpatialRef(), ground, geometry.extent(),
+                  std::min(geometry.cell_x_m, geometry.cell_y_m))) {
+    return fail(
+        ErrorCode::kUnsupportedCrs,
+        fmt::format(
+            "{} is in \"{}\", the elevation in \"{}\"; both must be in the same system. Convert it with: "
+            "gdalwarp -t_srs {} -r near {} {}",
+            file, raster.info.crs_name, ground.crs_name, shell_word(ground.crs_wkt), shell_word(file),
+            shell_word(converted_name(file))));
+  }
+  return {};
+}
+
+// The classes of the window, and which cells have one; nothing where the file is damaged.
+struct Classes {
+  std::vector<std::int32_t> values;
+  std::vector<std::uint8_t> known;
+};
+
+std::optional<Classes> read_classes(GDALRasterBand& band, const CellWindow& window) {
+  const std::size_t cells = static_cast<std::size_t>(window.rows) * static_cast<std::size_t>(window.columns);
+  Classes classes{std::vector<std::int32_t>(cells), std::vector<std::uint8_t>(cells, 1)};
+  if (band.RasterIO(GF_Read, window.column, window.row, window.columns, window.rows, classes.values.data(),
+                    window.columns, window.rows, GDT_Int32, 0, 0, nullptr) != CE_None) {
+    return std::nullopt;
+  }
+  if ((band.GetMaskFlags() & GMF_PER_DATASET) != 0 &&
+      band.GetMaskBand()->RasterIO(GF_Read, window.column, window.row, window.columns, window.rows,
+                                   classes.known.data(), window.columns, window.rows, GDT_Byte, 0, 0,
+                                   nullptr) != CE_None) {
+    return std::nullopt;
+  }
+  int has_nodata = 0;
+  const double nodata = band.GetNoDataValue(&has_nodata);
+  for (std::size_t i = 0; i < cells; ++i) {
+    if (has_nodata != 0 && classes.values[i] == nodata) classes.known[i] = 0;
+  }
+  return classes;
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const SoilMap>> read_soil_raster(const std::filesystem::path& path,
+                                                        const ElevationInfo& ground, const Extent& extent,
+                                                        std::vector<SoilClass> legend) {
+  const std::string file = path.filename().string();
+  std::vector<Fault> repeats = repeated_values(legend);
+  if (!repeats.empty())
+    return fail(ErrorCode::kUnreadableData, "The soil legend repeats itself.", std::move(repeats));
+  const GdalSession session(path);
+  const Result<CheckedRaster> raster = open_checked_raster(path, session);
+  if (!raster) return fail(raster.error());
+  const Result<void> usable = check_class_raster(*raster, ground, file);
+  if (!usable) return fail(usable.error());
+  const std::optional<CellWindow> window = raster->info.geometry.window(extent);
+  if (!window) return fail(ErrorCode::kOffMap, fmt::format("{} does not meet the extent asked for.", file));
+  if (static_cast<long long>(window->rows) * window->columns > kMostWindowCells) {
+    return fail(ErrorCode::kInvalidRequest,
+                fmt::format("The extent takes more than {} cells of {}; choose a smaller one.",
+                            kMostWindowCells, file));
+  }
+  std::optional<Classes> read = read_classes(*raster->dataset->GetRasterBand(1), *window);
+  if (!read) {
+    return fail(ErrorCode::kUnreadableRaster, fmt::format("{} is damaged: {} could not be read ({}).", file,
+                                                          describe(*window), session.complaints()));
+  }
+  std::vector<std::int16_t> classes(read->values.size());
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    const std::int32_t value = read->values[i];
+    if (read->known[i] == 0) continue;
+    if (value < std::numeric_limits<std::int16_t>::min() ||
+        value > std::numeric_limits<std::int16_t>::max()) {
+      return fail(ErrorCode::kUnreadableRaster,
+                  fmt::format("{} holds class = {}, must be in [-32768, 32767].", file, value));
+    }
+    classes[i] = static_cast<std::int16_t>(value);
+  }
+  return std::make_shared<const SoilMap>(raster->info.geometry.sub(*window), std::move(classes),
+                                         std::move(read->known), std::move(legend));
+}
+
+}  // namespace slipway::dem

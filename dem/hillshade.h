@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "dem/terrain.h"
+
+namespace slipway::dem {
+
+// Lambert shading of a terrain, one grey value a cell from the north-west [Horn 1981]; 0 marks a masked cell.
+// sun_azimuth_rad clockwise from north, sun_elevation_rad above the horizon.
+std::vector<std::uint8_t> hillshade(const Terrain& terrain, double sun_azimuth_rad, double sun_elevation_rad,
+                                    double vertical_exaggeration);
+
+// An 8-bit grey image as a PNG file in memory. pixels: rows * columns values.
+Result<std::string> encode_png(const std::vector<std::uint8_t>& grey, int rows, int columns);
+
+}  // namespace slipway::dem

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "dem/elevation_source.h"
+#include "dem/grid_geometry.h"
+
+namespace slipway::dem {
+
+// One row of a legend: what a mapped class is called and which soil it is believed to be. A class without a
+// soil is unknown ground.
+struct SoilClass {
+  int value = 0;                    // the raster's value; for polygons the row's own number
+  std::string label;                // "SMR": for polygons, the value of the legend's property
+  std::optional<std::string> soil;  // the name of a soil distribution
+};
+
+// Which soil is believed to lie where: immutable, shared by pointer. A cell without a class, a class that the
+// legend does not know, and a class without a soil are unknown ground, which is an answer (nothing), never a
+// default.
+class SoilMap {
+ public:
+  // classes and known: rows * columns values from the north-west; known[i] == 0 marks a cell without a class.
+  SoilMap(GridGeometry geometry, std::vector<std::int16_t> classes, std::vector<std::uint8_t> known,
+          std::vector<SoilClass> legend);
+
+  const GridGeometry& geometry() const { return geometry_; }
+  const std::vector<SoilClass>& legend() const { return legend_; }
+  // The names of the soils in the legend, without repeats, in the legend's order.
+  const std::vector<std::string>& soils() const { return soils_; }
+
+  // The class of the cell that holds the point (the nearest value, never interpolated).
+  std::optional<int> class_at(double x_m, double y_m) const;
+  // Index into soils(); nothing on unknown ground.
+  std::optional<std::size_t> soil_at(double x_m, double y_m) const;
+  // The share of the map's cells that are unknown ground, in [0, 1].
+  double unknown_fraction() const;
+
+ private:
+  std::optional<std::size_t> index_at(double x_m, double y_m) const;
+
+  GridGeometry geometry_;
+  std::vector<std::int16_t> soil_index_;  // per cell; -1 never leaves this class
+  std::vector<std::int16_t> classes_;
+  std::vector<std::uint8_t> known_;
+  std::vector<SoilClass> legend_;
+  std::vector<std::string> soils_;
+};
+
+// Reads a class raster (integer, one band) on the cells that meet the extent. Its geometry need not be that
+// of the elevation, its CRS must be (errors as open_elevation). Cells at nodata have no class.
+Result<std::shared_ptr<const SoilMap>> read_soil_raster(const std::filesystem::path& path,
+                                                        const ElevationInfo& ground, const Extent& extent,
+                                                        std::vector<SoilClass> legend);
+
+enum class PolygonCoordinates {
+  kLongitudeLatitude,  // degrees, east-positive planetocentric, on the elevation's own datum (RFC 7946 on
+                       // that body)
+  kMap,                // metres in the elevation's CRS
+};
+
+// Burns polygons of a GeoJSON file onto a grid like the elevation's over the extent; a cell takes the class
+// of the last polygon that holds its centre. property names the label that the legend is matched by. A label
+// that the legend does not have is unknown ground. Faults name the feature: "/features/12/geometry".
+Result<std::shared_ptr<const SoilMap>> read_soil_polygons(const std::filesystem::path& path,
+                                                          const ElevationInfo& ground, const Extent& extent,
+                                                          const std::string& property,
+                                                          PolygonCoordinates coordinates,
+                                                          std::vector<SoilClass> legend);
+
+}  // namespace slipway::dem

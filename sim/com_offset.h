@@ -1,0 +1,10 @@
+#pragma once
+
+#include "sim/effect_catalogue.h"
+
+namespace slipway::sim {
+
+// The centre of mass lies elsewhere than the rover file says: a moved payload, an extended arm, a drained tank.
+extern const Effect kComOffset;
+
+}  // namespace slipway::sim

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "sim/soil.h"
+
+namespace slipway::sim {
+
+// What the laws need of a wheel.
+struct WheelGeometry {
+  double radius_m = 0.125;
+  double width_m = 0.16;
+};
+
+// How a wheel moves over the ground, per rim speed r |w|. Frame W: x rolling direction, y left.
+struct WheelMotion {
+  double forward = 1.0;   // u = v_x / (r w); see slip_ratio.h
+  double leftward = 0.0;  // v_y / (r |w|); tan(beta) = leftward / forward
+};
+
+// Forces of the soil on a wheel, at its centre, frame W, and the torque that drives it.
+struct WheelForces {
+  double drawbar_pull_n = 0.0;  // along x
+  double lateral_n = 0.0;       // along y
+  double vertical_n = 0.0;      // along z
+  double torque_nm = 0.0;       // the motor's, about the axle, positive drives forward
+
+  WheelForces operator-(const WheelForces& o) const {
+    return {drawbar_pull_n - o.drawbar_pull_n, lateral_n - o.lateral_n, vertical_n - o.vertical_n, torque_nm - o.torque_nm};
+  }
+};
+
+// A rigid wheel on level soil with entry angle theta_f and exit angle 0 [ARTEMIS eq. 1 to 11, 16 to 21, without
+// grousers and bulldozing]:
+//
+//   theta_m = (c1 + c2 |i|) theta_f                                   angle of greatest normal stress      (2)
+//   z1 = r (cos theta - cos theta_f)                                  depth, theta_m < theta < theta_f     (1)
+//   z2 = r (cos(theta_f - theta / theta_m (theta_f - theta_m)) - cos theta_f)      0 < theta < theta_m
+//   sigma = pressure-sinkage law of z1, z2                            normal stress, radial
+//   j_x = r (theta_f - theta - u (sin theta_f - sin theta))           shear displacement, u = 1 - i or 1 / (1 + i)  (5)
+//   j_y = r (v_y / (r |w|)) (theta_f - theta)                         lateral, (9) and (10) as one
+//   tau_x, tau_y = +-(c + sigma tan phi) (1 - exp(-|j| / K))          against the slipping                 (3), (6)
+//   DP = b r int(tau_x cos - sigma sin),  L = b r int(tau_y)          (16 to 19)
+//   W  = b r int(sigma cos + tau_x sin),  T = b r^2 int(tau_x)        (20)
+//
+// Equation 11 prints tan(theta) for tan(phi). As there, tau_x and tau_y are mobilised independently, so that with both
+// at full slip their resultant exceeds the strength by up to sqrt(2). c2's slip is |i|, as in the drive-campaign format.
+// Quadrature: Gauss-Legendre in s with theta = theta_f - s^2 (theta_f - theta_m), which is smooth where sigma ~ z^n is
+// not; error below 1e-5 of the load against adaptive quadrature (tests).
+// Properties: W rises with theta_f; all scale with b when k_c = 0; mirror: leftward -> -leftward flips L only.
+WheelForces wheel_forces(const WheelGeometry& wheel, const Soil& soil, double entry_angle_rad, const WheelMotion& motion);
+
+// The laws' own limit: beyond it a wheel counts as sunk to its axle.
+constexpr double kLargestEntryAngleRad = 1.4;
+
+// z = r (1 - cos theta_f)
+double sinkage_m(double radius_m, double entry_angle_rad);
+double entry_angle_rad(double radius_m, double sinkage_m);
+
+}  // namespace slipway::sim
