@@ -19,11 +19,10 @@ HttpResponse bare_problem(ErrorCode code) {
           {}};
 }
 
-std::string_view text_of(const std::exception_ptr& thrown) {
+std::string text_of(const std::exception_ptr& thrown) {
   try {
     std::rethrow_exception(thrown);
   } catch (const std::exception& e) {
-    // The exception object lives as long as `thrown` does.
     return e.what();
   } catch (...) {
     return "something that is not a std::exception";

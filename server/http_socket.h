@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include <cstddef>
+#include <string_view>
 #include <utility>
 
 namespace slipway::server {
@@ -29,5 +31,14 @@ class Socket {
  private:
   int fd_ = -1;
 };
+
+enum class Transfer { kSome, kBlocked, kEnded, kBroken };
+
+// One recv() of at most `size` bytes on a non-blocking socket.
+Transfer receive_some(int fd, char* to, std::size_t size, std::size_t& received);
+
+// Sends until all is sent (kSome), or the peer does not take more now (kBlocked), or never will (kBroken). What was
+// sent is taken off the front of `bytes`.
+Transfer send_some(int fd, std::string_view& bytes);
 
 }  // namespace slipway::server

@@ -155,6 +155,7 @@ struct Attempt {
 
 // Why no balance was found, read off the last iterate.
 Attempt reason_of(const Vector& x) {
+  if (x.head<kMotions>().cwiseAbs().maxCoeff() > kFastestSpeedRatio) return {Outcome::kNoTraction, -1};
   for (int k = 0; k < kWheels; ++k)
     if (x[kMotions + k] > 0.95 * kLargestEntryAngleRad) return {Outcome::kSunkToAxle, k};
   for (int k = 0; k < kWheels; ++k)

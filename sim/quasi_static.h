@@ -24,7 +24,7 @@ struct WheelState {
 
 enum class Outcome {
   kMoving,
-  kNoTraction,   // all the thrust the soil gives does not hold the rover on the slope: it digs in or slides back
+  kNoTraction,   // all the thrust the soil gives does not hold the rover on the slope: it digs in or slides away
   kWheelLifted,  // the balance asks for a pulling wheel: the rover rears or tips
   kSunkToAxle,   // a wheel would sink to its axle
   kStalled,      // a motor would need more current or voltage than it has

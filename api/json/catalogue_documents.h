@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+#include "api/answers.h"
+#include "api/catalogue.h"
+
+namespace slipway::api::json {
+
+// What there is to ask for, each as {"<kind>": [...]}, sorted by name or in the catalogue's own order.
+std::string write_terrains(const Catalogue& catalogue);
+std::string write_rovers(const Catalogue& catalogue);
+std::string write_soils(const Catalogue& catalogue);
+std::string write_effects();
+std::string write_planners();  // with the cost terms that routes are ranked by
+std::string write_errors();
+
+std::string write_ground_at(const GroundAt& at);
+std::string write_health();
+
+}  // namespace slipway::api::json

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "api/answers.h"
+#include "api/json/writer.h"
+#include "sim/drive_prediction.h"
+
+namespace slipway::api::json {
+
+// A predicted drive as members of an open object: its figures ("length_m", "risk", ...).
+void write_drive_figures(Writer& w, const sim::DrivePrediction& prediction);
+
+// "stations": one array per quantity, one element per station, and the six wheels likewise.
+void write_stations(Writer& w, const sim::DrivePrediction& prediction, const Provenance& provenance);
+
+// "geometry": the stations as a LineString of [x, y, height] in map metres.
+void write_line(Writer& w, const sim::DrivePrediction& prediction);
+
+void write_provenance(Writer& w, const Provenance& provenance);
+
+}  // namespace slipway::api::json

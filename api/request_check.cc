@@ -1,0 +1,122 @@
+#include "api/request_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "api/faults.h"
+#include "planner/planner_catalogue.h"
+#include "sim/effect_catalogue.h"
+
+namespace slipway::api {
+
+RequestCheck::RequestCheck(const Catalogue& catalogue, std::vector<Fault> reader_faults) : catalogue_(catalogue) {
+  for (Fault& fault : reader_faults) faults_.emplace_back(ErrorCode::kInvalidRequest, std::move(fault));
+}
+
+void RequestCheck::add(ErrorCode code, std::string pointer, std::string message) {
+  faults_.emplace_back(code, Fault{std::move(pointer), std::move(message)});
+}
+
+bool RequestCheck::already_faulty(std::string_view pointer) const {
+  return std::any_of(faults_.begin(), faults_.end(),
+                     [&](const auto& entry) { return has_fault_under({entry.second}, pointer); });
+}
+
+void RequestCheck::names(const std::string& terrain, const std::string& rover) {
+  if (!already_faulty("/terrain")) {
+    const auto found = catalogue_.terrains.find(terrain);
+    if (found != catalogue_.terrains.end()) {
+      site_ = found->second.get();
+    } else {
+      add(ErrorCode::kInvalidRequest, "/terrain", unknown_name("terrain", terrain, names_of(catalogue_.terrains)));
+    }
+  }
+  if (!already_faulty("/rover")) {
+    const auto found = catalogue_.rovers.find(rover);
+    if (found != catalogue_.rovers.end()) {
+      rover_ = found->second.get();
+    } else {
+      add(ErrorCode::kInvalidRequest, "/rover", unknown_name("rover", rover, names_of(catalogue_.rovers)));
+    }
+  }
+}
+
+void RequestCheck::place(const planner::Waypoint& place, const std::string& pointer) {
+  if (site_ == nullptr || already_faulty(pointer)) return;
+  const dem::Extent map = site_->info().geometry.extent();
+  if (!map.contains(place.x_m, place.y_m)) {
+    add(ErrorCode::kOffMap, pointer,
+        fmt::format("({}, {}) m is off the map, must be in x [{}, {}] m and y [{}, {}] m", place.x_m, place.y_m,
+                    map.west_m, map.east_m, map.south_m, map.north_m));
+    return;
+  }
+  const auto ground = site_->read_around(place.x_m, place.y_m, 0.0);
+  if (!ground) {
+    add(ground.error().code, pointer, ground.error().detail);
+  } else if (!(*ground)->surface(place.x_m, place.y_m)) {
+    add(ErrorCode::kNoData, pointer,
+        fmt::format("({}, {}) m has no elevation: the terrain is not known there", place.x_m, place.y_m));
+  }
+}
+
+void RequestCheck::drive(const DriveAssumptions& drive) {
+  for (Fault& fault : moved_under("/effects", sim::faults_of(drive.effects))) {
+    const std::string at = fault.pointer;
+    if (!already_faulty(at)) add(ErrorCode::kInvalidRequest, at, std::move(fault.message));
+  }
+  if (rover_ != nullptr && !already_faulty("/effects")) {
+    sim::RoverModel changed = *rover_;
+    sim::apply_effects(drive.effects, changed);
+    for (const Fault& fault : sim::faults_of(changed)) {
+      add(ErrorCode::kInvalidRequest, "/effects", "the rover with these effects: " + fault.message);
+    }
+  }
+  if (rover_ == nullptr || !drive.speed_m_s || already_faulty("/speed_m_s")) return;
+  const double fastest = rover_->drive.max_wheel_rate_rad_s * rover_->smallest_wheel_radius_m();
+  if (*drive.speed_m_s > fastest) {
+    add(ErrorCode::kInvalidRequest, "/speed_m_s",
+        fmt::format("speed_m_s = {} m/s, must be in (0, {:.6g}]: the motors of {} turn no faster", *drive.speed_m_s,
+                    fastest, rover_->name));
+  }
+}
+
+void RequestCheck::planners(const std::vector<std::string>& planners) {
+  std::vector<std::string> known;
+  for (const planner::PlannerRow& row : planner::planner_catalogue()) known.emplace_back(row.name);
+  for (std::size_t i = 0; i < planners.size(); ++i) {
+    const std::string pointer = fmt::format("/planners/{}", i);
+    const auto begin = planners.begin();
+    if (std::find(known.begin(), known.end(), planners[i]) == known.end()) {
+      add(ErrorCode::kInvalidRequest, pointer, unknown_name("planner", planners[i], known));
+    } else if (std::find(begin, begin + static_cast<std::ptrdiff_t>(i), planners[i]) !=
+               begin + static_cast<std::ptrdiff_t>(i)) {
+      add(ErrorCode::kInvalidRequest, pointer, fmt::format("planner {} is given twice", in_quotes(planners[i])));
+    }
+  }
+}
+
+void RequestCheck::path_length(const std::vector<planner::Waypoint>& path) {
+  if (already_faulty("/path")) return;
+  double length = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    length += std::hypot(path[i].x_m - path[i - 1].x_m, path[i].y_m - path[i - 1].y_m);
+  }
+  if (length > RequestLimits::kPathLength_m) {
+    add(ErrorCode::kInvalidRequest, "/path",
+        fmt::format("path is {:.6g} m long, must be at most {}", length, RequestLimits::kPathLength_m));
+  }
+}
+
+Error RequestCheck::error() const {
+  Error error{faults_.front().first, "", {}};
+  for (const auto& [code, fault] : faults_) {
+    if (code != error.code) error.code = ErrorCode::kInvalidRequest;
+    error.faults.push_back(fault);
+  }
+  error.detail = summary_of(error.faults);
+  return error;
+}
+
+}  // namespace slipway::api

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "api/catalogue.h"
+#include "api/plan_request.h"
+#include "core/result.h"
+
+namespace slipway::api {
+
+// Gathers what is wrong with a request that was read: beside the reader's faults, those that only the catalogue and the
+// terrain can tell. Where the reader already found fault with a value, nothing more is said of it.
+class RequestCheck {
+ public:
+  RequestCheck(const Catalogue& catalogue, std::vector<Fault> reader_faults);
+
+  void names(const std::string& terrain, const std::string& rover);
+  void place(const planner::Waypoint& place, const std::string& pointer);
+  void drive(const DriveAssumptions& drive);
+  void planners(const std::vector<std::string>& planners);
+  // A path no longer than RequestLimits::kPathLength_m.
+  void path_length(const std::vector<planner::Waypoint>& path);
+
+  bool passed() const { return faults_.empty(); }
+  // The one error for all faults.
+  Error error() const;
+
+ private:
+  void add(ErrorCode code, std::string pointer, std::string message);
+  bool already_faulty(std::string_view pointer) const;
+
+  const Catalogue& catalogue_;
+  std::vector<std::pair<ErrorCode, Fault>> faults_;
+  const TerrainSite* site_ = nullptr;
+  const sim::RoverModel* rover_ = nullptr;
+};
+
+}  // namespace slipway::api

@@ -1,0 +1,191 @@
+#include "api/service.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "api/faults.h"
+#include "api/json/plan_request.h"
+#include "api/json/prediction_request.h"
+#include "api/request_check.h"
+
+namespace slipway::api {
+namespace {
+
+// Enough for a search to go around what lies between the places.
+dem::Extent window_around(const std::vector<planner::Waypoint>& places, const dem::GridGeometry& geometry) {
+  dem::Extent box{places.front().x_m, places.front().y_m, places.front().x_m, places.front().y_m};
+  for (const planner::Waypoint& place : places) {
+    box.west_m = std::min(box.west_m, place.x_m);
+    box.east_m = std::max(box.east_m, place.x_m);
+    box.south_m = std::min(box.south_m, place.y_m);
+    box.north_m = std::max(box.north_m, place.y_m);
+  }
+  constexpr double kLeastMargin_m = 60.0;
+  constexpr double kMarginRatio = 0.4;
+  constexpr double kLeastMarginCells = 8.0;
+  const double size = std::max(box.east_m - box.west_m, box.north_m - box.south_m);
+  const double margin = std::max({kLeastMargin_m, kMarginRatio * size,
+                                  kLeastMarginCells * std::max(geometry.cell_x_m, geometry.cell_y_m)});
+  return {box.west_m - margin, box.south_m - margin, box.east_m + margin, box.north_m + margin};
+}
+
+sim::SoilDistribution with_effects(sim::SoilDistribution soil, const std::vector<sim::EffectSetting>& effects) {
+  sim::apply_effects(effects, soil.mean);
+  return soil;
+}
+
+}  // namespace
+
+std::string_view version() { return SLIPWAY_VERSION; }
+
+Result<std::unique_ptr<Service>> Service::open(ServiceOptions options) {
+  auto catalogue = load_catalogue(options.data);
+  if (!catalogue) return fail(catalogue.error());
+  std::unique_ptr<Service> service(new Service(std::move(options)));
+  service->catalogue_ = std::move(*catalogue);
+  return service;
+}
+
+Result<PlanRequest> Service::read_plan(std::string_view json) const {
+  auto reading = json::read_plan_request(json);
+  if (!reading) return fail(reading.error());
+  const PlanRequest& request = reading->request;
+  RequestCheck check(catalogue_, std::move(reading->faults));
+  check.names(request.terrain, request.rover);
+  check.place(request.start, "/start");
+  check.place(request.goal, "/goal");
+  for (std::size_t i = 0; i < request.waypoints.size(); ++i) {
+    check.place(request.waypoints[i], fmt::format("/waypoints/{}", i));
+  }
+  check.planners(request.planners);
+  check.drive(request.drive);
+  if (!check.passed()) return fail(check.error());
+  return std::move(reading->request);
+}
+
+Result<PredictionRequest> Service::read_prediction(std::string_view json) const {
+  auto reading = json::read_prediction_request(json);
+  if (!reading) return fail(reading.error());
+  const PredictionRequest& request = reading->request;
+  RequestCheck check(catalogue_, std::move(reading->faults));
+  check.names(request.terrain, request.rover);
+  for (std::size_t i = 0; i < request.path.size(); ++i) check.place(request.path[i], fmt::format("/path/{}", i));
+  check.path_length(request.path);
+  check.drive(request.drive);
+  if (!check.passed()) return fail(check.error());
+  return std::move(reading->request);
+}
+
+Result<Service::Setting> Service::set_up(const std::string& terrain, const std::string& rover,
+                                         const std::vector<planner::Waypoint>& places,
+                                         const DriveAssumptions& drive) const {
+  RequestCheck check(catalogue_, {});
+  check.names(terrain, rover);
+  check.drive(drive);
+  if (!check.passed()) return fail(check.error());
+  const TerrainSite& site = *catalogue_.terrains.find(terrain)->second;
+  sim::RoverModel driven = *catalogue_.rovers.find(rover)->second;
+  sim::apply_effects(drive.effects, driven);
+  if (drive.speed_m_s) driven.cruise_speed_m_s = *drive.speed_m_s;
+  auto ground = site.read(window_around(places, site.info().geometry));
+  if (!ground) return fail(ground.error());
+
+  Setting setting;
+  planner::PlanProblem& problem = setting.problem;
+  problem.terrain = ground->terrain;
+  problem.soil_map = ground->soil_map;
+  for (const std::string& name : ground->soil_map->soils()) {
+    problem.beliefs.known.push_back(with_effects(catalogue_.soils.find(name)->second, drive.effects));
+  }
+  problem.beliefs.unknown = with_effects(catalogue_.soils.find(kUnknownGround)->second, drive.effects);
+  problem.rover = std::make_shared<const sim::RoverModel>(std::move(driven));
+  problem.gravity_m_s2 = site.description().gravity_m_s2;
+  problem.limits = drive.limits;
+  problem.seed = drive.seed;
+  problem.risk.seed = drive.seed;
+  problem.risk.draws = drive.draws;
+  problem.threads = options_.threads;
+
+  setting.provenance = {.terrain_title = site.description().title,
+                        .terrain_fingerprint = ground->terrain->fingerprint(),
+                        .crs_name = site.info().crs_name,
+                        .body = site.info().body,
+                        .gravity_m_s2 = site.description().gravity_m_s2,
+                        .soil_assumption = site.description().assumption,
+                        .soils = ground->soil_map->soils(),
+                        .unknown_soil = std::string(kUnknownGround),
+                        .seed = drive.seed};
+  return setting;
+}
+
+Result<PlanAnswer> Service::plan(const PlanRequest& request, Progress& progress) const {
+  progress.report("reading the terrain", 0.0);
+  std::vector<planner::Waypoint> places{request.start, request.goal};
+  places.insert(places.end(), request.waypoints.begin(), request.waypoints.end());
+  auto setting = set_up(request.terrain, request.rover, places, request.drive);
+  if (!setting) return fail(setting.error());
+  planner::PlanProblem& problem = setting->problem;
+  problem.start = request.start;
+  problem.goal = request.goal;
+  problem.waypoints = request.waypoints;
+  problem.keep_out = request.keep_out;
+  problem.weights = request.weights;
+  problem.routes = request.routes;
+  problem.planners = request.planners;
+  auto plan = planner::make_plan(problem, progress);
+  if (!plan) return fail(plan.error());
+  return PlanAnswer{request, std::move(setting->provenance), std::move(*plan)};
+}
+
+Result<PredictionAnswer> Service::predict(const PredictionRequest& request, Progress& progress) const {
+  progress.report("reading the terrain", 0.0);
+  if (request.path.size() < 2) {
+    return fail(ErrorCode::kInvalidRequest, "a path has at least two corners", {{"/path", "must have two corners"}});
+  }
+  auto setting = set_up(request.terrain, request.rover, request.path, request.drive);
+  if (!setting) return fail(setting.error());
+  planner::PlanProblem& problem = setting->problem;
+  problem.start = request.path.front();
+  problem.goal = request.path.back();
+  auto prediction = planner::predict_path(problem, request.path, progress);
+  if (!prediction) return fail(prediction.error());
+  return PredictionAnswer{request, std::move(setting->provenance), std::move(*prediction)};
+}
+
+Result<GroundAt> Service::ground_at(std::string_view terrain, double x_m, double y_m) const {
+  const auto found = catalogue_.terrains.find(terrain);
+  if (found == catalogue_.terrains.end()) {
+    return fail(ErrorCode::kNotFound, unknown_name("terrain", terrain, names_of(catalogue_.terrains)));
+  }
+  const TerrainSite& site = *found->second;
+  RequestCheck check(catalogue_, {});
+  check.names(std::string(terrain), names_of(catalogue_.rovers).front());
+  check.place({x_m, y_m, std::nullopt}, "");
+  if (!check.passed()) return fail(check.error());
+  const dem::GridGeometry& geometry = site.info().geometry;
+  GroundAt at;
+  at.x_m = x_m;
+  at.y_m = y_m;
+  // A wheelbase, or what the raster can tell.
+  at.roughness_radius_m = std::max(1.5, 1.5 * std::max(geometry.cell_x_m, geometry.cell_y_m));
+  const double reach = at.roughness_radius_m + 2.0 * std::max(geometry.cell_x_m, geometry.cell_y_m);
+  const auto ground = site.read({x_m - reach, y_m - reach, x_m + reach, y_m + reach});
+  if (!ground) return fail(ground.error());
+  const auto surface = ground->terrain->surface(x_m, y_m);
+  if (!surface) return fail(ErrorCode::kNoData, "the terrain has no elevation there");
+  at.height_m = surface->height_m;
+  at.slope_rad = surface->slope_rad();
+  at.aspect_rad = surface->aspect_rad();
+  at.roughness_m = ground->terrain->roughness_m(x_m, y_m, at.roughness_radius_m);
+  if (const auto mapped = ground->soil_map->class_at(x_m, y_m)) {
+    for (const dem::SoilClass& entry : ground->soil_map->legend()) {
+      if (entry.value == *mapped) at.label = entry.label;
+    }
+  }
+  if (const auto soil = ground->soil_map->soil_at(x_m, y_m)) at.soil = ground->soil_map->soils()[*soil];
+  return at;
+}
+
+}  // namespace slipway::api

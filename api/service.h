@@ -1,0 +1,58 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "api/answers.h"
+#include "api/catalogue.h"
+#include "core/progress.h"
+#include "core/result.h"
+
+namespace slipway::api {
+
+// The version of the program, as in provenance and /healthz.
+std::string_view version();
+
+struct ServiceOptions {
+  std::filesystem::path data;   // the folder that holds rovers, soils and terrains
+  std::size_t threads = 0;      // of one plan or prediction; 0: as many as the machine has
+};
+
+// What the server and the command line both ask: immutable once opened, thread-safe.
+class Service {
+ public:
+  // Errors: unreadable_data with the faults of all files.
+  static Result<std::unique_ptr<Service>> open(ServiceOptions options);
+
+  const Catalogue& catalogue() const { return catalogue_; }
+
+  // Reads a request and checks all that can be checked without planning: syntax, values, names, whether every place
+  // lies on the terrain and has elevation. All faults together. off_map or no_data when all of them are of that kind.
+  Result<PlanRequest> read_plan(std::string_view json) const;
+  Result<PredictionRequest> read_prediction(std::string_view json) const;
+
+  // The same request gives the same answer, on any number of threads.
+  Result<PlanAnswer> plan(const PlanRequest& request, Progress& progress) const;
+  Result<PredictionAnswer> predict(const PredictionRequest& request, Progress& progress) const;
+
+  // Errors: not_found (unknown terrain), off_map, no_data.
+  Result<GroundAt> ground_at(std::string_view terrain, double x_m, double y_m) const;
+
+ private:
+  explicit Service(ServiceOptions options) : options_(std::move(options)) {}
+
+  // A problem without places, and the window's soils: what plan and prediction have in common.
+  struct Setting {
+    planner::PlanProblem problem;
+    Provenance provenance;
+  };
+  Result<Setting> set_up(const std::string& terrain, const std::string& rover,
+                         const std::vector<planner::Waypoint>& places, const DriveAssumptions& drive) const;
+
+  ServiceOptions options_;
+  Catalogue catalogue_;
+};
+
+}  // namespace slipway::api

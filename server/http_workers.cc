@@ -1,0 +1,69 @@
+#include "server/http_workers.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "server/http_socket.h"
+
+namespace slipway::server {
+
+HttpWorkers::HttpWorkers(const HttpOptions& options, const Answers& answers, std::atomic<std::uint64_t>& served,
+                         std::function<void(WorkDone)> done)
+    : options_(options), answers_(answers), served_(served), done_(std::move(done)) {
+  const std::size_t count = std::max<std::size_t>(1, options.worker_threads);
+  for (std::size_t i = 0; i < count; ++i) threads_.emplace_back([this] { run(); });
+}
+
+HttpWorkers::~HttpWorkers() { stop(); }
+
+void HttpWorkers::submit(Work work) {
+  {
+    const std::lock_guard lock(mutex_);
+    waiting_.push_back(std::move(work));
+  }
+  condition_.notify_one();
+}
+
+void HttpWorkers::stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  condition_.notify_all();
+  for (std::thread& thread : threads_) {
+    if (thread.joinable()) thread.join();
+  }
+}
+
+void HttpWorkers::run() {
+  HttpEngine engine(options_);
+  for (;;) {
+    Work work;
+    {
+      std::unique_lock lock(mutex_);
+      condition_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
+      if (stopping_) return;
+      work = std::move(waiting_.front());
+      waiting_.pop_front();
+    }
+    answer(engine, std::move(work));
+  }
+}
+
+void HttpWorkers::answer(HttpEngine& engine, Work work) {
+  WorkDone done{work.connection, {}, work.close, false};
+  std::string bytes = answers_.to_request(
+      engine, {work.gathered.head.forwarded, std::move(work.gathered.body), work.remote_address, work.close});
+  served_.fetch_add(1, std::memory_order_relaxed);
+  // Sent from here rather than from the loop: one hop less before the client has its answer.
+  std::string_view rest = bytes;
+  const Transfer sent = send_some(work.fd, rest);
+  done.broken = sent == Transfer::kBroken;
+  if (sent == Transfer::kBlocked) {
+    bytes.erase(0, bytes.size() - rest.size());
+    done.unsent = std::move(bytes);
+  }
+  done_(std::move(done));
+}
+
+}  // namespace slipway::server

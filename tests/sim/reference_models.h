@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "core/angle.h"
+#include "sim/ground.h"
+#include "sim/rover_model.h"
+#include "sim/soil.h"
+#include "sim/wheel_forces.h"
+
+namespace slipway::sim {
+
+inline Soil make_soil(BekkerModuli moduli, double cohesion_pa, double friction_deg, double shear_modulus_m, double c1,
+                      double c2) {
+  Soil soil;
+  soil.pressure = moduli;
+  soil.cohesion_pa = cohesion_pa;
+  soil.friction_angle_rad = rad_from_deg(friction_deg);
+  soil.shear_modulus_x_m = soil.shear_modulus_y_m = shear_modulus_m;
+  soil.c1 = c1;
+  soil.c2 = c2;
+  return soil;
+}
+
+inline Soil sandy_loam() { return make_soil({20000.0, 1.2e6, 0.95}, 1500.0, 36.0, 0.01, 0.18, 0.32); }
+inline Soil loose_sand() { return make_soil({3125.0, 536156.0, 0.867}, 102.0, 33.2, 0.0171, 0.285, 0.32); }
+
+inline SoilDistribution certain(const char* name, const Soil& soil) {
+  SoilDistribution belief;
+  belief.name = name;
+  belief.mean = soil;
+  return belief;
+}
+
+inline SoilDistribution spread(const char* name, const Soil& soil, double relative) {
+  SoilDistribution belief = certain(name, soil);
+  belief.std = {relative, 0.1 * relative, relative * soil.cohesion_pa, relative * 0.3 * soil.friction_angle_rad, relative};
+  return belief;
+}
+
+// A six-wheeler of MER's size, written out so that these tests need no file.
+inline RoverModel six_wheeler() {
+  RoverModel rover;
+  rover.name = "six-wheeler";
+  rover.mass_kg = 174.0;
+  rover.com_m = {-0.03, 0.0, 0.38};
+  const char* names[] = {"lf", "lm", "lr", "rf", "rm", "rr"};
+  const double x[] = {0.7, 0.0, -0.7}, y[] = {0.53, 0.61, 0.53};
+  for (int k = 0; k < 6; ++k) {
+    WheelModel wheel;
+    wheel.name = names[k];
+    wheel.side = k < 3 ? Side::kLeft : Side::kRight;
+    wheel.position_m = {x[k % 3], k < 3 ? y[k % 3] : -y[k % 3], 0.125};
+    wheel.steerable = k % 3 != 1;
+    wheel.on_bogie = k % 3 != 0;
+    rover.wheels.push_back(wheel);
+  }
+  rover.suspension = {{0.12, 0.45, 0.42}, {-0.35, 0.55, 0.3}};
+  rover.drive.max_wheel_rate_rad_s = rad_from_deg(25.0);
+  return rover;
+}
+
+// Ground in closed form: height as a function of place, normals by central differences; unknown soil where told.
+class FunctionGround final : public Ground {
+ public:
+  using Height = std::function<double(double, double)>;
+  using SoilIndex = std::function<std::optional<std::size_t>(double, double)>;
+
+  explicit FunctionGround(Height height, double reach_m = 1e6,
+                          SoilIndex soil = [](double, double) { return std::optional<std::size_t>(0); })
+      : height_(std::move(height)), soil_(std::move(soil)), reach_m_(reach_m) {}
+
+  std::optional<GroundPoint> at(double x, double y) const override {
+    if (std::abs(x) > reach_m_ || std::abs(y) > reach_m_) return std::nullopt;
+    constexpr double h = 1e-5;
+    const Eigen::Vector3d slope((height_(x - h, y) - height_(x + h, y)) / (2 * h),
+                                (height_(x, y - h) - height_(x, y + h)) / (2 * h), 1.0);
+    return GroundPoint{height_(x, y), slope.normalized()};
+  }
+  std::optional<std::size_t> soil_at(double x, double y) const override { return soil_(x, y); }
+
+ private:
+  Height height_;
+  SoilIndex soil_;
+  double reach_m_;
+};
+
+}  // namespace slipway::sim

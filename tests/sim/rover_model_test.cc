@@ -1,0 +1,83 @@
+#include "sim/rover_model.h"
+
+#include <gtest/gtest.h>
+
+#include "sim/drive_command.h"
+#include "sim/motor.h"
+#include "tests/sim/reference_models.h"
+
+namespace slipway::sim {
+namespace {
+
+TEST(RoverModel, TheReferenceModelHasNoFaults) { EXPECT_TRUE(faults_of(six_wheeler()).empty()); }
+
+TEST(RoverModel, EveryFaultIsReportedAtOnceWithItsPlace) {
+  RoverModel rover = six_wheeler();
+  rover.mass_kg = -3.0;
+  rover.wheels[2].radius_m = 0.0;
+  rover.com_m.x() = 5.0;
+  rover.drive.gear_efficiency = 1.5;
+  std::vector<std::string> pointers;
+  for (const Fault& fault : faults_of(rover)) pointers.push_back(fault.pointer);
+  EXPECT_EQ(pointers, (std::vector<std::string>{"/wheels/2/radius_m", "/mass_kg", "/com_m", "/drive/gear_efficiency"}));
+}
+
+TEST(WheelCommands, StraightDrivingTurnsAllWheelsAlike) {
+  for (const WheelCommand& wheel : wheel_commands(six_wheeler(), {.speed_m_s = 0.04})) {
+    EXPECT_EQ(wheel.steer_rad, 0.0);
+    EXPECT_NEAR(wheel.rate_rad_s, 0.04 / 0.125, 1e-15);
+  }
+}
+
+TEST(WheelCommands, OnAnArcEveryWheelPointsAcrossTheTurnsCentre) {
+  const RoverModel rover = six_wheeler();
+  const double curvature = 0.4;
+  const auto told = wheel_commands(rover, {.speed_m_s = 0.03, .curvature_1_m = curvature});
+  for (int k = 0; k < kWheels; ++k) {
+    if (!rover.wheels[k].steerable) continue;
+    const Eigen::Vector2d to_centre(-rover.wheels[k].position_m.x(), 1.0 / curvature - rover.wheels[k].position_m.y());
+    const Eigen::Vector2d heading(std::cos(told[k].steer_rad), std::sin(told[k].steer_rad));
+    EXPECT_NEAR(heading.dot(to_centre), 0.0, 1e-12);
+    EXPECT_NEAR(told[k].rate_rad_s * rover.wheels[k].radius_m, 0.03 * curvature * to_centre.norm(), 1e-12);
+  }
+}
+
+TEST(WheelCommands, ASpeedBeyondTheMotorsIsScaledDownForAllWheelsTogether) {
+  const RoverModel rover = six_wheeler();
+  const DriveCommand fast{.speed_m_s = 1.0, .curvature_1_m = 0.3};
+  const auto told = wheel_commands(rover, fast);
+  double fastest = 0.0;
+  for (const WheelCommand& wheel : told) fastest = std::max(fastest, std::abs(wheel.rate_rad_s));
+  EXPECT_NEAR(fastest, rover.drive.max_wheel_rate_rad_s, 1e-12);
+  EXPECT_LT(attainable_share(rover, fast), 0.1);
+  EXPECT_EQ(attainable_share(rover, {.speed_m_s = 0.04}), 1.0);
+}
+
+TEST(Motor, CurrentFollowsTheDriveCampaignsFormula) {
+  DriveMotor drive;
+  const MotorState state = motor_state(drive, 3.0, 0.3);
+  EXPECT_NEAR(state.current_a, 3.0 / (0.0224 * 1500.0 * 0.55) + 0.06, 1e-12);
+  EXPECT_NEAR(motor_state(drive, -3.0, -0.3).current_a, -state.current_a, 1e-12);
+}
+
+TEST(Motor, TheBusPaysForTheMechanicalPowerAndTheLosses) {
+  DriveMotor drive;
+  drive.resistance_ohm = 2.0;
+  const MotorState state = motor_state(drive, 3.0, 0.3);
+  EXPECT_GT(state.electric_power_w, 3.0 * 0.3);
+  EXPECT_NEAR(state.electric_power_w, state.current_a * (2.0 * state.current_a + 0.0224 * 1500.0 * 0.3), 1e-12);
+  EXPECT_EQ(motor_state(drive, -5.0, 0.3).electric_power_w, 0.0) << "a wheel driven by the ground returns nothing";
+}
+
+TEST(Motor, StallIsTooMuchCurrentOrTooMuchVoltage) {
+  DriveMotor drive;
+  EXPECT_FALSE(stalls(drive, motor_state(drive, 3.0, 0.3)));
+  drive.max_current_a = 0.2;
+  EXPECT_TRUE(stalls(drive, motor_state(drive, 3.0, 0.3)));
+  drive.max_current_a.reset();
+  drive.bus_voltage_v = 5.0;
+  EXPECT_TRUE(stalls(drive, motor_state(drive, 3.0, 0.3)));
+}
+
+}  // namespace
+}  // namespace slipway::sim
