@@ -35,20 +35,25 @@ constexpr std::string_view kNothingWorks =
 
 }  // namespace
 
-std::string Answers::to_request(HttpEngine& engine, HttpEngine::Exchange exchange) const {
+HttpEngine::Outgoing Answers::to_request(HttpEngine& engine, HttpEngine::Exchange exchange) const {
   const bool is_head = exchange.head.starts_with("HEAD ");
   try {
     return engine.respond(std::move(exchange), [this](HttpRequest& request) { return routed(request); });
   } catch (...) {
     log(fmt::format("a request could not be answered: {}", text_of(std::current_exception())));
   }
-  return to_refused(engine, is_head ? "HEAD" : "GET",
-                    {ErrorCode::kInternal, "the request could not be answered", {}});
+  return {to_refused(engine, is_head ? "HEAD" : "GET",
+                     {ErrorCode::kInternal, "the request could not be answered", {}}),
+          {}};
 }
 
 std::string Answers::to_refused(HttpEngine& engine, std::string_view method, const Error& error) const {
   try {
-    return engine.respond_without_request(method, problem(error, nullptr));
+    HttpResponse response = problem(error, nullptr);
+    // What stands in the way here is slow or many clients, and both pass soon.
+    if (response.status == 503 && !response.header("Retry-After")) response.headers.emplace_back("Retry-After", "1");
+    HttpEngine::Outgoing out = engine.respond_without_request(method, std::move(response));
+    return out.front + out.body;
   } catch (...) {
     log(fmt::format("a refusal could not be written: {}", text_of(std::current_exception())));
   }

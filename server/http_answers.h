@@ -17,7 +17,8 @@ class Answers {
   Answers(const HttpOptions& options, const RouteTable& routes) : options_(options), routes_(routes) {}
 
   // Never throws.
-  std::string to_request(HttpEngine& engine, HttpEngine::Exchange exchange) const;
+  HttpEngine::Outgoing to_request(HttpEngine& engine, HttpEngine::Exchange exchange) const;
+  // In one piece: it is sent from a buffer of the loop.
   std::string to_refused(HttpEngine& engine, std::string_view method, const Error& error) const;
 
   void log(std::string_view line) const;

@@ -115,11 +115,6 @@ bool HttpLoop::send_rest(Connection& connection, bool& blocked) {
   connection.sent = connection.unsent.size() - rest.size();
   if (sent == Transfer::kBlocked) {
     blocked = true;
-    // Only the part not sent counts and is needed; moved when it pays.
-    if (connection.sent > connection.unsent.size() / 2) {
-      connection.unsent = connection.unsent.substr(connection.sent);
-      connection.sent = 0;
-    }
     return keep_to_budget(connection);
   }
   connection.unsent = {};

@@ -24,7 +24,10 @@ bool is_among(const std::array<std::string_view, N>& names, std::string_view nam
   return std::any_of(names.begin(), names.end(), [&](std::string_view n) { return equal_ignoring_case(n, name); });
 }
 
-// A head to read, and room for an answer.
+// Below this, one more copy is cheaper than one more call of send().
+constexpr std::size_t kJoinedBody = std::size_t{16} << 10;
+
+// A head to read, and room for the head of an answer.
 class MemoryStream final : public httplib::Stream {
  public:
   explicit MemoryStream(std::string_view head) : head_(head) {}
@@ -110,7 +113,10 @@ class HttpEngine::Adapter final : public httplib::Server {
       fill(out, (*answer_)(request));
       return HandlerResponse::Handled;
     });
-    set_post_routing_handler([](const httplib::Request&, httplib::Response& out) {
+    set_post_routing_handler([this](const httplib::Request& in, httplib::Response& out) {
+      // Here its length is in the headers already, and nothing of it is written.
+      body_ = in.method == "HEAD" ? std::string() : std::move(out.body);
+      out.body.clear();
       // cpp-httplib offers ranges with every HEAD, and a length where there must be none [RFC 9110, 8.6].
       out.headers.erase("Accept-Ranges");
       if (out.status == 204 || out.status < 200) out.headers.erase("Content-Length");
@@ -121,7 +127,7 @@ class HttpEngine::Adapter final : public httplib::Server {
     });
   }
 
-  std::string respond(Exchange exchange, const std::function<HttpResponse(HttpRequest&)>& answer) {
+  Outgoing respond(Exchange exchange, const std::function<HttpResponse(HttpRequest&)>& answer) {
     exchange_ = &exchange;
     answer_ = &answer;
     reached_ = false;
@@ -132,13 +138,16 @@ class HttpEngine::Adapter final : public httplib::Server {
     if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
     // The head was checked by stricter rules than cpp-httplib's.
     if (!reached_) throw std::logic_error("cpp-httplib refused a head that was found to be sound");
-    return stream.take();
+    Outgoing out{stream.take(), std::exchange(body_, {})};
+    if (out.body.size() <= kJoinedBody) out.front += std::exchange(out.body, {});
+    return out;
   }
 
  private:
   Exchange* exchange_ = nullptr;
   const std::function<HttpResponse(HttpRequest&)>* answer_ = nullptr;
   bool reached_ = false;
+  std::string body_;
   std::exception_ptr thrown_;
 };
 
@@ -146,11 +155,11 @@ HttpEngine::HttpEngine(const HttpOptions& options) : adapter_(std::make_unique<A
 
 HttpEngine::~HttpEngine() = default;
 
-std::string HttpEngine::respond(Exchange exchange, const std::function<HttpResponse(HttpRequest&)>& answer) {
+HttpEngine::Outgoing HttpEngine::respond(Exchange exchange, const std::function<HttpResponse(HttpRequest&)>& answer) {
   return adapter_->respond(std::move(exchange), answer);
 }
 
-std::string HttpEngine::respond_without_request(std::string_view method, HttpResponse response) {
+HttpEngine::Outgoing HttpEngine::respond_without_request(std::string_view method, HttpResponse response) {
   const std::string head = method == "HEAD" ? "HEAD / HTTP/1.1\r\n\r\n" : "GET / HTTP/1.1\r\n\r\n";
   return adapter_->respond({head, {}, {}, true},
                            [&](HttpRequest&) -> HttpResponse { return std::move(response); });

@@ -31,11 +31,17 @@ class HttpEngine {
     bool close = false;  // the answer says that the connection ends with it
   };
 
-  // The bytes to send. `answer` may throw: it is not caught here.
-  std::string respond(Exchange exchange, const std::function<HttpResponse(HttpRequest&)>& answer);
+  // What to send. A large body stays apart, for joining the two would copy it.
+  struct Outgoing {
+    std::string front;  // the head, and a small body
+    std::string body;
+  };
+
+  // `answer` may throw: it is not caught here.
+  Outgoing respond(Exchange exchange, const std::function<HttpResponse(HttpRequest&)>& answer);
 
   // The same for a request that was refused before it had a head to pass on. The method decides about a body.
-  std::string respond_without_request(std::string_view method, HttpResponse response);
+  Outgoing respond_without_request(std::string_view method, HttpResponse response);
 
  private:
   class Adapter;

@@ -102,9 +102,10 @@ void HttpLoop::accept_waiting() {
     if (outcome == AcceptOutcome::kNobodyWaits) return;
     if (outcome == AcceptOutcome::kNoDescriptors) {
       // The connection stays in the backlog, and epoll would report it without end: look again at the next sweep.
-      answers_.log("no descriptors are left to accept a connection with");
+      if (!std::exchange(starved_, true)) answers_.log("no descriptors are left to accept connections with");
       return watch_listener(false);
     }
+    starved_ = false;
     const auto known = per_address_.find(accepted.address);
     const std::size_t of_address = known == per_address_.end() ? 0 : known->second;
     if (admitted_ < options_.max_connections && of_address < options_.max_connections_per_address) {
@@ -171,7 +172,7 @@ void HttpLoop::take_back(HttpWorkers& workers) {
     connection.close_after = work.close || draining_;
     connection.phase = Phase::kSending;
     connection.unsent = std::move(work.unsent);
-    connection.sent = 0;
+    connection.sent = work.sent;
     if (work.broken) {
       close(connection);
     } else {

@@ -119,6 +119,7 @@ class HttpLoop {
   std::uint64_t next_id_ = 2;        // 0 is the listener, 1 the wake-up
   std::vector<std::uint64_t> again_;  // had more to read than one turn allows
   bool listening_ = false;
+  bool starved_ = false;  // of descriptors, and the log says so
   bool draining_ = false;
   Clock::time_point drained_by_ = Clock::time_point::max();
   Clock::time_point next_sweep_;

@@ -39,12 +39,16 @@ class HttpServer::Running {
       : options_(std::move(options)), routes_(std::move(routes)), answers_(options_, routes_) {}
 
   Result<int> start() {
-    if (loop_) return fail(ErrorCode::kConflict, "the server was started before");
+    if (loop_) return fail(ErrorCode::kConflict, "the server is running");
     auto listener = listen_at(options_);
     if (!listener) return fail(std::move(listener.error()));
     const int port = listener->port;
     loop_.emplace(options_, answers_, counters_, std::move(*listener));
-    if (!loop_->fault().empty()) return fail(ErrorCode::kConflict, loop_->fault());
+    if (!loop_->fault().empty()) {
+      const std::string fault = loop_->fault();
+      loop_.reset();
+      return fail(ErrorCode::kConflict, fault);
+    }
     const SignalsBlocked blocked;
     workers_.emplace(options_, answers_, counters_.requests_served,
                      [this](WorkDone work) { loop_->done(std::move(work)); });

@@ -20,7 +20,8 @@ class HttpServer {
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;
 
-  // Binds and serves from threads of its own; the port it got, or why it can't listen there. Once only.
+  // Binds and serves from threads of its own; the port it got, or why it can't listen there. For one thread, as stop()
+  // is, after which it may be started again.
   Result<int> start();
 
   // New connections and requests are refused, those that have begun are answered up to options.drain_deadline. A

@@ -19,10 +19,10 @@ Transfer receive_some(int fd, char* to, std::size_t size, std::size_t& received)
   }
 }
 
-Transfer send_some(int fd, std::string_view& bytes) {
+Transfer send_some(int fd, std::string_view& bytes, bool more_follows) {
   while (!bytes.empty()) {
     // Without MSG_NOSIGNAL a client that has gone would end the whole program.
-    const ssize_t n = ::send(fd, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    const ssize_t n = ::send(fd, bytes.data(), bytes.size(), MSG_NOSIGNAL | (more_follows ? MSG_MORE : 0));
     if (n >= 0) {
       bytes.remove_prefix(static_cast<std::size_t>(n));
       continue;

@@ -51,18 +51,22 @@ void HttpWorkers::run() {
 }
 
 void HttpWorkers::answer(HttpEngine& engine, Work work) {
-  WorkDone done{work.connection, {}, work.close, false};
-  std::string bytes = answers_.to_request(
+  WorkDone done{work.connection, {}, 0, work.close, false};
+  HttpEngine::Outgoing out = answers_.to_request(
       engine, {work.gathered.head.forwarded, std::move(work.gathered.body), work.remote_address, work.close});
   served_.fetch_add(1, std::memory_order_relaxed);
   // Sent from here rather than from the loop: one hop less before the client has its answer.
-  std::string_view rest = bytes;
-  const Transfer sent = send_some(work.fd, rest);
-  done.broken = sent == Transfer::kBroken;
-  if (sent == Transfer::kBlocked) {
-    bytes.erase(0, bytes.size() - rest.size());
-    done.unsent = std::move(bytes);
+  std::string_view front = out.front;
+  Transfer outcome = send_some(work.fd, front, !out.body.empty());
+  if (outcome == Transfer::kSome) {
+    std::string_view body = out.body;
+    outcome = send_some(work.fd, body);
+    done.sent = out.body.size() - body.size();
+    done.unsent = std::move(out.body);
+  } else if (outcome == Transfer::kBlocked) {
+    done.unsent = std::string(front) + out.body;
   }
+  done.broken = outcome == Transfer::kBroken;
   done_(std::move(done));
 }
 

@@ -27,7 +27,8 @@ struct Work {
 
 struct WorkDone {
   std::uint64_t connection = 0;
-  std::string unsent;  // what the client did not take at once
+  std::string unsent;    // what the client did not take at once: from `sent` on
+  std::size_t sent = 0;
   bool close = false;
   bool broken = false;  // the client has gone
 };

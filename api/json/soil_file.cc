@@ -83,7 +83,7 @@ void read_soil(const Element& element, sim::SoilDistribution& soil, std::vector<
   reader.text("name", kRequired, {.most = 64, .is_name = true}, soil.name);
   reader.text("summary", kRequired, {.most = 500}, soil.summary);
   reader.text("source", kRequired, {.most = 500}, soil.source);
-  reader.texts("assumed", kRequired, {0, 30}, {}, soil.assumed);
+  reader.texts("assumed", kRequired, {0, 30}, {.most = 500}, soil.assumed);
   read_mean(reader, soil.mean);
   read_std(reader, soil.std);
   read_correlation(reader, soil.correlation);

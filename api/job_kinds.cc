@@ -1,0 +1,31 @@
+#include "api/job_kinds.h"
+
+#include <fmt/format.h>
+
+#include "api/json/plan_answer.h"
+#include "api/json/prediction_answer.h"
+
+namespace slipway::api {
+
+JobWork service_work(const Service& service) {
+  return [&service](const std::string& kind, const std::string& request, Progress& progress) -> Result<std::string> {
+    // Read again from the bytes that were accepted: after a restart there is nothing else.
+    if (kind == kPlanKind) {
+      const auto plan_request = service.read_plan(request);
+      if (!plan_request) return fail(plan_request.error());
+      const auto answer = service.plan(*plan_request, progress);
+      if (!answer) return fail(answer.error());
+      return json::write_plan_answer(*answer);
+    }
+    if (kind == kPredictionKind) {
+      const auto prediction_request = service.read_prediction(request);
+      if (!prediction_request) return fail(prediction_request.error());
+      const auto answer = service.predict(*prediction_request, progress);
+      if (!answer) return fail(answer.error());
+      return json::write_prediction_answer(*answer);
+    }
+    return fail(ErrorCode::kInternal, fmt::format("no work is known for jobs of kind {}", kind));
+  };
+}
+
+}  // namespace slipway::api

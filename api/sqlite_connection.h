@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace slipway::api {
+
+// Something that SQLite refused; caught by the store, where it becomes a `storage` error.
+class SqliteFailure : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// What a commit survives: kQuick the death of the process, kDurable a loss of power too (it waits for the disk).
+enum class CommitKind { kQuick, kDurable };
+
+// One statement, prepared and bound. Text is copied when bound.
+class SqliteStatement {
+ public:
+  SqliteStatement& bind(std::string_view text);  // the next "?"
+  SqliteStatement& bind(std::int64_t number);
+  SqliteStatement& bind(double number);
+  // True: a row is there to be read. False: done.
+  bool step();
+
+  std::string text(int column) const;
+  std::int64_t number(int column) const;
+  std::optional<std::int64_t> optional_number(int column) const;
+  double real(int column) const;
+
+ private:
+  friend class SqliteConnection;
+  SqliteStatement(sqlite3* database, std::string_view sql);
+
+  struct Finaliser {
+    void operator()(sqlite3_stmt* statement) const;
+  };
+  void check(int code) const;
+
+  sqlite3* database_;
+  std::unique_ptr<sqlite3_stmt, Finaliser> statement_;
+  int bound_ = 0;
+};
+
+// A connection to a database in WAL mode. Used by one thread at a time.
+class SqliteConnection {
+ public:
+  SqliteConnection(const std::filesystem::path& path, CommitKind kind);
+
+  SqliteStatement prepare(std::string_view sql) { return {database_.get(), sql}; }
+  void execute(const char* sql);
+  // Rows that the last statement changed.
+  int changes() const;
+
+ private:
+  struct Closer {
+    void operator()(sqlite3* database) const;
+  };
+  std::unique_ptr<sqlite3, Closer> database_;
+};
+
+// A transaction that is undone unless committed.
+class SqliteTransaction {
+ public:
+  explicit SqliteTransaction(SqliteConnection& connection) : connection_(connection) {
+    connection_.execute("BEGIN IMMEDIATE");
+  }
+  ~SqliteTransaction();
+  SqliteTransaction(const SqliteTransaction&) = delete;
+  SqliteTransaction& operator=(const SqliteTransaction&) = delete;
+  void commit();
+
+ private:
+  SqliteConnection& connection_;
+  bool open_ = true;
+};
+
+}  // namespace slipway::api

@@ -1,0 +1,107 @@
+#include <ompl/base/ProblemDefinition.h>
+#include <ompl/geometric/PathGeometric.h>
+#include <ompl/geometric/planners/rrt/RRTXstatic.h>
+#include <ompl/geometric/planners/rrt/RRTsharp.h>
+#include <ompl/geometric/planners/rrt/RRTstar.h>
+#include <ompl/util/Console.h>
+
+#include <array>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+
+#include "core/random.h"
+#include "planner/leg_search.h"
+#include "planner/ompl_motion_space.h"
+#include "planner/ompl_nearest_neighbors.h"
+
+namespace slipway::planner {
+namespace ob = ompl::base;
+namespace og = ompl::geometric;
+namespace {
+
+// A planner of OMPL whose every random number and order is its own: OMPL draws the seeds of its generators from
+// one process-wide stream.
+template <class Base>
+class Repeatable final : public Base {
+ public:
+  Repeatable(const ob::SpaceInformationPtr& space, const LegSearch& search) : Base(space) {
+    // Not 0: OMPL reads that as "none".
+    this->rng_.setLocalSeed(static_cast<std::uint_fast32_t>(random_bits(search.seed, 0) >> 33) + 1U);
+    this->nn_ = std::make_shared<BucketNearestNeighbors<typename Base::Motion*>>();
+    this->setRange(search.range_m);
+    this->setGoalBias(0.05);
+  }
+};
+
+ob::PlannerPtr make_rrt_sharp(const ob::SpaceInformationPtr& space, const LegSearch& search) {
+  return std::make_shared<Repeatable<og::RRTsharp>>(space, search);
+}
+
+ob::PlannerPtr make_rrt_star(const ob::SpaceInformationPtr& space, const LegSearch& search) {
+  return std::make_shared<Repeatable<og::RRTstar>>(space, search);
+}
+
+ob::PlannerPtr make_rrtx(const ob::SpaceInformationPtr& space, const LegSearch& search) {
+  auto planner = std::make_shared<Repeatable<og::RRTXstatic>>(space, search);
+  planner->setEpsilon(0.002 * search.sampler->optimum());
+  return planner;
+}
+
+struct FactoryRow {
+  std::string_view name;
+  ob::PlannerPtr (*make)(const ob::SpaceInformationPtr&, const LegSearch&);
+};
+
+constexpr std::array<FactoryRow, 3> kFactories{
+    {{"rrt_sharp", make_rrt_sharp}, {"rrt_star", make_rrt_star}, {"rrtx_static", make_rrtx}}};
+
+const FactoryRow& factory_of(std::string_view name) {
+  for (const FactoryRow& row : kFactories)
+    if (row.name == name) return row;
+  throw std::invalid_argument("a planner of the catalogue has no factory");
+}
+
+std::vector<Pose2> poses_of(const ob::PathPtr& path) {
+  std::vector<Pose2> poses;
+  const auto* states = path->as<og::PathGeometric>();
+  for (std::size_t i = 0; i < states->getStateCount(); ++i)
+    poses.push_back(pose_of(states->getState(static_cast<unsigned int>(i))));
+  return poses;
+}
+
+}  // namespace
+
+std::vector<Pose2> search_leg(std::string_view planner_name, const LegSearch& search) {
+  static std::once_flag silenced;
+  std::call_once(silenced, [] { ompl::msg::noOutputHandler(); });
+
+  const FactoryRow& factory = factory_of(planner_name);
+  const auto space = std::make_shared<MotionSpace>(search);
+  const auto information = std::make_shared<ob::SpaceInformation>(space);
+  information->setStateValidityChecker(
+      [&search](const ob::State* state) { return search.cost->map().may_stand(pose_of(state)); });
+  information->setMotionValidator(std::make_shared<FiniteCostValidator>(information, search));
+  information->setup();
+
+  const auto problem = std::make_shared<ob::ProblemDefinition>(information);
+  const ob::ScopedState<> start(space);
+  set_pose(start.get(), search.from);
+  problem->addStartState(start);
+  problem->setGoal(std::make_shared<PlaceGoal>(information, search));
+  problem->setOptimizationObjective(std::make_shared<MotionCostObjective>(information, search));
+
+  const ob::PlannerPtr planner = factory.make(information, search);
+  planner->setProblemDefinition(problem);
+  planner->setup();
+  long long asked = 0;
+  bool cancelled = false;
+  planner->solve(ob::PlannerTerminationCondition([&] {
+    if (++asked % 64 == 0 && search.cancelled && search.cancelled()) cancelled = true;
+    return cancelled || asked > search.iterations;
+  }));
+  if (cancelled || !problem->hasExactSolution()) return {};
+  return poses_of(problem->getSolutionPath());
+}
+
+}  // namespace slipway::planner

@@ -1,0 +1,210 @@
+#include "server/commands.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+
+#include "api/json/writer.h"
+#include "server/inquiry.h"
+#include "server/tables.h"
+
+namespace slipway::server {
+namespace {
+
+using api::json::Writer;
+
+std::atomic<bool> interrupted{false};
+
+// Stage and share on one line of a terminal; nothing where standard error is a file.
+class TerminalProgress final : public Progress {
+ public:
+  ~TerminalProgress() override {
+    if (shown_) std::fputs("\r\033[K", stderr);
+  }
+  void report(std::string_view stage, double fraction) override {
+    if (!terminal_) return;
+    shown_ = true;
+    std::fputs(fmt::format("\r\033[K{:3.0f} % {}", 100.0 * fraction, stage).c_str(), stderr);
+    std::fflush(stderr);
+  }
+  bool cancelled() const override { return interrupted; }
+
+ private:
+  const bool terminal_ = isatty(STDERR_FILENO) != 0;
+  std::atomic<bool> shown_{false};
+};
+
+int refuse(const Error& error) {
+  std::cerr << error_text(error);
+  return error.code == ErrorCode::kInvalidRequest || error.code == ErrorCode::kMalformedJson ? 2 : 1;
+}
+
+Result<std::unique_ptr<Inquiry>> inquiry(const AskOptions& options) {
+  return options.url.empty() ? local_inquiry(options.data) : remote_inquiry(options.url);
+}
+
+Result<std::string> read_file(const std::string& path) {
+  std::stringstream text;
+  if (path == "-") {
+    text << std::cin.rdbuf();
+  } else {
+    std::ifstream file(path);
+    if (!file) return fail(ErrorCode::kUnreadableData, fmt::format("cannot open {}", path));
+    text << file.rdbuf();
+  }
+  return text.str();
+}
+
+void write_place(Writer& w, const PlaceOption& place) {
+  w.begin_object().exact("x_m", place.x_m).exact("y_m", place.y_m);
+  if (place.yaw_deg) w.exact("yaw_deg", *place.yaw_deg);
+  w.end_object();
+}
+
+// "name" or "name:key=value,key=value"; what is not a number is left to the request's reader to refuse.
+void write_effect(Writer& w, const std::string& setting) {
+  const std::size_t colon = setting.find(':');
+  w.begin_object().text("name", setting.substr(0, colon));
+  if (colon != std::string::npos) {
+    w.key("parameters").begin_object();
+    std::istringstream list(setting.substr(colon + 1));
+    for (std::string entry; std::getline(list, entry, ',');) {
+      const std::size_t equals = entry.find('=');
+      const std::string value = equals == std::string::npos ? "" : entry.substr(equals + 1);
+      std::istringstream number(value);
+      double parsed = 0.0;
+      if (number >> parsed && number.eof()) {
+        w.exact(entry.substr(0, equals), parsed);
+      } else {
+        w.text(entry.substr(0, equals), value);
+      }
+    }
+    w.end_object();
+  }
+  w.end_object();
+}
+
+void write_drive(Writer& w, const DriveOptions& drive) {
+  w.text("terrain", drive.terrain).text("rover", drive.rover);
+  if (drive.max_slip || drive.max_tilt_deg) {
+    w.key("limits").begin_object();
+    if (drive.max_slip) w.exact("max_slip", *drive.max_slip);
+    if (drive.max_tilt_deg) w.exact("max_tilt_deg", *drive.max_tilt_deg);
+    w.end_object();
+  }
+  if (!drive.effects.empty()) {
+    w.key("effects").begin_array();
+    for (const std::string& effect : drive.effects) write_effect(w, effect);
+    w.end_array();
+  }
+  if (drive.draws) w.whole("draws", *drive.draws);
+  if (drive.seed) w.whole("seed", *drive.seed);
+  if (drive.speed_m_s) w.exact("speed_m_s", *drive.speed_m_s);
+}
+
+std::string plan_request(const PlanOptions& options) {
+  Writer w;
+  w.begin_object();
+  write_drive(w, options.drive);
+  if (options.start) write_place(w.key("start"), *options.start);
+  if (options.goal) write_place(w.key("goal"), *options.goal);
+  if (!options.via.empty()) {
+    w.key("waypoints").begin_array();
+    for (const PlaceOption& place : options.via) write_place(w, place);
+    w.end_array();
+  }
+  if (options.routes) w.whole("routes", *options.routes);
+  if (!options.planners.empty()) w.texts("planners", options.planners);
+  w.end_object();
+  return w.take();
+}
+
+std::string prediction_request(const PredictOptions& options) {
+  Writer w;
+  w.begin_object();
+  write_drive(w, options.drive);
+  w.key("path").begin_array();
+  for (const PlaceOption& place : options.path) write_place(w, place);
+  w.end_array().end_object();
+  return w.take();
+}
+
+// Asks, prints the document or its table, and draws the map where one is wanted.
+int ask_and_print(const AskOptions& ask, const std::string& map_file, Result<std::string> request,
+                  Result<std::string> (Inquiry::*question)(const std::string&, Progress&),
+                  Result<std::string> (*table)(std::string_view)) {
+  if (!request) return refuse(request.error());
+  const auto service = inquiry(ask);
+  if (!service) return refuse(service.error());
+  Result<std::string> answer;
+  {
+    TerminalProgress progress;
+    answer = ((**service).*question)(*request, progress);
+  }
+  if (!answer) return refuse(answer.error());
+  const auto printed = ask.json ? answer : table(*answer);
+  if (!printed) return refuse(printed.error());
+  std::cout << *printed << (ask.json ? "\n" : "") << std::flush;
+  if (map_file.empty()) return 0;
+  const auto map = (*service)->map();
+  if (!map) return refuse(map.error());
+  std::ofstream file(map_file);
+  if (!(file << *map << std::flush)) return refuse({ErrorCode::kStorage, fmt::format("cannot write {}", map_file), {}});
+  return 0;
+}
+
+int print_catalogue(const AskOptions& ask, std::string_view kind, Result<std::string> (*table)(std::string_view)) {
+  const auto service = inquiry(ask);
+  if (!service) return refuse(service.error());
+  const auto document = (*service)->catalogue(kind);
+  if (!document) return refuse(document.error());
+  const auto printed = ask.json ? document : table(*document);
+  if (!printed) return refuse(printed.error());
+  std::cout << *printed << (ask.json ? "\n" : "");
+  return 0;
+}
+
+}  // namespace
+
+int plan(const PlanOptions& options) {
+  return ask_and_print(options.ask, options.drive.map,
+                       options.request.empty() ? Result<std::string>(plan_request(options)) : read_file(options.request),
+                       &Inquiry::plan, &plan_table);
+}
+
+int predict(const PredictOptions& options) {
+  return ask_and_print(options.ask, options.drive.map,
+                       options.request.empty() ? Result<std::string>(prediction_request(options)) : read_file(options.request),
+                       &Inquiry::predict, &prediction_table);
+}
+
+int terrain(const TerrainOptions& options) {
+  if (!options.at) return print_catalogue(options.ask, "terrains", &terrain_table);
+  const auto service = inquiry(options.ask);
+  if (!service) return refuse(service.error());
+  const auto ground = (*service)->ground_at(options.name, options.at->x_m, options.at->y_m);
+  if (!ground) return refuse(ground.error());
+  std::cout << *ground << "\n";
+  return 0;
+}
+
+int rovers(const AskOptions& options) { return print_catalogue(options, "rovers", &rover_table); }
+int soils(const AskOptions& options) { return print_catalogue(options, "soils", &soil_table); }
+
+int health(const AskOptions& options) {
+  const auto service = inquiry(options);
+  if (!service) return refuse(service.error());
+  const auto document = (*service)->health();
+  if (!document) return refuse(document.error());
+  std::cout << *document << "\n";
+  return 0;
+}
+
+void interrupt() { interrupted = true; }
+
+}  // namespace slipway::server

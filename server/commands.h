@@ -1,0 +1,76 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace slipway::server {
+
+// What the command line was asked, in plain structs: how it was parsed is cli_app's affair.
+struct AskOptions {
+  std::string data = "data";
+  std::string url;    // empty: the service in this process
+  bool json = false;  // the document instead of a table
+};
+
+struct ServeOptions {
+  std::string data = "data";
+  std::string address = "127.0.0.1";
+  int port = 8080;
+  std::string jobs = "var/jobs.sqlite";  // empty: in memory, lost with the process
+};
+
+// A point "x,y" or "x,y,yaw_deg".
+struct PlaceOption {
+  double x_m = 0.0, y_m = 0.0;
+  std::optional<double> yaw_deg;
+};
+
+struct DriveOptions {
+  std::string terrain = "gale";
+  std::string rover = "mer-class";
+  std::optional<double> max_slip, max_tilt_deg, speed_m_s;
+  std::optional<int> draws;
+  std::optional<long long> seed;
+  std::vector<std::string> effects;  // "slip_sinkage" or "slip_sinkage:n1=0.2"
+  std::string map;                   // file for the picture; empty: none
+};
+
+struct PlanOptions {
+  AskOptions ask;
+  DriveOptions drive;
+  std::string request;  // file with a whole request, "-" is standard input; the options below are then not used
+  std::optional<PlaceOption> start, goal;
+  std::vector<PlaceOption> via;
+  std::optional<int> routes;
+  std::vector<std::string> planners;
+};
+
+struct PredictOptions {
+  AskOptions ask;
+  DriveOptions drive;
+  std::string request;
+  std::vector<PlaceOption> path;
+};
+
+struct TerrainOptions {
+  AskOptions ask;
+  std::string name = "gale";
+  std::optional<PlaceOption> at;
+};
+
+// Each prints its answer on standard output and returns the process's exit status: 0 an answer (also "no safe route"),
+// 1 no answer, 2 a question that can't be asked. Problems and progress go to standard error.
+int serve(const ServeOptions& options);
+int plan(const PlanOptions& options);
+int predict(const PredictOptions& options);
+int terrain(const TerrainOptions& options);
+int rovers(const AskOptions& options);
+int soils(const AskOptions& options);
+int health(const AskOptions& options);
+
+// From a signal handler: the running question is given up, the server drains and ends.
+void interrupt();
+
+}  // namespace slipway::server

@@ -1,0 +1,180 @@
+#include "server/tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "api/json/parse.h"
+
+namespace slipway::server {
+namespace {
+
+using api::json::JsonValue;
+
+const JsonValue kNothing;
+
+const JsonValue& at(const JsonValue& value, std::string_view key) {
+  const JsonValue* found = value.find(key);
+  return found ? *found : kNothing;
+}
+
+double number(const JsonValue& value, std::string_view key) { return at(value, key).number; }
+const std::string& text(const JsonValue& value, std::string_view key) { return at(value, key).text; }
+
+std::string duration(double seconds) {
+  const int minutes = static_cast<int>(seconds / 60.0 + 0.5);
+  return fmt::format("{}:{:02d} h", minutes / 60, minutes % 60);
+}
+
+// Columns as wide as their widest cell, numbers to the right.
+class Table {
+ public:
+  explicit Table(std::vector<std::string> header) { rows_.push_back(std::move(header)); }
+  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+
+  std::string print() const {
+    std::vector<std::size_t> width(rows_.front().size());
+    for (const auto& row : rows_)
+      for (std::size_t c = 0; c < row.size(); ++c) width[c] = std::max(width[c], row[c].size());
+    std::string out;
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+      for (std::size_t c = 0; c < rows_[r].size(); ++c) {
+        const bool words = c == 0 || c + 1 == rows_[r].size();
+        out += words ? fmt::format("{:<{}}  ", rows_[r][c], width[c]) : fmt::format("{:>{}}  ", rows_[r][c], width[c]);
+      }
+      while (!out.empty() && out.back() == ' ') out.pop_back();
+      out += "\n";
+      if (r == 0) {
+        std::size_t total = 0;
+        for (const std::size_t w : width) total += w + 2;
+        out += std::string(total - 2, '-') + "\n";
+      }
+    }
+    return out;
+  }
+
+ private:
+  std::vector<std::vector<std::string>> rows_;
+};
+
+std::string peak(const JsonValue& figures, std::string_view key, const char* format) {
+  const JsonValue& p = at(figures, key);
+  return fmt::format("{} @{:.0f} m", fmt::format(fmt::runtime(format), number(p, "value")), number(p, "at_m"));
+}
+
+std::vector<std::string> figures_row(std::string label, const JsonValue& f, std::string verdict) {
+  const JsonValue& risk = at(f, "risk");
+  return {std::move(label),
+          fmt::format("{:.1f} m", number(f, "length_m")),
+          duration(number(f, "duration_s")),
+          fmt::format("{:.0f} Wh", number(f, "energy_wh")),
+          fmt::format("{:.3f}", number(f, "mean_slip")),
+          peak(f, "max_slip", "{:.2f}"),
+          peak(f, "max_tilt_deg", "{:.1f} deg"),
+          peak(f, "max_sinkage_m", "{:.3f} m"),
+          peak(f, "max_current_a", "{:.2f} A"),
+          fmt::format("{:.0f} %", 100.0 * number(risk, "value")),
+          fmt::format("{:.0f} m", number(f, "unknown_length_m")),
+          std::move(verdict)};
+}
+
+std::vector<std::string> figures_header() {
+  return {"route", "length", "time", "energy", "mean slip", "largest slip", "largest tilt", "sinkage", "current", "risk", "unknown", "verdict"};
+}
+
+std::string lines(const JsonValue& list, std::string_view before) {
+  std::string out;
+  for (const JsonValue& line : list.elements) out += fmt::format("{}{}\n", before, line.text);
+  return out;
+}
+
+Result<JsonValue> read(std::string_view document) {
+  return api::json::parse(document, {.bytes = document.size(), .values = document.size()});
+}
+
+Result<std::string> catalogue_table(std::string_view document, std::string_view key, std::vector<std::string> header,
+                                    std::vector<std::string> (*row)(const JsonValue&)) {
+  const auto parsed = read(document);
+  if (!parsed) return fail(parsed.error());
+  Table table(std::move(header));
+  for (const JsonValue& entry : at(*parsed, key).elements) table.add(row(entry));
+  return table.print();
+}
+
+}  // namespace
+
+Result<std::string> plan_table(std::string_view answer) {
+  const auto document = read(answer);
+  if (!document) return fail(document.error());
+  const JsonValue& summary = at(*document, "summary");
+  std::string out;
+  if (!summary.elements.empty()) {
+    Table table(figures_header());
+    for (const JsonValue& route : summary.elements)
+      table.add(figures_row(fmt::format("{:.0f}", number(route, "rank")), route, text(route, "verdict")));
+    out = table.print() + "\n";
+  }
+  for (const JsonValue& route : summary.elements) {
+    out += fmt::format("Route {:.0f}: {} (cost {:.2f}, proposed by {}, {})\n", number(route, "rank"), text(route, "verdict"), number(route, "cost"),
+                       text(route, "planner"), text(route, "profile"));
+    out += lines(at(route, "reasons"), "  - ");
+  }
+  out += lines(at(*document, "fewer_because"), "Fewer routes than asked for: ");
+  return out;
+}
+
+Result<std::string> prediction_table(std::string_view answer) {
+  const auto document = read(answer);
+  if (!document) return fail(document.error());
+  const JsonValue& figures = at(*document, "summary");
+  const JsonValue& stuck = at(figures, "immobilised");
+  Table table(figures_header());
+  table.add(figures_row("given", figures, stuck.is(JsonValue::Kind::kNull) ? "arrives" : "immobilised"));
+  std::string out = table.print();
+  if (!stuck.is(JsonValue::Kind::kNull)) out += fmt::format("\nImmobilised: {}\n", text(stuck, "reason"));
+  out += lines(at(figures, "broken_limits"), "Limit broken: ");
+  return out;
+}
+
+Result<std::string> terrain_table(std::string_view document) {
+  return catalogue_table(document, "terrains", {"terrain", "size", "cell", "gravity", "stops", "title"}, [](const JsonValue& t) {
+    const JsonValue& e = at(t, "extent");
+    return std::vector<std::string>{
+        text(t, "name"),
+        fmt::format("{:.0f} x {:.0f} m", number(e, "east_m") - number(e, "west_m"), number(e, "north_m") - number(e, "south_m")),
+        fmt::format("{:g} m", number(t, "cell_x_m")), fmt::format("{:g} m/s2", number(t, "gravity_m_s2")),
+        fmt::format("{}", at(t, "stops").elements.size()), text(t, "title")};
+  });
+}
+
+Result<std::string> rover_table(std::string_view document) {
+  return catalogue_table(document, "rovers", {"rover", "mass", "speed", "steepest", "summary"}, [](const JsonValue& r) {
+    return std::vector<std::string>{text(r, "name"), fmt::format("{:g} kg", number(r, "mass_kg")),
+                                    fmt::format("{:g} m/s", number(r, "cruise_speed_m_s")),
+                                    fmt::format("{:g} deg", number(r, "max_tilt_deg")), text(r, "summary")};
+  });
+}
+
+Result<std::string> soil_table(std::string_view document) {
+  return catalogue_table(document, "soils", {"soil", "k_c", "k_phi", "n", "cohesion", "friction", "K", "source"}, [](const JsonValue& s) {
+    return std::vector<std::string>{text(s, "name"),
+                                    fmt::format("{:g}", number(s, "k_c")),
+                                    fmt::format("{:g}", number(s, "k_phi")),
+                                    fmt::format("{:g}", number(s, "n")),
+                                    fmt::format("{:g} Pa", number(s, "cohesion_pa")),
+                                    fmt::format("{:g} deg", number(s, "friction_angle_deg")),
+                                    fmt::format("{:g} m", number(s, "shear_modulus_x_m")),
+                                    text(s, "source")};
+  });
+}
+
+std::string error_text(const Error& error) {
+  const ErrorRow& row = error_row(error.code);
+  std::string out = fmt::format("{}: {}\n", row.name, error.detail);
+  for (const Fault& fault : error.faults)
+    out += fmt::format("  {}: {}\n", fault.pointer.empty() ? "(the whole input)" : fault.pointer, fault.message);
+  return out + fmt::format("{}\n", row.help);
+}
+
+}  // namespace slipway::server

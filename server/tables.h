@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/result.h"
+
+namespace slipway::server {
+
+// Answers as tables for people. Each takes the document that machines get, so both see the same figures. Errors:
+// internal, where the document is not of that kind.
+Result<std::string> plan_table(std::string_view answer);
+Result<std::string> prediction_table(std::string_view answer);
+Result<std::string> terrain_table(std::string_view document);
+Result<std::string> rover_table(std::string_view document);
+Result<std::string> soil_table(std::string_view document);
+
+// An error with every fault, a line each.
+std::string error_text(const Error& error);
+
+}  // namespace slipway::server
