@@ -16,6 +16,7 @@ constexpr double kSteepFrom = 0.75;  // of a limit
 constexpr double kMostSlip = 0.95;   // of the duration's 1 / (1 - slip)
 // A turn in place is not only its turning: the wheels are steered first and straightened after.
 constexpr double kSteeringPause_s = 20.0;
+constexpr double kFullPause_rad = rad_from_deg(30.0);
 constexpr double kNoTurn_rad = rad_from_deg(0.5);
 
 double normal_tail(double z) { return 0.5 * std::erfc(z / std::sqrt(2.0)); }
@@ -123,6 +124,11 @@ double MotionCost::per_metre(const Pose2& pose) const {
 double MotionCost::of_turn(double turned_rad) const {
   const double turn = std::abs(turned_rad);
   return turn * turn_cost_per_rad_ + (turn > kNoTurn_rad ? turn_cost_each_ : 0.0);
+}
+
+double MotionCost::of_bend(double turned_rad) const {
+  const double turn = std::abs(turned_rad);
+  return turn * turn_cost_per_rad_ + std::min(1.0, turn / kFullPause_rad) * turn_cost_each_;
 }
 
 double MotionCost::of(const Motion& motion, double step_m) const {

@@ -36,6 +36,8 @@ class MotionCost {
   // Midpoint rule over steps of at most `step_m` (0: a search cell).
   double of(const Motion& motion, double step_m = 0.0) const;
   double of_turn(double turned_rad) const;
+  // What a bend of a polyline is taken to cost before it is rounded: a turn, with the pause coming in gradually.
+  double of_bend(double turned_rad) const;
 
   // Makes each metre in a cell cost (1 + factor[cell]) times as much; empty takes it back.
   void penalise(std::vector<float> factor) { penalty_ = std::move(factor); }

@@ -85,7 +85,7 @@ std::vector<Pose2> search_leg(std::string_view planner_name, const LegSearch& se
   information->setup();
 
   const auto problem = std::make_shared<ob::ProblemDefinition>(information);
-  const ob::ScopedState<> start(space);
+  ob::ScopedState<> start(space);
   set_pose(start.get(), search.from);
   problem->addStartState(start);
   problem->setGoal(std::make_shared<PlaceGoal>(information, search));

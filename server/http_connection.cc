@@ -1,6 +1,5 @@
 // What becomes of one connection in the loop; http_loop.cc has what concerns all of them.
 
-#include <fmt/format.h>
 #include <sys/socket.h>
 
 #include <algorithm>
@@ -102,6 +101,7 @@ void HttpLoop::dispatch(Connection& connection, HttpWorkers& workers) {
 void HttpLoop::refuse(Connection& connection, const Error& error) {
   counters_.requests_refused.fetch_add(1, std::memory_order_relaxed);
   connection.unsent = answers_.to_refused(engine_, connection.gatherer.head().method, error);
+  connection.gatherer.refuse(error);  // and what it holds is free for others
   connection.sent = 0;
   connection.phase = Phase::kSending;
   // What follows on this connection is the rest of something that was not understood.
@@ -143,18 +143,17 @@ bool HttpLoop::linger(Connection& connection, bool& blocked) {
 bool HttpLoop::keep_to_budget(Connection& connection) {
   if (connection.phase == Phase::kWorking) return true;
   recount(connection);
-  if (buffered_ <= options_.max_buffered_bytes || connection.counted <= kAlwaysBuffered) return true;
+  if (counters_.buffered_bytes <= options_.max_buffered_bytes || connection.counted <= kAlwaysBuffered) return true;
   if (connection.phase == Phase::kReceiving) {
     refuse(connection, {ErrorCode::kTooManyJobs, "too many large requests are under way; try again later", {}});
     return true;
   }
-  answers_.log(fmt::format("an answer was dropped: {} wait to be taken by slow clients", buffered_));
-  return false;
+  return true;  // an answer being sent had its share from the worker, or is a refusal and small
 }
 
 void HttpLoop::recount(Connection& connection) {
   const std::size_t now = connection.gatherer.held() + connection.unsent.size();
-  buffered_ = buffered_ - connection.counted + now;
+  counters_.buffered_bytes += now - connection.counted;  // modulo 2^64, so that it may shrink
   connection.counted = now;
 }
 
@@ -195,7 +194,7 @@ void HttpLoop::retime(Connection& connection) {
 }
 
 void HttpLoop::close(Connection& connection) {
-  buffered_ -= connection.counted;
+  counters_.buffered_bytes -= connection.counted;
   if (connection.admitted) {
     --admitted_;
     const auto of_address = per_address_.find(connection.address);

@@ -33,6 +33,8 @@ class RequestGatherer {
   std::size_t appetite() const;
   // The bytes held, for the budget over all connections.
   std::size_t held() const { return input_.size() + body_.size(); }
+  // The connection's owner gives up on the request, for a reason of its own.
+  void refuse(Error error);
   // Once true after a head that expects it: "100 Continue" is to be sent.
   bool take_continue();
 
@@ -51,7 +53,6 @@ class RequestGatherer {
   void advance();
   void advance_head();
   void advance_body();
-  void refuse(Error error);
 
   const HttpOptions* options_;
   State state_ = State::kIdle;

@@ -173,6 +173,7 @@ void HttpLoop::take_back(HttpWorkers& workers) {
     connection.phase = Phase::kSending;
     connection.unsent = std::move(work.unsent);
     connection.sent = work.sent;
+    connection.counted += work.counted;
     if (work.broken) {
       close(connection);
     } else {

@@ -19,14 +19,6 @@
 
 namespace slipway::server {
 
-// The live form of HttpCounters.
-struct LiveCounters {
-  std::atomic<std::uint64_t> open_connections = 0;
-  std::atomic<std::uint64_t> requests_served = 0;
-  std::atomic<std::uint64_t> requests_refused = 0;
-  std::atomic<std::uint64_t> connections_refused = 0;
-};
-
 // One thread that owns every socket. It accepts, gathers requests, hands whole ones to the workers, sends what clients
 // did not take at once, and holds everyone to the deadlines. Since it alone ever waits for clients, a thousand slow
 // ones cost memory (bounded) and no thread.
@@ -73,7 +65,7 @@ class HttpLoop {
     std::string unsent;
     std::size_t sent = 0;       // of unsent
     std::size_t requests = 0;   // handed to workers
-    std::size_t counted = 0;    // its share of buffered_
+    std::size_t counted = 0;    // its share of buffered_bytes
     std::size_t discarded = 0;  // while lingering
   };
 
@@ -115,7 +107,6 @@ class HttpLoop {
   std::unordered_map<std::string, std::size_t> per_address_;
   std::size_t admitted_ = 0;
   std::size_t turned_away_ = 0;
-  std::size_t buffered_ = 0;
   std::uint64_t next_id_ = 2;        // 0 is the listener, 1 the wake-up
   std::vector<std::uint64_t> again_;  // had more to read than one turn allows
   bool listening_ = false;

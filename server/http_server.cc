@@ -50,7 +50,7 @@ class HttpServer::Running {
       return fail(ErrorCode::kConflict, fault);
     }
     const SignalsBlocked blocked;
-    workers_.emplace(options_, answers_, counters_.requests_served,
+    workers_.emplace(options_, answers_, counters_,
                      [this](WorkDone work) { loop_->done(std::move(work)); });
     thread_ = std::thread([this] { loop_->run(*workers_); });
     return port;

@@ -1,5 +1,6 @@
 #include "server/http_target.h"
 
+#include <algorithm>
 #include <cstdint>
 
 #include "server/http_message.h"
@@ -85,7 +86,13 @@ std::optional<std::string> checked_target(std::string_view method, std::string_v
   }
   const auto decoded = percent_decoded(origin);
   if (!decoded || !is_printable_utf8(*decoded)) return std::nullopt;
-  return std::string(origin);
+  // A question mark in a query is a character like any other, but cpp-httplib refuses the second one.
+  std::string out(origin);
+  const std::size_t query = std::min(out.find('?'), out.size() - 1) + 1;
+  for (std::size_t at = out.find('?', query); at != std::string::npos; at = out.find('?', at)) {
+    out.replace(at, 1, "%3F");
+  }
+  return out;
 }
 
 }  // namespace slipway::server

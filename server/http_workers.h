@@ -16,6 +16,15 @@
 
 namespace slipway::server {
 
+// The live form of HttpCounters, and the budget of which several threads take.
+struct LiveCounters {
+  std::atomic<std::uint64_t> open_connections = 0;
+  std::atomic<std::uint64_t> requests_served = 0;
+  std::atomic<std::uint64_t> requests_refused = 0;
+  std::atomic<std::uint64_t> connections_refused = 0;
+  std::atomic<std::size_t> buffered_bytes = 0;
+};
+
 // A whole request, and the socket that is the worker's to send on until it gives the work back.
 struct Work {
   std::uint64_t connection = 0;
@@ -29,6 +38,7 @@ struct WorkDone {
   std::uint64_t connection = 0;
   std::string unsent;    // what the client did not take at once: from `sent` on
   std::size_t sent = 0;
+  std::size_t counted = 0;  // of `unsent`, in the budget of buffered bytes already
   bool close = false;
   bool broken = false;  // the client has gone
 };
@@ -36,8 +46,8 @@ struct WorkDone {
 // The threads in which handlers run. They never wait for a client: what a socket does not take is given back.
 class HttpWorkers {
  public:
-  // `answers` and `served` outlive this; `done` is called from the threads.
-  HttpWorkers(const HttpOptions& options, const Answers& answers, std::atomic<std::uint64_t>& served,
+  // `answers` and `counters` outlive this; `done` is called from the threads.
+  HttpWorkers(const HttpOptions& options, const Answers& answers, LiveCounters& counters,
               std::function<void(WorkDone)> done);
   ~HttpWorkers();
   HttpWorkers(const HttpWorkers&) = delete;
@@ -51,10 +61,11 @@ class HttpWorkers {
  private:
   void run();
   void answer(HttpEngine& engine, Work work);
+  void keep(WorkDone& done, std::string unsent, std::size_t sent);
 
   const HttpOptions& options_;
   const Answers& answers_;
-  std::atomic<std::uint64_t>& served_;
+  LiveCounters& counters_;
   std::function<void(WorkDone)> done_;
   std::mutex mutex_;
   std::condition_variable condition_;

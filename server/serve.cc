@@ -21,11 +21,13 @@ namespace slipway::server {
 namespace {
 
 Result<std::shared_ptr<api::JobStore>> open_store(const std::string& path) {
-  if (path.empty()) return std::make_shared<api::MemoryJobStore>();
+  if (path.empty()) return std::shared_ptr<api::JobStore>(api::make_memory_job_store());
   std::error_code failed;
   if (const auto folder = std::filesystem::path(path).parent_path(); !folder.empty())
     std::filesystem::create_directories(folder, failed);
-  return api::open_sqlite_job_store(path);
+  auto store = api::open_sqlite_job_store(path);
+  if (!store) return fail(store.error());
+  return std::shared_ptr<api::JobStore>(std::move(*store));
 }
 
 // Blocks the signals that end the program, so that every thread started later leaves them to wait_for_signal().

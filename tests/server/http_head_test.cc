@@ -82,6 +82,12 @@ TEST(RequestHead, TheAbsoluteFormOfATargetIsReadAsItsPath) {
   EXPECT_TRUE(head->forwarded.starts_with("GET /a?b HTTP/1.1\r\n")) << head->forwarded;
 }
 
+TEST(RequestHead, ASecondQuestionMarkBelongsToTheQuery) {
+  EXPECT_EQ(checked_target("GET", "/a?b?c??d"), "/a?b%3Fc%3F%3Fd");
+  EXPECT_EQ(checked_target("GET", "/?"), "/?");
+  EXPECT_EQ(checked_target("GET", "/"), "/");
+}
+
 TEST(RequestHead, ABodyAboveTheLimitIsRefusedByItsLengthAlone) {
   EXPECT_EQ(refusal(with("Content-Length: 4194304")), "");
   EXPECT_EQ(refusal(with("Content-Length: 4194305")), "payload_too_large");
