@@ -1,5 +1,5 @@
-// Cost of the laws and of the quasi-static rung, per unit of work. Ratios within one run compare machines; the
-// absolute figures are in docs/validation.md with the machine they were measured on.
+// Cost of the laws and of the quasi-static rung, per unit of work. Ratios within one run compare machines;
+// the absolute figures are in docs/validation.md with the machine they were measured on.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -9,6 +9,7 @@
 #include "sim/entry_angle.h"
 #include "sim/quasi_static.h"
 #include "sim/slip_table.h"
+#include "sim/soil_law_catalogue.h"
 #include "sim/wheel_forces.h"
 #include "tests/sim/reference_models.h"
 
@@ -95,7 +96,8 @@ BENCHMARK(BM_TableLookup);
 
 void BM_BuildTable(benchmark::State& state) {
   const RoverModel rover = six_wheeler();
-  for (auto _ : state) benchmark::DoNotOptimize(SlipTable(rover, 3.71, sandy_loam(), rad_from_deg(30.0), rad_from_deg(2.5)));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(SlipTable(rover, 3.71, sandy_loam(), rad_from_deg(30.0), rad_from_deg(2.5)));
 }
 BENCHMARK(BM_BuildTable)->Unit(benchmark::kMillisecond);
 
@@ -109,7 +111,8 @@ void BM_PredictDrive(benchmark::State& state) {
   RiskOptions risk;
   risk.draws = static_cast<int>(state.range(0));
   NoProgress progress;
-  for (auto _ : state) benchmark::DoNotOptimize(predict_drive(rover, 3.71, ground, beliefs, path, {}, risk, 1, progress));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(predict_drive(rover, 3.71, ground, beliefs, path, {}, risk, 1, progress));
   state.counters["per_metre"] =
       benchmark::Counter(100.0, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }

@@ -6,8 +6,12 @@
 namespace slipway {
 
 // Radians inside, degrees at the boundary: these two are the only crossing.
-constexpr double deg_from_rad(double rad) { return rad * (180.0 / std::numbers::pi); }
-constexpr double rad_from_deg(double deg) { return deg * (std::numbers::pi / 180.0); }
+constexpr double deg_from_rad(double rad) {
+  return rad * (180.0 / std::numbers::pi);
+}
+constexpr double rad_from_deg(double deg) {
+  return deg * (std::numbers::pi / 180.0);
+}
 
 // The same direction in (-pi, pi].
 inline double wrapped_rad(double rad) {

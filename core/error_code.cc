@@ -34,22 +34,27 @@ constexpr std::array kRows{
              "Reproject the raster into a metric projected system with the command in the detail."},
     ErrorRow{ErrorCode::kUnreadableData, "unreadable_data", 422,
              "A data file can't be used as it is; each fault names its place."},
-    ErrorRow{ErrorCode::kOffMap, "off_map", 422, "The place lies outside the terrain; choose one inside its extent."},
+    ErrorRow{ErrorCode::kOffMap, "off_map", 422,
+             "The place lies outside the terrain; choose one inside its extent."},
     ErrorRow{ErrorCode::kNoData, "no_data", 422, "The terrain has no elevation there; choose another place."},
     ErrorRow{ErrorCode::kNotConverged, "not_converged", 500,
              "A solver gave up; the detail says which and where. Please report it."},
     ErrorRow{ErrorCode::kCancelled, "cancelled", 409, "The work was dismissed before it ended."},
     ErrorRow{ErrorCode::kStorage, "storage", 503,
              "The job store could not be written or read; nothing was accepted. Try again."},
-    ErrorRow{ErrorCode::kInternal, "internal", 500, "A promise inside the program was broken. Please report it."},
+    ErrorRow{ErrorCode::kInternal, "internal", 500,
+             "A promise inside the program was broken. Please report it."},
 };
 
 }  // namespace
 
-std::span<const ErrorRow> error_table() { return kRows; }
+std::span<const ErrorRow> error_table() {
+  return kRows;
+}
 
 const ErrorRow& error_row(ErrorCode code) {
-  const auto row = std::find_if(kRows.begin(), kRows.end(), [code](const ErrorRow& r) { return r.code == code; });
+  const auto row =
+      std::find_if(kRows.begin(), kRows.end(), [code](const ErrorRow& r) { return r.code == code; });
   if (row == kRows.end()) throw std::logic_error("an error code has no row in the error table");
   return *row;
 }

@@ -4,8 +4,8 @@
 
 namespace slipway {
 
-// One number that a catalogue row can be given: its name and unit at the boundary, and its range. From the same row
-// come the reader's checks, the documentation and the property tests.
+// One number that a catalogue row can be given: its name and unit at the boundary, and its range. From the
+// same row come the reader's checks, the documentation and the property tests.
 struct Field {
   std::string_view name;     // with its unit: "weight_slip", "n1"
   std::string_view unit;     // "1", "m", "deg", ...

@@ -4,8 +4,9 @@
 
 namespace slipway {
 
-// Counter-based random numbers: a pure function of (key, counter), so that any thread may ask for any number in any
-// order and the same seed gives the same bytes. SplitMix64's finaliser over the mixed words [Steele 2014].
+// Counter-based random numbers: a pure function of (key, counter), so that any thread may ask for any number
+// in any order and the same seed gives the same bytes. SplitMix64's finaliser over the mixed words [Steele
+// 2014].
 std::uint64_t random_bits(std::uint64_t key, std::uint64_t counter);
 
 // Uniform in the open interval (0, 1).

@@ -31,6 +31,8 @@ inline tl::unexpected<Error> fail(ErrorCode code, std::string detail, std::vecto
   return tl::unexpected<Error>(Error{code, std::move(detail), std::move(faults)});
 }
 
-inline tl::unexpected<Error> fail(Error error) { return tl::unexpected<Error>(std::move(error)); }
+inline tl::unexpected<Error> fail(Error error) {
+  return tl::unexpected<Error>(std::move(error));
+}
 
 }  // namespace slipway

@@ -25,8 +25,8 @@ namespace slipway::dem {
 struct AsciiOptions {
   double cell_m = 1.0;
   double height_step_m = 0.1;
-  std::string default_soil;           // empty: unknown ground
-  std::map<char, std::string> soils;  // letter -> soil name
+  std::string default_soil{};           // empty: unknown ground
+  std::map<char, std::string> soils{};  // letter -> soil name
 };
 
 struct AsciiTerrain {

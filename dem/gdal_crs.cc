@@ -75,10 +75,17 @@ bool has_west_axis(const OGRSpatialReference& crs) {
   return false;
 }
 
+// The same projection counted east and north, which is PROJ's own order.
+std::string without_axes(std::string proj) {
+  const std::size_t first = proj.find(" +axis=");
+  if (first != std::string::npos) proj.erase(first, proj.find(' ', first + 1) - first);
+  return proj;
+}
+
 tl::unexpected<Error> refuse_west_positive(const OGRSpatialReference& crs, const RasterCentre& centre,
                                            const std::string& file) {
   const std::string east_positive =
-      crs.IsGeographic() ? local_projection(crs, -centre.x, centre.y) : local_projection(crs, 0.0, 0.0);
+      crs.IsGeographic() ? local_projection(crs, -centre.x, centre.y) : without_axes(proj_string(crs));
   return refuse(
       fmt::format(
           "{} is in \"{}\", a system with a west-positive axis (planetographic on most worlds), which "

@@ -14,10 +14,12 @@ namespace {
 
 constexpr const char* kPlanExample =
     "Example: three routes between two places where Curiosity stopped, and a picture of them\n"
-    "  slipway plan --terrain gale --rover mer-class --start 8142579.73,-276648.74 --goal 8142566.40,-276711.67 --map routes.svg";
+    "  slipway plan --terrain gale --rover mer-class --start 8142579.73,-276648.74 --goal "
+    "8142566.40,-276711.67 --map routes.svg";
 constexpr const char* kPredictExample =
     "Example: what the wheels do on a given path\n"
-    "  slipway predict --path 8142579.7,-276648.7 8142578,-276680 8142566.4,-276711.7 --effect slip_sinkage:n1=0.2";
+    "  slipway predict --path 8142579.7,-276648.7 8142578,-276680 8142566.4,-276711.7 --effect "
+    "slip_sinkage:n1=0.2";
 
 // "x,y" or "x,y,yaw_deg".
 PlaceOption place_of(const std::string& text) {
@@ -33,21 +35,26 @@ PlaceOption place_of(const std::string& text) {
     } catch (const std::exception&) {
       used = 0;
     }
-    if (used == 0 || used != part.size()) throw CLI::ValidationError("\"" + text + "\" must be x,y or x,y,yaw_deg in map metres");
+    if (used == 0 || used != part.size())
+      throw CLI::ValidationError("\"" + text + "\" must be x,y or x,y,yaw_deg in map metres");
     begin = comma + 1;
   }
-  if (numbers.size() < 2 || numbers.size() > 3) throw CLI::ValidationError("\"" + text + "\" must be x,y or x,y,yaw_deg in map metres");
+  if (numbers.size() < 2 || numbers.size() > 3)
+    throw CLI::ValidationError("\"" + text + "\" must be x,y or x,y,yaw_deg in map metres");
   place.x_m = numbers[0];
   place.y_m = numbers[1];
   if (numbers.size() == 3) place.yaw_deg = numbers[2];
   return place;
 }
 
-void add_place(CLI::App& command, const std::string& name, std::optional<PlaceOption>& place, const std::string& help) {
-  command.add_option_function<std::string>(name, [&place](const std::string& text) { place = place_of(text); }, help);
+void add_place(CLI::App& command, const std::string& name, std::optional<PlaceOption>& place,
+               const std::string& help) {
+  command.add_option_function<std::string>(
+      name, [&place](const std::string& text) { place = place_of(text); }, help);
 }
 
-void add_places(CLI::App& command, const std::string& name, std::vector<PlaceOption>& places, const std::string& help) {
+void add_places(CLI::App& command, const std::string& name, std::vector<PlaceOption>& places,
+                const std::string& help) {
   command.add_option_function<std::vector<std::string>>(
       name,
       [&places](const std::vector<std::string>& texts) {
@@ -85,10 +92,14 @@ int run_command_line(int argc, char** argv) {
 
   ServeOptions serve_options;
   CLI::App* command = app.add_subcommand("serve", "answer over HTTP until interrupted");
-  command->add_option("--data", serve_options.data, "folder with rovers, soils and terrains")->capture_default_str();
+  command->add_option("--data", serve_options.data, "folder with rovers, soils and terrains")
+      ->capture_default_str();
   command->add_option("--address", serve_options.address, "address to listen on")->capture_default_str();
-  command->add_option("--port", serve_options.port, "port; 0 takes a free one")->capture_default_str()->check(CLI::Range(0, 65535));
-  command->add_option("--jobs", serve_options.jobs, "SQLite file of the jobs; \"\" keeps them in memory")->capture_default_str();
+  command->add_option("--port", serve_options.port, "port; 0 takes a free one")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 65535));
+  command->add_option("--jobs", serve_options.jobs, "SQLite file of the jobs; \"\" keeps them in memory")
+      ->capture_default_str();
   command->footer("Example:\n  slipway serve --port 8080\n  curl http://127.0.0.1:8080/v1/terrains");
   command->callback([&] { run = [&] { return serve(serve_options); }; });
 
@@ -101,7 +112,8 @@ int run_command_line(int argc, char** argv) {
   add_places(*command, "--via", plan_options.via, "waypoints in order");
   command->add_option("--routes", plan_options.routes, "how many routes that differ");
   command->add_option("--planner", plan_options.planners, "planners to use, see GET /v1/planners");
-  command->add_option("--request", plan_options.request, "file with a whole request, - for standard input; other options are not used");
+  command->add_option("--request", plan_options.request,
+                      "file with a whole request, - for standard input; other options are not used");
   command->footer(kPlanExample);
   command->callback([&] { run = [&] { return plan(plan_options); }; });
 
@@ -110,14 +122,16 @@ int run_command_line(int argc, char** argv) {
   add_ask(*command, predict_options.ask);
   add_drive(*command, predict_options.drive);
   add_places(*command, "--path", predict_options.path, "corners of the path, each x,y or x,y,yaw_deg");
-  command->add_option("--request", predict_options.request, "file with a whole request, - for standard input; other options are not used");
+  command->add_option("--request", predict_options.request,
+                      "file with a whole request, - for standard input; other options are not used");
   command->footer(kPredictExample);
   command->callback([&] { run = [&] { return predict(predict_options); }; });
 
   TerrainOptions terrain_options;
   command = app.add_subcommand("terrain", "what terrains there are, or the ground at a point");
   add_ask(*command, terrain_options.ask);
-  command->add_option("--name", terrain_options.name, "name of the terrain, with --at")->capture_default_str();
+  command->add_option("--name", terrain_options.name, "name of the terrain, with --at")
+      ->capture_default_str();
   add_place(*command, "--at", terrain_options.at, "x,y in map metres");
   command->footer("Example:\n  slipway terrain --name gale --at 8142579.7,-276648.7");
   command->callback([&] { run = [&] { return terrain(terrain_options); }; });

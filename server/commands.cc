@@ -154,11 +154,13 @@ int ask_and_print(const AskOptions& ask, const std::string& map_file, Result<std
   const auto map = (*service)->map();
   if (!map) return refuse(map.error());
   std::ofstream file(map_file);
-  if (!(file << *map << std::flush)) return refuse({ErrorCode::kStorage, fmt::format("cannot write {}", map_file), {}});
+  if (!(file << *map << std::flush))
+    return refuse({ErrorCode::kStorage, fmt::format("cannot write {}", map_file), {}});
   return 0;
 }
 
-int print_catalogue(const AskOptions& ask, std::string_view kind, Result<std::string> (*table)(std::string_view)) {
+int print_catalogue(const AskOptions& ask, std::string_view kind,
+                    Result<std::string> (*table)(std::string_view)) {
   const auto service = inquiry(ask);
   if (!service) return refuse(service.error());
   const auto document = (*service)->catalogue(kind);
@@ -172,15 +174,17 @@ int print_catalogue(const AskOptions& ask, std::string_view kind, Result<std::st
 }  // namespace
 
 int plan(const PlanOptions& options) {
-  return ask_and_print(options.ask, options.drive.map,
-                       options.request.empty() ? Result<std::string>(plan_request(options)) : read_file(options.request),
-                       &Inquiry::plan, &plan_table);
+  return ask_and_print(
+      options.ask, options.drive.map,
+      options.request.empty() ? Result<std::string>(plan_request(options)) : read_file(options.request),
+      &Inquiry::plan, &plan_table);
 }
 
 int predict(const PredictOptions& options) {
-  return ask_and_print(options.ask, options.drive.map,
-                       options.request.empty() ? Result<std::string>(prediction_request(options)) : read_file(options.request),
-                       &Inquiry::predict, &prediction_table);
+  return ask_and_print(
+      options.ask, options.drive.map,
+      options.request.empty() ? Result<std::string>(prediction_request(options)) : read_file(options.request),
+      &Inquiry::predict, &prediction_table);
 }
 
 int terrain(const TerrainOptions& options) {
@@ -193,8 +197,12 @@ int terrain(const TerrainOptions& options) {
   return 0;
 }
 
-int rovers(const AskOptions& options) { return print_catalogue(options, "rovers", &rover_table); }
-int soils(const AskOptions& options) { return print_catalogue(options, "soils", &soil_table); }
+int rovers(const AskOptions& options) {
+  return print_catalogue(options, "rovers", &rover_table);
+}
+int soils(const AskOptions& options) {
+  return print_catalogue(options, "soils", &soil_table);
+}
 
 int health(const AskOptions& options) {
   const auto service = inquiry(options);
@@ -205,6 +213,8 @@ int health(const AskOptions& options) {
   return 0;
 }
 
-void interrupt() { interrupted = true; }
+void interrupt() {
+  interrupted = true;
+}
 
 }  // namespace slipway::server

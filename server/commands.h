@@ -40,7 +40,8 @@ struct DriveOptions {
 struct PlanOptions {
   AskOptions ask;
   DriveOptions drive;
-  std::string request;  // file with a whole request, "-" is standard input; the options below are then not used
+  std::string
+      request;  // file with a whole request, "-" is standard input; the options below are then not used
   std::optional<PlaceOption> start, goal;
   std::vector<PlaceOption> via;
   std::optional<int> routes;
@@ -60,8 +61,8 @@ struct TerrainOptions {
   std::optional<PlaceOption> at;
 };
 
-// Each prints its answer on standard output and returns the process's exit status: 0 an answer (also "no safe route"),
-// 1 no answer, 2 a question that can't be asked. Problems and progress go to standard error.
+// Each prints its answer on standard output and returns the process's exit status: 0 an answer (also "no safe
+// route"), 1 no answer, 2 a question that can't be asked. Problems and progress go to standard error.
 int serve(const ServeOptions& options);
 int plan(const PlanOptions& options);
 int predict(const PredictOptions& options);

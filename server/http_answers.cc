@@ -9,14 +9,15 @@
 namespace slipway::server {
 namespace {
 
-// For when the function that writes problems is missing or fails itself. Nothing in it needs escaping: it is all from
-// the table of errors.
+// For when the function that writes problems is missing or fails itself. Nothing in it needs escaping: it is
+// all from the table of errors.
 HttpResponse bare_problem(ErrorCode code) {
   const ErrorRow& row = error_row(code);
-  return {row.http_status,
-          "application/problem+json",
-          fmt::format(R"({{"type":"/errors#{}","title":"{}","status":{}}})", row.name, row.name, row.http_status),
-          {}};
+  return {
+      row.http_status,
+      "application/problem+json",
+      fmt::format(R"({{"type":"/errors#{}","title":"{}","status":{}}})", row.name, row.name, row.http_status),
+      {}};
 }
 
 std::string text_of(const std::exception_ptr& thrown) {
@@ -51,7 +52,8 @@ std::string Answers::to_refused(HttpEngine& engine, std::string_view method, con
   try {
     HttpResponse response = problem(error, nullptr);
     // What stands in the way here is slow or many clients, and both pass soon.
-    if (response.status == 503 && !response.header("Retry-After")) response.headers.emplace_back("Retry-After", "1");
+    if (response.status == 503 && !response.header("Retry-After"))
+      response.headers.emplace_back("Retry-After", "1");
     HttpEngine::Outgoing out = engine.respond_without_request(method, std::move(response));
     return out.front + out.body;
   } catch (...) {
@@ -68,7 +70,8 @@ HttpResponse Answers::routed(HttpRequest& request) const {
     // Its text may hold what is nobody's business, so only the operator sees it.
     log(fmt::format("{} {} threw: {}", request.method, request.raw_path, text_of(std::current_exception())));
   }
-  return problem({ErrorCode::kInternal, "the server failed while it answered; its log says how", {}}, &request);
+  return problem({ErrorCode::kInternal, "the server failed while it answered; its log says how", {}},
+                 &request);
 }
 
 HttpResponse Answers::problem(const Error& error, const HttpRequest* request) const {

@@ -7,15 +7,16 @@
 
 namespace slipway::server {
 
-// Takes the framing off a chunked body [RFC 9112, 7.1] as its bytes arrive, and keeps to a budget: cpp-httplib's own
-// reader would take 256 MiB in chunks whatever its payload maximum says.
+// Takes the framing off a chunked body [RFC 9112, 7.1] as its bytes arrive, and keeps to a budget:
+// cpp-httplib's own reader would take 256 MiB in chunks whatever its payload maximum says.
 class ChunkedBody {
  public:
   enum class State { kMore, kDone, kTooLarge, kMalformed };
 
   explicit ChunkedBody(std::size_t max_bytes) : max_bytes_(max_bytes) {}
 
-  // Consumes from the front of `bytes` and appends what it frames to `body`. In kDone what follows the body is left.
+  // Consumes from the front of `bytes` and appends what it frames to `body`. In kDone what follows the body
+  // is left.
   State feed(std::string_view& bytes, std::string& body);
 
  private:

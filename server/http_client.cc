@@ -17,7 +17,8 @@ Error no_answer(const HttpCall& call, httplib::Error error) {
     case httplib::Error::ConnectionTimeout:
     case httplib::Error::Read:
       return {ErrorCode::kRequestTimeout,
-              fmt::format("{} did not answer within {} ms, or closed the connection", place, call.timeout.count()),
+              fmt::format("{} did not answer within {} ms, or closed the connection", place,
+                          call.timeout.count()),
               {}};
     default:
       return {ErrorCode::kInternal,

@@ -13,8 +13,8 @@ namespace {
 
 // Read from one connection before the others have their turn.
 constexpr std::size_t kReadPerTurn = std::size_t{256} << 10;
-// Bodies up to this size are read even when max_buffered_bytes is exhausted: a flood of large ones must not shut out
-// the small requests of everyone else.
+// Bodies up to this size are read even when max_buffered_bytes is exhausted: a flood of large ones must not
+// shut out the small requests of everyone else.
 constexpr std::size_t kAlwaysBuffered = std::size_t{16} << 10;
 
 }  // namespace
@@ -62,7 +62,8 @@ bool HttpLoop::proceed(Connection& connection, HttpWorkers& workers) {
 
 bool HttpLoop::receive(Connection& connection, bool& blocked) {
   if (connection.gatherer.take_continue()) {
-    // 25 bytes into a socket on which nothing is under way; a client that does not take them is not worth waiting for.
+    // 25 bytes into a socket on which nothing is under way; a client that does not take them is not worth
+    // waiting for.
     std::string_view interim = "HTTP/1.1 100 Continue\r\n\r\n";
     if (send_some(connection.socket.fd(), interim) != Transfer::kSome) return false;
   }
@@ -73,8 +74,8 @@ bool HttpLoop::receive(Connection& connection, bool& blocked) {
   const std::size_t wanted = std::min(connection.gatherer.appetite(), piece_.size());
   const Transfer received = receive_some(connection.socket.fd(), piece_.data(), wanted, piece_read_);
   if (received == Transfer::kSome) {
-    // Less than asked for means that nothing is left, and saves the call that would say so; but the end of the stream
-    // may have been announced with these bytes and is not announced again.
+    // Less than asked for means that nothing is left, and saves the call that would say so; but the end of
+    // the stream may have been announced with these bytes and is not announced again.
     if (piece_read_ < wanted && !connection.hung_up) connection.readable = false;
     connection.gatherer.feed({piece_.data(), piece_read_});
     return true;
@@ -143,9 +144,11 @@ bool HttpLoop::linger(Connection& connection, bool& blocked) {
 bool HttpLoop::keep_to_budget(Connection& connection) {
   if (connection.phase == Phase::kWorking) return true;
   recount(connection);
-  if (counters_.buffered_bytes <= options_.max_buffered_bytes || connection.counted <= kAlwaysBuffered) return true;
+  if (counters_.buffered_bytes <= options_.max_buffered_bytes || connection.counted <= kAlwaysBuffered)
+    return true;
   if (connection.phase == Phase::kReceiving) {
-    refuse(connection, {ErrorCode::kTooManyJobs, "too many large requests are under way; try again later", {}});
+    refuse(connection,
+           {ErrorCode::kTooManyJobs, "too many large requests are under way; try again later", {}});
     return true;
   }
   return true;  // an answer being sent had its share from the worker, or is a refusal and small
@@ -164,10 +167,10 @@ void HttpLoop::retime(Connection& connection) {
   if (connection.phase == Phase::kLingering) timing = Timing::kLingering;
   if (connection.phase == Phase::kReceiving) {
     const State state = connection.gatherer.state();
-    timing = state == State::kHead        ? Timing::kHead
-             : state == State::kBody      ? Timing::kBody
+    timing = state == State::kHead      ? Timing::kHead
+             : state == State::kBody    ? Timing::kBody
              : connection.requests == 0 ? Timing::kFresh
-                                          : Timing::kIdle;
+                                        : Timing::kIdle;
   }
   // A deadline runs from the beginning of what it is for, so that dripping bytes do not extend it.
   if (timing == connection.timing) return;

@@ -15,13 +15,15 @@ namespace slipway::server {
 namespace {
 
 // Under these names cpp-httplib puts the socket's addresses beside the request's headers.
-constexpr std::array<std::string_view, 4> kAddressNames{"REMOTE_ADDR", "REMOTE_PORT", "LOCAL_ADDR", "LOCAL_PORT"};
+constexpr std::array<std::string_view, 4> kAddressNames{"REMOTE_ADDR", "REMOTE_PORT", "LOCAL_ADDR",
+                                                        "LOCAL_PORT"};
 constexpr std::array<std::string_view, 4> kFramingNames{"Content-Length", "Transfer-Encoding", "Connection",
                                                         "Keep-Alive"};
 
 template <std::size_t N>
 bool is_among(const std::array<std::string_view, N>& names, std::string_view name) {
-  return std::any_of(names.begin(), names.end(), [&](std::string_view n) { return equal_ignoring_case(n, name); });
+  return std::any_of(names.begin(), names.end(),
+                     [&](std::string_view n) { return equal_ignoring_case(n, name); });
 }
 
 // Below this, one more copy is cheaper than one more call of send().
@@ -78,7 +80,8 @@ HttpRequest request_from(const httplib::Request& in, HttpEngine::Exchange& excha
   out.path = in.path;
   const std::size_t question = std::min(in.target.find('?'), in.target.size());
   out.raw_path = in.target.substr(0, question);
-  if (question < in.target.size()) out.query = decoded_query(std::string_view(in.target).substr(question + 1));
+  if (question < in.target.size())
+    out.query = decoded_query(std::string_view(in.target).substr(question + 1));
   for (const auto& [name, value] : in.headers) {
     if (!is_among(kAddressNames, name)) out.headers.emplace_back(name, value);
   }
@@ -155,7 +158,8 @@ HttpEngine::HttpEngine(const HttpOptions& options) : adapter_(std::make_unique<A
 
 HttpEngine::~HttpEngine() = default;
 
-HttpEngine::Outgoing HttpEngine::respond(Exchange exchange, const std::function<HttpResponse(HttpRequest&)>& answer) {
+HttpEngine::Outgoing HttpEngine::respond(Exchange exchange,
+                                         const std::function<HttpResponse(HttpRequest&)>& answer) {
   return adapter_->respond(std::move(exchange), answer);
 }
 

@@ -12,11 +12,11 @@ namespace slipway::server {
 
 // From a request in memory to its answer in memory, through cpp-httplib. One for each thread that answers.
 //
-// Of httplib::Server this keeps what it does well once its input is known to be sound: parsing, decoding, and writing
-// responses. Its sockets, its threads, its body reader, its router and its file server are not used; measured, they
-// let eight slow clients stop the service, accept 256 MiB in chunks under a limit of 1 MiB, and follow symbolic links.
-// So process_request() is given a Stream that holds one checked head, and everything is answered in the pre-routing
-// handler, before any of those come into play.
+// Of httplib::Server this keeps what it does well once its input is known to be sound: parsing, decoding, and
+// writing responses. Its sockets, its threads, its body reader, its router and its file server are not used;
+// measured, they let eight slow clients stop the service, accept 256 MiB in chunks under a limit of 1 MiB,
+// and follow symbolic links. So process_request() is given a Stream that holds one checked head, and
+// everything is answered in the pre-routing handler, before any of those come into play.
 class HttpEngine {
  public:
   explicit HttpEngine(const HttpOptions& options);

@@ -39,7 +39,9 @@ std::size_t RequestGatherer::appetite() const {
   return 0;
 }
 
-bool RequestGatherer::take_continue() { return std::exchange(continue_due_, false); }
+bool RequestGatherer::take_continue() {
+  return std::exchange(continue_due_, false);
+}
 
 RequestGatherer::Gathered RequestGatherer::take() {
   Gathered out{std::move(head_), std::move(body_)};
@@ -68,13 +70,15 @@ void RequestGatherer::advance_head() {
   const HeadScan scan = scan_head(input_, scanned_);
   scanned_ = scan.resume_at;
   if (scan.found == HeadScan::Found::kMalformed) {
-    return refuse({kMalformedMessage, "this is not the head of an HTTP/1.1 request with lines that end in CR LF", {}});
+    return refuse(
+        {kMalformedMessage, "this is not the head of an HTTP/1.1 request with lines that end in CR LF", {}});
   }
   const bool whole = scan.found == HeadScan::Found::kEnd;
   if ((whole ? scan.size : input_.size()) > options_->max_header_bytes) {
-    return refuse({ErrorCode::kHeaderTooLarge,
-                   fmt::format("request line and headers have more than {} bytes", options_->max_header_bytes),
-                   {}});
+    return refuse(
+        {ErrorCode::kHeaderTooLarge,
+         fmt::format("request line and headers have more than {} bytes", options_->max_header_bytes),
+         {}});
   }
   if (!whole) return;
 
@@ -100,7 +104,8 @@ void RequestGatherer::advance_body() {
   const ChunkedBody::State chunked = chunked_->feed(bytes, body_);
   input_.erase(0, input_.size() - bytes.size());
   if (chunked == ChunkedBody::State::kDone) state_ = State::kReady;
-  if (chunked == ChunkedBody::State::kMalformed) refuse({kMalformedMessage, "the body's chunks are malformed", {}});
+  if (chunked == ChunkedBody::State::kMalformed)
+    refuse({kMalformedMessage, "the body's chunks are malformed", {}});
   if (chunked == ChunkedBody::State::kTooLarge) {
     refuse({ErrorCode::kPayloadTooLarge,
             fmt::format("the body has more than the {} bytes that are read", options_->max_body_bytes),

@@ -11,8 +11,8 @@
 
 namespace slipway::server {
 
-// Makes requests of the bytes of one connection, whatever pieces they arrive in. It knows no sockets and no clock, and
-// holds at most a head and a body at once.
+// Makes requests of the bytes of one connection, whatever pieces they arrive in. It knows no sockets and no
+// clock, and holds at most a head and a body at once.
 class RequestGatherer {
  public:
   enum class State {
@@ -56,8 +56,8 @@ class RequestGatherer {
 
   const HttpOptions* options_;
   State state_ = State::kIdle;
-  std::string input_;           // not understood yet
-  std::size_t scanned_ = 0;     // of input_, in search of the head's end
+  std::string input_;        // not understood yet
+  std::size_t scanned_ = 0;  // of input_, in search of the head's end
   RequestHead head_;
   std::string body_;
   std::optional<ChunkedBody> chunked_;

@@ -17,12 +17,12 @@ namespace {
 constexpr std::array<std::string_view, 7> kMethods{"GET",   "HEAD",   "POST",   "PUT",
                                                    "PATCH", "DELETE", "OPTIONS"};
 
-// Never passed on. cpp-httplib would gather ranges without bound and compress whole answers in memory; framing and
-// connection are dealt with here; and the last four are names under which it puts the socket's own addresses, beside
-// any that a client sent.
+// Never passed on. cpp-httplib would gather ranges without bound and compress whole answers in memory;
+// framing and connection are dealt with here; and the last four are names under which it puts the socket's
+// own addresses, beside any that a client sent.
 constexpr std::array<std::string_view, 12> kNotForwarded{
-    "range",       "if-range",    "accept-encoding", "content-length", "transfer-encoding", "connection",
-    "keep-alive",  "expect",      "remote_addr",     "remote_port",    "local_addr",        "local_port"};
+    "range",      "if-range", "accept-encoding", "content-length", "transfer-encoding", "connection",
+    "keep-alive", "expect",   "remote_addr",     "remote_port",    "local_addr",        "local_port"};
 
 bool is_token(std::string_view text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
@@ -44,7 +44,9 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-tl::unexpected<Error> malformed(std::string detail) { return fail(kMalformedMessage, std::move(detail)); }
+tl::unexpected<Error> malformed(std::string detail) {
+  return fail(kMalformedMessage, std::move(detail));
+}
 
 // Reads the lines of one head; its members are what is gathered on the way.
 class HeadReader {
@@ -82,13 +84,17 @@ class HeadReader {
   MaybeError request_line(std::string_view line) {
     const std::size_t first = line.find(' ');
     const std::size_t last = line.rfind(' ');
-    if (first == std::string_view::npos || first == last) return bad("the request line is not METHOD TARGET VERSION");
+    if (first == std::string_view::npos || first == last)
+      return bad("the request line is not METHOD TARGET VERSION");
     const std::string_view method = line.substr(0, first);
     const std::string_view version = line.substr(last + 1);
     if (!is_token(method)) return bad("the request's method is not a token");
-    if (version != "HTTP/1.1" && version != "HTTP/1.0") return bad("only HTTP/1.1 and HTTP/1.0 are spoken here");
+    if (version != "HTTP/1.1" && version != "HTTP/1.0")
+      return bad("only HTTP/1.1 and HTTP/1.0 are spoken here");
     if (std::find(kMethods.begin(), kMethods.end(), method) == kMethods.end()) {
-      return Error{ErrorCode::kMethodNotAllowed, fmt::format("the methods known are {}", fmt::join(kMethods, ", ")), {}};
+      return Error{ErrorCode::kMethodNotAllowed,
+                   fmt::format("the methods known are {}", fmt::join(kMethods, ", ")),
+                   {}};
     }
     const auto target = checked_target(method, line.substr(first + 1, last - first - 1));
     if (!target) return bad("the request's target is not a path and query in percent-encoded UTF-8");
@@ -108,8 +114,9 @@ class HeadReader {
     const std::string_view value = trimmed(line.substr(colon + 1));
     if (!is_field_value(value)) return bad("a header's value contains a control character");
     if (auto fault = framing_field(name, value)) return fault;
-    const bool forwarded = std::none_of(kNotForwarded.begin(), kNotForwarded.end(),
-                                        [&](std::string_view other) { return equal_ignoring_case(name, other); });
+    const bool forwarded =
+        std::none_of(kNotForwarded.begin(), kNotForwarded.end(),
+                     [&](std::string_view other) { return equal_ignoring_case(name, other); });
     if (forwarded) fmt::format_to(std::back_inserter(out_.forwarded), "{}: {}\r\n", name, value);
     return std::nullopt;
   }
@@ -184,9 +191,10 @@ class HeadReader {
     for (const std::string& known : options_.body_media_types) {
       if (equal_ignoring_case(type, known)) return std::nullopt;
     }
-    return Error{ErrorCode::kUnsupportedMediaType,
-                 fmt::format("a body needs a Content-Type, one of: {}", fmt::join(options_.body_media_types, ", ")),
-                 {}};
+    return Error{
+        ErrorCode::kUnsupportedMediaType,
+        fmt::format("a body needs a Content-Type, one of: {}", fmt::join(options_.body_media_types, ", ")),
+        {}};
   }
 
   const HttpOptions& options_;
@@ -205,8 +213,10 @@ Result<RequestHead> read_head(std::string_view head, const HttpOptions& options)
 
 HeadScan scan_head(std::string_view bytes, std::size_t resume_at) {
   // Something that is not HTTP at all, TLS above all, would otherwise sit there until its deadline.
-  if (resume_at == 0 && !bytes.empty() && !is_token(bytes.substr(0, 1))) return {HeadScan::Found::kMalformed, 0, 0};
-  for (std::size_t at = bytes.find('\n', resume_at); at != std::string_view::npos; at = bytes.find('\n', at + 1)) {
+  if (resume_at == 0 && !bytes.empty() && !is_token(bytes.substr(0, 1)))
+    return {HeadScan::Found::kMalformed, 0, 0};
+  for (std::size_t at = bytes.find('\n', resume_at); at != std::string_view::npos;
+       at = bytes.find('\n', at + 1)) {
     if (at == 0 || bytes[at - 1] != '\r') return {HeadScan::Found::kMalformed, 0, 0};
     if (at >= 3 && bytes[at - 2] == '\n') return {HeadScan::Found::kEnd, at + 1, 0};
   }

@@ -15,13 +15,13 @@
 namespace slipway::server {
 namespace {
 
-// cpp-httplib resolves the address and binds; the listening socket is then taken from it, since its accept loop hands
-// each connection to a thread, ends for good on some errors of accept(), and has no cap.
+// cpp-httplib resolves the address and binds; the listening socket is then taken from it, since its accept
+// loop hands each connection to a thread, ends for good on some errors of accept(), and has no cap.
 class Binder final : public httplib::Server {
  public:
   Binder() {
-    // Its default is SO_REUSEPORT: a second server on the same port would start without a word and take half of the
-    // first one's clients. SO_REUSEADDR only passes over connections of a server that has ended.
+    // Its default is SO_REUSEPORT: a second server on the same port would start without a word and take half
+    // of the first one's clients. SO_REUSEADDR only passes over connections of a server that has ended.
     set_socket_options([](socket_t fd) {
       const int yes = 1;
       setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
@@ -67,8 +67,8 @@ Result<Listener> listen_at(const HttpOptions& options) {
   const auto failed = [&](int error) {
     return fail(ErrorCode::kConflict,
                 fmt::format("can't listen at {} port {}: {}", options.address, options.port,
-                            error == 0 ? "the address is not one of this machine" :
-                                       std::system_category().message(error)));
+                            error == 0 ? "the address is not one of this machine"
+                                       : std::system_category().message(error)));
   };
   if (port <= 0 || !out.socket.is_open()) return failed(reason);
   const int fd = out.socket.fd();
@@ -96,7 +96,8 @@ AcceptOutcome accept_one(const Socket& listener, Accepted& out) {
       return AcceptOutcome::kNoDescriptors;
     }
     if (errno == EAGAIN || errno == EWOULDBLOCK) return AcceptOutcome::kNobodyWaits;
-    // Everything else is the fate of that one connection (accept(2) reports pending network errors), or a signal.
+    // Everything else is the fate of that one connection (accept(2) reports pending network errors), or a
+    // signal.
     if (errno == EBADF || errno == EINVAL || errno == ENOTSOCK) return AcceptOutcome::kNobodyWaits;
   }
 }

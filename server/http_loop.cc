@@ -23,7 +23,8 @@ constexpr std::size_t kTurnedAwayAtOnce = 32;
 
 }  // namespace
 
-HttpLoop::HttpLoop(const HttpOptions& options, const Answers& answers, LiveCounters& counters, Listener listener)
+HttpLoop::HttpLoop(const HttpOptions& options, const Answers& answers, LiveCounters& counters,
+                   Listener listener)
     : options_(options),
       answers_(answers),
       counters_(counters),
@@ -33,7 +34,8 @@ HttpLoop::HttpLoop(const HttpOptions& options, const Answers& answers, LiveCount
       wake_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)),
       next_sweep_(Clock::now()) {
   full_ = answers_.to_refused(
-      engine_, "GET", {ErrorCode::kTooManyJobs, "there are too many connections; try again when some have ended", {}});
+      engine_, "GET",
+      {ErrorCode::kTooManyJobs, "there are too many connections; try again when some have ended", {}});
   epoll_event event{};
   event.events = EPOLLIN;
   event.data.u64 = kWakeId;
@@ -101,7 +103,8 @@ void HttpLoop::accept_waiting() {
     const AcceptOutcome outcome = accept_one(listener_.socket, accepted);
     if (outcome == AcceptOutcome::kNobodyWaits) return;
     if (outcome == AcceptOutcome::kNoDescriptors) {
-      // The connection stays in the backlog, and epoll would report it without end: look again at the next sweep.
+      // The connection stays in the backlog, and epoll would report it without end: look again at the next
+      // sweep.
       if (!std::exchange(starved_, true)) answers_.log("no descriptors are left to accept connections with");
       return watch_listener(false);
     }
@@ -197,11 +200,10 @@ void HttpLoop::sweep() {
       continue;
     }
     const bool head = connection->timing == Timing::kHead;
-    refuse(*connection,
-           {ErrorCode::kRequestTimeout,
-            fmt::format("the request's {} was not there within {} ms", head ? "head" : "body",
-                        (head ? options_.header_deadline : options_.body_deadline).count()),
-            {}});
+    refuse(*connection, {ErrorCode::kRequestTimeout,
+                         fmt::format("the request's {} was not there within {} ms", head ? "head" : "body",
+                                     (head ? options_.header_deadline : options_.body_deadline).count()),
+                         {}});
     bool blocked = false;
     if (!send_rest(*connection, blocked)) {
       close(*connection);

@@ -19,12 +19,12 @@
 
 namespace slipway::server {
 
-// One thread that owns every socket. It accepts, gathers requests, hands whole ones to the workers, sends what clients
-// did not take at once, and holds everyone to the deadlines. Since it alone ever waits for clients, a thousand slow
-// ones cost memory (bounded) and no thread.
+// One thread that owns every socket. It accepts, gathers requests, hands whole ones to the workers, sends
+// what clients did not take at once, and holds everyone to the deadlines. Since it alone ever waits for
+// clients, a thousand slow ones cost memory (bounded) and no thread.
 //
-// A connection goes round: kReceiving, kWorking (the socket is a worker's), kSending if need be, kReceiving again; and
-// in the end kSending, kLingering, closed.
+// A connection goes round: kReceiving, kWorking (the socket is a worker's), kSending if need be, kReceiving
+// again; and in the end kSending, kLingering, closed.
 class HttpLoop {
  public:
   HttpLoop(const HttpOptions& options, const Answers& answers, LiveCounters& counters, Listener listener);
@@ -107,7 +107,7 @@ class HttpLoop {
   std::unordered_map<std::string, std::size_t> per_address_;
   std::size_t admitted_ = 0;
   std::size_t turned_away_ = 0;
-  std::uint64_t next_id_ = 2;        // 0 is the listener, 1 the wake-up
+  std::uint64_t next_id_ = 2;         // 0 is the listener, 1 the wake-up
   std::vector<std::uint64_t> again_;  // had more to read than one turn allows
   bool listening_ = false;
   bool starved_ = false;  // of descriptors, and the log says so

@@ -10,15 +10,16 @@ namespace slipway::server {
 
 using NamedValues = std::vector<std::pair<std::string, std::string>>;  // in the order in which they came
 
-// A request whose head was checked and whose body was read to its end. All its text is UTF-8, except header values.
+// A request whose head was checked and whose body was read to its end. All its text is UTF-8, except header
+// values.
 struct HttpRequest {
-  std::string method;          // "GET", "POST", ...; a HEAD that a GET route answers says "HEAD" here
-  std::string path;            // percent-decoded, without the query
-  std::string raw_path;        // as sent: routes are matched on it, so that an encoded slash is not a separator
-  NamedValues query;           // percent-decoded; a name given twice is here twice
-  NamedValues headers;         // as sent; read them with header()
-  NamedValues parameters;      // what the route's "{name}" segments matched, percent-decoded
-  std::string body;            // without chunk framing
+  std::string method;      // "GET", "POST", ...; a HEAD that a GET route answers says "HEAD" here
+  std::string path;        // percent-decoded, without the query
+  std::string raw_path;    // as sent: routes are matched on it, so that an encoded slash is not a separator
+  NamedValues query;       // percent-decoded; a name given twice is here twice
+  NamedValues headers;     // as sent; read them with header()
+  NamedValues parameters;  // what the route's "{name}" segments matched, percent-decoded
+  std::string body;        // without chunk framing
   std::string remote_address;  // the socket's peer; no header can change it
 
   // The header's first value. Names are compared without regard to case.
@@ -33,7 +34,8 @@ struct HttpResponse {
   int status = 200;
   std::string content_type;  // ignored when the body is empty
   std::string body;
-  // Framing (Content-Length, Transfer-Encoding, Connection) is the server's: such names are left out of what is sent.
+  // Framing (Content-Length, Transfer-Encoding, Connection) is the server's: such names are left out of what
+  // is sent.
   NamedValues headers;
 
   std::optional<std::string> header(std::string_view name) const;

@@ -75,8 +75,8 @@ RouteTable::RouteTable(std::vector<Route> routes) {
     const Entry& a = entries_[i - 1];
     const Entry& b = entries_[i];
     if (a.route.method == b.route.method && !more_literal(a.segments, b.segments)) {
-      throw std::invalid_argument(
-          fmt::format("routes {} {} and {} match the same requests", a.route.method, a.route.pattern, b.route.pattern));
+      throw std::invalid_argument(fmt::format("routes {} {} and {} match the same requests", a.route.method,
+                                              a.route.pattern, b.route.pattern));
     }
   }
 }
@@ -91,7 +91,8 @@ std::string RouteTable::allowed(const std::vector<const Entry*>& entries) const 
 }
 
 HttpResponse RouteTable::answer(
-    HttpRequest& request, const std::function<HttpResponse(const Error&, const HttpRequest*)>& problem) const {
+    HttpRequest& request,
+    const std::function<HttpResponse(const Error&, const HttpRequest*)>& problem) const {
   std::vector<std::string> path = segments_of(request.raw_path);
   for (std::string& segment : path) segment = percent_decoded(segment).value_or(segment);
   std::vector<const Entry*> known;
@@ -102,7 +103,8 @@ HttpResponse RouteTable::answer(
     return problem({ErrorCode::kNotFound, fmt::format("there is nothing at {}", request.path), {}}, &request);
   }
   const auto with_method = [&](std::string_view method) {
-    return std::find_if(known.begin(), known.end(), [&](const Entry* e) { return e->route.method == method; });
+    return std::find_if(known.begin(), known.end(),
+                        [&](const Entry* e) { return e->route.method == method; });
   };
   auto found = with_method(request.method);
   if (found == known.end() && request.method == "HEAD") found = with_method("GET");

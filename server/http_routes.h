@@ -10,23 +10,23 @@
 
 namespace slipway::server {
 
-// What answers one method at the addresses of one pattern. "/v1/jobs/{id}" has three segments, and the last one stands
-// for any non-empty text without a slash, found again under request.parameter("id").
+// What answers one method at the addresses of one pattern. "/v1/jobs/{id}" has three segments, and the last
+// one stands for any non-empty text without a slash, found again under request.parameter("id").
 struct Route {
   std::string method;
   std::string pattern;
   std::function<HttpResponse(const HttpRequest&)> handle;  // called from several threads at once
 };
 
-// The routes, matched segment by segment: cpp-httplib's patterns are std::regex, which some patterns bring to a
-// standstill. A literal segment wins over one in braces, the leftmost difference decides.
+// The routes, matched segment by segment: cpp-httplib's patterns are std::regex, which some patterns bring to
+// a standstill. A literal segment wins over one in braces, the leftmost difference decides.
 class RouteTable {
  public:
   // Throws std::invalid_argument when a pattern is malformed or two routes could never be told apart.
   explicit RouteTable(std::vector<Route> routes);
 
-  // The route's answer. HEAD is answered by a GET route, OPTIONS with the methods allowed. An address that is not
-  // known, or not with this method, goes through `problem`.
+  // The route's answer. HEAD is answered by a GET route, OPTIONS with the methods allowed. An address that is
+  // not known, or not with this method, goes through `problem`.
   HttpResponse answer(HttpRequest& request,
                       const std::function<HttpResponse(const Error&, const HttpRequest*)>& problem) const;
 

@@ -50,8 +50,7 @@ class HttpServer::Running {
       return fail(ErrorCode::kConflict, fault);
     }
     const SignalsBlocked blocked;
-    workers_.emplace(options_, answers_, counters_,
-                     [this](WorkDone work) { loop_->done(std::move(work)); });
+    workers_.emplace(options_, answers_, counters_, [this](WorkDone work) { loop_->done(std::move(work)); });
     thread_ = std::thread([this] { loop_->run(*workers_); });
     return port;
   }
@@ -65,7 +64,7 @@ class HttpServer::Running {
     workers_.reset();
     loop_.reset();
     counters_.open_connections = 0;
-
+    counters_.buffered_bytes = 0;
   }
 
   HttpCounters counters() const {
@@ -81,18 +80,25 @@ class HttpServer::Running {
   std::optional<HttpLoop> loop_;
   std::optional<HttpWorkers> workers_;
   std::thread thread_;
-
 };
 
 HttpServer::HttpServer(HttpOptions options, std::vector<Route> routes)
     : running_(std::make_unique<Running>(std::move(options), std::move(routes))) {}
 
-HttpServer::~HttpServer() { running_->stop(); }
+HttpServer::~HttpServer() {
+  running_->stop();
+}
 
-Result<int> HttpServer::start() { return running_->start(); }
+Result<int> HttpServer::start() {
+  return running_->start();
+}
 
-void HttpServer::stop() { running_->stop(); }
+void HttpServer::stop() {
+  running_->stop();
+}
 
-HttpCounters HttpServer::counters() const { return running_->counters(); }
+HttpCounters HttpServer::counters() const {
+  return running_->counters();
+}
 
 }  // namespace slipway::server

@@ -81,7 +81,8 @@ std::optional<std::string> checked_target(std::string_view method, std::string_v
   const std::string_view origin = without_origin(target);
   if (origin.empty() || origin.front() != '/') return std::nullopt;
   for (const char c : origin) {
-    // A fragment is the client's own business and is never sent; beyond ASCII everything is to be percent-encoded.
+    // A fragment is the client's own business and is never sent; beyond ASCII everything is to be
+    // percent-encoded.
     if (c <= ' ' || c >= 0x7f || c == '#') return std::nullopt;
   }
   const auto decoded = percent_decoded(origin);

@@ -14,7 +14,9 @@ HttpWorkers::HttpWorkers(const HttpOptions& options, const Answers& answers, Liv
   for (std::size_t i = 0; i < count; ++i) threads_.emplace_back([this] { run(); });
 }
 
-HttpWorkers::~HttpWorkers() { stop(); }
+HttpWorkers::~HttpWorkers() {
+  stop();
+}
 
 void HttpWorkers::submit(Work work) {
   {

@@ -36,7 +36,7 @@ struct Work {
 
 struct WorkDone {
   std::uint64_t connection = 0;
-  std::string unsent;    // what the client did not take at once: from `sent` on
+  std::string unsent;  // what the client did not take at once: from `sent` on
   std::size_t sent = 0;
   std::size_t counted = 0;  // of `unsent`, in the budget of buffered bytes already
   bool close = false;

@@ -23,15 +23,19 @@ Result<std::string> text_member(std::string_view document, std::string_view key)
   const auto parsed = api::json::parse(document, {.bytes = document.size(), .values = document.size()});
   if (!parsed) return fail(parsed.error());
   const JsonValue* member = parsed->find(key);
-  if (!member || !member->is(JsonValue::Kind::kString)) return fail(ErrorCode::kInternal, fmt::format("the answer has no \"{}\"", key));
+  if (!member || !member->is(JsonValue::Kind::kString))
+    return fail(ErrorCode::kInternal, fmt::format("the answer has no \"{}\"", key));
   return member->text;
 }
 
 class LocalInquiry final : public Inquiry {
  public:
-  explicit LocalInquiry(std::unique_ptr<api::Service> service) : service_(std::move(service)), work_(api::service_work(*service_)) {}
+  explicit LocalInquiry(std::unique_ptr<api::Service> service)
+      : service_(std::move(service)), work_(api::service_work(*service_)) {}
 
-  Result<std::string> plan(const std::string& request, Progress& progress) override { return ask(api::kPlanKind, request, progress); }
+  Result<std::string> plan(const std::string& request, Progress& progress) override {
+    return ask(api::kPlanKind, request, progress);
+  }
   Result<std::string> predict(const std::string& request, Progress& progress) override {
     return ask(api::kPredictionKind, request, progress);
   }
@@ -75,7 +79,9 @@ class RemoteInquiry final : public Inquiry {
  public:
   RemoteInquiry(std::string host, int port) : host_(std::move(host)), port_(port) {}
 
-  Result<std::string> plan(const std::string& request, Progress& progress) override { return job("/v1/plans", request, progress); }
+  Result<std::string> plan(const std::string& request, Progress& progress) override {
+    return job("/v1/plans", request, progress);
+  }
   Result<std::string> predict(const std::string& request, Progress& progress) override {
     return job("/v1/predictions", request, progress);
   }
@@ -87,9 +93,14 @@ class RemoteInquiry final : public Inquiry {
   Result<std::string> health() override { return get("/healthz"); }
 
  private:
-  Result<std::string> call(const std::string& method, const std::string& path, const std::string& body, NamedValues headers) {
-    const auto response = http_request(
-        {.method = method, .host = host_, .port = port_, .path = path, .headers = std::move(headers), .body = body});
+  Result<std::string> call(const std::string& method, const std::string& path, const std::string& body,
+                           NamedValues headers) {
+    const auto response = http_request({.method = method,
+                                        .host = host_,
+                                        .port = port_,
+                                        .path = path,
+                                        .headers = std::move(headers),
+                                        .body = body});
     if (!response) return fail(response.error());
     if (response->status >= 400) return fail(api::json::read_problem(response->body));
     if (const auto location = response->header("Location")) location_ = *location;
@@ -99,16 +110,19 @@ class RemoteInquiry final : public Inquiry {
 
   // Records the job, then polls it; a question that is given up is taken back.
   Result<std::string> job(const std::string& path, const std::string& request, Progress& progress) {
-    if (const auto created = call("POST", path, request, {{"Prefer", "respond-async"}}); !created) return created;
+    if (const auto created = call("POST", path, request, {{"Prefer", "respond-async"}}); !created)
+      return created;
     for (;;) {
       const auto document = get(location_);
       if (!document) return document;
-      const auto parsed = api::json::parse(*document, {.bytes = document->size(), .values = document->size()});
+      const auto parsed =
+          api::json::parse(*document, {.bytes = document->size(), .values = document->size()});
       if (!parsed) return fail(parsed.error());
       const JsonValue* state = parsed->find("state");
       const JsonValue* stage = parsed->find("stage");
       const JsonValue* share = parsed->find("progress");
-      if (!state || (state->text != "accepted" && state->text != "running")) return get(location_ + "/result");
+      if (!state || (state->text != "accepted" && state->text != "running"))
+        return get(location_ + "/result");
       progress.report(stage ? stage->text : "", share ? share->number : 0.0);
       if (progress.cancelled()) return call("DELETE", location_, "", {});
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -139,7 +153,8 @@ Result<std::unique_ptr<Inquiry>> remote_inquiry(const std::string& url) {
     if (error != std::errc() || end != digits.data() + digits.size()) port = 0;
   }
   if (port < 1 || port > 65535)
-    return fail(ErrorCode::kInvalidRequest, "--url must be http://HOST:PORT", {{"/url", fmt::format("url = \"{}\"", url)}});
+    return fail(ErrorCode::kInvalidRequest, "--url must be http://HOST:PORT",
+                {{"/url", fmt::format("url = \"{}\"", url)}});
   return std::make_unique<RemoteInquiry>(url.substr(kScheme.size(), colon - kScheme.size()), port);
 }
 

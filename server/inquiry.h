@@ -9,8 +9,8 @@
 
 namespace slipway::server {
 
-// Where the command line's questions go: to the service in this process, or over HTTP to one that runs elsewhere. Both
-// answer with the same documents.
+// Where the command line's questions go: to the service in this process, or over HTTP to one that runs
+// elsewhere. Both answer with the same documents.
 class Inquiry {
  public:
   virtual ~Inquiry() = default;

@@ -30,7 +30,8 @@ Result<std::shared_ptr<api::JobStore>> open_store(const std::string& path) {
   return std::shared_ptr<api::JobStore>(std::move(*store));
 }
 
-// Blocks the signals that end the program, so that every thread started later leaves them to wait_for_signal().
+// Blocks the signals that end the program, so that every thread started later leaves them to
+// wait_for_signal().
 sigset_t block_ending_signals() {
   sigset_t signals;
   sigemptyset(&signals);
@@ -64,8 +65,8 @@ int serve(const ServeOptions& options) {
   HttpServer server(http, api_routes(**service, runner));
   const auto port = server.start();
   if (!port) return refuse(port.error());
-  std::cout << fmt::format("slipway {} serves {} on http://{}:{}, jobs in {}\n", api::version(), options.data, options.address, *port,
-                           options.jobs.empty() ? "memory" : options.jobs)
+  std::cout << fmt::format("slipway {} serves {} on http://{}:{}, jobs in {}\n", api::version(), options.data,
+                           options.address, *port, options.jobs.empty() ? "memory" : options.jobs)
             << std::flush;
   int signal = 0;
   sigwait(&signals, &signal);

@@ -19,8 +19,12 @@ const JsonValue& at(const JsonValue& value, std::string_view key) {
   return found ? *found : kNothing;
 }
 
-double number(const JsonValue& value, std::string_view key) { return at(value, key).number; }
-const std::string& text(const JsonValue& value, std::string_view key) { return at(value, key).text; }
+double number(const JsonValue& value, std::string_view key) {
+  return at(value, key).number;
+}
+const std::string& text(const JsonValue& value, std::string_view key) {
+  return at(value, key).text;
+}
 
 std::string duration(double seconds) {
   const int minutes = static_cast<int>(seconds / 60.0 + 0.5);
@@ -41,7 +45,8 @@ class Table {
     for (std::size_t r = 0; r < rows_.size(); ++r) {
       for (std::size_t c = 0; c < rows_[r].size(); ++c) {
         const bool words = c == 0 || c + 1 == rows_[r].size();
-        out += words ? fmt::format("{:<{}}  ", rows_[r][c], width[c]) : fmt::format("{:>{}}  ", rows_[r][c], width[c]);
+        out += words ? fmt::format("{:<{}}  ", rows_[r][c], width[c])
+                     : fmt::format("{:>{}}  ", rows_[r][c], width[c]);
       }
       while (!out.empty() && out.back() == ' ') out.pop_back();
       out += "\n";
@@ -60,7 +65,8 @@ class Table {
 
 std::string peak(const JsonValue& figures, std::string_view key, const char* format) {
   const JsonValue& p = at(figures, key);
-  return fmt::format("{} @{:.0f} m", fmt::format(fmt::runtime(format), number(p, "value")), number(p, "at_m"));
+  return fmt::format("{} @{:.0f} m", fmt::format(fmt::runtime(format), number(p, "value")),
+                     number(p, "at_m"));
 }
 
 std::vector<std::string> figures_row(std::string label, const JsonValue& f, std::string verdict) {
@@ -80,7 +86,8 @@ std::vector<std::string> figures_row(std::string label, const JsonValue& f, std:
 }
 
 std::vector<std::string> figures_header() {
-  return {"route", "length", "time", "energy", "mean slip", "largest slip", "largest tilt", "sinkage", "current", "risk", "unknown", "verdict"};
+  return {"route",        "length",  "time",    "energy", "mean slip", "largest slip",
+          "largest tilt", "sinkage", "current", "risk",   "unknown",   "verdict"};
 }
 
 std::string lines(const JsonValue& list, std::string_view before) {
@@ -93,7 +100,8 @@ Result<JsonValue> read(std::string_view document) {
   return api::json::parse(document, {.bytes = document.size(), .values = document.size()});
 }
 
-Result<std::string> catalogue_table(std::string_view document, std::string_view key, std::vector<std::string> header,
+Result<std::string> catalogue_table(std::string_view document, std::string_view key,
+                                    std::vector<std::string> header,
                                     std::vector<std::string> (*row)(const JsonValue&)) {
   const auto parsed = read(document);
   if (!parsed) return fail(parsed.error());
@@ -116,8 +124,9 @@ Result<std::string> plan_table(std::string_view answer) {
     out = table.print() + "\n";
   }
   for (const JsonValue& route : summary.elements) {
-    out += fmt::format("Route {:.0f}: {} (cost {:.2f}, proposed by {}, {})\n", number(route, "rank"), text(route, "verdict"), number(route, "cost"),
-                       text(route, "planner"), text(route, "profile"));
+    out += fmt::format("Route {:.0f}: {} (cost {:.2f}, proposed by {}, {})\n", number(route, "rank"),
+                       text(route, "verdict"), number(route, "cost"), text(route, "planner"),
+                       text(route, "profile"));
     out += lines(at(route, "reasons"), "  - ");
   }
   out += lines(at(*document, "fewer_because"), "Fewer routes than asked for: ");
@@ -138,42 +147,51 @@ Result<std::string> prediction_table(std::string_view answer) {
 }
 
 Result<std::string> terrain_table(std::string_view document) {
-  return catalogue_table(document, "terrains", {"terrain", "size", "cell", "gravity", "stops", "title"}, [](const JsonValue& t) {
-    const JsonValue& e = at(t, "extent");
-    return std::vector<std::string>{
-        text(t, "name"),
-        fmt::format("{:.0f} x {:.0f} m", number(e, "east_m") - number(e, "west_m"), number(e, "north_m") - number(e, "south_m")),
-        fmt::format("{:g} m", number(t, "cell_x_m")), fmt::format("{:g} m/s2", number(t, "gravity_m_s2")),
-        fmt::format("{}", at(t, "stops").elements.size()), text(t, "title")};
-  });
+  return catalogue_table(document, "terrains", {"terrain", "size", "cell", "gravity", "stops", "title"},
+                         [](const JsonValue& t) {
+                           const JsonValue& e = at(t, "extent");
+                           return std::vector<std::string>{
+                               text(t, "name"),
+                               fmt::format("{:.0f} x {:.0f} m", number(e, "east_m") - number(e, "west_m"),
+                                           number(e, "north_m") - number(e, "south_m")),
+                               fmt::format("{:g} m", number(t, "cell_x_m")),
+                               fmt::format("{:g} m/s2", number(t, "gravity_m_s2")),
+                               fmt::format("{}", at(t, "stops").elements.size()),
+                               text(t, "title")};
+                         });
 }
 
 Result<std::string> rover_table(std::string_view document) {
-  return catalogue_table(document, "rovers", {"rover", "mass", "speed", "steepest", "summary"}, [](const JsonValue& r) {
-    return std::vector<std::string>{text(r, "name"), fmt::format("{:g} kg", number(r, "mass_kg")),
-                                    fmt::format("{:g} m/s", number(r, "cruise_speed_m_s")),
-                                    fmt::format("{:g} deg", number(r, "max_tilt_deg")), text(r, "summary")};
-  });
+  return catalogue_table(
+      document, "rovers", {"rover", "mass", "speed", "steepest", "summary"}, [](const JsonValue& r) {
+        return std::vector<std::string>{text(r, "name"), fmt::format("{:g} kg", number(r, "mass_kg")),
+                                        fmt::format("{:g} m/s", number(r, "cruise_speed_m_s")),
+                                        fmt::format("{:g} deg", number(r, "max_tilt_deg")),
+                                        text(r, "summary")};
+      });
 }
 
 Result<std::string> soil_table(std::string_view document) {
-  return catalogue_table(document, "soils", {"soil", "k_c", "k_phi", "n", "cohesion", "friction", "K", "source"}, [](const JsonValue& s) {
-    return std::vector<std::string>{text(s, "name"),
-                                    fmt::format("{:g}", number(s, "k_c")),
-                                    fmt::format("{:g}", number(s, "k_phi")),
-                                    fmt::format("{:g}", number(s, "n")),
-                                    fmt::format("{:g} Pa", number(s, "cohesion_pa")),
-                                    fmt::format("{:g} deg", number(s, "friction_angle_deg")),
-                                    fmt::format("{:g} m", number(s, "shear_modulus_x_m")),
-                                    text(s, "source")};
-  });
+  return catalogue_table(
+      document, "soils", {"soil", "k_c", "k_phi", "n", "cohesion", "friction", "K", "source"},
+      [](const JsonValue& s) {
+        return std::vector<std::string>{text(s, "name"),
+                                        fmt::format("{:g}", number(s, "k_c")),
+                                        fmt::format("{:g}", number(s, "k_phi")),
+                                        fmt::format("{:g}", number(s, "n")),
+                                        fmt::format("{:g} Pa", number(s, "cohesion_pa")),
+                                        fmt::format("{:g} deg", number(s, "friction_angle_deg")),
+                                        fmt::format("{:g} m", number(s, "shear_modulus_x_m")),
+                                        text(s, "source")};
+      });
 }
 
 std::string error_text(const Error& error) {
   const ErrorRow& row = error_row(error.code);
   std::string out = fmt::format("{}: {}\n", row.name, error.detail);
   for (const Fault& fault : error.faults)
-    out += fmt::format("  {}: {}\n", fault.pointer.empty() ? "(the whole input)" : fault.pointer, fault.message);
+    out +=
+        fmt::format("  {}: {}\n", fault.pointer.empty() ? "(the whole input)" : fault.pointer, fault.message);
   return out + fmt::format("{}\n", row.help);
 }
 

@@ -13,7 +13,8 @@ namespace slipway::sim {
 //
 // Valid for slow loading of homogeneous ground by a plate not much smaller than those that gave the moduli.
 // Properties: p(0) = 0; doubling the depth raises p by 2^n.
-inline ArcValues bekker_pressure_pa(const BekkerModuli& moduli, double n, double width_m, const ArcValues& depth_m) {
+inline ArcValues bekker_pressure_pa(const BekkerModuli& moduli, double n, double width_m,
+                                    const ArcValues& depth_m) {
   return moduli.stiffness(width_m) * (n * depth_m.log()).exp();
 }
 

@@ -17,7 +17,11 @@ void apply(std::span<const double> values, RoverModel& rover) {
 
 }  // namespace
 
-constexpr Effect kComOffset{"com_offset", "the centre of mass is not where the rover file has it",
-                            "Zhurong section 4.1: random shifts of the centroid", kFields, &apply, nullptr};
+constexpr Effect kComOffset{"com_offset",
+                            "the centre of mass is not where the rover file has it",
+                            "Zhurong section 4.1: random shifts of the centroid",
+                            kFields,
+                            &apply,
+                            nullptr};
 
 }  // namespace slipway::sim

@@ -4,7 +4,8 @@
 
 namespace slipway::sim {
 
-// The centre of mass lies elsewhere than the rover file says: a moved payload, an extended arm, a drained tank.
+// The centre of mass lies elsewhere than the rover file says: a moved payload, an extended arm, a drained
+// tank.
 extern const Effect kComOffset;
 
 }  // namespace slipway::sim

@@ -23,7 +23,8 @@ DriveCommand command_at(const RoverModel& rover, const PathStation& station) {
 }
 
 // A wheel of the level rover at this pose that has no ground under it.
-std::optional<std::string> wheel_without_ground(const RoverModel& rover, const Ground& ground, const Pose2& pose) {
+std::optional<std::string> wheel_without_ground(const RoverModel& rover, const Ground& ground,
+                                                const Pose2& pose) {
   const double c = std::cos(pose.yaw_rad), s = std::sin(pose.yaw_rad);
   for (const WheelModel& wheel : rover.wheels) {
     const double x = pose.x_m + c * wheel.position_m.x() - s * wheel.position_m.y();
@@ -35,10 +36,12 @@ std::optional<std::string> wheel_without_ground(const RoverModel& rover, const G
 
 std::string reason_text(const RoverModel& rover, const SoilBeliefs& beliefs, const StationPrediction& at) {
   const StationState& state = at.state;
-  const std::string_view soil = at.on_unknown_ground ? std::string_view("unknown ground") : std::string_view(beliefs.of(at.soil).name);
-  std::string text = fmt::format("{} at {:.1f} m on {}: tilt {:.1f} deg (pitch {:.1f}, roll {:.1f})", describe(state.outcome),
-                                 at.station.distance_m, soil, deg_from_rad(at.attitude.tilt_rad()),
-                                 deg_from_rad(at.attitude.pitch_rad), deg_from_rad(at.attitude.roll_rad));
+  const std::string_view soil =
+      at.on_unknown_ground ? std::string_view("unknown ground") : std::string_view(beliefs.of(at.soil).name);
+  std::string text =
+      fmt::format("{} at {:.1f} m on {}: tilt {:.1f} deg (pitch {:.1f}, roll {:.1f})",
+                  describe(state.outcome), at.station.distance_m, soil, deg_from_rad(at.attitude.tilt_rad()),
+                  deg_from_rad(at.attitude.pitch_rad), deg_from_rad(at.attitude.roll_rad));
   if (state.wheel >= 0) {
     const WheelState& wheel = state.wheels[state.wheel];
     text += fmt::format(", wheel {}: slip {:.2f}, sinkage {:.3f} m, {:.2f} A", rover.wheels[state.wheel].name,
@@ -84,21 +87,24 @@ class Predictor {
     broken("current", p.max_current_a, limits_.max_current_a, 1.0, " A");
     broken("sinkage", p.max_sinkage_m, limits_.max_sinkage_m, 1.0, " m");
     if (least_clearance_.value < limits_.min_clearance_m)
-      p.broken_limits.push_back(fmt::format("clearance {:.3g} m at {:.1f} m, limit {:.3g} m", least_clearance_.value,
-                                            least_clearance_.distance_m, limits_.min_clearance_m));
+      p.broken_limits.push_back(fmt::format("clearance {:.3g} m at {:.1f} m, limit {:.3g} m",
+                                            least_clearance_.value, least_clearance_.distance_m,
+                                            limits_.min_clearance_m));
     return std::move(prediction_);
   }
 
  private:
   bool no_stance(const PathStation& station, std::size_t index) {
     if (const auto wheel = wheel_without_ground(rover_, ground_, station.pose)) {
-      faults_.push_back({fmt::format("/stations/{}", index),
-                         fmt::format("no elevation under wheel {} at ({:.2f}, {:.2f}), {:.1f} m along the path", *wheel,
-                                     station.pose.x_m, station.pose.y_m, station.distance_m)});
+      faults_.push_back(
+          {fmt::format("/stations/{}", index),
+           fmt::format("no elevation under wheel {} at ({:.2f}, {:.2f}), {:.1f} m along the path", *wheel,
+                       station.pose.x_m, station.pose.y_m, station.distance_m)});
     } else {
-      prediction_.immobilised = {station.distance_m, station.pose,
-                                 fmt::format("no stance at {:.1f} m: the ground is too uneven for the suspension",
-                                             station.distance_m)};
+      prediction_.immobilised = {
+          station.distance_m, station.pose,
+          fmt::format("no stance at {:.1f} m: the ground is too uneven for the suspension",
+                      station.distance_m)};
     }
     return false;
   }
@@ -128,7 +134,8 @@ class Predictor {
     raise(p.max_slip_ratio, std::abs(state.slip_ratio), s);
     raise(p.max_current_a, largest_current_a(state), s);
     raise(p.max_sinkage_m, deepest_sinkage_m(state), s);
-    if (ready.stance.belly_clearance_m < least_clearance_.value) least_clearance_ = {ready.stance.belly_clearance_m, s};
+    if (ready.stance.belly_clearance_m < least_clearance_.value)
+      least_clearance_ = {ready.stance.belly_clearance_m, s};
     predicted.slip_ratio_p05 = predicted.slip_ratio_p50 = predicted.slip_ratio_p95 = state.slip_ratio;
     predicted.current_a_p95 = largest_current_a(state);
     predicted.sinkage_m_p95 = deepest_sinkage_m(state);
@@ -153,8 +160,9 @@ class Predictor {
 
   void broken(std::string_view name, const Peak& peak, double limit, double scale, std::string_view unit) {
     if (peak.value > limit)
-      prediction_.broken_limits.push_back(fmt::format("{} {:.3g}{} at {:.1f} m, limit {:.3g}{}", name, peak.value * scale,
-                                                      unit, peak.distance_m, limit * scale, unit));
+      prediction_.broken_limits.push_back(fmt::format("{} {:.3g}{} at {:.1f} m, limit {:.3g}{}", name,
+                                                      peak.value * scale, unit, peak.distance_m,
+                                                      limit * scale, unit));
   }
 
   const RoverModel& rover_;
@@ -171,34 +179,41 @@ class Predictor {
 
 }  // namespace
 
-double largest_station_spacing_m(const RoverModel& rover) { return 2.0 * rover.smallest_wheel_radius_m(); }
+double largest_station_spacing_m(const RoverModel& rover) {
+  return 2.0 * rover.smallest_wheel_radius_m();
+}
 
 Result<DrivePrediction> predict_drive(const RoverModel& rover, double gravity_m_s2, const Ground& ground,
                                       const SoilBeliefs& beliefs, std::span<const PathStation> path,
                                       const DriveLimits& limits, const RiskOptions& risk, std::size_t threads,
                                       Progress& progress) {
   if (path.empty()) throw std::invalid_argument("predict_drive: a path needs a station");
-  // The whole path is looked at first: a missing piece of ground behind a place of immobilisation is a fault all the same.
+  // The whole path is looked at first: a missing piece of ground behind a place of immobilisation is a fault
+  // all the same.
   std::vector<Fault> faults;
   for (std::size_t k = 0; k < path.size() && faults.size() < kMostFaults; ++k) {
     if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the prediction was dismissed");
     if (const auto wheel = wheel_without_ground(rover, ground, path[k].pose))
-      faults.push_back({fmt::format("/stations/{}", k),
-                        fmt::format("no elevation under wheel {} at ({:.2f}, {:.2f}), {:.1f} m along the path", *wheel,
-                                    path[k].pose.x_m, path[k].pose.y_m, path[k].distance_m)});
+      faults.push_back(
+          {fmt::format("/stations/{}", k),
+           fmt::format("no elevation under wheel {} at ({:.2f}, {:.2f}), {:.1f} m along the path", *wheel,
+                       path[k].pose.x_m, path[k].pose.y_m, path[k].distance_m)});
   }
-  if (!faults.empty()) return fail(ErrorCode::kNoData, "the path leaves the ground that is known", std::move(faults));
+  if (!faults.empty())
+    return fail(ErrorCode::kNoData, "the path leaves the ground that is known", std::move(faults));
 
   Predictor predictor(rover, gravity_m_s2, ground, beliefs, limits);
   for (std::size_t k = 0; k < path.size(); ++k) {
-    if (k % 64 == 0 && progress.cancelled()) return fail(ErrorCode::kCancelled, "the prediction was dismissed");
+    if (k % 64 == 0 && progress.cancelled())
+      return fail(ErrorCode::kCancelled, "the prediction was dismissed");
     if (!predictor.add(path[k], k)) break;
   }
   if (!predictor.faults().empty())
     return fail(ErrorCode::kNoData, "the path leaves the ground that is known", predictor.faults());
   DrivePrediction prediction = predictor.finish();
   if (risk.draws > 0 && !predictor.prepared().empty() &&
-      !assess_risk(rover, gravity_m_s2, beliefs, predictor.prepared(), limits, risk, threads, progress, prediction))
+      !assess_risk(rover, gravity_m_s2, beliefs, predictor.prepared(), limits, risk, threads, progress,
+                   prediction))
     return fail(ErrorCode::kCancelled, "the prediction was dismissed");
   return prediction;
 }

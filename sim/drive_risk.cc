@@ -58,7 +58,8 @@ class DrawnSoils {
   std::vector<Soil> soils_;
 };
 
-// Every station where the rover turns, and of the driven ones those about `spacing_m` apart; always the first and last.
+// Every station where the rover turns, and of the driven ones those about `spacing_m` apart; always the first
+// and last.
 std::vector<std::size_t> sampled_stations(std::span<const PreparedStation> stations, double spacing_m) {
   std::vector<std::size_t> sampled{0};
   for (std::size_t k = 1; k < stations.size(); ++k) {
@@ -80,7 +81,8 @@ PreparedStation span_of(std::span<const PreparedStation> stations, std::size_t a
 }
 
 DrawnDrive drive_on(const RoverModel& rover, double gravity_m_s2, DrawnSoils soils,
-                    std::span<const PreparedStation> spans, const DriveLimits& limits, const Progress& progress) {
+                    std::span<const PreparedStation> spans, const DriveLimits& limits,
+                    const Progress& progress) {
   DrawnDrive drive;
   QuasiStaticSolver solver(rover, gravity_m_s2);
   for (const PreparedStation& station : spans) {
@@ -176,12 +178,13 @@ double deepest_sinkage_m(const StationState& state) {
 }
 
 bool breaks(const DriveLimits& limits, const StationState& state) {
-  return std::abs(state.slip_ratio) > limits.max_slip_ratio || largest_current_a(state) > limits.max_current_a ||
-         deepest_sinkage_m(state) > limits.max_sinkage_m;
+  return std::abs(state.slip_ratio) > limits.max_slip_ratio ||
+         largest_current_a(state) > limits.max_current_a || deepest_sinkage_m(state) > limits.max_sinkage_m;
 }
 
 bool breaks(const DriveLimits& limits, const Stance& stance) {
-  return stance.attitude.tilt_rad() > limits.max_tilt_rad || stance.belly_clearance_m < limits.min_clearance_m;
+  return stance.attitude.tilt_rad() > limits.max_tilt_rad ||
+         stance.belly_clearance_m < limits.min_clearance_m;
 }
 
 Effort effort_of(const PreparedStation& station, const StationState& state) {
@@ -197,8 +200,9 @@ Effort effort_of(const PreparedStation& station, const StationState& state) {
 }
 
 bool assess_risk(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs& beliefs,
-                 std::span<const PreparedStation> stations, const DriveLimits& limits, const RiskOptions& options,
-                 std::size_t threads, Progress& progress, DrivePrediction& prediction) {
+                 std::span<const PreparedStation> stations, const DriveLimits& limits,
+                 const RiskOptions& options, std::size_t threads, Progress& progress,
+                 DrivePrediction& prediction) {
   const std::vector<std::size_t> sampled = sampled_stations(stations, options.spacing_m);
   std::vector<PreparedStation> spans;
   for (std::size_t s = 0; s < sampled.size(); ++s)

@@ -13,7 +13,8 @@ namespace slipway::sim {
 // A station with its rover set down: what all soil draws of a drive share.
 struct PreparedStation {
   Stance stance;
-  std::array<std::optional<std::size_t>, kWheels> soil;  // index of the belief under each wheel; nothing: unknown
+  std::array<std::optional<std::size_t>, kWheels>
+      soil;  // index of the belief under each wheel; nothing: unknown
   DriveCommand command;
   double distance_m = 0.0;
   double drive_m = 0.0;   // since the last station
@@ -36,9 +37,11 @@ struct Effort {
 };
 Effort effort_of(const PreparedStation& station, const StationState& state);
 
-// Fills the prediction's fields over soil draws (risk, intervals, quantiles per station). False where cancelled.
+// Fills the prediction's fields over soil draws (risk, intervals, quantiles per station). False where
+// cancelled.
 bool assess_risk(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs& beliefs,
-                 std::span<const PreparedStation> stations, const DriveLimits& limits, const RiskOptions& options,
-                 std::size_t threads, Progress& progress, DrivePrediction& prediction);
+                 std::span<const PreparedStation> stations, const DriveLimits& limits,
+                 const RiskOptions& options, std::size_t threads, Progress& progress,
+                 DrivePrediction& prediction);
 
 }  // namespace slipway::sim

@@ -31,14 +31,18 @@ std::string names_of(const Rows& all) {
   return list;
 }
 
-void check_parameters(const Effect& effect, const EffectSetting& setting, std::size_t index, std::vector<Fault>& faults) {
+void check_parameters(const Effect& effect, const EffectSetting& setting, std::size_t index,
+                      std::vector<Fault>& faults) {
   for (const auto& [name, value] : setting.parameters) {
     const std::string pointer = fmt::format("/{}/parameters/{}", index, name);
-    const auto field = std::find_if(effect.fields.begin(), effect.fields.end(), [&](const Field& f) { return f.name == name; });
+    const auto field = std::find_if(effect.fields.begin(), effect.fields.end(),
+                                    [&key = name](const Field& f) { return f.name == key; });
     if (field == effect.fields.end()) {
-      faults.push_back({pointer, fmt::format("unknown parameter \"{}\" of {}, known are: {}", name, effect.name, names_of(effect.fields))});
+      faults.push_back({pointer, fmt::format("unknown parameter \"{}\" of {}, known are: {}", name,
+                                             effect.name, names_of(effect.fields))});
     } else if (!(value >= field->lowest && value <= field->highest)) {
-      faults.push_back({pointer, fmt::format("{} = {:g}, must be in [{:g}, {:g}]", name, value, field->lowest, field->highest)});
+      faults.push_back({pointer, fmt::format("{} = {:g}, must be in [{:g}, {:g}]", name, value, field->lowest,
+                                             field->highest)});
     }
   }
 }
@@ -61,7 +65,9 @@ void for_each_on(std::span<const EffectSetting> settings, const Act& act) {
 
 }  // namespace
 
-std::span<const Effect> effect_catalogue() { return rows(); }
+std::span<const Effect> effect_catalogue() {
+  return rows();
+}
 
 std::vector<Fault> faults_of(std::span<const EffectSetting> settings) {
   std::vector<Fault> faults;
@@ -69,11 +75,13 @@ std::vector<Fault> faults_of(std::span<const EffectSetting> settings) {
     const EffectSetting& setting = settings[i];
     const auto same = [&](const EffectSetting& other) { return other.name == setting.name; };
     if (std::any_of(settings.begin(), settings.begin() + static_cast<std::ptrdiff_t>(i), same))
-      faults.push_back({fmt::format("/{}/name", i), fmt::format("effect \"{}\" is switched on twice", setting.name)});
+      faults.push_back(
+          {fmt::format("/{}/name", i), fmt::format("effect \"{}\" is switched on twice", setting.name)});
     if (const Effect* effect = find(setting.name)) {
       check_parameters(*effect, setting, i, faults);
     } else {
-      faults.push_back({fmt::format("/{}/name", i), fmt::format("unknown effect \"{}\", known are: {}", setting.name, names_of(rows()))});
+      faults.push_back({fmt::format("/{}/name", i),
+                        fmt::format("unknown effect \"{}\", known are: {}", setting.name, names_of(rows()))});
     }
   }
   return faults;

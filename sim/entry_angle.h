@@ -9,12 +9,13 @@ namespace slipway::sim {
 //
 //   z0 = (3 W / ((3 - n) b (k_c / b + k_phi) sqrt(D)))^(2 / (2 n + 1))
 //
-// Valid for n < 3 and small sinkage; it carries less than the load when the depth is a good part of the radius.
+// Valid for n < 3 and small sinkage; it carries less than the load when the depth is a good part of the
+// radius.
 double bekker_sinkage_m(const WheelGeometry& wheel, const Soil& soil, double load_n);
 
-// The entry angle at which the soil carries the load [ARTEMIS eq. 20]: W(theta_f) = load. Newton kept inside a bracket.
-// Errors: not_converged where even kLargestEntryAngleRad does not carry the load (sunk to the axle); the detail says
-// how much it carries. load_n > 0.
+// The entry angle at which the soil carries the load [ARTEMIS eq. 20]: W(theta_f) = load. Newton kept inside
+// a bracket. Errors: not_converged where even kLargestEntryAngleRad does not carry the load (sunk to the
+// axle); the detail says how much it carries. load_n > 0.
 Result<double> balanced_entry_angle_rad(const WheelGeometry& wheel, const Soil& soil, double load_n,
                                         const WheelMotion& motion);
 

@@ -10,8 +10,8 @@ namespace slipway::sim {
 //
 //   j      shear displacement, m, >= 0        K   shear modulus, m
 //
-// Valid for loose sand and disturbed soil, whose shear stress has no hump. Properties: 0 at j = 0, slope 1 / K there,
-// below 1.
+// Valid for loose sand and disturbed soil, whose shear stress has no hump. Properties: 0 at j = 0, slope 1 /
+// K there, below 1.
 inline ArcValues janosi_hanamoto_mobilised(const ArcValues& displacement_m, double shear_modulus_m) {
   return 1.0 - (displacement_m * (-1.0 / shear_modulus_m)).exp();
 }

@@ -4,7 +4,8 @@
 
 namespace slipway::sim {
 
-// A drive motor behind its gear, steady: no inductance, Kirchhoff's law [ROAMS section 2.4; drive-campaign format].
+// A drive motor behind its gear, steady: no inductance, Kirchhoff's law [ROAMS section 2.4; drive-campaign
+// format].
 //
 //   I = T / (k_t N eta) + I_0 sign(rate)          current, A
 //   V = R I + k_t N rate                          terminal voltage, V (R = 0 where the model gives none)

@@ -17,16 +17,16 @@ using Vector = RoverBalance::Vector;
 using Matrix = RoverBalance::Matrix;
 constexpr int kMotions = RoverBalance::kMotions;
 
-constexpr double kTolerance = 1e-9;        // of the weight, and of the weight times half the wheelbase
+constexpr double kTolerance = 1e-9;  // of the weight, and of the weight times half the wheelbase
 constexpr double kLeastEntryAngleRad = 1e-3;
 constexpr double kSpinningSpeedRatio = 0.02;  // at 98 % slip a drive counts as immobilised
 constexpr double kFastestSpeedRatio = 3.0;    // and at 200 % of the wheels' speed it slides away downhill
 
 // The motion that the driver asks for, and the equation that fixes it.
 struct Primary {
-  int motion = 0;    // 0 forward, 2 yaw
-  int equation = 0;  // 0 force along x, 5 moment about z
-  double sign = 1.0; // of the commanded motion
+  int motion = 0;     // 0 forward, 2 yaw
+  int equation = 0;   // 0 force along x, 5 moment about z
+  double sign = 1.0;  // of the commanded motion
 };
 
 Primary primary_of(const DriveCommand& command) {
@@ -47,11 +47,12 @@ Vector limited_step(const Vector& x, const Vector& full) {
 }
 
 void keep_in_range(Vector& x) {
-  for (int k = kMotions; k < x.size(); ++k) x[k] = std::clamp(x[k], kLeastEntryAngleRad, kLargestEntryAngleRad);
+  for (int k = kMotions; k < x.size(); ++k)
+    x[k] = std::clamp(x[k], kLeastEntryAngleRad, kLargestEntryAngleRad);
 }
 
-// Newton with Broyden's updates between fresh Jacobians [Broyden 1965]: near the answer an update costs six wheel
-// evaluations where a Jacobian costs twenty-four.
+// Newton with Broyden's updates between fresh Jacobians [Broyden 1965]: near the answer an update costs six
+// wheel evaluations where a Jacobian costs twenty-four.
 class NewtonSearch {
  public:
   // With `held`, its motion keeps its value and its equation is left out.
@@ -73,7 +74,12 @@ class NewtonSearch {
       if (next_r.norm() > 0.5 * r.norm()) {
         have_inverse_ = false;
         if (!fresh) {  // a stale direction: look again from here, or from there where that is better
-          if (next_r.norm() < r.norm()) { x = next; r = next_r; } else { balance_.residual(x); }
+          if (next_r.norm() < r.norm()) {
+            x = next;
+            r = next_r;
+          } else {
+            balance_.residual(x);
+          }
           continue;
         }
         backtrack(x, step, r.norm(), next, next_r);
@@ -133,9 +139,10 @@ bool newton(RoverBalance& balance, Vector& x, const Primary* held, int most_iter
   return NewtonSearch(balance, held).solve(x, most_iterations);
 }
 
-// Entry angles for resting loads by Bekker's closed form; the primary motion at a share of what was commanded.
-Vector cold_start(const RoverModel& rover, const std::array<Soil, kWheels>& soils, const RoverBalance& balance,
-                  const Primary& primary, double share) {
+// Entry angles for resting loads by Bekker's closed form; the primary motion at a share of what was
+// commanded.
+Vector cold_start(const RoverModel& rover, const std::array<Soil, kWheels>& soils,
+                  const RoverBalance& balance, const Primary& primary, double share) {
   Vector x = Vector::Zero();
   x[primary.motion] = primary.sign * share;
   const auto loads = balance.resting_loads_n();
@@ -163,8 +170,9 @@ Attempt reason_of(const Vector& x) {
   return {Outcome::kNotConverged, -1};
 }
 
-// The slow and certain way: the net push along the commanded motion falls as the rover goes faster, so its zero is
-// bracketed. No push left at full spin: no traction. Still pushed at three times the wheels' speed: it slides away.
+// The slow and certain way: the net push along the commanded motion falls as the rover goes faster, so its
+// zero is bracketed. No push left at full spin: no traction. Still pushed at three times the wheels' speed:
+// it slides away.
 Attempt bracketed(const RoverModel& rover, const std::array<Soil, kWheels>& soils, RoverBalance& balance,
                   const Primary& primary, Vector& x) {
   const auto push_at = [&](double ratio, Vector& state) -> std::optional<double> {
@@ -222,8 +230,8 @@ WheelState wheel_state(const RoverModel& rover, const RoverBalance& balance, con
           .current_a = motor_state(rover.drive, torque, balance.command(k).rate_rad_s).current_a};
 }
 
-StationState state_of(const RoverModel& rover, RoverBalance& balance, const Vector& x, const DriveCommand& command,
-                      const Primary& primary, const Attempt& attempt) {
+StationState state_of(const RoverModel& rover, RoverBalance& balance, const Vector& x,
+                      const DriveCommand& command, const Primary& primary, const Attempt& attempt) {
   StationState state;
   state.outcome = attempt.outcome;
   state.wheel = attempt.wheel;
@@ -232,13 +240,17 @@ StationState state_of(const RoverModel& rover, RoverBalance& balance, const Vect
   state.forward_m_s = x[0] * v;
   state.leftward_m_s = x[1] * v;
   state.yaw_rate_rad_s = x[2] * v / balance.half_wheelbase_m();
-  const double told = attainable_share(rover, command) * (command.turn_in_place ? command.turn_rate_rad_s : command.speed_m_s);
+  const double told = attainable_share(rover, command) *
+                      (command.turn_in_place ? command.turn_rate_rad_s : command.speed_m_s);
   const double done = primary.motion == 2 ? state.yaw_rate_rad_s : state.forward_m_s;
-  state.slip_ratio = attempt.outcome == Outcome::kNoTraction ? 1.0 : bounded_slip(slip_from_speed_ratio(done / told));
-  state.side_slip_rad = command.turn_in_place ? 0.0 : std::atan2(state.leftward_m_s, std::abs(state.forward_m_s));
+  state.slip_ratio =
+      attempt.outcome == Outcome::kNoTraction ? 1.0 : bounded_slip(slip_from_speed_ratio(done / told));
+  state.side_slip_rad =
+      command.turn_in_place ? 0.0 : std::atan2(state.leftward_m_s, std::abs(state.forward_m_s));
   for (int k = 0; k < kWheels; ++k) {
     state.wheels[k] = wheel_state(rover, balance, x, k);
-    const MotorState motor = motor_state(rover.drive, state.wheels[k].torque_nm, balance.command(k).rate_rad_s);
+    const MotorState motor =
+        motor_state(rover.drive, state.wheels[k].torque_nm, balance.command(k).rate_rad_s);
     state.electric_power_w += motor.electric_power_w;
     if (state.moving() && stalls(rover.drive, motor)) {
       state.outcome = Outcome::kStalled;
@@ -252,12 +264,18 @@ StationState state_of(const RoverModel& rover, RoverBalance& balance, const Vect
 
 std::string_view describe(Outcome outcome) {
   switch (outcome) {
-    case Outcome::kMoving: return "moving";
-    case Outcome::kNoTraction: return "no traction";
-    case Outcome::kWheelLifted: return "wheel lifted";
-    case Outcome::kSunkToAxle: return "sunk to the axle";
-    case Outcome::kStalled: return "motor stalled";
-    case Outcome::kNotConverged: return "not converged";
+    case Outcome::kMoving:
+      return "moving";
+    case Outcome::kNoTraction:
+      return "no traction";
+    case Outcome::kWheelLifted:
+      return "wheel lifted";
+    case Outcome::kSunkToAxle:
+      return "sunk to the axle";
+    case Outcome::kStalled:
+      return "motor stalled";
+    case Outcome::kNotConverged:
+      return "not converged";
   }
   return "unknown outcome";
 }

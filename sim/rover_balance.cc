@@ -7,7 +7,8 @@
 namespace slipway::sim {
 namespace {
 
-// A wheel told to stand still still slips against the ground: as a wheel turning this slowly against the fastest one.
+// A wheel told to stand still still slips against the ground: as a wheel turning this slowly against the
+// fastest one.
 constexpr double kSlowestRateRatio = 1e-3;
 
 double half_wheelbase(const RoverModel& rover) {
@@ -36,12 +37,13 @@ RoverBalance::RoverBalance(const RoverModel& rover, double gravity_m_s2, const S
       weight_(rover.mass_kg * gravity_m_s2),
       length_(half_wheelbase(rover)) {
   double fastest = 0.0;
-  for (int k = 0; k < kWheels; ++k) fastest = std::max(fastest, std::abs(told_[k].rate_rad_s) * rover.wheels[k].radius_m);
+  for (int k = 0; k < kWheels; ++k)
+    fastest = std::max(fastest, std::abs(told_[k].rate_rad_s) * rover.wheels[k].radius_m);
   speed_scale_ = fastest;
   for (int k = 0; k < kWheels; ++k) place_wheel(k);
   const Eigen::Vector3d g = -stance_.R_MB.row(2).transpose();  // per unit of weight, frame B
-  // The body hangs on both rocker pivots through the differential, which passes equal moments to both sides: gravity
-  // has no entry in the equations of bogies and differential.
+  // The body hangs on both rocker pivots through the differential, which passes equal moments to both sides:
+  // gravity has no entry in the equations of bogies and differential.
   gravity_.setZero();
   gravity_.head<3>() = g;
   gravity_.segment<3>(3) = rover_.com_m.cross(g) / length_;
@@ -63,9 +65,10 @@ void RoverBalance::place_wheel(int k) {
   if (!left) rocker.y() = -rocker.y();
   const Eigen::Vector3d& bogie = left ? stance_.p_B_left_bogie : stance_.p_B_right_bogie;
 
-  // Columns: drawbar pull, lateral, vertical, torque. A wheel that turns backwards pulls and is driven backwards.
-  const std::array<Wrench, 4> unit{Wrench{.force = direction * x}, Wrench{.force = y}, Wrench{.force = normal},
-                                   Wrench{.moment = -direction * y}};
+  // Columns: drawbar pull, lateral, vertical, torque. A wheel that turns backwards pulls and is driven
+  // backwards.
+  const std::array<Wrench, 4> unit{Wrench{.force = direction * x}, Wrench{.force = y},
+                                   Wrench{.force = normal}, Wrench{.moment = -direction * y}};
   WheelPlace& place = places_[k];
   for (int column = 0; column < 4; ++column) {
     const Wrench& w = unit[column];
@@ -80,7 +83,8 @@ void RoverBalance::place_wheel(int k) {
   place.effect /= weight_;
 
   // On sloping ground under one wheel the rim travels along its tangent while the body keeps its own speed.
-  const double rim_speed = std::max(std::abs(told_[k].rate_rad_s) * wheel.radius_m, kSlowestRateRatio * speed_scale_);
+  const double rim_speed =
+      std::max(std::abs(told_[k].rate_rad_s) * wheel.radius_m, kSlowestRateRatio * speed_scale_);
   const double along = direction * speed_scale_ / (rim_speed * std::max(0.2, x.dot(heading)));
   const double across = speed_scale_ / (rim_speed * std::max(0.2, y.dot(axle)));
   const Eigen::Vector3d turning = Eigen::Vector3d::UnitZ().cross(p) / length_;
@@ -97,7 +101,8 @@ RoverBalance::Vector RoverBalance::residual(const Vector& unknowns) {
   Vector sum = gravity_;
   for (int k = 0; k < kWheels; ++k) {
     const WheelGeometry wheel{rover_.wheels[k].radius_m, rover_.wheels[k].width_m};
-    const WheelForces& f = forces_[k] = wheel_forces(wheel, soils_[k], unknowns[kMotions + k], motion_of(k, unknowns));
+    const WheelForces& f = forces_[k] =
+        wheel_forces(wheel, soils_[k], unknowns[kMotions + k], motion_of(k, unknowns));
     sum += places_[k].effect * Eigen::Vector4d(f.drawbar_pull_n, f.lateral_n, f.vertical_n, f.torque_nm);
   }
   return sum;
@@ -112,7 +117,8 @@ RoverBalance::Matrix RoverBalance::jacobian(const Vector& unknowns) const {
     const double theta = unknowns[kMotions + k];
     const auto slope = [&](double angle, const WheelMotion& moved) -> Vector {
       const WheelForces d = wheel_forces(wheel, soils_[k], angle, moved) - forces_[k];
-      return places_[k].effect * (Eigen::Vector4d(d.drawbar_pull_n, d.lateral_n, d.vertical_n, d.torque_nm) / kStep);
+      return places_[k].effect *
+             (Eigen::Vector4d(d.drawbar_pull_n, d.lateral_n, d.vertical_n, d.torque_nm) / kStep);
     };
     jacobian.col(kMotions + k) = slope(theta + kStep, motion);
     jacobian.leftCols<kMotions>() +=

@@ -18,9 +18,10 @@ namespace slipway::sim {
 //   6, 7   bogies       y . sum_bogie ((p_k - p_bogie) x F_k + M_k) = 0   left, right
 //   8      differential y . (left side's moment about its rocker pivot - the right side's) = 0
 //
-// F_k is the soil's force at wheel k's centre, M_k = -T_k about its axle, and the suspension has no mass of its own.
-// Forces are divided by the weight, moments by weight and half the wheelbase. The nine unknowns: forward and leftward
-// speed of B over `speed_scale`, yaw rate times half the wheelbase over the same, and the six entry angles.
+// F_k is the soil's force at wheel k's centre, M_k = -T_k about its axle, and the suspension has no mass of
+// its own. Forces are divided by the weight, moments by weight and half the wheelbase. The nine unknowns:
+// forward and leftward speed of B over `speed_scale`, yaw rate times half the wheelbase over the same, and
+// the six entry angles.
 class RoverBalance {
  public:
   static constexpr int kEquations = 9;
@@ -29,11 +30,12 @@ class RoverBalance {
   using Matrix = Eigen::Matrix<double, kEquations, kEquations>;
 
   // The arguments must outlive the balance.
-  RoverBalance(const RoverModel& rover, double gravity_m_s2, const Stance& stance, const std::array<Soil, kWheels>& soils,
-               const DriveCommand& command);
+  RoverBalance(const RoverModel& rover, double gravity_m_s2, const Stance& stance,
+               const std::array<Soil, kWheels>& soils, const DriveCommand& command);
 
   Vector residual(const Vector& unknowns);
-  // At the unknowns of the last residual, by one-sided differences of each wheel's four forces over its three arguments.
+  // At the unknowns of the last residual, by one-sided differences of each wheel's four forces over its three
+  // arguments.
   Matrix jacobian(const Vector& unknowns) const;
 
   WheelMotion motion_of(int wheel, const Vector& unknowns) const;
@@ -48,7 +50,7 @@ class RoverBalance {
 
  private:
   struct WheelPlace {
-    Eigen::Matrix<double, kEquations, 4> effect;      // of (pull, lateral, vertical, torque) on the equations
+    Eigen::Matrix<double, kEquations, 4> effect;  // of (pull, lateral, vertical, torque) on the equations
     Eigen::RowVector3d forward_ratio, leftward_ratio;  // of the three motions on u and v_y / (r |w|)
   };
 

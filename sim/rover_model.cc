@@ -17,9 +17,12 @@ class FaultList {
  public:
   void require_in(std::string pointer, std::string_view key, double value, double lowest, double highest) {
     if (value >= lowest && value <= highest) return;
-    faults_.push_back({std::move(pointer), fmt::format("{} = {:g}, must be in [{:g}, {:g}]", key, value, lowest, highest)});
+    faults_.push_back(
+        {std::move(pointer), fmt::format("{} = {:g}, must be in [{:g}, {:g}]", key, value, lowest, highest)});
   }
-  void add(std::string pointer, std::string message) { faults_.push_back({std::move(pointer), std::move(message)}); }
+  void add(std::string pointer, std::string message) {
+    faults_.push_back({std::move(pointer), std::move(message)});
+  }
   std::vector<Fault> take() { return std::move(faults_); }
 
  private:
@@ -36,7 +39,8 @@ void check_wheels(const RoverModel& rover, FaultList& faults) {
     const WheelModel& wheel = rover.wheels[k];
     const std::string at = fmt::format("/wheels/{}", k);
     if (wheel.name != kNames[k])
-      faults.add(at + "/name", fmt::format("name = \"{}\", must be \"{}\" in this place", wheel.name, kNames[k]));
+      faults.add(at + "/name",
+                 fmt::format("name = \"{}\", must be \"{}\" in this place", wheel.name, kNames[k]));
     faults.require_in(at + "/radius_m", "radius_m", wheel.radius_m, 0.02, 1.0);
     faults.require_in(at + "/width_m", "width_m", wheel.width_m, 0.01, 1.0);
     const bool left = wheel.side == Side::kLeft;
@@ -45,7 +49,9 @@ void check_wheels(const RoverModel& rover, FaultList& faults) {
     on_bogie[left ? 0 : 1] += wheel.on_bogie ? 1 : 0;
   }
   for (const int count : on_bogie)
-    if (count != 2) faults.add("/suspension/bogie_wheels", fmt::format("a side's bogie carries {} wheels, must be 2", count));
+    if (count != 2)
+      faults.add("/suspension/bogie_wheels",
+                 fmt::format("a side's bogie carries {} wheels, must be 2", count));
 }
 
 void check_mass(const RoverModel& rover, FaultList& faults) {
@@ -63,14 +69,18 @@ void check_mass(const RoverModel& rover, FaultList& faults) {
 
 void check_drive(const RoverModel& rover, FaultList& faults) {
   const DriveMotor& drive = rover.drive;
-  faults.require_in("/drive/torque_constant_nm_per_a", "torque_constant_nm_per_a", drive.torque_constant_nm_per_a, 1e-4, 10.0);
+  faults.require_in("/drive/torque_constant_nm_per_a", "torque_constant_nm_per_a",
+                    drive.torque_constant_nm_per_a, 1e-4, 10.0);
   faults.require_in("/drive/gear_ratio", "gear_ratio", drive.gear_ratio, 1.0, 1e5);
   faults.require_in("/drive/gear_efficiency", "gear_efficiency", drive.gear_efficiency, 0.05, 1.0);
   faults.require_in("/drive/no_load_current_a", "no_load_current_a", drive.no_load_current_a, 0.0, 10.0);
-  faults.require_in("/drive/max_wheel_rate_deg_s", "max_wheel_rate_rad_s", drive.max_wheel_rate_rad_s, 1e-3, 100.0);
+  faults.require_in("/drive/max_wheel_rate_deg_s", "max_wheel_rate_rad_s", drive.max_wheel_rate_rad_s, 1e-3,
+                    100.0);
   faults.require_in("/drive/bus_voltage_v", "bus_voltage_v", drive.bus_voltage_v, 1.0, 400.0);
-  if (drive.resistance_ohm) faults.require_in("/drive/resistance_ohm", "resistance_ohm", *drive.resistance_ohm, 1e-3, 1e3);
-  if (drive.max_current_a) faults.require_in("/drive/max_current_a", "max_current_a", *drive.max_current_a, 1e-3, 1e3);
+  if (drive.resistance_ohm)
+    faults.require_in("/drive/resistance_ohm", "resistance_ohm", *drive.resistance_ohm, 1e-3, 1e3);
+  if (drive.max_current_a)
+    faults.require_in("/drive/max_current_a", "max_current_a", *drive.max_current_a, 1e-3, 1e3);
 }
 
 }  // namespace

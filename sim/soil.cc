@@ -6,8 +6,8 @@
 namespace slipway::sim {
 namespace {
 
-// A log-normal with the given mean and standard deviation: its logarithm is normal with standard deviation s and mean
-// ln(mean) - s^2 / 2, where s^2 = ln(1 + (std / mean)^2).
+// A log-normal with the given mean and standard deviation: its logarithm is normal with standard deviation s
+// and mean ln(mean) - s^2 / 2, where s^2 = ln(1 + (std / mean)^2).
 double log_normal(double mean, double std, double standard_normal) {
   if (mean <= 0.0 || std <= 0.0) return mean;
   const double ratio = std / mean;

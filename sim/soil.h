@@ -30,8 +30,8 @@ struct Soil {
   double n1 = 0.0;  // slip sinkage, n = n0 + n1 |i| [ARTEMIS eq. 22]; 0 unless the effect is on
 };
 
-// One standard deviation of what is uncertain, in the same units as the mean. Stiffness and shear modulus are ratios
-// to the mean: both Bekker moduli scale together.
+// One standard deviation of what is uncertain, in the same units as the mean. Stiffness and shear modulus are
+// ratios to the mean: both Bekker moduli scale together.
 struct SoilStd {
   double stiffness_ratio = 0.0;
   double n = 0.0;
@@ -44,13 +44,13 @@ constexpr int kSoilDims = 5;  // stiffness, n, cohesion, tan(friction angle), sh
 using SoilNormals = Eigen::Matrix<double, kSoilDims, 1>;
 using SoilCorrelation = Eigen::Matrix<double, kSoilDims, kSoilDims>;
 
-// What is believed of a soil: a mean, its spread and how far along the ground one draw holds. The five uncertain
-// quantities are log-normal with these means and standard deviations (so every draw is a soil), and their logarithms
-// have the given correlation.
+// What is believed of a soil: a mean, its spread and how far along the ground one draw holds. The five
+// uncertain quantities are log-normal with these means and standard deviations (so every draw is a soil), and
+// their logarithms have the given correlation.
 struct SoilDistribution {
-  std::string name;     // "mpf_drift"
-  std::string summary;  // one line for people
-  std::string source;   // "Zhurong paper, Table 3 [45]"
+  std::string name;                  // "mpf_drift"
+  std::string summary;               // one line for people
+  std::string source;                // "Zhurong paper, Table 3 [45]"
   std::vector<std::string> assumed;  // names of parameters that the source does not give
   Soil mean;
   SoilStd std;
@@ -58,8 +58,8 @@ struct SoilDistribution {
   double correlation_length_m = 5.0;
 };
 
-// Turns standard normal numbers into one soil of the distribution. `normals` are independent; the correlation is
-// applied here. A zero standard deviation leaves the mean exactly.
+// Turns standard normal numbers into one soil of the distribution. `normals` are independent; the correlation
+// is applied here. A zero standard deviation leaves the mean exactly.
 Soil draw_soil(const SoilDistribution& distribution, const SoilNormals& normals);
 
 }  // namespace slipway::sim

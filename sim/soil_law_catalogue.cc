@@ -9,7 +9,8 @@ namespace slipway::sim {
 namespace {
 
 constexpr std::array kPressureSinkage{
-    PressureSinkageLaw{"bekker", "p = (k_c / b + k_phi) z^n", "[Bekker 1956]; ARTEMIS eq. 1", &bekker_pressure_pa},
+    PressureSinkageLaw{"bekker", "p = (k_c / b + k_phi) z^n", "[Bekker 1956]; ARTEMIS eq. 1",
+                       &bekker_pressure_pa},
 };
 
 constexpr std::array kShear{
@@ -19,7 +20,11 @@ constexpr std::array kShear{
 
 }  // namespace
 
-std::span<const PressureSinkageLaw> pressure_sinkage_catalogue() { return kPressureSinkage; }
-std::span<const ShearLaw> shear_catalogue() { return kShear; }
+std::span<const PressureSinkageLaw> pressure_sinkage_catalogue() {
+  return kPressureSinkage;
+}
+std::span<const ShearLaw> shear_catalogue() {
+  return kShear;
+}
 
 }  // namespace slipway::sim

@@ -16,7 +16,9 @@ constexpr double kAcceptedGap_m = 5e-3;  // where the ground's kinks keep Newton
 constexpr int kMostIterations = 25;
 constexpr double kLinkageReach_rad = 0.8;  // rockers and bogies turn no further than this
 
-Eigen::Vector3d mirrored(const Eigen::Vector3d& p) { return {p.x(), -p.y(), p.z()}; }
+Eigen::Vector3d mirrored(const Eigen::Vector3d& p) {
+  return {p.x(), -p.y(), p.z()};
+}
 
 // Wheel centres and bogie pivots in B for given suspension angles.
 void place_wheels(const RoverModel& rover, Stance& stance) {
@@ -26,25 +28,29 @@ void place_wheels(const RoverModel& rover, Stance& stance) {
     const bool left = side == Side::kLeft;
     const Eigen::Vector3d rocker = left ? rocker_left : mirrored(rocker_left);
     const Eigen::Vector3d bogie = left ? bogie_left : mirrored(bogie_left);
-    const Eigen::AngleAxisd turn_rocker(left ? stance.rocker_rad : -stance.rocker_rad, Eigen::Vector3d::UnitY());
+    const Eigen::AngleAxisd turn_rocker(left ? stance.rocker_rad : -stance.rocker_rad,
+                                        Eigen::Vector3d::UnitY());
     const Eigen::AngleAxisd turn_bogie(stance.bogie_rad[left ? 0 : 1], Eigen::Vector3d::UnitY());
     const Eigen::Vector3d pivot = rocker + turn_rocker * (bogie - rocker);
     (left ? stance.p_B_left_bogie : stance.p_B_right_bogie) = pivot;
     for (int k = 0; k < kWheels; ++k) {
       const WheelModel& wheel = rover.wheels[k];
       if (wheel.side != side) continue;
-      stance.p_B_wheel[k] = wheel.on_bogie ? Eigen::Vector3d(pivot + turn_rocker * (turn_bogie * (wheel.position_m - bogie)))
-                                           : Eigen::Vector3d(rocker + turn_rocker * (wheel.position_m - rocker));
+      stance.p_B_wheel[k] =
+          wheel.on_bogie ? Eigen::Vector3d(pivot + turn_rocker * (turn_bogie * (wheel.position_m - bogie)))
+                         : Eigen::Vector3d(rocker + turn_rocker * (wheel.position_m - rocker));
     }
   }
 }
 
-// One Newton equation a wheel: the gap along the ground's normal between rim and ground, and its gradient with respect
-// to (z, roll, pitch, rocker, left bogie, right bogie).
-bool linearise(const RoverModel& rover, const Ground& ground, Stance& stance, Vector6& gap, Matrix6& jacobian) {
+// One Newton equation a wheel: the gap along the ground's normal between rim and ground, and its gradient
+// with respect to (z, roll, pitch, rocker, left bogie, right bogie).
+bool linearise(const RoverModel& rover, const Ground& ground, Stance& stance, Vector6& gap,
+               Matrix6& jacobian) {
   const Eigen::Matrix3d& R = stance.R_MB;
   const Eigen::Vector3d roll_axis = R.col(0);
-  const Eigen::Vector3d pitch_axis(-std::sin(stance.attitude.yaw_rad), std::cos(stance.attitude.yaw_rad), 0.0);
+  const Eigen::Vector3d pitch_axis(-std::sin(stance.attitude.yaw_rad), std::cos(stance.attitude.yaw_rad),
+                                   0.0);
   const Eigen::Vector3d pivot_axis = R.col(1);
   for (int k = 0; k < kWheels; ++k) {
     const WheelModel& wheel = rover.wheels[k];
@@ -55,14 +61,16 @@ bool linearise(const RoverModel& rover, const Ground& ground, Stance& stance, Ve
     if (!point) return false;
     stance.normal_B[k] = R.transpose() * point->normal;
     gap[k] = (p_M.z() - point->height_m) * point->normal.z() - wheel.radius_m;
-    const Eigen::Vector3d rocker = left ? rover.suspension.rocker_pivot_m : mirrored(rover.suspension.rocker_pivot_m);
+    const Eigen::Vector3d rocker =
+        left ? rover.suspension.rocker_pivot_m : mirrored(rover.suspension.rocker_pivot_m);
     const Eigen::Vector3d bogie = left ? stance.p_B_left_bogie : stance.p_B_right_bogie;
     const Eigen::Vector3d& n = point->normal;
     jacobian(k, 0) = n.z();
     jacobian(k, 1) = n.dot(roll_axis.cross(arm));
     jacobian(k, 2) = n.dot(pitch_axis.cross(arm));
     jacobian(k, 3) = (left ? 1.0 : -1.0) * n.dot(pivot_axis.cross(R * (stance.p_B_wheel[k] - rocker)));
-    const double bogie_rate = wheel.on_bogie ? n.dot(pivot_axis.cross(R * (stance.p_B_wheel[k] - bogie))) : 0.0;
+    const double bogie_rate =
+        wheel.on_bogie ? n.dot(pivot_axis.cross(R * (stance.p_B_wheel[k] - bogie))) : 0.0;
     jacobian(k, 4) = left ? bogie_rate : 0.0;
     jacobian(k, 5) = left ? 0.0 : bogie_rate;
   }
@@ -86,7 +94,8 @@ double belly_clearance_m(const RoverModel& rover, const Ground& ground, const St
   const double half_width = 0.5 * (rover.track_m() - rover.wheels.front().width_m);
   for (int i = -2; i <= 2; ++i) {
     for (int j = -2; j <= 2; ++j) {
-      const Eigen::Vector3d p_B(0.25 * i * rover.body_length_m, 0.5 * j * half_width, rover.belly_clearance_m);
+      const Eigen::Vector3d p_B(0.25 * i * rover.body_length_m, 0.5 * j * half_width,
+                                rover.belly_clearance_m);
       const Eigen::Vector3d p_M = stance.p_MB + stance.R_MB * p_B;
       if (const auto point = ground.at(p_M.x(), p_M.y())) least = std::min(least, p_M.z() - point->height_m);
     }
@@ -114,14 +123,16 @@ std::optional<Stance> settle(const RoverModel& rover, const Ground& ground, cons
     if (gap.cwiseAbs().maxCoeff() < kGapTolerance_m) break;
     Vector6 change = jacobian.partialPivLu().solve(-gap);
     if (!change.allFinite()) return std::nullopt;
-    // Past the first steps only the kinks between cells are left: halving the step ends the jumping across them.
+    // Past the first steps only the kinks between cells are left: halving the step ends the jumping across
+    // them.
     if (iteration > 7) change *= 0.5;
     const double largest = change.tail<5>().cwiseAbs().maxCoeff();
     if (largest > 0.3) change *= 0.3 / largest;
     step(rover, stance, change);
   }
   if (!linearise(rover, ground, stance, gap, jacobian)) return std::nullopt;
-  const double linkage = std::max({std::abs(stance.rocker_rad), std::abs(stance.bogie_rad[0]), std::abs(stance.bogie_rad[1])});
+  const double linkage =
+      std::max({std::abs(stance.rocker_rad), std::abs(stance.bogie_rad[0]), std::abs(stance.bogie_rad[1])});
   if (gap.cwiseAbs().maxCoeff() > kAcceptedGap_m || linkage > kLinkageReach_rad) return std::nullopt;
   stance.belly_clearance_m = belly_clearance_m(rover, ground, stance);
   return stance;

@@ -17,16 +17,17 @@ struct Stance {
   Eigen::Vector3d p_MB = Eigen::Vector3d::Zero();
   Attitude attitude;
   Eigen::Matrix3d R_MB = Eigen::Matrix3d::Identity();
-  double rocker_rad = 0.0;                      // left rocker; the right one is its negative
-  std::array<double, 2> bogie_rad{};            // left, right, relative to their rockers
-  Eigen::Vector3d p_B_left_bogie, p_B_right_bogie;              // bogie pivots in B
-  std::array<Eigen::Vector3d, kWheels> p_B_wheel;               // wheel centres in B
-  std::array<Eigen::Vector3d, kWheels> normal_B;                // ground normal under each wheel, in B
-  double belly_clearance_m = 0.0;               // least height of the belly plane over the ground under the body
+  double rocker_rad = 0.0;                          // left rocker; the right one is its negative
+  std::array<double, 2> bogie_rad{};                // left, right, relative to their rockers
+  Eigen::Vector3d p_B_left_bogie, p_B_right_bogie;  // bogie pivots in B
+  std::array<Eigen::Vector3d, kWheels> p_B_wheel;   // wheel centres in B
+  std::array<Eigen::Vector3d, kWheels> normal_B;    // ground normal under each wheel, in B
+  double belly_clearance_m = 0.0;  // least height of the belly plane over the ground under the body
 };
 
-// Sets the rover down at a pose: six wheels touch, six unknowns (height, roll, pitch, rocker, two bogies). Nothing
-// where a wheel has no ground under it, or where the suspension finds no stance within its linkage's reach.
+// Sets the rover down at a pose: six wheels touch, six unknowns (height, roll, pitch, rocker, two bogies).
+// Nothing where a wheel has no ground under it, or where the suspension finds no stance within its linkage's
+// reach.
 std::optional<Stance> settle(const RoverModel& rover, const Ground& ground, const Pose2& pose);
 
 // The stance on an inclined plane in closed form: what settle() finds there.

@@ -16,10 +16,10 @@ struct ArcQuadrature {
 };
 
 ArcQuadrature make_quadrature() {
-  constexpr double x[4] = {0.1834346424956498049394761, 0.5255324099163289858177390, 0.7966664774136267395915539,
-                           0.9602898564975362316835609};
-  constexpr double w[4] = {0.3626837833783619829651504, 0.3137066458778872873379622, 0.2223810344533744705443560,
-                           0.1012285362903762591525314};
+  constexpr double x[4] = {0.1834346424956498049394761, 0.5255324099163289858177390,
+                           0.7966664774136267395915539, 0.9602898564975362316835609};
+  constexpr double w[4] = {0.3626837833783619829651504, 0.3137066458778872873379622,
+                           0.2223810344533744705443560, 0.1012285362903762591525314};
   ArcQuadrature q;
   for (int k = 0; k < 4; ++k) {
     for (const int sign : {-1, 1}) {
@@ -44,9 +44,11 @@ struct ArcSums {
   double tau_cos = 0.0, tau_sin = 0.0, tau = 0.0, tau_lateral = 0.0, sigma_cos = 0.0, sigma_sin = 0.0;
 };
 
-// One of the two arcs: angles and their cosines, the normal stress at them, and the weights times the arc's length.
-ArcSums integrate(const ArcValues& theta, const ArcValues& cosine, const ArcValues& sigma, const ArcValues& weight, const WheelGeometry& wheel,
-                  const Soil& soil, double theta_f, double sin_f, const WheelMotion& motion) {
+// One of the two arcs: angles and their cosines, the normal stress at them, and the weights times the arc's
+// length.
+ArcSums integrate(const ArcValues& theta, const ArcValues& cosine, const ArcValues& sigma,
+                  const ArcValues& weight, const WheelGeometry& wheel, const Soil& soil, double theta_f,
+                  double sin_f, const WheelMotion& motion) {
   const ArcValues sine = theta.sin();
   const ArcValues strength = weight * (soil.cohesion_pa + sigma * std::tan(soil.friction_angle_rad));
   const ArcValues to_entry = theta_f - theta;
@@ -68,7 +70,8 @@ ArcSums integrate(const ArcValues& theta, const ArcValues& cosine, const ArcValu
 
 }  // namespace
 
-WheelForces wheel_forces(const WheelGeometry& wheel, const Soil& soil, double entry_angle_rad, const WheelMotion& motion) {
+WheelForces wheel_forces(const WheelGeometry& wheel, const Soil& soil, double entry_angle_rad,
+                         const WheelMotion& motion) {
   const double theta_f = entry_angle_rad;
   const double slip = std::min(1.0, std::abs(slip_from_speed_ratio(motion.forward)));
   const double theta_m = (soil.c1 + soil.c2 * slip) * theta_f;
@@ -83,8 +86,10 @@ WheelForces wheel_forces(const WheelGeometry& wheel, const Soil& soil, double en
   const ArcValues sigma = bekker_pressure_pa(soil.pressure, n, wheel.width_m, depth);
   const ArcValues rear = kQuadrature.node * theta_m;
 
-  const ArcSums f = integrate(front, front_cosine, sigma, kQuadrature.weight * front_length, wheel, soil, theta_f, sin_f, motion);
-  const ArcSums b = integrate(rear, rear.cos(), sigma, kQuadrature.weight * theta_m, wheel, soil, theta_f, sin_f, motion);
+  const ArcSums f = integrate(front, front_cosine, sigma, kQuadrature.weight * front_length, wheel, soil,
+                              theta_f, sin_f, motion);
+  const ArcSums b =
+      integrate(rear, rear.cos(), sigma, kQuadrature.weight * theta_m, wheel, soil, theta_f, sin_f, motion);
 
   const double area = wheel.width_m * wheel.radius_m;
   return {.drawbar_pull_n = area * (f.tau_cos + b.tau_cos - f.sigma_sin - b.sigma_sin),

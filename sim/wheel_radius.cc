@@ -25,7 +25,11 @@ void apply(std::span<const double> values, RoverModel& rover) {
 
 }  // namespace
 
-constexpr Effect kWheelRadius{"wheel_radius", "the wheels' effective radius differs from the file's",
-                              "Zhurong section 2.2: lugs between 145 and 150 mm", kFields, &apply, nullptr};
+constexpr Effect kWheelRadius{"wheel_radius",
+                              "the wheels' effective radius differs from the file's",
+                              "Zhurong section 2.2: lugs between 145 and 150 mm",
+                              kFields,
+                              &apply,
+                              nullptr};
 
 }  // namespace slipway::sim

@@ -4,8 +4,8 @@
 
 namespace slipway::sim {
 
-// Every wheel's effective radius differs from the file's: worn, bent or clogged wheels, or a soft carcass. Axles keep
-// their place in the body; the rover stands higher or lower by the difference.
+// Every wheel's effective radius differs from the file's: worn, bent or clogged wheels, or a soft carcass.
+// Axles keep their place in the body; the rover stands higher or lower by the difference.
 extern const Effect kWheelRadius;
 
 }  // namespace slipway::sim

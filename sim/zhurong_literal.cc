@@ -5,7 +5,8 @@
 
 namespace slipway::sim {
 
-ZhurongLiteral zhurong_literal(const WheelGeometry& wheel, const Soil& soil, double load_n, double slip_ratio) {
+ZhurongLiteral zhurong_literal(const WheelGeometry& wheel, const Soil& soil, double load_n,
+                               double slip_ratio) {
   ZhurongLiteral literal;
   literal.sinkage_m = bekker_sinkage_m(wheel, soil, load_n);
   literal.entry_angle_rad = entry_angle_rad(wheel.radius_m, literal.sinkage_m);

@@ -21,7 +21,11 @@ TEST(ParallelFor, NothingToDoIsDone) {
 }
 
 TEST(ParallelFor, AnExceptionReachesTheCallerAfterAllThreadsEnded) {
-  EXPECT_THROW(parallel_for(100, 3, [](std::size_t i) { if (i == 17) throw std::runtime_error("17"); }), std::runtime_error);
+  EXPECT_THROW(parallel_for(100, 3,
+                            [](std::size_t i) {
+                              if (i == 17) throw std::runtime_error("17");
+                            }),
+               std::runtime_error);
 }
 
 }  // namespace

@@ -55,9 +55,9 @@ TEST(ChunkedBody, ABodyAboveItsBudgetIsRefusedBeforeItIsThere) {
 }
 
 TEST(ChunkedBody, FramingThatTwoReadersCouldReadDifferentlyIsMalformed) {
-  for (const char* bytes : {"5\nhello\r\n", "5\r\nhello0\r\n\r\n", "5 \r\nhello\r\n", " 5\r\nhello\r\n", "+5\r\nhello\r\n",
-                            "-5\r\nhello\r\n", "0x5\r\nhello\r\n", "\r\n", "g\r\n", ";x\r\n", "5\r\nhello\n\n",
-                            "0\r\nA: b\n\r\n"}) {
+  for (const char* bytes : {"5\nhello\r\n", "5\r\nhello0\r\n\r\n", "5 \r\nhello\r\n", " 5\r\nhello\r\n",
+                            "+5\r\nhello\r\n", "-5\r\nhello\r\n", "0x5\r\nhello\r\n", "\r\n", "g\r\n",
+                            ";x\r\n", "5\r\nhello\n\n", "0\r\nA: b\n\r\n"}) {
     EXPECT_EQ(decode(bytes, 100).state, State::kMalformed) << bytes;
   }
 }

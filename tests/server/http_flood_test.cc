@@ -123,6 +123,7 @@ TEST(HttpFlood, IdleKeptConnectionsDelayNobody) {
 TEST(HttpFlood, ClientsThatTakeNothingDelayNobodyAndTheirAnswersAreBounded) {
   HttpOptions options = roomy();
   options.max_buffered_bytes = std::size_t{4} << 20;
+  options.worker_threads = 4;  // each makes one answer of a megabyte at a time, whoever waits for it
   const TestServer s(options);
   Growth growth;
   std::vector<RawClient> deaf;
@@ -146,8 +147,8 @@ TEST(HttpFlood, AChunkedBodyWithoutEndIsCutOff) {
   std::size_t sent = 0;
   while (sent < (std::size_t{256} << 20) && client.send(chunk)) sent += chunk.size();
   EXPECT_LT(sent, std::size_t{64} << 20) << "the server stopped reading long before";
-  expect_calm(fmt::format("256 MiB in chunks, cut off after {} MiB", sent >> 20), worst_healthz_ms(s.port, 20),
-              growth.finish());
+  expect_calm(fmt::format("256 MiB in chunks, cut off after {} MiB", sent >> 20),
+              worst_healthz_ms(s.port, 20), growth.finish());
 }
 
 TEST(HttpFlood, HeadersWithoutEndAreCutOff) {
@@ -159,8 +160,8 @@ TEST(HttpFlood, HeadersWithoutEndAreCutOff) {
   std::size_t sent = 0;
   while (sent < (std::size_t{191} << 20) && client.send(header)) sent += header.size();
   EXPECT_LT(sent, std::size_t{64} << 20);
-  expect_calm(fmt::format("191 MiB of headers, cut off after {} MiB", sent >> 20), worst_healthz_ms(s.port, 20),
-              growth.finish());
+  expect_calm(fmt::format("191 MiB of headers, cut off after {} MiB", sent >> 20),
+              worst_healthz_ms(s.port, 20), growth.finish());
 }
 
 TEST(HttpFlood, ACompressedBodyIsRefusedUnread) {
@@ -170,8 +171,9 @@ TEST(HttpFlood, ACompressedBodyIsRefusedUnread) {
   const std::string body(204'000, '\x1f');
   for (const char* encoding : {"gzip", "br", "deflate", "identity"}) {
     const auto answer = ask_once(
-        s.port, std::string(kJsonHead) + fmt::format("Content-Encoding: {}\r\nContent-Length: {}\r\n\r\n", encoding,
-                                                     body.size()) + body);
+        s.port, std::string(kJsonHead) +
+                    fmt::format("Content-Encoding: {}\r\nContent-Length: {}\r\n\r\n", encoding, body.size()) +
+                    body);
     EXPECT_EQ(answer.status, 415) << encoding;
   }
   expect_calm("gzip bombs", worst_healthz_ms(s.port, 20), growth.finish());

@@ -1,5 +1,5 @@
-// Thousands of requests that are nearly right, over real sockets: whatever comes, the server answers or closes, and
-// goes on.
+// Thousands of requests that are nearly right, over real sockets: whatever comes, the server answers or
+// closes, and goes on.
 
 #include <gtest/gtest.h>
 
@@ -29,7 +29,9 @@ const std::array<std::string, 8> kSeeds{
 
 std::string mutated(std::uint64_t round) {
   std::uint64_t counter = 0;
-  const auto draw = [&](std::size_t below) { return static_cast<std::size_t>(random_bits(round, counter++) % below); };
+  const auto draw = [&](std::size_t below) {
+    return static_cast<std::size_t>(random_bits(round, counter++) % below);
+  };
   std::string bytes = kSeeds[draw(kSeeds.size())];
   const std::size_t mutations = draw(6);
   for (std::size_t m = 0; m < mutations && !bytes.empty(); ++m) {
@@ -74,7 +76,8 @@ TEST(HttpFuzz, TheServerSurvivesMutatedRequestsAndStillAnswers) {
     const auto answer = client.read_answer(false, milliseconds(2'000));
     if (answer.status != 0) {
       ++answered;
-      ASSERT_TRUE(answer.status < 500 || answer.status == 503) << mutated(round) << answer.head << answer.body;
+      ASSERT_TRUE(answer.status < 500 || answer.status == 503)
+          << mutated(round) << answer.head << answer.body;
     }
     ASSERT_TRUE(client.closed_within(milliseconds(3'000))) << round;
     if (round % 500 == 0) {

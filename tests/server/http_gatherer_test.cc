@@ -48,7 +48,8 @@ Outcome gather(std::string_view bytes, const HttpOptions& options, std::size_t p
 
 std::string three_requests() {
   return get("/a") + post("/b", "{\"x\": 1}") + "\r\n" + "PUT /c HTTP/1.1\r\nHost: t\r\n" +
-         "Content-Type: application/json\r\nTransfer-Encoding: chunked\r\n\r\n3\r\nabc\r\n2\r\nde\r\n0\r\n\r\n" +
+         "Content-Type: application/json\r\nTransfer-Encoding: "
+         "chunked\r\n\r\n3\r\nabc\r\n2\r\nde\r\n0\r\n\r\n" +
          "GET /incomplete";
 }
 
@@ -59,7 +60,8 @@ TEST(RequestGatherer, RequestsAreTheSameWhateverPiecesTheyArriveIn) {
   EXPECT_TRUE(whole.requests[1].ends_with("\r\n\r\n{\"x\": 1}")) << whole.requests[1];
   EXPECT_TRUE(whole.requests[2].ends_with("\r\n\r\nabcde")) << whole.requests[2];
   EXPECT_EQ(whole.last, State::kHead);
-  for (std::size_t piece = 1; piece < 200; ++piece) EXPECT_EQ(gather(three_requests(), options, piece), whole) << piece;
+  for (std::size_t piece = 1; piece < 200; ++piece)
+    EXPECT_EQ(gather(three_requests(), options, piece), whole) << piece;
 }
 
 TEST(RequestGatherer, AHeadOfExactlyTheLimitIsReadAndOneByteMoreIsNot) {
@@ -83,8 +85,9 @@ TEST(RequestGatherer, ALongRowOfPipelinedRequestsIsNotTakenForALongHead) {
 TEST(RequestGatherer, ContinueIsDueOnceAndOnlyWhileTheClientWaits) {
   const HttpOptions options = small_options();
   RequestGatherer waiting(options);
-  waiting.feed("POST / HTTP/1.1\r\nHost: t\r\nContent-Type: application/json\r\nContent-Length: 2\r\n"
-               "Expect: 100-continue\r\n\r\n");
+  waiting.feed(
+      "POST / HTTP/1.1\r\nHost: t\r\nContent-Type: application/json\r\nContent-Length: 2\r\n"
+      "Expect: 100-continue\r\n\r\n");
   EXPECT_TRUE(waiting.take_continue());
   EXPECT_FALSE(waiting.take_continue());
   RequestGatherer eager(options);
@@ -95,7 +98,8 @@ TEST(RequestGatherer, ContinueIsDueOnceAndOnlyWhileTheClientWaits) {
 TEST(RequestGatherer, WhatItHoldsIsBoundedByTheLimits) {
   const HttpOptions options = small_options();
   RequestGatherer gatherer(options);
-  gatherer.feed("POST / HTTP/1.1\r\nHost: t\r\nContent-Type: application/json\r\nTransfer-Encoding: chunked\r\n\r\n");
+  gatherer.feed(
+      "POST / HTTP/1.1\r\nHost: t\r\nContent-Type: application/json\r\nTransfer-Encoding: chunked\r\n\r\n");
   for (int i = 0; i < 10'000 && gatherer.state() == State::kBody; ++i) {
     gatherer.feed("10\r\n0123456789abcdef\r\n");
     ASSERT_LE(gatherer.held(), options.max_body_bytes + 64);

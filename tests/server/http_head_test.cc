@@ -44,14 +44,29 @@ TEST(RequestHead, LengthAndChunksAreTheTwoFramings) {
 }
 
 TEST(RequestHead, FramingsThatCanBeReadInTwoWaysAreMalformed) {
-  for (const char* lines :
-       {"Content-Length: 1\r\nTransfer-Encoding: chunked", "Transfer-Encoding: chunked\r\nContent-Length: 1",
-        "Content-Length: 1\r\nContent-Length: 1", "Content-Length: 1\r\ncontent-length: 2", "Content-Length: 1, 1",
-        "Content-Length: +1", "Content-Length: -1", "Content-Length: 0x1", "Content-Length:", "Content-Length: 1 1",
-        "Content-Length: 1.0", "Transfer-Encoding: gzip, chunked", "Transfer-Encoding: identity",
-        "Transfer-Encoding: chunked\r\nTransfer-Encoding: chunked", "Transfer-Encoding: xchunked",
-        "Content-Length : 1", " Content-Length: 1", "X: a\r\n Content-Length: 1", "Content-Length: 1\nX: y",
-        "X: a\rb", "X", ": x", "X\xc3\xa9: y"}) {
+  for (const char* lines : {"Content-Length: 1\r\nTransfer-Encoding: chunked",
+                            "Transfer-Encoding: chunked\r\nContent-Length: 1",
+                            "Content-Length: 1\r\nContent-Length: 1",
+                            "Content-Length: 1\r\ncontent-length: 2",
+                            "Content-Length: 1, 1",
+                            "Content-Length: +1",
+                            "Content-Length: -1",
+                            "Content-Length: 0x1",
+                            "Content-Length:",
+                            "Content-Length: 1 1",
+                            "Content-Length: 1.0",
+                            "Transfer-Encoding: gzip, chunked",
+                            "Transfer-Encoding: identity",
+                            "Transfer-Encoding: chunked\r\nTransfer-Encoding: chunked",
+                            "Transfer-Encoding: xchunked",
+                            "Content-Length : 1",
+                            " Content-Length: 1",
+                            "X: a\r\n Content-Length: 1",
+                            "Content-Length: 1\nX: y",
+                            "X: a\rb",
+                            "X",
+                            ": x",
+                            "X\xc3\xa9: y"}) {
     EXPECT_EQ(refusal(with(lines)), kMalformed) << lines;
   }
   EXPECT_EQ(refusal(with(std::string("X: a\0b", 6))), kMalformed);
@@ -65,11 +80,27 @@ TEST(RequestHead, ExactlyOneHostIsNeeded) {
 }
 
 TEST(RequestHead, MalformedRequestLinesAreRefused) {
-  for (const char* line :
-       {"GET", "GET /", "GET  HTTP/1.1", "GET / HTTP/1.2", "GET / HTTP/2.0", "GET / http/1.1", "GET / HTTP/1.1 ",
-        "GET /a b HTTP/1.1", " GET / HTTP/1.1", "G\"T / HTTP/1.1", "GET a HTTP/1.1", "GET * HTTP/1.1",
-        "GET /%zz HTTP/1.1", "GET /%4 HTTP/1.1", "GET /%00 HTTP/1.1", "GET /%0a HTTP/1.1", "GET /%ff HTTP/1.1",
-        "GET /a#b HTTP/1.1", "GET /\xc3\xa9 HTTP/1.1", "GET ftp://h/ HTTP/1.1", "GET http://h HTTP/1.1"}) {
+  for (const char* line : {"GET",
+                           "GET /",
+                           "GET  HTTP/1.1",
+                           "GET / HTTP/1.2",
+                           "GET / HTTP/2.0",
+                           "GET / http/1.1",
+                           "GET / HTTP/1.1 ",
+                           "GET /a b HTTP/1.1",
+                           " GET / HTTP/1.1",
+                           "G\"T / HTTP/1.1",
+                           "GET a HTTP/1.1",
+                           "GET * HTTP/1.1",
+                           "GET /%zz HTTP/1.1",
+                           "GET /%4 HTTP/1.1",
+                           "GET /%00 HTTP/1.1",
+                           "GET /%0a HTTP/1.1",
+                           "GET /%ff HTTP/1.1",
+                           "GET /a#b HTTP/1.1",
+                           "GET /\xc3\xa9 HTTP/1.1",
+                           "GET ftp://h/ HTTP/1.1",
+                           "GET http://h HTTP/1.1"}) {
     EXPECT_EQ(refusal(std::string(line) + "\r\nHost: t\r\n\r\n"), kMalformed) << line;
   }
   EXPECT_EQ(refusal("BREW / HTTP/1.1\r\nHost: t\r\n\r\n"), "method_not_allowed");
@@ -100,12 +131,14 @@ TEST(RequestHead, ABodyIsJsonAndNothingElse) {
   };
   EXPECT_EQ(typed("Content-Type: application/json\r\n"), "");
   EXPECT_EQ(typed("Content-Type: Application/JSON ; charset=utf-8\r\n"), "");
-  for (const char* type : {"", "Content-Type: application/x-www-form-urlencoded\r\n", "Content-Type: text/plain\r\n",
-                           "Content-Type: multipart/form-data; boundary=x\r\n", "Content-Type: application/jsonx\r\n",
-                           "Content-Type: application/json\r\nContent-Encoding: gzip\r\n"}) {
+  for (const char* type :
+       {"", "Content-Type: application/x-www-form-urlencoded\r\n", "Content-Type: text/plain\r\n",
+        "Content-Type: multipart/form-data; boundary=x\r\n", "Content-Type: application/jsonx\r\n",
+        "Content-Type: application/json\r\nContent-Encoding: gzip\r\n"}) {
     EXPECT_EQ(typed(type), "unsupported_media_type") << type;
   }
-  EXPECT_EQ(refusal("POST / HTTP/1.1\r\nHost: t\r\nContent-Length: 0\r\n\r\n"), "") << "nothing needs no type";
+  EXPECT_EQ(refusal("POST / HTTP/1.1\r\nHost: t\r\nContent-Length: 0\r\n\r\n"), "")
+      << "nothing needs no type";
 }
 
 TEST(RequestHead, HeadersThatMustNotBeActedOnAreNotPassedOn) {
@@ -122,7 +155,8 @@ TEST(RequestHead, TooManyOrTooLongHeadersAreTooLarge) {
   for (int i = 0; i < 98; ++i) many += "X: y\r\n";
   EXPECT_EQ(refusal("GET / HTTP/1.1\r\nHost: t\r\n" + many + "X: y\r\n\r\n"), "");
   EXPECT_EQ(refusal("GET / HTTP/1.1\r\nHost: t\r\n" + many + "X: y\r\nX: y\r\n\r\n"), "header_too_large");
-  EXPECT_EQ(refusal("GET / HTTP/1.1\r\nHost: t\r\nX: " + std::string(8'000, 'y') + "\r\n\r\n"), "header_too_large");
+  EXPECT_EQ(refusal("GET / HTTP/1.1\r\nHost: t\r\nX: " + std::string(8'000, 'y') + "\r\n\r\n"),
+            "header_too_large");
   EXPECT_EQ(refusal("GET /" + std::string(8'000, 'y') + " HTTP/1.1\r\nHost: t\r\n\r\n"), "header_too_large");
 }
 
@@ -150,8 +184,8 @@ TEST(HeadScan, WhatIsNotHttpIsSeenAtItsFirstByteOrLine) {
 
 TEST(PrintableUtf8, OverlongSurrogateAndControlBytesAreRefused) {
   EXPECT_TRUE(is_printable_utf8("a\xc3\xa9\xe2\x82\xac\xf0\x9f\x9a\x80"));
-  for (const char* text : {"\xc0\x80", "\xe0\x80\x80", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xf0\x80\x80\x80", "\x80",
-                           "\xc3", "\xe2\x82", "\x7f", "\xc2\x85", "a\nb"}) {
+  for (const char* text : {"\xc0\x80", "\xe0\x80\x80", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xf0\x80\x80\x80",
+                           "\x80", "\xc3", "\xe2\x82", "\x7f", "\xc2\x85", "a\nb"}) {
     EXPECT_FALSE(is_printable_utf8(text)) << text;
   }
 }

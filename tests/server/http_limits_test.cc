@@ -186,7 +186,8 @@ TEST(HttpLimits, LargeBodiesTogetherAreLimitedAndSmallOnesStillPass) {
   std::this_thread::sleep_for(milliseconds(100));
   EXPECT_EQ(ask_once(s.port, post("/echo", "{}")).body, "{}");
   int refused = 0;
-  for (RawClient& client : greedy) refused += client.read_answer(false, milliseconds(50)).status == 503 ? 1 : 0;
+  for (RawClient& client : greedy)
+    refused += client.read_answer(false, milliseconds(50)).status == 503 ? 1 : 0;
   EXPECT_EQ(refused, 5) << "three times 300 kB are below 1 MiB";
 }
 

@@ -27,7 +27,8 @@ HttpResponse ask(const RouteTable& table, std::string method, std::string path) 
 }
 
 TEST(RouteTable, ALiteralSegmentWinsOverAParameterInWhicheverOrderTheyAreGiven) {
-  const RouteTable table({named("GET", "/jobs/{id}"), named("GET", "/jobs/schema"), named("GET", "/{kind}/schema")});
+  const RouteTable table(
+      {named("GET", "/jobs/{id}"), named("GET", "/jobs/schema"), named("GET", "/{kind}/schema")});
   EXPECT_EQ(ask(table, "GET", "/jobs/schema").body, "GET /jobs/schema");
   EXPECT_EQ(ask(table, "GET", "/jobs/9").body, "GET /jobs/{id} id=9");
   EXPECT_EQ(ask(table, "GET", "/soils/schema").body, "GET /{kind}/schema kind=soils");
@@ -35,12 +36,14 @@ TEST(RouteTable, ALiteralSegmentWinsOverAParameterInWhicheverOrderTheyAreGiven) 
 
 TEST(RouteTable, SeveralParametersAreFoundByName) {
   const RouteTable table({named("GET", "/v1/jobs/{id}/routes/{rank}")});
-  EXPECT_EQ(ask(table, "GET", "/v1/jobs/a%20b/routes/%32").body, "GET /v1/jobs/{id}/routes/{rank} id=a b rank=2");
+  EXPECT_EQ(ask(table, "GET", "/v1/jobs/a%20b/routes/%32").body,
+            "GET /v1/jobs/{id}/routes/{rank} id=a b rank=2");
 }
 
 TEST(RouteTable, OnlyTheWholeAddressMatches) {
   const RouteTable table({named("GET", "/jobs/{id}"), named("GET", "/")});
-  for (const char* path : {"/jobs", "/jobs/", "/jobs/1/", "/jobs/1/x", "//jobs/1", "/jobs//", "/Jobs/1", "//"}) {
+  for (const char* path :
+       {"/jobs", "/jobs/", "/jobs/1/", "/jobs/1/x", "//jobs/1", "/jobs//", "/Jobs/1", "//"}) {
     EXPECT_EQ(ask(table, "GET", path).status, 404) << path;
   }
   EXPECT_EQ(ask(table, "GET", "/").status, 200);

@@ -164,7 +164,8 @@ TEST(HttpServer, PipelinedRequestsAreAnsweredInOrder) {
   const TestServer s;
   RawClient client(s.port);
   std::string all;
-  for (int i = 0; i < 300; ++i) all += i % 3 == 0 ? post("/echo", std::to_string(i)) : get("/jobs/" + std::to_string(i));
+  for (int i = 0; i < 300; ++i)
+    all += i % 3 == 0 ? post("/echo", std::to_string(i)) : get("/jobs/" + std::to_string(i));
   auto sending = std::async(std::launch::async, [&] { return client.send(all); });
   for (int i = 0; i < 300; ++i) {
     const auto answer = client.read_answer();
@@ -195,7 +196,9 @@ TEST(HttpServer, AClientThatHasFinishedSendingStillGetsItsAnswer) {
 TEST(HttpServer, AChunkedBodyArrivesWhole) {
   const TestServer s;
   RawClient client(s.port);
-  client.send("POST /echo HTTP/1.1\r\nHost: t\r\nContent-Type: application/json\r\nTransfer-Encoding: chunked\r\n\r\n");
+  client.send(
+      "POST /echo HTTP/1.1\r\nHost: t\r\nContent-Type: application/json\r\nTransfer-Encoding: "
+      "chunked\r\n\r\n");
   client.send("3\r\nabc\r\n");
   client.send("A;ext=1\r\n0123456789\r\n0\r\nTrailer: x\r\n\r\n");
   EXPECT_EQ(client.read_answer().body, "abc0123456789");
@@ -219,7 +222,8 @@ TEST(HttpServer, APortThatIsTakenIsAnErrorThatSaysSo) {
   HttpServer second(options, {});
   const auto started = second.start();
   ASSERT_FALSE(started);
-  EXPECT_NE(started.error().detail.find("Address already in use"), std::string::npos) << started.error().detail;
+  EXPECT_NE(started.error().detail.find("Address already in use"), std::string::npos)
+      << started.error().detail;
   EXPECT_NE(started.error().detail.find(std::to_string(s.port)), std::string::npos) << started.error().detail;
 }
 

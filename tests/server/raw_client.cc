@@ -49,7 +49,9 @@ bool RawClient::send(std::string_view bytes) {
   return true;
 }
 
-void RawClient::finish_sending() { ::shutdown(fd_, SHUT_WR); }
+void RawClient::finish_sending() {
+  ::shutdown(fd_, SHUT_WR);
+}
 
 bool RawClient::receive(Clock::time_point until) {
   const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until - Clock::now()).count();
@@ -110,7 +112,9 @@ std::string RawClient::Answer::header(std::string_view name) const {
   return {};
 }
 
-RawClient::Answer ask_once(int port, std::string_view request) { return RawClient(port).ask(request); }
+RawClient::Answer ask_once(int port, std::string_view request) {
+  return RawClient(port).ask(request);
+}
 
 std::string get(std::string_view target, std::string_view more_headers) {
   return fmt::format("GET {} HTTP/1.1\r\nHost: test\r\n{}\r\n", target, more_headers);
@@ -118,8 +122,8 @@ std::string get(std::string_view target, std::string_view more_headers) {
 
 std::string post(std::string_view target, std::string_view body, std::string_view more_headers) {
   return fmt::format(
-      "POST {} HTTP/1.1\r\nHost: test\r\nContent-Type: application/json\r\nContent-Length: {}\r\n{}\r\n{}", target,
-      body.size(), more_headers, body);
+      "POST {} HTTP/1.1\r\nHost: test\r\nContent-Type: application/json\r\nContent-Length: {}\r\n{}\r\n{}",
+      target, body.size(), more_headers, body);
 }
 
 HttpResponse test_problem(const Error& error, const HttpRequest* request) {
@@ -133,16 +137,24 @@ HttpResponse test_problem(const Error& error, const HttpRequest* request) {
 
 namespace {
 
-HttpResponse text(std::string body) { return {200, "text/plain", std::move(body), {}}; }
+HttpResponse text(std::string body) {
+  return {200, "text/plain", std::move(body), {}};
+}
 
 std::vector<Route> test_routes() {
   return {
       {"GET", "/healthz", [](const HttpRequest&) { return text("well"); }},
       {"POST", "/echo", [](const HttpRequest& r) { return text(r.body); }},
-      {"GET", "/jobs/{id}", [](const HttpRequest& r) { return text("job " + std::string(r.parameter("id"))); }},
-      {"DELETE", "/jobs/{id}", [](const HttpRequest&) { return HttpResponse{204, "", "", {}}; }},
+      {"GET", "/jobs/{id}",
+       [](const HttpRequest& r) { return text("job " + std::string(r.parameter("id"))); }},
+      {"DELETE", "/jobs/{id}",
+       [](const HttpRequest&) {
+         return HttpResponse{204, "", "", {}};
+       }},
       {"GET", "/peer",
-       [](const HttpRequest& r) { return text(r.remote_address + "|" + r.header("REMOTE_ADDR").value_or("none")); }},
+       [](const HttpRequest& r) {
+         return text(r.remote_address + "|" + r.header("REMOTE_ADDR").value_or("none"));
+       }},
       {"GET", "/query",
        [](const HttpRequest& r) {
          std::string all;

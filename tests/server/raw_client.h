@@ -31,7 +31,8 @@ class RawClient {
     // The header's value, or "" when it is not there.
     std::string header(std::string_view name) const;
   };
-  Answer read_answer(bool to_head_request = false, std::chrono::milliseconds patience = std::chrono::seconds(5));
+  Answer read_answer(bool to_head_request = false,
+                     std::chrono::milliseconds patience = std::chrono::seconds(5));
   Answer ask(std::string_view request);
 
   // True when the server closes within this time; what it sends until then is dropped.

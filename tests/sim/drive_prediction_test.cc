@@ -13,7 +13,8 @@ namespace {
 std::vector<PathStation> eastward(double length_m, double spacing_m = 0.25) {
   std::vector<PathStation> path;
   const int n = static_cast<int>(std::round(length_m / spacing_m));
-  for (int k = 0; k <= n; ++k) path.push_back({.pose = {k * spacing_m, 0.0, 0.0}, .distance_m = k * spacing_m});
+  for (int k = 0; k <= n; ++k)
+    path.push_back({.pose = {k * spacing_m, 0.0, 0.0}, .distance_m = k * spacing_m});
   return path;
 }
 
@@ -26,8 +27,9 @@ class Cancelled final : public Progress {
 const RoverModel kRover = six_wheeler();
 const SoilBeliefs kLoam{{certain("loam", sandy_loam())}, spread("unknown_ground", loose_sand(), 0.5)};
 
-Result<DrivePrediction> predict(const Ground& ground, const SoilBeliefs& beliefs, const std::vector<PathStation>& path,
-                                const RiskOptions& risk = {}, const DriveLimits& limits = {}, std::size_t threads = 0) {
+Result<DrivePrediction> predict(const Ground& ground, const SoilBeliefs& beliefs,
+                                const std::vector<PathStation>& path, const RiskOptions& risk = {},
+                                const DriveLimits& limits = {}, std::size_t threads = 0) {
   NoProgress progress;
   return predict_drive(kRover, 3.71, ground, beliefs, path, limits, risk, threads, progress);
 }
@@ -53,7 +55,8 @@ TEST(DrivePrediction, ASteepeningSlopeImmobilisesWithThePlaceAndTheReason) {
   EXPECT_GT(drive->immobilised->distance_m, 6.0);
   EXPECT_LT(drive->immobilised->distance_m, 12.0);
   EXPECT_NE(drive->immobilised->reason.find("no traction"), std::string::npos) << drive->immobilised->reason;
-  EXPECT_EQ(drive->stations.back().station.distance_m, drive->immobilised->distance_m) << "the stations end there";
+  EXPECT_EQ(drive->stations.back().station.distance_m, drive->immobilised->distance_m)
+      << "the stations end there";
   EXPECT_EQ(drive->risk, 1.0);
 }
 
@@ -62,7 +65,8 @@ TEST(DrivePrediction, APathThatLeavesTheGroundIsRefusedWithTheStations) {
   const auto drive = predict(small, kLoam, eastward(6.0));
   ASSERT_FALSE(drive);
   EXPECT_EQ(drive.error().code, ErrorCode::kNoData);
-  EXPECT_EQ(drive.error().faults.front().pointer, "/stations/18") << "the front wheels reach 5 m at station 18, 4.5 m";
+  EXPECT_EQ(drive.error().faults.front().pointer, "/stations/18")
+      << "the front wheels reach 5 m at station 18, 4.5 m";
 }
 
 TEST(DrivePrediction, TheSameSeedGivesTheSameBytesOnAnyNumberOfThreads) {
@@ -120,7 +124,10 @@ TEST(DrivePrediction, ATurnInPlaceTakesTimeAndNoDistance) {
   const FunctionGround plane([](double, double) { return 0.0; });
   std::vector<PathStation> path = eastward(1.0);
   for (int k = 1; k <= 6; ++k)
-    path.push_back({.pose = {1.0, 0.0, k * rad_from_deg(15.0)}, .distance_m = 1.0, .turned_rad = rad_from_deg(15.0), .turning_in_place = true});
+    path.push_back({.pose = {1.0, 0.0, k * rad_from_deg(15.0)},
+                    .distance_m = 1.0,
+                    .turned_rad = rad_from_deg(15.0),
+                    .turning_in_place = true});
   const auto drive = predict(plane, kLoam, path);
   ASSERT_TRUE(drive);
   EXPECT_NEAR(drive->length_m, 1.0, 1e-12);

@@ -15,7 +15,8 @@ StationState climb(std::span<const EffectSetting> settings) {
   apply_effects(settings, rover);
   apply_effects(settings, soil);
   QuasiStaticSolver solver(rover, 3.71);
-  return solver.solve(stance_on_plane(rover, {.roll_rad = 0.05, .pitch_rad = -0.2, .yaw_rad = 0.0}), soil, {.speed_m_s = 0.04});
+  return solver.solve(stance_on_plane(rover, {.roll_rad = 0.05, .pitch_rad = -0.2, .yaw_rad = 0.0}), soil,
+                      {.speed_m_s = 0.04});
 }
 
 class EffectRow : public testing::TestWithParam<Effect> {
@@ -53,14 +54,17 @@ TEST_P(EffectRow, ItsRangeIsAcceptedAndBeyondItIsRefusedWithTheRange) {
   for (auto& [name, value] : beyond.parameters) value += 1.0;
   const std::vector<Fault> faults = faults_of({&beyond, 1});
   ASSERT_EQ(faults.size(), GetParam().fields.size());
-  for (const Fault& fault : faults) EXPECT_NE(fault.message.find("must be in ["), std::string::npos) << fault.message;
+  for (const Fault& fault : faults)
+    EXPECT_NE(fault.message.find("must be in ["), std::string::npos) << fault.message;
 }
 
-INSTANTIATE_TEST_SUITE_P(Catalogue, EffectRow, testing::ValuesIn(effect_catalogue().begin(), effect_catalogue().end()),
+INSTANTIATE_TEST_SUITE_P(Catalogue, EffectRow,
+                         testing::ValuesIn(effect_catalogue().begin(), effect_catalogue().end()),
                          [](const auto& row) { return std::string(row.param.name); });
 
 TEST(EffectCatalogue, UnknownNamesAreRefusedWithTheKnownOnes) {
-  const std::vector<EffectSetting> settings{{"slip_sinkage", {{"n2", 0.1}}}, {"tether", {}}, {"slip_sinkage", {}}};
+  const std::vector<EffectSetting> settings{
+      {"slip_sinkage", {{"n2", 0.1}}}, {"tether", {}}, {"slip_sinkage", {}}};
   const std::vector<Fault> faults = faults_of(settings);
   ASSERT_EQ(faults.size(), 3u);
   EXPECT_EQ(faults[0].pointer, "/0/parameters/n2");

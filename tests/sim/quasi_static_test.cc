@@ -19,13 +19,15 @@ Attitude sloping(double pitch_deg, double roll_deg) {
   return {.roll_rad = rad_from_deg(roll_deg), .pitch_rad = rad_from_deg(pitch_deg), .yaw_rad = 0.0};
 }
 
-StationState straight(const RoverModel& rover, const Soil& soil, const Attitude& attitude, double speed = 0.04) {
+StationState straight(const RoverModel& rover, const Soil& soil, const Attitude& attitude,
+                      double speed = 0.04) {
   QuasiStaticSolver solver(rover, kMars);
   return solver.solve(stance_on_plane(rover, attitude), soil, {.speed_m_s = speed});
 }
 
 double total(const StationState& state, double WheelState::*of) {
-  return std::accumulate(state.wheels.begin(), state.wheels.end(), 0.0, [of](double sum, const WheelState& w) { return sum + w.*of; });
+  return std::accumulate(state.wheels.begin(), state.wheels.end(), 0.0,
+                         [of](double sum, const WheelState& w) { return sum + w.*of; });
 }
 
 TEST(QuasiStatic, OnLevelGroundThePullsOfTheWheelsAddUpToNothing) {
@@ -55,7 +57,8 @@ TEST(QuasiStatic, AcrossASlopeTheSideForcesHoldTheRoverAndItSlidesDownhill) {
   EXPECT_LT(state.side_slip_rad, rad_from_deg(-1.0)) << "downhill is to the right";
 }
 
-// The bogies, the differential and the whole rover, taken apart by hand and not through RoverBalance's matrices.
+// The bogies, the differential and the whole rover, taken apart by hand and not through RoverBalance's
+// matrices.
 TEST(QuasiStatic, EveryPartOfTheSuspensionIsInBalanceAboutItsPivot) {
   const RoverModel rover = six_wheeler();
   const Attitude attitude = sloping(-11, 6);
@@ -146,7 +149,8 @@ TEST(QuasiStatic, AnArcTurnsTheWayItIsSteeredAndATurnInPlaceStaysInPlace) {
   const StationState arc = solver.solve(level, sandy_loam(), {.speed_m_s = 0.04, .curvature_1_m = 0.4});
   ASSERT_TRUE(arc.moving());
   EXPECT_NEAR(arc.yaw_rate_rad_s, 0.04 * 0.4, 0.1 * 0.04 * 0.4);
-  const StationState turn = solver.solve(level, sandy_loam(), {.turn_in_place = true, .turn_rate_rad_s = -0.03});
+  const StationState turn =
+      solver.solve(level, sandy_loam(), {.turn_in_place = true, .turn_rate_rad_s = -0.03});
   ASSERT_TRUE(turn.moving());
   EXPECT_LT(turn.yaw_rate_rad_s, -0.025);
   EXPECT_LT(std::hypot(turn.forward_m_s, turn.leftward_m_s), 2e-3);
@@ -164,7 +168,8 @@ TEST(QuasiStatic, TheAnswerDoesNotDependOnWhereTheSearchStarted) {
   const RoverModel rover = six_wheeler();
   QuasiStaticSolver warm(rover, kMars);
   for (int trial = 0; trial < 200; ++trial) {
-    const Stance stance = stance_on_plane(rover, sloping(30.0 * random_uniform(1, trial) - 15.0, 24.0 * random_uniform(2, trial) - 12.0));
+    const Stance stance = stance_on_plane(
+        rover, sloping(30.0 * random_uniform(1, trial) - 15.0, 24.0 * random_uniform(2, trial) - 12.0));
     QuasiStaticSolver cold(rover, kMars);
     const StationState a = warm.solve(stance, sandy_loam(), {.speed_m_s = 0.04});
     const StationState b = cold.solve(stance, sandy_loam(), {.speed_m_s = 0.04});
@@ -207,20 +212,28 @@ TEST(QuasiStatic, ThousandsOfRandomStationsGiveABalanceOrAReason) {
   int moving = 0, given_up = 0;
   constexpr int kTrials = 4000;
   for (int trial = 0; trial < kTrials; ++trial) {
-    const auto uniform = [trial](int stream, double low, double high) { return low + (high - low) * random_uniform(stream, trial); };
+    const auto uniform = [trial](int stream, double low, double high) {
+      return low + (high - low) * random_uniform(stream, trial);
+    };
     const double amplitude = uniform(1, 0.0, 0.15), phase = uniform(2, 0.0, 6.28);
     const double sx = uniform(3, -0.4, 0.4), sy = uniform(4, -0.4, 0.4);
-    const FunctionGround ground([=](double x, double y) { return sx * x + sy * y + amplitude * std::sin(2.0 * x + phase) * std::cos(1.5 * y); });
+    const FunctionGround ground([=](double x, double y) {
+      return sx * x + sy * y + amplitude * std::sin(2.0 * x + phase) * std::cos(1.5 * y);
+    });
     const auto stance = settle(rover, ground, {0.0, 0.0, uniform(5, -3.14, 3.14)});
     if (!stance) continue;
-    Soil soil = make_soil({uniform(6, 0.0, 5e4), std::pow(10.0, uniform(7, 4.5, 7.0)), uniform(8, 0.5, 1.4)}, std::pow(10.0, uniform(9, 1.0, 4.2)),
-                          uniform(10, 15.0, 42.0), uniform(11, 0.005, 0.04), 0.2, 0.3);
-    DriveCommand command{.speed_m_s = uniform(12, 0.0, 1.0) < 0.5 ? 0.04 : -0.04, .curvature_1_m = uniform(13, -0.6, 0.6)};
-    if (trial % 5 == 0) command = {.turn_in_place = true, .turn_rate_rad_s = uniform(14, 0.0, 1.0) < 0.5 ? 0.03 : -0.03};
+    Soil soil = make_soil({uniform(6, 0.0, 5e4), std::pow(10.0, uniform(7, 4.5, 7.0)), uniform(8, 0.5, 1.4)},
+                          std::pow(10.0, uniform(9, 1.0, 4.2)), uniform(10, 15.0, 42.0),
+                          uniform(11, 0.005, 0.04), 0.2, 0.3);
+    DriveCommand command{.speed_m_s = uniform(12, 0.0, 1.0) < 0.5 ? 0.04 : -0.04,
+                         .curvature_1_m = uniform(13, -0.6, 0.6)};
+    if (trial % 5 == 0)
+      command = {.turn_in_place = true, .turn_rate_rad_s = uniform(14, 0.0, 1.0) < 0.5 ? 0.03 : -0.03};
     const StationState state = solver.solve(*stance, soil, command);
     if (state.outcome == Outcome::kNotConverged) ++given_up;
     ASSERT_TRUE(std::isfinite(state.slip_ratio) && std::isfinite(state.electric_power_w)) << trial;
-    for (const WheelState& wheel : state.wheels) ASSERT_TRUE(std::isfinite(wheel.load_n) && std::isfinite(wheel.current_a)) << trial;
+    for (const WheelState& wheel : state.wheels)
+      ASSERT_TRUE(std::isfinite(wheel.load_n) && std::isfinite(wheel.current_a)) << trial;
     if (!state.moving()) continue;
     ++moving;
     for (const WheelState& wheel : state.wheels) ASSERT_GT(wheel.load_n, -1e-6) << trial;

@@ -12,8 +12,8 @@
 
 namespace slipway::sim {
 
-inline Soil make_soil(BekkerModuli moduli, double cohesion_pa, double friction_deg, double shear_modulus_m, double c1,
-                      double c2) {
+inline Soil make_soil(BekkerModuli moduli, double cohesion_pa, double friction_deg, double shear_modulus_m,
+                      double c1, double c2) {
   Soil soil;
   soil.pressure = moduli;
   soil.cohesion_pa = cohesion_pa;
@@ -24,8 +24,12 @@ inline Soil make_soil(BekkerModuli moduli, double cohesion_pa, double friction_d
   return soil;
 }
 
-inline Soil sandy_loam() { return make_soil({20000.0, 1.2e6, 0.95}, 1500.0, 36.0, 0.01, 0.18, 0.32); }
-inline Soil loose_sand() { return make_soil({3125.0, 536156.0, 0.867}, 102.0, 33.2, 0.0171, 0.285, 0.32); }
+inline Soil sandy_loam() {
+  return make_soil({20000.0, 1.2e6, 0.95}, 1500.0, 36.0, 0.01, 0.18, 0.32);
+}
+inline Soil loose_sand() {
+  return make_soil({3125.0, 536156.0, 0.867}, 102.0, 33.2, 0.0171, 0.285, 0.32);
+}
 
 inline SoilDistribution certain(const char* name, const Soil& soil) {
   SoilDistribution belief;
@@ -36,7 +40,8 @@ inline SoilDistribution certain(const char* name, const Soil& soil) {
 
 inline SoilDistribution spread(const char* name, const Soil& soil, double relative) {
   SoilDistribution belief = certain(name, soil);
-  belief.std = {relative, 0.1 * relative, relative * soil.cohesion_pa, relative * 0.3 * soil.friction_angle_rad, relative};
+  belief.std = {relative, 0.1 * relative, relative * soil.cohesion_pa,
+                relative * 0.3 * soil.friction_angle_rad, relative};
   return belief;
 }
 
@@ -62,14 +67,16 @@ inline RoverModel six_wheeler() {
   return rover;
 }
 
-// Ground in closed form: height as a function of place, normals by central differences; unknown soil where told.
+// Ground in closed form: height as a function of place, normals by central differences; unknown soil where
+// told.
 class FunctionGround final : public Ground {
  public:
   using Height = std::function<double(double, double)>;
   using SoilIndex = std::function<std::optional<std::size_t>(double, double)>;
 
-  explicit FunctionGround(Height height, double reach_m = 1e6,
-                          SoilIndex soil = [](double, double) { return std::optional<std::size_t>(0); })
+  explicit FunctionGround(
+      Height height, double reach_m = 1e6,
+      SoilIndex soil = [](double, double) { return std::optional<std::size_t>(0); })
       : height_(std::move(height)), soil_(std::move(soil)), reach_m_(reach_m) {}
 
   std::optional<GroundPoint> at(double x, double y) const override {

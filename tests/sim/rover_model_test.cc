@@ -9,7 +9,9 @@
 namespace slipway::sim {
 namespace {
 
-TEST(RoverModel, TheReferenceModelHasNoFaults) { EXPECT_TRUE(faults_of(six_wheeler()).empty()); }
+TEST(RoverModel, TheReferenceModelHasNoFaults) {
+  EXPECT_TRUE(faults_of(six_wheeler()).empty());
+}
 
 TEST(RoverModel, EveryFaultIsReportedAtOnceWithItsPlace) {
   RoverModel rover = six_wheeler();
@@ -19,7 +21,8 @@ TEST(RoverModel, EveryFaultIsReportedAtOnceWithItsPlace) {
   rover.drive.gear_efficiency = 1.5;
   std::vector<std::string> pointers;
   for (const Fault& fault : faults_of(rover)) pointers.push_back(fault.pointer);
-  EXPECT_EQ(pointers, (std::vector<std::string>{"/wheels/2/radius_m", "/mass_kg", "/com_m", "/drive/gear_efficiency"}));
+  EXPECT_EQ(pointers,
+            (std::vector<std::string>{"/wheels/2/radius_m", "/mass_kg", "/com_m", "/drive/gear_efficiency"}));
 }
 
 TEST(WheelCommands, StraightDrivingTurnsAllWheelsAlike) {
@@ -35,7 +38,8 @@ TEST(WheelCommands, OnAnArcEveryWheelPointsAcrossTheTurnsCentre) {
   const auto told = wheel_commands(rover, {.speed_m_s = 0.03, .curvature_1_m = curvature});
   for (int k = 0; k < kWheels; ++k) {
     if (!rover.wheels[k].steerable) continue;
-    const Eigen::Vector2d to_centre(-rover.wheels[k].position_m.x(), 1.0 / curvature - rover.wheels[k].position_m.y());
+    const Eigen::Vector2d to_centre(-rover.wheels[k].position_m.x(),
+                                    1.0 / curvature - rover.wheels[k].position_m.y());
     const Eigen::Vector2d heading(std::cos(told[k].steer_rad), std::sin(told[k].steer_rad));
     EXPECT_NEAR(heading.dot(to_centre), 0.0, 1e-12);
     EXPECT_NEAR(told[k].rate_rad_s * rover.wheels[k].radius_m, 0.03 * curvature * to_centre.norm(), 1e-12);
@@ -65,8 +69,10 @@ TEST(Motor, TheBusPaysForTheMechanicalPowerAndTheLosses) {
   drive.resistance_ohm = 2.0;
   const MotorState state = motor_state(drive, 3.0, 0.3);
   EXPECT_GT(state.electric_power_w, 3.0 * 0.3);
-  EXPECT_NEAR(state.electric_power_w, state.current_a * (2.0 * state.current_a + 0.0224 * 1500.0 * 0.3), 1e-12);
-  EXPECT_EQ(motor_state(drive, -5.0, 0.3).electric_power_w, 0.0) << "a wheel driven by the ground returns nothing";
+  EXPECT_NEAR(state.electric_power_w, state.current_a * (2.0 * state.current_a + 0.0224 * 1500.0 * 0.3),
+              1e-12);
+  EXPECT_EQ(motor_state(drive, -5.0, 0.3).electric_power_w, 0.0)
+      << "a wheel driven by the ground returns nothing";
 }
 
 TEST(Motor, StallIsTooMuchCurrentOrTooMuchVoltage) {

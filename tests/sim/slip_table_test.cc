@@ -15,8 +15,10 @@ class SlipTableOnLoam : public testing::Test {
 
   StationState exact(double pitch_deg, double roll_deg) {
     QuasiStaticSolver solver(rover, 3.71);
-    const Attitude attitude{.roll_rad = rad_from_deg(roll_deg), .pitch_rad = rad_from_deg(pitch_deg), .yaw_rad = 0.0};
-    return solver.solve(stance_on_plane(rover, attitude), sandy_loam(), {.speed_m_s = rover.cruise_speed_m_s});
+    const Attitude attitude{
+        .roll_rad = rad_from_deg(roll_deg), .pitch_rad = rad_from_deg(pitch_deg), .yaw_rad = 0.0};
+    return solver.solve(stance_on_plane(rover, attitude), sandy_loam(),
+                        {.speed_m_s = rover.cruise_speed_m_s});
   }
 };
 

@@ -72,9 +72,14 @@ TEST(SoilDraw, TheCorrelationOfTheLogarithmsIsTheStatedOne) {
   for (int d = 0; d < n; ++d) {
     const Soil soil = draw_soil(belief, normals(d));
     const double x = std::log(soil.pressure.k_phi), y = std::log(soil.cohesion_pa);
-    a += x; b += y; aa += x * x; bb += y * y; ab += x * y;
+    a += x;
+    b += y;
+    aa += x * x;
+    bb += y * y;
+    ab += x * y;
   }
-  const double correlation = (ab / n - a / n * b / n) / std::sqrt((aa / n - a / n * a / n) * (bb / n - b / n * b / n));
+  const double correlation =
+      (ab / n - a / n * b / n) / std::sqrt((aa / n - a / n * a / n) * (bb / n - b / n * b / n));
   EXPECT_NEAR(correlation, -0.6, 0.01);
 }
 

@@ -35,14 +35,17 @@ TEST(Stance, OnAPlaneTheAttitudeIsThePlanesForEveryHeading) {
   const auto uphill = settle(rover, ground, {0.0, 0.0, 0.0});
   EXPECT_NEAR(uphill->attitude.pitch_rad, -slope, 1e-7) << "nose up is negative pitch";
   const auto across = settle(rover, ground, {0.0, 0.0, std::numbers::pi / 2});
-  EXPECT_NEAR(across->attitude.roll_rad, -slope, 1e-7) << "driving north on ground that rises to the east: right side up";
+  EXPECT_NEAR(across->attitude.roll_rad, -slope, 1e-7)
+      << "driving north on ground that rises to the east: right side up";
 }
 
 TEST(Stance, EveryWheelTouchesRollingGround) {
-  const FunctionGround ground([](double x, double y) { return 0.12 * std::sin(2.1 * x + 0.3) * std::cos(1.7 * y); });
+  const FunctionGround ground(
+      [](double x, double y) { return 0.12 * std::sin(2.1 * x + 0.3) * std::cos(1.7 * y); });
   const RoverModel rover = six_wheeler();
   for (int trial = 0; trial < 300; ++trial) {
-    const Pose2 pose{10.0 * random_uniform(1, trial), 10.0 * random_uniform(2, trial), 6.28 * random_uniform(3, trial)};
+    const Pose2 pose{10.0 * random_uniform(1, trial), 10.0 * random_uniform(2, trial),
+                     6.28 * random_uniform(3, trial)};
     const auto stance = settle(rover, ground, pose);
     ASSERT_TRUE(stance);
     for (int k = 0; k < kWheels; ++k) {

@@ -15,8 +15,10 @@ namespace {
 
 constexpr WheelGeometry kWheel{0.125, 0.16};
 
-// The same equations again, one angle at a time and with slip instead of speed ratio, summed by the midpoint rule.
-WheelForces by_midpoints(const WheelGeometry& w, const Soil& s, double theta_f, double slip, double tan_beta) {
+// The same equations again, one angle at a time and with slip instead of speed ratio, summed by the midpoint
+// rule.
+WheelForces by_midpoints(const WheelGeometry& w, const Soil& s, double theta_f, double slip,
+                         double tan_beta) {
   const int n = 400'000;
   const double theta_m = (s.c1 + s.c2 * std::abs(slip)) * theta_f;
   const double k = s.pressure.k_c / w.width_m + s.pressure.k_phi;
@@ -33,7 +35,8 @@ WheelForces by_midpoints(const WheelGeometry& w, const Soil& s, double theta_f, 
     const double j_y = slip >= 0.0 ? w.radius_m * (1.0 - slip) * (theta_f - theta) * tan_beta
                                    : w.radius_m * (theta_f - theta) * tan_beta / (1.0 + slip);
     const double tau = std::copysign(strength * (1.0 - std::exp(-std::abs(j_x) / s.shear_modulus_x_m)), j_x);
-    const double side = std::copysign(strength * (1.0 - std::exp(-std::abs(j_y) / s.shear_modulus_y_m)), -j_y);
+    const double side =
+        std::copysign(strength * (1.0 - std::exp(-std::abs(j_y) / s.shear_modulus_y_m)), -j_y);
     const double area = w.width_m * w.radius_m * theta_f / n;
     f.drawbar_pull_n += area * (tau * std::cos(theta) - sigma * std::sin(theta));
     f.vertical_n += area * (sigma * std::cos(theta) + tau * std::sin(theta));
@@ -72,7 +75,8 @@ TEST(WheelForces, CompactionResistanceIsBekkersClosedForm) {
   for (const double n : {0.7, 1.0, 1.4}) {
     const Soil soil = frictionless(n);
     const double theta_f = 0.5, z = sinkage_m(kWheel.radius_m, theta_f);
-    const double expected = kWheel.width_m * soil.pressure.stiffness(kWheel.width_m) * std::pow(z, n + 1.0) / (n + 1.0);
+    const double expected =
+        kWheel.width_m * soil.pressure.stiffness(kWheel.width_m) * std::pow(z, n + 1.0) / (n + 1.0);
     EXPECT_NEAR(-wheel_forces(kWheel, soil, theta_f, {1.0, 0.0}).drawbar_pull_n / expected, 1.0, 1e-6);
   }
 }
@@ -179,7 +183,9 @@ TEST_P(PressureSinkageRow, IsZeroAtTheSurfaceAndRisesWithDepth) {
   EXPECT_NEAR(p[0], 0.0, 1e-100);
   for (int k = 1; k < kArcNodes; ++k) EXPECT_GT(p[k], p[k - 1]);
 }
-INSTANTIATE_TEST_SUITE_P(Catalogue, PressureSinkageRow, testing::ValuesIn(pressure_sinkage_catalogue().begin(), pressure_sinkage_catalogue().end()),
+INSTANTIATE_TEST_SUITE_P(Catalogue, PressureSinkageRow,
+                         testing::ValuesIn(pressure_sinkage_catalogue().begin(),
+                                           pressure_sinkage_catalogue().end()),
                          [](const auto& row) { return std::string(row.param.name); });
 
 class ShearRow : public testing::TestWithParam<ShearLaw> {};
@@ -193,7 +199,8 @@ TEST_P(ShearRow, RisesFromNothingToAtMostTheWholeStrength) {
   EXPECT_LE(share[kArcNodes - 1], 1.0);
   EXPECT_NEAR(share[1], 1e-5 / 0.01, 1e-6) << "the slope at the origin is 1 / K";
 }
-INSTANTIATE_TEST_SUITE_P(Catalogue, ShearRow, testing::ValuesIn(shear_catalogue().begin(), shear_catalogue().end()),
+INSTANTIATE_TEST_SUITE_P(Catalogue, ShearRow,
+                         testing::ValuesIn(shear_catalogue().begin(), shear_catalogue().end()),
                          [](const auto& row) { return std::string(row.param.name); });
 
 TEST(BekkerPressureSinkage, DoublingDepthRaisesPressureByTwoToTheN) {

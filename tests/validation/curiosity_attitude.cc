@@ -1,6 +1,6 @@
-#include <Eigen/QR>
 #include <fmt/format.h>
 
+#include <Eigen/QR>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -83,9 +83,20 @@ std::string words(const char* what, const Agreement& a) {
 Report curiosity_attitude(const std::string& data_folder) {
   Report report;
   report.title = "Attitude at Curiosity's real stops";
-  report.source = "32 stops of Curiosity on the Marias Pass DEM: attitude measured by the rover against a Curiosity-class "
-                  "rover set down on the DEM at the same place and heading";
-  report.columns = {"sol", "x m", "y m", "tilt measured deg", "rover set down", "plane fit 3 m", "pitch measured", "ours", "roll measured", "ours"};
+  report.source =
+      "32 stops of Curiosity on the Marias Pass DEM: attitude measured by the rover against a "
+      "Curiosity-class "
+      "rover set down on the DEM at the same place and heading";
+  report.columns = {"sol",
+                    "x m",
+                    "y m",
+                    "tilt measured deg",
+                    "rover set down",
+                    "plane fit 3 m",
+                    "pitch measured",
+                    "ours",
+                    "roll measured",
+                    "ours"};
   const auto catalogue = api::load_catalogue(data_folder);
   if (!catalogue) throw std::runtime_error(catalogue.error().detail);
   const sim::RoverModel& rover = *catalogue->rovers.at("msl-class");
@@ -108,8 +119,9 @@ Report curiosity_attitude(const std::string& data_folder) {
     pitch.push_back(-deg_from_rad(stance->attitude.pitch_rad));
     roll_measured.push_back(stop.at("roll_deg"));
     roll.push_back(deg_from_rad(stance->attitude.roll_rad));
-    report.rows.push_back({fmt::format("{:.0f}", stop.at("sol")), fmt::format("{:.0f}", pose.x_m), fmt::format("{:.0f}", pose.y_m),
-                           fmt::format("{:.1f}", measured.back()), fmt::format("{:.1f}", settled.back()), fmt::format("{:.1f}", plane.back()),
+    report.rows.push_back({fmt::format("{:.0f}", stop.at("sol")), fmt::format("{:.0f}", pose.x_m),
+                           fmt::format("{:.0f}", pose.y_m), fmt::format("{:.1f}", measured.back()),
+                           fmt::format("{:.1f}", settled.back()), fmt::format("{:.1f}", plane.back()),
                            fmt::format("{:.1f}", pitch_measured.back()), fmt::format("{:.1f}", pitch.back()),
                            fmt::format("{:.1f}", roll_measured.back()), fmt::format("{:.1f}", roll.back())});
   }
@@ -118,8 +130,10 @@ Report curiosity_attitude(const std::string& data_folder) {
   report.notes.push_back(words("Tilt of a 3 m plane fit", agreement(plane, measured)));
   report.notes.push_back(words("Pitch of the rover set down", agreement(pitch, pitch_measured)));
   report.notes.push_back(words("Roll of the rover set down", agreement(roll, roll_measured)));
-  report.notes.push_back("The DEM's cells are 1 m and its heights smooth away what a wheel stands on; the residual is what the map does "
-                         "not know, and a plan's tilt is uncertain by as much.");
+  report.notes.push_back(
+      "The DEM's cells are 1 m and its heights smooth away what a wheel stands on; the residual is what the "
+      "map does "
+      "not know, and a plan's tilt is uncertain by as much.");
   report.holds = measured.size() == 32 && tilt.rms < 4.5;
   return report;
 }

@@ -1,7 +1,7 @@
 // Runs every comparison with the world outside this project and prints it as docs/validation.md holds it.
 //   validation SOURCE_DIR                 prints
-//   validation SOURCE_DIR --check         also compares with the part of docs/validation.md between the markers
-//   validation SOURCE_DIR --write         puts it there
+//   validation SOURCE_DIR --check         also compares with the part of docs/validation.md between the
+//   markers validation SOURCE_DIR --write         puts it there
 #include <fmt/format.h>
 
 #include <fstream>
@@ -25,8 +25,11 @@ int main(int argc, char** argv) {
   }
   using namespace slipway::validation;
   const std::string root = argv[1], mode = argc > 2 ? argv[2] : "";
-  const std::vector<Report> reports{kernel_cross_check(), ding_2011(), zhurong_states(),
-                                    independent_simulator(root + "/tests/validation/practice_p01_drives.csv"), curiosity_attitude(root + "/data"),
+  const std::vector<Report> reports{kernel_cross_check(),
+                                    ding_2011(),
+                                    zhurong_states(),
+                                    independent_simulator(root + "/tests/validation/practice_p01_drives.csv"),
+                                    curiosity_attitude(root + "/data"),
                                     rungs()};
   std::string printed;
   bool holds = true;

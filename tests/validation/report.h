@@ -8,11 +8,11 @@ namespace slipway::validation {
 // One comparison with something outside this project, as it stands in docs/validation.md.
 struct Report {
   std::string title;
-  std::string source;                         // who measured or computed it
+  std::string source;  // who measured or computed it
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
-  std::vector<std::string> notes;             // what to make of it, misses first
-  bool holds = true;                          // false breaks the build: a stated band is left
+  std::vector<std::string> notes;  // what to make of it, misses first
+  bool holds = true;               // false breaks the build: a stated band is left
 
   std::string markdown() const;
 };

@@ -15,8 +15,10 @@ using namespace sim;
 Report rungs() {
   Report report;
   report.title = "The table rung against the quasi-static rung";
-  report.source = "this project's own quasi-static solver, at attitudes between the table's nodes (2.5 deg apart)";
-  report.columns = {"soil", "slips compared", "attitudes", "largest difference of slip", "rms", "of side slip deg", "of current A"};
+  report.source =
+      "this project's own quasi-static solver, at attitudes between the table's nodes (2.5 deg apart)";
+  report.columns = {"soil", "slips compared",   "attitudes",   "largest difference of slip",
+                    "rms",  "of side slip deg", "of current A"};
   const RoverModel rover = six_wheeler();
   struct Case {
     const char* name;
@@ -30,8 +32,10 @@ Report rungs() {
       int n = 0;
       for (double pitch = -24.0; pitch <= 24.0; pitch += 1.1)
         for (double roll = -18.0; roll <= 18.0; roll += 1.3) {
-          const Attitude attitude{.roll_rad = rad_from_deg(roll), .pitch_rad = rad_from_deg(pitch), .yaw_rad = 0.0};
-          const StationState exact = solver.solve(stance_on_plane(rover, attitude), c.soil, {.speed_m_s = rover.cruise_speed_m_s});
+          const Attitude attitude{
+              .roll_rad = rad_from_deg(roll), .pitch_rad = rad_from_deg(pitch), .yaw_rad = 0.0};
+          const StationState exact =
+              solver.solve(stance_on_plane(rover, attitude), c.soil, {.speed_m_s = rover.cruise_speed_m_s});
           if (!exact.moving() || exact.slip_ratio < low || exact.slip_ratio >= high) continue;
           const TableEntry entry = *table.at(attitude.pitch_rad, attitude.roll_rad);
           double largest = 0.0;
@@ -42,14 +46,17 @@ Report rungs() {
           current = std::max(current, std::abs(entry.current_a - largest));
           ++n;
         }
-      report.rows.push_back({c.name, fmt::format("{:.1f} to {:.1f}", low, high), fmt::format("{}", n), fmt::format("{:.3f}", slip),
-                             fmt::format("{:.4f}", std::sqrt(slip2 / std::max(1, n))), fmt::format("{:.2f}", deg_from_rad(side)),
-                             fmt::format("{:.3f}", current)});
+      report.rows.push_back({c.name, fmt::format("{:.1f} to {:.1f}", low, high), fmt::format("{}", n),
+                             fmt::format("{:.3f}", slip),
+                             fmt::format("{:.4f}", std::sqrt(slip2 / std::max(1, n))),
+                             fmt::format("{:.2f}", deg_from_rad(side)), fmt::format("{:.3f}", current)});
       if (high <= 0.4) report.holds = report.holds && slip < 0.03;
     }
   }
-  report.notes.push_back("Near the traction limit slip turns up faster than a straight line between nodes; the table serves the search, "
-                         "and every route is simulated by the quasi-static rung before it is ranked.");
+  report.notes.push_back(
+      "Near the traction limit slip turns up faster than a straight line between nodes; the table serves the "
+      "search, "
+      "and every route is simulated by the quasi-static rung before it is ranked.");
   return report;
 }
 

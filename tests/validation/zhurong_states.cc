@@ -33,37 +33,54 @@ constexpr std::array kStates{
     State{"JLU Mars 3 dense", 552.963, 6879.961, 1.107, 0.437, 37.6, 2.07, 0.43, 0.171, 8.9},
 };
 
-std::string number(double value, const char* format) { return value == 0.0 ? "-" : fmt::format(fmt::runtime(format), value); }
+std::string number(double value, const char* format) {
+  return value == 0.0 ? "-" : fmt::format(fmt::runtime(format), value);
+}
 
 }  // namespace
 
 Report zhurong_states() {
   Report report;
   report.title = "Zhurong's current model at zero slip, literal and balanced";
-  report.source = "Zhurong paper (Aerospace 2024, 11, 892), Table 1 and equations A16 to A19, and an independent "
-                  "reproduction of them; r 147.5 mm, b 200 mm, 34.08 kg x 9.81";
-  report.columns = {"state", "sinkage A18 mm, reproduced", "ours", "T k_I, reproduced", "ours", "current A (literal, gear 79.3)",
-                    "balanced: sinkage mm", "balanced: current A"};
+  report.source =
+      "Zhurong paper (Aerospace 2024, 11, 892), Table 1 and equations A16 to A19, and an independent "
+      "reproduction of them; r 147.5 mm, b 200 mm, 34.08 kg x 9.81";
+  report.columns = {"state",
+                    "sinkage A18 mm, reproduced",
+                    "ours",
+                    "T k_I, reproduced",
+                    "ours",
+                    "current A (literal, gear 79.3)",
+                    "balanced: sinkage mm",
+                    "balanced: current A"};
   const WheelGeometry wheel{0.1475, 0.2};
   const double load = 34.08 * 9.81;
   double worst = 0.0;
   for (const State& s : kStates) {
-    const Soil soil = make_soil({1e3 * s.k_c_kn, 1e3 * s.k_phi_kn, s.n}, 1e3 * s.c_kpa, s.phi_deg, 0.01 * s.k_cm, s.c1, 0.32);
+    const Soil soil = make_soil({1e3 * s.k_c_kn, 1e3 * s.k_phi_kn, s.n}, 1e3 * s.c_kpa, s.phi_deg,
+                                0.01 * s.k_cm, s.c1, 0.32);
     const ZhurongLiteral literal = zhurong_literal(wheel, soil, load, 0.0);
     const double times_ki = literal.torque_nm * kZhurongTorqueFactor;
-    if (s.reproduced_torque_times_ki > 0.0) worst = std::max(worst, std::abs(times_ki / s.reproduced_torque_times_ki - 1.0));
+    if (s.reproduced_torque_times_ki > 0.0)
+      worst = std::max(worst, std::abs(times_ki / s.reproduced_torque_times_ki - 1.0));
     const double geared = kZhurongTorqueFactor * kZhurongImpliedGearRatio;
     const auto theta = balanced_entry_angle_rad(wheel, soil, load, {1.0, 0.0});
     const double balanced = theta ? wheel_forces(wheel, soil, *theta, {1.0, 0.0}).torque_nm / geared : 0.0;
-    report.rows.push_back({s.name, number(s.reproduced_sinkage_mm, "{:.1f}"), fmt::format("{:.1f}", 1e3 * literal.sinkage_m),
+    report.rows.push_back({s.name, number(s.reproduced_sinkage_mm, "{:.1f}"),
+                           fmt::format("{:.1f}", 1e3 * literal.sinkage_m),
                            number(s.reproduced_torque_times_ki, "{:.3f}"), fmt::format("{:.3f}", times_ki),
                            fmt::format("{:.4f}", literal.torque_nm / geared),
-                           theta ? fmt::format("{:.1f}", 1e3 * sinkage_m(wheel.radius_m, *theta)) : "sunk", fmt::format("{:.4f}", balanced)});
+                           theta ? fmt::format("{:.1f}", 1e3 * sinkage_m(wheel.radius_m, *theta)) : "sunk",
+                           fmt::format("{:.4f}", balanced)});
   }
-  report.notes.push_back(fmt::format("Largest difference of T k_I to the other reproduction: {:.1f} %.", 100.0 * worst));
-  report.notes.push_back("The paper prints 0.114 A for JLU Mars 2 dense and measured 0.110 A as the mean of six wheels; k_I without a "
-                         "gear would give 9.04 A, so a gear ratio of about 79 is missing from its text. The balanced wheel needs "
-                         "more torque because A18's entry angle carries only 227 N of the 334 N.");
+  report.notes.push_back(
+      fmt::format("Largest difference of T k_I to the other reproduction: {:.1f} %.", 100.0 * worst));
+  report.notes.push_back(
+      "The paper prints 0.114 A for JLU Mars 2 dense and measured 0.110 A as the mean of six wheels; k_I "
+      "without a "
+      "gear would give 9.04 A, so a gear ratio of about 79 is missing from its text. The balanced wheel "
+      "needs "
+      "more torque because A18's entry angle carries only 227 N of the 334 N.");
   report.holds = worst < 0.01;
   return report;
 }

@@ -1,0 +1,89 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+#include "core/angle.h"
+#include "planner/motion.h"
+#include "planner/plan.h"
+#include "planner/plan_faults.h"
+#include "planner/route_stations.h"
+#include "planner/terrain_ground.h"
+
+namespace slipway::planner {
+namespace {
+
+// The motions, and for each the corner that it leads to.
+struct CornerPath {
+  std::vector<Motion> motions;
+  std::vector<std::size_t> corner;
+};
+
+CornerPath join(const std::vector<Waypoint>& corners) {
+  CornerPath path;
+  double heading = corners.front().yaw_rad.value_or(0.0);
+  if (!corners.front().yaw_rad && corners.size() > 1) {
+    heading = straight({corners[0].x_m, corners[0].y_m, 0.0}, corners[1].x_m, corners[1].y_m).to.yaw_rad;
+  }
+  Pose2 at{corners.front().x_m, corners.front().y_m, wrapped_rad(heading)};
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    Motion motion = straight(at, corners[i].x_m, corners[i].y_m);
+    if (corners[i].yaw_rad) {
+      motion.last_turn_rad = wrapped_rad(*corners[i].yaw_rad - motion.to.yaw_rad);
+      motion.to.yaw_rad = wrapped_rad(*corners[i].yaw_rad);
+    }
+    at = motion.to;
+    path.motions.push_back(motion);
+    path.corner.push_back(i);
+  }
+  if (path.motions.empty()) {
+    path.motions.push_back({.from = at, .to = at});
+    path.corner.push_back(0);
+  }
+  return path;
+}
+
+// "/stations/12" to the corner on the way to which it lies.
+std::string corner_pointer(const CornerPath& path, const std::vector<sim::PathStation>& stations,
+                           const std::string& pointer) {
+  const std::string_view prefix = "/stations/";
+  if (pointer.compare(0, prefix.size(), prefix) != 0) return pointer;
+  const std::size_t station = std::stoul(pointer.substr(prefix.size()));
+  if (station >= stations.size()) return pointer;
+  double driven = 0.0;
+  for (std::size_t i = 0; i < path.motions.size(); ++i) {
+    driven += path.motions[i].length_m;
+    if (stations[station].distance_m <= driven + 1e-9) return fmt::format("/path/{}", path.corner[i]);
+  }
+  return fmt::format("/path/{}", path.corner.back());
+}
+
+}  // namespace
+
+Result<sim::DrivePrediction> predict_path(const PlanProblem& problem, const std::vector<Waypoint>& corners,
+                                          Progress& progress) {
+  if (corners.empty())
+    return fail(ErrorCode::kInvalidRequest, "a path has at least one corner", {{"/path", "no corners, must be at least 1"}});
+  const TerrainGround ground(problem.terrain, problem.soil_map);
+  std::vector<Fault> faults;
+  std::optional<ErrorCode> code;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const auto wrong = check_place(problem, ground, corners[i], fmt::format("/path/{}", i), faults);
+    if (wrong && code != ErrorCode::kOffMap) code = wrong;
+  }
+  if (code) return fail(*code, fmt::format("the path leaves the ground: {}", faults.front().message), std::move(faults));
+
+  const CornerPath path = join(corners);
+  const auto stations = route_stations(path.motions, sim::largest_station_spacing_m(*problem.rover));
+  Result<sim::DrivePrediction> drive =
+      sim::predict_drive(*problem.rover, problem.gravity_m_s2, ground, problem.beliefs, stations, problem.limits,
+                         problem.risk, problem.threads, progress);
+  if (!drive) {
+    Error error = drive.error();
+    for (Fault& fault : error.faults) fault.pointer = corner_pointer(path, stations, fault.pointer);
+    return fail(std::move(error));
+  }
+  return drive;
+}
+
+}  // namespace slipway::planner

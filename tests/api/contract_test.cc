@@ -1,0 +1,174 @@
+#include <gtest/gtest.h>
+
+#include "api/job_kinds.h"
+#include "api/json/parse.h"
+#include "api/json/plan_answer.h"
+#include "api/openapi.h"
+#include "small_world.h"
+
+namespace slipway::api {
+namespace {
+
+using json::JsonValue;
+using testing::example;
+using testing::small_world;
+
+const JsonValue& description() {
+  static const JsonValue document = json::parse(openapi_document()).value();
+  return document;
+}
+
+// What of JSON Schema the description uses: enough to hold an answer against it.
+class Validator {
+ public:
+  void check(const JsonValue& schema, const JsonValue& value, const std::string& at) {
+    if (const JsonValue* const reference = schema.find("$ref")) {
+      const std::string name = reference->text.substr(std::string("#/components/schemas/").size());
+      const JsonValue* const target = description().find("components")->find("schemas")->find(name);
+      if (target == nullptr) return complain(at, "there is no schema " + name);
+      return check(*target, value, at);
+    }
+    if (const JsonValue* const options = schema.find("oneOf")) return check_one_of(*options, value, at);
+    if (const JsonValue* const constant = schema.find("const")) {
+      if (constant->text != value.text) complain(at, "is not " + constant->text);
+    }
+    check_type(schema, value, at);
+    if (value.is(JsonValue::Kind::kObject)) check_members(schema, value, at);
+    if (value.is(JsonValue::Kind::kArray) && schema.find("items") != nullptr) {
+      for (std::size_t i = 0; i < value.elements.size(); ++i) {
+        check(*schema.find("items"), value.elements[i], json::child_pointer(at, i));
+      }
+    }
+  }
+  const std::vector<std::string>& complaints() const { return complaints_; }
+
+ private:
+  void complain(const std::string& at, const std::string& what) { complaints_.push_back(at + " " + what); }
+
+  void check_one_of(const JsonValue& options, const JsonValue& value, const std::string& at) {
+    int fitting = 0;
+    for (const JsonValue& option : options.elements) {
+      Validator one;
+      one.check(option, value, at);
+      fitting += one.complaints().empty() ? 1 : 0;
+    }
+    if (fitting != 1) complain(at, "fits " + std::to_string(fitting) + " of the schemas");
+  }
+
+  static bool is_of(const std::string& type, const JsonValue& value) {
+    switch (value.kind) {
+      case JsonValue::Kind::kNull:
+        return type == "null";
+      case JsonValue::Kind::kBoolean:
+        return type == "boolean";
+      case JsonValue::Kind::kNumber:
+        return type == "number" || (type == "integer" && value.number == std::floor(value.number));
+      case JsonValue::Kind::kString:
+        return type == "string";
+      case JsonValue::Kind::kArray:
+        return type == "array";
+      case JsonValue::Kind::kObject:
+        return type == "object";
+    }
+    return false;
+  }
+
+  void check_type(const JsonValue& schema, const JsonValue& value, const std::string& at) {
+    const JsonValue* const type = schema.find("type");
+    if (type == nullptr) return;
+    bool fits = type->is(JsonValue::Kind::kString) && is_of(type->text, value);
+    for (const JsonValue& one : type->elements) fits = fits || is_of(one.text, value);
+    if (!fits) complain(at, "is " + json::describe(value));
+  }
+
+  void check_members(const JsonValue& schema, const JsonValue& value, const std::string& at) {
+    const JsonValue* const properties = schema.find("properties");
+    const JsonValue* const more = schema.find("additionalProperties");
+    for (std::size_t i = 0; i < value.keys.size(); ++i) {
+      const JsonValue* const property = properties == nullptr ? nullptr : properties->find(value.keys[i]);
+      const std::string place = json::child_pointer(at, value.keys[i]);
+      if (property != nullptr) {
+        check(*property, value.elements[i], place);
+      } else if (more != nullptr && more->is(JsonValue::Kind::kObject)) {
+        check(*more, value.elements[i], place);
+      } else if (more != nullptr && more->is(JsonValue::Kind::kBoolean) && !more->boolean) {
+        complain(place, "is not described");
+      }
+    }
+    const JsonValue* const required = schema.find("required");
+    if (required == nullptr) return;
+    for (const JsonValue& key : required->elements) {
+      if (value.find(key.text) == nullptr) complain(at, "has no " + key.text);
+    }
+  }
+
+  std::vector<std::string> complaints_;
+};
+
+std::vector<std::string> complaints_about(const std::string& schema, const std::string& bytes) {
+  const auto value = json::parse(bytes, {.bytes = bytes.size(), .values = bytes.size()});
+  if (!value) return {value.error().detail};
+  Validator validator;
+  validator.check(*description().find("components")->find("schemas")->find(schema), *value, "");
+  return validator.complaints();
+}
+
+std::string answer_to(std::string_view kind, const std::string& request) {
+  NoProgress progress;
+  const auto answer = service_work(small_world())(std::string(kind), request, progress);
+  EXPECT_TRUE(answer) << answer.error().detail;
+  return answer.value_or("");
+}
+
+TEST(Validator, FindsWhatIsWrong) {
+  EXPECT_EQ(complaints_about("PlanRequest", R"({"terrain":3,"more":1})").size(), 5U);
+}
+
+TEST(Contract, ExamplesOfRequestsFitTheDescription) {
+  for (const char* name : {"plan_shortest.json", "plan_every_key.json"}) {
+    EXPECT_EQ(complaints_about("PlanRequest", example(name)), std::vector<std::string>{}) << name;
+  }
+  EXPECT_EQ(complaints_about("PredictionRequest", example("prediction_path.json")), std::vector<std::string>{});
+}
+
+TEST(Contract, APlansAnswerFitsTheDescription) {
+  const std::string answer = answer_to(kPlanKind, example("plan_every_key.json"));
+  EXPECT_EQ(complaints_about("Plan", answer), std::vector<std::string>{});
+  const auto document = json::parse(answer, {.bytes = answer.size(), .values = answer.size()});
+  ASSERT_TRUE(document);
+  const JsonValue& routes = *document->find("routes")->find("features");
+  EXPECT_EQ(routes.elements.size(), document->find("summary")->elements.size());
+  ASSERT_FALSE(routes.elements.empty()) << json::describe(*document->find("fewer_because"));
+  const JsonValue& stations = *routes.elements[0].find("properties")->find("stations");
+  const std::size_t count = static_cast<std::size_t>(stations.find("count")->number);
+  for (const char* column : {"distance_m", "slip", "slip_p95", "risk", "soil", "elapsed_s"}) {
+    EXPECT_EQ(stations.find(column)->elements.size(), count) << column;
+  }
+  EXPECT_EQ(stations.find("wheels")->find("rr")->find("current_a")->elements.size(), count);
+}
+
+TEST(Contract, APredictionsAnswerFitsTheDescription) {
+  const std::string answer = answer_to(kPredictionKind, example("prediction_path.json"));
+  EXPECT_EQ(complaints_about("Prediction", answer), std::vector<std::string>{});
+  EXPECT_TRUE(json::geojson_of(answer));
+}
+
+TEST(Contract, TheSameRequestHasTheSameBytes) {
+  EXPECT_EQ(answer_to(kPredictionKind, example("prediction_path.json")),
+            answer_to(kPredictionKind, example("prediction_path.json")));
+  EXPECT_EQ(answer_to(kPlanKind, example("plan_shortest.json")), answer_to(kPlanKind, example("plan_shortest.json")));
+}
+
+TEST(Contract, APathThroughAHoleNamesTheCorner) {
+  NoProgress progress;
+  const auto answer = service_work(small_world())(
+      std::string(kPredictionKind),
+      R"({"terrain":"yard","rover":"mer-class","path":[{"x_m":75,"y_m":45},{"x_m":95,"y_m":45}],"draws":1})", progress);
+  ASSERT_FALSE(answer);
+  EXPECT_EQ(answer.error().code, ErrorCode::kNoData);
+  ASSERT_FALSE(answer.error().faults.empty());
+  EXPECT_TRUE(answer.error().faults.front().pointer.starts_with("/path/")) << answer.error().faults.front().pointer;
+}
+
+}  // namespace
+}  // namespace slipway::api

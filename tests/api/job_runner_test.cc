@@ -1,0 +1,195 @@
+#include "api/job_runner.h"
+
+#include <gtest/gtest.h>
+
+#include <future>
+
+#include "api/json/problem_document.h"
+#include "api/memory_job_store.h"
+#include "api/sqlite_job_store.h"
+#include "small_world.h"
+
+namespace slipway::api {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using testing::ScratchFolder;
+
+Result<std::string> echo(const std::string& kind, const std::string& request, Progress& progress) {
+  progress.report("echoing", 0.5);
+  return kind + ": " + request;
+}
+
+// Work that ends only when it hears that nobody wants it.
+struct Endless {
+  std::atomic<int> begun{0};
+  std::atomic<int> ended{0};
+  Result<std::string> operator()(const std::string& /*kind*/, const std::string& /*request*/, Progress& progress) {
+    ++begun;
+    while (!progress.cancelled()) std::this_thread::sleep_for(milliseconds(20));
+    ++ended;
+    return fail(ErrorCode::kCancelled, "cancelled");
+  }
+};
+
+void wait_until(const std::function<bool()>& condition) {
+  const auto until = std::chrono::steady_clock::now() + seconds(10);
+  while (!condition() && std::chrono::steady_clock::now() < until) std::this_thread::sleep_for(milliseconds(5));
+  ASSERT_TRUE(condition());
+}
+
+TEST(JobRunner, RunsAJobToItsAnswer) {
+  JobRunner runner(make_memory_job_store(), echo);
+  ASSERT_TRUE(runner.start());
+  const auto job = runner.submit("plan", "{}");
+  ASSERT_TRUE(job);
+  EXPECT_EQ(job->state, JobState::kAccepted);
+  EXPECT_EQ(runner.wait(job->id, seconds(5)).value()->state, JobState::kSuccessful);
+  EXPECT_EQ(runner.store().outcome(job->id).value(), "plan: {}");
+}
+
+TEST(JobRunner, AFailureAndABrokenPromiseAreProblems) {
+  JobRunner runner(make_memory_job_store(), [](const std::string&, const std::string& request, Progress&) {
+    if (request == "throw") throw std::logic_error("broken");
+    return Result<std::string>(fail(ErrorCode::kNoData, "hole", {{"/path/1", "m"}}));
+  });
+  ASSERT_TRUE(runner.start());
+  const std::string failing = runner.submit("plan", "{}")->id;
+  const std::string throwing = runner.submit("plan", "throw")->id;
+  EXPECT_EQ(runner.wait(failing, seconds(5)).value()->state, JobState::kFailed);
+  EXPECT_EQ(runner.wait(throwing, seconds(5)).value()->state, JobState::kFailed);
+  const Error error = json::read_problem(runner.store().outcome(failing).value().value());
+  EXPECT_EQ(error.code, ErrorCode::kNoData);
+  EXPECT_EQ(error.faults, (std::vector<Fault>{{"/path/1", "m"}}));
+  EXPECT_EQ(json::read_problem(runner.store().outcome(throwing).value().value()).code, ErrorCode::kInternal);
+}
+
+TEST(JobRunner, DismissingStopsTheWorkWithinTwoSeconds) {
+  Endless endless;
+  JobRunner runner(make_memory_job_store(), std::ref(endless));
+  ASSERT_TRUE(runner.start());
+  const std::string id = runner.submit("plan", "{}")->id;
+  wait_until([&] { return endless.begun == 1; });
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(runner.dismiss(id).value()->state, JobState::kDismissed);
+  wait_until([&] { return endless.ended == 1 && runner.running() == 0; });
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, seconds(2));
+  EXPECT_EQ(runner.store().get(id).value()->state, JobState::kDismissed);
+  EXPECT_EQ(runner.store().outcome(id).value(), std::nullopt);
+}
+
+TEST(JobRunner, AnAnswerThatComesAfterTheDismissalIsNeverShown) {
+  std::promise<void> begun;
+  std::promise<void> go_on;
+  JobRunner runner(make_memory_job_store(), [&](const std::string&, const std::string&, Progress&) {
+    begun.set_value();
+    go_on.get_future().wait();  // deaf to cancelled()
+    return Result<std::string>("late");
+  });
+  ASSERT_TRUE(runner.start());
+  const std::string id = runner.submit("plan", "{}")->id;
+  begun.get_future().wait();
+  ASSERT_TRUE(runner.dismiss(id));
+  go_on.set_value();
+  wait_until([&] { return runner.running() == 0; });
+  EXPECT_EQ(runner.store().get(id).value()->state, JobState::kDismissed);
+  EXPECT_EQ(runner.store().outcome(id).value(), std::nullopt);
+}
+
+TEST(JobRunner, ADismissalWakesWhoWaits) {
+  Endless endless;
+  JobRunner runner(make_memory_job_store(), std::ref(endless));
+  ASSERT_TRUE(runner.start());
+  const std::string id = runner.submit("plan", "{}")->id;
+  auto waiting = std::async(std::launch::async, [&] { return runner.wait(id, seconds(20)); });
+  wait_until([&] { return endless.begun == 1; });
+  ASSERT_TRUE(runner.dismiss(id));
+  ASSERT_EQ(waiting.wait_for(seconds(2)), std::future_status::ready);
+  EXPECT_EQ(waiting.get().value()->state, JobState::kDismissed);
+}
+
+TEST(JobRunner, ShortWorkDoesNotWaitBehindLongWork) {
+  Endless endless;
+  JobRunner runner(make_memory_job_store(), [&](const std::string& kind, const std::string& request, Progress& p) {
+    return kind == "plan" ? endless(kind, request, p) : echo(kind, request, p);
+  });
+  ASSERT_TRUE(runner.start());
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(runner.submit("plan", "{}"));
+  const std::string id = runner.submit("prediction", "{}")->id;
+  EXPECT_EQ(runner.wait(id, seconds(5)).value()->state, JobState::kSuccessful);
+}
+
+TEST(JobRunner, RefusesJobsWhenTheQueueIsFull) {
+  Endless endless;
+  JobRunnerOptions options;
+  options.most_unfinished = 2;
+  JobRunner runner(make_memory_job_store(), std::ref(endless), options);
+  ASSERT_TRUE(runner.start());
+  ASSERT_TRUE(runner.submit("plan", "{}"));
+  ASSERT_TRUE(runner.submit("plan", "{}"));
+  EXPECT_EQ(runner.submit("plan", "{}").error().code, ErrorCode::kTooManyJobs);
+}
+
+TEST(JobRunner, WhatWasAcceptedOrRunningRunsAfterARestart) {
+  const ScratchFolder folder;
+  const auto path = folder.path() / "jobs.sqlite";
+  std::vector<std::string> ids;
+  {
+    Endless endless;
+    JobRunner runner(std::shared_ptr<JobStore>(std::move(*open_sqlite_job_store(path))), std::ref(endless));
+    ASSERT_TRUE(runner.start());
+    for (int i = 0; i < 3; ++i) ids.push_back(runner.submit("plan", std::to_string(i))->id);
+    wait_until([&] { return endless.begun == 1; });
+  }
+  JobRunner runner(std::shared_ptr<JobStore>(std::move(*open_sqlite_job_store(path))), echo);
+  ASSERT_TRUE(runner.start());
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(runner.wait(ids[i], seconds(5)).value()->state, JobState::kSuccessful);
+    EXPECT_EQ(runner.store().outcome(ids[i]).value(), "plan: " + std::to_string(i));
+  }
+}
+
+TEST(JobRunner, AJobOfADeadProcessIsTakenUpThoughItsLeaseStillRuns) {
+  const std::shared_ptr<JobStore> store = make_memory_job_store();
+  ASSERT_TRUE(store->append({new_job_id(), "plan", "{}"}, now_ms(), 10));
+  const std::string id = store->claim("slipway", {"plan"}, now_ms(), now_ms() + 3'600'000).value()->job.id;
+  JobRunner runner(store, echo);
+  ASSERT_TRUE(runner.start());
+  EXPECT_EQ(runner.wait(id, seconds(5)).value()->state, JobState::kSuccessful);
+}
+
+TEST(JobRunner, AJobThatEndsTheProcessAgainAndAgainFails) {
+  const std::shared_ptr<JobStore> store = make_memory_job_store();
+  const std::string id = store->append({new_job_id(), "plan", "{}"}, now_ms(), 10)->id;
+  JobRunnerOptions options;
+  for (int i = 0; i < options.most_attempts; ++i) {
+    ASSERT_TRUE(store->claim("slipway", {"plan"}, now_ms(), now_ms() + 1000).value());
+    ASSERT_EQ(store->release("slipway").value(), 1);
+  }
+  std::atomic<int> worked{0};
+  JobRunner runner(store, [&](const std::string&, const std::string&, Progress&) {
+    ++worked;
+    return Result<std::string>("answer");
+  });
+  ASSERT_TRUE(runner.start());
+  EXPECT_EQ(runner.wait(id, seconds(5)).value()->state, JobState::kFailed);
+  EXPECT_EQ(worked, 0);
+}
+
+TEST(JobRunner, WorkThatAsksKeepsItsLease) {
+  Endless endless;
+  JobRunnerOptions options;
+  options.workers = {{"plan"}, {"plan"}};
+  options.lease = milliseconds(300);
+  options.idle_poll = milliseconds(50);
+  JobRunner runner(make_memory_job_store(), std::ref(endless), options);
+  ASSERT_TRUE(runner.start());
+  const std::string id = runner.submit("plan", "{}")->id;
+  std::this_thread::sleep_for(milliseconds(1000));
+  EXPECT_EQ(endless.begun, 1) << "the other worker must not have taken it";
+  EXPECT_EQ(runner.store().get(id).value()->attempt, 1);
+}
+
+}  // namespace
+}  // namespace slipway::api

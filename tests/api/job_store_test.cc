@@ -1,0 +1,301 @@
+#include "api/job_store.h"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <set>
+#include <thread>
+
+#include "api/memory_job_store.h"
+#include "api/sqlite_job_store.h"
+#include "small_world.h"
+
+namespace slipway::api {
+namespace {
+
+using testing::ScratchFolder;
+
+const std::vector<std::string> kBoth{"plan", "prediction"};
+constexpr std::size_t kMany = 1000;
+
+// Both implementations keep the same promises.
+class JobStores : public ::testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    if (GetParam() == "memory") {
+      store_ = make_memory_job_store();
+    } else {
+      auto opened = open_sqlite_job_store(folder_.path() / "jobs.sqlite");
+      ASSERT_TRUE(opened) << opened.error().detail;
+      store_ = std::move(*opened);
+    }
+  }
+
+  std::string accept(const std::string& kind = "plan", const std::string& request = "{}") {
+    const auto job = store_->append({new_job_id(), kind, request}, ++now_, kMany);
+    EXPECT_TRUE(job);
+    return job->id;
+  }
+  ClaimedJob claim(std::int64_t lease = 1000) {
+    auto claimed = store_->claim("a", kBoth, now_, now_ + lease);
+    EXPECT_TRUE(claimed && *claimed);
+    return **claimed;
+  }
+  Job get(const std::string& id) { return store_->get(id).value().value(); }
+
+  ScratchFolder folder_;
+  std::unique_ptr<JobStore> store_;
+  std::int64_t now_ = 1'700'000'000'000;
+};
+
+INSTANTIATE_TEST_SUITE_P(Each, JobStores, ::testing::Values("memory", "sqlite"),
+                         [](const auto& instance) { return instance.param; });
+
+TEST_P(JobStores, AJobGoesFromAcceptedOverRunningToSuccessful) {
+  const std::string request("{\"a\": \"\xc3\xa9\"}\0more", 16);
+  const std::string id = accept("plan", request);
+  EXPECT_EQ(get(id).state, JobState::kAccepted);
+  EXPECT_EQ(get(id).created_ms, now_);
+  const ClaimedJob claimed = claim();
+  EXPECT_EQ(claimed.request, request);
+  EXPECT_EQ(claimed.job.state, JobState::kRunning);
+  EXPECT_EQ(claimed.job.attempt, 1);
+  EXPECT_TRUE(store_->report(claimed.lease(), "proposing routes", 0.25, now_ + 1).value());
+  EXPECT_EQ(get(id).stage, "proposing routes");
+  EXPECT_EQ(get(id).progress, 0.25);
+  EXPECT_EQ(store_->outcome(id).value(), std::nullopt);
+  EXPECT_TRUE(store_->finish(claimed.lease(), JobState::kSuccessful, "answer", now_ + 5).value());
+  EXPECT_EQ(get(id).state, JobState::kSuccessful);
+  EXPECT_EQ(get(id).progress, 1.0);
+  EXPECT_EQ(get(id).ended_ms, now_ + 5);
+  EXPECT_EQ(store_->outcome(id).value(), "answer");
+}
+
+TEST_P(JobStores, TheVersionGrowsWithEveryChangeAndOnlyThen) {
+  const std::string id = accept();
+  std::int64_t last = get(id).version;
+  EXPECT_EQ(get(id).version, last) << "looking changes nothing";
+  const Lease lease = claim().lease();
+  EXPECT_GT(get(id).version, last);
+  last = get(id).version;
+  ASSERT_TRUE(store_->report(lease, "s", 0.5, now_ + 1).value());
+  EXPECT_GT(get(id).version, last);
+  last = get(id).version;
+  ASSERT_TRUE(store_->report(lease, "s", 0.5, now_ + 2).value());
+  EXPECT_EQ(get(id).version, last) << "a lease renewed is nothing to poll for";
+  ASSERT_TRUE(store_->finish(lease, JobState::kFailed, "p", now_).value());
+  EXPECT_GT(get(id).version, last);
+}
+
+TEST_P(JobStores, ClaimsTakeTheOldestOfTheirKindsOnce) {
+  const std::string plan = accept("plan");
+  const std::string prediction = accept("prediction");
+  const auto first = store_->claim("a", {"prediction"}, now_, now_ + 10);
+  EXPECT_EQ(first.value()->job.id, prediction);
+  EXPECT_EQ(store_->claim("b", {"prediction"}, now_, now_ + 10).value(), std::nullopt);
+  EXPECT_EQ(store_->claim("b", kBoth, now_, now_ + 10).value()->job.id, plan);
+  EXPECT_EQ(store_->claim("b", {}, now_, now_ + 10).value(), std::nullopt);
+}
+
+TEST_P(JobStores, AnExpiredLeaseIsClaimedAgainAndTheOldOneIsFencedOff) {
+  const std::string id = accept();
+  const Lease old = claim(10).lease();
+  now_ += 11;
+  const Lease taken = claim(1000).lease();
+  EXPECT_EQ(taken.attempt, 2);
+  EXPECT_FALSE(store_->report(old, "late", 0.9, now_).value());
+  EXPECT_FALSE(store_->finish(old, JobState::kSuccessful, "late", now_).value());
+  EXPECT_EQ(get(id).state, JobState::kRunning);
+  EXPECT_TRUE(store_->finish(taken, JobState::kSuccessful, "good", now_).value());
+  EXPECT_EQ(store_->outcome(id).value(), "good");
+}
+
+TEST_P(JobStores, ReleaseGivesBackWhatAWorkerHeld) {
+  const std::string id = accept();
+  const Lease lease = claim().lease();
+  EXPECT_EQ(store_->release("b").value(), 0);
+  EXPECT_EQ(store_->release("a").value(), 1);
+  EXPECT_EQ(get(id).state, JobState::kAccepted);
+  EXPECT_FALSE(store_->finish(lease, JobState::kSuccessful, "late", now_).value());
+  EXPECT_EQ(claim().job.attempt, 2);
+}
+
+TEST_P(JobStores, ADismissedJobStaysDismissedAndShowsNothing) {
+  const std::string waiting = accept();
+  const std::string working = accept();
+  EXPECT_EQ(store_->dismiss(waiting, now_).value()->state, JobState::kDismissed);
+  const Lease lease = claim().lease();
+  EXPECT_EQ(lease.id, working) << "what is dismissed is not claimed";
+  EXPECT_EQ(store_->dismiss(working, now_).value()->state, JobState::kDismissed);
+  EXPECT_FALSE(store_->report(lease, "s", 0.5, now_).value());
+  EXPECT_FALSE(store_->finish(lease, JobState::kSuccessful, "late", now_).value());
+  EXPECT_EQ(get(working).state, JobState::kDismissed);
+  EXPECT_EQ(store_->outcome(working).value(), std::nullopt);
+  EXPECT_EQ(store_->dismiss(working, now_ + 9).value()->ended_ms, now_) << "again changes nothing";
+}
+
+TEST_P(JobStores, WhatHasEndedIsNotDismissed) {
+  const std::string id = accept();
+  ASSERT_TRUE(store_->finish(claim().lease(), JobState::kSuccessful, "answer", now_).value());
+  EXPECT_EQ(store_->dismiss(id, now_).value()->state, JobState::kSuccessful);
+  EXPECT_EQ(store_->outcome(id).value(), "answer");
+  EXPECT_EQ(store_->dismiss(new_job_id(), now_).value(), std::nullopt);
+}
+
+TEST_P(JobStores, RefusesJobsBeyondTheBoundAndAcceptsAgainAfterwards) {
+  const std::string first = accept();
+  accept();
+  const auto refused = store_->append({new_job_id(), "plan", "{}"}, now_, 2);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kTooManyJobs);
+  ASSERT_TRUE(store_->dismiss(first, now_));
+  EXPECT_TRUE(store_->append({new_job_id(), "plan", "{}"}, now_, 2));
+}
+
+TEST_P(JobStores, ListsNewestFirstAndForgetsTheOldestEnded) {
+  std::vector<std::string> ids;
+  for (int i = 0; i < 4; ++i) ids.push_back(accept());
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(store_->dismiss(ids[i], now_));
+  ASSERT_EQ(store_->list(2).value().size(), 2U);
+  EXPECT_EQ(store_->list(2).value()[0].id, ids[3]);
+  EXPECT_EQ(store_->forget_ended(1).value(), 2);
+  EXPECT_EQ(store_->get(ids[0]).value(), std::nullopt);
+  EXPECT_EQ(store_->get(ids[1]).value(), std::nullopt);
+  EXPECT_TRUE(store_->get(ids[2]).value().has_value());
+  EXPECT_EQ(get(ids[3]).state, JobState::kAccepted) << "what has not ended is never forgotten";
+  EXPECT_EQ(store_->forget_ended(1).value(), 0);
+}
+
+TEST_P(JobStores, ManyThreadsClaimEveryJobExactlyOnce) {
+  constexpr int kThreads = 4;
+  constexpr int kEach = 25;
+  std::vector<std::thread> threads;
+  for (int t = 0; t < kThreads; ++t) {
+    threads.emplace_back([this] {
+      for (int i = 0; i < kEach; ++i) EXPECT_TRUE(store_->append({new_job_id(), "plan", "{}"}, 1, kMany));
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  threads.clear();
+  std::mutex mutex;
+  std::multiset<std::string> claimed;
+  for (int t = 0; t < kThreads; ++t) {
+    threads.emplace_back([&, t] {
+      while (const auto job = store_->claim(std::to_string(t), kBoth, 2, 100).value()) {
+        const std::scoped_lock lock(mutex);
+        claimed.insert(job->job.id);
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(claimed.size(), static_cast<std::size_t>(kThreads * kEach));
+  EXPECT_EQ(std::set<std::string>(claimed.begin(), claimed.end()).size(), claimed.size());
+}
+
+// The child accepts jobs and acknowledges each through the pipe until it is killed in the middle of it.
+TEST(SqliteJobStore, AKilledProcessLosesNoAcknowledgedJob) {
+  const ScratchFolder folder;
+  const auto path = folder.path() / "jobs.sqlite";
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    ::close(ends[0]);
+    const auto store = open_sqlite_job_store(path);
+    if (!store) ::_exit(1);
+    for (;;) {
+      const std::string id = new_job_id();
+      if (!(*store)->append({id, "plan", "{}"}, 1, 1'000'000)) ::_exit(1);
+      if (::write(ends[1], id.data(), id.size()) != static_cast<ssize_t>(id.size())) ::_exit(1);
+    }
+  }
+  ::close(ends[1]);
+  std::vector<std::string> acknowledged;
+  std::string id(32, ' ');
+  constexpr std::size_t kEnough = 40;
+  while (::read(ends[0], id.data(), id.size()) == 32) {
+    acknowledged.push_back(id);
+    if (acknowledged.size() == kEnough) ::kill(child, SIGKILL);
+  }
+  ::close(ends[0]);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFSIGNALED(status)) << "the child must have been killed, not have failed";
+  ASSERT_GE(acknowledged.size(), kEnough);
+  const auto store = open_sqlite_job_store(path);
+  ASSERT_TRUE(store) << store.error().detail;
+  for (const std::string& known : acknowledged) EXPECT_TRUE((*store)->get(known).value().has_value()) << known;
+}
+
+TEST(SqliteJobStore, KeepsEverythingThroughAReopening) {
+  const ScratchFolder folder;
+  const auto path = folder.path() / "jobs.sqlite";
+  const std::string id = new_job_id();
+  {
+    const auto store = open_sqlite_job_store(path);
+    ASSERT_TRUE(store);
+    ASSERT_TRUE((*store)->append({id, "plan", "request"}, 1, 10));
+    const auto claimed = (*store)->claim("a", kBoth, 2, 3);
+    ASSERT_TRUE((*store)->finish(claimed.value()->lease(), JobState::kFailed, "problem", 4).value());
+  }
+  const auto store = open_sqlite_job_store(path);
+  ASSERT_TRUE(store);
+  const Job job = (*store)->get(id).value().value();
+  EXPECT_EQ(job.state, JobState::kFailed);
+  EXPECT_EQ(job.started_ms, 2);
+  EXPECT_EQ(job.ended_ms, 4);
+  EXPECT_EQ((*store)->outcome(id).value(), "problem");
+}
+
+TEST(SqliteJobStore, AFileThatIsNoDatabaseIsAnErrorAndNotOverwritten) {
+  const ScratchFolder folder;
+  const auto path = folder.path() / "notes.txt";
+  const std::string notes(5000, 'n');
+  testing::write_file(path, notes);
+  const auto store = open_sqlite_job_store(path);
+  ASSERT_FALSE(store);
+  EXPECT_EQ(store.error().code, ErrorCode::kStorage);
+  EXPECT_EQ(testing::file_bytes(path), notes);
+  EXPECT_FALSE(open_sqlite_job_store(folder.path() / "no" / "such" / "folder" / "jobs.sqlite"));
+}
+
+// A figure for the record; the bound is far below what any disk gives.
+TEST(SqliteJobStore, ThreadsThatAcceptTogetherShareCommits) {
+  const ScratchFolder folder;
+  const auto store = open_sqlite_job_store(folder.path() / "jobs.sqlite");
+  ASSERT_TRUE(store);
+  for (const int threads : {1, 8}) {
+    const int each = threads == 1 ? 100 : 50;
+    const auto begin = std::chrono::steady_clock::now();
+    std::vector<std::thread> all;
+    for (int t = 0; t < threads; ++t) {
+      all.emplace_back([&] {
+        for (int i = 0; i < each; ++i) EXPECT_TRUE((*store)->append({new_job_id(), "plan", "{}"}, 1, 1'000'000));
+      });
+    }
+    for (std::thread& thread : all) thread.join();
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    const double rate = threads * each / took.count();
+    std::cout << "accepted jobs per second, " << threads << " threads: " << rate << '\n';
+    EXPECT_GT(rate, 5.0);
+  }
+  EXPECT_EQ((*store)->list(kMany).value().size(), 500U);
+}
+
+TEST(JobId, HoldsAHundredAndTwentyEightBits) {
+  std::set<std::string> ids;
+  for (int i = 0; i < 1000; ++i) {
+    const std::string id = new_job_id();
+    EXPECT_TRUE(is_job_id(id)) << id;
+    ids.insert(id);
+  }
+  EXPECT_EQ(ids.size(), 1000U);
+  EXPECT_FALSE(is_job_id("../../../etc/passwd"));
+}
+
+}  // namespace
+}  // namespace slipway::api

@@ -1,0 +1,262 @@
+#!/usr/bin/env python3
+"""What the running program promises over HTTP and on the command line, checked from outside with nothing of its code.
+
+usage: contract.py SLIPWAY SOURCE_DIR
+"""
+import http.client
+import json
+import os
+import pathlib
+import re
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+SLIPWAY, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
+DATA = str(SOURCE / "data")
+STOP_967 = {"x_m": 8142579.733, "y_m": -276648.736}
+STOP_997 = {"x_m": 8142566.402, "y_m": -276711.667}
+JSON = {"Content-Type": "application/json"}
+
+
+def plan(**changes):
+    return {"terrain": "gale", "rover": "mer-class", "start": STOP_967, "goal": STOP_997, **changes}
+
+
+class Server:
+    """`slipway serve` on a free port, in a folder of its own."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.process = subprocess.Popen(
+            [SLIPWAY, "serve", "--data", DATA, "--port", "0", "--jobs", str(folder / "jobs.sqlite")],
+            stdout=subprocess.PIPE, text=True)
+        line = self.process.stdout.readline()
+        match = re.search(r"http://127\.0\.0\.1:(\d+)", line)
+        if not match:
+            raise RuntimeError(f"the server said: {line!r}")
+        self.port = int(match.group(1))
+        self.url = f"http://127.0.0.1:{self.port}"
+
+    def ask(self, method, path, body=None, headers=None, timeout=120):
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=timeout)
+        if body is not None and not isinstance(body, (bytes, str)):
+            body = json.dumps(body)
+        connection.request(method, path, body, {**(JSON if body is not None else {}), **(headers or {})})
+        response = connection.getresponse()
+        data = response.read()
+        connection.close()
+        return response.status, dict(response.getheaders()), data
+
+    def end_of(self, location, seconds=120):
+        deadline = time.time() + seconds
+        while time.time() < deadline:
+            status, headers, body = self.ask("GET", location)
+            job = json.loads(body)
+            if job["state"] not in ("accepted", "running"):
+                return job
+            time.sleep(0.05)
+        raise TimeoutError(location)
+
+    def answer(self, path, request):
+        status, headers, body = self.ask("POST", path, request, {"Prefer": "respond-async"})
+        assert status == 201, (status, body[:2000])
+        job = self.end_of(headers["Location"])
+        assert job["state"] == "successful", job
+        return self.ask("GET", headers["Location"] + "/result")[2]
+
+    def rss_mb(self, key):
+        text = pathlib.Path(f"/proc/{self.process.pid}/status").read_text()
+        return int(re.search(key + r":\s+(\d+) kB", text).group(1)) / 1024
+
+    def kill(self):
+        self.process.send_signal(signal.SIGKILL)
+        self.process.wait()
+        self.process.stdout.close()
+
+    def stop(self):
+        self.process.terminate()
+        status = self.process.wait(timeout=20)
+        self.process.stdout.close()
+        return status
+
+
+class Contract(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.server = Server(pathlib.Path(cls.folder.name))
+
+    @classmethod
+    def tearDownClass(cls):
+        status = cls.server.stop()
+        cls.folder.cleanup()
+        assert status == 0, f"the server ended with {status}"
+
+    def refused(self, path, body, status, *pointers, headers=None):
+        got, head, data = self.server.ask("POST", path, body, headers)
+        self.assertEqual(got, status, data[:500])
+        self.assertEqual(head["Content-Type"], "application/problem+json")
+        problem = json.loads(data)
+        self.assertEqual(problem["status"], status)
+        named = [fault["pointer"] for fault in problem.get("faults", [])]
+        for pointer in pointers:
+            self.assertIn(pointer, named, problem)
+        self.assertEqual(self.server.ask("GET", "/healthz")[0], 200, "the server is alive")
+        return problem
+
+    def test_every_address_of_the_description_answers(self):
+        description = json.loads(self.server.ask("GET", "/openapi.json")[2])
+        for path, methods in description["paths"].items():
+            if "get" in methods and "{" not in path:
+                status, _, body = self.server.ask("GET", path)
+                self.assertEqual(status, 200, path)
+                json.loads(body)
+
+    def test_the_examples_are_answered_as_their_names_say(self):
+        for example in sorted((SOURCE / "api/examples").glob("*.json")):
+            with self.subTest(example.name):
+                path = "/v1/predictions" if example.name.startswith("prediction") else "/v1/plans"
+                text = example.read_text()
+                if "refused" in example.name:
+                    self.assertTrue(self.refused(path, text, 422)["faults"])
+                else:
+                    answer = json.loads(self.server.answer(path, text))
+                    self.assertTrue(answer["format"].endswith("/1"))
+
+    def test_a_plan_has_three_routes_that_differ_and_the_safest_is_ranked_with_reasons(self):
+        answer = json.loads(self.server.answer("/v1/plans", plan()))
+        self.assertTrue(len(answer["summary"]) == 3 or answer["fewer_because"], answer["fewer_because"])
+        for rank, (row, feature) in enumerate(zip(answer["summary"], answer["routes"]["features"]), 1):
+            self.assertEqual(row["rank"], rank)
+            self.assertTrue(row["reasons"])
+            self.assertIn(row["verdict"], ("go", "caution", "no_go"))
+            stations = feature["properties"]["stations"]
+            for series in ("distance_m", "slip", "slip_p95", "risk"):
+                self.assertEqual(len(stations[series]), stations["count"])
+            self.assertEqual(len(feature["geometry"]["coordinates"]), stations["count"])
+            steps = [b - a for a, b in zip(stations["distance_m"], stations["distance_m"][1:])]
+            self.assertLessEqual(max(steps), 0.25 + 1e-3, "two wheel radii")
+            if row["unknown_length_m"] > 0:
+                self.assertNotEqual(row["verdict"], "go", "unknown ground is never shown as safe")
+        costs = [row["cost"] for row in answer["summary"]]
+        self.assertEqual(costs, sorted(costs))
+
+    def test_the_same_request_gives_the_same_bytes_here_and_on_the_command_line(self):
+        request = plan(routes=2, draws=8, seed=5)
+        first = self.server.answer("/v1/plans", request)
+        self.assertEqual(first, self.server.answer("/v1/plans", request))
+        local = subprocess.run([SLIPWAY, "plan", "--data", DATA, "--json", "--request", "-"], input=json.dumps(request).encode(),
+                               capture_output=True, check=True).stdout
+        self.assertEqual(first, local.rstrip(b"\n"))
+
+    def test_a_poller_is_told_when_nothing_changed(self):
+        status, headers, _ = self.server.ask("POST", "/v1/plans", plan(routes=1, draws=4))
+        self.assertEqual(status, 201)
+        location = headers["Location"]
+        self.server.end_of(location)
+        status, headers, body = self.server.ask("GET", location)
+        self.assertEqual(json.loads(body)["state"], "successful")
+        status, _, body = self.server.ask("GET", location, headers={"If-None-Match": headers["ETag"]})
+        self.assertEqual((status, body), (304, b""))
+
+    def test_prefer_wait_answers_at_once(self):
+        status, headers, body = self.server.ask("POST", "/v1/plans", plan(routes=1, draws=4), {"Prefer": "wait=30"})
+        self.assertEqual(status, 200)
+        self.assertEqual(json.loads(body)["format"], "plan/1")
+
+    def test_a_dismissed_plan_stops_within_two_seconds(self):
+        status, headers, _ = self.server.ask("POST", "/v1/plans", plan(draws=500, routes=8), {"Prefer": "respond-async"})
+        location = headers["Location"]
+        while json.loads(self.server.ask("GET", location)[2])["state"] == "accepted":
+            time.sleep(0.02)
+        time.sleep(0.3)
+        begun = time.time()
+        self.assertEqual(self.server.ask("DELETE", location)[0], 200)
+        self.assertEqual(json.loads(self.server.ask("GET", location)[2])["state"], "dismissed")
+        # Really stopped: the process's processor time stands still.
+        ticks = lambda: sum(map(int, pathlib.Path(f"/proc/{self.server.process.pid}/stat").read_text().rsplit(")", 1)[1].split()[11:13]))
+        while time.time() - begun < 2.0:
+            before = ticks()
+            time.sleep(0.2)
+            if ticks() - before <= 4:
+                break
+        else:
+            self.fail("the work went on for two seconds")
+        self.assertEqual(self.server.ask("GET", location + "/result")[0], 409)
+
+    def test_bad_requests_name_every_fault(self):
+        self.refused("/v1/plans", "{", 400)
+        self.refused("/v1/plans", '{"start": NaN}', 400)
+        self.refused("/v1/plans", "[" * 100_000, 400)
+        self.refused("/v1/plans", {}, 422, "/terrain", "/rover", "/start", "/goal")
+        self.refused("/v1/plans", plan(routes="three", seed=1.5, gaol=1, limits={"max_tilt_deg": 212, "max_slip": -1}), 422,
+                     "/routes", "/seed", "/gaol", "/limits/max_tilt_deg", "/limits/max_slip")
+        problem = self.refused("/v1/plans", plan(limits={"max_tilt_deg": 212}), 422, "/limits/max_tilt_deg")
+        self.assertIn("max_tilt_deg = 212 deg, must be in (0, 60]", problem["faults"][0]["message"])
+        self.refused("/v1/plans", plan(start={"x_m": 0, "y_m": 0}), 422, "/start")
+        self.refused("/v1/plans", plan(terrain="../../etc/passwd"), 422, "/terrain")
+        self.refused("/v1/plans", plan(terrain="/vsicurl/http://127.0.0.1/x.tif"), 422, "/terrain")
+        self.refused("/v1/plans", plan(effects=[{"name": "tether"}]), 422, "/effects/0/name")
+        off = {"terrain": "gale", "rover": "mer-class", "path": [STOP_967, {"x_m": 8142579.7, "y_m": -279000.0}]}
+        self.refused("/v1/predictions", off, 422, "/path/1")
+        self.refused("/v1/plans", b"\xff\xfe", 400)
+        self.refused("/v1/plans", "start=1", 415, headers={"Content-Type": "application/x-www-form-urlencoded"})
+
+    def test_a_gigabyte_is_refused_before_it_is_read(self):
+        before = self.server.rss_mb("VmRSS")
+        with socket.create_connection(("127.0.0.1", self.server.port), timeout=10) as s:
+            s.sendall(b"POST /v1/plans HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\nContent-Length: 1000000000\r\n\r\n")
+            self.assertIn(b" 413 ", s.recv(4096))
+        self.assertLess(self.server.rss_mb("VmRSS") - before, 20)
+        self.assertEqual(self.server.ask("GET", "/healthz")[0], 200)
+
+    def test_a_job_that_was_accepted_survives_a_kill(self):
+        with tempfile.TemporaryDirectory() as folder:
+            server = Server(pathlib.Path(folder))
+            jobs = []
+            for seed in range(3):
+                status, headers, _ = server.ask("POST", "/v1/plans", plan(seed=seed, routes=2, draws=8), {"Prefer": "respond-async"})
+                self.assertEqual(status, 201)
+                jobs.append(headers["Location"])
+            time.sleep(0.3)
+            server.kill()
+            again = Server(pathlib.Path(folder))
+            try:
+                for location in jobs:
+                    self.assertEqual(again.end_of(location)["state"], "successful")
+            finally:
+                again.stop()
+
+    def test_the_command_line_asks_a_server_and_prints_a_table(self):
+        with tempfile.TemporaryDirectory() as folder:
+            picture = os.path.join(folder, "routes.svg")
+            at = lambda p: f"{p['x_m']},{p['y_m']}"
+            done = subprocess.run([SLIPWAY, "plan", "--url", self.server.url, "--start", at(STOP_967), "--goal", at(STOP_997), "--map", picture],
+                                  capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertRegex(done.stdout, r"(?m)^1 .* m ")
+            self.assertIn("Route 1: ", done.stdout)
+            text = pathlib.Path(picture).read_text()
+            self.assertTrue(text.startswith("<svg") and "data:image/png;base64," in text)
+        wrong = subprocess.run([SLIPWAY, "plan", "--data", DATA, "--start", "0,0", "--goal", at(STOP_997)], capture_output=True, text=True)
+        self.assertNotEqual(wrong.returncode, 0)
+        self.assertIn("/start", wrong.stderr)
+        for command in ("terrain", "rovers", "soils"):
+            self.assertEqual(subprocess.run([SLIPWAY, command, "--data", DATA], capture_output=True).returncode, 0)
+        for command in ("serve", "plan", "predict", "terrain", "rovers", "soils"):
+            shown = subprocess.run([SLIPWAY, command, "--help"], capture_output=True, text=True)
+            self.assertEqual(shown.returncode, 0)
+            self.assertIn("Example:", shown.stdout)
+
+    def test_memory_stays_below_300_mb(self):
+        self.server.answer("/v1/plans", plan())
+        self.assertLess(self.server.rss_mb("VmHWM"), 300)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)

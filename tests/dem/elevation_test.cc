@@ -1,0 +1,232 @@
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <cfloat>
+#include <cmath>
+#include <limits>
+#include <thread>
+
+#include "dem/elevation_source.h"
+#include "raster_fixture.h"
+
+namespace slipway::dem {
+namespace {
+
+using test::RasterOptions;
+using test::TemporaryFolder;
+using test::write_geotiff;
+
+std::vector<float> ramp_cells(const RasterOptions& options) {
+  std::vector<float> cells;
+  for (int row = 0; row < options.rows; ++row) {
+    for (int column = 0; column < options.columns; ++column) {
+      cells.push_back(static_cast<float>(10 * row * row + column));
+    }
+  }
+  return cells;
+}
+
+std::shared_ptr<const Terrain> read_all(const std::filesystem::path& path) {
+  const auto source = open_elevation(path);
+  if (!source) throw std::runtime_error(source.error().detail);
+  const auto terrain = (*source)->read((*source)->info().geometry.extent());
+  if (!terrain) throw std::runtime_error(terrain.error().detail);
+  return *terrain;
+}
+
+TEST(Elevation, EveryCellLiesWhereGdalItselfFindsIt) {
+  const TemporaryFolder folder;
+  for (const char* registration : {"Area", "Point"}) {
+    RasterOptions options{.rows = 4, .columns = 5};
+    options.cells = ramp_cells(options);
+    options.also = [&](GDALDataset& raster) { raster.SetMetadataItem("AREA_OR_POINT", registration); };
+    write_geotiff(folder / "grid.tif", options);
+    const auto terrain = read_all(folder / "grid.tif");
+    for (double x = 100.25; x < 110.0; x += 0.5) {
+      for (double y = 188.25; y < 200.0; y += 0.5) {
+        const auto cell = terrain->geometry().cell_at(x, y);
+        ASSERT_TRUE(cell);
+        ASSERT_EQ(terrain->height_m(*cell), test::gdal_value_at(folder / "grid.tif", x, y)) << x << " " << y;
+      }
+    }
+  }
+}
+
+TEST(Elevation, ItsInfoNamesTheSystemTheBodyAndTheType) {
+  const TemporaryFolder folder;
+  write_geotiff(folder / "mars.tif", {});
+  write_geotiff(folder / "moon.tif", {.crs = "IAU_2015:30130"});
+  write_geotiff(folder / "earth.tif", {.crs = "EPSG:32630"});
+  write_geotiff(folder / "vesta.tif", {.crs = "+proj=eqc +R=255000 +units=m"});
+  const auto info = [&](const char* name) { return open_elevation(folder / name).value()->info(); };
+  EXPECT_EQ(info("mars.tif").body, "Mars");
+  EXPECT_EQ(info("mars.tif").semi_major_axis_m, 3396190.0);
+  EXPECT_EQ(info("mars.tif").data_type, "Float32");
+  EXPECT_EQ(info("moon.tif").body, "Moon");
+  EXPECT_EQ(info("earth.tif").body, "Earth");
+  EXPECT_EQ(info("earth.tif").crs_name, "WGS 84 / UTM zone 30N");
+  EXPECT_EQ(info("vesta.tif").body, "other");
+}
+
+TEST(Elevation, HeightsOfAScaledIntegerRasterAreScaleTimesStoredPlusOffset) {
+  const TemporaryFolder folder;
+  RasterOptions options{.rows = 2, .columns = 3, .type = GDT_Int16, .cells = {0, 10, -10, 100, -32768, 7}};
+  options.also = [](GDALDataset& raster) {
+    raster.GetRasterBand(1)->SetScale(0.5);
+    raster.GetRasterBand(1)->SetOffset(-4000.0);
+    raster.GetRasterBand(1)->SetNoDataValue(-32768.0);
+  };
+  write_geotiff(folder / "scaled.tif", options);
+  EXPECT_TRUE(open_elevation(folder / "scaled.tif").value()->info().scaled);
+  const auto terrain = read_all(folder / "scaled.tif");
+  EXPECT_EQ(terrain->height_m(Cell{0, 1}), -3995.0);
+  EXPECT_EQ(terrain->height_m(Cell{1, 0}), -3950.0);
+  EXPECT_FALSE(terrain->has_data({1, 1}));  // nodata is compared before scaling
+}
+
+TEST(Elevation, MissingCellsAreMaskedHoweverTheFileWritesThem) {
+  const TemporaryFolder folder;
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float inf = std::numeric_limits<float>::infinity();
+  const struct {
+    float stored;
+    std::optional<double> nodata;
+  } cases[] = {{-32767.0F, -32767.0},   {-9999.9F, -9999.9},      {-FLT_MAX, -FLT_MAX},
+               {-FLT_MAX, -3.40282e38}, {-FLT_MAX, std::nullopt}, {nan, std::nullopt},
+               {nan, std::nan("")},     {inf, std::nullopt},      {-inf, -1.0}};
+  for (const auto& [stored, nodata] : cases) {
+    RasterOptions options{.rows = 2, .columns = 2, .cells = {1.0F, stored, 0.0F, -5.0F}};
+    options.also = [nodata = nodata](GDALDataset& raster) {
+      if (nodata) raster.GetRasterBand(1)->SetNoDataValue(*nodata);
+    };
+    write_geotiff(folder / "gaps.tif", options);
+    const auto terrain = read_all(folder / "gaps.tif");
+    EXPECT_FALSE(terrain->has_data({0, 1})) << stored;
+    EXPECT_EQ(terrain->height_m(Cell{0, 0}), 1.0) << stored;
+    EXPECT_EQ(terrain->height_m(Cell{1, 0}), 0.0) << stored;
+    EXPECT_EQ(terrain->height_m(Cell{1, 1}), -5.0) << stored;
+  }
+}
+
+TEST(Elevation, TheMaskOfTheDatasetMasksToo) {
+  const TemporaryFolder folder;
+  RasterOptions options{.rows = 2, .columns = 2, .cells = {1, 2, 3, 4}};
+  options.also = [](GDALDataset& raster) {
+    CPLSetThreadLocalConfigOption("GDAL_TIFF_INTERNAL_MASK", "YES");
+    raster.GetRasterBand(1)->CreateMaskBand(GMF_PER_DATASET);
+    std::uint8_t mask[] = {255, 255, 0, 255};
+    ASSERT_EQ(raster.GetRasterBand(1)->GetMaskBand()->RasterIO(GF_Write, 0, 0, 2, 2, mask, 2, 2, GDT_Byte, 0,
+                                                               0, nullptr),
+              CE_None);
+  };
+  write_geotiff(folder / "mask.tif", options);
+  const auto terrain = read_all(folder / "mask.tif");
+  EXPECT_FALSE(terrain->has_data({1, 0}));
+  EXPECT_EQ(terrain->height_m(Cell{1, 1}), 4.0);
+}
+
+TEST(Elevation, InsideItsExtentAWindowHasTheHeightsAndNormalsOfTheWhole) {
+  const TemporaryFolder folder;
+  RasterOptions options{
+      .rows = 60, .columns = 50, .creation = {"TILED=YES", "BLOCKXSIZE=16", "BLOCKYSIZE=16"}};
+  for (int i = 0; i < 3000; ++i) options.cells.push_back(static_cast<float>(std::sin(0.1 * i * i)));
+  write_geotiff(folder / "whole.tif", options);
+  const auto whole = read_all(folder / "whole.tif");
+  const auto source = open_elevation(folder / "whole.tif").value();
+  for (const Extent& extent : {Extent{131.0, 71.3, 151.7, 110.2}, Extent{100.0, 150.0, 103.0, 200.0},
+                               Extent{190.0, 20.0, 200.0, 26.0}, Extent{150.0, 100.0, 150.0, 100.0}}) {
+    const auto window = source->read(extent).value();
+    EXPECT_LT(window->geometry().rows * window->geometry().columns, 1000);
+    for (double u = 0.0; u <= 1.0; u += 0.1) {
+      for (double v = 0.0; v <= 1.0; v += 0.1) {
+        const double x = std::lerp(extent.west_m, extent.east_m, u);
+        const double y = std::lerp(extent.south_m, extent.north_m, v);
+        const auto expected = whole->surface(x, y);
+        const auto got = window->surface(x, y);
+        ASSERT_TRUE(expected && got);
+        ASSERT_NEAR(got->height_m, expected->height_m, 1e-9);
+        ASSERT_NEAR((got->normal - expected->normal).norm(), 0.0, 1e-9);
+      }
+    }
+  }
+}
+
+TEST(Elevation, AnExtentBesideTheRasterIsOffTheMap) {
+  const TemporaryFolder folder;
+  write_geotiff(folder / "grid.tif", {});
+  const auto terrain = open_elevation(folder / "grid.tif").value()->read({500.0, 500.0, 600.0, 600.0});
+  ASSERT_FALSE(terrain);
+  EXPECT_EQ(terrain.error().code, ErrorCode::kOffMap);
+}
+
+TEST(Elevation, ManyThreadsMayReadOneSource) {
+  const TemporaryFolder folder;
+  RasterOptions options{.rows = 300, .columns = 300, .creation = {"TILED=YES", "COMPRESS=DEFLATE"}};
+  options.cells = ramp_cells(options);
+  write_geotiff(folder / "grid.tif", options);
+  const auto source = open_elevation(folder / "grid.tif").value();
+  const std::string fingerprint = source->read(source->info().geometry.extent()).value()->fingerprint();
+  std::array<int, 4> same{};
+  {
+    std::vector<std::jthread> threads;
+    for (int& count : same) {
+      threads.emplace_back([&] {
+        for (int k = 0; k < 10; ++k) {
+          const auto terrain = source->read(source->info().geometry.extent());
+          count += terrain && (*terrain)->fingerprint() == fingerprint ? 1 : 0;
+        }
+      });
+    }
+  }
+  EXPECT_EQ(same, (std::array<int, 4>{10, 10, 10, 10}));
+}
+
+// 16,384 x 16,384 cells, a gigabyte if it were written; only the tiles around row and column 8,000 are.
+class LargeElevation : public testing::Test {
+ protected:
+  LargeElevation() {
+    RasterOptions options{.rows = 16384, .columns = 16384, .transform = {0.0, 1.0, 0.0, 16384.0, 0.0, -1.0}};
+    options.creation = {"TILED=YES", "SPARSE_OK=TRUE"};
+    options.also = [](GDALDataset& raster) {
+      raster.GetRasterBand(1)->SetNoDataValue(-32767.0);
+      std::vector<float> heights(512 * 512);
+      for (std::size_t i = 0; i < heights.size(); ++i) heights[i] = static_cast<float>(i % 512);
+      ASSERT_EQ(raster.GetRasterBand(1)->RasterIO(GF_Write, 7936, 7936, 512, 512, heights.data(), 512, 512,
+                                                  GDT_Float32, 0, 0, nullptr),
+                CE_None);
+    };
+    write_geotiff(folder_ / "large.tif", options);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(LargeElevation, AWindowReadsJustTheWindow) {
+  const auto peak_mb = [] {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss / 1024;
+  };
+  const auto before = peak_mb();
+  const auto source = open_elevation(folder_ / "large.tif").value();
+  const auto terrain = source->read({8000.0, 8084.0, 8300.0, 8384.0}).value();
+  EXPECT_EQ(terrain->geometry().rows, 304);
+  EXPECT_EQ(terrain->geometry().columns, 304);
+  EXPECT_EQ(terrain->height_m(8000.5, 8083.5), 64.0);
+  EXPECT_LT(peak_mb() - before, 50);  // the whole would be 1,024 and more
+}
+
+TEST_F(LargeElevation, TheWholeIsRefusedBecauseAWindowHasAMostNumberOfCells) {
+  const auto source = open_elevation(folder_ / "large.tif").value();
+  const auto terrain = source->read(source->info().geometry.extent());
+  ASSERT_FALSE(terrain);
+  EXPECT_EQ(terrain.error().code, ErrorCode::kInvalidRequest);
+}
+
+TEST_F(LargeElevation, WhereNothingWasWrittenEverythingIsMasked) {
+  const auto terrain = open_elevation(folder_ / "large.tif").value()->read({10.0, 10.0, 20.0, 20.0}).value();
+  EXPECT_FALSE(terrain->height_m(15.0, 15.0));
+}
+
+}  // namespace
+}  // namespace slipway::dem

@@ -1,0 +1,109 @@
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <stdexcept>
+
+#include "dem/elevation_source.h"
+#include "dem/soil_map.h"
+#include "raster_fixture.h"
+
+namespace slipway::dem {
+namespace {
+
+// A door on this machine, and whether anybody has knocked.
+class Listener {
+ public:
+  Listener() : socket_(socket(AF_INET, SOCK_STREAM, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof(address);
+    auto* generic = reinterpret_cast<sockaddr*>(&address);
+    if (bind(socket_, generic, size) != 0 || listen(socket_, 8) != 0 ||
+        getsockname(socket_, generic, &size) != 0) {
+      throw std::runtime_error("no listening socket");
+    }
+    port_ = ntohs(address.sin_port);
+  }
+  ~Listener() { close(socket_); }
+  Listener(const Listener&) = delete;
+  Listener& operator=(const Listener&) = delete;
+
+  std::string url(const std::string& file) const {
+    return fmt::format("http://127.0.0.1:{}/{}", port_, file);
+  }
+  bool was_asked() const {
+    pollfd waiting{.fd = socket_, .events = POLLIN, .revents = 0};
+    return poll(&waiting, 1, 200) > 0;
+  }
+  int port() const { return port_; }
+
+ private:
+  int socket_;
+  int port_ = 0;
+};
+
+TEST(Network, AListenerHearsAConnection) {  // so that the silence below means something
+  const Listener listener;
+  const int client = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  address.sin_port = htons(static_cast<std::uint16_t>(listener.port()));
+  ASSERT_EQ(connect(client, reinterpret_cast<sockaddr*>(&address), sizeof(address)), 0);
+  EXPECT_TRUE(listener.was_asked());
+  close(client);
+}
+
+TEST(Network, AGeoTiffThatNamesItsOverviewsByAddressMakesNoRequest) {
+  const Listener listener;
+  const test::TemporaryFolder folder;
+  test::RasterOptions options{.cells = std::vector<float>(20, 1.0F)};
+  options.also = [&](GDALDataset& raster) {
+    raster.SetMetadataItem("OVERVIEW_FILE", ("/vsicurl/" + listener.url("o.tif")).c_str(), "OVERVIEWS");
+  };
+  test::write_geotiff(folder / "dem.tif", options);
+  const auto source = open_elevation(folder / "dem.tif");
+  ASSERT_TRUE(source);
+  EXPECT_TRUE((*source)->read((*source)->info().geometry.extent()));
+  EXPECT_FALSE(listener.was_asked());
+}
+
+TEST(Network, GdalItselfCanNoLongerReachTheNetworkOrAFileOnceTheServiceUsesIt) {
+  const Listener listener;
+  const test::TemporaryFolder folder;
+  test::write_geotiff(folder / "dem.tif", {});  // prepares GDAL
+  for (const char* prefix :
+       {"/vsicurl/", "/vsicurl?url=", "/vsicurl_streaming/", "/vsis3/", "/vsigzip//vsicurl/"}) {
+    EXPECT_EQ(VSIFOpenL((prefix + listener.url("x.tif")).c_str(), "rb"), nullptr) << prefix;
+    EXPECT_EQ(GDALDataset::Open((prefix + listener.url("x.tif")).c_str()), nullptr) << prefix;
+  }
+  EXPECT_EQ(VSIFOpenL((folder / "dem.tif").c_str(), "rb"), nullptr);
+  EXPECT_EQ(VSIFOpenL((folder / "new.tif").c_str(), "wb"), nullptr);
+  OGRSpatialReference crs;
+  EXPECT_NE(crs.importFromUrl(listener.url("crs").c_str()), OGRERR_NONE);
+  EXPECT_FALSE(listener.was_asked());
+}
+
+TEST(Network, AGeoJsonThatNamesItsCrsByAddressMakesNoRequest) {
+  const Listener listener;
+  const test::TemporaryFolder folder;
+  test::write_geotiff(folder / "dem.tif", {});
+  const auto ground = open_elevation(folder / "dem.tif").value()->info();
+  const auto path = folder.write(
+      "units.geojson",
+      fmt::format(
+          R"({{"type":"FeatureCollection","crs":{{"type":"link","properties":{{"href":"{}","type":"proj4"}}}},
+      "features":[]}})",
+          listener.url("crs")));
+  EXPECT_TRUE(
+      read_soil_polygons(path, ground, ground.geometry.extent(), "Name", PolygonCoordinates::kMap, {}));
+  EXPECT_FALSE(listener.was_asked());
+}
+
+}  // namespace
+}  // namespace slipway::dem
