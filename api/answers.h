@@ -18,9 +18,9 @@ struct Provenance {
   std::string crs_name;
   std::string body;
   double gravity_m_s2 = 0.0;
-  std::string soil_assumption;      // why the mapped classes are believed to be these soils
-  std::vector<std::string> soils;   // by the index in the stations
-  std::string unknown_soil;         // believed where no map names a soil
+  std::string soil_assumption;     // why the mapped classes are believed to be these soils
+  std::vector<std::string> soils;  // by the index in the stations
+  std::string unknown_soil;        // believed where no map names a soil
   std::uint64_t seed = 1;
 };
 
@@ -42,11 +42,11 @@ struct GroundAt {
   double y_m = 0.0;
   double height_m = 0.0;
   double slope_rad = 0.0;
-  double aspect_rad = 0.0;              // of steepest descent, clockwise from north
-  std::optional<double> roughness_m;    // RMS distance to the plane through the cells within the radius
+  double aspect_rad = 0.0;            // of steepest descent, clockwise from north
+  std::optional<double> roughness_m;  // RMS distance to the plane through the cells within the radius
   double roughness_radius_m = 0.0;
-  std::optional<std::string> label;     // of the mapped class
-  std::optional<std::string> soil;      // nothing: unknown ground
+  std::optional<std::string> label;  // of the mapped class
+  std::optional<std::string> soil;   // nothing: unknown ground
 };
 
 }  // namespace slipway::api

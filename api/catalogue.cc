@@ -41,9 +41,12 @@ void load_rovers(const fs::path& data, Catalogue& catalogue, std::vector<Fault>&
     if (!rover) {
       add_faults(file, rover.error(), faults);
     } else if (rover->name != path.stem().string()) {
-      faults.push_back({file + "#/name", fmt::format("name = {}, must be the file's name", in_quotes(rover->name))});
+      faults.push_back(
+          {file + "#/name", fmt::format("name = {}, must be the file's name", in_quotes(rover->name))});
     } else {
-      catalogue.rovers[rover->name] = std::make_shared<const sim::RoverModel>(std::move(*rover));
+      const std::string name =
+          rover->name;  // of its own: the rover is moved from before the key is looked up
+      catalogue.rovers[name] = std::make_shared<const sim::RoverModel>(std::move(*rover));
     }
   }
   if (catalogue.rovers.empty() && faults.empty()) faults.push_back({"rovers#", "there is no rover"});
@@ -54,7 +57,8 @@ void load_soils(const fs::path& data, Catalogue& catalogue, std::vector<Fault>& 
     if (path.extension() != ".json") continue;
     const std::string file = "soils/" + path.filename().string();
     const auto bytes = read_data_file(path);
-    auto soils = bytes ? json::read_soil_file(*bytes) : Result<std::vector<sim::SoilDistribution>>(fail(bytes.error()));
+    auto soils = bytes ? json::read_soil_file(*bytes)
+                       : Result<std::vector<sim::SoilDistribution>>(fail(bytes.error()));
     if (!soils) {
       add_faults(file, soils.error(), faults);
       continue;
@@ -62,7 +66,8 @@ void load_soils(const fs::path& data, Catalogue& catalogue, std::vector<Fault>& 
     for (std::size_t i = 0; i < soils->size(); ++i) {
       const std::string name = (*soils)[i].name;
       if (!catalogue.soils.emplace(name, std::move((*soils)[i])).second) {
-        faults.push_back({fmt::format("{}#/soils/{}/name", file, i), fmt::format("soil {} is given twice", name)});
+        faults.push_back(
+            {fmt::format("{}#/soils/{}/name", file, i), fmt::format("soil {} is given twice", name)});
       }
     }
   }
@@ -106,7 +111,8 @@ Result<Catalogue> load_catalogue(const fs::path& data) {
   load_soils(data, catalogue, faults);
   load_terrains(data, catalogue, faults);
   if (!faults.empty()) {
-    return fail(ErrorCode::kUnreadableData, fmt::format("the data folder has {}", summary_of(faults)), faults);
+    return fail(ErrorCode::kUnreadableData, fmt::format("the data folder has {}", summary_of(faults)),
+                faults);
   }
   return catalogue;
 }

@@ -23,8 +23,8 @@ struct Catalogue {
   std::map<std::string, std::shared_ptr<const TerrainSite>, std::less<>> terrains;
 };
 
-// Loads rovers/*.json, soils/*.json and terrains/*/terrain.json under the folder. The faults of all files are reported
-// together; pointers begin with the file, "rovers/mer-class.json#/mass_kg".
+// Loads rovers/*.json, soils/*.json and terrains/*/terrain.json under the folder. The faults of all files are
+// reported together; pointers begin with the file, "rovers/mer-class.json#/mass_kg".
 Result<Catalogue> load_catalogue(const std::filesystem::path& data);
 
 template <class Map>

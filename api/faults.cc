@@ -52,15 +52,18 @@ std::optional<std::string> nearest(std::string_view name, const std::vector<std:
   return best;
 }
 
-std::string unknown_name(std::string_view kind, std::string_view name, const std::vector<std::string>& known) {
+std::string unknown_name(std::string_view kind, std::string_view name,
+                         const std::vector<std::string>& known) {
   const auto meant = nearest(name, known);
-  return fmt::format("unknown {} {}{}; known: {}", kind, in_quotes(name),
-                     meant ? fmt::format("; did you mean \"{}\"?", *meant) : std::string(), fmt::join(known, ", "));
+  return fmt::format("unknown {} {}; {}known: {}", kind, in_quotes(name),
+                     meant ? fmt::format("did you mean \"{}\"? ", *meant) : std::string(),
+                     fmt::join(known, ", "));
 }
 
 bool has_fault_under(const std::vector<Fault>& faults, std::string_view pointer) {
   return std::any_of(faults.begin(), faults.end(), [pointer](const Fault& f) {
-    return f.pointer.starts_with(pointer) && (f.pointer.size() == pointer.size() || f.pointer[pointer.size()] == '/');
+    return f.pointer.starts_with(pointer) &&
+           (f.pointer.size() == pointer.size() || f.pointer[pointer.size()] == '/');
   });
 }
 

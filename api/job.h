@@ -7,8 +7,8 @@
 
 namespace slipway::api {
 
-// accepted -> running -> successful | failed; accepted | running -> dismissed. A job whose worker died goes back from
-// running to accepted. What has ended never changes.
+// accepted -> running -> successful | failed; accepted | running -> dismissed. A job whose worker died goes
+// back from running to accepted. What has ended never changes.
 enum class JobState { kAccepted, kRunning, kSuccessful, kFailed, kDismissed };
 
 // "accepted", "running", "successful", "failed", "dismissed".
@@ -21,10 +21,10 @@ struct Job {
   std::string id;    // 32 hexadecimal digits: 128 random bits, so that nobody guesses another's job
   std::string kind;  // "plan", "prediction"
   JobState state = JobState::kAccepted;
-  std::string stage;       // what the work is at, a short noun phrase
-  double progress = 0.0;   // of the whole, in [0, 1]
-  std::int64_t version = 1;  // grows with every change: the ETag
-  int attempt = 0;           // how often it was claimed
+  std::string stage;            // what the work is at, a short noun phrase
+  double progress = 0.0;        // of the whole, in [0, 1]
+  std::int64_t version = 1;     // grows with every change: the ETag
+  int attempt = 0;              // how often it was claimed
   std::int64_t created_ms = 0;  // since 1970, as the times below
   std::optional<std::int64_t> started_ms;
   std::optional<std::int64_t> ended_ms;

@@ -8,7 +8,8 @@
 namespace slipway::api {
 
 JobWork service_work(const Service& service) {
-  return [&service](const std::string& kind, const std::string& request, Progress& progress) -> Result<std::string> {
+  return [&service](const std::string& kind, const std::string& request,
+                    Progress& progress) -> Result<std::string> {
     // Read again from the bytes that were accepted: after a restart there is nothing else.
     if (kind == kPlanKind) {
       const auto plan_request = service.read_plan(request);

@@ -9,8 +9,8 @@
 
 namespace slipway::api {
 
-// Passes progress on to the store, not more often than the options say, and renews the lease. Learns from the store,
-// the runner and the clock that nobody wants the work any more.
+// Passes progress on to the store, not more often than the options say, and renews the lease. Learns from the
+// store, the runner and the clock that nobody wants the work any more.
 class JobRunner::JobProgress final : public Progress {
  public:
   JobProgress(JobRunner& runner, Lease lease)
@@ -58,7 +58,9 @@ class JobRunner::JobProgress final : public Progress {
 JobRunner::JobRunner(std::shared_ptr<JobStore> store, JobWork work, JobRunnerOptions options)
     : store_(std::move(store)), work_(std::move(work)), options_(std::move(options)) {}
 
-JobRunner::~JobRunner() { stop(); }
+JobRunner::~JobRunner() {
+  stop();
+}
 
 Result<void> JobRunner::start() {
   const auto released = store_->release(options_.worker);

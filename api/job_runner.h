@@ -16,24 +16,26 @@
 
 namespace slipway::api {
 
-// What a job of some kind does with its request: the answer's bytes. It asks progress.cancelled() at least every 100 ms.
-using JobWork = std::function<Result<std::string>(const std::string& kind, const std::string& request, Progress&)>;
+// What a job of some kind does with its request: the answer's bytes. It asks progress.cancelled() at least
+// every 100 ms.
+using JobWork =
+    std::function<Result<std::string>(const std::string& kind, const std::string& request, Progress&)>;
 
 struct JobRunnerOptions {
-  // One list of kinds per worker thread: that worker claims only these. Short work has a worker of its own, so that it
-  // does not wait behind long work.
+  // One list of kinds per worker thread: that worker claims only these. Short work has a worker of its own,
+  // so that it does not wait behind long work.
   std::vector<std::vector<std::string>> workers{{"plan", "prediction"}, {"prediction"}};
   std::size_t most_unfinished = 64;  // accepted and running jobs; more are refused
   std::size_t most_kept = 1000;      // ended jobs
   int most_attempts = 5;             // a job that ends the process so often has failed
-  std::string worker = "slipway";    // the name under which jobs are claimed; a restart gives back what it held
+  std::string worker = "slipway";  // the name under which jobs are claimed; a restart gives back what it held
   std::chrono::milliseconds lease{30'000};
   std::chrono::milliseconds progress_interval{200};
   std::chrono::milliseconds idle_poll{1000};  // how often an idle worker looks for jobs that others left
 };
 
-// Claims jobs from a store and runs them on its own threads. Jobs that were accepted or running when the process died
-// run again. Thread-safe.
+// Claims jobs from a store and runs them on its own threads. Jobs that were accepted or running when the
+// process died run again. Thread-safe.
 class JobRunner {
  public:
   JobRunner(std::shared_ptr<JobStore> store, JobWork work, JobRunnerOptions options = {});

@@ -21,8 +21,8 @@ class MemoryJobStore final : public JobStore {
  public:
   Result<Job> append(const NewJob& job, std::int64_t now, std::size_t most_unfinished) override {
     const std::scoped_lock lock(mutex_);
-    const auto unfinished = static_cast<std::size_t>(
-        std::count_if(entries_.begin(), entries_.end(), [](const Entry& e) { return !has_ended(e.job.state); }));
+    const auto unfinished = static_cast<std::size_t>(std::count_if(
+        entries_.begin(), entries_.end(), [](const Entry& e) { return !has_ended(e.job.state); }));
     if (unfinished >= most_unfinished) {
       return fail(ErrorCode::kTooManyJobs, fmt::format("{} jobs are waiting or running already", unfinished));
     }
@@ -66,7 +66,8 @@ class MemoryJobStore final : public JobStore {
     return true;
   }
 
-  Result<bool> finish(const Lease& lease, JobState state, std::string_view outcome, std::int64_t now) override {
+  Result<bool> finish(const Lease& lease, JobState state, std::string_view outcome,
+                      std::int64_t now) override {
     const std::scoped_lock lock(mutex_);
     Entry* const entry = held(lease);
     if (entry == nullptr) return false;
@@ -121,8 +122,8 @@ class MemoryJobStore final : public JobStore {
 
   Result<int> forget_ended(std::size_t most_kept) override {
     const std::scoped_lock lock(mutex_);
-    const auto ended = static_cast<std::size_t>(
-        std::count_if(entries_.begin(), entries_.end(), [](const Entry& e) { return has_ended(e.job.state); }));
+    const auto ended = static_cast<std::size_t>(std::count_if(
+        entries_.begin(), entries_.end(), [](const Entry& e) { return has_ended(e.job.state); }));
     std::size_t surplus = ended > most_kept ? ended - most_kept : 0;
     const std::size_t before = entries_.size();
     std::erase_if(entries_, [&surplus](const Entry& e) {
@@ -135,7 +136,8 @@ class MemoryJobStore final : public JobStore {
 
  private:
   Entry* find(std::string_view id) {
-    const auto found = std::find_if(entries_.begin(), entries_.end(), [id](const Entry& e) { return e.job.id == id; });
+    const auto found =
+        std::find_if(entries_.begin(), entries_.end(), [id](const Entry& e) { return e.job.id == id; });
     return found == entries_.end() ? nullptr : &*found;
   }
 
@@ -160,6 +162,8 @@ class MemoryJobStore final : public JobStore {
 
 }  // namespace
 
-std::unique_ptr<JobStore> make_memory_job_store() { return std::make_unique<MemoryJobStore>(); }
+std::unique_ptr<JobStore> make_memory_job_store() {
+  return std::make_unique<MemoryJobStore>();
+}
 
 }  // namespace slipway::api

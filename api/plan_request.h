@@ -12,7 +12,8 @@
 
 namespace slipway::api {
 
-// What a drive is predicted with, whether its path is planned or given. The defaults are those of the rooms below.
+// What a drive is predicted with, whether its path is planned or given. The defaults are those of the rooms
+// below.
 struct DriveAssumptions {
   sim::DriveLimits limits;
   std::vector<sim::EffectSetting> effects;
@@ -34,8 +35,8 @@ struct PlanRequest {
   DriveAssumptions drive;
 };
 
-// What a request's reader found: all that could be read, and every fault. With faults, the request is only good for
-// finding more of them.
+// What a request's reader found: all that could be read, and every fault. With faults, the request is only
+// good for finding more of them.
 template <class Request>
 struct Reading {
   Request request;

@@ -11,7 +11,8 @@
 
 namespace slipway::api {
 
-RequestCheck::RequestCheck(const Catalogue& catalogue, std::vector<Fault> reader_faults) : catalogue_(catalogue) {
+RequestCheck::RequestCheck(const Catalogue& catalogue, std::vector<Fault> reader_faults)
+    : catalogue_(catalogue) {
   for (Fault& fault : reader_faults) faults_.emplace_back(ErrorCode::kInvalidRequest, std::move(fault));
 }
 
@@ -30,7 +31,8 @@ void RequestCheck::names(const std::string& terrain, const std::string& rover) {
     if (found != catalogue_.terrains.end()) {
       site_ = found->second.get();
     } else {
-      add(ErrorCode::kInvalidRequest, "/terrain", unknown_name("terrain", terrain, names_of(catalogue_.terrains)));
+      add(ErrorCode::kInvalidRequest, "/terrain",
+          unknown_name("terrain", terrain, names_of(catalogue_.terrains)));
     }
   }
   if (!already_faulty("/rover")) {
@@ -48,8 +50,8 @@ void RequestCheck::place(const planner::Waypoint& place, const std::string& poin
   const dem::Extent map = site_->info().geometry.extent();
   if (!map.contains(place.x_m, place.y_m)) {
     add(ErrorCode::kOffMap, pointer,
-        fmt::format("({}, {}) m is off the map, must be in x [{}, {}] m and y [{}, {}] m", place.x_m, place.y_m,
-                    map.west_m, map.east_m, map.south_m, map.north_m));
+        fmt::format("({}, {}) m is off the map, must be in x [{}, {}] m and y [{}, {}] m", place.x_m,
+                    place.y_m, map.west_m, map.east_m, map.south_m, map.north_m));
     return;
   }
   const auto ground = site_->read_around(place.x_m, place.y_m, 0.0);
@@ -77,8 +79,8 @@ void RequestCheck::drive(const DriveAssumptions& drive) {
   const double fastest = rover_->drive.max_wheel_rate_rad_s * rover_->smallest_wheel_radius_m();
   if (*drive.speed_m_s > fastest) {
     add(ErrorCode::kInvalidRequest, "/speed_m_s",
-        fmt::format("speed_m_s = {} m/s, must be in (0, {:.6g}]: the motors of {} turn no faster", *drive.speed_m_s,
-                    fastest, rover_->name));
+        fmt::format("speed_m_s = {} m/s, must be in (0, {:.6g}]: the motors of {} turn no faster",
+                    *drive.speed_m_s, fastest, rover_->name));
   }
 }
 
@@ -92,7 +94,8 @@ void RequestCheck::planners(const std::vector<std::string>& planners) {
       add(ErrorCode::kInvalidRequest, pointer, unknown_name("planner", planners[i], known));
     } else if (std::find(begin, begin + static_cast<std::ptrdiff_t>(i), planners[i]) !=
                begin + static_cast<std::ptrdiff_t>(i)) {
-      add(ErrorCode::kInvalidRequest, pointer, fmt::format("planner {} is given twice", in_quotes(planners[i])));
+      add(ErrorCode::kInvalidRequest, pointer,
+          fmt::format("planner {} is given twice", in_quotes(planners[i])));
     }
   }
 }

@@ -11,8 +11,9 @@
 
 namespace slipway::api {
 
-// Gathers what is wrong with a request that was read: beside the reader's faults, those that only the catalogue and the
-// terrain can tell. Where the reader already found fault with a value, nothing more is said of it.
+// Gathers what is wrong with a request that was read: beside the reader's faults, those that only the
+// catalogue and the terrain can tell. Where the reader already found fault with a value, nothing more is said
+// of it.
 class RequestCheck {
  public:
   RequestCheck(const Catalogue& catalogue, std::vector<Fault> reader_faults);

@@ -31,14 +31,17 @@ dem::Extent window_around(const std::vector<planner::Waypoint>& places, const de
   return {box.west_m - margin, box.south_m - margin, box.east_m + margin, box.north_m + margin};
 }
 
-sim::SoilDistribution with_effects(sim::SoilDistribution soil, const std::vector<sim::EffectSetting>& effects) {
+sim::SoilDistribution with_effects(sim::SoilDistribution soil,
+                                   const std::vector<sim::EffectSetting>& effects) {
   sim::apply_effects(effects, soil.mean);
   return soil;
 }
 
 }  // namespace
 
-std::string_view version() { return SLIPWAY_VERSION; }
+std::string_view version() {
+  return SLIPWAY_VERSION;
+}
 
 Result<std::unique_ptr<Service>> Service::open(ServiceOptions options) {
   auto catalogue = load_catalogue(options.data);
@@ -71,7 +74,8 @@ Result<PredictionRequest> Service::read_prediction(std::string_view json) const 
   const PredictionRequest& request = reading->request;
   RequestCheck check(catalogue_, std::move(reading->faults));
   check.names(request.terrain, request.rover);
-  for (std::size_t i = 0; i < request.path.size(); ++i) check.place(request.path[i], fmt::format("/path/{}", i));
+  for (std::size_t i = 0; i < request.path.size(); ++i)
+    check.place(request.path[i], fmt::format("/path/{}", i));
   check.path_length(request.path);
   check.drive(request.drive);
   if (!check.passed()) return fail(check.error());
@@ -142,7 +146,8 @@ Result<PlanAnswer> Service::plan(const PlanRequest& request, Progress& progress)
 Result<PredictionAnswer> Service::predict(const PredictionRequest& request, Progress& progress) const {
   progress.report("reading the terrain", 0.0);
   if (request.path.size() < 2) {
-    return fail(ErrorCode::kInvalidRequest, "a path has at least two corners", {{"/path", "must have two corners"}});
+    return fail(ErrorCode::kInvalidRequest, "a path has at least two corners",
+                {{"/path", "must have two corners"}});
   }
   auto setting = set_up(request.terrain, request.rover, request.path, request.drive);
   if (!setting) return fail(setting.error());

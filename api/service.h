@@ -16,8 +16,8 @@ namespace slipway::api {
 std::string_view version();
 
 struct ServiceOptions {
-  std::filesystem::path data;   // the folder that holds rovers, soils and terrains
-  std::size_t threads = 0;      // of one plan or prediction; 0: as many as the machine has
+  std::filesystem::path data;  // the folder that holds rovers, soils and terrains
+  std::size_t threads = 0;     // of one plan or prediction; 0: as many as the machine has
 };
 
 // What the server and the command line both ask: immutable once opened, thread-safe.
@@ -28,8 +28,9 @@ class Service {
 
   const Catalogue& catalogue() const { return catalogue_; }
 
-  // Reads a request and checks all that can be checked without planning: syntax, values, names, whether every place
-  // lies on the terrain and has elevation. All faults together. off_map or no_data when all of them are of that kind.
+  // Reads a request and checks all that can be checked without planning: syntax, values, names, whether every
+  // place lies on the terrain and has elevation. All faults together. off_map or no_data when all of them are
+  // of that kind.
   Result<PlanRequest> read_plan(std::string_view json) const;
   Result<PredictionRequest> read_prediction(std::string_view json) const;
 

@@ -19,7 +19,8 @@ class SqliteFailure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// What a commit survives: kQuick the death of the process, kDurable a loss of power too (it waits for the disk).
+// What a commit survives: kQuick the death of the process, kDurable a loss of power too (it waits for the
+// disk).
 enum class CommitKind { kQuick, kDurable };
 
 // One statement, prepared and bound. Text is copied when bound.

@@ -75,7 +75,9 @@ auto guarded(std::mutex& mutex, const Work& work) -> Result<decltype(work())> {
 class SqliteJobStore final : public JobStore {
  public:
   explicit SqliteJobStore(const std::filesystem::path& path)
-      : durable_(path, CommitKind::kDurable), quick_(path, CommitKind::kQuick), reader_(path, CommitKind::kQuick) {
+      : durable_(path, CommitKind::kDurable),
+        quick_(path, CommitKind::kQuick),
+        reader_(path, CommitKind::kQuick) {
     SqliteTransaction transaction(durable_);
     auto row = durable_.prepare("PRAGMA user_version");
     row.step();
@@ -83,7 +85,8 @@ class SqliteJobStore final : public JobStore {
     if (found == 0) {
       durable_.execute(kSchema);
     } else if (found != kSchemaVersion) {
-      throw SqliteFailure(fmt::format("the job store has version {}, this program reads {}", found, kSchemaVersion));
+      throw SqliteFailure(
+          fmt::format("the job store has version {}, this program reads {}", found, kSchemaVersion));
     }
     while (row.step()) {
     }
@@ -142,17 +145,18 @@ class SqliteJobStore final : public JobStore {
   Result<bool> report(const Lease& lease, std::string_view stage, double progress,
                       std::int64_t lease_until) override {
     return guarded(write_mutex_, [&] {
-      auto update = quick_.prepare(
-          fmt::format("UPDATE jobs SET version = version + (stage <> ? OR progress <> ?), stage = ?, progress = ?, "
-                      "lease_until_ms = ? WHERE {}",
-                      kHeld));
+      auto update = quick_.prepare(fmt::format(
+          "UPDATE jobs SET version = version + (stage <> ? OR progress <> ?), stage = ?, progress = ?, "
+          "lease_until_ms = ? WHERE {}",
+          kHeld));
       update.bind(stage).bind(progress).bind(stage).bind(progress).bind(lease_until);
       update.bind(lease.id).bind(std::int64_t{lease.attempt}).step();
       return quick_.changes() == 1;
     });
   }
 
-  Result<bool> finish(const Lease& lease, JobState state, std::string_view outcome, std::int64_t now) override {
+  Result<bool> finish(const Lease& lease, JobState state, std::string_view outcome,
+                      std::int64_t now) override {
     return guarded(write_mutex_, [&] {
       auto update = durable_.prepare(
           fmt::format("UPDATE jobs SET state = ?, outcome = ?, ended_ms = ?, version = version + 1, "
@@ -190,7 +194,8 @@ class SqliteJobStore final : public JobStore {
 
   Result<std::optional<std::string>> outcome(std::string_view id) override {
     return guarded(read_mutex_, [&]() -> std::optional<std::string> {
-      auto row = reader_.prepare("SELECT outcome FROM jobs WHERE id = ? AND state IN ('successful', 'failed')");
+      auto row =
+          reader_.prepare("SELECT outcome FROM jobs WHERE id = ? AND state IN ('successful', 'failed')");
       row.bind(id);
       return row.step() ? std::optional(row.text(0)) : std::nullopt;
     });
@@ -199,7 +204,8 @@ class SqliteJobStore final : public JobStore {
   Result<std::vector<Job>> list(std::size_t most) override {
     return guarded(read_mutex_, [&] {
       std::vector<Job> jobs;
-      auto row = reader_.prepare(fmt::format("SELECT {} FROM jobs ORDER BY sequence DESC LIMIT ?", kJobColumns));
+      auto row =
+          reader_.prepare(fmt::format("SELECT {} FROM jobs ORDER BY sequence DESC LIMIT ?", kJobColumns));
       row.bind(static_cast<std::int64_t>(most));
       while (row.step()) jobs.push_back(job_of(row));
       return jobs;
@@ -234,12 +240,17 @@ class SqliteJobStore final : public JobStore {
       auto unfinished = static_cast<std::size_t>(count.number(0));
       for (const PendingAppend* pending : batch) {
         if (unfinished >= pending->most_unfinished) {
-          all.push_back(fail(ErrorCode::kTooManyJobs, fmt::format("{} jobs are waiting or running already", unfinished)));
+          all.push_back(fail(ErrorCode::kTooManyJobs,
+                             fmt::format("{} jobs are waiting or running already", unfinished)));
           continue;
         }
         auto insert = durable_.prepare(
             "INSERT INTO jobs (id, kind, state, created_ms, request) VALUES (?, ?, 'accepted', ?, ?)");
-        insert.bind(pending->job.id).bind(pending->job.kind).bind(pending->now).bind(pending->job.request).step();
+        insert.bind(pending->job.id)
+            .bind(pending->job.kind)
+            .bind(pending->now)
+            .bind(pending->job.request)
+            .step();
         Job job;
         job.id = pending->job.id;
         job.kind = pending->job.kind;

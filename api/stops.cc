@@ -34,11 +34,12 @@ struct Row {
   std::size_t number;  // in the file, from 1
 };
 
-void read_stop(const std::vector<std::string_view>& header, const Row& row, Stop& stop, std::vector<Fault>& faults) {
+void read_stop(const std::vector<std::string_view>& header, const Row& row, Stop& stop,
+               std::vector<Fault>& faults) {
   const auto cells = cells_of(row.text);
   if (cells.size() != header.size()) {
-    faults.push_back({fmt::format("/{}", row.number),
-                      fmt::format("row {} has {} cells, the header has {}", row.number, cells.size(), header.size())});
+    faults.push_back({fmt::format("/{}", row.number), fmt::format("row {} has {} cells, the header has {}",
+                                                                  row.number, cells.size(), header.size())});
     return;
   }
   for (std::size_t i = 0; i < header.size(); ++i) {

@@ -16,7 +16,8 @@ struct Stop {
   std::vector<std::pair<std::string, std::string>> columns;  // the others, in the table's order
 };
 
-// Stops from CSV: a header row with x_m and y_m among its columns, one stop a row. Faults name row and column.
+// Stops from CSV: a header row with x_m and y_m among its columns, one stop a row. Faults name row and
+// column.
 Result<std::vector<Stop>> read_stops(std::string_view csv);
 
 }  // namespace slipway::api

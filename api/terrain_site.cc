@@ -28,7 +28,8 @@ bool is_plain_file(const std::filesystem::path& path) {
   return std::filesystem::is_regular_file(std::filesystem::symlink_status(path, error)) && !error;
 }
 
-void check_files(const std::filesystem::path& folder, const TerrainDescription& terrain, std::vector<Fault>& faults) {
+void check_files(const std::filesystem::path& folder, const TerrainDescription& terrain,
+                 std::vector<Fault>& faults) {
   const auto check = [&](std::string_view pointer, const std::string& file) {
     if (!is_plain_file(folder / file)) {
       faults.push_back({std::string(pointer), fmt::format("there is no file {} beside terrain.json", file)});
@@ -47,11 +48,12 @@ Result<std::string> read_data_file(const std::filesystem::path& path) {
   std::error_code error;
   const auto size = std::filesystem::file_size(path, error);
   if (error || !is_plain_file(path)) {
-    return fail(ErrorCode::kUnreadableData, fmt::format("{} can't be read as a file", path.filename().string()));
+    return fail(ErrorCode::kUnreadableData,
+                fmt::format("{} can't be read as a file", path.filename().string()));
   }
   if (size > kMostFileBytes) {
-    return fail(ErrorCode::kUnreadableData,
-                fmt::format("{} has {} bytes, at most {} are read", path.filename().string(), size, kMostFileBytes));
+    return fail(ErrorCode::kUnreadableData, fmt::format("{} has {} bytes, at most {} are read",
+                                                        path.filename().string(), size, kMostFileBytes));
   }
   std::ifstream stream(path, std::ios::binary);
   std::string bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
@@ -103,7 +105,8 @@ Result<GroundWindow> TerrainSite::read(const dem::Extent& extent) const {
   Result<std::shared_ptr<const dem::SoilMap>> soil_map;
   switch (description_.soil_source) {
     case SoilSource::kRaster:
-      soil_map = dem::read_soil_raster(folder_ / description_.soil_file, info(), geometry.extent(), description_.legend);
+      soil_map = dem::read_soil_raster(folder_ / description_.soil_file, info(), geometry.extent(),
+                                       description_.legend);
       break;
     case SoilSource::kPolygons:
       soil_map = dem::read_soil_polygons(folder_ / description_.soil_file, info(), geometry.extent(),
@@ -122,7 +125,8 @@ Result<GroundWindow> TerrainSite::read(const dem::Extent& extent) const {
   return GroundWindow{*terrain, *soil_map};
 }
 
-Result<std::shared_ptr<const dem::Terrain>> TerrainSite::read_around(double x_m, double y_m, double radius_m) const {
+Result<std::shared_ptr<const dem::Terrain>> TerrainSite::read_around(double x_m, double y_m,
+                                                                     double radius_m) const {
   const dem::GridGeometry& geometry = info().geometry;
   const double margin = std::max(radius_m, 2.0 * std::max(geometry.cell_x_m, geometry.cell_y_m));
   return elevation_->read(

@@ -24,7 +24,8 @@ struct GroundWindow {
 // A terrain that the service ships: described, opened, read by windows. Thread-safe.
 class TerrainSite {
  public:
-  // Reads and checks terrain.json, opens the elevation, reads the stops. All faults together, unreadable_data.
+  // Reads and checks terrain.json, opens the elevation, reads the stops. All faults together,
+  // unreadable_data.
   static Result<std::shared_ptr<const TerrainSite>> open(const std::filesystem::path& folder);
 
   const TerrainDescription& description() const { return description_; }
@@ -45,7 +46,8 @@ class TerrainSite {
   std::vector<Stop> stops_;
 };
 
-// A file of the service's own data, whole. Errors: unreadable_data where it can't be read or is no regular file.
+// A file of the service's own data, whole. Errors: unreadable_data where it can't be read or is no regular
+// file.
 Result<std::string> read_data_file(const std::filesystem::path& path);
 
 }  // namespace slipway::api

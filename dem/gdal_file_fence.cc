@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <memory>
 #include <set>
 #include <string>
 #include <string_view>
@@ -91,10 +92,10 @@ void raise_file_fence() {
 
   // GDAL owns what is installed and deletes each handler once.
   VSIFilesystemHandler* plain = VSIFileManager::GetHandler("a plain file");
-  VSIFileManager::InstallHandler("", new AdmittedFiles(*plain));
+  VSIFileManager::InstallHandler("", std::make_unique<AdmittedFiles>(*plain).release());
   replaced.insert(plain);
 
-  auto* refusing = new RefusingFiles;
+  RefusingFiles* refusing = std::make_unique<RefusingFiles>().release();
   const CPLStringList prefixes(VSIFileManager::GetPrefixes(), TRUE);
   for (int i = 0; i < prefixes.Count(); ++i) {
     const std::string prefix(prefixes[i]);

@@ -166,8 +166,8 @@ Result<std::vector<LabelledPolygon>> read_geojson_polygons(const fs::path& path,
   for (int i = 0; i < array.Size(); ++i) reader.read(array[i], i);
   std::vector<Fault> faults = reader.take_faults();
   if (!faults.empty()) {
-    return fail(ErrorCode::kUnreadableData, fmt::format("{} has {} faults.", file, faults.size()),
-                std::move(faults));
+    const std::string detail = fmt::format("{} has {} faults.", file, faults.size());
+    return fail(ErrorCode::kUnreadableData, detail, std::move(faults));
   }
   return reader.take_polygons();
 }

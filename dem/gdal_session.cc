@@ -55,7 +55,7 @@ GdalSession::GdalSession() {
 
 GdalSession::GdalSession(const std::filesystem::path& file) : GdalSession() {
   std::error_code ignored;
-  folder_ = std::filesystem::absolute(file, ignored).parent_path().string() + "/";
+  folder_ = std::filesystem::weakly_canonical(file, ignored).parent_path().string() + "/";
   admission_ = std::make_unique<FolderAdmission>(file);
 }
 

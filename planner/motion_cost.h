@@ -44,15 +44,18 @@ class MotionCost {
   bool penalised() const { return !penalty_.empty(); }
 
  private:
-  double on_attitude(std::uint8_t soil, double uphill, double leftward_rise) const;
+  double on_slope(std::uint8_t soil, double uphill, double leftward_rise) const;
+  double per_metre_at(const Eigen::Vector2d& place, const Eigen::Vector2d& heading) const;
   void tabulate(const PlanProblem& problem, const GroundTable& table, bool unknown, const Weights& weights);
 
   const TraverseMap* map_;
   MotionLimits limits_;
   double turn_cost_per_rad_, turn_cost_each_;
-  double limit_rad_ = 0.0;
-  int nodes_ = 0;                    // per axis of one attitude table
-  std::vector<float> per_attitude_;  // ground kind, pitch, roll; the last kind is unknown ground
+  // Over rise per metre ahead and to the left, not over angles: a look-up then needs no trigonometry.
+  double limit_ = 0.0;
+  double nodes_per_unit_ = 0.0;
+  int nodes_ = 0;                 // per axis
+  std::vector<float> per_slope_;  // ground kind, rise ahead, rise to the left; the last kind is unknown ground
   std::size_t kinds_ = 0;
   std::vector<float> penalty_;
 };

@@ -25,6 +25,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMostRounds = 4;
 constexpr double kBandWidths = 2.0;    // half width of the band around a route, in rover widths
 constexpr double kBandFactor = 1.0;    // the first round's extra cost in the band; doubles each round
+constexpr double kSharedEnds = 0.12;    // of a leg, at both ends, where no band is
 constexpr double kLineSpacing_m = 0.25;
 
 // One objective with what guides the searches under it.
@@ -183,13 +184,24 @@ class Proposer {
         for (int dr = -cells; dr <= cells; ++dr) {
           for (int dc = -cells; dc <= cells; ++dc) {
             const long long i = map_.index_at(place.x() + dc * g.cell_x_m, place.y() + dr * g.cell_y_m);
-            if (i >= 0 && std::hypot(dc * g.cell_x_m, dr * g.cell_y_m) <= reach)
+            if (i >= 0 && std::hypot(dc * g.cell_x_m, dr * g.cell_y_m) <= reach && !near_place(place, reach))
               penalty[static_cast<std::size_t>(i)] = static_cast<float>(factor);
           }
         }
       }
     }
     return penalty;
+  }
+
+  // All routes share the ground at the places they join: to be driven off it would only make a hook there.
+  bool near_place(const Eigen::Vector2d& p, double reach_m) const {
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      const Waypoint& other = places_[i == 0 ? 1 : i - 1];
+      const double leg = std::hypot(other.x_m - places_[i].x_m, other.y_m - places_[i].y_m);
+      if (std::hypot(p.x() - places_[i].x_m, p.y() - places_[i].y_m) < std::max(2.0 * reach_m, kSharedEnds * leg))
+        return true;
+    }
+    return false;
   }
 
   const PlanProblem& problem_;

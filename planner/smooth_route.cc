@@ -14,6 +14,7 @@ using Corners = std::vector<Eigen::Vector2d>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLongestSide_m = 8.0;
+constexpr double kSameCorner_m = 1e-3;
 constexpr int kSweeps = 24;
 constexpr std::array<double, 6> kMoves_m{2.0, -2.0, 1.0, -1.0, 0.4, -0.4};
 constexpr std::array<double, 7> kRadii_m{40.0, 25.0, 15.0, 10.0, 6.0, 4.0, 2.5};
@@ -30,17 +31,6 @@ class Polyline {
       : cost_(cost), first_heading_rad_(first_heading_rad), corners_(std::move(corners)) {}
 
   const Corners& corners() const { return corners_; }
-
-  void split_long_sides() {
-    Corners fine{corners_.front()};
-    for (std::size_t i = 1; i < corners_.size(); ++i) {
-      const Eigen::Vector2d side = corners_[i] - corners_[i - 1];
-      const int parts = std::max(1, static_cast<int>(std::ceil(side.norm() / kLongestSide_m)));
-      for (int k = 1; k < parts; ++k) fine.push_back(corners_[i - 1] + side * k / parts);
-      fine.push_back(corners_[i]);
-    }
-    corners_ = std::move(fine);
-  }
 
   // One sweep over the inner corners; true where something got cheaper.
   bool sweep() {
@@ -208,6 +198,22 @@ std::vector<Pose2> shortcut(const MotionCost& cost, const std::vector<Pose2>& po
   return kept;
 }
 
+// A polyline close to the motions: their ends, and places on the way along arcs.
+Corners corners_along(const std::vector<Motion>& motions) {
+  Corners corners;
+  for (const Motion& motion : motions) {
+    if (corners.empty()) corners.emplace_back(motion.from.x_m, motion.from.y_m);
+    const double longest = motion.curvature_1_m == 0.0 ? kLongestSide_m : 0.5 * kLongestSide_m;
+    const int parts = static_cast<int>(std::ceil(motion.length_m / longest));
+    for (int k = 1; k <= parts; ++k) {
+      const Pose2 pose = motion.at(motion.length_m * k / parts);
+      const Eigen::Vector2d place(pose.x_m, pose.y_m);
+      if ((place - corners.back()).norm() > kSameCorner_m) corners.push_back(place);
+    }
+  }
+  return corners;
+}
+
 }  // namespace
 
 double fine_cost(const MotionCost& cost, const std::vector<Motion>& motions) {
@@ -223,15 +229,10 @@ std::vector<Motion> smooth_leg(const MotionCost& cost, const std::vector<Pose2>&
     arcs.back().to.yaw_rad = wrapped_rad(arcs.back().to.yaw_rad - arcs.back().last_turn_rad);
     arcs.back().last_turn_rad = 0.0;
   }
-  Corners corners;
-  for (const Pose2& pose : kept) {
-    const Eigen::Vector2d place(pose.x_m, pose.y_m);
-    if (corners.empty() || (place - corners.back()).norm() > 1e-3) corners.push_back(place);
-  }
+  Corners corners = corners_along(arcs);
   if (corners.size() < 2) return arcs;
   corners.back() = {poses.back().x_m, poses.back().y_m};
   Polyline line(cost, poses.front().yaw_rad, std::move(corners));
-  line.split_long_sides();
   for (int k = 0; k < kSweeps && line.sweep(); ++k) {
   }
   line.leave_out();

@@ -37,15 +37,15 @@ constexpr std::string_view kNothingWorks =
 }  // namespace
 
 HttpEngine::Outgoing Answers::to_request(HttpEngine& engine, HttpEngine::Exchange exchange) const {
-  const bool is_head = exchange.head.starts_with("HEAD ");
+  const std::string_view head = exchange.head;
   try {
     return engine.respond(std::move(exchange), [this](HttpRequest& request) { return routed(request); });
   } catch (...) {
     log(fmt::format("a request could not be answered: {}", text_of(std::current_exception())));
+    return {to_refused(engine, head.substr(0, head.find(' ')),
+                       {ErrorCode::kInternal, "the request could not be answered", {}}),
+            {}};
   }
-  return {to_refused(engine, is_head ? "HEAD" : "GET",
-                     {ErrorCode::kInternal, "the request could not be answered", {}}),
-          {}};
 }
 
 std::string Answers::to_refused(HttpEngine& engine, std::string_view method, const Error& error) const {

@@ -63,7 +63,8 @@ void HttpWorkers::answer(HttpEngine& engine, Work work) {
   if (outcome == Transfer::kSome) {
     std::string_view body = out.body;
     outcome = send_some(work.fd, body);
-    if (outcome == Transfer::kBlocked) keep(done, std::move(out.body), out.body.size() - body.size());
+    const std::size_t sent = out.body.size() - body.size();
+    if (outcome == Transfer::kBlocked) keep(done, std::move(out.body), sent);
   } else if (outcome == Transfer::kBlocked) {
     keep(done, std::string(front) + out.body, 0);
   }

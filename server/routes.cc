@@ -48,7 +48,8 @@ std::string tag_of(std::string_view bytes) {
   return fmt::format("\"{:016x}\"", hash);
 }
 
-// Calls visit(item) for every item of a header's comma-separated list, over all its lines, without blanks around.
+// Calls visit(item) for every item of a header's comma-separated list, over all its lines, without blanks
+// around.
 template <class Visit>
 void for_each_item(const HttpRequest& request, std::string_view header, const Visit& visit) {
   for (const auto& [name, value] : request.headers) {
@@ -106,7 +107,8 @@ Preferences preferences_of(const HttpRequest& request) {
     if (item.size() > 2 && item.front() == '"' && item.back() == '"') item = item.substr(1, item.size() - 2);
     int value = 0;
     const auto [end, error] = std::from_chars(item.data(), item.data() + item.size(), value);
-    if (error == std::errc() && end == item.data() + item.size() && value >= 0) preferences.wait = seconds(value);
+    if (error == std::errc() && end == item.data() + item.size() && value >= 0)
+      preferences.wait = seconds(value);
   });
   return preferences;
 }
@@ -216,7 +218,8 @@ class JobRoutes {
     if (!job) return problem_response(job.error(), &request);
     if (!*job) return problem(ErrorCode::kNotFound, "there is no job of this id", request);
     if ((*job)->state != api::JobState::kDismissed) {
-      return problem(ErrorCode::kConflict, fmt::format("the job is {} already", api::describe((*job)->state)), request);
+      return problem(ErrorCode::kConflict, fmt::format("the job is {} already", api::describe((*job)->state)),
+                     request);
     }
     return document(api::json::write_job(**job, std::nullopt));
   }
@@ -232,7 +235,8 @@ class JobRoutes {
   HttpResponse created(const api::Job& job) {
     HttpResponse response = document(api::json::write_job(job, std::nullopt), 201);
     response.headers.emplace_back("Location", "/v1/jobs/" + job.id);
-    if (!api::has_ended(job.state)) response.headers.emplace_back("Retry-After", std::to_string(kPollSeconds));
+    if (!api::has_ended(job.state))
+      response.headers.emplace_back("Retry-After", std::to_string(kPollSeconds));
     return response;
   }
 
@@ -246,7 +250,8 @@ class JobRoutes {
     // It is recorded, whatever the store says now: the client must learn where.
     const api::Job known = job && *job ? **job : accepted;
     HttpResponse response = api::has_ended(known.state) ? outcome_response(known, request) : created(known);
-    if (api::has_ended(known.state)) response.headers.emplace_back("Content-Location", "/v1/jobs/" + known.id + "/result");
+    if (api::has_ended(known.state))
+      response.headers.emplace_back("Content-Location", "/v1/jobs/" + known.id + "/result");
     response.headers.emplace_back("Preference-Applied", fmt::format("wait={}", wait.count()));
     return response;
   }
@@ -255,16 +260,19 @@ class JobRoutes {
     std::optional<std::string> failure;
     if (job.state == api::JobState::kFailed) failure = runner_.store().outcome(job.id).value_or(std::nullopt);
     HttpResponse response = document(api::json::write_job(job, failure));
-    if (!api::has_ended(job.state)) response.headers.emplace_back("Retry-After", std::to_string(kPollSeconds));
+    if (!api::has_ended(job.state))
+      response.headers.emplace_back("Retry-After", std::to_string(kPollSeconds));
     return tagged(std::move(response), fmt::format("\"{}-{}\"", job.id, job.version), request);
   }
 
   // The answer of a successful job, the problem of a failed one, the reason why there is neither.
   HttpResponse outcome_response(const api::Job& job, const HttpRequest& request) {
-    if (job.state == api::JobState::kDismissed) return problem(ErrorCode::kCancelled, "the job was dismissed", request);
+    if (job.state == api::JobState::kDismissed)
+      return problem(ErrorCode::kCancelled, "the job was dismissed", request);
     if (!api::has_ended(job.state)) {
       HttpResponse response =
-          problem(ErrorCode::kConflict, fmt::format("the job is {}: it has no result yet", api::describe(job.state)), request);
+          problem(ErrorCode::kConflict,
+                  fmt::format("the job is {}: it has no result yet", api::describe(job.state)), request);
       response.headers.emplace_back("Retry-After", std::to_string(kPollSeconds));
       return response;
     }
@@ -319,11 +327,13 @@ HttpResponse problem_response(const Error& error, const HttpRequest* /*request*/
   response.headers.emplace_back("Cache-Control", "no-store");
   constexpr int kUnavailable = 503;
   constexpr int kRetrySeconds = 5;
-  if (row.http_status == kUnavailable) response.headers.emplace_back("Retry-After", std::to_string(kRetrySeconds));
+  if (row.http_status == kUnavailable)
+    response.headers.emplace_back("Retry-After", std::to_string(kRetrySeconds));
   return response;
 }
 
-std::vector<Route> api_routes(const api::Service& service, api::JobRunner& runner, const RouteOptions& options) {
+std::vector<Route> api_routes(const api::Service& service, api::JobRunner& runner,
+                              const RouteOptions& options) {
   const auto jobs = std::make_shared<JobRoutes>(runner, options);
   const api::Catalogue& catalogue = service.catalogue();
   return {
@@ -335,7 +345,8 @@ std::vector<Route> api_routes(const api::Service& service, api::JobRunner& runne
       fixed("/v1/soils", api::json::write_soils(catalogue)),
       fixed("/v1/effects", api::json::write_effects()),
       fixed("/v1/planners", api::json::write_planners()),
-      {"GET", "/v1/terrains/{name}/point", [&service](const HttpRequest& r) { return ground_at(service, r); }},
+      {"GET", "/v1/terrains/{name}/point",
+       [&service](const HttpRequest& r) { return ground_at(service, r); }},
       {"POST", "/v1/plans",
        [&service, jobs](const HttpRequest& r) {
          const auto request = service.read_plan(r.body);

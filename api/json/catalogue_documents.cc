@@ -18,7 +18,10 @@ namespace {
 
 void write_field(Writer& w, const Field& field) {
   w.begin_object().text("name", field.name).text("unit", field.unit).text("summary", field.summary);
-  w.exact("lowest", field.lowest).exact("highest", field.highest).exact("initial", field.initial).end_object();
+  w.exact("lowest", field.lowest)
+      .exact("highest", field.highest)
+      .exact("initial", field.initial)
+      .end_object();
 }
 
 // A table's cell as a number where it is one.
@@ -107,7 +110,10 @@ std::string write_effects() {
   Writer w;
   w.begin_object().key("effects").begin_array();
   for (const sim::Effect& effect : sim::effect_catalogue()) {
-    w.begin_object().text("name", effect.name).text("summary", effect.summary).text("reference", effect.reference);
+    w.begin_object()
+        .text("name", effect.name)
+        .text("summary", effect.summary)
+        .text("reference", effect.reference);
     w.key("parameters").begin_array();
     for (const Field& field : effect.fields) write_field(w, field);
     w.end_array().end_object();
@@ -125,7 +131,11 @@ std::string write_planners() {
   }
   w.end_array().key("cost_terms").begin_array();
   for (const planner::CostTerm& term : planner::cost_catalogue()) {
-    w.begin_object().text("name", term.name).text("summary", term.summary).text("unit", term.unit).key("weight");
+    w.begin_object()
+        .text("name", term.name)
+        .text("summary", term.summary)
+        .text("unit", term.unit)
+        .key("weight");
     write_field(w, term.weight);
     w.end_object();
   }
@@ -137,7 +147,11 @@ std::string write_errors() {
   Writer w;
   w.begin_object().key("errors").begin_array();
   for (const ErrorRow& row : error_table()) {
-    w.begin_object().text("name", row.name).whole("status", row.http_status).text("help", row.help).end_object();
+    w.begin_object()
+        .text("name", row.name)
+        .whole("status", row.http_status)
+        .text("help", row.help)
+        .end_object();
   }
   w.end_array().end_object();
   return w.take();
@@ -146,7 +160,8 @@ std::string write_errors() {
 std::string write_ground_at(const GroundAt& at) {
   Writer w;
   w.begin_object().metres("x_m", at.x_m).metres("y_m", at.y_m).metres("height_m", at.height_m);
-  w.significant("slope_deg", deg_from_rad(at.slope_rad)).significant("aspect_deg", deg_from_rad(at.aspect_rad));
+  w.significant("slope_deg", deg_from_rad(at.slope_rad))
+      .significant("aspect_deg", deg_from_rad(at.aspect_rad));
   if (at.roughness_m) w.significant("roughness_m", *at.roughness_m);
   w.exact("roughness_radius_m", at.roughness_radius_m);
   if (at.label) w.text("label", *at.label);

@@ -60,7 +60,11 @@ constexpr std::array kWheelColumns{
 };
 
 void write_peak(Writer& w, std::string_view name, const sim::Peak& peak, double scale = 1.0) {
-  w.key(name).begin_object().significant("value", peak.value * scale).metres("at_m", peak.distance_m).end_object();
+  w.key(name)
+      .begin_object()
+      .significant("value", peak.value * scale)
+      .metres("at_m", peak.distance_m)
+      .end_object();
 }
 
 void write_words(Writer& w, const std::vector<StationPrediction>& stations, const Provenance& provenance) {

@@ -7,8 +7,8 @@
 
 namespace slipway::api::json {
 
-// A JSON document in memory, in our own words, so that the parser's library stays behind parse.cc. Numbers are doubles:
-// every whole number up to 2^53 is exact, and no key of ours allows more.
+// A JSON document in memory, in our own words, so that the parser's library stays behind parse.cc. Numbers
+// are doubles: every whole number up to 2^53 is exact, and no key of ours allows more.
 struct JsonValue {
   enum class Kind { kNull, kBoolean, kNumber, kString, kArray, kObject };
 

@@ -14,8 +14,8 @@ namespace {
 
 using Library = nlohmann::json;
 
-// Builds our document from the library's events, so that its own document (which keeps the last of two equal keys and
-// lets any depth through) never exists.
+// Builds our document from the library's events, so that its own document (which keeps the last of two equal
+// keys and lets any depth through) never exists.
 class Builder : public nlohmann::json_sax<Library> {
  public:
   explicit Builder(const ParseLimits& limits) : limits_(limits) {}
@@ -49,7 +49,8 @@ class Builder : public nlohmann::json_sax<Library> {
       error.faults.front().pointer = child_pointer(pointer(), name);
       return false;
     }
-    if (object.keys.size() >= kMostKeys) return refuse(fmt::format("more than {} keys in one object", kMostKeys));
+    if (object.keys.size() >= kMostKeys)
+      return refuse(fmt::format("more than {} keys in one object", kMostKeys));
     object.keys.push_back(std::move(name));
     return true;
   }
@@ -126,7 +127,8 @@ class Builder : public nlohmann::json_sax<Library> {
   std::size_t values_ = 0;
 };
 
-// "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error while ..." without the library's name.
+// "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error while ..." without the
+// library's name.
 std::string syntax_message(const std::string& what, std::string_view bytes, std::size_t position) {
   const std::size_t end = std::min(position == 0 ? 0 : position - 1, bytes.size());
   const auto before = bytes.substr(0, end);
@@ -143,7 +145,8 @@ std::string syntax_message(const std::string& what, std::string_view bytes, std:
 std::string printable(std::string text) {
   std::replace_if(
       text.begin(), text.end(),
-      [](char c) { return static_cast<unsigned char>(c) >= 0x80U || static_cast<unsigned char>(c) < 0x20U; }, '?');
+      [](char c) { return static_cast<unsigned char>(c) >= 0x80U || static_cast<unsigned char>(c) < 0x20U; },
+      '?');
   constexpr std::size_t kMost = 300;
   if (text.size() > kMost) text = text.substr(0, kMost) + "...";
   return text;

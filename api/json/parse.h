@@ -15,9 +15,9 @@ struct ParseLimits {
   int depth = 64;
 };
 
-// Bytes from outside -> a document. Refused, with line and column: anything but one JSON text, NaN and Infinity, numbers
-// a double can't hold, invalid UTF-8 (malformed_json); a key given twice, deeper nesting, more values
-// (malformed_json, with a pointer); more bytes (payload_too_large).
+// Bytes from outside -> a document. Refused, with line and column: anything but one JSON text, NaN and
+// Infinity, numbers a double can't hold, invalid UTF-8 (malformed_json); a key given twice, deeper nesting,
+// more values (malformed_json, with a pointer); more bytes (payload_too_large).
 Result<JsonValue> parse(std::string_view bytes, const ParseLimits& limits = {});
 
 }  // namespace slipway::api::json

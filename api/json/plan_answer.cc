@@ -8,7 +8,8 @@
 namespace slipway::api::json {
 namespace {
 
-// What a route is called, how it is judged and its figures: the row of the summary and the feature's properties.
+// What a route is called, how it is judged and its figures: the row of the summary and the feature's
+// properties.
 void write_route(Writer& w, const planner::Route& route) {
   w.whole("rank", route.rank).text("planner", route.planner).text("profile", route.profile);
   w.text("verdict", planner::describe(route.verdict)).texts("reasons", route.reasons);
@@ -38,8 +39,12 @@ std::string write_plan_answer(const PlanAnswer& answer) {
     w.end_object();
   }
   w.end_array();
-  // Map metres, not degrees of the Earth: RFC 7946 section 4 asks for a prior arrangement, and crs_name says it.
-  w.key("routes").begin_object().text("type", "FeatureCollection").text("crs_name", answer.provenance.crs_name);
+  // Map metres, not degrees of the Earth: RFC 7946 section 4 asks for a prior arrangement, and crs_name says
+  // it.
+  w.key("routes")
+      .begin_object()
+      .text("type", "FeatureCollection")
+      .text("crs_name", answer.provenance.crs_name);
   w.text("coordinates", "x_m, y_m, height_m in the terrain's projected system");
   w.key("features").begin_array();
   for (const planner::Route& route : answer.plan.routes) {

@@ -8,8 +8,8 @@
 
 namespace slipway::api::json {
 
-// "plan/1": request with every default, figures per route, and the routes as GeoJSON with their series. The same answer
-// gives the same bytes. Throws std::domain_error where a number is not finite.
+// "plan/1": request with every default, figures per route, and the routes as GeoJSON with their series. The
+// same answer gives the same bytes. Throws std::domain_error where a number is not finite.
 std::string write_plan_answer(const PlanAnswer& answer);
 
 // The GeoJSON member of a "plan/1" or "prediction/1" document, alone.

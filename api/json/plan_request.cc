@@ -29,8 +29,10 @@ bool read_corner(const Element& element, Eigen::Vector2d& out, std::vector<Fault
     return false;
   }
   const NumberRule rule{"m", -1e8, 1e8};
-  const bool x = read_number(element.value->elements[0], element.pointer + "/0", "x_m", rule, out.x(), faults);
-  const bool y = read_number(element.value->elements[1], element.pointer + "/1", "y_m", rule, out.y(), faults);
+  const bool x =
+      read_number(element.value->elements[0], element.pointer + "/0", "x_m", rule, out.x(), faults);
+  const bool y =
+      read_number(element.value->elements[1], element.pointer + "/1", "y_m", rule, out.y(), faults);
   return x && y;
 }
 
@@ -40,7 +42,8 @@ void read_ring(const Element& element, planner::Polygon& ring, std::vector<Fault
   const std::size_t count = value.elements.size();
   if (!value.is(JsonValue::Kind::kArray) || count < 3 || count > RequestLimits::kKeepOutCorners) {
     faults.push_back({element.pointer, "is " + describe(value) + ", must be a list of 3 to " +
-                                           std::to_string(RequestLimits::kKeepOutCorners) + " corners [x_m, y_m]"});
+                                           std::to_string(RequestLimits::kKeepOutCorners) +
+                                           " corners [x_m, y_m]"});
     return;
   }
   for (std::size_t i = 0; i < count; ++i) {
@@ -108,7 +111,8 @@ std::string write_plan_request(const PlanRequest& request) {
   w.key("keep_out").begin_array();
   for (const planner::Polygon& ring : request.keep_out) {
     w.begin_array();
-    for (const Eigen::Vector2d& corner : ring) w.begin_array().exact(corner.x()).exact(corner.y()).end_array();
+    for (const Eigen::Vector2d& corner : ring)
+      w.begin_array().exact(corner.x()).exact(corner.y()).end_array();
     w.end_array();
   }
   w.end_array();

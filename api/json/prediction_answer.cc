@@ -15,7 +15,10 @@ std::string write_prediction_answer(const PredictionAnswer& answer) {
   w.key("summary").begin_object();
   write_drive_figures(w, answer.prediction);
   w.end_object();
-  w.key("routes").begin_object().text("type", "FeatureCollection").text("crs_name", answer.provenance.crs_name);
+  w.key("routes")
+      .begin_object()
+      .text("type", "FeatureCollection")
+      .text("crs_name", answer.provenance.crs_name);
   w.text("coordinates", "x_m, y_m, height_m in the terrain's projected system");
   w.key("features").begin_array().begin_object().text("type", "Feature").whole("id", 1);
   write_line(w, answer.prediction);

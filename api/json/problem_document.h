@@ -7,11 +7,12 @@
 
 namespace slipway::api::json {
 
-// An error as a problem document (RFC 9457), with all its faults: {"type", "title", "status", "detail", "faults"}.
+// An error as a problem document (RFC 9457), with all its faults: {"type", "title", "status", "detail",
+// "faults"}.
 std::string write_problem(const Error& error);
 
-// What write_problem wrote, read again: so that a stored failure is answered as it happened. Bytes that are none are an
-// internal error.
+// What write_problem wrote, read again: so that a stored failure is answered as it happened. Bytes that are
+// none are an internal error.
 Error read_problem(std::string_view bytes);
 
 }  // namespace slipway::api::json

@@ -53,11 +53,13 @@ void read_drive(ObjectReader& reader, sim::RoverModel& rover) {
   auto object = reader.object("drive", kRequired);
   if (!object) return;
   sim::DriveMotor& drive = rover.drive;
-  object->number("torque_constant_nm_per_a", kRequired, {"N m/A", 0.0, 10.0, true}, drive.torque_constant_nm_per_a);
+  object->number("torque_constant_nm_per_a", kRequired, {"N m/A", 0.0, 10.0, true},
+                 drive.torque_constant_nm_per_a);
   object->number("gear_ratio", kRequired, {"1", 1.0, 1e5}, drive.gear_ratio);
   object->number("gear_efficiency", kRequired, {"1", 0.0, 1.0, true}, drive.gear_efficiency);
   object->number("no_load_current_a", kRequired, {"A", 0.0, 10.0}, drive.no_load_current_a);
-  object->angle_deg("max_wheel_rate_deg_s", kRequired, {"deg/s", 0.0, 5000.0, true}, drive.max_wheel_rate_rad_s);
+  object->angle_deg("max_wheel_rate_deg_s", kRequired, {"deg/s", 0.0, 5000.0, true},
+                    drive.max_wheel_rate_rad_s);
   object->number("bus_voltage_v", kRequired, {"V", 0.0, 400.0, true}, drive.bus_voltage_v);
   object->number("resistance_ohm", kOptional, {"ohm", 0.0, 1000.0, true}, drive.resistance_ohm);
   object->number("max_current_a", kOptional, {"A", 0.0, 1000.0, true}, drive.max_current_a);

@@ -10,8 +10,8 @@
 
 namespace slipway::api::json {
 
-// Reads a rover's file ("rover/1"): the keys of a drive campaign's rover, and what planning needs beside them. All
-// faults together, those of sim::faults_of too.
+// Reads a rover's file ("rover/1"): the keys of a drive campaign's rover, and what planning needs beside
+// them. All faults together, those of sim::faults_of too.
 Result<sim::RoverModel> read_rover_file(std::string_view bytes);
 
 // The same keys, so that what is served can be put into a file again.

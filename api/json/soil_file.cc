@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t kMostSoils = 1000;
 // The uncertain quantities, in the order of sim::SoilNormals.
-constexpr std::array<std::string_view, sim::kSoilDims> kQuantities{"stiffness", "n", "cohesion", "friction_angle",
-                                                                   "shear_modulus"};
+constexpr std::array<std::string_view, sim::kSoilDims> kQuantities{"stiffness", "n", "cohesion",
+                                                                   "friction_angle", "shear_modulus"};
 
 void read_mean(ObjectReader& reader, sim::Soil& soil) {
   reader.number("k_c", kRequired, {"N/m^(n+1)", -1e10, 1e10}, soil.pressure.k_c);
@@ -48,7 +48,8 @@ void read_correlation(ObjectReader& reader, sim::SoilCorrelation& correlation) {
     std::size_t first = 0;
     std::size_t second = 0;
     double value = 0.0;
-    const bool good = pair.choice("first", kRequired, names, first) & pair.choice("second", kRequired, names, second) &
+    const bool good = pair.choice("first", kRequired, names, first) &
+                      pair.choice("second", kRequired, names, second) &
                       pair.number("value", kRequired, {"1", -1.0, 1.0}, value);
     pair.refuse_unknown();
     if (!good) continue;
@@ -67,13 +68,15 @@ void check_soil(ObjectReader& reader, const sim::SoilDistribution& soil) {
   constexpr double kWidestWheel_m = 0.6;
   for (const double width_m : {kNarrowestWheel_m, kWidestWheel_m}) {
     if (soil.mean.pressure.stiffness(width_m) > 0.0) continue;
-    reader.fault("k_phi", "k_c / b + k_phi is not positive for a wheel of width b = " + std::to_string(width_m) + " m");
+    reader.fault("k_phi", "k_c / b + k_phi is not positive for a wheel of width b = " +
+                              std::to_string(width_m) + " m");
   }
   if (soil.mean.cohesion_pa == 0.0 && soil.std.cohesion_pa > 0.0) {
     reader.fault("std", "cohesion_pa = 0 Pa can't have a spread: draws are log-normal");
   }
   if (Eigen::LLT<sim::SoilCorrelation>(soil.correlation).info() != Eigen::Success) {
-    reader.fault("correlation", "the correlations contradict each other: their matrix is not positive definite");
+    reader.fault("correlation",
+                 "the correlations contradict each other: their matrix is not positive definite");
   }
 }
 
@@ -126,7 +129,9 @@ void write_soil(Writer& w, const sim::SoilDistribution& soil) {
     for (int j = i + 1; j < sim::kSoilDims; ++j) {
       if (soil.correlation(i, j) == 0.0) continue;
       w.begin_object().text("first", kQuantities[static_cast<std::size_t>(i)]);
-      w.text("second", kQuantities[static_cast<std::size_t>(j)]).exact("value", soil.correlation(i, j)).end_object();
+      w.text("second", kQuantities[static_cast<std::size_t>(j)])
+          .exact("value", soil.correlation(i, j))
+          .end_object();
     }
   }
   w.end_array().exact("correlation_length_m", soil.correlation_length_m).end_object();

@@ -9,8 +9,8 @@
 
 namespace slipway::api::json {
 
-// Reads a file of soil distributions ("soils/1"): the keys of a drive campaign's soils as the mean, and their spread,
-// source and assumptions beside them. All faults together.
+// Reads a file of soil distributions ("soils/1"): the keys of a drive campaign's soils as the mean, and their
+// spread, source and assumptions beside them. All faults together.
 Result<std::vector<sim::SoilDistribution>> read_soil_file(std::string_view bytes);
 
 // The same keys, so that what is served can be put into a file again.

@@ -20,7 +20,8 @@ std::string with_unit(std::string_view unit) {
 std::string range_text(const NumberRule& rule) {
   const bool below = std::isfinite(rule.lowest);
   const bool above = std::isfinite(rule.highest);
-  if (below && above) return fmt::format("in {}{}, {}]", rule.above_lowest ? "(" : "[", rule.lowest, rule.highest);
+  if (below && above)
+    return fmt::format("in {}{}, {}]", rule.above_lowest ? "(" : "[", rule.lowest, rule.highest);
   if (below) return fmt::format("{} {}", rule.above_lowest ? "above" : "at least", rule.lowest);
   if (above) return fmt::format("at most {}", rule.highest);
   return "finite";
@@ -39,30 +40,32 @@ bool is_name(const std::string& text) {
 
 }  // namespace
 
-bool read_number(const JsonValue& value, const std::string& pointer, std::string_view label, const NumberRule& rule,
-                 double& out, std::vector<Fault>& faults) {
+bool read_number(const JsonValue& value, const std::string& pointer, std::string_view label,
+                 const NumberRule& rule, double& out, std::vector<Fault>& faults) {
   if (!value.is(JsonValue::Kind::kNumber)) {
-    faults.push_back({pointer, fmt::format("{} = {}, must be a number{}", label, describe(value),
-                                           with_unit(rule.unit).empty() ? "" : fmt::format(" in {}", rule.unit))});
+    faults.push_back(
+        {pointer, fmt::format("{} = {}, must be a number{}", label, describe(value),
+                              with_unit(rule.unit).empty() ? "" : fmt::format(" in {}", rule.unit))});
     return false;
   }
   if (!in_range(value.number, rule)) {
-    faults.push_back(
-        {pointer, fmt::format("{} = {}{}, must be {}", label, value.number, with_unit(rule.unit), range_text(rule))});
+    faults.push_back({pointer, fmt::format("{} = {}{}, must be {}", label, value.number, with_unit(rule.unit),
+                                           range_text(rule))});
     return false;
   }
   out = value.number;
   return true;
 }
 
-bool read_text(const JsonValue& value, const std::string& pointer, std::string_view label, const TextRule& rule,
-               std::string& out, std::vector<Fault>& faults) {
+bool read_text(const JsonValue& value, const std::string& pointer, std::string_view label,
+               const TextRule& rule, std::string& out, std::vector<Fault>& faults) {
   if (!value.is(JsonValue::Kind::kString)) {
     faults.push_back({pointer, fmt::format("{} = {}, must be a string", label, describe(value))});
     return false;
   }
   if (value.text.size() > rule.most) {
-    faults.push_back({pointer, fmt::format("{} has {} bytes, must have at most {}", label, value.text.size(), rule.most)});
+    faults.push_back(
+        {pointer, fmt::format("{} has {} bytes, must have at most {}", label, value.text.size(), rule.most)});
     return false;
   }
   if (value.text.empty() && !rule.may_be_empty) {
@@ -108,7 +111,8 @@ bool ObjectReader::number(std::string_view key, Presence presence, const NumberR
   return true;
 }
 
-bool ObjectReader::angle_deg(std::string_view key, Presence presence, const NumberRule& rule_deg, double& out_rad) {
+bool ObjectReader::angle_deg(std::string_view key, Presence presence, const NumberRule& rule_deg,
+                             double& out_rad) {
   double deg = 0.0;
   if (!number(key, presence, rule_deg, deg)) return false;
   out_rad = rad_from_deg(deg);
@@ -123,12 +127,14 @@ bool ObjectReader::angle_deg(std::string_view key, Presence presence, const Numb
   return true;
 }
 
-bool ObjectReader::whole_number(std::string_view key, Presence presence, double lowest, double highest, double& out) {
+bool ObjectReader::whole_number(std::string_view key, Presence presence, double lowest, double highest,
+                                double& out) {
   const JsonValue* const value = member(key, presence);
   if (value == nullptr) return false;
   if (!value->is(JsonValue::Kind::kNumber) || value->number != std::floor(value->number) ||
       value->number < lowest || value->number > highest) {
-    fault(key, fmt::format("{} = {}, must be a whole number in [{}, {}]", key, describe(*value), lowest, highest));
+    fault(key,
+          fmt::format("{} = {}, must be a whole number in [{}, {}]", key, describe(*value), lowest, highest));
     return false;
   }
   out = value->number;
@@ -151,8 +157,8 @@ bool ObjectReader::boolean(std::string_view key, Presence presence, bool& out) {
   return true;
 }
 
-bool ObjectReader::choice(std::string_view key, Presence presence, const std::vector<std::string_view>& allowed,
-                          std::size_t& out) {
+bool ObjectReader::choice(std::string_view key, Presence presence,
+                          const std::vector<std::string_view>& allowed, std::size_t& out) {
   const JsonValue* const value = member(key, presence);
   if (value == nullptr) return false;
   const auto found = std::find(allowed.begin(), allowed.end(), value->text);
@@ -194,8 +200,8 @@ std::vector<Element> ObjectReader::list(std::string_view key, Presence presence,
   return elements;
 }
 
-bool ObjectReader::numbers(std::string_view key, Presence presence, const CountRule& count, const NumberRule& rule,
-                           std::vector<double>& out) {
+bool ObjectReader::numbers(std::string_view key, Presence presence, const CountRule& count,
+                           const NumberRule& rule, std::vector<double>& out) {
   const std::size_t before = faults_.size();
   std::vector<double> values;
   const auto elements = list(key, presence, count);
@@ -209,14 +215,14 @@ bool ObjectReader::numbers(std::string_view key, Presence presence, const CountR
   return true;
 }
 
-bool ObjectReader::texts(std::string_view key, Presence presence, const CountRule& count, const TextRule& rule,
-                         std::vector<std::string>& out) {
+bool ObjectReader::texts(std::string_view key, Presence presence, const CountRule& count,
+                         const TextRule& rule, std::vector<std::string>& out) {
   const std::size_t before = faults_.size();
   std::vector<std::string> values;
   const auto elements = list(key, presence, count);
   for (std::size_t i = 0; i < elements.size(); ++i) {
-    read_text(*elements[i].value, elements[i].pointer, fmt::format("{}[{}]", key, i), rule, values.emplace_back(),
-              faults_);
+    read_text(*elements[i].value, elements[i].pointer, fmt::format("{}[{}]", key, i), rule,
+              values.emplace_back(), faults_);
   }
   if (faults_.size() != before || elements.empty()) return false;
   out = std::move(values);
@@ -230,7 +236,8 @@ void ObjectReader::fault(std::string_view key, std::string message) {
 void ObjectReader::refuse_unknown() {
   if (object_ == nullptr) return;
   for (const std::string& key : object_->keys) {
-    if (std::find(known_.begin(), known_.end(), key) == known_.end()) fault(key, unknown_name("key", key, known_));
+    if (std::find(known_.begin(), known_.end(), key) == known_.end())
+      fault(key, unknown_name("key", key, known_));
   }
 }
 

@@ -13,8 +13,8 @@
 
 namespace slipway::api::json {
 
-// Whether the key must be there. An optional key that is absent leaves its target as it was: the default stands in the
-// struct that is read into, and nowhere else.
+// Whether the key must be there. An optional key that is absent leaves its target as it was: the default
+// stands in the struct that is read into, and nowhere else.
 enum class Presence { kRequired, kOptional };
 constexpr Presence kRequired = Presence::kRequired;
 constexpr Presence kOptional = Presence::kOptional;
@@ -45,10 +45,10 @@ struct Element {
 };
 
 // "slope_deg = 212 deg, must be in [0, 60]"; false where a fault was added and `out` left alone.
-bool read_number(const JsonValue& value, const std::string& pointer, std::string_view label, const NumberRule& rule,
-                 double& out, std::vector<Fault>& faults);
-bool read_text(const JsonValue& value, const std::string& pointer, std::string_view label, const TextRule& rule,
-               std::string& out, std::vector<Fault>& faults);
+bool read_number(const JsonValue& value, const std::string& pointer, std::string_view label,
+                 const NumberRule& rule, double& out, std::vector<Fault>& faults);
+bool read_text(const JsonValue& value, const std::string& pointer, std::string_view label,
+               const TextRule& rule, std::string& out, std::vector<Fault>& faults);
 
 // Reads one object and writes down every fault of it: wrong types, missing keys, values out of range, and (in
 // refuse_unknown, which every reader calls last) keys that nobody asked for. Nothing is clamped or converted.
@@ -66,11 +66,13 @@ class ObjectReader {
   bool number(std::string_view key, Presence presence, const NumberRule& rule, std::optional<double>& out);
   // Given in degrees, kept in radians.
   bool angle_deg(std::string_view key, Presence presence, const NumberRule& rule_deg, double& out_rad);
-  bool angle_deg(std::string_view key, Presence presence, const NumberRule& rule_deg, std::optional<double>& out_rad);
+  bool angle_deg(std::string_view key, Presence presence, const NumberRule& rule_deg,
+                 std::optional<double>& out_rad);
   template <class Integer>
   bool whole(std::string_view key, Presence presence, Integer lowest, Integer highest, Integer& out) {
     double number = 0.0;
-    if (!whole_number(key, presence, static_cast<double>(lowest), static_cast<double>(highest), number)) return false;
+    if (!whole_number(key, presence, static_cast<double>(lowest), static_cast<double>(highest), number))
+      return false;
     out = static_cast<Integer>(number);
     return true;
   }

@@ -15,14 +15,16 @@ constexpr std::size_t kMostClasses = 1000;
 void read_file_name(ObjectReader& reader, std::string_view key, Presence presence, std::string& out) {
   std::string name;
   if (!reader.text(key, presence, {.most = 100}, name)) return;
-  const bool plain = name.front() != '.' && name.front() != '-' && std::all_of(name.begin(), name.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
-           c == '.';
-  });
+  const bool plain =
+      name.front() != '.' && name.front() != '-' && std::all_of(name.begin(), name.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+               c == '-' || c == '.';
+      });
   if (plain) {
     out = name;
   } else {
-    reader.fault(key, std::string(key) + " = " + in_quotes(name) + ", must be a plain file name beside terrain.json");
+    reader.fault(
+        key, std::string(key) + " = " + in_quotes(name) + ", must be a plain file name beside terrain.json");
   }
 }
 
@@ -32,13 +34,14 @@ void read_legend(ObjectReader& soil, TerrainDescription& terrain) {
     ObjectReader reader(*element.value, element.pointer, soil.faults());
     dem::SoilClass& entry = terrain.legend.emplace_back();
     entry.value = row++;
-    if (terrain.soil_source == SoilSource::kRaster) reader.whole("value", kRequired, -32768, 32767, entry.value);
+    if (terrain.soil_source == SoilSource::kRaster)
+      reader.whole("value", kRequired, -32768, 32767, entry.value);
     reader.text("label", kRequired, {}, entry.label);
     const JsonValue* const name = reader.member("soil", kRequired);
     if (name != nullptr && !name->is(JsonValue::Kind::kNull)) {
       std::string text;
-      if (read_text(*name, child_pointer(element.pointer, "soil"), "soil", {.most = 64, .is_name = true}, text,
-                    soil.faults())) {
+      if (read_text(*name, child_pointer(element.pointer, "soil"), "soil", {.most = 64, .is_name = true},
+                    text, soil.faults())) {
         entry.soil = text;
       }
     }
@@ -52,7 +55,8 @@ void read_soil(ObjectReader& soil, TerrainDescription& terrain) {
   std::string polygons;
   read_file_name(soil, "polygons", kOptional, polygons);
   if (!polygons.empty()) {
-    if (terrain.soil_source == SoilSource::kRaster) soil.fault("polygons", "polygons and raster exclude each other");
+    if (terrain.soil_source == SoilSource::kRaster)
+      soil.fault("polygons", "polygons and raster exclude each other");
     terrain.soil_source = SoilSource::kPolygons;
     terrain.soil_file = polygons;
     soil.text("property", kRequired, {.most = 64}, terrain.soil_property);

@@ -90,11 +90,17 @@ Writer& Writer::text(std::string_view value) {
   return *this;
 }
 
-Writer& Writer::boolean(bool value) { return raw(value ? "true" : "false"); }
+Writer& Writer::boolean(bool value) {
+  return raw(value ? "true" : "false");
+}
 
-Writer& Writer::null() { return raw("null"); }
+Writer& Writer::null() {
+  return raw("null");
+}
 
-Writer& Writer::whole(std::int64_t value) { return raw(fmt::format("{}", value)); }
+Writer& Writer::whole(std::int64_t value) {
+  return raw(fmt::format("{}", value));
+}
 
 Writer& Writer::exact(double value) {
   finite(value);

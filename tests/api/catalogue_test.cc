@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 
 #include "api/json/parse.h"
@@ -26,11 +27,12 @@ using testing::write_file;
 TEST(ShippedSoils, HaveEveryRowOfThePapers) {
   const auto& soils = small_world().catalogue().soils;
   for (const char* name :
-       {"jlu_mars_1_loose", "jlu_mars_1_medium", "jlu_mars_1_dense", "jlu_mars_2_loose", "jlu_mars_2_medium",
-        "jlu_mars_2_dense", "jlu_mars_3_loose", "jlu_mars_3_medium", "jlu_mars_3_dense", "vl1_drift", "vl1_blocky",
-        "vl2_crusty_cloddy", "mpf_drift", "mpf_cloddy", "mer_a_loose", "mer_a_dense", "mer_b_slope_soil",
-        "mer_b_sandy_loam", "msl_bedrock", "dry_sand", "sandy_loam", "clayey_soil", "artemis_dry_sand", "ding_2011",
-        "cross_check", "unknown_ground"}) {
+       {"jlu_mars_1_loose", "jlu_mars_1_medium", "jlu_mars_1_dense",  "jlu_mars_2_loose", "jlu_mars_2_medium",
+        "jlu_mars_2_dense", "jlu_mars_3_loose",  "jlu_mars_3_medium", "jlu_mars_3_dense", "vl1_drift",
+        "vl1_blocky",       "vl2_crusty_cloddy", "mpf_drift",         "mpf_cloddy",       "mer_a_loose",
+        "mer_a_dense",      "mer_b_slope_soil",  "mer_b_sandy_loam",  "msl_bedrock",      "dry_sand",
+        "sandy_loam",       "clayey_soil",       "artemis_dry_sand",  "ding_2011",        "cross_check",
+        "unknown_ground"}) {
     EXPECT_TRUE(soils.contains(name)) << name;
   }
   const sim::SoilDistribution& drift = soils.at("mpf_drift");
@@ -73,13 +75,15 @@ TEST(ShippedSoils, SayWhereTheyComeFromAndWhatIsAssumed) {
 
 TEST(ShippedRovers, SatisfyTheSimulator) {
   const auto& rovers = small_world().catalogue().rovers;
-  EXPECT_EQ(names_of(rovers), (std::vector<std::string>{"fido-class", "mer-class", "msl-class", "zhurong-class"}));
+  EXPECT_EQ(names_of(rovers),
+            (std::vector<std::string>{"fido-class", "mer-class", "msl-class", "zhurong-class"}));
   for (const auto& [name, rover] : rovers) {
     EXPECT_EQ(sim::faults_of(*rover), std::vector<Fault>{}) << name;
     const double fastest = rover->drive.max_wheel_rate_rad_s * rover->smallest_wheel_radius_m();
     EXPECT_LE(rover->cruise_speed_m_s, fastest) << name;
-    EXPECT_LE(rover->turn_rate_rad_s * 0.5 * std::hypot(rover->track_m(), 2.0 * rover->wheels[0].position_m.x()),
-              fastest)
+    EXPECT_LE(
+        rover->turn_rate_rad_s * 0.5 * std::hypot(rover->track_m(), 2.0 * rover->wheels[0].position_m.x()),
+        fastest)
         << name << " can turn in place at its rate";
   }
 }
@@ -121,15 +125,16 @@ TEST(Catalogue, ReportsTheFaultsOfAllFilesTogether) {
   write_file(yard, text);
   const auto moon = folder.path() / "terrains" / "moon";
   std::filesystem::create_directories(moon);
-  write_file(moon / "terrain.json",
-             R"({"format":"terrain/1","name":"moon","title":"t","elevation":"../yard/elevation.tif","gravity_m_s2":1.6})");
+  write_file(
+      moon / "terrain.json",
+      R"({"format":"terrain/1","name":"moon","title":"t","elevation":"../yard/elevation.tif","gravity_m_s2":1.6})");
   const auto catalogue = load_catalogue(folder.path());
   ASSERT_FALSE(catalogue);
   EXPECT_EQ(catalogue.error().code, ErrorCode::kUnreadableData);
   std::set<std::string> pointers;
   for (const Fault& fault : catalogue.error().faults) pointers.insert(fault.pointer);
-  for (const char* expected : {"rovers/broken.json#/mass_kg", "rovers/broken.json#/wheels", "soils/broken.json#",
-                               "terrains/moon/terrain.json#/elevation"}) {
+  for (const char* expected : {"rovers/broken.json#/mass_kg", "rovers/broken.json#/wheels",
+                               "soils/broken.json#", "terrains/moon/terrain.json#/elevation"}) {
     EXPECT_TRUE(pointers.contains(expected)) << expected;
   }
 }
@@ -149,9 +154,11 @@ TEST(Catalogue, ALegendNamesSoilsThatExist) {
 }
 
 TEST(Catalogue, ATerrainsFilesAreBesideItAndNoLinks) {
-  for (const char* name : {"/etc/passwd", "../yard/elevation.tif", "/vsicurl/x.tif", ".hidden", "a/b.tif", "-x"}) {
+  for (const char* name :
+       {"/etc/passwd", "../yard/elevation.tif", "/vsicurl/x.tif", ".hidden", "a/b.tif", "-x"}) {
     const auto terrain = json::read_terrain_file(
-        std::string(R"({"format":"terrain/1","name":"n","title":"t","gravity_m_s2":1,"elevation":")") + name + "\"}");
+        std::string(R"({"format":"terrain/1","name":"n","title":"t","gravity_m_s2":1,"elevation":")") + name +
+        "\"}");
     ASSERT_FALSE(terrain) << name;
     EXPECT_EQ(terrain.error().faults.front().pointer, "/elevation");
   }

@@ -1,8 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <thread>
+
 #include "api/job_kinds.h"
 #include "api/json/parse.h"
 #include "api/json/plan_answer.h"
+#include "api/memory_job_store.h"
 #include "api/openapi.h"
 #include "small_world.h"
 
@@ -128,7 +134,8 @@ TEST(Contract, ExamplesOfRequestsFitTheDescription) {
   for (const char* name : {"plan_shortest.json", "plan_every_key.json"}) {
     EXPECT_EQ(complaints_about("PlanRequest", example(name)), std::vector<std::string>{}) << name;
   }
-  EXPECT_EQ(complaints_about("PredictionRequest", example("prediction_path.json")), std::vector<std::string>{});
+  EXPECT_EQ(complaints_about("PredictionRequest", example("prediction_path.json")),
+            std::vector<std::string>{});
 }
 
 TEST(Contract, APlansAnswerFitsTheDescription) {
@@ -156,18 +163,42 @@ TEST(Contract, APredictionsAnswerFitsTheDescription) {
 TEST(Contract, TheSameRequestHasTheSameBytes) {
   EXPECT_EQ(answer_to(kPredictionKind, example("prediction_path.json")),
             answer_to(kPredictionKind, example("prediction_path.json")));
-  EXPECT_EQ(answer_to(kPlanKind, example("plan_shortest.json")), answer_to(kPlanKind, example("plan_shortest.json")));
+  EXPECT_EQ(answer_to(kPlanKind, example("plan_shortest.json")),
+            answer_to(kPlanKind, example("plan_shortest.json")));
 }
 
 TEST(Contract, APathThroughAHoleNamesTheCorner) {
   NoProgress progress;
   const auto answer = service_work(small_world())(
       std::string(kPredictionKind),
-      R"({"terrain":"yard","rover":"mer-class","path":[{"x_m":75,"y_m":45},{"x_m":95,"y_m":45}],"draws":1})", progress);
+      R"({"terrain":"yard","rover":"mer-class","path":[{"x_m":75,"y_m":45},{"x_m":95,"y_m":45}],"draws":1})",
+      progress);
   ASSERT_FALSE(answer);
   EXPECT_EQ(answer.error().code, ErrorCode::kNoData);
   ASSERT_FALSE(answer.error().faults.empty());
-  EXPECT_TRUE(answer.error().faults.front().pointer.starts_with("/path/")) << answer.error().faults.front().pointer;
+  EXPECT_TRUE(answer.error().faults.front().pointer.starts_with("/path/"))
+      << answer.error().faults.front().pointer;
+}
+
+TEST(Contract, DismissingAPlanStopsThePlannersWithinTwoSeconds) {
+  JobRunner runner(make_memory_job_store(), service_work(small_world()));
+  ASSERT_TRUE(runner.start());
+  const auto job = runner.submit("plan", example("plan_shortest.json"));
+  ASSERT_TRUE(job);
+  const auto works = [&] {
+    const Job now = runner.store().get(job->id).value().value();
+    return runner.running() == 1 && !now.stage.empty() && now.stage != "starting" && now.progress > 0.0;
+  };
+  for (int i = 0; i < 2000 && !works(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  ASSERT_TRUE(works()) << "it must be stopped in the midst of its work";
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_TRUE(runner.dismiss(job->id));
+  while (runner.running() > 0 && std::chrono::steady_clock::now() - begin < std::chrono::seconds(30)) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  std::cout << "stopped after " << took.count() << " s\n";
+  EXPECT_LT(took.count(), 2.0);
 }
 
 }  // namespace

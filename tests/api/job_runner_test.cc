@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <future>
 
 #include "api/json/problem_document.h"
@@ -25,7 +26,8 @@ Result<std::string> echo(const std::string& kind, const std::string& request, Pr
 struct Endless {
   std::atomic<int> begun{0};
   std::atomic<int> ended{0};
-  Result<std::string> operator()(const std::string& /*kind*/, const std::string& /*request*/, Progress& progress) {
+  Result<std::string> operator()(const std::string& /*kind*/, const std::string& /*request*/,
+                                 Progress& progress) {
     ++begun;
     while (!progress.cancelled()) std::this_thread::sleep_for(milliseconds(20));
     ++ended;
@@ -35,7 +37,8 @@ struct Endless {
 
 void wait_until(const std::function<bool()>& condition) {
   const auto until = std::chrono::steady_clock::now() + seconds(10);
-  while (!condition() && std::chrono::steady_clock::now() < until) std::this_thread::sleep_for(milliseconds(5));
+  while (!condition() && std::chrono::steady_clock::now() < until)
+    std::this_thread::sleep_for(milliseconds(5));
   ASSERT_TRUE(condition());
 }
 
@@ -111,9 +114,10 @@ TEST(JobRunner, ADismissalWakesWhoWaits) {
 
 TEST(JobRunner, ShortWorkDoesNotWaitBehindLongWork) {
   Endless endless;
-  JobRunner runner(make_memory_job_store(), [&](const std::string& kind, const std::string& request, Progress& p) {
-    return kind == "plan" ? endless(kind, request, p) : echo(kind, request, p);
-  });
+  JobRunner runner(make_memory_job_store(),
+                   [&](const std::string& kind, const std::string& request, Progress& p) {
+                     return kind == "plan" ? endless(kind, request, p) : echo(kind, request, p);
+                   });
   ASSERT_TRUE(runner.start());
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(runner.submit("plan", "{}"));
   const std::string id = runner.submit("prediction", "{}")->id;

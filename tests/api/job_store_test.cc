@@ -6,6 +6,8 @@
 
 #include <chrono>
 #include <csignal>
+#include <iostream>
+#include <mutex>
 #include <set>
 #include <thread>
 
@@ -228,7 +230,8 @@ TEST(SqliteJobStore, AKilledProcessLosesNoAcknowledgedJob) {
   ASSERT_GE(acknowledged.size(), kEnough);
   const auto store = open_sqlite_job_store(path);
   ASSERT_TRUE(store) << store.error().detail;
-  for (const std::string& known : acknowledged) EXPECT_TRUE((*store)->get(known).value().has_value()) << known;
+  for (const std::string& known : acknowledged)
+    EXPECT_TRUE((*store)->get(known).value().has_value()) << known;
 }
 
 TEST(SqliteJobStore, KeepsEverythingThroughAReopening) {
@@ -274,7 +277,8 @@ TEST(SqliteJobStore, ThreadsThatAcceptTogetherShareCommits) {
     std::vector<std::thread> all;
     for (int t = 0; t < threads; ++t) {
       all.emplace_back([&] {
-        for (int i = 0; i < each; ++i) EXPECT_TRUE((*store)->append({new_job_id(), "plan", "{}"}, 1, 1'000'000));
+        for (int i = 0; i < each; ++i)
+          EXPECT_TRUE((*store)->append({new_job_id(), "plan", "{}"}, 1, 1'000'000));
       });
     }
     for (std::thread& thread : all) thread.join();

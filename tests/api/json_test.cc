@@ -21,8 +21,8 @@ TEST(Parse, SyntaxErrorNamesLineAndColumn) {
 }
 
 TEST(Parse, RefusesWhatIsNotJson) {
-  for (const char* text : {"", " ", "{", "[1,]", "{\"a\":NaN}", "[Infinity]", "[-Infinity]", "[1e999]", "[01]", "nul",
-                           "{} {}", "[\"\xff\"]", "{'a':1}", "[1] // no", "\"\\ud800\""}) {
+  for (const char* text : {"", " ", "{", "[1,]", "{\"a\":NaN}", "[Infinity]", "[-Infinity]", "[1e999]",
+                           "[01]", "nul", "{} {}", "[\"\xff\"]", "{'a':1}", "[1] // no", "\"\\ud800\""}) {
     const auto document = parse(text);
     ASSERT_FALSE(document) << text;
     EXPECT_EQ(document.error().code, ErrorCode::kMalformedJson) << text;
@@ -58,7 +58,8 @@ TEST(Parse, RefusesTooManyBytesAndTooManyValues) {
 }
 
 TEST(StrictReader, NamesEveryFaultAtOnce) {
-  const auto document = parse(R"({"max_slope_deg": 212, "routes": 2.5, "name": 7, "list": [1, "x", 5], "surprise": 1,
+  const auto document =
+      parse(R"({"max_slope_deg": 212, "routes": 2.5, "name": 7, "list": [1, "x", 5], "surprise": 1,
                                   "max_tilt": 3, "flag": 0, "inner": []})");
   ASSERT_TRUE(document);
   std::vector<Fault> faults;
@@ -87,7 +88,8 @@ TEST(StrictReader, NamesEveryFaultAtOnce) {
       {"/flag", "flag = 0, must be true or false"},
       {"/inner", "inner = a list of 0, must be an object"},
       {"/goal", "goal is missing"},
-      {"/surprise", "unknown key \"surprise\"; known: max_slope_deg, routes, name, list, max_tilt_deg, flag, inner, goal"},
+      {"/surprise",
+       "unknown key \"surprise\"; known: max_slope_deg, routes, name, list, max_tilt_deg, flag, inner, goal"},
       {"/max_tilt",
        "unknown key \"max_tilt\"; did you mean \"max_tilt_deg\"? known: max_slope_deg, routes, name, list, "
        "max_tilt_deg, flag, inner, goal"}};
@@ -124,7 +126,13 @@ TEST(Faults, NearestForgivesASlipAndNotMore) {
 
 TEST(Writer, WritesTheSameNumberInTheFewestDigits) {
   Writer w;
-  w.begin_array().exact(0.1).exact(-0.0).exact(1e300).significant(1.0 / 3.0).metres(1234567.0004).metres(-0.0001);
+  w.begin_array()
+      .exact(0.1)
+      .exact(-0.0)
+      .exact(1e300)
+      .significant(1.0 / 3.0)
+      .metres(1234567.0004)
+      .metres(-0.0001);
   w.angle_deg(0.4363323129985824).text("a\"\\\n\x01").end_array();
   EXPECT_EQ(w.take(), "[0.1,0,1e+300,0.333333,1234567,0,25,\"a\\\"\\\\\\n\\u0001\"]");
 }

@@ -19,8 +19,8 @@ std::vector<std::string> pointers_of(const Error& error) {
 
 // A plan request with one part replaced.
 std::string plan_with(const std::string& members) {
-  return R"({"terrain":"yard","rover":"mer-class","start":{"x_m":20,"y_m":30},"goal":{"x_m":45,"y_m":40})" + members +
-         "}";
+  return R"({"terrain":"yard","rover":"mer-class","start":{"x_m":20,"y_m":30},"goal":{"x_m":45,"y_m":40})" +
+         members + "}";
 }
 
 TEST(PlanRequest, DefaultsAreThoseOfTheRoomsBelow) {
@@ -64,12 +64,13 @@ TEST(PlanRequest, ARefusalNamesEveryFault) {
   ASSERT_FALSE(request);
   EXPECT_EQ(request.error().code, ErrorCode::kInvalidRequest);
   EXPECT_EQ(pointers_of(request.error()),
-            (std::vector<std::string>{"/routes", "/limits/max_tilt_deg", "/limits/max_slipp", "/rover", "/start",
-                                      "/goal"}));
+            (std::vector<std::string>{"/routes", "/limits/max_tilt_deg", "/limits/max_slipp", "/rover",
+                                      "/start", "/goal"}));
   EXPECT_EQ(request.error().faults[1].message, "max_tilt_deg = 212 deg, must be in (0, 60]");
   EXPECT_NE(request.error().faults[2].message.find("did you mean \"max_slip\"?"), std::string::npos);
   EXPECT_EQ(request.error().faults[3].message,
-            "unknown rover \"mer\"; did you mean \"mer-class\"? known: fido-class, mer-class, msl-class, zhurong-class");
+            "unknown rover \"mer\"; did you mean \"mer-class\"? known: fido-class, mer-class, msl-class, "
+            "zhurong-class");
   EXPECT_EQ(request.error().faults[4].message, "(85, 45) m has no elevation: the terrain is not known there");
   EXPECT_EQ(request.error().faults[5].message,
             "(500, 40) m is off the map, must be in x [0, 120] m and y [0, 100] m");

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <regex>
+#include <cctype>
+#include <functional>
+#include <set>
+#include <thread>
 
 #include "api/json/parse.h"
 #include "api/memory_job_store.h"
@@ -42,7 +45,9 @@ class Routes : public ::testing::Test {
     request.query = std::move(query);
     return table_->answer(request, problem_response);
   }
-  std::string submit() { return ask("POST", "/v1/plans", {}, example("plan_shortest.json")).header("Location").value(); }
+  std::string submit() {
+    return ask("POST", "/v1/plans", {}, example("plan_shortest.json")).header("Location").value();
+  }
 
   static JsonValue read(const HttpResponse& response) {
     auto document = api::json::parse(response.body);
@@ -59,7 +64,8 @@ class Routes : public ::testing::Test {
     ASSERT_TRUE(condition());
   }
 
-  static constexpr const char* kAnswer = R"({"format":"plan/1","routes":{"type":"FeatureCollection","features":[]}})";
+  static constexpr const char* kAnswer =
+      R"({"format":"plan/1","routes":{"type":"FeatureCollection","features":[]}})";
   std::unique_ptr<api::JobRunner> runner_;
   std::unique_ptr<RouteTable> table_;
 };
@@ -77,7 +83,8 @@ TEST_F(Routes, HealthSaysOkAndTheVersion) {
 }
 
 TEST_F(Routes, CataloguesAreServedAndRevalidated) {
-  for (const char* path : {"/v1/terrains", "/v1/rovers", "/v1/soils", "/v1/effects", "/v1/planners", "/errors"}) {
+  for (const char* path :
+       {"/v1/terrains", "/v1/rovers", "/v1/soils", "/v1/effects", "/v1/planners", "/errors"}) {
     const HttpResponse response = ask("GET", path);
     EXPECT_EQ(response.status, 200) << path;
     EXPECT_EQ(response.content_type, "application/json");
@@ -122,13 +129,15 @@ TEST_F(Routes, APlanIsRecordedWithItsLocation) {
 
 TEST_F(Routes, PreferWaitGivesTheAnswerAtOnce) {
   for (const char* prefer : {"wait=5", "respond-async, wait=5", "return=minimal; x=1,WAIT=\"5\" ; y"}) {
-    const HttpResponse response = ask("POST", "/v1/plans", {{"Prefer", prefer}}, example("plan_shortest.json"));
+    const HttpResponse response =
+        ask("POST", "/v1/plans", {{"Prefer", prefer}}, example("plan_shortest.json"));
     EXPECT_EQ(response.status, 200) << prefer;
     EXPECT_EQ(response.body, kAnswer);
     EXPECT_EQ(response.header("Preference-Applied"), "wait=5");
   }
   for (const char* prefer : {"wait=-5", "wait=soon", "wait=", "wait=5x", "wait=99999999999999999999"}) {
-    const HttpResponse response = ask("POST", "/v1/plans", {{"Prefer", prefer}}, example("plan_shortest.json"));
+    const HttpResponse response =
+        ask("POST", "/v1/plans", {{"Prefer", prefer}}, example("plan_shortest.json"));
     EXPECT_EQ(response.status, 201) << prefer;
     EXPECT_EQ(response.header("Preference-Applied"), std::nullopt);
   }
@@ -145,7 +154,8 @@ TEST_F(Routes, APredictionIsWaitedForUnlessAskedOtherwise) {
 TEST_F(Routes, WhatTakesLongerThanTheWaitIsAnsweredWithItsLocation) {
   run(endless, {.longest_wait = seconds(1)});
   const auto begin = std::chrono::steady_clock::now();
-  const HttpResponse response = ask("POST", "/v1/plans", {{"Prefer", "wait=3600"}}, example("plan_shortest.json"));
+  const HttpResponse response =
+      ask("POST", "/v1/plans", {{"Prefer", "wait=3600"}}, example("plan_shortest.json"));
   EXPECT_LT(std::chrono::steady_clock::now() - begin, seconds(3)) << "the cap is the server's";
   EXPECT_EQ(response.status, 201);
   EXPECT_EQ(response.header("Preference-Applied"), "wait=1");
@@ -154,7 +164,8 @@ TEST_F(Routes, WhatTakesLongerThanTheWaitIsAnsweredWithItsLocation) {
 
 TEST_F(Routes, WaitingClientsNeverTakeAllHandlers) {
   run(endless, {.most_waiting = 0});
-  const HttpResponse response = ask("POST", "/v1/plans", {{"Prefer", "wait=20"}}, example("plan_shortest.json"));
+  const HttpResponse response =
+      ask("POST", "/v1/plans", {{"Prefer", "wait=20"}}, example("plan_shortest.json"));
   EXPECT_EQ(response.status, 201);
   EXPECT_EQ(response.header("Preference-Applied"), std::nullopt);
 }
@@ -254,7 +265,8 @@ TEST_F(Routes, UnknownJobsAreNotFoundWhateverTheIdLooksLike) {
 TEST_F(Routes, AQueryOfAPointNamesItsFaults) {
   const std::string path = "/v1/terrains/yard/point";
   EXPECT_EQ(ask("GET", path, {}, "", {{"x_m", "20"}, {"y_m", "20"}}).status, 200);
-  const HttpResponse refused = ask("GET", path, {}, "", {{"x_m", "nan"}, {"y", "2"}, {"y_m", "1"}, {"y_m", "2"}});
+  const HttpResponse refused =
+      ask("GET", path, {}, "", {{"x_m", "nan"}, {"y", "2"}, {"y_m", "1"}, {"y_m", "2"}});
   EXPECT_EQ(refused.status, 422);
   EXPECT_EQ(read(refused).find("faults")->elements.size(), 4U) << refused.body;
   EXPECT_EQ(ask("GET", "/v1/terrains/mars/point", {}, "", {{"x_m", "20"}, {"y_m", "20"}}).status, 404);

@@ -13,7 +13,8 @@ namespace fs = std::filesystem;
 
 ScratchFolder::ScratchFolder() {
   static std::atomic<int> count{0};
-  path_ = fs::temp_directory_path() / ("slipway_api_" + std::to_string(::getpid()) + "_" + std::to_string(++count));
+  path_ = fs::temp_directory_path() /
+          ("slipway_api_" + std::to_string(::getpid()) + "_" + std::to_string(++count));
   fs::remove_all(path_);
   fs::create_directories(path_);
 }
@@ -51,6 +52,8 @@ std::string file_bytes(const fs::path& path) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-std::string example(const std::string& name) { return file_bytes(fs::path(SLIPWAY_API_FOLDER) / "examples" / name); }
+std::string example(const std::string& name) {
+  return file_bytes(fs::path(SLIPWAY_API_FOLDER) / "examples" / name);
+}
 
 }  // namespace slipway::api::testing

@@ -179,7 +179,7 @@ TEST_F(ElevationRefusal, AHeaderCannotSendTheReaderToAFileInAnotherFolder) {
   };
   // The same label opens where the data are beside it (and is then refused for its missing grid only).
   folder_.write("here.img", std::string(4 * 5 * 4, '\1'));
-  expect_refusal(refusal_of(folder_.write("here.lbl", label("here.img"))), ErrorCode::kUnsupportedCrs,
+  expect_refusal(refusal_of(folder_.write("here.lbl", label("here.img"))), ErrorCode::kUnreadableRaster,
                  {"no coordinate reference system"});
   expect_refusal(refusal_of(folder_.write("there.lbl", label(elsewhere / "secret.img"))),
                  ErrorCode::kUnreadableRaster, {"not a readable raster"});

@@ -86,9 +86,9 @@ TEST_F(SoilPolygons, OnAnEllipsoidLatitudesArePlanetocentric) {
   const double ratio = 3376200.0 / 3396190.0;
   const double centric_deg = std::atan(ratio * ratio) * 180.0 / std::numbers::pi;
   const double south_deg = centric_deg + 5.0 / 3.386e6 * 180.0 / std::numbers::pi;
-  char ring[200];
-  std::snprintf(ring, sizeof(ring), "[[-1,%.12f],[1,%.12f],[1,46],[-1,46],[-1,%.12f]]", south_deg, south_deg,
-                south_deg);
+  char ring[200];  // to a micrometre
+  std::snprintf(ring, sizeof(ring), "[[-0.01,%.12f],[0.01,%.12f],[0.01,46],[-0.01,46],[-0.01,%.12f]]",
+                south_deg, south_deg, south_deg);
   const auto map = read(collection(feature("A", ring)), PolygonCoordinates::kLongitudeLatitude,
                         "+proj=tmerc +lat_0=45 +lon_0=0 +a=3396190 +b=3376200 +units=m");
   ASSERT_TRUE(map) << map.error().detail;

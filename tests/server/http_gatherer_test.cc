@@ -111,7 +111,8 @@ TEST(RequestGatherer, WhatItHoldsIsBoundedByTheLimits) {
 
 TEST(RequestGatherer, MutatedRequestsAreReadTheSameInAnyPieces) {
   const HttpOptions options = small_options();
-  const std::string alphabet("\r\n :;0159afGPX/%,*\0\x7f\x80\xff\t", 25);
+  constexpr std::string_view kWithNul{"\r\n :;0159afGPX/%,*\0\x7f\x80\xff\t", 23};
+  const std::string alphabet(kWithNul);
   for (std::uint64_t round = 0; round < 5'000; ++round) {
     std::string bytes = three_requests();
     const std::size_t mutations = 1 + random_bits(round, 0) % 4;

@@ -183,7 +183,7 @@ TEST(HttpLimits, LargeBodiesTogetherAreLimitedAndSmallOnesStillPass) {
     greedy.emplace_back(s.port);
     greedy.back().send(std::string(kJsonHead) + "Content-Length: 400000\r\n\r\n" + std::string(300'000, ' '));
   }
-  std::this_thread::sleep_for(milliseconds(100));
+  std::this_thread::sleep_for(milliseconds(300));
   EXPECT_EQ(ask_once(s.port, post("/echo", "{}")).body, "{}");
   int refused = 0;
   for (RawClient& client : greedy)

@@ -1,0 +1,95 @@
+#include "planner/leg_search.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "planner/grid_search.h"
+#include "planner/planner_catalogue.h"
+#include "planner/pose_sampler.h"
+#include "planner/smooth_route.h"
+#include "tests/planner/plan_fixture.h"
+
+namespace slipway::planner {
+namespace {
+
+constexpr std::string_view kHills = R"(
+. . . . . . . . . . . . . . . . . . . . . .
+. . . . . 2 2 2 . . . . . . . 1 1 1 . . . .
+. . . . . 2 4 2 . . . 3 3 3 . 1 2 1 . . . .
+. . . . . 2 2 2 . . . 3 6 3 . 1 1 1 . . . .
+. . . S . . . . . . . 3 3 3 . . . . . G . .
+. . . . . . 2 2 . . . . . . . . 2 2 . . . .
+. . . . . . 2 2 . . 2 2 . . . . 2 2 . . . .
+. . . . . . . . . . 2 2 . . . . . . . . . .
+. . . . . . . . . . . . . . . . . . . . . .
+)";
+
+class LegSearchTest : public testing::TestWithParam<std::string_view> {
+ protected:
+  PlanProblem problem = problem_of(kHills);
+  KeepOut keep_out{problem.keep_out, *problem.rover};
+  GroundTables tables = build_ground_tables(problem);
+  TraverseMap map{problem, keep_out, problem.terrain->geometry().extent()};
+  MotionCost cost{problem, map, tables, problem.weights};
+  GridSearch grid{cost};
+  PoseSampler sampler{grid, map, grid.cost_to_come(problem.start.x_m, problem.start.y_m),
+                      grid.cost_to_go(problem.goal.x_m, problem.goal.y_m), problem.start.x_m, problem.start.y_m};
+
+  LegSearch search(std::uint64_t seed) const {
+    LegSearch leg;
+    leg.cost = &cost;
+    leg.sampler = &sampler;
+    leg.from = {problem.start.x_m, problem.start.y_m, 0.0};
+    leg.to_x_m = problem.goal.x_m;
+    leg.to_y_m = problem.goal.y_m;
+    leg.arrival_rad = {0.5};
+    leg.seed = seed;
+    leg.iterations = 1500;
+    return leg;
+  }
+};
+
+TEST_P(LegSearchTest, FindsARouteNearTheGridsOptimumThatEndsAtTheGoalPose) {
+  const std::vector<Pose2> poses = search_leg(GetParam(), search(3));
+  ASSERT_GE(poses.size(), 2U);
+  EXPECT_EQ(poses.back(), (Pose2{problem.goal.x_m, problem.goal.y_m, 0.5}));
+  const double found = fine_cost(cost, smooth_leg(cost, poses, true));
+  EXPECT_LT(found, 1.15 * sampler.optimum());
+  EXPECT_GT(found, 0.9 * sampler.optimum());
+}
+
+TEST_P(LegSearchTest, RepeatsBitForBitWhateverRanBefore) {
+  const std::vector<Pose2> first = search_leg(GetParam(), search(3));
+  EXPECT_NE(search_leg(GetParam(), search(4)), first);
+  EXPECT_EQ(search_leg(GetParam(), search(3)), first);
+}
+
+TEST_P(LegSearchTest, SmoothingNeverMakesARouteDearer) {
+  for (std::uint64_t seed = 1; seed < 6; ++seed) {
+    const std::vector<Pose2> poses = search_leg(GetParam(), search(seed));
+    ASSERT_GE(poses.size(), 2U);
+    std::vector<Motion> found;
+    for (std::size_t i = 1; i < poses.size(); ++i) found.push_back(connect(poses[i - 1], poses[i], cost.limits()));
+    EXPECT_LE(fine_cost(cost, smooth_leg(cost, poses, true)), 1.02 * fine_cost(cost, found));
+  }
+}
+
+TEST_P(LegSearchTest, StopsWhenCancelled) {
+  LegSearch cancelled = search(3);
+  cancelled.iterations = 100'000'000;
+  cancelled.cancelled = [] { return true; };
+  EXPECT_TRUE(search_leg(GetParam(), cancelled).empty());
+}
+
+std::vector<std::string_view> planner_names() {
+  std::vector<std::string_view> names;
+  for (const PlannerRow& row : planner_catalogue()) names.push_back(row.name);
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryPlanner, LegSearchTest, testing::ValuesIn(planner_names()),
+                         [](const auto& row) { return std::string(row.param); });
+
+}  // namespace
+}  // namespace slipway::planner

@@ -1,0 +1,351 @@
+#include "planner/plan.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <functional>
+
+#include "core/angle.h"
+#include "dem/synthetic_terrain.h"
+#include "planner/keep_out.h"
+#include "planner/select_routes.h"
+#include "tests/planner/plan_fixture.h"
+
+namespace slipway::planner {
+namespace {
+
+constexpr std::string_view kOpen = R"(
+. . . . . . . . . . . . . . . . . . . . . .
+. . . . . . . . . . . . . . . . . . . . . .
+. . . . . . . . . . . . . . . . . . . . . .
+. . . . . . . . . . . . . . . . . . . . . .
+. . . S . . . . . . . . . . . . . . . G . .
+. . . . . . . . . . . . . . . . . . . . . .
+. . . . . . . . . . . . . . . . . . . . . .
+. . . . . . . . . . . . . . . . . . . . . .
+. . . . . . . . . . . . . . . . . . . . . .
+)";
+
+Plan plan_of(const PlanProblem& problem) {
+  NoProgress progress;
+  Result<Plan> plan = make_plan(problem, progress);
+  EXPECT_TRUE(plan.has_value()) << plan.error().detail;
+  return plan.value_or(Plan{});
+}
+
+bool ever(const Route& route, const std::function<bool(const sim::StationPrediction&)>& is) {
+  return std::any_of(route.prediction.stations.begin(), route.prediction.stations.end(), is);
+}
+
+// Everything that a client sees, bit by bit.
+std::vector<double> numbers_of(const Plan& plan) {
+  std::vector<double> numbers;
+  for (const Route& route : plan.routes) {
+    numbers.insert(numbers.end(), {route.cost, route.prediction.risk, route.prediction.duration_s});
+    for (const sim::StationPrediction& s : route.prediction.stations) {
+      numbers.insert(numbers.end(), {s.station.pose.x_m, s.station.pose.y_m, s.station.pose.yaw_rad,
+                                     s.state.slip_ratio, s.slip_ratio_p95});
+    }
+  }
+  return numbers;
+}
+
+std::vector<std::string> words_of(const Plan& plan) {
+  std::vector<std::string> words = plan.fewer_because;
+  for (const Route& route : plan.routes) words.insert(words.end(), route.reasons.begin(), route.reasons.end());
+  return words;
+}
+
+TEST(Plan, FindsThreeRoutesThatDifferOnOpenGround) {
+  const PlanProblem problem = problem_of(kOpen);
+  const Plan plan = plan_of(problem);
+  ASSERT_EQ(plan.routes.size(), 3U) << (plan.fewer_because.empty() ? "" : plan.fewer_because.front());
+  Differences differences(problem.rover->body_width_m);
+  for (const Route& route : plan.routes) {
+    std::vector<Eigen::Vector2d> line;
+    for (const auto& s : route.prediction.stations) line.emplace_back(s.station.pose.x_m, s.station.pose.y_m);
+    differences.add(line);
+    EXPECT_NEAR(route.prediction.stations.back().station.pose.x_m, problem.goal.x_m, 1e-6);
+    EXPECT_NEAR(route.prediction.stations.back().station.pose.y_m, problem.goal.y_m, 1e-6);
+  }
+  for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t b = 0; b < a; ++b) EXPECT_LE(differences.shared(a, b), kLargestOverlap + 0.02);
+  EXPECT_TRUE(plan.fewer_because.empty());
+  EXPECT_EQ(plan.routes.front().verdict, Verdict::kGo);
+  EXPECT_LE(plan.routes[0].cost, plan.routes[1].cost);
+  EXPECT_LT(plan.routes[0].prediction.length_m, 32.0 * 1.03);
+}
+
+TEST(Plan, SharesAddUpToTheCost) {
+  const Plan plan = plan_of(problem_of(kOpen));
+  ASSERT_FALSE(plan.routes.empty());
+  for (const Route& route : plan.routes) {
+    double sum = 0.0;
+    for (const CostShare& share : route.shares) sum += share.cost;
+    EXPECT_NEAR(sum, route.cost, 1e-12);
+    EXPECT_FALSE(route.reasons.empty());
+  }
+}
+
+TEST(Plan, TheSameRequestGivesTheSameBytesOnOneAndTwoThreadsAndAfterAnotherPlan) {
+  PlanProblem problem = problem_of(kOpen);
+  problem.threads = 1;
+  const Plan first = plan_of(problem);
+  PlanProblem other = problem;
+  other.seed = 77;
+  other.goal.y_m += 4.0;
+  const Plan unrelated = plan_of(other);
+  problem.threads = 2;
+  const Plan second = plan_of(problem);
+  EXPECT_EQ(numbers_of(first), numbers_of(second));
+  EXPECT_EQ(words_of(first), words_of(second));
+  EXPECT_NE(numbers_of(first), numbers_of(unrelated));
+}
+
+TEST(Plan, GoesRoundTheSteepHill) {
+  const Plan plan = plan_of(problem_of(R"(
+. . . . . . . . . . . . . . . . . . . . . .
+. . . . . . . . . . . . . . . . . . . . . .
+. . . . . . . . . . . . . . . . . . . . . .
+. . . . . . . . . 5 5 5 5 . . . . . . . . .
+. . . . . . . . . 5 9 9 5 . . . . . . . . .
+. . . S . . . . . 5 9 9 5 . . . . . . G . .
+. . . . . . . . . 5 9 9 5 . . . . . . . . .
+. . . . . . . . . 5 5 5 5 . . . . . . . . .
+. . . . . . . . . . . . . . . . . . . . . .
+. . . . . . . . . . . . . . . . . . . . . .
+. . . . . . . . . . . . . . . . . . . . . .
+)", 2.0, 0.4));
+  ASSERT_FALSE(plan.routes.empty());
+  EXPECT_GT(plan.routes[0].prediction.length_m, 33.0);
+  EXPECT_LT(plan.routes[0].prediction.max_tilt_rad.value, rad_from_deg(15.0));
+}
+
+TEST(Plan, AvoidsTheSoftPatchThoughTheWayIsLonger) {
+  const Plan plan = plan_of(problem_of(R"(
+. . . . . . . . . . . . . . . . . . . . . .
+. . . . . . . . . . . . . . . . . . . . . .
+. . . . . . . . s s s s s . . . . . . . . .
+. . . . . . . . s s s s s . . . . . . . . .
+. . . S . . . . s s s s s . . . . . . G . .
+. . . . . . . . s s s s s . . . . . . . . .
+. . . . . . . . s s s s s s . . . . . . . .
+. . . . . . . . s s s s s s . . . . . . . .
+. . . . . . . . . . . . . . . . . . . . . .
+)"));
+  ASSERT_FALSE(plan.routes.empty());
+  EXPECT_GT(plan.routes[0].prediction.length_m, 32.3);
+  EXPECT_FALSE(ever(plan.routes[0], [](const auto& s) { return s.soil == std::size_t{1}; }));
+}
+
+TEST(Plan, GoesRoundMissingElevation) {
+  const Plan plan = plan_of(problem_of(R"(
+. . . . . . . . . . . . . . . . . . . . . .
+. . . . . . . . . . . . . . . . . . . . . .
+. . . . . . . . . . # # . . . . . . . . . .
+. . . . . . . . . . # # . . . . . . . . . .
+. . . S . . . . . . # # . . . . . . . G . .
+. . . . . . . . . . # # . . . . . . . . . .
+. . . . . . . . . . # # . . . . . . . . . .
+. . . . . . . . . . . . . . . . . . . . . .
+. . . . . . . . . . . . . . . . . . . . . .
+)"));
+  ASSERT_FALSE(plan.routes.empty());
+  for (const Route& route : plan.routes) EXPECT_GT(route.prediction.length_m, 33.0);
+}
+
+TEST(Plan, DrivesRoundAKeepOutWithItsWholeBody) {
+  PlanProblem problem = problem_of(kOpen);
+  problem.keep_out = {{{20.0, 5.0}, {24.0, 5.0}, {24.0, 13.0}, {20.0, 13.0}}};
+  const Plan plan = plan_of(problem);
+  ASSERT_FALSE(plan.routes.empty());
+  const KeepOut keep_out(problem.keep_out, *problem.rover);
+  for (const Route& route : plan.routes)
+    EXPECT_FALSE(ever(route, [&](const auto& s) { return keep_out.hits(s.station.pose); }));
+}
+
+constexpr std::string_view kOneGap = R"(
+. . . . . . . . . . # . . . . . . . . . . .
+. . . . . . . . . . # . . . . . . . . . . .
+. . . . . . . . . . # . . . . . . . . . . .
+. . . . . . . . . . # . . . . . . . . . . .
+. . . S . . . . . . . . . . . . . . . G . .
+. . . . . . . . . . . . . . . . . . . . . .
+. . . . . . . . . . # . . . . . . . . . . .
+. . . . . . . . . . # . . . . . . . . . . .
+. . . . . . . . . . # . . . . . . . . . . .
+)";
+
+TEST(Plan, WithOneNarrowCorridorSaysWhyThereAreFewerRoutes) {
+  const Plan plan = plan_of(problem_of(R"(
+# # # # # # # # # # # # # # # # # # # # # #
+# # # # # # # # # # # # # # # # # # # # # #
+. . . . . . . . . . . . . . . . . . . . . .
+. . . S . . . . . . . . . . . . . . . G . .
+. . . . . . . . . . . . . . . . . . . . . .
+# # # # # # # # # # # # # # # # # # # # # #
+# # # # # # # # # # # # # # # # # # # # # #
+)"));
+  ASSERT_GE(plan.routes.size(), 1U);
+  ASSERT_LT(plan.routes.size(), 3U);
+  ASSERT_EQ(plan.fewer_because.size(), 2U);
+  EXPECT_NE(plan.fewer_because[0].find("share more than 60 %"), std::string::npos) << plan.fewer_because[0];
+  EXPECT_NE(plan.fewer_because[1].find("passes one gap"), std::string::npos) << plan.fewer_because[1];
+}
+
+TEST(Plan, AllRoutesPassTheOnlyGap) {
+  const Plan plan = plan_of(problem_of(kOneGap));
+  ASSERT_FALSE(plan.routes.empty());
+  for (const Route& route : plan.routes) {
+    EXPECT_TRUE(ever(route, [](const auto& s) {
+      return std::abs(s.station.pose.x_m - 21.0) < 0.3 && s.station.pose.y_m > 6.0 && s.station.pose.y_m < 10.0;
+    }));
+  }
+}
+
+TEST(Plan, RoutesThroughTwoGapsDiffer) {
+  PlanProblem problem = problem_of(R"(
+. . . . . . . . . . # . . . . . . . . . . .
+. . . . . . . . . . . . . . . . . . . . . .
+. . . . . . . . . . . . . . . . . . . . . .
+. . . . . . . . . . # . . . . . . . . . . .
+. . . S . . . . . . # . . . . . . . . G . .
+. . . . . . . . . . # . . . . . . . . . . .
+. . . . . . . . . . . . . . . . . . . . . .
+. . . . . . . . . . . . . . . . . . . . . .
+. . . . . . . . . . # . . . . . . . . . . .
+)");
+  problem.routes = 2;
+  const Plan plan = plan_of(problem);
+  ASSERT_EQ(plan.routes.size(), 2U);
+  const auto north = [](const auto& s) { return std::abs(s.station.pose.x_m - 21.0) < 0.3 && s.station.pose.y_m > 9.0; };
+  EXPECT_NE(ever(plan.routes[0], north), ever(plan.routes[1], north));
+}
+
+TEST(Plan, AWalledInGoalIsAnAnswerWithoutRoutesAndWithAReason) {
+  const Plan plan = plan_of(problem_of(R"(
+. . . . . . . . . . . . . . # # # # # # # #
+. . . . . . . . . . . . . . # . . . . . . #
+. . . S . . . . . . . . . . # . . . G . . #
+. . . . . . . . . . . . . . # . . . . . . #
+. . . . . . . . . . . . . . # # # # # # # #
+. . . . . . . . . . . . . . . . . . . . . .
+)"));
+  EXPECT_TRUE(plan.routes.empty());
+  ASSERT_EQ(plan.fewer_because.size(), 1U);
+  EXPECT_NE(plan.fewer_because[0].find("without elevation"), std::string::npos) << plan.fewer_because[0];
+}
+
+TEST(Plan, OnUnknownGroundTheVerdictIsNeverGo) {
+  PlanProblem problem = problem_of(kOpen);
+  problem.soil_map = nullptr;
+  const Plan plan = plan_of(problem);
+  ASSERT_FALSE(plan.routes.empty());
+  for (const Route& route : plan.routes) EXPECT_NE(route.verdict, Verdict::kGo);
+  EXPECT_NE(plan.routes[0].reasons[0].find("unknown ground"), std::string::npos);
+}
+
+TEST(Plan, VisitsWaypointsInOrderAndKeepsTheGoalsHeading) {
+  PlanProblem problem = problem_of(kOpen);
+  problem.waypoints = {{25.0, 14.0, std::nullopt}, {15.0, 5.0, std::nullopt}};
+  problem.goal.yaw_rad = 1.0;
+  const Plan plan = plan_of(problem);
+  ASSERT_FALSE(plan.routes.empty());
+  for (const Route& route : plan.routes) {
+    double last = 0.0;
+    for (const Waypoint& place : problem.waypoints) {
+      const auto at = std::find_if(
+          route.prediction.stations.begin(), route.prediction.stations.end(), [&](const auto& s) {
+            return s.station.distance_m >= last &&
+                   std::hypot(s.station.pose.x_m - place.x_m, s.station.pose.y_m - place.y_m) < 1e-6;
+          });
+      ASSERT_NE(at, route.prediction.stations.end());
+      last = at->station.distance_m;
+    }
+    EXPECT_NEAR(wrapped_rad(route.prediction.stations.back().station.pose.yaw_rad - 1.0), 0.0, 1e-9);
+  }
+}
+
+TEST(Plan, ReportsAllFaultsTogether) {
+  PlanProblem problem = problem_of(kOpen);
+  problem.start.x_m = -5.0;
+  problem.goal.x_m = 43.9;
+  problem.waypoints = {{22.0, 9.0, std::nullopt}};
+  problem.keep_out = {{{20.0, 5.0}, {24.0, 5.0}, {24.0, 13.0}, {20.0, 13.0}}, {{0.0, 0.0}, {1.0, 1.0}}};
+  problem.planners = {"rrt_star", "a_star"};
+  problem.routes = 0;
+  NoProgress progress;
+  const Result<Plan> plan = make_plan(problem, progress);
+  ASSERT_FALSE(plan.has_value());
+  EXPECT_EQ(plan.error().code, ErrorCode::kOffMap);
+  std::vector<std::string> pointers;
+  for (const Fault& fault : plan.error().faults) pointers.push_back(fault.pointer);
+  EXPECT_EQ(pointers, (std::vector<std::string>{"/routes", "/planners/1", "/keep_out/1", "/start", "/goal",
+                                                "/waypoints/0"}));
+}
+
+TEST(Plan, RefusesAStartSteeperThanTheLimits) {
+  PlanProblem problem = problem_of(kOpen);
+  problem.terrain = dem::make_ramp({.size_m = 60.0, .cell_m = 1.0}, rad_from_deg(28.0), 0.3);
+  problem.soil_map = nullptr;
+  problem.start = {0.0, 0.0, std::nullopt};
+  problem.goal = {10.0, 0.0, std::nullopt};
+  NoProgress progress;
+  const Result<Plan> plan = make_plan(problem, progress);
+  ASSERT_FALSE(plan.has_value());
+  EXPECT_EQ(plan.error().code, ErrorCode::kInvalidRequest);
+  EXPECT_NE(plan.error().faults.at(0).message.find("must be at most 25.0 deg"), std::string::npos);
+}
+
+class CancelledAt final : public Progress {
+ public:
+  explicit CancelledAt(double fraction) : fraction_(fraction) {}
+  void report(std::string_view /*stage*/, double fraction) override {
+    if (fraction >= fraction_ && !cancelled_.exchange(true)) at_ = std::chrono::steady_clock::now();
+  }
+  bool cancelled() const override { return cancelled_; }
+  double seconds_since() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - at_).count();
+  }
+
+ private:
+  double fraction_;
+  std::atomic<bool> cancelled_{false};
+  std::chrono::steady_clock::time_point at_;
+};
+
+TEST(Plan, StopsWithinTwoSecondsWhenCancelledAtAnyStage) {
+  for (const double fraction : {0.0, 0.1, 0.5, 0.7}) {
+    CancelledAt progress(fraction);
+    const Result<Plan> plan = make_plan(problem_of(kOpen), progress);
+    ASSERT_FALSE(plan.has_value()) << fraction;
+    EXPECT_EQ(plan.error().code, ErrorCode::kCancelled);
+    EXPECT_LT(progress.seconds_since(), 2.0) << fraction;
+  }
+}
+
+TEST(PredictPath, JoinsCornersByTurnsAndStraights) {
+  const PlanProblem problem = problem_of(kOpen);
+  NoProgress progress;
+  const auto drive =
+      predict_path(problem, {{5.0, 5.0, std::nullopt}, {15.0, 5.0, std::nullopt}, {15.0, 12.0, 0.0}}, progress);
+  ASSERT_TRUE(drive.has_value());
+  EXPECT_NEAR(drive->length_m, 17.0, 1e-6);
+  EXPECT_NEAR(drive->turned_rad, std::numbers::pi, 1e-6);
+}
+
+TEST(PredictPath, NamesTheCornerBehindMissingElevation) {
+  NoProgress progress;
+  const auto drive = predict_path(problem_of(kOneGap),
+                                  {{5.0, 15.0, std::nullopt}, {15.0, 15.0, std::nullopt}, {30.0, 15.0, std::nullopt}},
+                                  progress);
+  ASSERT_FALSE(drive.has_value());
+  EXPECT_EQ(drive.error().code, ErrorCode::kNoData);
+  ASSERT_FALSE(drive.error().faults.empty());
+  EXPECT_EQ(drive.error().faults[0].pointer, "/path/2");
+}
+
+}  // namespace
+}  // namespace slipway::planner
