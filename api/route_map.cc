@@ -275,12 +275,16 @@ class Picture {
 
 }  // namespace
 
-Result<std::string> draw_route_map(const TerrainSite& site, std::string_view answer) {
+Result<std::string> draw_route_map(const Catalogue& catalogue, std::string_view answer) {
   const auto document = json::parse(answer, {.bytes = answer.size(), .values = answer.size()});
   if (!document) return fail(document.error());
+  const JsonValue* terrain = document->find("terrain");
+  const auto site = terrain ? catalogue.terrains.find(terrain->text) : catalogue.terrains.end();
+  if (site == catalogue.terrains.end())
+    return fail(ErrorCode::kInternal, "the answer names no terrain of this service");
   const std::vector<DrawnRoute> routes = routes_of(*document);
   if (routes.empty()) return fail(ErrorCode::kNoData, "the answer has no route to draw");
-  const auto ground = site.read(extent_of(routes));
+  const auto ground = site->second->read(extent_of(routes));
   if (!ground) return fail(ground.error());
   Picture picture(*ground);
   if (const auto drawn = picture.draw_ground(); !drawn) return fail(drawn.error());
@@ -289,7 +293,7 @@ Result<std::string> draw_route_map(const TerrainSite& site, std::string_view ans
   for (auto route = routes.rbegin(); route != routes.rend(); ++route) picture.draw_route(*route);
   for (std::size_t k = 0; k < routes.size(); ++k) picture.label_route(routes[k], k, routes.size());
   picture.mark_ends(routes.front());
-  return picture.finish(site.description().title);
+  return picture.finish(site->second->description().title);
 }
 
 }  // namespace slipway::api

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "api/terrain_site.h"
+#include "api/catalogue.h"
 #include "core/result.h"
 
 namespace slipway::api {
@@ -12,6 +12,6 @@ namespace slipway::api {
 // mapped soils tinted, unknown ground left grey and driven over in dashes, routes coloured by slip and
 // numbered by rank, the largest slip of each marked, with scale bar and legend. Errors: those of reading the
 // terrain; internal where the document is no answer.
-Result<std::string> draw_route_map(const TerrainSite& site, std::string_view answer);
+Result<std::string> draw_route_map(const Catalogue& catalogue, std::string_view answer);
 
 }  // namespace slipway::api

@@ -8,10 +8,9 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <memory>
-#include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace slipway::dem {
 namespace {
@@ -83,29 +82,26 @@ CPLHTTPResult* refuse_request(const char* /*url*/, CSLConstList /*options*/, GDA
 }  // namespace
 
 void raise_file_fence() {
-  // The handlers that are replaced stay reachable for the life of the process: files may still be open in
-  // them.
-  static std::set<VSIFilesystemHandler*> replaced;
-  static bool raised = false;
-  if (raised) return;
-  raised = true;
+  // Replaced and replacing handlers stay reachable to the end of the process: files may be open in the
+  // former, and GDAL itself deletes the latter.
+  static auto& kept = *new std::vector<VSIFilesystemHandler*>;
+  if (!kept.empty()) return;
 
-  // GDAL owns what is installed and deletes each handler once.
-  VSIFilesystemHandler* plain = VSIFileManager::GetHandler("a plain file");
-  VSIFileManager::InstallHandler("", std::make_unique<AdmittedFiles>(*plain).release());
-  replaced.insert(plain);
+  kept.push_back(VSIFileManager::GetHandler("a plain file"));
+  kept.push_back(new AdmittedFiles(*kept.front()));
+  VSIFileManager::InstallHandler("", kept.back());
 
-  RefusingFiles* refusing = std::make_unique<RefusingFiles>().release();
+  VSIFilesystemHandler* refusing = kept.emplace_back(new RefusingFiles);
+  const auto refuse = [refusing](const std::string& prefix) {
+    kept.push_back(VSIFileManager::GetHandler(prefix.c_str()));
+    VSIFileManager::InstallHandler(prefix, refusing);
+  };
   const CPLStringList prefixes(VSIFileManager::GetPrefixes(), TRUE);
   for (int i = 0; i < prefixes.Count(); ++i) {
     const std::string prefix(prefixes[i]);
-    if (prefix == "/vsimem/") continue;
-    replaced.insert(VSIFileManager::GetHandler(prefix.c_str()));
-    VSIFileManager::InstallHandler(prefix, refusing);
+    if (prefix != "/vsimem/") refuse(prefix);
   }
-  // An alias that GetPrefixes() leaves out.
-  replaced.insert(VSIFileManager::GetHandler("/vsicurl?"));
-  VSIFileManager::InstallHandler("/vsicurl?", refusing);
+  refuse("/vsicurl?");  // an alias that GetPrefixes() leaves out
 
   CPLHTTPSetFetchCallback(refuse_request, nullptr);
   OSRSetPROJEnableNetwork(0);

@@ -5,13 +5,21 @@
 namespace slipway::planner {
 namespace {
 
-double hours(const sim::DrivePrediction& drive) { return drive.duration_s / 3600.0; }
-double hundred_watt_hours(const sim::DrivePrediction& drive) { return drive.energy_j / 360'000.0; }
+double hours(const sim::DrivePrediction& drive) {
+  return drive.duration_s / 3600.0;
+}
+double hundred_watt_hours(const sim::DrivePrediction& drive) {
+  return drive.energy_j / 360'000.0;
+}
 double hundred_metres_of_slip(const sim::DrivePrediction& drive) {
   return drive.mean_slip_ratio * drive.length_m / 100.0;
 }
-double hundred_metres_unknown(const sim::DrivePrediction& drive) { return drive.unknown_length_m / 100.0; }
-double risk(const sim::DrivePrediction& drive) { return drive.risk; }
+double hundred_metres_unknown(const sim::DrivePrediction& drive) {
+  return drive.unknown_length_m / 100.0;
+}
+double risk(const sim::DrivePrediction& drive) {
+  return drive.risk;
+}
 
 }  // namespace
 

@@ -32,7 +32,9 @@ constexpr std::array<Step, kGridSteps> kSteps{{{1, 0},
                                                {1, -1},
                                                {2, -1}}};
 
-int opposite(int step) { return (step + kGridSteps / 2) % kGridSteps; }
+int opposite(int step) {
+  return (step + kGridSteps / 2) % kGridSteps;
+}
 
 struct Reached {
   float cost;
@@ -51,16 +53,17 @@ double GridSearch::heading_rad(int step) {
 
 GridSearch::GridSearch(const MotionCost& cost) : map_(cost.map()), per_metre_(map_.cells() * kGridSteps) {
   std::array<Eigen::Vector2d, kGridSteps> direction;
-  for (int k = 0; k < kGridSteps; ++k)
-    direction[k] = {std::cos(heading_rad(k)), std::sin(heading_rad(k))};
+  for (int k = 0; k < kGridSteps; ++k) direction[k] = {std::cos(heading_rad(k)), std::sin(heading_rad(k))};
   for (std::size_t i = 0; i < map_.cells(); ++i) {
     const Passage passage = map_.cell(i).passage;
     const Eigen::Vector2d centre = map_.centre_m(i);
     for (int k = 0; k < kGridSteps; ++k) {
-      const bool open = passage == Passage::kFree ||
-                        (passage == Passage::kNearKeepOut && map_.may_stand({centre.x(), centre.y(), heading_rad(k)}));
+      const bool open =
+          passage == Passage::kFree ||
+          (passage == Passage::kNearKeepOut && map_.may_stand({centre.x(), centre.y(), heading_rad(k)}));
       per_metre_[i * kGridSteps + k] =
-          open ? static_cast<float>(cost.per_metre_in_cell(i, direction[k].x(), direction[k].y())) : kInfinity;
+          open ? static_cast<float>(cost.per_metre_in_cell(i, direction[k].x(), direction[k].y()))
+               : kInfinity;
     }
   }
 }
@@ -74,7 +77,8 @@ bool GridSearch::passes_corners(std::size_t row, std::size_t column, int step) c
   const int half_up = s.up / 2;
   const std::size_t first = (row - half_up) * columns + (column + half_right);
   const std::size_t second = (row - (s.up - half_up)) * columns + (column + (s.right - half_right));
-  return per_metre_[first * kGridSteps + step] < kInfinity && per_metre_[second * kGridSteps + step] < kInfinity;
+  return per_metre_[first * kGridSteps + step] < kInfinity &&
+         per_metre_[second * kGridSteps + step] < kInfinity;
 }
 
 CostField GridSearch::spread(double x_m, double y_m, bool to_go) const {
@@ -104,7 +108,8 @@ CostField GridSearch::spread(double x_m, double y_m, bool to_go) const {
       const float half = per_metre_[here.cell * kGridSteps + driven];
       const long long next_row = static_cast<long long>(row) - kSteps[k].up;
       const long long next_column = static_cast<long long>(column) + kSteps[k].right;
-      if (!(half < kInfinity) || next_row < 0 || next_column < 0 || next_row >= g.rows || next_column >= g.columns)
+      if (!(half < kInfinity) || next_row < 0 || next_column < 0 || next_row >= g.rows ||
+          next_column >= g.columns)
         continue;
       const auto next = static_cast<std::size_t>(next_row) * columns + static_cast<std::size_t>(next_column);
       const float cost = here.cost + half_length[k] * (half + per_metre_[next * kGridSteps + driven]);

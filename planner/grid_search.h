@@ -9,14 +9,14 @@ namespace slipway::planner {
 
 // Cost of the cheapest way on the grid between one place and every cell, and the way itself.
 struct CostField {
-  std::vector<float> cost;          // infinite where there is no way
-  std::vector<std::int8_t> step;    // towards the next cell on the way to (from) the place; -1 there
+  std::vector<float> cost;        // infinite where there is no way
+  std::vector<std::int8_t> step;  // towards the next cell on the way to (from) the place; -1 there
 };
 
-// Dijkstra over the map's cells and 16 directions (eight neighbours and eight knight's moves), each edge costing
-// what the motion cost says of driving in that direction; turns in place are free here. It tells with certainty
-// whether a goal can be reached on the grid, its optimum is a yardstick for OMPL's routes, and its fields show
-// OMPL's samplers where good routes run.
+// Dijkstra over the map's cells and 16 directions (eight neighbours and eight knight's moves), each edge
+// costing what the motion cost says of driving in that direction; turns in place are free here. It tells with
+// certainty whether a goal can be reached on the grid, its optimum is a yardstick for OMPL's routes, and its
+// fields show OMPL's samplers where good routes run.
 class GridSearch {
  public:
   explicit GridSearch(const MotionCost& cost);

@@ -2,14 +2,30 @@
 
 #include <algorithm>
 
-#include "core/angle.h"
 #include "core/parallel_for.h"
 
 namespace slipway::planner {
 namespace {
 
-// Slip doubles over some 4 deg of slope, so that bilinear blends between these nodes are within a few per cent.
-constexpr double kNodeStep_rad = rad_from_deg(2.5);
+// Slip doubles over some 4 deg of slope: at a limit of 25 deg these nodes are 3.1 deg apart, and the bilinear
+// blend between them stays within a few per cent.
+constexpr double kNodesToLimit = 8.0;
+
+// The soils that lie anywhere on the map: a legend may name many more, and a table costs hundreds of
+// balances.
+std::vector<bool> soils_in_use(const PlanProblem& problem) {
+  std::vector<bool> used(problem.beliefs.known.size(), false);
+  if (!problem.soil_map) return used;
+  const dem::GridGeometry& g = problem.soil_map->geometry();
+  for (int row = 0; row < g.rows; ++row) {
+    for (int column = 0; column < g.columns; ++column) {
+      const Eigen::Vector2d centre = g.centre_m({row, column});
+      const std::optional<std::size_t> soil = problem.soil_map->soil_at(centre.x(), centre.y());
+      if (soil) used.at(*soil) = true;
+    }
+  }
+  return used;
+}
 
 }  // namespace
 
@@ -26,13 +42,20 @@ GroundTables build_ground_tables(const PlanProblem& problem) {
   const auto belief = [&](std::size_t kind) -> const sim::SoilDistribution& {
     return kind + 1 < kinds ? problem.beliefs.known[kind] : problem.beliefs.unknown;
   };
+  std::vector<bool> used = soils_in_use(problem);
+  used.push_back(true);  // unknown ground
   parallel_for(tables.size(), problem.threads, [&](std::size_t i) {
+    if (!used[i / 2]) return;
     const sim::SoilDistribution& of = belief(i / 2);
     const sim::Soil soil = i % 2 == 0 ? of.mean : weak_soil(of);
-    tables[i].emplace(*problem.rover, problem.gravity_m_s2, soil, limit, kNodeStep_rad);
+    tables[i].emplace(*problem.rover, problem.gravity_m_s2, soil, limit, limit / kNodesToLimit);
   });
   GroundTables all;
   for (std::size_t kind = 0; kind < kinds; ++kind) {
+    if (!used[kind]) {
+      all.known.emplace_back();
+      continue;
+    }
     GroundTable table{std::move(*tables[2 * kind]), std::move(*tables[2 * kind + 1]),
                       belief(kind).correlation_length_m};
     if (kind + 1 < kinds) {

@@ -17,7 +17,8 @@ struct GroundTable {
 
 // Tables per soil of the beliefs, and for unknown ground. Built once per problem, in parallel.
 struct GroundTables {
-  std::vector<std::optional<GroundTable>> known;  // in the beliefs' order
+  std::vector<std::optional<GroundTable>>
+      known;  // in the beliefs' order; nothing for a soil that lies nowhere
   std::optional<GroundTable> unknown;
 };
 

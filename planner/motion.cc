@@ -17,7 +17,9 @@ constexpr double kStraightCurvature_1_m = 1e-6;
 
 }  // namespace
 
-double Motion::turned_rad() const { return std::abs(first_turn_rad) + std::abs(last_turn_rad); }
+double Motion::turned_rad() const {
+  return std::abs(first_turn_rad) + std::abs(last_turn_rad);
+}
 
 Pose2 Motion::at(double driven_m) const {
   const double start = departure_rad();

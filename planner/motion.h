@@ -18,7 +18,7 @@ struct Motion {
   double last_turn_rad = 0.0;   // in place, signed, after driving
 
   double departure_rad() const { return from.yaw_rad + first_turn_rad; }  // heading when driving begins
-  double turned_rad() const;                                             // in place, without sign
+  double turned_rad() const;                                              // in place, without sign
   // The pose after `driven_m` of the arc, the first turn done; the last turn is not part of it.
   Pose2 at(double driven_m) const;
 };
@@ -32,8 +32,8 @@ struct MotionLimits {
 
 MotionLimits motion_limits(const sim::RoverModel& rover);
 
-// The only circular arc that leaves `from`'s place and arrives at `to` with its heading, after a turn in place
-// onto its tangent: a chord's bearing halves the angle between the two headings, so the arc leaves at
+// The only circular arc that leaves `from`'s place and arrives at `to` with its heading, after a turn in
+// place onto its tangent: a chord's bearing halves the angle between the two headings, so the arc leaves at
 // 2 bearing - to.yaw. Where that arc would be tighter than the least radius, or turn by more than
 // 120 deg: turn, straight, turn.
 Motion connect(const Pose2& from, const Pose2& to, const MotionLimits& limits);

@@ -19,7 +19,9 @@ constexpr double kSteeringPause_s = 20.0;
 constexpr double kFullPause_rad = rad_from_deg(30.0);
 constexpr double kNoTurn_rad = rad_from_deg(0.5);
 
-double normal_tail(double z) { return 0.5 * std::erfc(z / std::sqrt(2.0)); }
+double normal_tail(double z) {
+  return 0.5 * std::erfc(z / std::sqrt(2.0));
+}
 
 // The probability that slip is over its limit.
 double probability_over(double limit, double mean_slip, double weak_slip) {
@@ -50,7 +52,14 @@ MotionCost::MotionCost(const PlanProblem& problem, const TraverseMap& map, const
   nodes_per_unit_ = (nodes_ - 1) / (2.0 * limit_);
   kinds_ = tables.known.size() + 1;
   per_slope_.reserve(kinds_ * static_cast<std::size_t>(nodes_) * static_cast<std::size_t>(nodes_));
-  for (const std::optional<GroundTable>& table : tables.known) tabulate(problem, *table, false, weights);
+  for (const std::optional<GroundTable>& table : tables.known) {
+    if (table) {
+      tabulate(problem, *table, false, weights);
+    } else {
+      per_slope_.insert(per_slope_.end(), static_cast<std::size_t>(nodes_) * static_cast<std::size_t>(nodes_),
+                        std::numeric_limits<float>::infinity());
+    }
+  }
   tabulate(problem, *tables.unknown, true, weights);
   const double level_w = tables.unknown->mean.at(0.0, 0.0)->energy_j_m * limits_.cruise_speed_m_s;
   const double per_second = weights.duration / 3600.0 + weights.energy * level_w / kJoulesPer100Wh;
@@ -63,12 +72,14 @@ void MotionCost::tabulate(const PlanProblem& problem, const GroundTable& table, 
   const double limit_rad = std::min(table.mean.limit_rad(), table.weak.limit_rad());
   for (int i = 0; i < nodes_; ++i) {
     for (int j = 0; j < nodes_; ++j) {
-      // R_MB = Rz(yaw) Ry(pitch) Rx(roll) on the plane: pitch is positive nose down, roll positive left side up.
+      // R_MB = Rz(yaw) Ry(pitch) Rx(roll) on the plane: pitch is positive nose down, roll positive left side
+      // up.
       const double uphill = -limit_ + i / nodes_per_unit_;
       const double leftward = -limit_ + j / nodes_per_unit_;
       const double pitch = std::clamp(-std::atan(uphill), -limit_rad, limit_rad);
-      const double roll = std::clamp(std::asin(leftward / std::sqrt(1.0 + uphill * uphill + leftward * leftward)),
-                                     -limit_rad, limit_rad);
+      const double roll =
+          std::clamp(std::asin(leftward / std::sqrt(1.0 + uphill * uphill + leftward * leftward)), -limit_rad,
+                     limit_rad);
       const sim::TableEntry mean = *table.mean.at(pitch, roll);
       const sim::TableEntry weak = *table.weak.at(pitch, roll);
       if (mean.immobile > 0.5) {
@@ -78,16 +89,16 @@ void MotionCost::tabulate(const PlanProblem& problem, const GroundTable& table, 
       const bool take_weak = unknown && weak.immobile <= 0.5;
       const sim::TableEntry& entry = take_weak ? weak : mean;
       const double slip = std::clamp(entry.slip_ratio, 0.0, kMostSlip);
-      const double over = weak.immobile > 0.5
-                              ? probability_over(problem.limits.max_slip_ratio, mean.slip_ratio, 1.0)
-                              : probability_over(problem.limits.max_slip_ratio, mean.slip_ratio, weak.slip_ratio);
+      const double over =
+          weak.immobile > 0.5
+              ? probability_over(problem.limits.max_slip_ratio, mean.slip_ratio, 1.0)
+              : probability_over(problem.limits.max_slip_ratio, mean.slip_ratio, weak.slip_ratio);
       const double sum = weights.duration / 3600.0 / (limits_.cruise_speed_m_s * (1.0 - slip)) +
                          weights.energy * entry.energy_j_m / kJoulesPer100Wh + weights.slip * slip / 100.0 +
                          (unknown ? weights.unknown / 100.0 : 0.0) +
                          weights.risk * over / std::max(table.correlation_length_m, 1.0);
       const double tilt = Attitude{.roll_rad = roll, .pitch_rad = pitch, .yaw_rad = 0.0}.tilt_rad();
-      per_slope_.push_back(
-          static_cast<float>(sum * steepness(share_of_limits(problem.limits, entry, tilt))));
+      per_slope_.push_back(static_cast<float>(sum * steepness(share_of_limits(problem.limits, entry, tilt))));
     }
   }
 }
@@ -111,7 +122,7 @@ double MotionCost::on_slope(std::uint8_t soil, double uphill, double leftward_ri
 double MotionCost::per_metre_in_cell(std::size_t cell, double c, double s) const {
   const GroundCell& ground = map_->cell(cell);
   const double cost = on_slope(ground.soil, c * ground.gradient_x + s * ground.gradient_y,
-                                  -s * ground.gradient_x + c * ground.gradient_y);
+                               -s * ground.gradient_x + c * ground.gradient_y);
   return penalty_.empty() ? cost : cost * (1.0 + penalty_[cell]);
 }
 
@@ -147,7 +158,8 @@ double MotionCost::of(const Motion& motion, double step_m) const {
     const double step = step_m > 0.0 ? step_m : map_->cell_m();
     const int pieces = std::max(1, static_cast<int>(std::ceil(motion.length_m / step)));
     const double piece = motion.length_m / pieces;
-    // From midpoint to midpoint by the chord of a piece, which has the heading between them; one rotation a piece.
+    // From midpoint to midpoint by the chord of a piece, which has the heading between them; one rotation a
+    // piece.
     const double half_sweep = 0.5 * motion.curvature_1_m * piece;
     const double chord = std::abs(half_sweep) < 1e-9 ? piece : piece * std::sin(half_sweep) / half_sweep;
     const Pose2 first = motion.at(0.5 * piece);

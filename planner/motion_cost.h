@@ -18,9 +18,9 @@ namespace slipway::planner {
 //   unknown   1 on unknown ground, per 100 m; unknown ground's numbers are those of its weak soil
 //   risk      P(slip over its limit) once per correlation length, the logarithm of slip taken as normal with
 //             the spread between the mean and the weak soil's slip
-// and all of it rises steeply from 3/4 of a limit (slip, current, sinkage, tilt) on. Off the map, near missing
-// elevation, beyond the tilt limit, with too little clearance, in a keep-out and where the mean soil's rover is
-// immobilised no motion is valid, and its cost is infinite.
+// and all of it rises steeply from 3/4 of a limit (slip, current, sinkage, tilt) on. Off the map, near
+// missing elevation, beyond the tilt limit, with too little clearance, in a keep-out and where the mean
+// soil's rover is immobilised no motion is valid, and its cost is infinite.
 class MotionCost {
  public:
   MotionCost(const PlanProblem& problem, const TraverseMap& map, const GroundTables& tables,
@@ -36,7 +36,8 @@ class MotionCost {
   // Midpoint rule over steps of at most `step_m` (0: a search cell).
   double of(const Motion& motion, double step_m = 0.0) const;
   double of_turn(double turned_rad) const;
-  // What a bend of a polyline is taken to cost before it is rounded: a turn, with the pause coming in gradually.
+  // What a bend of a polyline is taken to cost before it is rounded: a turn, with the pause coming in
+  // gradually.
   double of_bend(double turned_rad) const;
 
   // Makes each metre in a cell cost (1 + factor[cell]) times as much; empty takes it back.
@@ -54,8 +55,9 @@ class MotionCost {
   // Over rise per metre ahead and to the left, not over angles: a look-up then needs no trigonometry.
   double limit_ = 0.0;
   double nodes_per_unit_ = 0.0;
-  int nodes_ = 0;                 // per axis
-  std::vector<float> per_slope_;  // ground kind, rise ahead, rise to the left; the last kind is unknown ground
+  int nodes_ = 0;  // per axis
+  std::vector<float>
+      per_slope_;  // ground kind, rise ahead, rise to the left; the last kind is unknown ground
   std::size_t kinds_ = 0;
   std::vector<float> penalty_;
 };

@@ -20,12 +20,13 @@ namespace ob = ompl::base;
 namespace og = ompl::geometric;
 namespace {
 
-// OMPL asks for 1.1 2^(d+1) e (1 + 1/d) ln n neighbours, nearly 500 of 2,000 in SE(2), which suffices for any ground
-// and any sampling. With samples where good routes run, some 40 give the same cost in a tenth of the time.
+// OMPL asks for 1.1 2^(d+1) e (1 + 1/d) ln n neighbours, nearly 500 of 2,000 in SE(2), which suffices for any
+// ground and any sampling. With samples where good routes run, some 40 give the same cost in a tenth of the
+// time.
 constexpr double kRewireFactor = 0.09;
 
-// A planner of OMPL whose every random number and order is its own: OMPL draws the seeds of its generators from
-// one process-wide stream.
+// A planner of OMPL whose every random number and order is its own: OMPL draws the seeds of its generators
+// from one process-wide stream.
 template <class Base>
 class Repeatable final : public Base {
  public:

@@ -14,7 +14,8 @@ constexpr double kSamePlace_m = 1e-6;
 
 class GuidedSampler final : public ob::StateSampler {
  public:
-  GuidedSampler(const ob::StateSpace* space, const LegSearch& search) : StateSampler(space), search_(search) {}
+  GuidedSampler(const ob::StateSpace* space, const LegSearch& search)
+      : StateSampler(space), search_(search) {}
   void sampleUniform(ob::State* state) override {
     set_pose(state, search_.sampler->draw(search_.seed, counter_++));
   }
@@ -83,8 +84,7 @@ FiniteCostValidator::FiniteCostValidator(const ob::SpaceInformationPtr& space, c
     : MotionValidator(space), search_(search) {}
 
 bool FiniteCostValidator::checkMotion(const ob::State* from, const ob::State* to) const {
-  return std::isfinite(
-      search_.cost->of(connect(pose_of(from), pose_of(to), search_.cost->limits())));
+  return std::isfinite(search_.cost->of(connect(pose_of(from), pose_of(to), search_.cost->limits())));
 }
 
 bool FiniteCostValidator::checkMotion(const ob::State* from, const ob::State* to,
@@ -112,10 +112,13 @@ PlaceGoal::PlaceGoal(const ob::SpaceInformationPtr& space, const LegSearch& sear
 }
 
 void PlaceGoal::sampleGoal(ob::State* state) const {
-  set_pose(state, {search_.to_x_m, search_.to_y_m, search_.arrival_rad[next_++ % search_.arrival_rad.size()]});
+  set_pose(state,
+           {search_.to_x_m, search_.to_y_m, search_.arrival_rad[next_++ % search_.arrival_rad.size()]});
 }
 
-unsigned int PlaceGoal::maxSampleCount() const { return static_cast<unsigned int>(search_.arrival_rad.size()); }
+unsigned int PlaceGoal::maxSampleCount() const {
+  return static_cast<unsigned int>(search_.arrival_rad.size());
+}
 
 double PlaceGoal::distanceGoal(const ob::State* state) const {
   const Pose2 pose = pose_of(state);

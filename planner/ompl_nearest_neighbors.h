@@ -13,9 +13,9 @@
 
 namespace slipway::planner {
 
-// Nearest neighbours in square buckets of the map. OMPL's own structure picks its pivots with the process-wide
-// random numbers, so that its order of equals, and with it a tree, would depend on what ran before. Asks only
-// that the distance is never less than the one between the places, as MotionSpace's is.
+// Nearest neighbours in square buckets of the map. OMPL's own structure picks its pivots with the
+// process-wide random numbers, so that its order of equals, and with it a tree, would depend on what ran
+// before. Asks only that the distance is never less than the one between the places, as MotionSpace's is.
 template <class T>
 class BucketNearestNeighbors final : public ompl::NearestNeighbors<T> {
  public:
@@ -65,7 +65,8 @@ class BucketNearestNeighbors final : public ompl::NearestNeighbors<T> {
   static int row(const T& item) { return index(item->state->template as<State>()->getY()); }
   static int index(double metres) { return static_cast<int>(std::floor(metres / kBucket_m)); }
   static std::uint64_t key(int column, int row) {
-    return static_cast<std::uint64_t>(static_cast<std::uint32_t>(column)) << 32 | static_cast<std::uint32_t>(row);
+    return static_cast<std::uint64_t>(static_cast<std::uint32_t>(column)) << 32 |
+           static_cast<std::uint32_t>(row);
   }
   using State = ompl::base::SE2StateSpace::StateType;
 
@@ -84,7 +85,8 @@ class BucketNearestNeighbors final : public ompl::NearestNeighbors<T> {
       }
     }
     // Stable: equals stay in the order of the rings and of adding.
-    std::stable_sort(near.begin(), near.end(), [](const Near& a, const Near& b) { return a.first < b.first; });
+    std::stable_sort(near.begin(), near.end(),
+                     [](const Near& a, const Near& b) { return a.first < b.first; });
     found.clear();
     for (std::size_t i = 0; i < std::min(k, near.size()); ++i) found.push_back(near[i].second);
   }

@@ -11,6 +11,7 @@
 namespace slipway::planner {
 namespace {
 
+constexpr double kFromEnds_cells = 4.0;
 constexpr double kWidestGap_m = 15.0;  // to each side; wider is no gap
 
 bool open_cell(const TraverseMap& map, long long index) {
@@ -25,7 +26,8 @@ struct Gap {
 };
 
 // Across the route at a place; nothing where a side is open for long.
-std::optional<Gap> gap_at(const TraverseMap& map, const Eigen::Vector2d& place, const Eigen::Vector2d& across) {
+std::optional<Gap> gap_at(const TraverseMap& map, const Eigen::Vector2d& place,
+                          const Eigen::Vector2d& across) {
   const double step = 0.5 * map.cell_m();
   std::array<Eigen::Vector2d, 2> ends;
   for (int side = 0; side < 2; ++side) {
@@ -89,12 +91,17 @@ std::vector<std::uint8_t> closed_across(const TraverseMap& map, const Gap& gap) 
 
 std::string_view words(Passage passage) {
   switch (passage) {
-    case Passage::kNoData: return "without elevation near by";
-    case Passage::kSteep: return "steeper than the limit";
-    case Passage::kRough: return "too rough for the belly";
-    case Passage::kKeepOut: return "in a keep-out";
+    case Passage::kNoData:
+      return "without elevation near by";
+    case Passage::kSteep:
+      return "steeper than the limit";
+    case Passage::kRough:
+      return "too rough for the belly";
+    case Passage::kKeepOut:
+      return "in a keep-out";
     case Passage::kFree:
-    case Passage::kNearKeepOut: break;
+    case Passage::kNearKeepOut:
+      break;
   }
   return "passable";
 }
@@ -106,7 +113,9 @@ std::optional<std::string> only_way(const TraverseMap& map, const std::vector<Mo
   std::optional<Gap> narrowest;
   for (std::size_t i = 1; i + 1 < line.size(); ++i) {
     const Eigen::Vector2d along = line[i + 1] - line[i - 1];
-    if (along.norm() < 1e-9) continue;
+    // A gap at the very start or goal says nothing about the way between them.
+    const double from_end = std::min((line[i] - line.front()).norm(), (line[i] - line.back()).norm());
+    if (along.norm() < 1e-9 || from_end < kFromEnds_cells * map.cell_m()) continue;
     const std::optional<Gap> gap =
         gap_at(map, line[i], Eigen::Vector2d(-along.y(), along.x()) / along.norm());
     if (gap && (!narrowest || gap->width_m() < narrowest->width_m())) narrowest = gap;
@@ -115,22 +124,26 @@ std::optional<std::string> only_way(const TraverseMap& map, const std::vector<Mo
   const long long start = map.index_at(line.front().x(), line.front().y());
   const long long goal = map.index_at(line.back().x(), line.back().y());
   std::vector<std::uint8_t> closed = closed_across(map, *narrowest);
-  // A gap at the very start or goal says nothing about the way between them.
-  if (closed[static_cast<std::size_t>(start)] != 0 || closed[static_cast<std::size_t>(goal)] != 0) return std::nullopt;
+  if (closed[static_cast<std::size_t>(start)] != 0 || closed[static_cast<std::size_t>(goal)] != 0)
+    return std::nullopt;
   if (reached_from(map, start, closed)[static_cast<std::size_t>(goal)] != 0) return std::nullopt;
   return fmt::format(
-      "every way from the start to the goal passes one gap: {:.1f} m of ground that the rover's centre may use, "
+      "every way from the start to the goal passes one gap: {:.1f} m of ground that the rover's centre may "
+      "use, "
       "between ({:.1f}, {:.1f}) and ({:.1f}, {:.1f})",
-      narrowest->width_m(), narrowest->left.x(), narrowest->left.y(), narrowest->right.x(), narrowest->right.y());
+      narrowest->width_m(), narrowest->left.x(), narrowest->left.y(), narrowest->right.x(),
+      narrowest->right.y());
 }
 
-std::string no_way(const TraverseMap& map, double start_x_m, double start_y_m, double goal_x_m, double goal_y_m) {
+std::string no_way(const TraverseMap& map, double start_x_m, double start_y_m, double goal_x_m,
+                   double goal_y_m) {
   const long long start = map.index_at(start_x_m, start_y_m);
   const long long goal = map.index_at(goal_x_m, goal_y_m);
   const std::vector<std::uint8_t> reached = reached_from(map, start, {});
   if (goal >= 0 && reached[static_cast<std::size_t>(goal)] != 0) {
     return fmt::format(
-        "no drivable way from ({:.1f}, {:.1f}) to ({:.1f}, {:.1f}): no cell closes it, but the slopes between them "
+        "no drivable way from ({:.1f}, {:.1f}) to ({:.1f}, {:.1f}): no cell closes it, but the slopes "
+        "between them "
         "immobilise the rover on the mean soils in the directions that lead to the goal",
         start_x_m, start_y_m, goal_x_m, goal_y_m);
   }
@@ -151,7 +164,8 @@ std::string no_way(const TraverseMap& map, double start_x_m, double start_y_m, d
     what += fmt::format("{}{} cells {}", what.empty() ? "" : ", ", count, words(passage));
   const double area = static_cast<double>(cells) * map.geometry().cell_x_m * map.geometry().cell_y_m;
   return fmt::format(
-      "no way from ({:.1f}, {:.1f}) to ({:.1f}, {:.1f}): from the start {:.0f} m2 can be reached, closed in by {}",
+      "no way from ({:.1f}, {:.1f}) to ({:.1f}, {:.1f}): from the start {:.0f} m2 can be reached, closed in "
+      "by {}",
       start_x_m, start_y_m, goal_x_m, goal_y_m, area, what.empty() ? "the edge of the map" : what);
 }
 

@@ -9,7 +9,8 @@ namespace slipway::planner {
 namespace {
 
 std::uint64_t bucket_key(int column, int row) {
-  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(column)) << 32 | static_cast<std::uint32_t>(row);
+  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(column)) << 32 |
+         static_cast<std::uint32_t>(row);
 }
 
 // Places in squares as wide as the distance that is asked for: nine squares hold all that is near.

@@ -25,7 +25,9 @@ constexpr double kLineSpacing_m = 0.25;
 // A candidate that lies this much within one that is simulated anyway has nothing new to tell.
 constexpr double kSameRoute = 0.9;
 
-tl::unexpected<Error> cancelled() { return fail(ErrorCode::kCancelled, "the plan was cancelled"); }
+tl::unexpected<Error> cancelled() {
+  return fail(ErrorCode::kCancelled, "the plan was cancelled");
+}
 
 // Around all places, with room for detours of half the longest leg.
 dem::Extent search_extent(const PlanProblem& problem) {
@@ -63,7 +65,8 @@ std::vector<std::size_t> shortlist(const Proposal& proposal, std::size_t wanted)
 
 std::string too_alike(const PlanProblem& problem, std::size_t candidates, std::size_t kept) {
   return fmt::format(
-      "{} of {} candidates share more than {:.0f} % of their length, within {:.1f} m (the rover's width), with a "
+      "{} of {} candidates share more than {:.0f} % of their length, within {:.1f} m (the rover's width), "
+      "with a "
       "better one",
       candidates - kept, candidates, 100.0 * kLargestOverlap, problem.rover->body_width_m);
 }
@@ -138,7 +141,8 @@ class Planning {
       const double share = 0.48 / static_cast<double>(list.size());
       StageProgress stage(progress_, fmt::format("simulating route {} of {}", k + 1, list.size()),
                           0.5 + share * static_cast<double>(k), 0.5 + share * static_cast<double>(k + 1));
-      const auto stations = route_stations(candidate.motions, sim::largest_station_spacing_m(*problem_.rover));
+      const auto stations =
+          route_stations(candidate.motions, sim::largest_station_spacing_m(*problem_.rover));
       Result<sim::DrivePrediction> drive =
           sim::predict_drive(*problem_.rover, problem_.gravity_m_s2, ground_, problem_.beliefs, stations,
                              problem_.limits, problem_.risk, problem_.threads, stage);
@@ -171,7 +175,8 @@ class Planning {
       plan.routes.push_back(std::move(routes[i]));
   }
 
-  void say_why_fewer(const Proposal& proposal, std::size_t without_ground, std::size_t best, Plan& plan) const {
+  void say_why_fewer(const Proposal& proposal, std::size_t without_ground, std::size_t best,
+                     Plan& plan) const {
     const std::size_t all = proposal.candidates.size();
     if (plan.routes.size() + without_ground < all)
       plan.fewer_because.push_back(too_alike(problem_, all - without_ground, plan.routes.size()));
@@ -179,7 +184,8 @@ class Planning {
       plan.fewer_because.push_back(
           fmt::format("{} of {} candidates lead a wheel over missing elevation", without_ground, all));
     }
-    if (const auto gap = only_way(*map_, proposal.candidates[best].motions)) plan.fewer_because.push_back(*gap);
+    if (const auto gap = only_way(*map_, proposal.candidates[best].motions))
+      plan.fewer_because.push_back(*gap);
     if (plan.fewer_because.empty()) {
       plan.fewer_because.push_back(fmt::format("only {} of the searches found a route", all));
     }
@@ -194,6 +200,8 @@ class Planning {
 
 }  // namespace
 
-Result<Plan> make_plan(const PlanProblem& problem, Progress& progress) { return Planning(problem, progress).run(); }
+Result<Plan> make_plan(const PlanProblem& problem, Progress& progress) {
+  return Planning(problem, progress).run();
+}
 
 }  // namespace slipway::planner

@@ -22,11 +22,11 @@ using Polygon = std::vector<Eigen::Vector2d>;  // map metres, closed implicitly,
 
 // What a route costs, per row of the cost catalogue: weight times the term's value.
 struct Weights {
-  double duration = 1.0;   // per hour
-  double energy = 1.0;     // per 100 Wh
-  double slip = 4.0;       // per 100 m driven at 100 % slip
-  double unknown = 2.0;    // per 100 m on unknown ground
-  double risk = 20.0;      // per unit of probability that a limit is broken
+  double duration = 1.0;  // per hour
+  double energy = 1.0;    // per 100 Wh
+  double slip = 4.0;      // per 100 m driven at 100 % slip
+  double unknown = 2.0;   // per 100 m on unknown ground
+  double risk = 20.0;     // per unit of probability that a limit is broken
 };
 
 // A place to go, with a heading where it matters.
@@ -61,13 +61,14 @@ struct CostShare {
   double value = 0.0;  // in the term's unit
   std::string unit;
   double weight = 0.0;
-  double cost = 0.0;   // weight * value
+  double cost = 0.0;  // weight * value
 };
 
 enum class Verdict {
-  kGo,        // within every limit, on known ground, risk within the accepted one
-  kCaution,   // within every limit under the mean soils, but on unknown ground or at more than the accepted risk
-  kNoGo,      // a limit is broken or the rover immobilised under the mean soils
+  kGo,       // within every limit, on known ground, risk within the accepted one
+  kCaution,  // within every limit under the mean soils, but on unknown ground or at more than the accepted
+             // risk
+  kNoGo,     // a limit is broken or the rover immobilised under the mean soils
 };
 
 // "go", "caution", "no_go".
@@ -76,32 +77,34 @@ std::string_view describe(Verdict verdict);
 constexpr double kAcceptedRisk = 0.05;
 
 struct Route {
-  int rank = 0;                       // 1 is best
-  std::string planner;                // that proposed it
-  std::string profile;                // what the search was asked to minimise ("balanced", "shortest", ...)
+  int rank = 0;         // 1 is best
+  std::string planner;  // that proposed it
+  std::string profile;  // what the search was asked to minimise ("balanced", "shortest", ...)
   sim::DrivePrediction prediction;
   double cost = 0.0;
-  std::vector<CostShare> shares;      // add up to cost
+  std::vector<CostShare> shares;  // add up to cost
   Verdict verdict = Verdict::kGo;
-  std::vector<std::string> reasons;   // why it is ranked so and judged so, in words and numbers
+  std::vector<std::string> reasons;  // why it is ranked so and judged so, in words and numbers
 };
 
 struct Plan {
-  std::vector<Route> routes;             // by rank
+  std::vector<Route> routes;               // by rank
   std::vector<std::string> fewer_because;  // why there are fewer than asked for; empty otherwise
-  int candidates = 0;                    // proposed by OMPL before selection
+  int candidates = 0;                      // proposed by OMPL before selection
 };
 
-// Two routes differ when neither shares more than this much of its length with the other within a rover's width.
+// Two routes differ when neither shares more than this much of its length with the other within a rover's
+// width.
 constexpr double kLargestOverlap = 0.6;
 
 // Proposes with OMPL, simulates and ranks. "No route" is a Plan without routes whose fewer_because says why.
-// Errors: off_map, no_data (start, goal or a waypoint; faults "/start", "/goal", "/waypoints/1"), invalid_request
-// (start, goal or waypoint inside a keep-out or steeper than the limits allow; unknown planner), cancelled.
+// Errors: off_map, no_data (start, goal or a waypoint; faults "/start", "/goal", "/waypoints/1"),
+// invalid_request (start, goal or waypoint inside a keep-out or steeper than the limits allow; unknown
+// planner), cancelled.
 Result<Plan> make_plan(const PlanProblem& problem, Progress& progress);
 
-// The same prediction for a path that is given, corners joined by turns in place and straight drives. Errors: off_map,
-// no_data with the corner or place ("/path/3").
+// The same prediction for a path that is given, corners joined by turns in place and straight drives. Errors:
+// off_map, no_data with the corner or place ("/path/3").
 Result<sim::DrivePrediction> predict_path(const PlanProblem& problem, const std::vector<Waypoint>& corners,
                                           Progress& progress);
 

@@ -18,44 +18,49 @@ constexpr std::size_t kMostWaypoints = 50;
 
 std::string known_planners() {
   std::string names;
-  for (const PlannerRow& row : planner_catalogue()) names += fmt::format("{}{}", names.empty() ? "" : ", ", row.name);
+  for (const PlannerRow& row : planner_catalogue())
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", row.name);
   return names;
 }
 
 void check_settings(const PlanProblem& problem, std::vector<Fault>& faults) {
   if (problem.routes < 1 || problem.routes > kMostRoutes)
-    faults.push_back({"/routes", fmt::format("routes = {}, must be in [1, {}]", problem.routes, kMostRoutes)});
-  if (problem.waypoints.size() > kMostWaypoints) {
     faults.push_back(
-        {"/waypoints", fmt::format("{} waypoints, must be at most {}", problem.waypoints.size(), kMostWaypoints)});
+        {"/routes", fmt::format("routes = {}, must be in [1, {}]", problem.routes, kMostRoutes)});
+  if (problem.waypoints.size() > kMostWaypoints) {
+    faults.push_back({"/waypoints", fmt::format("{} waypoints, must be at most {}", problem.waypoints.size(),
+                                                kMostWaypoints)});
   }
   for (std::size_t i = 0; i < problem.planners.size(); ++i) {
     const auto rows = planner_catalogue();
     const auto known = [&](const PlannerRow& row) { return row.name == problem.planners[i]; };
     if (std::none_of(rows.begin(), rows.end(), known)) {
-      faults.push_back({fmt::format("/planners/{}", i),
-                        fmt::format("planner \"{}\" is not known; known are {}", problem.planners[i], known_planners())});
+      faults.push_back(
+          {fmt::format("/planners/{}", i),
+           fmt::format("planner \"{}\" is not known; known are {}", problem.planners[i], known_planners())});
     }
   }
   for (const CostTerm& term : cost_catalogue()) {
     const double weight = problem.weights.*term.in_weights;
     if (weight >= term.weight.lowest && weight <= term.weight.highest) continue;
     faults.push_back({fmt::format("/weights/{}", term.weight.name),
-                      fmt::format("{} = {:g}, must be in [{:g}, {:g}]", term.weight.name, weight, term.weight.lowest,
-                                  term.weight.highest)});
+                      fmt::format("{} = {:g}, must be in [{:g}, {:g}]", term.weight.name, weight,
+                                  term.weight.lowest, term.weight.highest)});
   }
   for (std::size_t i = 0; i < problem.keep_out.size(); ++i) {
     const Polygon& polygon = problem.keep_out[i];
     if (polygon.size() < 3) {
       faults.push_back({fmt::format("/keep_out/{}", i),
                         fmt::format("a polygon of {} corners, must have at least 3", polygon.size())});
-    } else if (std::any_of(polygon.begin(), polygon.end(), [](const Eigen::Vector2d& p) { return !p.allFinite(); })) {
+    } else if (std::any_of(polygon.begin(), polygon.end(),
+                           [](const Eigen::Vector2d& p) { return !p.allFinite(); })) {
       faults.push_back({fmt::format("/keep_out/{}", i), "a corner is not finite"});
     }
   }
 }
 
-// Headings at which the rover would stand there: the one that is given, or enough to find one that is allowed.
+// Headings at which the rover would stand there: the one that is given, or enough to find one that is
+// allowed.
 std::vector<double> headings_of(const Waypoint& place) {
   if (place.yaw_rad) return {*place.yaw_rad};
   std::vector<double> headings;
@@ -75,47 +80,52 @@ void check_standing(const PlanProblem& problem, const KeepOut& keep_out, const s
     if (stance) least_tilt = std::min(least_tilt, stance->attitude.tilt_rad());
   }
   if (!outside) {
-    faults.push_back({pointer, fmt::format("the rover's body at ({:.2f}, {:.2f}) is inside a keep-out", place.x_m,
-                                           place.y_m)});
+    faults.push_back({pointer, fmt::format("the rover's body at ({:.2f}, {:.2f}) is inside a keep-out",
+                                           place.x_m, place.y_m)});
   }
   if (!std::isfinite(least_tilt)) {
-    faults.push_back({pointer, fmt::format("the suspension finds no stance at ({:.2f}, {:.2f})", place.x_m, place.y_m)});
+    faults.push_back(
+        {pointer, fmt::format("the suspension finds no stance at ({:.2f}, {:.2f})", place.x_m, place.y_m)});
   } else if (least_tilt > limit) {
-    faults.push_back({pointer, fmt::format("tilt = {:.1f} deg at ({:.2f}, {:.2f}), must be at most {:.1f} deg",
-                                           deg_from_rad(least_tilt), place.x_m, place.y_m, deg_from_rad(limit))});
+    faults.push_back(
+        {pointer, fmt::format("tilt = {:.1f} deg at ({:.2f}, {:.2f}), must be at most {:.1f} deg",
+                              deg_from_rad(least_tilt), place.x_m, place.y_m, deg_from_rad(limit))});
   }
 }
 
 }  // namespace
 
-std::optional<ErrorCode> check_place(const PlanProblem& problem, const sim::Ground& ground, const Waypoint& place,
-                                     const std::string& pointer, std::vector<Fault>& faults) {
+std::optional<ErrorCode> check_place(const PlanProblem& problem, const sim::Ground& ground,
+                                     const Waypoint& place, double reach_m, const std::string& pointer,
+                                     std::vector<Fault>& faults) {
   const dem::Extent extent = problem.terrain->geometry().extent();
   if (!extent.contains(place.x_m, place.y_m)) {
-    faults.push_back({pointer, fmt::format("({:.2f}, {:.2f}) is off the map, which spans ({:.2f}, {:.2f}) to ({:.2f}, {:.2f})",
-                                           place.x_m, place.y_m, extent.west_m, extent.south_m, extent.east_m,
-                                           extent.north_m)});
+    faults.push_back(
+        {pointer,
+         fmt::format("({:.2f}, {:.2f}) is off the map, which spans ({:.2f}, {:.2f}) to ({:.2f}, {:.2f})",
+                     place.x_m, place.y_m, extent.west_m, extent.south_m, extent.east_m, extent.north_m)});
     return ErrorCode::kOffMap;
   }
-  // The circle that the wheels describe when the rover turns in place there.
-  double reach = 0.0;
-  for (const sim::WheelModel& wheel : problem.rover->wheels) reach = std::max(reach, wheel.position_m.head<2>().norm());
   const auto has_ground = [&](double angle_rad) {
-    return ground.at(place.x_m + reach * std::cos(angle_rad), place.y_m + reach * std::sin(angle_rad)).has_value();
+    return ground.at(place.x_m + reach_m * std::cos(angle_rad), place.y_m + reach_m * std::sin(angle_rad))
+        .has_value();
   };
   bool all = ground.at(place.x_m, place.y_m).has_value();
   for (int k = 0; k < 16 && all; ++k) all = has_ground(rad_from_deg(22.5 * k));
   if (all) return std::nullopt;
-  faults.push_back({pointer, fmt::format("elevation is missing within {:.2f} m of ({:.2f}, {:.2f}), where the rover turns",
-                                         reach, place.x_m, place.y_m)});
+  faults.push_back({pointer, fmt::format("elevation is missing within {:.2f} m of ({:.2f}, {:.2f})", reach_m,
+                                         place.x_m, place.y_m)});
   return ErrorCode::kNoData;
 }
 
-std::optional<Error> faults_of(const PlanProblem& problem, const KeepOut& keep_out, const sim::Ground& ground) {
+std::optional<Error> faults_of(const PlanProblem& problem, const KeepOut& keep_out,
+                               const sim::Ground& ground) {
   std::vector<Fault> faults;
   std::vector<ErrorCode> codes;
+  // The circle that the body describes when it turns there.
+  const double reach = 0.5 * std::hypot(problem.rover->body_length_m, problem.rover->body_width_m);
   const auto check = [&](const Waypoint& place, const std::string& pointer) {
-    const std::optional<ErrorCode> wrong = check_place(problem, ground, place, pointer, faults);
+    const std::optional<ErrorCode> wrong = check_place(problem, ground, place, reach, pointer, faults);
     if (wrong) {
       codes.push_back(*wrong);
     } else {

@@ -9,12 +9,15 @@
 
 namespace slipway::planner {
 
-// Everything that is wrong with a problem before any search, together. The code is off_map or no_data where a place
-// is, otherwise invalid_request.
-std::optional<Error> faults_of(const PlanProblem& problem, const KeepOut& keep_out, const sim::Ground& ground);
+// Everything that is wrong with a problem before any search, together. The code is off_map or no_data where a
+// place is, otherwise invalid_request.
+std::optional<Error> faults_of(const PlanProblem& problem, const KeepOut& keep_out,
+                               const sim::Ground& ground);
 
-// One place: on the map, with elevation under all wheels. Appends to `faults`; returns what is wrong.
-std::optional<ErrorCode> check_place(const PlanProblem& problem, const sim::Ground& ground, const Waypoint& place,
-                                     const std::string& pointer, std::vector<Fault>& faults);
+// One place: on the map, with elevation there and on a circle around it (0: there only). Appends to `faults`;
+// returns what is wrong.
+std::optional<ErrorCode> check_place(const PlanProblem& problem, const sim::Ground& ground,
+                                     const Waypoint& place, double reach_m, const std::string& pointer,
+                                     std::vector<Fault>& faults);
 
 }  // namespace slipway::planner

@@ -22,14 +22,13 @@ constexpr double kAcrossSpread_m = 1.5;
 
 PoseSampler::PoseSampler(const GridSearch& grid, const TraverseMap& map, const CostField& to_come,
                          const CostField& to_go, double start_x_m, double start_y_m)
-    : map_(map),
-      way_(grid.way(to_go, start_x_m, start_y_m)),
-      flow_step_(to_go.step) {
+    : map_(map), way_(grid.way(to_go, start_x_m, start_y_m)), flow_step_(to_go.step) {
   optimum_ = way_.empty() ? std::numeric_limits<double>::infinity() : to_go.cost[way_.front()];
   if (way_.empty()) return;
   double sum = 0.0;
   for (std::size_t i = 0; i < map.cells(); ++i) {
-    const double worse = (static_cast<double>(to_come.cost[i]) + to_go.cost[i]) / std::max(optimum_, 1e-9) - 1.0;
+    const double worse =
+        (static_cast<double>(to_come.cost[i]) + to_go.cost[i]) / std::max(optimum_, 1e-9) - 1.0;
     if (!(worse <= kWorst)) continue;
     sum += std::exp(-worse / kSpread);
     cells_.push_back(i);
@@ -47,8 +46,8 @@ Pose2 PoseSampler::draw(std::uint64_t seed, std::uint64_t counter) const {
   const double kind = random_uniform(key, 0);
   Eigen::Vector2d place;
   if (kind < kShareGuided && !cells_.empty()) {
-    const auto at = std::upper_bound(cumulative_.begin(), cumulative_.end(),
-                                     random_uniform(key, 1) * cumulative_.back());
+    const auto at =
+        std::upper_bound(cumulative_.begin(), cumulative_.end(), random_uniform(key, 1) * cumulative_.back());
     const auto k = std::min(static_cast<std::size_t>(at - cumulative_.begin()), cells_.size() - 1);
     place = map_.centre_m(cells_[k]);
     place.x() += (random_uniform(key, 2) - 0.5) * g.cell_x_m;
@@ -67,9 +66,10 @@ Pose2 PoseSampler::draw(std::uint64_t seed, std::uint64_t counter) const {
              std::clamp(place.y(), extent.south_m, extent.north_m), 0.0};
   const long long cell = map_.index_at(pose.x_m, pose.y_m);
   const bool flows = cell >= 0 && flow_step_[static_cast<std::size_t>(cell)] >= 0;
-  pose.yaw_rad = flows && random_uniform(key, 4) < kShareFlowHeading
-                     ? wrapped_rad(flow_rad(static_cast<std::size_t>(cell)) + kHeadingSpread_rad * random_normal(key, 5))
-                     : wrapped_rad(2.0 * std::numbers::pi * random_uniform(key, 6));
+  pose.yaw_rad =
+      flows && random_uniform(key, 4) < kShareFlowHeading
+          ? wrapped_rad(flow_rad(static_cast<std::size_t>(cell)) + kHeadingSpread_rad * random_normal(key, 5))
+          : wrapped_rad(2.0 * std::numbers::pi * random_uniform(key, 6));
   return pose;
 }
 

@@ -6,13 +6,13 @@
 
 namespace slipway::planner {
 
-// Where a search looks: mostly cells that good ways on the grid pass, in the direction in which they pass, and
-// some from the whole map at any heading, so that a planner stays complete. Draw number `counter` of a seed is
-// always the same pose; immutable.
+// Where a search looks: mostly cells that good ways on the grid pass, in the direction in which they pass,
+// and some from the whole map at any heading, so that a planner stays complete. Draw number `counter` of a
+// seed is always the same pose; immutable.
 class PoseSampler {
  public:
-  PoseSampler(const GridSearch& grid, const TraverseMap& map, const CostField& to_come, const CostField& to_go,
-              double start_x_m, double start_y_m);
+  PoseSampler(const GridSearch& grid, const TraverseMap& map, const CostField& to_come,
+              const CostField& to_go, double start_x_m, double start_y_m);
 
   Pose2 draw(std::uint64_t seed, std::uint64_t counter) const;
   double optimum() const { return optimum_; }  // of the way on the grid; infinite where there is none

@@ -63,21 +63,24 @@ std::string corner_pointer(const CornerPath& path, const std::vector<sim::PathSt
 Result<sim::DrivePrediction> predict_path(const PlanProblem& problem, const std::vector<Waypoint>& corners,
                                           Progress& progress) {
   if (corners.empty())
-    return fail(ErrorCode::kInvalidRequest, "a path has at least one corner", {{"/path", "no corners, must be at least 1"}});
+    return fail(ErrorCode::kInvalidRequest, "a path has at least one corner",
+                {{"/path", "no corners, must be at least 1"}});
   const TerrainGround ground(problem.terrain, problem.soil_map);
   std::vector<Fault> faults;
   std::optional<ErrorCode> code;
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const auto wrong = check_place(problem, ground, corners[i], fmt::format("/path/{}", i), faults);
+    const auto wrong = check_place(problem, ground, corners[i], 0.0, fmt::format("/path/{}", i), faults);
     if (wrong && code != ErrorCode::kOffMap) code = wrong;
   }
-  if (code) return fail(*code, fmt::format("the path leaves the ground: {}", faults.front().message), std::move(faults));
+  if (code)
+    return fail(*code, fmt::format("the path leaves the ground: {}", faults.front().message),
+                std::move(faults));
 
   const CornerPath path = join(corners);
   const auto stations = route_stations(path.motions, sim::largest_station_spacing_m(*problem.rover));
   Result<sim::DrivePrediction> drive =
-      sim::predict_drive(*problem.rover, problem.gravity_m_s2, ground, problem.beliefs, stations, problem.limits,
-                         problem.risk, problem.threads, progress);
+      sim::predict_drive(*problem.rover, problem.gravity_m_s2, ground, problem.beliefs, stations,
+                         problem.limits, problem.risk, problem.threads, progress);
   if (!drive) {
     Error error = drive.error();
     for (Fault& fault : error.faults) fault.pointer = corner_pointer(path, stations, fault.pointer);

@@ -5,7 +5,9 @@
 namespace slipway::planner {
 namespace {
 
-Weights balanced(const Weights& asked) { return asked; }
+Weights balanced(const Weights& asked) {
+  return asked;
+}
 
 // A little slip and risk stay in, so that a way over hopeless ground is not the shortest one.
 Weights shortest(const Weights& asked) {
@@ -13,7 +15,11 @@ Weights shortest(const Weights& asked) {
 }
 
 Weights least_slip(const Weights& asked) {
-  return {.duration = 0.2, .energy = 0.2 * asked.energy, .slip = 10.0, .unknown = asked.unknown, .risk = asked.risk};
+  return {.duration = 0.2,
+          .energy = 0.2 * asked.energy,
+          .slip = 10.0,
+          .unknown = asked.unknown,
+          .risk = asked.risk};
 }
 
 Weights least_risk(const Weights& asked) {

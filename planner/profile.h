@@ -7,8 +7,8 @@
 
 namespace slipway::planner {
 
-// What a search is asked to minimise. Routes are always ranked by the request's own weights; the other profiles
-// only make different proposals.
+// What a search is asked to minimise. Routes are always ranked by the request's own weights; the other
+// profiles only make different proposals.
 struct Profile {
   std::string_view name;
   std::string_view summary;

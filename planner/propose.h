@@ -22,15 +22,16 @@ struct Candidate {
 
 struct Proposal {
   std::vector<Candidate> candidates;
-  Differences differences;  // of the candidates
+  Differences differences;    // of the candidates
   double grid_optimum = 0.0;  // of all legs, under the request's weights; infinite where a leg has no way
   // The cheapest first, the ones to simulate: routes that differ, as many as were asked for if they exist.
   std::vector<std::size_t> by_cost() const;
 };
 
-// Searches each profile with each planner, then in rounds with the bands around the routes so far made dear, until
-// `problem.routes` routes differ or the rounds are used up. Searches run in parallel; the outcome doesn't depend on
-// it. Empty candidates where there is no way (then grid_optimum is infinite) and where it was cancelled.
+// Searches each profile with each planner, then in rounds with the bands around the routes so far made dear,
+// until `problem.routes` routes differ or the rounds are used up. Searches run in parallel; the outcome
+// doesn't depend on it. Empty candidates where there is no way (then grid_optimum is infinite) and where it
+// was cancelled.
 Proposal propose_routes(const PlanProblem& problem, const TraverseMap& map, const GroundTables& tables,
                         Progress& progress);
 

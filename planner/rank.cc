@@ -24,9 +24,10 @@ std::string slope_in_words(const Attitude& attitude) {
 
 std::string largest_slip(const sim::DrivePrediction& drive) {
   const sim::Peak& peak = drive.max_slip_ratio;
-  const auto at = std::find_if(drive.stations.begin(), drive.stations.end(), [&](const sim::StationPrediction& s) {
-    return s.station.distance_m >= peak.distance_m && std::abs(s.state.slip_ratio) >= peak.value - 1e-12;
-  });
+  const auto at =
+      std::find_if(drive.stations.begin(), drive.stations.end(), [&](const sim::StationPrediction& s) {
+        return s.station.distance_m >= peak.distance_m && std::abs(s.state.slip_ratio) >= peak.value - 1e-12;
+      });
   const sim::StationPrediction& station = at == drive.stations.end() ? drive.stations.back() : *at;
   return fmt::format("largest slip {:.2f} at {:.0f} m on {}", peak.value, peak.distance_m,
                      slope_in_words(station.attitude));
@@ -49,12 +50,12 @@ std::string verdict_reason(const Route& route) {
   }
   if (drive.risk > kAcceptedRisk) {
     why += fmt::format("{}risk {:.0f} % (90 % interval {:.0f} to {:.0f} %) over the accepted {:.0f} %",
-                       why.empty() ? "" : ", ", 100.0 * drive.risk, 100.0 * drive.risk_low, 100.0 * drive.risk_high,
-                       100.0 * kAcceptedRisk);
+                       why.empty() ? "" : ", ", 100.0 * drive.risk, 100.0 * drive.risk_low,
+                       100.0 * drive.risk_high, 100.0 * kAcceptedRisk);
   }
   if (!why.empty()) return "caution: " + why;
-  return fmt::format("go: within every limit, on known ground, risk {:.0f} % of {} soil draws", 100.0 * drive.risk,
-                     drive.draws);
+  return fmt::format("go: within every limit, on known ground, risk {:.0f} % of {} soil draws",
+                     100.0 * drive.risk, drive.draws);
 }
 
 // What this route has that no other has; nothing where it stands alone.
@@ -67,7 +68,8 @@ std::vector<std::string> superlatives(const Route& route, const std::vector<Rout
       if (!next || value(other) < value(*next)) next = &other;
     }
     if (next && value(route) < value(*next))
-      words.push_back(fmt::format("{}: {} against {} of route {}", name, text(route), text(*next), next->rank));
+      words.push_back(
+          fmt::format("{}: {} against {} of route {}", name, text(route), text(*next), next->rank));
   };
   if (route.prediction.immobilised) return words;
   compare(
@@ -85,14 +87,16 @@ std::vector<std::string> superlatives(const Route& route, const std::vector<Rout
   return words;
 }
 
-// Why it does not stand one place higher: the terms in which it is dearer and those that make up for some of it.
+// Why it does not stand one place higher: the terms in which it is dearer and those that make up for some of
+// it.
 std::string against_the_one_before(const Route& route, const Route& before) {
   if ((route.verdict == Verdict::kNoGo) != (before.verdict == Verdict::kNoGo))
     return fmt::format("behind route {} because a limit is broken", before.rank);
   std::string terms;
   for (std::size_t k = 0; k < route.shares.size(); ++k) {
     const double more = route.shares[k].cost - before.shares[k].cost;
-    if (std::abs(more) >= 0.005) terms += fmt::format("{}{} {:+.2f}", terms.empty() ? "" : ", ", route.shares[k].name, more);
+    if (std::abs(more) >= 0.005)
+      terms += fmt::format("{}{} {:+.2f}", terms.empty() ? "" : ", ", route.shares[k].name, more);
   }
   return fmt::format("behind route {}: cost {:.2f} against {:.2f}{}", before.rank, route.cost, before.cost,
                      terms.empty() ? std::string() : " (" + terms + ")");
@@ -102,9 +106,12 @@ std::string against_the_one_before(const Route& route, const Route& before) {
 
 std::string_view describe(Verdict verdict) {
   switch (verdict) {
-    case Verdict::kGo: return "go";
-    case Verdict::kCaution: return "caution";
-    case Verdict::kNoGo: return "no_go";
+    case Verdict::kGo:
+      return "go";
+    case Verdict::kCaution:
+      return "caution";
+    case Verdict::kNoGo:
+      return "no_go";
   }
   return "no_go";
 }
@@ -114,7 +121,8 @@ void judge(const PlanProblem& problem, Route& route) {
   route.cost = 0.0;
   route.shares.clear();
   for (const CostTerm& term : cost_catalogue()) {
-    CostShare share{.name = std::string(term.name), .value = term.value(drive), .unit = std::string(term.unit)};
+    CostShare share{
+        .name = std::string(term.name), .value = term.value(drive), .unit = std::string(term.unit)};
     share.weight = problem.weights.*term.in_weights;
     share.cost = share.weight * share.value;
     route.cost += share.cost;

@@ -9,7 +9,8 @@
 namespace slipway::planner {
 namespace {
 
-// Extends `chosen` with candidates from order[from] on until it has `wanted`; the first that works is the best one.
+// Extends `chosen` with candidates from order[from] on until it has `wanted`; the first that works is the
+// best one.
 bool extend(const Differences& differences, const std::vector<std::size_t>& order, std::size_t from,
             std::size_t wanted, std::vector<std::size_t>& chosen) {
   if (chosen.size() == wanted) return true;
@@ -39,7 +40,9 @@ void Differences::add(std::vector<Eigen::Vector2d> centreline) {
   lines_.push_back(std::move(centreline));
 }
 
-bool Differences::differ(std::size_t a, std::size_t b) const { return shared_[a][b] <= kLargestOverlap; }
+bool Differences::differ(std::size_t a, std::size_t b) const {
+  return shared_[a][b] <= kLargestOverlap;
+}
 
 std::vector<std::size_t> select_routes(const Differences& differences, const std::vector<std::size_t>& order,
                                        std::size_t wanted) {

@@ -58,7 +58,9 @@ class Polyline {
     return cost_.of(straight({a.x(), a.y(), bearing}, b.x(), b.y()));
   }
 
-  double bend(double arriving, double leaving) const { return cost_.of_bend(wrapped_rad(leaving - arriving)); }
+  double bend(double arriving, double leaving) const {
+    return cost_.of_bend(wrapped_rad(leaving - arriving));
+  }
 
   double heading_before(std::size_t i) const {
     return i == 0 ? first_heading_rad_ : bearing_rad(corners_[i - 1], corners_[i]);
@@ -115,14 +117,15 @@ std::vector<Motion> straights(const Pose2& from, const Corners& corners) {
 }
 
 // The arc that rounds the corner between two straights, cut from both, and what is left of them.
-std::vector<Motion> rounded(const Motion& in, const Motion& out, double radius_m, const MotionLimits& limits) {
+std::vector<Motion> rounded(const Motion& in, const Motion& out, double radius_m,
+                            const MotionLimits& limits) {
   const double cut = radius_m * std::tan(0.5 * std::abs(out.first_turn_rad));
   if (cut >= in.length_m || cut >= out.length_m) return {};
   Motion before = in;
   before.length_m -= cut;
   before.to = before.at(before.length_m);
-  const Pose2 behind{out.from.x_m + cut * std::cos(out.to.yaw_rad), out.from.y_m + cut * std::sin(out.to.yaw_rad),
-                     out.to.yaw_rad};
+  const Pose2 behind{out.from.x_m + cut * std::cos(out.to.yaw_rad),
+                     out.from.y_m + cut * std::sin(out.to.yaw_rad), out.to.yaw_rad};
   Motion after = straight(behind, out.to.x_m, out.to.y_m);
   after.first_turn_rad = 0.0;
   after.to = out.to;
@@ -174,7 +177,8 @@ void arrive(const MotionCost& cost, std::vector<Motion>& motions, double heading
 
 std::vector<Motion> chain(const MotionCost& cost, const std::vector<Pose2>& poses) {
   std::vector<Motion> motions;
-  for (std::size_t i = 1; i < poses.size(); ++i) motions.push_back(connect(poses[i - 1], poses[i], cost.limits()));
+  for (std::size_t i = 1; i < poses.size(); ++i)
+    motions.push_back(connect(poses[i - 1], poses[i], cost.limits()));
   return motions;
 }
 
@@ -222,7 +226,8 @@ double fine_cost(const MotionCost& cost, const std::vector<Motion>& motions) {
   return sum;
 }
 
-std::vector<Motion> smooth_leg(const MotionCost& cost, const std::vector<Pose2>& poses, bool keep_last_heading) {
+std::vector<Motion> smooth_leg(const MotionCost& cost, const std::vector<Pose2>& poses,
+                               bool keep_last_heading) {
   const std::vector<Pose2> kept = shortcut(cost, poses);
   std::vector<Motion> arcs = chain(cost, kept);
   if (!keep_last_heading && !arcs.empty()) {

@@ -1,5 +1,6 @@
 #include "planner/traverse_map.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -31,38 +32,38 @@ struct Footprint {
   double rise_m = 0.0;
 };
 
+// Least squares over the cells that have elevation; incomplete where they don't span a plane.
 Footprint footprint_of(const dem::Terrain& terrain, const dem::Cell& centre, int reach) {
   const dem::GridGeometry& g = terrain.geometry();
-  double sum = 0.0, sum_x = 0.0, sum_y = 0.0, squares = 0.0;
-  const auto height = [&](int row, int column) { return terrain.height_m(dem::Cell{row, column}); };
-  const double reference = height(centre.row, centre.column).value_or(0.0);
-  for (int dr = -reach; dr <= reach; ++dr) {
-    for (int dc = -reach; dc <= reach; ++dc) {
-      const std::optional<double> z = height(centre.row + dr, centre.column + dc);
-      if (!z) return {};
-      sum += *z - reference;
-      sum_x += dc * (*z - reference);
-      sum_y -= dr * (*z - reference);
-      squares += dc * dc;
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right_side = Eigen::Vector3d::Zero();
+  const double reference = terrain.height_m(centre).value_or(0.0);
+  const auto each_cell = [&](const auto& use) {
+    for (int dr = -reach; dr <= reach; ++dr) {
+      for (int dc = -reach; dc <= reach; ++dc) {
+        const std::optional<double> z = terrain.height_m(dem::Cell{centre.row + dr, centre.column + dc});
+        if (z) use(Eigen::Vector3d(1.0, dc * g.cell_x_m, -dr * g.cell_y_m), *z - reference);
+      }
     }
-  }
-  const double side = 2.0 * reach + 1.0;
-  Footprint plane{.complete = true,
-                  .gradient_x = sum_x / squares / g.cell_x_m,
-                  .gradient_y = sum_y / squares / g.cell_y_m};
-  const double mean = sum / (side * side);
-  for (int dr = -reach; dr <= reach; ++dr) {
-    for (int dc = -reach; dc <= reach; ++dc) {
-      const double on_plane =
-          mean + plane.gradient_x * dc * g.cell_x_m - plane.gradient_y * dr * g.cell_y_m;
-      plane.rise_m =
-          std::max(plane.rise_m, *height(centre.row + dr, centre.column + dc) - reference - on_plane);
-    }
-  }
-  return plane;
+  };
+  each_cell([&](const Eigen::Vector3d& place, double z) {
+    normal += place * place.transpose();
+    right_side += z * place;
+  });
+  // Three cells of a line leave the determinant at 0, three of a triangle at least at the cell's area
+  // squared.
+  const double cell_area = g.cell_x_m * g.cell_y_m;
+  if (normal.determinant() < 0.5 * cell_area * cell_area) return {};
+  const Eigen::Vector3d plane = normal.inverse() * right_side;
+  Footprint footprint{.complete = true, .gradient_x = plane[1], .gradient_y = plane[2]};
+  each_cell([&](const Eigen::Vector3d& place, double z) {
+    footprint.rise_m = std::max(footprint.rise_m, z - plane.dot(place));
+  });
+  return footprint;
 }
 
-// Every terrain cell within the radius has elevation, and the circle lies on the map.
+// The circle lies on the map, and every point of it has a height: heights are bilinear, so each terrain cell
+// that comes within a cell of the circle must have one.
 bool surrounded_by_data(const dem::Terrain& terrain, const Eigen::Vector2d& centre, double radius_m) {
   const dem::GridGeometry& g = terrain.geometry();
   const dem::Extent extent = g.extent();
@@ -71,15 +72,16 @@ bool surrounded_by_data(const dem::Terrain& terrain, const Eigen::Vector2d& cent
     return false;
   }
   const Eigen::Vector2d middle = g.fractional_index(centre.x(), centre.y());
-  const int down = static_cast<int>(std::ceil(radius_m / g.cell_y_m));
-  const int right = static_cast<int>(std::ceil(radius_m / g.cell_x_m));
+  const int down = static_cast<int>(std::ceil(radius_m / g.cell_y_m)) + 1;
+  const int right = static_cast<int>(std::ceil(radius_m / g.cell_x_m)) + 1;
   for (int dr = -down; dr <= down; ++dr) {
     for (int dc = -right; dc <= right; ++dc) {
       const int row = static_cast<int>(std::lround(middle[0])) + dr;
       const int column = static_cast<int>(std::lround(middle[1])) + dc;
       if (row < 0 || column < 0 || row >= g.rows || column >= g.columns) continue;
-      const double away = std::hypot((row - middle[0]) * g.cell_y_m, (column - middle[1]) * g.cell_x_m);
-      if (away <= radius_m && !terrain.has_data({row, column})) return false;
+      const double away = std::hypot(std::max(0.0, std::abs(row - middle[0]) - 1.0) * g.cell_y_m,
+                                     std::max(0.0, std::abs(column - middle[1]) - 1.0) * g.cell_x_m);
+      if (away < radius_m && !terrain.has_data({row, column})) return false;
     }
   }
   return true;

@@ -30,12 +30,13 @@ struct GroundCell {
 
 constexpr std::uint8_t kUnknownSoil = 255;
 
-// More cells than this are never searched: a larger window gets larger cells, in whole numbers of the terrain's.
+// More cells than this are never searched: a larger window gets larger cells, in whole numbers of the
+// terrain's.
 constexpr long long kMostSearchCells = 500'000;
 
-// The search's view of the ground, built once per problem and immutable after. Slopes are least-squares planes
-// over a square as wide as the rover, or three terrain cells where those are wider: what the simulator's stance
-// averages over the wheels too.
+// The search's view of the ground, built once per problem and immutable after. Slopes are least-squares
+// planes over a square as wide as the rover, or three terrain cells where those are wider: what the
+// simulator's stance averages over the wheels too.
 class TraverseMap {
  public:
   // The cells of the terrain that meet `extent`.

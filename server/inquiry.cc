@@ -19,15 +19,6 @@ namespace {
 
 using api::json::JsonValue;
 
-Result<std::string> text_member(std::string_view document, std::string_view key) {
-  const auto parsed = api::json::parse(document, {.bytes = document.size(), .values = document.size()});
-  if (!parsed) return fail(parsed.error());
-  const JsonValue* member = parsed->find(key);
-  if (!member || !member->is(JsonValue::Kind::kString))
-    return fail(ErrorCode::kInternal, fmt::format("the answer has no \"{}\"", key));
-  return member->text;
-}
-
 class LocalInquiry final : public Inquiry {
  public:
   explicit LocalInquiry(std::unique_ptr<api::Service> service)
@@ -55,11 +46,7 @@ class LocalInquiry final : public Inquiry {
     return api::json::write_ground_at(*at);
   }
 
-  Result<std::string> map() override {
-    const auto terrain = text_member(last_, "terrain");
-    if (!terrain) return fail(terrain.error());
-    return api::draw_route_map(*service_->catalogue().terrains.at(*terrain), last_);
-  }
+  Result<std::string> map() override { return api::draw_route_map(service_->catalogue(), last_); }
 
   Result<std::string> health() override { return api::json::write_health(); }
 

@@ -18,6 +18,7 @@
 #include "api/json/plan_answer.h"
 #include "api/json/problem_document.h"
 #include "api/openapi.h"
+#include "api/route_map.h"
 
 namespace slipway::server {
 namespace {
@@ -213,6 +214,21 @@ class JobRoutes {
     return outcome_response(*job, request);
   }
 
+  // The picture of a successful job's routes.
+  HttpResponse map(const api::Service& service, const HttpRequest& request) {
+    const auto job = find(request);
+    if (!job) return problem_response(job.error(), &request);
+    if (job->state != api::JobState::kSuccessful) return outcome_response(*job, request);
+    const auto outcome = runner_.store().outcome(job->id);
+    if (!outcome) return problem_response(outcome.error(), &request);
+    if (!*outcome) return problem(ErrorCode::kNotFound, "the job's result is no longer kept", request);
+    const auto svg = api::draw_route_map(service.catalogue(), **outcome);
+    if (!svg) return problem_response(svg.error(), &request);
+    HttpResponse response = document(*svg);
+    response.content_type = "image/svg+xml";
+    return response;
+  }
+
   HttpResponse dismiss(const HttpRequest& request) {
     const auto job = runner_.dismiss(request.parameter("id"));
     if (!job) return problem_response(job.error(), &request);
@@ -360,6 +376,7 @@ std::vector<Route> api_routes(const api::Service& service, api::JobRunner& runne
       {"GET", "/v1/jobs", [jobs](const HttpRequest& r) { return jobs->list(r); }},
       {"GET", "/v1/jobs/{id}", [jobs](const HttpRequest& r) { return jobs->get(r); }},
       {"GET", "/v1/jobs/{id}/result", [jobs](const HttpRequest& r) { return jobs->result(r); }},
+      {"GET", "/v1/jobs/{id}/map", [&service, jobs](const HttpRequest& r) { return jobs->map(service, r); }},
       {"DELETE", "/v1/jobs/{id}", [jobs](const HttpRequest& r) { return jobs->dismiss(r); }},
   };
 }

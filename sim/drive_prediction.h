@@ -30,8 +30,8 @@ struct PathStation {
 struct DriveLimits {
   double max_slip_ratio = 0.4;   // MER operations stopped drives at 40 %
   double max_tilt_rad = 0.436;   // 25 deg
-  double max_current_a = 5.0;    // of any wheel's motor
-  double max_sinkage_m = 0.06;   // of any wheel
+  double max_current_a = 10.0;    // of any wheel's motor
+  double max_sinkage_m = 0.08;   // of any wheel
   double min_clearance_m = 0.0;  // of the belly over the ground
 };
 

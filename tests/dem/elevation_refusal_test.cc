@@ -113,7 +113,7 @@ TEST_F(ElevationRefusal, EverythingThatIsWrongIsReportedTogether) {
 }
 
 TEST_F(ElevationRefusal, AStripOfMoreThan256MegabytesIsRefusedBeforeItIsRead) {
-  // 70 kB on disk, since the strip is compressed nothing.
+  // A few hundred bytes on disk.
   expect_refusal(refusal_of({.rows = 20000,
                              .columns = 20000,
                              .creation = {"SPARSE_OK=TRUE", "COMPRESS=DEFLATE", "BLOCKYSIZE=20000"}}),
@@ -123,7 +123,7 @@ TEST_F(ElevationRefusal, AStripOfMoreThan256MegabytesIsRefusedBeforeItIsRead) {
 TEST_F(ElevationRefusal, ATruncatedFileNamesTheWindowThatIsLostAndKeepsTheRest) {
   RasterOptions options{.rows = 512, .columns = 512, .transform = {0.0, 1.0, 0.0, 512.0, 0.0, -1.0}};
   options.creation = {"TILED=YES"};
-  options.cells.assign(512 * 512, 3.0F);
+  options.cells.assign(std::size_t{512} * 512, 3.0F);
   const std::filesystem::path path = folder_ / "dem.tif";
   write_geotiff(path, options);
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - 300'000);
@@ -169,7 +169,7 @@ TEST_F(ElevationRefusal, WhatIsNoRasterFileIsRefusedAndSaysSo) {
 
 TEST_F(ElevationRefusal, AHeaderCannotSendTheReaderToAFileInAnotherFolder) {
   const TemporaryFolder elsewhere;
-  elsewhere.write("secret.img", std::string(4 * 5 * 4, '\1'));
+  elsewhere.write("secret.img", std::string(80, '\1'));
   const auto label = [&](const std::filesystem::path& data) {
     return "PDS_VERSION_ID = PDS3\r\nRECORD_TYPE = FIXED_LENGTH\r\nRECORD_BYTES = 20\r\n^IMAGE = \"" +
            data.string() +
@@ -178,7 +178,7 @@ TEST_F(ElevationRefusal, AHeaderCannotSendTheReaderToAFileInAnotherFolder) {
            "BANDS = 1\r\nEND_OBJECT = IMAGE\r\nEND\r\n";
   };
   // The same label opens where the data are beside it (and is then refused for its missing grid only).
-  folder_.write("here.img", std::string(4 * 5 * 4, '\1'));
+  folder_.write("here.img", std::string(80, '\1'));
   expect_refusal(refusal_of(folder_.write("here.lbl", label("here.img"))), ErrorCode::kUnreadableRaster,
                  {"no coordinate reference system"});
   expect_refusal(refusal_of(folder_.write("there.lbl", label(elsewhere / "secret.img"))),

@@ -42,8 +42,10 @@ TEST(Elevation, EveryCellLiesWhereGdalItselfFindsIt) {
     options.also = [&](GDALDataset& raster) { raster.SetMetadataItem("AREA_OR_POINT", registration); };
     write_geotiff(folder / "grid.tif", options);
     const auto terrain = read_all(folder / "grid.tif");
-    for (double x = 100.25; x < 110.0; x += 0.5) {
-      for (double y = 188.25; y < 200.0; y += 0.5) {
+    for (int i = 0; i < 20; ++i) {
+      for (int j = 0; j < 24; ++j) {
+        const double x = 100.25 + 0.5 * i;
+        const double y = 188.25 + 0.5 * j;
         const auto cell = terrain->geometry().cell_at(x, y);
         ASSERT_TRUE(cell);
         ASSERT_EQ(terrain->height_m(*cell), test::gdal_value_at(folder / "grid.tif", x, y)) << x << " " << y;
@@ -137,10 +139,10 @@ TEST(Elevation, InsideItsExtentAWindowHasTheHeightsAndNormalsOfTheWhole) {
                                Extent{190.0, 20.0, 200.0, 26.0}, Extent{150.0, 100.0, 150.0, 100.0}}) {
     const auto window = source->read(extent).value();
     EXPECT_LT(window->geometry().rows * window->geometry().columns, 1000);
-    for (double u = 0.0; u <= 1.0; u += 0.1) {
-      for (double v = 0.0; v <= 1.0; v += 0.1) {
-        const double x = std::lerp(extent.west_m, extent.east_m, u);
-        const double y = std::lerp(extent.south_m, extent.north_m, v);
+    for (int i = 0; i <= 10; ++i) {
+      for (int j = 0; j <= 10; ++j) {
+        const double x = std::lerp(extent.west_m, extent.east_m, 0.1 * i);
+        const double y = std::lerp(extent.south_m, extent.north_m, 0.1 * j);
         const auto expected = whole->surface(x, y);
         const auto got = window->surface(x, y);
         ASSERT_TRUE(expected && got);
@@ -169,6 +171,7 @@ TEST(Elevation, ManyThreadsMayReadOneSource) {
   std::array<int, 4> same{};
   {
     std::vector<std::jthread> threads;
+    threads.reserve(same.size());
     for (int& count : same) {
       threads.emplace_back([&] {
         for (int k = 0; k < 10; ++k) {
@@ -189,7 +192,7 @@ class LargeElevation : public testing::Test {
     options.creation = {"TILED=YES", "SPARSE_OK=TRUE"};
     options.also = [](GDALDataset& raster) {
       raster.GetRasterBand(1)->SetNoDataValue(-32767.0);
-      std::vector<float> heights(512 * 512);
+      std::vector<float> heights(std::size_t{512} * 512);
       for (std::size_t i = 0; i < heights.size(); ++i) heights[i] = static_cast<float>(i % 512);
       ASSERT_EQ(raster.GetRasterBand(1)->RasterIO(GF_Write, 7936, 7936, 512, 512, heights.data(), 512, 512,
                                                   GDT_Float32, 0, 0, nullptr),

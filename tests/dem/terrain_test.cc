@@ -15,8 +15,8 @@ namespace {
 constexpr GridGeometry kGrid{
     .rows = 12, .columns = 9, .west_m = -40.0, .north_m = 70.0, .cell_x_m = 0.5, .cell_y_m = 0.25};
 
-Terrain sampled(const std::function<double(double, double)>& height, std::vector<std::size_t> masked = {},
-                const GridGeometry& grid = kGrid) {
+Terrain sampled(const std::function<double(double, double)>& height,
+                const std::vector<std::size_t>& masked = {}, const GridGeometry& grid = kGrid) {
   std::vector<float> heights;
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
@@ -43,8 +43,10 @@ TEST(TerrainHeight, ABilinearFunctionIsReproducedExactlyBetweenTheCentres) {
     return 2.0 + 0.5 * (x + 40.0) - 0.25 * (y - 67.0) + (x + 40.0) * (y - 67.0);
   };
   const Terrain terrain = sampled(truth);
-  for (double x = -39.75; x <= -35.75; x += 0.03125) {
-    for (double y = 67.125; y <= 69.875; y += 0.0625) {
+  for (int i = 0; i <= 128; ++i) {
+    for (int j = 0; j <= 44; ++j) {
+      const double x = -39.75 + 0.03125 * i;
+      const double y = 67.125 + 0.0625 * j;
       ASSERT_DOUBLE_EQ(*terrain.height_m(x, y), truth(x, y)) << x << " " << y;
     }
   }
@@ -95,7 +97,8 @@ TEST(TerrainSurface, LevelGroundHasNoSlopeAndAspectZero) {
 
 TEST(TerrainSurface, TheNormalIsContinuousAcrossCellBorders) {
   const Terrain terrain = sampled([](double x, double y) { return std::sin(3.0 * x) * std::cos(4.0 * y); });
-  for (double x = -39.0; x < -36.0; x += 0.25) {  // centres and cell borders
+  for (int i = 0; i < 12; ++i) {
+    const double x = -39.0 + 0.25 * i;  // centres and cell borders
     const Eigen::Vector3d before = terrain.surface(x - 1e-9, 68.3)->normal;
     const Eigen::Vector3d after = terrain.surface(x + 1e-9, 68.3)->normal;
     EXPECT_LT((before - after).norm(), 1e-7) << x;

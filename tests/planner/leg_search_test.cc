@@ -33,8 +33,12 @@ class LegSearchTest : public testing::TestWithParam<std::string_view> {
   TraverseMap map{problem, keep_out, problem.terrain->geometry().extent()};
   MotionCost cost{problem, map, tables, problem.weights};
   GridSearch grid{cost};
-  PoseSampler sampler{grid, map, grid.cost_to_come(problem.start.x_m, problem.start.y_m),
-                      grid.cost_to_go(problem.goal.x_m, problem.goal.y_m), problem.start.x_m, problem.start.y_m};
+  PoseSampler sampler{grid,
+                      map,
+                      grid.cost_to_come(problem.start.x_m, problem.start.y_m),
+                      grid.cost_to_go(problem.goal.x_m, problem.goal.y_m),
+                      problem.start.x_m,
+                      problem.start.y_m};
 
   LegSearch search(std::uint64_t seed) const {
     LegSearch leg;
@@ -70,7 +74,8 @@ TEST_P(LegSearchTest, SmoothingNeverMakesARouteDearer) {
     const std::vector<Pose2> poses = search_leg(GetParam(), search(seed));
     ASSERT_GE(poses.size(), 2U);
     std::vector<Motion> found;
-    for (std::size_t i = 1; i < poses.size(); ++i) found.push_back(connect(poses[i - 1], poses[i], cost.limits()));
+    for (std::size_t i = 1; i < poses.size(); ++i)
+      found.push_back(connect(poses[i - 1], poses[i], cost.limits()));
     EXPECT_LE(fine_cost(cost, smooth_leg(cost, poses, true)), 1.02 * fine_cost(cost, found));
   }
 }

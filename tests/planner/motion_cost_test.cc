@@ -33,9 +33,9 @@ PlanProblem ramp(double slope_deg) {
   problem.terrain = dem::make_ramp({.size_m = 40.0, .cell_m = 1.0}, rad_from_deg(slope_deg), 0.0);
   const dem::GridGeometry g = problem.terrain->geometry();
   const auto cells = static_cast<std::size_t>(g.rows) * static_cast<std::size_t>(g.columns);
-  problem.soil_map = std::make_shared<dem::SoilMap>(
-      g, std::vector<std::int16_t>(cells, 0), std::vector<std::uint8_t>(cells, 1),
-      std::vector<dem::SoilClass>{{0, "a", "firm"}});
+  problem.soil_map = std::make_shared<dem::SoilMap>(g, std::vector<std::int16_t>(cells, 0),
+                                                    std::vector<std::uint8_t>(cells, 1),
+                                                    std::vector<dem::SoilClass>{{0, "a", "firm"}});
   problem.beliefs.known = {firm_soil("firm")};
   return problem;
 }
@@ -67,7 +67,8 @@ TEST(MotionCost, OfAMotionIsItsLengthTimesTheCostPerMetreOnEvenGround) {
   const Motion arc = connect({0.0, 0.0, 0.0}, {5.0, 5.0, 0.5 * std::numbers::pi}, world.cost.limits());
   double sum = 0.0;
   for (int k = 0; k < 1000; ++k)
-    sum += arc.length_m / 1000.0 * world.cost.per_metre({0.0, 0.0, (k + 0.5) / 1000.0 * 0.5 * std::numbers::pi});
+    sum +=
+        arc.length_m / 1000.0 * world.cost.per_metre({0.0, 0.0, (k + 0.5) / 1000.0 * 0.5 * std::numbers::pi});
   EXPECT_NEAR(world.cost.of(arc), sum, 0.01 * sum);
 }
 

@@ -28,10 +28,10 @@ TEST(Overlap, OfAShortRouteWithinALongOneIsNotSymmetric) {
 
 TEST(SelectRoutes, PrefersMoreRoutesToABetterOneAndThenTheBest) {
   Differences differences(1.5);
-  differences.add(line(0, 0, 100, 0));  // 0: shares with 1 and 2 in halves
-  differences.add(line(0, 0, 70, 0));   // 1: most of 0
-  differences.add(line(30, 0, 100, 0)); // 2: most of 0
-  differences.add(line(0, 9, 100, 9));  // 3: apart
+  differences.add(line(0, 0, 100, 0));   // 0: shares with 1 and 2 in halves
+  differences.add(line(0, 0, 70, 0));    // 1: most of 0
+  differences.add(line(30, 0, 100, 0));  // 2: most of 0
+  differences.add(line(0, 9, 100, 9));   // 3: apart
   EXPECT_EQ(select_routes(differences, {0, 1, 2, 3}, 3), (std::vector<std::size_t>{1, 2, 3}));
   EXPECT_EQ(select_routes(differences, {0, 1, 2, 3}, 2), (std::vector<std::size_t>{0, 3}));
   EXPECT_EQ(select_routes(differences, {3, 0, 1, 2}, 1), (std::vector<std::size_t>{3}));

@@ -51,7 +51,10 @@ inline sim::SoilDistribution firm_soil(std::string name) {
   soil.mean.cohesion_pa = 3000.0;
   soil.mean.friction_angle_rad = 0.61;
   soil.mean.shear_modulus_x_m = soil.mean.shear_modulus_y_m = 0.012;
-  soil.std = {.stiffness_ratio = 0.1, .n = 0.02, .cohesion_pa = 300.0, .friction_angle_rad = 0.02,
+  soil.std = {.stiffness_ratio = 0.1,
+              .n = 0.02,
+              .cohesion_pa = 300.0,
+              .friction_angle_rad = 0.02,
               .shear_modulus_ratio = 0.1};
   return soil;
 }
