@@ -251,7 +251,10 @@ class Picture {
                       left, at, sign, words);
       at += 24.0;
     };
-    out_ += fmt::format("<text x=\"{:.0f}\" y=\"{:.0f}\" font-weight=\"bold\">{}</text>\n", left, at, title);
+    out_ += fmt::format(
+        "<text x=\"{:.0f}\" y=\"{:.0f}\" font-weight=\"bold\" textLength=\"{:.0f}\" "
+        "lengthAdjust=\"spacingAndGlyphs\">{}</text>\n",
+        left, at, kLegendWidth_px - 24.0, title);
     at += 26.0;
     for (const SlipColour& c : kSlipColours)
       row(fmt::format("<path d=\"M0 0h28\" stroke=\"{}\" stroke-width=\"5\"/>", c.colour), c.words);

@@ -1,5 +1,5 @@
 // What a plan costs on real relief: the whole answer, one search per planner against the grid's optimum, and
-// the look-up that all searches spend their time in. Run from the repository's root, where data/ is.
+// the look-up that all searches spend their time in.
 
 #include <benchmark/benchmark.h>
 

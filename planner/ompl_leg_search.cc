@@ -1,7 +1,6 @@
 #include <ompl/base/ProblemDefinition.h>
 #include <ompl/geometric/PathGeometric.h>
-#include <ompl/geometric/planners/rrt/RRTXstatic.h>
-#include <ompl/geometric/planners/rrt/RRTsharp.h>
+#include <ompl/geometric/planners/informedtrees/BITstar.h>
 #include <ompl/geometric/planners/rrt/RRTstar.h>
 #include <ompl/util/Console.h>
 
@@ -25,42 +24,43 @@ namespace {
 // time.
 constexpr double kRewireFactor = 0.09;
 
-// A planner of OMPL whose every random number and order is its own: OMPL draws the seeds of its generators
-// from one process-wide stream.
-template <class Base>
-class Repeatable final : public Base {
+// Every random number and every order is the planner's own: OMPL draws the seeds of its generators from one
+// process-wide stream.
+class RepeatableRrtStar final : public og::RRTstar {
  public:
-  Repeatable(const ob::SpaceInformationPtr& space, const LegSearch& search) : Base(space) {
+  RepeatableRrtStar(const ob::SpaceInformationPtr& space, const LegSearch& search) : RRTstar(space) {
     // Not 0: OMPL reads that as "none".
-    this->rng_.setLocalSeed(static_cast<std::uint_fast32_t>(random_bits(search.seed, 0) >> 33) + 1U);
-    this->nn_ = std::make_shared<BucketNearestNeighbors<typename Base::Motion*>>();
-    this->setRange(search.range_m);
-    this->setGoalBias(0.05);
-    this->setRewireFactor(kRewireFactor);
+    rng_.setLocalSeed(static_cast<std::uint_fast32_t>(random_bits(search.seed, 0) >> 33) + 1U);
+    nn_ = std::make_shared<BucketNearestNeighbors<Motion*>>();
+    setRange(search.range_m);
+    setGoalBias(0.05);
+    setRewireFactor(kRewireFactor);
   }
 };
 
-ob::PlannerPtr make_rrt_sharp(const ob::SpaceInformationPtr& space, const LegSearch& search) {
-  return std::make_shared<Repeatable<og::RRTsharp>>(space, search);
-}
-
 ob::PlannerPtr make_rrt_star(const ob::SpaceInformationPtr& space, const LegSearch& search) {
-  return std::make_shared<Repeatable<og::RRTstar>>(space, search);
+  return std::make_shared<RepeatableRrtStar>(space, search);
 }
 
-ob::PlannerPtr make_rrtx(const ob::SpaceInformationPtr& space, const LegSearch& search) {
-  auto planner = std::make_shared<Repeatable<og::RRTXstatic>>(space, search);
-  planner->setEpsilon(0.002 * search.sampler->optimum());
+// BIT* draws from the space's sampler alone (its own generator serves just-in-time sampling, which is off).
+ob::PlannerPtr make_bit_star(const ob::SpaceInformationPtr& space, const LegSearch& search) {
+  constexpr unsigned int kBatches = 3;
+  auto planner = std::make_shared<og::BITstar>(space);
+  planner->setNearestNeighbors<BucketNearestNeighbors>();
+  planner->setSamplesPerBatch(static_cast<unsigned int>(search.iterations) / kBatches);
+  planner->setPruning(false);
   return planner;
 }
 
+// How often a planner asks whether to end, per sample: RRT* once a sample, BIT* once an edge.
 struct FactoryRow {
   std::string_view name;
   ob::PlannerPtr (*make)(const ob::SpaceInformationPtr&, const LegSearch&);
+  long long asks_per_sample;
 };
 
-constexpr std::array<FactoryRow, 3> kFactories{
-    {{"rrt_sharp", make_rrt_sharp}, {"rrt_star", make_rrt_star}, {"rrtx_static", make_rrtx}}};
+constexpr std::array<FactoryRow, 2> kFactories{
+    {{"rrt_star", make_rrt_star, 1}, {"bit_star", make_bit_star, 25}}};
 
 const FactoryRow& factory_of(std::string_view name) {
   for (const FactoryRow& row : kFactories)
@@ -104,7 +104,7 @@ std::vector<Pose2> search_leg(std::string_view planner_name, const LegSearch& se
   bool cancelled = false;
   planner->solve(ob::PlannerTerminationCondition([&] {
     if (++asked % 64 == 0 && search.cancelled && search.cancelled()) cancelled = true;
-    return cancelled || asked > search.iterations;
+    return cancelled || asked > factory.asks_per_sample * search.iterations;
   }));
   if (cancelled || !problem->hasExactSolution()) return {};
   return poses_of(problem->getSolutionPath());

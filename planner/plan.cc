@@ -66,8 +66,8 @@ std::vector<std::size_t> shortlist(const Proposal& proposal, std::size_t wanted)
 std::string too_alike(const PlanProblem& problem, std::size_t candidates, std::size_t kept) {
   return fmt::format(
       "{} of {} candidates share more than {:.0f} % of their length, within {:.1f} m (the rover's width), "
-      "with a "
-      "better one",
+      "with "
+      "one of the routes given",
       candidates - kept, candidates, 100.0 * kLargestOverlap, problem.rover->body_width_m);
 }
 

@@ -15,6 +15,7 @@ namespace {
 
 constexpr int kMostRoutes = 10;
 constexpr std::size_t kMostWaypoints = 50;
+constexpr std::size_t kMostSoils = 254;  // a search's cell keeps its soil in a byte
 
 std::string known_planners() {
   std::string names;
@@ -30,6 +31,10 @@ void check_settings(const PlanProblem& problem, std::vector<Fault>& faults) {
   if (problem.waypoints.size() > kMostWaypoints) {
     faults.push_back({"/waypoints", fmt::format("{} waypoints, must be at most {}", problem.waypoints.size(),
                                                 kMostWaypoints)});
+  }
+  if (problem.beliefs.known.size() > kMostSoils) {
+    faults.push_back(
+        {"/soil_map", fmt::format("{} soils, must be at most {}", problem.beliefs.known.size(), kMostSoils)});
   }
   for (std::size_t i = 0; i < problem.planners.size(); ++i) {
     const auto rows = planner_catalogue();

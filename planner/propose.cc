@@ -109,6 +109,7 @@ class Proposer {
         drafts.push_back({.guide = g, .planner = planner, .at = {}, .motions = {}});
     for (std::size_t leg = 0; leg + 1 < places_.size() && !progress_.cancelled(); ++leg) {
       parallel_for(guides.size(), problem_.threads, [&](std::size_t g) { look_ahead(guides[g], leg); });
+      if (progress_.cancelled()) return;
       if (round == 0) proposal_.grid_optimum += guides.front().sampler->optimum();
       parallel_for(drafts.size(), problem_.threads, [&](std::size_t d) {
         Draft& draft = drafts[d];
@@ -121,6 +122,7 @@ class Proposer {
   }
 
   void look_ahead(Guide& guide, std::size_t leg) const {
+    if (progress_.cancelled()) return;
     const GridSearch grid(guide.cost);
     const CostField to_come = grid.cost_to_come(places_[leg].x_m, places_[leg].y_m);
     const CostField to_go = grid.cost_to_go(places_[leg + 1].x_m, places_[leg + 1].y_m);

@@ -17,7 +17,7 @@ constexpr double kLongestSide_m = 8.0;
 constexpr double kSameCorner_m = 1e-3;
 constexpr int kSweeps = 24;
 constexpr std::array<double, 6> kMoves_m{2.0, -2.0, 1.0, -1.0, 0.4, -0.4};
-constexpr std::array<double, 7> kRadii_m{40.0, 25.0, 15.0, 10.0, 6.0, 4.0, 2.5};
+constexpr std::array<double, 10> kRadii_m{400.0, 150.0, 80.0, 40.0, 25.0, 15.0, 10.0, 6.0, 4.0, 2.5};
 constexpr double kGain = 1e-9;  // cheaper by less is not cheaper
 
 double bearing_rad(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {

@@ -159,6 +159,7 @@ TEST_P(JobStores, RefusesJobsBeyondTheBoundAndAcceptsAgainAfterwards) {
 
 TEST_P(JobStores, ListsNewestFirstAndForgetsTheOldestEnded) {
   std::vector<std::string> ids;
+  ids.reserve(4);
   for (int i = 0; i < 4; ++i) ids.push_back(accept());
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(store_->dismiss(ids[i], now_));
   ASSERT_EQ(store_->list(2).value().size(), 2U);
@@ -175,6 +176,7 @@ TEST_P(JobStores, ManyThreadsClaimEveryJobExactlyOnce) {
   constexpr int kThreads = 4;
   constexpr int kEach = 25;
   std::vector<std::thread> threads;
+  threads.reserve(kThreads);
   for (int t = 0; t < kThreads; ++t) {
     threads.emplace_back([this] {
       for (int i = 0; i < kEach; ++i) EXPECT_TRUE(store_->append({new_job_id(), "plan", "{}"}, 1, kMany));
@@ -275,6 +277,7 @@ TEST(SqliteJobStore, ThreadsThatAcceptTogetherShareCommits) {
     const int each = threads == 1 ? 100 : 50;
     const auto begin = std::chrono::steady_clock::now();
     std::vector<std::thread> all;
+    all.reserve(static_cast<std::size_t>(threads));
     for (int t = 0; t < threads; ++t) {
       all.emplace_back([&] {
         for (int i = 0; i < each; ++i)

@@ -15,7 +15,6 @@
 namespace slipway::server {
 namespace {
 
-using api::JobState;
 using api::json::JsonValue;
 using api::testing::example;
 using api::testing::small_world;
@@ -25,7 +24,7 @@ using std::chrono::seconds;
 // The routes over a runner whose work a test decides; requests go through the table as they do in the server.
 class Routes : public ::testing::Test {
  protected:
-  void run(api::JobWork work, RouteOptions options = {}, api::JobRunnerOptions runner_options = {}) {
+  void run(api::JobWork work, RouteOptions options = {}, const api::JobRunnerOptions& runner_options = {}) {
     runner_ = std::make_unique<api::JobRunner>(api::make_memory_job_store(), std::move(work), runner_options);
     table_ = std::make_unique<RouteTable>(api_routes(small_world(), *runner_, options));
     ASSERT_TRUE(runner_->start());
