@@ -37,9 +37,9 @@ until "$slipway" health --url "$url" >/dev/null 2>&1; do
   sleep 0.1
 done
 
-say "asking $url for a plan from Curiosity's stop of sol 967 to its stop of sol 997"
-"$slipway" plan --url "$url" --terrain gale --rover mer-class \
-  --start 8142579.73,-276648.74 --goal 8142566.40,-276711.67 --map build/release/demo-routes.svg
+say "asking $url for a plan from Curiosity's stop of sol 960 to its stop of sol 1073"
+"$slipway" plan --url "$url" --terrain gale --rover msl-class \
+  --start 8142688.55,-276614.34 --goal 8142528.03,-276775.79 --map build/release/demo-routes.svg
 echo
 echo "The routes on the hillshade: build/release/demo-routes.svg"
 if [ -n "$once" ]; then

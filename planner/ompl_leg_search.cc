@@ -42,11 +42,12 @@ ob::PlannerPtr make_rrt_star(const ob::SpaceInformationPtr& space, const LegSear
   return std::make_shared<RepeatableRrtStar>(space, search);
 }
 
-// BIT* draws from the space's sampler alone (its own generator serves just-in-time sampling, which is off).
+// BIT* draws from the space's sampler alone: its own generator serves just-in-time sampling, which is off.
+// Its nearest neighbours do pick pivots with process-wide random numbers, but their answers are exact and
+// sorted, and no two samples are equally far.
 ob::PlannerPtr make_bit_star(const ob::SpaceInformationPtr& space, const LegSearch& search) {
   constexpr unsigned int kBatches = 3;
   auto planner = std::make_shared<og::BITstar>(space);
-  planner->setNearestNeighbors<BucketNearestNeighbors>();
   planner->setSamplesPerBatch(static_cast<unsigned int>(search.iterations) / kBatches);
   planner->setPruning(false);
   return planner;

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <memory>
-#include <type_traits>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -65,14 +63,7 @@ class BucketNearestNeighbors final : public ompl::NearestNeighbors<T> {
 
   static int column(const T& item) { return index(state_of(item)->template as<State>()->getX()); }
   static int row(const T& item) { return index(state_of(item)->template as<State>()->getY()); }
-  // RRT*'s motions hold their state, BIT*'s vertices return it.
-  static const ompl::base::State* state_of(const T& item) {
-    if constexpr (std::is_member_function_pointer_v<decltype(&std::pointer_traits<T>::element_type::state)>) {
-      return item->state();
-    } else {
-      return item->state;
-    }
-  }
+  static const ompl::base::State* state_of(const T& item) { return item->state; }
   static int index(double metres) { return static_cast<int>(std::floor(metres / kBucket_m)); }
   static std::uint64_t key(int column, int row) {
     return static_cast<std::uint64_t>(static_cast<std::uint32_t>(column)) << 32 |

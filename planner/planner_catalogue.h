@@ -7,7 +7,7 @@ namespace slipway::planner {
 
 // A planner of OMPL that can be asked for by name. The row's factory lives behind the fence (planner/ompl_*).
 struct PlannerRow {
-  std::string_view name;       // "rrt_sharp"
+  std::string_view name;       // "rrt_star"
   std::string_view summary;    // one line
   std::string_view reference;  // the paper
   bool in_default_set;

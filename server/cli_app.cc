@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kPlanExample =
     "Example: three routes between two places where Curiosity stopped, and a picture of them\n"
-    "  slipway plan --terrain gale --rover mer-class --start 8142579.73,-276648.74 --goal "
+    "  slipway plan --terrain gale --rover msl-class --start 8142579.73,-276648.74 --goal "
     "8142566.40,-276711.67 --map routes.svg";
 constexpr const char* kPredictExample =
     "Example: what the wheels do on a given path\n"

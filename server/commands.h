@@ -29,7 +29,7 @@ struct PlaceOption {
 
 struct DriveOptions {
   std::string terrain = "gale";
-  std::string rover = "mer-class";
+  std::string rover = "msl-class";
   std::optional<double> max_slip, max_tilt_deg, speed_m_s;
   std::optional<int> draws;
   std::optional<long long> seed;

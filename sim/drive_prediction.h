@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/angle.h"
 #include "core/pose.h"
 #include "core/progress.h"
 #include "core/result.h"
@@ -28,9 +29,9 @@ struct PathStation {
 
 // What must hold along a drive. A prediction never stops at a limit; it says where it is broken.
 struct DriveLimits {
-  double max_slip_ratio = 0.4;   // MER operations stopped drives at 40 %
-  double max_tilt_rad = 0.436;   // 25 deg
-  double max_current_a = 10.0;    // of any wheel's motor
+  double max_slip_ratio = 0.4;  // MER operations stopped drives at 40 %
+  double max_tilt_rad = rad_from_deg(25.0);
+  double max_current_a = 10.0;   // of any wheel's motor
   double max_sinkage_m = 0.08;   // of any wheel
   double min_clearance_m = 0.0;  // of the belly over the ground
 };

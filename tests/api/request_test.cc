@@ -41,7 +41,7 @@ TEST(PlanRequest, EveryKeyIsReadInItsUnit) {
   EXPECT_EQ(request->waypoints.size(), 1U);
   EXPECT_EQ(request->keep_out.at(0).at(2), Eigen::Vector2d(28.0, 35.0));
   EXPECT_EQ(request->weights.duration, 2.0);
-  EXPECT_EQ(request->planners, std::vector<std::string>{"rrt_sharp"});
+  EXPECT_EQ(request->planners, std::vector<std::string>{"rrt_star"});
   EXPECT_EQ(request->drive.effects.at(0).parameters.at("n1"), 0.3);
   EXPECT_EQ(request->drive.seed, 7U);
   EXPECT_EQ(request->drive.speed_m_s, 0.03);
@@ -100,8 +100,8 @@ TEST(PlanRequest, EachBadMemberIsRefusedAtItsPlace) {
       {R"(,"weights":{"speed":1})", "/weights/speed"},
       {R"(,"routes":0)", "/routes"},
       {R"(,"routes":"3")", "/routes"},
-      {R"(,"planners":["rrt_sharpp"])", "/planners/0"},
-      {R"(,"planners":["rrt_sharp","rrt_sharp"])", "/planners/1"},
+      {R"(,"planners":["rrt_starr"])", "/planners/0"},
+      {R"(,"planners":["rrt_star","rrt_star"])", "/planners/1"},
       {R"(,"effects":[{"name":"slip_sinkage","parameters":{"n1":9}}])", "/effects/0/parameters/n1"},
       {R"(,"effects":[{"name":"slip_sinkage","parameters":{"n2":0.1}}])", "/effects/0/parameters/n2"},
       {R"(,"effects":[{"name":"ghost"}])", "/effects/0/name"},

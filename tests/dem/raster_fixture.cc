@@ -78,26 +78,32 @@ void write_geotiff(const std::filesystem::path& path, const RasterOptions& optio
   VSIFree(bytes);
 }
 
-double gdal_value_at(const std::filesystem::path& path, double x, double y) {
+void with_gdal(const std::filesystem::path& path, const std::function<void(GDALDataset&)>& body) {
   prepare_gdal();
   std::ifstream file(path, std::ios::binary);
   std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   VSIFCloseL(VSIFileFromMemBuffer(kInMemory, reinterpret_cast<GByte*>(bytes.data()), bytes.size(), FALSE));
-  double value = std::nan("");
   {
     const GDALDatasetUniquePtr raster(GDALDataset::Open(kInMemory));
     require(raster != nullptr, "GDAL can't open the fixture");
+    body(*raster);
+  }
+  VSIUnlink(kInMemory);
+}
+
+double gdal_value_at(const std::filesystem::path& path, double x, double y) {
+  double value = std::nan("");
+  with_gdal(path, [&](GDALDataset& raster) {
     std::array<double, 6> forward{};
     std::array<double, 6> inverse{};
-    raster->GetGeoTransform(forward.data());
+    raster.GetGeoTransform(forward.data());
     require(GDALInvGeoTransform(forward.data(), inverse.data()) != 0, "the grid can't be inverted");
     const int column = static_cast<int>(std::floor(inverse[0] + inverse[1] * x + inverse[2] * y));
     const int row = static_cast<int>(std::floor(inverse[3] + inverse[4] * x + inverse[5] * y));
-    require(raster->GetRasterBand(1)->RasterIO(GF_Read, column, row, 1, 1, &value, 1, 1, GDT_Float64, 0, 0,
-                                               nullptr) == CE_None,
+    require(raster.GetRasterBand(1)->RasterIO(GF_Read, column, row, 1, 1, &value, 1, 1, GDT_Float64, 0, 0,
+                                              nullptr) == CE_None,
             "GDAL can't read the fixture");
-  }
-  VSIUnlink(kInMemory);
+  });
   return value;
 }
 

@@ -45,6 +45,9 @@ struct RasterOptions {
 // Makes it in memory (the library fences GDAL off from writing files) and copies its bytes to the path.
 void write_geotiff(const std::filesystem::path& path, const RasterOptions& options);
 
+// Opens the file with GDAL itself, from a copy in memory.
+void with_gdal(const std::filesystem::path& path, const std::function<void(GDALDataset&)>& body);
+
 // What GDAL itself says is at a place: the value of the cell, as gdallocationinfo -geoloc finds it.
 double gdal_value_at(const std::filesystem::path& path, double x, double y);
 
