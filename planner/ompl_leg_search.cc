@@ -4,6 +4,7 @@
 #include <ompl/geometric/planners/rrt/RRTstar.h>
 #include <ompl/util/Console.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <mutex>
@@ -43,12 +44,12 @@ ob::PlannerPtr make_rrt_star(const ob::SpaceInformationPtr& space, const LegSear
 }
 
 // BIT* draws from the space's sampler alone: its own generator serves just-in-time sampling, which is off.
-// Its nearest neighbours do pick pivots with process-wide random numbers, but their answers are exact and
-// sorted, and no two samples are equally far.
 ob::PlannerPtr make_bit_star(const ob::SpaceInformationPtr& space, const LegSearch& search) {
-  constexpr unsigned int kBatches = 3;
+  constexpr int kBatches = 3;
+  constexpr int kLargestBatch = 1000;
   auto planner = std::make_shared<og::BITstar>(space);
-  planner->setSamplesPerBatch(static_cast<unsigned int>(search.iterations) / kBatches);
+  planner->setSamplesPerBatch(
+      static_cast<unsigned int>(std::min(search.iterations / kBatches, kLargestBatch)));
   planner->setPruning(false);
   return planner;
 }

@@ -20,6 +20,9 @@ class MotionSpace final : public ompl::base::SE2StateSpace {
   void interpolate(const ompl::base::State* from, const ompl::base::State* to, double t,
                    ompl::base::State* state) const override;
   bool hasSymmetricInterpolate() const override { return false; }
+  // Its motions are directed. And where a space is a metric one OMPL keeps nearest neighbours in a structure
+  // that picks its pivots with process-wide random numbers; otherwise it searches a plain list.
+  bool isMetricSpace() const override { return false; }
   ompl::base::StateSamplerPtr allocDefaultStateSampler() const override;
 
  private:
