@@ -45,7 +45,7 @@ ob::PlannerPtr make_rrt_star(const ob::SpaceInformationPtr& space, const LegSear
 
 // BIT* draws from the space's sampler alone: its own generator serves just-in-time sampling, which is off.
 ob::PlannerPtr make_bit_star(const ob::SpaceInformationPtr& space, const LegSearch& search) {
-  constexpr int kBatches = 3;
+  constexpr int kBatches = 5;
   constexpr int kLargestBatch = 1000;
   auto planner = std::make_shared<og::BITstar>(space);
   planner->setSamplesPerBatch(
@@ -62,7 +62,7 @@ struct FactoryRow {
 };
 
 constexpr std::array<FactoryRow, 2> kFactories{
-    {{"rrt_star", make_rrt_star, 1}, {"bit_star", make_bit_star, 25}}};
+    {{"rrt_star", make_rrt_star, 1}, {"bit_star", make_bit_star, 10}}};
 
 const FactoryRow& factory_of(std::string_view name) {
   for (const FactoryRow& row : kFactories)

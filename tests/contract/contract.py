@@ -140,7 +140,7 @@ class Contract(unittest.TestCase):
                 self.assertEqual(len(stations[series]), stations["count"])
             self.assertEqual(len(feature["geometry"]["coordinates"]), stations["count"])
             steps = [b - a for a, b in zip(stations["distance_m"], stations["distance_m"][1:])]
-            self.assertLessEqual(max(steps), 0.25 + 1e-3, "two wheel radii")
+            self.assertLessEqual(max(steps), 0.5 + 1e-3, "two wheel radii of 0.25 m")
             if row["unknown_length_m"] > 0:
                 self.assertNotEqual(row["verdict"], "go", "unknown ground is never shown as safe")
         costs = [row["cost"] for row in answer["summary"]]

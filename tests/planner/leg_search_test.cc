@@ -67,7 +67,9 @@ TEST_P(LegSearchTest, RepeatsBitForBitWhateverRanBefore) {
   const std::vector<Pose2> first = search_leg(GetParam(), search(3));
   const std::vector<Pose2> other = search_leg(GetParam(), search(4));
   // Only the one motion straight to the goal may be what every seed finds.
-  if (first.size() > 2) EXPECT_NE(other, first);
+  if (first.size() > 2) {
+    EXPECT_NE(other, first);
+  }
   EXPECT_EQ(search_leg(GetParam(), search(3)), first);
 }
 
