@@ -13,15 +13,17 @@
 namespace slipway::planner {
 namespace {
 
+// The straight line is closed, so that no planner answers with it and every seed has a route of its own.
 constexpr std::string_view kHills = R"(
 . . . . . . . . . . . . . . . . . . . . . .
 . . . . . 2 2 2 . . . . . . . 1 1 1 . . . .
-. . . . . 2 4 2 . . . 3 3 3 . 1 2 1 . . . .
-. . . . . 2 2 2 . . . 3 6 3 . 1 1 1 . . . .
-. . . S . . . . . . . 3 3 3 . . . . . G . .
+. . . . . 2 4 2 . . # 3 3 3 . 1 2 1 . . . .
+. . . . . 2 2 2 . . # 3 6 3 . 1 1 1 . . . .
+. . . S . . . . . . # 3 3 3 . . . . . G . .
+. . . . . . 2 2 . . # . . . . . 2 2 . . . .
 . . . . . . 2 2 . . . . . . . . 2 2 . . . .
-. . . . . . 2 2 . . 2 2 . . . . 2 2 . . . .
-. . . . . . . . . . 2 2 . . . . . . . . . .
+. . . . . . . . . . . . . . . . . . . . . .
+. . . . . . . . . . . . . . . . . . . . . .
 . . . . . . . . . . . . . . . . . . . . . .
 )";
 
@@ -65,6 +67,7 @@ TEST_P(LegSearchTest, FindsARouteNearTheGridsOptimumThatEndsAtTheGoalPose) {
 
 TEST_P(LegSearchTest, RepeatsBitForBitWhateverRanBefore) {
   const std::vector<Pose2> first = search_leg(GetParam(), search(3));
+  ASSERT_GT(first.size(), 2U);
   const std::vector<Pose2> other = search_leg(GetParam(), search(4));
   // Only the one motion straight to the goal may be what every seed finds.
   if (first.size() > 2) {
@@ -86,7 +89,7 @@ TEST_P(LegSearchTest, SmoothingNeverMakesARouteDearer) {
 
 TEST_P(LegSearchTest, StopsWhenCancelled) {
   LegSearch cancelled = search(3);
-  cancelled.iterations = 100'000'000;
+  cancelled.iterations = 20'000;
   cancelled.cancelled = [] { return true; };
   EXPECT_TRUE(search_leg(GetParam(), cancelled).empty());
 }
