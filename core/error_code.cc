@@ -8,6 +8,8 @@ namespace slipway {
 namespace {
 
 constexpr std::array kRows{
+    ErrorRow{ErrorCode::kMalformedHttp, "malformed_http", 400,
+             "The request is not HTTP/1.1 as RFC 9112 has it; the detail says where."},
     ErrorRow{ErrorCode::kMalformedJson, "malformed_json", 400,
              "The body is not one JSON document; mend the syntax at the place named."},
     ErrorRow{ErrorCode::kInvalidRequest, "invalid_request", 422,

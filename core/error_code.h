@@ -7,6 +7,7 @@ namespace slipway {
 
 // Every way in which a correct caller can be refused. One row each in error_table().
 enum class ErrorCode {
+  kMalformedHttp,
   kMalformedJson,
   kInvalidRequest,
   kNotFound,

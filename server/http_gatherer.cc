@@ -70,8 +70,9 @@ void RequestGatherer::advance_head() {
   const HeadScan scan = scan_head(input_, scanned_);
   scanned_ = scan.resume_at;
   if (scan.found == HeadScan::Found::kMalformed) {
-    return refuse(
-        {kMalformedMessage, "this is not the head of an HTTP/1.1 request with lines that end in CR LF", {}});
+    return refuse({ErrorCode::kMalformedHttp,
+                   "this is not the head of an HTTP/1.1 request with lines that end in CR LF",
+                   {}});
   }
   const bool whole = scan.found == HeadScan::Found::kEnd;
   if ((whole ? scan.size : input_.size()) > options_->max_header_bytes) {
@@ -105,7 +106,7 @@ void RequestGatherer::advance_body() {
   input_.erase(0, input_.size() - bytes.size());
   if (chunked == ChunkedBody::State::kDone) state_ = State::kReady;
   if (chunked == ChunkedBody::State::kMalformed)
-    refuse({kMalformedMessage, "the body's chunks are malformed", {}});
+    refuse({ErrorCode::kMalformedHttp, "the body's chunks are malformed", {}});
   if (chunked == ChunkedBody::State::kTooLarge) {
     refuse({ErrorCode::kPayloadTooLarge,
             fmt::format("the body has more than the {} bytes that are read", options_->max_body_bytes),

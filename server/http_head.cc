@@ -45,7 +45,7 @@ std::string_view trimmed(std::string_view text) {
 }
 
 tl::unexpected<Error> malformed(std::string detail) {
-  return fail(kMalformedMessage, std::move(detail));
+  return fail(ErrorCode::kMalformedHttp, std::move(detail));
 }
 
 // Reads the lines of one head; its members are what is gathered on the way.
@@ -79,7 +79,9 @@ class HeadReader {
  private:
   using MaybeError = std::optional<Error>;
 
-  static MaybeError bad(std::string detail) { return Error{kMalformedMessage, std::move(detail), {}}; }
+  static MaybeError bad(std::string detail) {
+    return Error{ErrorCode::kMalformedHttp, std::move(detail), {}};
+  }
 
   MaybeError request_line(std::string_view line) {
     const std::size_t first = line.find(' ');

@@ -35,7 +35,4 @@ struct HeadScan {
 };
 HeadScan scan_head(std::string_view bytes, std::size_t resume_at);
 
-// core's table has no row of its own for a malformed message; this is its row with status 400.
-inline constexpr ErrorCode kMalformedMessage = ErrorCode::kMalformedJson;
-
 }  // namespace slipway::server

@@ -22,7 +22,7 @@ std::string with(const std::string& line, const std::string& host = "Host: t\r\n
   return "POST /a HTTP/1.1\r\n" + host + "Content-Type: application/json\r\n" + line + "\r\n\r\n";
 }
 
-const std::string kMalformed{error_row(kMalformedMessage).name};
+const std::string kMalformed{error_row(ErrorCode::kMalformedHttp).name};
 
 TEST(RequestHead, WithoutALengthThereIsNoBody) {
   const auto head = read("GET /a?b HTTP/1.1\r\nHost: t\r\nX: y\r\n\r\n");
