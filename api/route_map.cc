@@ -18,7 +18,7 @@ namespace {
 using json::JsonValue;
 
 constexpr double kMapWidth_px = 900.0;
-constexpr double kLegendWidth_px = 230.0;
+constexpr double kLegendWidth_px = 290.0;
 constexpr double kMargin_m = 25.0;
 constexpr double kSunAzimuth_rad = rad_from_deg(315.0);
 constexpr double kSunElevation_rad = rad_from_deg(40.0);
@@ -251,10 +251,7 @@ class Picture {
                       left, at, sign, words);
       at += 24.0;
     };
-    out_ += fmt::format(
-        "<text x=\"{:.0f}\" y=\"{:.0f}\" font-weight=\"bold\" textLength=\"{:.0f}\" "
-        "lengthAdjust=\"spacingAndGlyphs\">{}</text>\n",
-        left, at, kLegendWidth_px - 24.0, title);
+    out_ += fmt::format("<text x=\"{:.0f}\" y=\"{:.0f}\" font-weight=\"bold\">{}</text>\n", left, at, title);
     at += 26.0;
     for (const SlipColour& c : kSlipColours)
       row(fmt::format("<path d=\"M0 0h28\" stroke=\"{}\" stroke-width=\"5\"/>", c.colour), c.words);

@@ -20,7 +20,6 @@ MAY_SEE = {
 FENCES = [
     (r"(gdal|ogr|cpl)[\w]*\.h", r"dem/gdal_\w+\.(cc|h)"),
     (r"ompl/.*", r"planner/ompl_\w+\.(cc|h)"),
-    (r"boost/geometry.*", r"planner/keep_out\.cc"),
     (r"(cvode|sundials|nvector|sunlinsol|sunmatrix|kinsol)/.*", r"sim/(cvode|kinsol)_\w+\.cc"),
     (r"ceres/.*", r"gap/ceres_\w+\.cc"),
     (r"nlohmann/.*", r"api/json/\w+\.(cc|h)"),
