@@ -129,8 +129,9 @@ std::vector<std::size_t> GridSearch::way(const CostField& to_go, double x_m, dou
   const long long columns = map_.geometry().columns;
   long long cell = start;
   cells.push_back(static_cast<std::size_t>(cell));
-  while (to_go.step[static_cast<std::size_t>(cell)] >= 0) {
-    const Step& s = kSteps[static_cast<std::size_t>(to_go.step[static_cast<std::size_t>(cell)])];
+  for (int step = to_go.step[static_cast<std::size_t>(cell)]; step >= 0;
+       step = to_go.step[static_cast<std::size_t>(cell)]) {
+    const Step& s = kSteps[static_cast<std::size_t>(step)];
     cell += s.right - s.up * columns;
     cells.push_back(static_cast<std::size_t>(cell));
   }
