@@ -22,7 +22,7 @@ constexpr std::array kRows{
     ErrorRow{ErrorCode::kRequestTimeout, "request_timeout", 408,
              "The request did not arrive in time; send it again without pauses."},
     ErrorRow{ErrorCode::kConflict, "conflict", 409,
-             "The job's state does not allow this; read the job and decide again."},
+             "What is there already does not allow this; the detail says what."},
     ErrorRow{ErrorCode::kPayloadTooLarge, "payload_too_large", 413, "Send a body below the limit named."},
     ErrorRow{ErrorCode::kUnsupportedMediaType, "unsupported_media_type", 415,
              "Send Content-Type: application/json without Content-Encoding."},
