@@ -83,7 +83,7 @@ bool GridSearch::passes_corners(std::size_t row, std::size_t column, int step) c
 
 CostField GridSearch::spread(double x_m, double y_m, bool to_go) const {
   CostField field{.cost = std::vector<float>(map_.cells(), kInfinity),
-                  .step = std::vector<std::int8_t>(map_.cells(), -1)};
+                  .step = std::vector<std::int16_t>(map_.cells(), -1)};
   const long long origin = map_.index_at(x_m, y_m);
   if (origin < 0) return field;
   const dem::GridGeometry& g = map_.geometry();
@@ -115,7 +115,7 @@ CostField GridSearch::spread(double x_m, double y_m, bool to_go) const {
       const float cost = here.cost + half_length[k] * (half + per_metre_[next * kGridSteps + driven]);
       if (!(cost < field.cost[next]) || !passes_corners(row, column, k)) continue;
       field.cost[next] = cost;
-      field.step[next] = static_cast<std::int8_t>(driven);
+      field.step[next] = static_cast<std::int16_t>(driven);
       open.push({cost, static_cast<std::uint32_t>(next)});
     }
   }

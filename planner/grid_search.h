@@ -10,7 +10,7 @@ namespace slipway::planner {
 // Cost of the cheapest way on the grid between one place and every cell, and the way itself.
 struct CostField {
   std::vector<float> cost;        // infinite where there is no way
-  std::vector<std::int8_t> step;  // towards the next cell on the way to (from) the place; -1 there
+  std::vector<std::int16_t> step;  // towards the next cell on the way to (from) the place; -1 there
 };
 
 // Dijkstra over the map's cells and 16 directions (eight neighbours and eight knight's moves), each edge

@@ -68,8 +68,8 @@ void check_settings(const PlanProblem& problem, std::vector<Fault>& faults) {
 // allowed.
 std::vector<double> headings_of(const Waypoint& place) {
   if (place.yaw_rad) return {*place.yaw_rad};
-  std::vector<double> headings;
-  for (int k = 0; k < 8; ++k) headings.push_back(rad_from_deg(45.0 * k));
+  std::vector<double> headings(8);
+  for (std::size_t k = 0; k < headings.size(); ++k) headings[k] = rad_from_deg(45.0 * static_cast<double>(k));
   return headings;
 }
 

@@ -72,9 +72,10 @@ Result<sim::DrivePrediction> predict_path(const PlanProblem& problem, const std:
     const auto wrong = check_place(problem, ground, corners[i], 0.0, fmt::format("/path/{}", i), faults);
     if (wrong && code != ErrorCode::kOffMap) code = wrong;
   }
-  if (code)
-    return fail(*code, fmt::format("the path leaves the ground: {}", faults.front().message),
-                std::move(faults));
+  if (code) {
+    std::string detail = fmt::format("the path leaves the ground: {}", faults.front().message);
+    return fail(*code, std::move(detail), std::move(faults));
+  }
 
   const CornerPath path = join(corners);
   const auto stations = route_stations(path.motions, sim::largest_station_spacing_m(*problem.rover));

@@ -97,10 +97,9 @@ class RemoteInquiry final : public Inquiry {
 
   // Records the job, then polls it; a question that is given up is taken back.
   Result<std::string> job(const std::string& path, const std::string& request, Progress& progress) {
-    if (const auto created = call("POST", path, request, {{"Prefer", "respond-async"}}); !created)
-      return created;
+    if (auto created = call("POST", path, request, {{"Prefer", "respond-async"}}); !created) return created;
     for (;;) {
-      const auto document = get(location_);
+      auto document = get(location_);
       if (!document) return document;
       const auto parsed =
           api::json::parse(*document, {.bytes = document->size(), .values = document->size()});

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "api/json/parse.h"
@@ -27,7 +28,7 @@ const std::string& text(const JsonValue& value, std::string_view key) {
 }
 
 std::string duration(double seconds) {
-  const int minutes = static_cast<int>(seconds / 60.0 + 0.5);
+  const long minutes = std::lround(seconds / 60.0);
   return fmt::format("{}:{:02d} h", minutes / 60, minutes % 60);
 }
 
