@@ -25,7 +25,7 @@ class PoseSampler {
   std::vector<std::size_t> way_;        // cells of the cheapest way
   std::vector<std::size_t> cells_;      // worth sampling
   std::vector<double> cumulative_;      // of their weights
-  std::vector<std::int8_t> flow_step_;  // per map cell
+  std::vector<std::int16_t> flow_step_;  // per map cell
 };
 
 }  // namespace slipway::planner
