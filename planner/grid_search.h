@@ -9,7 +9,7 @@ namespace slipway::planner {
 
 // Cost of the cheapest way on the grid between one place and every cell, and the way itself.
 struct CostField {
-  std::vector<float> cost;        // infinite where there is no way
+  std::vector<float> cost;         // infinite where there is no way
   std::vector<std::int16_t> step;  // towards the next cell on the way to (from) the place; -1 there
 };
 

@@ -22,9 +22,9 @@ class PoseSampler {
  private:
   const TraverseMap& map_;
   double optimum_;
-  std::vector<std::size_t> way_;        // cells of the cheapest way
-  std::vector<std::size_t> cells_;      // worth sampling
-  std::vector<double> cumulative_;      // of their weights
+  std::vector<std::size_t> way_;         // cells of the cheapest way
+  std::vector<std::size_t> cells_;       // worth sampling
+  std::vector<double> cumulative_;       // of their weights
   std::vector<std::int16_t> flow_step_;  // per map cell
 };
 
