@@ -40,7 +40,7 @@ void BM_BalancedWheel(benchmark::State& state) {
 }
 BENCHMARK(BM_BalancedWheel);
 
-// The floor: sixteen shear mobilisations and eight pressures are 24 exponentials and 8 logarithms.
+// The floor: shear at sixteen nodes in two directions, eight pressures, and the nodes' sines and cosines.
 void BM_TranscendentalsOfOneWheel(benchmark::State& state) {
   ArcValues x = ArcValues::LinSpaced(0.1, 0.9);
   for (auto _ : state) {

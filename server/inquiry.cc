@@ -110,7 +110,10 @@ class RemoteInquiry final : public Inquiry {
       if (!state || (state->text != "accepted" && state->text != "running"))
         return get(location_ + "/result");
       progress.report(stage ? stage->text : "", share ? share->number : 0.0);
-      if (progress.cancelled()) return call("DELETE", location_, "", {});
+      if (progress.cancelled()) {
+        if (auto dismissed = call("DELETE", location_, "", {}); !dismissed) return dismissed;
+        return fail(ErrorCode::kCancelled, "the question was given up and its job dismissed");
+      }
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
   }

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <iostream>
@@ -31,7 +30,7 @@ Result<std::shared_ptr<api::JobStore>> open_store(const std::string& path) {
 }
 
 // Blocks the signals that end the program, so that every thread started later leaves them to
-// wait_for_signal().
+// sigwait().
 sigset_t block_ending_signals() {
   sigset_t signals;
   sigemptyset(&signals);

@@ -58,10 +58,10 @@ class Predictor {
             const DriveLimits& limits)
       : rover_(rover), ground_(ground), beliefs_(beliefs), limits_(limits), solver_(rover, gravity_m_s2) {}
 
-  // False where the drive ends here: immobilised, or nothing to stand on (then faults() tells).
-  bool add(const PathStation& station, std::size_t index) {
+  // False where the drive ends here: the rover is immobilised.
+  bool add(const PathStation& station) {
     const std::optional<Stance> stance = settle(rover_, ground_, station.pose);
-    if (!stance) return no_stance(station, index);
+    if (!stance) return no_stance(station);
     PreparedStation ready;
     ready.stance = *stance;
     ready.command = command_at(rover_, station);
@@ -76,7 +76,6 @@ class Predictor {
     return !prediction_.immobilised;
   }
 
-  const std::vector<Fault>& faults() const { return faults_; }
   const std::vector<PreparedStation>& prepared() const { return prepared_; }
 
   DrivePrediction finish() {
@@ -94,18 +93,12 @@ class Predictor {
   }
 
  private:
-  bool no_stance(const PathStation& station, std::size_t index) {
-    if (const auto wheel = wheel_without_ground(rover_, ground_, station.pose)) {
-      faults_.push_back(
-          {fmt::format("/stations/{}", index),
-           fmt::format("no elevation under wheel {} at ({:.2f}, {:.2f}), {:.1f} m along the path", *wheel,
-                       station.pose.x_m, station.pose.y_m, station.distance_m)});
-    } else {
-      prediction_.immobilised = {
-          station.distance_m, station.pose,
-          fmt::format("no stance at {:.1f} m: the ground is too uneven for the suspension",
-                      station.distance_m)};
-    }
+  // Every wheel has ground under it (predict_drive looked), but not in any way the suspension can follow.
+  bool no_stance(const PathStation& station) {
+    prediction_.immobilised = {
+        station.distance_m, station.pose,
+        fmt::format("no stance at {:.1f} m: the ground is too uneven for the suspension",
+                    station.distance_m)};
     return false;
   }
 
@@ -172,7 +165,6 @@ class Predictor {
   QuasiStaticSolver solver_;
   DrivePrediction prediction_;
   std::vector<PreparedStation> prepared_;
-  std::vector<Fault> faults_;
   Peak least_clearance_{1e9, 0.0};
   double slip_length_ = 0.0;
 };
@@ -206,10 +198,8 @@ Result<DrivePrediction> predict_drive(const RoverModel& rover, double gravity_m_
   for (std::size_t k = 0; k < path.size(); ++k) {
     if (k % 64 == 0 && progress.cancelled())
       return fail(ErrorCode::kCancelled, "the prediction was dismissed");
-    if (!predictor.add(path[k], k)) break;
+    if (!predictor.add(path[k])) break;
   }
-  if (!predictor.faults().empty())
-    return fail(ErrorCode::kNoData, "the path leaves the ground that is known", predictor.faults());
   DrivePrediction prediction = predictor.finish();
   if (risk.draws > 0 && !predictor.prepared().empty() &&
       !assess_risk(rover, gravity_m_s2, beliefs, predictor.prepared(), limits, risk, threads, progress,

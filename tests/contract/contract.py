@@ -131,6 +131,9 @@ class Contract(unittest.TestCase):
     def test_a_plan_has_three_routes_that_differ_and_the_safest_is_ranked_with_reasons(self):
         answer = json.loads(self.server.answer("/v1/plans", plan()))
         self.assertTrue(len(answer["summary"]) == 3 or answer["fewer_because"], answer["fewer_because"])
+        described = json.loads(self.server.ask("GET", "/openapi.json")[2])["components"]["schemas"]["PlanRequest"]
+        for key, value in answer["request"]["limits"].items():
+            self.assertEqual(described["properties"]["limits"]["properties"][key]["default"], value, key)
         for rank, (row, feature) in enumerate(zip(answer["summary"], answer["routes"]["features"]), 1):
             self.assertEqual(row["rank"], rank)
             self.assertTrue(row["reasons"])
