@@ -1,17 +1,45 @@
 #pragma once
 
-#include "sim/rover_model.h"
+#include <optional>
 
 namespace slipway::sim {
 
-// A drive motor behind its gear, steady: no inductance, Kirchhoff's law [ROAMS section 2.4; drive-campaign
-// format].
+// A drive motor behind its gear, as a rover file gives it. Every wheel has the same.
+struct DriveMotor {
+  double torque_constant_nm_per_a = 0.0224;
+  double gear_ratio = 1500.0;
+  double gear_efficiency = 0.55;
+  double no_load_current_a = 0.06;
+  double damping_nms_rad = 0.0;  // of the motor's shaft: b in ROAMS section 2.4
+  double max_wheel_rate_rad_s = 0.4;
+  double bus_voltage_v = 28.0;
+  std::optional<double> resistance_ohm;
+  std::optional<double> max_current_a;  // a wheel that needs more is stalled
+
+  // Friction of the gearbox at the wheel, besides what the efficiency and the no-load current hold (effect
+  // gearbox_friction).
+  double gear_friction_nm = 0.0;
+  double gear_viscous_nms_rad = 0.0;  // at the wheel
+
+  // Change per kelvin above the reference temperature (effect motor_temperature): the torque constant falls
+  // by its share, the winding's resistance rises, all friction falls as lubricant thins.
+  double reference_temp_c = 20.0;
+  double torque_constant_per_k = 0.0;
+  double resistance_per_k = 0.0;
+  double friction_per_k = 0.0;
+};
+
+// The motor's own numbers at a temperature. Friction is kept above a tenth of its value at the reference.
+DriveMotor at_temperature(const DriveMotor& drive, double motor_temp_c);
+
+// A drive motor in steady motion: no inductance, Kirchhoff's law [ROAMS section 2.4; drive-campaign format].
 //
-//   I = T / (k_t N eta) + I_0 sign(rate)          current, A
-//   V = R I + k_t N rate                          terminal voltage, V (R = 0 where the model gives none)
+//   I = (T + T_g sign(w) + B w) / (k_t N eta) + b N w / k_t + I_0 sign(w)      current, A
+//   V = R I + k_t N w                                        terminal voltage, V (R = 0 where none is given)
 //
-//   T   torque at the wheel, N m      k_t torque constant, N m/A    N gear ratio    eta gear efficiency
-//   I_0 no-load current, A            rate of the wheel, rad/s
+//   T    torque at the wheel, N m        w    rate of the wheel, rad/s        k_t  torque constant, N m/A
+//   N    gear ratio    eta  gear efficiency    I_0  no-load current, A        b    damping at the shaft
+//   T_g, B  friction and viscous friction of the gearbox, at the wheel
 struct MotorState {
   double current_a = 0.0;
   double voltage_v = 0.0;
@@ -20,7 +48,18 @@ struct MotorState {
 
 MotorState motor_state(const DriveMotor& drive, double torque_nm, double wheel_rate_rad_s);
 
+// The inverse: the torque at the wheel that a current at a rate means.
+double torque_of_current_nm(const DriveMotor& drive, double current_a, double wheel_rate_rad_s);
+
 // True where the torque needs more current or voltage than there is.
 bool stalls(const DriveMotor& drive, const MotorState& state);
+
+// The greatest torque at standstill that bus voltage and current limit allow; infinite where neither the
+// resistance nor a limit is given.
+double stall_torque_nm(const DriveMotor& drive);
+
+// The fastest rate that the bus voltage allows against a driving torque, 0 where the torque stalls the motor;
+// never above max_wheel_rate_rad_s.
+double attainable_rate_rad_s(const DriveMotor& drive, double torque_nm);
 
 }  // namespace slipway::sim

@@ -6,43 +6,59 @@
 #include <vector>
 
 #include "core/result.h"
+#include "sim/motor.h"
+#include "sim/wheel_forces.h"
 
 namespace slipway::sim {
 
+// The most wheels a rover may have: what the solvers set room aside for.
+constexpr int kMostWheels = 12;
+
 enum class Side { kLeft, kRight };
+
+// What turns a wheel.
+enum class WheelDrive {
+  kDriven,  // its motor keeps the told rate
+  kLocked,  // it does not turn: a dead motor behind a gear that can't be driven back
+  kFree,    // no torque but the drag of its bearing and gear: it turns as the ground turns it
+};
 
 // A rigid wheel. Frame B: x forward, y left, z up, origin on the ground under the wheels' centre at rest.
 struct WheelModel {
-  std::string name;  // lf lm lr rf rm rr
+  std::string name;  // lf lm lr rf rm rr of six, lf lr rf rr of four; any unique name otherwise
   Eigen::Vector3d position_m =
       Eigen::Vector3d::Zero();  // of the wheel's centre in B, at rest on level ground
   double radius_m = 0.125;
   double width_m = 0.16;
+  std::optional<Grousers> grousers;
   bool steerable = false;
   Side side = Side::kLeft;
-  bool on_bogie = false;  // carried by the side's bogie, otherwise by its rocker
+  bool on_bogie = false;  // of a rocker-bogie: carried by the side's bogie, otherwise by its rocker
+  WheelDrive drive = WheelDrive::kDriven;
+  double drag_nm = 0.0;                 // resisting torque at the axle besides the soil's, >= 0
+  double rate_share = 1.0;              // of the told rate that the wheel really turns at, (0, 1]
+  double steering_offset_rad = 0.0;     // true less told steering angle
+  std::optional<double> told_radius_m;  // that the rover's own software reckons with; radius_m where absent
+
+  WheelGeometry geometry() const { return {radius_m, width_m, grousers.value_or(Grousers{})}; }
+  double reckoned_radius_m() const { return told_radius_m.value_or(radius_m); }
 };
 
-// Rocker-bogie with a differential: the rockers turn against each other about their pivots, each carries one
-// wheel and a bogie with the two others. Left side given; right mirrored in y.
-struct RockerBogie {
-  Eigen::Vector3d rocker_pivot_m = Eigen::Vector3d::Zero();
-  Eigen::Vector3d bogie_pivot_m = Eigen::Vector3d::Zero();
+enum class SuspensionType {
+  kRockerBogie,  // six wheels: rockers turn against each other through a differential, each carries one wheel
+                 // and a bogie with the two others
+  kAveraging,  // a rocker a side carries all wheels of that side; the body averages the two by a differential
+  kRigid,      // wheels fixed to the body
 };
 
-// Drive motor and gear of every wheel: I = T / (k_t N eta) + I_0 sign(rate).
-struct DriveMotor {
-  double torque_constant_nm_per_a = 0.0224;
-  double gear_ratio = 1500.0;
-  double gear_efficiency = 0.55;
-  double no_load_current_a = 0.06;
-  double max_wheel_rate_rad_s = 0.4;
-  double bus_voltage_v = 28.0;
-  std::optional<double> resistance_ohm;
-  std::optional<double> max_current_a;  // a wheel that needs more is stalled
+// How the wheels hang on the body. Left side given; right mirrored in y. A type reads the pivots it has.
+struct Suspension {
+  SuspensionType type = SuspensionType::kRockerBogie;
+  Eigen::Vector3d rocker_pivot_m = Eigen::Vector3d::Zero();  // rocker-bogie, averaging
+  Eigen::Vector3d bogie_pivot_m = Eigen::Vector3d::Zero();   // rocker-bogie
 };
 
-// A six-wheel rover: immutable once built, shared by pointer.
+// A rover on any number of wheels from 3 to kMostWheels: immutable once built, shared by pointer.
 struct RoverModel {
   std::string name;
   std::string summary;
@@ -50,8 +66,8 @@ struct RoverModel {
   std::vector<std::string> assumed;  // names of parameters that no source gives
   double mass_kg = 0.0;
   Eigen::Vector3d com_m = Eigen::Vector3d::Zero();
-  std::vector<WheelModel> wheels;  // six, three a side
-  RockerBogie suspension;
+  std::vector<WheelModel> wheels;  // left and right sides both have at least one
+  Suspension suspension;
   DriveMotor drive;
   double belly_clearance_m = 0.3;  // lowest point of the body between the wheels, above level ground
   double body_length_m = 1.6;      // of the rectangle that must stay on the map and out of keep-outs
@@ -60,14 +76,17 @@ struct RoverModel {
   double cruise_speed_m_s = 0.04;  // of the body, commanded on the straight
   double turn_rate_rad_s = 0.03;   // commanded, turning in place
   double min_turn_radius_m = 1.5;  // of an arc
+  // True less reckoned attitude: what the ground's map or the rover's inclinometer has wrong.
+  double roll_bias_rad = 0.0, pitch_bias_rad = 0.0;
 
   double smallest_wheel_radius_m() const;
   double track_m() const;  // widest distance between left and right wheel centres
 };
 
-// Everything that a model must satisfy before it is used: six wheels named lf lm lr rf rm rr, three a side,
-// two of each side on its bogie, masses, radii, efficiencies in range, the centre of mass inside the wheels.
-// Returns every fault; pointers are those of the rover file ("/wheels/2/radius_m").
+// Everything that a model must satisfy before it is used: 3 to kMostWheels wheels with unique names, each
+// side with one; a rocker-bogie has six named lf lm lr rf rm rr, two of each side on its bogie; masses,
+// radii, efficiencies in range, the centre of mass inside the wheels. Returns every fault; pointers are those
+// of the rover file ("/wheels/2/radius_m").
 std::vector<Fault> faults_of(const RoverModel& rover);
 
 }  // namespace slipway::sim

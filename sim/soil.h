@@ -16,6 +16,19 @@ struct BekkerModuli {
   double stiffness(double width_m) const { return k_c / width_m + k_phi; }  // N/m^(n+2)
 };
 
+// A crust on the soil that carries until it breaks (effect duricrust): adds strength (z / depth) e^(1 - z /
+// depth) to the pressure, its greatest at `depth_m`.
+struct Duricrust {
+  double strength_pa = 0.0;
+  double depth_m = 0.01;
+};
+
+// A stiff layer at depth (effect hardpan): adds modulus (z - depth) to the pressure below it.
+struct Hardpan {
+  double modulus_pa_m = 0.0;
+  double depth_m = 0.1;
+};
+
 // What the constitutive laws need of a soil.
 struct Soil {
   BekkerModuli pressure;
@@ -28,6 +41,23 @@ struct Soil {
   double c1 = 0.4;
   double c2 = 0.2;
   double n1 = 0.0;  // slip sinkage, n = n0 + n1 |i| [ARTEMIS eq. 22]; 0 unless the effect is on
+  // Contact behind the lowest point: theta_r = -exit_angle_ratio theta_f; 0 is perfectly plastic soil.
+  double exit_angle_ratio = 0.0;
+  // 0: longitudinal and lateral shear each mobilise the whole strength [ARTEMIS eq. 3, 6]; 1: their resultant
+  // does [Mohr-Coulomb]; between, a blend.
+  double shear_coupling = 0.0;
+
+  // Effects; all off at these values. See the catalogue of effects.
+  double bulldozing = 0.0;           // share of Rankine's passive pressure on the front
+  double side_bulldozing = 0.0;      // share of Terzaghi's bearing capacity on the side walls
+  double rate_shear_exponent = 0.0;  // K ~ (rim speed / rate_shear_speed_m_s)^exponent
+  double rate_shear_speed_m_s = 0.04;
+  double multipass_stiffening = 0.0;  // a track is 1 + this times as stiff as fresh soil
+  Duricrust crust;
+  Hardpan hardpan;
+  double gravity_m_s2 = 3.71;  // of the place; the soil's weight presses back in bulldozing and on grousers
+
+  double unit_weight_n_m3() const { return density_kg_m3 * gravity_m_s2; }
 };
 
 // One standard deviation of what is uncertain, in the same units as the mean. Stiffness and shear modulus are

@@ -4,10 +4,17 @@
 
 namespace slipway::sim {
 
+// Cleats across a wheel's rim (effect grousers; also part of a rover's file).
+struct Grousers {
+  double height_m = 0.0;
+  double count = 0.0;  // around the rim; need not be whole where it is estimated
+};
+
 // What the laws need of a wheel.
 struct WheelGeometry {
-  double radius_m = 0.125;
+  double radius_m = 0.125;  // of the rim, without grousers
   double width_m = 0.16;
+  Grousers grousers = {};
 };
 
 // How a wheel moves over the ground, per rim speed r |w|. Frame W: x rolling direction, y left.

@@ -62,7 +62,7 @@ inline RoverModel six_wheeler() {
     wheel.on_bogie = k % 3 != 0;
     rover.wheels.push_back(wheel);
   }
-  rover.suspension = {{0.12, 0.45, 0.42}, {-0.35, 0.55, 0.3}};
+  rover.suspension = {SuspensionType::kRockerBogie, {0.12, 0.45, 0.42}, {-0.35, 0.55, 0.3}};
   rover.drive.max_wheel_rate_rad_s = rad_from_deg(25.0);
   return rover;
 }
