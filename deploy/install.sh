@@ -5,7 +5,7 @@
 set -eu
 
 packages="g++ cmake ninja-build pkg-config ccache
-  libeigen3-dev libfmt-dev libexpected-dev
+  libeigen3-dev libxsimd-dev libfmt-dev libexpected-dev
   libgdal-dev libompl-dev libboost-dev
   libcpp-httplib-dev nlohmann-json3-dev libsqlite3-dev libcli11-dev"
 if [ "${1:-}" = "--test" ]; then

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/soil_law_catalogue.h"
+#include <cmath>
 
 namespace slipway::sim {
 
@@ -9,13 +9,15 @@ namespace slipway::sim {
 //   p = (k_c / b + k_phi) z^n
 //
 //   p      pressure, Pa               b   smaller side of the contact, m
-//   z      depth, m                   k_c, k_phi, n   moduli of sinkage (see BekkerModuli)
+//   z      depth, m, >= 0             k_c, k_phi, n   moduli of sinkage (see BekkerModuli)
 //
-// Valid for slow loading of homogeneous ground by a plate not much smaller than those that gave the moduli.
-// Properties: p(0) = 0; doubling the depth raises p by 2^n.
-inline ArcValues bekker_pressure_pa(const BekkerModuli& moduli, double n, double width_m,
-                                    const ArcValues& depth_m) {
-  return moduli.stiffness(width_m) * (n * depth_m.log()).exp();
+// Takes the stiffness k_c / b + k_phi. V is a number or a pack of them. Valid for slow loading of homogeneous
+// ground by a plate not much smaller than those that gave the moduli. Properties: p(0) = 0; doubling the
+// depth raises p by 2^n.
+template <class V>
+V bekker_pressure_pa(const V& stiffness, const V& n, const V& depth_m) {
+  using std::exp, std::log;
+  return stiffness * exp(n * log(depth_m));
 }
 
 }  // namespace slipway::sim

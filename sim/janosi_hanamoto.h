@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/soil_law_catalogue.h"
+#include <cmath>
 
 namespace slipway::sim {
 
@@ -10,10 +10,12 @@ namespace slipway::sim {
 //
 //   j      shear displacement, m, >= 0        K   shear modulus, m
 //
-// Valid for loose sand and disturbed soil, whose shear stress has no hump. Properties: 0 at j = 0, slope 1 /
-// K there, below 1.
-inline ArcValues janosi_hanamoto_mobilised(const ArcValues& displacement_m, double shear_modulus_m) {
-  return 1.0 - (displacement_m * (-1.0 / shear_modulus_m)).exp();
+// Takes j / K. V is a number or a pack of them. Valid for loose sand and disturbed soil, whose shear stress
+// has no hump. Properties: 0 at j = 0, slope 1 there, below 1.
+template <class V>
+V janosi_hanamoto_mobilised(const V& displacement_over_modulus) {
+  using std::exp;
+  return V(1.0) - exp(-displacement_over_modulus);
 }
 
 }  // namespace slipway::sim

@@ -10,12 +10,12 @@ namespace {
 
 constexpr std::array kPressureSinkage{
     PressureSinkageLaw{"bekker", "p = (k_c / b + k_phi) z^n", "[Bekker 1956]; ARTEMIS eq. 1",
-                       &bekker_pressure_pa},
+                       &bekker_pressure_pa<double>},
 };
 
 constexpr std::array kShear{
     ShearLaw{"janosi_hanamoto", "tau = (c + sigma tan phi) (1 - exp(-j / K))",
-             "[Janosi & Hanamoto 1961]; ARTEMIS eq. 3", &janosi_hanamoto_mobilised},
+             "[Janosi & Hanamoto 1961]; ARTEMIS eq. 3", &janosi_hanamoto_mobilised<double>},
 };
 
 }  // namespace
