@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 namespace slipway {
@@ -12,7 +13,8 @@ struct Field {
   std::string_view summary;  // one line
   double lowest = 0.0;
   double highest = 0.0;
-  double initial = 0.0;  // the value when nothing is said
+  double initial = 0.0;                // the value when nothing is said
+  std::optional<double> neutral = {};  // with all its fields that have one at it, the row does nothing
 };
 
 }  // namespace slipway

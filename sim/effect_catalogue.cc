@@ -6,22 +6,33 @@
 #include <array>
 #include <vector>
 
-#include "sim/com_offset.h"
-#include "sim/slip_sinkage.h"
-#include "sim/wheel_radius.h"
+#include "sim/effects/attitude_bias.h"
+#include "sim/effects/bulldozing.h"
+#include "sim/effects/com_offset.h"
+#include "sim/effects/dragging_wheel.h"
+#include "sim/effects/duricrust.h"
+#include "sim/effects/gearbox_friction.h"
+#include "sim/effects/grousers.h"
+#include "sim/effects/hardpan.h"
+#include "sim/effects/motor_temperature.h"
+#include "sim/effects/multipass.h"
+#include "sim/effects/rate_shear.h"
+#include "sim/effects/side_bulldozing.h"
+#include "sim/effects/slip_sinkage.h"
+#include "sim/effects/soft_patch.h"
+#include "sim/effects/soil_gravity.h"
+#include "sim/effects/steering_offset.h"
+#include "sim/effects/wheel_radius.h"
 
 namespace slipway::sim {
 namespace {
 
 std::span<const Effect> rows() {
-  static const std::array kRows{kSlipSinkage, kComOffset, kWheelRadius};
+  static const std::array kRows{
+      kSlipSinkage,      kMultipass,       kGrousers,       kBulldozing,    kSideBulldozing, kComOffset,
+      kMotorTemperature, kGearboxFriction, kWheelRadius,    kDraggingWheel, kRateShear,      kDuricrust,
+      kHardpan,          kSoftPatch,       kSteeringOffset, kAttitudeBias,  kSoilGravity};
   return kRows;
-}
-
-const Effect* find(std::string_view name) {
-  const auto all = rows();
-  const auto row = std::find_if(all.begin(), all.end(), [name](const Effect& e) { return e.name == name; });
-  return row == all.end() ? nullptr : &*row;
 }
 
 template <class Rows>
@@ -53,7 +64,7 @@ void for_each_on(std::span<const EffectSetting> settings, const Act& act) {
   for (const Effect& effect : rows()) {
     const auto is_this = [&](const EffectSetting& s) { return s.name == effect.name; };
     const auto setting = std::find_if(settings.begin(), settings.end(), is_this);
-    if (setting == settings.end()) continue;
+    if (setting == settings.end() || !setting->on) continue;
     std::vector<double> values;
     for (const Field& field : effect.fields) {
       const auto given = setting->parameters.find(std::string(field.name));
@@ -69,6 +80,12 @@ std::span<const Effect> effect_catalogue() {
   return rows();
 }
 
+const Effect* find_effect(std::string_view name) {
+  const auto all = rows();
+  const auto row = std::find_if(all.begin(), all.end(), [name](const Effect& e) { return e.name == name; });
+  return row == all.end() ? nullptr : &*row;
+}
+
 std::vector<Fault> faults_of(std::span<const EffectSetting> settings) {
   std::vector<Fault> faults;
   for (std::size_t i = 0; i < settings.size(); ++i) {
@@ -77,7 +94,7 @@ std::vector<Fault> faults_of(std::span<const EffectSetting> settings) {
     if (std::any_of(settings.begin(), settings.begin() + static_cast<std::ptrdiff_t>(i), same))
       faults.push_back(
           {fmt::format("/{}/name", i), fmt::format("effect \"{}\" is switched on twice", setting.name)});
-    if (const Effect* effect = find(setting.name)) {
+    if (const Effect* effect = find_effect(setting.name)) {
       check_parameters(*effect, setting, i, faults);
     } else {
       faults.push_back({fmt::format("/{}/name", i),
@@ -95,8 +112,35 @@ void apply_effects(std::span<const EffectSetting> settings, RoverModel& rover) {
 
 void apply_effects(std::span<const EffectSetting> settings, Soil& soil) {
   for_each_on(settings, [&](const Effect& effect, std::span<const double> values) {
-    if (effect.on_soil) effect.on_soil(values, soil);
+    if (effect.on_soil && !effect.region) effect.on_soil(values, soil);
   });
+}
+
+std::vector<Disc> effect_regions(std::span<const EffectSetting> settings) {
+  std::vector<Disc> regions;
+  for_each_on(settings, [&](const Effect& effect, std::span<const double> values) {
+    if (effect.region) regions.push_back(effect.region(values));
+  });
+  return regions;
+}
+
+void apply_in_region(std::span<const EffectSetting> settings, std::size_t region, Soil& soil) {
+  std::size_t index = 0;
+  for_each_on(settings, [&](const Effect& effect, std::span<const double> values) {
+    if (effect.region && index++ == region) effect.on_soil(values, soil);
+  });
+}
+
+std::vector<EffectSetting> in_force(std::span<const EffectSetting> rovers,
+                                    std::span<const EffectSetting> requested) {
+  std::vector<EffectSetting> all;
+  for (const EffectSetting& own : rovers) {
+    const auto same = [&](const EffectSetting& other) { return other.name == own.name; };
+    if (std::none_of(requested.begin(), requested.end(), same)) all.push_back(own);
+  }
+  all.insert(all.end(), requested.begin(), requested.end());
+  std::erase_if(all, [](const EffectSetting& setting) { return !setting.on; });
+  return all;
 }
 
 }  // namespace slipway::sim

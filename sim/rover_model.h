@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "sim/effect_setting.h"
 #include "sim/motor.h"
 #include "sim/wheel_forces.h"
 
@@ -76,6 +77,8 @@ struct RoverModel {
   double cruise_speed_m_s = 0.04;  // of the body, commanded on the straight
   double turn_rate_rad_s = 0.03;   // commanded, turning in place
   double min_turn_radius_m = 1.5;  // of an arc
+  // What the file says is at work on this rover; requests add to it and switch off.
+  std::vector<EffectSetting> effects;
   // True less reckoned attitude: what the ground's map or the rover's inclinometer has wrong.
   double roll_bias_rad = 0.0, pitch_bias_rad = 0.0;
 

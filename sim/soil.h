@@ -55,6 +55,8 @@ struct Soil {
   double multipass_stiffening = 0.0;  // a track is 1 + this times as stiff as fresh soil
   Duricrust crust;
   Hardpan hardpan;
+  double gravity_exponent = 0.0;  // k_c and k_phi ~ (g / measured_gravity_m_s2)^exponent
+  double measured_gravity_m_s2 = 9.81;
   double gravity_m_s2 = 3.71;  // of the place; the soil's weight presses back in bulldozing and on grousers
 
   double unit_weight_n_m3() const { return density_kg_m3 * gravity_m_s2; }

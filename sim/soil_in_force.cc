@@ -14,10 +14,11 @@ Soil soil_in_force(const Soil& soil, double gravity_m_s2, double rim_speed_m_s, 
     met.shear_modulus_x_m *= factor;
     met.shear_modulus_y_m *= factor;
   }
-  if (in_a_track) {
-    met.pressure.k_c *= 1.0 + soil.multipass_stiffening;
-    met.pressure.k_phi *= 1.0 + soil.multipass_stiffening;
-  }
+  double stiffer = in_a_track ? 1.0 + soil.multipass_stiffening : 1.0;
+  if (soil.gravity_exponent != 0.0)
+    stiffer *= std::pow(gravity_m_s2 / soil.measured_gravity_m_s2, soil.gravity_exponent);
+  met.pressure.k_c *= stiffer;
+  met.pressure.k_phi *= stiffer;
   return met;
 }
 

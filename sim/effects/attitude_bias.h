@@ -1,0 +1,10 @@
+#pragma once
+
+#include "sim/effect_catalogue.h"
+
+namespace slipway::sim {
+
+// The true attitude differs from the map's or the inclinometer's.
+extern const Effect kAttitudeBias;
+
+}  // namespace slipway::sim

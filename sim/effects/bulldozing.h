@@ -1,0 +1,10 @@
+#pragma once
+
+#include "sim/effect_catalogue.h"
+
+namespace slipway::sim {
+
+// Soil pushed before a sunk wheel; see bulldozing_law.h.
+extern const Effect kBulldozing;
+
+}  // namespace slipway::sim

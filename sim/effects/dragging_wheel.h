@@ -1,0 +1,10 @@
+#pragma once
+
+#include "sim/effect_catalogue.h"
+
+namespace slipway::sim {
+
+// One wheel that turns slower than told, or not at all, or against a brake: a failing actuator.
+extern const Effect kDraggingWheel;
+
+}  // namespace slipway::sim

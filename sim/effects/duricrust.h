@@ -1,0 +1,10 @@
+#pragma once
+
+#include "sim/effect_catalogue.h"
+
+namespace slipway::sim {
+
+// A crust on loose soil that carries until it breaks; see duricrust_law.h.
+extern const Effect kDuricrust;
+
+}  // namespace slipway::sim

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "sim/effect_catalogue.h"
+
+namespace slipway::sim {
+
+// A stiff layer under loose soil; see hardpan_law.h.
+extern const Effect kHardpan;
+
+}  // namespace slipway::sim

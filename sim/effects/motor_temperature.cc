@@ -1,0 +1,34 @@
+#include "sim/effects/motor_temperature.h"
+
+#include <array>
+
+namespace slipway::sim {
+namespace {
+
+constexpr std::array kFields{
+    Field{"kt_per_k", "1/K", "fall of the torque constant per kelvin", 0.0, 0.005, 0.0011, 0.0},
+    Field{"friction_per_k", "1/K", "fall of friction per kelvin", 0.0, 0.05, 0.02, 0.0},
+    Field{"resistance_per_k", "1/K", "rise of the resistance per kelvin", 0.0, 0.01, 0.0039, 0.0},
+    Field{"reference_c", "degC", "temperature that the rover file's motor is given at", -100.0, 100.0, 20.0},
+};
+
+void change(std::span<const double> values, RoverModel& rover) {
+  DriveMotor& drive = rover.drive;
+  drive.torque_constant_per_k = values[0];
+  drive.friction_per_k = values[1];
+  drive.resistance_per_k = values[2];
+  drive.reference_temp_c = values[3];
+}
+
+}  // namespace
+
+constexpr Effect kMotorTemperature{
+    .name = "motor_temperature",
+    .summary = "torque constant, resistance and friction of the motors change with their temperature",
+    .reference =
+        "ARTEMIS section 3.2 and [Lindemann 2005]: torque depends strongly on temperature; NdFeB magnets "
+        "lose 0.11 %/K, copper gains 0.39 %/K",
+    .fields = kFields,
+    .on_rover = &change};
+
+}  // namespace slipway::sim

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "sim/effect_catalogue.h"
+
+namespace slipway::sim {
+
+// What a motor draws depends on its temperature; see motor.h.
+extern const Effect kMotorTemperature;
+
+}  // namespace slipway::sim

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "sim/effect_catalogue.h"
+
+namespace slipway::sim {
+
+// The shear modulus changes with the speed of the rim: K = K0 (v / v0)^a.
+extern const Effect kRateShear;
+
+}  // namespace slipway::sim

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "sim/effect_catalogue.h"
+
+namespace slipway::sim {
+
+// Soil pushed aside by a wheel's side wall; see terzaghi.h.
+extern const Effect kSideBulldozing;
+
+}  // namespace slipway::sim

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "sim/effect_catalogue.h"
+
+namespace slipway::sim {
+
+// A slipping wheel digs itself in: the sinkage exponent rises with slip.
+extern const Effect kSlipSinkage;
+
+}  // namespace slipway::sim

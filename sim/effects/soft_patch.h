@@ -1,0 +1,10 @@
+#pragma once
+
+#include "sim/effect_catalogue.h"
+
+namespace slipway::sim {
+
+// A place where the soil is weaker than the map says.
+extern const Effect kSoftPatch;
+
+}  // namespace slipway::sim

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "sim/effect_catalogue.h"
+
+namespace slipway::sim {
+
+// The steered wheels stand at another angle than told.
+extern const Effect kSteeringOffset;
+
+}  // namespace slipway::sim
