@@ -22,4 +22,16 @@ V passive_pressure_n(const V& width_m, const V& depth_m, const V& unit_weight_n_
   return width_m * depth_m * root * (V(0.5) * unit_weight_n_m3 * depth_m * root + V(2.0) * cohesion_pa);
 }
 
+// The share of it that pushes back at a wheel's front when it moves at an angle: passive pressure is
+// mobilised by any motion into the soil, so that it falls off near sideways motion only (as the locked wheel
+// of [Pavlov & Johnson 2022] shows: 0.96 at 45 deg, 0.58 at 75 deg):
+//
+//   x / sqrt(x^2 + e^2) sqrt(1 + e^2),    x = cos(beta), e = 0.3
+template <class V>
+V front_share(const V& cos_beta) {
+  using std::sqrt;
+  constexpr double kSideways = 0.3, kAhead = 1.0440306508910550;  // sqrt(1 + e^2)
+  return V(kAhead) * cos_beta / sqrt(cos_beta * cos_beta + V(kSideways * kSideways));
+}
+
 }  // namespace slipway::sim

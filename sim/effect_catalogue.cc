@@ -19,6 +19,7 @@
 #include "sim/effects/rate_shear.h"
 #include "sim/effects/side_bulldozing.h"
 #include "sim/effects/slip_sinkage.h"
+#include "sim/effects/smooth_rim.h"
 #include "sim/effects/soft_patch.h"
 #include "sim/effects/soil_gravity.h"
 #include "sim/effects/steering_offset.h"
@@ -31,7 +32,7 @@ std::span<const Effect> rows() {
   static const std::array kRows{
       kSlipSinkage,      kMultipass,       kGrousers,       kBulldozing,    kSideBulldozing, kComOffset,
       kMotorTemperature, kGearboxFriction, kWheelRadius,    kDraggingWheel, kRateShear,      kDuricrust,
-      kHardpan,          kSoftPatch,       kSteeringOffset, kAttitudeBias,  kSoilGravity};
+      kHardpan,          kSoftPatch,       kSteeringOffset, kAttitudeBias,  kSoilGravity,    kSmoothRim};
   return kRows;
 }
 

@@ -32,6 +32,7 @@ struct WheelModel {
   double radius_m = 0.125;
   double width_m = 0.16;
   std::optional<Grousers> grousers;
+  double rim_friction = 1.0;  // see WheelGeometry
   bool steerable = false;
   Side side = Side::kLeft;
   bool on_bogie = false;  // of a rocker-bogie: carried by the side's bogie, otherwise by its rocker
@@ -41,7 +42,7 @@ struct WheelModel {
   double steering_offset_rad = 0.0;     // true less told steering angle
   std::optional<double> told_radius_m;  // that the rover's own software reckons with; radius_m where absent
 
-  WheelGeometry geometry() const { return {radius_m, width_m, grousers.value_or(Grousers{})}; }
+  WheelGeometry geometry() const { return {radius_m, width_m, grousers.value_or(Grousers{}), rim_friction}; }
   double reckoned_radius_m() const { return told_radius_m.value_or(radius_m); }
 };
 

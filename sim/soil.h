@@ -40,7 +40,9 @@ struct Soil {
   // Angle of greatest normal stress: theta_m = (c1 + c2 |i|) theta_f [Wong & Reece 1967; ARTEMIS eq. 2].
   double c1 = 0.4;
   double c2 = 0.2;
-  double n1 = 0.0;  // slip sinkage, n = n0 + n1 |i| [ARTEMIS eq. 22]; 0 unless the effect is on
+  double n1 = 0.0;          // slip sinkage, n = n0 + n1 |i| [ARTEMIS eq. 22]; 0 unless the effect is on
+  double n1_skid = 0.0;     // what it rises by besides from rolling to a locked wheel
+  double n1_lateral = 0.0;  // and from straight to sideways motion, by sin^2(beta)
   // Contact behind the lowest point: theta_r = -exit_angle_ratio theta_f; 0 is perfectly plastic soil.
   double exit_angle_ratio = 0.0;
   // 0: longitudinal and lateral shear each mobilise the whole strength [ARTEMIS eq. 3, 6]; 1: their resultant

@@ -14,6 +14,7 @@ WheelNumbers numbers_of(const WheelGeometry& wheel, const Soil& soil, double ent
                         const WheelMotion& motion) {
   return {.radius = wheel.radius_m,
           .width = wheel.width_m,
+          .rim_friction = wheel.rim_friction,
           .grouser_height = wheel.grousers.height_m,
           .grouser_count = wheel.grousers.count,
           .stiffness = soil.pressure.stiffness(wheel.width_m),
@@ -25,6 +26,8 @@ WheelNumbers numbers_of(const WheelGeometry& wheel, const Soil& soil, double ent
           .c1 = soil.c1,
           .c2 = soil.c2,
           .n1 = soil.n1,
+          .n1_skid = soil.n1_skid,
+          .n1_lateral = soil.n1_lateral,
           .exit_ratio = soil.exit_angle_ratio,
           .coupling = soil.shear_coupling,
           .unit_weight = soil.unit_weight_n_m3(),

@@ -17,6 +17,9 @@ struct WheelGeometry {
   double radius_m = 0.125;  // of the rim, without grousers
   double width_m = 0.16;
   Grousers grousers = {};
+  // Of the soil's strength, what passes between the rim's surface and the soil: 1 for soil on soil, less for
+  // smooth metal (effect smooth_rim).
+  double rim_friction = 1.0;
 };
 
 // How a wheel moves over the ground, per rim speed r |w|. Frame W: x rolling direction, y left.
@@ -43,7 +46,7 @@ struct WheelForces {
 //   theta_m = (c1 + c2 |i|) theta_f               angle of greatest normal stress (2) theta_r = -c3 theta_f
 //   exit angle; c3 = 0 is perfectly plastic soil z1 = r (cos theta - cos theta_f)              depth in
 //   front, theta_m < theta < theta_f                (1) z2 = r (cos(theta_f - (theta - theta_r) / (theta_m -
-//   theta_r) (theta_f - theta_m)) - cos theta_f)      behind sigma = (k_c / b + k_phi) z^(n + n1 |i|) normal
+//   theta_r) (theta_f - theta_m)) - cos theta_f)      behind sigma = (k_c / b + k_phi) z^n' normal
 //   stress, radial; crust and hard layer add      (1), (22) j_x = r (theta_f - theta - u (sin theta_f - sin
 //   theta))    shear displacement, u = 1 - i or 1 / (1 + i)  (5) j_y = r (v_y / (r |w|)) (theta_f - theta)
 //   lateral, (9) and (10) as one tau_x, tau_y = +-(c + sigma tan phi) (1 - exp(-|j| / K))   against the
@@ -68,7 +71,7 @@ void wheel_forces(const WheelGeometry& wheel, std::span<const Soil> soils,
                   std::span<WheelForces> forces);
 
 // The laws' own limit: beyond it a wheel counts as sunk to its axle.
-constexpr double kLargestEntryAngleRad = 1.4;
+constexpr double kLargestEntryAngleRad = 1.5;
 
 // z = r (1 - cos theta_f)
 double sinkage_m(double radius_m, double entry_angle_rad);

@@ -13,8 +13,9 @@ constexpr std::size_t kFields = sizeof(WheelNumbers) / sizeof(double);
 
 // Same order of fields as WheelNumbers.
 WheelCase<Pack> case_of(const Pack* f) {
-  return {f[0],  f[1],  f[2],  f[3],  f[4],  f[5],  f[6],  f[7],  tan(f[7]), f[8],  f[9],  f[10], f[11],
-          f[12], f[13], f[14], f[15], f[16], f[17], f[18], f[19], f[20],     f[21], f[22], f[23], f[24]};
+  return {f[0],  f[1],  f[2],  f[3],  f[4],  f[5],  f[6],  f[7],  f[8],  tan(f[8]),
+          f[9],  f[10], f[11], f[12], f[13], f[14], f[15], f[16], f[17], f[18],
+          f[19], f[20], f[21], f[22], f[23], f[24], f[25], f[26], f[27]};
 }
 
 void one_wheel(const WheelNumbers& numbers, const LawParts& parts, WheelForces& out) {

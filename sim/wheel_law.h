@@ -23,9 +23,9 @@ constexpr double kStandingSpeedRatio = 0.05;
 // WheelMotion.
 template <class V>
 struct WheelCase {
-  V radius, width, grouser_height, grouser_count;
+  V radius, width, rim_friction, grouser_height, grouser_count;
   V stiffness, n, cohesion, phi, tan_phi, per_shear_x, per_shear_y;  // k_c / b + k_phi; 1 / K
-  V c1, c2, n1, exit_ratio, coupling;
+  V c1, c2, n1, n1_skid, n1_lateral, exit_ratio, coupling;
   V unit_weight, bulldozing, side_bulldozing;
   V crust_strength, per_crust_depth, hardpan_modulus, hardpan_depth;
   V theta_f, forward, leftward;
@@ -38,12 +38,21 @@ struct ContactAngles {
 };
 
 template <class V>
+V slip_of(const V& speed_ratio) {
+  return select(speed_ratio <= V(1.0), V(1.0) - speed_ratio, V(1.0) / max(speed_ratio, V(1.0)) - V(1.0));
+}
+
+template <class V>
 ContactAngles<V> contact_angles(const WheelCase<V>& in) {
-  const V u = in.forward;
-  const V slip = min(V(1.0), abs(select(u <= V(1.0), V(1.0) - u, V(1.0) / max(u, V(1.0)) - V(1.0))));
+  const V slip = min(V(1.0), abs(slip_of(in.forward)));
   const V share = min(V(0.99), in.c1 + in.c2 * slip);
-  return {share * in.theta_f, -in.exit_ratio * in.theta_f, in.n + in.n1 * slip, sin(in.theta_f),
-          cos(in.theta_f)};
+  // How the wheel digs itself in: by its slip over the ground in whatever direction it moves, more in skid
+  // and more when it moves sideways.
+  const V square = in.forward * in.forward + in.leftward * in.leftward;
+  const V sliding = slip_of(sqrt(square));
+  const V sin2_beta = in.leftward * in.leftward / (square + V(1e-12));
+  const V n = in.n + in.n1 * abs(sliding) + in.n1_skid * max(V(0.0), -sliding) + in.n1_lateral * sin2_beta;
+  return {share * in.theta_f, -in.exit_ratio * in.theta_f, n, sin(in.theta_f), cos(in.theta_f)};
 }
 
 // Integrals over the contact, per b r: of the shear and normal stress and of the mobilised share m.
@@ -97,7 +106,7 @@ void add_nodes(const WheelCase<V>& in, const ContactAngles<V>& at, const LawPart
     m_y = copysign(janosi_hanamoto_mobilised(abs(j_y) * in.per_shear_y), j_y);
     if (parts.coupled) couple(in, j_x, j_y, m_x, m_y);
   }
-  const V strength = weight * (in.cohesion + sigma * in.tan_phi);
+  const V strength = weight * in.rim_friction * (in.cohesion + sigma * in.tan_phi);
   const V tau = strength * m_x;
   sum.tau += tau;
   sum.tau_cos += tau * cosine;
@@ -161,15 +170,15 @@ LaneForces<V> total_forces(const WheelCase<V>& in, const ContactAngles<V>& at, c
     // Against the motion over the ground; a wheel that spins on the spot pushes nothing.
     const V speed = sqrt(in.forward * in.forward + in.leftward * in.leftward +
                          V(kStandingSpeedRatio * kStandingSpeedRatio));
-    const V z = in.radius * (V(1.0) - at.cos_f);
-    if (parts.bulldozing)
-      f.pull -= in.bulldozing * passive_pressure_n(in.width, z, in.unit_weight, in.cohesion, in.tan_phi) *
-                in.forward / speed;
+    if (parts.bulldozing) {
+      const V z = in.radius * (V(1.0) - at.cos_f);
+      f.pull -= in.bulldozing * front_share(in.forward / speed) *
+                passive_pressure_n(in.width, z, in.unit_weight, in.cohesion, in.tan_phi);
+    }
     if (parts.side_bulldozing)
-      f.lateral -= in.side_bulldozing *
+      f.lateral -= in.side_bulldozing * (in.leftward / speed) *
                    side_wall_force_n(in.radius, in.theta_f, at.sin_f, at.cos_f, in.unit_weight, in.cohesion,
-                                     in.phi, in.tan_phi) *
-                   in.leftward / speed;
+                                     in.phi, in.tan_phi);
   }
   return f;
 }

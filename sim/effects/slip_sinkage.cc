@@ -7,10 +7,14 @@ namespace {
 
 constexpr std::array kFields{
     Field{"n1", "1", "rise of the sinkage exponent from no slip to full slip", 0.0, 1.5, 0.3, 0.0},
+    Field{"n1_skid", "1", "further rise from rolling to a locked wheel", 0.0, 1.5, 0.0, 0.0},
+    Field{"n1_lateral", "1", "further rise from straight to sideways motion", 0.0, 1.5, 0.0, 0.0},
 };
 
 void change(std::span<const double> values, Soil& soil) {
   soil.n1 = values[0];
+  soil.n1_skid = values[1];
+  soil.n1_lateral = values[2];
 }
 
 }  // namespace
