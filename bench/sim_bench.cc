@@ -3,14 +3,17 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <string_view>
+#include <vector>
 
+#include "bench/packed_exponentials.h"
 #include "core/angle.h"
 #include "sim/drive_prediction.h"
 #include "sim/entry_angle.h"
 #include "sim/quasi_static.h"
 #include "sim/slip_table.h"
-#include "sim/soil_law_catalogue.h"
 #include "sim/wheel_forces.h"
+#include "sim/wheel_kernel.h"
 #include "tests/sim/reference_models.h"
 
 namespace slipway::sim {
@@ -40,17 +43,71 @@ void BM_BalancedWheel(benchmark::State& state) {
 }
 BENCHMARK(BM_BalancedWheel);
 
-// The floor: shear at sixteen nodes in two directions, eight pressures, and the nodes' sines and cosines.
-void BM_TranscendentalsOfOneWheel(benchmark::State& state) {
-  ArcValues x = ArcValues::LinSpaced(0.1, 0.9);
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(x.data());
-    ArcValues sum = x.exp() + (2.0 * x).exp() + (3.0 * x).exp() + (4.0 * x).exp() + (0.9 * x.log()).exp();
-    sum += x.sin() + x.cos() + (0.5 * x).sin() + (0.5 * x).cos();
-    benchmark::DoNotOptimize(sum);
-  }
+Soil every_effect() {
+  Soil soil = sandy_loam();
+  soil.n1 = 0.3;
+  soil.n1_skid = soil.n1_lateral = 0.1;
+  soil.exit_angle_ratio = 0.2;
+  soil.shear_coupling = 0.5;
+  soil.bulldozing = soil.side_bulldozing = 0.7;
+  soil.crust = {2000.0, 0.005};
+  soil.hardpan = {1e6, 0.02};
+  return soil;
 }
-BENCHMARK(BM_TranscendentalsOfOneWheel);
+constexpr WheelGeometry kGrouserWheel{0.125, 0.16, {0.01, 24.0}, 0.9};
+
+// Three forces and the torque with every effect of the wheel on.
+void BM_WheelForcesAllEffects(benchmark::State& state) {
+  const Soil soil = every_effect();
+  double theta = 0.30;
+  for (auto _ : state) {
+    theta = theta > 0.45 ? 0.30 : theta + 1e-6;
+    benchmark::DoNotOptimize(wheel_forces(kGrouserWheel, soil, theta, {0.85, 0.05}));
+  }
+  state.SetLabel(wheel_kernel().instruction_set);
+}
+BENCHMARK(BM_WheelForcesAllEffects);
+
+// The same for 1,024 draws of the soil at once; the counter is the time of one. arg 1: every effect on.
+void BM_WheelForcesOverDraws(benchmark::State& state) {
+  constexpr int kDraws = 1024;
+  const bool all = state.range(0) != 0;
+  std::vector<Soil> soils(kDraws, all ? every_effect() : sandy_loam());
+  for (int k = 0; k < kDraws; ++k) soils[k].pressure.n *= 1.0 + 1e-4 * k;
+  const std::vector<double> angles(kDraws, 0.4);
+  const std::vector<WheelMotion> motions(kDraws, {0.85, 0.05});
+  std::vector<WheelForces> forces(kDraws);
+  for (auto _ : state) {
+    wheel_forces(all ? kGrouserWheel : kWheel, soils, angles, motions, forces);
+    benchmark::DoNotOptimize(forces.data());
+  }
+  state.SetItemsProcessed(state.iterations() * kDraws);
+  state.counters["per_sample"] =
+      benchmark::Counter(kDraws, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.SetLabel(wheel_kernel().instruction_set);
+}
+BENCHMARK(BM_WheelForcesOverDraws)->ArgName("effects")->Arg(0)->Arg(1);
+
+// The machine's limit for the above: the exponentials and logarithms alone that one wheel needs, packed by
+// the same library over the same number of wheels: arg 0 eight powers and two shears at sixteen nodes (40
+// exp, 8 log), arg 1 with the crust and the coupled shear besides (64 exp, 8 log).
+void BM_ExponentialsOfOneWheel(benchmark::State& state) {
+  const int exps = state.range(0) != 0 ? 64 : 40;
+  const std::string_view set = wheel_kernel().instruction_set;
+  PackedExponentials* const best = set.starts_with("avx512") ? packed_exponentials_avx512
+                                   : set == "sse2"           ? packed_exponentials_sse2
+                                                             : packed_exponentials_avx2;
+  constexpr std::size_t kLanes = 1024;
+  alignas(64) static double x[kLanes], y[kLanes];
+  for (std::size_t k = 0; k < kLanes; ++k) x[k] = 0.1 + 1e-4 * static_cast<double>(k);
+  for (auto _ : state) {
+    best(x, y, kLanes, exps, 8);
+    benchmark::DoNotOptimize(y);
+  }
+  state.counters["per_sample"] =
+      benchmark::Counter(kLanes, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(BM_ExponentialsOfOneWheel)->ArgName("effects")->Arg(0)->Arg(1);
 
 void BM_SixWheelStation(benchmark::State& state) {
   const RoverModel rover = six_wheeler();

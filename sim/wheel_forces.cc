@@ -8,8 +8,6 @@
 #include "sim/wheel_kernel.h"
 
 namespace slipway::sim {
-namespace {
-
 WheelNumbers numbers_of(const WheelGeometry& wheel, const Soil& soil, double entry_angle_rad,
                         const WheelMotion& motion) {
   return {.radius = wheel.radius_m,
@@ -41,8 +39,6 @@ WheelNumbers numbers_of(const WheelGeometry& wheel, const Soil& soil, double ent
           .forward = motion.forward,
           .leftward = motion.leftward};
 }
-
-}  // namespace
 
 WheelForces wheel_forces(const WheelGeometry& wheel, const Soil& soil, double entry_angle_rad,
                          const WheelMotion& motion) {

@@ -17,6 +17,9 @@ struct WheelNumbers {
   double theta_f, forward, leftward;
 };
 
+WheelNumbers numbers_of(const WheelGeometry& wheel, const Soil& soil, double entry_angle_rad,
+                        const WheelMotion& motion);
+
 // Which parts of the law are at work in any of the wheels: the others are left out.
 struct LawParts {
   bool lateral = false, coupled = false, grousers = false, bulldozing = false, side_bulldozing = false,
