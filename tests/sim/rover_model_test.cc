@@ -36,7 +36,7 @@ TEST(WheelCommands, OnAnArcEveryWheelPointsAcrossTheTurnsCentre) {
   const RoverModel rover = six_wheeler();
   const double curvature = 0.4;
   const auto told = wheel_commands(rover, {.speed_m_s = 0.03, .curvature_1_m = curvature});
-  for (int k = 0; k < kWheels; ++k) {
+  for (int k = 0; k < 6; ++k) {
     if (!rover.wheels[k].steerable) continue;
     const Eigen::Vector2d to_centre(-rover.wheels[k].position_m.x(),
                                     1.0 / curvature - rover.wheels[k].position_m.y());
