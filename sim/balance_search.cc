@@ -211,16 +211,53 @@ std::optional<int> wheel_to_set_down(const RoverBalance& balance, const Vector& 
   return deepest;
 }
 
-// The wheel that would have to pull the rover down, where it can be spared.
-std::optional<int> wheel_to_lift(const RoverBalance& balance, const Vector& x) {
-  if (!balance.can_spare_a_wheel()) return std::nullopt;
+// The wheel that the balance asks to pull the rover down: dragged through cohesive soil a wheel can.
+std::optional<int> pulling_wheel(const RoverBalance& balance) {
   std::optional<int> lightest;
+  double least = -kTolerance * balance.weight_n();
   for (int k = 0; k < balance.wheel_count(); ++k) {
-    const double theta = x[kMotions + k];
-    if (balance.in_air(k) || theta > 3.0 * kLeastEntryAngleRad) continue;
-    if (!lightest || theta < x[kMotions + *lightest]) lightest = k;
+    const double load = balance.contact(k).forces.vertical_n;
+    if (load >= least) continue;
+    least = load;
+    lightest = k;
   }
   return lightest;
+}
+
+// Of a search that failed: the wheel with hardly any hold on the ground.
+std::optional<int> hardly_touching_wheel(const RoverBalance& balance, const Vector& x) {
+  std::optional<int> lightest;
+  double least = 3.0 * kLeastEntryAngleRad;
+  for (int k = 0; k < balance.wheel_count(); ++k) {
+    if (balance.in_air(k) || x[kMotions + k] > least) continue;
+    least = x[kMotions + k];
+    lightest = k;
+  }
+  return lightest;
+}
+
+struct ContactChange {
+  int wheel = -1;
+  bool into_air = false;
+};
+
+// What is wrong with the wheels in contact after a search; nothing where they are the right ones or nothing
+// else can be tried.
+std::optional<ContactChange> contact_change(const RoverBalance& balance, const Vector& x, bool solved) {
+  if (solved) {
+    if (const std::optional<int> deepest = wheel_to_set_down(balance, x))
+      return ContactChange{*deepest, false};
+  }
+  if (!balance.can_spare_a_wheel()) return std::nullopt;
+  const std::optional<int> wheel = solved ? pulling_wheel(balance) : hardly_touching_wheel(balance, x);
+  return wheel ? std::optional(ContactChange{*wheel, true}) : std::nullopt;
+}
+
+// A root beyond full spin is the rover sliding back against its wheels.
+Attempt judged(const RoverBalance& balance, const Primary& primary, const Vector& x) {
+  if (x[primary.motion] * primary.sign < kSpinningSpeedRatio) return {Outcome::kNoTraction, -1};
+  if (const std::optional<int> wheel = pulling_wheel(balance)) return {Outcome::kWheelLifted, *wheel};
+  return {};
 }
 
 // Entry angles that go with the wheels in contact: the least for one in the air, a touch for one just set
@@ -241,11 +278,11 @@ Vector with_contacts(const RoverBalance& balance, Vector x) {
 // pushes and every other hangs clear. False where that ends without a balance.
 bool find_in_contact(RoverBalance& balance, int most_iterations, Vector& x) {
   const Vector start = x;
-  for (int change = 0; change <= 2 * balance.wheel_count(); ++change) {
+  for (int round = 0; round <= 2 * balance.wheel_count(); ++round) {
     const bool solved = newton(balance, x, nullptr, most_iterations);
-    const std::optional<int> wheel = solved ? wheel_to_set_down(balance, x) : wheel_to_lift(balance, x);
-    if (!wheel) return solved;
-    balance.set_in_air(*wheel, !solved);
+    const std::optional<ContactChange> change = contact_change(balance, x, solved);
+    if (!change) return solved;
+    balance.set_in_air(change->wheel, change->into_air);
     x = with_contacts(balance, solved ? x : start);
   }
   return false;
@@ -254,23 +291,17 @@ bool find_in_contact(RoverBalance& balance, int most_iterations, Vector& x) {
 // The same around the slow and certain way.
 Attempt bracketed_in_contact(RoverBalance& balance, const Primary& primary, Vector& x) {
   const Vector start = x;
-  for (int change = 0; change <= 2 * balance.wheel_count(); ++change) {
+  for (int round = 0; round <= 2 * balance.wheel_count(); ++round) {
     const Attempt attempt = bracketed(balance, primary, x);
-    const bool moving = attempt.outcome == Outcome::kMoving;
-    std::optional<int> wheel;
-    if (moving) wheel = wheel_to_set_down(balance, x);
-    if (attempt.outcome == Outcome::kWheelLifted && balance.can_spare_a_wheel()) wheel = attempt.wheel;
-    if (!wheel) return attempt;
-    balance.set_in_air(*wheel, !moving);
+    std::optional<ContactChange> change;
+    if (attempt.outcome == Outcome::kMoving) change = contact_change(balance, x, true);
+    if (attempt.outcome == Outcome::kWheelLifted && balance.can_spare_a_wheel())
+      change = ContactChange{attempt.wheel, true};
+    if (!change) return attempt.outcome == Outcome::kMoving ? judged(balance, primary, x) : attempt;
+    balance.set_in_air(change->wheel, change->into_air);
     x = with_contacts(balance, start);
   }
   return {Outcome::kNotConverged, -1};
-}
-
-// A root beyond full spin is the rover sliding back against its wheels.
-Attempt judged(const Primary& primary, const Vector& x) {
-  return {x[primary.motion] * primary.sign < kSpinningSpeedRatio ? Outcome::kNoTraction : Outcome::kMoving,
-          -1};
 }
 
 }  // namespace
@@ -281,15 +312,19 @@ Primary primary_of(const DriveCommand& command) {
 }
 
 Attempt find_balance(RoverBalance& balance, const Primary& primary, bool warm, Vector& x) {
+  if (!balance.anything_drives()) {
+    x = cold_start(balance, primary, 0.0);
+    return {Outcome::kNoTraction, -1};
+  }
   if (warm) {
     if (balance.can_spare_a_wheel()) {
       balance.resting_loads_n();  // for the wheels that hang
       x = with_contacts(balance, x);
     }
-    if (find_in_contact(balance, 20, x)) return judged(primary, x);
+    if (find_in_contact(balance, 20, x)) return judged(balance, primary, x);
   }
   x = cold_start(balance, primary, kColdStartSpeedRatio);
-  if (find_in_contact(balance, 40, x)) return judged(primary, x);
+  if (find_in_contact(balance, 40, x)) return judged(balance, primary, x);
   x = cold_start(balance, primary, kColdStartSpeedRatio);
   return bracketed_in_contact(balance, primary, x);
 }

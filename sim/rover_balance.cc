@@ -142,6 +142,12 @@ void RoverBalance::place_wheel(int k, const WheelCommand& told) {
   place.leftward_ratio << across * axle.dot(d), across * axle.dot(e), across * axle.dot(turning);
 }
 
+bool RoverBalance::anything_drives() const {
+  for (int k = 0; k < wheel_count(); ++k)
+    if (rover_.wheels[k].drive == WheelDrive::kDriven && places_[k].motion.rate_rad_s != 0.0) return true;
+  return false;
+}
+
 WheelMotion RoverBalance::motion_of(int k, const Vector& unknowns) const {
   const auto motion = unknowns.head<kMotions>();
   return {.forward = places_[k].forward_ratio.dot(motion), .leftward = places_[k].leftward_ratio.dot(motion)};

@@ -66,6 +66,8 @@ class RoverBalance {
   double direction(int wheel) const { return places_[wheel].direction; }
   const WheelGeometry& geometry(int wheel) const { return places_[wheel].geometry; }
   const Soil& soil(int wheel) const { return soils_[wheel]; }
+  // Whether any wheel has a motor that turns it.
+  bool anything_drives() const;
   double speed_scale_m_s() const { return speed_scale_; }
   double half_wheelbase_m() const { return length_; }
   double weight_n() const { return weight_; }

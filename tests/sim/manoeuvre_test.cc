@@ -37,7 +37,8 @@ TEST(WheelCommands, CrabMotionTurnsEverySteeredWheelTheSameWay) {
 }
 
 TEST(WheelCommands, AWheelWithoutSteeringIsToldTheForwardPart) {
-  const auto told = wheel_commands(four_wheeler(SuspensionType::kRigid), {.speed_m_s = 0.04, .curvature_1_m = 0.5});
+  const auto told =
+      wheel_commands(four_wheeler(SuspensionType::kRigid), {.speed_m_s = 0.04, .curvature_1_m = 0.5});
   EXPECT_NEAR(told[0].rate_rad_s, 0.04 * (1.0 - 0.5 * 0.5) / 0.125, 1e-12);
   EXPECT_NEAR(told[2].rate_rad_s, 0.04 * (1.0 + 0.5 * 0.5) / 0.125, 1e-12);
   for (const WheelCommand& wheel : told) EXPECT_EQ(wheel.steer_rad, 0.0);

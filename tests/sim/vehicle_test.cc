@@ -62,9 +62,11 @@ TEST(FourWheeler, LoadsOnASlopeAreThoseOfStatics) {
     const double to_rear = (-g.x() * 0.35 + torque - pull_moment) / length / 2.0;
     const double to_right = (g.y() * -0.35 - side_moment) / width / 2.0;
     for (int k = 0; k < 4; ++k) {
-      const double expected = -g.z() / 4.0 + (k % 2 == 1 ? to_rear : -to_rear) + (k >= 2 ? to_right : -to_right);
+      const double expected =
+          -g.z() / 4.0 + (k % 2 == 1 ? to_rear : -to_rear) + (k >= 2 ? to_right : -to_right);
       // A rigid body's wheels share by their sinkages: the pulls differ a little between sides of a turn.
-      EXPECT_NEAR(state.wheels[k].load_n, expected, type == SuspensionType::kAveraging ? 0.02 * weight : 0.02 * weight)
+      EXPECT_NEAR(state.wheels[k].load_n, expected,
+                  type == SuspensionType::kAveraging ? 0.02 * weight : 0.02 * weight)
           << k << " of suspension " << static_cast<int>(type);
     }
     EXPECT_NEAR(carried_n(state), -g.z(), 1e-5);
@@ -171,7 +173,8 @@ TEST(EightWheeler, RigidTheSinkagesOfASideLieOnAStraightLine) {
   const double slope = state.wheels[1].sinkage_m - state.wheels[0].sinkage_m;
   EXPECT_GT(slope, 0.0) << "uphill the rear carries more";
   for (const int k : {2, 3, 5, 6, 7})
-    EXPECT_NEAR(state.wheels[k].sinkage_m - state.wheels[k - 1].sinkage_m - (k == 4 ? 0.0 : slope), 0.0, 1e-8) << k;
+    EXPECT_NEAR(state.wheels[k].sinkage_m - state.wheels[k - 1].sinkage_m - (k == 4 ? 0.0 : slope), 0.0, 1e-8)
+        << k;
   EXPECT_NEAR(carried_n(state), rover.mass_kg * kMars * std::cos(sloping(-8, 4).tilt_rad()), 1e-4);
 }
 
@@ -193,7 +196,8 @@ TEST(AttitudeBias, OnLevelGroundIsASlopeExactly) {
     biased.pitch_bias_rad = rad_from_deg(pitch);
     biased.roll_bias_rad = rad_from_deg(roll);
     const StationState a = straight(biased, stance_on_plane(biased, {}), sandy_loam());
-    const StationState b = straight(six_wheeler(), stance_on_plane(six_wheeler(), sloping(pitch, roll)), sandy_loam());
+    const StationState b =
+        straight(six_wheeler(), stance_on_plane(six_wheeler(), sloping(pitch, roll)), sandy_loam());
     ASSERT_TRUE(a.moving());
     EXPECT_NEAR(a.slip_ratio, b.slip_ratio, 1e-8);
     EXPECT_NEAR(a.side_slip_rad, b.side_slip_rad, 1e-8);
@@ -266,7 +270,6 @@ TEST(RandomRovers, EveryStationGivesFiniteNumbersOrAReason) {
     const StationState state = solver.solve(*stance, soil, random_command(trial));
     if (state.outcome == Outcome::kNotConverged) {
       ++given_up;
-      if (std::getenv("SHOW")) std::printf("gave up %d, %zu wheels, type %d\n", trial, rover.wheels.size(), int(rover.suspension.type));
     }
     ASSERT_EQ(state.wheels.size(), rover.wheels.size());
     ASSERT_TRUE(std::isfinite(state.slip_ratio) && std::isfinite(state.side_slip_rad)) << trial;
