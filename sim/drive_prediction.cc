@@ -64,7 +64,9 @@ class Predictor {
         beliefs_(beliefs),
         limits_(limits),
         conditions_(conditions),
-        solver_(rover, gravity_m_s2) {}
+        solver_(rover, gravity_m_s2) {
+    for (const WheelModel& wheel : rover.wheels) prediction_.wheel_names.push_back(wheel.name);
+  }
 
   // False where the drive ends here: the rover is immobilised.
   bool add(const PathStation& station) {

@@ -74,6 +74,7 @@ struct Peak {
 
 // A drive as predicted. "Immobilised at 41 m" is an answer, not an error.
 struct DrivePrediction {
+  std::vector<std::string> wheel_names;  // in the order of every station's wheels
   std::vector<StationPrediction> stations;
   double length_m = 0.0;
   double turned_rad = 0.0;       // in place, in all

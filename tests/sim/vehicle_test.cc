@@ -268,9 +268,7 @@ TEST(RandomRovers, EveryStationGivesFiniteNumbersOrAReason) {
     soil.multipass_stiffening = uniform(12, 0.0, 1.0) < 0.5 ? 0.0 : uniform(13, 0.0, 5.0);
     QuasiStaticSolver solver(rover, kMars);
     const StationState state = solver.solve(*stance, soil, random_command(trial));
-    if (state.outcome == Outcome::kNotConverged) {
-      ++given_up;
-    }
+    given_up += state.outcome == Outcome::kNotConverged ? 1 : 0;
     ASSERT_EQ(state.wheels.size(), rover.wheels.size());
     ASSERT_TRUE(std::isfinite(state.slip_ratio) && std::isfinite(state.side_slip_rad)) << trial;
     ASSERT_TRUE(std::isfinite(state.electric_power_w) && std::isfinite(state.left_rut_depth_m)) << trial;
