@@ -13,12 +13,15 @@ namespace {
 
 constexpr std::size_t kMostFaults = 20;
 
-DriveCommand command_at(const RoverModel& rover, const PathStation& station) {
+DriveCommand command_at(const RoverModel& rover, const PathStation& station,
+                        const DriveConditions& conditions) {
   DriveCommand command;
   command.turn_in_place = station.turning_in_place;
   command.turn_rate_rad_s = std::copysign(rover.turn_rate_rad_s, station.turned_rad);
   command.speed_m_s = station.backwards ? -rover.cruise_speed_m_s : rover.cruise_speed_m_s;
   command.curvature_1_m = station.curvature_1_m;
+  command.crab_rad = station.crab_rad;
+  command.motor_temp_c = conditions.motor_temp_c;
   return command;
 }
 
@@ -55,8 +58,15 @@ std::string reason_text(const RoverModel& rover, const SoilBeliefs& beliefs, con
 class Predictor {
  public:
   Predictor(const RoverModel& rover, double gravity_m_s2, const Ground& ground, const SoilBeliefs& beliefs,
-            const DriveLimits& limits)
-      : rover_(rover), ground_(ground), beliefs_(beliefs), limits_(limits), solver_(rover, gravity_m_s2) {}
+            const DriveLimits& limits, const DriveConditions& conditions)
+      : rover_(rover),
+        ground_(ground),
+        beliefs_(beliefs),
+        limits_(limits),
+        conditions_(conditions),
+        solver_(rover, gravity_m_s2) {
+    for (const WheelModel& wheel : rover.wheels) prediction_.wheel_names.push_back(wheel.name);
+  }
 
   // False where the drive ends here: the rover is immobilised.
   bool add(const PathStation& station) {
@@ -64,7 +74,7 @@ class Predictor {
     if (!stance) return no_stance(station);
     PreparedStation ready;
     ready.stance = *stance;
-    ready.command = command_at(rover_, station);
+    ready.command = command_at(rover_, station, conditions_);
     ready.distance_m = station.distance_m;
     if (!prepared_.empty()) ready.drive_m = station.distance_m - prepared_.back().distance_m;
     ready.turn_rad = std::abs(station.turned_rad);
@@ -109,7 +119,8 @@ class Predictor {
     predicted.attitude = ready.stance.attitude;
     predicted.clearance_m = ready.stance.belly_clearance_m;
     predicted.soil = ground_.soil_at(station.pose.x_m, station.pose.y_m);
-    for (int k = 0; k < kWheels; ++k) {
+    ready.soil = PerWheel<std::optional<std::size_t>>(rover_.wheels.size());
+    for (std::size_t k = 0; k < ready.soil.size(); ++k) {
       const Eigen::Vector3d p_M = ready.stance.p_MB + ready.stance.R_MB * ready.stance.p_B_wheel[k];
       ready.soil[k] = ground_.soil_at(p_M.x(), p_M.y());
       if (!ready.soil[k]) predicted.on_unknown_ground = true;
@@ -118,8 +129,8 @@ class Predictor {
   }
 
   void predict(const PreparedStation& ready, StationPrediction& predicted) {
-    std::array<Soil, kWheels> soils;
-    for (int k = 0; k < kWheels; ++k) soils[k] = beliefs_.of(ready.soil[k]).mean;
+    PerWheel<Soil> soils(ready.soil.size());
+    for (std::size_t k = 0; k < soils.size(); ++k) soils[k] = beliefs_.of(ready.soil[k]).mean;
     const StationState& state = predicted.state = solver_.solve(ready.stance, soils, ready.command);
     const double s = ready.distance_m;
     DrivePrediction& p = prediction_;
@@ -162,6 +173,7 @@ class Predictor {
   const Ground& ground_;
   const SoilBeliefs& beliefs_;
   const DriveLimits& limits_;
+  const DriveConditions& conditions_;
   QuasiStaticSolver solver_;
   DrivePrediction prediction_;
   std::vector<PreparedStation> prepared_;
@@ -178,7 +190,7 @@ double largest_station_spacing_m(const RoverModel& rover) {
 Result<DrivePrediction> predict_drive(const RoverModel& rover, double gravity_m_s2, const Ground& ground,
                                       const SoilBeliefs& beliefs, std::span<const PathStation> path,
                                       const DriveLimits& limits, const RiskOptions& risk, std::size_t threads,
-                                      Progress& progress) {
+                                      Progress& progress, const DriveConditions& conditions) {
   if (path.empty()) throw std::invalid_argument("predict_drive: a path needs a station");
   // The whole path is looked at first: a missing piece of ground behind a place of immobilisation is a fault
   // all the same.
@@ -194,7 +206,7 @@ Result<DrivePrediction> predict_drive(const RoverModel& rover, double gravity_m_
   if (!faults.empty())
     return fail(ErrorCode::kNoData, "the path leaves the ground that is known", std::move(faults));
 
-  Predictor predictor(rover, gravity_m_s2, ground, beliefs, limits);
+  Predictor predictor(rover, gravity_m_s2, ground, beliefs, limits, conditions);
   for (std::size_t k = 0; k < path.size(); ++k) {
     if (k % 64 == 0 && progress.cancelled())
       return fail(ErrorCode::kCancelled, "the prediction was dismissed");

@@ -25,6 +25,7 @@ struct PathStation {
   double curvature_1_m = 0.0;  // of the arc through this station
   bool turning_in_place = false;
   bool backwards = false;
+  double crab_rad = 0.0;  // direction of travel from the rover's x axis, positive to the left
 };
 
 // What must hold along a drive. A prediction never stops at a limit; it says where it is broken.
@@ -73,6 +74,7 @@ struct Peak {
 
 // A drive as predicted. "Immobilised at 41 m" is an answer, not an error.
 struct DrivePrediction {
+  std::vector<std::string> wheel_names;  // in the order of every station's wheels
   std::vector<StationPrediction> stations;
   double length_m = 0.0;
   double turned_rad = 0.0;       // in place, in all
@@ -110,6 +112,6 @@ double largest_station_spacing_m(const RoverModel& rover);
 Result<DrivePrediction> predict_drive(const RoverModel& rover, double gravity_m_s2, const Ground& ground,
                                       const SoilBeliefs& beliefs, std::span<const PathStation> path,
                                       const DriveLimits& limits, const RiskOptions& risk, std::size_t threads,
-                                      Progress& progress);
+                                      Progress& progress, const DriveConditions& conditions = {});
 
 }  // namespace slipway::sim

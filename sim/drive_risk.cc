@@ -88,8 +88,8 @@ DrawnDrive drive_on(const RoverModel& rover, double gravity_m_s2, DrawnSoils soi
   for (const PreparedStation& station : spans) {
     if (progress.cancelled()) break;
     soils.advance(station.drive_m);
-    std::array<Soil, kWheels> under;
-    for (int k = 0; k < kWheels; ++k) under[k] = soils.at(station.soil[k]);
+    PerWheel<Soil> under(station.soil.size());
+    for (std::size_t k = 0; k < under.size(); ++k) under[k] = soils.at(station.soil[k]);
     const StationState state = solver.solve(station.stance, under, station.command);
     drive.slip.push_back(state.slip_ratio);
     drive.current_a.push_back(largest_current_a(state));
@@ -192,7 +192,10 @@ Effort effort_of(const PreparedStation& station, const StationState& state) {
   if (station.command.turn_in_place) {
     effort.duration_s = station.turn_rad / std::abs(state.yaw_rate_rad_s);
   } else if (station.drive_m > 0.0) {
-    const double over_ground = std::abs(state.forward_m_s) * std::cos(station.stance.attitude.pitch_rad);
+    // Seen from above, as paths are measured.
+    const Eigen::Vector2d d = travel_direction(station.command);
+    const double rise = station.stance.R_MB(2, 0) * d.x() + station.stance.R_MB(2, 1) * d.y();
+    const double over_ground = std::abs(state.along_m_s) * std::sqrt(1.0 - rise * rise);
     effort.duration_s = station.drive_m / over_ground;
   }
   effort.energy_j = effort.duration_s * state.electric_power_w;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -13,8 +12,7 @@ namespace slipway::sim {
 // A station with its rover set down: what all soil draws of a drive share.
 struct PreparedStation {
   Stance stance;
-  std::array<std::optional<std::size_t>, kWheels>
-      soil;  // index of the belief under each wheel; nothing: unknown
+  PerWheel<std::optional<std::size_t>> soil;  // index of the belief under each wheel; nothing: unknown
   DriveCommand command;
   double distance_m = 0.0;
   double drive_m = 0.0;   // since the last station

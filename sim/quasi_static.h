@@ -1,9 +1,10 @@
 #pragma once
 
-#include <array>
+#include <Eigen/Core>
 #include <string_view>
 
 #include "sim/drive_command.h"
+#include "sim/per_wheel.h"
 #include "sim/rover_model.h"
 #include "sim/soil.h"
 #include "sim/stance.h"
@@ -11,15 +12,18 @@
 namespace slipway::sim {
 
 struct WheelState {
-  double load_n = 0.0;          // along the ground's normal
-  double slip_ratio = 0.0;      // [-1, 1], positive driving [ARTEMIS eq. 21]
-  double slip_angle_rad = 0.0;  // of the wheel's velocity to its plane, positive to the left
-  double entry_angle_rad = 0.0;
-  double sinkage_m = 0.0;
+  double load_n = 0.0;           // along the ground's normal
+  double rate_rad_s = 0.0;       // that the wheel really turns at, positive rolls forward
+  double slip_ratio = 0.0;       // [-1, 1], positive driving [ARTEMIS eq. 21]
+  double slip_angle_rad = 0.0;   // of the wheel's velocity to its plane, positive to the left
+  double entry_angle_rad = 0.0;  // into the soil that the wheel meets: in a track, from the rut's bottom
+  double sinkage_m = 0.0;        // of the lowest point below the undisturbed surface
   double drawbar_pull_n = 0.0;   // along the rolling direction
   double lateral_force_n = 0.0;  // to the left
-  double torque_nm = 0.0;        // at the wheel, positive drives forward
-  double current_a = 0.0;        // at the motor
+  double torque_nm = 0.0;        // that turns the wheel against the soil, positive drives forward; a driven
+                                 // wheel's motor overcomes its drag besides
+  double current_a = 0.0;        // at the motor; 0 of a wheel that is not driven
+  bool in_air = false;           // carries nothing: hangs over a hollow
 };
 
 enum class Outcome {
@@ -39,20 +43,23 @@ std::string_view describe(Outcome outcome);
 struct StationState {
   Outcome outcome = Outcome::kMoving;
   int wheel = -1;             // the wheel that the outcome is about, where it is about one
+  double along_m_s = 0.0;     // of B along the commanded direction of travel
   double forward_m_s = 0.0;   // of B along its x axis
-  double leftward_m_s = 0.0;  // of B along its y axis: the side slip
+  double leftward_m_s = 0.0;  // of B along its y axis: without crab, the side slip
   double yaw_rate_rad_s = 0.0;
-  double slip_ratio = 0.0;        // of the rover: 1 - forward / commanded; turning in place: of the yaw rate
-  double side_slip_rad = 0.0;     // direction of B's velocity to its x axis
-  double electric_power_w = 0.0;  // of the six drive motors
-  std::array<WheelState, kWheels> wheels{};
+  double slip_ratio = 0.0;     // of the rover: 1 - along / commanded; turning in place: of the yaw rate
+  double side_slip_rad = 0.0;  // direction of B's velocity to the commanded direction, positive to the left
+  double electric_power_w = 0.0;  // of the drive motors
+  // What a camera looking back would measure: depth of the track behind each side's last wheel.
+  double left_rut_depth_m = 0.0, right_rut_depth_m = 0.0;
+  PerWheel<WheelState> wheels;
 
   bool moving() const { return outcome == Outcome::kMoving; }
 };
 
-// Solves for the motion (forward, leftward, yaw rate) and the six entry angles at which the wheels' forces,
-// gravity and the commanded wheel rates balance: three equations for thrust, side force and yaw moment, and
-// six for the loads (vertical force, roll and pitch moments, the two bogies, the differential).
+// Solves for the motion (along and across the direction of travel, yaw rate) and the entry angles at which
+// the wheels' forces, gravity and the commanded wheel rates balance: see RoverBalance for the equations.
+// Rovers with more wheels than their suspension can keep on the ground may lift some of them.
 //
 // A workspace: one per thread. Each solve starts from the last one's answer and falls back to a cold start,
 // so stations are best solved in order; the answer does not depend on the start beyond the solver's tolerance
@@ -62,19 +69,18 @@ class QuasiStaticSolver {
   QuasiStaticSolver(const RoverModel& rover, double gravity_m_s2);
 
   // soils: the soil under each wheel.
-  StationState solve(const Stance& stance, const std::array<Soil, kWheels>& soils,
-                     const DriveCommand& command);
+  StationState solve(const Stance& stance, const PerWheel<Soil>& soils, const DriveCommand& command);
   StationState solve(const Stance& stance, const Soil& soil, const DriveCommand& command);
   // Forget the last answer, so that the next solve is a cold start.
   void reset() { warm_ = false; }
 
  private:
-  using Unknowns = Eigen::Matrix<double, 9, 1>;
+  using Unknowns = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3 + kMostWheels, 1>;
 
   const RoverModel& rover_;
   double gravity_m_s2_;
   bool warm_ = false;
-  Unknowns last_ = Unknowns::Zero();
+  Unknowns last_;
 };
 
 }  // namespace slipway::sim

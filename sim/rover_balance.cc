@@ -1,15 +1,25 @@
 #include "sim/rover_balance.h"
 
-#include <Eigen/LU>
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "core/pose.h"
+#include "sim/entry_angle.h"
+#include "sim/free_wheel.h"
+#include "sim/multipass.h"
+#include "sim/soil_in_force.h"
 
 namespace slipway::sim {
 namespace {
 
-// A wheel told to stand still still slips against the ground: as a wheel turning this slowly against the
-// fastest one.
+// A wheel that stands still still slips against the ground: as a wheel turning this slowly against the
+// fastest one. All shear is mobilised long before.
 constexpr double kSlowestRateRatio = 1e-3;
+// No wheel is told to turn and the rover not to move: any scale will do.
+constexpr double kLeastSpeedScale_m_s = 1e-9;
 
 double half_wheelbase(const RoverModel& rover) {
   double front = rover.wheels.front().position_m.x(), rear = front;
@@ -20,7 +30,7 @@ double half_wheelbase(const RoverModel& rover) {
   return 0.5 * (front - rear);
 }
 
-// Force f at p and moment m (frame B) as entries of the nine equations, undivided.
+// Force f at p and moment m, frame B.
 struct Wrench {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // about the point where the force acts
@@ -29,67 +39,113 @@ struct Wrench {
 }  // namespace
 
 RoverBalance::RoverBalance(const RoverModel& rover, double gravity_m_s2, const Stance& stance,
-                           const std::array<Soil, kWheels>& soils, const DriveCommand& command)
+                           const PerWheel<Soil>& soils, const DriveCommand& command)
     : rover_(rover),
       stance_(stance),
       soils_(soils),
-      told_(wheel_commands(rover, command)),
+      places_(rover.wheels.size()),
+      contacts_(rover.wheels.size()),
+      in_air_(rover.wheels.size(), false),
+      joints_(joint_count(rover.suspension.type)),
+      undetermined_(undetermined_loads(rover)),
+      in_contact_(static_cast<int>(rover.wheels.size())),
+      travel_(travel_direction(command)),
       weight_(rover.mass_kg * gravity_m_s2),
       length_(half_wheelbase(rover)) {
-  double fastest = 0.0;
-  for (int k = 0; k < kWheels; ++k)
-    fastest = std::max(fastest, std::abs(told_[k].rate_rad_s) * rover.wheels[k].radius_m);
+  const PerWheel<WheelCommand> told = wheel_commands(rover, command);
+  double fastest = kLeastSpeedScale_m_s;
+  for (int k = 0; k < wheel_count(); ++k)
+    fastest = std::max(fastest, std::abs(told[k].rate_rad_s) * rover.wheels[k].radius_m);
+  // Wheels that can't roll the way they are told to go (crabbing without steering) are dragged at that speed.
+  if (fastest <= kLeastSpeedScale_m_s && !command.turn_in_place)
+    fastest = std::max(fastest, std::abs(command.speed_m_s));
   speed_scale_ = fastest;
-  for (int k = 0; k < kWheels; ++k) place_wheel(k);
-  const Eigen::Vector3d g = -stance_.R_MB.row(2).transpose();  // per unit of weight, frame B
-  // The body hangs on both rocker pivots through the differential, which passes equal moments to both sides:
-  // gravity has no entry in the equations of bogies and differential.
-  gravity_.setZero();
-  gravity_.head<3>() = g;
+  set_soils(gravity_m_s2, command, told);
+  for (int k = 0; k < wheel_count(); ++k) place_wheel(k, told[k]);
+  set_gravity();
+  set_gap_gradient();
+  set_compatibility();
+}
+
+void RoverBalance::set_soils(double gravity_m_s2, const DriveCommand& command,
+                             const PerWheel<WheelCommand>& told) {
+  leaders_ = leaders(rover_, command);
+  rut_shares_ = PerWheel<double>(soils_.size());
+  for (std::size_t k = 0; k < soils_.size(); ++k) {
+    const bool in_a_track = leaders_[k] >= 0;
+    if (in_a_track) rut_shares_[k] = rut_share(soils_[k].multipass_stiffening, soils_[k].pressure.n);
+    const double rim_speed = std::abs(told[k].rate_rad_s) * rover_.wheels[k].radius_m;
+    soils_[k] = soil_in_force(soils_[k], gravity_m_s2, rim_speed, in_a_track);
+  }
+}
+
+// The body hangs on the rocker pivots through the differential, which passes equal moments to both sides:
+// gravity has no entry in the equations of the joints.
+void RoverBalance::set_gravity() {
+  Attitude truth = stance_.attitude;
+  truth.roll_rad += rover_.roll_bias_rad;
+  truth.pitch_rad += rover_.pitch_bias_rad;
+  const bool biased = rover_.roll_bias_rad != 0.0 || rover_.pitch_bias_rad != 0.0;
+  const Eigen::Matrix3d R_MB = biased ? rotation_MB(truth) : stance_.R_MB;
+  const Eigen::Vector3d g = -R_MB.row(2).transpose();  // per unit of weight, frame B
+  gravity_ = Vector::Zero(equilibrium_count());
+  gravity_[0] = travel_.x() * g.x() + travel_.y() * g.y();
+  gravity_[1] = travel_.x() * g.y() - travel_.y() * g.x();
+  gravity_[2] = g.z();
   gravity_.segment<3>(3) = rover_.com_m.cross(g) / length_;
 }
 
-void RoverBalance::place_wheel(int k) {
+void RoverBalance::place_wheel(int k, const WheelCommand& told) {
   const WheelModel& wheel = rover_.wheels[k];
   const Eigen::Vector3d& normal = stance_.normal_B[k];
-  const double steer = told_[k].steer_rad;
+  WheelPlace& place = places_[k];
+  place.geometry = wheel.geometry();
+  place.motion = true_motion(wheel, told);
+  place.direction = told.rate_rad_s < 0.0 ? -1.0 : 1.0;
+  const double steer = place.motion.steer_rad;
   const Eigen::Vector3d heading(std::cos(steer), std::sin(steer), 0.0);
   const Eigen::Vector3d axle(-std::sin(steer), std::cos(steer), 0.0);
   const Eigen::Vector3d x = axle.cross(normal).normalized();
   const Eigen::Vector3d y = normal.cross(x);
-  const double direction = told_[k].rate_rad_s < 0.0 ? -1.0 : 1.0;
-
-  const bool left = wheel.side == Side::kLeft;
   const Eigen::Vector3d& p = stance_.p_B_wheel[k];
-  Eigen::Vector3d rocker = rover_.suspension.rocker_pivot_m;
-  if (!left) rocker.y() = -rocker.y();
-  const Eigen::Vector3d& bogie = left ? stance_.p_B_left_bogie : stance_.p_B_right_bogie;
+  std::array<JointMotion, kMostJoints> joint;
+  for (int j = 0; j < joints_; ++j) joint[j] = joint_motion(rover_, stance_, k, j);
 
   // Columns: drawbar pull, lateral, vertical, torque. A wheel that turns backwards pulls and is driven
   // backwards.
-  const std::array<Wrench, 4> unit{Wrench{.force = direction * x}, Wrench{.force = y},
-                                   Wrench{.force = normal}, Wrench{.moment = -direction * y}};
-  WheelPlace& place = places_[k];
+  const std::array<Wrench, 4> unit{Wrench{.force = place.direction * x}, Wrench{.force = y},
+                                   Wrench{.force = normal}, Wrench{.moment = -place.direction * y}};
+  place.effect.resize(equilibrium_count(), 4);
   for (int column = 0; column < 4; ++column) {
     const Wrench& w = unit[column];
     auto e = place.effect.col(column);
-    e.head<3>() = w.force;
+    e[0] = travel_.x() * w.force.x() + travel_.y() * w.force.y();
+    e[1] = travel_.x() * w.force.y() - travel_.y() * w.force.x();
+    e[2] = w.force.z();
     e.segment<3>(3) = (p.cross(w.force) + w.moment) / length_;
-    const double about_bogie = ((p - bogie).cross(w.force) + w.moment).y() / length_;
-    e[6] = wheel.on_bogie && left ? about_bogie : 0.0;
-    e[7] = wheel.on_bogie && !left ? about_bogie : 0.0;
-    e[8] = (left ? 1.0 : -1.0) * ((p - rocker).cross(w.force) + w.moment).y() / length_;
+    for (int j = 0; j < joints_; ++j)
+      e[6 + j] = (w.force.dot(joint[j].shift) + w.moment.y() * joint[j].turn) / length_;
   }
   place.effect /= weight_;
 
   // On sloping ground under one wheel the rim travels along its tangent while the body keeps its own speed.
+  // A free wheel's motion is first given per speed scale; its rim speed is found with its forces.
   const double rim_speed =
-      std::max(std::abs(told_[k].rate_rad_s) * wheel.radius_m, kSlowestRateRatio * speed_scale_);
-  const double along = direction * speed_scale_ / (rim_speed * std::max(0.2, x.dot(heading)));
+      wheel.drive == WheelDrive::kFree
+          ? speed_scale_
+          : std::max(std::abs(place.motion.rate_rad_s) * wheel.radius_m, kSlowestRateRatio * speed_scale_);
+  const double along = place.direction * speed_scale_ / (rim_speed * std::max(0.2, x.dot(heading)));
   const double across = speed_scale_ / (rim_speed * std::max(0.2, y.dot(axle)));
+  const Eigen::Vector3d d(travel_.x(), travel_.y(), 0.0), e(-travel_.y(), travel_.x(), 0.0);
   const Eigen::Vector3d turning = Eigen::Vector3d::UnitZ().cross(p) / length_;
-  place.forward_ratio << along * heading.x(), along * heading.y(), along * heading.dot(turning);
-  place.leftward_ratio << across * axle.x(), across * axle.y(), across * axle.dot(turning);
+  place.forward_ratio << along * heading.dot(d), along * heading.dot(e), along * heading.dot(turning);
+  place.leftward_ratio << across * axle.dot(d), across * axle.dot(e), across * axle.dot(turning);
+}
+
+bool RoverBalance::anything_drives() const {
+  for (int k = 0; k < wheel_count(); ++k)
+    if (rover_.wheels[k].drive == WheelDrive::kDriven && places_[k].motion.rate_rad_s != 0.0) return true;
+  return false;
 }
 
 WheelMotion RoverBalance::motion_of(int k, const Vector& unknowns) const {
@@ -97,47 +153,78 @@ WheelMotion RoverBalance::motion_of(int k, const Vector& unknowns) const {
   return {.forward = places_[k].forward_ratio.dot(motion), .leftward = places_[k].leftward_ratio.dot(motion)};
 }
 
+RoverBalance::WheelContact RoverBalance::contact_at(int k, double entry_angle_rad,
+                                                    const WheelMotion& motion) const {
+  const WheelPlace& place = places_[k];
+  const WheelModel& wheel = rover_.wheels[k];
+  if (wheel.drive != WheelDrive::kFree)
+    return {wheel_forces(place.geometry, soils_[k], entry_angle_rad, motion), motion,
+            place.motion.rate_rad_s};
+  const FreeRolling rolling =
+      roll_freely(place.geometry, soils_[k], entry_angle_rad, motion, wheel.drag_nm, kSlowestRateRatio);
+  const bool stands = rolling.rim_ratio <= kSlowestRateRatio;
+  return {rolling.forces, rolling.motion,
+          stands ? 0.0 : place.direction * rolling.rim_ratio * speed_scale_ / wheel.radius_m};
+}
+
 RoverBalance::Vector RoverBalance::residual(const Vector& unknowns) {
-  Vector sum = gravity_;
-  for (int k = 0; k < kWheels; ++k) {
-    const WheelGeometry wheel{rover_.wheels[k].radius_m, rover_.wheels[k].width_m};
-    const WheelForces& f = forces_[k] =
-        wheel_forces(wheel, soils_[k], unknowns[kMotions + k], motion_of(k, unknowns));
-    sum += places_[k].effect * Eigen::Vector4d(f.drawbar_pull_n, f.lateral_n, f.vertical_n, f.torque_nm);
+  const int top = equilibrium_count();
+  Vector sum(kMotions + wheel_count());
+  sum.head(top) = gravity_;
+  Loads own(wheel_count());
+  for (int k = 0; k < wheel_count(); ++k) {
+    const double theta = unknowns[kMotions + k];
+    const WheelMotion motion = motion_of(k, unknowns);
+    if (in_air_[k]) {
+      const bool turns = rover_.wheels[k].drive == WheelDrive::kDriven;
+      contacts_[k] = {{}, motion, turns ? places_[k].motion.rate_rad_s : 0.0};
+      continue;
+    }
+    contacts_[k] = contact_at(k, theta, motion);
+    const WheelForces& f = contacts_[k].forces;
+    sum.head(top).noalias() +=
+        places_[k].effect * Eigen::Vector4d(f.drawbar_pull_n, f.lateral_n, f.vertical_n, f.torque_nm);
+    own[k] = sinkage_m(places_[k].geometry.radius_m, theta);
   }
+  if (undetermined_ == 0) return sum;
+  int row = top + undetermined_;
+  for (int k = 0; k < wheel_count(); ++k) {
+    if (!in_air_[k]) continue;
+    own[k] = 0.0;
+    sum[--row] = unknowns[kMotions + k] - kLeastEntryAngleRad;
+  }
+  sum.segment(top, row - top) = compatibility_ * own + compatibility_of_gap_;
   return sum;
 }
 
 RoverBalance::Matrix RoverBalance::jacobian(const Vector& unknowns) const {
-  Matrix jacobian = Matrix::Zero();
+  const int top = equilibrium_count(), size = kMotions + wheel_count();
+  Matrix jacobian = Matrix::Zero(size, size);
   constexpr double kStep = 1e-7;
-  for (int k = 0; k < kWheels; ++k) {
-    const WheelGeometry wheel{rover_.wheels[k].radius_m, rover_.wheels[k].width_m};
+  for (int k = 0; k < wheel_count(); ++k) {
+    if (in_air_[k]) continue;
     const WheelMotion motion = motion_of(k, unknowns);
     const double theta = unknowns[kMotions + k];
-    const auto slope = [&](double angle, const WheelMotion& moved) -> Vector {
-      const WheelForces d = wheel_forces(wheel, soils_[k], angle, moved) - forces_[k];
-      return places_[k].effect *
-             (Eigen::Vector4d(d.drawbar_pull_n, d.lateral_n, d.vertical_n, d.torque_nm) / kStep);
+    const auto slope = [&](double angle, const WheelMotion& moved) -> Eigen::Vector4d {
+      const WheelForces d = contact_at(k, angle, moved).forces - contacts_[k].forces;
+      return Eigen::Vector4d(d.drawbar_pull_n, d.lateral_n, d.vertical_n, d.torque_nm) / kStep;
     };
-    jacobian.col(kMotions + k) = slope(theta + kStep, motion);
-    jacobian.leftCols<kMotions>() +=
-        slope(theta, {motion.forward + kStep, motion.leftward}) * places_[k].forward_ratio +
-        slope(theta, {motion.forward, motion.leftward + kStep}) * places_[k].leftward_ratio;
+    const auto& effect = places_[k].effect;
+    jacobian.col(kMotions + k).head(top).noalias() = effect * slope(theta + kStep, motion);
+    jacobian.topLeftCorner(top, kMotions) +=
+        effect * (slope(theta, {motion.forward + kStep, motion.leftward}) * places_[k].forward_ratio +
+                  slope(theta, {motion.forward, motion.leftward + kStep}) * places_[k].leftward_ratio);
+  }
+  if (undetermined_ == 0) return jacobian;
+  int row = top + undetermined_;
+  for (int k = 0; k < wheel_count(); ++k)
+    if (in_air_[k]) jacobian(--row, kMotions + k) = 1.0;
+  for (int k = 0; k < wheel_count(); ++k) {
+    if (in_air_[k]) continue;
+    const double sinkage_rate = places_[k].geometry.radius_m * std::sin(unknowns[kMotions + k]);
+    jacobian.col(kMotions + k).segment(top, row - top) = compatibility_.col(k) * sinkage_rate;
   }
   return jacobian;
-}
-
-Eigen::Matrix<double, kWheels, 1> RoverBalance::resting_loads_n() const {
-  // Vertical force, roll, pitch, bogies and differential are the six equations that loads alone can balance.
-  constexpr std::array<int, kWheels> rows{2, 3, 4, 6, 7, 8};
-  Eigen::Matrix<double, kWheels, kWheels> a;
-  Eigen::Matrix<double, kWheels, 1> b;
-  for (int i = 0; i < kWheels; ++i) {
-    for (int k = 0; k < kWheels; ++k) a(i, k) = places_[k].effect(rows[i], 2);
-    b[i] = -gravity_[rows[i]];
-  }
-  return a.partialPivLu().solve(b);
 }
 
 }  // namespace slipway::sim

@@ -1,69 +1,135 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 
 #include "sim/drive_command.h"
 #include "sim/rover_model.h"
 #include "sim/soil.h"
 #include "sim/stance.h"
+#include "sim/suspension.h"
 #include "sim/wheel_forces.h"
 
 namespace slipway::sim {
 
-// The nine equations of a six-wheel rocker-bogie in quasi-static motion, frame B, moments about B's origin:
+// The 3 + N equations of a rover on N wheels and J joints in quasi-static motion, frame B, moments about B's
+// origin, d the direction of travel and e the one to its left:
 //
-//   0..2   force        sum F_k + m g = 0
-//   3..5   moment       sum (p_k x F_k + M_k) + p_com x m g = 0           roll, pitch, yaw
-//   6, 7   bogies       y . sum_bogie ((p_k - p_bogie) x F_k + M_k) = 0   left, right
-//   8      differential y . (left side's moment about its rocker pivot - the right side's) = 0
+//   0, 1, 2     force   sum F_k + m g = 0                                          along d, e, z
+//   3, 4, 5     moment  sum (p_k x F_k + M_k) + p_com x m g = 0                    about x, y, z
+//   6 .. 5 + J  joints  sum (F_k . dp_k/dq_j + M_k . y dturn_k/dq_j) = 0           see suspension.h
+//   the rest    compatibility   Z^T (z + gap) / z_ref = 0
 //
 // F_k is the soil's force at wheel k's centre, M_k = -T_k about its axle, and the suspension has no mass of
-// its own. Forces are divided by the weight, moments by weight and half the wheelbase. The nine unknowns:
-// forward and leftward speed of B over `speed_scale`, yaw rate times half the wheelbase over the same, and
-// the six entry angles.
+// its own. Gravity is that of the true attitude, the stance's with the rover's bias of attitude added. Forces
+// are divided by the weight, moments by weight and half the wheelbase.
+//
+// Compatibility: the depths z_k of the wheels in contact below the undisturbed surface and the stance's gaps
+// must be reachable by the body's heave, roll and pitch and by the joints, z + gap = -A q with A the gaps'
+// gradient (N x (3 + J)); Z is the null space of A^T. There are N - 3 - J of these: none for six wheels on a
+// rocker-bogie or four on an averaging suspension, one for four rigid wheels. A wheel in the air is not part
+// of A and has in their place the equation that its entry angle is the least there is. z_ref is the order of
+// the wheels' sinkage, so that an error in depth weighs about as much as the load that it makes.
+//
+// The 3 + N unknowns: speed of B along d and e over `speed_scale`, yaw rate times half the wheelbase over the
+// same, and the N entry angles.
 class RoverBalance {
  public:
-  static constexpr int kEquations = 9;
   static constexpr int kMotions = 3;
-  using Vector = Eigen::Matrix<double, kEquations, 1>;
-  using Matrix = Eigen::Matrix<double, kEquations, kEquations>;
+  static constexpr int kMostEquations = kMotions + kMostWheels;
+  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostEquations, 1>;
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostEquations, kMostEquations>;
+  using Loads = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostWheels, 1>;
 
-  // The arguments must outlive the balance.
+  // What the ground does to one wheel and how the wheel moves over it.
+  struct WheelContact {
+    WheelForces forces;
+    WheelMotion motion;       // per rim speed
+    double rate_rad_s = 0.0;  // positive rolls forward
+  };
+
+  static constexpr double kLeastEntryAngleRad = 1e-3;
+
+  // Rover, stance and gravity's magnitude as they are; `soils` are those of the wheels' places, which the
+  // balance turns into the ones in force. Rover and stance must outlive the balance.
   RoverBalance(const RoverModel& rover, double gravity_m_s2, const Stance& stance,
-               const std::array<Soil, kWheels>& soils, const DriveCommand& command);
+               const PerWheel<Soil>& soils, const DriveCommand& command);
 
   Vector residual(const Vector& unknowns);
   // At the unknowns of the last residual, by one-sided differences of each wheel's four forces over its three
   // arguments.
   Matrix jacobian(const Vector& unknowns) const;
 
-  WheelMotion motion_of(int wheel, const Vector& unknowns) const;
-  // The forces of the last residual.
-  const WheelForces& forces(int wheel) const { return forces_[wheel]; }
-  const WheelCommand& command(int wheel) const { return told_[wheel]; }
+  int wheel_count() const { return static_cast<int>(places_.size()); }
+  // Of the last residual; nothing but the rate for a wheel in the air.
+  const WheelContact& contact(int wheel) const { return contacts_[wheel]; }
+  // Which way a wheel is told to roll; forward where it is told to stand.
+  double direction(int wheel) const { return places_[wheel].direction; }
+  const WheelGeometry& geometry(int wheel) const { return places_[wheel].geometry; }
+  const Soil& soil(int wheel) const { return soils_[wheel]; }
+  // Whether any wheel has a motor that turns it.
+  bool anything_drives() const;
   double speed_scale_m_s() const { return speed_scale_; }
   double half_wheelbase_m() const { return length_; }
   double weight_n() const { return weight_; }
-  // Wheel loads if nothing pulled or pushed along the ground: the start of a solve.
-  Eigen::Matrix<double, kWheels, 1> resting_loads_n() const;
+
+  // Wheels in the air: none to begin with. Only a statically undetermined vehicle can spare one.
+  bool in_air(int wheel) const { return in_air_[wheel]; }
+  bool can_spare_a_wheel() const { return in_contact_ > wheel_count() - undetermined_; }
+  void set_in_air(int wheel, bool in_air);
+  // Wheel loads if nothing pulled or pushed along the ground, of springs that sink z_ref under the mean load:
+  // the start of a solve. For a statically determined vehicle the springs do not matter. Lifts the wheels
+  // that would hang.
+  Loads resting_loads_n();
+  // Depths of the wheels below the undisturbed surface.
+  PerWheel<double> total_sinkages_m(const Vector& unknowns) const;
+  // The height of a wheel in the air over the ground under it; negative: it cuts in.
+  double height_in_air_m(int wheel, const Vector& unknowns) const;
 
  private:
+  static constexpr int kMostEquilibrium = 6 + kMostJoints;
+  static constexpr int kMostFreedoms = 3 + kMostJoints;
+  using GapGradient = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostWheels, kMostFreedoms>;
+  using Freedoms = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostFreedoms, 1>;
+
   struct WheelPlace {
-    Eigen::Matrix<double, kEquations, 4> effect;  // of (pull, lateral, vertical, torque) on the equations
+    WheelGeometry geometry;
+    WheelCommand motion;     // true steering and rate
+    double direction = 1.0;  // of rolling
+    // Of (pull, lateral, vertical, torque) on the equations of equilibrium.
+    Eigen::Matrix<double, Eigen::Dynamic, 4, 0, kMostEquilibrium, 4> effect;
     Eigen::RowVector3d forward_ratio, leftward_ratio;  // of the three motions on u and v_y / (r |w|)
   };
 
-  void place_wheel(int wheel);
+  void place_wheel(int wheel, const WheelCommand& told);
+  void set_soils(double gravity_m_s2, const DriveCommand& command, const PerWheel<WheelCommand>& told);
+  void set_gravity();
+  void set_gap_gradient();
+  void set_compatibility();
+  WheelContact contact_at(int wheel, double entry_angle_rad, const WheelMotion& motion) const;
+  WheelMotion motion_of(int wheel, const Vector& unknowns) const;
+  // The motion q of heave, roll, pitch and joints that lifts the wheels in contact by these heights, by least
+  // squares; `push` is 0 then (see resting_loads_n).
+  Freedoms body_motion(const Loads& height_m, const Freedoms& push) const;
+  int equilibrium_count() const { return 6 + joints_; }
 
   const RoverModel& rover_;
   const Stance& stance_;
-  const std::array<Soil, kWheels>& soils_;
-  std::array<WheelCommand, kWheels> told_;
-  std::array<WheelPlace, kWheels> places_;
-  std::array<WheelForces, kWheels> forces_;
+  PerWheel<Soil> soils_;
+  PerWheel<WheelPlace> places_;
+  PerWheel<WheelContact> contacts_;
+  PerWheel<bool> in_air_;
+  PerWheel<int> leaders_;
+  PerWheel<double> rut_shares_;
+  int joints_, undetermined_, in_contact_;
+  Eigen::Vector2d travel_;
   double weight_, length_, speed_scale_;
-  Vector gravity_;
+  double sinkage_scale_m_ = 1.0;  // z_ref; of no matter where all loads are determined
+  Vector gravity_;                // on the equations of equilibrium
+  GapGradient gap_gradient_;      // by heave, roll, pitch (times half the wheelbase) and joints
+  Loads gap_;
+  // Rows of compatibility on the own sinkages, one for each wheel that a determined vehicle could spare.
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostWheels, kMostWheels> compatibility_;
+  Loads compatibility_of_gap_;
 };
 
 }  // namespace slipway::sim

@@ -6,12 +6,15 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <set>
 #include <string_view>
 
 namespace slipway::sim {
 namespace {
 
 constexpr std::array<std::string_view, 6> kNames{"lf", "lm", "lr", "rf", "rm", "rr"};
+constexpr std::size_t kLongestName = 8;
 
 class FaultList {
  public:
@@ -29,24 +32,60 @@ class FaultList {
   std::vector<Fault> faults_;
 };
 
-void check_wheels(const RoverModel& rover, FaultList& faults) {
+void check_names(const RoverModel& rover, FaultList& faults) {
+  std::set<std::string_view> seen;
+  for (std::size_t k = 0; k < rover.wheels.size(); ++k) {
+    const std::string& name = rover.wheels[k].name;
+    const std::string at = fmt::format("/wheels/{}/name", k);
+    if (name.empty() || name.size() > kLongestName)
+      faults.add(at, fmt::format("name = \"{}\", must have 1 to {} characters", name, kLongestName));
+    if (!seen.insert(name).second) faults.add(at, fmt::format("name = \"{}\" is another wheel's", name));
+  }
+}
+
+void check_wheel(const WheelModel& wheel, const std::string& at, FaultList& faults) {
+  faults.require_in(at + "/radius_m", "radius_m", wheel.radius_m, 0.02, 1.0);
+  faults.require_in(at + "/width_m", "width_m", wheel.width_m, 0.01, 1.0);
+  const double y = wheel.position_m.y();
+  if (wheel.side == Side::kLeft ? !(y >= 0.0) : !(y <= 0.0))
+    faults.add(at + "/position_m", "position_m[1] must be positive on the left and negative on the right");
+  if (wheel.grousers) {
+    faults.require_in(at + "/grousers/height_m", "height_m", wheel.grousers->height_m, 0.0, wheel.radius_m);
+    faults.require_in(at + "/grousers/count", "count", wheel.grousers->count, 0.0, 500.0);
+  }
+  faults.require_in(at + "/drag_nm", "drag_nm", wheel.drag_nm, 0.0, 1e4);
+  faults.require_in(at + "/rate_share", "rate_share", wheel.rate_share, 0.01, 1.0);
+  faults.require_in(at + "/steering_offset_deg", "steering_offset_rad", wheel.steering_offset_rad, -0.8, 0.8);
+  if (wheel.told_radius_m)
+    faults.require_in(at + "/told_radius_m", "told_radius_m", *wheel.told_radius_m, 0.02, 1.0);
+}
+
+// False where there are too many or too few to look further.
+bool check_wheels(const RoverModel& rover, FaultList& faults) {
+  if (rover.wheels.size() < 3 || rover.wheels.size() > kMostWheels) {
+    faults.add("/wheels", fmt::format("{} wheels, must be 3 to {}", rover.wheels.size(), kMostWheels));
+    return false;
+  }
+  check_names(rover, faults);
+  for (std::size_t k = 0; k < rover.wheels.size(); ++k)
+    check_wheel(rover.wheels[k], fmt::format("/wheels/{}", k), faults);
+  return true;
+}
+
+void check_rocker_bogie(const RoverModel& rover, FaultList& faults) {
   if (rover.wheels.size() != kNames.size()) {
-    faults.add("/wheels", fmt::format("{} wheels, must be 6 (lf lm lr rf rm rr)", rover.wheels.size()));
+    faults.add("/wheels",
+               fmt::format("{} wheels, a rocker_bogie has 6 (lf lm lr rf rm rr)", rover.wheels.size()));
     return;
   }
   std::array<int, 2> on_bogie{};
   for (std::size_t k = 0; k < rover.wheels.size(); ++k) {
     const WheelModel& wheel = rover.wheels[k];
-    const std::string at = fmt::format("/wheels/{}", k);
     if (wheel.name != kNames[k])
-      faults.add(at + "/name",
-                 fmt::format("name = \"{}\", must be \"{}\" in this place", wheel.name, kNames[k]));
-    faults.require_in(at + "/radius_m", "radius_m", wheel.radius_m, 0.02, 1.0);
-    faults.require_in(at + "/width_m", "width_m", wheel.width_m, 0.01, 1.0);
-    const bool left = wheel.side == Side::kLeft;
-    if (left != (wheel.position_m.y() > 0.0))
-      faults.add(at + "/position_m", "position_m[1] must be positive on the left and negative on the right");
-    on_bogie[left ? 0 : 1] += wheel.on_bogie ? 1 : 0;
+      faults.add(fmt::format("/wheels/{}/name", k),
+                 fmt::format("name = \"{}\", must be \"{}\" in this place of a rocker_bogie", wheel.name,
+                             kNames[k]));
+    on_bogie[wheel.side == Side::kLeft ? 0 : 1] += wheel.on_bogie ? 1 : 0;
   }
   for (const int count : on_bogie)
     if (count != 2)
@@ -54,16 +93,47 @@ void check_wheels(const RoverModel& rover, FaultList& faults) {
                  fmt::format("a side's bogie carries {} wheels, must be 2", count));
 }
 
+// A rocker on wheels in one line across the rover would turn over; a side without wheels would have to be
+// carried by the other.
+void check_sides(const RoverModel& rover, FaultList& faults) {
+  const bool averaging = rover.suspension.type == SuspensionType::kAveraging;
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    const std::string_view name = side == Side::kLeft ? "left" : "right";
+    double front = -std::numeric_limits<double>::infinity(), rear = -front;
+    for (const WheelModel& wheel : rover.wheels) {
+      if (wheel.side != side) continue;
+      front = std::max(front, wheel.position_m.x());
+      rear = std::min(rear, wheel.position_m.x());
+    }
+    if (front < rear) {
+      faults.add("/wheels", fmt::format("no wheel on the {} side", name));
+    } else if (averaging && !(front - rear > 0.0)) {
+      faults.add(
+          "/suspension/type",
+          fmt::format("averaging: the {} side's rocker must carry wheels in front and behind each other",
+                      name));
+    }
+  }
+}
+
+// Whether a point lies inside the convex hull of the wheels, seen from above: from it, no half-plane is free
+// of wheels.
+bool inside_wheels(const RoverModel& rover, const Eigen::Vector2d& point) {
+  std::vector<double> bearing;
+  for (const WheelModel& wheel : rover.wheels) {
+    const Eigen::Vector2d to = wheel.position_m.head<2>() - point;
+    bearing.push_back(std::atan2(to.y(), to.x()));
+  }
+  std::sort(bearing.begin(), bearing.end());
+  double widest = bearing.front() + 2.0 * std::numbers::pi - bearing.back();
+  for (std::size_t k = 1; k < bearing.size(); ++k) widest = std::max(widest, bearing[k] - bearing[k - 1]);
+  return widest < std::numbers::pi - 1e-9;
+}
+
 void check_mass(const RoverModel& rover, FaultList& faults) {
   faults.require_in("/mass_kg", "mass_kg", rover.mass_kg, 1.0, 5000.0);
   faults.require_in("/com_m", "com_m[2]", rover.com_m.z(), 0.01, 3.0);
-  double front = -std::numeric_limits<double>::infinity(), rear = -front, half_track = 0.0;
-  for (const WheelModel& wheel : rover.wheels) {
-    front = std::max(front, wheel.position_m.x());
-    rear = std::min(rear, wheel.position_m.x());
-    half_track = std::max(half_track, std::abs(wheel.position_m.y()));
-  }
-  if (!(rover.com_m.x() < front && rover.com_m.x() > rear && std::abs(rover.com_m.y()) < half_track))
+  if (!rover.wheels.empty() && !inside_wheels(rover, rover.com_m.head<2>()))
     faults.add("/com_m", "com_m lies outside the wheels: the rover would tip over on level ground");
 }
 
@@ -76,6 +146,7 @@ void check_drive(const RoverModel& rover, FaultList& faults) {
   faults.require_in("/drive/no_load_current_a", "no_load_current_a", drive.no_load_current_a, 0.0, 10.0);
   faults.require_in("/drive/max_wheel_rate_deg_s", "max_wheel_rate_rad_s", drive.max_wheel_rate_rad_s, 1e-3,
                     100.0);
+  faults.require_in("/drive/damping_nms_rad", "damping_nms_rad", drive.damping_nms_rad, 0.0, 10.0);
   faults.require_in("/drive/bus_voltage_v", "bus_voltage_v", drive.bus_voltage_v, 1.0, 400.0);
   if (drive.resistance_ohm)
     faults.require_in("/drive/resistance_ohm", "resistance_ohm", *drive.resistance_ohm, 1e-3, 1e3);
@@ -102,7 +173,10 @@ double RoverModel::track_m() const {
 
 std::vector<Fault> faults_of(const RoverModel& rover) {
   FaultList faults;
-  check_wheels(rover, faults);
+  if (check_wheels(rover, faults)) {
+    if (rover.suspension.type == SuspensionType::kRockerBogie) check_rocker_bogie(rover, faults);
+    check_sides(rover, faults);
+  }
   check_mass(rover, faults);
   check_drive(rover, faults);
   faults.require_in("/belly_clearance_m", "belly_clearance_m", rover.belly_clearance_m, 0.01, 2.0);
@@ -112,6 +186,8 @@ std::vector<Fault> faults_of(const RoverModel& rover) {
   faults.require_in("/cruise_speed_m_s", "cruise_speed_m_s", rover.cruise_speed_m_s, 1e-4, 5.0);
   faults.require_in("/turn_rate_deg_s", "turn_rate_rad_s", rover.turn_rate_rad_s, 1e-4, 2.0);
   faults.require_in("/min_turn_radius_m", "min_turn_radius_m", rover.min_turn_radius_m, 0.0, 100.0);
+  faults.require_in("/roll_bias_deg", "roll_bias_rad", rover.roll_bias_rad, -0.5, 0.5);
+  faults.require_in("/pitch_bias_deg", "pitch_bias_rad", rover.pitch_bias_rad, -0.5, 0.5);
   return faults.take();
 }
 

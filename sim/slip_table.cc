@@ -33,14 +33,14 @@ TableEntry blend(const TableEntry& a, const TableEntry& b, double t) {
 }  // namespace
 
 SlipTable::SlipTable(const RoverModel& rover, double gravity_m_s2, const Soil& soil, double limit_rad,
-                     double step_rad)
+                     double step_rad, const DriveConditions& conditions)
     : step_rad_(step_rad) {
   const int half = std::max(1, static_cast<int>(std::ceil(limit_rad / step_rad - 1e-9)));
   nodes_ = 2 * half + 1;
   limit_rad_ = half * step_rad_;
   entries_.resize(static_cast<std::size_t>(nodes_) * nodes_);
   QuasiStaticSolver solver(rover, gravity_m_s2);
-  const DriveCommand command{.speed_m_s = rover.cruise_speed_m_s};
+  const DriveCommand command{.speed_m_s = rover.cruise_speed_m_s, .motor_temp_c = conditions.motor_temp_c};
   for (int i = 0; i < nodes_; ++i) {
     for (int j = 0; j < nodes_; ++j) {
       // There and back, so that neighbours in the order are neighbours on the table and each start is a warm

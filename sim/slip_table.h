@@ -22,8 +22,8 @@ struct TableEntry {
 class SlipTable {
  public:
   // Nodes every step_rad over [-limit_rad, limit_rad] in pitch and roll, driving at the rover's cruise speed.
-  SlipTable(const RoverModel& rover, double gravity_m_s2, const Soil& soil, double limit_rad,
-            double step_rad);
+  SlipTable(const RoverModel& rover, double gravity_m_s2, const Soil& soil, double limit_rad, double step_rad,
+            const DriveConditions& conditions = {});
   // Forward driving at this attitude; nothing outside the table's limit.
   std::optional<TableEntry> at(double pitch_rad, double roll_rad) const;
   double limit_rad() const { return limit_rad_; }

@@ -11,7 +11,6 @@ namespace {
 using sim::StationPrediction;
 using sim::WheelState;
 
-constexpr std::array<std::string_view, sim::kWheels> kWheelNames{"lf", "lm", "lr", "rf", "rm", "rr"};
 constexpr double kJoulesPerWattHour = 3600.0;
 
 struct Column {
@@ -128,8 +127,8 @@ void write_stations(Writer& w, const sim::DrivePrediction& prediction, const Pro
   }
   write_words(w, stations, provenance);
   w.key("wheels").begin_object();
-  for (std::size_t wheel = 0; wheel < kWheelNames.size(); ++wheel) {
-    w.key(kWheelNames[wheel]).begin_object();
+  for (std::size_t wheel = 0; wheel < prediction.wheel_names.size(); ++wheel) {
+    w.key(prediction.wheel_names[wheel]).begin_object();
     for (const WheelColumn& column : kWheelColumns) {
       w.key(column.name).begin_array();
       for (const StationPrediction& s : stations) w.significant(column.value(s.state.wheels[wheel]));

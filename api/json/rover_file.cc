@@ -1,6 +1,8 @@
 #include "api/json/rover_file.h"
 
 #include <algorithm>
+#include <array>
+#include <optional>
 
 #include "api/faults.h"
 #include "api/json/parse.h"
@@ -12,6 +14,10 @@ namespace {
 constexpr NumberRule kBodyMetres{"m", -10.0, 10.0};
 constexpr std::size_t kMostSources = 50;
 
+// In the order of sim::WheelDrive and sim::SuspensionType.
+const std::vector<std::string_view> kWheelDrives{"driven", "locked", "free"};
+const std::vector<std::string_view> kSuspensions{"rocker_bogie", "averaging", "rigid"};
+
 bool read_point(ObjectReader& reader, std::string_view key, Eigen::Vector3d& out) {
   std::vector<double> xyz;
   if (!reader.numbers(key, kRequired, {3, 3}, kBodyMetres, xyz)) return false;
@@ -19,17 +25,42 @@ bool read_point(ObjectReader& reader, std::string_view key, Eigen::Vector3d& out
   return true;
 }
 
+std::optional<sim::Grousers> read_grousers(ObjectReader& reader) {
+  auto object = reader.object("grousers", kOptional);
+  if (!object) return std::nullopt;
+  sim::Grousers grousers;
+  object->number("height_m", kRequired, {"m", 0.0, 1.0}, grousers.height_m);
+  object->number("count", kRequired, {"1", 0.0, 500.0}, grousers.count);
+  object->refuse_unknown();
+  return grousers;
+}
+
+// The usual names say the side; of other wheels their place does.
+sim::Side side_of(const sim::WheelModel& wheel) {
+  constexpr std::array<std::string_view, 6> kUsual{"lf", "lm", "lr", "rf", "rm", "rr"};
+  const bool usual = std::find(kUsual.begin(), kUsual.end(), wheel.name) != kUsual.end();
+  const bool right = usual ? wheel.name.starts_with('r') : wheel.position_m.y() < 0.0;
+  return right ? sim::Side::kRight : sim::Side::kLeft;
+}
+
 void read_wheels(ObjectReader& reader, sim::RoverModel& rover) {
-  for (const Element& element : reader.list("wheels", kRequired, {6, 6})) {
+  // Given for the rover, they are on every wheel that has none of its own.
+  const std::optional<sim::Grousers> everywhere = read_grousers(reader);
+  for (const Element& element : reader.list("wheels", kRequired, {3, sim::kMostWheels})) {
     ObjectReader object(*element.value, element.pointer, reader.faults());
     sim::WheelModel& wheel = rover.wheels.emplace_back();
-    object.text("name", kRequired, {.most = 2, .is_name = true}, wheel.name);
+    object.text("name", kRequired, {.most = 8, .is_name = true}, wheel.name);
     read_point(object, "position_m", wheel.position_m);
     object.number("radius_m", kRequired, {"m", 0.0, 1.0, true}, wheel.radius_m);
     object.number("width_m", kRequired, {"m", 0.0, 1.0, true}, wheel.width_m);
+    wheel.grousers = read_grousers(object);
+    if (!wheel.grousers) wheel.grousers = everywhere;
     object.boolean("steerable", kRequired, wheel.steerable);
+    std::size_t drive = 0;
+    if (object.choice("drive", kOptional, kWheelDrives, drive))
+      wheel.drive = static_cast<sim::WheelDrive>(drive);
     object.refuse_unknown();
-    wheel.side = wheel.name.starts_with('r') ? sim::Side::kRight : sim::Side::kLeft;
+    wheel.side = side_of(wheel);
   }
 }
 
@@ -37,16 +68,21 @@ void read_suspension(ObjectReader& reader, sim::RoverModel& rover) {
   auto object = reader.object("suspension", kRequired);
   if (!object) return;
   std::size_t type = 0;
-  object->choice("type", kRequired, {"rocker_bogie"}, type);
-  read_point(*object, "rocker_pivot_m", rover.suspension.rocker_pivot_m);
-  read_point(*object, "bogie_pivot_m", rover.suspension.bogie_pivot_m);
-  std::vector<std::string> carried;
-  object->texts("bogie_wheels", kRequired, {2, 2}, {.most = 1}, carried);
-  object->refuse_unknown();
-  for (sim::WheelModel& wheel : rover.wheels) {
-    wheel.on_bogie = wheel.name.size() == 2 &&
-                     std::find(carried.begin(), carried.end(), wheel.name.substr(1)) != carried.end();
+  // What other keys there should be depends on the type.
+  if (!object->choice("type", kRequired, kSuspensions, type)) return;
+  rover.suspension.type = static_cast<sim::SuspensionType>(type);
+  if (rover.suspension.type != sim::SuspensionType::kRigid)
+    read_point(*object, "rocker_pivot_m", rover.suspension.rocker_pivot_m);
+  if (rover.suspension.type == sim::SuspensionType::kRockerBogie) {
+    read_point(*object, "bogie_pivot_m", rover.suspension.bogie_pivot_m);
+    std::vector<std::string> carried;
+    object->texts("bogie_wheels", kRequired, {2, 2}, {.most = 1}, carried);
+    for (sim::WheelModel& wheel : rover.wheels) {
+      wheel.on_bogie = wheel.name.size() == 2 &&
+                       std::find(carried.begin(), carried.end(), wheel.name.substr(1)) != carried.end();
+    }
   }
+  object->refuse_unknown();
 }
 
 void read_drive(ObjectReader& reader, sim::RoverModel& rover) {
@@ -58,6 +94,7 @@ void read_drive(ObjectReader& reader, sim::RoverModel& rover) {
   object->number("gear_ratio", kRequired, {"1", 1.0, 1e5}, drive.gear_ratio);
   object->number("gear_efficiency", kRequired, {"1", 0.0, 1.0, true}, drive.gear_efficiency);
   object->number("no_load_current_a", kRequired, {"A", 0.0, 10.0}, drive.no_load_current_a);
+  object->number("damping_nms_rad", kOptional, {"N m s/rad", 0.0, 10.0}, drive.damping_nms_rad);
   object->angle_deg("max_wheel_rate_deg_s", kRequired, {"deg/s", 0.0, 5000.0, true},
                     drive.max_wheel_rate_rad_s);
   object->number("bus_voltage_v", kRequired, {"V", 0.0, 400.0, true}, drive.bus_voltage_v);
@@ -78,6 +115,50 @@ void read_body(ObjectReader& reader, sim::RoverModel& rover) {
 
 void write_point(Writer& w, std::string_view key, const Eigen::Vector3d& p) {
   w.key(key).begin_array().exact(p.x()).exact(p.y()).exact(p.z()).end_array();
+}
+
+void write_wheels(Writer& w, const sim::RoverModel& rover) {
+  w.key("wheels").begin_array();
+  for (const sim::WheelModel& wheel : rover.wheels) {
+    w.begin_object().text("name", wheel.name);
+    write_point(w, "position_m", wheel.position_m);
+    w.exact("radius_m", wheel.radius_m).exact("width_m", wheel.width_m);
+    if (wheel.grousers) {
+      w.key("grousers").begin_object().exact("height_m", wheel.grousers->height_m);
+      w.exact("count", wheel.grousers->count).end_object();
+    }
+    w.boolean("steerable", wheel.steerable);
+    if (wheel.drive != sim::WheelDrive::kDriven)
+      w.text("drive", kWheelDrives[static_cast<std::size_t>(wheel.drive)]);
+    w.end_object();
+  }
+  w.end_array();
+}
+
+void write_suspension(Writer& w, const sim::RoverModel& rover) {
+  const sim::Suspension& suspension = rover.suspension;
+  w.key("suspension").begin_object().text("type", kSuspensions[static_cast<std::size_t>(suspension.type)]);
+  if (suspension.type != sim::SuspensionType::kRigid)
+    write_point(w, "rocker_pivot_m", suspension.rocker_pivot_m);
+  if (suspension.type == sim::SuspensionType::kRockerBogie) {
+    write_point(w, "bogie_pivot_m", suspension.bogie_pivot_m);
+    std::vector<std::string> on_bogie;
+    for (const sim::WheelModel& wheel : rover.wheels)
+      if (wheel.on_bogie && wheel.side == sim::Side::kLeft) on_bogie.push_back(wheel.name.substr(1));
+    w.texts("bogie_wheels", on_bogie);
+  }
+  w.end_object();
+}
+
+void write_drive(Writer& w, const sim::DriveMotor& drive) {
+  w.key("drive").begin_object().exact("torque_constant_nm_per_a", drive.torque_constant_nm_per_a);
+  w.exact("gear_ratio", drive.gear_ratio).exact("gear_efficiency", drive.gear_efficiency);
+  w.exact("no_load_current_a", drive.no_load_current_a);
+  if (drive.damping_nms_rad != 0.0) w.exact("damping_nms_rad", drive.damping_nms_rad);
+  w.angle_deg("max_wheel_rate_deg_s", drive.max_wheel_rate_rad_s).exact("bus_voltage_v", drive.bus_voltage_v);
+  if (drive.resistance_ohm) w.exact("resistance_ohm", *drive.resistance_ohm);
+  if (drive.max_current_a) w.exact("max_current_a", *drive.max_current_a);
+  w.end_object();
 }
 
 }  // namespace
@@ -112,28 +193,9 @@ void write_rover(Writer& w, const sim::RoverModel& rover) {
   w.texts("sources", rover.sources).texts("assumed", rover.assumed);
   w.exact("mass_kg", rover.mass_kg);
   write_point(w, "com_m", rover.com_m);
-  w.key("wheels").begin_array();
-  std::vector<std::string> on_bogie;
-  for (const sim::WheelModel& wheel : rover.wheels) {
-    w.begin_object().text("name", wheel.name);
-    write_point(w, "position_m", wheel.position_m);
-    w.exact("radius_m", wheel.radius_m).exact("width_m", wheel.width_m).boolean("steerable", wheel.steerable);
-    w.end_object();
-    if (wheel.on_bogie && wheel.side == sim::Side::kLeft) on_bogie.push_back(wheel.name.substr(1));
-  }
-  w.end_array();
-  w.key("suspension").begin_object().text("type", "rocker_bogie");
-  write_point(w, "rocker_pivot_m", rover.suspension.rocker_pivot_m);
-  write_point(w, "bogie_pivot_m", rover.suspension.bogie_pivot_m);
-  w.texts("bogie_wheels", on_bogie).end_object();
-  const sim::DriveMotor& drive = rover.drive;
-  w.key("drive").begin_object().exact("torque_constant_nm_per_a", drive.torque_constant_nm_per_a);
-  w.exact("gear_ratio", drive.gear_ratio).exact("gear_efficiency", drive.gear_efficiency);
-  w.exact("no_load_current_a", drive.no_load_current_a);
-  w.angle_deg("max_wheel_rate_deg_s", drive.max_wheel_rate_rad_s).exact("bus_voltage_v", drive.bus_voltage_v);
-  if (drive.resistance_ohm) w.exact("resistance_ohm", *drive.resistance_ohm);
-  if (drive.max_current_a) w.exact("max_current_a", *drive.max_current_a);
-  w.end_object();
+  write_wheels(w, rover);
+  write_suspension(w, rover);
+  write_drive(w, rover.drive);
   w.exact("belly_clearance_m", rover.belly_clearance_m);
   w.exact("body_length_m", rover.body_length_m).exact("body_width_m", rover.body_width_m);
   w.angle_deg("max_tilt_deg", rover.max_tilt_rad).exact("cruise_speed_m_s", rover.cruise_speed_m_s);

@@ -81,7 +81,7 @@ TEST(QuasiStatic, EveryPartOfTheSuspensionIsInBalanceAboutItsPivot) {
 
   const Eigen::Vector3d gravity = stance.R_MB.transpose() * Eigen::Vector3d(0, 0, -174.0 * kMars);
   Eigen::Vector3d moment = rover.com_m.cross(gravity), force = gravity;
-  for (int k = 0; k < kWheels; ++k) {
+  for (int k = 0; k < 6; ++k) {
     const WheelState& w = state.wheels[k];
     const Eigen::Vector3d f(w.drawbar_pull_n, w.lateral_force_n, w.load_n);
     force += f;
@@ -93,7 +93,7 @@ TEST(QuasiStatic, EveryPartOfTheSuspensionIsInBalanceAboutItsPivot) {
 
 TEST(QuasiStatic, EachWheelHasItsOwnLoadSinkageAndCurrent) {
   const StationState state = straight(six_wheeler(), sandy_loam(), sloping(-12, 8));
-  for (int k = 0; k < kWheels; ++k)
+  for (int k = 0; k < 6; ++k)
     for (int other = 0; other < k; ++other) {
       EXPECT_GT(std::abs(state.wheels[k].load_n - state.wheels[other].load_n), 0.1);
       EXPECT_GT(std::abs(state.wheels[k].current_a - state.wheels[other].current_a), 1e-4);

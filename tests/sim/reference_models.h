@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <string>
 #include <utility>
 
 #include "core/angle.h"
@@ -64,6 +65,51 @@ inline RoverModel six_wheeler() {
   }
   rover.suspension = {SuspensionType::kRockerBogie, {0.12, 0.45, 0.42}, {-0.35, 0.55, 0.3}};
   rover.drive.max_wheel_rate_rad_s = rad_from_deg(25.0);
+  return rover;
+}
+
+// `columns` wheels a side from front to rear, evenly spaced, none steered.
+inline RoverModel even_wheeler(SuspensionType suspension, int columns) {
+  RoverModel rover = six_wheeler();
+  rover.name = "even-wheeler";
+  rover.mass_kg = 29.0 * 2 * columns;
+  rover.com_m = {0.0, 0.0, 0.35};
+  rover.wheels.clear();
+  for (int k = 0; k < 2 * columns; ++k) {
+    WheelModel wheel;
+    wheel.side = k < columns ? Side::kLeft : Side::kRight;
+    const int place = k % columns;
+    wheel.name = (k < columns ? "l" : "r") + std::to_string(place + 1);
+    wheel.position_m = {0.7 - 1.4 * place / (columns - 1), k < columns ? 0.5 : -0.5, 0.125};
+    rover.wheels.push_back(wheel);
+  }
+  if (columns == 2) {
+    const char* names[] = {"lf", "lr", "rf", "rr"};
+    for (int k = 0; k < 4; ++k) rover.wheels[k].name = names[k];
+  }
+  rover.suspension = {.type = suspension, .rocker_pivot_m = {0.0, 0.4, 0.4}};
+  return rover;
+}
+
+// In the order lf lr rf rr.
+inline RoverModel four_wheeler(SuspensionType suspension) {
+  return even_wheeler(suspension, 2);
+}
+
+// Two wheels in front, one behind.
+inline RoverModel three_wheeler() {
+  RoverModel rover = four_wheeler(SuspensionType::kRigid);
+  rover.name = "three-wheeler";
+  rover.mass_kg = 87.0;
+  rover.com_m.x() = 0.2;
+  rover.wheels = {rover.wheels[0], rover.wheels[2], rover.wheels[1]};
+  rover.wheels[2].name = "tail";
+  rover.wheels[2].position_m.y() = 0.0;
+  return rover;
+}
+
+inline RoverModel all_steered(RoverModel rover) {
+  for (WheelModel& wheel : rover.wheels) wheel.steerable = true;
   return rover;
 }
 

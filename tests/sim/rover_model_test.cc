@@ -25,6 +25,43 @@ TEST(RoverModel, EveryFaultIsReportedAtOnceWithItsPlace) {
             (std::vector<std::string>{"/wheels/2/radius_m", "/mass_kg", "/com_m", "/drive/gear_efficiency"}));
 }
 
+std::vector<std::string> pointers_of(const RoverModel& rover) {
+  std::vector<std::string> pointers;
+  for (const Fault& fault : faults_of(rover)) pointers.push_back(fault.pointer);
+  return pointers;
+}
+
+TEST(RoverModel, ThreeToTwelveWheelsOnTheSuspensionsThatFitThemHaveNoFaults) {
+  EXPECT_TRUE(faults_of(three_wheeler()).empty());
+  EXPECT_TRUE(faults_of(four_wheeler(SuspensionType::kAveraging)).empty());
+  for (const int columns : {2, 3, 4, 6})
+    EXPECT_TRUE(faults_of(even_wheeler(SuspensionType::kRigid, columns)).empty()) << columns;
+  EXPECT_EQ(pointers_of(even_wheeler(SuspensionType::kRigid, 7)).front(), "/wheels");
+}
+
+TEST(RoverModel, ARockerBogieHasSixWheelsAndAnAveragingRockerTwoBehindEachOther) {
+  EXPECT_EQ(pointers_of(four_wheeler(SuspensionType::kRockerBogie)), std::vector<std::string>{"/wheels"});
+  RoverModel tripod = three_wheeler();
+  tripod.suspension.type = SuspensionType::kAveraging;
+  EXPECT_EQ(pointers_of(tripod), std::vector<std::string>{"/suspension/type"});
+  RoverModel disordered = six_wheeler();
+  std::swap(disordered.wheels[0].name, disordered.wheels[1].name);
+  EXPECT_EQ(pointers_of(disordered), (std::vector<std::string>{"/wheels/0/name", "/wheels/1/name"}));
+}
+
+TEST(RoverModel, WheelsHaveNamesOfTheirOwn) {
+  RoverModel rover = three_wheeler();
+  rover.wheels[1].name = rover.wheels[0].name;
+  rover.wheels[2].name = "much_too_long";
+  EXPECT_EQ(pointers_of(rover), (std::vector<std::string>{"/wheels/1/name", "/wheels/2/name"}));
+}
+
+TEST(RoverModel, TheCentreOfMassOfATripodLiesInItsTriangle) {
+  RoverModel rover = three_wheeler();
+  rover.com_m = {-0.5, 0.4, 0.35};  // between front and rear, left and right, but beside the tail
+  EXPECT_EQ(pointers_of(rover), std::vector<std::string>{"/com_m"});
+}
+
 TEST(WheelCommands, StraightDrivingTurnsAllWheelsAlike) {
   for (const WheelCommand& wheel : wheel_commands(six_wheeler(), {.speed_m_s = 0.04})) {
     EXPECT_EQ(wheel.steer_rad, 0.0);
@@ -36,7 +73,7 @@ TEST(WheelCommands, OnAnArcEveryWheelPointsAcrossTheTurnsCentre) {
   const RoverModel rover = six_wheeler();
   const double curvature = 0.4;
   const auto told = wheel_commands(rover, {.speed_m_s = 0.03, .curvature_1_m = curvature});
-  for (int k = 0; k < kWheels; ++k) {
+  for (int k = 0; k < 6; ++k) {
     if (!rover.wheels[k].steerable) continue;
     const Eigen::Vector2d to_centre(-rover.wheels[k].position_m.x(),
                                     1.0 / curvature - rover.wheels[k].position_m.y());

@@ -30,7 +30,7 @@ TEST(Stance, OnAPlaneTheAttitudeIsThePlanesForEveryHeading) {
     ASSERT_TRUE(stance) << yaw;
     EXPECT_NEAR(stance->attitude.tilt_rad(), slope, 1e-7) << yaw;
     EXPECT_NEAR(stance->rocker_rad, 0.0, 1e-7) << yaw;
-    for (int k = 0; k < kWheels; ++k) EXPECT_NEAR(stance->normal_B[k].z(), 1.0, 1e-7);
+    for (int k = 0; k < 6; ++k) EXPECT_NEAR(stance->normal_B[k].z(), 1.0, 1e-7);
   }
   const auto uphill = settle(rover, ground, {0.0, 0.0, 0.0});
   EXPECT_NEAR(uphill->attitude.pitch_rad, -slope, 1e-7) << "nose up is negative pitch";
@@ -48,7 +48,7 @@ TEST(Stance, EveryWheelTouchesRollingGround) {
                      6.28 * random_uniform(3, trial)};
     const auto stance = settle(rover, ground, pose);
     ASSERT_TRUE(stance);
-    for (int k = 0; k < kWheels; ++k) {
+    for (int k = 0; k < 6; ++k) {
       const Eigen::Vector3d p_M = stance->p_MB + stance->R_MB * stance->p_B_wheel[k];
       const auto point = ground.at(p_M.x(), p_M.y());
       EXPECT_NEAR((p_M.z() - point->height_m) * point->normal.z(), rover.wheels[k].radius_m, 1e-6);

@@ -70,9 +70,10 @@ Report independent_simulator(const std::string& csv_path) {
     slip2 += slip * slip;
     side2 += side * side;
     worst = std::max(worst, std::abs(slip));
-    for (int k = 0; k < kWheels; ++k) {
-      current2 += std::pow(backwards * state.wheels[k].current_a - drive.column[5 + k], 2) / kWheels;
-      sinkage2 += std::pow(1e3 * (state.wheels[k].sinkage_m - drive.column[11 + k]), 2) / kWheels;
+    const int wheels = static_cast<int>(state.wheels.size());
+    for (int k = 0; k < wheels; ++k) {
+      current2 += std::pow(backwards * state.wheels[k].current_a - drive.column[5 + k], 2) / wheels;
+      sinkage2 += std::pow(1e3 * (state.wheels[k].sinkage_m - drive.column[11 + k]), 2) / wheels;
     }
     report.rows.push_back({drive.id, fmt::format("{:.1f}", drive.column[0]),
                            fmt::format("{:.1f}", drive.column[1]), fmt::format("{:.3f}", drive.column[3]),
