@@ -16,7 +16,8 @@ namespace slipway::api {
 // below.
 struct DriveAssumptions {
   sim::DriveLimits limits;
-  std::vector<sim::EffectSetting> effects;
+  sim::DriveConditions conditions;
+  std::vector<sim::EffectSetting> effects;  // added to the rover's own; see sim::in_force
   int draws = sim::RiskOptions{}.draws;
   std::uint64_t seed = 1;
   std::optional<double> speed_m_s;  // nothing: the rover's cruise speed

@@ -12,6 +12,7 @@ struct PredictionRequest {
   std::string terrain;
   std::string rover;
   std::vector<planner::Waypoint> path;  // corners, joined by turns in place and straight drives
+  planner::Manner manner;
   DriveAssumptions drive;
 };
 

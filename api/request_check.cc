@@ -70,7 +70,7 @@ void RequestCheck::drive(const DriveAssumptions& drive) {
   }
   if (rover_ != nullptr && !already_faulty("/effects")) {
     sim::RoverModel changed = *rover_;
-    sim::apply_effects(drive.effects, changed);
+    sim::apply_effects(sim::in_force(rover_->effects, drive.effects), changed);
     for (const Fault& fault : sim::faults_of(changed)) {
       add(ErrorCode::kInvalidRequest, "/effects", "the rover with these effects: " + fault.message);
     }

@@ -9,6 +9,7 @@
 #include "api/json/plan_request.h"
 #include "api/json/prediction_request.h"
 #include "api/request_check.h"
+#include "api/soil_regions.h"
 
 namespace slipway::api {
 namespace {
@@ -31,10 +32,14 @@ dem::Extent window_around(const std::vector<planner::Waypoint>& places, const de
   return {box.west_m - margin, box.south_m - margin, box.east_m + margin, box.north_m + margin};
 }
 
-sim::SoilDistribution with_effects(sim::SoilDistribution soil,
-                                   const std::vector<sim::EffectSetting>& effects) {
-  sim::apply_effects(effects, soil.mean);
-  return soil;
+// What is believed of a soil under the effects in force, in their regions where it lies in some.
+sim::SoilDistribution believed(const Catalogue& catalogue, const RegionalSoil& soil,
+                               const std::vector<sim::EffectSetting>& effects) {
+  sim::SoilDistribution belief = catalogue.soils.find(soil.base)->second;
+  sim::apply_effects(effects, belief.mean);
+  for (const std::size_t region : soil.regions) sim::apply_in_region(effects, region, belief.mean);
+  if (!soil.regions.empty()) belief.name = soil.name();
+  return belief;
 }
 
 }  // namespace
@@ -91,7 +96,8 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
   if (!check.passed()) return fail(check.error());
   const TerrainSite& site = *catalogue_.terrains.find(terrain)->second;
   sim::RoverModel driven = *catalogue_.rovers.find(rover)->second;
-  sim::apply_effects(drive.effects, driven);
+  const std::vector<sim::EffectSetting> effects = sim::in_force(driven.effects, drive.effects);
+  sim::apply_effects(effects, driven);
   if (drive.speed_m_s) driven.cruise_speed_m_s = *drive.speed_m_s;
   auto ground = site.read(window_around(places, site.info().geometry));
   if (!ground) return fail(ground.error());
@@ -99,11 +105,12 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
   Setting setting;
   planner::PlanProblem& problem = setting.problem;
   problem.terrain = ground->terrain;
-  problem.soil_map = ground->soil_map;
-  for (const std::string& name : ground->soil_map->soils()) {
-    problem.beliefs.known.push_back(with_effects(catalogue_.soils.find(name)->second, drive.effects));
-  }
-  problem.beliefs.unknown = with_effects(catalogue_.soils.find(kUnknownGround)->second, drive.effects);
+  RegionalSoils soils = soils_in_regions(ground->soil_map, sim::effect_regions(effects));
+  problem.soil_map = soils.map;
+  for (const RegionalSoil& soil : soils.soils)
+    problem.beliefs.known.push_back(believed(catalogue_, soil, effects));
+  problem.beliefs.unknown = believed(catalogue_, {std::string(kUnknownGround), {}}, effects);
+  problem.conditions = drive.conditions;
   problem.rover = std::make_shared<const sim::RoverModel>(std::move(driven));
   problem.gravity_m_s2 = site.description().gravity_m_s2;
   problem.limits = drive.limits;
@@ -118,7 +125,7 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
                         .body = site.info().body,
                         .gravity_m_s2 = site.description().gravity_m_s2,
                         .soil_assumption = site.description().assumption,
-                        .soils = ground->soil_map->soils(),
+                        .soils = soils.map->soils(),
                         .unknown_soil = std::string(kUnknownGround),
                         .seed = drive.seed};
   return setting;
@@ -154,7 +161,7 @@ Result<PredictionAnswer> Service::predict(const PredictionRequest& request, Prog
   planner::PlanProblem& problem = setting->problem;
   problem.start = request.path.front();
   problem.goal = request.path.back();
-  auto prediction = planner::predict_path(problem, request.path, progress);
+  auto prediction = planner::predict_path(problem, request.path, progress, request.manner);
   if (!prediction) return fail(prediction.error());
   return PredictionAnswer{request, std::move(setting->provenance), std::move(*prediction)};
 }

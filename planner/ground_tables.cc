@@ -48,7 +48,8 @@ GroundTables build_ground_tables(const PlanProblem& problem) {
     if (!used[i / 2]) return;
     const sim::SoilDistribution& of = belief(i / 2);
     const sim::Soil soil = i % 2 == 0 ? of.mean : weak_soil(of);
-    tables[i].emplace(*problem.rover, problem.gravity_m_s2, soil, limit, limit / kNodesToLimit);
+    tables[i].emplace(*problem.rover, problem.gravity_m_s2, soil, limit, limit / kNodesToLimit,
+                      problem.conditions);
   });
   GroundTables all;
   for (std::size_t kind = 0; kind < kinds; ++kind) {

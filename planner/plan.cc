@@ -145,7 +145,7 @@ class Planning {
           route_stations(candidate.motions, sim::largest_station_spacing_m(*problem_.rover));
       Result<sim::DrivePrediction> drive =
           sim::predict_drive(*problem_.rover, problem_.gravity_m_s2, ground_, problem_.beliefs, stations,
-                             problem_.limits, problem_.risk, problem_.threads, stage);
+                             problem_.limits, problem_.risk, problem_.threads, stage, problem_.conditions);
       if (progress_.cancelled()) return cancelled();
       if (!drive) {
         // A wheel that the body's circle does not cover met a missing cell: this candidate cannot be driven.

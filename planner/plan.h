@@ -29,6 +29,17 @@ struct Weights {
   double risk = 20.0;     // per unit of probability that a limit is broken
 };
 
+// How the rover stands to its direction of travel.
+struct Manner {
+  bool backwards = false;
+  double crab_rad =
+      0.0;  // direction of travel from the body's x axis (its -x axis backwards), positive to the left
+
+  // The body's heading that goes with a direction of travel, and back.
+  double body_yaw(double travel_rad) const;
+  double travel(double body_yaw_rad) const;
+};
+
 // A place to go, with a heading where it matters.
 struct Waypoint {
   double x_m = 0.0;
@@ -47,6 +58,7 @@ struct PlanProblem {
   std::vector<Waypoint> waypoints;  // visited in order
   std::vector<Polygon> keep_out;
   sim::DriveLimits limits;
+  sim::DriveConditions conditions;
   Weights weights;
   int routes = 3;
   std::vector<std::string> planners;  // names of the catalogue; empty: its default set
@@ -106,6 +118,6 @@ Result<Plan> make_plan(const PlanProblem& problem, Progress& progress);
 // The same prediction for a path that is given, corners joined by turns in place and straight drives. Errors:
 // off_map, no_data with the corner or place ("/path/3").
 Result<sim::DrivePrediction> predict_path(const PlanProblem& problem, const std::vector<Waypoint>& corners,
-                                          Progress& progress);
+                                          Progress& progress, const Manner& manner = {});
 
 }  // namespace slipway::planner

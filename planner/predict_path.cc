@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "core/angle.h"
@@ -19,9 +20,10 @@ struct CornerPath {
   std::vector<std::size_t> corner;
 };
 
-CornerPath join(const std::vector<Waypoint>& corners) {
+CornerPath join(const std::vector<Waypoint>& corners, const Manner& manner) {
   CornerPath path;
-  double heading = corners.front().yaw_rad.value_or(0.0);
+  // Motions are joined by their direction of travel.
+  double heading = manner.travel(corners.front().yaw_rad.value_or(0.0));
   if (!corners.front().yaw_rad && corners.size() > 1) {
     heading = straight({corners[0].x_m, corners[0].y_m, 0.0}, corners[1].x_m, corners[1].y_m).to.yaw_rad;
   }
@@ -29,8 +31,9 @@ CornerPath join(const std::vector<Waypoint>& corners) {
   for (std::size_t i = 1; i < corners.size(); ++i) {
     Motion motion = straight(at, corners[i].x_m, corners[i].y_m);
     if (corners[i].yaw_rad) {
-      motion.last_turn_rad = wrapped_rad(*corners[i].yaw_rad - motion.to.yaw_rad);
-      motion.to.yaw_rad = wrapped_rad(*corners[i].yaw_rad);
+      const double last = manner.travel(*corners[i].yaw_rad);
+      motion.last_turn_rad = wrapped_rad(last - motion.to.yaw_rad);
+      motion.to.yaw_rad = wrapped_rad(last);
     }
     at = motion.to;
     path.motions.push_back(motion);
@@ -60,8 +63,16 @@ std::string corner_pointer(const CornerPath& path, const std::vector<sim::PathSt
 
 }  // namespace
 
+double Manner::body_yaw(double travel_rad) const {
+  return wrapped_rad(travel_rad - crab_rad + (backwards ? M_PI : 0.0));
+}
+
+double Manner::travel(double body_yaw_rad) const {
+  return wrapped_rad(body_yaw_rad + crab_rad - (backwards ? M_PI : 0.0));
+}
+
 Result<sim::DrivePrediction> predict_path(const PlanProblem& problem, const std::vector<Waypoint>& corners,
-                                          Progress& progress) {
+                                          Progress& progress, const Manner& manner) {
   if (corners.empty())
     return fail(ErrorCode::kInvalidRequest, "a path has at least one corner",
                 {{"/path", "no corners, must be at least 1"}});
@@ -77,11 +88,16 @@ Result<sim::DrivePrediction> predict_path(const PlanProblem& problem, const std:
     return fail(*code, std::move(detail), std::move(faults));
   }
 
-  const CornerPath path = join(corners);
-  const auto stations = route_stations(path.motions, sim::largest_station_spacing_m(*problem.rover));
+  const CornerPath path = join(corners, manner);
+  auto stations = route_stations(path.motions, sim::largest_station_spacing_m(*problem.rover));
+  for (sim::PathStation& station : stations) {
+    station.pose.yaw_rad = manner.body_yaw(station.pose.yaw_rad);
+    station.backwards = manner.backwards;
+    station.crab_rad = manner.crab_rad;
+  }
   Result<sim::DrivePrediction> drive =
       sim::predict_drive(*problem.rover, problem.gravity_m_s2, ground, problem.beliefs, stations,
-                         problem.limits, problem.risk, problem.threads, progress);
+                         problem.limits, problem.risk, problem.threads, progress, problem.conditions);
   if (!drive) {
     Error error = drive.error();
     for (Fault& fault : error.faults) fault.pointer = corner_pointer(path, stations, fault.pointer);

@@ -1,10 +1,11 @@
 #include "api/json/drive_assumptions.h"
 
+#include "api/json/effect_settings.h"
+
 namespace slipway::api::json {
 namespace {
 
 constexpr NumberRule kMapMetres{"m", -1e8, 1e8};
-constexpr std::size_t kMostEffects = 50;
 constexpr std::uint64_t kLargestExactWhole = 9'007'199'254'740'991;  // 2^53 - 1
 
 void read_limits(ObjectReader& reader, sim::DriveLimits& limits) {
@@ -18,38 +19,15 @@ void read_limits(ObjectReader& reader, sim::DriveLimits& limits) {
   object->refuse_unknown();
 }
 
-void read_parameters(ObjectReader& effect, sim::EffectSetting& setting) {
-  const JsonValue* const parameters = effect.member("parameters", kOptional);
-  if (parameters == nullptr) return;
-  const std::string pointer = child_pointer(effect.pointer(), "parameters");
-  if (!parameters->is(JsonValue::Kind::kObject)) {
-    effect.fault("parameters", "parameters = " + describe(*parameters) + ", must be an object");
-    return;
-  }
-  // Which keys there are, and their ranges, is the effect catalogue's to say.
-  for (std::size_t i = 0; i < parameters->keys.size(); ++i) {
-    const std::string& key = parameters->keys[i];
-    double value = 0.0;
-    if (read_number(parameters->elements[i], child_pointer(pointer, key), key, {}, value, effect.faults())) {
-      setting.parameters[key] = value;
-    }
-  }
-}
-
 }  // namespace
 
 void read_drive_assumptions(ObjectReader& reader, DriveAssumptions& drive) {
   read_limits(reader, drive.limits);
-  for (const Element& element : reader.list("effects", kOptional, {0, kMostEffects})) {
-    ObjectReader effect(*element.value, element.pointer, reader.faults());
-    sim::EffectSetting& setting = drive.effects.emplace_back();  // also when faulty: the indices must stay
-    effect.text("name", kRequired, {.most = 64}, setting.name);
-    read_parameters(effect, setting);
-    effect.refuse_unknown();
-  }
+  read_effects(reader, drive.effects);
   reader.whole("draws", kOptional, 1, RequestLimits::kDraws, drive.draws);
   reader.whole("seed", kOptional, std::uint64_t{0}, kLargestExactWhole, drive.seed);
   reader.number("speed_m_s", kOptional, {"m/s", 0.0, 10.0, true}, drive.speed_m_s);
+  reader.number("motor_temp_c", kOptional, {"degC", -150.0, 150.0}, drive.conditions.motor_temp_c);
 }
 
 void write_drive_assumptions(Writer& w, const DriveAssumptions& drive) {
@@ -60,16 +38,11 @@ void write_drive_assumptions(Writer& w, const DriveAssumptions& drive) {
   w.exact("max_sinkage_m", drive.limits.max_sinkage_m);
   w.exact("min_clearance_m", drive.limits.min_clearance_m);
   w.end_object();
-  w.key("effects").begin_array();
-  for (const sim::EffectSetting& effect : drive.effects) {
-    w.begin_object().text("name", effect.name).key("parameters").begin_object();
-    for (const auto& [key, value] : effect.parameters) w.exact(key, value);
-    w.end_object().end_object();
-  }
-  w.end_array();
+  write_effects(w, drive.effects);
   w.whole("draws", drive.draws);
   w.whole("seed", static_cast<std::int64_t>(drive.seed));
   if (drive.speed_m_s) w.exact("speed_m_s", *drive.speed_m_s);
+  w.exact("motor_temp_c", drive.conditions.motor_temp_c);
 }
 
 void read_waypoint(const JsonValue& value, const std::string& pointer, planner::Waypoint& out,

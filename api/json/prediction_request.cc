@@ -16,6 +16,8 @@ Result<Reading<PredictionRequest>> read_prediction_request(std::string_view byte
   for (const Element& element : reader.list("path", kRequired, {2, RequestLimits::kPathCorners})) {
     read_waypoint(*element.value, element.pointer, request.path.emplace_back(), reading.faults);
   }
+  reader.boolean("backwards", kOptional, request.manner.backwards);
+  reader.angle_deg("crab_deg", kOptional, {"deg", -90.0, 90.0}, request.manner.crab_rad);
   read_drive_assumptions(reader, request.drive);
   reader.refuse_unknown();
   return reading;
@@ -28,6 +30,7 @@ std::string write_prediction_request(const PredictionRequest& request) {
   w.key("path").begin_array();
   for (const planner::Waypoint& corner : request.path) write_waypoint(w, corner);
   w.end_array();
+  w.boolean("backwards", request.manner.backwards).angle_deg("crab_deg", request.manner.crab_rad);
   write_drive_assumptions(w, request.drive);
   w.end_object();
   return w.take();

@@ -5,8 +5,10 @@
 #include <optional>
 
 #include "api/faults.h"
+#include "api/json/effect_settings.h"
 #include "api/json/parse.h"
 #include "api/json/strict_reader.h"
+#include "sim/effect_catalogue.h"
 
 namespace slipway::api::json {
 namespace {
@@ -181,9 +183,14 @@ Result<sim::RoverModel> read_rover_file(std::string_view bytes) {
   read_suspension(reader, rover);
   read_drive(reader, rover);
   read_body(reader, rover);
+  read_effects(reader, rover.effects);
   reader.refuse_unknown();
   // What holds between the numbers can only be asked of a rover whose numbers were read.
-  if (faults.empty()) faults = sim::faults_of(rover);
+  if (faults.empty()) {
+    faults = sim::faults_of(rover);
+    for (Fault& fault : sim::faults_of(rover.effects))
+      faults.push_back({"/effects" + fault.pointer, fault.message});
+  }
   if (!faults.empty()) return fail(ErrorCode::kUnreadableData, summary_of(faults), faults);
   return rover;
 }
@@ -200,6 +207,7 @@ void write_rover(Writer& w, const sim::RoverModel& rover) {
   w.exact("body_length_m", rover.body_length_m).exact("body_width_m", rover.body_width_m);
   w.angle_deg("max_tilt_deg", rover.max_tilt_rad).exact("cruise_speed_m_s", rover.cruise_speed_m_s);
   w.angle_deg("turn_rate_deg_s", rover.turn_rate_rad_s).exact("min_turn_radius_m", rover.min_turn_radius_m);
+  if (!rover.effects.empty()) write_effects(w, rover.effects);
   w.end_object();
 }
 

@@ -28,6 +28,10 @@ void read_mean(ObjectReader& reader, sim::Soil& soil) {
   reader.number("c1", kRequired, {"1", 0.0, 1.0}, soil.c1);
   reader.number("c2", kRequired, {"1", -1.0, 1.0}, soil.c2);
   reader.number("n1", kOptional, {"1", 0.0, 2.0}, soil.n1);
+  reader.number("n1_skid", kOptional, {"1", 0.0, 2.0}, soil.n1_skid);
+  reader.number("n1_lateral", kOptional, {"1", 0.0, 2.0}, soil.n1_lateral);
+  reader.number("exit_angle_ratio", kOptional, {"1", 0.0, 1.0}, soil.exit_angle_ratio);
+  reader.number("shear_coupling", kOptional, {"1", 0.0, 1.0}, soil.shear_coupling);
 }
 
 void read_std(ObjectReader& reader, sim::SoilStd& std) {
@@ -121,6 +125,8 @@ void write_soil(Writer& w, const sim::SoilDistribution& soil) {
   w.exact("cohesion_pa", mean.cohesion_pa).angle_deg("friction_angle_deg", mean.friction_angle_rad);
   w.exact("shear_modulus_x_m", mean.shear_modulus_x_m).exact("shear_modulus_y_m", mean.shear_modulus_y_m);
   w.exact("density_kg_m3", mean.density_kg_m3).exact("c1", mean.c1).exact("c2", mean.c2).exact("n1", mean.n1);
+  w.exact("n1_skid", mean.n1_skid).exact("n1_lateral", mean.n1_lateral);
+  w.exact("exit_angle_ratio", mean.exit_angle_ratio).exact("shear_coupling", mean.shear_coupling);
   w.key("std").begin_object().exact("stiffness_ratio", soil.std.stiffness_ratio).exact("n", soil.std.n);
   w.exact("cohesion_pa", soil.std.cohesion_pa).angle_deg("friction_angle_deg", soil.std.friction_angle_rad);
   w.exact("shear_modulus_ratio", soil.std.shear_modulus_ratio).end_object();
