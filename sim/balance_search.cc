@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "sim/entry_angle.h"
 
@@ -20,7 +21,7 @@ constexpr double kTolerance = 1e-9;           // of the weight, and of the weigh
 constexpr double kSpinningSpeedRatio = 0.02;  // at 98 % slip a drive counts as immobilised
 constexpr double kFastestSpeedRatio = 3.0;    // and at 200 % of the wheels' speed it slides away downhill
 constexpr double kTouchingEntryAngleRad = 0.05;
-constexpr double kColdStartSpeedRatio = 0.9;
+constexpr std::array<double, 3> kColdStartSpeedRatios{0.9, 0.6, 0.3};
 constexpr double kClearance_m = 1e-9;  // a wheel this far into the ground still counts as hanging
 
 // Takes as much of a Newton step as keeps every entry angle positive and every change moderate.
@@ -312,7 +313,7 @@ Primary primary_of(const DriveCommand& command) {
 }
 
 Attempt find_balance(RoverBalance& balance, const Primary& primary, bool warm, Vector& x) {
-  if (!balance.anything_drives()) {
+  if (!balance.any_driven()) {
     x = cold_start(balance, primary, 0.0);
     return {Outcome::kNoTraction, -1};
   }
@@ -323,9 +324,14 @@ Attempt find_balance(RoverBalance& balance, const Primary& primary, bool warm, V
     }
     if (find_in_contact(balance, 20, x)) return judged(balance, primary, x);
   }
-  x = cold_start(balance, primary, kColdStartSpeedRatio);
-  if (find_in_contact(balance, 40, x)) return judged(balance, primary, x);
-  x = cold_start(balance, primary, kColdStartSpeedRatio);
+  // A dead wheel's soil forces turn over within a thousandth of the speed: there the first start often fails
+  // where another finds the balance.
+  const std::span<const double> starts(kColdStartSpeedRatios.data(), balance.all_driven() ? 1 : 3);
+  for (const double share : starts) {
+    x = cold_start(balance, primary, share);
+    if (find_in_contact(balance, 40, x)) return judged(balance, primary, x);
+  }
+  x = cold_start(balance, primary, kColdStartSpeedRatios[0]);
   return bracketed_in_contact(balance, primary, x);
 }
 

@@ -142,10 +142,15 @@ void RoverBalance::place_wheel(int k, const WheelCommand& told) {
   place.leftward_ratio << across * axle.dot(d), across * axle.dot(e), across * axle.dot(turning);
 }
 
-bool RoverBalance::anything_drives() const {
+bool RoverBalance::any_driven() const {
   for (int k = 0; k < wheel_count(); ++k)
     if (rover_.wheels[k].drive == WheelDrive::kDriven && places_[k].motion.rate_rad_s != 0.0) return true;
   return false;
+}
+
+bool RoverBalance::all_driven() const {
+  return std::all_of(rover_.wheels.begin(), rover_.wheels.end(),
+                     [](const WheelModel& wheel) { return wheel.drive == WheelDrive::kDriven; });
 }
 
 WheelMotion RoverBalance::motion_of(int k, const Vector& unknowns) const {

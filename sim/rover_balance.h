@@ -66,8 +66,9 @@ class RoverBalance {
   double direction(int wheel) const { return places_[wheel].direction; }
   const WheelGeometry& geometry(int wheel) const { return places_[wheel].geometry; }
   const Soil& soil(int wheel) const { return soils_[wheel]; }
-  // Whether any wheel has a motor that turns it.
-  bool anything_drives() const;
+  // Whether any wheel, every wheel has a motor that turns it.
+  bool any_driven() const;
+  bool all_driven() const;
   double speed_scale_m_s() const { return speed_scale_; }
   double half_wheelbase_m() const { return length_; }
   double weight_n() const { return weight_; }

@@ -89,9 +89,9 @@ struct RoverModel {
 
 // Everything that a model must satisfy before it is used: 3 to kMostWheels wheels with unique names, each
 // side with one; a rocker-bogie has six named lf lm lr rf rm rr, two of each side on its bogie; an averaging
-// suspension has two or more a side, one behind the other; masses, radii, efficiencies in range, the centre of
-// mass inside the wheels. Returns every fault; pointers are those
-// of the rover file ("/wheels/2/radius_m").
+// suspension has two or more a side, one behind the other; masses, radii, efficiencies in range, the centre
+// of mass inside the wheels. Returns every fault; pointers are those of the rover file
+// ("/wheels/2/radius_m").
 std::vector<Fault> faults_of(const RoverModel& rover);
 
 }  // namespace slipway::sim

@@ -76,7 +76,7 @@ TEST(ShippedSoils, SayWhereTheyComeFromAndWhatIsAssumed) {
 TEST(ShippedRovers, SatisfyTheSimulator) {
   const auto& rovers = small_world().catalogue().rovers;
   EXPECT_EQ(names_of(rovers),
-            (std::vector<std::string>{"fido-class", "mer-class", "msl-class", "zhurong-class"}));
+            (std::vector<std::string>{"cuadriga", "fido-class", "mer-class", "msl-class", "zhurong-class"}));
   for (const auto& [name, rover] : rovers) {
     EXPECT_EQ(sim::faults_of(*rover), std::vector<Fault>{}) << name;
     const double fastest = rover->drive.max_wheel_rate_rad_s * rover->smallest_wheel_radius_m();
@@ -99,6 +99,64 @@ TEST(ShippedRovers, AreServedAsTheFilesThatTheyCameFrom) {
     json::write_rover(w2, *again);
     EXPECT_EQ(w2.take(), served);
   }
+}
+
+// The files' own form for what a rover may have besides.
+TEST(RoverFile, ReadsOtherVehiclesAndGivesThemBackAsTheyWere) {
+  json::Writer w;
+  json::write_rover(w, *small_world().catalogue().rovers.at("cuadriga"));
+  const std::string rigid = w.take();
+  const auto changed = [&](std::string_view what, std::string_view by) {
+    std::string text = rigid;
+    const std::size_t at = text.find(what);
+    EXPECT_NE(at, std::string::npos) << what;
+    return text.replace(at, what.size(), by);
+  };
+  const std::string averaging =
+      changed(R"("type":"rigid")", R"("type":"averaging","rocker_pivot_m":[0,0.2,0.3])");
+  const std::string dead =
+      changed(R"("steerable":false)",
+              R"("grousers":{"height_m":0.01,"count":18},"steerable":false,"drive":"locked")");
+  const std::string damped = changed(R"("max_wheel_rate)", R"("damping_nms_rad":0.0002,"max_wheel_rate)");
+  for (const std::string& text : {rigid, averaging, dead, damped}) {
+    const auto rover = json::read_rover_file(text);
+    ASSERT_TRUE(rover) << rover.error().detail;
+    json::Writer again;
+    json::write_rover(again, *rover);
+    EXPECT_EQ(again.take(), text);
+  }
+  const auto rover = json::read_rover_file(dead);
+  EXPECT_EQ(rover->wheels[0].drive, sim::WheelDrive::kLocked);
+  EXPECT_EQ(rover->wheels[0].grousers->count, 18.0);
+  EXPECT_EQ(rover->wheels[1].drive, sim::WheelDrive::kDriven);
+}
+
+TEST(RoverFile, GrousersOfTheRoverAreOnEveryWheelWithoutItsOwn) {
+  json::Writer w;
+  json::write_rover(w, *small_world().catalogue().rovers.at("cuadriga"));
+  std::string text = w.take();
+  text.replace(text.find(R"("wheels":)"), 9, R"("grousers":{"height_m":0.02,"count":24},"wheels":)");
+  const auto rover = json::read_rover_file(text);
+  ASSERT_TRUE(rover) << rover.error().detail;
+  for (const sim::WheelModel& wheel : rover->wheels) EXPECT_EQ(wheel.grousers->height_m, 0.02);
+}
+
+TEST(RoverFile, FaultsOfTheNewKeysAreAllNamed) {
+  json::Writer w;
+  json::write_rover(w, *small_world().catalogue().rovers.at("cuadriga"));
+  std::string text = w.take();
+  const auto change = [&](std::string_view what, std::string_view by) {
+    text.replace(text.find(what), what.size(), by);
+  };
+  change(R"("type":"rigid")", R"("type":"rigid","rocker_pivot_m":[0,0.2,0.3])");
+  change(R"("steerable":false)", R"("steerable":false,"drive":"broken")");
+  change(R"("name":"lf")", R"("name":"the_left_front_one")");
+  const auto rover = json::read_rover_file(text);
+  ASSERT_FALSE(rover);
+  std::set<std::string> pointers;
+  for (const Fault& fault : rover.error().faults) pointers.insert(fault.pointer);
+  EXPECT_EQ(pointers,
+            (std::set<std::string>{"/wheels/0/name", "/wheels/0/drive", "/suspension/rocker_pivot_m"}));
 }
 
 TEST(ShippedSoils, AreServedAsTheFilesThatTheyCameFrom) {
