@@ -94,11 +94,15 @@ class Problem final : public ceres::CostFunction {
 
   // The residuals of the data alone, before the loss.
   bool at(const double* y, std::vector<double>& residuals) const {
-    for (std::size_t k = 0; k < x_.size(); ++k) x_[k] = y[k] * unknowns_[k].step_scale;
+    for (std::size_t k = 0; k < x_.size(); ++k) x_[k] = value(k, y);
     return residuals_(x_, residuals) &&
            std::all_of(residuals.begin(), residuals.end(), [](double r) { return std::isfinite(r); });
   }
 
+  // Of the unknown in the caller's unit; rounding does not carry it over a bound.
+  double value(std::size_t k, const double* y) const {
+    return std::clamp(y[k] * unknowns_[k].step_scale, unknowns_[k].lowest, unknowns_[k].highest);
+  }
   double lowest(std::size_t k) const { return unknowns_[k].lowest / unknowns_[k].step_scale; }
   double highest(std::size_t k) const { return unknowns_[k].highest / unknowns_[k].step_scale; }
 
@@ -273,7 +277,7 @@ LeastSquaresFit conclude(const Search& best, std::span<const Unknown> unknowns, 
   std::vector<std::string> names;
   for (std::size_t k = 0; k < unknowns.size(); ++k) {
     const Unknown& u = unknowns[k];
-    const double x = best.y[k] * u.step_scale;
+    const double x = cost_function.value(k, best.y.data());
     fit.estimate.push_back(x);
     fit.on_bound.push_back(best.y[k] <= cost_function.lowest(k) || best.y[k] >= cost_function.highest(k));
     jacobian.col(static_cast<Eigen::Index>(k)) /= u.step_scale;
