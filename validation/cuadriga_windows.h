@@ -21,9 +21,14 @@ struct CuadrigaWindow {
   double path_gradient_rad = 0.0;                  // of the ground along the path, positive uphill
   double dem_pitch_rad = 0.0, dem_roll_rad = 0.0;  // of the 1 m elevation model; pitch positive uphill
   double wheel_speed_m_s = 0.0, gps_speed_m_s = 0.0;
-  double slip_ratio = 0.0;           // 1 - gps / wheel; noise below 0.03
+  double slip_ratio = 0.0;  // 1 - distance / (duration x wheel speed), also where negative; noise below 0.03
   double total_current_a = 0.0;      // of all motors
   double charge_per_metre_as = 0.0;  // A s per metre of distance
+
+  double duration_s() const { return charge_per_metre_as * distance_m / total_current_a; }
+  // The GPS positions jumped: the distance between them is more than 1.4 times what the speed that the
+  // receiver measured would make it, and slip and charge per metre are worthless.
+  bool position_jumped() const { return distance_m > 1.4 * gps_speed_m_s * duration_s(); }
 };
 
 // Errors: unreadable_data.

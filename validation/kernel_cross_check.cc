@@ -116,9 +116,11 @@ Result<Report> kernel_cross_check(const std::filesystem::path& data) {
       "the table is for K = {:.0f} mm. One unstated number explains nine bands, which is "
       "evidence for the equations but not for K.",
       1e3 * low, 1e3 * high, 1e3 * kShearModulus_m));
-  const api::Chart panels[] = {panel("sinkage, mm", rows, &BandRow::sinkage_mm, &Prediction::sinkage_mm),
-                               panel("drawbar pull, N", rows, &BandRow::pull_n, &Prediction::pull_n),
-                               panel("torque, N m", rows, &BandRow::torque_nm, &Prediction::torque_nm)};
+  api::Chart panels[] = {panel("sinkage, mm", rows, &BandRow::sinkage_mm, &Prediction::sinkage_mm),
+                         panel("drawbar pull, N", rows, &BandRow::pull_n, &Prediction::pull_n),
+                         panel("torque, N m", rows, &BandRow::torque_nm, &Prediction::torque_nm)};
+  panels[0].y.lowest = 24.0;  // room beside the band
+  panels[0].y.highest = 31.0;
   report.plot = api::draw_charts(report.title, panels);
   return report;
 }

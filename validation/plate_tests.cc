@@ -58,32 +58,57 @@ std::vector<std::string> row_of(const std::string& name, std::size_t samples, co
           fmt::format("{:.4f}", fit.explained_variance)};
 }
 
-api::Chart chart_of(const std::vector<SandboxTest>& tests, const sim::BekkerModuli& pooled) {
-  api::Chart chart;
-  chart.title = "nine tests, every eighth sample";
-  chart.x = {"sinkage, mm", 1.0, 50.0, true, {}};
-  chart.y = {"pressure, kPa", 0.2, 100.0, true, {}};
-  for (const SandboxTest& test : tests) {
-    const double diameter_mm = 2e3 * test.plate.radius_m;
-    const std::size_t colour = diameter_mm < 70.0 ? 0 : diameter_mm < 90.0 ? 2 : 1;
-    api::ChartSeries series{
-        fmt::format("plate {:.0f} mm", diameter_mm), api::ChartMark::kPoints, {}, {}, colour};
+std::size_t colour_of(const SandboxTest& test) {
+  return test.plate.radius_m < 0.035 ? 0 : test.plate.radius_m < 0.045 ? 2 : 1;
+}
+
+// Every eighth sample of each test, smallest plate first.
+void add_samples(const std::vector<SandboxTest>& tests, api::Chart& chart) {
+  std::vector<SandboxTest> ordered = tests;
+  std::stable_sort(ordered.begin(), ordered.end(), [](const SandboxTest& a, const SandboxTest& b) {
+    return a.plate.radius_m < b.plate.radius_m;
+  });
+  for (const SandboxTest& test : ordered) {
+    api::ChartSeries series{fmt::format("plate of {:.0f} mm", 2e3 * test.plate.radius_m),
+                            api::ChartMark::kDots,
+                            {},
+                            {},
+                            colour_of(test)};
     for (std::size_t i = 0; i < test.plate.sinkage_m.size(); i += 8) {
       series.x.push_back(1e3 * test.plate.sinkage_m[i]);
       series.y.push_back(1e-3 * test.plate.pressure_pa[i]);
     }
     chart.series.push_back(series);
   }
-  for (const auto& [name, moduli, mark] :
-       {std::tuple{"one fit of all, pressure", pooled, api::ChartMark::kLine},
-        std::tuple{"upstream's k 8e3, n 1.46", kUpstream, api::ChartMark::kDashedLine}})
-    chart.series.push_back({name,
-                            mark,
-                            {1.0, 50.0},
-                            {1e-3 * moduli.stiffness(1.0) * std::pow(1e-3, moduli.n),
-                             1e-3 * moduli.stiffness(1.0) * std::pow(5e-2, moduli.n)},
-                            6});
-  return chart;
+}
+
+api::ChartSeries curve(const char* name, api::ChartMark mark, const sim::BekkerModuli& moduli,
+                       double radius_m, std::size_t colour) {
+  api::ChartSeries series{name, mark, {}, {}, colour};
+  for (int z_mm = 1; z_mm <= 40; ++z_mm) {
+    series.x.push_back(z_mm);
+    series.y.push_back(1e-3 * moduli.stiffness(radius_m) * std::pow(1e-3 * z_mm, moduli.n));
+  }
+  return series;
+}
+
+std::vector<api::Chart> charts_of(const std::vector<SandboxTest>& tests, const sim::BekkerModuli& pooled,
+                                  const sim::BekkerModuli& separate) {
+  api::Chart one, two;
+  one.title = "one modulus for all plates";
+  one.x = {"sinkage, mm", 1.0, 50.0, true, {}};
+  one.y = {"pressure, kPa", 0.2, 100.0, true, {}};
+  two.title = "k_c and k_phi";
+  two.x = {"sinkage, mm", 0.0, 40.0, false, {}};
+  two.y = {"pressure, kPa", 0.0, 60.0, false, {}};
+  add_samples(tests, one);
+  add_samples(tests, two);
+  one.series.push_back(curve("one modulus", api::ChartMark::kLine, pooled, 1.0, 6));
+  one.series.push_back(curve("upstream's k 8e3, n 1.46", api::ChartMark::kDashedLine, kUpstream, 1.0, 6));
+  for (const auto& [radius_m, colour] : {std::pair{0.03, 0}, std::pair{0.04, 2}, std::pair{0.05, 1}})
+    two.series.push_back(curve(colour == 0 ? "k_c and k_phi, in the colour of the plate" : "",
+                               api::ChartMark::kLine, separate, radius_m, static_cast<std::size_t>(colour)));
+  return {one, two};
 }
 
 }  // namespace
@@ -157,8 +182,7 @@ Result<Report> plate_tests(const std::filesystem::path& data) {
                   {"n of the plain logarithms", n, kEarlierExponent - 0.005, kEarlierExponent + 0.005}};
   report.cases = {{"all tests, logarithms", "k", "kPa/m^n", kEarlierStiffness_kpa, k_kpa},
                   {"all tests, logarithms", "n", "1", kEarlierExponent, n}};
-  const api::Chart charts[] = {chart_of(tests, pooled->moduli)};
-  report.plot = api::draw_charts(report.title, charts);
+  report.plot = api::draw_charts(report.title, charts_of(tests, pooled->moduli, separate->moduli));
   return report;
 }
 

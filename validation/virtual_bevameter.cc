@@ -68,8 +68,10 @@ api::Chart plate_chart(const std::vector<gap::PlateTest>& tests, const sim::Bekk
                             {},
                             k};
     for (const double p : test.pressure_pa) points.y.push_back(1e-3 * p * area);
-    api::ChartSeries line{"fitted", api::ChartMark::kLine, {}, {}, k};
-    api::ChartSeries published{"published answer", api::ChartMark::kDashedLine, {}, {}, 6};
+    api::ChartSeries line{
+        k == 0 ? "fitted, in the colour of the points" : "", api::ChartMark::kLine, {}, {}, k};
+    api::ChartSeries published{
+        k + 1 == tests.size() ? "published answer" : "", api::ChartMark::kDashedLine, {}, {}, 6};
     for (int i = 0; i <= 40; ++i) {
       const double z = 0.005 * i;
       line.x.push_back(z);
@@ -97,7 +99,7 @@ api::Chart annulus_chart(const gap::AnnulusTest& test, const gap::ShearStrengthF
     return api::ChartSeries{
         name, mark, {0.0, 40.0}, {1e-3 * c_pa, 1e-3 * c_pa + 40.0 * std::tan(phi_rad)}, colour};
   };
-  chart.series = {points, line("fitted", api::ChartMark::kLine, ours.cohesion_pa, ours.friction_angle_rad, 2),
+  chart.series = {points, line("", api::ChartMark::kLine, ours.cohesion_pa, ours.friction_angle_rad, 2),
                   line("published answer", api::ChartMark::kDashedLine, kPublishedCohesion_pa,
                        rad_from_deg(kPublishedFriction_deg), 6)};
   return chart;

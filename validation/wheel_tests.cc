@@ -1,5 +1,6 @@
 #include "validation/wheel_tests.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -30,6 +31,10 @@ WheelTest test_of(const CsvTable& table, std::size_t row) {
 }
 
 }  // namespace
+
+double travel_slip(double rim_speed_m_s, double travel_speed_m_s) {
+  return (rim_speed_m_s - travel_speed_m_s) / std::max(travel_speed_m_s, rim_speed_m_s);
+}
 
 double WheelCondition::mean(double WheelTest::*quantity) const {
   double sum = 0.0;

@@ -11,6 +11,8 @@ namespace slipway::validation {
 // The smooth wheel of the single-wheel tests of [Pavlov & Johnson 2022]: r 58 mm, b 50 mm.
 inline constexpr sim::WheelGeometry kPavlovWheel{.radius_m = 0.058, .width_m = 0.05};
 
+inline constexpr double kPavlovTravel_m_s = 0.01;  // set, along the direction of travel
+
 // One steady test: the wheel is towed at a slip angle while its rim turns at a set speed; load and depth find
 // themselves. Means over the steady part, with their standard deviations within the test.
 struct WheelTest {
@@ -18,13 +20,17 @@ struct WheelTest {
   double commanded_rim_speed_m_s = 0.0;  // what names the condition
   double rim_speed_m_s = 0.0;
   double travel_speed_m_s = 0.0;
-  double slip_ratio = 0.0;      // (rim - travel) / max(travel, rim); the travel speed along its own direction
+  double slip_ratio = 0.0;      // travel_slip() at the set travel speed
   double slip_angle_rad = 0.0;  // between travel and the wheel's plane
   double drawbar_pull_n = 0.0, drawbar_pull_std_n = 0.0;
   double side_force_n = 0.0, side_force_std_n = 0.0;
   double load_n = 0.0, load_std_n = 0.0;
   double sinkage_m = 0.0;
 };
+
+// (rim - v) / max(v, rim) with v along the direction of travel, as the tests state slip: it does not know the
+// slip angle.
+double travel_slip(double rim_speed_m_s, double travel_speed_m_s);
 
 enum class Half { kFit, kPredict };
 
