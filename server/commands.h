@@ -85,5 +85,7 @@ int validate(const ValidateOptions& options);
 
 // From a signal handler: the running question is given up, the server drains and ends.
 void interrupt();
+// Whether interrupt() was called.
+bool given_up();
 
 }  // namespace slipway::server

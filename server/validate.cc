@@ -83,6 +83,7 @@ int validate(const ValidateOptions& options) {
   std::string printed;
   bool holds = true;
   for (const Comparison* comparison : *comparisons) {
+    if (given_up()) return refuse({ErrorCode::kCancelled, "given up between two comparisons", {}});
     std::cerr << fmt::format("[{}/{}] {}: {}\n", outcomes.size() + 1, comparisons->size(), comparison->name,
                              comparison->summary);
     auto report = comparison->run(options.data);

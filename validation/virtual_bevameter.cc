@@ -177,7 +177,8 @@ Result<Report> virtual_bevameter(const std::filesystem::path& data) {
       "measures, "
       "gives the published one; of pressure, and of logarithms the more so, other ones, because the first "
       "2.5 cm are stiffer than the power law and logarithms count them like the rest.",
-      "b is the plate's radius. k_c is negative: the wide plate meets more pressure, the reverse of "
+      "Loads in kg are taken at standard gravity. b is the plate's radius. k_c is negative: the wide plate "
+      "meets more pressure, the reverse of "
       "cohesion.",
       fmt::format("The peaks bend: tau over sigma falls from {:.2f} to {:.2f}, so a straight line gives a "
                   "cohesion that the lowest load does not show.",
