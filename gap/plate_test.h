@@ -62,8 +62,8 @@ struct ShearStrengthFit {
   double rms_pa = 0.0;
 };
 
-// Mohr-Coulomb's tau = c + sigma tan phi through the peaks, every peak's torque counting alike [Wong 2010,
-// ch. 2.4]. Cohesion is not kept from being negative. Errors: no_data with fewer than three loads; those of
+// Mohr-Coulomb's tau = c + sigma tan phi through the peaks, every peak's torque counting alike [Wong 2010].
+// Cohesion is not kept from being negative. Errors: no_data with fewer than three loads; those of
 // fit_least_squares.
 Result<ShearStrengthFit> fit_shear_strength(const AnnulusTest& test, Progress& progress);
 
