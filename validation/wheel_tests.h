@@ -16,7 +16,7 @@ inline constexpr double kPavlovTravel_m_s = 0.01;  // set, along the direction o
 // One steady test: the wheel is towed at a slip angle while its rim turns at a set speed; load and depth find
 // themselves. Means over the steady part, with their standard deviations within the test.
 struct WheelTest {
-  int trial = 0;
+  int trial = 0;  // as upstream numbers it; not unique among the repeats of a condition
   double commanded_rim_speed_m_s = 0.0;  // what names the condition
   double rim_speed_m_s = 0.0;
   double travel_speed_m_s = 0.0;
