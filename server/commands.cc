@@ -217,4 +217,8 @@ void interrupt() {
   interrupted = true;
 }
 
+bool given_up() {
+  return interrupted;
+}
+
 }  // namespace slipway::server
