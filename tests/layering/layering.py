@@ -12,6 +12,7 @@ MAY_SEE = {
     "dem": {"core", "dem"},
     "sim": {"core", "sim"},
     "planner": {"core", "dem", "sim", "planner"},
+    "gap": {"core", "sim", "gap"},
     "api": {"core", "dem", "sim", "planner", "api"},
     "server": {"core", "dem", "sim", "planner", "api", "server"},
 }
