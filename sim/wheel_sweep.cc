@@ -81,15 +81,17 @@ std::optional<Fault> impossible(const WheelSweep& sweep, const SingleWheelTest& 
 
 }  // namespace
 
+double rounded_to_twelve(double value) {
+  return std::stod(fmt::format("{:.12g}", value));
+}
+
 std::vector<double> stepped(double lowest, double highest, double step) {
   std::vector<double> values;
-  const auto last = static_cast<std::size_t>(std::max(0.0, std::floor((highest - lowest) / step + 1e-9)));
-  for (std::size_t i = 0; i <= std::min(last, kMostSweepRows); ++i) {
-    // 0.1 + 2 * 0.1 is 0.3 again.
+  const double steps = std::max(0.0, std::floor((highest - lowest) / step + 1e-9));
+  const double nothing = 1e-12 * std::max(std::abs(lowest), std::abs(highest));
+  for (std::size_t i = 0; static_cast<double>(i) <= steps && i <= kMostSweepRows; ++i) {
     const double value = lowest + static_cast<double>(i) * step;
-    const double scale = std::max({std::abs(lowest), std::abs(highest), std::abs(step)});
-    const double unit = std::pow(10.0, std::floor(std::log10(scale)) - 12.0);
-    values.push_back(std::stod(fmt::format("{:.12g}", std::abs(value) < unit ? 0.0 : value)));
+    values.push_back(std::abs(value) <= nothing ? 0.0 : rounded_to_twelve(value));
   }
   return values;
 }
@@ -107,18 +109,23 @@ std::vector<Fault> faults_of(const WheelSweep& sweep) {
     faults.push_back(
         {"/sweep", fmt::format("sweep has {} rows, must have at most {}", rows_of(sweep), kMostSweepRows)});
   if (!faults.empty()) return faults;
-  for (std::size_t row = 0; row < rows_of(sweep); ++row) {
-    std::vector<double> at;
-    if (auto fault = impossible(sweep, test_of(rig_of(sweep, row, at)))) return {*fault};
+  for (const SweepPoint& point : points_of(sweep)) {
+    if (auto fault = impossible(sweep, point.test)) return {*fault};
   }
   return faults;
 }
 
+std::vector<SweepPoint> points_of(const WheelSweep& sweep) {
+  std::vector<SweepPoint> points(rows_of(sweep));
+  for (std::size_t i = 0; i < points.size(); ++i) points[i].test = test_of(rig_of(sweep, i, points[i].at));
+  return points;
+}
+
 std::vector<SweepRow> run_wheel_sweep(const WheelSweep& sweep) {
-  std::vector<SweepRow> rows(rows_of(sweep));
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    rows[i].test = test_of(rig_of(sweep, i, rows[i].at));
-    rows[i].result = run_single_wheel_test(rows[i].test);
+  std::vector<SweepRow> rows;
+  for (SweepPoint& point : points_of(sweep)) {
+    SingleWheelResult result = run_single_wheel_test(point.test);
+    rows.push_back({std::move(point), std::move(result)});
   }
   return rows;
 }

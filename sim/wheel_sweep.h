@@ -15,6 +15,9 @@ struct SweepAxis {
   std::vector<double> values;
 };
 
+// To twelve digits: 0.1 + 2 * 0.1 is 0.3 again.
+double rounded_to_twelve(double value);
+
 // lowest, lowest + step, ... up to highest, which is met where the step meets it; each to twelve digits. step
 // > 0.
 std::vector<double> stepped(double lowest, double highest, double step);
@@ -28,9 +31,14 @@ struct WheelSweep {
   std::vector<SweepAxis> axes;
 };
 
-struct SweepRow {
+// One place of a sweep, and the test that is made there.
+struct SweepPoint {
   std::vector<double> at;  // the value of each axis
   SingleWheelTest test;
+};
+
+struct SweepRow {
+  SweepPoint point;
   SingleWheelResult result;
 };
 
@@ -39,7 +47,8 @@ struct SweepRow {
 // "/sweep/1/values/3", "/sinkage_m".
 std::vector<Fault> faults_of(const WheelSweep& sweep);
 
-// The rows of a sweep without faults.
+// The places of a sweep, and the rows of one without faults.
+std::vector<SweepPoint> points_of(const WheelSweep& sweep);
 std::vector<SweepRow> run_wheel_sweep(const WheelSweep& sweep);
 
 }  // namespace slipway::sim
