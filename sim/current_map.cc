@@ -57,10 +57,10 @@ constexpr std::array kPaperRanges{
 
 std::vector<CurrentPoint> run_current_map(const WheelSweep& sweep, CurrentModel model) {
   std::vector<CurrentPoint> points;
-  for (const SweepPoint& at : points_of(sweep)) {
-    CurrentPoint& point = points.emplace_back(model == CurrentModel::kLiteral ? literal_point(at.test)
-                                                                              : balanced_point(at.test));
-    point.at = at.at;
+  for (SweepPoint& place : points_of(sweep)) {
+    points.push_back(model == CurrentModel::kLiteral ? literal_point(place.test)
+                                                     : balanced_point(place.test));
+    points.back().place = std::move(place);
   }
   return points;
 }

@@ -19,7 +19,7 @@ enum class CurrentModel {
 
 // Current and sinkage of one wheel. Where the wheel is sunk to its axle there is only the reason.
 struct CurrentPoint {
-  std::vector<double> at;  // the value of each axis
+  SweepPoint place;
   std::optional<double> current_a;
   double sinkage_m = 0.0;
   double torque_nm = 0.0;

@@ -38,18 +38,32 @@ void read_parameters(ObjectReader& effect, sim::EffectSetting& setting) {
 
 }  // namespace
 
-void read_drive_assumptions(ObjectReader& reader, DriveAssumptions& drive) {
-  read_limits(reader, drive.limits);
+void read_effects(ObjectReader& reader, std::vector<sim::EffectSetting>& effects) {
   for (const Element& element : reader.list("effects", kOptional, {0, kMostEffects})) {
     ObjectReader effect(*element.value, element.pointer, reader.faults());
-    sim::EffectSetting& setting = drive.effects.emplace_back();  // also when faulty: the indices must stay
+    sim::EffectSetting& setting = effects.emplace_back();  // also when faulty: the indices must stay
     effect.text("name", kRequired, {.most = 64}, setting.name);
     read_parameters(effect, setting);
     effect.refuse_unknown();
   }
+}
+
+void read_drive_assumptions(ObjectReader& reader, DriveAssumptions& drive) {
+  read_limits(reader, drive.limits);
+  read_effects(reader, drive.effects);
   reader.whole("draws", kOptional, 1, RequestLimits::kDraws, drive.draws);
   reader.whole("seed", kOptional, std::uint64_t{0}, kLargestExactWhole, drive.seed);
   reader.number("speed_m_s", kOptional, {"m/s", 0.0, 10.0, true}, drive.speed_m_s);
+}
+
+void write_effects(Writer& w, const std::vector<sim::EffectSetting>& effects) {
+  w.key("effects").begin_array();
+  for (const sim::EffectSetting& effect : effects) {
+    w.begin_object().text("name", effect.name).key("parameters").begin_object();
+    for (const auto& [key, value] : effect.parameters) w.exact(key, value);
+    w.end_object().end_object();
+  }
+  w.end_array();
 }
 
 void write_drive_assumptions(Writer& w, const DriveAssumptions& drive) {
@@ -60,13 +74,7 @@ void write_drive_assumptions(Writer& w, const DriveAssumptions& drive) {
   w.exact("max_sinkage_m", drive.limits.max_sinkage_m);
   w.exact("min_clearance_m", drive.limits.min_clearance_m);
   w.end_object();
-  w.key("effects").begin_array();
-  for (const sim::EffectSetting& effect : drive.effects) {
-    w.begin_object().text("name", effect.name).key("parameters").begin_object();
-    for (const auto& [key, value] : effect.parameters) w.exact(key, value);
-    w.end_object().end_object();
-  }
-  w.end_array();
+  write_effects(w, drive.effects);
   w.whole("draws", drive.draws);
   w.whole("seed", static_cast<std::int64_t>(drive.seed));
   if (drive.speed_m_s) w.exact("speed_m_s", *drive.speed_m_s);

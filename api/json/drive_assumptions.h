@@ -12,6 +12,10 @@ namespace slipway::api::json {
 void read_drive_assumptions(ObjectReader& reader, DriveAssumptions& drive);
 void write_drive_assumptions(Writer& w, const DriveAssumptions& drive);
 
+// "effects": [{"name": "grousers", "parameters": {"height_m": 0.01}}]
+void read_effects(ObjectReader& reader, std::vector<sim::EffectSetting>& effects);
+void write_effects(Writer& w, const std::vector<sim::EffectSetting>& effects);
+
 // {"x_m": 1, "y_m": 2, "yaw_deg": 90}, the heading only where it matters.
 void read_waypoint(const JsonValue& value, const std::string& pointer, planner::Waypoint& out,
                    std::vector<Fault>& faults);

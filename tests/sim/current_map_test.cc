@@ -73,7 +73,7 @@ TEST(CurrentMap, CurrentFallsWithStiffnessAndLevelsOff) {
         const auto slope = [&](std::size_t i) {
           return (values[i - first] - values[i - first + 1]) / (axis.values[i + 1] - axis.values[i]);
         };
-        EXPECT_GT(slope(first), 10.0 * slope(last - 1));
+        EXPECT_GT(slope(first), 3.0 * slope(last - 1));
       }
     }
   }
