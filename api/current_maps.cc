@@ -92,8 +92,8 @@ std::vector<PanelPlan> figure_9() {
 }
 
 // Panels a1, a2 to c1, c2: x over the second parameter, then over slip, for the three loose simulants.
-std::vector<PanelPlan> figure_10_or_11(const std::string& x, const std::string& second, std::string_view kept,
-                                       std::size_t lines) {
+std::vector<PanelPlan> figure_10_or_11(const std::string& x, const sim::SweepAxis& second,
+                                       std::string_view kept) {
   const sim::SweepAxis slips{"slip", {0.1, 0.3, 0.5, 0.7, 0.9}};
   std::vector<PanelPlan> plans;
   for (int simulant = 1; simulant <= 3; ++simulant) {
@@ -101,7 +101,7 @@ std::vector<PanelPlan> figure_10_or_11(const std::string& x, const std::string& 
     const std::string soil = soil_name(simulant, "loose"),
                       title = fmt::format("JLU Mars {} loose {}", simulant, kept);
     const sim::SweepAxis along = *sim::paper_axis(x, kSamples);
-    plans.push_back({fmt::format("{}1", letter), title, soil, {along, *sim::paper_axis(second, lines)}});
+    plans.push_back({fmt::format("{}1", letter), title, soil, {along, second}});
     plans.push_back({fmt::format("{}2", letter), title, soil, {along, slips}});
   }
   return plans;
@@ -134,10 +134,11 @@ Result<CurrentMaps> current_figure(const Catalogue& catalogue, const CurrentMapO
     plans = figure_9();
     maps.title = "Zhurong figure 9: current over slip";
   } else if (figure == 10) {
-    plans = figure_10_or_11("soil.k_s", "soil.n", "shear parameters", 4);
+    plans = figure_10_or_11("soil.k_s", {"soil.n", {0.7, 0.9, 1.1, 1.4}}, "shear parameters");
     maps.title = "Zhurong figure 10: current over stiffness";
   } else if (figure == 11) {
-    plans = figure_10_or_11("soil.cohesion_pa", "soil.friction_angle_deg", "pressure parameters", 5);
+    plans = figure_10_or_11("soil.cohesion_pa", {"soil.friction_angle_deg", {16.0, 22.0, 28.0, 34.0, 40.0}},
+                            "pressure parameters");
     maps.title = "Zhurong figure 11: current over cohesion";
   } else {
     return fail(ErrorCode::kInvalidRequest, "the figures are 9, 10 and 11",

@@ -45,9 +45,10 @@ Result<CurrentMaps> current_map(const Catalogue& catalogue, const CurrentMapOpti
                                 const std::string& soil, const std::vector<sim::SweepAxis>& axes);
 
 // All panels of the Zhurong paper's figure 9 (slip, nine simulant states), 10 (k_s, several n and slips) or
-// 11 (cohesion, several friction angles and slips). Where the paper does not print which values it draws,
-// they divide its Table 3's range evenly; its panels over slip keep the simulant's own n or friction angle.
-// Errors: invalid_request, also where the catalogue has not all nine soils.
+// 11 (cohesion, several friction angles and slips). The ranges are those of its Table 3; it does not print
+// which values it draws lines for: here n 0.7, 0.9, 1.1, 1.4, friction 16 to 40 deg by 6, slip 0.1 to 0.9 by
+// 0.2, and the panels over slip keep the simulant's own n or friction angle. Errors: invalid_request, also
+// where the catalogue has not all nine soils.
 Result<CurrentMaps> current_figure(const Catalogue& catalogue, const CurrentMapOptions& options, int figure);
 
 // A line a point, with the soil's parameters in force there.

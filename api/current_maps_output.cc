@@ -56,10 +56,11 @@ std::string draw_figure_9(const CurrentMaps& maps) {
   for (std::size_t k = 0; k < maps.panels.size(); ++k) {
     const CurrentPanel& panel = maps.panels[k];
     ChartSeries line{panel.title, kMarks[k % 3], {}, {}, k / 3}, depth{"", ChartMark::kPoints, {}, {}, k / 3};
-    for (const sim::CurrentPoint& point : panel.points) {
-      if (!point.current_a) continue;
-      line.x.push_back(point.place.at[0]);
-      line.y.push_back(*point.current_a);
+    const bool as_points = line.mark == ChartMark::kPoints;
+    for (std::size_t i = 0; i < panel.points.size(); i += as_points ? 3 : 1) {
+      if (!panel.points[i].current_a) continue;
+      line.x.push_back(panel.points[i].place.at[0]);
+      line.y.push_back(*panel.points[i].current_a);
     }
     sinkage.x.categories.push_back(panel.title);
     if (!line.x.empty()) {

@@ -45,16 +45,22 @@ Parameter words_of(std::string_view name) {
   return parameter;
 }
 
+// Values in equal ratios, and many of them.
 bool is_logarithmic(const std::vector<double>& values) {
-  constexpr double kManyTimes = 20.0;
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  return *low > 0.0 && *high > kManyTimes * *low;
+  constexpr std::size_t kFew = 5;
+  if (values.size() < kFew || values.front() <= 0.0) return false;
+  const double first = values[1] / values[0], last = values.back() / values[values.size() - 2];
+  return first > 1.0 && std::abs(last - first) < 1e-6 * first;
 }
 
 ChartAxis axis_of(const sim::SweepAxis& axis) {
   ChartAxis chart_axis;
   chart_axis.title = parameter_title(axis.parameter);
-  chart_axis.logarithmic = is_logarithmic(axis.values);
+  if (is_logarithmic(axis.values)) {
+    chart_axis.logarithmic = true;
+    chart_axis.lowest = axis.values.front();
+    chart_axis.highest = axis.values.back();
+  }
   return chart_axis;
 }
 

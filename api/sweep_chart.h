@@ -26,8 +26,7 @@ constexpr std::size_t kMostSweepLines = 7;
 std::string parameter_title(std::string_view parameter);
 
 // The quantity over the first axis, a line for each value of the second; at least one axis, and at most
-// kMostSweepLines values on the second. An axis of positive values over more than a factor of 20 is
-// logarithmic.
+// kMostSweepLines values on the second. An axis whose values stand in equal ratios is logarithmic.
 Chart sweep_chart(std::string_view title, std::span<const sim::SweepAxis> axes,
                   const SweptQuantity& quantity);
 

@@ -56,11 +56,11 @@ std::string words_of(const api::CurrentInversion& inversion) {
     out += fmt::format("greatest pull      {:.1f} N at slip {:.2f}\n", answer.greatest->pull_n,
                        answer.greatest->slip);
   if (answer.share_of_pull)
-    out += fmt::format(
-        "pull in use        {:.0f} %\nslope              {:.1f} deg in use, {:.1f} deg at most, "
-        "{:.1f} deg left\n",
-        100.0 * *answer.share_of_pull, deg_from_rad(*answer.slope_in_use_rad),
-        deg_from_rad(*answer.slope_greatest_rad), deg_from_rad(*answer.slope_left_rad));
+    out += fmt::format("pull in use        {:.0f} %\n", 100.0 * *answer.share_of_pull);
+  if (answer.slope_in_use_rad)
+    out += fmt::format("slope              {:.1f} deg in use, {:.1f} deg at most, {:.1f} deg left\n",
+                       deg_from_rad(*answer.slope_in_use_rad), deg_from_rad(*answer.slope_greatest_rad),
+                       deg_from_rad(*answer.slope_left_rad));
   return out;
 }
 

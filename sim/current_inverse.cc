@@ -129,11 +129,13 @@ void measure_reserve(const SingleWheelTest& test, CurrentInverse& answer) {
   const double pull = answer.wheel->forces.drawbar_pull_n;
   if (answer.greatest->pull_n <= 0.0) {
     answer.words.push_back(
-        fmt::format("the wheel can't pull at any slip: at best {:.1f} N of resistance are left",
+        fmt::format("the wheel can't pull at any slip: {:.1f} N of resistance are left at best",
                     -answer.greatest->pull_n));
-    return;
+  } else if (pull <= 0.0) {
+    answer.words.push_back(fmt::format("at this slip the wheel pulls nothing: {:.1f} N push it", -pull));
+  } else {
+    answer.share_of_pull = pull / answer.greatest->pull_n;
   }
-  answer.share_of_pull = pull / answer.greatest->pull_n;
   answer.slope_in_use_rad = std::atan2(pull, test.load_n);
   answer.slope_greatest_rad = std::atan2(answer.greatest->pull_n, test.load_n);
   answer.slope_left_rad = *answer.slope_greatest_rad - *answer.slope_in_use_rad;

@@ -61,10 +61,12 @@ struct CurrentInverse {
   SlipsOfCurrent found;
   std::optional<SingleWheelResult> wheel;  // at the slip that is told
   std::optional<GreatestPull> greatest;
-  // Share of the greatest pull in use, and the slopes whose downhill pull W sin = pull on a normal load W
-  // cos: in use now, at the greatest pull, and what is left between them. Where there is a slip and a pull to
-  // be had.
-  std::optional<double> share_of_pull, slope_in_use_rad, slope_greatest_rad, slope_left_rad;
+  // Share of the greatest pull in use; nothing where the wheel pulls nothing at this slip, or can't at any.
+  std::optional<double> share_of_pull;
+  // Slopes on which W sin = pull at a normal load W cos, tan = pull / load: the one this slip would hold
+  // (below 0 it is pushed, or drives downhill), the steepest it could climb, and what lies between them.
+  // Where there is a slip.
+  std::optional<double> slope_in_use_rad, slope_greatest_rad, slope_left_rad;
   SlipQuantiles quantiles;
   Trafficability verdict = Trafficability::kCaution;
   std::vector<std::string> words;  // why, and what is doubtful

@@ -101,6 +101,16 @@ TEST(InvertCurrent, ASlopeInUseAndLeftAddUpToTheGreatest) {
   EXPECT_GT(*inverse.slope_left_rad, 0.0);
 }
 
+TEST(InvertCurrent, AWheelThatIsPushedHasNoShareOfPull) {
+  const SingleWheelTest test = zhurong_on(jlu_mars()[1][2]);
+  const CurrentInverse inverse =
+      invert_current(test, certain("dense", test.soil), current_at(test, 0.05), {.draws = 1});
+  EXPECT_LT(inverse.wheel->forces.drawbar_pull_n, 0.0);
+  EXPECT_FALSE(inverse.share_of_pull);
+  EXPECT_LT(*inverse.slope_in_use_rad, 0.0);
+  EXPECT_NE(inverse.words.back().find("pulls nothing"), std::string::npos);
+}
+
 TEST(InvertCurrent, QuantilesHoldTheMeanAndRepeat) {
   const SingleWheelTest test = zhurong_on(jlu_mars()[1][2]);
   const double current = current_at(test, 0.2);

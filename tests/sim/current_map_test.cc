@@ -122,6 +122,17 @@ TEST(CurrentMap, LiteralCurrentRisesWithSlipToThreeTenthsAndLaterFallsAgain) {
   }
 }
 
+// Another miss: on soil so soft that A18 sinks the wheel by half its radius, the literal current falls with
+// slip all the way. The balanced one rises.
+TEST(CurrentMap, OnTheSoftestSoilLiteralCurrentFallsWithSlip) {
+  Soil soil = jlu_mars()[1][0];
+  soil.pressure.k_c = 0.0;
+  soil.pressure.k_phi = 110e3;
+  EXPECT_TRUE(falls(currents(soil, CurrentModel::kLiteral, {"slip", {0.1, 0.3, 0.5, 0.7, 0.9}})));
+  soil.pressure.k_phi = 250e3;  // the softest that carries the load
+  EXPECT_TRUE(rises(currents(soil, CurrentModel::kBalanced, {"slip", {0.1, 0.3, 0.5, 0.7, 0.9}})));
+}
+
 TEST(CurrentMap, LiteralCurrentIsLinearInCohesionWithASlopeThatFrictionDoesNotChange) {
   for (std::size_t s = 0; s < 3; ++s) {
     const SweepAxis axis = *paper_axis("soil.cohesion_pa", 12);
