@@ -7,6 +7,7 @@
 #include <string>
 
 #include "api/service.h"
+#include "server/cli_wheel.h"
 #include "server/commands.h"
 
 namespace slipway::server {
@@ -145,6 +146,9 @@ int run_command_line(int argc, char** argv) {
                       "file with a whole request, - for standard input; other options are not used");
   command->footer(kPredictExample);
   command->callback([&] { run = [&] { return predict(predict_options); }; });
+
+  add_wheel_command(app, run);
+  add_current_command(app, run);
 
   TerrainOptions terrain_options;
   command = app.add_subcommand("terrain", "what terrains there are, or the ground at a point");

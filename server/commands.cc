@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "api/json/writer.h"
+#include "server/command_parts.h"
 #include "server/inquiry.h"
 #include "server/tables.h"
 
@@ -39,15 +40,6 @@ class TerminalProgress final : public Progress {
   std::atomic<bool> shown_{false};
 };
 
-int refuse(const Error& error) {
-  std::cerr << error_text(error);
-  return error.code == ErrorCode::kInvalidRequest || error.code == ErrorCode::kMalformedJson ? 2 : 1;
-}
-
-Result<std::unique_ptr<Inquiry>> inquiry(const AskOptions& options) {
-  return options.url.empty() ? local_inquiry(options.data) : remote_inquiry(options.url);
-}
-
 Result<std::string> read_file(const std::string& path) {
   std::stringstream text;
   if (path == "-") {
@@ -63,29 +55,6 @@ Result<std::string> read_file(const std::string& path) {
 void write_place(Writer& w, const PlaceOption& place) {
   w.begin_object().exact("x_m", place.x_m).exact("y_m", place.y_m);
   if (place.yaw_deg) w.exact("yaw_deg", *place.yaw_deg);
-  w.end_object();
-}
-
-// "name" or "name:key=value,key=value"; what is not a number is left to the request's reader to refuse.
-void write_effect(Writer& w, const std::string& setting) {
-  const std::size_t colon = setting.find(':');
-  w.begin_object().text("name", setting.substr(0, colon));
-  if (colon != std::string::npos) {
-    w.key("parameters").begin_object();
-    std::istringstream list(setting.substr(colon + 1));
-    for (std::string entry; std::getline(list, entry, ',');) {
-      const std::size_t equals = entry.find('=');
-      const std::string value = equals == std::string::npos ? "" : entry.substr(equals + 1);
-      std::istringstream number(value);
-      double parsed = 0.0;
-      if (number >> parsed && number.eof()) {
-        w.exact(entry.substr(0, equals), parsed);
-      } else {
-        w.text(entry.substr(0, equals), value);
-      }
-    }
-    w.end_object();
-  }
   w.end_object();
 }
 
@@ -153,10 +122,7 @@ int ask_and_print(const AskOptions& ask, const std::string& map_file, Result<std
   if (map_file.empty()) return 0;
   const auto map = (*service)->map();
   if (!map) return refuse(map.error());
-  std::ofstream file(map_file);
-  if (!(file << *map << std::flush))
-    return refuse({ErrorCode::kStorage, fmt::format("cannot write {}", map_file), {}});
-  return 0;
+  return save(map_file, *map);
 }
 
 int print_catalogue(const AskOptions& ask, std::string_view kind,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -71,11 +72,49 @@ struct ValidateOptions {
   bool list = false;
 };
 
+// A single wheel on a rig.
+struct WheelOptions {
+  AskOptions ask;
+  std::string rover = "mer-class", wheel, soil = "unknown_ground";
+  std::vector<std::string> sweeps;  // "slip=0:0.9:0.1", "load_n=20,50,80"
+  std::optional<double> load_n, sinkage_m, slip, slip_angle_deg, gravity_m_s2, radius_m, width_m, speed_m_s;
+  std::string slip_definition, speed_of;  // empty: the request's default
+  std::string grousers;                   // "height_m,count"
+  std::optional<double> motor_temp_c;
+  bool in_a_track = false;
+  std::vector<std::string> effects;
+  std::string csv, plot;  // files; empty: none
+};
+
+struct CurrentMapCommand {
+  AskOptions ask;
+  std::optional<int> figure;
+  std::string rover = "zhurong-class", soil = "jlu_mars_2_dense";
+  std::string x = "slip", y;  // "k_s" or "k_s=60e3:600e3:60e3"; y may be empty
+  double slip = 0.1, gravity_m_s2 = 9.81;
+  std::optional<double> load_n;
+  std::string model = "literal";  // or "balanced"
+  std::string csv, plot;          // files; empty: none
+};
+
+struct CurrentInvertCommand {
+  AskOptions ask;
+  std::string rover = "zhurong-class", wheel, soil = "jlu_mars_2_dense";
+  double current_a = 0.0, gravity_m_s2 = 3.71, max_slip = 0.4;
+  std::optional<double> load_n, speed_m_s, motor_temp_c;
+  std::vector<std::string> effects;
+  int draws = 200;
+  std::uint64_t seed = 1;
+};
+
 // Each prints its answer on standard output and returns the process's exit status: 0 an answer (also "no safe
 // route"), 1 no answer, 2 a question that can't be asked. Problems and progress go to standard error.
 int serve(const ServeOptions& options);
 int plan(const PlanOptions& options);
 int predict(const PredictOptions& options);
+int wheel(const WheelOptions& options);
+int current_map(const CurrentMapCommand& options);
+int current_invert(const CurrentInvertCommand& options);
 int terrain(const TerrainOptions& options);
 int rovers(const AskOptions& options);
 int soils(const AskOptions& options);

@@ -10,8 +10,10 @@
 #include "api/json/catalogue_documents.h"
 #include "api/json/parse.h"
 #include "api/json/problem_document.h"
+#include "api/json/wheel_sweep_answer.h"
 #include "api/route_map.h"
 #include "api/service.h"
+#include "api/wheel_sweep.h"
 #include "server/http_client.h"
 
 namespace slipway::server {
@@ -29,6 +31,12 @@ class LocalInquiry final : public Inquiry {
   }
   Result<std::string> predict(const std::string& request, Progress& progress) override {
     return ask(api::kPredictionKind, request, progress);
+  }
+
+  Result<std::string> wheel_sweep(const std::string& request) override {
+    const auto answer = api::run_wheel_sweep(service_->catalogue(), request);
+    if (!answer) return fail(answer.error());
+    return api::json::write_wheel_sweep_answer(*answer);
   }
 
   Result<std::string> catalogue(std::string_view kind) override {
@@ -71,6 +79,9 @@ class RemoteInquiry final : public Inquiry {
   }
   Result<std::string> predict(const std::string& request, Progress& progress) override {
     return job("/v1/predictions", request, progress);
+  }
+  Result<std::string> wheel_sweep(const std::string& request) override {
+    return call("POST", "/v1/wheel-sweeps", request, {});
   }
   Result<std::string> catalogue(std::string_view kind) override { return get(fmt::format("/v1/{}", kind)); }
   Result<std::string> ground_at(std::string_view terrain, double x_m, double y_m) override {

@@ -17,8 +17,10 @@
 #include "api/json/job_document.h"
 #include "api/json/plan_answer.h"
 #include "api/json/problem_document.h"
+#include "api/json/wheel_sweep_answer.h"
 #include "api/openapi.h"
 #include "api/route_map.h"
+#include "api/wheel_sweep.h"
 
 namespace slipway::server {
 namespace {
@@ -27,6 +29,7 @@ using std::chrono::seconds;
 
 constexpr std::string_view kJson = "application/json";
 constexpr std::string_view kGeoJson = "application/geo+json";
+constexpr std::string_view kCsv = "text/csv";
 constexpr int kPollSeconds = 1;
 
 HttpResponse document(std::string body, int status = 200) {
@@ -65,6 +68,15 @@ void for_each_item(const HttpRequest& request, std::string_view header, const Vi
       visit(item.substr(first, item.find_last_not_of(" \t") - first + 1));
     }
   }
+}
+
+// Whether the client names this media type.
+bool accepts(const HttpRequest& request, std::string_view type) {
+  bool wanted = false;
+  for_each_item(request, "Accept", [&](std::string_view item) {
+    wanted = wanted || equal_ignoring_case(item.substr(0, item.find(';')), type);
+  });
+  return wanted;
 }
 
 bool is_known_to_client(const HttpRequest& request, std::string_view tag) {
@@ -302,12 +314,8 @@ class JobRoutes {
   }
 
   static HttpResponse answer(const std::string& bytes, const HttpRequest& request) {
-    bool wants_geojson = false;
-    for_each_item(request, "Accept", [&](std::string_view item) {
-      wants_geojson = wants_geojson || equal_ignoring_case(item.substr(0, item.find(';')), kGeoJson);
-    });
     HttpResponse response = document(bytes);
-    if (wants_geojson) {
+    if (accepts(request, kGeoJson)) {
       auto geojson = api::json::geojson_of(bytes);
       if (!geojson) return problem_response(geojson.error(), &request);
       response.body = std::move(*geojson);
@@ -322,6 +330,21 @@ class JobRoutes {
   RouteOptions options_;
   std::atomic<int> waiting_{0};
 };
+
+// Answered at once: the rows are few enough.
+HttpResponse wheel_sweep(const api::Service& service, const HttpRequest& request) {
+  const auto answer = api::run_wheel_sweep(service.catalogue(), request.body);
+  if (!answer) return problem_response(answer.error(), &request);
+  HttpResponse response = document(api::json::write_wheel_sweep_answer(*answer));
+  if (accepts(request, kCsv)) {
+    auto csv = api::json::wheel_sweep_csv(response.body);
+    if (!csv) return problem_response(csv.error(), &request);
+    response.body = std::move(*csv);
+    response.content_type = kCsv;
+  }
+  response.headers.emplace_back("Vary", "Accept");
+  return response;
+}
 
 HttpResponse ground_at(const api::Service& service, const HttpRequest& request) {
   Query query(request, {"x_m", "y_m"});
@@ -373,6 +396,7 @@ std::vector<Route> api_routes(const api::Service& service, api::JobRunner& runne
          const auto request = service.read_prediction(r.body);
          return request ? jobs->submit(api::kPredictionKind, r, wait) : problem_response(request.error(), &r);
        }},
+      {"POST", "/v1/wheel-sweeps", [&service](const HttpRequest& r) { return wheel_sweep(service, r); }},
       {"GET", "/v1/jobs", [jobs](const HttpRequest& r) { return jobs->list(r); }},
       {"GET", "/v1/jobs/{id}", [jobs](const HttpRequest& r) { return jobs->get(r); }},
       {"GET", "/v1/jobs/{id}/result", [jobs](const HttpRequest& r) { return jobs->result(r); }},

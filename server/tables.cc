@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "api/json/parse.h"
+#include "server/text_table.h"
 
 namespace slipway::server {
 namespace {
@@ -31,38 +32,6 @@ std::string duration(double seconds) {
   const long minutes = std::lround(seconds / 60.0);
   return fmt::format("{}:{:02d} h", minutes / 60, minutes % 60);
 }
-
-// Columns as wide as their widest cell, numbers to the right.
-class Table {
- public:
-  explicit Table(std::vector<std::string> header) { rows_.push_back(std::move(header)); }
-  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
-
-  std::string print() const {
-    std::vector<std::size_t> width(rows_.front().size());
-    for (const auto& row : rows_)
-      for (std::size_t c = 0; c < row.size(); ++c) width[c] = std::max(width[c], row[c].size());
-    std::string out;
-    for (std::size_t r = 0; r < rows_.size(); ++r) {
-      for (std::size_t c = 0; c < rows_[r].size(); ++c) {
-        const bool words = c == 0 || c + 1 == rows_[r].size();
-        out += words ? fmt::format("{:<{}}  ", rows_[r][c], width[c])
-                     : fmt::format("{:>{}}  ", rows_[r][c], width[c]);
-      }
-      while (!out.empty() && out.back() == ' ') out.pop_back();
-      out += "\n";
-      if (r == 0) {
-        std::size_t total = 0;
-        for (const std::size_t w : width) total += w + 2;
-        out += std::string(total - 2, '-') + "\n";
-      }
-    }
-    return out;
-  }
-
- private:
-  std::vector<std::vector<std::string>> rows_;
-};
 
 std::string peak(const JsonValue& figures, std::string_view key, const char* format) {
   const JsonValue& p = at(figures, key);
@@ -106,7 +75,7 @@ Result<std::string> catalogue_table(std::string_view document, std::string_view 
                                     std::vector<std::string> (*row)(const JsonValue&)) {
   const auto parsed = read(document);
   if (!parsed) return fail(parsed.error());
-  Table table(std::move(header));
+  TextTable table(std::move(header));
   for (const JsonValue& entry : at(*parsed, key).elements) table.add(row(entry));
   return table.print();
 }
@@ -119,7 +88,7 @@ Result<std::string> plan_table(std::string_view answer) {
   const JsonValue& summary = at(*document, "summary");
   std::string out;
   if (!summary.elements.empty()) {
-    Table table(figures_header());
+    TextTable table(figures_header());
     for (const JsonValue& route : summary.elements)
       table.add(figures_row(fmt::format("{:.0f}", number(route, "rank")), route, text(route, "verdict")));
     out = table.print() + "\n";
@@ -139,12 +108,57 @@ Result<std::string> prediction_table(std::string_view answer) {
   if (!document) return fail(document.error());
   const JsonValue& figures = at(*document, "summary");
   const JsonValue& stuck = at(figures, "immobilised");
-  Table table(figures_header());
+  TextTable table(figures_header());
   table.add(figures_row("given", figures, stuck.is(JsonValue::Kind::kNull) ? "arrives" : "immobilised"));
   std::string out = table.print();
   if (!stuck.is(JsonValue::Kind::kNull)) out += fmt::format("\nImmobilised: {}\n", text(stuck, "reason"));
   out += lines(at(figures, "broken_limits"), "Limit broken: ");
   return out;
+}
+
+Result<std::string> wheel_table(std::string_view answer) {
+  const auto document = read(answer);
+  if (!document) return fail(document.error());
+  struct Shown {
+    const char *key, *title, *format;
+    double scale;
+  };
+  constexpr Shown kShown[] = {{"slip", "slip", "{:.3f}", 1.0},
+                              {"slip_angle_deg", "slip angle deg", "{:.1f}", 1.0},
+                              {"load_n", "load N", "{:.1f}", 1.0},
+                              {"sinkage_m", "sinkage mm", "{:.1f}", 1e3},
+                              {"entry_angle_deg", "entry deg", "{:.1f}", 1.0},
+                              {"drawbar_pull_n", "pull N", "{:.1f}", 1.0},
+                              {"lateral_force_n", "lateral N", "{:.1f}", 1.0},
+                              {"torque_nm", "torque N m", "{:.3f}", 1.0},
+                              {"current_a", "current A", "{:.3f}", 1.0},
+                              {"thrust_n", "thrust N", "{:.1f}", 1.0},
+                              {"compaction_resistance_n", "compaction N", "{:.1f}", 1.0},
+                              {"tractive_efficiency", "efficiency", "{:.3f}", 1.0}};
+  // Swept parameters that are none of the columns stand before them.
+  std::vector<std::string> header, extra;
+  for (const JsonValue& axis : at(at(*document, "request"), "sweep").elements) {
+    const std::string& name = text(axis, "parameter");
+    const auto is_this = [&](const Shown& shown) { return name == shown.key; };
+    if (std::none_of(std::begin(kShown), std::end(kShown), is_this)) extra.push_back(name);
+  }
+  header = extra;
+  for (const Shown& shown : kShown) header.emplace_back(shown.title);
+  header.emplace_back("outcome");
+  TextTable table(header);
+  for (const JsonValue& row : at(*document, "rows").elements) {
+    std::vector<std::string> cells;
+    for (const std::string& name : extra) cells.push_back(fmt::format("{:g}", number(row, name)));
+    for (const Shown& shown : kShown) {
+      const bool there = row.find(shown.key) != nullptr;
+      cells.push_back(there ? fmt::format(fmt::runtime(shown.format), shown.scale * number(row, shown.key))
+                            : "-");
+    }
+    const std::string& reason = text(row, "reason");
+    cells.push_back(reason.empty() ? text(row, "outcome") : reason);
+    table.add(std::move(cells));
+  }
+  return table.print();
 }
 
 Result<std::string> terrain_table(std::string_view document) {

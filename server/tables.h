@@ -11,6 +11,7 @@ namespace slipway::server {
 // Errors: internal, where the document is not of that kind.
 Result<std::string> plan_table(std::string_view answer);
 Result<std::string> prediction_table(std::string_view answer);
+Result<std::string> wheel_table(std::string_view answer);
 Result<std::string> terrain_table(std::string_view document);
 Result<std::string> rover_table(std::string_view document);
 Result<std::string> soil_table(std::string_view document);

@@ -8,7 +8,8 @@
 
 namespace slipway::api::json {
 
-// The list "effects" of a request or a rover's file: {name, on, parameters}. Which names there are, which
+// The list "effects" of a request or a rover's file:
+// [{"name": "grousers", "on": true, "parameters": {"height_m": 0.01}}]. Which names there are, which
 // parameters and their ranges, is the effect catalogue's to say (sim::faults_of).
 void read_effects(ObjectReader& reader, std::vector<sim::EffectSetting>& effects);
 void write_effects(Writer& w, const std::vector<sim::EffectSetting>& effects);

@@ -1,0 +1,102 @@
+#include "api/wheel_sweep.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "api/faults.h"
+#include "api/json/wheel_sweep_request.h"
+#include "sim/effect_catalogue.h"
+
+namespace slipway::api {
+namespace {
+
+// Faults beside the reader's; a value that the reader refused already is left alone.
+class Check {
+ public:
+  explicit Check(std::vector<Fault> faults) : faults_(std::move(faults)) {}
+  void add(const std::string& pointer, std::string message) {
+    if (!has_fault_under(faults_, pointer)) faults_.push_back({pointer, std::move(message)});
+  }
+  bool passed() const { return faults_.empty(); }
+  Error error() const { return {ErrorCode::kInvalidRequest, summary_of(faults_), faults_}; }
+
+ private:
+  std::vector<Fault> faults_;
+};
+
+void check_effects(const std::vector<sim::EffectSetting>& effects, Check& check) {
+  for (Fault& fault : moved_under("/effects", sim::faults_of(effects)))
+    check.add(fault.pointer, std::move(fault.message));
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    if (sim::acts_on_single_wheel(effects[i].name)) continue;
+    check.add(fmt::format("/effects/{}/name", i),
+              fmt::format("effect {} has no bearing on a single wheel", in_quotes(effects[i].name)));
+  }
+}
+
+// Puts the wheel's own numbers where the request has none, and the request's on the wheel.
+void settle_wheel(WheelSweepRequest& request, sim::WheelModel& wheel) {
+  wheel.radius_m = request.radius_m.value_or(wheel.radius_m);
+  wheel.width_m = request.width_m.value_or(wheel.width_m);
+  if (request.grousers) wheel.grousers = request.grousers;
+  request.wheel = wheel.name;
+  request.radius_m = wheel.radius_m;
+  request.width_m = wheel.width_m;
+  request.grousers = wheel.grousers;
+}
+
+void find_wheel(const sim::RoverModel& rover, WheelSweepRequest& request, sim::WheelRig& rig, Check& check) {
+  rig.rover = rover;
+  std::vector<std::string> names;
+  for (const sim::WheelModel& wheel : rover.wheels) names.push_back(wheel.name);
+  const auto found =
+      request.wheel.empty() ? names.begin() : std::find(names.begin(), names.end(), request.wheel);
+  if (found == names.end()) return check.add("/wheel", unknown_name("wheel", request.wheel, names));
+  rig.wheel = static_cast<std::size_t>(found - names.begin());
+  settle_wheel(request, rig.rover.wheels[rig.wheel]);
+  if (!request.load_n && !request.test.sinkage_m)
+    request.load_n = rover.mass_kg * request.test.gravity_m_s2 / static_cast<double>(rover.wheels.size());
+  if (!request.speed_m_s) request.speed_m_s = rover.cruise_speed_m_s;
+  rig.test = request.test;
+  rig.test.load_n = request.load_n.value_or(rig.test.load_n);
+  rig.test.speed_m_s = *request.speed_m_s;
+  rig.motor_temp_c = request.motor_temp_c;
+  rig.effects = request.effects;
+}
+
+}  // namespace
+
+Result<WheelSweepAnswer> read_wheel_sweep(const Catalogue& catalogue, std::string_view json) {
+  auto reading = json::read_wheel_sweep_request(json);
+  if (!reading) return fail(reading.error());
+  WheelSweepAnswer answer;
+  answer.request = std::move(reading->request);
+  Check check(std::move(reading->faults));
+  check_effects(answer.request.effects, check);
+  const auto rover = catalogue.rovers.find(answer.request.rover);
+  if (rover == catalogue.rovers.end()) {
+    check.add("/rover", unknown_name("rover", answer.request.rover, names_of(catalogue.rovers)));
+  } else {
+    find_wheel(*rover->second, answer.request, answer.sweep.rig, check);
+  }
+  const auto soil = catalogue.soils.find(answer.request.soil);
+  if (soil == catalogue.soils.end()) {
+    check.add("/soil", unknown_name("soil", answer.request.soil, names_of(catalogue.soils)));
+  } else {
+    answer.sweep.rig.soil = soil->second.mean;
+  }
+  if (!check.passed()) return fail(check.error());
+  answer.sweep.axes = answer.request.sweep;
+  for (Fault& fault : sim::faults_of(answer.sweep)) check.add(fault.pointer, std::move(fault.message));
+  if (!check.passed()) return fail(check.error());
+  return answer;
+}
+
+Result<WheelSweepAnswer> run_wheel_sweep(const Catalogue& catalogue, std::string_view json) {
+  auto answer = read_wheel_sweep(catalogue, json);
+  if (answer) answer->rows = sim::run_wheel_sweep(answer->sweep);
+  return answer;
+}
+
+}  // namespace slipway::api

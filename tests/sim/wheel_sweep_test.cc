@@ -1,0 +1,253 @@
+#include "sim/wheel_sweep.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/angle.h"
+#include "sim/effect_catalogue.h"
+#include "tests/sim/reference_models.h"
+
+namespace slipway::sim {
+namespace {
+
+SingleWheelTest test_on(const Soil& soil) {
+  SingleWheelTest test;
+  test.wheel = {0.125, 0.16};
+  test.soil = soil;
+  test.load_n = 108.0;
+  test.drive = DriveMotor{};
+  return test;
+}
+
+WheelSweep sweep_of(std::vector<SweepAxis> axes) {
+  WheelSweep sweep;
+  sweep.rig.rover = six_wheeler();
+  sweep.rig.soil = sandy_loam();
+  sweep.axes = std::move(axes);
+  return sweep;
+}
+
+TEST(RigMotion, IsWhatARigThatTravelsAtAFixedSpeedDoes) {
+  const double travel = 0.010;
+  for (const double rim : {0.003, 0.0075, 0.010, 0.020, 0.100}) {
+    for (const double beta_deg : {0.0, 15.0, 45.0, 90.0, -30.0}) {
+      const double slip = (rim - travel) / std::max(travel, rim), beta = rad_from_deg(beta_deg);
+      const WheelMotion motion = rig_motion(slip, beta);
+      EXPECT_NEAR(motion.forward, travel * std::cos(beta) / rim, 1e-12);
+      EXPECT_NEAR(motion.leftward, travel * std::sin(beta) / rim, 1e-12);
+    }
+  }
+}
+
+TEST(RigMotion, AgreesWithForwardMotionStraightAheadOnly) {
+  const WheelMotion rig = rig_motion(0.3, 0.0), forward = forward_motion(0.3, 0.0);
+  EXPECT_DOUBLE_EQ(rig.forward, forward.forward);
+  EXPECT_DOUBLE_EQ(forward_motion(0.3, rad_from_deg(40.0)).forward, 0.7);
+  EXPECT_LT(rig_motion(0.3, rad_from_deg(40.0)).forward, 0.6);
+  EXPECT_NEAR(forward_motion(0.3, rad_from_deg(45.0)).leftward, 0.7, 1e-15);
+}
+
+TEST(RigMotion, ALockedWheelHasTheForcesOfTheLimit) {
+  SingleWheelTest test = test_on(sandy_loam());
+  test.sinkage_m = 0.02;
+  test.slip = -1.0;
+  const SingleWheelResult locked = run_single_wheel_test(test);
+  test.slip = -1.0 + 1e-6;
+  const SingleWheelResult nearly = run_single_wheel_test(test);
+  EXPECT_NEAR(locked.forces.drawbar_pull_n, nearly.forces.drawbar_pull_n,
+              1e-5 * std::abs(nearly.forces.drawbar_pull_n));
+  test.slip = -1.0;
+  EXPECT_EQ(rim_speed_m_s(test), 0.0);
+}
+
+TEST(SingleWheelTest, ABalancedWheelCarriesItsLoad) {
+  for (const double slip : {-0.5, 0.0, 0.3, 0.9}) {
+    for (const double beta_deg : {0.0, 20.0}) {
+      SingleWheelTest test = test_on(sandy_loam());
+      test.slip = slip;
+      test.slip_angle_rad = rad_from_deg(beta_deg);
+      const SingleWheelResult result = run_single_wheel_test(test);
+      ASSERT_EQ(result.outcome, TestOutcome::kBalanced);
+      EXPECT_NEAR(result.forces.vertical_n, 108.0, 1e-6);
+    }
+  }
+}
+
+TEST(SingleWheelTest, AHeldWheelCarriesWhatTheSameSinkageBalances) {
+  SingleWheelTest test = test_on(loose_sand());
+  const SingleWheelResult free = run_single_wheel_test(test);
+  test.sinkage_m = free.sinkage_m;
+  const SingleWheelResult held = run_single_wheel_test(test);
+  EXPECT_EQ(held.outcome, TestOutcome::kHeld);
+  EXPECT_NEAR(held.forces.vertical_n, 108.0, 1e-6);
+  EXPECT_NEAR(held.forces.drawbar_pull_n, free.forces.drawbar_pull_n, 1e-6);
+}
+
+TEST(SingleWheelTest, TooMuchLoadIsSunkToTheAxleWithReason) {
+  SingleWheelTest test = test_on(loose_sand());
+  test.load_n = 5e4;
+  const SingleWheelResult result = run_single_wheel_test(test);
+  EXPECT_EQ(result.outcome, TestOutcome::kSunkToAxle);
+  EXPECT_NE(result.reason.find("sunk to the axle: the soil carries"), std::string::npos) << result.reason;
+  EXPECT_FALSE(result.current_a);
+}
+
+TEST(SingleWheelTest, ThrustLessResistanceIsThePull) {
+  SingleWheelTest test = test_on(loose_sand());
+  test.soil.bulldozing = 1.0;
+  test.wheel.grousers = {0.01, 24.0};
+  test.slip = 0.3;
+  const SingleWheelResult r = run_single_wheel_test(test);
+  EXPECT_GT(r.bulldozing_resistance_n, 1.0);
+  EXPECT_GT(r.compaction_resistance_n, 1.0);
+  EXPECT_NEAR(r.thrust_n - r.compaction_resistance_n - r.bulldozing_resistance_n, r.forces.drawbar_pull_n,
+              1e-9);
+  // The compaction resistance by its own integral, b r int(sigma sin theta).
+  const Soil& s = test.soil;
+  const double theta_m = (s.c1 + s.c2 * 0.3) * r.entry_angle_rad, k = s.pressure.stiffness(0.16);
+  double sum = 0.0;
+  const int n = 200'000;
+  for (int i = 0; i < n; ++i) {
+    const double theta = (i + 0.5) * r.entry_angle_rad / n;
+    const double as =
+        theta > theta_m ? theta : r.entry_angle_rad - theta / theta_m * (r.entry_angle_rad - theta_m);
+    const double z = 0.125 * (std::cos(as) - std::cos(r.entry_angle_rad));
+    sum += k * std::pow(z, s.pressure.n) * std::sin(theta) * r.entry_angle_rad / n;
+  }
+  EXPECT_NEAR(r.compaction_resistance_n, 0.16 * 0.125 * sum, 1e-3);
+}
+
+TEST(SingleWheelTest, EfficiencyIsUsefulOverDrivingPowerAndBelowOne) {
+  SingleWheelTest test = test_on(sandy_loam());
+  test.slip = 0.2;
+  const SingleWheelResult r = run_single_wheel_test(test);
+  ASSERT_TRUE(r.tractive_efficiency);
+  EXPECT_NEAR(*r.tractive_efficiency, r.forces.drawbar_pull_n * 0.8 * 0.125 / r.forces.torque_nm, 1e-12);
+  EXPECT_GT(*r.tractive_efficiency, 0.0);
+  EXPECT_LT(*r.tractive_efficiency, 0.8);
+  test.slip = -0.3;
+  EXPECT_FALSE(run_single_wheel_test(test).tractive_efficiency) << "a braked wheel has none";
+}
+
+TEST(SingleWheelTest, DrawnSidewaysItIsHeldBackFromEitherSideAlike) {
+  SingleWheelTest test = test_on(sandy_loam());
+  test.slip_definition = SlipDefinition::kTravel;
+  test.slip_angle_rad = rad_from_deg(90.0);
+  const SingleWheelResult left = run_single_wheel_test(test);
+  test.slip_angle_rad = rad_from_deg(-90.0);
+  const SingleWheelResult right = run_single_wheel_test(test);
+  EXPECT_LT(left.forces.lateral_n, -10.0) << "against the motion to the left";
+  EXPECT_NEAR(left.forces.lateral_n, -right.forces.lateral_n, 1e-9);
+  EXPECT_NEAR(left.forces.drawbar_pull_n, right.forces.drawbar_pull_n, 1e-9);
+}
+
+TEST(SingleWheelTest, ASecondPassSinksLess) {
+  SingleWheelTest test = test_on(loose_sand());
+  test.soil.multipass_stiffening = 0.9;
+  const double first = run_single_wheel_test(test).sinkage_m;
+  test.in_a_track = true;
+  EXPECT_LT(run_single_wheel_test(test).sinkage_m, 0.8 * first);
+}
+
+TEST(SingleWheelTest, TheHeldSpeedSetsTheRimSpeed) {
+  SingleWheelTest test;
+  test.slip = 0.5;
+  test.speed_m_s = 0.01;
+  EXPECT_DOUBLE_EQ(rim_speed_m_s(test), 0.01);
+  test.speed_is_of_travel = true;
+  EXPECT_DOUBLE_EQ(rim_speed_m_s(test), 0.02);
+}
+
+TEST(Stepped, MeetsBothEndsAndHasNoRoundingDust) {
+  EXPECT_EQ(stepped(-0.2, 0.3, 0.1), (std::vector<double>{-0.2, -0.1, 0.0, 0.1, 0.2, 0.3}));
+  EXPECT_EQ(stepped(0.7, 1.4, 0.1).size(), 8U);
+  EXPECT_EQ(stepped(0.0, 1.0, 0.3), (std::vector<double>{0.0, 0.3, 0.6, 0.9}));
+  EXPECT_EQ(stepped(2.0, 1.0, 0.3), (std::vector<double>{2.0}));
+}
+
+TEST(WheelSweep, HasEveryCombinationFirstAxisSlowest) {
+  const auto rows = run_wheel_sweep(sweep_of({{"load_n", {50.0, 100.0}}, {"slip", {0.0, 0.1, 0.2}}}));
+  ASSERT_EQ(rows.size(), 6U);
+  EXPECT_EQ(rows[1].point.at, (std::vector<double>{50.0, 0.1}));
+  EXPECT_EQ(rows[3].point.at, (std::vector<double>{100.0, 0.0}));
+  EXPECT_EQ(rows[3].point.test.load_n, 100.0);
+  EXPECT_LT(rows[0].result.sinkage_m, rows[3].result.sinkage_m);
+}
+
+TEST(WheelSweep, EffectsSoilAndWheelCanBeSwept) {
+  const auto grousers =
+      run_wheel_sweep(sweep_of({{"effects.grousers.height_m", {0.0, 0.02}}, {"slip", {0.4}}}));
+  EXPECT_GT(grousers[1].result.forces.drawbar_pull_n, grousers[0].result.forces.drawbar_pull_n + 1.0);
+  const auto n = run_wheel_sweep(sweep_of({{"soil.n", {0.7, 1.4}}}));
+  EXPECT_LT(n[0].result.sinkage_m, n[1].result.sinkage_m);
+  const auto width = run_wheel_sweep(sweep_of({{"wheel.width_m", {0.1, 0.3}}}));
+  EXPECT_GT(width[0].result.sinkage_m, width[1].result.sinkage_m);
+  const auto slope = run_wheel_sweep(sweep_of({{"effects.slip_sinkage.n1", {0.0, 0.5}}, {"slip", {0.8}}}));
+  EXPECT_GT(slope[1].result.sinkage_m, slope[0].result.sinkage_m);
+}
+
+TEST(WheelSweep, EveryParameterThatIsKnownRunsAtTheEndsOfItsRange) {
+  for (const std::string& name : sweep_field_names()) {
+    const Field field = *sweep_field(name);
+    if (name == "sinkage_m" || name == "slip_angle_deg" || name == "soil.k_c" || name == "soil.k_phi")
+      continue;
+    const WheelSweep sweep = sweep_of({{name, {field.lowest, field.highest}}});
+    EXPECT_EQ(faults_of(sweep), std::vector<Fault>{}) << name;
+    for (const SweepRow& row : run_wheel_sweep(sweep)) {
+      if (!row.result.stands()) {
+        EXPECT_FALSE(row.result.reason.empty()) << name;
+        continue;
+      }
+      const WheelForces& f = row.result.forces;
+      for (const double value :
+           {f.drawbar_pull_n, f.lateral_n, f.vertical_n, f.torque_nm, row.result.thrust_n,
+            row.result.sinkage_m, row.result.current_a.value_or(0.0)})
+        EXPECT_TRUE(std::isfinite(value)) << name << " = " << row.point.at[0];
+    }
+  }
+}
+
+TEST(WheelSweep, ARoversOwnEffectsAreAtWorkAndCanBeSweptFrom) {
+  WheelSweep sweep = sweep_of({{"effects.grousers.count", {24.0}}});
+  sweep.rig.rover.effects = {{.name = "grousers", .parameters = {{"height_m", 0.03}}}};
+  EXPECT_EQ(points_of(sweep)[0].test.wheel.grousers.height_m, 0.03);
+  sweep.rig.effects = {{.name = "grousers", .parameters = {}, .on = false}};
+  sweep.axes = {{"slip", {0.0}}};
+  EXPECT_EQ(points_of(sweep)[0].test.wheel.grousers.height_m, 0.0);
+}
+
+TEST(WheelSweep, EffectsThatHaveNoBearingOnOneWheelAreKnown) {
+  std::vector<std::string> without;
+  for (const Effect& effect : effect_catalogue())
+    if (!acts_on_single_wheel(effect.name)) without.emplace_back(effect.name);
+  EXPECT_EQ(without, (std::vector<std::string>{"com_offset", "dragging_wheel", "soft_patch",
+                                               "steering_offset", "attitude_bias"}));
+}
+
+std::vector<std::string> pointers_of(const std::vector<Fault>& faults) {
+  std::vector<std::string> pointers;
+  for (const Fault& fault : faults) pointers.push_back(fault.pointer);
+  return pointers;
+}
+
+TEST(WheelSweep, FaultsNameTheAxisAndTheValue) {
+  EXPECT_EQ(pointers_of(faults_of(sweep_of({{"slipp", {0.0}}, {"soil.n", {1.0, 9.0}}}))),
+            (std::vector<std::string>{"/sweep/0/parameter", "/sweep/1/values/1"}));
+  EXPECT_EQ(pointers_of(faults_of(sweep_of({{"effects.com_offset.x_m", {0.0}}}))),
+            (std::vector<std::string>{"/sweep/0/parameter"}));
+  EXPECT_EQ(pointers_of(faults_of(sweep_of({{"slip", {0.1}}, {"slip", {0.2}}}))),
+            (std::vector<std::string>{"/sweep/1/parameter"}));
+  const std::vector<double> many(101, 0.5);
+  EXPECT_EQ(pointers_of(faults_of(sweep_of({{"slip", many}, {"load_n", many}}))),
+            (std::vector<std::string>{"/sweep"}));
+  EXPECT_EQ(pointers_of(faults_of(sweep_of({{"slip_angle_deg", {0.0, 90.0}}}))),
+            (std::vector<std::string>{"/sweep/0/values"}));
+  EXPECT_EQ(pointers_of(faults_of(sweep_of({{"sinkage_m", {0.2}}}))),
+            (std::vector<std::string>{"/sweep/0/values"}));
+  EXPECT_EQ(pointers_of(faults_of(sweep_of({{"soil.k_phi", {-1e6}}}))), (std::vector<std::string>{"/soil"}));
+}
+
+}  // namespace
+}  // namespace slipway::sim
