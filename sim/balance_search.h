@@ -1,16 +1,10 @@
 #pragma once
 
+#include "sim/newton_search.h"
 #include "sim/quasi_static.h"
 #include "sim/rover_balance.h"
 
 namespace slipway::sim {
-
-// The motion that the driver asks for, and the equation that fixes it.
-struct Primary {
-  int motion = 0;     // 0 along the direction of travel, 2 yaw
-  int equation = 0;   // 0 force along it, 5 moment about z
-  double sign = 1.0;  // of the commanded motion
-};
 
 Primary primary_of(const DriveCommand& command);
 

@@ -63,6 +63,7 @@ RoverBalance::RoverBalance(const RoverModel& rover, double gravity_m_s2, const S
   set_soils(gravity_m_s2, command, told);
   for (int k = 0; k < wheel_count(); ++k) place_wheel(k, told[k]);
   set_gravity();
+  if (undetermined_ == 0) return;
   set_gap_gradient();
   set_compatibility();
 }

@@ -89,6 +89,8 @@ RoverBalance::Freedoms RoverBalance::body_motion(const Loads& height_m, const Fr
 
 // A spring's load is -stiffness (gap + A q), and A^T load + gravity = 0.
 RoverBalance::Loads RoverBalance::resting_loads_n() {
+  // Where every load is determined, this start is the only one to ask for the gradient.
+  if (undetermined_ == 0) set_gap_gradient();
   const int n = wheel_count();
   const double stiffness = 1.0 / (n * sinkage_scale_m_);  // per unit of weight
   Freedoms pull(3 + joints_);

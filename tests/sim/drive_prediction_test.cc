@@ -47,6 +47,47 @@ TEST(DrivePrediction, OnThePlaneTheTotalsFollowFromOneStation) {
   EXPECT_FALSE(drive->immobilised);
 }
 
+TEST(DrivePrediction, NamesItsWheelsAndGivesEachStationAsMany) {
+  const RoverModel rover = four_wheeler(SuspensionType::kRigid);
+  const FunctionGround level([](double, double) { return 0.0; });
+  NoProgress progress;
+  const auto drive = predict_drive(rover, 3.71, level, kLoam, eastward(2.0), {}, {.draws = 2}, 1, progress);
+  ASSERT_TRUE(drive);
+  EXPECT_EQ(drive->wheel_names, (std::vector<std::string>{"lf", "lr", "rf", "rr"}));
+  for (const StationPrediction& station : drive->stations) EXPECT_EQ(station.state.wheels.size(), 4u);
+  EXPECT_EQ(drive->draws, 2);
+}
+
+TEST(DrivePrediction, AStationInCrabMotionIsDrivenAlongItsDirection) {
+  std::vector<PathStation> path = eastward(3.0);
+  for (PathStation& station : path) {
+    station.crab_rad = rad_from_deg(25.0);
+    station.pose.yaw_rad = -station.crab_rad;  // the body points away from where it goes
+  }
+  const FunctionGround level([](double, double) { return 0.0; });
+  const auto crab = predict(level, kLoam, path, {.draws = 0});
+  const auto straight = predict(level, kLoam, eastward(3.0), {.draws = 0});
+  ASSERT_TRUE(crab && straight);
+  const StationState& state = crab->stations.back().state;
+  EXPECT_NEAR(std::atan2(state.leftward_m_s, state.forward_m_s), rad_from_deg(25.0) + state.side_slip_rad,
+              1e-9);
+  EXPECT_GT(crab->duration_s, straight->duration_s) << "the middle wheels are not steered: they are dragged";
+}
+
+TEST(DrivePrediction, ColdMotorsCostEnergyAndNoSlip) {
+  RoverModel rover = six_wheeler();
+  rover.drive.friction_per_k = 0.01;
+  const FunctionGround level([](double, double) { return 0.0; });
+  const auto energy_at = [&](double motor_temp_c) {
+    NoProgress progress;
+    const auto drive = predict_drive(rover, 3.71, level, kLoam, eastward(2.0), {}, {.draws = 0}, 1, progress,
+                                     {.motor_temp_c = motor_temp_c});
+    return std::pair(drive->energy_j, drive->mean_slip_ratio);
+  };
+  EXPECT_GT(energy_at(-60.0).first, energy_at(20.0).first);
+  EXPECT_EQ(energy_at(-60.0).second, energy_at(20.0).second);
+}
+
 TEST(DrivePrediction, ASteepeningSlopeImmobilisesWithThePlaceAndTheReason) {
   const FunctionGround bowl([](double x, double) { return 0.025 * x * x; });  // slope 0.05 x
   const auto drive = predict(bowl, kLoam, eastward(16.0));

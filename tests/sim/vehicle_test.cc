@@ -64,9 +64,7 @@ TEST(FourWheeler, LoadsOnASlopeAreThoseOfStatics) {
     for (int k = 0; k < 4; ++k) {
       const double expected =
           -g.z() / 4.0 + (k % 2 == 1 ? to_rear : -to_rear) + (k >= 2 ? to_right : -to_right);
-      // A rigid body's wheels share by their sinkages: the pulls differ a little between sides of a turn.
-      EXPECT_NEAR(state.wheels[k].load_n, expected,
-                  type == SuspensionType::kAveraging ? 0.02 * weight : 0.02 * weight)
+      EXPECT_NEAR(state.wheels[k].load_n, expected, 0.002 * weight)
           << k << " of suspension " << static_cast<int>(type);
     }
     EXPECT_NEAR(carried_n(state), -g.z(), 1e-5);
