@@ -32,6 +32,11 @@ std::string open_svg(double width, double height, std::string_view title) {
       width, height, kFont_px, xml_text(title), 14.0);
 }
 
+std::string dot(std::size_t colour, double x, double y) {
+  return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2\" fill=\"{}\" fill-opacity=\"0.55\"/>", x, y,
+                     colour_of(colour));
+}
+
 // One point's sign: its shape goes with its colour, so that either tells the series.
 std::string sign(std::size_t colour, double x, double y) {
   const char* c = colour_of(colour);
@@ -55,7 +60,7 @@ std::string sign(std::size_t colour, double x, double y) {
 }
 
 bool has_line(ChartMark mark) {
-  return mark != ChartMark::kPoints;
+  return mark != ChartMark::kPoints && mark != ChartMark::kDots;
 }
 bool has_points(ChartMark mark) {
   return mark == ChartMark::kPoints || mark == ChartMark::kLineAndPoints;
@@ -81,6 +86,7 @@ std::string legend_sign(const LegendEntry& entry, double x, double y) {
                         colour_of(entry.colour),
                         entry.mark == ChartMark::kDashedLine ? " stroke-dasharray=\"6 4\"" : "");
   if (has_points(entry.mark)) text += sign(entry.colour, x + 13.0, y);
+  if (entry.mark == ChartMark::kDots) text += dot(entry.colour, x + 13.0, y);
   return text;
 }
 
@@ -142,6 +148,16 @@ void draw_line(std::string& out, const ChartSeries& s, const AxisScale& x, const
       colour_of(s.colour), s.mark == ChartMark::kDashedLine ? " stroke-dasharray=\"6 4\"" : "");
 }
 
+// Whole signs, also of points on the frame; none of what lies beyond it.
+void draw_points(std::string& out, const ChartSeries& s, const AxisScale& x, const AxisScale& y) {
+  if (has_line(s.mark) && !has_points(s.mark)) return;
+  for (std::size_t i = 0; i < std::min(s.x.size(), s.y.size()); ++i)
+    if (x.contains(s.x[i]) && y.contains(s.y[i]))
+      out += (s.mark == ChartMark::kDots ? dot(s.colour, x.px(s.x[i]), y.px(s.y[i]))
+                                         : sign(s.colour, x.px(s.x[i]), y.px(s.y[i]))) +
+             "\n";
+}
+
 void draw_band(std::string& out, const ChartBand& b, const AxisScale& x, const AxisScale& y) {
   std::string there, back;
   for (std::size_t i = 0; i < std::min({b.x.size(), b.lower.size(), b.upper.size()}); ++i) {
@@ -183,13 +199,10 @@ void draw_panel(std::string& out, const Chart& chart, std::size_t index, double 
         fmt::format("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" stroke=\"#888\" stroke-dasharray=\"3 3\"/>\n",
                     x.px(from), y.px(from), x.px(to), y.px(to));
   }
-  for (const ChartSeries& s : chart.series) {
+  for (const ChartSeries& s : chart.series)
     if (has_line(s.mark)) draw_line(out, s, x, y);
-    if (!has_points(s.mark)) continue;
-    for (std::size_t i = 0; i < std::min(s.x.size(), s.y.size()); ++i)
-      if (x.shows(s.x[i]) && y.shows(s.y[i])) out += sign(s.colour, x.px(s.x[i]), y.px(s.y[i])) + "\n";
-  }
   out += "</g>\n";
+  for (const ChartSeries& s : chart.series) draw_points(out, s, x, y);
 }
 
 // Rows of entries that fit the width; returns the legend's height.
@@ -226,7 +239,7 @@ void draw_colour_bar(std::string& out, const AxisScale& scale, const std::string
   constexpr int kSteps = 64;
   for (int k = 0; k < kSteps; ++k)
     out += fmt::format("<rect x=\"{:.1f}\" y=\"{:.2f}\" width=\"16\" height=\"{:.2f}\" fill=\"{}\"/>\n", left,
-                       top + height * (kSteps - 1 - k) / kSteps, height / kSteps + 0.5,
+                       top + height * (kSteps - 1 - k) / kSteps, height / kSteps + 0.4,
                        heat_colour((k + 0.5) / kSteps));
   out += fmt::format(
       "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"16\" height=\"{:.1f}\" fill=\"none\" "

@@ -15,7 +15,13 @@ struct ChartAxis {
   std::vector<std::string> categories;    // of an x axis: value k stands over the k-th of these names
 };
 
-enum class ChartMark { kLine, kDashedLine, kPoints, kLineAndPoints };
+enum class ChartMark {
+  kLine,
+  kDashedLine,
+  kPoints,
+  kDots,  // small ones, for hundreds of values
+  kLineAndPoints,
+};
 
 // What is measured and what is predicted of one thing best have the same colour and different marks.
 struct ChartSeries {

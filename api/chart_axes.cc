@@ -59,7 +59,7 @@ AxisScale::AxisScale(const ChartAxis& axis, const std::vector<double>& values, d
 }
 
 void AxisScale::lay_linear(const ChartAxis& axis, double lowest, double highest) {
-  const std::vector<double> ticks = nice_ticks(lowest, highest, 5);
+  const std::vector<double> ticks = nice_ticks(lowest, highest, 6);
   lowest_ = axis.lowest.value_or(ticks.front());
   highest_ = axis.highest.value_or(ticks.back());
   if (!(highest_ > lowest_)) highest_ = lowest_ + 1.0;
@@ -90,6 +90,11 @@ double AxisScale::px(double value) const {
       logarithmic_ ? (std::log10(value) - std::log10(lowest_)) / (std::log10(highest_) - std::log10(lowest_))
                    : (value - lowest_) / (highest_ - lowest_);
   return begin_px_ + share * (end_px_ - begin_px_);
+}
+
+bool AxisScale::contains(double value) const {
+  const double slack = 1e-9 * (highest_ - lowest_);
+  return shows(value) && value >= lowest_ - slack && value <= highest_ + slack;
 }
 
 bool AxisScale::shows(double value) const {

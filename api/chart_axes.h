@@ -21,6 +21,8 @@ class AxisScale {
   double px(double value) const;
   // Finite, and positive on a logarithmic axis.
   bool shows(double value) const;
+  // Shown, and between the axis's ends.
+  bool contains(double value) const;
   double lowest() const { return lowest_; }
   double highest() const { return highest_; }
 

@@ -268,7 +268,7 @@ LeastSquaresFit conclude(const Search& best, std::span<const Unknown> unknowns, 
   fit.residuals.resize(residual_count);
   cost_function.at(best.y.data(), fit.residuals);
   const auto n = static_cast<Eigen::Index>(unknowns.size());
-  Matrix jacobian(cost_function.num_residuals(), n);
+  Matrix jacobian = Matrix::Zero(cost_function.num_residuals(), n);
   std::vector<double> residuals(static_cast<std::size_t>(cost_function.num_residuals()));
   const double* y = best.y.data();
   double* blocks[] = {jacobian.data()};

@@ -13,7 +13,7 @@ namespace slipway::gap {
 
 // A round plate pressed into level soil.
 struct PlateTest {
-  double radius_m = 0.1;            // Bekker's b of a round plate [Wong 2010, ch. 2.4]
+  double radius_m = 0.1;            // Bekker's b of a round plate
   std::vector<double> sinkage_m;    // > 0, one per pressure
   std::vector<double> pressure_pa;  // force over the plate's area
 };
@@ -40,7 +40,7 @@ struct ModuliFit {
   bool converged = false;
 };
 
-// Bekker's moduli from plate tests, p = (k_c / b + k_phi) z^n [Bekker 1956; Wong 2010, eq. 2.37]. k_c may
+// Bekker's moduli from plate tests, p = (k_c / b + k_phi) z^n [Bekker 1956; Wong 2010]. k_c may
 // come out negative. Errors: no_data with fewer usable samples than unknowns; those of fit_least_squares.
 Result<ModuliFit> fit_moduli(std::span<const PlateTest> tests, const ModuliOptions& options,
                              Progress& progress);
@@ -62,8 +62,8 @@ struct ShearStrengthFit {
   double rms_pa = 0.0;
 };
 
-// Mohr-Coulomb's tau = c + sigma tan phi through the peaks, every peak's torque counting alike [Wong 2010,
-// ch. 2.4]. Cohesion is not kept from being negative. Errors: no_data with fewer than three loads; those of
+// Mohr-Coulomb's tau = c + sigma tan phi through the peaks, every peak's torque counting alike [Wong 2010].
+// Cohesion is not kept from being negative. Errors: no_data with fewer than three loads; those of
 // fit_least_squares.
 Result<ShearStrengthFit> fit_shear_strength(const AnnulusTest& test, Progress& progress);
 

@@ -82,6 +82,25 @@ void add_drive(CLI::App& command, DriveOptions& drive) {
   command.add_option("--map", drive.map, "write a picture of the routes (SVG) to this file");
 }
 
+void add_validate(CLI::App& command, ValidateOptions& options) {
+  command.add_option("--data", options.data, "folder with rovers, soils, terrains and validation data")
+      ->capture_default_str();
+  CLI::Option* only =
+      command.add_option("--only", options.only, "names of comparisons, see --list; all where not given");
+  command.add_option("--plots", options.plots, "write one SVG per comparison into this folder");
+  CLI::Option* check =
+      command.add_option("--check", options.check, "also fail where this page does not hold what is printed");
+  CLI::Option* write = command.add_option("--write", options.write, "put what is printed into this page");
+  check->excludes(write)->excludes(only);
+  write->excludes(only);
+  command.add_flag("--json", options.json, "print the whole document, for machines");
+  command.add_flag("--list", options.list, "what comparisons there are");
+  command.footer(
+      "Example: every comparison, with its pictures\n"
+      "  slipway validate --plots plots\n"
+      "Exit status: 0 every stated band holds, 1 one does not.");
+}
+
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
@@ -139,6 +158,11 @@ int run_command_line(int argc, char** argv) {
   add_place(*command, "--at", terrain_options.at, "x,y in map metres");
   command->footer("Example:\n  slipway terrain --name gale --at 8142579.7,-276648.7");
   command->callback([&] { run = [&] { return terrain(terrain_options); }; });
+
+  ValidateOptions validate_options;
+  command = app.add_subcommand("validate", "compare with published and measured data, and say how far off");
+  add_validate(*command, validate_options);
+  command->callback([&] { run = [&] { return validate(validate_options); }; });
 
   AskOptions ask;
   const std::map<std::string, std::pair<std::string, int (*)(const AskOptions&)>> lists{

@@ -183,4 +183,8 @@ void interrupt() {
   interrupted = true;
 }
 
+bool given_up() {
+  return interrupted;
+}
+
 }  // namespace slipway::server

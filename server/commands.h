@@ -97,6 +97,16 @@ struct CurrentInvertCommand {
   std::uint64_t seed = 1;
 };
 
+struct ValidateOptions {
+  std::string data = "data";
+  std::vector<std::string> only;  // names of comparisons; empty: all
+  std::string plots;              // folder for one SVG per comparison; empty: none
+  std::string check;              // page whose printed part must be what comes out; empty: none
+  std::string write;              // page whose printed part is replaced; empty: none
+  bool json = false;
+  bool list = false;
+};
+
 // Each prints its answer on standard output and returns the process's exit status: 0 an answer (also "no safe
 // route"), 1 no answer, 2 a question that can't be asked. Problems and progress go to standard error.
 int serve(const ServeOptions& options);
@@ -109,8 +119,12 @@ int terrain(const TerrainOptions& options);
 int rovers(const AskOptions& options);
 int soils(const AskOptions& options);
 int health(const AskOptions& options);
+// 0: every stated band holds (and the page is as it should be); 1: one does not.
+int validate(const ValidateOptions& options);
 
 // From a signal handler: the running question is given up, the server drains and ends.
 void interrupt();
+// Whether interrupt() was called.
+bool given_up();
 
 }  // namespace slipway::server

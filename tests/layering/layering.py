@@ -14,7 +14,8 @@ MAY_SEE = {
     "planner": {"core", "dem", "sim", "planner"},
     "gap": {"core", "sim", "gap"},
     "api": {"core", "dem", "sim", "planner", "api"},
-    "server": {"core", "dem", "sim", "planner", "api", "server"},
+    "validation": {"core", "dem", "sim", "planner", "gap", "api", "validation"},
+    "server": {"core", "dem", "sim", "planner", "api", "validation", "server"},
 }
 
 # vendor header -> the only files of ours that may include it.

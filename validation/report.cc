@@ -1,14 +1,18 @@
-#include "tests/validation/report.h"
+#include "validation/report.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace slipway::validation {
 
+bool Report::holds() const {
+  return std::all_of(bands.begin(), bands.end(), [](const StatedBand& band) { return band.holds(); });
+}
+
 std::string Report::markdown() const {
   std::string text = fmt::format("### {}\n\nAgainst: {}\n\n", title, source);
+  if (!peers.empty()) text += fmt::format("Peers: {}\n\n", peers);
   const auto line = [&text](const std::vector<std::string>& cells) {
     text += fmt::format("| {} |\n", fmt::join(cells, " | "));
   };
@@ -17,15 +21,10 @@ std::string Report::markdown() const {
   for (const auto& row : rows) line(row);
   text += "\n";
   for (const std::string& note : notes) text += fmt::format("- {}\n", note);
+  for (const StatedBand& band : bands)
+    text += fmt::format("- Stated band: {} in [{:g}, {:g}]: {:.4g}, {}.\n", band.what, band.lowest,
+                        band.highest, band.value, band.holds() ? "holds" : "DOES NOT HOLD");
   return text + "\n";
-}
-
-double median_abs(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  for (double& v : values) v = std::abs(v);
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
 }  // namespace slipway::validation

@@ -1,0 +1,40 @@
+#include "validation/comparison_catalogue.h"
+
+#include <array>
+
+#include "validation/comparisons.h"
+
+namespace slipway::validation {
+
+std::span<const Comparison> comparison_catalogue() {
+  static constexpr std::array kComparisons{
+      Comparison{"kernel_cross_check", "the wheel against another implementation of the same equations",
+                 "RoverDevKit", &kernel_cross_check},
+      Comparison{"ding_2011", "the wheel against single-wheel tests, nothing fitted", "Ding et al. 2011",
+                 &ding_2011},
+      Comparison{"zhurong_states", "Zhurong's current model at zero slip, literal and balanced",
+                 "Shen et al. 2024", &zhurong_states},
+      Comparison{"virtual_bevameter", "moduli and strength fitted to plate and annulus tests",
+                 "Chrono CRM to SCM calibration study 2022", &virtual_bevameter},
+      Comparison{"plate_tests", "how well a power law holds for nine real plate tests",
+                 "Pavlov and Johnson 2022", &plate_tests},
+      Comparison{"pavlov_tests", "189 real single-wheel tests over slip and slip angle, and their scatter",
+                 "Pavlov and Johnson 2022", &pavlov_tests},
+      Comparison{"cuadriga_data", "a real rover's slip and charge per metre by slope, and their scatter",
+                 "University of Malaga", &cuadriga_data},
+      Comparison{"independent_simulator", "the quasi-static rover against another rover simulator",
+                 "practice campaign p01", &independent_simulator},
+      Comparison{"curiosity_attitude", "a rover set down on the map against Curiosity's measured attitude",
+                 "NASA/JPL", &curiosity_attitude},
+      Comparison{"rungs", "the table rung against the quasi-static rung", "this project", &rungs},
+  };
+  return kComparisons;
+}
+
+const Comparison* find_comparison(std::string_view name) {
+  for (const Comparison& comparison : comparison_catalogue())
+    if (comparison.name == name) return &comparison;
+  return nullptr;
+}
+
+}  // namespace slipway::validation

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+
+#include "core/result.h"
+#include "validation/report.h"
+
+namespace slipway::validation {
+
+// Each runs one comparison. data: the folder that also holds rovers, soils and terrains; what the comparisons
+// need beyond those is in its folder validation. Errors: unreadable_data, where a file is missing or not as
+// expected.
+Result<Report> kernel_cross_check(const std::filesystem::path& data);
+Result<Report> ding_2011(const std::filesystem::path& data);
+Result<Report> zhurong_states(const std::filesystem::path& data);
+Result<Report> independent_simulator(const std::filesystem::path& data);
+Result<Report> curiosity_attitude(const std::filesystem::path& data);
+Result<Report> rungs(const std::filesystem::path& data);
+Result<Report> virtual_bevameter(const std::filesystem::path& data);
+Result<Report> plate_tests(const std::filesystem::path& data);
+Result<Report> pavlov_tests(const std::filesystem::path& data);
+Result<Report> cuadriga_data(const std::filesystem::path& data);
+
+}  // namespace slipway::validation

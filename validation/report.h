@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace slipway::validation {
+
+// One measured number and what this project predicts for it.
+struct Case {
+  std::string name;      // "smooth, slip 0.2"
+  std::string quantity;  // "drawbar_pull"
+  std::string unit;      // "N"; "1" of what has none
+  double measured = 0.0;
+  std::optional<double> predicted;  // nothing where the data are shown before there is a prediction
+};
+
+// A figure and the range that it is stated to lie in.
+struct StatedBand {
+  std::string what;  // with its unit: "rms of slip"
+  double value = 0.0, lowest = 0.0, highest = 0.0;
+
+  bool holds() const { return value >= lowest && value <= highest; }
+};
+
+// One comparison with something outside this project, as it stands in docs/validation.md.
+struct Report {
+  std::string title;
+  std::string source;  // who measured or computed it
+  std::string peers;   // what others reach on the same figures; empty where nothing is known
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;
+  std::vector<std::string> notes;  // what to make of it, misses first
+  std::vector<StatedBand> bands;
+  std::vector<Case> cases;
+  std::string plot;  // an SVG document; empty where a picture says no more than the table
+
+  bool holds() const;
+  std::string markdown() const;
+};
+
+}  // namespace slipway::validation

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace slipway::validation {
+
+// Of an even count the mean of the two in the middle. Values not empty.
+double median(std::vector<double> values);
+// The median of absolute values; 0 of nothing.
+double median_abs(std::vector<double> values);
+// Linear between order statistics (Hyndman and Fan's type 7). Values not empty, share in [0, 1].
+double quantile(std::vector<double> values, double share);
+
+struct Agreement {
+  double r = 0.0;     // Pearson's correlation
+  double rms = 0.0;   // of predicted - measured
+  double bias = 0.0;  // mean of predicted - measured
+};
+Agreement agreement(const std::vector<double>& predicted, const std::vector<double>& measured);
+
+struct Interval {
+  double low = 0.0, high = 0.0;
+};
+
+// Percentile bootstrap of the median with whole groups resampled [Efron 1979; Cameron, Gelbach and Miller
+// 2008], so that what is correlated within a drive is not counted twice. groups: the values of each drive,
+// none empty. level in (0, 1). The same seed gives the same interval.
+Interval median_interval_by_group(const std::vector<std::vector<double>>& groups, double level, int draws,
+                                  std::uint64_t seed);
+
+}  // namespace slipway::validation
