@@ -89,6 +89,10 @@ TEST(WheelSweepRequest, EveryFaultIsNamed) {
             std::vector<std::string>{"/sweep/0/to"});
   EXPECT_EQ(pointers_of(sweep_with(R"(,"sweep":[{"parameter":"slip","from":0,"to":0.9,"step":1e-9}])")),
             std::vector<std::string>{"/sweep"});
+  EXPECT_EQ(pointers_of(sweep_with(R"(,"sweep":[{"parameter":"slip","from":-3,"to":2,"step":0.1}])")),
+            (std::vector<std::string>{"/sweep/0/from", "/sweep/0/to"}));
+  EXPECT_EQ(pointers_of(sweep_with(R"(,"sweep":[{"parameter":"slip","values":[0,0.5,2]}])")),
+            std::vector<std::string>{"/sweep/0/values/2"});
   EXPECT_EQ(pointers_of(sweep_with(R"(,"slip_angle_deg":90)")), std::vector<std::string>{"/slip_angle_deg"});
   EXPECT_EQ(pointers_of(sweep_with(R"(,"slip_angle_deg":90,"slip_definition":"travel")")),
             std::vector<std::string>{});

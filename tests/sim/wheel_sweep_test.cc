@@ -300,9 +300,8 @@ TEST(WheelSweep, FaultsNameTheAxisAndTheValue) {
   EXPECT_EQ(pointers_of(faults_of(sweep_of({{"slip", many}, {"load_n", many}}))),
             (std::vector<std::string>{"/sweep"}));
   EXPECT_EQ(pointers_of(faults_of(sweep_of({{"slip_angle_deg", {0.0, 90.0}}}))),
-            (std::vector<std::string>{"/sweep/0/values"}));
-  EXPECT_EQ(pointers_of(faults_of(sweep_of({{"sinkage_m", {0.2}}}))),
-            (std::vector<std::string>{"/sweep/0/values"}));
+            (std::vector<std::string>{"/sweep/0"}));
+  EXPECT_EQ(pointers_of(faults_of(sweep_of({{"sinkage_m", {0.2}}}))), (std::vector<std::string>{"/sweep/0"}));
   EXPECT_EQ(pointers_of(faults_of(sweep_of({{"soil.k_phi", {-1e6}}}))), (std::vector<std::string>{"/soil"}));
 }
 
