@@ -62,6 +62,16 @@ struct TerrainOptions {
   std::optional<PlaceOption> at;
 };
 
+struct ValidateOptions {
+  std::string data = "data";
+  std::vector<std::string> only;  // names of comparisons; empty: all
+  std::string plots;              // folder for one SVG per comparison; empty: none
+  std::string check;              // page whose printed part must be what comes out; empty: none
+  std::string write;              // page whose printed part is replaced; empty: none
+  bool json = false;
+  bool list = false;
+};
+
 // A single wheel on a rig.
 struct WheelOptions {
   AskOptions ask;
@@ -95,16 +105,6 @@ struct CurrentInvertCommand {
   std::vector<std::string> effects;
   int draws = 200;
   std::uint64_t seed = 1;
-};
-
-struct ValidateOptions {
-  std::string data = "data";
-  std::vector<std::string> only;  // names of comparisons; empty: all
-  std::string plots;              // folder for one SVG per comparison; empty: none
-  std::string check;              // page whose printed part must be what comes out; empty: none
-  std::string write;              // page whose printed part is replaced; empty: none
-  bool json = false;
-  bool list = false;
 };
 
 // Each prints its answer on standard output and returns the process's exit status: 0 an answer (also "no safe
