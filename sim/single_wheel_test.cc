@@ -12,6 +12,8 @@
 namespace slipway::sim {
 namespace {
 
+constexpr double kBalanceTolerance = 1e-6;  // of the load
+
 // |v| / (r w) of a slip in [-1, 1].
 double bounded_speed_ratio(double slip) {
   return slip <= -1.0 + 1.0 / kLockedSpeedRatio ? kLockedSpeedRatio : speed_ratio_from_slip(slip);
@@ -48,9 +50,11 @@ std::string_view describe(TestOutcome outcome) {
     case TestOutcome::kHeld:
       return "held";
     case TestOutcome::kSunkToAxle:
+      return "sunk_to_axle";
+    case TestOutcome::kNotBalanced:
       break;
   }
-  return "sunk_to_axle";
+  return "not_balanced";
 }
 
 WheelMotion forward_motion(double slip, double slip_angle_rad) {
@@ -87,9 +91,16 @@ SingleWheelResult run_single_wheel_test(const SingleWheelTest& test) {
     }
     result.entry_angle_rad = *balanced;
   }
+  result.forces = wheel_forces(test.wheel, met, result.entry_angle_rad, motion);
+  if (const double carried = result.forces.vertical_n;
+      !test.sinkage_m && std::abs(carried - test.load_n) > kBalanceTolerance * test.load_n) {
+    result.outcome = TestOutcome::kNotBalanced;
+    result.reason = fmt::format("not balanced: {:.4g} N are carried of {:.4g} N where the solver stopped",
+                                carried, test.load_n);
+    return result;
+  }
   result.exit_angle_rad = 0.0 - met.exit_angle_ratio * result.entry_angle_rad;
   result.sinkage_m = sinkage_m(test.wheel.radius_m, result.entry_angle_rad);
-  result.forces = wheel_forces(test.wheel, met, result.entry_angle_rad, motion);
   split_pull(test, met, motion, result);
   const double rate = rim_speed / test.wheel.radius_m;
   if (test.drive) result.current_a = motor_state(*test.drive, result.forces.torque_nm, rate).current_a;

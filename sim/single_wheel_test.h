@@ -27,7 +27,9 @@ WheelMotion forward_motion(double slip, double slip_angle_rad);
 // Slip s by the speed of travel, of a rig that travels straight at an angle beta to the wheel's plane [as the
 // tests of Pavlov & Johnson 2022 are reported]: s = (r w - |v|) / max(|v|, r w).
 //   |v| / (r w) = 1 - s (s >= 0), 1 / (1 + s) (s < 0)        v_x = |v| cos(beta), v_y = |v| sin(beta)
-// At 90 deg the wheel moves sideways only.
+// At 90 deg the wheel moves sideways only. Near it, soil with independent shear (Soil::shear_coupling 0)
+// keeps the rim's whole thrust however fast the wheel is dragged sideways, even locked: use coupled shear
+// there.
 WheelMotion rig_motion(double slip, double slip_angle_rad);
 
 // One steady test of a single wheel on level soil: how it is held and moved.
@@ -50,15 +52,17 @@ struct SingleWheelTest {
 };
 
 enum class TestOutcome {
-  kBalanced,    // the soil carries the load
-  kHeld,        // at the given depth
-  kSunkToAxle,  // no depth up to the axle carries the load
+  kBalanced,     // the soil carries the load
+  kHeld,         // at the given depth
+  kSunkToAxle,   // no depth up to the axle carries the load
+  kNotBalanced,  // the solver found no depth that carries it to 1e-6: soil far harder than any, at a tiny
+                 // load
 };
 
-// "balanced", "held", "sunk_to_axle".
+// "balanced", "held", "sunk_to_axle", "not_balanced".
 std::string_view describe(TestOutcome outcome);
 
-// What a rig reports. Where the wheel is sunk to its axle nothing but slip, angle and reason is said.
+// What a rig reports. Where the wheel does not stand nothing but slip, angle and reason is said.
 struct SingleWheelResult {
   TestOutcome outcome = TestOutcome::kBalanced;
   std::string reason;  // of an outcome that is no balance
@@ -74,7 +78,7 @@ struct SingleWheelResult {
   // Pull times v_x over torque times rate; where the wheel drives (T > 0) and pulls (DP >= 0).
   std::optional<double> tractive_efficiency;
 
-  bool stands() const { return outcome != TestOutcome::kSunkToAxle; }
+  bool stands() const { return outcome == TestOutcome::kBalanced || outcome == TestOutcome::kHeld; }
 };
 
 // The rates are those of the test: r w of the rim, 0 for a locked wheel.

@@ -56,7 +56,7 @@ void check_axis(const SweepAxis& axis, const std::string& pointer, std::vector<F
 // Where the blame for a row's fault lies: the axis that sets the parameter, or the parameter itself.
 std::string pointer_to(const WheelSweep& sweep, std::string_view parameter) {
   for (std::size_t a = 0; a < sweep.axes.size(); ++a) {
-    if (sweep.axes[a].parameter == parameter) return fmt::format("/sweep/{}/values", a);
+    if (sweep.axes[a].parameter == parameter) return fmt::format("/sweep/{}", a);
   }
   return fmt::format("/{}", parameter);
 }

@@ -74,7 +74,7 @@ void write_columns(Writer& w, const sim::WheelSweep& sweep) {
     write_column(w, axis.parameter, field ? field->unit : "", field ? field->summary : "");
   }
   for (const Column& column : kColumns) write_column(w, column.name, column.unit, column.summary);
-  write_column(w, "outcome", "", "balanced, held (at the given depth) or sunk_to_axle");
+  write_column(w, "outcome", "", "balanced, held (at the given depth), sunk_to_axle or not_balanced");
   write_column(w, "reason", "", "why there are no forces");
   w.end_array();
 }

@@ -59,8 +59,10 @@ void read_axis(const Element& element, sim::SweepAxis& axis, std::vector<Fault>&
     reader.numbers("values", kRequired, {1, sim::kMostSweepRows}, any, axis.values);
     return reader.refuse_unknown();
   }
+  // Where the parameter is unknown, that is the fault that is said.
+  const NumberRule ends = sim::sweep_field(axis.parameter) ? rule_of(axis.parameter) : any;
   double from = 0.0, to = 0.0, step = 0.0;
-  const bool good = reader.number("from", kRequired, any, from) & reader.number("to", kRequired, any, to) &
+  const bool good = reader.number("from", kRequired, ends, from) & reader.number("to", kRequired, ends, to) &
                     reader.number("step", kRequired, {"", 0.0, 1e12, true}, step);
   reader.refuse_unknown();
   if (!good) return;

@@ -8,8 +8,10 @@
 #include "api/job_kinds.h"
 #include "api/json/parse.h"
 #include "api/json/plan_answer.h"
+#include "api/json/wheel_sweep_answer.h"
 #include "api/memory_job_store.h"
 #include "api/openapi.h"
+#include "api/wheel_sweep.h"
 #include "small_world.h"
 
 namespace slipway::api {
@@ -136,6 +138,16 @@ TEST(Contract, ExamplesOfRequestsFitTheDescription) {
   }
   EXPECT_EQ(complaints_about("PredictionRequest", example("prediction_path.json")),
             std::vector<std::string>{});
+  EXPECT_EQ(complaints_about("WheelSweepRequest", example("wheel_sweep_every_key.json")),
+            std::vector<std::string>{});
+}
+
+TEST(Contract, AWheelSweepsAnswerFitsTheDescription) {
+  const auto answer = run_wheel_sweep(small_world().catalogue(), example("wheel_sweep_every_key.json"));
+  ASSERT_TRUE(answer) << answer.error().detail;
+  const std::string document = json::write_wheel_sweep_answer(*answer);
+  EXPECT_EQ(complaints_about("WheelSweep", document), std::vector<std::string>{});
+  EXPECT_EQ(json::parse(document)->find("rows")->elements.size(), 18U);
 }
 
 TEST(Contract, APlansAnswerFitsTheDescription) {

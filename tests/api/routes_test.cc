@@ -126,6 +126,21 @@ TEST_F(Routes, APlanIsRecordedWithItsLocation) {
   EXPECT_EQ(routes.body, R"({"type":"FeatureCollection","features":[]})");
 }
 
+TEST_F(Routes, AWheelSweepIsAnsweredAtOnceAsJsonOrCsv) {
+  const std::string body = example("wheel_sweep_every_key.json");
+  const HttpResponse json = ask("POST", "/v1/wheel-sweeps", {}, body);
+  EXPECT_EQ(json.status, 200) << json.body;
+  EXPECT_EQ(text(json, "format"), "wheel_sweep/1");
+  EXPECT_EQ(json.header("Vary"), "Accept");
+  const HttpResponse csv = ask("POST", "/v1/wheel-sweeps", {{"Accept", "text/csv"}}, body);
+  EXPECT_EQ(csv.content_type, "text/csv");
+  EXPECT_TRUE(csv.body.starts_with("effects.slip_sinkage.n1,slip,")) << csv.body;
+  const HttpResponse refused = ask("POST", "/v1/wheel-sweeps", {{"Accept", "text/csv"}}, R"({"slip":2})");
+  EXPECT_EQ(refused.status, 422);
+  EXPECT_EQ(refused.content_type, "application/problem+json");
+  EXPECT_EQ(read(refused).find("faults")->elements.size(), 3U);
+}
+
 TEST_F(Routes, PreferWaitGivesTheAnswerAtOnce) {
   for (const char* prefer : {"wait=5", "respond-async, wait=5", "return=minimal; x=1,WAIT=\"5\" ; y"}) {
     const HttpResponse response =

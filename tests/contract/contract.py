@@ -123,10 +123,48 @@ class Contract(unittest.TestCase):
         for path, methods in description["paths"].items():
             content = methods.get("post", {}).get("requestBody", {}).get("content", {})
             for example in content.get("application/json", {}).get("examples", {}).values():
-                if "value" in example:
-                    self.assertTrue(json.loads(self.server.answer(path, example["value"]))["format"].endswith("/1"))
-                    replayed += 1
-        self.assertGreaterEqual(replayed, 2)
+                if "value" not in example:
+                    continue
+                if "201" in methods["post"]["responses"]:  # a job
+                    answer = self.server.answer(path, example["value"])
+                else:
+                    status, _, answer = self.server.ask("POST", path, example["value"])
+                    self.assertEqual(status, 200, answer[:500])
+                self.assertTrue(json.loads(answer)["format"].endswith("/1"))
+                replayed += 1
+        self.assertGreaterEqual(replayed, 3)
+
+    def test_a_wheel_sweep_is_the_same_here_on_the_command_line_and_as_csv(self):
+        request = {"rover": "mer-class", "soil": "jlu_mars_2_dense", "load_n": 100,
+                   "sweep": [{"parameter": "slip", "from": -0.4, "to": 0.8, "step": 0.2}]}
+        status, _, body = self.server.ask("POST", "/v1/wheel-sweeps", request)
+        self.assertEqual(status, 200, body[:500])
+        rows = json.loads(body)["rows"]
+        self.assertEqual([row["slip"] for row in rows], [-0.4, -0.2, 0, 0.2, 0.4, 0.6, 0.8])
+        pulls = [row["drawbar_pull_n"] for row in rows]
+        self.assertEqual(pulls, sorted(pulls))
+        with tempfile.TemporaryDirectory() as folder:
+            csv, plot = os.path.join(folder, "wheel.csv"), os.path.join(folder, "wheel.svg")
+            command = [SLIPWAY, "wheel", "--data", DATA, "--soil", "jlu_mars_2_dense", "--load", "100", "--sweep",
+                       "slip=-0.4:0.8:0.2", "--json", "--csv", csv, "--plot", plot]
+            self.assertEqual(subprocess.run(command, capture_output=True, check=True).stdout.rstrip(b"\n"), body)
+            self.assertEqual(pathlib.Path(csv).read_bytes(),
+                             self.server.ask("POST", "/v1/wheel-sweeps", request, {"Accept": "text/csv"})[2])
+            self.assertTrue(pathlib.Path(plot).read_text().startswith("<svg"))
+        self.refused("/v1/wheel-sweeps", {"rover": "mer-class", "soil": "sand", "slip": 2}, 422, "/soil", "/slip")
+
+    def test_a_current_is_mapped_and_inverted_on_the_command_line(self):
+        run = lambda *words: subprocess.run([SLIPWAY, "current", *words, "--data", DATA], capture_output=True, text=True)
+        for figure in ("9", "10", "11"):
+            done = run("map", "--figure", figure)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertTrue(done.stdout.startswith("panel,soil,model,"))
+            self.assertEqual(done.stdout, run("map", "--figure", figure).stdout)
+        done = run("invert", "--current", "0.7", "--gravity", "9.81", "--json")
+        self.assertEqual(json.loads(done.stdout)["verdict"], "go", done.stdout)
+        self.assertEqual(run("map", "--figure", "7").returncode, 2)
+        self.assertEqual(run("map", "--x", "k_s=1:2").returncode, 2)
+        self.assertIn("/soil", run("invert", "--current", "1", "--soil", "sand").stderr)
 
     def test_a_plan_has_three_routes_that_differ_and_the_safest_is_ranked_with_reasons(self):
         answer = json.loads(self.server.answer("/v1/plans", plan()))
@@ -251,8 +289,8 @@ class Contract(unittest.TestCase):
         self.assertIn("/start", wrong.stderr)
         for command in ("terrain", "rovers", "soils"):
             self.assertEqual(subprocess.run([SLIPWAY, command, "--data", DATA], capture_output=True).returncode, 0)
-        for command in ("serve", "plan", "predict", "terrain", "rovers", "soils"):
-            shown = subprocess.run([SLIPWAY, command, "--help"], capture_output=True, text=True)
+        for command in ("serve", "plan", "predict", "wheel", "current", "current map", "current invert", "terrain", "rovers", "soils"):
+            shown = subprocess.run([SLIPWAY, *command.split(), "--help"], capture_output=True, text=True)
             self.assertEqual(shown.returncode, 0)
             self.assertIn("Example:", shown.stdout)
 

@@ -181,15 +181,17 @@ TEST(CurrentMap, CurrentAtNoSlipFallsWithHardnessExceptOnSimulantOne) {
 
 // "The curve of JLU Mars 2 always has the largest slope": of the medium states only.
 TEST(CurrentMap, SimulantTwoHasTheLargestRiseInItsMediumStateOnly) {
-  const auto rise = [](const Soil& soil) {
-    const std::vector<double> values = currents(soil, CurrentModel::kLiteral, {"slip", {0.0, 0.5}});
-    return values.at(1) - values.at(0);
-  };
   const auto soils = jlu_mars();
-  EXPECT_GT(rise(soils[1][1]), rise(soils[0][1]));
-  EXPECT_GT(rise(soils[1][1]), rise(soils[2][1]));
-  EXPECT_LT(rise(soils[1][0]), rise(soils[2][0]));
-  EXPECT_LT(rise(soils[1][2]), rise(soils[0][2]));
+  for (const CurrentModel model : kBoth) {
+    const auto rise = [&](std::size_t simulant, std::size_t state) {
+      const std::vector<double> values = currents(soils[simulant][state], model, {"slip", {0.0, 0.5}});
+      return values.at(1) - values.at(0);
+    };
+    EXPECT_GT(rise(1, 1), rise(0, 1));
+    EXPECT_GT(rise(1, 1), rise(2, 1));
+    EXPECT_LT(rise(1, 0), rise(2, 0));
+    EXPECT_LT(rise(1, 2), rise(0, 2));
+  }
 }
 
 // Beyond slip 0.3 to 0.5 the literal currents of loose simulants fall below those of medium ones: a miss.
@@ -211,6 +213,11 @@ TEST(CurrentMap, TheSameCurrentMeansLessSlipOnLooserSimulantsAtLowSlip) {
       return currents(soils[s][state], CurrentModel::kLiteral, {"slip", {0.7}}).at(0);
     };
     EXPECT_LT(at(0), at(1));
+    const auto balanced = [&](std::size_t state) {
+      return currents(soils[s][state], CurrentModel::kBalanced, {"slip", {0.5}}).at(0);
+    };
+    EXPECT_GT(balanced(0), balanced(1));
+    EXPECT_GT(balanced(1), balanced(2));
   }
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/angle.h"
+#include "core/random.h"
 #include "sim/effect_catalogue.h"
 #include "tests/sim/reference_models.h"
 
@@ -94,6 +95,15 @@ TEST(SingleWheelTest, TooMuchLoadIsSunkToTheAxleWithReason) {
   EXPECT_FALSE(result.current_a);
 }
 
+TEST(SingleWheelTest, WhereTheSolverFindsNoBalanceItSaysSo) {
+  SingleWheelTest test = test_on(sandy_loam());
+  test.soil.pressure = {0.0, 1e11, 0.1};
+  test.load_n = 0.5;
+  const SingleWheelResult result = run_single_wheel_test(test);
+  EXPECT_EQ(result.outcome, TestOutcome::kNotBalanced);
+  EXPECT_TRUE(result.reason.starts_with("not balanced: ")) << result.reason;
+}
+
 TEST(SingleWheelTest, ThrustLessResistanceIsThePull) {
   SingleWheelTest test = test_on(loose_sand());
   test.soil.bulldozing = 1.0;
@@ -141,6 +151,20 @@ TEST(SingleWheelTest, DrawnSidewaysItIsHeldBackFromEitherSideAlike) {
   EXPECT_LT(left.forces.lateral_n, -10.0) << "against the motion to the left";
   EXPECT_NEAR(left.forces.lateral_n, -right.forces.lateral_n, 1e-9);
   EXPECT_NEAR(left.forces.drawbar_pull_n, right.forces.drawbar_pull_n, 1e-9);
+}
+
+// With independent shear the rim's thrust stays however fast the wheel is dragged sideways; with one
+// resultant the dragging takes it all.
+TEST(SingleWheelTest, ALockedWheelDraggedSidewaysHasNoThrustWhereShearIsCoupled) {
+  SingleWheelTest test = test_on(sandy_loam());
+  test.slip_definition = SlipDefinition::kTravel;
+  test.slip_angle_rad = rad_from_deg(90.0);
+  test.slip = -1.0;
+  EXPECT_GT(run_single_wheel_test(test).thrust_n, 20.0);
+  test.soil.shear_coupling = 1.0;
+  const SingleWheelResult coupled = run_single_wheel_test(test);
+  EXPECT_NEAR(coupled.thrust_n, 0.0, 1e-3);
+  EXPECT_LT(coupled.forces.lateral_n, -20.0);
 }
 
 TEST(SingleWheelTest, ASecondPassSinksLess) {
@@ -209,6 +233,39 @@ TEST(WheelSweep, EveryParameterThatIsKnownRunsAtTheEndsOfItsRange) {
   }
 }
 
+TEST(WheelSweep, AnyCombinationGivesFiniteNumbersOrAReason) {
+  const std::vector<std::string> names = sweep_field_names();
+  int stood = 0;
+  for (std::uint64_t trial = 0; trial < 3000; ++trial) {
+    const std::uint64_t key = random_key(7, trial);
+    WheelRig rig = sweep_of({}).rig;
+    if (random_uniform(key, 0) < 0.5) rig.test.slip_definition = SlipDefinition::kTravel;
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      const double chance = random_uniform(key, 2 * k + 1), share = random_uniform(key, 2 * k + 2);
+      if (chance > 0.2 || names[k] == "sinkage_m" || names[k] == "soil.k_c" || names[k] == "soil.k_phi")
+        continue;
+      const Field field = *sweep_field(names[k]);
+      double value = field.lowest + share * (field.highest - field.lowest);
+      if (chance < 0.04) value = share < 0.5 ? field.lowest : field.highest;
+      if (names[k] == "slip_angle_deg" && rig.test.slip_definition == SlipDefinition::kForward) value *= 0.99;
+      set_sweep_parameter(names[k], value, rig);
+    }
+    const SingleWheelTest test = test_of(rig);
+    const SingleWheelResult r = run_single_wheel_test(test);
+    if (!r.stands()) {
+      EXPECT_FALSE(r.reason.empty());
+      continue;
+    }
+    ++stood;
+    EXPECT_NEAR(r.forces.vertical_n, test.load_n, 1e-6 * test.load_n);
+    for (const double value : {r.forces.drawbar_pull_n, r.forces.lateral_n, r.forces.torque_nm, r.thrust_n,
+                               r.compaction_resistance_n, r.bulldozing_resistance_n, r.sinkage_m,
+                               r.current_a.value_or(0.0), r.tractive_efficiency.value_or(0.0)})
+      EXPECT_TRUE(std::isfinite(value)) << trial;
+  }
+  EXPECT_GT(stood, 1500);
+}
+
 TEST(WheelSweep, ARoversOwnEffectsAreAtWorkAndCanBeSweptFrom) {
   WheelSweep sweep = sweep_of({{"effects.grousers.count", {24.0}}});
   sweep.rig.rover.effects = {{.name = "grousers", .parameters = {{"height_m", 0.03}}}};
@@ -243,9 +300,8 @@ TEST(WheelSweep, FaultsNameTheAxisAndTheValue) {
   EXPECT_EQ(pointers_of(faults_of(sweep_of({{"slip", many}, {"load_n", many}}))),
             (std::vector<std::string>{"/sweep"}));
   EXPECT_EQ(pointers_of(faults_of(sweep_of({{"slip_angle_deg", {0.0, 90.0}}}))),
-            (std::vector<std::string>{"/sweep/0/values"}));
-  EXPECT_EQ(pointers_of(faults_of(sweep_of({{"sinkage_m", {0.2}}}))),
-            (std::vector<std::string>{"/sweep/0/values"}));
+            (std::vector<std::string>{"/sweep/0"}));
+  EXPECT_EQ(pointers_of(faults_of(sweep_of({{"sinkage_m", {0.2}}}))), (std::vector<std::string>{"/sweep/0"}));
   EXPECT_EQ(pointers_of(faults_of(sweep_of({{"soil.k_phi", {-1e6}}}))), (std::vector<std::string>{"/soil"}));
 }
 

@@ -1,0 +1,186 @@
+#include "api/wheel_sweep.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "api/json/parse.h"
+#include "api/json/wheel_sweep_answer.h"
+#include "api/json/wheel_sweep_request.h"
+#include "api/sweep_chart.h"
+#include "small_world.h"
+
+namespace slipway::api {
+namespace {
+
+using testing::example;
+using testing::small_world;
+
+const Catalogue& catalogue() {
+  return small_world().catalogue();
+}
+
+std::string sweep_with(const std::string& members) {
+  return R"({"rover":"mer-class","soil":"jlu_mars_2_dense")" + members + "}";
+}
+
+std::string answer_to(const std::string& request) {
+  const auto answer = run_wheel_sweep(catalogue(), request);
+  EXPECT_TRUE(answer) << answer.error().detail;
+  return answer ? json::write_wheel_sweep_answer(*answer) : "";
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+std::vector<std::string> pointers_of(const std::string& request) {
+  const auto answer = read_wheel_sweep(catalogue(), request);
+  std::vector<std::string> pointers;
+  if (answer) return pointers;
+  for (const Fault& fault : answer.error().faults) pointers.push_back(fault.pointer);
+  return pointers;
+}
+
+TEST(WheelSweepRequest, DefaultsAreThoseOfTheRover) {
+  const auto answer = read_wheel_sweep(catalogue(), sweep_with(""));
+  ASSERT_TRUE(answer) << answer.error().detail;
+  EXPECT_EQ(answer->request.wheel, "lf");
+  EXPECT_NEAR(*answer->request.load_n, 174.0 * 3.71 / 6.0, 1e-12);
+  EXPECT_EQ(answer->request.radius_m, 0.125);
+  EXPECT_EQ(answer->request.speed_m_s, 0.04);
+}
+
+TEST(WheelSweepRequest, EveryKeyIsReadAndEchoed) {
+  const auto answer = read_wheel_sweep(catalogue(), example("wheel_sweep_every_key.json"));
+  ASSERT_TRUE(answer) << answer.error().detail;
+  const sim::SingleWheelTest test = sim::points_of(answer->sweep).back().test;
+  EXPECT_EQ(test.wheel.radius_m, 0.13);
+  EXPECT_EQ(test.wheel.grousers.count, 24.0);
+  EXPECT_EQ(test.soil.n1, 0.4);
+  EXPECT_EQ(test.soil.multipass_stiffening, 0.5);
+  EXPECT_EQ(test.slip, 0.8);
+  EXPECT_EQ(test.slip_definition, sim::SlipDefinition::kTravel);
+  EXPECT_TRUE(test.in_a_track && test.speed_is_of_travel);
+  EXPECT_GT(test.drive->torque_constant_nm_per_a, 0.0224) << "colder than its reference";
+  const std::string echoed = json::write_wheel_sweep_request(answer->request);
+  const auto again = json::read_wheel_sweep_request(echoed);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->faults, std::vector<Fault>{});
+  EXPECT_EQ(json::write_wheel_sweep_request(again->request), echoed);
+}
+
+TEST(WheelSweepRequest, EveryFaultIsNamed) {
+  EXPECT_EQ(pointers_of(R"({"rover":"mer","soil":"sand","slip":2,"loadn":1,"sweep":[{"parameter":"slip"}]})"),
+            (std::vector<std::string>{"/slip", "/sweep/0/from", "/sweep/0/to", "/sweep/0/step", "/loadn",
+                                      "/rover", "/soil"}));
+  EXPECT_EQ(pointers_of(sweep_with(R"(,"load_n":10,"sinkage_m":0.01)")),
+            std::vector<std::string>{"/sinkage_m"});
+  EXPECT_EQ(pointers_of(sweep_with(R"(,"wheel":"xx")")), std::vector<std::string>{"/wheel"});
+  EXPECT_EQ(pointers_of(sweep_with(R"(,"effects":[{"name":"com_offset"},{"name":"grouser"}])")),
+            (std::vector<std::string>{"/effects/1/name", "/effects/0/name"}));
+  EXPECT_EQ(pointers_of(sweep_with(R"(,"sweep":[{"parameter":"slip","values":[0],"step":1}])")),
+            std::vector<std::string>{"/sweep/0/step"});
+  EXPECT_EQ(pointers_of(sweep_with(R"(,"sweep":[{"parameter":"slip","from":1,"to":0,"step":0.1}])")),
+            std::vector<std::string>{"/sweep/0/to"});
+  EXPECT_EQ(pointers_of(sweep_with(R"(,"sweep":[{"parameter":"slip","from":0,"to":0.9,"step":1e-9}])")),
+            std::vector<std::string>{"/sweep"});
+  EXPECT_EQ(pointers_of(sweep_with(R"(,"sweep":[{"parameter":"slip","from":-3,"to":2,"step":0.1}])")),
+            (std::vector<std::string>{"/sweep/0/from", "/sweep/0/to"}));
+  EXPECT_EQ(pointers_of(sweep_with(R"(,"sweep":[{"parameter":"slip","values":[0,0.5,2]}])")),
+            std::vector<std::string>{"/sweep/0/values/2"});
+  EXPECT_EQ(pointers_of(sweep_with(R"(,"slip_angle_deg":90)")), std::vector<std::string>{"/slip_angle_deg"});
+  EXPECT_EQ(pointers_of(sweep_with(R"(,"slip_angle_deg":90,"slip_definition":"travel")")),
+            std::vector<std::string>{});
+  const auto malformed = read_wheel_sweep(catalogue(), "{");
+  ASSERT_FALSE(malformed);
+  EXPECT_EQ(malformed.error().code, ErrorCode::kMalformedJson);
+}
+
+TEST(WheelSweepRequest, AnUnknownParameterIsRefusedWithTheKnown) {
+  const auto answer =
+      read_wheel_sweep(catalogue(), sweep_with(R"(,"sweep":[{"parameter":"slop","values":[0]}])"));
+  ASSERT_FALSE(answer);
+  const std::string message = answer.error().faults.at(0).message;
+  EXPECT_NE(message.find("slip_angle_deg"), std::string::npos);
+  EXPECT_NE(message.find("effects.grousers.height_m"), std::string::npos);
+  EXPECT_EQ(message.find("com_offset"), std::string::npos);
+}
+
+TEST(WheelSweepCsv, HasTheStatedColumnsAndARowATest) {
+  const std::string document = answer_to(sweep_with(
+      R"(,"sweep":[{"parameter":"effects.grousers.height_m","from":0,"to":0.02,"step":0.005},{"parameter":"slip","values":[-0.5,0.4]}])"));
+  const auto lines = lines_of(json::wheel_sweep_csv(document).value());
+  ASSERT_EQ(lines.size(), 1U + 5U * 2U);
+  EXPECT_EQ(
+      lines[0],
+      "effects.grousers.height_m,slip,slip_angle_deg,load_n,entry_angle_deg,exit_angle_deg,sinkage_m,"
+      "drawbar_pull_n,lateral_force_n,vertical_force_n,torque_nm,current_a,thrust_n,compaction_resistance_n,"
+      "bulldozing_resistance_n,tractive_efficiency,outcome,reason");
+  const long commas = std::count(lines[0].begin(), lines[0].end(), ',');
+  for (const std::string& line : lines) EXPECT_EQ(std::count(line.begin(), line.end(), ','), commas) << line;
+  EXPECT_TRUE(lines[1].starts_with("0,-0.5,0,107.59,")) << lines[1];
+  EXPECT_TRUE(lines[10].starts_with("0.02,0.4,0,107.59,")) << lines[10];
+}
+
+TEST(WheelSweepCsv, ASunkWheelHasItsReasonAndNoNumbers) {
+  const std::string document =
+      answer_to(sweep_with(R"(,"sweep":[{"parameter":"load_n","values":[100,50000]}])"));
+  const auto lines = lines_of(json::wheel_sweep_csv(document).value());
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_TRUE(lines[2].starts_with("0,0,50000,,,,,,,,,,,,,sunk_to_axle,sunk to the axle: the soil carries"))
+      << lines[2];
+}
+
+TEST(WheelSweepCsv, QuotesWhatMustBeQuoted) {
+  EXPECT_EQ(json::csv_field("plain"), "plain");
+  EXPECT_EQ(json::csv_field("a, \"b\""), "\"a, \"\"b\"\"\"");
+}
+
+TEST(WheelSweep, TheSameRequestHasTheSameBytes) {
+  const std::string first = answer_to(example("wheel_sweep_every_key.json"));
+  EXPECT_EQ(first, answer_to(example("wheel_sweep_every_key.json")));
+  EXPECT_EQ(json::wheel_sweep_csv(first).value(),
+            json::wheel_sweep_csv(answer_to(example("wheel_sweep_every_key.json"))).value());
+  EXPECT_EQ(draw_wheel_sweep(first).value(), draw_wheel_sweep(first).value());
+}
+
+TEST(SweepChart, TitlesHaveWordsAndUnits) {
+  EXPECT_EQ(parameter_title("slip"), "slip");
+  EXPECT_EQ(parameter_title("slip_angle_deg"), "slip angle, deg");
+  EXPECT_EQ(parameter_title("load_n"), "load, N");
+  EXPECT_EQ(parameter_title("effects.grousers.height_m"), "grousers height, m");
+  EXPECT_EQ(parameter_title("soil.k_phi"), "k_phi, N/m^(n+2)");
+}
+
+TEST(SweepChart, ALineForEachValueOfTheSecondAxis) {
+  const std::vector<sim::SweepAxis> axes{{"load_n", {10.0, 20.0, 30.0}}, {"slip", {0.0, 0.5}}};
+  const Chart chart = sweep_chart("", axes, {"pull, N", {1.0, 2.0, 3.0, std::nullopt, 5.0, 6.0}});
+  ASSERT_EQ(chart.series.size(), 2U);
+  EXPECT_EQ(chart.series[0].y, (std::vector<double>{1.0, 3.0, 5.0}));
+  EXPECT_TRUE(std::isnan(chart.series[1].y[1])) << "a missing value parts the line";
+  EXPECT_EQ(chart.series[1].name, "slip 0.5");
+}
+
+TEST(SweepChart, ManyLinesBecomeAHeatMap) {
+  const std::string few = answer_to(sweep_with(
+      R"(,"sweep":[{"parameter":"slip","values":[0,0.2]},{"parameter":"load_n","values":[50,100]}])"));
+  const std::string many = answer_to(sweep_with(
+      R"(,"sweep":[{"parameter":"slip","values":[0,0.2]},{"parameter":"load_n","from":20,"to":200,"step":20}])"));
+  EXPECT_NE(draw_wheel_sweep(few).value().find("load 50 N"), std::string::npos);
+  EXPECT_EQ(draw_wheel_sweep(many).value().find("load 20 N"), std::string::npos);
+  EXPECT_NE(draw_wheel_sweep(many).value().find("drawbar pull, N"), std::string::npos);
+}
+
+TEST(SweepChart, NothingSweptIsNothingToDraw) {
+  const auto picture = draw_wheel_sweep(answer_to(sweep_with("")));
+  ASSERT_FALSE(picture);
+  EXPECT_EQ(picture.error().code, ErrorCode::kInvalidRequest);
+}
+
+}  // namespace
+}  // namespace slipway::api
