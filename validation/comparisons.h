@@ -20,6 +20,7 @@ Result<Report> rungs(const std::filesystem::path& data);
 Result<Report> virtual_bevameter(const std::filesystem::path& data);
 Result<Report> plate_tests(const std::filesystem::path& data);
 Result<Report> pavlov_tests(const std::filesystem::path& data);
+Result<Report> pavlov_wheel(const std::filesystem::path& data);
 Result<Report> cuadriga_data(const std::filesystem::path& data);
 
 }  // namespace slipway::validation

@@ -6,7 +6,7 @@
 #include "api/chart.h"
 #include "gap/plate_test.h"
 #include "validation/comparisons.h"
-#include "validation/csv_table.h"
+#include "validation/sandbox_plates.h"
 
 namespace slipway::validation {
 namespace {
@@ -16,22 +16,6 @@ using gap::PlateMeasure;
 // Upstream's soil, and a fit of the same tests that was made elsewhere: p = k z^n in kPa and m.
 constexpr sim::BekkerModuli kUpstream{0.0, 8e6, 1.46};
 constexpr double kEarlierStiffness_kpa = 5.0e3, kEarlierExponent = 1.34;
-
-struct SandboxTest {
-  std::string name;
-  gap::PlateTest plate;
-};
-
-std::vector<SandboxTest> tests_of(const CsvTable& table) {
-  std::vector<SandboxTest> tests;
-  for (std::size_t k = 0; k < table.rows(); ++k) {
-    if (tests.empty() || tests.back().name != table.text(k, "test"))
-      tests.push_back({table.text(k, "test"), {0.5e-3 * table.number(k, "plate_diameter_mm"), {}, {}}});
-    tests.back().plate.sinkage_m.push_back(table.number(k, "sinkage_m"));
-    tests.back().plate.pressure_pa.push_back(1e3 * table.number(k, "pressure_kPa"));
-  }
-  return tests;
-}
 
 // Root mean square of the pressures that moduli miss, relative to the test's greatest pressure.
 double relative_rms(const gap::PlateTest& test, const sim::BekkerModuli& moduli) {
@@ -114,12 +98,9 @@ std::vector<api::Chart> charts_of(const std::vector<SandboxTest>& tests, const s
 }  // namespace
 
 Result<Report> plate_tests(const std::filesystem::path& data) {
-  const auto table = CsvTable::read(data / "validation" / "plate_sinkage_large_sandbox.csv",
-                                    {.numbers = {"plate_diameter_mm", "sinkage_m", "pressure_kPa"},
-                                     .numbers_or_empty = {},
-                                     .texts = {"test"}});
-  if (!table) return fail(table.error());
-  const std::vector<SandboxTest> tests = tests_of(*table);
+  const auto plates = load_sandbox_plates(data / "validation" / "plate_sinkage_large_sandbox.csv");
+  if (!plates) return fail(plates.error());
+  const std::vector<SandboxTest>& tests = *plates;
   Report report;
   report.title = "Nine plate tests of one sand";
   report.source =
@@ -144,6 +125,8 @@ Result<Report> plate_tests(const std::filesystem::path& data) {
     upstream = std::max(upstream, relative_rms(test.plate, kUpstream));
     all.push_back(test.plate);
   }
+  std::size_t samples = 0;
+  for (const gap::PlateTest& plate : all) samples += plate.sinkage_m.size();
   const auto pooled =
       gap::fit_moduli(all, {.measure = PlateMeasure::kPressure, .cohesive_modulus = false}, progress);
   const auto separate = gap::fit_moduli(all, {.measure = PlateMeasure::kPressure}, progress);
@@ -151,9 +134,9 @@ Result<Report> plate_tests(const std::filesystem::path& data) {
       gap::fit_moduli(all, {.measure = PlateMeasure::kLogPressure, .cohesive_modulus = false}, progress);
   for (const auto& fit : {pooled, separate, logarithms})
     if (!fit) return fail(fit.error());
-  report.rows.push_back(row_of("all, one modulus", table->rows(), "all", 0.0, *pooled));
-  report.rows.push_back(row_of("all, k_c and k_phi", table->rows(), "all", 0.0, *separate));
-  report.rows.push_back(row_of("all, plain logarithms", table->rows(), "all", 0.0, *logarithms));
+  report.rows.push_back(row_of("all, one modulus", samples, "all", 0.0, *pooled));
+  report.rows.push_back(row_of("all, k_c and k_phi", samples, "all", 0.0, *separate));
+  report.rows.push_back(row_of("all, plain logarithms", samples, "all", 0.0, *logarithms));
   double worst_pooled = 0.0, worst_separate = 0.0;
   for (const SandboxTest& test : tests) {
     worst_pooled = std::max(worst_pooled, relative_rms(test.plate, pooled->moduli));
