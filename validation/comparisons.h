@@ -14,6 +14,8 @@ Result<Report> kernel_cross_check(const std::filesystem::path& data);
 Result<Report> ding_2011(const std::filesystem::path& data);
 Result<Report> ding_2011_fitted(const std::filesystem::path& data);
 Result<Report> zhurong_states(const std::filesystem::path& data);
+Result<Report> zhurong_wheels(const std::filesystem::path& data);
+Result<Report> zhurong_pull(const std::filesystem::path& data);
 Result<Report> independent_simulator(const std::filesystem::path& data);
 Result<Report> curiosity_attitude(const std::filesystem::path& data);
 Result<Report> rungs(const std::filesystem::path& data);
