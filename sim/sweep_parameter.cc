@@ -103,8 +103,9 @@ bool acts_on_single_wheel(std::string_view effect) {
   const auto currents = [](const RoverModel& rover) {
     return motor_state(at_temperature(rover.drive, 60.0), 10.0, 0.3).current_a;
   };
-  return a.radius_m != b.radius_m || a.width_m != b.width_m || a.grousers.height_m != b.grousers.height_m ||
-         a.grousers.count != b.grousers.count || currents(before) != currents(after);
+  return a.radius_m != b.radius_m || a.width_m != b.width_m || a.rim_friction != b.rim_friction ||
+         a.grousers.height_m != b.grousers.height_m || a.grousers.count != b.grousers.count ||
+         currents(before) != currents(after);
 }
 
 std::optional<Field> sweep_field(std::string_view name) {

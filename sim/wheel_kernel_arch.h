@@ -1,3 +1,5 @@
+#pragma once
+
 // Compiled once for each instruction set, each in a file of its own with its own flags. Every function
 // template here carries the set in its type, so that the linker can't mix them up.
 #include "sim/arc_quadrature.h"

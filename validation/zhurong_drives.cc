@@ -35,8 +35,7 @@ std::vector<double> resting_loads_n(sim::RoverModel rover, const sim::Soil& soil
   rover.suspension.bogie_pivot_m.x() += shift.bogie_x_m;
   const sim::PerWheel<sim::Soil> soils(rover.wheels.size(), soil);
   const sim::Stance stance = sim::stance_on_plane(rover, {});
-  sim::RoverBalance balance(rover, kEarthGravity_m_s2, stance, soils,
-                                  {.speed_m_s = rover.cruise_speed_m_s});
+  sim::RoverBalance balance(rover, kEarthGravity_m_s2, stance, soils, {.speed_m_s = rover.cruise_speed_m_s});
   const auto loads = balance.resting_loads_n();
   return {loads.begin(), loads.end()};
 }
