@@ -378,6 +378,9 @@ TEST(SoilInForce, ATrackIsStifferAFastRimMeetsAnotherModulusAndGravityScalesWher
   soil.multipass_stiffening = 0.9;
   EXPECT_DOUBLE_EQ(soil_in_force(soil, 3.71, 0.1, true).pressure.k_phi, 1.9 * soil.pressure.k_phi);
   EXPECT_EQ(soil_in_force(soil, 3.71, 0.1, false).pressure.k_phi, soil.pressure.k_phi);
+  soil.bulldozing = 0.7;
+  EXPECT_EQ(soil_in_force(soil, 3.71, 0.1, true).bulldozing, 0.0);
+  EXPECT_EQ(soil_in_force(soil, 3.71, 0.1, false).bulldozing, 0.7);
   soil.rate_shear_exponent = 0.5;
   EXPECT_DOUBLE_EQ(soil_in_force(soil, 3.71, 0.16, false).shear_modulus_x_m, 2.0 * soil.shear_modulus_x_m);
   soil.gravity_exponent = 1.0;
