@@ -6,6 +6,7 @@ extern const WheelKernel kWheelKernelSse2, kWheelKernelAvx2, kWheelKernelAvx512;
 
 void LawParts::include(const WheelNumbers& in) {
   lateral |= in.leftward != 0.0;
+  independent |= in.leftward != 0.0 && in.coupling != 1.0;
   coupled |= in.leftward != 0.0 && in.coupling != 0.0;
   grousers |= in.grouser_height > 0.0 && in.grouser_count > 0.0;
   bulldozing |= in.bulldozing != 0.0;

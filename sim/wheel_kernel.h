@@ -22,8 +22,8 @@ WheelNumbers numbers_of(const WheelGeometry& wheel, const Soil& soil, double ent
 
 // Which parts of the law are at work in any of the wheels: the others are left out.
 struct LawParts {
-  bool lateral = false, coupled = false, grousers = false, bulldozing = false, side_bulldozing = false,
-       crust = false, hardpan = false;
+  bool lateral = false, independent = false, coupled = false, grousers = false, bulldozing = false,
+       side_bulldozing = false, crust = false, hardpan = false;
 
   void include(const WheelNumbers& in);
 };

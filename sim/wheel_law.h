@@ -62,8 +62,14 @@ struct ContactIntegrals {
   V m = V(0.0), m_cos = V(0.0), m_sin = V(0.0);
 };
 
-// Blends independent mobilisation with one resultant against the slipping: j = |(j_x / K_x, j_y / K_y)|,
-// (m_x, m_y) = (1 - exp(-j)) (j_x / K_x, j_y / K_y) / j.
+// The mobilised share of the strength, with the sign of the displacement.
+template <class V>
+V mobilised(const V& displacement, const V& per_modulus) {
+  return copysign(janosi_hanamoto_mobilised(abs(displacement) * per_modulus), displacement);
+}
+
+// Blends independent mobilisation (left at 0 where the coupling is 1) with one resultant against the
+// slipping: j = |(j_x / K_x, j_y / K_y)|, (m_x, m_y) = (1 - exp(-j)) (j_x / K_x, j_y / K_y) / j.
 template <class V>
 void couple(const WheelCase<V>& in, const V& j_x, const V& j_y, V& m_x, V& m_y) {
   const V a = j_x * in.per_shear_x, b = j_y * in.per_shear_y;
@@ -99,12 +105,16 @@ void add_nodes(const WheelCase<V>& in, const ContactAngles<V>& at, const LawPart
                const V& sine, const V& cosine, const V& sigma, const V& weight, ContactIntegrals<V>& sum) {
   const V to_entry = in.theta_f - theta;
   const V j_x = in.radius * (to_entry - in.forward * (at.sin_f - sine));
-  V m_x = copysign(janosi_hanamoto_mobilised(abs(j_x) * in.per_shear_x), j_x);
-  V m_y = V(0.0);
+  V m_x = V(0.0), m_y = V(0.0);
   if (parts.lateral) {
     const V j_y = in.radius * in.leftward * to_entry;
-    m_y = copysign(janosi_hanamoto_mobilised(abs(j_y) * in.per_shear_y), j_y);
+    if (parts.independent) {
+      m_x = mobilised(j_x, in.per_shear_x);
+      m_y = mobilised(j_y, in.per_shear_y);
+    }
     if (parts.coupled) couple(in, j_x, j_y, m_x, m_y);
+  } else {
+    m_x = mobilised(j_x, in.per_shear_x);
   }
   const V strength = weight * in.rim_friction * (in.cohesion + sigma * in.tan_phi);
   const V tau = strength * m_x;
