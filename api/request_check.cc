@@ -69,6 +69,10 @@ void RequestCheck::drive(const DriveAssumptions& drive) {
     if (!already_faulty(at)) add(ErrorCode::kInvalidRequest, at, std::move(fault.message));
   }
   if (rover_ != nullptr && !already_faulty("/effects")) {
+    for (Fault& fault : moved_under("/effects", sim::faults_of(drive.effects, *rover_)))
+      add(ErrorCode::kInvalidRequest, fault.pointer, std::move(fault.message));
+  }
+  if (rover_ != nullptr && !already_faulty("/effects")) {
     sim::RoverModel changed = *rover_;
     sim::apply_effects(sim::in_force(rover_->effects, drive.effects), changed);
     for (const Fault& fault : sim::faults_of(changed)) {

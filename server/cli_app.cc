@@ -78,7 +78,10 @@ void add_drive(CLI::App& command, DriveOptions& drive) {
   command.add_option("--speed-m-s", drive.speed_m_s, "commanded speed");
   command.add_option("--draws", drive.draws, "soil draws for the risk");
   command.add_option("--seed", drive.seed, "the same seed gives the same answer");
-  command.add_option("--effect", drive.effects, "switch an effect on: NAME or NAME:parameter=value,...");
+  command.add_option(
+      "--effect", drive.effects,
+      "switch an effect on, NAME or NAME:parameter=value,..., or off, NAME:off; see slipway effects");
+  command.add_option("--motor-temp-c", drive.motor_temp_c, "temperature of the drive motors");
   command.add_option("--map", drive.map, "write a picture of the routes (SVG) to this file");
 }
 
@@ -142,6 +145,9 @@ int run_command_line(int argc, char** argv) {
   add_ask(*command, predict_options.ask);
   add_drive(*command, predict_options.drive);
   add_places(*command, "--path", predict_options.path, "corners of the path, each x,y or x,y,yaw_deg");
+  command->add_flag("--backwards", predict_options.backwards, "drive the path backwards");
+  command->add_option("--crab-deg", predict_options.crab_deg,
+                      "direction of travel from the body's axis, positive to the left");
   command->add_option("--request", predict_options.request,
                       "file with a whole request, - for standard input; other options are not used");
   command->footer(kPredictExample);
@@ -168,6 +174,7 @@ int run_command_line(int argc, char** argv) {
   const std::map<std::string, std::pair<std::string, int (*)(const AskOptions&)>> lists{
       {"rovers", {"what rovers there are", &rovers}},
       {"soils", {"what soils there are, with their sources", &soils}},
+      {"effects", {"what effects can be switched on, with their parameters", &effects}},
       {"health", {"whether a service answers", &health}}};
   for (const auto& [name, about] : lists) {
     command = app.add_subcommand(name, about.first);

@@ -62,7 +62,9 @@ int save(const std::string& file, const std::string& text) {
 void write_effect(api::json::Writer& w, const std::string& setting) {
   const std::size_t colon = setting.find(':');
   w.begin_object().text("name", setting.substr(0, colon));
-  if (colon != std::string::npos) {
+  if (colon != std::string::npos && setting.substr(colon + 1) == "off") {
+    w.boolean("on", false);
+  } else if (colon != std::string::npos) {
     w.key("parameters").begin_object();
     std::istringstream list(setting.substr(colon + 1));
     for (std::string entry; std::getline(list, entry, ',');) {

@@ -74,6 +74,7 @@ void write_drive(Writer& w, const DriveOptions& drive) {
   if (drive.draws) w.whole("draws", *drive.draws);
   if (drive.seed) w.whole("seed", *drive.seed);
   if (drive.speed_m_s) w.exact("speed_m_s", *drive.speed_m_s);
+  if (drive.motor_temp_c) w.exact("motor_temp_c", *drive.motor_temp_c);
 }
 
 std::string plan_request(const PlanOptions& options) {
@@ -99,7 +100,10 @@ std::string prediction_request(const PredictOptions& options) {
   write_drive(w, options.drive);
   w.key("path").begin_array();
   for (const PlaceOption& place : options.path) write_place(w, place);
-  w.end_array().end_object();
+  w.end_array();
+  if (options.backwards) w.boolean("backwards", true);
+  if (options.crab_deg) w.exact("crab_deg", *options.crab_deg);
+  w.end_object();
   return w.take();
 }
 
@@ -168,6 +172,9 @@ int rovers(const AskOptions& options) {
 }
 int soils(const AskOptions& options) {
   return print_catalogue(options, "soils", &soil_table);
+}
+int effects(const AskOptions& options) {
+  return print_catalogue(options, "effects", &effect_table);
 }
 
 int health(const AskOptions& options) {

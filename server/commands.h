@@ -34,7 +34,8 @@ struct DriveOptions {
   std::optional<double> max_slip, max_tilt_deg, speed_m_s;
   std::optional<int> draws;
   std::optional<long long> seed;
-  std::vector<std::string> effects;  // "slip_sinkage" or "slip_sinkage:n1=0.2"
+  std::optional<double> motor_temp_c;
+  std::vector<std::string> effects;  // "slip_sinkage", "slip_sinkage:n1=0.2" or "slip_sinkage:off"
   std::string map;                   // file for the picture; empty: none
 };
 
@@ -54,6 +55,8 @@ struct PredictOptions {
   DriveOptions drive;
   std::string request;
   std::vector<PlaceOption> path;
+  bool backwards = false;
+  std::optional<double> crab_deg;
 };
 
 struct TerrainOptions {
@@ -118,6 +121,7 @@ int current_invert(const CurrentInvertCommand& options);
 int terrain(const TerrainOptions& options);
 int rovers(const AskOptions& options);
 int soils(const AskOptions& options);
+int effects(const AskOptions& options);
 int health(const AskOptions& options);
 // 0: every stated band holds (and the page is as it should be); 1: one does not.
 int validate(const ValidateOptions& options);

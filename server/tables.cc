@@ -201,6 +201,17 @@ Result<std::string> soil_table(std::string_view document) {
       });
 }
 
+Result<std::string> effect_table(std::string_view document) {
+  return catalogue_table(document, "effects", {"effect", "what it is", "parameters"}, [](const JsonValue& e) {
+    std::string parameters;
+    for (const JsonValue& p : at(e, "parameters").elements)
+      parameters += fmt::format("{}{} = {:g} [{:g}, {:g}]{}", parameters.empty() ? "" : "; ", text(p, "name"),
+                                number(p, "initial"), number(p, "lowest"), number(p, "highest"),
+                                text(p, "unit") == "1" ? "" : " " + text(p, "unit"));
+    return std::vector<std::string>{text(e, "name"), text(e, "summary"), parameters};
+  });
+}
+
 std::string error_text(const Error& error) {
   const ErrorRow& row = error_row(error.code);
   std::string out = fmt::format("{}: {}\n", row.name, error.detail);

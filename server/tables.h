@@ -15,6 +15,7 @@ Result<std::string> wheel_table(std::string_view answer);
 Result<std::string> terrain_table(std::string_view document);
 Result<std::string> rover_table(std::string_view document);
 Result<std::string> soil_table(std::string_view document);
+Result<std::string> effect_table(std::string_view document);
 
 // An error with every fault, a line each.
 std::string error_text(const Error& error);

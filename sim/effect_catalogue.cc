@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "sim/effects/attitude_bias.h"
@@ -101,6 +102,20 @@ std::vector<Fault> faults_of(std::span<const EffectSetting> settings) {
       faults.push_back({fmt::format("/{}/name", i),
                         fmt::format("unknown effect \"{}\", known are: {}", setting.name, names_of(rows()))});
     }
+  }
+  return faults;
+}
+
+std::vector<Fault> faults_of(std::span<const EffectSetting> settings, const RoverModel& rover) {
+  std::vector<Fault> faults;
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    const auto wheel = settings[i].parameters.find("wheel");
+    if (wheel == settings[i].parameters.end()) continue;
+    const double last = static_cast<double>(rover.wheels.size()) - 1.0;
+    if (wheel->second != std::round(wheel->second) || wheel->second > last)
+      faults.push_back({fmt::format("/{}/parameters/wheel", i),
+                        fmt::format("wheel = {:g}, must be a whole number up to {:g}: {} has {} wheels",
+                                    wheel->second, last, rover.name, rover.wheels.size())});
   }
   return faults;
 }

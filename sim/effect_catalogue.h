@@ -46,6 +46,9 @@ const Effect* find_effect(std::string_view name);
 // to the list: "/0/parameters/n1".
 std::vector<Fault> faults_of(std::span<const EffectSetting> settings);
 
+// What is wrong with settings (without faults of their own) for this rover: a wheel that it does not have.
+std::vector<Fault> faults_of(std::span<const EffectSetting> settings, const RoverModel& rover);
+
 // The rover's own settings with the request's added: a name in the request replaces the rover's, `on` = false
 // takes it out. Only settings that are on are left.
 std::vector<EffectSetting> in_force(std::span<const EffectSetting> rovers,

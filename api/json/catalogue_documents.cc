@@ -18,10 +18,9 @@ namespace {
 
 void write_field(Writer& w, const Field& field) {
   w.begin_object().text("name", field.name).text("unit", field.unit).text("summary", field.summary);
-  w.exact("lowest", field.lowest)
-      .exact("highest", field.highest)
-      .exact("initial", field.initial)
-      .end_object();
+  w.exact("lowest", field.lowest).exact("highest", field.highest).exact("initial", field.initial);
+  if (field.neutral) w.exact("neutral", *field.neutral);
+  w.end_object();
 }
 
 // A table's cell as a number where it is one.
