@@ -188,6 +188,8 @@ Result<sim::RoverModel> read_rover_file(std::string_view bytes) {
   // What holds between the numbers can only be asked of a rover whose numbers were read.
   if (faults.empty()) {
     faults = sim::faults_of(rover);
+    for (Fault& fault : sim::faults_of(rover.effects, rover))
+      faults.push_back({"/effects" + fault.pointer, fault.message});
     for (Fault& fault : sim::faults_of(rover.effects))
       faults.push_back({"/effects" + fault.pointer, fault.message});
   }

@@ -88,6 +88,16 @@ TEST(Effects, ASoilInAPatchHasANameOfItsOwn) {
   EXPECT_EQ(soils_in_regions(map, {}).map, map) << "without regions it is the same map";
 }
 
+TEST(Effects, AWheelThatTheRoverDoesNotHaveIsRefusedByItsNumber) {
+  const auto refused = small_world().read_prediction(
+      R"({"terrain":"yard","rover":"mer-class","path":[{"x_m":20,"y_m":30},{"x_m":28,"y_m":30}],)"
+      R"("effects":[{"name":"dragging_wheel","parameters":{"wheel":6}}]})");
+  ASSERT_FALSE(refused);
+  ASSERT_EQ(refused.error().faults.size(), 1u);
+  EXPECT_EQ(refused.error().faults[0].pointer, "/effects/0/parameters/wheel");
+  EXPECT_NE(refused.error().faults[0].message.find("mer-class has 6 wheels"), std::string::npos);
+}
+
 TEST(Effects, AColdMotorDrawsOtherCurrentOnlyWhereItsTemperatureCounts) {
   PredictionRequest request = path_request();
   request.drive.effects = {};
