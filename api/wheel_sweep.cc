@@ -87,6 +87,7 @@ Result<WheelSweepAnswer> read_wheel_sweep(const Catalogue& catalogue, std::strin
     answer.sweep.rig.soil = soil->second.mean;
   }
   if (!check.passed()) return fail(check.error());
+  answer.sweep.set = answer.request.set;
   answer.sweep.axes = answer.request.sweep;
   for (Fault& fault : sim::faults_of(answer.sweep)) check.add(fault.pointer, std::move(fault.message));
   if (!check.passed()) return fail(check.error());

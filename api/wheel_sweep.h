@@ -23,6 +23,7 @@ struct WheelSweepRequest {
   std::optional<double> motor_temp_c;  // nothing: what the motor is given at
   sim::SingleWheelTest test;           // the other conditions
   std::vector<sim::EffectSetting> effects;
+  std::vector<sim::SweepSetting> set;
   std::vector<sim::SweepAxis> sweep;
 };
 

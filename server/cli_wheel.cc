@@ -88,6 +88,8 @@ void add_wheel_command(CLI::App& app, std::function<int()>& run) {
   command->add_option("--wheel", options->wheel, "of the rover; otherwise its first");
   command->add_option("--soil", options->soil, "name of the soil")->capture_default_str();
   command->add_option("--sweep", options->sweeps, "NAME=from:to:step or NAME=a,b,c; at most two");
+  command->add_option("--set", options->set,
+                      "NAME=value: anything that can be swept, throughout; a soil that no file has, say");
   command->add_option("--load,--load-n", options->load_n,
                       "on the wheel; otherwise an equal share of the weight");
   command->add_option("--sinkage-m", options->sinkage_m, "hold the wheel at this depth instead");

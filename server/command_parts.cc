@@ -59,6 +59,12 @@ int save(const std::string& file, const std::string& text) {
   return 0;
 }
 
+void write_setting(api::json::Writer& w, const std::string& setting) {
+  const std::size_t equals = setting.find('=');
+  const std::string value = equals == std::string::npos ? "" : setting.substr(equals + 1);
+  write_number_or_text(w.key(setting.substr(0, equals)), value);
+}
+
 void write_effect(api::json::Writer& w, const std::string& setting) {
   const std::size_t colon = setting.find(':');
   w.begin_object().text("name", setting.substr(0, colon));
@@ -67,11 +73,7 @@ void write_effect(api::json::Writer& w, const std::string& setting) {
   } else if (colon != std::string::npos) {
     w.key("parameters").begin_object();
     std::istringstream list(setting.substr(colon + 1));
-    for (std::string entry; std::getline(list, entry, ',');) {
-      const std::size_t equals = entry.find('=');
-      const std::string value = equals == std::string::npos ? "" : entry.substr(equals + 1);
-      write_number_or_text(w.key(entry.substr(0, equals)), value);
-    }
+    for (std::string entry; std::getline(list, entry, ',');) write_setting(w, entry);
     w.end_object();
   }
   w.end_object();

@@ -19,6 +19,9 @@ Result<std::unique_ptr<Inquiry>> inquiry(const AskOptions& options);
 // The exit status: 0, or 1 where the file can't be written.
 int save(const std::string& file, const std::string& text);
 
+// "name=number" as a member of the object that is being written; what is not a number is left to the reader.
+void write_setting(api::json::Writer& w, const std::string& setting);
+
 // "name" or "name:key=value,key=value"; what is not a number is left to the request's reader to refuse.
 void write_effect(api::json::Writer& w, const std::string& setting);
 // "slip=0:0.9:0.1" (from, to, step) or "load_n=20,50,80", for a wheel sweep's request; as above.

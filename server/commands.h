@@ -80,6 +80,7 @@ struct WheelOptions {
   AskOptions ask;
   std::string rover = "mer-class", wheel, soil = "unknown_ground";
   std::vector<std::string> sweeps;  // "slip=0:0.9:0.1", "load_n=20,50,80"
+  std::vector<std::string> set;     // "soil.n=1.1"
   std::optional<double> load_n, sinkage_m, slip, slip_angle_deg, gravity_m_s2, radius_m, width_m, speed_m_s;
   std::string slip_definition, speed_of;  // empty: the request's default
   std::string grousers;                   // "height_m,count"

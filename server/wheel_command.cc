@@ -39,7 +39,9 @@ std::string request_of(const WheelOptions& options) {
   if (options.in_a_track) w.boolean("in_a_track", true);
   w.key("effects").begin_array();
   for (const std::string& effect : options.effects) write_effect(w, effect);
-  w.end_array().key("sweep").begin_array();
+  w.end_array().key("set").begin_object();
+  for (const std::string& setting : options.set) write_setting(w, setting);
+  w.end_object().key("sweep").begin_array();
   for (const std::string& sweep : options.sweeps) write_sweep_axis(w, sweep);
   w.end_array().end_object();
   return w.take();

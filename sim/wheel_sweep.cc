@@ -26,31 +26,40 @@ WheelRig rig_of(const WheelSweep& sweep, std::size_t row, std::vector<double>& a
     at[a] = axis.values[row % axis.values.size()];
     row /= axis.values.size();
   }
+  for (const SweepSetting& setting : sweep.set) set_sweep_parameter(setting.parameter, setting.value, rig);
   for (std::size_t a = 0; a < sweep.axes.size(); ++a)
     set_sweep_parameter(sweep.axes[a].parameter, at[a], rig);
   return rig;
 }
 
+std::string unknown_parameter(const std::string& parameter) {
+  std::string known;
+  for (const std::string& name : sweep_field_names()) known += (known.empty() ? "" : ", ") + name;
+  return fmt::format("\"{:.80}\" is nothing a single wheel can be swept over, known: {}", parameter, known);
+}
+
+// Nothing where the value is in the parameter's range.
+std::optional<std::string> out_of_range(const std::string& parameter, const Field& field, double value) {
+  if (value >= field.lowest && value <= field.highest) return std::nullopt;
+  return fmt::format("{} = {:g}{}{}, must be in [{:g}, {:g}]", parameter, value, field.unit == "1" ? "" : " ",
+                     field.unit == "1" ? "" : field.unit, field.lowest, field.highest);
+}
+
 void check_axis(const SweepAxis& axis, const std::string& pointer, std::vector<Fault>& faults) {
   const auto field = sweep_field(axis.parameter);
-  if (!field) {
-    const std::vector<std::string> names = sweep_field_names();
-    std::string known;
-    for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
-    faults.push_back({pointer + "/parameter",
-                      fmt::format("\"{:.80}\" is nothing a single wheel can be swept over, known: {}",
-                                  axis.parameter, known)});
-    return;
-  }
+  if (!field) return faults.push_back({pointer + "/parameter", unknown_parameter(axis.parameter)});
   for (std::size_t i = 0; i < axis.values.size(); ++i) {
-    const double value = axis.values[i];
-    if (value >= field->lowest && value <= field->highest) continue;
-    faults.push_back({fmt::format("{}/values/{}", pointer, i),
-                      fmt::format("{} = {:g}{}{}, must be in [{:g}, {:g}]", axis.parameter, value,
-                                  field->unit == "1" ? "" : " ", field->unit == "1" ? "" : field->unit,
-                                  field->lowest, field->highest)});
-    return;  // one of a range is enough
+    if (const auto fault = out_of_range(axis.parameter, *field, axis.values[i]))
+      return faults.push_back({fmt::format("{}/values/{}", pointer, i), *fault});  // one of a range is enough
   }
+}
+
+void check_setting(const SweepSetting& setting, std::vector<Fault>& faults) {
+  const std::string pointer = "/set/" + setting.parameter;
+  const auto field = sweep_field(setting.parameter);
+  if (!field) return faults.push_back({pointer, unknown_parameter(setting.parameter)});
+  if (const auto fault = out_of_range(setting.parameter, *field, setting.value))
+    faults.push_back({pointer, *fault});
 }
 
 // Where the blame for a row's fault lies: the axis that sets the parameter, or the parameter itself.
@@ -101,6 +110,7 @@ std::vector<Fault> faults_of(const WheelSweep& sweep) {
   if (sweep.axes.size() > kMostSweepAxes)
     faults.push_back({"/sweep", fmt::format("sweep has {} axes, must have at most {}", sweep.axes.size(),
                                             kMostSweepAxes)});
+  for (const SweepSetting& setting : sweep.set) check_setting(setting, faults);
   for (std::size_t a = 0; a < sweep.axes.size(); ++a)
     check_axis(sweep.axes[a], fmt::format("/sweep/{}", a), faults);
   if (sweep.axes.size() == 2 && sweep.axes[0].parameter == sweep.axes[1].parameter)

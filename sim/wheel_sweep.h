@@ -25,9 +25,16 @@ std::vector<double> stepped(double lowest, double highest, double step);
 constexpr std::size_t kMostSweepAxes = 2;
 constexpr std::size_t kMostSweepRows = 5000;
 
+// One parameter that stands at another value throughout.
+struct SweepSetting {
+  std::string parameter;
+  double value = 0.0;  // in the unit of the boundary
+};
+
 // What a single-wheel rig would report over one or two parameters: every combination, the first axis slowest.
 struct WheelSweep {
   WheelRig rig;
+  std::vector<SweepSetting> set;  // on the rig before it is swept; a soil that no file has, say
   std::vector<SweepAxis> axes;
 };
 
@@ -44,7 +51,7 @@ struct SweepRow {
 
 // Axes that can't be swept, values out of range, too many rows, tests that no rig can make (a slip angle of
 // 90 deg with slip by the forward speed, a depth beyond the axle). Pointers: "/sweep/0/parameter",
-// "/sweep/1/values/3", "/sinkage_m".
+// "/sweep/1/values/3", "/set/soil.n", "/sinkage_m".
 std::vector<Fault> faults_of(const WheelSweep& sweep);
 
 // The places of a sweep, and the rows of one without faults.

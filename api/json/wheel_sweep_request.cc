@@ -70,6 +70,20 @@ void read_axis(const Element& element, sim::SweepAxis& axis, std::vector<Fault>&
   axis.values = sim::stepped(from, to, step);
 }
 
+// "set": {"soil.n": 1.1}; which names there are and their ranges is the sweep's to say.
+void read_settings(ObjectReader& reader, std::vector<sim::SweepSetting>& set) {
+  const JsonValue* const settings = reader.member("set", kOptional);
+  if (settings == nullptr) return;
+  if (!settings->is(JsonValue::Kind::kObject))
+    return reader.fault("set", "set = " + describe(*settings) + ", must be an object");
+  for (std::size_t i = 0; i < settings->keys.size(); ++i) {
+    const std::string& key = settings->keys[i];
+    double value = 0.0;
+    if (read_number(settings->elements[i], child_pointer("/set", key), key, {}, value, reader.faults()))
+      set.push_back({key, value});
+  }
+}
+
 }  // namespace
 
 Result<Reading<WheelSweepRequest>> read_wheel_sweep_request(std::string_view bytes) {
@@ -88,6 +102,7 @@ Result<Reading<WheelSweepRequest>> read_wheel_sweep_request(std::string_view byt
   read_grousers(reader, request.grousers);
   read_test(reader, request);
   read_effects(reader, request.effects);
+  read_settings(reader, request.set);
   for (const Element& element : reader.list("sweep", kOptional, {0, sim::kMostSweepAxes}))
     read_axis(element, request.sweep.emplace_back(), reading.faults);
   reader.refuse_unknown();
@@ -118,6 +133,9 @@ std::string write_wheel_sweep_request(const WheelSweepRequest& request) {
   if (request.motor_temp_c) w.exact("motor_temp_c", *request.motor_temp_c);
   w.boolean("in_a_track", test.in_a_track);
   write_effects(w, request.effects);
+  w.key("set").begin_object();
+  for (const sim::SweepSetting& setting : request.set) w.exact(setting.parameter, setting.value);
+  w.end_object();
   w.key("sweep").begin_array();
   for (const sim::SweepAxis& axis : request.sweep) {
     w.begin_object().text("parameter", axis.parameter).key("values").begin_array();

@@ -212,6 +212,24 @@ TEST(WheelSweep, EffectsSoilAndWheelCanBeSwept) {
   EXPECT_GT(slope[1].result.sinkage_m, slope[0].result.sinkage_m);
 }
 
+TEST(WheelSweep, WhatIsSetStandsThroughoutAndTheSweepGoesOnFromThere) {
+  WheelSweep sweep = sweep_of({{"slip", {0.1, 0.5}}});
+  sweep.set = {{"soil.n", 1.3}, {"soil.k_phi", 2e6}, {"effects.grousers.height_m", 0.02}};
+  WheelSweep swept = sweep_of({{"slip", {0.1, 0.5}}});
+  swept.rig.soil.pressure.n = 1.3;
+  swept.rig.soil.pressure.k_phi = 2e6;
+  swept.rig.effects = {{"grousers", {{"height_m", 0.02}}}};
+  const auto a = run_wheel_sweep(sweep), b = run_wheel_sweep(swept);
+  for (std::size_t k = 0; k < a.size(); ++k)
+    EXPECT_EQ(a[k].result.forces.drawbar_pull_n, b[k].result.forces.drawbar_pull_n) << k;
+  sweep.set = {{"soil.m", 1.0}, {"soil.n", 9.0}};
+  const std::vector<Fault> faults = faults_of(sweep);
+  ASSERT_EQ(faults.size(), 2u);
+  EXPECT_EQ(faults[0].pointer, "/set/soil.m");
+  EXPECT_EQ(faults[1].pointer, "/set/soil.n");
+  EXPECT_NE(faults[1].message.find("must be in ["), std::string::npos);
+}
+
 TEST(WheelSweep, EveryParameterThatIsKnownRunsAtTheEndsOfItsRange) {
   for (const std::string& name : sweep_field_names()) {
     const Field field = *sweep_field(name);
