@@ -64,7 +64,7 @@ Result<CurrentPanel> panel_of(const Catalogue& catalogue, CurrentMapOptions& opt
     return fail(ErrorCode::kInvalidRequest, summary_of(faults), faults);
   auto rig = rig_of(catalogue, options, soil);
   if (!rig) return fail(rig.error());
-  const sim::WheelSweep sweep{std::move(*rig), {}, std::move(axes)};
+  const sim::WheelSweep sweep{std::move(*rig), std::move(axes)};
   if (auto faults = sim::faults_of(sweep); !faults.empty())
     return fail(ErrorCode::kInvalidRequest, summary_of(faults), faults);
   CurrentPanel panel;

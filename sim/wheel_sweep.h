@@ -34,8 +34,8 @@ struct SweepSetting {
 // What a single-wheel rig would report over one or two parameters: every combination, the first axis slowest.
 struct WheelSweep {
   WheelRig rig;
-  std::vector<SweepSetting> set;  // on the rig before it is swept; a soil that no file has, say
-  std::vector<SweepAxis> axes;
+  std::vector<SweepAxis> axes = {};
+  std::vector<SweepSetting> set = {};  // on the rig before it is swept; a soil that no file has, say
 };
 
 // One place of a sweep, and the test that is made there.
