@@ -20,5 +20,6 @@ Result<Report> virtual_bevameter(const std::filesystem::path& data);
 Result<Report> plate_tests(const std::filesystem::path& data);
 Result<Report> pavlov_tests(const std::filesystem::path& data);
 Result<Report> cuadriga_data(const std::filesystem::path& data);
+Result<Report> cuadriga_drives(const std::filesystem::path& data);
 
 }  // namespace slipway::validation

@@ -9,6 +9,10 @@
 namespace slipway::validation {
 namespace {
 
+// The soils that the rover can climb on end at an edge, along which a search from one start comes to rest
+// early.
+constexpr int kStarts = 4;
+
 // Before anything is known of the scatter: of slip, and of current in A.
 LogScatter guessed(double within) {
   LogScatter scatter;
@@ -26,7 +30,8 @@ double softened(double z) {
   return std::copysign(std::sqrt(2.0 * cost), z);
 }
 
-// Solves the table anew only for a soil that is not among the last eight: half of the unknowns are the motors'.
+// Solves the table anew only for a soil that is not among the last eight: half of the unknowns are the
+// motors'.
 class ModelSource {
  public:
   explicit ModelSource(const sim::RoverModel& rover) : rover_(rover) {}
@@ -67,7 +72,7 @@ Leftovers leftovers_of(const CuadrigaModel& model, const std::vector<CuadrigaWin
 
 Result<gap::LeastSquaresFit> search(ModelSource& source, const std::vector<CuadrigaWindow>& windows,
                                     const LogScatter& slip, const LogScatter& current,
-                                    const std::vector<double>& start) {
+                                    const std::vector<double>& start, int starts) {
   std::vector<gap::Unknown> unknowns = cuadriga_unknowns();
   for (std::size_t k = 0; k < start.size(); ++k) unknowns[k].start = start[k];
   std::vector<std::string> logs;
@@ -88,8 +93,9 @@ Result<gap::LeastSquaresFit> search(ModelSource& source, const std::vector<Cuadr
     return true;
   };
   NoProgress progress;
-  return gap::fit_least_squares(unknowns, 2 * windows.size(), residuals,
-                                {.starts = 4, .max_iterations = 40, .tolerance = 1e-5, .relative_step = 1e-3}, progress);
+  return gap::fit_least_squares(
+      unknowns, 2 * windows.size(), residuals,
+      {.starts = starts, .max_iterations = 40, .tolerance = 1e-5, .relative_step = 1e-3}, progress);
 }
 
 double std_of(const CuadrigaFit& fit, const std::function<double(const CuadrigaModel&)>& prediction) {
@@ -103,11 +109,12 @@ double std_of(const CuadrigaFit& fit, const std::function<double(const CuadrigaM
 }  // namespace
 
 std::vector<gap::Unknown> cuadriga_unknowns() {
-  // The prior of the soil is the range of known soils, as in the shipped unknown_ground; the motors have none.
+  // The prior of the soil is the range of known soils, as in the shipped unknown_ground; the motors have
+  // none.
   return {
       {"ln k_phi", std::log(3e6), std::log(3e5), std::log(1e8), 0.3, gap::Prior{std::log(3e6), 1.5}},
-      {"tan(phi)", std::tan(rad_from_deg(40.0)), std::tan(rad_from_deg(25.0)), std::tan(rad_from_deg(48.0)), 0.05,
-       gap::Prior{std::tan(rad_from_deg(34.0)), 0.15}},
+      {"tan(phi)", std::tan(rad_from_deg(40.0)), std::tan(rad_from_deg(25.0)), std::tan(rad_from_deg(48.0)),
+       0.05, gap::Prior{std::tan(rad_from_deg(34.0)), 0.15}},
       {"ln K", std::log(0.003), std::log(3e-4), std::log(0.03), 0.3, gap::Prior{std::log(0.01), 1.0}},
       {"torque per ampere", 10.0, 3.0, 30.0, 0.5, {}},
       {"idle current", 9.0, 0.0, 14.0, 0.5, {}},
@@ -139,12 +146,12 @@ Result<CuadrigaFit> fit_cuadriga(const sim::RoverModel& rover, const std::vector
     if (!w.position_jumped()) sound.push_back(w);
   ModelSource source(rover);
   LogScatter slip = guessed(0.05), current = guessed(2.0);
-  Result<gap::LeastSquaresFit> found = search(source, sound, slip, current, {});
-  for (int round = 0; round < 1 && found; ++round) {
+  Result<gap::LeastSquaresFit> found = search(source, sound, slip, current, {}, kStarts);
+  if (found) {
     const Leftovers left = leftovers_of(*source.model(found->estimate), sound);
     slip = measure_scatter(left.slip);
     current = measure_scatter(left.current);
-    found = search(source, sound, slip, current, found->estimate);
+    found = search(source, sound, slip, current, found->estimate, 1);
   }
   if (!found) return fail(found.error());
   const CuadrigaModel model = *source.model(found->estimate);

@@ -22,7 +22,8 @@ ClimbConditions conditions_of(const CuadrigaWindow& window);
 struct CuadrigaFit {
   gap::LeastSquaresFit search;
   CuadrigaModel model;
-  LogScatter slip, log_charge;  // measured - predicted, and ln of measured over predicted, of the training logs
+  LogScatter slip,
+      log_charge;  // measured - predicted, and ln of measured over predicted, of the training logs
   // Of the parameters, of the two at a gradient.
   double slip_std(const ClimbConditions& conditions) const;
   double log_charge_std(const ClimbConditions& conditions) const;
@@ -31,8 +32,8 @@ struct CuadrigaFit {
   std::vector<double> steps;
 };
 
-// Fits slip and current of the windows, those whose positions jump left out. A residual counts in units of the
-// scatter of its gradient, softened for outliers, with the weight of its log (weights_by_log): first with
+// Fits slip and current of the windows, those whose positions jump left out. A residual counts in units of
+// the scatter of its gradient, softened for outliers, with the weight of its log (weights_by_log): first with
 // scatter as guessed, then as it was found.
 // Errors: those of fit_least_squares.
 Result<CuadrigaFit> fit_cuadriga(const sim::RoverModel& rover, const std::vector<CuadrigaWindow>& windows);

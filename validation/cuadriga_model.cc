@@ -10,11 +10,12 @@ namespace slipway::validation {
 namespace {
 
 constexpr double kGravity_m_s2 = 9.81;
-constexpr double kSpeed_m_s = 0.5;  // of all drives; without an effect of rate it changes neither slip nor torque
+constexpr double kSpeed_m_s =
+    0.5;  // of all drives; without an effect of rate it changes neither slip nor torque
 
 // What the rover is told, until one is too sharp for it; none of them where it is steep, where a search that
 // fails takes a hundred times as long as one that does not.
-constexpr double kCurvatures_1_m[] = {0.0, 0.15, 0.4, 0.9};
+constexpr double kCurvatures_1_m[] = {0.0, 0.15, 0.3, 0.55, 0.9};
 constexpr double kSteepestTurn_deg = 17.0;
 
 std::optional<ClimbState> state_at(sim::QuasiStaticSolver& solver, const sim::Stance& stance,
@@ -120,11 +121,18 @@ ClimbState ClimbTable::at(const ClimbConditions& conditions) const {
   return state;
 }
 
-std::optional<ClimbState> solve_climb(const sim::RoverModel& rover, const sim::Soil& soil, double gradient_rad,
-                                      double curvature_1_m) {
+std::optional<ClimbState> solve_climb(const sim::RoverModel& rover, const sim::Soil& soil,
+                                      double gradient_rad, double curvature_1_m) {
   const sim::RoverModel free = without_limits(rover);
   sim::QuasiStaticSolver solver(free, kGravity_m_s2);
   return state_at(solver, stance_at(free, gradient_rad), soil, curvature_1_m);
+}
+
+double current_of(const CuadrigaParameters& parameters, const ClimbState& state) {
+  double torque = 0.0;
+  for (const double wheel : state.torque_nm)
+    torque += (wheel < 0.0 ? parameters.returned_share : 1.0) * wheel;
+  return parameters.idle_current_a + torque / parameters.torque_per_ampere_nm;
 }
 
 double CuadrigaModel::slip(const ClimbConditions& conditions) const {
@@ -132,11 +140,7 @@ double CuadrigaModel::slip(const ClimbConditions& conditions) const {
 }
 
 double CuadrigaModel::current_a(const ClimbConditions& conditions) const {
-  const ClimbState state = table_.at(conditions);
-  double torque = 0.0;
-  for (std::size_t k = 0; k < state.torque_nm.size(); ++k)
-    torque += (state.torque_nm[k] < 0.0 ? parameters_.returned_share : 1.0) * state.torque_nm[k];
-  return parameters_.idle_current_a + torque / parameters_.torque_per_ampere_nm;
+  return current_of(parameters_, table_.at(conditions));
 }
 
 double CuadrigaModel::charge_per_metre_as(const ClimbConditions& conditions, double wheel_speed_m_s) const {

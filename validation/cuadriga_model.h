@@ -17,8 +17,8 @@ struct CuadrigaParameters {
   double shear_modulus_m = 0.0;
   double torque_per_ampere_nm = 0.0;  // of a wheel's torque and its motor's current: k_t N eta
   double idle_current_a = 0.0;        // of all motors: no load, gears, electronics
-  // Of the current that a wheel's torque means, what comes back where the ground drives the wheel: 1 all of it,
-  // 0 nothing, -1 braking costs what driving does.
+  // Of the current that a wheel's torque means, what comes back where the ground drives the wheel: 1 all of
+  // it, 0 nothing, -1 braking costs what driving does.
   double returned_share = 1.0;
 };
 
@@ -27,7 +27,7 @@ sim::Soil ground_of(const CuadrigaParameters& parameters);
 
 // What sets windows apart for the model. Left turns and right ones are alike without roll.
 struct ClimbConditions {
-  double gradient_rad = 0.0;    // positive uphill
+  double gradient_rad = 0.0;     // positive uphill
   double turn_rate_rad_s = 0.0;  // that the rover really turns at
 };
 
@@ -37,7 +37,7 @@ struct ClimbState {
   sim::PerWheel<double> torque_nm;
 };
 
-// Slip and torques against gradient and turn, tabulated on the quasi-static rung: 21 gradients by up to four
+// Slip and torques against gradient and turn, tabulated on the quasi-static rung: 21 gradients by up to five
 // told curvatures. Skidding, the rover turns slower than told, so the curvature is looked up by the turn that
 // comes of it: linear between curvatures, in gradient the cubic through the four nearest. A turn that the
 // table does not reach has the state of the sharpest it holds.
@@ -56,8 +56,11 @@ class ClimbTable {
 };
 
 // One station, solved and not interpolated, told to turn at a curvature; nothing where it does not move.
-std::optional<ClimbState> solve_climb(const sim::RoverModel& rover, const sim::Soil& soil, double gradient_rad,
-                                      double curvature_1_m);
+std::optional<ClimbState> solve_climb(const sim::RoverModel& rover, const sim::Soil& soil,
+                                      double gradient_rad, double curvature_1_m);
+
+// Of all motors.
+double current_of(const CuadrigaParameters& parameters, const ClimbState& state);
 
 // Predicts what the logs hold.
 class CuadrigaModel {

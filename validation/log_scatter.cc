@@ -148,14 +148,13 @@ LogScatter measure_scatter(const std::vector<LogResidual>& residuals) {
 
 PredictiveOffsets offsets_at(const LogScatter& scatter, double gradient_rad, double parameter_std) {
   const double scatter_std = scatter.std_at(gradient_rad);
-  const double widening =
-      scatter_std > 0.0 ? std::hypot(scatter_std, parameter_std) / scatter_std : 1.0;
+  const double widening = scatter_std > 0.0 ? std::hypot(scatter_std, parameter_std) / scatter_std : 1.0;
   // About the middle of the scatter, which parameters do not move.
   const double middle = scatter.quantiles[2];
   const auto offset = [&](std::size_t k) {
     return scatter.at(gradient_rad) * (middle + widening * (scatter.quantiles[k] - middle));
   };
-  return {offset(0), offset(1), offset(3), offset(4)};
+  return {offset(0), offset(1), offset(2), offset(3), offset(4)};
 }
 
 Coverage coverage_of(const std::vector<std::string>& logs, const std::vector<bool>& inside) {

@@ -24,9 +24,10 @@ struct LogResidual {
 //
 // growth     of the largest Laplace likelihood on a grid
 // between, within   standard deviations of z_log and z_window: analysis of variance of one factor, unbalanced
-// quantiles  of z itself, a window counting 1 / (1 + (n - 1) rho) with n its log's windows and rho the share of
-//            the variance that lies between logs: what a log tells, not how long it is. Scatter here is skewed
-//            and heavy in its tails; a normal distribution is not.
+// quantiles  of z itself, a window counting 1 / (1 + (n - 1) rho) with n its log's windows and rho the share
+// of
+//            the variance that lies between logs: what a log tells, not how long it is. Scatter here is
+//            skewed and heavy in its tails; a normal distribution is not.
 struct LogScatter {
   static constexpr std::array<double, 5> kShares{0.05, 0.25, 0.5, 0.75, 0.95};
 
@@ -45,9 +46,9 @@ LogScatter measure_scatter(const std::vector<LogResidual>& residuals);
 // Of each residual: 1 / (1 + (n - 1) rho), n the number of its log's.
 std::vector<double> weights_by_log(const std::vector<std::string>& logs, double share_between);
 
-// 50 and 90 % of a prediction: offsets to be added to it.
+// Median, 50 and 90 % about a prediction: offsets to be added to it.
 struct PredictiveOffsets {
-  double low_90 = 0.0, low_50 = 0.0, high_50 = 0.0, high_90 = 0.0;
+  double low_90 = 0.0, low_50 = 0.0, median = 0.0, high_50 = 0.0, high_90 = 0.0;
 };
 // Scatter's quantiles, widened as the parameters' uncertainty adds to its variance.
 PredictiveOffsets offsets_at(const LogScatter& scatter, double gradient_rad, double parameter_std);
