@@ -46,6 +46,17 @@ ClimbState nothing_of(std::size_t wheels) {
   return {0.0, 0.0, sim::PerWheel<double>(wheels, 0.0)};
 }
 
+// Where only the straight drive was solved, a turn adds what it adds at `like`.
+void add_turns(const std::vector<ClimbState>& like, std::vector<ClimbState>& turns) {
+  const ClimbState straight = turns.front();
+  for (std::size_t k = 1; k < like.size(); ++k) {
+    ClimbState turning = straight;
+    add(1.0, like[k], turning);
+    add(-1.0, like.front(), turning);
+    turns.push_back(turning);
+  }
+}
+
 ClimbState at_turn(const std::vector<ClimbState>& turns, double turn_rate_rad_s) {
   const double rate = std::abs(turn_rate_rad_s);
   std::size_t above = 1;
@@ -104,6 +115,14 @@ std::optional<ClimbTable> ClimbTable::tabulate(const sim::RoverModel& rover, con
     table.stations_.push_back(std::move(turns));
   }
   std::reverse(table.stations_.begin(), table.stations_.end());
+  const auto turns_at = [](int k) { return std::abs(kLowest_deg + k * kStep_deg) <= kSteepestTurn_deg; };
+  int lowest = 0, highest = last;
+  while (!turns_at(lowest)) ++lowest;
+  while (!turns_at(highest)) --highest;
+  for (int k = 0; k <= last; ++k)
+    if (!turns_at(k))
+      add_turns(table.stations_[static_cast<std::size_t>(std::clamp(k, lowest, highest))],
+                table.stations_[static_cast<std::size_t>(k)]);
   return table;
 }
 

@@ -40,7 +40,8 @@ struct ClimbState {
 // Slip and torques against gradient and turn, tabulated on the quasi-static rung: 21 gradients by up to five
 // told curvatures. Skidding, the rover turns slower than told, so the curvature is looked up by the turn that
 // comes of it: linear between curvatures, in gradient the cubic through the four nearest. A turn that the
-// table does not reach has the state of the sharpest it holds.
+// table does not reach has the state of the sharpest it holds; steeper than 17 deg a turn adds what it adds
+// there.
 class ClimbTable {
  public:
   static constexpr double kLowest_deg = -24.0, kHighest_deg = 26.0, kStep_deg = 2.5;
