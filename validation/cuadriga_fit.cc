@@ -9,9 +9,9 @@
 namespace slipway::validation {
 namespace {
 
-// The soils that the rover can climb on end at an edge, along which a search from one start comes to rest
-// early.
-constexpr int kStarts = 4;
+constexpr int kStarts = 2;
+// Rolling resistance of the level over the weight, times the cube root of k_phi: 0.21 at 1e6 N/m^3.
+constexpr double kResistance = 21.0;
 
 // Before anything is known of the scatter: of slip, and of current in A.
 LogScatter guessed(double within) {
@@ -95,7 +95,7 @@ Result<gap::LeastSquaresFit> search(ModelSource& source, const std::vector<Cuadr
   NoProgress progress;
   return gap::fit_least_squares(
       unknowns, 2 * windows.size(), residuals,
-      {.starts = starts, .max_iterations = 40, .tolerance = 1e-5, .relative_step = 1e-3}, progress);
+      {.starts = starts, .max_iterations = 40, .tolerance = 1e-7, .relative_step = 1e-3}, progress);
 }
 
 double std_of(const CuadrigaFit& fit, const std::function<double(const CuadrigaModel&)>& prediction) {
@@ -109,13 +109,12 @@ double std_of(const CuadrigaFit& fit, const std::function<double(const CuadrigaM
 }  // namespace
 
 std::vector<gap::Unknown> cuadriga_unknowns() {
-  // The prior of the soil is the range of known soils, as in the shipped unknown_ground; the motors have
-  // none.
+  // The prior of stiffness and K is the range of known soils, as in the shipped unknown_ground; torque per
+  // ampere and idle current have none.
   return {
-      {"ln k_phi", std::log(3e6), std::log(3e5), std::log(1e8), 0.3, gap::Prior{std::log(3e6), 1.5}},
-      {"tan(phi)", std::tan(rad_from_deg(40.0)), std::tan(rad_from_deg(25.0)), std::tan(rad_from_deg(48.0)),
-       0.05, gap::Prior{std::tan(rad_from_deg(34.0)), 0.15}},
-      {"ln K", std::log(0.003), std::log(3e-4), std::log(0.03), 0.3, gap::Prior{std::log(0.01), 1.0}},
+      {"ln k_phi", std::log(3e6), std::log(1e6), std::log(1e8), 0.3, gap::Prior{std::log(3e6), 1.5}},
+      {"net traction", 0.7, 0.65, 0.95, 0.05, gap::Prior{0.65, 0.15}},
+      {"ln K", std::log(0.003), std::log(3e-4), std::log(0.01), 0.3, gap::Prior{std::log(0.01), 1.0}},
       {"torque per ampere", 10.0, 3.0, 30.0, 0.5, {}},
       {"idle current", 9.0, 0.0, 14.0, 0.5, {}},
       {"returned share", 0.0, -1.0, 1.0, 0.1, gap::Prior{0.0, 1.0}},
@@ -123,7 +122,15 @@ std::vector<gap::Unknown> cuadriga_unknowns() {
 }
 
 CuadrigaParameters parameters_of(std::span<const double> x) {
-  return {std::exp(x[0]), std::atan(x[1]), std::exp(x[2]), x[3], x[4], x[5]};
+  const double resistance = kResistance * std::exp(-x[0] / 3.0);
+  return {std::exp(x[0]), std::atan(x[1] + resistance), std::exp(x[2]), x[3], x[4], x[5]};
+}
+
+Eigen::Matrix3d soil_covariance(const CuadrigaFit& fit) {
+  const double resistance = kResistance * std::exp(-fit.search.estimate[0] / 3.0);
+  Eigen::Matrix3d change = Eigen::Matrix3d::Identity();
+  change(1, 0) = -resistance / 3.0;
+  return change * fit.search.covariance.topLeftCorner<3, 3>() * change.transpose();
 }
 
 ClimbConditions conditions_of(const CuadrigaWindow& window) {

@@ -11,8 +11,11 @@
 
 namespace slipway::validation {
 
-// What is estimated, in this order: ln k_phi, tan(friction angle), ln K, torque per ampere, idle current,
-// returned share.
+// What is estimated, in this order: ln k_phi, net traction, ln K, torque per ampere, idle current, returned
+// share. Net traction is tan(friction angle) less the rolling resistance, about the steepest gradient that
+// the soil allows. Between the bounds the rover climbs every gradient of the table, as Cuadriga did, so that
+// the search meets straight bounds and not a crooked edge beyond which there is no answer. k_phi of 1e6 is a
+// sinkage of 3.5 cm, the most that is believed of these wheels.
 std::vector<gap::Unknown> cuadriga_unknowns();
 CuadrigaParameters parameters_of(std::span<const double> unknowns);
 
@@ -31,6 +34,9 @@ struct CuadrigaFit {
   std::vector<std::pair<CuadrigaModel, CuadrigaModel>> neighbours;
   std::vector<double> steps;
 };
+
+// Of ln k_phi, tan(friction angle) and ln K.
+Eigen::Matrix3d soil_covariance(const CuadrigaFit& fit);
 
 // Fits slip and current of the windows, those whose positions jump left out. A residual counts in units of
 // the scatter of its gradient, softened for outliers, with the weight of its log (weights_by_log): first with

@@ -15,8 +15,8 @@ constexpr double kSpeed_m_s =
 
 // What the rover is told, until one is too sharp for it; none of them where it is steep, where a search that
 // fails takes a hundred times as long as one that does not.
-constexpr double kCurvatures_1_m[] = {0.0, 0.15, 0.3, 0.55, 0.9};
-constexpr double kSteepestTurn_deg = 17.0;
+constexpr double kCurvatures_1_m[] = {0.0, 0.15, 0.3, 0.5};
+constexpr double kSteepestTurn_deg = 12.0;
 
 std::optional<ClimbState> state_at(sim::QuasiStaticSolver& solver, const sim::Stance& stance,
                                    const sim::Soil& soil, double curvature_1_m) {

@@ -37,10 +37,10 @@ struct ClimbState {
   sim::PerWheel<double> torque_nm;
 };
 
-// Slip and torques against gradient and turn, tabulated on the quasi-static rung: 21 gradients by up to five
+// Slip and torques against gradient and turn, tabulated on the quasi-static rung: 21 gradients by up to four
 // told curvatures. Skidding, the rover turns slower than told, so the curvature is looked up by the turn that
 // comes of it: linear between curvatures, in gradient the cubic through the four nearest. A turn that the
-// table does not reach has the state of the sharpest it holds; steeper than 17 deg a turn adds what it adds
+// table does not reach has the state of the sharpest it holds; steeper than 12 deg a turn adds what it adds
 // there.
 class ClimbTable {
  public:

@@ -37,7 +37,8 @@ TableError table_error(const sim::RoverModel& rover, const CuadrigaParameters& p
 
 std::vector<std::string> fit_words(const CuadrigaFit& fit) {
   const CuadrigaParameters& p = fit.model.parameters();
-  const Eigen::MatrixXd& covariance = fit.search.covariance;
+  Eigen::MatrixXd covariance = fit.search.covariance;
+  covariance.topLeftCorner<3, 3>() = soil_covariance(fit);
   const auto error = [&](int k) { return std::sqrt(std::max(0.0, covariance(k, k))); };
   const auto together = [&](int a, int b) { return covariance(a, b) / (error(a) * error(b)); };
   const double cosine = std::cos(p.friction_angle_rad);
@@ -59,15 +60,16 @@ std::vector<std::string> fit_words(const CuadrigaFit& fit) {
                   "it back, so "
                   "predictions with the shipped rover leave out what turns and steep descents cost.",
                   p.returned_share, error(5)),
-      fmt::format("The soil is one that this model needs, not one that was measured: a rigid wheel in the "
-                  "place of a tyre, "
-                  "one soil for several sites. Only soils on which the rover climbs {:.0f} deg were allowed, "
-                  "as it did; the "
-                  "fit lies next to the ones that do not, and its errors are of the side that does. The "
-                  "wheel speed was "
-                  "calibrated on the level, where the model slips {:.3f}: slip counts from there.",
-                  ClimbTable::kHighest_deg, fit.model.level_slip()),
-      "Priors: stiffness 3e6 N/m^3 times or over e^1.5, tan(phi) 0.67 +- 0.15, K 10 mm times or over e, "
+      fmt::format(
+          "The soil is one that this model needs, not one that was measured: a rigid wheel in the place of a "
+          "tyre, one soil for several sites. Only soils on which the rover climbs {:.0f} deg were allowed, "
+          "as it did (net traction, tan(phi) less rolling resistance, at least {:.2f}); {} The wheel speed "
+          "was calibrated on the level, where the model slips {:.3f}: slip counts from there.",
+          ClimbTable::kHighest_deg, cuadriga_unknowns()[1].lowest,
+          fit.search.on_bound[1] ? "the fit lies on that bound, and its errors are as if it did not."
+                                 : "the fit keeps away from that bound.",
+          fit.model.level_slip()),
+      "Priors: stiffness 3e6 N/m^3 times or over e^1.5, net traction 0.65 +- 0.15, K 10 mm times or over e, "
       "returned "
       "share 0 +- 1; none for torque per ampere and idle current. Gear ratio, efficiency and torque constant "
       "are "
