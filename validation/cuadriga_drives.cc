@@ -197,7 +197,8 @@ Result<Report> cuadriga_drives(const std::filesystem::path& data) {
   report.notes.push_back(
       fmt::format("Slip and torques come from a table; between its stations it is off by at most {:.4f} of "
                   "slip and {:.2f} A on "
-                  "straight drives to 20 deg, {:.4f} and {:.2f} A in turns of {:.0f} deg/s to 15 deg.",
+                  "straight drives to 20 deg, {:.4f} and {:.2f} A in turns up to {:.0f} deg/s to 12 deg; "
+                  "steeper turns add what they add there, sharper ones are taken as the sharpest.",
                   table.slip_straight, table.current_straight_a, table.slip_turning, table.current_turning_a,
                   table.fastest_turn_deg_s));
   report.bands = {

@@ -28,8 +28,8 @@ TableError table_error(const sim::RoverModel& rover, const CuadrigaParameters& p
        g += ClimbTable::kStep_deg) {
     if (g < -20.0) continue;
     compare(g, 0.0, error.slip_straight, error.current_straight_a);
-    if (std::abs(g) > 15.0) continue;
-    for (const double curvature : {0.07, 0.22, 0.42, 0.7})
+    if (std::abs(g) > 12.0) continue;
+    for (const double curvature : {0.07, 0.22, 0.4})
       compare(g, curvature, error.slip_turning, error.current_turning_a);
   }
   return error;
