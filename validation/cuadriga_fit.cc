@@ -22,8 +22,8 @@ LogScatter guessed(double within) {
 }
 
 // Half the square of this costs s^2 (sqrt(1 + z^2 / s^2) - 1): a square near 0, |z| far out, without a kink
-// [pseudo-Huber]. Softened before it is weighted, so that the windows of a long log are outliers as early as
-// those of a short one.
+// [Charbonnier et al. 1997]. Softened before it is weighted, so that the windows of a long log are outliers
+// as early as those of a short one.
 double softened(double z) {
   constexpr double kFrom = 1.5;
   const double cost = kFrom * kFrom * (std::sqrt(1.0 + z * z / (kFrom * kFrom)) - 1.0);

@@ -43,7 +43,7 @@ double best_growth(const std::vector<LogResidual>& residuals) {
   return best;
 }
 
-// Searle, Casella and McCulloch 1992, section 3.6: expected mean squares of unequal groups.
+// By the expected mean squares of unequal groups [Searle et al. 1992].
 void set_variances(const std::vector<std::string>& logs, const std::vector<double>& z, LogScatter& scatter) {
   struct Sum {
     double count = 0.0, sum = 0.0, squares = 0.0;
