@@ -109,8 +109,7 @@ double std_of(const CuadrigaFit& fit, const std::function<double(const CuadrigaM
 }  // namespace
 
 std::vector<gap::Unknown> cuadriga_unknowns() {
-  // The prior of stiffness and K is the range of known soils, as in the shipped unknown_ground; torque per
-  // ampere and idle current have none.
+  // Wide priors for firm ground; torque per ampere and idle current have none.
   return {
       {"ln k_phi", std::log(3e6), std::log(1e6), std::log(1e8), 0.3, gap::Prior{std::log(3e6), 1.5}},
       {"net traction", 0.7, 0.65, 0.95, 0.05, gap::Prior{0.65, 0.15}},

@@ -25,8 +25,8 @@ ClimbConditions conditions_of(const CuadrigaWindow& window);
 struct CuadrigaFit {
   gap::LeastSquaresFit search;
   CuadrigaModel model;
-  LogScatter slip,
-      log_charge;  // measured - predicted, and ln of measured over predicted, of the training logs
+  // Of the training logs: measured - predicted, and ln of measured over predicted.
+  LogScatter slip, log_charge;
   // Of the parameters, of the two at a gradient.
   double slip_std(const ClimbConditions& conditions) const;
   double log_charge_std(const ClimbConditions& conditions) const;
