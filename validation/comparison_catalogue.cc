@@ -31,6 +31,8 @@ std::span<const Comparison> comparison_catalogue() {
                  "Pavlov and Johnson 2022", &pavlov_wheel},
       Comparison{"cuadriga_data", "a real rover's slip and charge per metre by slope, and their scatter",
                  "University of Malaga", &cuadriga_data},
+      Comparison{"cuadriga_drives", "that rover's slip and charge per metre predicted on logs not fitted",
+                 "University of Malaga", &cuadriga_drives},
       Comparison{"independent_simulator", "the quasi-static rover against another rover simulator",
                  "practice campaign p01", &independent_simulator},
       Comparison{"curiosity_attitude", "a rover set down on the map against Curiosity's measured attitude",

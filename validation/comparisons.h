@@ -24,5 +24,6 @@ Result<Report> plate_tests(const std::filesystem::path& data);
 Result<Report> pavlov_tests(const std::filesystem::path& data);
 Result<Report> pavlov_wheel(const std::filesystem::path& data);
 Result<Report> cuadriga_data(const std::filesystem::path& data);
+Result<Report> cuadriga_drives(const std::filesystem::path& data);
 
 }  // namespace slipway::validation

@@ -120,7 +120,7 @@ Result<Report> cuadriga_data(const std::filesystem::path& data) {
       "The interval is of the median over logs as they happened to be driven; where fewer than three logs "
       "reach "
       "a gradient there is none. Above 16 deg five windows are left. The soils of these sites are not known.",
-      "No prediction stands beside them yet."};
+      "The predictions are in the next comparison."};
   report.bands = {{"windows", static_cast<double>(windows->size()), 624, 624},
                   {"logs", static_cast<double>(logs.size()), 24, 24},
                   {"windows whose positions jump", static_cast<double>(jumped), 4, 4},

@@ -12,6 +12,20 @@ namespace {
 
 constexpr int kDraws = 2000;
 constexpr double kLevel = 0.95;
+constexpr double kFarthestNeighbour_s = 2.6;
+
+void set_turn_rates(std::vector<CuadrigaWindow>& windows) {
+  const auto follows = [&](std::size_t k) {
+    return k < windows.size() && windows[k].log == windows[k - 1].log &&
+           windows[k].time_s - windows[k - 1].time_s < kFarthestNeighbour_s;
+  };
+  for (std::size_t k = 0; k < windows.size(); ++k) {
+    const std::size_t before = k > 0 && follows(k) ? k - 1 : k, after = follows(k + 1) ? k + 1 : k;
+    if (before == after) continue;
+    windows[k].turn_rate_rad_s = wrapped_rad(windows[after].heading_rad - windows[before].heading_rad) /
+                                 (windows[after].time_s - windows[before].time_s);
+  }
+}
 
 }  // namespace
 
@@ -43,6 +57,7 @@ Result<std::vector<CuadrigaWindow>> load_cuadriga_windows(const std::filesystem:
     w.charge_per_metre_as = number("charge_per_metre_As");
     windows.push_back(w);
   }
+  set_turn_rates(windows);
   return windows;
 }
 

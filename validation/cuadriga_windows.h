@@ -20,6 +20,9 @@ struct CuadrigaWindow {
   double distance_m = 0.0;                         // driven within the window
   double path_gradient_rad = 0.0;                  // of the ground along the path, positive uphill
   double dem_pitch_rad = 0.0, dem_roll_rad = 0.0;  // of the 1 m elevation model; pitch positive uphill
+  // From the headings of the windows before and after in the log, at most 2.6 s away; of one of them where
+  // there is no other, 0 where there is none.
+  double turn_rate_rad_s = 0.0;
   double wheel_speed_m_s = 0.0, gps_speed_m_s = 0.0;
   double slip_ratio = 0.0;  // 1 - distance / (duration x wheel speed), also where negative; noise below 0.03
   double total_current_a = 0.0;      // of all motors
