@@ -3,8 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <regex>
 
 namespace slipway::validation {
+namespace {
+
+// A rounded zero has no sign: which one it came from is the last bit's to say, and that differs between
+// machines.
+std::string without_signed_zeros(const std::string& text) {
+  static const std::regex kSignedZero(R"((^|[ (+])[-+](0(?:\.0+)?)(?![0-9.]))");
+  return std::regex_replace(text, kSignedZero, "$1$2");
+}
+
+}  // namespace
 
 bool Report::holds() const {
   return std::all_of(bands.begin(), bands.end(), [](const StatedBand& band) { return band.holds(); });
@@ -18,7 +29,10 @@ std::string Report::markdown() const {
   };
   line(columns);
   line(std::vector<std::string>(columns.size(), "---"));
-  for (const auto& row : rows) line(row);
+  for (std::vector<std::string> row : rows) {
+    for (std::string& cell : row) cell = without_signed_zeros(cell);
+    line(row);
+  }
   text += "\n";
   for (const std::string& note : notes) text += fmt::format("- {}\n", note);
   for (const StatedBand& band : bands)
