@@ -70,6 +70,7 @@ void RoverBalance::set_compatibility() {
 void RoverBalance::set_in_air(int k, bool in_air) {
   if (in_air_[k] == in_air) return;
   in_air_[k] = in_air;
+  at_.resize(0);
   in_contact_ += in_air ? -1 : 1;
   set_compatibility();
 }
