@@ -17,6 +17,9 @@ namespace {
 const double kA_rad = rad_from_deg(1.0), kB_rad = rad_from_deg(6.0);
 // Limits are followed this far beyond the table's edge, so that they stay smooth along it.
 const double kBeyond_rad = rad_from_deg(8.0);
+// Near the steepest side slope that holds the rover its limit of climbing turns up ever faster. Columns whose
+// limits are further apart than this say nothing of each other.
+const double kLimitJump_rad = rad_from_deg(3.0);
 constexpr int kMotionFields = 3;  // speed ratios along and across, power; then sinkages, then currents
 
 }  // namespace
@@ -25,8 +28,8 @@ struct SlipTable::Stencil {
   int first = 0, count = 0;
   std::array<double, 4> weight{};
 
-  // Lagrange's polynomial through nodes at whole numbers, at `place`: through the four about it, or the nearest
-  // four of first .. last.
+  // Lagrange's polynomial through nodes at whole numbers, at `place`: through the four about it, or the
+  // nearest four of first .. last.
   static Stencil at(double place, int lowest, int highest) {
     Stencil s;
     s.count = std::min(4, highest - lowest + 1);
@@ -56,16 +59,16 @@ SlipTable::SlipTable(const RoverModel& rover, double gravity_m_s2, const Soil& s
   const int columns = static_cast<int>(columns_.size());
   for (int c = 0; c < columns; ++c) {
     Column& column = columns_[c];
-    if (column.last < column.first) continue;
+    if (column.empty()) continue;
     // A column takes part in interpolation up to two columns away, at the same d.
     double highest_limit = column.traction_limit_rad, lowest_limit = highest_limit;
     for (int n = std::max(0, c - 2); n <= std::min(columns - 1, c + 2); ++n) {
-      if (columns_[n].last < columns_[n].first) continue;
+      if (columns_[n].empty()) continue;
       highest_limit = std::max(highest_limit, columns_[n].traction_limit_rad);
       lowest_limit = std::min(lowest_limit, columns_[n].traction_limit_rad);
     }
-    fill(column, std::max(0.0, -limit_rad_ - highest_limit), limit_rad_ - lowest_limit, (c - half) * step_rad_,
-         soil, rover, command, solver);
+    fill(column, std::max(0.0, -limit_rad_ - highest_limit), limit_rad_ - lowest_limit,
+         (c - half) * step_rad_, soil, rover, command, solver);
   }
 }
 
@@ -94,21 +97,27 @@ void SlipTable::fill(Column& column, double lowest_d_rad, double highest_d_rad, 
                      const Soil& soil, const RoverModel& rover, const DriveCommand& command,
                      QuasiStaticSolver& solver) {
   column.first = std::max(0, static_cast<int>(std::floor(xi(lowest_d_rad))) - 1);
-  column.last = column.first - 1;
   column.begin = values_.size();
-  const int last = std::max(column.first + 3, static_cast<int>(std::ceil(xi(highest_d_rad))));
-  for (int node = column.first; node <= last; ++node) {
-    const Attitude attitude{.roll_rad = roll_rad,
-                            .pitch_rad = column.traction_limit_rad + d_rad(node),
-                            .yaw_rad = 0.0};
+  const int highest = std::max(column.first + 3, static_cast<int>(std::ceil(xi(highest_d_rad))));
+  column.last = highest;
+  values_.resize(column.begin + static_cast<std::size_t>((highest - column.first + 1) * fields_));
+  // Downwards, each start a warm one: so the search stays with the motion that drives, where there is
+  // another.
+  for (int node = highest; node >= column.first; --node) {
+    const Attitude attitude{
+        .roll_rad = roll_rad, .pitch_rad = column.traction_limit_rad + d_rad(node), .yaw_rad = 0.0};
     const StationState state = solver.solve(stance_on_plane(rover, attitude), soil, command);
-    if (!state.moving()) break;
-    column.last = node;
-    values_.push_back(state.along_m_s / speed_m_s_);
-    values_.push_back(state.leftward_m_s / speed_m_s_);
-    values_.push_back(state.electric_power_w);
-    for (const WheelState& wheel : state.wheels) values_.push_back(wheel.sinkage_m);
-    for (const WheelState& wheel : state.wheels) values_.push_back(wheel.current_a);
+    if (!state.moving()) {
+      // It slides away down the steepest descents.
+      column.last = node - 1;
+      continue;
+    }
+    double* value = &values_[column.begin + static_cast<std::size_t>((node - column.first) * fields_)];
+    *value++ = state.along_m_s / speed_m_s_;
+    *value++ = state.leftward_m_s / speed_m_s_;
+    *value++ = state.electric_power_w;
+    for (const WheelState& wheel : state.wheels) *value++ = wheel.sinkage_m;
+    for (const WheelState& wheel : state.wheels) *value++ = wheel.current_a;
   }
 }
 
@@ -124,21 +133,16 @@ double SlipTable::d_rad(double at) const {
   return d;
 }
 
-bool SlipTable::covers(int column, double at) const {
-  const Column& c = columns_[column];
-  return c.last >= c.first && at <= c.last + 1e-9;
-}
-
 SlipTable::Stencil SlipTable::columns_about(double place) const {
-  const int left = std::min(static_cast<int>(place), static_cast<int>(columns_.size()) - 2);
-  int lowest = left, highest = left + 1;
-  const auto has_nodes = [&](int c) { return columns_[c].last >= columns_[c].first; };
-  while (lowest <= highest && !has_nodes(lowest)) ++lowest;
-  while (highest >= lowest && !has_nodes(highest)) --highest;
-  if (lowest > highest || (place > highest && highest == left) || (place < lowest && lowest > left)) return {};
-  const int most = static_cast<int>(columns_.size()) - 1;
-  while (lowest > 0 && lowest > left - 3 && has_nodes(lowest - 1)) --lowest;
-  while (highest < most && highest < left + 4 && has_nodes(highest + 1)) ++highest;
+  const int nearest = static_cast<int>(std::lround(place));
+  const auto goes_on = [&](int from, int to) {
+    if (to < 0 || to >= static_cast<int>(columns_.size()) || columns_[to].empty()) return false;
+    return std::abs(columns_[to].traction_limit_rad - columns_[from].traction_limit_rad) < kLimitJump_rad;
+  };
+  if (columns_[nearest].empty()) return {};
+  int lowest = nearest, highest = nearest;
+  while (lowest > nearest - 3 && goes_on(lowest, lowest - 1)) --lowest;
+  while (highest < nearest + 3 && goes_on(highest, highest + 1)) ++highest;
   return Stencil::at(place, lowest, highest);
 }
 
@@ -177,8 +181,7 @@ std::optional<TableEntry> SlipTable::at(double pitch_rad, double roll_rad) const
     }
   }
   TableEntry entry = entry_of(values.data(), pitch_rad);
-  const int nearest = static_cast<int>(std::lround(place));
-  if (pitch_rad < limit || !covers(nearest, at)) {
+  if (pitch_rad < limit || at > columns_[std::lround(place)].last + 0.5) {
     entry.slip_ratio = 1.0;
     entry.energy_j_m = 0.0;
     entry.immobile = true;

@@ -20,15 +20,15 @@ struct TableEntry {
 // The table rung: slip, sinkage, current and energy over the body's pitch and roll on a plane, from the
 // quasi-static rung at nodes. Immutable.
 //
-// Slip has a limit at which the rover comes to a stand, p(roll), close to which it turns up steeply. So a column
-// of nodes at one roll counts its pitch from its own limit, d = pitch - p(roll), no cell straddles the limit, and
-// the nodes are the closer the nearer they are to it: one lies at every whole number xi of
+// Slip has a limit at which the rover comes to a stand, p(roll), close to which it turns up steeply. So a
+// column of nodes at one roll counts its pitch from its own limit, d = pitch - p(roll), no cell straddles the
+// limit, and the nodes are the closer the nearer they are to it: one lies at every whole number xi of
 //
 //   xi(d) = (d + (b - a) ln(1 + d / a)) / step     dd/dxi = step (d + a) / (d + b)
 //
-// Tabulated are quantities that stay smooth where slip and side slip do not: the speed ratios along and across,
-// the power, and each wheel's sinkage and current, whose largest is taken after. Cubic between nodes (Lagrange's
-// polynomial through four each way), one-sided at the table's edges and at the limit.
+// Tabulated are quantities that stay smooth where slip and side slip do not: the speed ratios along and
+// across, the power, and each wheel's sinkage and current, whose largest is taken after. Cubic between nodes
+// (Lagrange's polynomial through four each way), one-sided at the table's edges and at the limit.
 class SlipTable {
  public:
   // Columns every step_rad over [-limit_rad, limit_rad] in roll, driving at the rover's cruise speed.
@@ -46,16 +46,18 @@ class SlipTable {
     double traction_limit_rad = 0.0;
     int first = 0, last = -1;
     std::size_t begin = 0;  // of the first node's fields
+
+    bool empty() const { return last < first; }
   };
   // Four neighbours at most, and their weights.
   struct Stencil;
 
-  void find_limits(const RoverModel& rover, double gravity_m_s2, const Soil& soil, const DriveCommand& command);
+  void find_limits(const RoverModel& rover, double gravity_m_s2, const Soil& soil,
+                   const DriveCommand& command);
   void fill(Column& column, double lowest_d_rad, double highest_d_rad, double roll_rad, const Soil& soil,
             const RoverModel& rover, const DriveCommand& command, QuasiStaticSolver& solver);
   double xi(double d_rad) const;
   double d_rad(double xi) const;
-  bool covers(int column, double xi) const;
   Stencil columns_about(double place) const;
   TableEntry entry_of(const double* values, double pitch_rad) const;
 

@@ -32,16 +32,19 @@ double TractionLimitSearch::surplus(double roll_rad, double pitch_rad) {
   const StationState state =
       solver_.solve(stance_on_plane(rover_, {.roll_rad = roll_rad, .pitch_rad = pitch_rad, .yaw_rad = 0.0}),
                     soil_, command_);
-  const double ratio =
-      state.along_m_s / (command_.speed_m_s * attainable_share(rover_, command_)) - kSpinningSpeedRatio;
-  if (state.moving()) return std::max(ratio, 0.0);
+  const double told_m_s = command_.speed_m_s * attainable_share(rover_, command_);
+  const double surplus =
+      state.along_m_s / told_m_s - std::hypot(kSpinningSpeedRatio, state.leftward_m_s / told_m_s);
+  if (state.moving()) return surplus;
   // Just beyond the limit the balance goes on, of a rover that slides back; elsewhere its speed says nothing.
-  return ratio < -1e-6 ? std::max(ratio, -1.0) : -1.0;
+  return surplus < 0.0 ? std::max(surplus, -1.0) : -1.0;
 }
 
-std::optional<double> TractionLimitSearch::moving_pitch(double roll_rad, double from_rad, double step_rad) {
+std::optional<TractionLimitSearch::Trial> TractionLimitSearch::find_moving(double roll_rad, double from_rad,
+                                                                           double step_rad) {
   for (double pitch = from_rad; pitch >= lowest_rad_ && pitch <= highest_rad_; pitch += step_rad) {
-    if (surplus(roll_rad, pitch) >= 0.0) return pitch;
+    const Trial trial{pitch, surplus(roll_rad, pitch)};
+    if (trial.surplus >= 0.0) return trial;
     if (step_rad > 0.0) step_rad = std::min(2.0 * step_rad, kWalk_rad);
   }
   return std::nullopt;
@@ -49,28 +52,24 @@ std::optional<double> TractionLimitSearch::moving_pitch(double roll_rad, double 
 
 std::optional<double> TractionLimitSearch::find(double roll_rad, std::optional<double> guess_rad) {
   // Near a neighbour's limit first, upwards from there; without one from the steepest descent down.
-  std::optional<double> moving = guess_rad ? moving_pitch(roll_rad, *guess_rad + kNear_rad, kNear_rad)
-                                           : moving_pitch(roll_rad, highest_rad_, -kWalk_rad);
-  if (!moving) return std::nullopt;
-  double step = guess_rad ? kNear_rad : kWalk_rad, still = *moving;
-  double speed = 0.0, beyond = 0.0;
-  for (double pitch = *moving;;) {
-    if (pitch <= lowest_rad_) return lowest_rad_;
-    pitch = std::max(lowest_rad_, pitch - step);
-    beyond = surplus(roll_rad, pitch);
-    if (beyond < 0.0) {
-      *moving = pitch;
-      break;
-    }
-    still = pitch;
+  const std::optional<Trial> start = guess_rad ? find_moving(roll_rad, *guess_rad + kNear_rad, kNear_rad)
+                                               : find_moving(roll_rad, highest_rad_, -kWalk_rad);
+  if (!start) return std::nullopt;
+  double step = guess_rad ? kNear_rad : kWalk_rad;
+  Trial ahead = *start, stuck = *start;
+  while (stuck.surplus >= 0.0) {
+    ahead = stuck;
+    if (ahead.pitch_rad <= lowest_rad_) return lowest_rad_;
+    stuck.pitch_rad = std::max(lowest_rad_, ahead.pitch_rad - step);
+    stuck.surplus = surplus(roll_rad, stuck.pitch_rad);
     step = std::min(2.0 * step, kWalk_rad);
   }
-  speed = surplus(roll_rad, still);
   std::uintmax_t most = 40;
   const auto close = [](double a, double b) { return std::abs(a - b) < kTolerance_rad; };
-  const auto [below, above] = boost::math::tools::toms748_solve(
-      [&](double pitch) { return surplus(roll_rad, pitch); }, *moving, still, beyond, speed, close, most);
-  return above;
+  return boost::math::tools::toms748_solve([&](double pitch) { return surplus(roll_rad, pitch); },
+                                           stuck.pitch_rad, ahead.pitch_rad, stuck.surplus, ahead.surplus,
+                                           close, most)
+      .second;
 }
 
 }  // namespace slipway::sim
