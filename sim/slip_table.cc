@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include "core/angle.h"
 #include "sim/drive_command.h"
@@ -14,7 +13,7 @@ namespace slipway::sim {
 namespace {
 
 // Node spacing: at the limit this share of the step, half way to the whole at b. See the header's xi.
-const double kA_rad = rad_from_deg(1.0), kB_rad = rad_from_deg(6.0);
+const double kA_rad = rad_from_deg(0.2), kB_rad = rad_from_deg(6.0);
 // Limits are followed this far beyond the table's edge, so that they stay smooth along it.
 const double kBeyond_rad = rad_from_deg(8.0);
 // Near the steepest side slope that holds the rover its limit of climbing turns up ever faster. Columns whose

@@ -37,8 +37,6 @@ class SlipTable {
   // Forward driving at this attitude; nothing outside the table's limit.
   std::optional<TableEntry> at(double pitch_rad, double roll_rad) const;
   double limit_rad() const { return limit_rad_; }
-  // Balances that were solved for it.
-  int nodes() const { return static_cast<int>(values_.size()) / fields_; }
 
  private:
   // Nodes first .. last of one roll; last < first where the rover moves at no pitch.

@@ -51,7 +51,7 @@ std::vector<Attempt> attempts_on(const sim::RoverModel& rover, double gravity_m_
 }
 
 // The largest differences of the table. Sinkage is compared with its value; current and energy, which pass
-// through nothing downhill, with their value or a tenth of the largest that is met, whichever is more.
+// through nothing downhill, with the largest that is met where they are less than a tenth of it.
 struct Differences {
   int attitudes = 0;
   double slip = 0.0, slip_rms = 0.0, side_slip_deg = 0.0, sinkage = 0.0, current = 0.0, energy = 0.0;
@@ -65,7 +65,7 @@ Differences differences(const std::vector<Attempt>& attempts, double low, double
     largest_energy = std::max(largest_energy, a.energy_j_m);
   }
   const auto relative = [](double of, double to, double largest) {
-    return std::abs(of - to) / std::max(to, 0.1 * largest);
+    return std::abs(of - to) / (to < 0.1 * largest ? largest : to);
   };
   Differences d;
   for (const Attempt& a : attempts) {
