@@ -36,6 +36,13 @@ struct Wrench {
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // about the point where the force acts
 };
 
+using WheelLoads = Eigen::Matrix<double, 5, 1>;
+
+WheelLoads loads_of(const RoverBalance::WheelContact& contact) {
+  const WheelForces& f = contact.forces;
+  return {f.drawbar_pull_n, f.lateral_n, f.vertical_n, f.torque_nm, contact.overturning_nm};
+}
+
 }  // namespace
 
 RoverBalance::RoverBalance(const RoverModel& rover, double gravity_m_s2, const Stance& stance,
@@ -61,7 +68,10 @@ RoverBalance::RoverBalance(const RoverModel& rover, double gravity_m_s2, const S
     fastest = std::max(fastest, std::abs(command.speed_m_s));
   speed_scale_ = fastest;
   set_soils(gravity_m_s2, command, told);
-  for (int k = 0; k < wheel_count(); ++k) place_wheel(k, told[k]);
+  for (int k = 0; k < wheel_count(); ++k) {
+    place_wheel(k, told[k]);
+    place_slices(k);
+  }
   set_gravity();
   if (undetermined_ == 0) return;
   set_gap_gradient();
@@ -113,12 +123,13 @@ void RoverBalance::place_wheel(int k, const WheelCommand& told) {
   std::array<JointMotion, kMostJoints> joint;
   for (int j = 0; j < joints_; ++j) joint[j] = joint_motion(rover_, stance_, k, j);
 
-  // Columns: drawbar pull, lateral, vertical, torque. A wheel that turns backwards pulls and is driven
-  // backwards.
-  const std::array<Wrench, 4> unit{Wrench{.force = place.direction * x}, Wrench{.force = y},
-                                   Wrench{.force = normal}, Wrench{.moment = -place.direction * y}};
-  place.effect.resize(equilibrium_count(), 4);
-  for (int column = 0; column < 4; ++column) {
+  // Columns: drawbar pull, lateral, vertical, torque, overturning moment. A wheel that turns backwards pulls
+  // and is driven backwards.
+  const std::array<Wrench, 5> unit{Wrench{.force = place.direction * x}, Wrench{.force = y},
+                                   Wrench{.force = normal}, Wrench{.moment = -place.direction * y},
+                                   Wrench{.moment = x}};
+  place.effect.resize(equilibrium_count(), 5);
+  for (int column = 0; column < 5; ++column) {
     const Wrench& w = unit[column];
     auto e = place.effect.col(column);
     e[0] = travel_.x() * w.force.x() + travel_.y() * w.force.y();
@@ -144,6 +155,18 @@ void RoverBalance::place_wheel(int k, const WheelCommand& told) {
   place.leftward_ratio << across * axle.dot(d), across * axle.dot(e), across * axle.dot(turning);
 }
 
+bool RoverBalance::is_sliced(int k) const {
+  return !stance_.slice_height_m.empty() && rover_.wheels[k].drive != WheelDrive::kFree;
+}
+
+void RoverBalance::place_slices(int k) {
+  if (!is_sliced(k)) return;
+  WheelPlace& place = places_[k];
+  const SliceHeights& height = stance_.slice_height_m[k];
+  place.highest_m = *std::max_element(height.begin(), height.begin() + rover_.wheel_slices);
+  for (int s = 0; s < rover_.wheel_slices; ++s) place.slice_height_m[s] = height[s] - place.highest_m;
+}
+
 bool RoverBalance::any_driven() const {
   for (int k = 0; k < wheel_count(); ++k)
     if (rover_.wheels[k].drive == WheelDrive::kDriven && places_[k].motion.rate_rad_s != 0.0) return true;
@@ -167,7 +190,16 @@ RoverBalance::WheelContact RoverBalance::free_contact(const Trial& trial) const 
                                           trial.motion, wheel.drag_nm, kSlowestRateRatio);
   const bool stands = rolling.rim_ratio <= kSlowestRateRatio;
   return {rolling.forces, rolling.motion,
-          stands ? 0.0 : place.direction * rolling.rim_ratio * speed_scale_ / wheel.radius_m};
+          stands ? 0.0 : place.direction * rolling.rim_ratio * speed_scale_ / wheel.radius_m, 0.0};
+}
+
+RoverBalance::WheelContact RoverBalance::sliced_contact(const Trial& trial) const {
+  const WheelPlace& place = places_[trial.wheel];
+  const SlicedWheelForces sliced =
+      sliced_wheel_forces(place.geometry, soils_[trial.wheel],
+                          {place.slice_height_m.data(), static_cast<std::size_t>(rover_.wheel_slices)},
+                          sinkage_m(place.geometry.radius_m, trial.entry_angle_rad), trial.motion);
+  return {sliced.total, trial.motion, place.motion.rate_rad_s, sliced.overturning_nm};
 }
 
 void RoverBalance::contacts_of(std::span<const Trial> trials, std::span<WheelContact> contacts) const {
@@ -181,13 +213,17 @@ void RoverBalance::contacts_of(std::span<const Trial> trials, std::span<WheelCon
       contacts[t] = free_contact(trial);
       continue;
     }
+    if (is_sliced(trial.wheel)) {
+      contacts[t] = sliced_contact(trial);
+      continue;
+    }
     const WheelPlace& place = places_[trial.wheel];
     numbers[count] = place.numbers;
     numbers[count].theta_f = trial.entry_angle_rad;
     numbers[count].forward = trial.motion.forward;
     numbers[count].leftward = trial.motion.leftward;
     of[count++] = t;
-    contacts[t] = {{}, trial.motion, place.motion.rate_rad_s};
+    contacts[t] = {{}, trial.motion, place.motion.rate_rad_s, 0.0};
   }
   wheel_forces({numbers.data(), count}, {forces.data(), count});
   for (std::size_t n = 0; n < count; ++n) contacts[of[n]].forces = forces[n];
@@ -201,7 +237,7 @@ void RoverBalance::find_contacts(const Vector& unknowns) {
     const WheelMotion motion = motion_of(k, unknowns);
     if (in_air_[k]) {
       const bool turns = rover_.wheels[k].drive == WheelDrive::kDriven;
-      contacts_[k] = {{}, motion, turns ? places_[k].motion.rate_rad_s : 0.0};
+      contacts_[k] = {{}, motion, turns ? places_[k].motion.rate_rad_s : 0.0, 0.0};
     } else {
       trials[count++] = {k, unknowns[kMotions + k], motion};
     }
@@ -221,9 +257,7 @@ const RoverBalance::Vector& RoverBalance::residual(const Vector& unknowns) {
   Loads own(wheel_count());
   for (int k = 0; k < wheel_count(); ++k) {
     if (in_air_[k]) continue;
-    const WheelForces& f = contacts_[k].forces;
-    sum.head(top).noalias() +=
-        places_[k].effect * Eigen::Vector4d(f.drawbar_pull_n, f.lateral_n, f.vertical_n, f.torque_nm);
+    sum.head(top).noalias() += places_[k].effect * loads_of(contacts_[k]);
     if (undetermined_ > 0) own[k] = sinkage_m(places_[k].geometry.radius_m, unknowns[kMotions + k]);
   }
   if (undetermined_ == 0) return sum;
@@ -255,9 +289,8 @@ RoverBalance::Matrix RoverBalance::jacobian(const Vector& unknowns) const {
   contacts_of({trials.data(), count}, {moved.data(), count});
   for (std::size_t n = 0; n < count; n += 3) {
     const int k = trials[n].wheel;
-    const auto slope = [&](std::size_t of) -> Eigen::Vector4d {
-      const WheelForces d = moved[of].forces - contacts_[k].forces;
-      return Eigen::Vector4d(d.drawbar_pull_n, d.lateral_n, d.vertical_n, d.torque_nm) / kStep;
+    const auto slope = [&](std::size_t of) -> WheelLoads {
+      return (loads_of(moved[of]) - loads_of(contacts_[k])) / kStep;
     };
     const WheelPlace& place = places_[k];
     jacobian.col(kMotions + k).head(top).noalias() = place.effect * slope(n);

@@ -44,8 +44,9 @@ class RoverBalance {
   // What the ground does to one wheel and how the wheel moves over it.
   struct WheelContact {
     WheelForces forces;
-    WheelMotion motion;       // per rim speed
-    double rate_rad_s = 0.0;  // positive rolls forward
+    WheelMotion motion;           // per rim speed
+    double rate_rad_s = 0.0;      // positive rolls forward
+    double overturning_nm = 0.0;  // of a sliced wheel, about its heading; positive presses its left side up
   };
 
   static constexpr double kLeastEntryAngleRad = 1e-3;
@@ -98,8 +99,12 @@ class RoverBalance {
     WheelNumbers numbers;    // of wheel and soil; angle and motion are filled in where they are known
     WheelCommand motion;     // true steering and rate
     double direction = 1.0;  // of rolling
-    // Of (pull, lateral, vertical, torque) on the equations of equilibrium.
-    Eigen::Matrix<double, Eigen::Dynamic, 4, 0, kMostEquilibrium, 4> effect;
+    // Of (pull, lateral, vertical, torque, overturning moment) on the equations of equilibrium.
+    Eigen::Matrix<double, Eigen::Dynamic, 5, 0, kMostEquilibrium, 5> effect;
+    // Of a sliced wheel: the ground under each slice, below the highest one. Its entry angle is the highest
+    // slice's, so that there is none at which it can't touch.
+    SliceHeights slice_height_m{};
+    double highest_m = 0.0;                            // of that slice over the wheel's contact plane
     Eigen::RowVector3d forward_ratio, leftward_ratio;  // of the three motions on u and v_y / (r |w|)
   };
 
@@ -119,6 +124,9 @@ class RoverBalance {
   void contacts_of(std::span<const Trial> trials, std::span<WheelContact> contacts) const;
   void find_contacts(const Vector& unknowns);
   WheelContact free_contact(const Trial& trial) const;
+  bool is_sliced(int wheel) const;
+  WheelContact sliced_contact(const Trial& trial) const;
+  void place_slices(int wheel);
   WheelMotion motion_of(int wheel, const Vector& unknowns) const;
   // The motion q of heave, roll, pitch and joints that lifts the wheels in contact by these heights, by least
   // squares; `push` is 0 then (see resting_loads_n).

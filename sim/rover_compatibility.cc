@@ -24,7 +24,7 @@ void RoverBalance::set_gap_gradient() {
   for (int k = 0; k < n; ++k) {
     const Eigen::Vector3d& normal = stance_.normal_B[k];
     const Eigen::Vector3d& p = stance_.p_B_wheel[k];
-    gap_[k] = stance_.gap_m[k];
+    gap_[k] = stance_.gap_m[k] - places_[k].highest_m;
     gap_gradient_(k, 0) = normal.z();
     gap_gradient_(k, 1) = normal.dot(Eigen::Vector3d::UnitX().cross(p)) / length_;
     gap_gradient_(k, 2) = normal.dot(Eigen::Vector3d::UnitY().cross(p)) / length_;
