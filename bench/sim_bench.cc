@@ -110,9 +110,15 @@ void BM_ExponentialsOfOneWheel(benchmark::State& state) {
 BENCHMARK(BM_ExponentialsOfOneWheel)->ArgName("effects")->Arg(0)->Arg(1);
 
 void BM_SixWheelStation(benchmark::State& state) {
-  const RoverModel rover = six_wheeler();
+  const bool all = state.range(1) != 0;
+  RoverModel rover = six_wheeler();
+  for (WheelModel& wheel : rover.wheels) {
+    if (!all) continue;
+    wheel.grousers = kGrouserWheel.grousers;
+    wheel.rim_friction = kGrouserWheel.rim_friction;
+  }
   QuasiStaticSolver solver(rover, 3.71);
-  const Soil soil = sandy_loam();
+  const Soil soil = all ? every_effect() : sandy_loam();
   const bool warm = state.range(0) != 0;
   int k = 0;
   for (auto _ : state) {
@@ -122,7 +128,7 @@ void BM_SixWheelStation(benchmark::State& state) {
     benchmark::DoNotOptimize(solver.solve(stance, soil, {.speed_m_s = 0.04}));
   }
 }
-BENCHMARK(BM_SixWheelStation)->ArgName("warm")->Arg(1)->Arg(0);
+BENCHMARK(BM_SixWheelStation)->ArgNames({"warm", "effects"})->ArgsProduct({{1, 0}, {0, 1}});
 
 void BM_ImmobilisedStation(benchmark::State& state) {
   const RoverModel rover = six_wheeler();

@@ -82,17 +82,16 @@ void MotionCost::tabulate(const PlanProblem& problem, const GroundTable& table, 
                      limit_rad);
       const sim::TableEntry mean = *table.mean.at(pitch, roll);
       const sim::TableEntry weak = *table.weak.at(pitch, roll);
-      if (mean.immobile > 0.5) {
+      if (mean.immobile) {
         per_slope_.push_back(std::numeric_limits<float>::infinity());
         continue;
       }
-      const bool take_weak = unknown && weak.immobile <= 0.5;
+      const bool take_weak = unknown && !weak.immobile;
       const sim::TableEntry& entry = take_weak ? weak : mean;
       const double slip = std::clamp(entry.slip_ratio, 0.0, kMostSlip);
       const double over =
-          weak.immobile > 0.5
-              ? probability_over(problem.limits.max_slip_ratio, mean.slip_ratio, 1.0)
-              : probability_over(problem.limits.max_slip_ratio, mean.slip_ratio, weak.slip_ratio);
+          weak.immobile ? probability_over(problem.limits.max_slip_ratio, mean.slip_ratio, 1.0)
+                        : probability_over(problem.limits.max_slip_ratio, mean.slip_ratio, weak.slip_ratio);
       const double sum = weights.duration / 3600.0 / (limits_.cruise_speed_m_s * (1.0 - slip)) +
                          weights.energy * entry.energy_j_m / kJoulesPer100Wh + weights.slip * slip / 100.0 +
                          (unknown ? weights.unknown / 100.0 : 0.0) +

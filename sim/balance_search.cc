@@ -15,8 +15,7 @@ using Vector = RoverBalance::Vector;
 constexpr int kMotions = RoverBalance::kMotions;
 constexpr double kLeastEntryAngleRad = RoverBalance::kLeastEntryAngleRad;
 
-constexpr double kSpinningSpeedRatio = 0.02;  // at 98 % slip a drive counts as immobilised
-constexpr double kFastestSpeedRatio = 3.0;    // and at 200 % of the wheels' speed it slides away downhill
+constexpr double kFastestSpeedRatio = 3.0;  // at 200 % of the wheels' speed it slides away downhill
 constexpr double kTouchingEntryAngleRad = 0.05;
 constexpr std::array<double, 3> kColdStartSpeedRatios{0.9, 0.6, 0.3};
 constexpr double kClearance_m = 1e-9;  // a wheel this far into the ground still counts as hanging

@@ -6,6 +6,8 @@
 
 namespace slipway::sim {
 
+constexpr double kSpinningSpeedRatio = 0.02;  // at 98 % slip a drive counts as immobilised
+
 Primary primary_of(const DriveCommand& command);
 
 // How a search for the rover's balance ended.

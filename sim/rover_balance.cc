@@ -36,6 +36,13 @@ struct Wrench {
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // about the point where the force acts
 };
 
+using WheelLoads = Eigen::Matrix<double, 5, 1>;
+
+WheelLoads loads_of(const RoverBalance::WheelContact& contact) {
+  const WheelForces& f = contact.forces;
+  return {f.drawbar_pull_n, f.lateral_n, f.vertical_n, f.torque_nm, contact.overturning_nm};
+}
+
 }  // namespace
 
 RoverBalance::RoverBalance(const RoverModel& rover, double gravity_m_s2, const Stance& stance,
@@ -61,7 +68,10 @@ RoverBalance::RoverBalance(const RoverModel& rover, double gravity_m_s2, const S
     fastest = std::max(fastest, std::abs(command.speed_m_s));
   speed_scale_ = fastest;
   set_soils(gravity_m_s2, command, told);
-  for (int k = 0; k < wheel_count(); ++k) place_wheel(k, told[k]);
+  for (int k = 0; k < wheel_count(); ++k) {
+    place_wheel(k, told[k]);
+    place_slices(k);
+  }
   set_gravity();
   if (undetermined_ == 0) return;
   set_gap_gradient();
@@ -101,6 +111,7 @@ void RoverBalance::place_wheel(int k, const WheelCommand& told) {
   const Eigen::Vector3d& normal = stance_.normal_B[k];
   WheelPlace& place = places_[k];
   place.geometry = wheel.geometry();
+  place.numbers = numbers_of(place.geometry, soils_[k], 0.0, {});
   place.motion = true_motion(wheel, told);
   place.direction = told.rate_rad_s < 0.0 ? -1.0 : 1.0;
   const double steer = place.motion.steer_rad;
@@ -112,12 +123,13 @@ void RoverBalance::place_wheel(int k, const WheelCommand& told) {
   std::array<JointMotion, kMostJoints> joint;
   for (int j = 0; j < joints_; ++j) joint[j] = joint_motion(rover_, stance_, k, j);
 
-  // Columns: drawbar pull, lateral, vertical, torque. A wheel that turns backwards pulls and is driven
-  // backwards.
-  const std::array<Wrench, 4> unit{Wrench{.force = place.direction * x}, Wrench{.force = y},
-                                   Wrench{.force = normal}, Wrench{.moment = -place.direction * y}};
-  place.effect.resize(equilibrium_count(), 4);
-  for (int column = 0; column < 4; ++column) {
+  // Columns: drawbar pull, lateral, vertical, torque, overturning moment. A wheel that turns backwards pulls
+  // and is driven backwards.
+  const std::array<Wrench, 5> unit{Wrench{.force = place.direction * x}, Wrench{.force = y},
+                                   Wrench{.force = normal}, Wrench{.moment = -place.direction * y},
+                                   Wrench{.moment = x}};
+  place.effect.resize(equilibrium_count(), 5);
+  for (int column = 0; column < 5; ++column) {
     const Wrench& w = unit[column];
     auto e = place.effect.col(column);
     e[0] = travel_.x() * w.force.x() + travel_.y() * w.force.y();
@@ -143,6 +155,18 @@ void RoverBalance::place_wheel(int k, const WheelCommand& told) {
   place.leftward_ratio << across * axle.dot(d), across * axle.dot(e), across * axle.dot(turning);
 }
 
+bool RoverBalance::is_sliced(int k) const {
+  return !stance_.slice_height_m.empty() && rover_.wheels[k].drive != WheelDrive::kFree;
+}
+
+void RoverBalance::place_slices(int k) {
+  if (!is_sliced(k)) return;
+  WheelPlace& place = places_[k];
+  const SliceHeights& height = stance_.slice_height_m[k];
+  place.highest_m = *std::max_element(height.begin(), height.begin() + rover_.wheel_slices);
+  for (int s = 0; s < rover_.wheel_slices; ++s) place.slice_height_m[s] = height[s] - place.highest_m;
+}
+
 bool RoverBalance::any_driven() const {
   for (int k = 0; k < wheel_count(); ++k)
     if (rover_.wheels[k].drive == WheelDrive::kDriven && places_[k].motion.rate_rad_s != 0.0) return true;
@@ -159,38 +183,82 @@ WheelMotion RoverBalance::motion_of(int k, const Vector& unknowns) const {
   return {.forward = places_[k].forward_ratio.dot(motion), .leftward = places_[k].leftward_ratio.dot(motion)};
 }
 
-RoverBalance::WheelContact RoverBalance::contact_at(int k, double entry_angle_rad,
-                                                    const WheelMotion& motion) const {
-  const WheelPlace& place = places_[k];
-  const WheelModel& wheel = rover_.wheels[k];
-  if (wheel.drive != WheelDrive::kFree)
-    return {wheel_forces(place.geometry, soils_[k], entry_angle_rad, motion), motion,
-            place.motion.rate_rad_s};
-  const FreeRolling rolling =
-      roll_freely(place.geometry, soils_[k], entry_angle_rad, motion, wheel.drag_nm, kSlowestRateRatio);
+RoverBalance::WheelContact RoverBalance::free_contact(const Trial& trial) const {
+  const WheelPlace& place = places_[trial.wheel];
+  const WheelModel& wheel = rover_.wheels[trial.wheel];
+  const FreeRolling rolling = roll_freely(place.geometry, soils_[trial.wheel], trial.entry_angle_rad,
+                                          trial.motion, wheel.drag_nm, kSlowestRateRatio);
   const bool stands = rolling.rim_ratio <= kSlowestRateRatio;
   return {rolling.forces, rolling.motion,
-          stands ? 0.0 : place.direction * rolling.rim_ratio * speed_scale_ / wheel.radius_m};
+          stands ? 0.0 : place.direction * rolling.rim_ratio * speed_scale_ / wheel.radius_m, 0.0};
 }
 
-RoverBalance::Vector RoverBalance::residual(const Vector& unknowns) {
-  const int top = equilibrium_count();
-  Vector sum(kMotions + wheel_count());
-  sum.head(top) = gravity_;
-  Loads own(wheel_count());
+RoverBalance::WheelContact RoverBalance::sliced_contact(const Trial& trial) const {
+  const WheelPlace& place = places_[trial.wheel];
+  const SlicedWheelForces sliced =
+      sliced_wheel_forces(place.geometry, soils_[trial.wheel],
+                          {place.slice_height_m.data(), static_cast<std::size_t>(rover_.wheel_slices)},
+                          sinkage_m(place.geometry.radius_m, trial.entry_angle_rad), trial.motion);
+  return {sliced.total, trial.motion, place.motion.rate_rad_s, sliced.overturning_nm};
+}
+
+void RoverBalance::contacts_of(std::span<const Trial> trials, std::span<WheelContact> contacts) const {
+  std::array<WheelNumbers, kMostTrials> numbers;
+  std::array<WheelForces, kMostTrials> forces;
+  std::array<std::size_t, kMostTrials> of;
+  std::size_t count = 0;
+  for (std::size_t t = 0; t < trials.size(); ++t) {
+    const Trial& trial = trials[t];
+    if (rover_.wheels[trial.wheel].drive == WheelDrive::kFree) {
+      contacts[t] = free_contact(trial);
+      continue;
+    }
+    if (is_sliced(trial.wheel)) {
+      contacts[t] = sliced_contact(trial);
+      continue;
+    }
+    const WheelPlace& place = places_[trial.wheel];
+    numbers[count] = place.numbers;
+    numbers[count].theta_f = trial.entry_angle_rad;
+    numbers[count].forward = trial.motion.forward;
+    numbers[count].leftward = trial.motion.leftward;
+    of[count++] = t;
+    contacts[t] = {{}, trial.motion, place.motion.rate_rad_s, 0.0};
+  }
+  wheel_forces({numbers.data(), count}, {forces.data(), count});
+  for (std::size_t n = 0; n < count; ++n) contacts[of[n]].forces = forces[n];
+}
+
+void RoverBalance::find_contacts(const Vector& unknowns) {
+  std::array<Trial, kMostWheels> trials;
+  std::array<WheelContact, kMostWheels> found;
+  std::size_t count = 0;
   for (int k = 0; k < wheel_count(); ++k) {
-    const double theta = unknowns[kMotions + k];
     const WheelMotion motion = motion_of(k, unknowns);
     if (in_air_[k]) {
       const bool turns = rover_.wheels[k].drive == WheelDrive::kDriven;
-      contacts_[k] = {{}, motion, turns ? places_[k].motion.rate_rad_s : 0.0};
-      continue;
+      contacts_[k] = {{}, motion, turns ? places_[k].motion.rate_rad_s : 0.0, 0.0};
+    } else {
+      trials[count++] = {k, unknowns[kMotions + k], motion};
     }
-    contacts_[k] = contact_at(k, theta, motion);
-    const WheelForces& f = contacts_[k].forces;
-    sum.head(top).noalias() +=
-        places_[k].effect * Eigen::Vector4d(f.drawbar_pull_n, f.lateral_n, f.vertical_n, f.torque_nm);
-    own[k] = sinkage_m(places_[k].geometry.radius_m, theta);
+  }
+  contacts_of({trials.data(), count}, {found.data(), count});
+  for (std::size_t n = 0; n < count; ++n) contacts_[trials[n].wheel] = found[n];
+}
+
+const RoverBalance::Vector& RoverBalance::residual(const Vector& unknowns) {
+  if (at_.size() == unknowns.size() && at_ == unknowns) return residual_at_;
+  find_contacts(unknowns);
+  at_ = unknowns;
+  const int top = equilibrium_count();
+  Vector& sum = residual_at_;
+  sum.resize(kMotions + wheel_count());
+  sum.head(top) = gravity_;
+  Loads own(wheel_count());
+  for (int k = 0; k < wheel_count(); ++k) {
+    if (in_air_[k]) continue;
+    sum.head(top).noalias() += places_[k].effect * loads_of(contacts_[k]);
+    if (undetermined_ > 0) own[k] = sinkage_m(places_[k].geometry.radius_m, unknowns[kMotions + k]);
   }
   if (undetermined_ == 0) return sum;
   int row = top + undetermined_;
@@ -207,19 +275,27 @@ RoverBalance::Matrix RoverBalance::jacobian(const Vector& unknowns) const {
   const int top = equilibrium_count(), size = kMotions + wheel_count();
   Matrix jacobian = Matrix::Zero(size, size);
   constexpr double kStep = 1e-7;
+  std::array<Trial, kMostTrials> trials;
+  std::array<WheelContact, kMostTrials> moved;
+  std::size_t count = 0;
   for (int k = 0; k < wheel_count(); ++k) {
     if (in_air_[k]) continue;
-    const WheelMotion motion = motion_of(k, unknowns);
+    const WheelMotion m = motion_of(k, unknowns);
     const double theta = unknowns[kMotions + k];
-    const auto slope = [&](double angle, const WheelMotion& moved) -> Eigen::Vector4d {
-      const WheelForces d = contact_at(k, angle, moved).forces - contacts_[k].forces;
-      return Eigen::Vector4d(d.drawbar_pull_n, d.lateral_n, d.vertical_n, d.torque_nm) / kStep;
+    trials[count++] = {k, theta + kStep, m};
+    trials[count++] = {k, theta, {m.forward + kStep, m.leftward}};
+    trials[count++] = {k, theta, {m.forward, m.leftward + kStep}};
+  }
+  contacts_of({trials.data(), count}, {moved.data(), count});
+  for (std::size_t n = 0; n < count; n += 3) {
+    const int k = trials[n].wheel;
+    const auto slope = [&](std::size_t of) -> WheelLoads {
+      return (loads_of(moved[of]) - loads_of(contacts_[k])) / kStep;
     };
-    const auto& effect = places_[k].effect;
-    jacobian.col(kMotions + k).head(top).noalias() = effect * slope(theta + kStep, motion);
+    const WheelPlace& place = places_[k];
+    jacobian.col(kMotions + k).head(top).noalias() = place.effect * slope(n);
     jacobian.topLeftCorner(top, kMotions) +=
-        effect * (slope(theta, {motion.forward + kStep, motion.leftward}) * places_[k].forward_ratio +
-                  slope(theta, {motion.forward, motion.leftward + kStep}) * places_[k].leftward_ratio);
+        place.effect * (slope(n + 1) * place.forward_ratio + slope(n + 2) * place.leftward_ratio);
   }
   if (undetermined_ == 0) return jacobian;
   int row = top + undetermined_;

@@ -1,13 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 
 #include "sim/drive_command.h"
 #include "sim/rover_model.h"
 #include "sim/soil.h"
 #include "sim/stance.h"
 #include "sim/suspension.h"
-#include "sim/wheel_forces.h"
+#include "sim/wheel_kernel.h"
 
 namespace slipway::sim {
 
@@ -43,8 +44,9 @@ class RoverBalance {
   // What the ground does to one wheel and how the wheel moves over it.
   struct WheelContact {
     WheelForces forces;
-    WheelMotion motion;       // per rim speed
-    double rate_rad_s = 0.0;  // positive rolls forward
+    WheelMotion motion;           // per rim speed
+    double rate_rad_s = 0.0;      // positive rolls forward
+    double overturning_nm = 0.0;  // of a sliced wheel, about its heading; positive presses its left side up
   };
 
   static constexpr double kLeastEntryAngleRad = 1e-3;
@@ -54,7 +56,7 @@ class RoverBalance {
   RoverBalance(const RoverModel& rover, double gravity_m_s2, const Stance& stance,
                const PerWheel<Soil>& soils, const DriveCommand& command);
 
-  Vector residual(const Vector& unknowns);
+  const Vector& residual(const Vector& unknowns);
   // At the unknowns of the last residual, by one-sided differences of each wheel's four forces over its three
   // arguments.
   Matrix jacobian(const Vector& unknowns) const;
@@ -94,10 +96,15 @@ class RoverBalance {
 
   struct WheelPlace {
     WheelGeometry geometry;
+    WheelNumbers numbers;    // of wheel and soil; angle and motion are filled in where they are known
     WheelCommand motion;     // true steering and rate
     double direction = 1.0;  // of rolling
-    // Of (pull, lateral, vertical, torque) on the equations of equilibrium.
-    Eigen::Matrix<double, Eigen::Dynamic, 4, 0, kMostEquilibrium, 4> effect;
+    // Of (pull, lateral, vertical, torque, overturning moment) on the equations of equilibrium.
+    Eigen::Matrix<double, Eigen::Dynamic, 5, 0, kMostEquilibrium, 5> effect;
+    // Of a sliced wheel: the ground under each slice, below the highest one. Its entry angle is the highest
+    // slice's, so that there is none at which it can't touch.
+    SliceHeights slice_height_m{};
+    double highest_m = 0.0;                            // of that slice over the wheel's contact plane
     Eigen::RowVector3d forward_ratio, leftward_ratio;  // of the three motions on u and v_y / (r |w|)
   };
 
@@ -106,7 +113,20 @@ class RoverBalance {
   void set_gravity();
   void set_gap_gradient();
   void set_compatibility();
-  WheelContact contact_at(int wheel, double entry_angle_rad, const WheelMotion& motion) const;
+  // A wheel at an entry angle and in a motion that are not, or not yet, those of its contact.
+  struct Trial {
+    int wheel = 0;
+    double entry_angle_rad = 0.0;
+    WheelMotion motion;
+  };
+  static constexpr int kMostTrials = 3 * kMostWheels;  // of a Jacobian
+  // All at once, which costs about half of one by one.
+  void contacts_of(std::span<const Trial> trials, std::span<WheelContact> contacts) const;
+  void find_contacts(const Vector& unknowns);
+  WheelContact free_contact(const Trial& trial) const;
+  bool is_sliced(int wheel) const;
+  WheelContact sliced_contact(const Trial& trial) const;
+  void place_slices(int wheel);
   WheelMotion motion_of(int wheel, const Vector& unknowns) const;
   // The motion q of heave, roll, pitch and joints that lifts the wheels in contact by these heights, by least
   // squares; `push` is 0 then (see resting_loads_n).
@@ -125,8 +145,9 @@ class RoverBalance {
   Eigen::Vector2d travel_;
   double weight_, length_, speed_scale_;
   double sinkage_scale_m_ = 1.0;  // z_ref; of no matter where all loads are determined
-  Vector gravity_;                // on the equations of equilibrium
-  GapGradient gap_gradient_;      // by heave, roll, pitch (times half the wheelbase) and joints
+  Vector at_, residual_at_;   // the last residual and its unknowns; nothing once the wheels in contact change
+  Vector gravity_;            // on the equations of equilibrium
+  GapGradient gap_gradient_;  // by heave, roll, pitch (times half the wheelbase) and joints
   Loads gap_;
   // Rows of compatibility on the own sinkages, one for each wheel that a determined vehicle could spare.
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostWheels, kMostWheels> compatibility_;

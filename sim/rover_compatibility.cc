@@ -24,7 +24,7 @@ void RoverBalance::set_gap_gradient() {
   for (int k = 0; k < n; ++k) {
     const Eigen::Vector3d& normal = stance_.normal_B[k];
     const Eigen::Vector3d& p = stance_.p_B_wheel[k];
-    gap_[k] = stance_.gap_m[k];
+    gap_[k] = stance_.gap_m[k] - places_[k].highest_m;
     gap_gradient_(k, 0) = normal.z();
     gap_gradient_(k, 1) = normal.dot(Eigen::Vector3d::UnitX().cross(p)) / length_;
     gap_gradient_(k, 2) = normal.dot(Eigen::Vector3d::UnitY().cross(p)) / length_;
@@ -70,6 +70,7 @@ void RoverBalance::set_compatibility() {
 void RoverBalance::set_in_air(int k, bool in_air) {
   if (in_air_[k] == in_air) return;
   in_air_[k] = in_air;
+  at_.resize(0);
   in_contact_ += in_air ? -1 : 1;
   set_compatibility();
 }

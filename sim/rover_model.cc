@@ -10,6 +10,8 @@
 #include <set>
 #include <string_view>
 
+#include "sim/sliced_wheel.h"
+
 namespace slipway::sim {
 namespace {
 
@@ -177,6 +179,7 @@ std::vector<Fault> faults_of(const RoverModel& rover) {
     if (rover.suspension.type == SuspensionType::kRockerBogie) check_rocker_bogie(rover, faults);
     check_sides(rover, faults);
   }
+  faults.require_in("/wheel_slices", "wheel_slices", rover.wheel_slices, 1, kMostSlices);
   check_mass(rover, faults);
   check_drive(rover, faults);
   faults.require_in("/belly_clearance_m", "belly_clearance_m", rover.belly_clearance_m, 0.01, 2.0);

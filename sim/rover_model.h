@@ -69,6 +69,9 @@ struct RoverModel {
   double mass_kg = 0.0;
   Eigen::Vector3d com_m = Eigen::Vector3d::Zero();
   std::vector<WheelModel> wheels;  // left and right sides both have at least one
+  // Across each wheel, 1 to kMostSlices: with more than one the ground's height may differ over its width
+  // (see sliced_wheel.h). Free wheels stay whole.
+  int wheel_slices = 1;
   Suspension suspension;
   DriveMotor drive;
   double belly_clearance_m = 0.3;  // lowest point of the body between the wheels, above level ground

@@ -73,6 +73,26 @@ void step(const RoverModel& rover, Stance& stance, const Unknowns& change) {
   place_wheels(rover, stance);
 }
 
+// False where a slice has no ground under it. The gap of a slice is the one that linearise() has for the
+// wheel, at its place on the axle; what it is less than the wheel's, the ground is higher there.
+bool sample_slices(const RoverModel& rover, const Ground& ground, Stance& stance) {
+  const Eigen::Vector3d axle = stance.R_MB.col(1);
+  stance.slice_height_m = PerWheel<SliceHeights>(rover.wheels.size());
+  for (std::size_t k = 0; k < rover.wheels.size(); ++k) {
+    const double n_z = (stance.R_MB * stance.normal_B[k]).z();
+    const Eigen::Vector3d middle = stance.p_MB + stance.R_MB * stance.p_B_wheel[k];
+    for (int s = 0; s < rover.wheel_slices; ++s) {
+      const Eigen::Vector3d p_M =
+          middle + slice_offset_m(rover.wheels[k].width_m, s, rover.wheel_slices) * axle;
+      const std::optional<GroundPoint> point = ground.at(p_M.x(), p_M.y());
+      if (!point) return false;
+      const double gap = (p_M.z() - point->height_m) * n_z - rover.wheels[k].radius_m;
+      stance.slice_height_m[k][s] = stance.gap_m[k] - gap;
+    }
+  }
+  return true;
+}
+
 // Least height of the belly plane over the ground on a 5 x 5 grid under the body.
 double belly_clearance_m(const RoverModel& rover, const Ground& ground, const Stance& stance) {
   double least = std::numeric_limits<double>::infinity();
@@ -126,6 +146,7 @@ std::optional<Stance> settle(const RoverModel& rover, const Ground& ground, cons
   if (!(left_open <= kAcceptedGap_m) || linkage > kLinkageReach_rad) return std::nullopt;
   stance.gap_m = PerWheel<double>(rover.wheels.size());
   std::copy(gap.begin(), gap.end(), stance.gap_m.begin());
+  if (rover.wheel_slices > 1 && !sample_slices(rover, ground, stance)) return std::nullopt;
   stance.belly_clearance_m = belly_clearance_m(rover, ground, stance);
   return stance;
 }
@@ -137,6 +158,8 @@ Stance stance_on_plane(const RoverModel& rover, const Attitude& attitude) {
   place_wheels(rover, stance);
   stance.normal_B = PerWheel<Eigen::Vector3d>(rover.wheels.size(), Eigen::Vector3d::UnitZ());
   stance.gap_m = PerWheel<double>(rover.wheels.size());
+  // Every axle is parallel to the body's xy plane, and so to the ground.
+  if (rover.wheel_slices > 1) stance.slice_height_m = PerWheel<SliceHeights>(rover.wheels.size());
   // Over the plane through B's origin. What height and tilt of the body could close of them does not matter.
   for (std::size_t k = 0; k < rover.wheels.size(); ++k)
     stance.gap_m[k] = stance.p_B_wheel[k].z() - rover.wheels[k].radius_m;

@@ -8,8 +8,12 @@
 #include "sim/ground.h"
 #include "sim/per_wheel.h"
 #include "sim/rover_model.h"
+#include "sim/sliced_wheel.h"
 
 namespace slipway::sim {
+
+// One a slice of RoverModel::wheel_slices; the others are 0.
+using SliceHeights = std::array<double, kMostSlices>;
 
 // How the rover stands on undeformed ground: the suspension's angles and where every wheel touches.
 struct Stance {
@@ -25,6 +29,10 @@ struct Stance {
   // Height of each wheel's rim over the ground along its normal, negative where it would cut into it. Only a
   // suspension with fewer joints than its wheels need leaves any: none of a rocker-bogie's.
   PerWheel<double> gap_m;
+  // Height of the ground under each slice of a wheel, from right to left across its axle as it stands
+  // unsteered, over the plane parallel to the axle through the point under the wheel's middle; empty where
+  // wheels are not sliced.
+  PerWheel<SliceHeights> slice_height_m;
   double belly_clearance_m = 0.0;  // least height of the belly plane over the ground under the body
 };
 

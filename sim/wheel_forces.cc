@@ -69,6 +69,17 @@ void wheel_forces(const WheelGeometry& wheel, std::span<const Soil> soils,
   }
 }
 
+void wheel_forces(std::span<const WheelNumbers> wheels, std::span<WheelForces> forces) {
+  if (forces.size() != wheels.size()) throw std::invalid_argument("wheel_forces: one force a wheel");
+  const WheelKernel& kernel = wheel_kernel();
+  LawParts parts;
+  for (const WheelNumbers& wheel : wheels) parts.include(wheel);
+  const std::size_t rest = wheels.size() % kernel.lanes;
+  const std::size_t packed = 2 * rest < kernel.lanes ? wheels.size() - rest : wheels.size();
+  kernel.many(wheels.data(), parts, forces.data(), packed);
+  for (std::size_t k = packed; k < wheels.size(); ++k) kernel.one(wheels[k], parts, forces[k]);
+}
+
 double sinkage_m(double radius_m, double entry_angle_rad) {
   const double half = std::sin(0.5 * entry_angle_rad);
   return 2.0 * radius_m * half * half;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 #include "sim/wheel_forces.h"
 
@@ -31,6 +32,7 @@ struct LawParts {
 // The law compiled for one instruction set.
 struct WheelKernel {
   const char* instruction_set;
+  std::size_t lanes;  // wheels that `many` computes at a time
   void (*one)(const WheelNumbers& in, const LawParts& parts, WheelForces& out);
   void (*many)(const WheelNumbers* in, const LawParts& parts, WheelForces* out, std::size_t count);
 };
@@ -38,6 +40,9 @@ struct WheelKernel {
 // The fastest kernel that this machine runs. Kernels agree to rounding (tests), not to the bit: the same
 // request gives the same bytes on the same kind of machine.
 const WheelKernel& wheel_kernel();
+// Forces of several wheels, each on its own soil: spans of one length. Takes them in packs and, where less
+// than half a pack is left over, one by one.
+void wheel_forces(std::span<const WheelNumbers> wheels, std::span<WheelForces> forces);
 // All kernels this machine runs, slowest first.
 int wheel_kernels(const WheelKernel** out, int capacity);
 

@@ -66,6 +66,6 @@ void many_wheels(const WheelNumbers* wheels, const LawParts& parts, WheelForces*
 }  // namespace
 
 extern const WheelKernel SLIPWAY_KERNEL_NAME;
-const WheelKernel SLIPWAY_KERNEL_NAME{SLIPWAY_KERNEL_ARCH::name(), &one_wheel, &many_wheels};
+const WheelKernel SLIPWAY_KERNEL_NAME{SLIPWAY_KERNEL_ARCH::name(), kLanes, &one_wheel, &many_wheels};
 
 }  // namespace slipway::sim

@@ -9,6 +9,7 @@
 #include "api/json/parse.h"
 #include "api/json/strict_reader.h"
 #include "sim/effect_catalogue.h"
+#include "sim/sliced_wheel.h"
 
 namespace slipway::api::json {
 namespace {
@@ -46,6 +47,7 @@ sim::Side side_of(const sim::WheelModel& wheel) {
 }
 
 void read_wheels(ObjectReader& reader, sim::RoverModel& rover) {
+  reader.whole("wheel_slices", kOptional, 1, sim::kMostSlices, rover.wheel_slices);
   // Given for the rover, they are on every wheel that has none of its own.
   const std::optional<sim::Grousers> everywhere = read_grousers(reader);
   for (const Element& element : reader.list("wheels", kRequired, {3, sim::kMostWheels})) {
@@ -135,6 +137,7 @@ void write_wheels(Writer& w, const sim::RoverModel& rover) {
     w.end_object();
   }
   w.end_array();
+  if (rover.wheel_slices > 1) w.exact("wheel_slices", rover.wheel_slices);
 }
 
 void write_suspension(Writer& w, const sim::RoverModel& rover) {

@@ -118,13 +118,16 @@ TEST(RoverFile, ReadsOtherVehiclesAndGivesThemBackAsTheyWere) {
       changed(R"("steerable":false)",
               R"("grousers":{"height_m":0.01,"count":18},"steerable":false,"drive":"locked")");
   const std::string damped = changed(R"("max_wheel_rate)", R"("damping_nms_rad":0.0002,"max_wheel_rate)");
-  for (const std::string& text : {rigid, averaging, dead, damped}) {
+  const std::string sliced = changed(R"("suspension":)", R"("wheel_slices":5,"suspension":)");
+  for (const std::string& text : {rigid, averaging, dead, damped, sliced}) {
     const auto rover = json::read_rover_file(text);
     ASSERT_TRUE(rover) << rover.error().detail;
     json::Writer again;
     json::write_rover(again, *rover);
     EXPECT_EQ(again.take(), text);
   }
+  EXPECT_EQ(json::read_rover_file(sliced)->wheel_slices, 5);
+  EXPECT_FALSE(json::read_rover_file(changed(R"("suspension":)", R"("wheel_slices":10,"suspension":)")));
   const auto rover = json::read_rover_file(dead);
   EXPECT_EQ(rover->wheels[0].drive, sim::WheelDrive::kLocked);
   EXPECT_EQ(rover->wheels[0].grousers->count, 18.0);

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "core/angle.h"
+#include "sim/drive_risk.h"
+#include "sim/traction_limit.h"
 #include "tests/sim/reference_models.h"
 
 namespace slipway::sim {
@@ -22,19 +24,31 @@ class SlipTableOnLoam : public testing::Test {
   }
 };
 
-TEST_F(SlipTableOnLoam, AtANodeItIsTheQuasiStaticRung) {
-  const auto entry = table.at(rad_from_deg(-10.0), rad_from_deg(5.0));
-  ASSERT_TRUE(entry);
-  EXPECT_NEAR(entry->slip_ratio, exact(-10.0, 5.0).slip_ratio, 1e-6);
-}
-
-TEST_F(SlipTableOnLoam, BetweenNodesItStaysWithinTwoPointsOfSlipWhereTheRoverMoves) {
-  for (double pitch = -17.0; pitch < 18.0; pitch += 1.7)
-    for (double roll = -17.0; roll < 18.0; roll += 3.1) {
+TEST_F(SlipTableOnLoam, BetweenNodesItIsTheQuasiStaticRungToAThousandthOfSlip) {
+  int moving = 0;
+  for (double pitch = -23.0; pitch < 23.0; pitch += 1.7)
+    for (double roll = -19.0; roll < 19.0; roll += 3.1) {
+      const StationState state = exact(pitch, roll);
+      if (!state.moving() || state.slip_ratio > 0.8) continue;
       const auto entry = table.at(rad_from_deg(pitch), rad_from_deg(roll));
       ASSERT_TRUE(entry);
-      EXPECT_NEAR(entry->slip_ratio, exact(pitch, roll).slip_ratio, 0.02) << pitch << " " << roll;
+      ASSERT_FALSE(entry->immobile) << pitch << " " << roll;
+      const double current = largest_current_a(state), sinkage = deepest_sinkage_m(state);
+      EXPECT_NEAR(entry->slip_ratio, state.slip_ratio, 1e-3) << pitch << " " << roll;
+      EXPECT_NEAR(entry->side_slip_rad, state.side_slip_rad, rad_from_deg(0.2)) << pitch << " " << roll;
+      EXPECT_NEAR(entry->sinkage_m, sinkage, 0.01 * sinkage) << pitch << " " << roll;
+      EXPECT_NEAR(entry->current_a, current, std::max(0.002, 0.01 * current)) << pitch << " " << roll;
+      ++moving;
     }
+  EXPECT_GT(moving, 300);
+}
+
+TEST_F(SlipTableOnLoam, UpToTheTractionLimitEnergyIsThePowerPerMetreMadeGood) {
+  for (const double pitch : {-21.3, -22.4, -23.2}) {
+    const StationState state = exact(pitch, 1.3);
+    const double energy = state.electric_power_w / (state.forward_m_s * std::cos(rad_from_deg(pitch)));
+    EXPECT_NEAR(table.at(rad_from_deg(pitch), rad_from_deg(1.3))->energy_j_m, energy, 0.01 * energy);
+  }
 }
 
 TEST_F(SlipTableOnLoam, PitchIsNotRoll) {
@@ -48,9 +62,45 @@ TEST_F(SlipTableOnLoam, BeyondItsLimitItHasNoAnswer) {
   EXPECT_FALSE(table.at(0.0, std::nan("")));
 }
 
-TEST_F(SlipTableOnLoam, WhereTheRoverIsStuckTheEntrySaysSo) {
-  EXPECT_EQ(table.at(rad_from_deg(-25.0), 0.0)->immobile, 1.0);
-  EXPECT_EQ(table.at(rad_from_deg(-5.0), 0.0)->immobile, 0.0);
+TEST_F(SlipTableOnLoam, ItEndsWhereTheBalanceDoes) {
+  for (const double roll : {-13.7, 0.0, 6.1}) {
+    double lowest = 0.0;
+    const auto ahead = [&](double pitch) {
+      const StationState state = exact(pitch, roll);
+      return state.moving() && std::abs(state.leftward_m_s) < state.forward_m_s;
+    };
+    while (ahead(lowest)) lowest -= 0.1;
+    EXPECT_TRUE(table.at(rad_from_deg(lowest - 0.1), rad_from_deg(roll))->immobile) << roll;
+    EXPECT_FALSE(table.at(rad_from_deg(lowest + 0.2), rad_from_deg(roll))->immobile) << roll;
+  }
+  EXPECT_EQ(table.at(rad_from_deg(-25.0), 0.0)->slip_ratio, 1.0);
+}
+
+TEST(TractionLimit, IsTheSlopeOnWhichTheWheelsSpin) {
+  const RoverModel rover = six_wheeler();
+  const DriveCommand command{.speed_m_s = rover.cruise_speed_m_s};
+  const Soil soil = loose_sand();
+  TractionLimitSearch search(rover, 3.71, soil, command, rad_from_deg(-40.0), rad_from_deg(30.0));
+  const std::optional<double> limit = search.find(0.0, std::nullopt);
+  ASSERT_TRUE(limit);
+  QuasiStaticSolver solver(rover, 3.71);
+  const auto slip_at = [&](double pitch) {
+    const Attitude attitude{.roll_rad = 0.0, .pitch_rad = pitch, .yaw_rad = 0.0};
+    return solver.solve(stance_on_plane(rover, attitude), soil, command);
+  };
+  EXPECT_TRUE(slip_at(*limit).moving());
+  EXPECT_GT(slip_at(*limit).slip_ratio, 0.85);
+  EXPECT_FALSE(slip_at(*limit - rad_from_deg(0.1)).moving());
+  // From a neighbour's limit the search ends at the same place.
+  EXPECT_NEAR(*search.find(0.0, *limit + rad_from_deg(1.5)), *limit, rad_from_deg(0.03));
+}
+
+TEST(TractionLimit, OfASideSlopeTooSteepToHoldIsNone) {
+  const RoverModel rover = six_wheeler();
+  const Soil soil = make_soil({3125.0, 536156.0, 0.867}, 0.0, 20.0, 0.0171, 0.285, 0.32);
+  TractionLimitSearch search(rover, 3.71, soil, {.speed_m_s = rover.cruise_speed_m_s}, rad_from_deg(-40.0),
+                             rad_from_deg(20.0));
+  EXPECT_FALSE(search.find(rad_from_deg(35.0), std::nullopt));
 }
 
 }  // namespace
