@@ -6,6 +6,7 @@
 #include "gap/least_squares.h"
 #include "validation/comparisons.h"
 #include "validation/ding_tests.h"
+#include "validation/fit_words.h"
 #include "validation/statistics.h"
 
 namespace slipway::validation {
@@ -83,18 +84,6 @@ Result<gap::LeastSquaresFit> fit(const std::vector<DingTest>& tests, double left
       progress);
 }
 
-std::string fitted_numbers(const gap::LeastSquaresFit& fit) {
-  std::string text;
-  const std::vector<gap::Unknown> names = unknowns();
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    const auto error = fit.standard_error(k);
-    text += fmt::format("{}{} {:.3g}{}{}", k == 0 ? "" : ", ", names[k].name, fit.estimate[k],
-                        error ? fmt::format(" +- {:.2g}", *error) : " (undetermined)",
-                        fit.on_bound[k] ? " (at its bound)" : "");
-  }
-  return text;
-}
-
 // Every slip predicted by a fit that has not seen it.
 Result<std::string> left_out_errors(const std::vector<DingTest>& tests) {
   std::vector<double> pull, sinkage, torque;
@@ -157,7 +146,7 @@ Result<Report> ding_2011_fitted(const std::filesystem::path& data) {
   report.notes = {
       fmt::format(
           "Fitted: {}. Median errors where every slip is predicted by a fit that has not seen it: {}.",
-          fitted_numbers(*fitted), *left_out),
+          words_of(unknowns(), *fitted), *left_out),
       "The pull at slip 0.1 stays far too low for both wheels (the measured curve rises and bends faster "
       "than one "
       "exponential does), and at slip 0.6 the lugged wheel digs to 27 mm where ours digs to about 18: lugs "

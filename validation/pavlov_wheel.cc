@@ -8,6 +8,7 @@
 #include "gap/least_squares.h"
 #include "sim/entry_angle.h"
 #include "validation/comparisons.h"
+#include "validation/fit_words.h"
 #include "validation/laboratory_soil.h"
 #include "validation/sandbox_plates.h"
 #include "validation/statistics.h"
@@ -209,14 +210,6 @@ Result<Report> pavlov_wheel(const std::filesystem::path& data) {
     add_row(c, ours, report);
     (!within_the_law(c) ? beyond : c.half == Half::kFit ? seen : held_out).add(ours, c);
   }
-  std::string numbers;
-  const std::vector<gap::Unknown> names = unknowns();
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    const auto error = fitted->standard_error(k);
-    numbers += fmt::format("{}{} {:.3g}{}{}", k == 0 ? "" : ", ", names[k].name, fitted->estimate[k],
-                           error ? fmt::format(" +- {:.2g}", *error) : " (undetermined)",
-                           fitted->on_bound[k] ? " (at its bound)" : "");
-  }
   report.notes = {"Predicted half, where the wheel stayed above its axle's depth: " + held_out.words() + ".",
                   "Fitted half: " + seen.words() + ".",
                   "Moved sideways (90 deg) the wheel dug itself in below its own axle (61 to 77 mm, r 58 "
@@ -224,7 +217,7 @@ Result<Report> pavlov_wheel(const std::filesystem::path& data) {
                   "arc has nothing to say; those conditions are left out of the fit: " +
                       beyond.words() + ".",
                   fmt::format("Plate tests: k {:.0f} kPa/m^n, n {:.3f}. Fitted on the wheel tests: {}.",
-                              1e-3 * moduli->moduli.k_phi, moduli->moduli.n, numbers),
+                              1e-3 * moduli->moduli.k_phi, moduli->moduli.n, words_of(unknowns(), *fitted)),
                   "The resistance of the front hardly falls with the slip angle, and the sinkage exponent "
                   "rises with skid and with "
                   "sideways motion besides slip: both shapes were found on these tests (both halves were "
