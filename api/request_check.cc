@@ -79,6 +79,11 @@ void RequestCheck::drive(const DriveAssumptions& drive) {
       add(ErrorCode::kInvalidRequest, "/effects", "the rover with these effects: " + fault.message);
     }
   }
+  if (rover_ != nullptr && drive.conditions.motor_temp_c && !already_faulty("/effects")) {
+    const std::vector<sim::EffectSetting> on = sim::in_force(rover_->effects, drive.effects);
+    if (std::none_of(on.begin(), on.end(), [](const auto& e) { return e.name == "motor_temperature"; }))
+      add(ErrorCode::kInvalidRequest, "/motor_temp_c", std::string(kTemperatureWithoutEffect));
+  }
   if (rover_ == nullptr || !drive.speed_m_s || already_faulty("/speed_m_s")) return;
   const double fastest = rover_->drive.max_wheel_rate_rad_s * rover_->smallest_wheel_radius_m();
   if (*drive.speed_m_s > fastest) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "sim/per_wheel.h"
 #include "sim/rover_model.h"
 
@@ -7,7 +9,7 @@ namespace slipway::sim {
 
 // What a drive is made under, besides ground and soil.
 struct DriveConditions {
-  double motor_temp_c = 20.0;  // of the drive motors
+  std::optional<double> motor_temp_c = {};  // of the drive motors; nothing: what they are given at
 };
 
 // What the driver asks for at a station.
@@ -18,7 +20,7 @@ struct DriveCommand {
   bool turn_in_place = false;
   double turn_rate_rad_s = 0.0;  // when turning in place; positive turns left; never 0 there
   double crab_rad = 0.0;  // direction of travel from B's x axis, positive to the left; unused when turning
-  double motor_temp_c = 20.0;
+  std::optional<double> motor_temp_c = {};  // nothing: what the motors are given at
 };
 
 // The direction of travel of a positive speed, unit, B's x-y plane: (cos crab, sin crab); x when turning in

@@ -13,9 +13,10 @@ namespace slipway::sim {
 // radius.
 double bekker_sinkage_m(const WheelGeometry& wheel, const Soil& soil, double load_n);
 
-// The entry angle at which the soil carries the load [ARTEMIS eq. 20]: W(theta_f) = load. Newton kept inside
-// a bracket. Errors: not_converged where even kLargestEntryAngleRad does not carry the load (sunk to the
-// axle); the detail says how much it carries. load_n > 0.
+// The entry angle at which the soil carries the load [ARTEMIS eq. 20]: W(theta_f) = load; the shallowest
+// where several do. Newton kept inside a bracket. Errors: not_converged where no angle up to
+// kLargestEntryAngleRad carries the load (sunk to the axle); the detail says how much is carried at most.
+// load_n > 0.
 Result<double> balanced_entry_angle_rad(const WheelGeometry& wheel, const Soil& soil, double load_n,
                                         const WheelMotion& motion);
 

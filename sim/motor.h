@@ -29,7 +29,7 @@ struct DriveMotor {
   double friction_per_k = 0.0;
 };
 
-// The motor's own numbers at a temperature. Friction is kept above a tenth of its value at the reference.
+// The motor's own numbers at a temperature. Each is kept above a tenth of its value at the reference.
 DriveMotor at_temperature(const DriveMotor& drive, double motor_temp_c);
 
 // A drive motor in steady motion: no inductance, Kirchhoff's law [ROAMS section 2.4; drive-campaign format].
@@ -40,6 +40,10 @@ DriveMotor at_temperature(const DriveMotor& drive, double motor_temp_c);
 //   T    torque at the wheel, N m        w    rate of the wheel, rad/s        k_t  torque constant, N m/A
 //   N    gear ratio    eta  gear efficiency    I_0  no-load current, A        b    damping at the shaft
 //   T_g, B  friction and viscous friction of the gearbox, at the wheel
+//
+// As in the format, eta divides a torque of either sign: for a wheel that the ground drives this gives more
+// current back than a lossy gear would pass (T eta in place of T / eta), so braking currents are too
+// negative; the drives of docs/validation.md's Cuadriga gave back none within the error.
 struct MotorState {
   double current_a = 0.0;
   double voltage_v = 0.0;

@@ -64,7 +64,8 @@ void set_depths(const RoverModel& rover, const RoverBalance& balance, const Vect
 // Currents and power of the driven wheels; the first that asks too much of its motor stalls the rover.
 void set_motors(const RoverModel& rover, const RoverBalance& balance, const DriveCommand& command,
                 StationState& state) {
-  const DriveMotor drive = at_temperature(rover.drive, command.motor_temp_c);
+  const DriveMotor drive =
+      at_temperature(rover.drive, command.motor_temp_c.value_or(rover.drive.reference_temp_c));
   for (std::size_t k = 0; k < state.wheels.size(); ++k) {
     const WheelModel& wheel = rover.wheels[k];
     if (wheel.drive != WheelDrive::kDriven) continue;

@@ -57,7 +57,7 @@ class RoverBalance {
                const PerWheel<Soil>& soils, const DriveCommand& command);
 
   const Vector& residual(const Vector& unknowns);
-  // At the unknowns of the last residual, by one-sided differences of each wheel's four forces over its three
+  // At the unknowns of the last residual, by one-sided differences of each wheel's five loads over its three
   // arguments.
   Matrix jacobian(const Vector& unknowns) const;
 

@@ -41,27 +41,35 @@ struct WheelForces {
   }
 };
 
+// clang-format off
 // A rigid wheel on level soil with entry angle theta_f [ARTEMIS eq. 1 to 20; Wong & Reece 1967]:
 //
-//   theta_m = (c1 + c2 |i|) theta_f               angle of greatest normal stress (2) theta_r = -c3 theta_f
-//   exit angle; c3 = 0 is perfectly plastic soil z1 = r (cos theta - cos theta_f)              depth in
-//   front, theta_m < theta < theta_f                (1) z2 = r (cos(theta_f - (theta - theta_r) / (theta_m -
-//   theta_r) (theta_f - theta_m)) - cos theta_f)      behind sigma = (k_c / b + k_phi) z^n' normal
-//   stress, radial; crust and hard layer add      (1), (22) j_x = r (theta_f - theta - u (sin theta_f - sin
-//   theta))    shear displacement, u = 1 - i or 1 / (1 + i)  (5) j_y = r (v_y / (r |w|)) (theta_f - theta)
-//   lateral, (9) and (10) as one tau_x, tau_y = +-(c + sigma tan phi) (1 - exp(-|j| / K))   against the
-//   slipping                   (3), (6) DP = b r int(tau_x cos - sigma sin) + grousers - frontal bulldozing
-//   (16 to 18) L  = b r int(tau_y) + side-wall bulldozing sin(beta) (11, 19) W  = b r int(sigma cos + tau_x
-//   sin) + grousers                                                        (20) T  = b r^2 int(tau_x) +
-//   grousers
+//   theta_m = (c1 + c2 |i|) theta_f              angle of greatest normal stress                      (2)
+//   theta_r = -c3 theta_f                        exit angle; c3 = 0 is perfectly plastic soil
+//   z = r (cos theta - cos theta_f)              depth in front, theta_m < theta < theta_f            (1)
+//   z = the depth in front at theta'             behind, theta_r < theta < theta_m, with              (1)
+//       theta' = theta_f - (theta - theta_r) / (theta_m - theta_r) (theta_f - theta_m)
+//   sigma = (k_c / b + k_phi) z^n'               normal stress, radial; crust and hard layer add
+//   n' = n + n1 |i_v| + n1_skid max(0, -i_v) + n1_lateral sin^2(beta)    i_v: slip of the whole speed (22)
+//   j_x = r (theta_f - theta - u (sin theta_f - sin theta))              u = 1 - i or 1 / (1 + i)     (5)
+//   j_y = r (v_y / (r |w|)) (theta_f - theta)                            (9) and (10) as one
+//   tau_x, tau_y = +-(c + sigma tan phi) (1 - exp(-|j| / K))             against the slipping         (3), (6)
+//   DP = b r int(tau_x cos - sigma sin) + grousers - frontal bulldozing                               (16 to 18)
+//   L  = b r int(tau_y) + side-wall bulldozing sin(beta)                                              (11, 19)
+//   W  = b r int(sigma cos + tau_x sin) + grousers                                                    (20)
+//   T  = b r^2 int(tau_x) + grousers
 //
-// Grousers: grouser_law.h; bulldozing: bulldozing_law.h (front), terzaghi.h (sides). Equation 11 prints
-// tan(theta) for tan(phi). As in ARTEMIS, tau_x and tau_y are mobilised independently, so that with both at
-// full slip their resultant exceeds the strength by up to sqrt(2); Soil::shear_coupling takes that back. c2's
-// slip is |i|, as in the drive-campaign format. Quadrature: arc_quadrature.h with theta = theta_f - t
-// (theta_f - theta_m), error below 1e-5 of the load against adaptive quadrature (tests). Compiled for several
-// instruction sets (wheel_kernel.h). Properties: W rises with theta_f without a crust; all scale with b when
-// k_c = 0; mirror: leftward -> -leftward flips L only.
+// Grousers: grouser_law.h; bulldozing: bulldozing_law.h (front), terzaghi.h (sides), both fading out where a wheel
+// spins almost on the spot (kStandingSpeedRatio in wheel_law.h). Equation 11 prints tan(theta) for tan(phi). As in
+// ARTEMIS, tau_x and tau_y are mobilised independently, so that with both at full slip their resultant exceeds the
+// strength by up to sqrt(2); Soil::shear_coupling takes that back. c2's slip is |i|, as in the drive-campaign
+// format. Quadrature: arc_quadrature.h, error below 1e-5 of the load (tests). Compiled for several instruction sets
+// (wheel_kernel.h).
+//
+// Properties: W rises with theta_f for a driven wheel without a crust (a braked rim in cohesive soil is drawn down:
+// it carries most somewhere above the axle, and may carry nothing); all scale with b when k_c = 0; mirror:
+// leftward -> -leftward flips L only.
+// clang-format on
 WheelForces wheel_forces(const WheelGeometry& wheel, const Soil& soil, double entry_angle_rad,
                          const WheelMotion& motion);
 

@@ -13,7 +13,9 @@ using Pack = xsimd::batch<double, SLIPWAY_KERNEL_ARCH>;
 constexpr std::size_t kLanes = Pack::size;
 constexpr std::size_t kFields = sizeof(WheelNumbers) / sizeof(double);
 
-// Same order of fields as WheelNumbers.
+static_assert(sizeof(WheelCase<Pack>) == (kFields + 1) * sizeof(Pack), "WheelCase has tan_phi besides");
+
+// Same order of fields as WheelNumbers, and tan_phi behind phi.
 WheelCase<Pack> case_of(const Pack* f) {
   return {f[0],  f[1],  f[2],  f[3],  f[4],  f[5],  f[6],  f[7],  f[8],  tan(f[8]),
           f[9],  f[10], f[11], f[12], f[13], f[14], f[15], f[16], f[17], f[18],

@@ -45,7 +45,7 @@ V slip_of(const V& speed_ratio) {
 template <class V>
 ContactAngles<V> contact_angles(const WheelCase<V>& in) {
   const V slip = min(V(1.0), abs(slip_of(in.forward)));
-  const V share = min(V(0.99), in.c1 + in.c2 * slip);
+  const V share = max(-in.exit_ratio, min(V(0.99), in.c1 + in.c2 * slip));
   // How the wheel digs itself in: by its slip over the ground in whatever direction it moves, more in skid
   // and more when it moves sideways.
   const V square = in.forward * in.forward + in.leftward * in.leftward;

@@ -105,14 +105,19 @@ std::vector<double> stepped(double lowest, double highest, double step) {
   return values;
 }
 
-std::vector<Fault> faults_of(const WheelSweep& sweep) {
+std::vector<Fault> parameter_faults(const WheelSweep& sweep) {
   std::vector<Fault> faults;
-  if (sweep.axes.size() > kMostSweepAxes)
-    faults.push_back({"/sweep", fmt::format("sweep has {} axes, must have at most {}", sweep.axes.size(),
-                                            kMostSweepAxes)});
   for (const SweepSetting& setting : sweep.set) check_setting(setting, faults);
   for (std::size_t a = 0; a < sweep.axes.size(); ++a)
     check_axis(sweep.axes[a], fmt::format("/sweep/{}", a), faults);
+  return faults;
+}
+
+std::vector<Fault> faults_of(const WheelSweep& sweep) {
+  std::vector<Fault> faults = parameter_faults(sweep);
+  if (sweep.axes.size() > kMostSweepAxes)
+    faults.push_back({"/sweep", fmt::format("sweep has {} axes, must have at most {}", sweep.axes.size(),
+                                            kMostSweepAxes)});
   if (sweep.axes.size() == 2 && sweep.axes[0].parameter == sweep.axes[1].parameter)
     faults.push_back({"/sweep/1/parameter", fmt::format("{} is swept twice", sweep.axes[1].parameter)});
   if (rows_of(sweep) > kMostSweepRows)

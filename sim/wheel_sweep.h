@@ -53,6 +53,8 @@ struct SweepRow {
 // 90 deg with slip by the forward speed, a depth beyond the axle). Pointers: "/sweep/0/parameter",
 // "/sweep/1/values/3", "/set/soil.n", "/sinkage_m".
 std::vector<Fault> faults_of(const WheelSweep& sweep);
+// Of these, the names and values of what is set and swept, which can be asked of any rig.
+std::vector<Fault> parameter_faults(const WheelSweep& sweep);
 
 // The places of a sweep, and the rows of one without faults.
 std::vector<SweepPoint> points_of(const WheelSweep& sweep);

@@ -42,7 +42,7 @@ void write_drive_assumptions(Writer& w, const DriveAssumptions& drive) {
   w.whole("draws", drive.draws);
   w.whole("seed", static_cast<std::int64_t>(drive.seed));
   if (drive.speed_m_s) w.exact("speed_m_s", *drive.speed_m_s);
-  w.exact("motor_temp_c", drive.conditions.motor_temp_c);
+  if (drive.conditions.motor_temp_c) w.exact("motor_temp_c", *drive.conditions.motor_temp_c);
 }
 
 void read_waypoint(const JsonValue& value, const std::string& pointer, planner::Waypoint& out,

@@ -98,14 +98,28 @@ TEST(Effects, AWheelThatTheRoverDoesNotHaveIsRefusedByItsNumber) {
   EXPECT_NE(refused.error().faults[0].message.find("mer-class has 6 wheels"), std::string::npos);
 }
 
-TEST(Effects, AColdMotorDrawsOtherCurrentOnlyWhereItsTemperatureCounts) {
+TEST(Effects, AColdMotorDrawsOtherCurrentAndATemperatureThatNothingReadsIsRefused) {
   PredictionRequest request = path_request();
   request.drive.effects = {};
   const double plain = predicted(request).energy_j;
-  request.drive.conditions.motor_temp_c = -60.0;
-  EXPECT_EQ(predicted(request).energy_j, plain);
   request.drive.effects = {{"motor_temperature", {}}};
+  EXPECT_EQ(predicted(request).energy_j, plain) << "without a temperature the motors are as they are given";
+  request.drive.conditions.motor_temp_c = -60.0;
   EXPECT_NE(predicted(request).energy_j, plain);
+  const auto refused = small_world().read_prediction(
+      R"({"terrain":"yard","rover":"mer-class","path":[{"x_m":20,"y_m":30},{"x_m":28,"y_m":30}],"motor_temp_c":-60})");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().faults[0].pointer, "/motor_temp_c");
+}
+
+TEST(Effects, ADraggingWheelShowsInTheYawRate) {
+  PredictionRequest request = path_request();
+  request.drive.effects = {{"dragging_wheel", {{"wheel", 0.0}}}};
+  const sim::DrivePrediction left = predicted(request);
+  request.drive.effects = {{"dragging_wheel", {{"wheel", 3.0}}}};
+  const sim::DrivePrediction right = predicted(request);
+  EXPECT_GT(left.stations[5].state.yaw_rate_rad_s, 0.0) << "it turns about the wheel that drags";
+  EXPECT_LT(right.stations[5].state.yaw_rate_rad_s, 0.0);
 }
 
 TEST(Manner, ThePathIsTheSameBackwardsAndInCrabButTheBodyPointsElsewhere) {

@@ -96,6 +96,10 @@ void expect_agreement(const WheelGeometry& wheel, const Soil& soil, double theta
   EXPECT_NEAR(fast.torque_nm, fine.torque_nm, close * wheel.radius_m) << theta_f << " " << slip;
 }
 
+Soil ding_like() {
+  return make_soil({15600.0, 2407400.0, 1.1}, 250.0, 31.9, 0.011, 0.18, 0.32);
+}
+
 TEST(WheelForces, EightNodesAnArcAgreeWithAFineSumToOneInAHundredThousand) {
   for (const Soil& soil : {sandy_loam(), loose_sand()})
     for (const double theta_f : {0.1, 0.4, 0.9})
@@ -280,6 +284,30 @@ TEST(EntryAngle, TheBalancedWheelCarriesItsLoad) {
     ASSERT_TRUE(theta);
     EXPECT_NEAR(wheel_forces(kWheel, sandy_loam(), *theta, motion).vertical_n, load, 1e-9 * load);
   }
+}
+
+TEST(EntryAngle, ABrakedWheelInCohesiveSoilStandsAtTheShallowestDepthThatCarriesIt) {
+  // It carries most above the axle: W rises, falls, and is below the load again at the axle.
+  Soil soil = ding_like();
+  soil.cohesion_pa = 20000.0;
+  soil.friction_angle_rad = rad_from_deg(40.0);
+  const WheelMotion motion{speed_ratio_from_slip(-0.9), 0.0};
+  const double load = 200.0;
+  ASSERT_LT(wheel_forces(kWheel, soil, kLargestEntryAngleRad, motion).vertical_n, load);
+  const auto theta = balanced_entry_angle_rad(kWheel, soil, load, motion);
+  ASSERT_TRUE(theta) << theta.error().detail;
+  EXPECT_NEAR(wheel_forces(kWheel, soil, *theta, motion).vertical_n, load, 1e-9 * load);
+  for (double shallower = 0.02; shallower < *theta - 0.03; shallower += 0.02)
+    EXPECT_LT(wheel_forces(kWheel, soil, shallower, motion).vertical_n, load) << shallower;
+}
+
+TEST(EntryAngle, AWheelStandsOnACrustThatCarriesItAndBelowOneThatDoesNot) {
+  Soil soil = ding_like();
+  soil.crust = {100'000.0, 0.02};
+  soil.pressure = {0.0, 20000.0, 1.1};
+  const auto standing = balanced_entry_angle_rad(kWheel, soil, 300.0, {0.8, 0.0});
+  ASSERT_TRUE(standing);
+  EXPECT_LT(sinkage_m(kWheel.radius_m, *standing), 0.02);
 }
 
 TEST(EntryAngle, ALoadThatNoDepthCarriesIsRefusedWithWhatItWouldCarry) {
