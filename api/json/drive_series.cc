@@ -38,6 +38,8 @@ constexpr std::array kColumns{
     Column{"slip_p95", [](const StationPrediction& s) { return s.slip_ratio_p95; }},
     Column{"side_slip_deg", [](const StationPrediction& s) { return deg_from_rad(s.state.side_slip_rad); }},
     Column{"yaw_rate_deg_s", [](const StationPrediction& s) { return deg_from_rad(s.state.yaw_rate_rad_s); }},
+    Column{"left_rut_depth_m", [](const StationPrediction& s) { return s.state.left_rut_depth_m; }},
+    Column{"right_rut_depth_m", [](const StationPrediction& s) { return s.state.right_rut_depth_m; }},
     Column{"current_a_p95", [](const StationPrediction& s) { return s.current_a_p95; }},
     Column{"sinkage_m_p95", [](const StationPrediction& s) { return s.sinkage_m_p95; }},
     Column{"power_w", [](const StationPrediction& s) { return s.state.electric_power_w; }},
