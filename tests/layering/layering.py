@@ -23,6 +23,8 @@ FENCES = [
     (r"(gdal|ogr|cpl)[\w]*\.h", r"dem/gdal_\w+\.(cc|h)"),
     (r"ompl/.*", r"planner/ompl_\w+\.(cc|h)"),
     (r"(cvode|sundials|nvector|sunlinsol|sunmatrix|kinsol)/.*", r"sim/(cvode|kinsol)_\w+\.cc"),
+    (r"xsimd/.*", r"(sim/wheel_(law|kernel_arch)\.h|bench/packed_exponentials\.cc)"),
+    (r"boost/.*", r"sim/traction_limit\.cc"),
     (r"ceres/.*", r"gap/ceres_\w+\.cc"),
     (r"nlohmann/.*", r"api/json/\w+\.(cc|h)"),
     (r"sqlite3\.h", r"api/sqlite_\w+\.cc"),
