@@ -44,6 +44,8 @@ constexpr std::array kRows{
     ErrorRow{ErrorCode::kCancelled, "cancelled", 409, "The work was dismissed before it ended."},
     ErrorRow{ErrorCode::kStorage, "storage", 503,
              "The job store could not be written or read; nothing was accepted. Try again."},
+    ErrorRow{ErrorCode::kUnwritableFile, "unwritable_file", 500,
+             "A file that was asked for could not be written; its folder must exist and be writable."},
     ErrorRow{ErrorCode::kInternal, "internal", 500,
              "A promise inside the program was broken. Please report it."},
 };

@@ -28,6 +28,7 @@ enum class ErrorCode {
   kNotConverged,
   kCancelled,
   kStorage,
+  kUnwritableFile,
   kInternal,
 };
 

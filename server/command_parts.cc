@@ -55,7 +55,7 @@ Result<std::unique_ptr<Inquiry>> inquiry(const AskOptions& options) {
 int save(const std::string& file, const std::string& text) {
   std::ofstream stream(file);
   if (!(stream << text << std::flush))
-    return refuse({ErrorCode::kStorage, fmt::format("cannot write {}", file), {}});
+    return refuse({ErrorCode::kUnwritableFile, fmt::format("cannot write {}", file), {}});
   return 0;
 }
 

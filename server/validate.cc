@@ -51,7 +51,7 @@ Result<void> write_plot(const std::filesystem::path& folder, const Outcome& outc
   const std::filesystem::path path = folder / fmt::format("{}.svg", outcome.comparison->name);
   std::ofstream file(path);
   if (!(file << outcome.report.plot << std::flush))
-    return fail(ErrorCode::kStorage, fmt::format("cannot write {}", path.string()));
+    return fail(ErrorCode::kUnwritableFile, fmt::format("cannot write {}", path.string()));
   return {};
 }
 

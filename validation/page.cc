@@ -38,7 +38,7 @@ Result<void> write_page(const std::filesystem::path& path, const std::string& pr
   std::ofstream file(path);
   file << page->before << printed << page->after;
   file.close();
-  if (!file) return fail(ErrorCode::kStorage, fmt::format("cannot write {}", path.string()));
+  if (!file) return fail(ErrorCode::kUnwritableFile, fmt::format("cannot write {}", path.string()));
   return {};
 }
 
