@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "sim/effect_catalogue.h"
+
 namespace slipway::api {
 namespace {
 
@@ -70,6 +72,15 @@ bool has_fault_under(const std::vector<Fault>& faults, std::string_view pointer)
 std::vector<Fault> moved_under(std::string_view prefix, std::vector<Fault> faults) {
   for (Fault& fault : faults) fault.pointer.insert(0, prefix);
   return faults;
+}
+
+std::optional<Fault> temperature_without_effect(const sim::RoverModel& rover,
+                                                const std::vector<sim::EffectSetting>& requested) {
+  for (const sim::EffectSetting& effect : sim::in_force(rover.effects, requested))
+    if (effect.name == "motor_temperature") return std::nullopt;
+  return Fault{
+      "/motor_temp_c",
+      "motor_temp_c counts only where the effect motor_temperature is on: switch it on or leave this out"};
 }
 
 std::string summary_of(const std::vector<Fault>& faults) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "sim/rover_model.h"
 
 namespace slipway::api {
 
@@ -24,9 +25,9 @@ bool has_fault_under(const std::vector<Fault>& faults, std::string_view pointer)
 // Puts `prefix` before every pointer.
 std::vector<Fault> moved_under(std::string_view prefix, std::vector<Fault> faults);
 
-// Why motor_temp_c is refused where nothing reads it.
-inline constexpr std::string_view kTemperatureWithoutEffect =
-    "motor_temp_c counts only where the effect motor_temperature is on: switch it on or leave this out";
+// Why a request's motor_temp_c is refused where nothing reads it; nothing where motor_temperature is on.
+std::optional<Fault> temperature_without_effect(const sim::RoverModel& rover,
+                                                const std::vector<sim::EffectSetting>& requested);
 
 // One sentence for an error's detail.
 std::string summary_of(const std::vector<Fault>& faults);

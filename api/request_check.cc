@@ -80,9 +80,8 @@ void RequestCheck::drive(const DriveAssumptions& drive) {
     }
   }
   if (rover_ != nullptr && drive.conditions.motor_temp_c && !already_faulty("/effects")) {
-    const std::vector<sim::EffectSetting> on = sim::in_force(rover_->effects, drive.effects);
-    if (std::none_of(on.begin(), on.end(), [](const auto& e) { return e.name == "motor_temperature"; }))
-      add(ErrorCode::kInvalidRequest, "/motor_temp_c", std::string(kTemperatureWithoutEffect));
+    if (const auto fault = temperature_without_effect(*rover_, drive.effects))
+      add(ErrorCode::kInvalidRequest, fault->pointer, fault->message);
   }
   if (rover_ == nullptr || !drive.speed_m_s || already_faulty("/speed_m_s")) return;
   const double fastest = rover_->drive.max_wheel_rate_rad_s * rover_->smallest_wheel_radius_m();

@@ -18,10 +18,6 @@ class Check {
   void add(const std::string& pointer, std::string message) {
     if (!has_fault_under(faults_, pointer)) faults_.push_back({pointer, std::move(message)});
   }
-  // Where nothing has been said of the pointer yet.
-  void add_new(const std::string& pointer, std::string message) {
-    if (!has_fault_under(faults_, pointer)) add(pointer, std::move(message));
-  }
   bool passed() const { return faults_.empty(); }
   Error error() const { return {ErrorCode::kInvalidRequest, summary_of(faults_), faults_}; }
 
@@ -92,12 +88,10 @@ Result<WheelSweepAnswer> read_wheel_sweep(const Catalogue& catalogue, std::strin
   }
   answer.sweep.set = answer.request.set;
   answer.sweep.axes = answer.request.sweep;
-  for (Fault& fault : sim::parameter_faults(answer.sweep))
-    check.add_new(fault.pointer, std::move(fault.message));
+  for (Fault& fault : sim::parameter_faults(answer.sweep)) check.add(fault.pointer, std::move(fault.message));
   if (answer.request.motor_temp_c && rover != catalogue.rovers.end()) {
-    const auto on = sim::in_force(rover->second->effects, answer.request.effects);
-    if (std::none_of(on.begin(), on.end(), [](const auto& e) { return e.name == "motor_temperature"; }))
-      check.add_new("/motor_temp_c", std::string(kTemperatureWithoutEffect));
+    if (const auto fault = temperature_without_effect(*rover->second, answer.request.effects))
+      check.add(fault->pointer, fault->message);
   }
   if (!check.passed()) return fail(check.error());
   for (Fault& fault : sim::faults_of(answer.sweep)) check.add(fault.pointer, std::move(fault.message));

@@ -60,12 +60,9 @@ void wheel_forces(const WheelGeometry& wheel, std::span<const Soil> soils,
   std::array<WheelNumbers, kChunk> numbers;
   for (std::size_t first = 0; first < count; first += kChunk) {
     const std::size_t here = std::min(kChunk, count - first);
-    LawParts parts;
-    for (std::size_t k = 0; k < here; ++k) {
+    for (std::size_t k = 0; k < here; ++k)
       numbers[k] = numbers_of(wheel, soils[first + k], entry_angles_rad[first + k], motions[first + k]);
-      parts.include(numbers[k]);
-    }
-    wheel_kernel().many(numbers.data(), parts, &forces[first], here);
+    wheel_forces({numbers.data(), here}, forces.subspan(first, here));
   }
 }
 
