@@ -7,17 +7,19 @@
 namespace slipway::sim {
 namespace {
 
-double sign_of(double rate) {
+double sign_of(double rate, double standstill) {
+  if (standstill > 0.0) return std::tanh(rate / standstill);
   return rate > 0.0 ? 1.0 : rate < 0.0 ? -1.0 : 0.0;
 }
 
 // Current that turns the motor and gear at a rate without any torque at the wheel.
-double idle_current_a(const DriveMotor& drive, double rate) {
+double idle_current_a(const DriveMotor& drive, double rate, double standstill = 0.0) {
+  const double sign = sign_of(rate, standstill);
   const double geared = drive.torque_constant_nm_per_a * drive.gear_ratio;
-  const double gearbox = drive.gear_friction_nm * sign_of(rate) + drive.gear_viscous_nms_rad * rate;
+  const double gearbox = drive.gear_friction_nm * sign + drive.gear_viscous_nms_rad * rate;
   return gearbox / (geared * drive.gear_efficiency) +
          drive.damping_nms_rad * drive.gear_ratio * rate / drive.torque_constant_nm_per_a +
-         drive.no_load_current_a * sign_of(rate);
+         drive.no_load_current_a * sign;
 }
 
 }  // namespace
@@ -45,9 +47,18 @@ MotorState motor_state(const DriveMotor& drive, double torque_nm, double wheel_r
   return state;
 }
 
-double torque_of_current_nm(const DriveMotor& drive, double current_a, double wheel_rate_rad_s) {
+double torque_of_current_nm(const DriveMotor& drive, double current_a, double wheel_rate_rad_s,
+                            double standstill_rad_s) {
   const double geared = drive.torque_constant_nm_per_a * drive.gear_ratio;
-  return (current_a - idle_current_a(drive, wheel_rate_rad_s)) * geared * drive.gear_efficiency;
+  return (current_a - idle_current_a(drive, wheel_rate_rad_s, standstill_rad_s)) * geared *
+         drive.gear_efficiency;
+}
+
+double winding_resistance_ohm(const DriveMotor& drive) {
+  if (drive.resistance_ohm) return *drive.resistance_ohm;
+  const double back_emf = drive.torque_constant_nm_per_a * drive.gear_ratio * drive.max_wheel_rate_rad_s;
+  const double left_v = std::max(drive.bus_voltage_v - back_emf, 0.1 * drive.bus_voltage_v);
+  return left_v / (20.0 * std::max(drive.no_load_current_a, 0.01));
 }
 
 bool stalls(const DriveMotor& drive, const MotorState& state) {

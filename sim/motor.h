@@ -20,6 +20,7 @@ struct DriveMotor {
   // gearbox_friction).
   double gear_friction_nm = 0.0;
   double gear_viscous_nms_rad = 0.0;  // at the wheel
+  double rotor_inertia_kg_m2 = 4e-7;  // of the motor's shaft, before the gear; read by the dynamic rung
 
   // Change per kelvin above the reference temperature (effect motor_temperature): the torque constant falls
   // by its share, the winding's resistance rises, all friction falls as lubricant thins.
@@ -52,11 +53,17 @@ struct MotorState {
 
 MotorState motor_state(const DriveMotor& drive, double torque_nm, double wheel_rate_rad_s);
 
-// The inverse: the torque at the wheel that a current at a rate means.
-double torque_of_current_nm(const DriveMotor& drive, double current_a, double wheel_rate_rad_s);
+// The inverse: the torque at the wheel that a current at a rate means. Dry friction comes in over
+// `standstill_rad_s` as tanh(w / standstill) where that is above 0, for motions through rest.
+double torque_of_current_nm(const DriveMotor& drive, double current_a, double wheel_rate_rad_s,
+                            double standstill_rad_s = 0.0);
 
 // True where the torque needs more current or voltage than there is.
 bool stalls(const DriveMotor& drive, const MotorState& state);
+
+// The winding's resistance, ohm; where none is given the one that lets twenty times the no-load current flow
+// at the greatest rate, or at least a tenth of the bus voltage drop: the dynamic rung needs one.
+double winding_resistance_ohm(const DriveMotor& drive);
 
 // The greatest torque at standstill that bus voltage and current limit allow; infinite where neither the
 // resistance nor a limit is given.

@@ -54,10 +54,25 @@ enum class SuspensionType {
 };
 
 // How the wheels hang on the body. Left side given; right mirrored in y. A type reads the pivots it has.
+// What is optional is read by the dynamic rung only; rover_multibody.h says what stands in for it.
 struct Suspension {
   SuspensionType type = SuspensionType::kRockerBogie;
   Eigen::Vector3d rocker_pivot_m = Eigen::Vector3d::Zero();  // rocker-bogie, averaging
   Eigen::Vector3d bogie_pivot_m = Eigen::Vector3d::Zero();   // rocker-bogie
+  // Of the differential: torque on each rocker per sum of the rockers' angles [ROAMS section 2.3].
+  std::optional<double> differential_stiffness_nm_rad = {}, differential_damping_nms_rad = {};
+  // Stops of the joints, either way from their places at rest.
+  std::optional<double> rocker_stop_rad = {}, bogie_stop_rad = {};
+};
+
+// Where the mass is: what the dynamic rung needs besides the whole mass and its centre; rover_multibody.h
+// says what stands in for what is not given.
+struct MassDistribution {
+  std::optional<double> wheel_kg = {};   // each wheel with its motors
+  std::optional<double> rocker_kg = {};  // each
+  std::optional<double> bogie_kg = {};   // each
+  // Of the body without its suspension about its own centre of mass, along x, y, z.
+  std::optional<Eigen::Vector3d> body_inertia_kg_m2 = {};
 };
 
 // A rover on any number of wheels from 3 to kMostWheels: immutable once built, shared by pointer.
@@ -73,9 +88,11 @@ struct RoverModel {
   // (see sliced_wheel.h). Free wheels stay whole.
   int wheel_slices = 1;
   Suspension suspension;
+  MassDistribution masses;
   DriveMotor drive;
-  double belly_clearance_m = 0.3;  // lowest point of the body between the wheels, above level ground
-  double body_length_m = 1.6;      // of the rectangle that must stay on the map and out of keep-outs
+  std::optional<DriveMotor> steering = {};  // of each steerable wheel; nothing: motors like the drive's
+  double belly_clearance_m = 0.3;           // lowest point of the body between the wheels, above level ground
+  double body_length_m = 1.6;               // of the rectangle that must stay on the map and out of keep-outs
   double body_width_m = 1.5;
   double max_tilt_rad = 0.5;
   double cruise_speed_m_s = 0.04;  // of the body, commanded on the straight

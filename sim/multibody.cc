@@ -1,0 +1,177 @@
+#include "sim/multibody.h"
+
+#include <Eigen/Cholesky>
+#include <stdexcept>
+
+namespace slipway::sim {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+Matrix3d cross_matrix(const Vector3d& v) {
+  Matrix3d m;
+  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
+  return m;
+}
+
+// About B's origin, axes of B, of a body whose centre of mass is at c and whose axes are turned by R.
+void set_inertia(const MassProperties& mass, const Vector3d& c, const Matrix3d& inertia, SpatialMatrix& out) {
+  const Matrix3d mc = mass.mass_kg * cross_matrix(c);
+  out.topLeftCorner<3, 3>() = inertia;
+  out.topLeftCorner<3, 3>().noalias() -= mc * cross_matrix(c);
+  out.topRightCorner<3, 3>() = mc;
+  out.bottomLeftCorner<3, 3>() = -mc;
+  out.bottomRightCorner<3, 3>() = mass.mass_kg * Matrix3d::Identity();
+}
+
+SpatialVector motion_cross(const SpatialVector& v, const SpatialVector& m) {
+  SpatialVector out;
+  out.head<3>() = v.head<3>().cross(m.head<3>());
+  out.tail<3>() = v.head<3>().cross(m.tail<3>()) + v.tail<3>().cross(m.head<3>());
+  return out;
+}
+
+SpatialVector force_cross(const SpatialVector& v, const SpatialVector& f) {
+  SpatialVector out;
+  out.head<3>() = v.head<3>().cross(f.head<3>()) + v.tail<3>().cross(f.tail<3>());
+  out.tail<3>() = v.head<3>().cross(f.tail<3>());
+  return out;
+}
+
+}  // namespace
+
+Multibody::Multibody(MassProperties base, std::vector<RevoluteBody> bodies)
+    : base_(std::move(base)), bodies_(std::move(bodies)), mass_kg_(base_.mass_kg) {
+  std::vector<double> carried(bodies_.size(), 0.0);
+  for (int i = joint_count() - 1; i >= 0; --i) {
+    const RevoluteBody& body = bodies_[i];
+    if (body.parent >= i || body.parent < -1)
+      throw std::invalid_argument("Multibody: body " + body.name + " comes before its parent");
+    mass_kg_ += body.mass.mass_kg;
+    carried[i] += body.mass.mass_kg;
+    if (!(carried[i] > 0.0) && !(body.armature_kg_m2 > 0.0))
+      throw std::invalid_argument("Multibody: nothing has mass behind joint " + body.name);
+    if (body.parent >= 0) carried[body.parent] += carried[i];
+  }
+}
+
+MultibodyDynamics::MultibodyDynamics(const Multibody& multibody)
+    : multibody_(multibody), links_(multibody.bodies().size()) {
+  const MassProperties& base = multibody.base();
+  set_inertia(base, base.com_m, base.inertia_kg_m2, base_inertia_);
+}
+
+void MultibodyDynamics::set_state(const Matrix3d& R_MB, const SpatialVector& base, const double* angles,
+                                  const double* rates) {
+  R_MB_ = R_MB;
+  base_velocity_ = base;
+  base_force_.setZero();
+  for (int i = 0; i < multibody_.joint_count(); ++i) {
+    const RevoluteBody& body = multibody_.bodies()[i];
+    Link& link = links_[i];
+    const bool on_base = body.parent < 0;
+    if (on_base) {
+      link.R_Bi.setIdentity();
+      link.pivot = body.pivot_m;
+      link.axis = body.axis;
+    } else {
+      const Link& parent = links_[body.parent];
+      link.R_Bi = parent.R_Bi;
+      link.pivot = parent.pivot + parent.R_Bi * (body.pivot_m - multibody_.bodies()[body.parent].pivot_m);
+      link.axis.noalias() = parent.R_Bi * body.axis;
+    }
+    if (!body.round) link.R_Bi = link.R_Bi * Eigen::AngleAxisd(angles[i], body.axis).toRotationMatrix();
+    link.rate = rates[i];
+    link.subspace << link.axis, link.pivot.cross(link.axis);
+    link.velocity = (on_base ? base_velocity_ : links_[body.parent].velocity) + link.subspace * link.rate;
+    link.coriolis = motion_cross(link.velocity, link.subspace * link.rate);
+    if (body.mass.mass_kg > 0.0) {
+      const Vector3d c = link.pivot + link.R_Bi * (body.mass.com_m - body.pivot_m);
+      const Matrix3d turned = link.R_Bi * body.mass.inertia_kg_m2 * link.R_Bi.transpose();
+      set_inertia(body.mass, c, turned, link.inertia);
+    } else {
+      link.inertia.setZero();
+    }
+    link.force.setZero();
+    link.torque = 0.0;
+  }
+}
+
+Vector3d MultibodyDynamics::point_velocity(int body, const Vector3d& p_B) const {
+  const SpatialVector& v = body < 0 ? base_velocity_ : links_[body].velocity;
+  return v.tail<3>() + v.head<3>().cross(p_B);
+}
+
+void MultibodyDynamics::add_force(int body, const Vector3d& p_B, const Vector3d& force,
+                                  const Vector3d& moment) {
+  SpatialVector& sum = body < 0 ? base_force_ : links_[body].force;
+  sum.head<3>() += p_B.cross(force) + moment;
+  sum.tail<3>() += force;
+}
+
+void MultibodyDynamics::accelerations(const Vector3d& gravity_M, SpatialVector& base,
+                                      double* joint_accelerations) {
+  SpatialMatrix base_articulated = base_inertia_;
+  SpatialVector base_bias = force_cross(base_velocity_, base_inertia_ * base_velocity_) - base_force_;
+  for (Link& link : links_) {
+    link.articulated = link.inertia;
+    link.bias = force_cross(link.velocity, link.inertia * link.velocity) - link.force;
+  }
+  for (int i = multibody_.joint_count() - 1; i >= 0; --i) {
+    const RevoluteBody& body = multibody_.bodies()[i];
+    Link& link = links_[i];
+    link.u_vector.noalias() = link.articulated * link.subspace;
+    link.per_d = 1.0 / (link.subspace.dot(link.u_vector) + body.armature_kg_m2);
+    link.u = link.torque - link.subspace.dot(link.bias);
+    link.articulated.noalias() -= (link.u_vector * link.per_d) * link.u_vector.transpose();
+    link.bias.noalias() += link.articulated * link.coriolis;
+    link.bias += link.u_vector * (link.u * link.per_d);
+    if (body.parent < 0) {
+      base_articulated += link.articulated;
+      base_bias += link.bias;
+    } else {
+      links_[body.parent].articulated += link.articulated;
+      links_[body.parent].bias += link.bias;
+    }
+  }
+  // Without gravity first: the whole tree falls alike, so that the joints see none of it.
+  SpatialVector seen = -base_articulated.llt().solve(base_bias);
+  for (int i = 0; i < multibody_.joint_count(); ++i) {
+    const int parent = multibody_.bodies()[i].parent;
+    Link& link = links_[i];
+    // The bias has done its work: here it carries the acceleration outwards.
+    link.bias = (parent < 0 ? seen : links_[parent].bias) + link.coriolis;
+    joint_accelerations[i] = (link.u - link.u_vector.dot(link.bias)) * link.per_d;
+    link.bias += link.subspace * joint_accelerations[i];
+  }
+  base = seen;
+  base.tail<3>() += R_MB_.transpose() * gravity_M;
+}
+
+double MultibodyDynamics::kinetic_energy_j() const {
+  double twice = base_velocity_.dot(base_inertia_ * base_velocity_);
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    const Link& link = links_[i];
+    twice += link.velocity.dot(link.inertia * link.velocity) +
+             multibody_.bodies()[i].armature_kg_m2 * link.rate * link.rate;
+  }
+  return 0.5 * twice;
+}
+
+SpatialVector MultibodyDynamics::momentum() const {
+  SpatialVector sum = base_inertia_ * base_velocity_;
+  for (const Link& link : links_) sum += link.inertia * link.velocity;
+  return sum;
+}
+
+Vector3d MultibodyDynamics::com_B() const {
+  Vector3d sum = multibody_.base().mass_kg * multibody_.base().com_m;
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    const RevoluteBody& body = multibody_.bodies()[i];
+    sum += body.mass.mass_kg * (links_[i].pivot + links_[i].R_Bi * (body.mass.com_m - body.pivot_m));
+  }
+  return sum / multibody_.mass_kg();
+}
+
+}  // namespace slipway::sim
