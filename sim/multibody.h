@@ -21,7 +21,8 @@ struct RevoluteBody {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitY();    // unit, where all joints are at 0, frame B
   MassProperties mass = {};
   double armature_kg_m2 = 0.0;  // of a motor's rotor about this joint, gear ratio squared times its own
-  bool round = false;           // looks alike at every angle: a wheel; its angle is never read
+  bool round = false;  // looks alike at every angle: a wheel, centred on its axis, with one moment of
+                       // inertia about all that are square to it; its angle is never read
 };
 
 // A floating base with a tree of bodies on revolute joints: immutable, shared by pointer. The base's frame is
@@ -95,12 +96,21 @@ class MultibodyDynamics {
   const SpatialVector& base_velocity() const { return base_velocity_; }
 
  private:
+  // Of one body, in axes of B.
+  struct RigidInertia {
+    double mass_kg = 0.0;
+    Eigen::Vector3d com = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d about_com = Eigen::Matrix3d::Zero();
+
+    SpatialVector momentum(const SpatialVector& velocity) const;
+    void write_to(SpatialMatrix& about_origin) const;
+  };
   struct Link {
     Eigen::Matrix3d R_Bi;
     Eigen::Vector3d pivot, axis;
     SpatialVector velocity, subspace, coriolis, force;
     double rate = 0.0, torque = 0.0;
-    SpatialMatrix inertia;
+    RigidInertia inertia;
     SpatialMatrix articulated;
     SpatialVector bias, u_vector;
     double per_d = 0.0, u = 0.0;
@@ -110,7 +120,7 @@ class MultibodyDynamics {
   std::vector<Link> links_;
   Eigen::Matrix3d R_MB_ = Eigen::Matrix3d::Identity();
   SpatialVector base_velocity_ = SpatialVector::Zero(), base_force_ = SpatialVector::Zero();
-  SpatialMatrix base_inertia_;
+  RigidInertia base_inertia_;
 };
 
 }  // namespace slipway::sim
