@@ -23,6 +23,16 @@ SpatialVector force_cross(const SpatialVector& v, const SpatialVector& f) {
   return out;
 }
 
+// Lies with its centre on its axis and has one moment of inertia about all axes square to it.
+bool is_round(const RevoluteBody& body) {
+  const MassProperties& mass = body.mass;
+  const Vector3d& a = body.axis;
+  const double along = a.dot(mass.inertia_kg_m2 * a), across = 0.5 * (mass.inertia_kg_m2.trace() - along);
+  const Matrix3d round = across * Matrix3d::Identity() + (along - across) * a * a.transpose();
+  return (mass.com_m - body.pivot_m).cross(a).norm() <= 1e-9 * (1.0 + body.pivot_m.norm()) &&
+         (mass.inertia_kg_m2 - round).norm() <= 1e-9 * round.norm();
+}
+
 }  // namespace
 
 Multibody::Multibody(MassProperties base, std::vector<RevoluteBody> bodies)
@@ -32,6 +42,8 @@ Multibody::Multibody(MassProperties base, std::vector<RevoluteBody> bodies)
     const RevoluteBody& body = bodies_[i];
     if (body.parent >= i || body.parent < -1)
       throw std::invalid_argument("Multibody: body " + body.name + " comes before its parent");
+    if (body.round && !is_round(body))
+      throw std::invalid_argument("Multibody: body " + body.name + " is not round");
     mass_kg_ += body.mass.mass_kg;
     carried[i] += body.mass.mass_kg;
     if (!(carried[i] > 0.0) && !(body.armature_kg_m2 > 0.0))
@@ -64,8 +76,12 @@ MultibodyDynamics::MultibodyDynamics(const Multibody& multibody)
     : multibody_(multibody),
       links_(multibody.bodies().size()),
       base_inertia_{multibody.base().mass_kg, multibody.base().com_m, multibody.base().inertia_kg_m2} {
-  for (std::size_t i = 0; i < links_.size(); ++i)
-    links_[i].inertia.mass_kg = multibody.bodies()[i].mass.mass_kg;
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    const RevoluteBody& body = multibody.bodies()[i];
+    links_[i].inertia.mass_kg = body.mass.mass_kg;
+    links_[i].along = body.axis.dot(body.mass.inertia_kg_m2 * body.axis);
+    links_[i].across = 0.5 * (body.mass.inertia_kg_m2.trace() - links_[i].along);
+  }
 }
 
 void MultibodyDynamics::set_state(const Matrix3d& R_MB, const SpatialVector& base, const double* angles,
@@ -94,7 +110,12 @@ void MultibodyDynamics::set_state(const Matrix3d& R_MB, const SpatialVector& bas
     link.coriolis = motion_cross(link.velocity, link.subspace * link.rate);
     if (body.mass.mass_kg > 0.0) {
       link.inertia.com = link.pivot + link.R_Bi * (body.mass.com_m - body.pivot_m);
-      link.inertia.about_com = link.R_Bi * body.mass.inertia_kg_m2 * link.R_Bi.transpose();
+      if (body.round) {
+        link.inertia.about_com = ((link.along - link.across) * link.axis) * link.axis.transpose();
+        link.inertia.about_com.diagonal().array() += link.across;
+      } else {
+        link.inertia.about_com = link.R_Bi * body.mass.inertia_kg_m2 * link.R_Bi.transpose();
+      }
     }
     link.force.setZero();
     link.torque = 0.0;
@@ -157,8 +178,8 @@ double MultibodyDynamics::kinetic_energy_j() const {
   double twice = base_velocity_.dot(base_inertia_.momentum(base_velocity_));
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const Link& link = links_[i];
-    twice += link.velocity.dot(link.inertia.momentum(link.velocity)) +
-             multibody_.bodies()[i].armature_kg_m2 * link.rate * link.rate;
+    twice += link.velocity.dot(link.inertia.momentum(link.velocity));
+    if (link.rate != 0.0) twice += multibody_.bodies()[i].armature_kg_m2 * link.rate * link.rate;
   }
   return 0.5 * twice;
 }
