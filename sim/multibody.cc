@@ -9,18 +9,14 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-SpatialVector motion_cross(const SpatialVector& v, const SpatialVector& m) {
-  SpatialVector out;
-  out.head<3>() = v.head<3>().cross(m.head<3>());
-  out.tail<3>() = v.head<3>().cross(m.tail<3>()) + v.tail<3>().cross(m.head<3>());
-  return out;
-}
-
-SpatialVector force_cross(const SpatialVector& v, const SpatialVector& f) {
-  SpatialVector out;
-  out.head<3>() = v.head<3>().cross(f.head<3>()) + v.tail<3>().cross(f.tail<3>());
-  out.tail<3>() = v.head<3>().cross(f.tail<3>());
-  return out;
+// V x* momentum less what acts from outside.
+SpatialVector bias_force(const SpatialVector& velocity, const SpatialVector& momentum,
+                         const SpatialVector& outside) {
+  const Vector3d omega = velocity.head<3>(), v = velocity.tail<3>();
+  const Vector3d angular = momentum.head<3>(), linear = momentum.tail<3>();
+  SpatialVector bias;
+  bias << omega.cross(angular) + v.cross(linear) - outside.head<3>(), omega.cross(linear) - outside.tail<3>();
+  return bias;
 }
 
 // Lies with its centre on its axis and has one moment of inertia about all axes square to it.
@@ -105,9 +101,14 @@ void MultibodyDynamics::set_state(const Matrix3d& R_MB, const SpatialVector& bas
     }
     if (!body.round) link.R_Bi *= Eigen::AngleAxisd(angles[i], body.axis).toRotationMatrix();
     link.rate = rates[i];
-    link.subspace << link.axis, link.pivot.cross(link.axis);
-    link.velocity = (on_base ? base_velocity_ : links_[body.parent].velocity) + link.subspace * link.rate;
-    link.coriolis = motion_cross(link.velocity, link.subspace * link.rate);
+    const Vector3d moment = link.pivot.cross(link.axis);
+    link.subspace << link.axis, moment;
+    // V_p x S qd, as S x S is 0; by halves, which are in registers.
+    const SpatialVector& carried = on_base ? base_velocity_ : links_[body.parent].velocity;
+    const Vector3d omega = carried.head<3>(), v = carried.tail<3>();
+    const Vector3d turning = link.rate * link.axis, moving = link.rate * moment;
+    link.velocity << omega + turning, v + moving;
+    link.coriolis << omega.cross(turning), omega.cross(moving) + v.cross(turning);
     if (body.mass.mass_kg > 0.0) {
       link.inertia.com = link.pivot + link.R_Bi * (body.mass.com_m - body.pivot_m);
       if (body.round) {
@@ -138,10 +139,10 @@ void MultibodyDynamics::accelerations(const Vector3d& gravity_M, SpatialVector& 
                                       double* joint_accelerations) {
   SpatialMatrix base_articulated;
   base_inertia_.write_to(base_articulated);
-  SpatialVector base_bias = force_cross(base_velocity_, base_inertia_.momentum(base_velocity_)) - base_force_;
+  SpatialVector base_bias = bias_force(base_velocity_, base_inertia_.momentum(base_velocity_), base_force_);
   for (Link& link : links_) {
     link.inertia.write_to(link.articulated);
-    link.bias = force_cross(link.velocity, link.inertia.momentum(link.velocity)) - link.force;
+    link.bias = bias_force(link.velocity, link.inertia.momentum(link.velocity), link.force);
   }
   for (int i = multibody_.joint_count() - 1; i >= 0; --i) {
     const RevoluteBody& body = multibody_.bodies()[i];
