@@ -33,7 +33,8 @@ struct LegPlace {
   double heading_rad = 0.0;  // of B less the leg's there, wrapped
 };
 
-// turned_rad: the heading's change since the leg's start, unwrapped; read when turning in place.
+// turned_rad: the heading's change since the leg's start, unwrapped; read when turning in place, and to tell
+// an arc's full turns apart. A leg of no length or turn is done: its share is 1.
 LegPlace place_on_leg(const DriveLeg& leg, const Pose2& start, const Pose2& now, double turned_rad);
 
 }  // namespace slipway::sim

@@ -41,9 +41,8 @@ struct DynamicOptions {
   // Points under each wheel, along its travel, at which the ground is looked at: 1 is what the other rungs
   // do.
   int contact_points = 3;
-  bool keep_ruts = false;     // all of them, for a deformed terrain; otherwise those near the rover
-  bool from_standing = true;  // false: starts at the commanded rates, without ramps at either end
-  double give_up_s = 60.0;    // immobilised: in this time less than kLeastProgress of what was commanded
+  bool keep_ruts = false;   // all of them, for a deformed terrain; otherwise those near the rover
+  double give_up_s = 60.0;  // immobilised: in this time less than kLeastProgress of what was commanded
   std::optional<double> motor_temp_c = {};
 };
 constexpr double kLeastProgress = 0.02;

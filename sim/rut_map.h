@@ -16,13 +16,16 @@ class RutMap {
   explicit RutMap(double cell_m = 0.02);
 
   struct Rut {
-    double depth_m = 0.0;  // under load, below the undisturbed surface
+    double depth_m = 0.0;  // under load, below the undisturbed surface; 0 where nothing has driven
     double share = 0.0;    // of the ground there that has been driven on, in [0, 1]
   };
-  // Bilinear between cells.
+  // Both bilinear between cells: where the driven part alone is asked for, its depth is depth_m / share.
   Rut at(double x_m, double y_m) const;
 
-  // A wheel of this width went from one place to another, pressed to this depth.
+  // A wheel of this width went from one place to another, pressed to this depth: cells whose centres it
+  // passed over and, so that no gaps stay between steps around a bend, half a cell behind. Nothing without
+  // way or depth; its direction is the wheel's own, so steps much shorter than a cell are better given
+  // together.
   void press(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double width_m, double depth_m);
 
   // Forgets tiles that lie wholly farther than this from the place: keeps memory flat on a long drive.
@@ -41,9 +44,10 @@ class RutMap {
   struct Tile {
     float depth_m[kTileCells * kTileCells] = {};  // 0: never pressed
   };
-  const float* find(std::int64_t column, std::int64_t row) const;
+  float depth(std::int64_t column, std::int64_t row) const;
+  Eigen::Vector2d centre(std::int64_t column, std::int64_t row) const;
 
-  double cell_m_;
+  double cell_m_, per_cell_;
   std::unordered_map<std::uint64_t, Tile> tiles_;
 };
 

@@ -1,0 +1,171 @@
+#include "sim/cvode_integrator.h"
+
+#include <cvode/cvode.h>
+#include <fmt/format.h>
+#include <nvector/nvector_serial.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
+#include <algorithm>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <sundials/sundials_context.hpp>
+
+namespace slipway::sim {
+
+struct CvodeIntegrator::Solver {
+  StiffSystem system;
+  sundials::Context context;
+  N_Vector y = nullptr, absolute = nullptr;
+  SUNMatrix matrix = nullptr;
+  SUNLinearSolver linear = nullptr;
+  void* cvode = nullptr;
+  std::vector<int> directions;
+  std::string message;  // CVODE's last words
+  double t = 0.0;
+  Work before;  // of runs before the last restart
+
+  ~Solver() {
+    CVodeFree(&cvode);
+    SUNLinSolFree(linear);
+    SUNMatDestroy(matrix);
+    N_VDestroy(absolute);
+    N_VDestroy(y);
+  }
+};
+
+namespace {
+
+// Nothing may throw across a callback of a C library.
+template <class Call>
+int guarded(Call call) noexcept {
+  try {
+    return call() ? 0 : 1;
+  } catch (...) {
+    return -1;
+  }
+}
+
+int derivative(realtype t, N_Vector y, N_Vector rate, void* data) {
+  auto& system = *static_cast<StiffSystem*>(data);
+  return guarded([&] { return system.derivative(t, NV_DATA_S(y), NV_DATA_S(rate)); });
+}
+
+int events(realtype t, N_Vector y, realtype* value, void* data) {
+  auto& system = *static_cast<StiffSystem*>(data);
+  return guarded([&] { return system.events(t, NV_DATA_S(y), value); });
+}
+
+void keep_message(int, const char*, const char*, char* message, void* data) {
+  static_cast<std::string*>(data)->assign(message);
+}
+
+void require(int flag, const char* what) {
+  if (flag != CV_SUCCESS) throw std::runtime_error(fmt::format("SUNDIALS: {} failed with {}", what, flag));
+}
+
+std::string reason_of(int flag) {
+  switch (flag) {
+    case CV_TOO_MUCH_ACC:
+      return "the asked accuracy is beyond the machine's";
+    case CV_ERR_FAILURE:
+      return "the step became too short for the asked accuracy";
+    case CV_CONV_FAILURE:
+      return "the step's equations could not be solved, however short the step";
+    case CV_RHSFUNC_FAIL:
+    case CV_FIRST_RHSFUNC_ERR:
+    case CV_REPTD_RHSFUNC_ERR:
+    case CV_UNREC_RHSFUNC_ERR:
+    case CV_RTFUNC_FAIL:
+      return "the motion left what the model knows";
+    default:
+      return fmt::format("CVODE ended with {}", flag);
+  }
+}
+
+}  // namespace
+
+CvodeIntegrator::CvodeIntegrator(StiffSystem system, double relative_tolerance, std::vector<double> absolute,
+                                 double longest_step)
+    : solver_(std::make_unique<Solver>()) {
+  Solver& s = *solver_;
+  s.system = std::move(system);
+  s.y = N_VNew_Serial(s.system.size, s.context);
+  s.absolute = N_VNew_Serial(s.system.size, s.context);
+  s.matrix = SUNDenseMatrix(s.system.size, s.system.size, s.context);
+  if (!s.y || !s.absolute || !s.matrix) throw std::bad_alloc();
+  s.linear = SUNLinSol_Dense(s.y, s.matrix, s.context);
+  s.cvode = CVodeCreate(CV_BDF, s.context);
+  if (!s.linear || !s.cvode) throw std::bad_alloc();
+  N_VConst(0.0, s.y);
+  std::copy(absolute.begin(), absolute.end(), NV_DATA_S(s.absolute));
+  s.directions.resize(s.system.event_count);
+  require(CVodeSetErrHandlerFn(s.cvode, keep_message, &s.message), "error handler");
+  require(CVodeInit(s.cvode, derivative, 0.0, s.y), "init");
+  require(CVodeSVtolerances(s.cvode, relative_tolerance, s.absolute), "tolerances");
+  require(CVodeSetUserData(s.cvode, &s.system), "user data");
+  require(CVodeSetLinearSolver(s.cvode, s.linear, s.matrix), "linear solver");
+  require(CVodeSetMaxStep(s.cvode, longest_step), "longest step");
+  require(CVodeSetMaxConvFails(s.cvode, 30), "convergence failures");
+  require(CVodeSetMaxErrTestFails(s.cvode, 30), "error test failures");
+  if (s.system.event_count > 0) {
+    require(CVodeRootInit(s.cvode, s.system.event_count, events), "events");
+    require(CVodeSetNoInactiveRootWarn(s.cvode), "events");
+  }
+}
+
+CvodeIntegrator::~CvodeIntegrator() = default;
+
+void CvodeIntegrator::start(double t, std::span<const double> y) {
+  restart(t, y);
+}
+
+void CvodeIntegrator::restart(double t, std::span<const double> y) {
+  Solver& s = *solver_;
+  s.before = work();
+  std::copy(y.begin(), y.end(), NV_DATA_S(s.y));
+  s.t = t;
+  require(CVodeReInit(s.cvode, t, s.y), "restart");
+}
+
+Result<CvodeIntegrator::Step> CvodeIntegrator::step(double t_stop) {
+  Solver& s = *solver_;
+  require(CVodeSetStopTime(s.cvode, t_stop), "stop time");
+  const int flag = CVode(s.cvode, t_stop, s.y, &s.t, CV_ONE_STEP);
+  if (flag < 0) return fail(ErrorCode::kNotConverged, fmt::format("{} at {:.3f} s", reason_of(flag), s.t));
+  if (flag == CV_ROOT_RETURN) CVodeGetRootInfo(s.cvode, s.directions.data());
+  return Step{.t = s.t, .event = flag == CV_ROOT_RETURN};
+}
+
+std::span<const double> CvodeIntegrator::state() const {
+  return {NV_DATA_S(solver_->y), static_cast<std::size_t>(solver_->system.size)};
+}
+
+void CvodeIntegrator::interpolate(double t, std::span<double> y) const {
+  N_Vector at = N_VMake_Serial(solver_->system.size, y.data(), solver_->context);
+  const int flag = CVodeGetDky(solver_->cvode, t, 0, at);
+  N_VDestroy(at);
+  require(flag, "interpolation");
+}
+
+std::span<const int> CvodeIntegrator::event_directions() const {
+  return solver_->directions;
+}
+
+CvodeIntegrator::Work CvodeIntegrator::work() const {
+  Work now = solver_->before;
+  long count = 0;
+  const auto add = [&](int (*get)(void*, long*), long& to) {
+    if (get(solver_->cvode, &count) == CV_SUCCESS) to += count;
+  };
+  add(CVodeGetNumSteps, now.steps);
+  add(CVodeGetNumRhsEvals, now.evaluations);
+  add(CVodeGetNumLinRhsEvals, now.evaluations);
+  add(CVodeGetNumJacEvals, now.jacobians);
+  add(CVodeGetNumErrTestFails, now.error_test_failures);
+  add(CVodeGetNumNonlinSolvConvFails, now.solver_failures);
+  return now;
+}
+
+}  // namespace slipway::sim

@@ -1,0 +1,149 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "sim/dynamic_drive.h"
+#include "sim/leg_driver.h"
+#include "sim/rover_multibody.h"
+#include "sim/wheel_contact.h"
+
+namespace slipway::sim {
+
+// clang-format off
+// The rover in motion as a system of first order, y:
+//
+//   p_MB (3), q_MB (w, x, y, z)                    q' = q (0, omega) / 2 + (1 - |q|^2) q
+//   angles of rockers, bogies, steerings           in the tree's order
+//   omega, v of B's origin (axes of B)             multibody.h
+//   rates of all joints, wheels too                in the tree's order
+//   slip states (x, y) of each wheel               wheel_contact.h
+//   integral voltage of each wheel's rate control
+//
+// Internal constraints [ROAMS section 2.3]: the differential's torque on both rockers -(k e + c e'), e the sum of
+// their angles; stops by Hunt and Crossley, k d^(3/2) (1 + 3/2 c d'), d the angle beyond the stop.
+//
+// Drive motors [ROAMS section 2.4]: V = k_t N w_told + k_p e + V_i, V_i' = k_i e + (V_used - V) / T_c, e = w_told -
+// w, V_used within the bus voltage and the current limit; current and torque as in motor.h. The gains put both
+// poles of the free wheel at kControl_rad_s. Steering motors: k_t N a'_told + k_p (a_told - a) - k_d (a' - a'_told).
+// Soil does not resist steering: a point on the steering's axis has no arm.
+//
+// Not modelled: a body that touches the ground (its clearance is the quasi-static rung's to report), inductance,
+// the legs' elasticity.
+// clang-format on
+class RoverDynamics {
+ public:
+  static constexpr double kControl_rad_s = 8.0;
+
+  // All must outlive it.
+  RoverDynamics(const RoverModel& rover, double gravity_m_s2, const Ground& ground, const DriveSoils& soils,
+                const DynamicOptions& options);
+
+  int size() const { return size_; }
+  // Absolute tolerances that go with a relative one.
+  std::vector<double> tolerances(double relative) const;
+  // At rest as settle() leaves it, sunk under equal loads.
+  std::vector<double> at_rest(const Stance& stance) const;
+
+  // Nothing told: wheels halted, steered as they are.
+  void halt(const PerWheel<double>& steered_rad);
+  void follow(const LegDriver* driver, const Pose2& leg_start);  // must stay where it is
+  const LegDriver* driver() const { return driver_; }
+
+  // False off the ground: see lost_ground().
+  bool derivative(double t, const double* y, double* rate);
+  // Where the last refusal was.
+  const std::optional<Eigen::Vector2d>& lost_ground() const { return lost_ground_; }
+
+  // Soils under the wheels, what they leave behind, headings unwrapped: after each step that counts.
+  void after_step(double t, const double* y);
+
+  // Events, of order one, zero where they happen; in this order: leg's goal, tilt, then for each wheel depth
+  // of the axle, lift-off, stall; then stops of the joints.
+  int event_count() const { return 2 + 3 * wheels() + joint_stops(); }
+  bool events(double t, const double* y, double* value);
+
+  // At a state; found by a new evaluation.
+  DriveSample sample(double t, const double* y);
+  Pose2 pose(const double* y) const;  // yaw unwrapped from the last after_step()
+  double tilt_rad(const double* y) const;
+  double speed_m_s(const double* y) const;  // of B's origin
+  double fastest_wheel_rad_s(const double* y) const;
+  PerWheel<double> steered_rad(const double* y) const;
+  LegPlace place(const double* y) const;
+  // Since the start, integrated by after_step().
+  double energy_j() const { return energy_j_; }
+  RutMap& ruts() { return ruts_; }
+  int wheels() const { return static_cast<int>(rover_.wheels.size()); }
+  // Kinetic and potential energy of the bodies, J: for tests of drift.
+  double mechanical_energy_j(const double* y);
+
+ private:
+  struct Control {
+    double voltage_v = 0.0, unclipped_v = 0.0, current_a = 0.0, torque_nm = 0.0, told_rad_s = 0.0;
+  };
+  struct MotorGains {
+    double proportional = 0.0, integral = 0.0, damping = 0.0;
+  };
+  // What a wheel has left behind but is still near to.
+  struct Trail {
+    std::vector<Eigen::Vector3d> points;  // x, y, depth; oldest first
+  };
+
+  int joints() const { return bodies_.tree.joint_count(); }
+  int joint_stops() const;
+  void lay_out();
+  void set_gains();
+  void unpack(const double* y);
+  bool find_contacts(const double* y);
+  void find_kinematics(const double* y);
+  void add_suspension_torques();
+  Control drive_control(std::size_t wheel, const WheelCommand& told, double rate, double integral_v) const;
+  void add_steering_torque(std::size_t wheel, const WheelCommand& told, double told_rate);
+  Eigen::Vector3d gravity_M() const;
+  void set_told(double t, const double* y);
+  void leave_ruts(const double* y);
+
+  const RoverModel& rover_;
+  double gravity_m_s2_;
+  const Ground& ground_;
+  const DriveSoils& soils_;
+  DynamicOptions options_;
+  DriveMotor motor_, steering_motor_;
+  RoverMultibody bodies_;
+  MultibodyDynamics dynamics_;
+  WheelContacts contacts_;
+  RutMap ruts_;
+  double standstill_rad_s_;
+  MotorGains drive_gains_, steering_gains_;
+
+  int size_ = 0, angles_at_ = 7, twist_at_ = 0, rates_at_ = 0, slips_at_ = 0, integrals_at_ = 0;
+  std::vector<int> angle_state_;  // of each joint in y, -1 for wheels
+
+  const LegDriver* driver_ = nullptr;
+  Pose2 leg_start_;
+  PerWheel<double> halted_rad_;
+  PerWheel<WheelCommand> told_;
+
+  // Of the state last unpacked.
+  Eigen::Vector3d p_MB_;
+  Eigen::Matrix3d R_MB_ = Eigen::Matrix3d::Identity();
+  std::vector<double> angles_, rates_, accelerations_;
+  PerWheel<WheelKinematics> kinematics_;
+  PerWheel<ContactState> contact_;
+  PerWheel<Control> control_;
+  SpatialVector base_rate_ = SpatialVector::Zero();
+  std::optional<Eigen::Vector2d> lost_ground_;
+
+  // Kept from step to step.
+  double yaw_rad_ = 0.0, last_t_ = 0.0, last_power_w_ = 0.0, energy_j_ = 0.0;
+  bool stepped_ = false;
+  PerWheel<std::optional<std::size_t>> soil_;
+  PerWheel<bool> has_soil_;
+  PerWheel<double> turned_rad_, last_rate_rad_s_;
+  PerWheel<Trail> trails_;
+};
+
+}  // namespace slipway::sim
