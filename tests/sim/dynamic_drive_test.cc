@@ -122,11 +122,11 @@ INSTANTIATE_TEST_SUITE_P(
     Motions, SlowLimit,
     testing::Values(Motion{"level", 0.0, 0.0, straight(1.0)}, Motion{"up", 15.0, 0.0, straight(1.0)},
                     Motion{"up_fast", 15.0, 0.0, straight(1.0, 0.05)},
-                    Motion{"up_slow", 15.0, 0.0, straight(0.2, 0.005)},
+                    Motion{"up_slow", 15.0, 0.0, straight(0.7, 0.01)},
                     Motion{"down", 15.0, 180.0, straight(1.0)},
                     Motion{"backwards_up", 15.0, 180.0, straight(1.0, -0.04)},
                     Motion{"across", 10.0, 90.0, straight(1.0)}, Motion{"askew", 10.0, 40.0, straight(1.0)},
-                    Motion{"arc", 0.0, 0.0, arc(1.0, 0.4)}, Motion{"turn", 0.0, 0.0, turn(0.6)}),
+                    Motion{"arc", 0.0, 0.0, arc(2.0, 0.4)}, Motion{"turn", 0.0, 0.0, turn(2.0)}),
     [](const auto& named) { return std::string(named.param.name); });
 
 TEST(DynamicDrive, RepeatsToTheBit) {
