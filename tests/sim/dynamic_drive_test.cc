@@ -354,7 +354,7 @@ TEST(DynamicDrive, RefusesWhatItCannotStartFrom) {
 }
 
 TEST(DynamicDrive, SaysWhereARoverDoesNotRest) {
-  const Driven driven = drive(six_wheeler(), plane(rad_from_deg(40.0)), loose_sand(), 0.0, {straight(1.0)});
+  const Driven driven = drive(six_wheeler(), plane(rad_from_deg(50.0)), loose_sand(), 0.0, {straight(1.0)});
   EXPECT_EQ(driven.drive.end, DriveEnd::kSlid);
   EXPECT_NE(driven.drive.reason.find("does not come to rest"), std::string::npos);
 }
