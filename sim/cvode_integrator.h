@@ -53,8 +53,9 @@ class CvodeIntegrator {
   };
   Work work() const;  // since construction, restarts included
 
- private:
   struct Solver;
+
+ private:
   std::unique_ptr<Solver> solver_;
 };
 
