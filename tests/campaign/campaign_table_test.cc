@@ -153,7 +153,7 @@ TEST(CampaignTable, ShippedTablesAreWithoutFault) {
   // 10 and 6 tests five times on the level, 22 and 18 three times on each of three slopes.
   EXPECT_EQ(drives["fido_table_1"], 5U * (10U + 6U) + 3U * 3U * (22U + 18U));
   EXPECT_EQ(drives["opportunity_sol_2143"], 1U);
-  EXPECT_EQ(drives["spirit_dead_wheel"], 2U);
+  EXPECT_EQ(drives["spirit_dead_wheel"], 4U);
 }
 
 TEST(CampaignTable, UnknownNamesListThoseThereAre) {
