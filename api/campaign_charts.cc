@@ -136,8 +136,8 @@ std::string draw_time_history(const std::string& title, const sim::RoverModel& r
                               std::span<const sim::SensorReading> readings) {
   using Value = std::function<double(const sim::SensorReading&)>;
   constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-  const auto series = [&](std::string name, std::size_t colour, const Value& value) {
-    ChartSeries s{.name = std::move(name), .mark = ChartMark::kLine, .x = {}, .y = {}, .colour = colour};
+  const auto series = [&](std::string name, ChartMark mark, std::size_t colour, const Value& value) {
+    ChartSeries s{.name = std::move(name), .mark = mark, .x = {}, .y = {}, .colour = colour};
     for (const sim::SensorReading& reading : readings) {
       const double y = value(reading);
       // A reading that is missing does not part the line of those that are there.
@@ -153,24 +153,35 @@ std::string draw_time_history(const std::string& title, const sim::RoverModel& r
     c.y.title = y_title;
     return c;
   };
-  std::vector<Chart> charts{chart("slip"), chart("pitch and roll, deg"), chart("sinkage, mm"),
-                            chart("motor current, A"), chart("torque, N m")};
-  charts[0].series.push_back(series("rover", 6, [](const auto& r) { return r.sample.slip_ratio; }));
-  charts[1].series.push_back(series("pitch", 0, [=](const auto& r) {
-    return r.has_attitude ? deg_from_rad(r.sample.attitude.pitch_rad) : kNothing;
-  }));
-  charts[1].series.push_back(series("roll", 1, [=](const auto& r) {
-    return r.has_attitude ? deg_from_rad(r.sample.attitude.roll_rad) : kNothing;
-  }));
-  for (std::size_t k = 0; k < rover.wheels.size(); ++k) {
-    const std::string& name = rover.wheels[k].name;
-    charts[0].series.push_back(series(name, k, [=](const auto& r) { return r.sample.wheels[k].slip_ratio; }));
-    charts[2].series.push_back(series(name, k, [=](const auto& r) {
-      return r.has_sinkage ? 1e3 * r.sample.wheels[k].sinkage_m : kNothing;
+  std::vector<Chart> charts{chart("slip"),        chart("attitude, deg"),
+                            chart("sinkage, mm"), chart("motor current, A"),
+                            chart("torque, N m"), chart("load, N")};
+  charts[0].series.push_back(
+      series("rover", ChartMark::kLine, 6, [](const auto& r) { return r.sample.slip_ratio; }));
+  const auto add_angle = [&](std::string name, ChartMark mark, const auto& angle_rad) {
+    charts[1].series.push_back(series(std::move(name), mark, 6, [&](const auto& r) {
+      return r.has_attitude ? deg_from_rad(angle_rad(r.sample.attitude)) : kNothing;
     }));
-    charts[3].series.push_back(series(
-        name, k, [=](const auto& r) { return r.has_current ? r.sample.wheels[k].current_a : kNothing; }));
-    charts[4].series.push_back(series(name, k, [=](const auto& r) { return r.sample.wheels[k].torque_nm; }));
+  };
+  add_angle("pitch", ChartMark::kLine, [](const Attitude& a) { return a.pitch_rad; });
+  add_angle("roll", ChartMark::kDashedLine, [](const Attitude& a) { return a.roll_rad; });
+  double before_rad = kNothing;
+  for (const sim::SensorReading& reading : readings)
+    if (reading.has_attitude && std::isnan(before_rad)) before_rad = reading.sample.attitude.yaw_rad;
+  add_angle("yaw since the start", ChartMark::kDots,
+            [=](const Attitude& a) { return a.yaw_rad - before_rad; });
+  for (std::size_t k = 0; k < rover.wheels.size(); ++k) {
+    // Wheels of an axle often do the same: dashes let the one below be seen.
+    const bool right = rover.wheels[k].position_m.y() < 0.0;
+    const auto add = [&](std::size_t panel, const Value& value) {
+      charts[panel].series.push_back(
+          series(rover.wheels[k].name, right ? ChartMark::kDashedLine : ChartMark::kLine, k, value));
+    };
+    add(0, [=](const auto& r) { return r.sample.wheels[k].slip_ratio; });
+    add(2, [=](const auto& r) { return r.has_sinkage ? 1e3 * r.sample.wheels[k].sinkage_m : kNothing; });
+    add(3, [=](const auto& r) { return r.has_current ? r.sample.wheels[k].current_a : kNothing; });
+    add(4, [=](const auto& r) { return r.sample.wheels[k].torque_nm; });
+    add(5, [=](const auto& r) { return r.sample.wheels[k].load_n; });
   }
   return draw_charts(title, charts);
 }

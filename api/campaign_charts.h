@@ -23,7 +23,8 @@ std::string draw_final_poses(const campaign::CampaignTable& table,
                              const std::map<std::string, campaign::DriveRecord>& records);
 constexpr std::size_t kMostPosePanels = 12;
 
-// One drive over time: slip, pitch and roll, and for each wheel sinkage and current.
+// One drive over time: slip, attitude, and for each wheel sinkage, current, torque and load; those of wheels
+// on the right are dashed.
 std::string draw_time_history(const std::string& title, const sim::RoverModel& rover,
                               std::span<const sim::SensorReading> readings);
 

@@ -37,6 +37,10 @@ std::span<const Comparison> comparison_catalogue() {
                  "practice campaign p01", &independent_simulator},
       Comparison{"curiosity_attitude", "a rover set down on the map against Curiosity's measured attitude",
                  "NASA/JPL", &curiosity_attitude},
+      Comparison{"fido_table_1", "slip of FIDO's 2 m drives on four tilts; one soil calibrated on them",
+                 "ROAMS paper", &fido_table_1},
+      Comparison{"artemis_cases", "Opportunity across a ripple, Spirit with a dead wheel, in motion",
+                 "ARTEMIS paper", &artemis_cases},
       Comparison{"rungs", "the table rung against the quasi-static rung", "this project", &rungs},
   };
   return kComparisons;
