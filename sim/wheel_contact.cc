@@ -19,6 +19,7 @@ constexpr double kFarthestPoint_radii = 0.6;     // from the wheel's middle alon
 constexpr double kBlend_radii = 0.05;            // of depths over which points blend
 constexpr double kSlowestTransportShare = 0.01;  // of the wheel's speed over the ground
 constexpr double kBlended_standstills = 12.0;    // tanh is 1 beyond to 1e-10
+constexpr int kRutSamples = 4;                   // across a wheel
 constexpr double kLeastRelaxation_radii = 0.2;
 
 void add_forces(double direction, double weight, const WheelForces& forces, ContactState& contact) {
@@ -93,37 +94,51 @@ bool WheelContacts::find_ground(const Ground& ground, const RutMap& ruts, std::s
   }
   contact.normal = points_ == 1 ? mean : mean.normalized();
   contact.depth_m = deepest + kBlend_radii * r * std::log(sum / points_);
-  contact.rut_m = 0.0;
-  if (place.remembers && place.rebound_share > 0.0) {
-    contact.rut_m = place.rebound_share * ruts.at(at.centre.x(), at.centre.y()).depth_m;
-    contact.depth_m -= contact.rut_m;
-  }
+  if (place.remembers) find_rut(ruts, k, at, contact);
+  if (rover_.wheel_slices > 1) find_slices(ground, k, at, contact);
   return true;
 }
 
-void WheelContacts::set_slice_heights(const Ground& ground, std::size_t k, const WheelKinematics& at,
-                                      const ContactState& contact, SliceHeights& heights) const {
-  const double r = rover_.wheels[k].radius_m;
-  for (int s = 0; s < rover_.wheel_slices; ++s) {
-    const Vector3d p = at.centre + slice_offset_m(rover_.wheels[k].width_m, s, rover_.wheel_slices) * at.axle;
-    const std::optional<GroundPoint> point = ground.at(p.x(), p.y());
-    // A slice off the map hangs in the air.
-    heights[s] =
-        point ? r - (p.z() - point->height_m) * contact.normal.z() - contact.rut_m - contact.depth_m : -r;
+void WheelContacts::find_rut(const RutMap& ruts, std::size_t k, const WheelKinematics& at,
+                             ContactState& contact) const {
+  double depth = 0.0;
+  contact.driven_on = 0.0;
+  for (int s = 0; s < kRutSamples; ++s) {
+    const Vector3d p = at.centre + slice_offset_m(places_[k].geometry.width_m, s, kRutSamples) * at.axle;
+    const RutMap::Rut rut = ruts.at(p.x(), p.y());
+    depth += rut.depth_m / kRutSamples;
+    contact.driven_on += rut.share / kRutSamples;
   }
+  contact.rut_m = places_[k].rebound_share * depth;
+  contact.depth_m -= contact.rut_m;
 }
 
-std::size_t WheelContacts::add_trials(const RutMap& ruts, std::size_t k, const WheelKinematics& at,
-                                      double entry_angle_rad, Trial* trials, WheelNumbers* numbers) const {
+// The wheel is as deep as its deepest slice, so that there is no depth at which the others jump.
+void WheelContacts::find_slices(const Ground& ground, std::size_t k, const WheelKinematics& at,
+                                ContactState& contact) const {
+  const WheelModel& wheel = rover_.wheels[k];
+  double highest = -wheel.radius_m;
+  for (int s = 0; s < rover_.wheel_slices; ++s) {
+    const Vector3d p = at.centre + slice_offset_m(wheel.width_m, s, rover_.wheel_slices) * at.axle;
+    const std::optional<GroundPoint> point = ground.at(p.x(), p.y());
+    const double middle = contact.depth_m + contact.rut_m - wheel.radius_m;
+    // A slice off the map hangs in the air.
+    contact.slice_height_m[s] =
+        point ? (point->height_m - p.z()) * contact.normal.z() - middle : -wheel.radius_m;
+    highest = std::max(highest, contact.slice_height_m[s]);
+  }
+  for (int s = 0; s < rover_.wheel_slices; ++s) contact.slice_height_m[s] -= highest;
+  contact.depth_m += highest;
+}
+
+std::size_t WheelContacts::add_trials(std::size_t k, const WheelKinematics& at, const ContactState& contact,
+                                      Trial* trials, WheelNumbers* numbers) const {
   const Place& place = places_[k];
   WheelNumbers one = place.numbers;
-  one.theta_f = entry_angle_rad;
+  one.theta_f = contact.entry_angle_rad;
   one.leftward = -at.slip_y;
-  if (place.remembers) {
-    const double driven_on = ruts.at(at.centre.x(), at.centre.y()).share;
-    one.stiffness *= 1.0 + place.stiffening * driven_on;
-    one.bulldozing *= 1.0 - driven_on;
-  }
+  one.stiffness *= 1.0 + place.stiffening * contact.driven_on;
+  one.bulldozing *= 1.0 - contact.driven_on;
   const double turning =
       place.locked ? kBlended_standstills * place.told_direction : at.rate_rad_s / standstill_rad_s_;
   const double ahead = turning >= kBlended_standstills    ? 1.0
@@ -140,19 +155,17 @@ std::size_t WheelContacts::add_trials(const RutMap& ruts, std::size_t k, const W
   return count;
 }
 
-void WheelContacts::add_sliced(const Ground& ground, const Trial& trial, const WheelNumbers& numbers,
-                               const WheelKinematics& at, ContactState& contact) const {
+void WheelContacts::add_sliced(const Trial& trial, const WheelNumbers& numbers, const WheelKinematics& at,
+                               ContactState& contact) const {
   const Place& place = places_[trial.wheel];
-  SliceHeights heights{};
-  set_slice_heights(ground, trial.wheel, at, contact, heights);
   Soil soil = place.soil;
   const double stiffer = numbers.stiffness / place.numbers.stiffness;
   soil.pressure.k_c *= stiffer;
   soil.pressure.k_phi *= stiffer;
   soil.bulldozing = numbers.bulldozing;
   const SlicedWheelForces sliced = sliced_wheel_forces(
-      place.geometry, soil, {heights.data(), static_cast<std::size_t>(rover_.wheel_slices)}, contact.depth_m,
-      {numbers.forward, numbers.leftward});
+      place.geometry, soil, {contact.slice_height_m.data(), static_cast<std::size_t>(rover_.wheel_slices)},
+      contact.depth_m, {numbers.forward, numbers.leftward});
   add_forces(trial.direction, trial.weight, sliced.total, contact);
   contact.moment += trial.weight * sliced.overturning_nm * at.axle.cross(contact.normal).normalized();
 }
@@ -171,7 +184,7 @@ bool WheelContacts::find(const Ground& ground, const RutMap& ruts, const PerWhee
     contact.entry_angle_rad =
         std::min(entry_angle_rad(r, std::min(contact.depth_m, r)), kLargestEntryAngleRad);
     const std::size_t first = count;
-    count += add_trials(ruts, k, wheels[k], contact.entry_angle_rad, &trials[first], &numbers[first]);
+    count += add_trials(k, wheels[k], contact, &trials[first], &numbers[first]);
     // The likelier direction of rolling is the one to report.
     const Trial& reported =
         count - first == 2 && trials[first].weight < 0.5 ? trials[first + 1] : trials[first];
@@ -179,7 +192,7 @@ bool WheelContacts::find(const Ground& ground, const RutMap& ruts, const PerWhee
   }
   if (rover_.wheel_slices > 1) {
     for (std::size_t n = 0; n < count; ++n)
-      add_sliced(ground, trials[n], numbers[n], wheels[trials[n].wheel], contacts[trials[n].wheel]);
+      add_sliced(trials[n], numbers[n], wheels[trials[n].wheel], contacts[trials[n].wheel]);
   } else {
     std::array<WheelForces, kMostTrials> forces;
     wheel_forces({numbers.data(), count}, {forces.data(), count});
