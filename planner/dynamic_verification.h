@@ -26,10 +26,12 @@ struct DynamicVerification {
   double commanded_m = 0.0;
   double duration_s = 0.0;
   double energy_j = 0.0;
-  sim::DriveExtremes extremes;             // without clearance: this rung does not look at the belly
+  // Slip is the mean over the time that a station's spacing takes: what a balance has no say in, the first
+  // grip after each halt, is no slip of the way. Without clearance: this rung does not look at the belly.
+  sim::DriveExtremes extremes;
   std::vector<std::string> broken_limits;  // in the words of DrivePrediction's
-  // Of the rover's slip, its deepest wheel and its largest current; driven parts only, as far as both rungs
-  // got.
+  // Of the rover's slip (over the same time), its deepest wheel and its largest current; driven parts only,
+  // as far as both rungs got.
   double compared_m = 0.0;
   RungDifference slip_ratio, sinkage_m, current_a;
   std::vector<std::string> wheel_names;  // in the order of every sample's wheels

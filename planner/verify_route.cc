@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 
 #include "core/angle.h"
 #include "planner/drive_legs.h"
@@ -53,6 +54,32 @@ double deepest_sinkage_m(const sim::DriveSample& sample) {
   return deepest;
 }
 
+// The rover's slip averaged back over a while, never over a halt.
+class SteadySlip {
+ public:
+  explicit SteadySlip(double window_s) : window_s_(window_s) {}
+
+  // Nothing until the rover has driven for so long.
+  std::optional<double> add(const sim::DriveSample& sample) {
+    if (!sample.driving || (!recent_.empty() && recent_.back().leg != sample.leg)) recent_.clear();
+    if (!sample.driving) return std::nullopt;
+    recent_.push_back({sample.time_s, sample.slip_ratio, sample.leg});
+    double sum = 0.0;
+    while (recent_.size() > 1 && recent_[1].time_s <= sample.time_s - window_s_) recent_.pop_front();
+    if (sample.time_s - recent_.front().time_s < window_s_) return std::nullopt;
+    for (const Slip& slip : recent_) sum += slip.ratio;
+    return sum / static_cast<double>(recent_.size());
+  }
+
+ private:
+  struct Slip {
+    double time_s, ratio;
+    int leg;
+  };
+  double window_s_;
+  std::deque<Slip> recent_;
+};
+
 // The three quantities that are compared: slip of the rover, deepest sinkage, largest current.
 using Compared = Eigen::Array3d;
 
@@ -90,14 +117,14 @@ class Comparison {
   Comparison(const sim::DrivePrediction& quasi_static, const std::vector<sim::DriveLeg>& legs)
       : predicted_(quasi_static), legs_(legs) {}
 
-  void add(const sim::DriveSample& sample) {
+  void add(const sim::DriveSample& sample, std::optional<double> slip_ratio) {
     const double way = sample.progress_m - last_m_;
     last_m_ = std::max(last_m_, sample.progress_m);
-    if (!sample.driving || legs_[static_cast<std::size_t>(sample.leg)].command.turn_in_place || way <= 0.0)
+    if (!slip_ratio || legs_[static_cast<std::size_t>(sample.leg)].command.turn_in_place || way <= 0.0)
       return;
     const std::optional<Compared> other = predicted_.at(sample.progress_m);
     if (!other) return;
-    const Compared here(sample.slip_ratio, deepest_sinkage_m(sample), largest_current_a(sample));
+    const Compared here(*slip_ratio, deepest_sinkage_m(sample), largest_current_a(sample));
     const Compared difference = here - *other;
     way_m_ += way;
     sum_ += way * difference;
@@ -137,7 +164,8 @@ void end_without_answer(const Error& error, const std::vector<sim::DriveSample>&
   out.duration_s = last.time_s;
 }
 
-void take_drive(sim::DynamicDrive drive, const sim::DriveLimits& limits, DynamicVerification& out) {
+void take_drive(sim::DynamicDrive drive, const sim::Peak& max_slip, const sim::DriveLimits& limits,
+                DynamicVerification& out) {
   out.end = drive.end;
   out.reason = std::move(drive.reason);
   out.distance_m = drive.progress_m;
@@ -146,7 +174,7 @@ void take_drive(sim::DynamicDrive drive, const sim::DriveLimits& limits, Dynamic
   out.commanded_m = drive.commanded_m;
   out.duration_s = drive.duration_s;
   out.energy_j = drive.energy_j;
-  out.extremes = {drive.max_slip_ratio, drive.max_tilt_rad, drive.max_current_a, drive.max_sinkage_m};
+  out.extremes = {max_slip, drive.max_tilt_rad, drive.max_current_a, drive.max_sinkage_m};
   out.broken_limits = broken_limits(out.extremes, limits);
   out.events = std::move(drive.events);
   out.work = drive.work;
@@ -172,20 +200,24 @@ Result<DynamicVerification> verify_route(const PlanProblem& problem, const std::
   }
   ThinnedSamples samples;
   Comparison comparison(quasi_static, legs);
+  SteadySlip steady(sim::largest_station_spacing_m(*problem.rover) / problem.rover->cruise_speed_m_s);
+  sim::Peak max_slip;
   const auto drive = sim::simulate_drive(
       *problem.rover, problem.gravity_m_s2, TerrainGround(problem.terrain, problem.soil_map),
       sim::mean_soils(problem.beliefs), start, legs,
       {.feedback = sim::Feedback::kPose, .motor_temp_c = problem.conditions.motor_temp_c},
       [&](const sim::DriveSample& sample) {
         samples.add(sample);
-        comparison.add(sample);
+        const std::optional<double> slip_ratio = steady.add(sample);
+        if (slip_ratio) max_slip.raise(std::abs(*slip_ratio), sample.progress_m);
+        comparison.add(sample, slip_ratio);
       },
       progress);
   if (!drive && (drive.error().code == ErrorCode::kCancelled || progress.cancelled()))
     return fail(ErrorCode::kCancelled, "the verification was dismissed");
   out.samples = samples.take();
   if (drive) {
-    take_drive(*drive, problem.limits, out);
+    take_drive(*drive, max_slip, problem.limits, out);
   } else {
     for (const sim::DriveLeg& leg : legs) out.commanded_m += leg.length_m;
     end_without_answer(drive.error(), out.samples, start, out);
