@@ -50,6 +50,7 @@ TEST(WheelFailure, NamesAreInTheOrderOfTheFailures) {
 // Slip of the rover in the middle of 2 m over level loam, in either rung.
 struct BothSlips {
   double balance, dynamic;
+  DriveEnd end;
 };
 
 BothSlips slips(const RoverModel& rover) {
@@ -72,13 +73,13 @@ BothSlips slips(const RoverModel& rover) {
       },
       progress);
   EXPECT_TRUE(drive) << drive.error().detail;
-  return {balance->mean_slip_ratio, sum / std::max(1, count)};
+  return {balance->mean_slip_ratio, sum / std::max(1, count), drive->end};
 }
 
 TEST(WheelFailure, BothRungsSlipMoreTheHarderTheWheelIsToTurn) {
   const BothSlips whole = slips(six_wheeler());
   BothSlips last = whole;
-  for (const WheelFailure failure : {WheelFailure::kFree, WheelFailure::kOff, WheelFailure::kLocked}) {
+  for (const WheelFailure failure : {WheelFailure::kFree, WheelFailure::kOff}) {
     RoverModel rover = six_wheeler();
     fail_wheel(rover, 1, failure);
     const BothSlips now = slips(rover);
@@ -87,6 +88,12 @@ TEST(WheelFailure, BothRungsSlipMoreTheHarderTheWheelIsToTurn) {
     EXPECT_NEAR(now.dynamic, now.balance, 0.25 * now.balance) << describe(failure);
     last = now;
   }
+  RoverModel rover = six_wheeler();
+  fail_wheel(rover, 1, WheelFailure::kLocked);
+  const BothSlips locked = slips(rover);
+  EXPECT_GT(locked.balance, 5.0 * last.balance);
+  EXPECT_TRUE(locked.end == DriveEnd::kImmobilised || locked.dynamic > 5.0 * last.dynamic)
+      << "a wheel that is dragged along digs";
 }
 
 }  // namespace
