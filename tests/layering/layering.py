@@ -13,9 +13,10 @@ MAY_SEE = {
     "sim": {"core", "sim"},
     "planner": {"core", "dem", "sim", "planner"},
     "gap": {"core", "sim", "gap"},
-    "api": {"core", "dem", "sim", "planner", "api"},
-    "validation": {"core", "dem", "sim", "planner", "gap", "api", "validation"},
-    "server": {"core", "dem", "sim", "planner", "api", "validation", "server"},
+    "campaign": {"core", "dem", "sim", "planner", "campaign"},
+    "api": {"core", "dem", "sim", "planner", "campaign", "api"},
+    "validation": {"core", "dem", "sim", "planner", "campaign", "gap", "api", "validation"},
+    "server": {"core", "dem", "sim", "planner", "campaign", "api", "validation", "server"},
 }
 
 # vendor header -> the only files of ours that may include it.
