@@ -25,7 +25,7 @@ struct DynamicVerification {
   Pose2 pose;                        // of B there; yaw wrapped
   double commanded_m = 0.0;
   double duration_s = 0.0;
-  double energy_j = 0.0;
+  std::optional<double> energy_j;  // from the bus, of the drive motors; nothing where there is no end
   // Slip is the mean over the time that a station's spacing takes: what a balance has no say in, the first
   // grip after each halt, is no slip of the way. Without clearance: this rung does not look at the belly.
   sim::DriveExtremes extremes;

@@ -45,7 +45,7 @@ std::string verdict_reason(const Route& route) {
   if (!drive.broken_limits.empty()) return "no go: " + joined(drive.broken_limits);
   const DynamicVerification* const dynamic = route.dynamic ? &*route.dynamic : nullptr;
   if (dynamic && dynamic->refutes()) {
-    if (dynamic->end == sim::DriveEnd::kFinished)
+    if (!dynamic->end || dynamic->end == sim::DriveEnd::kFinished)
       return "no go in the dynamic rung: " + joined(dynamic->broken_limits);
     return fmt::format("no go in the dynamic rung: {} at {:.1f} m, {}", end_in_words(*dynamic),
                        dynamic->distance_m, dynamic->reason);

@@ -164,18 +164,14 @@ void end_without_answer(const Error& error, const std::vector<sim::DriveSample>&
   out.duration_s = last.time_s;
 }
 
-void take_drive(sim::DynamicDrive drive, const sim::Peak& max_slip, const sim::DriveLimits& limits,
-                DynamicVerification& out) {
+void take_drive(sim::DynamicDrive drive, DynamicVerification& out) {
   out.end = drive.end;
   out.reason = std::move(drive.reason);
   out.distance_m = drive.progress_m;
   if (!out.samples.empty()) out.distance_m = out.samples.back().progress_m;
   out.pose = {drive.final.x_m, drive.final.y_m, wrapped_rad(drive.final.yaw_rad)};
-  out.commanded_m = drive.commanded_m;
   out.duration_s = drive.duration_s;
   out.energy_j = drive.energy_j;
-  out.extremes = {max_slip, drive.max_tilt_rad, drive.max_current_a, drive.max_sinkage_m};
-  out.broken_limits = broken_limits(out.extremes, limits);
   out.events = std::move(drive.events);
   out.work = drive.work;
 }
@@ -196,12 +192,12 @@ Result<DynamicVerification> verify_route(const PlanProblem& problem, const std::
   if (legs.empty()) {  // it is there already
     out.end = sim::DriveEnd::kFinished;
     out.pose = start;
+    out.energy_j = 0.0;
     return out;
   }
   ThinnedSamples samples;
   Comparison comparison(quasi_static, legs);
   SteadySlip steady(sim::largest_station_spacing_m(*problem.rover) / problem.rover->cruise_speed_m_s);
-  sim::Peak max_slip;
   const auto drive = sim::simulate_drive(
       *problem.rover, problem.gravity_m_s2, TerrainGround(problem.terrain, problem.soil_map),
       sim::mean_soils(problem.beliefs), start, legs,
@@ -209,17 +205,21 @@ Result<DynamicVerification> verify_route(const PlanProblem& problem, const std::
       [&](const sim::DriveSample& sample) {
         samples.add(sample);
         const std::optional<double> slip_ratio = steady.add(sample);
-        if (slip_ratio) max_slip.raise(std::abs(*slip_ratio), sample.progress_m);
+        if (slip_ratio) out.extremes.max_slip_ratio.raise(std::abs(*slip_ratio), sample.progress_m);
+        out.extremes.max_tilt_rad.raise(sample.attitude.tilt_rad(), sample.progress_m);
+        out.extremes.max_current_a.raise(largest_current_a(sample), sample.progress_m);
+        out.extremes.max_sinkage_m.raise(deepest_sinkage_m(sample), sample.progress_m);
         comparison.add(sample, slip_ratio);
       },
       progress);
   if (!drive && (drive.error().code == ErrorCode::kCancelled || progress.cancelled()))
     return fail(ErrorCode::kCancelled, "the verification was dismissed");
   out.samples = samples.take();
+  for (const sim::DriveLeg& leg : legs) out.commanded_m += leg.command.turn_in_place ? 0.0 : leg.length_m;
+  out.broken_limits = broken_limits(out.extremes, problem.limits);
   if (drive) {
-    take_drive(*drive, max_slip, problem.limits, out);
+    take_drive(*drive, out);
   } else {
-    for (const sim::DriveLeg& leg : legs) out.commanded_m += leg.length_m;
     end_without_answer(drive.error(), out.samples, start, out);
   }
   comparison.finish(out);

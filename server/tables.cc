@@ -73,9 +73,11 @@ std::string dynamic_lines(const JsonValue& figures, const std::string& label) {
   TextTable table({label, "driven", "time", "energy", "largest slip", "largest tilt", "sinkage", "current"});
   const auto add = [&](const char* rung, const JsonValue& f, const char* driven) {
     table.add({rung, fmt::format("{:.1f} m", number(f, driven)), duration(number(f, "duration_s")),
-               fmt::format("{:.0f} Wh", number(f, "energy_wh")), peak(f, "max_slip", "{:.2f}"),
-               peak(f, "max_tilt_deg", "{:.1f} deg"), peak(f, "max_sinkage_m", "{:.3f} m"),
-               peak(f, "max_current_a", "{:.2f} A")});
+               at(f, "energy_wh").is(JsonValue::Kind::kNull)
+                   ? "-"
+                   : fmt::format("{:.0f} Wh", number(f, "energy_wh")),
+               peak(f, "max_slip", "{:.2f}"), peak(f, "max_tilt_deg", "{:.1f} deg"),
+               peak(f, "max_sinkage_m", "{:.3f} m"), peak(f, "max_current_a", "{:.2f} A")});
   };
   add("balance", figures, "length_m");
   add("dynamic", dynamic, "at_m");

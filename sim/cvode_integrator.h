@@ -54,6 +54,8 @@ class CvodeIntegrator {
   Work work() const;  // since construction, restarts included
 
  private:
+  void begin_anew();
+
   struct Solver;
   std::unique_ptr<Solver> solver_;
 };

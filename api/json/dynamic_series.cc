@@ -59,7 +59,12 @@ void write_figures(Writer& w, const DynamicVerification& d) {
   w.text("fidelity", "dynamic").text("end", planner::end_in_words(d)).text("reason", d.reason);
   w.metres("at_m", d.distance_m).metres("x_m", d.pose.x_m).metres("y_m", d.pose.y_m);
   w.significant("yaw_deg", deg_from_rad(d.pose.yaw_rad)).metres("commanded_m", d.commanded_m);
-  w.significant("duration_s", d.duration_s).significant("energy_wh", d.energy_j / kJoulesPerWattHour);
+  w.significant("duration_s", d.duration_s).key("energy_wh");
+  if (d.energy_j) {
+    w.significant(*d.energy_j / kJoulesPerWattHour);
+  } else {
+    w.null();
+  }
   write_peak(w, "max_slip", d.extremes.max_slip_ratio);
   write_peak(w, "max_tilt_deg", d.extremes.max_tilt_rad, deg_from_rad(1.0));
   write_peak(w, "max_current_a", d.extremes.max_current_a);

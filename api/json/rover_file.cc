@@ -282,7 +282,7 @@ void write_campaign_rover(Writer& w, const sim::RoverModel& rover) {
   write_point(w, "com_m", rover.com_m);
   write_wheels(w, rover);
   write_suspension(w, rover);
-  write_drive(w, rover.drive);
+  write_motor(w, "drive", rover.drive);
   w.end_object();
 }
 
