@@ -35,6 +35,7 @@ struct DriveOptions {
   std::optional<int> draws;
   std::optional<long long> seed;
   std::optional<double> motor_temp_c;
+  std::vector<std::string> failed;   // "rf=locked"
   std::vector<std::string> effects;  // "slip_sinkage", "slip_sinkage:n1=0.2" or "slip_sinkage:off"
   std::string map;                   // file for the picture; empty: none
 };
@@ -46,7 +47,7 @@ struct PlanOptions {
       request;  // file with a whole request, "-" is standard input; the options below are then not used
   std::optional<PlaceOption> start, goal;
   std::vector<PlaceOption> via;
-  std::optional<int> routes;
+  std::optional<int> routes, verify;
   std::vector<std::string> planners;
 };
 
@@ -57,6 +58,7 @@ struct PredictOptions {
   std::vector<PlaceOption> path;
   bool backwards = false;
   std::optional<double> crab_deg;
+  std::string rung;  // empty: the request's default
 };
 
 struct TerrainOptions {
