@@ -6,6 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include "core/random.h"
+
 namespace slipway::dem {
 namespace {
 
@@ -30,6 +32,27 @@ std::shared_ptr<const Terrain> sampled(const SyntheticGrid& grid,
   return std::make_shared<const Terrain>(geometry, std::move(heights), std::move(valid));
 }
 
+double ripple_m(double height_m, double width_m, double from_crest_m) {
+  if (std::abs(from_crest_m) >= 0.5 * width_m) return 0.0;
+  return 0.5 * height_m * (1.0 + std::cos(2.0 * std::numbers::pi * from_crest_m / width_m));
+}
+
+double bumps_m(const Relief::Roughness& roughness, double x_m, double y_m) {
+  const auto node_m = [&](double column, double row) {
+    // Both indices in one counter: 2^20 nodes either way are more than any grid has.
+    constexpr std::int64_t kHalf = 1 << 20;
+    const std::int64_t counter =
+        (static_cast<std::int64_t>(row) + kHalf) * 2 * kHalf + static_cast<std::int64_t>(column) + kHalf;
+    return roughness.rms_m * random_normal(roughness.seed, static_cast<std::uint64_t>(counter));
+  };
+  const auto smooth = [](double share) { return share * share * (3.0 - 2.0 * share); };
+  const double u = x_m / roughness.lattice_m, v = y_m / roughness.lattice_m;
+  const double column = std::floor(u), row = std::floor(v);
+  const double east = smooth(u - column), north = smooth(v - row);
+  return (1.0 - north) * ((1.0 - east) * node_m(column, row) + east * node_m(column + 1.0, row)) +
+         north * ((1.0 - east) * node_m(column, row + 1.0) + east * node_m(column + 1.0, row + 1.0));
+}
+
 }  // namespace
 
 std::shared_ptr<const Terrain> make_plane(const SyntheticGrid& grid, double height_m) {
@@ -44,16 +67,25 @@ std::shared_ptr<const Terrain> make_ramp(const SyntheticGrid& grid, double slope
 }
 
 std::shared_ptr<const Terrain> make_ripple(const SyntheticGrid& grid, double height_m, double width_m) {
-  return sampled(grid, [=](double x_m, double) {
-    if (std::abs(x_m) >= 0.5 * width_m) return 0.0;
-    return 0.5 * height_m * (1.0 + std::cos(2.0 * std::numbers::pi * x_m / width_m));
-  });
+  return sampled(grid, [=](double x_m, double) { return ripple_m(height_m, width_m, x_m); });
 }
 
 std::shared_ptr<const Terrain> make_crater(const SyntheticGrid& grid, double radius_m, double depth_m) {
   return sampled(grid, [=](double x_m, double y_m) {
     const double r = std::hypot(x_m, y_m) / radius_m;
     return r >= 1.0 ? 0.0 : depth_m * (r * r - 1.0);
+  });
+}
+
+
+std::shared_ptr<const Terrain> make_relief(const SyntheticGrid& grid, const Relief& relief) {
+  return sampled(grid, [&](double x_m, double y_m) {
+    double height_m = std::tan(relief.slope_rad) * x_m;
+    if (relief.ripple)
+      height_m +=
+          ripple_m(relief.ripple->height_m, relief.ripple->width_m, x_m - relief.ripple->crest_x_m);
+    if (relief.roughness) height_m += bumps_m(*relief.roughness, x_m, y_m);
+    return height_m;
   });
 }
 

@@ -216,4 +216,13 @@ void write_rover(Writer& w, const sim::RoverModel& rover) {
   w.end_object();
 }
 
+void write_campaign_rover(Writer& w, const sim::RoverModel& rover) {
+  w.begin_object().text("name", rover.name).exact("mass_kg", rover.mass_kg);
+  write_point(w, "com_m", rover.com_m);
+  write_wheels(w, rover);
+  write_suspension(w, rover);
+  write_drive(w, rover.drive);
+  w.end_object();
+}
+
 }  // namespace slipway::api::json

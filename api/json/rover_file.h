@@ -17,4 +17,7 @@ Result<sim::RoverModel> read_rover_file(std::string_view bytes);
 // The same keys, so that what is served can be put into a file again.
 void write_rover(Writer& w, const sim::RoverModel& rover);
 
+// The keys that a drive campaign's rover has, and no others.
+void write_campaign_rover(Writer& w, const sim::RoverModel& rover);
+
 }  // namespace slipway::api::json

@@ -101,17 +101,21 @@ void read_soil(const Element& element, sim::SoilDistribution& soil, std::vector<
 
 }  // namespace
 
+std::vector<sim::SoilDistribution> read_soils(ObjectReader& reader, std::string_view key, Presence presence) {
+  std::vector<sim::SoilDistribution> soils;
+  for (const Element& element : reader.list(key, presence, {1, kMostSoils}))
+    read_soil(element, soils.emplace_back(), reader.faults());
+  return soils;
+}
+
 Result<std::vector<sim::SoilDistribution>> read_soil_file(std::string_view bytes) {
   const auto document = parse(bytes);
   if (!document) return fail(document.error());
-  std::vector<sim::SoilDistribution> soils;
   std::vector<Fault> faults;
   ObjectReader reader(*document, "", faults);
   std::size_t format = 0;
   reader.choice("format", kRequired, {"soils/1"}, format);
-  for (const Element& element : reader.list("soils", kRequired, {1, kMostSoils})) {
-    read_soil(element, soils.emplace_back(), faults);
-  }
+  std::vector<sim::SoilDistribution> soils = read_soils(reader, "soils", kRequired);
   reader.refuse_unknown();
   if (!faults.empty()) return fail(ErrorCode::kUnreadableData, summary_of(faults), faults);
   return soils;

@@ -3,6 +3,7 @@
 #include <string_view>
 #include <vector>
 
+#include "api/json/strict_reader.h"
 #include "api/json/writer.h"
 #include "core/result.h"
 #include "sim/soil.h"
@@ -12,6 +13,9 @@ namespace slipway::api::json {
 // Reads a file of soil distributions ("soils/1"): the keys of a drive campaign's soils as the mean, and their
 // spread, source and assumptions beside them. All faults together.
 Result<std::vector<sim::SoilDistribution>> read_soil_file(std::string_view bytes);
+
+// The list of soils under a key of another document: the same keys, soil by soil.
+std::vector<sim::SoilDistribution> read_soils(ObjectReader& reader, std::string_view key, Presence presence);
 
 // The same keys, so that what is served can be put into a file again.
 void write_soil(Writer& w, const sim::SoilDistribution& soil);

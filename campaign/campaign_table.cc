@@ -1,0 +1,127 @@
+#include "campaign/campaign_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <string_view>
+
+#include "core/angle.h"
+#include "sim/effect_catalogue.h"
+
+namespace slipway::campaign {
+namespace {
+
+// "h090", "h022p5": whole degrees in three digits, so that ids sort as headings do.
+std::string heading_name(double heading_rad) {
+  double heading_deg = std::fmod(deg_from_rad(heading_rad), 360.0);
+  if (heading_deg < 0.0) heading_deg += 360.0;
+  // What was degrees in a file is so again.
+  heading_deg = std::round(heading_deg * 1e6) / 1e6;
+  if (heading_deg >= 360.0) heading_deg -= 360.0;
+  const double whole = std::floor(heading_deg);
+  std::string name = fmt::format("h{:03.0f}", whole);
+  if (heading_deg > whole) name += "p" + fmt::format("{:.6g}", heading_deg - whole).substr(2);
+  return name;
+}
+
+std::size_t count_of(const CampaignTable& table) {
+  std::size_t count = 0;
+  for (const DriveEntry& entry : table.entries)
+    count += entry.terrains.size() * entry.headings_rad.size() * static_cast<std::size_t>(entry.repeats);
+  return count;
+}
+
+void check_entry(const CampaignTable& table, std::size_t k, std::vector<Fault>& faults) {
+  const DriveEntry& entry = table.entries[k];
+  const std::string pointer = fmt::format("/drives/{}", k);
+  for (const std::size_t t : entry.terrains) {
+    const TableTerrain& terrain = table.terrains[t];
+    if (!terrain.ground->surface(entry.x_m, entry.y_m)) {
+      faults.push_back(
+          {pointer + "/start",
+           fmt::format("start ({:g}, {:g}) m is not on terrain {}", entry.x_m, entry.y_m, terrain.name)});
+    }
+  }
+  for (const auto& [wheel, drive] : entry.failed_wheels) {
+    const auto& wheels = table.rover->wheels;
+    if (std::any_of(wheels.begin(), wheels.end(), [&](const auto& w) { return w.name == wheel; })) continue;
+    std::vector<std::string_view> names;
+    for (const sim::WheelModel& known : wheels) names.push_back(known.name);
+    faults.push_back({pointer + "/failed_wheels/" + wheel,
+                      fmt::format("{} has no wheel {}, it has {}", table.rover->name, wheel,
+                                  fmt::join(names, ", "))});
+  }
+}
+
+void check_effects(const CampaignTable& table, std::vector<Fault>& faults) {
+  std::vector<Fault> of_effects = sim::faults_of(table.effects);
+  if (of_effects.empty()) of_effects = sim::faults_of(table.effects, *table.rover);
+  for (Fault& fault : of_effects) faults.push_back({"/effects" + fault.pointer, std::move(fault.message)});
+  if (!of_effects.empty()) return;
+  // Terrains of a table are of one soil each.
+  for (std::size_t i = 0; i < table.effects.size(); ++i) {
+    const sim::Effect* const effect = sim::find_effect(table.effects[i].name);
+    if (effect->region == nullptr || !table.effects[i].on) continue;
+    faults.push_back({fmt::format("/effects/{}/name", i),
+                      fmt::format("{} is at work in a region of the map, which a campaign's terrains do not "
+                                  "have",
+                                  effect->name)});
+  }
+}
+
+}  // namespace
+
+std::vector<TableDrive> expand(const CampaignTable& table) {
+  std::vector<TableDrive> drives;
+  drives.reserve(count_of(table));
+  for (std::size_t k = 0; k < table.entries.size(); ++k) {
+    const DriveEntry& entry = table.entries[k];
+    for (const std::size_t terrain : entry.terrains) {
+      for (const double heading_rad : entry.headings_rad) {
+        std::string id = entry.id;
+        if (entry.terrains.size() > 1) id += "-" + table.terrains[terrain].name;
+        if (entry.headings_rad.size() > 1) id += "-" + heading_name(heading_rad);
+        const std::string first = entry.repeats > 1 ? id + "-r1" : id;
+        for (int repeat = 1; repeat <= entry.repeats; ++repeat) {
+          drives.push_back({.id = entry.repeats > 1 ? fmt::format("{}-r{}", id, repeat) : id,
+                            .entry = k,
+                            .terrain = terrain,
+                            .start = {entry.x_m, entry.y_m, heading_rad},
+                            .repeat_of = repeat > 1 ? first : ""});
+        }
+      }
+    }
+  }
+  return drives;
+}
+
+std::vector<Fault> faults_of(const CampaignTable& table) {
+  std::vector<Fault> faults;
+  check_effects(table, faults);
+  for (std::size_t k = 0; k < table.entries.size(); ++k) check_entry(table, k, faults);
+  if (const std::size_t count = count_of(table); count > kMostDrives) {
+    faults.push_back({"/drives", fmt::format("drives make {} drives, must be at most {}", count, kMostDrives)});
+    return faults;
+  }
+  std::set<std::string> ids, reported;
+  for (const TableDrive& drive : expand(table)) {
+    if (ids.insert(drive.id).second || !reported.insert(drive.id).second) continue;
+    faults.push_back({fmt::format("/drives/{}/id", drive.entry),
+                      fmt::format("drive {} is given twice: an id, a terrain or a heading is repeated", drive.id)});
+  }
+  return faults;
+}
+
+sim::RoverModel driven_rover(const CampaignTable& table, const DriveEntry& entry) {
+  sim::RoverModel rover = *table.rover;
+  sim::apply_effects(sim::in_force(table.rover->effects, table.effects), rover);
+  for (const auto& [name, drive] : entry.failed_wheels)
+    for (sim::WheelModel& wheel : rover.wheels)
+      if (wheel.name == name) wheel.drive = drive;
+  return rover;
+}
+
+}  // namespace slipway::campaign
