@@ -22,6 +22,9 @@ std::vector<Fault> faults_of(std::span<const MeasuredDrive> drives, const Tuning
           {fmt::format("/options/{}", name), fmt::format("{} = {}, must be positive", name, value)});
   };
   if (drives.empty()) faults.push_back({"/drives", "there is no drive to tune to"});
+  for (std::size_t i = 0; i < drives.size(); ++i)
+    if (drives[i].finals.empty())
+      faults.push_back({fmt::format("/drives/{}", i), drives[i].name + " has no measured end"});
   positive("position_m", options.scales.position_m);
   positive("heading_rad", options.scales.heading_rad);
   if (!(options.within >= 1.0))
@@ -65,7 +68,7 @@ std::vector<TiltGroup> tilt_groups(std::span<const MeasuredDrive> drives, double
 void find_best(const ParameterSweep& sweep, TiltGroup& group) {
   std::optional<double> best;
   for (std::size_t i = 0; i < sweep.points.size(); ++i) {
-    const std::optional<double> score = score_over(sweep.points[i], group.drives);
+    const std::optional<double> score = score_over(sweep.points[i], group.drives, sweep.weights);
     if (!score || (best && *score >= *best)) continue;
     best = score;
     group.best = i;
@@ -73,12 +76,12 @@ void find_best(const ParameterSweep& sweep, TiltGroup& group) {
   group.best_score = best.value_or(0.0);  // the best of all drives has a score on every tilt
 }
 
-SlopeService service_of(const SweepPoint& point, std::span<const TiltGroup> tilts,
-                        const TuningOptions& options) {
+SlopeService service_of(const SweepPoint& point, std::span<const double> weights,
+                        std::span<const TiltGroup> tilts, const TuningOptions& options) {
   SlopeService service;
   int run = 0, longest = 0;
   for (std::size_t k = 0; k < tilts.size(); ++k) {
-    const std::optional<double> score = score_over(point, tilts[k].drives);
+    const std::optional<double> score = score_over(point, tilts[k].drives, weights);
     const bool served =
         score && *score <= std::max(options.within * tilts[k].best_score, options.good_enough);
     service.scores.push_back(score);
@@ -132,7 +135,7 @@ class Fitter {
     // A prior weighs against residuals in units of their standard deviations: where those are not known, they
     // are estimated from what a first fit leaves over.
     if (found && priors && !options_.scales_are_errors) {
-      const auto freedom = static_cast<double>(3 * chosen.size()) - static_cast<double>(start.size());
+      const auto freedom = static_cast<double>(found->residuals.size()) - static_cast<double>(start.size());
       const double left = squares(found->residuals);
       if (freedom > 0.0 && left > 0.0) {
         const double std = std::sqrt(left / freedom);
@@ -143,7 +146,8 @@ class Fitter {
     }
     if (!found) return fail(found.error());
     TuningFit result{.fit = std::move(*found), .score = 0.0};
-    result.score = std::sqrt(squares(result.fit.residuals) / static_cast<double>(chosen.size()));
+    result.score =
+        std::sqrt(3.0 * squares(result.fit.residuals) / static_cast<double>(result.fit.residuals.size()));
     return result;
   }
 
@@ -152,6 +156,8 @@ class Fitter {
   Result<LeastSquaresFit> fit_in_units_of(double unit, std::span<const std::size_t> chosen,
                                           std::span<const double> start, bool std_known,
                                           Progress& progress) const {
+    std::size_t repeats = 0;
+    for (const std::size_t i : chosen) repeats += drives_[i].finals.size();
     std::vector<Unknown> unknowns;
     for (std::size_t k = 0; k < parameters_.size(); ++k) {
       const SweptParameter& p = parameters_[k].sweep;
@@ -165,15 +171,16 @@ class Fitter {
     const ResidualFunction residuals = [&](std::span<const double> x, std::span<double> r) {
       std::vector<std::optional<Pose2>> ends(chosen.size());
       parallel_for(chosen.size(), options_.threads, [&](std::size_t i) { ends[i] = model_(chosen[i], x); });
+      std::size_t row = 0;
       for (std::size_t i = 0; i < chosen.size(); ++i) {
         if (!ends[i]) return false;
-        const auto off = differences(*ends[i], drives_[chosen[i]].final, options_.scales);
-        for (std::size_t c = 0; c < 3; ++c) r[3 * i + c] = off[c] / unit;
+        for (const Pose2& measured : drives_[chosen[i]].finals)
+          for (const double off : differences(*ends[i], measured, options_.scales)) r[row++] = off / unit;
       }
       return true;
     };
     // A simulated drive's end is known to a few parts in ten thousand: steps stay well above that.
-    return fit_least_squares(unknowns, 3 * chosen.size(), residuals,
+    return fit_least_squares(unknowns, 3 * repeats, residuals,
                              {.max_iterations = 40,
                               .tolerance = 1e-7,
                               .relative_step = 1e-2,
@@ -225,10 +232,15 @@ Result<DriveTuning> tune_drives(std::span<const TunedParameter> parameters,
   const CaseScore score = [&](std::size_t drive, std::span<const double> x) -> std::optional<double> {
     const std::optional<Pose2> end = model(drive, x);
     if (!end) return std::nullopt;
-    return final_score(*end, drives[drive].final, options.scales);
+    double sum = 0.0;
+    for (const Pose2& measured : drives[drive].finals)
+      sum += std::pow(final_score(*end, measured, options.scales), 2);
+    return std::sqrt(sum / static_cast<double>(drives[drive].finals.size()));
   };
+  std::vector<double> repeats;
+  for (const MeasuredDrive& drive : drives) repeats.push_back(static_cast<double>(drive.finals.size()));
   Part sweeping(progress, 0.0, options.least_squares ? kSweepShare : 1.0);
-  auto sweep = sweep_coarse_then_fine(swept, drives.size(), score, options.threads, sweeping);
+  auto sweep = sweep_coarse_then_fine(swept, repeats, score, options.threads, sweeping);
   if (!sweep) return fail(sweep.error());
   DriveTuning tuning{.sweep = std::move(*sweep),
                      .tilts = tilt_groups(drives, options.same_tilt_rad),
@@ -237,7 +249,7 @@ Result<DriveTuning> tune_drives(std::span<const TunedParameter> parameters,
                      .fit = {}};
   for (TiltGroup& group : tuning.tilts) find_best(tuning.sweep, group);
   for (const SweepPoint& point : tuning.sweep.points)
-    tuning.services.push_back(service_of(point, tuning.tilts, options));
+    tuning.services.push_back(service_of(point, tuning.sweep.weights, tuning.tilts, options));
   tuning.widest = widest_of(tuning);
   if (options.least_squares) {
     const Fitter fitter(parameters, drives, model, options);

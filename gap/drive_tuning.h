@@ -16,11 +16,11 @@
 
 namespace slipway::gap {
 
-// A drive whose end was measured.
+// A drive whose end was measured, once or in several repeats.
 struct MeasuredDrive {
   std::string name;
   double tilt_rad = 0.0;  // of the ground it was made on
-  Pose2 final;
+  std::vector<Pose2> finals;
 };
 
 // The simulated end of a drive at a parameter vector; nothing where the model has none. Called from several
@@ -33,8 +33,8 @@ struct ScoreScales {
 };
 
 // sqrt((d / position_m)^2 + (h / heading_rad)^2), with d the distance of the simulated from the measured
-// final place and h the difference of the headings, wrapped. The score of several drives is the root mean
-// square of theirs.
+// final place and h the difference of the headings, wrapped. The score of a drive is the root mean square
+// over its repeats, that of several drives over all of theirs.
 double final_score(const Pose2& simulated, const Pose2& measured, const ScoreScales& scales);
 
 struct TunedParameter {

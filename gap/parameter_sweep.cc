@@ -13,7 +13,7 @@
 namespace slipway::gap {
 namespace {
 
-std::vector<Fault> faults_of(std::span<const SweptParameter> parameters, std::size_t case_count) {
+std::vector<Fault> faults_of(std::span<const SweptParameter> parameters, std::span<const double> weights) {
   std::vector<Fault> faults;
   std::set<std::string> names;
   if (parameters.empty()) faults.push_back({"/parameters", "there is nothing to vary"});
@@ -36,8 +36,8 @@ std::vector<Fault> faults_of(std::span<const SweptParameter> parameters, std::si
     coarse *= p.coarse;
     fine *= p.fine;
   }
-  if (case_count == 0) faults.push_back({"", "there is no case to score"});
-  const double scores = (coarse + fine) * static_cast<double>(case_count);
+  if (weights.empty()) faults.push_back({"", "there is no case to score"});
+  const double scores = (coarse + fine) * static_cast<double>(weights.size());
   if (scores > kMostSweepCases)
     faults.push_back(
         {"/parameters", fmt::format("{} scores are asked for, {} at most: fewer values or parameters", scores,
@@ -79,9 +79,13 @@ std::vector<std::size_t> place_of(std::size_t node, const std::vector<std::vecto
 
 class Sweeper {
  public:
-  Sweeper(std::size_t case_count, const CaseScore& score, std::size_t threads, Progress& progress)
-      : case_count_(case_count), score_(score), threads_(threads), progress_(progress) {
-    for (std::size_t i = 0; i < case_count; ++i) all_cases_.push_back(i);
+  Sweeper(std::span<const double> weights, const CaseScore& score, std::size_t threads, Progress& progress)
+      : weights_(weights),
+        case_count_(weights.size()),
+        score_(score),
+        threads_(threads),
+        progress_(progress) {
+    for (std::size_t i = 0; i < case_count_; ++i) all_cases_.push_back(i);
   }
 
   // Tries the points of a grid that are new; false once cancelled. Its progress is from `begin` to `end`.
@@ -108,11 +112,13 @@ class Sweeper {
       const std::size_t now = ++done;
       progress_.report(stage, begin + (end - begin) * static_cast<double>(now) / static_cast<double>(jobs));
     });
-    for (std::size_t i = first; i < points.size(); ++i) points[i].score = score_over(points[i], all_cases_);
+    for (std::size_t i = first; i < points.size(); ++i)
+      points[i].score = score_over(points[i], all_cases_, weights_);
     return !progress_.cancelled();
   }
 
  private:
+  std::span<const double> weights_;
   std::size_t case_count_;
   const CaseScore& score_;
   std::size_t threads_;
@@ -144,21 +150,24 @@ SweepGrid grid_around(const ParameterSweep& sweep, std::span<const SweptParamete
 
 }  // namespace
 
-std::optional<double> score_over(const SweepPoint& point, std::span<const std::size_t> cases) {
-  double squares = 0.0;
+std::optional<double> score_over(const SweepPoint& point, std::span<const std::size_t> cases,
+                                 std::span<const double> weights) {
+  double squares = 0.0, weight = 0.0;
   for (const std::size_t i : cases) {
     if (!point.cases[i]) return std::nullopt;
-    squares += *point.cases[i] * *point.cases[i];
+    squares += weights[i] * *point.cases[i] * *point.cases[i];
+    weight += weights[i];
   }
-  return std::sqrt(squares / static_cast<double>(cases.size()));
+  return std::sqrt(squares / weight);
 }
 
 Result<ParameterSweep> sweep_coarse_then_fine(std::span<const SweptParameter> parameters,
-                                              std::size_t case_count, const CaseScore& score,
+                                              std::span<const double> weights, const CaseScore& score,
                                               std::size_t threads, Progress& progress) {
-  if (auto faults = faults_of(parameters, case_count); !faults.empty())
+  if (auto faults = faults_of(parameters, weights); !faults.empty())
     return fail(ErrorCode::kInvalidRequest, "the parameters can't be swept", std::move(faults));
   ParameterSweep sweep;
+  sweep.weights.assign(weights.begin(), weights.end());
   std::vector<std::vector<double>> fine_sizes;
   for (const SweptParameter& p : parameters) {
     sweep.names.push_back(p.name);
@@ -167,7 +176,7 @@ Result<ParameterSweep> sweep_coarse_then_fine(std::span<const SweptParameter> pa
   }
   const auto coarse_nodes = static_cast<double>(node_count(sweep.coarse.axes));
   const double coarse_share = coarse_nodes / (coarse_nodes + static_cast<double>(node_count(fine_sizes)));
-  Sweeper sweeper(case_count, score, threads, progress);
+  Sweeper sweeper(weights, score, threads, progress);
   if (!sweeper.try_grid(sweep.coarse, sweep.points, "coarse sweep", 0.0, coarse_share))
     return fail(ErrorCode::kCancelled, "the sweep was given up");
   const std::optional<std::size_t> best = best_of(sweep.points);

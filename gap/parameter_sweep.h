@@ -28,7 +28,8 @@ using CaseScore = std::function<std::optional<double>(std::size_t number, std::s
 struct SweepPoint {
   std::vector<double> x;                     // in the order of the parameters
   std::vector<std::optional<double>> cases;  // score of each case
-  // Root mean square over the cases; nothing where a case has no answer: such a point is never the best.
+  // Weighted root mean square over the cases; nothing where a case has no answer: such a point is never the
+  // best.
   std::optional<double> score;
 };
 
@@ -40,22 +41,24 @@ struct SweepGrid {
 
 struct ParameterSweep {
   std::vector<std::string> names;
+  std::vector<double> weights;     // of the cases
   std::vector<SweepPoint> points;  // those of the coarse grid, then what the fine one adds
   SweepGrid coarse, fine;
   std::size_t best_coarse = 0, best = 0;  // indices into points; the first among equals
 };
 
-// Root mean square of the scores of these cases at a point; nothing where one of them is missing.
-std::optional<double> score_over(const SweepPoint& point, std::span<const std::size_t> cases);
+// Weighted root mean square of the scores of these cases at a point; nothing where one of them is missing.
+std::optional<double> score_over(const SweepPoint& point, std::span<const std::size_t> cases,
+                                 std::span<const double> weights);
 
 // Scores every point of a grid over the whole ranges, then of one between the neighbours of its best; a point
-// of both is tried once. Points and cases are spread over threads (0: as many as the machine has), the result
-// does not depend on their number.
+// of both is tried once. `weights` says how much each case counts, > 0. Points and cases are spread over
+// threads (0: as many as the machine has), the result does not depend on their number.
 //
 // Errors: invalid_request for parameters that can't be swept ("/parameters/0/lowest") or more than
 // kMostSweepCases scores; not_converged where no point of the coarse grid has a score; cancelled.
 Result<ParameterSweep> sweep_coarse_then_fine(std::span<const SweptParameter> parameters,
-                                              std::size_t case_count, const CaseScore& score,
+                                              std::span<const double> weights, const CaseScore& score,
                                               std::size_t threads, Progress& progress);
 constexpr double kMostSweepCases = 1e6;
 

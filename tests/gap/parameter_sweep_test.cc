@@ -15,13 +15,14 @@ std::optional<double> bowl(std::size_t number, std::span<const double> x) {
   return number == 0 ? std::abs(a) : number == 1 ? std::abs(b) : std::hypot(a, b);
 }
 
+const std::vector<double> kOne{1.0}, kThree{1.0, 1.0, 1.0};
 const std::vector<SweptParameter> kBowl{
     {.name = "a", .lowest = 0.0, .highest = 10.0, .coarse = 6, .fine = 9},
     {.name = "b", .lowest = 1.0, .highest = 1e4, .coarse = 5, .fine = 5, .logarithmic = true}};
 
 TEST(ParameterSweep, TheFineGridLiesBetweenTheNeighboursOfTheCoarseBest) {
   NoProgress progress;
-  const auto sweep = sweep_coarse_then_fine(kBowl, 3, bowl, 2, progress);
+  const auto sweep = sweep_coarse_then_fine(kBowl, kThree, bowl, 2, progress);
   ASSERT_TRUE(sweep) << sweep.error().detail;
   EXPECT_EQ(sweep->coarse.axes[0], (std::vector<double>{0, 2, 4, 6, 8, 10}));
   EXPECT_EQ(sweep->points[sweep->best_coarse].x, (std::vector<double>{4.0, 100.0}));
@@ -44,7 +45,7 @@ TEST(ParameterSweep, APointOfBothGridsIsTriedOnce) {
     return bowl(number, x);
   };
   NoProgress progress;
-  const auto sweep = sweep_coarse_then_fine(kBowl, 3, counted, 2, progress);
+  const auto sweep = sweep_coarse_then_fine(kBowl, kThree, counted, 2, progress);
   ASSERT_TRUE(sweep);
   std::set<std::vector<double>> different;
   for (const SweepPoint& point : sweep->points) different.insert(point.x);
@@ -56,8 +57,8 @@ TEST(ParameterSweep, APointOfBothGridsIsTriedOnce) {
 
 TEST(ParameterSweep, ThreadsDoNotChangeTheResult) {
   NoProgress progress;
-  const auto one = sweep_coarse_then_fine(kBowl, 3, bowl, 1, progress);
-  const auto four = sweep_coarse_then_fine(kBowl, 3, bowl, 4, progress);
+  const auto one = sweep_coarse_then_fine(kBowl, kThree, bowl, 1, progress);
+  const auto four = sweep_coarse_then_fine(kBowl, kThree, bowl, 4, progress);
   ASSERT_TRUE(one && four);
   ASSERT_EQ(one->points.size(), four->points.size());
   for (std::size_t i = 0; i < one->points.size(); ++i) {
@@ -72,7 +73,7 @@ TEST(ParameterSweep, ABestAtTheEndOfARangeIsRefinedTowardsTheInside) {
   NoProgress progress;
   const std::vector<SweptParameter> one{{.name = "a", .lowest = 4.0, .highest = 8.0, .coarse = 5, .fine = 3}};
   const CaseScore away = [](std::size_t, std::span<const double> x) { return std::abs(x[0] - 1.0); };
-  const auto sweep = sweep_coarse_then_fine(one, 1, away, 1, progress);
+  const auto sweep = sweep_coarse_then_fine(one, kOne, away, 1, progress);
   ASSERT_TRUE(sweep);
   EXPECT_EQ(sweep->fine.axes[0], (std::vector<double>{4.0, 4.5, 5.0}));
   EXPECT_EQ(sweep->best, sweep->best_coarse);
@@ -84,14 +85,14 @@ TEST(ParameterSweep, APointWithoutAnAnswerInACaseIsNotTheBest) {
     if (number == 1 && x[0] < 5.0) return std::nullopt;
     return bowl(number, x);
   };
-  const auto sweep = sweep_coarse_then_fine(kBowl, 3, hole, 2, progress);
+  const auto sweep = sweep_coarse_then_fine(kBowl, kThree, hole, 2, progress);
   ASSERT_TRUE(sweep);
   EXPECT_EQ(sweep->points[sweep->best].x[0], 5.0);
   EXPECT_FALSE(sweep->points[0].score);
   const std::size_t answered[] = {0, 2};
-  EXPECT_TRUE(score_over(sweep->points[0], answered));
+  EXPECT_TRUE(score_over(sweep->points[0], answered, kThree));
   const CaseScore none = [](std::size_t, std::span<const double>) { return std::optional<double>(); };
-  const auto nothing = sweep_coarse_then_fine(kBowl, 3, none, 2, progress);
+  const auto nothing = sweep_coarse_then_fine(kBowl, kThree, none, 2, progress);
   ASSERT_FALSE(nothing);
   EXPECT_EQ(nothing.error().code, ErrorCode::kNotConverged);
 }
@@ -105,7 +106,7 @@ TEST(ParameterSweep, TheSurfaceOverTwoOfThreeIsTheBestThatTheThirdAllows) {
   const CaseScore valley = [](std::size_t, std::span<const double> x) {
     return std::abs(x[0] - x[2]) + std::abs(x[1] - 1.0);
   };
-  const auto sweep = sweep_coarse_then_fine(three, 1, valley, 1, progress);
+  const auto sweep = sweep_coarse_then_fine(three, kOne, valley, 1, progress);
   ASSERT_TRUE(sweep);
   const ScoreSurface surface = score_surface(*sweep, sweep->coarse, 0, 1);
   ASSERT_EQ(surface.scores.size(), 15U);
@@ -118,10 +119,16 @@ TEST(ParameterSweep, TheSurfaceOverTwoOfThreeIsTheBestThatTheThirdAllows) {
   EXPECT_DOUBLE_EQ(*curve.scores[2], 1.0);
 }
 
+TEST(ParameterSweep, ACaseCountsAsMuchAsItsWeight) {
+  const SweepPoint point{.x = {}, .cases = {3.0, 1.0, 5.0}, .score = {}};
+  const std::size_t first_two[] = {0, 1};
+  EXPECT_DOUBLE_EQ(*score_over(point, first_two, std::vector{1.0, 3.0, 9.0}), std::sqrt((9.0 + 3.0) / 4.0));
+}
+
 TEST(ParameterSweep, RefusesWhatCanNotBeSwept) {
   NoProgress progress;
   const auto refused = [&](std::vector<SweptParameter> parameters, const char* pointer) {
-    const auto sweep = sweep_coarse_then_fine(parameters, 3, bowl, 1, progress);
+    const auto sweep = sweep_coarse_then_fine(parameters, kThree, bowl, 1, progress);
     ASSERT_FALSE(sweep);
     EXPECT_EQ(sweep.error().code, ErrorCode::kInvalidRequest);
     ASSERT_FALSE(sweep.error().faults.empty());
@@ -140,7 +147,7 @@ TEST(ParameterSweep, CanBeGivenUp) {
     void report(std::string_view, double) override {}
     bool cancelled() const override { return true; }
   } never;
-  const auto sweep = sweep_coarse_then_fine(kBowl, 3, bowl, 2, never);
+  const auto sweep = sweep_coarse_then_fine(kBowl, kThree, bowl, 2, never);
   ASSERT_FALSE(sweep);
   EXPECT_EQ(sweep.error().code, ErrorCode::kCancelled);
 }
