@@ -28,7 +28,7 @@ const DriveRecord* answered(const std::map<std::string, DriveRecord>& records, c
 // A bar for each terrain; values of its drives as dots beside each other, in the table's order.
 Chart by_terrain(std::span<const campaign::TerrainSummary> summaries, std::string title,
                  const std::function<std::vector<double>(const std::string&)>& values_of,
-                 std::optional<Band> campaign::TerrainSummary::* band, double unit) {
+                 std::optional<Band> campaign::TerrainSummary::*band, double unit) {
   Chart chart;
   chart.x.title = "terrain";
   chart.y.title = std::move(title);
@@ -66,7 +66,7 @@ Chart poses_of(const std::string& terrain) {
   chart.y.title = "north, m";
   chart.series = {{.name = "commanded", .mark = ChartMark::kPoints, .x = {}, .y = {}, .colour = 0},
                   {.name = "reached", .mark = ChartMark::kPoints, .x = {}, .y = {}, .colour = 1},
-                  {.name = "", .mark = ChartMark::kLine, .x = {}, .y = {}, .colour = 7}};
+                  {.name = "", .mark = ChartMark::kDashedLine, .x = {}, .y = {}, .colour = 6}};
   return chart;
 }
 
@@ -105,11 +105,10 @@ std::string draw_slip_by_terrain(const campaign::CampaignTable& table, std::span
   const auto heading_rad = [](const DriveRecord& record) {
     return std::abs(campaign::heading_error_rad(record));
   };
-  std::vector<Chart> charts{
-      by_terrain(summaries, "slip of the drive", values(true, slip), &campaign::TerrainSummary::slip_ratio,
-                 1.0),
-      by_terrain(summaries, "heading error of drives, deg", values(true, heading_rad),
-                 &campaign::TerrainSummary::heading_error_rad, deg_from_rad(1.0))};
+  std::vector<Chart> charts{by_terrain(summaries, "slip of the drive", values(true, slip),
+                                       &campaign::TerrainSummary::slip_ratio, 1.0),
+                            by_terrain(summaries, "heading error of drives, deg", values(true, heading_rad),
+                                       &campaign::TerrainSummary::heading_error_rad, deg_from_rad(1.0))};
   bool any_turn = false;
   for (const campaign::TerrainSummary& summary : summaries) any_turn = any_turn || summary.turn_error_rad;
   if (any_turn)
@@ -156,7 +155,7 @@ std::string draw_time_history(const std::string& title, const sim::RoverModel& r
   };
   std::vector<Chart> charts{chart("slip"), chart("pitch and roll, deg"), chart("sinkage, mm"),
                             chart("motor current, A"), chart("torque, N m")};
-  charts[0].series.push_back(series("rover", 7, [](const auto& r) { return r.sample.slip_ratio; }));
+  charts[0].series.push_back(series("rover", 6, [](const auto& r) { return r.sample.slip_ratio; }));
   charts[1].series.push_back(series("pitch", 0, [=](const auto& r) {
     return r.has_pose ? deg_from_rad(r.sample.attitude.pitch_rad) : kNothing;
   }));
@@ -166,8 +165,9 @@ std::string draw_time_history(const std::string& title, const sim::RoverModel& r
   for (std::size_t k = 0; k < rover.wheels.size(); ++k) {
     const std::string& name = rover.wheels[k].name;
     charts[0].series.push_back(series(name, k, [=](const auto& r) { return r.sample.wheels[k].slip_ratio; }));
-    charts[2].series.push_back(series(
-        name, k, [=](const auto& r) { return r.has_sinkage ? 1e3 * r.sample.wheels[k].sinkage_m : kNothing; }));
+    charts[2].series.push_back(series(name, k, [=](const auto& r) {
+      return r.has_sinkage ? 1e3 * r.sample.wheels[k].sinkage_m : kNothing;
+    }));
     charts[3].series.push_back(series(
         name, k, [=](const auto& r) { return r.has_current ? r.sample.wheels[k].current_a : kNothing; }));
     charts[4].series.push_back(series(name, k, [=](const auto& r) { return r.sample.wheels[k].torque_nm; }));

@@ -40,9 +40,8 @@ void check_entry(const CampaignTable& table, std::size_t k, std::vector<Fault>& 
   for (const std::size_t t : entry.terrains) {
     const TableTerrain& terrain = table.terrains[t];
     if (!terrain.ground->surface(entry.x_m, entry.y_m)) {
-      faults.push_back(
-          {pointer + "/start",
-           fmt::format("start ({:g}, {:g}) m is not on terrain {}", entry.x_m, entry.y_m, terrain.name)});
+      faults.push_back({pointer + "/start", fmt::format("start ({:g}, {:g}) m is not on terrain {}",
+                                                        entry.x_m, entry.y_m, terrain.name)});
     }
   }
   for (const auto& [wheel, drive] : entry.failed_wheels) {
@@ -50,9 +49,9 @@ void check_entry(const CampaignTable& table, std::size_t k, std::vector<Fault>& 
     if (std::any_of(wheels.begin(), wheels.end(), [&](const auto& w) { return w.name == wheel; })) continue;
     std::vector<std::string_view> names;
     for (const sim::WheelModel& known : wheels) names.push_back(known.name);
-    faults.push_back({pointer + "/failed_wheels/" + wheel,
-                      fmt::format("{} has no wheel {}, it has {}", table.rover->name, wheel,
-                                  fmt::join(names, ", "))});
+    faults.push_back(
+        {pointer + "/failed_wheels/" + wheel,
+         fmt::format("{} has no wheel {}, it has {}", table.rover->name, wheel, fmt::join(names, ", "))});
   }
 }
 
@@ -103,14 +102,16 @@ std::vector<Fault> faults_of(const CampaignTable& table) {
   check_effects(table, faults);
   for (std::size_t k = 0; k < table.entries.size(); ++k) check_entry(table, k, faults);
   if (const std::size_t count = count_of(table); count > kMostDrives) {
-    faults.push_back({"/drives", fmt::format("drives make {} drives, must be at most {}", count, kMostDrives)});
+    faults.push_back(
+        {"/drives", fmt::format("drives make {} drives, must be at most {}", count, kMostDrives)});
     return faults;
   }
   std::set<std::string> ids, reported;
   for (const TableDrive& drive : expand(table)) {
     if (ids.insert(drive.id).second || !reported.insert(drive.id).second) continue;
-    faults.push_back({fmt::format("/drives/{}/id", drive.entry),
-                      fmt::format("drive {} is given twice: an id, a terrain or a heading is repeated", drive.id)});
+    faults.push_back(
+        {fmt::format("/drives/{}/id", drive.entry),
+         fmt::format("drive {} is given twice: an id, a terrain or a heading is repeated", drive.id)});
   }
   return faults;
 }

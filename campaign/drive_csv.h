@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,8 +24,7 @@ struct CsvOptions {
 std::string drive_csv(const sim::RoverModel& rover, std::span<const sim::SensorReading> readings,
                       const CsvOptions& options);
 
-// The readings of one leg, their times from its beginning. Where a leg has less than two, those of its
-// neighbourhood are not taken in its place.
+// The readings of one leg, their times from its beginning; none where it was never begun.
 std::vector<sim::SensorReading> readings_of_leg(std::span<const sim::SensorReading> readings, int leg);
 
 }  // namespace slipway::campaign

@@ -10,7 +10,10 @@ namespace slipway::campaign {
 
 DriveRecord record_of(const TableDrive& drive, const MadeDrive& made, const std::string& digest,
                       std::vector<std::string> files) {
-  DriveRecord record{.id = drive.id, .digest = digest, .end = {}, .reason = {}, .files = std::move(files)};
+  DriveRecord record;
+  record.id = drive.id;
+  record.digest = digest;
+  record.files = std::move(files);
   record.soil = made.soil;
   if (!made.drive) {
     record.end = error_row(made.drive.error().code).name;

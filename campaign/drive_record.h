@@ -14,7 +14,7 @@ struct DriveRecord {
   // A name of sim::DriveEnd; where the simulator could not answer, the error's: "no_data".
   std::string end;
   std::string reason;              // empty where finished
-  bool answered = false;           // false: an error; nothing below but `soil` is read
+  bool answered = false;           // false: an error; of what is below only the soil is then known
   std::vector<std::string> files;  // in the campaign's folder: one a leg, in order, and a deformed terrain
   double duration_s = 0.0, progress_m = 0.0, commanded_m = 0.0, energy_j = 0.0;
   double final_slip_ratio = 0.0;

@@ -26,8 +26,7 @@ sim::Soil soil_of(const CampaignTable& table, const TableDrive& drive) {
   if (table.draw_soils) {
     const std::uint64_t key = random_key(random_key(table.seed, kSoilStream), digest_of(drive.id));
     sim::SoilNormals normals;
-    for (int i = 0; i < sim::kSoilDims; ++i)
-      normals[i] = random_normal(key, static_cast<std::uint64_t>(i));
+    for (int i = 0; i < sim::kSoilDims; ++i) normals[i] = random_normal(key, static_cast<std::uint64_t>(i));
     soil = sim::draw_soil(belief, normals);
   }
   sim::apply_effects(sim::in_force(table.rover->effects, table.effects), soil);
@@ -54,14 +53,14 @@ MadeDrive make_drive(const CampaignTable& table, const TableDrive& drive, Simula
   const DriveEntry& entry = table.entries[drive.entry];
   const sim::RoverModel rover = driven_rover(table, entry);
   const planner::TerrainGround ground(table.terrains[drive.terrain].ground, nullptr);
-  MadeDrive made{.soil = soil_of(table, drive), .drive = sim::DynamicDrive{}, .readings = {}};
+  MadeDrive made;
+  made.soil = soil_of(table, drive);
   sim::DynamicOptions options = table.options;
   options.keep_ruts = options.keep_ruts || entry.deformed_terrain;
   sim::DriveSensors sensors = table.sensors;
   sensors.seed = random_key(table.seed, kSensorStream);
   const sim::DriveSink keep = [&](const sim::DriveSample& sample) {
-    made.readings.push_back(
-        sim::read_sensors(sensors, digest_of(drive.id), made.readings.size(), sample));
+    made.readings.push_back(sim::read_sensors(sensors, digest_of(drive.id), made.readings.size(), sample));
   };
   made.drive = simulator(rover, table.gravity_m_s2, ground, {.known = {}, .unknown = made.soil}, drive.start,
                          entry.legs, options, keep, progress);

@@ -32,8 +32,8 @@ std::vector<float> stored_heights(const Terrain& terrain) {
 
 bool write(GDALDataset& raster, const Terrain& terrain, const std::string& crs_wkt) {
   const GridGeometry& geometry = terrain.geometry();
-  std::array<double, 6> transform{geometry.west_m,  geometry.cell_x_m, 0.0,
-                                  geometry.north_m, 0.0,               -geometry.cell_y_m};
+  std::array<double, 6> transform{geometry.west_m,   geometry.cell_x_m, 0.0, geometry.north_m, 0.0,
+                                  -geometry.cell_y_m};
   if (raster.SetGeoTransform(transform.data()) != CE_None) return false;
   if (!crs_wkt.empty() && raster.SetProjection(crs_wkt.c_str()) != CE_None) return false;
   GDALRasterBand& band = *raster.GetRasterBand(1);

@@ -77,13 +77,11 @@ std::shared_ptr<const Terrain> make_crater(const SyntheticGrid& grid, double rad
   });
 }
 
-
 std::shared_ptr<const Terrain> make_relief(const SyntheticGrid& grid, const Relief& relief) {
   return sampled(grid, [&](double x_m, double y_m) {
     double height_m = std::tan(relief.slope_rad) * x_m;
     if (relief.ripple)
-      height_m +=
-          ripple_m(relief.ripple->height_m, relief.ripple->width_m, x_m - relief.ripple->crest_x_m);
+      height_m += ripple_m(relief.ripple->height_m, relief.ripple->width_m, x_m - relief.ripple->crest_x_m);
     if (relief.roughness) height_m += bumps_m(*relief.roughness, x_m, y_m);
     return height_m;
   });

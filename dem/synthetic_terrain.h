@@ -24,7 +24,6 @@ std::shared_ptr<const Terrain> make_ripple(const SyntheticGrid& grid, double hei
 // A bowl around the origin, a paraboloid of the given radius and depth whose rim lies on a plane of height 0.
 std::shared_ptr<const Terrain> make_crater(const SyntheticGrid& grid, double radius_m, double depth_m);
 
-
 // A plane that rises towards +x, with what lies on it added to its height.
 struct Relief {
   double slope_rad = 0.0;

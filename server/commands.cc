@@ -1,10 +1,8 @@
 #include "server/commands.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <atomic>
-#include <cstdio>
 #include <fstream>
 #include <iostream>
 #include <sstream>
@@ -13,6 +11,7 @@
 #include "server/command_parts.h"
 #include "server/inquiry.h"
 #include "server/tables.h"
+#include "server/terminal_progress.h"
 
 namespace slipway::server {
 namespace {
@@ -20,25 +19,6 @@ namespace {
 using api::json::Writer;
 
 std::atomic<bool> interrupted{false};
-
-// Stage and share on one line of a terminal; nothing where standard error is a file.
-class TerminalProgress final : public Progress {
- public:
-  ~TerminalProgress() override {
-    if (shown_) std::fputs("\r\033[K", stderr);
-  }
-  void report(std::string_view stage, double fraction) override {
-    if (!terminal_) return;
-    shown_ = true;
-    std::fputs(fmt::format("\r\033[K{:3.0f} % {}", 100.0 * fraction, stage).c_str(), stderr);
-    std::fflush(stderr);
-  }
-  bool cancelled() const override { return interrupted; }
-
- private:
-  const bool terminal_ = isatty(STDERR_FILENO) != 0;
-  std::atomic<bool> shown_{false};
-};
 
 Result<std::string> read_file(const std::string& path) {
   std::stringstream text;

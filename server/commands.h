@@ -111,6 +111,15 @@ struct CurrentInvertCommand {
   std::uint64_t seed = 1;
 };
 
+struct CampaignCommand {
+  std::string data = "data";
+  std::string table;  // a file, a shipped table's name, or "list"
+  std::string out;    // folder
+  int threads = 0;    // 0: as many as the machine has
+  std::vector<std::string> only;  // ids of drives with * and ?; empty: all
+  bool start_over = false, dry_run = false, json = false;
+};
+
 // Each prints its answer on standard output and returns the process's exit status: 0 an answer (also "no safe
 // route"), 1 no answer, 2 a question that can't be asked. Problems and progress go to standard error.
 int serve(const ServeOptions& options);
@@ -126,6 +135,8 @@ int effects(const AskOptions& options);
 int health(const AskOptions& options);
 // 0: every stated band holds (and the page is as it should be); 1: one does not.
 int validate(const ValidateOptions& options);
+// 0: every drive has an answer; 1: one has none.
+int campaign(const CampaignCommand& options);
 
 // From a signal handler: the running question is given up, the server drains and ends.
 void interrupt();

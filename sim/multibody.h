@@ -19,7 +19,7 @@ struct RevoluteBody {
   int parent = -1;                                    // index of an earlier body, -1: the base
   Eigen::Vector3d pivot_m = Eigen::Vector3d::Zero();  // on the axis, where all joints are at 0, frame B
   Eigen::Vector3d axis = Eigen::Vector3d::UnitY();    // unit, where all joints are at 0, frame B
-  MassProperties mass;
+  MassProperties mass = {};
   double armature_kg_m2 = 0.0;  // of a motor's rotor about this joint, gear ratio squared times its own
   bool round = false;           // looks alike at every angle: a wheel; its angle is never read
 };

@@ -32,8 +32,7 @@ void write_grounds(Writer& w, const campaign::CampaignTable& table, const std::s
   std::set<std::string> soils;
   for (const std::size_t t : used) soils.insert(table.terrains[t].soil);
   w.key("soils").begin_object();
-  for (const std::string& name : soils)
-    write_nominal_soil(w.key(name), table.soils.find(name)->second.mean);
+  for (const std::string& name : soils) write_nominal_soil(w.key(name), table.soils.find(name)->second.mean);
   w.end_object().key("terrains").begin_object();
   for (const std::size_t t : used) {
     const campaign::TableTerrain& terrain = table.terrains[t];

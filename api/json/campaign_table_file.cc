@@ -47,7 +47,6 @@ void read_simulation(ObjectReader& reader, sim::DynamicOptions& options) {
     options.feedback = static_cast<sim::Feedback>(feedback);
   object->number("relative_tolerance", kOptional, {"1", 1e-10, 1e-2}, options.relative_tolerance);
   object->whole("contact_points", kOptional, 1, 15, options.contact_points);
-  object->boolean("from_standing", kOptional, options.from_standing);
   object->number("give_up_s", kOptional, {"s", 1.0, 1e5}, options.give_up_s);
   object->number("motor_temp_c", kOptional, {"degC", -150.0, 150.0}, options.motor_temp_c);
   object->refuse_unknown();

@@ -9,7 +9,7 @@ namespace {
 
 struct Channel {
   std::string_view key, unit;
-  sim::SensorError sim::DriveSensors::* error;
+  sim::SensorError sim::DriveSensors::*error;
   bool in_degrees;
 };
 
