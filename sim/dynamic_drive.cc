@@ -19,8 +19,10 @@ constexpr double kLongestSettling_s = 40.0;
 constexpr double kAtRest_m_s = 2e-5;          // slower counts as at rest
 constexpr double kRestFor_s = 0.5;            // and must last
 constexpr double kSliding_m_s = 5e-4;         // faster after kLongestSettling_s: it slides
+constexpr double kSlid_m = 0.2;               // farther than this while settling: the same
 constexpr double kLongestTravel_radii = 0.5;  // of a wheel within one step
 constexpr double kNudge_s = 1e-6;
+constexpr long kMostStepsPerSecond = 4000;  // more, over a second: the motion is too rough to follow
 
 class Drive {
  public:
@@ -53,6 +55,7 @@ class Drive {
     dynamics_.halt(PerWheel<double>(rover_.wheels.size()));
     dynamics_.after_step(0.0, y.data());
     integrator_.start(0.0, y);
+    put_down_ = dynamics_.pose(state());
     if (auto settled = settle(); !settled) return fail(std::move(settled.error()));
     out_.start = dynamics_.pose(state());
     out_.commanded = out_.start;
@@ -73,9 +76,9 @@ class Drive {
       if (!step) return fail(std::move(step.error()));
       t = step->t;
       if (dynamics_.speed_m_s(state()) > kAtRest_m_s) still_since = t;
-      if (t - still_since > kRestFor_s) break;
+      if (t - still_since > kRestFor_s || slid_m() > kSlid_m) break;
     }
-    if (!ended_ && dynamics_.speed_m_s(state()) > kSliding_m_s)
+    if (!ended_ && (slid_m() > kSlid_m || dynamics_.speed_m_s(state()) > kSliding_m_s))
       end(DriveEnd::kSlid,
           fmt::format("does not come to rest at its start: slides at {:.1f} mm/s on a tilt of {:.1f} deg",
                       1e3 * dynamics_.speed_m_s(state()), deg_from_rad(dynamics_.tilt_rad(state()))));
@@ -84,6 +87,11 @@ class Drive {
     checked_s_ = t;
     record(t, state());
     return {};
+  }
+
+  double slid_m() const {
+    const Pose2 at = dynamics_.pose(state());
+    return std::hypot(at.x_m - put_down_.x_m, at.y_m - put_down_.y_m);
   }
 
   Result<void> drive_leg(const DriveLeg& leg) {
@@ -125,12 +133,27 @@ class Drive {
     if (progress_.cancelled()) return fail(ErrorCode::kCancelled, "the drive was dismissed");
     auto step = integrator_.step(stop);
     if (!step) return fail(off_ground(std::move(step.error())));
+    if (auto followed = check_pace(step->t); !followed) return fail(std::move(followed.error()));
     if (began_s_ >= 0.0) emit_samples(step->t);
     now_s_ = step->t;
     dynamics_.after_step(now_s_, state());
     if (step->event) take_events();
     if (driver_ && ++steps_ % 256 == 0) progress_.report("driving", done_share());
     return step;
+  }
+
+  // Never hangs: a motion that takes too many steps a second is refused.
+  Result<void> check_pace(double t) {
+    if (t - pace_s_ >= 1.0) {
+      pace_s_ = t;
+      pace_steps_ = 0;
+    }
+    if (++pace_steps_ <= kMostStepsPerSecond) return {};
+    return fail(ErrorCode::kNotConverged,
+                fmt::format("the motion is too rough to follow at {:.3f} s: more than {} steps in a second, "
+                            "speed {:.3f} m/s, tilt {:.1f} deg",
+                            t, kMostStepsPerSecond, dynamics_.speed_m_s(state()),
+                            deg_from_rad(dynamics_.tilt_rad(state()))));
   }
 
   double done_share() const {
@@ -265,10 +288,12 @@ class Drive {
   std::vector<double> between_;
   DynamicDrive out_;
   LegDriver* driver_ = nullptr;
+  Pose2 put_down_;
   std::optional<Pose2> next_start_;
   int leg_ = 0;
   bool ended_ = false;
-  long steps_ = 0;
+  long steps_ = 0, pace_steps_ = 0;
+  double pace_s_ = 0.0;
   double whole_s_ = 0.0, now_s_ = 0.0, began_s_ = -1.0, last_sample_s_ = 0.0, recorded_s_ = -1.0;
   double before_leg_m_ = 0.0, checked_s_ = 0.0, checked_share_ = 0.0;
 };

@@ -98,19 +98,26 @@ bool WheelContacts::find_ground(const Ground& ground, const RutMap& ruts, std::s
     contact.rut_m = place.rebound_share * ruts.at(at.centre.x(), at.centre.y()).depth_m;
     contact.depth_m -= contact.rut_m;
   }
+  if (rover_.wheel_slices > 1) find_slices(ground, k, at, contact);
   return true;
 }
 
-void WheelContacts::set_slice_heights(const Ground& ground, std::size_t k, const WheelKinematics& at,
-                                      const ContactState& contact, SliceHeights& heights) const {
-  const double r = rover_.wheels[k].radius_m;
+// The wheel is as deep as its deepest slice, so that there is no depth at which the others jump.
+void WheelContacts::find_slices(const Ground& ground, std::size_t k, const WheelKinematics& at,
+                                ContactState& contact) const {
+  const WheelModel& wheel = rover_.wheels[k];
+  double highest = -wheel.radius_m;
   for (int s = 0; s < rover_.wheel_slices; ++s) {
-    const Vector3d p = at.centre + slice_offset_m(rover_.wheels[k].width_m, s, rover_.wheel_slices) * at.axle;
+    const Vector3d p = at.centre + slice_offset_m(wheel.width_m, s, rover_.wheel_slices) * at.axle;
     const std::optional<GroundPoint> point = ground.at(p.x(), p.y());
+    const double middle = contact.depth_m + contact.rut_m - wheel.radius_m;
     // A slice off the map hangs in the air.
-    heights[s] =
-        point ? r - (p.z() - point->height_m) * contact.normal.z() - contact.rut_m - contact.depth_m : -r;
+    contact.slice_height_m[s] =
+        point ? (point->height_m - p.z()) * contact.normal.z() - middle : -wheel.radius_m;
+    highest = std::max(highest, contact.slice_height_m[s]);
   }
+  for (int s = 0; s < rover_.wheel_slices; ++s) contact.slice_height_m[s] -= highest;
+  contact.depth_m += highest;
 }
 
 std::size_t WheelContacts::add_trials(const RutMap& ruts, std::size_t k, const WheelKinematics& at,
@@ -140,19 +147,17 @@ std::size_t WheelContacts::add_trials(const RutMap& ruts, std::size_t k, const W
   return count;
 }
 
-void WheelContacts::add_sliced(const Ground& ground, const Trial& trial, const WheelNumbers& numbers,
-                               const WheelKinematics& at, ContactState& contact) const {
+void WheelContacts::add_sliced(const Trial& trial, const WheelNumbers& numbers, const WheelKinematics& at,
+                               ContactState& contact) const {
   const Place& place = places_[trial.wheel];
-  SliceHeights heights{};
-  set_slice_heights(ground, trial.wheel, at, contact, heights);
   Soil soil = place.soil;
   const double stiffer = numbers.stiffness / place.numbers.stiffness;
   soil.pressure.k_c *= stiffer;
   soil.pressure.k_phi *= stiffer;
   soil.bulldozing = numbers.bulldozing;
   const SlicedWheelForces sliced = sliced_wheel_forces(
-      place.geometry, soil, {heights.data(), static_cast<std::size_t>(rover_.wheel_slices)}, contact.depth_m,
-      {numbers.forward, numbers.leftward});
+      place.geometry, soil, {contact.slice_height_m.data(), static_cast<std::size_t>(rover_.wheel_slices)},
+      contact.depth_m, {numbers.forward, numbers.leftward});
   add_forces(trial.direction, trial.weight, sliced.total, contact);
   contact.moment += trial.weight * sliced.overturning_nm * at.axle.cross(contact.normal).normalized();
 }
@@ -179,7 +184,7 @@ bool WheelContacts::find(const Ground& ground, const RutMap& ruts, const PerWhee
   }
   if (rover_.wheel_slices > 1) {
     for (std::size_t n = 0; n < count; ++n)
-      add_sliced(ground, trials[n], numbers[n], wheels[trials[n].wheel], contacts[trials[n].wheel]);
+      add_sliced(trials[n], numbers[n], wheels[trials[n].wheel], contacts[trials[n].wheel]);
   } else {
     std::array<WheelForces, kMostTrials> forces;
     wheel_forces({numbers.data(), count}, {forces.data(), count});

@@ -26,6 +26,7 @@ struct ContactState {
   double depth_m = 0.0;  // of the rim below the ground that it meets; <= 0 in the air
   double rut_m = 0.0;    // of that ground below the undisturbed surface
   double entry_angle_rad = 0.0;
+  SliceHeights slice_height_m{};  // of a sliced wheel: below the highest one, whose depth it is
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   // on the wheel at its centre
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // on the wheel, N m
@@ -102,10 +103,10 @@ class WheelContacts {
   // At most two trials of a wheel on the ground.
   std::size_t add_trials(const RutMap& ruts, std::size_t wheel, const WheelKinematics& kinematics,
                          double entry_angle_rad, Trial* trials, WheelNumbers* numbers) const;
-  void add_sliced(const Ground& ground, const Trial& trial, const WheelNumbers& numbers,
-                  const WheelKinematics& kinematics, ContactState& contact) const;
-  void set_slice_heights(const Ground& ground, std::size_t wheel, const WheelKinematics& kinematics,
-                         const ContactState& contact, SliceHeights& heights) const;
+  void add_sliced(const Trial& trial, const WheelNumbers& numbers, const WheelKinematics& kinematics,
+                  ContactState& contact) const;
+  void find_slices(const Ground& ground, std::size_t wheel, const WheelKinematics& kinematics,
+                   ContactState& contact) const;
   void finish(std::size_t wheel, const WheelKinematics& kinematics, ContactState& contact) const;
 
   const RoverModel& rover_;
