@@ -60,7 +60,8 @@ MadeDrive make_drive(const CampaignTable& table, const TableDrive& drive, Simula
   sim::DriveSensors sensors = table.sensors;
   sensors.seed = random_key(table.seed, kSensorStream);
   const sim::DriveSink keep = [&](const sim::DriveSample& sample) {
-    made.readings.push_back(sim::read_sensors(sensors, digest_of(drive.id), made.readings.size(), sample));
+    made.readings.push_back(sim::read_sensors(sensors, digest_of(drive.id), made.readings.size(),
+                                              options.sample_interval_s, sample));
   };
   made.drive = simulator(rover, table.gravity_m_s2, ground, {.known = {}, .unknown = made.soil}, drive.start,
                          entry.legs, options, keep, progress);

@@ -113,9 +113,9 @@ struct CurrentInvertCommand {
 
 struct CampaignCommand {
   std::string data = "data";
-  std::string table;  // a file, a shipped table's name, or "list"
-  std::string out;    // folder
-  int threads = 0;    // 0: as many as the machine has
+  std::string table;              // a file, a shipped table's name, or "list"
+  std::string out;                // folder
+  int threads = 0;                // 0: as many as the machine has
   std::vector<std::string> only;  // ids of drives with * and ?; empty: all
   bool start_over = false, dry_run = false, json = false;
 };

@@ -5,4 +5,4 @@ set -eu
 cd "$(dirname "$0")/.."
 [ -f build/check/compile_commands.json ] || { echo "tests/tidy.sh: configure first: cmake --preset check" >&2; exit 1; }
 command -v clang-tidy >/dev/null || { echo "tests/tidy.sh: install clang-tidy first: apt-get install clang-tidy" >&2; exit 1; }
-find ${*:-core dem sim planner api server} -name '*.cc' | sort | xargs -P "$(nproc)" -n 1 clang-tidy --quiet -p build/check
+find ${*:-core dem sim planner campaign api server} -name '*.cc' | sort | xargs -P "$(nproc)" -n 1 clang-tidy --quiet -p build/check
