@@ -157,10 +157,10 @@ std::string draw_time_history(const std::string& title, const sim::RoverModel& r
                             chart("motor current, A"), chart("torque, N m")};
   charts[0].series.push_back(series("rover", 6, [](const auto& r) { return r.sample.slip_ratio; }));
   charts[1].series.push_back(series("pitch", 0, [=](const auto& r) {
-    return r.has_pose ? deg_from_rad(r.sample.attitude.pitch_rad) : kNothing;
+    return r.has_attitude ? deg_from_rad(r.sample.attitude.pitch_rad) : kNothing;
   }));
   charts[1].series.push_back(series("roll", 1, [=](const auto& r) {
-    return r.has_pose ? deg_from_rad(r.sample.attitude.roll_rad) : kNothing;
+    return r.has_attitude ? deg_from_rad(r.sample.attitude.roll_rad) : kNothing;
   }));
   for (std::size_t k = 0; k < rover.wheels.size(); ++k) {
     const std::string& name = rover.wheels[k].name;

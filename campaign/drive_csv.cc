@@ -59,9 +59,9 @@ std::string header(const sim::RoverModel& rover) {
 void add_format_cells(Row& row, const sim::SensorReading& reading, const CsvOptions& options) {
   const sim::DriveSample& s = reading.sample;
   row.cell(s.time_s);
-  for (int axis = 0; axis < 3; ++axis) row.cell(s.p_MB[axis], reading.has_pose);
-  row.angle(s.attitude.roll_rad, reading.has_pose).angle(s.attitude.pitch_rad, reading.has_pose);
-  row.angle(s.attitude.yaw_rad, reading.has_pose);
+  for (int axis = 0; axis < 3; ++axis) row.cell(s.p_MB[axis], reading.has_position);
+  row.angle(s.attitude.roll_rad, reading.has_attitude).angle(s.attitude.pitch_rad, reading.has_attitude);
+  row.angle(s.attitude.yaw_rad, reading.has_attitude);
   for (std::size_t k = 0; k < s.wheels.size(); ++k) {
     row.angle(s.wheels[k].rate_rad_s, reading.has_encoder);
     row.angle(s.steer_rad[k], reading.has_potentiometer);
@@ -84,8 +84,8 @@ void add_more_cells(Row& row, const sim::SensorReading& reading) {
   }
   for (const double rad : s.rocker_rad) row.angle(rad, reading.has_potentiometer);
   for (const double rad : s.bogie_rad) row.angle(rad, reading.has_potentiometer);
-  for (int axis = 0; axis < 3; ++axis) row.angle(s.angular_rate_B[axis], reading.has_imu);
-  for (int axis = 0; axis < 3; ++axis) row.cell(s.specific_force_B[axis], reading.has_imu);
+  for (int axis = 0; axis < 3; ++axis) row.angle(s.angular_rate_B[axis], reading.has_gyro);
+  for (int axis = 0; axis < 3; ++axis) row.cell(s.specific_force_B[axis], reading.has_accelerometer);
   row.cell(s.slip_ratio).cell(s.progress_m).cell(s.leg).cell(s.driving ? 1.0 : 0.0);
 }
 

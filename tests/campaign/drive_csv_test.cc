@@ -57,7 +57,7 @@ TEST(DriveCsv, BeginsWithTheFormatsColumnsInTheirOrder) {
 
 TEST(DriveCsv, HoldsDegreesAndEmptyCellsWhereNothingWasRead) {
   std::vector<sim::SensorReading> readings{reading_at(0.0), reading_at(1.0)};
-  readings[1].has_sinkage = readings[1].has_pose = false;
+  readings[1].has_sinkage = readings[1].has_position = readings[1].has_attitude = false;
   const auto rows = cells_of(drive_csv(rover(), readings, {.bus_voltage_v = 24.0, .motor_temp_c = -20.0}));
   ASSERT_EQ(rows.size(), 3U);
   for (const auto& row : rows) EXPECT_EQ(row.size(), rows[0].size());
