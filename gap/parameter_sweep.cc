@@ -171,6 +171,7 @@ Result<ParameterSweep> sweep_coarse_then_fine(std::span<const SweptParameter> pa
   std::vector<std::vector<double>> fine_sizes;
   for (const SweptParameter& p : parameters) {
     sweep.names.push_back(p.name);
+    sweep.logarithmic.push_back(p.logarithmic);
     sweep.coarse.axes.push_back(axis(p, p.lowest, p.highest, p.coarse, {}));
     fine_sizes.emplace_back(static_cast<std::size_t>(p.fine));
   }

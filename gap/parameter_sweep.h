@@ -41,6 +41,7 @@ struct SweepGrid {
 
 struct ParameterSweep {
   std::vector<std::string> names;
+  std::vector<bool> logarithmic;   // of the parameters
   std::vector<double> weights;     // of the cases
   std::vector<SweepPoint> points;  // those of the coarse grid, then what the fine one adds
   SweepGrid coarse, fine;

@@ -23,7 +23,8 @@ const std::string kSixDrives = R"({
              {"id": "arc", "legs": [{"length_m": 2.0, "curvature_1_m": 0.4}]}]})";
 
 gap::TunedParameter parameter(std::string name, double lowest, double highest, int coarse = 3, int fine = 3) {
-  return {{.name = std::move(name), .lowest = lowest, .highest = highest, .coarse = coarse, .fine = fine}, {}};
+  return {{.name = std::move(name), .lowest = lowest, .highest = highest, .coarse = coarse, .fine = fine},
+          {}};
 }
 
 // A simulator that costs nothing: the rover falls short by the slope over the friction.
@@ -159,10 +160,9 @@ TEST(Tune, FindsFrictionAngleAndShearModulusOfSixSimulatedDrives) {
     EXPECT_LT(std::abs(fit.estimate[k] - truth[k]), 2.5 * std) << k;
     EXPECT_LT(std, 0.1 * truth[k]) << k;
   }
-  std::cout << "fit score " << tuning.fit->score << " sweep "
-            << *tuning.sweep.points[tuning.sweep.best].score << " corr "
-            << fit.covariance(0, 1) / std::sqrt(fit.covariance(0, 0) * fit.covariance(1, 1)) << " "
-            << fit.message << "\n";
+  std::cout << "fit score " << tuning.fit->score << " sweep " << *tuning.sweep.points[tuning.sweep.best].score
+            << " corr " << fit.covariance(0, 1) / std::sqrt(fit.covariance(0, 0) * fit.covariance(1, 1))
+            << " " << fit.message << "\n";
 }
 
 }  // namespace
