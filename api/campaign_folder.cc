@@ -169,7 +169,7 @@ Result<void> CampaignFolder::write_drive(const campaign::CampaignTable& table,
       if (!written) return written;
     }
   }
-  const campaign::DriveRecord record = campaign::record_of(drive, made, digest_, std::move(files));
+  const campaign::DriveRecord record = campaign::record_of(table, drive, made, digest_, std::move(files));
   return write("drives/" + drive.id + ".json", json::drive_record_document(record));
 }
 
@@ -184,6 +184,11 @@ Result<void> CampaignFolder::write_terrains(const campaign::CampaignTable& table
     const auto raster = dem::encode_geotiff(*terrain.ground, terrain.crs_wkt);
     if (!raster) return fail(raster.error());
     if (const auto written = write(terrain.name + ".tif", *raster); !written) return written;
+    if (!terrain.soil_map) continue;
+    const auto classes =
+        dem::encode_geotiff(*terrain.soil_map, campaign::class_elsewhere(terrain), terrain.crs_wkt);
+    if (!classes) return fail(classes.error());
+    if (const auto written = write(terrain.name + "-soil.tif", *classes); !written) return written;
   }
   return {};
 }

@@ -12,6 +12,7 @@
 #include "api/json/soil_file.h"
 #include "api/service.h"
 #include "campaign/digest.h"
+#include "dem/geotiff.h"
 
 namespace slipway::api {
 namespace {
@@ -31,7 +32,13 @@ Result<std::string> digest_of(const std::string& bytes, const campaign::Campaign
   digest = campaign::digest_of(*rover, digest);
   std::set<std::string> soils;
   for (const campaign::TableTerrain& terrain : table.terrains) {
-    soils.insert(terrain.soil);
+    for (const std::string& name : campaign::soils_of(terrain)) soils.insert(name);
+    if (terrain.soil_map) {
+      const auto classes =
+          dem::encode_geotiff(*terrain.soil_map, campaign::class_elsewhere(terrain), terrain.crs_wkt);
+      if (!classes) return fail(classes.error());
+      digest = campaign::digest_of(*classes, digest);
+    }
     digest = campaign::digest_of(terrain.ground->fingerprint(), digest);
     digest = campaign::digest_of(terrain.crs_wkt, digest);
   }

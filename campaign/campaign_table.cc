@@ -60,13 +60,13 @@ void check_effects(const CampaignTable& table, std::vector<Fault>& faults) {
   if (of_effects.empty()) of_effects = sim::faults_of(table.effects, *table.rover);
   for (Fault& fault : of_effects) faults.push_back({"/effects" + fault.pointer, std::move(fault.message)});
   if (!of_effects.empty()) return;
-  // Terrains of a table are of one soil each.
+  // Soils are drawn by their names: a place has none of its own.
   for (std::size_t i = 0; i < table.effects.size(); ++i) {
     const sim::Effect* const effect = sim::find_effect(table.effects[i].name);
     if (effect->region == nullptr || !table.effects[i].on) continue;
     faults.push_back({fmt::format("/effects/{}/name", i),
-                      fmt::format("{} is at work in a region of the map, which a campaign's terrains do not "
-                                  "have",
+                      fmt::format("{} is at work in a region of the map, which a campaign "
+                                  "can't have: give its terrain a soil map",
                                   effect->name)});
   }
 }
@@ -114,6 +114,20 @@ std::vector<Fault> faults_of(const CampaignTable& table) {
          fmt::format("drive {} is given twice: an id, a terrain or a heading is repeated", drive.id)});
   }
   return faults;
+}
+
+std::vector<std::string> soils_of(const TableTerrain& terrain) {
+  std::vector<std::string> names = terrain.soil_map ? terrain.soil_map->soils() : std::vector<std::string>{};
+  names.push_back(terrain.soil);
+  return names;
+}
+
+std::int16_t class_elsewhere(const TableTerrain& terrain) {
+  std::set<int> classes;
+  for (const dem::SoilClass& row : terrain.soil_map->legend()) classes.insert(row.value);
+  std::int16_t free = 0;
+  while (classes.contains(free)) ++free;
+  return free;
 }
 
 sim::RoverModel driven_rover(const CampaignTable& table, const DriveEntry& entry) {

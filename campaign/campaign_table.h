@@ -9,6 +9,7 @@
 
 #include "core/pose.h"
 #include "core/result.h"
+#include "dem/soil_map.h"
 #include "dem/terrain.h"
 #include "sim/drive_leg.h"
 #include "sim/drive_sensors.h"
@@ -19,12 +20,13 @@
 
 namespace slipway::campaign {
 
-// Ground of one soil that drives are made on.
+// Ground that drives are made on.
 struct TableTerrain {
   std::string name;
   std::shared_ptr<const dem::Terrain> ground;
   std::string crs_wkt;  // empty: a place of its own, on no planet's map
-  std::string soil;     // a name in CampaignTable::soils
+  std::string soil;     // a name in CampaignTable::soils; with a soil map, where that says nothing
+  std::shared_ptr<const dem::SoilMap> soil_map;  // may be null; its soils are CampaignTable's, too
 };
 
 // One line of a table: the same drive on several terrains, in several headings, several times.
@@ -78,6 +80,12 @@ std::vector<TableDrive> expand(const CampaignTable& table);
 // their terrains, wheels that the rover has, effects that it can have. Pointers are those of the table's
 // file.
 std::vector<Fault> faults_of(const CampaignTable& table);
+
+// The soils of a terrain by name: the map's in its order, then the one elsewhere.
+std::vector<std::string> soils_of(const TableTerrain& terrain);
+
+// A class that the terrain's soil map does not have: of its cells where the map names no soil.
+std::int16_t class_elsewhere(const TableTerrain& terrain);
 
 // The rover as it really drives an entry: effects at work, wheels failed.
 sim::RoverModel driven_rover(const CampaignTable& table, const DriveEntry& entry);

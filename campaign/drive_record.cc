@@ -8,13 +8,16 @@
 
 namespace slipway::campaign {
 
-DriveRecord record_of(const TableDrive& drive, const MadeDrive& made, const std::string& digest,
-                      std::vector<std::string> files) {
+DriveRecord record_of(const CampaignTable& table, const TableDrive& drive, const MadeDrive& made,
+                      const std::string& digest, std::vector<std::string> files) {
   DriveRecord record;
   record.id = drive.id;
   record.digest = digest;
   record.files = std::move(files);
-  record.soil = made.soil;
+  const std::vector<std::string> names = soils_of(table.terrains[drive.terrain]);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    record.soils.emplace_back(names[i],
+                              i < made.soils.known.size() ? made.soils.known[i] : made.soils.unknown);
   if (!made.drive) {
     record.end = error_row(made.drive.error().code).name;
     record.reason = made.drive.error().detail;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "campaign/run_campaign.h"
@@ -14,7 +15,7 @@ struct DriveRecord {
   // A name of sim::DriveEnd; where the simulator could not answer, the error's: "no_data".
   std::string end;
   std::string reason;              // empty where finished
-  bool answered = false;           // false: an error; of what is below only the soil is then known
+  bool answered = false;           // false: an error; of what is below only the soils are then known
   std::vector<std::string> files;  // in the campaign's folder: one a leg, in order, and a deformed terrain
   double duration_s = 0.0, progress_m = 0.0, commanded_m = 0.0, energy_j = 0.0;
   double final_slip_ratio = 0.0;
@@ -22,11 +23,11 @@ struct DriveRecord {
   sim::Peak max_slip_ratio, max_tilt_rad, max_current_a, max_sinkage_m;
   std::vector<sim::DriveEvent> events;
   sim::IntegrationWork work;
-  sim::Soil soil;
+  std::vector<std::pair<std::string, sim::Soil>> soils;  // that it could meet, by name
 };
 
-DriveRecord record_of(const TableDrive& drive, const MadeDrive& made, const std::string& digest,
-                      std::vector<std::string> files);
+DriveRecord record_of(const CampaignTable& table, const TableDrive& drive, const MadeDrive& made,
+                      const std::string& digest, std::vector<std::string> files);
 
 // Final less commanded: how far the drive is from where it should have ended, and how much its heading is
 // off, wrapped.

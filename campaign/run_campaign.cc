@@ -19,18 +19,27 @@ namespace {
 // Sub-streams of the table's seed.
 enum Stream : std::uint64_t { kSoilStream = 1, kSensorStream = 2 };
 
-sim::Soil soil_of(const CampaignTable& table, const TableDrive& drive) {
-  const TableTerrain& terrain = table.terrains[drive.terrain];
-  const sim::SoilDistribution& belief = table.soils.find(terrain.soil)->second;
+sim::Soil soil_of(const CampaignTable& table, const TableDrive& drive, const std::string& name) {
+  const sim::SoilDistribution& belief = table.soils.find(name)->second;
   sim::Soil soil = belief.mean;
   if (table.draw_soils) {
-    const std::uint64_t key = random_key(random_key(table.seed, kSoilStream), digest_of(drive.id));
+    const std::uint64_t of_drive = random_key(random_key(table.seed, kSoilStream), digest_of(drive.id));
+    const std::uint64_t key = random_key(of_drive, digest_of(name));
     sim::SoilNormals normals;
     for (int i = 0; i < sim::kSoilDims; ++i) normals[i] = random_normal(key, static_cast<std::uint64_t>(i));
     soil = sim::draw_soil(belief, normals);
   }
   sim::apply_effects(sim::in_force(table.rover->effects, table.effects), soil);
   return soil;
+}
+
+sim::DriveSoils soils_of(const CampaignTable& table, const TableDrive& drive) {
+  sim::DriveSoils soils;
+  for (const std::string& name : soils_of(table.terrains[drive.terrain]))
+    soils.known.push_back(soil_of(table, drive, name));
+  soils.unknown = soils.known.back();
+  soils.known.pop_back();
+  return soils;
 }
 
 // A drive's own steps are no news; that nobody wants the campaign any more is.
@@ -52,9 +61,10 @@ MadeDrive make_drive(const CampaignTable& table, const TableDrive& drive, Simula
                      Progress& progress) {
   const DriveEntry& entry = table.entries[drive.entry];
   const sim::RoverModel rover = driven_rover(table, entry);
-  const planner::TerrainGround ground(table.terrains[drive.terrain].ground, nullptr);
+  const planner::TerrainGround ground(table.terrains[drive.terrain].ground,
+                                      table.terrains[drive.terrain].soil_map);
   MadeDrive made;
-  made.soil = soil_of(table, drive);
+  made.soils = soils_of(table, drive);
   sim::DynamicOptions options = table.options;
   options.keep_ruts = options.keep_ruts || entry.deformed_terrain;
   sim::DriveSensors sensors = table.sensors;
@@ -63,8 +73,8 @@ MadeDrive make_drive(const CampaignTable& table, const TableDrive& drive, Simula
     made.readings.push_back(sim::read_sensors(sensors, digest_of(drive.id), made.readings.size(),
                                               options.sample_interval_s, sample));
   };
-  made.drive = simulator(rover, table.gravity_m_s2, ground, {.known = {}, .unknown = made.soil}, drive.start,
-                         entry.legs, options, keep, progress);
+  made.drive = simulator(rover, table.gravity_m_s2, ground, made.soils, drive.start, entry.legs, options,
+                         keep, progress);
   return made;
 }
 

@@ -14,7 +14,7 @@ namespace slipway::campaign {
 
 // A drive as made. An error of the simulator is an outcome of this drive, not of the campaign.
 struct MadeDrive {
-  sim::Soil soil;  // that was drawn, effects at work
+  sim::DriveSoils soils;  // that were drawn, effects at work, in the order of soils_of
   Result<sim::DynamicDrive> drive;
   std::vector<sim::SensorReading> readings;  // as far as the drive came
 };

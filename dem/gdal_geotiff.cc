@@ -30,40 +30,65 @@ std::vector<float> stored_heights(const Terrain& terrain) {
   return heights;
 }
 
-bool write(GDALDataset& raster, const Terrain& terrain, const std::string& crs_wkt) {
-  const GridGeometry& geometry = terrain.geometry();
+std::vector<std::int16_t> stored_classes(const SoilMap& map, std::int16_t elsewhere) {
+  const GridGeometry& geometry = map.geometry();
+  std::vector<std::int16_t> classes;
+  classes.reserve(static_cast<std::size_t>(geometry.rows) * static_cast<std::size_t>(geometry.columns));
+  for (int row = 0; row < geometry.rows; ++row) {
+    for (int column = 0; column < geometry.columns; ++column) {
+      const Eigen::Vector2d centre = geometry.centre_m({row, column});
+      const bool known = map.soil_at(centre.x(), centre.y()).has_value();
+      classes.push_back(known ? static_cast<std::int16_t>(*map.class_at(centre.x(), centre.y())) : elsewhere);
+    }
+  }
+  return classes;
+}
+
+// GF_Write reads the cells only, but GDAL takes them as a pointer to non-const.
+bool write(GDALDataset& raster, const GridGeometry& geometry, void* cells, GDALDataType type,
+           const std::string& crs_wkt) {
   std::array<double, 6> transform{geometry.west_m,   geometry.cell_x_m, 0.0, geometry.north_m, 0.0,
                                   -geometry.cell_y_m};
   if (raster.SetGeoTransform(transform.data()) != CE_None) return false;
   if (!crs_wkt.empty() && raster.SetProjection(crs_wkt.c_str()) != CE_None) return false;
   GDALRasterBand& band = *raster.GetRasterBand(1);
-  std::vector<float> heights = stored_heights(terrain);
-  return band.SetNoDataValue(kNodata) == CE_None &&
-         band.RasterIO(GF_Write, 0, 0, geometry.columns, geometry.rows, heights.data(), geometry.columns,
-                       geometry.rows, GDT_Float32, 0, 0, nullptr) == CE_None;
+  if (type == GDT_Float32 && band.SetNoDataValue(kNodata) != CE_None) return false;
+  return band.RasterIO(GF_Write, 0, 0, geometry.columns, geometry.rows, cells, geometry.columns,
+                       geometry.rows, type, 0, 0, nullptr) == CE_None;
 }
 
-}  // namespace
-
-Result<std::string> encode_geotiff(const Terrain& terrain, const std::string& crs_wkt) {
+Result<std::string> encode(const GridGeometry& geometry, void* cells, GDALDataType type,
+                           const std::string& crs_wkt) {
   const GdalSession session;
   // A name of its own for each call: the memory files are the process's.
   static std::atomic<unsigned long long> count{0};
   const std::string name = fmt::format("/vsimem/slipway-{}.tif", count++);
   CPLStringList options;
   options.AddNameValue("COMPRESS", "DEFLATE");
-  options.AddNameValue("PREDICTOR", "3");
+  options.AddNameValue("PREDICTOR", type == GDT_Float32 ? "3" : "2");
   GDALDatasetUniquePtr raster(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
-      name.c_str(), terrain.geometry().columns, terrain.geometry().rows, 1, GDT_Float32, options.List()));
-  const bool complete = raster && write(*raster, terrain, crs_wkt);
+      name.c_str(), geometry.columns, geometry.rows, 1, type, options.List()));
+  const bool complete = raster && write(*raster, geometry, cells, type, crs_wkt);
   raster.reset();  // closing writes the directory of the file
   vsi_l_offset size = 0;
   const std::unique_ptr<GByte, VsiFree> bytes(VSIGetMemFileBuffer(name.c_str(), &size, TRUE));
   if (!complete || !bytes) {
     return fail(ErrorCode::kInternal,
-                fmt::format("The elevation could not be encoded: {}", session.complaints()));
+                fmt::format("The raster could not be encoded: {}", session.complaints()));
   }
   return std::string(reinterpret_cast<const char*>(bytes.get()), static_cast<std::size_t>(size));
+}
+
+}  // namespace
+
+Result<std::string> encode_geotiff(const Terrain& terrain, const std::string& crs_wkt) {
+  std::vector<float> heights = stored_heights(terrain);
+  return encode(terrain.geometry(), heights.data(), GDT_Float32, crs_wkt);
+}
+
+Result<std::string> encode_geotiff(const SoilMap& map, std::int16_t elsewhere, const std::string& crs_wkt) {
+  std::vector<std::int16_t> classes = stored_classes(map, elsewhere);
+  return encode(map.geometry(), classes.data(), GDT_Int16, crs_wkt);
 }
 
 }  // namespace slipway::dem

@@ -9,34 +9,24 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-Matrix3d cross_matrix(const Vector3d& v) {
-  Matrix3d m;
-  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return m;
+// V x* momentum less what acts from outside.
+SpatialVector bias_force(const SpatialVector& velocity, const SpatialVector& momentum,
+                         const SpatialVector& outside) {
+  const Vector3d omega = velocity.head<3>(), v = velocity.tail<3>();
+  const Vector3d angular = momentum.head<3>(), linear = momentum.tail<3>();
+  SpatialVector bias;
+  bias << omega.cross(angular) + v.cross(linear) - outside.head<3>(), omega.cross(linear) - outside.tail<3>();
+  return bias;
 }
 
-// About B's origin, axes of B, of a body whose centre of mass is at c and whose axes are turned by R.
-void set_inertia(const MassProperties& mass, const Vector3d& c, const Matrix3d& inertia, SpatialMatrix& out) {
-  const Matrix3d mc = mass.mass_kg * cross_matrix(c);
-  out.topLeftCorner<3, 3>() = inertia;
-  out.topLeftCorner<3, 3>().noalias() -= mc * cross_matrix(c);
-  out.topRightCorner<3, 3>() = mc;
-  out.bottomLeftCorner<3, 3>() = -mc;
-  out.bottomRightCorner<3, 3>() = mass.mass_kg * Matrix3d::Identity();
-}
-
-SpatialVector motion_cross(const SpatialVector& v, const SpatialVector& m) {
-  SpatialVector out;
-  out.head<3>() = v.head<3>().cross(m.head<3>());
-  out.tail<3>() = v.head<3>().cross(m.tail<3>()) + v.tail<3>().cross(m.head<3>());
-  return out;
-}
-
-SpatialVector force_cross(const SpatialVector& v, const SpatialVector& f) {
-  SpatialVector out;
-  out.head<3>() = v.head<3>().cross(f.head<3>()) + v.tail<3>().cross(f.tail<3>());
-  out.tail<3>() = v.head<3>().cross(f.tail<3>());
-  return out;
+// Lies with its centre on its axis and has one moment of inertia about all axes square to it.
+bool is_round(const RevoluteBody& body) {
+  const MassProperties& mass = body.mass;
+  const Vector3d& a = body.axis;
+  const double along = a.dot(mass.inertia_kg_m2 * a), across = 0.5 * (mass.inertia_kg_m2.trace() - along);
+  const Matrix3d round = across * Matrix3d::Identity() + (along - across) * a * a.transpose();
+  return (mass.com_m - body.pivot_m).cross(a).norm() <= 1e-9 * (1.0 + body.pivot_m.norm()) &&
+         (mass.inertia_kg_m2 - round).norm() <= 1e-9 * round.norm();
 }
 
 }  // namespace
@@ -48,6 +38,8 @@ Multibody::Multibody(MassProperties base, std::vector<RevoluteBody> bodies)
     const RevoluteBody& body = bodies_[i];
     if (body.parent >= i || body.parent < -1)
       throw std::invalid_argument("Multibody: body " + body.name + " comes before its parent");
+    if (body.round && !is_round(body))
+      throw std::invalid_argument("Multibody: body " + body.name + " is not round");
     mass_kg_ += body.mass.mass_kg;
     carried[i] += body.mass.mass_kg;
     if (!(carried[i] > 0.0) && !(body.armature_kg_m2 > 0.0))
@@ -56,10 +48,36 @@ Multibody::Multibody(MassProperties base, std::vector<RevoluteBody> bodies)
   }
 }
 
+SpatialVector MultibodyDynamics::RigidInertia::momentum(const SpatialVector& velocity) const {
+  const Vector3d omega = velocity.head<3>();
+  const Vector3d linear = mass_kg * (velocity.tail<3>() + omega.cross(com));
+  SpatialVector sum;
+  sum.head<3>() = about_com * omega + com.cross(linear);
+  sum.tail<3>() = linear;
+  return sum;
+}
+
+void MultibodyDynamics::RigidInertia::write_to(SpatialMatrix& about_origin) const {
+  const Vector3d mc = mass_kg * com;
+  Matrix3d coupling;  // mc x
+  coupling << 0.0, -mc.z(), mc.y(), mc.z(), 0.0, -mc.x(), -mc.y(), mc.x(), 0.0;
+  about_origin.topLeftCorner<3, 3>() = about_com - mc * com.transpose();
+  about_origin.topLeftCorner<3, 3>().diagonal().array() += mc.dot(com);
+  about_origin.topRightCorner<3, 3>() = coupling;
+  about_origin.bottomLeftCorner<3, 3>() = -coupling;
+  about_origin.bottomRightCorner<3, 3>() = mass_kg * Matrix3d::Identity();
+}
+
 MultibodyDynamics::MultibodyDynamics(const Multibody& multibody)
-    : multibody_(multibody), links_(multibody.bodies().size()) {
-  const MassProperties& base = multibody.base();
-  set_inertia(base, base.com_m, base.inertia_kg_m2, base_inertia_);
+    : multibody_(multibody),
+      links_(multibody.bodies().size()),
+      base_inertia_{multibody.base().mass_kg, multibody.base().com_m, multibody.base().inertia_kg_m2} {
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    const RevoluteBody& body = multibody.bodies()[i];
+    links_[i].inertia.mass_kg = body.mass.mass_kg;
+    links_[i].along = body.axis.dot(body.mass.inertia_kg_m2 * body.axis);
+    links_[i].across = 0.5 * (body.mass.inertia_kg_m2.trace() - links_[i].along);
+  }
 }
 
 void MultibodyDynamics::set_state(const Matrix3d& R_MB, const SpatialVector& base, const double* angles,
@@ -81,17 +99,24 @@ void MultibodyDynamics::set_state(const Matrix3d& R_MB, const SpatialVector& bas
       link.pivot = parent.pivot + parent.R_Bi * (body.pivot_m - multibody_.bodies()[body.parent].pivot_m);
       link.axis.noalias() = parent.R_Bi * body.axis;
     }
-    if (!body.round) link.R_Bi = link.R_Bi * Eigen::AngleAxisd(angles[i], body.axis).toRotationMatrix();
+    if (!body.round) link.R_Bi *= Eigen::AngleAxisd(angles[i], body.axis).toRotationMatrix();
     link.rate = rates[i];
-    link.subspace << link.axis, link.pivot.cross(link.axis);
-    link.velocity = (on_base ? base_velocity_ : links_[body.parent].velocity) + link.subspace * link.rate;
-    link.coriolis = motion_cross(link.velocity, link.subspace * link.rate);
+    const Vector3d moment = link.pivot.cross(link.axis);
+    link.subspace << link.axis, moment;
+    // V_p x S qd, as S x S is 0; by halves, which are in registers.
+    const SpatialVector& carried = on_base ? base_velocity_ : links_[body.parent].velocity;
+    const Vector3d omega = carried.head<3>(), v = carried.tail<3>();
+    const Vector3d turning = link.rate * link.axis, moving = link.rate * moment;
+    link.velocity << omega + turning, v + moving;
+    link.coriolis << omega.cross(turning), omega.cross(moving) + v.cross(turning);
     if (body.mass.mass_kg > 0.0) {
-      const Vector3d c = link.pivot + link.R_Bi * (body.mass.com_m - body.pivot_m);
-      const Matrix3d turned = link.R_Bi * body.mass.inertia_kg_m2 * link.R_Bi.transpose();
-      set_inertia(body.mass, c, turned, link.inertia);
-    } else {
-      link.inertia.setZero();
+      link.inertia.com = link.pivot + link.R_Bi * (body.mass.com_m - body.pivot_m);
+      if (body.round) {
+        link.inertia.about_com = ((link.along - link.across) * link.axis) * link.axis.transpose();
+        link.inertia.about_com.diagonal().array() += link.across;
+      } else {
+        link.inertia.about_com = link.R_Bi * body.mass.inertia_kg_m2 * link.R_Bi.transpose();
+      }
     }
     link.force.setZero();
     link.torque = 0.0;
@@ -112,11 +137,12 @@ void MultibodyDynamics::add_force(int body, const Vector3d& p_B, const Vector3d&
 
 void MultibodyDynamics::accelerations(const Vector3d& gravity_M, SpatialVector& base,
                                       double* joint_accelerations) {
-  SpatialMatrix base_articulated = base_inertia_;
-  SpatialVector base_bias = force_cross(base_velocity_, base_inertia_ * base_velocity_) - base_force_;
+  SpatialMatrix base_articulated;
+  base_inertia_.write_to(base_articulated);
+  SpatialVector base_bias = bias_force(base_velocity_, base_inertia_.momentum(base_velocity_), base_force_);
   for (Link& link : links_) {
-    link.articulated = link.inertia;
-    link.bias = force_cross(link.velocity, link.inertia * link.velocity) - link.force;
+    link.inertia.write_to(link.articulated);
+    link.bias = bias_force(link.velocity, link.inertia.momentum(link.velocity), link.force);
   }
   for (int i = multibody_.joint_count() - 1; i >= 0; --i) {
     const RevoluteBody& body = multibody_.bodies()[i];
@@ -150,18 +176,18 @@ void MultibodyDynamics::accelerations(const Vector3d& gravity_M, SpatialVector& 
 }
 
 double MultibodyDynamics::kinetic_energy_j() const {
-  double twice = base_velocity_.dot(base_inertia_ * base_velocity_);
+  double twice = base_velocity_.dot(base_inertia_.momentum(base_velocity_));
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const Link& link = links_[i];
-    twice += link.velocity.dot(link.inertia * link.velocity) +
-             multibody_.bodies()[i].armature_kg_m2 * link.rate * link.rate;
+    twice += link.velocity.dot(link.inertia.momentum(link.velocity));
+    if (link.rate != 0.0) twice += multibody_.bodies()[i].armature_kg_m2 * link.rate * link.rate;
   }
   return 0.5 * twice;
 }
 
 SpatialVector MultibodyDynamics::momentum() const {
-  SpatialVector sum = base_inertia_ * base_velocity_;
-  for (const Link& link : links_) sum += link.inertia * link.velocity;
+  SpatialVector sum = base_inertia_.momentum(base_velocity_);
+  for (const Link& link : links_) sum += link.inertia.momentum(link.velocity);
   return sum;
 }
 

@@ -20,16 +20,18 @@ struct RevoluteBody {
   Eigen::Vector3d pivot_m = Eigen::Vector3d::Zero();  // on the axis, where all joints are at 0, frame B
   Eigen::Vector3d axis = Eigen::Vector3d::UnitY();    // unit, where all joints are at 0, frame B
   MassProperties mass = {};
-  double armature_kg_m2 = 0.0;  // of a motor's rotor about this joint, gear ratio squared times its own
-  bool round = false;           // looks alike at every angle: a wheel; its angle is never read
+  double armature_kg_m2 = 0.0;  // of a motor's rotor about this joint, gear ratio squared times its own;
+                                // infinite: welded, at rate 0
+  bool round = false;  // looks alike at every angle: a wheel, centred on its axis, with one moment of
+                       // inertia about all that are square to it; its angle is never read
 };
 
 // A floating base with a tree of bodies on revolute joints: immutable, shared by pointer. The base's frame is
 // B.
 class Multibody {
  public:
-  // Bodies come after their parents. Throws std::invalid_argument where one doesn't, or has no mass at all
-  // behind a joint without armature.
+  // Bodies come after their parents. Throws std::invalid_argument where one doesn't, has no mass at all
+  // behind a joint without armature, or is called round and isn't.
   Multibody(MassProperties base, std::vector<RevoluteBody> bodies);
 
   int joint_count() const { return static_cast<int>(bodies_.size()); }
@@ -75,7 +77,7 @@ class MultibodyDynamics {
   const Eigen::Matrix3d& R_Bi(int body) const { return links_[body].R_Bi; }  // of a round body: of angle 0
   const Eigen::Vector3d& pivot_B(int body) const { return links_[body].pivot; }
   const Eigen::Vector3d& axis_B(int body) const { return links_[body].axis; }
-  const SpatialVector& velocity(int body) const { return links_[body].velocity; }  // -1 is not allowed
+  const SpatialVector& velocity(int body) const { return body < 0 ? base_velocity_ : links_[body].velocity; }
   // Velocity of the body's point that is at p_B now.
   Eigen::Vector3d point_velocity(int body, const Eigen::Vector3d& p_B) const;
 
@@ -91,16 +93,24 @@ class MultibodyDynamics {
   // About B's origin, axes of B; armatures, whose rotors are not bodies, have no part in it.
   SpatialVector momentum() const;
   Eigen::Vector3d com_B() const;
-  // Of joint i's body at the last accelerations(): for what an accelerometer on it feels.
-  const SpatialVector& base_velocity() const { return base_velocity_; }
 
  private:
+  // Of one body, in axes of B.
+  struct RigidInertia {
+    double mass_kg = 0.0;
+    Eigen::Vector3d com = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d about_com = Eigen::Matrix3d::Zero();
+
+    SpatialVector momentum(const SpatialVector& velocity) const;
+    void write_to(SpatialMatrix& about_origin) const;
+  };
   struct Link {
     Eigen::Matrix3d R_Bi;
     Eigen::Vector3d pivot, axis;
     SpatialVector velocity, subspace, coriolis, force;
     double rate = 0.0, torque = 0.0;
-    SpatialMatrix inertia;
+    RigidInertia inertia;
+    double along = 0.0, across = 0.0;  // moments of a round body about its axis and square to it
     SpatialMatrix articulated;
     SpatialVector bias, u_vector;
     double per_d = 0.0, u = 0.0;
@@ -110,7 +120,7 @@ class MultibodyDynamics {
   std::vector<Link> links_;
   Eigen::Matrix3d R_MB_ = Eigen::Matrix3d::Identity();
   SpatialVector base_velocity_ = SpatialVector::Zero(), base_force_ = SpatialVector::Zero();
-  SpatialMatrix base_inertia_;
+  RigidInertia base_inertia_;
 };
 
 }  // namespace slipway::sim

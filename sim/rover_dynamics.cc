@@ -35,26 +35,6 @@ double smallest_cruise_rate(const RoverModel& rover) {
   return rover.cruise_speed_m_s / radius;
 }
 
-double torque_per_volt(const DriveMotor& motor) {
-  return motor.torque_constant_nm_per_a * motor.gear_ratio * motor.gear_efficiency /
-         winding_resistance_ohm(motor);
-}
-
-double back_emf_v(const DriveMotor& motor, double rate) {
-  return motor.torque_constant_nm_per_a * motor.gear_ratio * rate;
-}
-
-// Within the bus voltage and the current limit.
-double clipped_voltage(const DriveMotor& motor, double wanted, double rate) {
-  double low = -motor.bus_voltage_v, high = motor.bus_voltage_v;
-  if (motor.max_current_a) {
-    const double drop = *motor.max_current_a * winding_resistance_ohm(motor), emf = back_emf_v(motor, rate);
-    low = std::max(low, emf - drop);
-    high = std::min(high, emf + drop);
-  }
-  return std::clamp(wanted, std::min(low, high), high);
-}
-
 }  // namespace
 
 RoverDynamics::RoverDynamics(const RoverModel& rover, double gravity_m_s2, const Ground& ground,
@@ -64,12 +44,13 @@ RoverDynamics::RoverDynamics(const RoverModel& rover, double gravity_m_s2, const
       ground_(ground),
       soils_(soils),
       options_(options),
-      motor_(at_temperature(rover.drive, options.motor_temp_c.value_or(rover.drive.reference_temp_c))),
-      steering_motor_(rover.steering.value_or(rover.drive)),
       bodies_(rover_multibody(rover)),
       dynamics_(bodies_.tree),
       contacts_(rover, gravity_m_s2, options.contact_points, kStandstillShare * smallest_cruise_rate(rover)),
       standstill_rad_s_(kStandstillShare * smallest_cruise_rate(rover)),
+      drive_control_(control_of(
+          at_temperature(rover.drive, options.motor_temp_c.value_or(rover.drive.reference_temp_c)))),
+      steering_control_(control_of(rover.steering.value_or(rover.drive))),
       halted_rad_(rover.wheels.size()),
       told_(rover.wheels.size()),
       angles_(bodies_.tree.joint_count()),
@@ -77,14 +58,13 @@ RoverDynamics::RoverDynamics(const RoverModel& rover, double gravity_m_s2, const
       accelerations_(bodies_.tree.joint_count()),
       kinematics_(rover.wheels.size()),
       contact_(rover.wheels.size()),
-      control_(rover.wheels.size()),
+      drive_(rover.wheels.size()),
       soil_(rover.wheels.size()),
       has_soil_(rover.wheels.size(), false),
       turned_rad_(rover.wheels.size()),
       last_rate_rad_s_(rover.wheels.size()),
       trails_(rover.wheels.size()) {
   lay_out();
-  set_gains();
   for (std::size_t k = 0; k < rover_.wheels.size(); ++k)
     contacts_.set_soil(k, soils_.of(soil_[k]), rover_.cruise_speed_m_s);
 }
@@ -99,26 +79,12 @@ void RoverDynamics::lay_out() {
   size_ = integrals_at_ + wheels();
 }
 
-void RoverDynamics::set_gains() {
-  const auto inertia = [&](int joint, double load) {
-    const double armature = bodies_.tree.bodies()[joint].armature_kg_m2;
-    return load + (std::isfinite(armature) ? armature : 0.0);
-  };
-  const RevoluteBody& spin = bodies_.tree.bodies()[bodies_.wheel[0]];
-  const double own = spin.mass.inertia_kg_m2(1, 1);
-  double per_volt = torque_per_volt(motor_);
-  const double j = inertia(bodies_.wheel[0], own);
-  const double emf = motor_.torque_constant_nm_per_a * motor_.gear_ratio;
-  drive_gains_.proportional = std::max(0.0, 2.0 * kControl_rad_s * j / per_volt - emf);
-  drive_gains_.integral = kControl_rad_s * kControl_rad_s * j / per_volt;
-  const auto steered =
-      std::find_if(bodies_.steering.begin(), bodies_.steering.end(), [](int s) { return s >= 0; });
-  if (steered == bodies_.steering.end()) return;
-  per_volt = torque_per_volt(steering_motor_);
-  const double js = inertia(*steered, spin.mass.inertia_kg_m2(2, 2));
-  const double emf_s = steering_motor_.torque_constant_nm_per_a * steering_motor_.gear_ratio;
-  steering_gains_.proportional = kControl_rad_s * kControl_rad_s * js / per_volt;
-  steering_gains_.damping = std::max(0.0, 2.0 * kControl_rad_s * js / per_volt - emf_s);
+// A locked wheel's armature is infinite, and not all rovers steer: the drive's rotor is what any control is
+// for.
+MotorControl RoverDynamics::control_of(const DriveMotor& motor) const {
+  const double rotor = motor.gear_ratio * motor.gear_ratio * motor.rotor_inertia_kg_m2;
+  const RevoluteBody& wheel = bodies_.tree.bodies()[bodies_.wheel[0]];
+  return {motor, rotor + wheel.mass.inertia_kg_m2(1, 1), standstill_rad_s_};
 }
 
 std::vector<double> RoverDynamics::tolerances(double relative) const {
@@ -229,32 +195,14 @@ int RoverDynamics::joint_stops() const {
   return stops;
 }
 
-RoverDynamics::Control RoverDynamics::drive_control(std::size_t k, const WheelCommand& told, double rate,
-                                                    double integral_v) const {
-  Control out;
+RoverDynamics::WheelDriveState RoverDynamics::drive_of(std::size_t k, const double* y) const {
   const WheelModel& wheel = rover_.wheels[k];
-  const double dry = std::tanh(rate / standstill_rad_s_);
-  out.torque_nm = -wheel.drag_nm * dry;
-  if (wheel.drive != WheelDrive::kDriven) return out;
-  out.told_rad_s = told.rate_rad_s;
-  const double error = told.rate_rad_s - rate;
-  out.unclipped_v = back_emf_v(motor_, told.rate_rad_s) + drive_gains_.proportional * error + integral_v;
-  out.voltage_v = clipped_voltage(motor_, out.unclipped_v, rate);
-  out.current_a = (out.voltage_v - back_emf_v(motor_, rate)) / winding_resistance_ohm(motor_);
-  out.torque_nm += torque_of_current_nm(motor_, out.current_a, rate, standstill_rad_s_);
+  const double rate = rates_[bodies_.wheel[k]];
+  WheelDriveState out;
+  if (wheel.drive == WheelDrive::kDriven)
+    out.motor = drive_control_.keep_rate(told_[k].rate_rad_s, rate, y[integrals_at_ + k]);
+  out.torque_nm = out.motor.torque_nm - wheel.drag_nm * std::tanh(rate / standstill_rad_s_);
   return out;
-}
-
-void RoverDynamics::add_steering_torque(std::size_t k, const WheelCommand& told, double told_rate) {
-  const int joint = bodies_.steering[k];
-  const double rate = rates_[joint];
-  const double wanted = back_emf_v(steering_motor_, told_rate) +
-                        steering_gains_.proportional * (told.steer_rad - angles_[joint]) -
-                        steering_gains_.damping * (rate - told_rate);
-  const double volts = clipped_voltage(steering_motor_, wanted, rate);
-  const double current =
-      (volts - back_emf_v(steering_motor_, rate)) / winding_resistance_ohm(steering_motor_);
-  dynamics_.add_torque(joint, torque_of_current_nm(steering_motor_, current, rate, standstill_rad_s_));
 }
 
 // As in the quasi-static rung: the true attitude is the one that the ground gives and the rover's bias.
@@ -286,15 +234,18 @@ bool RoverDynamics::derivative(double t, const double* y, double* rate) {
     if (contact.depth_m > 0.0)
       dynamics_.add_force(joint, dynamics_.pivot_B(joint), R_MB_.transpose() * contact.force,
                           R_MB_.transpose() * contact.moment);
-    if (bodies_.steering[k] >= 0) add_steering_torque(k, told_[k], 0.0);
-    control_[k] = drive_control(k, told_[k], rates_[joint], y[integrals_at_ + k]);
-    dynamics_.add_torque(joint, control_[k].torque_nm);
+    if (const int steering = bodies_.steering[k]; steering >= 0)
+      dynamics_.add_torque(
+          steering,
+          steering_control_.keep_angle(told_[k].steer_rad, angles_[steering], rates_[steering]).torque_nm);
+    drive_[k] = drive_of(k, y);
+    dynamics_.add_torque(joint, drive_[k].torque_nm);
     rate[slips_at_ + 2 * k] = contact.slip_x_rate;
     rate[slips_at_ + 2 * k + 1] = contact.slip_y_rate;
-    rate[integrals_at_ + k] = rover_.wheels[k].drive == WheelDrive::kDriven
-                                  ? drive_gains_.integral * (control_[k].told_rad_s - rates_[joint]) +
-                                        kControl_rad_s * (control_[k].voltage_v - control_[k].unclipped_v)
-                                  : 0.0;
+    rate[integrals_at_ + k] =
+        rover_.wheels[k].drive == WheelDrive::kDriven
+            ? drive_control_.integral_rate_v_s(drive_[k].motor, told_[k].rate_rad_s, rates_[joint])
+            : 0.0;
   }
   dynamics_.accelerations(gravity_M(), base_rate_, accelerations_.data());
 
@@ -393,8 +344,8 @@ void RoverDynamics::after_step(double t, const double* y) {
       contacts_.set_soil(k, here, rim);
     has_soil_[k] = true;
     soil_[k] = soil;
-    const Control control = drive_control(k, told_[k], at.rate_rad_s, y[integrals_at_ + k]);
-    power += std::max(0.0, control.voltage_v * control.current_a);
+    const MotorDrive motor = drive_of(k, y).motor;
+    power += std::max(0.0, motor.voltage_v * motor.current_a);
     if (stepped_) turned_rad_[k] += 0.5 * (at.rate_rad_s + last_rate_rad_s_[k]) * (t - last_t_);
     last_rate_rad_s_[k] = at.rate_rad_s;
   }
@@ -402,30 +353,13 @@ void RoverDynamics::after_step(double t, const double* y) {
   last_power_w_ = power;
   last_t_ = t;
   stepped_ = true;
-  leave_ruts(y);
-}
-
-// A wheel's own track is pressed only once the wheel has left it: it never meets the rut that it stands in.
-void RoverDynamics::leave_ruts(const double* y) {
   for (std::size_t k = 0; k < kinematics_.size(); ++k) {
-    const WheelKinematics& at = kinematics_[k];
-    std::vector<Vector3d>& trail = trails_[k].points;
     ContactState contact;
-    if (!contacts_.find_ground(ground_, ruts_, k, at, contact) || contact.depth_m <= 0.0) continue;
-    const Vector3d here(at.centre.x(), at.centre.y(), contact.depth_m + contact.rut_m);
-    if (!trail.empty() && (trail.back() - here).head<2>().norm() < 0.5 * ruts_.cell_m()) {
-      trail.back().z() = std::max(trail.back().z(), here.z());
+    if (!contacts_.find_ground(ground_, ruts_, k, kinematics_[k], contact) || contact.depth_m <= 0.0)
       continue;
-    }
-    trail.push_back(here);
-    const double clear = rover_.wheels[k].radius_m + 2.0 * ruts_.cell_m();
-    std::size_t left = 0;
-    while (left + 1 < trail.size() && (trail[left + 1] - here).head<2>().norm() > clear) {
-      const double depth = std::max(trail[left].z(), trail[left + 1].z());
-      ruts_.press(trail[left].head<2>(), trail[left + 1].head<2>(), rover_.wheels[k].width_m, depth);
-      ++left;
-    }
-    trail.erase(trail.begin(), trail.begin() + static_cast<std::ptrdiff_t>(left));
+    const WheelModel& wheel = rover_.wheels[k];
+    trails_[k].move_to(kinematics_[k].centre.head<2>(), contact.depth_m + contact.rut_m, wheel.width_m,
+                       wheel.radius_m + 2.0 * ruts_.cell_m(), ruts_);
   }
   if (!options_.keep_ruts)
     ruts_.forget_beyond(Eigen::Vector2d(y[0], y[1]), kForgotten_lengths * rover_.body_length_m);
@@ -456,7 +390,7 @@ DriveSample RoverDynamics::sample(double t, const double* y) {
     WheelState& wheel = out.wheels[k];
     wheel.rate_rad_s = kinematics_[k].rate_rad_s;
     wheel.in_air = contact.depth_m <= 0.0;
-    wheel.current_a = control_[k].current_a;
+    wheel.current_a = drive_[k].motor.current_a;
     wheel.load_n = contact.load_n;
     wheel.entry_angle_rad = contact.entry_angle_rad;
     wheel.sinkage_m = std::max(0.0, contact.depth_m) + contact.rut_m;
@@ -466,8 +400,8 @@ DriveSample RoverDynamics::sample(double t, const double* y) {
     wheel.slip_ratio = bounded_slip(slip_from_speed_ratio(contact.motion.forward));
     wheel.slip_angle_rad = std::atan2(contact.motion.leftward, contact.motion.forward);
     if (bodies_.steering[k] >= 0) out.steer_rad[k] = angles_[bodies_.steering[k]];
-    out.told_rate_rad_s[k] = control_[k].told_rad_s;
-    out.voltage_v[k] = control_[k].voltage_v;
+    if (rover_.wheels[k].drive == WheelDrive::kDriven) out.told_rate_rad_s[k] = told_[k].rate_rad_s;
+    out.voltage_v[k] = drive_[k].motor.voltage_v;
     out.turned_rad[k] += 0.5 * (wheel.rate_rad_s + last_rate_rad_s_[k]) * (t - last_t_);
   }
   if (driver_ && driver_->rate_share(t) > 0.5) {

@@ -7,7 +7,9 @@
 
 #include "sim/dynamic_drive.h"
 #include "sim/leg_driver.h"
+#include "sim/motor_control.h"
 #include "sim/rover_multibody.h"
+#include "sim/rut_trail.h"
 #include "sim/wheel_contact.h"
 
 namespace slipway::sim {
@@ -25,9 +27,7 @@ namespace slipway::sim {
 // Internal constraints [ROAMS section 2.3]: the differential's torque on both rockers -(k e + c e'), e the sum of
 // their angles; stops by Hunt and Crossley, k d^(3/2) (1 + 3/2 c d'), d the angle beyond the stop.
 //
-// Drive motors [ROAMS section 2.4]: V = k_t N w_told + k_p e + V_i, V_i' = k_i e + (V_used - V) / T_c, e = w_told -
-// w, V_used within the bus voltage and the current limit; current and torque as in motor.h. The gains put both
-// poles of the free wheel at kControl_rad_s. Steering motors: k_t N a'_told + k_p (a_told - a) - k_d (a' - a'_told).
+// Drive and steering motors under rate and angle control: motor_control.h.
 // Soil does not resist steering: a point on the steering's axis has no arm.
 //
 // Not modelled: a body that touches the ground (its clearance is the quasi-static rung's to report), inductance,
@@ -35,8 +35,6 @@ namespace slipway::sim {
 // clang-format on
 class RoverDynamics {
  public:
-  static constexpr double kControl_rad_s = 8.0;
-
   // All must outlive it.
   RoverDynamics(const RoverModel& rover, double gravity_m_s2, const Ground& ground, const DriveSoils& soils,
                 const DynamicOptions& options);
@@ -81,43 +79,34 @@ class RoverDynamics {
   double mechanical_energy_j(const double* y);
 
  private:
-  struct Control {
-    double voltage_v = 0.0, unclipped_v = 0.0, current_a = 0.0, torque_nm = 0.0, told_rad_s = 0.0;
-  };
-  struct MotorGains {
-    double proportional = 0.0, integral = 0.0, damping = 0.0;
-  };
-  // What a wheel has left behind but is still near to.
-  struct Trail {
-    std::vector<Eigen::Vector3d> points;  // x, y, depth; oldest first
+  struct WheelDriveState {
+    MotorDrive motor;        // all 0 of a wheel without a motor
+    double torque_nm = 0.0;  // about the axle, drag included
   };
 
   int joints() const { return bodies_.tree.joint_count(); }
   int joint_stops() const;
   void lay_out();
-  void set_gains();
   void unpack(const double* y);
   bool find_contacts(const double* y);
   void find_kinematics(const double* y);
   void add_suspension_torques();
-  Control drive_control(std::size_t wheel, const WheelCommand& told, double rate, double integral_v) const;
-  void add_steering_torque(std::size_t wheel, const WheelCommand& told, double told_rate);
+  WheelDriveState drive_of(std::size_t wheel, const double* y) const;
   Eigen::Vector3d gravity_M() const;
   void set_told(double t, const double* y);
-  void leave_ruts(const double* y);
+  MotorControl control_of(const DriveMotor& motor) const;
 
   const RoverModel& rover_;
   double gravity_m_s2_;
   const Ground& ground_;
   const DriveSoils& soils_;
   DynamicOptions options_;
-  DriveMotor motor_, steering_motor_;
   RoverMultibody bodies_;
   MultibodyDynamics dynamics_;
   WheelContacts contacts_;
   RutMap ruts_;
   double standstill_rad_s_;
-  MotorGains drive_gains_, steering_gains_;
+  MotorControl drive_control_, steering_control_;
 
   int size_ = 0, angles_at_ = 7, twist_at_ = 0, rates_at_ = 0, slips_at_ = 0, integrals_at_ = 0;
   std::vector<int> angle_state_;  // of each joint in y, -1 for wheels
@@ -133,7 +122,7 @@ class RoverDynamics {
   std::vector<double> angles_, rates_, accelerations_;
   PerWheel<WheelKinematics> kinematics_;
   PerWheel<ContactState> contact_;
-  PerWheel<Control> control_;
+  PerWheel<WheelDriveState> drive_;
   SpatialVector base_rate_ = SpatialVector::Zero();
   std::optional<Eigen::Vector2d> lost_ground_;
 
@@ -143,7 +132,7 @@ class RoverDynamics {
   PerWheel<std::optional<std::size_t>> soil_;
   PerWheel<bool> has_soil_;
   PerWheel<double> turned_rad_, last_rate_rad_s_;
-  PerWheel<Trail> trails_;
+  PerWheel<RutTrail> trails_;
 };
 
 }  // namespace slipway::sim

@@ -19,6 +19,7 @@ constexpr double kFarthestPoint_radii = 0.6;     // from the wheel's middle alon
 constexpr double kBlend_radii = 0.05;            // of depths over which points blend
 constexpr double kSlowestTransportShare = 0.01;  // of the wheel's speed over the ground
 constexpr double kBlended_standstills = 12.0;    // tanh is 1 beyond to 1e-10
+constexpr int kRutSamples = 4;                   // across a wheel
 constexpr double kLeastRelaxation_radii = 0.2;
 
 void add_forces(double direction, double weight, const WheelForces& forces, ContactState& contact) {
@@ -93,13 +94,23 @@ bool WheelContacts::find_ground(const Ground& ground, const RutMap& ruts, std::s
   }
   contact.normal = points_ == 1 ? mean : mean.normalized();
   contact.depth_m = deepest + kBlend_radii * r * std::log(sum / points_);
-  contact.rut_m = 0.0;
-  if (place.remembers && place.rebound_share > 0.0) {
-    contact.rut_m = place.rebound_share * ruts.at(at.centre.x(), at.centre.y()).depth_m;
-    contact.depth_m -= contact.rut_m;
-  }
+  if (place.remembers) find_rut(ruts, k, at, contact);
   if (rover_.wheel_slices > 1) find_slices(ground, k, at, contact);
   return true;
+}
+
+void WheelContacts::find_rut(const RutMap& ruts, std::size_t k, const WheelKinematics& at,
+                             ContactState& contact) const {
+  double depth = 0.0;
+  contact.driven_on = 0.0;
+  for (int s = 0; s < kRutSamples; ++s) {
+    const Vector3d p = at.centre + slice_offset_m(places_[k].geometry.width_m, s, kRutSamples) * at.axle;
+    const RutMap::Rut rut = ruts.at(p.x(), p.y());
+    depth += rut.depth_m / kRutSamples;
+    contact.driven_on += rut.share / kRutSamples;
+  }
+  contact.rut_m = places_[k].rebound_share * depth;
+  contact.depth_m -= contact.rut_m;
 }
 
 // The wheel is as deep as its deepest slice, so that there is no depth at which the others jump.
@@ -120,17 +131,14 @@ void WheelContacts::find_slices(const Ground& ground, std::size_t k, const Wheel
   contact.depth_m += highest;
 }
 
-std::size_t WheelContacts::add_trials(const RutMap& ruts, std::size_t k, const WheelKinematics& at,
-                                      double entry_angle_rad, Trial* trials, WheelNumbers* numbers) const {
+std::size_t WheelContacts::add_trials(std::size_t k, const WheelKinematics& at, const ContactState& contact,
+                                      Trial* trials, WheelNumbers* numbers) const {
   const Place& place = places_[k];
   WheelNumbers one = place.numbers;
-  one.theta_f = entry_angle_rad;
+  one.theta_f = contact.entry_angle_rad;
   one.leftward = -at.slip_y;
-  if (place.remembers) {
-    const double driven_on = ruts.at(at.centre.x(), at.centre.y()).share;
-    one.stiffness *= 1.0 + place.stiffening * driven_on;
-    one.bulldozing *= 1.0 - driven_on;
-  }
+  one.stiffness *= 1.0 + place.stiffening * contact.driven_on;
+  one.bulldozing *= 1.0 - contact.driven_on;
   const double turning =
       place.locked ? kBlended_standstills * place.told_direction : at.rate_rad_s / standstill_rad_s_;
   const double ahead = turning >= kBlended_standstills    ? 1.0
@@ -176,7 +184,7 @@ bool WheelContacts::find(const Ground& ground, const RutMap& ruts, const PerWhee
     contact.entry_angle_rad =
         std::min(entry_angle_rad(r, std::min(contact.depth_m, r)), kLargestEntryAngleRad);
     const std::size_t first = count;
-    count += add_trials(ruts, k, wheels[k], contact.entry_angle_rad, &trials[first], &numbers[first]);
+    count += add_trials(k, wheels[k], contact, &trials[first], &numbers[first]);
     // The likelier direction of rolling is the one to report.
     const Trial& reported =
         count - first == 2 && trials[first].weight < 0.5 ? trials[first + 1] : trials[first];

@@ -23,8 +23,9 @@ struct WheelKinematics {
 
 // What the ground does to one wheel. Frame M.
 struct ContactState {
-  double depth_m = 0.0;  // of the rim below the ground that it meets; <= 0 in the air
-  double rut_m = 0.0;    // of that ground below the undisturbed surface
+  double depth_m = 0.0;    // of the rim below the ground that it meets; <= 0 in the air
+  double rut_m = 0.0;      // of that ground below the undisturbed surface
+  double driven_on = 0.0;  // share of the wheel's width that stands in a track
   double entry_angle_rad = 0.0;
   SliceHeights slice_height_m{};  // of a sliced wheel: below the highest one, whose depth it is
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
@@ -61,7 +62,8 @@ struct ContactState {
 // The ground is looked at in some points along the rolling direction, each with the plane that touches it
 // there; the depth is their smooth maximum, the normal their mean weighted alike: exact on planes, and a rock
 // before the wheel is met before the axle is above it. With RoverModel::wheel_slices > 1 the heights across
-// the wheel differ (sliced_wheel.h). Ruts of earlier wheels lower the ground and stiffen it (multipass.h).
+// the wheel differ (sliced_wheel.h). Ruts of earlier wheels lower the ground and stiffen it (multipass.h), by the share
+// of the wheel's width that stands in them.
 // clang-format on
 class WheelContacts {
  public:
@@ -101,8 +103,10 @@ class WheelContacts {
   static constexpr std::size_t kMostTrials = 2 * kMostWheels;
 
   // At most two trials of a wheel on the ground.
-  std::size_t add_trials(const RutMap& ruts, std::size_t wheel, const WheelKinematics& kinematics,
-                         double entry_angle_rad, Trial* trials, WheelNumbers* numbers) const;
+  std::size_t add_trials(std::size_t wheel, const WheelKinematics& kinematics, const ContactState& contact,
+                         Trial* trials, WheelNumbers* numbers) const;
+  void find_rut(const RutMap& ruts, std::size_t wheel, const WheelKinematics& kinematics,
+                ContactState& contact) const;
   void add_sliced(const Trial& trial, const WheelNumbers& numbers, const WheelKinematics& kinematics,
                   ContactState& contact) const;
   void find_slices(const Ground& ground, std::size_t wheel, const WheelKinematics& kinematics,

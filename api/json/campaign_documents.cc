@@ -28,16 +28,31 @@ void write_nominal_soil(Writer& w, const sim::Soil& soil) {
   w.exact("n1", soil.n1).end_object();
 }
 
+// Only what its raster holds: cells of classes without a soil are of the class elsewhere.
+void write_soil_classes(Writer& w, const campaign::TableTerrain& terrain) {
+  w.begin_object().text("raster", terrain.name + "-soil.tif").key("classes").begin_object();
+  for (const dem::SoilClass& row : terrain.soil_map->legend())
+    if (row.soil) w.text(std::to_string(row.value), *row.soil);
+  w.text(std::to_string(campaign::class_elsewhere(terrain)), terrain.soil);
+  w.end_object().end_object();
+}
+
 void write_grounds(Writer& w, const campaign::CampaignTable& table, const std::set<std::size_t>& used) {
   std::set<std::string> soils;
-  for (const std::size_t t : used) soils.insert(table.terrains[t].soil);
+  for (const std::size_t t : used)
+    for (const std::string& name : campaign::soils_of(table.terrains[t])) soils.insert(name);
   w.key("soils").begin_object();
   for (const std::string& name : soils) write_nominal_soil(w.key(name), table.soils.find(name)->second.mean);
   w.end_object().key("terrains").begin_object();
   for (const std::size_t t : used) {
     const campaign::TableTerrain& terrain = table.terrains[t];
     w.key(terrain.name).begin_object().text("dem", terrain.name + ".tif");
-    w.text("soil", terrain.soil).end_object();
+    if (terrain.soil_map) {
+      write_soil_classes(w.key("soil"), terrain);
+    } else {
+      w.text("soil", terrain.soil);
+    }
+    w.end_object();
   }
   w.end_object();
 }

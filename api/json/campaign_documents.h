@@ -24,7 +24,7 @@ std::string campaign_document(const campaign::CampaignTable& table,
 std::string campaign_summary_document(const campaign::CampaignTable& table, std::size_t drives,
                                       std::span<const campaign::TerrainSummary> summaries);
 
-// drives/ID.json, "drive-outcome/1". Read back, all is there but events, work and soil.
+// drives/ID.json, "drive-outcome/1". Read back, all is there but events, work and soils.
 std::string drive_record_document(const campaign::DriveRecord& record);
 Result<campaign::DriveRecord> read_drive_record(std::string_view bytes);
 

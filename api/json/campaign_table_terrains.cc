@@ -59,8 +59,53 @@ bool is_plain(const std::string& file) {
          });
 }
 
+using SoilNames = std::map<std::string, sim::SoilDistribution, std::less<>>;
+
+std::vector<dem::SoilClass> read_classes(ObjectReader& map, const SoilNames& soils) {
+  std::vector<dem::SoilClass> legend;
+  for (const Element& element : map.list("classes", kRequired, {1, 1000})) {
+    ObjectReader reader(*element.value, element.pointer, map.faults());
+    dem::SoilClass& row = legend.emplace_back();
+    std::string soil;
+    reader.whole("value", kRequired, -32768, 32767, row.value);
+    if (reader.text("soil", kRequired, {.most = 64}, soil)) {
+      if (!soils.contains(soil)) reader.fault("soil", unknown_name("soil", soil, names_of(soils)));
+      row.soil = soil;
+    }
+    reader.refuse_unknown();
+  }
+  return legend;
+}
+
+// Classes beside an elevation file, in its system.
+void read_soil_map(ObjectReader& terrain, const std::filesystem::path& folder,
+                   const dem::ElevationInfo& elevation, campaign::TableTerrain& out, const SoilNames& soils) {
+  auto map = terrain.object("soil_map", kOptional);
+  if (!map) return;
+  std::string file;
+  const std::size_t before = terrain.faults().size();
+  if (map->text("file", kRequired, {.most = 100}, file) && !is_plain(file))
+    map->fault("file", "file = " + in_quotes(file) + ", must be a plain file name beside the table");
+  std::vector<dem::SoilClass> legend = read_classes(*map, soils);
+  map->refuse_unknown();
+  if (terrain.faults().size() > before) return;
+  const auto read =
+      dem::read_soil_raster(folder / file, elevation, elevation.geometry.extent(), std::move(legend));
+  if (read) {
+    out.soil_map = *read;
+    return;
+  }
+  map->fault("file", read.error().detail);
+  for (const Fault& fault : read.error().faults) {
+    // A legend's row is one of ours.
+    std::string pointer = fault.pointer;
+    if (pointer.starts_with("/legend")) pointer.replace(0, std::string_view("/legend").size(), "/classes");
+    terrain.faults().push_back({map->pointer() + pointer, fault.message});
+  }
+}
+
 void open_file(ObjectReader& reader, const std::string& file, const std::filesystem::path& folder,
-               campaign::TableTerrain& terrain) {
+               campaign::TableTerrain& terrain, const SoilNames& soils) {
   if (!is_plain(file)) {
     reader.fault("file", "file = " + in_quotes(file) + ", must be a plain file name beside the table");
     return;
@@ -74,6 +119,7 @@ void open_file(ObjectReader& reader, const std::string& file, const std::filesys
   }
   terrain.crs_wkt = (*source)->info().crs_wkt;
   terrain.ground = *ground;
+  read_soil_map(reader, folder, (*source)->info(), terrain, soils);
 }
 
 }  // namespace
@@ -92,7 +138,7 @@ std::vector<campaign::TableTerrain> read_table_terrains(
     if (reader.text("soil", kRequired, {.most = 64}, terrain.soil) && !soils.contains(terrain.soil))
       reader.fault("soil", unknown_name("soil", terrain.soil, names_of(soils)));
     if (std::string file; reader.text("file", kOptional, {.most = 100}, file)) {
-      open_file(reader, file, folder, terrain);
+      open_file(reader, file, folder, terrain, soils);
     } else {
       make_synthetic(reader, terrain);
     }

@@ -35,7 +35,7 @@ void read_peak(ObjectReader& reader, std::string_view key, sim::Peak& peak, doub
 }
 
 void write_soil_that_was(Writer& w, const sim::Soil& soil) {
-  w.key("soil").begin_object().exact("k_c", soil.pressure.k_c).exact("k_phi", soil.pressure.k_phi);
+  w.begin_object().exact("k_c", soil.pressure.k_c).exact("k_phi", soil.pressure.k_phi);
   w.exact("n", soil.pressure.n).exact("cohesion_pa", soil.cohesion_pa);
   w.exact("friction_angle_deg", deg_from_rad(soil.friction_angle_rad));
   w.exact("shear_modulus_x_m", soil.shear_modulus_x_m).exact("shear_modulus_y_m", soil.shear_modulus_y_m);
@@ -87,7 +87,9 @@ std::string drive_record_document(const campaign::DriveRecord& record) {
   w.begin_object().text("format", "drive-outcome/1").text("id", record.id).text("digest", record.digest);
   w.text("end", record.end).text("reason", record.reason).boolean("answered", record.answered);
   w.texts("files", record.files);
-  write_soil_that_was(w, record.soil);
+  w.key("soils").begin_object();
+  for (const auto& [name, soil] : record.soils) write_soil_that_was(w.key(name), soil);
+  w.end_object();
   if (record.answered) write_answer(w, record);
   w.end_object();
   return w.take() + "\n";

@@ -122,6 +122,26 @@ TEST(CampaignTable, FailedWheelsAndEffectsAreTheDrivesNotTheOperators) {
   EXPECT_FALSE(table->rover->wheels[0].grousers.has_value());
 }
 
+TEST(CampaignTable, AnElevationFileMayHaveASoilMap) {
+  const std::string bytes = R"({
+    "format": "campaign-table/1", "name": "gale", "summary": "s", "sources": [], "rover": "msl-class",
+    "gravity_m_s2": 3.71, "terrains": [{"name": "gale", "soil": "dry_sand", "file": "elevation.tif",
+      "soil_map": {"file": "terrain_class.tif", "classes": [{"value": 1, "soil": "mpf_cloddy"}, {"value": 3, "soil": "mpf_drift"}]}}],
+    "drives": [{"id": "a", "start": {"x_m": 8142579.7, "y_m": -276648.7}, "legs": [{"length_m": 0.2}]}]})";
+  const std::filesystem::path folder = std::filesystem::path(SLIPWAY_DATA_FOLDER) / "terrains/gale";
+  const auto table = api::json::read_campaign_table(bytes, folder, shipped_catalogue());
+  ASSERT_TRUE(table) << table.error().detail;
+  const TableTerrain& terrain = table->terrains[0];
+  EXPECT_EQ(soils_of(terrain), (Texts{"mpf_cloddy", "mpf_drift", "dry_sand"}));
+  EXPECT_EQ(class_elsewhere(terrain), 0);
+  const auto twice = api::json::read_campaign_table(replaced(bytes, R"("value": 3)", R"("value": 1)"), folder,
+                                                    shipped_catalogue());
+  ASSERT_FALSE(twice);
+  EXPECT_TRUE(twice.error().faults.back().pointer.starts_with("/terrains/0/soil_map/classes/"));
+  // A shape has no system that a raster could be in.
+  EXPECT_FALSE(read_table(replaced(kSmallTable, R"("tilt_deg": 5,)", R"("tilt_deg": 5, "soil_map": {},)")));
+}
+
 TEST(CampaignTable, ShippedTablesAreWithoutFault) {
   std::map<std::string, std::size_t> drives;
   for (const std::string& name : api::campaign_names(SLIPWAY_DATA_FOLDER)) {

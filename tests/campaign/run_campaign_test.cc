@@ -147,7 +147,8 @@ TEST(RunCampaign, ADriveIsTheSameInAnyCompany) {
   EXPECT_EQ(drive_csv(*table.rover, alone.readings, options),
             drive_csv(*table.rover, made.at(all[3].id).readings, options));
   // Repeats meet soils of their own.
-  EXPECT_NE(made.at(all[2].id).soil.friction_angle_rad, made.at(all[3].id).soil.friction_angle_rad);
+  EXPECT_NE(made.at(all[2].id).soils.unknown.friction_angle_rad,
+            made.at(all[3].id).soils.unknown.friction_angle_rad);
 }
 
 TEST(RunCampaign, WithoutDrawsEveryDriveIsOnTheMeanSoil) {
@@ -155,7 +156,8 @@ TEST(RunCampaign, WithoutDrawsEveryDriveIsOnTheMeanSoil) {
   table.draw_soils = false;
   NoProgress progress;
   const MadeDrive made = make_drive(table, expand(table)[1], &sim::simulate_drive, progress);
-  EXPECT_EQ(made.soil.friction_angle_rad, table.soils.find("dry_sand")->second.mean.friction_angle_rad);
+  EXPECT_EQ(made.soils.unknown.friction_angle_rad,
+            table.soils.find("dry_sand")->second.mean.friction_angle_rad);
 }
 
 Result<sim::DynamicDrive> lost(const sim::RoverModel&, double, const sim::Ground&, const sim::DriveSoils&,
@@ -192,6 +194,29 @@ TEST(RunCampaign, AnErrorOfTheTakerEndsIt) {
       progress);
   ASSERT_FALSE(run);
   EXPECT_EQ(run.error().code, ErrorCode::kUnwritableFile);
+}
+
+TEST(RunCampaign, ASoilMapIsDrivenOnAndTold) {
+  CampaignTable table = small_table();
+  TableTerrain& slope = table.terrains[1];
+  const dem::GridGeometry halves{
+      .rows = 1, .columns = 2, .west_m = -3.0, .north_m = 3.0, .cell_x_m = 3.0, .cell_y_m = 6.0};
+  slope.soil_map = std::make_shared<const dem::SoilMap>(
+      halves, std::vector<std::int16_t>{0, 4}, std::vector<std::uint8_t>{0, 1},
+      std::vector<dem::SoilClass>{{.value = 4, .label = "", .soil = "mpf_drift"}});
+  const fs::path path = empty_folder("soil_map");
+  auto folder = api::CampaignFolder::open(path, "a digest", false);
+  NoProgress progress;
+  ASSERT_TRUE(run_into(table, *folder, 2, progress));
+  const MadeDrive made = make_drive(table, expand(table)[4], &sim::simulate_drive, progress);
+  ASSERT_EQ(made.soils.known.size(), 1U);
+  EXPECT_NE(made.soils.known[0].friction_angle_rad, made.soils.unknown.friction_angle_rad);
+  const auto files = files_of(path);
+  EXPECT_TRUE(files.contains("slope-soil.tif"));
+  EXPECT_FALSE(files.contains("level-soil.tif"));
+  EXPECT_NE(files.at("campaign.json")
+                .find(R"("soil":{"raster":"slope-soil.tif","classes":{"4":"mpf_drift","0":"dry_sand"}})"),
+            std::string::npos);
 }
 
 TEST(DeformedTerrain, IsLoweredByTheRutsAndNowhereElse) {

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <new>
 #include <numbers>
 #include <stdexcept>
@@ -166,6 +167,33 @@ TEST(Multibody, APendulumOnAHeavyBaseThatIsHeldSwingsAsAPhysicalPendulum) {
   }
 }
 
+TEST(Multibody, AnInfiniteArmatureWeldsAJoint) {
+  const double forever = std::numeric_limits<double>::infinity();
+  MassProperties base{5.0, Vector3d(0.1, 0.0, 0.2), Vector3d(1.0, 2.0, 3.0).asDiagonal()};
+  const MassProperties arm{1.0, Vector3d(0.9, -0.2, 0.4), 0.1 * Matrix3d::Identity()};
+  LoadedState state;
+  state.base << 0.3, -0.2, 0.5, 1.0, 0.2, -0.4;
+  state.gravity_M = {0.0, 0.0, -3.71};
+  state.forces.push_back({-1, {1.0, 0.5, 0.0}, {3.0, 20.0, -7.0}, {1.0, 2.0, 3.0}});
+  state.angles_rad = state.rates_rad_s = state.torques_nm = Eigen::VectorXd::Zero(1);
+  const Multibody welded(
+      base, {{.name = "arm", .pivot_m = {0.5, 0.0, 0.3}, .mass = arm, .armature_kg_m2 = forever}});
+  const Accelerations found = accelerations(welded, state);
+  EXPECT_EQ(found.joints[0], 0.0);
+  MultibodyDynamics dynamics(welded);
+  set(dynamics, state);
+  EXPECT_TRUE(std::isfinite(dynamics.kinetic_energy_j()));
+  // One body of both.
+  MassProperties both{6.0, (5.0 * base.com_m + arm.com_m) / 6.0, Matrix3d::Zero()};
+  for (const MassProperties& part : {base, arm}) {
+    const Vector3d d = part.com_m - both.com_m;
+    both.inertia_kg_m2 +=
+        part.inertia_kg_m2 + part.mass_kg * (d.squaredNorm() * Matrix3d::Identity() - d * d.transpose());
+  }
+  state.angles_rad = state.rates_rad_s = state.torques_nm = Eigen::VectorXd();
+  EXPECT_LT((accelerations(Multibody(both, {}), state).base - found.base).norm(), 1e-12 * found.base.norm());
+}
+
 TEST(Multibody, FallingFreelyNoJointMovesAndEveryPointFallsAlike) {
   const Multibody multibody = rocker_bogie_rover();
   LoadedState state = any_state(multibody, 0);
@@ -261,7 +289,7 @@ TEST(Multibody, EnergyChangesByThePowerOfWhatActs) {
     const Accelerations found = accelerations(dynamics, state);
     double power = state.torques_nm.dot(state.rates_rad_s);
     for (const LoadedState::Force& force : state.forces) {
-      const SpatialVector& v = force.body < 0 ? dynamics.base_velocity() : dynamics.velocity(force.body);
+      const SpatialVector v = dynamics.velocity(force.body);
       power +=
           dynamics.point_velocity(force.body, force.p_B).dot(force.force_B) + v.head<3>().dot(force.moment_B);
     }
@@ -309,11 +337,15 @@ TEST(Multibody, NothingIsAllocatedOnceItIsBuilt) {
   EXPECT_GT(before, 0) << "they are counted";
 }
 
-TEST(Multibody, RefusesTreesThatCannotMove) {
+TEST(Multibody, RefusesTreesThatCannotMoveAndWheelsThatAreNotRound) {
   const MassProperties some{1.0, Vector3d::Zero(), Matrix3d::Identity()};
   EXPECT_THROW(Multibody(some, {{.name = "a", .parent = 1, .mass = some}, {.name = "b", .mass = some}}),
                std::invalid_argument);
   EXPECT_THROW(Multibody(some, {{.name = "nothing"}}), std::invalid_argument);
+  const MassProperties box{1.0, Vector3d::Zero(), Vector3d(1.0, 2.0, 2.5).asDiagonal()};
+  EXPECT_THROW(Multibody(some, {{.name = "wheel", .mass = box, .round = true}}), std::invalid_argument);
+  EXPECT_THROW(Multibody(some, {{.name = "wheel", .pivot_m = {0.1, 0.0, 0.0}, .mass = some, .round = true}}),
+               std::invalid_argument);
   EXPECT_NO_THROW(Multibody(some, {{.name = "rotor", .armature_kg_m2 = 0.1}}));
 }
 
