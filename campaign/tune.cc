@@ -139,7 +139,7 @@ Result<TableTuning> tune(const CampaignTable& table, std::span<const TableDrive>
     if (is_new) {
       result.drives.push_back({.name = name, .tilt_rad = tilt_at_start(table, drive), .finals = {}});
       simulated.push_back(&drive);
-      soils.insert(table.terrains[drive.terrain].soil);
+      for (std::string& soil : soils_of(table.terrains[drive.terrain])) soils.insert(std::move(soil));
     }
     result.drives[place->second].finals.push_back(end->second);
   }

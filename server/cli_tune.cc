@@ -33,10 +33,12 @@ void add_tune_command(CLI::App& app, std::function<int()>& run) {
       ->capture_default_str();
   command->add_option("--heading-scale-deg", options->heading_scale_deg, "so far off counts 1")
       ->capture_default_str();
-  command->add_flag("--scales-are-errors", options->scales_are_errors,
-                    "the scales are standard deviations; otherwise those are estimated from what is left over");
+  command->add_flag(
+      "--scales-are-errors", options->scales_are_errors,
+      "the scales are standard deviations; otherwise those are estimated from what is left over");
   command
-      ->add_option("--within", options->within, "a set serves a tilt up to so many times its best score there")
+      ->add_option("--within", options->within,
+                   "a set serves a tilt up to so many times its best score there")
       ->capture_default_str();
   command->add_option("--good-enough", options->good_enough, "and up to this score in any case")
       ->capture_default_str();
