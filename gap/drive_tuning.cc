@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "core/parallel_for.h"
@@ -131,7 +132,9 @@ class Fitter {
                         Progress& progress) const {
     const bool priors = std::any_of(parameters_.begin(), parameters_.end(),
                                     [](const TunedParameter& p) { return p.prior.has_value(); });
-    Result<LeastSquaresFit> found = fit_in_units_of(1.0, chosen, start, options_.scales_are_errors, progress);
+    Known known;
+    Result<LeastSquaresFit> found =
+        fit_in_units_of(1.0, chosen, start, options_.scales_are_errors, known, progress);
     // A prior weighs against residuals in units of their standard deviations: where those are not known, they
     // are estimated from what a first fit leaves over.
     if (found && priors && !options_.scales_are_errors) {
@@ -139,7 +142,7 @@ class Fitter {
       const double left = squares(found->residuals);
       if (freedom > 0.0 && left > 0.0) {
         const double std = std::sqrt(left / freedom);
-        found = fit_in_units_of(std, chosen, std::vector(found->estimate), true, progress);
+        found = fit_in_units_of(std, chosen, std::vector(found->estimate), true, known, progress);
         if (found)
           for (double& r : found->residuals) r *= std;
       }
@@ -152,9 +155,21 @@ class Fitter {
   }
 
  private:
+  // Ends of the chosen drives by the parameters: a search asks for the same ones again.
+  using Ends = std::vector<std::optional<Pose2>>;
+  using Known = std::map<std::vector<double>, Ends>;
+
+  const Ends& ends_at(std::span<const double> x, std::span<const std::size_t> chosen, Known& known) const {
+    const auto [entry, is_new] = known.try_emplace(std::vector(x.begin(), x.end()), chosen.size());
+    Ends& ends = entry->second;
+    if (is_new)
+      parallel_for(chosen.size(), options_.threads, [&](std::size_t i) { ends[i] = model_(chosen[i], x); });
+    return ends;
+  }
+
   // Residuals divided by `unit`.
   Result<LeastSquaresFit> fit_in_units_of(double unit, std::span<const std::size_t> chosen,
-                                          std::span<const double> start, bool std_known,
+                                          std::span<const double> start, bool std_known, Known& known,
                                           Progress& progress) const {
     std::size_t repeats = 0;
     for (const std::size_t i : chosen) repeats += drives_[i].finals.size();
@@ -169,8 +184,7 @@ class Fitter {
                           .prior = parameters_[k].prior});
     }
     const ResidualFunction residuals = [&](std::span<const double> x, std::span<double> r) {
-      std::vector<std::optional<Pose2>> ends(chosen.size());
-      parallel_for(chosen.size(), options_.threads, [&](std::size_t i) { ends[i] = model_(chosen[i], x); });
+      const Ends& ends = ends_at(x, chosen, known);
       std::size_t row = 0;
       for (std::size_t i = 0; i < chosen.size(); ++i) {
         if (!ends[i]) return false;
@@ -182,7 +196,7 @@ class Fitter {
     // A simulated drive's end is known to a few parts in ten thousand: steps stay well above that.
     return fit_least_squares(unknowns, 3 * repeats, residuals,
                              {.max_iterations = 40,
-                              .tolerance = 1e-7,
+                              .tolerance = 1e-5,
                               .relative_step = 1e-2,
                               .rank_tolerance = 1e-4,
                               .residual_std_known = std_known},

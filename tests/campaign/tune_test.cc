@@ -100,7 +100,7 @@ TEST(Tune, RepeatsAreOneDriveAndTheUnmeasuredAreLeftOut) {
   EXPECT_EQ(result->drives[0].name, "straight-gentle-h000-r1");
   EXPECT_EQ(result->unmeasured, (std::vector<std::string>{"arc-steep"}));
   ASSERT_EQ(result->tuning.tilts.size(), 2U);
-  EXPECT_NEAR(deg_from_rad(result->tuning.tilts[1].tilt_rad), 14.0, 0.01);
+  EXPECT_NEAR(deg_from_rad(result->tuning.tilts[1].tilt_rad), 8.0, 0.01);
   EXPECT_EQ(result->tuning.tilts[0].drives.size(), 3U);
 }
 
