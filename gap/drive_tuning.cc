@@ -193,10 +193,12 @@ class Fitter {
       }
       return true;
     };
-    // A simulated drive's end is known to a few parts in ten thousand: steps stay well above that.
+    // A simulated drive's end is known to a few parts in ten thousand: steps stay well above that. The search
+    // ends where a step changes the sum of squares by a hundredth of one residual's variance: a tenth of a
+    // standard deviation.
     return fit_least_squares(unknowns, 3 * repeats, residuals,
                              {.max_iterations = 40,
-                              .tolerance = 1e-5,
+                              .tolerance = 0.01 / (3.0 * static_cast<double>(repeats)),
                               .relative_step = 1e-2,
                               .rank_tolerance = 1e-4,
                               .residual_std_known = std_known},

@@ -144,8 +144,8 @@ TEST(Tune, FindsFrictionAngleAndShearModulusOfSixSimulatedDrives) {
   soil.shear_modulus_x_m = soil.shear_modulus_y_m = 0.7 * kTruth[1];
   const double friction_deg = deg_from_rad(soil.friction_angle_rad), shear_m = soil.shear_modulus_x_m;
   TuneRequest request{
-      .parameters = {parameter("soil.friction_angle_deg", 0.6 * friction_deg, 1.1 * friction_deg, 4),
-                     parameter("soil.shear_modulus_m", 0.5 * shear_m, 2.5 * shear_m, 4)},
+      .parameters = {parameter("soil.friction_angle_deg", 0.6 * friction_deg, 1.1 * friction_deg),
+                     parameter("soil.shear_modulus_m", 0.5 * shear_m, 2.5 * shear_m)},
       .options = {},
       .simulator = &sim::simulate_drive};
   NoProgress progress;
