@@ -133,7 +133,7 @@ class Drive {
     if (progress_.cancelled()) return fail(ErrorCode::kCancelled, "the drive was dismissed");
     auto step = integrator_.step(stop);
     if (!step) return fail(off_ground(std::move(step.error())));
-    if (auto followed = check_pace(step->t); !followed) return fail(std::move(followed.error()));
+    if (auto followed = check_pace(step->t); !followed) return fail(off_ground(std::move(followed.error())));
     if (began_s_ >= 0.0) emit_samples(step->t);
     now_s_ = step->t;
     dynamics_.after_step(now_s_, state());

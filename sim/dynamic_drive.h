@@ -106,7 +106,7 @@ struct DynamicDrive {
   Pose2 commanded;           // where the drive would have ended without slip
   Peak max_slip_ratio, max_tilt_rad, max_current_a, max_sinkage_m;  // over samples; distances of progress
   std::vector<DriveEvent> events;
-  RutMap ruts;
+  RutMap ruts = RutMap();
   IntegrationWork work;
 };
 

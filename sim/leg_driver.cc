@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/smooth_step.h"
+
 namespace slipway::sim {
 namespace {
 
@@ -11,11 +13,6 @@ constexpr double kRamp_s = 2.0;
 // Half of what the steering motors can do, and not faster than flown rovers steer.
 constexpr double kSteeringRate_rad_s = 0.1;
 constexpr double kSameAngle_rad = 1e-6;
-
-double smooth_step(double x) {
-  const double c = std::clamp(x, 0.0, 1.0);
-  return c * c * (3.0 - 2.0 * c);
-}
 
 double steering_rate(const RoverModel& rover) {
   const double most = rover.steering.value_or(rover.drive).max_wheel_rate_rad_s;

@@ -162,8 +162,9 @@ bool RoverDynamics::find_contacts(const double* y) {
   unpack(y);
   find_kinematics(y);
   if (contacts_.find(ground_, ruts_, kinematics_, contact_)) return true;
-  for (const WheelKinematics& at : kinematics_)
-    if (!ground_.at(at.centre.x(), at.centre.y())) lost_ground_ = at.centre.head<2>();
+  for (std::size_t k = 0; k < kinematics_.size(); ++k)
+    if (!contacts_.find_ground(ground_, ruts_, k, kinematics_[k], contact_[k]))
+      lost_ground_ = kinematics_[k].centre.head<2>();
   return false;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/smooth_step.h"
 #include "sim/entry_angle.h"
 #include "sim/multipass.h"
 #include "sim/soil_in_force.h"
@@ -19,7 +20,9 @@ constexpr double kFarthestPoint_radii = 0.6;     // from the wheel's middle alon
 constexpr double kBlend_radii = 0.05;            // of depths over which points blend
 constexpr double kSlowestTransportShare = 0.01;  // of the wheel's speed over the ground
 constexpr double kBlended_standstills = 12.0;    // tanh is 1 beyond to 1e-10
-constexpr int kRutSamples = 4;                   // across a wheel
+constexpr double kDraggedRatio = 100.0;          // speed over the rim's: all shear is mobilised long before
+constexpr double kSlidesBack = 0.25;  // speed backwards over the rim's at which the contact is all behind
+constexpr int kRutSamples = 4;        // across a wheel
 constexpr double kLeastRelaxation_radii = 0.2;
 
 void add_forces(double direction, double weight, const WheelForces& forces, ContactState& contact) {
@@ -148,9 +151,18 @@ std::size_t WheelContacts::add_trials(std::size_t k, const WheelKinematics& at, 
   for (const double direction : {1.0, -1.0}) {
     const double weight = direction > 0.0 ? ahead : 1.0 - ahead;
     if (weight == 0.0) continue;
-    one.forward = 1.0 - direction * at.slip_x;
-    numbers[count] = one;
-    trials[count++] = {k, direction, weight};
+    const double forward = 1.0 - direction * at.slip_x;
+    const double back = smooth_step(-forward / kSlidesBack);
+    if (back < 1.0) {
+      one.forward = forward;
+      numbers[count] = one;
+      trials[count++] = {k, direction, weight * (1.0 - back)};
+    }
+    if (back > 0.0) {
+      one.forward = kDraggedRatio;
+      numbers[count] = one;
+      trials[count++] = {k, -direction, weight * back};
+    }
   }
   return count;
 }
@@ -183,12 +195,11 @@ bool WheelContacts::find(const Ground& ground, const RutMap& ruts, const PerWhee
     const double r = places_[k].geometry.radius_m;
     contact.entry_angle_rad =
         std::min(entry_angle_rad(r, std::min(contact.depth_m, r)), kLargestEntryAngleRad);
-    const std::size_t first = count;
-    count += add_trials(k, wheels[k], contact, &trials[first], &numbers[first]);
-    // The likelier direction of rolling is the one to report.
-    const Trial& reported =
-        count - first == 2 && trials[first].weight < 0.5 ? trials[first + 1] : trials[first];
-    contact.motion = {1.0 - reported.direction * wheels[k].slip_x, -wheels[k].slip_y};
+    count += add_trials(k, wheels[k], contact, &trials[count], &numbers[count]);
+    const double rolls = places_[k].locked            ? places_[k].told_direction
+                         : wheels[k].rate_rad_s < 0.0 ? -1.0
+                                                      : 1.0;
+    contact.motion = {1.0 - rolls * wheels[k].slip_x, -wheels[k].slip_y};
   }
   if (rover_.wheel_slices > 1) {
     for (std::size_t n = 0; n < count; ++n)

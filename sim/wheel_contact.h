@@ -59,6 +59,10 @@ struct ContactState {
 //   L    r theta_f of the wheel at rest       chi, c   damping ratios kNormalDamping and kTangentialDamping of
 //        under an equal share of the weight            that wheel's mass on that soil
 //
+// Where a wheel slides back against its rolling, u < 0, which the laws don't know, the soil lies behind it: from u = 0
+// to -1/4 the forces blend into those of a wheel dragged that way, whose shear acts the same and whose compaction
+// resists the slide instead of helping it.
+//
 // The ground is looked at in some points along the rolling direction, each with the plane that touches it
 // there; the depth is their smooth maximum, the normal their mean weighted alike: exact on planes, and a rock
 // before the wheel is met before the axle is above it. With RoverModel::wheel_slices > 1 the heights across
@@ -100,9 +104,9 @@ class WheelContacts {
     std::size_t wheel = 0;
     double direction = 1.0, weight = 1.0;
   };
-  static constexpr std::size_t kMostTrials = 2 * kMostWheels;
+  static constexpr std::size_t kMostTrials = 4 * kMostWheels;
 
-  // At most two trials of a wheel on the ground.
+  // At most four trials of a wheel on the ground.
   std::size_t add_trials(std::size_t wheel, const WheelKinematics& kinematics, const ContactState& contact,
                          Trial* trials, WheelNumbers* numbers) const;
   void find_rut(const RutMap& ruts, std::size_t wheel, const WheelKinematics& kinematics,

@@ -109,20 +109,11 @@ TEST(CvodeIntegrator, InterpolatesWithinItsLastStep) {
 }
 
 TEST(CvodeIntegrator, SaysInASentenceWhyItGaveUp) {
-  StiffSystem bounded = falling_ball();
-  bounded.event_count = 0;
-  bounded.events = nullptr;
-  bounded.derivative = [](double, const double* y, double* rate) {
-    rate[0] = -1.0;
-    rate[1] = 0.0;
-    return y[0] > 0.5;
-  };
-  CvodeIntegrator integrator(bounded, 1e-6, {1e-9, 1e-9}, 1.0);
+  StiffSystem nowhere = falling_ball();
+  nowhere.derivative = [](double, const double*, double*) { return false; };
+  CvodeIntegrator integrator(nowhere, 1e-6, {1e-9, 1e-9}, 1.0);
   integrator.start(0.0, std::array{1.0, 0.0});
-  Result<CvodeIntegrator::Step> step;
-  do {
-    step = integrator.step(2.0);
-  } while (step && step->t < 2.0);
+  const auto step = integrator.step(2.0);
   ASSERT_FALSE(step);
   EXPECT_EQ(step.error().code, ErrorCode::kNotConverged);
   EXPECT_NE(step.error().detail.find("left what the model knows"), std::string::npos) << step.error().detail;
