@@ -8,6 +8,7 @@
 
 #include "api/service.h"
 #include "server/cli_campaign.h"
+#include "server/cli_tune.h"
 #include "server/cli_wheel.h"
 #include "server/commands.h"
 
@@ -162,6 +163,7 @@ int run_command_line(int argc, char** argv) {
   add_wheel_command(app, run);
   add_current_command(app, run);
   add_campaign_command(app, run);
+  add_tune_command(app, run);
 
   TerrainOptions terrain_options;
   command = app.add_subcommand("terrain", "what terrains there are, or the ground at a point");
