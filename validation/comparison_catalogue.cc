@@ -38,6 +38,8 @@ std::span<const Comparison> comparison_catalogue() {
       Comparison{"curiosity_attitude", "a rover set down on the map against Curiosity's measured attitude",
                  "NASA/JPL", &curiosity_attitude},
       Comparison{"rungs", "the table rung against the quasi-static rung", "this project", &rungs},
+      Comparison{"dynamic_rung", "the dynamic rung against the quasi-static one on ten drives",
+                 "this project", &dynamic_rung},
   };
   return kComparisons;
 }
