@@ -34,6 +34,7 @@ struct PredictionAnswer {
   PredictionRequest request;
   Provenance provenance;
   sim::DrivePrediction prediction;
+  std::optional<planner::DynamicVerification> dynamic;  // where that rung was asked for
 };
 
 // What the ground is at one point.

@@ -90,15 +90,23 @@ std::string legend_sign(const LegendEntry& entry, double x, double y) {
   return text;
 }
 
+// Each entry once, none without a name.
+void add_entry(std::vector<LegendEntry>& entries, LegendEntry entry) {
+  if (!entry.name.empty() && std::find(entries.begin(), entries.end(), entry) == entries.end())
+    entries.push_back(std::move(entry));
+}
+
+std::vector<LegendEntry> legend_of(std::span<const ChartSeries> series) {
+  std::vector<LegendEntry> entries;
+  for (const ChartSeries& s : series) add_entry(entries, {s.name, false, s.mark, s.colour});
+  return entries;
+}
+
 std::vector<LegendEntry> legend_of(std::span<const Chart> charts) {
   std::vector<LegendEntry> entries;
-  const auto add = [&entries](LegendEntry entry) {
-    if (!entry.name.empty() && std::find(entries.begin(), entries.end(), entry) == entries.end())
-      entries.push_back(std::move(entry));
-  };
   for (const Chart& chart : charts) {
-    for (const ChartSeries& s : chart.series) add({s.name, false, s.mark, s.colour});
-    for (const ChartBand& b : chart.bands) add({b.name, true, ChartMark::kLine, b.colour});
+    for (LegendEntry& entry : legend_of(chart.series)) add_entry(entries, std::move(entry));
+    for (const ChartBand& b : chart.bands) add_entry(entries, {b.name, true, ChartMark::kLine, b.colour});
   }
   return entries;
 }
@@ -156,6 +164,22 @@ void draw_points(std::string& out, const ChartSeries& s, const AxisScale& x, con
       out += (s.mark == ChartMark::kDots ? dot(s.colour, x.px(s.x[i]), y.px(s.y[i]))
                                          : sign(s.colour, x.px(s.x[i]), y.px(s.y[i]))) +
              "\n";
+}
+
+// Over the cells of a heat map, whose frame the lines do not leave.
+void draw_series(std::string& out, std::span<const ChartSeries> series, const AxisScale& x,
+                 const AxisScale& y) {
+  if (series.empty()) return;
+  const double left = x.px(x.lowest()), right = x.px(x.highest());
+  const double top = y.px(y.highest()), bottom = y.px(y.lowest());
+  out += fmt::format(
+      "<clipPath id=\"cells\"><rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>"
+      "</clipPath>\n<g clip-path=\"url(#cells)\">\n",
+      left, top, right - left, bottom - top);
+  for (const ChartSeries& s : series)
+    if (has_line(s.mark)) draw_line(out, s, x, y);
+  out += "</g>\n";
+  for (const ChartSeries& s : series) draw_points(out, s, x, y);
 }
 
 void draw_band(std::string& out, const ChartBand& b, const AxisScale& x, const AxisScale& y) {
@@ -315,7 +339,10 @@ std::string draw_heat_map(const HeatMap& map) {
     if (value) values.push_back(*value);
   const ChartAxis value_axis{map.value_title, {}, {}, false, {}};
   const AxisScale scale(value_axis, values, top + side, top);
-  std::string out = open_svg(width, top + side + kBelow_px, map.title);
+  std::string legend;
+  const std::vector<LegendEntry> entries = legend_of(map.series);
+  const double legend_height = draw_legend(legend, entries, width, top + side + kBelow_px);
+  std::string out = open_svg(width, top + side + kBelow_px + legend_height, map.title);
   const std::size_t columns = map.x_edges.size() - 1, rows = map.y_edges.size() - 1;
   for (std::size_t k = 0; k < std::min(map.values.size(), rows * columns); ++k) {
     const double x0 = x.px(map.x_edges[k % columns]), x1 = x.px(map.x_edges[k % columns + 1]);
@@ -330,8 +357,9 @@ std::string draw_heat_map(const HeatMap& map) {
             : "#bbb");
   }
   draw_axes(out, x_axis, y_axis, x, y, left, top, side, side);
+  draw_series(out, map.series, x, y);
   draw_colour_bar(out, scale, map.value_title, left + side + 20.0, top, side);
-  return out + "</svg>\n";
+  return out + legend + "</svg>\n";
 }
 
 }  // namespace slipway::api

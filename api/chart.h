@@ -57,6 +57,7 @@ struct HeatMap {
   std::vector<double> x_edges, y_edges;       // of the cells, rising; one more than there are cells
   std::vector<std::optional<double>> values;  // row by row from the lowest y; missing cells are grey
   std::string value_title;                    // with its unit
+  std::vector<ChartSeries> series = {};       // drawn over the cells, with a legend
 };
 
 std::string draw_heat_map(const HeatMap& map);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "planner/plan.h"
 #include "sim/drive_prediction.h"
 #include "sim/effect_catalogue.h"
+#include "sim/wheel_failure.h"
 
 namespace slipway::api {
 
@@ -18,6 +20,7 @@ struct DriveAssumptions {
   sim::DriveLimits limits;
   sim::DriveConditions conditions;
   std::vector<sim::EffectSetting> effects;  // added to the rover's own; see sim::in_force
+  std::map<std::string, sim::WheelFailure, std::less<>> failed_wheels;  // by the wheel's name
   int draws = sim::RiskOptions{}.draws;
   std::uint64_t seed = 1;
   std::optional<double> speed_m_s;  // nothing: the rover's cruise speed
@@ -32,7 +35,8 @@ struct PlanRequest {
   std::vector<planner::Polygon> keep_out;
   planner::Weights weights;
   int routes = planner::PlanProblem{}.routes;
-  std::vector<std::string> planners;  // empty: the catalogue's default set
+  std::vector<std::string> planners;           // empty: the catalogue's default set
+  int verify = planner::PlanProblem{}.verify;  // of the best routes in the dynamic rung
   DriveAssumptions drive;
 };
 

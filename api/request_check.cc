@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "api/faults.h"
+#include "api/json/json_value.h"
 #include "planner/planner_catalogue.h"
 #include "sim/effect_catalogue.h"
 
@@ -83,6 +84,7 @@ void RequestCheck::drive(const DriveAssumptions& drive) {
     if (const auto fault = temperature_without_effect(*rover_, drive.effects))
       add(ErrorCode::kInvalidRequest, fault->pointer, fault->message);
   }
+  if (rover_ != nullptr) failed_wheels(drive);
   if (rover_ == nullptr || !drive.speed_m_s || already_faulty("/speed_m_s")) return;
   const double fastest = rover_->drive.max_wheel_rate_rad_s * rover_->smallest_wheel_radius_m();
   if (*drive.speed_m_s > fastest) {
@@ -90,6 +92,15 @@ void RequestCheck::drive(const DriveAssumptions& drive) {
         fmt::format("speed_m_s = {} m/s, must be in (0, {:.6g}]: the motors of {} turn no faster",
                     *drive.speed_m_s, fastest, rover_->name));
   }
+}
+
+void RequestCheck::failed_wheels(const DriveAssumptions& drive) {
+  std::vector<std::string> known;
+  for (const sim::WheelModel& wheel : rover_->wheels) known.push_back(wheel.name);
+  for (const auto& [name, failure] : drive.failed_wheels)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      add(ErrorCode::kInvalidRequest, json::child_pointer("/failed_wheels", name),
+          unknown_name("wheel", name, known));
 }
 
 void RequestCheck::planners(const std::vector<std::string>& planners) {

@@ -30,6 +30,7 @@ class RequestCheck {
   Error error() const;
 
  private:
+  void failed_wheels(const DriveAssumptions& drive);
   void add(ErrorCode code, std::string pointer, std::string message);
   bool already_faulty(std::string_view pointer) const;
 

@@ -10,6 +10,7 @@
 #include "api/json/prediction_request.h"
 #include "api/request_check.h"
 #include "api/soil_regions.h"
+#include "planner/stage_progress.h"
 
 namespace slipway::api {
 namespace {
@@ -98,6 +99,10 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
   sim::RoverModel driven = *catalogue_.rovers.find(rover)->second;
   const std::vector<sim::EffectSetting> effects = sim::in_force(driven.effects, drive.effects);
   sim::apply_effects(effects, driven);
+  for (std::size_t k = 0; k < driven.wheels.size(); ++k) {
+    const auto failed = drive.failed_wheels.find(driven.wheels[k].name);
+    if (failed != drive.failed_wheels.end()) sim::fail_wheel(driven, k, failed->second, drive.conditions);
+  }
   if (drive.speed_m_s) driven.cruise_speed_m_s = *drive.speed_m_s;
   auto ground = site.read(window_around(places, site.info().geometry));
   if (!ground) return fail(ground.error());
@@ -144,6 +149,7 @@ Result<PlanAnswer> Service::plan(const PlanRequest& request, Progress& progress)
   problem.keep_out = request.keep_out;
   problem.weights = request.weights;
   problem.routes = request.routes;
+  problem.verify = request.verify;
   problem.planners = request.planners;
   auto plan = planner::make_plan(problem, progress);
   if (!plan) return fail(plan.error());
@@ -163,7 +169,14 @@ Result<PredictionAnswer> Service::predict(const PredictionRequest& request, Prog
   problem.goal = request.path.back();
   auto prediction = planner::predict_path(problem, request.path, progress, request.manner);
   if (!prediction) return fail(prediction.error());
-  return PredictionAnswer{request, std::move(setting->provenance), std::move(*prediction)};
+  PredictionAnswer answer{request, std::move(setting->provenance), std::move(*prediction), std::nullopt};
+  if (request.rung == Rung::kDynamic) {
+    planner::StageProgress stage(progress, "verifying by dynamics", 0.3, 1.0);
+    auto dynamic = planner::verify_path(problem, request.path, answer.prediction, stage, request.manner);
+    if (!dynamic) return fail(dynamic.error());
+    answer.dynamic = std::move(*dynamic);
+  }
+  return answer;
 }
 
 Result<GroundAt> Service::ground_at(std::string_view terrain, double x_m, double y_m) const {

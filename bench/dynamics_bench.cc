@@ -1,9 +1,19 @@
 // Cost of the dynamic rung, per unit of work.
 #include <benchmark/benchmark.h>
 
+#include <cmath>
+#include <ctime>
+#include <fstream>
+#include <memory>
+#include <string>
 #include <vector>
 
+#include "dem/synthetic_terrain.h"
+#include "planner/terrain_ground.h"
+#include "sim/dynamic_drive.h"
 #include "sim/rut_map.h"
+#include "sim/wheel_kernel.h"
+#include "tests/sim/reference_models.h"
 #include "tests/sim/reference_multibodies.h"
 
 namespace slipway::sim {
@@ -58,6 +68,127 @@ void BM_PressRut(benchmark::State& state) {
   }
 }
 BENCHMARK(BM_PressRut);
+
+// Of the processor: a drive is one thread's work, and what else the machine does is not its cost.
+double processor_s() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+// A rover of six wheels on an elevation raster of 5 cm cells with bumps of this height.
+planner::TerrainGround rough_ground(double rms_m, double size_m) {
+  const dem::Relief relief{.ripple = {},
+                           .roughness = dem::Relief::Roughness{.rms_m = rms_m, .lattice_m = 0.5}};
+  return {dem::make_relief({.size_m = size_m, .cell_m = 0.05}, relief), nullptr};
+}
+
+DriveSoils one_soil() {
+  return {{sandy_loam()}, sandy_loam()};
+}
+
+DriveLeg straight_leg(double length_m) {
+  DriveLeg leg;
+  leg.command.speed_m_s = 0.04;
+  leg.length_m = length_m;
+  return leg;
+}
+
+// The law alone, for six wheels at once.
+double law_s() {
+  const RoverModel rover = six_wheeler();
+  std::vector<WheelNumbers> wheels;
+  for (const WheelModel& wheel : rover.wheels)
+    wheels.push_back(numbers_of(wheel.geometry(), sandy_loam(), 0.4, {.forward = 0.85, .leftward = 0.02}));
+  std::vector<WheelForces> forces(wheels.size());
+  constexpr int kCalls = 20000;
+  const auto start = processor_s();
+  for (int call = 0; call < kCalls; ++call) {
+    wheels[0].forward = 0.85 + 1e-6 * call;
+    wheel_forces(wheels, forces);
+    benchmark::DoNotOptimize(forces.data());
+  }
+  return (processor_s() - start) / kCalls;
+}
+
+// Twenty metres with heading feedback; rows: height of the bumps (mm, rms), tolerance as 10^-n.
+void BM_Drive(benchmark::State& state) {
+  const RoverModel rover = six_wheeler();
+  const planner::TerrainGround ground = rough_ground(1e-3 * static_cast<double>(state.range(0)), 30.0);
+  DynamicOptions options;
+  options.relative_tolerance = std::pow(10.0, -static_cast<double>(state.range(1)));
+  options.feedback = Feedback::kPose;
+  options.sample_interval_s = 10.0;
+  const std::vector<DriveLeg> legs{straight_leg(20.0)};
+  NoProgress progress;
+  DynamicDrive drive;
+  const auto run = [&] {
+    return simulate_drive(rover, 3.71, ground, one_soil(), {-10.0, 0.0, 0.0}, legs, options, nullptr,
+                          progress);
+  };
+  double simulated_s = 0.0;
+  long evaluations = 0;
+  const auto start = processor_s();
+  for (auto _ : state) {
+    drive = run().value();
+    simulated_s += drive.duration_s;
+    evaluations += drive.work.evaluations;
+  }
+  const double spent_s = (processor_s() - start);
+  options.relative_tolerance = 1e-8;
+  const DynamicDrive exact = run().value();
+  state.counters["real_time_factor"] = simulated_s / spent_s;
+  state.counters["us_per_m"] = 1e6 * spent_s / (20.0 * static_cast<double>(state.iterations()));
+  state.counters["evaluations_per_m"] = static_cast<double>(drive.work.evaluations) / 20.0;
+  state.counters["us_per_evaluation"] = 1e6 * spent_s / static_cast<double>(evaluations);
+  state.counters["law_share"] = law_s() * static_cast<double>(evaluations) / spent_s;
+  state.counters["end_error_mm"] =
+      1e3 * std::hypot(drive.final.x_m - exact.final.x_m, drive.final.y_m - exact.final.y_m);
+  state.counters["energy_error"] = std::abs(drive.energy_j / exact.energy_j - 1.0);
+}
+BENCHMARK(BM_Drive)
+    ->ArgNames({"bumps_mm", "tolerance"})
+    ->ArgsProduct({{0, 5, 20, 60}, {3}})
+    ->ArgsProduct({{20}, {2, 4, 5, 6}})
+    ->Unit(benchmark::kMillisecond);
+
+double resident_kb() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("VmRSS:")) return std::stod(line.substr(6));
+  return 0.0;
+}
+
+// Fifty times twenty metres to and fro: a kilometre, whose memory must not grow.
+void BM_Kilometre(benchmark::State& state) {
+  const RoverModel rover = six_wheeler();
+  const planner::TerrainGround ground = rough_ground(0.02, 1100.0 / 16.0);
+  DynamicOptions options;
+  options.feedback = Feedback::kPose;
+  options.sample_interval_s = 60.0;
+  std::vector<DriveLeg> legs;
+  DriveLeg turn;
+  turn.command.turn_in_place = true;
+  turn.command.turn_rate_rad_s = 0.03;
+  turn.turn_rad = 3.14159265358979;
+  for (int lap = 0; lap < 20; ++lap) {
+    legs.push_back(straight_leg(50.0));
+    legs.push_back(turn);
+  }
+  double after_a_tenth = 0.0, last = 0.0, simulated_s = 0.0;
+  const auto start = processor_s();
+  for (auto _ : state) {
+    NoProgress progress;
+    const auto sink = [&](const DriveSample& sample) {
+      last = resident_kb();
+      if (sample.progress_m < 100.0) after_a_tenth = last;
+    };
+    simulated_s +=
+        simulate_drive(rover, 3.71, ground, one_soil(), {-25.0, 0.0, 0.0}, legs, options, sink, progress)
+            ->duration_s;
+  }
+  state.counters["real_time_factor"] = simulated_s / (processor_s() - start);
+  state.counters["growth_kB_after_100_m"] = last - after_a_tenth;
+}
+BENCHMARK(BM_Kilometre)->Iterations(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace slipway::sim

@@ -303,6 +303,12 @@ std::optional<double> LeastSquaresFit::standard_error(std::size_t unknown) const
   return std::sqrt(covariance(k, k));
 }
 
+std::optional<double> LeastSquaresFit::correlation(std::size_t a, std::size_t b) const {
+  const double product = standard_error(a).value_or(0.0) * standard_error(b).value_or(0.0);
+  if (!(product > 0.0)) return std::nullopt;
+  return covariance(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) / product;
+}
+
 Result<LeastSquaresFit> fit_least_squares(std::span<const Unknown> unknowns, std::size_t residual_count,
                                           const ResidualFunction& residuals,
                                           const LeastSquaresOptions& options, Progress& progress) {

@@ -80,6 +80,8 @@ struct LeastSquaresFit {
 
   // Square root of the variance; nothing where the unknown takes part in an undetermined direction.
   std::optional<double> standard_error(std::size_t unknown) const;
+  // Of two unknowns that both have a standard error above 0; nothing otherwise.
+  std::optional<double> correlation(std::size_t a, std::size_t b) const;
 };
 
 // Levenberg-Marquardt with dense QR between bounds [Ceres Solver], central differences. Deterministic.

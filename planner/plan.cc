@@ -16,11 +16,15 @@
 #include "planner/route_stations.h"
 #include "planner/stage_progress.h"
 #include "planner/terrain_ground.h"
+#include "planner/verify_route.h"
 
 namespace slipway::planner {
 namespace {
 
 constexpr std::size_t kMostSimulated = 6;  // unless more routes are asked for
+// Where in the whole work the candidates' simulation begins and ends, and where it ends when routes are
+// verified after it.
+constexpr double kSimulating = 0.5, kSimulated = 0.98, kSimulatedUnverified = 0.7;
 constexpr double kLineSpacing_m = 0.25;
 // A candidate that lies this much within one that is simulated anyway has nothing new to tell.
 constexpr double kSameRoute = 0.9;
@@ -102,6 +106,8 @@ class Planning {
     }
     const Result<void> simulated = simulate(*proposal, plan);
     if (!simulated) return fail(simulated.error());
+    const Result<void> verified = verify(*proposal, plan);
+    if (!verified) return fail(verified.error());
     progress_.report("ranking", 0.98);
     explain(plan.routes);
     progress_.report("ranking", 1.0);
@@ -134,13 +140,16 @@ class Planning {
   Result<void> simulate(const Proposal& proposal, Plan& plan) {
     const std::vector<std::size_t> list = shortlist(proposal, static_cast<std::size_t>(problem_.routes));
     std::vector<Route> routes;
+    std::vector<std::size_t> candidate_of;
     Differences differences(problem_.rover->body_width_m);
     std::size_t without_ground = 0;
     for (std::size_t k = 0; k < list.size(); ++k) {
       const Candidate& candidate = proposal.candidates[list[k]];
-      const double share = 0.48 / static_cast<double>(list.size());
+      const double end = problem_.verify > 0 ? kSimulatedUnverified : kSimulated;
+      const double share = (end - kSimulating) / static_cast<double>(list.size());
       StageProgress stage(progress_, fmt::format("simulating route {} of {}", k + 1, list.size()),
-                          0.5 + share * static_cast<double>(k), 0.5 + share * static_cast<double>(k + 1));
+                          kSimulating + share * static_cast<double>(k),
+                          kSimulating + share * static_cast<double>(k + 1));
       const auto stations =
           route_stations(candidate.motions, sim::largest_station_spacing_m(*problem_.rover));
       Result<sim::DrivePrediction> drive =
@@ -159,20 +168,44 @@ class Planning {
       judge(problem_, route);
       differences.add(centreline(candidate.motions, kLineSpacing_m));
       routes.push_back(std::move(route));
+      candidate_of.push_back(list[k]);
     }
-    choose(std::move(routes), differences, plan);
+    choose(std::move(routes), candidate_of, differences, plan);
     if (plan.routes.size() < static_cast<std::size_t>(problem_.routes))
       say_why_fewer(proposal, without_ground, list.front(), plan);
     return {};
   }
 
-  void choose(std::vector<Route> routes, const Differences& differences, Plan& plan) const {
+  void choose(std::vector<Route> routes, const std::vector<std::size_t>& candidate_of,
+              const Differences& differences, Plan& plan) {
     std::vector<std::size_t> order(routes.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return ranks_before(routes[a], routes[b]); });
-    for (const std::size_t i : select_routes(differences, order, static_cast<std::size_t>(problem_.routes)))
+    for (const std::size_t i : select_routes(differences, order, static_cast<std::size_t>(problem_.routes))) {
       plan.routes.push_back(std::move(routes[i]));
+      chosen_.push_back(candidate_of[i]);
+    }
+  }
+
+  // The best-ranked in the dynamic rung. What it refutes is judged and ranked anew.
+  Result<void> verify(const Proposal& proposal, Plan& plan) {
+    const std::size_t count = std::min(plan.routes.size(), static_cast<std::size_t>(problem_.verify));
+    const double share =
+        (kSimulated - kSimulatedUnverified) / static_cast<double>(std::max<std::size_t>(count, 1));
+    for (std::size_t i = 0; i < count; ++i) {
+      const double from = kSimulatedUnverified + share * static_cast<double>(i);
+      StageProgress stage(progress_, fmt::format("verifying by dynamics, route {} of {}", i + 1, count), from,
+                          from + share);
+      Route& route = plan.routes[i];
+      Result<DynamicVerification> verified =
+          verify_route(problem_, proposal.candidates[chosen_[i]].motions, {}, route.prediction, stage);
+      if (!verified) return fail(verified.error());
+      route.dynamic = std::move(*verified);
+      judge(problem_, route);
+    }
+    std::stable_sort(plan.routes.begin(), plan.routes.end(), ranks_before);
+    return {};
   }
 
   void say_why_fewer(const Proposal& proposal, std::size_t without_ground, std::size_t best,
@@ -196,6 +229,8 @@ class Planning {
   TerrainGround ground_;
   KeepOut keep_out_;
   std::optional<TraverseMap> map_;
+  std::vector<std::size_t>
+      chosen_;  // the candidate behind each of the plan's routes, before the last ranking
 };
 
 }  // namespace

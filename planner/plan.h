@@ -12,6 +12,7 @@
 #include "core/result.h"
 #include "dem/soil_map.h"
 #include "dem/terrain.h"
+#include "planner/dynamic_verification.h"
 #include "sim/drive_prediction.h"
 #include "sim/rover_model.h"
 #include "sim/soil.h"
@@ -61,6 +62,7 @@ struct PlanProblem {
   sim::DriveConditions conditions;
   Weights weights;
   int routes = 3;
+  int verify = 0;                     // of the best-ranked ones in the dynamic rung
   std::vector<std::string> planners;  // names of the catalogue; empty: its default set
   std::uint64_t seed = 1;
   sim::RiskOptions risk;
@@ -78,21 +80,23 @@ struct CostShare {
 
 enum class Verdict {
   kGo,       // within every limit, on known ground, risk within the accepted one
-  kCaution,  // within every limit under the mean soils, but on unknown ground or at more than the accepted
-             // risk
-  kNoGo,     // a limit is broken or the rover immobilised under the mean soils
+  kCaution,  // within every limit under the mean soils, but on unknown ground, at more than the accepted
+             // risk, or with no answer from a rung that was asked
+  kNoGo,     // a limit is broken or the rover immobilised under the mean soils, in any rung it was driven in
 };
 
 // "go", "caution", "no_go".
 std::string_view describe(Verdict verdict);
 
 constexpr double kAcceptedRisk = 0.05;
+constexpr int kMostVerified = 3;  // routes of a plan in the dynamic rung
 
 struct Route {
   int rank = 0;         // 1 is best
   std::string planner;  // that proposed it
   std::string profile;  // what the search was asked to minimise ("balanced", "shortest", ...)
   sim::DrivePrediction prediction;
+  std::optional<DynamicVerification> dynamic;  // where it was verified
   double cost = 0.0;
   std::vector<CostShare> shares;  // add up to cost
   Verdict verdict = Verdict::kGo;
@@ -109,15 +113,20 @@ struct Plan {
 // width.
 constexpr double kLargestOverlap = 0.6;
 
-// Proposes with OMPL, simulates and ranks. "No route" is a Plan without routes whose fewer_because says why.
-// Errors: off_map, no_data (start, goal or a waypoint; faults "/start", "/goal", "/waypoints/1"),
-// invalid_request (start, goal or waypoint inside a keep-out or steeper than the limits allow; unknown
-// planner), cancelled.
+// Proposes with OMPL, simulates, ranks, verifies the best in the dynamic rung and ranks again. "No route" is
+// a Plan without routes whose fewer_because says why. Errors: off_map, no_data (start, goal or a waypoint;
+// faults "/start", "/goal", "/waypoints/1"), invalid_request (start, goal or waypoint inside a keep-out or
+// steeper than the limits allow; unknown planner), cancelled.
 Result<Plan> make_plan(const PlanProblem& problem, Progress& progress);
 
 // The same prediction for a path that is given, corners joined by turns in place and straight drives. Errors:
 // off_map, no_data with the corner or place ("/path/3").
 Result<sim::DrivePrediction> predict_path(const PlanProblem& problem, const std::vector<Waypoint>& corners,
                                           Progress& progress, const Manner& manner = {});
+
+// The same path, of which predict_path() gave `prediction`, driven in the dynamic rung. Errors: cancelled.
+Result<DynamicVerification> verify_path(const PlanProblem& problem, const std::vector<Waypoint>& corners,
+                                        const sim::DrivePrediction& prediction, Progress& progress,
+                                        const Manner& manner = {});
 
 }  // namespace slipway::planner

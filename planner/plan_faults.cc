@@ -28,6 +28,9 @@ void check_settings(const PlanProblem& problem, std::vector<Fault>& faults) {
   if (problem.routes < 1 || problem.routes > kMostRoutes)
     faults.push_back(
         {"/routes", fmt::format("routes = {}, must be in [1, {}]", problem.routes, kMostRoutes)});
+  if (problem.verify < 0 || problem.verify > kMostVerified)
+    faults.push_back(
+        {"/verify", fmt::format("verify = {}, must be in [0, {}]", problem.verify, kMostVerified)});
   if (problem.waypoints.size() > kMostWaypoints) {
     faults.push_back({"/waypoints", fmt::format("{} waypoints, must be at most {}", problem.waypoints.size(),
                                                 kMostWaypoints)});

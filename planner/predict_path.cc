@@ -10,6 +10,7 @@
 #include "planner/plan_faults.h"
 #include "planner/route_stations.h"
 #include "planner/terrain_ground.h"
+#include "planner/verify_route.h"
 
 namespace slipway::planner {
 namespace {
@@ -104,6 +105,12 @@ Result<sim::DrivePrediction> predict_path(const PlanProblem& problem, const std:
     return fail(std::move(error));
   }
   return drive;
+}
+
+Result<DynamicVerification> verify_path(const PlanProblem& problem, const std::vector<Waypoint>& corners,
+                                        const sim::DrivePrediction& prediction, Progress& progress,
+                                        const Manner& manner) {
+  return verify_route(problem, join(corners, manner).motions, manner, prediction, progress);
 }
 
 }  // namespace slipway::planner

@@ -33,13 +33,22 @@ std::string largest_slip(const sim::DrivePrediction& drive) {
                      slope_in_words(station.attitude));
 }
 
+std::string joined(const std::vector<std::string>& parts) {
+  std::string all;
+  for (const std::string& part : parts) all += (all.empty() ? "" : "; ") + part;
+  return all;
+}
+
 std::string verdict_reason(const Route& route) {
   const sim::DrivePrediction& drive = route.prediction;
   if (drive.immobilised) return "no go: immobilised, " + drive.immobilised->reason;
-  if (!drive.broken_limits.empty()) {
-    std::string all;
-    for (const std::string& broken : drive.broken_limits) all += (all.empty() ? "" : "; ") + broken;
-    return "no go: " + all;
+  if (!drive.broken_limits.empty()) return "no go: " + joined(drive.broken_limits);
+  const DynamicVerification* const dynamic = route.dynamic ? &*route.dynamic : nullptr;
+  if (dynamic && dynamic->refutes()) {
+    if (!dynamic->end || dynamic->end == sim::DriveEnd::kFinished)
+      return "no go in the dynamic rung: " + joined(dynamic->broken_limits);
+    return fmt::format("no go in the dynamic rung: {} at {:.1f} m, {}", end_in_words(*dynamic),
+                       dynamic->distance_m, dynamic->reason);
   }
   std::string why;
   if (drive.unknown_length_m > 0.0) {
@@ -53,9 +62,22 @@ std::string verdict_reason(const Route& route) {
                        why.empty() ? "" : ", ", 100.0 * drive.risk, 100.0 * drive.risk_low,
                        100.0 * drive.risk_high, 100.0 * kAcceptedRisk);
   }
+  if (dynamic && !dynamic->end)
+    why += fmt::format("{}no answer from the dynamic rung: {}", why.empty() ? "" : ", ", dynamic->reason);
   if (!why.empty()) return "caution: " + why;
   return fmt::format("go: within every limit, on known ground, risk {:.0f} % of {} soil draws",
                      100.0 * drive.risk, drive.draws);
+}
+
+// What the dynamic rung adds to a route that it does not refute.
+std::string confirmation(const Route& route) {
+  const DynamicVerification& dynamic = *route.dynamic;
+  const sim::Peak &slip = dynamic.extremes.max_slip_ratio, &balanced = route.prediction.max_slip_ratio;
+  return fmt::format(
+      "driven to its end in the dynamic rung within every limit: largest slip {:.2f} at {:.0f} m (balance: "
+      "{:.2f} at {:.0f} m), {:.0f} s (balance: {:.0f} s)",
+      slip.value, slip.distance_m, balanced.value, balanced.distance_m, dynamic.duration_s,
+      route.prediction.duration_s);
 }
 
 // What this route has that no other has; nothing where it stands alone.
@@ -130,9 +152,11 @@ void judge(const PlanProblem& problem, Route& route) {
   }
   const bool unknown = std::any_of(drive.stations.begin(), drive.stations.end(),
                                    [](const sim::StationPrediction& s) { return s.on_unknown_ground; });
-  if (drive.immobilised || !drive.broken_limits.empty()) {
+  const bool refuted = route.dynamic && route.dynamic->refutes();
+  const bool unanswered = route.dynamic && !route.dynamic->end;
+  if (drive.immobilised || !drive.broken_limits.empty() || refuted) {
     route.verdict = Verdict::kNoGo;
-  } else if (unknown || drive.risk > kAcceptedRisk) {
+  } else if (unknown || drive.risk > kAcceptedRisk || unanswered) {
     route.verdict = Verdict::kCaution;
   } else {
     route.verdict = Verdict::kGo;
@@ -164,6 +188,8 @@ void explain(std::vector<Route>& routes) {
       route.reasons.push_back(
           fmt::format("best: cost {:.2f} against {:.2f} of route 2", route.cost, routes[1].cost));
     }
+    if (route.dynamic && route.dynamic->end && !route.dynamic->refutes())
+      route.reasons.push_back(confirmation(route));
     for (std::string& words : superlatives(route, routes)) route.reasons.push_back(std::move(words));
     std::string line = largest_slip(route.prediction);
     const double longer = route.prediction.length_m - shortest;

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
-#include <fnmatch.h>
 
-#include <algorithm>
 #include <iostream>
 #include <vector>
 
@@ -12,6 +10,7 @@
 #include "core/angle.h"
 #include "server/command_parts.h"
 #include "server/commands.h"
+#include "server/drive_choice.h"
 #include "server/terminal_progress.h"
 #include "server/text_table.h"
 
@@ -32,26 +31,6 @@ int print_list(const CampaignCommand& options, const api::Catalogue& catalogue) 
   }
   std::cout << text.print() << std::flush;
   return 0;
-}
-
-// The drives whose ids fit a pattern; all where there is none. A pattern that fits none is a mistake.
-Result<std::vector<TableDrive>> chosen(const std::vector<TableDrive>& all,
-                                       const std::vector<std::string>& only) {
-  if (only.empty()) return all;
-  const auto fits = [](const std::string& pattern, const TableDrive& drive) {
-    return fnmatch(pattern.c_str(), drive.id.c_str(), 0) == 0;
-  };
-  std::vector<Fault> faults;
-  for (const std::string& pattern : only) {
-    if (std::none_of(all.begin(), all.end(), [&](const TableDrive& d) { return fits(pattern, d); }))
-      faults.push_back({"/only", fmt::format("{} fits no drive; the first is {}", pattern, all.front().id)});
-  }
-  if (!faults.empty()) return fail(ErrorCode::kInvalidRequest, "unknown drives", std::move(faults));
-  std::vector<TableDrive> drives;
-  for (const TableDrive& drive : all)
-    if (std::any_of(only.begin(), only.end(), [&](const std::string& p) { return fits(p, drive); }))
-      drives.push_back(drive);
-  return drives;
 }
 
 int print_drives(const slipway::campaign::CampaignTable& table, const std::vector<TableDrive>& drives) {
@@ -132,7 +111,7 @@ int campaign(const CampaignCommand& options) {
   const auto loaded = api::load_campaign_table(options.table, options.data, *catalogue);
   if (!loaded) return refuse(loaded.error());
   const std::vector<TableDrive> all = slipway::campaign::expand(loaded->table);
-  const auto drives = chosen(all, options.only);
+  const auto drives = chosen_drives(all, options.only, "/only");
   if (!drives) return refuse(drives.error());
   if (options.dry_run) return print_drives(loaded->table, *drives);
   if (options.out.empty())

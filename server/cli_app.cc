@@ -8,6 +8,7 @@
 
 #include "api/service.h"
 #include "server/cli_campaign.h"
+#include "server/cli_tune.h"
 #include "server/cli_wheel.h"
 #include "server/commands.h"
 
@@ -82,6 +83,8 @@ void add_drive(CLI::App& command, DriveOptions& drive) {
   command.add_option(
       "--effect", drive.effects,
       "switch an effect on, NAME or NAME:parameter=value,..., or off, NAME:off; see slipway effects");
+  command.add_option("--failed", drive.failed,
+                     "a wheel whose drive has failed, WHEEL=locked, WHEEL=free or WHEEL=off");
   command.add_option("--motor-temp-c", drive.motor_temp_c, "temperature of the drive motors");
   command.add_option("--map", drive.map, "write a picture of the routes (SVG) to this file");
 }
@@ -135,6 +138,7 @@ int run_command_line(int argc, char** argv) {
   add_place(*command, "--goal", plan_options.goal, "x,y or x,y,yaw_deg in map metres");
   add_places(*command, "--via", plan_options.via, "waypoints in order");
   command->add_option("--routes", plan_options.routes, "how many routes that differ");
+  command->add_option("--verify", plan_options.verify, "how many of the best routes to verify by dynamics");
   command->add_option("--planner", plan_options.planners, "planners to use, see GET /v1/planners");
   command->add_option("--request", plan_options.request,
                       "file with a whole request, - for standard input; other options are not used");
@@ -149,6 +153,8 @@ int run_command_line(int argc, char** argv) {
   command->add_flag("--backwards", predict_options.backwards, "drive the path backwards");
   command->add_option("--crab-deg", predict_options.crab_deg,
                       "direction of travel from the body's axis, positive to the left");
+  command->add_option("--rung", predict_options.rung,
+                      "quasi_static, or dynamic: drive the path as a multibody too");
   command->add_option("--request", predict_options.request,
                       "file with a whole request, - for standard input; other options are not used");
   command->footer(kPredictExample);
@@ -157,6 +163,7 @@ int run_command_line(int argc, char** argv) {
   add_wheel_command(app, run);
   add_current_command(app, run);
   add_campaign_command(app, run);
+  add_tune_command(app, run);
 
   TerrainOptions terrain_options;
   command = app.add_subcommand("terrain", "what terrains there are, or the ground at a point");

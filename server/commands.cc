@@ -51,6 +51,11 @@ void write_drive(Writer& w, const DriveOptions& drive) {
     for (const std::string& effect : drive.effects) write_effect(w, effect);
     w.end_array();
   }
+  if (!drive.failed.empty()) {
+    w.key("failed_wheels").begin_object();
+    for (const std::string& failed : drive.failed) write_setting(w, failed);
+    w.end_object();
+  }
   if (drive.draws) w.whole("draws", *drive.draws);
   if (drive.seed) w.whole("seed", *drive.seed);
   if (drive.speed_m_s) w.exact("speed_m_s", *drive.speed_m_s);
@@ -69,6 +74,7 @@ std::string plan_request(const PlanOptions& options) {
     w.end_array();
   }
   if (options.routes) w.whole("routes", *options.routes);
+  if (options.verify) w.whole("verify", *options.verify);
   if (!options.planners.empty()) w.texts("planners", options.planners);
   w.end_object();
   return w.take();
@@ -83,6 +89,7 @@ std::string prediction_request(const PredictOptions& options) {
   w.end_array();
   if (options.backwards) w.boolean("backwards", true);
   if (options.crab_deg) w.exact("crab_deg", *options.crab_deg);
+  if (!options.rung.empty()) w.text("rung", options.rung);
   w.end_object();
   return w.take();
 }

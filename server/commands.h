@@ -35,6 +35,7 @@ struct DriveOptions {
   std::optional<int> draws;
   std::optional<long long> seed;
   std::optional<double> motor_temp_c;
+  std::vector<std::string> failed;   // "rf=locked"
   std::vector<std::string> effects;  // "slip_sinkage", "slip_sinkage:n1=0.2" or "slip_sinkage:off"
   std::string map;                   // file for the picture; empty: none
 };
@@ -46,7 +47,7 @@ struct PlanOptions {
       request;  // file with a whole request, "-" is standard input; the options below are then not used
   std::optional<PlaceOption> start, goal;
   std::vector<PlaceOption> via;
-  std::optional<int> routes;
+  std::optional<int> routes, verify;
   std::vector<std::string> planners;
 };
 
@@ -57,6 +58,7 @@ struct PredictOptions {
   std::vector<PlaceOption> path;
   bool backwards = false;
   std::optional<double> crab_deg;
+  std::string rung;  // empty: the request's default
 };
 
 struct TerrainOptions {
@@ -120,6 +122,23 @@ struct CampaignCommand {
   bool start_over = false, dry_run = false, json = false;
 };
 
+struct TuneCommand {
+  std::string data = "data";
+  std::string table;                    // a file or a shipped table's name
+  std::string measured;                 // a campaign's folder or a survey's CSV
+  std::vector<std::string> parameters;  // "soil.n=0.8..1.2", "soil.k_phi=1e5..1e7:log"
+  std::vector<std::string> priors;      // "soil.n=1,0.1"
+  int coarse = 5, fine = 5;
+  std::vector<std::string> drives;  // ids with * and ?; empty: all
+  double position_scale_m = 0.1, heading_scale_deg = 5.0;
+  bool scales_are_errors = false;
+  double within = 1.5, good_enough = 0.1;
+  bool each_tilt = false, sweep_only = false;
+  int threads = 0;  // 0: as many as the machine has
+  std::string out;  // folder; empty: none
+  bool json = false;
+};
+
 // Each prints its answer on standard output and returns the process's exit status: 0 an answer (also "no safe
 // route"), 1 no answer, 2 a question that can't be asked. Problems and progress go to standard error.
 int serve(const ServeOptions& options);
@@ -137,6 +156,7 @@ int health(const AskOptions& options);
 int validate(const ValidateOptions& options);
 // 0: every drive has an answer; 1: one has none.
 int campaign(const CampaignCommand& options);
+int tune(const TuneCommand& options);
 
 // From a signal handler: the running question is given up, the server drains and ends.
 void interrupt();

@@ -66,6 +66,33 @@ std::string lines(const JsonValue& list, std::string_view before) {
   return out;
 }
 
+// The dynamic rung's figures beside the quasi-static ones, and how the drive went.
+std::string dynamic_lines(const JsonValue& figures, const std::string& label) {
+  const JsonValue& dynamic = at(figures, "dynamic");
+  if (!dynamic.is(JsonValue::Kind::kObject)) return {};
+  TextTable table({label, "driven", "time", "energy", "largest slip", "largest tilt", "sinkage", "current"});
+  const auto add = [&](const char* rung, const JsonValue& f, const char* driven) {
+    table.add({rung, fmt::format("{:.1f} m", number(f, driven)), duration(number(f, "duration_s")),
+               at(f, "energy_wh").is(JsonValue::Kind::kNull)
+                   ? "-"
+                   : fmt::format("{:.0f} Wh", number(f, "energy_wh")),
+               peak(f, "max_slip", "{:.2f}"), peak(f, "max_tilt_deg", "{:.1f} deg"),
+               peak(f, "max_sinkage_m", "{:.3f} m"), peak(f, "max_current_a", "{:.2f} A")});
+  };
+  add("balance", figures, "length_m");
+  add("dynamic", dynamic, "at_m");
+  std::string out = table.print();
+  const std::string& reason = text(dynamic, "reason");
+  out += fmt::format("{}: {}{}{}\n", label, text(dynamic, "end"), reason.empty() ? "" : ", ", reason);
+  out += lines(at(dynamic, "broken_limits"), "Limit broken in the dynamic rung: ");
+  const JsonValue& less = at(dynamic, "less_quasi_static");
+  out += fmt::format(
+      "Dynamic less balance over {:.0f} m, mean: slip {:+.3f}, sinkage {:+.1f} mm, current {:+.2f} A\n",
+      number(less, "compared_m"), number(at(less, "slip"), "mean"),
+      1e3 * number(at(less, "sinkage_m"), "mean"), number(at(less, "current_a"), "mean"));
+  return out;
+}
+
 Result<JsonValue> read(std::string_view document) {
   return api::json::parse(document, {.bytes = document.size(), .values = document.size()});
 }
@@ -99,6 +126,11 @@ Result<std::string> plan_table(std::string_view answer) {
                        text(route, "profile"));
     out += lines(at(route, "reasons"), "  - ");
   }
+  for (const JsonValue& route : summary.elements) {
+    const std::string shown =
+        dynamic_lines(route, fmt::format("Route {:.0f} verified by dynamics", number(route, "rank")));
+    if (!shown.empty()) out += "\n" + shown;
+  }
   out += lines(at(*document, "fewer_because"), "Fewer routes than asked for: ");
   return out;
 }
@@ -113,6 +145,8 @@ Result<std::string> prediction_table(std::string_view answer) {
   std::string out = table.print();
   if (!stuck.is(JsonValue::Kind::kNull)) out += fmt::format("\nImmobilised: {}\n", text(stuck, "reason"));
   out += lines(at(figures, "broken_limits"), "Limit broken: ");
+  const std::string shown = dynamic_lines(figures, "Verified by dynamics");
+  if (!shown.empty()) out += "\n" + shown;
   return out;
 }
 

@@ -160,16 +160,32 @@ void CvodeIntegrator::start(double t, std::span<const double> y) {
 
 void CvodeIntegrator::restart(double t, std::span<const double> y) {
   Solver& s = *solver_;
-  s.before = work();
   std::copy(y.begin(), y.end(), NV_DATA_S(s.y));
   s.t = t;
-  require(CVodeReInit(s.cvode, t, s.y), "restart");
+  begin_anew();
+}
+
+// From where it is.
+void CvodeIntegrator::begin_anew() {
+  Solver& s = *solver_;
+  s.before = work();
+  require(CVodeReInit(s.cvode, s.t, s.y), "restart");
 }
 
 Result<CvodeIntegrator::Step> CvodeIntegrator::step(double t_stop) {
   Solver& s = *solver_;
+  // An event may have been met within a step that went on beyond a stop which was only set upon it.
+  double reached = s.t;
+  require(CVodeGetCurrentTime(s.cvode, &reached), "current time");
+  if (t_stop < reached) begin_anew();
   require(CVodeSetStopTime(s.cvode, t_stop), "stop time");
-  const int flag = CVode(s.cvode, t_stop, s.y, &s.t, CV_ONE_STEP);
+  int flag = CVode(s.cvode, t_stop, s.y, &s.t, CV_ONE_STEP);
+  // History from before a kink of the ground may be what fails: once more without it.
+  if (flag == CV_CONV_FAILURE || flag == CV_ERR_FAILURE) {
+    begin_anew();
+    require(CVodeSetStopTime(s.cvode, t_stop), "stop time");
+    flag = CVode(s.cvode, t_stop, s.y, &s.t, CV_ONE_STEP);
+  }
   if (flag < 0) return fail(ErrorCode::kNotConverged, fmt::format("{} at {:.3f} s", reason_of(flag), s.t));
   if (flag == CV_ROOT_RETURN) CVodeGetRootInfo(s.cvode, s.directions.data());
   return Step{.t = s.t, .event = flag == CV_ROOT_RETURN};

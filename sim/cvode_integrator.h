@@ -56,6 +56,8 @@ class CvodeIntegrator {
   struct Solver;
 
  private:
+  void begin_anew();
+
   std::unique_ptr<Solver> solver_;
 };
 

@@ -91,14 +91,8 @@ class Predictor {
   DrivePrediction finish() {
     DrivePrediction& p = prediction_;
     p.mean_slip_ratio = p.length_m > 0.0 ? slip_length_ / p.length_m : p.max_slip_ratio.value;
-    broken("slip", p.max_slip_ratio, limits_.max_slip_ratio, 1.0, "");
-    broken("tilt", p.max_tilt_rad, limits_.max_tilt_rad, deg_from_rad(1.0), " deg");
-    broken("current", p.max_current_a, limits_.max_current_a, 1.0, " A");
-    broken("sinkage", p.max_sinkage_m, limits_.max_sinkage_m, 1.0, " m");
-    if (least_clearance_.value < limits_.min_clearance_m)
-      p.broken_limits.push_back(fmt::format("clearance {:.3g} m at {:.1f} m, limit {:.3g} m",
-                                            least_clearance_.value, least_clearance_.distance_m,
-                                            limits_.min_clearance_m));
+    p.broken_limits = broken_limits(
+        {p.max_slip_ratio, p.max_tilt_rad, p.max_current_a, p.max_sinkage_m, least_clearance_}, limits_);
     return std::move(prediction_);
   }
 
@@ -134,10 +128,10 @@ class Predictor {
     const StationState& state = predicted.state = solver_.solve(ready.stance, soils, ready.command);
     const double s = ready.distance_m;
     DrivePrediction& p = prediction_;
-    raise(p.max_tilt_rad, ready.stance.attitude.tilt_rad(), s);
-    raise(p.max_slip_ratio, std::abs(state.slip_ratio), s);
-    raise(p.max_current_a, largest_current_a(state), s);
-    raise(p.max_sinkage_m, deepest_sinkage_m(state), s);
+    p.max_tilt_rad.raise(ready.stance.attitude.tilt_rad(), s);
+    p.max_slip_ratio.raise(std::abs(state.slip_ratio), s);
+    p.max_current_a.raise(largest_current_a(state), s);
+    p.max_sinkage_m.raise(deepest_sinkage_m(state), s);
     if (ready.stance.belly_clearance_m < least_clearance_.value)
       least_clearance_ = {ready.stance.belly_clearance_m, s};
     predicted.slip_ratio_p05 = predicted.slip_ratio_p50 = predicted.slip_ratio_p95 = state.slip_ratio;
@@ -156,17 +150,6 @@ class Predictor {
     slip_length_ += std::abs(state.slip_ratio) * ready.drive_m;
     if (predicted.on_unknown_ground) p.unknown_length_m += ready.drive_m;
     predicted.elapsed_s = p.duration_s;
-  }
-
-  static void raise(Peak& peak, double value, double distance_m) {
-    if (value > peak.value) peak = {value, distance_m};
-  }
-
-  void broken(std::string_view name, const Peak& peak, double limit, double scale, std::string_view unit) {
-    if (peak.value > limit)
-      prediction_.broken_limits.push_back(fmt::format("{} {:.3g}{} at {:.1f} m, limit {:.3g}{}", name,
-                                                      peak.value * scale, unit, peak.distance_m,
-                                                      limit * scale, unit));
   }
 
   const RoverModel& rover_;

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "core/angle.h"
 #include "core/pose.h"
 #include "core/progress.h"
 #include "core/result.h"
+#include "sim/drive_limits.h"
 #include "sim/ground.h"
 #include "sim/quasi_static.h"
 #include "sim/rover_model.h"
@@ -26,15 +26,6 @@ struct PathStation {
   bool turning_in_place = false;
   bool backwards = false;
   double crab_rad = 0.0;  // direction of travel from the rover's x axis, positive to the left
-};
-
-// What must hold along a drive. A prediction never stops at a limit; it says where it is broken.
-struct DriveLimits {
-  double max_slip_ratio = 0.4;  // MER operations stopped drives at 40 %
-  double max_tilt_rad = rad_from_deg(25.0);
-  double max_current_a = 10.0;   // of any wheel's motor
-  double max_sinkage_m = 0.08;   // of any wheel
-  double min_clearance_m = 0.0;  // of the belly over the ground
 };
 
 // Beliefs about the ground, in the order of Ground::soil_at's index, and the one for where it is unknown.
@@ -65,11 +56,6 @@ struct Immobilisation {
   double distance_m = 0.0;
   Pose2 pose;
   std::string reason;  // "no traction: ..." with the numbers
-};
-
-struct Peak {
-  double value = 0.0;
-  double distance_m = 0.0;
 };
 
 // A drive as predicted. "Immobilised at 41 m" is an answer, not an error.

@@ -35,7 +35,7 @@ struct DriveSoils {
 DriveSoils mean_soils(const SoilBeliefs& beliefs);
 
 struct DynamicOptions {
-  double relative_tolerance = 1e-4;  // of CVODE, per step; absolute ones in proportion (rover_dynamics.h)
+  double relative_tolerance = 1e-3;  // of CVODE, per step; absolute ones in proportion (rover_dynamics.h)
   Feedback feedback = Feedback::kNone;
   double sample_interval_s = 1.0;
   // Points under each wheel, along its travel, at which the ground is looked at: 1 is what the other rungs

@@ -58,7 +58,7 @@ double winding_resistance_ohm(const DriveMotor& drive) {
   if (drive.resistance_ohm) return *drive.resistance_ohm;
   const double back_emf = drive.torque_constant_nm_per_a * drive.gear_ratio * drive.max_wheel_rate_rad_s;
   const double left_v = std::max(drive.bus_voltage_v - back_emf, 0.1 * drive.bus_voltage_v);
-  return left_v / (20.0 * std::max(drive.no_load_current_a, 0.01));
+  return left_v / std::max(20.0 * drive.no_load_current_a, 10.0);
 }
 
 bool stalls(const DriveMotor& drive, const MotorState& state) {

@@ -61,8 +61,9 @@ double torque_of_current_nm(const DriveMotor& drive, double current_a, double wh
 // True where the torque needs more current or voltage than there is.
 bool stalls(const DriveMotor& drive, const MotorState& state);
 
-// The winding's resistance, ohm; where none is given the one that lets twenty times the no-load current flow
-// at the greatest rate, or at least a tenth of the bus voltage drop: the dynamic rung needs one.
+// The winding's resistance, ohm; where none is given the one that lets twenty times the no-load current, and
+// 10 A at least, flow at the greatest rate, and lets a tenth of the bus voltage drop at least: the dynamic
+// rung needs one, and it must not stall a motor that the other rungs know no limit of.
 double winding_resistance_ohm(const DriveMotor& drive);
 
 // The greatest torque at standstill that bus voltage and current limit allow; infinite where neither the

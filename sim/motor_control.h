@@ -21,13 +21,13 @@ struct MotorDrive {
 // Rate control of a drive motor:   V = k_t N w_told + k_p e + V_i,  V_i' = k_i e + (V_clipped - V) T_c,  e =
 // w_told - w Control of a steering motor:     V = k_p (a_told - a) - k_d a'
 //
-// The gains put both poles of the free joint at kControl_rad_s, but never feed a rate forward. T_c is that
-// too.
+// The gains put both poles of the joint with that inertia at kControl_rad_s, or the slower one where the back
+// EMF damps more, but never feed a rate forward. T_c is that too.
 class MotorControl {
  public:
   static constexpr double kControl_rad_s = 8.0;
 
-  // inertia: of what turns about the joint without load, armature included.
+  // inertia: of what turns about the joint, armature included, and of the load that it moves.
   MotorControl(const DriveMotor& motor, double inertia_kg_m2, double standstill_rad_s);
 
   MotorDrive keep_rate(double told_rad_s, double rate_rad_s, double integral_v) const;

@@ -48,9 +48,10 @@ RoverDynamics::RoverDynamics(const RoverModel& rover, double gravity_m_s2, const
       dynamics_(bodies_.tree),
       contacts_(rover, gravity_m_s2, options.contact_points, kStandstillShare * smallest_cruise_rate(rover)),
       standstill_rad_s_(kStandstillShare * smallest_cruise_rate(rover)),
-      drive_control_(control_of(
-          at_temperature(rover.drive, options.motor_temp_c.value_or(rover.drive.reference_temp_c)))),
-      steering_control_(control_of(rover.steering.value_or(rover.drive))),
+      drive_control_(
+          control_of(at_temperature(rover.drive, options.motor_temp_c.value_or(rover.drive.reference_temp_c)),
+                     gripping_load_kg_m2())),
+      steering_control_(control_of(rover.steering.value_or(rover.drive), 0.0)),
       halted_rad_(rover.wheels.size()),
       told_(rover.wheels.size()),
       angles_(bodies_.tree.joint_count()),
@@ -79,12 +80,19 @@ void RoverDynamics::lay_out() {
   size_ = integrals_at_ + wheels();
 }
 
+// A wheel's share of the rover's mass, at its rim.
+double RoverDynamics::gripping_load_kg_m2() const {
+  const double radius = rover_.smallest_wheel_radius_m();
+  return rover_.mass_kg / wheels() * radius * radius;
+}
+
 // A locked wheel's armature is infinite, and not all rovers steer: the drive's rotor is what any control is
-// for.
-MotorControl RoverDynamics::control_of(const DriveMotor& motor) const {
+// for. A driven wheel that grips moves its share of the rover too: without it the integral would take tens of
+// seconds to find the load behind a motor of low gear, and each leg would begin short of its speed.
+MotorControl RoverDynamics::control_of(const DriveMotor& motor, double load_kg_m2) const {
   const double rotor = motor.gear_ratio * motor.gear_ratio * motor.rotor_inertia_kg_m2;
   const RevoluteBody& wheel = bodies_.tree.bodies()[bodies_.wheel[0]];
-  return {motor, rotor + wheel.mass.inertia_kg_m2(1, 1), standstill_rad_s_};
+  return {motor, rotor + wheel.mass.inertia_kg_m2(1, 1) + load_kg_m2, standstill_rad_s_};
 }
 
 std::vector<double> RoverDynamics::tolerances(double relative) const {

@@ -94,7 +94,8 @@ class RoverDynamics {
   WheelDriveState drive_of(std::size_t wheel, const double* y) const;
   Eigen::Vector3d gravity_M() const;
   void set_told(double t, const double* y);
-  MotorControl control_of(const DriveMotor& motor) const;
+  double gripping_load_kg_m2() const;
+  MotorControl control_of(const DriveMotor& motor, double load_kg_m2) const;
 
   const RoverModel& rover_;
   double gravity_m_s2_;

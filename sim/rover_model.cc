@@ -10,6 +10,7 @@
 #include <set>
 #include <string_view>
 
+#include "sim/rover_multibody.h"
 #include "sim/sliced_wheel.h"
 
 namespace slipway::sim {
@@ -139,21 +140,59 @@ void check_mass(const RoverModel& rover, FaultList& faults) {
     faults.add("/com_m", "com_m lies outside the wheels: the rover would tip over on level ground");
 }
 
-void check_drive(const RoverModel& rover, FaultList& faults) {
-  const DriveMotor& drive = rover.drive;
-  faults.require_in("/drive/torque_constant_nm_per_a", "torque_constant_nm_per_a",
+// What suspension and wheels leave for the body: its motion can't be that of no mass.
+void check_masses(const RoverModel& rover, FaultList& faults) {
+  constexpr double kLeastBodyShare = 0.1;
+  const MassDistribution& masses = rover.masses;
+  if (masses.wheel_kg) faults.require_in("/masses/wheel_kg", "wheel_kg", *masses.wheel_kg, 1e-3, 5000.0);
+  if (masses.rocker_kg) faults.require_in("/masses/rocker_kg", "rocker_kg", *masses.rocker_kg, 1e-3, 5000.0);
+  if (masses.bogie_kg) faults.require_in("/masses/bogie_kg", "bogie_kg", *masses.bogie_kg, 1e-3, 5000.0);
+  if (masses.body_inertia_kg_m2) {
+    const Eigen::Vector3d& inertia = *masses.body_inertia_kg_m2;
+    for (int axis = 0; axis < 3; ++axis)
+      faults.require_in(fmt::format("/masses/body_inertia_kg_m2/{}", axis),
+                        fmt::format("body_inertia_kg_m2[{}]", axis), inertia[axis], 1e-4, 1e5);
+    // No body's moment is above the sum of the two others.
+    if (2.0 * inertia.maxCoeff() > inertia.sum() * (1.0 + 1e-9))
+      faults.add("/masses/body_inertia_kg_m2",
+                 "body_inertia_kg_m2: one moment is above the sum of the two others, which no body has");
+  }
+  const double left = body_mass_kg(rover);
+  if (rover.mass_kg > 0.0 && left < kLeastBodyShare * rover.mass_kg)
+    faults.add("/masses", fmt::format("wheels and suspension leave the body {:.4g} of {:.4g} kg, must be at "
+                                      "least {:.0f} %",
+                                      left, rover.mass_kg, 100.0 * kLeastBodyShare));
+}
+
+void check_suspension(const Suspension& suspension, FaultList& faults) {
+  if (suspension.differential_stiffness_nm_rad)
+    faults.require_in("/suspension/differential_stiffness_nm_per_deg", "differential_stiffness_nm_rad",
+                      *suspension.differential_stiffness_nm_rad, 1e-3, 1e9);
+  if (suspension.differential_damping_nms_rad)
+    faults.require_in("/suspension/differential_damping_nms_per_deg", "differential_damping_nms_rad",
+                      *suspension.differential_damping_nms_rad, 0.0, 1e8);
+  if (suspension.rocker_stop_rad)
+    faults.require_in("/suspension/rocker_stop_deg", "rocker_stop_rad", *suspension.rocker_stop_rad, 0.01,
+                      1.6);
+  if (suspension.bogie_stop_rad)
+    faults.require_in("/suspension/bogie_stop_deg", "bogie_stop_rad", *suspension.bogie_stop_rad, 0.01, 1.6);
+}
+
+void check_motor(const DriveMotor& drive, const std::string& at, FaultList& faults) {
+  faults.require_in(at + "/torque_constant_nm_per_a", "torque_constant_nm_per_a",
                     drive.torque_constant_nm_per_a, 1e-4, 10.0);
-  faults.require_in("/drive/gear_ratio", "gear_ratio", drive.gear_ratio, 1.0, 1e5);
-  faults.require_in("/drive/gear_efficiency", "gear_efficiency", drive.gear_efficiency, 0.05, 1.0);
-  faults.require_in("/drive/no_load_current_a", "no_load_current_a", drive.no_load_current_a, 0.0, 10.0);
-  faults.require_in("/drive/max_wheel_rate_deg_s", "max_wheel_rate_rad_s", drive.max_wheel_rate_rad_s, 1e-3,
+  faults.require_in(at + "/gear_ratio", "gear_ratio", drive.gear_ratio, 1.0, 1e5);
+  faults.require_in(at + "/gear_efficiency", "gear_efficiency", drive.gear_efficiency, 0.05, 1.0);
+  faults.require_in(at + "/no_load_current_a", "no_load_current_a", drive.no_load_current_a, 0.0, 10.0);
+  faults.require_in(at + "/max_wheel_rate_deg_s", "max_wheel_rate_rad_s", drive.max_wheel_rate_rad_s, 1e-3,
                     100.0);
-  faults.require_in("/drive/damping_nms_rad", "damping_nms_rad", drive.damping_nms_rad, 0.0, 10.0);
-  faults.require_in("/drive/bus_voltage_v", "bus_voltage_v", drive.bus_voltage_v, 1.0, 400.0);
+  faults.require_in(at + "/damping_nms_rad", "damping_nms_rad", drive.damping_nms_rad, 0.0, 10.0);
+  faults.require_in(at + "/bus_voltage_v", "bus_voltage_v", drive.bus_voltage_v, 1.0, 400.0);
   if (drive.resistance_ohm)
-    faults.require_in("/drive/resistance_ohm", "resistance_ohm", *drive.resistance_ohm, 1e-3, 1e3);
+    faults.require_in(at + "/resistance_ohm", "resistance_ohm", *drive.resistance_ohm, 1e-3, 1e3);
   if (drive.max_current_a)
-    faults.require_in("/drive/max_current_a", "max_current_a", *drive.max_current_a, 1e-3, 1e3);
+    faults.require_in(at + "/max_current_a", "max_current_a", *drive.max_current_a, 1e-3, 1e3);
+  faults.require_in(at + "/rotor_inertia_kg_m2", "rotor_inertia_kg_m2", drive.rotor_inertia_kg_m2, 0.0, 1.0);
 }
 
 }  // namespace
@@ -181,7 +220,10 @@ std::vector<Fault> faults_of(const RoverModel& rover) {
   }
   faults.require_in("/wheel_slices", "wheel_slices", rover.wheel_slices, 1, kMostSlices);
   check_mass(rover, faults);
-  check_drive(rover, faults);
+  check_masses(rover, faults);
+  check_suspension(rover.suspension, faults);
+  check_motor(rover.drive, "/drive", faults);
+  if (rover.steering) check_motor(*rover.steering, "/steering", faults);
   faults.require_in("/belly_clearance_m", "belly_clearance_m", rover.belly_clearance_m, 0.01, 2.0);
   faults.require_in("/body_length_m", "body_length_m", rover.body_length_m, 0.1, 10.0);
   faults.require_in("/body_width_m", "body_width_m", rover.body_width_m, 0.1, 10.0);

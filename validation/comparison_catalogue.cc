@@ -42,6 +42,8 @@ std::span<const Comparison> comparison_catalogue() {
       Comparison{"artemis_cases", "Opportunity across a ripple, Spirit with a dead wheel, in motion",
                  "ARTEMIS paper", &artemis_cases},
       Comparison{"rungs", "the table rung against the quasi-static rung", "this project", &rungs},
+      Comparison{"dynamic_rung", "the dynamic rung against the quasi-static one on ten drives",
+                 "this project", &dynamic_rung},
   };
   return kComparisons;
 }

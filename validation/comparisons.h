@@ -19,6 +19,7 @@ Result<Report> zhurong_pull(const std::filesystem::path& data);
 Result<Report> independent_simulator(const std::filesystem::path& data);
 Result<Report> curiosity_attitude(const std::filesystem::path& data);
 Result<Report> rungs(const std::filesystem::path& data);
+Result<Report> dynamic_rung(const std::filesystem::path& data);
 Result<Report> virtual_bevameter(const std::filesystem::path& data);
 Result<Report> plate_tests(const std::filesystem::path& data);
 Result<Report> pavlov_tests(const std::filesystem::path& data);

@@ -19,11 +19,25 @@ void read_limits(ObjectReader& reader, sim::DriveLimits& limits) {
   object->refuse_unknown();
 }
 
+// Whether the rover has such wheels is the catalogue's to say.
+void read_failed_wheels(ObjectReader& reader, DriveAssumptions& drive) {
+  const JsonValue* const value = reader.member("failed_wheels", kOptional);
+  if (value == nullptr) return;
+  ObjectReader object(*value, child_pointer(reader.pointer(), "failed_wheels"), reader.faults());
+  if (!object.is_object()) return;
+  for (const std::string& wheel : value->keys) {
+    std::size_t failure = 0;
+    if (object.choice(wheel, kRequired, sim::wheel_failure_names(), failure))
+      drive.failed_wheels[wheel] = static_cast<sim::WheelFailure>(failure);
+  }
+}
+
 }  // namespace
 
 void read_drive_assumptions(ObjectReader& reader, DriveAssumptions& drive) {
   read_limits(reader, drive.limits);
   read_effects(reader, drive.effects);
+  read_failed_wheels(reader, drive);
   reader.whole("draws", kOptional, 1, RequestLimits::kDraws, drive.draws);
   reader.whole("seed", kOptional, std::uint64_t{0}, kLargestExactWhole, drive.seed);
   reader.number("speed_m_s", kOptional, {"m/s", 0.0, 10.0, true}, drive.speed_m_s);
@@ -39,6 +53,11 @@ void write_drive_assumptions(Writer& w, const DriveAssumptions& drive) {
   w.exact("min_clearance_m", drive.limits.min_clearance_m);
   w.end_object();
   write_effects(w, drive.effects);
+  if (!drive.failed_wheels.empty()) {
+    w.key("failed_wheels").begin_object();
+    for (const auto& [wheel, failure] : drive.failed_wheels) w.text(wheel, sim::describe(failure));
+    w.end_object();
+  }
   w.whole("draws", drive.draws);
   w.whole("seed", static_cast<std::int64_t>(drive.seed));
   if (drive.speed_m_s) w.exact("speed_m_s", *drive.speed_m_s);

@@ -61,14 +61,6 @@ constexpr std::array kWheelColumns{
     WheelColumn{"current_a", [](const WheelState& w) { return w.current_a; }},
 };
 
-void write_peak(Writer& w, std::string_view name, const sim::Peak& peak, double scale = 1.0) {
-  w.key(name)
-      .begin_object()
-      .significant("value", peak.value * scale)
-      .metres("at_m", peak.distance_m)
-      .end_object();
-}
-
 void write_words(Writer& w, const std::vector<StationPrediction>& stations, const Provenance& provenance) {
   w.key("outcome").begin_array();
   for (const StationPrediction& s : stations) w.text(sim::describe(s.state.outcome));
@@ -88,6 +80,14 @@ void write_words(Writer& w, const std::vector<StationPrediction>& stations, cons
 }
 
 }  // namespace
+
+void write_peak(Writer& w, std::string_view name, const sim::Peak& peak, double scale) {
+  w.key(name)
+      .begin_object()
+      .significant("value", peak.value * scale)
+      .metres("at_m", peak.distance_m)
+      .end_object();
+}
 
 void write_drive_figures(Writer& w, const sim::DrivePrediction& p) {
   w.text("fidelity", "quasi_static");

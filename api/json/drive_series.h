@@ -6,6 +6,9 @@
 
 namespace slipway::api::json {
 
+// {"value": 0.3, "at_m": 12.5}, the value times `scale`.
+void write_peak(Writer& w, std::string_view name, const sim::Peak& peak, double scale = 1.0);
+
 // A predicted drive as members of an open object: its figures ("length_m", "risk", ...).
 void write_drive_figures(Writer& w, const sim::DrivePrediction& prediction);
 

@@ -1,6 +1,7 @@
 #include "api/json/plan_answer.h"
 
 #include "api/json/drive_series.h"
+#include "api/json/dynamic_series.h"
 #include "api/json/parse.h"
 #include "api/json/plan_request.h"
 #include "api/json/writer.h"
@@ -36,6 +37,7 @@ std::string write_plan_answer(const PlanAnswer& answer) {
   for (const planner::Route& route : answer.plan.routes) {
     w.begin_object();
     write_route(w, route);
+    if (route.dynamic) write_dynamic_figures(w, *route.dynamic);
     w.end_object();
   }
   w.end_array();
@@ -53,6 +55,7 @@ std::string write_plan_answer(const PlanAnswer& answer) {
     w.key("properties").begin_object();
     write_route(w, route);
     write_stations(w, route.prediction, answer.provenance);
+    if (route.dynamic) write_dynamic_drive(w, *route.dynamic);
     w.end_object().end_object();
   }
   w.end_array().end_object().end_object();

@@ -91,6 +91,7 @@ Result<Reading<PlanRequest>> read_plan_request(std::string_view bytes) {
   }
   read_weights(reader, request.weights);
   reader.whole("routes", kOptional, 1, RequestLimits::kRoutes, request.routes);
+  reader.whole("verify", kOptional, 0, planner::kMostVerified, request.verify);
   reader.texts("planners", kOptional, {0, 20}, {.most = 64}, request.planners);
   read_drive_assumptions(reader, request.drive);
   reader.refuse_unknown();
@@ -121,7 +122,7 @@ std::string write_plan_request(const PlanRequest& request) {
     w.exact(term.weight.name, request.weights.*term.in_weights);
   }
   w.end_object();
-  w.whole("routes", request.routes);
+  w.whole("routes", request.routes).whole("verify", request.verify);
   w.texts("planners", request.planners);
   write_drive_assumptions(w, request.drive);
   w.end_object();

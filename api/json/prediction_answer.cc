@@ -1,6 +1,7 @@
 #include "api/json/prediction_answer.h"
 
 #include "api/json/drive_series.h"
+#include "api/json/dynamic_series.h"
 #include "api/json/prediction_request.h"
 #include "api/json/writer.h"
 
@@ -14,6 +15,7 @@ std::string write_prediction_answer(const PredictionAnswer& answer) {
   w.key("request").raw(write_prediction_request(answer.request));
   w.key("summary").begin_object();
   write_drive_figures(w, answer.prediction);
+  if (answer.dynamic) write_dynamic_figures(w, *answer.dynamic);
   w.end_object();
   w.key("routes")
       .begin_object()
@@ -25,6 +27,7 @@ std::string write_prediction_answer(const PredictionAnswer& answer) {
   w.key("properties").begin_object();
   write_drive_figures(w, answer.prediction);
   write_stations(w, answer.prediction, answer.provenance);
+  if (answer.dynamic) write_dynamic_drive(w, *answer.dynamic);
   w.end_object().end_object().end_array().end_object().end_object();
   return w.take();
 }

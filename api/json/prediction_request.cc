@@ -4,6 +4,12 @@
 #include "api/json/parse.h"
 
 namespace slipway::api::json {
+namespace {
+
+// In the order of Rung.
+const std::vector<std::string_view> kRungs{"quasi_static", "dynamic"};
+
+}  // namespace
 
 Result<Reading<PredictionRequest>> read_prediction_request(std::string_view bytes) {
   const auto document = parse(bytes, {.bytes = RequestLimits::kBodyBytes});
@@ -18,6 +24,8 @@ Result<Reading<PredictionRequest>> read_prediction_request(std::string_view byte
   }
   reader.boolean("backwards", kOptional, request.manner.backwards);
   reader.angle_deg("crab_deg", kOptional, {"deg", -90.0, 90.0}, request.manner.crab_rad);
+  std::size_t rung = 0;
+  if (reader.choice("rung", kOptional, kRungs, rung)) request.rung = static_cast<Rung>(rung);
   read_drive_assumptions(reader, request.drive);
   reader.refuse_unknown();
   return reading;
@@ -31,6 +39,7 @@ std::string write_prediction_request(const PredictionRequest& request) {
   for (const planner::Waypoint& corner : request.path) write_waypoint(w, corner);
   w.end_array();
   w.boolean("backwards", request.manner.backwards).angle_deg("crab_deg", request.manner.crab_rad);
+  w.text("rung", kRungs[static_cast<std::size_t>(request.rung)]);
   write_drive_assumptions(w, request.drive);
   w.end_object();
   return w.take();

@@ -1,5 +1,7 @@
 #include "api/json/rover_file.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -8,6 +10,7 @@
 #include "api/json/effect_settings.h"
 #include "api/json/parse.h"
 #include "api/json/strict_reader.h"
+#include "core/angle.h"
 #include "sim/effect_catalogue.h"
 #include "sim/sliced_wheel.h"
 
@@ -68,6 +71,21 @@ void read_wheels(ObjectReader& reader, sim::RoverModel& rover) {
   }
 }
 
+// Of what is between the bodies; each type has the joints it has.
+void read_joints(ObjectReader& reader, sim::Suspension& suspension) {
+  if (suspension.type == sim::SuspensionType::kRigid) return;
+  std::optional<double> stiffness_per_deg, damping_per_deg;
+  reader.number("differential_stiffness_nm_per_deg", kOptional, {"N m/deg", 0.0, 1e7, true},
+                stiffness_per_deg);
+  reader.number("differential_damping_nms_per_deg", kOptional, {"N m s/deg", 0.0, 1e6}, damping_per_deg);
+  if (stiffness_per_deg) suspension.differential_stiffness_nm_rad = *stiffness_per_deg / rad_from_deg(1.0);
+  if (damping_per_deg) suspension.differential_damping_nms_rad = *damping_per_deg / rad_from_deg(1.0);
+  constexpr NumberRule kStop{"deg", 0.0, 90.0, true};
+  reader.angle_deg("rocker_stop_deg", kOptional, kStop, suspension.rocker_stop_rad);
+  if (suspension.type == sim::SuspensionType::kRockerBogie)
+    reader.angle_deg("bogie_stop_deg", kOptional, kStop, suspension.bogie_stop_rad);
+}
+
 void read_suspension(ObjectReader& reader, sim::RoverModel& rover) {
   auto object = reader.object("suspension", kRequired);
   if (!object) return;
@@ -86,13 +104,13 @@ void read_suspension(ObjectReader& reader, sim::RoverModel& rover) {
                        std::find(carried.begin(), carried.end(), wheel.name.substr(1)) != carried.end();
     }
   }
+  read_joints(*object, rover.suspension);
   object->refuse_unknown();
 }
 
-void read_drive(ObjectReader& reader, sim::RoverModel& rover) {
-  auto object = reader.object("drive", kRequired);
-  if (!object) return;
-  sim::DriveMotor& drive = rover.drive;
+bool read_motor(ObjectReader& reader, std::string_view key, Presence presence, sim::DriveMotor& drive) {
+  auto object = reader.object(key, presence);
+  if (!object) return false;
   object->number("torque_constant_nm_per_a", kRequired, {"N m/A", 0.0, 10.0, true},
                  drive.torque_constant_nm_per_a);
   object->number("gear_ratio", kRequired, {"1", 1.0, 1e5}, drive.gear_ratio);
@@ -104,6 +122,21 @@ void read_drive(ObjectReader& reader, sim::RoverModel& rover) {
   object->number("bus_voltage_v", kRequired, {"V", 0.0, 400.0, true}, drive.bus_voltage_v);
   object->number("resistance_ohm", kOptional, {"ohm", 0.0, 1000.0, true}, drive.resistance_ohm);
   object->number("max_current_a", kOptional, {"A", 0.0, 1000.0, true}, drive.max_current_a);
+  object->number("rotor_inertia_kg_m2", kOptional, {"kg m2", 0.0, 1.0}, drive.rotor_inertia_kg_m2);
+  object->refuse_unknown();
+  return true;
+}
+
+void read_masses(ObjectReader& reader, sim::MassDistribution& masses) {
+  auto object = reader.object("masses", kOptional);
+  if (!object) return;
+  constexpr NumberRule kPart{"kg", 0.0, 5000.0, true};
+  object->number("wheel_kg", kOptional, kPart, masses.wheel_kg);
+  object->number("rocker_kg", kOptional, kPart, masses.rocker_kg);
+  object->number("bogie_kg", kOptional, kPart, masses.bogie_kg);
+  std::vector<double> xyz;
+  if (object->numbers("body_inertia_kg_m2", kOptional, {3, 3}, {"kg m2", 0.0, 1e5, true}, xyz))
+    masses.body_inertia_kg_m2 = Eigen::Vector3d(xyz[0], xyz[1], xyz[2]);
   object->refuse_unknown();
 }
 
@@ -140,6 +173,11 @@ void write_wheels(Writer& w, const sim::RoverModel& rover) {
   if (rover.wheel_slices > 1) w.exact("wheel_slices", rover.wheel_slices);
 }
 
+// Kept per radian, written per degree with the digits that were read.
+void write_per_deg(Writer& w, std::string_view key, double per_rad) {
+  w.exact(key, std::stod(fmt::format("{:.12g}", per_rad * rad_from_deg(1.0))));
+}
+
 void write_suspension(Writer& w, const sim::RoverModel& rover) {
   const sim::Suspension& suspension = rover.suspension;
   w.key("suspension").begin_object().text("type", kSuspensions[static_cast<std::size_t>(suspension.type)]);
@@ -152,17 +190,35 @@ void write_suspension(Writer& w, const sim::RoverModel& rover) {
       if (wheel.on_bogie && wheel.side == sim::Side::kLeft) on_bogie.push_back(wheel.name.substr(1));
     w.texts("bogie_wheels", on_bogie);
   }
+  if (suspension.differential_stiffness_nm_rad)
+    write_per_deg(w, "differential_stiffness_nm_per_deg", *suspension.differential_stiffness_nm_rad);
+  if (suspension.differential_damping_nms_rad)
+    write_per_deg(w, "differential_damping_nms_per_deg", *suspension.differential_damping_nms_rad);
+  if (suspension.rocker_stop_rad) w.angle_deg("rocker_stop_deg", *suspension.rocker_stop_rad);
+  if (suspension.bogie_stop_rad) w.angle_deg("bogie_stop_deg", *suspension.bogie_stop_rad);
   w.end_object();
 }
 
-void write_drive(Writer& w, const sim::DriveMotor& drive) {
-  w.key("drive").begin_object().exact("torque_constant_nm_per_a", drive.torque_constant_nm_per_a);
+void write_masses(Writer& w, const sim::MassDistribution& masses) {
+  if (!masses.wheel_kg && !masses.rocker_kg && !masses.bogie_kg && !masses.body_inertia_kg_m2) return;
+  w.key("masses").begin_object();
+  if (masses.wheel_kg) w.exact("wheel_kg", *masses.wheel_kg);
+  if (masses.rocker_kg) w.exact("rocker_kg", *masses.rocker_kg);
+  if (masses.bogie_kg) w.exact("bogie_kg", *masses.bogie_kg);
+  if (masses.body_inertia_kg_m2) write_point(w, "body_inertia_kg_m2", *masses.body_inertia_kg_m2);
+  w.end_object();
+}
+
+void write_motor(Writer& w, std::string_view key, const sim::DriveMotor& drive) {
+  w.key(key).begin_object().exact("torque_constant_nm_per_a", drive.torque_constant_nm_per_a);
   w.exact("gear_ratio", drive.gear_ratio).exact("gear_efficiency", drive.gear_efficiency);
   w.exact("no_load_current_a", drive.no_load_current_a);
   if (drive.damping_nms_rad != 0.0) w.exact("damping_nms_rad", drive.damping_nms_rad);
   w.angle_deg("max_wheel_rate_deg_s", drive.max_wheel_rate_rad_s).exact("bus_voltage_v", drive.bus_voltage_v);
   if (drive.resistance_ohm) w.exact("resistance_ohm", *drive.resistance_ohm);
   if (drive.max_current_a) w.exact("max_current_a", *drive.max_current_a);
+  if (drive.rotor_inertia_kg_m2 != sim::DriveMotor{}.rotor_inertia_kg_m2)
+    w.exact("rotor_inertia_kg_m2", drive.rotor_inertia_kg_m2);
   w.end_object();
 }
 
@@ -182,9 +238,12 @@ Result<sim::RoverModel> read_rover_file(std::string_view bytes) {
   reader.texts("assumed", kRequired, {0, kMostSources}, {}, rover.assumed);
   reader.number("mass_kg", kRequired, {"kg", 0.0, 5000.0, true}, rover.mass_kg);
   read_point(reader, "com_m", rover.com_m);
+  read_masses(reader, rover.masses);
   read_wheels(reader, rover);
   read_suspension(reader, rover);
-  read_drive(reader, rover);
+  read_motor(reader, "drive", kRequired, rover.drive);
+  if (sim::DriveMotor steering; read_motor(reader, "steering", kOptional, steering))
+    rover.steering = steering;
   read_body(reader, rover);
   read_effects(reader, rover.effects);
   reader.refuse_unknown();
@@ -205,9 +264,11 @@ void write_rover(Writer& w, const sim::RoverModel& rover) {
   w.texts("sources", rover.sources).texts("assumed", rover.assumed);
   w.exact("mass_kg", rover.mass_kg);
   write_point(w, "com_m", rover.com_m);
+  write_masses(w, rover.masses);
   write_wheels(w, rover);
   write_suspension(w, rover);
-  write_drive(w, rover.drive);
+  write_motor(w, "drive", rover.drive);
+  if (rover.steering) write_motor(w, "steering", *rover.steering);
   w.exact("belly_clearance_m", rover.belly_clearance_m);
   w.exact("body_length_m", rover.body_length_m).exact("body_width_m", rover.body_width_m);
   w.angle_deg("max_tilt_deg", rover.max_tilt_rad).exact("cruise_speed_m_s", rover.cruise_speed_m_s);
@@ -221,7 +282,7 @@ void write_campaign_rover(Writer& w, const sim::RoverModel& rover) {
   write_point(w, "com_m", rover.com_m);
   write_wheels(w, rover);
   write_suspension(w, rover);
-  write_drive(w, rover.drive);
+  write_motor(w, "drive", rover.drive);
   w.end_object();
 }
 

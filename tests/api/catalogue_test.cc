@@ -144,6 +144,75 @@ TEST(RoverFile, GrousersOfTheRoverAreOnEveryWheelWithoutItsOwn) {
   for (const sim::WheelModel& wheel : rover->wheels) EXPECT_EQ(wheel.grousers->height_m, 0.02);
 }
 
+// A rover as served, with parts of its text replaced in turn.
+std::string rover_with(const char* name,
+                       const std::vector<std::pair<std::string_view, std::string_view>>& changes) {
+  json::Writer w;
+  json::write_rover(w, *small_world().catalogue().rovers.at(name));
+  std::string text = w.take();
+  for (const auto& [what, by] : changes) {
+    const std::size_t at = text.find(what);
+    EXPECT_NE(at, std::string::npos) << what;
+    text.replace(at, what.size(), by);
+  }
+  return text;
+}
+
+TEST(RoverFile, WhatTheDynamicRungReadsComesBackAsItWas) {
+  const std::string text = rover_with(
+      "mer-class",
+      {{R"("wheels":)",
+        R"("masses":{"wheel_kg":5.5,"rocker_kg":6.25,"bogie_kg":3,"body_inertia_kg_m2":[20,30,35.5]},"wheels":)"},
+       {R"("bogie_wheels":["m","r"])",
+        R"("bogie_wheels":["m","r"],"differential_stiffness_nm_per_deg":1200.5,"differential_damping_nms_per_deg":11,"rocker_stop_deg":30,"bogie_stop_deg":45.5)"},
+       {R"(},"belly_clearance_m")",
+        R"(,"rotor_inertia_kg_m2":1e-06},"steering":{"torque_constant_nm_per_a":0.01,"gear_ratio":4000,"gear_efficiency":0.5,"no_load_current_a":0.02,"max_wheel_rate_deg_s":20,"bus_voltage_v":28},"belly_clearance_m")"}});
+  const auto rover = json::read_rover_file(text);
+  ASSERT_TRUE(rover) << rover.error().detail;
+  EXPECT_EQ(rover->masses.wheel_kg, 5.5);
+  EXPECT_EQ(rover->masses.rocker_kg, 6.25);
+  EXPECT_EQ(rover->masses.bogie_kg, 3.0);
+  EXPECT_EQ(*rover->masses.body_inertia_kg_m2, Eigen::Vector3d(20.0, 30.0, 35.5));
+  EXPECT_NEAR(*rover->suspension.differential_stiffness_nm_rad, 1200.5 * deg_from_rad(1.0), 1e-9);
+  EXPECT_NEAR(*rover->suspension.differential_damping_nms_rad, 11.0 * deg_from_rad(1.0), 1e-9);
+  EXPECT_DOUBLE_EQ(*rover->suspension.rocker_stop_rad, rad_from_deg(30.0));
+  EXPECT_DOUBLE_EQ(*rover->suspension.bogie_stop_rad, rad_from_deg(45.5));
+  EXPECT_EQ(rover->drive.rotor_inertia_kg_m2, 1e-6);
+  ASSERT_TRUE(rover->steering);
+  EXPECT_EQ(rover->steering->gear_ratio, 4000.0);
+  json::Writer again;
+  json::write_rover(again, *rover);
+  EXPECT_EQ(again.take(), text);
+}
+
+TEST(RoverFile, WhatTheDynamicRungReadsIsReadStrictly) {
+  const auto pointers = [](const std::string& text) {
+    std::set<std::string> all;
+    const auto rover = json::read_rover_file(text);
+    EXPECT_FALSE(rover);
+    if (!rover)
+      for (const Fault& fault : rover.error().faults) all.insert(fault.pointer);
+    return all;
+  };
+  EXPECT_EQ(
+      pointers(rover_with(
+          "mer-class",
+          {{R"("wheels":)",
+            R"("masses":{"wheel_kg":0,"rocker":6,"body_inertia_kg_m2":[1,2]},"steering":{"gear_ratio":0.5},"wheels":)"},
+           {R"("bogie_wheels":["m","r"])", R"("bogie_wheels":["m","r"],"rocker_stop_deg":120)"}})),
+      (std::set<std::string>{
+          "/masses/wheel_kg", "/masses/rocker", "/masses/body_inertia_kg_m2", "/suspension/rocker_stop_deg",
+          "/steering/torque_constant_nm_per_a", "/steering/gear_ratio", "/steering/gear_efficiency",
+          "/steering/no_load_current_a", "/steering/max_wheel_rate_deg_s", "/steering/bus_voltage_v"}));
+  EXPECT_EQ(
+      pointers(rover_with("cuadriga", {{R"("type":"rigid")", R"("type":"rigid","rocker_stop_deg":20)"}})),
+      std::set<std::string>{"/suspension/rocker_stop_deg"})
+      << "a rigid suspension has no rocker to stop";
+  EXPECT_EQ(pointers(rover_with("mer-class", {{R"("wheels":)", R"("masses":{"wheel_kg":27},"wheels":)"}})),
+            std::set<std::string>{"/masses"})
+      << "nothing would be left of the body";
+}
+
 TEST(RoverFile, FaultsOfTheNewKeysAreAllNamed) {
   json::Writer w;
   json::write_rover(w, *small_world().catalogue().rovers.at("cuadriga"));

@@ -137,6 +137,26 @@ TEST(Chart, NothingToShowIsStillADocument) {
   expect_well_formed(draw_charts("none", {}));
 }
 
+TEST(HeatMap, DrawsPointsAndLinesOverTheCellsWithALegend) {
+  HeatMap map{.title = "score",
+              .x = {"a", {}, {}, false, {}},
+              .y = {"b", {}, {}, true, {}},
+              .x_edges = {0, 1, 2},
+              .y_edges = {1, 10, 100},
+              .values = {1.0, 2.0, 3.0, 4.0},
+              .value_title = "score"};
+  const std::string bare = draw_heat_map(map);
+  map.series = {{.name = "best", .mark = ChartMark::kPoints, .x = {1.0, 5.0}, .y = {10.0, 10.0}, .colour = 0},
+                {.name = "95 %", .mark = ChartMark::kLine, .x = {0.5, 3.0}, .y = {2.0, 50.0}, .colour = 1}};
+  const std::string svg = draw_heat_map(map);
+  expect_well_formed(svg);
+  EXPECT_EQ(count(svg, "<circle"), 2U);  // the point inside, and the legend's
+  EXPECT_EQ(count(svg, ">best</text>"), 1U);
+  EXPECT_EQ(count(svg, "clip-path=\"url(#cells)\""), 1U);
+  EXPECT_EQ(count(bare, "clipPath"), 0U);
+  EXPECT_EQ(count(svg, "crispEdges"), 4U);
+}
+
 TEST(HeatMap, DrawsOneCellPerValueFromTheLowestYAndMissingOnesGrey) {
   const HeatMap map{.title = "slip",
                     .x = {"pitch, deg", {}, {}, false, {}},

@@ -136,8 +136,9 @@ TEST(Contract, ExamplesOfRequestsFitTheDescription) {
   for (const char* name : {"plan_shortest.json", "plan_every_key.json"}) {
     EXPECT_EQ(complaints_about("PlanRequest", example(name)), std::vector<std::string>{}) << name;
   }
-  EXPECT_EQ(complaints_about("PredictionRequest", example("prediction_path.json")),
-            std::vector<std::string>{});
+  for (const char* name : {"prediction_path.json", "prediction_dynamic.json"}) {
+    EXPECT_EQ(complaints_about("PredictionRequest", example(name)), std::vector<std::string>{}) << name;
+  }
   EXPECT_EQ(complaints_about("WheelSweepRequest", example("wheel_sweep_every_key.json")),
             std::vector<std::string>{});
 }
@@ -164,6 +165,37 @@ TEST(Contract, APlansAnswerFitsTheDescription) {
     EXPECT_EQ(stations.find(column)->elements.size(), count) << column;
   }
   EXPECT_EQ(stations.find("wheels")->find("rr")->find("current_a")->elements.size(), count);
+  int verified = 0;
+  for (const JsonValue& route : document->find("summary")->elements)
+    verified += route.find("dynamic") != nullptr ? 1 : 0;
+  EXPECT_EQ(verified, 1);
+}
+
+TEST(Contract, ADynamicPredictionsAnswerFitsTheDescriptionAndNamesItsRung) {
+  const std::string answer = answer_to(kPredictionKind, example("prediction_dynamic.json"));
+  EXPECT_EQ(complaints_about("Prediction", answer), std::vector<std::string>{});
+  EXPECT_EQ(answer, answer_to(kPredictionKind, example("prediction_dynamic.json")));
+  const auto document = json::parse(answer, {.bytes = answer.size(), .values = answer.size()});
+  const JsonValue& figures = *document->find("summary")->find("dynamic");
+  EXPECT_EQ(figures.find("fidelity")->text, "dynamic");
+  EXPECT_EQ(figures.find("samples"), nullptr);
+  const JsonValue& drive =
+      *document->find("routes")->find("features")->elements[0].find("properties")->find("dynamic");
+  const JsonValue& samples = *drive.find("samples");
+  const auto count = static_cast<std::size_t>(samples.find("count")->number);
+  EXPECT_GT(count, 50U);
+  EXPECT_LE(count, 400U);
+  for (const char* column : {"time_s", "x_m", "slip", "driving"})
+    EXPECT_EQ(samples.find(column)->elements.size(), count) << column;
+  const JsonValue& dead = *samples.find("wheels")->find("lr");
+  EXPECT_EQ(dead.find("current_a")->elements.size(), count);
+  for (const JsonValue& current : dead.find("current_a")->elements)
+    EXPECT_EQ(current.number, 0.0) << "a motor without power draws none";
+}
+
+TEST(Contract, WithoutADynamicRungNothingIsSaidOfOne) {
+  const std::string answer = answer_to(kPredictionKind, example("prediction_path.json"));
+  EXPECT_EQ(answer.find("\"dynamic\":{"), std::string::npos);
 }
 
 TEST(Contract, APredictionsAnswerFitsTheDescription) {

@@ -44,6 +44,8 @@ TEST(PlanRequest, EveryKeyIsReadInItsUnit) {
   EXPECT_EQ(request->planners, std::vector<std::string>{"rrt_star"});
   EXPECT_EQ(request->drive.effects.at(0).parameters.at("n1"), 0.3);
   EXPECT_EQ(request->drive.seed, 7U);
+  EXPECT_EQ(request->verify, 1);
+  EXPECT_EQ(request->drive.failed_wheels.at("rm"), sim::WheelFailure::kFree);
   EXPECT_EQ(request->drive.speed_m_s, 0.03);
 }
 
@@ -101,6 +103,13 @@ TEST(PlanRequest, EachBadMemberIsRefusedAtItsPlace) {
       {R"(,"weights":{"speed":1})", "/weights/speed"},
       {R"(,"routes":0)", "/routes"},
       {R"(,"routes":"3")", "/routes"},
+      {R"(,"verify":4)", "/verify"},
+      {R"(,"verify":0.5)", "/verify"},
+      {R"(,"rung":"dynamic")", "/rung"},
+      {R"(,"failed_wheels":["rf"])", "/failed_wheels"},
+      {R"(,"failed_wheels":{"rf":"broken"})", "/failed_wheels/rf"},
+      {R"(,"failed_wheels":{"rf":1})", "/failed_wheels/rf"},
+      {R"(,"failed_wheels":{"fr":"locked"})", "/failed_wheels/fr"},
       {R"(,"planners":["rrt_starr"])", "/planners/0"},
       {R"(,"planners":["rrt_star","rrt_star"])", "/planners/1"},
       {R"(,"effects":[{"name":"slip_sinkage","parameters":{"n1":9}}])", "/effects/0/parameters/n1"},
@@ -120,6 +129,35 @@ TEST(PlanRequest, EachBadMemberIsRefusedAtItsPlace) {
     ASSERT_FALSE(request) << members;
     EXPECT_EQ(pointers_of(request.error()), std::vector<std::string>{pointer}) << members;
   }
+}
+
+TEST(PlanRequest, AFailedWheelThatIsNotKnownIsRefusedWithThoseThatAre) {
+  const auto wheel = small_world().read_plan(plan_with(R"(,"failed_wheels":{"fr":"locked"})"));
+  ASSERT_FALSE(wheel);
+  EXPECT_NE(wheel.error().detail.find("unknown wheel \"fr\""), std::string::npos) << wheel.error().detail;
+  EXPECT_NE(wheel.error().detail.find("known: lf, lm, lr, rf, rm, rr"), std::string::npos);
+  const auto failure = small_world().read_plan(plan_with(R"(,"failed_wheels":{"rf":"broken"})"));
+  ASSERT_FALSE(failure);
+  for (const char* known : {"locked", "free", "off"})
+    EXPECT_NE(failure.error().detail.find(known), std::string::npos) << failure.error().detail;
+}
+
+TEST(PredictionRequest, TheRungIsReadAndEchoed) {
+  const auto request = small_world().read_prediction(example("prediction_dynamic.json"));
+  ASSERT_TRUE(request) << request.error().detail;
+  EXPECT_EQ(request->rung, Rung::kDynamic);
+  EXPECT_EQ(request->drive.failed_wheels.at("lr"), sim::WheelFailure::kOff);
+  const auto plain = small_world().read_prediction(example("prediction_path.json"));
+  ASSERT_TRUE(plain);
+  EXPECT_EQ(plain->rung, Rung::kQuasiStatic);
+  const std::string echoed = json::write_prediction_request(*request);
+  const auto again = json::read_prediction_request(echoed);
+  ASSERT_TRUE(again && again->faults.empty());
+  EXPECT_EQ(json::write_prediction_request(again->request), echoed);
+  const auto refused = small_world().read_prediction(
+      R"({"terrain":"yard","rover":"mer-class","path":[{"x_m":20,"y_m":30},{"x_m":21,"y_m":30}],"rung":"table"})");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(pointers_of(refused.error()), std::vector<std::string>{"/rung"});
 }
 
 TEST(PlanRequest, ABodyThatIsNoObjectIsRefusedOnce) {

@@ -242,6 +242,7 @@ class Contract(unittest.TestCase):
         self.refused("/v1/plans", plan(start={"x_m": 0, "y_m": 0}), 422, "/start")
         self.refused("/v1/plans", plan(terrain="../../etc/passwd"), 422, "/terrain")
         self.refused("/v1/plans", plan(terrain="/vsicurl/http://127.0.0.1/x.tif"), 422, "/terrain")
+        self.refused("/v1/plans", plan(verify=4, failed_wheels={"rf": "bent"}), 422, "/verify", "/failed_wheels/rf")
         self.refused("/v1/plans", plan(effects=[{"name": "tether"}]), 422, "/effects/0/name")
         off = {"terrain": "gale", "rover": "msl-class", "path": [STOP_967, {"x_m": 8142579.7, "y_m": -279000.0}]}
         self.refused("/v1/predictions", off, 422, "/path/1")
@@ -293,6 +294,19 @@ class Contract(unittest.TestCase):
             shown = subprocess.run([SLIPWAY, *command.split(), "--help"], capture_output=True, text=True)
             self.assertEqual(shown.returncode, 0)
             self.assertIn("Example:", shown.stdout)
+
+    def test_a_path_is_driven_in_the_dynamic_rung_with_a_dead_wheel(self):
+        path = [f"{p['x_m']},{p['y_m']}" for p in (STOP_967, {"x_m": STOP_967["x_m"] - 3.0, "y_m": STOP_967["y_m"]})]
+        options = ["--data", DATA, "--path", *path, "--rung", "dynamic", "--failed", "rf=off", "--draws", "4"]
+        shown = subprocess.run([SLIPWAY, "predict", *options], capture_output=True, text=True, check=True).stdout
+        self.assertIn("Verified by dynamics", shown)
+        self.assertIn("Dynamic less balance", shown)
+        document = json.loads(subprocess.run([SLIPWAY, "predict", *options, "--json"], capture_output=True, check=True).stdout)
+        self.assertEqual(document["summary"]["dynamic"]["fidelity"], "dynamic")
+        self.assertEqual(document["request"]["failed_wheels"], {"rf": "off"})
+        unknown = subprocess.run([SLIPWAY, "predict", "--data", DATA, "--path", *path, "--failed", "fr=off"], capture_output=True, text=True)
+        self.assertEqual(unknown.returncode, 2)
+        self.assertIn("/failed_wheels/fr", unknown.stderr)
 
     def test_memory_stays_below_300_mb(self):
         self.server.answer("/v1/plans", plan())

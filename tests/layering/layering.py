@@ -13,10 +13,10 @@ MAY_SEE = {
     "sim": {"core", "sim"},
     "planner": {"core", "dem", "sim", "planner"},
     "gap": {"core", "sim", "gap"},
-    "campaign": {"core", "dem", "sim", "planner", "campaign"},
-    "api": {"core", "dem", "sim", "planner", "campaign", "api"},
+    "campaign": {"core", "dem", "sim", "planner", "gap", "campaign"},
+    "api": {"core", "dem", "sim", "planner", "gap", "campaign", "api"},
     "validation": {"core", "dem", "sim", "planner", "campaign", "gap", "api", "validation"},
-    "server": {"core", "dem", "sim", "planner", "campaign", "api", "validation", "server"},
+    "server": {"core", "dem", "sim", "planner", "gap", "campaign", "api", "validation", "server"},
 }
 
 # vendor header -> the only files of ours that may include it.

@@ -92,8 +92,9 @@ struct Motion {
 
 class SlowLimit : public testing::TestWithParam<Motion> {};
 
-// In steady motion the dynamic rung is the quasi-static one, at any speed. What is left is that wheels which sink
-// unequally turn the suspension a little (a third of a degree up 15 deg), which shifts their loads by up to 1 %.
+// In steady motion the dynamic rung is the quasi-static one, at any speed. What is left is that wheels which
+// sink unequally turn the suspension a little (a third of a degree up 15 deg), which shifts their loads by up
+// to 1 %.
 TEST_P(SlowLimit, IsTheQuasiStaticRung) {
   const Motion& motion = GetParam();
   const RoverModel rover = light_suspension(six_wheeler());

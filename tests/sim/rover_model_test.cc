@@ -62,6 +62,39 @@ TEST(RoverModel, TheCentreOfMassOfATripodLiesInItsTriangle) {
   EXPECT_EQ(pointers_of(rover), std::vector<std::string>{"/com_m"});
 }
 
+TEST(RoverModel, WheelsAndSuspensionLeaveTheBodyATenthOfTheMass) {
+  RoverModel rover = six_wheeler();
+  rover.masses.wheel_kg = 0.12 * rover.mass_kg;  // with rockers and bogies 82 %
+  EXPECT_TRUE(faults_of(rover).empty());
+  rover.masses.wheel_kg = 0.14 * rover.mass_kg;  // 94 %
+  EXPECT_EQ(pointers_of(rover), std::vector<std::string>{"/masses"});
+  RoverModel rigid = four_wheeler(SuspensionType::kRigid);
+  rigid.masses.wheel_kg = 0.2 * rigid.mass_kg;
+  rigid.masses.rocker_kg = rigid.mass_kg;  // which it does not have
+  EXPECT_TRUE(faults_of(rigid).empty());
+}
+
+TEST(RoverModel, ABodysMomentsOfInertiaAreThoseOfABody) {
+  RoverModel rover = six_wheeler();
+  rover.masses.body_inertia_kg_m2 = Eigen::Vector3d(10.0, 20.0, 31.0);
+  EXPECT_EQ(pointers_of(rover), std::vector<std::string>{"/masses/body_inertia_kg_m2"});
+  rover.masses.body_inertia_kg_m2 = Eigen::Vector3d(10.0, 20.0, 29.0);
+  EXPECT_TRUE(faults_of(rover).empty());
+}
+
+TEST(RoverModel, WhatTheDynamicRungReadsHasItsRangesToo) {
+  RoverModel rover = six_wheeler();
+  rover.suspension.differential_stiffness_nm_rad = -1.0;
+  rover.suspension.bogie_stop_rad = 3.0;
+  rover.drive.rotor_inertia_kg_m2 = -1.0;
+  rover.steering = rover.drive;
+  rover.steering->gear_ratio = 0.0;
+  EXPECT_EQ(pointers_of(rover),
+            (std::vector<std::string>{"/suspension/differential_stiffness_nm_per_deg",
+                                      "/suspension/bogie_stop_deg", "/drive/rotor_inertia_kg_m2",
+                                      "/steering/gear_ratio", "/steering/rotor_inertia_kg_m2"}));
+}
+
 TEST(WheelCommands, StraightDrivingTurnsAllWheelsAlike) {
   for (const WheelCommand& wheel : wheel_commands(six_wheeler(), {.speed_m_s = 0.04})) {
     EXPECT_EQ(wheel.steer_rad, 0.0);

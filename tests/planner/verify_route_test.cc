@@ -1,0 +1,240 @@
+#include "planner/verify_route.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/angle.h"
+#include "dem/synthetic_terrain.h"
+#include "planner/drive_legs.h"
+#include "planner/rank.h"
+#include "planner/terrain_ground.h"
+#include "tests/planner/plan_fixture.h"
+
+namespace slipway::planner {
+namespace {
+
+constexpr std::string_view kYard = R"(
+. . . . . . . . . . . . . . . .
+. . . . . . . . . . . . . . . .
+. . S . . . . . . . . . G . . .
+. . . . . . . . . . . . . . . .
+. . . . . . . . . . . . . . . .
+. . . . . . . . . . . . . . . .
+)";
+
+std::vector<Motion> crooked(const sim::RoverModel& rover) {
+  const MotionLimits limits = motion_limits(rover);
+  std::vector<Motion> motions{straight({1.0, 2.0, 0.4}, 4.0, 2.5)};
+  motions.push_back(connect(motions.back().to, {7.0, 4.0, 1.0}, limits));
+  motions.push_back(connect(motions.back().to, {6.5, 7.0, -2.0}, limits));
+  motions.push_back(connect(motions.back().to, {3.0, 8.0, -3.0}, limits));
+  return motions;
+}
+
+TEST(DriveLegs, EndWhereTheMotionsEndForwardsBackwardsAndAtAnAngle) {
+  const auto rover = test_rover();
+  const std::vector<Motion> motions = crooked(*rover);
+  for (const Manner& manner : {Manner{}, Manner{.backwards = true}, Manner{.crab_rad = 0.5},
+                               Manner{.backwards = true, .crab_rad = -0.3}}) {
+    Pose2 pose = drive_start(motions, manner);
+    double length = 0.0;
+    for (const sim::DriveLeg& leg : drive_legs(motions, *rover, manner)) {
+      pose = sim::commanded_pose(leg, pose, 1.0);
+      length += leg.length_m;
+    }
+    EXPECT_NEAR(pose.x_m, motions.back().to.x_m, 1e-9);
+    EXPECT_NEAR(pose.y_m, motions.back().to.y_m, 1e-9);
+    EXPECT_NEAR(wrapped_rad(pose.yaw_rad - manner.body_yaw(motions.back().to.yaw_rad)), 0.0, 1e-9);
+    double way = 0.0;
+    for (const Motion& motion : motions) way += motion.length_m;
+    EXPECT_NEAR(length, way, 1e-9);
+  }
+}
+
+TEST(DriveLegs, WhatIsDrivenWithoutAHaltIsOneLeg) {
+  const auto rover = test_rover();
+  Motion first = straight({0.0, 0.0, 0.0}, 2.0, 0.0);
+  first.last_turn_rad = 0.5;
+  first.to.yaw_rad = 0.5;
+  Motion second = straight(first.to, 2.0, 3.0);
+  const Motion third = straight(second.to, 2.0, 5.0);
+  const auto legs = drive_legs({first, second, third}, *rover);
+  ASSERT_EQ(legs.size(), 3U);
+  EXPECT_TRUE(legs[1].command.turn_in_place);
+  EXPECT_NEAR(legs[1].turn_rad, std::numbers::pi / 2.0, 1e-12);
+  EXPECT_NEAR(legs[2].length_m, 5.0, 1e-12);
+}
+
+TEST(DriveLegs, ATurnThatIsTakenBackIsNone) {
+  Motion there, back;
+  there.last_turn_rad = 0.5;
+  back.first_turn_rad = -0.5;
+  EXPECT_TRUE(drive_legs({there, back}, *test_rover()).empty());
+}
+
+struct Driven {
+  sim::DrivePrediction balance;
+  DynamicVerification dynamic;
+};
+
+Driven driven(const PlanProblem& problem, const std::vector<Waypoint>& corners, const Manner& manner = {}) {
+  NoProgress progress;
+  auto balance = predict_path(problem, corners, progress, manner);
+  EXPECT_TRUE(balance) << balance.error().detail;
+  auto dynamic = verify_path(problem, corners, balance.value(), progress, manner);
+  EXPECT_TRUE(dynamic) << dynamic.error().detail;
+  return {std::move(*balance), std::move(*dynamic)};
+}
+
+const std::vector<Waypoint> kCorner{
+    {5.0, 8.0, std::nullopt}, {9.0, 8.0, std::nullopt}, {9.0, 5.0, std::nullopt}};
+
+TEST(VerifyRoute, OnLevelGroundBothRungsAgreeAndTheDriveArrives) {
+  const PlanProblem problem = problem_of(kYard);
+  for (const Manner& manner : {Manner{}, Manner{.backwards = true}}) {
+    const auto [balance, dynamic] = driven(problem, kCorner, manner);
+    ASSERT_EQ(dynamic.end, sim::DriveEnd::kFinished) << dynamic.reason;
+    EXPECT_TRUE(dynamic.reason.empty());
+    EXPECT_NEAR(dynamic.pose.x_m, 9.0, 0.05);
+    EXPECT_NEAR(dynamic.pose.y_m, 5.0, 0.05);
+    EXPECT_NEAR(dynamic.distance_m, balance.length_m, 0.1);
+    EXPECT_NEAR(dynamic.commanded_m, 7.0, 1e-9);
+    EXPECT_GT(dynamic.compared_m, 5.0);
+    EXPECT_LT(dynamic.slip_ratio.mean_abs, 0.02);
+    EXPECT_LT(dynamic.sinkage_m.mean_abs, 0.003);
+    EXPECT_LE(std::abs(dynamic.slip_ratio.mean), dynamic.slip_ratio.mean_abs);
+    EXPECT_GE(dynamic.slip_ratio.largest.value, dynamic.slip_ratio.mean_abs);
+    EXPECT_GT(dynamic.duration_s, balance.duration_s) << "it also starts, stops and steers";
+    EXPECT_FALSE(dynamic.refutes());
+    EXPECT_GT(dynamic.work.steps, 0);
+  }
+}
+
+TEST(VerifyRoute, SamplesAreBoundedInOrderAndEndWhereTheDriveEnds) {
+  const auto dynamic =
+      driven(problem_of(kYard), {{3.0, 8.0, std::nullopt}, {28.0, 8.0, std::nullopt}}).dynamic;
+  ASSERT_EQ(dynamic.end, sim::DriveEnd::kFinished) << dynamic.reason;
+  EXPECT_LE(dynamic.samples.size(), kMostVerificationSamples);
+  EXPECT_GE(dynamic.samples.size(), kMostVerificationSamples / 2);
+  EXPECT_EQ(dynamic.samples.front().time_s, 0.0);
+  EXPECT_NEAR(dynamic.samples.back().time_s, dynamic.duration_s, 1e-9);
+  for (std::size_t k = 1; k < dynamic.samples.size(); ++k)
+    EXPECT_GT(dynamic.samples[k].time_s, dynamic.samples[k - 1].time_s);
+  EXPECT_EQ(dynamic.wheel_names.size(), dynamic.samples.front().wheels.size());
+}
+
+TEST(VerifyRoute, ALimitThatIsBrokenIsNamedInTheBalancesWords) {
+  PlanProblem problem = problem_of(kYard);
+  problem.limits.max_sinkage_m = 0.001;
+  const auto [balance, dynamic] = driven(problem, kCorner);
+  ASSERT_EQ(dynamic.broken_limits.size(), 1U);
+  ASSERT_EQ(balance.broken_limits.size(), 1U);
+  EXPECT_TRUE(dynamic.broken_limits[0].starts_with("sinkage 0.0")) << dynamic.broken_limits[0];
+  EXPECT_TRUE(dynamic.broken_limits[0].ends_with(" m, limit 0.001 m")) << dynamic.broken_limits[0];
+  EXPECT_TRUE(dynamic.refutes());
+}
+
+TEST(VerifyRoute, OnASlopeThatTheSoilDoesNotHoldTheRoverGetsNowhere) {
+  PlanProblem problem = problem_of(kYard);
+  problem.terrain = dem::make_ramp({.size_m = 60.0, .cell_m = 1.0}, rad_from_deg(24.0), 0.0);
+  problem.soil_map = nullptr;
+  // The balance has nothing to say of what lies behind the place where it gives up.
+  const auto [balance, dynamic] = driven(problem, {{-8.0, 0.0, std::nullopt}, {8.0, 0.0, std::nullopt}});
+  ASSERT_TRUE(balance.immobilised);
+  ASSERT_TRUE(dynamic.end);
+  EXPECT_NE(*dynamic.end, sim::DriveEnd::kFinished);
+  EXPECT_FALSE(dynamic.reason.empty());
+  EXPECT_LT(dynamic.distance_m, 16.0);
+  EXPECT_TRUE(dynamic.refutes());
+  EXPECT_EQ(dynamic.compared_m, 0.0);
+}
+
+TEST(VerifyRoute, APathOfOnePlaceIsDrivenAtOnce) {
+  const auto dynamic = driven(problem_of(kYard), {{5.0, 8.0, std::nullopt}}).dynamic;
+  EXPECT_EQ(dynamic.end, sim::DriveEnd::kFinished);
+  EXPECT_TRUE(dynamic.samples.empty());
+}
+
+class CancelledAfter final : public Progress {
+ public:
+  explicit CancelledAfter(int questions) : left_(questions) {}
+  void report(std::string_view, double) override {}
+  bool cancelled() const override { return --left_ < 0; }
+
+ private:
+  mutable int left_;
+};
+
+TEST(VerifyRoute, StopsWhenItIsCancelledOnTheWay) {
+  const PlanProblem problem = problem_of(kYard);
+  NoProgress patient;
+  const auto balance = predict_path(problem, kCorner, patient);
+  CancelledAfter progress(100);
+  const auto dynamic = verify_path(problem, kCorner, balance.value(), progress);
+  ASSERT_FALSE(dynamic);
+  EXPECT_EQ(dynamic.error().code, ErrorCode::kCancelled);
+}
+
+Route safe_route(const PlanProblem& problem) {
+  Route route;
+  NoProgress progress;
+  route.prediction = predict_path(problem, kCorner, progress).value();
+  route.prediction.risk = 0.0;
+  judge(problem, route);
+  EXPECT_EQ(route.verdict, Verdict::kGo);
+  return route;
+}
+
+TEST(Verdict, WhatTheDynamicRungRefutesIsNoGoAndSaysSo) {
+  const PlanProblem problem = problem_of(kYard);
+  std::vector<Route> routes{safe_route(problem), safe_route(problem), safe_route(problem),
+                            safe_route(problem)};
+  for (Route& route : routes) route.dynamic.emplace().end = sim::DriveEnd::kFinished;
+  routes[1].dynamic->end = std::nullopt;
+  routes[1].dynamic->reason = "the integrator gives up";
+  routes[2].dynamic->end = sim::DriveEnd::kImmobilised;
+  routes[2].dynamic->reason = "stuck";
+  routes[2].dynamic->distance_m = 2.0;
+  routes[3].dynamic->broken_limits = {"slip 0.5 at 3.0 m, limit 0.4"};
+  for (Route& route : routes) judge(problem, route);
+  EXPECT_EQ(routes[0].verdict, Verdict::kGo);
+  EXPECT_EQ(routes[1].verdict, Verdict::kCaution);
+  EXPECT_EQ(routes[2].verdict, Verdict::kNoGo);
+  EXPECT_EQ(routes[3].verdict, Verdict::kNoGo);
+  EXPECT_TRUE(ranks_before(routes[0], routes[2]));
+  explain(routes);
+  EXPECT_EQ(routes[1].reasons[0], "caution: no answer from the dynamic rung: the integrator gives up");
+  EXPECT_EQ(routes[2].reasons[0], "no go in the dynamic rung: immobilised at 2.0 m, stuck");
+  EXPECT_EQ(routes[3].reasons[0], "no go in the dynamic rung: slip 0.5 at 3.0 m, limit 0.4");
+}
+
+TEST(PlanVerified, AsManyOfTheBestRoutesAsAskedForAreDrivenInTheDynamicRung) {
+  PlanProblem problem = problem_of(kYard);
+  problem.routes = 2;
+  problem.verify = 1;
+  NoProgress progress;
+  const auto plan = make_plan(problem, progress);
+  ASSERT_TRUE(plan) << plan.error().detail;
+  ASSERT_EQ(plan->routes.size(), 2U);
+  ASSERT_TRUE(plan->routes[0].dynamic);
+  EXPECT_FALSE(plan->routes[1].dynamic);
+  const DynamicVerification& dynamic = *plan->routes[0].dynamic;
+  ASSERT_EQ(dynamic.end, sim::DriveEnd::kFinished) << dynamic.reason;
+  EXPECT_NEAR(dynamic.pose.x_m, problem.goal.x_m, 0.1);
+  EXPECT_NEAR(dynamic.pose.y_m, problem.goal.y_m, 0.1);
+  EXPECT_NEAR(dynamic.commanded_m, plan->routes[0].prediction.length_m, 1e-6);
+}
+
+TEST(PlanVerified, MoreThanThreeAreRefused) {
+  PlanProblem problem = problem_of(kYard);
+  problem.verify = 4;
+  NoProgress progress;
+  const auto plan = make_plan(problem, progress);
+  ASSERT_FALSE(plan);
+  EXPECT_EQ(plan.error().faults.at(0), (Fault{"/verify", "verify = 4, must be in [0, 3]"}));
+}
+
+}  // namespace
+}  // namespace slipway::planner
