@@ -20,10 +20,10 @@ namespace slipway::gap {
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
 struct WheelReading {
-  double rate_rad_s = kNotMeasured;   // positive rolls forward
-  double steer_rad = kNotMeasured;    // positive to the left
-  double current_a = kNotMeasured;    // at the motor, positive in the sense of the rate where driving
-  double sinkage_m = kNotMeasured;    // of the lowest point below the undisturbed surface
+  double rate_rad_s = kNotMeasured;  // positive rolls forward
+  double steer_rad = kNotMeasured;   // positive to the left
+  double current_a = kNotMeasured;   // at the motor, positive in the sense of the rate where driving
+  double sinkage_m = kNotMeasured;   // of the lowest point below the undisturbed surface
   double motor_temp_c = kNotMeasured;
 };
 
@@ -43,7 +43,7 @@ struct MeasuredDriveSeries {
   sim::DriveCommand command;  // without a motor temperature
   double duration_s = 0.0;    // commanded
   std::optional<std::string> repeat_of;
-  bool final_only = false;  // the first and the last row alone: says something of the pose
+  bool final_only = false;           // the first and the last row alone: says something of the pose
   std::vector<DriveSample> samples;  // time increasing, two at least
 };
 

@@ -139,6 +139,9 @@ void RoverBalance::place_wheel(int k, const WheelCommand& told) {
     for (int j = 0; j < joints_; ++j)
       e[6 + j] = (w.force.dot(joint[j].shift) + w.moment.y() * joint[j].turn) / length_;
   }
+  // Pull and torque.
+  for (const int column : {0, 3})
+    place.effect.col(column).tail(joints_) *= rover_.suspension.joint_traction_share;
   place.effect /= weight_;
 
   // On sloping ground under one wheel the rim travels along its tangent while the body keeps its own speed.

@@ -63,6 +63,9 @@ struct Suspension {
   std::optional<double> differential_stiffness_nm_rad = {}, differential_damping_nms_rad = {};
   // Stops of the joints, either way from their places at rest.
   std::optional<double> rocker_stop_rad = {}, bogie_stop_rad = {};
+  // Share of the wheels' pull and torque that the joints feel: 1 as statics has it, 0 where joints share out
+  // normal forces alone, as some simulators do. Read by the balance; a closure that a diagnosis may re-tune.
+  double joint_traction_share = 1.0;
 };
 
 // Where the mass is: what the dynamic rung needs besides the whole mass and its centre; rover_multibody.h

@@ -1,0 +1,152 @@
+#include "gap/explanation.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel_for.h"
+
+namespace slipway::gap {
+namespace {
+
+// An observation that the model has no answer to, because the rover would not move, is this far off.
+constexpr double kNoAnswer = 4.0;  // deviations
+
+Eigen::VectorXd residuals_at(const Hypothesis& hypothesis, const WindowModel& model, const NoiseModel& noise,
+                             const Eigen::VectorXd& y, std::span<const double> x, std::size_t threads) {
+  const std::vector<double> predicted = hypothesis.predict(model, x, threads);
+  Eigen::VectorXd r(y.size());
+  for (Eigen::Index i = 0; i < y.size(); ++i) {
+    const double f = predicted[static_cast<std::size_t>(i)];
+    r[i] = std::isfinite(f) ? y[i] - f : kNoAnswer * noise.deviation()[i];
+  }
+  return r;
+}
+
+}  // namespace
+
+Eigen::VectorXd measured(const WindowModel& model) {
+  Eigen::VectorXd y(static_cast<Eigen::Index>(model.observation_count()));
+  Eigen::Index i = 0;
+  for (const DriveWindow& window : model.windows())
+    for (const Observation& o : window.observations) y[i++] = o.value;
+  return y;
+}
+
+FittedExplanation fit_explanation(const Hypothesis& hypothesis, const WindowModel& model,
+                                  const NoiseModel& noise, std::span<const double> start,
+                                  const ExplanationOptions& options, const std::vector<bool>& fitted_rows) {
+  const auto parameters = hypothesis.parameters();
+  const auto count = static_cast<Eigen::Index>(parameters.size());
+  const Eigen::VectorXd y = measured(model);
+  FittedExplanation fit{
+      hypothesis, std::vector<double>(start.begin(), start.end()), {}, {}, {}, {}, {}, {}, 0.0, false};
+  // Units of the prior: u = (x - neutral) / std.
+  const auto units = [&](std::span<const double> x) {
+    Eigen::VectorXd u(count);
+    for (Eigen::Index p = 0; p < count; ++p) {
+      const Parameter& parameter = parameters[static_cast<std::size_t>(p)];
+      u[p] = (x[static_cast<std::size_t>(p)] - parameter.neutral) / parameter.std;
+    }
+    return u;
+  };
+  const auto weighed = [&](const Eigen::VectorXd& white) {
+    Eigen::VectorXd weights = Eigen::VectorXd::Ones(white.size());
+    for (Eigen::Index i = 0; i < white.size(); ++i) {
+      if (!fitted_rows.empty() && !fitted_rows[static_cast<std::size_t>(i)]) weights[i] = 0.0;
+      if (std::abs(white[i]) > options.huber) weights[i] *= options.huber / std::abs(white[i]);
+    }
+    return weights;
+  };
+  const auto cost_of = [&](const Eigen::VectorXd& white, const Eigen::VectorXd& u) {
+    double cost = 0.5 * u.squaredNorm();
+    for (Eigen::Index i = 0; i < white.size(); ++i) {
+      if (!fitted_rows.empty() && !fitted_rows[static_cast<std::size_t>(i)]) continue;
+      const double a = std::abs(white[i]);
+      cost += a <= options.huber ? 0.5 * a * a : options.huber * (a - 0.5 * options.huber);
+    }
+    return cost;
+  };
+  fit.residuals = residuals_at(hypothesis, model, noise, y, fit.x, options.threads);
+  Eigen::VectorXd white = noise.whiten(fit.residuals), u = units(fit.x), weights;
+  Eigen::MatrixXd design;
+  double cost = cost_of(white, u);
+  for (int iteration = 0;; ++iteration) {
+    fit.jacobian = hypothesis.scaled_jacobian(model, fit.x, options.threads);
+    design = noise.whiten(fit.jacobian);
+    weights = weighed(white);
+    const Eigen::MatrixXd weighted = weights.asDiagonal() * design;
+    Eigen::MatrixXd hessian = weighted.transpose() * design;
+    hessian.diagonal().array() += 1.0;
+    const Eigen::LLT<Eigen::MatrixXd> llt(hessian);
+    fit.covariance = llt.solve(Eigen::MatrixXd::Identity(count, count));
+    if (fit.converged || iteration >= options.iterations) break;
+    // r(x + J du) = r - J du; the bounds are held by leaving out what would cross them.
+    Eigen::VectorXd gradient = weighted.transpose() * white - u;
+    std::vector<Eigen::Index> free;
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(count);
+    std::vector<bool> held(parameters.size(), false);
+    for (int pass = 0; pass < 4; ++pass) {
+      free.clear();
+      for (Eigen::Index p = 0; p < count; ++p)
+        if (!held[static_cast<std::size_t>(p)]) free.push_back(p);
+      // Held ones are at their bounds: their part of the step is known.
+      Eigen::VectorXd g = gradient;
+      for (Eigen::Index p = 0; p < count; ++p)
+        if (held[static_cast<std::size_t>(p)]) g -= hessian.col(p) * step[p];
+      const Eigen::MatrixXd sub = hessian(free, free);
+      const Eigen::VectorXd solved = sub.llt().solve(Eigen::VectorXd(g(free)));
+      bool crossed = false;
+      for (std::size_t i = 0; i < free.size(); ++i) {
+        const Eigen::Index p = free[i];
+        const Parameter& parameter = parameters[static_cast<std::size_t>(p)];
+        step[p] = solved[static_cast<Eigen::Index>(i)];
+        const double low = (parameter.lowest - parameter.neutral) / parameter.std - u[p];
+        const double high = (parameter.highest - parameter.neutral) / parameter.std - u[p];
+        if (step[p] < low || step[p] > high) {
+          step[p] = std::clamp(step[p], low, high);
+          held[static_cast<std::size_t>(p)] = true;
+          crossed = true;
+        }
+      }
+      if (!crossed) break;
+    }
+    double largest = 0.0;
+    for (Eigen::Index p = 0; p < count; ++p)
+      largest = std::max(largest, std::abs(step[p]) / std::sqrt(fit.covariance(p, p)));
+    // Half as far until it is better.
+    bool better = false;
+    for (double share = 1.0; share > 0.05 && !better; share *= 0.5) {
+      std::vector<double> x(fit.x.size());
+      for (std::size_t p = 0; p < x.size(); ++p)
+        x[p] = std::clamp(fit.x[p] + share * step[static_cast<Eigen::Index>(p)] * parameters[p].std,
+                          parameters[p].lowest, parameters[p].highest);
+      Eigen::VectorXd r = residuals_at(hypothesis, model, noise, y, x, options.threads);
+      const Eigen::VectorXd w = noise.whiten(r);
+      const double c = cost_of(w, units(x));
+      if (c >= cost) continue;
+      better = true;
+      fit.converged = cost - c < 0.02 || share * largest < options.tolerance;
+      fit.x = std::move(x);
+      fit.residuals = std::move(r);
+      white = w;
+      u = units(fit.x);
+      cost = c;
+    }
+    if (!better) fit.converged = true;
+  }
+  fit.row_weights = weights.cwiseSqrt();
+  fit.white_jacobian = fit.row_weights.asDiagonal() * design;
+  fit.white_linear = fit.row_weights.asDiagonal() * (white + design * u);
+  // Laplace: at the most probable parameters, with the curvature there.
+  const Eigen::LLT<Eigen::MatrixXd> llt(fit.covariance);
+  fit.log_evidence = -cost + llt.matrixLLT().diagonal().array().log().sum();
+  // A prior that is cut at the neutral value is twice as dense on its one side.
+  for (const Parameter& parameter : parameters)
+    if (!parameter.effect.empty() &&
+        (parameter.lowest == parameter.neutral || parameter.highest == parameter.neutral))
+      fit.log_evidence += std::log(2.0);
+  return fit;
+}
+
+}  // namespace slipway::gap

@@ -1,0 +1,244 @@
+#include "gap/explanation_search.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "core/parallel_for.h"
+#include "sim/effect_catalogue.h"
+
+namespace slipway::gap {
+namespace {
+
+// What is believed before the drives: that nothing is missing, that one effect is, two are, something else.
+constexpr double kNothing = 0.4, kOne = 0.3, kTwo = 0.1, kSomethingElse = 0.14, kOneAndSomethingElse = 0.06;
+
+ExplanationOptions fit_options(const SearchOptions& options) {
+  ExplanationOptions o;
+  o.threads = options.threads;
+  return o;
+}
+
+// The null's parameters with an effect's neutral ones behind.
+std::vector<double> extended(const Hypothesis& hypothesis, std::span<const double> x) {
+  std::vector<double> start = hypothesis.neutral();
+  std::copy(x.begin(), x.end(), start.begin());
+  return start;
+}
+
+// The whitened columns of the effects that a hypothesis has more than a fit, at the fit's parameters.
+Eigen::MatrixXd added_columns(const Hypothesis& hypothesis, const WindowModel& model, const NoiseModel& noise,
+                              const FittedExplanation& fit, std::vector<double>& start) {
+  start = extended(hypothesis, fit.x);
+  const auto parameters = hypothesis.parameters();
+  const std::size_t from = fit.x.size();
+  const auto rows = static_cast<Eigen::Index>(model.observation_count());
+  Eigen::MatrixXd columns(rows, static_cast<Eigen::Index>(parameters.size() - from));
+  const std::vector<double> at = hypothesis.predict(model, start);
+  for (std::size_t p = from; p < parameters.size(); ++p) {
+    const Parameter& parameter = parameters[p];
+    std::vector<double> x = start;
+    const double step = hypothesis.step(p);
+    x[p] = x[p] + step <= parameter.highest ? x[p] + step : x[p] - step;
+    const std::vector<double> changed = hypothesis.predict(model, x);
+    const double scale = parameter.std / (x[p] - start[p]);
+    for (Eigen::Index i = 0; i < rows; ++i) {
+      const double slope = scale * (changed[static_cast<std::size_t>(i)] - at[static_cast<std::size_t>(i)]);
+      columns(i, static_cast<Eigen::Index>(p - from)) = std::isfinite(slope) ? slope : 0.0;
+    }
+  }
+  return fit.row_weights.asDiagonal() * noise.whiten(columns);
+}
+
+// Linear evidence of columns beside a fit, one-sided ones kept on their side, and the estimate.
+double linear_gain(const FittedExplanation& fit, const Eigen::MatrixXd& columns,
+                   std::span<const Parameter> parameters, Eigen::VectorXd& estimate) {
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index c = 0; c < columns.cols(); ++c) kept.push_back(c);
+  estimate = Eigen::VectorXd::Zero(columns.cols());
+  const double without = log_marginal(fit.white_linear, fit.white_jacobian);
+  for (;;) {
+    if (kept.empty()) return 0.0;
+    Eigen::MatrixXd all(columns.rows(), fit.white_jacobian.cols() + static_cast<Eigen::Index>(kept.size()));
+    all << fit.white_jacobian, columns(Eigen::all, kept);
+    Eigen::MatrixXd hessian = all.transpose() * all;
+    hessian.diagonal().array() += 1.0;
+    const Eigen::VectorXd solved = hessian.llt().solve(all.transpose() * fit.white_linear).tail(kept.size());
+    std::vector<Eigen::Index> allowed;
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      const Parameter& p = parameters[static_cast<std::size_t>(kept[i])];
+      const double value = p.neutral + p.std * solved[static_cast<Eigen::Index>(i)];
+      if ((p.lowest == p.neutral && value < p.neutral) || (p.highest == p.neutral && value > p.neutral))
+        continue;
+      allowed.push_back(kept[i]);
+    }
+    if (allowed.size() == kept.size()) {
+      double gain = log_marginal(fit.white_linear, all) - without;
+      for (std::size_t i = 0; i < kept.size(); ++i) {
+        const Parameter& p = parameters[static_cast<std::size_t>(kept[i])];
+        estimate[kept[i]] = std::clamp(solved[static_cast<Eigen::Index>(i)], (p.lowest - p.neutral) / p.std,
+                                       (p.highest - p.neutral) / p.std);
+        if (p.lowest == p.neutral || p.highest == p.neutral) gain += std::log(2.0);
+      }
+      return gain;
+    }
+    kept = std::move(allowed);
+  }
+}
+
+struct Screened {
+  std::size_t variant = 0;
+  double gain = 0.0;
+  std::vector<double> start;  // of the hypothesis with it
+  Eigen::VectorXd signature;
+  double kept_share = 0.0;
+};
+
+// Every variant beside a fit whose effects are not among them.
+std::vector<Screened> screen(const DriveCampaign& campaign, const WindowModel& model, const NoiseModel& noise,
+                             const FittedExplanation& fit, std::span<const EffectVariant> variants,
+                             std::size_t threads) {
+  std::vector<Screened> all(variants.size());
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(fit.white_jacobian);
+  const Eigen::MatrixXd basis =
+      qr.householderQ() * Eigen::MatrixXd::Identity(fit.white_jacobian.rows(), fit.white_jacobian.cols());
+  parallel_for(variants.size(), threads, [&](std::size_t v) {
+    std::vector<EffectVariant> effects(fit.hypothesis.effects().begin(), fit.hypothesis.effects().end());
+    for (const EffectVariant& there : effects)
+      if (there.effect == variants[v].effect) {
+        all[v] = {v, -1e9, {}, {}, 0.0};
+        return;
+      }
+    effects.push_back(variants[v]);
+    const Hypothesis hypothesis(campaign, effects);
+    std::vector<double> start;
+    const Eigen::MatrixXd columns = added_columns(hypothesis, model, noise, fit, start);
+    Eigen::VectorXd estimate;
+    const auto added = hypothesis.parameters().subspan(fit.x.size());
+    const double gain = linear_gain(fit, columns, added, estimate);
+    for (std::size_t p = 0; p < added.size(); ++p)
+      start[fit.x.size() + p] =
+          std::clamp(added[p].neutral + added[p].std * estimate[static_cast<Eigen::Index>(p)],
+                     added[p].lowest, added[p].highest);
+    // What the found combination does; of one that is not there, the first field.
+    Eigen::VectorXd direction = columns * estimate;
+    if (estimate.squaredNorm() == 0.0) direction = columns.col(0);
+    const Eigen::VectorXd projected = direction - basis * (basis.transpose() * direction);
+    const double length = direction.norm();
+    all[v] = {v, gain, std::move(start), projected, length > 0.0 ? projected.norm() / length : 0.0};
+  });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Screened& a, const Screened& b) { return a.gain > b.gain; });
+  return all;
+}
+
+double log_sum_exp(const std::vector<double>& values) {
+  const double most = *std::max_element(values.begin(), values.end());
+  double sum = 0.0;
+  for (const double v : values) sum += std::exp(v - most);
+  return most + std::log(sum);
+}
+
+}  // namespace
+
+Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, const WindowModel& model,
+                                              const NoiseModel& noise, FittedExplanation null,
+                                              const Wildcard& wildcard, const SearchOptions& options,
+                                              Progress& progress) {
+  ExplanationSearch search;
+  const std::vector<EffectVariant> variants = effect_variants(*campaign.rover, options.withheld);
+  std::map<std::string, int> variants_of;
+  for (const EffectVariant& v : variants) ++variants_of[v.effect];
+  const auto families = static_cast<double>(variants_of.size());
+  search.fits.push_back(std::move(null));
+
+  // One fit for each of the best effects, of its best variants.
+  progress.report("screening effects", 0.2);
+  const std::vector<Screened> screened =
+      screen(campaign, model, noise, search.fits[0], variants, options.threads);
+  for (const Screened& s : screened)
+    search.screened.push_back({variants[s.variant], s.gain, s.signature, s.kept_share});
+  std::map<std::string, int> tried;
+  std::map<std::string, std::size_t> best_fit;  // of an effect alone
+  for (const Screened& s : screened) {
+    if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
+    const EffectVariant& v = variants[s.variant];
+    const bool known = tried.contains(v.effect);
+    if (!known && static_cast<int>(tried.size()) >= options.most_refitted) continue;
+    if (tried[v.effect] >= 2) continue;
+    ++tried[v.effect];
+    progress.report("fitting effects",
+                    0.25 + 0.3 * static_cast<double>(search.fits.size()) / (2.0 * options.most_refitted));
+    FittedExplanation fit =
+        fit_explanation(Hypothesis(campaign, {v}), model, noise, s.start, fit_options(options));
+    search.fits.push_back(std::move(fit));
+    const std::size_t index = search.fits.size() - 1;
+    const auto best = best_fit.find(v.effect);
+    if (best == best_fit.end() || search.fits[index].log_evidence > search.fits[best->second].log_evidence)
+      best_fit[v.effect] = index;
+  }
+  std::vector<std::pair<std::string, std::size_t>> singles(best_fit.begin(), best_fit.end());
+  std::stable_sort(singles.begin(), singles.end(), [&](const auto& a, const auto& b) {
+    return search.fits[a.second].log_evidence > search.fits[b.second].log_evidence;
+  });
+
+  // Pairs grow from the best single effects.
+  std::map<std::set<std::string>, std::size_t> pairs;
+  for (std::size_t s = 0; s < singles.size() && s < static_cast<std::size_t>(options.most_paired); ++s) {
+    const std::size_t base = singles[s].second;
+    const std::vector<Screened> seconds =
+        screen(campaign, model, noise, search.fits[base], variants, options.threads);
+    int fitted = 0;
+    std::set<std::string> done;
+    for (const Screened& second : seconds) {
+      if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
+      if (fitted >= 3 || second.gain < 1.0) break;
+      const EffectVariant& v = variants[second.variant];
+      const std::set<std::string> names{singles[s].first, v.effect};
+      if (pairs.contains(names) || !done.insert(v.effect).second) continue;
+      progress.report("fitting pairs of effects", 0.55 + 0.08 * static_cast<double>(s));
+      std::vector<EffectVariant> effects(search.fits[base].hypothesis.effects().begin(),
+                                         search.fits[base].hypothesis.effects().end());
+      effects.push_back(v);
+      search.fits.push_back(
+          fit_explanation(Hypothesis(campaign, effects), model, noise, second.start, fit_options(options)));
+      pairs[names] = search.fits.size() - 1;
+      ++fitted;
+    }
+  }
+
+  const double log_single = std::log(kOne / families);
+  const double log_pair = std::log(kTwo / std::max(1.0, 0.5 * families * (families - 1.0)));
+  const auto add = [&](std::size_t fit, double log_prior, double log_prior_unknown) {
+    Candidate c;
+    for (const EffectVariant& v : search.fits[fit].hypothesis.effects()) {
+      c.effects.push_back(v.effect);
+      log_prior -= std::log(static_cast<double>(variants_of[v.effect]));
+      log_prior_unknown -= std::log(static_cast<double>(variants_of[v.effect]));
+    }
+    c.fit = fit;
+    c.log_evidence = search.fits[fit].log_evidence;
+    c.log_prior = log_prior;
+    search.candidates.push_back(c);
+    c.with_unknown = true;
+    c.log_evidence += wildcard_gain(search.fits[fit], noise, wildcard);
+    c.log_prior = log_prior_unknown;
+    search.candidates.push_back(c);
+  };
+  add(0, std::log(kNothing), std::log(kSomethingElse));
+  for (const auto& [effect, fit] : singles) add(fit, log_single, std::log(kOneAndSomethingElse / families));
+  for (const auto& [names, fit] : pairs) add(fit, log_pair, log_pair - 2.0);
+  std::vector<double> weights;
+  for (const Candidate& c : search.candidates)
+    weights.push_back(options.temper * c.log_evidence + c.log_prior);
+  const double all = log_sum_exp(weights);
+  for (std::size_t i = 0; i < weights.size(); ++i)
+    search.candidates[i].probability = std::exp(weights[i] - all);
+  std::stable_sort(search.candidates.begin(), search.candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.probability > b.probability; });
+  return search;
+}
+
+}  // namespace slipway::gap

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+#include "core/result.h"
+#include "gap/explanation.h"
+#include "gap/noise_model.h"
+#include "gap/wildcard.h"
+
+namespace slipway::gap {
+
+struct SearchOptions {
+  std::vector<std::string> withheld;  // effects that are not looked for
+  int most_refitted = 8;              // effects that are fitted in full
+  int most_paired = 4;                // of those, whose pairs are looked for
+  double temper = 0.25;               // of the logarithm of the evidence, see probabilities_of
+  std::size_t threads = 0;
+};
+
+// A set of effects that was compared. Its fit is one of ExplanationSearch::fits.
+struct Candidate {
+  std::vector<std::string> effects;  // in the order of its hypothesis; empty: none
+  bool with_unknown = false;         // something else besides
+  std::size_t fit = 0;
+  double log_evidence = 0.0;  // the wildcard's part among it
+  double log_prior = 0.0;
+  double probability = 0.0;
+};
+
+// An effect's linear score at the null: how much the logarithm of the evidence would rise, by variant.
+struct ScreenedVariant {
+  EffectVariant variant;
+  double gain = 0.0;
+  Eigen::VectorXd signature;  // whitened response of its strongest field, nuisances projected out
+  double kept_share = 0.0;    // of the signature's length that nuisances don't take
+};
+
+struct ExplanationSearch {
+  std::vector<FittedExplanation> fits;    // [0] is the null
+  std::vector<Candidate> candidates;      // most probable first
+  std::vector<ScreenedVariant> screened;  // best first
+};
+
+// Screens every variant at the null by its projected signature, fits the best in full, alone and in pairs,
+// and weighs them against each other, nothing, and something else. `null` is fitted already, under `noise`.
+Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, const WindowModel& model,
+                                              const NoiseModel& noise, FittedExplanation null,
+                                              const Wildcard& wildcard, const SearchOptions& options,
+                                              Progress& progress);
+
+}  // namespace slipway::gap

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gap/drive_campaign.h"
+#include "gap/least_squares.h"
+#include "gap/nuisance_catalogue.h"
+#include "gap/window_model.h"
+#include "sim/effect_catalogue.h"
+
+namespace slipway::gap {
+
+// One way in which an effect of the catalogue could be at work: which of its fields are estimated, with what
+// is believed of them, and what the others are held at.
+struct EffectVariant {
+  struct Free {
+    std::string field;
+    double std = 1.0;  // around the neutral value
+    double lowest = 0.0, highest = 0.0;
+  };
+  std::string effect;
+  std::string label;  // tells variants of one effect apart: "wheel lf"; may be empty
+  std::vector<Free> free;
+  std::vector<std::pair<std::string, double>> fixed;
+  // Of attitude_bias: what the bias does. 1: the ground differs from the map, which the inclinometer sees;
+  // with physics false the inclinometer alone is off.
+  double seen_by_inclinometer = 0.0;
+  bool physics = true;
+};
+
+// Every way in which the catalogue's effects could be at work on this rover, but for places (soft_patch), for
+// which the residuals have to be looked at first.
+std::vector<EffectVariant> effect_variants(const sim::RoverModel& rover,
+                                           std::span<const std::string> withheld);
+
+struct Parameter {
+  std::string name;    // "friction/nominal", "grousers.height_m"
+  std::string effect;  // empty: a nuisance
+  double neutral = 0.0;
+  double std = 1.0;  // of the prior around neutral
+  double lowest = 0.0, highest = 0.0;
+};
+
+// A set of effects with the nuisances: parameters, and the model at their values.
+class Hypothesis {
+ public:
+  Hypothesis(const DriveCampaign& campaign, std::vector<EffectVariant> effects);
+
+  std::span<const Parameter> parameters() const { return parameters_; }
+  std::span<const EffectVariant> effects() const { return effects_; }
+  std::size_t nuisance_count() const { return nuisances_; }
+  std::vector<double> neutral() const;
+  std::vector<sim::EffectSetting> settings(std::span<const double> x) const;
+  ModelState state(std::span<const double> x) const;
+  // What the model at x says of every observation.
+  std::vector<double> predict(const WindowModel& model, std::span<const double> x,
+                              std::size_t threads = 1) const;
+  // What a parameter is changed by to see what it does: well above the solver's tolerance.
+  double step(std::size_t parameter) const;
+  // Columns of derivatives by finite differences, one a parameter, times the parameter's std; forward where a
+  // bound is near. Rows without an answer are 0.
+  Eigen::MatrixXd scaled_jacobian(const WindowModel& model, std::span<const double> x,
+                                  std::size_t threads) const;
+
+ private:
+  const DriveCampaign& campaign_;
+  std::vector<EffectVariant> effects_;
+  std::vector<Parameter> parameters_;
+  struct NuisancePlace {
+    const Nuisance* row;
+    int soil;  // -1: all
+  };
+  std::vector<NuisancePlace> places_;
+  std::size_t nuisances_ = 0;
+};
+
+}  // namespace slipway::gap

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "sim/rover_model.h"
+#include "sim/soil.h"
+
+namespace slipway::gap {
+
+// Something that a diagnosis may re-tune without calling it a missing effect: a soil's parameter that is
+// known only so well, a closure of the laws that nobody measures, a constant of the motors.
+enum class NuisanceKind { kSoil, kClosure, kMotor };
+
+struct Nuisance {
+  std::string_view name;
+  std::string_view summary;
+  NuisanceKind kind = NuisanceKind::kSoil;
+  // The model is unchanged at 0, and 0 is believed with this deviation, unless the nominal soil says
+  // otherwise.
+  double std = 0.1;
+  double lowest = -1.0, highest = 1.0;
+  // Of kSoil, once for each soil; of the others, once in all.
+  void (*on_soil)(double value, sim::Soil& soil) = nullptr;
+  void (*on_rover)(double value, sim::RoverModel& rover) = nullptr;
+};
+
+// A new one is a row.
+std::span<const Nuisance> nuisance_catalogue();
+
+}  // namespace slipway::gap

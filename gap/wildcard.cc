@@ -1,0 +1,194 @@
+#include "gap/wildcard.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/angle.h"
+
+namespace slipway::gap {
+namespace {
+
+constexpr std::array kSizes{0.1, 0.3, 1.0};
+
+// Effects of the catalogue as levers: what a force along, a force across, a shifted load, a turned wheel
+// does.
+std::vector<EffectVariant> levers() {
+  const auto lever = [](const char* effect, std::vector<EffectVariant::Free> free,
+                        std::vector<std::pair<std::string, double>> fixed = {}) {
+    EffectVariant v;
+    v.effect = effect;
+    v.free = std::move(free);
+    v.fixed = std::move(fixed);
+    return v;
+  };
+  return {lever("attitude_bias", {{"pitch_deg", 1.0, -10.0, 10.0}, {"roll_deg", 1.0, -10.0, 10.0}}),
+          lever("com_offset", {{"x_m", 0.05, -0.5, 0.5}, {"y_m", 0.05, -0.5, 0.5}}),
+          lever("steering_offset", {{"angle_deg", 1.0, -20.0, 20.0}}, {{"wheel", -1.0}})};
+}
+constexpr std::array<std::string_view, 5> kLeverEntries{
+    "tangential_force", "lateral_force", "wheel_load_fore_aft", "wheel_load_left_right", "kinematics"};
+
+struct Variable {
+  std::string_view name;
+  double value;
+};
+
+std::vector<Variable> variables_of(const WindowModel& model, std::size_t w, double slip, double mean_speed) {
+  const DriveWindow& window = model.windows()[w];
+  const WindowModel::Conditions& at = model.conditions(w);
+  const sim::DriveCommand& command = window.command;
+  const double speed = std::abs(command.speed_m_s);
+  return {{"constant", 1.0},
+          {"pitch", at.pitch_rad / rad_from_deg(10.0)},
+          {"roll", at.roll_rad / rad_from_deg(10.0)},
+          {"slip", slip / 0.2},
+          {"direction", command.turn_in_place     ? 0.0
+                        : command.speed_m_s < 0.0 ? -1.0
+                                                  : 1.0},
+          {"speed", command.turn_in_place || mean_speed == 0.0 ? 0.0 : 2.0 * (speed / mean_speed - 1.0)},
+          {"curvature", command.turn_in_place ? 0.0 : command.curvature_1_m / 0.4},
+          {"turning", command.turn_in_place ? 1.0 : 0.0},
+          {"temperature", command.motor_temp_c ? *command.motor_temp_c / 30.0 : 0.0}};
+}
+
+Eigen::MatrixXd both(const FittedExplanation& fit, const Eigen::MatrixXd& white, double size) {
+  Eigen::MatrixXd columns(fit.white_jacobian.rows(), fit.white_jacobian.cols() + white.cols());
+  columns << fit.white_jacobian, size * white;
+  return columns;
+}
+
+// log of the mean of exp(values).
+double log_mean_exp(const std::vector<double>& values) {
+  const double most = *std::max_element(values.begin(), values.end());
+  double sum = 0.0;
+  for (const double v : values) sum += std::exp(v - most);
+  return most + std::log(sum / static_cast<double>(values.size()));
+}
+
+Eigen::MatrixXd whitened(const FittedExplanation& fit, const NoiseModel& noise, const Wildcard& wildcard) {
+  return fit.row_weights.asDiagonal() * noise.whiten(wildcard.values);
+}
+
+}  // namespace
+
+Wildcard make_wildcard(const DriveCampaign& campaign, const WindowModel& model, const FittedExplanation& fit,
+                       std::size_t threads) {
+  const Hypothesis probe(campaign, levers());
+  std::vector<double> x(fit.x.begin(), fit.x.begin() + static_cast<std::ptrdiff_t>(probe.nuisance_count()));
+  const std::vector<double> neutral = probe.neutral();
+  x.insert(x.end(), neutral.begin() + static_cast<std::ptrdiff_t>(x.size()), neutral.end());
+  const Eigen::MatrixXd jacobian = probe.scaled_jacobian(model, x, threads);
+  const std::vector<double> expected = probe.predict(model, x, threads);
+  const auto rows = static_cast<Eigen::Index>(model.observation_count());
+  const auto nuisances = static_cast<Eigen::Index>(probe.nuisance_count());
+
+  std::vector<std::string> entries;
+  std::vector<Eigen::VectorXd> responses;
+  const auto add = [&](std::string name, Eigen::VectorXd response) {
+    entries.push_back(std::move(name));
+    responses.push_back(std::move(response));
+  };
+  for (std::size_t k = 0; k < kLeverEntries.size(); ++k)
+    add(std::string(kLeverEntries[k]), jacobian.col(nuisances + static_cast<Eigen::Index>(k)));
+  Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(rows);
+  for (Eigen::Index p = 0; p < nuisances; ++p)
+    if (probe.parameters()[static_cast<std::size_t>(p)].name.starts_with("stiffness"))
+      stiffness += jacobian.col(p);
+  add("pressure_sinkage", std::move(stiffness));
+  // Sensors.
+  const auto sensor = [&](const char* name, const auto& value) {
+    Eigen::VectorXd response = Eigen::VectorXd::Zero(rows);
+    Eigen::Index i = 0;
+    for (const DriveWindow& window : model.windows())
+      for (const Observation& o : window.observations) {
+        const double f = expected[static_cast<std::size_t>(i)];
+        response[i++] = value(o, std::isfinite(f) ? f : 0.0);
+      }
+    add(name, std::move(response));
+  };
+  sensor("slip_sensor",
+         [](const Observation& o, double) { return o.channel == Channel::kSlip ? 0.03 : 0.0; });
+  sensor("side_slip",
+         [](const Observation& o, double) { return o.channel == Channel::kSideSlip ? 0.02 : 0.0; });
+  sensor("yaw", [](const Observation& o, double) { return o.channel == Channel::kYawRate ? 0.001 : 0.0; });
+  sensor("roll_sensor",
+         [](const Observation& o, double) { return o.channel == Channel::kRoll ? 0.01 : 0.0; });
+  sensor("pitch_sensor",
+         [](const Observation& o, double) { return o.channel == Channel::kPitch ? 0.01 : 0.0; });
+  sensor("torque_to_current",
+         [](const Observation& o, double f) { return o.channel == Channel::kCurrent ? 0.05 * f : 0.0; });
+  sensor("sinkage",
+         [](const Observation& o, double) { return o.channel == Channel::kSinkage ? 0.002 : 0.0; });
+  const auto shared_entries = entries.size();
+  for (std::size_t k = 0; k < campaign.rover->wheels.size(); ++k)
+    sensor(("torque_to_current_" + campaign.rover->wheels[k].name).c_str(),
+           [k](const Observation& o, double f) {
+             return o.channel == Channel::kCurrent && o.wheel == static_cast<int>(k) ? 0.05 * f : 0.0;
+           });
+
+  double mean_speed = 0.0;
+  int driven = 0;
+  for (const DriveWindow& window : model.windows())
+    if (!window.command.turn_in_place) {
+      mean_speed += std::abs(window.command.speed_m_s);
+      ++driven;
+    }
+  if (driven > 0) mean_speed /= driven;
+  std::vector<std::vector<Variable>> variables;
+  for (std::size_t w = 0; w < model.windows().size(); ++w) {
+    double slip = 0.0;
+    for (std::size_t i = 0; i < model.windows()[w].observations.size(); ++i)
+      if (model.windows()[w].observations[i].channel == Channel::kSlip) slip = expected[model.offset(w) + i];
+    variables.push_back(variables_of(model, w, std::isfinite(slip) ? slip : 0.0, mean_speed));
+  }
+  Wildcard wildcard;
+  std::vector<Eigen::VectorXd> columns;
+  for (std::size_t e = 0; e < entries.size() && !variables.empty(); ++e) {
+    const std::size_t used = e < shared_entries ? variables.front().size() : 1;
+    for (std::size_t v = 0; v < used; ++v) {
+      Eigen::VectorXd column = responses[e];
+      for (std::size_t w = 0; w < variables.size(); ++w)
+        column.segment(static_cast<Eigen::Index>(model.offset(w)),
+                       static_cast<Eigen::Index>(model.windows()[w].observations.size())) *=
+            variables[w][v].value;
+      if (column.squaredNorm() == 0.0) continue;
+      columns.push_back(std::move(column));
+      wildcard.columns.push_back({entries[e], std::string(variables.front()[v].name)});
+    }
+  }
+  wildcard.values.resize(rows, static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    wildcard.values.col(static_cast<Eigen::Index>(c)) = columns[c];
+  return wildcard;
+}
+
+double wildcard_gain(const FittedExplanation& fit, const NoiseModel& noise, const Wildcard& wildcard) {
+  const Eigen::MatrixXd white = whitened(fit, noise, wildcard);
+  const double without = log_marginal(fit.white_linear, fit.white_jacobian);
+  std::vector<double> with;
+  for (const double size : kSizes) with.push_back(log_marginal(fit.white_linear, both(fit, white, size)));
+  return log_mean_exp(with) - without;
+}
+
+Eigen::VectorXd wildcard_coefficients(const FittedExplanation& fit, const NoiseModel& noise,
+                                      const Wildcard& wildcard) {
+  const Eigen::MatrixXd white = whitened(fit, noise, wildcard);
+  double best = -std::numeric_limits<double>::infinity();
+  double size = kSizes[0];
+  for (const double s : kSizes) {
+    const double value = log_marginal(fit.white_linear, both(fit, white, s));
+    if (value > best) {
+      best = value;
+      size = s;
+    }
+  }
+  const Eigen::MatrixXd columns = both(fit, white, size);
+  Eigen::MatrixXd hessian = columns.transpose() * columns;
+  hessian.diagonal().array() += 1.0;
+  const Eigen::VectorXd all = hessian.llt().solve(columns.transpose() * fit.white_linear);
+  return size * all.tail(white.cols());
+}
+
+}  // namespace slipway::gap

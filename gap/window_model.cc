@@ -1,0 +1,202 @@
+#include "gap/window_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/angle.h"
+#include "core/parallel_for.h"
+#include "sim/effect_catalogue.h"
+
+namespace slipway::gap {
+namespace {
+
+// Stations whose attitudes and soils are no further apart than this are one.
+constexpr double kSameAttitude_rad = rad_from_deg(0.02);
+
+// Means over a window's stations.
+struct Motion {
+  double slip = 0.0, side_slip = 0.0, yaw_rate = 0.0, roll = 0.0, pitch = 0.0;
+  sim::PerWheel<double> current, sinkage;
+};
+
+bool same_shape_as(const sim::RoverModel& a, const sim::RoverModel& b) {
+  for (std::size_t k = 0; k < a.wheels.size(); ++k)
+    if (a.wheels[k].radius_m != b.wheels[k].radius_m || a.wheels[k].position_m != b.wheels[k].position_m)
+      return false;
+  return true;
+}
+
+}  // namespace
+
+WindowModel::WindowModel(const DriveCampaign& campaign, std::span<const DriveWindow> windows)
+    : campaign_(campaign), windows_(windows), stances_(windows.size()), conditions_(windows.size()) {
+  offsets_.push_back(0);
+  for (std::size_t w = 0; w < windows.size(); ++w) {
+    offsets_.push_back(offsets_.back() + windows[w].observations.size());
+    bool found = true;
+    std::vector<Place> places;
+    for (const Pose2& pose : windows[w].stations) {
+      places.push_back(place_at(*campaign.rover, w, pose, found));
+      if (!found) break;
+    }
+    if (!found) continue;
+    const sim::DriveCommand& command = windows[w].command;
+    const double sense = command.speed_m_s < 0.0 && !command.turn_in_place ? -1.0 : 1.0;
+    Conditions& at = conditions_[w];
+    for (const Place& place : places) {
+      at.pitch_rad -= sense * place.stance.attitude.pitch_rad / static_cast<double>(places.size());
+      at.roll_rad += place.stance.attitude.roll_rad / static_cast<double>(places.size());
+    }
+    at.soil = places[places.size() / 2].soil[0];
+    at.turning = command.turn_in_place;
+    stances_[w] = std::move(places);
+  }
+}
+
+WindowModel::Place WindowModel::place_at(const sim::RoverModel& rover, std::size_t window, const Pose2& pose,
+                                         bool& found) const {
+  Place place;
+  const sim::Ground& ground = *campaign_.terrains[campaign_.drives[windows_[window].drive].terrain].ground;
+  const auto stance = sim::settle(rover, ground, pose);
+  found = stance.has_value();
+  if (!found) return place;
+  place.stance = *stance;
+  place.soil = sim::PerWheel<std::size_t>(rover.wheels.size());
+  for (std::size_t k = 0; k < rover.wheels.size(); ++k) {
+    const Eigen::Vector3d p = stance->p_MB + stance->R_MB * stance->p_B_wheel[k];
+    const auto soil = ground.soil_at(p.x(), p.y());
+    found = found && soil.has_value();
+    place.soil[k] = soil.value_or(0);
+  }
+  return place;
+}
+
+void WindowModel::predict_window(std::size_t w, const ModelState& state, bool same_shape,
+                                 sim::QuasiStaticSolver& solver, std::span<double> out) const {
+  const DriveWindow& window = windows_[w];
+  const std::size_t wheels = state.rover.wheels.size();
+  const std::vector<sim::Disc> regions = sim::effect_regions(state.effects);
+  Motion mean;
+  mean.current = sim::PerWheel<double>(wheels);
+  mean.sinkage = sim::PerWheel<double>(wheels);
+  bool moving = true;
+  double share = 1.0 / static_cast<double>(stances_[w].size());
+  const Place* before = nullptr;
+  Motion last;
+  for (std::size_t i = 0; i < stances_[w].size(); ++i) {
+    Place own;
+    const Place* place = &stances_[w][i];
+    if (!same_shape) {
+      bool found = true;
+      own = place_at(state.rover, w, window.stations[i], found);
+      if (found) place = &own;
+    }
+    bool in_region = false;
+    sim::PerWheel<sim::Soil> soils(wheels);
+    for (std::size_t k = 0; k < wheels; ++k) {
+      soils[k] = state.soils[place->soil[k]];
+      if (regions.empty()) continue;
+      const Eigen::Vector3d p = place->stance.p_MB + place->stance.R_MB * place->stance.p_B_wheel[k];
+      for (std::size_t r = 0; r < regions.size(); ++r) {
+        if (!regions[r].holds(p.x(), p.y())) continue;
+        sim::apply_in_region(state.effects, r, soils[k]);
+        in_region = true;
+      }
+    }
+    const bool as_before =
+        before != nullptr && regions.empty() && before->soil.size() == place->soil.size() &&
+        std::equal(before->soil.begin(), before->soil.end(), place->soil.begin()) &&
+        std::abs(before->stance.attitude.pitch_rad - place->stance.attitude.pitch_rad) < kSameAttitude_rad &&
+        std::abs(before->stance.attitude.roll_rad - place->stance.attitude.roll_rad) < kSameAttitude_rad &&
+        std::abs(before->stance.rocker_rad - place->stance.rocker_rad) < kSameAttitude_rad &&
+        std::abs(before->stance.bogie_rad[0] - place->stance.bogie_rad[0]) < kSameAttitude_rad &&
+        std::abs(before->stance.bogie_rad[1] - place->stance.bogie_rad[1]) < kSameAttitude_rad;
+    if (!as_before) {
+      (void)in_region;
+      const sim::StationState at = solver.solve(place->stance, soils, window.command);
+      last = {};
+      last.current = sim::PerWheel<double>(wheels);
+      last.sinkage = sim::PerWheel<double>(wheels);
+      if (!at.moving()) {
+        moving = false;
+        last.slip = 1.0;
+        solver.reset();
+      } else {
+        const double speed = window.command.speed_m_s;
+        last.slip = at.slip_ratio;
+        last.yaw_rate = at.yaw_rate_rad_s;
+        if (!window.command.turn_in_place) {
+          last.yaw_rate -= speed * window.command.curvature_1_m;
+          const Eigen::Vector2d travel = sim::travel_direction(window.command);
+          last.side_slip = (travel.x() * at.leftward_m_s - travel.y() * at.forward_m_s) / std::abs(speed);
+        }
+        for (std::size_t k = 0; k < wheels; ++k) {
+          last.current[k] = at.wheels[k].current_a * (at.wheels[k].rate_rad_s < 0.0 ? -1.0 : 1.0);
+          last.sinkage[k] = at.wheels[k].sinkage_m;
+        }
+      }
+      last.roll = place->stance.attitude.roll_rad;
+      last.pitch = place->stance.attitude.pitch_rad;
+    }
+    before = place == &own ? nullptr : place;
+    mean.slip += share * last.slip;
+    mean.side_slip += share * last.side_slip;
+    mean.yaw_rate += share * last.yaw_rate;
+    mean.roll += share * last.roll;
+    mean.pitch += share * last.pitch;
+    for (std::size_t k = 0; k < wheels; ++k) {
+      mean.current[k] += share * last.current[k];
+      mean.sinkage[k] += share * last.sinkage[k];
+    }
+  }
+  for (std::size_t i = 0; i < window.observations.size(); ++i) {
+    const Observation& o = window.observations[i];
+    const auto k = static_cast<std::size_t>(std::max(0, o.wheel));
+    switch (o.channel) {
+      case Channel::kSlip:
+        out[i] = mean.slip;
+        break;
+      case Channel::kSideSlip:
+        out[i] = moving ? mean.side_slip : kNotMeasured;
+        break;
+      case Channel::kYawRate:
+        out[i] = moving ? mean.yaw_rate : kNotMeasured;
+        break;
+      case Channel::kRoll:
+        out[i] = mean.roll;
+        break;
+      case Channel::kPitch:
+        out[i] = mean.pitch;
+        break;
+      case Channel::kCurrent:
+        out[i] = moving ? mean.current[k] : kNotMeasured;
+        break;
+      case Channel::kSinkage:
+        out[i] = moving ? mean.sinkage[k] : kNotMeasured;
+        break;
+    }
+  }
+}
+
+std::vector<double> WindowModel::predict(const ModelState& state, std::size_t threads) const {
+  std::vector<double> out(observation_count(), kNotMeasured);
+  const bool same_shape = same_shape_as(state.rover, *campaign_.rover);
+  // A drive's windows follow each other on one thread, each from a solver of its own: numbers do not depend
+  // on how drives are spread.
+  std::vector<std::size_t> first{0};
+  for (std::size_t w = 1; w < windows_.size(); ++w)
+    if (windows_[w].drive != windows_[w - 1].drive) first.push_back(w);
+  if (windows_.empty()) return out;
+  parallel_for(first.size(), threads, [&](std::size_t d) {
+    sim::QuasiStaticSolver solver(state.rover, campaign_.gravity_m_s2);
+    const std::size_t end = d + 1 < first.size() ? first[d + 1] : windows_.size();
+    for (std::size_t w = first[d]; w < end; ++w) {
+      if (!used(w)) continue;
+      predict_window(w, state, same_shape, solver,
+                     std::span(out).subspan(offsets_[w], windows_[w].observations.size()));
+    }
+  });
+  return out;
+}
+
+}  // namespace slipway::gap

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "gap/drive_window.h"
+#include "sim/effect_setting.h"
+#include "sim/quasi_static.h"
+#include "sim/rover_model.h"
+#include "sim/soil.h"
+#include "sim/stance.h"
+
+namespace slipway::gap {
+
+// A rover on soils that may differ in places: what a hypothesis makes of the nominal one.
+struct ModelState {
+  sim::RoverModel rover;
+  std::vector<sim::Soil> soils;             // as DriveCampaign::soils
+  std::vector<sim::EffectSetting> effects;  // that are at work on both already; kept for their regions
+};
+
+// Predicts every observation of a campaign's windows by the quasi-static rung: the rover stands at the
+// window's measured stations on the map and is told what the drive was told.
+class WindowModel {
+ public:
+  // Stances of the nominal rover are found here, once. Windows with a station where there is no ground are
+  // left out: see used(). Campaign and windows must outlive the model.
+  WindowModel(const DriveCampaign& campaign, std::span<const DriveWindow> windows);
+
+  // One number for each observation of each window, in their order. NaN where the rover would not move, but
+  // for slip, which is 1 there. Same numbers for any number of threads.
+  std::vector<double> predict(const ModelState& state, std::size_t threads = 1) const;
+
+  // Circumstances of a window, of the nominal rover: what a gap may depend on.
+  struct Conditions {
+    double pitch_rad = 0.0;  // along the travel, positive uphill
+    double roll_rad = 0.0;   // positive: left side up
+    std::optional<std::size_t> soil;
+    bool turning = false;
+  };
+  const Conditions& conditions(std::size_t window) const { return conditions_[window]; }
+  bool used(std::size_t window) const { return !stances_[window].empty(); }
+  std::size_t observation_count() const { return offsets_.back(); }
+  // Index of a window's first observation.
+  std::size_t offset(std::size_t window) const { return offsets_[window]; }
+  std::span<const DriveWindow> windows() const { return windows_; }
+  const DriveCampaign& campaign() const { return campaign_; }
+
+ private:
+  struct Place {
+    sim::Stance stance;
+    sim::PerWheel<std::size_t> soil;  // index under each wheel
+  };
+
+  void predict_window(std::size_t window, const ModelState& state, bool same_shape,
+                      sim::QuasiStaticSolver& solver, std::span<double> out) const;
+  Place place_at(const sim::RoverModel& rover, std::size_t window, const Pose2& pose, bool& found) const;
+
+  const DriveCampaign& campaign_;
+  std::span<const DriveWindow> windows_;
+  std::vector<std::vector<Place>> stances_;
+  std::vector<Conditions> conditions_;
+  std::vector<std::size_t> offsets_;
+};
+
+}  // namespace slipway::gap
