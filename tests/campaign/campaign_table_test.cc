@@ -67,7 +67,7 @@ TEST(CampaignTable, NamesEveryFaultOfItsPartsTogether) {
     "terrains": [{"name": "a", "soil": "dry_sandd"}, {"name": "a", "soil": "dry_sand", "tilt_deg": 80},
                  {"name": "b", "soil": "dry_sand", "file": "../b.tif"}, {"name": "c", "soil": "dry_sand", "file": "none.tif"}],
     "drives": [{"id": "x", "terrains": ["z"], "headings_deg": [], "repeats": 0, "legs": [{"length_m": 0}, {"turn_deg": 0}],
-                "failed_wheels": {"rf": "off"}}, {"id": "y", "legs": [], "lege": 1}]})");
+                "failed_wheels": {"rf": "broken"}}, {"id": "y", "legs": [], "lege": 1}]})");
   ASSERT_FALSE(table);
   EXPECT_EQ(table.error().code, ErrorCode::kInvalidRequest);
   Texts pointers = pointers_of(table.error());
@@ -120,6 +120,21 @@ TEST(CampaignTable, FailedWheelsAndEffectsAreTheDrivesNotTheOperators) {
   EXPECT_TRUE(rover.wheels[0].grousers.has_value());
   EXPECT_EQ(table->rover->wheels[3].drive, sim::WheelDrive::kDriven);
   EXPECT_FALSE(table->rover->wheels[0].grousers.has_value());
+}
+
+TEST(CampaignTable, WheelsFailAsInRequests) {
+  const auto table =
+      read_table(replaced(kSmallTable, R"("id": "turn",)",
+                          R"("id": "turn", "failed_wheels": {"rf": "off", "lm": "free", "lr": "locked"},)"));
+  ASSERT_TRUE(table) << table.error().detail;
+  const sim::RoverModel rover = driven_rover(*table, table->entries[1]);
+  for (const sim::WheelModel& wheel : rover.wheels) {
+    const bool off = wheel.name == "rf";
+    EXPECT_EQ(wheel.drive, off || wheel.name == "lm" ? sim::WheelDrive::kFree
+                           : wheel.name == "lr"      ? sim::WheelDrive::kLocked
+                                                     : sim::WheelDrive::kDriven);
+    EXPECT_EQ(wheel.drag_nm, off ? sim::unpowered_drag_nm(rover.drive) : 0.0) << wheel.name;
+  }
 }
 
 TEST(CampaignTable, AnElevationFileMayHaveASoilMap) {
