@@ -1,8 +1,8 @@
 // Cost of the dynamic rung, per unit of work.
 #include <benchmark/benchmark.h>
 
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <fstream>
 #include <memory>
 #include <string>
@@ -69,10 +69,9 @@ void BM_PressRut(benchmark::State& state) {
 }
 BENCHMARK(BM_PressRut);
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
+// Of the processor: a drive is one thread's work, and what else the machine does is not its cost.
+double processor_s() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
 // A rover of six wheels on an elevation raster of 5 cm cells with bumps of this height.
@@ -101,13 +100,13 @@ double law_s() {
     wheels.push_back(numbers_of(wheel.geometry(), sandy_loam(), 0.4, {.forward = 0.85, .leftward = 0.02}));
   std::vector<WheelForces> forces(wheels.size());
   constexpr int kCalls = 20000;
-  const auto start = Clock::now();
+  const auto start = processor_s();
   for (int call = 0; call < kCalls; ++call) {
     wheels[0].forward = 0.85 + 1e-6 * call;
     wheel_forces(wheels, forces);
     benchmark::DoNotOptimize(forces.data());
   }
-  return seconds_since(start) / kCalls;
+  return (processor_s() - start) / kCalls;
 }
 
 // Twenty metres with heading feedback; rows: height of the bumps (mm, rms), tolerance as 10^-n.
@@ -127,13 +126,13 @@ void BM_Drive(benchmark::State& state) {
   };
   double simulated_s = 0.0;
   long evaluations = 0;
-  const auto start = Clock::now();
+  const auto start = processor_s();
   for (auto _ : state) {
     drive = run().value();
     simulated_s += drive.duration_s;
     evaluations += drive.work.evaluations;
   }
-  const double spent_s = seconds_since(start);
+  const double spent_s = (processor_s() - start);
   options.relative_tolerance = 1e-8;
   const DynamicDrive exact = run().value();
   state.counters["real_time_factor"] = simulated_s / spent_s;
@@ -147,8 +146,8 @@ void BM_Drive(benchmark::State& state) {
 }
 BENCHMARK(BM_Drive)
     ->ArgNames({"bumps_mm", "tolerance"})
-    ->ArgsProduct({{0, 20, 60}, {4}})
-    ->ArgsProduct({{20}, {2, 3, 5, 6}})
+    ->ArgsProduct({{0, 5, 20, 60}, {3}})
+    ->ArgsProduct({{20}, {2, 4, 5, 6}})
     ->Unit(benchmark::kMillisecond);
 
 double resident_kb() {
@@ -175,7 +174,7 @@ void BM_Kilometre(benchmark::State& state) {
     legs.push_back(turn);
   }
   double after_a_tenth = 0.0, last = 0.0, simulated_s = 0.0;
-  const auto start = Clock::now();
+  const auto start = processor_s();
   for (auto _ : state) {
     NoProgress progress;
     const auto sink = [&](const DriveSample& sample) {
@@ -186,7 +185,7 @@ void BM_Kilometre(benchmark::State& state) {
         simulate_drive(rover, 3.71, ground, one_soil(), {-25.0, 0.0, 0.0}, legs, options, sink, progress)
             ->duration_s;
   }
-  state.counters["real_time_factor"] = simulated_s / seconds_since(start);
+  state.counters["real_time_factor"] = simulated_s / (processor_s() - start);
   state.counters["growth_kB_after_100_m"] = last - after_a_tenth;
 }
 BENCHMARK(BM_Kilometre)->Iterations(1)->Unit(benchmark::kMillisecond);

@@ -1,0 +1,95 @@
+#include "sim/motor_control.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sim/leg_driver.h"
+#include "tests/sim/reference_models.h"
+
+namespace slipway::sim {
+namespace {
+
+// A wheel of this inertia against a constant load, by small explicit steps.
+double rate_after(const DriveMotor& motor, double told, double load_nm, double inertia, double seconds) {
+  const MotorControl control(motor, inertia, 0.003);
+  double rate = 0.0, integral = 0.0;
+  constexpr double kStep_s = 1e-4;
+  for (double t = 0.0; t < seconds; t += kStep_s) {
+    const MotorDrive drive = control.keep_rate(told, rate, integral);
+    integral += kStep_s * control.integral_rate_v_s(drive, told, rate);
+    rate += kStep_s * (drive.torque_nm - load_nm * std::tanh(rate / 0.003)) / inertia;
+  }
+  return rate;
+}
+
+TEST(MotorControl, KeepsItsRateUnderLoad) {
+  EXPECT_NEAR(rate_after(DriveMotor{}, 0.3, 0.0, 2.0, 3.0), 0.3, 1e-4);
+  EXPECT_NEAR(rate_after(DriveMotor{}, 0.3, 15.0, 2.0, 6.0), 0.3, 1e-3);
+  EXPECT_NEAR(rate_after(DriveMotor{}, -0.3, 15.0, 2.0, 6.0), -0.3, 1e-3);
+}
+
+TEST(MotorControl, StaysWithinTheBusVoltage) {
+  DriveMotor motor;
+  const MotorDrive drive = MotorControl(motor, 1.0, 0.003).keep_rate(100.0, 0.0, 0.0);
+  EXPECT_EQ(drive.voltage_v, motor.bus_voltage_v);
+  EXPECT_GT(drive.unclipped_v, drive.voltage_v);
+  EXPECT_NEAR(drive.current_a, motor.bus_voltage_v / winding_resistance_ohm(motor), 1e-12);
+}
+
+TEST(MotorControl, StaysWithinTheCurrentLimit) {
+  DriveMotor motor;
+  motor.max_current_a = 0.5;
+  for (const double rate : {-0.3, 0.0, 0.3})
+    EXPECT_LE(std::abs(MotorControl(motor, 1.0, 0.003).keep_rate(0.4, rate, 20.0).current_a), 0.5 + 1e-12);
+}
+
+TEST(LegDriver, ToldRatesCoverTheCommandedLength) {
+  const RoverModel rover = six_wheeler();
+  DriveLeg leg;
+  leg.command = {.speed_m_s = 0.04, .curvature_1_m = 0.3};
+  leg.length_m = 1.7;
+  const LegDriver driver(rover, leg, Feedback::kNone, 5.0, PerWheel<double>(6));
+  double driven_m = 0.0;
+  constexpr double kStep_s = 1e-3;
+  for (double t = 5.0; t < driver.end_s(); t += kStep_s) driven_m += kStep_s * 0.04 * driver.rate_share(t);
+  EXPECT_NEAR(driven_m, 1.7, 1e-3);
+  EXPECT_EQ(driver.rate_share(5.0), 0.0);
+  EXPECT_NEAR(driver.rate_share(driver.end_s()), 0.0, 1e-12);
+}
+
+TEST(LegDriver, SteersBeforeItDrivesAndNoFasterThanItsMotorsCan) {
+  const RoverModel rover = six_wheeler();
+  DriveLeg leg;
+  leg.command = {.speed_m_s = 0.04, .curvature_1_m = 0.5};
+  leg.length_m = 1.0;
+  const LegDriver driver(rover, leg, Feedback::kNone, 0.0, PerWheel<double>(6));
+  const PerWheel<WheelCommand> told = wheel_commands(rover, leg.command);
+  double last = 0.0;
+  for (double t = 0.0; t < driver.steered_s(); t += 0.01) {
+    const PerWheel<WheelCommand> now = driver.told(t, {});
+    EXPECT_EQ(now[0].rate_rad_s, 0.0);
+    EXPECT_LE(std::abs(now[0].steer_rad - last), 0.1 * 0.01 + 1e-9);
+    last = now[0].steer_rad;
+  }
+  EXPECT_NEAR(driver.told(driver.steered_s(), {})[0].steer_rad, told[0].steer_rad, 1e-9);
+}
+
+// A rover left of its line is steered right, whichever way it drives.
+TEST(LegDriver, SteersBackToItsLine) {
+  const RoverModel rover = six_wheeler();
+  for (const double speed : {0.04, -0.04}) {
+    DriveLeg leg;
+    leg.command.speed_m_s = speed;
+    leg.length_m = 5.0;
+    const LegDriver driver(rover, leg, Feedback::kPose, 0.0, PerWheel<double>(6));
+    const PerWheel<WheelCommand> told =
+        driver.told(10.0, {.share = 0.5, .across_m = 0.2, .heading_rad = 0.0});
+    // Its path then bends to the right of its travel: the leading steered wheel points there.
+    const std::size_t leading = speed > 0.0 ? 0 : 2;
+    EXPECT_LT(told[leading].steer_rad, 0.0);
+  }
+}
+
+}  // namespace
+}  // namespace slipway::sim
