@@ -157,6 +157,29 @@ TEST(CampaignTable, AnElevationFileMayHaveASoilMap) {
   EXPECT_FALSE(read_table(replaced(kSmallTable, R"("tilt_deg": 5,)", R"("tilt_deg": 5, "soil_map": {},)")));
 }
 
+TEST(CampaignTable, RocksStandOnAShape) {
+  const auto with_rocks = [](const char* rocks) {
+    return read_table(replaced(kSmallTable, R"("tilt_deg": 5,)",
+                               std::string(R"("tilt_deg": 5, "cell_m": 0.05, "rocks": )") + rocks + ","));
+  };
+  const auto ground = [&](const char* rocks) {
+    const auto table = with_rocks(rocks);
+    EXPECT_TRUE(table) << table.error().detail;
+    return table->terrains.at(1).ground->fingerprint();
+  };
+  const auto two = ground(R"({"cover_share": 0.1, "smallest_m": 0.1, "largest_m": 0.3, "seed": 2})");
+  EXPECT_EQ(two, ground(R"({"cover_share": 0.1, "smallest_m": 0.1, "largest_m": 0.3, "seed": 2})"));
+  EXPECT_NE(two, ground(R"({"cover_share": 0.1, "smallest_m": 0.1, "largest_m": 0.3})"));
+
+  const auto faulty = with_rocks(
+      R"({"cover_share": 0, "smallest_m": 0.04, "largest_m": 0.03, "height_share": 2, "shape": "cube"})");
+  ASSERT_FALSE(faulty);
+  Texts pointers = pointers_of(faulty.error());
+  for (std::string& pointer : pointers) pointer = pointer.substr(pointer.rfind('/') + 1);
+  std::sort(pointers.begin(), pointers.end());
+  EXPECT_EQ(pointers, (Texts{"cover_share", "height_share", "largest_m", "shape", "smallest_m"}));
+}
+
 TEST(CampaignTable, ShippedTablesAreWithoutFault) {
   std::map<std::string, std::size_t> drives;
   for (const std::string& name : api::campaign_names(SLIPWAY_DATA_FOLDER)) {
@@ -168,6 +191,7 @@ TEST(CampaignTable, ShippedTablesAreWithoutFault) {
   // 10 and 6 tests five times on the level, 22 and 18 three times on each of three slopes.
   EXPECT_EQ(drives["fido_table_1"], 5U * (10U + 6U) + 3U * 3U * (22U + 18U));
   EXPECT_EQ(drives["opportunity_sol_2143"], 1U);
+  EXPECT_EQ(drives["rock_field"], 1U);
   EXPECT_EQ(drives["spirit_dead_wheel"], 2U);
 }
 
