@@ -42,8 +42,9 @@ using ResidualFunction = std::function<bool(std::span<const double> x, std::span
 enum class RobustLoss { kNone, kHuber, kCauchy };
 // "none", "huber", "cauchy".
 std::span<const std::string_view> robust_loss_names();
-// The scale at which, of normal residuals of standard deviation 1, an estimate is as good as with 95 % of them
-// and no loss [Holland & Welsch 1977]: 1.345 for huber, 2.385 for cauchy; 1 for none, which has no scale.
+// The scale at which, of normal residuals of standard deviation 1, an estimate is as good as with 95 % of
+// them and no loss [Holland & Welsch 1977]: 1.345 for huber, 2.385 for cauchy; 1 for none, which has no
+// scale.
 double usual_loss_scale(RobustLoss loss);
 
 struct LeastSquaresOptions {

@@ -132,6 +132,8 @@ struct TuneCommand {
   std::vector<std::string> drives;  // ids with * and ?; empty: all
   double position_scale_m = 0.1, heading_scale_deg = 5.0;
   bool scales_are_errors = false;
+  std::string loss = "none";         // a name of gap::robust_loss_names()
+  std::optional<double> loss_scale;  // nothing: the loss's usual one
   double within = 1.5, good_enough = 0.1;
   bool each_tilt = false, sweep_only = false;
   int threads = 0;  // 0: as many as the machine has
