@@ -159,6 +159,8 @@ int run_command_line(int argc, char** argv) {
                       "direction of travel from the body's axis, positive to the left");
   command->add_option("--rung", predict_options.rung,
                       "quasi_static, or dynamic: drive the path as a multibody too");
+  command->add_option("--plot", predict_options.plot,
+                      "write the time history of the dynamic drive (SVG) to this file; needs that rung");
   command->add_option("--request", predict_options.request,
                       "file with a whole request, - for standard input; other options are not used");
   command->footer(kPredictExample);
