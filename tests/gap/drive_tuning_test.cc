@@ -197,7 +197,6 @@ TEST(TuneDrives, AGrossOutlierIsNamedAndLeavesTheEstimateWithALossAlone) {
   }
 }
 
-// Over many sets of noise, estimates scatter as much as their uncertainty says; the scales' ratio is right.
 TEST(TuneDrives, UncertaintyIsTheScatterOfEstimatesWithALossAndWithout) {
   NoProgress progress;
   const int repeats = 60;
