@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,7 +19,7 @@ struct DriveAssumptions {
   sim::DriveLimits limits;
   sim::DriveConditions conditions;
   std::vector<sim::EffectSetting> effects;  // added to the rover's own; see sim::in_force
-  std::map<std::string, sim::WheelFailure, std::less<>> failed_wheels;  // by the wheel's name
+  sim::FailedWheels failed_wheels;
   int draws = sim::RiskOptions{}.draws;
   std::uint64_t seed = 1;
   std::optional<double> speed_m_s;  // nothing: the rover's cruise speed

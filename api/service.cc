@@ -99,10 +99,7 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
   sim::RoverModel driven = *catalogue_.rovers.find(rover)->second;
   const std::vector<sim::EffectSetting> effects = sim::in_force(driven.effects, drive.effects);
   sim::apply_effects(effects, driven);
-  for (std::size_t k = 0; k < driven.wheels.size(); ++k) {
-    const auto failed = drive.failed_wheels.find(driven.wheels[k].name);
-    if (failed != drive.failed_wheels.end()) sim::fail_wheel(driven, k, failed->second, drive.conditions);
-  }
+  sim::fail_wheels(driven, drive.failed_wheels, drive.conditions);
   if (drive.speed_m_s) driven.cruise_speed_m_s = *drive.speed_m_s;
   auto ground = site.read(window_around(places, site.info().geometry));
   if (!ground) return fail(ground.error());

@@ -44,7 +44,7 @@ void check_entry(const CampaignTable& table, std::size_t k, std::vector<Fault>& 
                                                         entry.x_m, entry.y_m, terrain.name)});
     }
   }
-  for (const auto& [wheel, drive] : entry.failed_wheels) {
+  for (const auto& [wheel, failure] : entry.failed_wheels) {
     const auto& wheels = table.rover->wheels;
     if (std::any_of(wheels.begin(), wheels.end(), [&](const auto& w) { return w.name == wheel; })) continue;
     std::vector<std::string_view> names;
@@ -133,9 +133,7 @@ std::int16_t class_elsewhere(const TableTerrain& terrain) {
 sim::RoverModel driven_rover(const CampaignTable& table, const DriveEntry& entry) {
   sim::RoverModel rover = *table.rover;
   sim::apply_effects(sim::in_force(table.rover->effects, table.effects), rover);
-  for (const auto& [name, drive] : entry.failed_wheels)
-    for (sim::WheelModel& wheel : rover.wheels)
-      if (wheel.name == name) wheel.drive = drive;
+  sim::fail_wheels(rover, entry.failed_wheels, {.motor_temp_c = table.options.motor_temp_c});
   return rover;
 }
 

@@ -4,7 +4,6 @@
 #include <map>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/pose.h"
@@ -17,6 +16,7 @@
 #include "sim/effect_setting.h"
 #include "sim/rover_model.h"
 #include "sim/soil.h"
+#include "sim/wheel_failure.h"
 
 namespace slipway::campaign {
 
@@ -37,7 +37,7 @@ struct DriveEntry {
   std::vector<double> headings_rad{0.0};
   std::vector<sim::DriveLeg> legs;
   int repeats = 1;
-  std::vector<std::pair<std::string, sim::WheelDrive>> failed_wheels;
+  sim::FailedWheels failed_wheels;
   bool final_only = false;        // recorded before and after, as by a survey: two rows
   bool plot = false;              // its time history
   bool deformed_terrain = false;  // the ground with its ruts

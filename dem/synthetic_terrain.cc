@@ -12,7 +12,8 @@ namespace slipway::dem {
 namespace {
 
 std::shared_ptr<const Terrain> sampled(const SyntheticGrid& grid,
-                                       const std::function<double(double x_m, double y_m)>& height_m) {
+                                       const std::function<double(double x_m, double y_m)>& height_m,
+                                       const std::optional<RockField>& rocks = {}) {
   const int cells = std::max(1, static_cast<int>(std::lround(grid.size_m / grid.cell_m)));
   const GridGeometry geometry{.rows = cells,
                               .columns = cells,
@@ -28,6 +29,7 @@ std::shared_ptr<const Terrain> sampled(const SyntheticGrid& grid,
       heights.push_back(static_cast<float>(height_m(centre.x(), centre.y())));
     }
   }
+  if (rocks) add_rocks(*rocks, geometry, heights);
   std::vector<std::uint8_t> valid(heights.size(), 1);
   return std::make_shared<const Terrain>(geometry, std::move(heights), std::move(valid));
 }
@@ -78,13 +80,14 @@ std::shared_ptr<const Terrain> make_crater(const SyntheticGrid& grid, double rad
 }
 
 std::shared_ptr<const Terrain> make_relief(const SyntheticGrid& grid, const Relief& relief) {
-  return sampled(grid, [&](double x_m, double y_m) {
-    double height_m = std::tan(relief.slope_rad) * x_m;
+  const auto height_m = [&](double x_m, double y_m) {
+    double sum_m = std::tan(relief.slope_rad) * x_m;
     if (relief.ripple)
-      height_m += ripple_m(relief.ripple->height_m, relief.ripple->width_m, x_m - relief.ripple->crest_x_m);
-    if (relief.roughness) height_m += bumps_m(*relief.roughness, x_m, y_m);
-    return height_m;
-  });
+      sum_m += ripple_m(relief.ripple->height_m, relief.ripple->width_m, x_m - relief.ripple->crest_x_m);
+    if (relief.roughness) sum_m += bumps_m(*relief.roughness, x_m, y_m);
+    return sum_m;
+  };
+  return sampled(grid, height_m, relief.rocks);
 }
 
 }  // namespace slipway::dem

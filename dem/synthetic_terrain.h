@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "dem/rock_field.h"
 #include "dem/terrain.h"
 
 namespace slipway::dem {
@@ -39,6 +40,7 @@ struct Relief {
     std::uint64_t seed = 1;
   };
   std::optional<Roughness> roughness = {};
+  std::optional<RockField> rocks = {};
 };
 std::shared_ptr<const Terrain> make_relief(const SyntheticGrid& grid, const Relief& relief);
 

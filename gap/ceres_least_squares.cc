@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/random.h"
@@ -57,6 +58,20 @@ Robust robust(double r, const LeastSquaresOptions& options) {
   if (options.loss == RobustLoss::kCauchy && a > 1e-6 * s) {
     const double x = (r / s) * (r / s), q = s * std::sqrt(std::log1p(x));
     return {std::copysign(q, r), a / ((1.0 + x) * q)};
+  }
+  return {r, 1.0};
+}
+
+// The slope of the loss in r, psi, and the slope of that.
+struct Influence {
+  double psi, slope;
+};
+Influence influence(double r, const LeastSquaresOptions& options) {
+  const double s = options.loss_scale;
+  if (options.loss == RobustLoss::kHuber && std::abs(r) > s) return {std::copysign(s, r), 0.0};
+  if (options.loss == RobustLoss::kCauchy) {
+    const double x = (r / s) * (r / s);
+    return {r / (1.0 + x), (1.0 - x) / ((1.0 + x) * (1.0 + x))};
   }
   return {r, 1.0};
 }
@@ -259,6 +274,31 @@ std::optional<Search> search(Problem& cost_function, std::vector<double> y,
   }
 }
 
+// LeastSquaresFit::residual_variance of residuals, of which the first `data` have the loss.
+double variance_left_over(std::span<const double> through_loss, std::span<const double> data,
+                          std::size_t unknowns, const LeastSquaresOptions& options) {
+  if (through_loss.size() <= unknowns) return 0.0;
+  double squares = 0.0, slopes = 0.0;
+  for (const double r : data) {
+    const Influence of = influence(r, options);
+    squares += of.psi * of.psi;
+    slopes += of.slope;
+  }
+  for (const double prior : through_loss.subspan(data.size())) squares += prior * prior;
+  const auto count = static_cast<double>(data.size());
+  // Where most residuals are beyond Cauchy's scale their slopes can sum to less than nothing.
+  const double mean_slope = std::max(slopes / count, 1.0 / count);
+  return squares / static_cast<double>(through_loss.size() - unknowns) / mean_slope;
+}
+
+// From the loss's own slopes, by which a search goes, to those by which the covariance does.
+void weigh_for_covariance(std::span<const double> data, const LeastSquaresOptions& options,
+                          Matrix& jacobian) {
+  for (std::size_t i = 0; i < data.size(); ++i)
+    jacobian.row(static_cast<Eigen::Index>(i)) *=
+        std::sqrt(std::max(influence(data[i], options).slope, 0.0)) / robust(data[i], options).slope;
+}
+
 LeastSquaresFit conclude(const Search& best, std::span<const Unknown> unknowns, std::size_t residual_count,
                          const Problem& cost_function, const LeastSquaresOptions& options) {
   LeastSquaresFit fit;
@@ -284,17 +324,29 @@ LeastSquaresFit conclude(const Search& best, std::span<const Unknown> unknowns, 
     scale[static_cast<Eigen::Index>(k)] = std::max(u.step_scale, std::abs(x));
     names.push_back(u.name);
   }
+  fit.residual_variance = variance_left_over(residuals, fit.residuals, unknowns.size(), options);
+  if (options.loss != RobustLoss::kNone) weigh_for_covariance(fit.residuals, options, jacobian);
+  if (options.residual_std_known && options.widen && fit.residual_variance > 1.0)
+    jacobian.topRows(static_cast<Eigen::Index>(residual_count)) /= std::sqrt(fit.residual_variance);
   JacobianSvd svd = covariance_by_svd(jacobian, scale, names, options.rank_tolerance);
-  if (!options.residual_std_known) {
-    const double freedom = static_cast<double>(jacobian.rows() - n);
-    svd.covariance *= freedom > 0.0 ? 2.0 * best.cost / freedom : 0.0;
-  }
+  if (!options.residual_std_known) svd.covariance *= fit.residual_variance;
   fit.covariance = std::move(svd.covariance);
   fit.undetermined = std::move(svd.undetermined);
   return fit;
 }
 
 }  // namespace
+
+std::span<const std::string_view> robust_loss_names() {
+  static constexpr std::array<std::string_view, 3> kNames{"none", "huber", "cauchy"};
+  return kNames;
+}
+
+double usual_loss_scale(RobustLoss loss) {
+  if (loss == RobustLoss::kHuber) return 1.345;
+  if (loss == RobustLoss::kCauchy) return 2.385;
+  return 1.0;
+}
 
 std::optional<double> LeastSquaresFit::standard_error(std::size_t unknown) const {
   const auto k = static_cast<Eigen::Index>(unknown);

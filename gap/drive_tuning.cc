@@ -33,6 +33,7 @@ std::vector<Fault> faults_of(std::span<const MeasuredDrive> drives, const Tuning
   if (!(options.good_enough >= 0.0))
     faults.push_back(
         {"/options/good_enough", fmt::format("good_enough = {}, must be at least 0", options.good_enough)});
+  if (options.loss_scale) positive("loss_scale", *options.loss_scale);
   return faults;
 }
 
@@ -130,27 +131,16 @@ class Fitter {
   // Over these drives, from a start.
   Result<TuningFit> fit(std::span<const std::size_t> chosen, std::span<const double> start,
                         Progress& progress) const {
-    const bool priors = std::any_of(parameters_.begin(), parameters_.end(),
-                                    [](const TunedParameter& p) { return p.prior.has_value(); });
     Known known;
-    Result<LeastSquaresFit> found =
-        fit_in_units_of(1.0, chosen, start, options_.scales_are_errors, known, progress);
-    // A prior weighs against residuals in units of their standard deviations: where those are not known, they
-    // are estimated from what a first fit leaves over.
-    if (found && priors && !options_.scales_are_errors) {
-      const auto freedom = static_cast<double>(found->residuals.size()) - static_cast<double>(start.size());
-      const double left = squares(found->residuals);
-      if (freedom > 0.0 && left > 0.0) {
-        const double std = std::sqrt(left / freedom);
-        found = fit_in_units_of(std, chosen, std::vector(found->estimate), true, known, progress);
-        if (found)
-          for (double& r : found->residuals) r *= std;
-      }
-    }
+    double noise = 1.0;
+    auto found = options_.loss == RobustLoss::kNone ? fit_squares(chosen, start, known, noise, progress)
+                                                    : fit_robustly(chosen, start, known, noise, progress);
     if (!found) return fail(found.error());
-    TuningFit result{.fit = std::move(*found), .score = 0.0};
+    for (double& r : found->residuals) r *= noise;
+    TuningFit result{.fit = std::move(*found), .score = 0.0, .noise = noise, .beyond = {}};
     result.score =
         std::sqrt(3.0 * squares(result.fit.residuals) / static_cast<double>(result.fit.residuals.size()));
+    if (options_.loss != RobustLoss::kNone) result.beyond = beyond(chosen, result.fit.residuals, noise);
     return result;
   }
 
@@ -167,12 +157,104 @@ class Fitter {
     return ends;
   }
 
+  double loss_scale() const { return options_.loss_scale.value_or(usual_loss_scale(options_.loss)); }
+
+  // `noise` becomes the unit of what is returned.
+  Result<LeastSquaresFit> fit_squares(std::span<const std::size_t> chosen, std::span<const double> start,
+                                      Known& known, double& noise, Progress& progress) const {
+    const bool priors = std::any_of(parameters_.begin(), parameters_.end(),
+                                    [](const TunedParameter& p) { return p.prior.has_value(); });
+    auto found = fit_in_units_of(1.0, chosen, start, options_.scales_are_errors, known, progress);
+    if (!found || options_.scales_are_errors) return found;
+    const auto freedom = static_cast<double>(found->residuals.size()) - static_cast<double>(start.size());
+    const double left = squares(found->residuals);
+    if (!(freedom > 0.0 && left > 0.0)) return found;
+    // A prior weighs against residuals in units of their standard deviations: where those are not known, they
+    // are estimated from what a first fit leaves over.
+    noise = std::sqrt(left / freedom);
+    if (priors) return fit_in_units_of(noise, chosen, std::vector(found->estimate), true, known, progress);
+    found->residual_variance /= noise * noise;
+    for (double& r : found->residuals) r /= noise;
+    return found;
+  }
+
+  // The scale of the loss is in multiples of the noise. Where that is not known, fits with the noise that the
+  // last one left over go on until it stays what it was.
+  Result<LeastSquaresFit> fit_robustly(std::span<const std::size_t> chosen, std::span<const double> start,
+                                       Known& known, double& noise, Progress& progress) const {
+    constexpr int kMostRounds = 8;
+    constexpr double kSame = 0.05;
+    if (options_.scales_are_errors) return fit_in_units_of(1.0, chosen, start, true, known, progress);
+    std::vector<double> at(start.begin(), start.end());
+    if (const auto first = residuals_at(at, chosen, known); !first.empty())
+      noise = noise_of(first, start.size()).value_or(1.0);
+    for (int round = 1;; ++round) {
+      auto found = fit_in_units_of(noise, chosen, at, true, known, progress);
+      if (!found) return found;
+      const double next = noise * noise_of(found->residuals, start.size()).value_or(1.0);
+      if (round == kMostRounds || std::abs(next - noise) <= kSame * noise) return found;
+      noise = next;
+      at = found->estimate;
+    }
+  }
+
+  // By the median of their sizes, as of normal residuals; nothing where that is 0.
+  static std::optional<double> noise_of(std::span<const double> residuals, std::size_t unknowns) {
+    constexpr double kMedianSize = 0.6744897501960817;  // of a standard normal number
+    std::vector<double> sizes;
+    for (const double r : residuals) sizes.push_back(std::abs(r));
+    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+    std::nth_element(sizes.begin(), middle, sizes.end());
+    if (!(*middle > 0.0) || sizes.size() <= unknowns) return std::nullopt;
+    const auto count = static_cast<double>(sizes.size());
+    return *middle / kMedianSize * std::sqrt(count / (count - static_cast<double>(unknowns)));
+  }
+
+  std::vector<std::size_t> beyond(std::span<const std::size_t> chosen, std::span<const double> residuals,
+                                  double noise) const {
+    std::vector<std::size_t> drives;
+    std::size_t row = 0;
+    for (const std::size_t i : chosen) {
+      const std::span<const double> of_drive = residuals.subspan(row, 3 * drives_[i].finals.size());
+      row += of_drive.size();
+      if (std::any_of(of_drive.begin(), of_drive.end(),
+                      [&](double r) { return std::abs(r) > loss_scale() * noise; }))
+        drives.push_back(i);
+    }
+    return drives;
+  }
+
+  std::size_t rows_of(std::span<const std::size_t> chosen) const {
+    std::size_t rows = 0;
+    for (const std::size_t i : chosen) rows += 3 * drives_[i].finals.size();
+    return rows;
+  }
+
+  // Differences in units of the scales; false where a drive has no end at x.
+  bool fill(std::span<const double> x, std::span<const std::size_t> chosen, Known& known,
+            std::span<double> r) const {
+    const Ends& ends = ends_at(x, chosen, known);
+    std::size_t row = 0;
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      if (!ends[i]) return false;
+      for (const Pose2& measured : drives_[chosen[i]].finals)
+        for (const double off : differences(*ends[i], measured, options_.scales)) r[row++] = off;
+    }
+    return true;
+  }
+
+  std::vector<double> residuals_at(std::span<const double> x, std::span<const std::size_t> chosen,
+                                   Known& known) const {
+    std::vector<double> r(rows_of(chosen));
+    if (!fill(x, chosen, known, r)) r.clear();
+    return r;
+  }
+
   // Residuals divided by `unit`.
   Result<LeastSquaresFit> fit_in_units_of(double unit, std::span<const std::size_t> chosen,
                                           std::span<const double> start, bool std_known, Known& known,
                                           Progress& progress) const {
-    std::size_t repeats = 0;
-    for (const std::size_t i : chosen) repeats += drives_[i].finals.size();
+    const std::size_t rows = rows_of(chosen);
     std::vector<Unknown> unknowns;
     for (std::size_t k = 0; k < parameters_.size(); ++k) {
       const SweptParameter& p = parameters_[k].sweep;
@@ -184,24 +266,22 @@ class Fitter {
                           .prior = parameters_[k].prior});
     }
     const ResidualFunction residuals = [&](std::span<const double> x, std::span<double> r) {
-      const Ends& ends = ends_at(x, chosen, known);
-      std::size_t row = 0;
-      for (std::size_t i = 0; i < chosen.size(); ++i) {
-        if (!ends[i]) return false;
-        for (const Pose2& measured : drives_[chosen[i]].finals)
-          for (const double off : differences(*ends[i], measured, options_.scales)) r[row++] = off / unit;
-      }
+      if (!fill(x, chosen, known, r)) return false;
+      for (double& off : r) off /= unit;
       return true;
     };
     // A simulated drive's end is known to a few parts in ten thousand: steps stay well above that. The search
     // ends where a step changes the sum of squares by a hundredth of one residual's variance: a tenth of a
     // standard deviation.
-    return fit_least_squares(unknowns, 3 * repeats, residuals,
-                             {.max_iterations = 40,
-                              .tolerance = 0.01 / (3.0 * static_cast<double>(repeats)),
+    return fit_least_squares(unknowns, rows, residuals,
+                             {.loss = options_.loss,
+                              .loss_scale = loss_scale(),
+                              .max_iterations = 40,
+                              .tolerance = 0.01 / static_cast<double>(rows),
                               .relative_step = 1e-2,
                               .rank_tolerance = 1e-4,
-                              .residual_std_known = std_known},
+                              .residual_std_known = std_known,
+                              .widen = options_.scales_are_errors || options_.loss != RobustLoss::kNone},
                              progress);
   }
 

@@ -53,14 +53,21 @@ struct TuningOptions {
   double good_enough = 0.1;
   double same_tilt_rad = rad_from_deg(0.5);  // tilts of a group are no more than this above its lowest
   bool least_squares = true;
-  bool fit_each_tilt = false;  // also by the drives of each tilt alone
-  std::size_t threads = 0;     // 0: as many as the machine has
+  // Of least squares alone. With a loss the noise is 1 in units of the scales where those are errors, and
+  // otherwise estimated by the median of the differences, which outliers leave alone.
+  RobustLoss loss = RobustLoss::kNone;
+  std::optional<double> loss_scale = {};  // in multiples of the noise, > 0; nothing: usual_loss_scale()
+  bool fit_each_tilt = false;             // also by the drives of each tilt alone
+  std::size_t threads = 0;                // 0: as many as the machine has
 };
 
-// An estimate by least squares; score is that of its drives there, to compare with the sweep's.
+// An estimate by least squares.
 struct TuningFit {
-  LeastSquaresFit fit;
-  double score = 0.0;
+  LeastSquaresFit fit;  // residuals in units of the scales
+  double score = 0.0;   // of its drives there, all counted in full, to compare with the sweep's
+  // Standard deviation of a difference in units of its scale; residual_variance is in units of its square.
+  double noise = 1.0;
+  std::vector<std::size_t> beyond;  // drives with an end beyond the scale of the loss, rising; none without
 };
 
 // The drives of one tilt and the parameter set of the sweep that serves them best.
@@ -95,7 +102,8 @@ struct DriveTuning {
 
 // Tunes parameters to measured final poses as ROAMS was to FIDO: a coarse and a fine sweep, the slopes that
 // one set serves [Huntsberger et al. 2008, section 3]; and by least squares over the same differences with
-// priors and the sweep's ranges as bounds.
+// priors and the sweep's ranges as bounds. Where the noise is known, or estimated beneath a loss, and
+// differences scatter more than it says, uncertainties are widened by as much (LeastSquaresOptions::widen).
 //
 // Errors: those of sweep_coarse_then_fine and fit_least_squares; invalid_request for options out of range.
 Result<DriveTuning> tune_drives(std::span<const TunedParameter> parameters,

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/progress.h"
@@ -39,6 +40,12 @@ using ResidualFunction = std::function<bool(std::span<const double> x, std::span
 //   huber   1/2 r^2 up to |r| = s, then s |r| - 1/2 s^2
 //   cauchy  1/2 s^2 ln(1 + r^2 / s^2)
 enum class RobustLoss { kNone, kHuber, kCauchy };
+// "none", "huber", "cauchy".
+std::span<const std::string_view> robust_loss_names();
+// The scale at which, of normal residuals of standard deviation 1, an estimate is as good as with 95 % of
+// them and no loss [Holland & Welsch 1977]: 1.345 for huber, 2.385 for cauchy; 1 for none, which has no
+// scale.
+double usual_loss_scale(RobustLoss loss);
 
 struct LeastSquaresOptions {
   RobustLoss loss = RobustLoss::kNone;
@@ -55,8 +62,11 @@ struct LeastSquaresOptions {
   // A direction whose singular value is below this share of the largest is undetermined.
   double rank_tolerance = 1e-6;
   // True: residuals are in units of their standard deviations, and the covariance is (J^T J)^-1. False: their
-  // common variance is estimated from what is left over, cost * 2 / (residuals - unknowns).
+  // common variance is estimated from what is left over, LeastSquaresFit::residual_variance.
   bool residual_std_known = true;
+  // With known standard deviations: where residuals scatter more than those say, so that residual_variance is
+  // above 1, residuals (not priors) count that much less in the covariance.
+  bool widen = false;
 };
 
 // A combination of unknowns that the residuals and the priors say nothing about.
@@ -70,8 +80,18 @@ struct LeastSquaresFit {
   std::vector<double> estimate;
   double cost = 0.0;              // of residuals (through the loss) and priors; 1/2 sum r^2 without a loss
   std::vector<double> residuals;  // at the estimate, without priors and before the loss
-  // Through an SVD of the Jacobian of residuals (weighted by the loss) and priors at the estimate, over the
-  // determined directions alone. An unknown on a bound is treated as if it were free.
+  // What residuals and priors leave over per degree of freedom: sum r^2 / (residuals + priors - unknowns), to
+  // be compared with 1 where the residuals are in units of their standard deviations. With a loss
+  // [Huber 1981, section 7.6], of psi(r), its slope in r,
+  //
+  //   sum psi(r)^2 / (residuals + priors - unknowns) / mean of psi'(r)
+  //
+  // 0 where there are not more residuals than unknowns.
+  double residual_variance = 0.0;
+  // Through an SVD of the Jacobian of residuals and priors at the estimate, over the determined directions
+  // alone. With a loss, residuals are weighted by psi'(r), and by 0 where that is negative: one that lies
+  // beyond the scale of the loss tells nothing of how sure the estimate is. An unknown on a bound is treated
+  // as if it were free.
   Eigen::MatrixXd covariance;
   std::vector<UndeterminedDirection> undetermined;
   std::vector<bool> on_bound;

@@ -1,5 +1,7 @@
 #include "server/cli_app.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <map>
@@ -11,6 +13,7 @@
 #include "server/cli_tune.h"
 #include "server/cli_wheel.h"
 #include "server/commands.h"
+#include "sim/wheel_failure.h"
 
 namespace slipway::server {
 namespace {
@@ -84,7 +87,8 @@ void add_drive(CLI::App& command, DriveOptions& drive) {
       "--effect", drive.effects,
       "switch an effect on, NAME or NAME:parameter=value,..., or off, NAME:off; see slipway effects");
   command.add_option("--failed", drive.failed,
-                     "a wheel whose drive has failed, WHEEL=locked, WHEEL=free or WHEEL=off");
+                     fmt::format("a wheel whose drive has failed, WHEEL={}",
+                                 fmt::join(sim::wheel_failure_names(), " or WHEEL=")));
   command.add_option("--motor-temp-c", drive.motor_temp_c, "temperature of the drive motors");
   command.add_option("--map", drive.map, "write a picture of the routes (SVG) to this file");
 }
@@ -155,6 +159,8 @@ int run_command_line(int argc, char** argv) {
                       "direction of travel from the body's axis, positive to the left");
   command->add_option("--rung", predict_options.rung,
                       "quasi_static, or dynamic: drive the path as a multibody too");
+  command->add_option("--plot", predict_options.plot,
+                      "write the time history of the dynamic drive (SVG) to this file; needs that rung");
   command->add_option("--request", predict_options.request,
                       "file with a whole request, - for standard input; other options are not used");
   command->footer(kPredictExample);

@@ -2,7 +2,12 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "gap/least_squares.h"
 #include "server/commands.h"
 
 namespace slipway::server {
@@ -36,6 +41,18 @@ void add_tune_command(CLI::App& app, std::function<int()>& run) {
   command->add_flag(
       "--scales-are-errors", options->scales_are_errors,
       "the scales are standard deviations; otherwise those are estimated from what is left over");
+  const std::span<const std::string_view> losses = gap::robust_loss_names();
+  command
+      ->add_option("--loss", options->loss,
+                   "what least squares makes of drives that are far off: none counts them in full, huber by "
+                   "their size, cauchy hardly at all")
+      ->capture_default_str()
+      ->check(CLI::IsMember(std::vector<std::string>(losses.begin(), losses.end())));
+  command
+      ->add_option("--loss-scale", options->loss_scale,
+                   "far off begins at so many times the noise; 1.345 for huber and 2.385 for cauchy where "
+                   "not given")
+      ->check(CLI::PositiveNumber);
   command
       ->add_option("--within", options->within,
                    "a set serves a tilt up to so many times its best score there")

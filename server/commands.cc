@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <fstream>
 #include <iostream>
 #include <sstream>
 
+#include "api/drive_history.h"
 #include "api/json/writer.h"
 #include "server/command_parts.h"
 #include "server/inquiry.h"
@@ -94,8 +96,13 @@ std::string prediction_request(const PredictOptions& options) {
   return w.take();
 }
 
-// Asks, prints the document or its table, and draws the map where one is wanted.
-int ask_and_print(const AskOptions& ask, const std::string& map_file, Result<std::string> request,
+// Files for what is drawn of an answer; empty: not wanted.
+struct Pictures {
+  std::string map, history;
+};
+
+// Asks, prints the document or its table, and draws what is wanted.
+int ask_and_print(const AskOptions& ask, const Pictures& pictures, Result<std::string> request,
                   Result<std::string> (Inquiry::*question)(const std::string&, Progress&),
                   Result<std::string> (*table)(std::string_view)) {
   if (!request) return refuse(request.error());
@@ -110,10 +117,16 @@ int ask_and_print(const AskOptions& ask, const std::string& map_file, Result<std
   const auto printed = ask.json ? answer : table(*answer);
   if (!printed) return refuse(printed.error());
   std::cout << *printed << (ask.json ? "\n" : "") << std::flush;
-  if (map_file.empty()) return 0;
-  const auto map = (*service)->map();
-  if (!map) return refuse(map.error());
-  return save(map_file, *map);
+  int status = 0;
+  if (!pictures.map.empty()) {
+    const auto map = (*service)->map();
+    status = map ? save(pictures.map, *map) : refuse(map.error());
+  }
+  if (!pictures.history.empty()) {
+    const auto history = api::draw_drive_history(*answer);
+    status = std::max(status, history ? save(pictures.history, *history) : refuse(history.error()));
+  }
+  return status;
 }
 
 int print_catalogue(const AskOptions& ask, std::string_view kind,
@@ -132,14 +145,19 @@ int print_catalogue(const AskOptions& ask, std::string_view kind,
 
 int plan(const PlanOptions& options) {
   return ask_and_print(
-      options.ask, options.drive.map,
+      options.ask, {.map = options.drive.map, .history = {}},
       options.request.empty() ? Result<std::string>(plan_request(options)) : read_file(options.request),
       &Inquiry::plan, &plan_table);
 }
 
 int predict(const PredictOptions& options) {
+  // Said before the work is done; of a request in a file its answer says it.
+  if (!options.plot.empty() && options.request.empty() && options.rung != "dynamic")
+    return refuse({ErrorCode::kInvalidRequest,
+                   "there is no such plot",
+                   {{"/plot", "only the dynamic rung has a time history: --rung dynamic"}}});
   return ask_and_print(
-      options.ask, options.drive.map,
+      options.ask, {.map = options.drive.map, .history = options.plot},
       options.request.empty() ? Result<std::string>(prediction_request(options)) : read_file(options.request),
       &Inquiry::predict, &prediction_table);
 }

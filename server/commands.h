@@ -59,6 +59,7 @@ struct PredictOptions {
   bool backwards = false;
   std::optional<double> crab_deg;
   std::string rung;  // empty: the request's default
+  std::string plot;  // file for the dynamic drive's time history; empty: none
 };
 
 struct TerrainOptions {
@@ -132,6 +133,8 @@ struct TuneCommand {
   std::vector<std::string> drives;  // ids with * and ?; empty: all
   double position_scale_m = 0.1, heading_scale_deg = 5.0;
   bool scales_are_errors = false;
+  std::string loss = "none";         // a name of gap::robust_loss_names()
+  std::optional<double> loss_scale;  // nothing: the loss's usual one
   double within = 1.5, good_enough = 0.1;
   bool each_tilt = false, sweep_only = false;
   int threads = 0;  // 0: as many as the machine has

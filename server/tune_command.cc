@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -87,6 +89,12 @@ Result<std::vector<gap::TunedParameter>> parameters_of(const TuneCommand& option
   return parameters;
 }
 
+// Of a name that the command line has checked.
+gap::RobustLoss loss_of(std::string_view name) {
+  const auto names = gap::robust_loss_names();
+  return static_cast<gap::RobustLoss>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
 std::string score_words(const std::optional<double>& score) {
   return score ? fmt::format("{:.3f}", *score) : "none";
 }
@@ -123,11 +131,25 @@ std::string sets_table(const gap::DriveTuning& tuning) {
   return text.print();
 }
 
-std::string fit_words(const gap::DriveTuning& tuning, const gap::TuningFit& result,
-                      const std::string& drives) {
+constexpr std::size_t kMostNamed = 5;  // drives; tuning.json has all
+
+// What the uncertainties rest on: "noise 0.031 of the scales; far off: a-r1, b".
+std::string noise_words(const TableTuning& result, const gap::TuningFit& fit) {
+  std::string out = fmt::format("  noise {:.3g} of the scales", fit.noise);
+  if (fit.fit.residual_variance > 1.005)
+    out += fmt::format(", scatter {:.3g} times that", std::sqrt(fit.fit.residual_variance));
+  for (std::size_t i = 0; i < std::min(fit.beyond.size(), kMostNamed); ++i)
+    out += (i == 0 ? "; far off: " : ", ") + result.drives[fit.beyond[i]].name;
+  if (fit.beyond.size() > kMostNamed) out += fmt::format(" and {} more", fit.beyond.size() - kMostNamed);
+  return out + "\n";
+}
+
+std::string fit_words(const TableTuning& answer, const gap::TuningFit& result, const std::string& drives) {
+  const gap::DriveTuning& tuning = answer.tuning;
   const gap::LeastSquaresFit& fit = result.fit;
   std::string out = fmt::format("least squares, {}: score {:.3f}{}\n", drives, result.score,
                                 fit.converged ? "" : ", not converged");
+  out += noise_words(answer, result);
   for (std::size_t k = 0; k < fit.estimate.size(); ++k) {
     const auto std = fit.standard_error(k);
     out += fmt::format("  {} = {:.5g} {}{}\n", tuning.sweep.names[k], fit.estimate[k],
@@ -151,10 +173,10 @@ std::string answer_words(const TableTuning& result) {
   std::string out = fmt::format("{} drives, {} of them different, {} parameter sets; scores:\n", repeats,
                                 result.drives.size(), tuning.sweep.points.size());
   out += sets_table(tuning);
-  if (tuning.fit) out += fit_words(tuning, *tuning.fit, "all drives");
+  if (tuning.fit) out += fit_words(result, *tuning.fit, "all drives");
   for (const gap::TiltGroup& group : tuning.tilts)
     if (group.fit)
-      out += fit_words(tuning, *group.fit, fmt::format("{:.1f} deg alone", deg_from_rad(group.tilt_rad)));
+      out += fit_words(result, *group.fit, fmt::format("{:.1f} deg alone", deg_from_rad(group.tilt_rad)));
   return out;
 }
 
@@ -190,6 +212,8 @@ int tune(const TuneCommand& options) {
                      .within = options.within,
                      .good_enough = options.good_enough,
                      .least_squares = !options.sweep_only,
+                     .loss = loss_of(options.loss),
+                     .loss_scale = options.loss_scale,
                      .fit_each_tilt = options.each_tilt,
                      .threads = static_cast<std::size_t>(options.threads)};
   std::optional<Result<TableTuning>> result;

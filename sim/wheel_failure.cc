@@ -25,4 +25,10 @@ void fail_wheel(RoverModel& rover, std::size_t wheel, WheelFailure failure,
   failed.drag_nm += unpowered_drag_nm(at_temperature(rover.drive, temp_c));
 }
 
+void fail_wheels(RoverModel& rover, const FailedWheels& failed, const DriveConditions& conditions) {
+  for (std::size_t k = 0; k < rover.wheels.size(); ++k)
+    if (const auto found = failed.find(rover.wheels[k].name); found != failed.end())
+      fail_wheel(rover, k, found->second, conditions);
+}
+
 }  // namespace slipway::sim

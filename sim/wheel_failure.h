@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
+#include <functional>
+#include <map>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -31,5 +33,9 @@ double unpowered_drag_nm(const DriveMotor& drive);
 // temperature. Throws std::out_of_range where there is no such wheel.
 void fail_wheel(RoverModel& rover, std::size_t wheel, WheelFailure failure,
                 const DriveConditions& conditions = {});
+
+// By the wheels' names; those that the rover does not have are passed over.
+using FailedWheels = std::map<std::string, WheelFailure, std::less<>>;
+void fail_wheels(RoverModel& rover, const FailedWheels& failed, const DriveConditions& conditions = {});
 
 }  // namespace slipway::sim

@@ -5,6 +5,7 @@
 
 #include "api/faults.h"
 #include "api/json/campaign_table_file.h"
+#include "api/json/drive_assumptions.h"
 #include "core/angle.h"
 
 namespace slipway::api::json {
@@ -51,29 +52,6 @@ std::vector<sim::DriveLeg> read_legs(ObjectReader& entry, const sim::RoverModel&
     reader.refuse_unknown();
   }
   return legs;
-}
-
-void read_failed_wheels(ObjectReader& entry, campaign::DriveEntry& out) {
-  const JsonValue* const wheels = entry.member("failed_wheels", kOptional);
-  if (wheels == nullptr) return;
-  if (!wheels->is(JsonValue::Kind::kObject)) {
-    entry.fault("failed_wheels", "failed_wheels = " + describe(*wheels) + ", must be an object");
-    return;
-  }
-  // Which wheels there are is the rover's to say.
-  const std::string pointer = child_pointer(entry.pointer(), "failed_wheels");
-  for (std::size_t i = 0; i < wheels->keys.size(); ++i) {
-    std::string how;
-    const std::string place = child_pointer(pointer, wheels->keys[i]);
-    if (!read_text(wheels->elements[i], place, wheels->keys[i], {.most = 20}, how, entry.faults())) continue;
-    if (how == "locked" || how == "free") {
-      out.failed_wheels.emplace_back(wheels->keys[i],
-                                     how == "locked" ? sim::WheelDrive::kLocked : sim::WheelDrive::kFree);
-    } else {
-      entry.faults().push_back(
-          {place, wheels->keys[i] + " = " + in_quotes(how) + ", must be locked or free"});
-    }
-  }
 }
 
 // By name; all of the table's where none is named.
@@ -123,7 +101,7 @@ std::vector<campaign::DriveEntry> read_table_drives(ObjectReader& table,
     read_start(reader, entry);
     entry.legs = read_legs(reader, rover);
     reader.whole("repeats", kOptional, 1, kMostRepeats, entry.repeats);
-    read_failed_wheels(reader, entry);
+    read_failed_wheels(reader, entry.failed_wheels);
     reader.boolean("final_only", kOptional, entry.final_only);
     reader.boolean("plot", kOptional, entry.plot);
     reader.boolean("deformed_terrain", kOptional, entry.deformed_terrain);

@@ -36,6 +36,26 @@ void read_roughness(ObjectReader& terrain, dem::Relief& relief) {
   object->refuse_unknown();
 }
 
+void read_rocks(ObjectReader& terrain, double cell_m, dem::Relief& relief) {
+  auto object = terrain.object("rocks", kOptional);
+  if (!object) return;
+  dem::RockField& rocks = relief.rocks.emplace();
+  object->number("cover_share", kRequired, {"1", 0.0, 0.5, true}, rocks.cover_share);
+  const bool smallest = object->number("smallest_m", kRequired, {"m", 0.01, 10.0}, rocks.smallest_m);
+  const bool largest = object->number("largest_m", kRequired, {"m", 0.01, 10.0}, rocks.largest_m);
+  object->number("height_share", kOptional, {"1", 0.0, 1.0, true}, rocks.height_share);
+  object->whole("seed", kOptional, std::uint64_t{0}, std::uint64_t{1} << 53U, rocks.seed);
+  object->refuse_unknown();
+  if (!smallest || !largest) return;
+  if (rocks.smallest_m < cell_m)
+    object->fault("smallest_m", fmt::format("smallest_m = {:g} m, must be at least cell_m = {:g} m: what is "
+                                            "smaller falls between the cells",
+                                            rocks.smallest_m, cell_m));
+  if (rocks.largest_m <= rocks.smallest_m)
+    object->fault("largest_m", fmt::format("largest_m = {:g} m, must be above smallest_m = {:g} m",
+                                           rocks.largest_m, rocks.smallest_m));
+}
+
 void make_synthetic(ObjectReader& reader, campaign::TableTerrain& terrain) {
   const std::size_t before = reader.faults().size();
   dem::Relief relief;
@@ -45,6 +65,7 @@ void make_synthetic(ObjectReader& reader, campaign::TableTerrain& terrain) {
   read_roughness(reader, relief);
   reader.number("size_m", kOptional, {"m", 1.0, 2000.0}, grid.size_m);
   reader.number("cell_m", kOptional, {"m", 0.01, 10.0}, grid.cell_m);
+  read_rocks(reader, grid.cell_m, relief);
   if (const double cells = grid.size_m / grid.cell_m; cells * cells > kMostCells)
     reader.fault("cell_m", fmt::format("size_m / cell_m = {:.0f} cells a side, must be at most {:.0f}", cells,
                                        std::sqrt(kMostCells)));

@@ -19,8 +19,9 @@ void read_limits(ObjectReader& reader, sim::DriveLimits& limits) {
   object->refuse_unknown();
 }
 
-// Whether the rover has such wheels is the catalogue's to say.
-void read_failed_wheels(ObjectReader& reader, DriveAssumptions& drive) {
+}  // namespace
+
+void read_failed_wheels(ObjectReader& reader, sim::FailedWheels& failed) {
   const JsonValue* const value = reader.member("failed_wheels", kOptional);
   if (value == nullptr) return;
   ObjectReader object(*value, child_pointer(reader.pointer(), "failed_wheels"), reader.faults());
@@ -28,16 +29,14 @@ void read_failed_wheels(ObjectReader& reader, DriveAssumptions& drive) {
   for (const std::string& wheel : value->keys) {
     std::size_t failure = 0;
     if (object.choice(wheel, kRequired, sim::wheel_failure_names(), failure))
-      drive.failed_wheels[wheel] = static_cast<sim::WheelFailure>(failure);
+      failed[wheel] = static_cast<sim::WheelFailure>(failure);
   }
 }
-
-}  // namespace
 
 void read_drive_assumptions(ObjectReader& reader, DriveAssumptions& drive) {
   read_limits(reader, drive.limits);
   read_effects(reader, drive.effects);
-  read_failed_wheels(reader, drive);
+  read_failed_wheels(reader, drive.failed_wheels);
   reader.whole("draws", kOptional, 1, RequestLimits::kDraws, drive.draws);
   reader.whole("seed", kOptional, std::uint64_t{0}, kLargestExactWhole, drive.seed);
   reader.number("speed_m_s", kOptional, {"m/s", 0.0, 10.0, true}, drive.speed_m_s);

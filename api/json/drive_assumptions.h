@@ -12,6 +12,10 @@ namespace slipway::api::json {
 void read_drive_assumptions(ObjectReader& reader, DriveAssumptions& drive);
 void write_drive_assumptions(Writer& w, const DriveAssumptions& drive);
 
+// "failed_wheels": {"rf": "locked"}, of requests and of a campaign table's drives. Whether the rover has such
+// wheels is not asked here.
+void read_failed_wheels(ObjectReader& reader, sim::FailedWheels& failed);
+
 // {"x_m": 1, "y_m": 2, "yaw_deg": 90}, the heading only where it matters.
 void read_waypoint(const JsonValue& value, const std::string& pointer, planner::Waypoint& out,
                    std::vector<Fault>& faults);

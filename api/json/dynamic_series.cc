@@ -46,6 +46,7 @@ constexpr std::array kWheelColumns{
     WheelColumn{"slip", [](const WheelState& w) { return w.slip_ratio; }},
     WheelColumn{"sinkage_m", [](const WheelState& w) { return w.sinkage_m; }},
     WheelColumn{"current_a", [](const WheelState& w) { return w.current_a; }},
+    WheelColumn{"torque_nm", [](const WheelState& w) { return w.torque_nm; }},
 };
 
 void write_difference(Writer& w, std::string_view name, const RungDifference& difference) {

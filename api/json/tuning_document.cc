@@ -64,9 +64,14 @@ void write_service(Writer& w, const DriveTuning& tuning, std::size_t point) {
   w.end_object();
 }
 
-void write_fit(Writer& w, const DriveTuning& tuning, const gap::TuningFit& result) {
+void write_fit(Writer& w, const campaign::TableTuning& answer, const gap::TuningFit& result) {
+  const DriveTuning& tuning = answer.tuning;
   const gap::LeastSquaresFit& fit = result.fit;
   w.begin_object().boolean("converged", fit.converged).significant("score", result.score);
+  w.significant("noise", result.noise).significant("residual_variance", fit.residual_variance);
+  w.key("beyond_loss_scale").begin_array();
+  for (const std::size_t i : result.beyond) w.text(answer.drives[i].name);
+  w.end_array();
   w.key("estimates").begin_array();
   for (std::size_t k = 0; k < fit.estimate.size(); ++k) {
     w.begin_object().text("name", tuning.sweep.names[k]).significant("value", fit.estimate[k]);
@@ -84,7 +89,8 @@ void write_fit(Writer& w, const DriveTuning& tuning, const gap::TuningFit& resul
   w.end_array().end_object();
 }
 
-void write_best(Writer& w, const DriveTuning& tuning) {
+void write_best(Writer& w, const campaign::TableTuning& result) {
+  const DriveTuning& tuning = result.tuning;
   write_service(w.key("best_coarse"), tuning, tuning.sweep.best_coarse);
   write_service(w.key("best"), tuning, tuning.sweep.best);
   write_service(w.key("widest"), tuning, tuning.widest);
@@ -93,7 +99,7 @@ void write_best(Writer& w, const DriveTuning& tuning) {
     w.begin_object().significant("tilt_deg", deg_from_rad(group.tilt_rad));
     w.whole("drives", static_cast<std::int64_t>(group.drives.size()));
     write_service(w.key("serves"), tuning, group.best);
-    if (group.fit) write_fit(w.key("least_squares"), tuning, *group.fit);
+    if (group.fit) write_fit(w.key("least_squares"), result, *group.fit);
     w.end_object();
   }
   w.end_array();
@@ -123,11 +129,14 @@ std::string tuning_document(const campaign::CampaignTable& table, const campaign
   w.text("soil", result.soil).exact("position_scale_m", options.scales.position_m);
   w.angle_deg("heading_scale_deg", options.scales.heading_rad);
   w.boolean("scales_are_errors", options.scales_are_errors);
+  w.text("loss", gap::robust_loss_names()[static_cast<std::size_t>(options.loss)]);
+  if (options.loss != gap::RobustLoss::kNone)
+    w.exact("loss_scale", options.loss_scale.value_or(gap::usual_loss_scale(options.loss)));
   w.exact("within", options.within).exact("good_enough", options.good_enough);
   write_parameters(w, request);
   write_drives(w, result);
-  write_best(w, result.tuning);
-  if (result.tuning.fit) write_fit(w.key("least_squares"), result.tuning, *result.tuning.fit);
+  write_best(w, result);
+  if (result.tuning.fit) write_fit(w.key("least_squares"), result, *result.tuning.fit);
   write_points(w, result.tuning);
   w.end_object();
   return w.take() + "\n";

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <thread>
 
+#include "api/drive_history.h"
 #include "api/job_kinds.h"
 #include "api/json/parse.h"
 #include "api/json/plan_answer.h"
@@ -189,8 +190,34 @@ TEST(Contract, ADynamicPredictionsAnswerFitsTheDescriptionAndNamesItsRung) {
     EXPECT_EQ(samples.find(column)->elements.size(), count) << column;
   const JsonValue& dead = *samples.find("wheels")->find("lr");
   EXPECT_EQ(dead.find("current_a")->elements.size(), count);
+  EXPECT_EQ(dead.find("torque_nm")->elements.size(), count);
   for (const JsonValue& current : dead.find("current_a")->elements)
     EXPECT_EQ(current.number, 0.0) << "a motor without power draws none";
+}
+
+TEST(DriveHistory, IsDrawnOfAPredictionsDynamicDrive) {
+  const std::string answer = answer_to(kPredictionKind, example("prediction_dynamic.json"));
+  const auto svg = draw_drive_history(answer);
+  ASSERT_TRUE(svg) << svg.error().detail;
+  for (const char* words : {"slip", "pitch and roll, deg", "sinkage, mm", "motor current, A", "torque, N m"})
+    EXPECT_NE(svg->find(words), std::string::npos) << words;
+  EXPECT_EQ(*svg, *draw_drive_history(answer));
+  // Each wheel has its name in the legend.
+  for (const char* wheel : {"lf", "lm", "lr", "rf", "rm", "rr"})
+    EXPECT_NE(svg->find(std::string(">") + wheel + "<"), std::string::npos) << wheel;
+}
+
+TEST(DriveHistory, SaysWhyThereIsNone) {
+  const auto none = draw_drive_history(answer_to(kPredictionKind, example("prediction_path.json")));
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().code, ErrorCode::kNoData);
+  std::string cut = answer_to(kPredictionKind, example("prediction_dynamic.json"));
+  const std::size_t torque = cut.find("\"torque_nm\"", cut.find("\"samples\""));
+  ASSERT_NE(torque, std::string::npos);
+  const auto misfit = draw_drive_history(cut.replace(torque + 1, 9, "torque_xx"));
+  ASSERT_FALSE(misfit);
+  EXPECT_EQ(misfit.error().code, ErrorCode::kInternal);
+  EXPECT_FALSE(draw_drive_history("{"));
 }
 
 TEST(Contract, WithoutADynamicRungNothingIsSaidOfOne) {

@@ -67,7 +67,7 @@ TEST(CampaignTable, NamesEveryFaultOfItsPartsTogether) {
     "terrains": [{"name": "a", "soil": "dry_sandd"}, {"name": "a", "soil": "dry_sand", "tilt_deg": 80},
                  {"name": "b", "soil": "dry_sand", "file": "../b.tif"}, {"name": "c", "soil": "dry_sand", "file": "none.tif"}],
     "drives": [{"id": "x", "terrains": ["z"], "headings_deg": [], "repeats": 0, "legs": [{"length_m": 0}, {"turn_deg": 0}],
-                "failed_wheels": {"rf": "off"}}, {"id": "y", "legs": [], "lege": 1}]})");
+                "failed_wheels": {"rf": "broken"}}, {"id": "y", "legs": [], "lege": 1}]})");
   ASSERT_FALSE(table);
   EXPECT_EQ(table.error().code, ErrorCode::kInvalidRequest);
   Texts pointers = pointers_of(table.error());
@@ -122,6 +122,21 @@ TEST(CampaignTable, FailedWheelsAndEffectsAreTheDrivesNotTheOperators) {
   EXPECT_FALSE(table->rover->wheels[0].grousers.has_value());
 }
 
+TEST(CampaignTable, WheelsFailAsInRequests) {
+  const auto table =
+      read_table(replaced(kSmallTable, R"("id": "turn",)",
+                          R"("id": "turn", "failed_wheels": {"rf": "off", "lm": "free", "lr": "locked"},)"));
+  ASSERT_TRUE(table) << table.error().detail;
+  const sim::RoverModel rover = driven_rover(*table, table->entries[1]);
+  for (const sim::WheelModel& wheel : rover.wheels) {
+    const bool off = wheel.name == "rf";
+    EXPECT_EQ(wheel.drive, off || wheel.name == "lm" ? sim::WheelDrive::kFree
+                           : wheel.name == "lr"      ? sim::WheelDrive::kLocked
+                                                     : sim::WheelDrive::kDriven);
+    EXPECT_EQ(wheel.drag_nm, off ? sim::unpowered_drag_nm(rover.drive) : 0.0) << wheel.name;
+  }
+}
+
 TEST(CampaignTable, AnElevationFileMayHaveASoilMap) {
   const std::string bytes = R"({
     "format": "campaign-table/1", "name": "gale", "summary": "s", "sources": [], "rover": "msl-class",
@@ -142,6 +157,29 @@ TEST(CampaignTable, AnElevationFileMayHaveASoilMap) {
   EXPECT_FALSE(read_table(replaced(kSmallTable, R"("tilt_deg": 5,)", R"("tilt_deg": 5, "soil_map": {},)")));
 }
 
+TEST(CampaignTable, RocksStandOnAShape) {
+  const auto with_rocks = [](const char* rocks) {
+    return read_table(replaced(kSmallTable, R"("tilt_deg": 5,)",
+                               std::string(R"("tilt_deg": 5, "cell_m": 0.05, "rocks": )") + rocks + ","));
+  };
+  const auto ground = [&](const char* rocks) {
+    const auto table = with_rocks(rocks);
+    EXPECT_TRUE(table) << table.error().detail;
+    return table->terrains.at(1).ground->fingerprint();
+  };
+  const auto two = ground(R"({"cover_share": 0.1, "smallest_m": 0.1, "largest_m": 0.3, "seed": 2})");
+  EXPECT_EQ(two, ground(R"({"cover_share": 0.1, "smallest_m": 0.1, "largest_m": 0.3, "seed": 2})"));
+  EXPECT_NE(two, ground(R"({"cover_share": 0.1, "smallest_m": 0.1, "largest_m": 0.3})"));
+
+  const auto faulty = with_rocks(
+      R"({"cover_share": 0, "smallest_m": 0.04, "largest_m": 0.03, "height_share": 2, "shape": "cube"})");
+  ASSERT_FALSE(faulty);
+  Texts pointers = pointers_of(faulty.error());
+  for (std::string& pointer : pointers) pointer = pointer.substr(pointer.rfind('/') + 1);
+  std::sort(pointers.begin(), pointers.end());
+  EXPECT_EQ(pointers, (Texts{"cover_share", "height_share", "largest_m", "shape", "smallest_m"}));
+}
+
 TEST(CampaignTable, ShippedTablesAreWithoutFault) {
   std::map<std::string, std::size_t> drives;
   for (const std::string& name : api::campaign_names(SLIPWAY_DATA_FOLDER)) {
@@ -153,6 +191,7 @@ TEST(CampaignTable, ShippedTablesAreWithoutFault) {
   // 10 and 6 tests five times on the level, 22 and 18 three times on each of three slopes.
   EXPECT_EQ(drives["fido_table_1"], 5U * (10U + 6U) + 3U * 3U * (22U + 18U));
   EXPECT_EQ(drives["opportunity_sol_2143"], 1U);
+  EXPECT_EQ(drives["rock_field"], 1U);
   EXPECT_EQ(drives["spirit_dead_wheel"], 4U);
 }
 

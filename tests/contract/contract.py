@@ -15,6 +15,7 @@ import sys
 import tempfile
 import time
 import unittest
+import xml.dom.minidom
 
 SLIPWAY, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
 DATA = str(SOURCE / "data")
@@ -304,6 +305,18 @@ class Contract(unittest.TestCase):
         document = json.loads(subprocess.run([SLIPWAY, "predict", *options, "--json"], capture_output=True, check=True).stdout)
         self.assertEqual(document["summary"]["dynamic"]["fidelity"], "dynamic")
         self.assertEqual(document["request"]["failed_wheels"], {"rf": "off"})
+        with tempfile.TemporaryDirectory() as folder:
+            plots = [str(pathlib.Path(folder) / name) for name in ("here.svg", "there.svg")]
+            for plot, where in zip(plots, ([], ["--url", self.server.url])):
+                subprocess.run([SLIPWAY, "predict", *options, *where, "--plot", plot], capture_output=True, check=True)
+            here, there = (pathlib.Path(plot).read_text() for plot in plots)
+            self.assertEqual(here, there)
+            xml.dom.minidom.parseString(here)
+            for words in (" of 3.00 m", "torque, N m", "motor current, A", "sinkage, mm"):
+                self.assertTrue(words in here, words)
+            refused = subprocess.run([SLIPWAY, "predict", "--data", DATA, "--path", *path, "--plot", plots[0]], capture_output=True, text=True)
+            self.assertEqual(refused.returncode, 2)
+            self.assertIn("/plot", refused.stderr)
         unknown = subprocess.run([SLIPWAY, "predict", "--data", DATA, "--path", *path, "--failed", "fr=off"], capture_output=True, text=True)
         self.assertEqual(unknown.returncode, 2)
         self.assertIn("/failed_wheels/fr", unknown.stderr)

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include "core/random.h"
@@ -22,7 +25,7 @@ struct Toy {
 };
 
 // Beyond `steep_rad` the measured rover grips as `steep_grip`, which no single set of the model does.
-Toy toy_drives(double noise_m, double steep_rad = 2.0, double steep_grip = 0.0) {
+Toy toy_drives(double noise_m, double steep_rad = 2.0, double steep_grip = 0.0, std::uint64_t seed = 7) {
   Toy result;
   std::uint64_t counter = 0;
   for (const double tilt_deg : {0.085, 5.743, 10.758, 20.764}) {
@@ -30,9 +33,9 @@ Toy toy_drives(double noise_m, double steep_rad = 2.0, double steep_grip = 0.0) 
     MeasuredDrive drive{std::to_string(tilt_deg), tilt, {}};
     for (int repeat = 0; repeat < 3; ++repeat) {
       Pose2 end = toy(tilt, tilt < steep_rad ? 1.27 : steep_grip, 0.33);
-      end.x_m += noise_m * random_normal(7, counter++);
-      end.y_m += noise_m * random_normal(7, counter++);
-      end.yaw_rad += noise_m * random_normal(7, counter++) + (repeat == 1 ? 2.0 * std::numbers::pi : 0.0);
+      end.x_m += noise_m * random_normal(seed, counter++);
+      end.y_m += noise_m * random_normal(seed, counter++);
+      end.yaw_rad += noise_m * random_normal(seed, counter++) + (repeat == 1 ? 2.0 * std::numbers::pi : 0.0);
       drive.finals.push_back(end);
     }
     result.drives.push_back(drive);
@@ -160,6 +163,71 @@ TEST(TuneDrives, KnownErrorsGiveTheirUncertainty) {
   EXPECT_NEAR(tuning->fit->fit.estimate[0], 1.27, 0.1 * *tuning->fit->fit.standard_error(0));
 }
 
+// How far the estimate of grip is from the truth, in its stated standard deviations.
+double grip_off(const DriveTuning& tuning) {
+  return std::abs(tuning.fit->fit.estimate[0] - 1.27) / tuning.fit->fit.standard_error(0).value();
+}
+
+TEST(TuneDrives, AGrossOutlierIsNamedAndLeavesTheEstimateWithALossAlone) {
+  Toy toy = toy_drives(0.004);
+  toy.drives[3].finals[1].x_m -= 1.0;  // one of the three on the steepest slope slid a metre down
+  NoProgress progress;
+  // The noise is not known, or taken to be what it is.
+  for (const TuningOptions& options :
+       {TuningOptions{},
+        TuningOptions{.scales = {.position_m = 0.004, .heading_rad = 0.004}, .scales_are_errors = true}}) {
+    const auto squares = tune_drives(kParameters, toy.drives, toy.model, options, progress);
+    ASSERT_TRUE(squares && squares->fit);
+    EXPECT_GT(grip_off(*squares), 2.5);
+    EXPECT_TRUE(squares->fit->beyond.empty());
+    for (const RobustLoss loss : {RobustLoss::kHuber, RobustLoss::kCauchy}) {
+      TuningOptions robust = options;
+      robust.loss = loss;
+      const auto tuning = tune_drives(kParameters, toy.drives, toy.model, robust, progress);
+      ASSERT_TRUE(tuning && tuning->fit);
+      EXPECT_LT(grip_off(*tuning), 2.0);
+      EXPECT_LT(tuning->fit->fit.standard_error(0).value(), 0.03);
+      EXPECT_LT(tuning->fit->fit.standard_error(0).value(),
+                squares->fit->fit.standard_error(0).value() / 4.0);
+      const double noise_m = tuning->fit->noise * robust.scales.position_m;
+      EXPECT_NEAR(noise_m, 0.004, 0.002);
+      EXPECT_TRUE(std::find(tuning->fit->beyond.begin(), tuning->fit->beyond.end(), 3U) !=
+                  tuning->fit->beyond.end());
+    }
+  }
+}
+
+TEST(TuneDrives, UncertaintyIsTheScatterOfEstimatesWithALossAndWithout) {
+  NoProgress progress;
+  const int repeats = 60;
+  for (const RobustLoss loss : {RobustLoss::kNone, RobustLoss::kHuber, RobustLoss::kCauchy}) {
+    double squares = 0.0;
+    for (int set = 0; set < repeats; ++set) {
+      const Toy toy = toy_drives(0.004, 2.0, 0.0, 1000 + static_cast<std::uint64_t>(set));
+      const TuningOptions options{.scales = {.position_m = 0.01, .heading_rad = 0.01}, .loss = loss};
+      const auto tuning = tune_drives(kParameters, toy.drives, toy.model, options, progress);
+      ASSERT_TRUE(tuning && tuning->fit);
+      squares += std::pow(grip_off(*tuning), 2);
+    }
+    EXPECT_GT(std::sqrt(squares / repeats), 0.7) << static_cast<int>(loss);
+    EXPECT_LT(std::sqrt(squares / repeats), 1.3) << static_cast<int>(loss);
+  }
+}
+
+TEST(TuneDrives, ErrorsThatAreStatedTooSmallAreWidenedByWhatIsLeftOver) {
+  const Toy toy = toy_drives(0.004);
+  NoProgress progress;
+  const auto uncertainty = [&](double error) {
+    const TuningOptions options{.scales = {.position_m = error, .heading_rad = error},
+                                .scales_are_errors = true};
+    const auto tuning = tune_drives(kParameters, toy.drives, toy.model, options, progress);
+    EXPECT_NEAR(std::sqrt(tuning->fit->fit.residual_variance) * error, 0.004, 0.001);
+    return tuning->fit->fit.standard_error(0).value();
+  };
+  EXPECT_NEAR(uncertainty(0.001) / uncertainty(0.0005), 1.0, 0.01);
+  EXPECT_NEAR(uncertainty(0.016) / uncertainty(0.008), 2.0, 0.02);  // they are taken at their word
+}
+
 TEST(TuneDrives, RefusesNoDrivesAndScalesThatAreNone) {
   const Toy toy = toy_drives(0.0);
   NoProgress progress;
@@ -167,9 +235,11 @@ TEST(TuneDrives, RefusesNoDrivesAndScalesThatAreNone) {
   ASSERT_FALSE(none);
   EXPECT_EQ(none.error().code, ErrorCode::kInvalidRequest);
   const auto scales =
-      tune_drives(kParameters, toy.drives, toy.model, {.scales = {.position_m = 0.0}}, progress);
+      tune_drives(kParameters, toy.drives, toy.model,
+                  {.scales = {.position_m = 0.0}, .loss = RobustLoss::kHuber, .loss_scale = -1.0}, progress);
   ASSERT_FALSE(scales);
   EXPECT_EQ(scales.error().faults.at(0).pointer, "/options/position_m");
+  EXPECT_EQ(scales.error().faults.at(1).pointer, "/options/loss_scale");
 }
 
 }  // namespace
