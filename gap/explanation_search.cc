@@ -7,12 +7,16 @@
 #include <set>
 
 #include "core/parallel_for.h"
+#include "gap/soft_patch_search.h"
 #include "sim/effect_catalogue.h"
 
 namespace slipway::gap {
 namespace {
 
 // What is believed before the drives: that nothing is missing, that one effect is, two are, something else.
+const std::string kSoftPatch = "soft_patch";
+constexpr std::size_t kMostPatches = 3;
+
 constexpr double kNothing = 0.4, kOne = 0.3, kTwo = 0.1, kSomethingElse = 0.14, kOneAndSomethingElse = 0.06;
 
 ExplanationOptions fit_options(const SearchOptions& options) {
@@ -93,7 +97,7 @@ struct Screened {
   double gain = 0.0;
   std::vector<double> start;  // of the hypothesis with it
   Eigen::VectorXd signature;
-  double kept_share = 0.0;
+  double kept_share = 0.0, visibility = 0.0;
 };
 
 // Every variant beside a fit whose effects are not among them.
@@ -108,7 +112,7 @@ std::vector<Screened> screen(const DriveCampaign& campaign, const WindowModel& m
     std::vector<EffectVariant> effects(fit.hypothesis.effects().begin(), fit.hypothesis.effects().end());
     for (const EffectVariant& there : effects)
       if (there.effect == variants[v].effect) {
-        all[v] = {v, -1e9, {}, {}, 0.0};
+        all[v] = {v, -1e9, {}, {}, 0.0, 0.0};
         return;
       }
     effects.push_back(variants[v]);
@@ -127,7 +131,9 @@ std::vector<Screened> screen(const DriveCampaign& campaign, const WindowModel& m
     if (estimate.squaredNorm() == 0.0) direction = columns.col(0);
     const Eigen::VectorXd projected = direction - basis * (basis.transpose() * direction);
     const double length = direction.norm();
-    all[v] = {v, gain, std::move(start), projected, length > 0.0 ? projected.norm() / length : 0.0};
+    const Eigen::VectorXd first = columns.col(0) - basis * (basis.transpose() * columns.col(0));
+    all[v] = {v,           gain, std::move(start), projected, length > 0.0 ? projected.norm() / length : 0.0,
+              first.norm()};
   });
   std::stable_sort(all.begin(), all.end(),
                    [](const Screened& a, const Screened& b) { return a.gain > b.gain; });
@@ -148,9 +154,15 @@ Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, con
                                               const Wildcard& wildcard, const SearchOptions& options,
                                               Progress& progress) {
   ExplanationSearch search;
-  const std::vector<EffectVariant> variants = effect_variants(*campaign.rover, options.withheld);
-  std::map<std::string, int> variants_of;
+  std::vector<EffectVariant> variants = effect_variants(*campaign.rover, options.withheld);
+  std::map<std::string, double> variants_of;
   for (const EffectVariant& v : variants) ++variants_of[v.effect];
+  if (std::find(options.withheld.begin(), options.withheld.end(), kSoftPatch) == options.withheld.end()) {
+    progress.report("looking for soft places", 0.18);
+    const PatchSearch patches = search_soft_patches(campaign, model, noise, null, kMostPatches);
+    variants.insert(variants.end(), patches.variants.begin(), patches.variants.end());
+    variants_of[kSoftPatch] = static_cast<double>(patches.looks);
+  }
   const auto families = static_cast<double>(variants_of.size());
   search.fits.push_back(std::move(null));
 
@@ -159,7 +171,7 @@ Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, con
   const std::vector<Screened> screened =
       screen(campaign, model, noise, search.fits[0], variants, options.threads);
   for (const Screened& s : screened)
-    search.screened.push_back({variants[s.variant], s.gain, s.signature, s.kept_share});
+    search.screened.push_back({variants[s.variant], s.gain, s.signature, s.kept_share, s.visibility});
   std::map<std::string, int> tried;
   std::map<std::string, std::size_t> best_fit;  // of an effect alone
   for (const Screened& s : screened) {
@@ -173,6 +185,8 @@ Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, con
                     0.25 + 0.3 * static_cast<double>(search.fits.size()) / (2.0 * options.most_refitted));
     FittedExplanation fit =
         fit_explanation(Hypothesis(campaign, {v}), model, noise, s.start, fit_options(options));
+    if (v.effect == kSoftPatch && tried[v.effect] == 1)
+      fit = refine_soft_patch(campaign, model, noise, std::move(fit), fit_options(options));
     search.fits.push_back(std::move(fit));
     const std::size_t index = search.fits.size() - 1;
     const auto best = best_fit.find(v.effect);
@@ -215,8 +229,8 @@ Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, con
     Candidate c;
     for (const EffectVariant& v : search.fits[fit].hypothesis.effects()) {
       c.effects.push_back(v.effect);
-      log_prior -= std::log(static_cast<double>(variants_of[v.effect]));
-      log_prior_unknown -= std::log(static_cast<double>(variants_of[v.effect]));
+      log_prior -= std::log(variants_of[v.effect]);
+      log_prior_unknown -= std::log(variants_of[v.effect]);
     }
     c.fit = fit;
     c.log_evidence = search.fits[fit].log_evidence;

@@ -37,6 +37,7 @@ struct ScreenedVariant {
   double gain = 0.0;
   Eigen::VectorXd signature;  // whitened response of its strongest field, nuisances projected out
   double kept_share = 0.0;    // of the signature's length that nuisances don't take
+  double visibility = 0.0;  // length of what its first field's prior deviation does, nuisances projected out
 };
 
 struct ExplanationSearch {

@@ -156,7 +156,7 @@ std::vector<EffectVariant> effect_variants(const sim::RoverModel& rover,
 }
 
 Hypothesis::Hypothesis(const DriveCampaign& campaign, std::vector<EffectVariant> effects)
-    : campaign_(campaign), effects_(std::move(effects)) {
+    : campaign_(&campaign), effects_(std::move(effects)) {
   const bool several = campaign.soils.size() > 1;
   for (const Nuisance& row : nuisance_catalogue()) {
     const int copies = row.kind == NuisanceKind::kSoil ? static_cast<int>(campaign.soils.size()) : 1;
@@ -198,8 +198,8 @@ std::vector<sim::EffectSetting> Hypothesis::settings(std::span<const double> x) 
 
 ModelState Hypothesis::state(std::span<const double> x) const {
   ModelState state;
-  state.rover = *campaign_.rover;
-  for (const NominalSoil& soil : campaign_.soils) state.soils.push_back(soil.soil);
+  state.rover = *campaign_->rover;
+  for (const NominalSoil& soil : campaign_->soils) state.soils.push_back(soil.soil);
   for (std::size_t i = 0; i < nuisances_; ++i) {
     const auto& [row, soil] = places_[i];
     if (row->on_rover != nullptr) row->on_rover(x[i], state.rover);
@@ -213,7 +213,7 @@ ModelState Hypothesis::state(std::span<const double> x) const {
     if (variant->physics) state.effects.push_back(setting);
   }
   // The rover file's own effects stay at work beside them.
-  state.effects = sim::in_force(campaign_.rover->effects, state.effects);
+  state.effects = sim::in_force(campaign_->rover->effects, state.effects);
   sim::apply_effects(state.effects, state.rover);
   for (sim::Soil& soil : state.soils) {
     const double n1 = soil.n1;

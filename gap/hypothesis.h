@@ -66,7 +66,7 @@ class Hypothesis {
                                   std::size_t threads) const;
 
  private:
-  const DriveCampaign& campaign_;
+  const DriveCampaign* campaign_;
   std::vector<EffectVariant> effects_;
   std::vector<Parameter> parameters_;
   struct NuisancePlace {

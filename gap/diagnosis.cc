@@ -1,0 +1,360 @@
+#include "gap/diagnosis.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "gap/localise.h"
+#include "gap/next_drives.h"
+#include "gap/prepared_campaign.h"
+#include "gap/shrink.h"
+#include "sim/effect_catalogue.h"
+
+namespace slipway::gap {
+namespace {
+
+constexpr std::size_t kLeastDrives = 3, kLeastWindows = 6;
+constexpr double kCertain = 0.5;         // of a set's probability: below it the answer is a set of sets
+constexpr double kWorthNaming = 0.05;    // of an effect's probability
+constexpr double kParametersGain = 3.0;  // of the logarithm of the evidence, for calling parameters mis-set
+constexpr double kSurelySeen = 3.0;      // standard errors
+constexpr double kSmall = 0.5;           // of an effect's usual size
+constexpr double kAlike_deg = 30.0;
+constexpr double kNinety = 1.6448536269514722;
+constexpr std::size_t kMostRegimes = 5, kMostNext = 3;
+
+constexpr std::array<std::string_view, 7> kVerdicts{"no_gap",     "not_detected", "parameters",  "effects",
+                                                    "effect_set", "unknown",      "insufficient"};
+
+Interval estimate(double value, double error) {
+  return {value, value - kNinety * error, value + kNinety * error};
+}
+
+double standard_error(const FittedExplanation& fit, std::size_t p) {
+  const auto i = static_cast<Eigen::Index>(p);
+  return fit.hypothesis.parameters()[p].std * std::sqrt(fit.covariance(i, i));
+}
+
+// How much more probable the drives are when soils and motors may differ from the nominal ones, closures
+// being free in either case.
+double gain_of_parameters(const FittedExplanation& null) {
+  std::vector<Eigen::Index> closures;
+  for (std::size_t p = 0; p < null.hypothesis.nuisance_count(); ++p)
+    for (const Nuisance& row : nuisance_catalogue())
+      if (row.kind == NuisanceKind::kClosure && null.hypothesis.parameters()[p].name == row.name)
+        closures.push_back(static_cast<Eigen::Index>(p));
+  return log_marginal(null.white_linear, null.white_jacobian) -
+         log_marginal(null.white_linear, null.white_jacobian(Eigen::all, closures));
+}
+
+std::vector<std::string> names_in(const Candidate& c) {
+  std::vector<std::string> names = c.effects;
+  if (c.with_unknown) names.emplace_back("unknown");
+  return names;
+}
+
+class Diagnoser {
+ public:
+  Diagnoser(const DriveCampaign& campaign, const DiagnosisOptions& options, Progress& progress)
+      : campaign_(campaign), options_(options), progress_(progress) {}
+
+  Result<Diagnosis> run() {
+    d_.campaign = campaign_.name;
+    d_.campaign_fingerprint = campaign_.fingerprint;
+    d_.seed = options_.seed;
+    d_.drives = campaign_.drives.size();
+    d_.notes = campaign_.notes;
+    for (const sim::Effect& effect : sim::effect_catalogue())
+      if (!is_withheld(effect.name)) d_.library.emplace_back(effect.name);
+    auto prepared = prepare(campaign_, options_.windows, options_.search.threads, progress_);
+    if (!prepared) return fail(prepared.error());
+    prepared_ = std::move(*prepared);
+    d_.windows = prepared_.used_windows();
+    d_.observations = prepared_.noise->used_count();
+    d_.noise = prepared_.noise->scales();
+    if (d_.windows < prepared_.windows.size())
+      d_.notes.push_back(fmt::format("{} of {} windows lie where the terrain has no ground and are left out",
+                                     prepared_.windows.size() - d_.windows, prepared_.windows.size()));
+    if (std::none_of(campaign_.drives.begin(), campaign_.drives.end(),
+                     [](const auto& drive) { return drive.repeat_of.has_value(); }))
+      d_.notes.push_back(
+          "no drive is said to be a repeat: the drives' own scatter is estimated from drives of different "
+          "kinds");
+    d_.channels = channel_gaps(prepared_, campaign_, prepared_.nominal_residuals, options_);
+    if (d_.drives < kLeastDrives || d_.windows < kLeastWindows) {
+      d_.verdict = Verdict::kInsufficient;
+      d_.reason = fmt::format("{} drives with {} windows of use are too few to tell causes apart", d_.drives,
+                              d_.windows);
+      d_.overturned_by = fmt::format("{} drives and {} windows at least", kLeastDrives, kLeastWindows);
+      return std::move(d_);
+    }
+    SearchOptions search_options = options_.search;
+    auto search = search_explanations(campaign_, *prepared_.model, *prepared_.noise, *prepared_.null,
+                                      prepared_.wildcard, search_options, progress_);
+    if (!search) return fail(search.error());
+    search_ = std::move(*search);
+    judge();
+    describe_parameters();
+    compare_look_alikes();
+    localise();
+    auto shrunk = shrink();
+    if (!shrunk) return fail(shrunk.error());
+    propose_drives();
+    progress_.report("done", 1.0);
+    return std::move(d_);
+  }
+
+ private:
+  bool is_withheld(std::string_view effect) const {
+    const auto& withheld = options_.search.withheld;
+    return std::find(withheld.begin(), withheld.end(), effect) != withheld.end();
+  }
+
+  const Candidate& best() const { return search_.candidates.front(); }
+  const FittedExplanation& best_fit() const { return search_.fits[best().fit]; }
+  bool explains() const { return d_.verdict == Verdict::kEffects || d_.verdict == Verdict::kEffectSet; }
+
+  void judge() {
+    std::map<std::set<std::string>, double> sets;
+    std::map<std::string, double> single;
+    double unknown = 0.0;
+    for (const Candidate& c : search_.candidates) {
+      const std::vector<std::string> names = names_in(c);
+      sets[{names.begin(), names.end()}] += c.probability;
+      for (const std::string& name : c.effects) single[name] += c.probability;
+      if (c.with_unknown) unknown += c.probability;
+      d_.candidates.push_back({names, c.probability, std::nullopt,
+                               static_cast<int>(search_.fits[c.fit].x.size() - search_.fits[0].x.size())});
+    }
+    const std::vector<std::string> named = names_in(best());
+    const double probability = sets[{named.begin(), named.end()}];
+    if (unknown > 0.5 || best().with_unknown) {
+      d_.verdict = Verdict::kUnknown;
+      d_.reason =
+          fmt::format("a gap remains that no effect of the library explains (probability {:.2f})", unknown);
+      d_.overturned_by =
+          "an effect of the library with another equation than the library's would look the same";
+    } else if (best().effects.empty()) {
+      judge_without_effects(probability);
+    } else {
+      d_.verdict = probability >= kCertain ? Verdict::kEffects : Verdict::kEffectSet;
+      d_.reason =
+          fmt::format("{} explain{} what re-tuned parameters leave over (probability {:.2f})",
+                      fmt::join(best().effects, " and "), best().effects.size() == 1 ? "s" : "", probability);
+      const auto rival = std::find_if(search_.candidates.begin(), search_.candidates.end(),
+                                      [&](const Candidate& c) { return names_in(c) != named; });
+      if (rival != search_.candidates.end()) {
+        const std::vector<std::string> rivals = names_in(*rival);
+        d_.overturned_by =
+            fmt::format("next best: {} (probability {:.2g})",
+                        rivals.empty() ? "nothing missing" : fmt::format("{}", fmt::join(rivals, " and ")),
+                        rival->probability);
+      }
+    }
+    if (d_.verdict != Verdict::kUnknown && !explains()) return;
+    for (std::size_t e = 0; e < best().effects.size(); ++e) {
+      FoundEffect found{
+          best().effects[e], best_fit().hypothesis.effects()[e].label, single[best().effects[e]], {}};
+      const auto parameters = best_fit().hypothesis.parameters();
+      for (std::size_t p = best_fit().hypothesis.nuisance_count(); p < parameters.size(); ++p)
+        if (parameters[p].effect == found.name)
+          found.parameters.push_back({parameters[p].name.substr(found.name.size() + 1),
+                                      estimate(best_fit().x[p], standard_error(best_fit(), p))});
+      for (const auto& [field, value] : best_fit().hypothesis.effects()[e].fixed)
+        found.parameters.push_back({field, {value, value, value}});
+      d_.effects.push_back(std::move(found));
+    }
+  }
+
+  void judge_without_effects(double probability) {
+    for (const ScreenedVariant& s : search_.screened) {
+      if (s.visibility <= 0.0) continue;
+      if (std::any_of(d_.least_detectable.begin(), d_.least_detectable.end(),
+                      [&](const LeastDetectable& l) { return l.effect == s.variant.effect; }))
+        continue;
+      const EffectVariant::Free& free = s.variant.free.front();
+      d_.least_detectable.push_back({s.variant.effect, free.field, kSurelySeen * free.std / s.visibility});
+    }
+    const double gain = gain_of_parameters(search_.fits[0]);
+    if (gain > kParametersGain) {
+      d_.verdict = Verdict::kParameters;
+      d_.reason = fmt::format(
+          "re-tuned soil and motor parameters explain the drives (log evidence +{:.0f}); no effect is "
+          "missing (probability {:.2f})",
+          gain, probability);
+      d_.overturned_by = "an effect that acts like these parameters in every drive that was made";
+      return;
+    }
+    // Of effects at their usual size, how many could have hidden?
+    int hidden = 0, all = 0;
+    for (const ScreenedVariant& s : search_.screened) {
+      ++all;
+      if (s.visibility * kSmall < kSurelySeen) ++hidden;
+    }
+    const bool seen = 2 * hidden < all;
+    d_.verdict = seen ? Verdict::kNoGap : Verdict::kNotDetected;
+    d_.reason =
+        seen ? fmt::format("prediction and drives agree within the drives' own scatter (probability {:.2f})",
+                           probability)
+             : "no gap was found, but these drives could not have shown effects of half their usual size";
+    d_.overturned_by = "drives that show an effect below the least size that these could have shown";
+  }
+
+  void describe_parameters() {
+    const FittedExplanation& fit = explains() ? best_fit() : search_.fits[0];
+    for (std::size_t p = 0; p < fit.hypothesis.nuisance_count(); ++p) {
+      const Parameter& parameter = fit.hypothesis.parameters()[p];
+      const double error = standard_error(fit, p);
+      d_.retuned.push_back(
+          {parameter.name, estimate(fit.x[p], error), parameter.std, error < 0.7 * parameter.std});
+    }
+  }
+
+  void compare_look_alikes() {
+    std::vector<const ScreenedVariant*> first;
+    for (const ScreenedVariant& s : search_.screened)
+      if (s.signature.size() > 0 && s.signature.norm() > 1.0 &&
+          std::none_of(first.begin(), first.end(),
+                       [&](const auto* f) { return f->variant.effect == s.variant.effect; }))
+        first.push_back(&s);
+    for (std::size_t a = 0; a < first.size(); ++a)
+      for (std::size_t b = a + 1; b < first.size(); ++b) {
+        const double cosine = std::abs(first[a]->signature.dot(first[b]->signature)) /
+                              (first[a]->signature.norm() * first[b]->signature.norm());
+        const double angle = std::acos(std::min(1.0, cosine)) * 180.0 / std::numbers::pi;
+        if (angle < kAlike_deg)
+          d_.confusable.push_back({first[a]->variant.effect, first[b]->variant.effect, angle});
+      }
+    std::stable_sort(
+        d_.confusable.begin(), d_.confusable.end(),
+        [](const ConfusablePair& a, const ConfusablePair& b) { return a.angle_deg < b.angle_deg; });
+  }
+
+  void localise() {
+    progress_.report("locating the gap", 0.75);
+    d_.regimes = regimes_of(prepared_, campaign_, prepared_.nominal_residuals, options_, kMostRegimes);
+    d_.regimes_retuned = regimes_of(prepared_, campaign_, search_.fits[0].residuals, options_, kMostRegimes);
+    if (d_.verdict == Verdict::kUnknown) {
+      describe_unknown();
+      d_.places = gap_places(prepared_, campaign_, search_.fits[0].residuals, options_);
+    }
+    if (!explains()) return;
+    // What the effects do, all else as fitted: only this picture locates the cause.
+    std::vector<double> without = best_fit().x;
+    const auto parameters = best_fit().hypothesis.parameters();
+    for (std::size_t p = best_fit().hypothesis.nuisance_count(); p < without.size(); ++p)
+      without[p] = parameters[p].neutral;
+    const WindowModel& model = *prepared_.model;
+    const std::vector<double> with =
+        best_fit().hypothesis.predict(model, best_fit().x, options_.search.threads);
+    const std::vector<double> bare = best_fit().hypothesis.predict(model, without, options_.search.threads);
+    Eigen::VectorXd signature(static_cast<Eigen::Index>(with.size()));
+    for (std::size_t i = 0; i < with.size(); ++i) {
+      const double change = with[i] - bare[i];
+      signature[static_cast<Eigen::Index>(i)] = std::isfinite(change) ? change : 0.0;
+    }
+    d_.regimes_of_effect = regimes_of(prepared_, campaign_, signature, options_, kMostRegimes);
+    for (std::size_t e = 0; e < best().effects.size(); ++e) {
+      if (best().effects[e] != "soft_patch") continue;
+      const EffectVariant& patch = best_fit().hypothesis.effects()[e];
+      // It lies on the terrain of the windows that meet it.
+      std::string terrain = campaign_.terrains.front().name;
+      for (const DriveWindow& w : prepared_.windows)
+        for (const Pose2& pose : w.stations)
+          if (std::hypot(pose.x_m - patch.fixed[0].second, pose.y_m - patch.fixed[1].second) <
+              patch.fixed[2].second)
+            terrain = campaign_.terrains[campaign_.drives[w.drive].terrain].name;
+      d_.places.push_back({terrain, patch.fixed[0].second, patch.fixed[1].second, patch.fixed[2].second,
+                           Channel::kSlip, 1.0});
+    }
+  }
+
+  void describe_unknown() {
+    const FittedExplanation& fit = best_fit();
+    const Eigen::VectorXd coefficients = wildcard_coefficients(fit, *prepared_.noise, prepared_.wildcard);
+    const Eigen::MatrixXd white = prepared_.noise->whiten(prepared_.wildcard.values);
+    std::vector<std::pair<double, Eigen::Index>> shares;
+    double all = 0.0;
+    for (Eigen::Index c = 0; c < coefficients.size(); ++c) {
+      const double square = (white.col(c) * coefficients[c]).squaredNorm();
+      shares.emplace_back(square, c);
+      all += square;
+    }
+    std::stable_sort(shares.begin(), shares.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    for (std::size_t k = 0; k < 5 && k < shares.size() && all > 0.0; ++k) {
+      const auto& column = prepared_.wildcard.columns[static_cast<std::size_t>(shares[k].second)];
+      ResidualShape shape{column.entry, column.variable, shares[k].first / all, {}};
+      // A coefficient is linear in its variable: two ends and the middle say its shape.
+      const double c = coefficients[shares[k].second];
+      for (const double at : {-1.0, 0.0, 1.0})
+        shape.shape.push_back({at, {column.variable == "constant" ? c : c * at, 0.0, 0.0}});
+      d_.residual.push_back(std::move(shape));
+    }
+  }
+
+  Result<void> shrink() {
+    const FittedExplanation& with =
+        explains() || d_.verdict == Verdict::kUnknown ? best_fit() : search_.fits[0];
+    auto shrunk = shrink_on_held_out(prepared_, campaign_, with, options_, progress_);
+    if (!shrunk) return fail(shrunk.error());
+    d_.gap = std::move(shrunk->channels);
+    if (explains()) d_.closed_fraction = shrunk->closed_fraction;
+    d_.candidates.front().held_out_score = shrunk->log_density_gain;
+    const bool offered = explains() ? shrunk->log_density_gain > 0.0 : d_.verdict == Verdict::kParameters;
+    if (offered) {
+      d_.model = with.hypothesis.state(with.x);
+      d_.model_effects = with.hypothesis.settings(with.x);
+    } else if (explains()) {
+      d_.notes.push_back(
+          "the correction did not improve drives held out of the fit: no corrected model is offered");
+    }
+    return {};
+  }
+
+  void propose_drives() {
+    std::vector<const FittedExplanation*> fits;
+    std::vector<double> probabilities;
+    for (const Candidate& c : search_.candidates) {
+      if (c.with_unknown || fits.size() >= 4) continue;
+      fits.push_back(&search_.fits[c.fit]);
+      probabilities.push_back(std::max(c.probability, kWorthNaming));
+    }
+    d_.next_drives = next_drives(campaign_, prepared_.noise->scales(), fits, probabilities, kMostNext);
+  }
+
+  const DriveCampaign& campaign_;
+  const DiagnosisOptions& options_;
+  Progress& progress_;
+  PreparedCampaign prepared_;
+  ExplanationSearch search_;
+  Diagnosis d_;
+};
+
+}  // namespace
+
+std::string_view name_of(Verdict verdict) {
+  return kVerdicts[static_cast<std::size_t>(verdict)];
+}
+
+Result<Diagnosis> diagnose(const DriveCampaign& campaign, const DiagnosisOptions& options,
+                           Progress& progress) {
+  std::vector<Fault> faults;
+  for (const std::string& name : options.search.withheld)
+    if (sim::find_effect(name) == nullptr) {
+      std::vector<std::string_view> known;
+      for (const sim::Effect& effect : sim::effect_catalogue()) known.push_back(effect.name);
+      faults.push_back(
+          {"/without", fmt::format("unknown effect \"{}\", known are: {}", name, fmt::join(known, ", "))});
+    }
+  if (!faults.empty())
+    return fail(ErrorCode::kInvalidRequest, "an effect to withhold is not in the catalogue", faults);
+  return Diagnoser(campaign, options, progress).run();
+}
+
+}  // namespace slipway::gap

@@ -1,0 +1,149 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/progress.h"
+#include "core/result.h"
+#include "gap/drive_campaign.h"
+#include "gap/drive_window.h"
+#include "gap/explanation_search.h"
+
+namespace slipway::gap {
+
+enum class Verdict { kNoGap, kNotDetected, kParameters, kEffects, kEffectSet, kUnknown, kInsufficient };
+std::string_view name_of(Verdict verdict);  // "no_gap", ...
+
+// A number with a 90 % interval.
+struct Interval {
+  double value = 0.0, low = 0.0, high = 0.0;
+};
+
+struct FoundParameter {
+  std::string name;  // of the effect's field, in its unit
+  Interval value;
+};
+
+struct FoundEffect {
+  std::string name;
+  std::string variant;  // which of its ways, for people
+  double probability = 0.0;
+  std::vector<FoundParameter> parameters;
+};
+
+struct ComparedSet {
+  std::vector<std::string> effects;  // "unknown" among them where something else is
+  double probability = 0.0;
+  std::optional<double> held_out_score;  // mean log density a drive, over the null's; of what was refitted
+  int complexity = 0;                    // estimated parameters besides the nuisances
+};
+
+struct ConfusablePair {
+  std::string a, b;
+  double angle_deg = 0.0;  // between their signatures, nuisances projected out
+};
+
+// A channel (of a wheel) before any re-tuning.
+struct ChannelGap {
+  Channel channel = Channel::kSlip;
+  std::optional<std::string> wheel;  // nothing: of the rover
+  double gap = 0.0, noise = 0.0;     // rms, of residuals and of what scatter makes them
+  double bias = 0.0;                 // mean residual, measured less predicted
+  double significance = 1.0;         // p, corrected for the number of channels looked at
+};
+
+struct Condition {
+  std::string variable;  // "slope_deg", ...
+  double from = 0.0, to = 0.0;
+};
+
+// A slice of the drives that holds more of the gap than of the data.
+struct Regime {
+  std::vector<Condition> conditions;
+  Channel channel = Channel::kSlip;
+  double share_of_gap = 0.0, share_of_data = 0.0;
+  double significance = 1.0;
+};
+
+struct GapPlace {
+  std::string terrain;
+  double x_m = 0.0, y_m = 0.0, radius_m = 0.0;
+  Channel channel = Channel::kSlip;
+  double share_of_gap = 0.0;
+};
+
+// Root mean square of prediction less measurement in drives that the fit has not seen.
+struct ChannelShrink {
+  Channel channel = Channel::kSlip;
+  Interval nominal, retuned, with_effects, noise_floor;
+};
+
+// What is left over that nobody has named: where it enters, what it depends on, its shape.
+struct ResidualShape {
+  std::string entry, variable;
+  double share = 0.0;                              // of what the wildcard explains
+  std::vector<std::pair<double, Interval>> shape;  // over the variable: at, effect on the entry's channel
+};
+
+struct NextDrive {
+  double tilt_deg = 0.0, heading_deg = 0.0, speed_m_s = 0.0, curvature_1_m = 0.0;
+  double motor_temp_c = 20.0;
+  double information_bits = 0.0;
+};
+
+struct LeastDetectable {
+  std::string effect, parameter;
+  double value = 0.0;
+};
+
+struct RetunedParameter {
+  std::string name;
+  Interval value;  // the logarithm or number that the nuisance catalogue says
+  double prior_std = 0.0;
+  bool determined = true;  // the drives say more than the prior
+};
+
+struct DiagnosisOptions {
+  SearchOptions search;
+  WindowOptions windows;
+  std::uint64_t seed = 1;
+  int folds = 5;
+  int resamples = 400;  // of bootstraps and permutations
+};
+
+struct Diagnosis {
+  std::string campaign, campaign_fingerprint;
+  std::uint64_t seed = 1;
+  std::vector<std::string> library;  // effects that were looked for
+  Verdict verdict = Verdict::kInsufficient;
+  std::string reason;         // one sentence
+  std::string overturned_by;  // what would
+  std::vector<FoundEffect> effects;
+  std::vector<ComparedSet> candidates;
+  std::vector<ConfusablePair> confusable;
+  std::vector<ChannelGap> channels;
+  std::vector<Regime> regimes, regimes_retuned, regimes_of_effect;
+  std::vector<GapPlace> places;
+  std::vector<ChannelShrink> gap;
+  std::optional<Interval> closed_fraction;
+  std::vector<ResidualShape> residual;
+  std::vector<NextDrive> next_drives;
+  std::vector<LeastDetectable> least_detectable;
+  std::vector<RetunedParameter> retuned;
+  std::vector<std::string> notes;
+  // The corrected model: the re-tuned nominal one with the effects found.
+  std::optional<ModelState> model;
+  std::vector<sim::EffectSetting> model_effects;
+  std::size_t drives = 0, windows = 0, observations = 0;
+  NoiseScales noise;
+};
+
+// The diagnosis of the gap between prediction and recorded drives. Deterministic. Errors: cancelled;
+// invalid_request for a withheld effect that is not in the catalogue.
+Result<Diagnosis> diagnose(const DriveCampaign& campaign, const DiagnosisOptions& options,
+                           Progress& progress);
+
+}  // namespace slipway::gap

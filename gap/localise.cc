@@ -1,0 +1,363 @@
+#include "gap/localise.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "core/angle.h"
+#include "core/random.h"
+
+namespace slipway::gap {
+namespace {
+
+constexpr std::array<const char*, kWindowVariables> kNames{"slope_deg", "cross_slope_deg", "slip",
+                                                           "speed_m_s", "curvature_1_m",   "temperature_c",
+                                                           "turning",   "time_s"};
+
+constexpr double kSignificant = 0.1;
+constexpr int kFunctions = 5;
+
+std::array<double, kFunctions> functions_of(const WindowVariables& v) {
+  return {1.0, v.slope_deg / 10.0, std::clamp(v.slip, -1.0, 1.0), v.speed_m_s < 0.0 ? -1.0 : 1.0,
+          v.temperature_c / 30.0};
+}
+
+// Of each window and channel: the mean square of residuals in deviations.
+std::vector<double> squares_of(const PreparedCampaign& prepared, const Eigen::VectorXd& residuals,
+                               Channel channel) {
+  std::vector<double> squares(prepared.windows.size(), 0.0);
+  for (std::size_t w = 0; w < squares.size(); ++w) {
+    int count = 0;
+    for (std::size_t i = 0; i < prepared.windows[w].observations.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(prepared.model->offset(w) + i);
+      const double deviation = prepared.noise->deviation()[row];
+      if (prepared.windows[w].observations[i].channel != channel || deviation <= 0.0) continue;
+      if (!std::isfinite(residuals[row])) continue;
+      squares[w] += std::pow(residuals[row] / deviation, 2);
+      ++count;
+    }
+    if (count > 0) squares[w] /= count;
+  }
+  return squares;
+}
+
+// The windows in another order: drives permuted, the whole turned round, so that neighbours stay neighbours.
+std::vector<std::size_t> reordered(const PreparedCampaign& prepared, std::uint64_t key) {
+  std::vector<std::vector<std::size_t>> drives;
+  for (std::size_t w = 0; w < prepared.windows.size(); ++w) {
+    if (w == 0 || prepared.windows[w].drive != prepared.windows[w - 1].drive) drives.emplace_back();
+    drives.back().push_back(w);
+  }
+  for (std::size_t d = drives.size(); d > 1; --d)
+    std::swap(drives[d - 1],
+              drives[static_cast<std::size_t>(random_uniform(key, d) * static_cast<double>(d))]);
+  std::vector<std::size_t> order;
+  for (const auto& drive : drives) order.insert(order.end(), drive.begin(), drive.end());
+  std::rotate(
+      order.begin(),
+      order.begin() + static_cast<std::ptrdiff_t>(random_uniform(key, 0) * static_cast<double>(order.size())),
+      order.end());
+  return order;
+}
+
+struct Slice {
+  std::vector<Condition> conditions;
+  std::vector<std::size_t> windows;
+};
+
+// Each variable cut at its thirds, or at its values where there are few; pairs of such pieces.
+std::vector<Slice> slices_of(const std::vector<WindowVariables>& variables) {
+  std::vector<std::vector<Slice>> by_variable;
+  const std::size_t least = std::max<std::size_t>(3, variables.size() / 20);
+  for (int v = 0; v < kWindowVariables; ++v) {
+    std::vector<double> sorted;
+    for (const WindowVariables& of : variables) sorted.push_back(std::round(1e4 * variable_of(of, v)) / 1e4);
+    std::sort(sorted.begin(), sorted.end());
+    const std::set<double> values(sorted.begin(), sorted.end());
+    if (values.size() < 2) continue;
+    std::vector<Condition> pieces;
+    if (values.size() <= 6) {
+      for (const double value : values) pieces.push_back({kNames[static_cast<std::size_t>(v)], value, value});
+    } else {
+      constexpr int kPieces = 5;
+      for (int k = 0; k < kPieces; ++k) {
+        const double from = sorted[k * (sorted.size() - 1) / kPieces];
+        const double to = sorted[(k + 1) * (sorted.size() - 1) / kPieces];
+        if (pieces.empty() || pieces.back().to < to)
+          pieces.push_back({kNames[static_cast<std::size_t>(v)], from, to});
+      }
+    }
+    by_variable.emplace_back();
+    for (const Condition& piece : pieces) {
+      Slice slice{{piece}, {}};
+      for (std::size_t w = 0; w < variables.size(); ++w) {
+        const double value = std::round(1e4 * variable_of(variables[w], v)) / 1e4;
+        if (value >= piece.from && value <= piece.to) slice.windows.push_back(w);
+      }
+      if (slice.windows.size() >= least &&
+          2 * slice.windows.size() <= 1.5 * static_cast<double>(variables.size()))
+        by_variable.back().push_back(std::move(slice));
+    }
+  }
+  std::vector<Slice> all;
+  for (std::size_t a = 0; a < by_variable.size(); ++a) {
+    for (const Slice& one : by_variable[a]) {
+      all.push_back(one);
+      for (std::size_t b = a + 1; b < by_variable.size(); ++b)
+        for (const Slice& other : by_variable[b]) {
+          Slice both{{one.conditions[0], other.conditions[0]}, {}};
+          std::set_intersection(one.windows.begin(), one.windows.end(), other.windows.begin(),
+                                other.windows.end(), std::back_inserter(both.windows));
+          if (both.windows.size() >= least) all.push_back(std::move(both));
+        }
+    }
+  }
+  return all;
+}
+
+// By how many of its own deviations a slice's mean is above the mean of all.
+double excess(const std::vector<double>& values, const Slice& slice, const std::vector<std::size_t>& order,
+              double mean, double deviation) {
+  double sum = 0.0;
+  for (const std::size_t w : slice.windows) sum += values[order[w]];
+  const auto n = static_cast<double>(slice.windows.size());
+  return (sum / n - mean) * std::sqrt(n) / deviation;
+}
+
+}  // namespace
+
+const char* variable_name(int variable) {
+  return kNames[static_cast<std::size_t>(variable)];
+}
+
+double variable_of(const WindowVariables& of, int variable) {
+  const std::array<double, kWindowVariables> all{of.slope_deg, of.cross_slope_deg, of.slip,
+                                                 of.speed_m_s, of.curvature_1_m,   of.temperature_c,
+                                                 of.turning,   of.time_s};
+  return all[static_cast<std::size_t>(variable)];
+}
+
+std::vector<WindowVariables> window_variables(const PreparedCampaign& prepared,
+                                              const DriveCampaign& campaign) {
+  std::vector<WindowVariables> all;
+  for (std::size_t w = 0; w < prepared.windows.size(); ++w) {
+    const DriveWindow& window = prepared.windows[w];
+    const WindowModel::Conditions& at = prepared.model->conditions(w);
+    WindowVariables v;
+    v.slope_deg = deg_from_rad(at.pitch_rad);
+    v.cross_slope_deg = deg_from_rad(at.roll_rad);
+    for (const Observation& o : window.observations)
+      if (o.channel == Channel::kSlip) v.slip = o.value;
+    v.turning = window.command.turn_in_place ? 1.0 : 0.0;
+    v.speed_m_s = window.command.turn_in_place ? 0.0 : window.command.speed_m_s;
+    v.curvature_1_m = window.command.turn_in_place ? 0.0 : window.command.curvature_1_m;
+    v.temperature_c = window.command.motor_temp_c.value_or(campaign.rover->drive.reference_temp_c);
+    v.time_s = window.mid_s() - campaign.drives[window.drive].samples.front().time_s;
+    all.push_back(v);
+  }
+  return all;
+}
+
+std::vector<ChannelGap> channel_gaps(const PreparedCampaign& prepared, const DriveCampaign& campaign,
+                                     const Eigen::VectorXd& residuals, const DiagnosisOptions& options) {
+  struct Group {
+    Channel channel;
+    int wheel;
+    double square = 0.0, noise = 0.0, sum = 0.0;
+    int count = 0;
+    std::map<std::size_t, std::array<double, kFunctions>> drives;  // sums of residual times function
+  };
+  const std::vector<WindowVariables> variables = window_variables(prepared, campaign);
+  std::map<std::pair<int, int>, Group> groups;
+  for (std::size_t w = 0; w < prepared.windows.size(); ++w) {
+    for (std::size_t i = 0; i < prepared.windows[w].observations.size(); ++i) {
+      const Observation& o = prepared.windows[w].observations[i];
+      const auto row = static_cast<Eigen::Index>(prepared.model->offset(w) + i);
+      const double deviation = prepared.noise->deviation()[row];
+      if (deviation <= 0.0 || !std::isfinite(residuals[row])) continue;
+      if (prepared.windows[w].censored && o.channel == Channel::kSlip) continue;
+      Group& g =
+          groups
+              .try_emplace({static_cast<int>(o.channel), o.wheel}, Group{o.channel, o.wheel, 0, 0, 0, 0, {}})
+              .first->second;
+      g.square += residuals[row] * residuals[row];
+      g.noise += deviation * deviation;
+      g.sum += residuals[row];
+      ++g.count;
+      const auto f = functions_of(variables[w]);
+      auto& sums = g.drives[prepared.windows[w].drive];
+      for (int k = 0; k < kFunctions; ++k) sums[k] += residuals[row] / deviation * f[k];
+    }
+  }
+  // |t| of each group's sums over drives, with the drives' signs as given.
+  const auto largest_t = [](const Group& g, const auto& sign) {
+    double most = 0.0;
+    for (int k = 0; k < kFunctions; ++k) {
+      double sum = 0.0, square = 0.0;
+      for (const auto& [drive, sums] : g.drives) {
+        sum += sign(drive) * sums[k];
+        square += sums[k] * sums[k];
+      }
+      if (square > 0.0) most = std::max(most, std::abs(sum) / std::sqrt(square));
+    }
+    return most;
+  };
+  std::vector<double> flipped(static_cast<std::size_t>(options.resamples), 0.0);
+  for (std::size_t b = 0; b < flipped.size(); ++b) {
+    const std::uint64_t key = random_key(options.seed, 1000 + b);
+    const auto sign = [key](std::size_t drive) { return random_uniform(key, drive) < 0.5 ? -1.0 : 1.0; };
+    for (const auto& [name, g] : groups) flipped[b] = std::max(flipped[b], largest_t(g, sign));
+  }
+  std::vector<ChannelGap> gaps;
+  for (const auto& [name, g] : groups) {
+    ChannelGap gap;
+    gap.channel = g.channel;
+    if (g.wheel >= 0) gap.wheel = campaign.rover->wheels[static_cast<std::size_t>(g.wheel)].name;
+    gap.gap = std::sqrt(g.square / g.count);
+    gap.noise = std::sqrt(g.noise / g.count);
+    gap.bias = g.sum / g.count;
+    const double t = largest_t(g, [](std::size_t) { return 1.0; });
+    const auto above = std::count_if(flipped.begin(), flipped.end(), [t](double f) { return f >= t; });
+    gap.significance = (1.0 + static_cast<double>(above)) / (1.0 + static_cast<double>(flipped.size()));
+    gaps.push_back(gap);
+  }
+  return gaps;
+}
+
+std::vector<Regime> regimes_of(const PreparedCampaign& prepared, const DriveCampaign& campaign,
+                               const Eigen::VectorXd& residuals, const DiagnosisOptions& options,
+                               std::size_t most) {
+  const std::vector<Slice> slices = slices_of(window_variables(prepared, campaign));
+  struct Scored {
+    Regime regime;
+    double excess = 0.0;
+    std::vector<std::size_t> windows;
+  };
+  std::vector<Scored> scored;
+  std::vector<std::size_t> as_is(prepared.windows.size());
+  std::iota(as_is.begin(), as_is.end(), std::size_t{0});
+  for (int c = 0; c < kChannels; ++c) {
+    const auto channel = static_cast<Channel>(c);
+    const std::vector<double> squares = squares_of(prepared, residuals, channel);
+    const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
+    const double mean = sum / static_cast<double>(squares.size());
+    double variance = 0.0;
+    for (const double s : squares) variance += (s - mean) * (s - mean) / static_cast<double>(squares.size());
+    if (variance <= 0.0 || mean < 1.0) continue;
+    const double deviation = std::sqrt(variance);
+    std::vector<double> by_chance(static_cast<std::size_t>(options.resamples) / 4 + 1, 0.0);
+    for (std::size_t b = 0; b < by_chance.size(); ++b) {
+      const std::vector<std::size_t> order = reordered(prepared, random_key(options.seed, 5000 + b));
+      for (const Slice& slice : slices)
+        by_chance[b] = std::max(by_chance[b], excess(squares, slice, order, mean, deviation));
+    }
+    for (const Slice& slice : slices) {
+      const double e = excess(squares, slice, as_is, mean, deviation);
+      const auto above = std::count_if(by_chance.begin(), by_chance.end(), [e](double x) { return x >= e; });
+      const double p = (1.0 + static_cast<double>(above)) / (1.0 + static_cast<double>(by_chance.size()));
+      if (p > kSignificant) continue;
+      double inside = 0.0;
+      for (const std::size_t w : slice.windows) inside += squares[w];
+      scored.push_back({{slice.conditions, channel, inside / sum,
+                         static_cast<double>(slice.windows.size()) / static_cast<double>(squares.size()), p},
+                        e,
+                        slice.windows});
+    }
+  }
+  std::stable_sort(scored.begin(), scored.end(),
+                   [](const Scored& a, const Scored& b) { return a.excess > b.excess; });
+  std::vector<Regime> regimes;
+  std::vector<const Scored*> kept;
+  for (const Scored& s : scored) {
+    if (regimes.size() >= most) break;
+    // Much the same windows in the same channel are said once.
+    const bool said = std::any_of(kept.begin(), kept.end(), [&](const Scored* k) {
+      if (k->regime.channel != s.regime.channel) return false;
+      std::vector<std::size_t> shared;
+      std::set_intersection(k->windows.begin(), k->windows.end(), s.windows.begin(), s.windows.end(),
+                            std::back_inserter(shared));
+      return 2 * shared.size() > std::min(k->windows.size(), s.windows.size());
+    });
+    if (said) continue;
+    kept.push_back(&s);
+    regimes.push_back(s.regime);
+  }
+  return regimes;
+}
+
+std::vector<GapPlace> gap_places(const PreparedCampaign& prepared, const DriveCampaign& campaign,
+                                 const Eigen::VectorXd& residuals, const DiagnosisOptions& options) {
+  constexpr std::array kRadii_m{1.5, 3.0};
+  struct Disc {
+    GapPlace place;
+    double excess = 0.0;
+    Slice slice;
+  };
+  std::vector<Disc> found;
+  std::vector<std::size_t> as_is(prepared.windows.size());
+  std::iota(as_is.begin(), as_is.end(), std::size_t{0});
+  for (const Channel channel : {Channel::kSlip, Channel::kSideSlip, Channel::kCurrent, Channel::kSinkage}) {
+    const std::vector<double> squares = squares_of(prepared, residuals, channel);
+    const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
+    const double mean = sum / static_cast<double>(squares.size());
+    double variance = 0.0;
+    for (const double s : squares) variance += (s - mean) * (s - mean) / static_cast<double>(squares.size());
+    if (variance <= 0.0 || mean < 1.0) continue;
+    std::vector<Disc> discs;
+    for (std::size_t w = 0; w < prepared.windows.size(); ++w) {
+      if (!prepared.model->used(w)) continue;
+      const std::size_t terrain = campaign.drives[prepared.windows[w].drive].terrain;
+      const Pose2& centre = prepared.windows[w].stations[prepared.windows[w].stations.size() / 2];
+      for (const double radius_m : kRadii_m) {
+        Disc disc{{campaign.terrains[terrain].name, centre.x_m, centre.y_m, radius_m, channel, 0.0}, 0.0, {}};
+        std::set<std::size_t> drives;
+        for (std::size_t v = 0; v < prepared.windows.size(); ++v) {
+          const Pose2& at = prepared.windows[v].stations[prepared.windows[v].stations.size() / 2];
+          if (campaign.drives[prepared.windows[v].drive].terrain != terrain ||
+              std::hypot(at.x_m - centre.x_m, at.y_m - centre.y_m) > radius_m)
+            continue;
+          disc.slice.windows.push_back(v);
+          drives.insert(prepared.windows[v].drive);
+          disc.place.share_of_gap += squares[v] / sum;
+        }
+        // A place is one that several drives met, and that is not where they all are.
+        if (disc.slice.windows.size() < 3 || drives.size() < 2 ||
+            3 * disc.slice.windows.size() > squares.size())
+          continue;
+        disc.excess = excess(squares, disc.slice, as_is, mean, std::sqrt(variance));
+        discs.push_back(std::move(disc));
+      }
+    }
+    std::vector<double> by_chance(static_cast<std::size_t>(options.resamples) / 4 + 1, 0.0);
+    for (std::size_t b = 0; b < by_chance.size(); ++b) {
+      const std::vector<std::size_t> order = reordered(prepared, random_key(options.seed, 9000 + b));
+      for (const Disc& disc : discs)
+        by_chance[b] = std::max(by_chance[b], excess(squares, disc.slice, order, mean, std::sqrt(variance)));
+    }
+    for (Disc& disc : discs) {
+      const auto above =
+          std::count_if(by_chance.begin(), by_chance.end(), [&](double x) { return x >= disc.excess; });
+      if ((1.0 + static_cast<double>(above)) / (1.0 + static_cast<double>(by_chance.size())) < 0.05)
+        found.push_back(std::move(disc));
+    }
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Disc& a, const Disc& b) { return a.excess > b.excess; });
+  std::vector<GapPlace> places;
+  for (const Disc& disc : found) {
+    if (places.size() >= 5) break;
+    if (std::any_of(places.begin(), places.end(), [&](const GapPlace& p) {
+          return p.terrain == disc.place.terrain &&
+                 std::hypot(p.x_m - disc.place.x_m, p.y_m - disc.place.y_m) <
+                     p.radius_m + disc.place.radius_m;
+        }))
+      continue;
+    places.push_back(disc.place);
+  }
+  return places;
+}
+
+}  // namespace slipway::gap

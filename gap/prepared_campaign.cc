@@ -1,0 +1,82 @@
+#include "gap/prepared_campaign.h"
+
+#include <string_view>
+
+namespace slipway::gap {
+namespace {
+
+// Derivatives of every observation by the logarithms of all soils' stiffness, tan(friction) and shear
+// modulus.
+Eigen::MatrixXd soil_response(const FittedExplanation& fit) {
+  constexpr std::array<std::string_view, 3> kNames{"stiffness", "friction", "shear_modulus"};
+  Eigen::MatrixXd response = Eigen::MatrixXd::Zero(fit.jacobian.rows(), kNames.size());
+  const auto parameters = fit.hypothesis.parameters();
+  for (std::size_t p = 0; p < parameters.size(); ++p)
+    for (std::size_t k = 0; k < kNames.size(); ++k)
+      if (parameters[p].effect.empty() && parameters[p].name.starts_with(kNames[k]))
+        response.col(static_cast<Eigen::Index>(k)) +=
+            fit.jacobian.col(static_cast<Eigen::Index>(p)) / parameters[p].std;
+  return response;
+}
+
+Eigen::VectorXd in_prior_units(const FittedExplanation& fit) {
+  const auto parameters = fit.hypothesis.parameters();
+  Eigen::VectorXd u(static_cast<Eigen::Index>(fit.x.size()));
+  for (std::size_t p = 0; p < fit.x.size(); ++p)
+    u[static_cast<Eigen::Index>(p)] = (fit.x[p] - parameters[p].neutral) / parameters[p].std;
+  return u;
+}
+
+// How often the scatter is estimated and the null fitted under it.
+constexpr int kRounds = 2;
+
+}  // namespace
+
+std::size_t PreparedCampaign::used_windows() const {
+  std::size_t count = 0;
+  for (std::size_t w = 0; w < windows.size(); ++w) count += model->used(w) ? 1 : 0;
+  return count;
+}
+
+Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const WindowOptions& options,
+                                 std::size_t threads, Progress& progress) {
+  PreparedCampaign made;
+  progress.report("cutting drives into windows", 0.0);
+  made.windows = cut_windows(campaign, options);
+  made.model = std::make_unique<WindowModel>(campaign, made.windows);
+  const WindowModel& model = *made.model;
+  std::vector<bool> used(model.observation_count(), false);
+  for (std::size_t w = 0; w < made.windows.size(); ++w)
+    for (std::size_t i = 0; model.used(w) && i < made.windows[w].observations.size(); ++i)
+      used[model.offset(w) + i] = true;
+  const Hypothesis hypothesis(campaign, {});
+  const std::vector<double> neutral = hypothesis.neutral();
+  std::vector<double> expected = hypothesis.predict(model, neutral, threads);
+  made.nominal_residuals = measured(model);
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    made.nominal_residuals[static_cast<Eigen::Index>(i)] -= expected[i];
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    if (!std::isfinite(expected[i])) expected[i] = 0.0;
+
+  progress.report("fitting soil and closures", 0.02);
+  FittedExplanation at{hypothesis, neutral, {}, {}, {}, {}, {}, {}, 0.0, false};
+  at.jacobian = hypothesis.scaled_jacobian(model, neutral, threads);
+  made.noise = std::make_unique<NoiseModel>(model, soil_response(at), expected, used);
+  ExplanationOptions fit_options;
+  fit_options.threads = threads;
+  made.null = fit_explanation(hypothesis, model, *made.noise, neutral, fit_options);
+  for (int round = 0; round < kRounds; ++round) {
+    if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
+    progress.report("estimating the drives' own scatter", 0.06 + 0.05 * round);
+    made.wildcard = make_wildcard(campaign, model, *made.null, threads);
+    const FittedExplanation& fit = *made.null;
+    Eigen::MatrixXd systematic(fit.jacobian.rows(), fit.jacobian.cols() + made.wildcard.values.cols());
+    systematic << fit.jacobian, made.wildcard.values;
+    made.noise->estimate(fit.residuals + fit.jacobian * in_prior_units(fit), systematic);
+    const std::vector<double> start = fit.x;
+    made.null = fit_explanation(hypothesis, model, *made.noise, start, fit_options);
+  }
+  return made;
+}
+
+}  // namespace slipway::gap

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/progress.h"
+#include "core/result.h"
+#include "gap/explanation.h"
+#include "gap/noise_model.h"
+#include "gap/wildcard.h"
+#include "gap/window_model.h"
+
+namespace slipway::gap {
+
+// A campaign cut into windows, the null fitted to it, and what its drives scatter by.
+struct PreparedCampaign {
+  std::vector<DriveWindow> windows;
+  std::unique_ptr<WindowModel> model;
+  std::unique_ptr<NoiseModel> noise;
+  std::optional<FittedExplanation> null;
+  Wildcard wildcard;
+  Eigen::VectorXd nominal_residuals;  // measured less predicted before any re-tuning; NaN without an answer
+
+  // Number of windows that a diagnosis can use.
+  std::size_t used_windows() const;
+};
+
+// The campaign must outlive what is made of it. Errors: cancelled.
+Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const WindowOptions& options,
+                                 std::size_t threads, Progress& progress);
+
+}  // namespace slipway::gap

@@ -1,0 +1,163 @@
+#include "gap/shrink.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "core/random.h"
+
+namespace slipway::gap {
+namespace {
+
+// Sums of squares of one drive, by channel.
+struct DriveErrors {
+  std::array<double, kChannels> nominal{}, retuned{}, with{}, floor{};
+  std::array<int, kChannels> count{};
+  double scaled_retuned = 0.0, scaled_with = 0.0;  // in deviations
+  int scaled_count = 0;
+  double log_gain = 0.0;
+};
+
+// A fold for each drive; repeats share theirs. Folds alternate along the list, so that each has every kind.
+std::vector<int> folds_of(const DriveCampaign& campaign, int folds) {
+  std::map<std::string, int> group;
+  std::vector<int> fold(campaign.drives.size());
+  int next = 0;
+  for (std::size_t d = 0; d < fold.size(); ++d) {
+    const std::string& leader = campaign.drives[d].repeat_of.value_or(campaign.drives[d].id);
+    const auto [place, is_new] = group.try_emplace(leader, next);
+    if (is_new) next = (next + 1) % folds;
+    fold[d] = place->second;
+  }
+  return fold;
+}
+
+double quantile(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  const double at = share * (static_cast<double>(values.size()) - 1.0);
+  const auto below = static_cast<std::size_t>(at);
+  const std::size_t above = std::min(values.size() - 1, below + 1);
+  return values[below] + (at - static_cast<double>(below)) * (values[above] - values[below]);
+}
+
+struct Totals {
+  std::array<double, kChannels> nominal{}, retuned{}, with{}, floor{}, count{};
+  double scaled_retuned = 0.0, scaled_with = 0.0, scaled_count = 0.0;
+
+  void add(const DriveErrors& e) {
+    for (int c = 0; c < kChannels; ++c) {
+      nominal[c] += e.nominal[c];
+      retuned[c] += e.retuned[c];
+      with[c] += e.with[c];
+      floor[c] += e.floor[c];
+      count[c] += e.count[c];
+    }
+    scaled_retuned += e.scaled_retuned;
+    scaled_with += e.scaled_with;
+    scaled_count += e.scaled_count;
+  }
+  // Of root mean squares in deviations, the floor being 1.
+  double closed() const {
+    const double before = std::sqrt(scaled_retuned / scaled_count),
+                 after = std::sqrt(scaled_with / scaled_count);
+    return before > 1.0 ? (before - after) / (before - 1.0) : 0.0;
+  }
+};
+
+}  // namespace
+
+Result<Shrink> shrink_on_held_out(const PreparedCampaign& prepared, const DriveCampaign& campaign,
+                                  const FittedExplanation& with, const DiagnosisOptions& options,
+                                  Progress& progress) {
+  const WindowModel& model = *prepared.model;
+  const NoiseModel& noise = *prepared.noise;
+  const std::vector<int> fold = folds_of(campaign, options.folds);
+  std::vector<DriveErrors> errors(campaign.drives.size());
+  ExplanationOptions fit_options;
+  fit_options.threads = options.search.threads;
+  fit_options.iterations = 4;
+  for (int f = 0; f < options.folds; ++f) {
+    if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
+    progress.report("predicting held-out drives", 0.8 + 0.15 * f / options.folds);
+    std::vector<bool> seen(model.observation_count(), false);
+    for (std::size_t w = 0; w < prepared.windows.size(); ++w)
+      for (std::size_t i = 0; i < prepared.windows[w].observations.size(); ++i)
+        seen[model.offset(w) + i] = fold[prepared.windows[w].drive] != f;
+    if (std::find(seen.begin(), seen.end(), false) == seen.end()) continue;
+    const FittedExplanation retuned =
+        fit_explanation(prepared.null->hypothesis, model, noise, prepared.null->x, fit_options, seen);
+    const FittedExplanation found = fit_explanation(with.hypothesis, model, noise, with.x, fit_options, seen);
+    const Eigen::VectorXd white_retuned = noise.whiten(retuned.residuals),
+                          white_found = noise.whiten(found.residuals);
+    for (std::size_t w = 0; w < prepared.windows.size(); ++w) {
+      const DriveWindow& window = prepared.windows[w];
+      if (fold[window.drive] != f || !model.used(w)) continue;
+      DriveErrors& e = errors[window.drive];
+      for (std::size_t i = 0; i < window.observations.size(); ++i) {
+        const auto row = static_cast<Eigen::Index>(model.offset(w) + i);
+        const double deviation = noise.deviation()[row];
+        if (deviation <= 0.0 || !std::isfinite(prepared.nominal_residuals[row])) continue;
+        if (window.censored && window.observations[i].channel == Channel::kSlip) continue;
+        const auto c = static_cast<std::size_t>(window.observations[i].channel);
+        e.nominal[c] += std::pow(prepared.nominal_residuals[row], 2);
+        e.retuned[c] += std::pow(retuned.residuals[row], 2);
+        e.with[c] += std::pow(found.residuals[row], 2);
+        e.floor[c] += deviation * deviation;
+        ++e.count[c];
+        e.scaled_retuned += std::pow(retuned.residuals[row] / deviation, 2);
+        e.scaled_with += std::pow(found.residuals[row] / deviation, 2);
+        ++e.scaled_count;
+        // As heavy-tailed as the fits' loss.
+        const auto loss = [&](double r) {
+          const double a = std::abs(r);
+          return a <= fit_options.huber ? 0.5 * a * a : fit_options.huber * (a - 0.5 * fit_options.huber);
+        };
+        e.log_gain += loss(white_retuned[row]) - loss(white_found[row]);
+      }
+    }
+  }
+  Totals all;
+  std::vector<std::size_t> with_data;
+  for (std::size_t d = 0; d < errors.size(); ++d)
+    if (errors[d].scaled_count > 0) {
+      all.add(errors[d]);
+      with_data.push_back(d);
+    }
+  Shrink shrink;
+  if (with_data.empty()) return shrink;
+  std::vector<Totals> resampled;
+  for (int b = 0; b < options.resamples; ++b) {
+    Totals t;
+    const std::uint64_t key = random_key(options.seed, static_cast<std::uint64_t>(b));
+    for (std::size_t k = 0; k < with_data.size(); ++k)
+      t.add(errors[with_data[static_cast<std::size_t>(random_uniform(key, k) *
+                                                      static_cast<double>(with_data.size()))]]);
+    resampled.push_back(t);
+  }
+  const auto interval = [&](const auto& number) {
+    std::vector<double> values;
+    for (const Totals& t : resampled) values.push_back(number(t));
+    return Interval{number(all), quantile(values, 0.05), quantile(values, 0.95)};
+  };
+  for (int c = 0; c < kChannels; ++c) {
+    if (all.count[c] == 0.0) continue;
+    const auto rms = [c](const auto& sums) {
+      return [c, sums](const Totals& t) {
+        return t.count[c] > 0.0 ? std::sqrt((t.*sums)[c] / t.count[c]) : 0.0;
+      };
+    };
+    shrink.channels.push_back({static_cast<Channel>(c), interval(rms(&Totals::nominal)),
+                               interval(rms(&Totals::retuned)), interval(rms(&Totals::with)),
+                               interval(rms(&Totals::floor))});
+  }
+  shrink.closed_fraction = interval([](const Totals& t) { return t.closed(); });
+  double mean = 0.0, square = 0.0;
+  for (const std::size_t d : with_data) mean += errors[d].log_gain / static_cast<double>(with_data.size());
+  for (const std::size_t d : with_data) square += std::pow(errors[d].log_gain - mean, 2);
+  shrink.log_density_gain = mean;
+  shrink.gain_error = std::sqrt(square) / static_cast<double>(with_data.size());
+  return shrink;
+}
+
+}  // namespace slipway::gap

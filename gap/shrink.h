@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/progress.h"
+#include "core/result.h"
+#include "gap/diagnosis.h"
+#include "gap/prepared_campaign.h"
+
+namespace slipway::gap {
+
+// How far the gap shrinks on drives that a fit has not seen: both explanations are fitted to the other folds,
+// folds being whole drives with their repeats.
+struct Shrink {
+  std::vector<ChannelShrink> channels;
+  std::optional<Interval> closed_fraction;
+  double log_density_gain = 0.0;  // held-out log density of `with` over the null's, a drive
+  double gain_error = 0.0;        // its standard error over drives
+};
+
+Result<Shrink> shrink_on_held_out(const PreparedCampaign& prepared, const DriveCampaign& campaign,
+                                  const FittedExplanation& with, const DiagnosisOptions& options,
+                                  Progress& progress);
+
+}  // namespace slipway::gap
