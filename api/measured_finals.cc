@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <optional>
 #include <string_view>
 #include <system_error>
 #include <vector>
 
+#include "api/csv_cells.h"
 #include "api/json/measured_campaign.h"
 #include "api/terrain_site.h"
 #include "core/angle.h"
@@ -22,34 +21,11 @@ namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 3> kPose{"x_m", "y_m", "yaw_deg"};
 
-std::vector<std::string_view> cells_of(std::string_view line) {
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  std::vector<std::string_view> cells;
-  for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t comma = std::min(line.find(',', begin), line.size());
-    cells.push_back(line.substr(begin, comma - begin));
-    begin = comma + 1;
-  }
-  return cells;
-}
-
-// Without empty ones.
-std::vector<std::string_view> lines_of(std::string_view text) {
-  std::vector<std::string_view> lines;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    if (text.substr(begin, end - begin).find_first_not_of(" \r") != std::string_view::npos)
-      lines.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return lines;
-}
-
 // Where the columns are; a fault for each that is not there.
 template <std::size_t Count>
 std::array<std::size_t, Count> places_of(const std::array<std::string_view, Count>& columns,
                                          std::string_view header, std::vector<Fault>& faults) {
-  const std::vector<std::string_view> names = cells_of(header);
+  const std::vector<std::string_view> names = csv_cells(header);
   std::array<std::size_t, Count> places{};
   for (std::size_t c = 0; c < Count; ++c) {
     const auto at = std::find(names.begin(), names.end(), columns[c]);
@@ -60,22 +36,15 @@ std::array<std::size_t, Count> places_of(const std::array<std::string_view, Coun
   return places;
 }
 
-std::optional<double> number(std::string_view cell) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
 // Nothing where a cell is empty; a fault where it is no number.
 std::optional<Pose2> pose_in(std::string_view line, const std::array<std::size_t, 3>& places,
                              const std::string& row, std::vector<Fault>& faults) {
-  const std::vector<std::string_view> cells = cells_of(line);
+  const std::vector<std::string_view> cells = csv_cells(line);
   std::array<double, 3> values{};
   for (std::size_t c = 0; c < 3; ++c) {
     const std::string_view cell = places[c] < cells.size() ? cells[places[c]] : std::string_view();
     if (cell.empty()) return std::nullopt;
-    const std::optional<double> value = number(cell);
+    const std::optional<double> value = csv_number(cell);
     if (!value) {
       faults.push_back({fmt::format("/{}/{}", row, kPose[c]), fmt::format("\"{}\" is no number", cell)});
       return std::nullopt;
@@ -88,12 +57,12 @@ std::optional<Pose2> pose_in(std::string_view line, const std::array<std::size_t
 Result<std::optional<Pose2>> last_pose(const fs::path& path) {
   const auto bytes = read_data_file(path);
   if (!bytes) return fail(bytes.error());
-  const std::vector<std::string_view> lines = lines_of(*bytes);
+  const std::vector<CsvLine> lines = csv_lines(*bytes);
   if (lines.size() < 2) return std::optional<Pose2>();
   std::vector<Fault> faults;
-  const auto places = places_of(kPose, lines[0], faults);
+  const auto places = places_of(kPose, lines[0].text, faults);
   std::optional<Pose2> pose;
-  if (faults.empty()) pose = pose_in(lines.back(), places, std::to_string(lines.size()), faults);
+  if (faults.empty()) pose = pose_in(lines.back().text, places, std::to_string(lines.back().number), faults);
   if (!faults.empty())
     return fail(ErrorCode::kUnreadableData, fmt::format("{} can't be read", path.string()),
                 std::move(faults));
@@ -130,17 +99,17 @@ Result<campaign::MeasuredFinals> read_folder(const fs::path& folder, const campa
 Result<campaign::MeasuredFinals> read_survey(const fs::path& path) {
   const auto bytes = read_data_file(path);
   if (!bytes) return fail(bytes.error());
-  const std::vector<std::string_view> lines = lines_of(*bytes);
+  const std::vector<CsvLine> lines = csv_lines(*bytes);
   std::vector<Fault> faults;
-  const std::string_view header = lines.empty() ? std::string_view() : lines[0];
+  const std::string_view header = lines.empty() ? std::string_view() : lines[0].text;
   const auto places = places_of(kPose, header, faults);
   const auto drive = places_of(std::array<std::string_view, 1>{"drive"}, header, faults);
   campaign::MeasuredFinals finals;
   for (std::size_t i = 1; faults.empty() && i < lines.size(); ++i) {
-    const std::vector<std::string_view> cells = cells_of(lines[i]);
-    const std::string row = std::to_string(i + 1);
+    const std::vector<std::string_view> cells = csv_cells(lines[i].text);
+    const std::string row = std::to_string(lines[i].number);
     if (drive[0] >= cells.size()) continue;
-    const auto pose = pose_in(lines[i], places, row, faults);
+    const auto pose = pose_in(lines[i].text, places, row, faults);
     if (pose && !finals.emplace(cells[drive[0]], *pose).second)
       faults.push_back({fmt::format("/{}/drive", row), fmt::format("{} is given twice", cells[drive[0]])});
   }

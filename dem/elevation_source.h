@@ -14,8 +14,8 @@ namespace slipway::dem {
 struct ElevationInfo {
   GridGeometry geometry;
   std::string crs_name;  // "Mars2000 Equidistant Cylindrical clon0"
-  std::string crs_wkt;
-  std::string body;  // "Mars", "Moon", "Earth" or "other", from the ellipsoid's semi-major axis
+  std::string crs_wkt;   // "" in a local frame
+  std::string body;      // "Mars", "Moon", "Earth" or "other", from the ellipsoid's semi-major axis
   double semi_major_axis_m = 0.0;
   std::string data_type;  // "Float32", "Int16", ...
   bool scaled = false;    // heights are scale * stored + offset
@@ -33,12 +33,20 @@ class ElevationSource {
   virtual Result<std::shared_ptr<const Terrain>> read(const Extent& extent) const = 0;
 };
 
+// What is done with a raster that names no coordinate reference system, or one of its own place (a local or
+// engineering system) in metres.
+enum class PlacelessRaster {
+  kRefused,     // nobody can say that its numbers are metres, nor where it lies
+  kLocalFrame,  // its x and y are metres east and north in a frame of its own: the caller has it in writing
+};
+
 constexpr long long kMostWindowCells = 36'000'000;  // 6,000 x 6,000 cells, 180 MB in memory
 
 // Opens a raster of an allowed driver as elevation: one band, float or scaled integer, square to the map
 // axes, in a metric projected system. Refused with the reason, and the command that would convert it: degree
 // pixels, a west-positive axis, feet, a rotated or south-up grid, no CRS. Nothing but this path is read: no
 // network, no sidecar outside it, no other driver.
-Result<std::shared_ptr<const ElevationSource>> open_elevation(const std::filesystem::path& path);
+Result<std::shared_ptr<const ElevationSource>> open_elevation(
+    const std::filesystem::path& path, PlacelessRaster placeless = PlacelessRaster::kRefused);
 
 }  // namespace slipway::dem

@@ -154,6 +154,11 @@ Result<void> check_metric_projection(const OGRSpatialReference* crs, const Raste
   return {};
 }
 
+bool is_local_frame(const OGRSpatialReference* crs) {
+  if (crs == nullptr || crs->IsEmpty()) return true;
+  return crs->IsLocal() != 0 && std::abs(crs->GetLinearUnits() - 1.0) < 1e-9;
+}
+
 void describe_crs(const OGRSpatialReference& crs, ElevationInfo& info) {
   const char* name = crs.GetName();
   info.crs_name = name == nullptr ? "" : name;

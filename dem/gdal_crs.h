@@ -20,6 +20,9 @@ struct RasterCentre {
 Result<void> check_metric_projection(const OGRSpatialReference* crs, const RasterCentre& centre,
                                      const std::string& file);
 
+// Whether a raster says nothing of where it lies, or lies in a system of its own place in metres.
+bool is_local_frame(const OGRSpatialReference* crs);
+
 // Name, WKT, body and semi-major axis of a CRS that passed the check.
 void describe_crs(const OGRSpatialReference& crs, ElevationInfo& info);
 

@@ -181,9 +181,10 @@ class GdalElevation final : public ElevationSource {
 
 }  // namespace
 
-Result<std::shared_ptr<const ElevationSource>> open_elevation(const std::filesystem::path& path) {
+Result<std::shared_ptr<const ElevationSource>> open_elevation(const std::filesystem::path& path,
+                                                              PlacelessRaster placeless) {
   const GdalSession session(path);
-  Result<CheckedRaster> raster = open_checked_raster(path, session);
+  Result<CheckedRaster> raster = open_checked_raster(path, session, placeless);
   if (!raster) return fail(std::move(raster.error()));
   GDALRasterBand& band = *raster->dataset->GetRasterBand(1);
   const Encoding encoding = encoding_of(band);

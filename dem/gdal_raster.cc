@@ -132,7 +132,8 @@ std::string describe(const CellWindow& window) {
                      window.column, window.column + window.columns - 1);
 }
 
-Result<CheckedRaster> open_checked_raster(const fs::path& path, const GdalSession& session) {
+Result<CheckedRaster> open_checked_raster(const fs::path& path, const GdalSession& session,
+                                          PlacelessRaster placeless) {
   const std::string file = path.filename().string();
   const Result<fs::path> absolute = regular_file(path);
   if (!absolute) return fail(absolute.error());
@@ -152,14 +153,22 @@ Result<CheckedRaster> open_checked_raster(const fs::path& path, const GdalSessio
   check_band(*raster.dataset, file, refusals);
   const std::optional<GeoTransform> grid = check_grid(*raster.dataset, file, refusals);
   const OGRSpatialReference* crs = raster.dataset->GetSpatialRef();
+  const bool is_local = placeless == PlacelessRaster::kLocalFrame && is_local_frame(crs);
   const Result<void> metric =
-      check_metric_projection(crs, grid ? centre_of(*raster.dataset, *grid) : RasterCentre{}, file);
+      is_local
+          ? Result<void>()
+          : check_metric_projection(crs, grid ? centre_of(*raster.dataset, *grid) : RasterCentre{}, file);
   if (!metric) refusals.add(metric.error());
   if (!refusals.empty()) return std::move(refusals).error();
 
   raster.info.geometry = grid_geometry(*raster.dataset, *grid);
   raster.info.data_type = GDALGetDataTypeName(raster.dataset->GetRasterBand(1)->GetRasterDataType());
-  describe_crs(*crs, raster.info);
+  if (is_local) {
+    raster.info.crs_name = "local frame";
+    raster.info.body = "other";
+  } else {
+    describe_crs(*crs, raster.info);
+  }
   return raster;
 }
 

@@ -56,6 +56,13 @@ Result<void> check_class_raster(const CheckedRaster& raster, const ElevationInfo
             file, raster.info.data_type, shell_word(file), shell_word(converted_name(file))));
   }
   const GridGeometry& geometry = raster.info.geometry;
+  if (ground.crs_wkt.empty()) {
+    if (raster.info.crs_wkt.empty()) return {};
+    return fail(
+        ErrorCode::kUnsupportedCrs,
+        fmt::format("{} is in \"{}\", the elevation in a local frame; both must be in the same system.", file,
+                    raster.info.crs_name));
+  }
   if (!same_place(*raster.dataset->GetSpatialRef(), ground, geometry.extent(),
                   std::min(geometry.cell_x_m, geometry.cell_y_m))) {
     return fail(
@@ -106,7 +113,8 @@ Result<std::shared_ptr<const SoilMap>> read_soil_raster(const std::filesystem::p
   if (!repeats.empty())
     return fail(ErrorCode::kUnreadableData, "The soil legend repeats itself.", std::move(repeats));
   const GdalSession session(path);
-  const Result<CheckedRaster> raster = open_checked_raster(path, session);
+  const Result<CheckedRaster> raster = open_checked_raster(
+      path, session, ground.crs_wkt.empty() ? PlacelessRaster::kLocalFrame : PlacelessRaster::kRefused);
   if (!raster) return fail(raster.error());
   const Result<void> usable = check_class_raster(*raster, ground, file);
   if (!usable) return fail(usable.error());

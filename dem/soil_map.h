@@ -54,7 +54,8 @@ class SoilMap {
 };
 
 // Reads a class raster (integer, one band) on the cells that meet the extent. Its geometry need not be that
-// of the elevation, its CRS must be (errors as open_elevation). Cells at nodata have no class.
+// of the elevation, its CRS must be (errors as open_elevation), and it has none where the
+// elevation lies in a local frame. Cells at nodata have no class.
 Result<std::shared_ptr<const SoilMap>> read_soil_raster(const std::filesystem::path& path,
                                                         const ElevationInfo& ground, const Extent& extent,
                                                         std::vector<SoilClass> legend);

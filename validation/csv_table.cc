@@ -8,18 +8,14 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "api/csv_cells.h"
+
 namespace slipway::validation {
 namespace {
 
-std::vector<std::string> cells_of(std::string line) {
-  if (!line.empty() && line.back() == '\r') line.pop_back();
-  std::vector<std::string> cells;
-  for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t comma = std::min(line.find(',', begin), line.size());
-    cells.push_back(line.substr(begin, comma - begin));
-    begin = comma + 1;
-  }
-  return cells;
+std::vector<std::string> cells_of(std::string_view line) {
+  const std::vector<std::string_view> cells = api::csv_cells(line);
+  return {cells.begin(), cells.end()};
 }
 
 bool is_number(const std::string& cell) {

@@ -49,8 +49,8 @@ class Builder : public nlohmann::json_sax<Library> {
       error.faults.front().pointer = child_pointer(pointer(), name);
       return false;
     }
-    if (object.keys.size() >= kMostKeys)
-      return refuse(fmt::format("more than {} keys in one object", kMostKeys));
+    if (object.keys.size() >= limits_.keys)
+      return refuse(fmt::format("more than {} keys in one object", limits_.keys));
     object.keys.push_back(std::move(name));
     return true;
   }
@@ -67,8 +67,6 @@ class Builder : public nlohmann::json_sax<Library> {
   std::size_t error_position = 0;  // one past the offending byte; 0: not a syntax error
 
  private:
-  static constexpr std::size_t kMostKeys = 200;  // keys are compared pairwise
-
   bool number(double value) {
     if (!std::isfinite(value)) return refuse("a number is too large");
     JsonValue v;

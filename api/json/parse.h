@@ -13,6 +13,7 @@ struct ParseLimits {
   std::size_t bytes = std::size_t{1} << 20U;
   std::size_t values = 100'000;
   int depth = 64;
+  std::size_t keys = 200;  // of one object; they are compared pairwise
 };
 
 // Bytes from outside -> a document. Refused, with line and column: anything but one JSON text, NaN and

@@ -54,7 +54,7 @@ void read_wheels(ObjectReader& reader, sim::RoverModel& rover) {
   // Given for the rover, they are on every wheel that has none of its own.
   const std::optional<sim::Grousers> everywhere = read_grousers(reader);
   for (const Element& element : reader.list("wheels", kRequired, {3, sim::kMostWheels})) {
-    ObjectReader object(*element.value, element.pointer, reader.faults());
+    ObjectReader object = reader.object(element);
     sim::WheelModel& wheel = rover.wheels.emplace_back();
     object.text("name", kRequired, {.most = 8, .is_name = true}, wheel.name);
     read_point(object, "position_m", wheel.position_m);
@@ -140,14 +140,48 @@ void read_masses(ObjectReader& reader, sim::MassDistribution& masses) {
   object->refuse_unknown();
 }
 
-void read_body(ObjectReader& reader, sim::RoverModel& rover) {
-  reader.number("belly_clearance_m", kRequired, {"m", 0.0, 2.0, true}, rover.belly_clearance_m);
-  reader.number("body_length_m", kRequired, {"m", 0.0, 10.0, true}, rover.body_length_m);
-  reader.number("body_width_m", kRequired, {"m", 0.0, 10.0, true}, rover.body_width_m);
-  reader.angle_deg("max_tilt_deg", kRequired, {"deg", 0.0, 60.0, true}, rover.max_tilt_rad);
-  reader.number("cruise_speed_m_s", kRequired, {"m/s", 0.0, 5.0, true}, rover.cruise_speed_m_s);
-  reader.angle_deg("turn_rate_deg_s", kRequired, {"deg/s", 0.0, 100.0, true}, rover.turn_rate_rad_s);
-  reader.number("min_turn_radius_m", kRequired, {"m", 0.0, 100.0}, rover.min_turn_radius_m);
+void read_body(ObjectReader& reader, Presence presence, sim::RoverModel& rover) {
+  reader.number("belly_clearance_m", presence, {"m", 0.0, 2.0, true}, rover.belly_clearance_m);
+  reader.number("body_length_m", presence, {"m", 0.0, 10.0, true}, rover.body_length_m);
+  reader.number("body_width_m", presence, {"m", 0.0, 10.0, true}, rover.body_width_m);
+  reader.angle_deg("max_tilt_deg", presence, {"deg", 0.0, 60.0, true}, rover.max_tilt_rad);
+  reader.number("cruise_speed_m_s", presence, {"m/s", 0.0, 5.0, true}, rover.cruise_speed_m_s);
+  reader.angle_deg("turn_rate_deg_s", presence, {"deg/s", 0.0, 100.0, true}, rover.turn_rate_rad_s);
+  reader.number("min_turn_radius_m", presence, {"m", 0.0, 100.0}, rover.min_turn_radius_m);
+}
+
+// What a campaign does not say of its rover and planning asks for, from what it does say.
+void assume_body(sim::RoverModel& rover) {
+  double front = 0.0, rear = 0.0, half_width = 0.0;
+  for (const sim::WheelModel& wheel : rover.wheels) {
+    front = std::max(front, wheel.position_m.x() + wheel.radius_m);
+    rear = std::min(rear, wheel.position_m.x() - wheel.radius_m);
+    half_width = std::max(half_width, std::abs(wheel.position_m.y()) + 0.5 * wheel.width_m);
+  }
+  rover.body_length_m = front - rear;
+  rover.body_width_m = 2.0 * half_width;
+  // The body hangs from its lowest pivot, or rides above the axles.
+  const double radius_m = rover.smallest_wheel_radius_m();
+  rover.belly_clearance_m = 2.0 * radius_m;
+  if (rover.suspension.type == sim::SuspensionType::kRockerBogie)
+    rover.belly_clearance_m = rover.suspension.bogie_pivot_m.z();
+  if (rover.suspension.type == sim::SuspensionType::kAveraging)
+    rover.belly_clearance_m = rover.suspension.rocker_pivot_m.z();
+  rover.belly_clearance_m = std::max(rover.belly_clearance_m, radius_m);
+  rover.cruise_speed_m_s = std::min(rover.cruise_speed_m_s, radius_m * rover.drive.max_wheel_rate_rad_s);
+  rover.turn_rate_rad_s = rover.cruise_speed_m_s / (0.5 * std::hypot(front - rear, 2.0 * half_width));
+  rover.min_turn_radius_m = rover.track_m();
+}
+
+// A rocker-bogie's wheels are in one order everywhere.
+void sort_wheels(sim::RoverModel& rover) {
+  constexpr std::array<std::string_view, 6> kOrder{"lf", "lm", "lr", "rf", "rm", "rr"};
+  if (rover.suspension.type != sim::SuspensionType::kRockerBogie) return;
+  const auto place = [&](const sim::WheelModel& wheel) {
+    return std::find(kOrder.begin(), kOrder.end(), wheel.name) - kOrder.begin();
+  };
+  std::stable_sort(rover.wheels.begin(), rover.wheels.end(),
+                   [&](const sim::WheelModel& a, const sim::WheelModel& b) { return place(a) < place(b); });
 }
 
 void write_point(Writer& w, std::string_view key, const Eigen::Vector3d& p) {
@@ -244,7 +278,7 @@ Result<sim::RoverModel> read_rover_file(std::string_view bytes) {
   read_motor(reader, "drive", kRequired, rover.drive);
   if (sim::DriveMotor steering; read_motor(reader, "steering", kOptional, steering))
     rover.steering = steering;
-  read_body(reader, rover);
+  read_body(reader, kRequired, rover);
   read_effects(reader, rover.effects);
   reader.refuse_unknown();
   // What holds between the numbers can only be asked of a rover whose numbers were read.
@@ -256,6 +290,29 @@ Result<sim::RoverModel> read_rover_file(std::string_view bytes) {
       faults.push_back({"/effects" + fault.pointer, fault.message});
   }
   if (!faults.empty()) return fail(ErrorCode::kUnreadableData, summary_of(faults), faults);
+  return rover;
+}
+
+sim::RoverModel read_campaign_rover(ObjectReader& reader) {
+  sim::RoverModel rover;
+  const std::size_t before = reader.faults().size();
+  reader.text("name", kRequired, {}, rover.name);
+  reader.number("mass_kg", kRequired, {"kg", 0.0, 5000.0, true}, rover.mass_kg);
+  read_point(reader, "com_m", rover.com_m);
+  read_masses(reader, rover.masses);
+  read_wheels(reader, rover);
+  read_suspension(reader, rover);
+  read_motor(reader, "drive", kRequired, rover.drive);
+  if (reader.faults().size() == before) {
+    sort_wheels(rover);
+    assume_body(rover);
+  }
+  rover.assumed = {"body"};
+  read_body(reader, kOptional, rover);
+  reader.refuse_unknown();
+  if (reader.faults().size() == before)
+    for (const Fault& fault : sim::faults_of(rover))
+      reader.faults().push_back({reader.pointer() + fault.pointer, fault.message});
   return rover;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "api/json/json_value.h"
+#include "api/json/strict_reader.h"
 #include "api/json/writer.h"
 #include "core/result.h"
 #include "sim/rover_model.h"
@@ -16,6 +17,10 @@ Result<sim::RoverModel> read_rover_file(std::string_view bytes);
 
 // The same keys, so that what is served can be put into a file again.
 void write_rover(Writer& w, const sim::RoverModel& rover);
+
+// A drive campaign's rover, whose faults are the reader's. What planning needs besides is read where it is
+// given, and otherwise follows from the wheels; a rocker-bogie's wheels are put into their order.
+sim::RoverModel read_campaign_rover(ObjectReader& reader);
 
 // The keys that a drive campaign's rover has, and no others.
 void write_campaign_rover(Writer& w, const sim::RoverModel& rover);

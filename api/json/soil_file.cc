@@ -15,25 +15,6 @@ constexpr std::size_t kMostSoils = 1000;
 constexpr std::array<std::string_view, sim::kSoilDims> kQuantities{"stiffness", "n", "cohesion",
                                                                    "friction_angle", "shear_modulus"};
 
-void read_mean(ObjectReader& reader, sim::Soil& soil) {
-  reader.number("k_c", kRequired, {"N/m^(n+1)", -1e10, 1e10}, soil.pressure.k_c);
-  reader.number("k_phi", kRequired, {"N/m^(n+2)", -1e10, 1e11}, soil.pressure.k_phi);
-  reader.number("n", kRequired, {"1", 0.1, 3.0}, soil.pressure.n);
-  reader.number("cohesion_pa", kRequired, {"Pa", 0.0, 1e6}, soil.cohesion_pa);
-  reader.angle_deg("friction_angle_deg", kRequired, {"deg", 0.0, 60.0, true}, soil.friction_angle_rad);
-  reader.number("shear_modulus_x_m", kRequired, {"m", 0.0, 1.0, true}, soil.shear_modulus_x_m);
-  soil.shear_modulus_y_m = soil.shear_modulus_x_m;
-  reader.number("shear_modulus_y_m", kOptional, {"m", 0.0, 1.0, true}, soil.shear_modulus_y_m);
-  reader.number("density_kg_m3", kRequired, {"kg/m^3", 100.0, 5000.0}, soil.density_kg_m3);
-  reader.number("c1", kRequired, {"1", 0.0, 1.0}, soil.c1);
-  reader.number("c2", kRequired, {"1", -1.0, 1.0}, soil.c2);
-  reader.number("n1", kOptional, {"1", 0.0, 2.0}, soil.n1);
-  reader.number("n1_skid", kOptional, {"1", 0.0, 2.0}, soil.n1_skid);
-  reader.number("n1_lateral", kOptional, {"1", 0.0, 2.0}, soil.n1_lateral);
-  reader.number("exit_angle_ratio", kOptional, {"1", 0.0, 1.0}, soil.exit_angle_ratio);
-  reader.number("shear_coupling", kOptional, {"1", 0.0, 1.0}, soil.shear_coupling);
-}
-
 void read_std(ObjectReader& reader, sim::SoilStd& std) {
   auto object = reader.object("std", kRequired);
   if (!object) return;
@@ -91,7 +72,7 @@ void read_soil(const Element& element, sim::SoilDistribution& soil, std::vector<
   reader.text("summary", kRequired, {.most = 500}, soil.summary);
   reader.text("source", kRequired, {.most = 500}, soil.source);
   reader.texts("assumed", kRequired, {0, 30}, {.most = 500}, soil.assumed);
-  read_mean(reader, soil.mean);
+  read_soil_parameters(reader, kRequired, soil.mean);
   read_std(reader, soil.std);
   read_correlation(reader, soil.correlation);
   reader.number("correlation_length_m", kRequired, {"m", 0.0, 1e4, true}, soil.correlation_length_m);
@@ -100,6 +81,25 @@ void read_soil(const Element& element, sim::SoilDistribution& soil, std::vector<
 }
 
 }  // namespace
+
+void read_soil_parameters(ObjectReader& reader, Presence less_known, sim::Soil& soil) {
+  reader.number("k_c", kRequired, {"N/m^(n+1)", -1e10, 1e10}, soil.pressure.k_c);
+  reader.number("k_phi", kRequired, {"N/m^(n+2)", -1e10, 1e11}, soil.pressure.k_phi);
+  reader.number("n", kRequired, {"1", 0.1, 3.0}, soil.pressure.n);
+  reader.number("cohesion_pa", kRequired, {"Pa", 0.0, 1e6}, soil.cohesion_pa);
+  reader.angle_deg("friction_angle_deg", kRequired, {"deg", 0.0, 60.0, true}, soil.friction_angle_rad);
+  reader.number("shear_modulus_x_m", kRequired, {"m", 0.0, 1.0, true}, soil.shear_modulus_x_m);
+  soil.shear_modulus_y_m = soil.shear_modulus_x_m;
+  reader.number("shear_modulus_y_m", kOptional, {"m", 0.0, 1.0, true}, soil.shear_modulus_y_m);
+  reader.number("density_kg_m3", less_known, {"kg/m^3", 100.0, 5000.0}, soil.density_kg_m3);
+  reader.number("c1", less_known, {"1", 0.0, 1.0}, soil.c1);
+  reader.number("c2", less_known, {"1", -1.0, 1.0}, soil.c2);
+  reader.number("n1", kOptional, {"1", 0.0, 2.0}, soil.n1);
+  reader.number("n1_skid", kOptional, {"1", 0.0, 2.0}, soil.n1_skid);
+  reader.number("n1_lateral", kOptional, {"1", 0.0, 2.0}, soil.n1_lateral);
+  reader.number("exit_angle_ratio", kOptional, {"1", 0.0, 1.0}, soil.exit_angle_ratio);
+  reader.number("shear_coupling", kOptional, {"1", 0.0, 1.0}, soil.shear_coupling);
+}
 
 std::vector<sim::SoilDistribution> read_soils(ObjectReader& reader, std::string_view key, Presence presence) {
   std::vector<sim::SoilDistribution> soils;

@@ -81,8 +81,9 @@ bool read_text(const JsonValue& value, const std::string& pointer, std::string_v
   return true;
 }
 
-ObjectReader::ObjectReader(const JsonValue& value, std::string pointer, std::vector<Fault>& faults)
-    : pointer_(std::move(pointer)), faults_(faults) {
+ObjectReader::ObjectReader(const JsonValue& value, std::string pointer, std::vector<Fault>& faults,
+                           std::vector<std::string>* passed_over)
+    : pointer_(std::move(pointer)), faults_(faults), passed_over_(passed_over) {
   if (value.is(JsonValue::Kind::kObject)) {
     object_ = &value;
   } else {
@@ -94,7 +95,10 @@ const JsonValue* ObjectReader::member(std::string_view key, Presence presence) {
   known_.emplace_back(key);
   if (object_ == nullptr) return nullptr;
   const JsonValue* const value = object_->find(key);
-  if (value == nullptr && presence == kRequired) fault(key, fmt::format("{} is missing", key));
+  if (value == nullptr && presence == kRequired) {
+    fault(key, fmt::format("{} is missing", key));
+    missing_.emplace_back(key);
+  }
   return value;
 }
 
@@ -177,7 +181,11 @@ std::optional<ObjectReader> ObjectReader::object(std::string_view key, Presence 
     fault(key, fmt::format("{} = {}, must be an object", key, describe(*value)));
     return std::nullopt;
   }
-  return ObjectReader(*value, child_pointer(pointer_, key), faults_);
+  return ObjectReader(*value, child_pointer(pointer_, key), faults_, passed_over_);
+}
+
+ObjectReader ObjectReader::object(const Element& element) const {
+  return ObjectReader(*element.value, element.pointer, faults_, passed_over_);
 }
 
 std::vector<Element> ObjectReader::list(std::string_view key, Presence presence, const CountRule& rule) {
@@ -236,8 +244,12 @@ void ObjectReader::fault(std::string_view key, std::string message) {
 void ObjectReader::refuse_unknown() {
   if (object_ == nullptr) return;
   for (const std::string& key : object_->keys) {
-    if (std::find(known_.begin(), known_.end(), key) == known_.end())
+    if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
+    if (passed_over_ != nullptr && !nearest(key, missing_)) {
+      passed_over_->push_back(child_pointer(pointer_, key));
+    } else {
       fault(key, unknown_name("key", key, known_));
+    }
   }
 }
 

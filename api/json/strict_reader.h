@@ -55,7 +55,10 @@ bool read_text(const JsonValue& value, const std::string& pointer, std::string_v
 class ObjectReader {
  public:
   // A value that is no object is a fault, after which nothing is read and nothing more is said.
-  ObjectReader(const JsonValue& value, std::string pointer, std::vector<Fault>& faults);
+  // passed_over: where given, keys that nobody asked for are written down there by their pointers instead of
+  // being faults (see refuse_unknown), in this object and in those within it.
+  ObjectReader(const JsonValue& value, std::string pointer, std::vector<Fault>& faults,
+               std::vector<std::string>* passed_over = nullptr);
 
   bool is_object() const { return object_ != nullptr; }
   const std::string& pointer() const { return pointer_; }
@@ -85,6 +88,8 @@ class ObjectReader {
   // The raw member, for what this class does not know; nullptr where absent (a fault when required).
   const JsonValue* member(std::string_view key, Presence presence);
   std::optional<ObjectReader> object(std::string_view key, Presence presence);
+  // An element of a list as an object, read as this one is.
+  ObjectReader object(const Element& element) const;
   // Empty where absent or refused.
   std::vector<Element> list(std::string_view key, Presence presence, const CountRule& rule);
   bool numbers(std::string_view key, Presence presence, const CountRule& count, const NumberRule& rule,
@@ -93,7 +98,8 @@ class ObjectReader {
              std::vector<std::string>& out);
 
   void fault(std::string_view key, std::string message);
-  // Faults for the keys that were not asked for, each with the nearest known one.
+  // Faults for the keys that were not asked for, each with the nearest known one. Where such keys may be
+  // passed over, only for those that look like a required one that is missing.
   void refuse_unknown();
 
  private:
@@ -102,7 +108,9 @@ class ObjectReader {
   const JsonValue* object_ = nullptr;
   std::string pointer_;
   std::vector<Fault>& faults_;
+  std::vector<std::string>* passed_over_ = nullptr;
   std::vector<std::string> known_;
+  std::vector<std::string> missing_;  // of the required ones
 };
 
 }  // namespace slipway::api::json

@@ -1,0 +1,53 @@
+#include "api/csv_cells.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+namespace slipway::api {
+namespace {
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+constexpr std::string_view kSpaces = " \t\r";
+
+std::string_view trimmed(std::string_view cell) {
+  const std::size_t begin = cell.find_first_not_of(kSpaces);
+  if (begin == std::string_view::npos) return {};
+  return cell.substr(begin, cell.find_last_not_of(kSpaces) + 1 - begin);
+}
+
+}  // namespace
+
+std::vector<CsvLine> csv_lines(std::string_view text) {
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  std::vector<CsvLine> lines;
+  std::size_t number = 1;
+  for (std::size_t begin = 0; begin < text.size(); ++number) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string_view line = text.substr(begin, end - begin);
+    if (line.find_first_not_of(kSpaces) != std::string_view::npos) lines.push_back({line, number});
+    begin = end + 1;
+  }
+  return lines;
+}
+
+std::vector<std::string_view> csv_cells(std::string_view line) {
+  std::vector<std::string_view> cells;
+  for (std::size_t begin = 0; begin <= line.size();) {
+    const std::size_t comma = std::min(line.find(',', begin), line.size());
+    cells.push_back(trimmed(line.substr(begin, comma - begin)));
+    begin = comma + 1;
+  }
+  return cells;
+}
+
+std::optional<double> csv_number(std::string_view cell) {
+  if (cell.starts_with('+') && !cell.starts_with("+-")) cell.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+}  // namespace slipway::api

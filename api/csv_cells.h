@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace slipway::api {
+
+struct CsvLine {
+  std::string_view text;
+  std::size_t number = 0;  // in the file, from 1
+};
+
+// The lines of a CSV without quotes, but blank ones; a byte order mark before the first is passed over. They
+// and their cells point into `text`.
+std::vector<CsvLine> csv_lines(std::string_view text);
+
+// What is between the commas, without the spaces around it.
+std::vector<std::string_view> csv_cells(std::string_view line);
+
+// Nothing where the whole cell is no finite number.
+std::optional<double> csv_number(std::string_view cell);
+
+}  // namespace slipway::api
