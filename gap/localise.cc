@@ -98,7 +98,7 @@ std::vector<Slice> slices_of(const std::vector<WindowVariables>& variables) {
         if (value >= piece.from && value <= piece.to) slice.windows.push_back(w);
       }
       if (slice.windows.size() >= least &&
-          2 * slice.windows.size() <= 1.5 * static_cast<double>(variables.size()))
+          4 * slice.windows.size() <= 3 * variables.size())
         by_variable.back().push_back(std::move(slice));
     }
   }
