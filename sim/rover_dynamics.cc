@@ -353,8 +353,7 @@ void RoverDynamics::after_step(double t, const double* y) {
       contacts_.set_soil(k, here, rim);
     has_soil_[k] = true;
     soil_[k] = soil;
-    const MotorDrive motor = drive_of(k, y).motor;
-    power += std::max(0.0, motor.voltage_v * motor.current_a);
+    power += drive_of(k, y).motor.electric_power_w;
     if (stepped_) turned_rad_[k] += 0.5 * (at.rate_rad_s + last_rate_rad_s_[k]) * (t - last_t_);
     last_rate_rad_s_[k] = at.rate_rad_s;
   }
