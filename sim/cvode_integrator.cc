@@ -7,6 +7,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <new>
 #include <stdexcept>
@@ -21,6 +22,7 @@ struct CvodeIntegrator::Solver {
   Eigen::PartialPivLU<Eigen::MatrixXd> factors;
   Eigen::VectorXd solved;
   N_Vector y = nullptr, absolute = nullptr;
+  double relative = 0.0;
   SUNMatrix matrix = nullptr;
   SUNLinearSolver linear = nullptr;
   void* cvode = nullptr;
@@ -51,18 +53,28 @@ int guarded(Call call) noexcept {
 }
 
 int derivative(realtype t, N_Vector y, N_Vector rate, void* data) {
-  auto& system = *static_cast<StiffSystem*>(data);
+  auto& system = static_cast<CvodeIntegrator::Solver*>(data)->system;
   return guarded([&] { return system.derivative(t, NV_DATA_S(y), NV_DATA_S(rate)); });
 }
 
 int events(realtype t, N_Vector y, realtype* value, void* data) {
-  auto& system = *static_cast<StiffSystem*>(data);
+  auto& system = static_cast<CvodeIntegrator::Solver*>(data)->system;
   // CVODE gives up where a value is 0 to the last bit twice in a row, which a slow event may well be.
   return guarded([&] {
     if (!system.events(t, NV_DATA_S(y), value)) return false;
     std::replace(value, value + system.event_count, 0.0, std::numeric_limits<double>::min());
     return true;
   });
+}
+
+int error_weights(N_Vector y, N_Vector weight, void* data) {
+  const auto& solver = *static_cast<CvodeIntegrator::Solver*>(data);
+  const double *at = NV_DATA_S(y), *absolute = NV_DATA_S(solver.absolute);
+  for (int i = 0; i < solver.system.size; ++i) {
+    const double relative = i < solver.system.absolute_only ? 0.0 : solver.relative * std::abs(at[i]);
+    NV_DATA_S(weight)[i] = 1.0 / (relative + absolute[i]);
+  }
+  return 0;
 }
 
 void keep_message(int, const char*, const char*, char* message, void* data) {
@@ -128,6 +140,7 @@ CvodeIntegrator::CvodeIntegrator(StiffSystem system, double relative_tolerance, 
     : solver_(std::make_unique<Solver>()) {
   Solver& s = *solver_;
   s.system = std::move(system);
+  s.relative = relative_tolerance;
   s.y = N_VNew_Serial(s.system.size, s.context);
   s.absolute = N_VNew_Serial(s.system.size, s.context);
   s.matrix = SUNDenseMatrix(s.system.size, s.system.size, s.context);
@@ -140,8 +153,8 @@ CvodeIntegrator::CvodeIntegrator(StiffSystem system, double relative_tolerance, 
   s.directions.resize(s.system.event_count);
   require(CVodeSetErrHandlerFn(s.cvode, keep_message, &s.message), "error handler");
   require(CVodeInit(s.cvode, derivative, 0.0, s.y), "init");
-  require(CVodeSVtolerances(s.cvode, relative_tolerance, s.absolute), "tolerances");
-  require(CVodeSetUserData(s.cvode, &s.system), "user data");
+  require(CVodeWFtolerances(s.cvode, error_weights), "tolerances");
+  require(CVodeSetUserData(s.cvode, &s), "user data");
   require(CVodeSetLinearSolver(s.cvode, s.linear, s.matrix), "linear solver");
   require(CVodeSetMaxStep(s.cvode, longest_step), "longest step");
   require(CVodeSetMaxConvFails(s.cvode, 30), "convergence failures");

@@ -12,6 +12,9 @@ namespace slipway::sim {
 // A stiff system y' = f(t, y) with events g(t, y) = 0.
 struct StiffSystem {
   int size = 0;
+  // So many at the front are held to their absolute tolerance alone: what has no size of its own, as a place
+  // or an attitude.
+  int absolute_only = 0;
   // False where y is outside what f knows: the step is tried again, shorter.
   std::function<bool(double t, const double* y, double* rate)> derivative;
   int event_count = 0;

@@ -36,6 +36,7 @@ class Drive {
         progress_(progress),
         dynamics_(rover, gravity_m_s2, ground, soils, options),
         integrator_({.size = dynamics_.size(),
+                     .absolute_only = dynamics_.pose_size(),
                      .derivative = [this](double t, const double* y,
                                           double* rate) { return dynamics_.derivative(t, y, rate); },
                      .event_count = dynamics_.event_count(),

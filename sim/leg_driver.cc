@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/smooth_step.h"
 
@@ -17,6 +18,15 @@ constexpr double kSameAngle_rad = 1e-6;
 double steering_rate(const RoverModel& rover) {
   const double most = rover.steering.value_or(rover.drive).max_wheel_rate_rad_s;
   return std::min(kSteeringRate_rad_s, 0.5 * most);
+}
+
+// Of the two that roll a wheel the same way, half a turn apart, the one that is steered like the other: a
+// wheel about to cross a quarter turn rolls on rather than swing round.
+WheelCommand nearest_to(const WheelCommand& other, WheelCommand told) {
+  const double apart = told.steer_rad - other.steer_rad;
+  if (std::abs(apart) <= 0.5 * std::numbers::pi) return told;
+  return {.steer_rad = told.steer_rad - std::copysign(std::numbers::pi, apart),
+          .rate_rad_s = -told.rate_rad_s};
 }
 
 }  // namespace
@@ -70,6 +80,8 @@ PerWheel<WheelCommand> LegDriver::told(double t, const LegPlace& place) const {
     // Comes in with the rates: no jump when steering ends.
     corrected.curvature_1_m += smooth_step((t - steered_s_) / ramp_s_) * curvature_correction(place);
     told = wheel_commands(rover_, corrected);
+    for (std::size_t k = 0; k < told.size(); ++k)
+      if (rover_.wheels[k].steerable) told[k] = nearest_to(plain_[k], told[k]);
   }
   const double share = rate_share(t);
   const double steered = steered_s_ > start_s_ ? smooth_step((t - start_s_) / (steered_s_ - start_s_)) : 1.0;

@@ -32,6 +32,8 @@ MotorDrive MotorControl::driven_by(double wanted_v, double rate) const {
   out.voltage_v = std::clamp(wanted_v, std::min(low, high), high);
   out.current_a = (out.voltage_v - emf) / resistance;
   out.torque_nm = torque_of_current_nm(motor_, out.current_a, rate, standstill_rad_s_);
+  const double heated_v = motor_.resistance_ohm.value_or(0.0) * out.current_a;
+  out.electric_power_w = std::max(0.0, (emf + heated_v) * out.current_a);
   return out;
 }
 

@@ -11,7 +11,8 @@ struct MotorDrive {
   double voltage_v = 0.0;    // at the motor, within the bus voltage and the current limit
   double unclipped_v = 0.0;  // what the controller asks for
   double current_a = 0.0;
-  double torque_nm = 0.0;  // at the wheel or the steering's axis
+  double torque_nm = 0.0;         // at the wheel or the steering's axis
+  double electric_power_w = 0.0;  // from the bus, as in motor.h: without a resistance that only stands in
 };
 
 // A DC motor behind its gear under voltage [ROAMS section 2.4], inductance neglected:

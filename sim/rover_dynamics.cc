@@ -103,7 +103,7 @@ std::vector<double> RoverDynamics::tolerances(double relative) const {
   return absolute;
 }
 
-std::vector<double> RoverDynamics::at_rest(const Stance& stance) const {
+std::vector<double> RoverDynamics::at_rest(const Stance& stance) {
   std::vector<double> y(size_, 0.0);
   const double load = rover_.mass_kg * gravity_m_s2_ / wheels();
   double sunk = 0.0;
@@ -115,8 +115,7 @@ std::vector<double> RoverDynamics::at_rest(const Stance& stance) const {
     sunk += sinkage_m(wheel.radius_m, theta.value_or(0.5 * kLargestEntryAngleRad)) / wheels();
   }
   const Eigen::Quaterniond q(stance.R_MB);
-  const Eigen::Vector3d p = stance.p_MB - sunk * stance.R_MB.col(2);
-  std::copy(p.data(), p.data() + 3, y.begin());
+  origin_M_ = stance.p_MB - sunk * stance.R_MB.col(2);
   y[3] = q.w(), y[4] = q.x(), y[5] = q.y(), y[6] = q.z();
   for (int s = 0; s < 2; ++s) {
     if (bodies_.rocker[s] >= 0)
@@ -142,7 +141,7 @@ void RoverDynamics::follow(const LegDriver* driver, const Pose2& leg_start) {
 }
 
 void RoverDynamics::unpack(const double* y) {
-  p_MB_ = {y[0], y[1], y[2]};
+  p_MB_ = origin_M_ + Vector3d(y[0], y[1], y[2]);
   R_MB_ = Eigen::Quaterniond(y[3], y[4], y[5], y[6]).normalized().toRotationMatrix();
   for (int j = 0; j < joints(); ++j) {
     angles_[j] = angle_state_[j] >= 0 ? y[angle_state_[j]] : 0.0;
@@ -278,7 +277,7 @@ bool RoverDynamics::derivative(double t, const double* y, double* rate) {
 
 Pose2 RoverDynamics::pose(const double* y) const {
   const Eigen::Matrix3d R = Eigen::Quaterniond(y[3], y[4], y[5], y[6]).normalized().toRotationMatrix();
-  return {y[0], y[1], yaw_rad_ + wrapped_rad(yaw_of(R) - yaw_rad_)};
+  return {origin_M_.x() + y[0], origin_M_.y() + y[1], yaw_rad_ + wrapped_rad(yaw_of(R) - yaw_rad_)};
 }
 
 double RoverDynamics::tilt_rad(const double* y) const {
@@ -353,8 +352,7 @@ void RoverDynamics::after_step(double t, const double* y) {
       contacts_.set_soil(k, here, rim);
     has_soil_[k] = true;
     soil_[k] = soil;
-    const MotorDrive motor = drive_of(k, y).motor;
-    power += std::max(0.0, motor.voltage_v * motor.current_a);
+    power += drive_of(k, y).motor.electric_power_w;
     if (stepped_) turned_rad_[k] += 0.5 * (at.rate_rad_s + last_rate_rad_s_[k]) * (t - last_t_);
     last_rate_rad_s_[k] = at.rate_rad_s;
   }
@@ -370,8 +368,7 @@ void RoverDynamics::after_step(double t, const double* y) {
     trails_[k].move_to(kinematics_[k].centre.head<2>(), contact.depth_m + contact.rut_m, wheel.width_m,
                        wheel.radius_m + 2.0 * ruts_.cell_m(), ruts_);
   }
-  if (!options_.keep_ruts)
-    ruts_.forget_beyond(Eigen::Vector2d(y[0], y[1]), kForgotten_lengths * rover_.body_length_m);
+  if (!options_.keep_ruts) ruts_.forget_beyond(p_MB_.head<2>(), kForgotten_lengths * rover_.body_length_m);
 }
 
 DriveSample RoverDynamics::sample(double t, const double* y) {

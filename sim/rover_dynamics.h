@@ -17,7 +17,7 @@ namespace slipway::sim {
 // clang-format off
 // The rover in motion as a system of first order, y:
 //
-//   p_MB (3), q_MB (w, x, y, z)                    q' = q (0, omega) / 2 + (1 - |q|^2) q
+//   p_MB less where it set out (3), q_MB (w, ...)  q' = q (0, omega) / 2 + (1 - |q|^2) q
 //   angles of rockers, bogies, steerings           in the tree's order
 //   omega, v of B's origin (axes of B)             multibody.h
 //   rates of all joints, wheels too                in the tree's order
@@ -40,10 +40,13 @@ class RoverDynamics {
                 const DynamicOptions& options);
 
   int size() const { return size_; }
+  // Place and attitude come first; where the map's origin lies and which way is east is no measure of an
+  // error.
+  int pose_size() const { return angles_at_; }
   // Absolute tolerances that go with a relative one.
   std::vector<double> tolerances(double relative) const;
   // At rest as settle() leaves it, sunk under equal loads.
-  std::vector<double> at_rest(const Stance& stance) const;
+  std::vector<double> at_rest(const Stance& stance);
 
   // Nothing told: wheels halted, steered as they are.
   void halt(const PerWheel<double>& steered_rad);
@@ -116,6 +119,9 @@ class RoverDynamics {
   Pose2 leg_start_;
   PerWheel<double> halted_rad_;
   PerWheel<WheelCommand> told_;
+
+  // Where it was set down: maps count in thousands of kilometres, a drive in millimetres.
+  Eigen::Vector3d origin_M_ = Eigen::Vector3d::Zero();
 
   // Of the state last unpacked.
   Eigen::Vector3d p_MB_;

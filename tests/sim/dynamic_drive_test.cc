@@ -153,6 +153,40 @@ TEST(DynamicDrive, ConvergesWithTheTolerance) {
   EXPECT_NEAR(usual.yaw_rad, exact.yaw_rad, 2e-4);
 }
 
+// A place and a heading have no size that an error could be measured by.
+TEST(DynamicDrive, TurnsAlikeBothWaysAndFromAnyHeading) {
+  const auto turned = [](double yaw_rad, double rate_rad_s) {
+    const Driven driven = drive(six_wheeler(), plane(0.0), sandy_loam(), yaw_rad, {turn(6.0, rate_rad_s)});
+    return std::abs(driven.drive.final.yaw_rad - driven.drive.start.yaw_rad);
+  };
+  const double left = turned(0.0, 0.03);
+  for (const double yaw_rad : {0.0, 1.0, 3.0}) {
+    EXPECT_NEAR(turned(yaw_rad, 0.03), left, 0.003) << yaw_rad;
+    EXPECT_NEAR(turned(yaw_rad, -0.03), left, 0.003) << yaw_rad;
+  }
+}
+
+TEST(DynamicDrive, IsTheSameFarFromTheMapsOrigin) {
+  const auto end = [](double east, double north) {
+    const FunctionGround bumps(
+        [=](double x, double y) {
+          return -4500.0 + 0.04 * std::sin(4.0 * (x - east)) * std::cos(3.0 * (y - north));
+        },
+        1e8);
+    NoProgress progress;
+    DynamicOptions options;
+    options.feedback = Feedback::kPose;
+    const DriveSoils soils{{sandy_loam()}, sandy_loam()};
+    const auto driven = simulate_drive(six_wheeler(), kMars, bumps, soils, {east, north, 0.5},
+                                       std::vector<DriveLeg>{arc(6.0, 0.2)}, options, nullptr, progress);
+    EXPECT_TRUE(driven);
+    return Eigen::Vector3d(driven->final.x_m - east, driven->final.y_m - north, driven->energy_j);
+  };
+  const Eigen::Vector3d near = end(0.0, 0.0), far = end(8142640.0, -276640.0);
+  EXPECT_NEAR((far - near).head<2>().norm(), 0.0, 1e-3);
+  EXPECT_NEAR(far.z() / near.z(), 1.0, 1e-3);
+}
+
 TEST(DynamicDrive, StandsBrakedOnASlope) {
   const Driven driven = drive(six_wheeler(), plane(rad_from_deg(15.0)), sandy_loam(), 0.0, {straight(0.1)});
   const DriveSample& first = driven.samples.front();

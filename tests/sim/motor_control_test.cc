@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
+#include "core/angle.h"
 #include "sim/leg_driver.h"
 #include "tests/sim/reference_models.h"
 
@@ -42,6 +44,20 @@ TEST(MotorControl, StaysWithinTheCurrentLimit) {
   motor.max_current_a = 0.5;
   for (const double rate : {-0.3, 0.0, 0.3})
     EXPECT_LE(std::abs(MotorControl(motor, 1.0, 0.003).keep_rate(0.4, rate, 20.0).current_a), 0.5 + 1e-12);
+}
+
+// As motor.h has it: a resistance that no file gives heats nothing, however slowly the rover creeps.
+TEST(MotorControl, TakesTheSamePowerAsTheMotorsLaw) {
+  for (const bool known : {false, true}) {
+    DriveMotor motor;
+    if (known) motor.resistance_ohm = 1.5;
+    const double told = 0.1;
+    for (const double integral_v : {-0.5, 0.0, 0.5, 4.0}) {
+      const MotorDrive drive = MotorControl(motor, 1.0, 1e-4).keep_rate(told, told, integral_v);
+      EXPECT_NEAR(drive.electric_power_w, motor_state(motor, drive.torque_nm, told).electric_power_w, 1e-9)
+          << known << " " << integral_v;
+    }
+  }
 }
 
 TEST(LegDriver, ToldRatesCoverTheCommandedLength) {
@@ -88,6 +104,28 @@ TEST(LegDriver, SteersBackToItsLine) {
     // Its path then bends to the right of its travel: the leading steered wheel points there.
     const std::size_t leading = speed > 0.0 ? 0 : 2;
     EXPECT_LT(told[leading].steer_rad, 0.0);
+  }
+}
+
+// Steered back to a line that it crabs along at a quarter turn, a wheel would swing half a turn and roll the
+// other way.
+TEST(LegDriver, RollsOnPastAQuarterTurn) {
+  const RoverModel rover = six_wheeler();
+  for (const double crab_deg : {90.0, -90.0, 88.0}) {
+    DriveLeg leg;
+    leg.command = {.speed_m_s = 0.04, .crab_rad = rad_from_deg(crab_deg)};
+    leg.length_m = 5.0;
+    const LegDriver driver(rover, leg, Feedback::kPose, 0.0, PerWheel<double>(6));
+    const double t = driver.ramped_s() + 1.0;
+    const PerWheel<WheelCommand> plain = wheel_commands(rover, leg.command);
+    for (const double across : {-0.2, 0.2}) {
+      const PerWheel<WheelCommand> told = driver.told(t, {.share = 0.5, .across_m = across});
+      for (std::size_t k = 0; k < told.size(); ++k) {
+        EXPECT_LT(std::abs(told[k].steer_rad - plain[k].steer_rad), 0.5 * std::numbers::pi) << k;
+        if (!rover.wheels[k].steerable) continue;
+        EXPECT_GT(told[k].rate_rad_s * plain[k].rate_rad_s, 0.0) << k;
+      }
+    }
   }
 }
 
