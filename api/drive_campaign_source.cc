@@ -222,7 +222,9 @@ Result<gap::DriveCampaign> load_drive_campaign(const fs::path& folder, const Cat
     for (Fault& fault : faults) fault.message = fmt::format("{}: {}", fault.pointer, fault.message);
     return fail(ErrorCode::kUnreadableData, summary_of(faults), faults);
   }
-  return Loader(folder, std::move(*file), campaign::digest_of(*bytes)).load();
+  auto campaign = Loader(folder, std::move(*file), campaign::digest_of(*bytes)).load();
+  if (campaign) gap::adopt_measured_rates(*campaign);
+  return campaign;
 }
 
 }  // namespace slipway::api

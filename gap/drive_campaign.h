@@ -82,4 +82,8 @@ struct DriveCampaign {
   std::string fingerprint;         // of every byte that was read
 };
 
+// Wheels that were measured to turn faster than the rover's greatest rate raise it, with a note: the drives
+// were made so, and a rover that is held to less would not repeat them.
+void adopt_measured_rates(DriveCampaign& campaign);
+
 }  // namespace slipway::gap

@@ -220,12 +220,9 @@ class WindowMaker {
     const auto told = sim::wheel_commands(*campaign_.rover, drive_.command);
     for (std::size_t k = 0; k < told.size(); ++k) {
       const int wheel = static_cast<int>(k);
-      // Some record currents without a sign.
-      const double sense = told[k].rate_rad_s < 0.0 ? -1.0 : 1.0;
-      Readings current = readings_of(drive_, from_, to_, [&](const DriveSample& s) {
-        const double a = s.wheels[k].current_a;
-        return sense < 0.0 && a < 0.0 ? -a : a;
-      });
+      const double sense = told[k].rate_rad_s < 0.0 && !options_.currents_in_sense_of_rate ? -1.0 : 1.0;
+      Readings current = readings_of(drive_, from_, to_,
+                                     [&](const DriveSample& s) { return sense * s.wheels[k].current_a; });
       if (current.count() > 0) {
         const double scatter = std::hypot(std.current_a, std.current_relative * current.mean());
         current = current.kept(2.0 * scatter);
@@ -269,7 +266,22 @@ double boundary_unit(Channel channel) {
   return kRows[static_cast<std::size_t>(channel)].boundary_unit;
 }
 
-std::vector<DriveWindow> cut_windows(const DriveCampaign& campaign, const WindowOptions& options) {
+// Wheels that turn backwards draw a negative current by the format; some record it in the sense of the rate.
+bool currents_in_sense_of_rate(const DriveCampaign& campaign) {
+  double sum = 0.0;
+  for (const MeasuredDriveSeries& drive : campaign.drives) {
+    const auto told = sim::wheel_commands(*campaign.rover, drive.command);
+    for (const DriveSample& sample : drive.samples)
+      for (std::size_t k = 0; k < told.size(); ++k)
+        if (told[k].rate_rad_s < 0.0 && std::isfinite(sample.wheels[k].current_a))
+          sum += sample.wheels[k].current_a;
+  }
+  return sum > 0.0;
+}
+
+std::vector<DriveWindow> cut_windows(const DriveCampaign& campaign, const WindowOptions& asked) {
+  WindowOptions options = asked;
+  options.currents_in_sense_of_rate = currents_in_sense_of_rate(campaign);
   std::vector<DriveWindow> windows;
   for (std::size_t d = 0; d < campaign.drives.size(); ++d) {
     const MeasuredDriveSeries& drive = campaign.drives[d];

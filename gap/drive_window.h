@@ -53,7 +53,9 @@ struct WindowOptions {
   double length_m = 1.5;  // commanded
   double turn_rad = 0.8;  // of a turn in place
   int stations = 3;
+  bool currents_in_sense_of_rate = false;  // found in the campaign's own readings
 };
+bool currents_in_sense_of_rate(const DriveCampaign& campaign);
 
 // Windows of every drive, in the drives' order. A drive shorter than a window is one. Samples whose value
 // lies beyond kOutlier deviations of their neighbours' median are passed over; windows with fewer than two

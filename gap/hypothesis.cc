@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
+#include <optional>
 
 #include "core/angle.h"
 #include "core/parallel_for.h"
@@ -131,6 +131,25 @@ EffectVariant from_catalogue(const sim::Effect& effect) {
   return v;
 }
 
+// Motion along a heading that is recorded `lag_s` later.
+void turn_by_lag(const WindowModel& model, double lag_s, std::vector<double>& predicted) {
+  for (std::size_t w = 0; w < model.windows().size(); ++w) {
+    const DriveWindow& window = model.windows()[w];
+    const sim::DriveCommand& command = window.command;
+    if (command.turn_in_place) continue;
+    double along = 1.0, yaw_rate = command.speed_m_s * command.curvature_1_m;
+    std::optional<std::size_t> side;
+    for (std::size_t i = 0; i < window.observations.size(); ++i) {
+      const std::size_t row = model.offset(w) + i;
+      if (!std::isfinite(predicted[row])) continue;
+      if (window.observations[i].channel == Channel::kSlip) along = 1.0 - predicted[row];
+      if (window.observations[i].channel == Channel::kYawRate) yaw_rate += predicted[row];
+      if (window.observations[i].channel == Channel::kSideSlip) side = row;
+    }
+    if (side) predicted[*side] -= std::copysign(along, command.speed_m_s) * yaw_rate * lag_s;
+  }
+}
+
 double neutral_of(const std::string& effect, const std::string& field) {
   for (const Field& f : sim::find_effect(effect)->fields)
     if (f.name == field) return f.neutral.value_or(f.initial);
@@ -227,6 +246,8 @@ std::vector<double> Hypothesis::predict(const WindowModel& model, std::span<cons
                                         std::size_t threads) const {
   const ModelState at = state(x);
   std::vector<double> predicted = model.predict(at, threads);
+  for (std::size_t p = 0; p < nuisances_; ++p)
+    if (parameters_[p].name == kPoseLag && x[p] != 0.0) turn_by_lag(model, x[p], predicted);
   for (const EffectVariant& v : effects_) {
     if (v.seen_by_inclinometer == 0.0) continue;
     double roll = 0.0, pitch = 0.0;

@@ -97,8 +97,7 @@ std::vector<Slice> slices_of(const std::vector<WindowVariables>& variables) {
         const double value = std::round(1e4 * variable_of(variables[w], v)) / 1e4;
         if (value >= piece.from && value <= piece.to) slice.windows.push_back(w);
       }
-      if (slice.windows.size() >= least &&
-          4 * slice.windows.size() <= 3 * variables.size())
+      if (slice.windows.size() >= least && 4 * slice.windows.size() <= 3 * variables.size())
         by_variable.back().push_back(std::move(slice));
     }
   }

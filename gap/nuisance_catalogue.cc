@@ -42,9 +42,10 @@ constexpr std::array kRows{
              [](double v, Soil& s) { s.exit_angle_ratio = std::min(0.9, s.exit_angle_ratio + v); }},
     Nuisance{"shear_coupling", "one strength for both directions of shear", kClosure, 0.5, 0.0, 1.0,
              [](double v, Soil& s) { s.shear_coupling = std::min(1.0, s.shear_coupling + v); }},
-    Nuisance{"joint_traction", "what the suspension's joints feel of pull and torque, less", kClosure, 0.5,
-             0.0, 1.0, nullptr,
-             [](double v, RoverModel& r) { r.suspension.joint_traction_share *= 1.0 - v; }},
+    Nuisance{"pull_below_axle", "the pull acts below the axle, not ahead of it", kClosure, 0.5, 0.0, 1.0,
+             nullptr, [](double v, RoverModel& r) { r.pull_below_axle = v; }},
+    Nuisance{kPoseLag, "headings are recorded later than positions, s", NuisanceKind::kSensor, 1.0, -5.0,
+             5.0},
     Nuisance{"torque_constant", "logarithm of the motors' torque constant", NuisanceKind::kMotor, 0.01, -0.3,
              0.3, nullptr, [](double v, RoverModel& r) { r.drive.torque_constant_nm_per_a *= std::exp(v); }},
 };

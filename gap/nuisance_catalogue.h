@@ -10,7 +10,7 @@ namespace slipway::gap {
 
 // Something that a diagnosis may re-tune without calling it a missing effect: a soil's parameter that is
 // known only so well, a closure of the laws that nobody measures, a constant of the motors.
-enum class NuisanceKind { kSoil, kClosure, kMotor };
+enum class NuisanceKind { kSoil, kClosure, kMotor, kSensor };
 
 struct Nuisance {
   std::string_view name;
@@ -24,6 +24,10 @@ struct Nuisance {
   void (*on_soil)(double value, sim::Soil& soil) = nullptr;
   void (*on_rover)(double value, sim::RoverModel& rover) = nullptr;
 };
+
+// A row of kSensor that neither soil nor rover feels: seconds by which headings are recorded later than
+// positions, which turns the way that a turning rover seems to go.
+inline constexpr std::string_view kPoseLag = "pose_lag_s";
 
 // A new one is a row.
 std::span<const Nuisance> nuisance_catalogue();

@@ -124,10 +124,12 @@ void RoverBalance::place_wheel(int k, const WheelCommand& told) {
   for (int j = 0; j < joints_; ++j) joint[j] = joint_motion(rover_, stance_, k, j);
 
   // Columns: drawbar pull, lateral, vertical, torque, overturning moment. A wheel that turns backwards pulls
-  // and is driven backwards.
-  const std::array<Wrench, 5> unit{Wrench{.force = place.direction * x}, Wrench{.force = y},
-                                   Wrench{.force = normal}, Wrench{.moment = -place.direction * y},
-                                   Wrench{.moment = x}};
+  // and is driven backwards. The lateral force acts at the rim's lowest point.
+  const std::array<Wrench, 5> unit{
+      Wrench{.force = place.direction * x,
+             .moment = -rover_.pull_below_axle * wheel.radius_m * place.direction * y},
+      Wrench{.force = y, .moment = wheel.radius_m * x}, Wrench{.force = normal},
+      Wrench{.moment = -(1.0 - rover_.pull_below_axle) * place.direction * y}, Wrench{.moment = x}};
   place.effect.resize(equilibrium_count(), 5);
   for (int column = 0; column < 5; ++column) {
     const Wrench& w = unit[column];
@@ -139,9 +141,6 @@ void RoverBalance::place_wheel(int k, const WheelCommand& told) {
     for (int j = 0; j < joints_; ++j)
       e[6 + j] = (w.force.dot(joint[j].shift) + w.moment.y() * joint[j].turn) / length_;
   }
-  // Pull and torque.
-  for (const int column : {0, 3})
-    place.effect.col(column).tail(joints_) *= rover_.suspension.joint_traction_share;
   place.effect /= weight_;
 
   // On sloping ground under one wheel the rim travels along its tangent while the body keeps its own speed.

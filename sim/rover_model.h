@@ -63,9 +63,6 @@ struct Suspension {
   std::optional<double> differential_stiffness_nm_rad = {}, differential_damping_nms_rad = {};
   // Stops of the joints, either way from their places at rest.
   std::optional<double> rocker_stop_rad = {}, bogie_stop_rad = {};
-  // Share of the wheels' pull and torque that the joints feel: 1 as statics has it, 0 where joints share out
-  // normal forces alone, as some simulators do. Read by the balance; a closure that a diagnosis may re-tune.
-  double joint_traction_share = 1.0;
 };
 
 // Where the mass is: what the dynamic rung needs besides the whole mass and its centre; rover_multibody.h
@@ -94,6 +91,10 @@ struct RoverModel {
   MassDistribution masses;
   DriveMotor drive;
   std::optional<DriveMotor> steering = {};  // of each steerable wheel; nothing: motors like the drive's
+  // Where a wheel's pull acts on the vehicle: 0, as the laws have it, with the soil's resistance ahead of the
+  // axle; 1, at the rim's lowest point and nothing ahead of it, as simpler simulators have it. Read by the
+  // balance; a closure that a diagnosis may re-tune.
+  double pull_below_axle = 0.0;
   double belly_clearance_m = 0.3;           // lowest point of the body between the wheels, above level ground
   double body_length_m = 1.6;               // of the rectangle that must stay on the map and out of keep-outs
   double body_width_m = 1.5;

@@ -238,6 +238,7 @@ void WheelContacts::finish(std::size_t k, const WheelKinematics& at, ContactStat
   contact.torque_nm += along * place.geometry.radius_m;
   contact.force = contact.drawbar_pull_n * x + contact.lateral_n * y + contact.load_n * contact.normal;
   contact.moment -= contact.torque_nm * at.axle;
+  contact.moment += contact.lateral_n * place.geometry.radius_m * x;  // it acts at the rim's lowest point
 }
 
 }  // namespace slipway::sim
