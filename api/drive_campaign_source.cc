@@ -80,7 +80,7 @@ class Loader {
     for (const json::CampaignTerrainEntry& entry : file_.terrains) read_terrain(entry);
     for (json::CampaignDriveEntry& entry : file_.drives) read_drive(entry);
     note_columns();
-    if (!faults_.empty()) return fail(ErrorCode::kUnreadableData, summary_of(faults_), std::move(faults_));
+    if (!faults_.empty()) return fail(ErrorCode::kUnreadableData, summary_of(faults_), faults_);
     json::Writer rover;
     json::write_rover(rover, *campaign_.rover);
     campaign_.fingerprint = fmt::format("{:016x}", campaign::digest_of(rover.take(), digest_));

@@ -134,9 +134,10 @@ class WindowMaker {
     const Readings x = readings_of(drive_, from_, to_, [](const DriveSample& s) { return s.p_MB.x(); });
     const Readings y = readings_of(drive_, from_, to_, [](const DriveSample& s) { return s.p_MB.y(); });
     const Readings yaw = angle(&Attitude::yaw_rad);
-    if (x.count() < 2 || y.count() < 2 || yaw.count() < 2) return;
-    add_motion(x, y, yaw);
     const Readings roll = angle(&Attitude::roll_rad), pitch = angle(&Attitude::pitch_rad);
+    if (x.count() < 2 || y.count() < 2 || yaw.count() < 2) return;
+    const bool has_tilt = roll.count() > 0 && pitch.count() > 0;
+    add_motion(x, y, yaw, has_tilt ? roll.mean() : 0.0, has_tilt ? pitch.mean() : 0.0);
     if (drive_.final_only) return;
     if (roll.count() > 1)
       observe(Channel::kRoll, -1, roll.mean(), std.attitude_rad / std::sqrt(roll.count()));
@@ -146,7 +147,9 @@ class WindowMaker {
 
   // Constant speeds forward, leftward and of yaw that lead through the measured positions: with the heading
   // known, positions are linear in the first two and a start.
-  void add_motion(const Readings& x, const Readings& y, const Readings& yaw) {
+  // Those are the level parts of the motion along the body's axes, which are tilted by roll and pitch.
+  void add_motion(const Readings& x, const Readings& y, const Readings& yaw, double roll_rad,
+                  double pitch_rad) {
     const MeasurementStd& std = campaign_.measurement_std;
     const Line heading = line_through(yaw);
     const std::size_t n = x.count();
@@ -182,13 +185,17 @@ class WindowMaker {
           {motion[2] + c * forward - s * leftward, motion[3] + s * forward + c * leftward, heading.at(at_s)});
     }
     const sim::DriveCommand& command = drive_.command;
+    const double yaw_rate = heading.rate * std::cos(pitch_rad) / std::cos(roll_rad);
     if (command.turn_in_place) {
-      observe(Channel::kSlip, -1, 1.0 - heading.rate / command.turn_rate_rad_s,
+      observe(Channel::kSlip, -1, 1.0 - yaw_rate / command.turn_rate_rad_s,
               std.attitude_rad * heading.rate_error / std::abs(command.turn_rate_rad_s));
       return;
     }
     const Eigen::Vector2d travel = sim::travel_direction(command);
-    const double along = travel.x() * motion[0] + travel.y() * motion[1];
+    const double leftward = motion[1] / std::cos(roll_rad);
+    const double forward =
+        (motion[0] - leftward * std::sin(pitch_rad) * std::sin(roll_rad)) / std::cos(pitch_rad);
+    const double along = travel.x() * forward + travel.y() * leftward;
     const double slip = 1.0 - along / command.speed_m_s;
     const double speed_std = std.position_m * std::sqrt(inverse(0, 0));
     window_.censored = slip > kCensoredSlip;
@@ -197,8 +204,8 @@ class WindowMaker {
     const double side_std =
         std::hypot(speed_std / speed, std.attitude_rad * heading.offset_error * std::abs(along) / speed);
     observe(Channel::kSlip, -1, slip, speed_std / speed);
-    observe(Channel::kSideSlip, -1, (travel.x() * motion[1] - travel.y() * motion[0]) / speed, side_std);
-    observe(Channel::kYawRate, -1, heading.rate - command.speed_m_s * command.curvature_1_m,
+    observe(Channel::kSideSlip, -1, (travel.x() * leftward - travel.y() * forward) / speed, side_std);
+    observe(Channel::kYawRate, -1, yaw_rate - command.speed_m_s * command.curvature_1_m,
             std.attitude_rad * heading.rate_error);
   }
 
