@@ -25,6 +25,7 @@ constexpr double kParametersGain = 3.0;  // of the logarithm of the evidence, fo
 constexpr double kSurelySeen = 3.0;      // standard errors
 constexpr double kSmall = 0.5;           // of an effect's usual size
 constexpr double kAlike_deg = 30.0;
+constexpr int kRounds = 2;  // searches: the second under the scatter around what the first found
 constexpr double kNinety = 1.6448536269514722;
 constexpr std::size_t kMostRegimes = 5, kMostNext = 3;
 

@@ -57,16 +57,16 @@ Eigen::MatrixXd added_columns(const Hypothesis& hypothesis, const WindowModel& m
 }
 
 // Linear evidence of columns beside a fit, one-sided ones kept on their side, and the estimate.
-double linear_gain(const FittedExplanation& fit, const Eigen::MatrixXd& columns,
+double linear_gain(const FittedExplanation& fit, const Eigen::MatrixXd& known, const Eigen::MatrixXd& columns,
                    std::span<const Parameter> parameters, Eigen::VectorXd& estimate) {
   std::vector<Eigen::Index> kept;
   for (Eigen::Index c = 0; c < columns.cols(); ++c) kept.push_back(c);
   estimate = Eigen::VectorXd::Zero(columns.cols());
-  const double without = log_marginal(fit.white_linear, fit.white_jacobian);
+  const double without = log_marginal(fit.white_linear, known);
   for (;;) {
     if (kept.empty()) return 0.0;
-    Eigen::MatrixXd all(columns.rows(), fit.white_jacobian.cols() + static_cast<Eigen::Index>(kept.size()));
-    all << fit.white_jacobian, columns(Eigen::all, kept);
+    Eigen::MatrixXd all(columns.rows(), known.cols() + static_cast<Eigen::Index>(kept.size()));
+    all << known, columns(Eigen::all, kept);
     Eigen::MatrixXd hessian = all.transpose() * all;
     hessian.diagonal().array() += 1.0;
     const Eigen::VectorXd solved = hessian.llt().solve(all.transpose() * fit.white_linear).tail(kept.size());
@@ -102,12 +102,14 @@ struct Screened {
 
 // Every variant beside a fit whose effects are not among them.
 std::vector<Screened> screen(const DriveCampaign& campaign, const WindowModel& model, const NoiseModel& noise,
-                             const FittedExplanation& fit, std::span<const EffectVariant> variants,
-                             std::size_t threads) {
+                             const FittedExplanation& fit, const Wildcard& wildcard,
+                             std::span<const EffectVariant> variants, std::size_t threads) {
   std::vector<Screened> all(variants.size());
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(fit.white_jacobian);
   const Eigen::MatrixXd basis =
       qr.householderQ() * Eigen::MatrixXd::Identity(fit.white_jacobian.rows(), fit.white_jacobian.cols());
+  Eigen::MatrixXd known(fit.white_jacobian.rows(), fit.white_jacobian.cols() + wildcard.values.cols());
+  known << fit.white_jacobian, kImprecision * whitened(fit, noise, wildcard);
   parallel_for(variants.size(), threads, [&](std::size_t v) {
     std::vector<EffectVariant> effects(fit.hypothesis.effects().begin(), fit.hypothesis.effects().end());
     for (const EffectVariant& there : effects)
@@ -121,7 +123,7 @@ std::vector<Screened> screen(const DriveCampaign& campaign, const WindowModel& m
     const Eigen::MatrixXd columns = added_columns(hypothesis, model, noise, fit, start);
     Eigen::VectorXd estimate;
     const auto added = hypothesis.parameters().subspan(fit.x.size());
-    const double gain = linear_gain(fit, columns, added, estimate);
+    const double gain = linear_gain(fit, known, columns, added, estimate);
     for (std::size_t p = 0; p < added.size(); ++p)
       start[fit.x.size() + p] =
           std::clamp(added[p].neutral + added[p].std * estimate[static_cast<Eigen::Index>(p)],
@@ -138,6 +140,19 @@ std::vector<Screened> screen(const DriveCampaign& campaign, const WindowModel& m
   std::stable_sort(all.begin(), all.end(),
                    [](const Screened& a, const Screened& b) { return a.gain > b.gain; });
   return all;
+}
+
+// Whether each effect of a fit is at work by a good part of its usual size.
+bool worth_naming(const FittedExplanation& fit, double least_size) {
+  const auto parameters = fit.hypothesis.parameters();
+  for (const EffectVariant& v : fit.hypothesis.effects()) {
+    double size = 0.0;
+    for (std::size_t p = fit.hypothesis.nuisance_count(); p < parameters.size(); ++p)
+      if (parameters[p].effect == v.effect)
+        size = std::max(size, std::abs(fit.x[p] - parameters[p].neutral) / parameters[p].std);
+    if (size < least_size) return false;
+  }
+  return true;
 }
 
 double log_sum_exp(const std::vector<double>& values) {
@@ -169,7 +184,7 @@ Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, con
   // One fit for each of the best effects, of its best variants.
   progress.report("screening effects", 0.2);
   const std::vector<Screened> screened =
-      screen(campaign, model, noise, search.fits[0], variants, options.threads);
+      screen(campaign, model, noise, search.fits[0], wildcard, variants, options.threads);
   for (const Screened& s : screened)
     search.screened.push_back({variants[s.variant], s.gain, s.signature, s.kept_share, s.visibility});
   std::map<std::string, int> tried;
@@ -203,7 +218,7 @@ Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, con
   for (std::size_t s = 0; s < singles.size() && s < static_cast<std::size_t>(options.most_paired); ++s) {
     const std::size_t base = singles[s].second;
     const std::vector<Screened> seconds =
-        screen(campaign, model, noise, search.fits[base], variants, options.threads);
+        screen(campaign, model, noise, search.fits[base], wildcard, variants, options.threads);
     int fitted = 0;
     std::set<std::string> done;
     for (const Screened& second : seconds) {
@@ -232,12 +247,14 @@ Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, con
       log_prior -= std::log(variants_of[v.effect]);
       log_prior_unknown -= std::log(variants_of[v.effect]);
     }
+    if (!worth_naming(search.fits[fit], options.least_size)) return;
     c.fit = fit;
-    c.log_evidence = search.fits[fit].log_evidence;
+    const WildcardGain gain = wildcard_gain(search.fits[fit], noise, wildcard);
+    c.log_evidence = search.fits[fit].log_evidence + gain.imprecision;
     c.log_prior = log_prior;
     search.candidates.push_back(c);
     c.with_unknown = true;
-    c.log_evidence += wildcard_gain(search.fits[fit], noise, wildcard);
+    c.log_evidence = search.fits[fit].log_evidence + gain.something_else;
     c.log_prior = log_prior_unknown;
     search.candidates.push_back(c);
   };

@@ -17,7 +17,10 @@ struct SearchOptions {
   std::vector<std::string> withheld;  // effects that are not looked for
   int most_refitted = 8;              // effects that are fitted in full
   int most_paired = 4;                // of those, whose pairs are looked for
-  double temper = 0.25;               // of the logarithm of the evidence, see probabilities_of
+  // An effect smaller than this share of its usual size (the deviation of its prior) is not worth a name: it
+  // is how one simulator's numerics differ from another's.
+  double least_size = 0.2;
+  double temper = 0.15;  // of the logarithm of the evidence, see probabilities_of
   std::size_t threads = 0;
 };
 

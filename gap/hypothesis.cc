@@ -59,10 +59,10 @@ std::vector<EffectVariant> steering(const sim::RoverModel& rover) {
 std::vector<EffectVariant> attitude(const sim::RoverModel& /*rover*/) {
   const std::vector<Free> free{{"roll_deg", 1.0, -10.0, 10.0}, {"pitch_deg", 1.0, -10.0, 10.0}};
   EffectVariant sensor = variant("attitude_bias", "the inclinometer alone", free);
-  sensor.seen_by_inclinometer = 1.0;
-  sensor.physics = false;
+  sensor.shown = 1.0;
+  sensor.acting = 0.0;
   EffectVariant map = variant("attitude_bias", "the map alone", free);
-  map.seen_by_inclinometer = 1.0;
+  map.shown = 1.0;
   return {sensor, map, variant("attitude_bias", "map and inclinometer", free)};
 }
 
@@ -104,6 +104,10 @@ std::vector<EffectVariant> speed_shear(const sim::RoverModel& /*rover*/) {
   return {variant("rate_shear", "", {{"exponent", 0.3, -1.0, 1.0}})};
 }
 
+std::vector<EffectVariant> tracks(const sim::RoverModel& /*rover*/) {
+  return {variant("multipass", "", {{"stiffening", 0.4, 0.0, 5.0}})};
+}
+
 std::vector<EffectVariant> none(const sim::RoverModel& /*rover*/) {
   return {};
 }
@@ -113,7 +117,8 @@ constexpr std::array kRows{Row{"dragging_wheel", &dragging},  Row{"steering_offs
                            Row{"hardpan", &hard_layer},       Row{"grousers", &cleats},
                            Row{"gearbox_friction", &gearbox}, Row{"motor_temperature", &temperature},
                            Row{"slip_sinkage", &sinkage},     Row{"rate_shear", &speed_shear},
-                           Row{"soft_patch", &none},          Row{"soil_gravity", &none}};
+                           Row{"multipass", &tracks},         Row{"soft_patch", &none},
+                           Row{"soil_gravity", &none}};
 
 // All fields with a neutral value, believed to be about as far from it as the catalogue's initial value.
 EffectVariant from_catalogue(const sim::Effect& effect) {
@@ -226,10 +231,12 @@ ModelState Hypothesis::state(std::span<const double> x) const {
     for (std::size_t s = 0; s < state.soils.size(); ++s)
       if (soil < 0 || static_cast<std::size_t>(soil) == s) row->on_soil(x[i], state.soils[s]);
   }
-  for (const sim::EffectSetting& setting : settings(x)) {
+  for (sim::EffectSetting& setting : settings(x)) {
     const auto variant = std::find_if(effects_.begin(), effects_.end(),
                                       [&](const EffectVariant& v) { return v.effect == setting.name; });
-    if (variant->physics) state.effects.push_back(setting);
+    if (setting.name == "attitude_bias")
+      for (auto& [field, value] : setting.parameters) value *= variant->acting;
+    state.effects.push_back(setting);
   }
   // The rover file's own effects stay at work beside them.
   state.effects = sim::in_force(campaign_->rover->effects, state.effects);
@@ -249,7 +256,7 @@ std::vector<double> Hypothesis::predict(const WindowModel& model, std::span<cons
   for (std::size_t p = 0; p < nuisances_; ++p)
     if (parameters_[p].name == kPoseLag && x[p] != 0.0) turn_by_lag(model, x[p], predicted);
   for (const EffectVariant& v : effects_) {
-    if (v.seen_by_inclinometer == 0.0) continue;
+    if (v.shown == 0.0) continue;
     double roll = 0.0, pitch = 0.0;
     for (std::size_t i = nuisances_; i < parameters_.size(); ++i) {
       if (parameters_[i].name == "attitude_bias.roll_deg") roll = rad_from_deg(x[i]);
@@ -258,8 +265,8 @@ std::vector<double> Hypothesis::predict(const WindowModel& model, std::span<cons
     std::size_t i = 0;
     for (const DriveWindow& window : model.windows())
       for (const Observation& o : window.observations) {
-        if (o.channel == Channel::kRoll) predicted[i] += v.seen_by_inclinometer * roll;
-        if (o.channel == Channel::kPitch) predicted[i] += v.seen_by_inclinometer * pitch;
+        if (o.channel == Channel::kRoll) predicted[i] += v.shown * roll;
+        if (o.channel == Channel::kPitch) predicted[i] += v.shown * pitch;
         ++i;
       }
   }

@@ -25,10 +25,9 @@ struct EffectVariant {
   std::string label;  // tells variants of one effect apart: "wheel lf"; may be empty
   std::vector<Free> free;
   std::vector<std::pair<std::string, double>> fixed;
-  // Of attitude_bias: what the bias does. 1: the ground differs from the map, which the inclinometer sees;
-  // with physics false the inclinometer alone is off.
-  double seen_by_inclinometer = 0.0;
-  bool physics = true;
+  // Of attitude_bias: how much of the bias the inclinometer shows, and how much of it weights act along.
+  // Both: the map is off. The first alone: the inclinometer is. The second alone: both are off together.
+  double shown = 0.0, acting = 1.0;
 };
 
 // Every way in which the catalogue's effects could be at work on this rover, but for places (soft_patch), for

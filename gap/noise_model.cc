@@ -10,8 +10,8 @@ namespace {
 using Scales = std::array<double*, kNoiseScales>;
 
 Scales numbers_of(NoiseScales& s) {
-  return {&s.stiffness, &s.friction,       &s.shear_modulus, &s.within_drives, &s.slip,
-          &s.side_slip, &s.yaw_rate_rad_s, &s.attitude_rad,  &s.current_share, &s.sinkage_m};
+  return {&s.stiffness, &s.friction,  &s.shear_modulus,  &s.within_drives, &s.lean_rad,      &s.load_shift_m,
+          &s.slip,      &s.side_slip, &s.yaw_rate_rad_s, &s.attitude_rad,  &s.current_share, &s.sinkage_m};
 }
 
 // Of the logarithms of the scales around their initial values.
@@ -41,12 +41,9 @@ constexpr double kCensoredStd = 0.3;
 
 }  // namespace
 
-NoiseModel::NoiseModel(const WindowModel& model, Eigen::MatrixXd soil_response, std::vector<double> expected,
+NoiseModel::NoiseModel(const WindowModel& model, Eigen::MatrixXd response, std::vector<double> expected,
                        std::vector<bool> used)
-    : model_(model),
-      response_(std::move(soil_response)),
-      expected_(std::move(expected)),
-      used_(std::move(used)) {
+    : model_(model), response_(std::move(response)), expected_(std::move(expected)), used_(std::move(used)) {
   const auto windows = model.windows();
   for (std::size_t w = 0; w < windows.size(); ++w) {
     for (std::size_t i = 0; i < windows[w].observations.size(); ++i) {
@@ -69,6 +66,8 @@ void NoiseModel::set(const NoiseScales& scales) {
   scales_ = scales;
   const Eigen::Vector3d variances(scales.stiffness * scales.stiffness, scales.friction * scales.friction,
                                   scales.shear_modulus * scales.shear_modulus);
+  const double lean = scales.lean_rad * scales.lean_rad, shift = scales.load_shift_m * scales.load_shift_m;
+  const Eigen::Vector4d of_the_map(lean, lean, shift, shift);
   const double within = scales.within_drives * scales.within_drives;
   log_determinant_ = 0.0;
   deviation_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(used_.size()));
@@ -76,11 +75,13 @@ void NoiseModel::set(const NoiseScales& scales) {
   for (Block& block : blocks_) {
     const auto n = static_cast<Eigen::Index>(block.rows.size());
     const Eigen::MatrixXd g = response_(block.rows, Eigen::all);
-    Eigen::MatrixXd v = g * variances.asDiagonal() * g.transpose();
+    const Eigen::MatrixXd soil = g.leftCols(3) * variances.asDiagonal() * g.leftCols(3).transpose();
+    const Eigen::MatrixXd map = g.rightCols(4) * of_the_map.asDiagonal() * g.rightCols(4).transpose();
+    Eigen::MatrixXd v = soil;
     for (Eigen::Index a = 0; a < n; ++a)
       for (Eigen::Index b = 0; b < n; ++b)
         if (block.window[static_cast<std::size_t>(a)] == block.window[static_cast<std::size_t>(b)])
-          v(a, b) *= 1.0 + within;
+          v(a, b) += within * soil(a, b) + map(a, b);
     for (Eigen::Index a = 0; a < n; ++a) {
       const auto row = static_cast<std::size_t>(block.rows[static_cast<std::size_t>(a)]);
       const std::size_t w = block.window[static_cast<std::size_t>(a)];

@@ -17,22 +17,25 @@ struct NoiseScales {
   // Of each drive's soil around the campaign's: logarithms of stiffness, tan(friction angle), shear modulus.
   double stiffness = 0.1, friction = 0.02, shear_modulus = 0.1;
   double within_drives = 0.7;  // of the same from window to window, over that from drive to drive
+  // Of each window, for what the map's detail does: the attitude under which weights act, the centre of load.
+  double lean_rad = 0.002, load_shift_m = 0.003;
   double slip = 0.004, side_slip = 0.004, yaw_rate_rad_s = 0.0002, attitude_rad = 0.003;
   double current_share = 0.01;  // of the current
   double sinkage_m = 0.0005;
 };
-constexpr int kNoiseScales = 10;
+constexpr int kNoiseScales = 12;
 
 // The covariance of all residuals: blocks of one drive each (drives are independent),
 //
-//   V_d = diag(sensor^2 + left over^2) + G_d S G_d^T + sum over windows (w^2 G_w S G_w^T)
+//   V_d = diag(sensor^2 + left over^2) + G_d S G_d^T + sum over windows (w^2 G_w S G_w^T + H_w T H_w^T)
 //
-// with G the derivatives by the soil's three logarithms and S the diagonal of their variances.
+// with G the derivatives by the soil's three logarithms, H those by pitch and roll of the weight and by the
+// centre of mass forward and to the left, S and T the diagonals of their variances.
 class NoiseModel {
  public:
-  // soil_response: observations x 3, derivatives by the logarithms; expected: the model's own values there.
+  // response: observations x 7, derivatives by those seven; expected: the model's own values there.
   // Observations that are not `used` have no part.
-  NoiseModel(const WindowModel& model, Eigen::MatrixXd soil_response, std::vector<double> expected,
+  NoiseModel(const WindowModel& model, Eigen::MatrixXd response, std::vector<double> expected,
              std::vector<bool> used);
 
   void set(const NoiseScales& scales);

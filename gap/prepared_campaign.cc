@@ -6,10 +6,11 @@ namespace slipway::gap {
 namespace {
 
 // Derivatives of every observation by the logarithms of all soils' stiffness, tan(friction) and shear
-// modulus.
-Eigen::MatrixXd soil_response(const FittedExplanation& fit) {
+// modulus, and by the levers of the map's detail.
+Eigen::MatrixXd scatter_response(const FittedExplanation& fit, const Eigen::MatrixXd& levers) {
   constexpr std::array<std::string_view, 3> kNames{"stiffness", "friction", "shear_modulus"};
-  Eigen::MatrixXd response = Eigen::MatrixXd::Zero(fit.jacobian.rows(), kNames.size());
+  Eigen::MatrixXd response = Eigen::MatrixXd::Zero(fit.jacobian.rows(), kNames.size() + 4);
+  response.rightCols(4) = levers.leftCols(4);
   const auto parameters = fit.hypothesis.parameters();
   for (std::size_t p = 0; p < parameters.size(); ++p)
     for (std::size_t k = 0; k < kNames.size(); ++k)
@@ -38,6 +39,19 @@ std::size_t PreparedCampaign::used_windows() const {
   return count;
 }
 
+void prepare_around(PreparedCampaign& prepared, const DriveCampaign& campaign, const FittedExplanation& found,
+                    std::size_t threads) {
+  prepared.wildcard = make_wildcard(campaign, *prepared.model, found, threads);
+  Eigen::MatrixXd systematic(found.jacobian.rows(), found.jacobian.cols() + prepared.wildcard.values.cols());
+  systematic << found.jacobian, prepared.wildcard.values;
+  prepared.noise->estimate(found.residuals + found.jacobian * in_prior_units(found), systematic);
+  ExplanationOptions options;
+  options.threads = threads;
+  const std::vector<double> start = prepared.null->x;
+  prepared.null =
+      fit_explanation(prepared.null->hypothesis, *prepared.model, *prepared.noise, start, options);
+}
+
 Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const WindowOptions& options,
                                  std::size_t threads, Progress& progress) {
   PreparedCampaign made;
@@ -61,20 +75,15 @@ Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const WindowOpti
   progress.report("fitting soil and closures", 0.02);
   FittedExplanation at{hypothesis, neutral, {}, {}, {}, {}, {}, {}, 0.0, false};
   at.jacobian = hypothesis.scaled_jacobian(model, neutral, threads);
-  made.noise = std::make_unique<NoiseModel>(model, soil_response(at), expected, used);
+  made.noise = std::make_unique<NoiseModel>(
+      model, scatter_response(at, lever_responses(campaign, model, neutral, threads)), expected, used);
   ExplanationOptions fit_options;
   fit_options.threads = threads;
   made.null = fit_explanation(hypothesis, model, *made.noise, neutral, fit_options);
   for (int round = 0; round < kRounds; ++round) {
     if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
     progress.report("estimating the drives' own scatter", 0.06 + 0.05 * round);
-    made.wildcard = make_wildcard(campaign, model, *made.null, threads);
-    const FittedExplanation& fit = *made.null;
-    Eigen::MatrixXd systematic(fit.jacobian.rows(), fit.jacobian.cols() + made.wildcard.values.cols());
-    systematic << fit.jacobian, made.wildcard.values;
-    made.noise->estimate(fit.residuals + fit.jacobian * in_prior_units(fit), systematic);
-    const std::vector<double> start = fit.x;
-    made.null = fit_explanation(hypothesis, model, *made.noise, start, fit_options);
+    prepare_around(made, campaign, *made.null, threads);
   }
   return made;
 }

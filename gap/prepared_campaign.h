@@ -25,6 +25,11 @@ struct PreparedCampaign {
   std::size_t used_windows() const;
 };
 
+// Estimates the drives' scatter anew around an explanation that was found, and fits the null under it: with
+// an effect missing, what it does was in part taken for scatter.
+void prepare_around(PreparedCampaign& prepared, const DriveCampaign& campaign, const FittedExplanation& found,
+                    std::size_t threads);
+
 // The campaign must outlive what is made of it. Errors: cancelled.
 Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const WindowOptions& options,
                                  std::size_t threads, Progress& progress);

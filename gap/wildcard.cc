@@ -10,7 +10,8 @@
 namespace slipway::gap {
 namespace {
 
-constexpr std::array kSizes{0.1, 0.3, 1.0};
+constexpr std::array kSizes{0.4, 1.2, 3.6};
+constexpr double kProbe_m = 0.05;
 
 // Effects of the catalogue as levers: what a force along, a force across, a shifted load, a turned wheel
 // does.
@@ -24,7 +25,7 @@ std::vector<EffectVariant> levers() {
     return v;
   };
   return {lever("attitude_bias", {{"pitch_deg", 1.0, -10.0, 10.0}, {"roll_deg", 1.0, -10.0, 10.0}}),
-          lever("com_offset", {{"x_m", 0.05, -0.5, 0.5}, {"y_m", 0.05, -0.5, 0.5}}),
+          lever("com_offset", {{"x_m", kProbe_m, -0.5, 0.5}, {"y_m", kProbe_m, -0.5, 0.5}}),
           lever("steering_offset", {{"angle_deg", 1.0, -20.0, 20.0}}, {{"wheel", -1.0}})};
 }
 constexpr std::array<std::string_view, 5> kLeverEntries{
@@ -67,11 +68,19 @@ double log_mean_exp(const std::vector<double>& values) {
   return most + std::log(sum / static_cast<double>(values.size()));
 }
 
-Eigen::MatrixXd whitened(const FittedExplanation& fit, const NoiseModel& noise, const Wildcard& wildcard) {
-  return fit.row_weights.asDiagonal() * noise.whiten(wildcard.values);
-}
-
 }  // namespace
+
+Eigen::MatrixXd lever_responses(const DriveCampaign& campaign, const WindowModel& model,
+                                std::span<const double> null_x, std::size_t threads) {
+  const Hypothesis probe(campaign, levers());
+  std::vector<double> x = probe.neutral();
+  std::copy_n(null_x.begin(), probe.nuisance_count(), x.begin());
+  Eigen::MatrixXd responses = probe.scaled_jacobian(model, x, threads).rightCols(kLevers);
+  const double degree = rad_from_deg(1.0);
+  const std::array<double, kLevers> units{degree, degree, kProbe_m, kProbe_m, degree};
+  for (int k = 0; k < kLevers; ++k) responses.col(k) /= units[static_cast<std::size_t>(k)];
+  return responses;
+}
 
 Wildcard make_wildcard(const DriveCampaign& campaign, const WindowModel& model, const FittedExplanation& fit,
                        std::size_t threads) {
@@ -164,12 +173,17 @@ Wildcard make_wildcard(const DriveCampaign& campaign, const WindowModel& model, 
   return wildcard;
 }
 
-double wildcard_gain(const FittedExplanation& fit, const NoiseModel& noise, const Wildcard& wildcard) {
+Eigen::MatrixXd whitened(const FittedExplanation& fit, const NoiseModel& noise, const Wildcard& wildcard) {
+  return fit.row_weights.asDiagonal() * noise.whiten(wildcard.values);
+}
+
+WildcardGain wildcard_gain(const FittedExplanation& fit, const NoiseModel& noise, const Wildcard& wildcard) {
   const Eigen::MatrixXd white = whitened(fit, noise, wildcard);
   const double without = log_marginal(fit.white_linear, fit.white_jacobian);
   std::vector<double> with;
   for (const double size : kSizes) with.push_back(log_marginal(fit.white_linear, both(fit, white, size)));
-  return log_mean_exp(with) - without;
+  return {log_marginal(fit.white_linear, both(fit, white, kImprecision)) - without,
+          log_mean_exp(with) - without};
 }
 
 Eigen::VectorXd wildcard_coefficients(const FittedExplanation& fit, const NoiseModel& noise,

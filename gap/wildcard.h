@@ -23,12 +23,29 @@ struct Wildcard {
   Eigen::MatrixXd values;  // observations x columns, for a coefficient of the size that would matter
 };
 
+// What the levers do to every observation at a null fit's parameters: derivatives by the pitch and roll under
+// which weights act (a force along, a force across; rad), by the centre of mass forward and to the left (m),
+// and by the angle at which steered wheels stand (rad).
+Eigen::MatrixXd lever_responses(const DriveCampaign& campaign, const WindowModel& model,
+                                std::span<const double> null_x, std::size_t threads);
+constexpr int kLevers = 5;
+
 Wildcard make_wildcard(const DriveCampaign& campaign, const WindowModel& model, const FittedExplanation& fit,
                        std::size_t threads);
 
-// By how much the logarithm of the evidence of a fitted explanation rises when the wildcard stands beside it,
-// its coefficients averaged over normal priors of several sizes.
-double wildcard_gain(const FittedExplanation& fit, const NoiseModel& noise, const Wildcard& wildcard);
+// Its whitened columns, rows weighed as in the fit.
+Eigen::MatrixXd whitened(const FittedExplanation& fit, const NoiseModel& noise, const Wildcard& wildcard);
+
+// No simulator is exact: every explanation has the wildcard beside it at this size, and only more than that
+// is something else.
+constexpr double kImprecision = 0.1;
+
+// By how much the logarithm of a fitted explanation's evidence rises with the wildcard beside it: at the size
+// of kImprecision, and with its coefficients averaged over normal priors of larger ones.
+struct WildcardGain {
+  double imprecision = 0.0, something_else = 0.0;
+};
+WildcardGain wildcard_gain(const FittedExplanation& fit, const NoiseModel& noise, const Wildcard& wildcard);
 
 // The coefficients' mean, in units of the columns, at the most probable size.
 Eigen::VectorXd wildcard_coefficients(const FittedExplanation& fit, const NoiseModel& noise,

@@ -91,7 +91,6 @@ void WindowModel::predict_window(std::size_t w, const ModelState& state, bool sa
       own = place_at(state.rover, w, window.stations[i], found);
       if (found) place = &own;
     }
-    bool in_region = false;
     sim::PerWheel<sim::Soil> soils(wheels);
     for (std::size_t k = 0; k < wheels; ++k) {
       soils[k] = state.soils[place->soil[k]];
@@ -100,7 +99,6 @@ void WindowModel::predict_window(std::size_t w, const ModelState& state, bool sa
       for (std::size_t r = 0; r < regions.size(); ++r) {
         if (!regions[r].holds(p.x(), p.y())) continue;
         sim::apply_in_region(state.effects, r, soils[k]);
-        in_region = true;
       }
     }
     const bool as_before =
@@ -112,7 +110,6 @@ void WindowModel::predict_window(std::size_t w, const ModelState& state, bool sa
         std::abs(before->stance.bogie_rad[0] - place->stance.bogie_rad[0]) < kSameAttitude_rad &&
         std::abs(before->stance.bogie_rad[1] - place->stance.bogie_rad[1]) < kSameAttitude_rad;
     if (!as_before) {
-      (void)in_region;
       const sim::StationState at = solver.solve(place->stance, soils, window.command);
       last = {};
       last.current = sim::PerWheel<double>(wheels);
