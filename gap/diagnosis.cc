@@ -19,11 +19,11 @@ namespace slipway::gap {
 namespace {
 
 constexpr std::size_t kLeastDrives = 3, kLeastWindows = 6;
-constexpr double kCertain = 0.5;         // of a set's probability: below it the answer is a set of sets
-constexpr double kWorthNaming = 0.05;    // of an effect's probability
-constexpr double kParametersGain = 3.0;  // of the logarithm of the evidence, for calling parameters mis-set
-constexpr double kSurelySeen = 3.0;      // standard errors
-constexpr double kSmall = 0.5;           // of an effect's usual size
+constexpr double kCertain = 0.5;          // of a set's probability: below it the answer is a set of sets
+constexpr double kWorthNaming = 0.05;     // of an effect's probability
+constexpr double kParametersGain = 10.0;  // of the logarithm of the evidence, for calling parameters mis-set
+constexpr double kSurelySeen = 3.0;       // standard errors
+constexpr double kSmall = 0.5;            // of an effect's usual size
 constexpr double kAlike_deg = 30.0;
 constexpr int kRounds = 2;  // searches: the second under the scatter around what the first found
 constexpr double kNinety = 1.6448536269514722;
@@ -43,14 +43,21 @@ double standard_error(const FittedExplanation& fit, std::size_t p) {
 
 // How much more probable the drives are when soils and motors may differ from the nominal ones, closures
 // being free in either case.
-double gain_of_parameters(const FittedExplanation& null) {
-  std::vector<Eigen::Index> closures;
-  for (std::size_t p = 0; p < null.hypothesis.nuisance_count(); ++p)
-    for (const Nuisance& row : nuisance_catalogue())
-      if (row.kind == NuisanceKind::kClosure && null.hypothesis.parameters()[p].name == row.name)
-        closures.push_back(static_cast<Eigen::Index>(p));
-  return log_marginal(null.white_linear, null.white_jacobian) -
-         log_marginal(null.white_linear, null.white_jacobian(Eigen::all, closures));
+double gain_of_parameters(const PreparedCampaign& prepared, const DriveCampaign& campaign,
+                          std::size_t threads) {
+  const FittedExplanation& null = *prepared.null;
+  const Hypothesis pinned(campaign, {}, FreeNuisances::kClosures);
+  std::vector<double> start;
+  for (const Parameter& closure : pinned.parameters())
+    for (std::size_t p = 0; p < null.x.size(); ++p)
+      if (null.hypothesis.parameters()[p].name == closure.name) start.push_back(null.x[p]);
+  ExplanationOptions options;
+  options.threads = threads;
+  const FittedExplanation nominal = fit_explanation(pinned, *prepared.model, *prepared.noise, start, options);
+  const auto evidence = [&](const FittedExplanation& fit) {
+    return fit.log_evidence + wildcard_gain(fit, *prepared.noise, prepared.wildcard).imprecision;
+  };
+  return evidence(null) - evidence(nominal);
 }
 
 std::vector<std::string> names_in(const Candidate& c) {
@@ -181,7 +188,7 @@ class Diagnoser {
       const EffectVariant::Free& free = s.variant.free.front();
       d_.least_detectable.push_back({s.variant.effect, free.field, kSurelySeen * free.std / s.visibility});
     }
-    const double gain = gain_of_parameters(search_.fits[0]);
+    const double gain = gain_of_parameters(prepared_, campaign_, options_.search.threads);
     if (gain > kParametersGain) {
       d_.verdict = Verdict::kParameters;
       d_.reason = fmt::format(

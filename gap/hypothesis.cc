@@ -179,10 +179,13 @@ std::vector<EffectVariant> effect_variants(const sim::RoverModel& rover,
   return all;
 }
 
-Hypothesis::Hypothesis(const DriveCampaign& campaign, std::vector<EffectVariant> effects)
+Hypothesis::Hypothesis(const DriveCampaign& campaign, std::vector<EffectVariant> effects,
+                       FreeNuisances nuisances)
     : campaign_(&campaign), effects_(std::move(effects)) {
   const bool several = campaign.soils.size() > 1;
   for (const Nuisance& row : nuisance_catalogue()) {
+    const bool nominal = row.kind == NuisanceKind::kSoil || row.kind == NuisanceKind::kMotor;
+    if (nuisances == FreeNuisances::kClosures && nominal) continue;
     const int copies = row.kind == NuisanceKind::kSoil ? static_cast<int>(campaign.soils.size()) : 1;
     for (int soil = 0; soil < copies; ++soil) {
       std::string name(row.name);

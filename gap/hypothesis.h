@@ -43,10 +43,14 @@ struct Parameter {
   double lowest = 0.0, highest = 0.0;
 };
 
+// Which nuisances are free. kClosures: soils and motors are held at their nominal values.
+enum class FreeNuisances { kAll, kClosures };
+
 // A set of effects with the nuisances: parameters, and the model at their values.
 class Hypothesis {
  public:
-  Hypothesis(const DriveCampaign& campaign, std::vector<EffectVariant> effects);
+  Hypothesis(const DriveCampaign& campaign, std::vector<EffectVariant> effects,
+             FreeNuisances nuisances = FreeNuisances::kAll);
 
   std::span<const Parameter> parameters() const { return parameters_; }
   std::span<const EffectVariant> effects() const { return effects_; }

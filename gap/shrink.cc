@@ -61,7 +61,7 @@ struct Totals {
   double closed() const {
     const double before = std::sqrt(scaled_retuned / scaled_count),
                  after = std::sqrt(scaled_with / scaled_count);
-    return before > 1.0 ? (before - after) / (before - 1.0) : 0.0;
+    return before > 1.0 ? std::clamp((before - after) / (before - 1.0), 0.0, 1.0) : 0.0;
   }
 };
 

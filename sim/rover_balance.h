@@ -21,8 +21,9 @@ namespace slipway::sim {
 //   the rest    compatibility   Z^T (z + gap) / z_ref = 0
 //
 // F_k is the soil's force at wheel k's centre, M_k = -T_k about its axle and r L_k about its heading (the
-// lateral force L_k acts at the rim's lowest point), and the suspension has no mass of its own. Gravity is that of the true attitude, the stance's with the rover's bias of attitude added. Forces
-// are divided by the weight, moments by weight and half the wheelbase.
+// lateral force L_k acts at the rim's lowest point), and the suspension has no mass of its own. Gravity is
+// that of the true attitude, the stance's with the rover's bias of attitude added. Forces are divided by the
+// weight, moments by weight and half the wheelbase.
 //
 // Compatibility: the depths z_k of the wheels in contact below the undisturbed surface and the stance's gaps
 // must be reachable by the body's heave, roll and pitch and by the joints, z + gap = -A q with A the gaps'

@@ -95,8 +95,8 @@ struct RoverModel {
   // axle; 1, at the rim's lowest point and nothing ahead of it, as simpler simulators have it. Read by the
   // balance; a closure that a diagnosis may re-tune.
   double pull_below_axle = 0.0;
-  double belly_clearance_m = 0.3;           // lowest point of the body between the wheels, above level ground
-  double body_length_m = 1.6;               // of the rectangle that must stay on the map and out of keep-outs
+  double belly_clearance_m = 0.3;  // lowest point of the body between the wheels, above level ground
+  double body_length_m = 1.6;      // of the rectangle that must stay on the map and out of keep-outs
   double body_width_m = 1.5;
   double max_tilt_rad = 0.5;
   double cruise_speed_m_s = 0.04;  // of the body, commanded on the straight

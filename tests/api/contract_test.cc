@@ -199,7 +199,8 @@ TEST(DriveHistory, IsDrawnOfAPredictionsDynamicDrive) {
   const std::string answer = answer_to(kPredictionKind, example("prediction_dynamic.json"));
   const auto svg = draw_drive_history(answer);
   ASSERT_TRUE(svg) << svg.error().detail;
-  for (const char* words : {"slip", "pitch and roll, deg", "sinkage, mm", "motor current, A", "torque, N m"})
+  for (const char* words :
+       {"slip", "attitude, deg", "sinkage, mm", "motor current, A", "torque, N m", "load, N"})
     EXPECT_NE(svg->find(words), std::string::npos) << words;
   EXPECT_EQ(*svg, *draw_drive_history(answer));
   // Each wheel has its name in the legend.

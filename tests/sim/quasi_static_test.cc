@@ -85,7 +85,9 @@ TEST(QuasiStatic, EveryPartOfTheSuspensionIsInBalanceAboutItsPivot) {
     const WheelState& w = state.wheels[k];
     const Eigen::Vector3d f(w.drawbar_pull_n, w.lateral_force_n, w.load_n);
     force += f;
-    moment += stance.p_B_wheel[k].cross(f) - Eigen::Vector3d(0, w.torque_nm, 0);
+    // The lateral force acts at the rim's lowest point.
+    moment += stance.p_B_wheel[k].cross(f) +
+              Eigen::Vector3d(rover.wheels[k].radius_m * w.lateral_force_n, -w.torque_nm, 0);
   }
   EXPECT_LT(force.norm(), 1e-5);
   EXPECT_LT(moment.norm(), 1e-5);

@@ -52,15 +52,14 @@ TEST(FourWheeler, LoadsOnASlopeAreThoseOfStatics) {
     ASSERT_TRUE(state.moving());
     const double weight = rover.mass_kg * kMars, length = 1.4, width = 1.0;
     const Eigen::Vector3d g = -stance.R_MB.row(2).transpose() * weight;
-    double torque = 0.0, pull_moment = 0.0, side_moment = 0.0;
+    double torque = 0.0, pull_moment = 0.0;
     for (const WheelState& wheel : state.wheels) {
       torque += wheel.torque_nm;
-      // Soil forces act at the wheels' centres.
+      // The pull acts at the wheels' centres with the torque about them, the lateral force on the ground.
       pull_moment += wheel.drawbar_pull_n * 0.125;
-      side_moment += wheel.lateral_force_n * 0.125;
     }
     const double to_rear = (-g.x() * 0.35 + torque - pull_moment) / length / 2.0;
-    const double to_right = (g.y() * -0.35 - side_moment) / width / 2.0;
+    const double to_right = g.y() * -0.35 / width / 2.0;
     for (int k = 0; k < 4; ++k) {
       const double expected =
           -g.z() / 4.0 + (k % 2 == 1 ? to_rear : -to_rear) + (k >= 2 ? to_right : -to_right);

@@ -1,0 +1,95 @@
+#include "gap/drive_window.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "core/angle.h"
+#include "tests/sim/reference_models.h"
+
+namespace slipway::gap {
+namespace {
+
+// A drive of constant speeds along the axes of a body that is tilted, seen in the map frame.
+DriveCampaign constant_motion(double forward_m_s, double leftward_m_s, double yaw_rate, double roll,
+                              double pitch, double speed_m_s, double curvature_1_m) {
+  DriveCampaign campaign;
+  campaign.gravity_m_s2 = 3.71;
+  campaign.rover = std::make_shared<sim::RoverModel>(sim::six_wheeler());
+  campaign.measurement_std = {0.003, 0.003, 0.02, 0.003, 0.001};
+  MeasuredDriveSeries drive;
+  drive.id = "D";
+  drive.command.speed_m_s = speed_m_s;
+  drive.command.curvature_1_m = curvature_1_m;
+  constexpr double kStep_s = 0.01;
+  double x = 2.0, y = -1.0, yaw = 3.0;  // passes pi
+  for (int i = 0; i <= 3000; ++i) {
+    if (i % 100 == 0) {
+      DriveSample sample;
+      sample.time_s = i * kStep_s;
+      sample.p_MB = {x, y, 0.0};
+      sample.attitude = {roll, pitch, wrapped_rad(yaw)};
+      sample.wheels = sim::PerWheel<WheelReading>(6);
+      for (WheelReading& wheel : sample.wheels) wheel.current_a = speed_m_s < 0.0 ? -0.2 : 0.2;
+      drive.samples.push_back(sample);
+    }
+    const double middle = yaw + 0.5 * kStep_s * yaw_rate;
+    const double level_x = forward_m_s * std::cos(pitch) + leftward_m_s * std::sin(pitch) * std::sin(roll);
+    const double level_y = leftward_m_s * std::cos(roll);
+    x += kStep_s * (std::cos(middle) * level_x - std::sin(middle) * level_y);
+    y += kStep_s * (std::sin(middle) * level_x + std::cos(middle) * level_y);
+    yaw += kStep_s * yaw_rate;
+  }
+  campaign.drives.push_back(drive);
+  return campaign;
+}
+
+std::optional<double> value_of(const DriveWindow& window, Channel channel) {
+  for (const Observation& o : window.observations)
+    if (o.channel == channel) return o.value;
+  return std::nullopt;
+}
+
+TEST(DriveWindow, SpeedsAlongTheBodysAxesAreFoundOnSlopesAndArcs) {
+  const double roll = rad_from_deg(7.0), pitch = rad_from_deg(-15.0), yaw_rate = 0.02;
+  const DriveCampaign campaign = constant_motion(0.04, 0.003, yaw_rate, roll, pitch, 0.05, 0.4);
+  const std::vector<DriveWindow> windows = cut_windows(campaign);
+  ASSERT_EQ(windows.size(), 1U);
+  EXPECT_NEAR(*value_of(windows[0], Channel::kSlip), 0.2, 1e-4);
+  EXPECT_NEAR(*value_of(windows[0], Channel::kSideSlip), 0.06, 1e-4);
+  EXPECT_NEAR(*value_of(windows[0], Channel::kYawRate),
+              yaw_rate * std::cos(pitch) / std::cos(roll) - 0.05 * 0.4, 1e-6);
+  EXPECT_NEAR(*value_of(windows[0], Channel::kCurrent), 0.2, 1e-12);
+}
+
+TEST(DriveWindow, BackwardDrivesHaveThePositiveSlipOfForwardOnes) {
+  const std::vector<DriveWindow> windows =
+      cut_windows(constant_motion(-0.04, 0.0, 0.0, 0.0, 0.0, -0.05, 0.0));
+  EXPECT_NEAR(*value_of(windows[0], Channel::kSlip), 0.2, 1e-4);
+  EXPECT_NEAR(*value_of(windows[0], Channel::kCurrent), 0.2, 1e-12) << "in the sense of the rate";
+}
+
+TEST(DriveWindow, AnOutlierIsPassedOver) {
+  DriveCampaign campaign = constant_motion(0.04, 0.0, 0.0, 0.0, 0.0, 0.05, 0.0);
+  campaign.drives[0].samples[10].wheels[2].current_a = 40.0;
+  for (const Observation& o : cut_windows(campaign)[0].observations)
+    if (o.channel == Channel::kCurrent) {
+      EXPECT_NEAR(o.value, 0.2, 1e-9) << o.wheel;
+    }
+}
+
+TEST(DriveWindow, SurveysBeforeAndAfterSayPoseAlone) {
+  DriveCampaign campaign = constant_motion(0.04, 0.0, 0.0, 0.0, 0.0, 0.05, 0.0);
+  MeasuredDriveSeries& drive = campaign.drives[0];
+  drive.samples = {drive.samples.front(), drive.samples.back()};
+  drive.final_only = true;
+  const std::vector<DriveWindow> windows = cut_windows(campaign);
+  ASSERT_EQ(windows.size(), 1U);
+  EXPECT_NEAR(*value_of(windows[0], Channel::kSlip), 0.2, 1e-4);
+  EXPECT_FALSE(value_of(windows[0], Channel::kCurrent));
+}
+
+}  // namespace
+}  // namespace slipway::gap

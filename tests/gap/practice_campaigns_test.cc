@@ -1,0 +1,84 @@
+// The practice campaigns that ship, against their answers.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "api/catalogue.h"
+#include "api/drive_campaign_source.h"
+#include "gap/diagnosis.h"
+
+namespace slipway::gap {
+namespace {
+
+Diagnosis diagnosis_of(const char* name, std::vector<std::string> withheld = {}) {
+  const std::filesystem::path data = SLIPWAY_DATA_FOLDER;
+  auto campaign = api::load_drive_campaign(data / "gap-practice" / name, api::Catalogue{});
+  EXPECT_TRUE(campaign) << name;
+  DiagnosisOptions options;
+  options.search.withheld = std::move(withheld);
+  NoProgress progress;
+  auto diagnosis = diagnose(*campaign, options, progress);
+  EXPECT_TRUE(diagnosis) << name;
+  double sum = 0.0;
+  for (const ComparedSet& set : diagnosis->candidates) sum += set.probability;
+  EXPECT_NEAR(sum, 1.0, 1e-9) << name;
+  return std::move(*diagnosis);
+}
+
+std::vector<std::string> names(const Diagnosis& diagnosis) {
+  std::vector<std::string> all;
+  for (const FoundEffect& effect : diagnosis.effects) all.push_back(effect.name);
+  return all;
+}
+
+const FoundParameter& parameter(const Diagnosis& diagnosis, const std::string& name) {
+  for (const FoundEffect& effect : diagnosis.effects)
+    for (const FoundParameter& p : effect.parameters)
+      if (p.name == name) return p;
+  throw std::out_of_range(name);
+}
+
+TEST(PracticeCampaigns, NothingIsFoundWhereNothingIsMissing) {
+  const Diagnosis diagnosis = diagnosis_of("p01");
+  EXPECT_EQ(diagnosis.verdict, Verdict::kNoGap) << diagnosis.reason;
+  EXPECT_TRUE(diagnosis.effects.empty());
+  EXPECT_FALSE(diagnosis.least_detectable.empty());
+}
+
+TEST(PracticeCampaigns, SlipSinkageIsFoundWithItsSize) {
+  const Diagnosis diagnosis = diagnosis_of("p03");
+  EXPECT_EQ(diagnosis.verdict, Verdict::kEffects) << diagnosis.reason;
+  ASSERT_EQ(names(diagnosis), std::vector<std::string>{"slip_sinkage"});
+  const Interval& n1 = parameter(diagnosis, "n1").value;
+  EXPECT_LT(n1.low, 0.35);
+  EXPECT_GT(n1.high, 0.35);
+}
+
+TEST(PracticeCampaigns, MotorTemperatureIsFoundAndCanBeWithheld) {
+  const Diagnosis found = diagnosis_of("p05");
+  EXPECT_EQ(found.verdict, Verdict::kEffects) << found.reason;
+  ASSERT_EQ(names(found), std::vector<std::string>{"motor_temperature"});
+  EXPECT_NEAR(parameter(found, "friction_per_k").value.value, 0.02, 0.002);
+  ASSERT_TRUE(found.model) << "the correction improves drives that were held out";
+  for (const ChannelShrink& channel : found.gap) {
+    if (channel.channel == Channel::kCurrent) {
+      EXPECT_LT(channel.with_effects.high, 0.7 * channel.retuned.low);
+    }
+  }
+  const Diagnosis without = diagnosis_of("p05", {"motor_temperature"});
+  const std::vector<std::string> named = names(without);
+  EXPECT_EQ(std::count(named.begin(), named.end(), "motor_temperature"), 0);
+  EXPECT_EQ(without.verdict, Verdict::kUnknown) << without.reason;
+}
+
+TEST(PracticeCampaigns, APullThatNoEffectKnowsIsUnknown) {
+  const Diagnosis diagnosis = diagnosis_of("p08");
+  EXPECT_EQ(diagnosis.verdict, Verdict::kUnknown) << diagnosis.reason;
+  ASSERT_FALSE(diagnosis.residual.empty());
+  EXPECT_EQ(diagnosis.residual.front().entry, "tangential_force");
+  EXPECT_EQ(diagnosis.residual.front().variable, "direction");
+}
+
+}  // namespace
+}  // namespace slipway::gap
