@@ -16,10 +16,10 @@ namespace slipway::sim {
 namespace {
 
 constexpr double kLongestSettling_s = 40.0;
-constexpr double kAtRest_m_s = 2e-5;          // slower counts as at rest
-constexpr double kRestFor_s = 0.5;            // and must last
-constexpr double kSliding_m_s = 5e-4;         // faster after kLongestSettling_s: it slides
-constexpr double kSlid_m = 0.2;               // farther than this while settling: the same
+constexpr double kAtRest_m_s = 2e-5;   // slower counts as at rest
+constexpr double kRestFor_s = 0.5;     // and must last
+constexpr double kSliding_m_s = 5e-4;  // faster drift, over the second half of kLongestSettling_s: slides
+constexpr double kSlid_m = 0.2;        // farther than this while settling: the same
 constexpr double kLongestTravel_radii = 0.5;  // of a wheel within one step
 constexpr double kNudge_s = 1e-6;
 constexpr long kMostStepsPerSecond = 4000;  // more, over a second: the motion is too rough to follow
@@ -69,20 +69,31 @@ class Drive {
  private:
   const double* state() const { return integrator_.state().data(); }
 
-  // Until the rover stands still; time starts then. A rover that does not is an answer.
+  // Until the rover stands still; time starts then. A rover that does not is an answer. One that rocks on its
+  // wheels has speed but goes nowhere: its drift counts.
   Result<void> settle() {
-    double still_since = 0.0, t = 0.0;
+    double still_since = 0.0, t = 0.0, half_t = 0.0;
+    Pose2 half = put_down_;
+    bool rests = false;
     while (t < kLongestSettling_s && !ended_) {
-      auto step = advance(kLongestSettling_s);
+      auto step = advance(t < 0.5 * kLongestSettling_s ? 0.5 * kLongestSettling_s : kLongestSettling_s);
       if (!step) return fail(std::move(step.error()));
       t = step->t;
+      if (t <= 0.5 * kLongestSettling_s) {
+        half_t = t;
+        half = dynamics_.pose(state());
+      }
       if (dynamics_.speed_m_s(state()) > kAtRest_m_s) still_since = t;
-      if (t - still_since > kRestFor_s || slid_m() > kSlid_m) break;
+      rests = t - still_since > kRestFor_s;
+      if (rests || way_m(put_down_) > kSlid_m) break;
     }
-    if (!ended_ && (slid_m() > kSlid_m || dynamics_.speed_m_s(state()) > kSliding_m_s))
+    const bool far = way_m(put_down_) > kSlid_m;
+    const double drift_m_s = !rests && t > half_t ? way_m(half) / (t - half_t) : 0.0;
+    if (!ended_ && (far || drift_m_s > kSliding_m_s))
       end(DriveEnd::kSlid,
           fmt::format("does not come to rest at its start: slides at {:.1f} mm/s on a tilt of {:.1f} deg",
-                      1e3 * dynamics_.speed_m_s(state()), deg_from_rad(dynamics_.tilt_rad(state()))));
+                      1e3 * (far ? way_m(put_down_) / t : drift_m_s),
+                      deg_from_rad(dynamics_.tilt_rad(state()))));
     began_s_ = t;
     last_sample_s_ = t;
     checked_s_ = t;
@@ -90,9 +101,9 @@ class Drive {
     return {};
   }
 
-  double slid_m() const {
+  double way_m(const Pose2& from) const {
     const Pose2 at = dynamics_.pose(state());
-    return std::hypot(at.x_m - put_down_.x_m, at.y_m - put_down_.y_m);
+    return std::hypot(at.x_m - from.x_m, at.y_m - from.y_m);
   }
 
   Result<void> drive_leg(const DriveLeg& leg) {

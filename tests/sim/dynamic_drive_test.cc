@@ -394,6 +394,37 @@ TEST(DynamicDrive, SaysWhereARoverDoesNotRest) {
   EXPECT_NE(driven.drive.reason.find("does not come to rest"), std::string::npos);
 }
 
+// A rover of 900 kg on wheels of 0.25 m.
+RoverModel heavy_wheeler() {
+  RoverModel rover = six_wheeler();
+  rover.mass_kg = 900.0;
+  rover.com_m = {0.0, 0.0, 0.6};
+  rover.body_length_m = 2.2;
+  for (WheelModel& wheel : rover.wheels) {
+    wheel.radius_m = 0.25;
+    wheel.width_m = 0.4;
+    wheel.position_m = {1.5 * wheel.position_m.x(), 2.0 * wheel.position_m.y(), 0.25};
+  }
+  rover.suspension.rocker_pivot_m = {0.2, 0.8, 0.7};
+  rover.suspension.bogie_pivot_m = {-0.5, 1.0, 0.5};
+  return rover;
+}
+
+// What rocks on its wheels does not slide: steeper ground never helps.
+TEST(DynamicDrive, SlidesWhereItIsSteeperIfAtAll) {
+  for (const double yaw_deg : {0.0, 180.0}) {
+    bool slid = false;
+    for (double tilt_deg = 31.0; tilt_deg <= 38.0; tilt_deg += 1.0) {
+      const Driven driven = drive(heavy_wheeler(), plane(rad_from_deg(tilt_deg)), sandy_loam(),
+                                  rad_from_deg(yaw_deg), {straight(0.02)});
+      const bool slides = driven.drive.end == DriveEnd::kSlid || driven.drive.end == DriveEnd::kTipped;
+      EXPECT_TRUE(slides || !slid) << yaw_deg << " " << tilt_deg;
+      slid = slides;
+    }
+    EXPECT_TRUE(slid) << yaw_deg;
+  }
+}
+
 class Dismissed final : public Progress {
  public:
   void report(std::string_view, double) override {}
