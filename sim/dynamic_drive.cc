@@ -16,10 +16,11 @@ namespace slipway::sim {
 namespace {
 
 constexpr double kLongestSettling_s = 40.0;
-constexpr double kAtRest_m_s = 2e-5;   // slower counts as at rest
-constexpr double kRestFor_s = 0.5;     // and must last
-constexpr double kSliding_m_s = 5e-4;  // faster drift, over the second half of kLongestSettling_s: slides
-constexpr double kSlid_m = 0.2;        // farther than this while settling: the same
+constexpr double kAtRest_m_s = 2e-5;    // slower counts as at rest
+constexpr double kRestFor_s = 0.5;      // and must last
+constexpr double kSliding_m_s = 5e-4;   // faster drift, over the second half of kLongestSettling_s: slides
+constexpr double kSlid_m = 0.2;         // farther than this while settling: the same
+constexpr double kTelling_radii = 0.5;  // of a wheel: falling short by less says nothing, soil must give
 constexpr double kLongestTravel_radii = 0.5;  // of a wheel within one step
 constexpr double kNudge_s = 1e-6;
 constexpr long kMostStepsPerSecond = 4000;  // more, over a second: the motion is too rough to follow
@@ -117,6 +118,7 @@ class Drive {
     before_leg_m_ = out_.progress_m;
     checked_s_ = now_s_;
     checked_share_ = 0.0;
+    const double share_before = dynamics_.place(state()).share;
     // The profile's kinks are stops, so that no step smooths them over.
     while (!ended_ && now_s_ < driver.end_s()) {
       double stop = driver.end_s();
@@ -127,6 +129,8 @@ class Drive {
       if (!step) return fail(std::move(step.error()));
       check_progress(leg);
     }
+    // With its pose fed back a leg ends where its way is done.
+    if (!ended_ && options_.feedback != Feedback::kPose) check_leg(leg, share_before);
     note({.kind = DriveEventKind::kLegEnds, .time_s = now_s_ - began_s_, .leg = leg_});
     next_start_ = commanded_pose(leg, leg_start, 1.0);
     const PerWheel<double> steered = dynamics_.steered_rad(state());
@@ -238,6 +242,21 @@ class Drive {
         note({DriveEventKind::kJointStop, now_s_ - began_s_, -1, leg_});
   }
 
+  // The way of a share of a leg; of the wheels, when turning in place.
+  double leg_way_m(const DriveLeg& leg, double share) const {
+    return share * (leg.command.turn_in_place ? 0.5 * rover_.track_m() * leg.turn_rad : leg.length_m);
+  }
+
+  // A leg that is over before give_up_s.
+  void check_leg(const DriveLeg& leg, double share_before) {
+    const double made = dynamics_.place(state()).share - share_before;
+    if (made >= kLeastProgress ||
+        leg_way_m(leg, 1.0 - made) < kTelling_radii * rover_.smallest_wheel_radius_m())
+      return;
+    end(DriveEnd::kImmobilised,
+        stuck_text(leg, fmt::format("no progress on leg {} of {}", leg_ + 1, legs_.size())));
+  }
+
   // Every give_up_s of cruise.
   void check_progress(const DriveLeg& leg) {
     if (now_s_ < driver_->ramped_s()) {
@@ -249,21 +268,23 @@ class Drive {
     const double share = dynamics_.place(state()).share;
     const double commanded =
         (now_s_ - checked_s_) / commanded_duration_s(leg) * attainable_share(rover_, leg.command);
-    if (share - checked_share_ < kLeastProgress * commanded) end(DriveEnd::kImmobilised, stuck_text(leg));
+    if (share - checked_share_ < kLeastProgress * commanded)
+      end(DriveEnd::kImmobilised,
+          stuck_text(leg, fmt::format("no progress for {:.0f} s", options_.give_up_s)));
     checked_s_ = now_s_;
     checked_share_ = share;
   }
 
-  std::string stuck_text(const DriveLeg& leg) {
+  std::string stuck_text(const DriveLeg& leg, const std::string& what) {
     const DriveSample sample = dynamics_.sample(now_s_, state());
     std::size_t worst = 0;
     for (std::size_t k = 0; k < sample.wheels.size(); ++k)
       if (sample.wheels[k].sinkage_m > sample.wheels[worst].sinkage_m) worst = k;
     const WheelState& wheel = sample.wheels[worst];
     return fmt::format(
-        "no progress for {:.0f} s after {:.2f} m: tilt {:.1f} deg, slip {:.2f}, deepest wheel {} at {:.3f} m "
-        "with slip {:.2f} and {:.2f} A",
-        options_.give_up_s,
+        "{} after {:.2f} m: tilt {:.1f} deg, slip {:.2f}, deepest wheel {} at {:.3f} m with slip {:.2f} and "
+        "{:.2f} A",
+        what,
         before_leg_m_ + (leg.command.turn_in_place ? 0.0 : leg.length_m * dynamics_.place(state()).share),
         deg_from_rad(sample.attitude.tilt_rad()), sample.slip_ratio, rover_.wheels[worst].name,
         wheel.sinkage_m, wheel.slip_ratio, wheel.current_a);

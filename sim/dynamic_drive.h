@@ -41,8 +41,9 @@ struct DynamicOptions {
   // Points under each wheel, along its travel, at which the ground is looked at: 1 is what the other rungs
   // do.
   int contact_points = 3;
-  bool keep_ruts = false;   // all of them, for a deformed terrain; otherwise those near the rover
-  double give_up_s = 60.0;  // immobilised: in this time less than kLeastProgress of what was commanded
+  bool keep_ruts = false;  // all of them, for a deformed terrain; otherwise those near the rover
+  // Immobilised: in this time, or on a whole leg, less than kLeastProgress of what was commanded.
+  double give_up_s = 60.0;
   std::optional<double> motor_temp_c = {};
 };
 constexpr double kLeastProgress = 0.02;
@@ -70,7 +71,7 @@ struct DriveSample {
 
 enum class DriveEnd {
   kFinished,
-  kImmobilised,  // no progress for give_up_s: spins, stalls or is held
+  kImmobilised,  // no progress for give_up_s, or on a whole leg: spins, stalls, is held or slides back
   kTipped,       // tilt beyond kTippedRad
   kSunkToAxle,   // a wheel at the laws' own limit
   kSlid,         // does not rest at its start

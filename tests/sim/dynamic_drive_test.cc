@@ -275,6 +275,21 @@ TEST(DynamicDrive, GivesUpWhereItMakesNoProgress) {
   EXPECT_LT(driven.drive.duration_s, 200.0);
 }
 
+// A leg may be over before it is time to give up.
+TEST(DynamicDrive, IsNotFinishedWhereALegMadeNoWay) {
+  const std::vector<DriveLeg> legs{straight(1.0), straight(1.0, -0.04)};
+  const Driven stuck = drive(six_wheeler(), plane(rad_from_deg(28.0)), loose_sand(), 0.0, legs);
+  EXPECT_LT(stuck.drive.duration_s, 60.0);
+  EXPECT_LT(stuck.drive.progress_m, 0.0);
+  EXPECT_EQ(stuck.drive.end, DriveEnd::kImmobilised);
+  EXPECT_TRUE(stuck.drive.reason.starts_with("no progress on leg 1 of 2 after ")) << stuck.drive.reason;
+  // Whoever is told less than the soil gives has not failed.
+  const Driven short_one =
+      drive(six_wheeler(), plane(rad_from_deg(20.0)), loose_sand(), 0.0, {straight(0.01)});
+  EXPECT_LT(short_one.drive.progress_m, 0.0);
+  EXPECT_EQ(short_one.drive.end, DriveEnd::kFinished);
+}
+
 TEST(DynamicDrive, AStiffRoverLiftsAWheelOverAHollow) {
   const FunctionGround hollow([](double x, double y) {
     return -0.12 * std::exp(-(std::pow((x - 1.2) / 0.2, 2) + std::pow((y - 0.5) / 0.3, 2)));
