@@ -257,7 +257,7 @@ class Drive {
         stuck_text(leg, fmt::format("no progress on leg {} of {}", leg_ + 1, legs_.size())));
   }
 
-  // Every give_up_s of cruise.
+  // Every give_up_s of cruise, or longer where too little was commanded in that time to tell.
   void check_progress(const DriveLeg& leg) {
     if (now_s_ < driver_->ramped_s()) {
       checked_s_ = now_s_;
@@ -268,9 +268,10 @@ class Drive {
     const double share = dynamics_.place(state()).share;
     const double commanded =
         (now_s_ - checked_s_) / commanded_duration_s(leg) * attainable_share(rover_, leg.command);
+    if (leg_way_m(leg, commanded) < kTelling_radii * rover_.smallest_wheel_radius_m()) return;
     if (share - checked_share_ < kLeastProgress * commanded)
       end(DriveEnd::kImmobilised,
-          stuck_text(leg, fmt::format("no progress for {:.0f} s", options_.give_up_s)));
+          stuck_text(leg, fmt::format("no progress for {:.0f} s", now_s_ - checked_s_)));
     checked_s_ = now_s_;
     checked_share_ = share;
   }

@@ -42,7 +42,8 @@ struct DynamicOptions {
   // do.
   int contact_points = 3;
   bool keep_ruts = false;  // all of them, for a deformed terrain; otherwise those near the rover
-  // Immobilised: in this time, or on a whole leg, less than kLeastProgress of what was commanded.
+  // Immobilised: in this time, or on a whole leg, less than kLeastProgress of what was commanded; not judged
+  // on less than half a wheel's radius of commanded way.
   double give_up_s = 60.0;
   std::optional<double> motor_temp_c = {};
 };
