@@ -98,6 +98,7 @@ class Drive {
     began_s_ = t;
     last_sample_s_ = t;
     checked_s_ = t;
+    raise_peaks();
     record(t, state());
     return {};
   }
@@ -153,6 +154,7 @@ class Drive {
     if (began_s_ >= 0.0) emit_samples(step->t);
     now_s_ = step->t;
     dynamics_.after_step(now_s_, state());
+    if (began_s_ >= 0.0) raise_peaks();
     if (step->event) take_events();
     if (driver_ && ++steps_ % 256 == 0) progress_.report("driving", done_share());
     return step;
@@ -201,17 +203,24 @@ class Drive {
     DriveSample sample = dynamics_.sample(t, y);
     sample.time_s = t - began_s_;
     sample.leg = std::min(leg_, std::max(0, static_cast<int>(legs_.size()) - 1));
-    sample.progress_m = out_.progress_m;
-    if (driver_ && !driver_->leg().command.turn_in_place)
-      sample.progress_m = before_leg_m_ + driver_->leg().length_m * dynamics_.place(y).share;
-    raise(out_.max_tilt_rad, sample.attitude.tilt_rad(), sample.progress_m);
-    for (const WheelState& wheel : sample.wheels) {
-      raise(out_.max_current_a, std::abs(wheel.current_a), sample.progress_m);
-      raise(out_.max_sinkage_m, wheel.sinkage_m, sample.progress_m);
-    }
-    if (sample.driving) raise(out_.max_slip_ratio, std::abs(sample.slip_ratio), sample.progress_m);
+    sample.progress_m = progress_m(y);
     if (sink_) sink_(sample);
     recorded_s_ = t;
+  }
+
+  double progress_m(const double* y) const {
+    if (!driver_ || driver_->leg().command.turn_in_place) return out_.progress_m;
+    return before_leg_m_ + driver_->leg().length_m * dynamics_.place(y).share;
+  }
+
+  // By the integrator's steps: what is greatest does not depend on when samples are taken.
+  void raise_peaks() {
+    const RoverDynamics::Figures& figures = dynamics_.figures();
+    const double at_m = progress_m(state());
+    raise(out_.max_tilt_rad, dynamics_.tilt_rad(state()), at_m);
+    raise(out_.max_current_a, figures.current_a, at_m);
+    raise(out_.max_sinkage_m, figures.sinkage_m, at_m);
+    if (figures.slip_ratio) raise(out_.max_slip_ratio, std::abs(*figures.slip_ratio), at_m);
   }
 
   static void raise(Peak& peak, double value, double distance_m) {

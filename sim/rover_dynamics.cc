@@ -342,6 +342,7 @@ void RoverDynamics::after_step(double t, const double* y) {
   unpack(y);
   find_kinematics(y);
   set_told(t, y);
+  figures_ = {.slip_ratio = slip_ratio(t, y)};
   double power = 0.0;
   for (std::size_t k = 0; k < kinematics_.size(); ++k) {
     const WheelKinematics& at = kinematics_[k];
@@ -352,7 +353,9 @@ void RoverDynamics::after_step(double t, const double* y) {
       contacts_.set_soil(k, here, rim);
     has_soil_[k] = true;
     soil_[k] = soil;
-    power += drive_of(k, y).motor.electric_power_w;
+    const MotorDrive motor = drive_of(k, y).motor;
+    power += motor.electric_power_w;
+    figures_.current_a = std::max(figures_.current_a, std::abs(motor.current_a));
     if (stepped_) turned_rad_[k] += 0.5 * (at.rate_rad_s + last_rate_rad_s_[k]) * (t - last_t_);
     last_rate_rad_s_[k] = at.rate_rad_s;
   }
@@ -364,6 +367,7 @@ void RoverDynamics::after_step(double t, const double* y) {
     ContactState contact;
     if (!contacts_.find_ground(ground_, ruts_, k, kinematics_[k], contact) || contact.depth_m <= 0.0)
       continue;
+    figures_.sinkage_m = std::max(figures_.sinkage_m, contact.depth_m + contact.rut_m);
     const WheelModel& wheel = rover_.wheels[k];
     trails_[k].move_to(kinematics_[k].centre.head<2>(), contact.depth_m + contact.rut_m, wheel.width_m,
                        wheel.radius_m + 2.0 * ruts_.cell_m(), ruts_);
@@ -410,16 +414,21 @@ DriveSample RoverDynamics::sample(double t, const double* y) {
     out.voltage_v[k] = drive_[k].motor.voltage_v;
     out.turned_rad[k] += 0.5 * (wheel.rate_rad_s + last_rate_rad_s_[k]) * (t - last_t_);
   }
-  if (driver_ && driver_->rate_share(t) > 0.5) {
-    const DriveCommand& command = driver_->leg().command;
-    const double told = driver_->rate_share(t) * attainable_share(rover_, command) *
-                        (command.turn_in_place ? command.turn_rate_rad_s : command.speed_m_s);
-    const double done = command.turn_in_place ? out.angular_rate_B.z()
-                                              : travel_direction(command).dot(out.velocity_B.head<2>());
-    out.slip_ratio = bounded_slip(slip_from_speed_ratio(done / told));
+  if (const std::optional<double> slip = slip_ratio(t, y)) {
+    out.slip_ratio = *slip;
     out.driving = true;
   }
   return out;
+}
+
+std::optional<double> RoverDynamics::slip_ratio(double t, const double* y) const {
+  if (!driver_ || driver_->rate_share(t) <= 0.5) return std::nullopt;
+  const DriveCommand& command = driver_->leg().command;
+  const double told = driver_->rate_share(t) * attainable_share(rover_, command) *
+                      (command.turn_in_place ? command.turn_rate_rad_s : command.speed_m_s);
+  const Eigen::Vector2d velocity_B(y[twist_at_ + 3], y[twist_at_ + 4]);
+  const double done = command.turn_in_place ? y[twist_at_ + 2] : travel_direction(command).dot(velocity_B);
+  return bounded_slip(slip_from_speed_ratio(done / told));
 }
 
 double RoverDynamics::mechanical_energy_j(const double* y) {

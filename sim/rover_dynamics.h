@@ -66,6 +66,13 @@ class RoverDynamics {
   int event_count() const { return 2 + 3 * wheels() + joint_stops(); }
   bool events(double t, const double* y, double* value);
 
+  // At the last after_step(): largest of the wheels; slip as in DriveSample, nothing between the drives.
+  struct Figures {
+    double current_a = 0.0, sinkage_m = 0.0;
+    std::optional<double> slip_ratio = {};
+  };
+  const Figures& figures() const { return figures_; }
+
   // At a state; found by a new evaluation.
   DriveSample sample(double t, const double* y);
   Pose2 pose(const double* y) const;  // yaw unwrapped from the last after_step()
@@ -93,6 +100,7 @@ class RoverDynamics {
   void unpack(const double* y);
   bool find_contacts(const double* y);
   void find_kinematics(const double* y);
+  std::optional<double> slip_ratio(double t, const double* y) const;
   void add_suspension_torques();
   WheelDriveState drive_of(std::size_t wheel, const double* y) const;
   Eigen::Vector3d gravity_M() const;
@@ -136,6 +144,7 @@ class RoverDynamics {
   // Kept from step to step.
   double yaw_rad_ = 0.0, last_t_ = 0.0, last_power_w_ = 0.0, energy_j_ = 0.0;
   bool stepped_ = false;
+  Figures figures_;
   PerWheel<std::optional<std::size_t>> soil_;
   PerWheel<bool> has_soil_;
   PerWheel<double> turned_rad_, last_rate_rad_s_;

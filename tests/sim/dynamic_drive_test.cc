@@ -455,6 +455,37 @@ TEST(DynamicDrive, SlidesWhereItIsSteeperIfAtAll) {
   }
 }
 
+TEST(DynamicDrive, ItsGreatestFiguresDoNotDependOnTheSamples) {
+  const FunctionGround hills([](double x, double y) { return 0.1 * std::sin(2.0 * x) * std::cos(3.0 * y); });
+  DynamicOptions often, once;
+  often.sample_interval_s = 0.01;
+  once.sample_interval_s = 1000.0;
+  const std::vector<DriveLeg> legs{arc(1.5, 0.2), turn(0.3)};
+  const Driven fine = drive(six_wheeler(), hills, loose_sand(), 0.3, legs, often);
+  const DynamicDrive coarse = drive(six_wheeler(), hills, loose_sand(), 0.3, legs, once).drive;
+  const auto expect_alike = [](const Peak& a, const Peak& b, double share = 0.01) {
+    EXPECT_NEAR(a.value / b.value, 1.0, share);
+  };
+  expect_alike(coarse.max_current_a, fine.drive.max_current_a);
+  expect_alike(coarse.max_sinkage_m, fine.drive.max_sinkage_m);
+  expect_alike(coarse.max_slip_ratio, fine.drive.max_slip_ratio);
+  expect_alike(coarse.max_tilt_rad, fine.drive.max_tilt_rad);
+  // They are those of dense samples, but for what is greatest within a step.
+  Peak current, sinkage, slip, tilt;
+  for (const DriveSample& sample : fine.samples) {
+    tilt.raise(sample.attitude.tilt_rad(), 0.0);
+    if (sample.driving) slip.raise(std::abs(sample.slip_ratio), 0.0);
+    for (const WheelState& wheel : sample.wheels) {
+      current.raise(std::abs(wheel.current_a), 0.0);
+      sinkage.raise(wheel.sinkage_m, 0.0);
+    }
+  }
+  expect_alike(coarse.max_current_a, current, 0.03);
+  expect_alike(coarse.max_sinkage_m, sinkage, 0.03);
+  expect_alike(coarse.max_slip_ratio, slip, 0.03);
+  expect_alike(coarse.max_tilt_rad, tilt, 0.03);
+}
+
 class Dismissed final : public Progress {
  public:
   void report(std::string_view, double) override {}
