@@ -319,7 +319,10 @@ bool RoverDynamics::events(double t, const double* y, double* value) {
   *value++ = kTippedRad - tilt_rad(y);
   for (std::size_t k = 0; k < kinematics_.size(); ++k) {
     ContactState contact;
-    if (!contacts_.find_ground(ground_, ruts_, k, kinematics_[k], contact)) return false;
+    if (!contacts_.find_ground(ground_, ruts_, k, kinematics_[k], contact)) {
+      lost_ground_ = kinematics_[k].centre.head<2>();
+      return false;
+    }
     const double depth = contact.depth_m / rover_.wheels[k].radius_m;
     *value++ = kSunkenAxle_radii - depth;
     *value++ = depth;
@@ -339,6 +342,7 @@ bool RoverDynamics::events(double t, const double* y, double* value) {
 
 void RoverDynamics::after_step(double t, const double* y) {
   yaw_rad_ = pose(y).yaw_rad;
+  lost_ground_.reset();
   unpack(y);
   find_kinematics(y);
   set_told(t, y);

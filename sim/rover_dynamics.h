@@ -55,7 +55,7 @@ class RoverDynamics {
 
   // False off the ground: see lost_ground().
   bool derivative(double t, const double* y, double* rate);
-  // Where the last refusal was.
+  // Where the last refusal since after_step() was.
   const std::optional<Eigen::Vector2d>& lost_ground() const { return lost_ground_; }
 
   // Soils under the wheels, what they leave behind, headings unwrapped: after each step that counts.
