@@ -98,6 +98,7 @@ class Drive {
     began_s_ = t;
     last_sample_s_ = t;
     checked_s_ = t;
+    dynamics_.reset_counts();
     raise_peaks();
     record(t, state());
     return {};

@@ -379,6 +379,11 @@ void RoverDynamics::after_step(double t, const double* y) {
   if (!options_.keep_ruts) ruts_.forget_beyond(p_MB_.head<2>(), kForgotten_lengths * rover_.body_length_m);
 }
 
+void RoverDynamics::reset_counts() {
+  energy_j_ = 0.0;
+  for (double& turned : turned_rad_) turned = 0.0;
+}
+
 DriveSample RoverDynamics::sample(double t, const double* y) {
   std::vector<double> rate(size_);
   DriveSample out;

@@ -81,8 +81,9 @@ class RoverDynamics {
   double fastest_wheel_rad_s(const double* y) const;
   PerWheel<double> steered_rad(const double* y) const;
   LegPlace place(const double* y) const;
-  // Since the start, integrated by after_step().
+  // Since the start or reset_counts(), integrated by after_step().
   double energy_j() const { return energy_j_; }
+  void reset_counts();  // of energy and encoders
   RutMap& ruts() { return ruts_; }
   int wheels() const { return static_cast<int>(rover_.wheels.size()); }
   // Kinetic and potential energy of the bodies, J: for tests of drift.

@@ -486,6 +486,23 @@ TEST(DynamicDrive, ItsGreatestFiguresDoNotDependOnTheSamples) {
   expect_alike(coarse.max_tilt_rad, tilt, 0.03);
 }
 
+TEST(DynamicDrive, CountsFromWhenTimeStarts) {
+  const Driven driven = drive(six_wheeler(), plane(rad_from_deg(20.0)), sandy_loam(), 0.0, {straight(0.2)});
+  for (const double turned : driven.samples.front().turned_rad) EXPECT_EQ(turned, 0.0);
+  double greatest_w = 0.0;
+  for (const DriveSample& sample : driven.samples) {
+    double power_w = 0.0;
+    for (std::size_t k = 0; k < sample.wheels.size(); ++k)
+      power_w += std::abs(sample.voltage_v[k] * sample.wheels[k].current_a);
+    greatest_w = std::max(greatest_w, power_w);
+  }
+  EXPECT_LE(driven.drive.energy_j, 1.5 * greatest_w * driven.drive.duration_s);
+  // Nothing is used by what slides while it is set down.
+  const Driven slid = drive(six_wheeler(), plane(rad_from_deg(50.0)), loose_sand(), 0.0, {straight(1.0)});
+  ASSERT_EQ(slid.drive.end, DriveEnd::kSlid);
+  EXPECT_EQ(slid.drive.energy_j, 0.0);
+}
+
 class Dismissed final : public Progress {
  public:
   void report(std::string_view, double) override {}
