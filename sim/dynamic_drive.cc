@@ -22,6 +22,7 @@ constexpr double kSliding_m_s = 5e-4;   // faster drift, over the second half of
 constexpr double kSlid_m = 0.2;         // farther than this while settling: the same
 constexpr double kTelling_radii = 0.5;  // of a wheel: falling short by less says nothing, soil must give
 constexpr double kLongestTravel_radii = 0.5;  // of a wheel within one step
+constexpr double kBellyLook_m = 0.01;         // of way, or of a turn at the body's ends, between looks at it
 constexpr double kNudge_s = 1e-6;
 constexpr long kMostStepsPerSecond = 4000;  // more, over a second: the motion is too rough to follow
 
@@ -100,6 +101,7 @@ class Drive {
     checked_s_ = t;
     dynamics_.reset_counts();
     raise_peaks();
+    watch_belly();
     record(t, state());
     return {};
   }
@@ -155,7 +157,10 @@ class Drive {
     if (began_s_ >= 0.0) emit_samples(step->t);
     now_s_ = step->t;
     dynamics_.after_step(now_s_, state());
-    if (began_s_ >= 0.0) raise_peaks();
+    if (began_s_ >= 0.0) {
+      raise_peaks();
+      watch_belly();
+    }
     if (step->event) take_events();
     if (driver_ && ++steps_ % 256 == 0) progress_.report("driving", done_share());
     return step;
@@ -222,6 +227,22 @@ class Drive {
     raise(out_.max_current_a, figures.current_a, at_m);
     raise(out_.max_sinkage_m, figures.sinkage_m, at_m);
     if (figures.slip_ratio) raise(out_.max_slip_ratio, std::abs(*figures.slip_ratio), at_m);
+  }
+
+  // Settling and sinking alone bring it down slowly: where it moved is where to look.
+  void watch_belly() {
+    const Pose2 at = dynamics_.pose(state());
+    if (belly_looked_ &&
+        way_m(*belly_looked_) + 0.5 * rover_.body_length_m * std::abs(at.yaw_rad - belly_looked_->yaw_rad) <
+            kBellyLook_m)
+      return;
+    belly_looked_ = at;
+    const BellyClearance belly = dynamics_.belly(state());
+    if (belly.least_m <= 0.0)
+      end(DriveEnd::kImmobilised,
+          fmt::format("belly on the ground at ({:.2f}, {:.2f}) m after {:.2f} m: tilt {:.1f} deg",
+                      belly.place.x(), belly.place.y(), progress_m(state()),
+                      deg_from_rad(dynamics_.tilt_rad(state()))));
   }
 
   static void raise(Peak& peak, double value, double distance_m) {
@@ -333,7 +354,7 @@ class Drive {
   DynamicDrive out_;
   LegDriver* driver_ = nullptr;
   Pose2 put_down_;
-  std::optional<Pose2> next_start_;
+  std::optional<Pose2> next_start_, belly_looked_;
   int leg_ = 0;
   bool ended_ = false;
   long steps_ = 0, pace_steps_ = 0;

@@ -285,6 +285,11 @@ double RoverDynamics::tilt_rad(const double* y) const {
   return std::acos(std::clamp(R(2, 2), -1.0, 1.0));
 }
 
+BellyClearance RoverDynamics::belly(const double* y) const {
+  const Eigen::Matrix3d R = Eigen::Quaterniond(y[3], y[4], y[5], y[6]).normalized().toRotationMatrix();
+  return belly_clearance(rover_, ground_, origin_M_ + Vector3d(y[0], y[1], y[2]), R);
+}
+
 double RoverDynamics::speed_m_s(const double* y) const {
   return Vector3d(y[twist_at_ + 3], y[twist_at_ + 4], y[twist_at_ + 5]).norm();
 }

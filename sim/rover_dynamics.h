@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "sim/belly_clearance.h"
 #include "sim/dynamic_drive.h"
 #include "sim/leg_driver.h"
 #include "sim/motor_control.h"
@@ -30,8 +31,7 @@ namespace slipway::sim {
 // Drive and steering motors under rate and angle control: motor_control.h.
 // Soil does not resist steering: a point on the steering's axis has no arm.
 //
-// Not modelled: a body that touches the ground (its clearance is the quasi-static rung's to report), inductance,
-// the legs' elasticity.
+// Not modelled: the forces on a body that touches the ground (see belly()), inductance, the legs' elasticity.
 // clang-format on
 class RoverDynamics {
  public:
@@ -77,7 +77,8 @@ class RoverDynamics {
   DriveSample sample(double t, const double* y);
   Pose2 pose(const double* y) const;  // yaw unwrapped from the last after_step()
   double tilt_rad(const double* y) const;
-  double speed_m_s(const double* y) const;  // of B's origin
+  BellyClearance belly(const double* y) const;  // over undeformed ground
+  double speed_m_s(const double* y) const;      // of B's origin
   double fastest_wheel_rad_s(const double* y) const;
   PerWheel<double> steered_rad(const double* y) const;
   LegPlace place(const double* y) const;

@@ -503,6 +503,25 @@ TEST(DynamicDrive, CountsFromWhenTimeStarts) {
   EXPECT_EQ(slid.drive.energy_j, 0.0);
 }
 
+TEST(DynamicDrive, EndsWithItsBellyOnARidge) {
+  // Between the wheels, along and across the way: these roll past it, or over it.
+  const FunctionGround between([](double x, double y) {
+    return 0.35 * std::exp(-std::pow(y / 0.15, 2)) * 0.5 * (1.0 + std::tanh((x - 1.6) / 0.05));
+  });
+  const Driven stuck = drive(six_wheeler(), between, sandy_loam(), 0.0, {straight(2.0)});
+  EXPECT_EQ(stuck.drive.end, DriveEnd::kImmobilised);
+  EXPECT_TRUE(stuck.drive.reason.starts_with("belly on the ground at (1.")) << stuck.drive.reason;
+  EXPECT_LT(stuck.drive.progress_m, 1.2);
+  RoverModel high = six_wheeler();
+  high.belly_clearance_m = 0.4;
+  EXPECT_EQ(drive(high, between, sandy_loam(), 0.0, {straight(2.0)}).drive.end, DriveEnd::kFinished);
+  // Where it is set down on one, it says so at once.
+  const FunctionGround along([](double, double y) { return 0.35 * std::exp(-std::pow(y / 0.15, 2)); });
+  const Driven set_down = drive(six_wheeler(), along, sandy_loam(), 0.0, {straight(2.0)});
+  EXPECT_EQ(set_down.drive.end, DriveEnd::kImmobilised);
+  EXPECT_EQ(set_down.drive.duration_s, 0.0);
+}
+
 class Dismissed final : public Progress {
  public:
   void report(std::string_view, double) override {}
