@@ -26,6 +26,11 @@ constexpr double kBellyLook_m = 0.01;         // of way, or of a turn at the bod
 constexpr double kNudge_s = 1e-6;
 constexpr long kMostStepsPerSecond = 4000;  // more, over a second: the motion is too rough to follow
 
+// To the centimetre, without a sign where that is 0.
+double printed_m(double metres) {
+  return std::abs(metres) < 0.005 ? 0.0 : metres;
+}
+
 class Drive {
  public:
   Drive(const RoverModel& rover, double gravity_m_s2, const Ground& ground, const DriveSoils& soils,
@@ -222,7 +227,7 @@ class Drive {
   // By the integrator's steps: what is greatest does not depend on when samples are taken.
   void raise_peaks() {
     const RoverDynamics::Figures& figures = dynamics_.figures();
-    const double at_m = progress_m(state());
+    const double at_m = std::max(0.0, progress_m(state()));  // slid back: no place on the way
     raise(out_.max_tilt_rad, dynamics_.tilt_rad(state()), at_m);
     raise(out_.max_current_a, figures.current_a, at_m);
     raise(out_.max_sinkage_m, figures.sinkage_m, at_m);
@@ -241,7 +246,7 @@ class Drive {
     if (belly.least_m <= 0.0)
       end(DriveEnd::kImmobilised,
           fmt::format("belly on the ground at ({:.2f}, {:.2f}) m after {:.2f} m: tilt {:.1f} deg",
-                      belly.place.x(), belly.place.y(), progress_m(state()),
+                      belly.place.x(), belly.place.y(), printed_m(progress_m(state())),
                       deg_from_rad(dynamics_.tilt_rad(state()))));
   }
 
@@ -285,7 +290,7 @@ class Drive {
         leg_way_m(leg, 1.0 - made) < kTelling_radii * rover_.smallest_wheel_radius_m())
       return;
     end(DriveEnd::kImmobilised,
-        stuck_text(leg, fmt::format("no progress on leg {} of {}", leg_ + 1, legs_.size())));
+        stuck_text(fmt::format("no progress on leg {} of {}", leg_ + 1, legs_.size())));
   }
 
   // Every give_up_s of cruise, or longer where too little was commanded in that time to tell.
@@ -301,13 +306,12 @@ class Drive {
         (now_s_ - checked_s_) / commanded_duration_s(leg) * attainable_share(rover_, leg.command);
     if (leg_way_m(leg, commanded) < kTelling_radii * rover_.smallest_wheel_radius_m()) return;
     if (share - checked_share_ < kLeastProgress * commanded)
-      end(DriveEnd::kImmobilised,
-          stuck_text(leg, fmt::format("no progress for {:.0f} s", now_s_ - checked_s_)));
+      end(DriveEnd::kImmobilised, stuck_text(fmt::format("no progress for {:.0f} s", now_s_ - checked_s_)));
     checked_s_ = now_s_;
     checked_share_ = share;
   }
 
-  std::string stuck_text(const DriveLeg& leg, const std::string& what) {
+  std::string stuck_text(const std::string& what) {
     const DriveSample sample = dynamics_.sample(now_s_, state());
     std::size_t worst = 0;
     for (std::size_t k = 0; k < sample.wheels.size(); ++k)
@@ -316,10 +320,8 @@ class Drive {
     return fmt::format(
         "{} after {:.2f} m: tilt {:.1f} deg, slip {:.2f}, deepest wheel {} at {:.3f} m with slip {:.2f} and "
         "{:.2f} A",
-        what,
-        before_leg_m_ + (leg.command.turn_in_place ? 0.0 : leg.length_m * dynamics_.place(state()).share),
-        deg_from_rad(sample.attitude.tilt_rad()), sample.slip_ratio, rover_.wheels[worst].name,
-        wheel.sinkage_m, wheel.slip_ratio, wheel.current_a);
+        what, printed_m(progress_m(state())), deg_from_rad(sample.attitude.tilt_rad()), sample.slip_ratio,
+        rover_.wheels[worst].name, wheel.sinkage_m, wheel.slip_ratio, wheel.current_a);
   }
 
   void end(DriveEnd how, std::string reason) {

@@ -64,7 +64,7 @@ struct DriveSample {
   PerWheel<double> told_rate_rad_s;  // at the wheel
   PerWheel<double> turned_rad;       // of each wheel since the start: what an encoder counts
   PerWheel<double> voltage_v;        // at the drive motors
-  double slip_ratio = 0.0;           // of the rover over the last sample interval: 1 - progress / commanded
+  double slip_ratio = 0.0;           // of the rover at that instant: 1 - speed / commanded speed
   double progress_m = 0.0;           // of B along the legs' lines since the start; turning in place adds none
   int leg = 0;
   bool driving = false;  // between the halts
@@ -72,7 +72,7 @@ struct DriveSample {
 
 enum class DriveEnd {
   kFinished,
-  kImmobilised,  // no progress for give_up_s, or on a whole leg: spins, stalls, is held or slides back
+  kImmobilised,  // no progress for give_up_s, or on a whole leg: spins, stalls, slides back; or on its belly
   kTipped,       // tilt beyond kTippedRad
   kSunkToAxle,   // a wheel at the laws' own limit
   kSlid,         // does not rest at its start
@@ -106,7 +106,8 @@ struct DynamicDrive {
   double energy_j = 0.0;     // from the bus, of the drive motors
   Pose2 start, final;        // of B, settled and at the end; final yaw not wrapped
   Pose2 commanded;           // where the drive would have ended without slip
-  Peak max_slip_ratio, max_tilt_rad, max_current_a, max_sinkage_m;  // over samples; distances of progress
+  Peak max_slip_ratio, max_tilt_rad, max_current_a,
+      max_sinkage_m;  // over the integrator's steps; distances of progress, from 0
   std::vector<DriveEvent> events;
   RutMap ruts = RutMap();
   IntegrationWork work;

@@ -283,6 +283,7 @@ TEST(DynamicDrive, IsNotFinishedWhereALegMadeNoWay) {
   EXPECT_LT(stuck.drive.progress_m, 0.0);
   EXPECT_EQ(stuck.drive.end, DriveEnd::kImmobilised);
   EXPECT_TRUE(stuck.drive.reason.starts_with("no progress on leg 1 of 2 after ")) << stuck.drive.reason;
+  EXPECT_GE(stuck.drive.max_current_a.distance_m, 0.0);
   // Whoever is told less than the soil gives has not failed.
   const Driven short_one =
       drive(six_wheeler(), plane(rad_from_deg(20.0)), loose_sand(), 0.0, {straight(0.01)});
@@ -520,6 +521,7 @@ TEST(DynamicDrive, EndsWithItsBellyOnARidge) {
   const Driven set_down = drive(six_wheeler(), along, sandy_loam(), 0.0, {straight(2.0)});
   EXPECT_EQ(set_down.drive.end, DriveEnd::kImmobilised);
   EXPECT_EQ(set_down.drive.duration_s, 0.0);
+  EXPECT_NE(set_down.drive.reason.find(" after 0.00 m"), std::string::npos) << set_down.drive.reason;
 }
 
 class Dismissed final : public Progress {
