@@ -209,6 +209,11 @@ TEST(CampaignTable, ShippedTablesAreWithoutFault) {
 }
 
 TEST(CampaignTable, UnknownNamesListThoseThereAre) {
+  std::string twice = replaced(kSmallTable, R"("name": "slope")", R"("name": "level")");
+  twice = replaced(twice, R"("id": "turn", "terrains": ["level"])", R"("id": "turn", "terrains": ["hill"])");
+  const auto table = read_table(twice);
+  ASSERT_FALSE(table);
+  EXPECT_EQ(table.error().faults.back().message, "unknown terrain \"hill\"; known: level");
   const auto loaded = api::load_campaign_table("fido_table", SLIPWAY_DATA_FOLDER, shipped_catalogue());
   ASSERT_FALSE(loaded);
   EXPECT_EQ(loaded.error().code, ErrorCode::kNotFound);
