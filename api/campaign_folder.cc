@@ -72,14 +72,16 @@ Result<CampaignFolder> CampaignFolder::open(fs::path path, std::string digest, b
 
 Result<void> CampaignFolder::read_records() {
   done_.clear();
+  notes_.clear();
   for (const fs::path& path : records_in(folder_)) {
     const auto bytes = read_data_file(path);
     auto record =
         bytes ? json::read_drive_record(*bytes) : Result<campaign::DriveRecord>(fail(bytes.error()));
-    if (!record)
-      return fail(ErrorCode::kUnreadableData,
-                  fmt::format("{} is no drive's record: {}", path.string(), record.error().detail),
-                  record.error().faults);
+    if (!record) {
+      notes_.push_back(fmt::format("{} is no drive's record, the drive is not done: {}", path.string(),
+                                   record.error().detail));
+      continue;
+    }
     if (record->digest != digest_)
       return fail(
           ErrorCode::kConflict,

@@ -26,6 +26,9 @@ class CampaignFolder {
   // The drives that are done, by id.
   const std::map<std::string, campaign::DriveRecord>& done() const { return done_; }
 
+  // Records that can't be read: their drives are not done. A sentence each.
+  const std::vector<std::string>& notes() const { return notes_; }
+
   // Writes a drive's files. For several threads at once; does not change done().
   Result<void> write_drive(const campaign::CampaignTable& table, const campaign::TableDrive& drive,
                            const campaign::MadeDrive& made) const;
@@ -49,6 +52,7 @@ class CampaignFolder {
   std::filesystem::path folder_;
   std::string digest_;
   std::map<std::string, campaign::DriveRecord> done_;
+  std::vector<std::string> notes_;
 };
 
 }  // namespace slipway::api

@@ -57,9 +57,12 @@ std::optional<std::string> nearest(std::string_view name, const std::vector<std:
 std::string unknown_name(std::string_view kind, std::string_view name,
                          const std::vector<std::string>& known) {
   const auto meant = nearest(name, known);
+  std::vector<std::string> once;
+  for (const std::string& one : known)
+    if (std::find(once.begin(), once.end(), one) == once.end()) once.push_back(one);
   return fmt::format("unknown {} {}; {}known: {}", kind, in_quotes(name),
                      meant ? fmt::format("did you mean \"{}\"? ", *meant) : std::string(),
-                     fmt::join(known, ", "));
+                     fmt::join(once, ", "));
 }
 
 bool has_fault_under(const std::vector<Fault>& faults, std::string_view pointer) {

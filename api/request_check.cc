@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "api/faults.h"
 #include "api/json/json_value.h"
 #include "planner/planner_catalogue.h"
+#include "sim/drive_command.h"
 #include "sim/effect_catalogue.h"
 
 namespace slipway::api {
@@ -101,6 +103,12 @@ void RequestCheck::failed_wheels(const DriveAssumptions& drive) {
     if (std::find(known.begin(), known.end(), name) == known.end())
       add(ErrorCode::kInvalidRequest, json::child_pointer("/failed_wheels", name),
           unknown_name("wheel", name, known));
+}
+
+void RequestCheck::crab(double crab_rad) {
+  if (rover_ == nullptr || already_faulty("/crab_deg")) return;
+  if (auto why = sim::why_no_crab(*rover_, crab_rad))
+    add(ErrorCode::kInvalidRequest, "/crab_deg", std::move(*why));
 }
 
 void RequestCheck::planners(const std::vector<std::string>& planners) {

@@ -21,6 +21,7 @@ class RequestCheck {
   void names(const std::string& terrain, const std::string& rover);
   void place(const planner::Waypoint& place, const std::string& pointer);
   void drive(const DriveAssumptions& drive);
+  void crab(double crab_rad);
   void planners(const std::vector<std::string>& planners);
   // A path no longer than RequestLimits::kPathLength_m.
   void path_length(const std::vector<planner::Waypoint>& path);

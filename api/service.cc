@@ -83,6 +83,7 @@ Result<PredictionRequest> Service::read_prediction(std::string_view json) const 
   for (std::size_t i = 0; i < request.path.size(); ++i)
     check.place(request.path[i], fmt::format("/path/{}", i));
   check.path_length(request.path);
+  check.crab(request.manner.crab_rad);
   check.drive(request.drive);
   if (!check.passed()) return fail(check.error());
   return std::move(reading->request);

@@ -7,8 +7,10 @@
 #include <numbers>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "core/angle.h"
+#include "sim/drive_command.h"
 #include "sim/effect_catalogue.h"
 
 namespace slipway::campaign {
@@ -44,6 +46,9 @@ void check_entry(const CampaignTable& table, std::size_t k, std::vector<Fault>& 
                                                         entry.x_m, entry.y_m, terrain.name)});
     }
   }
+  for (std::size_t i = 0; i < entry.legs.size(); ++i)
+    if (auto why = sim::why_no_crab(*table.rover, entry.legs[i].command.crab_rad))
+      faults.push_back({fmt::format("{}/legs/{}/crab_deg", pointer, i), std::move(*why)});
   for (const auto& [wheel, failure] : entry.failed_wheels) {
     const auto& wheels = table.rover->wheels;
     if (std::any_of(wheels.begin(), wheels.end(), [&](const auto& w) { return w.name == wheel; })) continue;

@@ -21,13 +21,14 @@ struct RungDifference {
 struct DynamicVerification {
   std::optional<sim::DriveEnd> end;  // nothing: not simulated to an end, `reason` says why
   std::string reason;                // empty where finished
-  double distance_m = 0.0;           // where it ended: progress along the legs
+  double distance_m = 0.0;           // where it ended: progress along the legs, 0 where it slid back
   Pose2 pose;                        // of B there; yaw wrapped
   double commanded_m = 0.0;
   double duration_s = 0.0;
   std::optional<double> energy_j;  // from the bus, of the drive motors; nothing where there is no end
   // Slip is the mean over the time that a station's spacing takes: what a balance has no say in, the first
-  // grip after each halt, is no slip of the way. Without clearance: this rung does not look at the belly.
+  // grip after each halt, is no slip of the way. Without clearance: this rung only tells where the belly
+  // touches.
   sim::DriveExtremes extremes;
   std::vector<std::string> broken_limits;  // in the words of DrivePrediction's
   // Of the rover's slip (over the same time), its deepest wheel and its largest current; driven parts only,

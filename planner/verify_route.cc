@@ -159,7 +159,7 @@ void end_without_answer(const Error& error, const std::vector<sim::DriveSample>&
   out.pose = start;
   if (samples.empty()) return;
   const sim::DriveSample& last = samples.back();
-  out.distance_m = last.progress_m;
+  out.distance_m = std::max(0.0, last.progress_m);
   out.pose = {last.p_MB.x(), last.p_MB.y(), wrapped_rad(last.attitude.yaw_rad)};
   out.duration_s = last.time_s;
 }
@@ -167,8 +167,7 @@ void end_without_answer(const Error& error, const std::vector<sim::DriveSample>&
 void take_drive(sim::DynamicDrive drive, DynamicVerification& out) {
   out.end = drive.end;
   out.reason = std::move(drive.reason);
-  out.distance_m = drive.progress_m;
-  if (!out.samples.empty()) out.distance_m = out.samples.back().progress_m;
+  out.distance_m = std::max(0.0, out.samples.empty() ? drive.progress_m : out.samples.back().progress_m);
   out.pose = {drive.final.x_m, drive.final.y_m, wrapped_rad(drive.final.yaw_rad)};
   out.duration_s = drive.duration_s;
   out.energy_j = drive.energy_j;
@@ -205,10 +204,11 @@ Result<DynamicVerification> verify_route(const PlanProblem& problem, const std::
       [&](const sim::DriveSample& sample) {
         samples.add(sample);
         const std::optional<double> slip_ratio = steady.add(sample);
-        if (slip_ratio) out.extremes.max_slip_ratio.raise(std::abs(*slip_ratio), sample.progress_m);
-        out.extremes.max_tilt_rad.raise(sample.attitude.tilt_rad(), sample.progress_m);
-        out.extremes.max_current_a.raise(largest_current_a(sample), sample.progress_m);
-        out.extremes.max_sinkage_m.raise(deepest_sinkage_m(sample), sample.progress_m);
+        const double at_m = std::max(0.0, sample.progress_m);  // slid back: no place on the way
+        if (slip_ratio) out.extremes.max_slip_ratio.raise(std::abs(*slip_ratio), at_m);
+        out.extremes.max_tilt_rad.raise(sample.attitude.tilt_rad(), at_m);
+        out.extremes.max_current_a.raise(largest_current_a(sample), at_m);
+        out.extremes.max_sinkage_m.raise(deepest_sinkage_m(sample), at_m);
         comparison.add(sample, slip_ratio);
       },
       progress);

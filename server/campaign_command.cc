@@ -118,6 +118,7 @@ int campaign(const CampaignCommand& options) {
     return refuse({ErrorCode::kInvalidRequest, "a campaign needs a folder: --out FOLDER", {}});
   auto folder = api::CampaignFolder::open(options.out, loaded->digest, options.start_over);
   if (!folder) return refuse(folder.error());
+  for (const std::string& note : folder->notes()) std::cerr << note << "\n";
   if (const auto made = make(options, loaded->table, *drives, *folder); !made) return refuse(made.error());
   return conclude(options, loaded->table, all, *folder);
 }

@@ -1,7 +1,13 @@
 #include "sim/drive_command.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <vector>
+
+#include "core/angle.h"
 
 namespace slipway::sim {
 namespace {
@@ -48,6 +54,15 @@ PerWheel<WheelCommand> wheel_commands(const RoverModel& rover, const DriveComman
     told[k].rate_rad_s *= share;
   }
   return told;
+}
+
+std::optional<std::string> why_no_crab(const RoverModel& rover, double crab_rad) {
+  std::vector<std::string_view> straight;
+  for (const WheelModel& wheel : rover.wheels)
+    if (!wheel.steerable) straight.push_back(wheel.name);
+  if (crab_rad == 0.0 || straight.size() < rover.wheels.size()) return std::nullopt;
+  return fmt::format("crab_deg = {:g}, must be 0: the wheels of {} don't steer ({})", deg_from_rad(crab_rad),
+                     rover.name, fmt::join(straight, ", "));
 }
 
 WheelCommand true_motion(const WheelModel& wheel, const WheelCommand& told) {

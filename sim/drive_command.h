@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "sim/per_wheel.h"
 #include "sim/rover_model.h"
@@ -41,6 +42,10 @@ PerWheel<WheelCommand> wheel_commands(const RoverModel& rover, const DriveComman
 
 // The share of the commanded speed that the motors' greatest rate allows, in (0, 1].
 double attainable_share(const RoverModel& rover, const DriveCommand& command);
+
+// Why the rover can't travel in that direction from its x axis: none of its wheels steers. Nothing where it
+// can, though wheels that don't steer be dragged.
+std::optional<std::string> why_no_crab(const RoverModel& rover, double crab_rad);
 
 // How a wheel really stands and turns when told so: steered by its offset, turning at its share of the rate;
 // not at all where it is locked. A free wheel's rate is the ground's to say: here the told one.

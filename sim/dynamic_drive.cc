@@ -16,13 +16,20 @@ namespace slipway::sim {
 namespace {
 
 constexpr double kLongestSettling_s = 40.0;
-constexpr double kAtRest_m_s = 2e-5;          // slower counts as at rest
-constexpr double kRestFor_s = 0.5;            // and must last
-constexpr double kSliding_m_s = 5e-4;         // faster after kLongestSettling_s: it slides
-constexpr double kSlid_m = 0.2;               // farther than this while settling: the same
+constexpr double kAtRest_m_s = 2e-5;    // slower counts as at rest
+constexpr double kRestFor_s = 0.5;      // and must last
+constexpr double kSliding_m_s = 5e-4;   // faster drift, over the second half of kLongestSettling_s: slides
+constexpr double kSlid_m = 0.2;         // farther than this while settling: the same
+constexpr double kTelling_radii = 0.5;  // of a wheel: falling short by less says nothing, soil must give
 constexpr double kLongestTravel_radii = 0.5;  // of a wheel within one step
+constexpr double kBellyLook_m = 0.01;         // of way, or of a turn at the body's ends, between looks at it
 constexpr double kNudge_s = 1e-6;
 constexpr long kMostStepsPerSecond = 4000;  // more, over a second: the motion is too rough to follow
+
+// To the centimetre, without a sign where that is 0.
+double printed_m(double metres) {
+  return std::abs(metres) < 0.005 ? 0.0 : metres;
+}
 
 class Drive {
  public:
@@ -69,30 +76,44 @@ class Drive {
  private:
   const double* state() const { return integrator_.state().data(); }
 
-  // Until the rover stands still; time starts then. A rover that does not is an answer.
+  // Until the rover stands still; time starts then. A rover that does not is an answer. One that rocks on its
+  // wheels has speed but goes nowhere: its drift counts.
   Result<void> settle() {
-    double still_since = 0.0, t = 0.0;
+    double still_since = 0.0, t = 0.0, half_t = 0.0;
+    Pose2 half = put_down_;
+    bool rests = false;
     while (t < kLongestSettling_s && !ended_) {
-      auto step = advance(kLongestSettling_s);
+      auto step = advance(t < 0.5 * kLongestSettling_s ? 0.5 * kLongestSettling_s : kLongestSettling_s);
       if (!step) return fail(std::move(step.error()));
       t = step->t;
+      if (t <= 0.5 * kLongestSettling_s) {
+        half_t = t;
+        half = dynamics_.pose(state());
+      }
       if (dynamics_.speed_m_s(state()) > kAtRest_m_s) still_since = t;
-      if (t - still_since > kRestFor_s || slid_m() > kSlid_m) break;
+      rests = t - still_since > kRestFor_s;
+      if (rests || way_m(put_down_) > kSlid_m) break;
     }
-    if (!ended_ && (slid_m() > kSlid_m || dynamics_.speed_m_s(state()) > kSliding_m_s))
+    const bool far = way_m(put_down_) > kSlid_m;
+    const double drift_m_s = !rests && t > half_t ? way_m(half) / (t - half_t) : 0.0;
+    if (!ended_ && (far || drift_m_s > kSliding_m_s))
       end(DriveEnd::kSlid,
           fmt::format("does not come to rest at its start: slides at {:.1f} mm/s on a tilt of {:.1f} deg",
-                      1e3 * dynamics_.speed_m_s(state()), deg_from_rad(dynamics_.tilt_rad(state()))));
+                      1e3 * (far ? way_m(put_down_) / t : drift_m_s),
+                      deg_from_rad(dynamics_.tilt_rad(state()))));
     began_s_ = t;
     last_sample_s_ = t;
     checked_s_ = t;
+    dynamics_.reset_counts();
+    raise_peaks();
+    watch_belly();
     record(t, state());
     return {};
   }
 
-  double slid_m() const {
+  double way_m(const Pose2& from) const {
     const Pose2 at = dynamics_.pose(state());
-    return std::hypot(at.x_m - put_down_.x_m, at.y_m - put_down_.y_m);
+    return std::hypot(at.x_m - from.x_m, at.y_m - from.y_m);
   }
 
   Result<void> drive_leg(const DriveLeg& leg) {
@@ -106,6 +127,7 @@ class Drive {
     before_leg_m_ = out_.progress_m;
     checked_s_ = now_s_;
     checked_share_ = 0.0;
+    const double share_before = dynamics_.place(state()).share;
     // The profile's kinks are stops, so that no step smooths them over.
     while (!ended_ && now_s_ < driver.end_s()) {
       double stop = driver.end_s();
@@ -116,6 +138,8 @@ class Drive {
       if (!step) return fail(std::move(step.error()));
       check_progress(leg);
     }
+    // With its pose fed back a leg ends where its way is done.
+    if (!ended_ && options_.feedback != Feedback::kPose) check_leg(leg, share_before);
     note({.kind = DriveEventKind::kLegEnds, .time_s = now_s_ - began_s_, .leg = leg_});
     next_start_ = commanded_pose(leg, leg_start, 1.0);
     const PerWheel<double> steered = dynamics_.steered_rad(state());
@@ -138,6 +162,10 @@ class Drive {
     if (began_s_ >= 0.0) emit_samples(step->t);
     now_s_ = step->t;
     dynamics_.after_step(now_s_, state());
+    if (began_s_ >= 0.0) {
+      raise_peaks();
+      watch_belly();
+    }
     if (step->event) take_events();
     if (driver_ && ++steps_ % 256 == 0) progress_.report("driving", done_share());
     return step;
@@ -186,17 +214,40 @@ class Drive {
     DriveSample sample = dynamics_.sample(t, y);
     sample.time_s = t - began_s_;
     sample.leg = std::min(leg_, std::max(0, static_cast<int>(legs_.size()) - 1));
-    sample.progress_m = out_.progress_m;
-    if (driver_ && !driver_->leg().command.turn_in_place)
-      sample.progress_m = before_leg_m_ + driver_->leg().length_m * dynamics_.place(y).share;
-    raise(out_.max_tilt_rad, sample.attitude.tilt_rad(), sample.progress_m);
-    for (const WheelState& wheel : sample.wheels) {
-      raise(out_.max_current_a, std::abs(wheel.current_a), sample.progress_m);
-      raise(out_.max_sinkage_m, wheel.sinkage_m, sample.progress_m);
-    }
-    if (sample.driving) raise(out_.max_slip_ratio, std::abs(sample.slip_ratio), sample.progress_m);
+    sample.progress_m = progress_m(y);
     if (sink_) sink_(sample);
     recorded_s_ = t;
+  }
+
+  double progress_m(const double* y) const {
+    if (!driver_ || driver_->leg().command.turn_in_place) return out_.progress_m;
+    return before_leg_m_ + driver_->leg().length_m * dynamics_.place(y).share;
+  }
+
+  // By the integrator's steps: what is greatest does not depend on when samples are taken.
+  void raise_peaks() {
+    const RoverDynamics::Figures& figures = dynamics_.figures();
+    const double at_m = std::max(0.0, progress_m(state()));  // slid back: no place on the way
+    raise(out_.max_tilt_rad, dynamics_.tilt_rad(state()), at_m);
+    raise(out_.max_current_a, figures.current_a, at_m);
+    raise(out_.max_sinkage_m, figures.sinkage_m, at_m);
+    if (figures.slip_ratio) raise(out_.max_slip_ratio, std::abs(*figures.slip_ratio), at_m);
+  }
+
+  // Settling and sinking alone bring it down slowly: where it moved is where to look.
+  void watch_belly() {
+    const Pose2 at = dynamics_.pose(state());
+    if (belly_looked_ &&
+        way_m(*belly_looked_) + 0.5 * rover_.body_length_m * std::abs(at.yaw_rad - belly_looked_->yaw_rad) <
+            kBellyLook_m)
+      return;
+    belly_looked_ = at;
+    const BellyClearance belly = dynamics_.belly(state());
+    if (belly.least_m <= 0.0)
+      end(DriveEnd::kImmobilised,
+          fmt::format("belly on the ground at ({:.2f}, {:.2f}) m after {:.2f} m: tilt {:.1f} deg",
+                      belly.place.x(), belly.place.y(), printed_m(progress_m(state())),
+                      deg_from_rad(dynamics_.tilt_rad(state()))));
   }
 
   static void raise(Peak& peak, double value, double distance_m) {
@@ -227,7 +278,22 @@ class Drive {
         note({DriveEventKind::kJointStop, now_s_ - began_s_, -1, leg_});
   }
 
-  // Every give_up_s of cruise.
+  // The way of a share of a leg; of the wheels, when turning in place.
+  double leg_way_m(const DriveLeg& leg, double share) const {
+    return share * (leg.command.turn_in_place ? 0.5 * rover_.track_m() * leg.turn_rad : leg.length_m);
+  }
+
+  // A leg that is over before give_up_s.
+  void check_leg(const DriveLeg& leg, double share_before) {
+    const double made = dynamics_.place(state()).share - share_before;
+    if (made >= kLeastProgress ||
+        leg_way_m(leg, 1.0 - made) < kTelling_radii * rover_.smallest_wheel_radius_m())
+      return;
+    end(DriveEnd::kImmobilised,
+        stuck_text(fmt::format("no progress on leg {} of {}", leg_ + 1, legs_.size())));
+  }
+
+  // Every give_up_s of cruise, or longer where too little was commanded in that time to tell.
   void check_progress(const DriveLeg& leg) {
     if (now_s_ < driver_->ramped_s()) {
       checked_s_ = now_s_;
@@ -238,24 +304,24 @@ class Drive {
     const double share = dynamics_.place(state()).share;
     const double commanded =
         (now_s_ - checked_s_) / commanded_duration_s(leg) * attainable_share(rover_, leg.command);
-    if (share - checked_share_ < kLeastProgress * commanded) end(DriveEnd::kImmobilised, stuck_text(leg));
+    if (leg_way_m(leg, commanded) < kTelling_radii * rover_.smallest_wheel_radius_m()) return;
+    if (share - checked_share_ < kLeastProgress * commanded)
+      end(DriveEnd::kImmobilised, stuck_text(fmt::format("no progress for {:.0f} s", now_s_ - checked_s_)));
     checked_s_ = now_s_;
     checked_share_ = share;
   }
 
-  std::string stuck_text(const DriveLeg& leg) {
+  std::string stuck_text(const std::string& what) {
     const DriveSample sample = dynamics_.sample(now_s_, state());
     std::size_t worst = 0;
     for (std::size_t k = 0; k < sample.wheels.size(); ++k)
       if (sample.wheels[k].sinkage_m > sample.wheels[worst].sinkage_m) worst = k;
     const WheelState& wheel = sample.wheels[worst];
     return fmt::format(
-        "no progress for {:.0f} s after {:.2f} m: tilt {:.1f} deg, slip {:.2f}, deepest wheel {} at {:.3f} m "
-        "with slip {:.2f} and {:.2f} A",
-        options_.give_up_s,
-        before_leg_m_ + (leg.command.turn_in_place ? 0.0 : leg.length_m * dynamics_.place(state()).share),
-        deg_from_rad(sample.attitude.tilt_rad()), sample.slip_ratio, rover_.wheels[worst].name,
-        wheel.sinkage_m, wheel.slip_ratio, wheel.current_a);
+        "{} after {:.2f} m: tilt {:.1f} deg, slip {:.2f}, deepest wheel {} at {:.3f} m with slip {:.2f} and "
+        "{:.2f} A",
+        what, printed_m(progress_m(state())), deg_from_rad(sample.attitude.tilt_rad()), sample.slip_ratio,
+        rover_.wheels[worst].name, wheel.sinkage_m, wheel.slip_ratio, wheel.current_a);
   }
 
   void end(DriveEnd how, std::string reason) {
@@ -290,7 +356,7 @@ class Drive {
   DynamicDrive out_;
   LegDriver* driver_ = nullptr;
   Pose2 put_down_;
-  std::optional<Pose2> next_start_;
+  std::optional<Pose2> next_start_, belly_looked_;
   int leg_ = 0;
   bool ended_ = false;
   long steps_ = 0, pace_steps_ = 0;

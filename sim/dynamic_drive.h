@@ -41,8 +41,10 @@ struct DynamicOptions {
   // Points under each wheel, along its travel, at which the ground is looked at: 1 is what the other rungs
   // do.
   int contact_points = 3;
-  bool keep_ruts = false;   // all of them, for a deformed terrain; otherwise those near the rover
-  double give_up_s = 60.0;  // immobilised: in this time less than kLeastProgress of what was commanded
+  bool keep_ruts = false;  // all of them, for a deformed terrain; otherwise those near the rover
+  // Immobilised: in this time, or on a whole leg, less than kLeastProgress of what was commanded; not judged
+  // on less than half a wheel's radius of commanded way.
+  double give_up_s = 60.0;
   std::optional<double> motor_temp_c = {};
 };
 constexpr double kLeastProgress = 0.02;
@@ -62,7 +64,7 @@ struct DriveSample {
   PerWheel<double> told_rate_rad_s;  // at the wheel
   PerWheel<double> turned_rad;       // of each wheel since the start: what an encoder counts
   PerWheel<double> voltage_v;        // at the drive motors
-  double slip_ratio = 0.0;           // of the rover over the last sample interval: 1 - progress / commanded
+  double slip_ratio = 0.0;           // of the rover at that instant: 1 - speed / commanded speed
   double progress_m = 0.0;           // of B along the legs' lines since the start; turning in place adds none
   int leg = 0;
   bool driving = false;  // between the halts
@@ -70,7 +72,7 @@ struct DriveSample {
 
 enum class DriveEnd {
   kFinished,
-  kImmobilised,  // no progress for give_up_s: spins, stalls or is held
+  kImmobilised,  // no progress for give_up_s, or on a whole leg: spins, stalls, slides back; or on its belly
   kTipped,       // tilt beyond kTippedRad
   kSunkToAxle,   // a wheel at the laws' own limit
   kSlid,         // does not rest at its start
@@ -104,7 +106,8 @@ struct DynamicDrive {
   double energy_j = 0.0;     // from the bus, of the drive motors
   Pose2 start, final;        // of B, settled and at the end; final yaw not wrapped
   Pose2 commanded;           // where the drive would have ended without slip
-  Peak max_slip_ratio, max_tilt_rad, max_current_a, max_sinkage_m;  // over samples; distances of progress
+  Peak max_slip_ratio, max_tilt_rad, max_current_a,
+      max_sinkage_m;  // over the integrator's steps; distances of progress, from 0
   std::vector<DriveEvent> events;
   RutMap ruts = RutMap();
   IntegrationWork work;

@@ -285,6 +285,11 @@ double RoverDynamics::tilt_rad(const double* y) const {
   return std::acos(std::clamp(R(2, 2), -1.0, 1.0));
 }
 
+BellyClearance RoverDynamics::belly(const double* y) const {
+  const Eigen::Matrix3d R = Eigen::Quaterniond(y[3], y[4], y[5], y[6]).normalized().toRotationMatrix();
+  return belly_clearance(rover_, ground_, origin_M_ + Vector3d(y[0], y[1], y[2]), R);
+}
+
 double RoverDynamics::speed_m_s(const double* y) const {
   return Vector3d(y[twist_at_ + 3], y[twist_at_ + 4], y[twist_at_ + 5]).norm();
 }
@@ -319,7 +324,10 @@ bool RoverDynamics::events(double t, const double* y, double* value) {
   *value++ = kTippedRad - tilt_rad(y);
   for (std::size_t k = 0; k < kinematics_.size(); ++k) {
     ContactState contact;
-    if (!contacts_.find_ground(ground_, ruts_, k, kinematics_[k], contact)) return false;
+    if (!contacts_.find_ground(ground_, ruts_, k, kinematics_[k], contact)) {
+      lost_ground_ = kinematics_[k].centre.head<2>();
+      return false;
+    }
     const double depth = contact.depth_m / rover_.wheels[k].radius_m;
     *value++ = kSunkenAxle_radii - depth;
     *value++ = depth;
@@ -339,9 +347,11 @@ bool RoverDynamics::events(double t, const double* y, double* value) {
 
 void RoverDynamics::after_step(double t, const double* y) {
   yaw_rad_ = pose(y).yaw_rad;
+  lost_ground_.reset();
   unpack(y);
   find_kinematics(y);
   set_told(t, y);
+  figures_ = {.slip_ratio = slip_ratio(t, y)};
   double power = 0.0;
   for (std::size_t k = 0; k < kinematics_.size(); ++k) {
     const WheelKinematics& at = kinematics_[k];
@@ -352,7 +362,9 @@ void RoverDynamics::after_step(double t, const double* y) {
       contacts_.set_soil(k, here, rim);
     has_soil_[k] = true;
     soil_[k] = soil;
-    power += drive_of(k, y).motor.electric_power_w;
+    const MotorDrive motor = drive_of(k, y).motor;
+    power += motor.electric_power_w;
+    figures_.current_a = std::max(figures_.current_a, std::abs(motor.current_a));
     if (stepped_) turned_rad_[k] += 0.5 * (at.rate_rad_s + last_rate_rad_s_[k]) * (t - last_t_);
     last_rate_rad_s_[k] = at.rate_rad_s;
   }
@@ -364,11 +376,17 @@ void RoverDynamics::after_step(double t, const double* y) {
     ContactState contact;
     if (!contacts_.find_ground(ground_, ruts_, k, kinematics_[k], contact) || contact.depth_m <= 0.0)
       continue;
+    figures_.sinkage_m = std::max(figures_.sinkage_m, contact.depth_m + contact.rut_m);
     const WheelModel& wheel = rover_.wheels[k];
     trails_[k].move_to(kinematics_[k].centre.head<2>(), contact.depth_m + contact.rut_m, wheel.width_m,
                        wheel.radius_m + 2.0 * ruts_.cell_m(), ruts_);
   }
   if (!options_.keep_ruts) ruts_.forget_beyond(p_MB_.head<2>(), kForgotten_lengths * rover_.body_length_m);
+}
+
+void RoverDynamics::reset_counts() {
+  energy_j_ = 0.0;
+  for (double& turned : turned_rad_) turned = 0.0;
 }
 
 DriveSample RoverDynamics::sample(double t, const double* y) {
@@ -410,16 +428,21 @@ DriveSample RoverDynamics::sample(double t, const double* y) {
     out.voltage_v[k] = drive_[k].motor.voltage_v;
     out.turned_rad[k] += 0.5 * (wheel.rate_rad_s + last_rate_rad_s_[k]) * (t - last_t_);
   }
-  if (driver_ && driver_->rate_share(t) > 0.5) {
-    const DriveCommand& command = driver_->leg().command;
-    const double told = driver_->rate_share(t) * attainable_share(rover_, command) *
-                        (command.turn_in_place ? command.turn_rate_rad_s : command.speed_m_s);
-    const double done = command.turn_in_place ? out.angular_rate_B.z()
-                                              : travel_direction(command).dot(out.velocity_B.head<2>());
-    out.slip_ratio = bounded_slip(slip_from_speed_ratio(done / told));
+  if (const std::optional<double> slip = slip_ratio(t, y)) {
+    out.slip_ratio = *slip;
     out.driving = true;
   }
   return out;
+}
+
+std::optional<double> RoverDynamics::slip_ratio(double t, const double* y) const {
+  if (!driver_ || driver_->rate_share(t) <= 0.5) return std::nullopt;
+  const DriveCommand& command = driver_->leg().command;
+  const double told = driver_->rate_share(t) * attainable_share(rover_, command) *
+                      (command.turn_in_place ? command.turn_rate_rad_s : command.speed_m_s);
+  const Eigen::Vector2d velocity_B(y[twist_at_ + 3], y[twist_at_ + 4]);
+  const double done = command.turn_in_place ? y[twist_at_ + 2] : travel_direction(command).dot(velocity_B);
+  return bounded_slip(slip_from_speed_ratio(done / told));
 }
 
 double RoverDynamics::mechanical_energy_j(const double* y) {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "sim/belly_clearance.h"
 #include "sim/dynamic_drive.h"
 #include "sim/leg_driver.h"
 #include "sim/motor_control.h"
@@ -30,8 +31,7 @@ namespace slipway::sim {
 // Drive and steering motors under rate and angle control: motor_control.h.
 // Soil does not resist steering: a point on the steering's axis has no arm.
 //
-// Not modelled: a body that touches the ground (its clearance is the quasi-static rung's to report), inductance,
-// the legs' elasticity.
+// Not modelled: the forces on a body that touches the ground (see belly()), inductance, the legs' elasticity.
 // clang-format on
 class RoverDynamics {
  public:
@@ -55,7 +55,7 @@ class RoverDynamics {
 
   // False off the ground: see lost_ground().
   bool derivative(double t, const double* y, double* rate);
-  // Where the last refusal was.
+  // Where the last refusal since after_step() was.
   const std::optional<Eigen::Vector2d>& lost_ground() const { return lost_ground_; }
 
   // Soils under the wheels, what they leave behind, headings unwrapped: after each step that counts.
@@ -66,16 +66,25 @@ class RoverDynamics {
   int event_count() const { return 2 + 3 * wheels() + joint_stops(); }
   bool events(double t, const double* y, double* value);
 
+  // At the last after_step(): largest of the wheels; slip as in DriveSample, nothing between the drives.
+  struct Figures {
+    double current_a = 0.0, sinkage_m = 0.0;
+    std::optional<double> slip_ratio = {};
+  };
+  const Figures& figures() const { return figures_; }
+
   // At a state; found by a new evaluation.
   DriveSample sample(double t, const double* y);
   Pose2 pose(const double* y) const;  // yaw unwrapped from the last after_step()
   double tilt_rad(const double* y) const;
-  double speed_m_s(const double* y) const;  // of B's origin
+  BellyClearance belly(const double* y) const;  // over undeformed ground
+  double speed_m_s(const double* y) const;      // of B's origin
   double fastest_wheel_rad_s(const double* y) const;
   PerWheel<double> steered_rad(const double* y) const;
   LegPlace place(const double* y) const;
-  // Since the start, integrated by after_step().
+  // Since the start or reset_counts(), integrated by after_step().
   double energy_j() const { return energy_j_; }
+  void reset_counts();  // of energy and encoders
   RutMap& ruts() { return ruts_; }
   int wheels() const { return static_cast<int>(rover_.wheels.size()); }
   // Kinetic and potential energy of the bodies, J: for tests of drift.
@@ -93,6 +102,7 @@ class RoverDynamics {
   void unpack(const double* y);
   bool find_contacts(const double* y);
   void find_kinematics(const double* y);
+  std::optional<double> slip_ratio(double t, const double* y) const;
   void add_suspension_torques();
   WheelDriveState drive_of(std::size_t wheel, const double* y) const;
   Eigen::Vector3d gravity_M() const;
@@ -136,6 +146,7 @@ class RoverDynamics {
   // Kept from step to step.
   double yaw_rad_ = 0.0, last_t_ = 0.0, last_power_w_ = 0.0, energy_j_ = 0.0;
   bool stepped_ = false;
+  Figures figures_;
   PerWheel<std::optional<std::size_t>> soil_;
   PerWheel<bool> has_soil_;
   PerWheel<double> turned_rad_, last_rate_rad_s_;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/belly_clearance.h"
 #include "sim/suspension.h"
 
 namespace slipway::sim {
@@ -93,21 +94,6 @@ bool sample_slices(const RoverModel& rover, const Ground& ground, Stance& stance
   return true;
 }
 
-// Least height of the belly plane over the ground on a 5 x 5 grid under the body.
-double belly_clearance_m(const RoverModel& rover, const Ground& ground, const Stance& stance) {
-  double least = std::numeric_limits<double>::infinity();
-  const double half_width = 0.5 * (rover.track_m() - rover.wheels.front().width_m);
-  for (int i = -2; i <= 2; ++i) {
-    for (int j = -2; j <= 2; ++j) {
-      const Eigen::Vector3d p_B(0.25 * i * rover.body_length_m, 0.5 * j * half_width,
-                                rover.belly_clearance_m);
-      const Eigen::Vector3d p_M = stance.p_MB + stance.R_MB * p_B;
-      if (const auto point = ground.at(p_M.x(), p_M.y())) least = std::min(least, p_M.z() - point->height_m);
-    }
-  }
-  return least;
-}
-
 }  // namespace
 
 std::optional<Stance> settle(const RoverModel& rover, const Ground& ground, const Pose2& pose) {
@@ -147,7 +133,7 @@ std::optional<Stance> settle(const RoverModel& rover, const Ground& ground, cons
   stance.gap_m = PerWheel<double>(rover.wheels.size());
   std::copy(gap.begin(), gap.end(), stance.gap_m.begin());
   if (rover.wheel_slices > 1 && !sample_slices(rover, ground, stance)) return std::nullopt;
-  stance.belly_clearance_m = belly_clearance_m(rover, ground, stance);
+  stance.belly_clearance_m = belly_clearance(rover, ground, stance.p_MB, stance.R_MB).least_m;
   return stance;
 }
 

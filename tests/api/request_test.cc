@@ -142,6 +142,22 @@ TEST(PlanRequest, AFailedWheelThatIsNotKnownIsRefusedWithThoseThatAre) {
     EXPECT_NE(failure.error().detail.find(known), std::string::npos) << failure.error().detail;
 }
 
+TEST(PredictionRequest, ARoverThatDoesNotSteerDoesNotCrab) {
+  const auto asked = [](const std::string& rover, const std::string& crab_deg) {
+    return small_world().read_prediction(R"({"terrain":"yard","rover":")" + rover +
+                                         R"(","path":[{"x_m":20,"y_m":30},{"x_m":28,"y_m":30}],"crab_deg":)" +
+                                         crab_deg + "}");
+  };
+  EXPECT_TRUE(asked("mer-class", "30"));
+  EXPECT_TRUE(asked("cuadriga", "0"));
+  const auto crab = asked("cuadriga", "30");
+  ASSERT_FALSE(crab);
+  EXPECT_EQ(pointers_of(crab.error()), std::vector<std::string>{"/crab_deg"});
+  EXPECT_NE(crab.error().detail.find("the wheels of cuadriga don't steer (lf, lr, rf, rr)"),
+            std::string::npos)
+      << crab.error().detail;
+}
+
 TEST(PredictionRequest, TheRungIsReadAndEchoed) {
   const auto request = small_world().read_prediction(example("prediction_dynamic.json"));
   ASSERT_TRUE(request) << request.error().detail;

@@ -109,6 +109,19 @@ TEST(CampaignTable, NamesEveryFaultBetweenItsPartsTogether) {
   EXPECT_NE(table.error().faults[3].message.find("lf, lm, lr"), std::string::npos);
 }
 
+TEST(CampaignTable, ARoverThatDoesNotSteerDoesNotCrab) {
+  const std::string crabs = replaced(kSmallTable, R"("legs": [{"length_m": 0.3}])",
+                                     R"("legs": [{"length_m": 0.3}, {"length_m": 0.3, "crab_deg": 40}])");
+  EXPECT_TRUE(read_table(crabs));
+  EXPECT_TRUE(read_table(replaced(crabs, "fido-class", "mer-class"))) << "drags its middle wheels";
+  const auto table = read_table(replaced(crabs, "fido-class", "cuadriga"));
+  ASSERT_FALSE(table);
+  ASSERT_EQ(pointers_of(table.error()), Texts{"/drives/0/legs/1/crab_deg"});
+  const std::string& message = table.error().faults[0].message;
+  for (const sim::WheelModel& wheel : shipped_catalogue().rovers.find("cuadriga")->second->wheels)
+    EXPECT_NE(message.find(wheel.name), std::string::npos) << message;
+}
+
 TEST(CampaignTable, FailedWheelsAndEffectsAreTheDrivesNotTheOperators) {
   const std::string bytes = replaced(
       replaced(kSmallTable, R"("id": "turn",)", R"("id": "turn", "failed_wheels": {"rf": "locked"},)"),
@@ -196,6 +209,11 @@ TEST(CampaignTable, ShippedTablesAreWithoutFault) {
 }
 
 TEST(CampaignTable, UnknownNamesListThoseThereAre) {
+  std::string twice = replaced(kSmallTable, R"("name": "slope")", R"("name": "level")");
+  twice = replaced(twice, R"("id": "turn", "terrains": ["level"])", R"("id": "turn", "terrains": ["hill"])");
+  const auto table = read_table(twice);
+  ASSERT_FALSE(table);
+  EXPECT_EQ(table.error().faults.back().message, "unknown terrain \"hill\"; known: level");
   const auto loaded = api::load_campaign_table("fido_table", SLIPWAY_DATA_FOLDER, shipped_catalogue());
   ASSERT_FALSE(loaded);
   EXPECT_EQ(loaded.error().code, ErrorCode::kNotFound);

@@ -107,6 +107,21 @@ TEST(RunCampaign, GoingOnGivesTheBytesOfAnUnbrokenRun) {
   EXPECT_EQ(files_of(path), unbroken);
 }
 
+TEST(RunCampaign, ARecordThatCantBeReadIsADriveToMakeAgain) {
+  const auto whole = whole_campaign("torn", 2);
+  const fs::path path = fs::path(SLIPWAY_TEST_OUTPUT) / "torn";
+  std::ofstream(path / "drives" / "turn.json") << R"({"id": "tu)";
+  auto folder = api::CampaignFolder::open(path, "a digest", false);
+  ASSERT_TRUE(folder) << folder.error().detail;
+  EXPECT_FALSE(folder->done().contains("turn"));
+  ASSERT_EQ(folder->notes().size(), 1U);
+  EXPECT_NE(folder->notes()[0].find("turn.json is no drive's record"), std::string::npos);
+  NoProgress progress;
+  ASSERT_TRUE(run_into(small_table(), *folder, 2, progress));
+  EXPECT_TRUE(folder->notes().empty());
+  EXPECT_EQ(files_of(path), whole);
+}
+
 TEST(RunCampaign, AFolderOfAnotherTableIsLeftAlone) {
   whole_campaign("another", 2);
   const fs::path path = fs::path(SLIPWAY_TEST_OUTPUT) / "another";
