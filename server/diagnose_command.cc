@@ -11,6 +11,8 @@
 
 #include "api/catalogue.h"
 #include "api/corrected_model.h"
+#include "api/diagnosis_charts.h"
+#include "api/diagnosis_report.h"
 #include "api/drive_campaign_source.h"
 #include "api/json/diagnosis_document.h"
 #include "gap/diagnosis.h"
@@ -135,10 +137,21 @@ std::string answer_words(const Diagnosis& d) {
   return out;
 }
 
-bool make_folder(const std::string& folder) {
+// Where it can't be made, writing into it tells.
+std::filesystem::path made(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  return !error;  // otherwise writing into it tells
+  return folder;
+}
+
+int write_report(const std::string& folder, const gap::DriveCampaign& campaign, const Diagnosis& d) {
+  const std::filesystem::path path = made(folder);
+  const std::vector<api::NamedChart> charts = api::draw_diagnosis(campaign, d);
+  int status = save((path / "diagnosis.json").string(), api::json::diagnosis_document(campaign, d));
+  if (status == 0) status = save((path / "report.md").string(), api::diagnosis_report(campaign, d, charts));
+  for (const api::NamedChart& chart : charts)
+    if (status == 0) status = save((path / (chart.name + ".svg")).string(), chart.svg);
+  return status;
 }
 
 int write_model(const std::string& folder, const gap::DriveCampaign& campaign, const Diagnosis& d) {
@@ -147,8 +160,7 @@ int write_model(const std::string& folder, const gap::DriveCampaign& campaign, c
     std::cerr << "no corrected model is offered: nothing is written\n";
     return 0;
   }
-  make_folder(folder);
-  const std::filesystem::path path(folder);
+  const std::filesystem::path path = made(folder);
   const int status = save((path / "rover.json").string(), api::json::rover_document(*model));
   return status != 0 ? status : save((path / "soils.json").string(), api::json::soils_document(*model));
 }
@@ -181,8 +193,8 @@ int diagnose(const DiagnoseCommand& options) {
     std::cout << api::json::diagnosis_document(*campaign, d) << std::flush;
   else
     std::cout << answer_words(d) << std::flush;
-  int status = 0;
-  if (!options.model.empty()) status = write_model(options.model, *campaign, d);
+  int status = options.report.empty() ? 0 : write_report(options.report, *campaign, d);
+  if (status == 0 && !options.model.empty()) status = write_model(options.model, *campaign, d);
   return status;
 }
 

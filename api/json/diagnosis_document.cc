@@ -24,10 +24,12 @@ using gap::Interval;
 
 constexpr int kDiscCorners = 32;
 
-// value and interval_90 of the object that is being written. What no number was found for is not there.
+// value and interval_90 of the object that is being written. What no number was found for is not there, nor
+// an interval that does not hold its value.
 void write_interval_keys(Writer& w, const Interval& interval, double unit = 1.0) {
   if (std::isfinite(interval.value)) w.significant("value", unit * interval.value);
-  if (std::isfinite(interval.low) && std::isfinite(interval.high))
+  if (std::isfinite(interval.low) && std::isfinite(interval.high) && interval.low <= interval.value &&
+      interval.value <= interval.high)
     w.key("interval_90")
         .begin_array()
         .significant(unit * interval.low)
