@@ -21,7 +21,7 @@ using gap::Interval;
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 constexpr double kHalfBar = 0.3;  // of the width between two categories
-constexpr std::size_t kMostExplanations = 6, kMostPlaces = 6;
+constexpr std::size_t kMostExplanations = 5, kMostPlaces = 6;
 // An axis's share of the panel that draw_charts() makes: for maps of one scale both ways.
 constexpr double kPanelWidth_px = 336.0, kPanelHeight_px = 270.0;
 
@@ -31,8 +31,14 @@ std::string words_of(Channel channel) {
   return words;
 }
 
+// Millimetres of sinkage, so that ticks stay short.
+double chart_unit(Channel channel) {
+  constexpr double kMmPerM = 1e3;
+  return channel == Channel::kSinkage ? kMmPerM : gap::boundary_unit(channel);
+}
+
 std::string with_unit(Channel channel) {
-  const std::string_view unit = gap::unit_of(channel);
+  const std::string_view unit = channel == Channel::kSinkage ? "mm" : gap::unit_of(channel);
   return unit == "1" ? words_of(channel) : fmt::format("{}, {}", words_of(channel), unit);
 }
 
@@ -55,24 +61,28 @@ void add_level(ChartSeries& line, double at, double value) {
   }
 }
 
+// Names are long: they stand in the legend.
 std::string draw_explanations(const Diagnosis& d) {
   Chart chart;
+  chart.x.title = "rank";
   chart.y.title = "probability";
   chart.y.lowest = 0.0;
   chart.y.highest = 1.0;
-  ChartSeries tops = series_of("", ChartMark::kLine, 0);
+  std::size_t rank = 0;
   for (const gap::ComparedSet& set : json::compared_sets(d)) {
+    ++rank;
     const bool ends = set.effects.empty() || set.effects == std::vector<std::string>{"unknown"};
-    if (chart.x.categories.size() >= kMostExplanations && !ends) continue;
-    const auto at = static_cast<double>(chart.x.categories.size());
-    std::string name = set.effects.empty() ? "nothing missing" : set.effects.front();
-    if (set.effects.size() > 1)
-      name += fmt::format(" + {}", fmt::join(set.effects.begin() + 1, set.effects.end(), " + "));
-    chart.x.categories.push_back(name);
-    add_bar(chart, "", at, 0.0, set.probability, 0);
-    add_level(tops, at, set.probability);
+    if (rank > kMostExplanations && !ends) continue;
+    const std::size_t index = chart.x.categories.size();
+    const auto at = static_cast<double>(index);
+    const std::string name =
+        set.effects.empty() ? "nothing missing" : fmt::format("{}", fmt::join(set.effects, " + "));
+    chart.x.categories.push_back(fmt::format("{}", rank));
+    add_bar(chart, fmt::format("{}: {}", rank, name), at, 0.0, set.probability, index);
+    ChartSeries top = series_of("", ChartMark::kLine, index);
+    add_level(top, at, set.probability);
+    chart.series.push_back(std::move(top));
   }
-  chart.series = {std::move(tops)};
   return draw_charts(fmt::format("{}: explanations compared", d.campaign), std::span(&chart, 1));
 }
 
@@ -116,7 +126,7 @@ std::string draw_channels(const Diagnosis& d) {
 std::string draw_ladder(const Diagnosis& d) {
   std::vector<Chart> charts;
   for (const gap::ChannelShrink& channel : d.gap) {
-    const double unit = gap::boundary_unit(channel.channel);
+    const double unit = chart_unit(channel.channel);
     Chart& chart = charts.emplace_back();
     chart.title = words_of(channel.channel);
     chart.y.title = with_unit(channel.channel) + ", rms";
@@ -143,7 +153,7 @@ std::string draw_windows(const Diagnosis& d) {
   std::vector<Chart> charts;
   for (int c = 0; c < gap::kChannels; ++c) {
     const auto channel = static_cast<Channel>(c);
-    const double unit = gap::boundary_unit(channel);
+    const double unit = chart_unit(channel);
     ChartSeries nominal = series_of("nominal", ChartMark::kDots, 6),
                 retuned = series_of("re-tuned", ChartMark::kDots, 4),
                 with = series_of("with effects", ChartMark::kDots, 0);

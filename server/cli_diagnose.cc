@@ -1,11 +1,17 @@
 #include "server/cli_diagnose.h"
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <memory>
 
 #include "server/commands.h"
 
 namespace slipway::server {
+namespace {
+
+constexpr std::uint64_t kLargestExactWhole = 9'007'199'254'740'991;  // 2^53 - 1: a number of JSON
+
+}  // namespace
 
 void add_diagnose_command(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<DiagnoseCommand>();
@@ -15,7 +21,9 @@ void add_diagnose_command(CLI::App& app, std::function<int()>& run) {
   command->add_option("campaign", options->campaign, "folder of a drive campaign")->required();
   command->add_option("--data", options->data, "folder with rovers and soils")->capture_default_str();
   command->add_option("--without", options->without, "an effect that is not looked for, see slipway effects");
-  command->add_option("--seed", options->seed, "the same seed gives the same answer")->capture_default_str();
+  command->add_option("--seed", options->seed, "the same seed gives the same answer")
+      ->capture_default_str()
+      ->check(CLI::Range(std::uint64_t{0}, kLargestExactWhole));
   command->add_option("--threads", options->threads, "at once; 0: as many as the machine has")
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));
