@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include "api/corrected_model.h"
 #include "api/json/diagnosis_document.h"
@@ -57,6 +58,11 @@ std::string interval_words(const Interval& x, double unit = 1.0) {
   if (!(x.low < x.high) || !std::isfinite(x.low) || !std::isfinite(x.high))
     return fmt::format("{:.3g}", unit * x.value);
   return fmt::format("{:.3g} ({:.3g} to {:.3g})", unit * x.value, unit * x.low, unit * x.high);
+}
+
+// With a format of one number; nothing where there is none.
+std::string number_words(fmt::format_string<double> format, double value) {
+  return std::isfinite(value) ? fmt::format(format, double(value)) : "none";
 }
 
 std::string p_words(double p) {
@@ -138,7 +144,7 @@ class Report {
       const bool ends = set.effects.empty() || set.effects == std::vector<std::string>{"unknown"};
       if (++shown > kMostCandidates && !ends) continue;
       row({set_words(set.effects), probability_words(set.probability), fmt::format("{}", set.complexity),
-           set.held_out_score ? fmt::format("{:+.2f}", *set.held_out_score) : ""});
+           set.held_out_score ? number_words("{:+.2f}", *set.held_out_score) : ""});
     }
     line(
         "\nThe score is the gain of log density a drive over re-tuned parameters alone, on drives that the "
@@ -195,8 +201,8 @@ class Report {
     for (const gap::ChannelGap& c : d_.channels) {
       const double unit = gap::boundary_unit(c.channel);
       row({std::string(gap::name_of(c.channel)), c.wheel.value_or("all"),
-           std::string(gap::unit_of(c.channel)), fmt::format("{:.3g}", unit * c.gap),
-           fmt::format("{:.3g}", unit * c.noise), fmt::format("{:+.3g}", unit * c.bias),
+           std::string(gap::unit_of(c.channel)), number_words("{:.3g}", unit * c.gap),
+           number_words("{:.3g}", unit * c.noise), number_words("{:+.3g}", unit * c.bias),
            p_words(c.significance)});
     }
     picture("channels", "The gap over its scatter, by channel and wheel");
@@ -226,7 +232,7 @@ class Report {
       for (const gap::ResidualShape& shape : d_.residual) {
         std::vector<std::string> points;
         for (const auto& [at, value] : shape.shape)
-          points.push_back(fmt::format("{:.3g} at {:g}", value.value, at));
+          points.push_back(fmt::format("{} at {:g}", number_words("{:.3g}", value.value), at));
         row({shape.entry, shape.variable, fmt::format("{:.0f} %", 100.0 * shape.share),
              fmt::format("{}", fmt::join(points, ", "))});
       }
@@ -235,7 +241,7 @@ class Report {
     line("\n## Smallest effects that would have been seen\n");
     head({"effect", "parameter", "at least"});
     for (const gap::LeastDetectable& l : d_.least_detectable)
-      row({l.effect, l.parameter, fmt::format("{:.3g}", l.value)});
+      row({l.effect, l.parameter, number_words("{:.3g}", l.value)});
   }
 
   void write_parameters() {
@@ -256,7 +262,7 @@ class Report {
     for (const gap::NextDrive& n : d_.next_drives)
       row({fmt::format("{:.0f}", n.tilt_deg), fmt::format("{:.0f}", n.heading_deg),
            fmt::format("{:.3g}", n.speed_m_s), fmt::format("{:.2g}", n.curvature_1_m),
-           fmt::format("{:.0f}", n.motor_temp_c), fmt::format("{:.2f}", n.information_bits)});
+           fmt::format("{:.0f}", n.motor_temp_c), number_words("{:.2f}", n.information_bits)});
   }
 
   void write_model() {

@@ -30,8 +30,10 @@ void add_diagnose_command(CLI::App& app, std::function<int()>& run) {
   command->add_flag("--json", options->json, "print the document, for machines");
   command->add_option("--report", options->report,
                       "folder for report.md, its pictures and diagnosis.json; made if need be");
-  command->add_option("--model", options->model,
-                      "folder for rover.json and soils.json of the corrected model, where one is offered");
+  command->add_option(
+      "--model", options->model,
+      "folder for rovers/*.json and soils/*.json of the corrected model, where one is offered: put into a "
+      "data folder they are planned with");
   command->footer(
       "Example: what do these drives show that the simulator lacks?\n"
       "  slipway diagnose data/gap-practice/p05 --report p05\n"

@@ -160,9 +160,12 @@ int write_model(const std::string& folder, const gap::DriveCampaign& campaign, c
     std::cerr << "no corrected model is offered: nothing is written\n";
     return 0;
   }
-  const std::filesystem::path path = made(folder);
-  const int status = save((path / "rover.json").string(), api::json::rover_document(*model));
-  return status != 0 ? status : save((path / "soils.json").string(), api::json::soils_document(*model));
+  // As a data folder has them: a rover's file is called as the rover.
+  const std::filesystem::path path(folder);
+  const auto rover = made((path / "rovers").string()) / (model->rover.name + ".json");
+  const auto soils = made((path / "soils").string()) / (model->soils.front().name + ".json");
+  const int status = save(rover.string(), api::json::rover_document(*model));
+  return status != 0 ? status : save(soils.string(), api::json::soils_document(*model));
 }
 
 // As refuse(), but what can't be read is the question's fault here.
