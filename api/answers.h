@@ -4,9 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "api/diagnosis_request.h"
 #include "api/plan_request.h"
 #include "api/prediction_request.h"
 #include "dem/elevation_source.h"
+#include "gap/diagnosis.h"
+#include "gap/drive_campaign.h"
 #include "planner/plan.h"
 
 namespace slipway::api {
@@ -35,6 +38,12 @@ struct PredictionAnswer {
   Provenance provenance;
   sim::DrivePrediction prediction;
   std::optional<planner::DynamicVerification> dynamic;  // where that rung was asked for
+};
+
+struct DiagnosisAnswer {
+  DiagnosisRequest request;
+  gap::DriveCampaign campaign;
+  gap::Diagnosis diagnosis;
 };
 
 // What the ground is at one point.

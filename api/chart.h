@@ -62,6 +62,11 @@ struct HeatMap {
 
 std::string draw_heat_map(const HeatMap& map);
 
+struct NamedChart {
+  std::string name;  // of a file, without its ending
+  std::string svg;
+};
+
 // Round numbers a step of 1, 2 or 5 times a power of ten apart, from the last at or below `lowest` to the
 // first at or above `highest`: at most about `wanted` + 2 of them. lowest <= highest, wanted >= 1.
 std::vector<double> nice_ticks(double lowest, double highest, int wanted);

@@ -15,6 +15,7 @@
 #include "api/faults.h"
 #include "api/json/drive_campaign_file.h"
 #include "api/json/rover_file.h"
+#include "api/json/text_place.h"
 #include "api/recorded_ground.h"
 #include "api/terrain_site.h"
 #include "campaign/digest.h"
@@ -65,8 +66,8 @@ std::uint64_t digest_of_file(const fs::path& path, std::uint64_t digest) {
 
 class Loader {
  public:
-  Loader(const fs::path& folder, json::DriveCampaignFile file, std::uint64_t digest)
-      : folder_(folder), file_(std::move(file)), digest_(digest) {
+  Loader(const fs::path& folder, std::string_view document, json::DriveCampaignFile file)
+      : folder_(folder), document_(document), file_(std::move(file)), digest_(campaign::digest_of(document)) {
     for (const Fault& fault : file_.faults) add(fault.pointer, fault.message);
   }
 
@@ -95,8 +96,10 @@ class Loader {
   };
 
   void add(const std::string& pointer, const std::string& message) {
-    const std::string at = fmt::format("{}#{}", kDocument, pointer);
-    faults_.push_back({at, fmt::format("{}: {}", at, message)});
+    const json::TextPlace place = json::place_of(document_, pointer);
+    faults_.push_back({fmt::format("{}#{}", kDocument, pointer),
+                       fmt::format("{}, line {}, column {} ({}): {}", kDocument, place.line, place.column,
+                                   pointer.empty() ? "all of it" : pointer, message)});
   }
 
   std::size_t soil_index(const std::string& name) const {
@@ -195,6 +198,7 @@ class Loader {
   }
 
   const fs::path& folder_;
+  std::string_view document_;  // the bytes of campaign.json
   json::DriveCampaignFile file_;
   std::uint64_t digest_;
   std::map<fs::path, Elevation> elevations_;
@@ -222,7 +226,7 @@ Result<gap::DriveCampaign> load_drive_campaign(const fs::path& folder, const Cat
     for (Fault& fault : faults) fault.message = fmt::format("{}: {}", fault.pointer, fault.message);
     return fail(ErrorCode::kUnreadableData, summary_of(faults), faults);
   }
-  auto campaign = Loader(folder, std::move(*file), campaign::digest_of(*bytes)).load();
+  auto campaign = Loader(folder, *bytes, std::move(*file)).load();
   if (campaign) gap::adopt_measured_rates(*campaign);
   return campaign;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "api/json/diagnosis_document.h"
 #include "api/json/plan_answer.h"
 #include "api/json/prediction_answer.h"
 
@@ -24,6 +25,13 @@ JobWork service_work(const Service& service) {
       const auto answer = service.predict(*prediction_request, progress);
       if (!answer) return fail(answer.error());
       return json::write_prediction_answer(*answer);
+    }
+    if (kind == kDiagnosisKind) {
+      const auto diagnosis_request = service.read_diagnosis(request);
+      if (!diagnosis_request) return fail(diagnosis_request.error());
+      const auto answer = service.diagnose(*diagnosis_request, progress);
+      if (!answer) return fail(answer.error());
+      return json::diagnosis_document(answer->campaign, answer->diagnosis);
     }
     return fail(ErrorCode::kInternal, fmt::format("no work is known for jobs of kind {}", kind));
   };

@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
+#include "api/drive_campaign_source.h"
 #include "api/faults.h"
+#include "api/json/diagnosis_request.h"
 #include "api/json/plan_request.h"
 #include "api/json/prediction_request.h"
 #include "api/request_check.h"
@@ -43,6 +47,19 @@ sim::SoilDistribution believed(const Catalogue& catalogue, const RegionalSoil& s
   return belief;
 }
 
+// The drives that ship. A name among them is all that a request says of where drives are: it opens no other.
+constexpr std::string_view kCampaigns = "gap-practice";
+
+std::vector<std::string> shipped_campaigns(const std::filesystem::path& data) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(data / kCampaigns, error))
+    if (std::filesystem::is_regular_file(entry.path() / "campaign.json", error))
+      names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
 }  // namespace
 
 std::string_view version() {
@@ -54,6 +71,7 @@ Result<std::unique_ptr<Service>> Service::open(ServiceOptions options) {
   if (!catalogue) return fail(catalogue.error());
   std::unique_ptr<Service> service(new Service(std::move(options)));
   service->catalogue_ = std::move(*catalogue);
+  service->campaigns_ = shipped_campaigns(service->options_.data);
   return service;
 }
 
@@ -86,6 +104,18 @@ Result<PredictionRequest> Service::read_prediction(std::string_view json) const 
   check.crab(request.manner.crab_rad);
   check.drive(request.drive);
   if (!check.passed()) return fail(check.error());
+  return std::move(reading->request);
+}
+
+Result<DiagnosisRequest> Service::read_diagnosis(std::string_view json) const {
+  auto reading = json::read_diagnosis_request(json);
+  if (!reading) return fail(reading.error());
+  const std::string& campaign = reading->request.campaign;
+  std::vector<Fault>& faults = reading->faults;
+  if (!has_fault_under(faults, "/campaign") &&
+      std::find(campaigns_.begin(), campaigns_.end(), campaign) == campaigns_.end())
+    faults.push_back({"/campaign", unknown_name("campaign", campaign, campaigns_)});
+  if (!faults.empty()) return fail(ErrorCode::kInvalidRequest, summary_of(faults), faults);
   return std::move(reading->request);
 }
 
@@ -175,6 +205,22 @@ Result<PredictionAnswer> Service::predict(const PredictionRequest& request, Prog
     answer.dynamic = std::move(*dynamic);
   }
   return answer;
+}
+
+Result<DiagnosisAnswer> Service::diagnose(const DiagnosisRequest& request, Progress& progress) const {
+  progress.report("reading the drives", 0.0);
+  if (std::find(campaigns_.begin(), campaigns_.end(), request.campaign) == campaigns_.end())
+    return fail(ErrorCode::kInvalidRequest, unknown_name("campaign", request.campaign, campaigns_),
+                {{"/campaign", unknown_name("campaign", request.campaign, campaigns_)}});
+  auto campaign = load_drive_campaign(options_.data / kCampaigns / request.campaign, catalogue_);
+  if (!campaign) return fail(campaign.error());
+  gap::DiagnosisOptions options;
+  options.search.withheld = request.without;
+  options.search.threads = options_.threads;
+  options.seed = request.seed;
+  auto diagnosis = gap::diagnose(*campaign, options, progress);
+  if (!diagnosis) return fail(diagnosis.error());
+  return DiagnosisAnswer{request, std::move(*campaign), std::move(*diagnosis)};
 }
 
 Result<GroundAt> Service::ground_at(std::string_view terrain, double x_m, double y_m) const {

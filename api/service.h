@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "api/answers.h"
 #include "api/catalogue.h"
@@ -33,10 +34,12 @@ class Service {
   // of that kind.
   Result<PlanRequest> read_plan(std::string_view json) const;
   Result<PredictionRequest> read_prediction(std::string_view json) const;
+  Result<DiagnosisRequest> read_diagnosis(std::string_view json) const;
 
   // The same request gives the same answer, on any number of threads.
   Result<PlanAnswer> plan(const PlanRequest& request, Progress& progress) const;
   Result<PredictionAnswer> predict(const PredictionRequest& request, Progress& progress) const;
+  Result<DiagnosisAnswer> diagnose(const DiagnosisRequest& request, Progress& progress) const;
 
   // Errors: not_found (unknown terrain), off_map, no_data.
   Result<GroundAt> ground_at(std::string_view terrain, double x_m, double y_m) const;
@@ -54,6 +57,7 @@ class Service {
 
   ServiceOptions options_;
   Catalogue catalogue_;
+  std::vector<std::string> campaigns_;  // that ship: folders of data/gap-practice, sorted
 };
 
 }  // namespace slipway::api

@@ -3,14 +3,10 @@
 #include <string>
 #include <vector>
 
+#include "api/chart.h"
 #include "campaign/tune.h"
 
 namespace slipway::api {
-
-struct NamedChart {
-  std::string name;  // of a file, without its ending
-  std::string svg;
-};
 
 // The score surface: a heat map for each pair of parameters, over the whole ranges and around the best, with
 // the sweep's best set and the estimate by least squares with its ellipse of 95 %. Of one parameter: the

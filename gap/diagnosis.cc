@@ -312,6 +312,7 @@ class Diagnoser {
     auto shrunk = shrink_on_held_out(prepared_, campaign_, with, options_, progress_);
     if (!shrunk) return fail(shrunk.error());
     d_.gap = std::move(shrunk->channels);
+    d_.held_out = std::move(shrunk->points);
     if (explains()) d_.closed_fraction = shrunk->closed_fraction;
     d_.candidates.front().held_out_score = shrunk->log_density_gain;
     const bool offered = explains() ? shrunk->log_density_gain > 0.0 : d_.verdict == Verdict::kParameters;

@@ -81,6 +81,16 @@ struct ChannelShrink {
   Interval nominal, retuned, with_effects, noise_floor;
 };
 
+// One observation of a window beside what was predicted of it; of the last two by fits that had not seen its
+// drive. In the channel's own unit.
+struct HeldOutPoint {
+  Channel channel = Channel::kSlip;
+  int wheel = -1;  // of a wheel's channel
+  std::size_t drive = 0;
+  double start_s = 0.0;
+  double measured = 0.0, nominal = 0.0, retuned = 0.0, with_effects = 0.0;
+};
+
 // What is left over that nobody has named: where it enters, what it depends on, its shape.
 struct ResidualShape {
   std::string entry, variable;
@@ -128,6 +138,7 @@ struct Diagnosis {
   std::vector<Regime> regimes, regimes_retuned, regimes_of_effect;
   std::vector<GapPlace> places;
   std::vector<ChannelShrink> gap;
+  std::vector<HeldOutPoint> held_out;  // for pictures
   std::optional<Interval> closed_fraction;
   std::vector<ResidualShape> residual;
   std::vector<NextDrive> next_drives;

@@ -74,6 +74,7 @@ Result<Shrink> shrink_on_held_out(const PreparedCampaign& prepared, const DriveC
   const NoiseModel& noise = *prepared.noise;
   const std::vector<int> fold = folds_of(campaign, options.folds);
   std::vector<DriveErrors> errors(campaign.drives.size());
+  std::vector<HeldOutPoint> points;
   ExplanationOptions fit_options;
   fit_options.threads = options.search.threads;
   fit_options.iterations = 4;
@@ -99,6 +100,10 @@ Result<Shrink> shrink_on_held_out(const PreparedCampaign& prepared, const DriveC
         const double deviation = noise.deviation()[row];
         if (deviation <= 0.0 || !std::isfinite(prepared.nominal_residuals[row])) continue;
         if (window.censored && window.observations[i].channel == Channel::kSlip) continue;
+        const double value = window.observations[i].value;
+        points.push_back({window.observations[i].channel, window.observations[i].wheel, window.drive,
+                          window.start_s, value, value - prepared.nominal_residuals[row],
+                          value - retuned.residuals[row], value - found.residuals[row]});
         const auto c = static_cast<std::size_t>(window.observations[i].channel);
         e.nominal[c] += std::pow(prepared.nominal_residuals[row], 2);
         e.retuned[c] += std::pow(retuned.residuals[row], 2);
@@ -125,6 +130,7 @@ Result<Shrink> shrink_on_held_out(const PreparedCampaign& prepared, const DriveC
       with_data.push_back(d);
     }
   Shrink shrink;
+  shrink.points = std::move(points);
   if (with_data.empty()) return shrink;
   std::vector<Totals> resampled;
   for (int b = 0; b < options.resamples; ++b) {

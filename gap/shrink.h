@@ -18,6 +18,7 @@ struct Shrink {
   std::optional<Interval> closed_fraction;
   double log_density_gain = 0.0;  // held-out log density of `with` over the null's, a drive
   double gain_error = 0.0;        // its standard error over drives
+  std::vector<HeldOutPoint> points;
 };
 
 Result<Shrink> shrink_on_held_out(const PreparedCampaign& prepared, const DriveCampaign& campaign,

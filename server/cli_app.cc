@@ -10,6 +10,7 @@
 
 #include "api/service.h"
 #include "server/cli_campaign.h"
+#include "server/cli_diagnose.h"
 #include "server/cli_tune.h"
 #include "server/cli_wheel.h"
 #include "server/commands.h"
@@ -170,6 +171,7 @@ int run_command_line(int argc, char** argv) {
   add_current_command(app, run);
   add_campaign_command(app, run);
   add_tune_command(app, run);
+  add_diagnose_command(app, run);
 
   TerrainOptions terrain_options;
   command = app.add_subcommand("terrain", "what terrains there are, or the ground at a point");

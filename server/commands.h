@@ -142,6 +142,16 @@ struct TuneCommand {
   bool json = false;
 };
 
+struct DiagnoseCommand {
+  std::string data = "data";
+  std::string campaign;              // folder of a "drive-campaign/1"
+  std::vector<std::string> without;  // effects that are not looked for
+  std::uint64_t seed = 1;
+  int threads = 0;            // 0: as many as the machine has
+  std::string report, model;  // folders; empty: none
+  bool json = false;
+};
+
 // Each prints its answer on standard output and returns the process's exit status: 0 an answer (also "no safe
 // route"), 1 no answer, 2 a question that can't be asked. Problems and progress go to standard error.
 int serve(const ServeOptions& options);
@@ -160,6 +170,8 @@ int validate(const ValidateOptions& options);
 // 0: every drive has an answer; 1: one has none.
 int campaign(const CampaignCommand& options);
 int tune(const TuneCommand& options);
+// 0: a diagnosis, whatever its verdict; 2: input that can't be read.
+int diagnose(const DiagnoseCommand& options);
 
 // From a signal handler: the running question is given up, the server drains and ends.
 void interrupt();

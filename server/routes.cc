@@ -230,6 +230,8 @@ class JobRoutes {
   HttpResponse map(const api::Service& service, const HttpRequest& request) {
     const auto job = find(request);
     if (!job) return problem_response(job.error(), &request);
+    if (job->kind == api::kDiagnosisKind)
+      return problem(ErrorCode::kNotFound, "a diagnosis has no map of routes", request);
     if (job->state != api::JobState::kSuccessful) return outcome_response(*job, request);
     const auto outcome = runner_.store().outcome(job->id);
     if (!outcome) return problem_response(outcome.error(), &request);
@@ -395,6 +397,12 @@ std::vector<Route> api_routes(const api::Service& service, api::JobRunner& runne
        [&service, jobs, wait = options.prediction_wait](const HttpRequest& r) {
          const auto request = service.read_prediction(r.body);
          return request ? jobs->submit(api::kPredictionKind, r, wait) : problem_response(request.error(), &r);
+       }},
+      {"POST", "/v1/diagnoses",
+       [&service, jobs](const HttpRequest& r) {
+         const auto request = service.read_diagnosis(r.body);
+         return request ? jobs->submit(api::kDiagnosisKind, r, seconds(0))
+                        : problem_response(request.error(), &r);
        }},
       {"POST", "/v1/wheel-sweeps", [&service](const HttpRequest& r) { return wheel_sweep(service, r); }},
       {"GET", "/v1/jobs", [jobs](const HttpRequest& r) { return jobs->list(r); }},

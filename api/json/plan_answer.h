@@ -12,7 +12,7 @@ namespace slipway::api::json {
 // same answer gives the same bytes. Throws std::domain_error where a number is not finite.
 std::string write_plan_answer(const PlanAnswer& answer);
 
-// The GeoJSON member of a "plan/1" or "prediction/1" document, alone.
+// The GeoJSON member of a "plan/1", "prediction/1" or "diagnosis/1" document, alone.
 Result<std::string> geojson_of(std::string_view answer);
 
 }  // namespace slipway::api::json

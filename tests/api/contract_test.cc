@@ -7,12 +7,14 @@
 
 #include "api/drive_history.h"
 #include "api/job_kinds.h"
+#include "api/json/diagnosis_document.h"
 #include "api/json/parse.h"
 #include "api/json/plan_answer.h"
 #include "api/json/wheel_sweep_answer.h"
 #include "api/memory_job_store.h"
 #include "api/openapi.h"
 #include "api/wheel_sweep.h"
+#include "made_diagnosis.h"
 #include "small_world.h"
 
 namespace slipway::api {
@@ -142,6 +144,19 @@ TEST(Contract, ExamplesOfRequestsFitTheDescription) {
   }
   EXPECT_EQ(complaints_about("WheelSweepRequest", example("wheel_sweep_every_key.json")),
             std::vector<std::string>{});
+  EXPECT_EQ(complaints_about("DiagnosisRequest", example("diagnosis_practice.json")),
+            std::vector<std::string>{});
+}
+
+TEST(Contract, ADiagnosisFitsTheDescriptionWhateverIsInIt) {
+  const gap::DriveCampaign campaign = testing::practice_campaign();
+  EXPECT_EQ(complaints_about("Diagnosis", json::diagnosis_document(campaign, {})),
+            std::vector<std::string>{});
+  const gap::Diagnosis full = testing::full_diagnosis(campaign);
+  const std::string document = json::diagnosis_document(campaign, full);
+  EXPECT_EQ(complaints_about("Diagnosis", document), std::vector<std::string>{});
+  EXPECT_EQ(document, json::diagnosis_document(campaign, full));
+  EXPECT_EQ(json::geojson_of(document).value_or("").find("FeatureCollection") != std::string::npos, true);
 }
 
 TEST(Contract, AWheelSweepsAnswerFitsTheDescription) {

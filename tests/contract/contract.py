@@ -247,6 +247,9 @@ class Contract(unittest.TestCase):
         self.refused("/v1/plans", plan(effects=[{"name": "tether"}]), 422, "/effects/0/name")
         off = {"terrain": "gale", "rover": "msl-class", "path": [STOP_967, {"x_m": 8142579.7, "y_m": -279000.0}]}
         self.refused("/v1/predictions", off, 422, "/path/1")
+        self.refused("/v1/diagnoses", {"campaign": "p99", "without": ["tether"], "seed": -1}, 422, "/campaign", "/without/0", "/seed")
+        for campaign in ("../p05", "/etc", "", 5):
+            self.refused("/v1/diagnoses", {"campaign": campaign}, 422, "/campaign")
         self.refused("/v1/plans", b"\xff\xfe", 400)
         self.refused("/v1/plans", "start=1", 415, headers={"Content-Type": "application/x-www-form-urlencoded"})
 
@@ -291,7 +294,7 @@ class Contract(unittest.TestCase):
         self.assertIn("/start", wrong.stderr)
         for command in ("terrain", "rovers", "soils"):
             self.assertEqual(subprocess.run([SLIPWAY, command, "--data", DATA], capture_output=True).returncode, 0)
-        for command in ("serve", "plan", "predict", "wheel", "current", "current map", "current invert", "terrain", "rovers", "soils"):
+        for command in ("serve", "plan", "predict", "wheel", "current", "current map", "current invert", "diagnose", "terrain", "rovers", "soils"):
             shown = subprocess.run([SLIPWAY, *command.split(), "--help"], capture_output=True, text=True)
             self.assertEqual(shown.returncode, 0)
             self.assertIn("Example:", shown.stdout)

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "gap/diagnosis.h"
+#include "gap/drive_campaign.h"
+#include "sim/effect_setting.h"
+#include "sim/rover_model.h"
+#include "sim/soil.h"
+
+namespace slipway::api {
+
+// What a diagnosis offers to plan with: the campaign's rover with re-tuned motors, which carries the effects
+// that were found, and its re-tuned soils with what is believed of them now. Names end in the campaign's and
+// a version that is another for other numbers: "mer-class-p05-3f9a2c".
+struct CorrectedModel {
+  sim::RoverModel rover;
+  std::vector<sim::SoilDistribution> soils;  // in the campaign's order
+  std::vector<sim::EffectSetting> effects;   // all that are at work; places on a map are in no rover's file
+};
+
+// Nothing where the diagnosis offers none.
+std::optional<CorrectedModel> corrected_model(const gap::DriveCampaign& campaign,
+                                              const gap::Diagnosis& diagnosis);
+
+}  // namespace slipway::api

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace slipway::api {
+
+// POST /v1/diagnoses: what do these recorded drives show that the simulator lacks?
+struct DiagnosisRequest {
+  std::string campaign;              // one that the service ships
+  std::vector<std::string> without;  // effects that are not looked for
+  std::uint64_t seed = 1;
+};
+
+}  // namespace slipway::api

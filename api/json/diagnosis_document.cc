@@ -1,0 +1,305 @@
+#include "api/json/diagnosis_document.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <span>
+#include <string_view>
+
+#include "api/json/effect_settings.h"
+#include "api/json/rover_file.h"
+#include "api/json/soil_file.h"
+#include "api/json/writer.h"
+#include "api/service.h"
+#include "core/angle.h"
+#include "sim/effect_catalogue.h"
+
+namespace slipway::api::json {
+namespace {
+
+using gap::Diagnosis;
+using gap::Interval;
+
+constexpr int kDiscCorners = 32;
+
+// value and interval_90 of the object that is being written. What no number was found for is not there, nor
+// an interval that does not hold its value.
+void write_interval_keys(Writer& w, const Interval& interval, double unit = 1.0) {
+  if (std::isfinite(interval.value)) w.significant("value", unit * interval.value);
+  if (std::isfinite(interval.low) && std::isfinite(interval.high) && interval.low <= interval.value &&
+      interval.value <= interval.high)
+    w.key("interval_90")
+        .begin_array()
+        .significant(unit * interval.low)
+        .significant(unit * interval.high)
+        .end_array();
+}
+
+void write_interval(Writer& w, std::string_view key, const Interval& interval, double unit = 1.0) {
+  w.key(key).begin_object();
+  write_interval_keys(w, interval, unit);
+  w.end_object();
+}
+
+void write_finite(Writer& w, std::string_view key, double value) {
+  if (std::isfinite(value)) w.significant(key, value);
+}
+
+void write_provenance(Writer& w, const gap::DriveCampaign& campaign, const Diagnosis& d) {
+  w.key("provenance").begin_object();
+  w.key("hashes").begin_object().text("campaign", d.campaign_fingerprint).key("terrains").begin_object();
+  for (const gap::CampaignTerrain& terrain : campaign.terrains) w.text(terrain.name, terrain.fingerprint);
+  w.end_object().end_object();
+  w.text("version", version()).whole("seed", static_cast<std::int64_t>(d.seed));
+  w.texts("effects", d.library);
+  std::vector<std::string> withheld;
+  for (const sim::Effect& effect : sim::effect_catalogue())
+    if (std::find(d.library.begin(), d.library.end(), effect.name) == d.library.end())
+      withheld.emplace_back(effect.name);
+  w.texts("withheld", withheld);
+  w.whole("drives", static_cast<std::int64_t>(d.drives))
+      .whole("windows", static_cast<std::int64_t>(d.windows));
+  w.whole("observations", static_cast<std::int64_t>(d.observations)).end_object();
+}
+
+void write_effects_found(Writer& w, const Diagnosis& d) {
+  w.key("effects").begin_array();
+  for (const gap::FoundEffect& found : d.effects) {
+    w.begin_object().text("name", found.name);
+    if (!found.variant.empty()) w.text("variant", found.variant);
+    w.significant("probability", found.probability).key("parameters").begin_object();
+    for (const gap::FoundParameter& parameter : found.parameters)
+      write_interval(w, parameter.name, parameter.value);
+    w.end_object().end_object();
+  }
+  w.end_array();
+}
+
+void write_candidates(Writer& w, const Diagnosis& d) {
+  w.key("candidates").begin_array();
+  for (const gap::ComparedSet& set : compared_sets(d)) {
+    w.begin_object().texts("effects", set.effects).exact("probability", set.probability);
+    if (set.held_out_score) write_finite(w, "held_out_score", *set.held_out_score);
+    w.whole("complexity", set.complexity).end_object();
+  }
+  w.end_array().key("confusable").begin_array();
+  for (const gap::ConfusablePair& pair : d.confusable)
+    w.begin_object().texts("effects", {pair.a, pair.b}).significant("angle_deg", pair.angle_deg).end_object();
+  w.end_array();
+}
+
+void write_channels(Writer& w, const Diagnosis& d) {
+  w.key("channels").begin_array();
+  for (const gap::ChannelGap& channel : d.channels) {
+    const double unit = gap::boundary_unit(channel.channel);
+    w.begin_object().text("channel", gap::name_of(channel.channel));
+    if (channel.wheel) w.text("wheel", *channel.wheel);
+    w.text("unit", gap::unit_of(channel.channel));
+    write_finite(w, "gap", unit * channel.gap);
+    write_finite(w, "noise", unit * channel.noise);
+    write_finite(w, "bias", unit * channel.bias);
+    write_finite(w, "significance", channel.significance);
+    w.end_object();
+  }
+  w.end_array();
+}
+
+void write_regimes(Writer& w, std::string_view key, std::span<const gap::Regime> regimes) {
+  w.key(key).begin_array();
+  for (const gap::Regime& regime : regimes) {
+    w.begin_object().key("condition").begin_array();
+    for (const gap::Condition& condition : regime.conditions) {
+      w.begin_object().text("variable", condition.variable);
+      // An open end is not there.
+      write_finite(w, "from", condition.from);
+      write_finite(w, "to", condition.to);
+      w.end_object();
+    }
+    w.end_array().text("channel", gap::name_of(regime.channel));
+    w.significant("share_of_gap", regime.share_of_gap).significant("share_of_data", regime.share_of_data);
+    w.significant("significance", regime.significance).end_object();
+  }
+  w.end_array();
+}
+
+void write_places(Writer& w, const Diagnosis& d) {
+  w.key("places").begin_object().text("type", "FeatureCollection").key("features").begin_array();
+  for (const gap::GapPlace& place : d.places) {
+    w.begin_object().text("type", "Feature").key("geometry").begin_object().text("type", "Polygon");
+    w.key("coordinates").begin_array().begin_array();
+    for (int k = 0; k <= kDiscCorners; ++k) {
+      const double angle = 2.0 * std::numbers::pi * (k % kDiscCorners) / kDiscCorners;
+      w.begin_array().metres(place.x_m + place.radius_m * std::cos(angle));
+      w.metres(place.y_m + place.radius_m * std::sin(angle)).end_array();
+    }
+    w.end_array().end_array().end_object();
+    w.key("properties").begin_object().text("terrain", place.terrain);
+    w.text("channel", gap::name_of(place.channel)).metres("x_m", place.x_m).metres("y_m", place.y_m);
+    w.metres("radius_m", place.radius_m).significant("share_of_gap", place.share_of_gap);
+    w.end_object().end_object();
+  }
+  w.end_array().end_object();
+}
+
+void write_gap(Writer& w, const Diagnosis& d) {
+  w.key("gap").begin_object().key("channels").begin_array();
+  for (const gap::ChannelShrink& channel : d.gap) {
+    const double unit = gap::boundary_unit(channel.channel);
+    w.begin_object().text("channel", gap::name_of(channel.channel));
+    w.text("unit", gap::unit_of(channel.channel));
+    write_interval(w, "nominal", channel.nominal, unit);
+    write_interval(w, "retuned", channel.retuned, unit);
+    write_interval(w, "with_effects", channel.with_effects, unit);
+    write_interval(w, "noise_floor", channel.noise_floor, unit);
+    w.end_object();
+  }
+  w.end_array();
+  if (d.closed_fraction) write_interval(w, "closed_fraction", *d.closed_fraction);
+  w.end_object();
+}
+
+void write_residual(Writer& w, const Diagnosis& d) {
+  w.key("residual").begin_array();
+  for (const gap::ResidualShape& shape : d.residual) {
+    w.begin_object().text("entry", shape.entry).text("variable", shape.variable);
+    write_finite(w, "share", shape.share);
+    w.key("shape").begin_array();
+    for (const auto& [at, value] : shape.shape) {
+      if (!std::isfinite(at) || !std::isfinite(value.value)) continue;
+      w.begin_object().significant("at", at);
+      write_interval_keys(w, value);
+      w.end_object();
+    }
+    w.end_array().end_object();
+  }
+  w.end_array();
+}
+
+void write_least_detectable(Writer& w, const Diagnosis& d) {
+  w.key("least_detectable").begin_array();
+  for (const gap::LeastDetectable& least : d.least_detectable) {
+    if (!std::isfinite(least.value)) continue;
+    w.begin_object().text("effect", least.effect).text("parameter", least.parameter);
+    w.significant("value", least.value).end_object();
+  }
+  w.end_array();
+}
+
+void write_next_drives(Writer& w, const Diagnosis& d) {
+  w.key("next_drives").begin_array();
+  for (const gap::NextDrive& drive : d.next_drives) {
+    w.begin_object().significant("tilt_deg", drive.tilt_deg).significant("heading_deg", drive.heading_deg);
+    w.significant("speed_m_s", drive.speed_m_s).significant("curvature_1_m", drive.curvature_1_m);
+    w.significant("motor_temp_c", drive.motor_temp_c);
+    write_finite(w, "expected_information_bits", drive.information_bits);
+    w.end_object();
+  }
+  w.end_array();
+}
+
+void write_model(Writer& w, const gap::DriveCampaign& campaign, const Diagnosis& d) {
+  const auto model = corrected_model(campaign, d);
+  if (!model) return;
+  w.key("model").begin_object().key("rover").raw(rover_document(*model));
+  w.key("soils").raw(soils_document(*model));
+  write_effects(w, model->effects);
+  w.end_object();
+}
+
+void write_retuned(Writer& w, const Diagnosis& d) {
+  w.key("retuned").begin_array();
+  for (const gap::RetunedParameter& parameter : d.retuned) {
+    w.begin_object().text("name", parameter.name);
+    write_interval_keys(w, parameter.value);
+    w.significant("prior_std", parameter.prior_std).boolean("determined", parameter.determined).end_object();
+  }
+  w.end_array();
+}
+
+void write_noise(Writer& w, const gap::NoiseScales& noise) {
+  w.key("noise").begin_object();
+  w.significant("soil_stiffness", noise.stiffness).significant("soil_friction", noise.friction);
+  w.significant("soil_shear_modulus", noise.shear_modulus).significant("within_drives", noise.within_drives);
+  w.significant("lean_deg", deg_from_rad(noise.lean_rad)).significant("load_shift_m", noise.load_shift_m);
+  w.significant("slip", noise.slip).significant("side_slip", noise.side_slip);
+  w.significant("yaw_rate_deg_s", deg_from_rad(noise.yaw_rate_rad_s));
+  w.significant("attitude_deg", deg_from_rad(noise.attitude_rad));
+  w.significant("current_share", noise.current_share).significant("sinkage_m", noise.sinkage_m);
+  w.end_object();
+}
+
+}  // namespace
+
+std::vector<gap::ComparedSet> compared_sets(const Diagnosis& diagnosis) {
+  std::vector<gap::ComparedSet> sets;
+  const auto same = [&](const std::vector<std::string>& effects) {
+    const std::set<std::string> names(effects.begin(), effects.end());
+    return std::find_if(sets.begin(), sets.end(), [&](const gap::ComparedSet& set) {
+      return std::set<std::string>(set.effects.begin(), set.effects.end()) == names;
+    });
+  };
+  double sum = 0.0;
+  for (const gap::ComparedSet& candidate : diagnosis.candidates) {
+    sum += candidate.probability;
+    if (const auto known = same(candidate.effects); known != sets.end())
+      known->probability += candidate.probability;
+    else
+      sets.push_back(candidate);
+  }
+  for (const std::vector<std::string>& always : {std::vector<std::string>{}, {"unknown"}})
+    if (same(always) == sets.end()) sets.push_back({always, 0.0, std::nullopt, 0});
+  for (gap::ComparedSet& set : sets) {
+    if (sum > 0.0)
+      set.probability /= sum;
+    else
+      set.probability = 1.0 / static_cast<double>(sets.size());
+  }
+  std::stable_sort(sets.begin(), sets.end(), [](const gap::ComparedSet& a, const gap::ComparedSet& b) {
+    return a.probability > b.probability;
+  });
+  return sets;
+}
+
+std::string rover_document(const CorrectedModel& model) {
+  Writer w;
+  write_rover(w, model.rover);
+  return w.take();
+}
+
+std::string soils_document(const CorrectedModel& model) {
+  Writer w;
+  w.begin_object().text("format", "soils/1").key("soils").begin_array();
+  for (const sim::SoilDistribution& soil : model.soils) write_soil(w, soil);
+  w.end_array().end_object();
+  return w.take();
+}
+
+std::string diagnosis_document(const gap::DriveCampaign& campaign, const Diagnosis& d) {
+  Writer w;
+  w.begin_object().text("format", "diagnosis/1").text("campaign", d.campaign);
+  write_provenance(w, campaign, d);
+  w.text("verdict", gap::name_of(d.verdict)).text("reason", d.reason);
+  w.text("overturned_by", d.overturned_by);
+  write_effects_found(w, d);
+  write_candidates(w, d);
+  w.key("where").begin_object();
+  write_channels(w, d);
+  write_regimes(w, "regimes", d.regimes);
+  write_regimes(w, "regimes_retuned", d.regimes_retuned);
+  write_regimes(w, "regimes_of_effect", d.regimes_of_effect);
+  write_places(w, d);
+  w.end_object();
+  write_gap(w, d);
+  write_residual(w, d);
+  write_least_detectable(w, d);
+  write_next_drives(w, d);
+  write_retuned(w, d);
+  write_noise(w, d.noise);
+  write_model(w, campaign, d);
+  w.texts("notes", d.notes).end_object();
+  return w.take();
+}
+
+}  // namespace slipway::api::json

@@ -1,0 +1,196 @@
+// What is made of a diagnosis: its document, its corrected model, its report. The diagnosis itself is made
+// up.
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <set>
+#include <string>
+
+#include "api/corrected_model.h"
+#include "api/diagnosis_charts.h"
+#include "api/diagnosis_report.h"
+#include "api/json/diagnosis_document.h"
+#include "api/json/parse.h"
+#include "api/json/rover_file.h"
+#include "api/json/soil_file.h"
+#include "api/json/text_place.h"
+#include "made_diagnosis.h"
+#include "sim/effect_catalogue.h"
+#include "small_world.h"
+
+namespace slipway::api {
+namespace {
+
+using json::JsonValue;
+
+class ADiagnosis : public ::testing::Test {
+ protected:
+  static const gap::DriveCampaign& campaign() {
+    static const gap::DriveCampaign loaded = testing::practice_campaign();
+    return loaded;
+  }
+  static const gap::Diagnosis& diagnosis() {
+    static const gap::Diagnosis made = testing::full_diagnosis(campaign());
+    return made;
+  }
+  static JsonValue document(const gap::Diagnosis& d) {
+    return json::parse(json::diagnosis_document(campaign(), d)).value();
+  }
+};
+
+TEST_F(ADiagnosis, HasEveryKeyOfItsContract) {
+  const JsonValue d = document(diagnosis());
+  for (const char* key :
+       {"format", "campaign", "provenance", "verdict", "effects", "candidates", "confusable", "where", "gap",
+        "residual", "next_drives", "model", "notes", "least_detectable"})
+    EXPECT_NE(d.find(key), nullptr) << key;
+  for (const char* key : {"channels", "regimes", "places"}) EXPECT_NE(d.find("where")->find(key), nullptr);
+  EXPECT_EQ(d.find("format")->text, "diagnosis/1");
+  EXPECT_EQ(d.find("provenance")->find("hashes")->find("campaign")->text, campaign().fingerprint);
+}
+
+TEST_F(ADiagnosis, GivesEverySetOnceWithProbabilitiesThatAddUpToOne) {
+  for (const bool empty : {false, true}) {
+    const JsonValue d = document(empty ? gap::Diagnosis{} : diagnosis());
+    double sum = 0.0, last = 1.0;
+    std::set<std::set<std::string>> sets;
+    for (const JsonValue& candidate : d.find("candidates")->elements) {
+      std::set<std::string> names;
+      for (const JsonValue& name : candidate.find("effects")->elements) names.insert(name.text);
+      EXPECT_TRUE(sets.insert(names).second);
+      EXPECT_LE(candidate.find("probability")->number, last);
+      last = candidate.find("probability")->number;
+      sum += last;
+    }
+    EXPECT_NEAR(sum, 1.0, 1e-12);
+    EXPECT_TRUE(sets.contains({}));
+    EXPECT_TRUE(sets.contains({"unknown"}));
+    EXPECT_EQ(sets.size(), empty ? 2U : 5U);
+  }
+}
+
+TEST_F(ADiagnosis, IsInTheUnitsOfTheBoundary) {
+  const JsonValue d = document(diagnosis());
+  const JsonValue& pitch = d.find("gap")->find("channels")->elements[0];
+  EXPECT_EQ(pitch.find("unit")->text, "deg");
+  EXPECT_NEAR(pitch.find("nominal")->find("value")->number, 1.71887, 1e-4);
+  EXPECT_NEAR(pitch.find("nominal")->find("interval_90")->elements[1].number, 2.29183, 1e-4);
+  const JsonValue& yaw = d.find("where")->find("channels")->elements[0];
+  EXPECT_NEAR(yaw.find("gap")->number, 0.572958, 1e-5);
+}
+
+TEST_F(ADiagnosis, LeavesOutWhatIsNotFinite) {
+  const JsonValue d = document(diagnosis());
+  EXPECT_EQ(d.find("least_detectable")->elements.size(), 1U);
+  EXPECT_EQ(d.find("where")->find("regimes")->elements[0].find("condition")->elements[0].find("to"), nullptr);
+  EXPECT_EQ(d.find("where")->find("channels")->elements[1].find("noise"), nullptr);
+  EXPECT_EQ(d.find("residual")->elements[0].find("shape")->elements.size(), 1U);
+}
+
+TEST_F(ADiagnosis, GivesPlacesAsClosedPolygons) {
+  const JsonValue d = document(diagnosis());
+  const JsonValue& ring = d.find("where")
+                              ->find("places")
+                              ->find("features")
+                              ->elements.at(0)
+                              .find("geometry")
+                              ->find("coordinates")
+                              ->elements.at(0);
+  ASSERT_EQ(ring.elements.size(), 33U);
+  EXPECT_EQ(ring.elements.front().elements[0].number, ring.elements.back().elements[0].number);
+  EXPECT_EQ(ring.elements.front().elements[0].number, 4.5);
+}
+
+TEST_F(ADiagnosis, OffersTheModelThatWasFitted) {
+  auto model = corrected_model(campaign(), diagnosis());
+  ASSERT_TRUE(model);
+  sim::RoverModel driven = model->rover;
+  sim::apply_effects(driven.effects, driven);
+  const sim::RoverModel& fitted = diagnosis().model->rover;
+  EXPECT_EQ(driven.drive.torque_constant_nm_per_a, fitted.drive.torque_constant_nm_per_a);
+  EXPECT_EQ(driven.drive.torque_constant_per_k, fitted.drive.torque_constant_per_k);
+  EXPECT_GT(driven.drive.torque_constant_per_k, 0.0);
+  EXPECT_EQ(driven.pull_below_axle, fitted.pull_below_axle);
+  sim::Soil soil = model->soils.at(0).mean;
+  sim::apply_effects(driven.effects, soil);
+  const sim::Soil& fitted_soil = diagnosis().model->soils.at(0);
+  EXPECT_EQ(soil.pressure.k_phi, fitted_soil.pressure.k_phi);
+  EXPECT_EQ(soil.friction_angle_rad, fitted_soil.friction_angle_rad);
+  EXPECT_EQ(soil.shear_modulus_y_m, fitted_soil.shear_modulus_y_m);
+  EXPECT_EQ(soil.n1, fitted_soil.n1);
+  EXPECT_EQ(soil.c2, fitted_soil.c2);
+  EXPECT_EQ(soil.exit_angle_ratio, fitted_soil.exit_angle_ratio);
+}
+
+TEST_F(ADiagnosis, OffersFilesThatAreReadAsTheyWereWritten) {
+  const auto model = corrected_model(campaign(), diagnosis());
+  ASSERT_TRUE(model);
+  EXPECT_TRUE(model->rover.name.starts_with("mer-class-p05-")) << model->rover.name;
+  const std::string rover = json::rover_document(*model);
+  const auto read = json::read_rover_file(rover);
+  ASSERT_TRUE(read) << read.error().detail;
+  EXPECT_EQ(json::rover_document({*read, {}, {}}), rover);
+  const std::string soils = json::soils_document(*model);
+  const auto soils_read = json::read_soil_file(soils);
+  ASSERT_TRUE(soils_read) << soils_read.error().detail;
+  EXPECT_EQ(json::soils_document({{}, *soils_read, {}}), soils);
+  EXPECT_TRUE(soils_read->front().name.starts_with("nominal-p05-"));
+  EXPECT_GT(soils_read->front().std.stiffness_ratio, 0.0);
+}
+
+TEST_F(ADiagnosis, OffersAnotherVersionOfOtherNumbersAndNoneWhereNoneWasFound) {
+  gap::Diagnosis other = diagnosis();
+  other.retuned.front().value.value += 0.01;
+  EXPECT_NE(corrected_model(campaign(), other)->rover.name,
+            corrected_model(campaign(), diagnosis())->rover.name);
+  other.model.reset();
+  EXPECT_FALSE(corrected_model(campaign(), other));
+  EXPECT_EQ(document(other).find("model"), nullptr);
+}
+
+TEST_F(ADiagnosis, IsReportedWithItsPictures) {
+  const auto charts = draw_diagnosis(campaign(), diagnosis());
+  const std::string report = diagnosis_report(campaign(), diagnosis(), charts);
+  EXPECT_EQ(charts.size(), 6U);
+  for (const NamedChart& chart : charts)
+    EXPECT_NE(report.find("(" + chart.name + ".svg)"), std::string::npos) << chart.name;
+  for (const char* words :
+       {"**effects**", "motor_temperature", "a \\| note of two lines", "0.9 (0.7 to 1.1)"})
+    EXPECT_NE(report.find(words), std::string::npos) << words;
+  EXPECT_EQ(report.find("nan"), std::string::npos);
+  EXPECT_EQ(report, diagnosis_report(campaign(), diagnosis(), draw_diagnosis(campaign(), diagnosis())));
+  // Nothing at all is a report, too.
+  EXPECT_NE(diagnosis_report(campaign(), {}, {}).find("**insufficient**"), std::string::npos);
+}
+
+TEST(TextPlace, IsLineAndColumnOfAPointersValue) {
+  const std::string text = "{\n \"a\": [1, {\"b/c\": \"]\\\"}\", \"d\": 2}],\n\t\"e\" : null}\n";
+  const auto at = [&](std::string_view pointer) {
+    const json::TextPlace place = json::place_of(text, pointer);
+    return std::pair(place.line, place.column);
+  };
+  using Place = std::pair<std::size_t, std::size_t>;
+  EXPECT_EQ(at(""), Place(1, 1));
+  EXPECT_EQ(at("/a"), Place(2, 7));
+  EXPECT_EQ(at("/a/1/b~1c"), Place(2, 19));
+  EXPECT_EQ(at("/a/1/d"), Place(2, 32));
+  EXPECT_EQ(at("/e"), Place(3, 8));
+  EXPECT_EQ(at("/a/1/nothing"), Place(2, 11));
+  EXPECT_EQ(at("/e/below"), Place(3, 8));
+  for (std::size_t cut = 0; cut < text.size(); ++cut) json::place_of(text.substr(0, cut), "/a/1/d/x");
+}
+
+TEST(DiagnosisRequest, IsOfDrivesThatShip) {
+  const auto request = testing::small_world().read_diagnosis(R"({"campaign":"p05"})");
+  ASSERT_FALSE(request);
+  EXPECT_EQ(request.error().faults.at(0).pointer, "/campaign");
+  const auto service = Service::open({.data = SLIPWAY_DATA_FOLDER});
+  ASSERT_TRUE(service);
+  EXPECT_TRUE((*service)->read_diagnosis(testing::example("diagnosis_practice.json")));
+  for (const char* campaign : {"../gap-practice/p05", "/etc", ".", "p99", ""})
+    EXPECT_FALSE((*service)->read_diagnosis("{\"campaign\":\"" + std::string(campaign) + "\"}")) << campaign;
+}
+
+}  // namespace
+}  // namespace slipway::api

@@ -1,0 +1,74 @@
+#include "made_diagnosis.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "api/drive_campaign_source.h"
+#include "gap/hypothesis.h"
+
+namespace slipway::api::testing {
+
+gap::DriveCampaign practice_campaign() {
+  auto campaign =
+      load_drive_campaign(std::filesystem::path(SLIPWAY_DATA_FOLDER) / "gap-practice/p05", Catalogue{});
+  if (!campaign) throw std::runtime_error(campaign.error().detail);
+  return std::move(*campaign);
+}
+
+gap::Diagnosis full_diagnosis(const gap::DriveCampaign& campaign) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  gap::Diagnosis d;
+  d.campaign = campaign.name;
+  d.campaign_fingerprint = campaign.fingerprint;
+  d.library = {"motor_temperature", "soft_patch"};
+  d.verdict = gap::Verdict::kEffects;
+  d.reason = "made up";
+  d.overturned_by = "a look at the code";
+  d.candidates = {{{"motor_temperature"}, 0.5, 1.5, 2},
+                  {{"grousers"}, 0.2, kNan, 1},
+                  {{"motor_temperature"}, 0.1, std::nullopt, 2},
+                  {{"unknown", "grousers"}, 0.1, std::nullopt, 1}};
+  d.confusable = {{"bulldozing", "grousers", 12.0}};
+  d.channels = {{gap::Channel::kYawRate, std::nullopt, 0.01, 0.005, -0.001, 0.01},
+                {gap::Channel::kCurrent, "lf", 0.04, kNan, 0.03, 0.002}};
+  d.regimes = {{{{"slope_deg", 5.0, kInfinite}}, gap::Channel::kSlip, 0.7, 0.2, 0.01}};
+  d.regimes_retuned = d.regimes_of_effect = d.regimes;
+  d.places = {{campaign.terrains.front().name, 3.0, -2.0, 1.5, gap::Channel::kSlip, 0.4}};
+  d.gap = {
+      {gap::Channel::kPitch, {0.03, 0.02, 0.04}, {0.02, 0.01, 0.03}, {0.01, 0.0, 0.02}, {0.01, 0.01, 0.01}}};
+  d.closed_fraction = gap::Interval{0.9, 0.7, 1.1};
+  d.held_out = {{gap::Channel::kSlip, -1, 0, 0.0, 0.1, 0.2, 0.15, kNan}};
+  d.residual = {{"wheel_load", "temperature", 0.6, {{-1.0, {0.2, 0.1, 0.3}}, {1.0, {kNan, 0.0, 0.0}}}}};
+  d.next_drives = {{15.0, 90.0, 0.04, 0.3, -20.0, 1.2}};
+  d.least_detectable = {{"grousers", "height_m", 0.01}, {"bulldozing", "share", kInfinite}};
+  d.notes = {"a | note\nof two lines"};
+  d.drives = 44;
+
+  std::vector<gap::EffectVariant> effects;
+  for (gap::EffectVariant& v : gap::effect_variants(*campaign.rover, {}))
+    if (v.effect == "motor_temperature" || v.effect == "slip_sinkage") effects.push_back(std::move(v));
+  const gap::Hypothesis hypothesis(campaign, std::move(effects));
+  std::vector<double> x;
+  for (const gap::Parameter& p : hypothesis.parameters())
+    x.push_back(std::clamp(p.neutral + 0.3 * p.std, p.lowest, p.highest));
+  for (std::size_t k = 0; k < hypothesis.nuisance_count(); ++k) {
+    const gap::Parameter& p = hypothesis.parameters()[k];
+    d.retuned.push_back({p.name, {x[k], x[k] - 0.1 * p.std, x[k] + 0.1 * p.std}, p.std, true});
+  }
+  d.model = hypothesis.state(x);
+  d.model_effects = hypothesis.settings(x);
+  for (const sim::EffectSetting& setting : d.model_effects) {
+    gap::FoundEffect found{setting.name, "", 0.9, {}};
+    for (const auto& [field, value] : setting.parameters)
+      found.parameters.push_back({field, {value, value, value}});
+    d.effects.push_back(std::move(found));
+  }
+  return d;
+}
+
+}  // namespace slipway::api::testing

@@ -1,0 +1,105 @@
+#!/bin/sh
+# slipway diagnose as a person or a script meets it.
+#   diagnose_command_test.sh SLIPWAY SOURCE_FOLDER
+set -eu
+slipway="$1"
+source="$2"
+data="$source/data"
+folder="$(mktemp -d)"
+trap 'rm -rf "$folder"' EXIT
+
+expect() {
+  wanted="$1"
+  shift
+  status=0
+  "$@" >"$folder/out" 2>"$folder/err" || status=$?
+  if [ "$status" != "$wanted" ]; then
+    echo "exit status $status, expected $wanted, of: $*"
+    cat "$folder/err"
+    exit 1
+  fi
+}
+holds() { grep -q -- "$1" "$2" || { echo "\"$1\" is not in $2:"; cat "$2"; exit 1; }; }
+
+# Motors whose constant and friction change in the cold.
+expect 0 "$slipway" diagnose "$data/gap-practice/p05" --data "$data" --json --report "$folder/report" --model "$folder/model"
+cp "$folder/out" "$folder/first.json"
+cmp "$folder/first.json" "$folder/report/diagnosis.json"
+python3 - "$folder" <<'CHECK'
+import json, pathlib, sys, xml.dom.minidom
+folder = pathlib.Path(sys.argv[1])
+def refuse(word): raise ValueError(word)
+d = json.loads((folder / "first.json").read_text(), parse_constant=refuse)
+assert d["format"] == "diagnosis/1" and d["verdict"] == "effects", d["verdict"]
+assert [e["name"] for e in d["effects"]] == ["motor_temperature"], d["effects"]
+assert abs(sum(c["probability"] for c in d["candidates"]) - 1) < 1e-9
+assert [] in [c["effects"] for c in d["candidates"]] and ["unknown"] in [c["effects"] for c in d["candidates"]]
+current = next(c for c in d["gap"]["channels"] if c["channel"] == "current")
+assert current["with_effects"]["value"] < 0.5 * current["retuned"]["value"], current
+assert any("temperature" in c["variable"] for r in d["where"]["regimes_of_effect"] for c in r["condition"])
+report = (folder / "report" / "report.md").read_text()
+pictures = sorted(p.stem for p in (folder / "report").glob("*.svg"))
+assert {"ladder", "explanations", "channels", "windows", "parameters"} <= set(pictures), pictures
+for name in pictures:
+    assert f"({name}.svg)" in report
+    xml.dom.minidom.parse(str(folder / "report" / f"{name}.svg"))
+[rover], [soils] = (list((folder / "model" / kind).iterdir()) for kind in ("rovers", "soils"))
+assert json.loads(rover.read_text()) == d["model"]["rover"] and rover.stem == d["model"]["rover"]["name"]
+assert json.loads(soils.read_text()) == d["model"]["soils"]
+CHECK
+
+# The corrected model is planned with like any other.
+mkdir "$folder/data"
+cp -r "$data/rovers" "$data/soils" "$source/tests/api/small_world/terrains" "$folder/data"
+chmod -R u+w "$folder/data"
+cp -r "$folder/model/." "$folder/data"
+rover="$(basename "$folder/model/rovers/"*.json .json)"
+soil="$(basename "$folder/model/soils/"*.json .json)"
+sed -i "s/mer_b_sandy_loam/$soil/" "$folder/data/terrains/yard/terrain.json"
+predict() {
+  expect 0 "$slipway" predict --data "$folder/data" --terrain yard --rover "$rover" --path 20,30 28,30 30,36 --draws 4 --json "$@"
+}
+predict --motor-temp-c -60
+cp "$folder/out" "$folder/cold.json"
+predict --motor-temp-c 20
+python3 - "$folder/cold.json" "$folder/out" "$soil" <<'CHECK'
+import json, sys
+cold, warm = (json.load(open(name)) for name in sys.argv[1:3])
+energy = [answer["summary"]["energy_wh"] for answer in (cold, warm)]
+assert energy[0] > 1.2 * energy[1], energy
+assert sys.argv[3] in json.dumps(warm["provenance"]), warm["provenance"]
+CHECK
+
+# Without the effect it is not named, on any number of threads.
+for threads in 1 2; do
+  expect 0 "$slipway" diagnose "$data/gap-practice/p05" --data "$data" --without motor_temperature --threads $threads --json
+  cp "$folder/out" "$folder/without-$threads.json"
+done
+cmp "$folder/without-1.json" "$folder/without-2.json"
+python3 - "$folder/without-1.json" <<'CHECK'
+import json, sys
+d = json.load(open(sys.argv[1]))
+assert d["provenance"]["withheld"] == ["motor_temperature"]
+named = [e["name"] for e in d["effects"]] + [name for c in d["candidates"] for name in c["effects"]]
+assert "motor_temperature" not in named, named
+CHECK
+
+# Faults of all files, each with its place.
+cp -r "$data/gap-practice/p05" "$folder/broken"
+chmod -R u+w "$folder/broken"
+sed -i 's/"mass_kg": 174.0/"mass_kg": -174.0/; s/"terrain": "tilt_18"/"terrain": "tilt_81"/' "$folder/broken/campaign.json"
+sed -i '5s/^[^,]*,/five,/' "$folder/broken/D002.csv"
+rm "$folder/broken/D003.csv"
+expect 2 "$slipway" diagnose "$folder/broken" --data "$data" --json
+holds 'campaign.json, line 7, column 14 (/rover/mass_kg)' "$folder/err"
+holds 'campaign.json, line [0-9]*, column 15 (/drives/43/terrain)' "$folder/err"
+holds 'campaign.json, line [0-9]*, column 12 (/drives/2/file)' "$folder/err"
+holds 'D002.csv, line 5, column 1 (t_s)' "$folder/err"
+[ ! -s "$folder/out" ]
+printf '{"format": "drive-campaign/1",\n "name" "p05"}' >"$folder/broken/campaign.json"
+expect 2 "$slipway" diagnose "$folder/broken" --data "$data"
+holds 'line 2, column' "$folder/err"
+expect 2 "$slipway" diagnose "$folder/nowhere" --data "$data"
+expect 2 "$slipway" diagnose "$data/gap-practice/p05" --data "$data" --without tether
+holds 'unknown effect "tether"' "$folder/err"
+echo "as expected"
