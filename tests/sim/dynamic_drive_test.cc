@@ -175,6 +175,7 @@ TEST(DynamicDrive, IsTheSameFarFromTheMapsOrigin) {
         1e8);
     NoProgress progress;
     DynamicOptions options;
+    options.relative_tolerance = 1e-4;
     options.feedback = Feedback::kPose;
     const DriveSoils soils{{sandy_loam()}, sandy_loam()};
     const auto driven = simulate_drive(six_wheeler(), kMars, bumps, soils, {east, north, 0.5},
