@@ -19,7 +19,8 @@ namespace slipway::gap {
 namespace {
 
 constexpr std::size_t kLeastDrives = 3, kLeastWindows = 6;
-constexpr double kCertain = 0.5;          // of a set's probability: below it the answer is a set of sets
+constexpr double kCertain = 0.5;  // of a set's probability: below it the answer is a set of sets
+constexpr double kCertainBesides = 0.9;
 constexpr double kWorthNaming = 0.05;     // of an effect's probability
 constexpr double kParametersGain = 10.0;  // of the logarithm of the evidence, for calling parameters mis-set
 constexpr double kSurelySeen = 3.0;       // standard errors
@@ -166,6 +167,8 @@ class Diagnoser {
     }
     if (d_.verdict != Verdict::kUnknown && !explains()) return;
     for (std::size_t e = 0; e < best().effects.size(); ++e) {
+      // Beside an unknown cause only what is all but certain: the rest may be its shadow.
+      if (d_.verdict == Verdict::kUnknown && single[best().effects[e]] < kCertainBesides) continue;
       FoundEffect found{
           best().effects[e], best_fit().hypothesis.effects()[e].label, single[best().effects[e]], {}};
       const auto parameters = best_fit().hypothesis.parameters();
