@@ -9,6 +9,7 @@
 #include <numbers>
 #include <set>
 
+#include "core/angle.h"
 #include "gap/localise.h"
 #include "gap/next_drives.h"
 #include "gap/prepared_campaign.h"
@@ -89,6 +90,11 @@ class Diagnoser {
     if (d_.windows < prepared_.windows.size())
       d_.notes.push_back(fmt::format("{} of {} windows lie where the terrain has no ground and are left out",
                                      prepared_.windows.size() - d_.windows, prepared_.windows.size()));
+    if (prepared_.model->footing() == Footing::kPlane)
+      d_.notes.push_back(fmt::format(
+          "the attitudes recorded are those of the plane under the wheels (within {:.2f} deg), not of the "
+          "suspension on the map: the rover is predicted on that plane",
+          deg_from_rad(prepared_.model->attitude_misfit_rad())));
     if (std::none_of(campaign_.drives.begin(), campaign_.drives.end(),
                      [](const auto& drive) { return drive.repeat_of.has_value(); }))
       d_.notes.push_back(

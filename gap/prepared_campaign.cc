@@ -28,6 +28,18 @@ Eigen::VectorXd in_prior_units(const FittedExplanation& fit) {
   return u;
 }
 
+// The suspension's own stance is believed unless the attitudes recorded are nearer to the plane under the
+// wheels by this much (of rms).
+constexpr double kPlaneIsNearer = 0.8;
+
+std::unique_ptr<WindowModel> model_of(const DriveCampaign& campaign, std::span<const DriveWindow> windows) {
+  auto suspension = std::make_unique<WindowModel>(campaign, windows);
+  auto plane = std::make_unique<WindowModel>(campaign, windows, Footing::kPlane);
+  const bool nearer =
+      plane->attitude_misfit_rad() < kPlaneIsNearer * suspension->attitude_misfit_rad();  // false for NaN
+  return nearer ? std::move(plane) : std::move(suspension);
+}
+
 // How often the scatter is estimated and the null fitted under it.
 constexpr int kRounds = 2;
 
@@ -57,7 +69,7 @@ Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const WindowOpti
   PreparedCampaign made;
   progress.report("cutting drives into windows", 0.0);
   made.windows = cut_windows(campaign, options);
-  made.model = std::make_unique<WindowModel>(campaign, made.windows);
+  made.model = model_of(campaign, made.windows);
   const WindowModel& model = *made.model;
   std::vector<bool> used(model.observation_count(), false);
   for (std::size_t w = 0; w < made.windows.size(); ++w)

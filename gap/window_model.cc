@@ -28,8 +28,12 @@ bool same_shape_as(const sim::RoverModel& a, const sim::RoverModel& b) {
 
 }  // namespace
 
-WindowModel::WindowModel(const DriveCampaign& campaign, std::span<const DriveWindow> windows)
-    : campaign_(campaign), windows_(windows), stances_(windows.size()), conditions_(windows.size()) {
+WindowModel::WindowModel(const DriveCampaign& campaign, std::span<const DriveWindow> windows, Footing footing)
+    : campaign_(campaign),
+      windows_(windows),
+      footing_(footing),
+      stances_(windows.size()),
+      conditions_(windows.size()) {
   offsets_.push_back(0);
   for (std::size_t w = 0; w < windows.size(); ++w) {
     offsets_.push_back(offsets_.back() + windows[w].observations.size());
@@ -53,11 +57,32 @@ WindowModel::WindowModel(const DriveCampaign& campaign, std::span<const DriveWin
   }
 }
 
+double WindowModel::attitude_misfit_rad() const {
+  double squares = 0.0;
+  std::size_t count = 0;
+  for (std::size_t w = 0; w < windows_.size(); ++w) {
+    if (!used(w)) continue;
+    double roll = 0.0, pitch = 0.0;
+    for (const Place& place : stances_[w]) {
+      roll += place.stance.attitude.roll_rad / static_cast<double>(stances_[w].size());
+      pitch += place.stance.attitude.pitch_rad / static_cast<double>(stances_[w].size());
+    }
+    for (const Observation& o : windows_[w].observations) {
+      if (o.channel != Channel::kRoll && o.channel != Channel::kPitch) continue;
+      const double difference = o.value - (o.channel == Channel::kRoll ? roll : pitch);
+      squares += difference * difference;
+      ++count;
+    }
+  }
+  return std::sqrt(squares / static_cast<double>(count));
+}
+
 WindowModel::Place WindowModel::place_at(const sim::RoverModel& rover, std::size_t window, const Pose2& pose,
                                          bool& found) const {
   Place place;
   const sim::Ground& ground = *campaign_.terrains[campaign_.drives[windows_[window].drive].terrain].ground;
-  const auto stance = sim::settle(rover, ground, pose);
+  const auto stance = footing_ == Footing::kPlane ? sim::lay_on_fitted_plane(rover, ground, pose)
+                                                  : sim::settle(rover, ground, pose);
   found = stance.has_value();
   if (!found) return place;
   place.stance = *stance;

@@ -21,13 +21,18 @@ struct ModelState {
   std::vector<sim::EffectSetting> effects;  // that are at work on both already; kept for their regions
 };
 
+// How the rover stands where it was: as its suspension does on the map, or on the plane under its wheels. Which
+// of them a recording's attitudes show is for the recording to say.
+enum class Footing { kSuspension, kPlane };
+
 // Predicts every observation of a campaign's windows by the quasi-static rung: the rover stands at the
 // window's measured stations on the map and is told what the drive was told.
 class WindowModel {
  public:
   // Stances of the nominal rover are found here, once. Windows with a station where there is no ground are
   // left out: see used(). Campaign and windows must outlive the model.
-  WindowModel(const DriveCampaign& campaign, std::span<const DriveWindow> windows);
+  WindowModel(const DriveCampaign& campaign, std::span<const DriveWindow> windows,
+              Footing footing = Footing::kSuspension);
 
   // One number for each observation of each window, in their order. NaN where the rover would not move, but
   // for slip, which is 1 there. Same numbers for any number of threads.
@@ -41,6 +46,10 @@ class WindowModel {
     bool turning = false;
   };
   const Conditions& conditions(std::size_t window) const { return conditions_[window]; }
+  // Root mean square of measured less predicted roll and pitch of the nominal rover, rad; NaN where none was
+  // measured.
+  double attitude_misfit_rad() const;
+  Footing footing() const { return footing_; }
   bool used(std::size_t window) const { return !stances_[window].empty(); }
   std::size_t observation_count() const { return offsets_.back(); }
   // Index of a window's first observation.
@@ -60,6 +69,7 @@ class WindowModel {
 
   const DriveCampaign& campaign_;
   std::span<const DriveWindow> windows_;
+  Footing footing_;
   std::vector<std::vector<Place>> stances_;
   std::vector<Conditions> conditions_;
   std::vector<std::size_t> offsets_;

@@ -137,6 +137,28 @@ std::optional<Stance> settle(const RoverModel& rover, const Ground& ground, cons
   return stance;
 }
 
+std::optional<Stance> lay_on_fitted_plane(const RoverModel& rover, const Ground& ground, const Pose2& pose) {
+  const double c = std::cos(pose.yaw_rad), s = std::sin(pose.yaw_rad);
+  // Heights over places in the body's directions: h = a0 + a1 x + a2 y.
+  Eigen::Matrix3d normal_matrix = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right_side = Eigen::Vector3d::Zero();
+  for (const WheelModel& wheel : rover.wheels) {
+    const double x = wheel.position_m.x(), y = wheel.position_m.y();
+    const auto point = ground.at(pose.x_m + c * x - s * y, pose.y_m + s * x + c * y);
+    if (!point) return std::nullopt;
+    const Eigen::Vector3d row(1.0, x, y);
+    normal_matrix += row * row.transpose();
+    right_side += row * point->height_m;
+  }
+  const Eigen::Vector3d plane = normal_matrix.ldlt().solve(right_side);
+  if (!plane.allFinite()) return std::nullopt;
+  Stance stance = stance_on_plane(rover, {.roll_rad = std::atan2(plane[2], std::hypot(1.0, plane[1])),
+                                          .pitch_rad = -std::atan(plane[1]),
+                                          .yaw_rad = pose.yaw_rad});
+  stance.p_MB = {pose.x_m, pose.y_m, plane[0]};
+  return stance;
+}
+
 Stance stance_on_plane(const RoverModel& rover, const Attitude& attitude) {
   Stance stance;
   stance.attitude = attitude;

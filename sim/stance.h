@@ -42,6 +42,11 @@ struct Stance {
 // no stance within its linkage's reach.
 std::optional<Stance> settle(const RoverModel& rover, const Ground& ground, const Pose2& pose);
 
+// The rover at rest in its joints on the plane that fits the ground under its wheels best (least squares over
+// heights): what a recording shows whose attitude is not a suspension's. Nothing where a wheel has no ground
+// under it.
+std::optional<Stance> lay_on_fitted_plane(const RoverModel& rover, const Ground& ground, const Pose2& pose);
+
 // The stance on an inclined plane in closed form: what settle() finds there.
 Stance stance_on_plane(const RoverModel& rover, const Attitude& attitude);
 
