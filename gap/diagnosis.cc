@@ -20,6 +20,7 @@ namespace slipway::gap {
 namespace {
 
 constexpr std::size_t kLeastDrives = 3, kLeastWindows = 6;
+constexpr int kSearches = 2;
 constexpr double kCertain = 0.5;  // of a set's probability: below it the answer is a set of sets
 constexpr double kCertainBesides = 0.9;
 constexpr double kWorthNaming = 0.05;     // of an effect's probability
@@ -57,7 +58,9 @@ double gain_of_parameters(const PreparedCampaign& prepared, const DriveCampaign&
   options.threads = threads;
   const FittedExplanation nominal = fit_explanation(pinned, *prepared.model, *prepared.noise, start, options);
   const auto evidence = [&](const FittedExplanation& fit) {
-    return fit.log_evidence + wildcard_gain(fit, *prepared.noise, prepared.wildcard).imprecision;
+    return fit.log_evidence + wildcard_gain(fit, *prepared.noise, prepared.wildcard,
+                                            Eigen::MatrixXd(fit.white_jacobian.rows(), 0))
+                                  .imprecision;
   };
   return evidence(null) - evidence(nominal);
 }
@@ -108,11 +111,18 @@ class Diagnoser {
       d_.overturned_by = fmt::format("{} drives and {} windows at least", kLeastDrives, kLeastWindows);
       return std::move(d_);
     }
-    SearchOptions search_options = options_.search;
-    auto search = search_explanations(campaign_, *prepared_.model, *prepared_.noise, *prepared_.null,
-                                      prepared_.wildcard, search_options, progress_);
-    if (!search) return fail(search.error());
-    search_ = std::move(*search);
+    for (int round = 0; round < kSearches; ++round) {
+      // With what was found in it, the model takes less of the gap for scatter.
+      if (round > 0) {
+        if (best().effects.empty()) break;
+        prepare_around(prepared_, campaign_, best_fit(), options_.search.threads);
+        d_.noise = prepared_.noise->scales();
+      }
+      auto search = search_explanations(campaign_, *prepared_.model, *prepared_.noise, *prepared_.null,
+                                        prepared_.wildcard, options_.search, progress_);
+      if (!search) return fail(search.error());
+      search_ = std::move(*search);
+    }
     judge();
     describe_parameters();
     compare_look_alikes();

@@ -142,6 +142,25 @@ std::vector<Screened> screen(const DriveCampaign& campaign, const WindowModel& m
   return all;
 }
 
+// The fit that no iteration has moved from the nominal parameters.
+FittedExplanation at_nominal(const FittedExplanation& null, const WindowModel& model, const NoiseModel& noise,
+                             const SearchOptions& options) {
+  ExplanationOptions untouched = fit_options(options);
+  untouched.iterations = 0;
+  return fit_explanation(null.hypothesis, model, noise, null.hypothesis.neutral(), untouched);
+}
+
+// A null that had to go this far from what was believed, in prior deviations, is no point from which effects
+// look linear.
+constexpr double kFar = 2.5;
+
+bool went_far(const FittedExplanation& null) {
+  const auto parameters = null.hypothesis.parameters();
+  for (std::size_t p = 0; p < parameters.size(); ++p)
+    if (std::abs(null.x[p] - parameters[p].neutral) > kFar * parameters[p].std) return true;
+  return false;
+}
+
 // Whether each effect of a fit is at work by a good part of its usual size.
 bool worth_naming(const FittedExplanation& fit, double least_size) {
   const auto parameters = fit.hypothesis.parameters();
@@ -183,8 +202,21 @@ Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, con
 
   // One fit for each of the best effects, of its best variants.
   progress.report("screening effects", 0.2);
-  const std::vector<Screened> screened =
+  std::vector<Screened> screened =
       screen(campaign, model, noise, search.fits[0], wildcard, variants, options.threads);
+  std::map<std::size_t, std::vector<double>> other_start;  // of a variant
+  if (went_far(search.fits[0])) {
+    const FittedExplanation nominal = at_nominal(search.fits[0], model, noise, options);
+    const std::vector<Screened> fresh =
+        screen(campaign, model, noise, nominal, wildcard, variants, options.threads);
+    for (const Screened& f : fresh) {
+      other_start[f.variant] = f.start;
+      for (Screened& s : screened)
+        if (s.variant == f.variant) s.gain = std::max(s.gain, f.gain);
+    }
+    std::stable_sort(screened.begin(), screened.end(),
+                     [](const Screened& a, const Screened& b) { return a.gain > b.gain; });
+  }
   for (const Screened& s : screened)
     search.screened.push_back({variants[s.variant], s.gain, s.signature, s.kept_share, s.visibility});
   std::map<std::string, int> tried;
@@ -200,6 +232,11 @@ Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, con
                     0.25 + 0.3 * static_cast<double>(search.fits.size()) / (2.0 * options.most_refitted));
     FittedExplanation fit =
         fit_explanation(Hypothesis(campaign, {v}), model, noise, s.start, fit_options(options));
+    if (const auto other = other_start.find(s.variant); other != other_start.end()) {
+      FittedExplanation second =
+          fit_explanation(fit.hypothesis, model, noise, other->second, fit_options(options));
+      if (second.log_evidence > fit.log_evidence) fit = std::move(second);
+    }
     if (v.effect == kSoftPatch && tried[v.effect] == 1)
       fit = refine_soft_patch(campaign, model, noise, std::move(fit), fit_options(options));
     search.fits.push_back(std::move(fit));
@@ -249,7 +286,9 @@ Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, con
     }
     if (!worth_naming(search.fits[fit], options.least_size)) return;
     c.fit = fit;
-    const WildcardGain gain = wildcard_gain(search.fits[fit], noise, wildcard);
+    const WildcardGain gain =
+        wildcard_gain(search.fits[fit], noise, wildcard,
+                      form_columns(campaign, model, noise, search.fits[fit], options.threads));
     c.log_evidence = search.fits[fit].log_evidence + gain.imprecision;
     c.log_prior = log_prior;
     search.candidates.push_back(c);

@@ -38,10 +38,9 @@ std::vector<EffectVariant> dragging(const sim::RoverModel& rover) {
   std::vector<EffectVariant> all;
   for (std::size_t k = 0; k < rover.wheels.size(); ++k) {
     const auto number = static_cast<double>(k);
-    all.push_back(variant("dragging_wheel", "slow " + rover.wheels[k].name, {{"rate_share", 0.4, 0.02, 1.0}},
-                          {{"wheel", number}, {"drag_nm", 0.0}}));
-    all.push_back(variant("dragging_wheel", "braked " + rover.wheels[k].name, {{"drag_nm", 3.0, 0.0, 50.0}},
-                          {{"wheel", number}, {"rate_share", 1.0}}));
+    all.push_back(variant("dragging_wheel", rover.wheels[k].name,
+                          {{"rate_share", 0.4, 0.02, 1.0}, {"drag_nm", 3.0, 0.0, 50.0}},
+                          {{"wheel", number}}));
   }
   return all;
 }
@@ -83,7 +82,8 @@ std::vector<EffectVariant> hard_layer(const sim::RoverModel& /*rover*/) {
 }
 
 std::vector<EffectVariant> cleats(const sim::RoverModel& /*rover*/) {
-  return {variant("grousers", "", {{"height_m", 0.01, 0.0, 0.05}})};
+  return {variant("grousers", "", {{"height_m", 0.01, 0.0, 0.05}}),
+          variant("grousers", "mobilised at once", {{"height_m", 0.01, 0.0, 0.05}}, {{"mobilisation", 0.1}})};
 }
 
 std::vector<EffectVariant> gearbox(const sim::RoverModel& /*rover*/) {
@@ -118,7 +118,7 @@ constexpr std::array kRows{Row{"dragging_wheel", &dragging},  Row{"steering_offs
                            Row{"gearbox_friction", &gearbox}, Row{"motor_temperature", &temperature},
                            Row{"slip_sinkage", &sinkage},     Row{"rate_shear", &speed_shear},
                            Row{"multipass", &tracks},         Row{"soft_patch", &none},
-                           Row{"soil_gravity", &none}};
+                           Row{"soil_gravity", &none},        Row{"smooth_rim", &none}};
 
 // All fields with a neutral value, believed to be about as far from it as the catalogue's initial value.
 EffectVariant from_catalogue(const sim::Effect& effect) {
@@ -230,6 +230,7 @@ ModelState Hypothesis::state(std::span<const double> x) const {
   for (std::size_t i = 0; i < nuisances_; ++i) {
     const auto& [row, soil] = places_[i];
     if (row->on_rover != nullptr) row->on_rover(x[i], state.rover);
+    if (row->name == kTrackLeftOut) state.track_left_out = x[i];
     if (row->on_soil == nullptr) continue;
     for (std::size_t s = 0; s < state.soils.size(); ++s)
       if (soil < 0 || static_cast<std::size_t>(soil) == s) row->on_soil(x[i], state.soils[s]);

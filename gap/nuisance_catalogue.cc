@@ -46,6 +46,8 @@ constexpr std::array kRows{
              nullptr, [](double v, RoverModel& r) { r.pull_below_axle = v; }},
     Nuisance{kPoseLag, "headings are recorded later than positions, s", NuisanceKind::kSensor, 1.0, -5.0,
              5.0},
+    Nuisance{kTrackLeftOut, "share of a track's depth that sinkages are recorded without",
+             NuisanceKind::kSensor, 0.5, 0.0, 1.0},
     Nuisance{"torque_constant", "logarithm of the motors' torque constant", NuisanceKind::kMotor, 0.01, -0.3,
              0.3, nullptr, [](double v, RoverModel& r) { r.drive.torque_constant_nm_per_a *= std::exp(v); }},
 };

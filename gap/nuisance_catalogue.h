@@ -29,6 +29,10 @@ struct Nuisance {
 // positions, which turns the way that a turning rover seems to go.
 inline constexpr std::string_view kPoseLag = "pose_lag_s";
 
+// A row of kSensor: the share of a track's depth that recorded sinkages leave out, where they are read from
+// the track's bottom and not from the ground around. Matters where wheels follow each other in tracks.
+inline constexpr std::string_view kTrackLeftOut = "track_left_out";
+
 // A new one is a row.
 std::span<const Nuisance> nuisance_catalogue();
 

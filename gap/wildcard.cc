@@ -11,6 +11,8 @@ namespace slipway::gap {
 namespace {
 
 constexpr std::array kSizes{0.4, 1.2, 3.6};
+constexpr std::array kImprecisionShares{0.1, 0.3, 1.0};
+constexpr std::array kFormSizes{0.0, 0.3, 1.0};
 constexpr double kProbe_m = 0.05;
 
 // Effects of the catalogue as levers: what a force along, a force across, a shifted load, a turned wheel
@@ -54,10 +56,45 @@ std::vector<Variable> variables_of(const WindowModel& model, std::size_t w, doub
           {"temperature", command.motor_temp_c ? *command.motor_temp_c / 30.0 : 0.0}};
 }
 
-Eigen::MatrixXd both(const FittedExplanation& fit, const Eigen::MatrixXd& white, double size) {
-  Eigen::MatrixXd columns(fit.white_jacobian.rows(), fit.white_jacobian.cols() + white.cols());
-  columns << fit.white_jacobian, size * white;
+Eigen::MatrixXd both(const Eigen::MatrixXd& known, const Eigen::MatrixXd& white, double size) {
+  Eigen::MatrixXd columns(known.rows(), known.cols() + white.cols());
+  columns << known, size * white;
   return columns;
+}
+
+// Which axle each wheel is on, from the front.
+std::vector<int> axles(const sim::RoverModel& rover) {
+  std::vector<int> of;
+  for (const sim::WheelModel& wheel : rover.wheels) {
+    int ahead = 0;
+    for (const sim::WheelModel& other : rover.wheels)
+      ahead += other.position_m.x() > wheel.position_m.x() + 0.01 &&
+                       other.position_m.y() * wheel.position_m.y() > 0.0
+                   ? 1
+                   : 0;
+    of.push_back(ahead);
+  }
+  return of;
+}
+
+// Circumstances of every window at these predictions.
+std::vector<std::vector<Variable>> circumstances(const WindowModel& model, std::span<const double> expected) {
+  double mean_speed = 0.0;
+  int driven = 0;
+  for (const DriveWindow& window : model.windows())
+    if (!window.command.turn_in_place) {
+      mean_speed += std::abs(window.command.speed_m_s);
+      ++driven;
+    }
+  if (driven > 0) mean_speed /= driven;
+  std::vector<std::vector<Variable>> variables;
+  for (std::size_t w = 0; w < model.windows().size(); ++w) {
+    double slip = 0.0;
+    for (std::size_t i = 0; i < model.windows()[w].observations.size(); ++i)
+      if (model.windows()[w].observations[i].channel == Channel::kSlip) slip = expected[model.offset(w) + i];
+    variables.push_back(variables_of(model, w, std::isfinite(slip) ? slip : 0.0, mean_speed));
+  }
+  return variables;
 }
 
 // log of the mean of exp(values).
@@ -137,21 +174,7 @@ Wildcard make_wildcard(const DriveCampaign& campaign, const WindowModel& model, 
              return o.channel == Channel::kCurrent && o.wheel == static_cast<int>(k) ? 0.05 * f : 0.0;
            });
 
-  double mean_speed = 0.0;
-  int driven = 0;
-  for (const DriveWindow& window : model.windows())
-    if (!window.command.turn_in_place) {
-      mean_speed += std::abs(window.command.speed_m_s);
-      ++driven;
-    }
-  if (driven > 0) mean_speed /= driven;
-  std::vector<std::vector<Variable>> variables;
-  for (std::size_t w = 0; w < model.windows().size(); ++w) {
-    double slip = 0.0;
-    for (std::size_t i = 0; i < model.windows()[w].observations.size(); ++i)
-      if (model.windows()[w].observations[i].channel == Channel::kSlip) slip = expected[model.offset(w) + i];
-    variables.push_back(variables_of(model, w, std::isfinite(slip) ? slip : 0.0, mean_speed));
-  }
+  const std::vector<std::vector<Variable>> variables = circumstances(model, expected);
   Wildcard wildcard;
   std::vector<Eigen::VectorXd> columns;
   for (std::size_t e = 0; e < entries.size() && !variables.empty(); ++e) {
@@ -177,13 +200,60 @@ Eigen::MatrixXd whitened(const FittedExplanation& fit, const NoiseModel& noise, 
   return fit.row_weights.asDiagonal() * noise.whiten(wildcard.values);
 }
 
-WildcardGain wildcard_gain(const FittedExplanation& fit, const NoiseModel& noise, const Wildcard& wildcard) {
+Eigen::MatrixXd form_columns(const DriveCampaign& campaign, const WindowModel& model, const NoiseModel& noise,
+                             const FittedExplanation& fit, std::size_t threads) {
+  const auto parameters = fit.hypothesis.parameters();
+  const std::vector<double> with = fit.hypothesis.predict(model, fit.x, threads);
+  const std::vector<std::vector<Variable>> variables = circumstances(model, with);
+  const std::vector<int> axle_of = axles(*campaign.rover);
+  std::vector<Eigen::VectorXd> columns;
+  for (const EffectVariant& effect : fit.hypothesis.effects()) {
+    std::vector<double> x = fit.x;
+    for (std::size_t p = fit.hypothesis.nuisance_count(); p < x.size(); ++p)
+      if (parameters[p].effect == effect.effect) x[p] = parameters[p].neutral;
+    const std::vector<double> without = fit.hypothesis.predict(model, x, threads);
+    Eigen::VectorXd trace(static_cast<Eigen::Index>(with.size()));
+    for (std::size_t i = 0; i < with.size(); ++i) {
+      const double change = with[i] - without[i];
+      trace[static_cast<Eigen::Index>(i)] = std::isfinite(change) ? kFormImprecision * change : 0.0;
+    }
+    const auto add = [&](const auto& share) {
+      Eigen::VectorXd column = trace;
+      Eigen::Index i = 0;
+      for (std::size_t w = 0; w < model.windows().size(); ++w)
+        for (const Observation& o : model.windows()[w].observations) column[i++] *= share(w, o);
+      if (column.squaredNorm() > 0.0) columns.push_back(std::move(column));
+    };
+    for (std::size_t v = 1; !variables.empty() && v < variables.front().size(); ++v)
+      add([&](std::size_t w, const Observation&) { return variables[w][v].value; });
+    for (int c = 0; c < kChannels; ++c)
+      add([&](std::size_t, const Observation& o) {
+        return o.channel == static_cast<Channel>(c) ? 1.0 : 0.0;
+      });
+    for (int a = 0; a <= *std::max_element(axle_of.begin(), axle_of.end()); ++a)
+      add([&](std::size_t, const Observation& o) {
+        return o.wheel >= 0 && axle_of[static_cast<std::size_t>(o.wheel)] == a ? 1.0 : 0.0;
+      });
+  }
+  Eigen::MatrixXd values(static_cast<Eigen::Index>(with.size()), static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t c = 0; c < columns.size(); ++c) values.col(static_cast<Eigen::Index>(c)) = columns[c];
+  return fit.row_weights.asDiagonal() * noise.whiten(values);
+}
+
+WildcardGain wildcard_gain(const FittedExplanation& fit, const NoiseModel& noise, const Wildcard& wildcard,
+                           const Eigen::MatrixXd& form) {
   const Eigen::MatrixXd white = whitened(fit, noise, wildcard);
   const double without = log_marginal(fit.white_linear, fit.white_jacobian);
-  std::vector<double> with;
-  for (const double size : kSizes) with.push_back(log_marginal(fit.white_linear, both(fit, white, size)));
-  return {log_marginal(fit.white_linear, both(fit, white, kImprecision)) - without,
-          log_mean_exp(with) - without};
+  std::vector<double> imprecise, other;
+  for (const double exact : kFormSizes) {
+    if (exact > 0.0 && form.cols() == 0) continue;
+    const Eigen::MatrixXd known = both(fit.white_jacobian, form, exact);
+    for (const double share : kImprecisionShares)
+      imprecise.push_back(log_marginal(fit.white_linear, both(known, white, share * kImprecision)));
+    for (const double size : kSizes)
+      other.push_back(log_marginal(fit.white_linear, both(known, white, size)));
+  }
+  return {log_mean_exp(imprecise) - without, log_mean_exp(other) - without};
 }
 
 Eigen::VectorXd wildcard_coefficients(const FittedExplanation& fit, const NoiseModel& noise,
@@ -192,13 +262,13 @@ Eigen::VectorXd wildcard_coefficients(const FittedExplanation& fit, const NoiseM
   double best = -std::numeric_limits<double>::infinity();
   double size = kSizes[0];
   for (const double s : kSizes) {
-    const double value = log_marginal(fit.white_linear, both(fit, white, s));
+    const double value = log_marginal(fit.white_linear, both(fit.white_jacobian, white, s));
     if (value > best) {
       best = value;
       size = s;
     }
   }
-  const Eigen::MatrixXd columns = both(fit, white, size);
+  const Eigen::MatrixXd columns = both(fit.white_jacobian, white, size);
   Eigen::MatrixXd hessian = columns.transpose() * columns;
   hessian.diagonal().array() += 1.0;
   const Eigen::VectorXd all = hessian.llt().solve(columns.transpose() * fit.white_linear);

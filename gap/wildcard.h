@@ -36,16 +36,27 @@ Wildcard make_wildcard(const DriveCampaign& campaign, const WindowModel& model, 
 // Its whitened columns, rows weighed as in the fit.
 Eigen::MatrixXd whitened(const FittedExplanation& fit, const NoiseModel& noise, const Wildcard& wildcard);
 
-// No simulator is exact: every explanation has the wildcard beside it at this size, and only more than that
-// is something else.
+// No simulator is exact: every explanation has the wildcard beside it up to this size, and only more than
+// that is something else.
 constexpr double kImprecision = 0.1;
 
-// By how much the logarithm of a fitted explanation's evidence rises with the wildcard beside it: at the size
-// of kImprecision, and with its coefficients averaged over normal priors of larger ones.
+// That an effect is at work does not say that its equation is the library's: what it does to the observations
+// may be off by this share, differently by circumstance, axle and kind of channel.
+constexpr double kFormImprecision = 0.3;
+
+// The columns, whitened, by which the effects of a fit may be off: what each of them does there, times
+// functions of the circumstances. None where the fit has no effects.
+Eigen::MatrixXd form_columns(const DriveCampaign& campaign, const WindowModel& model, const NoiseModel& noise,
+                             const FittedExplanation& fit, std::size_t threads);
+
+// By how much the logarithm of a fitted explanation's evidence rises with the wildcard beside it, averaged
+// over sizes from none to kImprecision, and over larger ones; the effects' forms are averaged over likewise.
 struct WildcardGain {
   double imprecision = 0.0, something_else = 0.0;
 };
-WildcardGain wildcard_gain(const FittedExplanation& fit, const NoiseModel& noise, const Wildcard& wildcard);
+// `form`: of form_columns.
+WildcardGain wildcard_gain(const FittedExplanation& fit, const NoiseModel& noise, const Wildcard& wildcard,
+                           const Eigen::MatrixXd& form);
 
 // The coefficients' mean, in units of the columns, at the most probable size.
 Eigen::VectorXd wildcard_coefficients(const FittedExplanation& fit, const NoiseModel& noise,

@@ -154,7 +154,10 @@ void WindowModel::predict_window(std::size_t w, const ModelState& state, bool sa
         }
         for (std::size_t k = 0; k < wheels; ++k) {
           last.current[k] = at.wheels[k].current_a * (at.wheels[k].rate_rad_s < 0.0 ? -1.0 : 1.0);
-          last.sinkage[k] = at.wheels[k].sinkage_m;
+          const double below_track =
+              state.rover.wheels[k].radius_m * (1.0 - std::cos(at.wheels[k].entry_angle_rad));
+          last.sinkage[k] =
+              (1.0 - state.track_left_out) * at.wheels[k].sinkage_m + state.track_left_out * below_track;
         }
       }
       last.roll = place->stance.attitude.roll_rad;

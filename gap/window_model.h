@@ -19,10 +19,11 @@ struct ModelState {
   sim::RoverModel rover;
   std::vector<sim::Soil> soils;             // as DriveCampaign::soils
   std::vector<sim::EffectSetting> effects;  // that are at work on both already; kept for their regions
+  double track_left_out = 0.0;              // see kTrackLeftOut
 };
 
-// How the rover stands where it was: as its suspension does on the map, or on the plane under its wheels. Which
-// of them a recording's attitudes show is for the recording to say.
+// How the rover stands where it was: as its suspension does on the map, or on the plane under its wheels.
+// Which of them a recording's attitudes show is for the recording to say.
 enum class Footing { kSuspension, kPlane };
 
 // Predicts every observation of a campaign's windows by the quasi-static rung: the rover stands at the

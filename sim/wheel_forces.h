@@ -10,6 +10,8 @@ namespace slipway::sim {
 struct Grousers {
   double height_m = 0.0;
   double count = 0.0;  // around the rim; need not be whole where it is estimated
+  // Shear displacement at which a cleat's thrust is mobilised, over the soil's shear modulus along.
+  double mobilisation = 1.0;
 };
 
 // What the laws need of a wheel.

@@ -8,10 +8,12 @@ namespace {
 constexpr std::array kFields{
     Field{"height_m", "m", "height of a grouser", 0.0, 0.05, 0.01, 0.0},
     Field{"count", "1", "grousers around a rim", 0.0, 100.0, 24.0, 0.0},
+    Field{"mobilisation", "1", "shear that mobilises a grouser's thrust, over the soil's", 0.02, 1.0, 1.0,
+          1.0},
 };
 
 void change(std::span<const double> values, RoverModel& rover) {
-  for (WheelModel& wheel : rover.wheels) wheel.grousers = Grousers{values[0], values[1]};
+  for (WheelModel& wheel : rover.wheels) wheel.grousers = Grousers{values[0], values[1], values[2]};
 }
 
 }  // namespace
