@@ -314,6 +314,7 @@ class Estimation {
       profile.rise *= std::max(1.0, fit_.residual_variance);
       profile.fit.tolerance = 1e-5;
       profile.fit.max_iterations = 15;
+      profile.fit.covariance = false;
       const auto found =
           profile_interval(unknowns, at, readings(), residuals, around, alone, profile, within_);
       if (!found) return fail(found.error());
@@ -341,11 +342,11 @@ class Estimation {
   // A modulus that may be negative is measured by the stiffness, others by themselves.
   void judge(EstimatedParameter& p, std::optional<double> deviation, std::optional<double> prior,
              double scale) const {
-    constexpr double kHalf = 0.5, kOfPrior = 0.7;
+    constexpr double kQuarter = 0.25, kOfPrior = 0.7;
     const bool modulus = p.parameter == SoilParameter::kKc || p.parameter == SoilParameter::kKphi;
     const double size = modulus ? scale : std::abs(p.value);
     const bool says_more = deviation && (!prior || *deviation < kOfPrior * *prior);
-    if (says_more && !p.low_open && !p.high_open && p.high - p.low <= 2.0 * kHalf * size)
+    if (says_more && !p.low_open && !p.high_open && p.high - p.low <= 2.0 * kQuarter * size)
       p.determination = Determination::kDetermined;
     else if (says_more && p.low_open != p.high_open)
       p.determination = Determination::kOneSided;
@@ -417,9 +418,13 @@ std::string words_of(const EstimatedParameter& p, bool has_prior) {
     case Determination::kUndetermined:
       break;
   }
+  // Between them, the data say something, but little.
+  const bool closed = !p.low_open && !p.high_open;
   return fmt::format("{}: not determined by these data ({} to {}{} all fit); what is given, {}{}, is {}",
                      row.name, shown(p.low), shown(p.high), unit, shown(p.value), unit,
-                     has_prior ? "largely the prior" : "where the search ended");
+                     closed      ? "no better than that"
+                     : has_prior ? "largely the prior"
+                                 : "where the search ended");
 }
 
 std::vector<SoilParameter> usual_free_parameters(const SoilData& data) {

@@ -46,7 +46,8 @@ struct SoilEstimationOptions {
 };
 
 enum class Determination {
-  kDetermined,    // the data say the parameter: to half its value at 90 %, and far better than the prior
+  kDetermined,    // the data say the parameter: to a quarter of its value at 90 %, and far better than the
+                  // prior
   kOneSided,      // they say how great, or how small, it is at most
   kUndetermined,  // what is given is the prior, or where the search ended
 };

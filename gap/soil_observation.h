@@ -49,7 +49,7 @@ struct SoilData {
 // the channel's root mean square.
 struct ReadingNoise {
   double share = 0.02;
-  double share_of_rms = 0.01;
+  double share_of_rms = 0.005;
 };
 
 // One measured number among all of a SoilData.

@@ -12,7 +12,7 @@ namespace slipway::gap {
 inline sim::Soil dry_sand() {
   sim::Soil soil;
   soil.pressure = {990.0, 1.528e6, 1.1};
-  soil.cohesion_pa = 200.0;
+  soil.cohesion_pa = 100.0;
   soil.friction_angle_rad = rad_from_deg(28.0);
   soil.shear_modulus_x_m = soil.shear_modulus_y_m = 0.015;
   return soil;
@@ -48,7 +48,7 @@ inline SoilData made_wheel_tests(const sim::Soil& soil, const MadeWheelTests& ma
   for (int i = 0; i < made.count; ++i) {
     WheelObservation o;
     o.test.wheel = {.radius_m = 0.125, .width_m = 0.16};
-    o.test.load_n = 50.0 + 40.0 * (i % 5);
+    o.test.load_n = 20.0 + 70.0 * (i % 5);
     o.test.slip = 0.03 + 0.75 * (i / 5) / std::max(1.0, made.count / 5.0 - 1.0);
     if (made.current) o.test.drive = sim::DriveMotor{};
     sim::SingleWheelTest test = o.test;
