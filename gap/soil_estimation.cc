@@ -334,24 +334,12 @@ class Estimation {
     p.high = value_at(interval.high);
     p.low_open = interval.low_open;
     p.high_open = interval.high_open;
-    judge(p, deviation, prior, axes_.scale(parameter));
-    p.words = words_of(p, prior.has_value());
+    // A modulus that may be negative is measured by the stiffness.
+    const bool modulus = parameter == SoilParameter::kKc || parameter == SoilParameter::kKphi;
+    constexpr double kOfPrior = 0.7;
+    judge(p, deviation && (!prior || *deviation < kOfPrior * *prior),
+          modulus ? std::optional(axes_.scale(parameter)) : std::nullopt);
     return p;
-  }
-
-  // A modulus that may be negative is measured by the stiffness, others by themselves.
-  void judge(EstimatedParameter& p, std::optional<double> deviation, std::optional<double> prior,
-             double scale) const {
-    constexpr double kQuarter = 0.25, kOfPrior = 0.7;
-    const bool modulus = p.parameter == SoilParameter::kKc || p.parameter == SoilParameter::kKphi;
-    const double size = modulus ? scale : std::abs(p.value);
-    const bool says_more = deviation && (!prior || *deviation < kOfPrior * *prior);
-    if (says_more && !p.low_open && !p.high_open && p.high - p.low <= 2.0 * kQuarter * size)
-      p.determination = Determination::kDetermined;
-    else if (says_more && p.low_open != p.high_open)
-      p.determination = Determination::kOneSided;
-    else
-      p.determination = Determination::kUndetermined;
   }
 
   static constexpr double kNinety = 1.6449;
@@ -381,28 +369,8 @@ std::string number(double value) {
   return value < 0.0 ? "-" + digits : digits;
 }
 
-}  // namespace
-
-std::optional<SoilPriors> soil_priors(std::string_view name) {
-  if (name == "none") return SoilPriors::kNone;
-  if (name == "wide") return SoilPriors::kWide;
-  if (name == "soil") return SoilPriors::kSoil;
-  return std::nullopt;
-}
-
-std::string_view name_of(Determination determination) {
-  switch (determination) {
-    case Determination::kDetermined:
-      return "determined";
-    case Determination::kOneSided:
-      return "one_sided";
-    case Determination::kUndetermined:
-      break;
-  }
-  return "undetermined";
-}
-
-std::string words_of(const EstimatedParameter& p, bool has_prior) {
+std::string words_of(const EstimatedParameter& p) {
+  const bool has_prior = p.prior_std.has_value();
   const SoilParameterRow& row = row_of(p.parameter);
   const auto shown = [&](double value) { return number(row.boundary_unit * value); };
   const std::string unit = row.unit == "1" ? "" : fmt::format(" {}", row.unit);
@@ -425,6 +393,39 @@ std::string words_of(const EstimatedParameter& p, bool has_prior) {
                      closed      ? "no better than that"
                      : has_prior ? "largely the prior"
                                  : "where the search ended");
+}
+
+}  // namespace
+
+std::optional<SoilPriors> soil_priors(std::string_view name) {
+  if (name == "none") return SoilPriors::kNone;
+  if (name == "wide") return SoilPriors::kWide;
+  if (name == "soil") return SoilPriors::kSoil;
+  return std::nullopt;
+}
+
+std::string_view name_of(Determination determination) {
+  switch (determination) {
+    case Determination::kDetermined:
+      return "determined";
+    case Determination::kOneSided:
+      return "one_sided";
+    case Determination::kUndetermined:
+      break;
+  }
+  return "undetermined";
+}
+
+void judge(EstimatedParameter& p, bool says_more, std::optional<double> scale) {
+  constexpr double kQuarter = 0.25;
+  const double size = scale.value_or(std::abs(p.value));
+  if (says_more && !p.low_open && !p.high_open && p.high - p.low <= 2.0 * kQuarter * size)
+    p.determination = Determination::kDetermined;
+  else if (says_more && p.low_open != p.high_open)
+    p.determination = Determination::kOneSided;
+  else
+    p.determination = Determination::kUndetermined;
+  p.words = words_of(p);
 }
 
 std::vector<SoilParameter> usual_free_parameters(const SoilData& data) {

@@ -118,8 +118,8 @@ std::vector<SoilParameter> usual_free_parameters(const SoilData& data);
 Result<SoilEstimate> estimate_soil(const sim::SoilDistribution& nominal, const SoilData& data,
                                    const SoilEstimationOptions& options, Progress& progress);
 
-// The words of a parameter, of its value, interval and determination: what estimate_soil says, also of
-// others' estimates.
-std::string words_of(const EstimatedParameter& parameter, bool has_prior);
+// Fills determination and words from value and interval. says_more: the posterior is far narrower than the
+// prior, where there is one; scale: what a quarter is taken of, by default the value.
+void judge(EstimatedParameter& parameter, bool says_more, std::optional<double> scale = {});
 
 }  // namespace slipway::gap
