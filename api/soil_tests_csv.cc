@@ -16,12 +16,7 @@ namespace {
 
 constexpr std::size_t kMostRows = 20'000;
 
-struct Column {
-  std::string_view name;
-  double lowest = 0.0, highest = 0.0;  // at the boundary
-  bool required = false;               // there, and in every row
-  bool above_lowest = false;
-};
+using Column = TestColumn;
 
 constexpr std::array<Column, 13> kWheelColumns{{{"load_n", 0.0, 1e6, true, true},
                                                 {"slip_ratio", -1.0, 1.0, true},
@@ -144,25 +139,38 @@ tl::unexpected<Error> unreadable(std::string_view file, std::vector<Fault> fault
 
 }  // namespace
 
+std::span<const TestColumn> wheel_test_columns() {
+  return kWheelColumns;
+}
+
+gap::WheelObservation wheel_observation(std::span<const std::optional<double>> values,
+                                        std::vector<std::string>& faults) {
+  gap::WheelObservation o;
+  o.test.load_n = values[0].value_or(1.0);
+  o.test.slip = values[1].value_or(0.0);
+  o.test.slip_angle_rad = rad_from_deg(values[2].value_or(0.0));
+  bool any = false;
+  for (std::size_t c = 0; c < gap::kWheelChannels; ++c) {
+    o.readings[c] = {values[kFirstReading + c], values[kFirstStd + c]};
+    any = any || o.readings[c].value;
+    if (o.readings[c].std && !o.readings[c].value)
+      faults.push_back(fmt::format("{} is given without {}", kWheelColumns[kFirstStd + c].name,
+                                   kWheelColumns[kFirstReading + c].name));
+  }
+  if (!any && faults.empty()) faults.emplace_back("nothing was measured");
+  return o;
+}
+
 Result<std::vector<gap::WheelObservation>> read_wheel_tests_csv(std::string_view file,
                                                                 std::string_view text) {
   Table table(file, kWheelColumns);
   const auto rows = table.read(text);
   std::vector<gap::WheelObservation> observations;
+  const bool sound = table.faults().empty();
   for (const auto& row : rows) {
-    gap::WheelObservation& o = observations.emplace_back();
-    o.test.load_n = row.values[0].value_or(1.0);
-    o.test.slip = row.values[1].value_or(0.0);
-    o.test.slip_angle_rad = rad_from_deg(row.values[2].value_or(0.0));
-    bool any = false;
-    for (std::size_t c = 0; c < gap::kWheelChannels; ++c) {
-      o.readings[c] = {row.values[kFirstReading + c], row.values[kFirstStd + c]};
-      any = any || o.readings[c].value;
-      if (o.readings[c].std && !o.readings[c].value)
-        table.fault(row.line, fmt::format("{} is given without {}", kWheelColumns[kFirstStd + c].name,
-                                          kWheelColumns[kFirstReading + c].name));
-    }
-    if (!any && table.faults().empty()) table.fault(row.line, "nothing was measured");
+    std::vector<std::string> faults;
+    observations.push_back(wheel_observation(row.values, faults));
+    for (std::size_t i = 0; sound && i < faults.size(); ++i) table.fault(row.line, faults[i]);
   }
   if (!table.faults().empty()) return unreadable(file, std::move(table.faults()));
   return observations;

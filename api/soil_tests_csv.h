@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,6 +10,19 @@
 #include "gap/soil_observation.h"
 
 namespace slipway::api {
+
+// What a row of wheel tests holds, as column or as key; ranges at the boundary.
+struct TestColumn {
+  std::string_view name;
+  double lowest = 0.0, highest = 0.0;
+  bool required = false;      // there, and in every row
+  bool above_lowest = false;  // lowest itself is refused
+};
+// Load, slip ratio and slip angle; then a column for each of a wheel's channels; then each one's deviation.
+std::span<const TestColumn> wheel_test_columns();
+// The values of these columns as an observation. Faults: a deviation without its reading, nothing measured.
+gap::WheelObservation wheel_observation(std::span<const std::optional<double>> values,
+                                        std::vector<std::string>& faults);
 
 // Wheel tests, a row each. Columns in any order:
 //

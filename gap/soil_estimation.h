@@ -32,9 +32,9 @@ struct SoilBound {
 };
 
 struct SoilEstimationOptions {
-  std::vector<SoilParameter> free;  // empty: usual_free_parameters
+  std::vector<SoilParameter> free = {};  // empty: usual_free_parameters
   SoilPriors priors = SoilPriors::kWide;
-  std::vector<SoilBound> bounds;
+  std::vector<SoilBound> bounds = {};
   std::array<bool, kSoilChannels> channels{true, true, true, true, true, true};
   ReadingNoise noise = {};
   RobustLoss loss = RobustLoss::kNone;
