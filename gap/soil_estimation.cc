@@ -150,6 +150,28 @@ class Estimation {
     };
   }
 
+  // From elsewhere: what soils of all kinds differ by, half of it, and where n is another, k so that the
+  // pressure at a usual depth is the same.
+  std::vector<Unknown> drawn_start(int start) const {
+    constexpr double kShare = 0.5, kUsualDepth_m = 0.03;
+    std::vector<Unknown> moved = unknowns_;
+    double exponent_change = 0.0;
+    for (std::size_t k = 0; k < moved.size(); ++k) {
+      const SoilParameter axis = axes_.axes()[k];
+      const double change = kShare * wide_std(axis) *
+                            random_normal(random_key(options_.seed, static_cast<std::uint64_t>(start)), k);
+      if (axis == SoilParameter::kN)
+        exponent_change = nominal_.mean.pressure.n * (std::exp(moved[k].start + change) - 1.0);
+      moved[k].start += change;
+    }
+    for (std::size_t k = 0; k < moved.size(); ++k) {
+      if (axes_.axes()[k] == SoilParameter::kBekker)
+        moved[k].start -= exponent_change * std::log(kUsualDepth_m);
+      moved[k].start = std::clamp(moved[k].start, moved[k].lowest, moved[k].highest);
+    }
+    return moved;
+  }
+
   Result<LeastSquaresFit> search() {
     const ResidualFunction residuals = residuals_of(axes_);
     auto best = fit_least_squares(unknowns_, readings(), residuals, fit_options_, within_);
@@ -159,12 +181,7 @@ class Estimation {
     };
     for (int start = 1; start <= options_.further_starts && is_poor(best); ++start) {
       if (progress_.cancelled()) break;
-      std::vector<Unknown> moved = unknowns_;
-      for (std::size_t k = 0; k < moved.size(); ++k) {
-        const double drawn = random_normal(random_key(options_.seed, static_cast<std::uint64_t>(start)), k);
-        moved[k].start = std::clamp(moved[k].start + 0.5 * wide_std(axes_.axes()[k]) * drawn, moved[k].lowest,
-                                    moved[k].highest);
-      }
+      const std::vector<Unknown> moved = drawn_start(start);
       auto fit = fit_least_squares(moved, readings(), residuals, fit_options_, within_);
       if (fit && (!best || fit->cost < best->cost)) best = std::move(fit);
     }

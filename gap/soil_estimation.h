@@ -40,7 +40,7 @@ struct SoilEstimationOptions {
   RobustLoss loss = RobustLoss::kNone;
   std::optional<double> loss_scale = {};  // in deviations; nothing: usual_loss_scale()
   // Searches from elsewhere between the bounds where the first leaves more than twice the noise.
-  int further_starts = 4;
+  int further_starts = 12;
   bool profile = true;  // 90 % intervals by profile likelihood; otherwise from the covariance
   std::uint64_t seed = 1;
 };

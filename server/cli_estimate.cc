@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint64_t kLargestExactWhole = 9'007'199'254'740'991;  // 2^53 - 1: a number of JSON
 constexpr const char* kExample =
-    "Examples: the soil under a wheel on a rig; that under plates; that of drives, from currents alone\n"
+    "Example: the soil under a wheel on a rig; that under plates; that of drives, from currents alone\n"
     "  slipway estimate wheel tests.csv --wheel-radius 0.125 --wheel-width 0.16 --soil unknown_ground\n"
     "  slipway estimate plates plates.csv --free k_c,k_phi,n --soil-out soils/found.json\n"
     "  slipway estimate drives data/gap-practice/p01 --channels current\n"

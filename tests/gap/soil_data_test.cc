@@ -121,7 +121,8 @@ TEST(EstimateSoil, CurrentsAloneTellTheStrengthButNotEverything) {
     EXPECT_GE(value, p.low - 0.1 * std::abs(value)) << p.words;
     EXPECT_LE(value, p.high + 0.1 * std::abs(value)) << p.words;
   }
-  EXPECT_FALSE(e->open.empty());
+  EXPECT_EQ(of(*e, SoilParameter::kFrictionAngle).determination, Determination::kDetermined);
+  EXPECT_NE(of(*e, SoilParameter::kBekker).determination, Determination::kDetermined);
 }
 
 TEST(EstimateSoil, ALossLeavesOutliersAlone) {
@@ -137,8 +138,8 @@ TEST(EstimateSoil, ALossLeavesOutliersAlone) {
             std::abs(off(*plain, SoilParameter::kFrictionAngle, truth)));
   std::size_t outliers = 0;
   for (const FittedDatum& d : robust->data) outliers += d.outlier ? 1 : 0;
-  EXPECT_GE(outliers, 8U);
-  EXPECT_LE(outliers, 12U);
+  EXPECT_GE(outliers, 7U);
+  EXPECT_LE(outliers, 10U);
 }
 
 TEST(EstimateSoil, BoundsAreKept) {
