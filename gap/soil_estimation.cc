@@ -282,6 +282,8 @@ class Estimation {
     const Eigen::VectorXd deviation = covariance.diagonal().cwiseMax(1e-300).cwiseSqrt();
     estimate_.correlation =
         deviation.cwiseInverse().asDiagonal() * covariance * deviation.cwiseInverse().asDiagonal();
+    // Of what is not determined nothing is known.
+    estimate_.correlation = estimate_.correlation.cwiseMax(-1.0).cwiseMin(1.0);
     for (Eigen::Index i = 0; i < n; ++i) {
       estimate_.correlation(i, i) = 1.0;
       progress_.report("profile likelihood", static_cast<double>(i + 1) / static_cast<double>(n + 1));

@@ -14,6 +14,7 @@ namespace slipway::api {
 namespace {
 
 using gap::SoilChannel;
+using testing::small_world;
 
 TEST(WheelTestsCsv, ColumnsMayStandInAnyOrderAndCellsBeEmpty) {
   const auto tests = read_wheel_tests_csv("a.csv",
