@@ -5,6 +5,7 @@
 #include "api/json/diagnosis_document.h"
 #include "api/json/plan_answer.h"
 #include "api/json/prediction_answer.h"
+#include "api/json/soil_estimate_document.h"
 
 namespace slipway::api {
 
@@ -32,6 +33,13 @@ JobWork service_work(const Service& service) {
       const auto answer = service.diagnose(*diagnosis_request, progress);
       if (!answer) return fail(answer.error());
       return json::diagnosis_document(answer->campaign, answer->diagnosis);
+    }
+    if (kind == kSoilEstimateKind) {
+      const auto estimate_request = service.read_soil_estimate(request);
+      if (!estimate_request) return fail(estimate_request.error());
+      const auto answer = service.estimate_soil(*estimate_request, progress);
+      if (!answer) return fail(answer.error());
+      return json::soil_estimate_document(*answer);
     }
     return fail(ErrorCode::kInternal, fmt::format("no work is known for jobs of kind {}", kind));
   };

@@ -24,7 +24,8 @@ using JobWork =
 struct JobRunnerOptions {
   // One list of kinds per worker thread: that worker claims only these. Short work has a worker of its own,
   // so that it does not wait behind long work.
-  std::vector<std::vector<std::string>> workers{{"plan", "diagnosis", "prediction"}, {"prediction"}};
+  std::vector<std::vector<std::string>> workers{{"plan", "diagnosis", "prediction", "soil_estimate"},
+                                                {"prediction", "soil_estimate"}};
   std::size_t most_unfinished = 64;  // accepted and running jobs; more are refused
   std::size_t most_kept = 1000;      // ended jobs
   int most_attempts = 5;             // a job that ends the process so often has failed

@@ -12,6 +12,7 @@
 #include "api/json/diagnosis_request.h"
 #include "api/json/plan_request.h"
 #include "api/json/prediction_request.h"
+#include "api/json/soil_estimate_request.h"
 #include "api/request_check.h"
 #include "api/soil_regions.h"
 #include "planner/stage_progress.h"
@@ -119,6 +120,20 @@ Result<DiagnosisRequest> Service::read_diagnosis(std::string_view json) const {
   return std::move(reading->request);
 }
 
+Result<SoilEstimateRequest> Service::read_soil_estimate(std::string_view json) const {
+  auto reading = json::read_soil_estimate_request(json);
+  if (!reading) return fail(reading.error());
+  const SoilEstimateRequest& request = reading->request;
+  std::vector<Fault>& faults = reading->faults;
+  for (Fault& fault : faults_of(catalogue_, request))
+    if (!has_fault_under(faults, fault.pointer)) faults.push_back(std::move(fault));
+  if (!request.campaign.empty() && !has_fault_under(faults, "/campaign") &&
+      std::find(campaigns_.begin(), campaigns_.end(), request.campaign) == campaigns_.end())
+    faults.push_back({"/campaign", unknown_name("campaign", request.campaign, campaigns_)});
+  if (!faults.empty()) return fail(ErrorCode::kInvalidRequest, summary_of(faults), faults);
+  return std::move(reading->request);
+}
+
 Result<Service::Setting> Service::set_up(const std::string& terrain, const std::string& rover,
                                          const std::vector<planner::Waypoint>& places,
                                          const DriveAssumptions& drive) const {
@@ -221,6 +236,18 @@ Result<DiagnosisAnswer> Service::diagnose(const DiagnosisRequest& request, Progr
   auto diagnosis = gap::diagnose(*campaign, options, progress);
   if (!diagnosis) return fail(diagnosis.error());
   return DiagnosisAnswer{request, std::move(*campaign), std::move(*diagnosis)};
+}
+
+Result<SoilEstimateAnswer> Service::estimate_soil(const SoilEstimateRequest& request,
+                                                  Progress& progress) const {
+  if (request.campaign.empty()) return api::estimate_soil(catalogue_, request, progress);
+  if (std::find(campaigns_.begin(), campaigns_.end(), request.campaign) == campaigns_.end())
+    return fail(ErrorCode::kInvalidRequest, unknown_name("campaign", request.campaign, campaigns_),
+                {{"/campaign", unknown_name("campaign", request.campaign, campaigns_)}});
+  progress.report("reading the drives", 0.0);
+  const auto campaign = load_drive_campaign(options_.data / kCampaigns / request.campaign, catalogue_);
+  if (!campaign) return fail(campaign.error());
+  return api::estimate_soil(*campaign, request, options_.threads, progress);
 }
 
 Result<GroundAt> Service::ground_at(std::string_view terrain, double x_m, double y_m) const {

@@ -8,6 +8,7 @@
 
 #include "api/answers.h"
 #include "api/catalogue.h"
+#include "api/soil_estimate.h"
 #include "core/progress.h"
 #include "core/result.h"
 
@@ -35,11 +36,13 @@ class Service {
   Result<PlanRequest> read_plan(std::string_view json) const;
   Result<PredictionRequest> read_prediction(std::string_view json) const;
   Result<DiagnosisRequest> read_diagnosis(std::string_view json) const;
+  Result<SoilEstimateRequest> read_soil_estimate(std::string_view json) const;
 
   // The same request gives the same answer, on any number of threads.
   Result<PlanAnswer> plan(const PlanRequest& request, Progress& progress) const;
   Result<PredictionAnswer> predict(const PredictionRequest& request, Progress& progress) const;
   Result<DiagnosisAnswer> diagnose(const DiagnosisRequest& request, Progress& progress) const;
+  Result<SoilEstimateAnswer> estimate_soil(const SoilEstimateRequest& request, Progress& progress) const;
 
   // Errors: not_found (unknown terrain), off_map, no_data.
   Result<GroundAt> ground_at(std::string_view terrain, double x_m, double y_m) const;

@@ -211,6 +211,10 @@ std::vector<int> pressed_on_bounds(const Problem& cost_function, const std::vect
   const double* block = y.data();
   double* blocks[] = {jacobian.data()};
   std::vector<int> pressed;
+  bool any = false;
+  for (std::size_t k = 0; k < y.size(); ++k)
+    any = any || y[k] <= cost_function.lowest(k) || y[k] >= cost_function.highest(k);
+  if (!any) return pressed;
   if (!cost_function.Evaluate(&block, residuals.data(), blocks)) return pressed;
   const Eigen::VectorXd slope = jacobian.transpose() * residuals;
   for (std::size_t k = 0; k < y.size(); ++k) {
@@ -312,7 +316,7 @@ LeastSquaresFit conclude(const Search& best, std::span<const Unknown> unknowns, 
   std::vector<double> residuals(static_cast<std::size_t>(cost_function.num_residuals()));
   const double* y = best.y.data();
   double* blocks[] = {jacobian.data()};
-  cost_function.Evaluate(&y, residuals.data(), blocks);
+  cost_function.Evaluate(&y, residuals.data(), options.covariance ? blocks : nullptr);
   Eigen::VectorXd scale(n);
   std::vector<std::string> names;
   for (std::size_t k = 0; k < unknowns.size(); ++k) {
@@ -325,6 +329,7 @@ LeastSquaresFit conclude(const Search& best, std::span<const Unknown> unknowns, 
     names.push_back(u.name);
   }
   fit.residual_variance = variance_left_over(residuals, fit.residuals, unknowns.size(), options);
+  if (!options.covariance) return fit;
   if (options.loss != RobustLoss::kNone) weigh_for_covariance(fit.residuals, options, jacobian);
   if (options.residual_std_known && options.widen && fit.residual_variance > 1.0)
     jacobian.topRows(static_cast<Eigen::Index>(residual_count)) /= std::sqrt(fit.residual_variance);

@@ -67,6 +67,8 @@ struct LeastSquaresOptions {
   // With known standard deviations: where residuals scatter more than those say, so that residual_variance is
   // above 1, residuals (not priors) count that much less in the covariance.
   bool widen = false;
+  // False: covariance and what is undetermined are left empty, which saves a Jacobian.
+  bool covariance = true;
 };
 
 // A combination of unknowns that the residuals and the priors say nothing about.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -30,8 +31,12 @@ struct PreparedCampaign {
 void prepare_around(PreparedCampaign& prepared, const DriveCampaign& campaign, const FittedExplanation& found,
                     std::size_t threads);
 
-// The campaign must outlive what is made of it. Errors: cancelled.
+inline constexpr std::array<bool, kChannels> kAllChannels{true, true, true, true, true, true, true};
+
+// The campaign must outlive what is made of it. Of channels that are not `looked_at` nothing is used. Errors:
+// cancelled.
 Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const WindowOptions& options,
-                                 std::size_t threads, Progress& progress);
+                                 std::size_t threads, Progress& progress,
+                                 const std::array<bool, kChannels>& looked_at = kAllChannels);
 
 }  // namespace slipway::gap

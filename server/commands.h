@@ -152,6 +152,27 @@ struct DiagnoseCommand {
   bool json = false;
 };
 
+// A soil from tests or drives.
+struct EstimateCommand {
+  enum class From { kWheel, kPlates, kDrives };
+  AskOptions ask;
+  From from = From::kWheel;
+  std::string file;  // a CSV, or the folder of a "drive-campaign/1"
+  std::string soil = "unknown_ground", rover, wheel;
+  std::optional<double> radius_m, width_m, motor_temp_c;
+  std::string grousers;  // "height_m,count"
+  double gravity_m_s2 = 3.71, speed_m_s = 0.04;
+  std::string slip_definition = "forward";
+  std::vector<std::string> free, channels, bounds;  // bounds: "n=0.5:1.5"
+  bool merge_stiffness = false;
+  std::string priors = "wide", loss = "none";
+  std::optional<double> loss_scale;
+  double noise = 0.02;  // share of a reading
+  std::uint64_t seed = 1;
+  int threads = 0;             // of drives
+  std::string soil_out, plot;  // files; empty: none
+};
+
 // Each prints its answer on standard output and returns the process's exit status: 0 an answer (also "no safe
 // route"), 1 no answer, 2 a question that can't be asked. Problems and progress go to standard error.
 int serve(const ServeOptions& options);
@@ -172,6 +193,7 @@ int campaign(const CampaignCommand& options);
 int tune(const TuneCommand& options);
 // 0: a diagnosis, whatever its verdict; 2: input that can't be read.
 int diagnose(const DiagnoseCommand& options);
+int estimate(const EstimateCommand& options);
 
 // From a signal handler: the running question is given up, the server drains and ends.
 void interrupt();

@@ -230,8 +230,8 @@ class JobRoutes {
   HttpResponse map(const api::Service& service, const HttpRequest& request) {
     const auto job = find(request);
     if (!job) return problem_response(job.error(), &request);
-    if (job->kind == api::kDiagnosisKind)
-      return problem(ErrorCode::kNotFound, "a diagnosis has no map of routes", request);
+    if (job->kind == api::kDiagnosisKind || job->kind == api::kSoilEstimateKind)
+      return problem(ErrorCode::kNotFound, "a diagnosis and a soil estimate have no map of routes", request);
     if (job->state != api::JobState::kSuccessful) return outcome_response(*job, request);
     const auto outcome = runner_.store().outcome(job->id);
     if (!outcome) return problem_response(outcome.error(), &request);
@@ -402,6 +402,12 @@ std::vector<Route> api_routes(const api::Service& service, api::JobRunner& runne
        [&service, jobs](const HttpRequest& r) {
          const auto request = service.read_diagnosis(r.body);
          return request ? jobs->submit(api::kDiagnosisKind, r, seconds(0))
+                        : problem_response(request.error(), &r);
+       }},
+      {"POST", "/v1/soil-estimates",
+       [&service, jobs](const HttpRequest& r) {
+         const auto request = service.read_soil_estimate(r.body);
+         return request ? jobs->submit(api::kSoilEstimateKind, r, seconds(0))
                         : problem_response(request.error(), &r);
        }},
       {"POST", "/v1/wheel-sweeps", [&service](const HttpRequest& r) { return wheel_sweep(service, r); }},

@@ -68,6 +68,8 @@ Result<std::string> geojson_of(std::string_view answer) {
   if (!document) return fail(document.error());
   const JsonValue* routes = document->find("routes");
   if (const JsonValue* const where = document->find("where")) routes = where->find("places");  // a diagnosis
+  if (routes == nullptr && document->find("estimates") != nullptr)  // of soils: nothing of it lies on a map
+    return std::string(R"({"type":"FeatureCollection","features":[]})");
   if (routes == nullptr) return fail(ErrorCode::kInternal, "the answer holds no GeoJSON");
   Writer w;
   write_value(w, *routes);

@@ -146,6 +146,18 @@ TEST(Contract, ExamplesOfRequestsFitTheDescription) {
             std::vector<std::string>{});
   EXPECT_EQ(complaints_about("DiagnosisRequest", example("diagnosis_practice.json")),
             std::vector<std::string>{});
+  EXPECT_EQ(complaints_about("SoilEstimateRequest", example("soil_estimate_every_key.json")),
+            std::vector<std::string>{});
+}
+
+TEST(Contract, ASoilEstimateFitsTheDescription) {
+  const auto request = small_world().read_soil_estimate(R"({"plate_tests":[{"plate_radius_m":0.05,
+    "sinkage_m":[0.005,0.01,0.02],"pressure_pa":[4900,10100,21300]}]})");
+  ASSERT_TRUE(request) << request.error().detail;
+  const std::string document = answer_to(kSoilEstimateKind, R"({"plate_tests":[{"plate_radius_m":0.05,
+    "sinkage_m":[0.005,0.01,0.02],"pressure_pa":[4900,10100,21300]}]})");
+  EXPECT_EQ(complaints_about("SoilEstimate", document), std::vector<std::string>{});
+  EXPECT_TRUE(json::geojson_of(document));
 }
 
 TEST(Contract, ADiagnosisFitsTheDescriptionWhateverIsInIt) {

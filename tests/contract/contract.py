@@ -250,6 +250,10 @@ class Contract(unittest.TestCase):
         self.refused("/v1/diagnoses", {"campaign": "p99", "without": ["tether"], "seed": -1}, 422, "/campaign", "/without/0", "/seed")
         for campaign in ("../p05", "/etc", "", 5):
             self.refused("/v1/diagnoses", {"campaign": campaign}, 422, "/campaign")
+        self.refused("/v1/soil-estimates", {}, 422, "")
+        self.refused("/v1/soil-estimates", {"campaign": "p99", "soil": "chalk", "free": ["m"], "seed": -1}, 422, "/campaign", "/soil", "/free/0", "/seed")
+        self.refused("/v1/soil-estimates", {"radius_m": 0.1, "wheel_tests": [{"load_n": 10, "slip_ratio": 2}, {"load_n": 10, "slip_ratio": 0.1}]}, 422,
+                     "/wheel_tests/0/slip_ratio", "/width_m")
         self.refused("/v1/plans", b"\xff\xfe", 400)
         self.refused("/v1/plans", "start=1", 415, headers={"Content-Type": "application/x-www-form-urlencoded"})
 
@@ -294,7 +298,7 @@ class Contract(unittest.TestCase):
         self.assertIn("/start", wrong.stderr)
         for command in ("terrain", "rovers", "soils"):
             self.assertEqual(subprocess.run([SLIPWAY, command, "--data", DATA], capture_output=True).returncode, 0)
-        for command in ("serve", "plan", "predict", "wheel", "current", "current map", "current invert", "diagnose", "terrain", "rovers", "soils"):
+        for command in ("serve", "plan", "predict", "wheel", "current", "current map", "current invert", "diagnose", "estimate", "estimate wheel", "terrain", "rovers", "soils"):
             shown = subprocess.run([SLIPWAY, *command.split(), "--help"], capture_output=True, text=True)
             self.assertEqual(shown.returncode, 0)
             self.assertIn("Example:", shown.stdout)

@@ -1,0 +1,125 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/progress.h"
+#include "core/result.h"
+#include "gap/least_squares.h"
+#include "gap/soil_observation.h"
+#include "gap/soil_parameter.h"
+#include "sim/soil.h"
+
+namespace slipway::gap {
+
+// What is believed of the soil before the data, around the nominal one:
+enum class SoilPriors {
+  kNone,
+  kWide,  // SoilParameterRow::wide_std, what soils of all kinds have
+  kSoil,  // the nominal soil's own spread; wide where it gives none
+};
+std::optional<SoilPriors> soil_priors(std::string_view name);  // "none", "wide", "soil"
+
+// A bound that is not the row's own, in SI and radians.
+struct SoilBound {
+  SoilParameter parameter = SoilParameter::kN;
+  double lowest = 0.0, highest = 0.0;
+};
+
+struct SoilEstimationOptions {
+  std::vector<SoilParameter> free = {};  // empty: usual_free_parameters
+  SoilPriors priors = SoilPriors::kWide;
+  std::vector<SoilBound> bounds = {};
+  std::array<bool, kSoilChannels> channels{true, true, true, true, true, true};
+  ReadingNoise noise = {};
+  RobustLoss loss = RobustLoss::kNone;
+  std::optional<double> loss_scale = {};  // in deviations; nothing: usual_loss_scale()
+  // Searches from elsewhere between the bounds where the first leaves more than twice the noise.
+  int further_starts = 12;
+  bool profile = true;  // 90 % intervals by profile likelihood; otherwise from the covariance
+  std::uint64_t seed = 1;
+};
+
+enum class Determination {
+  kDetermined,    // the data say the parameter: to a quarter of its value at 90 %, and far better than the
+                  // prior
+  kOneSided,      // they say how great, or how small, it is at most
+  kUndetermined,  // what is given is the prior, or where the search ended
+};
+std::string_view name_of(Determination determination);  // "determined", "one_sided", "undetermined"
+
+// In SI and radians.
+struct EstimatedParameter {
+  SoilParameter parameter = SoilParameter::kN;
+  double start = 0.0;
+  double value = 0.0;
+  std::optional<double> std;  // posterior; nothing where neither data nor prior say anything
+  std::optional<double> prior_std;
+  // All values that fit the data, the others' priors and no prior of its own, to delta chi^2 = 2.706 (90 %)
+  // with every other parameter refitted; an open end is the bound.
+  double low = 0.0, high = 0.0;
+  bool low_open = false, high_open = false;
+  Determination determination = Determination::kUndetermined;
+  bool on_bound = false;
+  std::string words;  // one sentence
+};
+
+// What is left over in one channel, in its unit and in deviations.
+struct ChannelResidual {
+  SoilChannel channel = SoilChannel::kTorque;
+  std::size_t count = 0;
+  double rms = 0.0, rms_deviations = 0.0;
+};
+
+struct FittedDatum {
+  SoilDatum datum;
+  double fitted = 0.0;
+  bool outlier = false;  // beyond the loss's scale
+};
+
+// A combination of parameters, counted in deviations of what soils of all kinds have, that the data alone say
+// less of than that.
+struct OpenDirection {
+  std::string words;   // "0.71 k_c - 0.71 n"
+  double share = 0.0;  // of the deviation that the data leave open is 1 / share; 0: all of it
+};
+
+struct SoilEstimate {
+  sim::SoilDistribution soil;  // posterior: mean, spread, correlation; its name and source are the nominal's
+  std::vector<EstimatedParameter> parameters;
+  Eigen::MatrixXd correlation;  // of them, of what is searched (SoilAxes), in the order of `parameters`
+  std::vector<OpenDirection> open;
+  std::vector<ChannelResidual> channels;
+  std::vector<FittedDatum> data;
+  double width_m = 0.0;  // b of k_bekker
+  // Of residuals in deviations, 1 where the readings scatter as their deviations say; where more, deviations
+  // and intervals of the estimate are widened by its square root.
+  double residual_variance = 0.0;
+  std::size_t evaluations = 0;  // of the model for all data
+  std::size_t sunk = 0;         // wheels that the estimated soil doesn't carry, held at the axle
+  bool converged = false;
+  std::vector<std::string> notes;
+};
+
+// Those that such data can say: k_bekker, or k_c and k_phi where widths differ, and n; with wheels cohesion,
+// friction angle and shear modulus too.
+std::vector<SoilParameter> usual_free_parameters(const SoilData& data);
+
+// The ARTEMIS paper's problem (section 3): the parameters of the soil at which the library's own laws meet
+// what was measured, by Levenberg-Marquardt (least_squares.h) over SoilAxes from the nominal soil on.
+//
+// Errors: invalid_request with the faults of the options ("/free/1", "/bounds/0"); no_data with fewer
+// readings than two; those of fit_least_squares.
+Result<SoilEstimate> estimate_soil(const sim::SoilDistribution& nominal, const SoilData& data,
+                                   const SoilEstimationOptions& options, Progress& progress);
+
+// Fills determination and words from value and interval. says_more: the posterior is far narrower than the
+// prior, where there is one; scale: what a quarter is taken of, by default the value.
+void judge(EstimatedParameter& parameter, bool says_more, std::optional<double> scale = {});
+
+}  // namespace slipway::gap

@@ -1,0 +1,104 @@
+#include "api/soil_estimate.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "api/json/soil_estimate_document.h"
+#include "api/json/soil_file.h"
+#include "api/soil_estimate_chart.h"
+#include "api/soil_tests_csv.h"
+#include "small_world.h"
+
+namespace slipway::api {
+namespace {
+
+using gap::SoilChannel;
+using testing::small_world;
+
+TEST(WheelTestsCsv, ColumnsMayStandInAnyOrderAndCellsBeEmpty) {
+  const auto tests = read_wheel_tests_csv("a.csv",
+                                          "torque_nm, load_n,slip_ratio,sinkage_m,torque_std_nm\n"
+                                          "1.5,60,0.1,0.01,0.2\n\n,80,-0.2,0.012,\n");
+  ASSERT_TRUE(tests) << tests.error().detail;
+  ASSERT_EQ(tests->size(), 2U);
+  EXPECT_EQ((*tests)[0].test.load_n, 60.0);
+  EXPECT_EQ((*tests)[0][SoilChannel::kTorque].value, 1.5);
+  EXPECT_EQ((*tests)[0][SoilChannel::kTorque].std, 0.2);
+  EXPECT_FALSE((*tests)[1][SoilChannel::kTorque].value);
+  EXPECT_EQ((*tests)[1].test.slip, -0.2);
+}
+
+TEST(WheelTestsCsv, EveryFaultIsNamedWithItsPlace) {
+  const auto tests = read_wheel_tests_csv("a.csv",
+                                          "load_n,slip_ratio,torqe_nm,sinkage_m\n"
+                                          "60,0.1,1,0.01\n"
+                                          "-5,1.5,1,deep\n"
+                                          "60,0.1,1\n");
+  ASSERT_FALSE(tests);
+  EXPECT_EQ(tests.error().code, ErrorCode::kUnreadableData);
+  std::vector<std::string> places;
+  for (const Fault& fault : tests.error().faults) places.push_back(fault.pointer);
+  const std::vector<std::string> expected{"a.csv, line 1, column 3", "a.csv, line 3, column 1 (load_n)",
+                                          "a.csv, line 3, column 2 (slip_ratio)",
+                                          "a.csv, line 3, column 4 (sinkage_m)", "a.csv, line 4"};
+  EXPECT_EQ(places, expected);
+  EXPECT_NE(tests.error().faults[0].message.find("torque_nm"), std::string::npos);
+  EXPECT_EQ(tests.error().faults[1].message, "load_n = -5, must be in (0, 1e+06]");
+  EXPECT_FALSE(read_wheel_tests_csv("b.csv", ""));
+  EXPECT_FALSE(read_wheel_tests_csv("b.csv", "load_n,slip_ratio\n60,0.1\n"));
+}
+
+TEST(PlateTestsCsv, ForcesAreTakenOverThePlatesArea) {
+  const auto tests = read_plate_tests_csv("p.csv",
+                                          "plate_radius_m,sinkage_m,force_n\n"
+                                          "0.1,0.01,100\n0.1,0.02,200\n0.2,0.01,300\n");
+  ASSERT_TRUE(tests) << tests.error().detail;
+  ASSERT_EQ(tests->size(), 2U);
+  EXPECT_EQ((*tests)[0].sinkage_m.size(), 2U);
+  EXPECT_NEAR((*tests)[0].pressure_pa[0], 100.0 / (3.14159265358979 * 0.01), 1e-6);
+  EXPECT_FALSE(read_plate_tests_csv("p.csv", "plate_radius_m,sinkage_m\n0.1,0.01\n"));
+}
+
+SoilEstimateRequest plates() {
+  SoilEstimateRequest request;
+  gap::PlateTest plate{0.05, {}, {}};
+  for (int i = 1; i < 10; ++i) {
+    plate.sinkage_m.push_back(0.004 * i);
+    plate.pressure_pa.push_back(8e5 * std::pow(0.004 * i, 0.9));
+  }
+  request.data.plates = {plate};
+  return request;
+}
+
+TEST(SoilEstimate, TheSoilIsAFileOfItsOwnThatIsReadAgain) {
+  NoProgress progress;
+  const auto answer = estimate_soil(small_world().catalogue(), plates(), progress);
+  ASSERT_TRUE(answer) << answer.error().detail;
+  const auto soils = json::read_soil_file(json::estimated_soils_document(*answer));
+  ASSERT_TRUE(soils) << soils.error().detail;
+  ASSERT_EQ(soils->size(), 1U);
+  EXPECT_NEAR(soils->front().mean.pressure.n, 0.9, 0.01);
+  EXPECT_TRUE(soils->front().name.starts_with("unknown_ground-")) << soils->front().name;
+  EXPECT_NE(draw_soil_estimate(answer->estimates.front()).find("<svg"), std::string::npos);
+}
+
+TEST(SoilEstimate, TheSameRequestGivesTheSameBytes) {
+  NoProgress progress;
+  const auto a = estimate_soil(small_world().catalogue(), plates(), progress);
+  const auto b = estimate_soil(small_world().catalogue(), plates(), progress);
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(json::soil_estimate_document(*a), json::soil_estimate_document(*b));
+}
+
+TEST(SoilEstimate, WhatIsNotKnownIsRefusedTogether) {
+  SoilEstimateRequest request = plates();
+  request.soil = "chalk";
+  request.wheel.rover = "tank";
+  request.wheel.radius_m = 5.0;
+  EXPECT_EQ(faults_of(small_world().catalogue(), request).size(), 3U);
+  EXPECT_EQ(choose_channels({"torque", "smell"}, request).size(), 1U);
+}
+
+}  // namespace
+}  // namespace slipway::api

@@ -1,0 +1,73 @@
+#!/bin/sh
+# slipway estimate as a person or a script meets it.
+#   estimate_command_test.sh SLIPWAY SOURCE_FOLDER
+set -eu
+slipway="$1"
+source="$2"
+data="$source/data"
+folder="$(mktemp -d)"
+trap 'rm -rf "$folder"' EXIT
+
+expect() {
+  wanted="$1"
+  shift
+  status=0
+  "$@" >"$folder/out" 2>"$folder/err" || status=$?
+  if [ "$status" != "$wanted" ]; then
+    echo "exit status $status, expected $wanted, of: $*"
+    cat "$folder/err"
+    exit 1
+  fi
+}
+holds() { grep -q -- "$1" "$2" || { echo "\"$1\" is not in $2:"; cat "$2"; exit 1; }; }
+
+# The plates of the sand of data/validation: published beside them n 1.34 over all samples.
+awk -F, 'NR==1{print "test,plate_radius_m,sinkage_m,pressure_pa"} NR>1{printf "%s,%s,%s,%s\n",$1,$2/2000,$4,$5*1000}' \
+  "$data/validation/plate_sinkage_large_sandbox.csv" >"$folder/plates.csv"
+expect 0 "$slipway" estimate plates "$folder/plates.csv" --data "$data" --json --soil-out "$folder/soil.json" --plot "$folder/plates.svg"
+cp "$folder/out" "$folder/first.json"
+expect 0 "$slipway" estimate plates "$folder/plates.csv" --data "$data" --json
+cmp "$folder/first.json" "$folder/out"
+python3 - "$folder" <<'CHECK'
+import json, pathlib, sys, xml.dom.minidom
+folder = pathlib.Path(sys.argv[1])
+def refuse(word): raise ValueError(word)
+d = json.loads((folder / "first.json").read_text(), parse_constant=refuse)
+[estimate] = d["estimates"]
+p = {p["name"]: p for p in estimate["parameters"]}
+assert set(p) == {"k_c", "k_phi", "n"}, p
+assert abs(p["n"]["value"] - 1.34) < 0.03 and p["n"]["determination"] == "determined", p["n"]
+soils = json.loads((folder / "soil.json").read_text())
+assert soils["format"] == "soils/1" and soils["soils"] == [estimate["soil"]]
+xml.dom.minidom.parse(str(folder / "plates.svg"))
+CHECK
+
+# A wheel that slipway wheel reports on, from another soil.
+"$slipway" wheel --data "$data" --rover mer-class --soil dry_sand --sweep slip=0.05:0.65:0.1 --sweep load_n=40,100,180,260 --json >"$folder/sweep.json"
+python3 - "$folder" <<'MAKE'
+import json, pathlib, sys
+folder = pathlib.Path(sys.argv[1])
+rows = json.loads((folder / "sweep.json").read_text())["rows"]
+with open(folder / "tests.csv", "w") as out:
+    print("load_n,slip_ratio,torque_nm,drawbar_pull_n,sinkage_m,current_a", file=out)
+    for r in rows:
+        print(*(r[key] for key in ("load_n", "slip", "torque_nm", "drawbar_pull_n", "sinkage_m", "current_a")), sep=",", file=out)
+MAKE
+expect 0 "$slipway" estimate wheel "$folder/tests.csv" --data "$data" --rover mer-class --soil unknown_ground
+holds 'friction_angle: .* determined' "$folder/out"
+expect 0 "$slipway" estimate wheel "$folder/tests.csv" --data "$data" --rover mer-class --channels current --json
+expect 0 "$slipway" estimate drives "$data/gap-practice/p01" --data "$data" --channels current
+holds 'current ' "$folder/out"
+
+# Faults, each with its place.
+sed '3s/^[^,]*/heavy/; 5s/,[^,]*/,7/' "$folder/tests.csv" >"$folder/broken.csv"
+expect 2 "$slipway" estimate wheel "$folder/broken.csv" --data "$data" --rover mer-class
+holds 'broken.csv, line 3, column 1 (load_n)' "$folder/err"
+holds 'broken.csv, line 5, column 2 (slip_ratio)' "$folder/err"
+expect 2 "$slipway" estimate wheel "$folder/tests.csv" --data "$data"
+holds '/radius_m' "$folder/err"
+expect 2 "$slipway" estimate wheel "$folder/tests.csv" --data "$data" --rover mer-class --free m,n --channels smell
+holds 'unknown parameter "m"' "$folder/err"
+holds 'unknown channel "smell"' "$folder/err"
+expect 2 "$slipway" estimate plates "$folder/nowhere.csv" --data "$data"
+echo "as expected"

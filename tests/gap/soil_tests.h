@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/angle.h"
+#include "core/random.h"
+#include "gap/soil_estimation.h"
+
+namespace slipway::gap {
+
+// Dry sand [Wong 2010, Table 2.3], with less cohesion than printed: that of clean sand.
+inline sim::Soil dry_sand() {
+  sim::Soil soil;
+  soil.pressure = {990.0, 1.528e6, 1.1};
+  soil.cohesion_pa = 100.0;
+  soil.friction_angle_rad = rad_from_deg(28.0);
+  soil.shear_modulus_x_m = soil.shear_modulus_y_m = 0.015;
+  return soil;
+}
+
+// Every parameter 49 % off, as the ARTEMIS paper's case study starts.
+inline sim::SoilDistribution start_49_percent_off(const sim::Soil& truth, double sign = 1.0) {
+  const double up = 1.0 + 0.49 * sign, down = 1.0 - 0.49 * sign;
+  sim::SoilDistribution start;
+  start.name = "start";
+  start.mean = truth;
+  start.mean.pressure.k_c *= down;
+  start.mean.pressure.k_phi *= down;
+  start.mean.pressure.n *= up;
+  start.mean.cohesion_pa *= down;
+  start.mean.friction_angle_rad *= up;
+  start.mean.shear_modulus_x_m *= down;
+  start.mean.shear_modulus_y_m *= down;
+  start.std = {0.25, 0.05, 60.0, rad_from_deg(2.0), 0.25};
+  return start;
+}
+
+struct MadeWheelTests {
+  int count = 50;
+  double noise = 0.0;  // share of every reading
+  std::uint64_t seed = 1;
+  bool torque = true, pull = false, thrust = true, sinkage = true, current = false;
+};
+
+// What a rig with a wheel of 0.125 m would report on a soil, over loads and slips.
+inline SoilData made_wheel_tests(const sim::Soil& soil, const MadeWheelTests& made) {
+  SoilData data;
+  for (int i = 0; i < made.count; ++i) {
+    WheelObservation o;
+    o.test.wheel = {.radius_m = 0.125, .width_m = 0.16};
+    o.test.load_n = 20.0 + 70.0 * (i % 5);
+    o.test.slip = 0.03 + 0.75 * (i / 5) / std::max(1.0, made.count / 5.0 - 1.0);
+    if (made.current) o.test.drive = sim::DriveMotor{};
+    sim::SingleWheelTest test = o.test;
+    test.soil = soil;
+    const sim::SingleWheelResult result = sim::run_single_wheel_test(test);
+    const auto noisy = [&](double value, SoilChannel channel) {
+      const auto counter = static_cast<std::uint64_t>(10 * i + static_cast<int>(channel));
+      return value * (1.0 + made.noise * random_normal(random_key(made.seed, 7), counter));
+    };
+    const auto put = [&](bool wanted, SoilChannel channel, double value) {
+      if (wanted) o[channel].value = noisy(value, channel);
+    };
+    put(made.torque, SoilChannel::kTorque, result.forces.torque_nm);
+    put(made.pull, SoilChannel::kDrawbarPull, result.forces.drawbar_pull_n);
+    put(made.thrust, SoilChannel::kThrust, result.thrust_n);
+    put(made.sinkage, SoilChannel::kSinkage, result.sinkage_m);
+    if (made.current) put(true, SoilChannel::kCurrent, result.current_a.value_or(0.0));
+    data.wheels.push_back(o);
+  }
+  return data;
+}
+
+}  // namespace slipway::gap
