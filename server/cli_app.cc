@@ -11,6 +11,7 @@
 #include "api/service.h"
 #include "server/cli_campaign.h"
 #include "server/cli_diagnose.h"
+#include "server/cli_gap_benchmark.h"
 #include "server/cli_tune.h"
 #include "server/cli_wheel.h"
 #include "server/commands.h"
@@ -172,6 +173,7 @@ int run_command_line(int argc, char** argv) {
   add_campaign_command(app, run);
   add_tune_command(app, run);
   add_diagnose_command(app, run);
+  add_gap_benchmark_command(app, run);
 
   TerrainOptions terrain_options;
   command = app.add_subcommand("terrain", "what terrains there are, or the ground at a point");
