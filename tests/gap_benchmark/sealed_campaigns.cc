@@ -108,6 +108,10 @@ int main(int count, char** words) {
   for (std::size_t i = 0; i < cases->size(); ++i) {
     char name[16];
     std::snprintf(name, sizeof name, "s%02u", static_cast<unsigned>(i + 1));
+    if (std::filesystem::exists(std::filesystem::path(wish->out) / name)) {
+      std::cerr << wish->out << " holds campaigns already\n";
+      return 1;
+    }
     RandomStream own(random.seed());
     const SealedCampaign campaign = make_campaign((*cases)[i], own);
     const std::string fault = write_campaign(campaign, name, std::filesystem::path(wish->out) / name);
