@@ -115,7 +115,7 @@ std::vector<std::pair<std::string, std::vector<CaseScore>>> benchmark_groups(con
 }
 
 std::string benchmark_report(const Benchmark& benchmark) {
-  std::string out = fmt::format("## Diagnosis, {}\n", benchmark.variant);
+  std::string out = fmt::format("## Diagnosis, variant {}\n", benchmark.variant);
   for (const auto& [name, cases] : benchmark_groups(benchmark)) write_figures(out, name, cases);
   write_cases(out, benchmark.cases);
   write_confusion(out, benchmark.cases);

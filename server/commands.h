@@ -157,9 +157,9 @@ struct GapBenchmarkCommand {
   std::string folder;             // of campaigns, with answers.json
   std::vector<std::string> only;  // names of campaigns; empty: all
   std::uint64_t seed = 1;
-  int threads = 0;   // 0: as many as the machine has
-  std::string keep;  // folder for each diagnosis.json; empty: none
-  std::string variant = "as_it_is";
+  int threads = 0;                // 0: as many as the machine has
+  std::string keep;               // folder for each diagnosis.json; empty: none
+  std::string variant = "as-is";  // of the diagnosis: ablations and baselines
   bool without_each = false, json = false;
 };
 

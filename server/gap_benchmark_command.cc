@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -10,6 +11,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -37,6 +39,35 @@ class Patience final : public Progress {
   bool cancelled() const override { return given_up(); }
 };
 
+// A diagnosis with something taken out of it: what does it owe to which part?
+struct Variant {
+  std::string_view name;
+  gap::Retuning retuning = gap::Retuning::kAll;
+  bool something_else = true;
+  bool single = false;          // the effect with the best trace alone, no second, no pair
+  bool whole_evidence = false;  // not tempered
+};
+constexpr std::array kVariants{
+    Variant{.name = "as-is"},
+    Variant{.name = "no-retuning", .retuning = gap::Retuning::kNone},
+    Variant{.name = "no-closures", .retuning = gap::Retuning::kNoClosures},
+    Variant{.name = "no-unknown", .something_else = false},
+    Variant{.name = "nearest-signature",
+            .retuning = gap::Retuning::kNone,
+            .something_else = false,
+            .single = true},
+    Variant{.name = "evidence-without-retuning",
+            .retuning = gap::Retuning::kNone,
+            .something_else = false,
+            .whole_evidence = true},
+};
+
+const Variant* variant_named(std::string_view name) {
+  const auto row =
+      std::find_if(kVariants.begin(), kVariants.end(), [&](const Variant& v) { return v.name == name; });
+  return row == kVariants.end() ? nullptr : &*row;
+}
+
 struct Timed {
   gap::Diagnosis diagnosis;
   double seconds = 0.0;
@@ -58,12 +89,20 @@ std::vector<std::string> campaigns_in(const GapBenchmarkCommand& options) {
 Result<Timed> diagnosed(const GapBenchmarkCommand& options, const api::Catalogue& catalogue,
                         const std::string& name, std::vector<std::string> withheld) {
   const auto start = std::chrono::steady_clock::now();
-  const auto campaign = api::load_drive_campaign(fs::path(options.folder) / name, catalogue);
+  auto campaign = api::load_drive_campaign(fs::path(options.folder) / name, catalogue);
   if (!campaign) return fail(campaign.error());
   gap::DiagnosisOptions how;
   how.search.withheld = std::move(withheld);
   how.search.threads = static_cast<std::size_t>(options.threads);
   how.seed = options.seed;
+  const Variant& variant = *variant_named(options.variant);
+  campaign->retuning = variant.retuning;
+  how.search.something_else = variant.something_else;
+  if (variant.single) {
+    how.search.most_refitted = 1;
+    how.search.most_paired = 0;
+  }
+  if (variant.whole_evidence) how.search.temper = 1.0;
   Patience patience;
   auto diagnosis = gap::diagnose(*campaign, how, patience);
   if (!diagnosis) return fail(diagnosis.error());
@@ -112,6 +151,13 @@ int refuse_input(const Error& error) {
 }  // namespace
 
 int gap_benchmark(const GapBenchmarkCommand& options) {
+  if (variant_named(options.variant) == nullptr) {
+    std::vector<std::string_view> known;
+    for (const Variant& variant : kVariants) known.push_back(variant.name);
+    std::cerr << fmt::format("unknown variant \"{}\", known are: {}\n", options.variant,
+                             fmt::join(known, ", "));
+    return 2;
+  }
   const auto catalogue = api::load_catalogue(options.data);
   if (!catalogue) return refuse_input(catalogue.error());
   const std::vector<std::string> names = campaigns_in(options);
@@ -130,7 +176,7 @@ int gap_benchmark(const GapBenchmarkCommand& options) {
   const auto answers = answers_of(options.folder);
   if (!answers) return refuse_input(answers.error());
   const std::set<std::string> known = library();
-  api::Benchmark benchmark{.variant = "as it is", .cases = {}, .withheld = {}};
+  api::Benchmark benchmark{.variant = options.variant, .cases = {}, .withheld = {}};
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto answer = answers->find(names[i]);
     if (answer == answers->end()) {

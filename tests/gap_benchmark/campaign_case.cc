@@ -143,7 +143,10 @@ std::optional<std::vector<CampaignCase>> cases_of(const std::string& set, std::o
   if (set == "each") cases = each(list);
   if (set == "smoke") cases = smoke(list);
   if (set == "nothing") cases = nothing(list);
-  if (cases) shuffle(*cases, random);
+  if (cases) {
+    for (CampaignCase& made_of : *cases) made_of.seed = random.seed();
+    shuffle(*cases, random);
+  }
   return cases;
 }
 

@@ -29,6 +29,7 @@ struct CampaignCase {
   std::optional<std::string> soil;  // nothing: drawn
   std::size_t most_drives = 0;      // 0: all
   bool sinkage = true, temperature = true;
+  std::uint64_t seed = 0;  // of everything drawn in it
   bool even_soil = false;  // no scatter and no sensor noise, for comparisons
 };
 

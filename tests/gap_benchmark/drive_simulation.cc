@@ -11,6 +11,7 @@ namespace {
 constexpr double kStep_s = 2.0, kSurveyEvery = 5;
 constexpr double kHeating_k = 8.0, kHeatingTime_s = 300.0;
 constexpr double kTurnArm_m = 0.88;
+constexpr double kRutLeft = 0.4;
 constexpr double kReferenceTemp_c = 20.0, kReferenceSpeed_m_s = 0.04;
 
 // A smooth random field along the way: a few cosines.
@@ -166,7 +167,7 @@ class Drive {
     return rate;
   }
 
-  ContactSoil soil_under(int k, double x, double y) const {
+  ContactSoil soil_under(int k, double x, double y) {
     const TrueSoil& soil = world_.soil;
     const double along = world_.scatter.along;
     const double s = way_m_ + world_.rover.wheel_m[k].x();
@@ -199,8 +200,17 @@ class Drive {
     return out;
   }
 
+  // The deepest rut that this wheel runs in, of what does not spring back and cave in: its sinkage is
+  // measured from the undisturbed surface.
+  double rut_under(int k) const {
+    double rut = 0.0;
+    for (int i = 0; i < kWheels && hidden_.multipass > 0.0; ++i)
+      rut = std::max(rut, kRutLeft * overlap_[k][i] * state_.depth_m[i]);
+    return rut;
+  }
+
   // Wheels ahead of this one whose track it runs in, each counted by how far the tracks overlap.
-  void harden_in_tracks(int k, ContactSoil& soil) const {
+  void harden_in_tracks(int k, ContactSoil& soil) {
     if (hidden_.multipass == 0.0 || order_.turn_in_place) return;
     const double vx = state_.forward_m_s, vy = state_.left_m_s, w = state_.yaw_rate_rad_s;
     const double speed = std::max(std::hypot(vx, vy), 1e-5);
@@ -216,8 +226,11 @@ class Drive {
     };
     double passes = 0.0;
     for (int i = 0; i < kWheels; ++i) {
+      double& overlap = overlap_[k][i];
+      overlap = 0.0;
       if (i == k || station(i) < station(k) + 0.2) continue;
-      passes += std::max(0.0, 1.0 - std::abs(lane(i) - lane(k)) / world_.rover.width_m);
+      overlap = std::max(0.0, 1.0 - std::abs(lane(i) - lane(k)) / world_.rover.width_m);
+      passes += overlap;
     }
     if (passes <= 0.0) return;
     if (hidden_.other_equations) {
@@ -287,7 +300,7 @@ class Drive {
       wheel = told_[k];
       if (hidden_.dragging == k) wheel.rate_rad_s *= hidden_.dragging_rate_share;
       wheel.current_a = current(k) * (1.0 + hidden_.current_gain_drift * order_.share_of_day);
-      wheel.sinkage_m = state_.depth_m[k];
+      wheel.sinkage_m = state_.depth_m[k] + rut_under(k);
     }
     return row;
   }
@@ -316,6 +329,7 @@ class Drive {
   double drive_stiffness_ = 0.0, drive_friction_ = 0.0, drive_modulus_ = 0.0, hub_phase_ = 0.0;
   std::array<WheelRow, kWheels> told_;
   std::array<double, kWheels> place_z_{};
+  std::array<std::array<double, kWheels>, kWheels> overlap_{};
   double time_s_ = 0.0, x_ = 0.0, y_ = 0.0, yaw_ = 0.0, way_m_ = 0.0;
   BalanceState state_;
 };

@@ -22,7 +22,7 @@ struct DriveOrder {
 
 // How soils differ from drive to drive and along a drive: deviations of logarithms.
 struct SoilScatter {
-  double stiffness = 0.06, friction = 0.012, shear_modulus = 0.09;
+  double stiffness = 0.055, friction = 0.010, shear_modulus = 0.06;
   double along = 0.5;  // of these, along a drive
   double length_m = 1.5;
 };

@@ -112,7 +112,7 @@ int main(int count, char** words) {
       std::cerr << wish->out << " holds campaigns already\n";
       return 1;
     }
-    RandomStream own(random.seed());
+    RandomStream own((*cases)[i].seed);
     const SealedCampaign campaign = make_campaign((*cases)[i], own);
     const std::string fault = write_campaign(campaign, name, std::filesystem::path(wish->out) / name);
     if (!fault.empty()) {

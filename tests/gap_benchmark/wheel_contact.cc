@@ -100,8 +100,8 @@ WheelLoads wheel_loads(double radius_m, double width_m, double depth_m, const Wh
   const double theta_1 = arc.entry(), sine_1 = std::sin(theta_1);
   const bool lugs = hidden.grouser_height_m > 0.0;
   const double lug = hidden.grouser_height_m;
-  // Cleats shear the soil at their tips.
-  const double shear_radius = radius_m + (lugs && hidden.other_equations ? 0.7 * lug : 0.0);
+  // Cleats shear the soil a little outside the rim.
+  const double shear_radius = radius_m + (lugs && hidden.other_equations ? 0.15 * lug : 0.0);
 
   double normal = 0.0, pull = 0.0, side = 0.0, torque = 0.0;
   const auto add = [&](double theta, double weight) {
