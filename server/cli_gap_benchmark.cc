@@ -39,7 +39,8 @@ void add_gap_benchmark_command(CLI::App& app, std::function<int()>& run) {
       "Example: how often is the diagnosis right on campaigns that it has not seen?\n"
       "  sealed_campaigns blind-1 --seed 1 --set blind && slipway gap-benchmark blind-1 --keep "
       "blind-1-found\n"
-      "Exit status: 0 all are scored, 1 no answer, 2 something can't be read.");
+      "Interrupted (Ctrl-C), it scores what is done. Exit status: 0 scored, 1 no answer, 2 something can't "
+      "be read.");
   command->callback([options, &run] { run = [options] { return gap_benchmark(*options); }; });
 }
 

@@ -169,6 +169,8 @@ int gap_benchmark(const GapBenchmarkCommand& options) {
   std::vector<Timed> open;
   for (const std::string& name : names) {
     auto timed = diagnosed(options, *catalogue, name, {});
+    // Interrupted: what is done is scored.
+    if (!timed && timed.error().code == ErrorCode::kCancelled && !open.empty()) break;
     if (!timed) return refuse_input(timed.error());
     open.push_back(std::move(*timed));
     tell(open.size(), names.size(), name, open.back());
@@ -177,7 +179,7 @@ int gap_benchmark(const GapBenchmarkCommand& options) {
   if (!answers) return refuse_input(answers.error());
   const std::set<std::string> known = library();
   api::Benchmark benchmark{.variant = options.variant, .cases = {}, .withheld = {}};
-  for (std::size_t i = 0; i < names.size(); ++i) {
+  for (std::size_t i = 0; i < open.size(); ++i) {
     const auto answer = answers->find(names[i]);
     if (answer == answers->end()) {
       std::cerr << "answers.json says nothing of " << names[i] << ": it is not scored\n";
@@ -185,8 +187,9 @@ int gap_benchmark(const GapBenchmarkCommand& options) {
     }
     benchmark.cases.push_back(gap::score_case(answer->second, open[i].diagnosis, known, open[i].seconds));
     for (const std::string& effect : answer->second.effects) {
-      if (!options.without_each || !known.contains(effect)) continue;
+      if (!options.without_each || !known.contains(effect) || given_up()) continue;
       auto timed = diagnosed(options, *catalogue, names[i], {effect});
+      if (!timed && timed.error().code == ErrorCode::kCancelled) continue;
       if (!timed) return refuse_input(timed.error());
       tell(i + 1, names.size(), names[i] + " without " + effect, *timed);
       benchmark.withheld.push_back(
