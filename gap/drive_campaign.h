@@ -68,6 +68,10 @@ struct MeasurementStd {
   double sinkage_m = 0.0;
 };
 
+// How much of soil, closures and motors a diagnosis may re-tune. Less than all is for ablations: what it
+// holds at nominal is believed to be exact.
+enum class Retuning { kAll, kNoClosures, kNone };
+
 // Recorded drives and what was known before them ("drive-campaign/1"): rover, nominal soils, terrain. It
 // never says what made prediction and drives differ.
 struct DriveCampaign {
@@ -80,6 +84,7 @@ struct DriveCampaign {
   std::vector<MeasuredDriveSeries> drives;
   std::vector<std::string> notes;  // columns that were not read, repairs: for people
   std::string fingerprint;         // of every byte that was read
+  Retuning retuning = Retuning::kAll;
 };
 
 // Wheels that were measured to turn faster than the rover's greatest rate raise it, with a note: the drives

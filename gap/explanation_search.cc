@@ -292,6 +292,7 @@ Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, con
     c.log_evidence = search.fits[fit].log_evidence + gain.imprecision;
     c.log_prior = log_prior;
     search.candidates.push_back(c);
+    if (!options.something_else) return;
     c.with_unknown = true;
     c.log_evidence = search.fits[fit].log_evidence + gain.something_else;
     c.log_prior = log_prior_unknown;

@@ -20,7 +20,8 @@ struct SearchOptions {
   // An effect smaller than this share of its usual size (the deviation of its prior) is not worth a name: it
   // is how one simulator's numerics differ from another's.
   double least_size = 0.2;
-  double temper = 0.15;  // of the logarithm of the evidence, see probabilities_of
+  double temper = 0.15;        // of the logarithm of the evidence, see probabilities_of
+  bool something_else = true;  // the wildcard competes; without it for ablations
   std::size_t threads = 0;
 };
 

@@ -17,6 +17,8 @@ using Free = EffectVariant::Free;
 
 // Of a parameter's std.
 constexpr double kStep = 0.05;
+// Share of its usual deviation that a nuisance is believed with where it is held at nominal.
+constexpr double kHeld = 1e-3;
 
 // Where the catalogue's fields alone do not say what to estimate.
 struct Row {
@@ -191,7 +193,9 @@ Hypothesis::Hypothesis(const DriveCampaign& campaign, std::vector<EffectVariant>
       std::string name(row.name);
       if (row.kind == NuisanceKind::kSoil && several)
         name += "/" + campaign.soils[static_cast<std::size_t>(soil)].name;
-      parameters_.push_back({name, "", 0.0, row.std, row.lowest, row.highest});
+      const bool held = campaign.retuning == Retuning::kNone ||
+                        (campaign.retuning == Retuning::kNoClosures && row.kind == NuisanceKind::kClosure);
+      parameters_.push_back({name, "", 0.0, held ? kHeld * row.std : row.std, row.lowest, row.highest});
       places_.push_back({&row, row.kind == NuisanceKind::kSoil ? soil : -1});
     }
   }

@@ -12,6 +12,7 @@
 #include "server/cli_campaign.h"
 #include "server/cli_diagnose.h"
 #include "server/cli_estimate.h"
+#include "server/cli_gap_benchmark.h"
 #include "server/cli_tune.h"
 #include "server/cli_wheel.h"
 #include "server/commands.h"
@@ -174,6 +175,7 @@ int run_command_line(int argc, char** argv) {
   add_tune_command(app, run);
   add_diagnose_command(app, run);
   add_estimate_command(app, run);
+  add_gap_benchmark_command(app, run);
 
   TerrainOptions terrain_options;
   command = app.add_subcommand("terrain", "what terrains there are, or the ground at a point");

@@ -173,6 +173,17 @@ struct EstimateCommand {
   std::string soil_out, plot;  // files; empty: none
 };
 
+struct GapBenchmarkCommand {
+  std::string data = "data";
+  std::string folder;             // of campaigns, with answers.json
+  std::vector<std::string> only;  // names of campaigns; empty: all
+  std::uint64_t seed = 1;
+  int threads = 0;                // 0: as many as the machine has
+  std::string keep;               // folder for each diagnosis.json; empty: none
+  std::string variant = "as-is";  // of the diagnosis: ablations and baselines
+  bool without_each = false, json = false;
+};
+
 // Each prints its answer on standard output and returns the process's exit status: 0 an answer (also "no safe
 // route"), 1 no answer, 2 a question that can't be asked. Problems and progress go to standard error.
 int serve(const ServeOptions& options);
@@ -194,6 +205,10 @@ int tune(const TuneCommand& options);
 // 0: a diagnosis, whatever its verdict; 2: input that can't be read.
 int diagnose(const DiagnoseCommand& options);
 int estimate(const EstimateCommand& options);
+};
+
+// 0: every campaign has a diagnosis and a score; 2: one can't be read.
+int gap_benchmark(const GapBenchmarkCommand& options);
 
 // From a signal handler: the running question is given up, the server drains and ends.
 void interrupt();

@@ -1,0 +1,126 @@
+#include "api/benchmark_report.h"
+
+#include <fmt/format.h>
+
+#include <set>
+
+namespace slipway::api {
+namespace {
+
+using gap::BenchmarkFigures;
+using gap::CaseScore;
+using gap::Rate;
+
+std::string rate_words(const Rate& rate) {
+  if (rate.of == 0) return "-";
+  const gap::RateInterval interval = gap::binomial_interval(rate);
+  return fmt::format("{:.2f} ({:.2f} to {:.2f}), {} of {}", rate.value(), interval.low, interval.high,
+                     rate.hits, rate.of);
+}
+
+std::string number_words(const std::optional<double>& value) {
+  return value ? fmt::format("{:.2f}", *value) : "-";
+}
+
+void row(std::string& out, std::string_view figure, std::string_view target, const std::string& value) {
+  out += fmt::format("| {} | {} | {} |\n", figure, value, target);
+}
+
+void write_figures(std::string& out, const std::string& title, std::span<const CaseScore> cases) {
+  const BenchmarkFigures f = gap::figures_of(cases);
+  out += fmt::format("\n### {}: {} campaigns\n\n", title, f.cases);
+  out += "| figure | value (90 % interval) | target |\n| --- | --- | --- |\n";
+  row(out, "right effects, exactly", "", rate_words(f.exact));
+  row(out, "right effects, up to look-alikes", "", rate_words(f.alike));
+  row(out, "right effects, exactly, size 1 and above", "0.85", rate_words(f.exact_sized));
+  row(out, "right effects, up to look-alikes, size 1 and above", "0.93", rate_words(f.alike_sized));
+  row(out, "at most three sets hold the truth", "0.95", rate_words(f.held));
+  row(out, "verdict of the right class", "", rate_words(f.verdict_right));
+  row(out, "false alarm where nothing is missing", "0.03", rate_words(f.alarm_nothing));
+  row(out, "false alarm where only parameters are off", "0.05", rate_words(f.alarm_parameters));
+  row(out, "unknown causes told as unknown", "", rate_words(f.unknown_told));
+  row(out, "unknown told from known (area under ROC)", "0.85", number_words(f.unknown_auroc));
+  row(out, "a wrong name with more than 0.9", "0.05", rate_words(f.confident_wrong));
+  row(out, "calibration error", "0.05", number_words(f.calibration));
+  row(out, "Brier score", "0.15", number_words(f.brier));
+  row(out, "median share of the gap closed", "0.90", number_words(f.closed_fraction));
+  row(out, "median overlap of the soft patch's disc", "0.5", number_words(f.place_overlap));
+  row(out, "median seconds a campaign", "", f.seconds ? fmt::format("{:.1f}", *f.seconds) : "-");
+}
+
+const char* mark(bool yes) {
+  return yes ? "yes" : "";
+}
+
+void write_cases(std::string& out, std::span<const CaseScore> cases) {
+  out +=
+      "\n### Campaigns\n\n| campaign | hidden | size | kind | fidelity | verdict | found | exact | alike | "
+      "stated | "
+      "P(unknown) | s |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+  for (const CaseScore& c : cases)
+    out += fmt::format("| {} | {} | {:g} | {} | {} | {} | {} | {} | {} | {:.2f} | {:.2f} | {:.1f} |\n",
+                       c.campaign, c.truth, c.size, c.kind, c.fidelity, c.verdict, c.found, mark(c.exact),
+                       mark(c.alike), c.stated, c.unknown_probability, c.seconds);
+}
+
+void write_confusion(std::string& out, std::span<const CaseScore> cases) {
+  out += "\n### Hidden against found\n\n| hidden | found (how often) |\n| --- | --- |\n";
+  for (const auto& [truth, found] : gap::confusion_of(cases)) {
+    std::string words;
+    for (const auto& [name, count] : found)
+      words += fmt::format("{}{}{}", words.empty() ? "" : ", ", name,
+                           count > 1 ? fmt::format(" ({})", count) : "");
+    out += fmt::format("| {} | {} |\n", truth, words);
+  }
+}
+
+void write_withheld(std::string& out, std::span<const gap::WithheldScore> withheld) {
+  Rate right, unknown, alike, absorbed;
+  for (const gap::WithheldScore& w : withheld) {
+    for (const auto& [rate, hit] : {std::pair{&right, w.right()},
+                                    {&unknown, w.unknown},
+                                    {&alike, w.look_alike},
+                                    {&absorbed, w.absorbed}}) {
+      ++rate->of;
+      rate->hits += hit ? 1 : 0;
+    }
+  }
+  out +=
+      "\n### With the hidden effect withheld from the library\n\n| figure | value (90 % interval) |\n| --- | "
+      "--- |\n";
+  out += fmt::format("| unknown or a look-alike | {} |\n| unknown | {} |\n| a look-alike | {} |\n",
+                     rate_words(right), rate_words(unknown), rate_words(alike));
+  out += fmt::format("| no effect, or parameters alone | {} |\n", rate_words(absorbed));
+  out += "\n| campaign | withheld | verdict | found | right |\n| --- | --- | --- | --- | --- |\n";
+  for (const gap::WithheldScore& w : withheld)
+    out += fmt::format("| {} | {} | {} | {} | {} |\n", w.campaign, w.withheld, w.verdict, w.found,
+                       mark(w.right()));
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::vector<CaseScore>>> benchmark_groups(const Benchmark& benchmark) {
+  std::vector<std::pair<std::string, std::vector<CaseScore>>> groups{{"all", benchmark.cases}};
+  for (auto member : {&CaseScore::fidelity, &CaseScore::kind}) {
+    std::set<std::string> names;
+    for (const CaseScore& c : benchmark.cases)
+      if (!(c.*member).empty()) names.insert(c.*member);
+    for (const std::string& name : names) {
+      groups.emplace_back(name, std::vector<CaseScore>{});
+      for (const CaseScore& c : benchmark.cases)
+        if (c.*member == name) groups.back().second.push_back(c);
+    }
+  }
+  return groups;
+}
+
+std::string benchmark_report(const Benchmark& benchmark) {
+  std::string out = fmt::format("## Diagnosis, variant {}\n", benchmark.variant);
+  for (const auto& [name, cases] : benchmark_groups(benchmark)) write_figures(out, name, cases);
+  write_cases(out, benchmark.cases);
+  write_confusion(out, benchmark.cases);
+  if (!benchmark.withheld.empty()) write_withheld(out, benchmark.withheld);
+  return out;
+}
+
+}  // namespace slipway::api

@@ -1,0 +1,47 @@
+#include "server/cli_gap_benchmark.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <memory>
+
+#include "server/commands.h"
+
+namespace slipway::server {
+namespace {
+
+constexpr std::uint64_t kLargestExactWhole = 9'007'199'254'740'991;  // 2^53 - 1: a number of JSON
+
+}  // namespace
+
+void add_gap_benchmark_command(CLI::App& app, std::function<int()>& run) {
+  const auto options = std::make_shared<GapBenchmarkCommand>();
+  CLI::App* command = app.add_subcommand(
+      "gap-benchmark", "diagnose a folder of campaigns, then score the diagnoses against its answers.json");
+  command->add_option("folder", options->folder, "folder of drive campaigns, with answers.json")->required();
+  command->add_option("--data", options->data, "folder with rovers and soils")->capture_default_str();
+  command->add_option("--only", options->only, "names of campaigns; all without it")->delimiter(',');
+  command->add_option("--seed", options->seed, "the same seed gives the same diagnoses")
+      ->capture_default_str()
+      ->check(CLI::Range(std::uint64_t{0}, kLargestExactWhole));
+  command->add_option("--threads", options->threads, "at once; 0: as many as the machine has")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1024));
+  command->add_option("--keep", options->keep, "folder for each campaign's diagnosis, NAME.json");
+  command
+      ->add_option("--variant", options->variant,
+                   "of the diagnosis, to compare with: as-is, no-retuning, no-closures, no-unknown, "
+                   "nearest-signature, evidence-without-retuning")
+      ->capture_default_str();
+  command->add_flag("--without-each", options->without_each,
+                    "diagnose again with each hidden effect taken out of the library");
+  command->add_flag("--json", options->json, "print the document, for machines");
+  command->footer(
+      "Example: how often is the diagnosis right on campaigns that it has not seen?\n"
+      "  sealed_campaigns blind-1 --seed 1 --set blind && slipway gap-benchmark blind-1 --keep "
+      "blind-1-found\n"
+      "Interrupted (Ctrl-C), it scores what is done. Exit status: 0 scored, 1 no answer, 2 something can't "
+      "be read.");
+  command->callback([options, &run] { run = [options] { return gap_benchmark(*options); }; });
+}
+
+}  // namespace slipway::server

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace slipway::server {
+
+// The subcommand "gap-benchmark"; it puts itself into `run` when it is called.
+void add_gap_benchmark_command(CLI::App& app, std::function<int()>& run);
+
+}  // namespace slipway::server

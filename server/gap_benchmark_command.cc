@@ -1,0 +1,204 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "api/benchmark_report.h"
+#include "api/catalogue.h"
+#include "api/drive_campaign_source.h"
+#include "api/json/benchmark_answers.h"
+#include "api/json/benchmark_document.h"
+#include "api/json/diagnosis_document.h"
+#include "gap/benchmark_score.h"
+#include "gap/diagnosis.h"
+#include "server/command_parts.h"
+#include "server/commands.h"
+#include "sim/effect_catalogue.h"
+
+namespace slipway::server {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Hears interruptions; a line for each campaign is progress enough.
+class Patience final : public Progress {
+ public:
+  void report(std::string_view /*stage*/, double /*fraction*/) override {}
+  bool cancelled() const override { return given_up(); }
+};
+
+// A diagnosis with something taken out of it: what does it owe to which part?
+struct Variant {
+  std::string_view name;
+  gap::Retuning retuning = gap::Retuning::kAll;
+  bool something_else = true;
+  bool single = false;          // the effect with the best trace alone, no second, no pair
+  bool whole_evidence = false;  // not tempered
+};
+constexpr std::array kVariants{
+    Variant{.name = "as-is"},
+    Variant{.name = "no-retuning", .retuning = gap::Retuning::kNone},
+    Variant{.name = "no-closures", .retuning = gap::Retuning::kNoClosures},
+    Variant{.name = "no-unknown", .something_else = false},
+    Variant{.name = "nearest-signature",
+            .retuning = gap::Retuning::kNone,
+            .something_else = false,
+            .single = true},
+    Variant{.name = "evidence-without-retuning",
+            .retuning = gap::Retuning::kNone,
+            .something_else = false,
+            .whole_evidence = true},
+};
+
+const Variant* variant_named(std::string_view name) {
+  const auto row =
+      std::find_if(kVariants.begin(), kVariants.end(), [&](const Variant& v) { return v.name == name; });
+  return row == kVariants.end() ? nullptr : &*row;
+}
+
+struct Timed {
+  gap::Diagnosis diagnosis;
+  double seconds = 0.0;
+};
+
+std::vector<std::string> campaigns_in(const GapBenchmarkCommand& options) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(options.folder, error)) {
+    const std::string name = entry.path().filename().string();
+    const bool wanted = options.only.empty() ||
+                        std::find(options.only.begin(), options.only.end(), name) != options.only.end();
+    if (wanted && fs::is_regular_file(entry.path() / "campaign.json", error)) names.push_back(name);
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+Result<Timed> diagnosed(const GapBenchmarkCommand& options, const api::Catalogue& catalogue,
+                        const std::string& name, std::vector<std::string> withheld) {
+  const auto start = std::chrono::steady_clock::now();
+  auto campaign = api::load_drive_campaign(fs::path(options.folder) / name, catalogue);
+  if (!campaign) return fail(campaign.error());
+  gap::DiagnosisOptions how;
+  how.search.withheld = std::move(withheld);
+  how.search.threads = static_cast<std::size_t>(options.threads);
+  how.seed = options.seed;
+  const Variant& variant = *variant_named(options.variant);
+  campaign->retuning = variant.retuning;
+  how.search.something_else = variant.something_else;
+  if (variant.single) {
+    how.search.most_refitted = 1;
+    how.search.most_paired = 0;
+  }
+  if (variant.whole_evidence) how.search.temper = 1.0;
+  Patience patience;
+  auto diagnosis = gap::diagnose(*campaign, how, patience);
+  if (!diagnosis) return fail(diagnosis.error());
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  if (!options.keep.empty()) {
+    std::string file = name;
+    for (const std::string& effect : how.search.withheld) file += "-without-" + effect;
+    std::error_code error;
+    fs::create_directories(options.keep, error);
+    save((fs::path(options.keep) / (file + ".json")).string(),
+         api::json::diagnosis_document(*campaign, *diagnosis));
+  }
+  return Timed{std::move(*diagnosis), took.count()};
+}
+
+void tell(std::size_t number, std::size_t of, const std::string& name, const Timed& timed) {
+  std::vector<std::string> effects;
+  for (const gap::FoundEffect& effect : timed.diagnosis.effects) effects.push_back(effect.name);
+  std::cerr << fmt::format("[{}/{}] {}: {} {} ({:.1f} s)\n", number, of, name,
+                           gap::name_of(timed.diagnosis.verdict), fmt::join(effects, " + "), timed.seconds);
+}
+
+Result<std::map<std::string, gap::HiddenAnswer>> answers_of(const std::string& folder) {
+  const fs::path file = fs::path(folder) / "answers.json";
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) return fail(ErrorCode::kUnreadableData, file.string() + " can't be read");
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  auto answers = api::json::read_benchmark_answers(bytes);
+  if (!answers) return fail(answers.error());
+  std::map<std::string, gap::HiddenAnswer> by_name;
+  for (gap::HiddenAnswer& answer : *answers) by_name.emplace(answer.campaign, std::move(answer));
+  return by_name;
+}
+
+std::set<std::string> library() {
+  std::set<std::string> names;
+  for (const sim::Effect& effect : sim::effect_catalogue()) names.emplace(effect.name);
+  return names;
+}
+
+int refuse_input(const Error& error) {
+  const int status = refuse(error);
+  return error.code == ErrorCode::kUnreadableData || error.code == ErrorCode::kUnreadableRaster ? 2 : status;
+}
+
+}  // namespace
+
+int gap_benchmark(const GapBenchmarkCommand& options) {
+  if (variant_named(options.variant) == nullptr) {
+    std::vector<std::string_view> known;
+    for (const Variant& variant : kVariants) known.push_back(variant.name);
+    std::cerr << fmt::format("unknown variant \"{}\", known are: {}\n", options.variant,
+                             fmt::join(known, ", "));
+    return 2;
+  }
+  const auto catalogue = api::load_catalogue(options.data);
+  if (!catalogue) return refuse_input(catalogue.error());
+  const std::vector<std::string> names = campaigns_in(options);
+  if (names.empty()) {
+    std::cerr << options.folder << " holds no drive campaign of that name\n";
+    return 2;
+  }
+  // All diagnoses before the key is opened.
+  std::vector<Timed> open;
+  for (const std::string& name : names) {
+    auto timed = diagnosed(options, *catalogue, name, {});
+    // Interrupted: what is done is scored.
+    if (!timed && timed.error().code == ErrorCode::kCancelled && !open.empty()) break;
+    if (!timed) return refuse_input(timed.error());
+    open.push_back(std::move(*timed));
+    tell(open.size(), names.size(), name, open.back());
+  }
+  const auto answers = answers_of(options.folder);
+  if (!answers) return refuse_input(answers.error());
+  const std::set<std::string> known = library();
+  api::Benchmark benchmark{.variant = options.variant, .cases = {}, .withheld = {}};
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    const auto answer = answers->find(names[i]);
+    if (answer == answers->end()) {
+      std::cerr << "answers.json says nothing of " << names[i] << ": it is not scored\n";
+      continue;
+    }
+    benchmark.cases.push_back(gap::score_case(answer->second, open[i].diagnosis, known, open[i].seconds));
+    for (const std::string& effect : answer->second.effects) {
+      if (!options.without_each || !known.contains(effect) || given_up()) continue;
+      auto timed = diagnosed(options, *catalogue, names[i], {effect});
+      if (!timed && timed.error().code == ErrorCode::kCancelled) continue;
+      if (!timed) return refuse_input(timed.error());
+      tell(i + 1, names.size(), names[i] + " without " + effect, *timed);
+      benchmark.withheld.push_back(
+          gap::score_withheld(answer->second, effect, open[i].diagnosis, timed->diagnosis));
+    }
+  }
+  std::cout << (options.json ? api::json::benchmark_document(benchmark) : api::benchmark_report(benchmark))
+            << std::flush;
+  return 0;
+}
+
+}  // namespace slipway::server

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hidden_truth.h"
+#include "random_stream.h"
+
+namespace slipway::gap_benchmark {
+
+enum class Fidelity {
+  kSameEquations,  // L1: the library's laws and effects in other code and numerics
+  kOtherEffects,   // L2: every effect by another equation, the practice campaigns' wheel law and suspension
+  kOtherClosures,  // L2c: that and another stress shape, arc of contact, lateral law and suspension
+};
+std::string name_of(Fidelity fidelity);
+
+enum class NominalSoil { kTrue, kNear, kUsual, kFar };
+
+// One campaign to be made.
+struct CampaignCase {
+  bool on_hills = false;
+  std::vector<std::string> causes;
+  double size = 1.0;
+  NominalSoil nominal = NominalSoil::kUsual;
+  Fidelity fidelity = Fidelity::kOtherEffects;
+  std::optional<std::string> soil;  // nothing: drawn
+  std::size_t most_drives = 0;      // 0: all
+  bool sinkage = true, temperature = true;
+  std::uint64_t seed = 0;  // of everything drawn in it
+  bool even_soil = false;  // no scatter and no sensor noise, for comparisons
+};
+
+// The cases of a set: "blind" (26 as a judge would choose), "full" (every effect at three sizes and much
+// more), "each" (every cause once), "smoke" (two small ones), "nothing" (p01 again).
+std::optional<std::vector<CampaignCase>> cases_of(const std::string& set, std::optional<Fidelity> fidelity,
+                                                  RandomStream& random);
+
+const std::vector<TrueSoil>& true_soils();
+
+}  // namespace slipway::gap_benchmark

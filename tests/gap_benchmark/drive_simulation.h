@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "hidden_truth.h"
+#include "random_stream.h"
+#include "rover_balance.h"
+#include "terrain_grid.h"
+
+namespace slipway::gap_benchmark {
+
+struct DriveOrder {
+  std::string id, terrain;
+  double speed_m_s = 0.05, curvature_1_m = 0.0, duration_s = 60.0;
+  bool turn_in_place = false;
+  double start_x_m = 0.0, start_y_m = 0.0, start_yaw_rad = 0.0;
+  double motor_temp_c = 20.0;
+  double share_of_day = 0.0;  // 0 first drive, 1 last
+};
+
+// How soils differ from drive to drive and along a drive: deviations of logarithms.
+struct SoilScatter {
+  double stiffness = 0.055, friction = 0.010, shear_modulus = 0.06;
+  double along = 0.5;  // of these, along a drive
+  double length_m = 1.5;
+};
+
+struct WheelRow {
+  double rate_rad_s = 0.0, steer_rad = 0.0, current_a = 0.0, sinkage_m = 0.0;
+};
+
+// True values, before any sensor.
+struct DriveRow {
+  double time_s = 0.0, x_m = 0.0, y_m = 0.0, z_m = 0.0, roll_rad = 0.0, pitch_rad = 0.0, yaw_rad = 0.0;
+  double motor_temp_c = 0.0;
+  bool surveyed = false;
+  std::array<WheelRow, kWheels> wheels;
+};
+
+struct World {
+  RoverOnFile rover;
+  double gravity_m_s2 = 3.71;
+  TrueSoil soil;
+  SoilScatter scatter;
+  Closure closure;
+  HiddenTruth hidden;
+};
+
+// Told rates and steering angles of the six wheels.
+std::array<WheelRow, kWheels> told_wheels(const RoverOnFile& rover, const DriveOrder& order);
+
+struct SimulatedDrive {
+  std::vector<DriveRow> rows;
+  bool complete = true;  // false: left the map, or the balance was not found
+};
+
+// Explicit Euler steps of 2 s, a row each.
+SimulatedDrive simulate_drive(const World& world, const TerrainGrid& ground, const DriveOrder& order,
+                              RandomStream& random);
+
+}  // namespace slipway::gap_benchmark

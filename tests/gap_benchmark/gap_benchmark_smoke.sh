@@ -1,0 +1,37 @@
+#!/bin/sh
+# Two small campaigns by another simulator, diagnosed and scored.
+#   gap_benchmark_smoke.sh SEALED_CAMPAIGNS SLIPWAY SOURCE_FOLDER
+set -eu
+sealed_campaigns="$1"
+slipway="$2"
+data="$3/data"
+folder="$(mktemp -d)"
+trap 'rm -rf "$folder"' EXIT
+
+"$sealed_campaigns" "$folder/first" --set smoke --seed 7
+"$sealed_campaigns" "$folder/again" --set smoke --seed 7
+diff -r "$folder/first" "$folder/again"
+"$slipway" gap-benchmark "$folder/first" --data "$data" --json --keep "$folder/kept" >"$folder/scores.json"
+python3 - "$folder" <<'CHECK'
+import json, pathlib, sys
+folder = pathlib.Path(sys.argv[1])
+scores = json.loads((folder / "scores.json").read_text())
+answers = json.loads((folder / "first" / "answers.json").read_text())
+assert scores["format"] == "gap-benchmark/1"
+assert [c["campaign"] for c in scores["campaigns"]] == sorted(answers) == ["s01", "s02"], scores["campaigns"]
+for case in scores["campaigns"]:
+    kept = json.loads((folder / "kept" / (case["campaign"] + ".json")).read_text())
+    assert kept["verdict"] == case["verdict"]
+    hidden = " + ".join(sorted(answers[case["campaign"]]["effects"])) or "nothing"
+    assert case["hidden"] == hidden, case
+assert scores["figures"]["all"]["campaigns"] == 2
+CHECK
+# A folder without a key is diagnosed and not scored; one without campaigns is a question that can't be asked.
+rm "$folder/first/answers.json"
+status=0
+"$slipway" gap-benchmark "$folder/first" --data "$data" --only s01 >/dev/null 2>"$folder/err" || status=$?
+[ "$status" = 2 ] && grep -q answers.json "$folder/err"
+status=0
+"$slipway" gap-benchmark "$folder/kept" --data "$data" >/dev/null 2>"$folder/err" || status=$?
+[ "$status" = 2 ]
+echo "as expected"

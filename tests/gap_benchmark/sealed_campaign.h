@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "campaign_case.h"
+#include "drive_simulation.h"
+#include "terrain_grid.h"
+
+namespace slipway::gap_benchmark {
+
+struct NamedTerrain {
+  std::string name;
+  TerrainGrid grid;
+};
+
+struct MadeDrive {
+  DriveOrder order;
+  std::vector<DriveRow> rows;
+};
+
+// A campaign with everything in it, also what is told to nobody.
+struct SealedCampaign {
+  CampaignCase made_of;
+  World world;
+  TrueSoil nominal;
+  EffectAnswers effects;
+  std::vector<NamedTerrain> terrains;
+  std::vector<MadeDrive> drives;
+  std::uint64_t noise_seed = 0;
+};
+
+SealedCampaign make_campaign(const CampaignCase& made_of, RandomStream& random);
+
+// Writes campaign.json, the drives and the terrains. What is wrong, or nothing.
+std::string write_campaign(const SealedCampaign& campaign, const std::string& name,
+                           const std::filesystem::path& folder);
+
+// One member of answers.json, as text.
+std::string answer_of(const SealedCampaign& campaign);
+
+}  // namespace slipway::gap_benchmark

@@ -1,0 +1,129 @@
+// sealed_campaigns OUT [--seed N] [--set blind|full|each|smoke|nothing] [--only CAUSE,...] [--fidelity
+// L1|L2|L2c]
+//
+// Makes campaigns of drives in which something may be hidden, and answers.json beside them. Shares no code
+// with the library that is judged on them.
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "hidden_causes.h"
+#include "sealed_campaign.h"
+
+namespace {
+
+using namespace slipway::gap_benchmark;
+
+constexpr const char* kUsage =
+    "usage: sealed_campaigns OUT [--seed N] [--set blind|full|each|smoke|nothing] [--only CAUSE,...]\n"
+    "                        [--fidelity L1|L2|L2c] [--size X]\n";
+
+struct Wish {
+  std::string out, set = "blind";
+  std::uint64_t seed = 1;
+  std::vector<std::string> only;
+  std::optional<Fidelity> fidelity;
+  std::optional<double> size;
+};
+
+std::optional<Fidelity> fidelity_named(const std::string& name) {
+  for (const Fidelity fidelity :
+       {Fidelity::kSameEquations, Fidelity::kOtherEffects, Fidelity::kOtherClosures})
+    if (name_of(fidelity) == name) return fidelity;
+  return std::nullopt;
+}
+
+std::optional<Wish> wish_of(int count, char** words) {
+  Wish wish;
+  for (int i = 1; i < count; ++i) {
+    const std::string word = words[i];
+    if (!word.starts_with("--")) {
+      if (!wish.out.empty()) return std::nullopt;
+      wish.out = word;
+      continue;
+    }
+    if (++i == count) return std::nullopt;
+    const std::string value = words[i];
+    if (word == "--seed")
+      wish.seed = std::strtoull(value.c_str(), nullptr, 10);
+    else if (word == "--set")
+      wish.set = value;
+    else if (word == "--size")
+      wish.size = std::strtod(value.c_str(), nullptr);
+    else if (word == "--fidelity") {
+      wish.fidelity = fidelity_named(value);
+      if (!wish.fidelity) return std::nullopt;
+    } else if (word == "--only") {
+      std::istringstream names(value);
+      for (std::string name; std::getline(names, name, ',');) {
+        if (!is_known_cause(name)) {
+          std::cerr << name << " is no cause; known are";
+          for (const std::string_view known : library_effects()) std::cerr << ' ' << known;
+          for (const std::string_view known : foreign_causes()) std::cerr << ' ' << known;
+          std::cerr << '\n';
+          return std::nullopt;
+        }
+        wish.only.push_back(name);
+      }
+    } else {
+      return std::nullopt;
+    }
+  }
+  if (wish.out.empty()) return std::nullopt;
+  return wish;
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  const std::optional<Wish> wish = wish_of(count, words);
+  if (!wish) {
+    std::cerr << kUsage;
+    return 2;
+  }
+  RandomStream random(wish->seed);
+  std::optional<std::vector<CampaignCase>> cases = cases_of(wish->set, wish->fidelity, random);
+  if (!cases) {
+    std::cerr << kUsage;
+    return 2;
+  }
+  if (!wish->only.empty())
+    std::erase_if(*cases, [&](const CampaignCase& made_of) {
+      return std::none_of(made_of.causes.begin(), made_of.causes.end(), [&](const std::string& cause) {
+        return std::find(wish->only.begin(), wish->only.end(), cause) != wish->only.end();
+      });
+    });
+  if (wish->size)
+    for (CampaignCase& made_of : *cases) made_of.size = *wish->size;
+
+  std::string answers;
+  for (std::size_t i = 0; i < cases->size(); ++i) {
+    char name[16];
+    std::snprintf(name, sizeof name, "s%02u", static_cast<unsigned>(i + 1));
+    if (std::filesystem::exists(std::filesystem::path(wish->out) / name)) {
+      std::cerr << wish->out << " holds campaigns already\n";
+      return 1;
+    }
+    RandomStream own((*cases)[i].seed);
+    const SealedCampaign campaign = make_campaign((*cases)[i], own);
+    const std::string fault = write_campaign(campaign, name, std::filesystem::path(wish->out) / name);
+    if (!fault.empty()) {
+      std::cerr << fault << '\n';
+      return 1;
+    }
+    answers += (answers.empty() ? " \"" : ",\n \"") + std::string(name) + "\": " + answer_of(campaign);
+    std::cerr << "\rmade " << i + 1 << " of " << cases->size() << std::flush;
+  }
+  std::cerr << '\n';
+  std::ofstream out(std::filesystem::path(wish->out) / "answers.json", std::ios::binary);
+  out << "{\n" << answers << "\n}\n";
+  return out.good() ? 0 : 1;
+}
