@@ -84,8 +84,7 @@ std::vector<EffectVariant> hard_layer(const sim::RoverModel& /*rover*/) {
 }
 
 std::vector<EffectVariant> cleats(const sim::RoverModel& /*rover*/) {
-  return {variant("grousers", "", {{"height_m", 0.01, 0.0, 0.05}}),
-          variant("grousers", "mobilised at once", {{"height_m", 0.01, 0.0, 0.05}}, {{"mobilisation", 0.1}})};
+  return {variant("grousers", "", {{"height_m", 0.01, 0.0, 0.05}, {"mobilisation", 0.5, 0.02, 1.0}})};
 }
 
 std::vector<EffectVariant> gearbox(const sim::RoverModel& /*rover*/) {

@@ -205,8 +205,6 @@ int tune(const TuneCommand& options);
 // 0: a diagnosis, whatever its verdict; 2: input that can't be read.
 int diagnose(const DiagnoseCommand& options);
 int estimate(const EstimateCommand& options);
-};
-
 // 0: every campaign has a diagnosis and a score; 2: one can't be read.
 int gap_benchmark(const GapBenchmarkCommand& options);
 

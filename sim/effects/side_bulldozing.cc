@@ -6,7 +6,7 @@ namespace slipway::sim {
 namespace {
 
 constexpr std::array kFields{
-    Field{"share", "1", "share of the bearing capacity on the side wall", 0.0, 2.0, 1.0, 0.0},
+    Field{"share", "1", "share of the bearing capacity on the side wall", 0.0, 5.0, 1.0, 0.0},
 };
 
 void change(std::span<const double> values, Soil& soil) {
