@@ -20,7 +20,6 @@ namespace slipway::gap {
 namespace {
 
 constexpr std::size_t kLeastDrives = 3, kLeastWindows = 6;
-constexpr int kSearches = 2;
 constexpr double kCertain = 0.5;  // of a set's probability: below it the answer is a set of sets
 constexpr double kCertainBesides = 0.9;
 constexpr double kWorthNaming = 0.05;     // of an effect's probability
@@ -76,7 +75,8 @@ class Diagnoser {
   Diagnoser(const DriveCampaign& campaign, const DiagnosisOptions& options, Progress& progress)
       : campaign_(campaign), options_(options), progress_(progress) {}
 
-  Result<Diagnosis> run() {
+  // Prepares the campaign and searches once; false where there is too little to search in.
+  Result<bool> weigh() {
     d_.campaign = campaign_.name;
     d_.campaign_fingerprint = campaign_.fingerprint;
     d_.seed = options_.seed;
@@ -109,20 +109,30 @@ class Diagnoser {
       d_.reason = fmt::format("{} drives with {} windows of use are too few to tell causes apart", d_.drives,
                               d_.windows);
       d_.overturned_by = fmt::format("{} drives and {} windows at least", kLeastDrives, kLeastWindows);
-      return std::move(d_);
+      return false;
     }
-    for (int round = 0; round < kSearches; ++round) {
+    if (auto searched = search(); !searched) return fail(searched.error());
+    return true;
+  }
+
+  // The logarithm of how probable the drives are under the best explanation.
+  double log_evidence() const { return best().log_evidence - 0.5 * prepared_.noise->log_determinant(); }
+
+  Result<Diagnosis> insufficient() { return std::move(d_); }
+
+  // After weigh().
+  Result<Diagnosis> finish() {
+    if (!best().effects.empty()) {
       // With what was found in it, the model takes less of the gap for scatter.
-      if (round > 0) {
-        if (best().effects.empty()) break;
-        prepare_around(prepared_, campaign_, best_fit(), options_.search.threads);
-        d_.noise = prepared_.noise->scales();
-      }
-      auto search = search_explanations(campaign_, *prepared_.model, *prepared_.noise, *prepared_.null,
-                                        prepared_.wildcard, options_.search, progress_);
-      if (!search) return fail(search.error());
-      search_ = std::move(*search);
+      prepare_around(prepared_, campaign_, best_fit(), options_.search.threads);
+      d_.noise = prepared_.noise->scales();
+      if (auto searched = search(); !searched) return fail(searched.error());
     }
+    if (campaign_.retuning == Retuning::kTrustedClosures)
+      d_.notes.push_back(
+          "closures of the wheel's law are taken to be near the nominal soils': re-tuning them freely "
+          "explains "
+          "these drives no better");
     judge();
     describe_parameters();
     compare_look_alikes();
@@ -135,6 +145,14 @@ class Diagnoser {
   }
 
  private:
+  Result<void> search() {
+    auto search = search_explanations(campaign_, *prepared_.model, *prepared_.noise, *prepared_.null,
+                                      prepared_.wildcard, options_.search, progress_);
+    if (!search) return fail(search.error());
+    search_ = std::move(*search);
+    return {};
+  }
+
   bool is_withheld(std::string_view effect) const {
     const auto& withheld = options_.search.withheld;
     return std::find(withheld.begin(), withheld.end(), effect) != withheld.end();
@@ -382,7 +400,17 @@ Result<Diagnosis> diagnose(const DriveCampaign& campaign, const DiagnosisOptions
     }
   if (!faults.empty())
     return fail(ErrorCode::kInvalidRequest, "an effect to withhold is not in the catalogue", faults);
-  return Diagnoser(campaign, options, progress).run();
+  // With closures trusted and without: what the drives say is the more probable.
+  DriveCampaign trusting = campaign;
+  if (campaign.retuning == Retuning::kAll) trusting.retuning = Retuning::kTrustedClosures;
+  Diagnoser trusted(trusting, options, progress);
+  const auto enough = trusted.weigh();
+  if (!enough) return fail(enough.error());
+  if (!*enough) return trusted.insufficient();
+  if (campaign.retuning != Retuning::kAll) return trusted.finish();
+  Diagnoser free(campaign, options, progress);
+  if (auto weighed = free.weigh(); !weighed) return fail(weighed.error());
+  return (trusted.log_evidence() >= free.log_evidence() ? trusted : free).finish();
 }
 
 }  // namespace slipway::gap

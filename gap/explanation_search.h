@@ -19,7 +19,7 @@ struct SearchOptions {
   int most_paired = 4;                // of those, whose pairs are looked for
   // An effect smaller than this share of its usual size (the deviation of its prior) is not worth a name: it
   // is how one simulator's numerics differ from another's.
-  double least_size = 0.2;
+  double least_size = 0.3;
   double temper = 0.15;        // of the logarithm of the evidence, see probabilities_of
   bool something_else = true;  // the wildcard competes; without it for ablations
   std::size_t threads = 0;

@@ -109,6 +109,12 @@ std::vector<EffectVariant> tracks(const sim::RoverModel& /*rover*/) {
   return {variant("multipass", "", {{"stiffening", 0.4, 0.0, 5.0}})};
 }
 
+std::vector<EffectVariant> heap(const sim::RoverModel& /*rover*/) {
+  const Free share{"share", 1.0, 0.0, 5.0};
+  return {variant("bulldozing", "before wheels on fresh ground", {share}, {{"in_tracks", 0.0}}),
+          variant("bulldozing", "before every wheel", {share}, {{"in_tracks", 1.0}})};
+}
+
 std::vector<EffectVariant> none(const sim::RoverModel& /*rover*/) {
   return {};
 }
@@ -119,7 +125,16 @@ constexpr std::array kRows{Row{"dragging_wheel", &dragging},  Row{"steering_offs
                            Row{"gearbox_friction", &gearbox}, Row{"motor_temperature", &temperature},
                            Row{"slip_sinkage", &sinkage},     Row{"rate_shear", &speed_shear},
                            Row{"multipass", &tracks},         Row{"soft_patch", &none},
-                           Row{"soil_gravity", &none},        Row{"smooth_rim", &none}};
+                           Row{"bulldozing", &heap},          Row{"soil_gravity", &none},
+                           Row{"smooth_rim", &none}};
+
+// Of a closure's prior deviation where the nominal soils' are trusted.
+constexpr double kTrusted = 0.2;
+
+// Effects of soils and motors that other authors write with other equations. The rest are geometry.
+constexpr std::array<std::string_view, 10> kOfManyForms{
+    "soft_patch",      "slip_sinkage", "multipass",        "grousers", "bulldozing",
+    "side_bulldozing", "duricrust",    "gearbox_friction", "hardpan",  "motor_temperature"};
 
 // All fields with a neutral value, believed to be about as far from it as the catalogue's initial value.
 EffectVariant from_catalogue(const sim::Effect& effect) {
@@ -164,6 +179,10 @@ double neutral_of(const std::string& effect, const std::string& field) {
 
 }  // namespace
 
+bool has_many_forms(std::string_view effect) {
+  return std::find(kOfManyForms.begin(), kOfManyForms.end(), effect) != kOfManyForms.end();
+}
+
 std::vector<EffectVariant> effect_variants(const sim::RoverModel& rover,
                                            std::span<const std::string> withheld) {
   std::vector<EffectVariant> all;
@@ -194,7 +213,10 @@ Hypothesis::Hypothesis(const DriveCampaign& campaign, std::vector<EffectVariant>
         name += "/" + campaign.soils[static_cast<std::size_t>(soil)].name;
       const bool held = campaign.retuning == Retuning::kNone ||
                         (campaign.retuning == Retuning::kNoClosures && row.kind == NuisanceKind::kClosure);
-      parameters_.push_back({name, "", 0.0, held ? kHeld * row.std : row.std, row.lowest, row.highest});
+      const bool trusted = campaign.retuning == Retuning::kTrustedClosures &&
+                           row.kind == NuisanceKind::kClosure && row.on_soil != nullptr;
+      const double share = held ? kHeld : trusted ? kTrusted : 1.0;
+      parameters_.push_back({name, "", 0.0, share * row.std, row.lowest, row.highest});
       places_.push_back({&row, row.kind == NuisanceKind::kSoil ? soil : -1});
     }
   }

@@ -35,6 +35,9 @@ struct EffectVariant {
 std::vector<EffectVariant> effect_variants(const sim::RoverModel& rover,
                                            std::span<const std::string> withheld);
 
+// Whether its law is one of several in the literature: what it does may then differ in form from the library's.
+bool has_many_forms(std::string_view effect);
+
 struct Parameter {
   std::string name;    // "friction/nominal", "grousers.height_m"
   std::string effect;  // empty: a nuisance

@@ -13,6 +13,8 @@ namespace {
 constexpr std::array kSizes{0.4, 1.2, 3.6};
 constexpr std::array kImprecisionShares{0.1, 0.3, 1.0};
 constexpr std::array kFormSizes{0.0, 0.3, 1.0};
+// What an effect's law may depend on otherwise than the library's does.
+constexpr std::array<std::string_view, 4> kFormVariables{"pitch", "slip", "speed", "temperature"};
 constexpr double kProbe_m = 0.05;
 
 // Effects of the catalogue as levers: what a force along, a force across, a shifted load, a turned wheel
@@ -208,6 +210,7 @@ Eigen::MatrixXd form_columns(const DriveCampaign& campaign, const WindowModel& m
   const std::vector<int> axle_of = axles(*campaign.rover);
   std::vector<Eigen::VectorXd> columns;
   for (const EffectVariant& effect : fit.hypothesis.effects()) {
+    if (!has_many_forms(effect.effect)) continue;
     std::vector<double> x = fit.x;
     for (std::size_t p = fit.hypothesis.nuisance_count(); p < x.size(); ++p)
       if (parameters[p].effect == effect.effect) x[p] = parameters[p].neutral;
@@ -224,8 +227,10 @@ Eigen::MatrixXd form_columns(const DriveCampaign& campaign, const WindowModel& m
         for (const Observation& o : model.windows()[w].observations) column[i++] *= share(w, o);
       if (column.squaredNorm() > 0.0) columns.push_back(std::move(column));
     };
-    for (std::size_t v = 1; !variables.empty() && v < variables.front().size(); ++v)
-      add([&](std::size_t w, const Observation&) { return variables[w][v].value; });
+    for (std::size_t v = 0; !variables.empty() && v < variables.front().size(); ++v)
+      if (std::find(kFormVariables.begin(), kFormVariables.end(), variables.front()[v].name) !=
+          kFormVariables.end())
+        add([&](std::size_t w, const Observation&) { return variables[w][v].value; });
     for (int c = 0; c < kChannels; ++c)
       add([&](std::size_t, const Observation& o) {
         return o.channel == static_cast<Channel>(c) ? 1.0 : 0.0;

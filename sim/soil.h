@@ -51,6 +51,7 @@ struct Soil {
 
   // Effects; all off at these values. See the catalogue of effects.
   double bulldozing = 0.0;           // share of Rankine's passive pressure on the front
+  double track_bulldozing = 0.0;     // share of that before a wheel that runs in a track
   double side_bulldozing = 0.0;      // share of Terzaghi's bearing capacity on the side walls
   double rate_shear_exponent = 0.0;  // K ~ (rim speed / rate_shear_speed_m_s)^exponent
   double rate_shear_speed_m_s = 0.04;

@@ -14,8 +14,8 @@ Soil soil_in_force(const Soil& soil, double gravity_m_s2, double rim_speed_m_s, 
     met.shear_modulus_x_m *= factor;
     met.shear_modulus_y_m *= factor;
   }
-  // The soil before a wheel in a track was pushed aside by the wheel that made it.
-  if (in_a_track) met.bulldozing = 0.0;
+  // The soil before a wheel in a track was pushed aside by the wheel that made it, or some of it.
+  if (in_a_track) met.bulldozing *= soil.track_bulldozing;
   double stiffer = in_a_track ? 1.0 + soil.multipass_stiffening : 1.0;
   if (soil.gravity_exponent != 0.0)
     stiffer *= std::pow(gravity_m_s2 / soil.measured_gravity_m_s2, soil.gravity_exponent);

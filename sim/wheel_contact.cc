@@ -54,6 +54,7 @@ void WheelContacts::set_soil(std::size_t k, const Soil& soil, double rim_speed_m
   place.stiffening = soil.multipass_stiffening;
   place.rebound_share = rut_share(soil.multipass_stiffening, soil.pressure.n);
   place.remembers = soil.multipass_stiffening > 0.0 || soil.bulldozing > 0.0;
+  place.track_bulldozing = soil.track_bulldozing;
   const double load = rover_.mass_kg * gravity_m_s2_ / static_cast<double>(places_.size());
   const double r = place.geometry.radius_m;
   // A soil that can't carry the wheel at rest: the deepest the laws know.
@@ -141,7 +142,7 @@ std::size_t WheelContacts::add_trials(std::size_t k, const WheelKinematics& at, 
   one.theta_f = contact.entry_angle_rad;
   one.leftward = -at.slip_y;
   one.stiffness *= 1.0 + place.stiffening * contact.driven_on;
-  one.bulldozing *= 1.0 - contact.driven_on;
+  one.bulldozing *= 1.0 - contact.driven_on * (1.0 - place.track_bulldozing);
   const double turning =
       place.locked ? kBlended_standstills * place.told_direction : at.rate_rad_s / standstill_rad_s_;
   const double ahead = turning >= kBlended_standstills    ? 1.0

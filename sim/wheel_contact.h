@@ -95,6 +95,7 @@ class WheelContacts {
     WheelNumbers numbers;                          // of wheel and soil
     double stiffening = 0.0, rebound_share = 0.0;  // of a track: multipass
     bool remembers = false;                        // a track is not like fresh soil
+    double track_bulldozing = 0.0;                 // see Soil
     double relaxation_m = 0.1, normal_damping_s_m = 0.0, tangential_damping_ns_m = 0.0;
     double told_direction = 1.0;
     bool locked = false;
