@@ -332,7 +332,10 @@ class Diagnoser {
     if (!shrunk) return fail(shrunk.error());
     d_.gap = std::move(shrunk->channels);
     d_.held_out = std::move(shrunk->points);
+    d_.window_gaps = std::move(shrunk->windows);
     if (explains()) d_.closed_fraction = shrunk->closed_fraction;
+    for (ChannelShrink& channel : d_.gap)
+      if (!explains()) channel.closed_fraction.reset();
     d_.candidates.front().held_out_score = shrunk->log_density_gain;
     const bool offered = explains() ? shrunk->log_density_gain > 0.0 : d_.verdict == Verdict::kParameters;
     if (offered) {
