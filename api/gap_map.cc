@@ -130,7 +130,7 @@ std::string scale_bar(const Frame& frame) {
       kMapHeight_px - 14.0, frame.px_per_m * length_m, kMapHeight_px - 20.0, length_m);
 }
 
-std::string legend(double top) {
+std::string legend(double top, bool places) {
   std::string out;
   double x = kLeft_px;
   for (const Level& level : kLevels) {
@@ -140,11 +140,16 @@ std::string legend(double top) {
         x + 3.0, top, level.colour, x + 36.0, top + 4.5, level.words);
     x += 64.0 + 7.6 * static_cast<double>(std::string_view(level.words).size());
   }
+  const double left = kLeft_px + (places ? 36.0 : 3.0);
+  if (places)
+    out += fmt::format(
+        "<circle cx=\"{:.0f}\" cy=\"{:.0f}\" r=\"9\" fill=\"none\" stroke=\"black\" stroke-width=\"2\" "
+        "stroke-dasharray=\"5 3\"/>\n",
+        kLeft_px + 15.0, top + 26.0);
   return out + fmt::format(
-                   "<circle cx=\"{0:.0f}\" cy=\"{1:.0f}\" r=\"9\" fill=\"none\" stroke=\"black\" "
-                   "stroke-width=\"2\" stroke-dasharray=\"5 3\"/><text x=\"{2:.0f}\" y=\"{3:.0f}\">a place where "
-                   "the gap sits; a line is a window of a drive, the worst drawn last</text>\n",
-                   kLeft_px + 15.0, top + 26.0, kLeft_px + 36.0, top + 30.5);
+                   "<text x=\"{:.0f}\" y=\"{:.0f}\">{}lines are windows of drives, the worst drawn last; root "
+                   "mean square over channels, in deviations of their noise</text>\n",
+                   left, top + 30.5, places ? "a place where the gap sits; " : "");
 }
 
 // Indices of the terrains to show, in the campaign's order: of many, those whose windows are furthest off.
@@ -215,7 +220,7 @@ std::string draw_gap_map(const gap::DriveCampaign& campaign, const gap::Diagnosi
     }
     top += row_px;
   }
-  return out + legend(legend_top) + "</svg>\n";
+  return out + legend(legend_top, !d.places.empty()) + "</svg>\n";
 }
 
 }  // namespace slipway::api
