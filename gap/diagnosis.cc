@@ -130,6 +130,7 @@ class Diagnoser {
     auto shrunk = shrink();
     if (!shrunk) return fail(shrunk.error());
     propose_drives();
+    if (progress_.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
     progress_.report("done", 1.0);
     return std::move(d_);
   }
@@ -356,7 +357,8 @@ class Diagnoser {
       fits.push_back(&search_.fits[c.fit]);
       probabilities.push_back(std::max(c.probability, kWorthNaming));
     }
-    d_.next_drives = next_drives(campaign_, prepared_.noise->scales(), fits, probabilities, kMostNext);
+    d_.next_drives = next_drives(campaign_, prepared_.noise->scales(), fits, probabilities, kMostNext,
+                                  progress_);
   }
 
   const DriveCampaign& campaign_;

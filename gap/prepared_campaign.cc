@@ -100,6 +100,7 @@ Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const WindowOpti
     progress.report("estimating the drives' own scatter", 0.06 + 0.05 * round);
     prepare_around(made, campaign, *made.null, threads);
   }
+  if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
   return made;
 }
 
