@@ -109,11 +109,11 @@ class Report {
         for (const gap::FoundParameter& p : found.parameters)
           parameters.push_back(fmt::format("{} = {}", p.name, interval_words(p.value)));
         page_.row({found.name, found.variant, probability_words(found.probability),
-             fmt::format("{}", fmt::join(parameters, ", "))});
+                   fmt::format("{}", fmt::join(parameters, ", "))});
       }
     }
-    page_.paragraph(fmt::format("{} drives, {} windows, {} observations, {} effects in the library.", d_.drives,
-                     d_.windows, d_.observations, d_.library.size()));
+    page_.paragraph(fmt::format("{} drives, {} windows, {} observations, {} effects in the library.",
+                                d_.drives, d_.windows, d_.observations, d_.library.size()));
   }
 
   void write_explanations() {
@@ -124,8 +124,9 @@ class Report {
     for (const gap::ComparedSet& set : json::compared_sets(d_)) {
       const bool ends = set.effects.empty() || set.effects == std::vector<std::string>{"unknown"};
       if (++shown > kMostCandidates && !ends) continue;
-      page_.row({set_words(set.effects), probability_words(set.probability), fmt::format("{}", set.complexity),
-           set.held_out_score ? number_words("{:+.2f}", *set.held_out_score) : ""});
+      page_.row({set_words(set.effects), probability_words(set.probability),
+                 fmt::format("{}", set.complexity),
+                 set.held_out_score ? number_words("{:+.2f}", *set.held_out_score) : ""});
     }
     page_.paragraph(
         "The score is the gain of log density a drive over re-tuned parameters alone, on drives that the fit "
@@ -143,9 +144,11 @@ class Report {
     page_.section("How far the gap closes");
     page_.paragraph(
         "Root mean square of prediction less measurement on drives held out of the fit, 90 % intervals. The "
-        "floor is what sensors and the drives' own scatter make it. Closed: of what re-tuning leaves above the floor.");
-    const bool closed = std::any_of(d_.gap.begin(), d_.gap.end(),
-                                    [](const gap::ChannelShrink& c) { return c.closed_fraction.has_value(); });
+        "floor is what sensors and the drives' own scatter make it. Closed: of what re-tuning leaves above "
+        "the floor.");
+    const bool closed = std::any_of(d_.gap.begin(), d_.gap.end(), [](const gap::ChannelShrink& c) {
+      return c.closed_fraction.has_value();
+    });
     std::vector<std::string> heads{"channel", "unit", "nominal", "re-tuned", "with effects", "floor"};
     if (closed) heads.emplace_back("closed");
     page_.table(std::move(heads));
@@ -177,9 +180,10 @@ class Report {
       std::vector<std::string> conditions;
       for (const gap::Condition& c : regime.conditions)
         conditions.push_back(fmt::format("{} {:.3g} to {:.3g}", c.variable, c.from, c.to));
-      page_.row({fmt::format("{}", ++number), std::string(gap::name_of(regime.channel)), fmt::format("{}", fmt::join(conditions, " and ")),
-           fmt::format("{:.0f} %", 100.0 * regime.share_of_gap),
-           fmt::format("{:.0f} %", 100.0 * regime.share_of_data), p_words(regime.significance)});
+      page_.row({fmt::format("{}", ++number), std::string(gap::name_of(regime.channel)),
+                 fmt::format("{}", fmt::join(conditions, " and ")),
+                 fmt::format("{:.0f} %", 100.0 * regime.share_of_gap),
+                 fmt::format("{:.0f} %", 100.0 * regime.share_of_data), p_words(regime.significance)});
     }
   }
 
@@ -191,9 +195,9 @@ class Report {
     for (const gap::ChannelGap& c : d_.channels) {
       const double unit = gap::boundary_unit(c.channel);
       page_.row({std::string(gap::name_of(c.channel)), c.wheel.value_or("all"),
-           std::string(gap::unit_of(c.channel)), number_words("{:.3g}", unit * c.gap),
-           number_words("{:.3g}", unit * c.noise), number_words("{:+.3g}", unit * c.bias),
-           p_words(c.significance)});
+                 std::string(gap::unit_of(c.channel)), number_words("{:.3g}", unit * c.gap),
+                 number_words("{:.3g}", unit * c.noise), number_words("{:+.3g}", unit * c.bias),
+                 p_words(c.significance)});
     }
     picture("channels", "The gap over its scatter, by channel and wheel");
     if (d_.verdict == Verdict::kInsufficient) return;
@@ -207,14 +211,15 @@ class Report {
   }
 
   void write_map() {
-    picture("map", "The map of the gap: windows of drives held out of the fit, coloured by how far they are off");
+    picture("map",
+            "The map of the gap: windows of drives held out of the fit, coloured by how far they are off");
     if (d_.places.empty()) return;
     page_.paragraph("Places on the map where the gap sits:");
     page_.table({"terrain", "x, m", "y, m", "radius, m", "channel", "share of the gap"});
     for (const gap::GapPlace& p : d_.places)
       page_.row({p.terrain, fmt::format("{:.1f}", p.x_m), fmt::format("{:.1f}", p.y_m),
-           fmt::format("{:.1f}", p.radius_m), std::string(gap::name_of(p.channel)),
-           fmt::format("{:.0f} %", 100.0 * p.share_of_gap)});
+                 fmt::format("{:.1f}", p.radius_m), std::string(gap::name_of(p.channel)),
+                 fmt::format("{:.0f} %", 100.0 * p.share_of_gap)});
   }
 
   void write_unknown() {
@@ -229,7 +234,7 @@ class Report {
         for (const auto& [at, value] : shape.shape)
           points.push_back(fmt::format("{} at {:g}", number_words("{:.3g}", value.value), at));
         page_.row({shape.entry, shape.variable, fmt::format("{:.0f} %", 100.0 * shape.share),
-             fmt::format("{}", fmt::join(points, ", "))});
+                   fmt::format("{}", fmt::join(points, ", "))});
       }
     }
     if (d_.least_detectable.empty()) return;
@@ -245,7 +250,8 @@ class Report {
     page_.paragraph("Most are logarithms of a factor on the nominal value: 0.1 is 10 % more.");
     page_.table({"parameter", "value, 90 % interval", "believed before, std", "the drives tell"});
     for (const gap::RetunedParameter& p : d_.retuned)
-      page_.row({p.name, interval_words(p.value), fmt::format("{:.3g}", p.prior_std), p.determined ? "yes" : "no"});
+      page_.row(
+          {p.name, interval_words(p.value), fmt::format("{:.3g}", p.prior_std), p.determined ? "yes" : "no"});
     picture("parameters", "Re-tuned parameters in deviations of their priors");
   }
 
@@ -253,11 +259,11 @@ class Report {
     if (d_.next_drives.empty()) return;
     page_.section("Drives that would tell most");
     page_.table({"tilt, deg", "heading, deg", "speed, m/s", "curvature, 1/m", "motors, C",
-          "expected information, bits"});
+                 "expected information, bits"});
     for (const gap::NextDrive& n : d_.next_drives)
       page_.row({fmt::format("{:.0f}", n.tilt_deg), fmt::format("{:.0f}", n.heading_deg),
-           fmt::format("{:.3g}", n.speed_m_s), fmt::format("{:.2g}", n.curvature_1_m),
-           fmt::format("{:.0f}", n.motor_temp_c), number_words("{:.2f}", n.information_bits)});
+                 fmt::format("{:.3g}", n.speed_m_s), fmt::format("{:.2g}", n.curvature_1_m),
+                 fmt::format("{:.0f}", n.motor_temp_c), number_words("{:.2f}", n.information_bits)});
   }
 
   void write_model() {
@@ -272,9 +278,9 @@ class Report {
     page_.table({"soil", "k_c", "k_phi", "n", "cohesion, Pa", "friction angle, deg", "shear modulus, m"});
     const auto describe = [&](const ReportText& name, const sim::Soil& s) {
       page_.row({name, fmt::format("{:.4g}", s.pressure.k_c), fmt::format("{:.4g}", s.pressure.k_phi),
-           fmt::format("{:.3f}", s.pressure.n), fmt::format("{:.4g}", s.cohesion_pa),
-           fmt::format("{:.2f}", deg_from_rad(s.friction_angle_rad)),
-           fmt::format("{:.4f}", s.shear_modulus_x_m)});
+                 fmt::format("{:.3f}", s.pressure.n), fmt::format("{:.4g}", s.cohesion_pa),
+                 fmt::format("{:.2f}", deg_from_rad(s.friction_angle_rad)),
+                 fmt::format("{:.4f}", s.shear_modulus_x_m)});
     };
     for (std::size_t k = 0; k < model->soils.size(); ++k) {
       describe(campaign_.soils[k].name, campaign_.soils[k].soil);
@@ -291,7 +297,7 @@ class Report {
                     "modulus {:.2g}; {:.2g} of it again from window to window",
                     n.stiffness, n.friction, n.shear_modulus, n.within_drives));
     page_.item(fmt::format("Slipway {}, seed {}, campaign fingerprint {}", version(), d_.seed,
-                     d_.campaign_fingerprint));
+                           d_.campaign_fingerprint));
   }
 
   const gap::DriveCampaign& campaign_;

@@ -31,14 +31,14 @@ struct Level {
   const char* words;
 };
 // As those of slip on a map of routes: apart by lightness as well.
-constexpr std::array kLevels{
-    Level{1.25, "#1a9850", "as the noise (below 1.25)"}, Level{1.75, "#a6d96a", "1.25 to 1.75"},
-    Level{2.5, "#fdae61", "1.75 to 2.5"}, Level{4.0, "#d7191c", "2.5 to 4"},
-    Level{1e300, "#67001f", "above 4 deviations"}};
+constexpr std::array kLevels{Level{1.25, "#1a9850", "as the noise (below 1.25)"},
+                             Level{1.75, "#a6d96a", "1.25 to 1.75"}, Level{2.5, "#fdae61", "1.75 to 2.5"},
+                             Level{4.0, "#d7191c", "2.5 to 4"},
+                             Level{1e300, "#67001f", "above 4 deviations"}};
 
 struct Rung {
   const char* words;
-  double WindowGap::* value;
+  double WindowGap::*value;
 };
 constexpr std::array kRungs{Rung{"nominal", &WindowGap::nominal}, Rung{"re-tuned", &WindowGap::retuned},
                             Rung{"with effects", &WindowGap::with_effects}};
@@ -146,10 +146,11 @@ std::string legend(double top, bool places) {
         "<circle cx=\"{:.0f}\" cy=\"{:.0f}\" r=\"9\" fill=\"none\" stroke=\"black\" stroke-width=\"2\" "
         "stroke-dasharray=\"5 3\"/>\n",
         kLeft_px + 15.0, top + 26.0);
-  return out + fmt::format(
-                   "<text x=\"{:.0f}\" y=\"{:.0f}\">{}lines are windows of drives, the worst drawn last; root "
-                   "mean square over channels, in deviations of their noise</text>\n",
-                   left, top + 30.5, places ? "a place where the gap sits; " : "");
+  return out +
+         fmt::format(
+             "<text x=\"{:.0f}\" y=\"{:.0f}\">{}lines are windows of drives, the worst drawn last; root "
+             "mean square over channels, in deviations of their noise</text>\n",
+             left, top + 30.5, places ? "a place where the gap sits; " : "");
 }
 
 // Indices of the terrains to show, in the campaign's order: of many, those whose windows are furthest off.
@@ -214,9 +215,8 @@ std::string draw_gap_map(const gap::DriveCampaign& campaign, const gap::Diagnosi
           left, top + 16.0, xml_text(fmt::format("{}, {}", terrain.name, kRungs[k].words)), left,
           top + kRowTitle_px);
       out += ground + windows_in(windows[t], frame, kRungs[k]) + places + scale_bar(frame);
-      out += fmt::format(
-          "</g><rect width=\"{:.0f}\" height=\"{:.0f}\" fill=\"none\" stroke=\"#888\"/></g>\n", kMap_px,
-          kMapHeight_px);
+      out += fmt::format("</g><rect width=\"{:.0f}\" height=\"{:.0f}\" fill=\"none\" stroke=\"#888\"/></g>\n",
+                         kMap_px, kMapHeight_px);
     }
     top += row_px;
   }

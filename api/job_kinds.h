@@ -20,7 +20,8 @@ struct KeptAnswer {
 };
 KeptAnswer parts_of(std::string_view kept);
 
-// What a job runner does with the service's jobs: request bytes -> what is kept of the answer. The service must outlive it.
+// What a job runner does with the service's jobs: request bytes -> what is kept of the answer. The service
+// must outlive it.
 JobWork service_work(const Service& service);
 
 }  // namespace slipway::api

@@ -45,7 +45,9 @@ std::string markdown_text(const std::string& text) {
 std::string markdown_of(const ReportText& text) {
   std::string out;
   for (const ReportText::Span& span : text.spans) {
-    const std::string_view around = span.style == Style::kStrong ? "**" : span.style == Style::kCode ? "`" : "";
+    const std::string_view around = span.style == Style::kStrong ? "**"
+                                    : span.style == Style::kCode ? "`"
+                                                                 : "";
     out += fmt::format("{0}{1}{0}", around, markdown_text(span.text));
   }
   return out;
@@ -185,7 +187,8 @@ std::string ReportPage::html() const {
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\"/>\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>{}</title>\n"
-      "<style>{}</style>\n</head>\n<body>\n<main>\n<h1>{}</h1>\n<nav>\n{}</nav>\n{}</main>\n</body>\n</html>\n",
+      "<style>{}</style>\n</head>\n<body>\n<main>\n<h1>{}</h1>\n<nav>\n{}</nav>\n{}</main>\n</body>\n</"
+      "html>\n",
       kReportPolicy, title, kStyle, title, contents, body);
 }
 

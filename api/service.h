@@ -30,7 +30,8 @@ class Service {
   static Result<std::unique_ptr<Service>> open(ServiceOptions options);
 
   const Catalogue& catalogue() const { return catalogue_; }
-  // The drives that ship. A name among them is all that a request says of where drives are: it opens no other.
+  // The drives that ship. A name among them is all that a request says of where drives are: it opens no
+  // other.
   const std::vector<ShippedCampaign>& campaigns() const { return shipped_; }
 
   // Reads a request and checks all that can be checked without planning: syntax, values, names, whether every

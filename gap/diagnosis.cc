@@ -357,8 +357,8 @@ class Diagnoser {
       fits.push_back(&search_.fits[c.fit]);
       probabilities.push_back(std::max(c.probability, kWorthNaming));
     }
-    d_.next_drives = next_drives(campaign_, prepared_.noise->scales(), fits, probabilities, kMostNext,
-                                  progress_);
+    d_.next_drives =
+        next_drives(campaign_, prepared_.noise->scales(), fits, probabilities, kMostNext, progress_);
   }
 
   const DriveCampaign& campaign_;

@@ -58,7 +58,9 @@ struct Totals {
     scaled_count += e.scaled_count;
   }
   // Of root mean squares in deviations, the floor being 1.
-  std::optional<double> closed() const { return closed_of(scaled_retuned, scaled_with, scaled_count, scaled_count); }
+  std::optional<double> closed() const {
+    return closed_of(scaled_retuned, scaled_with, scaled_count, scaled_count);
+  }
   std::optional<double> closed(int c) const { return closed_of(retuned[c], with[c], floor[c], count[c]); }
 
  private:

@@ -40,8 +40,8 @@ class WindowModel {
   // for slip, which is 1 there. Same numbers for any number of threads.
   std::vector<double> predict(const ModelState& state, std::size_t threads = 1) const;
 
-  // Whose work this is, until the model ends: once it is cancelled, predictions stop and are NaN, and all that
-  // is made of this model asks cancelled() and ends early with numbers that nobody looks at.
+  // Whose work this is, until the model ends: once it is cancelled, predictions stop and are NaN, and all
+  // that is made of this model asks cancelled() and ends early with numbers that nobody looks at.
   void watch(const Progress& progress) { progress_ = &progress; }
   bool cancelled() const { return progress_ != nullptr && progress_->cancelled(); }
 

@@ -206,7 +206,8 @@ TEST_F(ADiagnosis, IsShownWithAllItsTextEscaped) {
   const std::string page = diagnosis_report(campaign(), d, draw_diagnosis(campaign(), d)).html();
   EXPECT_EQ(page.find("<script"), std::string::npos);
   EXPECT_EQ(page.find(" id=\"a"), std::string::npos);
-  EXPECT_NE(page.find("&lt;script&gt;alert(&quot;1&quot;)&lt;/script&gt; &amp; &#39;x&#39;"), std::string::npos);
+  EXPECT_NE(page.find("&lt;script&gt;alert(&quot;1&quot;)&lt;/script&gt; &amp; &#39;x&#39;"),
+            std::string::npos);
 }
 
 TEST_F(ADiagnosis, IsMappedWithItsWindowsOverTheGround) {

@@ -95,8 +95,9 @@ TEST_F(DiagnosisRoutes, AFinishedDiagnosisHasADocumentAndAPage) {
     EXPECT_EQ(page.content_type, "text/html; charset=utf-8");
     EXPECT_EQ(page.body, "<!DOCTYPE html>\n<p>seen</p>");
     EXPECT_TRUE(page.header("Content-Security-Policy").value_or("").starts_with("default-src 'none'"));
-    EXPECT_EQ(ask("GET", "/v1/" + kind + "/" + id + "/report", {{"If-None-Match", *page.header("ETag")}}).status,
-              304);
+    EXPECT_EQ(
+        ask("GET", "/v1/" + kind + "/" + id + "/report", {{"If-None-Match", *page.header("ETag")}}).status,
+        304);
   }
 }
 

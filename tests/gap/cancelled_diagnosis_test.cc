@@ -79,9 +79,9 @@ TEST(ACancelledDiagnosis, StopsWithinATenthOfASecondInEveryStage) {
   options.search.threads = 1;
   options.search.most_refitted = 3;
   options.search.most_paired = 1;
-  for (const char* stage : {"fitting soil and closures", "estimating the drives' own scatter",
-                            "looking for soft places", "screening effects", "fitting effects",
-                            "locating the gap", "predicting held-out drives"}) {
+  for (const char* stage :
+       {"fitting soil and closures", "estimating the drives' own scatter", "looking for soft places",
+        "screening effects", "fitting effects", "locating the gap", "predicting held-out drives"}) {
     for (const double after_s : {0.0, 0.15}) {
       Watch watch(stage, after_s);
       const auto diagnosis = diagnose(campaign, options, watch);
