@@ -74,7 +74,7 @@ class Watch final : public Progress {
 };
 
 TEST(ACancelledDiagnosis, StopsWithinATenthOfASecondInEveryStage) {
-  const DriveCampaign campaign = some_drives(1);
+  const DriveCampaign campaign = some_drives(3);
   DiagnosisOptions options;
   options.search.threads = 1;
   options.search.most_refitted = 3;
@@ -82,7 +82,7 @@ TEST(ACancelledDiagnosis, StopsWithinATenthOfASecondInEveryStage) {
   for (const char* stage :
        {"fitting soil and closures", "estimating the drives' own scatter", "looking for soft places",
         "screening effects", "fitting effects", "locating the gap", "predicting held-out drives"}) {
-    for (const double after_s : {0.0, 0.15}) {
+    for (const double after_s : {0.0, 0.12}) {
       Watch watch(stage, after_s);
       const auto diagnosis = diagnose(campaign, options, watch);
       const double stopped = processor_s();
