@@ -156,14 +156,23 @@ void draw_line(std::string& out, const ChartSeries& s, const AxisScale& x, const
       colour_of(s.colour), s.mark == ChartMark::kDashedLine ? " stroke-dasharray=\"6 4\"" : "");
 }
 
-// Whole signs, also of points on the frame; none of what lies beyond it.
+// Whole signs, also of points on the frame; none of what lies beyond it. Dots, of which there may be
+// thousands, are one path.
 void draw_points(std::string& out, const ChartSeries& s, const AxisScale& x, const AxisScale& y) {
   if (has_line(s.mark) && !has_points(s.mark)) return;
-  for (std::size_t i = 0; i < std::min(s.x.size(), s.y.size()); ++i)
-    if (x.contains(s.x[i]) && y.contains(s.y[i]))
-      out += (s.mark == ChartMark::kDots ? dot(s.colour, x.px(s.x[i]), y.px(s.y[i]))
-                                         : sign(s.colour, x.px(s.x[i]), y.px(s.y[i]))) +
-             "\n";
+  std::string dots;
+  for (std::size_t i = 0; i < std::min(s.x.size(), s.y.size()); ++i) {
+    if (!x.contains(s.x[i]) || !y.contains(s.y[i])) continue;
+    if (s.mark == ChartMark::kDots)
+      dots += fmt::format("M{:.1f} {:.1f}h0", x.px(s.x[i]), y.px(s.y[i]));
+    else
+      out += sign(s.colour, x.px(s.x[i]), y.px(s.y[i])) + "\n";
+  }
+  if (!dots.empty())
+    out += fmt::format(
+        "<path d=\"{}\" stroke=\"{}\" stroke-width=\"4\" stroke-linecap=\"round\" "
+        "stroke-opacity=\"0.6\"/>\n",
+        dots, colour_of(s.colour));
 }
 
 // Over the cells of a heat map, whose frame the lines do not leave.

@@ -7,9 +7,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
+#include "api/gap_map.h"
 #include "api/json/diagnosis_document.h"
 
 namespace slipway::api {
@@ -21,9 +21,7 @@ using gap::Interval;
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 constexpr double kHalfBar = 0.3;  // of the width between two categories
-constexpr std::size_t kMostExplanations = 5, kMostPlaces = 6;
-// An axis's share of the panel that draw_charts() makes: for maps of one scale both ways.
-constexpr double kPanelWidth_px = 336.0, kPanelHeight_px = 270.0;
+constexpr std::size_t kMostExplanations = 5;
 
 std::string words_of(Channel channel) {
   std::string words(gap::name_of(channel));
@@ -197,63 +195,32 @@ std::string draw_parameters(const Diagnosis& d) {
   return draw_charts(fmt::format("{}: parameters re-tuned", d.campaign), std::span(&chart, 1));
 }
 
-// The same scale both ways.
-void fit_map(Chart& chart) {
-  double west = 1e300, east = -1e300, south = 1e300, north = -1e300;
-  for (const ChartSeries& s : chart.series)
-    for (std::size_t i = 0; i < s.x.size(); ++i) {
-      if (!std::isfinite(s.x[i]) || !std::isfinite(s.y[i])) continue;
-      west = std::min(west, s.x[i]);
-      east = std::max(east, s.x[i]);
-      south = std::min(south, s.y[i]);
-      north = std::max(north, s.y[i]);
-    }
-  constexpr double kMargin = 1.08;
-  const double scale =
-      kMargin * std::max({(east - west) / kPanelWidth_px, (north - south) / kPanelHeight_px, 1e-6});
-  chart.x.lowest = 0.5 * (west + east - scale * kPanelWidth_px);
-  chart.x.highest = 0.5 * (west + east + scale * kPanelWidth_px);
-  chart.y.lowest = 0.5 * (south + north - scale * kPanelHeight_px);
-  chart.y.highest = 0.5 * (south + north + scale * kPanelHeight_px);
-}
-
-std::string draw_places(const gap::DriveCampaign& campaign, const Diagnosis& d) {
+// Slices numbered as in the report's tables, one panel a stage.
+std::string draw_regimes(const Diagnosis& d) {
   std::vector<Chart> charts;
-  for (std::size_t t = 0; t < campaign.terrains.size() && charts.size() < kMostPlaces; ++t) {
-    const std::string& terrain = campaign.terrains[t].name;
-    ChartSeries discs = series_of("the gap sits here", ChartMark::kLine, 1);
-    for (const gap::GapPlace& place : d.places) {
-      if (place.terrain != terrain) continue;
-      constexpr int kCorners = 48;
-      for (int k = 0; k <= kCorners; ++k) {
-        const double angle = 2.0 * std::numbers::pi * k / kCorners;
-        discs.x.push_back(place.x_m + place.radius_m * std::cos(angle));
-        discs.y.push_back(place.y_m + place.radius_m * std::sin(angle));
-      }
-      discs.x.push_back(kNothing);
-      discs.y.push_back(kNothing);
-    }
-    if (discs.x.empty()) continue;
-    ChartSeries tracks = series_of("drives", ChartMark::kLine, 0);
-    for (const gap::MeasuredDriveSeries& drive : campaign.drives) {
-      if (drive.terrain != t) continue;
-      for (const gap::DriveSample& sample : drive.samples) {
-        if (!std::isfinite(sample.p_MB.x())) continue;
-        tracks.x.push_back(sample.p_MB.x());
-        tracks.y.push_back(sample.p_MB.y());
-      }
-      tracks.x.push_back(kNothing);
-      tracks.y.push_back(kNothing);
-    }
+  for (const auto& [title, regimes] : {std::pair{"before re-tuning", &d.regimes},
+                                       {"after re-tuning", &d.regimes_retuned},
+                                       {"what the effects do", &d.regimes_of_effect}}) {
+    if (regimes->empty()) continue;
     Chart& chart = charts.emplace_back();
-    chart.title = terrain;
-    chart.x.title = "east, m";
-    chart.y.title = "north, m";
-    chart.series = {std::move(tracks), std::move(discs)};
-    fit_map(chart);
+    chart.title = title;
+    chart.x.title = "slice";
+    chart.y.title = "share, %";
+    chart.y.lowest = 0.0;
+    chart.y.highest = 100.0;
+    ChartSeries of_gap = series_of("of the gap", ChartMark::kLine, 1),
+                of_data = series_of("of the data", ChartMark::kLine, 0);
+    for (const gap::Regime& regime : *regimes) {
+      const auto at = static_cast<double>(chart.x.categories.size());
+      chart.x.categories.push_back(fmt::format("{}: {}", at + 1.0, words_of(regime.channel)));
+      add_bar(chart, "", at, 0.0, 100.0 * regime.share_of_gap, 1);
+      add_level(of_gap, at, 100.0 * regime.share_of_gap);
+      add_level(of_data, at, 100.0 * regime.share_of_data);
+    }
+    chart.series = {std::move(of_gap), std::move(of_data)};
   }
   if (charts.empty()) return {};
-  return draw_charts(fmt::format("{}: where on the map", d.campaign), charts);
+  return draw_charts(fmt::format("{}: slices that hold more than their share", d.campaign), charts);
 }
 
 }  // namespace
@@ -264,7 +231,8 @@ std::vector<NamedChart> draw_diagnosis(const gap::DriveCampaign& campaign, const
                                  {"ladder", draw_ladder(d)},
                                  {"windows", draw_windows(d)},
                                  {"parameters", draw_parameters(d)},
-                                 {"places", draw_places(campaign, d)}};
+                                 {"regimes", draw_regimes(d)},
+                                 {"map", draw_gap_map(campaign, d)}};
   std::erase_if(charts, [](const NamedChart& chart) { return chart.svg.empty(); });
   return charts;
 }

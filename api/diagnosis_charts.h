@@ -15,7 +15,8 @@ namespace slipway::api {
 //   ladder        by channel: nominal, re-tuned, with the effects, floor, with 90 % intervals
 //   windows       by channel: what was predicted over what was measured, of drives held out of the fit
 //   parameters    what was re-tuned, over its prior's deviation
-//   places        the drives on their terrains, and discs where the gap sits
+//   regimes       slices of the drives that hold more of the gap than of the data
+//   map           windows of held-out drives on their terrains, coloured by how far they are off, and places
 std::vector<NamedChart> draw_diagnosis(const gap::DriveCampaign& campaign, const gap::Diagnosis& diagnosis);
 
 }  // namespace slipway::api

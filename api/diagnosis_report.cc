@@ -19,6 +19,8 @@ namespace {
 using gap::Diagnosis;
 using gap::Interval;
 using gap::Verdict;
+using Spans = std::vector<ReportText::Span>;
+using Style = ReportText::Style;
 
 constexpr std::size_t kMostCandidates = 10;
 
@@ -41,16 +43,6 @@ std::string_view meaning(Verdict verdict) {
       return "There are too few drives or channels to say anything.";
   }
   return "";
-}
-
-// In one line, and without a table's own sign.
-std::string cell(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '|') out += '\\';
-    out += c == '\n' ? ' ' : c;
-  }
-  return out;
 }
 
 std::string interval_words(const Interval& x, double unit = 1.0) {
@@ -82,10 +74,9 @@ std::string set_words(const std::vector<std::string>& names) {
 class Report {
  public:
   Report(const gap::DriveCampaign& campaign, const Diagnosis& d, const std::vector<NamedChart>& charts)
-      : campaign_(campaign), d_(d), charts_(charts) {}
+      : campaign_(campaign), d_(d), charts_(charts), page_(fmt::format("Diagnosis of {}", d.campaign)) {}
 
-  std::string write() {
-    line(fmt::format("# Diagnosis of {}\n", cell(d_.campaign)));
+  ReportPage write() {
     write_verdict();
     write_explanations();
     write_ladder();
@@ -95,115 +86,118 @@ class Report {
     write_next();
     write_model();
     write_notes();
-    return std::move(out_);
+    return std::move(page_);
   }
 
  private:
-  void line(const std::string& text) { out_ += text + "\n"; }
-  void head(const std::vector<std::string>& names) {
-    line(fmt::format("| {} |", fmt::join(names, " | ")));
-    std::string rule = "|";
-    for (std::size_t k = 0; k < names.size(); ++k) rule += "---|";
-    line(rule);
-  }
-  void row(const std::vector<std::string>& cells) {
-    std::vector<std::string> safe;
-    for (const std::string& text : cells) safe.push_back(cell(text));
-    line(fmt::format("| {} |", fmt::join(safe, " | ")));
-  }
   void picture(std::string_view name, std::string_view words) {
-    if (std::any_of(charts_.begin(), charts_.end(), [&](const NamedChart& c) { return c.name == name; }))
-      line(fmt::format("\n![{}]({}.svg)\n", words, name));
+    const auto chart =
+        std::find_if(charts_.begin(), charts_.end(), [&](const NamedChart& c) { return c.name == name; });
+    if (chart != charts_.end()) page_.picture(*chart, std::string(words));
   }
 
   void write_verdict() {
-    line(fmt::format("**{}**: {}\n", gap::name_of(d_.verdict), meaning(d_.verdict)));
-    line(fmt::format("{}.", cell(d_.reason)));
-    if (!d_.overturned_by.empty()) line(fmt::format("What would overturn it: {}.", cell(d_.overturned_by)));
+    page_.paragraph(Spans{{std::string(gap::name_of(d_.verdict)), Style::kStrong},
+                          {fmt::format(": {}", meaning(d_.verdict))}});
+    page_.paragraph(fmt::format("{}.", d_.reason));
+    if (!d_.overturned_by.empty())
+      page_.paragraph(fmt::format("What would overturn it: {}.", d_.overturned_by));
     if (!d_.effects.empty()) {
-      line("");
-      head({"effect", "how", "probability", "parameters, with 90 % intervals"});
+      page_.table({"effect", "how", "probability", "parameters, with 90 % intervals"});
       for (const gap::FoundEffect& found : d_.effects) {
         std::vector<std::string> parameters;
         for (const gap::FoundParameter& p : found.parameters)
           parameters.push_back(fmt::format("{} = {}", p.name, interval_words(p.value)));
-        row({found.name, found.variant, probability_words(found.probability),
-             fmt::format("{}", fmt::join(parameters, ", "))});
+        page_.row({found.name, found.variant, probability_words(found.probability),
+                   fmt::format("{}", fmt::join(parameters, ", "))});
       }
     }
-    line(fmt::format("\n{} drives, {} windows, {} observations, {} effects in the library.", d_.drives,
-                     d_.windows, d_.observations, d_.library.size()));
+    page_.paragraph(fmt::format("{} drives, {} windows, {} observations, {} effects in the library.",
+                                d_.drives, d_.windows, d_.observations, d_.library.size()));
   }
 
   void write_explanations() {
     if (d_.candidates.empty()) return;
-    line("\n## Explanations compared\n");
-    head({"explanation", "probability", "estimated parameters", "held-out score"});
+    page_.section("Explanations compared");
+    page_.table({"explanation", "probability", "estimated parameters", "held-out score"});
     std::size_t shown = 0;
     for (const gap::ComparedSet& set : json::compared_sets(d_)) {
       const bool ends = set.effects.empty() || set.effects == std::vector<std::string>{"unknown"};
       if (++shown > kMostCandidates && !ends) continue;
-      row({set_words(set.effects), probability_words(set.probability), fmt::format("{}", set.complexity),
-           set.held_out_score ? number_words("{:+.2f}", *set.held_out_score) : ""});
+      page_.row({set_words(set.effects), probability_words(set.probability),
+                 fmt::format("{}", set.complexity),
+                 set.held_out_score ? number_words("{:+.2f}", *set.held_out_score) : ""});
     }
-    line(
-        "\nThe score is the gain of log density a drive over re-tuned parameters alone, on drives that the "
-        "fit "
+    page_.paragraph(
+        "The score is the gain of log density a drive over re-tuned parameters alone, on drives that the fit "
         "had not seen.");
     picture("explanations", "Probability of each explanation");
     if (d_.confusable.empty()) return;
-    line("Pairs that these drives hardly tell apart:\n");
-    head({"one", "other", "angle between their signatures, deg"});
+    page_.paragraph("Pairs that these drives hardly tell apart:");
+    page_.table({"one", "other", "angle between their signatures, deg"});
     for (const gap::ConfusablePair& pair : d_.confusable)
-      row({pair.a, pair.b, fmt::format("{:.0f}", pair.angle_deg)});
+      page_.row({pair.a, pair.b, fmt::format("{:.0f}", pair.angle_deg)});
   }
 
   void write_ladder() {
     if (d_.gap.empty()) return;
-    line("\n## How far the gap closes\n");
-    line(
+    page_.section("How far the gap closes");
+    page_.paragraph(
         "Root mean square of prediction less measurement on drives held out of the fit, 90 % intervals. The "
-        "floor is what sensors and the drives' own scatter make it.\n");
-    head({"channel", "unit", "nominal", "re-tuned", "with effects", "floor"});
+        "floor is what sensors and the drives' own scatter make it. Closed: of what re-tuning leaves above "
+        "the floor.");
+    const bool closed = std::any_of(d_.gap.begin(), d_.gap.end(), [](const gap::ChannelShrink& c) {
+      return c.closed_fraction.has_value();
+    });
+    std::vector<std::string> heads{"channel", "unit", "nominal", "re-tuned", "with effects", "floor"};
+    if (closed) heads.emplace_back("closed");
+    page_.table(std::move(heads));
     for (const gap::ChannelShrink& c : d_.gap) {
       const double unit = gap::boundary_unit(c.channel);
-      row({std::string(gap::name_of(c.channel)), std::string(gap::unit_of(c.channel)),
-           interval_words(c.nominal, unit), interval_words(c.retuned, unit),
-           interval_words(c.with_effects, unit), interval_words(c.noise_floor, unit)});
+      std::vector<ReportText> cells{gap::name_of(c.channel),
+                                    gap::unit_of(c.channel),
+                                    interval_words(c.nominal, unit),
+                                    interval_words(c.retuned, unit),
+                                    interval_words(c.with_effects, unit),
+                                    interval_words(c.noise_floor, unit)};
+      if (closed) cells.emplace_back(c.closed_fraction ? interval_words(*c.closed_fraction) : "");
+      page_.row(std::move(cells));
     }
     if (d_.closed_fraction)
-      line(
-          fmt::format("\nOf the gap that re-tuning leaves, closed: **{}**, all channels in their deviations.",
-                      interval_words(*d_.closed_fraction)));
+      page_.paragraph(Spans{{"Of the gap that re-tuning leaves, closed: "},
+                            {interval_words(*d_.closed_fraction), Style::kStrong},
+                            {", all channels in their deviations."}});
     picture("ladder", "Nominal, re-tuned, with the effects, floor, by channel");
     picture("windows", "Predicted over measured, by channel");
   }
 
   void write_regimes(std::string_view title, const std::vector<gap::Regime>& regimes) {
-    line(fmt::format("\n{}\n", title));
-    if (regimes.empty()) return line("No slice holds more than its share.");
-    head({"channel", "where", "share of the gap", "share of the data", "p"});
+    page_.paragraph(title);
+    if (regimes.empty()) return page_.paragraph("No slice holds more than its share.");
+    page_.table({"slice", "channel", "where", "share of the gap", "share of the data", "p"});
+    std::size_t number = 0;
     for (const gap::Regime& regime : regimes) {
       std::vector<std::string> conditions;
       for (const gap::Condition& c : regime.conditions)
         conditions.push_back(fmt::format("{} {:.3g} to {:.3g}", c.variable, c.from, c.to));
-      row({std::string(gap::name_of(regime.channel)), fmt::format("{}", fmt::join(conditions, " and ")),
-           fmt::format("{:.0f} %", 100.0 * regime.share_of_gap),
-           fmt::format("{:.0f} %", 100.0 * regime.share_of_data), p_words(regime.significance)});
+      page_.row({fmt::format("{}", ++number), std::string(gap::name_of(regime.channel)),
+                 fmt::format("{}", fmt::join(conditions, " and ")),
+                 fmt::format("{:.0f} %", 100.0 * regime.share_of_gap),
+                 fmt::format("{:.0f} %", 100.0 * regime.share_of_data), p_words(regime.significance)});
     }
   }
 
   void write_where() {
-    line("\n## Where\n");
-    line(
-        "Before any re-tuning, measured less predicted; p corrected for the number of channels looked at.\n");
-    head({"channel", "wheel", "unit", "gap, rms", "scatter", "mean", "p"});
+    page_.section("Where");
+    page_.paragraph(
+        "Before any re-tuning, measured less predicted; p corrected for the number of channels looked at.");
+    page_.table({"channel", "wheel", "unit", "gap, rms", "scatter", "mean", "p"});
     for (const gap::ChannelGap& c : d_.channels) {
       const double unit = gap::boundary_unit(c.channel);
-      row({std::string(gap::name_of(c.channel)), c.wheel.value_or("all"),
-           std::string(gap::unit_of(c.channel)), number_words("{:.3g}", unit * c.gap),
-           number_words("{:.3g}", unit * c.noise), number_words("{:+.3g}", unit * c.bias),
-           p_words(c.significance)});
+      page_.row({std::string(gap::name_of(c.channel)), c.wheel.value_or("all"),
+                 std::string(gap::unit_of(c.channel)), number_words("{:.3g}", unit * c.gap),
+                 number_words("{:.3g}", unit * c.noise), number_words("{:+.3g}", unit * c.bias),
+                 p_words(c.significance)});
     }
     picture("channels", "The gap over its scatter, by channel and wheel");
     if (d_.verdict == Verdict::kInsufficient) return;
@@ -212,100 +206,110 @@ class Report {
     if (!d_.effects.empty() && d_.verdict != Verdict::kUnknown)
       write_regimes("What the effects themselves do (only this tells where the cause is), in",
                     d_.regimes_of_effect);
+    picture("regimes", "Slices of the drives: what they hold of the gap beside what they hold of the data");
+    write_map();
+  }
+
+  void write_map() {
+    picture("map",
+            "The map of the gap: windows of drives held out of the fit, coloured by how far they are off");
     if (d_.places.empty()) return;
-    line("\nOn the map:\n");
-    head({"terrain", "x, m", "y, m", "radius, m", "channel", "share of the gap"});
+    page_.paragraph("Places on the map where the gap sits:");
+    page_.table({"terrain", "x, m", "y, m", "radius, m", "channel", "share of the gap"});
     for (const gap::GapPlace& p : d_.places)
-      row({p.terrain, fmt::format("{:.1f}", p.x_m), fmt::format("{:.1f}", p.y_m),
-           fmt::format("{:.1f}", p.radius_m), std::string(gap::name_of(p.channel)),
-           fmt::format("{:.0f} %", 100.0 * p.share_of_gap)});
-    picture("places", "Drives and places of the gap");
+      page_.row({p.terrain, fmt::format("{:.1f}", p.x_m), fmt::format("{:.1f}", p.y_m),
+                 fmt::format("{:.1f}", p.radius_m), std::string(gap::name_of(p.channel)),
+                 fmt::format("{:.0f} %", 100.0 * p.share_of_gap)});
   }
 
   void write_unknown() {
     if (!d_.residual.empty()) {
-      line("\n## What nobody has named\n");
-      line(
+      page_.section("What nobody has named");
+      page_.paragraph(
           "Where what remains enters, on what it depends, and how it changes from the lowest (-1) to the "
-          "highest (1) value of the variable that was driven. It is described, not to be extrapolated.\n");
-      head({"enters at", "depends on", "share", "shape"});
+          "highest (1) value of the variable that was driven. It is described, not to be extrapolated.");
+      page_.table({"enters at", "depends on", "share", "shape"});
       for (const gap::ResidualShape& shape : d_.residual) {
         std::vector<std::string> points;
         for (const auto& [at, value] : shape.shape)
           points.push_back(fmt::format("{} at {:g}", number_words("{:.3g}", value.value), at));
-        row({shape.entry, shape.variable, fmt::format("{:.0f} %", 100.0 * shape.share),
-             fmt::format("{}", fmt::join(points, ", "))});
+        page_.row({shape.entry, shape.variable, fmt::format("{:.0f} %", 100.0 * shape.share),
+                   fmt::format("{}", fmt::join(points, ", "))});
       }
     }
     if (d_.least_detectable.empty()) return;
-    line("\n## Smallest effects that would have been seen\n");
-    head({"effect", "parameter", "at least"});
+    page_.section("Smallest effects that would have been seen");
+    page_.table({"effect", "parameter", "at least"});
     for (const gap::LeastDetectable& l : d_.least_detectable)
-      row({l.effect, l.parameter, number_words("{:.3g}", l.value)});
+      page_.row({l.effect, l.parameter, number_words("{:.3g}", l.value)});
   }
 
   void write_parameters() {
     if (d_.retuned.empty()) return;
-    line("\n## Parameters re-tuned\n");
-    line("Most are logarithms of a factor on the nominal value: 0.1 is 10 % more.\n");
-    head({"parameter", "value, 90 % interval", "believed before, std", "the drives tell"});
+    page_.section("Parameters re-tuned");
+    page_.paragraph("Most are logarithms of a factor on the nominal value: 0.1 is 10 % more.");
+    page_.table({"parameter", "value, 90 % interval", "believed before, std", "the drives tell"});
     for (const gap::RetunedParameter& p : d_.retuned)
-      row({p.name, interval_words(p.value), fmt::format("{:.3g}", p.prior_std), p.determined ? "yes" : "no"});
+      page_.row(
+          {p.name, interval_words(p.value), fmt::format("{:.3g}", p.prior_std), p.determined ? "yes" : "no"});
     picture("parameters", "Re-tuned parameters in deviations of their priors");
   }
 
   void write_next() {
     if (d_.next_drives.empty()) return;
-    line("\n## Drives that would tell most\n");
-    head({"tilt, deg", "heading, deg", "speed, m/s", "curvature, 1/m", "motors, C",
-          "expected information, bits"});
+    page_.section("Drives that would tell most");
+    page_.table({"tilt, deg", "heading, deg", "speed, m/s", "curvature, 1/m", "motors, C",
+                 "expected information, bits"});
     for (const gap::NextDrive& n : d_.next_drives)
-      row({fmt::format("{:.0f}", n.tilt_deg), fmt::format("{:.0f}", n.heading_deg),
-           fmt::format("{:.3g}", n.speed_m_s), fmt::format("{:.2g}", n.curvature_1_m),
-           fmt::format("{:.0f}", n.motor_temp_c), number_words("{:.2f}", n.information_bits)});
+      page_.row({fmt::format("{:.0f}", n.tilt_deg), fmt::format("{:.0f}", n.heading_deg),
+                 fmt::format("{:.3g}", n.speed_m_s), fmt::format("{:.2g}", n.curvature_1_m),
+                 fmt::format("{:.0f}", n.motor_temp_c), number_words("{:.2f}", n.information_bits)});
   }
 
   void write_model() {
-    line("\n## The corrected model\n");
+    page_.section("The corrected model");
     const auto model = corrected_model(campaign_, d_);
-    if (!model) return line("None is offered: nothing that was found improves on what there was.");
-    line(fmt::format("Rover `{}`{}; `slipway diagnose --model` writes its files.\n", model->rover.name,
-                     model->rover.effects.empty() ? "" : " with the effects above at work"));
-    head({"soil", "k_c", "k_phi", "n", "cohesion, Pa", "friction angle, deg", "shear modulus, m"});
-    const auto describe = [&](const std::string& name, const sim::Soil& s) {
-      row({name, fmt::format("{:.4g}", s.pressure.k_c), fmt::format("{:.4g}", s.pressure.k_phi),
-           fmt::format("{:.3f}", s.pressure.n), fmt::format("{:.4g}", s.cohesion_pa),
-           fmt::format("{:.2f}", deg_from_rad(s.friction_angle_rad)),
-           fmt::format("{:.4f}", s.shear_modulus_x_m)});
+    if (!model) return page_.paragraph("None is offered: nothing that was found improves on what there was.");
+    page_.paragraph(Spans{{"Rover "},
+                          {model->rover.name, Style::kCode},
+                          {model->rover.effects.empty() ? "; " : " with the effects above at work; "},
+                          {"slipway diagnose --model", Style::kCode},
+                          {" writes its files."}});
+    page_.table({"soil", "k_c", "k_phi", "n", "cohesion, Pa", "friction angle, deg", "shear modulus, m"});
+    const auto describe = [&](const ReportText& name, const sim::Soil& s) {
+      page_.row({name, fmt::format("{:.4g}", s.pressure.k_c), fmt::format("{:.4g}", s.pressure.k_phi),
+                 fmt::format("{:.3f}", s.pressure.n), fmt::format("{:.4g}", s.cohesion_pa),
+                 fmt::format("{:.2f}", deg_from_rad(s.friction_angle_rad)),
+                 fmt::format("{:.4f}", s.shear_modulus_x_m)});
     };
     for (std::size_t k = 0; k < model->soils.size(); ++k) {
       describe(campaign_.soils[k].name, campaign_.soils[k].soil);
-      describe(fmt::format("`{}`", model->soils[k].name), model->soils[k].mean);
+      describe(Spans{{model->soils[k].name, Style::kCode}}, model->soils[k].mean);
     }
   }
 
   void write_notes() {
-    line("\n## Notes\n");
-    for (const std::string& note : d_.notes) line(fmt::format("- {}", cell(note)));
+    page_.section("Notes");
+    for (const std::string& note : d_.notes) page_.item(note);
     const gap::NoiseScales& n = d_.noise;
-    line(
-        fmt::format("- scatter from drive to drive, of logarithms: stiffness {:.2g}, friction {:.2g}, shear "
+    page_.item(
+        fmt::format("scatter from drive to drive, of logarithms: stiffness {:.2g}, friction {:.2g}, shear "
                     "modulus {:.2g}; {:.2g} of it again from window to window",
                     n.stiffness, n.friction, n.shear_modulus, n.within_drives));
-    line(fmt::format("- Slipway {}, seed {}, campaign fingerprint {}", version(), d_.seed,
-                     d_.campaign_fingerprint));
+    page_.item(fmt::format("Slipway {}, seed {}, campaign fingerprint {}", version(), d_.seed,
+                           d_.campaign_fingerprint));
   }
 
   const gap::DriveCampaign& campaign_;
   const Diagnosis& d_;
   const std::vector<NamedChart>& charts_;
-  std::string out_;
+  ReportPage page_;
 };
 
 }  // namespace
 
-std::string diagnosis_report(const gap::DriveCampaign& campaign, const Diagnosis& diagnosis,
-                             const std::vector<NamedChart>& charts) {
+ReportPage diagnosis_report(const gap::DriveCampaign& campaign, const Diagnosis& diagnosis,
+                            const std::vector<NamedChart>& charts) {
   return Report(campaign, diagnosis, charts).write();
 }
 

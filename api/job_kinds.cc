@@ -2,12 +2,26 @@
 
 #include <fmt/format.h>
 
+#include "api/diagnosis_charts.h"
+#include "api/diagnosis_report.h"
 #include "api/json/diagnosis_document.h"
 #include "api/json/plan_answer.h"
 #include "api/json/prediction_answer.h"
 #include "api/json/soil_estimate_document.h"
 
 namespace slipway::api {
+namespace {
+
+// No document has a line's end in it: within strings it is escaped.
+constexpr char kBetweenParts = '\n';
+
+}  // namespace
+
+KeptAnswer parts_of(std::string_view kept) {
+  const std::size_t end = kept.find(kBetweenParts);
+  if (end == std::string_view::npos) return {kept, {}};
+  return {kept.substr(0, end), kept.substr(end + 1)};
+}
 
 JobWork service_work(const Service& service) {
   return [&service](const std::string& kind, const std::string& request,
@@ -32,7 +46,9 @@ JobWork service_work(const Service& service) {
       if (!diagnosis_request) return fail(diagnosis_request.error());
       const auto answer = service.diagnose(*diagnosis_request, progress);
       if (!answer) return fail(answer.error());
-      return json::diagnosis_document(answer->campaign, answer->diagnosis);
+      const gap::Diagnosis& d = answer->diagnosis;
+      const ReportPage report = diagnosis_report(answer->campaign, d, draw_diagnosis(answer->campaign, d));
+      return json::diagnosis_document(answer->campaign, d) + kBetweenParts + report.html();
     }
     if (kind == kSoilEstimateKind) {
       const auto estimate_request = service.read_soil_estimate(request);

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <system_error>
 #include <utility>
 
 #include "api/drive_campaign_source.h"
@@ -48,19 +46,6 @@ sim::SoilDistribution believed(const Catalogue& catalogue, const RegionalSoil& s
   return belief;
 }
 
-// The drives that ship. A name among them is all that a request says of where drives are: it opens no other.
-constexpr std::string_view kCampaigns = "gap-practice";
-
-std::vector<std::string> shipped_campaigns(const std::filesystem::path& data) {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(data / kCampaigns, error))
-    if (std::filesystem::is_regular_file(entry.path() / "campaign.json", error))
-      names.push_back(entry.path().filename().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 }  // namespace
 
 std::string_view version() {
@@ -72,7 +57,8 @@ Result<std::unique_ptr<Service>> Service::open(ServiceOptions options) {
   if (!catalogue) return fail(catalogue.error());
   std::unique_ptr<Service> service(new Service(std::move(options)));
   service->catalogue_ = std::move(*catalogue);
-  service->campaigns_ = shipped_campaigns(service->options_.data);
+  service->shipped_ = shipped_campaigns(service->options_.data, service->catalogue_);
+  for (const ShippedCampaign& campaign : service->shipped_) service->campaigns_.push_back(campaign.name);
   return service;
 }
 
@@ -227,7 +213,7 @@ Result<DiagnosisAnswer> Service::diagnose(const DiagnosisRequest& request, Progr
   if (std::find(campaigns_.begin(), campaigns_.end(), request.campaign) == campaigns_.end())
     return fail(ErrorCode::kInvalidRequest, unknown_name("campaign", request.campaign, campaigns_),
                 {{"/campaign", unknown_name("campaign", request.campaign, campaigns_)}});
-  auto campaign = load_drive_campaign(options_.data / kCampaigns / request.campaign, catalogue_);
+  auto campaign = load_drive_campaign(options_.data / kShippedCampaigns / request.campaign, catalogue_);
   if (!campaign) return fail(campaign.error());
   gap::DiagnosisOptions options;
   options.search.withheld = request.without;
@@ -245,7 +231,7 @@ Result<SoilEstimateAnswer> Service::estimate_soil(const SoilEstimateRequest& req
     return fail(ErrorCode::kInvalidRequest, unknown_name("campaign", request.campaign, campaigns_),
                 {{"/campaign", unknown_name("campaign", request.campaign, campaigns_)}});
   progress.report("reading the drives", 0.0);
-  const auto campaign = load_drive_campaign(options_.data / kCampaigns / request.campaign, catalogue_);
+  const auto campaign = load_drive_campaign(options_.data / kShippedCampaigns / request.campaign, catalogue_);
   if (!campaign) return fail(campaign.error());
   return api::estimate_soil(*campaign, request, options_.threads, progress);
 }

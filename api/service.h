@@ -8,6 +8,7 @@
 
 #include "api/answers.h"
 #include "api/catalogue.h"
+#include "api/shipped_campaigns.h"
 #include "api/soil_estimate.h"
 #include "core/progress.h"
 #include "core/result.h"
@@ -29,6 +30,9 @@ class Service {
   static Result<std::unique_ptr<Service>> open(ServiceOptions options);
 
   const Catalogue& catalogue() const { return catalogue_; }
+  // The drives that ship. A name among them is all that a request says of where drives are: it opens no
+  // other.
+  const std::vector<ShippedCampaign>& campaigns() const { return shipped_; }
 
   // Reads a request and checks all that can be checked without planning: syntax, values, names, whether every
   // place lies on the terrain and has elevation. All faults together. off_map or no_data when all of them are
@@ -60,7 +64,8 @@ class Service {
 
   ServiceOptions options_;
   Catalogue catalogue_;
-  std::vector<std::string> campaigns_;  // that ship: folders of data/gap-practice, sorted
+  std::vector<ShippedCampaign> shipped_;
+  std::vector<std::string> campaigns_;  // their names
 };
 
 }  // namespace slipway::api

@@ -140,6 +140,7 @@ class Diagnoser {
     auto shrunk = shrink();
     if (!shrunk) return fail(shrunk.error());
     propose_drives();
+    if (progress_.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
     progress_.report("done", 1.0);
     return std::move(d_);
   }
@@ -350,7 +351,10 @@ class Diagnoser {
     if (!shrunk) return fail(shrunk.error());
     d_.gap = std::move(shrunk->channels);
     d_.held_out = std::move(shrunk->points);
+    d_.window_gaps = std::move(shrunk->windows);
     if (explains()) d_.closed_fraction = shrunk->closed_fraction;
+    for (ChannelShrink& channel : d_.gap)
+      if (!explains()) channel.closed_fraction.reset();
     d_.candidates.front().held_out_score = shrunk->log_density_gain;
     const bool offered = explains() ? shrunk->log_density_gain > 0.0 : d_.verdict == Verdict::kParameters;
     if (offered) {
@@ -371,7 +375,8 @@ class Diagnoser {
       fits.push_back(&search_.fits[c.fit]);
       probabilities.push_back(std::max(c.probability, kWorthNaming));
     }
-    d_.next_drives = next_drives(campaign_, prepared_.noise->scales(), fits, probabilities, kMostNext);
+    d_.next_drives =
+        next_drives(campaign_, prepared_.noise->scales(), fits, probabilities, kMostNext, progress_);
   }
 
   const DriveCampaign& campaign_;

@@ -79,6 +79,17 @@ struct GapPlace {
 struct ChannelShrink {
   Channel channel = Channel::kSlip;
   Interval nominal, retuned, with_effects, noise_floor;
+  // (retuned - with_effects) / (retuned - noise_floor), within 0 and 1; nothing where re-tuning left no gap.
+  std::optional<Interval> closed_fraction = {};
+};
+
+// Where a window of drives held out of the fit lies, and its residuals: root mean squares over its channels,
+// in deviations. 1: as its noise.
+struct WindowGap {
+  std::size_t terrain = 0, drive = 0;  // indices into the campaign's
+  double start_s = 0.0;
+  std::vector<Pose2> stations;
+  double nominal = 0.0, retuned = 0.0, with_effects = 0.0;
 };
 
 // One observation of a window beside what was predicted of it; of the last two by fits that had not seen its
@@ -139,6 +150,7 @@ struct Diagnosis {
   std::vector<GapPlace> places;
   std::vector<ChannelShrink> gap;
   std::vector<HeldOutPoint> held_out;  // for pictures
+  std::vector<WindowGap> window_gaps;  // of drives held out of the fit, for maps
   std::optional<Interval> closed_fraction;
   std::vector<ResidualShape> residual;
   std::vector<NextDrive> next_drives;

@@ -80,7 +80,7 @@ FittedExplanation fit_explanation(const Hypothesis& hypothesis, const WindowMode
     hessian.diagonal().array() += 1.0;
     const Eigen::LLT<Eigen::MatrixXd> llt(hessian);
     fit.covariance = llt.solve(Eigen::MatrixXd::Identity(count, count));
-    if (fit.converged || iteration >= options.iterations) break;
+    if (fit.converged || iteration >= options.iterations || model.cancelled()) break;
     // r(x + J du) = r - J du; the bounds are held by leaving out what would cross them.
     Eigen::VectorXd gradient = weighted.transpose() * white - u;
     std::vector<Eigen::Index> free;
@@ -116,7 +116,7 @@ FittedExplanation fit_explanation(const Hypothesis& hypothesis, const WindowMode
       largest = std::max(largest, std::abs(step[p]) / std::sqrt(fit.covariance(p, p)));
     // Half as far until it is better.
     bool better = false;
-    for (double share = 1.0; share > 0.05 && !better; share *= 0.5) {
+    for (double share = 1.0; share > 0.05 && !better && !model.cancelled(); share *= 0.5) {
       std::vector<double> x(fit.x.size());
       for (std::size_t p = 0; p < x.size(); ++p)
         x[p] = std::clamp(fit.x[p] + share * step[static_cast<Eigen::Index>(p)] * parameters[p].std,

@@ -111,6 +111,7 @@ std::vector<Screened> screen(const DriveCampaign& campaign, const WindowModel& m
   Eigen::MatrixXd known(fit.white_jacobian.rows(), fit.white_jacobian.cols() + wildcard.values.cols());
   known << fit.white_jacobian, kImprecision * whitened(fit, noise, wildcard);
   parallel_for(variants.size(), threads, [&](std::size_t v) {
+    if (model.cancelled()) return;
     std::vector<EffectVariant> effects(fit.hypothesis.effects().begin(), fit.hypothesis.effects().end());
     for (const EffectVariant& there : effects)
       if (there.effect == variants[v].effect) {
@@ -278,6 +279,7 @@ Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, con
   const double log_single = std::log(kOne / families);
   const double log_pair = std::log(kTwo / std::max(1.0, 0.5 * families * (families - 1.0)));
   const auto add = [&](std::size_t fit, double log_prior, double log_prior_unknown) {
+    if (model.cancelled()) return;
     Candidate c;
     for (const EffectVariant& v : search.fits[fit].hypothesis.effects()) {
       c.effects.push_back(v.effect);
@@ -301,6 +303,7 @@ Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, con
   add(0, std::log(kNothing), std::log(kSomethingElse));
   for (const auto& [effect, fit] : singles) add(fit, log_single, std::log(kOneAndSomethingElse / families));
   for (const auto& [names, fit] : pairs) add(fit, log_pair, log_pair - 2.0);
+  if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
   std::vector<double> weights;
   for (const Candidate& c : search.candidates)
     weights.push_back(options.temper * c.log_evidence + c.log_prior);

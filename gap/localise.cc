@@ -206,6 +206,7 @@ std::vector<ChannelGap> channel_gaps(const PreparedCampaign& prepared, const Dri
   };
   std::vector<double> flipped(static_cast<std::size_t>(options.resamples), 0.0);
   for (std::size_t b = 0; b < flipped.size(); ++b) {
+    if (prepared.model->cancelled()) return {};
     const std::uint64_t key = random_key(options.seed, 1000 + b);
     const auto sign = [key](std::size_t drive) { return random_uniform(key, drive) < 0.5 ? -1.0 : 1.0; };
     for (const auto& [name, g] : groups) flipped[b] = std::max(flipped[b], largest_t(g, sign));
@@ -249,6 +250,7 @@ std::vector<Regime> regimes_of(const PreparedCampaign& prepared, const DriveCamp
     const double deviation = std::sqrt(variance);
     std::vector<double> by_chance(static_cast<std::size_t>(options.resamples) / 4 + 1, 0.0);
     for (std::size_t b = 0; b < by_chance.size(); ++b) {
+      if (prepared.model->cancelled()) return {};
       const std::vector<std::size_t> order = reordered(prepared, random_key(options.seed, 5000 + b));
       for (const Slice& slice : slices)
         by_chance[b] = std::max(by_chance[b], excess(squares, slice, order, mean, deviation));
@@ -332,6 +334,7 @@ std::vector<GapPlace> gap_places(const PreparedCampaign& prepared, const DriveCa
     }
     std::vector<double> by_chance(static_cast<std::size_t>(options.resamples) / 4 + 1, 0.0);
     for (std::size_t b = 0; b < by_chance.size(); ++b) {
+      if (prepared.model->cancelled()) return {};
       const std::vector<std::size_t> order = reordered(prepared, random_key(options.seed, 9000 + b));
       for (const Disc& disc : discs)
         by_chance[b] = std::max(by_chance[b], excess(squares, disc.slice, order, mean, std::sqrt(variance)));

@@ -49,7 +49,8 @@ std::vector<double> outcome(const DriveCampaign& campaign, const ModelState& sta
 
 std::vector<NextDrive> next_drives(const DriveCampaign& campaign, const NoiseScales& scatter,
                                    std::span<const FittedExplanation* const> explanations,
-                                   std::span<const double> probabilities, std::size_t most) {
+                                   std::span<const double> probabilities, std::size_t most,
+                                   const Progress& progress) {
   std::vector<ModelState> states;
   for (const FittedExplanation* e : explanations) states.push_back(e->hypothesis.state(e->x));
   std::vector<NextDrive> drives;
@@ -59,6 +60,7 @@ std::vector<NextDrive> next_drives(const DriveCampaign& campaign, const NoiseSca
         for (const double curvature : kCurvatures_1_m)
           for (const double temperature : kTemperatures_c) {
             if (tilt == 0.0 && heading > 0.0) continue;
+            if (progress.cancelled()) return {};
             NextDrive drive{tilt,      heading,     share * campaign.rover->cruise_speed_m_s,
                             curvature, temperature, 0.0};
             std::vector<std::vector<double>> outcomes;

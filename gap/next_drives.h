@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "core/progress.h"
 #include "gap/diagnosis.h"
 #include "gap/explanation.h"
 
@@ -12,6 +13,7 @@ namespace slipway::gap {
 // information that one of them is expected to give about which is true.
 std::vector<NextDrive> next_drives(const DriveCampaign& campaign, const NoiseScales& scatter,
                                    std::span<const FittedExplanation* const> explanations,
-                                   std::span<const double> probabilities, std::size_t most);
+                                   std::span<const double> probabilities, std::size_t most,
+                                   const Progress& progress);
 
 }  // namespace slipway::gap

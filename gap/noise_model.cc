@@ -139,6 +139,7 @@ void NoiseModel::estimate(const Eigen::VectorXd& residuals, const Eigen::MatrixX
     for (int sweep = 0; sweep < 3; ++sweep) {
       bool better = false;
       for (int k = 0; k < kNoiseScales; ++k) {
+        if (model_.cancelled()) return;
         for (const double sign : {1.0, -1.0}) {
           NoiseScales trial = best;
           *numbers_of(trial)[k] *= std::exp(sign * step);

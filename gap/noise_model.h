@@ -52,6 +52,7 @@ class NoiseModel {
   const Eigen::VectorXd& deviation() const { return deviation_; }
   const std::vector<bool>& used() const { return used_; }
   std::size_t used_count() const;
+  bool cancelled() const { return model_.cancelled(); }
 
  private:
   struct Block {

@@ -71,6 +71,7 @@ Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const WindowOpti
   progress.report("cutting drives into windows", 0.0);
   made.windows = cut_windows(campaign, options);
   made.model = model_of(campaign, made.windows);
+  made.model->watch(progress);
   const WindowModel& model = *made.model;
   std::vector<bool> used(model.observation_count(), false);
   for (std::size_t w = 0; w < made.windows.size(); ++w)
@@ -99,6 +100,7 @@ Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const WindowOpti
     progress.report("estimating the drives' own scatter", 0.06 + 0.05 * round);
     prepare_around(made, campaign, *made.null, threads);
   }
+  if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
   return made;
 }
 

@@ -58,10 +58,17 @@ struct Totals {
     scaled_count += e.scaled_count;
   }
   // Of root mean squares in deviations, the floor being 1.
-  double closed() const {
-    const double before = std::sqrt(scaled_retuned / scaled_count),
-                 after = std::sqrt(scaled_with / scaled_count);
-    return before > 1.0 ? std::clamp((before - after) / (before - 1.0), 0.0, 1.0) : 0.0;
+  std::optional<double> closed() const {
+    return closed_of(scaled_retuned, scaled_with, scaled_count, scaled_count);
+  }
+  std::optional<double> closed(int c) const { return closed_of(retuned[c], with[c], floor[c], count[c]); }
+
+ private:
+  // Of sums of squares. Nothing where no gap was left to close.
+  static std::optional<double> closed_of(double before, double after, double least, double count) {
+    if (!(count > 0.0) || !(before > least)) return std::nullopt;
+    const double gap = std::sqrt(before / count) - std::sqrt(least / count);
+    return std::clamp((std::sqrt(before / count) - std::sqrt(after / count)) / gap, 0.0, 1.0);
   }
 };
 
@@ -75,6 +82,7 @@ Result<Shrink> shrink_on_held_out(const PreparedCampaign& prepared, const DriveC
   const std::vector<int> fold = folds_of(campaign, options.folds);
   std::vector<DriveErrors> errors(campaign.drives.size());
   std::vector<HeldOutPoint> points;
+  std::vector<WindowGap> gaps;
   ExplanationOptions fit_options;
   fit_options.threads = options.search.threads;
   fit_options.iterations = 4;
@@ -88,6 +96,7 @@ Result<Shrink> shrink_on_held_out(const PreparedCampaign& prepared, const DriveC
     if (std::find(seen.begin(), seen.end(), false) == seen.end()) continue;
     const FittedExplanation retuned =
         fit_explanation(prepared.null->hypothesis, model, noise, prepared.null->x, fit_options, seen);
+    if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
     const FittedExplanation found = fit_explanation(with.hypothesis, model, noise, with.x, fit_options, seen);
     const Eigen::VectorXd white_retuned = noise.whiten(retuned.residuals),
                           white_found = noise.whiten(found.residuals);
@@ -95,6 +104,8 @@ Result<Shrink> shrink_on_held_out(const PreparedCampaign& prepared, const DriveC
       const DriveWindow& window = prepared.windows[w];
       if (fold[window.drive] != f || !model.used(w)) continue;
       DriveErrors& e = errors[window.drive];
+      WindowGap gap{campaign.drives[window.drive].terrain, window.drive, window.start_s, window.stations};
+      int counted = 0;
       for (std::size_t i = 0; i < window.observations.size(); ++i) {
         const auto row = static_cast<Eigen::Index>(model.offset(w) + i);
         const double deviation = noise.deviation()[row];
@@ -110,6 +121,10 @@ Result<Shrink> shrink_on_held_out(const PreparedCampaign& prepared, const DriveC
         e.with[c] += std::pow(found.residuals[row], 2);
         e.floor[c] += deviation * deviation;
         ++e.count[c];
+        gap.nominal += std::pow(prepared.nominal_residuals[row] / deviation, 2);
+        gap.retuned += std::pow(retuned.residuals[row] / deviation, 2);
+        gap.with_effects += std::pow(found.residuals[row] / deviation, 2);
+        ++counted;
         e.scaled_retuned += std::pow(retuned.residuals[row] / deviation, 2);
         e.scaled_with += std::pow(found.residuals[row] / deviation, 2);
         ++e.scaled_count;
@@ -120,6 +135,9 @@ Result<Shrink> shrink_on_held_out(const PreparedCampaign& prepared, const DriveC
         };
         e.log_gain += loss(white_retuned[row]) - loss(white_found[row]);
       }
+      if (counted == 0) continue;
+      for (double* sum : {&gap.nominal, &gap.retuned, &gap.with_effects}) *sum = std::sqrt(*sum / counted);
+      gaps.push_back(std::move(gap));
     }
   }
   Totals all;
@@ -131,6 +149,7 @@ Result<Shrink> shrink_on_held_out(const PreparedCampaign& prepared, const DriveC
     }
   Shrink shrink;
   shrink.points = std::move(points);
+  shrink.windows = std::move(gaps);
   if (with_data.empty()) return shrink;
   std::vector<Totals> resampled;
   for (int b = 0; b < options.resamples; ++b) {
@@ -141,6 +160,18 @@ Result<Shrink> shrink_on_held_out(const PreparedCampaign& prepared, const DriveC
                                                       static_cast<double>(with_data.size()))]]);
     resampled.push_back(t);
   }
+  // A resample that leaves nothing to close says neither end: it counts for both.
+  const auto closed_interval = [&](const auto& number) -> std::optional<Interval> {
+    const std::optional<double> value = number(all);
+    if (!value) return std::nullopt;
+    std::vector<double> low, high;
+    for (const Totals& t : resampled) {
+      const std::optional<double> share = number(t);
+      low.push_back(share.value_or(0.0));
+      high.push_back(share.value_or(1.0));
+    }
+    return Interval{*value, quantile(std::move(low), 0.05), quantile(std::move(high), 0.95)};
+  };
   const auto interval = [&](const auto& number) {
     std::vector<double> values;
     for (const Totals& t : resampled) values.push_back(number(t));
@@ -155,9 +186,10 @@ Result<Shrink> shrink_on_held_out(const PreparedCampaign& prepared, const DriveC
     };
     shrink.channels.push_back({static_cast<Channel>(c), interval(rms(&Totals::nominal)),
                                interval(rms(&Totals::retuned)), interval(rms(&Totals::with)),
-                               interval(rms(&Totals::floor))});
+                               interval(rms(&Totals::floor)),
+                               closed_interval([c](const Totals& t) { return t.closed(c); })});
   }
-  shrink.closed_fraction = interval([](const Totals& t) { return t.closed(); });
+  shrink.closed_fraction = interval([](const Totals& t) { return t.closed().value_or(0.0); });
   double mean = 0.0, square = 0.0;
   for (const std::size_t d : with_data) mean += errors[d].log_gain / static_cast<double>(with_data.size());
   for (const std::size_t d : with_data) square += std::pow(errors[d].log_gain - mean, 2);

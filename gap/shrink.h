@@ -19,6 +19,7 @@ struct Shrink {
   double log_density_gain = 0.0;  // held-out log density of `with` over the null's, a drive
   double gain_error = 0.0;        // its standard error over drives
   std::vector<HeldOutPoint> points;
+  std::vector<WindowGap> windows;
 };
 
 Result<Shrink> shrink_on_held_out(const PreparedCampaign& prepared, const DriveCampaign& campaign,

@@ -69,6 +69,7 @@ PatchSearch search_soft_patches(const DriveCampaign& campaign, const WindowModel
 
   std::vector<Disc> discs;
   for (std::size_t w = 0; w < windows.size(); ++w) {
+    if (model.cancelled()) return search;
     if (!model.used(w)) continue;
     const Pose2& centre = windows[w].stations[windows[w].stations.size() / 2];
     for (const double radius_m : kRadii_m) {
@@ -115,6 +116,7 @@ FittedExplanation refine_soft_patch(const DriveCampaign& campaign, const WindowM
     for (int sweep = 0; sweep < 3; ++sweep) {
       bool better = false;
       for (int k = 0; k < 6; ++k) {
+        if (model.cancelled()) return fit;
         std::vector<EffectVariant> moved(fit.hypothesis.effects().begin(), fit.hypothesis.effects().end());
         double x_m = moved[which].fixed[0].second, y_m = moved[which].fixed[1].second;
         double radius_m = moved[which].fixed[2].second;

@@ -251,12 +251,15 @@ WildcardGain wildcard_gain(const FittedExplanation& fit, const NoiseModel& noise
   const double without = log_marginal(fit.white_linear, fit.white_jacobian);
   std::vector<double> imprecise, other;
   for (const double exact : kFormSizes) {
+    if (noise.cancelled()) return {};
     if (exact > 0.0 && form.cols() == 0) continue;
     const Eigen::MatrixXd known = both(fit.white_jacobian, form, exact);
     for (const double share : kImprecisionShares)
       imprecise.push_back(log_marginal(fit.white_linear, both(known, white, share * kImprecision)));
-    for (const double size : kSizes)
+    for (const double size : kSizes) {
+      if (noise.cancelled()) return {};
       other.push_back(log_marginal(fit.white_linear, both(known, white, size)));
+    }
   }
   return {log_mean_exp(imprecise) - without, log_mean_exp(other) - without};
 }
@@ -267,6 +270,7 @@ Eigen::VectorXd wildcard_coefficients(const FittedExplanation& fit, const NoiseM
   double best = -std::numeric_limits<double>::infinity();
   double size = kSizes[0];
   for (const double s : kSizes) {
+    if (noise.cancelled()) break;
     const double value = log_marginal(fit.white_linear, both(fit.white_jacobian, white, s));
     if (value > best) {
       best = value;

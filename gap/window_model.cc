@@ -216,6 +216,7 @@ std::vector<double> WindowModel::predict(const ModelState& state, std::size_t th
     sim::QuasiStaticSolver solver(state.rover, campaign_.gravity_m_s2);
     const std::size_t end = d + 1 < first.size() ? first[d + 1] : windows_.size();
     for (std::size_t w = first[d]; w < end; ++w) {
+      if (cancelled()) return;
       if (!used(w)) continue;
       predict_window(w, state, same_shape, solver,
                      std::span(out).subspan(offsets_[w], windows_[w].observations.size()));

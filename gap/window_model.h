@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/progress.h"
 #include "gap/drive_window.h"
 #include "sim/effect_setting.h"
 #include "sim/quasi_static.h"
@@ -38,6 +39,11 @@ class WindowModel {
   // One number for each observation of each window, in their order. NaN where the rover would not move, but
   // for slip, which is 1 there. Same numbers for any number of threads.
   std::vector<double> predict(const ModelState& state, std::size_t threads = 1) const;
+
+  // Whose work this is, until the model ends: once it is cancelled, predictions stop and are NaN, and all
+  // that is made of this model asks cancelled() and ends early with numbers that nobody looks at.
+  void watch(const Progress& progress) { progress_ = &progress; }
+  bool cancelled() const { return progress_ != nullptr && progress_->cancelled(); }
 
   // Circumstances of a window, of the nominal rover: what a gap may depend on.
   struct Conditions {
@@ -74,6 +80,7 @@ class WindowModel {
   std::vector<std::vector<Place>> stances_;
   std::vector<Conditions> conditions_;
   std::vector<std::size_t> offsets_;
+  const Progress* progress_ = nullptr;
 };
 
 }  // namespace slipway::gap

@@ -148,7 +148,9 @@ int write_report(const std::string& folder, const gap::DriveCampaign& campaign, 
   const std::filesystem::path path = made(folder);
   const std::vector<api::NamedChart> charts = api::draw_diagnosis(campaign, d);
   int status = save((path / "diagnosis.json").string(), api::json::diagnosis_document(campaign, d));
-  if (status == 0) status = save((path / "report.md").string(), api::diagnosis_report(campaign, d, charts));
+  const api::ReportPage report = api::diagnosis_report(campaign, d, charts);
+  if (status == 0) status = save((path / "report.md").string(), report.markdown());
+  if (status == 0) status = save((path / "report.html").string(), report.html());
   for (const api::NamedChart& chart : charts)
     if (status == 0) status = save((path / (chart.name + ".svg")).string(), chart.svg);
   return status;

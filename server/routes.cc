@@ -19,6 +19,7 @@
 #include "api/json/problem_document.h"
 #include "api/json/wheel_sweep_answer.h"
 #include "api/openapi.h"
+#include "api/report_page.h"
 #include "api/route_map.h"
 #include "api/wheel_sweep.h"
 
@@ -30,6 +31,7 @@ using std::chrono::seconds;
 constexpr std::string_view kJson = "application/json";
 constexpr std::string_view kGeoJson = "application/geo+json";
 constexpr std::string_view kCsv = "text/csv";
+constexpr std::string_view kHtml = "text/html; charset=utf-8";
 constexpr int kPollSeconds = 1;
 
 HttpResponse document(std::string body, int status = 200) {
@@ -243,6 +245,26 @@ class JobRoutes {
     return response;
   }
 
+  // The report of a successful diagnosis, as a page.
+  HttpResponse report(const HttpRequest& request) {
+    const auto job = find(request);
+    if (!job) return problem_response(job.error(), &request);
+    if (job->kind != api::kDiagnosisKind)
+      return problem(ErrorCode::kNotFound, "only a diagnosis has a report", request);
+    if (job->state != api::JobState::kSuccessful) return outcome_response(*job, request);
+    const auto outcome = runner_.store().outcome(job->id);
+    if (!outcome) return problem_response(outcome.error(), &request);
+    const std::string_view page = *outcome ? api::parts_of(**outcome).page : std::string_view();
+    if (page.empty()) return problem(ErrorCode::kNotFound, "the diagnosis's report is not kept", request);
+    HttpResponse response = document(std::string(page));
+    response.content_type = kHtml;
+    response.headers.emplace_back("Content-Security-Policy",
+                                  fmt::format("{}; frame-ancestors 'self'", api::kReportPolicy));
+    response.headers.emplace_back("X-Content-Type-Options", "nosniff");
+    const std::string tag = tag_of(response.body);
+    return tagged(std::move(response), tag, request);
+  }
+
   HttpResponse dismiss(const HttpRequest& request) {
     const auto job = runner_.dismiss(request.parameter("id"));
     if (!job) return problem_response(job.error(), &request);
@@ -312,7 +334,7 @@ class JobRoutes {
     if (job.state == api::JobState::kFailed) {
       return problem_response(api::json::read_problem(**outcome), &request);
     }
-    return answer(**outcome, request);
+    return answer(std::string(api::parts_of(**outcome).document), request);
   }
 
   static HttpResponse answer(const std::string& bytes, const HttpRequest& request) {
@@ -386,6 +408,7 @@ std::vector<Route> api_routes(const api::Service& service, api::JobRunner& runne
       fixed("/v1/soils", api::json::write_soils(catalogue)),
       fixed("/v1/effects", api::json::write_effects()),
       fixed("/v1/planners", api::json::write_planners()),
+      fixed("/v1/drive-campaigns", api::json::write_drive_campaigns(service.campaigns())),
       {"GET", "/v1/terrains/{name}/point",
        [&service](const HttpRequest& r) { return ground_at(service, r); }},
       {"POST", "/v1/plans",
@@ -415,6 +438,8 @@ std::vector<Route> api_routes(const api::Service& service, api::JobRunner& runne
       {"GET", "/v1/jobs/{id}", [jobs](const HttpRequest& r) { return jobs->get(r); }},
       {"GET", "/v1/jobs/{id}/result", [jobs](const HttpRequest& r) { return jobs->result(r); }},
       {"GET", "/v1/jobs/{id}/map", [&service, jobs](const HttpRequest& r) { return jobs->map(service, r); }},
+      {"GET", "/v1/jobs/{id}/report", [jobs](const HttpRequest& r) { return jobs->report(r); }},
+      {"GET", "/v1/diagnoses/{id}/report", [jobs](const HttpRequest& r) { return jobs->report(r); }},
       {"DELETE", "/v1/jobs/{id}", [jobs](const HttpRequest& r) { return jobs->dismiss(r); }},
   };
 }

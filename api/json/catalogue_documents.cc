@@ -142,6 +142,27 @@ std::string write_planners() {
   return w.take();
 }
 
+std::string write_drive_campaigns(const std::vector<ShippedCampaign>& campaigns) {
+  Writer w;
+  w.begin_object().key("campaigns").begin_array();
+  for (const ShippedCampaign& campaign : campaigns) {
+    if (campaign.rover.empty()) continue;  // at fault: it cannot be diagnosed
+    w.begin_object().text("name", campaign.name).text("rover", campaign.rover);
+    w.exact("gravity_m_s2", campaign.gravity_m_s2);
+    w.texts("soils", campaign.soils).texts("terrains", campaign.terrains);
+    w.key("drives").begin_array();
+    for (const gap::MeasuredDriveSeries& drive : campaign.drives) {
+      w.begin_object().text("id", drive.id).text("terrain", campaign.terrains.at(drive.terrain));
+      w.exact("duration_s", drive.duration_s).exact("speed_m_s", drive.command.speed_m_s);
+      if (drive.repeat_of) w.text("repeat_of", *drive.repeat_of);
+      w.end_object();
+    }
+    w.end_array().end_object();
+  }
+  w.end_array().end_object();
+  return w.take();
+}
+
 std::string write_errors() {
   Writer w;
   w.begin_object().key("errors").begin_array();

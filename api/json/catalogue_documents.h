@@ -4,6 +4,7 @@
 
 #include "api/answers.h"
 #include "api/catalogue.h"
+#include "api/shipped_campaigns.h"
 
 namespace slipway::api::json {
 
@@ -12,6 +13,7 @@ std::string write_terrains(const Catalogue& catalogue);
 std::string write_rovers(const Catalogue& catalogue);
 std::string write_soils(const Catalogue& catalogue);
 std::string write_effects();
+std::string write_drive_campaigns(const std::vector<ShippedCampaign>& campaigns);
 std::string write_planners();  // with the cost terms that routes are ranked by
 std::string write_errors();
 

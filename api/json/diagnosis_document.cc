@@ -143,6 +143,22 @@ void write_places(Writer& w, const Diagnosis& d) {
   w.end_array().end_object();
 }
 
+void write_windows(Writer& w, const gap::DriveCampaign& campaign, const Diagnosis& d) {
+  w.key("windows").begin_array();
+  for (const gap::WindowGap& window : d.window_gaps) {
+    if (window.stations.empty()) continue;
+    const Pose2& middle = window.stations[window.stations.size() / 2];
+    w.begin_object().text("terrain", campaign.terrains[window.terrain].name);
+    w.text("drive", campaign.drives[window.drive].id).significant("start_s", window.start_s);
+    w.metres("x_m", middle.x_m).metres("y_m", middle.y_m);
+    write_finite(w, "nominal", window.nominal);
+    write_finite(w, "retuned", window.retuned);
+    write_finite(w, "with_effects", window.with_effects);
+    w.end_object();
+  }
+  w.end_array();
+}
+
 void write_gap(Writer& w, const Diagnosis& d) {
   w.key("gap").begin_object().key("channels").begin_array();
   for (const gap::ChannelShrink& channel : d.gap) {
@@ -153,6 +169,7 @@ void write_gap(Writer& w, const Diagnosis& d) {
     write_interval(w, "retuned", channel.retuned, unit);
     write_interval(w, "with_effects", channel.with_effects, unit);
     write_interval(w, "noise_floor", channel.noise_floor, unit);
+    if (channel.closed_fraction) write_interval(w, "closed_fraction", *channel.closed_fraction);
     w.end_object();
   }
   w.end_array();
@@ -290,6 +307,7 @@ std::string diagnosis_document(const gap::DriveCampaign& campaign, const Diagnos
   write_regimes(w, "regimes_retuned", d.regimes_retuned);
   write_regimes(w, "regimes_of_effect", d.regimes_of_effect);
   write_places(w, d);
+  write_windows(w, campaign, d);
   w.end_object();
   write_gap(w, d);
   write_residual(w, d);

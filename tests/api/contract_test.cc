@@ -7,6 +7,7 @@
 
 #include "api/drive_history.h"
 #include "api/job_kinds.h"
+#include "api/json/catalogue_documents.h"
 #include "api/json/diagnosis_document.h"
 #include "api/json/parse.h"
 #include "api/json/plan_answer.h"
@@ -168,6 +169,11 @@ TEST(Contract, ADiagnosisFitsTheDescriptionWhateverIsInIt) {
   const std::string document = json::diagnosis_document(campaign, full);
   EXPECT_EQ(complaints_about("Diagnosis", document), std::vector<std::string>{});
   EXPECT_EQ(document, json::diagnosis_document(campaign, full));
+  EXPECT_EQ(complaints_about("DriveCampaigns", example("drive_campaigns.json")), std::vector<std::string>{});
+  const auto shipped = Service::open({.data = SLIPWAY_DATA_FOLDER});
+  ASSERT_TRUE(shipped);
+  EXPECT_EQ(complaints_about("DriveCampaigns", json::write_drive_campaigns((*shipped)->campaigns())),
+            std::vector<std::string>{});
   EXPECT_EQ(json::geojson_of(document).value_or("").find("FeatureCollection") != std::string::npos, true);
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 #include <set>
 #include <string>
@@ -10,6 +11,8 @@
 #include "api/corrected_model.h"
 #include "api/diagnosis_charts.h"
 #include "api/diagnosis_report.h"
+#include "api/job_kinds.h"
+#include "api/json/catalogue_documents.h"
 #include "api/json/diagnosis_document.h"
 #include "api/json/parse.h"
 #include "api/json/rover_file.h"
@@ -45,7 +48,14 @@ TEST_F(ADiagnosis, HasEveryKeyOfItsContract) {
        {"format", "campaign", "provenance", "verdict", "effects", "candidates", "confusable", "where", "gap",
         "residual", "next_drives", "model", "notes", "least_detectable"})
     EXPECT_NE(d.find(key), nullptr) << key;
-  for (const char* key : {"channels", "regimes", "places"}) EXPECT_NE(d.find("where")->find(key), nullptr);
+  for (const char* key : {"channels", "regimes", "places", "windows"})
+    EXPECT_NE(d.find("where")->find(key), nullptr) << key;
+  // As the format says, of every channel and of all.
+  const JsonValue& gap = *d.find("gap");
+  for (const JsonValue* at : {&gap, &gap.find("channels")->elements.at(0)}) {
+    ASSERT_NE(at->find("closed_fraction"), nullptr);
+    EXPECT_EQ(at->find("closed_fraction")->find("interval_90")->elements.size(), 2U);
+  }
   EXPECT_EQ(d.find("format")->text, "diagnosis/1");
   EXPECT_EQ(d.find("provenance")->find("hashes")->find("campaign")->text, campaign().fingerprint);
 }
@@ -151,17 +161,77 @@ TEST_F(ADiagnosis, OffersAnotherVersionOfOtherNumbersAndNoneWhereNoneWasFound) {
 
 TEST_F(ADiagnosis, IsReportedWithItsPictures) {
   const auto charts = draw_diagnosis(campaign(), diagnosis());
-  const std::string report = diagnosis_report(campaign(), diagnosis(), charts);
-  EXPECT_EQ(charts.size(), 6U);
+  const std::string report = diagnosis_report(campaign(), diagnosis(), charts).markdown();
+  EXPECT_EQ(charts.size(), 7U);
   for (const NamedChart& chart : charts)
     EXPECT_NE(report.find("(" + chart.name + ".svg)"), std::string::npos) << chart.name;
   for (const char* words :
        {"**effects**", "motor_temperature", "a \\| note of two lines", "0.9 (0.7 to 1.1)"})
     EXPECT_NE(report.find(words), std::string::npos) << words;
   EXPECT_EQ(report.find("nan"), std::string::npos);
-  EXPECT_EQ(report, diagnosis_report(campaign(), diagnosis(), draw_diagnosis(campaign(), diagnosis())));
+  EXPECT_EQ(report,
+            diagnosis_report(campaign(), diagnosis(), draw_diagnosis(campaign(), diagnosis())).markdown());
   // Nothing at all is a report, too.
-  EXPECT_NE(diagnosis_report(campaign(), {}, {}).find("**insufficient**"), std::string::npos);
+  EXPECT_NE(diagnosis_report(campaign(), {}, {}).markdown().find("**insufficient**"), std::string::npos);
+}
+
+TEST_F(ADiagnosis, IsShownAsOnePageThatHoldsItsPicturesAndLoadsNothing) {
+  const auto charts = draw_diagnosis(campaign(), diagnosis());
+  const std::string page = diagnosis_report(campaign(), diagnosis(), charts).html();
+  EXPECT_TRUE(page.starts_with("<!DOCTYPE html>"));
+  std::set<std::string> ids;
+  for (std::size_t at = page.find(" id=\""); at != std::string::npos; at = page.find(" id=\"", at + 1))
+    EXPECT_TRUE(ids.insert(page.substr(at, page.find('"', at + 5) - at)).second) << page.substr(at, 40);
+  for (const NamedChart& chart : charts) EXPECT_TRUE(ids.contains(" id=\"" + chart.name)) << chart.name;
+  for (const char* outside : {"<script", "src=", "@import", "<link", "href=\"http", "url(http", "nan"})
+    EXPECT_EQ(page.find(outside), std::string::npos) << outside;
+  EXPECT_NE(page.find("Content-Security-Policy"), std::string::npos);
+  // The same words as in Markdown.
+  EXPECT_NE(page.find("<strong>effects</strong>"), std::string::npos);
+  EXPECT_NE(page.find("0.9 (0.7 to 1.1)"), std::string::npos);
+}
+
+TEST_F(ADiagnosis, IsShownWithAllItsTextEscaped) {
+  gap::Diagnosis d = diagnosis();
+  const std::string bad = "<script>alert(\"1\")</script> & 'x' id=\"a";
+  d.campaign = d.reason = d.overturned_by = bad;
+  d.notes = {bad};
+  d.effects.front().name = d.effects.front().variant = bad;
+  d.candidates.front().effects = {bad};
+  d.confusable.front().a = bad;
+  d.channels.back().wheel = bad;
+  d.retuned.front().name = bad;
+  d.places.front().terrain = bad;
+  d.regimes.front().conditions.front().variable = bad;
+  const std::string page = diagnosis_report(campaign(), d, draw_diagnosis(campaign(), d)).html();
+  EXPECT_EQ(page.find("<script"), std::string::npos);
+  EXPECT_EQ(page.find(" id=\"a"), std::string::npos);
+  EXPECT_NE(page.find("&lt;script&gt;alert(&quot;1&quot;)&lt;/script&gt; &amp; &#39;x&#39;"),
+            std::string::npos);
+}
+
+TEST_F(ADiagnosis, IsMappedWithItsWindowsOverTheGround) {
+  const auto charts = draw_diagnosis(campaign(), diagnosis());
+  const auto map = std::find_if(charts.begin(), charts.end(), [](const auto& c) { return c.name == "map"; });
+  ASSERT_NE(map, charts.end());
+  const std::string terrain = campaign().terrains.front().name;
+  for (const std::string& words : {terrain + ", nominal", terrain + ", re-tuned", terrain + ", with effects",
+                                   std::string("data:image/png;base64,"), std::string("above 4 deviations")})
+    EXPECT_NE(map->svg.find(words), std::string::npos) << words;
+  const JsonValue d = document(diagnosis());
+  const JsonValue& window = d.find("where")->find("windows")->elements.at(0);
+  EXPECT_EQ(window.find("terrain")->text, terrain);
+  EXPECT_EQ(window.find("drive")->text, campaign().drives.front().id);
+  EXPECT_EQ(window.find("x_m")->number, 3.5);
+  EXPECT_EQ(window.find("nominal")->number, 4.5);
+  EXPECT_EQ(window.find("with_effects"), nullptr);
+}
+
+TEST(KeptAnswer, IsADocumentAndAPage) {
+  EXPECT_EQ(parts_of("{}").document, "{}");
+  EXPECT_EQ(parts_of("{}").page, "");
+  EXPECT_EQ(parts_of("{}\n<!DOCTYPE html>\n<p>").document, "{}");
+  EXPECT_EQ(parts_of("{}\n<!DOCTYPE html>\n<p>").page, "<!DOCTYPE html>\n<p>");
 }
 
 TEST(TextPlace, IsLineAndColumnOfAPointersValue) {
@@ -179,6 +249,23 @@ TEST(TextPlace, IsLineAndColumnOfAPointersValue) {
   EXPECT_EQ(at("/a/1/nothing"), Place(2, 11));
   EXPECT_EQ(at("/e/below"), Place(3, 8));
   for (std::size_t cut = 0; cut < text.size(); ++cut) json::place_of(text.substr(0, cut), "/a/1/d/x");
+}
+
+TEST(DriveCampaigns, AreListedAsRequestsNameThem) {
+  const auto service = Service::open({.data = SLIPWAY_DATA_FOLDER});
+  ASSERT_TRUE(service);
+  const JsonValue list = json::parse(json::write_drive_campaigns((*service)->campaigns())).value();
+  ASSERT_FALSE(list.find("campaigns")->elements.empty());
+  for (const JsonValue& campaign : list.find("campaigns")->elements) {
+    const std::string& name = campaign.find("name")->text;
+    EXPECT_TRUE((*service)->read_diagnosis("{\"campaign\":\"" + name + "\"}")) << name;
+    if (name != "p05") continue;
+    EXPECT_EQ(campaign.find("rover")->text, "mer-class");
+    EXPECT_EQ(campaign.find("drives")->elements.size(), 44U);
+    EXPECT_EQ(campaign.find("terrains")->elements.size(), 5U);
+    EXPECT_EQ(campaign.find("drives")->elements.at(0).find("terrain")->text, "tilt_00");
+  }
+  EXPECT_TRUE(testing::small_world().campaigns().empty());
 }
 
 TEST(DiagnosisRequest, IsOfDrivesThatShip) {

@@ -39,10 +39,15 @@ gap::Diagnosis full_diagnosis(const gap::DriveCampaign& campaign) {
   d.regimes = {{{{"slope_deg", 5.0, kInfinite}}, gap::Channel::kSlip, 0.7, 0.2, 0.01}};
   d.regimes_retuned = d.regimes_of_effect = d.regimes;
   d.places = {{campaign.terrains.front().name, 3.0, -2.0, 1.5, gap::Channel::kSlip, 0.4}};
-  d.gap = {
-      {gap::Channel::kPitch, {0.03, 0.02, 0.04}, {0.02, 0.01, 0.03}, {0.01, 0.0, 0.02}, {0.01, 0.01, 0.01}}};
+  d.gap = {{gap::Channel::kPitch,
+            {0.03, 0.02, 0.04},
+            {0.02, 0.01, 0.03},
+            {0.01, 0.0, 0.02},
+            {0.01, 0.01, 0.01},
+            gap::Interval{0.8, 0.6, 1.0}}};
   d.closed_fraction = gap::Interval{0.9, 0.7, 1.1};
   d.held_out = {{gap::Channel::kSlip, -1, 0, 0.0, 0.1, 0.2, 0.15, kNan}};
+  d.window_gaps = {{0, 0, 2.0, {{3.0, -2.0, 0.0}, {3.5, -2.0, 0.0}}, 4.5, 2.0, kNan}};
   d.residual = {{"wheel_load", "temperature", 0.6, {{-1.0, {0.2, 0.1, 0.3}}, {1.0, {kNan, 0.0, 0.0}}}}};
   d.next_drives = {{15.0, 90.0, 0.04, 0.3, -20.0, 1.2}};
   d.least_detectable = {{"grousers", "height_m", 0.01}, {"bulldozing", "share", kInfinite}};

@@ -75,6 +75,48 @@ Result<std::string> endless(const std::string& /*kind*/, const std::string& /*re
   return fail(ErrorCode::kCancelled, "");
 }
 
+// A runner of a diagnosis that was asked for without a look at its request.
+class DiagnosisRoutes : public Routes {
+ protected:
+  std::string begin() { return runner_->submit("diagnosis", "{}").value().id; }
+};
+
+TEST_F(DiagnosisRoutes, AFinishedDiagnosisHasADocumentAndAPage) {
+  run([](const std::string&, const std::string&, Progress&) {
+    return Result<std::string>("{\"format\":\"diagnosis/1\"}\n<!DOCTYPE html>\n<p>seen</p>");
+  });
+  const std::string id = begin();
+  ASSERT_EQ(runner_->wait(id, milliseconds(5000)).value()->state, api::JobState::kSuccessful);
+  const HttpResponse result = ask("GET", "/v1/jobs/" + id + "/result");
+  EXPECT_EQ(result.body, "{\"format\":\"diagnosis/1\"}");
+  for (const std::string kind : {"jobs", "diagnoses"}) {
+    const HttpResponse page = ask("GET", "/v1/" + kind + "/" + id + "/report");
+    EXPECT_EQ(page.status, 200);
+    EXPECT_EQ(page.content_type, "text/html; charset=utf-8");
+    EXPECT_EQ(page.body, "<!DOCTYPE html>\n<p>seen</p>");
+    EXPECT_TRUE(page.header("Content-Security-Policy").value_or("").starts_with("default-src 'none'"));
+    EXPECT_EQ(
+        ask("GET", "/v1/" + kind + "/" + id + "/report", {{"If-None-Match", *page.header("ETag")}}).status,
+        304);
+  }
+}
+
+TEST_F(DiagnosisRoutes, AReportThatThereIsNotIsAProblem) {
+  run(endless);
+  const std::string id = begin();
+  EXPECT_EQ(ask("GET", "/v1/jobs/" + id + "/report").status, 409);
+  EXPECT_EQ(ask("GET", "/v1/jobs/" + id + "/report").content_type, "application/problem+json");
+  EXPECT_EQ(ask("GET", "/v1/diagnoses/" + std::string(32, '0') + "/report").status, 404);
+  EXPECT_EQ(ask("DELETE", "/v1/jobs/" + id).status, 200);
+  EXPECT_EQ(ask("GET", "/v1/jobs/" + id + "/report").status, 409);
+  run([](const std::string&, const std::string&, Progress&) { return Result<std::string>(kAnswer); });
+  const std::string plan = submit();
+  const std::string old = begin();  // of a version that kept no page
+  runner_->wait(old, milliseconds(5000));
+  EXPECT_EQ(ask("GET", plan + "/report").status, 404);
+  EXPECT_EQ(ask("GET", "/v1/jobs/" + old + "/report").status, 404);
+}
+
 TEST_F(Routes, HealthSaysOkAndTheVersion) {
   const HttpResponse response = ask("GET", "/healthz");
   EXPECT_EQ(response.status, 200);

@@ -231,6 +231,54 @@ class Contract(unittest.TestCase):
             self.fail("the work went on for two seconds")
         self.assertEqual(self.server.ask("GET", location + "/result")[0], 409)
 
+    def processor_s(self):
+        stat = pathlib.Path(f"/proc/{self.server.process.pid}/stat").read_text()
+        return sum(map(int, stat.rsplit(")", 1)[1].split()[11:13])) / os.sysconf("SC_CLK_TCK")
+
+    def test_a_dismissed_diagnosis_stops_within_a_tenth_of_a_second_of_each_core(self):
+        for stage in ("estimating the drives' own scatter", "fitting effects"):
+            status, headers, _ = self.server.ask("POST", "/v1/diagnoses", {"campaign": "p05"}, {"Prefer": "respond-async"})
+            self.assertEqual(status, 201)
+            location = headers["Location"]
+            deadline = time.time() + 100
+            while time.time() < deadline:
+                job = json.loads(self.server.ask("GET", location)[2])
+                if job["state"] == "running" and job.get("stage") == stage:
+                    break
+                time.sleep(0.05)
+            else:
+                self.fail(f"it was never {stage}")
+            self.assertEqual(self.server.ask("GET", location + "/report")[0], 409)
+            before = self.processor_s()
+            self.assertEqual(self.server.ask("DELETE", location)[0], 200)
+            # All the processor time that the work still takes; asking takes some of it.
+            time.sleep(1.0)
+            self.assertLess(self.processor_s() - before, 0.1 * (os.cpu_count() or 1) + 0.05, stage)
+            self.assertEqual(self.server.ask("GET", location + "/report")[0], 409)
+
+    def test_the_campaigns_that_ship_are_listed_and_a_diagnosis_of_one_is_a_page(self):
+        campaigns = json.loads(self.server.ask("GET", "/v1/drive-campaigns")[2])["campaigns"]
+        example = json.loads((SOURCE / "api/examples/drive_campaigns.json").read_text())["campaigns"]
+        p05 = next(c for c in campaigns if c["name"] == "p05")
+        self.assertEqual(list(p05), list(example[0]))
+        self.assertEqual((p05["rover"], len(p05["drives"]), p05["terrains"][0]), ("mer-class", 44, "tilt_00"))
+        status, headers, _ = self.server.ask("POST", "/v1/diagnoses", {"campaign": "p05"}, {"Prefer": "respond-async"})
+        location = headers["Location"]
+        self.assertEqual(self.server.end_of(location, 300)["state"], "successful")
+        document = json.loads(self.server.ask("GET", location + "/result")[2])
+        self.assertEqual(document["format"], "diagnosis/1")
+        self.assertTrue(document["where"]["windows"])
+        status, headers, page = self.server.ask("GET", location.replace("/jobs/", "/diagnoses/") + "/report")
+        self.assertEqual((status, headers["Content-Type"]), (200, "text/html; charset=utf-8"))
+        self.assertIn("default-src 'none'", headers["Content-Security-Policy"])
+        text = page.decode()
+        for words in ("<!DOCTYPE html>", "motor_temperature", "the map of the gap", "data:image/png;base64,"):
+            self.assertIn(words, text)
+        for outside in ("<script", "src=", "<link", 'href="http', "@import"):
+            self.assertNotIn(outside, text)
+        problem = self.server.ask("GET", "/v1/diagnoses/" + "0" * 32 + "/report")
+        self.assertEqual((problem[0], problem[1]["Content-Type"]), (404, "application/problem+json"))
+
     def test_bad_requests_name_every_fault(self):
         self.refused("/v1/plans", "{", 400)
         self.refused("/v1/plans", '{"start": NaN}', 400)

@@ -43,6 +43,12 @@ assert {"ladder", "explanations", "channels", "windows", "parameters"} <= set(pi
 for name in pictures:
     assert f"({name}.svg)" in report
     xml.dom.minidom.parse(str(folder / "report" / f"{name}.svg"))
+page = (folder / "report" / "report.html").read_text()
+for name in pictures:
+    assert f'<figure id="{name}">' in page, name
+xml.dom.minidom.parseString(page.replace("<!DOCTYPE html>", ""))
+assert {"map", "regimes"} <= set(pictures), pictures
+assert 0.9 < current["closed_fraction"]["value"] <= 1, current
 [rover], [soils] = (list((folder / "model" / kind).iterdir()) for kind in ("rovers", "soils"))
 assert json.loads(rover.read_text()) == d["model"]["rover"] and rover.stem == d["model"]["rover"]["name"]
 assert json.loads(soils.read_text()) == d["model"]["soils"]

@@ -1,0 +1,99 @@
+// A diagnosis that nobody wants any more: measured in the process's processor time, which does not depend on
+// what else the machine does.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "api/drive_campaign_source.h"
+#include "gap/diagnosis.h"
+
+namespace slipway::gap {
+namespace {
+
+constexpr double kPromised_s = 0.1;  // as Progress says
+
+double processor_s() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// Every third drive of a practice campaign: of every tilt and direction.
+DriveCampaign some_drives(std::size_t every) {
+  auto campaign = api::load_drive_campaign(std::filesystem::path(SLIPWAY_DATA_FOLDER) / "gap-practice/p05",
+                                           api::Catalogue{});
+  if (!campaign) throw std::runtime_error(campaign.error().detail);
+  std::vector<MeasuredDriveSeries> kept;
+  for (std::size_t d = 0; d < campaign->drives.size(); d += every) kept.push_back(campaign->drives[d]);
+  campaign->drives = std::move(kept);
+  return std::move(*campaign);
+}
+
+// Is cancelled some processor time after a stage began; remembers the longest time in which nobody asked.
+class Watch final : public Progress {
+ public:
+  Watch(std::string stage, double after_s) : stage_(std::move(stage)), after_s_(after_s) {}
+
+  void report(std::string_view stage, double /*fraction*/) override {
+    const std::scoped_lock lock(mutex_);
+    now_ = stage;
+    if (stage == stage_ && cancel_at_ == 0.0) cancel_at_ = processor_s() + after_s_;
+  }
+  bool cancelled() const override {
+    const std::scoped_lock lock(mutex_);
+    const double now = processor_s();
+    if (asked_ > 0.0 && now - asked_ > longest_s_) {
+      longest_s_ = now - asked_;
+      in_ = now_;
+    }
+    asked_ = now;
+    return cancel_at_ > 0.0 && now >= cancel_at_;
+  }
+  double cancel_at() const { return cancel_at_; }
+  double longest_s() const { return longest_s_; }
+  const std::string& where() const { return in_; }
+
+ private:
+  std::string stage_;
+  double after_s_ = 0.0;
+  mutable std::mutex mutex_;
+  double cancel_at_ = 0.0;
+  mutable double asked_ = 0.0, longest_s_ = 0.0;
+  std::string now_;
+  mutable std::string in_;
+};
+
+TEST(ACancelledDiagnosis, StopsWithinATenthOfASecondInEveryStage) {
+  const DriveCampaign campaign = some_drives(3);
+  DiagnosisOptions options;
+  options.search.threads = 1;
+  options.search.most_refitted = 3;
+  options.search.most_paired = 1;
+  for (const char* stage :
+       {"fitting soil and closures", "estimating the drives' own scatter", "looking for soft places",
+        "screening effects", "fitting effects", "locating the gap", "predicting held-out drives"}) {
+    for (const double after_s : {0.0, 0.12}) {
+      Watch watch(stage, after_s);
+      const auto diagnosis = diagnose(campaign, options, watch);
+      const double stopped = processor_s();
+      ASSERT_GT(watch.cancel_at(), 0.0) << stage << " is no stage of a diagnosis";
+      if (diagnosis) continue;  // it was done before
+      EXPECT_EQ(diagnosis.error().code, ErrorCode::kCancelled);
+      EXPECT_LT(stopped - watch.cancel_at(), kPromised_s) << stage << " + " << after_s << " s";
+      EXPECT_LT(watch.longest_s(), kPromised_s) << "nobody asked for so long in: " << watch.where();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace slipway::gap
