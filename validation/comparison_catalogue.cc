@@ -39,6 +39,8 @@ std::span<const Comparison> comparison_catalogue() {
                  "NASA/JPL", &curiosity_attitude},
       Comparison{"fido_table_1", "slip of FIDO's 2 m drives on four tilts; one soil calibrated on them",
                  "ROAMS paper", &fido_table_1},
+      Comparison{"roams_table_1", "where ROAMS and FIDO part, and which effects have that signature",
+                 "ROAMS paper", &roams_table_1},
       Comparison{"artemis_cases", "Opportunity across a ripple, Spirit with a dead wheel, in motion",
                  "ARTEMIS paper", &artemis_cases},
       Comparison{"rungs", "the table rung against the quasi-static rung", "this project", &rungs},
