@@ -93,7 +93,11 @@ class Diagnoser {
     if (d_.windows < prepared_.windows.size())
       d_.notes.push_back(fmt::format("{} of {} windows lie where the terrain has no ground and are left out",
                                      prepared_.windows.size() - d_.windows, prepared_.windows.size()));
-    if (prepared_.model->footing() == Footing::kPlane)
+    if (prepared_.model->footing() == Footing::kPlane && std::isnan(prepared_.model->attitude_misfit_rad()))
+      d_.notes.emplace_back(
+          "no attitude was recorded: the rover, whose frame is rigid, is predicted on the plane under its "
+          "wheels");
+    else if (prepared_.model->footing() == Footing::kPlane)
       d_.notes.push_back(fmt::format(
           "the attitudes recorded are those of the plane under the wheels (within {:.2f} deg), not of the "
           "suspension on the map: the rover is predicted on that plane",
@@ -334,7 +338,8 @@ class Diagnoser {
     d_.held_out = std::move(shrunk->points);
     if (explains()) d_.closed_fraction = shrunk->closed_fraction;
     d_.candidates.front().held_out_score = shrunk->log_density_gain;
-    const bool offered = explains() ? shrunk->log_density_gain > 0.0 : d_.verdict == Verdict::kParameters;
+    const bool offered = explains() ? shrunk->log_density_gain > 0.0
+                                    : d_.verdict == Verdict::kParameters || unknown_but_nearer();
     if (offered) {
       d_.model = with.hypothesis.state(with.x);
       d_.model_effects = with.hypothesis.settings(with.x);
@@ -343,6 +348,23 @@ class Diagnoser {
           "the correction did not improve drives held out of the fit: no corrected model is offered");
     }
     return {};
+  }
+
+  // A model beside which something unknown is at work is still the better one to plan with, where no channel
+  // of drives held out is told worse by it than by the nominal one and one is told much better.
+  bool unknown_but_nearer() {
+    constexpr double kNoWorse = 1.02, kMuchBetter = 0.8;
+    if (d_.verdict != Verdict::kUnknown) return false;
+    bool better = false;
+    for (const ChannelShrink& c : d_.gap) {
+      if (c.with_effects.value > kNoWorse * c.nominal.value) return false;
+      better = better || c.with_effects.value < kMuchBetter * c.nominal.value;
+    }
+    if (better)
+      d_.notes.emplace_back(
+          "the corrected model leaves something unexplained; it is offered because it told drives held out of "
+          "the fit better than the nominal one");
+    return better;
   }
 
   void propose_drives() {
