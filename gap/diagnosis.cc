@@ -341,8 +341,9 @@ class Diagnoser {
     const bool offered = explains() ? shrunk->log_density_gain > 0.0
                                     : d_.verdict == Verdict::kParameters || unknown_but_nearer();
     if (offered) {
-      d_.model = with.hypothesis.state(with.x);
-      d_.model_effects = with.hypothesis.settings(with.x);
+      const FittedExplanation& told = explains() ? best_fit() : search_.fits[0];
+      d_.model = told.hypothesis.state(told.x);
+      d_.model_effects = told.hypothesis.settings(told.x);
     } else if (explains()) {
       d_.notes.push_back(
           "the correction did not improve drives held out of the fit: no corrected model is offered");
@@ -357,13 +358,13 @@ class Diagnoser {
     if (d_.verdict != Verdict::kUnknown) return false;
     bool better = false;
     for (const ChannelShrink& c : d_.gap) {
-      if (c.with_effects.value > kNoWorse * c.nominal.value) return false;
-      better = better || c.with_effects.value < kMuchBetter * c.nominal.value;
+      if (c.retuned.value > kNoWorse * c.nominal.value) return false;
+      better = better || c.retuned.value < kMuchBetter * c.nominal.value;
     }
     if (better)
       d_.notes.emplace_back(
-          "the corrected model leaves something unexplained; it is offered because it told drives held out of "
-          "the fit better than the nominal one");
+          "the corrected model is the re-tuned one, without the effects named, and leaves something "
+          "unexplained; it is offered because it told drives held out of the fit better than the nominal one");
     return better;
   }
 

@@ -33,6 +33,8 @@ std::span<const Comparison> comparison_catalogue() {
                  "University of Malaga", &cuadriga_data},
       Comparison{"cuadriga_drives", "that rover's slip and charge per metre predicted on logs not fitted",
                  "University of Malaga", &cuadriga_drives},
+      Comparison{"cuadriga_campaign", "that rover's logs told by a model re-tuned on the others",
+                 "University of Malaga", &cuadriga_campaign},
       Comparison{"independent_simulator", "the quasi-static rover against another rover simulator",
                  "practice campaign p01", &independent_simulator},
       Comparison{"curiosity_attitude", "a rover set down on the map against Curiosity's measured attitude",

@@ -26,10 +26,8 @@ constexpr std::size_t kMostCandidates = 4;
 struct Published {
   double tilt_deg, least, most, roams_least, roams_most;
 };
-constexpr std::array<Published, kTilts> kPublished{{{0.085, 2, 5, 2, 4},
-                                                    {5.743, 2, 8, 1, 6},
-                                                    {10.758, 2, 20, 2, 10},
-                                                    {20.764, 10, 60, 5, 20}}};
+constexpr std::array<Published, kTilts> kPublished{
+    {{0.085, 2, 5, 2, 4}, {5.743, 2, 8, 1, 6}, {10.758, 2, 20, 2, 10}, {20.764, 10, 60, 5, 20}}};
 
 // The rover on the sand, with effects.
 struct Model {
@@ -64,10 +62,9 @@ struct Outcome {
 Outcome drive_of(const Model& model, double gravity_m_s2, const Drive& drive) {
   const double tilt = rad_from_deg(drive.tilt_deg), heading = rad_from_deg(drive.heading_deg);
   const double sense = drive.speed_share < 0.0 ? -1.0 : 1.0;
-  const Attitude attitude{
-      .roll_rad = std::asin(-std::sin(tilt) * std::sin(heading)),
-      .pitch_rad = std::asin(-sense * std::sin(tilt) * std::cos(heading)),
-      .yaw_rad = 0.0};
+  const Attitude attitude{.roll_rad = std::asin(-std::sin(tilt) * std::sin(heading)),
+                          .pitch_rad = std::asin(-sense * std::sin(tilt) * std::cos(heading)),
+                          .yaw_rad = 0.0};
   sim::QuasiStaticSolver solver(model.rover, gravity_m_s2);
   sim::DriveCommand command;
   command.speed_m_s = drive.speed_share * model.rover.cruise_speed_m_s;
@@ -123,7 +120,9 @@ std::vector<Signature> signatures_of(const campaign::CampaignTable& table, const
     std::vector<std::string> words;
     for (const Field& field : effect.fields)
       words.push_back(fmt::format("{} {:g}", field.name, field.initial));
-    Signature s{std::string(effect.name), fmt::format("{}", fmt::join(words, ", ")), {},
+    Signature s{std::string(effect.name),
+                fmt::format("{}", fmt::join(words, ", ")),
+                {},
                 with_effects(table, soil, {{.name = std::string(effect.name), .parameters = {}}})};
     const Slips slips = up_slope(s.model, table.gravity_m_s2);
     for (std::size_t t = 0; t < kTilts; ++t) s.rise[t] = slips[t] - base[t];
@@ -152,26 +151,28 @@ void add_drives(const std::vector<Signature>& candidates, double gravity_m_s2, R
     std::vector<std::string> words;
     for (const Signature& c : candidates) {
       outcomes.push_back(drive_of(c.model, gravity_m_s2, drive));
-      words.push_back(fmt::format("{} {:.0f} %{}", c.effect, outcomes.back().slip_percent,
-                                  std::abs(outcomes.back().side_slip_percent) > 1.0
-                                      ? fmt::format(" ({:+.0f} % sideways)", outcomes.back().side_slip_percent)
-                                      : ""));
+      words.push_back(
+          fmt::format("{} {:.0f} %{}", c.effect, outcomes.back().slip_percent,
+                      std::abs(outcomes.back().side_slip_percent) > 1.0
+                          ? fmt::format(" ({:+.0f} % sideways)", outcomes.back().side_slip_percent)
+                          : ""));
     }
     double nearest = 1e9;
     for (std::size_t a = 0; a < outcomes.size(); ++a)
       for (std::size_t b = a + 1; b < outcomes.size(); ++b)
-        nearest = std::min(nearest, std::hypot(outcomes[a].slip_percent - outcomes[b].slip_percent,
-                                               outcomes[a].side_slip_percent - outcomes[b].side_slip_percent));
-    report.notes.push_back(fmt::format("Drive {}: {}; the two most alike are {:.1f} points apart.", drive.name,
-                                       fmt::join(words, ", "), nearest));
+        nearest =
+            std::min(nearest, std::hypot(outcomes[a].slip_percent - outcomes[b].slip_percent,
+                                         outcomes[a].side_slip_percent - outcomes[b].side_slip_percent));
+    report.notes.push_back(fmt::format("Drive {}: {}; the two most alike are {:.1f} points apart.",
+                                       drive.name, fmt::join(words, ", "), nearest));
     if (nearest <= widest) continue;
     widest = nearest;
     settled = drive.name;
   }
-  report.notes.push_back(
-      fmt::format("The drive that would settle it: {}, on which no two of these {} candidates are nearer than "
-                  "{:.1f} points. FIDO's surveys before and after would be read for it to 0.1 points.",
-                  settled, candidates.size(), widest));
+  report.notes.push_back(fmt::format(
+      "The drive that would settle it: {}, on which no two of these {} candidates are nearer than "
+      "{:.1f} points. FIDO's surveys before and after would be read for it to 0.1 points.",
+      settled, candidates.size(), widest));
 }
 
 }  // namespace
@@ -191,8 +192,10 @@ Result<Report> roams_table_1(const std::filesystem::path& data) {
   for (const Published& p : kPublished)
     gap += std::abs(p.least - p.roams_least) + std::abs(p.most - p.roams_most);
   Report report;
-  report.title = "ROAMS's Table 1 as a case: where the gap is, which effect looks like it, what drive settles it";
-  report.source = "ROAMS paper (Huntsberger et al.), Table 1: least and most slip of FIDO and of ROAMS on four tilts";
+  report.title =
+      "ROAMS's Table 1 as a case: where the gap is, which effect looks like it, what drive settles it";
+  report.source =
+      "ROAMS paper (Huntsberger et al.), Table 1: least and most slip of FIDO and of ROAMS on four tilts";
   report.columns = {"points of slip", "0.085 deg", "5.743 deg", "10.758 deg", "20.764 deg"};
   const auto row = [&](const std::string& name, const auto& value, const char* form) {
     std::vector<std::string> cells{name};
@@ -202,27 +205,34 @@ Result<Report> roams_table_1(const std::filesystem::path& data) {
   const auto low = [](std::size_t t) { return kPublished[t].least - kPublished[t].roams_least; };
   const auto high = [](std::size_t t) { return kPublished[t].most - kPublished[t].roams_most; };
   row("FIDO less ROAMS, least slip", low, "{:+.0f}");
-  row("its share of the gap", [&](std::size_t t) { return 100.0 * std::abs(low(t)) / gap; }, "{:.0f} %");
+  row(
+      "its share of the gap", [&](std::size_t t) { return 100.0 * std::abs(low(t)) / gap; }, "{:.0f} %");
   row("FIDO less ROAMS, most slip", high, "{:+.0f}");
-  row("its share of the gap", [&](std::size_t t) { return 100.0 * std::abs(high(t)) / gap; }, "{:.0f} %");
-  row("our slip up the slope, sand as ROAMS's, %", [&](std::size_t t) { return base[t]; }, "{:.1f}");
+  row(
+      "its share of the gap", [&](std::size_t t) { return 100.0 * std::abs(high(t)) / gap; }, "{:.0f} %");
+  row(
+      "our slip up the slope, sand as ROAMS's, %", [&](std::size_t t) { return base[t]; }, "{:.1f}");
   std::vector<std::string> nothing;
   for (const Signature& s : all) {
     if (std::all_of(s.rise.begin(), s.rise.end(), [](double r) { return std::abs(r) < kShown; })) {
       nothing.push_back(s.effect);
       continue;
     }
-    row("with " + s.effect + " (" + s.size + ")", [&](std::size_t t) { return s.rise[t]; }, "{:+.1f}");
+    row(
+        "with " + s.effect + " (" + s.size + ")", [&](std::size_t t) { return s.rise[t]; }, "{:+.1f}");
   }
   const double share = 100.0 * high(kSteepest) / gap;
-  report.notes.push_back(
-      fmt::format("Where: the upper tail on 20.764 deg alone holds {:.0f} % of all {:.0f} points of gap, and most "
-                  "slip is met up the slope. On 0 to 6 deg there is next to none.",
-                  share, gap));
   report.notes.push_back(fmt::format(
-      "Which: every effect of the catalogue that is not at work already, one at a time at its initial size, on "
-      "the FIDO-class rover up the slope, on the table's sand with a friction angle of {:.1f} deg, on which it "
-      "slips by {:.0f} % there as ROAMS did. Ordered by the rise on 20.764 deg (at most {:.0f} points) less what "
+      "Where: the upper tail on 20.764 deg alone holds {:.0f} % of all {:.0f} points of gap, and most "
+      "slip is met up the slope. On 0 to 6 deg there is next to none.",
+      share, gap));
+  report.notes.push_back(fmt::format(
+      "Which: every effect of the catalogue that is not at work already, one at a time at its initial size, "
+      "on "
+      "the FIDO-class rover up the slope, on the table's sand with a friction angle of {:.1f} deg, on which "
+      "it "
+      "slips by {:.0f} % there as ROAMS did. Ordered by the rise on 20.764 deg (at most {:.0f} points) less "
+      "what "
       "they do on the lower tilts beyond the gap there. 100 % is a rover that does not get ahead.",
       deg_from_rad(soil.friction_angle_rad), base[kSteepest], high(kSteepest)));
   if (!nothing.empty())
@@ -235,12 +245,14 @@ Result<Report> roams_table_1(const std::filesystem::path& data) {
       candidates[0].rise[0]));
   add_drives(candidates, table.gravity_m_s2, report);
   report.notes.push_back(
-      "What this is not: a diagnosis of FIDO's drives. They are not published one by one, the shipped rover is "
+      "What this is not: a diagnosis of FIDO's drives. They are not published one by one, the shipped rover "
+      "is "
       "of FIDO's class, sizes are the catalogue's own, and softer sand alone would raise the same tail (the "
       "comparison fido_table_1 fits all eight numbers with no other effect than grousers).");
-  report.bands = {{"share of the gap in the upper tail on 20.764 deg, %", share, 60.0, 75.0},
-                  {"our slip up 20.764 deg on sand as ROAMS's, %", base[kSteepest], 19.0, 21.0},
-                  {"rise of the first candidate on 20.764 deg, points", candidates[0].rise[kSteepest], 5.0, 80.0}};
+  report.bands = {
+      {"share of the gap in the upper tail on 20.764 deg, %", share, 60.0, 75.0},
+      {"our slip up 20.764 deg on sand as ROAMS's, %", base[kSteepest], 19.0, 21.0},
+      {"rise of the first candidate on 20.764 deg, points", candidates[0].rise[kSteepest], 5.0, 80.0}};
   return report;
 }
 

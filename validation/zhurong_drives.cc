@@ -220,8 +220,10 @@ Result<Report> zhurong_wheels(const std::filesystem::path& data) {
   std::vector<std::string> measured{"measured, A"};
   for (const double current : kMeasured_a) measured.push_back(fmt::format("{:.3f}", current));
   measured.push_back("-");
-  report.rows = {measured, current_row("even, as in the paper", even),
-                 current_row("the rover as filed", filed), current_row("centre of mass shifted", shifted),
+  report.rows = {measured,
+                 current_row("even, as in the paper", even),
+                 current_row("the rover as filed", filed),
+                 current_row("centre of mass shifted", shifted),
                  current_row("centre of mass and bogie pivots shifted", best),
                  current_row("from even: mass to a side alone", currents_a(alike, soil, *sides)),
                  current_row("from even: bogie pivots back alone", currents_a(alike, soil, *rows))};
