@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <set>
 
 #include "api/catalogue.h"
@@ -131,19 +132,18 @@ void add_rows(const std::string& name, const std::vector<Told>& told, int digits
   add(", down more than 8 deg", [&](const Told& t) { return t.gradient_rad < -steep; });
 }
 
-}  // namespace
+struct Answer {
+  HeldOutLogs held;
+  std::string parameters;  // re-tuned on all logs
+};
 
-// Re-tuned on the other logs, what the corrected model says of a log.
-Result<Report> cuadriga_campaign(const std::filesystem::path& data) {
-  const auto catalogue = api::load_catalogue(data);
-  if (!catalogue) return fail(catalogue.error());
-  const auto campaign = api::load_drive_campaign(data / "drive-campaigns" / "cuadriga_2018_2019", *catalogue);
-  if (!campaign) return fail(campaign.error());
+// Every log told by a fit of the logs of the other folds.
+Result<Answer> tell_held_out(const gap::DriveCampaign& campaign) {
   NoProgress progress;
-  const auto prepared = gap::prepare(*campaign, {}, 0, progress);
+  const auto prepared = gap::prepare(campaign, {}, 0, progress);
   if (!prepared) return fail(prepared.error());
   const gap::FittedExplanation& all = *prepared->null;
-  HeldOutLogs held;
+  Answer answer;
   for (int fold = 0; fold < kFolds; ++fold) {
     const auto in_fold = [&](std::size_t w) {
       return static_cast<int>(prepared->windows[w].drive % kFolds) == fold;
@@ -157,8 +157,36 @@ Result<Report> cuadriga_campaign(const std::filesystem::path& data) {
     const gap::FittedExplanation fit = gap::fit_explanation(
         all.hypothesis, *prepared->model, *prepared->noise, all.hypothesis.neutral(), options, seen);
     for (std::size_t w = 0; w < prepared->windows.size(); ++w)
-      if (in_fold(w) && prepared->model->used(w)) tell(*prepared, *campaign, fit, w, held);
+      if (in_fold(w) && prepared->model->used(w)) tell(*prepared, campaign, fit, w, answer.held);
   }
+  for (std::size_t p = 0; p < all.x.size(); ++p)
+    answer.parameters +=
+        fmt::format("{}{} {:+.2f}", p == 0 ? "" : ", ", all.hypothesis.parameters()[p].name, all.x[p]);
+  return answer;
+}
+
+// What the file would say had its motors not been fitted: its assumed constants, and no idle current.
+gap::DriveCampaign with_motors_unfitted(gap::DriveCampaign campaign) {
+  auto rover = std::make_shared<sim::RoverModel>(*campaign.rover);
+  rover->drive.torque_constant_nm_per_a = 0.1;
+  rover->drive.no_load_current_a = 0.0;
+  campaign.rover = std::move(rover);
+  return campaign;
+}
+
+}  // namespace
+
+// Re-tuned on the other logs, what the corrected model says of a log.
+Result<Report> cuadriga_campaign(const std::filesystem::path& data) {
+  const auto catalogue = api::load_catalogue(data);
+  if (!catalogue) return fail(catalogue.error());
+  const auto campaign = api::load_drive_campaign(data / "drive-campaigns" / "cuadriga_2018_2019", *catalogue);
+  if (!campaign) return fail(campaign.error());
+  const auto shipped = tell_held_out(*campaign);
+  if (!shipped) return fail(shipped.error());
+  const gap::DriveCampaign stranger = with_motors_unfitted(*campaign);
+  const auto unfitted = tell_held_out(stranger);
+  if (!unfitted) return fail(unfitted.error());
   Report report;
   report.title = "A real rover's logs, told by a model that was re-tuned on the others";
   report.source =
@@ -166,37 +194,45 @@ Result<Report> cuadriga_campaign(const std::filesystem::path& data) {
       "data/drive-campaigns/cuadriga_2018_2019; six folds of whole logs";
   report.columns = {"quantity",     "windows",   "logs", "median error, nominal", "corrected", "down",
                     "rms, nominal", "corrected", "down", "in the 90 % interval"};
-  add_rows("slip", held.slip, 3, report);
-  add_rows("charge per metre, A s/m", held.charge_as, 2, report);
-  const Score slip = score_of(held.slip), charge = score_of(held.charge_as);
-  std::string parameters;
-  for (std::size_t p = 0; p < all.x.size(); ++p)
-    parameters +=
-        fmt::format("{}{} {:+.2f}", p == 0 ? "" : ", ", all.hypothesis.parameters()[p].name, all.x[p]);
+  add_rows("slip", shipped->held.slip, 3, report);
+  add_rows("charge per metre, A s/m", shipped->held.charge_as, 2, report);
+  add_rows("motors unfitted: slip", unfitted->held.slip, 3, report);
+  add_rows("motors unfitted: charge, A s/m", unfitted->held.charge_as, 2, report);
+  const Score slip = score_of(shipped->held.slip), charge = score_of(shipped->held.charge_as),
+              stranger_charge = score_of(unfitted->held.charge_as);
   report.notes = {
-      "Nominal: soil as of Wong's upland sandy loam, fitted to nothing here; the rover as it ships, whose "
-      "motors' "
-      "two numbers were fitted to these drives with another soil. Corrected: soil, closures and torque "
-      "constant "
-      "re-tuned by the diagnosis' own fit (gap/nuisance_catalogue), no effect added, on the logs of the "
-      "other folds.",
+      "Misses: against the rover as it ships the correction improves next to nothing: its motors' two "
+      "numbers were "
+      "fitted to these very drives (comparison cuadriga_drives), and what is left is scatter of single "
+      "windows. Slip "
+      "of a window is mostly noise: no model can halve its error.",
+      "Nominal soil: Wong's upland sandy loam, fitted to nothing here. Motors unfitted: 0.1 N m/A in place "
+      "of the "
+      "fitted constant and no idle current, as one who has not seen these drives might assume; how far that "
+      "is off is "
+      "an assumption, so what its correction gains says that the fit finds the motors, not how good a model "
+      "is.",
+      "Corrected: soil, closures and motors re-tuned by the diagnosis' own fit (gap/nuisance_catalogue), no "
+      "effect "
+      "added, on the logs of the other folds.",
       "Intervals hold the estimate's error and the scatter of soils and windows; that scatter was estimated "
       "on all "
       "logs, the held-out ones among them, which makes them a little too good. Those of charge take current "
       "and "
       "slip to err apart.",
-      "Windows that turn by more than 3 deg/s are not in the campaign: nothing is said of turns. Slip of a "
-      "window "
-      "is mostly noise: no model can halve its error.",
+      "Windows that turn by more than 3 deg/s are not in the campaign: nothing is said of turns.",
       "Re-tuned on all logs (logarithms of a factor on the nominal value, or as gap/nuisance_catalogue "
       "says): " +
-          parameters + "."};
+          shipped->parameters + ". Motors unfitted: " + unfitted->parameters + "."};
   report.bands = {
-      {"charge per metre: rms error down on held-out logs, %", percent_down(charge.nominal_rms, charge.rms),
-       -100.0, 100.0},
-      {"slip: rms error down on held-out logs, %", percent_down(slip.nominal_rms, slip.rms), -100.0, 100.0},
+      {"charge per metre, motors unfitted: median error down on held-out logs, %",
+       percent_down(stranger_charge.nominal_median, stranger_charge.median), 30.0, 100.0},
+      {"charge per metre: corrected rms error over the shipped rover's, held-out logs",
+       charge.rms / charge.nominal_rms, 0.0, 1.05},
+      {"slip: corrected rms error over nominal, held-out logs", slip.rms / slip.nominal_rms, 0.0, 1.05},
       {"share of held-out windows in the 90 % interval of slip, %", slip.within_90, 80.0, 98.0},
-      {"share of held-out windows in the 90 % interval of charge, %", charge.within_90, 80.0, 98.0}};
+      {"share of held-out windows in the 90 % interval of charge, %", charge.within_90, 80.0, 98.0},
+      {"the same, motors unfitted, %", stranger_charge.within_90, 80.0, 98.0}};
   return report;
 }
 
