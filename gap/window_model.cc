@@ -195,7 +195,7 @@ void WindowModel::predict_window(std::size_t w, const ModelState& state, bool sa
         out[i] = mean.pitch;
         break;
       case Channel::kCurrent:
-        out[i] = !moving        ? kNotMeasured
+        out[i] = !moving       ? kNotMeasured
                  : o.wheel < 0 ? std::accumulate(mean.current.begin(), mean.current.end(), 0.0) /
                                      static_cast<double>(wheels)
                                : mean.current[k];
