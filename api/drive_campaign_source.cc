@@ -21,6 +21,7 @@
 #include "campaign/digest.h"
 #include "dem/elevation_source.h"
 #include "dem/soil_map.h"
+#include "gap/drive_window.h"
 
 namespace slipway::api {
 namespace {
@@ -227,7 +228,12 @@ Result<gap::DriveCampaign> load_drive_campaign(const fs::path& folder, const Cat
     return fail(ErrorCode::kUnreadableData, summary_of(faults), faults);
   }
   auto campaign = Loader(folder, *bytes, std::move(*file)).load();
-  if (campaign) gap::adopt_measured_rates(*campaign);
+  if (!campaign) return campaign;
+  gap::adopt_measured_rates(*campaign);
+  if (gap::currents_split_evenly(*campaign))
+    campaign->notes.emplace_back(
+        "all wheels have the same current in every row: it is taken for a total that was divided evenly, and "
+        "compared as the wheels' mean");
   return campaign;
 }
 

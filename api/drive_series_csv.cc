@@ -60,8 +60,9 @@ constexpr std::array<Channel, 5> kWheelChannels{{
 struct Group {
   std::string_view name;
   std::array<std::size_t, 3> channels;
+  std::size_t alone = kNowhere;  // what may be there without the others: a heading without an inclinometer
 };
-constexpr std::array<Group, 2> kGroups{{{"a position", {1, 2, 3}}, {"an attitude", {4, 5, 6}}}};
+constexpr std::array<Group, 2> kGroups{{{"a position", {1, 2, 3}}, {"an attitude", {4, 5, 6}, 6}}};
 
 struct Column {
   std::string name;
@@ -176,11 +177,13 @@ class Reader {
   void check_columns(const Group& group) {
     std::vector<std::string_view> there, absent;
     std::size_t first = kNowhere;
+    bool others = false;
     for (const std::size_t channel : group.channels) {
+      others = others || (channel != group.alone && places_[channel] != kNowhere);
       (places_[channel] == kNowhere ? absent : there).push_back(kChannels[channel].name);
       first = std::min(first, places_[channel]);
     }
-    if (!there.empty() && !absent.empty())
+    if (others && !absent.empty())
       fault(line_, first,
             fmt::format("{} is measured as a whole or not at all; there is {}, but no column {}", group.name,
                         fmt::join(there, ", "), fmt::join(absent, ", ")));
@@ -224,16 +227,17 @@ class Reader {
   }
 
   void check_cells(const Group& group, std::span<const std::string_view> cells) {
-    std::size_t there = 0, absent = kNowhere;
+    std::size_t absent = kNowhere;
+    bool others = false;
     for (const std::size_t channel : group.channels) {
       const std::size_t place = places_[channel];
-      if (place == kNowhere) return;  // told of the header
+      if (place == kNowhere) return;  // told of the header, or alone
       if (cells[place].empty())
         absent = std::min(absent, place);
       else
-        ++there;
+        others = others || channel != group.alone;
     }
-    if (there > 0 && absent != kNowhere)
+    if (others && absent != kNowhere)
       fault(line_, absent,
             fmt::format("the cell is empty where others of the row are not: {} is measured as a whole or not "
                         "at all",

@@ -23,7 +23,7 @@ constexpr std::size_t kLeastDrives = 3, kLeastWindows = 6;
 constexpr double kCertain = 0.5;  // of a set's probability: below it the answer is a set of sets
 constexpr double kCertainBesides = 0.9;
 constexpr double kWorthNaming = 0.05;     // of an effect's probability
-constexpr double kParametersGain = 10.0;  // of the logarithm of the evidence, for calling parameters mis-set
+constexpr double kParametersGain = 25.0;  // of the logarithm of the evidence, for calling parameters mis-set
 constexpr double kSurelySeen = 3.0;       // standard errors
 constexpr double kSmall = 0.5;            // of an effect's usual size
 constexpr double kAlike_deg = 30.0;
@@ -93,7 +93,11 @@ class Diagnoser {
     if (d_.windows < prepared_.windows.size())
       d_.notes.push_back(fmt::format("{} of {} windows lie where the terrain has no ground and are left out",
                                      prepared_.windows.size() - d_.windows, prepared_.windows.size()));
-    if (prepared_.model->footing() == Footing::kPlane)
+    if (prepared_.model->footing() == Footing::kPlane && std::isnan(prepared_.model->attitude_misfit_rad()))
+      d_.notes.emplace_back(
+          "no attitude was recorded: the rover, whose frame is rigid, is predicted on the plane under its "
+          "wheels");
+    else if (prepared_.model->footing() == Footing::kPlane)
       d_.notes.push_back(fmt::format(
           "the attitudes recorded are those of the plane under the wheels (within {:.2f} deg), not of the "
           "suspension on the map: the rover is predicted on that plane",
@@ -356,15 +360,35 @@ class Diagnoser {
     for (ChannelShrink& channel : d_.gap)
       if (!explains()) channel.closed_fraction.reset();
     d_.candidates.front().held_out_score = shrunk->log_density_gain;
-    const bool offered = explains() ? shrunk->log_density_gain > 0.0 : d_.verdict == Verdict::kParameters;
+    const bool offered = explains() ? shrunk->log_density_gain > 0.0
+                                    : d_.verdict == Verdict::kParameters || unknown_but_nearer();
     if (offered) {
-      d_.model = with.hypothesis.state(with.x);
-      d_.model_effects = with.hypothesis.settings(with.x);
+      const FittedExplanation& told = explains() ? best_fit() : search_.fits[0];
+      d_.model = told.hypothesis.state(told.x);
+      d_.model_effects = told.hypothesis.settings(told.x);
     } else if (explains()) {
       d_.notes.push_back(
           "the correction did not improve drives held out of the fit: no corrected model is offered");
     }
     return {};
+  }
+
+  // A model beside which something unknown is at work is still the better one to plan with, where no channel
+  // of drives held out is told worse by it than by the nominal one and one is told much better.
+  bool unknown_but_nearer() {
+    constexpr double kNoWorse = 1.02, kMuchBetter = 0.8;
+    if (d_.verdict != Verdict::kUnknown) return false;
+    bool better = false;
+    for (const ChannelShrink& c : d_.gap) {
+      if (c.retuned.value > kNoWorse * c.nominal.value) return false;
+      better = better || c.retuned.value < kMuchBetter * c.nominal.value;
+    }
+    if (better)
+      d_.notes.emplace_back(
+          "the corrected model is the re-tuned one, without the effects named, and leaves something "
+          "unexplained; it is offered because it told drives held out of the fit better than the nominal "
+          "one");
+    return better;
   }
 
   void propose_drives() {

@@ -227,13 +227,14 @@ class WindowMaker {
     const auto told = sim::wheel_commands(*campaign_.rover, drive_.command);
     for (std::size_t k = 0; k < told.size(); ++k) {
       const int wheel = static_cast<int>(k);
+      const int bearer = options_.currents_split_evenly ? -1 : wheel;
       const double sense = told[k].rate_rad_s < 0.0 && !options_.currents_in_sense_of_rate ? -1.0 : 1.0;
       Readings current = readings_of(drive_, from_, to_,
                                      [&](const DriveSample& s) { return sense * s.wheels[k].current_a; });
-      if (current.count() > 0) {
+      if (current.count() > 0 && (k == 0 || bearer == wheel)) {
         const double scatter = std::hypot(std.current_a, std.current_relative * current.mean());
         current = current.kept(2.0 * scatter);
-        observe(Channel::kCurrent, wheel, current.mean(), scatter / std::sqrt(current.count()));
+        observe(Channel::kCurrent, bearer, current.mean(), scatter / std::sqrt(current.count()));
       }
       const Readings sinkage =
           readings_of(drive_, from_, to_, [&](const DriveSample& s) { return s.wheels[k].sinkage_m; });
@@ -249,14 +250,43 @@ class WindowMaker {
   DriveWindow window_;
 };
 
-// How many windows a drive is cut into.
-int windows_in(const MeasuredDriveSeries& drive, const WindowOptions& options) {
+// From one row to the next, s: the median.
+double interval_s(const MeasuredDriveSeries& drive) {
+  std::vector<double> intervals;
+  for (std::size_t i = 1; i < drive.samples.size(); ++i)
+    intervals.push_back(drive.samples[i].time_s - drive.samples[i - 1].time_s);
+  return median_of(std::move(intervals));
+}
+
+// How long a window lasts, s: three rows at least.
+double window_s(const MeasuredDriveSeries& drive, const WindowOptions& options) {
+  const double asked = drive.command.turn_in_place
+                           ? options.turn_rad / std::abs(drive.command.turn_rate_rad_s)
+                           : options.length_m / std::abs(drive.command.speed_m_s);
+  return std::max(asked, 2.0 * interval_s(drive));
+}
+
+// Rows [from, to] without a pause: what was done in one nobody knows.
+struct Stretch {
+  std::size_t from = 0, to = 0;
+};
+
+std::vector<Stretch> stretches_of(const MeasuredDriveSeries& drive, double lasting_s) {
+  constexpr double kPause = 0.75;  // of a window
+  const double longest_s = std::max(kPause * lasting_s, 1.5 * interval_s(drive));
+  std::vector<Stretch> stretches{{0, 0}};
+  for (std::size_t i = 1; i < drive.samples.size(); ++i) {
+    if (drive.samples[i].time_s - drive.samples[i - 1].time_s > longest_s && !drive.final_only)
+      stretches.push_back({i, i});
+    stretches.back().to = i;
+  }
+  return stretches;
+}
+
+int windows_in(const MeasuredDriveSeries& drive, const Stretch& stretch, double lasting_s) {
   if (drive.final_only) return 1;
-  const double duration_s = drive.samples.back().time_s - drive.samples.front().time_s;
-  const double windows = drive.command.turn_in_place
-                             ? std::abs(drive.command.turn_rate_rad_s) * duration_s / options.turn_rad
-                             : std::abs(drive.command.speed_m_s) * duration_s / options.length_m;
-  return std::max(1, static_cast<int>(std::lround(windows)));
+  const double duration_s = drive.samples[stretch.to].time_s - drive.samples[stretch.from].time_s;
+  return std::max(1, static_cast<int>(std::lround(duration_s / lasting_s)));
 }
 
 }  // namespace
@@ -286,24 +316,44 @@ bool currents_in_sense_of_rate(const DriveCampaign& campaign) {
   return sum > 0.0;
 }
 
+bool currents_split_evenly(const DriveCampaign& campaign) {
+  constexpr double kAlike = 1e-3;  // A, and of the current: as rounded
+  bool any = false;
+  for (const MeasuredDriveSeries& drive : campaign.drives)
+    for (const DriveSample& sample : drive.samples) {
+      const double first = sample.wheels[0].current_a;
+      for (const WheelReading& wheel : sample.wheels) {
+        const bool measured = std::isfinite(wheel.current_a);
+        if (measured != std::isfinite(first)) return false;
+        if (measured && std::abs(wheel.current_a - first) > kAlike * (1.0 + std::abs(first))) return false;
+      }
+      any = any || std::isfinite(first);
+    }
+  return any && campaign.rover->wheels.size() > 1;
+}
+
 std::vector<DriveWindow> cut_windows(const DriveCampaign& campaign, const WindowOptions& asked) {
   WindowOptions options = asked;
   options.currents_in_sense_of_rate = currents_in_sense_of_rate(campaign);
+  options.currents_split_evenly = currents_split_evenly(campaign);
   std::vector<DriveWindow> windows;
   for (std::size_t d = 0; d < campaign.drives.size(); ++d) {
     const MeasuredDriveSeries& drive = campaign.drives[d];
-    const int count = windows_in(drive, options);
-    const double start_s = drive.samples.front().time_s;
-    const double step_s = (drive.samples.back().time_s - start_s) / count;
-    std::size_t from = 0;
-    for (int w = 0; w < count; ++w) {
-      std::size_t to = from;
-      const double end_s = start_s + (w + 1) * step_s;
-      while (to + 1 < drive.samples.size() && drive.samples[to].time_s < end_s - 1e-9) ++to;
-      if (to <= from) continue;
-      DriveWindow window = WindowMaker(campaign, drive, from, to, options).make(d);
-      if (!window.stations.empty() && !window.observations.empty()) windows.push_back(std::move(window));
-      from = to;
+    const double lasting_s = window_s(drive, options);
+    for (const Stretch& stretch : stretches_of(drive, lasting_s)) {
+      const int count = windows_in(drive, stretch, lasting_s);
+      const double start_s = drive.samples[stretch.from].time_s;
+      const double step_s = (drive.samples[stretch.to].time_s - start_s) / count;
+      std::size_t from = stretch.from;
+      for (int w = 0; w < count; ++w) {
+        std::size_t to = from;
+        const double end_s = start_s + (w + 1) * step_s;
+        while (to < stretch.to && drive.samples[to].time_s < end_s - 1e-9) ++to;
+        if (to <= from) continue;
+        DriveWindow window = WindowMaker(campaign, drive, from, to, options).make(d);
+        if (!window.stations.empty() && !window.observations.empty()) windows.push_back(std::move(window));
+        from = to;
+      }
     }
   }
   return windows;

@@ -28,7 +28,7 @@ double boundary_unit(Channel channel);      // what one internal unit is there: 
 
 struct Observation {
   Channel channel = Channel::kSlip;
-  int wheel = -1;  // of a wheel's channel
+  int wheel = -1;  // of a wheel's channel; a current of none is the mean of all wheels
   double value = 0.0;
   double sensor_std = 0.0;  // by the campaign's measurement_std and the number of readings
 };
@@ -50,14 +50,19 @@ struct DriveWindow {
 constexpr double kCensoredSlip = 0.9;
 
 struct WindowOptions {
-  double length_m = 1.5;  // commanded
+  double length_m = 1.5;  // commanded; more where rows are so far apart that it would not hold three
   double turn_rad = 0.8;  // of a turn in place
   int stations = 3;
-  bool currents_in_sense_of_rate = false;  // found in the campaign's own readings
+  bool currents_in_sense_of_rate = false;  // this and the next: found in the campaign's own readings
+  bool currents_split_evenly = false;
 };
 bool currents_in_sense_of_rate(const DriveCampaign& campaign);
+// In every row all wheels have one current: what was recorded is the total. It is compared as a mean, since
+// the wheels of a rover on a slope do not share alike.
+bool currents_split_evenly(const DriveCampaign& campaign);
 
-// Windows of every drive, in the drives' order. A drive shorter than a window is one. Samples whose value
+// Windows of every drive, in the drives' order. A drive shorter than a window is one. None reaches across a
+// pause in the rows that is nearly as long as itself. Samples whose value
 // lies beyond kOutlier deviations of their neighbours' median are passed over; windows with fewer than two
 // poses have no slip, side slip and yaw rate. Drives that are final_only are one window without currents.
 std::vector<DriveWindow> cut_windows(const DriveCampaign& campaign, const WindowOptions& options = {});

@@ -202,10 +202,12 @@ std::vector<EffectVariant> effect_variants(const sim::RoverModel& rover,
 Hypothesis::Hypothesis(const DriveCampaign& campaign, std::vector<EffectVariant> effects,
                        FreeNuisances nuisances)
     : campaign_(&campaign), effects_(std::move(effects)) {
-  const bool several = campaign.soils.size() > 1;
+  const bool several = campaign.soils.size() > 1, total_current = currents_split_evenly(campaign);
   for (const Nuisance& row : nuisance_catalogue()) {
     const bool nominal = row.kind == NuisanceKind::kSoil || row.kind == NuisanceKind::kMotor;
     if (nuisances == FreeNuisances::kClosures && nominal) continue;
+    if (row.name == kIdleCurrent && !total_current) continue;
+    const bool wide = total_current && row.name == "torque_constant";
     const int copies = row.kind == NuisanceKind::kSoil ? static_cast<int>(campaign.soils.size()) : 1;
     for (int soil = 0; soil < copies; ++soil) {
       std::string name(row.name);
@@ -216,7 +218,10 @@ Hypothesis::Hypothesis(const DriveCampaign& campaign, std::vector<EffectVariant>
       const bool trusted = campaign.retuning == Retuning::kTrustedClosures &&
                            row.kind == NuisanceKind::kClosure && row.on_soil != nullptr;
       const double share = held ? kHeld : trusted ? kTrusted : 1.0;
-      parameters_.push_back({name, "", 0.0, share * row.std, row.lowest, row.highest});
+      const double std = wide ? kTotalTorqueStd : row.std;
+      const double farthest = wide ? 3.0 * kTotalTorqueStd : 0.0;
+      parameters_.push_back(
+          {name, "", 0.0, share * std, std::min(row.lowest, -farthest), std::max(row.highest, farthest)});
       places_.push_back({&row, row.kind == NuisanceKind::kSoil ? soil : -1});
     }
   }

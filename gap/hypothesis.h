@@ -35,7 +35,8 @@ struct EffectVariant {
 std::vector<EffectVariant> effect_variants(const sim::RoverModel& rover,
                                            std::span<const std::string> withheld);
 
-// Whether its law is one of several in the literature: what it does may then differ in form from the library's.
+// Whether its law is one of several in the literature: what it does may then differ in form from the
+// library's.
 bool has_many_forms(std::string_view effect);
 
 struct Parameter {

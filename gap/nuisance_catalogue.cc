@@ -50,6 +50,13 @@ constexpr std::array kRows{
              NuisanceKind::kSensor, 0.5, 0.0, 1.0},
     Nuisance{"torque_constant", "logarithm of the motors' torque constant", NuisanceKind::kMotor, 0.01, -0.3,
              0.3, nullptr, [](double v, RoverModel& r) { r.drive.torque_constant_nm_per_a *= std::exp(v); }},
+    Nuisance{
+        kIdleCurrent,
+        "added to each motor's no-load current, A; where a total was recorded, with all that hangs on it",
+        NuisanceKind::kMotor, 0.5, -5.0, 5.0, nullptr,
+        [](double v, RoverModel& r) {
+          r.drive.no_load_current_a = std::max(0.0, r.drive.no_load_current_a + v);
+        }},
 };
 
 }  // namespace

@@ -33,6 +33,12 @@ inline constexpr std::string_view kPoseLag = "pose_lag_s";
 // the track's bottom and not from the ground around. Matters where wheels follow each other in tracks.
 inline constexpr std::string_view kTrackLeftOut = "track_left_out";
 
+// A row of kMotor, free where a campaign recorded the total of the currents alone: then motors were not
+// calibrated one by one, and what the electronics draw is in it. There the torque constant is believed by
+// kTotalTorqueStd only.
+inline constexpr std::string_view kIdleCurrent = "idle_current";
+inline constexpr double kTotalTorqueStd = 0.3;
+
 // A new one is a row.
 std::span<const Nuisance> nuisance_catalogue();
 

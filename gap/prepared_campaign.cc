@@ -1,5 +1,6 @@
 #include "gap/prepared_campaign.h"
 
+#include <cmath>
 #include <string_view>
 
 namespace slipway::gap {
@@ -32,11 +33,19 @@ Eigen::VectorXd in_prior_units(const FittedExplanation& fit) {
 // wheels by this much (of rms).
 constexpr double kPlaneIsNearer = 0.8;
 
+// A rigid frame on uneven ground would stand on three of its wheels. Real ones have tyres and give: where no
+// attitude was recorded that says otherwise, they stand on the plane.
+bool stands_on_plane(const DriveCampaign& campaign, const WindowModel& model) {
+  return campaign.rover->suspension.type == sim::SuspensionType::kRigid &&
+         std::isnan(model.attitude_misfit_rad());
+}
+
 std::unique_ptr<WindowModel> model_of(const DriveCampaign& campaign, std::span<const DriveWindow> windows) {
   auto suspension = std::make_unique<WindowModel>(campaign, windows);
   auto plane = std::make_unique<WindowModel>(campaign, windows, Footing::kPlane);
   const bool nearer =
-      plane->attitude_misfit_rad() < kPlaneIsNearer * suspension->attitude_misfit_rad();  // false for NaN
+      plane->attitude_misfit_rad() < kPlaneIsNearer * suspension->attitude_misfit_rad() ||  // false for NaN
+      stands_on_plane(campaign, *suspension);
   return nearer ? std::move(plane) : std::move(suspension);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/angle.h"
 #include "core/parallel_for.h"
@@ -194,7 +195,10 @@ void WindowModel::predict_window(std::size_t w, const ModelState& state, bool sa
         out[i] = mean.pitch;
         break;
       case Channel::kCurrent:
-        out[i] = moving ? mean.current[k] : kNotMeasured;
+        out[i] = !moving       ? kNotMeasured
+                 : o.wheel < 0 ? std::accumulate(mean.current.begin(), mean.current.end(), 0.0) /
+                                     static_cast<double>(wheels)
+                               : mean.current[k];
         break;
       case Channel::kSinkage:
         out[i] = moving ? mean.sinkage[k] : kNotMeasured;

@@ -26,7 +26,9 @@ Result<Report> pavlov_tests(const std::filesystem::path& data);
 Result<Report> pavlov_wheel(const std::filesystem::path& data);
 Result<Report> cuadriga_data(const std::filesystem::path& data);
 Result<Report> cuadriga_drives(const std::filesystem::path& data);
+Result<Report> cuadriga_campaign(const std::filesystem::path& data);
 Result<Report> fido_table_1(const std::filesystem::path& data);
+Result<Report> roams_table_1(const std::filesystem::path& data);
 Result<Report> artemis_cases(const std::filesystem::path& data);
 
 }  // namespace slipway::validation

@@ -152,6 +152,7 @@ TEST_F(DriveCampaignFolder, FaultsOfADrivesFileHaveLineAndColumn) {
   expect_csv_fault(kHeader + kRows + "3,0,,0,,\n", "/4/y_m", "a position is measured as a whole");
   expect_csv_fault(kHeader + kRows + "3,0,0,0,1e6,\n", "/4/lf_current_a",
                    "column 5 (lf_current_a): 1000000, must be in");
+  expect_csv_fault("t_s,roll_deg,yaw_deg\n0,0,0\n1,0,0\n", "/1/roll_deg", "but no column pitch_deg");
   expect_csv_fault("t_s,x_m,y_m\n0,0,0\n1,0,0\n", "/1/x_m", "there is x_m, y_m, but no column z_m");
   expect_csv_fault("t_s,lm_rate_deg_s\n0,0\n1,0\n", "/1/lm_rate_deg_s",
                    "column 2 (lm_rate_deg_s): \"lm\" is no wheel of the rover, which has lf, lr, rf, rr");

@@ -91,5 +91,42 @@ TEST(DriveWindow, SurveysBeforeAndAfterSayPoseAlone) {
   EXPECT_FALSE(value_of(windows[0], Channel::kCurrent));
 }
 
+TEST(DriveWindow, OneCurrentForAllWheelsIsATotalAndComparedAsTheirMean) {
+  DriveCampaign campaign = constant_motion(0.04, 0.0, 0.0, 0.0, 0.0, 0.05, 0.0);
+  const auto currents = [&] {
+    std::vector<int> wheels;
+    for (const Observation& o : cut_windows(campaign)[0].observations)
+      if (o.channel == Channel::kCurrent) wheels.push_back(o.wheel);
+    return wheels;
+  };
+  EXPECT_EQ(currents(), std::vector<int>{-1});
+  campaign.drives[0].samples[3].wheels[2].current_a += 0.01;
+  EXPECT_EQ(currents(), (std::vector<int>{0, 1, 2, 3, 4, 5}));
+}
+
+TEST(DriveWindow, NoneReachesAcrossAPause) {
+  DriveCampaign campaign = constant_motion(0.04, 0.0, 0.0, 0.0, 0.0, 0.05, 0.0);
+  for (std::size_t i = 15; i < campaign.drives[0].samples.size(); ++i)
+    campaign.drives[0].samples[i].time_s += 60.0;
+  const std::vector<DriveWindow> windows = cut_windows(campaign);
+  ASSERT_EQ(windows.size(), 2U);
+  EXPECT_LE(windows[0].end_s, 14.0);
+  EXPECT_GE(windows[1].start_s, 75.0);
+  EXPECT_NEAR(*value_of(windows[1], Channel::kSlip), 0.2, 1e-4);
+}
+
+TEST(DriveWindow, OfRowsThatAreFarApartItHoldsThree) {
+  DriveCampaign campaign = constant_motion(0.04, 0.0, 0.0, 0.0, 0.0, 0.05, 0.0);
+  auto& samples = campaign.drives[0].samples;
+  for (std::size_t i = 0; 15 * i < samples.size(); ++i) samples[i] = samples[15 * i];
+  samples.resize(3);
+  for (std::size_t i = 0; i < samples.size(); ++i) samples[i].attitude.yaw_rad = 3.0;
+  WindowOptions options;
+  options.length_m = 0.5;  // 10 s, where rows are 15 s apart
+  const std::vector<DriveWindow> windows = cut_windows(campaign, options);
+  ASSERT_EQ(windows.size(), 1U);
+  EXPECT_NEAR(windows[0].end_s - windows[0].start_s, 30.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace slipway::gap

@@ -1,0 +1,39 @@
+// Drives of a real rover that ship, as a campaign.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "api/catalogue.h"
+#include "api/drive_campaign_source.h"
+#include "gap/drive_window.h"
+#include "gap/window_model.h"
+
+namespace slipway::gap {
+namespace {
+
+TEST(RealDrives, CuadrigasLogsAreADriveEachWithATotalOfCurrent) {
+  const std::filesystem::path data = SLIPWAY_DATA_FOLDER;
+  const auto catalogue = api::load_catalogue(data);
+  ASSERT_TRUE(catalogue);
+  const auto campaign = api::load_drive_campaign(data / "drive-campaigns" / "cuadriga_2018_2019", *catalogue);
+  ASSERT_TRUE(campaign);
+  EXPECT_EQ(campaign->drives.size(), 24U);
+  EXPECT_TRUE(currents_split_evenly(*campaign));
+  const std::vector<DriveWindow> windows = cut_windows(*campaign);
+  EXPECT_GT(windows.size(), 200U);
+  for (const DriveWindow& window : windows) {
+    EXPECT_NEAR(window.end_s - window.start_s, 4.0, 0.01);
+    ASSERT_EQ(window.observations.size(), 4U) << "slip, side slip, yaw rate, one current";
+    EXPECT_EQ(window.observations[3].channel, Channel::kCurrent);
+    EXPECT_EQ(window.observations[3].wheel, -1);
+    EXPECT_GT(window.observations[0].value, -0.8);
+    EXPECT_LT(window.observations[0].value, 0.8);
+  }
+  const WindowModel model(*campaign, windows, Footing::kPlane);
+  for (std::size_t w = 0; w < windows.size(); ++w) EXPECT_TRUE(model.used(w)) << w;
+  EXPECT_TRUE(std::isnan(model.attitude_misfit_rad())) << "no attitude was measured";
+}
+
+}  // namespace
+}  // namespace slipway::gap
