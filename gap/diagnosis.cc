@@ -20,10 +20,11 @@ namespace slipway::gap {
 namespace {
 
 constexpr std::size_t kLeastDrives = 3, kLeastWindows = 6;
+constexpr int kMostRefittedAgain = 6, kMostPairedAgain = 2;
 constexpr double kCertain = 0.5;  // of a set's probability: below it the answer is a set of sets
 constexpr double kCertainBesides = 0.9;
 constexpr double kWorthNaming = 0.05;     // of an effect's probability
-constexpr double kParametersGain = 25.0;  // of the logarithm of the evidence, for calling parameters mis-set
+constexpr double kParametersGain = 10.0;  // of the logarithm of the evidence, for calling parameters mis-set
 constexpr double kSurelySeen = 3.0;       // standard errors
 constexpr double kSmall = 0.5;            // of an effect's usual size
 constexpr double kAlike_deg = 30.0;
@@ -75,8 +76,7 @@ class Diagnoser {
   Diagnoser(const DriveCampaign& campaign, const DiagnosisOptions& options, Progress& progress)
       : campaign_(campaign), options_(options), progress_(progress) {}
 
-  // Prepares the campaign and searches once; false where there is too little to search in.
-  Result<bool> weigh() {
+  Result<Diagnosis> run() {
     d_.campaign = campaign_.name;
     d_.campaign_fingerprint = campaign_.fingerprint;
     d_.seed = options_.seed;
@@ -113,30 +113,19 @@ class Diagnoser {
       d_.reason = fmt::format("{} drives with {} windows of use are too few to tell causes apart", d_.drives,
                               d_.windows);
       d_.overturned_by = fmt::format("{} drives and {} windows at least", kLeastDrives, kLeastWindows);
-      return false;
+      return std::move(d_);
     }
-    if (auto searched = search(); !searched) return fail(searched.error());
-    return true;
-  }
-
-  // The logarithm of how probable the drives are under the best explanation.
-  double log_evidence() const { return best().log_evidence - 0.5 * prepared_.noise->log_determinant(); }
-
-  Result<Diagnosis> insufficient() { return std::move(d_); }
-
-  // After weigh().
-  Result<Diagnosis> finish() {
+    if (auto searched = search(options_.search); !searched) return fail(searched.error());
     if (!best().effects.empty()) {
-      // With what was found in it, the model takes less of the gap for scatter.
+      // With what was found in it, the model takes less of the gap for scatter. What was far behind need not
+      // be fitted again.
       prepare_around(prepared_, campaign_, best_fit(), options_.search.threads);
       d_.noise = prepared_.noise->scales();
-      if (auto searched = search(); !searched) return fail(searched.error());
+      SearchOptions again = options_.search;
+      again.most_refitted = std::min(again.most_refitted, kMostRefittedAgain);
+      again.most_paired = std::min(again.most_paired, kMostPairedAgain);
+      if (auto searched = search(again); !searched) return fail(searched.error());
     }
-    if (campaign_.retuning == Retuning::kTrustedClosures)
-      d_.notes.push_back(
-          "closures of the wheel's law are taken to be near the nominal soils': re-tuning them freely "
-          "explains "
-          "these drives no better");
     judge();
     describe_parameters();
     compare_look_alikes();
@@ -150,11 +139,11 @@ class Diagnoser {
   }
 
  private:
-  Result<void> search() {
-    auto search = search_explanations(campaign_, *prepared_.model, *prepared_.noise, *prepared_.null,
-                                      prepared_.wildcard, options_.search, progress_);
-    if (!search) return fail(search.error());
-    search_ = std::move(*search);
+  Result<void> search(const SearchOptions& options) {
+    auto found = search_explanations(campaign_, *prepared_.model, *prepared_.noise, *prepared_.null,
+                                     prepared_.wildcard, options, progress_);
+    if (!found) return fail(found.error());
+    search_ = std::move(*found);
     return {};
   }
 
@@ -429,17 +418,7 @@ Result<Diagnosis> diagnose(const DriveCampaign& campaign, const DiagnosisOptions
     }
   if (!faults.empty())
     return fail(ErrorCode::kInvalidRequest, "an effect to withhold is not in the catalogue", faults);
-  // With closures trusted and without: what the drives say is the more probable.
-  DriveCampaign trusting = campaign;
-  if (campaign.retuning == Retuning::kAll) trusting.retuning = Retuning::kTrustedClosures;
-  Diagnoser trusted(trusting, options, progress);
-  const auto enough = trusted.weigh();
-  if (!enough) return fail(enough.error());
-  if (!*enough) return trusted.insufficient();
-  if (campaign.retuning != Retuning::kAll) return trusted.finish();
-  Diagnoser free(campaign, options, progress);
-  if (auto weighed = free.weigh(); !weighed) return fail(weighed.error());
-  return (trusted.log_evidence() >= free.log_evidence() ? trusted : free).finish();
+  return Diagnoser(campaign, options, progress).run();
 }
 
 }  // namespace slipway::gap

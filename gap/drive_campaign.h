@@ -70,10 +70,7 @@ struct MeasurementStd {
 
 // How much of soil, closures and motors a diagnosis may re-tune. Less than all is for ablations: what it
 // holds at nominal is believed to be exact.
-//
-// kTrustedClosures: closures of the soil's laws are believed to be near the nominal soils'. A diagnosis tries
-// both that and kAll.
-enum class Retuning { kAll, kTrustedClosures, kNoClosures, kNone };
+enum class Retuning { kAll, kNoClosures, kNone };
 
 // Recorded drives and what was known before them ("drive-campaign/1"): rover, nominal soils, terrain. It
 // never says what made prediction and drives differ.

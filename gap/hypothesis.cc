@@ -128,9 +128,6 @@ constexpr std::array kRows{Row{"dragging_wheel", &dragging},  Row{"steering_offs
                            Row{"bulldozing", &heap},          Row{"soil_gravity", &none},
                            Row{"smooth_rim", &none}};
 
-// Of a closure's prior deviation where the nominal soils' are trusted.
-constexpr double kTrusted = 0.2;
-
 // Effects of soils and motors that other authors write with other equations. The rest are geometry.
 constexpr std::array<std::string_view, 10> kOfManyForms{
     "soft_patch",      "slip_sinkage", "multipass",        "grousers", "bulldozing",
@@ -215,13 +212,10 @@ Hypothesis::Hypothesis(const DriveCampaign& campaign, std::vector<EffectVariant>
         name += "/" + campaign.soils[static_cast<std::size_t>(soil)].name;
       const bool held = campaign.retuning == Retuning::kNone ||
                         (campaign.retuning == Retuning::kNoClosures && row.kind == NuisanceKind::kClosure);
-      const bool trusted = campaign.retuning == Retuning::kTrustedClosures &&
-                           row.kind == NuisanceKind::kClosure && row.on_soil != nullptr;
-      const double share = held ? kHeld : trusted ? kTrusted : 1.0;
       const double std = wide ? kTotalTorqueStd : row.std;
       const double farthest = wide ? 3.0 * kTotalTorqueStd : 0.0;
-      parameters_.push_back(
-          {name, "", 0.0, share * std, std::min(row.lowest, -farthest), std::max(row.highest, farthest)});
+      parameters_.push_back({name, "", 0.0, held ? kHeld * std : std, std::min(row.lowest, -farthest),
+                             std::max(row.highest, farthest)});
       places_.push_back({&row, row.kind == NuisanceKind::kSoil ? soil : -1});
     }
   }

@@ -14,7 +14,7 @@ constexpr std::array kSizes{0.4, 1.2, 3.6};
 constexpr std::array kImprecisionShares{0.1, 0.3, 1.0};
 constexpr std::array kFormSizes{0.0, 0.3, 1.0};
 // What an effect's law may depend on otherwise than the library's does.
-constexpr std::array<std::string_view, 4> kFormVariables{"pitch", "slip", "speed", "temperature"};
+constexpr std::array<std::string_view, 2> kFormVariables{"pitch", "slip"};
 constexpr double kProbe_m = 0.05;
 
 // Effects of the catalogue as levers: what a force along, a force across, a shifted load, a turned wheel

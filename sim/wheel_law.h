@@ -125,7 +125,8 @@ void add_nodes(const WheelCase<V>& in, const ContactAngles<V>& at, const LawPart
   sum.sigma_sin += weight * sigma * sine;
   if (parts.lateral) sum.tau_y -= strength * m_y;
   if (parts.grousers) {
-    const V m = weight * mobilised(j_x, in.per_cleat_shear);
+    const V m =
+        weight * select(in.per_cleat_shear == in.per_shear_x, m_x, mobilised(j_x, in.per_cleat_shear));
     sum.m += m;
     sum.m_cos += m * cosine;
     sum.m_sin += m * sine;
