@@ -24,7 +24,7 @@ constexpr int kMostRefittedAgain = 6, kMostPairedAgain = 2;
 constexpr double kCertain = 0.5;  // of a set's probability: below it the answer is a set of sets
 constexpr double kCertainBesides = 0.9;
 constexpr double kWorthNaming = 0.05;     // of an effect's probability
-constexpr double kParametersGain = 10.0;  // of the logarithm of the evidence, for calling parameters mis-set
+constexpr double kParametersGain = 20.0;  // of the logarithm of the evidence, for calling parameters mis-set
 constexpr double kSurelySeen = 3.0;       // standard errors
 constexpr double kSmall = 0.5;            // of an effect's usual size
 constexpr double kAlike_deg = 30.0;
