@@ -7,18 +7,7 @@ data="$2"
 folder="$(mktemp -d)"
 trap 'rm -rf "$folder"' EXIT
 
-expect() {
-  wanted="$1"
-  shift
-  status=0
-  "$@" >"$folder/out" 2>"$folder/err" || status=$?
-  if [ "$status" != "$wanted" ]; then
-    echo "exit status $status, expected $wanted, of: $*"
-    cat "$folder/err"
-    exit 1
-  fi
-}
-holds() { grep -q -- "$1" "$2" || { echo "\"$1\" is not in $2:"; cat "$2"; exit 1; }; }
+. "$(dirname "$0")/../command_expectations.sh"
 
 cat >"$folder/table.json" <<'TABLE'
 {"format": "campaign-table/1", "name": "small", "summary": "short drives on two tilts", "sources": [],

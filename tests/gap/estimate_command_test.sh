@@ -8,18 +8,7 @@ data="$source/data"
 folder="$(mktemp -d)"
 trap 'rm -rf "$folder"' EXIT
 
-expect() {
-  wanted="$1"
-  shift
-  status=0
-  "$@" >"$folder/out" 2>"$folder/err" || status=$?
-  if [ "$status" != "$wanted" ]; then
-    echo "exit status $status, expected $wanted, of: $*"
-    cat "$folder/err"
-    exit 1
-  fi
-}
-holds() { grep -q -- "$1" "$2" || { echo "\"$1\" is not in $2:"; cat "$2"; exit 1; }; }
+. "$(dirname "$0")/../command_expectations.sh"
 
 # The plates of the sand of data/validation: published beside them n 1.34 over all samples.
 awk -F, 'NR==1{print "test,plate_radius_m,sinkage_m,pressure_pa"} NR>1{printf "%s,%s,%s,%s\n",$1,$2/2000,$4,$5*1000}' \

@@ -9,22 +9,6 @@ namespace {
 
 constexpr std::array<bool, kSoilChannels> kAll{true, true, true, true, true, true};
 
-Result<SoilEstimate> estimate(const sim::SoilDistribution& start, const SoilData& data,
-                              const SoilEstimationOptions& options = {}) {
-  NoProgress progress;
-  return estimate_soil(start, data, options, progress);
-}
-
-const EstimatedParameter& of(const SoilEstimate& estimate, SoilParameter parameter) {
-  for (const EstimatedParameter& p : estimate.parameters)
-    if (p.parameter == parameter) return p;
-  throw std::logic_error("not estimated");
-}
-
-double off(const SoilEstimate& e, SoilParameter parameter, const sim::Soil& truth) {
-  return of(e, parameter).value / value_of(parameter, truth, e.width_m) - 1.0;
-}
-
 // Plates of these radii in a soil with these moduli.
 SoilData made_plates(const sim::BekkerModuli& moduli, const std::vector<double>& radii, double noise) {
   SoilData data;

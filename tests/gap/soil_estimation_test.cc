@@ -10,22 +10,6 @@
 namespace slipway::gap {
 namespace {
 
-Result<SoilEstimate> estimate(const sim::SoilDistribution& start, const SoilData& data,
-                              const SoilEstimationOptions& options = {}) {
-  NoProgress progress;
-  return estimate_soil(start, data, options, progress);
-}
-
-const EstimatedParameter& of(const SoilEstimate& estimate, SoilParameter parameter) {
-  for (const EstimatedParameter& p : estimate.parameters)
-    if (p.parameter == parameter) return p;
-  throw std::logic_error("not estimated");
-}
-
-double off(const SoilEstimate& e, SoilParameter parameter, const sim::Soil& truth) {
-  return of(e, parameter).value / value_of(parameter, truth, e.width_m) - 1.0;
-}
-
 void print(const char* title, const SoilEstimate& e, const sim::Soil& truth) {
   fmt::print("{}: {} evaluations, variance {:.3g}, {}\n", title, e.evaluations, e.residual_variance,
              e.converged ? "converged" : "not converged");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <stdexcept>
 
 #include "core/angle.h"
 #include "core/random.h"
@@ -33,6 +34,24 @@ inline sim::SoilDistribution start_49_percent_off(const sim::Soil& truth, double
   start.mean.shear_modulus_y_m *= down;
   start.std = {0.25, 0.05, 60.0, rad_from_deg(2.0), 0.25};
   return start;
+}
+
+inline Result<SoilEstimate> estimate(const sim::SoilDistribution& start, const SoilData& data,
+                                     const SoilEstimationOptions& options = {}) {
+  NoProgress progress;
+  return estimate_soil(start, data, options, progress);
+}
+
+// Of what was estimated; the test ends where it was not.
+inline const EstimatedParameter& of(const SoilEstimate& estimate, SoilParameter parameter) {
+  for (const EstimatedParameter& p : estimate.parameters)
+    if (p.parameter == parameter) return p;
+  throw std::logic_error("not estimated");
+}
+
+// Share by which an estimate is off the truth.
+inline double off(const SoilEstimate& e, SoilParameter parameter, const sim::Soil& truth) {
+  return of(e, parameter).value / value_of(parameter, truth, e.width_m) - 1.0;
 }
 
 struct MadeWheelTests {

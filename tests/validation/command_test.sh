@@ -8,18 +8,7 @@ page="$3"
 folder="$(mktemp -d)"
 trap 'rm -rf "$folder"' EXIT
 
-expect() {
-  wanted="$1"
-  shift
-  status=0
-  "$@" >"$folder/out" 2>"$folder/err" || status=$?
-  if [ "$status" != "$wanted" ]; then
-    echo "exit status $status, expected $wanted, of: $*"
-    cat "$folder/err"
-    exit 1
-  fi
-}
-holds() { grep -q "$1" "$2" || { echo "\"$1\" is not in $2:"; cat "$2"; exit 1; }; }
+. "$(dirname "$0")/../command_expectations.sh"
 
 expect 0 "$slipway" validate --data "$data" --only kernel_cross_check --only ding_2011 --plots "$folder/plots"
 holds '^\[2/2\] ding_2011' "$folder/err"
