@@ -84,7 +84,9 @@ std::vector<EffectVariant> hard_layer(const sim::RoverModel& /*rover*/) {
 }
 
 std::vector<EffectVariant> cleats(const sim::RoverModel& /*rover*/) {
-  return {variant("grousers", "", {{"height_m", 0.01, 0.0, 0.05}, {"mobilisation", 0.5, 0.02, 1.0}})};
+  const std::vector<Free> free{{"height_m", 0.01, 0.0, 0.05}, {"mobilisation", 0.5, 0.02, 1.0}};
+  return {variant("grousers", "mobilised along the rim", free, {{"by_slip", 0.0}}),
+          variant("grousers", "mobilised by slip", free, {{"by_slip", 1.0}})};
 }
 
 std::vector<EffectVariant> gearbox(const sim::RoverModel& /*rover*/) {

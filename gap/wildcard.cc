@@ -40,11 +40,31 @@ struct Variable {
   double value;
 };
 
+// What only some entries could depend on: a force that keeps its direction on the map, what changes over the
+// hours. The other variables go with every entry.
+struct RareVariable {
+  std::string_view name;
+  std::array<std::string_view, 4> entries;
+};
+constexpr std::array kRareVariables{
+    RareVariable{"east", {"tangential_force", "lateral_force"}},
+    RareVariable{"north", {"tangential_force", "lateral_force"}},
+    RareVariable{"order", {"tangential_force", "pressure_sinkage", "slip_sensor", "torque_to_current"}}};
+
+bool may_depend(std::string_view entry, std::string_view variable) {
+  for (const RareVariable& rare : kRareVariables)
+    if (rare.name == variable)
+      return std::find(rare.entries.begin(), rare.entries.end(), entry) != rare.entries.end();
+  return true;
+}
+
 std::vector<Variable> variables_of(const WindowModel& model, std::size_t w, double slip, double mean_speed) {
   const DriveWindow& window = model.windows()[w];
   const WindowModel::Conditions& at = model.conditions(w);
   const sim::DriveCommand& command = window.command;
   const double speed = std::abs(command.speed_m_s);
+  const double yaw = window.stations[window.stations.size() / 2].yaw_rad;
+  const auto last_drive = static_cast<double>(model.windows().back().drive);
   return {{"constant", 1.0},
           {"pitch", at.pitch_rad / rad_from_deg(10.0)},
           {"roll", at.roll_rad / rad_from_deg(10.0)},
@@ -55,7 +75,10 @@ std::vector<Variable> variables_of(const WindowModel& model, std::size_t w, doub
           {"speed", command.turn_in_place || mean_speed == 0.0 ? 0.0 : 2.0 * (speed / mean_speed - 1.0)},
           {"curvature", command.turn_in_place ? 0.0 : command.curvature_1_m / 0.4},
           {"turning", command.turn_in_place ? 1.0 : 0.0},
-          {"temperature", command.motor_temp_c ? *command.motor_temp_c / 30.0 : 0.0}};
+          {"temperature", command.motor_temp_c ? *command.motor_temp_c / 30.0 : 0.0},
+          {"east", std::cos(yaw)},
+          {"north", std::sin(yaw)},
+          {"order", last_drive > 0.0 ? 2.0 * static_cast<double>(window.drive) / last_drive - 1.0 : 0.0}};
 }
 
 Eigen::MatrixXd both(const Eigen::MatrixXd& known, const Eigen::MatrixXd& white, double size) {
@@ -182,6 +205,7 @@ Wildcard make_wildcard(const DriveCampaign& campaign, const WindowModel& model, 
   for (std::size_t e = 0; e < entries.size() && !variables.empty(); ++e) {
     const std::size_t used = e < shared_entries ? variables.front().size() : 1;
     for (std::size_t v = 0; v < used; ++v) {
+      if (!may_depend(entries[e], variables.front()[v].name)) continue;
       Eigen::VectorXd column = responses[e];
       for (std::size_t w = 0; w < variables.size(); ++w)
         column.segment(static_cast<Eigen::Index>(model.offset(w)),

@@ -165,6 +165,10 @@ int gap_benchmark(const GapBenchmarkCommand& options) {
     std::cerr << options.folder << " holds no drive campaign of that name\n";
     return 2;
   }
+  // What can't be read is said before the first diagnosis, not after an hour of them.
+  for (const std::string& name : names)
+    if (auto campaign = api::load_drive_campaign(fs::path(options.folder) / name, *catalogue); !campaign)
+      return refuse_input(campaign.error());
   // All diagnoses before the key is opened.
   std::vector<Timed> open;
   for (const std::string& name : names) {

@@ -16,6 +16,7 @@ WheelNumbers numbers_of(const WheelGeometry& wheel, const Soil& soil, double ent
           .grouser_height = wheel.grousers.height_m,
           .grouser_count = wheel.grousers.count,
           .per_cleat_shear = 1.0 / (wheel.grousers.mobilisation * soil.shear_modulus_x_m),
+          .cleat_by_slip = wheel.grousers.by_slip,
           .stiffness = soil.pressure.stiffness(wheel.width_m),
           .n = soil.pressure.n,
           .cohesion = soil.cohesion_pa,

@@ -12,6 +12,9 @@ struct Grousers {
   double count = 0.0;  // around the rim; need not be whole where it is estimated
   // Shear displacement at which a cleat's thrust is mobilised, over the soil's shear modulus along.
   double mobilisation = 1.0;
+  // Share of that displacement that is made by slip alone, r s (theta_f - theta): 1 leaves out the way that
+  // the rim's own path into the ground makes, so that cleats brake as they drive.
+  double by_slip = 0.0;
 };
 
 // What the laws need of a wheel.

@@ -10,7 +10,7 @@ namespace slipway::sim {
 // One wheel, its soil and its motion as plain numbers, field by field as in WheelGeometry, Soil and
 // WheelMotion.
 struct WheelNumbers {
-  double radius, width, rim_friction, grouser_height, grouser_count, per_cleat_shear;
+  double radius, width, rim_friction, grouser_height, grouser_count, per_cleat_shear, cleat_by_slip;
   double stiffness, n, cohesion, phi, per_shear_x, per_shear_y;  // k_c / b + k_phi; 1 / K
   double c1, c2, n1, n1_skid, n1_lateral, exit_ratio, coupling;
   double unit_weight, bulldozing, side_bulldozing;

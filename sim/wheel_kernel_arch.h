@@ -17,9 +17,9 @@ static_assert(sizeof(WheelCase<Pack>) == (kFields + 1) * sizeof(Pack), "WheelCas
 
 // Same order of fields as WheelNumbers, and tan_phi behind phi.
 WheelCase<Pack> case_of(const Pack* f) {
-  return {f[0],      f[1],  f[2],  f[3],  f[4],  f[5],  f[6],  f[7],  f[8],  f[9],
-          tan(f[9]), f[10], f[11], f[12], f[13], f[14], f[15], f[16], f[17], f[18],
-          f[19],     f[20], f[21], f[22], f[23], f[24], f[25], f[26], f[27], f[28]};
+  return {f[0],       f[1],  f[2],  f[3],  f[4],  f[5],  f[6],  f[7],  f[8],  f[9],  f[10],
+          tan(f[10]), f[11], f[12], f[13], f[14], f[15], f[16], f[17], f[18], f[19], f[20],
+          f[21],      f[22], f[23], f[24], f[25], f[26], f[27], f[28], f[29]};
 }
 
 void one_wheel(const WheelNumbers& numbers, const LawParts& parts, WheelForces& out) {

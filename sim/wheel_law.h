@@ -23,7 +23,7 @@ constexpr double kStandingSpeedRatio = 0.05;
 // WheelMotion.
 template <class V>
 struct WheelCase {
-  V radius, width, rim_friction, grouser_height, grouser_count, per_cleat_shear;
+  V radius, width, rim_friction, grouser_height, grouser_count, per_cleat_shear, cleat_by_slip;
   V stiffness, n, cohesion, phi, tan_phi, per_shear_x, per_shear_y;  // k_c / b + k_phi; 1 / K
   V c1, c2, n1, n1_skid, n1_lateral, exit_ratio, coupling;
   V unit_weight, bulldozing, side_bulldozing;
@@ -125,8 +125,10 @@ void add_nodes(const WheelCase<V>& in, const ContactAngles<V>& at, const LawPart
   sum.sigma_sin += weight * sigma * sine;
   if (parts.lateral) sum.tau_y -= strength * m_y;
   if (parts.grousers) {
-    const V m =
-        weight * select(in.per_cleat_shear == in.per_shear_x, m_x, mobilised(j_x, in.per_cleat_shear));
+    const V j_slip = in.radius * to_entry * (V(1.0) - in.forward);
+    const V j_cleat = j_x + in.cleat_by_slip * (j_slip - j_x);
+    const V m = weight * select(in.per_cleat_shear == in.per_shear_x && in.cleat_by_slip == V(0.0), m_x,
+                                mobilised(j_cleat, in.per_cleat_shear));
     sum.m += m;
     sum.m_cos += m * cosine;
     sum.m_sin += m * sine;

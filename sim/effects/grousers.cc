@@ -10,10 +10,13 @@ constexpr std::array kFields{
     Field{"count", "1", "grousers around a rim", 0.0, 100.0, 24.0, 0.0},
     Field{"mobilisation", "1", "shear that mobilises a grouser's thrust, over the soil's", 0.02, 1.0, 1.0,
           1.0},
+    Field{"by_slip", "1", "share of a grouser's displacement that slip alone makes, not the rim's path", 0.0,
+          1.0, 0.0, 0.0},
 };
 
 void change(std::span<const double> values, RoverModel& rover) {
-  for (WheelModel& wheel : rover.wheels) wheel.grousers = Grousers{values[0], values[1], values[2]};
+  for (WheelModel& wheel : rover.wheels)
+    wheel.grousers = Grousers{values[0], values[1], values[2], values[3]};
 }
 
 }  // namespace

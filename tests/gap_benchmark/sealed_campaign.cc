@@ -157,12 +157,14 @@ void place_patch(const std::vector<MadeDrive>& drives, RandomStream& random, Hid
 std::vector<MadeDrive> drive_all(const World& world, const std::vector<NamedTerrain>& terrains,
                                  const std::vector<DriveOrder>& orders, std::uint64_t seed) {
   std::vector<MadeDrive> drives;
-  for (const DriveOrder& order : orders) {
-    RandomStream random(seed + drives.size());
-    for (const NamedTerrain& terrain : terrains)
-      if (terrain.name == order.terrain)
-        drives.push_back({order, simulate_drive(world, terrain.grid, order, random).rows});
-  }
+  for (std::size_t i = 0; i < orders.size(); ++i)
+    for (const NamedTerrain& terrain : terrains) {
+      if (terrain.name != orders[i].terrain) continue;
+      RandomStream random(seed + i);
+      std::vector<DriveRow> rows = simulate_drive(world, terrain.grid, orders[i], random).rows;
+      // Where the rover never got away there is nothing to record.
+      if (rows.size() >= 2) drives.push_back({orders[i], std::move(rows)});
+    }
   return drives;
 }
 
