@@ -10,18 +10,21 @@
 #include <set>
 
 #include "core/angle.h"
+#include "gap/effect_trace.h"
 #include "gap/localise.h"
 #include "gap/next_drives.h"
 #include "gap/prepared_campaign.h"
 #include "gap/shrink.h"
+#include "gap/unexplained.h"
 #include "sim/effect_catalogue.h"
 
 namespace slipway::gap {
 namespace {
 
 constexpr std::size_t kLeastDrives = 3, kLeastWindows = 6;
-constexpr int kMostRefittedAgain = 6, kMostPairedAgain = 2;
-constexpr double kCertain = 0.5;  // of a set's probability: below it the answer is a set of sets
+constexpr int kMostRefittedAgain = 6, kMostPairedAgain = 2, kMostSecondsAgain = 2;
+constexpr std::size_t kMostKept = 6;  // sets of effects that are fitted again
+constexpr double kCertain = 0.5;      // of a set's probability: below it the answer is a set of sets
 constexpr double kCertainBesides = 0.9;
 constexpr double kWorthNaming = 0.05;     // of an effect's probability
 constexpr double kParametersGain = 20.0;  // of the logarithm of the evidence, for calling parameters mis-set
@@ -124,7 +127,9 @@ class Diagnoser {
       SearchOptions again = options_.search;
       again.most_refitted = std::min(again.most_refitted, kMostRefittedAgain);
       again.most_paired = std::min(again.most_paired, kMostPairedAgain);
-      if (auto searched = search(again); !searched) return fail(searched.error());
+      again.most_seconds = std::min(again.most_seconds, kMostSecondsAgain);
+      const std::vector<FittedExplanation> kept = most_probable_fits(search_, kMostKept);
+      if (auto searched = search(again, kept); !searched) return fail(searched.error());
     }
     judge();
     describe_parameters();
@@ -139,9 +144,9 @@ class Diagnoser {
   }
 
  private:
-  Result<void> search(const SearchOptions& options) {
+  Result<void> search(const SearchOptions& options, std::span<const FittedExplanation> found_before = {}) {
     auto found = search_explanations(campaign_, *prepared_.model, *prepared_.noise, *prepared_.null,
-                                     prepared_.wildcard, options, progress_);
+                                     prepared_.wildcard, options, progress_, found_before);
     if (!found) return fail(found.error());
     search_ = std::move(*found);
     return {};
@@ -154,6 +159,10 @@ class Diagnoser {
 
   const Candidate& best() const { return search_.candidates.front(); }
   const FittedExplanation& best_fit() const { return search_.fits[best().fit]; }
+  // What the verdict says: a fit whose effects are all named, or the re-tuned one.
+  const FittedExplanation& told_fit() const {
+    return d_.effects.size() == best().effects.size() ? best_fit() : search_.fits[0];
+  }
   bool explains() const { return d_.verdict == Verdict::kEffects || d_.verdict == Verdict::kEffectSet; }
 
   void judge() {
@@ -195,8 +204,10 @@ class Diagnoser {
     }
     if (d_.verdict != Verdict::kUnknown && !explains()) return;
     for (std::size_t e = 0; e < best().effects.size(); ++e) {
-      // Beside an unknown cause only what is all but certain: the rest may be its shadow.
-      if (d_.verdict == Verdict::kUnknown && single[best().effects[e]] < kCertainBesides) continue;
+      // Beside an unknown cause only what is all but certain and not small: the rest may be its shadow.
+      if (d_.verdict == Verdict::kUnknown &&
+          (single[best().effects[e]] < kCertainBesides || size_of(best_fit(), best().effects[e]) < kSmall))
+        continue;
       FoundEffect found{
           best().effects[e], best_fit().hypothesis.effects()[e].label, single[best().effects[e]], {}};
       const auto parameters = best_fit().hypothesis.parameters();
@@ -279,24 +290,12 @@ class Diagnoser {
     d_.regimes = regimes_of(prepared_, campaign_, prepared_.nominal_residuals, options_, kMostRegimes);
     d_.regimes_retuned = regimes_of(prepared_, campaign_, search_.fits[0].residuals, options_, kMostRegimes);
     if (d_.verdict == Verdict::kUnknown) {
-      describe_unknown();
+      d_.residual = describe_unexplained(prepared_, told_fit());
       d_.places = gap_places(prepared_, campaign_, search_.fits[0].residuals, options_);
     }
     if (!explains()) return;
     // What the effects do, all else as fitted: only this picture locates the cause.
-    std::vector<double> without = best_fit().x;
-    const auto parameters = best_fit().hypothesis.parameters();
-    for (std::size_t p = best_fit().hypothesis.nuisance_count(); p < without.size(); ++p)
-      without[p] = parameters[p].neutral;
-    const WindowModel& model = *prepared_.model;
-    const std::vector<double> with =
-        best_fit().hypothesis.predict(model, best_fit().x, options_.search.threads);
-    const std::vector<double> bare = best_fit().hypothesis.predict(model, without, options_.search.threads);
-    Eigen::VectorXd signature(static_cast<Eigen::Index>(with.size()));
-    for (std::size_t i = 0; i < with.size(); ++i) {
-      const double change = with[i] - bare[i];
-      signature[static_cast<Eigen::Index>(i)] = std::isfinite(change) ? change : 0.0;
-    }
+    const Eigen::VectorXd signature = effect_trace(best_fit(), *prepared_.model, {}, options_.search.threads);
     d_.regimes_of_effect = regimes_of(prepared_, campaign_, signature, options_, kMostRegimes);
     for (std::size_t e = 0; e < best().effects.size(); ++e) {
       if (best().effects[e] != "soft_patch") continue;
@@ -313,34 +312,8 @@ class Diagnoser {
     }
   }
 
-  void describe_unknown() {
-    const FittedExplanation& fit = best_fit();
-    const Eigen::VectorXd coefficients = wildcard_coefficients(fit, *prepared_.noise, prepared_.wildcard);
-    const Eigen::MatrixXd white = prepared_.noise->whiten(prepared_.wildcard.values);
-    std::vector<std::pair<double, Eigen::Index>> shares;
-    double all = 0.0;
-    for (Eigen::Index c = 0; c < coefficients.size(); ++c) {
-      const double square = (white.col(c) * coefficients[c]).squaredNorm();
-      shares.emplace_back(square, c);
-      all += square;
-    }
-    std::stable_sort(shares.begin(), shares.end(),
-                     [](const auto& a, const auto& b) { return a.first > b.first; });
-    for (std::size_t k = 0; k < 5 && k < shares.size() && all > 0.0; ++k) {
-      const auto& column = prepared_.wildcard.columns[static_cast<std::size_t>(shares[k].second)];
-      ResidualShape shape{column.entry, column.variable, shares[k].first / all, {}};
-      // A coefficient is linear in its variable: two ends and the middle say its shape.
-      const double c = coefficients[shares[k].second];
-      for (const double at : {-1.0, 0.0, 1.0})
-        shape.shape.push_back({at, {column.variable == "constant" ? c : c * at, 0.0, 0.0}});
-      d_.residual.push_back(std::move(shape));
-    }
-  }
-
   Result<void> shrink() {
-    const FittedExplanation& with =
-        explains() || d_.verdict == Verdict::kUnknown ? best_fit() : search_.fits[0];
-    auto shrunk = shrink_on_held_out(prepared_, campaign_, with, options_, progress_);
+    auto shrunk = shrink_on_held_out(prepared_, campaign_, told_fit(), options_, progress_);
     if (!shrunk) return fail(shrunk.error());
     d_.gap = std::move(shrunk->channels);
     d_.held_out = std::move(shrunk->points);

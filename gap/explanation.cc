@@ -25,6 +25,15 @@ Eigen::VectorXd residuals_at(const Hypothesis& hypothesis, const WindowModel& mo
 
 }  // namespace
 
+double size_of(const FittedExplanation& fit, std::string_view effect) {
+  const auto parameters = fit.hypothesis.parameters();
+  double size = 0.0;
+  for (std::size_t p = fit.hypothesis.nuisance_count(); p < parameters.size(); ++p)
+    if (parameters[p].effect == effect)
+      size = std::max(size, std::abs(fit.x[p] - parameters[p].neutral) / parameters[p].std);
+  return size;
+}
+
 Eigen::VectorXd measured(const WindowModel& model) {
   Eigen::VectorXd y(static_cast<Eigen::Index>(model.observation_count()));
   Eigen::Index i = 0;

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gap/hypothesis.h"
@@ -39,6 +40,9 @@ FittedExplanation fit_explanation(const Hypothesis& hypothesis, const WindowMode
                                   const NoiseModel& noise, std::span<const double> start,
                                   const ExplanationOptions& options,
                                   const std::vector<bool>& fitted_rows = {});
+
+// How far an effect of a fit is from not being there, in prior deviations: of the field that went farthest.
+double size_of(const FittedExplanation& fit, std::string_view effect);
 
 // All observations as measured.
 Eigen::VectorXd measured(const WindowModel& model);

@@ -16,6 +16,7 @@ namespace {
 // What is believed before the drives: that nothing is missing, that one effect is, two are, something else.
 const std::string kSoftPatch = "soft_patch";
 constexpr std::size_t kMostPatches = 3;
+constexpr int kMostVariants = 2;  // of an effect, that are fitted in full
 
 constexpr double kNothing = 0.4, kOne = 0.3, kTwo = 0.1, kSomethingElse = 0.14, kOneAndSomethingElse = 0.06;
 
@@ -164,15 +165,9 @@ bool went_far(const FittedExplanation& null) {
 
 // Whether each effect of a fit is at work by a good part of its usual size.
 bool worth_naming(const FittedExplanation& fit, double least_size) {
-  const auto parameters = fit.hypothesis.parameters();
-  for (const EffectVariant& v : fit.hypothesis.effects()) {
-    double size = 0.0;
-    for (std::size_t p = fit.hypothesis.nuisance_count(); p < parameters.size(); ++p)
-      if (parameters[p].effect == v.effect)
-        size = std::max(size, std::abs(fit.x[p] - parameters[p].neutral) / parameters[p].std);
-    if (size < least_size) return false;
-  }
-  return true;
+  const auto effects = fit.hypothesis.effects();
+  return std::all_of(effects.begin(), effects.end(),
+                     [&](const EffectVariant& v) { return size_of(fit, v.effect) >= least_size; });
 }
 
 double log_sum_exp(const std::vector<double>& values) {
@@ -187,7 +182,8 @@ double log_sum_exp(const std::vector<double>& values) {
 Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, const WindowModel& model,
                                               const NoiseModel& noise, FittedExplanation null,
                                               const Wildcard& wildcard, const SearchOptions& options,
-                                              Progress& progress) {
+                                              Progress& progress,
+                                              std::span<const FittedExplanation> found_before) {
   ExplanationSearch search;
   std::vector<EffectVariant> variants = effect_variants(*campaign.rover, options.withheld);
   std::map<std::string, double> variants_of;
@@ -222,12 +218,27 @@ Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, con
     search.screened.push_back({variants[s.variant], s.gain, s.signature, s.kept_share, s.visibility});
   std::map<std::string, int> tried;
   std::map<std::string, std::size_t> best_fit;  // of an effect alone
+  std::map<std::set<std::string>, std::size_t> pairs;
+  for (const FittedExplanation& before : found_before) {
+    if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
+    std::set<std::string> names;
+    for (const EffectVariant& v : before.hypothesis.effects()) names.insert(v.effect);
+    if (names.empty()) continue;
+    progress.report("fitting what was found again", 0.22);
+    search.fits.push_back(fit_explanation(before.hypothesis, model, noise, before.x, fit_options(options)));
+    if (names.size() == 1) {
+      best_fit[*names.begin()] = search.fits.size() - 1;
+      tried[*names.begin()] = kMostVariants;
+    } else {
+      pairs[names] = search.fits.size() - 1;
+    }
+  }
   for (const Screened& s : screened) {
     if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
     const EffectVariant& v = variants[s.variant];
     const bool known = tried.contains(v.effect);
     if (!known && static_cast<int>(tried.size()) >= options.most_refitted) continue;
-    if (tried[v.effect] >= 2) continue;
+    if (tried[v.effect] >= kMostVariants) continue;
     ++tried[v.effect];
     progress.report("fitting effects",
                     0.25 + 0.3 * static_cast<double>(search.fits.size()) / (2.0 * options.most_refitted));
@@ -252,7 +263,6 @@ Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, con
   });
 
   // Pairs grow from the best single effects.
-  std::map<std::set<std::string>, std::size_t> pairs;
   for (std::size_t s = 0; s < singles.size() && s < static_cast<std::size_t>(options.most_paired); ++s) {
     const std::size_t base = singles[s].second;
     const std::vector<Screened> seconds =
@@ -261,7 +271,7 @@ Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, con
     std::set<std::string> done;
     for (const Screened& second : seconds) {
       if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
-      if (fitted >= 3 || second.gain < 1.0) break;
+      if (fitted >= options.most_seconds || second.gain < 1.0) break;
       const EffectVariant& v = variants[second.variant];
       const std::set<std::string> names{singles[s].first, v.effect};
       if (pairs.contains(names) || !done.insert(v.effect).second) continue;
@@ -313,6 +323,14 @@ Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, con
   std::stable_sort(search.candidates.begin(), search.candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.probability > b.probability; });
   return search;
+}
+
+std::vector<FittedExplanation> most_probable_fits(const ExplanationSearch& search, std::size_t most) {
+  std::vector<FittedExplanation> fits;
+  std::set<std::size_t> taken;
+  for (const Candidate& c : search.candidates)
+    if (fits.size() < most && taken.insert(c.fit).second) fits.push_back(search.fits[c.fit]);
+  return fits;
 }
 
 }  // namespace slipway::gap

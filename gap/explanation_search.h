@@ -17,6 +17,7 @@ struct SearchOptions {
   std::vector<std::string> withheld;  // effects that are not looked for
   int most_refitted = 8;              // effects that are fitted in full
   int most_paired = 4;                // of those, whose pairs are looked for
+  int most_seconds = 3;               // of each of those
   // An effect smaller than this share of its usual size (the deviation of its prior) is not worth a name: it
   // is how one simulator's numerics differ from another's.
   double least_size = 0.3;
@@ -52,9 +53,14 @@ struct ExplanationSearch {
 
 // Screens every variant at the null by its projected signature, fits the best in full, alone and in pairs,
 // and weighs them against each other, nothing, and something else. `null` is fitted already, under `noise`.
+// What was `found_before` under another noise competes again, from where it stood.
 Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, const WindowModel& model,
                                               const NoiseModel& noise, FittedExplanation null,
                                               const Wildcard& wildcard, const SearchOptions& options,
-                                              Progress& progress);
+                                              Progress& progress,
+                                              std::span<const FittedExplanation> found_before = {});
+
+// The fits of the most probable sets of effects, at most so many.
+std::vector<FittedExplanation> most_probable_fits(const ExplanationSearch& search, std::size_t most);
 
 }  // namespace slipway::gap

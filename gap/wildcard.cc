@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/angle.h"
+#include "gap/effect_trace.h"
 
 namespace slipway::gap {
 namespace {
@@ -228,22 +229,13 @@ Eigen::MatrixXd whitened(const FittedExplanation& fit, const NoiseModel& noise, 
 
 Eigen::MatrixXd form_columns(const DriveCampaign& campaign, const WindowModel& model, const NoiseModel& noise,
                              const FittedExplanation& fit, std::size_t threads) {
-  const auto parameters = fit.hypothesis.parameters();
   const std::vector<double> with = fit.hypothesis.predict(model, fit.x, threads);
   const std::vector<std::vector<Variable>> variables = circumstances(model, with);
   const std::vector<int> axle_of = axles(*campaign.rover);
   std::vector<Eigen::VectorXd> columns;
   for (const EffectVariant& effect : fit.hypothesis.effects()) {
     if (!has_many_forms(effect.effect)) continue;
-    std::vector<double> x = fit.x;
-    for (std::size_t p = fit.hypothesis.nuisance_count(); p < x.size(); ++p)
-      if (parameters[p].effect == effect.effect) x[p] = parameters[p].neutral;
-    const std::vector<double> without = fit.hypothesis.predict(model, x, threads);
-    Eigen::VectorXd trace(static_cast<Eigen::Index>(with.size()));
-    for (std::size_t i = 0; i < with.size(); ++i) {
-      const double change = with[i] - without[i];
-      trace[static_cast<Eigen::Index>(i)] = std::isfinite(change) ? kFormImprecision * change : 0.0;
-    }
+    const Eigen::VectorXd trace = kFormImprecision * effect_trace(fit, model, effect.effect, threads);
     const auto add = [&](const auto& share) {
       Eigen::VectorXd column = trace;
       Eigen::Index i = 0;
@@ -288,8 +280,8 @@ WildcardGain wildcard_gain(const FittedExplanation& fit, const NoiseModel& noise
   return {log_mean_exp(imprecise) - without, log_mean_exp(other) - without};
 }
 
-Eigen::VectorXd wildcard_coefficients(const FittedExplanation& fit, const NoiseModel& noise,
-                                      const Wildcard& wildcard) {
+WildcardEstimate estimate_wildcard(const FittedExplanation& fit, const NoiseModel& noise,
+                                   const Wildcard& wildcard) {
   const Eigen::MatrixXd white = whitened(fit, noise, wildcard);
   double best = -std::numeric_limits<double>::infinity();
   double size = kSizes[0];
@@ -304,8 +296,10 @@ Eigen::VectorXd wildcard_coefficients(const FittedExplanation& fit, const NoiseM
   const Eigen::MatrixXd columns = both(fit.white_jacobian, white, size);
   Eigen::MatrixXd hessian = columns.transpose() * columns;
   hessian.diagonal().array() += 1.0;
-  const Eigen::VectorXd all = hessian.llt().solve(columns.transpose() * fit.white_linear);
-  return size * all.tail(white.cols());
+  const Eigen::LLT<Eigen::MatrixXd> factor(hessian);
+  const Eigen::VectorXd all = factor.solve(columns.transpose() * fit.white_linear);
+  const Eigen::MatrixXd covariance = factor.solve(Eigen::MatrixXd::Identity(columns.cols(), columns.cols()));
+  return {size * all.tail(white.cols()), size * covariance.diagonal().tail(white.cols()).cwiseSqrt()};
 }
 
 }  // namespace slipway::gap

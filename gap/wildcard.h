@@ -58,8 +58,11 @@ struct WildcardGain {
 WildcardGain wildcard_gain(const FittedExplanation& fit, const NoiseModel& noise, const Wildcard& wildcard,
                            const Eigen::MatrixXd& form);
 
-// The coefficients' mean, in units of the columns, at the most probable size.
-Eigen::VectorXd wildcard_coefficients(const FittedExplanation& fit, const NoiseModel& noise,
-                                      const Wildcard& wildcard);
+// The coefficients' means and standard errors, in units of the columns, at the most probable size.
+struct WildcardEstimate {
+  Eigen::VectorXd mean, error;
+};
+WildcardEstimate estimate_wildcard(const FittedExplanation& fit, const NoiseModel& noise,
+                                   const Wildcard& wildcard);
 
 }  // namespace slipway::gap
