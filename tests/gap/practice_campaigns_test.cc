@@ -72,9 +72,19 @@ TEST(PracticeCampaigns, MotorTemperatureIsFoundAndCanBeWithheld) {
   EXPECT_EQ(without.verdict, Verdict::kUnknown) << without.reason;
 }
 
+TEST(PracticeCampaigns, BothOfAPairAreFound) {
+  const Diagnosis diagnosis = diagnosis_of("p07");
+  EXPECT_EQ(diagnosis.verdict, Verdict::kEffects) << diagnosis.reason;
+  std::vector<std::string> named = names(diagnosis);
+  std::sort(named.begin(), named.end());
+  ASSERT_EQ(named, (std::vector<std::string>{"grousers", "wheel_radius"}));
+  EXPECT_NEAR(parameter(diagnosis, "scale").value.value, 0.03, 0.003);
+}
+
 TEST(PracticeCampaigns, APullThatNoEffectKnowsIsUnknown) {
   const Diagnosis diagnosis = diagnosis_of("p08");
   EXPECT_EQ(diagnosis.verdict, Verdict::kUnknown) << diagnosis.reason;
+  EXPECT_TRUE(diagnosis.effects.empty()) << "a small bulldozing would be the pull's shadow";
   ASSERT_FALSE(diagnosis.residual.empty());
   EXPECT_EQ(diagnosis.residual.front().entry, "tangential_force");
   EXPECT_EQ(diagnosis.residual.front().variable, "direction");
