@@ -313,7 +313,8 @@ class Diagnoser {
   }
 
   Result<void> shrink() {
-    auto shrunk = shrink_on_held_out(prepared_, campaign_, told_fit(), options_, progress_);
+    auto shrunk = shrink_on_held_out(
+        prepared_, campaign_, refitted(prepared_, told_fit(), options_.search.threads), options_, progress_);
     if (!shrunk) return fail(shrunk.error());
     d_.gap = std::move(shrunk->channels);
     d_.held_out = std::move(shrunk->points);

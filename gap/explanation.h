@@ -41,6 +41,11 @@ FittedExplanation fit_explanation(const Hypothesis& hypothesis, const WindowMode
                                   const ExplanationOptions& options,
                                   const std::vector<bool>& fitted_rows = {});
 
+// The whitened columns, by prior deviations, of the effects that a hypothesis has more than a fit, at the
+// fit's parameters, which `start` becomes with the added effects' neutral ones behind.
+Eigen::MatrixXd added_columns(const Hypothesis& hypothesis, const WindowModel& model, const NoiseModel& noise,
+                              const FittedExplanation& fit, std::vector<double>& start);
+
 // How far an effect of a fit is from not being there, in prior deviations: of the field that went farthest.
 double size_of(const FittedExplanation& fit, std::string_view effect);
 

@@ -26,37 +26,6 @@ ExplanationOptions fit_options(const SearchOptions& options) {
   return o;
 }
 
-// The null's parameters with an effect's neutral ones behind.
-std::vector<double> extended(const Hypothesis& hypothesis, std::span<const double> x) {
-  std::vector<double> start = hypothesis.neutral();
-  std::copy(x.begin(), x.end(), start.begin());
-  return start;
-}
-
-// The whitened columns of the effects that a hypothesis has more than a fit, at the fit's parameters.
-Eigen::MatrixXd added_columns(const Hypothesis& hypothesis, const WindowModel& model, const NoiseModel& noise,
-                              const FittedExplanation& fit, std::vector<double>& start) {
-  start = extended(hypothesis, fit.x);
-  const auto parameters = hypothesis.parameters();
-  const std::size_t from = fit.x.size();
-  const auto rows = static_cast<Eigen::Index>(model.observation_count());
-  Eigen::MatrixXd columns(rows, static_cast<Eigen::Index>(parameters.size() - from));
-  const std::vector<double> at = hypothesis.predict(model, start);
-  for (std::size_t p = from; p < parameters.size(); ++p) {
-    const Parameter& parameter = parameters[p];
-    std::vector<double> x = start;
-    const double step = hypothesis.step(p);
-    x[p] = x[p] + step <= parameter.highest ? x[p] + step : x[p] - step;
-    const std::vector<double> changed = hypothesis.predict(model, x);
-    const double scale = parameter.std / (x[p] - start[p]);
-    for (Eigen::Index i = 0; i < rows; ++i) {
-      const double slope = scale * (changed[static_cast<std::size_t>(i)] - at[static_cast<std::size_t>(i)]);
-      columns(i, static_cast<Eigen::Index>(p - from)) = std::isfinite(slope) ? slope : 0.0;
-    }
-  }
-  return fit.row_weights.asDiagonal() * noise.whiten(columns);
-}
-
 // Linear evidence of columns beside a fit, one-sided ones kept on their side, and the estimate.
 double linear_gain(const FittedExplanation& fit, const Eigen::MatrixXd& known, const Eigen::MatrixXd& columns,
                    std::span<const Parameter> parameters, Eigen::VectorXd& estimate) {

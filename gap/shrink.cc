@@ -72,10 +72,26 @@ struct Totals {
   }
 };
 
+ExplanationOptions fit_options_of(std::size_t threads) {
+  ExplanationOptions options;
+  options.threads = threads;
+  options.iterations = 4;
+  return options;
+}
+
 }  // namespace
 
+Correction refitted(const PreparedCampaign& prepared, const FittedExplanation& explanation,
+                    std::size_t threads) {
+  return [&prepared, &explanation, threads](const FittedExplanation&, const std::vector<bool>& seen) {
+    return fit_explanation(explanation.hypothesis, *prepared.model, *prepared.noise, explanation.x,
+                           fit_options_of(threads), seen)
+        .residuals;
+  };
+}
+
 Result<Shrink> shrink_on_held_out(const PreparedCampaign& prepared, const DriveCampaign& campaign,
-                                  const FittedExplanation& with, const DiagnosisOptions& options,
+                                  const Correction& with, const DiagnosisOptions& options,
                                   Progress& progress) {
   const WindowModel& model = *prepared.model;
   const NoiseModel& noise = *prepared.noise;
@@ -83,9 +99,7 @@ Result<Shrink> shrink_on_held_out(const PreparedCampaign& prepared, const DriveC
   std::vector<DriveErrors> errors(campaign.drives.size());
   std::vector<HeldOutPoint> points;
   std::vector<WindowGap> gaps;
-  ExplanationOptions fit_options;
-  fit_options.threads = options.search.threads;
-  fit_options.iterations = 4;
+  const ExplanationOptions fit_options = fit_options_of(options.search.threads);
   for (int f = 0; f < options.folds; ++f) {
     if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
     progress.report("predicting held-out drives", 0.8 + 0.15 * f / options.folds);
@@ -97,9 +111,8 @@ Result<Shrink> shrink_on_held_out(const PreparedCampaign& prepared, const DriveC
     const FittedExplanation retuned =
         fit_explanation(prepared.null->hypothesis, model, noise, prepared.null->x, fit_options, seen);
     if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
-    const FittedExplanation found = fit_explanation(with.hypothesis, model, noise, with.x, fit_options, seen);
-    const Eigen::VectorXd white_retuned = noise.whiten(retuned.residuals),
-                          white_found = noise.whiten(found.residuals);
+    const Eigen::VectorXd found = with(retuned, seen);
+    const Eigen::VectorXd white_retuned = noise.whiten(retuned.residuals), white_found = noise.whiten(found);
     for (std::size_t w = 0; w < prepared.windows.size(); ++w) {
       const DriveWindow& window = prepared.windows[w];
       if (fold[window.drive] != f || !model.used(w)) continue;
@@ -114,19 +127,19 @@ Result<Shrink> shrink_on_held_out(const PreparedCampaign& prepared, const DriveC
         const double value = window.observations[i].value;
         points.push_back({window.observations[i].channel, window.observations[i].wheel, window.drive,
                           window.start_s, value, value - prepared.nominal_residuals[row],
-                          value - retuned.residuals[row], value - found.residuals[row]});
+                          value - retuned.residuals[row], value - found[row]});
         const auto c = static_cast<std::size_t>(window.observations[i].channel);
         e.nominal[c] += std::pow(prepared.nominal_residuals[row], 2);
         e.retuned[c] += std::pow(retuned.residuals[row], 2);
-        e.with[c] += std::pow(found.residuals[row], 2);
+        e.with[c] += std::pow(found[row], 2);
         e.floor[c] += deviation * deviation;
         ++e.count[c];
         gap.nominal += std::pow(prepared.nominal_residuals[row] / deviation, 2);
         gap.retuned += std::pow(retuned.residuals[row] / deviation, 2);
-        gap.with_effects += std::pow(found.residuals[row] / deviation, 2);
+        gap.with_effects += std::pow(found[row] / deviation, 2);
         ++counted;
         e.scaled_retuned += std::pow(retuned.residuals[row] / deviation, 2);
-        e.scaled_with += std::pow(found.residuals[row] / deviation, 2);
+        e.scaled_with += std::pow(found[row] / deviation, 2);
         ++e.scaled_count;
         // As heavy-tailed as the fits' loss.
         const auto loss = [&](double r) {

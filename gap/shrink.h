@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -22,8 +23,16 @@ struct Shrink {
   std::vector<WindowGap> windows;
 };
 
+// Residuals of all observations by what was learnt from those that were `seen`, to which `retuned` was
+// fitted.
+using Correction =
+    std::function<Eigen::VectorXd(const FittedExplanation& retuned, const std::vector<bool>& seen)>;
+// `explanation` fitted again to what was seen; both must outlive it.
+Correction refitted(const PreparedCampaign& prepared, const FittedExplanation& explanation,
+                    std::size_t threads);
+
 Result<Shrink> shrink_on_held_out(const PreparedCampaign& prepared, const DriveCampaign& campaign,
-                                  const FittedExplanation& with, const DiagnosisOptions& options,
+                                  const Correction& with, const DiagnosisOptions& options,
                                   Progress& progress);
 
 }  // namespace slipway::gap

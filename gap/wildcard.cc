@@ -36,11 +36,6 @@ std::vector<EffectVariant> levers() {
 constexpr std::array<std::string_view, 5> kLeverEntries{
     "tangential_force", "lateral_force", "wheel_load_fore_aft", "wheel_load_left_right", "kinematics"};
 
-struct Variable {
-  std::string_view name;
-  double value;
-};
-
 // What only some entries could depend on: a force that keeps its direction on the map, what changes over the
 // hours. The other variables go with every entry.
 struct RareVariable {
@@ -59,7 +54,8 @@ bool may_depend(std::string_view entry, std::string_view variable) {
   return true;
 }
 
-std::vector<Variable> variables_of(const WindowModel& model, std::size_t w, double slip, double mean_speed) {
+std::vector<Circumstance> variables_of(const WindowModel& model, std::size_t w, double slip,
+                                       double mean_speed) {
   const DriveWindow& window = model.windows()[w];
   const WindowModel::Conditions& at = model.conditions(w);
   const sim::DriveCommand& command = window.command;
@@ -103,26 +99,6 @@ std::vector<int> axles(const sim::RoverModel& rover) {
   return of;
 }
 
-// Circumstances of every window at these predictions.
-std::vector<std::vector<Variable>> circumstances(const WindowModel& model, std::span<const double> expected) {
-  double mean_speed = 0.0;
-  int driven = 0;
-  for (const DriveWindow& window : model.windows())
-    if (!window.command.turn_in_place) {
-      mean_speed += std::abs(window.command.speed_m_s);
-      ++driven;
-    }
-  if (driven > 0) mean_speed /= driven;
-  std::vector<std::vector<Variable>> variables;
-  for (std::size_t w = 0; w < model.windows().size(); ++w) {
-    double slip = 0.0;
-    for (std::size_t i = 0; i < model.windows()[w].observations.size(); ++i)
-      if (model.windows()[w].observations[i].channel == Channel::kSlip) slip = expected[model.offset(w) + i];
-    variables.push_back(variables_of(model, w, std::isfinite(slip) ? slip : 0.0, mean_speed));
-  }
-  return variables;
-}
-
 // log of the mean of exp(values).
 double log_mean_exp(const std::vector<double>& values) {
   const double most = *std::max_element(values.begin(), values.end());
@@ -132,6 +108,26 @@ double log_mean_exp(const std::vector<double>& values) {
 }
 
 }  // namespace
+
+std::vector<std::vector<Circumstance>> circumstances(const WindowModel& model,
+                                                     std::span<const double> expected) {
+  double mean_speed = 0.0;
+  int driven = 0;
+  for (const DriveWindow& window : model.windows())
+    if (!window.command.turn_in_place) {
+      mean_speed += std::abs(window.command.speed_m_s);
+      ++driven;
+    }
+  if (driven > 0) mean_speed /= driven;
+  std::vector<std::vector<Circumstance>> variables;
+  for (std::size_t w = 0; w < model.windows().size(); ++w) {
+    double slip = 0.0;
+    for (std::size_t i = 0; i < model.windows()[w].observations.size(); ++i)
+      if (model.windows()[w].observations[i].channel == Channel::kSlip) slip = expected[model.offset(w) + i];
+    variables.push_back(variables_of(model, w, std::isfinite(slip) ? slip : 0.0, mean_speed));
+  }
+  return variables;
+}
 
 Eigen::MatrixXd lever_responses(const DriveCampaign& campaign, const WindowModel& model,
                                 std::span<const double> null_x, std::size_t threads) {
@@ -200,7 +196,7 @@ Wildcard make_wildcard(const DriveCampaign& campaign, const WindowModel& model, 
              return o.channel == Channel::kCurrent && o.wheel == static_cast<int>(k) ? 0.05 * f : 0.0;
            });
 
-  const std::vector<std::vector<Variable>> variables = circumstances(model, expected);
+  const std::vector<std::vector<Circumstance>> variables = circumstances(model, expected);
   Wildcard wildcard;
   std::vector<Eigen::VectorXd> columns;
   for (std::size_t e = 0; e < entries.size() && !variables.empty(); ++e) {
@@ -230,7 +226,7 @@ Eigen::MatrixXd whitened(const FittedExplanation& fit, const NoiseModel& noise, 
 Eigen::MatrixXd form_columns(const DriveCampaign& campaign, const WindowModel& model, const NoiseModel& noise,
                              const FittedExplanation& fit, std::size_t threads) {
   const std::vector<double> with = fit.hypothesis.predict(model, fit.x, threads);
-  const std::vector<std::vector<Variable>> variables = circumstances(model, with);
+  const std::vector<std::vector<Circumstance>> variables = circumstances(model, with);
   const std::vector<int> axle_of = axles(*campaign.rover);
   std::vector<Eigen::VectorXd> columns;
   for (const EffectVariant& effect : fit.hypothesis.effects()) {

@@ -23,6 +23,15 @@ struct Wildcard {
   Eigen::MatrixXd values;  // observations x columns, for a coefficient of the size that would matter
 };
 
+// What a window's drive met, each about 1 in size where it matters: slope, slip, direction, ...
+struct Circumstance {
+  std::string_view name;  // "constant", "pitch", "slip", ...
+  double value = 0.0;
+};
+// Of every window, slip being the predicted one.
+std::vector<std::vector<Circumstance>> circumstances(const WindowModel& model,
+                                                     std::span<const double> expected);
+
 // What the levers do to every observation at a null fit's parameters: derivatives by the pitch and roll under
 // which weights act (a force along, a force across; rad), by the centre of mass forward and to the left (m),
 // and by the angle at which steered wheels stand (rad).

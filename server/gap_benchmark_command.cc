@@ -21,6 +21,7 @@
 #include "api/json/benchmark_answers.h"
 #include "api/json/benchmark_document.h"
 #include "api/json/diagnosis_document.h"
+#include "gap/baselines.h"
 #include "gap/benchmark_score.h"
 #include "gap/diagnosis.h"
 #include "server/command_parts.h"
@@ -46,6 +47,8 @@ struct Variant {
   bool something_else = true;
   bool single = false;          // the effect with the best trace alone, no second, no pair
   bool whole_evidence = false;  // not tempered
+  Result<gap::Diagnosis> (*method)(const gap::DriveCampaign&, const gap::DiagnosisOptions&,
+                                   Progress&) = &gap::diagnose;
 };
 constexpr std::array kVariants{
     Variant{.name = "as-is"},
@@ -60,6 +63,8 @@ constexpr std::array kVariants{
             .retuning = gap::Retuning::kNone,
             .something_else = false,
             .whole_evidence = true},
+    Variant{.name = "sparse-regression", .method = &gap::diagnose_by_sparse_regression},
+    Variant{.name = "gaussian-process", .method = &gap::shrink_by_gaussian_process},
 };
 
 const Variant* variant_named(std::string_view name) {
@@ -104,7 +109,7 @@ Result<Timed> diagnosed(const GapBenchmarkCommand& options, const api::Catalogue
   }
   if (variant.whole_evidence) how.search.temper = 1.0;
   Patience patience;
-  auto diagnosis = gap::diagnose(*campaign, how, patience);
+  auto diagnosis = variant.method(*campaign, how, patience);
   if (!diagnosis) return fail(diagnosis.error());
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   if (!options.keep.empty()) {

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "core/progress.h"
+#include "core/result.h"
+#include "gap/diagnosis.h"
+#include "gap/drive_campaign.h"
+
+namespace slipway::gap {
+
+// What simpler methods say of the same drives, for the diagnosis to be compared with. Both fill in of the
+// Diagnosis what a benchmark scores: verdict, effects, candidates, closed fraction.
+
+// The catalogue's effects as terms of a linear regression of the re-tuned null's residuals, added one after
+// the other while the Bayesian information criterion falls [Schwarz 1978]: no second fit, nothing else
+// competes.
+Result<Diagnosis> diagnose_by_sparse_regression(const DriveCampaign& campaign,
+                                                const DiagnosisOptions& options, Progress& progress);
+
+// A Gaussian process over slope, slip, direction, ... for each channel and wheel, learnt from the re-tuned
+// null's residuals [Rasmussen & Williams 2006]: it shrinks the gap and explains nothing, so its verdict is
+// "unknown".
+Result<Diagnosis> shrink_by_gaussian_process(const DriveCampaign& campaign, const DiagnosisOptions& options,
+                                             Progress& progress);
+
+}  // namespace slipway::gap
