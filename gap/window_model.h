@@ -24,7 +24,9 @@ struct ModelState {
 };
 
 // How the rover stands where it was: as its suspension does on the map, or on the plane under its wheels.
-// Which of them a recording's attitudes show is for the recording to say.
+// Which of them a recording's attitudes show is for the recording to say. On planes, a window in which no
+// attitude was recorded is one station on the mean of its planes: they differ by the map's detail, which
+// nothing confirms.
 enum class Footing { kSuspension, kPlane };
 
 // Predicts every observation of a campaign's windows by the quasi-static rung: the rover stands at the
@@ -72,7 +74,9 @@ class WindowModel {
 
   void predict_window(std::size_t window, const ModelState& state, bool same_shape,
                       sim::QuasiStaticSolver& solver, std::span<double> out) const;
-  Place place_at(const sim::RoverModel& rover, std::size_t window, const Pose2& pose, bool& found) const;
+  std::optional<Place> place_at(const sim::RoverModel& rover, std::size_t window, const Pose2& pose) const;
+  // Of a window's stations, one or as many as it has; empty where one of them has no ground.
+  std::vector<Place> places_of(const sim::RoverModel& rover, std::size_t window) const;
 
   const DriveCampaign& campaign_;
   std::span<const DriveWindow> windows_;
