@@ -40,6 +40,7 @@ WindowModel::WindowModel(const DriveCampaign& campaign, std::span<const DriveWin
       windows_(windows),
       footing_(footing),
       stances_(windows.size()),
+      starts_(windows.size()),
       conditions_(windows.size()) {
   offsets_.push_back(0);
   for (std::size_t w = 0; w < windows.size(); ++w) {
@@ -116,11 +117,24 @@ std::vector<WindowModel::Place> WindowModel::places_of(const sim::RoverModel& ro
   return {mean};
 }
 
+sim::PerWheel<sim::Soil> WindowModel::soils_at(const Place& place, const ModelState& state) const {
+  const std::vector<sim::Disc> regions = sim::effect_regions(state.effects);
+  sim::PerWheel<sim::Soil> soils(place.soil.size());
+  for (std::size_t k = 0; k < soils.size(); ++k) {
+    soils[k] = state.soils[place.soil[k]];
+    if (regions.empty()) continue;
+    const Eigen::Vector3d p = place.stance.p_MB + place.stance.R_MB * place.stance.p_B_wheel[k];
+    for (std::size_t r = 0; r < regions.size(); ++r)
+      if (regions[r].holds(p.x(), p.y())) sim::apply_in_region(state.effects, r, soils[k]);
+  }
+  return soils;
+}
+
 void WindowModel::predict_window(std::size_t w, const ModelState& state, bool same_shape,
                                  sim::QuasiStaticSolver& solver, std::span<double> out) const {
   const DriveWindow& window = windows_[w];
   const std::size_t wheels = state.rover.wheels.size();
-  const std::vector<sim::Disc> regions = sim::effect_regions(state.effects);
+  const bool regions = !sim::effect_regions(state.effects).empty();
   Motion mean;
   mean.current = sim::PerWheel<double>(wheels);
   mean.sinkage = sim::PerWheel<double>(wheels);
@@ -131,19 +145,10 @@ void WindowModel::predict_window(std::size_t w, const ModelState& state, bool sa
   const double share = 1.0 / static_cast<double>(places.size());
   const Place* before = nullptr;
   Motion last;
-  for (const Place& place : places) {
-    sim::PerWheel<sim::Soil> soils(wheels);
-    for (std::size_t k = 0; k < wheels; ++k) {
-      soils[k] = state.soils[place.soil[k]];
-      if (regions.empty()) continue;
-      const Eigen::Vector3d p = place.stance.p_MB + place.stance.R_MB * place.stance.p_B_wheel[k];
-      for (std::size_t r = 0; r < regions.size(); ++r) {
-        if (!regions[r].holds(p.x(), p.y())) continue;
-        sim::apply_in_region(state.effects, r, soils[k]);
-      }
-    }
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Place& place = places[i];
     const bool as_before =
-        before != nullptr && regions.empty() && before->soil.size() == place.soil.size() &&
+        before != nullptr && !regions && before->soil.size() == place.soil.size() &&
         std::equal(before->soil.begin(), before->soil.end(), place.soil.begin()) &&
         std::abs(before->stance.attitude.pitch_rad - place.stance.attitude.pitch_rad) < kSameAttitude_rad &&
         std::abs(before->stance.attitude.roll_rad - place.stance.attitude.roll_rad) < kSameAttitude_rad &&
@@ -151,7 +156,9 @@ void WindowModel::predict_window(std::size_t w, const ModelState& state, bool sa
         std::abs(before->stance.bogie_rad[0] - place.stance.bogie_rad[0]) < kSameAttitude_rad &&
         std::abs(before->stance.bogie_rad[1] - place.stance.bogie_rad[1]) < kSameAttitude_rad;
     if (!as_before) {
-      const sim::StationState at = solver.solve(place.stance, soils, window.command);
+      const sim::StationState at =
+          solver.solve(place.stance, soils_at(place, state), window.command,
+                       starts_[w].empty() || !starts_[w][i] ? nullptr : &*starts_[w][i]);
       last = {};
       last.current = sim::PerWheel<double>(wheels);
       last.sinkage = sim::PerWheel<double>(wheels);
@@ -220,6 +227,18 @@ void WindowModel::predict_window(std::size_t w, const ModelState& state, bool sa
         break;
     }
   }
+}
+
+void WindowModel::start_from(const ModelState& state, std::size_t threads) {
+  parallel_for(windows_.size(), threads, [&](std::size_t w) {
+    starts_[w].clear();
+    sim::QuasiStaticSolver solver(state.rover, campaign_.gravity_m_s2);
+    for (const Place& place : stances_[w]) {
+      if (cancelled()) break;
+      starts_[w].push_back(solver.find_start(place.stance, soils_at(place, state), windows_[w].command));
+    }
+    starts_[w].resize(stances_[w].size());
+  });
 }
 
 std::vector<double> WindowModel::predict(const ModelState& state, std::size_t threads) const {

@@ -38,6 +38,9 @@ class WindowModel {
   WindowModel(const DriveCampaign& campaign, std::span<const DriveWindow> windows,
               Footing footing = Footing::kSuspension);
 
+  // Predictions start from the balances at this state, and are the faster the nearer theirs is to it. Their
+  // numbers do not change by more than the solver's tolerance.
+  void start_from(const ModelState& state, std::size_t threads = 1);
   // One number for each observation of each window, in their order. NaN where the rover would not move, but
   // for slip, which is 1 there. Same numbers for any number of threads.
   std::vector<double> predict(const ModelState& state, std::size_t threads = 1) const;
@@ -72,6 +75,7 @@ class WindowModel {
     sim::PerWheel<std::size_t> soil;  // index under each wheel
   };
 
+  sim::PerWheel<sim::Soil> soils_at(const Place& place, const ModelState& state) const;
   void predict_window(std::size_t window, const ModelState& state, bool same_shape,
                       sim::QuasiStaticSolver& solver, std::span<double> out) const;
   std::optional<Place> place_at(const sim::RoverModel& rover, std::size_t window, const Pose2& pose) const;
@@ -82,6 +86,7 @@ class WindowModel {
   std::span<const DriveWindow> windows_;
   Footing footing_;
   std::vector<std::vector<Place>> stances_;
+  std::vector<std::vector<std::optional<sim::QuasiStaticSolver::Start>>> starts_;  // of stances_; or none
   std::vector<Conditions> conditions_;
   std::vector<std::size_t> offsets_;
   const Progress* progress_ = nullptr;
