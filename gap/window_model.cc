@@ -14,6 +14,10 @@ namespace {
 // Stations whose attitudes and soils are no further apart than this are one.
 constexpr double kSameAttitude_rad = rad_from_deg(0.02);
 
+// Where no attitude was recorded and the map is steeper than this, the map shows a tree or a wall and not
+// what was driven on.
+constexpr double kMostTilt_rad = rad_from_deg(35.0);
+
 // Means over a window's stations.
 struct Motion {
   double slip = 0.0, side_slip = 0.0, yaw_rate = 0.0, roll = 0.0, pitch = 0.0;
@@ -111,6 +115,7 @@ std::vector<WindowModel::Place> WindowModel::places_of(const sim::RoverModel& ro
     attitude.roll_rad += place.stance.attitude.roll_rad / static_cast<double>(places.size());
     attitude.pitch_rad += place.stance.attitude.pitch_rad / static_cast<double>(places.size());
   }
+  if (attitude.tilt_rad() > kMostTilt_rad) return {};
   const Eigen::Vector3d p_MB = mean.stance.p_MB;
   mean.stance = sim::stance_on_plane(rover, attitude);
   mean.stance.p_MB = p_MB;
