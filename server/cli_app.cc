@@ -154,11 +154,12 @@ int run_command_line(int argc, char** argv) {
   command = app.add_subcommand("plan", "propose routes, simulate and rank them");
   add_ask(*command, plan_options.ask);
   add_model(*command, plan_options.ask);
+  add_drive(*command, plan_options.drive);
   command
       ->add_flag("--compare", plan_options.compare,
                  "plan with the nominal model too, and print what the corrected one changes")
-      ->needs(command->get_option("--model"));
-  add_drive(*command, plan_options.drive);
+      ->needs(command->get_option("--model"))
+      ->excludes(command->get_option("--map"));
   add_place(*command, "--start", plan_options.start, "x,y or x,y,yaw_deg in map metres");
   add_place(*command, "--goal", plan_options.goal, "x,y or x,y,yaw_deg in map metres");
   add_places(*command, "--via", plan_options.via, "waypoints in order");

@@ -107,6 +107,7 @@ holds '^Route 1: mean_slip' "$folder/out"
 expect 2 "$slipway" plan $route --model "$folder/model" --ground mer_b_sandy_laom
 holds '/ground/0: unknown soil "mer_b_sandy_laom"; did you mean "mer_b_sandy_loam"' "$folder/err"
 expect 2 "$slipway" plan $route --compare
+expect 2 "$slipway" plan $route --model "$folder/model" --compare --map "$folder/map.svg"
 cp -r "$folder/model" "$folder/torn"
 rm "$folder/torn/soils/"*
 sed -i 's/"nominal":"mer-class"/"nominal":7/' "$folder/torn/model.json"
