@@ -11,6 +11,7 @@
 #include "api/json/plan_request.h"
 #include "api/json/prediction_request.h"
 #include "api/json/soil_estimate_request.h"
+#include "api/model_folder.h"
 #include "api/request_check.h"
 #include "api/soil_regions.h"
 #include "planner/stage_progress.h"
@@ -55,6 +56,12 @@ std::string_view version() {
 Result<std::unique_ptr<Service>> Service::open(ServiceOptions options) {
   auto catalogue = load_catalogue(options.data);
   if (!catalogue) return fail(catalogue.error());
+  if (!options.model.empty()) {
+    const auto folder = load_model_folder(options.model);
+    if (!folder) return fail(folder.error());
+    catalogue = with_model(*std::move(catalogue), *folder, options.ground);
+    if (!catalogue) return fail(catalogue.error());
+  }
   std::unique_ptr<Service> service(new Service(std::move(options)));
   service->catalogue_ = std::move(*catalogue);
   service->shipped_ = shipped_campaigns(service->options_.data, service->catalogue_);
@@ -159,9 +166,12 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
                         .body = site.info().body,
                         .gravity_m_s2 = site.description().gravity_m_s2,
                         .soil_assumption = site.description().assumption,
-                        .soils = soils.map->soils(),
-                        .unknown_soil = std::string(kUnknownGround),
+                        .soils = {},
+                        .unknown_soil = problem.beliefs.unknown.name,
                         .seed = drive.seed};
+  // By what is believed of them: a corrected soil's name is another than the map's.
+  for (const sim::SoilDistribution& belief : problem.beliefs.known)
+    setting.provenance.soils.push_back(belief.name);
   return setting;
 }
 

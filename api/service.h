@@ -19,8 +19,10 @@ namespace slipway::api {
 std::string_view version();
 
 struct ServiceOptions {
-  std::filesystem::path data;  // the folder that holds rovers, soils and terrains
-  std::size_t threads = 0;     // of one plan or prediction; 0: as many as the machine has
+  std::filesystem::path data;            // the folder that holds rovers, soils and terrains
+  std::size_t threads = 0;               // of one plan or prediction; 0: as many as the machine has
+  std::filesystem::path model = {};      // folder of a corrected model to plan with; empty: none
+  std::vector<std::string> ground = {};  // soils of terrains that are that model's, see with_model()
 };
 
 // What the server and the command line both ask: immutable once opened, thread-safe.

@@ -62,6 +62,7 @@ std::size_t PreparedCampaign::used_windows() const {
 
 void prepare_around(PreparedCampaign& prepared, const DriveCampaign& campaign, const FittedExplanation& found,
                     std::size_t threads) {
+  prepared.model->start_from(found.hypothesis.state(found.x), threads);
   prepared.wildcard = make_wildcard(campaign, *prepared.model, found, threads);
   Eigen::MatrixXd systematic(found.jacobian.rows(), found.jacobian.cols() + prepared.wildcard.values.cols());
   systematic << found.jacobian, prepared.wildcard.values;
@@ -71,6 +72,7 @@ void prepare_around(PreparedCampaign& prepared, const DriveCampaign& campaign, c
   const std::vector<double> start = prepared.null->x;
   prepared.null =
       fit_explanation(prepared.null->hypothesis, *prepared.model, *prepared.noise, start, options);
+  prepared.model->start_from(prepared.null->hypothesis.state(prepared.null->x), threads);
 }
 
 Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const WindowOptions& options,
@@ -89,6 +91,7 @@ Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const WindowOpti
           looked_at[static_cast<std::size_t>(made.windows[w].observations[i].channel)];
   const Hypothesis hypothesis(campaign, {});
   const std::vector<double> neutral = hypothesis.neutral();
+  made.model->start_from(hypothesis.state(neutral), threads);
   std::vector<double> expected = hypothesis.predict(model, neutral, threads);
   made.nominal_residuals = measured(model);
   for (std::size_t i = 0; i < expected.size(); ++i)

@@ -14,6 +14,10 @@ namespace {
 // Stations whose attitudes and soils are no further apart than this are one.
 constexpr double kSameAttitude_rad = rad_from_deg(0.02);
 
+// Where no attitude was recorded and the map is steeper than this, the map shows a tree or a wall and not
+// what was driven on.
+constexpr double kMostTilt_rad = rad_from_deg(35.0);
+
 // Means over a window's stations.
 struct Motion {
   double slip = 0.0, side_slip = 0.0, yaw_rate = 0.0, roll = 0.0, pitch = 0.0;
@@ -27,6 +31,12 @@ bool same_shape_as(const sim::RoverModel& a, const sim::RoverModel& b) {
   return true;
 }
 
+bool attitude_recorded(const DriveWindow& window) {
+  return std::any_of(window.observations.begin(), window.observations.end(), [](const Observation& o) {
+    return o.channel == Channel::kRoll || o.channel == Channel::kPitch;
+  });
+}
+
 }  // namespace
 
 WindowModel::WindowModel(const DriveCampaign& campaign, std::span<const DriveWindow> windows, Footing footing)
@@ -34,17 +44,13 @@ WindowModel::WindowModel(const DriveCampaign& campaign, std::span<const DriveWin
       windows_(windows),
       footing_(footing),
       stances_(windows.size()),
+      starts_(windows.size()),
       conditions_(windows.size()) {
   offsets_.push_back(0);
   for (std::size_t w = 0; w < windows.size(); ++w) {
     offsets_.push_back(offsets_.back() + windows[w].observations.size());
-    bool found = true;
-    std::vector<Place> places;
-    for (const Pose2& pose : windows[w].stations) {
-      places.push_back(place_at(*campaign.rover, w, pose, found));
-      if (!found) break;
-    }
-    if (!found) continue;
+    std::vector<Place> places = places_of(*campaign.rover, w);
+    if (places.empty()) continue;
     const sim::DriveCommand& command = windows[w].command;
     const double sense = command.speed_m_s < 0.0 && !command.turn_in_place ? -1.0 : 1.0;
     Conditions& at = conditions_[w];
@@ -78,65 +84,86 @@ double WindowModel::attitude_misfit_rad() const {
   return std::sqrt(squares / static_cast<double>(count));
 }
 
-WindowModel::Place WindowModel::place_at(const sim::RoverModel& rover, std::size_t window, const Pose2& pose,
-                                         bool& found) const {
-  Place place;
+std::optional<WindowModel::Place> WindowModel::place_at(const sim::RoverModel& rover, std::size_t window,
+                                                        const Pose2& pose) const {
   const sim::Ground& ground = *campaign_.terrains[campaign_.drives[windows_[window].drive].terrain].ground;
   const auto stance = footing_ == Footing::kPlane ? sim::lay_on_fitted_plane(rover, ground, pose)
                                                   : sim::settle(rover, ground, pose);
-  found = stance.has_value();
-  if (!found) return place;
-  place.stance = *stance;
-  place.soil = sim::PerWheel<std::size_t>(rover.wheels.size());
+  if (!stance) return std::nullopt;
+  Place place{*stance, sim::PerWheel<std::size_t>(rover.wheels.size())};
   for (std::size_t k = 0; k < rover.wheels.size(); ++k) {
     const Eigen::Vector3d p = stance->p_MB + stance->R_MB * stance->p_B_wheel[k];
     const auto soil = ground.soil_at(p.x(), p.y());
-    found = found && soil.has_value();
-    place.soil[k] = soil.value_or(0);
+    if (!soil) return std::nullopt;
+    place.soil[k] = *soil;
   }
   return place;
+}
+
+std::vector<WindowModel::Place> WindowModel::places_of(const sim::RoverModel& rover,
+                                                       std::size_t window) const {
+  std::vector<Place> places;
+  for (const Pose2& pose : windows_[window].stations) {
+    std::optional<Place> place = place_at(rover, window, pose);
+    if (!place) return {};
+    places.push_back(*std::move(place));
+  }
+  if (footing_ != Footing::kPlane || attitude_recorded(windows_[window])) return places;
+  Place mean = places[places.size() / 2];
+  Attitude attitude{.yaw_rad = mean.stance.attitude.yaw_rad};
+  for (const Place& place : places) {
+    attitude.roll_rad += place.stance.attitude.roll_rad / static_cast<double>(places.size());
+    attitude.pitch_rad += place.stance.attitude.pitch_rad / static_cast<double>(places.size());
+  }
+  if (attitude.tilt_rad() > kMostTilt_rad) return {};
+  const Eigen::Vector3d p_MB = mean.stance.p_MB;
+  mean.stance = sim::stance_on_plane(rover, attitude);
+  mean.stance.p_MB = p_MB;
+  return {mean};
+}
+
+sim::PerWheel<sim::Soil> WindowModel::soils_at(const Place& place, const ModelState& state) const {
+  const std::vector<sim::Disc> regions = sim::effect_regions(state.effects);
+  sim::PerWheel<sim::Soil> soils(place.soil.size());
+  for (std::size_t k = 0; k < soils.size(); ++k) {
+    soils[k] = state.soils[place.soil[k]];
+    if (regions.empty()) continue;
+    const Eigen::Vector3d p = place.stance.p_MB + place.stance.R_MB * place.stance.p_B_wheel[k];
+    for (std::size_t r = 0; r < regions.size(); ++r)
+      if (regions[r].holds(p.x(), p.y())) sim::apply_in_region(state.effects, r, soils[k]);
+  }
+  return soils;
 }
 
 void WindowModel::predict_window(std::size_t w, const ModelState& state, bool same_shape,
                                  sim::QuasiStaticSolver& solver, std::span<double> out) const {
   const DriveWindow& window = windows_[w];
   const std::size_t wheels = state.rover.wheels.size();
-  const std::vector<sim::Disc> regions = sim::effect_regions(state.effects);
+  const bool regions = !sim::effect_regions(state.effects).empty();
   Motion mean;
   mean.current = sim::PerWheel<double>(wheels);
   mean.sinkage = sim::PerWheel<double>(wheels);
   bool moving = true;
-  double share = 1.0 / static_cast<double>(stances_[w].size());
+  std::vector<Place> own;
+  if (!same_shape) own = places_of(state.rover, w);
+  const std::vector<Place>& places = own.empty() ? stances_[w] : own;
+  const double share = 1.0 / static_cast<double>(places.size());
   const Place* before = nullptr;
   Motion last;
-  for (std::size_t i = 0; i < stances_[w].size(); ++i) {
-    Place own;
-    const Place* place = &stances_[w][i];
-    if (!same_shape) {
-      bool found = true;
-      own = place_at(state.rover, w, window.stations[i], found);
-      if (found) place = &own;
-    }
-    sim::PerWheel<sim::Soil> soils(wheels);
-    for (std::size_t k = 0; k < wheels; ++k) {
-      soils[k] = state.soils[place->soil[k]];
-      if (regions.empty()) continue;
-      const Eigen::Vector3d p = place->stance.p_MB + place->stance.R_MB * place->stance.p_B_wheel[k];
-      for (std::size_t r = 0; r < regions.size(); ++r) {
-        if (!regions[r].holds(p.x(), p.y())) continue;
-        sim::apply_in_region(state.effects, r, soils[k]);
-      }
-    }
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Place& place = places[i];
     const bool as_before =
-        before != nullptr && regions.empty() && before->soil.size() == place->soil.size() &&
-        std::equal(before->soil.begin(), before->soil.end(), place->soil.begin()) &&
-        std::abs(before->stance.attitude.pitch_rad - place->stance.attitude.pitch_rad) < kSameAttitude_rad &&
-        std::abs(before->stance.attitude.roll_rad - place->stance.attitude.roll_rad) < kSameAttitude_rad &&
-        std::abs(before->stance.rocker_rad - place->stance.rocker_rad) < kSameAttitude_rad &&
-        std::abs(before->stance.bogie_rad[0] - place->stance.bogie_rad[0]) < kSameAttitude_rad &&
-        std::abs(before->stance.bogie_rad[1] - place->stance.bogie_rad[1]) < kSameAttitude_rad;
+        before != nullptr && !regions && before->soil.size() == place.soil.size() &&
+        std::equal(before->soil.begin(), before->soil.end(), place.soil.begin()) &&
+        std::abs(before->stance.attitude.pitch_rad - place.stance.attitude.pitch_rad) < kSameAttitude_rad &&
+        std::abs(before->stance.attitude.roll_rad - place.stance.attitude.roll_rad) < kSameAttitude_rad &&
+        std::abs(before->stance.rocker_rad - place.stance.rocker_rad) < kSameAttitude_rad &&
+        std::abs(before->stance.bogie_rad[0] - place.stance.bogie_rad[0]) < kSameAttitude_rad &&
+        std::abs(before->stance.bogie_rad[1] - place.stance.bogie_rad[1]) < kSameAttitude_rad;
     if (!as_before) {
-      const sim::StationState at = solver.solve(place->stance, soils, window.command);
+      const sim::StationState at =
+          solver.solve(place.stance, soils_at(place, state), window.command,
+                       starts_[w].empty() || !starts_[w][i] ? nullptr : &*starts_[w][i]);
       last = {};
       last.current = sim::PerWheel<double>(wheels);
       last.sinkage = sim::PerWheel<double>(wheels);
@@ -161,10 +188,10 @@ void WindowModel::predict_window(std::size_t w, const ModelState& state, bool sa
               (1.0 - state.track_left_out) * at.wheels[k].sinkage_m + state.track_left_out * below_track;
         }
       }
-      last.roll = place->stance.attitude.roll_rad;
-      last.pitch = place->stance.attitude.pitch_rad;
+      last.roll = place.stance.attitude.roll_rad;
+      last.pitch = place.stance.attitude.pitch_rad;
     }
-    before = place == &own ? nullptr : place;
+    before = own.empty() ? &place : nullptr;
     mean.slip += share * last.slip;
     mean.side_slip += share * last.side_slip;
     mean.yaw_rate += share * last.yaw_rate;
@@ -205,6 +232,18 @@ void WindowModel::predict_window(std::size_t w, const ModelState& state, bool sa
         break;
     }
   }
+}
+
+void WindowModel::start_from(const ModelState& state, std::size_t threads) {
+  parallel_for(windows_.size(), threads, [&](std::size_t w) {
+    starts_[w].clear();
+    sim::QuasiStaticSolver solver(state.rover, campaign_.gravity_m_s2);
+    for (const Place& place : stances_[w]) {
+      if (cancelled()) break;
+      starts_[w].push_back(solver.find_start(place.stance, soils_at(place, state), windows_[w].command));
+    }
+    starts_[w].resize(stances_[w].size());
+  });
 }
 
 std::vector<double> WindowModel::predict(const ModelState& state, std::size_t threads) const {

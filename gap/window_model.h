@@ -24,7 +24,9 @@ struct ModelState {
 };
 
 // How the rover stands where it was: as its suspension does on the map, or on the plane under its wheels.
-// Which of them a recording's attitudes show is for the recording to say.
+// Which of them a recording's attitudes show is for the recording to say. On planes, a window in which no
+// attitude was recorded is one station on the mean of its planes: they differ by the map's detail, which
+// nothing confirms.
 enum class Footing { kSuspension, kPlane };
 
 // Predicts every observation of a campaign's windows by the quasi-static rung: the rover stands at the
@@ -36,6 +38,9 @@ class WindowModel {
   WindowModel(const DriveCampaign& campaign, std::span<const DriveWindow> windows,
               Footing footing = Footing::kSuspension);
 
+  // Predictions start from the balances at this state, and are the faster the nearer theirs is to it. Their
+  // numbers do not change by more than the solver's tolerance.
+  void start_from(const ModelState& state, std::size_t threads = 1);
   // One number for each observation of each window, in their order. NaN where the rover would not move, but
   // for slip, which is 1 there. Same numbers for any number of threads.
   std::vector<double> predict(const ModelState& state, std::size_t threads = 1) const;
@@ -70,14 +75,18 @@ class WindowModel {
     sim::PerWheel<std::size_t> soil;  // index under each wheel
   };
 
+  sim::PerWheel<sim::Soil> soils_at(const Place& place, const ModelState& state) const;
   void predict_window(std::size_t window, const ModelState& state, bool same_shape,
                       sim::QuasiStaticSolver& solver, std::span<double> out) const;
-  Place place_at(const sim::RoverModel& rover, std::size_t window, const Pose2& pose, bool& found) const;
+  std::optional<Place> place_at(const sim::RoverModel& rover, std::size_t window, const Pose2& pose) const;
+  // Of a window's stations, one or as many as it has; empty where one of them has no ground.
+  std::vector<Place> places_of(const sim::RoverModel& rover, std::size_t window) const;
 
   const DriveCampaign& campaign_;
   std::span<const DriveWindow> windows_;
   Footing footing_;
   std::vector<std::vector<Place>> stances_;
+  std::vector<std::vector<std::optional<sim::QuasiStaticSolver::Start>>> starts_;  // of stances_; or none
   std::vector<Conditions> conditions_;
   std::vector<std::size_t> offsets_;
   const Progress* progress_ = nullptr;

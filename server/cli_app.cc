@@ -78,6 +78,19 @@ void add_ask(CLI::App& command, AskOptions& ask) {
   command.add_flag("--json", ask.json, "print the whole document, for machines");
 }
 
+void add_model(CLI::App& command, AskOptions& ask) {
+  CLI::Option* model = command.add_option(
+      "--model", ask.model,
+      "folder of a corrected model, as slipway diagnose --model writes it: its rover drives where the one "
+      "that "
+      "it was made of is asked for, and ground that was its nominal soil is the corrected one");
+  model->excludes(command.get_option("--url"));
+  command
+      .add_option("--ground", ask.ground,
+                  "a soil of the terrain that is the model's, where the campaign called it otherwise")
+      ->needs(model);
+}
+
 void add_drive(CLI::App& command, DriveOptions& drive) {
   command.add_option("--terrain", drive.terrain, "name of the terrain")->capture_default_str();
   command.add_option("--rover", drive.rover, "name of the rover")->capture_default_str();
@@ -140,7 +153,13 @@ int run_command_line(int argc, char** argv) {
   PlanOptions plan_options;
   command = app.add_subcommand("plan", "propose routes, simulate and rank them");
   add_ask(*command, plan_options.ask);
+  add_model(*command, plan_options.ask);
   add_drive(*command, plan_options.drive);
+  command
+      ->add_flag("--compare", plan_options.compare,
+                 "plan with the nominal model too, and print what the corrected one changes")
+      ->needs(command->get_option("--model"))
+      ->excludes(command->get_option("--map"));
   add_place(*command, "--start", plan_options.start, "x,y or x,y,yaw_deg in map metres");
   add_place(*command, "--goal", plan_options.goal, "x,y or x,y,yaw_deg in map metres");
   add_places(*command, "--via", plan_options.via, "waypoints in order");
@@ -155,6 +174,7 @@ int run_command_line(int argc, char** argv) {
   PredictOptions predict_options;
   command = app.add_subcommand("predict", "simulate a given path");
   add_ask(*command, predict_options.ask);
+  add_model(*command, predict_options.ask);
   add_drive(*command, predict_options.drive);
   add_places(*command, "--path", predict_options.path, "corners of the path, each x,y or x,y,yaw_deg");
   command->add_flag("--backwards", predict_options.backwards, "drive the path backwards");

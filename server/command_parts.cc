@@ -49,7 +49,8 @@ int refuse(const Error& error) {
 }
 
 Result<std::unique_ptr<Inquiry>> inquiry(const AskOptions& options) {
-  return options.url.empty() ? local_inquiry(options.data) : remote_inquiry(options.url);
+  if (!options.url.empty()) return remote_inquiry(options.url);
+  return local_inquiry({.data = options.data, .model = options.model, .ground = options.ground});
 }
 
 int save(const std::string& file, const std::string& text) {

@@ -9,7 +9,9 @@
 #include <sstream>
 
 #include "api/drive_history.h"
+#include "api/json/plan_comparison.h"
 #include "api/json/writer.h"
+#include "api/model_folder.h"
 #include "server/command_parts.h"
 #include "server/inquiry.h"
 #include "server/tables.h"
@@ -129,6 +131,41 @@ int ask_and_print(const AskOptions& ask, const Pictures& pictures, Result<std::s
   return status;
 }
 
+// The corrected rover, where the one that it was made of is asked for.
+template <class Options>
+Result<Options> with_models_rover(Options options) {
+  if (options.ask.model.empty()) return options;
+  const auto folder = api::load_model_folder(options.ask.model);
+  if (!folder) return fail(folder.error());
+  if (options.drive.rover == folder->nominal_rover) options.drive.rover = folder->model.rover.name;
+  return options;
+}
+
+Result<std::string> plan_of(const AskOptions& ask, const Result<std::string>& request) {
+  if (!request) return request;
+  const auto service = inquiry(ask);
+  if (!service) return fail(service.error());
+  TerminalProgress progress;
+  return (*service)->plan(*request, progress);
+}
+
+int compare_plans(const PlanOptions& nominal, const Result<std::string>& nominal_request,
+                  const PlanOptions& corrected, const Result<std::string>& corrected_request) {
+  AskOptions without = nominal.ask;
+  without.model.clear();
+  without.ground.clear();
+  const auto before = plan_of(without, nominal_request);
+  if (!before) return refuse(before.error());
+  const auto after = plan_of(corrected.ask, corrected_request);
+  if (!after) return refuse(after.error());
+  const auto comparison = api::json::compare_plans(*before, *after);
+  if (!comparison) return refuse(comparison.error());
+  const auto printed = nominal.ask.json ? comparison : comparison_table(*comparison);
+  if (!printed) return refuse(printed.error());
+  std::cout << *printed << (nominal.ask.json ? "\n" : "") << std::flush;
+  return 0;
+}
+
 int print_catalogue(const AskOptions& ask, std::string_view kind,
                     Result<std::string> (*table)(std::string_view)) {
   const auto service = inquiry(ask);
@@ -143,14 +180,24 @@ int print_catalogue(const AskOptions& ask, std::string_view kind,
 
 }  // namespace
 
-int plan(const PlanOptions& options) {
-  return ask_and_print(
-      options.ask, {.map = options.drive.map, .history = {}},
-      options.request.empty() ? Result<std::string>(plan_request(options)) : read_file(options.request),
-      &Inquiry::plan, &plan_table);
+int plan(const PlanOptions& given) {
+  const auto options = with_models_rover(given);
+  if (!options) return refuse(options.error());
+  const auto request_of = [](const PlanOptions& o) {
+    return o.request.empty() ? Result<std::string>(plan_request(o)) : read_file(o.request);
+  };
+  const auto request = request_of(*options);
+  // A file's request is asked of both as it is, and standard input is read once.
+  if (given.compare)
+    return compare_plans(given, given.request.empty() ? request_of(given) : request, *options, request);
+  return ask_and_print(options->ask, {.map = options->drive.map, .history = {}}, request, &Inquiry::plan,
+                       &plan_table);
 }
 
-int predict(const PredictOptions& options) {
+int predict(const PredictOptions& given) {
+  const auto with_rover = with_models_rover(given);
+  if (!with_rover) return refuse(with_rover.error());
+  const PredictOptions& options = *with_rover;
   // Said before the work is done; of a request in a file its answer says it.
   if (!options.plot.empty() && options.request.empty() && options.rung != "dynamic")
     return refuse({ErrorCode::kInvalidRequest,

@@ -11,8 +11,10 @@ namespace slipway::server {
 // What the command line was asked, in plain structs: how it was parsed is cli_app's affair.
 struct AskOptions {
   std::string data = "data";
-  std::string url;    // empty: the service in this process
-  bool json = false;  // the document instead of a table
+  std::string url;                  // empty: the service in this process
+  bool json = false;                // the document instead of a table
+  std::string model;                // folder of a corrected model, as diagnose writes it; empty: none
+  std::vector<std::string> ground;  // soils of terrains that are that model's
 };
 
 struct ServeOptions {
@@ -49,6 +51,7 @@ struct PlanOptions {
   std::vector<PlaceOption> via;
   std::optional<int> routes, verify;
   std::vector<std::string> planners;
+  bool compare = false;  // with the plan of the model that was corrected
 };
 
 struct PredictOptions {

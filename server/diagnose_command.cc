@@ -15,6 +15,7 @@
 #include "api/diagnosis_report.h"
 #include "api/drive_campaign_source.h"
 #include "api/json/diagnosis_document.h"
+#include "api/model_folder.h"
 #include "gap/diagnosis.h"
 #include "server/command_parts.h"
 #include "server/commands.h"
@@ -166,8 +167,9 @@ int write_model(const std::string& folder, const gap::DriveCampaign& campaign, c
   const std::filesystem::path path(folder);
   const auto rover = made((path / "rovers").string()) / (model->rover.name + ".json");
   const auto soils = made((path / "soils").string()) / (model->soils.front().name + ".json");
-  const int status = save(rover.string(), api::json::rover_document(*model));
-  return status != 0 ? status : save(soils.string(), api::json::soils_document(*model));
+  int status = save(rover.string(), api::json::rover_document(*model));
+  if (status == 0) status = save(soils.string(), api::json::soils_document(*model));
+  return status != 0 ? status : save((path / "model.json").string(), api::model_document(campaign, *model));
 }
 
 // As refuse(), but what can't be read is the question's fault here.

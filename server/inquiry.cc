@@ -136,8 +136,8 @@ class RemoteInquiry final : public Inquiry {
 
 }  // namespace
 
-Result<std::unique_ptr<Inquiry>> local_inquiry(const std::string& data) {
-  auto service = api::Service::open({.data = data});
+Result<std::unique_ptr<Inquiry>> local_inquiry(api::ServiceOptions options) {
+  auto service = api::Service::open(std::move(options));
   if (!service) return fail(service.error());
   return std::make_unique<LocalInquiry>(std::move(*service));
 }

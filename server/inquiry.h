@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "api/service.h"
 #include "core/progress.h"
 #include "core/result.h"
 
@@ -26,8 +27,8 @@ class Inquiry {
   virtual Result<std::string> health() = 0;
 };
 
-// Errors: unreadable_data with the faults of all files under `data`.
-Result<std::unique_ptr<Inquiry>> local_inquiry(const std::string& data);
+// Errors: unreadable_data with the faults of all files under the folders; those of api::with_model().
+Result<std::unique_ptr<Inquiry>> local_inquiry(api::ServiceOptions options);
 // url: "http://HOST:PORT".
 Result<std::unique_ptr<Inquiry>> remote_inquiry(const std::string& url);
 

@@ -135,6 +135,32 @@ Result<std::string> plan_table(std::string_view answer) {
   return out;
 }
 
+// Two rows a pair of routes, and under them what changed.
+Result<std::string> comparison_table(std::string_view comparison) {
+  const auto document = read(comparison);
+  if (!document) return fail(document.error());
+  TextTable table({"route", "energy", "mean slip", "largest slip", "sinkage", "current", "risk", "verdict"});
+  std::string changes;
+  std::size_t pair = 0;
+  for (const JsonValue& routes : at(*document, "routes").elements) {
+    ++pair;
+    for (const char* const side : {"nominal", "corrected"}) {
+      const JsonValue& f = at(routes, side);
+      if (!f.is(JsonValue::Kind::kObject)) continue;
+      table.add({fmt::format("{} {} (rank {:.0f})", pair, side, number(f, "rank")),
+                 fmt::format("{:.0f} Wh", number(f, "energy_wh")),
+                 fmt::format("{:.3f}", number(f, "mean_slip")), fmt::format("{:.2f}", number(f, "max_slip")),
+                 fmt::format("{:.3f} m", number(f, "max_sinkage_m")),
+                 fmt::format("{:.2f} A", number(f, "max_current_a")),
+                 fmt::format("{:.0f} %", 100.0 * number(f, "risk")), text(f, "verdict")});
+    }
+    const JsonValue& changed = at(routes, "changed");
+    if (changed.elements.empty()) changes += fmt::format("Route {}: nothing changed to speak of\n", pair);
+    changes += lines(changed, fmt::format("Route {}: ", pair));
+  }
+  return table.print() + "\n" + changes;
+}
+
 Result<std::string> prediction_table(std::string_view answer) {
   const auto document = read(answer);
   if (!document) return fail(document.error());

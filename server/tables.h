@@ -10,6 +10,7 @@ namespace slipway::server {
 // Answers as tables for people. Each takes the document that machines get, so both see the same figures.
 // Errors: internal, where the document is not of that kind.
 Result<std::string> plan_table(std::string_view answer);
+Result<std::string> comparison_table(std::string_view comparison);
 Result<std::string> prediction_table(std::string_view answer);
 Result<std::string> wheel_table(std::string_view answer);
 Result<std::string> terrain_table(std::string_view document);

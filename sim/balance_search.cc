@@ -167,11 +167,14 @@ Vector with_contacts(const RoverBalance& balance, Vector x) {
 }
 
 // Newton; and where its answer will not do, another set of wheels in contact, until every one that carries
-// pushes and every other hangs clear. False where that ends without a balance.
-bool find_in_contact(RoverBalance& balance, int most_iterations, Vector& x) {
+// pushes and every other hangs clear. False where that ends without a balance. `inverse` goes with all wheels
+// in contact.
+bool find_in_contact(RoverBalance& balance, int most_iterations, Vector& x,
+                     const RoverBalance::Matrix* inverse = nullptr) {
   const Vector start = x;
   for (int round = 0; round <= 2 * balance.wheel_count(); ++round) {
-    const bool solved = newton(balance, x, nullptr, most_iterations);
+    const bool solved =
+        newton(balance, x, nullptr, most_iterations, balance.all_in_contact() ? inverse : nullptr);
     const std::optional<ContactChange> change = contact_change(balance, x, solved);
     if (!change) return solved;
     balance.set_in_air(change->wheel, change->into_air);
@@ -203,7 +206,8 @@ Primary primary_of(const DriveCommand& command) {
   return {0, 0, command.speed_m_s < 0.0 ? -1.0 : 1.0};
 }
 
-Attempt find_balance(RoverBalance& balance, const Primary& primary, bool warm, Vector& x) {
+Attempt find_balance(RoverBalance& balance, const Primary& primary, bool warm, Vector& x,
+                     const RoverBalance::Matrix* inverse) {
   if (!balance.any_driven()) {
     x = cold_start(balance, primary, 0.0);
     return {Outcome::kNoTraction, -1};
@@ -213,7 +217,7 @@ Attempt find_balance(RoverBalance& balance, const Primary& primary, bool warm, V
       balance.resting_loads_n();  // for the wheels that hang
       x = with_contacts(balance, x);
     }
-    if (find_in_contact(balance, 20, x)) return judged(balance, primary, x);
+    if (find_in_contact(balance, 20, x, inverse)) return judged(balance, primary, x);
   }
   // A dead wheel's soil forces turn over within a thousandth of the speed: there the first start often fails
   // where another finds the balance.

@@ -17,7 +17,9 @@ struct Attempt {
 };
 
 // Finds the unknowns at which the balance's equations hold and every wheel that carries nothing hangs clear.
-// `x` is where the search starts when `warm`, and the answer (without one, the last iterate) afterwards.
-Attempt find_balance(RoverBalance& balance, const Primary& primary, bool warm, RoverBalance::Vector& x);
+// `x` is where the search starts when `warm`, and the answer (without one, the last iterate) afterwards. For
+// `inverse` see newton().
+Attempt find_balance(RoverBalance& balance, const Primary& primary, bool warm, RoverBalance::Vector& x,
+                     const RoverBalance::Matrix* inverse = nullptr);
 
 }  // namespace slipway::sim

@@ -28,7 +28,10 @@ Vector limited_step(const Vector& x, const Vector& full) {
 class NewtonSearch {
  public:
   // With `held`, its motion keeps its value and its equation is left out.
-  NewtonSearch(RoverBalance& balance, const Primary* held) : balance_(balance), held_(held) {}
+  NewtonSearch(RoverBalance& balance, const Primary* held, const Matrix* inverse)
+      : balance_(balance), held_(held), have_inverse_(inverse != nullptr) {
+    if (inverse != nullptr) inverse_ = *inverse;
+  }
 
   bool solve(Vector& x, int most_iterations) {
     Vector r = residual(x);
@@ -104,7 +107,7 @@ class NewtonSearch {
   RoverBalance& balance_;
   const Primary* held_;
   Matrix inverse_;
-  bool have_inverse_ = false;
+  bool have_inverse_;
 };
 
 }  // namespace
@@ -114,8 +117,14 @@ void keep_in_range(Vector& x) {
     x[k] = std::clamp(x[k], RoverBalance::kLeastEntryAngleRad, kLargestEntryAngleRad);
 }
 
-bool newton(RoverBalance& balance, Vector& x, const Primary* held, int most_iterations) {
-  return NewtonSearch(balance, held).solve(x, most_iterations);
+bool newton(RoverBalance& balance, Vector& x, const Primary* held, int most_iterations,
+            const Matrix* inverse) {
+  return NewtonSearch(balance, held, inverse).solve(x, most_iterations);
+}
+
+std::optional<Matrix> inverse_jacobian(const RoverBalance& balance, const Vector& x) {
+  const Matrix inverse = balance.jacobian(x).partialPivLu().inverse();
+  return inverse.allFinite() ? std::optional(inverse) : std::nullopt;
 }
 
 }  // namespace slipway::sim

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "sim/rover_balance.h"
 
 namespace slipway::sim {
@@ -19,7 +21,13 @@ void keep_in_range(RoverBalance::Vector& unknowns);
 
 // Newton's search for the unknowns at which the balance holds, from `x`, with the wheels in contact as they
 // are. With `held`, its motion keeps its value and its equation is left out. False where it ends elsewhere;
-// `x` is the last iterate, and the balance's contacts are those at `x`.
-bool newton(RoverBalance& balance, RoverBalance::Vector& x, const Primary* held, int most_iterations);
+// `x` is the last iterate, and the balance's contacts are those at `x`. `inverse`, where given, is that of
+// the Jacobian somewhere near: a search that it serves well needs no Jacobian of its own.
+bool newton(RoverBalance& balance, RoverBalance::Vector& x, const Primary* held, int most_iterations,
+            const RoverBalance::Matrix* inverse = nullptr);
+
+// Of the Jacobian at the unknowns of the last residual; nothing where it has none.
+std::optional<RoverBalance::Matrix> inverse_jacobian(const RoverBalance& balance,
+                                                     const RoverBalance::Vector& x);
 
 }  // namespace slipway::sim

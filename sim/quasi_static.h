@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string_view>
 
 #include "sim/drive_command.h"
@@ -66,21 +67,31 @@ struct StationState {
 // (1e-9 of the weight).
 class QuasiStaticSolver {
  public:
+  // A balance that was found and how the balance's equations change there: from it, the balances of the same
+  // station with soils or a rover that differ a little are a few evaluations away.
+  struct Start {
+    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3 + kMostWheels, 1> unknowns;
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3 + kMostWheels, 3 + kMostWheels>
+        inverse_jacobian;
+  };
+
   QuasiStaticSolver(const RoverModel& rover, double gravity_m_s2);
 
-  // soils: the soil under each wheel.
-  StationState solve(const Stance& stance, const PerWheel<Soil>& soils, const DriveCommand& command);
+  // soils: the soil under each wheel. With a `start` it is in the last answer's place.
+  StationState solve(const Stance& stance, const PerWheel<Soil>& soils, const DriveCommand& command,
+                     const Start* start = nullptr);
   StationState solve(const Stance& stance, const Soil& soil, const DriveCommand& command);
+  // Finds the balance, for others to start from; nothing where the rover does not move on all of its wheels.
+  std::optional<Start> find_start(const Stance& stance, const PerWheel<Soil>& soils,
+                                  const DriveCommand& command);
   // Forget the last answer, so that the next solve is a cold start.
   void reset() { warm_ = false; }
 
  private:
-  using Unknowns = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3 + kMostWheels, 1>;
-
   const RoverModel& rover_;
   double gravity_m_s2_;
   bool warm_ = false;
-  Unknowns last_;
+  decltype(Start::unknowns) last_;
 };
 
 }  // namespace slipway::sim

@@ -78,6 +78,7 @@ class RoverBalance {
 
   // Wheels in the air: none to begin with. Only a statically undetermined vehicle can spare one.
   bool in_air(int wheel) const { return in_air_[wheel]; }
+  bool all_in_contact() const { return in_contact_ == wheel_count(); }
   bool can_spare_a_wheel() const { return in_contact_ > wheel_count() - undetermined_; }
   void set_in_air(int wheel, bool in_air);
   // Wheel loads if nothing pulled or pushed along the ground, of springs that sink z_ref under the mean load:

@@ -65,6 +65,55 @@ assert energy[0] > 1.2 * energy[1], energy
 assert sys.argv[3] in json.dumps(warm["provenance"]), warm["provenance"]
 CHECK
 
+# The folder itself does as well, on the ground that the request names; the answer says whose soil it was.
+cp "$folder/out" "$folder/copied.json"
+mkdir "$folder/world"
+cp -r "$data/rovers" "$data/soils" "$source/tests/api/small_world/terrains" "$folder/world"
+world="--data $folder/world --terrain yard --rover mer-class --draws 4"
+expect 0 "$slipway" predict $world --path 20,30 28,30 30,36 --motor-temp-c 20 --json --model "$folder/model" --ground mer_b_sandy_loam
+python3 - "$folder/copied.json" "$folder/out" <<'CHECK'
+import json, sys
+copied, taken = (json.load(open(name)) for name in sys.argv[1:3])
+assert copied["summary"] == taken["summary"]
+assert copied["provenance"]["soils"] == taken["provenance"]["soils"], taken["provenance"]
+assert taken["rover"] == copied["rover"] != "mer-class"
+CHECK
+
+# What it changes in a plan: the same request without the model is one side, with it the other.
+route="$world --start 20,30 --goal 30,60"
+expect 0 "$slipway" plan $route --json
+cp "$folder/out" "$folder/before.json"
+expect 0 "$slipway" plan $route --json --model "$folder/model" --ground mer_b_sandy_loam
+cp "$folder/out" "$folder/after.json"
+expect 0 "$slipway" plan $route --json --model "$folder/model" --ground mer_b_sandy_loam --compare
+python3 - "$folder" "$folder/out" <<'CHECK'
+import json, pathlib, sys
+folder, compared = pathlib.Path(sys.argv[1]), json.load(open(sys.argv[2]))
+assert compared["format"] == "plan-comparison/1"
+assert compared["nominal"] == json.loads((folder / "before.json").read_text())
+assert compared["corrected"] == json.loads((folder / "after.json").read_text())
+for side in ("nominal", "corrected"):
+    ranks = sorted(pair[side]["rank"] for pair in compared["routes"] if pair[side])
+    assert ranks == [route["rank"] for route in compared[side]["summary"]], ranks
+for pair in compared["routes"]:
+    before, after = pair["nominal"], pair["corrected"]
+    assert before["mean_slip"] > 1.05 * after["mean_slip"], pair
+    assert any(change.startswith("mean_slip") for change in pair["changed"]), pair
+    assert (before["verdict"] != after["verdict"]) == any(c.startswith("verdict") for c in pair["changed"]), pair
+CHECK
+expect 0 "$slipway" plan $route --model "$folder/model" --ground mer_b_sandy_loam --compare
+holds '^1 nominal (rank 1)' "$folder/out"
+holds '^Route 1: mean_slip' "$folder/out"
+expect 2 "$slipway" plan $route --model "$folder/model" --ground mer_b_sandy_laom
+holds '/ground/0: unknown soil "mer_b_sandy_laom"; did you mean "mer_b_sandy_loam"' "$folder/err"
+expect 2 "$slipway" plan $route --compare
+expect 2 "$slipway" plan $route --model "$folder/model" --compare --map "$folder/map.svg"
+cp -r "$folder/model" "$folder/torn"
+rm "$folder/torn/soils/"*
+sed -i 's/"nominal":"mer-class"/"nominal":7/' "$folder/torn/model.json"
+expect 1 "$slipway" plan $route --model "$folder/torn"
+holds 'model.json#/rover/nominal' "$folder/err"
+
 # Without the effect it is not named, on any number of threads.
 for threads in 1 2; do
   expect 0 "$slipway" diagnose "$data/gap-practice/p05" --data "$data" --without motor_temperature --threads $threads --json

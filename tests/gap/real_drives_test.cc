@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 
 #include "api/catalogue.h"
@@ -31,8 +32,27 @@ TEST(RealDrives, CuadrigasLogsAreADriveEachWithATotalOfCurrent) {
     EXPECT_LT(window.observations[0].value, 0.8);
   }
   const WindowModel model(*campaign, windows, Footing::kPlane);
-  for (std::size_t w = 0; w < windows.size(); ++w) EXPECT_TRUE(model.used(w)) << w;
+  // Two lie where the map, a surface model, has trees: planes steeper than 35 deg.
+  std::size_t unused = 0;
+  for (std::size_t w = 0; w < windows.size(); ++w) unused += model.used(w) ? 0 : 1;
+  EXPECT_EQ(unused, 2U);
   EXPECT_TRUE(std::isnan(model.attitude_misfit_rad())) << "no attitude was measured";
+
+  // Where predictions start from changes none of them.
+  ModelState state{.rover = *campaign->rover, .soils = {}, .effects = {}};
+  for (const NominalSoil& soil : campaign->soils) state.soils.push_back(soil.soil);
+  ModelState softer = state;
+  softer.soils[0].friction_angle_rad *= 0.9;
+  WindowModel started(*campaign, windows, Footing::kPlane);
+  started.start_from(softer, 2);
+  const std::vector<double> plain = model.predict(state), same = started.predict(state, 2);
+  for (std::size_t i = 0; i < plain.size(); ++i)
+    if (std::isfinite(plain[i])) {
+      EXPECT_NEAR(same[i], plain[i], 1e-6 * (1.0 + std::abs(plain[i]))) << i;
+    }
+  const std::vector<double> alone = started.predict(state, 1);
+  EXPECT_EQ(std::memcmp(same.data(), alone.data(), same.size() * sizeof(double)), 0)
+      << "the same bytes on any number of threads";
 }
 
 }  // namespace
