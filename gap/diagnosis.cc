@@ -25,7 +25,6 @@ constexpr std::size_t kLeastDrives = 3, kLeastWindows = 6;
 constexpr int kMostRefittedAgain = 6, kMostPairedAgain = 2, kMostSecondsAgain = 2;
 constexpr std::size_t kMostKept = 6;  // sets of effects that are fitted again
 constexpr double kCertain = 0.5;      // of a set's probability: below it the answer is a set of sets
-constexpr double kCertainBesides = 0.9;
 constexpr double kWorthNaming = 0.05;     // of an effect's probability
 constexpr double kParametersGain = 20.0;  // of the logarithm of the evidence, for calling parameters mis-set
 constexpr double kSurelySeen = 3.0;       // standard errors
@@ -202,12 +201,12 @@ class Diagnoser {
                         rival->probability);
       }
     }
-    if (d_.verdict != Verdict::kUnknown && !explains()) return;
+    if (d_.verdict == Verdict::kUnknown && !best().effects.empty())
+      d_.notes.push_back(
+          fmt::format("{} would fit beside what is unexplained, and may be its shadow: nothing is named",
+                      fmt::join(best().effects, " and ")));
+    if (!explains()) return;
     for (std::size_t e = 0; e < best().effects.size(); ++e) {
-      // Beside an unknown cause only what is all but certain and not small: the rest may be its shadow.
-      if (d_.verdict == Verdict::kUnknown &&
-          (single[best().effects[e]] < kCertainBesides || size_of(best_fit(), best().effects[e]) < kSmall))
-        continue;
       FoundEffect found{
           best().effects[e], best_fit().hypothesis.effects()[e].label, single[best().effects[e]], {}};
       const auto parameters = best_fit().hypothesis.parameters();

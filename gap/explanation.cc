@@ -12,9 +12,8 @@ namespace {
 // An observation that the model has no answer to, because the rover would not move, is this far off.
 constexpr double kNoAnswer = 4.0;  // deviations
 
-Eigen::VectorXd residuals_at(const Hypothesis& hypothesis, const WindowModel& model, const NoiseModel& noise,
-                             const Eigen::VectorXd& y, std::span<const double> x, std::size_t threads) {
-  const std::vector<double> predicted = hypothesis.predict(model, x, threads);
+Eigen::VectorXd residuals_of(std::span<const double> predicted, const NoiseModel& noise,
+                             const Eigen::VectorXd& y) {
   Eigen::VectorXd r(y.size());
   for (Eigen::Index i = 0; i < y.size(); ++i) {
     const double f = predicted[static_cast<std::size_t>(i)];
@@ -22,6 +21,11 @@ Eigen::VectorXd residuals_at(const Hypothesis& hypothesis, const WindowModel& mo
   }
   return r;
 }
+
+// Of the cost, by an iteration: less is no progress.
+constexpr double kLeastFall = 0.02;
+// While an iteration lowers the cost by more than this, one-sided derivatives do.
+constexpr double kNear = 1.0;
 
 // The null's parameters with an effect's neutral ones behind.
 std::vector<double> extended(const Hypothesis& hypothesis, std::span<const double> x) {
@@ -106,12 +110,16 @@ FittedExplanation fit_explanation(const Hypothesis& hypothesis, const WindowMode
     }
     return cost;
   };
-  fit.residuals = residuals_at(hypothesis, model, noise, y, fit.x, options.threads);
+  std::vector<double> predicted = hypothesis.predict(model, fit.x, options.threads);
+  fit.residuals = residuals_of(predicted, noise, y);
   Eigen::VectorXd white = noise.whiten(fit.residuals), u = units(fit.x), weights;
   Eigen::MatrixXd design;
   double cost = cost_of(white, u);
+  bool near = false;
   for (int iteration = 0;; ++iteration) {
-    fit.jacobian = hypothesis.scaled_jacobian(model, fit.x, options.threads);
+    const bool last = fit.converged || iteration >= options.iterations || model.cancelled();
+    fit.jacobian = hypothesis.scaled_jacobian(model, fit.x, options.threads,
+                                              near || last ? std::span<const double>{} : predicted);
     design = noise.whiten(fit.jacobian);
     weights = weighed(white);
     const Eigen::MatrixXd weighted = weights.asDiagonal() * design;
@@ -119,7 +127,7 @@ FittedExplanation fit_explanation(const Hypothesis& hypothesis, const WindowMode
     hessian.diagonal().array() += 1.0;
     const Eigen::LLT<Eigen::MatrixXd> llt(hessian);
     fit.covariance = llt.solve(Eigen::MatrixXd::Identity(count, count));
-    if (fit.converged || iteration >= options.iterations || model.cancelled()) break;
+    if (last) break;
     // r(x + J du) = r - J du; the bounds are held by leaving out what would cross them.
     Eigen::VectorXd gradient = weighted.transpose() * white - u;
     std::vector<Eigen::Index> free;
@@ -160,19 +168,26 @@ FittedExplanation fit_explanation(const Hypothesis& hypothesis, const WindowMode
       for (std::size_t p = 0; p < x.size(); ++p)
         x[p] = std::clamp(fit.x[p] + share * step[static_cast<Eigen::Index>(p)] * parameters[p].std,
                           parameters[p].lowest, parameters[p].highest);
-      Eigen::VectorXd r = residuals_at(hypothesis, model, noise, y, x, options.threads);
+      std::vector<double> there = hypothesis.predict(model, x, options.threads);
+      Eigen::VectorXd r = residuals_of(there, noise, y);
       const Eigen::VectorXd w = noise.whiten(r);
       const double c = cost_of(w, units(x));
       if (c >= cost) continue;
       better = true;
-      fit.converged = cost - c < 0.02 || share * largest < options.tolerance;
+      fit.converged = cost - c < kLeastFall || share * largest < options.tolerance;
+      near = cost - c < kNear;
       fit.x = std::move(x);
+      predicted = std::move(there);
       fit.residuals = std::move(r);
       white = w;
       u = units(fit.x);
       cost = c;
     }
-    if (!better) fit.converged = true;
+    if (better) continue;
+    // With the better derivatives at hand, no step helps: they are those of the answer.
+    fit.converged = near;
+    if (near) break;
+    near = true;
   }
   fit.row_weights = weights.cwiseSqrt();
   fit.white_jacobian = fit.row_weights.asDiagonal() * design;

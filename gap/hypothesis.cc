@@ -308,7 +308,7 @@ double Hypothesis::step(std::size_t parameter) const {
 }
 
 Eigen::MatrixXd Hypothesis::scaled_jacobian(const WindowModel& model, std::span<const double> x,
-                                            std::size_t threads) const {
+                                            std::size_t threads, std::span<const double> predicted) const {
   const auto rows = static_cast<Eigen::Index>(model.observation_count());
   Eigen::MatrixXd jacobian(rows, static_cast<Eigen::Index>(parameters_.size()));
   parallel_for(parameters_.size(), threads, [&](std::size_t p) {
@@ -316,7 +316,12 @@ Eigen::MatrixXd Hypothesis::scaled_jacobian(const WindowModel& model, std::span<
     std::vector<double> low(x.begin(), x.end()), high = low;
     high[p] = std::min(parameter.highest, x[p] + step(p));
     low[p] = std::max(parameter.lowest, x[p] - step(p));
-    const std::vector<double> above = predict(model, high), below = predict(model, low);
+    if (!predicted.empty()) (high[p] - x[p] >= x[p] - low[p] ? low[p] : high[p]) = x[p];
+    const auto at = [&](const std::vector<double>& there) {
+      return there[p] == x[p] && !predicted.empty() ? std::vector<double>(predicted.begin(), predicted.end())
+                                                    : predict(model, there);
+    };
+    const std::vector<double> above = at(high), below = at(low);
     const double scale = parameter.std / (high[p] - low[p]);
     for (Eigen::Index i = 0; i < rows; ++i) {
       const double slope = scale * (above[static_cast<std::size_t>(i)] - below[static_cast<std::size_t>(i)]);

@@ -67,10 +67,11 @@ class Hypothesis {
                               std::size_t threads = 1) const;
   // What a parameter is changed by to see what it does: well above the solver's tolerance.
   double step(std::size_t parameter) const;
-  // Columns of derivatives by finite differences, one a parameter, times the parameter's std; forward where a
-  // bound is near. Rows without an answer are 0.
-  Eigen::MatrixXd scaled_jacobian(const WindowModel& model, std::span<const double> x,
-                                  std::size_t threads) const;
+  // Columns of derivatives by central differences, one a parameter, times the parameter's std; one-sided
+  // where a bound is near. Rows without an answer are 0. With what is `predicted` at x: one-sided all, at
+  // half the cost.
+  Eigen::MatrixXd scaled_jacobian(const WindowModel& model, std::span<const double> x, std::size_t threads,
+                                  std::span<const double> predicted = {}) const;
 
  private:
   const DriveCampaign* campaign_;
