@@ -123,4 +123,23 @@ std::string benchmark_report(const Benchmark& benchmark) {
   return out;
 }
 
+std::string benchmark_csv(const Benchmark& benchmark, const std::string& set) {
+  std::string out =
+      "set,variant,campaign,hidden,hidden_kind,size,kind,fidelity,verdict,found,exact,alike,verdict_right,"
+      "held,"
+      "false_alarm,confident_wrong,unknown_probability,stated,stated_right,closed_fraction,place_overlap,"
+      "seconds\n";
+  const auto number = [](const std::optional<double>& value) {
+    return value ? fmt::format("{:.4g}", *value) : std::string();
+  };
+  for (const CaseScore& c : benchmark.cases)
+    out += fmt::format(
+        "{},{},{},{},{},{:g},{},{},{},{},{:d},{:d},{:d},{:d},{:d},{:d},{:.4g},{:.4g},{:d},{},{},{:.1f}\n",
+        set, benchmark.variant, c.campaign, c.truth, static_cast<int>(c.truth_kind), c.size, c.kind,
+        c.fidelity, c.verdict, c.found, c.exact, c.alike, c.verdict_right, c.held, c.false_alarm,
+        c.confident_wrong, c.unknown_probability, c.stated, c.stated_right, number(c.closed_fraction),
+        number(c.place_overlap), c.seconds);
+  return out;
+}
+
 }  // namespace slipway::api

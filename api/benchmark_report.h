@@ -18,6 +18,10 @@ struct Benchmark {
 // what was hidden against what was found. Markdown.
 std::string benchmark_report(const Benchmark& benchmark);
 
+// One line for each case under a header line, for tables over several benchmarks. The first columns are the
+// `set` of campaigns and the variant.
+std::string benchmark_csv(const Benchmark& benchmark, const std::string& set);
+
 // The cases of all, then of each fidelity and kind that there is, under their names.
 std::vector<std::pair<std::string, std::vector<gap::CaseScore>>> benchmark_groups(const Benchmark& benchmark);
 

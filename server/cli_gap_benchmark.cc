@@ -27,10 +27,11 @@ void add_gap_benchmark_command(CLI::App& app, std::function<int()>& run) {
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));
   command->add_option("--keep", options->keep, "folder for each campaign's diagnosis, NAME.json");
+  command->add_option("--csv", options->csv, "file for the scores, one line a campaign");
   command
       ->add_option("--variant", options->variant,
                    "of the diagnosis, to compare with: as-is, no-retuning, no-closures, no-unknown, "
-                   "nearest-signature, evidence-without-retuning")
+                   "nearest-signature, evidence-without-retuning, sparse-regression, gaussian-process")
       ->capture_default_str();
   command->add_flag("--without-each", options->without_each,
                     "diagnose again with each hidden effect taken out of the library");

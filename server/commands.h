@@ -183,6 +183,7 @@ struct GapBenchmarkCommand {
   std::uint64_t seed = 1;
   int threads = 0;                // 0: as many as the machine has
   std::string keep;               // folder for each diagnosis.json; empty: none
+  std::string csv;                // file for one line a campaign; empty: none
   std::string variant = "as-is";  // of the diagnosis: ablations and baselines
   bool without_each = false, json = false;
 };

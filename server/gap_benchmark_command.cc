@@ -205,6 +205,10 @@ int gap_benchmark(const GapBenchmarkCommand& options) {
           gap::score_withheld(answer->second, effect, open[i].diagnosis, timed->diagnosis));
     }
   }
+  if (!options.csv.empty()) {
+    const std::string set = fs::path(options.folder).lexically_normal().filename().string();
+    if (const int failed = save(options.csv, api::benchmark_csv(benchmark, set)); failed != 0) return failed;
+  }
   std::cout << (options.json ? api::json::benchmark_document(benchmark) : api::benchmark_report(benchmark))
             << std::flush;
   return 0;

@@ -43,6 +43,8 @@ std::span<const Comparison> comparison_catalogue() {
                  "ROAMS paper", &fido_table_1},
       Comparison{"roams_table_1", "where ROAMS and FIDO part, and which effects have that signature",
                  "ROAMS paper", &roams_table_1},
+      Comparison{"sealed_campaigns", "how often the diagnosis of the gap is right, by fidelity and method",
+                 "two other simulators", &sealed_campaigns},
       Comparison{"artemis_cases", "Opportunity across a ripple, Spirit with a dead wheel, in motion",
                  "ARTEMIS paper", &artemis_cases},
       Comparison{"rungs", "the table rung against the quasi-static rung", "this project", &rungs},

@@ -29,6 +29,7 @@ Result<Report> cuadriga_drives(const std::filesystem::path& data);
 Result<Report> cuadriga_campaign(const std::filesystem::path& data);
 Result<Report> fido_table_1(const std::filesystem::path& data);
 Result<Report> roams_table_1(const std::filesystem::path& data);
+Result<Report> sealed_campaigns(const std::filesystem::path& data);
 Result<Report> artemis_cases(const std::filesystem::path& data);
 
 }  // namespace slipway::validation

@@ -59,7 +59,15 @@ WheelForces by_midpoints(const WheelGeometry& w, const Soil& s, double theta_f, 
     m_x += s.shear_coupling * ((1.0 - std::exp(-j)) * a / j - m_x);
     m_y += s.shear_coupling * ((1.0 - std::exp(-j)) * b / j - m_y);
     const double tau = strength * m_x, area = w.width_m * w.radius_m * step;
-    const double grousers = w.grousers.count * step / (2.0 * M_PI) * f_g * m_x;
+    // Cleats with a mobilisation of their own take no part in the coupling across.
+    double m_cleat = m_x;
+    if (w.grousers.mobilisation != 1.0 || w.grousers.by_slip != 0.0) {
+      const double by_slip = w.radius_m * (theta_f - theta) * (1.0 - speed_ratio_from_slip(slip));
+      const double j_cleat = (1.0 - w.grousers.by_slip) * j_x + w.grousers.by_slip * by_slip;
+      m_cleat = std::copysign(
+          1.0 - std::exp(-std::abs(j_cleat) / (w.grousers.mobilisation * s.shear_modulus_x_m)), j_cleat);
+    }
+    const double grousers = w.grousers.count * step / (2.0 * M_PI) * f_g * m_cleat;
     f.drawbar_pull_n += area * (tau * std::cos(theta) - sigma * std::sin(theta)) + grousers * std::cos(theta);
     f.vertical_n += area * (sigma * std::cos(theta) + tau * std::sin(theta)) + grousers * std::sin(theta);
     f.lateral_n -= area * strength * m_y;
@@ -127,6 +135,26 @@ TEST(WheelForces, WithEveryEffectOnTheyAgreeWithTheEquationsWrittenOut) {
       for (const double slip : {-0.4, 0.0, 0.1, 0.8})
         // The hard layer's kink costs digits too.
         expect_agreement(wheel, soil, theta_f, slip, 3e-3);
+}
+
+TEST(WheelForces, CleatsWithAMobilisationOfTheirOwnAgreeWithTheEquationsWrittenOut) {
+  for (const double by_slip : {0.0, 0.4, 1.0}) {
+    const WheelGeometry wheel{0.125, 0.16, {0.01, 24.0, 0.3, by_slip}};
+    for (const double theta_f : {0.2, 0.4, 0.9})
+      for (const double slip : {-0.4, 0.0, 0.05, 0.8})
+        expect_agreement(wheel, sandy_loam(), theta_f, slip, 3e-3);
+  }
+}
+
+TEST(WheelForces, CleatsMobilisedBySlipRestWithoutItAndBrakeAsTheyDrive) {
+  const WheelGeometry smooth{0.125, 0.16}, cleated{0.125, 0.16, {0.01, 24.0, 0.3, 1.0}};
+  const auto thrust = [&](double forward) {
+    return wheel_forces(cleated, sandy_loam(), 0.4, {forward, 0.0}).drawbar_pull_n -
+           wheel_forces(smooth, sandy_loam(), 0.4, {forward, 0.0}).drawbar_pull_n;
+  };
+  EXPECT_NEAR(thrust(1.0), 0.0, 1e-9);
+  EXPECT_GT(thrust(0.95), 1.0);
+  EXPECT_NEAR(thrust(0.95), -thrust(1.05), 1e-9);
 }
 
 TEST(WheelForces, ManyAtOnceAreTheSameAsOneByOneOnEveryInstructionSet) {
