@@ -23,8 +23,9 @@ namespace {
 
 constexpr std::size_t kLeastDrives = 3, kLeastWindows = 6;
 constexpr int kMostRefittedAgain = 6, kMostPairedAgain = 2, kMostSecondsAgain = 2;
-constexpr std::size_t kMostKept = 6;  // sets of effects that are fitted again
-constexpr double kCertain = 0.5;      // of a set's probability: below it the answer is a set of sets
+constexpr std::size_t kMostKept = 6;      // sets of effects that are fitted again
+constexpr double kMuchLess = 0.5;         // of a probability
+constexpr double kCertain = 0.5;          // of a set's probability: below it the answer is a set of sets
 constexpr double kWorthNaming = 0.05;     // of an effect's probability
 constexpr double kParametersGain = 20.0;  // of the logarithm of the evidence, for calling parameters mis-set
 constexpr double kSurelySeen = 3.0;       // standard errors
@@ -65,6 +66,24 @@ double gain_of_parameters(const PreparedCampaign& prepared, const DriveCampaign&
                                   .imprecision;
   };
   return evidence(null) - evidence(nominal);
+}
+
+// The most probable candidate, or one with fewer effects of the same that is not much less probable: what
+// adds little is not worth a name.
+std::size_t simplest_of_the_best(const std::vector<Candidate>& candidates) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < candidates.size(); ++i) {
+    const Candidate &held = candidates[best], &other = candidates[i];
+    const auto in_held = [&](const std::string& effect) {
+      return std::find(held.effects.begin(), held.effects.end(), effect) != held.effects.end();
+    };
+    if (!other.effects.empty() && other.effects.size() < held.effects.size() &&
+        other.with_unknown == held.with_unknown &&
+        std::all_of(other.effects.begin(), other.effects.end(), in_held) &&
+        other.probability > kMuchLess * candidates.front().probability)
+      best = i;
+  }
+  return best;
 }
 
 std::vector<std::string> names_in(const Candidate& c) {
@@ -148,6 +167,7 @@ class Diagnoser {
                                      prepared_.wildcard, options, progress_, found_before);
     if (!found) return fail(found.error());
     search_ = std::move(*found);
+    best_ = simplest_of_the_best(search_.candidates);
     return {};
   }
 
@@ -156,7 +176,7 @@ class Diagnoser {
     return std::find(withheld.begin(), withheld.end(), effect) != withheld.end();
   }
 
-  const Candidate& best() const { return search_.candidates.front(); }
+  const Candidate& best() const { return search_.candidates[best_]; }
   const FittedExplanation& best_fit() const { return search_.fits[best().fit]; }
   // What the verdict says: a fit whose effects are all named, or the re-tuned one.
   const FittedExplanation& told_fit() const {
@@ -321,7 +341,7 @@ class Diagnoser {
     if (explains()) d_.closed_fraction = shrunk->closed_fraction;
     for (ChannelShrink& channel : d_.gap)
       if (!explains()) channel.closed_fraction.reset();
-    d_.candidates.front().held_out_score = shrunk->log_density_gain;
+    d_.candidates[best_].held_out_score = shrunk->log_density_gain;
     const bool offered = explains() ? shrunk->log_density_gain > 0.0
                                     : d_.verdict == Verdict::kParameters || unknown_but_nearer();
     if (offered) {
@@ -370,6 +390,7 @@ class Diagnoser {
   Progress& progress_;
   PreparedCampaign prepared_;
   ExplanationSearch search_;
+  std::size_t best_ = 0;  // of its candidates
   Diagnosis d_;
 };
 
