@@ -8,6 +8,7 @@
 
 #include "core/angle.h"
 #include "gap/drive_resampling.h"
+#include "gap/nuisance_catalogue.h"
 
 namespace slipway::gap {
 namespace {
@@ -96,6 +97,32 @@ TEST(ModelCheck, IntervalsAndSlopesAreThoseOfTheValues) {
   EXPECT_NEAR(find(checks, Channel::kCurrent, SlopeClass::kDown).rms.corrected, 1.0, 1e-12);
   EXPECT_EQ(find(checks, Channel::kCurrent, SlopeClass::kLevel).values, 2U);
   EXPECT_EQ(checks.size(), kSlopeClasses.size()) << "channels without values have no row";
+}
+
+// A corrected model is a nominal one for the next fit: nothing of it may be reset.
+TEST(NuisanceCatalogue, LeavesAModelAsItIsAtNought) {
+  sim::Soil soil;
+  soil.c1 = 0.3;
+  soil.c2 = 0.1;
+  soil.exit_angle_ratio = 0.2;
+  soil.shear_coupling = 0.5;
+  sim::RoverModel rover;
+  rover.pull_below_axle = 1.0;
+  rover.drive.no_load_current_a = 0.2;
+  const sim::Soil before = soil;
+  const sim::RoverModel rover_before = rover;
+  for (const Nuisance& row : nuisance_catalogue()) {
+    if (row.on_soil != nullptr) row.on_soil(0.0, soil);
+    if (row.on_rover != nullptr) row.on_rover(0.0, rover);
+  }
+  for (const auto field :
+       {&sim::Soil::c1, &sim::Soil::c2, &sim::Soil::exit_angle_ratio, &sim::Soil::shear_coupling,
+        &sim::Soil::cohesion_pa, &sim::Soil::shear_modulus_x_m, &sim::Soil::shear_modulus_y_m})
+    EXPECT_EQ(soil.*field, before.*field);
+  EXPECT_NEAR(soil.friction_angle_rad, before.friction_angle_rad, 1e-12);
+  EXPECT_EQ(rover.pull_below_axle, rover_before.pull_below_axle);
+  EXPECT_EQ(rover.drive.no_load_current_a, rover_before.drive.no_load_current_a);
+  EXPECT_EQ(rover.drive.torque_constant_nm_per_a, rover_before.drive.torque_constant_nm_per_a);
 }
 
 }  // namespace

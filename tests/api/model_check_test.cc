@@ -1,0 +1,94 @@
+// A corrected model on another campaign's drives: whose rover and soils it stands in for, and what becomes of
+// the predictions.
+#include "api/model_check.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+
+#include "made_diagnosis.h"
+
+namespace slipway::api {
+namespace {
+
+// A few drives of p05.
+const gap::DriveCampaign& campaign() {
+  static const gap::DriveCampaign kCampaign = [] {
+    gap::DriveCampaign some = testing::practice_campaign();
+    some.drives.resize(6);
+    return some;
+  }();
+  return kCampaign;
+}
+
+// The campaign's own rover and soils under the names of a model.
+ModelFolder its_own() {
+  ModelFolder folder{"other", campaign().rover->name, {}, {}};
+  folder.model.rover = *campaign().rover;
+  folder.model.rover.name += "-other-1";
+  for (const gap::NominalSoil& soil : campaign().soils) {
+    folder.nominal_soils.push_back(soil.name);
+    folder.model.soils.emplace_back();
+    folder.model.soils.back().name = soil.name + "-other-1";
+    folder.model.soils.back().mean = soil.soil;
+  }
+  return folder;
+}
+
+ModelCheckAnswer checked(const ModelFolder& model) {
+  NoProgress progress;
+  const auto answer = check_model(campaign(), model, {}, {.threads = 1, .resamples = 50}, progress);
+  if (!answer) throw std::runtime_error(answer.error().detail);
+  return *answer;
+}
+
+const gap::ChannelCheck& of(const ModelCheckAnswer& answer, gap::Channel channel) {
+  const auto& all = answer.check.channels;
+  return *std::find_if(all.begin(), all.end(), [&](const gap::ChannelCheck& c) {
+    return c.channel == channel && c.slope == gap::SlopeClass::kAll;
+  });
+}
+
+TEST(ModelCheck, OfTheNominalModelItselfBringsNothingDown) {
+  const ModelCheckAnswer answer = checked(its_own());
+  ASSERT_FALSE(answer.check.channels.empty());
+  for (const gap::ChannelCheck& c : answer.check.channels) {
+    EXPECT_EQ(c.rms.nominal, c.rms.corrected) << gap::name_of(c.channel);
+    EXPECT_EQ(c.median.down_percent, 0.0);
+  }
+  EXPECT_EQ(answer.check.drives, 6U);
+  EXPECT_EQ(answer.soils, std::vector<std::string>{"nominal-other-1"});
+}
+
+// Motors of twice the constant draw half the current above the idle one, and nothing else is another.
+TEST(ModelCheck, OfWrongMotorsIsWorseInCurrentAlone) {
+  ModelFolder wrong = its_own();
+  wrong.model.rover.drive.torque_constant_nm_per_a *= 2.0;
+  const ModelCheckAnswer answer = checked(wrong);
+  const gap::ErrorChange& current = of(answer, gap::Channel::kCurrent).rms;
+  EXPECT_LT(current.down_percent, -20.0);
+  ASSERT_TRUE(current.down_interval);
+  EXPECT_LT(current.down_interval->high, 0.0);
+  EXPECT_LT(of(answer, gap::Channel::kCurrent).within_90, 0.5);
+  EXPECT_NEAR(of(answer, gap::Channel::kSlip).rms.down_percent, 0.0, 1e-3);
+}
+
+TEST(ModelCheck, NeedsTheModelsRoverAndSoils) {
+  ModelFolder other = its_own();
+  other.nominal_rover = "rover-of-others";
+  other.nominal_soils = {"sand"};
+  const auto refused = belief_of(campaign(), other, {});
+  ASSERT_FALSE(refused);
+  ASSERT_EQ(refused.error().faults.size(), 2U);
+  EXPECT_EQ(refused.error().faults[0].pointer, "/rover/name");
+  EXPECT_EQ(refused.error().faults[1].pointer, "/soils/nominal");
+  other.nominal_rover = campaign().rover->name;
+  const auto named = belief_of(campaign(), other, {"nominal"});
+  ASSERT_TRUE(named);
+  EXPECT_EQ(named->soils.at(0).name, "nominal-other-1");
+}
+
+}  // namespace
+}  // namespace slipway::api
