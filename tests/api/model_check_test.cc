@@ -38,8 +38,11 @@ ModelFolder its_own() {
 }
 
 ModelCheckAnswer checked(const ModelFolder& model) {
+  gap::ModelCheckOptions options;
+  options.threads = 1;
+  options.resamples = 50;
   NoProgress progress;
-  const auto answer = check_model(campaign(), model, {}, {.threads = 1, .resamples = 50}, progress);
+  const auto answer = check_model(campaign(), model, {}, options, progress);
   if (!answer) throw std::runtime_error(answer.error().detail);
   return *answer;
 }

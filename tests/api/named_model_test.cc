@@ -76,7 +76,7 @@ TEST_F(ANamedModel, IsRecordedWithTheRequestAndNeedsItsJobNoMore) {
   // As the command line plans with the folder of the same model.
   const testing::ScratchFolder folder;
   const auto model = corrected_model(campaign(), diagnosis);
-  testing::copy_small_world(folder.path() / "data");
+  testing::copy_small_world(folder.path());
   std::filesystem::create_directories(folder.path() / "model" / "rovers");
   std::filesystem::create_directories(folder.path() / "model" / "soils");
   testing::write_file(folder.path() / "model" / "model.json", model_document(campaign(), *model));
@@ -84,7 +84,7 @@ TEST_F(ANamedModel, IsRecordedWithTheRequestAndNeedsItsJobNoMore) {
                       json::rover_document(*model));
   testing::write_file(folder.path() / "model" / "soils" / (model->soils.front().name + ".json"),
                       json::soils_document(*model));
-  const auto service = Service::open({.data = folder.path() / "data",
+  const auto service = Service::open({.data = folder.path(),
                                       .threads = 1,
                                       .model = folder.path() / "model",
                                       .ground = {"mer_b_sandy_loam"}});
