@@ -78,6 +78,18 @@ TEST(ModelCheck, OfWrongMotorsIsWorseInCurrentAlone) {
   EXPECT_NEAR(of(answer, gap::Channel::kSlip).rms.down_percent, 0.0, 1e-3);
 }
 
+// A torque constant that currents show may imply more voltage than there is: the drives were made all the
+// same.
+TEST(ModelCheck, IsOfDrivesThatWereMade) {
+  ModelFolder weak = its_own();
+  weak.model.rover.drive.bus_voltage_v = 1.0;
+  weak.model.rover.drive.max_current_a = 1e-3;
+  const ModelCheckAnswer answer = checked(weak);
+  EXPECT_EQ(answer.check.unanswered_corrected, 0U);
+  EXPECT_EQ(of(answer, gap::Channel::kSlip).rms.down_percent, 0.0);
+  EXPECT_EQ(of(answer, gap::Channel::kCurrent).rms.down_percent, 0.0);
+}
+
 TEST(ModelCheck, NeedsTheModelsRoverAndSoils) {
   ModelFolder other = its_own();
   other.nominal_rover = "rover-of-others";
