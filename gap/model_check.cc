@@ -140,20 +140,13 @@ Eigen::VectorXd soil_variance(const Hypothesis& hypothesis, const Eigen::MatrixX
   return variance;
 }
 
-// The drives were made: no motor stalls in them and every wheel turned as fast as it was told, whatever the
-// constants that currents show imply of voltages.
-void never_stalls(DriveCampaign& campaign, double wheel_rate_rad_s) {
-  constexpr double kEnough_v = 1e4;
-  auto rover = std::make_shared<sim::RoverModel>(*campaign.rover);
-  rover->drive.max_wheel_rate_rad_s = std::max(rover->drive.max_wheel_rate_rad_s, wheel_rate_rad_s);
-  rover->drive.bus_voltage_v = kEnough_v;
-  rover->drive.max_current_a.reset();
-  campaign.rover = std::move(rover);
-}
-
 // The campaign as if its rover and soils had been the corrected ones.
 DriveCampaign with_belief(DriveCampaign campaign, const CorrectedBelief& belief) {
-  campaign.rover = belief.rover;
+  auto rover = std::make_shared<sim::RoverModel>(*belief.rover);
+  // Its motors made these drives too.
+  rover->drive.max_wheel_rate_rad_s =
+      std::max(rover->drive.max_wheel_rate_rad_s, campaign.rover->drive.max_wheel_rate_rad_s);
+  campaign.rover = std::move(rover);
   for (std::size_t s = 0; s < campaign.soils.size(); ++s) campaign.soils[s].soil = belief.soils[s].mean;
   return campaign;
 }
@@ -197,14 +190,10 @@ std::vector<ChannelCheck> score_told(std::span<const ToldValue> told, const Mode
   return checks;
 }
 
-Result<ModelCheck> check_model(const DriveCampaign& made, const CorrectedBelief& belief,
+Result<ModelCheck> check_model(const DriveCampaign& campaign, const CorrectedBelief& belief,
                                const ModelCheckOptions& options, Progress& progress) {
   const auto cancelled = [] { return fail(ErrorCode::kCancelled, "the check was cancelled"); };
   progress.report("predicting with the nominal model", 0.1);
-  const double wheel_rate = made.rover->drive.max_wheel_rate_rad_s;
-  DriveCampaign campaign = made, as_corrected = with_belief(made, belief);
-  never_stalls(campaign, wheel_rate);
-  never_stalls(as_corrected, wheel_rate);
   const std::vector<DriveWindow> windows = cut_windows(campaign, options.windows);
   const std::unique_ptr<WindowModel> model = window_model_of(campaign, windows);
   model->watch(progress);
@@ -212,6 +201,7 @@ Result<ModelCheck> check_model(const DriveCampaign& made, const CorrectedBelief&
   if (progress.cancelled()) return cancelled();
 
   progress.report("predicting with the corrected model", 0.3);
+  const DriveCampaign as_corrected = with_belief(campaign, belief);
   const Hypothesis hypothesis(as_corrected, {});
   const std::vector<double> corrected = predicted_by(hypothesis, *model, options.threads);
   if (progress.cancelled()) return cancelled();
