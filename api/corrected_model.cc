@@ -87,6 +87,7 @@ std::optional<CorrectedModel> corrected_model(const gap::DriveCampaign& campaign
   if (!diagnosis.model) return std::nullopt;
   CorrectedModel model;
   model.effects = diagnosis.model->effects;
+  model.noise = diagnosis.noise;
   sim::RoverModel& rover = model.rover;
   rover = *campaign.rover;
   for (const gap::Nuisance& row : gap::nuisance_catalogue())

@@ -5,6 +5,7 @@
 
 #include "gap/diagnosis.h"
 #include "gap/drive_campaign.h"
+#include "gap/noise_model.h"
 #include "sim/effect_setting.h"
 #include "sim/rover_model.h"
 #include "sim/soil.h"
@@ -18,6 +19,7 @@ struct CorrectedModel {
   sim::RoverModel rover;
   std::vector<sim::SoilDistribution> soils;  // in the campaign's order
   std::vector<sim::EffectSetting> effects;   // all that are at work; places on a map are in no rover's file
+  std::optional<gap::NoiseScales> noise;     // what the campaign's drives scatter by, where it is told
 };
 
 // Nothing where the diagnosis offers none.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "api/faults.h"
+#include "api/json/noise_scales.h"
 #include "api/json/parse.h"
 #include "api/json/rover_file.h"
 #include "api/json/soil_file.h"
@@ -26,6 +27,7 @@ struct Description {
   std::string campaign;
   Substitute rover;
   std::vector<Substitute> soils;
+  std::optional<gap::NoiseScales> noise;
 };
 
 void write_substitute(json::Writer& w, std::string_view nominal, std::string_view corrected) {
@@ -53,6 +55,8 @@ Result<Description> read_description(std::string_view bytes) {
   if (auto rover = reader.object("rover", json::kRequired)) description.rover = read_substitute(*rover);
   for (const json::Element& element : reader.list("soils", json::kRequired, {1, kMostSoils}))
     description.soils.push_back(read_substitute(reader.object(element)));
+  if (auto noise = reader.object("noise", json::kOptional))
+    description.noise = json::read_noise_scales(*std::move(noise));
   reader.refuse_unknown();
   if (!faults.empty()) return fail(ErrorCode::kUnreadableData, summary_of(faults), faults);
   return description;
@@ -82,7 +86,9 @@ std::string model_document(const gap::DriveCampaign& campaign, const CorrectedMo
   w.key("soils").begin_array();
   for (std::size_t i = 0; i < model.soils.size(); ++i)
     write_substitute(w, campaign.soils[i].name, model.soils[i].name);
-  w.end_array().end_object();
+  w.end_array();
+  if (model.noise) json::write_noise_scales(w.key("noise"), *model.noise);
+  w.end_object();
   return w.take();
 }
 
@@ -90,6 +96,7 @@ Result<ModelFolder> load_model_folder(const std::filesystem::path& folder) {
   const auto description = read_file(folder, "model.json", read_description);
   if (!description) return fail(description.error());
   ModelFolder loaded{description->campaign, description->rover.nominal, {}, {}};
+  loaded.model.noise = description->noise;
   std::vector<Fault> faults;
   auto rover =
       read_file(folder, fmt::format("rovers/{}.json", description->rover.corrected), json::read_rover_file);

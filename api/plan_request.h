@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,15 @@
 
 namespace slipway::api {
 
+struct ModelFolder;
+
+// A corrected model that a request names by the job of the diagnosis that offers it.
+struct RequestedModel {
+  std::string diagnosis;            // the job's id
+  std::vector<std::string> ground;  // soils of the terrain that are the model's, see with_model()
+  std::shared_ptr<const ModelFolder> corrected;
+};
+
 // What a drive is predicted with, whether its path is planned or given. The defaults are those of the rooms
 // below.
 struct DriveAssumptions {
@@ -22,7 +32,8 @@ struct DriveAssumptions {
   sim::FailedWheels failed_wheels;
   int draws = sim::RiskOptions{}.draws;
   std::uint64_t seed = 1;
-  std::optional<double> speed_m_s;  // nothing: the rover's cruise speed
+  std::optional<double> speed_m_s;      // nothing: the rover's cruise speed
+  std::optional<RequestedModel> model;  // nothing: rover and soils as the catalogue has them
 };
 
 // POST /v1/plans: how do we get from start to goal?

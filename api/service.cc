@@ -69,11 +69,24 @@ Result<std::unique_ptr<Service>> Service::open(ServiceOptions options) {
   return service;
 }
 
+Catalogue Service::catalogue_for(const std::optional<RequestedModel>& model, std::string& rover,
+                                 std::vector<Fault>& faults) const {
+  if (!model) return catalogue_;
+  auto with = with_model(catalogue_, *model->corrected, model->ground);
+  if (!with) {
+    for (Fault& fault : moved_under("/model", with.error().faults)) faults.push_back(std::move(fault));
+    return catalogue_;
+  }
+  if (rover == model->corrected->nominal_rover) rover = model->corrected->model.rover.name;
+  return *std::move(with);
+}
+
 Result<PlanRequest> Service::read_plan(std::string_view json) const {
   auto reading = json::read_plan_request(json);
   if (!reading) return fail(reading.error());
-  const PlanRequest& request = reading->request;
-  RequestCheck check(catalogue_, std::move(reading->faults));
+  PlanRequest& request = reading->request;
+  const Catalogue catalogue = catalogue_for(request.drive.model, request.rover, reading->faults);
+  RequestCheck check(catalogue, std::move(reading->faults));
   check.names(request.terrain, request.rover);
   check.place(request.start, "/start");
   check.place(request.goal, "/goal");
@@ -89,8 +102,9 @@ Result<PlanRequest> Service::read_plan(std::string_view json) const {
 Result<PredictionRequest> Service::read_prediction(std::string_view json) const {
   auto reading = json::read_prediction_request(json);
   if (!reading) return fail(reading.error());
-  const PredictionRequest& request = reading->request;
-  RequestCheck check(catalogue_, std::move(reading->faults));
+  PredictionRequest& request = reading->request;
+  const Catalogue catalogue = catalogue_for(request.drive.model, request.rover, reading->faults);
+  RequestCheck check(catalogue, std::move(reading->faults));
   check.names(request.terrain, request.rover);
   for (std::size_t i = 0; i < request.path.size(); ++i)
     check.place(request.path[i], fmt::format("/path/{}", i));
@@ -130,12 +144,15 @@ Result<SoilEstimateRequest> Service::read_soil_estimate(std::string_view json) c
 Result<Service::Setting> Service::set_up(const std::string& terrain, const std::string& rover,
                                          const std::vector<planner::Waypoint>& places,
                                          const DriveAssumptions& drive) const {
-  RequestCheck check(catalogue_, {});
-  check.names(terrain, rover);
+  std::vector<Fault> faults;
+  std::string driven_name = rover;
+  const Catalogue catalogue = catalogue_for(drive.model, driven_name, faults);
+  RequestCheck check(catalogue, std::move(faults));
+  check.names(terrain, driven_name);
   check.drive(drive);
   if (!check.passed()) return fail(check.error());
-  const TerrainSite& site = *catalogue_.terrains.find(terrain)->second;
-  sim::RoverModel driven = *catalogue_.rovers.find(rover)->second;
+  const TerrainSite& site = *catalogue.terrains.find(terrain)->second;
+  sim::RoverModel driven = *catalogue.rovers.find(driven_name)->second;
   const std::vector<sim::EffectSetting> effects = sim::in_force(driven.effects, drive.effects);
   sim::apply_effects(effects, driven);
   sim::fail_wheels(driven, drive.failed_wheels, drive.conditions);
@@ -149,8 +166,8 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
   RegionalSoils soils = soils_in_regions(ground->soil_map, sim::effect_regions(effects));
   problem.soil_map = soils.map;
   for (const RegionalSoil& soil : soils.soils)
-    problem.beliefs.known.push_back(believed(catalogue_, soil, effects));
-  problem.beliefs.unknown = believed(catalogue_, {std::string(kUnknownGround), {}}, effects);
+    problem.beliefs.known.push_back(believed(catalogue, soil, effects));
+  problem.beliefs.unknown = believed(catalogue, {std::string(kUnknownGround), {}}, effects);
   problem.conditions = drive.conditions;
   problem.rover = std::make_shared<const sim::RoverModel>(std::move(driven));
   problem.gravity_m_s2 = site.description().gravity_m_s2;

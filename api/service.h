@@ -63,6 +63,10 @@ class Service {
   };
   Result<Setting> set_up(const std::string& terrain, const std::string& rover,
                          const std::vector<planner::Waypoint>& places, const DriveAssumptions& drive) const;
+  // With the request's model in it, where it has one; its rover takes the place of the one it was made of.
+  // What can't be taken is added to the faults.
+  Catalogue catalogue_for(const std::optional<RequestedModel>& model, std::string& rover,
+                          std::vector<Fault>& faults) const;
 
   ServiceOptions options_;
   Catalogue catalogue_;

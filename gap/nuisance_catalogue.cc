@@ -42,8 +42,9 @@ constexpr std::array kRows{
              [](double v, Soil& s) { s.exit_angle_ratio = std::min(0.9, s.exit_angle_ratio + v); }},
     Nuisance{"shear_coupling", "one strength for both directions of shear", kClosure, 0.5, 0.0, 1.0,
              [](double v, Soil& s) { s.shear_coupling = std::min(1.0, s.shear_coupling + v); }},
-    Nuisance{"pull_below_axle", "the pull acts below the axle, not ahead of it", kClosure, 0.5, 0.0, 1.0,
-             nullptr, [](double v, RoverModel& r) { r.pull_below_axle = v; }},
+    Nuisance{
+        "pull_below_axle", "the pull acts below the axle, not ahead of it", kClosure, 0.5, 0.0, 1.0, nullptr,
+        [](double v, RoverModel& r) { r.pull_below_axle = std::clamp(r.pull_below_axle + v, 0.0, 1.0); }},
     Nuisance{kPoseLag, "headings are recorded later than positions, s", NuisanceKind::kSensor, 1.0, -5.0,
              5.0},
     Nuisance{kTrackLeftOut, "share of a track's depth that sinkages are recorded without",

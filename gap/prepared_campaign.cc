@@ -6,21 +6,6 @@
 namespace slipway::gap {
 namespace {
 
-// Derivatives of every observation by the logarithms of all soils' stiffness, tan(friction) and shear
-// modulus, and by the levers of the map's detail.
-Eigen::MatrixXd scatter_response(const FittedExplanation& fit, const Eigen::MatrixXd& levers) {
-  constexpr std::array<std::string_view, 3> kNames{"stiffness", "friction", "shear_modulus"};
-  Eigen::MatrixXd response = Eigen::MatrixXd::Zero(fit.jacobian.rows(), kNames.size() + 4);
-  response.rightCols(4) = levers.leftCols(4);
-  const auto parameters = fit.hypothesis.parameters();
-  for (std::size_t p = 0; p < parameters.size(); ++p)
-    for (std::size_t k = 0; k < kNames.size(); ++k)
-      if (parameters[p].effect.empty() && parameters[p].name.starts_with(kNames[k]))
-        response.col(static_cast<Eigen::Index>(k)) +=
-            fit.jacobian.col(static_cast<Eigen::Index>(p)) / parameters[p].std;
-  return response;
-}
-
 Eigen::VectorXd in_prior_units(const FittedExplanation& fit) {
   const auto parameters = fit.hypothesis.parameters();
   Eigen::VectorXd u(static_cast<Eigen::Index>(fit.x.size()));
@@ -40,7 +25,13 @@ bool stands_on_plane(const DriveCampaign& campaign, const WindowModel& model) {
          std::isnan(model.attitude_misfit_rad());
 }
 
-std::unique_ptr<WindowModel> model_of(const DriveCampaign& campaign, std::span<const DriveWindow> windows) {
+// How often the scatter is estimated and the null fitted under it.
+constexpr int kRounds = 2;
+
+}  // namespace
+
+std::unique_ptr<WindowModel> window_model_of(const DriveCampaign& campaign,
+                                             std::span<const DriveWindow> windows) {
   auto suspension = std::make_unique<WindowModel>(campaign, windows);
   auto plane = std::make_unique<WindowModel>(campaign, windows, Footing::kPlane);
   const bool nearer =
@@ -49,10 +40,19 @@ std::unique_ptr<WindowModel> model_of(const DriveCampaign& campaign, std::span<c
   return nearer ? std::move(plane) : std::move(suspension);
 }
 
-// How often the scatter is estimated and the null fitted under it.
-constexpr int kRounds = 2;
-
-}  // namespace
+Eigen::MatrixXd scatter_response(const Hypothesis& hypothesis, const Eigen::MatrixXd& jacobian,
+                                 const Eigen::MatrixXd& levers) {
+  constexpr std::array<std::string_view, 3> kNames{"stiffness", "friction", "shear_modulus"};
+  Eigen::MatrixXd response = Eigen::MatrixXd::Zero(jacobian.rows(), kNames.size() + 4);
+  response.rightCols(4) = levers.leftCols(4);
+  const auto parameters = hypothesis.parameters();
+  for (std::size_t p = 0; p < parameters.size(); ++p)
+    for (std::size_t k = 0; k < kNames.size(); ++k)
+      if (parameters[p].effect.empty() && parameters[p].name.starts_with(kNames[k]))
+        response.col(static_cast<Eigen::Index>(k)) +=
+            jacobian.col(static_cast<Eigen::Index>(p)) / parameters[p].std;
+  return response;
+}
 
 std::size_t PreparedCampaign::used_windows() const {
   std::size_t count = 0;
@@ -81,7 +81,7 @@ Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const WindowOpti
   PreparedCampaign made;
   progress.report("cutting drives into windows", 0.0);
   made.windows = cut_windows(campaign, options);
-  made.model = model_of(campaign, made.windows);
+  made.model = window_model_of(campaign, made.windows);
   made.model->watch(progress);
   const WindowModel& model = *made.model;
   std::vector<bool> used(model.observation_count(), false);
@@ -100,10 +100,10 @@ Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const WindowOpti
     if (!std::isfinite(expected[i])) expected[i] = 0.0;
 
   progress.report("fitting soil and closures", 0.02);
-  FittedExplanation at{hypothesis, neutral, {}, {}, {}, {}, {}, {}, 0.0, false};
-  at.jacobian = hypothesis.scaled_jacobian(model, neutral, threads);
+  const Eigen::MatrixXd jacobian = hypothesis.scaled_jacobian(model, neutral, threads);
   made.noise = std::make_unique<NoiseModel>(
-      model, scatter_response(at, lever_responses(campaign, model, neutral, threads)), expected, used);
+      model, scatter_response(hypothesis, jacobian, lever_responses(campaign, model, neutral, threads)),
+      expected, used);
   ExplanationOptions fit_options;
   fit_options.threads = threads;
   made.null = fit_explanation(hypothesis, model, *made.noise, neutral, fit_options);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/progress.h"
@@ -12,6 +13,16 @@
 #include "gap/window_model.h"
 
 namespace slipway::gap {
+
+// The rover stands as its suspension does on the map, or on the plane under its wheels, whichever the
+// recorded attitudes show. Campaign and windows must outlive the model.
+std::unique_ptr<WindowModel> window_model_of(const DriveCampaign& campaign,
+                                             std::span<const DriveWindow> windows);
+
+// What a noise model asks for: derivatives of every observation by the logarithms of all soils' stiffness,
+// tan(friction) and shear modulus, of a hypothesis' scaled jacobian, and by the levers of the map's detail.
+Eigen::MatrixXd scatter_response(const Hypothesis& hypothesis, const Eigen::MatrixXd& jacobian,
+                                 const Eigen::MatrixXd& levers);
 
 // A campaign cut into windows, the null fitted to it, and what its drives scatter by.
 struct PreparedCampaign {

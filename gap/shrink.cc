@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 
-#include "core/random.h"
+#include "gap/drive_resampling.h"
 
 namespace slipway::gap {
 namespace {
@@ -21,24 +20,10 @@ struct DriveErrors {
 
 // A fold for each drive; repeats share theirs. Folds alternate along the list, so that each has every kind.
 std::vector<int> folds_of(const DriveCampaign& campaign, int folds) {
-  std::map<std::string, int> group;
-  std::vector<int> fold(campaign.drives.size());
-  int next = 0;
-  for (std::size_t d = 0; d < fold.size(); ++d) {
-    const std::string& leader = campaign.drives[d].repeat_of.value_or(campaign.drives[d].id);
-    const auto [place, is_new] = group.try_emplace(leader, next);
-    if (is_new) next = (next + 1) % folds;
-    fold[d] = place->second;
-  }
+  std::vector<int> fold;
+  for (const std::size_t group : repeat_groups(campaign))
+    fold.push_back(static_cast<int>(group % static_cast<std::size_t>(folds)));
   return fold;
-}
-
-double quantile(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  const double at = share * (static_cast<double>(values.size()) - 1.0);
-  const auto below = static_cast<std::size_t>(at);
-  const std::size_t above = std::min(values.size() - 1, below + 1);
-  return values[below] + (at - static_cast<double>(below)) * (values[above] - values[below]);
 }
 
 struct Totals {
@@ -165,12 +150,9 @@ Result<Shrink> shrink_on_held_out(const PreparedCampaign& prepared, const DriveC
   shrink.windows = std::move(gaps);
   if (with_data.empty()) return shrink;
   std::vector<Totals> resampled;
-  for (int b = 0; b < options.resamples; ++b) {
+  for (const auto& picks : resampled_indices(with_data.size(), options.resamples, options.seed)) {
     Totals t;
-    const std::uint64_t key = random_key(options.seed, static_cast<std::uint64_t>(b));
-    for (std::size_t k = 0; k < with_data.size(); ++k)
-      t.add(errors[with_data[static_cast<std::size_t>(random_uniform(key, k) *
-                                                      static_cast<double>(with_data.size()))]]);
+    for (const std::size_t pick : picks) t.add(errors[with_data[pick]]);
     resampled.push_back(t);
   }
   // A resample that leaves nothing to close says neither end: it counts for both.

@@ -167,7 +167,8 @@ void WindowModel::predict_window(std::size_t w, const ModelState& state, bool sa
       last = {};
       last.current = sim::PerWheel<double>(wheels);
       last.sinkage = sim::PerWheel<double>(wheels);
-      if (!at.moving()) {
+      // No motor stalled in drives that were made, whatever re-tuned constants imply of voltages.
+      if (!at.moving() && at.outcome != sim::Outcome::kStalled) {
         moving = false;
         last.slip = 1.0;
         solver.reset();

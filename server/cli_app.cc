@@ -10,6 +10,7 @@
 
 #include "api/service.h"
 #include "server/cli_campaign.h"
+#include "server/cli_check.h"
 #include "server/cli_diagnose.h"
 #include "server/cli_estimate.h"
 #include "server/cli_gap_benchmark.h"
@@ -194,6 +195,7 @@ int run_command_line(int argc, char** argv) {
   add_campaign_command(app, run);
   add_tune_command(app, run);
   add_diagnose_command(app, run);
+  add_check_command(app, run);
   add_estimate_command(app, run);
   add_gap_benchmark_command(app, run);
 

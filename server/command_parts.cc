@@ -48,6 +48,11 @@ int refuse(const Error& error) {
   return error.code == ErrorCode::kInvalidRequest || error.code == ErrorCode::kMalformedJson ? 2 : 1;
 }
 
+int refuse_unreadable(const Error& error) {
+  const int status = refuse(error);
+  return error.code == ErrorCode::kUnreadableData || error.code == ErrorCode::kUnreadableRaster ? 2 : status;
+}
+
 Result<std::unique_ptr<Inquiry>> inquiry(const AskOptions& options) {
   if (!options.url.empty()) return remote_inquiry(options.url);
   return local_inquiry({.data = options.data, .model = options.model, .ground = options.ground});

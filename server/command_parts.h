@@ -14,6 +14,8 @@ namespace slipway::server {
 
 // Prints the error with its faults; the exit status that goes with it.
 int refuse(const Error& error);
+// The same where drives are read: what can't be read is the question's fault, 2.
+int refuse_unreadable(const Error& error);
 // The service in this process, or the one at the options' address.
 Result<std::unique_ptr<Inquiry>> inquiry(const AskOptions& options);
 // The exit status: 0, or 1 where the file can't be written.

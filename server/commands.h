@@ -155,6 +155,15 @@ struct DiagnoseCommand {
   bool json = false;
 };
 
+struct CheckCommand {
+  std::string data = "data";
+  std::string campaign, model;      // folders
+  std::vector<std::string> ground;  // the campaign's soils that are the model's
+  std::uint64_t seed = 1;
+  int threads = 0;  // 0: as many as the machine has
+  bool json = false;
+};
+
 // A soil from tests or drives.
 struct EstimateCommand {
   enum class From { kWheel, kPlates, kDrives };
@@ -208,6 +217,8 @@ int campaign(const CampaignCommand& options);
 int tune(const TuneCommand& options);
 // 0: a diagnosis, whatever its verdict; 2: input that can't be read.
 int diagnose(const DiagnoseCommand& options);
+// 0: figures, whatever they are; 2: input that can't be read.
+int check(const CheckCommand& options);
 int estimate(const EstimateCommand& options);
 // 0: every campaign has a diagnosis and a score; 2: one can't be read.
 int gap_benchmark(const GapBenchmarkCommand& options);

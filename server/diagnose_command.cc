@@ -172,19 +172,13 @@ int write_model(const std::string& folder, const gap::DriveCampaign& campaign, c
   return status != 0 ? status : save((path / "model.json").string(), api::model_document(campaign, *model));
 }
 
-// As refuse(), but what can't be read is the question's fault here.
-int refuse_input(const Error& error) {
-  const int status = refuse(error);
-  return error.code == ErrorCode::kUnreadableData || error.code == ErrorCode::kUnreadableRaster ? 2 : status;
-}
-
 }  // namespace
 
 int diagnose(const DiagnoseCommand& options) {
   const auto catalogue = api::load_catalogue(options.data);
-  if (!catalogue) return refuse_input(catalogue.error());
+  if (!catalogue) return refuse_unreadable(catalogue.error());
   const auto campaign = api::load_drive_campaign(options.campaign, *catalogue);
-  if (!campaign) return refuse_input(campaign.error());
+  if (!campaign) return refuse_unreadable(campaign.error());
   gap::DiagnosisOptions diagnosis;
   diagnosis.search.withheld = options.without;
   diagnosis.search.threads = static_cast<std::size_t>(options.threads);

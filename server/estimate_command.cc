@@ -177,29 +177,23 @@ std::string answer_words(const api::SoilEstimateAnswer& answer) {
   return out + fmt::format("\n{} windows\n", answer.windows) + left.print();
 }
 
-// As refuse(), but what can't be read is the question's fault here.
-int refuse_input(const Error& error) {
-  const int status = refuse(error);
-  return error.code == ErrorCode::kUnreadableData || error.code == ErrorCode::kUnreadableRaster ? 2 : status;
-}
-
 }  // namespace
 
 int estimate(const EstimateCommand& options) {
   auto request = request_of(options);
   if (!request) return refuse(request.error());
   const auto catalogue = api::load_catalogue(options.ask.data);
-  if (!catalogue) return refuse_input(catalogue.error());
+  if (!catalogue) return refuse_unreadable(catalogue.error());
   std::optional<Result<api::SoilEstimateAnswer>> answer;
   if (options.from == From::kDrives) {
     const auto campaign = api::load_drive_campaign(options.file, *catalogue);
-    if (!campaign) return refuse_input(campaign.error());
+    if (!campaign) return refuse_unreadable(campaign.error());
     request->campaign = campaign->name;
     TerminalProgress progress;
     answer = api::estimate_soil(*campaign, *request, static_cast<std::size_t>(options.threads), progress);
   } else {
     const auto read = read_tests(options, *request);
-    if (!read) return refuse_input(read.error());
+    if (!read) return refuse_unreadable(read.error());
     TerminalProgress progress;
     answer = api::estimate_soil(*catalogue, *request, progress);
   }

@@ -18,6 +18,7 @@
 #include "api/json/plan_answer.h"
 #include "api/json/problem_document.h"
 #include "api/json/wheel_sweep_answer.h"
+#include "api/model_reference.h"
 #include "api/openapi.h"
 #include "api/report_page.h"
 #include "api/route_map.h"
@@ -193,8 +194,21 @@ class JobRoutes {
 
   // Records the request, which was read without faults, and waits for its end where the client wants that.
   HttpResponse submit(std::string_view kind, const HttpRequest& request, seconds usual_wait) {
+    return submit(kind, request, request.body, usual_wait);
+  }
+
+  // A plan or a prediction, which may name the model of a diagnosis.
+  HttpResponse submit_drive(std::string_view kind, const HttpRequest& request, seconds usual_wait,
+                            const api::RequestFaults& faults_of) {
+    const auto recorded = api::recordable_request(request.body, runner_.store(), faults_of);
+    return recorded ? submit(kind, request, *recorded, usual_wait)
+                    : problem_response(recorded.error(), &request);
+  }
+
+  HttpResponse submit(std::string_view kind, const HttpRequest& request, const std::string& recorded,
+                      seconds usual_wait) {
     const Preferences preferences = preferences_of(request);
-    const auto job = runner_.submit(std::string(kind), request.body);
+    const auto job = runner_.submit(std::string(kind), recorded);
     if (!job) return problem_response(job.error(), &request);
     seconds wait = preferences.wait.value_or(preferences.respond_async ? seconds(0) : usual_wait);
     wait = std::min(wait, options_.longest_wait);
@@ -355,6 +369,11 @@ class JobRoutes {
   std::atomic<int> waiting_{0};
 };
 
+template <class Request>
+std::optional<Error> error_of(const Result<Request>& reading) {
+  return reading ? std::nullopt : std::optional<Error>(reading.error());
+}
+
 // Answered at once: the rows are few enough.
 HttpResponse wheel_sweep(const api::Service& service, const HttpRequest& request) {
   const auto answer = api::run_wheel_sweep(service.catalogue(), request.body);
@@ -413,13 +432,15 @@ std::vector<Route> api_routes(const api::Service& service, api::JobRunner& runne
        [&service](const HttpRequest& r) { return ground_at(service, r); }},
       {"POST", "/v1/plans",
        [&service, jobs](const HttpRequest& r) {
-         const auto request = service.read_plan(r.body);
-         return request ? jobs->submit(api::kPlanKind, r, seconds(0)) : problem_response(request.error(), &r);
+         return jobs->submit_drive(api::kPlanKind, r, seconds(0), [&service](std::string_view body) {
+           return error_of(service.read_plan(body));
+         });
        }},
       {"POST", "/v1/predictions",
        [&service, jobs, wait = options.prediction_wait](const HttpRequest& r) {
-         const auto request = service.read_prediction(r.body);
-         return request ? jobs->submit(api::kPredictionKind, r, wait) : problem_response(request.error(), &r);
+         return jobs->submit_drive(api::kPredictionKind, r, wait, [&service](std::string_view body) {
+           return error_of(service.read_prediction(body));
+         });
        }},
       {"POST", "/v1/diagnoses",
        [&service, jobs](const HttpRequest& r) {

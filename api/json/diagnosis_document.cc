@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "api/json/effect_settings.h"
+#include "api/json/noise_scales.h"
 #include "api/json/rover_file.h"
 #include "api/json/soil_file.h"
 #include "api/json/writer.h"
@@ -219,7 +220,10 @@ void write_next_drives(Writer& w, const Diagnosis& d) {
 void write_model(Writer& w, const gap::DriveCampaign& campaign, const Diagnosis& d) {
   const auto model = corrected_model(campaign, d);
   if (!model) return;
-  w.key("model").begin_object().key("rover").raw(rover_document(*model));
+  w.key("model").begin_object().text("campaign", campaign.name);
+  w.key("nominal").begin_object().text("rover", campaign.rover->name).key("soils").begin_array();
+  for (const gap::NominalSoil& soil : campaign.soils) w.text(soil.name);
+  w.end_array().end_object().key("rover").raw(rover_document(*model));
   w.key("soils").raw(soils_document(*model));
   write_effects(w, model->effects);
   w.end_object();
@@ -233,18 +237,6 @@ void write_retuned(Writer& w, const Diagnosis& d) {
     w.significant("prior_std", parameter.prior_std).boolean("determined", parameter.determined).end_object();
   }
   w.end_array();
-}
-
-void write_noise(Writer& w, const gap::NoiseScales& noise) {
-  w.key("noise").begin_object();
-  w.significant("soil_stiffness", noise.stiffness).significant("soil_friction", noise.friction);
-  w.significant("soil_shear_modulus", noise.shear_modulus).significant("within_drives", noise.within_drives);
-  w.significant("lean_deg", deg_from_rad(noise.lean_rad)).significant("load_shift_m", noise.load_shift_m);
-  w.significant("slip", noise.slip).significant("side_slip", noise.side_slip);
-  w.significant("yaw_rate_deg_s", deg_from_rad(noise.yaw_rate_rad_s));
-  w.significant("attitude_deg", deg_from_rad(noise.attitude_rad));
-  w.significant("current_share", noise.current_share).significant("sinkage_m", noise.sinkage_m);
-  w.end_object();
 }
 
 }  // namespace
@@ -314,7 +306,7 @@ std::string diagnosis_document(const gap::DriveCampaign& campaign, const Diagnos
   write_least_detectable(w, d);
   write_next_drives(w, d);
   write_retuned(w, d);
-  write_noise(w, d.noise);
+  write_noise_scales(w.key("noise"), d.noise);
   write_model(w, campaign, d);
   w.texts("notes", d.notes).end_object();
   return w.take();

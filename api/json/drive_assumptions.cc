@@ -1,6 +1,7 @@
 #include "api/json/drive_assumptions.h"
 
 #include "api/json/effect_settings.h"
+#include "api/json/model_object.h"
 
 namespace slipway::api::json {
 namespace {
@@ -41,6 +42,7 @@ void read_drive_assumptions(ObjectReader& reader, DriveAssumptions& drive) {
   reader.whole("seed", kOptional, std::uint64_t{0}, kLargestExactWhole, drive.seed);
   reader.number("speed_m_s", kOptional, {"m/s", 0.0, 10.0, true}, drive.speed_m_s);
   reader.number("motor_temp_c", kOptional, {"degC", -150.0, 150.0}, drive.conditions.motor_temp_c);
+  read_whole_model(reader, drive.model);
 }
 
 void write_drive_assumptions(Writer& w, const DriveAssumptions& drive) {
@@ -61,6 +63,7 @@ void write_drive_assumptions(Writer& w, const DriveAssumptions& drive) {
   w.whole("seed", static_cast<std::int64_t>(drive.seed));
   if (drive.speed_m_s) w.exact("speed_m_s", *drive.speed_m_s);
   if (drive.conditions.motor_temp_c) w.exact("motor_temp_c", *drive.conditions.motor_temp_c);
+  if (drive.model) write_model_reference(w.key("model"), *drive.model);
 }
 
 void read_waypoint(const JsonValue& value, const std::string& pointer, planner::Waypoint& out,

@@ -140,11 +140,11 @@ TEST_F(ADiagnosis, OffersFilesThatAreReadAsTheyWereWritten) {
   const std::string rover = json::rover_document(*model);
   const auto read = json::read_rover_file(rover);
   ASSERT_TRUE(read) << read.error().detail;
-  EXPECT_EQ(json::rover_document({*read, {}, {}}), rover);
+  EXPECT_EQ(json::rover_document({*read, {}, {}, {}}), rover);
   const std::string soils = json::soils_document(*model);
   const auto soils_read = json::read_soil_file(soils);
   ASSERT_TRUE(soils_read) << soils_read.error().detail;
-  EXPECT_EQ(json::soils_document({{}, *soils_read, {}}), soils);
+  EXPECT_EQ(json::soils_document({{}, *soils_read, {}, {}}), soils);
   EXPECT_TRUE(soils_read->front().name.starts_with("nominal-p05-"));
   EXPECT_GT(soils_read->front().std.stiffness_ratio, 0.0);
 }

@@ -276,8 +276,28 @@ class Contract(unittest.TestCase):
             self.assertIn(words, text)
         for outside in ("<script", "src=", "<link", 'href="http', "@import"):
             self.assertNotIn(outside, text)
+        self.plans_with(location.rsplit("/", 1)[1], document["model"])
         problem = self.server.ask("GET", "/v1/diagnoses/" + "0" * 32 + "/report")
         self.assertEqual((problem[0], problem[1]["Content-Type"]), (404, "application/problem+json"))
+
+    def plans_with(self, diagnosis, model):
+        """A diagnosis named in requests is the model that it offers."""
+        path = {"terrain": "gale", "rover": "mer-class", "path": [STOP_967, STOP_997], "draws": 2}
+        wait = {"Prefer": "wait=30"}
+        nominal = json.loads(self.server.ask("POST", "/v1/predictions", path, wait)[2])
+        named = {"diagnosis": diagnosis, "ground": [nominal["provenance"]["soils"][0]]}
+        corrected = json.loads(self.server.ask("POST", "/v1/predictions", {**path, "model": named}, wait)[2])
+        self.assertEqual(corrected["request"]["model"], named)
+        self.assertEqual(corrected["rover"], model["rover"]["name"])
+        self.assertIn(model["soils"]["soils"][0]["name"], corrected["provenance"]["soils"])
+        self.assertNotEqual(corrected["summary"], nominal["summary"])
+        status, headers, _ = self.server.ask("POST", "/v1/plans", plan(rover="mer-class", routes=1, draws=2, model=named))
+        self.assertEqual(status, 201)
+        self.assertEqual(self.server.end_of(headers["Location"])["state"], "successful")
+        planned = headers["Location"].rsplit("/", 1)[1]
+        for job, reason in (("0" * 32, "no job of this id"), (planned, "only a diagnosis offers a model")):
+            problem = self.refused("/v1/plans", plan(rover="mer", model={"diagnosis": job}), 422, "/rover", "/model/diagnosis")
+            self.assertIn(reason, problem["faults"][1]["message"])
 
     def test_bad_requests_name_every_fault(self):
         self.refused("/v1/plans", "{", 400)
@@ -346,7 +366,7 @@ class Contract(unittest.TestCase):
         self.assertIn("/start", wrong.stderr)
         for command in ("terrain", "rovers", "soils"):
             self.assertEqual(subprocess.run([SLIPWAY, command, "--data", DATA], capture_output=True).returncode, 0)
-        for command in ("serve", "plan", "predict", "wheel", "current", "current map", "current invert", "diagnose", "estimate", "estimate wheel", "terrain", "rovers", "soils"):
+        for command in ("serve", "plan", "predict", "wheel", "current", "current map", "current invert", "diagnose", "check", "estimate", "estimate wheel", "terrain", "rovers", "soils"):
             shown = subprocess.run([SLIPWAY, *command.split(), "--help"], capture_output=True, text=True)
             self.assertEqual(shown.returncode, 0)
             self.assertIn("Example:", shown.stdout)

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "gap/drive_campaign.h"
+
+namespace slipway::gap {
+
+// A number for each drive, from 0 in their order; repeats share that of the drive they repeat.
+std::vector<std::size_t> repeat_groups(const DriveCampaign& campaign);
+
+// Bootstrap: each resample is `count` indices below `count`, drawn with replacement. The same seed gives the
+// same.
+std::vector<std::vector<std::size_t>> resampled_indices(std::size_t count, int resamples, std::uint64_t seed);
+
+// Linear between order statistics (Hyndman and Fan's type 7). Values not empty, share in [0, 1].
+double quantile(std::vector<double> values, double share);
+
+}  // namespace slipway::gap

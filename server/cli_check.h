@@ -1,0 +1,14 @@
+#pragma once
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace slipway::server {
+
+// The subcommand "check"; it puts itself into `run` when it is called.
+void add_check_command(CLI::App& app, std::function<int()>& run);
+
+}  // namespace slipway::server

@@ -1,0 +1,109 @@
+// A corrected model on another campaign's drives: whose rover and soils it stands in for, and what becomes of
+// the predictions.
+#include "api/model_check.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+
+#include "made_diagnosis.h"
+
+namespace slipway::api {
+namespace {
+
+// A few drives of p05.
+const gap::DriveCampaign& campaign() {
+  static const gap::DriveCampaign kCampaign = [] {
+    gap::DriveCampaign some = testing::practice_campaign();
+    some.drives.resize(6);
+    return some;
+  }();
+  return kCampaign;
+}
+
+// The campaign's own rover and soils under the names of a model.
+ModelFolder its_own() {
+  ModelFolder folder{"other", campaign().rover->name, {}, {}};
+  folder.model.rover = *campaign().rover;
+  folder.model.rover.name += "-other-1";
+  for (const gap::NominalSoil& soil : campaign().soils) {
+    folder.nominal_soils.push_back(soil.name);
+    folder.model.soils.emplace_back();
+    folder.model.soils.back().name = soil.name + "-other-1";
+    folder.model.soils.back().mean = soil.soil;
+  }
+  return folder;
+}
+
+ModelCheckAnswer checked(const ModelFolder& model) {
+  gap::ModelCheckOptions options;
+  options.threads = 1;
+  options.resamples = 50;
+  NoProgress progress;
+  const auto answer = check_model(campaign(), model, {}, options, progress);
+  if (!answer) throw std::runtime_error(answer.error().detail);
+  return *answer;
+}
+
+const gap::ChannelCheck& of(const ModelCheckAnswer& answer, gap::Channel channel) {
+  const auto& all = answer.check.channels;
+  return *std::find_if(all.begin(), all.end(), [&](const gap::ChannelCheck& c) {
+    return c.channel == channel && c.slope == gap::SlopeClass::kAll;
+  });
+}
+
+TEST(ModelCheck, OfTheNominalModelItselfBringsNothingDown) {
+  const ModelCheckAnswer answer = checked(its_own());
+  ASSERT_FALSE(answer.check.channels.empty());
+  for (const gap::ChannelCheck& c : answer.check.channels) {
+    EXPECT_EQ(c.rms.nominal, c.rms.corrected) << gap::name_of(c.channel);
+    EXPECT_EQ(c.median.down_percent, 0.0);
+  }
+  EXPECT_EQ(answer.check.drives, 6U);
+  EXPECT_EQ(answer.soils, std::vector<std::string>{"nominal-other-1"});
+}
+
+// Motors of twice the constant draw half the current above the idle one, and nothing else is another.
+TEST(ModelCheck, OfWrongMotorsIsWorseInCurrentAlone) {
+  ModelFolder wrong = its_own();
+  wrong.model.rover.drive.torque_constant_nm_per_a *= 2.0;
+  const ModelCheckAnswer answer = checked(wrong);
+  const gap::ErrorChange& current = of(answer, gap::Channel::kCurrent).rms;
+  EXPECT_LT(current.down_percent, -20.0);
+  ASSERT_TRUE(current.down_interval);
+  EXPECT_LT(current.down_interval->high, 0.0);
+  EXPECT_LT(of(answer, gap::Channel::kCurrent).within_90, 0.5);
+  EXPECT_NEAR(of(answer, gap::Channel::kSlip).rms.down_percent, 0.0, 1e-3);
+}
+
+// A torque constant that currents show may imply more voltage than there is: the drives were made all the
+// same.
+TEST(ModelCheck, IsOfDrivesThatWereMade) {
+  ModelFolder weak = its_own();
+  weak.model.rover.drive.bus_voltage_v = 1.0;
+  weak.model.rover.drive.max_current_a = 1e-3;
+  const ModelCheckAnswer answer = checked(weak);
+  EXPECT_EQ(answer.check.unanswered_corrected, 0U);
+  EXPECT_EQ(of(answer, gap::Channel::kSlip).rms.down_percent, 0.0);
+  EXPECT_EQ(of(answer, gap::Channel::kCurrent).rms.down_percent, 0.0);
+}
+
+TEST(ModelCheck, NeedsTheModelsRoverAndSoils) {
+  ModelFolder other = its_own();
+  other.nominal_rover = "rover-of-others";
+  other.nominal_soils = {"sand"};
+  const auto refused = belief_of(campaign(), other, {});
+  ASSERT_FALSE(refused);
+  ASSERT_EQ(refused.error().faults.size(), 2U);
+  EXPECT_EQ(refused.error().faults[0].pointer, "/rover/name");
+  EXPECT_EQ(refused.error().faults[1].pointer, "/soils/nominal");
+  other.nominal_rover = campaign().rover->name;
+  const auto named = belief_of(campaign(), other, {"nominal"});
+  ASSERT_TRUE(named);
+  EXPECT_EQ(named->soils.at(0).name, "nominal-other-1");
+}
+
+}  // namespace
+}  // namespace slipway::api
