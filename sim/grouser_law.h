@@ -14,9 +14,8 @@ namespace slipway::sim {
 // along the travel and F_g sin(theta) upward [ARTEMIS eq. 18, 20]. The count in contact is taken as its mean
 // over a turn, count (theta_f - theta_r) / (2 pi), and each grouser's share of F_g as the share of the shear
 // strength mobilised where it stands: the paper's full F_g would push a wheel that rolls freely. A wedge of
-// soil before a cleat may yield at less displacement than the soil under the rim (Grousers::mobilisation), and
-// the displacement may be that of slip alone (Grousers::by_slip): both are closures, of which the paper says
-// nothing.
+// soil before a cleat may yield at less displacement than the soil under the rim (Grousers::mobilisation),
+// and that displacement may be of slip alone (Grousers::by_slip): closures, of which the paper says nothing.
 template <class V>
 V grouser_force_n(const V& width_m, const V& height_m, const V& unit_weight_n_m3, const V& cohesion_pa,
                   const V& tan_phi) {
