@@ -68,10 +68,11 @@ double gain_of_parameters(const PreparedCampaign& prepared, const DriveCampaign&
   return evidence(null) - evidence(nominal);
 }
 
-// The most probable candidate, or one with fewer effects of the same that is not much less probable: what
-// adds little is not worth a name.
+// The most probable candidate, or, where none is certain, one with fewer effects of the same that is not much
+// less probable: what adds little is not worth a name.
 std::size_t simplest_of_the_best(const std::vector<Candidate>& candidates) {
   std::size_t best = 0;
+  if (candidates.front().probability >= kCertain) return best;
   for (std::size_t i = 1; i < candidates.size(); ++i) {
     const Candidate &held = candidates[best], &other = candidates[i];
     const auto in_held = [&](const std::string& effect) {
