@@ -7,14 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "gap/drive_resampling.h"
+
 namespace slipway::validation {
 
 // Of an even count the mean of the two in the middle. Values not empty.
 double median(std::vector<double> values);
 // The median of absolute values; 0 of nothing.
 double median_abs(std::vector<double> values);
-// Linear between order statistics (Hyndman and Fan's type 7). Values not empty, share in [0, 1].
-double quantile(std::vector<double> values, double share);
+using gap::quantile;
 
 struct Agreement {
   double r = 0.0;     // Pearson's correlation
