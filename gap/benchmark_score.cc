@@ -106,6 +106,29 @@ double chance_of_tail(std::size_t k, std::size_t n, double tail) {
   return 0.5 * (low + high);
 }
 
+// What the answer gives its own claim: that something is unknown, whatever stands beside it, or that this
+// very set is at work.
+double stated_by(const Diagnosis& d, const std::vector<std::pair<Names, double>>& sets, const Names& found) {
+  double sum = 0.0;
+  for (const auto& [names, probability] : sets)
+    if (d.verdict == Verdict::kUnknown ? names.contains(kUnknownName) : names == found) sum += probability;
+  return sum;
+}
+
+// Whether effects of single wheels were found at those wheels; nothing where none was both hidden and found.
+std::optional<bool> wheel_right(const HiddenAnswer& answer, const Diagnosis& d) {
+  std::optional<bool> right;
+  for (const FoundEffect& effect : d.effects) {
+    const auto hidden = answer.wheel_of.find(effect.name);
+    if (hidden == answer.wheel_of.end()) continue;
+    right = right.value_or(true) &&
+            std::any_of(effect.parameters.begin(), effect.parameters.end(), [&](const FoundParameter& p) {
+              return p.name == "wheel" && p.value.value == hidden->second;
+            });
+  }
+  return right;
+}
+
 void count(Rate& rate, bool hit) {
   ++rate.of;
   rate.hits += hit ? 1 : 0;
@@ -166,11 +189,9 @@ CaseScore score_case(const HiddenAnswer& answer, const Diagnosis& d, const std::
         score.confident_wrong || (effect.probability > kConfident && !truth.contains(effect.name));
   for (const auto& [names, probability] : sets)
     if (names.contains(kUnknownName)) score.unknown_probability += probability;
-  if (!sets.empty()) {
-    score.stated = sets.front().second;
-    score.stated_right = sets.front().first == truth;
-  }
+  score.stated = stated_by(d, sets, found);
   if (d.closed_fraction) score.closed_fraction = d.closed_fraction->value;
+  score.wheel_right = wheel_right(answer, d);
   if (answer.place) {
     score.place_overlap = 0.0;
     const bool named = found.contains("soft_patch");
@@ -269,11 +290,12 @@ BenchmarkFigures figures_of(std::span<const CaseScore> cases) {
       }
       if (c.closed_fraction) closed.push_back(*c.closed_fraction);
     }
+    if (c.wheel_right) count(f.wheel_right, *c.wheel_right);
     if (c.truth_kind == TruthKind::kNothing) count(f.alarm_nothing, c.false_alarm);
     if (c.truth_kind == TruthKind::kParameters) count(f.alarm_parameters, c.false_alarm);
     if (c.truth_kind == TruthKind::kOutsideLibrary) count(f.unknown_told, c.verdict_right);
     (c.truth_kind == TruthKind::kOutsideLibrary ? outside : inside).push_back(c.unknown_probability);
-    statements.push_back({c.stated, c.stated_right});
+    statements.push_back({c.stated, c.exact});
     if (c.place_overlap) {
       overlap.push_back(*c.place_overlap);
       count(f.overlap, *c.place_overlap >= 0.5);

@@ -24,6 +24,8 @@ struct HiddenAnswer {
   std::string fidelity, kind;  // "L2", "hills"; empty where the answers don't say
   double size = 1.0;           // of the effects, in their usual size
   std::optional<Place> place;  // of a soft patch
+  // The wheel's number of effects that one wheel has (-1: all wheels).
+  std::map<std::string, double> wheel_of;
 };
 
 enum class TruthKind { kNothing, kParameters, kEffects, kOutsideLibrary };
@@ -40,8 +42,8 @@ struct CaseScore {
   bool false_alarm = false;      // an effect or "unknown" where nothing is missing
   bool confident_wrong = false;  // a name that is not in the truth with more than 0.9
   double unknown_probability = 0.0;
-  double stated = 0.0;        // probability of the most probable set
-  bool stated_right = false;  // that set is the truth
+  double stated = 0.0;              // the probability that the answer gives what it says
+  std::optional<bool> wheel_right;  // of an effect that was found: at the wheel that it was hidden at
   std::optional<double> closed_fraction;
   std::optional<double> place_overlap;  // of the soft patch's disc, intersection over union
   double seconds = 0.0;
@@ -95,6 +97,7 @@ struct BenchmarkFigures {
   Rate alarm_nothing, alarm_parameters;
   Rate unknown_told;  // verdict "unknown" where the cause is outside the library
   Rate confident_wrong;
+  Rate wheel_right;
   Rate overlap;  // soft patches whose disc overlaps by half or more
   std::optional<double> unknown_auroc, calibration, brier, closed_fraction, place_overlap, seconds;
   std::size_t cases = 0;

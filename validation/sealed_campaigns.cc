@@ -47,7 +47,7 @@ Scored scored(const CsvTable& table, std::size_t row) {
   c.confident_wrong = yes("confident_wrong");
   c.unknown_probability = table.number(row, "unknown_probability");
   c.stated = table.number(row, "stated");
-  c.stated_right = yes("stated_right");
+  if (!table.empty(row, "wheel_right")) c.wheel_right = yes("wheel_right");
   c.closed_fraction = optional_number(table, row, "closed_fraction");
   c.place_overlap = optional_number(table, row, "place_overlap");
   c.seconds = table.number(row, "seconds");
@@ -98,8 +98,8 @@ Result<Report> sealed_campaigns(const std::filesystem::path& data) {
   const auto table = CsvTable::read(
       data / "validation" / "sealed_campaigns_scores.csv",
       {.numbers = {"hidden_kind", "size", "exact", "alike", "verdict_right", "held", "false_alarm",
-                   "confident_wrong", "unknown_probability", "stated", "stated_right", "seconds"},
-       .numbers_or_empty = {"closed_fraction", "place_overlap"},
+                   "confident_wrong", "unknown_probability", "stated", "seconds"},
+       .numbers_or_empty = {"wheel_right", "closed_fraction", "place_overlap"},
        .texts = {"set", "variant", "campaign", "hidden", "verdict", "found"}});
   if (!table) return fail(table.error());
   std::vector<std::pair<std::string, std::string>> order;  // set and variant, as they come

@@ -15,8 +15,15 @@ gap::HiddenAnswer read_answer(const std::string& campaign, const JsonValue& valu
   gap::HiddenAnswer answer;
   answer.campaign = campaign;
   ObjectReader reader(value, child_pointer("", campaign), faults);
-  if (const auto effects = reader.object("effects", kRequired); effects && effects->is_object())
-    for (const std::string& name : value.find("effects")->keys) answer.effects.insert(name);
+  if (const auto reading = reader.object("effects", kRequired); reading && reading->is_object()) {
+    const JsonValue& effects = *value.find("effects");
+    for (std::size_t i = 0; i < effects.keys.size(); ++i) {
+      answer.effects.insert(effects.keys[i]);
+      const JsonValue* wheel = effects.elements[i].find("wheel");
+      if (wheel != nullptr && wheel->is(JsonValue::Kind::kNumber))
+        answer.wheel_of[effects.keys[i]] = wheel->number;
+    }
+  }
   reader.text("fidelity", kOptional, {}, answer.fidelity);
   reader.text("kind", kOptional, {}, answer.kind);
   reader.number("size", kOptional, {.unit = "1", .lowest = 0.0}, answer.size);

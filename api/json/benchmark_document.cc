@@ -30,7 +30,7 @@ void write_optional(Writer& w, std::string_view name, const std::optional<double
 
 void write_figures(Writer& w, const BenchmarkFigures& f) {
   w.whole("campaigns", static_cast<std::int64_t>(f.cases));
-  const std::array<std::pair<std::string_view, const Rate*>, 11> rates{
+  const std::array<std::pair<std::string_view, const Rate*>, 12> rates{
       {{"exact", &f.exact},
        {"alike", &f.alike},
        {"exact_size_1", &f.exact_sized},
@@ -41,6 +41,7 @@ void write_figures(Writer& w, const BenchmarkFigures& f) {
        {"false_alarm_parameters", &f.alarm_parameters},
        {"unknown_told", &f.unknown_told},
        {"confident_wrong", &f.confident_wrong},
+       {"wheel_right", &f.wheel_right},
        {"place_overlap_half", &f.overlap}}};
   for (const auto& [name, rate] : rates) write_rate(w, name, *rate);
   write_optional(w, "unknown_auroc", f.unknown_auroc);
@@ -57,8 +58,9 @@ void write_case(Writer& w, const CaseScore& c) {
   w.boolean("exact", c.exact).boolean("alike", c.alike).boolean("verdict_right", c.verdict_right);
   w.boolean("set_holds_truth", c.held).boolean("false_alarm", c.false_alarm);
   w.boolean("confident_wrong", c.confident_wrong);
-  w.significant("stated", c.stated).boolean("stated_right", c.stated_right);
+  w.significant("stated", c.stated);
   w.significant("unknown_probability", c.unknown_probability);
+  if (c.wheel_right) w.boolean("wheel_right", *c.wheel_right);
   write_optional(w, "closed_fraction", c.closed_fraction);
   write_optional(w, "place_overlap", c.place_overlap);
   w.significant("seconds", c.seconds).end_object();

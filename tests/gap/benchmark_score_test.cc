@@ -30,7 +30,8 @@ Diagnosis found(Verdict verdict, std::vector<std::string> effects, double probab
 TEST(BenchmarkScore, TheVerySetUnderAVerdictOfItsClassIsExact) {
   const CaseScore right =
       score_case(hidden({"hardpan"}), found(Verdict::kEffects, {"hardpan"}, 0.8), kLibrary, 1.0);
-  EXPECT_TRUE(right.exact && right.alike && right.verdict_right && right.held && right.stated_right);
+  EXPECT_TRUE(right.exact && right.alike && right.verdict_right && right.held);
+  EXPECT_NEAR(right.stated, 0.8, 1e-12);
   const CaseScore wrong =
       score_case(hidden({"hardpan"}), found(Verdict::kEffects, {"bulldozing"}, 0.95), kLibrary, 1.0);
   EXPECT_FALSE(wrong.exact || wrong.alike || wrong.held);
@@ -70,6 +71,29 @@ TEST(BenchmarkScore, ACauseThatNoLibraryHasIsRightAsUnknown) {
   const CaseScore wrong =
       score_case(hidden({"tether"}), found(Verdict::kEffects, {"hardpan"}, 0.99), kLibrary, 1.0);
   EXPECT_TRUE(!wrong.exact && wrong.confident_wrong);
+}
+
+TEST(BenchmarkScore, AnEffectOfOneWheelIsFoundAtThatWheelOrNot) {
+  HiddenAnswer answer = hidden({"hardpan"});
+  Diagnosis d = found(Verdict::kEffects, {"hardpan"}, 0.9);
+  EXPECT_FALSE(score_case(answer, d, kLibrary, 1.0).wheel_right);
+  answer.wheel_of["hardpan"] = 2.0;
+  d.effects[0].parameters.push_back({"wheel", {2.0, 2.0, 2.0}});
+  EXPECT_EQ(score_case(answer, d, kLibrary, 1.0).wheel_right, true);
+  d.effects[0].parameters[0].value.value = 3.0;
+  EXPECT_EQ(score_case(answer, d, kLibrary, 1.0).wheel_right, false);
+}
+
+// What is unknown may have anything beside it: its probability is that of all sets with it.
+TEST(BenchmarkScore, AStatedProbabilityIsThatOfWhatIsSaid) {
+  Diagnosis d = found(Verdict::kUnknown, {"hardpan"}, 0.6);
+  d.effects.clear();
+  d.candidates[1].effects = {"unknown"};
+  EXPECT_NEAR(score_case(hidden({"tether"}), d, kLibrary, 1.0).stated, 1.0, 1e-12);
+  // A smaller set than the most probable one.
+  Diagnosis smaller = found(Verdict::kEffectSet, {"hardpan"}, 0.3);
+  smaller.candidates.insert(smaller.candidates.begin(), {{"bulldozing", "hardpan"}, 0.45, std::nullopt, 0});
+  EXPECT_NEAR(score_case(hidden({"hardpan"}), smaller, kLibrary, 1.0).stated, 0.3, 1e-12);
 }
 
 TEST(BenchmarkScore, WithheldEffectsBecomeUnknownOrALookAlike) {

@@ -36,6 +36,18 @@ NOMINAL_SOIL = {
     "c2": 0.32,
 }
 
+# The rover as described where it ships, but for its motors: what one who has not seen these drives would assume.
+ROVER_FILE = pathlib.Path(__file__).resolve().parents[2] / "rovers" / "cuadriga.json"
+ASSUMED_MOTORS = {"torque_constant_nm_per_a": 0.1, "no_load_current_a": 0.0}
+
+
+def nominal_rover():
+    rover = json.loads(ROVER_FILE.read_text(encoding="utf-8"))
+    for key in ("format", "summary", "sources", "assumed"):
+        del rover[key]
+    rover["drive"].update(ASSUMED_MOTORS)
+    return rover
+
 
 def wrapped_deg(angle):
     return (angle + 180.0) % 360.0 - 180.0
@@ -179,7 +191,7 @@ def main(windows_csv, elevation_tif, folder):
         "format": "drive-campaign/1",
         "name": "Cuadriga 2018-2019",
         "gravity_m_s2": 9.81,
-        "rover": "cuadriga",
+        "rover": nominal_rover(),
         "soils": {"upland_sandy_loam": NOMINAL_SOIL},
         "terrains": {"uma_rescue_area": {"dem": "uma_rescue_area.tif", "soil": "upland_sandy_loam"}},
         "measurement_std": {
