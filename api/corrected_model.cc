@@ -12,6 +12,7 @@
 #include "api/json/soil_file.h"
 #include "api/json/writer.h"
 #include "campaign/digest.h"
+#include "core/normal_interval.h"
 #include "gap/nuisance_catalogue.h"
 #include "sim/effect_catalogue.h"
 
@@ -20,7 +21,6 @@ namespace {
 
 constexpr std::size_t kMostName = 28;  // of each part; a whole name has 64 at most
 constexpr std::size_t kMostSummary = 480;
-constexpr double kNinety = 1.6448536269514722;
 
 // Made of what a catalogue's name may have.
 std::string as_name(std::string_view text) {
@@ -45,7 +45,7 @@ const gap::RetunedParameter* retuned(const gap::Diagnosis& diagnosis, std::strin
 
 double deviation(const gap::Diagnosis& diagnosis, std::string_view nuisance, const std::string& soil) {
   const gap::RetunedParameter* const p = retuned(diagnosis, nuisance, soil);
-  return p == nullptr ? 0.0 : (p->value.high - p->value.low) / (2.0 * kNinety);
+  return p == nullptr ? 0.0 : (p->value.high - p->value.low) / (2.0 * kReach90);
 }
 
 sim::SoilDistribution soil_of(const gap::NominalSoil& nominal, const gap::Diagnosis& diagnosis) {

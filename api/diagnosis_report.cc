@@ -119,18 +119,22 @@ class Report {
   void write_explanations() {
     if (d_.candidates.empty()) return;
     page_.section("Explanations compared");
-    page_.table({"explanation", "probability", "estimated parameters", "held-out score"});
+    page_.table(
+        {"explanation", "probability", "estimated parameters", "held-out score", "chosen by resamples"});
     std::size_t shown = 0;
     for (const gap::ComparedSet& set : json::compared_sets(d_)) {
       const bool ends = set.effects.empty() || set.effects == std::vector<std::string>{"unknown"};
       if (++shown > kMostCandidates && !ends) continue;
       page_.row({set_words(set.effects), probability_words(set.probability),
                  fmt::format("{}", set.complexity),
-                 set.held_out_score ? number_words("{:+.2f}", *set.held_out_score) : ""});
+                 set.held_out_score ? number_words("{:+.2f}", *set.held_out_score) : "",
+                 fmt::format("{:.0f} %", 100.0 * set.chosen_share)});
     }
     page_.paragraph(
         "The score is the gain of log density a drive over re-tuned parameters alone, on drives that the fit "
-        "had not seen.");
+        "had not seen. Last column: how often the set would have been chosen, drives with their repeats "
+        "drawn "
+        "with replacement.");
     picture("explanations", "Probability of each explanation");
     if (d_.confusable.empty()) return;
     page_.paragraph("Pairs that these drives hardly tell apart:");
@@ -167,6 +171,17 @@ class Report {
       page_.paragraph(Spans{{"Of the gap that re-tuning leaves, closed: "},
                             {interval_words(*d_.closed_fraction), Style::kStrong},
                             {", all channels in their deviations."}});
+    if (!d_.extrapolations.empty()) {
+      page_.paragraph(
+          "Learnt from the gentle drives, told of the harshest third: gain of log density a drive over "
+          "re-tuned "
+          "parameters alone.");
+      page_.table({"told", "drives", "gain", "standard error"});
+      for (const gap::Extrapolation& e : d_.extrapolations)
+        page_.row({fmt::format("{} {} {:.3g}", e.variable, e.above ? "above" : "below", e.limit),
+                   fmt::format("{}", e.groups), number_words("{:+.2f}", e.log_density_gain),
+                   number_words("{:.2f}", e.error)});
+    }
     picture("ladder", "Nominal, re-tuned, with the effects, floor, by channel");
     picture("windows", "Predicted over measured, by channel");
   }

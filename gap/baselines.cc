@@ -176,8 +176,9 @@ Result<Diagnosis> shrink_by_gaussian_process(const DriveCampaign& campaign, cons
   Diagnosis d;
   const auto prepared = prepared_for(campaign, options, d, progress);
   if (!prepared) return fail(prepared.error());
-  auto shrunk = shrink_on_held_out(*prepared, campaign, gaussian_process(*prepared, options.search.threads),
-                                   options, progress);
+  auto shrunk =
+      shrink_on_held_out(*prepared, campaign, {{gaussian_process(*prepared, options.search.threads)}, {}},
+                         resample_drives(campaign, options.resamples, options.seed), options, progress);
   if (!shrunk) return fail(shrunk.error());
   d.verdict = Verdict::kUnknown;
   d.candidates.push_back({{"unknown"}, 1.0, std::nullopt, 0});

@@ -11,11 +11,14 @@
 
 #include "core/angle.h"
 #include "gap/effect_trace.h"
+#include "gap/extrapolation.h"
 #include "gap/localise.h"
 #include "gap/next_drives.h"
 #include "gap/prepared_campaign.h"
+#include "gap/selection.h"
 #include "gap/shrink.h"
 #include "gap/unexplained.h"
+#include "gap/verdict.h"
 #include "sim/effect_catalogue.h"
 
 namespace slipway::gap {
@@ -23,75 +26,15 @@ namespace {
 
 constexpr std::size_t kLeastDrives = 3, kLeastWindows = 6;
 constexpr int kMostRefittedAgain = 6, kMostPairedAgain = 2, kMostSecondsAgain = 2;
-constexpr std::size_t kMostKept = 6;      // sets of effects that are fitted again
-constexpr double kMuchLess = 0.5;         // of a probability
-constexpr double kCertain = 0.5;          // of a set's probability: below it the answer is a set of sets
-constexpr double kWorthNaming = 0.05;     // of an effect's probability
-constexpr double kParametersGain = 20.0;  // of the logarithm of the evidence, for calling parameters mis-set
-constexpr double kSurelySeen = 6.0;  // standard errors: what the tempered evidence asks for over its prior
-constexpr double kSmall = 0.5;       // of an effect's usual size
+constexpr std::size_t kMostKept = 6;   // sets of effects that are fitted again
+constexpr double kWorthNaming = 0.05;  // of an effect's probability
+constexpr double kTold = 0.7;  // of a prior deviation: what is left open of a parameter that drives tell of
+constexpr double kSeldom = 0.02;  // of resamples: sets that so few choose are not fitted again
 constexpr double kAlike_deg = 30.0;
-constexpr int kRounds = 2;  // searches: the second under the scatter around what the first found
-constexpr double kNinety = 1.6448536269514722;
 constexpr std::size_t kMostRegimes = 5, kMostNext = 3;
 
 constexpr std::array<std::string_view, 7> kVerdicts{"no_gap",     "not_detected", "parameters",  "effects",
                                                     "effect_set", "unknown",      "insufficient"};
-
-Interval estimate(double value, double error) {
-  return {value, value - kNinety * error, value + kNinety * error};
-}
-
-double standard_error(const FittedExplanation& fit, std::size_t p) {
-  const auto i = static_cast<Eigen::Index>(p);
-  return fit.hypothesis.parameters()[p].std * std::sqrt(fit.covariance(i, i));
-}
-
-// How much more probable the drives are when soils and motors may differ from the nominal ones, closures
-// being free in either case.
-double gain_of_parameters(const PreparedCampaign& prepared, const DriveCampaign& campaign,
-                          std::size_t threads) {
-  const FittedExplanation& null = *prepared.null;
-  const Hypothesis pinned(campaign, {}, FreeNuisances::kClosures);
-  std::vector<double> start;
-  for (const Parameter& closure : pinned.parameters())
-    for (std::size_t p = 0; p < null.x.size(); ++p)
-      if (null.hypothesis.parameters()[p].name == closure.name) start.push_back(null.x[p]);
-  ExplanationOptions options;
-  options.threads = threads;
-  const FittedExplanation nominal = fit_explanation(pinned, *prepared.model, *prepared.noise, start, options);
-  const auto evidence = [&](const FittedExplanation& fit) {
-    return fit.log_evidence + wildcard_gain(fit, *prepared.noise, prepared.wildcard,
-                                            Eigen::MatrixXd(fit.white_jacobian.rows(), 0))
-                                  .imprecision;
-  };
-  return evidence(null) - evidence(nominal);
-}
-
-// The most probable candidate, or, where none is certain, one with fewer effects of the same that is not much
-// less probable: what adds little is not worth a name.
-std::size_t simplest_of_the_best(const std::vector<Candidate>& candidates) {
-  std::size_t best = 0;
-  if (candidates.front().probability >= kCertain) return best;
-  for (std::size_t i = 1; i < candidates.size(); ++i) {
-    const Candidate &held = candidates[best], &other = candidates[i];
-    const auto in_held = [&](const std::string& effect) {
-      return std::find(held.effects.begin(), held.effects.end(), effect) != held.effects.end();
-    };
-    if (!other.effects.empty() && other.effects.size() < held.effects.size() &&
-        other.with_unknown == held.with_unknown &&
-        std::all_of(other.effects.begin(), other.effects.end(), in_held) &&
-        other.probability > kMuchLess * candidates.front().probability)
-      best = i;
-  }
-  return best;
-}
-
-std::vector<std::string> names_in(const Candidate& c) {
-  std::vector<std::string> names = c.effects;
-  if (c.with_unknown) names.emplace_back("unknown");
-  return names;
-}
 
 class Diagnoser {
  public:
@@ -150,7 +93,7 @@ class Diagnoser {
       const std::vector<FittedExplanation> kept = most_probable_fits(search_, kMostKept);
       if (auto searched = search(again, kept); !searched) return fail(searched.error());
     }
-    judge();
+    judge(campaign_, prepared_, search_, best_, options_.search.threads, d_);
     describe_parameters();
     compare_look_alikes();
     localise();
@@ -168,7 +111,7 @@ class Diagnoser {
                                      prepared_.wildcard, options, progress_, found_before);
     if (!found) return fail(found.error());
     search_ = std::move(*found);
-    best_ = simplest_of_the_best(search_.candidates);
+    best_ = chosen_among(search_.candidates);
     return {};
   }
 
@@ -185,103 +128,13 @@ class Diagnoser {
   }
   bool explains() const { return d_.verdict == Verdict::kEffects || d_.verdict == Verdict::kEffectSet; }
 
-  void judge() {
-    std::map<std::set<std::string>, double> sets;
-    std::map<std::string, double> single;
-    double unknown = 0.0;
-    for (const Candidate& c : search_.candidates) {
-      const std::vector<std::string> names = names_in(c);
-      sets[{names.begin(), names.end()}] += c.probability;
-      for (const std::string& name : c.effects) single[name] += c.probability;
-      if (c.with_unknown) unknown += c.probability;
-      d_.candidates.push_back({names, c.probability, std::nullopt,
-                               static_cast<int>(search_.fits[c.fit].x.size() - search_.fits[0].x.size())});
-    }
-    const std::vector<std::string> named = names_in(best());
-    const double probability = sets[{named.begin(), named.end()}];
-    if (unknown > 0.5 || best().with_unknown) {
-      d_.verdict = Verdict::kUnknown;
-      d_.reason =
-          fmt::format("a gap remains that no effect of the library explains (probability {:.2f})", unknown);
-      d_.overturned_by =
-          "an effect of the library with another equation than the library's would look the same";
-    } else if (best().effects.empty()) {
-      judge_without_effects(probability);
-    } else {
-      d_.verdict = probability >= kCertain ? Verdict::kEffects : Verdict::kEffectSet;
-      d_.reason =
-          fmt::format("{} explain{} what re-tuned parameters leave over (probability {:.2f})",
-                      fmt::join(best().effects, " and "), best().effects.size() == 1 ? "s" : "", probability);
-      const auto rival = std::find_if(search_.candidates.begin(), search_.candidates.end(),
-                                      [&](const Candidate& c) { return names_in(c) != named; });
-      if (rival != search_.candidates.end()) {
-        const std::vector<std::string> rivals = names_in(*rival);
-        d_.overturned_by =
-            fmt::format("next best: {} (probability {:.2g})",
-                        rivals.empty() ? "nothing missing" : fmt::format("{}", fmt::join(rivals, " and ")),
-                        rival->probability);
-      }
-    }
-    if (d_.verdict == Verdict::kUnknown && !best().effects.empty())
-      d_.notes.push_back(
-          fmt::format("{} would fit beside what is unexplained, and may be its shadow: nothing is named",
-                      fmt::join(best().effects, " and ")));
-    if (!explains()) return;
-    for (std::size_t e = 0; e < best().effects.size(); ++e) {
-      FoundEffect found{
-          best().effects[e], best_fit().hypothesis.effects()[e].label, single[best().effects[e]], {}};
-      const auto parameters = best_fit().hypothesis.parameters();
-      for (std::size_t p = best_fit().hypothesis.nuisance_count(); p < parameters.size(); ++p)
-        if (parameters[p].effect == found.name)
-          found.parameters.push_back({parameters[p].name.substr(found.name.size() + 1),
-                                      estimate(best_fit().x[p], standard_error(best_fit(), p))});
-      for (const auto& [field, value] : best_fit().hypothesis.effects()[e].fixed)
-        found.parameters.push_back({field, {value, value, value}});
-      d_.effects.push_back(std::move(found));
-    }
-  }
-
-  void judge_without_effects(double probability) {
-    for (const ScreenedVariant& s : search_.screened) {
-      if (s.visibility <= 0.0) continue;
-      if (std::any_of(d_.least_detectable.begin(), d_.least_detectable.end(),
-                      [&](const LeastDetectable& l) { return l.effect == s.variant.effect; }))
-        continue;
-      const EffectVariant::Free& free = s.variant.free.front();
-      d_.least_detectable.push_back({s.variant.effect, free.field, kSurelySeen * free.std / s.visibility});
-    }
-    const double gain = gain_of_parameters(prepared_, campaign_, options_.search.threads);
-    if (gain > kParametersGain) {
-      d_.verdict = Verdict::kParameters;
-      d_.reason = fmt::format(
-          "re-tuned soil and motor parameters explain the drives (log evidence +{:.0f}); no effect is "
-          "missing (probability {:.2f})",
-          gain, probability);
-      d_.overturned_by = "an effect that acts like these parameters in every drive that was made";
-      return;
-    }
-    // Of effects at their usual size, how many could have hidden?
-    int hidden = 0, all = 0;
-    for (const ScreenedVariant& s : search_.screened) {
-      ++all;
-      if (s.visibility * kSmall < kSurelySeen) ++hidden;
-    }
-    const bool seen = 2 * hidden < all;
-    d_.verdict = seen ? Verdict::kNoGap : Verdict::kNotDetected;
-    d_.reason =
-        seen ? fmt::format("prediction and drives agree within the drives' own scatter (probability {:.2f})",
-                           probability)
-             : "no gap was found, but these drives could not have shown effects of half their usual size";
-    d_.overturned_by = "drives that show an effect below the least size that these could have shown";
-  }
-
   void describe_parameters() {
     const FittedExplanation& fit = explains() ? best_fit() : search_.fits[0];
     for (std::size_t p = 0; p < fit.hypothesis.nuisance_count(); ++p) {
       const Parameter& parameter = fit.hypothesis.parameters()[p];
-      const double error = standard_error(fit, p);
-      d_.retuned.push_back(
-          {parameter.name, estimate(fit.x[p], error), parameter.std, error < 0.7 * parameter.std});
+      const Interval value = parameter_interval(fit, p);
+      const double error = (value.high - value.value) / kReach90;
+      d_.retuned.push_back({parameter.name, value, parameter.std, error < kTold * parameter.std});
     }
   }
 
@@ -332,10 +185,47 @@ class Diagnoser {
     }
   }
 
+  // The correction that is told, and which others would have been had other drives been made.
+  CorrectionChoice choose_corrections(const DriveResampling& drives) {
+    const auto refit = [&](std::size_t candidate) {
+      return refitted(prepared_, search_.fits[search_.candidates[candidate].fit], options_.search.threads);
+    };
+    const auto corrects = [&](std::size_t candidate) {
+      const Candidate& c = search_.candidates[candidate];
+      return !c.with_unknown && !c.effects.empty();
+    };
+    const SelectionBootstrap selection =
+        resample_selection(search_, prepared_, campaign_, options_.search, drives);
+    for (std::size_t c = 0; c < selection.share.size(); ++c)
+      d_.candidates[c].chosen_share = selection.share[c];
+    if (!explains()) return {{uncorrected()}, {}};
+    CorrectionChoice choice{{refit(best_)}, {}};
+    std::map<std::size_t, std::size_t> correction_of{{best_, 0}};
+    for (std::size_t c = 0; c < selection.share.size(); ++c) {
+      if (c == best_ || selection.share[c] == 0.0) continue;
+      if (corrects(c) && selection.share[c] < kSeldom) {
+        correction_of[c] = 0;
+        continue;
+      }
+      correction_of[c] = choice.corrections.size();
+      choice.corrections.push_back(corrects(c) ? refit(c) : uncorrected());
+    }
+    for (const std::size_t chosen : selection.chosen) choice.of_resample.push_back(correction_of[chosen]);
+    return choice;
+  }
+
   Result<void> shrink() {
-    auto shrunk = shrink_on_held_out(
-        prepared_, campaign_, refitted(prepared_, told_fit(), options_.search.threads), options_, progress_);
+    const DriveResampling drives = resample_drives(campaign_, options_.resamples, options_.seed);
+    const CorrectionChoice choice = choose_corrections(drives);
+    auto shrunk = shrink_on_held_out(prepared_, campaign_, choice, drives, options_, progress_);
     if (!shrunk) return fail(shrunk.error());
+    if (explains()) {
+      auto extrapolated =
+          extrapolate(prepared_, campaign_, choice.corrections.front(), drives, options_, progress_);
+      if (!extrapolated) return fail(extrapolated.error());
+      d_.extrapolations = std::move(*extrapolated);
+      doubt_what_does_not_extrapolate(d_);
+    }
     d_.gap = std::move(shrunk->channels);
     d_.held_out = std::move(shrunk->points);
     d_.window_gaps = std::move(shrunk->windows);

@@ -11,16 +11,12 @@
 #include "gap/drive_campaign.h"
 #include "gap/drive_window.h"
 #include "gap/explanation_search.h"
+#include "gap/interval.h"
 
 namespace slipway::gap {
 
 enum class Verdict { kNoGap, kNotDetected, kParameters, kEffects, kEffectSet, kUnknown, kInsufficient };
 std::string_view name_of(Verdict verdict);  // "no_gap", ...
-
-// A number with a 90 % interval.
-struct Interval {
-  double value = 0.0, low = 0.0, high = 0.0;
-};
 
 struct FoundParameter {
   std::string name;  // of the effect's field, in its unit
@@ -39,6 +35,17 @@ struct ComparedSet {
   double probability = 0.0;
   std::optional<double> held_out_score;  // mean log density a drive, over the null's; of what was refitted
   int complexity = 0;                    // estimated parameters besides the nuisances
+  double chosen_share = 0.0;             // of resamples of the drives, those that would have led to this set
+};
+
+// What the found correction is worth where it had not been: learnt from the gentle drives, told of the harsh.
+struct Extrapolation {
+  std::string variable;  // "slope_deg", ...
+  bool above = true;     // told are drives above (or below) the limit, which is in the variable's unit
+  double limit = 0.0;
+  std::size_t groups = 0;         // drives told, repeats as one
+  double log_density_gain = 0.0;  // over re-tuned parameters alone, a drive
+  double error = 0.0;             // its standard error
 };
 
 struct ConfusablePair {
@@ -152,6 +159,7 @@ struct Diagnosis {
   std::vector<HeldOutPoint> held_out;  // for pictures
   std::vector<WindowGap> window_gaps;  // of drives held out of the fit, for maps
   std::optional<Interval> closed_fraction;
+  std::vector<Extrapolation> extrapolations;
   std::vector<ResidualShape> residual;
   std::vector<NextDrive> next_drives;
   std::vector<LeastDetectable> least_detectable;

@@ -29,6 +29,13 @@ std::vector<std::vector<std::size_t>> resampled_indices(std::size_t count, int r
   return all;
 }
 
+DriveResampling resample_drives(const DriveCampaign& campaign, int resamples, std::uint64_t seed) {
+  DriveResampling drives{repeat_groups(campaign), 0, {}};
+  for (const std::size_t group : drives.groups) drives.group_count = std::max(drives.group_count, group + 1);
+  drives.resamples = resampled_indices(drives.group_count, resamples, seed);
+  return drives;
+}
+
 double quantile(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
   const double at = share * (static_cast<double>(values.size()) - 1.0);

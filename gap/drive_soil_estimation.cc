@@ -7,10 +7,10 @@
 #include <optional>
 #include <string_view>
 
+#include "core/normal_interval.h"
+
 namespace slipway::gap {
 namespace {
-
-constexpr double kNinety = 1.6448536269514722;
 
 struct Searched {
   SoilParameter parameter;
@@ -112,7 +112,7 @@ class SoilOfDrives {
     p.on_bound = at <= searched.lowest || at >= searched.highest;
     const double left = 1.0 - std::pow(error / searched.std, 2);
     const double alone = left > 1e-4 ? error / std::sqrt(left) : 100.0 * error;
-    const double low = at - kNinety * alone, high = at + kNinety * alone;
+    const double low = at - kReach90 * alone, high = at + kReach90 * alone;
     p.low_open = low <= searched.lowest;
     p.high_open = high >= searched.highest;
     p.low = value_at(std::max(low, searched.lowest));

@@ -5,14 +5,13 @@
 #include <map>
 
 #include "core/angle.h"
+#include "core/normal_interval.h"
 #include "gap/drive_resampling.h"
 #include "gap/hypothesis.h"
 #include "gap/prepared_campaign.h"
 
 namespace slipway::gap {
 namespace {
-
-constexpr double kReach50 = 0.6744897501960817, kReach90 = 1.6448536269514722;
 
 bool is_of(SlopeClass slope, double gradient_rad) {
   const double steep = rad_from_deg(kLevelWithin_deg);

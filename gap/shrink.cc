@@ -1,195 +1,131 @@
 #include "gap/shrink.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-
-#include "gap/drive_resampling.h"
 
 namespace slipway::gap {
 namespace {
 
-// Sums of squares of one drive, by channel.
-struct DriveErrors {
-  std::array<double, kChannels> nominal{}, retuned{}, with{}, floor{};
-  std::array<int, kChannels> count{};
-  double scaled_retuned = 0.0, scaled_with = 0.0;  // in deviations
-  int scaled_count = 0;
-  double log_gain = 0.0;
-};
-
-// A fold for each drive; repeats share theirs. Folds alternate along the list, so that each has every kind.
-std::vector<int> folds_of(const DriveCampaign& campaign, int folds) {
-  std::vector<int> fold;
-  for (const std::size_t group : repeat_groups(campaign))
-    fold.push_back(static_cast<int>(group % static_cast<std::size_t>(folds)));
-  return fold;
+// Of root mean squares from sums of squares. Nothing where no gap was left to close.
+std::optional<double> closed_of(double before, double after, double least, double count) {
+  if (!(count > 0.0) || !(before > least)) return std::nullopt;
+  const double gap = std::sqrt(before / count) - std::sqrt(least / count);
+  return std::clamp((std::sqrt(before / count) - std::sqrt(after / count)) / gap, 0.0, 1.0);
 }
 
-struct Totals {
-  std::array<double, kChannels> nominal{}, retuned{}, with{}, floor{}, count{};
-  double scaled_retuned = 0.0, scaled_with = 0.0, scaled_count = 0.0;
-
-  void add(const DriveErrors& e) {
-    for (int c = 0; c < kChannels; ++c) {
-      nominal[c] += e.nominal[c];
-      retuned[c] += e.retuned[c];
-      with[c] += e.with[c];
-      floor[c] += e.floor[c];
-      count[c] += e.count[c];
-    }
-    scaled_retuned += e.scaled_retuned;
-    scaled_with += e.scaled_with;
-    scaled_count += e.scaled_count;
-  }
-  // Of root mean squares in deviations, the floor being 1.
-  std::optional<double> closed() const {
-    return closed_of(scaled_retuned, scaled_with, scaled_count, scaled_count);
-  }
-  std::optional<double> closed(int c) const { return closed_of(retuned[c], with[c], floor[c], count[c]); }
-
- private:
-  // Of sums of squares. Nothing where no gap was left to close.
-  static std::optional<double> closed_of(double before, double after, double least, double count) {
-    if (!(count > 0.0) || !(before > least)) return std::nullopt;
-    const double gap = std::sqrt(before / count) - std::sqrt(least / count);
-    return std::clamp((std::sqrt(before / count) - std::sqrt(after / count)) / gap, 0.0, 1.0);
-  }
-};
-
-ExplanationOptions fit_options_of(std::size_t threads) {
-  ExplanationOptions options;
-  options.threads = threads;
-  options.iterations = 4;
-  return options;
+// In deviations of the noise, the floor being 1.
+std::optional<double> closed(const HeldOutErrors& e) {
+  return closed_of(e.scaled_retuned, e.scaled_with, e.scaled_count, e.scaled_count);
 }
 
-}  // namespace
-
-Correction refitted(const PreparedCampaign& prepared, const FittedExplanation& explanation,
-                    std::size_t threads) {
-  return [&prepared, &explanation, threads](const FittedExplanation&, const std::vector<bool>& seen) {
-    return fit_explanation(explanation.hypothesis, *prepared.model, *prepared.noise, explanation.x,
-                           fit_options_of(threads), seen)
-        .residuals;
-  };
+std::optional<double> closed(const HeldOutErrors& e, int c) {
+  return closed_of(e.retuned[c], e.with[c], e.floor[c], e.count[c]);
 }
 
-Result<Shrink> shrink_on_held_out(const PreparedCampaign& prepared, const DriveCampaign& campaign,
-                                  const Correction& with, const DiagnosisOptions& options,
-                                  Progress& progress) {
-  const WindowModel& model = *prepared.model;
-  const NoiseModel& noise = *prepared.noise;
-  const std::vector<int> fold = folds_of(campaign, options.folds);
-  std::vector<DriveErrors> errors(campaign.drives.size());
-  std::vector<HeldOutPoint> points;
-  std::vector<WindowGap> gaps;
-  const ExplanationOptions fit_options = fit_options_of(options.search.threads);
-  for (int f = 0; f < options.folds; ++f) {
-    if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
-    progress.report("predicting held-out drives", 0.8 + 0.15 * f / options.folds);
-    std::vector<bool> seen(model.observation_count(), false);
-    for (std::size_t w = 0; w < prepared.windows.size(); ++w)
-      for (std::size_t i = 0; i < prepared.windows[w].observations.size(); ++i)
-        seen[model.offset(w) + i] = fold[prepared.windows[w].drive] != f;
-    if (std::find(seen.begin(), seen.end(), false) == seen.end()) continue;
-    const FittedExplanation retuned =
-        fit_explanation(prepared.null->hypothesis, model, noise, prepared.null->x, fit_options, seen);
-    if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
-    const Eigen::VectorXd found = with(retuned, seen);
-    const Eigen::VectorXd white_retuned = noise.whiten(retuned.residuals), white_found = noise.whiten(found);
-    for (std::size_t w = 0; w < prepared.windows.size(); ++w) {
-      const DriveWindow& window = prepared.windows[w];
-      if (fold[window.drive] != f || !model.used(w)) continue;
-      DriveErrors& e = errors[window.drive];
-      WindowGap gap{campaign.drives[window.drive].terrain, window.drive, window.start_s, window.stations};
-      int counted = 0;
-      for (std::size_t i = 0; i < window.observations.size(); ++i) {
-        const auto row = static_cast<Eigen::Index>(model.offset(w) + i);
-        const double deviation = noise.deviation()[row];
-        if (deviation <= 0.0 || !std::isfinite(prepared.nominal_residuals[row])) continue;
-        if (window.censored && window.observations[i].channel == Channel::kSlip) continue;
-        const double value = window.observations[i].value;
-        points.push_back({window.observations[i].channel, window.observations[i].wheel, window.drive,
-                          window.start_s, value, value - prepared.nominal_residuals[row],
-                          value - retuned.residuals[row], value - found[row]});
-        const auto c = static_cast<std::size_t>(window.observations[i].channel);
-        e.nominal[c] += std::pow(prepared.nominal_residuals[row], 2);
-        e.retuned[c] += std::pow(retuned.residuals[row], 2);
-        e.with[c] += std::pow(found[row], 2);
-        e.floor[c] += deviation * deviation;
-        ++e.count[c];
-        gap.nominal += std::pow(prepared.nominal_residuals[row] / deviation, 2);
-        gap.retuned += std::pow(retuned.residuals[row] / deviation, 2);
-        gap.with_effects += std::pow(found[row] / deviation, 2);
-        ++counted;
-        e.scaled_retuned += std::pow(retuned.residuals[row] / deviation, 2);
-        e.scaled_with += std::pow(found[row] / deviation, 2);
-        ++e.scaled_count;
-        // As heavy-tailed as the fits' loss.
-        const auto loss = [&](double r) {
-          const double a = std::abs(r);
-          return a <= fit_options.huber ? 0.5 * a * a : fit_options.huber * (a - 0.5 * fit_options.huber);
-        };
-        e.log_gain += loss(white_retuned[row]) - loss(white_found[row]);
-      }
-      if (counted == 0) continue;
-      for (double* sum : {&gap.nominal, &gap.retuned, &gap.with_effects}) *sum = std::sqrt(*sum / counted);
-      gaps.push_back(std::move(gap));
-    }
+// All drives, and each resample of them.
+struct Bootstrapped {
+  HeldOutErrors all;
+  std::vector<HeldOutErrors> resampled;
+
+  template <class Number>
+  Interval interval(const Number& number) const {
+    std::vector<double> values;
+    for (const HeldOutErrors& e : resampled) values.push_back(number(e));
+    return {number(all), quantile(values, 0.05), quantile(values, 0.95)};
   }
-  Totals all;
-  std::vector<std::size_t> with_data;
-  for (std::size_t d = 0; d < errors.size(); ++d)
-    if (errors[d].scaled_count > 0) {
-      all.add(errors[d]);
-      with_data.push_back(d);
-    }
-  Shrink shrink;
-  shrink.points = std::move(points);
-  shrink.windows = std::move(gaps);
-  if (with_data.empty()) return shrink;
-  std::vector<Totals> resampled;
-  for (const auto& picks : resampled_indices(with_data.size(), options.resamples, options.seed)) {
-    Totals t;
-    for (const std::size_t pick : picks) t.add(errors[with_data[pick]]);
-    resampled.push_back(t);
-  }
+
   // A resample that leaves nothing to close says neither end: it counts for both.
-  const auto closed_interval = [&](const auto& number) -> std::optional<Interval> {
+  template <class Number>
+  std::optional<Interval> closed_interval(const Number& number) const {
     const std::optional<double> value = number(all);
     if (!value) return std::nullopt;
     std::vector<double> low, high;
-    for (const Totals& t : resampled) {
-      const std::optional<double> share = number(t);
+    for (const HeldOutErrors& e : resampled) {
+      const std::optional<double> share = number(e);
       low.push_back(share.value_or(0.0));
       high.push_back(share.value_or(1.0));
     }
     return Interval{*value, quantile(std::move(low), 0.05), quantile(std::move(high), 0.95)};
-  };
-  const auto interval = [&](const auto& number) {
-    std::vector<double> values;
-    for (const Totals& t : resampled) values.push_back(number(t));
-    return Interval{number(all), quantile(values, 0.05), quantile(values, 0.95)};
-  };
-  for (int c = 0; c < kChannels; ++c) {
-    if (all.count[c] == 0.0) continue;
-    const auto rms = [c](const auto& sums) {
-      return [c, sums](const Totals& t) {
-        return t.count[c] > 0.0 ? std::sqrt((t.*sums)[c] / t.count[c]) : 0.0;
-      };
-    };
-    shrink.channels.push_back({static_cast<Channel>(c), interval(rms(&Totals::nominal)),
-                               interval(rms(&Totals::retuned)), interval(rms(&Totals::with)),
-                               interval(rms(&Totals::floor)),
-                               closed_interval([c](const Totals& t) { return t.closed(c); })});
   }
-  shrink.closed_fraction = interval([](const Totals& t) { return t.closed().value_or(0.0); });
-  double mean = 0.0, square = 0.0;
-  for (const std::size_t d : with_data) mean += errors[d].log_gain / static_cast<double>(with_data.size());
-  for (const std::size_t d : with_data) square += std::pow(errors[d].log_gain - mean, 2);
-  shrink.log_density_gain = mean;
-  shrink.gain_error = std::sqrt(square) / static_cast<double>(with_data.size());
+};
+
+// A window of the told correction, for pictures and maps.
+void keep(const PreparedCampaign& prepared, const DriveCampaign& campaign,
+          const HeldOutComparison& comparison, const HeldOutErrors& errors, std::size_t w, Shrink& shrink) {
+  const DriveWindow& window = prepared.windows[w];
+  for (std::size_t i = 0; i < window.observations.size(); ++i) {
+    if (!comparison.compares(w, i)) continue;
+    const Observation& o = window.observations[i];
+    const std::size_t row = prepared.model->offset(w) + i;
+    shrink.points.push_back({o.channel, o.wheel, window.drive, window.start_s, o.value,
+                             o.value - prepared.nominal_residuals[static_cast<Eigen::Index>(row)],
+                             o.value - comparison.retuned(row), o.value - comparison.corrected(row)});
+  }
+  if (errors.scaled_count == 0.0) return;
+  shrink.windows.push_back({campaign.drives[window.drive].terrain, window.drive, window.start_s,
+                            window.stations, std::sqrt(errors.scaled_nominal / errors.scaled_count),
+                            std::sqrt(errors.scaled_retuned / errors.scaled_count),
+                            std::sqrt(errors.scaled_with / errors.scaled_count)});
+}
+
+}  // namespace
+
+Result<Shrink> shrink_on_held_out(const PreparedCampaign& prepared, const DriveCampaign& campaign,
+                                  const CorrectionChoice& choice, const DriveResampling& drives,
+                                  const DiagnosisOptions& options, Progress& progress) {
+  const WindowModel& model = *prepared.model;
+  Shrink shrink;
+  // By correction and group of drives.
+  std::vector<std::vector<HeldOutErrors>> errors(choice.corrections.size(),
+                                                 std::vector<HeldOutErrors>(drives.group_count));
+  for (int f = 0; f < options.folds; ++f) {
+    if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
+    progress.report("predicting held-out drives", 0.8 + 0.15 * f / options.folds);
+    // Folds alternate along the list of drives, so that each has every kind; repeats share theirs.
+    std::vector<bool> learnt_from;
+    for (const std::size_t group : drives.groups)
+      learnt_from.push_back(static_cast<int>(group % static_cast<std::size_t>(options.folds)) != f);
+    if (std::find(learnt_from.begin(), learnt_from.end(), false) == learnt_from.end()) continue;
+    const std::vector<bool> seen = rows_of(model, learnt_from);
+    const FittedExplanation retuned = retuned_on(prepared, seen, options.search.threads);
+    for (std::size_t k = 0; k < choice.corrections.size(); ++k) {
+      if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
+      const HeldOutComparison comparison(prepared, retuned.residuals, choice.corrections[k](retuned, seen));
+      for (std::size_t w = 0; w < prepared.windows.size(); ++w) {
+        const std::size_t drive = prepared.windows[w].drive;
+        if (learnt_from[drive] || !model.used(w)) continue;
+        const HeldOutErrors of_window = comparison.errors(w);
+        errors[k][drives.groups[drive]].add(of_window);
+        if (k == 0) keep(prepared, campaign, comparison, of_window, w, shrink);
+      }
+    }
+  }
+  Bootstrapped sums;
+  double groups = 0.0;
+  for (const HeldOutErrors& e : errors[0]) {
+    sums.all.add(e);
+    groups += e.scaled_count > 0.0 ? 1.0 : 0.0;
+  }
+  if (groups == 0.0) return shrink;
+  for (std::size_t b = 0; b < drives.resamples.size(); ++b) {
+    const std::size_t chosen = choice.of_resample.empty() ? 0 : choice.of_resample[b];
+    sums.resampled.emplace_back();
+    for (const std::size_t group : drives.resamples[b]) sums.resampled.back().add(errors[chosen][group]);
+  }
+  for (int c = 0; c < kChannels; ++c) {
+    if (sums.all.count[c] == 0.0) continue;
+    const auto rms = [&](const auto& squares) {
+      return sums.interval([c, squares](const HeldOutErrors& e) {
+        return e.count[c] > 0.0 ? std::sqrt((e.*squares)[c] / e.count[c]) : 0.0;
+      });
+    };
+    shrink.channels.push_back({static_cast<Channel>(c), rms(&HeldOutErrors::nominal),
+                               rms(&HeldOutErrors::retuned), rms(&HeldOutErrors::with),
+                               rms(&HeldOutErrors::floor),
+                               sums.closed_interval([c](const HeldOutErrors& e) { return closed(e, c); })});
+  }
+  shrink.closed_fraction = sums.interval([](const HeldOutErrors& e) { return closed(e).value_or(0.0); });
+  shrink.log_density_gain = sums.all.log_gain / groups;
   return shrink;
 }
 

@@ -1,13 +1,13 @@
 #pragma once
 
-#include <cstdint>
-#include <functional>
 #include <optional>
 #include <vector>
 
 #include "core/progress.h"
 #include "core/result.h"
 #include "gap/diagnosis.h"
+#include "gap/drive_resampling.h"
+#include "gap/held_out.h"
 #include "gap/prepared_campaign.h"
 
 namespace slipway::gap {
@@ -17,22 +17,20 @@ namespace slipway::gap {
 struct Shrink {
   std::vector<ChannelShrink> channels;
   std::optional<Interval> closed_fraction;
-  double log_density_gain = 0.0;  // held-out log density of `with` over the null's, a drive
-  double gain_error = 0.0;        // its standard error over drives
+  double log_density_gain = 0.0;  // held-out log density of the correction over the null's, a drive
   std::vector<HeldOutPoint> points;
   std::vector<WindowGap> windows;
 };
 
-// Residuals of all observations by what was learnt from those that were `seen`, to which `retuned` was
-// fitted.
-using Correction =
-    std::function<Eigen::VectorXd(const FittedExplanation& retuned, const std::vector<bool>& seen)>;
-// `explanation` fitted again to what was seen; both must outlive it.
-Correction refitted(const PreparedCampaign& prepared, const FittedExplanation& explanation,
-                    std::size_t threads);
+// The correction that is told, [0], and those that would have been chosen had other drives been made.
+struct CorrectionChoice {
+  std::vector<Correction> corrections;
+  std::vector<std::size_t> of_resample;  // which of them; empty: always the first
+};
 
+// Intervals are over resamples of drives, the choice repeated in each as far as `choice` says.
 Result<Shrink> shrink_on_held_out(const PreparedCampaign& prepared, const DriveCampaign& campaign,
-                                  const Correction& with, const DiagnosisOptions& options,
-                                  Progress& progress);
+                                  const CorrectionChoice& choice, const DriveResampling& drives,
+                                  const DiagnosisOptions& options, Progress& progress);
 
 }  // namespace slipway::gap

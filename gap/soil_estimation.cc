@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/normal_interval.h"
 #include "core/random.h"
 #include "gap/jacobian_svd.h"
 #include "gap/soil_posterior.h"
@@ -339,8 +340,8 @@ class Estimation {
       if (!found) return fail(found.error());
       interval = *found;
     } else {
-      interval.low = std::max(unknowns[at].lowest, around[at] - kNinety * alone);
-      interval.high = std::min(unknowns[at].highest, around[at] + kNinety * alone);
+      interval.low = std::max(unknowns[at].lowest, around[at] - kReach90 * alone);
+      interval.high = std::min(unknowns[at].highest, around[at] + kReach90 * alone);
       interval.low_open = interval.low <= unknowns[at].lowest;
       interval.high_open = interval.high >= unknowns[at].highest;
     }
@@ -361,7 +362,6 @@ class Estimation {
     return p;
   }
 
-  static constexpr double kNinety = 1.6449;
   static constexpr double kOutlierScales = 2.0;  // of the loss
 
   const sim::SoilDistribution& nominal_;

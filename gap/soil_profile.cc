@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/normal_interval.h"
+
 namespace slipway::gap {
 namespace {
 
@@ -147,8 +149,7 @@ Result<ProfileInterval> profile_interval(std::span<const Unknown> unknowns, std:
   const Unknown& u = unknowns[profiled];
   ProfileInterval interval{u.lowest, u.highest, true, true};
   if (least) {
-    constexpr double kNinety = 1.6449;
-    const double step = kNinety * (deviation > 0.0 ? deviation : u.step_scale);
+    const double step = kReach90 * (deviation > 0.0 ? deviation : u.step_scale);
     interval.low = profile.end(at, *least, step, u.lowest, interval.low_open);
     interval.high = profile.end(at, *least, step, u.highest, interval.high_open);
   }

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/normal_interval.h"
+
 namespace slipway::gap {
 namespace {
 
 constexpr std::size_t kMostShapes = 5;
-constexpr double kNinety = 1.6448536269514722;
 
 }  // namespace
 
@@ -30,7 +31,7 @@ std::vector<ResidualShape> describe_unexplained(const PreparedCampaign& prepared
     // A coefficient is linear in its variable: two ends and the middle say its shape.
     for (const double at : {-1.0, 0.0, 1.0}) {
       const double times = column.variable == "constant" ? 1.0 : at;
-      const double value = times * found.mean[c], reach = kNinety * std::abs(times) * found.error[c];
+      const double value = times * found.mean[c], reach = kReach90 * std::abs(times) * found.error[c];
       shape.shape.push_back({at, {value, value - reach, value + reach}});
     }
     shapes.push_back(std::move(shape));

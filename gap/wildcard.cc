@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <limits>
 
 #include "core/angle.h"
 #include "gap/effect_trace.h"
@@ -82,6 +84,20 @@ Eigen::MatrixXd both(const Eigen::MatrixXd& known, const Eigen::MatrixXd& white,
   Eigen::MatrixXd columns(known.rows(), known.cols() + white.cols());
   columns << known, size * white;
   return columns;
+}
+
+// The columns of a fit with others of every size beside; `take` is told whether the size is that of something
+// else, and says whether to go on.
+void for_sizes(const FittedExplanation& fit, const Eigen::MatrixXd& white, const Eigen::MatrixXd& form,
+               const std::function<bool(bool, const Eigen::MatrixXd&)>& take) {
+  for (const double exact : kFormSizes) {
+    if (exact > 0.0 && form.cols() == 0) continue;
+    const Eigen::MatrixXd known = both(fit.white_jacobian, form, exact);
+    for (const double share : kImprecisionShares)
+      if (!take(false, both(known, white, share * kImprecision))) return;
+    for (const double size : kSizes)
+      if (!take(true, both(known, white, size))) return;
+  }
 }
 
 // Which axle each wheel is on, from the front.
@@ -262,18 +278,29 @@ WildcardGain wildcard_gain(const FittedExplanation& fit, const NoiseModel& noise
   const Eigen::MatrixXd white = whitened(fit, noise, wildcard);
   const double without = log_marginal(fit.white_linear, fit.white_jacobian);
   std::vector<double> imprecise, other;
-  for (const double exact : kFormSizes) {
-    if (noise.cancelled()) return {};
-    if (exact > 0.0 && form.cols() == 0) continue;
-    const Eigen::MatrixXd known = both(fit.white_jacobian, form, exact);
-    for (const double share : kImprecisionShares)
-      imprecise.push_back(log_marginal(fit.white_linear, both(known, white, share * kImprecision)));
-    for (const double size : kSizes) {
-      if (noise.cancelled()) return {};
-      other.push_back(log_marginal(fit.white_linear, both(known, white, size)));
-    }
-  }
+  for_sizes(fit, white, form, [&](bool something_else, const Eigen::MatrixXd& columns) {
+    if (noise.cancelled()) return false;
+    (something_else ? other : imprecise).push_back(log_marginal(fit.white_linear, columns));
+    return true;
+  });
+  if (noise.cancelled()) return {};
   return {log_mean_exp(imprecise) - without, log_mean_exp(other) - without};
+}
+
+Eigen::MatrixXd columns_beside(const FittedExplanation& fit, const NoiseModel& noise,
+                               const Wildcard& wildcard, const Eigen::MatrixXd& form, bool something_else) {
+  Eigen::MatrixXd best = fit.white_jacobian;
+  double most = -std::numeric_limits<double>::infinity();
+  for_sizes(fit, whitened(fit, noise, wildcard), form, [&](bool else_too, const Eigen::MatrixXd& columns) {
+    if (noise.cancelled()) return false;
+    if (else_too != something_else) return true;
+    if (const double value = log_marginal(fit.white_linear, columns); value > most) {
+      most = value;
+      best = columns;
+    }
+    return true;
+  });
+  return best;
 }
 
 WildcardEstimate estimate_wildcard(const FittedExplanation& fit, const NoiseModel& noise,

@@ -67,6 +67,11 @@ struct WildcardGain {
 WildcardGain wildcard_gain(const FittedExplanation& fit, const NoiseModel& noise, const Wildcard& wildcard,
                            const Eigen::MatrixXd& form);
 
+// The fit's whitened columns with the form's and the wildcard's behind, these at their most probable sizes
+// among those that wildcard_gain averages over.
+Eigen::MatrixXd columns_beside(const FittedExplanation& fit, const NoiseModel& noise,
+                               const Wildcard& wildcard, const Eigen::MatrixXd& form, bool something_else);
+
 // The coefficients' means and standard errors, in units of the columns, at the most probable size.
 struct WildcardEstimate {
   Eigen::VectorXd mean, error;

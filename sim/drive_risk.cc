@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "core/normal_interval.h"
 #include "core/parallel_for.h"
 #include "core/random.h"
 
@@ -117,7 +118,7 @@ double quantile(std::vector<double>& values, double p) {
 
 // Wilson's interval for a share of n, at 90 % [Wilson 1927].
 void set_interval(DrivePrediction& prediction, double share, double n) {
-  constexpr double z = 1.6448536269514722;
+  constexpr double z = kReach90;
   const double centre = (share + z * z / (2.0 * n)) / (1.0 + z * z / n);
   const double half = z / (1.0 + z * z / n) * std::sqrt(share * (1.0 - share) / n + z * z / (4.0 * n * n));
   prediction.risk = share;

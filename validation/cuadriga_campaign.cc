@@ -10,6 +10,7 @@
 #include "api/catalogue.h"
 #include "api/drive_campaign_source.h"
 #include "core/angle.h"
+#include "core/normal_interval.h"
 #include "gap/prepared_campaign.h"
 #include "validation/comparisons.h"
 #include "validation/statistics.h"
@@ -18,7 +19,6 @@ namespace slipway::validation {
 namespace {
 
 constexpr int kFolds = 6;
-constexpr double kNinety = 1.6448536269514722;
 constexpr double kSteep_deg = 8.0;
 
 // A quantity of a window of a log that the fit had not seen.
@@ -95,7 +95,7 @@ void tell(const gap::PreparedCampaign& prepared, const gap::DriveCampaign& campa
   const gap::DriveWindow& window = prepared.windows[w];
   const double gradient = prepared.model->conditions(w).pitch_rad;
   if (!slip.known) return;
-  const double reach = kNinety * slip.deviation;
+  const double reach = kReach90 * slip.deviation;
   out.slip.push_back({window.drive, gradient, slip.measured, slip.nominal, slip.corrected,
                       slip.corrected - reach, slip.corrected + reach});
   if (!current.known) return;
@@ -105,8 +105,9 @@ void tell(const gap::PreparedCampaign& prepared, const gap::DriveCampaign& campa
   };
   const double corrected = charge(current.corrected, slip.corrected);
   // Of the logarithm: current and slip are taken to err apart.
-  const double factor = std::exp(kNinety * std::hypot(current.deviation / std::max(0.1, current.corrected),
-                                                      slip.deviation / std::max(0.05, 1.0 - slip.corrected)));
+  const double factor =
+      std::exp(kReach90 * std::hypot(current.deviation / std::max(0.1, current.corrected),
+                                     slip.deviation / std::max(0.05, 1.0 - slip.corrected)));
   out.charge_as.push_back({window.drive, gradient, charge(current.measured, slip.measured),
                            charge(current.nominal, slip.nominal), corrected, corrected / factor,
                            corrected * factor});

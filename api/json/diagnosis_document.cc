@@ -83,7 +83,8 @@ void write_candidates(Writer& w, const Diagnosis& d) {
   for (const gap::ComparedSet& set : compared_sets(d)) {
     w.begin_object().texts("effects", set.effects).exact("probability", set.probability);
     if (set.held_out_score) write_finite(w, "held_out_score", *set.held_out_score);
-    w.whole("complexity", set.complexity).end_object();
+    w.whole("complexity", set.complexity);
+    w.significant("chosen_share", set.chosen_share).end_object();
   }
   w.end_array().key("confusable").begin_array();
   for (const gap::ConfusablePair& pair : d.confusable)
@@ -156,6 +157,16 @@ void write_windows(Writer& w, const gap::DriveCampaign& campaign, const Diagnosi
     write_finite(w, "retuned", window.retuned);
     write_finite(w, "with_effects", window.with_effects);
     w.end_object();
+  }
+  w.end_array();
+}
+
+void write_extrapolations(Writer& w, const Diagnosis& d) {
+  w.key("extrapolation").begin_array();
+  for (const gap::Extrapolation& e : d.extrapolations) {
+    w.begin_object().text("variable", e.variable).significant(e.above ? "above" : "below", e.limit);
+    w.whole("drives", static_cast<std::int64_t>(e.groups));
+    w.significant("log_density_gain", e.log_density_gain).significant("standard_error", e.error).end_object();
   }
   w.end_array();
 }
@@ -252,10 +263,12 @@ std::vector<gap::ComparedSet> compared_sets(const Diagnosis& diagnosis) {
   double sum = 0.0;
   for (const gap::ComparedSet& candidate : diagnosis.candidates) {
     sum += candidate.probability;
-    if (const auto known = same(candidate.effects); known != sets.end())
+    if (const auto known = same(candidate.effects); known != sets.end()) {
       known->probability += candidate.probability;
-    else
+      known->chosen_share += candidate.chosen_share;
+    } else {
       sets.push_back(candidate);
+    }
   }
   for (const std::vector<std::string>& always : {std::vector<std::string>{}, {"unknown"}})
     if (same(always) == sets.end()) sets.push_back({always, 0.0, std::nullopt, 0});
@@ -302,6 +315,7 @@ std::string diagnosis_document(const gap::DriveCampaign& campaign, const Diagnos
   write_windows(w, campaign, d);
   w.end_object();
   write_gap(w, d);
+  write_extrapolations(w, d);
   write_residual(w, d);
   write_least_detectable(w, d);
   write_next_drives(w, d);

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+#include "core/result.h"
+#include "gap/diagnosis.h"
+#include "gap/drive_resampling.h"
+#include "gap/held_out.h"
+
+namespace slipway::gap {
+
+// What a correction learnt from the gentle drives is worth on the harsh ones: along the slope, the cold and
+// the speed of drives as far as the campaign has them, the harshest third is told from the rest.
+Result<std::vector<Extrapolation>> extrapolate(const PreparedCampaign& prepared,
+                                               const DriveCampaign& campaign, const Correction& correction,
+                                               const DriveResampling& drives, const DiagnosisOptions& options,
+                                               Progress& progress);
+
+}  // namespace slipway::gap

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "gap/drive_resampling.h"
+#include "gap/explanation_search.h"
+#include "gap/prepared_campaign.h"
+
+namespace slipway::gap {
+
+// Of a set's probability: below it the answer is a set of sets.
+inline constexpr double kCertain = 0.5;
+
+// Which of the candidates, most probable first, the answer is: the most probable one with something unknown
+// where that has more than half in all; else the most probable one, or, where none is certain, one with fewer
+// effects of the same that is not much less probable. What adds little is not worth a name.
+std::size_t chosen_among(std::span<const Candidate> candidates);
+
+// Which candidate would have been chosen had other drives of the same kinds been made: drives, with their
+// repeats, drawn with replacement. Fits are not repeated: a drive that counts twice does so in the linearised
+// evidence of each explanation. Candidates of less than a hundredth have no part.
+struct SelectionBootstrap {
+  std::vector<std::size_t> chosen;  // of each resample
+  std::vector<double> share;        // of each candidate: of the resamples that chose it
+};
+SelectionBootstrap resample_selection(const ExplanationSearch& search, const PreparedCampaign& prepared,
+                                      const DriveCampaign& campaign, const SearchOptions& options,
+                                      const DriveResampling& drives);
+
+}  // namespace slipway::gap

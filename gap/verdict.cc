@@ -1,0 +1,164 @@
+#include "gap/verdict.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "gap/selection.h"
+
+namespace slipway::gap {
+namespace {
+
+constexpr double kParametersGain = 20.0;  // of the logarithm of the evidence, for calling parameters mis-set
+constexpr double kSurelySeen = 6.0;    // standard errors: what the tempered evidence asks for over its prior
+constexpr double kSmall = 0.5;         // of an effect's usual size
+constexpr double kBeyondChance = 2.0;  // standard errors
+
+// How much more probable the drives are when soils and motors may differ from the nominal ones, closures
+// being free in either case.
+double gain_of_parameters(const PreparedCampaign& prepared, const DriveCampaign& campaign,
+                          std::size_t threads) {
+  const FittedExplanation& null = *prepared.null;
+  const Hypothesis pinned(campaign, {}, FreeNuisances::kClosures);
+  std::vector<double> start;
+  for (const Parameter& closure : pinned.parameters())
+    for (std::size_t p = 0; p < null.x.size(); ++p)
+      if (null.hypothesis.parameters()[p].name == closure.name) start.push_back(null.x[p]);
+  ExplanationOptions options;
+  options.threads = threads;
+  const FittedExplanation nominal = fit_explanation(pinned, *prepared.model, *prepared.noise, start, options);
+  const auto evidence = [&](const FittedExplanation& fit) {
+    return fit.log_evidence + wildcard_gain(fit, *prepared.noise, prepared.wildcard,
+                                            Eigen::MatrixXd(fit.white_jacobian.rows(), 0))
+                                  .imprecision;
+  };
+  return evidence(null) - evidence(nominal);
+}
+
+std::vector<std::string> names_in(const Candidate& c) {
+  std::vector<std::string> names = c.effects;
+  if (c.with_unknown) names.emplace_back("unknown");
+  return names;
+}
+
+void judge_without_effects(const DriveCampaign& campaign, const PreparedCampaign& prepared,
+                           const ExplanationSearch& search, double probability, std::size_t threads,
+                           Diagnosis& d) {
+  for (const ScreenedVariant& s : search.screened) {
+    if (s.visibility <= 0.0) continue;
+    if (std::any_of(d.least_detectable.begin(), d.least_detectable.end(),
+                    [&](const LeastDetectable& l) { return l.effect == s.variant.effect; }))
+      continue;
+    const EffectVariant::Free& free = s.variant.free.front();
+    d.least_detectable.push_back({s.variant.effect, free.field, kSurelySeen * free.std / s.visibility});
+  }
+  const double gain = gain_of_parameters(prepared, campaign, threads);
+  if (gain > kParametersGain) {
+    d.verdict = Verdict::kParameters;
+    d.reason = fmt::format(
+        "re-tuned soil and motor parameters explain the drives (log evidence +{:.0f}); no effect is "
+        "missing (probability {:.2f})",
+        gain, probability);
+    d.overturned_by = "an effect that acts like these parameters in every drive that was made";
+    return;
+  }
+  // Of effects at their usual size, how many could have hidden?
+  int hidden = 0, all = 0;
+  for (const ScreenedVariant& s : search.screened) {
+    ++all;
+    if (s.visibility * kSmall < kSurelySeen) ++hidden;
+  }
+  const bool seen = 2 * hidden < all;
+  d.verdict = seen ? Verdict::kNoGap : Verdict::kNotDetected;
+  d.reason =
+      seen ? fmt::format("prediction and drives agree within the drives' own scatter (probability {:.2f})",
+                         probability)
+           : "no gap was found, but these drives could not have shown effects of half their usual size";
+  d.overturned_by = "drives that show an effect below the least size that these could have shown";
+}
+
+}  // namespace
+
+Interval parameter_interval(const FittedExplanation& fit, std::size_t parameter) {
+  const auto i = static_cast<Eigen::Index>(parameter);
+  return normal_interval(fit.x[parameter],
+                         fit.hypothesis.parameters()[parameter].std * std::sqrt(fit.covariance(i, i)));
+}
+
+void judge(const DriveCampaign& campaign, const PreparedCampaign& prepared, const ExplanationSearch& search,
+           std::size_t best, std::size_t threads, Diagnosis& d) {
+  const Candidate& chosen = search.candidates[best];
+  const FittedExplanation& fit = search.fits[chosen.fit];
+  std::map<std::set<std::string>, double> sets;
+  std::map<std::string, double> single;
+  double unknown = 0.0;
+  for (const Candidate& c : search.candidates) {
+    const std::vector<std::string> names = names_in(c);
+    sets[{names.begin(), names.end()}] += c.probability;
+    for (const std::string& name : c.effects) single[name] += c.probability;
+    if (c.with_unknown) unknown += c.probability;
+    d.candidates.push_back({names, c.probability, std::nullopt,
+                            static_cast<int>(search.fits[c.fit].x.size() - search.fits[0].x.size())});
+  }
+  const std::vector<std::string> named = names_in(chosen);
+  const double probability = sets[{named.begin(), named.end()}];
+  if (unknown > 0.5 || chosen.with_unknown) {
+    d.verdict = Verdict::kUnknown;
+    d.reason =
+        fmt::format("a gap remains that no effect of the library explains (probability {:.2f})", unknown);
+    d.overturned_by = "an effect of the library with another equation than the library's would look the same";
+  } else if (chosen.effects.empty()) {
+    judge_without_effects(campaign, prepared, search, probability, threads, d);
+  } else {
+    d.verdict = probability >= kCertain ? Verdict::kEffects : Verdict::kEffectSet;
+    d.reason =
+        fmt::format("{} explain{} what re-tuned parameters leave over (probability {:.2f})",
+                    fmt::join(chosen.effects, " and "), chosen.effects.size() == 1 ? "s" : "", probability);
+    const auto rival = std::find_if(search.candidates.begin(), search.candidates.end(),
+                                    [&](const Candidate& c) { return names_in(c) != named; });
+    if (rival != search.candidates.end()) {
+      const std::vector<std::string> rivals = names_in(*rival);
+      d.overturned_by =
+          fmt::format("next best: {} (probability {:.2g})",
+                      rivals.empty() ? "nothing missing" : fmt::format("{}", fmt::join(rivals, " and ")),
+                      rival->probability);
+    }
+  }
+  if (d.verdict == Verdict::kUnknown && !chosen.effects.empty())
+    d.notes.push_back(
+        fmt::format("{} would fit beside what is unexplained, and may be its shadow: nothing is named",
+                    fmt::join(chosen.effects, " and ")));
+  if (d.verdict != Verdict::kEffects && d.verdict != Verdict::kEffectSet) return;
+  for (std::size_t e = 0; e < chosen.effects.size(); ++e) {
+    FoundEffect found{chosen.effects[e], fit.hypothesis.effects()[e].label, single[chosen.effects[e]], {}};
+    const auto parameters = fit.hypothesis.parameters();
+    for (std::size_t p = fit.hypothesis.nuisance_count(); p < parameters.size(); ++p)
+      if (parameters[p].effect == found.name)
+        found.parameters.push_back(
+            {parameters[p].name.substr(found.name.size() + 1), parameter_interval(fit, p)});
+    for (const auto& [field, value] : fit.hypothesis.effects()[e].fixed)
+      found.parameters.push_back({field, {value, value, value}});
+    d.effects.push_back(std::move(found));
+  }
+}
+
+void doubt_what_does_not_extrapolate(Diagnosis& d) {
+  if (d.verdict != Verdict::kEffects) return;
+  for (const Extrapolation& e : d.extrapolations) {
+    if (e.log_density_gain + kBeyondChance * e.error >= 0.0) continue;
+    d.verdict = Verdict::kEffectSet;
+    d.reason += fmt::format(
+        "; but learnt from the other drives it tells those of {} {} {:.3g} worse than re-tuned "
+        "parameters alone",
+        e.variable, e.above ? "above" : "below", e.limit);
+    return;
+  }
+}
+
+}  // namespace slipway::gap
