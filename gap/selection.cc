@@ -13,50 +13,6 @@ constexpr double kMuchLess = 0.5;       // of a probability
 constexpr double kInTheRunning = 0.01;  // of a candidate's probability
 constexpr std::size_t kMostInTheRunning = 6;
 
-// What the linearised evidence of an explanation is made of, by groups of drives.
-class GroupedEvidence {
- public:
-  GroupedEvidence(const WindowModel& model, const Eigen::VectorXd& residuals, const Eigen::MatrixXd& columns,
-                  const DriveResampling& drives)
-      : square_(drives.group_count, 0.0),
-        gradient_(drives.group_count, Eigen::VectorXd::Zero(columns.cols())),
-        hessian_(drives.group_count, Eigen::MatrixXd::Zero(columns.cols(), columns.cols())) {
-    std::vector<std::vector<Eigen::Index>> rows(drives.group_count);
-    for (std::size_t w = 0; w < model.windows().size(); ++w)
-      for (std::size_t i = 0; i < model.windows()[w].observations.size(); ++i)
-        rows[drives.groups[model.windows()[w].drive]].push_back(
-            static_cast<Eigen::Index>(model.offset(w) + i));
-    for (std::size_t g = 0; g < drives.group_count; ++g) {
-      const Eigen::MatrixXd part = columns(rows[g], Eigen::all);
-      const Eigen::VectorXd left = residuals(rows[g]);
-      square_[g] = left.squaredNorm();
-      gradient_[g] = part.transpose() * left;
-      hessian_[g] = part.transpose() * part;
-    }
-  }
-
-  // log_marginal of the drives with each group counted so many times.
-  double counted(std::span<const int> times) const {
-    double square = 0.0;
-    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(gradient_.front().size());
-    Eigen::MatrixXd hessian = Eigen::MatrixXd::Identity(gradient.size(), gradient.size());
-    for (std::size_t g = 0; g < times.size(); ++g) {
-      if (times[g] == 0) continue;
-      square += times[g] * square_[g];
-      gradient += times[g] * gradient_[g];
-      hessian += times[g] * hessian_[g];
-    }
-    const Eigen::LLT<Eigen::MatrixXd> factor(hessian);
-    return -0.5 * (square - gradient.dot(factor.solve(gradient))) -
-           factor.matrixLLT().diagonal().array().log().sum();
-  }
-
- private:
-  std::vector<double> square_;
-  std::vector<Eigen::VectorXd> gradient_;
-  std::vector<Eigen::MatrixXd> hessian_;
-};
-
 std::size_t simplest_of_the_best(std::span<const Candidate> candidates) {
   std::size_t best = 0;
   if (candidates.front().probability >= kCertain) return best;
@@ -85,6 +41,38 @@ std::size_t chosen_among(std::span<const Candidate> candidates) {
   return static_cast<std::size_t>(first - candidates.begin());
 }
 
+GroupedEvidence::GroupedEvidence(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& columns,
+                                 std::span<const std::size_t> group_of_row, std::size_t group_count)
+    : square_(group_count, 0.0),
+      gradient_(group_count, Eigen::VectorXd::Zero(columns.cols())),
+      hessian_(group_count, Eigen::MatrixXd::Zero(columns.cols(), columns.cols())) {
+  std::vector<std::vector<Eigen::Index>> rows(group_count);
+  for (std::size_t row = 0; row < group_of_row.size(); ++row)
+    rows[group_of_row[row]].push_back(static_cast<Eigen::Index>(row));
+  for (std::size_t g = 0; g < group_count; ++g) {
+    const Eigen::MatrixXd part = columns(rows[g], Eigen::all);
+    const Eigen::VectorXd left = residuals(rows[g]);
+    square_[g] = left.squaredNorm();
+    gradient_[g] = part.transpose() * left;
+    hessian_[g] = part.transpose() * part;
+  }
+}
+
+double GroupedEvidence::counted(std::span<const int> times) const {
+  double square = 0.0;
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(gradient_.front().size());
+  Eigen::MatrixXd hessian = Eigen::MatrixXd::Identity(gradient.size(), gradient.size());
+  for (std::size_t g = 0; g < times.size(); ++g) {
+    if (times[g] == 0) continue;
+    square += times[g] * square_[g];
+    gradient += times[g] * gradient_[g];
+    hessian += times[g] * hessian_[g];
+  }
+  const Eigen::LLT<Eigen::MatrixXd> factor(hessian);
+  return -0.5 * (square - gradient.dot(factor.solve(gradient))) -
+         factor.matrixLLT().diagonal().array().log().sum();
+}
+
 SelectionBootstrap resample_selection(const ExplanationSearch& search, const PreparedCampaign& prepared,
                                       const DriveCampaign& campaign, const SearchOptions& options,
                                       const DriveResampling& drives) {
@@ -92,15 +80,19 @@ SelectionBootstrap resample_selection(const ExplanationSearch& search, const Pre
   std::vector<Candidate> running;  // most probable first, as the search's
   std::vector<GroupedEvidence> evidence;
   std::vector<double> whole;  // of all drives, once each
+  std::vector<std::size_t> group_of_row(model.observation_count());
+  for (std::size_t w = 0; w < model.windows().size(); ++w)
+    for (std::size_t i = 0; i < model.windows()[w].observations.size(); ++i)
+      group_of_row[model.offset(w) + i] = drives.groups[model.windows()[w].drive];
   const std::vector<int> once(drives.group_count, 1);
   for (const Candidate& c : search.candidates) {
     if (c.probability < kInTheRunning || running.size() >= kMostInTheRunning) break;
     const FittedExplanation& fit = search.fits[c.fit];
     const Eigen::MatrixXd form = form_columns(campaign, model, *prepared.noise, fit, options.threads);
     running.push_back(c);
-    evidence.emplace_back(model, fit.white_linear,
+    evidence.emplace_back(fit.white_linear,
                           columns_beside(fit, *prepared.noise, prepared.wildcard, form, c.with_unknown),
-                          drives);
+                          group_of_row, drives.group_count);
     whole.push_back(evidence.back().counted(once));
   }
   SelectionBootstrap answer;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -17,6 +18,21 @@ inline constexpr double kCertain = 0.5;
 // where that has more than half in all; else the most probable one, or, where none is certain, one with fewer
 // effects of the same that is not much less probable. What adds little is not worth a name.
 std::size_t chosen_among(std::span<const Candidate> candidates);
+
+// The evidence of a linearised explanation, made of its parts by groups of drives: whitened residuals and
+// columns of prior deviation 1.
+class GroupedEvidence {
+ public:
+  GroupedEvidence(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& columns,
+                  std::span<const std::size_t> group_of_row, std::size_t group_count);
+  // log_marginal of the drives with each group counted so many times.
+  double counted(std::span<const int> times) const;
+
+ private:
+  std::vector<double> square_;
+  std::vector<Eigen::VectorXd> gradient_;
+  std::vector<Eigen::MatrixXd> hessian_;
+};
 
 // Which candidate would have been chosen had other drives of the same kinds been made: drives, with their
 // repeats, drawn with replacement. Fits are not repeated: a drive that counts twice does so in the linearised

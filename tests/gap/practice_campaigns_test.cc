@@ -20,9 +20,13 @@ Diagnosis diagnosis_of(const char* name, std::vector<std::string> withheld = {})
   NoProgress progress;
   auto diagnosis = diagnose(*campaign, options, progress);
   EXPECT_TRUE(diagnosis) << name;
-  double sum = 0.0;
-  for (const ComparedSet& set : diagnosis->candidates) sum += set.probability;
+  double sum = 0.0, chosen = 0.0;
+  for (const ComparedSet& set : diagnosis->candidates) {
+    sum += set.probability;
+    chosen += set.chosen_share;
+  }
   EXPECT_NEAR(sum, 1.0, 1e-9) << name;
+  EXPECT_NEAR(chosen, 1.0, 1e-9) << name;
   return std::move(*diagnosis);
 }
 
@@ -66,6 +70,10 @@ TEST(PracticeCampaigns, MotorTemperatureIsFoundAndCanBeWithheld) {
       EXPECT_LT(channel.with_effects.high, 0.7 * channel.retuned.low);
     }
   }
+  EXPECT_GT(found.candidates.front().chosen_share, 0.9) << "of resampled drives";
+  ASSERT_EQ(found.extrapolations.size(), 2U) << "slope and temperature differ, speed does not";
+  for (const Extrapolation& e : found.extrapolations)
+    EXPECT_GT(e.log_density_gain, 2.0 * e.error) << e.variable;
   const Diagnosis without = diagnosis_of("p05", {"motor_temperature"});
   const std::vector<std::string> named = names(without);
   EXPECT_EQ(std::count(named.begin(), named.end(), "motor_temperature"), 0);

@@ -1,0 +1,68 @@
+#include "gap/selection.h"
+
+#include <gtest/gtest.h>
+
+#include "core/random.h"
+#include "gap/noise_model.h"
+#include "gap/verdict.h"
+
+namespace slipway::gap {
+namespace {
+
+Candidate candidate(std::vector<std::string> effects, double probability, bool with_unknown = false) {
+  Candidate c;
+  c.effects = std::move(effects);
+  c.with_unknown = with_unknown;
+  c.probability = probability;
+  return c;
+}
+
+TEST(ChosenAmong, IsTheMostProbableOrASmallerSetWhereNoneIsCertain) {
+  EXPECT_EQ(chosen_among(std::vector{candidate({"a", "b"}, 0.6), candidate({"a"}, 0.4)}), 0U);
+  EXPECT_EQ(chosen_among(std::vector{candidate({"a", "b"}, 0.45), candidate({"a"}, 0.4)}), 1U);
+  EXPECT_EQ(chosen_among(std::vector{candidate({"a", "b"}, 0.45), candidate({"a"}, 0.2)}), 0U);
+  EXPECT_EQ(chosen_among(std::vector{candidate({"a", "b"}, 0.45), candidate({"c"}, 0.4)}), 0U);
+}
+
+TEST(ChosenAmong, IsSomethingUnknownWhereThatHasMoreThanHalfInAll) {
+  EXPECT_EQ(chosen_among(
+                std::vector{candidate({"a"}, 0.4), candidate({"b"}, 0.35, true), candidate({}, 0.25, true)}),
+            1U);
+  EXPECT_EQ(chosen_among(std::vector{candidate({"a"}, 0.6), candidate({}, 0.4, true)}), 0U);
+}
+
+// Counting a group twice is having its rows twice.
+TEST(GroupedEvidence, IsTheEvidenceOfTheDrivesAsOftenAsTheyCount) {
+  constexpr Eigen::Index kRows = 9;
+  const std::vector<std::size_t> group_of_row{0, 0, 1, 1, 1, 2, 0, 2, 1};
+  const std::vector<int> times{2, 0, 1};
+  Eigen::VectorXd r(kRows);
+  Eigen::MatrixXd a(kRows, 2);
+  for (Eigen::Index i = 0; i < kRows; ++i) {
+    r[i] = random_normal(1, static_cast<std::uint64_t>(i));
+    for (Eigen::Index c = 0; c < 2; ++c)
+      a(i, c) = random_normal(2 + static_cast<std::uint64_t>(c), static_cast<std::uint64_t>(i));
+  }
+  const GroupedEvidence evidence(r, a, group_of_row, 3);
+  EXPECT_NEAR(evidence.counted(std::vector<int>{1, 1, 1}), log_marginal(r, a), 1e-10);
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < kRows; ++i)
+    for (int k = 0; k < times[group_of_row[static_cast<std::size_t>(i)]]; ++k) rows.push_back(i);
+  EXPECT_NEAR(evidence.counted(times),
+              log_marginal(Eigen::VectorXd(r(rows)), Eigen::MatrixXd(a(rows, Eigen::all))), 1e-10);
+}
+
+TEST(Verdict, IsInDoubtWhereHarshDrivesAreToldWorseThanByChance) {
+  Diagnosis d;
+  d.verdict = Verdict::kEffects;
+  d.extrapolations.push_back({"slope_deg", true, 12.0, 10, -3.0, 2.0});
+  doubt_what_does_not_extrapolate(d);
+  EXPECT_EQ(d.verdict, Verdict::kEffects) << "within chance";
+  d.extrapolations.push_back({"motor_temp_c", false, -20.0, 10, -5.0, 2.0});
+  doubt_what_does_not_extrapolate(d);
+  EXPECT_EQ(d.verdict, Verdict::kEffectSet);
+  EXPECT_NE(d.reason.find("motor_temp_c below -20"), std::string::npos) << d.reason;
+}
+
+}  // namespace
+}  // namespace slipway::gap
