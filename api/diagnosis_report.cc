@@ -143,6 +143,25 @@ class Report {
       page_.row({pair.a, pair.b, fmt::format("{:.0f}", pair.angle_deg)});
   }
 
+  void write_planners_view() {
+    const gap::PlannersView& view = d_.planners_view;
+    if (view.observations == 0) return;
+    page_.paragraph(
+        fmt::format("What planning with each model would have told of these drives: {} observations, {} "
+                    "windows of which {} "
+                    "slipped by more than {:g}, {} pairs of drives of which one clearly slipped more.",
+                    view.observations, view.windows, view.immobilised, gap::kCensoredSlip, view.pairs));
+    page_.table(
+        {"model", "within its 90 % interval", "immobilisation called", "called wrongly", "pairs in order"});
+    for (const auto& [name, figures] : {std::pair{"nominal", &view.nominal},
+                                        {"re-tuned", &view.retuned},
+                                        {"with effects", &view.with_effects}})
+      page_.row({name, fmt::format("{:.0f} %", 100.0 * figures->within_90),
+                 fmt::format("{} of {}", figures->called, view.immobilised),
+                 fmt::format("{}", figures->false_calls),
+                 view.pairs > 0 ? fmt::format("{:.0f} %", 100.0 * figures->in_order) : std::string()});
+  }
+
   void write_ladder() {
     if (d_.gap.empty()) return;
     page_.section("How far the gap closes");
@@ -171,6 +190,7 @@ class Report {
       page_.paragraph(Spans{{"Of the gap that re-tuning leaves, closed: "},
                             {interval_words(*d_.closed_fraction), Style::kStrong},
                             {", all channels in their deviations."}});
+    write_planners_view();
     if (!d_.extrapolations.empty()) {
       page_.paragraph(
           "Learnt from the gentle drives, told of the harshest third: gain of log density a drive over "

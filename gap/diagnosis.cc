@@ -227,6 +227,7 @@ class Diagnoser {
       doubt_what_does_not_extrapolate(d_);
     }
     d_.gap = std::move(shrunk->channels);
+    d_.planners_view = shrunk->planners_view;
     d_.held_out = std::move(shrunk->points);
     d_.window_gaps = std::move(shrunk->windows);
     if (explains()) d_.closed_fraction = shrunk->closed_fraction;

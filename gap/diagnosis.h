@@ -90,6 +90,18 @@ struct ChannelShrink {
   std::optional<Interval> closed_fraction = {};
 };
 
+// What planning with a model would have told of drives held out of the fit.
+struct PlannersFigures {
+  double within_90 = 0.0;       // share of observations in the 90 % interval of sensors and scatter
+  std::size_t called = 0;       // windows told immobilised (slip above kCensoredSlip) that were
+  std::size_t false_calls = 0;  // and that were not
+  double in_order = 0.0;        // share of pairs of drives, of which one clearly slipped more
+};
+struct PlannersView {
+  std::size_t observations = 0, windows = 0, immobilised = 0, pairs = 0;
+  PlannersFigures nominal, retuned, with_effects;
+};
+
 // Where a window of drives held out of the fit lies, and its residuals: root mean squares over its channels,
 // in deviations. 1: as its noise.
 struct WindowGap {
@@ -156,6 +168,7 @@ struct Diagnosis {
   std::vector<Regime> regimes, regimes_retuned, regimes_of_effect;
   std::vector<GapPlace> places;
   std::vector<ChannelShrink> gap;
+  PlannersView planners_view;
   std::vector<HeldOutPoint> held_out;  // for pictures
   std::vector<WindowGap> window_gaps;  // of drives held out of the fit, for maps
   std::optional<Interval> closed_fraction;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gap/planners_view.h"
+
 namespace slipway::gap {
 namespace {
 
@@ -75,6 +77,7 @@ Result<Shrink> shrink_on_held_out(const PreparedCampaign& prepared, const DriveC
                                   const DiagnosisOptions& options, Progress& progress) {
   const WindowModel& model = *prepared.model;
   Shrink shrink;
+  PlannersTally tally(prepared, campaign.drives.size());
   // By correction and group of drives.
   std::vector<std::vector<HeldOutErrors>> errors(choice.corrections.size(),
                                                  std::vector<HeldOutErrors>(drives.group_count));
@@ -96,10 +99,12 @@ Result<Shrink> shrink_on_held_out(const PreparedCampaign& prepared, const DriveC
         if (learnt_from[drive] || !model.used(w)) continue;
         const HeldOutErrors of_window = comparison.errors(w);
         errors[k][drives.groups[drive]].add(of_window);
+        if (k == 0) tally.add(w, comparison);
         if (k == 0) keep(prepared, campaign, comparison, of_window, w, shrink);
       }
     }
   }
+  shrink.planners_view = tally.view();
   Bootstrapped sums;
   double groups = 0.0;
   for (const HeldOutErrors& e : errors[0]) {

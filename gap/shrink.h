@@ -18,6 +18,7 @@ struct Shrink {
   std::vector<ChannelShrink> channels;
   std::optional<Interval> closed_fraction;
   double log_density_gain = 0.0;  // held-out log density of the correction over the null's, a drive
+  PlannersView planners_view;
   std::vector<HeldOutPoint> points;
   std::vector<WindowGap> windows;
 };

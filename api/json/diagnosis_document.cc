@@ -161,6 +161,27 @@ void write_windows(Writer& w, const gap::DriveCampaign& campaign, const Diagnosi
   w.end_array();
 }
 
+void write_planners_view(Writer& w, const Diagnosis& d) {
+  const gap::PlannersView& view = d.planners_view;
+  const auto count = [&](std::string_view key, std::size_t n) { w.whole(key, static_cast<std::int64_t>(n)); };
+  w.key("planning").begin_object();
+  count("observations", view.observations);
+  count("windows", view.windows);
+  count("immobilised", view.immobilised);
+  count("pairs", view.pairs);
+  for (const auto& [name, figures] : {std::pair{"nominal", &view.nominal},
+                                      {"retuned", &view.retuned},
+                                      {"with_effects", &view.with_effects}}) {
+    w.key(name).begin_object();
+    if (view.observations > 0) w.significant("within_90", figures->within_90);
+    count("immobilised_called", figures->called);
+    count("false_calls", figures->false_calls);
+    if (view.pairs > 0) w.significant("pairs_in_order", figures->in_order);
+    w.end_object();
+  }
+  w.end_object();
+}
+
 void write_extrapolations(Writer& w, const Diagnosis& d) {
   w.key("extrapolation").begin_array();
   for (const gap::Extrapolation& e : d.extrapolations) {
@@ -315,6 +336,7 @@ std::string diagnosis_document(const gap::DriveCampaign& campaign, const Diagnos
   write_windows(w, campaign, d);
   w.end_object();
   write_gap(w, d);
+  write_planners_view(w, d);
   write_extrapolations(w, d);
   write_residual(w, d);
   write_least_detectable(w, d);
