@@ -5,11 +5,11 @@
 #include <memory>
 
 #include "server/commands.h"
+#include "server/largest_exact_whole.h"
 
 namespace slipway::server {
 namespace {
 
-constexpr std::uint64_t kLargestExactWhole = 9'007'199'254'740'991;  // 2^53 - 1: a number of JSON
 constexpr const char* kExample =
     "Example: the soil under a wheel on a rig; that under plates; that of drives, from currents alone\n"
     "  slipway estimate wheel tests.csv --wheel-radius 0.125 --wheel-width 0.16 --soil unknown_ground\n"

@@ -5,13 +5,9 @@
 #include <memory>
 
 #include "server/commands.h"
+#include "server/largest_exact_whole.h"
 
 namespace slipway::server {
-namespace {
-
-constexpr std::uint64_t kLargestExactWhole = 9'007'199'254'740'991;  // 2^53 - 1: a number of JSON
-
-}  // namespace
 
 void add_gap_benchmark_command(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<GapBenchmarkCommand>();

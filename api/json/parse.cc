@@ -146,7 +146,7 @@ std::string printable(std::string text) {
       [](char c) { return static_cast<unsigned char>(c) >= 0x80U || static_cast<unsigned char>(c) < 0x20U; },
       '?');
   constexpr std::size_t kMost = 300;
-  if (text.size() > kMost) text = text.substr(0, kMost) + "...";
+  if (text.size() > kMost) text.replace(kMost, std::string::npos, "...");
   return text;
 }
 
