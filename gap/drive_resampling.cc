@@ -36,12 +36,4 @@ DriveResampling resample_drives(const DriveCampaign& campaign, int resamples, st
   return drives;
 }
 
-double quantile(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  const double at = share * (static_cast<double>(values.size()) - 1.0);
-  const auto below = static_cast<std::size_t>(at);
-  const std::size_t above = std::min(values.size() - 1, below + 1);
-  return values[below] + (at - static_cast<double>(below)) * (values[above] - values[below]);
-}
-
 }  // namespace slipway::gap

@@ -23,7 +23,4 @@ DriveResampling resample_drives(const DriveCampaign& campaign, int resamples, st
 // same.
 std::vector<std::vector<std::size_t>> resampled_indices(std::size_t count, int resamples, std::uint64_t seed);
 
-// Linear between order statistics (Hyndman and Fan's type 7). Values not empty, share in [0, 1].
-double quantile(std::vector<double> values, double share);
-
 }  // namespace slipway::gap

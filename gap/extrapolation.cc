@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/angle.h"
+#include "core/quantile.h"
 
 namespace slipway::gap {
 namespace {

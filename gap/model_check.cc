@@ -6,6 +6,7 @@
 
 #include "core/angle.h"
 #include "core/normal_interval.h"
+#include "core/quantile.h"
 #include "gap/drive_resampling.h"
 #include "gap/hypothesis.h"
 #include "gap/prepared_campaign.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/quantile.h"
 #include "gap/planners_view.h"
 
 namespace slipway::gap {

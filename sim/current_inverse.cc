@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/angle.h"
+#include "core/quantile.h"
 #include "core/random.h"
 
 namespace slipway::sim {
@@ -34,13 +35,6 @@ double root_between(const SingleWheelTest& test, double current_a, double low, d
   return 0.5 * (low + high);
 }
 
-double quantile(const std::vector<double>& sorted, double share) {
-  const double at = share * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(at);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
-}
-
 SlipQuantiles quantiles_of(SingleWheelTest test, const SoilDistribution& belief, double current_a,
                            const InverseOptions& options) {
   SlipQuantiles q;
@@ -62,7 +56,6 @@ SlipQuantiles quantiles_of(SingleWheelTest test, const SoilDistribution& belief,
       ++q.below;
     }
   }
-  std::sort(slips.begin(), slips.end());
   q.solved = static_cast<int>(slips.size());
   if (options.draws > 0) q.risk = static_cast<double>(over + q.above) / static_cast<double>(options.draws);
   if (slips.empty()) return q;

@@ -6,6 +6,7 @@
 
 #include "core/normal_interval.h"
 #include "core/parallel_for.h"
+#include "core/quantile.h"
 #include "core/random.h"
 
 namespace slipway::sim {
@@ -105,15 +106,6 @@ DrawnDrive drive_on(const RoverModel& rover, double gravity_m_s2, DrawnSoils soi
     drive.energy_j += effort.energy_j;
   }
   return drive;
-}
-
-// The value below which a share p lies, linear between order statistics. Sorts its argument.
-double quantile(std::vector<double>& values, double p) {
-  std::sort(values.begin(), values.end());
-  const double at = p * static_cast<double>(values.size() - 1);
-  const std::size_t below = static_cast<std::size_t>(at);
-  if (below + 1 >= values.size()) return values.back();
-  return values[below] + (at - static_cast<double>(below)) * (values[below + 1] - values[below]);
 }
 
 // Wilson's interval for a share of n, at 90 % [Wilson 1927].

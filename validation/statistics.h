@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "gap/drive_resampling.h"
+#include "core/quantile.h"
 
 namespace slipway::validation {
 
@@ -15,7 +15,6 @@ namespace slipway::validation {
 double median(std::vector<double> values);
 // The median of absolute values; 0 of nothing.
 double median_abs(std::vector<double> values);
-using gap::quantile;
 
 struct Agreement {
   double r = 0.0;     // Pearson's correlation
