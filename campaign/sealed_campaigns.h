@@ -30,7 +30,8 @@ struct SealedCampaign {
 };
 
 // "smoke": two small ones, for a test. "each": every effect that can be hidden once, three pairs and four
-// controls, of which two have only parameters off.
+// controls, of which two have only parameters off; wheels and linkage weigh next to nothing, as in the
+// quasi-static rung. "each_heavy_wheels": the same with the weights that the dynamic rung gives them.
 std::span<const std::string_view> sealed_sets();
 
 // The campaigns of a set, their order drawn. The same set and seed give the same campaigns, whatever the

@@ -20,8 +20,9 @@ void add_gap_benchmark_command(CLI::App& app, std::function<int()>& run) {
       "diagnose a folder of campaigns (made first, if asked for), then score the diagnoses against its "
       "answers.json");
   command->add_option("folder", options->folder, "folder of drive campaigns, with answers.json")->required();
-  command->add_option("--make", options->make,
-                      "first make campaigns in that folder, by drives in motion: smoke (2), each (23)");
+  command->add_option(
+      "--make", options->make,
+      "first make campaigns in that folder, by drives in motion: smoke (2), each, each_heavy_wheels (23)");
   command->add_option("--data", options->data, "folder with rovers and soils")->capture_default_str();
   command->add_option("--only", options->only, "names of campaigns; all without it")->delimiter(',');
   command->add_option("--seed", options->seed, "the same seed gives the same campaigns and diagnoses")
