@@ -132,7 +132,7 @@ Result<std::vector<std::string>> CampaignFolder::write_measurements(const campai
   const campaign::DriveEntry& entry = table.entries[drive.entry];
   const campaign::CsvOptions options{.final_only = entry.final_only,
                                      .bus_voltage_v = table.rover->drive.bus_voltage_v,
-                                     .motor_temp_c = table.options.motor_temp_c};
+                                     .motor_temp_c = campaign::motor_temp_c(table, entry)};
   std::vector<std::string> files;
   const int legs = static_cast<int>(entry.legs.size());
   for (int leg = 0; leg < legs; ++leg) {

@@ -135,10 +135,14 @@ std::int16_t class_elsewhere(const TableTerrain& terrain) {
   return free;
 }
 
+std::optional<double> motor_temp_c(const CampaignTable& table, const DriveEntry& entry) {
+  return entry.motor_temp_c ? entry.motor_temp_c : table.options.motor_temp_c;
+}
+
 sim::RoverModel driven_rover(const CampaignTable& table, const DriveEntry& entry) {
   sim::RoverModel rover = *table.rover;
   sim::apply_effects(sim::in_force(table.rover->effects, table.effects), rover);
-  sim::fail_wheels(rover, entry.failed_wheels, {.motor_temp_c = table.options.motor_temp_c});
+  sim::fail_wheels(rover, entry.failed_wheels, {.motor_temp_c = motor_temp_c(table, entry)});
   return rover;
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,9 +39,10 @@ struct DriveEntry {
   std::vector<sim::DriveLeg> legs;
   int repeats = 1;
   sim::FailedWheels failed_wheels;
-  bool final_only = false;        // recorded before and after, as by a survey: two rows
-  bool plot = false;              // its time history
-  bool deformed_terrain = false;  // the ground with its ruts
+  std::optional<double> motor_temp_c = {};  // in place of CampaignTable::options'
+  bool final_only = false;                  // recorded before and after, as by a survey: two rows
+  bool plot = false;                        // its time history
+  bool deformed_terrain = false;            // the ground with its ruts
 };
 
 // What a campaign is made from. What the operators know (the rover, the soils' means) and what is really at
@@ -86,6 +88,9 @@ std::vector<std::string> soils_of(const TableTerrain& terrain);
 
 // A class that the terrain's soil map does not have: of its cells where the map names no soil.
 std::int16_t class_elsewhere(const TableTerrain& terrain);
+
+// Of the drive motors: the entry's, else the table's.
+std::optional<double> motor_temp_c(const CampaignTable& table, const DriveEntry& entry);
 
 // The rover as it really drives an entry: effects at work, wheels failed.
 sim::RoverModel driven_rover(const CampaignTable& table, const DriveEntry& entry);

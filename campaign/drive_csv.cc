@@ -46,11 +46,12 @@ constexpr std::string_view kMoreColumns =
     ",left_rocker_deg,right_rocker_deg,left_bogie_deg,right_bogie_deg,gyro_x_deg_s,gyro_y_deg_s,gyro_z_deg_s,"
     "accel_x_m_s2,accel_y_m_s2,accel_z_m_s2,slip_ratio,progress_m,leg,driving\n";
 
-std::string header(const sim::RoverModel& rover) {
+std::string header(const sim::RoverModel& rover, bool more_columns) {
   std::string text = "t_s,x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg";
   for (const sim::WheelModel& wheel : rover.wheels)
     for (const std::string_view column : kWheelColumns) text += fmt::format(",{}_{}", wheel.name, column);
   text += ",bus_voltage_v";
+  if (!more_columns) return text + "\n";
   for (const sim::WheelModel& wheel : rover.wheels)
     for (const std::string_view column : kMoreWheelColumns) text += fmt::format(",{}_{}", wheel.name, column);
   return text.append(kMoreColumns);
@@ -65,7 +66,8 @@ void add_format_cells(Row& row, const sim::SensorReading& reading, const CsvOpti
   for (std::size_t k = 0; k < s.wheels.size(); ++k) {
     row.angle(s.wheels[k].rate_rad_s, reading.has_encoder);
     row.angle(s.steer_rad[k], reading.has_potentiometer);
-    row.cell(s.wheels[k].current_a, reading.has_current).cell(s.wheels[k].sinkage_m, reading.has_sinkage);
+    row.cell(s.wheels[k].current_a, reading.has_current)
+        .cell(s.wheels[k].sinkage_m, reading.has_sinkage && options.sinkage);
     if (options.motor_temp_c) {
       row.cell(*options.motor_temp_c);
     } else {
@@ -98,13 +100,13 @@ bool is_superseded(std::span<const sim::SensorReading> readings, std::size_t i) 
 
 std::string drive_csv(const sim::RoverModel& rover, std::span<const sim::SensorReading> readings,
                       const CsvOptions& options) {
-  std::string text = header(rover);
+  std::string text = header(rover, options.more_columns);
   for (std::size_t i = 0; i < readings.size(); ++i) {
     if (is_superseded(readings, i)) continue;
     if (options.final_only && i > 0 && i + 1 < readings.size()) continue;
     Row row;
     add_format_cells(row, readings[i], options);
-    add_more_cells(row, readings[i]);
+    if (options.more_columns) add_more_cells(row, readings[i]);
     text += row.take();
   }
   return text;

@@ -66,6 +66,7 @@ MadeDrive make_drive(const CampaignTable& table, const TableDrive& drive, Simula
   MadeDrive made;
   made.soils = soils_of(table, drive);
   sim::DynamicOptions options = table.options;
+  options.motor_temp_c = motor_temp_c(table, entry);
   options.keep_ruts = options.keep_ruts || entry.deformed_terrain;
   sim::DriveSensors sensors = table.sensors;
   sensors.seed = random_key(table.seed, kSensorStream);

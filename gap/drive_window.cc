@@ -271,11 +271,34 @@ struct Stretch {
   std::size_t from = 0, to = 0;
 };
 
-std::vector<Stretch> stretches_of(const MeasuredDriveSeries& drive, double lasting_s) {
+// Wheels whose rates were measured turn at half of the told rates or more, taken together; none measured:
+// nothing says that they don't.
+bool under_way(const DriveSample& sample, const sim::PerWheel<sim::WheelCommand>& told) {
+  double turned = 0.0, asked = 0.0;
+  for (std::size_t k = 0; k < told.size(); ++k) {
+    if (!std::isfinite(sample.wheels[k].rate_rad_s)) continue;
+    turned += std::abs(sample.wheels[k].rate_rad_s);
+    asked += std::abs(told[k].rate_rad_s);
+  }
+  return turned >= 0.5 * asked;
+}
+
+// From the first row to the last in which the rover is under way: a record may begin before it sets off and
+// end after it halts, and what the wheels do then is not what was told. All rows where there is no such row.
+Stretch driven_rows(const DriveCampaign& campaign, const MeasuredDriveSeries& drive) {
+  Stretch rows{0, drive.samples.size() - 1};
+  if (drive.final_only) return rows;
+  const auto told = sim::wheel_commands(*campaign.rover, drive.command);
+  while (rows.from < rows.to && !under_way(drive.samples[rows.from], told)) ++rows.from;
+  while (rows.from < rows.to && !under_way(drive.samples[rows.to], told)) --rows.to;
+  return rows.from < rows.to ? rows : Stretch{0, drive.samples.size() - 1};
+}
+
+std::vector<Stretch> stretches_of(const MeasuredDriveSeries& drive, const Stretch& rows, double lasting_s) {
   constexpr double kPause = 0.75;  // of a window
   const double longest_s = std::max(kPause * lasting_s, 1.5 * interval_s(drive));
-  std::vector<Stretch> stretches{{0, 0}};
-  for (std::size_t i = 1; i < drive.samples.size(); ++i) {
+  std::vector<Stretch> stretches{{rows.from, rows.from}};
+  for (std::size_t i = rows.from + 1; i <= rows.to; ++i) {
     if (drive.samples[i].time_s - drive.samples[i - 1].time_s > longest_s && !drive.final_only)
       stretches.push_back({i, i});
     stretches.back().to = i;
@@ -340,7 +363,7 @@ std::vector<DriveWindow> cut_windows(const DriveCampaign& campaign, const Window
   for (std::size_t d = 0; d < campaign.drives.size(); ++d) {
     const MeasuredDriveSeries& drive = campaign.drives[d];
     const double lasting_s = window_s(drive, options);
-    for (const Stretch& stretch : stretches_of(drive, lasting_s)) {
+    for (const Stretch& stretch : stretches_of(drive, driven_rows(campaign, drive), lasting_s)) {
       const int count = windows_in(drive, stretch, lasting_s);
       const double start_s = drive.samples[stretch.from].time_s;
       const double step_s = (drive.samples[stretch.to].time_s - start_s) / count;

@@ -12,11 +12,16 @@ namespace slipway::server {
 void add_gap_benchmark_command(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<GapBenchmarkCommand>();
   CLI::App* command = app.add_subcommand(
-      "gap-benchmark", "diagnose a folder of campaigns, then score the diagnoses against its answers.json");
+      "gap-benchmark",
+      "diagnose a folder of campaigns (made first, if asked for), then score the diagnoses against its "
+      "answers.json");
   command->add_option("folder", options->folder, "folder of drive campaigns, with answers.json")->required();
+  command->add_option(
+      "--make", options->make,
+      "first make campaigns in that folder, by drives in motion: smoke (2), each, each_heavy_wheels (23)");
   command->add_option("--data", options->data, "folder with rovers and soils")->capture_default_str();
   command->add_option("--only", options->only, "names of campaigns; all without it")->delimiter(',');
-  command->add_option("--seed", options->seed, "the same seed gives the same diagnoses")
+  command->add_option("--seed", options->seed, "the same seed gives the same campaigns and diagnoses")
       ->capture_default_str()
       ->check(CLI::Range(std::uint64_t{0}, kLargestExactWhole));
   command->add_option("--threads", options->threads, "at once; 0: as many as the machine has")
@@ -36,7 +41,10 @@ void add_gap_benchmark_command(CLI::App& app, std::function<int()>& run) {
       "Example: how often is the diagnosis right on campaigns that it has not seen?\n"
       "  sealed_campaigns blind-1 --seed 1 --set blind && slipway gap-benchmark blind-1 --keep "
       "blind-1-found\n"
-      "Interrupted (Ctrl-C), it scores what is done. Exit status: 0 scored, 1 no answer, 2 something can't "
+      "Example: with campaigns of the program's own making?\n"
+      "  slipway gap-benchmark made-1 --make each --seed 1\n"
+      "Interrupted (Ctrl-C) while it makes, the same command goes on; later, it scores what is done. Exit "
+      "status: 0 scored, 1 no answer, 2 something can't "
       "be read.");
   command->callback([options, &run] { run = [options] { return gap_benchmark(*options); }; });
 }

@@ -188,6 +188,7 @@ struct EstimateCommand {
 struct GapBenchmarkCommand {
   std::string data = "data";
   std::string folder;             // of campaigns, with answers.json
+  std::string make;               // set of campaigns to make there first; empty: they are there
   std::vector<std::string> only;  // names of campaigns; empty: all
   std::uint64_t seed = 1;
   int threads = 0;                // 0: as many as the machine has

@@ -21,6 +21,8 @@
 #include "api/json/benchmark_answers.h"
 #include "api/json/benchmark_document.h"
 #include "api/json/diagnosis_document.h"
+#include "api/sealed_campaign_folder.h"
+#include "campaign/sealed_campaigns.h"
 #include "gap/baselines.h"
 #include "gap/benchmark_score.h"
 #include "gap/diagnosis.h"
@@ -32,6 +34,8 @@ namespace slipway::server {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::string_view kMadeRover = "mer-class";  // of campaigns that are made here
 
 // Hears interruptions; a line for each campaign is progress enough.
 class Patience final : public Progress {
@@ -77,6 +81,26 @@ struct Timed {
   gap::Diagnosis diagnosis;
   double seconds = 0.0;
 };
+
+// The folder's campaigns, by the dynamic rung.
+Result<void> make_campaigns(const GapBenchmarkCommand& options, const api::Catalogue& catalogue) {
+  const auto sets = slipway::campaign::sealed_sets();
+  if (std::find(sets.begin(), sets.end(), options.make) == sets.end()) {
+    const std::string message =
+        fmt::format("unknown set \"{}\", known are: {}", options.make, fmt::join(sets, ", "));
+    return fail(ErrorCode::kInvalidRequest, message, {{"/make", message}});
+  }
+  const auto rover = catalogue.rovers.find(kMadeRover);
+  if (rover == catalogue.rovers.end())
+    return fail(ErrorCode::kNotFound, fmt::format("the data folder has no rover {}", kMadeRover));
+  const auto campaigns = slipway::campaign::sealed_campaigns(options.make, options.seed, rover->second);
+  Patience patience;
+  const auto tell = [&](const std::string& name, std::size_t drives, std::size_t made) {
+    std::cerr << fmt::format("made [{}/{}] {}: {} drives\n", made, campaigns.size(), name, drives);
+  };
+  return api::make_sealed_folder({options.folder, options.make, options.seed}, campaigns,
+                                 static_cast<std::size_t>(options.threads), tell, patience);
+}
 
 std::vector<std::string> campaigns_in(const GapBenchmarkCommand& options) {
   std::vector<std::string> names;
@@ -165,6 +189,8 @@ int gap_benchmark(const GapBenchmarkCommand& options) {
   }
   const auto catalogue = api::load_catalogue(options.data);
   if (!catalogue) return refuse_input(catalogue.error());
+  if (!options.make.empty())
+    if (const auto made = make_campaigns(options, *catalogue); !made) return refuse_input(made.error());
   const std::vector<std::string> names = campaigns_in(options);
   if (names.empty()) {
     std::cerr << options.folder << " holds no drive campaign of that name\n";

@@ -102,6 +102,7 @@ std::vector<campaign::DriveEntry> read_table_drives(ObjectReader& table,
     entry.legs = read_legs(reader, rover);
     reader.whole("repeats", kOptional, 1, kMostRepeats, entry.repeats);
     read_failed_wheels(reader, entry.failed_wheels);
+    reader.number("motor_temp_c", kOptional, {"degC", -150.0, 150.0}, entry.motor_temp_c);
     reader.boolean("final_only", kOptional, entry.final_only);
     reader.boolean("plot", kOptional, entry.plot);
     reader.boolean("deformed_terrain", kOptional, entry.deformed_terrain);

@@ -80,6 +80,41 @@ TEST(DriveWindow, AnOutlierIsPassedOver) {
     }
 }
 
+TEST(DriveWindow, RowsBeforeTheRoverSetsOffAndAfterItHaltsAreLeftOut) {
+  DriveCampaign campaign = constant_motion(0.04, 0.0, 0.0, 0.0, 0.0, 0.05, 0.0);
+  MeasuredDriveSeries& drive = campaign.drives[0];
+  const double told_rad_s = sim::wheel_commands(*campaign.rover, drive.command)[0].rate_rad_s;
+  for (DriveSample& sample : drive.samples)
+    for (WheelReading& wheel : sample.wheels) wheel.rate_rad_s = told_rad_s;
+  const auto driving = cut_windows(campaign);
+  // It stands for 4 s at either end.
+  std::vector<DriveSample> samples;
+  const auto stand = [&](const DriveSample& there, double from_s) {
+    for (int i = 0; i < 4; ++i) {
+      DriveSample& sample = samples.emplace_back(there);
+      sample.time_s = from_s + i;
+      for (WheelReading& wheel : sample.wheels) wheel.rate_rad_s = wheel.current_a = 0.0;
+    }
+  };
+  stand(drive.samples.front(), 0.0);
+  for (DriveSample sample : drive.samples) {
+    sample.time_s += 4.0;
+    samples.push_back(sample);
+  }
+  stand(drive.samples.back(), samples.back().time_s + 1.0);
+  drive.samples = samples;
+  const auto both = cut_windows(campaign);
+  ASSERT_EQ(both.size(), driving.size());
+  EXPECT_DOUBLE_EQ(both[0].start_s, 4.0);
+  EXPECT_DOUBLE_EQ(both[0].end_s - both[0].start_s, driving[0].end_s - driving[0].start_s);
+  EXPECT_NEAR(*value_of(both[0], Channel::kSlip), 0.2, 1e-4);
+  EXPECT_NEAR(*value_of(both[0], Channel::kCurrent), 0.2, 1e-12);
+  // Wheels that never turn are no reason to look at nothing.
+  for (DriveSample& sample : drive.samples)
+    for (WheelReading& wheel : sample.wheels) wheel.rate_rad_s = 0.0;
+  EXPECT_DOUBLE_EQ(cut_windows(campaign)[0].start_s, 0.0);
+}
+
 TEST(DriveWindow, SurveysBeforeAndAfterSayPoseAlone) {
   DriveCampaign campaign = constant_motion(0.04, 0.0, 0.0, 0.0, 0.0, 0.05, 0.0);
   MeasuredDriveSeries& drive = campaign.drives[0];

@@ -1,0 +1,54 @@
+#!/bin/sh
+# Two small campaigns of the program's own making, diagnosed and scored.
+#   gap_benchmark_make.sh SLIPWAY SOURCE_FOLDER
+set -eu
+slipway="$1"
+data="$2/data"
+folder="$(mktemp -d)"
+trap 'rm -rf "$folder"' EXIT
+
+. "$(dirname "$0")/../command_expectations.sh"
+
+expect 0 "$slipway" gap-benchmark "$folder/first" --make smoke --seed 7 --data "$data" --json --keep "$folder/kept"
+cp "$folder/out" "$folder/scores.json"
+holds '^made \[2/2\] d02: 12 drives' "$folder/err"
+python3 - "$folder" <<'CHECK'
+import csv, json, pathlib, sys
+folder = pathlib.Path(sys.argv[1])
+scores = json.loads((folder / "scores.json").read_text())
+answers = json.loads((folder / "first" / "answers.json").read_text())
+assert [c["campaign"] for c in scores["campaigns"]] == sorted(answers) == ["d01", "d02"], scores["campaigns"]
+for case in scores["campaigns"]:
+    name = case["campaign"]
+    kept = json.loads((folder / "kept" / (name + ".json")).read_text())
+    assert kept["verdict"] == case["verdict"] and case["fidelity"] == "L0"
+    assert case["hidden"] == (" + ".join(sorted(answers[name]["effects"])) or "nothing"), case
+    assert case["exact"], case  # both are plain
+    # Nothing beside a campaign's measurements tells what is in it.
+    campaign = json.loads((folder / "first" / name / "campaign.json").read_text())
+    assert set(campaign) == {"format", "name", "gravity_m_s2", "rover", "soils", "terrains", "measurement_std", "drives"}
+    assert campaign["rover"]["drive"]["torque_constant_nm_per_a"] == 0.0224
+    files = {d["file"] for d in campaign["drives"]} | {t["dem"] for t in campaign["terrains"].values()}
+    assert {p.name for p in (folder / "first" / name).iterdir()} == files | {"campaign.json"}
+    columns = next(csv.reader((folder / "first" / name / campaign["drives"][0]["file"]).open()))
+    assert len(columns) == 7 + 5 * 6 + 1, columns
+CHECK
+
+# The same seed, the same bytes; made in parts, too, and not made again.
+expect 0 "$slipway" gap-benchmark "$folder/again" --make smoke --seed 7 --data "$data" --only d01 --threads 1
+diff -r "$folder/first" "$folder/again"
+rm "$folder/again/d02/campaign.json" "$folder/again/answers.json"
+expect 0 "$slipway" gap-benchmark "$folder/again" --make smoke --seed 7 --data "$data" --only d01
+holds '^made \[2/2\]' "$folder/err"
+if grep -q '^made \[1/2\]' "$folder/err"; then echo "what was made was made again"; exit 1; fi
+diff -r "$folder/first" "$folder/again"
+
+# Other campaigns' folders are left alone; so are folders for sets that are not known.
+expect 1 "$slipway" gap-benchmark "$folder/again" --make smoke --seed 8 --data "$data"
+holds 'another folder' "$folder/err"
+expect 1 "$slipway" gap-benchmark "$data/gap-practice" --make smoke --data "$data"
+diff -r "$folder/first" "$folder/again"
+expect 2 "$slipway" gap-benchmark "$folder/none" --make smock --data "$data"
+holds 'smoke, each' "$folder/err"
+[ ! -e "$folder/none" ] || { echo "a folder was made for a set that is not known"; exit 1; }
+echo "as expected"
