@@ -45,6 +45,9 @@ constexpr std::array kRows{
     Nuisance{
         "pull_below_axle", "the pull acts below the axle, not ahead of it", kClosure, 0.5, 0.0, 1.0, nullptr,
         [](double v, RoverModel& r) { r.pull_below_axle = std::clamp(r.pull_below_axle + v, 0.0, 1.0); }},
+    Nuisance{"wheel_weight", "share of the wheels' weight that hangs at the wheels, not in the body",
+             kClosure, 0.7, 0.0, 3.0, nullptr,
+             [](double v, RoverModel& r) { r.wheel_weight = std::clamp(r.wheel_weight + v, 0.0, 3.0); }},
     Nuisance{kPoseLag, "headings are recorded later than positions, s", NuisanceKind::kSensor, 1.0, -5.0,
              5.0},
     Nuisance{kTrackLeftOut, "share of a track's depth that sinkages are recorded without",

@@ -90,8 +90,8 @@ void RoverBalance::set_soils(double gravity_m_s2, const DriveCommand& command,
   }
 }
 
-// The body hangs on the rocker pivots through the differential, which passes equal moments to both sides:
-// gravity has no entry in the equations of the joints.
+// The body hangs on the rocker pivots through the differential, which passes equal moments to both sides: on
+// the joints weighs only what wheels have of their own.
 void RoverBalance::set_gravity() {
   Attitude truth = stance_.attitude;
   truth.roll_rad += rover_.roll_bias_rad;
@@ -104,6 +104,11 @@ void RoverBalance::set_gravity() {
   gravity_[1] = travel_.x() * g.y() - travel_.y() * g.x();
   gravity_[2] = g.z();
   gravity_.segment<3>(3) = rover_.com_m.cross(g) / length_;
+  const double own = rover_.wheel_weight * rover_.wheel_mass_kg() / rover_.mass_kg;
+  if (own == 0.0) return;
+  for (int j = 0; j < joints_; ++j)
+    for (int k = 0; k < wheel_count(); ++k)
+      gravity_[6 + j] += own * g.dot(joint_motion(rover_, stance_, k, j).shift) / length_;
 }
 
 void RoverBalance::place_wheel(int k, const WheelCommand& told) {

@@ -17,11 +17,12 @@ namespace slipway::sim {
 //
 //   0, 1, 2     force   sum F_k + m g = 0                                          along d, e, z
 //   3, 4, 5     moment  sum (p_k x F_k + M_k) + p_com x m g = 0                    about x, y, z
-//   6 .. 5 + J  joints  sum (F_k . dp_k/dq_j + M_k . y dturn_k/dq_j) = 0           see suspension.h
+//   6 .. 5 + J  joints  sum ((F_k + m_k g) . dp_k/dq_j + M_k . y dturn_k/dq_j) = 0  see suspension.h
 //   the rest    compatibility   Z^T (z + gap) / z_ref = 0
 //
 // F_k is the soil's force at wheel k's centre, M_k = -T_k about its axle and r L_k about its heading (the
-// lateral force L_k acts at the rim's lowest point), and the suspension has no mass of its own. Gravity is
+// lateral force L_k acts at the rim's lowest point), m_k is what of the wheel's mass hangs at the wheel
+// (RoverModel::wheel_weight; none by default), and the suspension has no other mass of its own. Gravity is
 // that of the true attitude, the stance's with the rover's bias of attitude added. Forces are divided by the
 // weight, moments by weight and half the wheelbase.
 //

@@ -197,6 +197,11 @@ void check_motor(const DriveMotor& drive, const std::string& at, FaultList& faul
 
 }  // namespace
 
+double RoverModel::wheel_mass_kg() const {
+  constexpr double kWheelShare = 0.03;
+  return masses.wheel_kg.value_or(kWheelShare * mass_kg);
+}
+
 double RoverModel::smallest_wheel_radius_m() const {
   double radius = std::numeric_limits<double>::infinity();
   for (const WheelModel& wheel : wheels) radius = std::min(radius, wheel.radius_m);

@@ -95,6 +95,10 @@ struct RoverModel {
   // axle; 1, at the rim's lowest point and nothing ahead of it, as simpler simulators have it. Read by the
   // balance; a closure that a diagnosis may re-tune.
   double pull_below_axle = 0.0;
+  // How much of the wheels' own weight hangs at the wheels and turns the suspension's joints on slopes: 0, as
+  // if all mass were in the body; 1, all of it, as in the dynamic rung. Read by the balance; a closure that a
+  // diagnosis may re-tune.
+  double wheel_weight = 0.0;
   double belly_clearance_m = 0.3;  // lowest point of the body between the wheels, above level ground
   double body_length_m = 1.6;      // of the rectangle that must stay on the map and out of keep-outs
   double body_width_m = 1.5;
@@ -108,7 +112,8 @@ struct RoverModel {
   double roll_bias_rad = 0.0, pitch_bias_rad = 0.0;
 
   double smallest_wheel_radius_m() const;
-  double track_m() const;  // widest distance between left and right wheel centres
+  double wheel_mass_kg() const;  // of each wheel with its motors; 3 % of the whole where none is given
+  double track_m() const;        // widest distance between left and right wheel centres
 };
 
 // Everything that a model must satisfy before it is used: 3 to kMostWheels wheels with unique names, each

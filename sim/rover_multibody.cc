@@ -12,11 +12,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kWheelShare = 0.03, kRockerShare = 0.03, kBogieShare = 0.02;
+constexpr double kRockerShare = 0.03, kBogieShare = 0.02;
 
-double wheel_mass(const RoverModel& rover) {
-  return rover.masses.wheel_kg.value_or(kWheelShare * rover.mass_kg);
-}
 double rocker_mass(const RoverModel& rover) {
   if (rover.suspension.type == SuspensionType::kRigid) return 0.0;
   return rover.masses.rocker_kg.value_or(kRockerShare * rover.mass_kg);
@@ -103,7 +100,7 @@ void add_wheels(const RoverModel& rover, std::vector<RevoluteBody>& bodies, Rove
     spin.name = wheel.name;
     spin.parent = out.carrier[k] = carrier;
     spin.pivot_m = wheel.position_m;
-    spin.mass = disc(wheel_mass(rover), wheel);
+    spin.mass = disc(rover.wheel_mass_kg(), wheel);
     spin.round = true;
     // A locked wheel is welded: a rotor that nothing turns.
     spin.armature_kg_m2 =
@@ -135,7 +132,7 @@ double half_wheelbase(const RoverModel& rover) {
 }  // namespace
 
 double body_mass_kg(const RoverModel& rover) {
-  return rover.mass_kg - static_cast<double>(rover.wheels.size()) * wheel_mass(rover) -
+  return rover.mass_kg - static_cast<double>(rover.wheels.size()) * rover.wheel_mass_kg() -
          2.0 * rocker_mass(rover) - 2.0 * bogie_mass(rover);
 }
 

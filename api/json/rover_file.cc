@@ -279,6 +279,7 @@ Result<sim::RoverModel> read_rover_file(std::string_view bytes) {
   if (sim::DriveMotor steering; read_motor(reader, "steering", kOptional, steering))
     rover.steering = steering;
   reader.number("pull_below_axle", kOptional, {"1", 0.0, 1.0}, rover.pull_below_axle);
+  reader.number("wheel_weight", kOptional, {"1", 0.0, 3.0}, rover.wheel_weight);
   read_body(reader, kRequired, rover);
   read_effects(reader, rover.effects);
   reader.refuse_unknown();
@@ -328,6 +329,7 @@ void write_rover(Writer& w, const sim::RoverModel& rover) {
   write_motor(w, "drive", rover.drive);
   if (rover.steering) write_motor(w, "steering", *rover.steering);
   if (rover.pull_below_axle != 0.0) w.exact("pull_below_axle", rover.pull_below_axle);
+  if (rover.wheel_weight != 0.0) w.exact("wheel_weight", rover.wheel_weight);
   w.exact("belly_clearance_m", rover.belly_clearance_m);
   w.exact("body_length_m", rover.body_length_m).exact("body_width_m", rover.body_width_m);
   w.angle_deg("max_tilt_deg", rover.max_tilt_rad).exact("cruise_speed_m_s", rover.cruise_speed_m_s);

@@ -130,6 +130,35 @@ INSTANTIATE_TEST_SUITE_P(
                     Motion{"arc", 0.0, 0.0, arc(2.0, 0.4)}, Motion{"turn", 0.0, 0.0, turn(2.0)}),
     [](const auto& named) { return std::string(named.param.name); });
 
+// Wheels of 3 % of the rover's mass each: up a slope they turn the bogies, which the balance tells where it
+// is told that they weigh at their own places.
+TEST(SlowLimitOfHeavyWheels, IsTheQuasiStaticRungWithTheWheelsOwnWeight) {
+  RoverModel rover = light_suspension(six_wheeler());
+  rover.masses.wheel_kg.reset();
+  DynamicOptions options{.relative_tolerance = 1e-8, .feedback = Feedback::kNone, .sample_interval_s = 0.5};
+  options.contact_points = 1;
+  const FunctionGround ground = plane(rad_from_deg(15.0));
+  const Driven driven = drive(rover, plane(rad_from_deg(15.0)), sandy_loam(), 0.0, {straight(1.0)}, options);
+  const DriveSample& sample = driven.cruising();
+  double farthest_without = 0.0;
+  for (const double wheel_weight : {0.0, 1.0}) {
+    rover.wheel_weight = wheel_weight;
+    const auto stance = settle(rover, ground, {sample.p_MB.x(), sample.p_MB.y(), sample.attitude.yaw_rad});
+    ASSERT_TRUE(stance);
+    QuasiStaticSolver solver(rover, kMars);
+    const StationState balance = solver.solve(*stance, sandy_loam(), straight(1.0).command);
+    ASSERT_TRUE(balance.moving());
+    for (std::size_t k = 0; k < 6; ++k) {
+      const double off = std::abs(sample.wheels[k].load_n - balance.wheels[k].load_n);
+      if (wheel_weight == 0.0) farthest_without = std::max(farthest_without, off);
+      if (wheel_weight == 1.0) {
+        EXPECT_LT(off, 1.2) << k;
+      }
+    }
+  }
+  EXPECT_GT(farthest_without, 2.5);
+}
+
 TEST(DynamicDrive, RepeatsToTheBit) {
   const FunctionGround hills([](double x, double y) { return 0.1 * std::sin(2.0 * x) * std::cos(3.0 * y); });
   std::vector<DynamicDrive> drives;
