@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "api/campaign_charts.h"
 #include "api/json/campaign_documents.h"
 #include "api/terrain_site.h"
+#include "api/whole_file.h"
 #include "campaign/deformed_terrain.h"
 #include "campaign/drive_csv.h"
 #include "dem/geotiff.h"
@@ -19,8 +19,6 @@ namespace slipway::api {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::string_view kUnfinished = ".part";
 
 // Sorted, so that the first complaint is the same everywhere.
 std::vector<fs::path> records_in(const fs::path& folder) {
@@ -58,12 +56,8 @@ Result<CampaignFolder> CampaignFolder::open(fs::path path, std::string digest, b
     return fail(ErrorCode::kConflict,
                 fmt::format("{} holds a campaign that was not made here; give another folder",
                             folder.folder_.string()));
-  for (const char* part : {"drives", "plots"}) {
-    fs::create_directories(folder.folder_ / part, error);
-    if (error)
-      return fail(ErrorCode::kUnwritableFile,
-                  fmt::format("cannot make {}: {}", (folder.folder_ / part).string(), error.message()));
-  }
+  for (const char* part : {"drives", "plots"})
+    if (const auto made = make_folder(folder.folder_ / part); !made) return fail(made.error());
   delete_unfinished(folder.folder_);
   if (start_over) folder.delete_drives();
   if (const auto read = folder.read_records(); !read) return fail(read.error());
@@ -111,19 +105,7 @@ void CampaignFolder::delete_drives() {
 }
 
 Result<void> CampaignFolder::write(const std::string& file, const std::string& bytes) const {
-  const fs::path path = folder_ / file;
-  const fs::path unfinished = path.string() + std::string(kUnfinished);
-  {
-    std::ofstream stream(unfinished, std::ios::binary);
-    if (!(stream << bytes << std::flush))
-      return fail(ErrorCode::kUnwritableFile, fmt::format("cannot write {}", path.string()));
-  }
-  std::error_code error;
-  fs::rename(unfinished, path, error);
-  if (error)
-    return fail(ErrorCode::kUnwritableFile,
-                fmt::format("cannot write {}: {}", path.string(), error.message()));
-  return {};
+  return write_whole_file(folder_ / file, bytes);
 }
 
 Result<std::vector<std::string>> CampaignFolder::write_measurements(const campaign::CampaignTable& table,

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <map>
 #include <mutex>
 #include <system_error>
@@ -12,6 +11,7 @@
 #include "api/json/writer.h"
 #include "api/service.h"
 #include "api/terrain_site.h"
+#include "api/whole_file.h"
 #include "campaign/drive_csv.h"
 #include "campaign/run_campaign.h"
 #include "dem/geotiff.h"
@@ -21,31 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using campaign::SealedCampaign;
-
-// Under its name only when it is whole.
-Result<void> write(const fs::path& path, const std::string& bytes) {
-  const fs::path unfinished = path.string() + ".part";
-  {
-    std::ofstream stream(unfinished, std::ios::binary);
-    if (!(stream << bytes << std::flush))
-      return fail(ErrorCode::kUnwritableFile, fmt::format("cannot write {}", path.string()));
-  }
-  std::error_code error;
-  fs::rename(unfinished, path, error);
-  if (error)
-    return fail(ErrorCode::kUnwritableFile,
-                fmt::format("cannot write {}: {}", path.string(), error.message()));
-  return {};
-}
-
-Result<void> make_folder(const fs::path& path) {
-  std::error_code error;
-  fs::create_directories(path, error);
-  if (error)
-    return fail(ErrorCode::kUnwritableFile,
-                fmt::format("cannot make {}: {}", path.string(), error.message()));
-  return {};
-}
 
 std::string made_document(const SealedFolder& folder) {
   json::Writer w;
@@ -59,7 +34,7 @@ Result<void> claim(const SealedFolder& folder) {
   if (const auto made = make_folder(folder.path); !made) return made;
   const fs::path mark = folder.path / "made.json";
   std::error_code error;
-  if (fs::is_empty(folder.path, error)) return write(mark, made_document(folder));
+  if (fs::is_empty(folder.path, error)) return write_whole_file(mark, made_document(folder));
   const auto bytes = fs::exists(mark, error) ? read_data_file(mark) : Result<std::string>(std::string());
   if (bytes && *bytes == made_document(folder)) return {};
   return fail(ErrorCode::kConflict,
@@ -86,7 +61,7 @@ Result<std::size_t> make_campaign(const fs::path& folder, const SealedCampaign& 
     options.motor_temp_c = campaign::motor_temp_c(sealed.believed, sealed.believed.entries[drive.entry]);
     const std::string file = drive.id + ".csv";
     const auto written =
-        write(folder / file, campaign::drive_csv(*sealed.believed.rover, made.readings, options));
+        write_whole_file(folder / file, campaign::drive_csv(*sealed.believed.rover, made.readings, options));
     if (!written) return written;
     const std::lock_guard lock(mutex);
     records.emplace(drive.id, campaign::record_of(sealed.driven, drive, made, "", {file}));
@@ -98,11 +73,11 @@ Result<std::size_t> make_campaign(const fs::path& folder, const SealedCampaign& 
   for (const campaign::TableTerrain& terrain : sealed.believed.terrains) {
     const auto raster = dem::encode_geotiff(*terrain.ground, terrain.crs_wkt);
     if (!raster) return fail(raster.error());
-    if (const auto written = write(folder / (terrain.name + ".tif"), *raster); !written)
+    if (const auto written = write_whole_file(folder / (terrain.name + ".tif"), *raster); !written)
       return fail(written.error());
   }
   const auto written =
-      write(folder / "campaign.json", json::campaign_document(sealed.believed, drives, records));
+      write_whole_file(folder / "campaign.json", json::campaign_document(sealed.believed, drives, records));
   if (!written) return fail(written.error());
   return records.size();
 }
@@ -149,7 +124,7 @@ Result<void> make_sealed_folder(const SealedFolder& folder,
     if (!drives) return fail(drives.error());
     taker(sealed.name, *drives, count);
   }
-  return write(folder.path / "answers.json", answers_document(campaigns));
+  return write_whole_file(folder.path / "answers.json", answers_document(campaigns));
 }
 
 }  // namespace slipway::api

@@ -24,7 +24,8 @@ constexpr std::array kSpeeds{0.025, 0.04, 0.05};
 constexpr std::array kTemperatures{-40.0, -20.0, 0.0, 20.0};
 constexpr double kTiltDrive_s = 60.0, kTurn_s = 40.0, kRoughDrive_s = 150.0;
 
-// Wheels and linkage, as the diagnosis has them: its rover's whole weight acts at the centre of mass.
+// Wheels and linkage, as the quasi-static rung has them by default: the whole weight acts at the centre of
+// mass.
 const sim::MassDistribution kNearlyWeightless{.wheel_kg = 0.3, .rocker_kg = 0.3, .bogie_kg = 0.2};
 
 class Dice {

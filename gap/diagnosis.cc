@@ -7,7 +7,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <set>
 
 #include "core/angle.h"
 #include "gap/effect_trace.h"

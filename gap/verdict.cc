@@ -108,7 +108,7 @@ void judge(const DriveCampaign& campaign, const PreparedCampaign& prepared, cons
   }
   const std::vector<std::string> named = names_in(chosen);
   const double probability = sets[{named.begin(), named.end()}];
-  if (unknown > 0.5 || chosen.with_unknown) {
+  if (chosen.with_unknown) {
     d.verdict = Verdict::kUnknown;
     d.reason =
         fmt::format("a gap remains that no effect of the library explains (probability {:.2f})", unknown);

@@ -167,8 +167,11 @@ Result<Answer> tell_held_out(const gap::DriveCampaign& campaign) {
 }
 
 // The rover as it ships, whose motors were fitted to these drives, in place of the campaign's nominal one.
-gap::DriveCampaign with_shipped_rover(gap::DriveCampaign campaign, const api::Catalogue& catalogue) {
-  campaign.rover = catalogue.rovers.at("cuadriga");
+Result<gap::DriveCampaign> with_shipped_rover(gap::DriveCampaign campaign, const api::Catalogue& catalogue) {
+  const auto shipped = catalogue.rovers.find("cuadriga");
+  if (shipped == catalogue.rovers.end())
+    return fail(ErrorCode::kNotFound, "the data folder has no rover cuadriga");
+  campaign.rover = shipped->second;
   return campaign;
 }
 
@@ -182,8 +185,9 @@ Result<Report> cuadriga_campaign(const std::filesystem::path& data) {
   if (!campaign) return fail(campaign.error());
   const auto assumed = tell_held_out(*campaign);
   if (!assumed) return fail(assumed.error());
-  const gap::DriveCampaign fitted = with_shipped_rover(*campaign, *catalogue);
-  const auto shipped = tell_held_out(fitted);
+  const auto fitted = with_shipped_rover(*campaign, *catalogue);
+  if (!fitted) return fail(fitted.error());
+  const auto shipped = tell_held_out(*fitted);
   if (!shipped) return fail(shipped.error());
   Report report;
   report.title = "A real rover's logs, told by a model that was re-tuned on the others";

@@ -147,7 +147,8 @@ Result<Report> sealed_campaigns(const std::filesystem::path& data) {
       "\"unknown\" "
       "where nothing or only parameters are off (0.03 and 0.05); AUROC of P(unknown) (0.85); a wrong name "
       "with "
-      "more than 0.9 (0.05); calibration and Brier score of the best set's probability (0.05, 0.15); median "
+      "more than 0.9 (0.05); calibration and Brier score of the probability that the answer gives itself "
+      "(0.05, 0.15); median "
       "share of the gap closed on drives held out (0.90).");
   report.notes.emplace_back(
       "L2: the practice campaigns' wheel law with each effect by another equation; L2c: another wheel law "
