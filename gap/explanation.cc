@@ -115,12 +115,17 @@ FittedExplanation fit_explanation(const Hypothesis& hypothesis, const WindowMode
   Eigen::VectorXd white = noise.whiten(fit.residuals), u = units(fit.x), weights;
   Eigen::MatrixXd design;
   double cost = cost_of(white, u);
-  bool near = false;
+  // Near the answer central differences, once: from there on they hardly change.
+  bool near = false, central = false, fresh = false;
   for (int iteration = 0;; ++iteration) {
     const bool last = fit.converged || iteration >= options.iterations || model.cancelled();
-    fit.jacobian = hypothesis.scaled_jacobian(model, fit.x, options.threads,
-                                              near || last ? std::span<const double>{} : predicted);
-    design = noise.whiten(fit.jacobian);
+    if (!central || !(near || last)) {
+      central = near || last;
+      fresh = true;
+      fit.jacobian = hypothesis.scaled_jacobian(model, fit.x, options.threads,
+                                                central ? std::span<const double>{} : predicted);
+      design = noise.whiten(fit.jacobian);
+    }
     weights = weighed(white);
     const Eigen::MatrixXd weighted = weights.asDiagonal() * design;
     Eigen::MatrixXd hessian = weighted.transpose() * design;
@@ -176,6 +181,7 @@ FittedExplanation fit_explanation(const Hypothesis& hypothesis, const WindowMode
       better = true;
       fit.converged = cost - c < kLeastFall || share * largest < options.tolerance;
       near = cost - c < kNear;
+      fresh = false;
       fit.x = std::move(x);
       predicted = std::move(there);
       fit.residuals = std::move(r);
@@ -185,9 +191,10 @@ FittedExplanation fit_explanation(const Hypothesis& hypothesis, const WindowMode
     }
     if (better) continue;
     // With the better derivatives at hand, no step helps: they are those of the answer.
-    fit.converged = near;
-    if (near) break;
+    fit.converged = near && fresh;
+    if (fit.converged) break;
     near = true;
+    central = central && fresh;
   }
   fit.row_weights = weights.cwiseSqrt();
   fit.white_jacobian = fit.row_weights.asDiagonal() * design;

@@ -21,8 +21,10 @@ struct SearchOptions {
   // An effect smaller than this share of its usual size (the deviation of its prior) is not worth a name: it
   // is how one simulator's numerics differ from another's.
   double least_size = 0.3;
-  double temper = 0.15;        // of the logarithm of the evidence, see probabilities_of
   bool something_else = true;  // the wildcard competes; without it for ablations
+  // An oracle's: the effects that are not withheld are at work, all of them, and nothing else is compared.
+  bool told = false;
+  bool whole_evidence = false;  // believed as it stands, for ablations; see weigh
   std::size_t threads = 0;
 };
 
@@ -59,6 +61,11 @@ Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, con
                                               const Wildcard& wildcard, const SearchOptions& options,
                                               Progress& progress,
                                               std::span<const FittedExplanation> found_before = {});
+
+// The candidates' probabilities from evidence and prior. The logarithm of the evidence is
+// believed by a share, since no simulator is exact: mostly by one, and, as answers of sealed campaigns that
+// were sure and wrong ask for, now and then by a tenth of it.
+void weigh(std::span<Candidate> candidates, const SearchOptions& options);
 
 // The fits of the most probable sets of effects, at most so many.
 std::vector<FittedExplanation> most_probable_fits(const ExplanationSearch& search, std::size_t most);

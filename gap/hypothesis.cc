@@ -281,8 +281,11 @@ ModelState Hypothesis::state(std::span<const double> x) const {
 
 std::vector<double> Hypothesis::predict(const WindowModel& model, std::span<const double> x,
                                         std::size_t threads) const {
-  const ModelState at = state(x);
-  std::vector<double> predicted = model.predict(at, threads);
+  return as_shown(model, x, model.predict(state(x), threads));
+}
+
+std::vector<double> Hypothesis::as_shown(const WindowModel& model, std::span<const double> x,
+                                         std::vector<double> predicted) const {
   for (std::size_t p = 0; p < nuisances_; ++p)
     if (parameters_[p].name == kPoseLag && x[p] != 0.0) turn_by_lag(model, x[p], predicted);
   for (const EffectVariant& v : effects_) {
@@ -311,6 +314,7 @@ Eigen::MatrixXd Hypothesis::scaled_jacobian(const WindowModel& model, std::span<
                                             std::size_t threads, std::span<const double> predicted) const {
   const auto rows = static_cast<Eigen::Index>(model.observation_count());
   Eigen::MatrixXd jacobian(rows, static_cast<Eigen::Index>(parameters_.size()));
+  const WindowModel::Starts starts = model.starts_at(state(x), threads);
   parallel_for(parameters_.size(), threads, [&](std::size_t p) {
     const Parameter& parameter = parameters_[p];
     std::vector<double> low(x.begin(), x.end()), high = low;
@@ -318,8 +322,9 @@ Eigen::MatrixXd Hypothesis::scaled_jacobian(const WindowModel& model, std::span<
     low[p] = std::max(parameter.lowest, x[p] - step(p));
     if (!predicted.empty()) (high[p] - x[p] >= x[p] - low[p] ? low[p] : high[p]) = x[p];
     const auto at = [&](const std::vector<double>& there) {
-      return there[p] == x[p] && !predicted.empty() ? std::vector<double>(predicted.begin(), predicted.end())
-                                                    : predict(model, there);
+      return there[p] == x[p] && !predicted.empty()
+                 ? std::vector<double>(predicted.begin(), predicted.end())
+                 : as_shown(model, there, model.predict_near(starts, state(there)));
     };
     const std::vector<double> above = at(high), below = at(low);
     const double scale = parameter.std / (high[p] - low[p]);

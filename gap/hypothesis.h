@@ -74,6 +74,9 @@ class Hypothesis {
                                   std::span<const double> predicted = {}) const;
 
  private:
+  // What the sensors would show of it: late headings, biased attitudes.
+  std::vector<double> as_shown(const WindowModel& model, std::span<const double> x,
+                               std::vector<double> predicted) const;
   const DriveCampaign* campaign_;
   std::vector<EffectVariant> effects_;
   std::vector<Parameter> parameters_;

@@ -102,23 +102,18 @@ SelectionBootstrap resample_selection(const ExplanationSearch& search, const Pre
     if (model.cancelled()) return;
     std::vector<int> times(drives.group_count, 0);
     for (const std::size_t group : drives.resamples[b]) ++times[group];
-    std::vector<double> weights;
-    for (std::size_t c = 0; c < running.size(); ++c)
-      weights.push_back(options.temper * (running[c].log_evidence + evidence[c].counted(times) - whole[c]) +
-                        running[c].log_prior);
-    const double most = *std::max_element(weights.begin(), weights.end());
-    double sum = 0.0;
-    for (const double w : weights) sum += std::exp(w - most);
-    std::vector<std::size_t> order(running.size());
+    std::vector<Candidate> drawn = running;
+    for (std::size_t c = 0; c < drawn.size(); ++c)
+      drawn[c].log_evidence += evidence[c].counted(times) - whole[c];
+    weigh(drawn, options);
+    std::vector<std::size_t> order(drawn.size());
     for (std::size_t c = 0; c < order.size(); ++c) order[c] = c;
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t z) { return weights[a] > weights[z]; });
-    std::vector<Candidate> drawn;
-    for (const std::size_t c : order) {
-      drawn.push_back(running[c]);
-      drawn.back().probability = std::exp(weights[c] - most) / sum;
-    }
-    answer.chosen[b] = order[chosen_among(drawn)];
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t z) {
+      return drawn[a].probability > drawn[z].probability;
+    });
+    std::vector<Candidate> sorted;
+    for (const std::size_t c : order) sorted.push_back(drawn[c]);
+    answer.chosen[b] = order[chosen_among(sorted)];
   });
   for (const std::size_t chosen : answer.chosen)
     answer.share[chosen] += 1.0 / static_cast<double>(drives.resamples.size());

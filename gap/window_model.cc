@@ -31,6 +31,11 @@ bool same_shape_as(const sim::RoverModel& a, const sim::RoverModel& b) {
   return true;
 }
 
+// No motor stalled in drives that were made, whatever re-tuned constants imply of voltages.
+bool gets_on(const sim::StationState& at) {
+  return at.moving() || at.outcome == sim::Outcome::kStalled;
+}
+
 bool attitude_recorded(const DriveWindow& window) {
   return std::any_of(window.observations.begin(), window.observations.end(), [](const Observation& o) {
     return o.channel == Channel::kRoll || o.channel == Channel::kPitch;
@@ -135,8 +140,15 @@ sim::PerWheel<sim::Soil> WindowModel::soils_at(const Place& place, const ModelSt
   return soils;
 }
 
-void WindowModel::predict_window(std::size_t w, const ModelState& state, bool same_shape,
-                                 sim::QuasiStaticSolver& solver, std::span<double> out) const {
+std::span<const WindowModel::Place> WindowModel::places_in(std::size_t w, const ModelState& state,
+                                                           bool same_shape, std::vector<Place>& own) const {
+  if (!same_shape) own = places_of(state.rover, w);
+  return own.empty() ? stances_[w] : own;
+}
+
+void WindowModel::predict_window(std::size_t w, const ModelState& state, std::span<const Place> places,
+                                 const From& from, sim::QuasiStaticSolver& solver,
+                                 std::span<double> out) const {
   const DriveWindow& window = windows_[w];
   const std::size_t wheels = state.rover.wheels.size();
   const bool regions = !sim::effect_regions(state.effects).empty();
@@ -144,9 +156,6 @@ void WindowModel::predict_window(std::size_t w, const ModelState& state, bool sa
   mean.current = sim::PerWheel<double>(wheels);
   mean.sinkage = sim::PerWheel<double>(wheels);
   bool moving = true;
-  std::vector<Place> own;
-  if (!same_shape) own = places_of(state.rover, w);
-  const std::vector<Place>& places = own.empty() ? stances_[w] : own;
   const double share = 1.0 / static_cast<double>(places.size());
   const Place* before = nullptr;
   Motion last;
@@ -161,14 +170,18 @@ void WindowModel::predict_window(std::size_t w, const ModelState& state, bool sa
         std::abs(before->stance.bogie_rad[0] - place.stance.bogie_rad[0]) < kSameAttitude_rad &&
         std::abs(before->stance.bogie_rad[1] - place.stance.bogie_rad[1]) < kSameAttitude_rad;
     if (!as_before) {
-      const sim::StationState at =
-          solver.solve(place.stance, soils_at(place, state), window.command,
-                       starts_[w].empty() || !starts_[w][i] ? nullptr : &*starts_[w][i]);
+      const StationStart* start = from.starts[w].empty() ? nullptr : &from.starts[w][i];
+      const bool stuck = from.near && start != nullptr && !start->moving;
+      sim::StationState at;
+      if (!stuck)
+        at = solver.solve(
+            place.stance, soils_at(place, state), window.command,
+            start != nullptr && start->balance ? &*start->balance : nullptr,
+            start == nullptr || start->moving ? sim::Thoroughness::kSure : sim::Thoroughness::kQuick);
       last = {};
       last.current = sim::PerWheel<double>(wheels);
       last.sinkage = sim::PerWheel<double>(wheels);
-      // No motor stalled in drives that were made, whatever re-tuned constants imply of voltages.
-      if (!at.moving() && at.outcome != sim::Outcome::kStalled) {
+      if (stuck || !gets_on(at)) {
         moving = false;
         last.slip = 1.0;
         solver.reset();
@@ -192,7 +205,7 @@ void WindowModel::predict_window(std::size_t w, const ModelState& state, bool sa
       last.roll = place.stance.attitude.roll_rad;
       last.pitch = place.stance.attitude.pitch_rad;
     }
-    before = own.empty() ? &place : nullptr;
+    before = &place;
     mean.slip += share * last.slip;
     mean.side_slip += share * last.side_slip;
     mean.yaw_rate += share * last.yaw_rate;
@@ -235,19 +248,40 @@ void WindowModel::predict_window(std::size_t w, const ModelState& state, bool sa
   }
 }
 
-void WindowModel::start_from(const ModelState& state, std::size_t threads) {
+WindowModel::Starts WindowModel::starts_at(const ModelState& state, std::size_t threads) const {
+  Starts starts(windows_.size());
+  const bool same_shape = same_shape_as(state.rover, *campaign_.rover);
   parallel_for(windows_.size(), threads, [&](std::size_t w) {
-    starts_[w].clear();
     sim::QuasiStaticSolver solver(state.rover, campaign_.gravity_m_s2);
-    for (const Place& place : stances_[w]) {
-      if (cancelled()) break;
-      starts_[w].push_back(solver.find_start(place.stance, soils_at(place, state), windows_[w].command));
+    std::vector<Place> own;
+    const std::span<const Place> places = places_in(w, state, same_shape, own);
+    starts[w].resize(places.size());
+    for (std::size_t i = 0; i < places.size() && !cancelled(); ++i) {
+      const sim::PerWheel<sim::Soil> soils = soils_at(places[i], state);
+      const bool known = !starts_[w].empty() && starts_[w][i].balance;
+      starts[w][i].moving = gets_on(solver.solve(places[i].stance, soils, windows_[w].command,
+                                                 known ? &*starts_[w][i].balance : nullptr));
+      starts[w][i].balance = solver.start_of_last(places[i].stance, soils, windows_[w].command);
+      if (!starts[w][i].moving) solver.reset();
     }
-    starts_[w].resize(stances_[w].size());
   });
+  return starts;
+}
+
+void WindowModel::start_from(const ModelState& state, std::size_t threads) {
+  starts_ = starts_at(state, threads);
 }
 
 std::vector<double> WindowModel::predict(const ModelState& state, std::size_t threads) const {
+  return predict(state, threads, From{starts_});
+}
+
+std::vector<double> WindowModel::predict_near(const Starts& starts, const ModelState& state) const {
+  return predict(state, 1, From{starts, true});
+}
+
+std::vector<double> WindowModel::predict(const ModelState& state, std::size_t threads,
+                                         const From& from) const {
   std::vector<double> out(observation_count(), kNotMeasured);
   const bool same_shape = same_shape_as(state.rover, *campaign_.rover);
   // A drive's windows follow each other on one thread, each from a solver of its own: numbers do not depend
@@ -262,7 +296,8 @@ std::vector<double> WindowModel::predict(const ModelState& state, std::size_t th
     for (std::size_t w = first[d]; w < end; ++w) {
       if (cancelled()) return;
       if (!used(w)) continue;
-      predict_window(w, state, same_shape, solver,
+      std::vector<Place> own;
+      predict_window(w, state, places_in(w, state, same_shape, own), from, solver,
                      std::span(out).subspan(offsets_[w], windows_[w].observations.size()));
     }
   });

@@ -38,12 +38,22 @@ class WindowModel {
   WindowModel(const DriveCampaign& campaign, std::span<const DriveWindow> windows,
               Footing footing = Footing::kSuspension);
 
+  // The balances of a state at every station: what predictions of states near it start from.
+  struct StationStart {
+    bool moving = false;
+    std::optional<sim::QuasiStaticSolver::Start> balance;  // where all wheels carry
+  };
+  using Starts = std::vector<std::vector<StationStart>>;  // by window
+  Starts starts_at(const ModelState& state, std::size_t threads = 1) const;
   // Predictions start from the balances at this state, and are the faster the nearer theirs is to it. Their
   // numbers do not change by more than the solver's tolerance.
   void start_from(const ModelState& state, std::size_t threads = 1);
   // One number for each observation of each window, in their order. NaN where the rover would not move, but
   // for slip, which is 1 there. Same numbers for any number of threads.
   std::vector<double> predict(const ModelState& state, std::size_t threads = 1) const;
+  // Of a state so near that of the starts that the rover moves where it moved there, and only there: for
+  // derivatives.
+  std::vector<double> predict_near(const Starts& starts, const ModelState& state) const;
 
   // Whose work this is, until the model ends: once it is cancelled, predictions stop and are NaN, and all
   // that is made of this model asks cancelled() and ends early with numbers that nobody looks at.
@@ -75,9 +85,18 @@ class WindowModel {
     sim::PerWheel<std::size_t> soil;  // index under each wheel
   };
 
+  // Where a start of each station is known; `near`: the state is near theirs, see predict_near.
+  struct From {
+    const Starts& starts;
+    bool near = false;
+  };
   sim::PerWheel<sim::Soil> soils_at(const Place& place, const ModelState& state) const;
-  void predict_window(std::size_t window, const ModelState& state, bool same_shape,
-                      sim::QuasiStaticSolver& solver, std::span<double> out) const;
+  std::vector<double> predict(const ModelState& state, std::size_t threads, const From& from) const;
+  void predict_window(std::size_t window, const ModelState& state, std::span<const Place> places,
+                      const From& from, sim::QuasiStaticSolver& solver, std::span<double> out) const;
+  // Where the state's rover stands in a window: `own` holds it where its shape is not the nominal one's.
+  std::span<const Place> places_in(std::size_t window, const ModelState& state, bool same_shape,
+                                   std::vector<Place>& own) const;
   std::optional<Place> place_at(const sim::RoverModel& rover, std::size_t window, const Pose2& pose) const;
   // Of a window's stations, one or as many as it has; empty where one of them has no ground.
   std::vector<Place> places_of(const sim::RoverModel& rover, std::size_t window) const;
@@ -86,7 +105,7 @@ class WindowModel {
   std::span<const DriveWindow> windows_;
   Footing footing_;
   std::vector<std::vector<Place>> stances_;
-  std::vector<std::vector<std::optional<sim::QuasiStaticSolver::Start>>> starts_;  // of stances_; or none
+  Starts starts_;  // of stances_; or none
   std::vector<Conditions> conditions_;
   std::vector<std::size_t> offsets_;
   const Progress* progress_ = nullptr;

@@ -131,7 +131,7 @@ Result<Timed> diagnosed(const GapBenchmarkCommand& options, const api::Catalogue
     how.search.most_refitted = 1;
     how.search.most_paired = 0;
   }
-  if (variant.whole_evidence) how.search.temper = 1.0;
+  how.search.whole_evidence = variant.whole_evidence;
   Patience patience;
   auto diagnosis = variant.method(*campaign, how, patience);
   if (!diagnosis) return fail(diagnosis.error());

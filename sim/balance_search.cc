@@ -207,7 +207,7 @@ Primary primary_of(const DriveCommand& command) {
 }
 
 Attempt find_balance(RoverBalance& balance, const Primary& primary, bool warm, Vector& x,
-                     const RoverBalance::Matrix* inverse) {
+                     const RoverBalance::Matrix* inverse, Thoroughness thoroughness) {
   if (!balance.any_driven()) {
     x = cold_start(balance, primary, 0.0);
     return {Outcome::kNoTraction, -1};
@@ -226,6 +226,7 @@ Attempt find_balance(RoverBalance& balance, const Primary& primary, bool warm, V
     x = cold_start(balance, primary, share);
     if (find_in_contact(balance, 40, x)) return judged(balance, primary, x);
   }
+  if (thoroughness == Thoroughness::kQuick) return {Outcome::kNotConverged, -1};
   x = cold_start(balance, primary, kColdStartSpeedRatios[0]);
   return bracketed_in_contact(balance, primary, x);
 }

@@ -20,6 +20,7 @@ struct Attempt {
 // `x` is where the search starts when `warm`, and the answer (without one, the last iterate) afterwards. For
 // `inverse` see newton().
 Attempt find_balance(RoverBalance& balance, const Primary& primary, bool warm, RoverBalance::Vector& x,
-                     const RoverBalance::Matrix* inverse = nullptr);
+                     const RoverBalance::Matrix* inverse = nullptr,
+                     Thoroughness thoroughness = Thoroughness::kSure);
 
 }  // namespace slipway::sim

@@ -135,7 +135,8 @@ StationState QuasiStaticSolver::solve(const Stance& stance, const Soil& soil, co
 }
 
 StationState QuasiStaticSolver::solve(const Stance& stance, const PerWheel<Soil>& soils,
-                                      const DriveCommand& command, const Start* start) {
+                                      const DriveCommand& command, const Start* start,
+                                      Thoroughness thoroughness) {
   RoverBalance balance(rover_, gravity_m_s2_, stance, soils, command);
   const Primary primary = primary_of(command);
   if (start != nullptr) {
@@ -144,16 +145,16 @@ StationState QuasiStaticSolver::solve(const Stance& stance, const PerWheel<Soil>
   }
   // A start from another kind of motion is worse than a cold one.
   if (warm_ && last_[primary.motion] * primary.sign <= 0.0) warm_ = false;
-  const Attempt attempt =
-      find_balance(balance, primary, warm_, last_, start != nullptr ? &start->inverse_jacobian : nullptr);
+  const Attempt attempt = find_balance(balance, primary, warm_, last_,
+                                       start != nullptr ? &start->inverse_jacobian : nullptr, thoroughness);
   warm_ = attempt.outcome == Outcome::kMoving;
   return state_of(rover_, balance, last_, command, attempt);
 }
 
-std::optional<QuasiStaticSolver::Start> QuasiStaticSolver::find_start(const Stance& stance,
-                                                                      const PerWheel<Soil>& soils,
-                                                                      const DriveCommand& command) {
-  if (!solve(stance, soils, command).moving()) return std::nullopt;
+std::optional<QuasiStaticSolver::Start> QuasiStaticSolver::start_of_last(const Stance& stance,
+                                                                         const PerWheel<Soil>& soils,
+                                                                         const DriveCommand& command) const {
+  if (!warm_) return std::nullopt;
   RoverBalance balance(rover_, gravity_m_s2_, stance, soils, command);
   if (balance.can_spare_a_wheel()) balance.resting_loads_n();  // for the wheels that hang
   if (!balance.all_in_contact()) return std::nullopt;

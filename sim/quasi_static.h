@@ -58,6 +58,12 @@ struct StationState {
   bool moving() const { return outcome == Outcome::kMoving; }
 };
 
+// How long to look before there is said to be no balance.
+enum class Thoroughness {
+  kSure,   // until every sure way has failed
+  kQuick,  // Newton's searches alone, which miss one balance in thousands; then the outcome is kNotConverged
+};
+
 // Solves for the motion (along and across the direction of travel, yaw rate) and the entry angles at which
 // the wheels' forces, gravity and the commanded wheel rates balance: see RoverBalance for the equations.
 // Rovers with more wheels than their suspension can keep on the ground may lift some of them.
@@ -79,11 +85,12 @@ class QuasiStaticSolver {
 
   // soils: the soil under each wheel. With a `start` it is in the last answer's place.
   StationState solve(const Stance& stance, const PerWheel<Soil>& soils, const DriveCommand& command,
-                     const Start* start = nullptr);
+                     const Start* start = nullptr, Thoroughness thoroughness = Thoroughness::kSure);
   StationState solve(const Stance& stance, const Soil& soil, const DriveCommand& command);
-  // Finds the balance, for others to start from; nothing where the rover does not move on all of its wheels.
-  std::optional<Start> find_start(const Stance& stance, const PerWheel<Soil>& soils,
-                                  const DriveCommand& command);
+  // The last solve's balance, asked with what it was solved for, for others to start from; nothing where the
+  // rover did not move on all of its wheels.
+  std::optional<Start> start_of_last(const Stance& stance, const PerWheel<Soil>& soils,
+                                     const DriveCommand& command) const;
   // Forget the last answer, so that the next solve is a cold start.
   void reset() { warm_ = false; }
 
