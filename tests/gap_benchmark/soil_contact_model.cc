@@ -1,0 +1,203 @@
+#include "soil_contact_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace slipway::gap_benchmark {
+namespace {
+
+constexpr double kElastic_pa_m = 2e8;     // stiffness of unloading; more than a hundred times Bekker's
+constexpr double kDisplacedShare = 0.25;  // of the volume that a wheel presses in; the rest is compacted
+constexpr double kSlowest_m_s = 1e-4;     // nodes under a wheel that stands pass through it after all
+constexpr double kLeastLength_m = 1e-6;   // of a patch
+
+// A strip of the contact.
+struct Strip {
+  SoilNode node;           // as it is met, with the heap on it
+  double pressed_m = 0.0;  // lowest point below the surface before the heap
+  double depth_m = 0.0;    // and below the heap; none: no contact
+  double before_m = 0.0;   // contact's length before the lowest point
+  double behind_m = 0.0;   // and behind it
+};
+
+// The contact of one wheel, without its motion.
+class Patch {
+ public:
+  Patch(double radius_m, double width_m, double depth_m, const ContactSoil& soil, int strips)
+      : r_(radius_m), soil_(soil) {
+    std::vector<SoilNode> met = soil.met;
+    if (met.empty()) met.resize(static_cast<std::size_t>(strips));
+    across_m_ = width_m / static_cast<double>(met.size());
+    const double lowest = highest_level(met) - std::max(depth_m, 0.0);
+    double pressed = 0.0;
+    for (const SoilNode& node : met) {
+      strips_.push_back({.node = node, .pressed_m = std::max(node.level_m() - lowest, 0.0)});
+      pressed += strips_.back().pressed_m / static_cast<double>(met.size());
+    }
+    // What is pushed away goes to the front and the two sides of the patch, by their lengths. What lies in
+    // front is pushed again: a node enters h = f (z + h) higher than it was.
+    const double length = chord(pressed);
+    const double to_front = kDisplacedShare * width_m / (width_m + 2.0 * length);
+    beside_m2_ = kDisplacedShare * pressed * width_m * length / (width_m + 2.0 * length);
+    for (Strip& strip : strips_) {
+      const double heap = strip.pressed_m * to_front / (1.0 - to_front);
+      strip.node.origin_m += heap;
+      strip.depth_m = strip.pressed_m + heap;
+      strip.before_m = chord(strip.depth_m);
+    }
+    // The elastic length behind the lowest point belongs to the patch whose width makes the pressure.
+    for (int pass = 0; pass < 3; ++pass) {
+      stiffness_ = soil.stiffness * (1.0 + soil.modulus_ratio_m / narrow_side_m()) /
+                   (1.0 + soil.modulus_ratio_m / width_m);
+      for (Strip& strip : strips_) strip.behind_m = chord(lowest_pressure(strip) / kElastic_pa_m);
+    }
+  }
+
+  const std::vector<Strip>& strips() const { return strips_; }
+  double across_m() const { return across_m_; }
+  double beside_m2() const { return beside_m2_; }  // cross-section of what is heaped on either side
+
+  // Pressure on a node as it is pressed further, `rise_m` above the lowest point.
+  double pressing(const Strip& strip, double rise_m) const {
+    const double elastic = std::max(strip.depth_m - rise_m, 0.0), sinkage = elastic + strip.node.plastic_m;
+    return std::min(kElastic_pa_m * elastic,
+                    std::max(strip.node.yield_pa, stiffness_ * std::pow(sinkage, soil_.n)));
+  }
+  double lowest_pressure(const Strip& strip) const { return pressing(strip, 0.0); }
+  double springing_back(const Strip& strip, double rise_m) const {
+    return std::max(lowest_pressure(strip) - kElastic_pa_m * rise_m, 0.0);
+  }
+
+ private:
+  double chord(double depth_m) const {
+    const double depth = std::clamp(depth_m, 0.0, 0.98 * r_);
+    return std::sqrt(depth * (2.0 * r_ - depth));
+  }
+  // 2 area / perimeter of the rectangle that has the area and the mean length of the patch.
+  double narrow_side_m() const {
+    double sum = 0.0, squares = 0.0;
+    for (const Strip& strip : strips_) {
+      const double length = strip.before_m + strip.behind_m;
+      sum += length;
+      squares += length * length;
+    }
+    if (sum < kLeastLength_m) return kLeastLength_m;
+    const double length = squares / sum, width = sum / length * across_m_;
+    return width * length / (width + length);
+  }
+
+  double r_;
+  const ContactSoil& soil_;
+  std::vector<Strip> strips_;
+  double across_m_ = 0.0, beside_m2_ = 0.0, stiffness_ = 0.0;
+};
+
+// A strip's nodes from the front to the back: where they are, and how far the rim has slid over each.
+class NodePath {
+ public:
+  NodePath(const ContactGrid& grid, double radius_m) : grid_(grid), r_(radius_m) {
+    x_m.resize(static_cast<std::size_t>(grid.nodes_before + grid.nodes_behind));
+    slid_m.resize(x_m.size());
+  }
+  void follow(const Strip& strip, double rim_m_s, double ahead_m_s) {
+    front_m_ = strip.before_m;
+    const double step_before = strip.before_m / grid_.nodes_before,
+                 step_behind = strip.behind_m / grid_.nodes_behind;
+    double x = front_m_, slid = 0.0;
+    const double slowness = 1.0 / std::max(ahead_m_s, kSlowest_m_s);
+    for (std::size_t i = 0; i < x_m.size(); ++i) {
+      const double step = steps_before(i) ? step_before : step_behind;
+      const double at = x - 0.5 * step;
+      const double sliding = (rim_m_s - ahead_m_s * std::sqrt(1.0 - at * at / (r_ * r_))) * slowness;
+      x_m[i] = at;
+      slid_m[i] = slid + 0.5 * step * sliding;
+      slid += step * sliding;
+      x -= step;
+    }
+  }
+  bool steps_before(std::size_t i) const { return i < static_cast<std::size_t>(grid_.nodes_before); }
+  // How far the rim slides over a node between the front and x: linear between nodes.
+  double slid_until(double x) const {
+    const auto next = std::lower_bound(x_m.begin(), x_m.end(), x, std::greater<>());
+    if (next == x_m.end()) return slid_m.back();
+    const std::size_t i = static_cast<std::size_t>(next - x_m.begin());
+    const double from_x = i == 0 ? front_m_ : x_m[i - 1], from = i == 0 ? 0.0 : slid_m[i - 1];
+    return from + (slid_m[i] - from) * (from_x - x) / (from_x - x_m[i]);
+  }
+
+  std::vector<double> x_m, slid_m;
+
+ private:
+  const ContactGrid& grid_;
+  double r_, front_m_ = 0.0;
+};
+
+}  // namespace
+
+SoilContactModel::SoilContactModel(double radius_m, double width_m, const ContactGrid& grid)
+    : radius_m_(radius_m), width_m_(width_m), grid_(grid) {}
+
+WheelLoads SoilContactModel::loads(double depth_m, const WheelMotion& motion, const ContactSoil& soil) const {
+  // In the direction of travel: a wheel that backs is turned about.
+  const double way = motion.forward_m_s != 0.0 ? motion.forward_m_s : motion.rate_rad_s;
+  const double sense = way < 0.0 ? -1.0 : 1.0;
+  const double ahead = sense * motion.forward_m_s, left = sense * motion.left_m_s;
+  const double rim = sense * motion.rate_rad_s * radius_m_;
+  const double passing = std::max(ahead, kSlowest_m_s);
+
+  const Patch patch(radius_m_, width_m_, depth_m, soil, grid_.strips);
+  NodePath path(grid_, radius_m_);
+  double normal = 0.0, pull = 0.0, side = 0.0, torque = 0.0;
+  for (std::size_t s = 0; s < patch.strips().size(); ++s) {
+    const Strip& strip = patch.strips()[s];
+    if (strip.depth_m <= 0.0) continue;
+    path.follow(strip, rim, ahead);
+    // Nodes come in by the front, or by the side toward which the wheel moves.
+    const double from_right = (static_cast<double>(s) + 0.5) * patch.across_m();
+    const double to_side = left > 0.0 ? width_m_ - from_right : from_right;
+    const double until_side = left == 0.0 ? 2.0 * radius_m_ : to_side * passing / std::abs(left);
+    for (std::size_t i = 0; i < path.x_m.size(); ++i) {
+      const double x = path.x_m[i], sine = x / radius_m_, cosine = std::sqrt(1.0 - sine * sine);
+      const bool before = path.steps_before(i);
+      const double step = before ? strip.before_m / grid_.nodes_before : strip.behind_m / grid_.nodes_behind;
+      const double rise = radius_m_ * (1.0 - cosine);
+      const double sigma = before ? patch.pressing(strip, rise) : patch.springing_back(strip, rise);
+
+      const double entry = std::min(strip.before_m, x + until_side);
+      const double j_x = path.slid_m[i] - (entry < strip.before_m ? path.slid_until(entry) : 0.0);
+      const double j_y = left * (entry - x) / passing;
+      const double j = std::sqrt(j_x * j_x + j_y * j_y) + 1e-15;
+      const double tau =
+          (soil.cohesion_pa + sigma * soil.tan_phi) * (1.0 - std::exp(-j / soil.shear_modulus_m));
+      const double tau_x = tau * j_x / j, tau_y = tau * j_y / j;
+      const double area = step * patch.across_m() / cosine;
+      normal += area * (sigma * cosine + tau_x * sine);
+      pull += area * (tau_x * cosine - sigma * sine);
+      side -= area * tau_y;
+      torque += area * tau_x * radius_m_;
+    }
+  }
+  return {.normal_n = normal, .pull_n = sense * pull, .side_n = sense * side, .torque_nm = sense * torque};
+}
+
+Rut SoilContactModel::rut(double depth_m, const ContactSoil& soil) const {
+  const Patch patch(radius_m_, width_m_, depth_m, soil, grid_.strips);
+  Rut rut;
+  for (const Strip& strip : patch.strips()) {
+    SoilNode node = strip.node;
+    if (strip.depth_m > 0.0) {
+      const double pressure = patch.lowest_pressure(strip);
+      node.plastic_m += strip.depth_m - pressure / kElastic_pa_m;
+      node.yield_pa = std::max(node.yield_pa, pressure);
+    }
+    rut.across.push_back(node);
+  }
+  // A berm with either flank at the angle of friction, told as a bar of its mean height.
+  const double crest = std::sqrt(patch.beside_m2() * soil.tan_phi);
+  rut.berm_height_m = 0.5 * crest;
+  rut.berm_width_m = crest > 0.0 ? 2.0 * crest / soil.tan_phi : 0.0;
+  return rut;
+}
+
+}  // namespace slipway::gap_benchmark
