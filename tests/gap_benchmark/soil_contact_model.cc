@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 namespace slipway::gap_benchmark {
 namespace {
@@ -93,44 +92,51 @@ class Patch {
   double across_m_ = 0.0, beside_m2_ = 0.0, stiffness_ = 0.0;
 };
 
-// A strip's nodes from the front to the back: where they are, and how far the rim has slid over each.
+// A strip's nodes from the front to the back.
 class NodePath {
  public:
-  NodePath(const ContactGrid& grid, double radius_m) : grid_(grid), r_(radius_m) {
-    x_m.resize(static_cast<std::size_t>(grid.nodes_before + grid.nodes_behind));
-    slid_m.resize(x_m.size());
-  }
-  void follow(const Strip& strip, double rim_m_s, double ahead_m_s) {
-    front_m_ = strip.before_m;
-    const double step_before = strip.before_m / grid_.nodes_before,
-                 step_behind = strip.behind_m / grid_.nodes_behind;
-    double x = front_m_, slid = 0.0;
+  struct Node {
+    double x_m = 0.0, sine = 0.0, cosine = 1.0;  // ahead of the axle; of the angle on the rim
+    double length_m = 0.0;                       // of the rim over it
+    double sigma_pa = 0.0, slid_m = 0.0;         // pressure; how far the rim has slid over it
+  };
+
+  NodePath() = default;
+  NodePath(const Patch& patch, const Strip& strip, double radius_m, const ContactGrid& grid, double rim_m_s,
+           double ahead_m_s)
+      : front_m_(strip.before_m) {
+    nodes_.reserve(static_cast<std::size_t>(grid.nodes_before + grid.nodes_behind));
     const double slowness = 1.0 / std::max(ahead_m_s, kSlowest_m_s);
-    for (std::size_t i = 0; i < x_m.size(); ++i) {
-      const double step = steps_before(i) ? step_before : step_behind;
-      const double at = x - 0.5 * step;
-      const double sliding = (rim_m_s - ahead_m_s * std::sqrt(1.0 - at * at / (r_ * r_))) * slowness;
-      x_m[i] = at;
-      slid_m[i] = slid + 0.5 * step * sliding;
-      slid += step * sliding;
+    double x = front_m_, slid = 0.0;
+    const auto add = [&](double step, bool before) {
+      Node node{.x_m = x - 0.5 * step, .sine = (x - 0.5 * step) / radius_m};
+      node.cosine = std::sqrt(1.0 - node.sine * node.sine);
+      node.length_m = step / node.cosine;
+      const double rise = radius_m * (1.0 - node.cosine);
+      node.sigma_pa = before ? patch.pressing(strip, rise) : patch.springing_back(strip, rise);
+      const double sliding = step * slowness * (rim_m_s - ahead_m_s * node.cosine);
+      node.slid_m = slid + 0.5 * sliding;
+      nodes_.push_back(node);
+      slid += sliding;
       x -= step;
-    }
-  }
-  bool steps_before(std::size_t i) const { return i < static_cast<std::size_t>(grid_.nodes_before); }
-  // How far the rim slides over a node between the front and x: linear between nodes.
-  double slid_until(double x) const {
-    const auto next = std::lower_bound(x_m.begin(), x_m.end(), x, std::greater<>());
-    if (next == x_m.end()) return slid_m.back();
-    const std::size_t i = static_cast<std::size_t>(next - x_m.begin());
-    const double from_x = i == 0 ? front_m_ : x_m[i - 1], from = i == 0 ? 0.0 : slid_m[i - 1];
-    return from + (slid_m[i] - from) * (from_x - x) / (from_x - x_m[i]);
+    };
+    for (int i = 0; i < grid.nodes_before; ++i) add(strip.before_m / grid.nodes_before, true);
+    for (int i = 0; i < grid.nodes_behind; ++i) add(strip.behind_m / grid.nodes_behind, false);
   }
 
-  std::vector<double> x_m, slid_m;
+  const std::vector<Node>& nodes() const { return nodes_; }
+  // How far the rim slides over a node between the front and x: linear between nodes.
+  double slid_until(double x_m) const {
+    const auto next =
+        std::find_if(nodes_.begin(), nodes_.end(), [&](const Node& node) { return node.x_m <= x_m; });
+    if (next == nodes_.end()) return nodes_.back().slid_m;
+    const Node last = next == nodes_.begin() ? Node{.x_m = front_m_} : *(next - 1);
+    return last.slid_m + (next->slid_m - last.slid_m) * (last.x_m - x_m) / (last.x_m - next->x_m);
+  }
 
  private:
-  const ContactGrid& grid_;
-  double r_, front_m_ = 0.0;
+  double front_m_ = 0.0;
+  std::vector<Node> nodes_;
 };
 
 }  // namespace
@@ -147,33 +153,31 @@ WheelLoads SoilContactModel::loads(double depth_m, const WheelMotion& motion, co
   const double passing = std::max(ahead, kSlowest_m_s);
 
   const Patch patch(radius_m_, width_m_, depth_m, soil, grid_.strips);
-  NodePath path(grid_, radius_m_);
   double normal = 0.0, pull = 0.0, side = 0.0, torque = 0.0;
+  NodePath path;
+  const SoilNode* laid_through = nullptr;  // strips of the same soil have the same path
   for (std::size_t s = 0; s < patch.strips().size(); ++s) {
     const Strip& strip = patch.strips()[s];
     if (strip.depth_m <= 0.0) continue;
-    path.follow(strip, rim, ahead);
+    if (!laid_through || *laid_through != strip.node) {
+      path = NodePath(patch, strip, radius_m_, grid_, rim, ahead);
+      laid_through = &strip.node;
+    }
     // Nodes come in by the front, or by the side toward which the wheel moves.
     const double from_right = (static_cast<double>(s) + 0.5) * patch.across_m();
     const double to_side = left > 0.0 ? width_m_ - from_right : from_right;
     const double until_side = left == 0.0 ? 2.0 * radius_m_ : to_side * passing / std::abs(left);
-    for (std::size_t i = 0; i < path.x_m.size(); ++i) {
-      const double x = path.x_m[i], sine = x / radius_m_, cosine = std::sqrt(1.0 - sine * sine);
-      const bool before = path.steps_before(i);
-      const double step = before ? strip.before_m / grid_.nodes_before : strip.behind_m / grid_.nodes_behind;
-      const double rise = radius_m_ * (1.0 - cosine);
-      const double sigma = before ? patch.pressing(strip, rise) : patch.springing_back(strip, rise);
-
-      const double entry = std::min(strip.before_m, x + until_side);
-      const double j_x = path.slid_m[i] - (entry < strip.before_m ? path.slid_until(entry) : 0.0);
-      const double j_y = left * (entry - x) / passing;
+    for (const NodePath::Node& node : path.nodes()) {
+      const double entry = std::min(strip.before_m, node.x_m + until_side);
+      const double j_x = node.slid_m - (entry < strip.before_m ? path.slid_until(entry) : 0.0);
+      const double j_y = left * (entry - node.x_m) / passing;
       const double j = std::sqrt(j_x * j_x + j_y * j_y) + 1e-15;
-      const double tau =
-          (soil.cohesion_pa + sigma * soil.tan_phi) * (1.0 - std::exp(-j / soil.shear_modulus_m));
+      const double strength = soil.cohesion_pa + node.sigma_pa * soil.tan_phi;
+      const double tau = strength * (1.0 - std::exp(-j / soil.shear_modulus_m));
       const double tau_x = tau * j_x / j, tau_y = tau * j_y / j;
-      const double area = step * patch.across_m() / cosine;
-      normal += area * (sigma * cosine + tau_x * sine);
-      pull += area * (tau_x * cosine - sigma * sine);
+      const double area = node.length_m * patch.across_m();
+      normal += area * (node.sigma_pa * node.cosine + tau_x * node.sine);
+      pull += area * (tau_x * node.cosine - node.sigma_pa * node.sine);
       side -= area * tau_y;
       torque += area * tau_x * radius_m_;
     }

@@ -13,6 +13,7 @@ struct SoilNode {
   double yield_pa = 0.0;   // greatest pressure that it has borne
 
   double level_m() const { return origin_m - plastic_m; }
+  bool operator==(const SoilNode&) const = default;
 };
 double highest_level(const std::vector<SoilNode>& across);
 
