@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kElastic_pa_m = 2e8;     // stiffness of unloading; more than a hundred times Bekker's
 constexpr double kDisplacedShare = 0.25;  // of the volume that a wheel presses in; the rest is compacted
-constexpr double kSlowest_m_s = 1e-4;     // nodes under a wheel that stands pass through it after all
+constexpr double kSlowest_m_s = 1e-6;     // nodes under a wheel that stands pass through it after all
 constexpr double kLeastLength_m = 1e-6;   // of a patch
 
 // A strip of the contact.
@@ -64,8 +64,9 @@ class Patch {
                     std::max(strip.node.yield_pa, stiffness_ * std::pow(sinkage, soil_.n)));
   }
   double lowest_pressure(const Strip& strip) const { return pressing(strip, 0.0); }
-  double springing_back(const Strip& strip, double rise_m) const {
-    return std::max(lowest_pressure(strip) - kElastic_pa_m * rise_m, 0.0);
+  // And as it springs back from where it was pressed most; what has no contact any more has less than none.
+  double springing_back(const Strip& strip, double rise_m, double least_rise_m) const {
+    return pressing(strip, least_rise_m) - kElastic_pa_m * (rise_m - least_rise_m);
   }
 
  private:
@@ -97,31 +98,35 @@ class NodePath {
  public:
   struct Node {
     double x_m = 0.0, sine = 0.0, cosine = 1.0;  // ahead of the axle; of the angle on the rim
-    double length_m = 0.0;                       // of the rim over it
-    double sigma_pa = 0.0, slid_m = 0.0;         // pressure; how far the rim has slid over it
+    double length_m = 0.0, rise_m = 0.0;         // of the rim over it; above the lowest point
+    double sigma_pa = 0.0,
+           slid_m = 0.0;  // if it came in by the front: pressure; how far the rim has slid over it
   };
 
   NodePath() = default;
   NodePath(const Patch& patch, const Strip& strip, double radius_m, const ContactGrid& grid, double rim_m_s,
            double ahead_m_s)
       : front_m_(strip.before_m) {
-    nodes_.reserve(static_cast<std::size_t>(grid.nodes_before + grid.nodes_behind));
+    nodes_.reserve(static_cast<std::size_t>(grid.nodes_before + grid.nodes_behind + grid.nodes_far_behind));
     const double slowness = 1.0 / std::max(ahead_m_s, kSlowest_m_s);
     double x = front_m_, slid = 0.0;
-    const auto add = [&](double step, bool before) {
+    const auto add = [&](double step) {
       Node node{.x_m = x - 0.5 * step, .sine = (x - 0.5 * step) / radius_m};
       node.cosine = std::sqrt(1.0 - node.sine * node.sine);
       node.length_m = step / node.cosine;
-      const double rise = radius_m * (1.0 - node.cosine);
-      node.sigma_pa = before ? patch.pressing(strip, rise) : patch.springing_back(strip, rise);
+      node.rise_m = radius_m * (1.0 - node.cosine);
+      node.sigma_pa =
+          node.x_m > 0.0 ? patch.pressing(strip, node.rise_m) : patch.springing_back(strip, node.rise_m, 0.0);
       const double sliding = step * slowness * (rim_m_s - ahead_m_s * node.cosine);
       node.slid_m = slid + 0.5 * sliding;
       nodes_.push_back(node);
       slid += sliding;
       x -= step;
     };
-    for (int i = 0; i < grid.nodes_before; ++i) add(strip.before_m / grid.nodes_before, true);
-    for (int i = 0; i < grid.nodes_behind; ++i) add(strip.behind_m / grid.nodes_behind, false);
+    const double far = std::max(strip.before_m - strip.behind_m, 0.0);
+    for (int i = 0; i < grid.nodes_before; ++i) add(strip.before_m / grid.nodes_before);
+    for (int i = 0; i < grid.nodes_behind; ++i) add(strip.behind_m / grid.nodes_behind);
+    for (int i = 0; i < grid.nodes_far_behind; ++i) add(far / grid.nodes_far_behind);
   }
 
   const std::vector<Node>& nodes() const { return nodes_; }
@@ -169,15 +174,24 @@ WheelLoads SoilContactModel::loads(double depth_m, const WheelMotion& motion, co
     const double until_side = left == 0.0 ? 2.0 * radius_m_ : to_side * passing / std::abs(left);
     for (const NodePath::Node& node : path.nodes()) {
       const double entry = std::min(strip.before_m, node.x_m + until_side);
+      // What comes in by the side behind the lowest point is pressed as deep as there.
+      double sigma = node.sigma_pa;
+      if (entry < 0.0) {
+        const double least_rise = radius_m_ - std::sqrt(radius_m_ * radius_m_ - entry * entry);
+        sigma = patch.springing_back(strip, node.rise_m, least_rise);
+      }
+      if (sigma <= 0.0) continue;
       const double j_x = node.slid_m - (entry < strip.before_m ? path.slid_until(entry) : 0.0);
       const double j_y = left * (entry - node.x_m) / passing;
       const double j = std::sqrt(j_x * j_x + j_y * j_y) + 1e-15;
-      const double strength = soil.cohesion_pa + node.sigma_pa * soil.tan_phi;
+      // Contact behind the lowest point ends without a jump.
+      const double cohesion = node.x_m > 0.0 ? soil.cohesion_pa : std::min(soil.cohesion_pa, sigma);
+      const double strength = cohesion + sigma * soil.tan_phi;
       const double tau = strength * (1.0 - std::exp(-j / soil.shear_modulus_m));
       const double tau_x = tau * j_x / j, tau_y = tau * j_y / j;
       const double area = node.length_m * patch.across_m();
-      normal += area * (node.sigma_pa * node.cosine + tau_x * node.sine);
-      pull += area * (tau_x * node.cosine - node.sigma_pa * node.sine);
+      normal += area * (sigma * node.cosine + tau_x * node.sine);
+      pull += area * (tau_x * node.cosine - sigma * node.sine);
       side -= area * tau_y;
       torque += area * tau_x * radius_m_;
     }

@@ -9,7 +9,7 @@ namespace slipway::gap_benchmark {
 // Nodes of a wheel's contact: strips across its width, nodes of each strip before and behind the lowest
 // point. How many does not depend on depth or motion, so that loads are continuous in both.
 struct ContactGrid {
-  int strips = 16, nodes_before = 32, nodes_behind = 8;
+  int strips = 16, nodes_before = 32, nodes_behind = 8, nodes_far_behind = 16;
 };
 
 // The Soil Contact Model [Krenn & Hirzinger 2009], with the elastic unloading, shear and width of the contact

@@ -159,6 +159,19 @@ TEST(SoilContactModel, BackingTurnsTheWheelAbout) {
   EXPECT_EQ(one.torque_nm, -other.torque_nm);
 }
 
+TEST(SoilContactModel, SlidingSidewaysItDoesNotMatterWhichWayTheWheelCreeps) {
+  const ContactSoil soil = sandy_loam();
+  const SoilContactModel law(kRadius_m, kWidth_m);
+  for (const double left : {-0.02, 0.01}) {
+    const WheelLoads on = law.loads(0.01, {1e-6, left, 0.3}, soil),
+                     back = law.loads(0.01, {-1e-6, left, 0.3}, soil);
+    EXPECT_NEAR(on.normal_n, back.normal_n, 0.01 * on.normal_n);
+    EXPECT_NEAR(on.pull_n, back.pull_n, 0.01 * on.normal_n);
+    EXPECT_NEAR(on.side_n, back.side_n, 0.01 * on.normal_n);
+    EXPECT_NEAR(on.torque_nm, back.torque_nm, 0.01 * on.torque_nm);
+  }
+}
+
 TEST(SoilContactModel, LaterPassesSinkLess) {
   ContactSoil soil = sandy_loam();
   const SoilContactModel law(kRadius_m, kWidth_m);
@@ -185,7 +198,9 @@ TEST(SoilContactModel, WhatIsPushedAwayIsHeapedBesideInItsShare) {
 TEST(SoilContactModel, LoadsConvergeWithTheSpacingOfNodes) {
   const ContactGrid as_used;
   const SoilContactModel law(kRadius_m, kWidth_m, as_used),
-      finer(kRadius_m, kWidth_m, {2 * as_used.strips, 2 * as_used.nodes_before, 2 * as_used.nodes_behind});
+      finer(kRadius_m, kWidth_m,
+            {2 * as_used.strips, 2 * as_used.nodes_before, 2 * as_used.nodes_behind,
+             2 * as_used.nodes_far_behind});
   ContactSoil virgin = sandy_loam(), rut = virgin, finer_rut = virgin;
   rut.met = law.rut(0.012, virgin).across;
   finer_rut.met = finer.rut(0.012, virgin).across;
