@@ -64,7 +64,7 @@ class Patch {
                     std::max(strip.node.yield_pa, stiffness_ * std::pow(sinkage, soil_.n)));
   }
   double lowest_pressure(const Strip& strip) const { return pressing(strip, 0.0); }
-  // And as it springs back from where it was pressed most; what has no contact any more has less than none.
+  // And as it springs back from where it was pressed most; not positive: no contact any more.
   double springing_back(const Strip& strip, double rise_m, double least_rise_m) const {
     return pressing(strip, least_rise_m) - kElastic_pa_m * (rise_m - least_rise_m);
   }
@@ -99,8 +99,8 @@ class NodePath {
   struct Node {
     double x_m = 0.0, sine = 0.0, cosine = 1.0;  // ahead of the axle; of the angle on the rim
     double length_m = 0.0, rise_m = 0.0;         // of the rim over it; above the lowest point
-    double sigma_pa = 0.0,
-           slid_m = 0.0;  // if it came in by the front: pressure; how far the rim has slid over it
+    // If it came in by the front: its pressure, and how far the rim has slid over it.
+    double sigma_pa = 0.0, slid_m = 0.0;
   };
 
   NodePath() = default;
