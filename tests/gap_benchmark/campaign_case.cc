@@ -120,6 +120,23 @@ std::vector<CampaignCase> nothing(CaseList list) {
   return list.take();
 }
 
+std::vector<CampaignCase> other_physics(CaseList list) {
+  const auto add = [&](std::vector<std::string> causes, bool on_hills) -> CampaignCase& {
+    CampaignCase& made = list.add(std::move(causes), 1.0);
+    made.on_hills = on_hills;
+    made.fidelity = Fidelity::kOtherPhysics;
+    return made;
+  };
+  add({}, false).soil = "sandy-loam";
+  add({}, false).soil = "fine-sand";
+  add({}, true);
+  for (const char* cause :
+       {"motor_temperature", "com_offset", "gearbox_friction", "wheel_radius", "dragging_wheel", "tether"})
+    add({cause}, false);
+  add({"soft_patch"}, true);
+  return list.take();
+}
+
 }  // namespace
 
 std::string name_of(Fidelity fidelity) {
@@ -130,6 +147,8 @@ std::string name_of(Fidelity fidelity) {
       return "L2";
     case Fidelity::kOtherClosures:
       return "L2c";
+    case Fidelity::kOtherPhysics:
+      return "L3";
   }
   return "";
 }
@@ -143,11 +162,19 @@ std::optional<std::vector<CampaignCase>> cases_of(const std::string& set, std::o
   if (set == "each") cases = each(list);
   if (set == "smoke") cases = smoke(list);
   if (set == "nothing") cases = nothing(list);
+  if (set == "other_physics") cases = other_physics(list);
   if (cases) {
     for (CampaignCase& made_of : *cases) made_of.seed = random.seed();
     shuffle(*cases, random);
   }
   return cases;
+}
+
+std::optional<std::string> impossible_cause(const CampaignCase& made_of) {
+  if (made_of.fidelity == Fidelity::kOtherPhysics)
+    for (const std::string& cause : made_of.causes)
+      if (is_of_arc_law(cause)) return cause;
+  return std::nullopt;
 }
 
 const std::vector<TrueSoil>& true_soils() {

@@ -14,6 +14,7 @@ enum class Fidelity {
   kSameEquations,  // L1: the library's laws and effects in other code and numerics
   kOtherEffects,   // L2: every effect by another equation, the practice campaigns' wheel law and suspension
   kOtherClosures,  // L2c: that and another stress shape, arc of contact, lateral law and suspension
+  kOtherPhysics,   // L3: no arc of stresses; soil of nodes that yield, spring back and are run over again
 };
 std::string name_of(Fidelity fidelity);
 
@@ -34,9 +35,13 @@ struct CampaignCase {
 };
 
 // The cases of a set: "blind" (26 as a judge would choose), "full" (every effect at three sizes and much
-// more), "each" (every cause once), "smoke" (two small ones), "nothing" (p01 again).
+// more), "each" (every cause once), "smoke" (two small ones), "nothing" (p01 again),
+// "other_physics" (ten of L3, whatever is asked for).
 std::optional<std::vector<CampaignCase>> cases_of(const std::string& set, std::optional<Fidelity> fidelity,
                                                   RandomStream& random);
+
+// A cause that is no term of the fidelity's wheel law: name of the first, or nothing.
+std::optional<std::string> impossible_cause(const CampaignCase& made_of);
 
 const std::vector<TrueSoil>& true_soils();
 

@@ -3,7 +3,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
+
+#include "soil_contact_model.h"
+#include "wheel_tracks.h"
 
 namespace slipway::gap_benchmark {
 namespace {
@@ -11,6 +15,7 @@ namespace {
 constexpr double kStep_s = 2.0, kSurveyEvery = 5;
 constexpr double kHeating_k = 8.0, kHeatingTime_s = 300.0;
 constexpr double kTurnArm_m = 0.88;
+constexpr int kFirstPasses = 3;  // until the wheels behind stand in the ruts of those ahead
 constexpr double kRutLeft = 0.4;
 constexpr double kReferenceTemp_c = 20.0, kReferenceSpeed_m_s = 0.04;
 
@@ -35,6 +40,12 @@ class AlongField {
   std::array<Part, 4> parts_;
 };
 
+std::unique_ptr<const WheelLaw> wheel_law(const World& world) {
+  const double radius = world.rover.radius_m * (1.0 + world.hidden.radius_scale), width = world.rover.width_m;
+  if (world.soil_contact_model) return std::make_unique<SoilContactModel>(radius, width);
+  return std::make_unique<ArcLaw>(radius, width, world.closure, world.hidden);
+}
+
 struct Attitude {
   double roll = 0.0, pitch = 0.0, height = 0.0;
 };
@@ -46,6 +57,7 @@ class Drive {
         hidden_(world.hidden),
         ground_(ground),
         order_(order),
+        law_(wheel_law(world)),
         stiffness_(random, world.scatter.length_m),
         friction_(random, world.scatter.length_m),
         modulus_(random, world.scatter.length_m) {
@@ -73,7 +85,10 @@ class Drive {
         break;
       }
       const Attitude attitude = attitude_here();
-      if (!step(attitude)) {
+      bool stepped = true;
+      for (int pass = i == 0 && world_.soil_contact_model ? kFirstPasses : 1; stepped && pass > 0; --pass)
+        stepped = step(attitude);
+      if (!stepped) {
         drive.complete = false;
         break;
       }
@@ -132,6 +147,7 @@ class Drive {
                                                                           std::sin(hidden_.wind_rad), 0.0));
       task.pull_at_m = Eigen::Vector3d(0.0, 0.0, 0.6);
     }
+    const Tracks tracks = tracks_of(world_.rover, state_);
     const double slope_x = -std::tan(attitude.pitch),
                  slope_y = std::tan(attitude.roll) / std::cos(attitude.pitch);
     for (int k = 0; k < kWheels; ++k) {
@@ -152,9 +168,12 @@ class Drive {
       const bool steers = k % 3 != 1;
       if (steers && (hidden_.steered < 0 || hidden_.steered == k)) place.steer_rad += hidden_.steering_rad;
       place.soil = soil_under(k, std::cos(yaw_) * wx - std::sin(yaw_) * wy + x_,
-                              std::sin(yaw_) * wx + std::cos(yaw_) * wy + y_);
+                              std::sin(yaw_) * wx + std::cos(yaw_) * wy + y_, tracks);
+      met_level_m_[k] = highest_level(place.soil.met);
     }
-    return balance_rover(world_.rover, task, world_.closure, hidden_, state_);
+    if (!balance_rover(world_.rover, task, *law_, world_.closure, hidden_, state_)) return false;
+    for (int k = 0; k < kWheels; ++k) ruts_[k] = law_->rut(state_.depth_m[k], task.wheels[k].soil);
+    return true;
   }
 
   double true_rate(int k) const {
@@ -167,7 +186,7 @@ class Drive {
     return rate;
   }
 
-  ContactSoil soil_under(int k, double x, double y) {
+  ContactSoil soil_under(int k, double x, double y, const Tracks& tracks) {
     const TrueSoil& soil = world_.soil;
     const double along = world_.scatter.along;
     const double s = way_m_ + world_.rover.wheel_m[k].x();
@@ -183,7 +202,11 @@ class Drive {
     out.weight_n_m3 = soil.density_kg_m3 * world_.gravity_m_s2;
     out.c1 = world_.soil.c1;
     out.c2 = world_.soil.c2;
-    harden_in_tracks(k, out);
+    out.modulus_ratio_m = soil.k_c / soil.k_phi;
+    if (!order_.turn_in_place) {
+      harden_in_tracks(k, tracks, out);
+      out.met = soil_met(k, tracks, ruts_, world_.rover.width_m);
+    }
     weaken_in_patch(x, y, out);
     if (hidden_.rate_exponent != 0.0) {
       const double v = std::max(std::abs(told_[k].rate_rad_s) * world_.rover.radius_m, 1e-3),
@@ -210,26 +233,14 @@ class Drive {
   }
 
   // Wheels ahead of this one whose track it runs in, each counted by how far the tracks overlap.
-  void harden_in_tracks(int k, ContactSoil& soil) {
-    if (hidden_.multipass == 0.0 || order_.turn_in_place) return;
-    const double vx = state_.forward_m_s, vy = state_.left_m_s, w = state_.yaw_rate_rad_s;
-    const double speed = std::max(std::hypot(vx, vy), 1e-5);
-    const auto lane = [&](int i) {
-      const Eigen::Vector2d& p = world_.rover.wheel_m[i];
-      if (std::abs(w) / speed > 1e-3)
-        return std::hypot(vx - w * p.y(), vy + w * p.x()) / std::abs(w) * (w > 0 ? -1.0 : 1.0);
-      return (vx * p.y() - vy * p.x()) / speed;
-    };
-    const auto station = [&](int i) {
-      const Eigen::Vector2d& p = world_.rover.wheel_m[i];
-      return (vx * p.x() + vy * p.y()) / speed;
-    };
+  void harden_in_tracks(int k, const Tracks& tracks, ContactSoil& soil) {
+    if (hidden_.multipass == 0.0) return;
     double passes = 0.0;
     for (int i = 0; i < kWheels; ++i) {
       double& overlap = overlap_[k][i];
       overlap = 0.0;
-      if (i == k || station(i) < station(k) + 0.2) continue;
-      overlap = std::max(0.0, 1.0 - std::abs(lane(i) - lane(k)) / world_.rover.width_m);
+      if (!tracks.is_ahead(i, k)) continue;
+      overlap = std::max(0.0, 1.0 - std::abs(tracks.lane_m[i] - tracks.lane_m[k]) / world_.rover.width_m);
       passes += overlap;
     }
     if (passes <= 0.0) return;
@@ -300,7 +311,7 @@ class Drive {
       wheel = told_[k];
       if (hidden_.dragging == k) wheel.rate_rad_s *= hidden_.dragging_rate_share;
       wheel.current_a = current(k) * (1.0 + hidden_.current_gain_drift * order_.share_of_day);
-      wheel.sinkage_m = state_.depth_m[k] + rut_under(k);
+      wheel.sinkage_m = state_.depth_m[k] + rut_under(k) - met_level_m_[k];
     }
     return row;
   }
@@ -325,11 +336,14 @@ class Drive {
   const HiddenTruth& hidden_;
   const TerrainGrid& ground_;
   const DriveOrder& order_;
+  std::unique_ptr<const WheelLaw> law_;
   AlongField stiffness_, friction_, modulus_;
   double drive_stiffness_ = 0.0, drive_friction_ = 0.0, drive_modulus_ = 0.0, hub_phase_ = 0.0;
   std::array<WheelRow, kWheels> told_;
   std::array<double, kWheels> place_z_{};
   std::array<std::array<double, kWheels>, kWheels> overlap_{};
+  std::array<Rut, kWheels> ruts_;
+  std::array<double, kWheels> met_level_m_{};
   double time_s_ = 0.0, x_ = 0.0, y_ = 0.0, yaw_ = 0.0, way_m_ = 0.0;
   BalanceState state_;
 };

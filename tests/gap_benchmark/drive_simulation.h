@@ -45,6 +45,7 @@ struct World {
   TrueSoil soil;
   SoilScatter scatter;
   Closure closure;
+  bool soil_contact_model = false;  // wheels by it, without a closure of arcs
   HiddenTruth hidden;
 };
 

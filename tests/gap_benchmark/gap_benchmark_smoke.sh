@@ -11,6 +11,15 @@ trap 'rm -rf "$folder"' EXIT
 "$sealed_campaigns" "$folder/first" --set smoke --seed 7
 "$sealed_campaigns" "$folder/again" --set smoke --seed 7
 diff -r "$folder/first" "$folder/again"
+# The other wheel law too is the same for the same seed; it has no terms of the arc's stresses to hide.
+for once in other other-again; do
+  "$sealed_campaigns" "$folder/$once" --set each --only tether --fidelity L3 --seed 7
+done
+diff -r "$folder/other" "$folder/other-again"
+grep -q '"fidelity":"L3"' "$folder/other/answers.json"
+status=0
+"$sealed_campaigns" "$folder/none" --set each --only multipass --fidelity L3 2>"$folder/err" || status=$?
+[ "$status" = 2 ] && grep -q '^multipass .* L3 has another law' "$folder/err" && [ ! -e "$folder/none" ]
 "$slipway" gap-benchmark "$folder/first" --data "$data" --json --keep "$folder/kept" >"$folder/scores.json"
 python3 - "$folder" <<'CHECK'
 import json, pathlib, sys

@@ -156,6 +156,12 @@ bool is_known_cause(std::string_view name) {
   return std::any_of(kRows.begin(), kRows.end(), [&](const Row& row) { return row.name == name; });
 }
 
+bool is_of_arc_law(std::string_view name) {
+  constexpr std::array<std::string_view, 7> kOfArcLaw{
+      "slip_sinkage", "multipass", "grousers", "bulldozing", "side_bulldozing", "duricrust", "hardpan"};
+  return std::find(kOfArcLaw.begin(), kOfArcLaw.end(), name) != kOfArcLaw.end();
+}
+
 void hide(std::string_view name, double size, RandomStream& random, HiddenTruth& truth,
           EffectAnswers& answer) {
   for (const Row& row : kRows)

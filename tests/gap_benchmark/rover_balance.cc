@@ -17,12 +17,12 @@ constexpr double kBalanced = 1e-8;  // of the weight
 
 class Balance {
  public:
-  Balance(const RoverOnFile& rover, const BalanceTask& task, const Closure& closure,
+  Balance(const RoverOnFile& rover, const BalanceTask& task, const WheelLaw& law, const Closure& closure,
           const HiddenTruth& hidden)
       : rover_(rover),
         task_(task),
+        law_(law),
         closure_(closure),
-        hidden_(hidden),
         radius_(rover.radius_m * (1.0 + hidden.radius_scale)),
         weight_(rover.mass_kg * task.gravity_m_s2.norm()) {
     com_ = rover.com_m + Eigen::Vector3d(hidden.com_shift_m[0], hidden.com_shift_m[1], hidden.com_shift_m[2]);
@@ -84,7 +84,7 @@ class Balance {
     motion.forward_m_s = c * forward + s * left;
     motion.left_m_s = -s * forward + c * left;
     motion.rate_rad_s = place.rate_rad_s;
-    loads = wheel_loads(radius_, rover_.width_m, depth, motion, place.soil, closure_, hidden_);
+    loads = law_.loads(depth, motion, place.soil);
     const Eigen::Vector3d along(c, s, c * place.grade_x + s * place.grade_y);
     const Eigen::Vector3d across(-s, c, -s * place.grade_x + c * place.grade_y);
     const Eigen::Vector3d up(-place.grade_x, -place.grade_y, 1.0);
@@ -165,17 +165,17 @@ class Balance {
 
   const RoverOnFile& rover_;
   const BalanceTask& task_;
+  const WheelLaw& law_;
   const Closure& closure_;
-  const HiddenTruth& hidden_;
   double radius_, weight_;
   Eigen::Vector3d com_;
 };
 
 }  // namespace
 
-bool balance_rover(const RoverOnFile& rover, const BalanceTask& task, const Closure& closure,
-                   const HiddenTruth& hidden, BalanceState& state) {
-  const Balance balance(rover, task, closure, hidden);
+bool balance_rover(const RoverOnFile& rover, const BalanceTask& task, const WheelLaw& law,
+                   const Closure& closure, const HiddenTruth& hidden, BalanceState& state) {
+  const Balance balance(rover, task, law, closure, hidden);
   const BalanceState start = state;
   if (balance.solve(state, false)) return true;
   // From standing loads, at several shares of the told speed.

@@ -43,9 +43,9 @@ struct BalanceState {
   bool held = false;  // no motion balances the forces: the rover stands
 };
 
-// Motion and sinkages at which soil, weight and linkage balance: three forces, three moments, both bogies and
-// the differential, by Newton's method on nine unknowns. Starts from `state`.
-bool balance_rover(const RoverOnFile& rover, const BalanceTask& task, const Closure& closure,
-                   const HiddenTruth& hidden, BalanceState& state);
+// Motion and sinkages at which soil, by a wheel law, weight and linkage balance: three forces, three moments,
+// both bogies and the differential, by Newton's method on nine unknowns. Starts from `state`.
+bool balance_rover(const RoverOnFile& rover, const BalanceTask& task, const WheelLaw& law,
+                   const Closure& closure, const HiddenTruth& hidden, BalanceState& state);
 
 }  // namespace slipway::gap_benchmark

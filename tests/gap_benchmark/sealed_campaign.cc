@@ -74,6 +74,7 @@ DriveOrder hills_order(std::size_t number, RandomStream& random) {
 
 Closure closure_of(Fidelity fidelity, RandomStream& random, TrueSoil& soil) {
   Closure closure;
+  if (fidelity == Fidelity::kOtherPhysics) closure.pull_below_axle = 0.0;  // forces act where they act
   if (fidelity != Fidelity::kOtherClosures) return closure;
   closure.parabolic_stress = random.uniform() < 0.5;
   closure.coupled_shear = random.uniform() < 0.7;
@@ -192,6 +193,7 @@ SealedCampaign make_campaign(const CampaignCase& made_of, RandomStream& random) 
   World& world = made.world;
   world.soil = made_of.soil ? soil_named(*made_of.soil) : drawn_soil(random);
   world.closure = closure_of(made_of.fidelity, random, world.soil);
+  world.soil_contact_model = made_of.fidelity == Fidelity::kOtherPhysics;
   if (made_of.even_soil) world.scatter = {0.0, 0.0, 0.0, 0.0, 1.5};
   world.hidden.other_equations = made_of.fidelity != Fidelity::kSameEquations;
   made.nominal = believed(made_of.soil ? soil_named(*made_of.soil) : soil_named(world.soil.name),

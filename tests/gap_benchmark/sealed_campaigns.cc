@@ -1,5 +1,5 @@
-// sealed_campaigns OUT [--seed N] [--set blind|full|each|smoke|nothing] [--only CAUSE,...] [--fidelity
-// L1|L2|L2c]
+// sealed_campaigns OUT [--seed N] [--set blind|full|each|smoke|nothing|other_physics] [--only CAUSE,...]
+// [--fidelity L1|L2|L2c|L3] [--size X]
 //
 // Makes campaigns of drives in which something may be hidden, and answers.json beside them. Shares no code
 // with the library that is judged on them.
@@ -23,8 +23,8 @@ namespace {
 using namespace slipway::gap_benchmark;
 
 constexpr const char* kUsage =
-    "usage: sealed_campaigns OUT [--seed N] [--set blind|full|each|smoke|nothing] [--only CAUSE,...]\n"
-    "                        [--fidelity L1|L2|L2c] [--size X]\n";
+    "usage: sealed_campaigns OUT [--seed N] [--set blind|full|each|smoke|nothing|other_physics]\n"
+    "                        [--only CAUSE,...] [--fidelity L1|L2|L2c|L3] [--size X]\n";
 
 struct Wish {
   std::string out, set = "blind";
@@ -36,7 +36,7 @@ struct Wish {
 
 std::optional<Fidelity> fidelity_named(const std::string& name) {
   for (const Fidelity fidelity :
-       {Fidelity::kSameEquations, Fidelity::kOtherEffects, Fidelity::kOtherClosures})
+       {Fidelity::kSameEquations, Fidelity::kOtherEffects, Fidelity::kOtherClosures, Fidelity::kOtherPhysics})
     if (name_of(fidelity) == name) return fidelity;
   return std::nullopt;
 }
@@ -103,6 +103,12 @@ int main(int count, char** words) {
     });
   if (wish->size)
     for (CampaignCase& made_of : *cases) made_of.size = *wish->size;
+  for (const CampaignCase& made_of : *cases)
+    if (const std::optional<std::string> cause = impossible_cause(made_of)) {
+      std::cerr << *cause << " is a term of the wheel law of L1 and L2; " << name_of(made_of.fidelity)
+                << " has another law, without it\n";
+      return 2;
+    }
 
   std::string answers;
   for (std::size_t i = 0; i < cases->size(); ++i) {

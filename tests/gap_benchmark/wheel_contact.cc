@@ -82,8 +82,6 @@ class Arc {
   double theta_1_ = 0.0, theta_2_ = 0.0, theta_m_ = 0.0, exponent_ = 1.0, factor_ = 0.0;
 };
 
-}  // namespace
-
 WheelLoads wheel_loads(double radius_m, double width_m, double depth_m, const WheelMotion& motion,
                        const ContactSoil& soil, const Closure& closure, const HiddenTruth& hidden) {
   // A wheel that turns backward is the mirror of one that turns forward.
@@ -174,6 +172,18 @@ WheelLoads wheel_loads(double radius_m, double width_m, double depth_m, const Wh
         hidden.side_bulldozing * area * bearing * smooth_sign(angle, hidden.other_equations ? 0.12 : 0.05);
   }
   return {.normal_n = normal, .pull_n = sense * pull, .side_n = side, .torque_nm = sense * torque};
+}
+
+}  // namespace
+
+WheelLoads ArcLaw::loads(double depth_m, const WheelMotion& motion, const ContactSoil& soil) const {
+  return wheel_loads(radius_m_, width_m_, depth_m, motion, soil, closure_, hidden_);
+}
+
+double highest_level(const std::vector<SoilNode>& across) {
+  double highest = across.empty() ? 0.0 : across.front().level_m();
+  for (const SoilNode& node : across) highest = std::max(highest, node.level_m());
+  return highest;
 }
 
 }  // namespace slipway::gap_benchmark

@@ -1,14 +1,36 @@
 #pragma once
 
+#include <vector>
+
 #include "hidden_truth.h"
 
 namespace slipway::gap_benchmark {
 
+// What a strip of soil along the track has been through. Heights above the undisturbed surface.
+struct SoilNode {
+  double origin_m = 0.0;   // where its surface was when nothing had pressed it; heaps raise it
+  double plastic_m = 0.0;  // sunk since, and for good
+  double yield_pa = 0.0;   // greatest pressure that it has borne
+
+  double level_m() const { return origin_m - plastic_m; }
+  bool operator==(const SoilNode&) const = default;
+};
+double highest_level(const std::vector<SoilNode>& across);
+
+// What a wheel leaves behind.
+struct Rut {
+  std::vector<SoilNode>
+      across;  // from right to left in the direction of travel; empty: as if nothing had passed
+  double berm_height_m = 0.0, berm_width_m = 0.0;  // on either side
+};
+
 // Soil under one wheel at one instant, with everything in force that depends on place, pass and time.
 struct ContactSoil {
-  double stiffness = 0.0;  // k_c / b + k_phi, N/m^(n+2)
+  double stiffness = 0.0;  // k_c / b + k_phi, N/m^(n+2), with b the wheel's width
   double n = 1.0, cohesion_pa = 0.0, tan_phi = 0.0, shear_modulus_m = 0.01, weight_n_m3 = 0.0;
   double c1 = 0.18, c2 = 0.32;
+  double modulus_ratio_m = 0.0;  // k_c / k_phi
+  std::vector<SoilNode> met;     // across the wheel, as in Rut; empty: undisturbed
 };
 
 // Motion in the wheel's own plane: forward and left over the ground, and the rim's turning.
@@ -21,9 +43,28 @@ struct WheelLoads {
   double torque_nm = 0.0;                             // of the motor, positive turning forward
 };
 
-// Forces of the soil on a wheel sunk to a depth: Bekker's pressure under Wong and Reece's angle of greatest
+// What the soil does to a wheel, and the wheel to the soil.
+class WheelLaw {
+ public:
+  virtual ~WheelLaw() = default;
+  // Forces on a wheel sunk to a depth.
+  virtual WheelLoads loads(double depth_m, const WheelMotion& motion, const ContactSoil& soil) const = 0;
+  // What it leaves behind; nothing by laws that keep no record of the soil.
+  virtual Rut rut(double /*depth_m*/, const ContactSoil& /*soil*/) const { return {}; }
+};
+
+// Stresses as functions of the angle on the rim: Bekker's pressure under Wong and Reece's angle of greatest
 // stress, Mohr-Coulomb strength, Janosi and Hanamoto's mobilisation, by Simpson's rule over the arc.
-WheelLoads wheel_loads(double radius_m, double width_m, double depth_m, const WheelMotion& motion,
-                       const ContactSoil& soil, const Closure& closure, const HiddenTruth& hidden);
+class ArcLaw : public WheelLaw {
+ public:
+  ArcLaw(double radius_m, double width_m, const Closure& closure, const HiddenTruth& hidden)
+      : radius_m_(radius_m), width_m_(width_m), closure_(closure), hidden_(hidden) {}
+  WheelLoads loads(double depth_m, const WheelMotion& motion, const ContactSoil& soil) const override;
+
+ private:
+  double radius_m_, width_m_;
+  const Closure& closure_;
+  const HiddenTruth& hidden_;
+};
 
 }  // namespace slipway::gap_benchmark

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "rover_balance.h"
+
+namespace slipway::gap_benchmark {
+
+// Where the wheels run: lanes to the left of a common line, stations along it, in the direction of travel.
+struct Tracks {
+  std::array<double, kWheels> lane_m{}, station_m{};
+
+  bool is_ahead(int wheel, int of) const {
+    return wheel != of && station_m[static_cast<std::size_t>(wheel)] >=
+                              station_m[static_cast<std::size_t>(of)] + kLeastLead_m;
+  }
+  static constexpr double kLeastLead_m = 0.2;
+};
+Tracks tracks_of(const RoverOnFile& rover, const BalanceState& state);
+
+// The soil that a wheel meets: undisturbed, then what the wheels ahead left, the foremost first, by their
+// tracks' overlap. Empty where none left anything.
+std::vector<SoilNode> soil_met(int wheel, const Tracks& tracks, const std::array<Rut, kWheels>& ruts,
+                               double width_m);
+
+}  // namespace slipway::gap_benchmark
