@@ -44,6 +44,7 @@ void write_figures(std::string& out, const std::string& title, std::span<const C
   row(out, "calibration error", "0.05", number_words(f.calibration));
   row(out, "Brier score", "0.15", number_words(f.brier));
   row(out, "median share of the gap closed", "0.90", number_words(f.closed_fraction));
+  row(out, "median share of what an oracle closes", "0.90", number_words(f.closed_of_oracle));
   row(out, "the wheel of a found effect", "0.95", rate_words(f.wheel_right));
   row(out, "median overlap of the soft patch's disc", "0.5", number_words(f.place_overlap));
   row(out, "median seconds a campaign", "", f.seconds ? fmt::format("{:.1f}", *f.seconds) : "-");
@@ -128,18 +129,27 @@ std::string benchmark_csv(const Benchmark& benchmark, const std::string& set) {
   std::string out =
       "set,variant,campaign,hidden,hidden_kind,size,kind,fidelity,verdict,found,exact,alike,verdict_right,"
       "held,"
-      "false_alarm,confident_wrong,unknown_probability,stated,wheel_right,closed_fraction,place_overlap,"
+      "false_alarm,confident_wrong,unknown_probability,stated,wheel_right,closed_fraction,"
+      "oracle_closed_fraction,place_overlap,"
       "seconds\n";
   const auto number = [](const std::optional<double>& value) {
     return value ? fmt::format("{:.4g}", *value) : std::string();
   };
   for (const CaseScore& c : benchmark.cases)
     out += fmt::format(
-        "{},{},{},{},{},{:g},{},{},{},{},{:d},{:d},{:d},{:d},{:d},{:d},{:.4g},{:.4g},{},{},{},{:.1f}\n", set,
-        benchmark.variant, c.campaign, c.truth, static_cast<int>(c.truth_kind), c.size, c.kind, c.fidelity,
-        c.verdict, c.found, c.exact, c.alike, c.verdict_right, c.held, c.false_alarm, c.confident_wrong,
-        c.unknown_probability, c.stated, c.wheel_right ? (*c.wheel_right ? "1" : "0") : "",
-        number(c.closed_fraction), number(c.place_overlap), c.seconds);
+        "{},{},{},{},{},{:g},{},{},{},{},{:d},{:d},{:d},{:d},{:d},{:d},{:.4g},{:.4g},{},{},{},{},{:.1f}\n",
+        set, benchmark.variant, c.campaign, c.truth, static_cast<int>(c.truth_kind), c.size, c.kind,
+        c.fidelity, c.verdict, c.found, c.exact, c.alike, c.verdict_right, c.held, c.false_alarm,
+        c.confident_wrong, c.unknown_probability, c.stated, c.wheel_right ? (*c.wheel_right ? "1" : "0") : "",
+        number(c.closed_fraction), number(c.oracle_closed_fraction), number(c.place_overlap), c.seconds);
+  return out;
+}
+
+std::string withheld_csv(const Benchmark& benchmark, const std::string& set) {
+  std::string out = "set,variant,campaign,withheld,fidelity,verdict,found,unknown,look_alike,absorbed\n";
+  for (const gap::WithheldScore& w : benchmark.withheld)
+    out += fmt::format("{},{},{},{},{},{},{},{:d},{:d},{:d}\n", set, benchmark.variant, w.campaign,
+                       w.withheld, w.fidelity, w.verdict, w.found, w.unknown, w.look_alike, w.absorbed);
   return out;
 }
 

@@ -22,6 +22,9 @@ std::string benchmark_report(const Benchmark& benchmark);
 // `set` of campaigns and the variant.
 std::string benchmark_csv(const Benchmark& benchmark, const std::string& set);
 
+// The same of the diagnoses with an effect withheld.
+std::string withheld_csv(const Benchmark& benchmark, const std::string& set);
+
 // The cases of all, then of each fidelity and kind that there is, under their names.
 std::vector<std::pair<std::string, std::vector<gap::CaseScore>>> benchmark_groups(const Benchmark& benchmark);
 

@@ -275,7 +275,7 @@ double disc_overlap(const HiddenAnswer::Place& a, const HiddenAnswer::Place& b) 
 BenchmarkFigures figures_of(std::span<const CaseScore> cases) {
   BenchmarkFigures f;
   f.cases = cases.size();
-  std::vector<double> outside, inside, closed, overlap, seconds;
+  std::vector<double> outside, inside, closed, closed_of_oracle, overlap, seconds;
   std::vector<Statement> statements;
   for (const CaseScore& c : cases) {
     count(f.verdict_right, c.verdict_right);
@@ -289,6 +289,8 @@ BenchmarkFigures figures_of(std::span<const CaseScore> cases) {
         count(f.alike_sized, c.alike);
       }
       if (c.closed_fraction) closed.push_back(*c.closed_fraction);
+      if (c.oracle_closed_fraction && *c.oracle_closed_fraction > 0.0)
+        closed_of_oracle.push_back(c.closed_fraction.value_or(0.0) / *c.oracle_closed_fraction);
     }
     if (c.wheel_right) count(f.wheel_right, *c.wheel_right);
     if (c.truth_kind == TruthKind::kNothing) count(f.alarm_nothing, c.false_alarm);
@@ -306,6 +308,7 @@ BenchmarkFigures figures_of(std::span<const CaseScore> cases) {
   f.calibration = calibration_error(statements);
   f.brier = brier_score(statements);
   f.closed_fraction = median_of(closed);
+  f.closed_of_oracle = median_of(closed_of_oracle);
   f.place_overlap = median_of(overlap);
   f.seconds = median_of(seconds);
   return f;

@@ -45,6 +45,8 @@ struct CaseScore {
   double stated = 0.0;              // the probability that the answer gives what it says
   std::optional<bool> wheel_right;  // of an effect that was found: at the wheel that it was hidden at
   std::optional<double> closed_fraction;
+  // That a diagnosis closes which was told the effects; nothing where it was not asked.
+  std::optional<double> oracle_closed_fraction;
   std::optional<double> place_overlap;  // of the soft patch's disc, intersection over union
   double seconds = 0.0;
 };
@@ -100,6 +102,8 @@ struct BenchmarkFigures {
   Rate wheel_right;
   Rate overlap;  // soft patches whose disc overlaps by half or more
   std::optional<double> unknown_auroc, calibration, brier, closed_fraction, place_overlap, seconds;
+  std::optional<double>
+      closed_of_oracle;  // median share of what an oracle closes; 0 where no effect is named
   std::size_t cases = 0;
 };
 BenchmarkFigures figures_of(std::span<const CaseScore> cases);

@@ -117,7 +117,7 @@ class SoilOfDrives {
     p.high_open = high >= searched.highest;
     p.low = value_at(std::max(low, searched.lowest));
     p.high = value_at(std::min(high, searched.highest));
-    judge(p, error < kOfPrior * searched.std);
+    judge(p, {.says_more = error < kOfPrior * searched.std});
     estimate_.parameters.push_back(std::move(p));
   }
 

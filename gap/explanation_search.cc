@@ -251,7 +251,8 @@ Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, con
     std::set<std::string> done;
     for (const Screened& second : seconds) {
       if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
-      if (fitted >= options.most_seconds || (!options.told && second.gain < 1.0)) break;
+      if (fitted >= options.most_seconds || second.start.empty()) break;
+      if (second.gain < 1.0 && !options.told) break;
       const EffectVariant& v = variants[second.variant];
       const std::set<std::string> names{singles[s].first, v.effect};
       if (pairs.contains(names) || !done.insert(v.effect).second) continue;

@@ -117,6 +117,11 @@ std::vector<EffectVariant> heap(const sim::RoverModel& /*rover*/) {
           variant("bulldozing", "before every wheel", {share}, {{"in_tracks", 1.0}})};
 }
 
+// Height is re-tuned anyhow: by it other laws of pulls and ruts show.
+std::vector<EffectVariant> centre_of_mass(const sim::RoverModel& /*rover*/) {
+  return {variant("com_offset", "", {{"x_m", 0.05, -0.5, 0.5}, {"y_m", 0.05, -0.5, 0.5}})};
+}
+
 std::vector<EffectVariant> none(const sim::RoverModel& /*rover*/) {
   return {};
 }
@@ -126,9 +131,9 @@ constexpr std::array kRows{Row{"dragging_wheel", &dragging},  Row{"steering_offs
                            Row{"hardpan", &hard_layer},       Row{"grousers", &cleats},
                            Row{"gearbox_friction", &gearbox}, Row{"motor_temperature", &temperature},
                            Row{"slip_sinkage", &sinkage},     Row{"rate_shear", &speed_shear},
-                           Row{"multipass", &tracks},         Row{"soft_patch", &none},
-                           Row{"bulldozing", &heap},          Row{"soil_gravity", &none},
-                           Row{"smooth_rim", &none}};
+                           Row{"multipass", &tracks},         Row{"com_offset", &centre_of_mass},
+                           Row{"soft_patch", &none},          Row{"bulldozing", &heap},
+                           Row{"soil_gravity", &none},        Row{"smooth_rim", &none}};
 
 // Effects of soils and motors that other authors write with other equations. The rest are geometry.
 constexpr std::array<std::string_view, 10> kOfManyForms{

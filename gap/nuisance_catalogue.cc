@@ -48,6 +48,8 @@ constexpr std::array kRows{
     Nuisance{"wheel_weight", "share of the wheels' weight that hangs at the wheels, not in the body",
              kClosure, 0.7, 0.0, 3.0, nullptr,
              [](double v, RoverModel& r) { r.wheel_weight = std::clamp(r.wheel_weight + v, 0.0, 3.0); }},
+    Nuisance{"com_height", "centre of mass above where the rover's file has it, m", kClosure, 0.05, -0.3, 0.3,
+             nullptr, [](double v, RoverModel& r) { r.com_m.z() += v; }},
     Nuisance{kPoseLag, "headings are recorded later than positions, s", NuisanceKind::kSensor, 1.0, -5.0,
              5.0},
     Nuisance{kTrackLeftOut, "share of a track's depth that sinkages are recorded without",

@@ -1,7 +1,6 @@
 #include "gap/soil_estimation.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <Eigen/SVD>
 #include <algorithm>
@@ -357,8 +356,9 @@ class Estimation {
     // A modulus that may be negative is measured by the stiffness.
     const bool modulus = parameter == SoilParameter::kKc || parameter == SoilParameter::kKphi;
     constexpr double kOfPrior = 0.7;
-    judge(p, deviation && (!prior || *deviation < kOfPrior * *prior),
-          modulus ? std::optional(axes_.scale(parameter)) : std::nullopt);
+    judge(p, {.says_more = deviation && (!prior || *deviation < kOfPrior * *prior),
+              .residual_variance = fit_.residual_variance,
+              .scale = modulus ? std::optional(axes_.scale(parameter)) : std::nullopt});
     return p;
   }
 
@@ -377,43 +377,6 @@ class Estimation {
   SoilEstimate estimate_;
 };
 
-// Three digits; thousands apart.
-std::string number(double value) {
-  const double a = std::abs(value);
-  if (a != 0.0 && (a >= 1e5 || a < 1e-3)) return fmt::format("{:.3g}", value);
-  if (a < 100.0) return fmt::format("{:.3g}", value);
-  std::string digits = fmt::format("{:.0f}", a);
-  for (int i = static_cast<int>(digits.size()) - 3; i > 0; i -= 3)
-    digits.insert(static_cast<std::size_t>(i), ",");
-  return value < 0.0 ? "-" + digits : digits;
-}
-
-std::string words_of(const EstimatedParameter& p) {
-  const bool has_prior = p.prior_std.has_value();
-  const SoilParameterRow& row = row_of(p.parameter);
-  const auto shown = [&](double value) { return number(row.boundary_unit * value); };
-  const std::string unit = row.unit == "1" ? "" : fmt::format(" {}", row.unit);
-  switch (p.determination) {
-    case Determination::kDetermined:
-      return fmt::format("{}: {}{}, determined ({} to {} at 90 %)", row.name, shown(p.value), unit,
-                         shown(p.low), shown(p.high));
-    case Determination::kOneSided:
-      return fmt::format("{}: {} {}{} (90 %), no {} end; what is given, {}{}, leans on {}", row.name,
-                         p.low_open ? "at most" : "at least", shown(p.low_open ? p.high : p.low), unit,
-                         p.low_open ? "lower" : "upper", shown(p.value), unit,
-                         has_prior ? "the prior" : "where the search ended");
-    case Determination::kUndetermined:
-      break;
-  }
-  // Between them, the data say something, but little.
-  const bool closed = !p.low_open && !p.high_open;
-  return fmt::format("{}: not determined by these data ({} to {}{} all fit); what is given, {}{}, is {}",
-                     row.name, shown(p.low), shown(p.high), unit, shown(p.value), unit,
-                     closed      ? "no better than that"
-                     : has_prior ? "largely the prior"
-                                 : "where the search ended");
-}
-
 }  // namespace
 
 std::optional<SoilPriors> soil_priors(std::string_view name) {
@@ -421,30 +384,6 @@ std::optional<SoilPriors> soil_priors(std::string_view name) {
   if (name == "wide") return SoilPriors::kWide;
   if (name == "soil") return SoilPriors::kSoil;
   return std::nullopt;
-}
-
-std::string_view name_of(Determination determination) {
-  switch (determination) {
-    case Determination::kDetermined:
-      return "determined";
-    case Determination::kOneSided:
-      return "one_sided";
-    case Determination::kUndetermined:
-      break;
-  }
-  return "undetermined";
-}
-
-void judge(EstimatedParameter& p, bool says_more, std::optional<double> scale) {
-  constexpr double kQuarter = 0.25;
-  const double size = scale.value_or(std::abs(p.value));
-  if (says_more && !p.low_open && !p.high_open && p.high - p.low <= 2.0 * kQuarter * size)
-    p.determination = Determination::kDetermined;
-  else if (says_more && p.low_open != p.high_open)
-    p.determination = Determination::kOneSided;
-  else
-    p.determination = Determination::kUndetermined;
-  p.words = words_of(p);
 }
 
 std::vector<SoilParameter> usual_free_parameters(const SoilData& data) {

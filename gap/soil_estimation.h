@@ -11,6 +11,7 @@
 #include "core/progress.h"
 #include "core/result.h"
 #include "gap/least_squares.h"
+#include "gap/soil_determination.h"
 #include "gap/soil_observation.h"
 #include "gap/soil_parameter.h"
 #include "sim/soil.h"
@@ -43,30 +44,6 @@ struct SoilEstimationOptions {
   int further_starts = 12;
   bool profile = true;  // 90 % intervals by profile likelihood; otherwise from the covariance
   std::uint64_t seed = 1;
-};
-
-enum class Determination {
-  kDetermined,    // the data say the parameter: to a quarter of its value at 90 %, and far better than the
-                  // prior
-  kOneSided,      // they say how great, or how small, it is at most
-  kUndetermined,  // what is given is the prior, or where the search ended
-};
-std::string_view name_of(Determination determination);  // "determined", "one_sided", "undetermined"
-
-// In SI and radians.
-struct EstimatedParameter {
-  SoilParameter parameter = SoilParameter::kN;
-  double start = 0.0;
-  double value = 0.0;
-  std::optional<double> std;  // posterior; nothing where neither data nor prior say anything
-  std::optional<double> prior_std;
-  // All values that fit the data, the others' priors and no prior of its own, to delta chi^2 = 2.706 (90 %)
-  // with every other parameter refitted; an open end is the bound.
-  double low = 0.0, high = 0.0;
-  bool low_open = false, high_open = false;
-  Determination determination = Determination::kUndetermined;
-  bool on_bound = false;
-  std::string words;  // one sentence
 };
 
 // What is left over in one channel, in its unit and in deviations.
@@ -117,9 +94,5 @@ std::vector<SoilParameter> usual_free_parameters(const SoilData& data);
 // readings than two; those of fit_least_squares.
 Result<SoilEstimate> estimate_soil(const sim::SoilDistribution& nominal, const SoilData& data,
                                    const SoilEstimationOptions& options, Progress& progress);
-
-// Fills determination and words from value and interval. says_more: the posterior is far narrower than the
-// prior, where there is one; scale: what a quarter is taken of, by default the value.
-void judge(EstimatedParameter& parameter, bool says_more, std::optional<double> scale = {});
 
 }  // namespace slipway::gap

@@ -36,6 +36,10 @@ void add_gap_benchmark_command(CLI::App& app, std::function<int()>& run) {
       ->capture_default_str();
   command->add_flag("--without-each", options->without_each,
                     "diagnose again with each hidden effect taken out of the library");
+  command->add_option("--withheld-csv", options->withheld_csv,
+                      "file for the scores with effects taken out, one line an effect");
+  command->add_flag("--oracle", options->oracle,
+                    "diagnose again with the answer told: how much of the gap could have been closed?");
   command->add_flag("--json", options->json, "print the document, for machines");
   command->footer(
       "Example: how often is the diagnosis right on campaigns that it has not seen?\n"

@@ -115,13 +115,20 @@ std::vector<std::string> campaigns_in(const GapBenchmarkCommand& options) {
   return names;
 }
 
+// What a diagnosis is told besides the campaign.
+struct Told {
+  std::vector<std::string> withheld;
+  bool oracle = false;  // all that is not withheld is at work
+};
+
 Result<Timed> diagnosed(const GapBenchmarkCommand& options, const api::Catalogue& catalogue,
-                        const std::string& name, std::vector<std::string> withheld) {
+                        const std::string& name, const Told& told) {
   const auto start = std::chrono::steady_clock::now();
   auto campaign = api::load_drive_campaign(fs::path(options.folder) / name, catalogue);
   if (!campaign) return fail(campaign.error());
   gap::DiagnosisOptions how;
-  how.search.withheld = std::move(withheld);
+  how.search.withheld = told.withheld;
+  how.search.told = told.oracle;
   how.search.threads = static_cast<std::size_t>(options.threads);
   how.seed = options.seed;
   const Variant& variant = *variant_named(options.variant);
@@ -138,7 +145,9 @@ Result<Timed> diagnosed(const GapBenchmarkCommand& options, const api::Catalogue
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   if (!options.keep.empty()) {
     std::string file = name;
-    for (const std::string& effect : how.search.withheld) file += "-without-" + effect;
+    if (told.oracle) file += "-oracle";
+    for (const std::string& effect : told.withheld)
+      if (!told.oracle) file += "-without-" + effect;
     std::error_code error;
     fs::create_directories(options.keep, error);
     save((fs::path(options.keep) / (file + ".json")).string(),
@@ -220,10 +229,24 @@ int gap_benchmark(const GapBenchmarkCommand& options) {
       std::cerr << "answers.json says nothing of " << names[i] << ": it is not scored\n";
       continue;
     }
+    const std::set<std::string>& hidden = answer->second.effects;
     benchmark.cases.push_back(gap::score_case(answer->second, open[i].diagnosis, known, open[i].seconds));
-    for (const std::string& effect : answer->second.effects) {
+    if (options.oracle && !hidden.empty() && !given_up() &&
+        std::includes(known.begin(), known.end(), hidden.begin(), hidden.end())) {
+      Told told{.withheld = {}, .oracle = true};
+      std::set_difference(known.begin(), known.end(), hidden.begin(), hidden.end(),
+                          std::back_inserter(told.withheld));
+      auto timed = diagnosed(options, *catalogue, names[i], told);
+      if (!timed && timed.error().code != ErrorCode::kCancelled) return refuse_input(timed.error());
+      if (timed) {
+        if (timed->diagnosis.closed_fraction)
+          benchmark.cases.back().oracle_closed_fraction = timed->diagnosis.closed_fraction->value;
+        tell(i + 1, names.size(), names[i] + " told", *timed);
+      }
+    }
+    for (const std::string& effect : hidden) {
       if (!options.without_each || !known.contains(effect) || given_up()) continue;
-      auto timed = diagnosed(options, *catalogue, names[i], {effect});
+      auto timed = diagnosed(options, *catalogue, names[i], {.withheld = {effect}, .oracle = false});
       if (!timed && timed.error().code == ErrorCode::kCancelled) continue;
       if (!timed) return refuse_input(timed.error());
       tell(i + 1, names.size(), names[i] + " without " + effect, *timed);
@@ -231,10 +254,12 @@ int gap_benchmark(const GapBenchmarkCommand& options) {
           gap::score_withheld(answer->second, effect, open[i].diagnosis, timed->diagnosis));
     }
   }
-  if (!options.csv.empty()) {
-    const std::string set = fs::path(options.folder).lexically_normal().filename().string();
+  const std::string set = fs::path(options.folder).lexically_normal().filename().string();
+  if (!options.csv.empty())
     if (const int failed = save(options.csv, api::benchmark_csv(benchmark, set)); failed != 0) return failed;
-  }
+  if (!options.withheld_csv.empty())
+    if (const int failed = save(options.withheld_csv, api::withheld_csv(benchmark, set)); failed != 0)
+      return failed;
   std::cout << (options.json ? api::json::benchmark_document(benchmark) : api::benchmark_report(benchmark))
             << std::flush;
   return 0;

@@ -48,6 +48,7 @@ void write_figures(Writer& w, const BenchmarkFigures& f) {
   write_optional(w, "calibration_error", f.calibration);
   write_optional(w, "brier", f.brier);
   write_optional(w, "closed_fraction_median", f.closed_fraction);
+  write_optional(w, "closed_of_oracle_median", f.closed_of_oracle);
   write_optional(w, "place_overlap_median", f.place_overlap);
   write_optional(w, "seconds_median", f.seconds);
 }
@@ -62,6 +63,7 @@ void write_case(Writer& w, const CaseScore& c) {
   w.significant("unknown_probability", c.unknown_probability);
   if (c.wheel_right) w.boolean("wheel_right", *c.wheel_right);
   write_optional(w, "closed_fraction", c.closed_fraction);
+  write_optional(w, "oracle_closed_fraction", c.oracle_closed_fraction);
   write_optional(w, "place_overlap", c.place_overlap);
   w.significant("seconds", c.seconds).end_object();
 }

@@ -148,9 +148,12 @@ TEST(DiscOverlap, IsIntersectionOverUnion) {
 TEST(BenchmarkFigures, CountsEachKindOfTruthByItself) {
   std::vector<CaseScore> cases;
   cases.push_back(score_case(hidden({"hardpan"}), found(Verdict::kEffects, {"hardpan"}, 0.8), kLibrary, 2.0));
+  cases.back().closed_fraction = 0.6;
+  cases.back().oracle_closed_fraction = 0.8;
   HiddenAnswer small = hidden({"bulldozing"});
   small.size = 0.5;
   cases.push_back(score_case(small, found(Verdict::kNotDetected, {}, 0.8), kLibrary, 4.0));
+  cases.back().oracle_closed_fraction = 0.5;
   cases.push_back(score_case(hidden({"tether"}), found(Verdict::kUnknown, {}, 0.9), kLibrary, 6.0));
   HiddenAnswer shift = hidden({});
   shift.nominal_off = true;
@@ -163,6 +166,8 @@ TEST(BenchmarkFigures, CountsEachKindOfTruthByItself) {
   EXPECT_EQ(f.alarm_parameters.hits, 1u);
   EXPECT_EQ(f.unknown_auroc, 1.0);
   EXPECT_EQ(f.seconds, 5.0);
+  EXPECT_NEAR(f.closed_of_oracle.value_or(-1.0), 0.5 * (0.6 / 0.8 + 0.0), 1e-12)
+      << "nothing named closes nothing";
   EXPECT_EQ(confusion_of(cases)["parameters"]["hardpan"], 1);
 }
 

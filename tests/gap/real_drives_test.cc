@@ -50,6 +50,17 @@ TEST(RealDrives, CuadrigasLogsAreADriveEachWithATotalOfCurrent) {
     if (std::isfinite(plain[i])) {
       EXPECT_NEAR(same[i], plain[i], 1e-6 * (1.0 + std::abs(plain[i]))) << i;
     }
+  ModelState hardly_softer = state;
+  hardly_softer.soils[0].friction_angle_rad *= 0.9999;
+  const WindowModel::Starts starts = model.starts_at(hardly_softer, 2);
+  const std::vector<double> near = model.predict_near(starts, state);
+  std::size_t moving = 0;
+  for (std::size_t i = 0; i < plain.size(); ++i)
+    if (std::isfinite(plain[i]) && std::isfinite(near[i])) {
+      ++moving;
+      EXPECT_NEAR(near[i], plain[i], 1e-6 * (1.0 + std::abs(plain[i]))) << i;
+    }
+  EXPECT_GT(moving, plain.size() / 2);
   const std::vector<double> alone = started.predict(state, 1);
   EXPECT_EQ(std::memcmp(same.data(), alone.data(), same.size() * sizeof(double)), 0)
       << "the same bytes on any number of threads";

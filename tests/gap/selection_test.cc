@@ -31,6 +31,21 @@ TEST(ChosenAmong, IsSomethingUnknownWhereThatHasMoreThanHalfInAll) {
   EXPECT_EQ(chosen_among(std::vector{candidate({"a"}, 0.6), candidate({}, 0.4, true)}), 0U);
 }
 
+TEST(Weigh, BelievesAShareOfTheEvidenceAndNowAndThenATenthOfIt) {
+  std::vector<Candidate> c{candidate({"a"}, 0.0), candidate({}, 0.0)};
+  c[0].log_evidence = 500.0;  // a tenth of the share leaves a few percent to the other
+  c[0].log_prior = c[1].log_prior = std::log(0.5);
+  weigh(c, {});
+  EXPECT_NEAR(c[0].probability + c[1].probability, 1.0, 1e-12);
+  EXPECT_GT(c[1].probability, 1e-4) << "no simulator is exact: one answer is never certain";
+  EXPECT_LT(c[1].probability, 0.05);
+  SearchOptions all_of_it;
+  all_of_it.whole_evidence = true;
+  c[0].log_evidence = std::log(3.0);
+  weigh(c, all_of_it);
+  EXPECT_NEAR(c[0].probability, 0.75, 1e-12) << "Bayes's theorem";
+}
+
 // Counting a group twice is having its rows twice.
 TEST(GroupedEvidence, IsTheEvidenceOfTheDrivesAsOftenAsTheyCount) {
   constexpr Eigen::Index kRows = 9;

@@ -109,6 +109,20 @@ TEST(EstimateSoil, CurrentsAloneTellTheStrengthButNotEverything) {
   EXPECT_NE(of(*e, SoilParameter::kBekker).determination, Determination::kDetermined);
 }
 
+TEST(EstimateSoil, NothingIsDeterminedWhereTheModelDoesNotHold) {
+  sim::Soil truth = dry_sand();
+  const sim::Soil searched = truth;
+  truth.n1 = 1.0;  // sinks deeper the more it slips: no soil that is searched does
+  const auto e = estimate(start_49_percent_off(searched),
+                          made_wheel_tests(truth, {.noise = 0.005, .seed = 3}), {.noise = {.share = 0.005}});
+  ASSERT_TRUE(e) << e.error().detail;
+  ASSERT_GT(e->residual_variance, 25.0);
+  for (const EstimatedParameter& p : e->parameters) {
+    EXPECT_EQ(p.determination, Determination::kUndetermined);
+    EXPECT_NE(p.words.find("the model does not hold"), std::string::npos) << p.words;
+  }
+}
+
 TEST(EstimateSoil, ALossLeavesOutliersAlone) {
   const sim::Soil truth = dry_sand();
   SoilData data = made_wheel_tests(truth, {.noise = 0.02, .seed = 5});
