@@ -1,0 +1,172 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/angle.h"
+#include "tests/sim/dynamic_drives.h"
+
+namespace slipway::sim {
+namespace {
+
+TEST(DriveEndings, AWeakMotorStallsAndTheRoverSaysSo) {
+  RoverModel rover = six_wheeler();
+  rover.drive.max_current_a = 0.12;
+  DynamicOptions options;
+  options.give_up_s = 20.0;
+  const Driven driven = drive(rover, plane(rad_from_deg(14.0)), sandy_loam(), 0.0, {straight(1.0)}, options);
+  bool stalls = false;
+  for (const DriveEvent& event : driven.drive.events) stalls |= event.kind == DriveEventKind::kStall;
+  EXPECT_TRUE(stalls || driven.drive.end == DriveEnd::kImmobilised || driven.drive.end == DriveEnd::kSlid);
+  for (const DriveSample& sample : driven.samples)
+    for (const WheelState& wheel : sample.wheels) EXPECT_LE(std::abs(wheel.current_a), 0.12 + 1e-6);
+}
+
+TEST(DriveEndings, GivesUpWhereItMakesNoProgress) {
+  DynamicOptions options;
+  options.give_up_s = 30.0;
+  options.feedback = Feedback::kPose;
+  const Driven driven =
+      drive(six_wheeler(), plane(rad_from_deg(24.0)), loose_sand(), 0.0, {straight(3.0)}, options);
+  EXPECT_EQ(driven.drive.end, DriveEnd::kImmobilised);
+  EXPECT_NE(driven.drive.reason.find("no progress for 3"), std::string::npos) << driven.drive.reason;
+  EXPECT_LT(driven.drive.duration_s, 200.0);
+}
+
+// A leg may be over before it is time to give up.
+TEST(DriveEndings, IsNotFinishedWhereALegMadeNoWay) {
+  const std::vector<DriveLeg> legs{straight(1.0), straight(1.0, -0.04)};
+  const Driven stuck = drive(six_wheeler(), plane(rad_from_deg(28.0)), loose_sand(), 0.0, legs);
+  EXPECT_LT(stuck.drive.duration_s, 60.0);
+  EXPECT_LT(stuck.drive.progress_m, 0.0);
+  EXPECT_EQ(stuck.drive.end, DriveEnd::kImmobilised);
+  EXPECT_TRUE(stuck.drive.reason.starts_with("no progress on leg 1 of 2 after ")) << stuck.drive.reason;
+  EXPECT_GE(stuck.drive.max_current_a.distance_m, 0.0);
+  // Whoever is told less than the soil gives has not failed.
+  const Driven short_one =
+      drive(six_wheeler(), plane(rad_from_deg(20.0)), loose_sand(), 0.0, {straight(0.01)});
+  EXPECT_LT(short_one.drive.progress_m, 0.0);
+  EXPECT_EQ(short_one.drive.end, DriveEnd::kFinished);
+}
+
+TEST(DriveEndings, DoesNotGiveUpOnWhatIsSlow) {
+  DynamicOptions options;
+  options.give_up_s = 2.0;
+  const Driven slow =
+      drive(six_wheeler(), plane(rad_from_deg(20.0)), sandy_loam(), 0.0, {straight(0.1, 1e-4)}, options);
+  EXPECT_EQ(slow.drive.end, DriveEnd::kFinished) << slow.drive.reason;
+  EXPECT_GT(slow.drive.progress_m, 0.01);
+  options.feedback = Feedback::kPose;
+  const Driven stuck =
+      drive(six_wheeler(), plane(rad_from_deg(24.0)), loose_sand(), 0.0, {straight(1.0, 5e-4)}, options);
+  EXPECT_EQ(stuck.drive.end, DriveEnd::kImmobilised);
+  EXPECT_GT(stuck.drive.duration_s, 120.0);
+  EXPECT_LT(stuck.drive.duration_s, 400.0);
+}
+
+TEST(DriveEndings, RefusesWhatItCannotStartFrom) {
+  const FunctionGround small([](double, double) { return 0.0; }, 2.0);
+  const RoverModel rover = six_wheeler();
+  const DriveSoils soils{{sandy_loam()}, sandy_loam()};
+  NoProgress progress;
+  const std::vector<DriveLeg> legs{straight(1.0)};
+  const auto off = simulate_drive(rover, kMars, small, soils, {1.8, 0.0, 0.0}, legs, {}, nullptr, progress);
+  ASSERT_FALSE(off);
+  EXPECT_EQ(off.error().code, ErrorCode::kNoData);
+  EXPECT_NE(off.error().detail.find("wheel lf"), std::string::npos);
+
+  const auto leaves = simulate_drive(rover, kMars, small, soils, {0.0, 0.0, 0.0}, std::vector{straight(5.0)},
+                                     {}, nullptr, progress);
+  ASSERT_FALSE(leaves);
+  EXPECT_EQ(leaves.error().code, ErrorCode::kNoData);
+  EXPECT_NE(leaves.error().detail.find("leaves the known ground"), std::string::npos)
+      << leaves.error().detail;
+
+  DynamicOptions wrong;
+  wrong.relative_tolerance = 1.0;
+  wrong.contact_points = 0;
+  const auto faulty =
+      simulate_drive(rover, kMars, small, soils, {}, std::vector{straight(0.0)}, wrong, nullptr, progress);
+  ASSERT_FALSE(faulty);
+  EXPECT_EQ(faulty.error().faults.size(), 3U);
+
+  const FunctionGround cliff([](double x, double) { return x > 0.3 ? 2.0 : 0.0; });
+  const auto uneven = simulate_drive(rover, kMars, cliff, soils, {}, legs, {}, nullptr, progress);
+  ASSERT_FALSE(uneven);
+  EXPECT_EQ(uneven.error().code, ErrorCode::kInvalidRequest);
+}
+
+TEST(DriveEndings, SaysWhereARoverDoesNotRest) {
+  const Driven driven = drive(six_wheeler(), plane(rad_from_deg(50.0)), loose_sand(), 0.0, {straight(1.0)});
+  EXPECT_EQ(driven.drive.end, DriveEnd::kSlid);
+  EXPECT_NE(driven.drive.reason.find("does not come to rest"), std::string::npos);
+}
+
+// A rover of 900 kg on wheels of 0.25 m.
+RoverModel heavy_wheeler() {
+  RoverModel rover = six_wheeler();
+  rover.mass_kg = 900.0;
+  rover.com_m = {0.0, 0.0, 0.6};
+  rover.body_length_m = 2.2;
+  for (WheelModel& wheel : rover.wheels) {
+    wheel.radius_m = 0.25;
+    wheel.width_m = 0.4;
+    wheel.position_m = {1.5 * wheel.position_m.x(), 2.0 * wheel.position_m.y(), 0.25};
+  }
+  rover.suspension.rocker_pivot_m = {0.2, 0.8, 0.7};
+  rover.suspension.bogie_pivot_m = {-0.5, 1.0, 0.5};
+  return rover;
+}
+
+// What rocks on its wheels does not slide: steeper ground never helps.
+TEST(DriveEndings, SlidesWhereItIsSteeperIfAtAll) {
+  for (const double yaw_deg : {0.0, 180.0}) {
+    bool slid = false;
+    for (double tilt_deg = 31.0; tilt_deg <= 38.0; tilt_deg += 1.0) {
+      const Driven driven = drive(heavy_wheeler(), plane(rad_from_deg(tilt_deg)), sandy_loam(),
+                                  rad_from_deg(yaw_deg), {straight(0.02)});
+      const bool slides = driven.drive.end == DriveEnd::kSlid || driven.drive.end == DriveEnd::kTipped;
+      EXPECT_TRUE(slides || !slid) << yaw_deg << " " << tilt_deg;
+      slid = slides;
+    }
+    EXPECT_TRUE(slid) << yaw_deg;
+  }
+}
+
+TEST(DriveEndings, EndsWithItsBellyOnARidge) {
+  // Between the wheels, along and across the way: these roll past it, or over it.
+  const FunctionGround between([](double x, double y) {
+    return 0.35 * std::exp(-std::pow(y / 0.15, 2)) * 0.5 * (1.0 + std::tanh((x - 1.6) / 0.05));
+  });
+  const Driven stuck = drive(six_wheeler(), between, sandy_loam(), 0.0, {straight(2.0)});
+  EXPECT_EQ(stuck.drive.end, DriveEnd::kImmobilised);
+  EXPECT_TRUE(stuck.drive.reason.starts_with("belly on the ground at (1.")) << stuck.drive.reason;
+  EXPECT_LT(stuck.drive.progress_m, 1.2);
+  RoverModel high = six_wheeler();
+  high.belly_clearance_m = 0.4;
+  EXPECT_EQ(drive(high, between, sandy_loam(), 0.0, {straight(2.0)}).drive.end, DriveEnd::kFinished);
+  // Where it is set down on one, it says so at once.
+  const FunctionGround along([](double, double y) { return 0.35 * std::exp(-std::pow(y / 0.15, 2)); });
+  const Driven set_down = drive(six_wheeler(), along, sandy_loam(), 0.0, {straight(2.0)});
+  EXPECT_EQ(set_down.drive.end, DriveEnd::kImmobilised);
+  EXPECT_EQ(set_down.drive.duration_s, 0.0);
+  EXPECT_NE(set_down.drive.reason.find(" after 0.00 m"), std::string::npos) << set_down.drive.reason;
+}
+
+class Dismissed final : public Progress {
+ public:
+  void report(std::string_view, double) override {}
+  bool cancelled() const override { return true; }
+};
+
+TEST(DriveEndings, CanBeCancelled) {
+  Dismissed progress;
+  const DriveSoils soils{{sandy_loam()}, sandy_loam()};
+  const FunctionGround level = plane(0.0);
+  const auto drive = simulate_drive(six_wheeler(), kMars, level, soils, {}, std::vector{straight(1.0)}, {},
+                                    nullptr, progress);
+  ASSERT_FALSE(drive);
+  EXPECT_EQ(drive.error().code, ErrorCode::kCancelled);
+}
+
+}  // namespace
+}  // namespace slipway::sim
