@@ -93,11 +93,11 @@ class Diagnoser {
       if (auto searched = search(again, kept); !searched) return fail(searched.error());
     }
     judge(campaign_, prepared_, search_, best_, options_.search.threads, d_);
-    describe_parameters();
     compare_look_alikes();
-    localise();
     auto shrunk = shrink();
     if (!shrunk) return fail(shrunk.error());
+    describe_parameters();
+    localise();
     propose_drives();
     if (progress_.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
     progress_.report("done", 1.0);
@@ -158,7 +158,7 @@ class Diagnoser {
   }
 
   void localise() {
-    progress_.report("locating the gap", 0.75);
+    progress_.report("locating the gap", 0.97);
     d_.regimes = regimes_of(prepared_, campaign_, prepared_.nominal_residuals, options_, kMostRegimes);
     d_.regimes_retuned = regimes_of(prepared_, campaign_, search_.fits[0].residuals, options_, kMostRegimes);
     if (d_.verdict == Verdict::kUnknown) {
@@ -229,10 +229,11 @@ class Diagnoser {
     d_.planners_view = shrunk->planners_view;
     d_.held_out = std::move(shrunk->points);
     d_.window_gaps = std::move(shrunk->windows);
+    d_.candidates[best_].held_out_score = shrunk->log_density_gain;
+    doubt_what_leaves_a_gap(told_fit(), d_);
     if (explains()) d_.closed_fraction = shrunk->closed_fraction;
     for (ChannelShrink& channel : d_.gap)
       if (!explains()) channel.closed_fraction.reset();
-    d_.candidates[best_].held_out_score = shrunk->log_density_gain;
     const bool offered = explains() ? shrunk->log_density_gain > 0.0
                                     : d_.verdict == Verdict::kParameters || unknown_but_nearer();
     if (offered) {

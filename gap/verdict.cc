@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gap/selection.h"
@@ -19,6 +21,12 @@ constexpr double kParametersGain = 20.0;  // of the logarithm of the evidence, f
 constexpr double kSurelySeen = 6.0;    // standard errors: what the tempered evidence asks for over its prior
 constexpr double kSmall = 0.5;         // of an effect's usual size
 constexpr double kBeyondChance = 2.0;  // standard errors
+// What may be left on held-out drives, over the floor: an effect's equation may be another's.
+constexpr double kLeftOfNothing = 1.25, kLeftBesideEffects = 1.5;
+constexpr double kDoubt = 0.9;  // the probability of something unknown that such an answer leaves, at least
+
+constexpr std::string_view kSameLook =
+    "an effect of the library with another equation than the library's would look the same";
 
 // How much more probable the drives are when soils and motors may differ from the nominal ones, closures
 // being free in either case.
@@ -83,6 +91,56 @@ void judge_without_effects(const DriveCampaign& campaign, const PreparedCampaign
   d.overturned_by = "drives that show an effect below the least size that these could have shown";
 }
 
+// The channel of which most is left over its floor, where that is too much; nothing else.
+std::optional<std::string> gap_left(const Diagnosis& d) {
+  double most = d.effects.empty() ? kLeftOfNothing : kLeftBesideEffects;
+  std::optional<std::string> words;
+  for (const ChannelShrink& c : d.gap) {
+    const double floor = c.noise_floor.value;
+    if (c.with_effects.low <= most * floor) continue;
+    most = c.with_effects.low / floor;
+    words = fmt::format("on drives held out of the fit {} is {:.1f} times its floor off (at least {:.1f})",
+                        name_of(c.channel), c.with_effects.value / floor, most);
+  }
+  return words;
+}
+
+// A parameter that the answer needs at one of its two ends.
+std::optional<std::string> parameter_at_its_end(const FittedExplanation& told) {
+  for (std::size_t p = 0; p < told.hypothesis.nuisance_count(); ++p) {
+    const Parameter& parameter = told.hypothesis.parameters()[p];
+    const bool two_sided = parameter.lowest < parameter.neutral && parameter.neutral < parameter.highest;
+    if (two_sided && (told.x[p] <= parameter.lowest || told.x[p] >= parameter.highest))
+      return fmt::format(
+          "{} would have to be further from what was believed than it may be ({:.1f} deviations)",
+          parameter.name, std::abs(told.x[p] - parameter.neutral) / parameter.std);
+  }
+  return std::nullopt;
+}
+
+double unknown_probability(const Diagnosis& d) {
+  double sum = 0.0;
+  for (const ComparedSet& c : d.candidates)
+    if (std::find(c.effects.begin(), c.effects.end(), "unknown") != c.effects.end()) sum += c.probability;
+  return sum;
+}
+
+// No effect is told: what drives look like with the effects is what they look like re-tuned.
+void withdraw_effects(Diagnosis& d) {
+  std::vector<std::string> names;
+  for (const FoundEffect& effect : d.effects) names.push_back(effect.name);
+  if (names.empty()) return;
+  d.notes.push_back(
+      fmt::format("{} would explain a part, and may be the unknown cause's shadow: nothing is named",
+                  fmt::join(names, " and ")));
+  d.effects.clear();
+  d.extrapolations.clear();
+  for (ChannelShrink& c : d.gap) c.with_effects = c.retuned;
+  for (HeldOutPoint& point : d.held_out) point.with_effects = point.retuned;
+  for (WindowGap& window : d.window_gaps) window.with_effects = window.retuned;
+  d.planners_view.with_effects = d.planners_view.retuned;
+}
+
 }  // namespace
 
 Interval parameter_interval(const FittedExplanation& fit, std::size_t parameter) {
@@ -112,7 +170,7 @@ void judge(const DriveCampaign& campaign, const PreparedCampaign& prepared, cons
     d.verdict = Verdict::kUnknown;
     d.reason =
         fmt::format("a gap remains that no effect of the library explains (probability {:.2f})", unknown);
-    d.overturned_by = "an effect of the library with another equation than the library's would look the same";
+    d.overturned_by = kSameLook;
   } else if (chosen.effects.empty()) {
     judge_without_effects(campaign, prepared, search, probability, threads, d);
   } else {
@@ -159,6 +217,26 @@ void doubt_what_does_not_extrapolate(Diagnosis& d) {
         e.variable, e.above ? "above" : "below", e.limit);
     return;
   }
+}
+
+void doubt_what_leaves_a_gap(const FittedExplanation& told, Diagnosis& d) {
+  const double unknown = unknown_probability(d);
+  if (d.verdict == Verdict::kUnknown || d.verdict == Verdict::kInsufficient || unknown <= 0.0) return;
+  std::optional<std::string> why = gap_left(d);
+  if (!why) why = parameter_at_its_end(told);
+  if (!why) return;
+  if (unknown < kDoubt)
+    for (ComparedSet& c : d.candidates) {
+      const bool with_unknown = std::find(c.effects.begin(), c.effects.end(), "unknown") != c.effects.end();
+      c.probability *= with_unknown ? kDoubt / unknown : (1.0 - kDoubt) / (1.0 - unknown);
+    }
+  std::stable_sort(d.candidates.begin(), d.candidates.end(),
+                   [](const ComparedSet& a, const ComparedSet& b) { return a.probability > b.probability; });
+  withdraw_effects(d);
+  d.least_detectable.clear();
+  d.verdict = Verdict::kUnknown;
+  d.reason = fmt::format("a gap remains that no effect of the library explains: {}", *why);
+  d.overturned_by = kSameLook;
 }
 
 }  // namespace slipway::gap
