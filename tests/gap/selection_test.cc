@@ -67,6 +67,56 @@ TEST(GroupedEvidence, IsTheEvidenceOfTheDrivesAsOftenAsTheyCount) {
               log_marginal(Eigen::VectorXd(r(rows)), Eigen::MatrixXd(a(rows, Eigen::all))), 1e-10);
 }
 
+// An answer with so much of its floor left on held-out drives, at least.
+Diagnosis answer_with(Verdict verdict, double least_left) {
+  Diagnosis d;
+  d.verdict = verdict;
+  if (verdict == Verdict::kEffects) d.effects.push_back({"hardpan", "", 0.95, {}});
+  d.candidates.resize(2);
+  if (verdict == Verdict::kEffects) d.candidates[0].effects = {"hardpan"};
+  d.candidates[0].probability = 0.95;
+  d.candidates[1].effects = {"unknown"};
+  d.candidates[1].probability = 0.05;
+  ChannelShrink current;
+  current.channel = Channel::kCurrent;
+  current.retuned = {3.0, 2.8, 3.2};
+  current.with_effects = {least_left + 0.1, least_left, least_left + 0.2};
+  current.noise_floor = {1.0, 0.9, 1.1};
+  d.gap.push_back(current);
+  return d;
+}
+
+TEST(Verdict, IsUnknownWhereAnAnswerLeavesMoreThanItsFloor) {
+  DriveCampaign campaign;
+  campaign.soils.resize(1);
+  FittedExplanation told{Hypothesis(campaign, {}), {}, {}, {}, {}, {}, {}, {}, 0.0, true};
+  told.x = told.hypothesis.neutral();
+  const auto doubted = [&](Diagnosis d) {
+    doubt_what_leaves_a_gap(told, d);
+    return d;
+  };
+  EXPECT_EQ(doubted(answer_with(Verdict::kNoGap, 1.2)).verdict, Verdict::kNoGap);
+  EXPECT_EQ(doubted(answer_with(Verdict::kEffects, 1.4)).verdict, Verdict::kEffects)
+      << "its form may be another";
+
+  const Diagnosis gap = doubted(answer_with(Verdict::kParameters, 1.4));
+  EXPECT_EQ(gap.verdict, Verdict::kUnknown);
+  EXPECT_NE(gap.reason.find("current"), std::string::npos) << gap.reason;
+  EXPECT_EQ(gap.candidates.front().effects, std::vector<std::string>{"unknown"});
+  EXPECT_NEAR(gap.candidates[0].probability, 0.9, 1e-12);
+  EXPECT_NEAR(gap.candidates[1].probability, 0.1, 1e-12);
+
+  const Diagnosis beside = doubted(answer_with(Verdict::kEffects, 1.7));
+  EXPECT_EQ(beside.verdict, Verdict::kUnknown);
+  EXPECT_TRUE(beside.effects.empty());
+  EXPECT_EQ(beside.gap.front().with_effects.value, beside.gap.front().retuned.value)
+      << "nothing is corrected";
+  EXPECT_NE(beside.notes.front().find("hardpan"), std::string::npos);
+
+  told.x.front() = told.hypothesis.parameters().front().highest;
+  EXPECT_EQ(doubted(answer_with(Verdict::kParameters, 1.0)).verdict, Verdict::kUnknown) << "at its end";
+}
+
 TEST(Verdict, IsInDoubtWhereHarshDrivesAreToldWorseThanByChance) {
   Diagnosis d;
   d.verdict = Verdict::kEffects;
