@@ -111,8 +111,8 @@ Result<Catalogue> load_catalogue(const fs::path& data) {
   load_soils(data, catalogue, faults);
   load_terrains(data, catalogue, faults);
   if (!faults.empty()) {
-    return fail(ErrorCode::kUnreadableData, fmt::format("the data folder {}: {}", data.string(), summary_of(faults)),
-                faults);
+    return fail(ErrorCode::kUnreadableData,
+                fmt::format("the data folder {}: {}", data.string(), summary_of(faults)), faults);
   }
   return catalogue;
 }
