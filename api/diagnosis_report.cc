@@ -132,9 +132,8 @@ class Report {
     }
     page_.paragraph(
         "The score is the gain of log density a drive over re-tuned parameters alone, on drives that the fit "
-        "had not seen. Last column: how often the set would have been chosen, drives with their repeats "
-        "drawn "
-        "with replacement.");
+        "had not seen. Last column: how often its evidence would have chosen the set, drives with their "
+        "repeats drawn with replacement.");
     picture("explanations", "Probability of each explanation");
     if (d_.confusable.empty()) return;
     page_.paragraph("Pairs that these drives hardly tell apart:");
