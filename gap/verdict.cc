@@ -91,11 +91,13 @@ void judge_without_effects(const DriveCampaign& campaign, const PreparedCampaign
   d.overturned_by = "drives that show an effect below the least size that these could have shown";
 }
 
-// The channel of which most is left over its floor, where that is too much; nothing else.
+// The channel of which most is left over its floor, where that is too much; nothing else. Attitudes do not
+// count: how a rover leans as its wheels sink is in no model here.
 std::optional<std::string> gap_left(const Diagnosis& d) {
   double most = d.effects.empty() ? kLeftOfNothing : kLeftBesideEffects;
   std::optional<std::string> words;
   for (const ChannelShrink& c : d.gap) {
+    if (c.channel == Channel::kRoll || c.channel == Channel::kPitch) continue;
     const double floor = c.noise_floor.value;
     if (c.with_effects.low <= most * floor) continue;
     most = c.with_effects.low / floor;

@@ -113,6 +113,10 @@ TEST(Verdict, IsUnknownWhereAnAnswerLeavesMoreThanItsFloor) {
       << "nothing is corrected";
   EXPECT_NE(beside.notes.front().find("hardpan"), std::string::npos);
 
+  Diagnosis leaning = answer_with(Verdict::kNoGap, 3.0);
+  leaning.gap.front().channel = Channel::kPitch;
+  EXPECT_EQ(doubted(leaning).verdict, Verdict::kNoGap) << "sunk wheels make a rover lean";
+
   told.x.front() = told.hypothesis.parameters().front().highest;
   EXPECT_EQ(doubted(answer_with(Verdict::kParameters, 1.0)).verdict, Verdict::kUnknown) << "at its end";
 }
