@@ -218,6 +218,12 @@ class Diagnoser {
     const CorrectionChoice choice = choose_corrections(drives);
     auto shrunk = shrink_on_held_out(prepared_, campaign_, choice, drives, options_, progress_);
     if (!shrunk) return fail(shrunk.error());
+    d_.gap = std::move(shrunk->channels);
+    d_.planners_view = shrunk->planners_view;
+    d_.held_out = std::move(shrunk->points);
+    d_.window_gaps = std::move(shrunk->windows);
+    d_.candidates[best_].held_out_score = shrunk->log_density_gain;
+    doubt_what_leaves_a_gap(told_fit(), d_);
     if (explains()) {
       auto extrapolated =
           extrapolate(prepared_, campaign_, choice.corrections.front(), drives, options_, progress_);
@@ -225,12 +231,6 @@ class Diagnoser {
       d_.extrapolations = std::move(*extrapolated);
       doubt_what_does_not_extrapolate(d_);
     }
-    d_.gap = std::move(shrunk->channels);
-    d_.planners_view = shrunk->planners_view;
-    d_.held_out = std::move(shrunk->points);
-    d_.window_gaps = std::move(shrunk->windows);
-    d_.candidates[best_].held_out_score = shrunk->log_density_gain;
-    doubt_what_leaves_a_gap(told_fit(), d_);
     if (explains()) d_.closed_fraction = shrunk->closed_fraction;
     for (ChannelShrink& channel : d_.gap)
       if (!explains()) channel.closed_fraction.reset();

@@ -120,10 +120,14 @@ std::optional<std::string> parameter_at_its_end(const FittedExplanation& told) {
   return std::nullopt;
 }
 
+bool holds_unknown(const ComparedSet& set) {
+  return std::find(set.effects.begin(), set.effects.end(), "unknown") != set.effects.end();
+}
+
 double unknown_probability(const Diagnosis& d) {
   double sum = 0.0;
   for (const ComparedSet& c : d.candidates)
-    if (std::find(c.effects.begin(), c.effects.end(), "unknown") != c.effects.end()) sum += c.probability;
+    if (holds_unknown(c)) sum += c.probability;
   return sum;
 }
 
@@ -136,7 +140,6 @@ void withdraw_effects(Diagnosis& d) {
       fmt::format("{} would explain a part, and may be the unknown cause's shadow: nothing is named",
                   fmt::join(names, " and ")));
   d.effects.clear();
-  d.extrapolations.clear();
   for (ChannelShrink& c : d.gap) c.with_effects = c.retuned;
   for (HeldOutPoint& point : d.held_out) point.with_effects = point.retuned;
   for (WindowGap& window : d.window_gaps) window.with_effects = window.retuned;
@@ -228,10 +231,8 @@ void doubt_what_leaves_a_gap(const FittedExplanation& told, Diagnosis& d) {
   if (!why) why = parameter_at_its_end(told);
   if (!why) return;
   if (unknown < kDoubt)
-    for (ComparedSet& c : d.candidates) {
-      const bool with_unknown = std::find(c.effects.begin(), c.effects.end(), "unknown") != c.effects.end();
-      c.probability *= with_unknown ? kDoubt / unknown : (1.0 - kDoubt) / (1.0 - unknown);
-    }
+    for (ComparedSet& c : d.candidates)
+      c.probability *= holds_unknown(c) ? kDoubt / unknown : (1.0 - kDoubt) / (1.0 - unknown);
   std::stable_sort(d.candidates.begin(), d.candidates.end(),
                    [](const ComparedSet& a, const ComparedSet& b) { return a.probability > b.probability; });
   withdraw_effects(d);
