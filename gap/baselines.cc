@@ -1,5 +1,7 @@
 #include "gap/baselines.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <array>
 #include <cmath>
@@ -185,6 +187,28 @@ Result<Diagnosis> shrink_by_gaussian_process(const DriveCampaign& campaign, cons
   d.gap = std::move(shrunk->channels);
   d.closed_fraction = shrunk->closed_fraction;
   return d;
+}
+
+DriveCampaign each_window_a_drive(const DriveCampaign& campaign, const WindowOptions& options) {
+  DriveCampaign cut = campaign;
+  cut.drives.clear();
+  for (const DriveWindow& window : cut_windows(campaign, options)) {
+    const MeasuredDriveSeries& whole = campaign.drives[window.drive];
+    MeasuredDriveSeries piece = whole;
+    piece.id = fmt::format("{} from {:g} s", whole.id, window.start_s);
+    piece.repeat_of.reset();
+    piece.duration_s = window.end_s - window.start_s;
+    std::erase_if(piece.samples, [&](const DriveSample& sample) {
+      return sample.time_s < window.start_s || sample.time_s > window.end_s;
+    });
+    if (piece.samples.size() >= 2) cut.drives.push_back(std::move(piece));
+  }
+  return cut;
+}
+
+Result<Diagnosis> diagnose_sample_by_sample(const DriveCampaign& campaign, const DiagnosisOptions& options,
+                                            Progress& progress) {
+  return diagnose(each_window_a_drive(campaign, options.windows), options, progress);
 }
 
 }  // namespace slipway::gap

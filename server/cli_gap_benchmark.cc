@@ -32,7 +32,8 @@ void add_gap_benchmark_command(CLI::App& app, std::function<int()>& run) {
   command
       ->add_option("--variant", options->variant,
                    "of the diagnosis, to compare with: as-is, no-retuning, no-closures, no-unknown, "
-                   "nearest-signature, evidence-without-retuning, sparse-regression, gaussian-process")
+                   "nearest-signature, evidence-without-retuning, sample-level-folds, sparse-regression, "
+                   "gaussian-process")
       ->capture_default_str();
   command->add_flag("--without-each", options->without_each,
                     "diagnose again with each hidden effect taken out of the library");

@@ -67,6 +67,7 @@ constexpr std::array kVariants{
             .retuning = gap::Retuning::kNone,
             .something_else = false,
             .whole_evidence = true},
+    Variant{.name = "sample-level-folds", .method = &gap::diagnose_sample_by_sample},
     Variant{.name = "sparse-regression", .method = &gap::diagnose_by_sparse_regression},
     Variant{.name = "gaussian-process", .method = &gap::shrink_by_gaussian_process},
 };
