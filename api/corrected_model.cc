@@ -12,7 +12,6 @@
 #include "api/json/soil_file.h"
 #include "api/json/writer.h"
 #include "campaign/digest.h"
-#include "core/normal_interval.h"
 #include "gap/nuisance_catalogue.h"
 #include "sim/effect_catalogue.h"
 
@@ -43,11 +42,6 @@ const gap::RetunedParameter* retuned(const gap::Diagnosis& diagnosis, std::strin
   return found == diagnosis.retuned.end() ? nullptr : &*found;
 }
 
-double deviation(const gap::Diagnosis& diagnosis, std::string_view nuisance, const std::string& soil) {
-  const gap::RetunedParameter* const p = retuned(diagnosis, nuisance, soil);
-  return p == nullptr ? 0.0 : (p->value.high - p->value.low) / (2.0 * kReach90);
-}
-
 sim::SoilDistribution soil_of(const gap::NominalSoil& nominal, const gap::Diagnosis& diagnosis) {
   sim::SoilDistribution soil;
   soil.name = nominal.name;
@@ -56,20 +50,8 @@ sim::SoilDistribution soil_of(const gap::NominalSoil& nominal, const gap::Diagno
     if (const auto* const p = retuned(diagnosis, row.name, nominal.name);
         p != nullptr && row.on_soil != nullptr)
       row.on_soil(p->value.value, soil.mean);
-  // What the estimate leaves open, and what differs from drive to drive.
-  const auto spread = [&](std::string_view nuisance, double of_drives, double most) {
-    return std::min(most, std::hypot(deviation(diagnosis, nuisance, nominal.name), of_drives));
-  };
-  constexpr double kMostRatio = 1.0, kMostExponent = 0.5, kMostAngle_rad = 0.4;
-  soil.std.stiffness_ratio = spread("stiffness", diagnosis.noise.stiffness, kMostRatio);
-  soil.std.n = std::min(kMostExponent, soil.mean.pressure.n * spread("n", 0.0, kMostRatio));
-  soil.std.cohesion_pa = soil.mean.cohesion_pa * spread("cohesion", 0.0, kMostRatio);
-  const double angle = soil.mean.friction_angle_rad;
-  soil.std.friction_angle_rad =
-      std::min(kMostAngle_rad,
-               std::sin(angle) * std::cos(angle) * spread("friction", diagnosis.noise.friction, kMostRatio));
-  soil.std.shear_modulus_ratio = spread("shear_modulus", diagnosis.noise.shear_modulus, kMostRatio);
-  soil.assumed = {"correlation: none", "correlation_length_m"};
+  gap::set_spread(diagnosis.left_open, diagnosis.noise, soil);
+  soil.assumed = {"correlation_length_m"};
   return soil;
 }
 
@@ -88,6 +70,7 @@ std::optional<CorrectedModel> corrected_model(const gap::DriveCampaign& campaign
   CorrectedModel model;
   model.effects = diagnosis.model->effects;
   model.noise = diagnosis.noise;
+  model.left_open = diagnosis.left_open;
   sim::RoverModel& rover = model.rover;
   rover = *campaign.rover;
   for (const gap::Nuisance& row : gap::nuisance_catalogue())

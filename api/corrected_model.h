@@ -20,6 +20,7 @@ struct CorrectedModel {
   std::vector<sim::SoilDistribution> soils;  // in the campaign's order
   std::vector<sim::EffectSetting> effects;   // all that are at work; places on a map are in no rover's file
   std::optional<gap::NoiseScales> noise;     // what the campaign's drives scatter by, where it is told
+  std::optional<gap::ParameterPosterior> left_open;  // what they leave open, where it is told
 };
 
 // Nothing where the diagnosis offers none.

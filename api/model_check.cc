@@ -15,10 +15,14 @@ namespace {
 std::vector<std::string> notes_of(const gap::DriveCampaign& campaign, const ModelFolder& model,
                                   const gap::ModelCheck& check) {
   std::vector<std::string> notes{
-      "Intervals of the corrected prediction hold what the diagnosis left open of the soils (taken to err "
-      "apart), the scatter of drives and windows as it was in the campaign of the diagnosis, and these "
-      "drives' "
-      "sensors; not what it left open of motors, closures and effects, nor what the laws have wrong."};
+      "Intervals of the corrected prediction hold what the diagnosis left open of soils, closures, motors "
+      "and "
+      "effects, the scatter of drives and windows as it was in its campaign, and these drives' sensors; not "
+      "what the laws have wrong."};
+  if (!model.model.left_open)
+    notes.emplace_back(
+        "The model does not say what its drives left open (model.json has no \"left_open\"): the intervals "
+        "hold scatter and sensors alone.");
   if (!model.model.noise)
     notes.emplace_back(
         "The model does not say what its drives scattered by (model.json has no \"noise\"): what is usual is "
@@ -61,9 +65,13 @@ Result<gap::CorrectedBelief> belief_of(const gap::DriveCampaign& campaign, const
   gap::CorrectedBelief belief;
   belief.rover = std::make_shared<const sim::RoverModel>(model.model.rover);
   belief.scatter = model.model.noise.value_or(gap::NoiseScales{});
+  belief.left_open = model.model.left_open.value_or(gap::ParameterPosterior{});
   for (const gap::NominalSoil& soil : campaign.soils) {
     if (!corrected) break;
     belief.soils.push_back(corrected->soils.at(soil.name));
+    for (std::size_t s = 0; s < model.model.soils.size(); ++s)
+      if (model.model.soils[s].name == belief.soils.back().name)
+        belief.called.push_back(model.nominal_soils[s]);
     if (belief.soils.back().name == soil.name)
       faults.push_back({"/soils/" + soil.name,
                         fmt::format("{} is none of the soils that the model corrects: {}; where it is one of "

@@ -7,6 +7,7 @@
 
 #include "api/faults.h"
 #include "api/json/noise_scales.h"
+#include "api/json/parameter_posterior.h"
 #include "api/json/parse.h"
 #include "api/json/rover_file.h"
 #include "api/json/soil_file.h"
@@ -28,6 +29,7 @@ struct Description {
   Substitute rover;
   std::vector<Substitute> soils;
   std::optional<gap::NoiseScales> noise;
+  std::optional<gap::ParameterPosterior> left_open;
 };
 
 void write_substitute(json::Writer& w, std::string_view nominal, std::string_view corrected) {
@@ -57,6 +59,7 @@ Result<Description> read_description(std::string_view bytes) {
     description.soils.push_back(read_substitute(reader.object(element)));
   if (auto noise = reader.object("noise", json::kOptional))
     description.noise = json::read_noise_scales(*std::move(noise));
+  description.left_open = json::read_parameter_posterior(reader);
   reader.refuse_unknown();
   if (!faults.empty()) return fail(ErrorCode::kUnreadableData, summary_of(faults), faults);
   return description;
@@ -88,6 +91,7 @@ std::string model_document(const gap::DriveCampaign& campaign, const CorrectedMo
     write_substitute(w, campaign.soils[i].name, model.soils[i].name);
   w.end_array();
   if (model.noise) json::write_noise_scales(w.key("noise"), *model.noise);
+  if (model.left_open) json::write_parameter_posterior(w, *model.left_open);
   w.end_object();
   return w.take();
 }
@@ -97,6 +101,7 @@ Result<ModelFolder> load_model_folder(const std::filesystem::path& folder) {
   if (!description) return fail(description.error());
   ModelFolder loaded{description->campaign, description->rover.nominal, {}, {}};
   loaded.model.noise = description->noise;
+  loaded.model.left_open = description->left_open;
   std::vector<Fault> faults;
   auto rover =
       read_file(folder, fmt::format("rovers/{}.json", description->rover.corrected), json::read_rover_file);

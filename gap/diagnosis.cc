@@ -240,6 +240,7 @@ class Diagnoser {
       const FittedExplanation& told = explains() ? best_fit() : search_.fits[0];
       d_.model = told.hypothesis.state(told.x);
       d_.model_effects = told.hypothesis.settings(told.x);
+      d_.left_open = posterior_of(told);
     } else if (explains()) {
       d_.notes.push_back(
           "the correction did not improve drives held out of the fit: no corrected model is offered");

@@ -12,6 +12,7 @@
 #include "gap/drive_window.h"
 #include "gap/explanation_search.h"
 #include "gap/interval.h"
+#include "gap/parameter_posterior.h"
 
 namespace slipway::gap {
 
@@ -181,6 +182,7 @@ struct Diagnosis {
   // The corrected model: the re-tuned nominal one with the effects found.
   std::optional<ModelState> model;
   std::vector<sim::EffectSetting> model_effects;
+  ParameterPosterior left_open;  // of what the model was re-tuned in
   std::size_t drives = 0, windows = 0, observations = 0;
   NoiseScales noise;
 };

@@ -8,20 +8,15 @@
 #include <string_view>
 
 #include "core/normal_interval.h"
+#include "gap/parameter_posterior.h"
 
 namespace slipway::gap {
 namespace {
 
-struct Searched {
-  SoilParameter parameter;
-  std::string_view nuisance;  // its logarithm, in the catalogue
-};
-// In the order of sim::SoilNormals.
-constexpr std::array<Searched, sim::kSoilDims> kSearched{{{SoilParameter::kBekker, "stiffness"},
-                                                          {SoilParameter::kN, "n"},
-                                                          {SoilParameter::kCohesion, "cohesion"},
-                                                          {SoilParameter::kFrictionAngle, "friction"},
-                                                          {SoilParameter::kShearModulus, "shear_modulus"}}};
+// What kSoilNuisances are the logarithms of.
+constexpr std::array<SoilParameter, sim::kSoilDims> kSearched{
+    SoilParameter::kBekker, SoilParameter::kN, SoilParameter::kCohesion, SoilParameter::kFrictionAngle,
+    SoilParameter::kShearModulus};
 
 std::optional<std::size_t> place_of(const FittedExplanation& fit, std::string_view nuisance,
                                     const std::string& soil) {
@@ -35,7 +30,7 @@ std::optional<std::size_t> place_of(const FittedExplanation& fit, std::string_vi
 class SoilOfDrives {
  public:
   SoilOfDrives(const DriveCampaign& campaign, const PreparedCampaign& prepared, std::size_t soil)
-      : nominal_(campaign.soils[soil]), fit_(*prepared.null), scales_(prepared.noise->scales()) {
+      : nominal_(campaign.soils[soil]), fit_(*prepared.null), posterior_(posterior_of(fit_)) {
     estimate_.width_m = campaign.rover->wheels.front().width_m;
     estimate_.converged = fit_.converged;
     sim::SoilDistribution& posterior = estimate_.soil;
@@ -46,8 +41,8 @@ class SoilOfDrives {
       if (const auto p = place_of(fit_, row.name, nominal_.name); p && row.on_soil != nullptr)
         row.on_soil(fit_.x[*p], posterior.mean);
     for (std::size_t q = 0; q < kSearched.size(); ++q)
-      places_[q] = place_of(fit_, kSearched[q].nuisance, nominal_.name);
-    spread();
+      places_[q] = place_of(fit_, kSoilNuisances[q], nominal_.name);
+    set_spread(posterior_, prepared.noise->scales(), posterior);
     for (std::size_t q = 0; q < kSearched.size(); ++q)
       if (places_[q]) describe(q);
     correlate();
@@ -57,48 +52,23 @@ class SoilOfDrives {
  private:
   // Posterior, of the logarithm.
   double deviation(std::size_t quantity) const {
-    if (!places_[quantity]) return 0.0;
-    const auto p = static_cast<Eigen::Index>(*places_[quantity]);
-    return std::sqrt(fit_.covariance(p, p)) * fit_.hypothesis.parameters()[*places_[quantity]].std;
+    return posterior_.deviation(*posterior_.place_of(kSoilNuisances[quantity], nominal_.name));
   }
-  // With what differs from drive to drive.
-  double total(std::size_t quantity) const {
-    const std::array<double, sim::kSoilDims> of_drives{scales_.stiffness, 0.0, 0.0, scales_.friction,
-                                                       scales_.shear_modulus};
-    return std::min(1.0, std::hypot(deviation(quantity), of_drives[quantity]));
-  }
-
-  void spread() {
-    sim::SoilDistribution& soil = estimate_.soil;
-    const double angle = soil.mean.friction_angle_rad;
-    soil.std.stiffness_ratio = total(0);
-    soil.std.n = std::min(1.0, soil.mean.pressure.n * total(1));
-    soil.std.cohesion_pa = soil.mean.cohesion_pa * total(2);
-    soil.std.friction_angle_rad = std::min(0.5, std::sin(angle) * std::cos(angle) * total(3));
-    soil.std.shear_modulus_ratio = total(4);
-    for (int a = 0; a < sim::kSoilDims; ++a)
-      for (int b = 0; b < sim::kSoilDims; ++b) {
-        const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
-        if (a == b || !places_[i] || !places_[j]) continue;
-        const double both = covariance(i, j);
-        soil.correlation(a, b) = both / (total(i) * total(j));
-      }
-  }
-  double covariance(std::size_t i, std::size_t j) const {
-    const auto parameters = fit_.hypothesis.parameters();
-    return fit_.covariance(static_cast<Eigen::Index>(*places_[i]), static_cast<Eigen::Index>(*places_[j])) *
-           parameters[*places_[i]].std * parameters[*places_[j]].std;
+  double covariance(std::size_t a, std::size_t b) const {
+    return posterior_.covariance(
+        static_cast<Eigen::Index>(*posterior_.place_of(kSoilNuisances[a], nominal_.name)),
+        static_cast<Eigen::Index>(*posterior_.place_of(kSoilNuisances[b], nominal_.name)));
   }
 
   void describe(std::size_t quantity) {
     const Parameter& searched = fit_.hypothesis.parameters()[*places_[quantity]];
     const double at = fit_.x[*places_[quantity]], error = deviation(quantity);
     EstimatedParameter p;
-    p.parameter = kSearched[quantity].parameter;
+    p.parameter = kSearched[quantity];
     const auto value_at = [&](double logarithm) {
       sim::Soil soil = nominal_.soil;
       for (const Nuisance& row : nuisance_catalogue())
-        if (row.name == kSearched[quantity].nuisance) row.on_soil(logarithm, soil);
+        if (row.name == kSoilNuisances[quantity]) row.on_soil(logarithm, soil);
       return value_of(p.parameter, soil, estimate_.width_m);
     };
     const auto slope_at = [&](double logarithm) {
@@ -138,7 +108,7 @@ class SoilOfDrives {
 
   const NominalSoil& nominal_;
   const FittedExplanation& fit_;
-  const NoiseScales& scales_;
+  ParameterPosterior posterior_;
   std::array<std::optional<std::size_t>, sim::kSoilDims> places_;
   SoilEstimate estimate_;
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
+#include <string>
 
 #include "core/angle.h"
 #include "core/normal_interval.h"
@@ -10,6 +12,7 @@
 #include "gap/drive_resampling.h"
 #include "gap/hypothesis.h"
 #include "gap/prepared_campaign.h"
+#include "sim/effect_catalogue.h"
 
 namespace slipway::gap {
 namespace {
@@ -102,42 +105,57 @@ ChannelCheck score_of(std::span<const ToldValue> told, Channel channel, SlopeCla
   return check;
 }
 
-// What the estimate leaves open of a soil, as deviations of the nuisances of these names. The model's spread
-// has the scatter from drive to drive in it, which the noise model adds by itself.
-struct SoilDeviation {
-  std::string_view nuisance;
-  double deviation = 0.0;
-};
-std::array<SoilDeviation, 5> left_open(const sim::SoilDistribution& soil, const NoiseScales& scatter) {
-  const auto without = [](double whole, double of_drives) {
-    return std::sqrt(std::max(0.0, whole * whole - of_drives * of_drives));
-  };
-  const auto relative = [](double deviation, double mean) { return mean > 0.0 ? deviation / mean : 0.0; };
-  const double angle = soil.mean.friction_angle_rad;
-  return {SoilDeviation{"stiffness", without(soil.std.stiffness_ratio, scatter.stiffness)},
-          SoilDeviation{"n", relative(soil.std.n, soil.mean.pressure.n)},
-          SoilDeviation{"cohesion", relative(soil.std.cohesion_pa, soil.mean.cohesion_pa)},
-          SoilDeviation{"friction",
-                        without(relative(soil.std.friction_angle_rad, std::sin(angle) * std::cos(angle)),
-                                scatter.friction)},
-          SoilDeviation{"shear_modulus", without(soil.std.shear_modulus_ratio, scatter.shear_modulus)}};
+// Effects of the model of which something is left open, as a hypothesis has them: around what they are.
+// Those of sensors are not carried over.
+std::vector<EffectVariant> open_effects(const CorrectedBelief& belief) {
+  std::vector<EffectVariant> variants;
+  for (const sim::EffectSetting& setting : belief.rover->effects) {
+    const sim::Effect* const effect = sim::find_effect(setting.name);
+    if (effect == nullptr || setting.name == "attitude_bias") continue;
+    EffectVariant variant{.effect = setting.name, .label = "", .free = {}, .fixed = {}};
+    for (const auto& [field, value] : setting.parameters) {
+      const auto place = belief.left_open.place_of(setting.name + "." + field, "");
+      const auto row = std::find_if(effect->fields.begin(), effect->fields.end(),
+                                    [&](const auto& f) { return f.name == field; });
+      if (place && row != effect->fields.end())
+        variant.free.push_back({field, belief.left_open.deviation(*place), row->lowest, row->highest});
+      else
+        variant.fixed.emplace_back(field, value);
+    }
+    if (!variant.free.empty()) variants.push_back(std::move(variant));
+  }
+  return variants;
 }
 
-// Variance of every observation by what the estimate leaves open of the soils.
-Eigen::VectorXd soil_variance(const Hypothesis& hypothesis, const Eigen::MatrixXd& jacobian,
-                              const DriveCampaign& corrected, const CorrectedBelief& belief) {
-  Eigen::VectorXd variance = Eigen::VectorXd::Zero(jacobian.rows());
+// The model itself, as parameters of its hypothesis.
+std::vector<double> at_belief(const Hypothesis& hypothesis, const CorrectedBelief& belief) {
+  std::vector<double> x = hypothesis.neutral();
+  for (std::size_t p = hypothesis.nuisance_count(); p < x.size(); ++p) {
+    const Parameter& parameter = hypothesis.parameters()[p];
+    for (const sim::EffectSetting& setting : belief.rover->effects)
+      if (setting.name == parameter.effect)
+        x[p] = setting.parameters.at(parameter.name.substr(parameter.effect.size() + 1));
+  }
+  return x;
+}
+
+// Variance of every observation by what the model leaves open.
+Eigen::VectorXd variance_left_open(const Hypothesis& hypothesis, const Eigen::MatrixXd& jacobian,
+                                   const DriveCampaign& campaign, const CorrectedBelief& belief) {
   const auto parameters = hypothesis.parameters();
-  for (std::size_t s = 0; s < belief.soils.size(); ++s)
-    for (const SoilDeviation& d : left_open(belief.soils[s], belief.scatter))
-      for (std::size_t p = 0; p < parameters.size(); ++p) {
-        const bool is_it = parameters[p].name == d.nuisance ||
-                           parameters[p].name == std::string(d.nuisance) + "/" + corrected.soils[s].name;
-        if (is_it && parameters[p].effect.empty())
-          variance +=
-              (jacobian.col(static_cast<Eigen::Index>(p)) * (d.deviation / parameters[p].std)).cwiseAbs2();
-      }
-  return variance;
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(jacobian.rows(), belief.left_open.covariance.cols());
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    // A soil's nuisance has its name: "friction/sand". That of the only soil, and all others, have none.
+    const std::string& name = parameters[p].name;
+    const std::size_t slash = name.find('/');
+    std::size_t soil = 0;
+    while (slash != std::string::npos && campaign.soils[soil].name != name.substr(slash + 1)) ++soil;
+    const auto place = belief.left_open.place_of(name.substr(0, slash), belief.called[soil]);
+    if (place)
+      columns.col(static_cast<Eigen::Index>(*place)) +=
+          jacobian.col(static_cast<Eigen::Index>(p)) / parameters[p].std;
+  }
+  return (columns * belief.left_open.covariance).cwiseProduct(columns).rowwise().sum().cwiseMax(0.0);
 }
 
 // The campaign as if its rover and soils had been the corrected ones.
@@ -151,10 +169,10 @@ DriveCampaign with_belief(DriveCampaign campaign, const CorrectedBelief& belief)
   return campaign;
 }
 
-std::vector<double> predicted_by(const Hypothesis& hypothesis, WindowModel& model, std::size_t threads) {
-  const std::vector<double> neutral = hypothesis.neutral();
-  model.start_from(hypothesis.state(neutral), threads);
-  return hypothesis.predict(model, neutral, threads);
+std::vector<double> predicted_by(const Hypothesis& hypothesis, std::span<const double> x, WindowModel& model,
+                                 std::size_t threads) {
+  model.start_from(hypothesis.state(x), threads);
+  return hypothesis.predict(model, x, threads);
 }
 
 std::vector<double> finite_or_zero(std::vector<double> values) {
@@ -197,25 +215,27 @@ Result<ModelCheck> check_model(const DriveCampaign& campaign, const CorrectedBel
   const std::vector<DriveWindow> windows = cut_windows(campaign, options.windows);
   const std::unique_ptr<WindowModel> model = window_model_of(campaign, windows);
   model->watch(progress);
-  const std::vector<double> nominal = predicted_by(Hypothesis(campaign, {}), *model, options.threads);
+  const Hypothesis nominal_model(campaign, {});
+  const std::vector<double> nominal =
+      predicted_by(nominal_model, nominal_model.neutral(), *model, options.threads);
   if (progress.cancelled()) return cancelled();
 
   progress.report("predicting with the corrected model", 0.3);
   const DriveCampaign as_corrected = with_belief(campaign, belief);
-  const Hypothesis hypothesis(as_corrected, {});
-  const std::vector<double> corrected = predicted_by(hypothesis, *model, options.threads);
+  const Hypothesis hypothesis(as_corrected, open_effects(belief));
+  const std::vector<double> x = at_belief(hypothesis, belief);
+  const std::vector<double> corrected = predicted_by(hypothesis, x, *model, options.threads);
   if (progress.cancelled()) return cancelled();
 
   progress.report("how sure the corrected model is", 0.5);
-  const std::vector<double> neutral = hypothesis.neutral();
-  const Eigen::MatrixXd jacobian = hypothesis.scaled_jacobian(*model, neutral, options.threads);
+  const Eigen::MatrixXd jacobian = hypothesis.scaled_jacobian(*model, x, options.threads);
   NoiseModel noise(
       *model,
-      scatter_response(hypothesis, jacobian, lever_responses(as_corrected, *model, neutral, options.threads)),
+      scatter_response(hypothesis, jacobian, lever_responses(as_corrected, *model, x, options.threads)),
       finite_or_zero(corrected), answerable(*model));
   if (progress.cancelled()) return cancelled();
   noise.set(belief.scatter);
-  const Eigen::VectorXd of_soils = soil_variance(hypothesis, jacobian, as_corrected, belief);
+  const Eigen::VectorXd left_open = variance_left_open(hypothesis, jacobian, as_corrected, belief);
 
   ModelCheck check;
   check.drives = campaign.drives.size();
@@ -235,7 +255,7 @@ Result<ModelCheck> check_model(const DriveCampaign& campaign, const CorrectedBel
       const auto at = static_cast<Eigen::Index>(row);
       told.push_back({o.channel, groups[windows[w].drive], model->conditions(w).pitch_rad, o.value,
                       nominal[row], corrected[row],
-                      std::hypot(noise.deviation()[at], std::sqrt(of_soils[at]))});
+                      std::hypot(noise.deviation()[at], std::sqrt(left_open[at]))});
     }
   }
   check.values = told.size();

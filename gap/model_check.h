@@ -14,6 +14,7 @@
 #include "gap/diagnosis.h"
 #include "gap/drive_campaign.h"
 #include "gap/noise_model.h"
+#include "gap/parameter_posterior.h"
 #include "sim/rover_model.h"
 #include "sim/soil.h"
 
@@ -26,7 +27,9 @@ namespace slipway::gap {
 struct CorrectedBelief {
   std::shared_ptr<const sim::RoverModel> rover;  // with the effects found
   std::vector<sim::SoilDistribution> soils;      // as DriveCampaign::soils
-  NoiseScales scatter;                           // of drives, as it was in the campaign diagnosed
+  std::vector<std::string> called;               // what each soil was called in the campaign diagnosed
+  NoiseScales scatter;                           // of drives, as it was there
+  ParameterPosterior left_open;                  // by those drives; its soils as they were called
 };
 
 // One observation, in its channel's unit.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <set>
 #include <string>
@@ -140,13 +141,27 @@ TEST_F(ADiagnosis, OffersFilesThatAreReadAsTheyWereWritten) {
   const std::string rover = json::rover_document(*model);
   const auto read = json::read_rover_file(rover);
   ASSERT_TRUE(read) << read.error().detail;
-  EXPECT_EQ(json::rover_document({*read, {}, {}, {}}), rover);
+  EXPECT_EQ(json::rover_document({*read, {}, {}, {}, {}}), rover);
   const std::string soils = json::soils_document(*model);
   const auto soils_read = json::read_soil_file(soils);
   ASSERT_TRUE(soils_read) << soils_read.error().detail;
-  EXPECT_EQ(json::soils_document({{}, *soils_read, {}, {}}), soils);
+  EXPECT_EQ(json::soils_document({{}, *soils_read, {}, {}, {}}), soils);
   EXPECT_TRUE(soils_read->front().name.starts_with("nominal-p05-"));
   EXPECT_GT(soils_read->front().std.stiffness_ratio, 0.0);
+}
+
+// Stiffness and exponent pull against each other in every fit: a soil that is drawn has both off together.
+TEST_F(ADiagnosis, OffersSoilsWhoseParametersErrTogether) {
+  const auto model = corrected_model(campaign(), diagnosis());
+  ASSERT_TRUE(model);
+  const sim::SoilDistribution& soil = model->soils.at(0);
+  const gap::ParameterPosterior& open = diagnosis().left_open;
+  const auto k = open.place_of("stiffness", soil.name), n = open.place_of("n", soil.name);
+  ASSERT_TRUE(k && n);
+  EXPECT_NEAR(soil.std.stiffness_ratio, std::hypot(open.deviation(*k), diagnosis().noise.stiffness), 1e-12);
+  EXPECT_NEAR(soil.correlation(0, 1), -0.5 * open.deviation(*k) / soil.std.stiffness_ratio, 1e-12);
+  EXPECT_EQ(soil.correlation(0, 1), soil.correlation(1, 0));
+  EXPECT_EQ(soil.correlation(0, 2), 0.0);
 }
 
 TEST_F(ADiagnosis, OffersAnotherVersionOfOtherNumbersAndNoneWhereNoneWasFound) {

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "api/faults.h"
+#include "api/json/parameter_posterior.h"
 #include "api/json/parse.h"
 #include "api/json/problem_document.h"
 #include "api/json/strict_reader.h"
@@ -155,6 +156,28 @@ TEST(Writer, ADocumentReadsBackAsItself) {
   Writer w;
   write_value(w, *document);
   EXPECT_EQ(w.take(), bytes);
+}
+
+TEST(ParameterPosterior, OfCorrelationsThatContradictOrAreMissingIsRefusedAtItsPlace) {
+  const auto faults_of = [](const char* text) {
+    std::vector<Fault> faults;
+    const auto document = parse(text);
+    ObjectReader reader(*document, "", faults);
+    read_parameter_posterior(reader);
+    return faults;
+  };
+  EXPECT_TRUE(faults_of("{}").empty());
+  const auto missing = faults_of(R"({"left_open": [{"name": "n", "deviation": -1, "correlation": []},
+                                                   {"name": "c1", "deviation": 0.1, "correlation": []}]})");
+  ASSERT_EQ(missing.size(), 2U);
+  EXPECT_EQ(missing[0].pointer, "/left_open/0/deviation");
+  EXPECT_EQ(missing[1].pointer, "/left_open/1/correlation");
+  const auto contradicting = faults_of(
+      R"({"left_open": [{"name": "n", "deviation": 1, "correlation": []},
+                        {"name": "c1", "deviation": 1, "correlation": [0.9]},
+                        {"name": "c2", "deviation": 1, "correlation": [0.9, -0.9]}]})");
+  ASSERT_EQ(contradicting.size(), 1U);
+  EXPECT_EQ(contradicting[0].pointer, "/left_open");
 }
 
 TEST(Problem, ReadsBackAsTheErrorThatItWas) {

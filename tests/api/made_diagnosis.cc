@@ -1,6 +1,7 @@
 #include "made_diagnosis.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <stdexcept>
@@ -65,6 +66,16 @@ gap::Diagnosis full_diagnosis(const gap::DriveCampaign& campaign) {
     const gap::Parameter& p = hypothesis.parameters()[k];
     d.retuned.push_back({p.name, {x[k], x[k] - 0.1 * p.std, x[k] + 0.1 * p.std}, p.std, true});
   }
+  // Of all parameters a tenth of the prior is left open; stiffness and exponent are anti-correlated.
+  const auto count = static_cast<Eigen::Index>(hypothesis.parameters().size());
+  d.left_open.covariance = Eigen::MatrixXd::Zero(count, count);
+  for (Eigen::Index p = 0; p < count; ++p) {
+    const gap::Parameter& parameter = hypothesis.parameters()[static_cast<std::size_t>(p)];
+    d.left_open.names.push_back(parameter.name);
+    d.left_open.covariance(p, p) = std::pow(0.1 * parameter.std, 2);
+  }
+  d.left_open.covariance(0, 1) = d.left_open.covariance(1, 0) =
+      -0.5 * d.left_open.deviation(0) * d.left_open.deviation(1);
   d.model = hypothesis.state(x);
   d.model_effects = hypothesis.settings(x);
   for (const sim::EffectSetting& setting : d.model_effects) {

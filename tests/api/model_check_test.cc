@@ -78,6 +78,29 @@ TEST(ModelCheck, OfWrongMotorsIsWorseInCurrentAlone) {
   EXPECT_NEAR(of(answer, gap::Channel::kSlip).rms.down_percent, 0.0, 1e-3);
 }
 
+// The same wrong motors, known to be very uncertain: the currents are in the interval, and
+// nothing else is told any less surely.
+TEST(ModelCheck, HoldsWhatIsLeftOpenOfMotorsAndEffects) {
+  ModelFolder wrong = its_own();
+  wrong.model.rover.drive.torque_constant_nm_per_a *= 2.0;
+  const ModelCheckAnswer sure = checked(wrong);
+  wrong.model.left_open = gap::ParameterPosterior{{"torque_constant"}, Eigen::MatrixXd::Constant(1, 1, 9.0)};
+  const ModelCheckAnswer open = checked(wrong);
+  EXPECT_GT(of(open, gap::Channel::kCurrent).within_90, 0.95);
+  EXPECT_EQ(of(open, gap::Channel::kSlip).within_90, of(sure, gap::Channel::kSlip).within_90);
+  EXPECT_EQ(of(open, gap::Channel::kCurrent).rms.corrected, of(sure, gap::Channel::kCurrent).rms.corrected);
+
+  ModelFolder sinking = its_own();
+  sinking.model.rover.effects = {{.name = "slip_sinkage", .parameters = {{"n1", 3.0}}}};
+  const ModelCheckAnswer deep = checked(sinking);
+  sinking.model.left_open =
+      gap::ParameterPosterior{{"slip_sinkage.n1"}, Eigen::MatrixXd::Constant(1, 1, 9.0)};
+  const ModelCheckAnswer perhaps = checked(sinking);
+  EXPECT_EQ(of(deep, gap::Channel::kSinkage).rms.corrected,
+            of(perhaps, gap::Channel::kSinkage).rms.corrected);
+  EXPECT_GT(of(perhaps, gap::Channel::kSinkage).within_90, of(deep, gap::Channel::kSinkage).within_90);
+}
+
 // A torque constant that currents show may imply more voltage than there is: the drives were made all the
 // same.
 TEST(ModelCheck, IsOfDrivesThatWereMade) {

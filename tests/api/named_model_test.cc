@@ -84,6 +84,11 @@ TEST_F(ANamedModel, IsRecordedWithTheRequestAndNeedsItsJobNoMore) {
                       json::rover_document(*model));
   testing::write_file(folder.path() / "model" / "soils" / (model->soils.front().name + ".json"),
                       json::soils_document(*model));
+  const auto loaded = load_model_folder(folder.path() / "model");
+  ASSERT_TRUE(loaded) << loaded.error().detail;
+  ASSERT_TRUE(loaded->model.left_open);
+  EXPECT_EQ(loaded->model.left_open->names, diagnosis.left_open.names);
+  EXPECT_TRUE(loaded->model.left_open->covariance.isApprox(diagnosis.left_open.covariance, 1e-5));
   const auto service = Service::open({.data = folder.path(),
                                       .threads = 1,
                                       .model = folder.path() / "model",
