@@ -106,8 +106,9 @@ class Diagnoser {
 
  private:
   Result<void> search(const SearchOptions& options, std::span<const FittedExplanation> found_before = {}) {
-    auto found = search_explanations(campaign_, *prepared_.model, *prepared_.noise, *prepared_.null,
-                                     prepared_.wildcard, options, progress_, found_before);
+    const auto look = options_.told ? fit_told_explanation : search_explanations;
+    auto found = look(campaign_, *prepared_.model, *prepared_.noise, *prepared_.null, prepared_.wildcard,
+                      options, progress_, found_before);
     if (!found) return fail(found.error());
     search_ = std::move(*found);
     best_ = chosen_among(search_.candidates);

@@ -1,13 +1,13 @@
 #include "gap/explanation_search.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
-#include "core/parallel_for.h"
+#include "gap/effect_screening.h"
 #include "gap/soft_patch_search.h"
 #include "sim/effect_catalogue.h"
 
@@ -35,93 +35,6 @@ ExplanationOptions fit_options(const SearchOptions& options) {
   ExplanationOptions o;
   o.threads = options.threads;
   return o;
-}
-
-// Linear evidence of columns beside a fit, one-sided ones kept on their side, and the estimate.
-double linear_gain(const FittedExplanation& fit, const Eigen::MatrixXd& known, const Eigen::MatrixXd& columns,
-                   std::span<const Parameter> parameters, Eigen::VectorXd& estimate) {
-  std::vector<Eigen::Index> kept;
-  for (Eigen::Index c = 0; c < columns.cols(); ++c) kept.push_back(c);
-  estimate = Eigen::VectorXd::Zero(columns.cols());
-  const double without = log_marginal(fit.white_linear, known);
-  for (;;) {
-    if (kept.empty()) return 0.0;
-    Eigen::MatrixXd all(columns.rows(), known.cols() + static_cast<Eigen::Index>(kept.size()));
-    all << known, columns(Eigen::all, kept);
-    Eigen::MatrixXd hessian = all.transpose() * all;
-    hessian.diagonal().array() += 1.0;
-    const Eigen::VectorXd solved = hessian.llt().solve(all.transpose() * fit.white_linear).tail(kept.size());
-    std::vector<Eigen::Index> allowed;
-    for (std::size_t i = 0; i < kept.size(); ++i) {
-      const Parameter& p = parameters[static_cast<std::size_t>(kept[i])];
-      const double value = p.neutral + p.std * solved[static_cast<Eigen::Index>(i)];
-      if ((p.lowest == p.neutral && value < p.neutral) || (p.highest == p.neutral && value > p.neutral))
-        continue;
-      allowed.push_back(kept[i]);
-    }
-    if (allowed.size() == kept.size()) {
-      double gain = log_marginal(fit.white_linear, all) - without;
-      for (std::size_t i = 0; i < kept.size(); ++i) {
-        const Parameter& p = parameters[static_cast<std::size_t>(kept[i])];
-        estimate[kept[i]] = std::clamp(solved[static_cast<Eigen::Index>(i)], (p.lowest - p.neutral) / p.std,
-                                       (p.highest - p.neutral) / p.std);
-        if (p.lowest == p.neutral || p.highest == p.neutral) gain += std::log(2.0);
-      }
-      return gain;
-    }
-    kept = std::move(allowed);
-  }
-}
-
-struct Screened {
-  std::size_t variant = 0;
-  double gain = 0.0;
-  std::vector<double> start;  // of the hypothesis with it
-  Eigen::VectorXd signature;
-  double kept_share = 0.0, visibility = 0.0;
-};
-
-// Every variant beside a fit whose effects are not among them.
-std::vector<Screened> screen(const DriveCampaign& campaign, const WindowModel& model, const NoiseModel& noise,
-                             const FittedExplanation& fit, const Wildcard& wildcard,
-                             std::span<const EffectVariant> variants, std::size_t threads) {
-  std::vector<Screened> all(variants.size());
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(fit.white_jacobian);
-  const Eigen::MatrixXd basis =
-      qr.householderQ() * Eigen::MatrixXd::Identity(fit.white_jacobian.rows(), fit.white_jacobian.cols());
-  Eigen::MatrixXd known(fit.white_jacobian.rows(), fit.white_jacobian.cols() + wildcard.values.cols());
-  known << fit.white_jacobian, kImprecision * whitened(fit, noise, wildcard);
-  parallel_for(variants.size(), threads, [&](std::size_t v) {
-    if (model.cancelled()) return;
-    std::vector<EffectVariant> effects(fit.hypothesis.effects().begin(), fit.hypothesis.effects().end());
-    for (const EffectVariant& there : effects)
-      if (there.effect == variants[v].effect) {
-        all[v] = {v, -1e9, {}, {}, 0.0, 0.0};
-        return;
-      }
-    effects.push_back(variants[v]);
-    const Hypothesis hypothesis(campaign, effects);
-    std::vector<double> start;
-    const Eigen::MatrixXd columns = added_columns(hypothesis, model, noise, fit, start);
-    Eigen::VectorXd estimate;
-    const auto added = hypothesis.parameters().subspan(fit.x.size());
-    const double gain = linear_gain(fit, known, columns, added, estimate);
-    for (std::size_t p = 0; p < added.size(); ++p)
-      start[fit.x.size() + p] =
-          std::clamp(added[p].neutral + added[p].std * estimate[static_cast<Eigen::Index>(p)],
-                     added[p].lowest, added[p].highest);
-    // What the found combination does; of one that is not there, the first field.
-    Eigen::VectorXd direction = columns * estimate;
-    if (estimate.squaredNorm() == 0.0) direction = columns.col(0);
-    const Eigen::VectorXd projected = direction - basis * (basis.transpose() * direction);
-    const double length = direction.norm();
-    const Eigen::VectorXd first = columns.col(0) - basis * (basis.transpose() * columns.col(0));
-    all[v] = {v,           gain, std::move(start), projected, length > 0.0 ? projected.norm() / length : 0.0,
-              first.norm()};
-  });
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Screened& a, const Screened& b) { return a.gain > b.gain; });
-  return all;
 }
 
 // The fit that no iteration has moved from the nominal parameters.
@@ -157,6 +70,202 @@ double log_sum_exp(const std::vector<double>& values) {
   return most + std::log(sum);
 }
 
+// Collects fits of sets of effects, and lets them compete.
+class Searcher {
+ public:
+  Searcher(const DriveCampaign& campaign, const WindowModel& model, const NoiseModel& noise,
+           FittedExplanation null, const Wildcard& wildcard, const SearchOptions& options, Progress& progress)
+      : campaign_(campaign),
+        model_(model),
+        noise_(noise),
+        wildcard_(wildcard),
+        options_(options),
+        progress_(progress),
+        variants_(effect_variants(*campaign.rover, options.withheld)) {
+    for (const EffectVariant& v : variants_) ++variants_of_[v.effect];
+    if (std::find(options.withheld.begin(), options.withheld.end(), kSoftPatch) == options.withheld.end()) {
+      progress.report("looking for soft places", 0.18);
+      const PatchSearch patches = search_soft_patches(campaign, model, noise, null, kMostPatches);
+      variants_.insert(variants_.end(), patches.variants.begin(), patches.variants.end());
+      variants_of_[kSoftPatch] = static_cast<double>(patches.looks);
+    }
+    search_.fits.push_back(std::move(null));
+    progress.report("screening effects", 0.2);
+    screen();
+  }
+
+  void fit_again(std::span<const FittedExplanation> found_before) {
+    for (const FittedExplanation& before : found_before) {
+      if (progress_.cancelled()) return;
+      std::set<std::string> names;
+      for (const EffectVariant& v : before.hypothesis.effects()) names.insert(v.effect);
+      if (names.empty()) continue;
+      progress_.report("fitting what was found again", 0.22);
+      const std::size_t index = add_fit(before.hypothesis, before.x);
+      if (names.size() == 1) {
+        best_fit_[*names.begin()] = index;
+        tried_[*names.begin()] = kMostVariants;
+      } else {
+        pairs_[names] = index;
+      }
+    }
+  }
+
+  // The best variants of the best effects.
+  void fit_singles() {
+    for (const ScreenedEffect& s : screened_) {
+      if (progress_.cancelled()) return;
+      const EffectVariant& v = variants_[s.variant];
+      const bool known = tried_.contains(v.effect);
+      if (!known && static_cast<int>(tried_.size()) >= options_.most_refitted) continue;
+      if (tried_[v.effect] >= kMostVariants) continue;
+      ++tried_[v.effect];
+      progress_.report("fitting effects", 0.25 + 0.3 * static_cast<double>(search_.fits.size()) /
+                                                     (2.0 * options_.most_refitted));
+      const std::size_t index = add_fit(Hypothesis(campaign_, {v}), s.start);
+      FittedExplanation& fit = search_.fits[index];
+      if (const auto other = other_start_.find(s.variant); other != other_start_.end()) {
+        FittedExplanation second = fitted(fit.hypothesis, other->second);
+        if (second.log_evidence > fit.log_evidence) fit = std::move(second);
+      }
+      if (v.effect == kSoftPatch && tried_[v.effect] == 1)
+        fit = refine_soft_patch(campaign_, model_, noise_, std::move(fit), fit_options(options_));
+      const auto best = best_fit_.find(v.effect);
+      if (best == best_fit_.end() || fit.log_evidence > search_.fits[best->second].log_evidence)
+        best_fit_[v.effect] = index;
+    }
+    singles_.assign(best_fit_.begin(), best_fit_.end());
+    std::stable_sort(singles_.begin(), singles_.end(), [&](const auto& a, const auto& b) {
+      return search_.fits[a.second].log_evidence > search_.fits[b.second].log_evidence;
+    });
+  }
+
+  // They grow from the best single effects, by seconds that promise a gain of so much at least.
+  void fit_pairs(double least_gain) {
+    for (std::size_t s = 0; s < singles_.size() && s < static_cast<std::size_t>(options_.most_paired); ++s) {
+      const std::size_t base = singles_[s].second;
+      int fitted = 0;
+      std::set<std::string> done;
+      for (const ScreenedEffect& second : screen_effects(campaign_, model_, noise_, search_.fits[base],
+                                                         wildcard_, variants_, options_.threads)) {
+        if (progress_.cancelled()) return;
+        if (fitted >= options_.most_seconds || second.start.empty() || second.gain < least_gain) break;
+        const EffectVariant& v = variants_[second.variant];
+        const std::set<std::string> names{singles_[s].first, v.effect};
+        if (pairs_.contains(names) || !done.insert(v.effect).second) continue;
+        progress_.report("fitting pairs of effects", 0.55 + 0.08 * static_cast<double>(s));
+        std::vector<EffectVariant> effects(search_.fits[base].hypothesis.effects().begin(),
+                                           search_.fits[base].hypothesis.effects().end());
+        effects.push_back(v);
+        pairs_[names] = add_fit(Hypothesis(campaign_, effects), second.start);
+        ++fitted;
+      }
+    }
+  }
+
+  // All that was fitted and is worth a name against each other, nothing, and something else.
+  Result<ExplanationSearch> compete() && {
+    add_candidates(0, std::log(kNothing), std::log(kSomethingElse));
+    for (const auto& [effect, fit] : singles_)
+      if (worth_naming(search_.fits[fit], options_.least_size))
+        add_candidates(fit, log_single(), std::log(kOneAndSomethingElse / families()));
+    for (const auto& [names, fit] : pairs_)
+      if (worth_naming(search_.fits[fit], options_.least_size))
+        add_candidates(fit, log_pair(), log_pair() - 2.0);
+    return std::move(*this).weighed();
+  }
+
+  // Only what has every effect of the library; nothing, where none was fitted.
+  Result<ExplanationSearch> told() && {
+    options_.something_else = false;
+    if (variants_of_.size() == 1)
+      for (const auto& [effect, fit] : singles_) add_candidates(fit, 0.0, 0.0);
+    for (const auto& [names, fit] : pairs_)
+      if (names.size() == variants_of_.size()) add_candidates(fit, 0.0, 0.0);
+    if (search_.candidates.empty()) add_candidates(0, 0.0, 0.0);
+    return std::move(*this).weighed();
+  }
+
+ private:
+  // At the null, and at the nominal parameters where that had to go far from them.
+  void screen() {
+    screened_ =
+        screen_effects(campaign_, model_, noise_, search_.fits[0], wildcard_, variants_, options_.threads);
+    if (went_far(search_.fits[0])) {
+      const FittedExplanation nominal = at_nominal(search_.fits[0], model_, noise_, options_);
+      for (const ScreenedEffect& f :
+           screen_effects(campaign_, model_, noise_, nominal, wildcard_, variants_, options_.threads)) {
+        other_start_[f.variant] = f.start;
+        for (ScreenedEffect& s : screened_)
+          if (s.variant == f.variant) s.gain = std::max(s.gain, f.gain);
+      }
+      std::stable_sort(screened_.begin(), screened_.end(),
+                       [](const ScreenedEffect& a, const ScreenedEffect& b) { return a.gain > b.gain; });
+    }
+    for (const ScreenedEffect& s : screened_)
+      search_.screened.push_back({variants_[s.variant], s.gain, s.signature, s.kept_share, s.visibility});
+  }
+
+  FittedExplanation fitted(const Hypothesis& hypothesis, std::span<const double> start) const {
+    return fit_explanation(hypothesis, model_, noise_, start, fit_options(options_));
+  }
+  std::size_t add_fit(const Hypothesis& hypothesis, std::span<const double> start) {
+    search_.fits.push_back(fitted(hypothesis, start));
+    return search_.fits.size() - 1;
+  }
+
+  double families() const { return static_cast<double>(variants_of_.size()); }
+  double log_single() const { return std::log(kOne / families()); }
+  double log_pair() const { return std::log(kTwo / std::max(1.0, 0.5 * families() * (families() - 1.0))); }
+
+  // A set, alone and with something else besides.
+  void add_candidates(std::size_t fit, double log_prior, double log_prior_unknown) {
+    if (model_.cancelled()) return;
+    Candidate c;
+    for (const EffectVariant& v : search_.fits[fit].hypothesis.effects()) {
+      c.effects.push_back(v.effect);
+      log_prior -= std::log(variants_of_[v.effect]);
+      log_prior_unknown -= std::log(variants_of_[v.effect]);
+    }
+    c.fit = fit;
+    const WildcardGain gain =
+        wildcard_gain(search_.fits[fit], noise_, wildcard_,
+                      form_columns(campaign_, model_, noise_, search_.fits[fit], options_.threads));
+    c.log_evidence = search_.fits[fit].log_evidence + gain.imprecision;
+    c.log_prior = log_prior;
+    search_.candidates.push_back(c);
+    if (!options_.something_else) return;
+    c.with_unknown = true;
+    c.log_evidence = search_.fits[fit].log_evidence + gain.something_else;
+    c.log_prior = log_prior_unknown;
+    search_.candidates.push_back(c);
+  }
+
+  Result<ExplanationSearch> weighed() && {
+    if (progress_.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
+    weigh(search_.candidates, options_);
+    std::stable_sort(search_.candidates.begin(), search_.candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.probability > b.probability; });
+    return std::move(search_);
+  }
+
+  const DriveCampaign& campaign_;
+  const WindowModel& model_;
+  const NoiseModel& noise_;
+  const Wildcard& wildcard_;
+  SearchOptions options_;
+  Progress& progress_;
+  std::vector<EffectVariant> variants_;
+  std::map<std::string, double> variants_of_;  // how many each effect has, or places that were looked at
+  std::vector<ScreenedEffect> screened_;
+  std::map<std::size_t, std::vector<double>> other_start_;  // of a variant
+  std::map<std::string, int> tried_;
+  std::map<std::string, std::size_t> best_fit_;               // of an effect alone
+  std::vector<std::pair<std::string, std::size_t>> singles_;  // the same, best first
+  std::map<std::set<std::string>, std::size_t> pairs_;
+  ExplanationSearch search_;
+};
+
 }  // namespace
 
 Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, const WindowModel& model,
@@ -164,144 +273,24 @@ Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, con
                                               const Wildcard& wildcard, const SearchOptions& options,
                                               Progress& progress,
                                               std::span<const FittedExplanation> found_before) {
-  ExplanationSearch search;
-  std::vector<EffectVariant> variants = effect_variants(*campaign.rover, options.withheld);
-  std::map<std::string, double> variants_of;
-  for (const EffectVariant& v : variants) ++variants_of[v.effect];
-  if (std::find(options.withheld.begin(), options.withheld.end(), kSoftPatch) == options.withheld.end()) {
-    progress.report("looking for soft places", 0.18);
-    const PatchSearch patches = search_soft_patches(campaign, model, noise, null, kMostPatches);
-    variants.insert(variants.end(), patches.variants.begin(), patches.variants.end());
-    variants_of[kSoftPatch] = static_cast<double>(patches.looks);
-  }
-  const auto families = static_cast<double>(variants_of.size());
-  search.fits.push_back(std::move(null));
+  constexpr double kLeastGain = 1.0;
+  Searcher searcher(campaign, model, noise, std::move(null), wildcard, options, progress);
+  searcher.fit_again(found_before);
+  searcher.fit_singles();
+  searcher.fit_pairs(kLeastGain);
+  return std::move(searcher).compete();
+}
 
-  // One fit for each of the best effects, of its best variants.
-  progress.report("screening effects", 0.2);
-  std::vector<Screened> screened =
-      screen(campaign, model, noise, search.fits[0], wildcard, variants, options.threads);
-  std::map<std::size_t, std::vector<double>> other_start;  // of a variant
-  if (went_far(search.fits[0])) {
-    const FittedExplanation nominal = at_nominal(search.fits[0], model, noise, options);
-    const std::vector<Screened> fresh =
-        screen(campaign, model, noise, nominal, wildcard, variants, options.threads);
-    for (const Screened& f : fresh) {
-      other_start[f.variant] = f.start;
-      for (Screened& s : screened)
-        if (s.variant == f.variant) s.gain = std::max(s.gain, f.gain);
-    }
-    std::stable_sort(screened.begin(), screened.end(),
-                     [](const Screened& a, const Screened& b) { return a.gain > b.gain; });
-  }
-  for (const Screened& s : screened)
-    search.screened.push_back({variants[s.variant], s.gain, s.signature, s.kept_share, s.visibility});
-  std::map<std::string, int> tried;
-  std::map<std::string, std::size_t> best_fit;  // of an effect alone
-  std::map<std::set<std::string>, std::size_t> pairs;
-  for (const FittedExplanation& before : found_before) {
-    if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
-    std::set<std::string> names;
-    for (const EffectVariant& v : before.hypothesis.effects()) names.insert(v.effect);
-    if (names.empty()) continue;
-    progress.report("fitting what was found again", 0.22);
-    search.fits.push_back(fit_explanation(before.hypothesis, model, noise, before.x, fit_options(options)));
-    if (names.size() == 1) {
-      best_fit[*names.begin()] = search.fits.size() - 1;
-      tried[*names.begin()] = kMostVariants;
-    } else {
-      pairs[names] = search.fits.size() - 1;
-    }
-  }
-  for (const Screened& s : screened) {
-    if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
-    const EffectVariant& v = variants[s.variant];
-    const bool known = tried.contains(v.effect);
-    if (!known && static_cast<int>(tried.size()) >= options.most_refitted) continue;
-    if (tried[v.effect] >= kMostVariants) continue;
-    ++tried[v.effect];
-    progress.report("fitting effects",
-                    0.25 + 0.3 * static_cast<double>(search.fits.size()) / (2.0 * options.most_refitted));
-    FittedExplanation fit =
-        fit_explanation(Hypothesis(campaign, {v}), model, noise, s.start, fit_options(options));
-    if (const auto other = other_start.find(s.variant); other != other_start.end()) {
-      FittedExplanation second =
-          fit_explanation(fit.hypothesis, model, noise, other->second, fit_options(options));
-      if (second.log_evidence > fit.log_evidence) fit = std::move(second);
-    }
-    if (v.effect == kSoftPatch && tried[v.effect] == 1)
-      fit = refine_soft_patch(campaign, model, noise, std::move(fit), fit_options(options));
-    search.fits.push_back(std::move(fit));
-    const std::size_t index = search.fits.size() - 1;
-    const auto best = best_fit.find(v.effect);
-    if (best == best_fit.end() || search.fits[index].log_evidence > search.fits[best->second].log_evidence)
-      best_fit[v.effect] = index;
-  }
-  std::vector<std::pair<std::string, std::size_t>> singles(best_fit.begin(), best_fit.end());
-  std::stable_sort(singles.begin(), singles.end(), [&](const auto& a, const auto& b) {
-    return search.fits[a.second].log_evidence > search.fits[b.second].log_evidence;
-  });
-
-  // Pairs grow from the best single effects.
-  for (std::size_t s = 0; s < singles.size() && s < static_cast<std::size_t>(options.most_paired); ++s) {
-    const std::size_t base = singles[s].second;
-    const std::vector<Screened> seconds =
-        screen(campaign, model, noise, search.fits[base], wildcard, variants, options.threads);
-    int fitted = 0;
-    std::set<std::string> done;
-    for (const Screened& second : seconds) {
-      if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
-      if (fitted >= options.most_seconds || second.start.empty()) break;
-      if (second.gain < 1.0 && !options.told) break;
-      const EffectVariant& v = variants[second.variant];
-      const std::set<std::string> names{singles[s].first, v.effect};
-      if (pairs.contains(names) || !done.insert(v.effect).second) continue;
-      progress.report("fitting pairs of effects", 0.55 + 0.08 * static_cast<double>(s));
-      std::vector<EffectVariant> effects(search.fits[base].hypothesis.effects().begin(),
-                                         search.fits[base].hypothesis.effects().end());
-      effects.push_back(v);
-      search.fits.push_back(
-          fit_explanation(Hypothesis(campaign, effects), model, noise, second.start, fit_options(options)));
-      pairs[names] = search.fits.size() - 1;
-      ++fitted;
-    }
-  }
-
-  const double log_single = std::log(kOne / families);
-  const double log_pair = std::log(kTwo / std::max(1.0, 0.5 * families * (families - 1.0)));
-  const auto add = [&](std::size_t fit, double log_prior, double log_prior_unknown) {
-    if (model.cancelled()) return;
-    Candidate c;
-    for (const EffectVariant& v : search.fits[fit].hypothesis.effects()) {
-      c.effects.push_back(v.effect);
-      log_prior -= std::log(variants_of[v.effect]);
-      log_prior_unknown -= std::log(variants_of[v.effect]);
-    }
-    if (options.told ? fit != 0 && c.effects.size() < variants_of.size()
-                     : !worth_naming(search.fits[fit], options.least_size))
-      return;
-    c.fit = fit;
-    const WildcardGain gain =
-        wildcard_gain(search.fits[fit], noise, wildcard,
-                      form_columns(campaign, model, noise, search.fits[fit], options.threads));
-    c.log_evidence = search.fits[fit].log_evidence + gain.imprecision;
-    c.log_prior = log_prior;
-    search.candidates.push_back(c);
-    if (options.told || !options.something_else) return;
-    c.with_unknown = true;
-    c.log_evidence = search.fits[fit].log_evidence + gain.something_else;
-    c.log_prior = log_prior_unknown;
-    search.candidates.push_back(c);
-  };
-  if (!options.told) add(0, std::log(kNothing), std::log(kSomethingElse));
-  for (const auto& [effect, fit] : singles) add(fit, log_single, std::log(kOneAndSomethingElse / families));
-  for (const auto& [names, fit] : pairs) add(fit, log_pair, log_pair - 2.0);
-  if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
-  if (search.candidates.empty()) add(0, 0.0, 0.0);
-  weigh(search.candidates, options);
-  std::stable_sort(search.candidates.begin(), search.candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.probability > b.probability; });
-  return search;
+Result<ExplanationSearch> fit_told_explanation(const DriveCampaign& campaign, const WindowModel& model,
+                                               const NoiseModel& noise, FittedExplanation null,
+                                               const Wildcard& wildcard, const SearchOptions& options,
+                                               Progress& progress,
+                                               std::span<const FittedExplanation> found_before) {
+  Searcher searcher(campaign, model, noise, std::move(null), wildcard, options, progress);
+  searcher.fit_again(found_before);
+  searcher.fit_singles();
+  searcher.fit_pairs(-std::numeric_limits<double>::infinity());
+  return std::move(searcher).told();
 }
 
 void weigh(std::span<Candidate> candidates, const SearchOptions& options) {

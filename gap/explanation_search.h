@@ -21,9 +21,7 @@ struct SearchOptions {
   // An effect smaller than this share of its usual size (the deviation of its prior) is not worth a name: it
   // is how one simulator's numerics differ from another's.
   double least_size = 0.3;
-  bool something_else = true;  // the wildcard competes; without it for ablations
-  // An oracle's: the effects that are not withheld are at work, all of them, and nothing else is compared.
-  bool told = false;
+  bool something_else = true;   // the wildcard competes; without it for ablations
   bool whole_evidence = false;  // believed as it stands, for ablations; see weigh
   std::size_t threads = 0;
 };
@@ -61,6 +59,14 @@ Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, con
                                               const Wildcard& wildcard, const SearchOptions& options,
                                               Progress& progress,
                                               std::span<const FittedExplanation> found_before = {});
+
+// An oracle's: the effects that are not withheld are at work, all of them (two at most), and nothing else is
+// compared.
+Result<ExplanationSearch> fit_told_explanation(const DriveCampaign& campaign, const WindowModel& model,
+                                               const NoiseModel& noise, FittedExplanation null,
+                                               const Wildcard& wildcard, const SearchOptions& options,
+                                               Progress& progress,
+                                               std::span<const FittedExplanation> found_before = {});
 
 // The candidates' probabilities from evidence and prior. The logarithm of the evidence is
 // believed by a share, since no simulator is exact: mostly by one, and, as answers of sealed campaigns that

@@ -21,8 +21,9 @@ constexpr double kParametersGain = 20.0;  // of the logarithm of the evidence, f
 constexpr double kSurelySeen = 6.0;    // standard errors: what the tempered evidence asks for over its prior
 constexpr double kSmall = 0.5;         // of an effect's usual size
 constexpr double kBeyondChance = 2.0;  // standard errors
-// What may be left on held-out drives, over the floor: an effect's equation may be another's.
-constexpr double kLeftOfNothing = 1.25, kLeftBesideEffects = 1.5;
+// What may be left on held-out drives, over the floor. An effect's equation may be another's: what it leaves
+// is forgiven where it closes this share of the channel's gap.
+constexpr double kLeftOfNothing = 1.25, kLeftBesideEffects = 1.5, kForgiven = 0.5;
 constexpr double kDoubt = 0.9;  // the probability of something unknown that such an answer leaves, at least
 
 constexpr std::string_view kSameLook =
@@ -100,6 +101,8 @@ std::optional<std::string> gap_left(const Diagnosis& d) {
     if (c.channel == Channel::kRoll || c.channel == Channel::kPitch) continue;
     const double floor = c.noise_floor.value;
     if (c.with_effects.low <= most * floor) continue;
+    if (!d.effects.empty() && c.retuned.value - c.with_effects.value >= kForgiven * (c.retuned.value - floor))
+      continue;
     most = c.with_effects.low / floor;
     words = fmt::format("on drives held out of the fit {} is {:.1f} times its floor off (at least {:.1f})",
                         name_of(c.channel), c.with_effects.value / floor, most);

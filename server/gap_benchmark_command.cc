@@ -129,7 +129,7 @@ Result<Timed> diagnosed(const GapBenchmarkCommand& options, const api::Catalogue
   if (!campaign) return fail(campaign.error());
   gap::DiagnosisOptions how;
   how.search.withheld = told.withheld;
-  how.search.told = told.oracle;
+  how.told = told.oracle;
   how.search.threads = static_cast<std::size_t>(options.threads);
   how.seed = options.seed;
   const Variant& variant = *variant_named(options.variant);
