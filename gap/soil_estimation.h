@@ -1,50 +1,18 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
-#include <cstdint>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/progress.h"
 #include "core/result.h"
-#include "gap/least_squares.h"
 #include "gap/soil_determination.h"
+#include "gap/soil_estimation_options.h"
 #include "gap/soil_observation.h"
 #include "gap/soil_parameter.h"
 #include "sim/soil.h"
 
 namespace slipway::gap {
-
-// What is believed of the soil before the data, around the nominal one:
-enum class SoilPriors {
-  kNone,
-  kWide,  // SoilParameterRow::wide_std, what soils of all kinds have
-  kSoil,  // the nominal soil's own spread; wide where it gives none
-};
-std::optional<SoilPriors> soil_priors(std::string_view name);  // "none", "wide", "soil"
-
-// A bound that is not the row's own, in SI and radians.
-struct SoilBound {
-  SoilParameter parameter = SoilParameter::kN;
-  double lowest = 0.0, highest = 0.0;
-};
-
-struct SoilEstimationOptions {
-  std::vector<SoilParameter> free = {};  // empty: usual_free_parameters
-  SoilPriors priors = SoilPriors::kWide;
-  std::vector<SoilBound> bounds = {};
-  std::array<bool, kSoilChannels> channels{true, true, true, true, true, true};
-  ReadingNoise noise = {};
-  RobustLoss loss = RobustLoss::kNone;
-  std::optional<double> loss_scale = {};  // in deviations; nothing: usual_loss_scale()
-  // Searches from elsewhere between the bounds where the first leaves more than twice the noise.
-  int further_starts = 12;
-  bool profile = true;  // 90 % intervals by profile likelihood; otherwise from the covariance
-  std::uint64_t seed = 1;
-};
 
 // What is left over in one channel, in its unit and in deviations.
 struct ChannelResidual {
@@ -82,10 +50,6 @@ struct SoilEstimate {
   bool converged = false;
   std::vector<std::string> notes;
 };
-
-// Those that such data can say: k_bekker, or k_c and k_phi where widths differ, and n; with wheels cohesion,
-// friction angle and shear modulus too.
-std::vector<SoilParameter> usual_free_parameters(const SoilData& data);
 
 // The ARTEMIS paper's problem (section 3): the parameters of the soil at which the library's own laws meet
 // what was measured, by Levenberg-Marquardt (least_squares.h) over SoilAxes from the nominal soil on.
