@@ -5,6 +5,7 @@
 #include <algorithm>
 
 namespace slipway::gap {
+
 bool holds(std::span<const SoilParameter> list, SoilParameter parameter) {
   return std::find(list.begin(), list.end(), parameter) != list.end();
 }
