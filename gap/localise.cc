@@ -13,10 +13,6 @@
 namespace slipway::gap {
 namespace {
 
-constexpr std::array<const char*, kWindowVariables> kNames{"slope_deg", "cross_slope_deg", "slip",
-                                                           "speed_m_s", "curvature_1_m",   "temperature_c",
-                                                           "turning",   "time_s"};
-
 constexpr double kSignificant = 0.1;
 constexpr int kFunctions = 5;
 
@@ -80,14 +76,13 @@ std::vector<Slice> slices_of(const std::vector<WindowVariables>& variables) {
     if (values.size() < 2) continue;
     std::vector<Condition> pieces;
     if (values.size() <= 6) {
-      for (const double value : values) pieces.push_back({kNames[static_cast<std::size_t>(v)], value, value});
+      for (const double value : values) pieces.push_back({variable_name(v), value, value});
     } else {
       constexpr int kPieces = 5;
       for (int k = 0; k < kPieces; ++k) {
         const double from = sorted[k * (sorted.size() - 1) / kPieces];
         const double to = sorted[(k + 1) * (sorted.size() - 1) / kPieces];
-        if (pieces.empty() || pieces.back().to < to)
-          pieces.push_back({kNames[static_cast<std::size_t>(v)], from, to});
+        if (pieces.empty() || pieces.back().to < to) pieces.push_back({variable_name(v), from, to});
       }
     }
     by_variable.emplace_back();
@@ -127,17 +122,6 @@ double excess(const std::vector<double>& values, const Slice& slice, const std::
 }
 
 }  // namespace
-
-const char* variable_name(int variable) {
-  return kNames[static_cast<std::size_t>(variable)];
-}
-
-double variable_of(const WindowVariables& of, int variable) {
-  const std::array<double, kWindowVariables> all{of.slope_deg, of.cross_slope_deg, of.slip,
-                                                 of.speed_m_s, of.curvature_1_m,   of.temperature_c,
-                                                 of.turning,   of.time_s};
-  return all[static_cast<std::size_t>(variable)];
-}
 
 std::vector<WindowVariables> window_variables(const PreparedCampaign& prepared,
                                               const DriveCampaign& campaign) {
@@ -287,6 +271,21 @@ std::vector<Regime> regimes_of(const PreparedCampaign& prepared, const DriveCamp
     regimes.push_back(s.regime);
   }
   return regimes;
+}
+
+std::vector<ChannelShare> channel_shares(const PreparedCampaign& prepared, const Eigen::VectorXd& residuals) {
+  std::vector<ChannelShare> shares;
+  double total = 0.0;
+  for (int c = 0; c < kChannels; ++c) {
+    const std::vector<double> squares = squares_of(prepared, residuals, static_cast<Channel>(c));
+    const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
+    if (sum > 0.0) shares.push_back({static_cast<Channel>(c), sum});
+    total += sum;
+  }
+  for (ChannelShare& share : shares) share.share /= total;
+  std::stable_sort(shares.begin(), shares.end(),
+                   [](const ChannelShare& a, const ChannelShare& b) { return a.share > b.share; });
+  return shares;
 }
 
 std::vector<GapPlace> gap_places(const PreparedCampaign& prepared, const DriveCampaign& campaign,
