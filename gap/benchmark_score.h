@@ -52,7 +52,7 @@ struct CaseScore {
   std::optional<double> place_overlap;  // of the soft patch's disc, intersection over union
   // Where the key says it and effects of the library were hidden and named: see location_score.h.
   std::optional<bool> channel_right;
-  std::optional<double> slice_overlap;
+  std::optional<double> slice_overlap, slice_attainable;
   double seconds = 0.0;
 };
 
@@ -108,6 +108,7 @@ struct BenchmarkFigures {
   Rate overlap;  // soft patches whose disc overlaps by half or more
   Rate channel_right;
   Rate slice_half;  // of slices that were scored, those that overlap by half or more
+  std::optional<double> slice_of_attainable;  // median of each one's overlap over the most that there is
   std::optional<double> unknown_auroc, calibration, brier, closed_fraction, place_overlap, slice_overlap,
       seconds;
   std::optional<double>

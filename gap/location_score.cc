@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <vector>
+
+#include "gap/slices.h"
 
 namespace slipway::gap {
 namespace {
@@ -25,6 +28,15 @@ bool lies_in(const HiddenTrace& trace, const Regime& slice) {
   });
 }
 
+double overlap_of(const std::vector<bool>& a, const std::vector<bool>& b) {
+  std::size_t both = 0, either = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    both += a[i] && b[i] ? 1 : 0;
+    either += a[i] || b[i] ? 1 : 0;
+  }
+  return either == 0 ? 0.0 : static_cast<double>(both) / static_cast<double>(either);
+}
+
 }  // namespace
 
 std::optional<Channel> main_channel(std::span<const HiddenTrace> truth) {
@@ -46,20 +58,29 @@ std::optional<bool> channel_right(std::span<const HiddenTrace> truth, const Diag
   return d.channels_of_effects.front().channel == *main;
 }
 
-std::optional<double> slice_overlap(std::span<const HiddenTrace> truth, const Diagnosis& d) {
+std::optional<SliceOverlap> slice_overlap(std::span<const HiddenTrace> truth, const Diagnosis& d) {
   if (truth.empty() || d.channels_of_effects.empty()) return std::nullopt;
-  if (d.regimes_of_effect.empty()) return 0.0;
-  const Regime& slice = d.regimes_of_effect.front();
+  const bool named = !d.regimes_of_effect.empty();
+  const Channel channel = named ? d.regimes_of_effect.front().channel : d.channels_of_effects.front().channel;
   double mean = 0.0;
   for (const HiddenTrace& trace : truth)
-    mean += square_of(trace, slice.channel) / static_cast<double>(truth.size());
-  std::size_t both = 0, either = 0;
+    mean += square_of(trace, channel) / static_cast<double>(truth.size());
+  std::vector<bool> more, inside;
+  std::vector<WindowVariables> variables;
   for (const HiddenTrace& trace : truth) {
-    const bool inside = lies_in(trace, slice), more = square_of(trace, slice.channel) > mean;
-    both += inside && more ? 1 : 0;
-    either += inside || more ? 1 : 0;
+    more.push_back(square_of(trace, channel) > mean);
+    inside.push_back(named && lies_in(trace, d.regimes_of_effect.front()));
+    variables.push_back(trace.at);
   }
-  return either == 0 ? 0.0 : static_cast<double>(both) / static_cast<double>(either);
+  SliceOverlap overlap{overlap_of(inside, more), 0.0};
+  for (const Slice& slice : slices_of(variables)) {
+    inside.assign(truth.size(), false);
+    for (const std::size_t window : slice.windows) inside[window] = true;
+    overlap.attainable = std::max(overlap.attainable, overlap_of(inside, more));
+  }
+  // Ends that are other windows' readings may do better than those of the key's own.
+  overlap.attainable = std::max(overlap.attainable, overlap.value);
+  return overlap;
 }
 
 }  // namespace slipway::gap

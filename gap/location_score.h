@@ -24,9 +24,13 @@ std::optional<Channel> main_channel(std::span<const HiddenTrace> truth);
 // Whether the found effects act most in the channel of the truth; nothing where either is not said.
 std::optional<bool> channel_right(std::span<const HiddenTrace> truth, const Diagnosis& diagnosis);
 
-// Intersection over union, in stretches, of the slice in which the found effects are said to act most with
-// the stretches that hold more than their share of what was hidden, both in the slice's channel. 0 where the
-// effects have a channel and no slice; nothing where the diagnosis or the key says nothing of places.
-std::optional<double> slice_overlap(std::span<const HiddenTrace> truth, const Diagnosis& diagnosis);
+// Intersection over union, in stretches, with those that hold more than their share of what was hidden.
+struct SliceOverlap {
+  double value = 0.0;       // of the slice in which the found effects are said to act most, in its channel
+  double attainable = 0.0;  // the most that a slice of one or two conditions has in that channel
+};
+// 0 in the effects' first channel where no slice is named; nothing where the diagnosis or the key says
+// nothing of where they act.
+std::optional<SliceOverlap> slice_overlap(std::span<const HiddenTrace> truth, const Diagnosis& diagnosis);
 
 }  // namespace slipway::gap

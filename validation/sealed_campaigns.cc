@@ -54,6 +54,7 @@ Scored scored(const CsvTable& table, std::size_t row) {
   c.seconds = table.number(row, "seconds");
   if (const auto right = optional_number(table, row, "channel_right")) c.channel_right = *right != 0.0;
   c.slice_overlap = optional_number(table, row, "slice_overlap");
+  c.slice_attainable = optional_number(table, row, "slice_attainable");
   return s;
 }
 
@@ -146,7 +147,7 @@ Result<Report> sealed_campaigns(const std::filesystem::path& data) {
                    "confident_wrong", "unknown_probability", "stated", "seconds"},
        .numbers_or_empty = {"wheel_right", "closed_fraction", "oracle_closed_fraction", "place_overlap"},
        .texts = {"set", "variant", "campaign", "hidden", "verdict", "found"},
-       .numbers_if_there = {"channel_right", "slice_overlap"}});
+       .numbers_if_there = {"channel_right", "slice_overlap", "slice_attainable"}});
   if (!table) return fail(table.error());
   std::vector<std::pair<std::string, std::string>> order;  // set and variant, as they come
   std::map<std::pair<std::string, std::string>, std::vector<CaseScore>> groups;

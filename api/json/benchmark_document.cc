@@ -53,6 +53,7 @@ void write_figures(Writer& w, const BenchmarkFigures& f) {
   write_optional(w, "closed_of_oracle_median", f.closed_of_oracle);
   write_optional(w, "place_overlap_median", f.place_overlap);
   write_optional(w, "slice_overlap_median", f.slice_overlap);
+  write_optional(w, "slice_overlap_of_attainable_median", f.slice_of_attainable);
   write_optional(w, "seconds_median", f.seconds);
 }
 
@@ -70,6 +71,7 @@ void write_case(Writer& w, const CaseScore& c) {
   write_optional(w, "place_overlap", c.place_overlap);
   if (c.channel_right) w.boolean("channel_right", *c.channel_right);
   write_optional(w, "slice_overlap", c.slice_overlap);
+  write_optional(w, "slice_attainable", c.slice_attainable);
   w.significant("seconds", c.seconds).end_object();
 }
 

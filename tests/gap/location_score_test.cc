@@ -56,7 +56,7 @@ TEST(LocationScore, NothingSaidIsNotScored) {
 TEST(LocationScore, ASliceIsHeldAgainstTheStretchesThatHoldMoreThanTheirShare) {
   const std::vector<ChannelShare> current{{Channel::kCurrent, 1.0}};
   const auto overlap = [&](std::vector<Condition> conditions) {
-    return slice_overlap(steep_current(), told(current, std::move(conditions))).value();
+    return slice_overlap(steep_current(), told(current, std::move(conditions)))->value;
   };
   EXPECT_EQ(overlap({{"slope_deg", 11.0, 15.0}}), 1.0);
   EXPECT_EQ(overlap({{"slope_deg", 13.0, 15.0}}), 0.5);
@@ -71,9 +71,23 @@ TEST(LocationScore, ASliceIsHeldAgainstTheStretchesThatHoldMoreThanTheirShare) {
 
 TEST(LocationScore, IsOfTheSlicesOwnChannel) {
   const Diagnosis slip = told({{Channel::kSlip, 1.0}}, {{"slope_deg", 0.0, 0.0}});
-  EXPECT_EQ(slice_overlap(steep_current(), slip), 1.0);
+  EXPECT_EQ(slice_overlap(steep_current(), slip)->value, 1.0);
   const Diagnosis sinkage = told({{Channel::kSinkage, 1.0}}, {{"slope_deg", 0.0, 0.0}});
-  EXPECT_EQ(slice_overlap(steep_current(), sinkage), 0.0);
+  EXPECT_EQ(slice_overlap(steep_current(), sinkage)->value, 0.0);
+}
+
+TEST(LocationScore, TheMostThatASliceHasIsThatOfTheKeysOwnSlices) {
+  // Twenty stretches of ten slopes: the steepest fifth of them, which is one slice; then every second one,
+  // which is none.
+  std::vector<HiddenTrace> steep, scattered;
+  for (int i = 0; i < 20; ++i) {
+    steep.push_back(trace_at(i / 2, Channel::kCurrent, i >= 14 ? 9.0 : 1.0));
+    scattered.push_back(trace_at(i / 2, Channel::kCurrent, i % 2 == 0 ? 9.0 : 1.0));
+  }
+  const Diagnosis d = told({{Channel::kCurrent, 1.0}}, {{"slope_deg", 8.0, 9.0}});
+  EXPECT_NEAR(slice_overlap(steep, d)->value, 4.0 / 6.0, 1e-12);
+  EXPECT_EQ(slice_overlap(steep, d)->attainable, 1.0);
+  EXPECT_LT(slice_overlap(scattered, d)->attainable, 0.5);
 }
 
 TEST(LocationScore, CountsWhereEffectsOfTheLibraryWereHiddenAndNamed) {
@@ -99,11 +113,13 @@ TEST(LocationScore, CountsWhereEffectsOfTheLibraryWereHiddenAndNamed) {
   CaseScore other = named;
   other.channel_right = false;
   other.slice_overlap = 0.4;
+  other.slice_attainable = 0.8;
   const BenchmarkFigures f = figures_of(std::vector{named, other, CaseScore{}});
   EXPECT_EQ(f.channel_right.hits, 1u);
   EXPECT_EQ(f.channel_right.of, 2u);
   EXPECT_EQ(f.slice_half.hits, 1u);
   EXPECT_NEAR(f.slice_overlap.value(), 0.7, 1e-12);
+  EXPECT_NEAR(f.slice_of_attainable.value(), 0.75, 1e-12);
 }
 
 }  // namespace
