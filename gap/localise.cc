@@ -15,6 +15,7 @@ namespace slipway::gap {
 namespace {
 
 constexpr double kSignificant = 0.1;
+constexpr double kWorthASlice = 0.1;  // of a trace
 constexpr int kFunctions = 5;
 
 std::array<double, kFunctions> functions_of(const WindowVariables& v) {
@@ -161,11 +162,11 @@ std::vector<ChannelGap> channel_gaps(const PreparedCampaign& prepared, const Dri
 
 std::vector<Regime> regimes_of(const PreparedCampaign& prepared, const DriveCampaign& campaign,
                                const Eigen::VectorXd& residuals, const DiagnosisOptions& options,
-                               std::size_t most) {
+                               std::size_t most, std::span<const ChannelShare> shares) {
   const std::vector<Slice> slices = slices_of(window_variables(prepared, campaign));
   struct Scored {
     Regime regime;
-    double excess = 0.0;
+    double rank = 0.0;
     std::vector<std::size_t> windows;
   };
   std::vector<Scored> scored;
@@ -178,7 +179,10 @@ std::vector<Regime> regimes_of(const PreparedCampaign& prepared, const DriveCamp
     const double mean = sum / static_cast<double>(squares.size());
     double variance = 0.0;
     for (const double s : squares) variance += (s - mean) * (s - mean) / static_cast<double>(squares.size());
-    if (variance <= 0.0 || mean < 1.0) continue;
+    double share = 0.0;
+    for (const ChannelShare& s : shares)
+      if (s.channel == channel) share = s.share;
+    if (variance <= 0.0 || (mean < 1.0 && share < kWorthASlice)) continue;
     const double deviation = std::sqrt(variance);
     std::vector<double> by_chance(static_cast<std::size_t>(options.resamples) / 4 + 1, 0.0);
     for (std::size_t b = 0; b < by_chance.size(); ++b) {
@@ -196,12 +200,12 @@ std::vector<Regime> regimes_of(const PreparedCampaign& prepared, const DriveCamp
       for (const std::size_t w : slice.windows) inside += squares[w];
       scored.push_back({{slice.conditions, channel, inside / sum,
                          static_cast<double>(slice.windows.size()) / static_cast<double>(squares.size()), p},
-                        e,
+                        shares.empty() ? e : share * e,
                         slice.windows});
     }
   }
   std::stable_sort(scored.begin(), scored.end(),
-                   [](const Scored& a, const Scored& b) { return a.excess > b.excess; });
+                   [](const Scored& a, const Scored& b) { return a.rank > b.rank; });
   std::vector<Regime> regimes;
   std::vector<const Scored*> kept;
   for (const Scored& s : scored) {
