@@ -46,6 +46,10 @@ void write_figures(std::string& out, const std::string& title, std::span<const C
   row(out, "median share of the gap closed", "0.90", number_words(f.closed_fraction));
   row(out, "median share of what an oracle closes", "0.90", number_words(f.closed_of_oracle));
   row(out, "the wheel of a found effect", "0.95", rate_words(f.wheel_right));
+  row(out, "the channel in which the found effects act most", "0.95", rate_words(f.channel_right));
+  row(out, "median overlap of the first slice", "0.6", number_words(f.slice_overlap));
+  row(out, "the same, of what the best slice has", "", number_words(f.slice_of_attainable));
+  row(out, "first slices that overlap by half or more", "", rate_words(f.slice_half));
   row(out, "median overlap of the soft patch's disc", "0.5", number_words(f.place_overlap));
   row(out, "median seconds a campaign", "", f.seconds ? fmt::format("{:.1f}", *f.seconds) : "-");
 }
@@ -131,17 +135,21 @@ std::string benchmark_csv(const Benchmark& benchmark, const std::string& set) {
       "held,"
       "false_alarm,confident_wrong,unknown_probability,stated,wheel_right,closed_fraction,"
       "oracle_closed_fraction,place_overlap,"
-      "seconds\n";
+      "seconds,channel_right,slice_overlap,slice_attainable\n";
+  const auto yes = [](const std::optional<bool>& value) { return value ? (*value ? "1" : "0") : ""; };
   const auto number = [](const std::optional<double>& value) {
     return value ? fmt::format("{:.4g}", *value) : std::string();
   };
   for (const CaseScore& c : benchmark.cases)
     out += fmt::format(
-        "{},{},{},{},{},{:g},{},{},{},{},{:d},{:d},{:d},{:d},{:d},{:d},{:.4g},{:.4g},{},{},{},{},{:.1f}\n",
+        "{},{},{},{},{},{:g},{},{},{},{},{:d},{:d},{:d},{:d},{:d},{:d},{:.4g},{:.4g},{},{},{},{},{:.1f},{},{}"
+        ",{}"
+        "\n",
         set, benchmark.variant, c.campaign, c.truth, static_cast<int>(c.truth_kind), c.size, c.kind,
         c.fidelity, c.verdict, c.found, c.exact, c.alike, c.verdict_right, c.held, c.false_alarm,
-        c.confident_wrong, c.unknown_probability, c.stated, c.wheel_right ? (*c.wheel_right ? "1" : "0") : "",
-        number(c.closed_fraction), number(c.oracle_closed_fraction), number(c.place_overlap), c.seconds);
+        c.confident_wrong, c.unknown_probability, c.stated, yes(c.wheel_right), number(c.closed_fraction),
+        number(c.oracle_closed_fraction), number(c.place_overlap), c.seconds, yes(c.channel_right),
+        number(c.slice_overlap), number(c.slice_attainable));
   return out;
 }
 

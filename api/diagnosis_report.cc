@@ -237,6 +237,13 @@ class Report {
     if (d_.verdict == Verdict::kInsufficient) return;
     write_regimes("Before re-tuning, the gap is larger than elsewhere in", d_.regimes);
     write_regimes("After re-tuning, in", d_.regimes_retuned);
+    if (!d_.channels_of_effects.empty()) {
+      std::vector<std::string> channels;
+      for (const gap::ChannelShare& c : d_.channels_of_effects)
+        channels.push_back(fmt::format("{} {:.0f} %", gap::name_of(c.channel), 100.0 * c.share));
+      page_.paragraph(fmt::format("What the effects do, in squared deviations of the noise, is {}.",
+                                  fmt::join(channels, ", ")));
+    }
     if (!d_.effects.empty() && d_.verdict != Verdict::kUnknown)
       write_regimes("What the effects themselves do (only this tells where the cause is), in",
                     d_.regimes_of_effect);

@@ -192,6 +192,13 @@ CaseScore score_case(const HiddenAnswer& answer, const Diagnosis& d, const std::
   score.stated = stated_by(d, sets, found);
   if (d.closed_fraction) score.closed_fraction = d.closed_fraction->value;
   score.wheel_right = wheel_right(answer, d);
+  if (score.truth_kind == TruthKind::kEffects && names_effects(d.verdict)) {
+    score.channel_right = channel_right(answer.traces, d);
+    if (const auto overlap = slice_overlap(answer.traces, d)) {
+      score.slice_overlap = overlap->value;
+      score.slice_attainable = overlap->attainable;
+    }
+  }
   if (answer.place) {
     score.place_overlap = 0.0;
     const bool named = found.contains("soft_patch");
@@ -275,7 +282,7 @@ double disc_overlap(const HiddenAnswer::Place& a, const HiddenAnswer::Place& b) 
 BenchmarkFigures figures_of(std::span<const CaseScore> cases) {
   BenchmarkFigures f;
   f.cases = cases.size();
-  std::vector<double> outside, inside, closed, closed_of_oracle, overlap, seconds;
+  std::vector<double> outside, inside, closed, closed_of_oracle, overlap, slices, of_attainable, seconds;
   std::vector<Statement> statements;
   for (const CaseScore& c : cases) {
     count(f.verdict_right, c.verdict_right);
@@ -302,6 +309,13 @@ BenchmarkFigures figures_of(std::span<const CaseScore> cases) {
       overlap.push_back(*c.place_overlap);
       count(f.overlap, *c.place_overlap >= 0.5);
     }
+    if (c.channel_right) count(f.channel_right, *c.channel_right);
+    if (c.slice_overlap) {
+      slices.push_back(*c.slice_overlap);
+      count(f.slice_half, *c.slice_overlap >= 0.5);
+      if (c.slice_attainable.value_or(0.0) > 0.0)
+        of_attainable.push_back(*c.slice_overlap / *c.slice_attainable);
+    }
     seconds.push_back(c.seconds);
   }
   f.unknown_auroc = area_under_roc(outside, inside);
@@ -310,6 +324,8 @@ BenchmarkFigures figures_of(std::span<const CaseScore> cases) {
   f.closed_fraction = median_of(closed);
   f.closed_of_oracle = median_of(closed_of_oracle);
   f.place_overlap = median_of(overlap);
+  f.slice_overlap = median_of(slices);
+  f.slice_of_attainable = median_of(of_attainable);
   f.seconds = median_of(seconds);
   return f;
 }

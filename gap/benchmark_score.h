@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gap/diagnosis.h"
+#include "gap/location_score.h"
 
 namespace slipway::gap {
 
@@ -26,6 +27,7 @@ struct HiddenAnswer {
   std::optional<Place> place;  // of a soft patch
   // The wheel's number of effects that one wheel has (-1: all wheels).
   std::map<std::string, double> wheel_of;
+  std::vector<HiddenTrace> traces;  // where it acts; empty where the answers don't say
 };
 
 enum class TruthKind { kNothing, kParameters, kEffects, kOutsideLibrary };
@@ -48,6 +50,9 @@ struct CaseScore {
   // That a diagnosis closes which was told the effects; nothing where it was not asked.
   std::optional<double> oracle_closed_fraction;
   std::optional<double> place_overlap;  // of the soft patch's disc, intersection over union
+  // Where the key says it and effects of the library were hidden and named: see location_score.h.
+  std::optional<bool> channel_right;
+  std::optional<double> slice_overlap, slice_attainable;
   double seconds = 0.0;
 };
 
@@ -101,7 +106,11 @@ struct BenchmarkFigures {
   Rate confident_wrong;
   Rate wheel_right;
   Rate overlap;  // soft patches whose disc overlaps by half or more
-  std::optional<double> unknown_auroc, calibration, brier, closed_fraction, place_overlap, seconds;
+  Rate channel_right;
+  Rate slice_half;  // of slices that were scored, those that overlap by half or more
+  std::optional<double> slice_of_attainable;  // median of each one's overlap over the most that there is
+  std::optional<double> unknown_auroc, calibration, brier, closed_fraction, place_overlap, slice_overlap,
+      seconds;
   std::optional<double>
       closed_of_oracle;  // median share of what an oracle closes; 0 where no effect is named
   std::size_t cases = 0;

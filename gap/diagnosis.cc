@@ -169,7 +169,9 @@ class Diagnoser {
     if (!explains()) return;
     // What the effects do, all else as fitted: only this picture locates the cause.
     const Eigen::VectorXd signature = effect_trace(best_fit(), *prepared_.model, {}, options_.search.threads);
-    d_.regimes_of_effect = regimes_of(prepared_, campaign_, signature, options_, kMostRegimes);
+    d_.channels_of_effects = channel_shares(prepared_, signature);
+    d_.regimes_of_effect =
+        regimes_of(prepared_, campaign_, signature, options_, kMostRegimes, d_.channels_of_effects);
     for (std::size_t e = 0; e < best().effects.size(); ++e) {
       if (best().effects[e] != "soft_patch") continue;
       const EffectVariant& patch = best_fit().hypothesis.effects()[e];

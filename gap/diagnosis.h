@@ -76,6 +76,12 @@ struct Regime {
   double significance = 1.0;
 };
 
+// What a channel has of what is looked at, in squared deviations of the noise; shares add up to 1.
+struct ChannelShare {
+  Channel channel = Channel::kSlip;
+  double share = 0.0;
+};
+
 struct GapPlace {
   std::string terrain;
   double x_m = 0.0, y_m = 0.0, radius_m = 0.0;
@@ -169,6 +175,7 @@ struct Diagnosis {
   std::vector<ConfusablePair> confusable;
   std::vector<ChannelGap> channels;
   std::vector<Regime> regimes, regimes_retuned, regimes_of_effect;
+  std::vector<ChannelShare> channels_of_effects;  // of what the named effects do; the largest first
   std::vector<GapPlace> places;
   std::vector<ChannelShrink> gap;
   PlannersView planners_view;

@@ -9,15 +9,13 @@
 
 #include "core/angle.h"
 #include "core/random.h"
+#include "gap/slices.h"
 
 namespace slipway::gap {
 namespace {
 
-constexpr std::array<const char*, kWindowVariables> kNames{"slope_deg", "cross_slope_deg", "slip",
-                                                           "speed_m_s", "curvature_1_m",   "temperature_c",
-                                                           "turning",   "time_s"};
-
 constexpr double kSignificant = 0.1;
+constexpr double kWorthASlice = 0.1;  // of a trace
 constexpr int kFunctions = 5;
 
 std::array<double, kFunctions> functions_of(const WindowVariables& v) {
@@ -63,60 +61,6 @@ std::vector<std::size_t> reordered(const PreparedCampaign& prepared, std::uint64
   return order;
 }
 
-struct Slice {
-  std::vector<Condition> conditions;
-  std::vector<std::size_t> windows;
-};
-
-// Each variable cut at its thirds, or at its values where there are few; pairs of such pieces.
-std::vector<Slice> slices_of(const std::vector<WindowVariables>& variables) {
-  std::vector<std::vector<Slice>> by_variable;
-  const std::size_t least = std::max<std::size_t>(3, variables.size() / 20);
-  for (int v = 0; v < kWindowVariables; ++v) {
-    std::vector<double> sorted;
-    for (const WindowVariables& of : variables) sorted.push_back(std::round(1e4 * variable_of(of, v)) / 1e4);
-    std::sort(sorted.begin(), sorted.end());
-    const std::set<double> values(sorted.begin(), sorted.end());
-    if (values.size() < 2) continue;
-    std::vector<Condition> pieces;
-    if (values.size() <= 6) {
-      for (const double value : values) pieces.push_back({kNames[static_cast<std::size_t>(v)], value, value});
-    } else {
-      constexpr int kPieces = 5;
-      for (int k = 0; k < kPieces; ++k) {
-        const double from = sorted[k * (sorted.size() - 1) / kPieces];
-        const double to = sorted[(k + 1) * (sorted.size() - 1) / kPieces];
-        if (pieces.empty() || pieces.back().to < to)
-          pieces.push_back({kNames[static_cast<std::size_t>(v)], from, to});
-      }
-    }
-    by_variable.emplace_back();
-    for (const Condition& piece : pieces) {
-      Slice slice{{piece}, {}};
-      for (std::size_t w = 0; w < variables.size(); ++w) {
-        const double value = std::round(1e4 * variable_of(variables[w], v)) / 1e4;
-        if (value >= piece.from && value <= piece.to) slice.windows.push_back(w);
-      }
-      if (slice.windows.size() >= least && 4 * slice.windows.size() <= 3 * variables.size())
-        by_variable.back().push_back(std::move(slice));
-    }
-  }
-  std::vector<Slice> all;
-  for (std::size_t a = 0; a < by_variable.size(); ++a) {
-    for (const Slice& one : by_variable[a]) {
-      all.push_back(one);
-      for (std::size_t b = a + 1; b < by_variable.size(); ++b)
-        for (const Slice& other : by_variable[b]) {
-          Slice both{{one.conditions[0], other.conditions[0]}, {}};
-          std::set_intersection(one.windows.begin(), one.windows.end(), other.windows.begin(),
-                                other.windows.end(), std::back_inserter(both.windows));
-          if (both.windows.size() >= least) all.push_back(std::move(both));
-        }
-    }
-  }
-  return all;
-}
-
 // By how many of its own deviations a slice's mean is above the mean of all.
 double excess(const std::vector<double>& values, const Slice& slice, const std::vector<std::size_t>& order,
               double mean, double deviation) {
@@ -127,17 +71,6 @@ double excess(const std::vector<double>& values, const Slice& slice, const std::
 }
 
 }  // namespace
-
-const char* variable_name(int variable) {
-  return kNames[static_cast<std::size_t>(variable)];
-}
-
-double variable_of(const WindowVariables& of, int variable) {
-  const std::array<double, kWindowVariables> all{of.slope_deg, of.cross_slope_deg, of.slip,
-                                                 of.speed_m_s, of.curvature_1_m,   of.temperature_c,
-                                                 of.turning,   of.time_s};
-  return all[static_cast<std::size_t>(variable)];
-}
 
 std::vector<WindowVariables> window_variables(const PreparedCampaign& prepared,
                                               const DriveCampaign& campaign) {
@@ -229,11 +162,11 @@ std::vector<ChannelGap> channel_gaps(const PreparedCampaign& prepared, const Dri
 
 std::vector<Regime> regimes_of(const PreparedCampaign& prepared, const DriveCampaign& campaign,
                                const Eigen::VectorXd& residuals, const DiagnosisOptions& options,
-                               std::size_t most) {
+                               std::size_t most, std::span<const ChannelShare> shares) {
   const std::vector<Slice> slices = slices_of(window_variables(prepared, campaign));
   struct Scored {
     Regime regime;
-    double excess = 0.0;
+    double rank = 0.0;
     std::vector<std::size_t> windows;
   };
   std::vector<Scored> scored;
@@ -246,7 +179,10 @@ std::vector<Regime> regimes_of(const PreparedCampaign& prepared, const DriveCamp
     const double mean = sum / static_cast<double>(squares.size());
     double variance = 0.0;
     for (const double s : squares) variance += (s - mean) * (s - mean) / static_cast<double>(squares.size());
-    if (variance <= 0.0 || mean < 1.0) continue;
+    double share = 0.0;
+    for (const ChannelShare& s : shares)
+      if (s.channel == channel) share = s.share;
+    if (variance <= 0.0 || (mean < 1.0 && share < kWorthASlice)) continue;
     const double deviation = std::sqrt(variance);
     std::vector<double> by_chance(static_cast<std::size_t>(options.resamples) / 4 + 1, 0.0);
     for (std::size_t b = 0; b < by_chance.size(); ++b) {
@@ -264,12 +200,12 @@ std::vector<Regime> regimes_of(const PreparedCampaign& prepared, const DriveCamp
       for (const std::size_t w : slice.windows) inside += squares[w];
       scored.push_back({{slice.conditions, channel, inside / sum,
                          static_cast<double>(slice.windows.size()) / static_cast<double>(squares.size()), p},
-                        e,
+                        shares.empty() ? e : share * e,
                         slice.windows});
     }
   }
   std::stable_sort(scored.begin(), scored.end(),
-                   [](const Scored& a, const Scored& b) { return a.excess > b.excess; });
+                   [](const Scored& a, const Scored& b) { return a.rank > b.rank; });
   std::vector<Regime> regimes;
   std::vector<const Scored*> kept;
   for (const Scored& s : scored) {
@@ -287,6 +223,21 @@ std::vector<Regime> regimes_of(const PreparedCampaign& prepared, const DriveCamp
     regimes.push_back(s.regime);
   }
   return regimes;
+}
+
+std::vector<ChannelShare> channel_shares(const PreparedCampaign& prepared, const Eigen::VectorXd& residuals) {
+  std::vector<ChannelShare> shares;
+  double total = 0.0;
+  for (int c = 0; c < kChannels; ++c) {
+    const std::vector<double> squares = squares_of(prepared, residuals, static_cast<Channel>(c));
+    const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
+    if (sum > 0.0) shares.push_back({static_cast<Channel>(c), sum});
+    total += sum;
+  }
+  for (ChannelShare& share : shares) share.share /= total;
+  std::stable_sort(shares.begin(), shares.end(),
+                   [](const ChannelShare& a, const ChannelShare& b) { return a.share > b.share; });
+  return shares;
 }
 
 std::vector<GapPlace> gap_places(const PreparedCampaign& prepared, const DriveCampaign& campaign,

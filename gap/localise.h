@@ -1,27 +1,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "gap/diagnosis.h"
 #include "gap/prepared_campaign.h"
+#include "gap/window_variables.h"
 
 namespace slipway::gap {
 
-// What a gap may depend on, of one window.
-struct WindowVariables {
-  double slope_deg = 0.0;        // along the travel, positive uphill
-  double cross_slope_deg = 0.0;  // positive: left side up
-  double slip = 0.0;             // measured
-  double speed_m_s = 0.0;        // commanded, negative backwards
-  double curvature_1_m = 0.0;
-  double temperature_c = 0.0;
-  double turning = 0.0;
-  double time_s = 0.0;  // since the drive began
-};
-constexpr int kWindowVariables = 8;
-const char* variable_name(int variable);
-double variable_of(const WindowVariables& of, int variable);
 std::vector<WindowVariables> window_variables(const PreparedCampaign& prepared,
                                               const DriveCampaign& campaign);
 
@@ -32,9 +20,16 @@ std::vector<ChannelGap> channel_gaps(const PreparedCampaign& prepared, const Dri
 
 // Slices of one and two conditions whose windows hold more of a channel's squared residuals than of the data.
 // Significance by permuting drives, largest excess over all slices. Best first, `most` at most, p below 0.1.
+// Channels whose residuals are within their noise have none. Of a trace, which has no noise, `shares` are
+// given: slices of a channel in which little happens come later, and a channel that has a tenth of it is not
+// left out for being small.
 std::vector<Regime> regimes_of(const PreparedCampaign& prepared, const DriveCampaign& campaign,
                                const Eigen::VectorXd& residuals, const DiagnosisOptions& options,
-                               std::size_t most);
+                               std::size_t most, std::span<const ChannelShare> shares = {});
+
+// Each channel's share of the squared residuals in deviations, a window's being the mean over its wheels, the
+// largest first; none where there are none.
+std::vector<ChannelShare> channel_shares(const PreparedCampaign& prepared, const Eigen::VectorXd& residuals);
 
 // Discs on the terrains that hold a gap that the rest has not.
 std::vector<GapPlace> gap_places(const PreparedCampaign& prepared, const DriveCampaign& campaign,

@@ -104,6 +104,15 @@ std::string regimes_words(const std::vector<gap::Regime>& regimes) {
   return out;
 }
 
+std::string channels_of_effects_words(const Diagnosis& d) {
+  std::vector<std::string> channels;
+  for (const gap::ChannelShare& c : d.channels_of_effects)
+    if (c.share >= 0.01)
+      channels.push_back(fmt::format("{} {:.0f} %", gap::name_of(c.channel), 100.0 * c.share));
+  return fmt::format("the effect acts in {} (of its squares, in deviations of the noise)\n",
+                     fmt::join(channels, ", "));
+}
+
 std::string answer_words(const Diagnosis& d) {
   std::string out = fmt::format("{}: {}\n{}\n", d.campaign, gap::name_of(d.verdict), d.reason);
   if (!d.overturned_by.empty()) out += fmt::format("would overturn it: {}\n", d.overturned_by);
@@ -116,6 +125,7 @@ std::string answer_words(const Diagnosis& d) {
         fmt::format("alike on these drives: {} and {} ({:.0f} deg apart)\n", pair.a, pair.b, pair.angle_deg);
   out += "\nwhere, before any re-tuning (measured less predicted):\n" + channels_words(d);
   if (!d.regimes.empty()) out += "the gap is\n" + regimes_words(d.regimes);
+  if (!d.channels_of_effects.empty()) out += channels_of_effects_words(d);
   if (!d.regimes_of_effect.empty()) out += "what the effect does is\n" + regimes_words(d.regimes_of_effect);
   if (!d.gap.empty())
     out += "\nhow far, rms on drives held out of the fit (90 % intervals):\n" + ladder_words(d);

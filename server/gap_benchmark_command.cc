@@ -18,6 +18,7 @@
 #include "api/benchmark_report.h"
 #include "api/catalogue.h"
 #include "api/drive_campaign_source.h"
+#include "api/hidden_traces_csv.h"
 #include "api/json/benchmark_answers.h"
 #include "api/json/benchmark_document.h"
 #include "api/json/diagnosis_document.h"
@@ -164,15 +165,29 @@ void tell(std::size_t number, std::size_t of, const std::string& name, const Tim
                            gap::name_of(timed.diagnosis.verdict), fmt::join(effects, " + "), timed.seconds);
 }
 
-Result<std::map<std::string, gap::HiddenAnswer>> answers_of(const std::string& folder) {
-  const fs::path file = fs::path(folder) / "answers.json";
+Result<std::string> bytes_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) return fail(ErrorCode::kUnreadableData, file.string() + " can't be read");
-  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  auto answers = api::json::read_benchmark_answers(bytes);
+  return std::string{std::istreambuf_iterator<char>(stream), {}};
+}
+
+// answers.json, with traces.csv where there is one.
+Result<std::map<std::string, gap::HiddenAnswer>> answers_of(const fs::path& folder) {
+  const auto bytes = bytes_of(folder / "answers.json");
+  if (!bytes) return fail(bytes.error());
+  auto answers = api::json::read_benchmark_answers(*bytes);
   if (!answers) return fail(answers.error());
   std::map<std::string, gap::HiddenAnswer> by_name;
   for (gap::HiddenAnswer& answer : *answers) by_name.emplace(answer.campaign, std::move(answer));
+  const fs::path traces_file = folder / "traces.csv";
+  if (std::error_code error; !fs::exists(traces_file, error)) return by_name;
+  const auto text = bytes_of(traces_file);
+  if (!text) return fail(text.error());
+  auto traces = api::read_hidden_traces_csv(traces_file.string(), *text);
+  if (!traces) return fail(traces.error());
+  for (auto& [campaign, of] : *traces)
+    if (const auto answer = by_name.find(campaign); answer != by_name.end())
+      answer->second.traces = std::move(of);
   return by_name;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 
 #include "api/csv_cells.h"
@@ -47,14 +48,22 @@ Result<CsvTable> CsvTable::read(const std::filesystem::path& path, const Columns
           {fmt::format("/{}", number),
            fmt::format("{} cells, must be {}", table.cells_.back().size(), table.header_.size())});
   }
+  std::vector<std::string> there;
+  std::copy_if(columns.numbers_if_there.begin(), columns.numbers_if_there.end(), std::back_inserter(there),
+               [&](const std::string& column) { return table.has(column); });
   if (faults.empty()) {
     table.look_for_numbers(columns.numbers, false, faults);
     table.look_for_numbers(columns.numbers_or_empty, true, faults);
+    table.look_for_numbers(there, true, faults);
   }
   if (!faults.empty())
     return fail(ErrorCode::kUnreadableData, fmt::format("{} is not as expected", table.path_),
                 std::move(faults));
   return table;
+}
+
+bool CsvTable::has(std::string_view column) const {
+  return std::find(header_.begin(), header_.end(), column) != header_.end();
 }
 
 std::size_t CsvTable::index(std::string_view column) const {

@@ -13,14 +13,16 @@ namespace slipway::validation {
 class CsvTable {
  public:
   // Every cell of `numbers` must be a finite number, of `numbers_or_empty` also nothing; `texts` must be
-  // there. Errors: unreadable_data with every fault ("/LINE", "/COLUMN", "/LINE/COLUMN").
+  // there. Columns of `numbers_if_there` may be absent, their cells empty. Errors: unreadable_data with every
+  // fault ("/LINE", "/COLUMN", "/LINE/COLUMN").
   struct Columns {
-    std::vector<std::string> numbers, numbers_or_empty, texts;
+    std::vector<std::string> numbers, numbers_or_empty, texts, numbers_if_there = {};
   };
   static Result<CsvTable> read(const std::filesystem::path& path, const Columns& columns);
 
   std::size_t rows() const { return cells_.size(); }
   const std::string& text(std::size_t row, std::string_view column) const;
+  bool has(std::string_view column) const;
   bool empty(std::size_t row, std::string_view column) const { return text(row, column).empty(); }
   double number(std::size_t row, std::string_view column) const;  // of a column that was asked to hold them
   // A whole column.

@@ -23,7 +23,7 @@ struct Scored {
 };
 
 std::optional<double> optional_number(const CsvTable& table, std::size_t row, const char* column) {
-  if (table.empty(row, column)) return std::nullopt;
+  if (!table.has(column) || table.empty(row, column)) return std::nullopt;
   return table.number(row, column);
 }
 
@@ -52,6 +52,9 @@ Scored scored(const CsvTable& table, std::size_t row) {
   c.oracle_closed_fraction = optional_number(table, row, "oracle_closed_fraction");
   c.place_overlap = optional_number(table, row, "place_overlap");
   c.seconds = table.number(row, "seconds");
+  if (const auto right = optional_number(table, row, "channel_right")) c.channel_right = *right != 0.0;
+  c.slice_overlap = optional_number(table, row, "slice_overlap");
+  c.slice_attainable = optional_number(table, row, "slice_attainable");
   return s;
 }
 
@@ -143,7 +146,8 @@ Result<Report> sealed_campaigns(const std::filesystem::path& data) {
       {.numbers = {"hidden_kind", "size", "exact", "alike", "verdict_right", "held", "false_alarm",
                    "confident_wrong", "unknown_probability", "stated", "seconds"},
        .numbers_or_empty = {"wheel_right", "closed_fraction", "oracle_closed_fraction", "place_overlap"},
-       .texts = {"set", "variant", "campaign", "hidden", "verdict", "found"}});
+       .texts = {"set", "variant", "campaign", "hidden", "verdict", "found"},
+       .numbers_if_there = {"channel_right", "slice_overlap", "slice_attainable"}});
   if (!table) return fail(table.error());
   std::vector<std::pair<std::string, std::string>> order;  // set and variant, as they come
   std::map<std::pair<std::string, std::string>, std::vector<CaseScore>> groups;
@@ -185,6 +189,13 @@ Result<Report> sealed_campaigns(const std::filesystem::path& data) {
                               c.found == "nothing" ? "" : " " + c.found);
     report.notes.push_back(fmt::format("Misses of {}: {}.", set, misses.empty() ? "none" : misses));
   }
+  for (const auto& [set, variant] : order)
+    if (const BenchmarkFigures f = gap::figures_of(groups[{set, variant}]); f.channel_right.of > 0)
+      report.notes.push_back(fmt::format(
+          "Where the effects act, of {} ({}), where effects were hidden and named: in the right channel most "
+          "{}; "
+          "median overlap of the first slice {}, by half or more {} (targets 0.95 and 0.6).",
+          set, variant, words(f.channel_right), words(f.slice_overlap), words(f.slice_half)));
   const auto withheld = withheld_notes(data);
   if (!withheld) return fail(withheld.error());
   report.notes.insert(report.notes.end(), withheld->begin(), withheld->end());

@@ -30,7 +30,7 @@ void write_optional(Writer& w, std::string_view name, const std::optional<double
 
 void write_figures(Writer& w, const BenchmarkFigures& f) {
   w.whole("campaigns", static_cast<std::int64_t>(f.cases));
-  const std::array<std::pair<std::string_view, const Rate*>, 12> rates{
+  const std::array<std::pair<std::string_view, const Rate*>, 14> rates{
       {{"exact", &f.exact},
        {"alike", &f.alike},
        {"exact_size_1", &f.exact_sized},
@@ -42,7 +42,9 @@ void write_figures(Writer& w, const BenchmarkFigures& f) {
        {"unknown_told", &f.unknown_told},
        {"confident_wrong", &f.confident_wrong},
        {"wheel_right", &f.wheel_right},
-       {"place_overlap_half", &f.overlap}}};
+       {"place_overlap_half", &f.overlap},
+       {"channel_right", &f.channel_right},
+       {"slice_overlap_half", &f.slice_half}}};
   for (const auto& [name, rate] : rates) write_rate(w, name, *rate);
   write_optional(w, "unknown_auroc", f.unknown_auroc);
   write_optional(w, "calibration_error", f.calibration);
@@ -50,6 +52,8 @@ void write_figures(Writer& w, const BenchmarkFigures& f) {
   write_optional(w, "closed_fraction_median", f.closed_fraction);
   write_optional(w, "closed_of_oracle_median", f.closed_of_oracle);
   write_optional(w, "place_overlap_median", f.place_overlap);
+  write_optional(w, "slice_overlap_median", f.slice_overlap);
+  write_optional(w, "slice_overlap_of_attainable_median", f.slice_of_attainable);
   write_optional(w, "seconds_median", f.seconds);
 }
 
@@ -65,6 +69,9 @@ void write_case(Writer& w, const CaseScore& c) {
   write_optional(w, "closed_fraction", c.closed_fraction);
   write_optional(w, "oracle_closed_fraction", c.oracle_closed_fraction);
   write_optional(w, "place_overlap", c.place_overlap);
+  if (c.channel_right) w.boolean("channel_right", *c.channel_right);
+  write_optional(w, "slice_overlap", c.slice_overlap);
+  write_optional(w, "slice_attainable", c.slice_attainable);
   w.significant("seconds", c.seconds).end_object();
 }
 

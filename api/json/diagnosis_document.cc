@@ -126,6 +126,15 @@ void write_regimes(Writer& w, std::string_view key, std::span<const gap::Regime>
   w.end_array();
 }
 
+void write_channels_of_effects(Writer& w, const Diagnosis& d) {
+  w.key("channels_of_effects").begin_array();
+  for (const gap::ChannelShare& share : d.channels_of_effects) {
+    w.begin_object().text("channel", gap::name_of(share.channel));
+    w.significant("share", share.share).end_object();
+  }
+  w.end_array();
+}
+
 void write_places(Writer& w, const Diagnosis& d) {
   w.key("places").begin_object().text("type", "FeatureCollection").key("features").begin_array();
   for (const gap::GapPlace& place : d.places) {
@@ -332,6 +341,7 @@ std::string diagnosis_document(const gap::DriveCampaign& campaign, const Diagnos
   write_regimes(w, "regimes", d.regimes);
   write_regimes(w, "regimes_retuned", d.regimes_retuned);
   write_regimes(w, "regimes_of_effect", d.regimes_of_effect);
+  write_channels_of_effects(w, d);
   write_places(w, d);
   write_windows(w, campaign, d);
   w.end_object();

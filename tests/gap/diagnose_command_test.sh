@@ -26,7 +26,11 @@ assert [] in [c["effects"] for c in d["candidates"]] and ["unknown"] in [c["effe
 current = next(c for c in d["gap"]["channels"] if c["channel"] == "current")
 assert current["with_effects"]["value"] < 0.5 * current["retuned"]["value"], current
 assert any("temperature" in c["variable"] for r in d["where"]["regimes_of_effect"] for c in r["condition"])
+channels = d["where"]["channels_of_effects"]
+assert channels[0]["channel"] == "current" and channels[0]["share"] > 0.9, channels
+assert abs(sum(c["share"] for c in channels) - 1) < 1e-6, channels
 report = (folder / "report" / "report.md").read_text()
+assert "squared deviations of the noise, is current" in report
 pictures = sorted(p.stem for p in (folder / "report").glob("*.svg"))
 assert {"ladder", "explanations", "channels", "windows", "parameters"} <= set(pictures), pictures
 for name in pictures:

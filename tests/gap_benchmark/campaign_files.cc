@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "sealed_campaign.h"
+#include "sensor_errors.h"
 
 namespace slipway::gap_benchmark {
 namespace {
@@ -13,8 +14,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
-constexpr double kPositionStd_m = 0.003, kAttitudeStd_deg = 0.2, kCurrentRel = 0.02, kCurrentStd_a = 0.003,
-                 kSinkageStd_m = 0.001;
 
 double rounded(double value, int digits) {
   std::array<char, 32> text;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <numbers>
 
+#include "along_field.h"
 #include "soil_contact_model.h"
 #include "wheel_tracks.h"
 
@@ -14,31 +15,9 @@ namespace {
 
 constexpr double kStep_s = 2.0, kSurveyEvery = 5;
 constexpr double kHeating_k = 8.0, kHeatingTime_s = 300.0;
-constexpr double kTurnArm_m = 0.88;
 constexpr int kFirstPasses = 3;  // until the wheels behind stand in the ruts of those ahead
 constexpr double kRutLeft = 0.4;
 constexpr double kReferenceTemp_c = 20.0, kReferenceSpeed_m_s = 0.04;
-
-// A smooth random field along the way: a few cosines.
-class AlongField {
- public:
-  AlongField(RandomStream& random, double length_m) {
-    for (Part& part : parts_)
-      part = {2.0 * std::numbers::pi / (length_m * random.uniform(1.5, 6.0)),
-              random.uniform(0.0, 2.0 * std::numbers::pi)};
-  }
-  double at(double s_m) const {  // of unit deviation
-    double sum = 0.0;
-    for (const Part& part : parts_) sum += std::cos(part.wavenumber * s_m + part.phase);
-    return sum * std::sqrt(2.0 / parts_.size());
-  }
-
- private:
-  struct Part {
-    double wavenumber = 0.0, phase = 0.0;
-  };
-  std::array<Part, 4> parts_;
-};
 
 std::unique_ptr<const WheelLaw> wheel_law(const World& world) {
   const double radius = world.rover.radius_m * (1.0 + world.hidden.radius_scale), width = world.rover.width_m;
@@ -69,10 +48,7 @@ class Drive {
     x_ = order.start_x_m;
     y_ = order.start_y_m;
     yaw_ = order.start_yaw_rad;
-    const double turn =
-        order.turn_in_place ? order.speed_m_s / kTurnArm_m : order.speed_m_s * order.curvature_1_m;
-    state_.forward_m_s = order.turn_in_place ? 0.0 : 0.95 * order.speed_m_s;
-    state_.yaw_rate_rad_s = 0.95 * turn;
+    state_ = first_guess();
   }
 
   SimulatedDrive run() {
@@ -98,7 +74,34 @@ class Drive {
     return drive;
   }
 
+  std::vector<std::optional<DriveRow>> replay(std::span<const DriveRow> at) {
+    std::vector<std::optional<DriveRow>> rows(at.size());
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      time_s_ = at[i].time_s;
+      x_ = at[i].x_m;
+      y_ = at[i].y_m;
+      yaw_ = at[i].motion.heading_rad;
+      way_m_ = at[i].motion.way_m;
+      const Attitude attitude = attitude_here();
+      bool stepped = true;
+      for (int pass = i == 0 && world_.soil_contact_model ? kFirstPasses : 1; stepped && pass > 0; --pass)
+        stepped = step(attitude);
+      if (stepped)
+        rows[i] = row(attitude, at[i].surveyed);
+      else
+        state_ = first_guess();
+    }
+    return rows;
+  }
+
  private:
+  BalanceState first_guess() const {
+    BalanceState state;
+    state.forward_m_s = order_.turn_in_place ? 0.0 : 0.95 * order_.speed_m_s;
+    state.yaw_rate_rad_s = 0.95 * order_.turn_rate_rad_s();
+    return state;
+  }
+
   double ground_under(double ahead, double left) const {
     const double c = std::cos(yaw_), s = std::sin(yaw_);
     return ground_.height_at(x_ + c * ahead - s * left, y_ + s * ahead + c * left);
@@ -306,6 +309,14 @@ class Drive {
     row.pitch_rad = attitude.pitch - known * hidden_.pitch_bias_rad;
     row.motor_temp_c = motor_temp();
     row.surveyed = surveyed;
+    row.motion = {yaw_,
+                  way_m_,
+                  state_.forward_m_s,
+                  state_.left_m_s,
+                  (1.0 + hidden_.odometry_yaw_scale) * state_.yaw_rate_rad_s * std::cos(attitude.roll) /
+                      std::cos(attitude.pitch),
+                  attitude.roll,
+                  attitude.pitch};
     for (int k = 0; k < kWheels; ++k) {
       WheelRow& wheel = row.wheels[static_cast<std::size_t>(k)];
       wheel = told_[k];
@@ -355,8 +366,7 @@ std::array<WheelRow, kWheels> told_wheels(const RoverOnFile& rover, const DriveO
   for (int k = 0; k < kWheels; ++k) {
     const double x = rover.wheel_m[k].x(), y = rover.wheel_m[k].y();
     WheelRow& wheel = told[static_cast<std::size_t>(k)];
-    const double turn =
-        order.turn_in_place ? order.speed_m_s / kTurnArm_m : order.speed_m_s * order.curvature_1_m;
+    const double turn = order.turn_rate_rad_s();
     const double along = order.turn_in_place ? -turn * y : order.speed_m_s - turn * y, across = turn * x;
     const bool steers = k % 3 != 1;
     const double sense = along < 0.0 ? -1.0 : 1.0;
@@ -369,6 +379,12 @@ std::array<WheelRow, kWheels> told_wheels(const RoverOnFile& rover, const DriveO
 SimulatedDrive simulate_drive(const World& world, const TerrainGrid& ground, const DriveOrder& order,
                               RandomStream& random) {
   return Drive(world, ground, order, random).run();
+}
+
+std::vector<std::optional<DriveRow>> replay_drive(const World& world, const TerrainGrid& ground,
+                                                  const DriveOrder& order, RandomStream& random,
+                                                  std::span<const DriveRow> at) {
+  return Drive(world, ground, order, random).replay(at);
 }
 
 }  // namespace slipway::gap_benchmark

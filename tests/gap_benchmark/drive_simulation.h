@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,12 @@ struct DriveOrder {
   double start_x_m = 0.0, start_y_m = 0.0, start_yaw_rad = 0.0;
   double motor_temp_c = 20.0;
   double share_of_day = 0.0;  // 0 first drive, 1 last
+
+  // Told, of the heading.
+  double turn_rate_rad_s() const {
+    constexpr double kTurnArm_m = 0.88;
+    return turn_in_place ? speed_m_s / kTurnArm_m : speed_m_s * curvature_1_m;
+  }
 };
 
 // How soils differ from drive to drive and along a drive: deviations of logarithms.
@@ -31,12 +39,21 @@ struct WheelRow {
   double rate_rad_s = 0.0, steer_rad = 0.0, current_a = 0.0, sinkage_m = 0.0;
 };
 
-// True values, before any sensor.
+// How the rover moves, which no log has: true heading, forward and left along the body.
+struct RoverMotion {
+  double heading_rad = 0.0, way_m = 0.0;
+  double forward_m_s = 0.0, left_m_s = 0.0;
+  double recorded_turn_rad_s = 0.0;        // rate of the heading as it is recorded
+  double roll_rad = 0.0, pitch_rad = 0.0;  // of the ground, as the suspension lies on it
+};
+
+// As sensors without noise would show it.
 struct DriveRow {
   double time_s = 0.0, x_m = 0.0, y_m = 0.0, z_m = 0.0, roll_rad = 0.0, pitch_rad = 0.0, yaw_rad = 0.0;
   double motor_temp_c = 0.0;
   bool surveyed = false;
   std::array<WheelRow, kWheels> wheels;
+  RoverMotion motion;
 };
 
 struct World {
@@ -60,5 +77,12 @@ struct SimulatedDrive {
 // Explicit Euler steps of 2 s, a row each.
 SimulatedDrive simulate_drive(const World& world, const TerrainGrid& ground, const DriveOrder& order,
                               RandomStream& random);
+
+// The rows that a drive of the same soil (`random` as it was for that drive) would have at the poses and
+// times of these, were the world this one: what another world does at a place, without where it would have
+// led to. Nothing where the balance was not found.
+std::vector<std::optional<DriveRow>> replay_drive(const World& world, const TerrainGrid& ground,
+                                                  const DriveOrder& order, RandomStream& random,
+                                                  std::span<const DriveRow> at);
 
 }  // namespace slipway::gap_benchmark

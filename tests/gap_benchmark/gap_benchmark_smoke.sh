@@ -22,7 +22,7 @@ status=0
 [ "$status" = 2 ] && grep -q '^multipass .* L3 has another law' "$folder/err" && [ ! -e "$folder/none" ]
 "$slipway" gap-benchmark "$folder/first" --data "$data" --json --keep "$folder/kept" >"$folder/scores.json"
 python3 - "$folder" <<'CHECK'
-import json, pathlib, sys
+import csv, json, pathlib, sys
 folder = pathlib.Path(sys.argv[1])
 scores = json.loads((folder / "scores.json").read_text())
 answers = json.loads((folder / "first" / "answers.json").read_text())
@@ -34,6 +34,13 @@ for case in scores["campaigns"]:
     hidden = " + ".join(sorted(answers[case["campaign"]]["effects"])) or "nothing"
     assert case["hidden"] == hidden, case
 assert scores["figures"]["all"]["campaigns"] == 2
+# Where the friction acts: the key's traces are of the campaign that hides it, and its channel is told.
+traces = list(csv.DictReader((folder / "first" / "traces.csv").open()))
+assert {row["campaign"] for row in traces} == {"s02"}, traces[:1]
+assert all(float(row["current_mean_square"]) > 0 == float(row["slip_mean_square"]) for row in traces)
+friction = scores["campaigns"][1]
+assert friction["channel_right"] is True and 0 <= friction["slice_overlap"] <= 1, friction
+assert "channel_right" not in scores["campaigns"][0]
 CHECK
 # A folder without a key is diagnosed and not scored; one without campaigns is a question that can't be asked.
 rm "$folder/first/answers.json"

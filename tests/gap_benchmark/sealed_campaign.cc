@@ -164,7 +164,7 @@ std::vector<MadeDrive> drive_all(const World& world, const std::vector<NamedTerr
       RandomStream random(seed + i);
       std::vector<DriveRow> rows = simulate_drive(world, terrain.grid, orders[i], random).rows;
       // Where the rover never got away there is nothing to record.
-      if (rows.size() >= 2) drives.push_back({orders[i], std::move(rows)});
+      if (rows.size() >= 2) drives.push_back({orders[i], std::move(rows), seed + i});
     }
   return drives;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@ struct NamedTerrain {
 struct MadeDrive {
   DriveOrder order;
   std::vector<DriveRow> rows;
+  std::uint64_t soil_seed = 0;  // of its soil's scatter
 };
 
 // A campaign with everything in it, also what is told to nobody.

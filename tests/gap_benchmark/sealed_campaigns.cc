@@ -1,7 +1,8 @@
 // sealed_campaigns OUT [--seed N] [--set blind|full|each|smoke|nothing|other_physics] [--only CAUSE,...]
 // [--fidelity L1|L2|L2c|L3] [--size X]
 //
-// Makes campaigns of drives in which something may be hidden, and answers.json beside them. Shares no code
+// Makes campaigns of drives in which something may be hidden, and answers.json and traces.csv (where it acts)
+// beside them. Shares no code
 // with the library that is judged on them.
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "effect_traces.h"
 #include "hidden_causes.h"
 #include "sealed_campaign.h"
 
@@ -110,7 +112,7 @@ int main(int count, char** words) {
       return 2;
     }
 
-  std::string answers;
+  std::string answers, traces = traces_header();
   for (std::size_t i = 0; i < cases->size(); ++i) {
     char name[16];
     std::snprintf(name, sizeof name, "s%02u", static_cast<unsigned>(i + 1));
@@ -126,10 +128,13 @@ int main(int count, char** words) {
       return 1;
     }
     answers += (answers.empty() ? " \"" : ",\n \"") + std::string(name) + "\": " + answer_of(campaign);
+    traces += traces_rows(name, effect_traces(campaign));
     std::cerr << "\rmade " << i + 1 << " of " << cases->size() << std::flush;
   }
   std::cerr << '\n';
   std::ofstream out(std::filesystem::path(wish->out) / "answers.json", std::ios::binary);
   out << "{\n" << answers << "\n}\n";
-  return out.good() ? 0 : 1;
+  std::ofstream beside(std::filesystem::path(wish->out) / "traces.csv", std::ios::binary);
+  beside << traces;
+  return out.good() && beside.good() ? 0 : 1;
 }
