@@ -26,7 +26,6 @@ namespace {
 constexpr std::size_t kLeastDrives = 3, kLeastWindows = 6;
 constexpr int kMostRefittedAgain = 6, kMostPairedAgain = 2, kMostSecondsAgain = 2;
 constexpr std::size_t kMostKept = 6;   // sets of effects that are fitted again
-constexpr double kWorthNaming = 0.05;  // of an effect's probability
 constexpr double kTold = 0.7;  // of a prior deviation: what is left open of a parameter that drives tell of
 constexpr double kSeldom = 0.02;  // of resamples: sets that so few choose are not fitted again
 constexpr double kAlike_deg = 30.0;
@@ -266,15 +265,8 @@ class Diagnoser {
   }
 
   void propose_drives() {
-    std::vector<const FittedExplanation*> fits;
-    std::vector<double> probabilities;
-    for (const Candidate& c : search_.candidates) {
-      if (c.with_unknown || fits.size() >= 4) continue;
-      fits.push_back(&search_.fits[c.fit]);
-      probabilities.push_back(std::max(c.probability, kWorthNaming));
-    }
     d_.next_drives =
-        next_drives(campaign_, prepared_.noise->scales(), fits, probabilities, kMostNext, progress_);
+        next_drives(campaign_, prepared_, search_, kMostNext, options_.search.threads, progress_);
   }
 
   const DriveCampaign& campaign_;

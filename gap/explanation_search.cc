@@ -28,7 +28,7 @@ constexpr double kNothing = 0.25, kOne = 0.375, kTwo = 0.125, kSomethingElse = 0
 struct Belief {
   double share, weight;
 };
-constexpr std::array kBeliefs{Belief{0.12, 0.7}, Belief{0.012, 0.3}};
+constexpr std::array kBeliefs{Belief{kBelievedShare, 0.7}, Belief{0.1 * kBelievedShare, 0.3}};
 constexpr std::array kAllOfIt{Belief{1.0, 1.0}};
 
 ExplanationOptions fit_options(const SearchOptions& options) {

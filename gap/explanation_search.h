@@ -13,6 +13,9 @@
 
 namespace slipway::gap {
 
+// Share of the logarithm of the evidence that is mostly believed; see weigh.
+inline constexpr double kBelievedShare = 0.12;
+
 struct SearchOptions {
   std::vector<std::string> withheld;  // effects that are not looked for
   int most_refitted = 8;              // effects that are fitted in full

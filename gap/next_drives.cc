@@ -1,100 +1,266 @@
 #include "gap/next_drives.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "core/angle.h"
-#include "sim/effect_catalogue.h"
-#include "sim/quasi_static.h"
+#include "core/parallel_for.h"
+#include "gap/rival_outcomes.h"
+#include "gap/wildcard.h"
 
 namespace slipway::gap {
 namespace {
 
-constexpr std::array kTilts_deg{0.0, 5.0, 10.0, 15.0};
-constexpr std::array kHeadings_deg{0.0, 90.0, 180.0};  // from straight uphill
-constexpr std::array kSpeedShares{1.0, 0.5, -1.0};
-constexpr std::array kCurvatures_1_m{0.0, 0.3};
+constexpr std::array kTilts_deg{0.0, 5.0, 10.0, 15.0, 20.0};
+constexpr std::array kHeadings_deg{0.0, 90.0, 180.0, -90.0};  // from straight uphill, to the left
+constexpr std::array kSpeedShares{1.0, 0.5, -1.0, -0.5};      // of cruise speed
+constexpr std::array kArcs_1_m{0.3, -0.3};
+constexpr double kMostTiltOfArcs_deg = 10.0;
 constexpr std::array kTemperatures_c{20.0, -40.0};
+constexpr double kMostSlip = 0.6;  // nobody would drive there
 
-// What a drive would show, each channel over the error that one drive would leave.
-std::vector<double> outcome(const DriveCampaign& campaign, const ModelState& state,
-                            const NoiseScales& scatter, const NextDrive& drive) {
-  const double tilt = rad_from_deg(drive.tilt_deg), heading = rad_from_deg(drive.heading_deg);
-  // Straight uphill the nose is up: negative pitch. Across, headed left of uphill, the right side is up.
-  const Attitude attitude{.roll_rad = std::asin(-std::sin(tilt) * std::sin(heading)),
-                          .pitch_rad = -std::atan(std::tan(tilt) * std::cos(heading)),
-                          .yaw_rad = 0.0};
-  sim::QuasiStaticSolver solver(state.rover, campaign.gravity_m_s2);
-  const sim::StationState at = solver.solve(sim::stance_on_plane(state.rover, attitude), state.soils.front(),
-                                            {.speed_m_s = drive.speed_m_s,
-                                             .curvature_1_m = drive.curvature_1_m,
-                                             .motor_temp_c = drive.motor_temp_c});
-  const double speed = std::abs(drive.speed_m_s);
-  std::vector<double> values{(at.moving() ? at.slip_ratio : 1.0) / std::max(0.01, scatter.slip)};
-  if (!at.moving()) {
-    values.resize(3 + 2 * state.rover.wheels.size(), 0.0);
-    return values;
+constexpr std::size_t kMostFitted = 6;
+constexpr double kWorthAsking = 0.05;  // probability that a rival has at least
+constexpr double kLeastBits = 1e-3;
+// Beforehand one effect is as much more probable than none.
+constexpr double kOneOverNone = 1.5;
+
+// Uphill is along x; one soil.
+class Plane final : public sim::Ground {
+ public:
+  explicit Plane(double tilt_rad)
+      : rise_(std::tan(tilt_rad)), normal_(-std::sin(tilt_rad), 0.0, std::cos(tilt_rad)) {}
+  std::optional<sim::GroundPoint> at(double x_m, double /*y_m*/) const override {
+    return sim::GroundPoint{rise_ * x_m, normal_};
   }
-  values.push_back(at.leftward_m_s / speed / std::max(0.01, scatter.side_slip));
-  values.push_back(at.yaw_rate_rad_s / std::max(3e-4, scatter.yaw_rate_rad_s));
-  for (const sim::WheelState& wheel : at.wheels) {
-    values.push_back(wheel.current_a / std::max(0.003, scatter.current_share * std::abs(wheel.current_a)));
-    values.push_back(wheel.sinkage_m / std::max(0.001, scatter.sinkage_m));
+  std::optional<std::size_t> soil_at(double /*x_m*/, double /*y_m*/) const override { return 0; }
+
+ private:
+  double rise_;
+  Eigen::Vector3d normal_;
+};
+
+// What windows of the campaign measure, each channel of each wheel once, with the median sensor error.
+std::vector<Observation> measured_channels(std::span<const DriveWindow> windows) {
+  std::map<std::pair<Channel, int>, std::vector<double>> errors;
+  for (const DriveWindow& window : windows)
+    for (const Observation& o : window.observations)
+      if (o.channel != Channel::kRoll && o.channel != Channel::kPitch)
+        errors[{o.channel, o.wheel}].push_back(o.sensor_std);
+  std::vector<Observation> channels;
+  for (auto& [key, of_windows] : errors) {
+    const auto middle = of_windows.begin() + static_cast<std::ptrdiff_t>(of_windows.size() / 2);
+    std::nth_element(of_windows.begin(), middle, of_windows.end());
+    channels.push_back({key.first, key.second, 0.0, *middle});
   }
-  return values;
+  return channels;
 }
 
-}  // namespace
+// A campaign of drives that could be made, a window each.
+struct Proposals {
+  std::vector<NextDrive> drives;
+  DriveCampaign campaign;
+  std::vector<DriveWindow> windows;
+};
 
-std::vector<NextDrive> next_drives(const DriveCampaign& campaign, const NoiseScales& scatter,
-                                   std::span<const FittedExplanation* const> explanations,
-                                   std::span<const double> probabilities, std::size_t most,
-                                   const Progress& progress) {
-  std::vector<ModelState> states;
-  for (const FittedExplanation* e : explanations) states.push_back(e->hypothesis.state(e->x));
+std::vector<NextDrive> possible_drives(const DriveCampaign& campaign, bool temperatures) {
   std::vector<NextDrive> drives;
   for (const double tilt : kTilts_deg)
     for (const double heading : kHeadings_deg)
       for (const double share : kSpeedShares)
-        for (const double curvature : kCurvatures_1_m)
-          for (const double temperature : kTemperatures_c) {
-            if (tilt == 0.0 && heading > 0.0) continue;
-            if (progress.cancelled()) return {};
-            NextDrive drive{tilt,      heading,     share * campaign.rover->cruise_speed_m_s,
-                            curvature, temperature, 0.0};
-            std::vector<std::vector<double>> outcomes;
-            outcomes.reserve(states.size());
-            for (const ModelState& state : states)
-              outcomes.push_back(outcome(campaign, state, scatter, drive));
-            for (std::size_t a = 0; a < outcomes.size(); ++a)
-              for (std::size_t b = a + 1; b < outcomes.size(); ++b) {
-                double square = 0.0;
-                for (std::size_t i = 0; i < outcomes[a].size(); ++i)
-                  square += std::pow(outcomes[a][i] - outcomes[b][i], 2);
-                // Two normals of one deviation, that far apart: the information about which it is saturates
-                // at their entropy.
-                const double pa = probabilities[a] / (probabilities[a] + probabilities[b]);
-                const double entropy =
-                    pa <= 0.0 || pa >= 1.0 ? 0.0 : -pa * std::log2(pa) - (1.0 - pa) * std::log2(1.0 - pa);
-                drive.information_bits +=
-                    (probabilities[a] + probabilities[b]) * entropy * (1.0 - std::exp(-square / 8.0));
-              }
+        for (const double temperature : kTemperatures_c) {
+          if (tilt == 0.0 && heading != 0.0) continue;
+          if (!temperatures && temperature != kTemperatures_c[0]) continue;
+          NextDrive drive{.tilt_deg = tilt,
+                          .heading_deg = heading,
+                          .speed_m_s = share * campaign.rover->cruise_speed_m_s,
+                          .motor_temp_c = temperature};
+          drives.push_back(drive);
+          if (tilt > kMostTiltOfArcs_deg || share != 1.0 || temperature != kTemperatures_c[0]) continue;
+          for (const double curvature : kArcs_1_m) {
+            drive.curvature_1_m = curvature;
             drives.push_back(drive);
           }
-  std::stable_sort(drives.begin(), drives.end(), [](const NextDrive& a, const NextDrive& b) {
-    return a.information_bits > b.information_bits;
+        }
+  return drives;
+}
+
+Proposals make_proposals(const DriveCampaign& campaign, std::span<const DriveWindow> made) {
+  Proposals proposals;
+  const bool temperatures = std::any_of(
+      made.begin(), made.end(), [](const DriveWindow& w) { return w.command.motor_temp_c.has_value(); });
+  proposals.drives = possible_drives(campaign, temperatures);
+  DriveCampaign& c = proposals.campaign;
+  c.gravity_m_s2 = campaign.gravity_m_s2;
+  c.rover = campaign.rover;
+  c.soils = campaign.soils;
+  c.measurement_std = campaign.measurement_std;
+  c.retuning = campaign.retuning;
+  for (const double tilt : kTilts_deg)
+    c.terrains.push_back({"", std::make_shared<Plane>(rad_from_deg(tilt)), ""});
+  const std::vector<Observation> channels = measured_channels(made);
+  for (const NextDrive& asked : proposals.drives) {
+    MeasuredDriveSeries drive;
+    drive.terrain = static_cast<std::size_t>(std::find(kTilts_deg.begin(), kTilts_deg.end(), asked.tilt_deg) -
+                                             kTilts_deg.begin());
+    drive.command.speed_m_s = asked.speed_m_s;
+    drive.command.curvature_1_m = asked.curvature_1_m;
+    if (temperatures) drive.command.motor_temp_c = asked.motor_temp_c;
+    DriveWindow window;
+    window.drive = c.drives.size();
+    window.command = drive.command;
+    window.stations = {{0.0, 0.0, rad_from_deg(asked.heading_deg)}};
+    window.observations = channels;
+    c.drives.push_back(std::move(drive));
+    proposals.windows.push_back(std::move(window));
+  }
+  return proposals;
+}
+
+// Parameters that rival each other, and which effects they stand for.
+struct Rival {
+  const Hypothesis* hypothesis;
+  std::vector<double> x;
+  double weight = 0.0;
+  std::vector<std::string> effects;
+};
+
+// An effect beside the null as large as the drives leave it open: each of its fields, with the rest re-tuned
+// to it, one deviation from the estimate, on the side where that is.
+void add_open(const Hypothesis& hypothesis, const PreparedCampaign& prepared, const FittedExplanation& null,
+              double weight, std::vector<Rival>& rivals) {
+  std::vector<double> start;
+  const Eigen::MatrixXd columns = added_columns(hypothesis, *prepared.model, *prepared.noise, null, start);
+  Eigen::MatrixXd all(columns.rows(), null.white_jacobian.cols() + columns.cols());
+  all << null.white_jacobian, columns;
+  Eigen::MatrixXd hessian = all.transpose() * all;
+  hessian.diagonal().array() += 1.0;
+  const Eigen::MatrixXd covariance =
+      hessian.llt().solve(Eigen::MatrixXd::Identity(hessian.rows(), hessian.cols()));
+  const Eigen::VectorXd mean = covariance * (all.transpose() * null.white_linear);
+  const auto parameters = hypothesis.parameters();
+  for (Eigen::Index f = null.white_jacobian.cols(); f < all.cols(); ++f) {
+    const Parameter& field = parameters[static_cast<std::size_t>(f)];
+    const double sense = field.lowest == field.neutral    ? 1.0
+                         : field.highest == field.neutral ? -1.0
+                         : mean[f] < 0.0                  ? -1.0
+                                                          : 1.0;
+    const Eigen::VectorXd u = mean + sense / std::sqrt(covariance(f, f)) * covariance.col(f);
+    Rival rival{&hypothesis, {}, weight / static_cast<double>(columns.cols()), {field.effect}};
+    for (std::size_t p = 0; p < parameters.size(); ++p)
+      rival.x.push_back(
+          std::clamp(parameters[p].neutral + parameters[p].std * u[static_cast<Eigen::Index>(p)],
+                     parameters[p].lowest, parameters[p].highest));
+    rivals.push_back(std::move(rival));
+  }
+}
+
+// The fitted explanations, and of every effect that none of them has what the drives leave open. `open` keeps
+// the hypotheses of the latter.
+std::vector<Rival> rivals_of(const DriveCampaign& campaign, const PreparedCampaign& prepared,
+                             const ExplanationSearch& search, std::vector<Hypothesis>& open,
+                             std::size_t threads) {
+  std::vector<Rival> rivals;
+  std::set<std::string> named;
+  double of_none = 0.0;
+  for (const Candidate& c : search.candidates) {
+    if (c.with_unknown) continue;
+    if (c.effects.empty()) of_none = c.probability;
+    if (rivals.size() >= kMostFitted && !c.effects.empty()) continue;
+    const FittedExplanation& fit = search.fits[c.fit];
+    rivals.push_back({&fit.hypothesis, fit.x, std::max(c.probability, kWorthAsking), c.effects});
+    std::sort(rivals.back().effects.begin(), rivals.back().effects.end());
+    if (c.effects.size() == 1) named.insert(c.effects[0]);
+  }
+  std::set<std::string> effects;
+  for (const ScreenedVariant& s : search.screened) {
+    if (effects.insert(s.variant.effect).second && !named.contains(s.variant.effect))
+      open.emplace_back(campaign, std::vector{s.variant});
+  }
+  const double together = std::max(kWorthAsking, kOneOverNone * of_none);
+  std::vector<std::vector<Rival>> of_open(open.size());
+  parallel_for(open.size(), threads, [&](std::size_t i) {
+    add_open(open[i], prepared, search.fits[0], together / static_cast<double>(effects.size()), of_open[i]);
   });
-  // One of a kind: neighbours that say as much are left out.
+  for (std::vector<Rival>& some : of_open) rivals.insert(rivals.end(), some.begin(), some.end());
+  return rivals;
+}
+
+}  // namespace
+
+std::vector<NextDrive> next_drives(const DriveCampaign& campaign, const PreparedCampaign& prepared,
+                                   const ExplanationSearch& search, std::size_t most, std::size_t threads,
+                                   const Progress& progress) {
+  const FittedExplanation& null = search.fits[0];
+  Proposals proposals = make_proposals(campaign, prepared.windows);
+  WindowModel model(proposals.campaign, proposals.windows);
+  model.watch(progress);
+  model.start_from(null.hypothesis.state(null.x), threads);
+  std::vector<double> expected = null.hypothesis.predict(model, null.x, threads);
+  std::vector<Hypothesis> open;
+  const std::vector<Rival> rivals = rivals_of(campaign, prepared, search, open, threads);
+  std::vector<std::vector<double>> told(rivals.size());
+  parallel_for(rivals.size(), threads,
+               [&](std::size_t r) { told[r] = rivals[r].hypothesis->predict(model, rivals[r].x); });
+  if (progress.cancelled()) return {};
+
+  const Eigen::MatrixXd jacobian = null.hypothesis.scaled_jacobian(model, null.x, threads, expected);
+  const Eigen::MatrixXd levers = lever_responses(proposals.campaign, model, null.x, threads);
+  std::vector<double> known = expected;
+  for (double& value : known)
+    if (!std::isfinite(value)) value = 0.0;
+  NoiseModel noise(model, scatter_response(null.hypothesis, jacobian, levers), known,
+                   std::vector<bool>(known.size(), true));
+  noise.set(prepared.noise->scales());
+  if (progress.cancelled()) return {};
+
+  // What a rival has no answer to is no difference, but for the slip, which is 1 there.
+  Eigen::MatrixXd means(static_cast<Eigen::Index>(expected.size()), static_cast<Eigen::Index>(rivals.size()));
+  for (std::size_t r = 0; r < rivals.size(); ++r)
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      const double difference = told[r][i] - expected[i];
+      means(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(r)) =
+          std::isfinite(difference) ? difference : 0.0;
+    }
+  means = noise.whiten(means);
+  const Eigen::MatrixXd responses = noise.whiten(jacobian);
+
+  RivalOutcomes outcomes;
+  outcomes.covariance = null.covariance;
+  outcomes.believed = kBelievedShare;
+  std::map<std::vector<std::string>, std::size_t> families;
+  for (const Rival& rival : rivals) {
+    outcomes.weights.push_back(rival.weight);
+    outcomes.family.push_back(families.try_emplace(rival.effects, families.size()).first->second);
+  }
+  // Drives that somebody would make.
+  std::vector<NextDrive> drives;
+  std::vector<Eigen::Index> rows;
+  outcomes.first_row = {0};
+  for (std::size_t w = 0; w < proposals.windows.size(); ++w) {
+    const auto& observations = proposals.windows[w].observations;
+    bool stuck = false;
+    for (std::size_t i = 0; i < observations.size(); ++i)
+      if (observations[i].channel == Channel::kSlip) {
+        const std::size_t row = model.offset(w) + i;
+        stuck = stuck || !(std::abs(expected[row]) < kMostSlip) || !(std::abs(told[0][row]) < kMostSlip);
+      }
+    if (stuck) continue;
+    drives.push_back(proposals.drives[w]);
+    for (std::size_t i = 0; i < observations.size(); ++i)
+      rows.push_back(static_cast<Eigen::Index>(model.offset(w) + i));
+    outcomes.first_row.push_back(static_cast<Eigen::Index>(rows.size()));
+  }
+  outcomes.means = means(rows, Eigen::all);
+  outcomes.responses = responses(rows, Eigen::all);
   std::vector<NextDrive> chosen;
-  for (const NextDrive& d : drives) {
-    if (chosen.size() >= most || d.information_bits < 1e-3) break;
-    if (std::any_of(chosen.begin(), chosen.end(), [&](const NextDrive& c) {
-          return c.heading_deg == d.heading_deg && c.speed_m_s == d.speed_m_s &&
-                 std::abs(c.tilt_deg - d.tilt_deg) < 6.0;
-        }))
-      continue;
-    chosen.push_back(d);
+  for (const ChosenDrive& c : most_telling_drives(std::move(outcomes), most, kLeastBits)) {
+    chosen.push_back(drives[c.drive]);
+    chosen.back().information_bits = c.bits;
   }
   return chosen;
 }
