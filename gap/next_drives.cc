@@ -15,7 +15,7 @@
 namespace slipway::gap {
 namespace {
 
-constexpr std::array kTilts_deg{0.0, 5.0, 10.0, 15.0, 20.0};
+constexpr std::array kTilts_deg{0.0, 5.0, 10.0, 15.0};
 constexpr std::array kHeadings_deg{0.0, 90.0, 180.0, -90.0};  // from straight uphill, to the left
 constexpr std::array kSpeedShares{1.0, 0.5, -1.0, -0.5};      // of cruise speed
 constexpr std::array kArcs_1_m{0.3, -0.3};
@@ -28,6 +28,11 @@ constexpr double kWorthAsking = 0.05;  // probability that a rival has at least
 constexpr double kLeastBits = 1e-3;
 // Beforehand one effect is as much more probable than none.
 constexpr double kOneOverNone = 1.5;
+
+// Of the wildcard: what something unknown of that size would do instead is no reason to drive. By what
+// proposals have no value of: the day's order, directions on a map that is not theirs.
+constexpr double kUnknownSize = 0.4;
+constexpr std::array<std::string_view, 3> kNotOfPlanes{"east", "north", "order"};
 
 // Uphill is along x; one soil.
 class Plane final : public sim::Ground {
@@ -44,19 +49,48 @@ class Plane final : public sim::Ground {
   Eigen::Vector3d normal_;
 };
 
+// No model tells drives that nobody has made nearer than this, whatever those that were made scatter by: of
+// currents a share of what is usual, since downhill there is hardly any.
+constexpr double kCurrentShare = 0.05;
+double least_error(Channel channel, double usual) {
+  switch (channel) {
+    case Channel::kSlip:
+    case Channel::kSideSlip:
+      return 0.01;
+    case Channel::kYawRate:
+      return 3e-4;
+    case Channel::kCurrent:
+      return kCurrentShare * usual;
+    case Channel::kSinkage:
+      return 0.001;
+    default:
+      return 0.0;
+  }
+}
+
+double median_of(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 // What windows of the campaign measure, each channel of each wheel once, with the median sensor error.
 std::vector<Observation> measured_channels(std::span<const DriveWindow> windows) {
-  std::map<std::pair<Channel, int>, std::vector<double>> errors;
+  struct Told {
+    std::vector<double> errors, sizes;
+  };
+  std::map<std::pair<Channel, int>, Told> told;
   for (const DriveWindow& window : windows)
-    for (const Observation& o : window.observations)
-      if (o.channel != Channel::kRoll && o.channel != Channel::kPitch)
-        errors[{o.channel, o.wheel}].push_back(o.sensor_std);
+    for (const Observation& o : window.observations) {
+      if (o.channel == Channel::kRoll || o.channel == Channel::kPitch) continue;
+      told[{o.channel, o.wheel}].errors.push_back(o.sensor_std);
+      told[{o.channel, o.wheel}].sizes.push_back(std::abs(o.value));
+    }
   std::vector<Observation> channels;
-  for (auto& [key, of_windows] : errors) {
-    const auto middle = of_windows.begin() + static_cast<std::ptrdiff_t>(of_windows.size() / 2);
-    std::nth_element(of_windows.begin(), middle, of_windows.end());
-    channels.push_back({key.first, key.second, 0.0, *middle});
-  }
+  for (auto& [key, of_windows] : told)
+    channels.push_back(
+        {key.first, key.second, 0.0,
+         std::hypot(median_of(of_windows.errors), least_error(key.first, median_of(of_windows.sizes)))});
   return channels;
 }
 
@@ -80,7 +114,7 @@ std::vector<NextDrive> possible_drives(const DriveCampaign& campaign, bool tempe
                           .speed_m_s = share * campaign.rover->cruise_speed_m_s,
                           .motor_temp_c = temperature};
           drives.push_back(drive);
-          if (tilt > kMostTiltOfArcs_deg || share != 1.0 || temperature != kTemperatures_c[0]) continue;
+          if (tilt > kMostTiltOfArcs_deg || share < 0.0 || temperature != kTemperatures_c[0]) continue;
           for (const double curvature : kArcs_1_m) {
             drive.curvature_1_m = curvature;
             drives.push_back(drive);
@@ -190,6 +224,36 @@ std::vector<Rival> rivals_of(const DriveCampaign& campaign, const PreparedCampai
   return rivals;
 }
 
+// What re-tuned parameters and something unknown do to proposals, whitened, and their covariance after the
+// drives that were made.
+Eigen::MatrixXd retuned_and_unknown(const PreparedCampaign& prepared, const FittedExplanation& null,
+                                    const NoiseModel& noise, const Eigen::MatrixXd& jacobian,
+                                    const Wildcard& unmade, Eigen::MatrixXd& covariance) {
+  const Eigen::MatrixXd made = whitened(null, *prepared.noise, prepared.wildcard);
+  const Eigen::Index retuned = null.white_jacobian.cols();
+  std::vector<Eigen::Index> kept;
+  Eigen::MatrixXd of_made = Eigen::MatrixXd::Zero(made.rows(), unmade.values.cols());
+  for (std::size_t c = 0; c < unmade.columns.size(); ++c) {
+    const Wildcard::Column& column = unmade.columns[c];
+    if (std::find(kNotOfPlanes.begin(), kNotOfPlanes.end(), column.variable) != kNotOfPlanes.end()) continue;
+    kept.push_back(static_cast<Eigen::Index>(c));
+    for (std::size_t m = 0; m < prepared.wildcard.columns.size(); ++m)
+      if (prepared.wildcard.columns[m].entry == column.entry &&
+          prepared.wildcard.columns[m].variable == column.variable)
+        of_made.col(kept.back()) = made.col(static_cast<Eigen::Index>(m));
+  }
+  const auto beside = [&](const Eigen::MatrixXd& own, const Eigen::MatrixXd& unknown) {
+    Eigen::MatrixXd all(own.rows(), retuned + static_cast<Eigen::Index>(kept.size()));
+    all << own, kUnknownSize * unknown(Eigen::all, kept);
+    return all;
+  };
+  const Eigen::MatrixXd known = beside(null.white_jacobian, of_made);
+  Eigen::MatrixXd hessian = known.transpose() * known;
+  hessian.diagonal().array() += 1.0;
+  covariance = hessian.llt().solve(Eigen::MatrixXd::Identity(hessian.rows(), hessian.cols()));
+  return beside(noise.whiten(jacobian), noise.whiten(unmade.values));
+}
+
 }  // namespace
 
 std::vector<NextDrive> next_drives(const DriveCampaign& campaign, const PreparedCampaign& prepared,
@@ -227,11 +291,13 @@ std::vector<NextDrive> next_drives(const DriveCampaign& campaign, const Prepared
           std::isfinite(difference) ? difference : 0.0;
     }
   means = noise.whiten(means);
-  const Eigen::MatrixXd responses = noise.whiten(jacobian);
 
   RivalOutcomes outcomes;
-  outcomes.covariance = null.covariance;
+  const Wildcard unmade = make_wildcard(proposals.campaign, model, null, threads);
+  const Eigen::MatrixXd responses =
+      retuned_and_unknown(prepared, null, noise, jacobian, unmade, outcomes.covariance);
   outcomes.believed = kBelievedShare;
+  outcomes.imprecision = kFormImprecision;
   std::map<std::vector<std::string>, std::size_t> families;
   for (const Rival& rival : rivals) {
     outcomes.weights.push_back(rival.weight);

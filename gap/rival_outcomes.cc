@@ -40,10 +40,20 @@ Eigen::MatrixXd distances_of(const RivalOutcomes& outcomes, std::size_t drive) {
   const Eigen::Index from = outcomes.first_row[drive], rows = outcomes.first_row[drive + 1] - from;
   const Eigen::MatrixXd white =
       scatter_of(outcomes, drive).matrixL().solve(outcomes.means.middleRows(from, rows));
-  Eigen::MatrixXd distances(white.cols(), white.cols());
+  const Eigen::MatrixXd products = white.transpose() * white;
+  const double share = outcomes.imprecision * outcomes.imprecision;
+  Eigen::MatrixXd distances = Eigen::MatrixXd::Zero(white.cols(), white.cols());
   for (Eigen::Index a = 0; a < white.cols(); ++a)
-    for (Eigen::Index b = 0; b < white.cols(); ++b)
-      distances(a, b) = outcomes.believed / 8.0 * (white.col(a) - white.col(b)).squaredNorm();
+    for (Eigen::Index b = 0; b < a; ++b) {
+      const double square = products(a, a) - 2.0 * products(a, b) + products(b, b);
+      // With the shares of both that may be off: (1 + f^2 (a a^T + b b^T))^-1, by Woodbury.
+      Eigen::Matrix2d inner;
+      inner << 1.0 + share * products(a, a), share * products(a, b), share * products(a, b),
+          1.0 + share * products(b, b);
+      const Eigen::Vector2d along(products(a, a) - products(a, b), products(a, b) - products(b, b));
+      const double off = share * along.dot(inner.inverse() * along);
+      distances(a, b) = distances(b, a) = outcomes.believed / 8.0 * std::max(0.0, square - off);
+    }
   return distances;
 }
 

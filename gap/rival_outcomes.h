@@ -17,6 +17,8 @@ struct RivalOutcomes {
   std::vector<double> weights;          // of the rivals, before; any sum above 0
   std::vector<std::size_t> family;      // of each rival: which of one family is at work does not matter
   double believed = 1.0;                // share of the logarithm of the evidence
+  // What a rival says beside 0 may be off by this share (a deviation), in each drive by another.
+  double imprecision = 0.0;
 
   std::size_t drives() const { return first_row.size() - 1; }
 };
