@@ -1,6 +1,7 @@
 #include "gap/drive_acquisition.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/random.h"
 #include "gap/drive_kind.h"
@@ -64,11 +65,23 @@ std::vector<std::size_t> designed_drives(const DriveCampaign& campaign, std::spa
   if (proposed.empty()) return random_drives(campaign, made, count, options);
   const std::vector<DriveKind> kinds = kinds_of(campaign);
   const DriveDistance distance(kinds);
-  const std::size_t followed = std::min(proposed.size(), options.proposals);
   std::vector<std::size_t> left = not_among(kinds.size(), made), chosen;
-  for (std::size_t i = 0; chosen.size() < count && !left.empty(); ++i) {
-    chosen.push_back(nearest_drive(distance, kinds, left, kind_of(proposed[i % followed])));
-    std::erase(left, chosen.back());
+  std::vector<DriveKind> asked;
+  while (chosen.size() < count && !left.empty()) {
+    if (asked.empty())
+      for (const NextDrive& drive : proposed) asked.push_back(kind_of(drive));
+    std::size_t served = 0, by = left.front();
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      const std::size_t nearest = nearest_drive(distance, kinds, left, asked[i]);
+      if (distance.between(kinds[nearest], asked[i]) >= least) continue;
+      least = distance.between(kinds[nearest], asked[i]);
+      served = i;
+      by = nearest;
+    }
+    chosen.push_back(by);
+    std::erase(left, by);
+    asked.erase(asked.begin() + static_cast<std::ptrdiff_t>(served));
   }
   return chosen;
 }

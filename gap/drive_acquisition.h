@@ -12,16 +12,15 @@
 
 namespace slipway::gap {
 
-// Which drives are made after the first ones: those of the pool that are nearest to what the last diagnosis
-// proposes (where it proposes none, any), or any.
+// Which drives are made after the first ones: of the pool, those that come nearest to proposals of the last
+// diagnosis, each proposal in turn as well as the pool can serve it (where there is none, any), or any.
 enum class AcquisitionPolicy { kDesigned, kRandom };
 
 struct AcquisitionOptions {
-  std::size_t first = 4;      // drives to begin with
-  std::size_t most = 24;      // drives in all
-  std::uint64_t seed = 1;     // of what is drawn
-  std::uint64_t repeat = 0;   // of the same policy: other draws
-  std::size_t proposals = 2;  // of a diagnosis that are followed, the first ones, one drive each in turn
+  std::size_t first = 4;     // drives to begin with
+  std::size_t most = 24;     // drives in all
+  std::uint64_t seed = 1;    // of what is drawn
+  std::uint64_t repeat = 0;  // of the same policy: other draws
 };
 
 // How many drives each step has: 2 more at a time, from 12 on 4 more.

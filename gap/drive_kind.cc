@@ -15,6 +15,10 @@ Eigen::Vector2d tilt_of(const DriveKind& kind) {
   return kind.tilt_deg * Eigen::Vector2d(std::cos(heading), -std::sin(heading));
 }
 
+double sense_of(const DriveKind& kind) {
+  return kind.turn_in_place ? 0.0 : kind.speed_m_s < 0.0 ? -1.0 : 1.0;
+}
+
 // Standard deviation of what is told of each kind; 1 where all are alike.
 template <class Value>
 double spread_of(std::span<const DriveKind> kinds, const Value& value) {
@@ -77,7 +81,8 @@ DriveDistance::DriveDistance(std::span<const DriveKind> pool) {
   const double along = spread_of(pool, [](const DriveKind& k) { return std::optional(tilt_of(k).x()); });
   const double across = spread_of(pool, [](const DriveKind& k) { return std::optional(tilt_of(k).y()); });
   tilt_deg_ = std::max(along, across);
-  speed_m_s_ = spread_of(pool, [](const DriveKind& k) { return std::optional(k.speed_m_s); });
+  speed_m_s_ = spread_of(pool, [](const DriveKind& k) { return std::optional(std::abs(k.speed_m_s)); });
+  sense_ = spread_of(pool, [](const DriveKind& k) { return std::optional(sense_of(k)); });
   curvature_1_m_ = spread_of(pool, [](const DriveKind& k) { return std::optional(k.curvature_1_m); });
   motor_temp_c_ = spread_of(pool, [](const DriveKind& k) { return k.motor_temp_c; });
   turn_ = spread_of(pool, [](const DriveKind& k) { return std::optional(k.turn_in_place ? 1.0 : 0.0); });
@@ -85,7 +90,9 @@ DriveDistance::DriveDistance(std::span<const DriveKind> pool) {
 
 double DriveDistance::between(const DriveKind& a, const DriveKind& b) const {
   double square = ((tilt_of(a) - tilt_of(b)) / tilt_deg_).squaredNorm();
-  square += std::pow((a.speed_m_s - b.speed_m_s) / speed_m_s_, 2);
+  square += std::pow((sense_of(a) * tilt_of(a).x() - sense_of(b) * tilt_of(b).x()) / tilt_deg_, 2);
+  square += std::pow((std::abs(a.speed_m_s) - std::abs(b.speed_m_s)) / speed_m_s_, 2);
+  square += std::pow((sense_of(a) - sense_of(b)) / sense_, 2);
   square += std::pow((a.curvature_1_m - b.curvature_1_m) / curvature_1_m_, 2);
   if (a.motor_temp_c && b.motor_temp_c)
     square += std::pow((*a.motor_temp_c - *b.motor_temp_c) / motor_temp_c_, 2);

@@ -35,7 +35,8 @@ class DriveDistance {
   double between(const DriveKind& a, const DriveKind& b) const;
 
  private:
-  double tilt_deg_ = 1.0, speed_m_s_ = 1.0, curvature_1_m_ = 1.0, motor_temp_c_ = 1.0, turn_ = 1.0;
+  double tilt_deg_ = 1.0, speed_m_s_ = 1.0, sense_ = 1.0, curvature_1_m_ = 1.0, motor_temp_c_ = 1.0,
+         turn_ = 1.0;
 };
 
 // Which of `among` (indices into `kinds`, not empty) is nearest to what is asked for; the first of equals.

@@ -115,7 +115,7 @@ TEST(NearestDrive, IsTheOneOfTheSameSlopeUnderTheWheelsAndTheSameSense) {
   EXPECT_EQ(nearest(ask(15.0, 0.0, 0.04, -30.0)), 6U);
 }
 
-TEST(DesignedDrives, FollowTheFirstProposalsInTurnAndNeverTakeADriveTwice) {
+TEST(DesignedDrives, ServeEachProposalInTurnAndNeverTakeADriveTwice) {
   const DriveCampaign campaign = campaign_of(
       {{.yaw_deg = 135.0}, {.yaw_deg = 120.0}, {.yaw_deg = -45.0}, {.yaw_deg = 45.0}});
   const std::vector<NextDrive> proposed{ask(11.0, 0.0, 0.04), ask(11.0, 180.0, 0.04), ask(11.0, -90.0, 0.04)};
