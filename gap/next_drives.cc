@@ -22,16 +22,19 @@ constexpr std::array kArcs_1_m{0.3, -0.3};
 constexpr double kMostTiltOfArcs_deg = 10.0;
 constexpr std::array kTemperatures_c{20.0, -40.0};
 constexpr double kMostSlip = 0.6;  // nobody would drive there
+// Of the usual current, on the mean over the wheels: motors that draw less hold the rover back, which
+// gearboxes and controllers do in ways of their own.
+constexpr double kLeastCurrent = 0.3;
 
 constexpr std::size_t kMostFitted = 6;
 constexpr double kWorthAsking = 0.05;  // probability that a rival has at least
 constexpr double kLeastBits = 1e-3;
-// Beforehand one effect is as much more probable than none.
-constexpr double kOneOverNone = 1.5;
+// Beforehand one effect is as much more probable than none, two of which one is known than that one.
+constexpr double kOneOverNone = 1.5, kTwoOverOne = 0.67;
 
 // Of the wildcard: what something unknown of that size would do instead is no reason to drive. By what
 // proposals have no value of: the day's order, directions on a map that is not theirs.
-constexpr double kUnknownSize = 0.4;
+constexpr double kUnknownSize = kImprecision;
 constexpr std::array<std::string_view, 3> kNotOfPlanes{"east", "north", "order"};
 
 // Uphill is along x; one soil.
@@ -74,7 +77,8 @@ double median_of(std::vector<double>& values) {
   return *middle;
 }
 
-// What windows of the campaign measure, each channel of each wheel once, with the median sensor error.
+// What windows of the campaign measure, each channel of each wheel once, with its usual size and sensor
+// error.
 std::vector<Observation> measured_channels(std::span<const DriveWindow> windows) {
   struct Told {
     std::vector<double> errors, sizes;
@@ -87,10 +91,11 @@ std::vector<Observation> measured_channels(std::span<const DriveWindow> windows)
       told[{o.channel, o.wheel}].sizes.push_back(std::abs(o.value));
     }
   std::vector<Observation> channels;
-  for (auto& [key, of_windows] : told)
-    channels.push_back(
-        {key.first, key.second, 0.0,
-         std::hypot(median_of(of_windows.errors), least_error(key.first, median_of(of_windows.sizes)))});
+  for (auto& [key, of_windows] : told) {
+    const double usual = median_of(of_windows.sizes);
+    channels.push_back({key.first, key.second, usual,
+                        std::hypot(median_of(of_windows.errors), least_error(key.first, usual))});
+  }
   return channels;
 }
 
@@ -163,28 +168,30 @@ struct Rival {
   std::vector<std::string> effects;
 };
 
-// An effect beside the null as large as the drives leave it open: each of its fields, with the rest re-tuned
-// to it, one deviation from the estimate, on the side where that is.
-void add_open(const Hypothesis& hypothesis, const PreparedCampaign& prepared, const FittedExplanation& null,
+// An effect beside those of a fit, as large as the drives leave it open: each of its fields, with the rest
+// re-tuned to it, one deviation from the estimate, on the side where that is.
+void add_open(const Hypothesis& hypothesis, const PreparedCampaign& prepared, const FittedExplanation& base,
               double weight, std::vector<Rival>& rivals) {
   std::vector<double> start;
-  const Eigen::MatrixXd columns = added_columns(hypothesis, *prepared.model, *prepared.noise, null, start);
-  Eigen::MatrixXd all(columns.rows(), null.white_jacobian.cols() + columns.cols());
-  all << null.white_jacobian, columns;
+  const Eigen::MatrixXd columns = added_columns(hypothesis, *prepared.model, *prepared.noise, base, start);
+  Eigen::MatrixXd all(columns.rows(), base.white_jacobian.cols() + columns.cols());
+  all << base.white_jacobian, columns;
   Eigen::MatrixXd hessian = all.transpose() * all;
   hessian.diagonal().array() += 1.0;
   const Eigen::MatrixXd covariance =
       hessian.llt().solve(Eigen::MatrixXd::Identity(hessian.rows(), hessian.cols()));
-  const Eigen::VectorXd mean = covariance * (all.transpose() * null.white_linear);
+  const Eigen::VectorXd mean = covariance * (all.transpose() * base.white_linear);
   const auto parameters = hypothesis.parameters();
-  for (Eigen::Index f = null.white_jacobian.cols(); f < all.cols(); ++f) {
+  for (Eigen::Index f = base.white_jacobian.cols(); f < all.cols(); ++f) {
     const Parameter& field = parameters[static_cast<std::size_t>(f)];
     const double sense = field.lowest == field.neutral    ? 1.0
                          : field.highest == field.neutral ? -1.0
                          : mean[f] < 0.0                  ? -1.0
                                                           : 1.0;
     const Eigen::VectorXd u = mean + sense / std::sqrt(covariance(f, f)) * covariance.col(f);
-    Rival rival{&hypothesis, {}, weight / static_cast<double>(columns.cols()), {field.effect}};
+    Rival rival{&hypothesis, {}, weight / static_cast<double>(columns.cols()), {}};
+    for (const EffectVariant& effect : hypothesis.effects()) rival.effects.push_back(effect.effect);
+    std::sort(rival.effects.begin(), rival.effects.end());
     for (std::size_t p = 0; p < parameters.size(); ++p)
       rival.x.push_back(
           std::clamp(parameters[p].neutral + parameters[p].std * u[static_cast<Eigen::Index>(p)],
@@ -193,44 +200,50 @@ void add_open(const Hypothesis& hypothesis, const PreparedCampaign& prepared, co
   }
 }
 
-// The fitted explanations, and of every effect that none of them has what the drives leave open. `open` keeps
-// the hypotheses of the latter.
+// The fitted explanations, and beside the most probable of them, the base, every effect as far as the drives
+// leave it open. `open` keeps the hypotheses of the latter.
 std::vector<Rival> rivals_of(const DriveCampaign& campaign, const PreparedCampaign& prepared,
-                             const ExplanationSearch& search, std::vector<Hypothesis>& open,
-                             std::size_t threads) {
+                             const ExplanationSearch& search, const Candidate& base,
+                             std::vector<Hypothesis>& open, std::size_t threads) {
   std::vector<Rival> rivals;
-  std::set<std::string> named;
-  double of_none = 0.0;
+  std::set<std::vector<std::string>> fitted;
   for (const Candidate& c : search.candidates) {
-    if (c.with_unknown) continue;
-    if (c.effects.empty()) of_none = c.probability;
-    if (rivals.size() >= kMostFitted && !c.effects.empty()) continue;
+    if (c.with_unknown || (rivals.size() >= kMostFitted && !c.effects.empty())) continue;
     const FittedExplanation& fit = search.fits[c.fit];
     rivals.push_back({&fit.hypothesis, fit.x, std::max(c.probability, kWorthAsking), c.effects});
     std::sort(rivals.back().effects.begin(), rivals.back().effects.end());
-    if (c.effects.size() == 1) named.insert(c.effects[0]);
+    fitted.insert(rivals.back().effects);
   }
-  std::set<std::string> effects;
+  if (base.effects.size() > 1) return rivals;
+  const FittedExplanation& beside = search.fits[base.fit];
+  std::set<std::string> effects(base.effects.begin(), base.effects.end());
   for (const ScreenedVariant& s : search.screened) {
-    if (effects.insert(s.variant.effect).second && !named.contains(s.variant.effect))
-      open.emplace_back(campaign, std::vector{s.variant});
+    if (!effects.insert(s.variant.effect).second) continue;
+    std::vector<std::string> names = base.effects;
+    names.push_back(s.variant.effect);
+    std::sort(names.begin(), names.end());
+    if (fitted.contains(names)) continue;
+    std::vector<EffectVariant> variants(beside.hypothesis.effects().begin(),
+                                        beside.hypothesis.effects().end());
+    variants.push_back(s.variant);
+    open.emplace_back(campaign, std::move(variants));
   }
-  const double together = std::max(kWorthAsking, kOneOverNone * of_none);
+  const double more = base.effects.empty() ? kOneOverNone : kTwoOverOne;
+  const double each = std::max(kWorthAsking, more * base.probability) / static_cast<double>(effects.size());
   std::vector<std::vector<Rival>> of_open(open.size());
-  parallel_for(open.size(), threads, [&](std::size_t i) {
-    add_open(open[i], prepared, search.fits[0], together / static_cast<double>(effects.size()), of_open[i]);
-  });
+  parallel_for(open.size(), threads,
+               [&](std::size_t i) { add_open(open[i], prepared, beside, each, of_open[i]); });
   for (std::vector<Rival>& some : of_open) rivals.insert(rivals.end(), some.begin(), some.end());
   return rivals;
 }
 
 // What re-tuned parameters and something unknown do to proposals, whitened, and their covariance after the
 // drives that were made.
-Eigen::MatrixXd retuned_and_unknown(const PreparedCampaign& prepared, const FittedExplanation& null,
+Eigen::MatrixXd retuned_and_unknown(const PreparedCampaign& prepared, const FittedExplanation& base,
                                     const NoiseModel& noise, const Eigen::MatrixXd& jacobian,
                                     const Wildcard& unmade, Eigen::MatrixXd& covariance) {
-  const Eigen::MatrixXd made = whitened(null, *prepared.noise, prepared.wildcard);
-  const Eigen::Index retuned = null.white_jacobian.cols();
+  const Eigen::MatrixXd made = whitened(base, *prepared.noise, prepared.wildcard);
+  const Eigen::Index retuned = base.white_jacobian.cols();
   std::vector<Eigen::Index> kept;
   Eigen::MatrixXd of_made = Eigen::MatrixXd::Zero(made.rows(), unmade.values.cols());
   for (std::size_t c = 0; c < unmade.columns.size(); ++c) {
@@ -247,7 +260,7 @@ Eigen::MatrixXd retuned_and_unknown(const PreparedCampaign& prepared, const Fitt
     all << own, kUnknownSize * unknown(Eigen::all, kept);
     return all;
   };
-  const Eigen::MatrixXd known = beside(null.white_jacobian, of_made);
+  const Eigen::MatrixXd known = beside(base.white_jacobian, of_made);
   Eigen::MatrixXd hessian = known.transpose() * known;
   hessian.diagonal().array() += 1.0;
   covariance = hessian.llt().solve(Eigen::MatrixXd::Identity(hessian.rows(), hessian.cols()));
@@ -259,25 +272,28 @@ Eigen::MatrixXd retuned_and_unknown(const PreparedCampaign& prepared, const Fitt
 std::vector<NextDrive> next_drives(const DriveCampaign& campaign, const PreparedCampaign& prepared,
                                    const ExplanationSearch& search, std::size_t most, std::size_t threads,
                                    const Progress& progress) {
-  const FittedExplanation& null = search.fits[0];
+  const auto named = std::find_if(search.candidates.begin(), search.candidates.end(),
+                                  [](const Candidate& c) { return !c.with_unknown; });
+  if (named == search.candidates.end()) return {};
+  const FittedExplanation& base = search.fits[named->fit];
   Proposals proposals = make_proposals(campaign, prepared.windows);
   WindowModel model(proposals.campaign, proposals.windows);
   model.watch(progress);
-  model.start_from(null.hypothesis.state(null.x), threads);
-  std::vector<double> expected = null.hypothesis.predict(model, null.x, threads);
+  model.start_from(base.hypothesis.state(base.x), threads);
+  std::vector<double> expected = base.hypothesis.predict(model, base.x, threads);
   std::vector<Hypothesis> open;
-  const std::vector<Rival> rivals = rivals_of(campaign, prepared, search, open, threads);
+  const std::vector<Rival> rivals = rivals_of(campaign, prepared, search, *named, open, threads);
   std::vector<std::vector<double>> told(rivals.size());
   parallel_for(rivals.size(), threads,
                [&](std::size_t r) { told[r] = rivals[r].hypothesis->predict(model, rivals[r].x); });
   if (progress.cancelled()) return {};
 
-  const Eigen::MatrixXd jacobian = null.hypothesis.scaled_jacobian(model, null.x, threads, expected);
-  const Eigen::MatrixXd levers = lever_responses(proposals.campaign, model, null.x, threads);
+  const Eigen::MatrixXd jacobian = base.hypothesis.scaled_jacobian(model, base.x, threads, expected);
+  const Eigen::MatrixXd levers = lever_responses(proposals.campaign, model, base.x, threads);
   std::vector<double> known = expected;
   for (double& value : known)
     if (!std::isfinite(value)) value = 0.0;
-  NoiseModel noise(model, scatter_response(null.hypothesis, jacobian, levers), known,
+  NoiseModel noise(model, scatter_response(base.hypothesis, jacobian, levers), known,
                    std::vector<bool>(known.size(), true));
   noise.set(prepared.noise->scales());
   if (progress.cancelled()) return {};
@@ -293,9 +309,9 @@ std::vector<NextDrive> next_drives(const DriveCampaign& campaign, const Prepared
   means = noise.whiten(means);
 
   RivalOutcomes outcomes;
-  const Wildcard unmade = make_wildcard(proposals.campaign, model, null, threads);
+  const Wildcard unmade = make_wildcard(proposals.campaign, model, base, threads);
   const Eigen::MatrixXd responses =
-      retuned_and_unknown(prepared, null, noise, jacobian, unmade, outcomes.covariance);
+      retuned_and_unknown(prepared, base, noise, jacobian, unmade, outcomes.covariance);
   outcomes.believed = kBelievedShare;
   outcomes.imprecision = kFormImprecision;
   std::map<std::vector<std::string>, std::size_t> families;
@@ -310,11 +326,16 @@ std::vector<NextDrive> next_drives(const DriveCampaign& campaign, const Prepared
   for (std::size_t w = 0; w < proposals.windows.size(); ++w) {
     const auto& observations = proposals.windows[w].observations;
     bool stuck = false;
-    for (std::size_t i = 0; i < observations.size(); ++i)
-      if (observations[i].channel == Channel::kSlip) {
-        const std::size_t row = model.offset(w) + i;
+    double current = 0.0, usual = 0.0;
+    for (std::size_t i = 0; i < observations.size(); ++i) {
+      const std::size_t row = model.offset(w) + i;
+      if (observations[i].channel == Channel::kSlip)
         stuck = stuck || !(std::abs(expected[row]) < kMostSlip) || !(std::abs(told[0][row]) < kMostSlip);
-      }
+      if (observations[i].channel != Channel::kCurrent) continue;
+      current += known[row];
+      usual += observations[i].value;
+    }
+    stuck = stuck || current < kLeastCurrent * usual;
     if (stuck) continue;
     drives.push_back(proposals.drives[w]);
     for (std::size_t i = 0; i < observations.size(); ++i)
