@@ -7,20 +7,14 @@
 #include <map>
 #include <set>
 
-#include "core/angle.h"
 #include "core/parallel_for.h"
+#include "gap/possible_drives.h"
 #include "gap/rival_outcomes.h"
 #include "gap/wildcard.h"
 
 namespace slipway::gap {
 namespace {
 
-constexpr std::array kTilts_deg{0.0, 5.0, 10.0, 15.0};
-constexpr std::array kHeadings_deg{0.0, 90.0, 180.0, -90.0};  // from straight uphill, to the left
-constexpr std::array kSpeedShares{1.0, 0.5, -1.0, -0.5};      // of cruise speed
-constexpr std::array kArcs_1_m{0.3, -0.3};
-constexpr double kMostTiltOfArcs_deg = 10.0;
-constexpr std::array kTemperatures_c{20.0, -40.0};
 constexpr double kMostSlip = 0.6;  // nobody would drive there
 // Of the usual current, on the mean over the wheels: motors that draw less hold the rover back, which
 // gearboxes and controllers do in ways of their own.
@@ -36,129 +30,6 @@ constexpr double kOneOverNone = 1.5, kTwoOverOne = 0.67;
 // proposals have no value of: the day's order, directions on a map that is not theirs.
 constexpr double kUnknownSize = kImprecision;
 constexpr std::array<std::string_view, 3> kNotOfPlanes{"east", "north", "order"};
-
-// Uphill is along x; one soil.
-class Plane final : public sim::Ground {
- public:
-  explicit Plane(double tilt_rad)
-      : rise_(std::tan(tilt_rad)), normal_(-std::sin(tilt_rad), 0.0, std::cos(tilt_rad)) {}
-  std::optional<sim::GroundPoint> at(double x_m, double /*y_m*/) const override {
-    return sim::GroundPoint{rise_ * x_m, normal_};
-  }
-  std::optional<std::size_t> soil_at(double /*x_m*/, double /*y_m*/) const override { return 0; }
-
- private:
-  double rise_;
-  Eigen::Vector3d normal_;
-};
-
-// No model tells drives that nobody has made nearer than this, whatever those that were made scatter by: of
-// currents a share of what is usual, since downhill there is hardly any.
-constexpr double kCurrentShare = 0.05;
-double least_error(Channel channel, double usual) {
-  switch (channel) {
-    case Channel::kSlip:
-    case Channel::kSideSlip:
-      return 0.01;
-    case Channel::kYawRate:
-      return 3e-4;
-    case Channel::kCurrent:
-      return kCurrentShare * usual;
-    case Channel::kSinkage:
-      return 0.001;
-    default:
-      return 0.0;
-  }
-}
-
-double median_of(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-// What windows of the campaign measure, each channel of each wheel once, with its usual size and sensor
-// error.
-std::vector<Observation> measured_channels(std::span<const DriveWindow> windows) {
-  struct Told {
-    std::vector<double> errors, sizes;
-  };
-  std::map<std::pair<Channel, int>, Told> told;
-  for (const DriveWindow& window : windows)
-    for (const Observation& o : window.observations) {
-      if (o.channel == Channel::kRoll || o.channel == Channel::kPitch) continue;
-      told[{o.channel, o.wheel}].errors.push_back(o.sensor_std);
-      told[{o.channel, o.wheel}].sizes.push_back(std::abs(o.value));
-    }
-  std::vector<Observation> channels;
-  for (auto& [key, of_windows] : told) {
-    const double usual = median_of(of_windows.sizes);
-    channels.push_back({key.first, key.second, usual,
-                        std::hypot(median_of(of_windows.errors), least_error(key.first, usual))});
-  }
-  return channels;
-}
-
-// A campaign of drives that could be made, a window each.
-struct Proposals {
-  std::vector<NextDrive> drives;
-  DriveCampaign campaign;
-  std::vector<DriveWindow> windows;
-};
-
-std::vector<NextDrive> possible_drives(const DriveCampaign& campaign, bool temperatures) {
-  std::vector<NextDrive> drives;
-  for (const double tilt : kTilts_deg)
-    for (const double heading : kHeadings_deg)
-      for (const double share : kSpeedShares)
-        for (const double temperature : kTemperatures_c) {
-          if (tilt == 0.0 && heading != 0.0) continue;
-          if (!temperatures && temperature != kTemperatures_c[0]) continue;
-          NextDrive drive{.tilt_deg = tilt,
-                          .heading_deg = heading,
-                          .speed_m_s = share * campaign.rover->cruise_speed_m_s,
-                          .motor_temp_c = temperature};
-          drives.push_back(drive);
-          if (tilt > kMostTiltOfArcs_deg || share < 0.0 || temperature != kTemperatures_c[0]) continue;
-          for (const double curvature : kArcs_1_m) {
-            drive.curvature_1_m = curvature;
-            drives.push_back(drive);
-          }
-        }
-  return drives;
-}
-
-Proposals make_proposals(const DriveCampaign& campaign, std::span<const DriveWindow> made) {
-  Proposals proposals;
-  const bool temperatures = std::any_of(
-      made.begin(), made.end(), [](const DriveWindow& w) { return w.command.motor_temp_c.has_value(); });
-  proposals.drives = possible_drives(campaign, temperatures);
-  DriveCampaign& c = proposals.campaign;
-  c.gravity_m_s2 = campaign.gravity_m_s2;
-  c.rover = campaign.rover;
-  c.soils = campaign.soils;
-  c.measurement_std = campaign.measurement_std;
-  c.retuning = campaign.retuning;
-  for (const double tilt : kTilts_deg)
-    c.terrains.push_back({"", std::make_shared<Plane>(rad_from_deg(tilt)), ""});
-  const std::vector<Observation> channels = measured_channels(made);
-  for (const NextDrive& asked : proposals.drives) {
-    MeasuredDriveSeries drive;
-    drive.terrain = static_cast<std::size_t>(std::find(kTilts_deg.begin(), kTilts_deg.end(), asked.tilt_deg) -
-                                             kTilts_deg.begin());
-    drive.command.speed_m_s = asked.speed_m_s;
-    drive.command.curvature_1_m = asked.curvature_1_m;
-    if (temperatures) drive.command.motor_temp_c = asked.motor_temp_c;
-    DriveWindow window;
-    window.drive = c.drives.size();
-    window.command = drive.command;
-    window.stations = {{0.0, 0.0, rad_from_deg(asked.heading_deg)}};
-    window.observations = channels;
-    c.drives.push_back(std::move(drive));
-    proposals.windows.push_back(std::move(window));
-  }
-  return proposals;
-}
 
 // Parameters that rival each other, and which effects they stand for.
 struct Rival {
@@ -267,6 +138,35 @@ Eigen::MatrixXd retuned_and_unknown(const PreparedCampaign& prepared, const Fitt
   return beside(noise.whiten(jacobian), noise.whiten(unmade.values));
 }
 
+// Drives that somebody would make: the rover gets on and its motors pull.
+bool is_sensible(const DriveWindow& window, std::span<const double> expected) {
+  double current = 0.0, usual = 0.0;
+  for (std::size_t i = 0; i < window.observations.size(); ++i) {
+    const Observation& o = window.observations[i];
+    if (o.channel == Channel::kSlip && !(std::abs(expected[i]) < kMostSlip)) return false;
+    if (o.channel != Channel::kCurrent) continue;
+    current += std::isfinite(expected[i]) ? expected[i] : 0.0;
+    usual += o.value;
+  }
+  return current >= kLeastCurrent * usual;
+}
+
+// What rivals say less what the base is expected to. What one of them has no answer to is no difference, but
+// for the slip, which is 1 there.
+Eigen::MatrixXd differences(std::span<const Rival> rivals, const WindowModel& model,
+                            std::span<const double> expected, std::size_t threads) {
+  Eigen::MatrixXd means(static_cast<Eigen::Index>(expected.size()), static_cast<Eigen::Index>(rivals.size()));
+  parallel_for(rivals.size(), threads, [&](std::size_t r) {
+    const std::vector<double> told = rivals[r].hypothesis->predict(model, rivals[r].x);
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      const double difference = told[i] - expected[i];
+      means(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(r)) =
+          std::isfinite(difference) ? difference : 0.0;
+    }
+  });
+  return means;
+}
+
 }  // namespace
 
 std::vector<NextDrive> next_drives(const DriveCampaign& campaign, const PreparedCampaign& prepared,
@@ -276,42 +176,39 @@ std::vector<NextDrive> next_drives(const DriveCampaign& campaign, const Prepared
                                   [](const Candidate& c) { return !c.with_unknown; });
   if (named == search.candidates.end()) return {};
   const FittedExplanation& base = search.fits[named->fit];
-  Proposals proposals = make_proposals(campaign, prepared.windows);
-  WindowModel model(proposals.campaign, proposals.windows);
+  const PossibleDrives possible = possible_drives(campaign, prepared.windows);
+  WindowModel model(possible.campaign, possible.windows);
   model.watch(progress);
   model.start_from(base.hypothesis.state(base.x), threads);
   std::vector<double> expected = base.hypothesis.predict(model, base.x, threads);
   std::vector<Hypothesis> open;
   const std::vector<Rival> rivals = rivals_of(campaign, prepared, search, *named, open, threads);
-  std::vector<std::vector<double>> told(rivals.size());
-  parallel_for(rivals.size(), threads,
-               [&](std::size_t r) { told[r] = rivals[r].hypothesis->predict(model, rivals[r].x); });
-  if (progress.cancelled()) return {};
-
+  const Eigen::MatrixXd means = differences(rivals, model, expected, threads);
   const Eigen::MatrixXd jacobian = base.hypothesis.scaled_jacobian(model, base.x, threads, expected);
-  const Eigen::MatrixXd levers = lever_responses(proposals.campaign, model, base.x, threads);
-  std::vector<double> known = expected;
-  for (double& value : known)
-    if (!std::isfinite(value)) value = 0.0;
-  NoiseModel noise(model, scatter_response(base.hypothesis, jacobian, levers), known,
-                   std::vector<bool>(known.size(), true));
-  noise.set(prepared.noise->scales());
+  const Eigen::MatrixXd levers = lever_responses(possible.campaign, model, base.x, threads);
+  const Wildcard unmade = make_wildcard(possible.campaign, model, base, threads);
   if (progress.cancelled()) return {};
-
-  // What a rival has no answer to is no difference, but for the slip, which is 1 there.
-  Eigen::MatrixXd means(static_cast<Eigen::Index>(expected.size()), static_cast<Eigen::Index>(rivals.size()));
-  for (std::size_t r = 0; r < rivals.size(); ++r)
-    for (std::size_t i = 0; i < expected.size(); ++i) {
-      const double difference = told[r][i] - expected[i];
-      means(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(r)) =
-          std::isfinite(difference) ? difference : 0.0;
-    }
-  means = noise.whiten(means);
 
   RivalOutcomes outcomes;
-  const Wildcard unmade = make_wildcard(proposals.campaign, model, base, threads);
-  const Eigen::MatrixXd responses =
-      retuned_and_unknown(prepared, base, noise, jacobian, unmade, outcomes.covariance);
+  outcomes.first_row = {0};
+  std::vector<NextDrive> drives;
+  std::vector<Eigen::Index> rows;
+  for (std::size_t w = 0; w < possible.windows.size(); ++w) {
+    const DriveWindow& window = possible.windows[w];
+    const std::size_t offset = model.offset(w), count = window.observations.size();
+    if (!is_sensible(window, std::span(expected).subspan(offset, count))) continue;
+    drives.push_back(possible.drives[w]);
+    for (std::size_t i = 0; i < count; ++i) rows.push_back(static_cast<Eigen::Index>(offset + i));
+    outcomes.first_row.push_back(static_cast<Eigen::Index>(rows.size()));
+  }
+  for (double& value : expected)
+    if (!std::isfinite(value)) value = 0.0;
+  NoiseModel noise(model, scatter_response(base.hypothesis, jacobian, levers), expected,
+                   std::vector<bool>(expected.size(), true));
+  noise.set(prepared.noise->scales());
+  outcomes.means = noise.whiten(means)(rows, Eigen::all);
+  outcomes.responses =
+      retuned_and_unknown(prepared, base, noise, jacobian, unmade, outcomes.covariance)(rows, Eigen::all);
   outcomes.believed = kBelievedShare;
   outcomes.imprecision = kFormImprecision;
   std::map<std::vector<std::string>, std::size_t> families;
@@ -319,31 +216,6 @@ std::vector<NextDrive> next_drives(const DriveCampaign& campaign, const Prepared
     outcomes.weights.push_back(rival.weight);
     outcomes.family.push_back(families.try_emplace(rival.effects, families.size()).first->second);
   }
-  // Drives that somebody would make.
-  std::vector<NextDrive> drives;
-  std::vector<Eigen::Index> rows;
-  outcomes.first_row = {0};
-  for (std::size_t w = 0; w < proposals.windows.size(); ++w) {
-    const auto& observations = proposals.windows[w].observations;
-    bool stuck = false;
-    double current = 0.0, usual = 0.0;
-    for (std::size_t i = 0; i < observations.size(); ++i) {
-      const std::size_t row = model.offset(w) + i;
-      if (observations[i].channel == Channel::kSlip)
-        stuck = stuck || !(std::abs(expected[row]) < kMostSlip) || !(std::abs(told[0][row]) < kMostSlip);
-      if (observations[i].channel != Channel::kCurrent) continue;
-      current += known[row];
-      usual += observations[i].value;
-    }
-    stuck = stuck || current < kLeastCurrent * usual;
-    if (stuck) continue;
-    drives.push_back(proposals.drives[w]);
-    for (std::size_t i = 0; i < observations.size(); ++i)
-      rows.push_back(static_cast<Eigen::Index>(model.offset(w) + i));
-    outcomes.first_row.push_back(static_cast<Eigen::Index>(rows.size()));
-  }
-  outcomes.means = means(rows, Eigen::all);
-  outcomes.responses = responses(rows, Eigen::all);
   std::vector<NextDrive> chosen;
   for (const ChosenDrive& c : most_telling_drives(std::move(outcomes), most, kLeastBits)) {
     chosen.push_back(drives[c.drive]);
