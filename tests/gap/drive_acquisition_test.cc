@@ -116,9 +116,10 @@ TEST(NearestDrive, IsTheOneOfTheSameSlopeUnderTheWheelsAndTheSameSense) {
 }
 
 TEST(DesignedDrives, ServeEachProposalInTurnAndNeverTakeADriveTwice) {
-  const DriveCampaign campaign = campaign_of(
-      {{.yaw_deg = 135.0}, {.yaw_deg = 120.0}, {.yaw_deg = -45.0}, {.yaw_deg = 45.0}});
-  const std::vector<NextDrive> proposed{ask(11.0, 0.0, 0.04), ask(11.0, 180.0, 0.04), ask(11.0, -90.0, 0.04)};
+  const DriveCampaign campaign =
+      campaign_of({{.yaw_deg = 135.0}, {.yaw_deg = 120.0}, {.yaw_deg = -45.0}, {.yaw_deg = 45.0}});
+  const double tilt_deg = deg_from_rad(std::atan(kRise));
+  const std::vector<NextDrive> proposed{ask(tilt_deg, 0.0, 0.04), ask(tilt_deg - 2.0, 180.0, 0.04)};
   EXPECT_EQ(designed_drives(campaign, {}, proposed, 3, {}), (std::vector<std::size_t>{0, 2, 1}));
   const std::vector<std::size_t> made{0, 2};
   EXPECT_EQ(designed_drives(campaign, made, proposed, 9, {}).size(), 2U);
