@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::size_t kLeastDrives = 3, kLeastWindows = 6;
 constexpr int kMostRefittedAgain = 6, kMostPairedAgain = 2, kMostSecondsAgain = 2;
-constexpr std::size_t kMostKept = 6;   // sets of effects that are fitted again
+constexpr std::size_t kMostKept = 6;  // sets of effects that are fitted again
 constexpr double kTold = 0.7;  // of a prior deviation: what is left open of a parameter that drives tell of
 constexpr double kSeldom = 0.02;  // of resamples: sets that so few choose are not fitted again
 constexpr double kAlike_deg = 30.0;
