@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -90,5 +91,9 @@ struct DriveCampaign {
 // Wheels that were measured to turn faster than the rover's greatest rate raise it, with a note: the drives
 // were made so, and a rover that is held to less would not repeat them.
 void adopt_measured_rates(DriveCampaign& campaign);
+
+// The campaign as if these drives alone had been made, in this order. Repeats of a drive that is left out are
+// repeats of the first of them. `drives`: indices into DriveCampaign::drives, each once.
+DriveCampaign subset_of(const DriveCampaign& campaign, std::span<const std::size_t> drives);
 
 }  // namespace slipway::gap

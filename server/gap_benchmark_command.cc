@@ -10,6 +10,7 @@
 #include <iterator>
 #include <map>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -22,6 +23,7 @@
 #include "api/json/benchmark_answers.h"
 #include "api/json/benchmark_document.h"
 #include "api/json/diagnosis_document.h"
+#include "api/json/drives_needed_document.h"
 #include "api/sealed_campaign_folder.h"
 #include "campaign/sealed_campaigns.h"
 #include "gap/baselines.h"
@@ -29,6 +31,7 @@
 #include "gap/diagnosis.h"
 #include "server/command_parts.h"
 #include "server/commands.h"
+#include "server/drives_needed_command.h"
 #include "sim/effect_catalogue.h"
 
 namespace slipway::server {
@@ -202,6 +205,18 @@ int refuse_input(const Error& error) {
   return error.code == ErrorCode::kUnreadableData || error.code == ErrorCode::kUnreadableRaster ? 2 : status;
 }
 
+int tell_drives_needed(const GapBenchmarkCommand& options, const api::Catalogue& catalogue,
+                       std::span<const std::string> names) {
+  const auto answers = answers_of(options.folder);
+  if (!answers) return refuse_input(answers.error());
+  const auto needed = drives_needed(options, catalogue, names, *answers, library());
+  if (!needed) return refuse_input(needed.error());
+  std::cout << (options.json ? api::json::drives_needed_document(*needed)
+                             : api::drives_needed_report(*needed))
+            << std::flush;
+  return 0;
+}
+
 }  // namespace
 
 int gap_benchmark(const GapBenchmarkCommand& options) {
@@ -225,6 +240,7 @@ int gap_benchmark(const GapBenchmarkCommand& options) {
   for (const std::string& name : names)
     if (auto campaign = api::load_drive_campaign(fs::path(options.folder) / name, *catalogue); !campaign)
       return refuse_input(campaign.error());
+  if (options.drives_needed) return tell_drives_needed(options, *catalogue, names);
   // All diagnoses before the key is opened.
   std::vector<Timed> open;
   for (const std::string& name : names) {

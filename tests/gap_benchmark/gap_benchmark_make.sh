@@ -45,6 +45,20 @@ assert [(w["campaign"], w["withheld"]) for w in withheld] == [("d02", e) for e i
 assert withheld == [dict(w, **{"verdict": s["verdict"], "found": s["found"]}) for w, s in zip(withheld, scores["withheld"])]
 CHECK
 
+# How many drives a right answer takes: of campaigns with effects of the library alone.
+expect 0 "$slipway" gap-benchmark "$folder/first" --data "$data" --drives-needed --random-repeats 1 --json
+python3 - "$folder/out" <<'CHECK'
+import json, sys
+needed = json.load(open(sys.argv[1]))
+assert needed["format"] == "drives-needed/1" and needed["first_drives"] == 4
+assert [c["campaign"] for c in needed["campaigns"]] == ["d02"], needed["campaigns"]
+case = needed["campaigns"][0]
+assert case["limit"] == 12 and len(case["random"]) == 1, case
+assert 4 <= case["designed"] <= 12, case
+CHECK
+expect 0 "$slipway" gap-benchmark "$folder/first" --data "$data" --drives-needed --random-repeats 1 --only d01
+holds '0 of 0 campaigns' "$folder/out"
+
 # The same seed, the same bytes; made in parts, too, and not made again.
 expect 0 "$slipway" gap-benchmark "$folder/again" --make smoke --seed 7 --data "$data" --only d01 --threads 1
 diff -r "$folder/first" "$folder/again"
