@@ -2,8 +2,10 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "api/json/writer.h"
+#include "core/progress.h"
 #include "core/result.h"
 #include "server/commands.h"
 #include "server/inquiry.h"
@@ -11,6 +13,13 @@
 
 // What several commands do alike.
 namespace slipway::server {
+
+// Says nothing, but hears an interruption.
+class Interruptible final : public Progress {
+ public:
+  void report(std::string_view /*stage*/, double /*fraction*/) override {}
+  bool cancelled() const override { return given_up(); }
+};
 
 // Prints the error with its faults; the exit status that goes with it.
 int refuse(const Error& error);

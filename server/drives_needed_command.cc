@@ -14,18 +14,13 @@
 #include "core/parallel_for.h"
 #include "gap/diagnosis.h"
 #include "gap/drive_acquisition.h"
+#include "server/command_parts.h"
 
 namespace slipway::server {
 namespace {
 
 using gap::AcquisitionPolicy;
 using gap::AcquisitionStep;
-
-class Patience final : public Progress {
- public:
-  void report(std::string_view /*stage*/, double /*fraction*/) override {}
-  bool cancelled() const override { return given_up(); }
-};
 
 std::string words(std::span<const AcquisitionStep> steps) {
   std::vector<std::string> parts;
@@ -39,7 +34,7 @@ Result<std::optional<gap::DrivesNeededCase>> needed_of(const GapBenchmarkCommand
                                                        const gap::DriveCampaign& campaign,
                                                        const gap::DiagnosisOptions& how,
                                                        const gap::DrivesJudge& judge) {
-  Patience patience;
+  Interruptible patience;
   const auto diagnose = [&](const gap::DriveCampaign& some) { return gap::diagnose(some, how, patience); };
   gap::AcquisitionOptions acquisition;
   acquisition.seed = options.seed;

@@ -41,13 +41,6 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kMadeRover = "mer-class";  // of campaigns that are made here
 
-// Hears interruptions; a line for each campaign is progress enough.
-class Patience final : public Progress {
- public:
-  void report(std::string_view /*stage*/, double /*fraction*/) override {}
-  bool cancelled() const override { return given_up(); }
-};
-
 // A diagnosis with something taken out of it: what does it owe to which part?
 struct Variant {
   std::string_view name;
@@ -99,7 +92,7 @@ Result<void> make_campaigns(const GapBenchmarkCommand& options, const api::Catal
   if (rover == catalogue.rovers.end())
     return fail(ErrorCode::kNotFound, fmt::format("the data folder has no rover {}", kMadeRover));
   const auto campaigns = slipway::campaign::sealed_campaigns(options.make, options.seed, rover->second);
-  Patience patience;
+  Interruptible patience;
   const auto tell = [&](const std::string& name, std::size_t drives, std::size_t made) {
     std::cerr << fmt::format("made [{}/{}] {}: {} drives\n", made, campaigns.size(), name, drives);
   };
@@ -144,7 +137,7 @@ Result<Timed> diagnosed(const GapBenchmarkCommand& options, const api::Catalogue
     how.search.most_paired = 0;
   }
   how.search.whole_evidence = variant.whole_evidence;
-  Patience patience;
+  Interruptible patience;
   auto diagnosis = variant.method(*campaign, how, patience);
   if (!diagnosis) return fail(diagnosis.error());
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
@@ -200,17 +193,12 @@ std::set<std::string> library() {
   return names;
 }
 
-int refuse_input(const Error& error) {
-  const int status = refuse(error);
-  return error.code == ErrorCode::kUnreadableData || error.code == ErrorCode::kUnreadableRaster ? 2 : status;
-}
-
 int tell_drives_needed(const GapBenchmarkCommand& options, const api::Catalogue& catalogue,
                        std::span<const std::string> names) {
   const auto answers = answers_of(options.folder);
-  if (!answers) return refuse_input(answers.error());
+  if (!answers) return refuse_unreadable(answers.error());
   const auto needed = drives_needed(options, catalogue, names, *answers, library());
-  if (!needed) return refuse_input(needed.error());
+  if (!needed) return refuse_unreadable(needed.error());
   std::cout << (options.json ? api::json::drives_needed_document(*needed)
                              : api::drives_needed_report(*needed))
             << std::flush;
@@ -228,9 +216,9 @@ int gap_benchmark(const GapBenchmarkCommand& options) {
     return 2;
   }
   const auto catalogue = api::load_catalogue(options.data);
-  if (!catalogue) return refuse_input(catalogue.error());
+  if (!catalogue) return refuse_unreadable(catalogue.error());
   if (!options.make.empty())
-    if (const auto made = make_campaigns(options, *catalogue); !made) return refuse_input(made.error());
+    if (const auto made = make_campaigns(options, *catalogue); !made) return refuse_unreadable(made.error());
   const std::vector<std::string> names = campaigns_in(options);
   if (names.empty()) {
     std::cerr << options.folder << " holds no drive campaign of that name\n";
@@ -239,7 +227,7 @@ int gap_benchmark(const GapBenchmarkCommand& options) {
   // What can't be read is said before the first diagnosis, not after an hour of them.
   for (const std::string& name : names)
     if (auto campaign = api::load_drive_campaign(fs::path(options.folder) / name, *catalogue); !campaign)
-      return refuse_input(campaign.error());
+      return refuse_unreadable(campaign.error());
   if (options.drives_needed) return tell_drives_needed(options, *catalogue, names);
   // All diagnoses before the key is opened.
   std::vector<Timed> open;
@@ -247,12 +235,12 @@ int gap_benchmark(const GapBenchmarkCommand& options) {
     auto timed = diagnosed(options, *catalogue, name, {});
     // Interrupted: what is done is scored.
     if (!timed && timed.error().code == ErrorCode::kCancelled && !open.empty()) break;
-    if (!timed) return refuse_input(timed.error());
+    if (!timed) return refuse_unreadable(timed.error());
     open.push_back(std::move(*timed));
     tell(open.size(), names.size(), name, open.back());
   }
   const auto answers = answers_of(options.folder);
-  if (!answers) return refuse_input(answers.error());
+  if (!answers) return refuse_unreadable(answers.error());
   const std::set<std::string> known = library();
   api::Benchmark benchmark{.variant = options.variant, .cases = {}, .withheld = {}};
   for (std::size_t i = 0; i < open.size(); ++i) {
@@ -269,7 +257,7 @@ int gap_benchmark(const GapBenchmarkCommand& options) {
       std::set_difference(known.begin(), known.end(), hidden.begin(), hidden.end(),
                           std::back_inserter(told.withheld));
       auto timed = diagnosed(options, *catalogue, names[i], told);
-      if (!timed && timed.error().code != ErrorCode::kCancelled) return refuse_input(timed.error());
+      if (!timed && timed.error().code != ErrorCode::kCancelled) return refuse_unreadable(timed.error());
       if (timed) {
         if (timed->diagnosis.closed_fraction)
           benchmark.cases.back().oracle_closed_fraction = timed->diagnosis.closed_fraction->value;
@@ -280,7 +268,7 @@ int gap_benchmark(const GapBenchmarkCommand& options) {
       if (!options.without_each || !known.contains(effect) || given_up()) continue;
       auto timed = diagnosed(options, *catalogue, names[i], {.withheld = {effect}, .oracle = false});
       if (!timed && timed.error().code == ErrorCode::kCancelled) continue;
-      if (!timed) return refuse_input(timed.error());
+      if (!timed) return refuse_unreadable(timed.error());
       tell(i + 1, names.size(), names[i] + " without " + effect, *timed);
       benchmark.withheld.push_back(
           gap::score_withheld(answer->second, effect, open[i].diagnosis, timed->diagnosis));
