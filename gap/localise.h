@@ -23,8 +23,7 @@ std::vector<Regime> regimes_of(const PreparedCampaign& prepared, const DriveCamp
                                const Eigen::VectorXd& residuals, LookedAt looked_at,
                                const DiagnosisOptions& options, std::size_t most);
 
-// Each channel's share of the squared residuals in deviations, a window's being the mean over its wheels, the
-// largest first; none where there are none.
+// Each channel's share of a trace: see shares_of.
 std::vector<ChannelShare> channel_shares(const PreparedCampaign& prepared, const Eigen::VectorXd& residuals);
 
 // Discs on the terrains that hold a gap that the rest has not.

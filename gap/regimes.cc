@@ -12,7 +12,8 @@ namespace slipway::gap {
 namespace {
 
 constexpr double kSignificant = 0.1;
-constexpr double kWorthASlice = 0.1;  // of a trace
+constexpr double kWorthASlice = 0.1;   // of a trace
+constexpr double kPlainlyOff = 100.0;  // of a window's square
 
 struct Scored {
   Regime regime;
@@ -27,15 +28,15 @@ std::vector<double> in_order(std::span<const double> values, std::span<const std
   return permuted;
 }
 
-// None above the largest that more windows have than a slice needs: what fewer do is no slice, and one that
-// is told to be stuck, a hundred deviations off, would outweigh all others.
+// Beyond ten deviations none above the largest that more windows have than a slice needs: what fewer do is no
+// slice, and one that a model calls stuck, a hundred deviations off, would outweigh all others.
 std::vector<double> limited(std::span<const double> squares) {
   std::vector<double> all(squares.begin(), squares.end());
   const std::size_t least = least_of_slice(all.size());
   if (all.size() <= least) return all;
   std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(least), all.end(),
                    std::greater<double>());
-  const double most = all[least];
+  const double most = std::max(all[least], kPlainlyOff);
   std::transform(squares.begin(), squares.end(), all.begin(), [most](double s) { return std::min(s, most); });
   return all;
 }

@@ -30,8 +30,9 @@ std::vector<Regime> regimes_in(std::span<const Slice> slices, std::span<const Ch
                                const DiagnosisOptions& options, std::size_t most,
                                const std::function<bool()>& cancelled);
 
-// Each channel's share of a trace, the largest first; none where there are none. Here and above, few windows
-// that are far above all others weigh no more than the next.
+// Each channel's share of a trace, the largest first; none where there are none. Here and above, the few
+// windows of a trace that are further off than all others, by more than ten deviations, weigh no more than
+// the next.
 std::vector<ChannelShare> shares_of(std::span<const ChannelSquares> channels);
 
 // The windows in another order: drives permuted, the whole turned round, so that neighbours stay neighbours.

@@ -101,16 +101,26 @@ TEST(Regimes, OfATraceAreThoseThatFitWhereItIsLarge) {
 TEST(Regimes, OfATraceAreNotDecidedByFewWindows) {
   std::vector<ChannelSquares> channels{{Channel::kCurrent, {}}, {Channel::kSlip, {}}};
   for (const WindowVariables& w : made_windows()) {
-    channels[0].squares.push_back(w.slope_deg > 8.0 ? 9.0 : 0.1);
+    channels[0].squares.push_back(w.slope_deg > 8.0 ? 50.0 : 0.1);
     channels[1].squares.push_back(0.5);
   }
   for (const std::size_t stuck : {3u, 40u, 41u, 77u})
     channels[0].squares[stuck] = channels[1].squares[stuck] = 1e4;
   EXPECT_EQ(shares_of(channels).front().channel, Channel::kCurrent);
-  EXPECT_GT(shares_of(channels).front().share, 0.9);
+  EXPECT_GT(shares_of(channels).front().share, 0.8);
   const std::vector<Regime> regimes = located(channels[0].squares, LookedAt::kTrace);
   ASSERT_FALSE(regimes.empty());
   EXPECT_NEAR(regimes.front().conditions[0].from, 8.0, 1.5);
+}
+
+TEST(Regimes, OfATraceInFewWindowsHaveTheirChannel) {
+  std::vector<ChannelSquares> channels{{Channel::kSlip, std::vector<double>(kWindows, 0.0)},
+                                       {Channel::kSinkage, std::vector<double>(kWindows, 0.0)}};
+  channels[0].squares[7] = 10.0;
+  channels[1].squares[7] = channels[1].squares[8] = 20.0;
+  ASSERT_EQ(shares_of(channels).size(), 2u);
+  EXPECT_EQ(shares_of(channels).front().channel, Channel::kSinkage);
+  EXPECT_NEAR(shares_of(channels).front().share, 0.8, 1e-12);
 }
 
 TEST(Regimes, AreNotSeenInScatter) {
