@@ -160,8 +160,10 @@ class Diagnoser {
 
   void localise() {
     progress_.report("locating the gap", 0.97);
-    d_.regimes = regimes_of(prepared_, campaign_, prepared_.nominal_residuals, options_, kMostRegimes);
-    d_.regimes_retuned = regimes_of(prepared_, campaign_, search_.fits[0].residuals, options_, kMostRegimes);
+    d_.regimes =
+        regimes_of(prepared_, campaign_, prepared_.nominal_residuals, LookedAt::kGap, options_, kMostRegimes);
+    d_.regimes_retuned =
+        regimes_of(prepared_, campaign_, search_.fits[0].residuals, LookedAt::kGap, options_, kMostRegimes);
     if (d_.verdict == Verdict::kUnknown) {
       d_.residual = describe_unexplained(prepared_, told_fit());
       d_.places = gap_places(prepared_, campaign_, search_.fits[0].residuals, options_);
@@ -171,7 +173,7 @@ class Diagnoser {
     const Eigen::VectorXd signature = effect_trace(best_fit(), *prepared_.model, {}, options_.search.threads);
     d_.channels_of_effects = channel_shares(prepared_, signature);
     d_.regimes_of_effect =
-        regimes_of(prepared_, campaign_, signature, options_, kMostRegimes, d_.channels_of_effects);
+        regimes_of(prepared_, campaign_, signature, LookedAt::kTrace, options_, kMostRegimes);
     for (std::size_t e = 0; e < best().effects.size(); ++e) {
       if (best().effects[e] != "soft_patch") continue;
       const EffectVariant& patch = best_fit().hypothesis.effects()[e];

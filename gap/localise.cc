@@ -9,13 +9,12 @@
 
 #include "core/angle.h"
 #include "core/random.h"
+#include "gap/regimes.h"
 #include "gap/slices.h"
 
 namespace slipway::gap {
 namespace {
 
-constexpr double kSignificant = 0.1;
-constexpr double kWorthASlice = 0.1;  // of a trace
 constexpr int kFunctions = 5;
 
 std::array<double, kFunctions> functions_of(const WindowVariables& v) {
@@ -42,32 +41,18 @@ std::vector<double> squares_of(const PreparedCampaign& prepared, const Eigen::Ve
   return squares;
 }
 
-// The windows in another order: drives permuted, the whole turned round, so that neighbours stay neighbours.
-std::vector<std::size_t> reordered(const PreparedCampaign& prepared, std::uint64_t key) {
-  std::vector<std::vector<std::size_t>> drives;
-  for (std::size_t w = 0; w < prepared.windows.size(); ++w) {
-    if (w == 0 || prepared.windows[w].drive != prepared.windows[w - 1].drive) drives.emplace_back();
-    drives.back().push_back(w);
-  }
-  for (std::size_t d = drives.size(); d > 1; --d)
-    std::swap(drives[d - 1],
-              drives[static_cast<std::size_t>(random_uniform(key, d) * static_cast<double>(d))]);
-  std::vector<std::size_t> order;
-  for (const auto& drive : drives) order.insert(order.end(), drive.begin(), drive.end());
-  std::rotate(
-      order.begin(),
-      order.begin() + static_cast<std::ptrdiff_t>(random_uniform(key, 0) * static_cast<double>(order.size())),
-      order.end());
-  return order;
+std::vector<ChannelSquares> channel_squares(const PreparedCampaign& prepared,
+                                            const Eigen::VectorXd& residuals) {
+  std::vector<ChannelSquares> all;
+  for (int c = 0; c < kChannels; ++c)
+    all.push_back({static_cast<Channel>(c), squares_of(prepared, residuals, static_cast<Channel>(c))});
+  return all;
 }
 
-// By how many of its own deviations a slice's mean is above the mean of all.
-double excess(const std::vector<double>& values, const Slice& slice, const std::vector<std::size_t>& order,
-              double mean, double deviation) {
-  double sum = 0.0;
-  for (const std::size_t w : slice.windows) sum += values[order[w]];
-  const auto n = static_cast<double>(slice.windows.size());
-  return (sum / n - mean) * std::sqrt(n) / deviation;
+std::vector<std::size_t> drives_of(const PreparedCampaign& prepared) {
+  std::vector<std::size_t> drives;
+  for (const DriveWindow& window : prepared.windows) drives.push_back(window.drive);
+  return drives;
 }
 
 }  // namespace
@@ -161,83 +146,15 @@ std::vector<ChannelGap> channel_gaps(const PreparedCampaign& prepared, const Dri
 }
 
 std::vector<Regime> regimes_of(const PreparedCampaign& prepared, const DriveCampaign& campaign,
-                               const Eigen::VectorXd& residuals, const DiagnosisOptions& options,
-                               std::size_t most, std::span<const ChannelShare> shares) {
+                               const Eigen::VectorXd& residuals, LookedAt looked_at,
+                               const DiagnosisOptions& options, std::size_t most) {
   const std::vector<Slice> slices = slices_of(window_variables(prepared, campaign));
-  struct Scored {
-    Regime regime;
-    double rank = 0.0;
-    std::vector<std::size_t> windows;
-  };
-  std::vector<Scored> scored;
-  std::vector<std::size_t> as_is(prepared.windows.size());
-  std::iota(as_is.begin(), as_is.end(), std::size_t{0});
-  for (int c = 0; c < kChannels; ++c) {
-    const auto channel = static_cast<Channel>(c);
-    const std::vector<double> squares = squares_of(prepared, residuals, channel);
-    const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
-    const double mean = sum / static_cast<double>(squares.size());
-    double variance = 0.0;
-    for (const double s : squares) variance += (s - mean) * (s - mean) / static_cast<double>(squares.size());
-    double share = 0.0;
-    for (const ChannelShare& s : shares)
-      if (s.channel == channel) share = s.share;
-    if (variance <= 0.0 || (mean < 1.0 && share < kWorthASlice)) continue;
-    const double deviation = std::sqrt(variance);
-    std::vector<double> by_chance(static_cast<std::size_t>(options.resamples) / 4 + 1, 0.0);
-    for (std::size_t b = 0; b < by_chance.size(); ++b) {
-      if (prepared.model->cancelled()) return {};
-      const std::vector<std::size_t> order = reordered(prepared, random_key(options.seed, 5000 + b));
-      for (const Slice& slice : slices)
-        by_chance[b] = std::max(by_chance[b], excess(squares, slice, order, mean, deviation));
-    }
-    for (const Slice& slice : slices) {
-      const double e = excess(squares, slice, as_is, mean, deviation);
-      const auto above = std::count_if(by_chance.begin(), by_chance.end(), [e](double x) { return x >= e; });
-      const double p = (1.0 + static_cast<double>(above)) / (1.0 + static_cast<double>(by_chance.size()));
-      if (p > kSignificant) continue;
-      double inside = 0.0;
-      for (const std::size_t w : slice.windows) inside += squares[w];
-      scored.push_back({{slice.conditions, channel, inside / sum,
-                         static_cast<double>(slice.windows.size()) / static_cast<double>(squares.size()), p},
-                        shares.empty() ? e : share * e,
-                        slice.windows});
-    }
-  }
-  std::stable_sort(scored.begin(), scored.end(),
-                   [](const Scored& a, const Scored& b) { return a.rank > b.rank; });
-  std::vector<Regime> regimes;
-  std::vector<const Scored*> kept;
-  for (const Scored& s : scored) {
-    if (regimes.size() >= most) break;
-    // Much the same windows in the same channel are said once.
-    const bool said = std::any_of(kept.begin(), kept.end(), [&](const Scored* k) {
-      if (k->regime.channel != s.regime.channel) return false;
-      std::vector<std::size_t> shared;
-      std::set_intersection(k->windows.begin(), k->windows.end(), s.windows.begin(), s.windows.end(),
-                            std::back_inserter(shared));
-      return 2 * shared.size() > std::min(k->windows.size(), s.windows.size());
-    });
-    if (said) continue;
-    kept.push_back(&s);
-    regimes.push_back(s.regime);
-  }
-  return regimes;
+  return regimes_in(slices, channel_squares(prepared, residuals), drives_of(prepared), looked_at, options,
+                    most, [&] { return prepared.model->cancelled(); });
 }
 
 std::vector<ChannelShare> channel_shares(const PreparedCampaign& prepared, const Eigen::VectorXd& residuals) {
-  std::vector<ChannelShare> shares;
-  double total = 0.0;
-  for (int c = 0; c < kChannels; ++c) {
-    const std::vector<double> squares = squares_of(prepared, residuals, static_cast<Channel>(c));
-    const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
-    if (sum > 0.0) shares.push_back({static_cast<Channel>(c), sum});
-    total += sum;
-  }
-  for (ChannelShare& share : shares) share.share /= total;
-  std::stable_sort(shares.begin(), shares.end(),
-                   [](const ChannelShare& a, const ChannelShare& b) { return a.share > b.share; });
-  return shares;
+  return shares_of(channel_squares(prepared, residuals));
 }
 
 std::vector<GapPlace> gap_places(const PreparedCampaign& prepared, const DriveCampaign& campaign,
@@ -249,15 +166,12 @@ std::vector<GapPlace> gap_places(const PreparedCampaign& prepared, const DriveCa
     Slice slice;
   };
   std::vector<Disc> found;
-  std::vector<std::size_t> as_is(prepared.windows.size());
-  std::iota(as_is.begin(), as_is.end(), std::size_t{0});
+  const std::vector<std::size_t> drive_of = drives_of(prepared);
   for (const Channel channel : {Channel::kSlip, Channel::kSideSlip, Channel::kCurrent, Channel::kSinkage}) {
     const std::vector<double> squares = squares_of(prepared, residuals, channel);
     const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
-    const double mean = sum / static_cast<double>(squares.size());
-    double variance = 0.0;
-    for (const double s : squares) variance += (s - mean) * (s - mean) / static_cast<double>(squares.size());
-    if (variance <= 0.0 || mean < 1.0) continue;
+    const Excess excess(squares);
+    if (excess.variance() <= 0.0 || excess.mean() < 1.0) continue;
     std::vector<Disc> discs;
     for (std::size_t w = 0; w < prepared.windows.size(); ++w) {
       if (!prepared.model->used(w)) continue;
@@ -279,16 +193,17 @@ std::vector<GapPlace> gap_places(const PreparedCampaign& prepared, const DriveCa
         if (disc.slice.windows.size() < 3 || drives.size() < 2 ||
             3 * disc.slice.windows.size() > squares.size())
           continue;
-        disc.excess = excess(squares, disc.slice, as_is, mean, std::sqrt(variance));
+        disc.excess = excess(squares, disc.slice);
         discs.push_back(std::move(disc));
       }
     }
     std::vector<double> by_chance(static_cast<std::size_t>(options.resamples) / 4 + 1, 0.0);
     for (std::size_t b = 0; b < by_chance.size(); ++b) {
       if (prepared.model->cancelled()) return {};
-      const std::vector<std::size_t> order = reordered(prepared, random_key(options.seed, 9000 + b));
-      for (const Disc& disc : discs)
-        by_chance[b] = std::max(by_chance[b], excess(squares, disc.slice, order, mean, std::sqrt(variance)));
+      std::vector<double> permuted;
+      for (const std::size_t w : reordered(drive_of, random_key(options.seed, 9000 + b)))
+        permuted.push_back(squares[w]);
+      for (const Disc& disc : discs) by_chance[b] = std::max(by_chance[b], excess(permuted, disc.slice));
     }
     for (Disc& disc : discs) {
       const auto above =

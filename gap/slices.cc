@@ -6,13 +6,25 @@
 #include <set>
 
 namespace slipway::gap {
+namespace {
+
+// Two readings that differ by less are the same value.
+double rounded(double value) {
+  return std::round(1e4 * value) / 1e4;
+}
+
+}  // namespace
+
+std::size_t least_of_slice(std::size_t windows) {
+  return std::max<std::size_t>(3, (windows + 19) / 20);
+}
 
 std::vector<Slice> slices_of(std::span<const WindowVariables> variables) {
   std::vector<std::vector<Slice>> by_variable;
-  const std::size_t least = std::max<std::size_t>(3, variables.size() / 20);
+  const std::size_t least = least_of_slice(variables.size());
   for (int v = 0; v < kWindowVariables; ++v) {
     std::vector<double> sorted;
-    for (const WindowVariables& of : variables) sorted.push_back(std::round(1e4 * variable_of(of, v)) / 1e4);
+    for (const WindowVariables& of : variables) sorted.push_back(rounded(variable_of(of, v)));
     std::sort(sorted.begin(), sorted.end());
     const std::set<double> values(sorted.begin(), sorted.end());
     if (values.size() < 2) continue;
@@ -28,14 +40,19 @@ std::vector<Slice> slices_of(std::span<const WindowVariables> variables) {
       }
     }
     by_variable.emplace_back();
-    for (const Condition& piece : pieces) {
-      Slice slice{{piece}, {}};
+    const auto keep = [&](double from, double to) {
+      Slice slice{{{variable_name(v), from, to}}, {}};
       for (std::size_t w = 0; w < variables.size(); ++w) {
-        const double value = std::round(1e4 * variable_of(variables[w], v)) / 1e4;
-        if (value >= piece.from && value <= piece.to) slice.windows.push_back(w);
+        const double value = rounded(variable_of(variables[w], v));
+        if (value >= from && value <= to) slice.windows.push_back(w);
       }
       if (slice.windows.size() >= least && 4 * slice.windows.size() <= 3 * variables.size())
         by_variable.back().push_back(std::move(slice));
+    };
+    for (const Condition& piece : pieces) keep(piece.from, piece.to);
+    for (std::size_t n = 2; n < pieces.size(); ++n) {
+      keep(pieces.front().from, pieces[n - 1].to);
+      keep(pieces[pieces.size() - n].from, pieces.back().to);
     }
   }
   std::vector<Slice> all;

@@ -106,7 +106,10 @@ TEST(Verdict, IsUnknownWhereAnAnswerLeavesMoreThanItsFloor) {
   EXPECT_NEAR(gap.candidates[0].probability, 0.9, 1e-12);
   EXPECT_NEAR(gap.candidates[1].probability, 0.1, 1e-12);
 
-  const Diagnosis beside = doubted(answer_with(Verdict::kEffects, 1.7));
+  EXPECT_EQ(doubted(answer_with(Verdict::kEffects, 1.7)).verdict, Verdict::kEffects)
+      << "it closes more than half of the gap";
+  const Diagnosis beside = doubted(answer_with(Verdict::kEffects, 2.2));
+  ASSERT_FALSE(beside.notes.empty());
   EXPECT_EQ(beside.verdict, Verdict::kUnknown);
   EXPECT_TRUE(beside.effects.empty());
   EXPECT_EQ(beside.gap.front().with_effects.value, beside.gap.front().retuned.value)
