@@ -27,6 +27,20 @@ std::vector<std::string> notes_of(const gap::DriveCampaign& campaign, const Mode
     notes.emplace_back(
         "The model does not say what its drives scattered by (model.json has no \"noise\"): what is usual is "
         "taken.");
+  const auto other_values = [&](std::string_view what, const std::string& name) {
+    notes.push_back(
+        fmt::format("The {} {} has other nominal values here than in the campaign that the model was made "
+                    "of: what is told "
+                    "as corrected is of the model's.",
+                    what, in_quotes(name)));
+  };
+  if (!model.rover_digest.empty() && model.rover_digest != digest_of(*campaign.rover))
+    other_values("rover", campaign.rover->name);
+  for (const gap::NominalSoil& soil : campaign.soils)
+    for (std::size_t s = 0; s < model.soil_digests.size(); ++s)
+      if (soil.name == model.nominal_soils[s] && !model.soil_digests[s].empty() &&
+          model.soil_digests[s] != digest_of(soil))
+        other_values("soil", soil.name);
   if (model.campaign == campaign.name)
     notes.push_back(fmt::format(
         "The model was corrected with a campaign that is called {} too: if these are the drives that it was "

@@ -13,6 +13,7 @@
 #include "api/json/soil_file.h"
 #include "api/json/strict_reader.h"
 #include "api/json/writer.h"
+#include "campaign/digest.h"
 
 namespace slipway::api {
 namespace {
@@ -22,6 +23,7 @@ constexpr std::size_t kMostSoils = 1000;
 
 struct Substitute {
   std::string nominal, corrected;
+  std::string digest;  // of the nominal one
 };
 
 struct Description {
@@ -32,8 +34,9 @@ struct Description {
   std::optional<gap::ParameterPosterior> left_open;
 };
 
-void write_substitute(json::Writer& w, std::string_view nominal, std::string_view corrected) {
-  w.begin_object().text("nominal", nominal).text("corrected", corrected).end_object();
+void write_substitute(json::Writer& w, const Substitute& substitute) {
+  w.begin_object().text("nominal", substitute.nominal).text("corrected", substitute.corrected);
+  w.text("nominal_digest", substitute.digest).end_object();
 }
 
 // The corrected name is that of a file.
@@ -41,6 +44,7 @@ Substitute read_substitute(json::ObjectReader reader) {
   Substitute substitute;
   reader.text("nominal", json::kRequired, {}, substitute.nominal);
   reader.text("corrected", json::kRequired, {.most = 100, .is_name = true}, substitute.corrected);
+  reader.text("nominal_digest", json::kOptional, {}, substitute.digest);
   reader.refuse_unknown();
   return substitute;
 }
@@ -82,13 +86,31 @@ auto read_file(const std::filesystem::path& folder, const std::string& file, con
 
 }  // namespace
 
+std::string digest_of(const sim::RoverModel& rover) {
+  sim::RoverModel same = rover;
+  same.summary.clear();
+  same.sources.clear();
+  same.drive.max_wheel_rate_rad_s = 0.0;
+  json::Writer w;
+  json::write_rover(w, same);
+  return fmt::format("{:016x}", campaign::digest_of(w.take()));
+}
+
+std::string digest_of(const gap::NominalSoil& soil) {
+  sim::SoilDistribution same;
+  same.mean = soil.soil;
+  json::Writer w;
+  json::write_soil(w, same);
+  return fmt::format("{:016x}", campaign::digest_of(w.take()));
+}
+
 std::string model_document(const gap::DriveCampaign& campaign, const CorrectedModel& model) {
   json::Writer w;
   w.begin_object().text("format", kFormat).text("campaign", campaign.name).key("rover");
-  write_substitute(w, campaign.rover->name, model.rover.name);
+  write_substitute(w, {campaign.rover->name, model.rover.name, digest_of(*campaign.rover)});
   w.key("soils").begin_array();
   for (std::size_t i = 0; i < model.soils.size(); ++i)
-    write_substitute(w, campaign.soils[i].name, model.soils[i].name);
+    write_substitute(w, {campaign.soils[i].name, model.soils[i].name, digest_of(campaign.soils[i])});
   w.end_array();
   if (model.noise) json::write_noise_scales(w.key("noise"), *model.noise);
   if (model.left_open) json::write_parameter_posterior(w, *model.left_open);
@@ -100,6 +122,7 @@ Result<ModelFolder> load_model_folder(const std::filesystem::path& folder) {
   const auto description = read_file(folder, "model.json", read_description);
   if (!description) return fail(description.error());
   ModelFolder loaded{description->campaign, description->rover.nominal, {}, {}};
+  loaded.rover_digest = description->rover.digest;
   loaded.model.noise = description->noise;
   loaded.model.left_open = description->left_open;
   std::vector<Fault> faults;
@@ -121,6 +144,7 @@ Result<ModelFolder> load_model_folder(const std::filesystem::path& folder) {
       if (soil.name == substitute.corrected) loaded.model.soils.push_back(soil);
     }
     loaded.nominal_soils.push_back(substitute.nominal);
+    loaded.soil_digests.push_back(substitute.digest);
     if (loaded.model.soils.size() != i + 1 && faults.empty())
       faults.push_back({fmt::format("model.json#/soils/{}/corrected", i),
                         unknown_name("soil", substitute.corrected, names)});
@@ -129,6 +153,12 @@ Result<ModelFolder> load_model_folder(const std::filesystem::path& folder) {
     return fail(ErrorCode::kUnreadableData, fmt::format("the model has {}", summary_of(faults)), faults);
   loaded.model.rover = *std::move(rover);
   return loaded;
+}
+
+Error not_of_this_rover(const ModelFolder& folder, const std::string& rover) {
+  const std::string message = fmt::format("the model was made of {}: it says nothing of {}",
+                                          in_quotes(folder.nominal_rover), in_quotes(rover));
+  return {ErrorCode::kInvalidRequest, message, {{"/rover", message}}};
 }
 
 Result<Catalogue> with_model(Catalogue catalogue, const ModelFolder& folder,

@@ -18,13 +18,25 @@ struct ModelFolder {
   std::string nominal_rover;
   std::vector<std::string> nominal_soils;  // in the order of model.soils
   CorrectedModel model;
+  // Of the values that the nominal rover and soils had, see digest_of; empty where it is not told.
+  std::string rover_digest = {};
+  std::vector<std::string> soil_digests = {};
 };
+
+// Another one for other values of the rover (its greatest wheel rate apart, which drives raise) or of the
+// soil, whatever they are called.
+std::string digest_of(const sim::RoverModel& rover);
+std::string digest_of(const gap::NominalSoil& soil);
 
 // model.json ("corrected-model/1"): what each of its names stands in for.
 std::string model_document(const gap::DriveCampaign& campaign, const CorrectedModel& model);
 
 // The faults of all its files are reported together, as those of a data folder.
 Result<ModelFolder> load_model_folder(const std::filesystem::path& folder);
+
+// That a rover is neither the one that the model was made of nor the corrected one: invalid_request at
+// /rover.
+Error not_of_this_rover(const ModelFolder& folder, const std::string& rover);
 
 // The catalogue with the model's rover and soils in it, by their names. Ground that is one of the nominal
 // soils by name, or one of `ground`, is the corrected one. Errors: invalid_request at /ground for a soil that

@@ -1,6 +1,7 @@
 #include "api/request_check.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -46,6 +47,21 @@ void RequestCheck::names(const std::string& terrain, const std::string& rover) {
       add(ErrorCode::kInvalidRequest, "/rover", unknown_name("rover", rover, names_of(catalogue_.rovers)));
     }
   }
+}
+
+void RequestCheck::ground(const std::optional<RequestedModel>& model,
+                          const std::vector<std::string>& of_service) {
+  const std::string place = model ? "/model/ground" : "/ground";
+  if (site_ == nullptr || already_faulty(place)) return;
+  std::vector<std::string> there;
+  for (const dem::SoilClass& row : site_->description().legend)
+    if (row.soil && std::find(there.begin(), there.end(), *row.soil) == there.end())
+      there.push_back(*row.soil);
+  const std::vector<std::string>& named = model ? model->ground : of_service;
+  for (std::size_t i = 0; i < named.size(); ++i)
+    if (std::find(there.begin(), there.end(), named[i]) == there.end())
+      add(ErrorCode::kInvalidRequest, fmt::format("{}/{}", place, i),
+          fmt::format("{} is no soil of this terrain: {}", in_quotes(named[i]), fmt::join(there, ", ")));
 }
 
 void RequestCheck::place(const planner::Waypoint& place, const std::string& pointer) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -19,6 +20,9 @@ class RequestCheck {
   RequestCheck(const Catalogue& catalogue, std::vector<Fault> reader_faults);
 
   void names(const std::string& terrain, const std::string& rover);
+  // Soils that a model is asked to stand in for, by the request's own words or else by the service's: of
+  // these the terrain has to have some.
+  void ground(const std::optional<RequestedModel>& model, const std::vector<std::string>& of_service);
   void place(const planner::Waypoint& place, const std::string& pointer);
   void drive(const DriveAssumptions& drive);
   void crab(double crab_rad);

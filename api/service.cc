@@ -78,6 +78,9 @@ Catalogue Service::catalogue_for(const std::optional<RequestedModel>& model, std
     return catalogue_;
   }
   if (rover == model->corrected->nominal_rover) rover = model->corrected->model.rover.name;
+  if (rover != model->corrected->model.rover.name)
+    for (Fault& fault : not_of_this_rover(*model->corrected, rover).faults)
+      faults.push_back(std::move(fault));
   return *std::move(with);
 }
 
@@ -88,6 +91,7 @@ Result<PlanRequest> Service::read_plan(std::string_view json) const {
   const Catalogue catalogue = catalogue_for(request.drive.model, request.rover, reading->faults);
   RequestCheck check(catalogue, std::move(reading->faults));
   check.names(request.terrain, request.rover);
+  check.ground(request.drive.model, options_.ground);
   check.place(request.start, "/start");
   check.place(request.goal, "/goal");
   for (std::size_t i = 0; i < request.waypoints.size(); ++i) {
@@ -106,6 +110,7 @@ Result<PredictionRequest> Service::read_prediction(std::string_view json) const 
   const Catalogue catalogue = catalogue_for(request.drive.model, request.rover, reading->faults);
   RequestCheck check(catalogue, std::move(reading->faults));
   check.names(request.terrain, request.rover);
+  check.ground(request.drive.model, options_.ground);
   for (std::size_t i = 0; i < request.path.size(); ++i)
     check.place(request.path[i], fmt::format("/path/{}", i));
   check.path_length(request.path);

@@ -38,7 +38,7 @@ constexpr std::array kRows{
              "A data file can't be used as it is; each fault names its place."},
     ErrorRow{ErrorCode::kOffMap, "off_map", 422,
              "The place lies outside the terrain; choose one inside its extent."},
-    ErrorRow{ErrorCode::kNoData, "no_data", 422, "The terrain has no elevation there; choose another place."},
+    ErrorRow{ErrorCode::kNoData, "no_data", 422, "There is no elevation at that place, or no reading to work with; the detail says which."},
     ErrorRow{ErrorCode::kNotConverged, "not_converged", 500,
              "A solver gave up; the detail says which and where. Please report it."},
     ErrorRow{ErrorCode::kCancelled, "cancelled", 409, "The work was dismissed before it ended."},

@@ -1,6 +1,7 @@
 #include "gap/diagnosis.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -25,8 +26,7 @@ namespace {
 
 constexpr std::size_t kLeastDrives = 3, kLeastWindows = 6;
 constexpr int kMostRefittedAgain = 6, kMostPairedAgain = 2, kMostSecondsAgain = 2;
-constexpr std::size_t kMostKept = 6;   // sets of effects that are fitted again
-constexpr double kWorthNaming = 0.05;  // of an effect's probability
+constexpr std::size_t kMostKept = 6;  // sets of effects that are fitted again
 constexpr double kTold = 0.7;  // of a prior deviation: what is left open of a parameter that drives tell of
 constexpr double kSeldom = 0.02;  // of resamples: sets that so few choose are not fitted again
 constexpr double kAlike_deg = 30.0;
@@ -48,6 +48,9 @@ class Diagnoser {
     d_.notes = campaign_.notes;
     for (const sim::Effect& effect : sim::effect_catalogue())
       if (!is_withheld(effect.name)) d_.library.emplace_back(effect.name);
+    if (!options_.search.withheld.empty())
+      d_.notes.push_back(fmt::format("withheld from the library, as was asked: {}",
+                                     fmt::join(options_.search.withheld, ", ")));
     auto prepared = prepare(campaign_, options_.windows, options_.search.threads, progress_);
     if (!prepared) return fail(prepared.error());
     prepared_ = std::move(*prepared);
@@ -74,8 +77,11 @@ class Diagnoser {
     d_.channels = channel_gaps(prepared_, campaign_, prepared_.nominal_residuals, options_);
     if (d_.drives < kLeastDrives || d_.windows < kLeastWindows) {
       d_.verdict = Verdict::kInsufficient;
-      d_.reason = fmt::format("{} drives with {} windows of use are too few to tell causes apart", d_.drives,
-                              d_.windows);
+      d_.reason = fmt::format(
+          "{} drives with {} windows of use (positions and attitudes in two rows at least) are too few to "
+          "tell "
+          "causes apart",
+          d_.drives, d_.windows);
       d_.overturned_by = fmt::format("{} drives and {} windows at least", kLeastDrives, kLeastWindows);
       return std::move(d_);
     }
@@ -277,7 +283,7 @@ class Diagnoser {
     for (const Candidate& c : search_.candidates) {
       if (c.with_unknown || fits.size() >= 4) continue;
       fits.push_back(&search_.fits[c.fit]);
-      probabilities.push_back(std::max(c.probability, kWorthNaming));
+      probabilities.push_back(c.probability);
     }
     d_.next_drives =
         next_drives(campaign_, prepared_.noise->scales(), fits, probabilities, kMostNext, progress_);

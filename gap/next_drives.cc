@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "core/angle.h"
 #include "sim/effect_catalogue.h"
@@ -45,6 +46,26 @@ std::vector<double> outcome(const DriveCampaign& campaign, const ModelState& sta
   return values;
 }
 
+// What an outcome is expected to tell of which of the explanations is true, each a normal of deviation 1 in
+// every direction: a lower bound, never more than their entropy, nothing where none of them is [Kolchinsky & Tracey 2017, section 3, by
+// Bhattacharyya distances].
+double information_bits(const std::vector<std::vector<double>>& outcomes,
+                        std::span<const double> probabilities) {
+  const double all = std::accumulate(probabilities.begin(), probabilities.end(), 0.0);
+  double bits = 0.0;
+  for (std::size_t a = 0; a < outcomes.size(); ++a) {
+    double alike = 0.0;
+    for (std::size_t b = 0; b < outcomes.size(); ++b) {
+      double square = 0.0;
+      for (std::size_t i = 0; i < outcomes[a].size(); ++i)
+        square += std::pow(outcomes[a][i] - outcomes[b][i], 2);
+      alike += probabilities[b] / all * std::exp(-square / 8.0);
+    }
+    bits -= probabilities[a] * std::log2(alike);
+  }
+  return bits;
+}
+
 }  // namespace
 
 std::vector<NextDrive> next_drives(const DriveCampaign& campaign, const NoiseScales& scatter,
@@ -67,19 +88,7 @@ std::vector<NextDrive> next_drives(const DriveCampaign& campaign, const NoiseSca
             outcomes.reserve(states.size());
             for (const ModelState& state : states)
               outcomes.push_back(outcome(campaign, state, scatter, drive));
-            for (std::size_t a = 0; a < outcomes.size(); ++a)
-              for (std::size_t b = a + 1; b < outcomes.size(); ++b) {
-                double square = 0.0;
-                for (std::size_t i = 0; i < outcomes[a].size(); ++i)
-                  square += std::pow(outcomes[a][i] - outcomes[b][i], 2);
-                // Two normals of one deviation, that far apart: the information about which it is saturates
-                // at their entropy.
-                const double pa = probabilities[a] / (probabilities[a] + probabilities[b]);
-                const double entropy =
-                    pa <= 0.0 || pa >= 1.0 ? 0.0 : -pa * std::log2(pa) - (1.0 - pa) * std::log2(1.0 - pa);
-                drive.information_bits +=
-                    (probabilities[a] + probabilities[b]) * entropy * (1.0 - std::exp(-square / 8.0));
-              }
+            drive.information_bits = information_bits(outcomes, probabilities);
             drives.push_back(drive);
           }
   std::stable_sort(drives.begin(), drives.end(), [](const NextDrive& a, const NextDrive& b) {

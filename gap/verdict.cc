@@ -24,7 +24,8 @@ constexpr double kBeyondChance = 2.0;  // standard errors
 // What may be left on held-out drives, over the floor. An effect's equation may be another's: what it leaves
 // is forgiven where it closes this share of the channel's gap.
 constexpr double kLeftOfNothing = 1.25, kLeftBesideEffects = 1.5, kForgiven = 0.5;
-constexpr double kDoubt = 0.9;  // the probability of something unknown that such an answer leaves, at least
+constexpr double kRival = 0.75;  // of an answer's probability: a rival that has as much is alike
+constexpr double kDoubt = 0.9;   // the probability of something unknown that such an answer leaves, at least
 
 constexpr std::string_view kSameLook =
     "an effect of the library with another equation than the library's would look the same";
@@ -56,6 +57,25 @@ std::vector<std::string> names_in(const Candidate& c) {
   return names;
 }
 
+// The most probable set that is not this one, if any.
+const Candidate* rival_of(const ExplanationSearch& search, const std::vector<std::string>& named) {
+  const auto rival = std::find_if(search.candidates.begin(), search.candidates.end(),
+                                  [&](const Candidate& c) { return names_in(c) != named; });
+  return rival == search.candidates.end() ? nullptr : &*rival;
+}
+
+std::string next_best(const Candidate& rival) {
+  const std::vector<std::string> names = names_in(rival);
+  return fmt::format("next best: {} (probability {:.2g})",
+                     names.empty() ? "nothing missing" : fmt::format("{}", fmt::join(names, " and ")),
+                     rival.probability);
+}
+
+// Nearly as probable, and no unknown cause.
+bool alike(const Candidate* rival, double probability) {
+  return rival != nullptr && !rival->with_unknown && rival->probability > kRival * probability;
+}
+
 void judge_without_effects(const DriveCampaign& campaign, const PreparedCampaign& prepared,
                            const ExplanationSearch& search, double probability, std::size_t threads,
                            Diagnosis& d) {
@@ -67,6 +87,10 @@ void judge_without_effects(const DriveCampaign& campaign, const PreparedCampaign
     const EffectVariant::Free& free = s.variant.free.front();
     d.least_detectable.push_back({s.variant.effect, free.field, kSurelySeen * free.std / s.visibility});
   }
+  const Candidate* const rival = rival_of(search, {});
+  const auto or_rival = [&](std::string_view words) {
+    return rival != nullptr ? fmt::format("{}; {}", words, next_best(*rival)) : std::string(words);
+  };
   const double gain = gain_of_parameters(prepared, campaign, threads);
   if (gain > kParametersGain) {
     d.verdict = Verdict::kParameters;
@@ -74,7 +98,7 @@ void judge_without_effects(const DriveCampaign& campaign, const PreparedCampaign
         "re-tuned soil and motor parameters explain the drives (log evidence +{:.0f}); no effect is "
         "missing (probability {:.2f})",
         gain, probability);
-    d.overturned_by = "an effect that acts like these parameters in every drive that was made";
+    d.overturned_by = or_rival("an effect that acts like these parameters in every drive that was made");
     return;
   }
   // Of effects at their usual size, how many could have hidden?
@@ -83,13 +107,21 @@ void judge_without_effects(const DriveCampaign& campaign, const PreparedCampaign
     ++all;
     if (s.visibility * kSmall < kSurelySeen) ++hidden;
   }
-  const bool seen = 2 * hidden < all;
-  d.verdict = seen ? Verdict::kNoGap : Verdict::kNotDetected;
-  d.reason =
-      seen ? fmt::format("prediction and drives agree within the drives' own scatter (probability {:.2f})",
-                         probability)
-           : "no gap was found, but these drives could not have shown effects of half their usual size";
-  d.overturned_by = "drives that show an effect below the least size that these could have shown";
+  d.overturned_by = or_rival("drives that show an effect below the least size that these could have shown");
+  if (alike(rival, probability)) {
+    d.verdict = Verdict::kNotDetected;
+    d.reason = fmt::format("no gap was surely found (probability {:.2f}), but these drives leave more open",
+                           probability);
+  } else if (2 * hidden < all) {
+    d.verdict = Verdict::kNoGap;
+    d.reason = fmt::format(
+        "with parameters re-tuned within what was believed of them, prediction and drives agree within the "
+        "drives' own scatter (probability {:.2f})",
+        probability);
+  } else {
+    d.verdict = Verdict::kNotDetected;
+    d.reason = "no gap was found, but these drives could not have shown effects of half their usual size";
+  }
 }
 
 // The channel of which most is left over its floor, where that is too much; nothing else. Attitudes do not
@@ -182,19 +214,13 @@ void judge(const DriveCampaign& campaign, const PreparedCampaign& prepared, cons
   } else if (chosen.effects.empty()) {
     judge_without_effects(campaign, prepared, search, probability, threads, d);
   } else {
-    d.verdict = probability >= kCertain ? Verdict::kEffects : Verdict::kEffectSet;
+    const Candidate* const rival = rival_of(search, named);
+    d.verdict =
+        probability >= kCertain && !alike(rival, probability) ? Verdict::kEffects : Verdict::kEffectSet;
     d.reason =
         fmt::format("{} explain{} what re-tuned parameters leave over (probability {:.2f})",
                     fmt::join(chosen.effects, " and "), chosen.effects.size() == 1 ? "s" : "", probability);
-    const auto rival = std::find_if(search.candidates.begin(), search.candidates.end(),
-                                    [&](const Candidate& c) { return names_in(c) != named; });
-    if (rival != search.candidates.end()) {
-      const std::vector<std::string> rivals = names_in(*rival);
-      d.overturned_by =
-          fmt::format("next best: {} (probability {:.2g})",
-                      rivals.empty() ? "nothing missing" : fmt::format("{}", fmt::join(rivals, " and ")),
-                      rival->probability);
-    }
+    if (rival != nullptr) d.overturned_by = next_best(*rival);
   }
   if (d.verdict == Verdict::kUnknown && !chosen.effects.empty())
     d.notes.push_back(

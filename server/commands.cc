@@ -137,7 +137,11 @@ Result<Options> with_models_rover(Options options) {
   if (options.ask.model.empty()) return options;
   const auto folder = api::load_model_folder(options.ask.model);
   if (!folder) return fail(folder.error());
-  if (options.drive.rover == folder->nominal_rover) options.drive.rover = folder->model.rover.name;
+  std::string& rover = options.drive.rover;
+  if (rover == folder->nominal_rover) rover = folder->model.rover.name;
+  // A request from a file names its own.
+  if (options.request.empty() && rover != folder->model.rover.name)
+    return fail(api::not_of_this_rover(*folder, rover));
   return options;
 }
 

@@ -113,6 +113,27 @@ TEST(ModelCheck, IsOfDrivesThatWereMade) {
   EXPECT_EQ(of(answer, gap::Channel::kCurrent).rms.down_percent, 0.0);
 }
 
+TEST(ModelCheck, SaysWhereWhatIsCalledAlikeIsAnother) {
+  const auto others = [](const ModelCheckAnswer& answer) {
+    return std::count_if(answer.notes.begin(), answer.notes.end(), [](const std::string& note) {
+      return note.find("has other nominal values") != std::string::npos;
+    });
+  };
+  ModelFolder folder = its_own();
+  folder.rover_digest = digest_of(*campaign().rover);
+  folder.soil_digests = {digest_of(campaign().soils.front())};
+  EXPECT_EQ(others(checked(folder)), 0);
+  sim::RoverModel heavier = *campaign().rover;
+  heavier.drive.max_wheel_rate_rad_s *= 2.0;
+  EXPECT_EQ(digest_of(heavier), folder.rover_digest);
+  heavier.mass_kg *= 2.0;
+  gap::NominalSoil softer = campaign().soils.front();
+  softer.soil.friction_angle_rad *= 0.5;
+  folder.rover_digest = digest_of(heavier);
+  folder.soil_digests = {digest_of(softer)};
+  EXPECT_EQ(others(checked(folder)), 2);
+}
+
 TEST(ModelCheck, NeedsTheModelsRoverAndSoils) {
   ModelFolder other = its_own();
   other.nominal_rover = "rover-of-others";

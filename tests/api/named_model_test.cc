@@ -165,5 +165,16 @@ TEST_F(ANamedModel, IsNamedAndNotGiven) {
   EXPECT_EQ(alone.error().faults.at(0).pointer, "/model/diagnosis");
 }
 
+TEST_F(ANamedModel, IsRefusedForAnotherRoverAndForGroundThatIsNotThere) {
+  add("d1", kDiagnosisKind, document(testing::full_diagnosis(campaign())));
+  std::string request = request_with(naming("d1", R"(,"ground":["jlu_mars_3_loose"])"));
+  request.replace(request.find("mer-class"), 9, "msl-class");
+  const auto refused = recorded(request);
+  ASSERT_FALSE(refused);
+  std::vector<std::string> places;
+  for (const Fault& fault : refused.error().faults) places.push_back(fault.pointer);
+  EXPECT_EQ(places, (std::vector<std::string>{"/rover", "/model/ground/0"}));
+}
+
 }  // namespace
 }  // namespace slipway::api
