@@ -65,11 +65,20 @@ std::uint64_t digest_of_file(const fs::path& path, std::uint64_t digest) {
   return digest;
 }
 
+// "campaign.json, line 12, column 3 (/rover): ..."
+std::string with_place(std::string_view document, const std::string& pointer, const std::string& message) {
+  const json::TextPlace place = json::place_of(document, pointer);
+  return fmt::format("{}, line {}, column {} ({}): {}", kDocument, place.line, place.column,
+                     pointer.empty() ? "all of it" : pointer, message);
+}
+
 class Loader {
  public:
   Loader(const fs::path& folder, std::string_view document, json::DriveCampaignFile file)
       : folder_(folder), document_(document), file_(std::move(file)), digest_(campaign::digest_of(document)) {
     for (const Fault& fault : file_.faults) add(fault.pointer, fault.message);
+    if (!file_.rover) return;  // then columns of wheels are passed over, with the fault that says why
+    for (const sim::WheelModel& wheel : file_.rover->wheels) wheels_.push_back(wheel.name);
   }
 
   Result<gap::DriveCampaign> load() {
@@ -81,8 +90,8 @@ class Loader {
     campaign_.notes = file_.notes;
     for (const json::CampaignTerrainEntry& entry : file_.terrains) read_terrain(entry);
     for (json::CampaignDriveEntry& entry : file_.drives) read_drive(entry);
-    note_columns();
     if (!faults_.empty()) return fail(ErrorCode::kUnreadableData, summary_of(faults_), faults_);
+    note_columns();
     json::Writer rover;
     json::write_rover(rover, *campaign_.rover);
     campaign_.fingerprint = fmt::format("{:016x}", campaign::digest_of(rover.take(), digest_));
@@ -97,10 +106,7 @@ class Loader {
   };
 
   void add(const std::string& pointer, const std::string& message) {
-    const json::TextPlace place = json::place_of(document_, pointer);
-    faults_.push_back({fmt::format("{}#{}", kDocument, pointer),
-                       fmt::format("{}, line {}, column {} ({}): {}", kDocument, place.line, place.column,
-                                   pointer.empty() ? "all of it" : pointer, message)});
+    faults_.push_back({fmt::format("{}#{}", kDocument, pointer), with_place(document_, pointer, message)});
   }
 
   std::size_t soil_index(const std::string& name) const {
@@ -172,8 +178,7 @@ class Loader {
     const auto bytes = path ? read_data_file(*path) : Result<std::string>(fail(path.error()));
     if (!bytes) return add(entry.pointer + "/file", bytes.error().detail);
     digest_ = campaign::digest_of(*bytes, digest_);
-    if (!campaign_.rover) return;  // whose wheels name the columns
-    DriveSeries series = read_drive_series(*bytes, entry.file, *campaign_.rover, kMostRows - rows_);
+    DriveSeries series = read_drive_series(*bytes, entry.file, wheels_, kMostRows - rows_);
     rows_ += series.samples.size();
     faults_.insert(faults_.end(), series.faults.begin(), series.faults.end());
     passed_over_.merge(series.passed_over);
@@ -193,6 +198,9 @@ class Loader {
     std::vector<std::string> names(passed_over_.begin(), passed_over_.end());
     const std::size_t more = names.size() > kMostNamed ? names.size() - kMostNamed : 0;
     names.resize(names.size() - more);
+    for (std::string& name : names)
+      if (const auto meant = column_meant(name, wheels_))
+        name += fmt::format(" (did you mean \"{}\"?)", *meant);
     campaign_.notes.push_back(fmt::format("columns that the format does not have were passed over: {}{}",
                                           fmt::join(names, ", "),
                                           more > 0 ? fmt::format(" and {} more", more) : ""));
@@ -201,6 +209,7 @@ class Loader {
   const fs::path& folder_;
   std::string_view document_;  // the bytes of campaign.json
   json::DriveCampaignFile file_;
+  std::vector<std::string> wheels_;  // the names of the rover's
   std::uint64_t digest_;
   std::map<fs::path, Elevation> elevations_;
   long long cells_ = 0;
@@ -210,23 +219,48 @@ class Loader {
   gap::DriveCampaign campaign_;
 };
 
+// Where campaign.json is, or why nothing is to be had from what was given as its folder.
+Result<fs::path> document_in(const fs::path& folder) {
+  std::error_code error;
+  const std::string name = folder.string();
+  if (!fs::exists(folder, error))
+    return fail(ErrorCode::kUnreadableData,
+                fmt::format("there is no folder \"{}\", or it may not be read", name));
+  if (!fs::is_directory(folder, error))
+    return fail(
+        ErrorCode::kUnreadableData,
+        fmt::format("\"{}\" is no folder: a campaign is the folder that {} lies in", name, kDocument));
+  if (fs::symlink_status(folder / kDocument, error).type() == fs::file_type::not_found)
+    return fail(ErrorCode::kUnreadableData,
+                fmt::format("there is no {} in the folder \"{}\"", kDocument, name));
+  return place_in(folder, std::string(kDocument));
+}
+
+// Of a campaign.json that is no document. Faults of syntax say their line and column themselves.
+Error refused_document(std::string_view bytes, const Error& why) {
+  std::vector<Fault> faults = why.faults;
+  if (faults.empty()) faults.push_back({"", fmt::format("{}: {}", kDocument, why.detail)});
+  for (Fault& fault : faults) {
+    if (fault.message.starts_with("line "))
+      fault.message = fmt::format("{}, {}", kDocument, fault.message);
+    else if (!why.faults.empty())
+      fault.message = with_place(bytes, fault.pointer, fault.message);
+  }
+  return {ErrorCode::kUnreadableData, summary_of(faults), moved_under(fmt::format("{}#", kDocument), faults)};
+}
+
 }  // namespace
 
 Result<gap::DriveCampaign> load_drive_campaign(const fs::path& folder, const Catalogue& catalogue) {
   const std::string document(kDocument);
-  const auto path = place_in(folder, document);
+  const auto path = document_in(folder);
   if (!path)
     return fail(ErrorCode::kUnreadableData, path.error().detail, {{document + "#", path.error().detail}});
   const auto bytes = read_data_file(*path);
   if (!bytes)
     return fail(ErrorCode::kUnreadableData, bytes.error().detail, {{document + "#", bytes.error().detail}});
   auto file = json::read_drive_campaign_file(*bytes, catalogue);
-  if (!file) {
-    std::vector<Fault> faults = moved_under(document + "#", file.error().faults);
-    if (faults.empty()) faults.push_back({document + "#", file.error().detail});
-    for (Fault& fault : faults) fault.message = fmt::format("{}: {}", fault.pointer, fault.message);
-    return fail(ErrorCode::kUnreadableData, summary_of(faults), faults);
-  }
+  if (!file) return fail(refused_document(*bytes, file.error()));
   auto campaign = Loader(folder, *bytes, std::move(*file)).load();
   if (!campaign) return campaign;
   gap::adopt_measured_rates(*campaign);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -84,11 +85,16 @@ std::string shown(std::string_view text) {
   return in_quotes(printable(text));
 }
 
+// "lf" of "lf_rate_deg_s"; "" where the column is not of this kind.
+std::string_view wheel_in(std::string_view name, const Channel& channel) {
+  if (name.size() < channel.name.size() + 2 || !name.ends_with(channel.name)) return {};
+  const std::string_view wheel = name.substr(0, name.size() - channel.name.size() - 1);
+  return name[wheel.size()] == '_' ? wheel : std::string_view();
+}
+
 class Reader {
  public:
-  Reader(const std::string& file, const sim::RoverModel& rover) : file_(file), rover_(rover) {
-    for (const sim::WheelModel& wheel : rover.wheels) wheels_.push_back(wheel.name);
-  }
+  Reader(const std::string& file, const std::vector<std::string>& wheels) : file_(file), wheels_(wheels) {}
 
   DriveSeries read(std::string_view bytes, std::size_t most_rows) {
     const std::vector<CsvLine> lines = csv_lines(bytes);
@@ -133,7 +139,10 @@ class Reader {
     line_ = line.number;
     for (const std::string_view name : csv_cells(line.text)) columns_.push_back({std::string(name)});
     places_.fill(kNowhere);
-    for (std::size_t c = 0; c < columns_.size(); ++c) read_column(c);
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      read_column(c);
+      numbers_before_.push_back(numbers_before_.back() + (columns_[c].channel != nullptr ? 1 : 0));
+    }
     if (places_[kTime] == kNowhere) fault(line_, 0, "there is no column t_s, which every file must have");
     for (const Group& group : kGroups) check_columns(group);
   }
@@ -154,21 +163,12 @@ class Reader {
   }
 
   bool is_wheel_column(std::size_t c) {
-    const std::string_view name = columns_[c].name;
     for (const Channel& channel : kWheelChannels) {
-      if (name.size() < channel.name.size() + 2 || !name.ends_with(channel.name)) continue;
-      const std::string_view wheel = name.substr(0, name.size() - channel.name.size() - 1);
-      if (name[wheel.size()] != '_') continue;
+      const std::string_view wheel = wheel_in(columns_[c].name, channel);
       const auto at = std::find(wheels_.begin(), wheels_.end(), wheel);
-      if (at != wheels_.end()) {
-        columns_[c].channel = &channel;
-        columns_[c].wheel = static_cast<std::size_t>(at - wheels_.begin());
-        return true;
-      }
-      // "yaw_rate_deg_s" and "bus_current_a" are nobody's wheel; two letters are meant as one.
-      if (wheel.size() > 2 && !(wheel.size() > 4 && nearest(wheel, wheels_))) return false;
-      fault(line_, c,
-            fmt::format("{} is no wheel of the rover, which has {}", shown(wheel), fmt::join(wheels_, ", ")));
+      if (wheel.empty() || at == wheels_.end()) continue;
+      columns_[c].channel = &channel;
+      columns_[c].wheel = static_cast<std::size_t>(at - wheels_.begin());
       return true;
     }
     return false;
@@ -192,31 +192,53 @@ class Reader {
   void read_row(const CsvLine& line) {
     line_ = line.number;
     const std::vector<std::string_view> cells = csv_cells(line.text);
-    if (cells.size() != columns_.size())
-      return fault(
-          line_, std::min(cells.size(), columns_.size()),
-          fmt::format("the row has {} cells, must have {} as the header", cells.size(), columns_.size()));
+    if (cells.size() != columns_.size()) return read_torn_row(cells);
     gap::DriveSample sample;
-    sample.wheels = sim::PerWheel<gap::WheelReading>(rover_.wheels.size());
-    for (std::size_t c = 0; c < cells.size(); ++c) read_cell(c, cells[c], sample);
-    if (places_[kTime] != kNowhere && !cells[places_[kTime]].empty()) check_time(sample.time_s);
+    sample.wheels = sim::PerWheel<gap::WheelReading>(wheels_.size());
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      if (read_cell(c, cells[c], sample) && c == places_[kTime]) check_time(sample.time_s);
     for (const Group& group : kGroups) check_cells(group, cells);
     series_.samples.push_back(sample);
   }
 
-  void read_cell(std::size_t c, std::string_view cell, gap::DriveSample& sample) {
+  // A row with too few or too many cells. A cell may belong to a column as far away as cells are too few or
+  // too many: it is told where it would be no number in any of them.
+  void read_torn_row(std::span<const std::string_view> cells) {
+    const std::size_t columns = columns_.size();
+    fault(line_, std::min(cells.size(), columns),
+          fmt::format("the row has {} cells, must have {} as the header", cells.size(), columns));
+    if (cells.size() < 2) return;  // other separators
+    const std::size_t lacking = columns - std::min(cells.size(), columns);
+    const std::size_t excess = cells.size() - std::min(cells.size(), columns);
+    for (std::size_t c = 0; c < std::min(cells.size(), columns); ++c) {
+      const std::size_t first = c - std::min(c, excess), end = c + lacking + 1;
+      if (numbers_before_[end] - numbers_before_[first] == end - first && !cells[c].empty())
+        number_in(c, cells[c]);
+    }
+  }
+
+  std::optional<double> number_in(std::size_t c, std::string_view cell) {
+    const std::optional<double> value = csv_number(cell);
+    if (!value) fault(line_, c, shown(cell) + " is no finite number");
+    return value;
+  }
+
+  // Whether there was a value, and it was good.
+  bool read_cell(std::size_t c, std::string_view cell, gap::DriveSample& sample) {
     const Channel* const channel = columns_[c].channel;
-    if (channel == nullptr) return;
+    if (channel == nullptr) return false;
     if (cell.empty()) {
       if (channel == &kChannels[kTime]) fault(line_, c, "the cell is empty: every row has its time");
-      return;
+      return false;
     }
-    const std::optional<double> value = csv_number(cell);
-    if (!value) return fault(line_, c, shown(cell) + " is no finite number");
-    if (*value < channel->lowest || *value > channel->highest)
-      return fault(line_, c,
-                   fmt::format("{}, must be in [{}, {}]", *value, channel->lowest, channel->highest));
+    const std::optional<double> value = number_in(c, cell);
+    if (!value) return false;
+    if (*value < channel->lowest || *value > channel->highest) {
+      fault(line_, c, fmt::format("{}, must be in [{}, {}]", *value, channel->lowest, channel->highest));
+      return false;
+    }
     channel->set(sample, columns_[c].wheel, *value);
+    return true;
   }
 
   void check_time(double time_s) {
@@ -245,9 +267,9 @@ class Reader {
   }
 
   const std::string& file_;
-  const sim::RoverModel& rover_;
-  std::vector<std::string> wheels_;
+  const std::vector<std::string>& wheels_;
   std::vector<Column> columns_;
+  std::vector<std::size_t> numbers_before_{0};          // how many columns before each have a channel
   std::array<std::size_t, kChannels.size()> places_{};  // the column of each channel
   std::size_t line_ = 0;
   std::optional<double> last_time_s_;
@@ -257,9 +279,28 @@ class Reader {
 
 }  // namespace
 
-DriveSeries read_drive_series(std::string_view bytes, const std::string& file, const sim::RoverModel& rover,
-                              std::size_t most_rows) {
-  return Reader(file, rover).read(bytes, most_rows);
+DriveSeries read_drive_series(std::string_view bytes, const std::string& file,
+                              const std::vector<std::string>& wheels, std::size_t most_rows) {
+  return Reader(file, wheels).read(bytes, most_rows);
+}
+
+std::optional<std::string> column_meant(std::string_view name, const std::vector<std::string>& wheels) {
+  std::string lower(name);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::vector<std::string> known;
+  for (const Channel& channel : kChannels) known.emplace_back(channel.name);
+  for (const Channel& channel : kWheelChannels) {
+    if (const std::string_view wheel = wheel_in(lower, channel); !wheel.empty()) {
+      // "yaw_rate_deg_s" and "bus_current_a" are nobody's wheel; two letters are meant as one.
+      const auto meant = nearest(wheel, wheels);
+      const bool alike = meant && wheel.find_first_of(*meant) != std::string_view::npos;
+      if (!alike || wheel.size() == 3 || wheel.size() == 4) return std::nullopt;
+      return fmt::format("{}_{}", *meant, channel.name);
+    }
+    for (const std::string& wheel : wheels) known.push_back(fmt::format("{}_{}", wheel, channel.name));
+  }
+  return nearest(lower, known);
 }
 
 }  // namespace slipway::api

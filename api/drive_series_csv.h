@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -8,7 +9,6 @@
 
 #include "core/result.h"
 #include "gap/drive_campaign.h"
-#include "sim/rover_model.h"
 
 namespace slipway::api {
 
@@ -18,9 +18,12 @@ struct DriveSeries {
   std::vector<Fault> faults;          // at "D001.csv#/12/x_m"; the message has line and column in words
 };
 
-// Reads a drive's CSV of a "drive-campaign/1". `file` is what faults call it. At most most_rows are read:
-// more are a fault.
-DriveSeries read_drive_series(std::string_view bytes, const std::string& file, const sim::RoverModel& rover,
-                              std::size_t most_rows);
+// Reads a drive's CSV of a "drive-campaign/1". `file` is what faults call it, `wheels` the names of the
+// rover's: columns of other wheels are passed over. At most most_rows are read: more are a fault.
+DriveSeries read_drive_series(std::string_view bytes, const std::string& file,
+                              const std::vector<std::string>& wheels, std::size_t most_rows);
+
+// The column of the format that one which was passed over was probably meant to be.
+std::optional<std::string> column_meant(std::string_view name, const std::vector<std::string>& wheels);
 
 }  // namespace slipway::api

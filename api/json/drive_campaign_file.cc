@@ -101,6 +101,7 @@ void read_soils(ObjectReader& reader, DriveCampaignFile& file) {
 void check_soil_name(ObjectReader& reader, std::string_view key, const std::string& name,
                      const DriveCampaignFile& file) {
   const std::vector<std::string> known = names_in(file.soils);
+  if (known.empty()) return;  // which was told
   if (std::find(known.begin(), known.end(), name) == known.end())
     reader.fault(key, unknown_name("soil", name, known));
 }
@@ -143,7 +144,9 @@ void read_terrain_soil(ObjectReader& reader, CampaignTerrainEntry& terrain, cons
 void read_terrains(ObjectReader& reader, DriveCampaignFile& file) {
   auto object = reader.object("terrains", kRequired);
   if (!object) return;
-  for (const std::string& name : reader.member("terrains", kRequired)->keys) {
+  const JsonValue& values = *reader.member("terrains", kRequired);
+  if (values.keys.empty()) reader.fault("terrains", "terrains names no terrain, must name one at least");
+  for (const std::string& name : values.keys) {
     CampaignTerrainEntry& terrain = file.terrains.emplace_back();
     terrain.name = name;
     terrain.pointer = child_pointer(object->pointer(), name);
@@ -185,12 +188,13 @@ void read_command(ObjectReader& drive, const sim::RoverModel* rover, gap::Measur
   std::optional<double> turn_rate_rad_s;
   const bool has_speed = object->number("speed_m_s", kRequired, {"m/s", -5.0, 5.0}, speed_m_s);
   object->number("curvature_1_m", kRequired, {"1/m", -100.0, 100.0}, command.curvature_1_m);
-  object->boolean("turn_in_place", kRequired, command.turn_in_place);
+  const bool has_turning = object->boolean("turn_in_place", kRequired, command.turn_in_place);
   object->number("duration_s", kRequired, {"s", 0.0, 1e7, true}, out.duration_s);
   // Keys that campaigns made here have besides those of the format.
   object->angle_deg("turn_rate_deg_s", kOptional, {"deg/s", -360.0, 360.0}, turn_rate_rad_s);
   object->angle_deg("crab_deg", kOptional, {"deg", -90.0, 90.0}, command.crab_rad);
   object->refuse_unknown();
+  if (!has_turning) return;
   if (!command.turn_in_place) {
     if (has_speed && speed_m_s == 0.0)
       object->fault("speed_m_s", "speed_m_s = 0 m/s, must be another where the rover does not turn in place");
@@ -209,7 +213,7 @@ void read_command(ObjectReader& drive, const sim::RoverModel* rover, gap::Measur
 // Index into the terrains; 0 with a fault where there is none of the name.
 std::size_t terrain_index(ObjectReader& drive, const DriveCampaignFile& file) {
   std::string name;
-  if (!drive.text("terrain", kRequired, {}, name)) return 0;
+  if (!drive.text("terrain", kRequired, {}, name) || file.terrains.empty()) return 0;  // which was told
   std::vector<std::string> known;
   for (std::size_t t = 0; t < file.terrains.size(); ++t) {
     if (file.terrains[t].name == name) return t;
@@ -219,40 +223,50 @@ std::size_t terrain_index(ObjectReader& drive, const DriveCampaignFile& file) {
   return 0;
 }
 
+// A repeat may stand before what it repeats. ids: of all drives; where one could not be read, it may be the
+// one that is repeated.
+void check_repeats(const std::map<std::string, std::size_t>& ids, bool all_read, DriveCampaignFile& file) {
+  for (const CampaignDriveEntry& entry : file.drives) {
+    if (!entry.drive.repeat_of) continue;
+    const std::string& other = *entry.drive.repeat_of;
+    const std::string at = child_pointer(entry.pointer, "repeat_of");
+    if (other == entry.drive.id)
+      file.faults.push_back({at, fmt::format("repeat_of = {} is the drive itself", in_quotes(other))});
+    else if (all_read && !ids.contains(other))
+      file.faults.push_back(
+          {at, fmt::format("repeat_of = {}, there is no drive of this id", in_quotes(other))});
+  }
+}
+
 void read_drives(ObjectReader& reader, DriveCampaignFile& file) {
   std::map<std::string, std::size_t> first_with, first_of_file;
+  bool all_ids = true;
   for (const Element& element : reader.list("drives", kRequired, {1, kMostDrives})) {
     ObjectReader object = reader.object(element);
+    all_ids = all_ids && object.is_object();
     if (!object.is_object()) continue;
     CampaignDriveEntry& entry = file.drives.emplace_back();
     entry.pointer = element.pointer;
     const std::size_t index = file.drives.size() - 1;
     gap::MeasuredDriveSeries& drive = entry.drive;
-    if (object.text("id", kRequired, {}, drive.id))
-      if (const auto [first, is_new] = first_with.emplace(drive.id, index); !is_new)
-        object.fault("id", fmt::format("id = {} is that of {} as well", in_quotes(drive.id),
-                                       file.drives[first->second].pointer));
+    if (!object.text("id", kRequired, {}, drive.id))
+      all_ids = false;
+    else if (const auto [first, is_new] = first_with.emplace(drive.id, index); !is_new)
+      object.fault("id", fmt::format("id = {} is that of {} as well", in_quotes(drive.id),
+                                     file.drives[first->second].pointer));
     if (object.text("file", kRequired, {.most = 300}, entry.file))
-      if (const auto [first, is_new] = first_of_file.emplace(entry.file, index); !is_new)
+      if (const auto [first, is_new] = first_of_file.emplace(entry.file, index); !is_new) {
         object.fault("file", fmt::format("file = {} is that of {} as well", in_quotes(entry.file),
                                          file.drives[first->second].pointer));
+        entry.file.clear();  // its faults are told once
+      }
     drive.terrain = terrain_index(object, file);
     read_command(object, file.rover.get(), drive);
     if (std::string other; object.text("repeat_of", kOptional, {}, other)) drive.repeat_of = other;
     object.boolean("final_only", kOptional, drive.final_only);
     object.refuse_unknown();
   }
-  // A repeat may stand before what it repeats.
-  for (const CampaignDriveEntry& entry : file.drives) {
-    if (!entry.drive.repeat_of) continue;
-    const std::string& other = *entry.drive.repeat_of;
-    const std::string at = child_pointer(entry.pointer, "repeat_of");
-    if (!first_with.contains(other))
-      file.faults.push_back(
-          {at, fmt::format("repeat_of = {}, there is no drive of this id", in_quotes(other))});
-    else if (other == entry.drive.id)
-      file.faults.push_back({at, fmt::format("repeat_of = {} is the drive itself", in_quotes(other))});
-  }
+  check_repeats(first_with, all_ids, file);
 }
 
 // "/drives/17/weather" -> "/drives/*/weather": once for all elements of a list.

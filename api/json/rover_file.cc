@@ -24,6 +24,8 @@ constexpr std::size_t kMostSources = 50;
 const std::vector<std::string_view> kWheelDrives{"driven", "locked", "free"};
 const std::vector<std::string_view> kSuspensions{"rocker_bogie", "averaging", "rigid"};
 
+constexpr std::array<std::string_view, 6> kUsualWheels{"lf", "lm", "lr", "rf", "rm", "rr"};
+
 bool read_point(ObjectReader& reader, std::string_view key, Eigen::Vector3d& out) {
   std::vector<double> xyz;
   if (!reader.numbers(key, kRequired, {3, 3}, kBodyMetres, xyz)) return false;
@@ -43,8 +45,7 @@ std::optional<sim::Grousers> read_grousers(ObjectReader& reader) {
 
 // The usual names say the side; of other wheels their place does.
 sim::Side side_of(const sim::WheelModel& wheel) {
-  constexpr std::array<std::string_view, 6> kUsual{"lf", "lm", "lr", "rf", "rm", "rr"};
-  const bool usual = std::find(kUsual.begin(), kUsual.end(), wheel.name) != kUsual.end();
+  const bool usual = std::find(kUsualWheels.begin(), kUsualWheels.end(), wheel.name) != kUsualWheels.end();
   const bool right = usual ? wheel.name.starts_with('r') : wheel.position_m.y() < 0.0;
   return right ? sim::Side::kRight : sim::Side::kLeft;
 }
@@ -173,12 +174,28 @@ void assume_body(sim::RoverModel& rover) {
   rover.min_turn_radius_m = rover.track_m();
 }
 
+// Each name that a wheel of a rocker-bogie can't have: without its wheels all that is asked of it would fail.
+void check_wheel_names(ObjectReader& reader, const sim::RoverModel& rover) {
+  if (rover.suspension.type != sim::SuspensionType::kRockerBogie) return;
+  std::vector<std::string> left(kUsualWheels.begin(), kUsualWheels.end());
+  if (rover.wheels.size() != left.size()) return;
+  for (std::size_t k = 0; k < rover.wheels.size(); ++k) {
+    const std::string& name = rover.wheels[k].name;
+    if (std::erase(left, name) == 1) continue;
+    const bool usual = std::find(kUsualWheels.begin(), kUsualWheels.end(), name) != kUsualWheels.end();
+    reader.faults().push_back(
+        {fmt::format("{}/wheels/{}/name", reader.pointer(), k),
+         fmt::format("name = {} {}", in_quotes(name),
+                     usual ? "is another wheel's"
+                           : "is no wheel of a rocker_bogie, which has lf, lm, lr, rf, rm, rr")});
+  }
+}
+
 // A rocker-bogie's wheels are in one order everywhere.
 void sort_wheels(sim::RoverModel& rover) {
-  constexpr std::array<std::string_view, 6> kOrder{"lf", "lm", "lr", "rf", "rm", "rr"};
   if (rover.suspension.type != sim::SuspensionType::kRockerBogie) return;
   const auto place = [&](const sim::WheelModel& wheel) {
-    return std::find(kOrder.begin(), kOrder.end(), wheel.name) - kOrder.begin();
+    return std::find(kUsualWheels.begin(), kUsualWheels.end(), wheel.name) - kUsualWheels.begin();
   };
   std::stable_sort(rover.wheels.begin(), rover.wheels.end(),
                    [&](const sim::WheelModel& a, const sim::WheelModel& b) { return place(a) < place(b); });
@@ -305,6 +322,7 @@ sim::RoverModel read_campaign_rover(ObjectReader& reader) {
   read_wheels(reader, rover);
   read_suspension(reader, rover);
   read_motor(reader, "drive", kRequired, rover.drive);
+  if (reader.faults().size() == before) check_wheel_names(reader, rover);
   if (reader.faults().size() == before) {
     sort_wheels(rover);
     assume_body(rover);

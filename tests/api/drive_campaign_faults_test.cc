@@ -11,78 +11,18 @@
 #include "core/angle.h"
 #include "core/random.h"
 #include "dem/geotiff.h"
-#include "small_world.h"
+#include "drive_campaign_folder.h"
 
 namespace slipway::api {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::DriveCampaignFolder;
 using testing::file_bytes;
+using testing::kDocument;
+using testing::kHeader;
+using testing::kRows;
 using testing::write_file;
-
-const std::string kDocument = R"({
- "format": "drive-campaign/1", "name": "small", "gravity_m_s2": 3.71,
- "rover": {"name": "Four Wheels", "mass_kg": 60, "com_m": [0, 0, 0.3],
-  "wheels": [
-   {"name": "lf", "position_m": [0.4, 0.3, 0.1], "radius_m": 0.1, "width_m": 0.1, "steerable": true},
-   {"name": "lr", "position_m": [-0.4, 0.3, 0.1], "radius_m": 0.1, "width_m": 0.1, "steerable": true},
-   {"name": "rf", "position_m": [0.4, -0.3, 0.1], "radius_m": 0.1, "width_m": 0.1, "steerable": true},
-   {"name": "rr", "position_m": [-0.4, -0.3, 0.1], "radius_m": 0.1, "width_m": 0.1, "steerable": true}],
-  "suspension": {"type": "averaging", "rocker_pivot_m": [0, 0.25, 0.3]},
-  "drive": {"torque_constant_nm_per_a": 0.02, "gear_ratio": 1000, "gear_efficiency": 0.6,
-            "no_load_current_a": 0.05, "max_wheel_rate_deg_s": 60, "bus_voltage_v": 28}},
- "soils": {"sand": {"k_c": 1000, "k_phi": 900000, "n": 1, "cohesion_pa": 500, "friction_angle_deg": 33,
-                    "shear_modulus_x_m": 0.02}},
- "terrains": {"level": {"dem": "level.tif", "soil": "sand"}},
- "measurement_std": {"position_m": 0.01, "attitude_deg": 0.2, "current_rel": 0.02, "current_a": 0.01,
-                     "sinkage_m": 0.002},
- "drives": [
-  {"id": "a", "file": "a.csv", "terrain": "level",
-   "commanded": {"speed_m_s": -0.05, "curvature_1_m": 0.2, "turn_in_place": false, "duration_s": 4}},
-  {"id": "b", "file": "b.csv", "terrain": "level", "repeat_of": "a",
-   "commanded": {"speed_m_s": -0.05, "curvature_1_m": 0, "turn_in_place": true, "duration_s": 4}}]})";
-
-const std::string kHeader = "t_s,x_m,y_m,z_m,lf_current_a,sky\n";
-const std::string kRows = "0,1,2,0.5,0.25,blue\n2,1.1,2,0.5,,\n";
-
-class DriveCampaignFolder : public ::testing::Test {
- protected:
-  DriveCampaignFolder() {
-    write("campaign.json", kDocument);
-    write("a.csv", kHeader + kRows);
-    write("b.csv", "t_s\n0\n1\n");
-    fs::copy_file(fs::path(SLIPWAY_DATA_FOLDER) / "gap-practice/p01/tilt_00.tif", path() / "level.tif");
-  }
-  const fs::path& path() const { return folder_.path(); }
-  void write(const std::string& file, const std::string& bytes) const { write_file(path() / file, bytes); }
-  // The document with `before`, which it holds once, made into `after`.
-  void edit(const std::string& before, const std::string& after) const {
-    std::string text = kDocument;
-    const std::size_t at = text.find(before);
-    ASSERT_NE(at, std::string::npos) << before;
-    write("campaign.json", text.replace(at, before.size(), after));
-  }
-  Result<gap::DriveCampaign> load() const { return load_drive_campaign(path(), Catalogue{}); }
-  // Some fault is at the pointer and has the words in it.
-  void expect_fault(const std::string& pointer, const std::string& words) const {
-    const auto campaign = load();
-    ASSERT_FALSE(campaign) << "loads, in spite of: " << words;
-    const auto& faults = campaign.error().faults;
-    const bool told = std::any_of(faults.begin(), faults.end(), [&](const Fault& fault) {
-      return fault.pointer == pointer && fault.message.find(words) != std::string::npos;
-    });
-    std::string all;
-    for (const Fault& fault : faults) all += "\n  " + fault.pointer + "  " + fault.message;
-    EXPECT_TRUE(told) << pointer << "  " << words << "\nis not among:" << all;
-  }
-  void expect_csv_fault(const std::string& bytes, const std::string& pointer,
-                        const std::string& words) const {
-    write("a.csv", bytes);
-    expect_fault("a.csv#" + pointer, words);
-  }
-
-  testing::ScratchFolder folder_;
-};
 
 TEST_F(DriveCampaignFolder, AsItIsItLoadsAndSaysWhatWasPassedOver) {
   const auto campaign = load();
@@ -154,8 +94,6 @@ TEST_F(DriveCampaignFolder, FaultsOfADrivesFileHaveLineAndColumn) {
                    "column 5 (lf_current_a): 1000000, must be in");
   expect_csv_fault("t_s,roll_deg,yaw_deg\n0,0,0\n1,0,0\n", "/1/roll_deg", "but no column pitch_deg");
   expect_csv_fault("t_s,x_m,y_m\n0,0,0\n1,0,0\n", "/1/x_m", "there is x_m, y_m, but no column z_m");
-  expect_csv_fault("t_s,lm_rate_deg_s\n0,0\n1,0\n", "/1/lm_rate_deg_s",
-                   "column 2 (lm_rate_deg_s): \"lm\" is no wheel of the rover, which has lf, lr, rf, rr");
   expect_csv_fault("t_s\n0\n\xFF\xFE\n", "/3/t_s", "\"??\" is no finite number");
 }
 
@@ -171,7 +109,14 @@ TEST_F(DriveCampaignFolder, WhatOthersWriteIsRead) {
 
 TEST_F(DriveCampaignFolder, FaultsOfTheDocumentHaveTheirPointer) {
   write("campaign.json", "{\n \"format\": }");
-  expect_fault("campaign.json#", "campaign.json#: line 2, column 12");
+  expect_fault("campaign.json#", "campaign.json, line 2, column 12: ");
+  edit("\"gravity_m_s2\": 3.71,", "\"gravity_m_s2\": 3.71, \"name\": \"again\",");
+  expect_fault("campaign.json#/name",
+               "campaign.json, line 2, column 40 (/name): key \"name\" is given twice");
+  write("campaign.json", "[1,\n  " + std::string(80, '[') + std::string(80, ']') + "]");
+  std::string deep = "/1";
+  for (int level = 0; level < 62; ++level) deep += "/0";
+  expect_fault("campaign.json#" + deep, "campaign.json, line 2, column 65 (" + deep + "): nested deeper");
   edit("\"terrain\": \"level\", \"repeat_of\"", "\"terrain\": \"hill\", \"repeat_of\"");
   expect_fault("campaign.json#/drives/1/terrain", "unknown terrain \"hill\"");
   edit("\"id\": \"b\"", "\"id\": \"a\"");
@@ -194,8 +139,30 @@ TEST_F(DriveCampaignFolder, FaultsOfTheDocumentHaveTheirPointer) {
   expect_fault("campaign.json#/soils/sand/k_phi", "k_c / b + k_phi");
   edit("\"com_m\": [0, 0, 0.3]", "\"com_m\": [2, 0, 0.3]");
   expect_fault("campaign.json#/rover/com_m", "com_m lies outside the wheels");
-  fs::remove(path() / "campaign.json");
-  expect_fault("campaign.json#", "\"campaign.json\" does not exist");
+}
+
+TEST_F(DriveCampaignFolder, AFolderThatIsNoneIsNamedAsItWasGiven) {
+  const auto detail_of = [](const fs::path& folder) {
+    return load_drive_campaign(folder, Catalogue{}).error().detail;
+  };
+  EXPECT_EQ(detail_of("nothere"), "there is no folder \"nothere\", or it may not be read");
+  const fs::path document = path() / "campaign.json";
+  EXPECT_EQ(detail_of(document), "\"" + document.string() +
+                                     "\" is no folder: a campaign is the folder that campaign.json lies in");
+  fs::remove(document);
+  expect_fault("campaign.json#", "there is no campaign.json in the folder \"" + path().string() + "\"");
+}
+
+TEST_F(DriveCampaignFolder, ColumnsOfWheelsThatTheRoverDoesNotHaveArePassedOver) {
+  write("a.csv",
+        "t_s,l1_motor_temp_c,LR_current_a,zz_steer_deg,yaw_rate_deg_s,bus_voltage\n0,x,,1,1,1\n1,x,,1,1,1\n");
+  const auto campaign = load();
+  ASSERT_TRUE(campaign) << campaign.error().detail;
+  EXPECT_EQ(
+      campaign->notes.back(),
+      "columns that the format does not have were passed over: LR_current_a (did you mean "
+      "\"lr_current_a\"?), bus_voltage (did you mean \"bus_voltage_v\"?), l1_motor_temp_c (did you mean "
+      "\"lf_motor_temp_c\"?), yaw_rate_deg_s, zz_steer_deg");
 }
 
 TEST_F(DriveCampaignFolder, NothingOutsideTheFolderIsRead) {
