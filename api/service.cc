@@ -240,12 +240,16 @@ Result<PredictionAnswer> Service::predict(const PredictionRequest& request, Prog
   return answer;
 }
 
+Result<gap::DriveCampaign> Service::shipped_drives(const std::string& name) const {
+  for (const ShippedCampaign& campaign : shipped_)
+    if (campaign.name == name) return load_drive_campaign(campaign.folder, catalogue_);
+  return fail(ErrorCode::kInvalidRequest, unknown_name("campaign", name, campaigns_),
+              {{"/campaign", unknown_name("campaign", name, campaigns_)}});
+}
+
 Result<DiagnosisAnswer> Service::diagnose(const DiagnosisRequest& request, Progress& progress) const {
   progress.report("reading the drives", 0.0);
-  if (std::find(campaigns_.begin(), campaigns_.end(), request.campaign) == campaigns_.end())
-    return fail(ErrorCode::kInvalidRequest, unknown_name("campaign", request.campaign, campaigns_),
-                {{"/campaign", unknown_name("campaign", request.campaign, campaigns_)}});
-  auto campaign = load_drive_campaign(options_.data / kShippedCampaigns / request.campaign, catalogue_);
+  auto campaign = shipped_drives(request.campaign);
   if (!campaign) return fail(campaign.error());
   gap::DiagnosisOptions options;
   options.search.withheld = request.without;
@@ -259,11 +263,8 @@ Result<DiagnosisAnswer> Service::diagnose(const DiagnosisRequest& request, Progr
 Result<SoilEstimateAnswer> Service::estimate_soil(const SoilEstimateRequest& request,
                                                   Progress& progress) const {
   if (request.campaign.empty()) return api::estimate_soil(catalogue_, request, progress);
-  if (std::find(campaigns_.begin(), campaigns_.end(), request.campaign) == campaigns_.end())
-    return fail(ErrorCode::kInvalidRequest, unknown_name("campaign", request.campaign, campaigns_),
-                {{"/campaign", unknown_name("campaign", request.campaign, campaigns_)}});
   progress.report("reading the drives", 0.0);
-  const auto campaign = load_drive_campaign(options_.data / kShippedCampaigns / request.campaign, catalogue_);
+  const auto campaign = shipped_drives(request.campaign);
   if (!campaign) return fail(campaign.error());
   return api::estimate_soil(*campaign, request, options_.threads, progress);
 }

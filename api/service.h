@@ -68,6 +68,9 @@ class Service {
   Catalogue catalogue_for(const std::optional<RequestedModel>& model, std::string& rover,
                           std::vector<Fault>& faults) const;
 
+  // Errors: invalid_request at /campaign, and those of load_drive_campaign.
+  Result<gap::DriveCampaign> shipped_drives(const std::string& name) const;
+
   ServiceOptions options_;
   Catalogue catalogue_;
   std::vector<ShippedCampaign> shipped_;

@@ -14,6 +14,7 @@ namespace {
 ShippedCampaign described(const std::filesystem::path& folder, const Catalogue& catalogue) {
   ShippedCampaign campaign;
   campaign.name = folder.filename().string();
+  campaign.folder = folder;
   std::ifstream in(folder / "campaign.json", std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   auto file = json::read_drive_campaign_file(bytes, catalogue);
@@ -32,9 +33,10 @@ std::vector<ShippedCampaign> shipped_campaigns(const std::filesystem::path& data
                                                const Catalogue& catalogue) {
   std::vector<ShippedCampaign> campaigns;
   std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(data / kShippedCampaigns, error))
-    if (std::filesystem::is_regular_file(entry.path() / "campaign.json", error))
-      campaigns.push_back(described(entry.path(), catalogue));
+  for (const char* const folder : {"gap-practice", "drive-campaigns"})
+    for (const auto& entry : std::filesystem::directory_iterator(data / folder, error))
+      if (std::filesystem::is_regular_file(entry.path() / "campaign.json", error))
+        campaigns.push_back(described(entry.path(), catalogue));
   std::sort(campaigns.begin(), campaigns.end(),
             [](const ShippedCampaign& a, const ShippedCampaign& b) { return a.name < b.name; });
   return campaigns;

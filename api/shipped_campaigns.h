@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "api/catalogue.h"
@@ -10,12 +9,10 @@
 
 namespace slipway::api {
 
-// The folder of the data folder that holds the drives that ship.
-inline constexpr std::string_view kShippedCampaigns = "gap-practice";
-
 // What the campaign.json of drives that ship says, without a look into the drives' own files.
 struct ShippedCampaign {
-  std::string name;  // of its folder: by which requests ask for it
+  std::string name;              // of its folder: by which requests ask for it
+  std::filesystem::path folder;  // in one of the data folder's two: gap-practice, drive-campaigns
   std::string rover;
   double gravity_m_s2 = 0.0;
   std::vector<std::string> soils, terrains;

@@ -1,6 +1,7 @@
 #include "api/soil_estimate.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -41,12 +42,19 @@ bool measures_current(const gap::SoilData& data) {
   });
 }
 
-// Another name for other numbers: "dry_sand-3f9a2c".
-void name_posterior(sim::SoilDistribution& soil, const std::string& nominal, const std::string& what) {
+// Another name for other numbers: "dry_sand-3f9a2c". What the data do not determine is said with it: the soil
+// may be planned with far from the estimate's own words.
+void name_posterior(gap::SoilEstimate& estimate, const std::string& nominal, const std::string& what) {
+  std::vector<std::string_view> open;
+  for (const gap::EstimatedParameter& p : estimate.parameters)
+    if (p.determination != gap::Determination::kDetermined) open.push_back(gap::row_of(p.parameter).name);
+  sim::SoilDistribution& soil = estimate.soil;
   json::Writer w;
   json::write_soil(w, soil);
   const std::string version = fmt::format("{:016x}", campaign::digest_of(w.take())).substr(0, 6);
-  soil.summary = fmt::format("{} as {} show it", nominal, what).substr(0, 480);
+  soil.summary = fmt::format("{} as {} show it{}{}", nominal, what,
+                             open.empty() ? "" : "; not determined: ", fmt::join(open, ", "))
+                     .substr(0, 480);
   soil.source =
       fmt::format("estimated by slipway estimate from {}, starting from {}", what, nominal).substr(0, 480);
   soil.name = fmt::format("{}-{}", nominal.substr(0, kMostName), version);
@@ -141,7 +149,7 @@ Result<SoilEstimateAnswer> estimate_soil(const Catalogue& catalogue, const SoilE
   const auto estimate = gap::estimate_soil(nominal, answer.request.data, request.options, progress);
   if (!estimate) return fail(estimate.error());
   answer.estimates.push_back(*estimate);
-  name_posterior(answer.estimates.front().soil, request.soil, tests_words(request.data));
+  name_posterior(answer.estimates.front(), request.soil, tests_words(request.data));
   return answer;
 }
 
@@ -153,7 +161,7 @@ Result<SoilEstimateAnswer> estimate_soil(const gap::DriveCampaign& campaign,
   SoilEstimateAnswer answer{request, campaign.name, std::move(estimated->soils),
                             std::move(estimated->channels), estimated->windows};
   for (std::size_t s = 0; s < answer.estimates.size(); ++s)
-    name_posterior(answer.estimates[s].soil, campaign.soils[s].name,
+    name_posterior(answer.estimates[s], campaign.soils[s].name,
                    fmt::format("the drives of campaign {}", campaign.name));
   return answer;
 }

@@ -47,8 +47,8 @@ std::vector<double> outcome(const DriveCampaign& campaign, const ModelState& sta
 }
 
 // What an outcome is expected to tell of which of the explanations is true, each a normal of deviation 1 in
-// every direction: a lower bound, never more than their entropy, nothing where none of them is [Kolchinsky & Tracey 2017, section 3, by
-// Bhattacharyya distances].
+// every direction: a lower bound, never more than their entropy, nothing where none of them is [Kolchinsky &
+// Tracey 2017, section 3, by Bhattacharyya distances].
 double information_bits(const std::vector<std::vector<double>>& outcomes,
                         std::span<const double> probabilities) {
   const double all = std::accumulate(probabilities.begin(), probabilities.end(), 0.0);

@@ -261,6 +261,7 @@ class Contract(unittest.TestCase):
         example = json.loads((SOURCE / "api/examples/drive_campaigns.json").read_text())["campaigns"]
         p05 = next(c for c in campaigns if c["name"] == "p05")
         self.assertEqual(list(p05), list(example[0]))
+        self.assertIn("cuadriga_2018_2019", [c["name"] for c in campaigns if c["rover"] == "cuadriga"])
         self.assertEqual((p05["rover"], len(p05["drives"]), p05["terrains"][0]), ("mer-class", 44, "tilt_00"))
         status, headers, _ = self.server.ask("POST", "/v1/diagnoses", {"campaign": "p05"}, {"Prefer": "respond-async"})
         location = headers["Location"]

@@ -112,7 +112,7 @@ expect 2 "$slipway" plan $route --model "$folder/model" --ground mer_b_sandy_lao
 holds '/ground/0: unknown soil "mer_b_sandy_laom"; did you mean "mer_b_sandy_loam"' "$folder/err"
 expect 2 "$slipway" plan $route --model "$folder/model" --ground jlu_mars_3_loose
 holds '/ground/0: "jlu_mars_3_loose" is no soil of this terrain' "$folder/err"
-expect 2 "$slipway" plan $route --model "$folder/model" --rover msl-class
+expect 2 "$slipway" plan --data "$folder/world" --terrain yard --rover msl-class --start 20,30 --goal 30,60 --model "$folder/model"
 holds '/rover: the model was made of "mer-class": it says nothing of "msl-class"' "$folder/err"
 expect 2 "$slipway" plan $route --compare
 expect 2 "$slipway" plan $route --model "$folder/model" --compare --map "$folder/map.svg"
