@@ -1,7 +1,9 @@
 #include "gap/drive_campaign.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -26,6 +28,33 @@ void adopt_measured_rates(DriveCampaign& campaign) {
       fmt::format("wheels were measured at up to {:.1f} deg/s, above the rover's greatest rate of {:.1f} "
                   "deg/s: the former is taken",
                   deg_from_rad(fastest), deg_from_rad(greatest)));
+}
+
+namespace {
+
+// Turned in all, in the sense that was commanded; below 0: against it.
+double turned_as_told(const DriveCampaign& campaign, const MeasuredDriveSeries& drive) {
+  const auto told = sim::wheel_commands(*campaign.rover, drive.command);
+  double sum = 0.0;
+  for (const DriveSample& sample : drive.samples)
+    for (std::size_t k = 0; k < told.size(); ++k)
+      if (std::isfinite(sample.wheels[k].rate_rad_s)) sum += sample.wheels[k].rate_rad_s * told[k].rate_rad_s;
+  return sum;
+}
+
+}  // namespace
+
+void note_contradictions(DriveCampaign& campaign) {
+  constexpr std::size_t kMostNamed = 5;
+  std::vector<std::string> against;
+  for (const MeasuredDriveSeries& drive : campaign.drives)
+    if (turned_as_told(campaign, drive) < 0.0) against.push_back(drive.id);
+  if (against.empty()) return;
+  const std::size_t count = against.size();
+  if (count > kMostNamed) against.resize(kMostNamed);
+  campaign.notes.push_back(
+      fmt::format("{} of {} drives ({}{}): the wheels turned against the commanded direction", count,
+                  campaign.drives.size(), fmt::join(against, ", "), count > kMostNamed ? ", ..." : ""));
 }
 
 DriveCampaign subset_of(const DriveCampaign& campaign, std::span<const std::size_t> drives) {

@@ -92,6 +92,9 @@ struct DriveCampaign {
 // were made so, and a rover that is held to less would not repeat them.
 void adopt_measured_rates(DriveCampaign& campaign);
 
+// A note of drives whose wheels turned against what was commanded. They are read all the same.
+void note_contradictions(DriveCampaign& campaign);
+
 // The campaign as if these drives alone had been made, in this order. Repeats of a drive that is left out are
 // repeats of the first of them. `drives`: indices into DriveCampaign::drives, each once.
 DriveCampaign subset_of(const DriveCampaign& campaign, std::span<const std::size_t> drives);
