@@ -36,9 +36,8 @@ std::string as_name(std::string_view text) {
 const gap::RetunedParameter* retuned(const gap::Diagnosis& diagnosis, std::string_view nuisance,
                                      const std::string& soil) {
   const auto found =
-      std::find_if(diagnosis.retuned.begin(), diagnosis.retuned.end(), [&](const gap::RetunedParameter& p) {
-        return p.name == nuisance || p.name == fmt::format("{}/{}", nuisance, soil);
-      });
+      std::find_if(diagnosis.retuned.begin(), diagnosis.retuned.end(),
+                   [&](const gap::RetunedParameter& p) { return gap::is_nuisance(p.name, nuisance, soil); });
   return found == diagnosis.retuned.end() ? nullptr : &*found;
 }
 

@@ -1,9 +1,13 @@
 #include "api/csv_cells.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <system_error>
+
+#include "api/faults.h"
 
 namespace slipway::api {
 namespace {
@@ -40,6 +44,24 @@ std::vector<std::string_view> csv_cells(std::string_view line) {
     begin = comma + 1;
   }
   return cells;
+}
+
+CsvHeader read_csv_header(const CsvLine& line, std::string_view file, const std::vector<std::string>& known,
+                          std::vector<Fault>& faults) {
+  const std::vector<std::string_view> names = csv_cells(line.text);
+  CsvHeader header{std::vector<std::optional<std::size_t>>(known.size()), names.size()};
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    const std::string place = fmt::format("{}, line {}, column {}", file, line.number, c + 1);
+    const auto found = std::find(known.begin(), known.end(), names[c]);
+    if (found == known.end()) {
+      faults.push_back({place, unknown_name("column", names[c], known)});
+      continue;
+    }
+    auto& at = header.places[static_cast<std::size_t>(found - known.begin())];
+    if (at) faults.push_back({place, fmt::format("column {} is there twice", names[c])});
+    at = c;
+  }
+  return header;
 }
 
 std::optional<double> csv_number(std::string_view cell) {

@@ -2,8 +2,11 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
+
+#include "core/result.h"
 
 namespace slipway::api {
 
@@ -18,6 +21,15 @@ std::vector<CsvLine> csv_lines(std::string_view text);
 
 // What is between the commas, without the spaces around it.
 std::vector<std::string_view> csv_cells(std::string_view line);
+
+// Where each known column stands in a header, and how many cells its rows must have.
+struct CsvHeader {
+  std::vector<std::optional<std::size_t>> places;  // of `known`, in its order
+  std::size_t width = 0;
+};
+// Columns that are not known, or there twice, are faults of `file`.
+CsvHeader read_csv_header(const CsvLine& line, std::string_view file, const std::vector<std::string>& known,
+                          std::vector<Fault>& faults);
 
 // Nothing where the whole cell is no finite number.
 std::optional<double> csv_number(std::string_view cell);

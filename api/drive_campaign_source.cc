@@ -264,7 +264,7 @@ Result<gap::DriveCampaign> load_drive_campaign(const fs::path& folder, const Cat
   auto campaign = Loader(folder, *bytes, std::move(*file)).load();
   if (!campaign) return campaign;
   gap::adopt_measured_rates(*campaign);
-  gap::note_contradictions(*campaign);
+  gap::note_turned_against_command(*campaign);
   if (gap::currents_split_evenly(*campaign))
     campaign->notes.emplace_back(
         "all wheels have the same current in every row: it is taken for a total that was divided evenly, and "

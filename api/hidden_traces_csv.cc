@@ -60,34 +60,22 @@ class TraceTable {
   }
 
   void read_header(const CsvLine& line) {
-    const std::vector<std::string_view> cells = csv_cells(line.text);
-    width_ = cells.size();
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-      const std::string place = fmt::format("{}, line {}, column {}", file_, line.number, c + 1);
-      const auto found = std::find(names_.begin(), names_.end(), cells[c]);
-      if (found == names_.end()) {
-        faults_.push_back({place, unknown_name("column", cells[c], names_)});
-        continue;
-      }
-      auto& at = places_[static_cast<std::size_t>(found - names_.begin())];
-      if (at) faults_.push_back({place, fmt::format("column {} is there twice", cells[c])});
-      at = c;
-    }
+    header_ = read_csv_header(line, file_, names_, faults_);
     for (std::size_t k = 0; k < kColumns; ++k)
-      if (!places_[k]) fault(line.number, fmt::format("there is no column {}", names_[k]));
+      if (!header_.places[k]) fault(line.number, fmt::format("there is no column {}", names_[k]));
   }
 
   void read_row(const CsvLine& line, Traces& traces) {
     const std::vector<std::string_view> cells = csv_cells(line.text);
-    if (cells.size() != width_)
-      fault(line.number, fmt::format("{} cells, must be {} as in the header", cells.size(), width_));
+    if (cells.size() != header_.width)
+      fault(line.number, fmt::format("{} cells, must be {} as in the header", cells.size(), header_.width));
     std::string campaign;
     gap::HiddenTrace trace;
     for (std::size_t k = 0; k < kColumns; ++k) {
-      if (!places_[k] || *places_[k] >= cells.size()) continue;
-      const std::string_view cell = cells[*places_[k]];
+      if (!header_.places[k] || *header_.places[k] >= cells.size()) continue;
+      const std::string_view cell = cells[*header_.places[k]];
       const std::string place =
-          fmt::format("{}, line {}, column {} ({})", file_, line.number, *places_[k] + 1, names_[k]);
+          fmt::format("{}, line {}, column {} ({})", file_, line.number, *header_.places[k] + 1, names_[k]);
       if (cell.empty()) {
         if (k < kFirstChannel) faults_.push_back({place, fmt::format("{} is missing", names_[k])});
         continue;
@@ -111,8 +99,7 @@ class TraceTable {
 
   std::string_view file_;
   std::vector<std::string> names_;
-  std::array<std::optional<std::size_t>, kColumns> places_;
-  std::size_t width_ = 0;
+  CsvHeader header_;
   std::vector<Fault> faults_;
 };
 

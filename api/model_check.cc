@@ -16,9 +16,8 @@ std::vector<std::string> notes_of(const gap::DriveCampaign& campaign, const Mode
                                   const gap::ModelCheck& check) {
   std::vector<std::string> notes{
       "Intervals of the corrected prediction hold what the diagnosis left open of soils, closures, motors "
-      "and "
-      "effects, the scatter of drives and windows as it was in its campaign, and these drives' sensors; not "
-      "what the laws have wrong."};
+      "and effects, the scatter of drives and windows as it was in its campaign, and these drives' sensors; "
+      "not what the laws have wrong."};
   if (!model.model.left_open)
     notes.emplace_back(
         "The model does not say what its drives left open (model.json has no \"left_open\"): the intervals "
@@ -30,8 +29,7 @@ std::vector<std::string> notes_of(const gap::DriveCampaign& campaign, const Mode
   const auto other_values = [&](std::string_view what, const std::string& name) {
     notes.push_back(
         fmt::format("The {} {} has other nominal values here than in the campaign that the model was made "
-                    "of: what is told "
-                    "as corrected is of the model's.",
+                    "of: what is told as corrected is of the model's.",
                     what, in_quotes(name)));
   };
   if (!model.rover_digest.empty() && model.rover_digest != digest_of(*campaign.rover))

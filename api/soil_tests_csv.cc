@@ -68,7 +68,7 @@ class Table {
     return rows;
   }
 
-  bool has(std::size_t column) const { return places_[column].has_value(); }
+  bool has(std::size_t column) const { return header_.places[column].has_value(); }
   void fault(std::size_t line, std::string message) {
     faults_.push_back({fmt::format("{}, line {}", file_, line), std::move(message)});
   }
@@ -76,23 +76,11 @@ class Table {
 
  private:
   void read_header(const CsvLine& line) {
-    const std::vector<std::string_view> names = csv_cells(line.text);
-    width_ = names.size();
     std::vector<std::string> known;
     for (const Column& column : columns_) known.emplace_back(column.name);
-    for (std::size_t c = 0; c < names.size(); ++c) {
-      const std::string place = fmt::format("{}, line {}, column {}", file_, line.number, c + 1);
-      const auto found = std::find(known.begin(), known.end(), names[c]);
-      if (found == known.end()) {
-        faults_.push_back({place, unknown_name("column", names[c], known)});
-        continue;
-      }
-      auto& at = places_[static_cast<std::size_t>(found - known.begin())];
-      if (at) faults_.push_back({place, fmt::format("column {} is there twice", names[c])});
-      at = c;
-    }
+    header_ = read_csv_header(line, file_, known, faults_);
     for (std::size_t k = 0; k < Count; ++k)
-      if (columns_[k].required && !places_[k])
+      if (columns_[k].required && !header_.places[k])
         faults_.push_back({fmt::format("{}, line {}", file_, line.number),
                            fmt::format("there is no column {}", columns_[k].name)});
   }
@@ -100,14 +88,14 @@ class Table {
   Row read_row(const CsvLine& line) {
     Row row{line.number, {}};
     const std::vector<std::string_view> cells = csv_cells(line.text);
-    if (cells.size() != width_)
-      fault(line.number, fmt::format("{} cells, must be {} as in the header", cells.size(), width_));
+    if (cells.size() != header_.width)
+      fault(line.number, fmt::format("{} cells, must be {} as in the header", cells.size(), header_.width));
     for (std::size_t k = 0; k < Count; ++k) {
-      if (!places_[k] || *places_[k] >= cells.size()) continue;
+      if (!header_.places[k] || *header_.places[k] >= cells.size()) continue;
       const Column& column = columns_[k];
-      const std::string_view cell = cells[*places_[k]];
+      const std::string_view cell = cells[*header_.places[k]];
       const std::string place =
-          fmt::format("{}, line {}, column {} ({})", file_, line.number, *places_[k] + 1, column.name);
+          fmt::format("{}, line {}, column {} ({})", file_, line.number, *header_.places[k] + 1, column.name);
       if (cell.empty()) {
         if (column.required) faults_.push_back({place, fmt::format("{} is missing", column.name)});
         continue;
@@ -128,8 +116,7 @@ class Table {
 
   std::string_view file_;
   const std::array<Column, Count>& columns_;
-  std::array<std::optional<std::size_t>, Count> places_;
-  std::size_t width_ = 0;
+  CsvHeader header_{std::vector<std::optional<std::size_t>>(Count), 0};
   std::vector<Fault> faults_;
 };
 

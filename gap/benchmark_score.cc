@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/quantile.h"
+
 namespace slipway::gap {
 namespace {
 
@@ -77,9 +79,7 @@ bool exchanged(const Diagnosis& d, const Names& a, const Names& b) {
 
 std::optional<double> median_of(std::vector<double> values) {
   if (values.empty()) return std::nullopt;
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
+  return median(std::move(values));
 }
 
 // P(X >= k) of n trials of chance p.

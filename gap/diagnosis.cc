@@ -79,8 +79,7 @@ class Diagnoser {
       d_.verdict = Verdict::kInsufficient;
       d_.reason = fmt::format(
           "{} drives with {} windows of use (positions and attitudes in two rows at least) are too few to "
-          "tell "
-          "causes apart",
+          "tell causes apart",
           d_.drives, d_.windows);
       d_.overturned_by = fmt::format("{} drives and {} windows at least", kLeastDrives, kLeastWindows);
       return std::move(d_);

@@ -44,7 +44,7 @@ double turned_as_told(const DriveCampaign& campaign, const MeasuredDriveSeries& 
 
 }  // namespace
 
-void note_contradictions(DriveCampaign& campaign) {
+void note_turned_against_command(DriveCampaign& campaign) {
   constexpr std::size_t kMostNamed = 5;
   std::vector<std::string> against;
   for (const MeasuredDriveSeries& drive : campaign.drives)

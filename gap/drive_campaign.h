@@ -93,7 +93,7 @@ struct DriveCampaign {
 void adopt_measured_rates(DriveCampaign& campaign);
 
 // A note of drives whose wheels turned against what was commanded. They are read all the same.
-void note_contradictions(DriveCampaign& campaign);
+void note_turned_against_command(DriveCampaign& campaign);
 
 // The campaign as if these drives alone had been made, in this order. Repeats of a drive that is left out are
 // repeats of the first of them. `drives`: indices into DriveCampaign::drives, each once.

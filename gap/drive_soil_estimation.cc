@@ -1,7 +1,5 @@
 #include "gap/drive_soil_estimation.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -22,8 +20,7 @@ std::optional<std::size_t> place_of(const FittedExplanation& fit, std::string_vi
                                     const std::string& soil) {
   const auto parameters = fit.hypothesis.parameters();
   for (std::size_t p = 0; p < fit.hypothesis.nuisance_count(); ++p)
-    if (parameters[p].name == nuisance || parameters[p].name == fmt::format("{}/{}", nuisance, soil))
-      return p;
+    if (is_nuisance(parameters[p].name, nuisance, soil)) return p;
   return std::nullopt;
 }
 

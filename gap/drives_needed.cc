@@ -4,14 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "core/quantile.h"
+
 namespace slipway::gap {
 namespace {
-
-double median_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
-}
 
 // How many of n fair coins show heads k times or fewer, as a chance.
 double lower_tail_of_coins(std::size_t k, std::size_t n) {
@@ -35,8 +31,8 @@ std::optional<double> DrivesNeededCase::random_median() const {
   std::vector<double> values;
   for (const auto& needed : random)
     values.push_back(needed ? static_cast<double>(*needed) : std::numeric_limits<double>::infinity());
-  const double median = median_of(std::move(values));
-  return std::isfinite(median) ? std::optional(median) : std::nullopt;
+  const double middle = median(std::move(values));
+  return std::isfinite(middle) ? std::optional(middle) : std::nullopt;
 }
 
 std::optional<double> DrivesNeededCase::ratio(std::size_t first) const {
@@ -68,7 +64,7 @@ DrivesNeededSummary summary_of(std::span<const DrivesNeededCase> cases, std::siz
   }
   summary.compared = ratios.size();
   if (ratios.empty()) return summary;
-  summary.median_ratio = median_of(ratios);
+  summary.median_ratio = median(ratios);
   if (ratios.size() < kFewest) return summary;
   std::sort(ratios.begin(), ratios.end());
   std::size_t outside = 0;  // of either end

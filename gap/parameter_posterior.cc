@@ -19,11 +19,14 @@ bool of_sensors(std::string_view name) {
 
 }  // namespace
 
+bool is_nuisance(std::string_view parameter, std::string_view nuisance, std::string_view soil) {
+  return parameter == nuisance || parameter == fmt::format("{}/{}", nuisance, soil);
+}
+
 std::optional<std::size_t> ParameterPosterior::place_of(std::string_view nuisance,
                                                         std::string_view soil) const {
-  const auto found = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
-    return name == nuisance || name == fmt::format("{}/{}", nuisance, soil);
-  });
+  const auto found = std::find_if(names.begin(), names.end(),
+                                  [&](const std::string& name) { return is_nuisance(name, nuisance, soil); });
   if (found == names.end()) return std::nullopt;
   return static_cast<std::size_t>(found - names.begin());
 }

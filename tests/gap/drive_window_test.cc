@@ -167,10 +167,10 @@ TEST(DriveCampaign, WheelsThatTurnedAgainstTheCommandAreNoted) {
   DriveCampaign campaign = constant_motion(0.04, 0.0, 0.0, 0.0, 0.0, 0.05, 0.0);
   for (DriveSample& sample : campaign.drives[0].samples)
     for (WheelReading& wheel : sample.wheels) wheel.rate_rad_s = 0.4;
-  note_contradictions(campaign);
+  note_turned_against_command(campaign);
   EXPECT_TRUE(campaign.notes.empty());
   campaign.drives[0].command.speed_m_s = -0.05;
-  note_contradictions(campaign);
+  note_turned_against_command(campaign);
   ASSERT_EQ(campaign.notes.size(), 1U);
   EXPECT_EQ(campaign.notes[0], "1 of 1 drives (D): the wheels turned against the commanded direction");
 }
