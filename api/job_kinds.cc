@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include "api/diagnosis_charts.h"
-#include "api/diagnosis_report.h"
-#include "api/json/diagnosis_document.h"
-#include "api/json/plan_answer.h"
-#include "api/json/prediction_answer.h"
-#include "api/json/soil_estimate_document.h"
+#include "api/documents/diagnosis_document.h"
+#include "api/documents/plan_answer.h"
+#include "api/documents/prediction_answer.h"
+#include "api/documents/soil_estimate_document.h"
+#include "api/report/diagnosis_charts.h"
+#include "api/report/diagnosis_report.h"
 
 namespace slipway::api {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "api/job_runner.h"
+#include "api/jobs/job_runner.h"
 #include "api/service.h"
 
 namespace slipway::api {

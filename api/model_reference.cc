@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "api/faults.h"
+#include "api/documents/model_object.h"
 #include "api/job_kinds.h"
-#include "api/json/model_object.h"
+#include "api/json/faults.h"
 #include "api/json/parse.h"
-#include "api/plan_request.h"
+#include "api/requests/plan_request.h"
 
 namespace slipway::api {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "api/job_store.h"
+#include "api/jobs/job_store.h"
 #include "core/result.h"
 
 namespace slipway::api {

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <utility>
 
-#include "api/faults.h"
+#include "api/json/faults.h"
 #include "api/json/json_value.h"
-#include "planner/planner_catalogue.h"
-#include "sim/drive_command.h"
-#include "sim/effect_catalogue.h"
+#include "planner/search/planner_catalogue.h"
+#include "sim/effects/effect_catalogue.h"
+#include "sim/rover/drive_command.h"
 
 namespace slipway::api {
 

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "api/catalogue.h"
-#include "api/plan_request.h"
+#include "api/files/catalogue.h"
+#include "api/requests/plan_request.h"
 #include "core/result.h"
 
 namespace slipway::api {

@@ -5,16 +5,18 @@
 #include <algorithm>
 #include <utility>
 
-#include "api/drive_campaign_source.h"
-#include "api/faults.h"
-#include "api/json/diagnosis_request.h"
-#include "api/json/plan_request.h"
-#include "api/json/prediction_request.h"
-#include "api/json/soil_estimate_request.h"
-#include "api/model_folder.h"
+#include "api/documents/diagnosis_request.h"
+#include "api/documents/plan_request.h"
+#include "api/documents/prediction_request.h"
+#include "api/documents/soil_estimate_request.h"
+#include "api/files/campaign/drive_campaign_source.h"
+#include "api/files/model_folder.h"
+#include "api/json/faults.h"
 #include "api/request_check.h"
-#include "api/soil_regions.h"
-#include "planner/stage_progress.h"
+#include "api/requests/soil_regions.h"
+#include "planner/make_plan.h"
+#include "planner/predict_path.h"
+#include "planner/search/stage_progress.h"
 
 namespace slipway::api {
 namespace {
@@ -48,10 +50,6 @@ sim::SoilDistribution believed(const Catalogue& catalogue, const RegionalSoil& s
 }
 
 }  // namespace
-
-std::string_view version() {
-  return SLIPWAY_VERSION;
-}
 
 Result<std::unique_ptr<Service>> Service::open(ServiceOptions options) {
   auto catalogue = load_catalogue(options.data);

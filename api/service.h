@@ -6,17 +6,14 @@
 #include <string_view>
 #include <vector>
 
-#include "api/answers.h"
-#include "api/catalogue.h"
-#include "api/shipped_campaigns.h"
-#include "api/soil_estimate.h"
+#include "api/files/campaign/shipped_campaigns.h"
+#include "api/files/catalogue.h"
+#include "api/requests/answers.h"
+#include "api/requests/soil_estimate.h"
 #include "core/progress.h"
 #include "core/result.h"
 
 namespace slipway::api {
-
-// The version of the program, as in provenance and /healthz.
-std::string_view version();
 
 struct ServiceOptions {
   std::filesystem::path data;            // the folder that holds rovers, soils and terrains

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "api/faults.h"
-#include "api/json/wheel_sweep_request.h"
-#include "sim/effect_catalogue.h"
+#include "api/documents/wheel_sweep_request.h"
+#include "api/json/faults.h"
+#include "sim/effects/effect_catalogue.h"
 
 namespace slipway::api {
 namespace {

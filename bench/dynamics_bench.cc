@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "dem/synthetic_terrain.h"
-#include "planner/terrain_ground.h"
-#include "sim/dynamic_drive.h"
-#include "sim/rut_map.h"
-#include "sim/wheel_kernel.h"
+#include "planner/problem/terrain_ground.h"
+#include "sim/dynamic/dynamic_drive.h"
+#include "sim/dynamic/rut_map.h"
+#include "sim/wheel/wheel_kernel.h"
 #include "tests/sim/reference_models.h"
 #include "tests/sim/reference_multibodies.h"
 

@@ -1,6 +1,6 @@
 #include <benchmark/benchmark.h>
 
-#include "gap/soil_estimation.h"
+#include "gap/estimate/soil_estimation.h"
 #include "tests/gap/soil_tests.h"
 
 // The ARTEMIS paper's estimation: torque, thrust and sinkage of so many wheel tests, from 49 % off.

@@ -9,12 +9,12 @@
 #include "core/angle.h"
 #include "core/random.h"
 #include "dem/elevation_source.h"
-#include "planner/grid_search.h"
-#include "planner/leg_search.h"
-#include "planner/plan.h"
-#include "planner/planner_catalogue.h"
-#include "planner/pose_sampler.h"
-#include "planner/smooth_route.h"
+#include "planner/make_plan.h"
+#include "planner/search/grid_search.h"
+#include "planner/search/leg_search.h"
+#include "planner/search/planner_catalogue.h"
+#include "planner/search/pose_sampler.h"
+#include "planner/search/smooth_route.h"
 #include "tests/planner/plan_fixture.h"
 
 namespace {

@@ -8,12 +8,12 @@
 
 #include "bench/packed_exponentials.h"
 #include "core/angle.h"
-#include "sim/drive_prediction.h"
-#include "sim/entry_angle.h"
-#include "sim/quasi_static.h"
-#include "sim/slip_table.h"
-#include "sim/wheel_forces.h"
-#include "sim/wheel_kernel.h"
+#include "sim/prediction/drive_prediction.h"
+#include "sim/quasi_static/quasi_static.h"
+#include "sim/quasi_static/slip_table.h"
+#include "sim/wheel/entry_angle.h"
+#include "sim/wheel/wheel_forces.h"
+#include "sim/wheel/wheel_kernel.h"
 #include "tests/sim/reference_models.h"
 
 namespace slipway::sim {

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "core/angle.h"
-#include "sim/drive_command.h"
-#include "sim/effect_catalogue.h"
+#include "sim/effects/effect_catalogue.h"
+#include "sim/rover/drive_command.h"
 
 namespace slipway::campaign {
 namespace {

@@ -11,13 +11,13 @@
 #include "core/result.h"
 #include "dem/soil_map.h"
 #include "dem/terrain.h"
-#include "sim/drive_leg.h"
-#include "sim/drive_sensors.h"
-#include "sim/dynamic_drive.h"
-#include "sim/effect_setting.h"
-#include "sim/rover_model.h"
-#include "sim/soil.h"
-#include "sim/wheel_failure.h"
+#include "sim/dynamic/drive_leg.h"
+#include "sim/dynamic/drive_sensors.h"
+#include "sim/dynamic/dynamic_drive.h"
+#include "sim/rover/effect_setting.h"
+#include "sim/rover/rover_model.h"
+#include "sim/rover/wheel_failure.h"
+#include "sim/soil/soil.h"
 
 namespace slipway::campaign {
 

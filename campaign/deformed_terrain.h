@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "dem/terrain.h"
-#include "sim/rut_map.h"
+#include "sim/dynamic/rut_map.h"
 
 namespace slipway::campaign {
 

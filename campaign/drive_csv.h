@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "sim/drive_sensors.h"
-#include "sim/dynamic_drive.h"
-#include "sim/rover_model.h"
+#include "sim/dynamic/drive_sensors.h"
+#include "sim/dynamic/dynamic_drive.h"
+#include "sim/rover/rover_model.h"
 
 namespace slipway::campaign {
 

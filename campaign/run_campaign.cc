@@ -10,8 +10,8 @@
 #include "campaign/digest.h"
 #include "core/parallel_for.h"
 #include "core/random.h"
-#include "planner/terrain_ground.h"
-#include "sim/effect_catalogue.h"
+#include "planner/problem/terrain_ground.h"
+#include "sim/effects/effect_catalogue.h"
 
 namespace slipway::campaign {
 namespace {

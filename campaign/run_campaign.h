@@ -7,8 +7,8 @@
 #include "campaign/campaign_table.h"
 #include "core/progress.h"
 #include "core/result.h"
-#include "sim/drive_sensors.h"
-#include "sim/dynamic_drive.h"
+#include "sim/dynamic/drive_sensors.h"
+#include "sim/dynamic/dynamic_drive.h"
 
 namespace slipway::campaign {
 

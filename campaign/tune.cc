@@ -7,8 +7,8 @@
 #include <set>
 #include <utility>
 
-#include "sim/effect_catalogue.h"
-#include "sim/sweep_parameter.h"
+#include "sim/effects/effect_catalogue.h"
+#include "sim/single_wheel/sweep_parameter.h"
 
 namespace slipway::campaign {
 namespace {

@@ -13,7 +13,7 @@
 #include "core/pose.h"
 #include "core/progress.h"
 #include "core/result.h"
-#include "gap/drive_tuning.h"
+#include "gap/estimate/drive_tuning.h"
 
 namespace slipway::campaign {
 

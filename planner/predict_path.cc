@@ -1,3 +1,5 @@
+#include "planner/predict_path.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,12 +7,11 @@
 #include <string>
 
 #include "core/angle.h"
-#include "planner/motion.h"
-#include "planner/plan.h"
-#include "planner/plan_faults.h"
-#include "planner/route_stations.h"
-#include "planner/terrain_ground.h"
-#include "planner/verify_route.h"
+#include "planner/judge/route_stations.h"
+#include "planner/judge/verify_route.h"
+#include "planner/problem/motion.h"
+#include "planner/problem/terrain_ground.h"
+#include "planner/search/plan_faults.h"
 
 namespace slipway::planner {
 namespace {
@@ -63,14 +64,6 @@ std::string corner_pointer(const CornerPath& path, const std::vector<sim::PathSt
 }
 
 }  // namespace
-
-double Manner::body_yaw(double travel_rad) const {
-  return wrapped_rad(travel_rad - crab_rad + (backwards ? M_PI : 0.0));
-}
-
-double Manner::travel(double body_yaw_rad) const {
-  return wrapped_rad(body_yaw_rad + crab_rad - (backwards ? M_PI : 0.0));
-}
 
 Result<sim::DrivePrediction> predict_path(const PlanProblem& problem, const std::vector<Waypoint>& corners,
                                           Progress& progress, const Manner& manner) {

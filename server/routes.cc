@@ -11,17 +11,17 @@
 #include <optional>
 #include <utility>
 
-#include "api/faults.h"
+#include "api/chart/report_page.h"
+#include "api/documents/catalogue_documents.h"
+#include "api/documents/job_document.h"
+#include "api/documents/plan_answer.h"
+#include "api/documents/wheel_sweep_answer.h"
 #include "api/job_kinds.h"
-#include "api/json/catalogue_documents.h"
-#include "api/json/job_document.h"
-#include "api/json/plan_answer.h"
+#include "api/json/faults.h"
 #include "api/json/problem_document.h"
-#include "api/json/wheel_sweep_answer.h"
 #include "api/model_reference.h"
 #include "api/openapi.h"
-#include "api/report_page.h"
-#include "api/route_map.h"
+#include "api/report/route_map.h"
 #include "api/wheel_sweep.h"
 
 namespace slipway::server {

@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <vector>
 
-#include "api/job_runner.h"
+#include "api/jobs/job_runner.h"
 #include "api/service.h"
-#include "server/http_message.h"
-#include "server/http_routes.h"
+#include "server/http/http_message.h"
+#include "server/http/http_routes.h"
 
 namespace slipway::server {
 

@@ -7,14 +7,15 @@
 #include <system_error>
 
 #include "api/job_kinds.h"
-#include "api/job_runner.h"
-#include "api/memory_job_store.h"
+#include "api/jobs/job_runner.h"
+#include "api/jobs/memory_job_store.h"
+#include "api/jobs/sqlite_job_store.h"
 #include "api/service.h"
-#include "api/sqlite_job_store.h"
-#include "server/commands.h"
-#include "server/http_server.h"
+#include "core/version.h"
+#include "server/cli/commands.h"
+#include "server/cli/tables.h"
+#include "server/http/http_server.h"
 #include "server/routes.h"
-#include "server/tables.h"
 
 namespace slipway::server {
 namespace {
@@ -64,7 +65,7 @@ int serve(const ServeOptions& options) {
   HttpServer server(http, api_routes(**service, runner));
   const auto port = server.start();
   if (!port) return refuse(port.error());
-  std::cout << fmt::format("slipway {} serves {} on http://{}:{}, jobs in {}\n", api::version(), options.data,
+  std::cout << fmt::format("slipway {} serves {} on http://{}:{}, jobs in {}\n", version(), options.data,
                            options.address, *port, options.jobs.empty() ? "memory" : options.jobs)
             << std::flush;
   int signal = 0;

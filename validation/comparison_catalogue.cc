@@ -2,7 +2,10 @@
 
 #include <array>
 
-#include "validation/comparisons.h"
+#include "validation/cuadriga/comparisons.h"
+#include "validation/laboratory/comparisons.h"
+#include "validation/mars/comparisons.h"
+#include "validation/simulators/comparisons.h"
 
 namespace slipway::validation {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "core/result.h"
-#include "validation/report.h"
+#include "validation/report/report.h"
 
 namespace slipway::validation {
 

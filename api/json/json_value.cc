@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "api/faults.h"
+#include "api/json/faults.h"
 
 namespace slipway::api::json {
 std::string child_pointer(std::string_view pointer, std::string_view key) {

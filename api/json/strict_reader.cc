@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "api/faults.h"
+#include "api/json/faults.h"
 #include "core/angle.h"
 
 namespace slipway::api::json {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/effect_catalogue.h"
+#include "sim/effects/effect_catalogue.h"
 
 namespace slipway::sim {
 

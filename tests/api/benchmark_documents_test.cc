@@ -1,10 +1,10 @@
 // answers.json in, scores out.
 #include <gtest/gtest.h>
 
-#include "api/benchmark_report.h"
-#include "api/json/benchmark_answers.h"
-#include "api/json/benchmark_document.h"
+#include "api/documents/benchmark_document.h"
+#include "api/files/sealed_set/benchmark_answers.h"
 #include "api/json/parse.h"
+#include "api/report/benchmark_report.h"
 
 namespace slipway::api {
 namespace {

@@ -1,16 +1,16 @@
-#include "api/catalogue.h"
+#include "api/files/catalogue.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <set>
 
+#include "api/files/rover_file.h"
+#include "api/files/soil_file.h"
+#include "api/files/stops.h"
+#include "api/files/terrain_file.h"
 #include "api/json/parse.h"
-#include "api/json/rover_file.h"
-#include "api/json/soil_file.h"
-#include "api/json/terrain_file.h"
 #include "api/json/writer.h"
-#include "api/stops.h"
 #include "core/angle.h"
 #include "core/random.h"
 #include "small_world.h"

@@ -1,4 +1,4 @@
-#include "api/chart.h"
+#include "api/chart/chart.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <regex>
 #include <string>
 
-#include "api/chart_axes.h"
+#include "api/chart/chart_axes.h"
 
 namespace slipway::api {
 namespace {

@@ -5,14 +5,14 @@
 #include <iostream>
 #include <thread>
 
-#include "api/drive_history.h"
+#include "api/chart/drive_history.h"
+#include "api/documents/catalogue_documents.h"
+#include "api/documents/diagnosis_document.h"
+#include "api/documents/plan_answer.h"
+#include "api/documents/wheel_sweep_answer.h"
 #include "api/job_kinds.h"
-#include "api/json/catalogue_documents.h"
-#include "api/json/diagnosis_document.h"
+#include "api/jobs/memory_job_store.h"
 #include "api/json/parse.h"
-#include "api/json/plan_answer.h"
-#include "api/json/wheel_sweep_answer.h"
-#include "api/memory_job_store.h"
 #include "api/openapi.h"
 #include "api/wheel_sweep.h"
 #include "made_diagnosis.h"

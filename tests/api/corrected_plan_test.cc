@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "api/documents/plan_comparison.h"
+#include "api/files/model_folder.h"
 #include "api/json/parse.h"
-#include "api/json/plan_comparison.h"
-#include "api/model_folder.h"
 
 namespace slipway::api {
 namespace {

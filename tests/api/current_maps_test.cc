@@ -1,12 +1,13 @@
-#include "api/current_maps.h"
+#include "api/requests/current_maps.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "api/current_inversion.h"
-#include "api/json/current_documents.h"
+#include "api/documents/current_documents.h"
 #include "api/json/parse.h"
+#include "api/report/current_maps_output.h"
+#include "api/requests/current_inversion.h"
 #include "small_world.h"
 
 namespace slipway::api {

@@ -9,18 +9,18 @@
 #include <set>
 #include <string>
 
-#include "api/corrected_model.h"
-#include "api/diagnosis_charts.h"
-#include "api/diagnosis_report.h"
+#include "api/documents/catalogue_documents.h"
+#include "api/documents/diagnosis_document.h"
+#include "api/files/corrected_model.h"
+#include "api/files/rover_file.h"
+#include "api/files/soil_file.h"
 #include "api/job_kinds.h"
-#include "api/json/catalogue_documents.h"
-#include "api/json/diagnosis_document.h"
 #include "api/json/parse.h"
-#include "api/json/rover_file.h"
-#include "api/json/soil_file.h"
 #include "api/json/text_place.h"
+#include "api/report/diagnosis_charts.h"
+#include "api/report/diagnosis_report.h"
 #include "made_diagnosis.h"
-#include "sim/effect_catalogue.h"
+#include "sim/effects/effect_catalogue.h"
 #include "small_world.h"
 
 namespace slipway::api {

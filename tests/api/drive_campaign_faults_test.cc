@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string>
 
-#include "api/drive_campaign_source.h"
+#include "api/files/campaign/drive_campaign_source.h"
 #include "core/angle.h"
 #include "core/random.h"
 #include "dem/geotiff.h"

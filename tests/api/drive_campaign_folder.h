@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "api/drive_campaign_source.h"
+#include "api/files/campaign/drive_campaign_source.h"
 #include "small_world.h"
 
 namespace slipway::api::testing {

@@ -8,9 +8,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "api/drive_campaign_source.h"
+#include "api/files/campaign/drive_campaign_source.h"
 #include "core/angle.h"
-#include "sim/drive_command.h"
+#include "sim/rover/drive_command.h"
 
 namespace slipway::api {
 namespace {

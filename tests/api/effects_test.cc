@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "api/json/prediction_request.h"
-#include "api/json/rover_file.h"
-#include "api/soil_regions.h"
+#include "api/documents/prediction_request.h"
+#include "api/files/rover_file.h"
+#include "api/requests/soil_regions.h"
 #include "core/angle.h"
 #include "tests/api/small_world.h"
 

@@ -1,4 +1,4 @@
-#include "api/hidden_traces_csv.h"
+#include "api/files/sealed_set/hidden_traces_csv.h"
 
 #include <gtest/gtest.h>
 

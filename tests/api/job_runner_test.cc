@@ -1,13 +1,13 @@
-#include "api/job_runner.h"
+#include "api/jobs/job_runner.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 #include <future>
 
+#include "api/jobs/memory_job_store.h"
+#include "api/jobs/sqlite_job_store.h"
 #include "api/json/problem_document.h"
-#include "api/memory_job_store.h"
-#include "api/sqlite_job_store.h"
 #include "small_world.h"
 
 namespace slipway::api {

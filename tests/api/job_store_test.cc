@@ -1,4 +1,4 @@
-#include "api/job_store.h"
+#include "api/jobs/job_store.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -11,8 +11,8 @@
 #include <set>
 #include <thread>
 
-#include "api/memory_job_store.h"
-#include "api/sqlite_job_store.h"
+#include "api/jobs/memory_job_store.h"
+#include "api/jobs/sqlite_job_store.h"
 #include "small_world.h"
 
 namespace slipway::api {

@@ -3,8 +3,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "api/faults.h"
-#include "api/json/parameter_posterior.h"
+#include "api/files/parameter_posterior.h"
+#include "api/json/faults.h"
 #include "api/json/parse.h"
 #include "api/json/problem_document.h"
 #include "api/json/strict_reader.h"

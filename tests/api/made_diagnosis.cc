@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "api/drive_campaign_source.h"
-#include "gap/hypothesis.h"
+#include "api/files/campaign/drive_campaign_source.h"
+#include "gap/diagnosis/model/hypothesis.h"
 
 namespace slipway::api::testing {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "gap/diagnosis.h"
-#include "gap/drive_campaign.h"
+#include "gap/diagnosis/diagnosis.h"
+#include "gap/diagnosis/model/drive_campaign.h"
 
 namespace slipway::api::testing {
 

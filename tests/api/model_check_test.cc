@@ -1,6 +1,6 @@
 // A corrected model on another campaign's drives: whose rover and soils it stands in for, and what becomes of
 // the predictions.
-#include "api/model_check.h"
+#include "api/requests/model_check.h"
 
 #include <gtest/gtest.h>
 

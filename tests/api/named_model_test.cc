@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "api/corrected_model.h"
+#include "api/documents/diagnosis_document.h"
+#include "api/documents/prediction_answer.h"
+#include "api/files/corrected_model.h"
+#include "api/files/model_folder.h"
 #include "api/job_kinds.h"
-#include "api/json/diagnosis_document.h"
-#include "api/json/prediction_answer.h"
-#include "api/memory_job_store.h"
-#include "api/model_folder.h"
+#include "api/jobs/memory_job_store.h"
 #include "api/model_reference.h"
 #include "made_diagnosis.h"
 #include "small_world.h"

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "api/json/plan_request.h"
-#include "api/json/prediction_request.h"
+#include "api/documents/plan_request.h"
+#include "api/documents/prediction_request.h"
 #include "core/angle.h"
 #include "small_world.h"
 

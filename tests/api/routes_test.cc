@@ -7,9 +7,10 @@
 #include <set>
 #include <thread>
 
+#include "api/jobs/memory_job_store.h"
 #include "api/json/parse.h"
-#include "api/memory_job_store.h"
 #include "api/openapi.h"
+#include "core/version.h"
 #include "small_world.h"
 
 namespace slipway::server {
@@ -120,7 +121,7 @@ TEST_F(DiagnosisRoutes, AReportThatThereIsNotIsAProblem) {
 TEST_F(Routes, HealthSaysOkAndTheVersion) {
   const HttpResponse response = ask("GET", "/healthz");
   EXPECT_EQ(response.status, 200);
-  EXPECT_EQ(response.body, R"({"status":"ok","version":")" + std::string(api::version()) + "\"}");
+  EXPECT_EQ(response.body, R"({"status":"ok","version":")" + std::string(version()) + "\"}");
 }
 
 TEST_F(Routes, CataloguesAreServedAndRevalidated) {
@@ -343,7 +344,7 @@ TEST_F(Routes, TheDescriptionHasEveryRouteAndNoOther) {
     served.insert(method + " " + route.pattern);
   }
   EXPECT_EQ(served, described);
-  EXPECT_EQ(document->find("info")->find("version")->text, api::version());
+  EXPECT_EQ(document->find("info")->find("version")->text, version());
 }
 
 }  // namespace

@@ -1,13 +1,13 @@
-#include "api/soil_estimate.h"
+#include "api/requests/soil_estimate.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "api/json/soil_estimate_document.h"
-#include "api/json/soil_file.h"
-#include "api/soil_estimate_chart.h"
-#include "api/soil_tests_csv.h"
+#include "api/documents/soil_estimate_document.h"
+#include "api/files/soil_file.h"
+#include "api/files/soil_tests_csv.h"
+#include "api/report/soil_estimate_chart.h"
 #include "small_world.h"
 
 namespace slipway::api {

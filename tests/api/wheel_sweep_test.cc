@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <sstream>
 
+#include "api/documents/wheel_sweep_answer.h"
+#include "api/documents/wheel_sweep_request.h"
 #include "api/json/parse.h"
-#include "api/json/wheel_sweep_answer.h"
-#include "api/json/wheel_sweep_request.h"
-#include "api/sweep_chart.h"
+#include "api/report/sweep_chart.h"
 #include "small_world.h"
 
 namespace slipway::api {

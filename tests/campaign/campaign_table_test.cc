@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "api/campaign_source.h"
+#include "api/files/drive_table/campaign_source.h"
 #include "core/angle.h"
 #include "tables.h"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <map>
 
-#include "api/campaign_folder.h"
-#include "api/drive_campaign_source.h"
+#include "api/files/campaign/drive_campaign_source.h"
+#include "api/files/drive_table/campaign_folder.h"
 #include "campaign/run_campaign.h"
 #include "tables.h"
 

@@ -8,7 +8,7 @@
 #include <mutex>
 #include <sstream>
 
-#include "api/campaign_folder.h"
+#include "api/files/drive_table/campaign_folder.h"
 #include "campaign/deformed_terrain.h"
 #include "campaign/drive_csv.h"
 #include "tables.h"

@@ -1,4 +1,4 @@
-#include "campaign/sealed_campaigns.h"
+#include "benchmark/sealed_campaigns.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <map>
 #include <set>
 
-#include "api/drive_campaign_source.h"
-#include "api/sealed_campaign_folder.h"
-#include "campaign/hidden_effect.h"
+#include "api/files/campaign/drive_campaign_source.h"
+#include "api/files/sealed_set/sealed_campaign_folder.h"
+#include "benchmark/hidden_effect.h"
 #include "core/progress.h"
 #include "tests/campaign/tables.h"
 

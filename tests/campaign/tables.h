@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <string>
 
-#include "api/catalogue.h"
-#include "api/json/campaign_table_file.h"
+#include "api/files/catalogue.h"
+#include "api/files/drive_table/campaign_table_file.h"
 #include "campaign/campaign_table.h"
 
 namespace slipway::campaign {

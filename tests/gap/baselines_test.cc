@@ -1,12 +1,12 @@
-#include "gap/baselines.h"
+#include "benchmark/baselines.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
-#include "api/catalogue.h"
-#include "api/drive_campaign_source.h"
-#include "gap/drive_resampling.h"
+#include "api/files/campaign/drive_campaign_source.h"
+#include "api/files/catalogue.h"
+#include "gap/diagnosis/model/drive_resampling.h"
 
 namespace slipway::gap {
 namespace {

@@ -1,4 +1,4 @@
-#include "gap/benchmark_score.h"
+#include "benchmark/benchmark_score.h"
 
 #include <gtest/gtest.h>
 

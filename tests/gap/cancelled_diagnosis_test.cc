@@ -14,8 +14,8 @@
 #include <string>
 #include <string_view>
 
-#include "api/drive_campaign_source.h"
-#include "gap/diagnosis.h"
+#include "api/files/campaign/drive_campaign_source.h"
+#include "gap/diagnosis/diagnosis.h"
 
 namespace slipway::gap {
 namespace {

@@ -1,4 +1,4 @@
-#include "gap/drive_acquisition.h"
+#include "benchmark/drive_acquisition.h"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 #include <cmath>
 #include <memory>
 
+#include "benchmark/drive_kind.h"
+#include "benchmark/drives_needed.h"
 #include "core/angle.h"
-#include "gap/drive_kind.h"
-#include "gap/drive_resampling.h"
-#include "gap/drives_needed.h"
+#include "gap/diagnosis/model/drive_resampling.h"
 #include "tests/sim/reference_models.h"
 
 namespace slipway::gap {

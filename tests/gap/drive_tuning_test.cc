@@ -1,4 +1,4 @@
-#include "gap/drive_tuning.h"
+#include "gap/estimate/drive_tuning.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "gap/drive_window.h"
+#include "gap/diagnosis/model/drive_window.h"
 
 #include <gtest/gtest.h>
 

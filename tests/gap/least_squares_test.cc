@@ -1,4 +1,4 @@
-#include "gap/least_squares.h"
+#include "gap/estimate/least_squares.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "gap/location_score.h"
+#include "benchmark/location_score.h"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "gap/benchmark_score.h"
+#include "benchmark/benchmark_score.h"
 
 namespace slipway::gap {
 namespace {

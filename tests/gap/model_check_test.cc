@@ -1,4 +1,4 @@
-#include "gap/model_check.h"
+#include "gap/diagnosis/model_check.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "core/angle.h"
-#include "gap/drive_resampling.h"
-#include "gap/nuisance_catalogue.h"
+#include "gap/diagnosis/model/drive_resampling.h"
+#include "gap/diagnosis/model/nuisance_catalogue.h"
 
 namespace slipway::gap {
 namespace {

@@ -1,4 +1,4 @@
-#include "gap/noise_model.h"
+#include "gap/diagnosis/model/noise_model.h"
 
 #include <gtest/gtest.h>
 

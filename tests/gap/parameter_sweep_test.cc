@@ -1,4 +1,4 @@
-#include "gap/parameter_sweep.h"
+#include "gap/estimate/parameter_sweep.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,10 @@
-#include "gap/plate_test.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/angle.h"
 #include "core/random.h"
+#include "gap/estimate/plate_sinkage.h"
 
 namespace slipway::gap {
 namespace {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "api/catalogue.h"
-#include "api/drive_campaign_source.h"
-#include "gap/diagnosis.h"
+#include "api/files/campaign/drive_campaign_source.h"
+#include "api/files/catalogue.h"
+#include "gap/diagnosis/diagnosis.h"
 
 namespace slipway::gap {
 namespace {

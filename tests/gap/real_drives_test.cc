@@ -5,10 +5,10 @@
 #include <cstring>
 #include <filesystem>
 
-#include "api/catalogue.h"
-#include "api/drive_campaign_source.h"
-#include "gap/drive_window.h"
-#include "gap/window_model.h"
+#include "api/files/campaign/drive_campaign_source.h"
+#include "api/files/catalogue.h"
+#include "gap/diagnosis/model/drive_window.h"
+#include "gap/diagnosis/model/window_model.h"
 
 namespace slipway::gap {
 namespace {

@@ -1,10 +1,10 @@
-#include "gap/selection.h"
+#include "gap/diagnosis/search/selection.h"
 
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "gap/noise_model.h"
-#include "gap/verdict.h"
+#include "gap/diagnosis/model/noise_model.h"
+#include "gap/diagnosis/verdict.h"
 
 namespace slipway::gap {
 namespace {

@@ -1,4 +1,4 @@
-#include "gap/slices.h"
+#include "gap/diagnosis/describe/slices.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "gap/regimes.h"
+#include "gap/diagnosis/describe/regimes.h"
 
 namespace slipway::gap {
 namespace {

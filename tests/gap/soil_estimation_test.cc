@@ -1,4 +1,4 @@
-#include "gap/soil_estimation.h"
+#include "gap/estimate/soil_estimation.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

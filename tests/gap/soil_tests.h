@@ -5,7 +5,7 @@
 
 #include "core/angle.h"
 #include "core/random.h"
-#include "gap/soil_estimation.h"
+#include "gap/estimate/soil_estimation.h"
 
 namespace slipway::gap {
 

@@ -1,52 +1,96 @@
 #!/usr/bin/env python3
-"""Holds the #include lines against the architecture: which room may see which, and which file may see which vendor."""
+"""Holds the #include lines against the architecture: which room may see which, which folder of a room may see which,
+and which file may see which vendor."""
 import pathlib
 import re
 import sys
 
 root = pathlib.Path(sys.argv[1])
 
-# room -> rooms it may include. docs/architecture.md draws the same.
+# room -> the other rooms that it may include. docs/architecture.md draws the same.
 MAY_SEE = {
-    "core": {"core"},
-    "dem": {"core", "dem"},
-    "sim": {"core", "sim"},
-    "planner": {"core", "dem", "sim", "planner"},
-    "gap": {"core", "sim", "gap"},
-    "campaign": {"core", "dem", "sim", "planner", "gap", "campaign"},
-    "api": {"core", "dem", "sim", "planner", "gap", "campaign", "api"},
-    "validation": {"core", "dem", "sim", "planner", "campaign", "gap", "api", "validation"},
-    "server": {"core", "dem", "sim", "planner", "gap", "campaign", "api", "validation", "server"},
+    "core": set(),
+    "dem": {"core"},
+    "sim": {"core"},
+    "planner": {"core", "dem", "sim"},
+    "gap": {"core", "sim"},
+    "campaign": {"core", "dem", "sim", "planner", "gap"},
+    "benchmark": {"core", "dem", "sim", "planner", "gap", "campaign"},
+    "api": {"core", "dem", "sim", "planner", "gap", "campaign", "benchmark"},
+    "validation": {"core", "dem", "sim", "planner", "gap", "campaign", "benchmark", "api"},
+    "server": {"core", "dem", "sim", "planner", "gap", "campaign", "benchmark", "api", "validation"},
 }
+
+# room -> its folders from the bottom up: a file may include its own folder and those before it. A set of folders stands
+# for neighbours that do not see each other. "." is the room itself; a room that is not listed has no folders.
+FOLDERS = {
+    "sim": ["soil", "wheel", "rover", "effects", {"quasi_static", "single_wheel"}, "prediction", "dynamic"],
+    "planner": ["problem", "search", "judge", "."],
+    "gap": ["estimate", "diagnosis/model", "diagnosis/search", "diagnosis/result", {"diagnosis/held_out", "diagnosis/describe"}, "diagnosis"],
+    "api": ["json", "chart", "files", "files/campaign", "files/drive_table", "files/sealed_set", "requests", "jobs",
+            "documents", "report", "."],
+    "validation": ["report", "laboratory", {"cuadriga", "mars", "simulators"}, "."],
+    "server": ["http", "cli", "."],
+}
+MOST_SOURCES = 40  # .cc files in one folder
 
 # vendor header -> the only files of ours that may include it.
 FENCES = [
     (r"(gdal|ogr|cpl)[\w]*\.h", r"dem/gdal_\w+\.(cc|h)"),
-    (r"ompl/.*", r"planner/ompl_\w+\.(cc|h)"),
-    (r"(cvode|sundials|nvector|sunlinsol|sunmatrix|kinsol)/.*", r"sim/(cvode|kinsol)_\w+\.cc"),
-    (r"xsimd/.*", r"(sim/wheel_(law|kernel_arch)\.h|bench/packed_exponentials\.cc)"),
-    (r"boost/.*", r"sim/traction_limit\.cc"),
-    (r"ceres/.*", r"gap/ceres_\w+\.cc"),
-    (r"nlohmann/.*", r"api/json/\w+\.(cc|h)"),
-    (r"sqlite3\.h", r"api/sqlite_\w+\.cc"),
-    (r"httplib\.h", r"server/http_\w+\.cc"),
-    (r"CLI/.*", r"server/cli_\w+\.cc"),
+    (r"ompl/.*", r"planner/search/ompl_\w+\.(cc|h)"),
+    (r"(cvode|sundials|nvector|sunlinsol|sunmatrix)/.*", r"sim/dynamic/cvode_\w+\.cc"),
+    (r"(kinsol)/.*", r"sim/quasi_static/kinsol_\w+\.cc"),
+    (r"xsimd/.*", r"(sim/wheel/wheel_(law|kernel_arch)\.h|bench/packed_exponentials\.cc)"),
+    (r"boost/.*", r"sim/quasi_static/traction_limit\.cc"),
+    (r"ceres/.*", r"gap/estimate/ceres_\w+\.cc"),
+    (r"nlohmann/.*", r"api/json/\w+\.cc"),
+    (r"sqlite3\.h", r"api/jobs/sqlite_\w+\.cc"),
+    (r"httplib\.h", r"server/http/\w+\.cc"),
+    (r"CLI/.*", r"server/cli/\w+\.cc"),
     (r"(Simbody|SimTK\w*)\.h|simbody/.*", r"(?!)"),  # a judge in tests alone
 ]
 
 # Folders that say nothing about what is in them.
 FORBIDDEN_NAMES = {"utils", "util", "common", "helpers", "helper", "manager"}
 
-faults = []
-includes = 0
-for room in MAY_SEE:
+
+def folder_of(path):
+    """The folder of a file inside its room, "." for the room itself."""
+    parts = path.split("/")[1:-1]
+    return "/".join(parts) or "."
+
+
+def storeys(room):
+    """folder -> its storey, counted from the bottom."""
+    found = {}
+    for storey, names in enumerate(FOLDERS.get(room, ["."])):
+        for name in names if isinstance(names, set) else {names}:
+            found[name] = storey
+    return found
+
+
+def check_room(room, faults):
+    """The include lines of a room, counted; what is wrong with them goes to the faults."""
+    storey = storeys(room)
+    sources = {}
+    includes = 0
     for path in sorted((root / room).rglob("*")):
         relative = path.relative_to(root).as_posix()
         if FORBIDDEN_NAMES & set(re.split(r"[/_.]", relative)):
             faults.append(f"{relative}: a name that says nothing")
         if path.suffix not in {".cc", ".h"}:
             continue
+        if re.search(r"_test\.(cc|h)$", relative):
+            faults.append(f"{relative}: only files in tests/ end in _test")
+        folder = folder_of(relative)
+        if folder not in storey:
+            faults.append(f"{relative}: folder {folder} of {room} is not in this test's list")
+            continue
+        if path.suffix == ".cc":
+            sources[folder] = sources.get(folder, 0) + 1
         text = path.read_text()
+        if path.suffix == ".h" and "#pragma once" not in text:
+            faults.append(f"{relative}: no #pragma once")
         for line, content in enumerate(text.splitlines(), 1):
             match = re.match(r'\s*#\s*include\s*([<"])([^>"]+)[>"]', content)
             if not match:
@@ -54,30 +98,39 @@ for room in MAY_SEE:
             includes += 1
             quote, header = match.groups()
             if quote == '"':
-                other = header.split("/")[0]
-                if other not in MAY_SEE[room]:
-                    faults.append(f"{relative}:{line}: {room} must not see {header}")
-                elif not (root / header).is_file():
-                    faults.append(f"{relative}:{line}: {header} is not in the tree; write paths from its top")
+                check_own(room, relative, line, header, storey, faults)
             for vendor, place in FENCES:
                 if re.fullmatch(vendor, header) and not re.fullmatch(place, relative):
                     faults.append(f"{relative}:{line}: {header} belongs behind {place}")
-        if path.suffix == ".h" and "#pragma once" not in text:
-            faults.append(f"{relative}: no #pragma once")
+    for folder, count in sources.items():
+        if count > MOST_SOURCES:
+            faults.append(f"{room}/{folder}: {count} sources, at most {MOST_SOURCES}: this folder is a drawer")
+    return includes
 
-# A header of api/json that shows nlohmann stays inside api/json.
-private = {f"api/json/{p.name}" for p in (root / "api/json").glob("*.h") if "nlohmann/" in p.read_text()}
-for room in MAY_SEE:
-    for path in (root / room).rglob("*"):
-        relative = path.relative_to(root).as_posix()
-        if path.suffix in {".cc", ".h"} and not relative.startswith("api/json/"):
-            for header in re.findall(r'#include "([^"]+)"', path.read_text()):
-                if header in private:
-                    faults.append(f"{relative}: {header} shows nlohmann and belongs inside api/json")
 
-if includes < 100:
-    faults.append(f"only {includes} include lines were found: this test looks at the wrong tree")
-print(f"{includes} include lines checked")
-for fault in faults:
-    print(fault)
-sys.exit(1 if faults else 0)
+def check_own(room, relative, line, header, storey, faults):
+    """An include line that names a file of ours."""
+    other = header.split("/")[0]
+    if not (root / header).is_file():
+        faults.append(f"{relative}:{line}: {header} is not in the tree; write paths from its top")
+    elif other != room and other not in MAY_SEE[room]:
+        faults.append(f"{relative}:{line}: {room} must not see {header}")
+    elif other == room:
+        mine, seen = folder_of(relative), folder_of(header)
+        if mine != seen and storey.get(seen, len(storey)) >= storey[mine]:
+            faults.append(f"{relative}:{line}: {mine} must not see {header}, which is not below it")
+
+
+def main():
+    faults = []
+    includes = sum(check_room(room, faults) for room in MAY_SEE)
+    if includes < 1000:
+        faults.append(f"only {includes} include lines were found: this test looks at the wrong tree")
+    print(f"{includes} include lines checked")
+    for fault in faults:
+        print(fault)
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -2,7 +2,7 @@
 
 #include "core/angle.h"
 #include "dem/elevation_source.h"
-#include "planner/plan.h"
+#include "planner/make_plan.h"
 #include "tests/planner/plan_fixture.h"
 
 namespace slipway::planner {

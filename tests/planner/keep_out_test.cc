@@ -1,4 +1,4 @@
-#include "planner/keep_out.h"
+#include "planner/problem/keep_out.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
-#include "planner/leg_search.h"
+#include "planner/search/leg_search.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "planner/grid_search.h"
-#include "planner/planner_catalogue.h"
-#include "planner/pose_sampler.h"
-#include "planner/smooth_route.h"
+#include "planner/search/grid_search.h"
+#include "planner/search/planner_catalogue.h"
+#include "planner/search/pose_sampler.h"
+#include "planner/search/smooth_route.h"
 #include "tests/planner/plan_fixture.h"
 
 namespace slipway::planner {

@@ -1,4 +1,4 @@
-#include "planner/motion_cost.h"
+#include "planner/search/motion_cost.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "core/angle.h"
 #include "dem/synthetic_terrain.h"
-#include "planner/grid_search.h"
+#include "planner/search/grid_search.h"
 #include "tests/planner/plan_fixture.h"
 
 namespace slipway::planner {

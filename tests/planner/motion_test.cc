@@ -1,4 +1,4 @@
-#include "planner/motion.h"
+#include "planner/problem/motion.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "core/angle.h"
 #include "core/random.h"
-#include "planner/route_stations.h"
+#include "planner/judge/route_stations.h"
 
 namespace slipway::planner {
 namespace {

@@ -1,8 +1,8 @@
-#include "planner/overlap.h"
+#include "planner/search/overlap.h"
 
 #include <gtest/gtest.h>
 
-#include "planner/select_routes.h"
+#include "planner/search/select_routes.h"
 
 namespace slipway::planner {
 namespace {

@@ -5,7 +5,8 @@
 #include <string_view>
 
 #include "dem/ascii_terrain.h"
-#include "planner/plan.h"
+#include "planner/make_plan.h"
+#include "planner/predict_path.h"
 
 namespace slipway::planner {
 

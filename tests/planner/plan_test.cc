@@ -1,5 +1,3 @@
-#include "planner/plan.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,8 +7,9 @@
 
 #include "core/angle.h"
 #include "dem/synthetic_terrain.h"
-#include "planner/keep_out.h"
-#include "planner/select_routes.h"
+#include "planner/make_plan.h"
+#include "planner/problem/keep_out.h"
+#include "planner/search/select_routes.h"
 #include "tests/planner/plan_fixture.h"
 
 namespace slipway::planner {

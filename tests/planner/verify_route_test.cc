@@ -1,4 +1,4 @@
-#include "planner/verify_route.h"
+#include "planner/judge/verify_route.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 
 #include "core/angle.h"
 #include "dem/synthetic_terrain.h"
-#include "planner/drive_legs.h"
-#include "planner/rank.h"
-#include "planner/terrain_ground.h"
+#include "planner/judge/drive_legs.h"
+#include "planner/judge/rank.h"
+#include "planner/problem/terrain_ground.h"
 #include "tests/planner/plan_fixture.h"
 
 namespace slipway::planner {

@@ -1,4 +1,4 @@
-#include "server/http_chunked.h"
+#include "server/http/http_chunked.h"
 
 #include <gtest/gtest.h>
 

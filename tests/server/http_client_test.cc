@@ -1,4 +1,4 @@
-#include "server/http_client.h"
+#include "server/http/http_client.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "server/http_gatherer.h"
+#include "server/http/http_gatherer.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "server/http_head.h"
+#include "server/http/http_head.h"
 
 #include <gtest/gtest.h>
 
-#include "server/http_target.h"
+#include "server/http/http_target.h"
 
 namespace slipway::server {
 namespace {

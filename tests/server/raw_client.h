@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "server/http_server.h"
+#include "server/http/http_server.h"
 
 namespace slipway::server {
 

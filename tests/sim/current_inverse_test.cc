@@ -1,4 +1,4 @@
-#include "sim/current_inverse.h"
+#include "sim/single_wheel/current_inverse.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sim/current_map.h"
+#include "sim/single_wheel/current_map.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sim/cvode_integrator.h"
+#include "sim/dynamic/cvode_integrator.h"
 
 #include <gtest/gtest.h>
 

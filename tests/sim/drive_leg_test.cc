@@ -1,4 +1,4 @@
-#include "sim/drive_leg.h"
+#include "sim/dynamic/drive_leg.h"
 
 #include <gtest/gtest.h>
 

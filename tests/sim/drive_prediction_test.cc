@@ -1,4 +1,4 @@
-#include "sim/drive_prediction.h"
+#include "sim/prediction/drive_prediction.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sim/drive_sensors.h"
+#include "sim/dynamic/drive_sensors.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/angle.h"
-#include "sim/dynamic_drive.h"
+#include "sim/dynamic/dynamic_drive.h"
 #include "tests/sim/reference_models.h"
 
 namespace slipway::sim {

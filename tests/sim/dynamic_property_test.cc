@@ -4,7 +4,7 @@
 
 #include "core/angle.h"
 #include "core/random.h"
-#include "sim/dynamic_drive.h"
+#include "sim/dynamic/dynamic_drive.h"
 #include "tests/sim/reference_models.h"
 
 namespace slipway::sim {

@@ -1,4 +1,4 @@
-#include "sim/effect_catalogue.h"
+#include "sim/effects/effect_catalogue.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "core/angle.h"
 #include "core/random.h"
-#include "sim/quasi_static.h"
+#include "sim/quasi_static/quasi_static.h"
 #include "tests/sim/reference_models.h"
 
 namespace slipway::sim {

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "core/angle.h"
-#include "sim/drive_risk.h"
-#include "sim/quasi_static.h"
+#include "sim/prediction/drive_risk.h"
+#include "sim/quasi_static/quasi_static.h"
 #include "tests/sim/reference_models.h"
 
 namespace slipway::sim {

@@ -1,4 +1,4 @@
-#include "sim/motor_control.h"
+#include "sim/dynamic/motor_control.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/angle.h"
-#include "sim/leg_driver.h"
+#include "sim/dynamic/leg_driver.h"
 #include "tests/sim/reference_models.h"
 
 namespace slipway::sim {

@@ -1,4 +1,4 @@
-#include "sim/motor.h"
+#include "sim/rover/motor.h"
 
 #include <gtest/gtest.h>
 

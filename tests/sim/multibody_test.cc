@@ -1,4 +1,4 @@
-#include "sim/multibody.h"
+#include "sim/dynamic/multibody.h"
 
 #include <gtest/gtest.h>
 

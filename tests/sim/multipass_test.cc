@@ -1,4 +1,4 @@
-#include "sim/multipass.h"
+#include "sim/rover/multipass.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/angle.h"
-#include "sim/quasi_static.h"
+#include "sim/quasi_static/quasi_static.h"
 #include "tests/sim/reference_models.h"
 
 namespace slipway::sim {

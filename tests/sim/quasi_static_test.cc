@@ -1,4 +1,4 @@
-#include "sim/quasi_static.h"
+#include "sim/quasi_static/quasi_static.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "core/angle.h"
 #include "core/random.h"
-#include "sim/rover_balance.h"
+#include "sim/quasi_static/rover_balance.h"
 #include "tests/sim/reference_models.h"
 
 namespace slipway::sim {

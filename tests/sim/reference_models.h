@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "core/angle.h"
-#include "sim/ground.h"
-#include "sim/rover_model.h"
-#include "sim/soil.h"
-#include "sim/wheel_forces.h"
+#include "sim/rover/ground.h"
+#include "sim/rover/rover_model.h"
+#include "sim/soil/soil.h"
+#include "sim/wheel/wheel_forces.h"
 
 namespace slipway::sim {
 

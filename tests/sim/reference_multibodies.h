@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/multibody.h"
+#include "sim/dynamic/multibody.h"
 
 namespace slipway::sim {
 

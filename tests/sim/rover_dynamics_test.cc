@@ -1,10 +1,10 @@
-#include "sim/rover_dynamics.h"
+#include "sim/dynamic/rover_dynamics.h"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "sim/stance.h"
+#include "sim/rover/stance.h"
 #include "tests/sim/reference_models.h"
 
 namespace slipway::sim {

@@ -1,9 +1,9 @@
-#include "sim/rover_model.h"
+#include "sim/rover/rover_model.h"
 
 #include <gtest/gtest.h>
 
-#include "sim/drive_command.h"
-#include "sim/motor.h"
+#include "sim/rover/drive_command.h"
+#include "sim/rover/motor.h"
 #include "tests/sim/reference_models.h"
 
 namespace slipway::sim {

@@ -1,11 +1,11 @@
-#include "sim/rover_multibody.h"
+#include "sim/dynamic/rover_multibody.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/random.h"
-#include "sim/suspension.h"
+#include "sim/rover/suspension.h"
 #include "tests/sim/reference_models.h"
 
 namespace slipway::sim {
@@ -77,7 +77,7 @@ TEST(RoverMultibody, TakesGivenMassesInPlaceOfItsShares) {
   rover.masses.wheel_kg = 4.0;
   rover.masses.rocker_kg = 5.0;
   rover.masses.bogie_kg = 2.0;
-  EXPECT_NEAR(body_mass_kg(rover), 174.0 - 24.0 - 10.0 - 4.0, 1e-12);
+  EXPECT_NEAR(rover.body_mass_kg(), 174.0 - 24.0 - 10.0 - 4.0, 1e-12);
   rover.masses.wheel_kg = 40.0;
   EXPECT_THROW(rover_multibody(rover), std::invalid_argument);
 }

@@ -1,4 +1,4 @@
-#include "sim/rut_map.h"
+#include "sim/dynamic/rut_map.h"
 
 #include <gtest/gtest.h>
 

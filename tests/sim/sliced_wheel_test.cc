@@ -1,4 +1,4 @@
-#include "sim/sliced_wheel.h"
+#include "sim/wheel/sliced_wheel.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/angle.h"
-#include "sim/quasi_static.h"
+#include "sim/quasi_static/quasi_static.h"
 #include "tests/sim/reference_models.h"
 
 namespace slipway::sim {

@@ -1,10 +1,10 @@
-#include "sim/slip_table.h"
+#include "sim/quasi_static/slip_table.h"
 
 #include <gtest/gtest.h>
 
 #include "core/angle.h"
-#include "sim/drive_risk.h"
-#include "sim/traction_limit.h"
+#include "sim/prediction/drive_risk.h"
+#include "sim/quasi_static/traction_limit.h"
 #include "tests/sim/reference_models.h"
 
 namespace slipway::sim {

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "core/angle.h"
-#include "sim/quasi_static.h"
-#include "sim/stance.h"
+#include "sim/quasi_static/quasi_static.h"
+#include "sim/rover/stance.h"
 #include "tests/sim/dynamic_drives.h"
 
 namespace slipway::sim {

@@ -1,4 +1,4 @@
-#include "sim/soil.h"
+#include "sim/soil/soil.h"
 
 #include <gtest/gtest.h>
 

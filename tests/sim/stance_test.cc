@@ -1,4 +1,4 @@
-#include "sim/stance.h"
+#include "sim/rover/stance.h"
 
 #include <gtest/gtest.h>
 

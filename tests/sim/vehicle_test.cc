@@ -5,8 +5,8 @@
 
 #include "core/angle.h"
 #include "core/random.h"
-#include "sim/quasi_static.h"
-#include "sim/suspension.h"
+#include "sim/quasi_static/quasi_static.h"
+#include "sim/rover/suspension.h"
 #include "tests/sim/reference_models.h"
 
 namespace slipway::sim {

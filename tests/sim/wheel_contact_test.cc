@@ -1,4 +1,4 @@
-#include "sim/wheel_contact.h"
+#include "sim/dynamic/wheel_contact.h"
 
 #include <gtest/gtest.h>
 

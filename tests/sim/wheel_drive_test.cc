@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/angle.h"
-#include "sim/free_wheel.h"
-#include "sim/quasi_static.h"
+#include "sim/quasi_static/quasi_static.h"
+#include "sim/wheel/free_wheel.h"
 #include "tests/sim/reference_models.h"
 
 namespace slipway::sim {

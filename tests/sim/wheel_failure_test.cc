@@ -1,10 +1,10 @@
-#include "sim/wheel_failure.h"
+#include "sim/rover/wheel_failure.h"
 
 #include <gtest/gtest.h>
 
 #include "core/angle.h"
-#include "sim/drive_prediction.h"
-#include "sim/dynamic_drive.h"
+#include "sim/dynamic/dynamic_drive.h"
+#include "sim/prediction/drive_prediction.h"
 #include "tests/sim/reference_models.h"
 
 namespace slipway::sim {

@@ -1,4 +1,4 @@
-#include "sim/wheel_forces.h"
+#include "sim/wheel/wheel_forces.h"
 
 #include <gtest/gtest.h>
 
@@ -6,17 +6,17 @@
 #include <cmath>
 #include <vector>
 
-#include "sim/bekker_pressure.h"
-#include "sim/bulldozing_law.h"
-#include "sim/duricrust_law.h"
-#include "sim/entry_angle.h"
-#include "sim/hardpan_law.h"
-#include "sim/slip_ratio.h"
-#include "sim/soil_in_force.h"
-#include "sim/soil_law_catalogue.h"
-#include "sim/terzaghi.h"
-#include "sim/wheel_kernel.h"
-#include "sim/zhurong_literal.h"
+#include "sim/single_wheel/zhurong_literal.h"
+#include "sim/soil/bekker_pressure.h"
+#include "sim/soil/bulldozing_law.h"
+#include "sim/soil/duricrust_law.h"
+#include "sim/soil/hardpan_law.h"
+#include "sim/soil/soil_in_force.h"
+#include "sim/soil/soil_law_catalogue.h"
+#include "sim/soil/terzaghi.h"
+#include "sim/wheel/entry_angle.h"
+#include "sim/wheel/slip_ratio.h"
+#include "sim/wheel/wheel_kernel.h"
 #include "tests/sim/reference_models.h"
 
 namespace slipway::sim {

@@ -1,4 +1,4 @@
-#include "sim/wheel_sweep.h"
+#include "sim/single_wheel/wheel_sweep.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "core/angle.h"
 #include "core/random.h"
-#include "sim/effect_catalogue.h"
+#include "sim/effects/effect_catalogue.h"
 #include "tests/sim/reference_models.h"
 
 namespace slipway::sim {

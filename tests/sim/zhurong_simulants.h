@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "sim/sweep_parameter.h"
+#include "sim/single_wheel/sweep_parameter.h"
 #include "tests/sim/reference_models.h"
 
 namespace slipway::sim {

@@ -1,4 +1,4 @@
-#include "validation/csv_table.h"
+#include "validation/report/csv_table.h"
 
 #include <gtest/gtest.h>
 

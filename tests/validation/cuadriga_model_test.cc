@@ -1,10 +1,10 @@
-#include "validation/cuadriga_model.h"
+#include "validation/cuadriga/cuadriga_model.h"
 
 #include <gtest/gtest.h>
 
-#include "api/catalogue.h"
+#include "api/files/catalogue.h"
 #include "core/angle.h"
-#include "validation/cuadriga_windows.h"
+#include "validation/cuadriga/cuadriga_windows.h"
 
 namespace slipway::validation {
 namespace {

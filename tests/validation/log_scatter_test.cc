@@ -1,4 +1,4 @@
-#include "validation/log_scatter.h"
+#include "validation/cuadriga/log_scatter.h"
 
 #include <gtest/gtest.h>
 

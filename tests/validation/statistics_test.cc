@@ -1,4 +1,4 @@
-#include "validation/statistics.h"
+#include "validation/report/statistics.h"
 
 #include <gtest/gtest.h>
 

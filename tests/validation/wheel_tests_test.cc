@@ -1,4 +1,4 @@
-#include "validation/wheel_tests.h"
+#include "validation/laboratory/wheel_tests.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <set>
 
 #include "core/angle.h"
-#include "validation/cuadriga_windows.h"
+#include "validation/cuadriga/cuadriga_windows.h"
 
 namespace slipway::validation {
 namespace {

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "api/files/campaign/shipped_campaigns.h"
+#include "api/files/catalogue.h"
+#include "api/requests/answers.h"
+
+namespace slipway::api::json {
+
+// What there is to ask for, each as {"<kind>": [...]}, sorted by name or in the catalogue's own order.
+std::string write_terrains(const Catalogue& catalogue);
+std::string write_rovers(const Catalogue& catalogue);
+std::string write_soils(const Catalogue& catalogue);
+std::string write_effects();
+std::string write_drive_campaigns(const std::vector<ShippedCampaign>& campaigns);
+std::string write_planners();  // with the cost terms that routes are ranked by
+std::string write_errors();
+
+std::string write_ground_at(const GroundAt& at);
+std::string write_health();
+
+}  // namespace slipway::api::json

@@ -1,0 +1,361 @@
+#include "api/documents/diagnosis_document.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <span>
+#include <string_view>
+
+#include "api/files/effect_settings.h"
+#include "api/files/noise_scales.h"
+#include "api/files/rover_file.h"
+#include "api/files/soil_file.h"
+#include "api/json/writer.h"
+#include "core/angle.h"
+#include "core/version.h"
+#include "sim/effects/effect_catalogue.h"
+
+namespace slipway::api::json {
+namespace {
+
+using gap::Diagnosis;
+using gap::Interval;
+
+constexpr int kDiscCorners = 32;
+
+// value and interval_90 of the object that is being written. What no number was found for is not there, nor
+// an interval that does not hold its value.
+void write_interval_keys(Writer& w, const Interval& interval, double unit = 1.0) {
+  if (std::isfinite(interval.value)) w.significant("value", unit * interval.value);
+  if (std::isfinite(interval.low) && std::isfinite(interval.high) && interval.low <= interval.value &&
+      interval.value <= interval.high)
+    w.key("interval_90")
+        .begin_array()
+        .significant(unit * interval.low)
+        .significant(unit * interval.high)
+        .end_array();
+}
+
+void write_interval(Writer& w, std::string_view key, const Interval& interval, double unit = 1.0) {
+  w.key(key).begin_object();
+  write_interval_keys(w, interval, unit);
+  w.end_object();
+}
+
+void write_finite(Writer& w, std::string_view key, double value) {
+  if (std::isfinite(value)) w.significant(key, value);
+}
+
+void write_provenance(Writer& w, const gap::DriveCampaign& campaign, const Diagnosis& d) {
+  w.key("provenance").begin_object();
+  w.key("hashes").begin_object().text("campaign", d.campaign_fingerprint).key("terrains").begin_object();
+  for (const gap::CampaignTerrain& terrain : campaign.terrains) w.text(terrain.name, terrain.fingerprint);
+  w.end_object().end_object();
+  w.text("version", version()).whole("seed", static_cast<std::int64_t>(d.seed));
+  w.texts("effects", d.library);
+  std::vector<std::string> withheld;
+  for (const sim::Effect& effect : sim::effect_catalogue())
+    if (std::find(d.library.begin(), d.library.end(), effect.name) == d.library.end())
+      withheld.emplace_back(effect.name);
+  w.texts("withheld", withheld);
+  w.whole("drives", static_cast<std::int64_t>(d.drives))
+      .whole("windows", static_cast<std::int64_t>(d.windows));
+  w.whole("observations", static_cast<std::int64_t>(d.observations)).end_object();
+}
+
+void write_effects_found(Writer& w, const Diagnosis& d) {
+  w.key("effects").begin_array();
+  for (const gap::FoundEffect& found : d.effects) {
+    w.begin_object().text("name", found.name);
+    if (!found.variant.empty()) w.text("variant", found.variant);
+    w.significant("probability", found.probability).key("parameters").begin_object();
+    for (const gap::FoundParameter& parameter : found.parameters)
+      write_interval(w, parameter.name, parameter.value);
+    w.end_object().end_object();
+  }
+  w.end_array();
+}
+
+void write_candidates(Writer& w, const Diagnosis& d) {
+  w.key("candidates").begin_array();
+  for (const gap::ComparedSet& set : compared_sets(d)) {
+    w.begin_object().texts("effects", set.effects).exact("probability", set.probability);
+    if (set.held_out_score) write_finite(w, "held_out_score", *set.held_out_score);
+    w.whole("complexity", set.complexity);
+    w.significant("chosen_share", set.chosen_share).end_object();
+  }
+  w.end_array().key("confusable").begin_array();
+  for (const gap::ConfusablePair& pair : d.confusable)
+    w.begin_object().texts("effects", {pair.a, pair.b}).significant("angle_deg", pair.angle_deg).end_object();
+  w.end_array();
+}
+
+void write_channels(Writer& w, const Diagnosis& d) {
+  w.key("channels").begin_array();
+  for (const gap::ChannelGap& channel : d.channels) {
+    const double unit = gap::boundary_unit(channel.channel);
+    w.begin_object().text("channel", gap::name_of(channel.channel));
+    if (channel.wheel) w.text("wheel", *channel.wheel);
+    w.text("unit", gap::unit_of(channel.channel));
+    write_finite(w, "gap", unit * channel.gap);
+    write_finite(w, "noise", unit * channel.noise);
+    write_finite(w, "bias", unit * channel.bias);
+    write_finite(w, "significance", channel.significance);
+    w.end_object();
+  }
+  w.end_array();
+}
+
+void write_regimes(Writer& w, std::string_view key, std::span<const gap::Regime> regimes) {
+  w.key(key).begin_array();
+  for (const gap::Regime& regime : regimes) {
+    w.begin_object().key("condition").begin_array();
+    for (const gap::Condition& condition : regime.conditions) {
+      w.begin_object().text("variable", condition.variable);
+      // An open end is not there.
+      write_finite(w, "from", condition.from);
+      write_finite(w, "to", condition.to);
+      w.end_object();
+    }
+    w.end_array().text("channel", gap::name_of(regime.channel));
+    w.significant("share_of_gap", regime.share_of_gap).significant("share_of_data", regime.share_of_data);
+    w.significant("significance", regime.significance).end_object();
+  }
+  w.end_array();
+}
+
+void write_channels_of_effects(Writer& w, const Diagnosis& d) {
+  w.key("channels_of_effects").begin_array();
+  for (const gap::ChannelShare& share : d.channels_of_effects) {
+    w.begin_object().text("channel", gap::name_of(share.channel));
+    w.significant("share", share.share).end_object();
+  }
+  w.end_array();
+}
+
+void write_places(Writer& w, const Diagnosis& d) {
+  w.key("places").begin_object().text("type", "FeatureCollection").key("features").begin_array();
+  for (const gap::GapPlace& place : d.places) {
+    w.begin_object().text("type", "Feature").key("geometry").begin_object().text("type", "Polygon");
+    w.key("coordinates").begin_array().begin_array();
+    for (int k = 0; k <= kDiscCorners; ++k) {
+      const double angle = 2.0 * std::numbers::pi * (k % kDiscCorners) / kDiscCorners;
+      w.begin_array().metres(place.x_m + place.radius_m * std::cos(angle));
+      w.metres(place.y_m + place.radius_m * std::sin(angle)).end_array();
+    }
+    w.end_array().end_array().end_object();
+    w.key("properties").begin_object().text("terrain", place.terrain);
+    w.text("channel", gap::name_of(place.channel)).metres("x_m", place.x_m).metres("y_m", place.y_m);
+    w.metres("radius_m", place.radius_m).significant("share_of_gap", place.share_of_gap);
+    w.end_object().end_object();
+  }
+  w.end_array().end_object();
+}
+
+void write_windows(Writer& w, const gap::DriveCampaign& campaign, const Diagnosis& d) {
+  w.key("windows").begin_array();
+  for (const gap::WindowGap& window : d.window_gaps) {
+    if (window.stations.empty()) continue;
+    const Pose2& middle = window.stations[window.stations.size() / 2];
+    w.begin_object().text("terrain", campaign.terrains[window.terrain].name);
+    w.text("drive", campaign.drives[window.drive].id).significant("start_s", window.start_s);
+    w.metres("x_m", middle.x_m).metres("y_m", middle.y_m);
+    write_finite(w, "nominal", window.nominal);
+    write_finite(w, "retuned", window.retuned);
+    write_finite(w, "with_effects", window.with_effects);
+    w.end_object();
+  }
+  w.end_array();
+}
+
+void write_planners_view(Writer& w, const Diagnosis& d) {
+  const gap::PlannersView& view = d.planners_view;
+  const auto count = [&](std::string_view key, std::size_t n) { w.whole(key, static_cast<std::int64_t>(n)); };
+  w.key("planning").begin_object();
+  count("observations", view.observations);
+  count("windows", view.windows);
+  count("immobilised", view.immobilised);
+  count("pairs", view.pairs);
+  for (const auto& [name, figures] : {std::pair{"nominal", &view.nominal},
+                                      {"retuned", &view.retuned},
+                                      {"with_effects", &view.with_effects}}) {
+    w.key(name).begin_object();
+    if (view.observations > 0) w.significant("within_90", figures->within_90);
+    count("immobilised_called", figures->called);
+    count("false_calls", figures->false_calls);
+    if (view.pairs > 0) w.significant("pairs_in_order", figures->in_order);
+    w.end_object();
+  }
+  w.end_object();
+}
+
+void write_extrapolations(Writer& w, const Diagnosis& d) {
+  w.key("extrapolation").begin_array();
+  for (const gap::Extrapolation& e : d.extrapolations) {
+    w.begin_object().text("variable", e.variable).significant(e.above ? "above" : "below", e.limit);
+    w.whole("drives", static_cast<std::int64_t>(e.groups));
+    w.significant("log_density_gain", e.log_density_gain).significant("standard_error", e.error).end_object();
+  }
+  w.end_array();
+}
+
+void write_gap(Writer& w, const Diagnosis& d) {
+  w.key("gap").begin_object().key("channels").begin_array();
+  for (const gap::ChannelShrink& channel : d.gap) {
+    const double unit = gap::boundary_unit(channel.channel);
+    w.begin_object().text("channel", gap::name_of(channel.channel));
+    w.text("unit", gap::unit_of(channel.channel));
+    write_interval(w, "nominal", channel.nominal, unit);
+    write_interval(w, "retuned", channel.retuned, unit);
+    write_interval(w, "with_effects", channel.with_effects, unit);
+    write_interval(w, "noise_floor", channel.noise_floor, unit);
+    if (channel.closed_fraction) write_interval(w, "closed_fraction", *channel.closed_fraction);
+    w.end_object();
+  }
+  w.end_array();
+  if (d.closed_fraction) write_interval(w, "closed_fraction", *d.closed_fraction);
+  w.end_object();
+}
+
+void write_residual(Writer& w, const Diagnosis& d) {
+  w.key("residual").begin_array();
+  for (const gap::ResidualShape& shape : d.residual) {
+    w.begin_object().text("entry", shape.entry).text("variable", shape.variable);
+    write_finite(w, "share", shape.share);
+    w.key("shape").begin_array();
+    for (const auto& [at, value] : shape.shape) {
+      if (!std::isfinite(at) || !std::isfinite(value.value)) continue;
+      w.begin_object().significant("at", at);
+      write_interval_keys(w, value);
+      w.end_object();
+    }
+    w.end_array().end_object();
+  }
+  w.end_array();
+}
+
+void write_least_detectable(Writer& w, const Diagnosis& d) {
+  w.key("least_detectable").begin_array();
+  for (const gap::LeastDetectable& least : d.least_detectable) {
+    if (!std::isfinite(least.value)) continue;
+    w.begin_object().text("effect", least.effect).text("parameter", least.parameter);
+    w.significant("value", least.value).end_object();
+  }
+  w.end_array();
+}
+
+void write_next_drives(Writer& w, const Diagnosis& d) {
+  w.key("next_drives").begin_array();
+  for (const gap::NextDrive& drive : d.next_drives) {
+    w.begin_object().significant("tilt_deg", drive.tilt_deg).significant("heading_deg", drive.heading_deg);
+    w.significant("speed_m_s", drive.speed_m_s).significant("curvature_1_m", drive.curvature_1_m);
+    w.significant("motor_temp_c", drive.motor_temp_c);
+    write_finite(w, "expected_information_bits", drive.information_bits);
+    w.end_object();
+  }
+  w.end_array();
+}
+
+void write_model(Writer& w, const gap::DriveCampaign& campaign, const Diagnosis& d) {
+  const auto model = corrected_model(campaign, d);
+  if (!model) return;
+  w.key("model").begin_object().text("campaign", campaign.name);
+  w.key("nominal").begin_object().text("rover", campaign.rover->name).key("soils").begin_array();
+  for (const gap::NominalSoil& soil : campaign.soils) w.text(soil.name);
+  w.end_array().end_object().key("rover").raw(rover_document(*model));
+  w.key("soils").raw(soils_document(*model));
+  write_effects(w, model->effects);
+  w.end_object();
+}
+
+void write_retuned(Writer& w, const Diagnosis& d) {
+  w.key("retuned").begin_array();
+  for (const gap::RetunedParameter& parameter : d.retuned) {
+    w.begin_object().text("name", parameter.name);
+    write_interval_keys(w, parameter.value);
+    w.significant("prior_std", parameter.prior_std).boolean("determined", parameter.determined).end_object();
+  }
+  w.end_array();
+}
+
+}  // namespace
+
+std::vector<gap::ComparedSet> compared_sets(const Diagnosis& diagnosis) {
+  std::vector<gap::ComparedSet> sets;
+  const auto same = [&](const std::vector<std::string>& effects) {
+    const std::set<std::string> names(effects.begin(), effects.end());
+    return std::find_if(sets.begin(), sets.end(), [&](const gap::ComparedSet& set) {
+      return std::set<std::string>(set.effects.begin(), set.effects.end()) == names;
+    });
+  };
+  double sum = 0.0;
+  for (const gap::ComparedSet& candidate : diagnosis.candidates) {
+    sum += candidate.probability;
+    if (const auto known = same(candidate.effects); known != sets.end()) {
+      known->probability += candidate.probability;
+      known->chosen_share += candidate.chosen_share;
+    } else {
+      sets.push_back(candidate);
+    }
+  }
+  for (const std::vector<std::string>& always : {std::vector<std::string>{}, {"unknown"}})
+    if (same(always) == sets.end()) sets.push_back({always, 0.0, std::nullopt, 0});
+  for (gap::ComparedSet& set : sets) {
+    if (sum > 0.0)
+      set.probability /= sum;
+    else
+      set.probability = 1.0 / static_cast<double>(sets.size());
+  }
+  std::stable_sort(sets.begin(), sets.end(), [](const gap::ComparedSet& a, const gap::ComparedSet& b) {
+    return a.probability > b.probability;
+  });
+  return sets;
+}
+
+std::string rover_document(const CorrectedModel& model) {
+  Writer w;
+  write_rover(w, model.rover);
+  return w.take();
+}
+
+std::string soils_document(const CorrectedModel& model) {
+  Writer w;
+  w.begin_object().text("format", "soils/1").key("soils").begin_array();
+  for (const sim::SoilDistribution& soil : model.soils) write_soil(w, soil);
+  w.end_array().end_object();
+  return w.take();
+}
+
+std::string diagnosis_document(const gap::DriveCampaign& campaign, const Diagnosis& d) {
+  Writer w;
+  w.begin_object().text("format", "diagnosis/1").text("campaign", d.campaign);
+  write_provenance(w, campaign, d);
+  w.text("verdict", gap::name_of(d.verdict)).text("reason", d.reason);
+  w.text("overturned_by", d.overturned_by);
+  write_effects_found(w, d);
+  write_candidates(w, d);
+  w.key("where").begin_object();
+  write_channels(w, d);
+  write_regimes(w, "regimes", d.regimes);
+  write_regimes(w, "regimes_retuned", d.regimes_retuned);
+  write_regimes(w, "regimes_of_effect", d.regimes_of_effect);
+  write_channels_of_effects(w, d);
+  write_places(w, d);
+  write_windows(w, campaign, d);
+  w.end_object();
+  write_gap(w, d);
+  write_planners_view(w, d);
+  write_extrapolations(w, d);
+  write_residual(w, d);
+  write_least_detectable(w, d);
+  write_next_drives(w, d);
+  write_retuned(w, d);
+  write_noise_scales(w.key("noise"), d.noise);
+  write_model(w, campaign, d);
+  w.texts("notes", d.notes).end_object();
+  return w.take();
+}
+
+}  // namespace slipway::api::json

@@ -1,0 +1,167 @@
+#include "api/documents/drive_series.h"
+
+#include <array>
+
+#include "core/angle.h"
+#include "core/version.h"
+
+namespace slipway::api::json {
+namespace {
+
+using sim::StationPrediction;
+using sim::WheelState;
+
+constexpr double kJoulesPerWattHour = 3600.0;
+
+struct Column {
+  std::string_view name;
+  double (*value)(const StationPrediction& station);
+};
+
+constexpr std::array kPlaceColumns{
+    Column{"distance_m", [](const StationPrediction& s) { return s.station.distance_m; }},
+    Column{"x_m", [](const StationPrediction& s) { return s.station.pose.x_m; }},
+    Column{"y_m", [](const StationPrediction& s) { return s.station.pose.y_m; }},
+    Column{"height_m", [](const StationPrediction& s) { return s.height_m; }},
+};
+
+constexpr std::array kColumns{
+    Column{"yaw_deg", [](const StationPrediction& s) { return deg_from_rad(s.attitude.yaw_rad); }},
+    Column{"roll_deg", [](const StationPrediction& s) { return deg_from_rad(s.attitude.roll_rad); }},
+    Column{"pitch_deg", [](const StationPrediction& s) { return deg_from_rad(s.attitude.pitch_rad); }},
+    Column{"tilt_deg", [](const StationPrediction& s) { return deg_from_rad(s.attitude.tilt_rad()); }},
+    Column{"clearance_m", [](const StationPrediction& s) { return s.clearance_m; }},
+    Column{"turned_deg", [](const StationPrediction& s) { return deg_from_rad(s.station.turned_rad); }},
+    Column{"slip", [](const StationPrediction& s) { return s.state.slip_ratio; }},
+    Column{"slip_p05", [](const StationPrediction& s) { return s.slip_ratio_p05; }},
+    Column{"slip_p50", [](const StationPrediction& s) { return s.slip_ratio_p50; }},
+    Column{"slip_p95", [](const StationPrediction& s) { return s.slip_ratio_p95; }},
+    Column{"side_slip_deg", [](const StationPrediction& s) { return deg_from_rad(s.state.side_slip_rad); }},
+    Column{"yaw_rate_deg_s", [](const StationPrediction& s) { return deg_from_rad(s.state.yaw_rate_rad_s); }},
+    Column{"left_rut_depth_m", [](const StationPrediction& s) { return s.state.left_rut_depth_m; }},
+    Column{"right_rut_depth_m", [](const StationPrediction& s) { return s.state.right_rut_depth_m; }},
+    Column{"current_a_p95", [](const StationPrediction& s) { return s.current_a_p95; }},
+    Column{"sinkage_m_p95", [](const StationPrediction& s) { return s.sinkage_m_p95; }},
+    Column{"power_w", [](const StationPrediction& s) { return s.state.electric_power_w; }},
+    Column{"risk", [](const StationPrediction& s) { return s.risk; }},
+    Column{"elapsed_s", [](const StationPrediction& s) { return s.elapsed_s; }},
+};
+
+struct WheelColumn {
+  std::string_view name;
+  double (*value)(const WheelState& wheel);
+};
+
+constexpr std::array kWheelColumns{
+    WheelColumn{"load_n", [](const WheelState& w) { return w.load_n; }},
+    WheelColumn{"slip", [](const WheelState& w) { return w.slip_ratio; }},
+    WheelColumn{"slip_angle_deg", [](const WheelState& w) { return deg_from_rad(w.slip_angle_rad); }},
+    WheelColumn{"sinkage_m", [](const WheelState& w) { return w.sinkage_m; }},
+    WheelColumn{"torque_nm", [](const WheelState& w) { return w.torque_nm; }},
+    WheelColumn{"current_a", [](const WheelState& w) { return w.current_a; }},
+};
+
+void write_words(Writer& w, const std::vector<StationPrediction>& stations, const Provenance& provenance) {
+  w.key("outcome").begin_array();
+  for (const StationPrediction& s : stations) w.text(sim::describe(s.state.outcome));
+  w.end_array().key("turning_in_place").begin_array();
+  for (const StationPrediction& s : stations) w.boolean(s.station.turning_in_place);
+  w.end_array().key("soil").begin_array();
+  for (const StationPrediction& s : stations) {
+    if (s.soil) {
+      w.text(provenance.soils.at(*s.soil));
+    } else {
+      w.null();
+    }
+  }
+  w.end_array().key("on_unknown_ground").begin_array();
+  for (const StationPrediction& s : stations) w.boolean(s.on_unknown_ground);
+  w.end_array();
+}
+
+}  // namespace
+
+void write_peak(Writer& w, std::string_view name, const sim::Peak& peak, double scale) {
+  w.key(name)
+      .begin_object()
+      .significant("value", peak.value * scale)
+      .metres("at_m", peak.distance_m)
+      .end_object();
+}
+
+void write_drive_figures(Writer& w, const sim::DrivePrediction& p) {
+  w.text("fidelity", "quasi_static");
+  w.metres("length_m", p.length_m).significant("turned_deg", deg_from_rad(p.turned_rad));
+  w.significant("duration_s", p.duration_s).significant("duration_p95_s", p.duration_s_p95);
+  w.significant("energy_wh", p.energy_j / kJoulesPerWattHour);
+  w.significant("energy_p95_wh", p.energy_j_p95 / kJoulesPerWattHour);
+  w.significant("mean_slip", p.mean_slip_ratio);
+  write_peak(w, "max_slip", p.max_slip_ratio);
+  write_peak(w, "max_tilt_deg", p.max_tilt_rad, deg_from_rad(1.0));
+  write_peak(w, "max_current_a", p.max_current_a);
+  write_peak(w, "max_sinkage_m", p.max_sinkage_m);
+  w.metres("unknown_length_m", p.unknown_length_m);
+  w.key("immobilised");
+  if (p.immobilised) {
+    w.begin_object().metres("at_m", p.immobilised->distance_m).metres("x_m", p.immobilised->pose.x_m);
+    w.metres("y_m", p.immobilised->pose.y_m).text("reason", p.immobilised->reason).end_object();
+  } else {
+    w.null();
+  }
+  w.texts("broken_limits", p.broken_limits);
+  w.key("risk").begin_object().significant("value", p.risk).significant("low", p.risk_low);
+  w.significant("high", p.risk_high).significant("immobilised", p.risk_immobilised).whole("draws", p.draws);
+  w.key("worst_place").begin_object().significant("value", p.worst_place.value);
+  w.metres("at_m", p.worst_place.distance_m).end_object().end_object();
+}
+
+void write_stations(Writer& w, const sim::DrivePrediction& prediction, const Provenance& provenance) {
+  const std::vector<StationPrediction>& stations = prediction.stations;
+  w.key("stations").begin_object().whole("count", static_cast<std::int64_t>(stations.size()));
+  for (const Column& column : kPlaceColumns) {
+    w.key(column.name).begin_array();
+    for (const StationPrediction& s : stations) w.metres(column.value(s));
+    w.end_array();
+  }
+  for (const Column& column : kColumns) {
+    w.key(column.name).begin_array();
+    for (const StationPrediction& s : stations) w.significant(column.value(s));
+    w.end_array();
+  }
+  write_words(w, stations, provenance);
+  w.key("wheels").begin_object();
+  for (std::size_t wheel = 0; wheel < prediction.wheel_names.size(); ++wheel) {
+    w.key(prediction.wheel_names[wheel]).begin_object();
+    for (const WheelColumn& column : kWheelColumns) {
+      w.key(column.name).begin_array();
+      for (const StationPrediction& s : stations) w.significant(column.value(s.state.wheels[wheel]));
+      w.end_array();
+    }
+    w.end_object();
+  }
+  w.end_object().end_object();
+}
+
+void write_line(Writer& w, const sim::DrivePrediction& prediction) {
+  w.key("geometry");
+  // A LineString has two positions at least (RFC 7946): a rover that is stuck where it stands has none.
+  if (prediction.stations.size() < 2) {
+    w.null();
+    return;
+  }
+  w.begin_object().text("type", "LineString").key("coordinates").begin_array();
+  for (const StationPrediction& s : prediction.stations) {
+    w.begin_array().metres(s.station.pose.x_m).metres(s.station.pose.y_m).metres(s.height_m).end_array();
+  }
+  w.end_array().end_object();
+}
+
+void write_provenance(Writer& w, const Provenance& p) {
+  w.key("provenance").begin_object().text("slipway", version()).text("fidelity", "quasi_static");
+  w.text("terrain_title", p.terrain_title).text("terrain_fingerprint", p.terrain_fingerprint);
+  w.text("crs_name", p.crs_name).text("body", p.body).exact("gravity_m_s2", p.gravity_m_s2);
+  w.texts("soils", p.soils).text("unknown_soil", p.unknown_soil).text("soil_assumption", p.soil_assumption);
+  w.whole("seed", static_cast<std::int64_t>(p.seed)).end_object();
+}
+
+}  // namespace slipway::api::json

@@ -1,0 +1,79 @@
+#include "api/documents/plan_answer.h"
+
+#include "api/documents/drive_series.h"
+#include "api/documents/dynamic_series.h"
+#include "api/documents/plan_request.h"
+#include "api/json/parse.h"
+#include "api/json/writer.h"
+
+namespace slipway::api::json {
+namespace {
+
+// What a route is called, how it is judged and its figures: the row of the summary and the feature's
+// properties.
+void write_route(Writer& w, const planner::Route& route) {
+  w.whole("rank", route.rank).text("planner", route.planner).text("profile", route.profile);
+  w.text("verdict", planner::describe(route.verdict)).texts("reasons", route.reasons);
+  w.significant("cost", route.cost);
+  w.key("cost_shares").begin_array();
+  for (const planner::CostShare& share : route.shares) {
+    w.begin_object().text("name", share.name).significant("value", share.value).text("unit", share.unit);
+    w.significant("weight", share.weight).significant("cost", share.cost).end_object();
+  }
+  w.end_array();
+  write_drive_figures(w, route.prediction);
+}
+
+}  // namespace
+
+std::string write_plan_answer(const PlanAnswer& answer) {
+  Writer w;
+  w.begin_object().text("format", "plan/1");
+  w.text("terrain", answer.request.terrain).text("rover", answer.request.rover);
+  write_provenance(w, answer.provenance);
+  w.key("request").raw(write_plan_request(answer.request));
+  w.whole("candidates", answer.plan.candidates).texts("fewer_because", answer.plan.fewer_because);
+  w.key("summary").begin_array();
+  for (const planner::Route& route : answer.plan.routes) {
+    w.begin_object();
+    write_route(w, route);
+    if (route.dynamic) write_dynamic_figures(w, *route.dynamic);
+    w.end_object();
+  }
+  w.end_array();
+  // Map metres, not degrees of the Earth: RFC 7946 section 4 asks for a prior arrangement, and crs_name says
+  // it.
+  w.key("routes")
+      .begin_object()
+      .text("type", "FeatureCollection")
+      .text("crs_name", answer.provenance.crs_name);
+  w.text("coordinates", "x_m, y_m, height_m in the terrain's projected system");
+  w.key("features").begin_array();
+  for (const planner::Route& route : answer.plan.routes) {
+    w.begin_object().text("type", "Feature").whole("id", route.rank);
+    write_line(w, route.prediction);
+    w.key("properties").begin_object();
+    write_route(w, route);
+    write_stations(w, route.prediction, answer.provenance);
+    if (route.dynamic) write_dynamic_drive(w, *route.dynamic);
+    w.end_object().end_object();
+  }
+  w.end_array().end_object().end_object();
+  return w.take();
+}
+
+Result<std::string> geojson_of(std::string_view answer) {
+  // Our own bytes: only the depth is as for anybody's.
+  const auto document = parse(answer, {.bytes = answer.size(), .values = answer.size()});
+  if (!document) return fail(document.error());
+  const JsonValue* routes = document->find("routes");
+  if (const JsonValue* const where = document->find("where")) routes = where->find("places");  // a diagnosis
+  if (routes == nullptr && document->find("estimates") != nullptr)  // of soils: nothing of it lies on a map
+    return std::string(R"({"type":"FeatureCollection","features":[]})");
+  if (routes == nullptr) return fail(ErrorCode::kInternal, "the answer holds no GeoJSON");
+  Writer w;
+  write_value(w, *routes);
+  return w.take();
+}
+
+}  // namespace slipway::api::json

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "api/requests/plan_request.h"
+#include "core/result.h"
+
+namespace slipway::api::json {
+
+// Errors only where the bytes are no JSON document; everything else is a fault in the reading.
+Result<Reading<PlanRequest>> read_plan_request(std::string_view bytes);
+
+// Whole, with every default filled in: what it gives reads back as the same request.
+std::string write_plan_request(const PlanRequest& request);
+
+}  // namespace slipway::api::json

@@ -1,0 +1,48 @@
+#include "api/documents/prediction_request.h"
+
+#include "api/documents/drive_assumptions.h"
+#include "api/json/parse.h"
+
+namespace slipway::api::json {
+namespace {
+
+// In the order of Rung.
+const std::vector<std::string_view> kRungs{"quasi_static", "dynamic"};
+
+}  // namespace
+
+Result<Reading<PredictionRequest>> read_prediction_request(std::string_view bytes) {
+  const auto document = parse(bytes, {.bytes = RequestLimits::kBodyBytes});
+  if (!document) return fail(document.error());
+  Reading<PredictionRequest> reading;
+  PredictionRequest& request = reading.request;
+  ObjectReader reader(*document, "", reading.faults);
+  if (!reader.is_object()) return reading;
+  read_names(reader, request.terrain, request.rover);
+  for (const Element& element : reader.list("path", kRequired, {2, RequestLimits::kPathCorners})) {
+    read_waypoint(*element.value, element.pointer, request.path.emplace_back(), reading.faults);
+  }
+  reader.boolean("backwards", kOptional, request.manner.backwards);
+  reader.angle_deg("crab_deg", kOptional, {"deg", -90.0, 90.0}, request.manner.crab_rad);
+  std::size_t rung = 0;
+  if (reader.choice("rung", kOptional, kRungs, rung)) request.rung = static_cast<Rung>(rung);
+  read_drive_assumptions(reader, request.drive);
+  reader.refuse_unknown();
+  return reading;
+}
+
+std::string write_prediction_request(const PredictionRequest& request) {
+  Writer w;
+  w.begin_object();
+  w.text("terrain", request.terrain).text("rover", request.rover);
+  w.key("path").begin_array();
+  for (const planner::Waypoint& corner : request.path) write_waypoint(w, corner);
+  w.end_array();
+  w.boolean("backwards", request.manner.backwards).angle_deg("crab_deg", request.manner.crab_rad);
+  w.text("rung", kRungs[static_cast<std::size_t>(request.rung)]);
+  write_drive_assumptions(w, request.drive);
+  w.end_object();
+  return w.take();
+}
+
+}  // namespace slipway::api::json

@@ -1,0 +1,147 @@
+#include "api/documents/soil_estimate_request.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "api/files/soil_tests_csv.h"
+#include "api/json/faults.h"
+#include "api/json/parse.h"
+#include "api/json/strict_reader.h"
+
+namespace slipway::api::json {
+namespace {
+
+constexpr std::uint64_t kLargestExactWhole = 9'007'199'254'740'991;  // 2^53 - 1
+constexpr std::size_t kMostTests = 2000, kMostPlates = 100, kMostSamples = 2000;
+
+void read_wheel(ObjectReader& reader, TestedWheel& wheel) {
+  reader.text("rover", kOptional, {.most = 64, .is_name = true}, wheel.rover);
+  reader.text("wheel", kOptional, {.most = 64, .is_name = true}, wheel.wheel);
+  reader.number("radius_m", kOptional, {"m", 0.01, 2.0}, wheel.radius_m);
+  reader.number("width_m", kOptional, {"m", 0.005, 2.0}, wheel.width_m);
+  reader.number("motor_temp_c", kOptional, {"C", -150.0, 150.0}, wheel.motor_temp_c);
+  if (auto object = reader.object("grousers", kOptional)) {
+    wheel.grousers.emplace();
+    object->number("height_m", kRequired, {"m", 0.0, 0.2}, wheel.grousers->height_m);
+    object->number("count", kRequired, {"1", 0.0, 200.0}, wheel.grousers->count);
+    object->refuse_unknown();
+  }
+}
+
+void read_wheel_tests(ObjectReader& reader, sim::SlipDefinition definition, SoilEstimateRequest& request) {
+  for (const Element& element : reader.list("wheel_tests", kOptional, {1, kMostTests})) {
+    const std::size_t before = reader.faults().size();
+    ObjectReader test = reader.object(element);
+    if (!test.is_object()) continue;
+    std::vector<std::optional<double>> values;
+    for (const TestColumn& column : wheel_test_columns()) {
+      auto& value = values.emplace_back();
+      test.number(column.name, column.required ? kRequired : kOptional,
+                  {"", column.lowest, column.highest, column.above_lowest}, value);
+    }
+    test.refuse_unknown();
+    std::vector<std::string> faults;
+    request.data.wheels.push_back(wheel_observation(values, faults));
+    request.data.wheels.back().test.slip_definition = definition;
+    for (std::size_t i = 0; reader.faults().size() == before && i < faults.size(); ++i)
+      reader.faults().push_back({element.pointer, faults[i]});
+  }
+}
+
+void read_plate_tests(ObjectReader& reader, SoilEstimateRequest& request) {
+  for (const Element& element : reader.list("plate_tests", kOptional, {1, kMostPlates})) {
+    ObjectReader test = reader.object(element);
+    if (!test.is_object()) continue;
+    gap::PlateTest& plate = request.data.plates.emplace_back();
+    test.number("plate_radius_m", kRequired, {"m", 0.001, 5.0}, plate.radius_m);
+    test.numbers("sinkage_m", kRequired, {1, kMostSamples}, {"m", 0.0, 5.0, true}, plate.sinkage_m);
+    test.numbers("pressure_pa", kRequired, {1, kMostSamples}, {"Pa", -1e9, 1e9}, plate.pressure_pa);
+    test.refuse_unknown();
+    if (!has_fault_under(reader.faults(), element.pointer) &&
+        plate.sinkage_m.size() != plate.pressure_pa.size())
+      reader.faults().push_back(
+          {element.pointer, fmt::format("{} sinkages and {} pressures, must be as many",
+                                        plate.sinkage_m.size(), plate.pressure_pa.size())});
+  }
+}
+
+std::vector<std::string_view> parameter_names() {
+  std::vector<std::string_view> names;
+  for (const gap::SoilParameterRow& row : gap::soil_parameter_rows()) names.push_back(row.name);
+  return names;
+}
+
+void read_free(ObjectReader& reader, gap::SoilEstimationOptions& options) {
+  std::vector<std::string> free;
+  reader.texts("free", kOptional, {1, gap::kSoilParameters}, {.most = 64, .is_name = true}, free);
+  const auto known = parameter_names();
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    if (const auto parameter = gap::soil_parameter(free[i]))
+      options.free.push_back(*parameter);
+    else
+      reader.faults().push_back(
+          {child_pointer("/free", i), unknown_name("parameter", free[i], {known.begin(), known.end()})});
+  }
+  for (const Element& element : reader.list("bounds", kOptional, {0, gap::kSoilParameters})) {
+    ObjectReader object = reader.object(element);
+    if (!object.is_object()) continue;
+    std::size_t parameter = 0;
+    double lowest = 0.0, highest = 0.0;
+    const bool good = object.choice("parameter", kRequired, known, parameter) &
+                      object.number("lowest", kRequired, {}, lowest) &
+                      object.number("highest", kRequired, {}, highest);
+    object.refuse_unknown();
+    if (!good) continue;
+    const gap::SoilParameterRow& row = gap::soil_parameter_rows()[parameter];
+    options.bounds.push_back({row.parameter, lowest / row.boundary_unit, highest / row.boundary_unit});
+  }
+}
+
+void read_options(ObjectReader& reader, gap::SoilEstimationOptions& options) {
+  read_free(reader, options);
+  std::size_t prior = 0, loss = 0;
+  if (reader.choice("prior", kOptional, {"none", "wide", "soil"}, prior))
+    options.priors = static_cast<gap::SoilPriors>(prior);
+  const auto losses = gap::robust_loss_names();
+  if (reader.choice("loss", kOptional, {losses.begin(), losses.end()}, loss))
+    options.loss = static_cast<gap::RobustLoss>(loss);
+  reader.number("loss_scale", kOptional, {"", 0.0, 100.0, true}, options.loss_scale);
+  if (reader.number("noise", kOptional, {"", 1e-4, 1.0}, options.noise.share))
+    options.noise.share_of_rms = 0.25 * options.noise.share;
+  reader.boolean("profile", kOptional, options.profile);
+  reader.whole("seed", kOptional, std::uint64_t{0}, kLargestExactWhole, options.seed);
+}
+
+}  // namespace
+
+Result<Reading<SoilEstimateRequest>> read_soil_estimate_request(std::string_view bytes) {
+  const auto document = parse(bytes, {.bytes = RequestLimits::kBodyBytes});
+  if (!document) return fail(document.error());
+  Reading<SoilEstimateRequest> reading;
+  SoilEstimateRequest& request = reading.request;
+  ObjectReader reader(*document, "", reading.faults);
+  if (!reader.is_object()) return reading;
+  reader.text("campaign", kOptional, {.most = 64, .is_name = true}, request.campaign);
+  reader.text("soil", kOptional, {.most = 64, .is_name = true}, request.soil);
+  read_wheel(reader, request.wheel);
+  reader.number("gravity_m_s2", kOptional, {"m/s^2", 0.1, 30.0}, request.gravity_m_s2);
+  reader.number("speed_m_s", kOptional, {"m/s", 1e-4, 5.0}, request.speed_m_s);
+  std::size_t definition = 0;
+  reader.choice("slip_definition", kOptional, {"forward", "travel"}, definition);
+  read_wheel_tests(reader, static_cast<sim::SlipDefinition>(definition), request);
+  read_plate_tests(reader, request);
+  std::vector<std::string> channels;
+  reader.texts("channels", kOptional, {1, 10}, {.most = 64, .is_name = true}, channels);
+  read_options(reader, request.options);
+  reader.refuse_unknown();
+  for (Fault& fault : choose_channels(channels, request)) reading.faults.push_back(std::move(fault));
+  const bool tests = !request.data.wheels.empty() || !request.data.plates.empty();
+  if (reading.faults.empty() && tests == !request.campaign.empty())
+    reading.faults.push_back({"", tests ? "there are tests and a campaign: one of them is enough"
+                                        : "there are no wheel_tests, no plate_tests and no campaign"});
+  return reading;
+}
+
+}  // namespace slipway::api::json

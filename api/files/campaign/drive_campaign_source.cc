@@ -1,0 +1,275 @@
+#include "api/files/campaign/drive_campaign_source.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <map>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "api/files/campaign/drive_campaign_file.h"
+#include "api/files/campaign/drive_series_csv.h"
+#include "api/files/campaign/recorded_ground.h"
+#include "api/files/rover_file.h"
+#include "api/files/terrain_site.h"
+#include "api/json/faults.h"
+#include "api/json/text_place.h"
+#include "campaign/digest.h"
+#include "dem/elevation_source.h"
+#include "dem/soil_map.h"
+#include "gap/diagnosis/model/drive_window.h"
+
+namespace slipway::api {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kDocument = "campaign.json";
+// What a campaign may cost in memory: 180 MB of terrain, and about half a gigabyte of samples.
+constexpr long long kMostCells = dem::kMostWindowCells;
+constexpr std::size_t kMostRows = 1'000'000;
+
+// The file's true place, or why it is not to be read.
+Result<fs::path> place_in(const fs::path& folder, const std::string& name) {
+  const fs::path relative(name);
+  const bool climbs =
+      std::any_of(relative.begin(), relative.end(), [](const fs::path& p) { return p == ".."; });
+  if (name.find('\0') != std::string::npos || relative.is_absolute() || climbs)
+    return fail(ErrorCode::kUnreadableData,
+                in_quotes(name) + " must lie in the campaign's folder: a path from there, without \"..\"");
+  std::error_code error;
+  const fs::path root = fs::canonical(folder, error);
+  const fs::path path = error ? fs::path() : fs::canonical(root / relative, error);
+  if (error)
+    return fail(ErrorCode::kUnreadableData,
+                in_quotes(name) + " does not exist in the campaign's folder, or may not be read");
+  const auto [end, ignored] = std::mismatch(root.begin(), root.end(), path.begin(), path.end());
+  if (end != root.end())
+    return fail(ErrorCode::kUnreadableData,
+                in_quotes(name) + " is a link that leads out of the campaign's folder");
+  if (!fs::is_regular_file(path, error))
+    return fail(ErrorCode::kUnreadableData, in_quotes(name) + " is no regular file");
+  return path;
+}
+
+// Of a file of any size.
+std::uint64_t digest_of_file(const fs::path& path, std::uint64_t digest) {
+  std::ifstream stream(path, std::ios::binary);
+  std::array<char, 1 << 16> block{};
+  while (stream.read(block.data(), block.size()) || stream.gcount() > 0)
+    digest = campaign::digest_of({block.data(), static_cast<std::size_t>(stream.gcount())}, digest);
+  return digest;
+}
+
+// "campaign.json, line 12, column 3 (/rover): ..."
+std::string with_place(std::string_view document, const std::string& pointer, const std::string& message) {
+  const json::TextPlace place = json::place_of(document, pointer);
+  return fmt::format("{}, line {}, column {} ({}): {}", kDocument, place.line, place.column,
+                     pointer.empty() ? "all of it" : pointer, message);
+}
+
+class Loader {
+ public:
+  Loader(const fs::path& folder, std::string_view document, json::DriveCampaignFile file)
+      : folder_(folder), document_(document), file_(std::move(file)), digest_(campaign::digest_of(document)) {
+    for (const Fault& fault : file_.faults) add(fault.pointer, fault.message);
+    if (!file_.rover) return;  // then columns of wheels are passed over, with the fault that says why
+    for (const sim::WheelModel& wheel : file_.rover->wheels) wheels_.push_back(wheel.name);
+  }
+
+  Result<gap::DriveCampaign> load() {
+    campaign_.name = file_.name;
+    campaign_.gravity_m_s2 = file_.gravity_m_s2;
+    campaign_.rover = file_.rover;
+    campaign_.soils = file_.soils;
+    campaign_.measurement_std = file_.measurement_std;
+    campaign_.notes = file_.notes;
+    for (const json::CampaignTerrainEntry& entry : file_.terrains) read_terrain(entry);
+    for (json::CampaignDriveEntry& entry : file_.drives) read_drive(entry);
+    if (!faults_.empty()) return fail(ErrorCode::kUnreadableData, summary_of(faults_), faults_);
+    note_columns();
+    json::Writer rover;
+    json::write_rover(rover, *campaign_.rover);
+    campaign_.fingerprint = fmt::format("{:016x}", campaign::digest_of(rover.take(), digest_));
+    return std::move(campaign_);
+  }
+
+ private:
+  struct Elevation {
+    dem::ElevationInfo info;
+    std::shared_ptr<const dem::Terrain> terrain;
+    std::uint64_t digest = 0;
+  };
+
+  void add(const std::string& pointer, const std::string& message) {
+    faults_.push_back({fmt::format("{}#{}", kDocument, pointer), with_place(document_, pointer, message)});
+  }
+
+  std::size_t soil_index(const std::string& name) const {
+    const auto at = std::find_if(file_.soils.begin(), file_.soils.end(),
+                                 [&](const gap::NominalSoil& soil) { return soil.name == name; });
+    return at == file_.soils.end() ? 0 : static_cast<std::size_t>(at - file_.soils.begin());
+  }
+
+  // Terrains may share a raster: it is read once.
+  Result<const Elevation*> elevation_in(const std::string& name) {
+    const auto path = place_in(folder_, name);
+    if (!path) return fail(path.error());
+    if (const auto known = elevations_.find(*path); known != elevations_.end()) return &known->second;
+    const auto source = dem::open_elevation(*path, dem::PlacelessRaster::kLocalFrame);
+    if (!source) return fail(source.error());
+    const dem::GridGeometry& geometry = (*source)->info().geometry;
+    cells_ += static_cast<long long>(geometry.rows) * geometry.columns;
+    if (cells_ > kMostCells)
+      return fail(
+          ErrorCode::kUnreadableData,
+          fmt::format("the campaign's terrains have more than {} cells: cut them to where the drives are",
+                      kMostCells));
+    const auto terrain = (*source)->read(geometry.extent());
+    if (!terrain) return fail(terrain.error());
+    const std::uint64_t digest = digest_of_file(*path, campaign::digest_of({}));
+    return &elevations_.emplace(*path, Elevation{(*source)->info(), *terrain, digest}).first->second;
+  }
+
+  void read_terrain(const json::CampaignTerrainEntry& entry) {
+    gap::CampaignTerrain& terrain = campaign_.terrains.emplace_back();
+    terrain.name = entry.name;
+    if (entry.dem.empty()) return;
+    const auto elevation = elevation_in(entry.dem);
+    if (!elevation) return add(entry.pointer + "/dem", elevation.error().detail);
+    std::uint64_t digest = campaign::digest_of((*elevation)->terrain->fingerprint());
+    if (!entry.soil.empty()) {
+      terrain.ground = std::make_shared<const RecordedGround>((*elevation)->terrain, soil_index(entry.soil));
+    } else if (!entry.soil_raster.empty()) {
+      terrain.ground = mapped_ground(entry, **elevation, digest);
+    }
+    terrain.fingerprint = fmt::format("{:016x}", digest);
+    digest_ =
+        campaign::digest_of(fmt::format("{:016x}{}", (*elevation)->digest, terrain.fingerprint), digest_);
+  }
+
+  std::shared_ptr<const sim::Ground> mapped_ground(const json::CampaignTerrainEntry& entry,
+                                                   const Elevation& elevation, std::uint64_t& digest) {
+    const auto refuse = [&](const Error& error) {
+      add(entry.pointer + "/soil/raster", error.detail);
+      return nullptr;
+    };
+    const auto path = place_in(folder_, entry.soil_raster);
+    if (!path) return refuse(path.error());
+    const auto map =
+        dem::read_soil_raster(*path, elevation.info, elevation.info.geometry.extent(), entry.classes);
+    if (!map) return refuse(map.error());
+    digest = digest_of_file(*path, digest);
+    std::vector<std::size_t> soils;
+    for (const std::string& name : (*map)->soils()) soils.push_back(soil_index(name));
+    for (const dem::SoilClass& row : entry.classes)
+      digest = campaign::digest_of(fmt::format("{} {};", row.value, row.soil.value_or("")), digest);
+    return std::make_shared<const RecordedGround>(elevation.terrain, *map, std::move(soils));
+  }
+
+  void read_drive(json::CampaignDriveEntry& entry) {
+    gap::MeasuredDriveSeries& drive = campaign_.drives.emplace_back(std::move(entry.drive));
+    if (entry.file.empty()) return;
+    const auto path = place_in(folder_, entry.file);
+    const auto bytes = path ? read_data_file(*path) : Result<std::string>(fail(path.error()));
+    if (!bytes) return add(entry.pointer + "/file", bytes.error().detail);
+    digest_ = campaign::digest_of(*bytes, digest_);
+    DriveSeries series = read_drive_series(*bytes, entry.file, wheels_, kMostRows - rows_);
+    rows_ += series.samples.size();
+    faults_.insert(faults_.end(), series.faults.begin(), series.faults.end());
+    passed_over_.merge(series.passed_over);
+    drive.samples = std::move(series.samples);
+    if (drive.final_only && drive.samples.size() > 2) {
+      campaign_.notes.push_back(
+          fmt::format("drive {} is final_only and its file has {} rows: the first and the "
+                      "last were taken",
+                      drive.id, drive.samples.size()));
+      drive.samples.erase(drive.samples.begin() + 1, drive.samples.end() - 1);
+    }
+  }
+
+  void note_columns() {
+    if (passed_over_.empty()) return;
+    constexpr std::size_t kMostNamed = 200;
+    std::vector<std::string> names(passed_over_.begin(), passed_over_.end());
+    const std::size_t more = names.size() > kMostNamed ? names.size() - kMostNamed : 0;
+    names.resize(names.size() - more);
+    for (std::string& name : names)
+      if (const auto meant = column_meant(name, wheels_))
+        name += fmt::format(" (did you mean \"{}\"?)", *meant);
+    campaign_.notes.push_back(fmt::format("columns that the format does not have were passed over: {}{}",
+                                          fmt::join(names, ", "),
+                                          more > 0 ? fmt::format(" and {} more", more) : ""));
+  }
+
+  const fs::path& folder_;
+  std::string_view document_;  // the bytes of campaign.json
+  json::DriveCampaignFile file_;
+  std::vector<std::string> wheels_;  // the names of the rover's
+  std::uint64_t digest_;
+  std::map<fs::path, Elevation> elevations_;
+  long long cells_ = 0;
+  std::size_t rows_ = 0;
+  std::set<std::string> passed_over_;
+  std::vector<Fault> faults_;
+  gap::DriveCampaign campaign_;
+};
+
+// Where campaign.json is, or why nothing is to be had from what was given as its folder.
+Result<fs::path> document_in(const fs::path& folder) {
+  std::error_code error;
+  const std::string name = folder.string();
+  if (!fs::exists(folder, error))
+    return fail(ErrorCode::kUnreadableData,
+                fmt::format("there is no folder \"{}\", or it may not be read", name));
+  if (!fs::is_directory(folder, error))
+    return fail(
+        ErrorCode::kUnreadableData,
+        fmt::format("\"{}\" is no folder: a campaign is the folder that {} lies in", name, kDocument));
+  if (fs::symlink_status(folder / kDocument, error).type() == fs::file_type::not_found)
+    return fail(ErrorCode::kUnreadableData,
+                fmt::format("there is no {} in the folder \"{}\"", kDocument, name));
+  return place_in(folder, std::string(kDocument));
+}
+
+// Of a campaign.json that is no document. Faults of syntax say their line and column themselves.
+Error refused_document(std::string_view bytes, const Error& why) {
+  std::vector<Fault> faults = why.faults;
+  if (faults.empty()) faults.push_back({"", fmt::format("{}: {}", kDocument, why.detail)});
+  for (Fault& fault : faults) {
+    if (fault.message.starts_with("line "))
+      fault.message = fmt::format("{}, {}", kDocument, fault.message);
+    else if (!why.faults.empty())
+      fault.message = with_place(bytes, fault.pointer, fault.message);
+  }
+  return {ErrorCode::kUnreadableData, summary_of(faults), moved_under(fmt::format("{}#", kDocument), faults)};
+}
+
+}  // namespace
+
+Result<gap::DriveCampaign> load_drive_campaign(const fs::path& folder, const Catalogue& catalogue) {
+  const std::string document(kDocument);
+  const auto path = document_in(folder);
+  if (!path)
+    return fail(ErrorCode::kUnreadableData, path.error().detail, {{document + "#", path.error().detail}});
+  const auto bytes = read_data_file(*path);
+  if (!bytes)
+    return fail(ErrorCode::kUnreadableData, bytes.error().detail, {{document + "#", bytes.error().detail}});
+  auto file = json::read_drive_campaign_file(*bytes, catalogue);
+  if (!file) return fail(refused_document(*bytes, file.error()));
+  auto campaign = Loader(folder, *bytes, std::move(*file)).load();
+  if (!campaign) return campaign;
+  gap::adopt_measured_rates(*campaign);
+  gap::note_turned_against_command(*campaign);
+  if (gap::currents_split_evenly(*campaign))
+    campaign->notes.emplace_back(
+        "all wheels have the same current in every row: it is taken for a total that was divided evenly, and "
+        "compared as the wheels' mean");
+  return campaign;
+}
+
+}  // namespace slipway::api

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+
+#include "api/files/catalogue.h"
+#include "core/result.h"
+#include "gap/diagnosis/model/drive_campaign.h"
+
+namespace slipway::api {
+
+// Reads a "drive-campaign/1": campaign.json, the terrains and the drives' CSVs that it names, all of them
+// inside the folder. A raster without a coordinate reference system is taken as a local frame of metres,
+// which is what the format's map frame is. The faults of all files are reported together; pointers begin with
+// the file, "campaign.json#/drives/3/terrain" or "D001.csv#/12/x_m". Errors: unreadable_data.
+Result<gap::DriveCampaign> load_drive_campaign(const std::filesystem::path& folder,
+                                               const Catalogue& catalogue);
+
+}  // namespace slipway::api

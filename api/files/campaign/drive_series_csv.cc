@@ -1,0 +1,306 @@
+#include "api/files/campaign/drive_series_csv.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <optional>
+#include <span>
+
+#include "api/files/csv_cells.h"
+#include "api/json/faults.h"
+#include "core/angle.h"
+
+namespace slipway::api {
+namespace {
+
+constexpr std::size_t kMostFaults = 100;  // of one file, that are told one by one
+constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
+
+// What a column holds: its range in the unit of its name, and where it goes.
+struct Channel {
+  std::string_view name;  // of a wheel's without the wheel
+  double lowest, highest;
+  void (*set)(gap::DriveSample& sample, std::size_t wheel, double value);
+};
+
+constexpr double kFarthest_m = 1e8;  // map coordinates of a whole planet
+constexpr double kMostTurns_deg = 36'000.0;
+using Sample = gap::DriveSample;
+
+constexpr std::array<Channel, 8> kChannels{{
+    {"t_s", -1e11, 1e11, [](Sample& s, std::size_t, double v) { s.time_s = v; }},
+    {"x_m", -kFarthest_m, kFarthest_m, [](Sample& s, std::size_t, double v) { s.p_MB.x() = v; }},
+    {"y_m", -kFarthest_m, kFarthest_m, [](Sample& s, std::size_t, double v) { s.p_MB.y() = v; }},
+    {"z_m", -1e5, 1e5, [](Sample& s, std::size_t, double v) { s.p_MB.z() = v; }},
+    {"roll_deg", -180.0, 180.0,
+     [](Sample& s, std::size_t, double v) { s.attitude.roll_rad = rad_from_deg(v); }},
+    {"pitch_deg", -180.0, 180.0,
+     [](Sample& s, std::size_t, double v) { s.attitude.pitch_rad = rad_from_deg(v); }},
+    {"yaw_deg", -kMostTurns_deg, kMostTurns_deg,
+     [](Sample& s, std::size_t, double v) { s.attitude.yaw_rad = rad_from_deg(v); }},
+    {"bus_voltage_v", 0.0, 1000.0, [](Sample& s, std::size_t, double v) { s.bus_voltage_v = v; }},
+}};
+constexpr std::size_t kTime = 0;  // in kChannels
+
+constexpr std::array<Channel, 5> kWheelChannels{{
+    {"rate_deg_s", -1e4, 1e4,
+     [](Sample& s, std::size_t k, double v) { s.wheels[k].rate_rad_s = rad_from_deg(v); }},
+    {"steer_deg", -360.0, 360.0,
+     [](Sample& s, std::size_t k, double v) { s.wheels[k].steer_rad = rad_from_deg(v); }},
+    {"current_a", -1000.0, 1000.0, [](Sample& s, std::size_t k, double v) { s.wheels[k].current_a = v; }},
+    {"sinkage_m", -2.0, 2.0, [](Sample& s, std::size_t k, double v) { s.wheels[k].sinkage_m = v; }},
+    {"motor_temp_c", -273.15, 1000.0,
+     [](Sample& s, std::size_t k, double v) { s.wheels[k].motor_temp_c = v; }},
+}};
+
+// Measured as a whole or not at all: indices into kChannels.
+struct Group {
+  std::string_view name;
+  std::array<std::size_t, 3> channels;
+  std::size_t alone = kNowhere;  // what may be there without the others: a heading without an inclinometer
+};
+constexpr std::array<Group, 2> kGroups{{{"a position", {1, 2, 3}}, {"an attitude", {4, 5, 6}, 6}}};
+
+struct Column {
+  std::string name;
+  const Channel* channel = nullptr;  // nullptr: passed over
+  std::size_t wheel = 0;
+};
+
+// Bytes from outside as a message may hold them.
+std::string printable(std::string_view text) {
+  std::string shown(text);
+  std::replace_if(
+      shown.begin(), shown.end(),
+      [](char c) { return static_cast<unsigned char>(c) < 0x20U || static_cast<unsigned char>(c) >= 0x7FU; },
+      '?');
+  return shown;
+}
+
+std::string shown(std::string_view text) {
+  return in_quotes(printable(text));
+}
+
+// "lf" of "lf_rate_deg_s"; "" where the column is not of this kind.
+std::string_view wheel_in(std::string_view name, const Channel& channel) {
+  if (name.size() < channel.name.size() + 2 || !name.ends_with(channel.name)) return {};
+  const std::string_view wheel = name.substr(0, name.size() - channel.name.size() - 1);
+  return name[wheel.size()] == '_' ? wheel : std::string_view();
+}
+
+class Reader {
+ public:
+  Reader(const std::string& file, const std::vector<std::string>& wheels) : file_(file), wheels_(wheels) {}
+
+  DriveSeries read(std::string_view bytes, std::size_t most_rows) {
+    const std::vector<CsvLine> lines = csv_lines(bytes);
+    if (lines.empty()) {
+      fault(1, 0, "the file is empty, must have a header and two rows at least");
+      return finish();
+    }
+    read_header(lines[0]);
+    const std::size_t rows = lines.size() - 1;
+    if (rows < 2)
+      fault(lines.back().number, 0,
+            fmt::format("the file ends after {} rows of measurements, must have 2", rows));
+    if (rows > most_rows) {
+      fault(lines[1 + most_rows].number, 0,
+            fmt::format("{} rows here, and only {} more of this campaign can be held: leave out samples",
+                        rows, most_rows));
+      return finish();
+    }
+    series_.samples.reserve(rows);
+    for (std::size_t i = 1; i < lines.size(); ++i) read_row(lines[i]);
+    return finish();
+  }
+
+ private:
+  // column: from 0, also one behind the last.
+  void fault(std::size_t line, std::size_t column, const std::string& message) {
+    if (++faults_ > kMostFaults) return;
+    const std::string name = column < columns_.size() ? printable(columns_[column].name) : "";
+    series_.faults.push_back({fmt::format("{}#/{}{}{}", file_, line, name.empty() ? "" : "/", name),
+                              fmt::format("{}, line {}, column {}{}: {}", file_, line, column + 1,
+                                          name.empty() ? "" : fmt::format(" ({})", name), message)});
+  }
+
+  DriveSeries finish() {
+    if (faults_ > kMostFaults)
+      series_.faults.push_back(
+          {file_ + "#", fmt::format("{}: {} faults more like these", file_, faults_ - kMostFaults)});
+    return std::move(series_);
+  }
+
+  void read_header(const CsvLine& line) {
+    line_ = line.number;
+    for (const std::string_view name : csv_cells(line.text)) columns_.push_back({std::string(name)});
+    places_.fill(kNowhere);
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      read_column(c);
+      numbers_before_.push_back(numbers_before_.back() + (columns_[c].channel != nullptr ? 1 : 0));
+    }
+    if (places_[kTime] == kNowhere) fault(line_, 0, "there is no column t_s, which every file must have");
+    for (const Group& group : kGroups) check_columns(group);
+  }
+
+  void read_column(std::size_t c) {
+    const std::string& name = columns_[c].name;
+    if (name.empty()) return fault(line_, c, "the column has no name");
+    for (std::size_t before = 0; before < c; ++before)
+      if (columns_[before].name == name)
+        return fault(line_, c, fmt::format("{} is column {} as well", shown(name), before + 1));
+    for (std::size_t i = 0; i < kChannels.size(); ++i) {
+      if (kChannels[i].name != name) continue;
+      columns_[c].channel = &kChannels[i];
+      places_[i] = c;
+      return;
+    }
+    if (!is_wheel_column(c)) series_.passed_over.insert(printable(name));
+  }
+
+  bool is_wheel_column(std::size_t c) {
+    for (const Channel& channel : kWheelChannels) {
+      const std::string_view wheel = wheel_in(columns_[c].name, channel);
+      const auto at = std::find(wheels_.begin(), wheels_.end(), wheel);
+      if (wheel.empty() || at == wheels_.end()) continue;
+      columns_[c].channel = &channel;
+      columns_[c].wheel = static_cast<std::size_t>(at - wheels_.begin());
+      return true;
+    }
+    return false;
+  }
+
+  void check_columns(const Group& group) {
+    std::vector<std::string_view> there, absent;
+    std::size_t first = kNowhere;
+    bool others = false;
+    for (const std::size_t channel : group.channels) {
+      others = others || (channel != group.alone && places_[channel] != kNowhere);
+      (places_[channel] == kNowhere ? absent : there).push_back(kChannels[channel].name);
+      first = std::min(first, places_[channel]);
+    }
+    if (others && !absent.empty())
+      fault(line_, first,
+            fmt::format("{} is measured as a whole or not at all; there is {}, but no column {}", group.name,
+                        fmt::join(there, ", "), fmt::join(absent, ", ")));
+  }
+
+  void read_row(const CsvLine& line) {
+    line_ = line.number;
+    const std::vector<std::string_view> cells = csv_cells(line.text);
+    if (cells.size() != columns_.size()) return read_torn_row(cells);
+    gap::DriveSample sample;
+    sample.wheels = sim::PerWheel<gap::WheelReading>(wheels_.size());
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      if (read_cell(c, cells[c], sample) && c == places_[kTime]) check_time(sample.time_s);
+    for (const Group& group : kGroups) check_cells(group, cells);
+    series_.samples.push_back(sample);
+  }
+
+  // A row with too few or too many cells. A cell may belong to a column as far away as cells are too few or
+  // too many: it is told where it would be no number in any of them.
+  void read_torn_row(std::span<const std::string_view> cells) {
+    const std::size_t columns = columns_.size();
+    fault(line_, std::min(cells.size(), columns),
+          fmt::format("the row has {} cells, must have {} as the header", cells.size(), columns));
+    if (cells.size() < 2) return;  // other separators
+    const std::size_t lacking = columns - std::min(cells.size(), columns);
+    const std::size_t excess = cells.size() - std::min(cells.size(), columns);
+    for (std::size_t c = 0; c < std::min(cells.size(), columns); ++c) {
+      const std::size_t first = c - std::min(c, excess), end = c + lacking + 1;
+      if (numbers_before_[end] - numbers_before_[first] == end - first && !cells[c].empty())
+        number_in(c, cells[c]);
+    }
+  }
+
+  std::optional<double> number_in(std::size_t c, std::string_view cell) {
+    const std::optional<double> value = csv_number(cell);
+    if (!value) fault(line_, c, shown(cell) + " is no finite number");
+    return value;
+  }
+
+  // Whether there was a value, and it was good.
+  bool read_cell(std::size_t c, std::string_view cell, gap::DriveSample& sample) {
+    const Channel* const channel = columns_[c].channel;
+    if (channel == nullptr) return false;
+    if (cell.empty()) {
+      if (channel == &kChannels[kTime]) fault(line_, c, "the cell is empty: every row has its time");
+      return false;
+    }
+    const std::optional<double> value = number_in(c, cell);
+    if (!value) return false;
+    if (*value < channel->lowest || *value > channel->highest) {
+      fault(line_, c, fmt::format("{}, must be in [{}, {}]", *value, channel->lowest, channel->highest));
+      return false;
+    }
+    channel->set(sample, columns_[c].wheel, *value);
+    return true;
+  }
+
+  void check_time(double time_s) {
+    if (last_time_s_ && !(time_s > *last_time_s_))
+      fault(line_, places_[kTime],
+            fmt::format("t_s = {} s after {} s, time must increase from row to row", time_s, *last_time_s_));
+    last_time_s_ = time_s;
+  }
+
+  void check_cells(const Group& group, std::span<const std::string_view> cells) {
+    std::size_t absent = kNowhere;
+    bool others = false;
+    for (const std::size_t channel : group.channels) {
+      const std::size_t place = places_[channel];
+      if (place == kNowhere) return;  // told of the header, or alone
+      if (cells[place].empty())
+        absent = std::min(absent, place);
+      else
+        others = others || channel != group.alone;
+    }
+    if (others && absent != kNowhere)
+      fault(line_, absent,
+            fmt::format("the cell is empty where others of the row are not: {} is measured as a whole or not "
+                        "at all",
+                        group.name));
+  }
+
+  const std::string& file_;
+  const std::vector<std::string>& wheels_;
+  std::vector<Column> columns_;
+  std::vector<std::size_t> numbers_before_{0};          // how many columns before each have a channel
+  std::array<std::size_t, kChannels.size()> places_{};  // the column of each channel
+  std::size_t line_ = 0;
+  std::optional<double> last_time_s_;
+  std::size_t faults_ = 0;
+  DriveSeries series_;
+};
+
+}  // namespace
+
+DriveSeries read_drive_series(std::string_view bytes, const std::string& file,
+                              const std::vector<std::string>& wheels, std::size_t most_rows) {
+  return Reader(file, wheels).read(bytes, most_rows);
+}
+
+std::optional<std::string> column_meant(std::string_view name, const std::vector<std::string>& wheels) {
+  std::string lower(name);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::vector<std::string> known;
+  for (const Channel& channel : kChannels) known.emplace_back(channel.name);
+  for (const Channel& channel : kWheelChannels) {
+    if (const std::string_view wheel = wheel_in(lower, channel); !wheel.empty()) {
+      // "yaw_rate_deg_s" and "bus_current_a" are nobody's wheel; two letters are meant as one.
+      const auto meant = nearest(wheel, wheels);
+      const bool alike = meant && wheel.find_first_of(*meant) != std::string_view::npos;
+      if (!alike || wheel.size() == 3 || wheel.size() == 4) return std::nullopt;
+      return fmt::format("{}_{}", *meant, channel.name);
+    }
+    for (const std::string& wheel : wheels) known.push_back(fmt::format("{}_{}", wheel, channel.name));
+  }
+  return nearest(lower, known);
+}
+
+}  // namespace slipway::api

@@ -1,0 +1,120 @@
+#include "api/files/catalogue.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include "api/files/rover_file.h"
+#include "api/files/soil_file.h"
+#include "api/json/faults.h"
+
+namespace slipway::api {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Sorted, so that faults come in the same order everywhere.
+std::vector<fs::path> entries_of(const fs::path& folder) {
+  std::vector<fs::path> entries;
+  std::error_code error;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    entries.push_back(it->path());
+  }
+  std::sort(entries.begin(), entries.end());
+  return entries;
+}
+
+void add_faults(const std::string& file, const Error& error, std::vector<Fault>& faults) {
+  if (error.faults.empty()) faults.push_back({file + "#", error.detail});
+  const auto moved = moved_under(file + "#", error.faults);
+  faults.insert(faults.end(), moved.begin(), moved.end());
+}
+
+void load_rovers(const fs::path& data, Catalogue& catalogue, std::vector<Fault>& faults) {
+  for (const fs::path& path : entries_of(data / "rovers")) {
+    if (path.extension() != ".json") continue;
+    const std::string file = "rovers/" + path.filename().string();
+    const auto bytes = read_data_file(path);
+    auto rover = bytes ? json::read_rover_file(*bytes) : Result<sim::RoverModel>(fail(bytes.error()));
+    if (!rover) {
+      add_faults(file, rover.error(), faults);
+    } else if (rover->name != path.stem().string()) {
+      faults.push_back(
+          {file + "#/name", fmt::format("name = {}, must be the file's name", in_quotes(rover->name))});
+    } else {
+      const std::string name =
+          rover->name;  // of its own: the rover is moved from before the key is looked up
+      catalogue.rovers[name] = std::make_shared<const sim::RoverModel>(std::move(*rover));
+    }
+  }
+  if (catalogue.rovers.empty() && faults.empty()) faults.push_back({"rovers#", "there is no rover"});
+}
+
+void load_soils(const fs::path& data, Catalogue& catalogue, std::vector<Fault>& faults) {
+  for (const fs::path& path : entries_of(data / "soils")) {
+    if (path.extension() != ".json") continue;
+    const std::string file = "soils/" + path.filename().string();
+    const auto bytes = read_data_file(path);
+    auto soils = bytes ? json::read_soil_file(*bytes)
+                       : Result<std::vector<sim::SoilDistribution>>(fail(bytes.error()));
+    if (!soils) {
+      add_faults(file, soils.error(), faults);
+      continue;
+    }
+    for (std::size_t i = 0; i < soils->size(); ++i) {
+      const std::string name = (*soils)[i].name;
+      if (!catalogue.soils.emplace(name, std::move((*soils)[i])).second) {
+        faults.push_back(
+            {fmt::format("{}#/soils/{}/name", file, i), fmt::format("soil {} is given twice", name)});
+      }
+    }
+  }
+  if (faults.empty() && !catalogue.soils.contains(kUnknownGround)) {
+    faults.push_back({"soils#", fmt::format("there is no soil {}", kUnknownGround)});
+  }
+}
+
+void check_legend(const std::string& file, const TerrainDescription& terrain, const Catalogue& catalogue,
+                  std::vector<Fault>& faults) {
+  for (std::size_t i = 0; i < terrain.legend.size(); ++i) {
+    const auto& soil = terrain.legend[i].soil;
+    if (!soil || catalogue.soils.contains(*soil)) continue;
+    faults.push_back({fmt::format("{}#/soil/legend/{}/soil", file, i),
+                      unknown_name("soil", *soil, names_of(catalogue.soils))});
+  }
+}
+
+void load_terrains(const fs::path& data, Catalogue& catalogue, std::vector<Fault>& faults) {
+  const bool soils_are_good = faults.empty();
+  for (const fs::path& folder : entries_of(data / "terrains")) {
+    std::error_code error;
+    if (!fs::exists(folder / "terrain.json", error)) continue;
+    const std::string file = fmt::format("terrains/{}/terrain.json", folder.filename().string());
+    const auto site = TerrainSite::open(folder);
+    if (!site) {
+      add_faults(file, site.error(), faults);
+      continue;
+    }
+    if (soils_are_good) check_legend(file, (*site)->description(), catalogue, faults);
+    catalogue.terrains[(*site)->description().name] = *site;
+  }
+}
+
+}  // namespace
+
+Result<Catalogue> load_catalogue(const fs::path& data) {
+  Catalogue catalogue;
+  std::vector<Fault> faults;
+  load_rovers(data, catalogue, faults);
+  load_soils(data, catalogue, faults);
+  load_terrains(data, catalogue, faults);
+  if (!faults.empty()) {
+    return fail(ErrorCode::kUnreadableData,
+                fmt::format("the data folder {}: {}", data.string(), summary_of(faults)), faults);
+  }
+  return catalogue;
+}
+
+}  // namespace slipway::api

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "api/files/terrain_site.h"
+#include "core/result.h"
+#include "sim/rover/rover_model.h"
+#include "sim/soil/soil.h"
+
+namespace slipway::api {
+
+// The belief about ground that no map names.
+inline constexpr std::string_view kUnknownGround = "unknown_ground";
+
+// What the service ships, by name: immutable once loaded.
+struct Catalogue {
+  std::map<std::string, std::shared_ptr<const sim::RoverModel>, std::less<>> rovers;
+  std::map<std::string, sim::SoilDistribution, std::less<>> soils;
+  std::map<std::string, std::shared_ptr<const TerrainSite>, std::less<>> terrains;
+};
+
+// Loads rovers/*.json, soils/*.json and terrains/*/terrain.json under the folder. The faults of all files are
+// reported together; pointers begin with the file, "rovers/mer-class.json#/mass_kg".
+Result<Catalogue> load_catalogue(const std::filesystem::path& data);
+
+template <class Map>
+std::vector<std::string> names_of(const Map& map) {
+  std::vector<std::string> names;
+  names.reserve(map.size());
+  for (const auto& [name, value] : map) names.push_back(name);
+  return names;
+}
+
+}  // namespace slipway::api

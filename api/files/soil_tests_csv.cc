@@ -1,0 +1,193 @@
+#include "api/files/soil_tests_csv.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+#include <optional>
+
+#include "api/files/csv_cells.h"
+#include "api/json/faults.h"
+#include "core/angle.h"
+
+namespace slipway::api {
+namespace {
+
+constexpr std::size_t kMostRows = 20'000;
+
+using Column = TestColumn;
+
+constexpr std::array<Column, 13> kWheelColumns{{{"load_n", 0.0, 1e6, true, true},
+                                                {"slip_ratio", -1.0, 1.0, true},
+                                                {"slip_angle_deg", -85.0, 85.0},
+                                                {"torque_nm", -1e5, 1e5},
+                                                {"drawbar_pull_n", -1e6, 1e6},
+                                                {"thrust_n", -1e6, 1e6},
+                                                {"sinkage_m", 0.0, 2.0},
+                                                {"current_a", -1e3, 1e3},
+                                                {"torque_std_nm", 0.0, 1e5, false, true},
+                                                {"drawbar_pull_std_n", 0.0, 1e6, false, true},
+                                                {"thrust_std_n", 0.0, 1e6, false, true},
+                                                {"sinkage_std_m", 0.0, 2.0, false, true},
+                                                {"current_std_a", 0.0, 1e3, false, true}}};
+constexpr std::size_t kFirstReading = 3, kFirstStd = 8;
+
+constexpr std::array<Column, 5> kPlateColumns{{{"plate_radius_m", 0.001, 5.0, true},
+                                               {"sinkage_m", -1.0, 5.0, true},
+                                               {"pressure_pa", -1e9, 1e9},
+                                               {"force_n", -1e9, 1e9},
+                                               {"test", 0.0, 1e9}}};
+
+// Rows of numbers under known columns; what is wrong is written down with its place.
+template <std::size_t Count>
+class Table {
+ public:
+  Table(std::string_view file, const std::array<Column, Count>& columns) : file_(file), columns_(columns) {}
+
+  struct Row {
+    std::size_t line = 0;
+    std::array<std::optional<double>, Count> values;
+  };
+
+  std::vector<Row> read(std::string_view text) {
+    const std::vector<CsvLine> lines = csv_lines(text);
+    std::vector<Row> rows;
+    if (lines.empty()) {
+      faults_.push_back({std::string(file_), "the file is empty"});
+      return rows;
+    }
+    if (lines.size() - 1 > kMostRows) {
+      faults_.push_back(
+          {std::string(file_), fmt::format("{} rows, must be {} at most", lines.size() - 1, kMostRows)});
+      return rows;
+    }
+    read_header(lines.front());
+    for (std::size_t i = 1; i < lines.size(); ++i) rows.push_back(read_row(lines[i]));
+    if (lines.size() == 1) faults_.push_back({std::string(file_), "there are no rows under the header"});
+    return rows;
+  }
+
+  bool has(std::size_t column) const { return header_.places[column].has_value(); }
+  void fault(std::size_t line, std::string message) {
+    faults_.push_back({fmt::format("{}, line {}", file_, line), std::move(message)});
+  }
+  std::vector<Fault>& faults() { return faults_; }
+
+ private:
+  void read_header(const CsvLine& line) {
+    std::vector<std::string> known;
+    for (const Column& column : columns_) known.emplace_back(column.name);
+    header_ = read_csv_header(line, file_, known, faults_);
+    for (std::size_t k = 0; k < Count; ++k)
+      if (columns_[k].required && !header_.places[k])
+        faults_.push_back({fmt::format("{}, line {}", file_, line.number),
+                           fmt::format("there is no column {}", columns_[k].name)});
+  }
+
+  Row read_row(const CsvLine& line) {
+    Row row{line.number, {}};
+    const std::vector<std::string_view> cells = csv_cells(line.text);
+    if (cells.size() != header_.width)
+      fault(line.number, fmt::format("{} cells, must be {} as in the header", cells.size(), header_.width));
+    for (std::size_t k = 0; k < Count; ++k) {
+      if (!header_.places[k] || *header_.places[k] >= cells.size()) continue;
+      const Column& column = columns_[k];
+      const std::string_view cell = cells[*header_.places[k]];
+      const std::string place =
+          fmt::format("{}, line {}, column {} ({})", file_, line.number, *header_.places[k] + 1, column.name);
+      if (cell.empty()) {
+        if (column.required) faults_.push_back({place, fmt::format("{} is missing", column.name)});
+        continue;
+      }
+      const std::optional<double> value = csv_number(cell);
+      if (!value)
+        faults_.push_back({place, fmt::format("{} is no number", in_quotes(cell))});
+      else if (*value < column.lowest || *value > column.highest ||
+               (column.above_lowest && *value == column.lowest))
+        faults_.push_back(
+            {place, fmt::format("{} = {:g}, must be in {}{:g}, {:g}]", column.name, *value,
+                                column.above_lowest ? "(" : "[", column.lowest, column.highest)});
+      else
+        row.values[k] = value;
+    }
+    return row;
+  }
+
+  std::string_view file_;
+  const std::array<Column, Count>& columns_;
+  CsvHeader header_{std::vector<std::optional<std::size_t>>(Count), 0};
+  std::vector<Fault> faults_;
+};
+
+tl::unexpected<Error> unreadable(std::string_view file, std::vector<Fault> faults) {
+  return fail(ErrorCode::kUnreadableData, fmt::format("{} can't be read", file), std::move(faults));
+}
+
+}  // namespace
+
+std::span<const TestColumn> wheel_test_columns() {
+  return kWheelColumns;
+}
+
+gap::WheelObservation wheel_observation(std::span<const std::optional<double>> values,
+                                        std::vector<std::string>& faults) {
+  gap::WheelObservation o;
+  o.test.load_n = values[0].value_or(1.0);
+  o.test.slip = values[1].value_or(0.0);
+  o.test.slip_angle_rad = rad_from_deg(values[2].value_or(0.0));
+  bool any = false;
+  for (std::size_t c = 0; c < gap::kWheelChannels; ++c) {
+    o.readings[c] = {values[kFirstReading + c], values[kFirstStd + c]};
+    any = any || o.readings[c].value;
+    if (o.readings[c].std && !o.readings[c].value)
+      faults.push_back(fmt::format("{} is given without {}", kWheelColumns[kFirstStd + c].name,
+                                   kWheelColumns[kFirstReading + c].name));
+  }
+  if (!any && faults.empty()) faults.emplace_back("nothing was measured");
+  return o;
+}
+
+Result<std::vector<gap::WheelObservation>> read_wheel_tests_csv(std::string_view file,
+                                                                std::string_view text) {
+  Table table(file, kWheelColumns);
+  const auto rows = table.read(text);
+  std::vector<gap::WheelObservation> observations;
+  const bool sound = table.faults().empty();
+  for (const auto& row : rows) {
+    std::vector<std::string> faults;
+    observations.push_back(wheel_observation(row.values, faults));
+    for (std::size_t i = 0; sound && i < faults.size(); ++i) table.fault(row.line, faults[i]);
+  }
+  if (!table.faults().empty()) return unreadable(file, std::move(table.faults()));
+  return observations;
+}
+
+Result<std::vector<gap::PlateTest>> read_plate_tests_csv(std::string_view file, std::string_view text) {
+  Table table(file, kPlateColumns);
+  const auto rows = table.read(text);
+  if (table.faults().empty() && table.has(2) == table.has(3))
+    table.fault(1, table.has(2) ? "there are both columns pressure_pa and force_n: one of them is enough"
+                                : "there is no column pressure_pa or force_n");
+  std::vector<gap::PlateTest> tests;
+  std::optional<double> test;
+  for (const auto& row : rows) {
+    const double radius = row.values[0].value_or(1.0), sinkage = row.values[1].value_or(0.0);
+    if (tests.empty() || tests.back().radius_m != radius || row.values[4] != test)
+      tests.push_back({radius, {}, {}});
+    test = row.values[4];
+    const std::optional<double> load = table.has(2) ? row.values[2] : row.values[3];
+    if (!load) {
+      if (table.faults().empty())
+        table.fault(row.line, fmt::format("{} is missing", table.has(2) ? "pressure_pa" : "force_n"));
+      continue;
+    }
+    if (!(sinkage > 0.0)) continue;
+    tests.back().sinkage_m.push_back(sinkage);
+    tests.back().pressure_pa.push_back(table.has(2) ? *load : *load / (std::numbers::pi * radius * radius));
+  }
+  if (!table.faults().empty()) return unreadable(file, std::move(table.faults()));
+  return tests;
+}
+
+}  // namespace slipway::api

@@ -1,0 +1,136 @@
+#include "api/files/terrain_site.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+#include "api/files/terrain_file.h"
+#include "api/json/faults.h"
+
+namespace slipway::api {
+namespace {
+
+constexpr std::uintmax_t kMostFileBytes = std::uintmax_t{64} << 20U;
+
+dem::Extent clipped(const dem::Extent& wanted, const dem::Extent& map) {
+  return {std::max(wanted.west_m, map.west_m), std::max(wanted.south_m, map.south_m),
+          std::min(wanted.east_m, map.east_m), std::min(wanted.north_m, map.north_m)};
+}
+
+// A plain file, not a link out of the folder.
+bool is_plain_file(const std::filesystem::path& path) {
+  std::error_code error;
+  return std::filesystem::is_regular_file(std::filesystem::symlink_status(path, error)) && !error;
+}
+
+void check_files(const std::filesystem::path& folder, const TerrainDescription& terrain,
+                 std::vector<Fault>& faults) {
+  const auto check = [&](std::string_view pointer, const std::string& file) {
+    if (!is_plain_file(folder / file)) {
+      faults.push_back({std::string(pointer), fmt::format("there is no file {} beside terrain.json", file)});
+    }
+  };
+  check("/elevation", terrain.elevation_file);
+  if (terrain.soil_source == SoilSource::kRaster) check("/soil/raster", terrain.soil_file);
+  if (terrain.soil_source == SoilSource::kPolygons) check("/soil/polygons", terrain.soil_file);
+  if (terrain.stops_file) check("/stops", *terrain.stops_file);
+  if (terrain.provenance_file) check("/provenance", *terrain.provenance_file);
+}
+
+}  // namespace
+
+Result<std::string> read_data_file(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path, error);
+  if (error || !is_plain_file(path)) {
+    return fail(ErrorCode::kUnreadableData,
+                fmt::format("{} can't be read as a file", path.filename().string()));
+  }
+  if (size > kMostFileBytes) {
+    return fail(ErrorCode::kUnreadableData, fmt::format("{} has {} bytes, at most {} are read",
+                                                        path.filename().string(), size, kMostFileBytes));
+  }
+  std::ifstream stream(path, std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  if (!stream && !stream.eof()) {
+    return fail(ErrorCode::kUnreadableData, fmt::format("{} can't be read", path.filename().string()));
+  }
+  return bytes;
+}
+
+Result<std::shared_ptr<const TerrainSite>> TerrainSite::open(const std::filesystem::path& folder) {
+  const auto bytes = read_data_file(folder / "terrain.json");
+  if (!bytes) return fail(bytes.error());
+  auto description = json::read_terrain_file(*bytes);
+  if (!description) return fail(description.error());
+  std::shared_ptr<TerrainSite> site(new TerrainSite);
+  site->folder_ = folder;
+  site->description_ = std::move(*description);
+  std::vector<Fault> faults;
+  if (site->description_.name != folder.filename().string()) {
+    faults.push_back({"/name", fmt::format("name = {}, must be the name of its folder, {}",
+                                           in_quotes(site->description_.name), folder.filename().string())});
+  }
+  check_files(folder, site->description_, faults);
+  if (faults.empty()) {
+    auto elevation = dem::open_elevation(folder / site->description_.elevation_file);
+    if (elevation) {
+      site->elevation_ = *elevation;
+    } else {
+      faults.push_back({"/elevation", elevation.error().detail});
+    }
+    if (site->description_.stops_file) {
+      const auto csv = read_data_file(folder / *site->description_.stops_file);
+      auto stops = csv ? read_stops(*csv) : Result<std::vector<Stop>>(fail(csv.error()));
+      if (stops) {
+        site->stops_ = std::move(*stops);
+      } else {
+        faults.push_back({"/stops", stops.error().detail});
+      }
+    }
+  }
+  if (!faults.empty()) return fail(ErrorCode::kUnreadableData, summary_of(faults), faults);
+  return std::shared_ptr<const TerrainSite>(std::move(site));
+}
+
+Result<GroundWindow> TerrainSite::read(const dem::Extent& extent) const {
+  auto terrain = elevation_->read(clipped(extent, info().geometry.extent()));
+  if (!terrain) return fail(terrain.error());
+  const dem::GridGeometry& geometry = (*terrain)->geometry();
+  Result<std::shared_ptr<const dem::SoilMap>> soil_map;
+  switch (description_.soil_source) {
+    case SoilSource::kRaster:
+      soil_map = dem::read_soil_raster(folder_ / description_.soil_file, info(), geometry.extent(),
+                                       description_.legend);
+      break;
+    case SoilSource::kPolygons:
+      soil_map = dem::read_soil_polygons(folder_ / description_.soil_file, info(), geometry.extent(),
+                                         description_.soil_property, description_.soil_coordinates,
+                                         description_.legend);
+      break;
+    case SoilSource::kNone: {
+      const auto cells = static_cast<std::size_t>(geometry.rows) * static_cast<std::size_t>(geometry.columns);
+      soil_map = std::make_shared<const dem::SoilMap>(geometry, std::vector<std::int16_t>(cells, 0),
+                                                      std::vector<std::uint8_t>(cells, 0),
+                                                      std::vector<dem::SoilClass>{});
+      break;
+    }
+  }
+  if (!soil_map) return fail(soil_map.error());
+  return GroundWindow{*terrain, *soil_map};
+}
+
+Result<std::shared_ptr<const dem::Terrain>> TerrainSite::read_around(double x_m, double y_m,
+                                                                     double radius_m) const {
+  const dem::GridGeometry& geometry = info().geometry;
+  const double margin = std::max(radius_m, 2.0 * std::max(geometry.cell_x_m, geometry.cell_y_m));
+  return elevation_->read(
+      clipped({x_m - margin, y_m - margin, x_m + margin, y_m + margin}, geometry.extent()));
+}
+
+}  // namespace slipway::api

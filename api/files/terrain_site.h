@@ -1,0 +1,53 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "api/files/stops.h"
+#include "api/files/terrain_description.h"
+#include "core/result.h"
+#include "dem/elevation_source.h"
+#include "dem/soil_map.h"
+#include "dem/terrain.h"
+
+namespace slipway::api {
+
+// The part of a terrain that one request needs, in memory.
+struct GroundWindow {
+  std::shared_ptr<const dem::Terrain> terrain;
+  std::shared_ptr<const dem::SoilMap> soil_map;
+};
+
+// A terrain that the service ships: described, opened, read by windows. Thread-safe.
+class TerrainSite {
+ public:
+  // Reads and checks terrain.json, opens the elevation, reads the stops. All faults together,
+  // unreadable_data.
+  static Result<std::shared_ptr<const TerrainSite>> open(const std::filesystem::path& folder);
+
+  const TerrainDescription& description() const { return description_; }
+  const dem::ElevationInfo& info() const { return elevation_->info(); }
+  const std::vector<Stop>& stops() const { return stops_; }
+
+  // The ground over the extent, which is clipped to the terrain. Errors as dem::ElevationSource::read.
+  Result<GroundWindow> read(const dem::Extent& extent) const;
+  // Elevation only, of a few cells around a point that lies on the map.
+  Result<std::shared_ptr<const dem::Terrain>> read_around(double x_m, double y_m, double radius_m) const;
+
+ private:
+  TerrainSite() = default;
+
+  std::filesystem::path folder_;
+  TerrainDescription description_;
+  std::shared_ptr<const dem::ElevationSource> elevation_;
+  std::vector<Stop> stops_;
+};
+
+// A file of the service's own data, whole. Errors: unreadable_data where it can't be read or is no regular
+// file.
+Result<std::string> read_data_file(const std::filesystem::path& path);
+
+}  // namespace slipway::api

@@ -1,0 +1,51 @@
+#include "api/jobs/job.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <random>
+
+namespace slipway::api {
+namespace {
+
+constexpr std::array<std::string_view, 5> kNames{"accepted", "running", "successful", "failed", "dismissed"};
+constexpr std::size_t kIdDigits = 32;
+
+}  // namespace
+
+std::string_view describe(JobState state) {
+  return kNames.at(static_cast<std::size_t>(state));
+}
+
+std::optional<JobState> job_state(std::string_view name) {
+  const auto found = std::find(kNames.begin(), kNames.end(), name);
+  if (found == kNames.end()) return std::nullopt;
+  return static_cast<JobState>(found - kNames.begin());
+}
+
+bool has_ended(JobState state) {
+  return state != JobState::kAccepted && state != JobState::kRunning;
+}
+
+std::string new_job_id() {
+  std::random_device entropy;  // getrandom(2) here; one per call, as it is not thread-safe
+  std::string id;
+  while (id.size() < kIdDigits) id += fmt::format("{:08x}", entropy());
+  return id;
+}
+
+bool is_job_id(std::string_view text) {
+  return text.size() == kIdDigits && std::all_of(text.begin(), text.end(), [](char c) {
+           return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
+         });
+}
+
+std::int64_t now_ms() {
+  using std::chrono::system_clock;
+  return std::chrono::duration_cast<std::chrono::milliseconds>(system_clock::now().time_since_epoch())
+      .count();
+}
+
+}  // namespace slipway::api

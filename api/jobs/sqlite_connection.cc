@@ -1,0 +1,111 @@
+#include "api/jobs/sqlite_connection.h"
+
+#include <fmt/format.h>
+#include <sqlite3.h>
+
+namespace slipway::api {
+
+SqliteStatement::SqliteStatement(sqlite3* database, std::string_view sql) : database_(database) {
+  sqlite3_stmt* statement = nullptr;
+  const int code =
+      sqlite3_prepare_v2(database, sql.data(), static_cast<int>(sql.size()), &statement, nullptr);
+  statement_.reset(statement);
+  check(code);
+}
+
+void SqliteStatement::Finaliser::operator()(sqlite3_stmt* statement) const {
+  sqlite3_finalize(statement);
+}
+
+void SqliteStatement::check(int code) const {
+  if (code != SQLITE_OK) throw SqliteFailure(fmt::format("SQLite: {}", sqlite3_errmsg(database_)));
+}
+
+SqliteStatement& SqliteStatement::bind(std::string_view text) {
+  // A null pointer would bind NULL, and an empty text is not that.
+  check(sqlite3_bind_text64(statement_.get(), ++bound_, text.data() == nullptr ? "" : text.data(),
+                            text.size(), SQLITE_TRANSIENT, SQLITE_UTF8));
+  return *this;
+}
+
+SqliteStatement& SqliteStatement::bind(std::int64_t number) {
+  check(sqlite3_bind_int64(statement_.get(), ++bound_, number));
+  return *this;
+}
+
+SqliteStatement& SqliteStatement::bind(double number) {
+  check(sqlite3_bind_double(statement_.get(), ++bound_, number));
+  return *this;
+}
+
+bool SqliteStatement::step() {
+  const int code = sqlite3_step(statement_.get());
+  if (code == SQLITE_ROW) return true;
+  if (code == SQLITE_DONE) return false;
+  throw SqliteFailure(fmt::format("SQLite: {}", sqlite3_errmsg(database_)));
+}
+
+std::string SqliteStatement::text(int column) const {
+  const auto* const bytes = static_cast<const char*>(sqlite3_column_blob(statement_.get(), column));
+  if (bytes == nullptr) return {};
+  return {bytes, static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column))};
+}
+
+std::int64_t SqliteStatement::number(int column) const {
+  return sqlite3_column_int64(statement_.get(), column);
+}
+
+std::optional<std::int64_t> SqliteStatement::optional_number(int column) const {
+  if (sqlite3_column_type(statement_.get(), column) == SQLITE_NULL) return std::nullopt;
+  return number(column);
+}
+
+double SqliteStatement::real(int column) const {
+  return sqlite3_column_double(statement_.get(), column);
+}
+
+SqliteConnection::SqliteConnection(const std::filesystem::path& path, CommitKind kind) {
+  sqlite3* database = nullptr;
+  constexpr int kFlags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;
+  const int code = sqlite3_open_v2(path.c_str(), &database, kFlags, nullptr);
+  database_.reset(database);  // there is one to close even when opening failed
+  if (code != SQLITE_OK) {
+    throw SqliteFailure(
+        fmt::format("SQLite can't open {}: {}", path.filename().string(), sqlite3_errstr(code)));
+  }
+  constexpr int kBusy_ms = 5000;
+  sqlite3_busy_timeout(database, kBusy_ms);
+  execute("PRAGMA journal_mode=WAL");
+  execute(kind == CommitKind::kDurable ? "PRAGMA synchronous=FULL" : "PRAGMA synchronous=NORMAL");
+}
+
+void SqliteConnection::Closer::operator()(sqlite3* database) const {
+  sqlite3_close_v2(database);
+}
+
+void SqliteConnection::execute(const char* sql) {
+  if (sqlite3_exec(database_.get(), sql, nullptr, nullptr, nullptr) != SQLITE_OK) {
+    throw SqliteFailure(fmt::format("SQLite: {}", sqlite3_errmsg(database_.get())));
+  }
+}
+
+int SqliteConnection::changes() const {
+  return sqlite3_changes(database_.get());
+}
+
+SqliteTransaction::~SqliteTransaction() {
+  if (!open_) return;
+  try {
+    connection_.execute("ROLLBACK");
+  } catch (const SqliteFailure&) {
+    // SQLite has rolled back by itself, as it does when the disk is full.
+    open_ = false;
+  }
+}
+
+void SqliteTransaction::commit() {
+  connection_.execute("COMMIT");
+  open_ = false;
+}
+
+}  // namespace slipway::api

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "api/jobs/job_store.h"
+
+namespace slipway::api {
+
+// Jobs in an SQLite database, for one machine: what was acknowledged survives the process at once (kill -9),
+// and accepted, ended and dismissed jobs survive a loss of power too. Progress and claims are not worth a
+// wait for the disk: after a loss of power the job runs again. Appends that arrive together share one commit.
+Result<std::unique_ptr<JobStore>> open_sqlite_job_store(const std::filesystem::path& path);
+
+}  // namespace slipway::api

@@ -1,0 +1,357 @@
+#include "api/report/diagnosis_report.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "api/documents/diagnosis_document.h"
+#include "api/files/corrected_model.h"
+#include "core/angle.h"
+#include "core/version.h"
+
+namespace slipway::api {
+namespace {
+
+using gap::Diagnosis;
+using gap::Interval;
+using gap::Verdict;
+using Spans = std::vector<ReportText::Span>;
+using Style = ReportText::Style;
+
+constexpr std::size_t kMostCandidates = 10;
+
+// What the verdict means, for someone who has not read the manual.
+std::string_view meaning(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kNoGap:
+      return "Prediction and drives are the same, within what sensors and the drives' own scatter allow.";
+    case Verdict::kNotDetected:
+      return "No gap was found, but these drives could not have shown a small one.";
+    case Verdict::kParameters:
+      return "No effect is missing. Known parameters were off, and re-tuning them explains the drives.";
+    case Verdict::kEffects:
+      return "The simulator lacked the effects below; with them it explains the drives.";
+    case Verdict::kEffectSet:
+      return "Something is missing, and several explanations look alike on these drives. The best is below.";
+    case Verdict::kUnknown:
+      return "Something is missing that no effect of the library explains. What is known of it is below.";
+    case Verdict::kInsufficient:
+      return "There are too few drives or channels to say anything.";
+  }
+  return "";
+}
+
+std::string interval_words(const Interval& x, double unit = 1.0) {
+  if (!std::isfinite(x.value)) return "none";
+  if (!(x.low < x.high) || !std::isfinite(x.low) || !std::isfinite(x.high))
+    return fmt::format("{:.3g}", unit * x.value);
+  return fmt::format("{:.3g} ({:.3g} to {:.3g})", unit * x.value, unit * x.low, unit * x.high);
+}
+
+// With a format of one number; nothing where there is none.
+std::string number_words(fmt::format_string<double> format, double value) {
+  return std::isfinite(value) ? fmt::format(format, double(value)) : "none";
+}
+
+std::string p_words(double p) {
+  return p < 0.001 ? "below 0.001" : fmt::format("{:.3f}", p);
+}
+
+std::string probability_words(double p) {
+  return p > 0.0 && p < 0.001   ? "below 0.001"
+         : p < 1.0 && p > 0.999 ? "above 0.999"
+                                : fmt::format("{:.3f}", p);
+}
+
+std::string set_words(const std::vector<std::string>& names) {
+  return names.empty() ? "nothing missing" : fmt::format("{}", fmt::join(names, " + "));
+}
+
+class Report {
+ public:
+  Report(const gap::DriveCampaign& campaign, const Diagnosis& d, const std::vector<NamedChart>& charts)
+      : campaign_(campaign), d_(d), charts_(charts), page_(fmt::format("Diagnosis of {}", d.campaign)) {}
+
+  ReportPage write() {
+    write_verdict();
+    write_explanations();
+    write_ladder();
+    write_where();
+    write_unknown();
+    write_parameters();
+    write_next();
+    write_model();
+    write_notes();
+    return std::move(page_);
+  }
+
+ private:
+  void picture(std::string_view name, std::string_view words) {
+    const auto chart =
+        std::find_if(charts_.begin(), charts_.end(), [&](const NamedChart& c) { return c.name == name; });
+    if (chart != charts_.end()) page_.picture(*chart, std::string(words));
+  }
+
+  void write_verdict() {
+    page_.paragraph(Spans{{std::string(gap::name_of(d_.verdict)), Style::kStrong},
+                          {fmt::format(": {}", meaning(d_.verdict))}});
+    page_.paragraph(fmt::format("{}.", d_.reason));
+    if (!d_.overturned_by.empty())
+      page_.paragraph(fmt::format("What would overturn it: {}.", d_.overturned_by));
+    if (!d_.effects.empty()) {
+      page_.table({"effect", "how", "probability", "parameters, with 90 % intervals"});
+      for (const gap::FoundEffect& found : d_.effects) {
+        std::vector<std::string> parameters;
+        for (const gap::FoundParameter& p : found.parameters)
+          parameters.push_back(fmt::format("{} = {}", p.name, interval_words(p.value)));
+        page_.row({found.name, found.variant, probability_words(found.probability),
+                   fmt::format("{}", fmt::join(parameters, ", "))});
+      }
+    }
+    page_.paragraph(fmt::format("{} drives, {} windows, {} observations, {} effects in the library.",
+                                d_.drives, d_.windows, d_.observations, d_.library.size()));
+  }
+
+  void write_explanations() {
+    if (d_.candidates.empty()) return;
+    page_.section("Explanations compared");
+    page_.table(
+        {"explanation", "probability", "estimated parameters", "held-out score", "chosen by resamples"});
+    std::size_t shown = 0;
+    for (const gap::ComparedSet& set : json::compared_sets(d_)) {
+      const bool ends = set.effects.empty() || set.effects == std::vector<std::string>{"unknown"};
+      if (++shown > kMostCandidates && !ends) continue;
+      page_.row({set_words(set.effects), probability_words(set.probability),
+                 fmt::format("{}", set.complexity),
+                 set.held_out_score ? number_words("{:+.2f}", *set.held_out_score) : "",
+                 fmt::format("{:.0f} %", 100.0 * set.chosen_share)});
+    }
+    page_.paragraph(
+        "The score is the gain of log density a drive over re-tuned parameters alone, on drives that the fit "
+        "had not seen. Last column: how often its evidence would have chosen the set, drives with their "
+        "repeats drawn with replacement.");
+    picture("explanations", "Probability of each explanation");
+    if (d_.confusable.empty()) return;
+    page_.paragraph("Pairs that these drives hardly tell apart:");
+    page_.table({"one", "other", "angle between their signatures, deg"});
+    for (const gap::ConfusablePair& pair : d_.confusable)
+      page_.row({pair.a, pair.b, fmt::format("{:.0f}", pair.angle_deg)});
+  }
+
+  void write_planners_view() {
+    const gap::PlannersView& view = d_.planners_view;
+    if (view.observations == 0) return;
+    page_.paragraph(
+        fmt::format("What planning with each model would have told of these drives: {} observations, {} "
+                    "windows of which {} "
+                    "slipped by more than {:g}, {} pairs of drives of which one clearly slipped more.",
+                    view.observations, view.windows, view.immobilised, gap::kCensoredSlip, view.pairs));
+    page_.table(
+        {"model", "within its 90 % interval", "immobilisation called", "called wrongly", "pairs in order"});
+    for (const auto& [name, figures] : {std::pair{"nominal", &view.nominal},
+                                        {"re-tuned", &view.retuned},
+                                        {"with effects", &view.with_effects}})
+      page_.row({name, fmt::format("{:.0f} %", 100.0 * figures->within_90),
+                 fmt::format("{} of {}", figures->called, view.immobilised),
+                 fmt::format("{}", figures->false_calls),
+                 view.pairs > 0 ? fmt::format("{:.0f} %", 100.0 * figures->in_order) : std::string()});
+  }
+
+  void write_ladder() {
+    if (d_.gap.empty()) return;
+    page_.section("How far the gap closes");
+    page_.paragraph(
+        "Root mean square of prediction less measurement on drives held out of the fit, 90 % intervals. The "
+        "floor is what sensors and the drives' own scatter make it. Closed: of what re-tuning leaves above "
+        "the floor.");
+    const bool closed = std::any_of(d_.gap.begin(), d_.gap.end(), [](const gap::ChannelShrink& c) {
+      return c.closed_fraction.has_value();
+    });
+    std::vector<std::string> heads{"channel", "unit", "nominal", "re-tuned", "with effects", "floor"};
+    if (closed) heads.emplace_back("closed");
+    page_.table(std::move(heads));
+    for (const gap::ChannelShrink& c : d_.gap) {
+      const double unit = gap::boundary_unit(c.channel);
+      std::vector<ReportText> cells{gap::name_of(c.channel),
+                                    gap::unit_of(c.channel),
+                                    interval_words(c.nominal, unit),
+                                    interval_words(c.retuned, unit),
+                                    interval_words(c.with_effects, unit),
+                                    interval_words(c.noise_floor, unit)};
+      if (closed) cells.emplace_back(c.closed_fraction ? interval_words(*c.closed_fraction) : "");
+      page_.row(std::move(cells));
+    }
+    if (d_.closed_fraction)
+      page_.paragraph(Spans{{"Of the gap that re-tuning leaves, closed: "},
+                            {interval_words(*d_.closed_fraction), Style::kStrong},
+                            {", all channels in their deviations."}});
+    write_planners_view();
+    if (!d_.extrapolations.empty()) {
+      page_.paragraph(
+          "Learnt from the gentle drives, told of the harshest third: gain of log density a drive over "
+          "re-tuned "
+          "parameters alone.");
+      page_.table({"told", "drives", "gain", "standard error"});
+      for (const gap::Extrapolation& e : d_.extrapolations)
+        page_.row({fmt::format("{} {} {:.3g}", e.variable, e.above ? "above" : "below", e.limit),
+                   fmt::format("{}", e.groups), number_words("{:+.2f}", e.log_density_gain),
+                   number_words("{:.2f}", e.error)});
+    }
+    picture("ladder", "Nominal, re-tuned, with the effects, floor, by channel");
+    picture("windows", "Predicted over measured, by channel");
+  }
+
+  void write_regimes(std::string_view title, const std::vector<gap::Regime>& regimes) {
+    page_.paragraph(title);
+    if (regimes.empty()) return page_.paragraph("No slice holds more than its share.");
+    page_.table({"slice", "channel", "where", "share of the gap", "share of the data", "p"});
+    std::size_t number = 0;
+    for (const gap::Regime& regime : regimes) {
+      std::vector<std::string> conditions;
+      for (const gap::Condition& c : regime.conditions)
+        conditions.push_back(fmt::format("{} {:.3g} to {:.3g}", c.variable, c.from, c.to));
+      page_.row({fmt::format("{}", ++number), std::string(gap::name_of(regime.channel)),
+                 fmt::format("{}", fmt::join(conditions, " and ")),
+                 fmt::format("{:.0f} %", 100.0 * regime.share_of_gap),
+                 fmt::format("{:.0f} %", 100.0 * regime.share_of_data), p_words(regime.significance)});
+    }
+  }
+
+  void write_where() {
+    page_.section("Where");
+    page_.paragraph(
+        "Before any re-tuning, measured less predicted; p corrected for the number of channels looked at.");
+    page_.table({"channel", "wheel", "unit", "gap, rms", "scatter", "mean", "p"});
+    for (const gap::ChannelGap& c : d_.channels) {
+      const double unit = gap::boundary_unit(c.channel);
+      page_.row({std::string(gap::name_of(c.channel)), c.wheel.value_or("all"),
+                 std::string(gap::unit_of(c.channel)), number_words("{:.3g}", unit * c.gap),
+                 number_words("{:.3g}", unit * c.noise), number_words("{:+.3g}", unit * c.bias),
+                 p_words(c.significance)});
+    }
+    picture("channels", "The gap over its scatter, by channel and wheel");
+    if (d_.verdict == Verdict::kInsufficient) return;
+    write_regimes("Before re-tuning, the gap is larger than elsewhere in", d_.regimes);
+    write_regimes("After re-tuning, in", d_.regimes_retuned);
+    if (!d_.channels_of_effects.empty()) {
+      std::vector<std::string> channels;
+      for (const gap::ChannelShare& c : d_.channels_of_effects)
+        channels.push_back(fmt::format("{} {:.0f} %", gap::name_of(c.channel), 100.0 * c.share));
+      page_.paragraph(fmt::format("What the effects do, in squared deviations of the noise, is {}.",
+                                  fmt::join(channels, ", ")));
+    }
+    if (!d_.effects.empty() && d_.verdict != Verdict::kUnknown)
+      write_regimes("What the effects themselves do (only this tells where the cause is), in",
+                    d_.regimes_of_effect);
+    picture("regimes", "Slices of the drives: what they hold of the gap beside what they hold of the data");
+    write_map();
+  }
+
+  void write_map() {
+    picture("map",
+            "The map of the gap: windows of drives held out of the fit, coloured by how far they are off");
+    if (d_.places.empty()) return;
+    page_.paragraph("Places on the map where the gap sits:");
+    page_.table({"terrain", "x, m", "y, m", "radius, m", "channel", "share of the gap"});
+    for (const gap::GapPlace& p : d_.places)
+      page_.row({p.terrain, fmt::format("{:.1f}", p.x_m), fmt::format("{:.1f}", p.y_m),
+                 fmt::format("{:.1f}", p.radius_m), std::string(gap::name_of(p.channel)),
+                 fmt::format("{:.0f} %", 100.0 * p.share_of_gap)});
+  }
+
+  void write_unknown() {
+    if (!d_.residual.empty()) {
+      page_.section("What nobody has named");
+      page_.paragraph(
+          "Where what remains enters, on what it depends, and how it changes from the lowest (-1) to the "
+          "highest (1) value of the variable that was driven. It is described, not to be extrapolated.");
+      page_.table({"enters at", "depends on", "share", "shape"});
+      for (const gap::ResidualShape& shape : d_.residual) {
+        std::vector<std::string> points;
+        for (const auto& [at, value] : shape.shape)
+          points.push_back(fmt::format("{} at {:g}", number_words("{:.3g}", value.value), at));
+        page_.row({shape.entry, shape.variable, fmt::format("{:.0f} %", 100.0 * shape.share),
+                   fmt::format("{}", fmt::join(points, ", "))});
+      }
+    }
+    if (d_.least_detectable.empty()) return;
+    page_.section("Smallest effects that would have been seen");
+    page_.table({"effect", "parameter", "at least"});
+    for (const gap::LeastDetectable& l : d_.least_detectable)
+      page_.row({l.effect, l.parameter, number_words("{:.3g}", l.value)});
+  }
+
+  void write_parameters() {
+    if (d_.retuned.empty()) return;
+    page_.section("Parameters re-tuned");
+    page_.paragraph("Most are logarithms of a factor on the nominal value: 0.1 is 10 % more.");
+    page_.table({"parameter", "value, 90 % interval", "believed before, std", "the drives tell"});
+    for (const gap::RetunedParameter& p : d_.retuned)
+      page_.row(
+          {p.name, interval_words(p.value), fmt::format("{:.3g}", p.prior_std), p.determined ? "yes" : "no"});
+    picture("parameters", "Re-tuned parameters in deviations of their priors");
+  }
+
+  void write_next() {
+    if (d_.next_drives.empty()) return;
+    page_.section("Drives that would tell most");
+    page_.table({"tilt, deg", "heading, deg", "speed, m/s", "curvature, 1/m", "motors, C",
+                 "expected information, bits"});
+    for (const gap::NextDrive& n : d_.next_drives)
+      page_.row({fmt::format("{:.0f}", n.tilt_deg), fmt::format("{:.0f}", n.heading_deg),
+                 fmt::format("{:.3g}", n.speed_m_s), fmt::format("{:.2g}", n.curvature_1_m),
+                 fmt::format("{:.0f}", n.motor_temp_c), number_words("{:.2f}", n.information_bits)});
+  }
+
+  void write_model() {
+    page_.section("The corrected model");
+    const auto model = corrected_model(campaign_, d_);
+    if (!model) return page_.paragraph("None is offered: nothing that was found improves on what there was.");
+    page_.paragraph(Spans{{"Rover "},
+                          {model->rover.name, Style::kCode},
+                          {model->rover.effects.empty() ? "; " : " with the effects above at work; "},
+                          {"slipway diagnose --model", Style::kCode},
+                          {" writes its files."}});
+    page_.table({"soil", "k_c", "k_phi", "n", "cohesion, Pa", "friction angle, deg", "shear modulus, m"});
+    const auto describe = [&](const ReportText& name, const sim::Soil& s) {
+      page_.row({name, fmt::format("{:.4g}", s.pressure.k_c), fmt::format("{:.4g}", s.pressure.k_phi),
+                 fmt::format("{:.3f}", s.pressure.n), fmt::format("{:.4g}", s.cohesion_pa),
+                 fmt::format("{:.2f}", deg_from_rad(s.friction_angle_rad)),
+                 fmt::format("{:.4f}", s.shear_modulus_x_m)});
+    };
+    for (std::size_t k = 0; k < model->soils.size(); ++k) {
+      describe(campaign_.soils[k].name, campaign_.soils[k].soil);
+      describe(Spans{{model->soils[k].name, Style::kCode}}, model->soils[k].mean);
+    }
+  }
+
+  void write_notes() {
+    page_.section("Notes");
+    for (const std::string& note : d_.notes) page_.item(note);
+    const gap::NoiseScales& n = d_.noise;
+    page_.item(
+        fmt::format("scatter from drive to drive, of logarithms: stiffness {:.2g}, friction {:.2g}, shear "
+                    "modulus {:.2g}; {:.2g} of it again from window to window",
+                    n.stiffness, n.friction, n.shear_modulus, n.within_drives));
+    page_.item(fmt::format("Slipway {}, seed {}, campaign fingerprint {}", version(), d_.seed,
+                           d_.campaign_fingerprint));
+  }
+
+  const gap::DriveCampaign& campaign_;
+  const Diagnosis& d_;
+  const std::vector<NamedChart>& charts_;
+  ReportPage page_;
+};
+
+}  // namespace
+
+ReportPage diagnosis_report(const gap::DriveCampaign& campaign, const Diagnosis& diagnosis,
+                            const std::vector<NamedChart>& charts) {
+  return Report(campaign, diagnosis, charts).write();
+}
+
+}  // namespace slipway::api

@@ -1,0 +1,287 @@
+#include "api/report/route_map.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "api/chart/base64.h"
+#include "api/json/parse.h"
+#include "core/angle.h"
+#include "dem/hillshade.h"
+
+namespace slipway::api {
+namespace {
+
+using json::JsonValue;
+
+constexpr double kMapWidth_px = 900.0;
+constexpr double kLegendWidth_px = 290.0;
+constexpr double kMargin_m = 25.0;
+constexpr double kSunAzimuth_rad = rad_from_deg(315.0);
+constexpr double kSunElevation_rad = rad_from_deg(40.0);
+constexpr double kExaggeration = 1.5;
+
+struct SlipColour {
+  double below;
+  const char* colour;
+  const char* words;
+};
+// Green to dark red, apart from each other for colour-blind eyes by lightness as well.
+constexpr std::array kSlipColours{
+    SlipColour{0.1, "#1a9850", "slip below 0.1"}, SlipColour{0.2, "#a6d96a", "0.1 to 0.2"},
+    SlipColour{0.4, "#fdae61", "0.2 to 0.4"}, SlipColour{0.6, "#d7191c", "0.4 to 0.6"},
+    SlipColour{10.0, "#67001f", "above 0.6"}};
+constexpr std::array kSoilColours{"#377eb8", "#984ea3", "#a65628", "#f781bf",
+                                  "#66c2a5", "#e5c494", "#8da0cb", "#ffd92f"};
+
+std::size_t slip_class(double slip) {
+  std::size_t k = 0;
+  while (k + 1 < kSlipColours.size() && std::abs(slip) >= kSlipColours[k].below) ++k;
+  return k;
+}
+
+// One route as the document has it.
+struct DrawnRoute {
+  std::string rank, verdict;
+  std::vector<double> x_m, y_m, slip;
+  std::vector<bool> unknown;
+};
+
+std::vector<double> numbers(const JsonValue& object, std::string_view key) {
+  std::vector<double> values;
+  if (const JsonValue* list = object.find(key))
+    for (const JsonValue& value : list->elements) values.push_back(value.number);
+  return values;
+}
+
+std::vector<DrawnRoute> routes_of(const JsonValue& document) {
+  std::vector<DrawnRoute> routes;
+  const JsonValue* collection = document.find("routes");
+  const JsonValue* features = collection ? collection->find("features") : nullptr;
+  if (!features) return routes;
+  for (const JsonValue& feature : features->elements) {
+    const JsonValue* properties = feature.find("properties");
+    const JsonValue* stations = properties ? properties->find("stations") : nullptr;
+    if (!stations) continue;
+    DrawnRoute route;
+    const JsonValue* rank = properties->find("rank");
+    const JsonValue* verdict = properties->find("verdict");
+    route.rank = rank ? fmt::format("{:.0f}", rank->number) : "";
+    route.verdict = verdict ? verdict->text : "";
+    route.x_m = numbers(*stations, "x_m");
+    route.y_m = numbers(*stations, "y_m");
+    route.slip = numbers(*stations, "slip");
+    if (const JsonValue* unknown = stations->find("on_unknown_ground"))
+      for (const JsonValue& value : unknown->elements) route.unknown.push_back(value.boolean);
+    const std::size_t n =
+        std::min({route.x_m.size(), route.y_m.size(), route.slip.size(), route.unknown.size()});
+    if (n >= 2) routes.push_back(std::move(route));
+  }
+  return routes;
+}
+
+dem::Extent extent_of(const std::vector<DrawnRoute>& routes) {
+  dem::Extent e{1e300, 1e300, -1e300, -1e300};
+  for (const DrawnRoute& route : routes) {
+    const auto [west, east] = std::minmax_element(route.x_m.begin(), route.x_m.end());
+    const auto [south, north] = std::minmax_element(route.y_m.begin(), route.y_m.end());
+    e = {std::min(e.west_m, *west), std::min(e.south_m, *south), std::max(e.east_m, *east),
+         std::max(e.north_m, *north)};
+  }
+  return {e.west_m - kMargin_m, e.south_m - kMargin_m, e.east_m + kMargin_m, e.north_m + kMargin_m};
+}
+
+class Picture {
+ public:
+  Picture(const GroundWindow& ground) : ground_(ground), extent_(ground.terrain->geometry().extent()) {
+    scale_ = kMapWidth_px / (extent_.east_m - extent_.west_m);
+    height_px_ = scale_ * (extent_.north_m - extent_.south_m);
+    out_ = fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 "
+        "{0:.0f} {1:.0f}\" "
+        "font-family=\"sans-serif\" font-size=\"14\">\n<rect width=\"100%\" height=\"100%\" "
+        "fill=\"white\"/>\n",
+        kMapWidth_px + kLegendWidth_px, std::max(height_px_, 420.0));
+  }
+
+  Result<void> draw_ground() {
+    const dem::GridGeometry& grid = ground_.terrain->geometry();
+    const auto png =
+        dem::encode_png(dem::hillshade(*ground_.terrain, kSunAzimuth_rad, kSunElevation_rad, kExaggeration),
+                        grid.rows, grid.columns);
+    if (!png) return fail(png.error());
+    out_ += fmt::format(
+        "<image x=\"0\" y=\"0\" width=\"{:.2f}\" height=\"{:.2f}\" preserveAspectRatio=\"none\" "
+        "href=\"data:image/png;base64,{}\"/>\n",
+        kMapWidth_px, height_px_, base64(*png));
+    return {};
+  }
+
+  // Each soil's cells as runs along the rows of the soil map.
+  void draw_soils() {
+    if (!ground_.soil_map) return;
+    const dem::GridGeometry& grid = ground_.soil_map->geometry();
+    for (std::size_t soil = 0; soil < ground_.soil_map->soils().size(); ++soil) {
+      std::string path;
+      for (int row = 0; row < grid.rows; ++row) {
+        int begin = -1;
+        for (int column = 0; column <= grid.columns; ++column) {
+          const Eigen::Vector2d c = grid.centre_m({row, column});
+          const bool here = column < grid.columns && ground_.soil_map->soil_at(c.x(), c.y()) == soil;
+          if (here && begin < 0) begin = column;
+          if (!here && begin >= 0) {
+            const Eigen::Vector2d corner =
+                grid.centre_m({row, begin}) + Eigen::Vector2d(-0.5 * grid.cell_x_m, 0.5 * grid.cell_y_m);
+            path += fmt::format("M{:.1f} {:.1f}h{:.1f}v{:.1f}h{:.1f}z", x(corner.x()), y(corner.y()),
+                                scale_ * grid.cell_x_m * (column - begin), scale_ * grid.cell_y_m,
+                                -scale_ * grid.cell_x_m * (column - begin));
+            begin = -1;
+          }
+        }
+      }
+      if (path.empty()) continue;
+      const char* colour = kSoilColours[soil % kSoilColours.size()];
+      out_ += fmt::format("<path d=\"{}\" fill=\"{}\" fill-opacity=\"0.28\"/>\n", path, colour);
+      legend_.push_back({colour, ground_.soil_map->soils()[soil], 0.45});
+    }
+  }
+
+  void draw_route(const DrawnRoute& route) {
+    line(route, 0, route.x_m.size() - 1, "white", 7.0, false);
+    for (std::size_t begin = 0; begin + 1 < route.x_m.size();) {
+      std::size_t end = begin + 1;
+      while (end + 1 < route.x_m.size() &&
+             slip_class(route.slip[end + 1]) == slip_class(route.slip[begin + 1]) &&
+             route.unknown[end + 1] == route.unknown[begin + 1])
+        ++end;
+      line(route, begin, end, kSlipColours[slip_class(route.slip[begin + 1])].colour, 4.0,
+           route.unknown[begin + 1]);
+      begin = end;
+    }
+  }
+
+  // The number stands where the routes are apart; a ring marks the largest slip.
+  void label_route(const DrawnRoute& route, std::size_t place, std::size_t of) {
+    const std::size_t at = route.x_m.size() * (place + 1) / (of + 1);
+    out_ += fmt::format(
+        "<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"11\" fill=\"white\" stroke=\"black\"/>"
+        "<text x=\"{0:.1f}\" y=\"{2:.1f}\" text-anchor=\"middle\" font-weight=\"bold\">{3}</text>\n",
+        x(route.x_m[at]), y(route.y_m[at]), y(route.y_m[at]) + 5.0, route.rank);
+    const auto worst = static_cast<std::size_t>(
+        std::max_element(route.slip.begin(), route.slip.end(),
+                         [](double a, double b) { return std::abs(a) < std::abs(b); }) -
+        route.slip.begin());
+    out_ += fmt::format(
+        "<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"8\" fill=\"none\" stroke=\"black\" stroke-width=\"2\"/>\n",
+        x(route.x_m[worst]), y(route.y_m[worst]));
+  }
+
+  void mark_ends(const DrawnRoute& route) {
+    mark(route.x_m.front(), route.y_m.front(), "start");
+    mark(route.x_m.back(), route.y_m.back(), route.verdict == "no_go" ? "end" : "goal");
+  }
+
+  std::string finish(std::string_view title) {
+    scale_bar();
+    legend(title);
+    return out_ + "</svg>\n";
+  }
+
+ private:
+  struct LegendRow {
+    const char* colour;
+    std::string words;
+    double opacity;
+  };
+
+  double x(double x_m) const { return scale_ * (x_m - extent_.west_m); }
+  double y(double y_m) const { return scale_ * (extent_.north_m - y_m); }
+
+  void line(const DrawnRoute& route, std::size_t begin, std::size_t end, const char* colour, double width,
+            bool dashed) {
+    out_ += fmt::format(
+        "<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"{} points=\"",
+        colour, width, dashed ? " stroke-dasharray=\"7 4\"" : "");
+    for (std::size_t k = begin; k <= end; ++k)
+      out_ += fmt::format("{:.1f},{:.1f} ", x(route.x_m[k]), y(route.y_m[k]));
+    out_ += "\"/>\n";
+  }
+
+  void mark(double x_m, double y_m, std::string_view words) {
+    out_ += fmt::format(
+        "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"12\" height=\"12\" fill=\"yellow\" stroke=\"black\"/>"
+        "<text x=\"{:.1f}\" y=\"{:.1f}\" font-weight=\"bold\" stroke=\"white\" stroke-width=\"3\" "
+        "paint-order=\"stroke\">{}</text>\n",
+        x(x_m) - 6.0, y(y_m) - 6.0, x(x_m) + 10.0, y(y_m) + 5.0, words);
+  }
+
+  void scale_bar() {
+    const double wide_m = (extent_.east_m - extent_.west_m) / 4.0;
+    const double power = std::pow(10.0, std::floor(std::log10(wide_m)));
+    const double length_m = power * (wide_m / power >= 5.0 ? 5.0 : wide_m / power >= 2.0 ? 2.0 : 1.0);
+    out_ += fmt::format(
+        "<rect x=\"12\" y=\"{0:.1f}\" width=\"{1:.1f}\" height=\"6\" fill=\"black\" stroke=\"white\"/>"
+        "<text x=\"12\" y=\"{2:.1f}\" stroke=\"white\" stroke-width=\"3\" paint-order=\"stroke\">{3:g} m, "
+        "north is up</text>\n",
+        height_px_ - 18.0, scale_ * length_m, height_px_ - 24.0, length_m);
+  }
+
+  void legend(std::string_view title) {
+    double at = 24.0;
+    const double left = kMapWidth_px + 14.0;
+    const auto row = [&](const std::string& sign, std::string_view words) {
+      out_ +=
+          fmt::format("<g transform=\"translate({:.0f} {:.0f})\">{}<text x=\"36\" y=\"5\">{}</text></g>\n",
+                      left, at, sign, words);
+      at += 24.0;
+    };
+    out_ += fmt::format("<text x=\"{:.0f}\" y=\"{:.0f}\" font-weight=\"bold\">{}</text>\n", left, at, title);
+    at += 26.0;
+    for (const SlipColour& c : kSlipColours)
+      row(fmt::format("<path d=\"M0 0h28\" stroke=\"{}\" stroke-width=\"5\"/>", c.colour), c.words);
+    row("<path d=\"M0 0h28\" stroke=\"black\" stroke-width=\"4\" stroke-dasharray=\"7 4\"/>",
+        "on unknown ground");
+    row("<circle cx=\"14\" cy=\"0\" r=\"8\" fill=\"none\" stroke=\"black\" stroke-width=\"2\"/>",
+        "largest slip of a route");
+    for (const LegendRow& l : legend_)
+      row(fmt::format("<rect y=\"-8\" width=\"28\" height=\"16\" fill=\"{}\" fill-opacity=\"{}\"/>", l.colour,
+                      l.opacity),
+          l.words);
+    row("<rect y=\"-8\" width=\"28\" height=\"16\" fill=\"#999\"/>", "unknown ground");
+  }
+
+  const GroundWindow& ground_;
+  dem::Extent extent_;
+  double scale_ = 1.0, height_px_ = 0.0;
+  std::string out_;
+  std::vector<LegendRow> legend_;
+};
+
+}  // namespace
+
+Result<std::string> draw_route_map(const Catalogue& catalogue, std::string_view answer) {
+  const auto document = json::parse(answer, {.bytes = answer.size(), .values = answer.size()});
+  if (!document) return fail(document.error());
+  const JsonValue* terrain = document->find("terrain");
+  const auto site = terrain ? catalogue.terrains.find(terrain->text) : catalogue.terrains.end();
+  if (site == catalogue.terrains.end())
+    return fail(ErrorCode::kInternal, "the answer names no terrain of this service");
+  const std::vector<DrawnRoute> routes = routes_of(*document);
+  if (routes.empty()) return fail(ErrorCode::kNoData, "the answer has no route to draw");
+  const auto ground = site->second->read(extent_of(routes));
+  if (!ground) return fail(ground.error());
+  Picture picture(*ground);
+  if (const auto drawn = picture.draw_ground(); !drawn) return fail(drawn.error());
+  picture.draw_soils();
+  // The best route last, so that it lies on top.
+  for (auto route = routes.rbegin(); route != routes.rend(); ++route) picture.draw_route(*route);
+  for (std::size_t k = 0; k < routes.size(); ++k) picture.label_route(routes[k], k, routes.size());
+  picture.mark_ends(routes.front());
+  return picture.finish(site->second->description().title);
+}
+
+}  // namespace slipway::api

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "api/requests/diagnosis_request.h"
+#include "api/requests/plan_request.h"
+#include "api/requests/prediction_request.h"
+#include "dem/elevation_source.h"
+#include "gap/diagnosis/diagnosis.h"
+#include "gap/diagnosis/model/drive_campaign.h"
+#include "planner/problem/dynamic_verification.h"
+#include "planner/problem/route.h"
+
+namespace slipway::api {
+
+// What an answer rests on, so that it can be repeated and defended. Nothing in it depends on time or machine.
+struct Provenance {
+  std::string terrain_title;
+  std::string terrain_fingerprint;  // of the heights in the window that was read
+  std::string crs_name;
+  std::string body;
+  double gravity_m_s2 = 0.0;
+  std::string soil_assumption;     // why the mapped classes are believed to be these soils
+  std::vector<std::string> soils;  // by the index in the stations
+  std::string unknown_soil;        // believed where no map names a soil
+  std::uint64_t seed = 1;
+};
+
+struct PlanAnswer {
+  PlanRequest request;
+  Provenance provenance;
+  planner::Plan plan;
+};
+
+struct PredictionAnswer {
+  PredictionRequest request;
+  Provenance provenance;
+  sim::DrivePrediction prediction;
+  std::optional<planner::DynamicVerification> dynamic;  // where that rung was asked for
+};
+
+struct DiagnosisAnswer {
+  DiagnosisRequest request;
+  gap::DriveCampaign campaign;
+  gap::Diagnosis diagnosis;
+};
+
+// What the ground is at one point.
+struct GroundAt {
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double height_m = 0.0;
+  double slope_rad = 0.0;
+  double aspect_rad = 0.0;            // of steepest descent, clockwise from north
+  std::optional<double> roughness_m;  // RMS distance to the plane through the cells within the radius
+  double roughness_radius_m = 0.0;
+  std::optional<std::string> label;  // of the mapped class
+  std::optional<std::string> soil;   // nothing: unknown ground
+};
+
+}  // namespace slipway::api

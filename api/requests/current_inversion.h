@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "api/files/catalogue.h"
+#include "core/result.h"
+#include "sim/rover/effect_setting.h"
+#include "sim/single_wheel/current_inverse.h"
+
+namespace slipway::api {
+
+// Which slip does a wheel's measured current mean, and how much pull is left?
+struct CurrentInversionRequest {
+  std::string rover;
+  std::string wheel;  // "": the rover's first
+  std::string soil;
+  double current_a = 0.0;
+  std::optional<double> load_n;  // nothing: an equal share of the rover's weight
+  double gravity_m_s2 = 3.71;
+  std::optional<double> speed_m_s;     // of the rim; nothing: the rover's cruise speed
+  std::optional<double> motor_temp_c;  // nothing: what the motor is given at
+  std::vector<sim::EffectSetting> effects;
+  sim::InverseOptions options;
+};
+
+struct CurrentInversion {
+  CurrentInversionRequest request;  // with the defaults filled in
+  sim::CurrentInverse answer;
+};
+
+// Errors: invalid_request with all faults.
+Result<CurrentInversion> invert_current(const Catalogue& catalogue, const CurrentInversionRequest& request);
+
+}  // namespace slipway::api

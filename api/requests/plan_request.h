@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "planner/problem/problem.h"
+#include "sim/effects/effect_catalogue.h"
+#include "sim/prediction/drive_prediction.h"
+#include "sim/rover/wheel_failure.h"
+
+namespace slipway::api {
+
+struct ModelFolder;
+
+// A corrected model that a request names by the job of the diagnosis that offers it.
+struct RequestedModel {
+  std::string diagnosis;            // the job's id
+  std::vector<std::string> ground;  // soils of the terrain that are the model's, see with_model()
+  std::shared_ptr<const ModelFolder> corrected;
+};
+
+// What a drive is predicted with, whether its path is planned or given. The defaults are those of the rooms
+// below.
+struct DriveAssumptions {
+  sim::DriveLimits limits;
+  sim::DriveConditions conditions;
+  std::vector<sim::EffectSetting> effects;  // added to the rover's own; see sim::in_force
+  sim::FailedWheels failed_wheels;
+  int draws = sim::RiskOptions{}.draws;
+  std::uint64_t seed = 1;
+  std::optional<double> speed_m_s;      // nothing: the rover's cruise speed
+  std::optional<RequestedModel> model;  // nothing: rover and soils as the catalogue has them
+};
+
+// POST /v1/plans: how do we get from start to goal?
+struct PlanRequest {
+  std::string terrain;
+  std::string rover;
+  planner::Waypoint start, goal;
+  std::vector<planner::Waypoint> waypoints;  // visited in order
+  std::vector<planner::Polygon> keep_out;
+  planner::Weights weights;
+  int routes = planner::PlanProblem{}.routes;
+  std::vector<std::string> planners;           // empty: the catalogue's default set
+  int verify = planner::PlanProblem{}.verify;  // of the best routes in the dynamic rung
+  DriveAssumptions drive;
+};
+
+// What a request's reader found: all that could be read, and every fault. With faults, the request is only
+// good for finding more of them.
+template <class Request>
+struct Reading {
+  Request request;
+  std::vector<Fault> faults;
+};
+
+// What one request may ask for: more is refused by the readers.
+struct RequestLimits {
+  static constexpr std::size_t kBodyBytes = std::size_t{1} << 20U;
+  static constexpr std::size_t kWaypoints = 50;
+  static constexpr std::size_t kKeepOuts = 200;
+  static constexpr std::size_t kKeepOutCorners = 500;
+  static constexpr std::size_t kPathCorners = 2000;
+  static constexpr double kPathLength_m = 20'000.0;
+  static constexpr int kRoutes = 8;
+  static constexpr int kDraws = 500;
+};
+
+}  // namespace slipway::api

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "api/files/catalogue.h"
+#include "core/progress.h"
+#include "core/result.h"
+#include "gap/diagnosis/drive_soil_estimation.h"
+#include "gap/diagnosis/model/drive_campaign.h"
+#include "gap/estimate/soil_estimation.h"
+
+namespace slipway::api {
+
+// The wheel of tests that give none of their own: a rover's, or numbers of one's own.
+struct TestedWheel {
+  std::string rover;  // "": no rover, no motor
+  std::string wheel;  // of the rover; "": its first
+  std::optional<double> radius_m, width_m;
+  std::optional<sim::Grousers> grousers;
+  std::optional<double> motor_temp_c;
+};
+
+// POST /v1/soil-estimates: which soil do these tests, or these drives, show?
+struct SoilEstimateRequest {
+  std::string soil = "unknown_ground";  // that the search starts from and that priors lie around
+  TestedWheel wheel;
+  double gravity_m_s2 = 3.71;          // where the wheels were tested; read by effects alone
+  double speed_m_s = 0.04;             // of the rim; counts for the motor and for the effect rate_shear
+  gap::SoilData data;                  // of wheels only loads, motions and readings are given
+  std::string campaign;                // of drives; then there are no tests
+  gap::SoilEstimationOptions options;  // of tests
+  std::array<bool, gap::kChannels> looked_at = gap::kAllChannels;  // of drives
+};
+
+// Switches all channels but these off: of tests by gap::SoilChannel's names, of drives by gap::Channel's. A
+// fault for each name that is not known, "/channels/0".
+std::vector<Fault> choose_channels(const std::vector<std::string>& names, SoilEstimateRequest& request);
+
+// The request with every name and default filled in, and the estimates: one of tests, one a soil of drives.
+struct SoilEstimateAnswer {
+  SoilEstimateRequest request;
+  std::string nominal;  // name of the soil, or of the campaign
+  std::vector<gap::SoilEstimate> estimates;
+  std::vector<gap::DriveChannelResidual> drive_channels;
+  std::size_t windows = 0;  // of drives
+};
+
+// Errors: invalid_request with the faults of names and numbers; those of gap::estimate_soil.
+Result<SoilEstimateAnswer> estimate_soil(const Catalogue& catalogue, const SoilEstimateRequest& request,
+                                         Progress& progress);
+// From the drives of a campaign that was read.
+Result<SoilEstimateAnswer> estimate_soil(const gap::DriveCampaign& campaign,
+                                         const SoilEstimateRequest& request, std::size_t threads,
+                                         Progress& progress);
+
+// The faults of names and geometry, without estimating: "/soil", "/rover", "/wheel", "/radius_m".
+std::vector<Fault> faults_of(const Catalogue& catalogue, const SoilEstimateRequest& request);
+
+}  // namespace slipway::api

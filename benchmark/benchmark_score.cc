@@ -1,0 +1,339 @@
+#include "benchmark/benchmark_score.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "core/quantile.h"
+
+namespace slipway::gap {
+namespace {
+
+using Names = std::set<std::string>;
+
+const std::string kUnknownName = "unknown";
+constexpr double kSmallAngle_deg = 25.0, kConfident = 0.9, kHeld = 0.95;
+constexpr std::size_t kMostHeld = 3;
+
+bool names_effects(Verdict v) {
+  return v == Verdict::kEffects || v == Verdict::kEffectSet;
+}
+
+bool names_nothing(Verdict v) {
+  return v == Verdict::kNoGap || v == Verdict::kNotDetected || v == Verdict::kParameters;
+}
+
+// What was compared, each set once, most probable first.
+std::vector<std::pair<Names, double>> merged_sets(const Diagnosis& d) {
+  std::vector<std::pair<Names, double>> sets;
+  for (const ComparedSet& c : d.candidates) {
+    const Names names(c.effects.begin(), c.effects.end());
+    const auto known =
+        std::find_if(sets.begin(), sets.end(), [&](const auto& set) { return set.first == names; });
+    if (known == sets.end())
+      sets.emplace_back(names, c.probability);
+    else
+      known->second += c.probability;
+  }
+  std::stable_sort(sets.begin(), sets.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  return sets;
+}
+
+Names found_in(const Diagnosis& d) {
+  Names found;
+  for (const FoundEffect& effect : d.effects) found.insert(effect.name);
+  if (d.verdict == Verdict::kUnknown) found.insert(kUnknownName);
+  return found;
+}
+
+std::string words(const Names& names) {
+  return names.empty() ? "nothing" : fmt::format("{}", fmt::join(names, " + "));
+}
+
+// The truth as a diagnosis can say it: what it has no name for is "unknown".
+Names sayable(const HiddenAnswer& answer, const Names& library) {
+  Names truth;
+  for (const std::string& effect : answer.effects)
+    truth.insert(library.contains(effect) ? effect : kUnknownName);
+  return truth;
+}
+
+bool confusable(const Diagnosis& d, const std::string& a, const std::string& b) {
+  return std::any_of(d.confusable.begin(), d.confusable.end(), [&](const ConfusablePair& pair) {
+    return pair.angle_deg < kSmallAngle_deg && ((pair.a == a && pair.b == b) || (pair.a == b && pair.b == a));
+  });
+}
+
+// Whether one set becomes the other when one name is put for a look-alike.
+bool exchanged(const Diagnosis& d, const Names& a, const Names& b) {
+  Names only_a, only_b;
+  std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::inserter(only_a, only_a.end()));
+  std::set_difference(b.begin(), b.end(), a.begin(), a.end(), std::inserter(only_b, only_b.end()));
+  return only_a.size() == 1 && only_b.size() == 1 && confusable(d, *only_a.begin(), *only_b.begin());
+}
+
+std::optional<double> median_of(std::vector<double> values) {
+  if (values.empty()) return std::nullopt;
+  return median(std::move(values));
+}
+
+// P(X >= k) of n trials of chance p.
+double upper_tail(std::size_t k, std::size_t n, double p) {
+  if (k == 0) return 1.0;
+  if (p <= 0.0) return 0.0;
+  if (p >= 1.0) return 1.0;
+  double sum = 0.0;
+  for (std::size_t i = k; i <= n; ++i) {
+    const auto x = static_cast<double>(i), m = static_cast<double>(n);
+    sum += std::exp(std::lgamma(m + 1.0) - std::lgamma(x + 1.0) - std::lgamma(m - x + 1.0) + x * std::log(p) +
+                    (m - x) * std::log1p(-p));
+  }
+  return std::min(sum, 1.0);
+}
+
+// The chance at which P(X >= k) is `tail`.
+double chance_of_tail(std::size_t k, std::size_t n, double tail) {
+  double low = 0.0, high = 1.0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (upper_tail(k, n, middle) < tail ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+// What the answer gives its own claim: that something is unknown, whatever stands beside it, or that this
+// very set is at work.
+double stated_by(const Diagnosis& d, const std::vector<std::pair<Names, double>>& sets, const Names& found) {
+  double sum = 0.0;
+  for (const auto& [names, probability] : sets)
+    if (d.verdict == Verdict::kUnknown ? names.contains(kUnknownName) : names == found) sum += probability;
+  return sum;
+}
+
+// Whether effects of single wheels were found at those wheels; nothing where none was both hidden and found.
+std::optional<bool> wheel_right(const HiddenAnswer& answer, const Diagnosis& d) {
+  std::optional<bool> right;
+  for (const FoundEffect& effect : d.effects) {
+    const auto hidden = answer.wheel_of.find(effect.name);
+    if (hidden == answer.wheel_of.end()) continue;
+    right = right.value_or(true) &&
+            std::any_of(effect.parameters.begin(), effect.parameters.end(), [&](const FoundParameter& p) {
+              return p.name == "wheel" && p.value.value == hidden->second;
+            });
+  }
+  return right;
+}
+
+void count(Rate& rate, bool hit) {
+  ++rate.of;
+  rate.hits += hit ? 1 : 0;
+}
+
+}  // namespace
+
+CaseScore score_case(const HiddenAnswer& answer, const Diagnosis& d, const std::set<std::string>& library,
+                     double seconds) {
+  CaseScore score;
+  const Names truth = sayable(answer, library), found = found_in(d);
+  const bool foreign = truth.contains(kUnknownName);
+  score.campaign = answer.campaign;
+  score.fidelity = answer.fidelity;
+  score.kind = answer.kind;
+  score.size = answer.size;
+  score.seconds = seconds;
+  score.verdict = name_of(d.verdict);
+  score.truth_kind = foreign                              ? TruthKind::kOutsideLibrary
+                     : !truth.empty()                     ? TruthKind::kEffects
+                     : answer.nominal_off.value_or(false) ? TruthKind::kParameters
+                                                          : TruthKind::kNothing;
+  score.truth = !answer.effects.empty()                      ? words(answer.effects)
+                : score.truth_kind == TruthKind::kParameters ? "parameters"
+                                                             : "nothing";
+  score.found = d.verdict == Verdict::kInsufficient ? "insufficient"
+                : d.verdict == Verdict::kParameters ? "parameters"
+                                                    : words(found);
+
+  switch (score.truth_kind) {
+    case TruthKind::kNothing:
+    case TruthKind::kParameters:
+      // A shift that does not matter is no gap; one that does is a matter of parameters. Neither is an alarm.
+      score.verdict_right = names_nothing(d.verdict);
+      score.exact = score.verdict_right;
+      break;
+    case TruthKind::kEffects:
+      score.verdict_right = names_effects(d.verdict);
+      score.exact = score.verdict_right && found == truth;
+      break;
+    case TruthKind::kOutsideLibrary:
+      score.verdict_right = d.verdict == Verdict::kUnknown;
+      score.exact = score.verdict_right && found == truth;
+      break;
+  }
+  const auto sets = merged_sets(d);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < sets.size() && i < kMostHeld && sum < kHeld; ++i) {
+    sum += sets[i].second;
+    score.held = score.held || sets[i].first == truth;
+  }
+  const bool second = sets.size() > 1 && sets[1].first == truth;
+  score.alike = score.exact || (d.verdict == Verdict::kEffectSet && score.held) ||
+                (names_effects(d.verdict) && second && exchanged(d, found, truth));
+  score.false_alarm = truth.empty() && (names_effects(d.verdict) || d.verdict == Verdict::kUnknown);
+  for (const FoundEffect& effect : d.effects)
+    score.confident_wrong =
+        score.confident_wrong || (effect.probability > kConfident && !truth.contains(effect.name));
+  for (const auto& [names, probability] : sets)
+    if (names.contains(kUnknownName)) score.unknown_probability += probability;
+  score.stated = stated_by(d, sets, found);
+  if (d.closed_fraction) score.closed_fraction = d.closed_fraction->value;
+  score.wheel_right = wheel_right(answer, d);
+  if (score.truth_kind == TruthKind::kEffects && names_effects(d.verdict)) {
+    score.channel_right = channel_right(answer.traces, d);
+    if (const auto overlap = slice_overlap(answer.traces, d)) {
+      score.slice_overlap = overlap->value;
+      score.slice_attainable = overlap->attainable;
+    }
+  }
+  if (answer.place) {
+    score.place_overlap = 0.0;
+    const bool named = found.contains("soft_patch");
+    for (const GapPlace& place : d.places)
+      if (named)
+        score.place_overlap = std::max(*score.place_overlap,
+                                       disc_overlap(*answer.place, {place.x_m, place.y_m, place.radius_m}));
+  }
+  return score;
+}
+
+WithheldScore score_withheld(const HiddenAnswer& answer, const std::string& withheld, const Diagnosis& open,
+                             const Diagnosis& d) {
+  WithheldScore score;
+  score.campaign = answer.campaign;
+  score.withheld = withheld;
+  score.fidelity = answer.fidelity;
+  score.verdict = name_of(d.verdict);
+  const Names found = found_in(d);
+  score.found = d.verdict == Verdict::kParameters ? "parameters" : words(found);
+  score.unknown = d.verdict == Verdict::kUnknown;
+  score.absorbed = names_nothing(d.verdict);
+  score.look_alike = names_effects(d.verdict) && exchanged(open, found, answer.effects);
+  return score;
+}
+
+RateInterval binomial_interval(const Rate& rate, double confidence) {
+  if (rate.of == 0) return {};
+  const double tail = 0.5 * (1.0 - confidence);
+  RateInterval interval;
+  if (rate.hits > 0) interval.low = chance_of_tail(rate.hits, rate.of, tail);
+  if (rate.hits < rate.of) interval.high = chance_of_tail(rate.hits + 1, rate.of, 1.0 - tail);
+  return interval;
+}
+
+std::optional<double> area_under_roc(std::span<const double> of_these, std::span<const double> of_those) {
+  if (of_these.empty() || of_those.empty()) return std::nullopt;
+  double wins = 0.0;
+  for (const double a : of_these)
+    for (const double b : of_those) wins += a > b ? 1.0 : a == b ? 0.5 : 0.0;
+  return wins / static_cast<double>(of_these.size() * of_those.size());
+}
+
+std::optional<double> calibration_error(std::span<const Statement> statements) {
+  if (statements.empty()) return std::nullopt;
+  constexpr int kBins = 10;
+  std::array<double, kBins> excess{};
+  for (const Statement& s : statements) {
+    const int bin = std::clamp(static_cast<int>(s.probability * kBins), 0, kBins - 1);
+    excess[static_cast<std::size_t>(bin)] += s.probability - (s.right ? 1.0 : 0.0);
+  }
+  double sum = 0.0;
+  for (const double e : excess) sum += std::abs(e);
+  return sum / static_cast<double>(statements.size());
+}
+
+std::optional<double> brier_score(std::span<const Statement> statements) {
+  if (statements.empty()) return std::nullopt;
+  double sum = 0.0;
+  for (const Statement& s : statements) sum += std::pow(s.probability - (s.right ? 1.0 : 0.0), 2);
+  return sum / static_cast<double>(statements.size());
+}
+
+double disc_overlap(const HiddenAnswer::Place& a, const HiddenAnswer::Place& b) {
+  const double distance = std::hypot(a.x_m - b.x_m, a.y_m - b.y_m), r = a.radius_m, q = b.radius_m;
+  const double area_a = std::numbers::pi * r * r, area_b = std::numbers::pi * q * q;
+  if (r <= 0.0 || q <= 0.0 || distance >= r + q) return 0.0;
+  double common = std::min(area_a, area_b);
+  if (distance > std::abs(r - q)) {
+    // Two circular segments on the chord that the circles share.
+    const double at_a = (distance * distance + r * r - q * q) / (2.0 * distance), at_b = distance - at_a;
+    const auto segment = [](double radius, double to_chord) {
+      return radius * radius * std::acos(std::clamp(to_chord / radius, -1.0, 1.0)) -
+             to_chord * std::sqrt(std::max(0.0, radius * radius - to_chord * to_chord));
+    };
+    common = segment(r, at_a) + segment(q, at_b);
+  }
+  return common / (area_a + area_b - common);
+}
+
+BenchmarkFigures figures_of(std::span<const CaseScore> cases) {
+  BenchmarkFigures f;
+  f.cases = cases.size();
+  std::vector<double> outside, inside, closed, closed_of_oracle, overlap, slices, of_attainable, seconds;
+  std::vector<Statement> statements;
+  for (const CaseScore& c : cases) {
+    count(f.verdict_right, c.verdict_right);
+    count(f.confident_wrong, c.confident_wrong);
+    count(f.held, c.held);
+    if (c.truth_kind == TruthKind::kEffects) {
+      count(f.exact, c.exact);
+      count(f.alike, c.alike);
+      if (c.size >= 1.0) {
+        count(f.exact_sized, c.exact);
+        count(f.alike_sized, c.alike);
+      }
+      if (c.closed_fraction) closed.push_back(*c.closed_fraction);
+      if (c.oracle_closed_fraction && *c.oracle_closed_fraction > 0.0)
+        closed_of_oracle.push_back(c.closed_fraction.value_or(0.0) / *c.oracle_closed_fraction);
+    }
+    if (c.wheel_right) count(f.wheel_right, *c.wheel_right);
+    if (c.truth_kind == TruthKind::kNothing) count(f.alarm_nothing, c.false_alarm);
+    if (c.truth_kind == TruthKind::kParameters) count(f.alarm_parameters, c.false_alarm);
+    if (c.truth_kind == TruthKind::kOutsideLibrary) count(f.unknown_told, c.verdict_right);
+    (c.truth_kind == TruthKind::kOutsideLibrary ? outside : inside).push_back(c.unknown_probability);
+    statements.push_back({c.stated, c.exact});
+    if (c.place_overlap) {
+      overlap.push_back(*c.place_overlap);
+      count(f.overlap, *c.place_overlap >= 0.5);
+    }
+    if (c.channel_right) count(f.channel_right, *c.channel_right);
+    if (c.slice_overlap) {
+      slices.push_back(*c.slice_overlap);
+      count(f.slice_half, *c.slice_overlap >= 0.5);
+      if (c.slice_attainable.value_or(0.0) > 0.0)
+        of_attainable.push_back(*c.slice_overlap / *c.slice_attainable);
+    }
+    seconds.push_back(c.seconds);
+  }
+  f.unknown_auroc = area_under_roc(outside, inside);
+  f.calibration = calibration_error(statements);
+  f.brier = brier_score(statements);
+  f.closed_fraction = median_of(closed);
+  f.closed_of_oracle = median_of(closed_of_oracle);
+  f.place_overlap = median_of(overlap);
+  f.slice_overlap = median_of(slices);
+  f.slice_of_attainable = median_of(of_attainable);
+  f.seconds = median_of(seconds);
+  return f;
+}
+
+Confusion confusion_of(std::span<const CaseScore> cases) {
+  Confusion confusion;
+  for (const CaseScore& c : cases) ++confusion[c.truth][c.found];
+  return confusion;
+}
+
+}  // namespace slipway::gap

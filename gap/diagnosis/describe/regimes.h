@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "gap/diagnosis/describe/slices.h"
+#include "gap/diagnosis/result/result.h"
+#include "gap/diagnosis/search/diagnosis_options.h"
+
+namespace slipway::gap {
+
+// What a channel has in each window: the mean square over its wheels, in deviations of the noise.
+struct ChannelSquares {
+  Channel channel = Channel::kSlip;
+  std::vector<double> squares;
+};
+
+// Of squared deviations: `gap` is of prediction less measurement, `trace` of what effects do, which has no
+// noise.
+enum class LookedAt { kGap, kTrace };
+
+// Slices of one and two conditions whose windows hold more of a channel than of the data, best first, `most`
+// at most, p below 0.1 by permuting drives (the best of all slices). Of a gap by how far they stand out, in
+// channels above their noise. Of a trace by how nearly they are the windows above the channel's mean
+// (intersection over union), times the channel's share, in channels that have a tenth of it or are above
+// their noise. `drive_of`: of each window. None where it was cancelled.
+std::vector<Regime> regimes_in(std::span<const Slice> slices, std::span<const ChannelSquares> channels,
+                               std::span<const std::size_t> drive_of, LookedAt looked_at,
+                               const DiagnosisOptions& options, std::size_t most,
+                               const std::function<bool()>& cancelled);
+
+// Each channel's share of a trace, the largest first; none where there are none. Here and above, the few
+// windows of a trace that are further off than all others, by more than ten deviations, weigh no more than
+// the next.
+std::vector<ChannelShare> shares_of(std::span<const ChannelSquares> channels);
+
+// The windows in another order: drives permuted, the whole turned round, so that neighbours stay neighbours.
+std::vector<std::size_t> reordered(std::span<const std::size_t> drive_of, std::uint64_t key);
+
+// By how many deviations of as many windows drawn at random a slice's mean is above the mean of all.
+class Excess {
+ public:
+  explicit Excess(std::span<const double> values);
+  double mean() const { return mean_; }
+  double variance() const { return variance_; }
+  // `values` may be in another order.
+  double operator()(std::span<const double> values, const Slice& slice) const;
+
+ private:
+  double mean_ = 0.0, variance_ = 0.0;
+};
+
+}  // namespace slipway::gap

@@ -1,0 +1,315 @@
+#include "gap/diagnosis/diagnosis.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "core/angle.h"
+#include "gap/diagnosis/describe/localise.h"
+#include "gap/diagnosis/describe/next_drives.h"
+#include "gap/diagnosis/describe/unexplained.h"
+#include "gap/diagnosis/held_out/extrapolation.h"
+#include "gap/diagnosis/held_out/gap_closure.h"
+#include "gap/diagnosis/search/effect_trace.h"
+#include "gap/diagnosis/search/prepared_campaign.h"
+#include "gap/diagnosis/search/selection.h"
+#include "gap/diagnosis/verdict.h"
+#include "sim/effects/effect_catalogue.h"
+
+namespace slipway::gap {
+namespace {
+
+constexpr std::size_t kLeastDrives = 3, kLeastWindows = 6;
+constexpr int kMostRefittedAgain = 6, kMostPairedAgain = 2, kMostSecondsAgain = 2;
+constexpr std::size_t kMostKept = 6;  // sets of effects that are fitted again
+constexpr double kTold = 0.7;  // of a prior deviation: what is left open of a parameter that drives tell of
+constexpr double kSeldom = 0.02;  // of resamples: sets that so few choose are not fitted again
+constexpr double kAlike_deg = 30.0;
+constexpr std::size_t kMostRegimes = 5, kMostNext = 3;
+
+
+class Diagnoser {
+ public:
+  Diagnoser(const DriveCampaign& campaign, const DiagnosisOptions& options, Progress& progress)
+      : campaign_(campaign), options_(options), progress_(progress) {}
+
+  Result<Diagnosis> run() {
+    d_.campaign = campaign_.name;
+    d_.campaign_fingerprint = campaign_.fingerprint;
+    d_.seed = options_.seed;
+    d_.drives = campaign_.drives.size();
+    d_.notes = campaign_.notes;
+    for (const sim::Effect& effect : sim::effect_catalogue())
+      if (!is_withheld(effect.name)) d_.library.emplace_back(effect.name);
+    if (!options_.search.withheld.empty())
+      d_.notes.push_back(fmt::format("withheld from the library, as was asked: {}",
+                                     fmt::join(options_.search.withheld, ", ")));
+    auto prepared = prepare(campaign_, options_.windows, options_.search.threads, progress_);
+    if (!prepared) return fail(prepared.error());
+    prepared_ = std::move(*prepared);
+    d_.windows = prepared_.used_windows();
+    d_.observations = prepared_.noise->used_count();
+    d_.noise = prepared_.noise->scales();
+    if (d_.windows < prepared_.windows.size())
+      d_.notes.push_back(fmt::format("{} of {} windows lie where the terrain has no ground and are left out",
+                                     prepared_.windows.size() - d_.windows, prepared_.windows.size()));
+    if (prepared_.model->footing() == Footing::kPlane && std::isnan(prepared_.model->attitude_misfit_rad()))
+      d_.notes.emplace_back(
+          "no attitude was recorded: the rover, whose frame is rigid, is predicted on the plane under its "
+          "wheels");
+    else if (prepared_.model->footing() == Footing::kPlane)
+      d_.notes.push_back(fmt::format(
+          "the attitudes recorded are those of the plane under the wheels (within {:.2f} deg), not of the "
+          "suspension on the map: the rover is predicted on that plane",
+          deg_from_rad(prepared_.model->attitude_misfit_rad())));
+    if (std::none_of(campaign_.drives.begin(), campaign_.drives.end(),
+                     [](const auto& drive) { return drive.repeat_of.has_value(); }))
+      d_.notes.push_back(
+          "no drive is said to be a repeat: the drives' own scatter is estimated from drives of different "
+          "kinds");
+    d_.channels = channel_gaps(prepared_, campaign_, prepared_.nominal_residuals, options_);
+    if (d_.drives < kLeastDrives || d_.windows < kLeastWindows) {
+      d_.verdict = Verdict::kInsufficient;
+      d_.reason = fmt::format(
+          "{} drives with {} windows of use (positions and attitudes in two rows at least) are too few to "
+          "tell causes apart",
+          d_.drives, d_.windows);
+      d_.overturned_by = fmt::format("{} drives and {} windows at least", kLeastDrives, kLeastWindows);
+      return std::move(d_);
+    }
+    if (auto searched = search(options_.search); !searched) return fail(searched.error());
+    if (!best().effects.empty()) {
+      // With what was found in it, the model takes less of the gap for scatter. What was far behind need not
+      // be fitted again.
+      prepare_around(prepared_, campaign_, best_fit(), options_.search.threads);
+      d_.noise = prepared_.noise->scales();
+      SearchOptions again = options_.search;
+      again.most_refitted = std::min(again.most_refitted, kMostRefittedAgain);
+      again.most_paired = std::min(again.most_paired, kMostPairedAgain);
+      again.most_seconds = std::min(again.most_seconds, kMostSecondsAgain);
+      const std::vector<FittedExplanation> kept = most_probable_fits(search_, kMostKept);
+      if (auto searched = search(again, kept); !searched) return fail(searched.error());
+    }
+    judge(campaign_, prepared_, search_, best_, options_.search.threads, d_);
+    compare_look_alikes();
+    auto shrunk = shrink();
+    if (!shrunk) return fail(shrunk.error());
+    describe_parameters();
+    localise();
+    propose_drives();
+    if (progress_.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
+    progress_.report("done", 1.0);
+    return std::move(d_);
+  }
+
+ private:
+  Result<void> search(const SearchOptions& options, std::span<const FittedExplanation> found_before = {}) {
+    const auto look = options_.told ? fit_told_explanation : search_explanations;
+    auto found = look(campaign_, *prepared_.model, *prepared_.noise, *prepared_.null, prepared_.wildcard,
+                      options, progress_, found_before);
+    if (!found) return fail(found.error());
+    search_ = std::move(*found);
+    best_ = chosen_among(search_.candidates);
+    return {};
+  }
+
+  bool is_withheld(std::string_view effect) const {
+    const auto& withheld = options_.search.withheld;
+    return std::find(withheld.begin(), withheld.end(), effect) != withheld.end();
+  }
+
+  const Candidate& best() const { return search_.candidates[best_]; }
+  const FittedExplanation& best_fit() const { return search_.fits[best().fit]; }
+  // What the verdict says: a fit whose effects are all named, or the re-tuned one.
+  const FittedExplanation& told_fit() const {
+    return d_.effects.size() == best().effects.size() ? best_fit() : search_.fits[0];
+  }
+  bool explains() const { return d_.verdict == Verdict::kEffects || d_.verdict == Verdict::kEffectSet; }
+
+  void describe_parameters() {
+    const FittedExplanation& fit = explains() ? best_fit() : search_.fits[0];
+    for (std::size_t p = 0; p < fit.hypothesis.nuisance_count(); ++p) {
+      const Parameter& parameter = fit.hypothesis.parameters()[p];
+      const Interval value = parameter_interval(fit, p);
+      const double error = (value.high - value.value) / kReach90;
+      d_.retuned.push_back({parameter.name, value, parameter.std, error < kTold * parameter.std});
+    }
+  }
+
+  void compare_look_alikes() {
+    std::vector<const ScreenedVariant*> first;
+    for (const ScreenedVariant& s : search_.screened)
+      if (s.signature.size() > 0 && s.signature.norm() > 1.0 &&
+          std::none_of(first.begin(), first.end(),
+                       [&](const auto* f) { return f->variant.effect == s.variant.effect; }))
+        first.push_back(&s);
+    for (std::size_t a = 0; a < first.size(); ++a)
+      for (std::size_t b = a + 1; b < first.size(); ++b) {
+        const double cosine = std::abs(first[a]->signature.dot(first[b]->signature)) /
+                              (first[a]->signature.norm() * first[b]->signature.norm());
+        const double angle = std::acos(std::min(1.0, cosine)) * 180.0 / std::numbers::pi;
+        if (angle < kAlike_deg)
+          d_.confusable.push_back({first[a]->variant.effect, first[b]->variant.effect, angle});
+      }
+    std::stable_sort(
+        d_.confusable.begin(), d_.confusable.end(),
+        [](const ConfusablePair& a, const ConfusablePair& b) { return a.angle_deg < b.angle_deg; });
+  }
+
+  void localise() {
+    progress_.report("locating the gap", 0.97);
+    d_.regimes =
+        regimes_of(prepared_, campaign_, prepared_.nominal_residuals, LookedAt::kGap, options_, kMostRegimes);
+    d_.regimes_retuned =
+        regimes_of(prepared_, campaign_, search_.fits[0].residuals, LookedAt::kGap, options_, kMostRegimes);
+    if (d_.verdict == Verdict::kUnknown) {
+      d_.residual = describe_unexplained(prepared_, told_fit());
+      d_.places = gap_places(prepared_, campaign_, search_.fits[0].residuals, options_);
+    }
+    if (!explains()) return;
+    // What the effects do, all else as fitted: only this picture locates the cause.
+    const Eigen::VectorXd signature = effect_trace(best_fit(), *prepared_.model, {}, options_.search.threads);
+    d_.channels_of_effects = channel_shares(prepared_, signature);
+    d_.regimes_of_effect =
+        regimes_of(prepared_, campaign_, signature, LookedAt::kTrace, options_, kMostRegimes);
+    for (std::size_t e = 0; e < best().effects.size(); ++e) {
+      if (best().effects[e] != "soft_patch") continue;
+      const EffectVariant& patch = best_fit().hypothesis.effects()[e];
+      // It lies on the terrain of the windows that meet it.
+      std::string terrain = campaign_.terrains.front().name;
+      for (const DriveWindow& w : prepared_.windows)
+        for (const Pose2& pose : w.stations)
+          if (std::hypot(pose.x_m - patch.fixed[0].second, pose.y_m - patch.fixed[1].second) <
+              patch.fixed[2].second)
+            terrain = campaign_.terrains[campaign_.drives[w.drive].terrain].name;
+      d_.places.push_back({terrain, patch.fixed[0].second, patch.fixed[1].second, patch.fixed[2].second,
+                           Channel::kSlip, 1.0});
+    }
+  }
+
+  // The correction that is told, and which others would have been had other drives been made.
+  CorrectionChoice choose_corrections(const DriveResampling& drives) {
+    const auto refit = [&](std::size_t candidate) {
+      return refitted(prepared_, search_.fits[search_.candidates[candidate].fit], options_.search.threads);
+    };
+    const auto corrects = [&](std::size_t candidate) {
+      const Candidate& c = search_.candidates[candidate];
+      return !c.with_unknown && !c.effects.empty();
+    };
+    const SelectionBootstrap selection =
+        resample_selection(search_, prepared_, campaign_, options_.search, drives);
+    for (std::size_t c = 0; c < selection.share.size(); ++c)
+      d_.candidates[c].chosen_share = selection.share[c];
+    if (!explains()) return {{uncorrected()}, {}};
+    CorrectionChoice choice{{refit(best_)}, {}};
+    std::map<std::size_t, std::size_t> correction_of{{best_, 0}};
+    for (std::size_t c = 0; c < selection.share.size(); ++c) {
+      if (c == best_ || selection.share[c] == 0.0) continue;
+      if (corrects(c) && selection.share[c] < kSeldom) {
+        correction_of[c] = 0;
+        continue;
+      }
+      correction_of[c] = choice.corrections.size();
+      choice.corrections.push_back(corrects(c) ? refit(c) : uncorrected());
+    }
+    for (const std::size_t chosen : selection.chosen) choice.of_resample.push_back(correction_of[chosen]);
+    return choice;
+  }
+
+  Result<void> shrink() {
+    const DriveResampling drives = resample_drives(campaign_, options_.resamples, options_.seed);
+    const CorrectionChoice choice = choose_corrections(drives);
+    auto shrunk = shrink_on_held_out(prepared_, campaign_, choice, drives, options_, progress_);
+    if (!shrunk) return fail(shrunk.error());
+    d_.gap = std::move(shrunk->channels);
+    d_.planners_view = shrunk->planners_view;
+    d_.held_out = std::move(shrunk->points);
+    d_.window_gaps = std::move(shrunk->windows);
+    d_.candidates[best_].held_out_score = shrunk->log_density_gain;
+    doubt_what_leaves_a_gap(told_fit(), d_);
+    if (explains()) {
+      auto extrapolated =
+          extrapolate(prepared_, campaign_, choice.corrections.front(), drives, options_, progress_);
+      if (!extrapolated) return fail(extrapolated.error());
+      d_.extrapolations = std::move(*extrapolated);
+      doubt_what_does_not_extrapolate(d_);
+    }
+    if (explains()) d_.closed_fraction = shrunk->closed_fraction;
+    for (ChannelShrink& channel : d_.gap)
+      if (!explains()) channel.closed_fraction.reset();
+    const bool offered = explains() ? shrunk->log_density_gain > 0.0
+                                    : d_.verdict == Verdict::kParameters || unknown_but_nearer();
+    if (offered) {
+      const FittedExplanation& told = explains() ? best_fit() : search_.fits[0];
+      d_.model = told.hypothesis.state(told.x);
+      d_.model_effects = told.hypothesis.settings(told.x);
+      d_.left_open = posterior_of(told);
+    } else if (explains()) {
+      d_.notes.push_back(
+          "the correction did not improve drives held out of the fit: no corrected model is offered");
+    }
+    return {};
+  }
+
+  // A model beside which something unknown is at work is still the better one to plan with, where no channel
+  // of drives held out is told worse by it than by the nominal one and one is told much better.
+  bool unknown_but_nearer() {
+    constexpr double kNoWorse = 1.02, kMuchBetter = 0.8;
+    if (d_.verdict != Verdict::kUnknown) return false;
+    bool better = false;
+    for (const ChannelShrink& c : d_.gap) {
+      if (c.retuned.value > kNoWorse * c.nominal.value) return false;
+      better = better || c.retuned.value < kMuchBetter * c.nominal.value;
+    }
+    if (better)
+      d_.notes.emplace_back(
+          "the corrected model is the re-tuned one, without the effects named, and leaves something "
+          "unexplained; it is offered because it told drives held out of the fit better than the nominal "
+          "one");
+    return better;
+  }
+
+  void propose_drives() {
+    std::vector<const FittedExplanation*> fits;
+    std::vector<double> probabilities;
+    for (const Candidate& c : search_.candidates) {
+      if (c.with_unknown || fits.size() >= 4) continue;
+      fits.push_back(&search_.fits[c.fit]);
+      probabilities.push_back(c.probability);
+    }
+    d_.next_drives =
+        next_drives(campaign_, prepared_.noise->scales(), fits, probabilities, kMostNext, progress_);
+  }
+
+  const DriveCampaign& campaign_;
+  const DiagnosisOptions& options_;
+  Progress& progress_;
+  PreparedCampaign prepared_;
+  ExplanationSearch search_;
+  std::size_t best_ = 0;  // of its candidates
+  Diagnosis d_;
+};
+
+}  // namespace
+
+Result<Diagnosis> diagnose(const DriveCampaign& campaign, const DiagnosisOptions& options,
+                           Progress& progress) {
+  std::vector<Fault> faults;
+  for (const std::string& name : options.search.withheld)
+    if (sim::find_effect(name) == nullptr) {
+      std::vector<std::string_view> known;
+      for (const sim::Effect& effect : sim::effect_catalogue()) known.push_back(effect.name);
+      faults.push_back(
+          {"/without", fmt::format("unknown effect \"{}\", known are: {}", name, fmt::join(known, ", "))});
+    }
+  if (!faults.empty())
+    return fail(ErrorCode::kInvalidRequest, "an effect to withhold is not in the catalogue", faults);
+  return Diagnoser(campaign, options, progress).run();
+}
+
+}  // namespace slipway::gap

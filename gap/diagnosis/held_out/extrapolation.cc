@@ -1,0 +1,96 @@
+#include "gap/diagnosis/held_out/extrapolation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/angle.h"
+#include "core/quantile.h"
+
+namespace slipway::gap {
+namespace {
+
+constexpr double kTold = 2.0 / 3.0;  // quantile of the groups of drives from which on they are told
+constexpr std::size_t kLeastGroups = 4;
+
+// How harsh a window is: the more, the larger `sense` times the number is. What differs by less than `least`
+// over a campaign is not extrapolated.
+struct Harshness {
+  std::string_view variable;
+  double sense, least;
+  double (*of)(const WindowModel& model, std::size_t window);
+};
+
+constexpr std::array kHarshness{
+    Harshness{"slope_deg", 1.0, 5.0,
+              [](const WindowModel& model, std::size_t w) {
+                const WindowModel::Conditions& at = model.conditions(w);
+                return deg_from_rad(std::hypot(at.pitch_rad, at.roll_rad));
+              }},
+    Harshness{"motor_temp_c", -1.0, 20.0,
+              [](const WindowModel& model, std::size_t w) {
+                const sim::DriveCommand& command = model.windows()[w].command;
+                return command.motor_temp_c.value_or(model.campaign().rover->drive.reference_temp_c);
+              }},
+    Harshness{"speed_m_s", 1.0, 0.02, [](const WindowModel& model, std::size_t w) {
+                return std::abs(model.windows()[w].command.speed_m_s);
+              }}};
+
+// The mean harshness of each group's windows; NaN where none is used.
+std::vector<double> mean_by_group(const Harshness& harshness, const WindowModel& model,
+                                  const DriveResampling& drives) {
+  std::vector<double> sum(drives.group_count, 0.0), count(drives.group_count, 0.0);
+  for (std::size_t w = 0; w < model.windows().size(); ++w) {
+    if (!model.used(w)) continue;
+    const std::size_t group = drives.groups[model.windows()[w].drive];
+    sum[group] += harshness.of(model, w);
+    count[group] += 1.0;
+  }
+  for (std::size_t g = 0; g < sum.size(); ++g) sum[g] *= harshness.sense / count[g];
+  return sum;
+}
+
+}  // namespace
+
+Result<std::vector<Extrapolation>> extrapolate(const PreparedCampaign& prepared,
+                                               const DriveCampaign& campaign, const Correction& correction,
+                                               const DriveResampling& drives, const DiagnosisOptions& options,
+                                               Progress& progress) {
+  const WindowModel& model = *prepared.model;
+  std::vector<Extrapolation> all;
+  for (const Harshness& harshness : kHarshness) {
+    const std::vector<double> mean = mean_by_group(harshness, model, drives);
+    std::vector<double> known;
+    std::copy_if(mean.begin(), mean.end(), std::back_inserter(known),
+                 [](double m) { return std::isfinite(m); });
+    if (known.size() < 3 * kLeastGroups) continue;
+    const auto [least, most] = std::minmax_element(known.begin(), known.end());
+    if (*most - *least < harshness.least) continue;
+    const double from = quantile(known, kTold);
+    std::vector<bool> learnt_from;
+    for (std::size_t d = 0; d < campaign.drives.size(); ++d)
+      learnt_from.push_back(!(mean[drives.groups[d]] > from));
+    const std::vector<bool> seen = rows_of(model, learnt_from);
+    progress.report("telling harsh drives from gentle ones", 0.96);
+    const FittedExplanation retuned = retuned_on(prepared, seen, options.search.threads);
+    const HeldOutComparison comparison(prepared, retuned.residuals, correction(retuned, seen));
+    if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
+    std::vector<HeldOutErrors> errors(drives.group_count);
+    for (std::size_t w = 0; w < model.windows().size(); ++w)
+      if (!learnt_from[model.windows()[w].drive] && model.used(w))
+        errors[drives.groups[model.windows()[w].drive]].add(comparison.errors(w));
+    std::vector<double> gains;
+    for (const HeldOutErrors& e : errors)
+      if (e.scaled_count > 0.0) gains.push_back(e.log_gain);
+    if (gains.size() < kLeastGroups) continue;
+    const auto n = static_cast<double>(gains.size());
+    double sum = 0.0, square = 0.0;
+    for (const double g : gains) sum += g;
+    for (const double g : gains) square += (g - sum / n) * (g - sum / n);
+    all.push_back({std::string(harshness.variable), harshness.sense > 0.0, harshness.sense * from,
+                   gains.size(), sum / n, std::sqrt(square / (n - 1.0) / n)});
+  }
+  return all;
+}
+
+}  // namespace slipway::gap

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "core/progress.h"
+#include "core/result.h"
+#include "gap/diagnosis/model/window_model.h"
+
+namespace slipway::gap {
+
+// What makes drives of the same kind differ, besides the sensors: the soil of each drive and each of its
+// windows, and what the model leaves over in every window. One standard deviation each.
+struct NoiseScales {
+  // Of each drive's soil around the campaign's: logarithms of stiffness, tan(friction angle), shear modulus.
+  double stiffness = 0.1, friction = 0.02, shear_modulus = 0.1;
+  double within_drives = 0.7;  // of the same from window to window, over that from drive to drive
+  // Of each window, for what the map's detail does: the attitude under which weights act, the centre of load.
+  double lean_rad = 0.002, load_shift_m = 0.003;
+  double slip = 0.004, side_slip = 0.004, yaw_rate_rad_s = 0.0002, attitude_rad = 0.003;
+  double current_share = 0.01;  // of the current
+  double sinkage_m = 0.0005;
+};
+constexpr int kNoiseScales = 12;
+
+// The covariance of all residuals: blocks of one drive each (drives are independent),
+//
+//   V_d = diag(sensor^2 + left over^2) + G_d S G_d^T + sum over windows (w^2 G_w S G_w^T + H_w T H_w^T)
+//
+// with G the derivatives by the soil's three logarithms, H those by pitch and roll of the weight and by the
+// centre of mass forward and to the left, S and T the diagonals of their variances.
+class NoiseModel {
+ public:
+  // response: observations x 7, derivatives by those seven; expected: the model's own values there.
+  // Observations that are not `used` have no part.
+  NoiseModel(const WindowModel& model, Eigen::MatrixXd response, std::vector<double> expected,
+             std::vector<bool> used);
+
+  void set(const NoiseScales& scales);
+  const NoiseScales& scales() const { return scales_; }
+  // Finds the scales that make the residuals most likely, everything that `systematic` columns (prior
+  // deviation 1 each) could explain taken out: what is left is the drives' own scatter. Weak priors around
+  // the scales above.
+  void estimate(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& systematic);
+
+  // L^-1 r with V = L L^T. Rows not used are 0.
+  Eigen::MatrixXd whiten(const Eigen::MatrixXd& columns) const;
+  double log_determinant() const { return log_determinant_; }
+  // Square root of V's diagonal; 0 where not used.
+  const Eigen::VectorXd& deviation() const { return deviation_; }
+  const std::vector<bool>& used() const { return used_; }
+  std::size_t used_count() const;
+  bool cancelled() const { return model_.cancelled(); }
+
+ private:
+  struct Block {
+    std::size_t drive = 0;
+    std::vector<Eigen::Index> rows;
+    std::vector<std::size_t> window;  // of each row
+    Eigen::MatrixXd factor;           // L
+  };
+
+  const WindowModel& model_;
+  Eigen::MatrixXd response_;
+  std::vector<double> expected_;
+  std::vector<bool> used_;
+  std::vector<Block> blocks_;
+  NoiseScales scales_;
+  double log_determinant_ = 0.0;
+  Eigen::VectorXd deviation_;
+};
+
+// log N(r; 0, V + A A^T) for whitened residuals r and whitened columns A of prior deviation 1, without the
+// constant n/2 log(2 pi) and without 1/2 log |V|.
+double log_marginal(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& columns);
+
+}  // namespace slipway::gap

@@ -1,0 +1,307 @@
+#include "gap/diagnosis/model/window_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/angle.h"
+#include "core/parallel_for.h"
+#include "sim/effects/effect_catalogue.h"
+
+namespace slipway::gap {
+namespace {
+
+// Stations whose attitudes and soils are no further apart than this are one.
+constexpr double kSameAttitude_rad = rad_from_deg(0.02);
+
+// Where no attitude was recorded and the map is steeper than this, the map shows a tree or a wall and not
+// what was driven on.
+constexpr double kMostTilt_rad = rad_from_deg(35.0);
+
+// Means over a window's stations.
+struct Motion {
+  double slip = 0.0, side_slip = 0.0, yaw_rate = 0.0, roll = 0.0, pitch = 0.0;
+  sim::PerWheel<double> current, sinkage;
+};
+
+bool same_shape_as(const sim::RoverModel& a, const sim::RoverModel& b) {
+  for (std::size_t k = 0; k < a.wheels.size(); ++k)
+    if (a.wheels[k].radius_m != b.wheels[k].radius_m || a.wheels[k].position_m != b.wheels[k].position_m)
+      return false;
+  return true;
+}
+
+// No motor stalled in drives that were made, whatever re-tuned constants imply of voltages.
+bool gets_on(const sim::StationState& at) {
+  return at.moving() || at.outcome == sim::Outcome::kStalled;
+}
+
+bool attitude_recorded(const DriveWindow& window) {
+  return std::any_of(window.observations.begin(), window.observations.end(), [](const Observation& o) {
+    return o.channel == Channel::kRoll || o.channel == Channel::kPitch;
+  });
+}
+
+}  // namespace
+
+WindowModel::WindowModel(const DriveCampaign& campaign, std::span<const DriveWindow> windows, Footing footing)
+    : campaign_(campaign),
+      windows_(windows),
+      footing_(footing),
+      stances_(windows.size()),
+      starts_(windows.size()),
+      conditions_(windows.size()) {
+  offsets_.push_back(0);
+  for (std::size_t w = 0; w < windows.size(); ++w) {
+    offsets_.push_back(offsets_.back() + windows[w].observations.size());
+    std::vector<Place> places = places_of(*campaign.rover, w);
+    if (places.empty()) continue;
+    const sim::DriveCommand& command = windows[w].command;
+    const double sense = command.speed_m_s < 0.0 && !command.turn_in_place ? -1.0 : 1.0;
+    Conditions& at = conditions_[w];
+    for (const Place& place : places) {
+      at.pitch_rad -= sense * place.stance.attitude.pitch_rad / static_cast<double>(places.size());
+      at.roll_rad += place.stance.attitude.roll_rad / static_cast<double>(places.size());
+    }
+    at.soil = places[places.size() / 2].soil[0];
+    at.turning = command.turn_in_place;
+    stances_[w] = std::move(places);
+  }
+}
+
+double WindowModel::attitude_misfit_rad() const {
+  double squares = 0.0;
+  std::size_t count = 0;
+  for (std::size_t w = 0; w < windows_.size(); ++w) {
+    if (!used(w)) continue;
+    double roll = 0.0, pitch = 0.0;
+    for (const Place& place : stances_[w]) {
+      roll += place.stance.attitude.roll_rad / static_cast<double>(stances_[w].size());
+      pitch += place.stance.attitude.pitch_rad / static_cast<double>(stances_[w].size());
+    }
+    for (const Observation& o : windows_[w].observations) {
+      if (o.channel != Channel::kRoll && o.channel != Channel::kPitch) continue;
+      const double difference = o.value - (o.channel == Channel::kRoll ? roll : pitch);
+      squares += difference * difference;
+      ++count;
+    }
+  }
+  return std::sqrt(squares / static_cast<double>(count));
+}
+
+std::optional<WindowModel::Place> WindowModel::place_at(const sim::RoverModel& rover, std::size_t window,
+                                                        const Pose2& pose) const {
+  const sim::Ground& ground = *campaign_.terrains[campaign_.drives[windows_[window].drive].terrain].ground;
+  const auto stance = footing_ == Footing::kPlane ? sim::lay_on_fitted_plane(rover, ground, pose)
+                                                  : sim::settle(rover, ground, pose);
+  if (!stance) return std::nullopt;
+  Place place{*stance, sim::PerWheel<std::size_t>(rover.wheels.size())};
+  for (std::size_t k = 0; k < rover.wheels.size(); ++k) {
+    const Eigen::Vector3d p = stance->p_MB + stance->R_MB * stance->p_B_wheel[k];
+    const auto soil = ground.soil_at(p.x(), p.y());
+    if (!soil) return std::nullopt;
+    place.soil[k] = *soil;
+  }
+  return place;
+}
+
+std::vector<WindowModel::Place> WindowModel::places_of(const sim::RoverModel& rover,
+                                                       std::size_t window) const {
+  std::vector<Place> places;
+  for (const Pose2& pose : windows_[window].stations) {
+    std::optional<Place> place = place_at(rover, window, pose);
+    if (!place) return {};
+    places.push_back(*std::move(place));
+  }
+  if (footing_ != Footing::kPlane || attitude_recorded(windows_[window])) return places;
+  Place mean = places[places.size() / 2];
+  Attitude attitude{.yaw_rad = mean.stance.attitude.yaw_rad};
+  for (const Place& place : places) {
+    attitude.roll_rad += place.stance.attitude.roll_rad / static_cast<double>(places.size());
+    attitude.pitch_rad += place.stance.attitude.pitch_rad / static_cast<double>(places.size());
+  }
+  if (attitude.tilt_rad() > kMostTilt_rad) return {};
+  const Eigen::Vector3d p_MB = mean.stance.p_MB;
+  mean.stance = sim::stance_on_plane(rover, attitude);
+  mean.stance.p_MB = p_MB;
+  return {mean};
+}
+
+sim::PerWheel<sim::Soil> WindowModel::soils_at(const Place& place, const ModelState& state) const {
+  const std::vector<sim::Disc> regions = sim::effect_regions(state.effects);
+  sim::PerWheel<sim::Soil> soils(place.soil.size());
+  for (std::size_t k = 0; k < soils.size(); ++k) {
+    soils[k] = state.soils[place.soil[k]];
+    if (regions.empty()) continue;
+    const Eigen::Vector3d p = place.stance.p_MB + place.stance.R_MB * place.stance.p_B_wheel[k];
+    for (std::size_t r = 0; r < regions.size(); ++r)
+      if (regions[r].holds(p.x(), p.y())) sim::apply_in_region(state.effects, r, soils[k]);
+  }
+  return soils;
+}
+
+std::span<const WindowModel::Place> WindowModel::places_in(std::size_t w, const ModelState& state,
+                                                           bool same_shape, std::vector<Place>& own) const {
+  if (!same_shape) own = places_of(state.rover, w);
+  return own.empty() ? stances_[w] : own;
+}
+
+void WindowModel::predict_window(std::size_t w, const ModelState& state, std::span<const Place> places,
+                                 const From& from, sim::QuasiStaticSolver& solver,
+                                 std::span<double> out) const {
+  const DriveWindow& window = windows_[w];
+  const std::size_t wheels = state.rover.wheels.size();
+  const bool regions = !sim::effect_regions(state.effects).empty();
+  Motion mean;
+  mean.current = sim::PerWheel<double>(wheels);
+  mean.sinkage = sim::PerWheel<double>(wheels);
+  bool moving = true;
+  const double share = 1.0 / static_cast<double>(places.size());
+  const Place* before = nullptr;
+  Motion last;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Place& place = places[i];
+    const bool as_before =
+        before != nullptr && !regions && before->soil.size() == place.soil.size() &&
+        std::equal(before->soil.begin(), before->soil.end(), place.soil.begin()) &&
+        std::abs(before->stance.attitude.pitch_rad - place.stance.attitude.pitch_rad) < kSameAttitude_rad &&
+        std::abs(before->stance.attitude.roll_rad - place.stance.attitude.roll_rad) < kSameAttitude_rad &&
+        std::abs(before->stance.rocker_rad - place.stance.rocker_rad) < kSameAttitude_rad &&
+        std::abs(before->stance.bogie_rad[0] - place.stance.bogie_rad[0]) < kSameAttitude_rad &&
+        std::abs(before->stance.bogie_rad[1] - place.stance.bogie_rad[1]) < kSameAttitude_rad;
+    if (!as_before) {
+      const StationStart* start = from.starts[w].empty() ? nullptr : &from.starts[w][i];
+      const bool stuck = from.near && start != nullptr && !start->moving;
+      sim::StationState at;
+      if (!stuck)
+        at = solver.solve(
+            place.stance, soils_at(place, state), window.command,
+            start != nullptr && start->balance ? &*start->balance : nullptr,
+            start == nullptr || start->moving ? sim::Thoroughness::kSure : sim::Thoroughness::kQuick);
+      last = {};
+      last.current = sim::PerWheel<double>(wheels);
+      last.sinkage = sim::PerWheel<double>(wheels);
+      if (stuck || !gets_on(at)) {
+        moving = false;
+        last.slip = 1.0;
+        solver.reset();
+      } else {
+        const double speed = window.command.speed_m_s;
+        last.slip = at.slip_ratio;
+        last.yaw_rate = at.yaw_rate_rad_s;
+        if (!window.command.turn_in_place) {
+          last.yaw_rate -= speed * window.command.curvature_1_m;
+          const Eigen::Vector2d travel = sim::travel_direction(window.command);
+          last.side_slip = (travel.x() * at.leftward_m_s - travel.y() * at.forward_m_s) / std::abs(speed);
+        }
+        for (std::size_t k = 0; k < wheels; ++k) {
+          last.current[k] = at.wheels[k].current_a * (at.wheels[k].rate_rad_s < 0.0 ? -1.0 : 1.0);
+          const double below_track =
+              state.rover.wheels[k].radius_m * (1.0 - std::cos(at.wheels[k].entry_angle_rad));
+          last.sinkage[k] =
+              (1.0 - state.track_left_out) * at.wheels[k].sinkage_m + state.track_left_out * below_track;
+        }
+      }
+      last.roll = place.stance.attitude.roll_rad;
+      last.pitch = place.stance.attitude.pitch_rad;
+    }
+    before = &place;
+    mean.slip += share * last.slip;
+    mean.side_slip += share * last.side_slip;
+    mean.yaw_rate += share * last.yaw_rate;
+    mean.roll += share * last.roll;
+    mean.pitch += share * last.pitch;
+    for (std::size_t k = 0; k < wheels; ++k) {
+      mean.current[k] += share * last.current[k];
+      mean.sinkage[k] += share * last.sinkage[k];
+    }
+  }
+  for (std::size_t i = 0; i < window.observations.size(); ++i) {
+    const Observation& o = window.observations[i];
+    const auto k = static_cast<std::size_t>(std::max(0, o.wheel));
+    switch (o.channel) {
+      case Channel::kSlip:
+        out[i] = mean.slip;
+        break;
+      case Channel::kSideSlip:
+        out[i] = moving ? mean.side_slip : kNotMeasured;
+        break;
+      case Channel::kYawRate:
+        out[i] = moving ? mean.yaw_rate : kNotMeasured;
+        break;
+      case Channel::kRoll:
+        out[i] = mean.roll;
+        break;
+      case Channel::kPitch:
+        out[i] = mean.pitch;
+        break;
+      case Channel::kCurrent:
+        out[i] = !moving       ? kNotMeasured
+                 : o.wheel < 0 ? std::accumulate(mean.current.begin(), mean.current.end(), 0.0) /
+                                     static_cast<double>(wheels)
+                               : mean.current[k];
+        break;
+      case Channel::kSinkage:
+        out[i] = moving ? mean.sinkage[k] : kNotMeasured;
+        break;
+    }
+  }
+}
+
+WindowModel::Starts WindowModel::starts_at(const ModelState& state, std::size_t threads) const {
+  Starts starts(windows_.size());
+  const bool same_shape = same_shape_as(state.rover, *campaign_.rover);
+  parallel_for(windows_.size(), threads, [&](std::size_t w) {
+    sim::QuasiStaticSolver solver(state.rover, campaign_.gravity_m_s2);
+    std::vector<Place> own;
+    const std::span<const Place> places = places_in(w, state, same_shape, own);
+    starts[w].resize(places.size());
+    for (std::size_t i = 0; i < places.size() && !cancelled(); ++i) {
+      const sim::PerWheel<sim::Soil> soils = soils_at(places[i], state);
+      const bool known = !starts_[w].empty() && starts_[w][i].balance;
+      starts[w][i].moving = gets_on(solver.solve(places[i].stance, soils, windows_[w].command,
+                                                 known ? &*starts_[w][i].balance : nullptr));
+      starts[w][i].balance = solver.start_of_last(places[i].stance, soils, windows_[w].command);
+      if (!starts[w][i].moving) solver.reset();
+    }
+  });
+  return starts;
+}
+
+void WindowModel::start_from(const ModelState& state, std::size_t threads) {
+  starts_ = starts_at(state, threads);
+}
+
+std::vector<double> WindowModel::predict(const ModelState& state, std::size_t threads) const {
+  return predict(state, threads, From{starts_});
+}
+
+std::vector<double> WindowModel::predict_near(const Starts& starts, const ModelState& state) const {
+  return predict(state, 1, From{starts, true});
+}
+
+std::vector<double> WindowModel::predict(const ModelState& state, std::size_t threads,
+                                         const From& from) const {
+  std::vector<double> out(observation_count(), kNotMeasured);
+  const bool same_shape = same_shape_as(state.rover, *campaign_.rover);
+  // A drive's windows follow each other on one thread, each from a solver of its own: numbers do not depend
+  // on how drives are spread.
+  std::vector<std::size_t> first{0};
+  for (std::size_t w = 1; w < windows_.size(); ++w)
+    if (windows_[w].drive != windows_[w - 1].drive) first.push_back(w);
+  if (windows_.empty()) return out;
+  parallel_for(first.size(), threads, [&](std::size_t d) {
+    sim::QuasiStaticSolver solver(state.rover, campaign_.gravity_m_s2);
+    const std::size_t end = d + 1 < first.size() ? first[d + 1] : windows_.size();
+    for (std::size_t w = first[d]; w < end; ++w) {
+      if (cancelled()) return;
+      if (!used(w)) continue;
+      std::vector<Place> own;
+      predict_window(w, state, places_in(w, state, same_shape, own), from, solver,
+                     std::span(out).subspan(offsets_[w], windows_[w].observations.size()));
+    }
+  });
+  return out;
+}
+
+}  // namespace slipway::gap

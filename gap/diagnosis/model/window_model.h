@@ -1,0 +1,114 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/progress.h"
+#include "gap/diagnosis/model/drive_window.h"
+#include "sim/quasi_static/quasi_static.h"
+#include "sim/rover/effect_setting.h"
+#include "sim/rover/rover_model.h"
+#include "sim/rover/stance.h"
+#include "sim/soil/soil.h"
+
+namespace slipway::gap {
+
+// A rover on soils that may differ in places: what a hypothesis makes of the nominal one.
+struct ModelState {
+  sim::RoverModel rover;
+  std::vector<sim::Soil> soils;             // as DriveCampaign::soils
+  std::vector<sim::EffectSetting> effects;  // that are at work on both already; kept for their regions
+  double track_left_out = 0.0;              // see kTrackLeftOut
+};
+
+// How the rover stands where it was: as its suspension does on the map, or on the plane under its wheels.
+// Which of them a recording's attitudes show is for the recording to say. On planes, a window in which no
+// attitude was recorded is one station on the mean of its planes: they differ by the map's detail, which
+// nothing confirms.
+enum class Footing { kSuspension, kPlane };
+
+// Predicts every observation of a campaign's windows by the quasi-static rung: the rover stands at the
+// window's measured stations on the map and is told what the drive was told.
+class WindowModel {
+ public:
+  // Stances of the nominal rover are found here, once. Windows with a station where there is no ground are
+  // left out: see used(). Campaign and windows must outlive the model.
+  WindowModel(const DriveCampaign& campaign, std::span<const DriveWindow> windows,
+              Footing footing = Footing::kSuspension);
+
+  // The balances of a state at every station: what predictions of states near it start from.
+  struct StationStart {
+    bool moving = false;
+    std::optional<sim::QuasiStaticSolver::Start> balance;  // where all wheels carry
+  };
+  using Starts = std::vector<std::vector<StationStart>>;  // by window
+  Starts starts_at(const ModelState& state, std::size_t threads = 1) const;
+  // Predictions start from the balances at this state, and are the faster the nearer theirs is to it. Their
+  // numbers do not change by more than the solver's tolerance.
+  void start_from(const ModelState& state, std::size_t threads = 1);
+  // One number for each observation of each window, in their order. NaN where the rover would not move, but
+  // for slip, which is 1 there. Same numbers for any number of threads.
+  std::vector<double> predict(const ModelState& state, std::size_t threads = 1) const;
+  // Of a state so near that of the starts that the rover moves where it moved there, and only there: for
+  // derivatives.
+  std::vector<double> predict_near(const Starts& starts, const ModelState& state) const;
+
+  // Whose work this is, until the model ends: once it is cancelled, predictions stop and are NaN, and all
+  // that is made of this model asks cancelled() and ends early with numbers that nobody looks at.
+  void watch(const Progress& progress) { progress_ = &progress; }
+  bool cancelled() const { return progress_ != nullptr && progress_->cancelled(); }
+
+  // Circumstances of a window, of the nominal rover: what a gap may depend on.
+  struct Conditions {
+    double pitch_rad = 0.0;  // along the travel, positive uphill
+    double roll_rad = 0.0;   // positive: left side up
+    std::optional<std::size_t> soil;
+    bool turning = false;
+  };
+  const Conditions& conditions(std::size_t window) const { return conditions_[window]; }
+  // Root mean square of measured less predicted roll and pitch of the nominal rover, rad; NaN where none was
+  // measured.
+  double attitude_misfit_rad() const;
+  Footing footing() const { return footing_; }
+  bool used(std::size_t window) const { return !stances_[window].empty(); }
+  std::size_t observation_count() const { return offsets_.back(); }
+  // Index of a window's first observation.
+  std::size_t offset(std::size_t window) const { return offsets_[window]; }
+  std::span<const DriveWindow> windows() const { return windows_; }
+  const DriveCampaign& campaign() const { return campaign_; }
+
+ private:
+  struct Place {
+    sim::Stance stance;
+    sim::PerWheel<std::size_t> soil;  // index under each wheel
+  };
+
+  // Where a start of each station is known; `near`: the state is near theirs, see predict_near.
+  struct From {
+    const Starts& starts;
+    bool near = false;
+  };
+  sim::PerWheel<sim::Soil> soils_at(const Place& place, const ModelState& state) const;
+  std::vector<double> predict(const ModelState& state, std::size_t threads, const From& from) const;
+  void predict_window(std::size_t window, const ModelState& state, std::span<const Place> places,
+                      const From& from, sim::QuasiStaticSolver& solver, std::span<double> out) const;
+  // Where the state's rover stands in a window: `own` holds it where its shape is not the nominal one's.
+  std::span<const Place> places_in(std::size_t window, const ModelState& state, bool same_shape,
+                                   std::vector<Place>& own) const;
+  std::optional<Place> place_at(const sim::RoverModel& rover, std::size_t window, const Pose2& pose) const;
+  // Of a window's stations, one or as many as it has; empty where one of them has no ground.
+  std::vector<Place> places_of(const sim::RoverModel& rover, std::size_t window) const;
+
+  const DriveCampaign& campaign_;
+  std::span<const DriveWindow> windows_;
+  Footing footing_;
+  std::vector<std::vector<Place>> stances_;
+  Starts starts_;  // of stances_; or none
+  std::vector<Conditions> conditions_;
+  std::vector<std::size_t> offsets_;
+  const Progress* progress_ = nullptr;
+};
+
+}  // namespace slipway::gap

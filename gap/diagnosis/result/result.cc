@@ -1,0 +1,17 @@
+#include "gap/diagnosis/result/result.h"
+
+#include <array>
+
+namespace slipway::gap {
+namespace {
+
+constexpr std::array<std::string_view, 7> kVerdicts{"no_gap",     "not_detected", "parameters",  "effects",
+                                                    "effect_set", "unknown",      "insufficient"};
+
+}  // namespace
+
+std::string_view name_of(Verdict verdict) {
+  return kVerdicts[static_cast<std::size_t>(verdict)];
+}
+
+}  // namespace slipway::gap

@@ -1,0 +1,191 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/pose.h"
+#include "gap/diagnosis/model/drive_campaign.h"
+#include "gap/diagnosis/model/drive_window.h"
+#include "gap/diagnosis/model/noise_model.h"
+#include "gap/diagnosis/model/window_model.h"
+#include "gap/diagnosis/search/parameter_posterior.h"
+#include "gap/estimate/interval.h"
+#include "sim/rover/effect_setting.h"
+
+namespace slipway::gap {
+
+enum class Verdict { kNoGap, kNotDetected, kParameters, kEffects, kEffectSet, kUnknown, kInsufficient };
+std::string_view name_of(Verdict verdict);  // "no_gap", ...
+
+struct FoundParameter {
+  std::string name;  // of the effect's field, in its unit
+  Interval value;
+};
+
+struct FoundEffect {
+  std::string name;
+  std::string variant;  // which of its ways, for people
+  double probability = 0.0;
+  std::vector<FoundParameter> parameters;
+};
+
+struct ComparedSet {
+  std::vector<std::string> effects;  // "unknown" among them where something else is
+  double probability = 0.0;
+  std::optional<double> held_out_score;  // mean log density a drive, over the null's; of what was refitted
+  int complexity = 0;                    // estimated parameters besides the nuisances
+  double chosen_share = 0.0;             // of resamples of the drives, those that would have led to this set
+};
+
+// What the found correction is worth where it had not been: learnt from the gentle drives, told of the harsh.
+struct Extrapolation {
+  std::string variable;  // "slope_deg", ...
+  bool above = true;     // told are drives above (or below) the limit, which is in the variable's unit
+  double limit = 0.0;
+  std::size_t groups = 0;         // drives told, repeats as one
+  double log_density_gain = 0.0;  // over re-tuned parameters alone, a drive
+  double error = 0.0;             // its standard error
+};
+
+struct ConfusablePair {
+  std::string a, b;
+  double angle_deg = 0.0;  // between their signatures, nuisances projected out
+};
+
+// A channel (of a wheel) before any re-tuning.
+struct ChannelGap {
+  Channel channel = Channel::kSlip;
+  std::optional<std::string> wheel;  // nothing: of the rover
+  double gap = 0.0, noise = 0.0;     // rms, of residuals and of what scatter makes them
+  double bias = 0.0;                 // mean residual, measured less predicted
+  double significance = 1.0;         // p, corrected for the number of channels looked at
+};
+
+struct Condition {
+  std::string variable;  // "slope_deg", ...
+  double from = 0.0, to = 0.0;
+};
+
+// A slice of the drives that holds more of the gap than of the data.
+struct Regime {
+  std::vector<Condition> conditions;
+  Channel channel = Channel::kSlip;
+  double share_of_gap = 0.0, share_of_data = 0.0;
+  double significance = 1.0;
+};
+
+// What a channel has of what is looked at, in squared deviations of the noise; shares add up to 1.
+struct ChannelShare {
+  Channel channel = Channel::kSlip;
+  double share = 0.0;
+};
+
+struct GapPlace {
+  std::string terrain;
+  double x_m = 0.0, y_m = 0.0, radius_m = 0.0;
+  Channel channel = Channel::kSlip;
+  double share_of_gap = 0.0;
+};
+
+// Root mean square of prediction less measurement in drives that the fit has not seen.
+struct ChannelShrink {
+  Channel channel = Channel::kSlip;
+  Interval nominal, retuned, with_effects, noise_floor;
+  // (retuned - with_effects) / (retuned - noise_floor), within 0 and 1; nothing where re-tuning left no gap.
+  std::optional<Interval> closed_fraction = {};
+};
+
+// What planning with a model would have told of drives held out of the fit.
+struct PlannersFigures {
+  double within_90 = 0.0;       // share of observations in the 90 % interval of sensors and scatter
+  std::size_t called = 0;       // windows told immobilised (slip above kCensoredSlip) that were
+  std::size_t false_calls = 0;  // and that were not
+  double in_order = 0.0;        // share of pairs of drives, of which one clearly slipped more
+};
+struct PlannersView {
+  std::size_t observations = 0, windows = 0, immobilised = 0, pairs = 0;
+  PlannersFigures nominal, retuned, with_effects;
+};
+
+// Where a window of drives held out of the fit lies, and its residuals: root mean squares over its channels,
+// in deviations. 1: as its noise.
+struct WindowGap {
+  std::size_t terrain = 0, drive = 0;  // indices into the campaign's
+  double start_s = 0.0;
+  std::vector<Pose2> stations;
+  double nominal = 0.0, retuned = 0.0, with_effects = 0.0;
+};
+
+// One observation of a window beside what was predicted of it; of the last two by fits that had not seen its
+// drive. In the channel's own unit.
+struct HeldOutPoint {
+  Channel channel = Channel::kSlip;
+  int wheel = -1;  // of a wheel's channel
+  std::size_t drive = 0;
+  double start_s = 0.0;
+  double measured = 0.0, nominal = 0.0, retuned = 0.0, with_effects = 0.0;
+};
+
+// What is left over that nobody has named: where it enters, what it depends on, its shape.
+struct ResidualShape {
+  std::string entry, variable;
+  double share = 0.0;                              // of what the wildcard explains
+  std::vector<std::pair<double, Interval>> shape;  // over the variable: at, effect on the entry's channel
+};
+
+struct NextDrive {
+  double tilt_deg = 0.0, heading_deg = 0.0, speed_m_s = 0.0, curvature_1_m = 0.0;
+  double motor_temp_c = 20.0;
+  double information_bits = 0.0;
+};
+
+struct LeastDetectable {
+  std::string effect, parameter;
+  double value = 0.0;
+};
+
+struct RetunedParameter {
+  std::string name;
+  Interval value;  // the logarithm or number that the nuisance catalogue says
+  double prior_std = 0.0;
+  bool determined = true;  // the drives say more than the prior
+};
+
+struct Diagnosis {
+  std::string campaign, campaign_fingerprint;
+  std::uint64_t seed = 1;
+  std::vector<std::string> library;  // effects that were looked for
+  Verdict verdict = Verdict::kInsufficient;
+  std::string reason;         // one sentence
+  std::string overturned_by;  // what would
+  std::vector<FoundEffect> effects;
+  std::vector<ComparedSet> candidates;
+  std::vector<ConfusablePair> confusable;
+  std::vector<ChannelGap> channels;
+  std::vector<Regime> regimes, regimes_retuned, regimes_of_effect;
+  std::vector<ChannelShare> channels_of_effects;  // of what the named effects do; the largest first
+  std::vector<GapPlace> places;
+  std::vector<ChannelShrink> gap;
+  PlannersView planners_view;
+  std::vector<HeldOutPoint> held_out;  // for pictures
+  std::vector<WindowGap> window_gaps;  // of drives held out of the fit, for maps
+  std::optional<Interval> closed_fraction;
+  std::vector<Extrapolation> extrapolations;
+  std::vector<ResidualShape> residual;
+  std::vector<NextDrive> next_drives;
+  std::vector<LeastDetectable> least_detectable;
+  std::vector<RetunedParameter> retuned;
+  std::vector<std::string> notes;
+  // The corrected model: the re-tuned nominal one with the effects found.
+  std::optional<ModelState> model;
+  std::vector<sim::EffectSetting> model_effects;
+  ParameterPosterior left_open;  // of what the model was re-tuned in
+  std::size_t drives = 0, windows = 0, observations = 0;
+  NoiseScales noise;
+};
+
+}  // namespace slipway::gap

@@ -1,0 +1,119 @@
+#include "gap/diagnosis/search/prepared_campaign.h"
+
+#include <cmath>
+#include <string_view>
+
+namespace slipway::gap {
+namespace {
+
+Eigen::VectorXd in_prior_units(const FittedExplanation& fit) {
+  const auto parameters = fit.hypothesis.parameters();
+  Eigen::VectorXd u(static_cast<Eigen::Index>(fit.x.size()));
+  for (std::size_t p = 0; p < fit.x.size(); ++p)
+    u[static_cast<Eigen::Index>(p)] = (fit.x[p] - parameters[p].neutral) / parameters[p].std;
+  return u;
+}
+
+// The suspension's own stance is believed unless the attitudes recorded are nearer to the plane under the
+// wheels by this much (of rms).
+constexpr double kPlaneIsNearer = 0.8;
+
+// A rigid frame on uneven ground would stand on three of its wheels. Real ones have tyres and give: where no
+// attitude was recorded that says otherwise, they stand on the plane.
+bool stands_on_plane(const DriveCampaign& campaign, const WindowModel& model) {
+  return campaign.rover->suspension.type == sim::SuspensionType::kRigid &&
+         std::isnan(model.attitude_misfit_rad());
+}
+
+// How often the scatter is estimated and the null fitted under it.
+constexpr int kRounds = 2;
+
+}  // namespace
+
+std::unique_ptr<WindowModel> window_model_of(const DriveCampaign& campaign,
+                                             std::span<const DriveWindow> windows) {
+  auto suspension = std::make_unique<WindowModel>(campaign, windows);
+  auto plane = std::make_unique<WindowModel>(campaign, windows, Footing::kPlane);
+  const bool nearer =
+      plane->attitude_misfit_rad() < kPlaneIsNearer * suspension->attitude_misfit_rad() ||  // false for NaN
+      stands_on_plane(campaign, *suspension);
+  return nearer ? std::move(plane) : std::move(suspension);
+}
+
+Eigen::MatrixXd scatter_response(const Hypothesis& hypothesis, const Eigen::MatrixXd& jacobian,
+                                 const Eigen::MatrixXd& levers) {
+  constexpr std::array<std::string_view, 3> kNames{"stiffness", "friction", "shear_modulus"};
+  Eigen::MatrixXd response = Eigen::MatrixXd::Zero(jacobian.rows(), kNames.size() + 4);
+  response.rightCols(4) = levers.leftCols(4);
+  const auto parameters = hypothesis.parameters();
+  for (std::size_t p = 0; p < parameters.size(); ++p)
+    for (std::size_t k = 0; k < kNames.size(); ++k)
+      if (parameters[p].effect.empty() && parameters[p].name.starts_with(kNames[k]))
+        response.col(static_cast<Eigen::Index>(k)) +=
+            jacobian.col(static_cast<Eigen::Index>(p)) / parameters[p].std;
+  return response;
+}
+
+std::size_t PreparedCampaign::used_windows() const {
+  std::size_t count = 0;
+  for (std::size_t w = 0; w < windows.size(); ++w) count += model->used(w) ? 1 : 0;
+  return count;
+}
+
+void prepare_around(PreparedCampaign& prepared, const DriveCampaign& campaign, const FittedExplanation& found,
+                    std::size_t threads) {
+  prepared.model->start_from(found.hypothesis.state(found.x), threads);
+  prepared.wildcard = make_wildcard(campaign, *prepared.model, found, threads);
+  Eigen::MatrixXd systematic(found.jacobian.rows(), found.jacobian.cols() + prepared.wildcard.values.cols());
+  systematic << found.jacobian, prepared.wildcard.values;
+  prepared.noise->estimate(found.residuals + found.jacobian * in_prior_units(found), systematic);
+  ExplanationOptions options;
+  options.threads = threads;
+  const std::vector<double> start = prepared.null->x;
+  prepared.null =
+      fit_explanation(prepared.null->hypothesis, *prepared.model, *prepared.noise, start, options);
+  prepared.model->start_from(prepared.null->hypothesis.state(prepared.null->x), threads);
+}
+
+Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const WindowOptions& options,
+                                 std::size_t threads, Progress& progress,
+                                 const std::array<bool, kChannels>& looked_at) {
+  PreparedCampaign made;
+  progress.report("cutting drives into windows", 0.0);
+  made.windows = cut_windows(campaign, options);
+  made.model = window_model_of(campaign, made.windows);
+  made.model->watch(progress);
+  const WindowModel& model = *made.model;
+  std::vector<bool> used(model.observation_count(), false);
+  for (std::size_t w = 0; w < made.windows.size(); ++w)
+    for (std::size_t i = 0; model.used(w) && i < made.windows[w].observations.size(); ++i)
+      used[model.offset(w) + i] =
+          looked_at[static_cast<std::size_t>(made.windows[w].observations[i].channel)];
+  const Hypothesis hypothesis(campaign, {});
+  const std::vector<double> neutral = hypothesis.neutral();
+  made.model->start_from(hypothesis.state(neutral), threads);
+  std::vector<double> expected = hypothesis.predict(model, neutral, threads);
+  made.nominal_residuals = measured(model);
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    made.nominal_residuals[static_cast<Eigen::Index>(i)] -= expected[i];
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    if (!std::isfinite(expected[i])) expected[i] = 0.0;
+
+  progress.report("fitting soil and closures", 0.02);
+  const Eigen::MatrixXd jacobian = hypothesis.scaled_jacobian(model, neutral, threads);
+  made.noise = std::make_unique<NoiseModel>(
+      model, scatter_response(hypothesis, jacobian, lever_responses(campaign, model, neutral, threads)),
+      expected, used);
+  ExplanationOptions fit_options;
+  fit_options.threads = threads;
+  made.null = fit_explanation(hypothesis, model, *made.noise, neutral, fit_options);
+  for (int round = 0; round < kRounds; ++round) {
+    if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
+    progress.report("estimating the drives' own scatter", 0.06 + 0.05 * round);
+    prepare_around(made, campaign, *made.null, threads);
+  }
+  if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
+  return made;
+}
+
+}  // namespace slipway::gap

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/progress.h"
+#include "core/result.h"
+#include "gap/diagnosis/model/noise_model.h"
+#include "gap/diagnosis/model/window_model.h"
+#include "gap/diagnosis/search/discrepancy_term.h"
+#include "gap/diagnosis/search/explanation.h"
+
+namespace slipway::gap {
+
+// The rover stands as its suspension does on the map, or on the plane under its wheels, whichever the
+// recorded attitudes show. Campaign and windows must outlive the model.
+std::unique_ptr<WindowModel> window_model_of(const DriveCampaign& campaign,
+                                             std::span<const DriveWindow> windows);
+
+// What a noise model asks for: derivatives of every observation by the logarithms of all soils' stiffness,
+// tan(friction) and shear modulus, of a hypothesis' scaled jacobian, and by the levers of the map's detail.
+Eigen::MatrixXd scatter_response(const Hypothesis& hypothesis, const Eigen::MatrixXd& jacobian,
+                                 const Eigen::MatrixXd& levers);
+
+// A campaign cut into windows, the null fitted to it, and what its drives scatter by.
+struct PreparedCampaign {
+  std::vector<DriveWindow> windows;
+  std::unique_ptr<WindowModel> model;
+  std::unique_ptr<NoiseModel> noise;
+  std::optional<FittedExplanation> null;
+  Wildcard wildcard;
+  Eigen::VectorXd nominal_residuals;  // measured less predicted before any re-tuning; NaN without an answer
+
+  // Number of windows that a diagnosis can use.
+  std::size_t used_windows() const;
+};
+
+// Estimates the drives' scatter anew around an explanation that was found, and fits the null under it: with
+// an effect missing, what it does was in part taken for scatter.
+void prepare_around(PreparedCampaign& prepared, const DriveCampaign& campaign, const FittedExplanation& found,
+                    std::size_t threads);
+
+inline constexpr std::array<bool, kChannels> kAllChannels{true, true, true, true, true, true, true};
+
+// The campaign must outlive what is made of it. Of channels that are not `looked_at` nothing is used. Errors:
+// cancelled.
+Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const WindowOptions& options,
+                                 std::size_t threads, Progress& progress,
+                                 const std::array<bool, kChannels>& looked_at = kAllChannels);
+
+}  // namespace slipway::gap

@@ -1,0 +1,123 @@
+#include "gap/diagnosis/search/selection.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel_for.h"
+
+namespace slipway::gap {
+namespace {
+
+constexpr double kMuchLess = 0.5;       // of a probability
+constexpr double kInTheRunning = 0.01;  // of a candidate's probability
+constexpr std::size_t kMostInTheRunning = 6;
+
+std::size_t simplest_of_the_best(std::span<const Candidate> candidates) {
+  std::size_t best = 0;
+  if (candidates.front().probability >= kCertain) return best;
+  for (std::size_t i = 1; i < candidates.size(); ++i) {
+    const Candidate &held = candidates[best], &other = candidates[i];
+    const auto in_held = [&](const std::string& effect) {
+      return std::find(held.effects.begin(), held.effects.end(), effect) != held.effects.end();
+    };
+    if (!other.effects.empty() && other.effects.size() < held.effects.size() &&
+        other.with_unknown == held.with_unknown &&
+        std::all_of(other.effects.begin(), other.effects.end(), in_held) &&
+        other.probability > kMuchLess * candidates.front().probability)
+      best = i;
+  }
+  return best;
+}
+
+}  // namespace
+
+std::size_t chosen_among(std::span<const Candidate> candidates) {
+  double unknown = 0.0;
+  for (const Candidate& c : candidates) unknown += c.with_unknown ? c.probability : 0.0;
+  if (unknown <= 0.5) return simplest_of_the_best(candidates);
+  const auto first =
+      std::find_if(candidates.begin(), candidates.end(), [](const Candidate& c) { return c.with_unknown; });
+  return static_cast<std::size_t>(first - candidates.begin());
+}
+
+GroupedEvidence::GroupedEvidence(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& columns,
+                                 std::span<const std::size_t> group_of_row, std::size_t group_count)
+    : square_(group_count, 0.0),
+      gradient_(group_count, Eigen::VectorXd::Zero(columns.cols())),
+      hessian_(group_count, Eigen::MatrixXd::Zero(columns.cols(), columns.cols())) {
+  std::vector<std::vector<Eigen::Index>> rows(group_count);
+  for (std::size_t row = 0; row < group_of_row.size(); ++row)
+    rows[group_of_row[row]].push_back(static_cast<Eigen::Index>(row));
+  for (std::size_t g = 0; g < group_count; ++g) {
+    const Eigen::MatrixXd part = columns(rows[g], Eigen::all);
+    const Eigen::VectorXd left = residuals(rows[g]);
+    square_[g] = left.squaredNorm();
+    gradient_[g] = part.transpose() * left;
+    hessian_[g] = part.transpose() * part;
+  }
+}
+
+double GroupedEvidence::counted(std::span<const int> times) const {
+  double square = 0.0;
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(gradient_.front().size());
+  Eigen::MatrixXd hessian = Eigen::MatrixXd::Identity(gradient.size(), gradient.size());
+  for (std::size_t g = 0; g < times.size(); ++g) {
+    if (times[g] == 0) continue;
+    square += times[g] * square_[g];
+    gradient += times[g] * gradient_[g];
+    hessian += times[g] * hessian_[g];
+  }
+  const Eigen::LLT<Eigen::MatrixXd> factor(hessian);
+  return -0.5 * (square - gradient.dot(factor.solve(gradient))) -
+         factor.matrixLLT().diagonal().array().log().sum();
+}
+
+SelectionBootstrap resample_selection(const ExplanationSearch& search, const PreparedCampaign& prepared,
+                                      const DriveCampaign& campaign, const SearchOptions& options,
+                                      const DriveResampling& drives) {
+  const WindowModel& model = *prepared.model;
+  std::vector<Candidate> running;  // most probable first, as the search's
+  std::vector<GroupedEvidence> evidence;
+  std::vector<double> whole;  // of all drives, once each
+  std::vector<std::size_t> group_of_row(model.observation_count());
+  for (std::size_t w = 0; w < model.windows().size(); ++w)
+    for (std::size_t i = 0; i < model.windows()[w].observations.size(); ++i)
+      group_of_row[model.offset(w) + i] = drives.groups[model.windows()[w].drive];
+  const std::vector<int> once(drives.group_count, 1);
+  for (const Candidate& c : search.candidates) {
+    if (c.probability < kInTheRunning || running.size() >= kMostInTheRunning) break;
+    const FittedExplanation& fit = search.fits[c.fit];
+    const Eigen::MatrixXd form = form_columns(campaign, model, *prepared.noise, fit, options.threads);
+    running.push_back(c);
+    evidence.emplace_back(fit.white_linear,
+                          columns_beside(fit, *prepared.noise, prepared.wildcard, form, c.with_unknown),
+                          group_of_row, drives.group_count);
+    whole.push_back(evidence.back().counted(once));
+  }
+  SelectionBootstrap answer;
+  answer.chosen.resize(drives.resamples.size());
+  answer.share.assign(search.candidates.size(), 0.0);
+  parallel_for(drives.resamples.size(), options.threads, [&](std::size_t b) {
+    if (model.cancelled()) return;
+    std::vector<int> times(drives.group_count, 0);
+    for (const std::size_t group : drives.resamples[b]) ++times[group];
+    std::vector<Candidate> drawn = running;
+    for (std::size_t c = 0; c < drawn.size(); ++c)
+      drawn[c].log_evidence += evidence[c].counted(times) - whole[c];
+    weigh(drawn, options);
+    std::vector<std::size_t> order(drawn.size());
+    for (std::size_t c = 0; c < order.size(); ++c) order[c] = c;
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t z) {
+      return drawn[a].probability > drawn[z].probability;
+    });
+    std::vector<Candidate> sorted;
+    for (const std::size_t c : order) sorted.push_back(drawn[c]);
+    answer.chosen[b] = order[chosen_among(sorted)];
+  });
+  for (const std::size_t chosen : answer.chosen)
+    answer.share[chosen] += 1.0 / static_cast<double>(drives.resamples.size());
+  return answer;
+}
+
+}  // namespace slipway::gap

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "gap/diagnosis/model/drive_resampling.h"
+#include "gap/diagnosis/search/explanation_search.h"
+#include "gap/diagnosis/search/prepared_campaign.h"
+
+namespace slipway::gap {
+
+// Of a set's probability: below it the answer is a set of sets.
+inline constexpr double kCertain = 0.5;
+
+// Which of the candidates, most probable first, the answer is: the most probable one with something unknown
+// where that has more than half in all; else the most probable one, or, where none is certain, one with fewer
+// effects of the same that is not much less probable. What adds little is not worth a name.
+std::size_t chosen_among(std::span<const Candidate> candidates);
+
+// The evidence of a linearised explanation, made of its parts by groups of drives: whitened residuals and
+// columns of prior deviation 1.
+class GroupedEvidence {
+ public:
+  GroupedEvidence(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& columns,
+                  std::span<const std::size_t> group_of_row, std::size_t group_count);
+  // log_marginal of the drives with each group counted so many times.
+  double counted(std::span<const int> times) const;
+
+ private:
+  std::vector<double> square_;
+  std::vector<Eigen::VectorXd> gradient_;
+  std::vector<Eigen::MatrixXd> hessian_;
+};
+
+// Which candidate would have been chosen had other drives of the same kinds been made: drives, with their
+// repeats, drawn with replacement. Fits are not repeated: a drive that counts twice does so in the linearised
+// evidence of each explanation. Candidates of less than a hundredth have no part.
+struct SelectionBootstrap {
+  std::vector<std::size_t> chosen;  // of each resample
+  std::vector<double> share;        // of each candidate: of the resamples that chose it
+};
+SelectionBootstrap resample_selection(const ExplanationSearch& search, const PreparedCampaign& prepared,
+                                      const DriveCampaign& campaign, const SearchOptions& options,
+                                      const DriveResampling& drives);
+
+}  // namespace slipway::gap

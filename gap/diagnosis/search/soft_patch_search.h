@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "gap/diagnosis/search/explanation.h"
+
+namespace slipway::gap {
+
+// Where weaker soil could lie: discs around measured stations, those first that would raise the evidence of
+// the fit most, none overlapping a better one by more than half. As variants of soft_patch, weakening free.
+struct PatchSearch {
+  std::vector<EffectVariant> variants;
+  std::size_t looks = 0;  // how many discs that are much different were looked at
+};
+
+PatchSearch search_soft_patches(const DriveCampaign& campaign, const WindowModel& model,
+                                const NoiseModel& noise, const FittedExplanation& fit, std::size_t most);
+
+// The patch of a fitted explanation moved and resized while that raises its evidence.
+FittedExplanation refine_soft_patch(const DriveCampaign& campaign, const WindowModel& model,
+                                    const NoiseModel& noise, FittedExplanation fit,
+                                    const ExplanationOptions& options);
+
+}  // namespace slipway::gap

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+
+#include "gap/diagnosis/diagnosis.h"
+#include "gap/diagnosis/search/explanation_search.h"
+#include "gap/diagnosis/search/prepared_campaign.h"
+
+namespace slipway::gap {
+
+// 90 % interval of a fit's parameter.
+Interval parameter_interval(const FittedExplanation& fit, std::size_t parameter);
+
+// What the candidate chosen means: the verdict, its reason and what would overturn it, the effects found, or
+// how small ones could have hidden.
+void judge(const DriveCampaign& campaign, const PreparedCampaign& prepared, const ExplanationSearch& search,
+           std::size_t chosen, std::size_t threads, Diagnosis& d);
+
+// Not certain of effects that told harsh drives worse than re-tuned parameters did, by more than chance.
+void doubt_what_does_not_extrapolate(Diagnosis& d);
+
+// An answer that leaves far more than the floor on drives held out of the fit, or that needs a parameter at
+// the end of what it may be, is none: the cause is unknown. `told`: the fit that the answer stands for; d has
+// its `gap`.
+void doubt_what_leaves_a_gap(const FittedExplanation& told, Diagnosis& d);
+
+}  // namespace slipway::gap

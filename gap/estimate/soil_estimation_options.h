@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/result.h"
+#include "gap/estimate/least_squares.h"
+#include "gap/estimate/soil_observation.h"
+#include "gap/estimate/soil_parameter.h"
+
+namespace slipway::gap {
+
+// What is believed of the soil before the data, around the nominal one:
+enum class SoilPriors {
+  kNone,
+  kWide,  // SoilParameterRow::wide_std, what soils of all kinds have
+  kSoil,  // the nominal soil's own spread; wide where it gives none
+};
+std::optional<SoilPriors> soil_priors(std::string_view name);  // "none", "wide", "soil"
+
+// A bound that is not the row's own, in SI and radians.
+struct SoilBound {
+  SoilParameter parameter = SoilParameter::kN;
+  double lowest = 0.0, highest = 0.0;
+};
+
+struct SoilEstimationOptions {
+  std::vector<SoilParameter> free = {};  // empty: usual_free_parameters
+  SoilPriors priors = SoilPriors::kWide;
+  std::vector<SoilBound> bounds = {};
+  std::array<bool, kSoilChannels> channels{true, true, true, true, true, true};
+  ReadingNoise noise = {};
+  RobustLoss loss = RobustLoss::kNone;
+  std::optional<double> loss_scale = {};  // in deviations; nothing: usual_loss_scale()
+  // Searches from elsewhere between the bounds where the first leaves more than twice the noise.
+  int further_starts = 12;
+  bool profile = true;  // 90 % intervals by profile likelihood; otherwise from the covariance
+  std::uint64_t seed = 1;
+};
+
+// Those that such data can say: k_bekker, or k_c and k_phi where widths differ, and n; with wheels cohesion,
+// friction angle and shear modulus too.
+std::vector<SoilParameter> usual_free_parameters(const SoilData& data);
+
+bool holds(std::span<const SoilParameter> list, SoilParameter parameter);
+
+// What is wrong with the options for these free parameters: "/free/1", "/bounds/0", "/noise", "/loss_scale".
+std::vector<Fault> faults_of(std::span<const SoilParameter> free, const SoilEstimationOptions& options);
+
+}  // namespace slipway::gap

@@ -1,0 +1,141 @@
+#include "gap/estimate/soil_parameter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/angle.h"
+
+namespace slipway::gap {
+namespace {
+
+constexpr double kCohesionScale_pa = 1000.0;
+constexpr double kMostStiffer = 1000.0;  // than the soil that a search starts from, or softer
+
+constexpr std::array<SoilParameterRow, kSoilParameters> kRows{{
+    {SoilParameter::kBekker, "k_bekker", "both moduli of sinkage as one, k_c / b + k_phi", "N/m^(n+2)", 1.0,
+     1.0 / kMostStiffer, kMostStiffer, 2.0},
+    {SoilParameter::kKc, "k_c", "cohesive modulus of sinkage; may be negative", "N/m^(n+1)", 1.0, -20.0, 20.0,
+     1.0},
+    {SoilParameter::kKphi, "k_phi", "frictional modulus of sinkage", "N/m^(n+2)", 1.0, -20.0, 20.0, 1.0},
+    {SoilParameter::kN, "n", "exponent of sinkage", "1", 1.0, 0.1, 3.0, 0.5},
+    {SoilParameter::kCohesion, "cohesion", "cohesion", "Pa", 1.0, 0.0, 50e3, 1000.0},
+    {SoilParameter::kFrictionAngle, "friction_angle", "angle of internal friction", "deg", deg_from_rad(1.0),
+     rad_from_deg(1.0), rad_from_deg(59.0), 0.5},
+    {SoilParameter::kShearModulus, "shear_modulus", "Janosi's modulus of shear K", "m", 1.0, 1e-4, 0.5, 1.0},
+}};
+
+}  // namespace
+
+std::span<const SoilParameterRow> soil_parameter_rows() {
+  return kRows;
+}
+
+const SoilParameterRow& row_of(SoilParameter parameter) {
+  return kRows[static_cast<std::size_t>(parameter)];
+}
+
+std::optional<SoilParameter> soil_parameter(std::string_view name) {
+  for (const SoilParameterRow& row : kRows)
+    if (row.name == name) return row.parameter;
+  return std::nullopt;
+}
+
+double value_of(SoilParameter parameter, const sim::Soil& soil, double width_m) {
+  switch (parameter) {
+    case SoilParameter::kBekker:
+      return soil.pressure.stiffness(width_m);
+    case SoilParameter::kKc:
+      return soil.pressure.k_c;
+    case SoilParameter::kKphi:
+      return soil.pressure.k_phi;
+    case SoilParameter::kN:
+      return soil.pressure.n;
+    case SoilParameter::kCohesion:
+      return soil.cohesion_pa;
+    case SoilParameter::kFrictionAngle:
+      return soil.friction_angle_rad;
+    case SoilParameter::kShearModulus:
+      return soil.shear_modulus_x_m;
+  }
+  return 0.0;
+}
+
+SoilAxes::SoilAxes(const sim::Soil& base, double width_m, std::vector<SoilParameter> axes)
+    : base_(base), width_m_(width_m), axes_(std::move(axes)) {}
+
+sim::Soil SoilAxes::soil_at(std::span<const double> x) const {
+  sim::Soil soil = base_;
+  const double base_stiffness = base_.pressure.stiffness(width_m_);
+  double stiffness = base_stiffness;
+  std::optional<double> k_c, k_phi;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    switch (axes_[i]) {
+      case SoilParameter::kBekker:
+        stiffness = base_stiffness * std::exp(x[i]);
+        break;
+      case SoilParameter::kKc:
+        k_c = x[i];
+        break;
+      case SoilParameter::kKphi:
+        k_phi = x[i];
+        break;
+      case SoilParameter::kN:
+        soil.pressure.n = base_.pressure.n * std::exp(x[i]);
+        break;
+      case SoilParameter::kCohesion:
+        soil.cohesion_pa = x[i];
+        break;
+      case SoilParameter::kFrictionAngle:
+        soil.friction_angle_rad = std::atan(std::tan(base_.friction_angle_rad) * std::exp(x[i]));
+        break;
+      case SoilParameter::kShearModulus:
+        soil.shear_modulus_x_m = base_.shear_modulus_x_m * std::exp(x[i]);
+        soil.shear_modulus_y_m = base_.shear_modulus_y_m * std::exp(x[i]);
+        break;
+    }
+  }
+  if (k_phi) k_c = (stiffness - *k_phi) * width_m_;
+  soil.pressure.k_c = k_c.value_or(base_.pressure.k_c * (stiffness / base_stiffness));
+  soil.pressure.k_phi =
+      k_c ? stiffness - soil.pressure.k_c / width_m_ : base_.pressure.k_phi * (stiffness / base_stiffness);
+  return soil;
+}
+
+double SoilAxes::coordinate(SoilParameter axis, const sim::Soil& soil) const {
+  return coordinate_of_value(axis, value_of(axis, soil, width_m_));
+}
+
+double SoilAxes::coordinate_of_value(SoilParameter axis, double value) const {
+  switch (axis) {
+    case SoilParameter::kKc:
+    case SoilParameter::kKphi:
+    case SoilParameter::kCohesion:
+      return value;
+    case SoilParameter::kFrictionAngle:
+      return std::log(std::tan(value) / std::tan(base_.friction_angle_rad));
+    default:
+      return std::log(value / value_of(axis, base_, width_m_));
+  }
+}
+
+double SoilAxes::value_std(SoilParameter axis, const sim::Soil& soil, double coordinate_std) const {
+  switch (axis) {
+    case SoilParameter::kKc:
+    case SoilParameter::kKphi:
+    case SoilParameter::kCohesion:
+      return coordinate_std;
+    case SoilParameter::kFrictionAngle:
+      return coordinate_std * std::sin(soil.friction_angle_rad) * std::cos(soil.friction_angle_rad);
+    default:
+      return coordinate_std * value_of(axis, soil, width_m_);
+  }
+}
+
+double SoilAxes::scale(SoilParameter axis) const {
+  const double stiffness = base_.pressure.stiffness(width_m_);
+  if (axis == SoilParameter::kKc) return stiffness * width_m_;
+  if (axis == SoilParameter::kKphi) return stiffness;
+  return axis == SoilParameter::kCohesion ? kCohesionScale_pa : 1.0;
+}
+
+}  // namespace slipway::gap

@@ -1,0 +1,190 @@
+#include "planner/judge/rank.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/angle.h"
+#include "planner/problem/cost_catalogue.h"
+
+namespace slipway::planner {
+namespace {
+
+constexpr double kShortest_m = 0.5;  // differences in length below this are not worth words
+
+// "a 14 deg climb", "a 9 deg descent", "a 12 deg side slope", "ground within 2 deg of level".
+std::string slope_in_words(const Attitude& attitude) {
+  const double climb = -deg_from_rad(attitude.pitch_rad);
+  const double side = std::abs(deg_from_rad(attitude.roll_rad));
+  if (std::max(std::abs(climb), side) < 2.0) return "ground within 2 deg of level";
+  if (side > std::abs(climb)) return fmt::format("a {:.0f} deg side slope", side);
+  return climb > 0.0 ? fmt::format("a {:.0f} deg climb", climb) : fmt::format("a {:.0f} deg descent", -climb);
+}
+
+std::string largest_slip(const sim::DrivePrediction& drive) {
+  const sim::Peak& peak = drive.max_slip_ratio;
+  const auto at =
+      std::find_if(drive.stations.begin(), drive.stations.end(), [&](const sim::StationPrediction& s) {
+        return s.station.distance_m >= peak.distance_m && std::abs(s.state.slip_ratio) >= peak.value - 1e-12;
+      });
+  const sim::StationPrediction& station = at == drive.stations.end() ? drive.stations.back() : *at;
+  return fmt::format("largest slip {:.2f} at {:.0f} m on {}", peak.value, peak.distance_m,
+                     slope_in_words(station.attitude));
+}
+
+std::string joined(const std::vector<std::string>& parts) {
+  std::string all;
+  for (const std::string& part : parts) all += (all.empty() ? "" : "; ") + part;
+  return all;
+}
+
+std::string verdict_reason(const Route& route) {
+  const sim::DrivePrediction& drive = route.prediction;
+  if (drive.immobilised) return "no go: immobilised, " + drive.immobilised->reason;
+  if (!drive.broken_limits.empty()) return "no go: " + joined(drive.broken_limits);
+  const DynamicVerification* const dynamic = route.dynamic ? &*route.dynamic : nullptr;
+  if (dynamic && dynamic->refutes()) {
+    if (!dynamic->end || dynamic->end == sim::DriveEnd::kFinished)
+      return "no go in the dynamic rung: " + joined(dynamic->broken_limits);
+    return fmt::format("no go in the dynamic rung: {} at {:.1f} m, {}", end_in_words(*dynamic),
+                       dynamic->distance_m, dynamic->reason);
+  }
+  std::string why;
+  if (drive.unknown_length_m > 0.0) {
+    why = fmt::format("{:.0f} of {:.0f} m on unknown ground", drive.unknown_length_m, drive.length_m);
+  } else if (std::any_of(drive.stations.begin(), drive.stations.end(),
+                         [](const sim::StationPrediction& s) { return s.on_unknown_ground; })) {
+    why = "a wheel touches unknown ground";
+  }
+  if (drive.risk > kAcceptedRisk) {
+    why += fmt::format("{}risk {:.0f} % (90 % interval {:.0f} to {:.0f} %) over the accepted {:.0f} %",
+                       why.empty() ? "" : ", ", 100.0 * drive.risk, 100.0 * drive.risk_low,
+                       100.0 * drive.risk_high, 100.0 * kAcceptedRisk);
+  }
+  if (dynamic && !dynamic->end)
+    why += fmt::format("{}no answer from the dynamic rung: {}", why.empty() ? "" : ", ", dynamic->reason);
+  if (!why.empty()) return "caution: " + why;
+  return fmt::format("go: within every limit, on known ground, risk {:.0f} % of {} soil draws",
+                     100.0 * drive.risk, drive.draws);
+}
+
+// What the dynamic rung adds to a route that it does not refute.
+std::string confirmation(const Route& route) {
+  const DynamicVerification& dynamic = *route.dynamic;
+  const sim::Peak &slip = dynamic.extremes.max_slip_ratio, &balanced = route.prediction.max_slip_ratio;
+  return fmt::format(
+      "driven to its end in the dynamic rung within every limit: largest slip {:.2f} at {:.0f} m (balance: "
+      "{:.2f} at {:.0f} m), {:.0f} s (balance: {:.0f} s)",
+      slip.value, slip.distance_m, balanced.value, balanced.distance_m, dynamic.duration_s,
+      route.prediction.duration_s);
+}
+
+// What this route has that no other has; nothing where it stands alone.
+std::vector<std::string> superlatives(const Route& route, const std::vector<Route>& routes) {
+  std::vector<std::string> words;
+  const auto compare = [&](std::string_view name, auto value, auto text) {
+    const Route* next = nullptr;
+    for (const Route& other : routes) {
+      if (&other == &route || other.prediction.immobilised) continue;
+      if (!next || value(other) < value(*next)) next = &other;
+    }
+    if (next && value(route) < value(*next))
+      words.push_back(
+          fmt::format("{}: {} against {} of route {}", name, text(route), text(*next), next->rank));
+  };
+  if (route.prediction.immobilised) return words;
+  compare(
+      "safest", [](const Route& r) { return std::round(100.0 * r.prediction.risk); },
+      [](const Route& r) { return fmt::format("risk {:.0f} %", 100.0 * r.prediction.risk); });
+  compare(
+      "least slip", [](const Route& r) { return std::round(1000.0 * r.prediction.mean_slip_ratio); },
+      [](const Route& r) { return fmt::format("mean {:.3f}", r.prediction.mean_slip_ratio); });
+  compare(
+      "shortest", [](const Route& r) { return std::round(r.prediction.length_m); },
+      [](const Route& r) { return fmt::format("{:.0f} m", r.prediction.length_m); });
+  compare(
+      "least energy", [](const Route& r) { return std::round(r.prediction.energy_j / 3600.0); },
+      [](const Route& r) { return fmt::format("{:.0f} Wh", r.prediction.energy_j / 3600.0); });
+  return words;
+}
+
+// Why it does not stand one place higher: the terms in which it is dearer and those that make up for some of
+// it.
+std::string against_the_one_before(const Route& route, const Route& before) {
+  if ((route.verdict == Verdict::kNoGo) != (before.verdict == Verdict::kNoGo))
+    return fmt::format("behind route {} because a limit is broken", before.rank);
+  std::string terms;
+  for (std::size_t k = 0; k < route.shares.size(); ++k) {
+    const double more = route.shares[k].cost - before.shares[k].cost;
+    if (std::abs(more) >= 0.005)
+      terms += fmt::format("{}{} {:+.2f}", terms.empty() ? "" : ", ", route.shares[k].name, more);
+  }
+  return fmt::format("behind route {}: cost {:.2f} against {:.2f}{}", before.rank, route.cost, before.cost,
+                     terms.empty() ? std::string() : " (" + terms + ")");
+}
+
+}  // namespace
+
+void judge(const PlanProblem& problem, Route& route) {
+  const sim::DrivePrediction& drive = route.prediction;
+  route.cost = 0.0;
+  route.shares.clear();
+  for (const CostTerm& term : cost_catalogue()) {
+    CostShare share{
+        .name = std::string(term.name), .value = term.value(drive), .unit = std::string(term.unit)};
+    share.weight = problem.weights.*term.in_weights;
+    share.cost = share.weight * share.value;
+    route.cost += share.cost;
+    route.shares.push_back(std::move(share));
+  }
+  const bool unknown = std::any_of(drive.stations.begin(), drive.stations.end(),
+                                   [](const sim::StationPrediction& s) { return s.on_unknown_ground; });
+  const bool refuted = route.dynamic && route.dynamic->refutes();
+  const bool unanswered = route.dynamic && !route.dynamic->end;
+  if (drive.immobilised || !drive.broken_limits.empty() || refuted) {
+    route.verdict = Verdict::kNoGo;
+  } else if (unknown || drive.risk > kAcceptedRisk || unanswered) {
+    route.verdict = Verdict::kCaution;
+  } else {
+    route.verdict = Verdict::kGo;
+  }
+}
+
+bool ranks_before(const Route& a, const Route& b) {
+  // An immobilised drive is cheap because it ends early: it comes last, the furthest first.
+  const auto group = [](const Route& r) {
+    if (r.prediction.immobilised) return 2;
+    return r.verdict == Verdict::kNoGo ? 1 : 0;
+  };
+  if (group(a) != group(b)) return group(a) < group(b);
+  if (group(a) == 2) return a.prediction.length_m > b.prediction.length_m;
+  return a.cost < b.cost;
+}
+
+void explain(std::vector<Route>& routes) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < routes.size(); ++i) {
+    routes[i].rank = static_cast<int>(i) + 1;
+    if (!routes[i].prediction.immobilised) shortest = std::min(shortest, routes[i].prediction.length_m);
+  }
+  for (std::size_t i = 0; i < routes.size(); ++i) {
+    Route& route = routes[i];
+    route.reasons = {verdict_reason(route)};
+    if (i > 0) route.reasons.push_back(against_the_one_before(route, routes[i - 1]));
+    if (i == 0 && routes.size() > 1) {
+      route.reasons.push_back(
+          fmt::format("best: cost {:.2f} against {:.2f} of route 2", route.cost, routes[1].cost));
+    }
+    if (route.dynamic && route.dynamic->end && !route.dynamic->refutes())
+      route.reasons.push_back(confirmation(route));
+    for (std::string& words : superlatives(route, routes)) route.reasons.push_back(std::move(words));
+    std::string line = largest_slip(route.prediction);
+    const double longer = route.prediction.length_m - shortest;
+    if (!route.prediction.immobilised && longer >= kShortest_m)
+      line += fmt::format("; {:.0f} m longer than the shortest", longer);
+    route.reasons.push_back(std::move(line));
+  }
+}
+
+}  // namespace slipway::planner

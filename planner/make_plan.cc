@@ -1,0 +1,242 @@
+#include "planner/make_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "planner/judge/rank.h"
+#include "planner/judge/route_stations.h"
+#include "planner/judge/verify_route.h"
+#include "planner/problem/terrain_ground.h"
+#include "planner/search/only_way.h"
+#include "planner/search/overlap.h"
+#include "planner/search/plan_faults.h"
+#include "planner/search/propose.h"
+#include "planner/search/stage_progress.h"
+
+namespace slipway::planner {
+namespace {
+
+constexpr std::size_t kMostSimulated = 6;  // unless more routes are asked for
+// Where in the whole work the candidates' simulation begins and ends, and where it ends when routes are
+// verified after it.
+constexpr double kSimulating = 0.5, kSimulated = 0.98, kSimulatedUnverified = 0.7;
+constexpr double kLineSpacing_m = 0.25;
+// A candidate that lies this much within one that is simulated anyway has nothing new to tell.
+constexpr double kSameRoute = 0.9;
+
+tl::unexpected<Error> cancelled() {
+  return fail(ErrorCode::kCancelled, "the plan was cancelled");
+}
+
+// Around all places, with room for detours of half the longest leg.
+dem::Extent search_extent(const PlanProblem& problem) {
+  dem::Extent extent{problem.start.x_m, problem.start.y_m, problem.start.x_m, problem.start.y_m};
+  double longest = 0.0;
+  Waypoint last = problem.start;
+  const auto include = [&](const Waypoint& place) {
+    longest = std::max(longest, std::hypot(place.x_m - last.x_m, place.y_m - last.y_m));
+    extent.west_m = std::min(extent.west_m, place.x_m);
+    extent.south_m = std::min(extent.south_m, place.y_m);
+    extent.east_m = std::max(extent.east_m, place.x_m);
+    extent.north_m = std::max(extent.north_m, place.y_m);
+    last = place;
+  };
+  for (const Waypoint& place : problem.waypoints) include(place);
+  include(problem.goal);
+  const double room = std::max(60.0, 0.5 * longest);
+  return {extent.west_m - room, extent.south_m - room, extent.east_m + room, extent.north_m + room};
+}
+
+// The ones to simulate, cheapest first: those that differ, then the cheapest others that are no copies.
+std::vector<std::size_t> shortlist(const Proposal& proposal, std::size_t wanted) {
+  const std::vector<std::size_t> order = proposal.by_cost();
+  std::vector<std::size_t> list = select_routes(proposal.differences, order, wanted);
+  const std::size_t most = std::max(kMostSimulated, wanted);
+  const std::size_t spare = wanted > list.size() ? most : std::min(most, list.size() + 1);
+  for (const std::size_t i : order) {
+    const bool copy = std::any_of(list.begin(), list.end(), [&](std::size_t other) {
+      return other == i || proposal.differences.shared(i, other) > kSameRoute;
+    });
+    if (!copy && list.size() < spare) list.push_back(i);
+  }
+  return list;
+}
+
+std::string too_alike(const PlanProblem& problem, std::size_t candidates, std::size_t kept) {
+  return fmt::format(
+      "{} of {} candidates share more than {:.0f} % of their length, within {:.1f} m (the rover's width), "
+      "with "
+      "one of the routes given",
+      candidates - kept, candidates, 100.0 * kLargestOverlap, problem.rover->body_width_m);
+}
+
+class Planning {
+ public:
+  Planning(const PlanProblem& problem, Progress& progress)
+      : problem_(problem),
+        progress_(progress),
+        ground_(problem.terrain, problem.soil_map),
+        keep_out_(problem.keep_out, *problem.rover) {}
+
+  Result<Plan> run() {
+    progress_.report("reading the ground", 0.0);
+    if (std::optional<Error> error = faults_of(problem_, keep_out_, ground_)) return fail(std::move(*error));
+    const GroundTables tables = build_ground_tables(problem_);
+    if (progress_.cancelled()) return cancelled();
+    map_.emplace(problem_, keep_out_, search_extent(problem_));
+    if (progress_.cancelled()) return cancelled();
+    std::optional<Proposal> proposal = propose(tables);
+    if (progress_.cancelled()) return cancelled();
+    if (!std::isfinite(proposal->grid_optimum) && map_->geometry() != whole_map()) {
+      // Perhaps a way around that leaves the window.
+      map_.emplace(problem_, keep_out_, problem_.terrain->geometry().extent());
+      proposal = propose(tables);
+      if (progress_.cancelled()) return cancelled();
+    }
+    Plan plan;
+    plan.candidates = static_cast<int>(proposal->candidates.size());
+    if (proposal->candidates.empty()) {
+      say_why_none(*proposal, plan);
+      return plan;
+    }
+    const Result<void> simulated = simulate(*proposal, plan);
+    if (!simulated) return fail(simulated.error());
+    const Result<void> verified = verify(*proposal, plan);
+    if (!verified) return fail(verified.error());
+    progress_.report("ranking", 0.98);
+    explain(plan.routes);
+    progress_.report("ranking", 1.0);
+    return plan;
+  }
+
+ private:
+  dem::GridGeometry whole_map() const { return problem_.terrain->geometry(); }
+
+  Proposal propose(const GroundTables& tables) {
+    StageProgress stage(progress_, "proposing routes", 0.1, 0.5);
+    return propose_routes(problem_, *map_, tables, stage);
+  }
+
+  void say_why_none(const Proposal& proposal, Plan& plan) const {
+    if (std::isfinite(proposal.grid_optimum)) {
+      plan.fewer_because.emplace_back(
+          "a way exists on the grid of cells, but no planner found motions of arcs and turns through it");
+      return;
+    }
+    Waypoint from = problem_.start;
+    std::vector<Waypoint> places = problem_.waypoints;
+    places.push_back(problem_.goal);
+    for (const Waypoint& to : places) {
+      plan.fewer_because.push_back(no_way(*map_, from.x_m, from.y_m, to.x_m, to.y_m));
+      from = to;
+    }
+  }
+
+  Result<void> simulate(const Proposal& proposal, Plan& plan) {
+    const std::vector<std::size_t> list = shortlist(proposal, static_cast<std::size_t>(problem_.routes));
+    std::vector<Route> routes;
+    std::vector<std::size_t> candidate_of;
+    Differences differences(problem_.rover->body_width_m);
+    std::size_t without_ground = 0;
+    for (std::size_t k = 0; k < list.size(); ++k) {
+      const Candidate& candidate = proposal.candidates[list[k]];
+      const double end = problem_.verify > 0 ? kSimulatedUnverified : kSimulated;
+      const double share = (end - kSimulating) / static_cast<double>(list.size());
+      StageProgress stage(progress_, fmt::format("simulating route {} of {}", k + 1, list.size()),
+                          kSimulating + share * static_cast<double>(k),
+                          kSimulating + share * static_cast<double>(k + 1));
+      const auto stations =
+          route_stations(candidate.motions, sim::largest_station_spacing_m(*problem_.rover));
+      Result<sim::DrivePrediction> drive =
+          sim::predict_drive(*problem_.rover, problem_.gravity_m_s2, ground_, problem_.beliefs, stations,
+                             problem_.limits, problem_.risk, problem_.threads, stage, problem_.conditions);
+      if (progress_.cancelled()) return cancelled();
+      if (!drive) {
+        // A wheel that the body's circle does not cover met a missing cell: this candidate cannot be driven.
+        ++without_ground;
+        continue;
+      }
+      Route route;
+      route.planner = candidate.planner;
+      route.profile = candidate.profile;
+      route.prediction = std::move(*drive);
+      judge(problem_, route);
+      differences.add(centreline(candidate.motions, kLineSpacing_m));
+      routes.push_back(std::move(route));
+      candidate_of.push_back(list[k]);
+    }
+    choose(std::move(routes), candidate_of, differences, plan);
+    if (plan.routes.size() < static_cast<std::size_t>(problem_.routes))
+      say_why_fewer(proposal, without_ground, list.front(), plan);
+    return {};
+  }
+
+  void choose(std::vector<Route> routes, const std::vector<std::size_t>& candidate_of,
+              const Differences& differences, Plan& plan) {
+    std::vector<std::size_t> order(routes.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return ranks_before(routes[a], routes[b]); });
+    for (const std::size_t i : select_routes(differences, order, static_cast<std::size_t>(problem_.routes))) {
+      plan.routes.push_back(std::move(routes[i]));
+      chosen_.push_back(candidate_of[i]);
+    }
+  }
+
+  // The best-ranked in the dynamic rung. What it refutes is judged and ranked anew.
+  Result<void> verify(const Proposal& proposal, Plan& plan) {
+    const std::size_t count = std::min(plan.routes.size(), static_cast<std::size_t>(problem_.verify));
+    const double share =
+        (kSimulated - kSimulatedUnverified) / static_cast<double>(std::max<std::size_t>(count, 1));
+    for (std::size_t i = 0; i < count; ++i) {
+      const double from = kSimulatedUnverified + share * static_cast<double>(i);
+      StageProgress stage(progress_, fmt::format("verifying by dynamics, route {} of {}", i + 1, count), from,
+                          from + share);
+      Route& route = plan.routes[i];
+      Result<DynamicVerification> verified =
+          verify_route(problem_, proposal.candidates[chosen_[i]].motions, {}, route.prediction, stage);
+      if (!verified) return fail(verified.error());
+      route.dynamic = std::move(*verified);
+      judge(problem_, route);
+    }
+    std::stable_sort(plan.routes.begin(), plan.routes.end(), ranks_before);
+    return {};
+  }
+
+  void say_why_fewer(const Proposal& proposal, std::size_t without_ground, std::size_t best,
+                     Plan& plan) const {
+    const std::size_t all = proposal.candidates.size();
+    if (plan.routes.size() + without_ground < all)
+      plan.fewer_because.push_back(too_alike(problem_, all - without_ground, plan.routes.size()));
+    if (without_ground > 0) {
+      plan.fewer_because.push_back(
+          fmt::format("{} of {} candidates lead a wheel over missing elevation", without_ground, all));
+    }
+    if (const auto gap = only_way(*map_, proposal.candidates[best].motions))
+      plan.fewer_because.push_back(*gap);
+    if (plan.fewer_because.empty()) {
+      plan.fewer_because.push_back(fmt::format("only {} of the searches found a route", all));
+    }
+  }
+
+  const PlanProblem& problem_;
+  Progress& progress_;
+  TerrainGround ground_;
+  KeepOut keep_out_;
+  std::optional<TraverseMap> map_;
+  std::vector<std::size_t>
+      chosen_;  // the candidate behind each of the plan's routes, before the last ranking
+};
+
+}  // namespace
+
+Result<Plan> make_plan(const PlanProblem& problem, Progress& progress) {
+  return Planning(problem, progress).run();
+}
+
+}  // namespace slipway::planner

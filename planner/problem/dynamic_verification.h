@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/pose.h"
+#include "sim/dynamic/dynamic_drive.h"
+#include "sim/prediction/drive_limits.h"
+
+namespace slipway::planner {
+
+// How far the dynamic rung is from the quasi-static one at equal distances along the way.
+struct RungDifference {
+  double mean = 0.0;      // dynamic less quasi-static, over the compared way
+  double mean_abs = 0.0;  // the same without sign
+  sim::Peak largest;      // without sign
+};
+
+// A route as it was driven in the dynamic rung, under the beliefs' mean soils, with its pose fed back.
+struct DynamicVerification {
+  std::optional<sim::DriveEnd> end;  // nothing: not simulated to an end, `reason` says why
+  std::string reason;                // empty where finished
+  double distance_m = 0.0;           // where it ended: progress along the legs, 0 where it slid back
+  Pose2 pose;                        // of B there; yaw wrapped
+  double commanded_m = 0.0;
+  double duration_s = 0.0;
+  std::optional<double> energy_j;  // from the bus, of the drive motors; nothing where there is no end
+  // Slip is the mean over the time that a station's spacing takes: what a balance has no say in, the first
+  // grip after each halt, is no slip of the way. Without clearance: this rung only tells where the belly
+  // touches.
+  sim::DriveExtremes extremes;
+  std::vector<std::string> broken_limits;  // in the words of DrivePrediction's
+  // Of the rover's slip (over the same time), its deepest wheel and its largest current; driven parts only,
+  // as far as both rungs got.
+  double compared_m = 0.0;
+  RungDifference slip_ratio, sinkage_m, current_a;
+  std::vector<std::string> wheel_names;  // in the order of every sample's wheels
+  std::vector<sim::DriveSample>
+      samples;  // evenly thinned, at most kMostVerificationSamples, the last included
+  std::vector<sim::DriveEvent> events;
+  sim::IntegrationWork work;
+
+  // Says that the route can't be driven so.
+  bool refutes() const { return (end && *end != sim::DriveEnd::kFinished) || !broken_limits.empty(); }
+};
+
+constexpr std::size_t kMostVerificationSamples = 400;
+
+// "immobilised", or "no_answer" where there is no end.
+std::string_view end_in_words(const DynamicVerification& verification);
+
+}  // namespace slipway::planner

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/problem/dynamic_verification.h"
+#include "sim/prediction/drive_prediction.h"
+
+namespace slipway::planner {
+
+// One term of a route's cost.
+struct CostShare {
+  std::string name;    // of the cost catalogue
+  double value = 0.0;  // in the term's unit
+  std::string unit;
+  double weight = 0.0;
+  double cost = 0.0;  // weight * value
+};
+
+enum class Verdict {
+  kGo,       // within every limit, on known ground, risk within the accepted one
+  kCaution,  // within every limit under the mean soils, but on unknown ground, at more than the accepted
+             // risk, or with no answer from a rung that was asked
+  kNoGo,     // a limit is broken or the rover immobilised under the mean soils, in any rung it was driven in
+};
+
+// "go", "caution", "no_go".
+std::string_view describe(Verdict verdict);
+
+constexpr double kAcceptedRisk = 0.05;
+
+struct Route {
+  int rank = 0;         // 1 is best
+  std::string planner;  // that proposed it
+  std::string profile;  // what the search was asked to minimise ("balanced", "shortest", ...)
+  sim::DrivePrediction prediction;
+  std::optional<DynamicVerification> dynamic;  // where it was verified
+  double cost = 0.0;
+  std::vector<CostShare> shares;  // add up to cost
+  Verdict verdict = Verdict::kGo;
+  std::vector<std::string> reasons;  // why it is ranked so and judged so, in words and numbers
+};
+
+struct Plan {
+  std::vector<Route> routes;               // by rank
+  std::vector<std::string> fewer_because;  // why there are fewer than asked for; empty otherwise
+  int candidates = 0;                      // proposed by OMPL before selection
+};
+
+}  // namespace slipway::planner

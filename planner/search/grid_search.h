@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "planner/search/motion_cost.h"
+
+namespace slipway::planner {
+
+// Cost of the cheapest way on the grid between one place and every cell, and the way itself.
+struct CostField {
+  std::vector<float> cost;         // infinite where there is no way
+  std::vector<std::int16_t> step;  // towards the next cell on the way to (from) the place; -1 there
+};
+
+// Dijkstra over the map's cells and 16 directions (eight neighbours and eight knight's moves), each edge
+// costing what the motion cost says of driving in that direction; turns in place are free here. It tells with
+// certainty whether a goal can be reached on the grid, its optimum is a yardstick for OMPL's routes, and its
+// fields show OMPL's samplers where good routes run.
+class GridSearch {
+ public:
+  explicit GridSearch(const MotionCost& cost);
+
+  // Driving to the place from every cell.
+  CostField cost_to_go(double x_m, double y_m) const { return spread(x_m, y_m, true); }
+  // Driving from the place to every cell.
+  CostField cost_to_come(double x_m, double y_m) const { return spread(x_m, y_m, false); }
+  // The cells from the one at (x, y) to the place that a cost-to-go belongs to. Empty where there is no way.
+  std::vector<std::size_t> way(const CostField& to_go, double x_m, double y_m) const;
+  // The heading of a step.
+  static double heading_rad(int step);
+
+ private:
+  CostField spread(double x_m, double y_m, bool to_go) const;
+  bool passes_corners(std::size_t row, std::size_t column, int step) const;
+
+  const TraverseMap& map_;
+  std::vector<float> per_metre_;  // per cell and direction
+};
+
+constexpr int kGridSteps = 16;
+
+}  // namespace slipway::planner

@@ -1,0 +1,71 @@
+#include "planner/search/ground_tables.h"
+
+#include <algorithm>
+
+#include "core/parallel_for.h"
+
+namespace slipway::planner {
+namespace {
+
+// At a limit of 25 deg these columns are 3.1 deg of roll apart; cubic between them, the table's error of slip
+// stays mostly below a hundredth up to the traction limit (validation's rungs, with columns 2.5 deg apart).
+constexpr double kNodesToLimit = 8.0;
+
+// The soils that lie anywhere on the map: a legend may name many more, and a table costs hundreds of
+// balances.
+std::vector<bool> soils_in_use(const PlanProblem& problem) {
+  std::vector<bool> used(problem.beliefs.known.size(), false);
+  if (!problem.soil_map) return used;
+  const dem::GridGeometry& g = problem.soil_map->geometry();
+  for (int row = 0; row < g.rows; ++row) {
+    for (int column = 0; column < g.columns; ++column) {
+      const Eigen::Vector2d centre = g.centre_m({row, column});
+      const std::optional<std::size_t> soil = problem.soil_map->soil_at(centre.x(), centre.y());
+      if (soil) used.at(*soil) = true;
+    }
+  }
+  return used;
+}
+
+}  // namespace
+
+sim::Soil weak_soil(const sim::SoilDistribution& belief) {
+  sim::SoilNormals normals = sim::SoilNormals::Zero();
+  normals << -0.5, 0.0, -0.5, -0.5, 0.5;  // of length one
+  return sim::draw_soil(belief, normals);
+}
+
+GroundTables build_ground_tables(const PlanProblem& problem) {
+  const std::size_t kinds = problem.beliefs.known.size() + 1;
+  const double limit = std::min(problem.limits.max_tilt_rad, problem.rover->max_tilt_rad);
+  std::vector<std::optional<sim::SlipTable>> tables(2 * kinds);
+  const auto belief = [&](std::size_t kind) -> const sim::SoilDistribution& {
+    return kind + 1 < kinds ? problem.beliefs.known[kind] : problem.beliefs.unknown;
+  };
+  std::vector<bool> used = soils_in_use(problem);
+  used.push_back(true);  // unknown ground
+  parallel_for(tables.size(), problem.threads, [&](std::size_t i) {
+    if (!used[i / 2]) return;
+    const sim::SoilDistribution& of = belief(i / 2);
+    const sim::Soil soil = i % 2 == 0 ? of.mean : weak_soil(of);
+    tables[i].emplace(*problem.rover, problem.gravity_m_s2, soil, limit, limit / kNodesToLimit,
+                      problem.conditions);
+  });
+  GroundTables all;
+  for (std::size_t kind = 0; kind < kinds; ++kind) {
+    if (!used[kind]) {
+      all.known.emplace_back();
+      continue;
+    }
+    GroundTable table{std::move(*tables[2 * kind]), std::move(*tables[2 * kind + 1]),
+                      belief(kind).correlation_length_m};
+    if (kind + 1 < kinds) {
+      all.known.emplace_back(std::move(table));
+    } else {
+      all.unknown.emplace(std::move(table));
+    }
+  }
+  return all;
+}
+
+}  // namespace slipway::planner

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "planner/problem/problem.h"
+#include "sim/quasi_static/slip_table.h"
+
+namespace slipway::planner {
+
+// The table rung of one kind of ground: the mean soil, and one that is one standard deviation weaker.
+struct GroundTable {
+  sim::SlipTable mean;
+  sim::SlipTable weak;
+  double correlation_length_m = 5.0;
+};
+
+// Tables per soil of the beliefs, and for unknown ground. Built once per problem, in parallel.
+struct GroundTables {
+  std::vector<std::optional<GroundTable>>
+      known;  // in the beliefs' order; nothing for a soil that lies nowhere
+  std::optional<GroundTable> unknown;
+};
+
+GroundTables build_ground_tables(const PlanProblem& problem);
+
+// One standard deviation from the mean towards weakness, in equal parts less stiffness, cohesion and friction
+// and more shear before the thrust is there.
+sim::Soil weak_soil(const sim::SoilDistribution& belief);
+
+}  // namespace slipway::planner

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/problem/motion.h"
+#include "planner/problem/problem.h"
+#include "planner/search/ground_tables.h"
+#include "planner/search/traverse_map.h"
+
+namespace slipway::planner {
+
+// What the search minimises: the cost catalogue's sum through the table rung, for one set of weights.
+//
+// Per metre at a pose, from pitch and roll on the cell's plane:
+//   duration  1 / (cruise speed (1 - slip)), hours
+//   energy    of the table, 100 Wh
+//   slip      slip ratio, per 100 m
+//   unknown   1 on unknown ground, per 100 m; unknown ground's numbers are those of its weak soil
+//   risk      P(slip over its limit) once per correlation length, the logarithm of slip taken as normal with
+//             the spread between the mean and the weak soil's slip
+// and all of it rises steeply from 3/4 of a limit (slip, current, sinkage, tilt) on. Off the map, near
+// missing elevation, beyond the tilt limit, with too little clearance, in a keep-out and where the mean
+// soil's rover is immobilised no motion is valid, and its cost is infinite.
+class MotionCost {
+ public:
+  MotionCost(const PlanProblem& problem, const TraverseMap& map, const GroundTables& tables,
+             const Weights& weights);
+
+  const TraverseMap& map() const { return *map_; }
+  const MotionLimits& limits() const { return limits_; }
+
+  // Per metre driven; infinite where the pose is not allowed.
+  double per_metre(const Pose2& pose) const;
+  // The same in a cell, in the direction (c, s); keep-outs near by are judged at the cell's centre.
+  double per_metre_in_cell(std::size_t cell, double c, double s) const;
+  // Midpoint rule over steps of at most `step_m` (0: a search cell).
+  double of(const Motion& motion, double step_m = 0.0) const;
+  double of_turn(double turned_rad) const;
+  // What a bend of a polyline is taken to cost before it is rounded: a turn, with the pause coming in
+  // gradually.
+  double of_bend(double turned_rad) const;
+
+  // Makes each metre in a cell cost (1 + factor[cell]) times as much; empty takes it back.
+  void penalise(std::vector<float> factor) { penalty_ = std::move(factor); }
+  bool penalised() const { return !penalty_.empty(); }
+
+ private:
+  double on_slope(std::uint8_t soil, double uphill, double leftward_rise) const;
+  double per_metre_at(const Eigen::Vector2d& place, const Eigen::Vector2d& heading) const;
+  void tabulate(const PlanProblem& problem, const GroundTable& table, bool unknown, const Weights& weights);
+
+  const TraverseMap* map_;
+  MotionLimits limits_;
+  double turn_cost_per_rad_, turn_cost_each_;
+  // Over rise per metre ahead and to the left, not over angles: a look-up then needs no trigonometry.
+  double limit_ = 0.0;
+  double nodes_per_unit_ = 0.0;
+  int nodes_ = 0;  // per axis
+  std::vector<float>
+      per_slope_;  // ground kind, rise ahead, rise to the left; the last kind is unknown ground
+  std::size_t kinds_ = 0;
+  std::vector<float> penalty_;
+};
+
+}  // namespace slipway::planner

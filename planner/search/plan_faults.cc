@@ -1,0 +1,155 @@
+#include "planner/search/plan_faults.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/angle.h"
+#include "planner/problem/cost_catalogue.h"
+#include "planner/search/planner_catalogue.h"
+#include "sim/rover/stance.h"
+
+namespace slipway::planner {
+namespace {
+
+constexpr int kMostRoutes = 10;
+constexpr std::size_t kMostWaypoints = 50;
+constexpr std::size_t kMostSoils = 254;  // a search's cell keeps its soil in a byte
+
+std::string known_planners() {
+  std::string names;
+  for (const PlannerRow& row : planner_catalogue())
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", row.name);
+  return names;
+}
+
+void check_settings(const PlanProblem& problem, std::vector<Fault>& faults) {
+  if (problem.routes < 1 || problem.routes > kMostRoutes)
+    faults.push_back(
+        {"/routes", fmt::format("routes = {}, must be in [1, {}]", problem.routes, kMostRoutes)});
+  if (problem.verify < 0 || problem.verify > kMostVerified)
+    faults.push_back(
+        {"/verify", fmt::format("verify = {}, must be in [0, {}]", problem.verify, kMostVerified)});
+  if (problem.waypoints.size() > kMostWaypoints) {
+    faults.push_back({"/waypoints", fmt::format("{} waypoints, must be at most {}", problem.waypoints.size(),
+                                                kMostWaypoints)});
+  }
+  if (problem.beliefs.known.size() > kMostSoils) {
+    faults.push_back(
+        {"/soil_map", fmt::format("{} soils, must be at most {}", problem.beliefs.known.size(), kMostSoils)});
+  }
+  for (std::size_t i = 0; i < problem.planners.size(); ++i) {
+    const auto rows = planner_catalogue();
+    const auto known = [&](const PlannerRow& row) { return row.name == problem.planners[i]; };
+    if (std::none_of(rows.begin(), rows.end(), known)) {
+      faults.push_back(
+          {fmt::format("/planners/{}", i),
+           fmt::format("planner \"{}\" is not known; known are {}", problem.planners[i], known_planners())});
+    }
+  }
+  for (const CostTerm& term : cost_catalogue()) {
+    const double weight = problem.weights.*term.in_weights;
+    if (weight >= term.weight.lowest && weight <= term.weight.highest) continue;
+    faults.push_back({fmt::format("/weights/{}", term.weight.name),
+                      fmt::format("{} = {:g}, must be in [{:g}, {:g}]", term.weight.name, weight,
+                                  term.weight.lowest, term.weight.highest)});
+  }
+  for (std::size_t i = 0; i < problem.keep_out.size(); ++i) {
+    const Polygon& polygon = problem.keep_out[i];
+    if (polygon.size() < 3) {
+      faults.push_back({fmt::format("/keep_out/{}", i),
+                        fmt::format("a polygon of {} corners, must have at least 3", polygon.size())});
+    } else if (std::any_of(polygon.begin(), polygon.end(),
+                           [](const Eigen::Vector2d& p) { return !p.allFinite(); })) {
+      faults.push_back({fmt::format("/keep_out/{}", i), "a corner is not finite"});
+    }
+  }
+}
+
+// Headings at which the rover would stand there: the one that is given, or enough to find one that is
+// allowed.
+std::vector<double> headings_of(const Waypoint& place) {
+  if (place.yaw_rad) return {*place.yaw_rad};
+  std::vector<double> headings(8);
+  for (std::size_t k = 0; k < headings.size(); ++k) headings[k] = rad_from_deg(45.0 * static_cast<double>(k));
+  return headings;
+}
+
+void check_standing(const PlanProblem& problem, const KeepOut& keep_out, const sim::Ground& ground,
+                    const Waypoint& place, const std::string& pointer, std::vector<Fault>& faults) {
+  const double limit = std::min(problem.limits.max_tilt_rad, problem.rover->max_tilt_rad);
+  double least_tilt = std::numeric_limits<double>::infinity();
+  bool outside = false;
+  for (const double heading : headings_of(place)) {
+    const Pose2 pose{place.x_m, place.y_m, heading};
+    outside |= !keep_out.hits(pose);
+    const std::optional<sim::Stance> stance = sim::settle(*problem.rover, ground, pose);
+    if (stance) least_tilt = std::min(least_tilt, stance->attitude.tilt_rad());
+  }
+  if (!outside) {
+    faults.push_back({pointer, fmt::format("the rover's body at ({:.2f}, {:.2f}) is inside a keep-out",
+                                           place.x_m, place.y_m)});
+  }
+  if (!std::isfinite(least_tilt)) {
+    faults.push_back(
+        {pointer, fmt::format("the suspension finds no stance at ({:.2f}, {:.2f})", place.x_m, place.y_m)});
+  } else if (least_tilt > limit) {
+    faults.push_back(
+        {pointer, fmt::format("tilt = {:.1f} deg at ({:.2f}, {:.2f}), must be at most {:.1f} deg",
+                              deg_from_rad(least_tilt), place.x_m, place.y_m, deg_from_rad(limit))});
+  }
+}
+
+}  // namespace
+
+std::optional<ErrorCode> check_place(const PlanProblem& problem, const sim::Ground& ground,
+                                     const Waypoint& place, double reach_m, const std::string& pointer,
+                                     std::vector<Fault>& faults) {
+  const dem::Extent extent = problem.terrain->geometry().extent();
+  if (!extent.contains(place.x_m, place.y_m)) {
+    faults.push_back(
+        {pointer,
+         fmt::format("({:.2f}, {:.2f}) is off the map, which spans ({:.2f}, {:.2f}) to ({:.2f}, {:.2f})",
+                     place.x_m, place.y_m, extent.west_m, extent.south_m, extent.east_m, extent.north_m)});
+    return ErrorCode::kOffMap;
+  }
+  const auto has_ground = [&](double angle_rad) {
+    return ground.at(place.x_m + reach_m * std::cos(angle_rad), place.y_m + reach_m * std::sin(angle_rad))
+        .has_value();
+  };
+  bool all = ground.at(place.x_m, place.y_m).has_value();
+  for (int k = 0; k < 16 && all; ++k) all = has_ground(rad_from_deg(22.5 * k));
+  if (all) return std::nullopt;
+  faults.push_back({pointer, fmt::format("elevation is missing within {:.2f} m of ({:.2f}, {:.2f})", reach_m,
+                                         place.x_m, place.y_m)});
+  return ErrorCode::kNoData;
+}
+
+std::optional<Error> faults_of(const PlanProblem& problem, const KeepOut& keep_out,
+                               const sim::Ground& ground) {
+  std::vector<Fault> faults;
+  std::vector<ErrorCode> codes;
+  // The circle that the body describes when it turns there.
+  const double reach = 0.5 * std::hypot(problem.rover->body_length_m, problem.rover->body_width_m);
+  const auto check = [&](const Waypoint& place, const std::string& pointer) {
+    const std::optional<ErrorCode> wrong = check_place(problem, ground, place, reach, pointer, faults);
+    if (wrong) {
+      codes.push_back(*wrong);
+    } else {
+      check_standing(problem, keep_out, ground, place, pointer, faults);
+    }
+  };
+  check_settings(problem, faults);
+  check(problem.start, "/start");
+  check(problem.goal, "/goal");
+  for (std::size_t i = 0; i < problem.waypoints.size(); ++i)
+    check(problem.waypoints[i], fmt::format("/waypoints/{}", i));
+  if (faults.empty()) return std::nullopt;
+  ErrorCode code = ErrorCode::kInvalidRequest;
+  for (const ErrorCode candidate : {ErrorCode::kNoData, ErrorCode::kOffMap})
+    if (std::find(codes.begin(), codes.end(), candidate) != codes.end()) code = candidate;
+  return Error{code, fmt::format("the plan cannot start: {}", faults.front().message), std::move(faults)};
+}
+
+}  // namespace slipway::planner

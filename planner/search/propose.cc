@@ -1,0 +1,241 @@
+#include "planner/search/propose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <optional>
+
+#include "core/angle.h"
+#include "core/parallel_for.h"
+#include "core/random.h"
+#include "planner/search/grid_search.h"
+#include "planner/search/leg_search.h"
+#include "planner/search/overlap.h"
+#include "planner/search/planner_catalogue.h"
+#include "planner/search/pose_sampler.h"
+#include "planner/search/profile.h"
+#include "planner/search/smooth_route.h"
+
+namespace slipway::planner {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kMostRounds = 4;
+constexpr double kBandWidths = 2.0;   // half width of the band around a route, in rover widths
+constexpr double kBandFactor = 1.0;   // the first round's extra cost in the band; doubles each round
+constexpr double kSharedEnds = 0.12;  // of a leg, at both ends, where no band is
+constexpr double kLineSpacing_m = 0.25;
+
+// One objective with what guides the searches under it.
+struct Guide {
+  std::string profile;
+  MotionCost cost;
+  std::optional<PoseSampler> sampler;  // of the leg in work
+};
+
+// One route in the making.
+struct Draft {
+  std::size_t guide = 0;
+  std::string planner;
+  Pose2 at;
+  std::vector<Motion> motions;
+  bool found = true;
+};
+
+std::vector<Waypoint> places_of(const PlanProblem& problem) {
+  std::vector<Waypoint> places{problem.start};
+  places.insert(places.end(), problem.waypoints.begin(), problem.waypoints.end());
+  places.push_back(problem.goal);
+  return places;
+}
+
+// Three times as many gain some 0.3 % of the cost on a 300 m leg (bench/plan_bench).
+int iterations_for(double length_m) {
+  return static_cast<int>(std::clamp(800.0 + 4.0 * length_m, 1000.0, 4000.0));
+}
+
+double range_for(double length_m) {
+  return std::clamp(length_m / 15.0, 4.0, 16.0);
+}
+
+class Proposer {
+ public:
+  Proposer(const PlanProblem& problem, const TraverseMap& map, const GroundTables& tables, Progress& progress)
+      : problem_(problem),
+        map_(map),
+        tables_(tables),
+        progress_(progress),
+        places_(places_of(problem)),
+        asked_cost_(problem, map, tables, problem.weights),
+        proposal_{.candidates = {}, .differences = Differences(problem.rover->body_width_m)} {
+    planners_ = problem.planners;
+    if (planners_.empty()) {
+      for (const PlannerRow& row : planner_catalogue())
+        if (row.in_default_set) planners_.emplace_back(row.name);
+    }
+  }
+
+  Proposal run() {
+    std::vector<Guide> guides;
+    for (const Profile& profile : profiles()) {
+      guides.push_back({std::string(profile.name),
+                        MotionCost(problem_, map_, tables_, profile.weights(problem_.weights)),
+                        std::nullopt});
+    }
+    search(guides, 0);
+    if (proposal_.candidates.empty()) return std::move(proposal_);
+    for (int round = 1; round <= kMostRounds && !enough() && !progress_.cancelled(); ++round) {
+      guides.clear();
+      guides.push_back({"apart_from_the_others", asked_cost_, std::nullopt});
+      guides.front().cost.penalise(bands(kBandFactor * std::pow(2.0, round - 1)));
+      search(guides, round);
+    }
+    return std::move(proposal_);
+  }
+
+ private:
+  bool enough() const {
+    return select_routes(proposal_.differences, proposal_.by_cost(), wanted()).size() >= wanted();
+  }
+  std::size_t wanted() const { return static_cast<std::size_t>(problem_.routes); }
+
+  // All guides with all planners, leg by leg.
+  void search(std::vector<Guide>& guides, int round) {
+    std::vector<Draft> drafts;
+    for (std::size_t g = 0; g < guides.size(); ++g)
+      for (const std::string& planner : planners_)
+        drafts.push_back({.guide = g, .planner = planner, .at = {}, .motions = {}});
+    for (std::size_t leg = 0; leg + 1 < places_.size() && !progress_.cancelled(); ++leg) {
+      parallel_for(guides.size(), problem_.threads, [&](std::size_t g) { look_ahead(guides[g], leg); });
+      if (progress_.cancelled()) return;
+      if (round == 0) proposal_.grid_optimum += guides.front().sampler->optimum();
+      parallel_for(drafts.size(), problem_.threads, [&](std::size_t d) {
+        Draft& draft = drafts[d];
+        if (draft.found) draft.found = drive_leg(guides[draft.guide], draft, leg, round, d);
+      });
+    }
+    if (progress_.cancelled()) return;
+    for (Draft& draft : drafts)
+      if (draft.found) keep(guides[draft.guide].profile, draft);
+  }
+
+  void look_ahead(Guide& guide, std::size_t leg) const {
+    if (progress_.cancelled()) return;
+    const GridSearch grid(guide.cost);
+    const CostField to_come = grid.cost_to_come(places_[leg].x_m, places_[leg].y_m);
+    const CostField to_go = grid.cost_to_go(places_[leg + 1].x_m, places_[leg + 1].y_m);
+    guide.sampler.emplace(grid, map_, to_come, to_go, places_[leg].x_m, places_[leg].y_m);
+  }
+
+  bool drive_leg(const Guide& guide, Draft& draft, std::size_t leg, int round, std::size_t number) const {
+    const Waypoint& from = places_[leg];
+    const Waypoint& to = places_[leg + 1];
+    if (!std::isfinite(guide.sampler->optimum())) return false;
+    if (leg == 0) {
+      const auto cell = static_cast<std::size_t>(map_.index_at(from.x_m, from.y_m));
+      draft.at = {from.x_m, from.y_m, wrapped_rad(from.yaw_rad.value_or(guide.sampler->flow_rad(cell)))};
+    }
+    const double length = std::hypot(to.x_m - from.x_m, to.y_m - from.y_m);
+    LegSearch search;
+    search.cost = &guide.cost;
+    search.sampler = &*guide.sampler;
+    search.from = draft.at;
+    search.to_x_m = to.x_m;
+    search.to_y_m = to.y_m;
+    search.arrival_rad = arrivals(from, to);
+    search.seed =
+        random_key(random_key(random_key(problem_.seed, leg), static_cast<std::uint64_t>(round)), number);
+    search.iterations = iterations_for(length);
+    search.range_m = range_for(length);
+    search.cancelled = [this] { return progress_.cancelled(); };
+    const std::vector<Pose2> poses = search_leg(draft.planner, search);
+    if (poses.size() < 2) return false;
+    const std::vector<Motion> motions = smooth_leg(guide.cost, poses, to.yaw_rad.has_value());
+    draft.motions.insert(draft.motions.end(), motions.begin(), motions.end());
+    draft.at = draft.motions.back().to;
+    return true;
+  }
+
+  // With a free heading: the straight line's, and to both sides of it.
+  static std::vector<double> arrivals(const Waypoint& from, const Waypoint& to) {
+    if (to.yaw_rad) return {wrapped_rad(*to.yaw_rad)};
+    const double direct = std::atan2(to.y_m - from.y_m, to.x_m - from.x_m);
+    std::vector<double> headings;
+    for (const double aside : {0.0, 30.0, -30.0, 60.0, -60.0, 100.0, -100.0, 180.0})
+      headings.push_back(wrapped_rad(direct + rad_from_deg(aside)));
+    return headings;
+  }
+
+  void keep(const std::string& profile, Draft& draft) {
+    if (!problem_.start.yaw_rad) {
+      // Nothing holds the start's heading: the rover is set down in the direction it leaves.
+      Motion& first = draft.motions.front();
+      first.from.yaw_rad = wrapped_rad(first.departure_rad());
+      first.first_turn_rad = 0.0;
+    }
+    const double cost = fine_cost(asked_cost_, draft.motions);
+    if (!std::isfinite(cost)) return;
+    proposal_.differences.add(centreline(draft.motions, kLineSpacing_m));
+    proposal_.candidates.push_back({std::move(draft.motions), draft.planner, profile, cost});
+  }
+
+  // The extra cost factor of every cell that is near a route that differs so far.
+  std::vector<float> bands(double factor) const {
+    std::vector<float> penalty(map_.cells(), 0.0F);
+    const double reach = kBandWidths * problem_.rover->body_width_m;
+    const dem::GridGeometry& g = map_.geometry();
+    const int cells = static_cast<int>(std::ceil(reach / g.cell_x_m));
+    for (const std::size_t chosen : select_routes(proposal_.differences, proposal_.by_cost(), wanted())) {
+      for (const Eigen::Vector2d& place : centreline(proposal_.candidates[chosen].motions, map_.cell_m())) {
+        for (int dr = -cells; dr <= cells; ++dr) {
+          for (int dc = -cells; dc <= cells; ++dc) {
+            const long long i = map_.index_at(place.x() + dc * g.cell_x_m, place.y() + dr * g.cell_y_m);
+            if (i >= 0 && std::hypot(dc * g.cell_x_m, dr * g.cell_y_m) <= reach && !near_place(place, reach))
+              penalty[static_cast<std::size_t>(i)] = static_cast<float>(factor);
+          }
+        }
+      }
+    }
+    return penalty;
+  }
+
+  // All routes share the ground at the places they join: to be driven off it would only make a hook there.
+  bool near_place(const Eigen::Vector2d& p, double reach_m) const {
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      const Waypoint& other = places_[i == 0 ? 1 : i - 1];
+      const double leg = std::hypot(other.x_m - places_[i].x_m, other.y_m - places_[i].y_m);
+      if (std::hypot(p.x() - places_[i].x_m, p.y() - places_[i].y_m) <
+          std::max(2.0 * reach_m, kSharedEnds * leg))
+        return true;
+    }
+    return false;
+  }
+
+  const PlanProblem& problem_;
+  const TraverseMap& map_;
+  const GroundTables& tables_;
+  Progress& progress_;
+  std::vector<Waypoint> places_;
+  MotionCost asked_cost_;
+  std::vector<std::string> planners_;
+  Proposal proposal_;
+};
+
+}  // namespace
+
+std::vector<std::size_t> Proposal::by_cost() const {
+  std::vector<std::size_t> order(candidates.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return candidates[a].cost < candidates[b].cost; });
+  return order;
+}
+
+Proposal propose_routes(const PlanProblem& problem, const TraverseMap& map, const GroundTables& tables,
+                        Progress& progress) {
+  return Proposer(problem, map, tables, progress).run();
+}
+
+}  // namespace slipway::planner

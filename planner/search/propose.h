@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+#include "planner/problem/motion.h"
+#include "planner/problem/problem.h"
+#include "planner/search/ground_tables.h"
+#include "planner/search/motion_cost.h"
+#include "planner/search/select_routes.h"
+
+namespace slipway::planner {
+
+// A route that OMPL found, before it is simulated.
+struct Candidate {
+  std::vector<Motion> motions;
+  std::string planner;
+  std::string profile;
+  double cost = 0.0;  // under the request's weights, through the table rung
+};
+
+struct Proposal {
+  std::vector<Candidate> candidates;
+  Differences differences;    // of the candidates
+  double grid_optimum = 0.0;  // of all legs, under the request's weights; infinite where a leg has no way
+  // The cheapest first, the ones to simulate: routes that differ, as many as were asked for if they exist.
+  std::vector<std::size_t> by_cost() const;
+};
+
+// Searches each profile with each planner, then in rounds with the bands around the routes so far made dear,
+// until `problem.routes` routes differ or the rounds are used up. Searches run in parallel; the outcome
+// doesn't depend on it. Empty candidates where there is no way (then grid_optimum is infinite) and where it
+// was cancelled.
+Proposal propose_routes(const PlanProblem& problem, const TraverseMap& map, const GroundTables& tables,
+                        Progress& progress);
+
+}  // namespace slipway::planner

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+namespace slipway::planner {
+
+// Two routes differ when neither shares more than this much of its length with the other within a rover's
+// width.
+constexpr double kLargestOverlap = 0.6;
+
+// Which of some routes differ: neither shares more than kLargestOverlap of its length with the other.
+class Differences {
+ public:
+  // width_m: the rover's.
+  explicit Differences(double width_m) : width_m_(width_m) {}
+
+  void add(std::vector<Eigen::Vector2d> centreline);
+  std::size_t size() const { return lines_.size(); }
+  // The larger of the two shares.
+  double shared(std::size_t a, std::size_t b) const { return shared_[a][b]; }
+  bool differ(std::size_t a, std::size_t b) const;
+
+ private:
+  double width_m_;
+  std::vector<std::vector<Eigen::Vector2d>> lines_;
+  std::vector<std::vector<double>> shared_;
+};
+
+// Of candidates in `order` (best first) a set that differs in pairs: as many as can be had up to `wanted`,
+// and among the sets of that size the one whose best is best, then whose second is best, and so on. Best
+// first.
+std::vector<std::size_t> select_routes(const Differences& differences, const std::vector<std::size_t>& order,
+                                       std::size_t wanted);
+
+}  // namespace slipway::planner

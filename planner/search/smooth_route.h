@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/search/motion_cost.h"
+
+namespace slipway::planner {
+
+// Makes a found leg drivable without needless turns, never dearer under the same cost: leaves out poses where
+// the direct motion is cheaper, moves the corners of the polyline downhill in cost, and rounds them with
+// arcs. (OMPL's own simplifier looks at length only.) The leg begins and ends where `poses` does; with
+// keep_last_heading also in its heading, otherwise as the last motion arrives. Without random numbers.
+std::vector<Motion> smooth_leg(const MotionCost& cost, const std::vector<Pose2>& poses,
+                               bool keep_last_heading);
+
+// Sum over the motions, looked at twice as finely as the search does.
+double fine_cost(const MotionCost& cost, const std::vector<Motion>& motions);
+
+}  // namespace slipway::planner

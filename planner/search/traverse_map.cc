@@ -1,0 +1,159 @@
+#include "planner/search/traverse_map.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel_for.h"
+
+namespace slipway::planner {
+namespace {
+
+dem::GridGeometry search_geometry(const dem::GridGeometry& terrain, const dem::Extent& extent) {
+  const dem::CellWindow window =
+      terrain.window(extent).value_or(dem::CellWindow{0, 0, terrain.rows, terrain.columns});
+  dem::GridGeometry geometry = terrain.sub(window);
+  // A quarter of a metre is finer than any rover of interest steers.
+  int step = std::max(1, static_cast<int>(std::floor(0.25 / geometry.cell_x_m + 1e-9)));
+  const auto rows = [&] { return (window.rows + step - 1) / step; };
+  const auto columns = [&] { return (window.columns + step - 1) / step; };
+  while (static_cast<long long>(rows()) * columns() > kMostSearchCells) ++step;
+  geometry.rows = rows();
+  geometry.columns = columns();
+  geometry.cell_x_m *= step;
+  geometry.cell_y_m *= step;
+  return geometry;
+}
+
+// The plane under a square of terrain cells, and how far the ground rises above it.
+struct Footprint {
+  bool complete = false;
+  double gradient_x = 0.0, gradient_y = 0.0;
+  double rise_m = 0.0;
+};
+
+// Least squares over the cells that have elevation; incomplete where they don't span a plane.
+Footprint footprint_of(const dem::Terrain& terrain, const dem::Cell& centre, int reach) {
+  const dem::GridGeometry& g = terrain.geometry();
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right_side = Eigen::Vector3d::Zero();
+  const double reference = terrain.height_m(centre).value_or(0.0);
+  const auto each_cell = [&](const auto& use) {
+    for (int dr = -reach; dr <= reach; ++dr) {
+      for (int dc = -reach; dc <= reach; ++dc) {
+        const std::optional<double> z = terrain.height_m(dem::Cell{centre.row + dr, centre.column + dc});
+        if (z) use(Eigen::Vector3d(1.0, dc * g.cell_x_m, -dr * g.cell_y_m), *z - reference);
+      }
+    }
+  };
+  each_cell([&](const Eigen::Vector3d& place, double z) {
+    normal += place * place.transpose();
+    right_side += z * place;
+  });
+  // Three cells of a line leave the determinant at 0, three of a triangle at least at the cell's area
+  // squared.
+  const double cell_area = g.cell_x_m * g.cell_y_m;
+  if (normal.determinant() < 0.5 * cell_area * cell_area) return {};
+  const Eigen::Vector3d plane = normal.inverse() * right_side;
+  Footprint footprint{.complete = true, .gradient_x = plane[1], .gradient_y = plane[2]};
+  each_cell([&](const Eigen::Vector3d& place, double z) {
+    footprint.rise_m = std::max(footprint.rise_m, z - plane.dot(place));
+  });
+  return footprint;
+}
+
+// The circle lies on the map, and every point of it has a height: heights are bilinear, so each terrain cell
+// that comes within a cell of the circle must have one.
+bool surrounded_by_data(const dem::Terrain& terrain, const Eigen::Vector2d& centre, double radius_m) {
+  const dem::GridGeometry& g = terrain.geometry();
+  const dem::Extent extent = g.extent();
+  if (centre.x() - radius_m < extent.west_m || centre.x() + radius_m > extent.east_m ||
+      centre.y() - radius_m < extent.south_m || centre.y() + radius_m > extent.north_m) {
+    return false;
+  }
+  const Eigen::Vector2d middle = g.fractional_index(centre.x(), centre.y());
+  const int down = static_cast<int>(std::ceil(radius_m / g.cell_y_m)) + 1;
+  const int right = static_cast<int>(std::ceil(radius_m / g.cell_x_m)) + 1;
+  for (int dr = -down; dr <= down; ++dr) {
+    for (int dc = -right; dc <= right; ++dc) {
+      const int row = static_cast<int>(std::lround(middle[0])) + dr;
+      const int column = static_cast<int>(std::lround(middle[1])) + dc;
+      if (row < 0 || column < 0 || row >= g.rows || column >= g.columns) continue;
+      const double away = std::hypot(std::max(0.0, std::abs(row - middle[0]) - 1.0) * g.cell_y_m,
+                                     std::max(0.0, std::abs(column - middle[1]) - 1.0) * g.cell_x_m);
+      if (away < radius_m && !terrain.has_data({row, column})) return false;
+    }
+  }
+  return true;
+}
+
+Passage passage_near(const KeepOut& keep_out, const Eigen::Vector2d& centre) {
+  if (keep_out.empty() || keep_out.clear_at_any_heading(centre.x(), centre.y())) return Passage::kFree;
+  return keep_out.hits_at_any_heading(centre.x(), centre.y()) ? Passage::kKeepOut : Passage::kNearKeepOut;
+}
+
+}  // namespace
+
+TraverseMap::TraverseMap(const PlanProblem& problem, const KeepOut& keep_out, const dem::Extent& extent)
+    : geometry_(search_geometry(problem.terrain->geometry(), extent)), keep_out_(keep_out) {
+  cells_.resize(static_cast<std::size_t>(geometry_.rows) * static_cast<std::size_t>(geometry_.columns));
+  parallel_for(static_cast<std::size_t>(geometry_.rows), problem.threads, [&](std::size_t row) {
+    for (int column = 0; column < geometry_.columns; ++column) {
+      const std::size_t i = row * static_cast<std::size_t>(geometry_.columns) + column;
+      cells_[i] = cell_of(problem, centre_m(i));
+    }
+  });
+}
+
+GroundCell TraverseMap::cell_of(const PlanProblem& problem, const Eigen::Vector2d& centre) const {
+  const dem::Terrain& terrain = *problem.terrain;
+  const sim::RoverModel& rover = *problem.rover;
+  GroundCell cell{.soil = kUnknownSoil};
+  if (problem.soil_map) {
+    const auto soil = problem.soil_map->soil_at(centre.x(), centre.y());
+    if (soil) cell.soil = static_cast<std::uint8_t>(*soil);
+  }
+  const std::optional<dem::Cell> under = terrain.geometry().cell_at(centre.x(), centre.y());
+  const double circumscribed = 0.5 * std::hypot(rover.body_length_m, rover.body_width_m);
+  if (!under || !surrounded_by_data(terrain, centre, circumscribed)) {
+    cell.passage = Passage::kNoData;
+    return cell;
+  }
+  const double half_width = 0.5 * std::min(rover.body_length_m, rover.body_width_m);
+  const int reach = std::max(1, static_cast<int>(std::lround(half_width / terrain.geometry().cell_x_m)));
+  const Footprint plane = footprint_of(terrain, *under, reach);
+  if (!plane.complete) {
+    cell.passage = Passage::kNoData;
+    return cell;
+  }
+  cell.gradient_x = static_cast<float>(plane.gradient_x);
+  cell.gradient_y = static_cast<float>(plane.gradient_y);
+  cell.passage = passage_near(keep_out_, centre);
+  if (cell.passage == Passage::kKeepOut) return cell;
+  const double tilt = std::atan(std::hypot(plane.gradient_x, plane.gradient_y));
+  if (tilt > std::min(problem.limits.max_tilt_rad, rover.max_tilt_rad)) cell.passage = Passage::kSteep;
+  if (plane.rise_m + problem.limits.min_clearance_m > rover.belly_clearance_m) cell.passage = Passage::kRough;
+  return cell;
+}
+
+long long TraverseMap::index_at(double x_m, double y_m) const {
+  // On the search's hot path: no optional, and the south and east edges are simply outside.
+  const double column = (x_m - geometry_.west_m) / geometry_.cell_x_m;
+  const double row = (geometry_.north_m - y_m) / geometry_.cell_y_m;
+  if (!(column >= 0.0 && row >= 0.0 && column < geometry_.columns && row < geometry_.rows)) return -1;
+  return static_cast<long long>(row) * geometry_.columns + static_cast<long long>(column);
+}
+
+Eigen::Vector2d TraverseMap::centre_m(std::size_t index) const {
+  const auto columns = static_cast<std::size_t>(geometry_.columns);
+  return geometry_.centre_m({static_cast<int>(index / columns), static_cast<int>(index % columns)});
+}
+
+bool TraverseMap::may_stand(const Pose2& pose) const {
+  const long long i = index_at(pose.x_m, pose.y_m);
+  if (i < 0) return false;
+  const Passage passage = cells_[static_cast<std::size_t>(i)].passage;
+  return passage == Passage::kFree || (passage == Passage::kNearKeepOut && !keep_out_.hits(pose));
+}
+
+}  // namespace slipway::planner

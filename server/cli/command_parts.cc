@@ -1,0 +1,149 @@
+#include "server/cli/command_parts.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iostream>
+#include <optional>
+#include <sstream>
+#include <vector>
+
+#include "server/cli/tables.h"
+
+namespace slipway::server {
+namespace {
+
+using api::json::Writer;
+
+std::vector<std::string> parts_of(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::istringstream list(text);
+  for (std::string part; std::getline(list, part, separator);) parts.push_back(part);
+  return parts;
+}
+
+std::optional<double> number_of(const std::string& text) {
+  std::istringstream stream(text);
+  double number = 0.0;
+  if (stream >> number && stream.eof()) return number;
+  return std::nullopt;
+}
+
+void write_number_or_text(Writer& w, const std::string& value) {
+  if (const auto number = number_of(value)) {
+    w.exact(*number);
+  } else {
+    w.text(value);
+  }
+}
+
+tl::unexpected<Error> bad(const std::string& flag, const std::string& message) {
+  return fail(ErrorCode::kInvalidRequest, message, {{"/" + flag, message}});
+}
+
+}  // namespace
+
+int refuse(const Error& error) {
+  std::cerr << error_text(error);
+  return error.code == ErrorCode::kInvalidRequest || error.code == ErrorCode::kMalformedJson ? 2 : 1;
+}
+
+int refuse_unreadable(const Error& error) {
+  const int status = refuse(error);
+  return error.code == ErrorCode::kUnreadableData || error.code == ErrorCode::kUnreadableRaster ? 2 : status;
+}
+
+Result<std::unique_ptr<Inquiry>> inquiry(const AskOptions& options) {
+  if (!options.url.empty()) return remote_inquiry(options.url);
+  return local_inquiry({.data = options.data, .model = options.model, .ground = options.ground});
+}
+
+int save(const std::string& file, const std::string& text) {
+  std::ofstream stream(file);
+  if (!(stream << text << std::flush))
+    return refuse({ErrorCode::kUnwritableFile, fmt::format("cannot write {}", file), {}});
+  return 0;
+}
+
+void write_setting(api::json::Writer& w, const std::string& setting) {
+  const std::size_t equals = setting.find('=');
+  const std::string value = equals == std::string::npos ? "" : setting.substr(equals + 1);
+  write_number_or_text(w.key(setting.substr(0, equals)), value);
+}
+
+void write_effect(api::json::Writer& w, const std::string& setting) {
+  const std::size_t colon = setting.find(':');
+  w.begin_object().text("name", setting.substr(0, colon));
+  if (colon != std::string::npos && setting.substr(colon + 1) == "off") {
+    w.boolean("on", false);
+  } else if (colon != std::string::npos) {
+    w.key("parameters").begin_object();
+    std::istringstream list(setting.substr(colon + 1));
+    for (std::string entry; std::getline(list, entry, ',');) write_setting(w, entry);
+    w.end_object();
+  }
+  w.end_object();
+}
+
+void write_sweep_axis(Writer& w, const std::string& sweep) {
+  const std::size_t equals = sweep.find('=');
+  w.begin_object().text("parameter", sweep.substr(0, equals));
+  const std::string values = equals == std::string::npos ? "" : sweep.substr(equals + 1);
+  const std::vector<std::string> range = parts_of(values, ':');
+  if (range.size() == 3) {
+    write_number_or_text(w.key("from"), range[0]);
+    write_number_or_text(w.key("to"), range[1]);
+    write_number_or_text(w.key("step"), range[2]);
+  } else {
+    w.key("values").begin_array();
+    for (const std::string& value : parts_of(values, ',')) write_number_or_text(w, value);
+    w.end_array();
+  }
+  w.end_object();
+}
+
+Result<sim::SweepAxis> sweep_axis_of(const std::string& sweep, std::size_t samples, const std::string& flag) {
+  const std::size_t equals = sweep.find('=');
+  std::string name = sweep.substr(0, equals);
+  if (!sim::sweep_field(name) && sim::sweep_field("soil." + name)) name = "soil." + name;
+  if (equals == std::string::npos) {
+    if (const auto axis = sim::paper_axis(name, samples)) return *axis;
+    return bad(flag, fmt::format("{} has no range of its own, must be {}=from:to:step or {}=a,b,c", name,
+                                 name, name));
+  }
+  const std::string values = sweep.substr(equals + 1);
+  const bool is_range = values.find(':') != std::string::npos;
+  std::vector<double> numbers;
+  for (const std::string& part : parts_of(values, is_range ? ':' : ',')) {
+    const auto number = number_of(part);
+    if (!number) return bad(flag, fmt::format("{} = {} is not a number", name, part));
+    numbers.push_back(*number);
+  }
+  if (!is_range && !numbers.empty()) return sim::SweepAxis{name, numbers};
+  if (numbers.size() != 3 || !(numbers[2] > 0.0) || numbers[1] < numbers[0])
+    return bad(flag, fmt::format("{} must be from:to:step, rising, or values with commas", sweep));
+  return sim::SweepAxis{name, sim::stepped(numbers[0], numbers[1], numbers[2])};
+}
+
+Result<sim::EffectSetting> effect_of(const std::string& setting) {
+  const std::size_t colon = setting.find(':');
+  sim::EffectSetting effect{.name = setting.substr(0, colon), .parameters = {}};
+  if (colon == std::string::npos) return effect;
+  for (const std::string& entry : parts_of(setting.substr(colon + 1), ',')) {
+    const std::size_t equals = entry.find('=');
+    const auto number = equals == std::string::npos ? std::nullopt : number_of(entry.substr(equals + 1));
+    if (!number) return bad("effect", fmt::format("{} must be NAME:parameter=number,...", setting));
+    effect.parameters[entry.substr(0, equals)] = *number;
+  }
+  return effect;
+}
+
+void write_grousers(Writer& w, const std::string& grousers) {
+  const std::vector<std::string> parts = parts_of(grousers, ',');
+  w.begin_object();
+  if (!parts.empty()) write_number_or_text(w.key("height_m"), parts[0]);
+  if (parts.size() > 1) write_number_or_text(w.key("count"), parts[1]);
+  w.end_object();
+}
+
+}  // namespace slipway::server

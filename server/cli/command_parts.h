@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "api/json/writer.h"
+#include "core/progress.h"
+#include "core/result.h"
+#include "server/cli/commands.h"
+#include "server/cli/inquiry.h"
+#include "sim/single_wheel/current_map.h"
+
+// What several commands do alike.
+namespace slipway::server {
+
+// Says nothing, but hears an interruption.
+class Interruptible final : public Progress {
+ public:
+  void report(std::string_view /*stage*/, double /*fraction*/) override {}
+  bool cancelled() const override { return given_up(); }
+};
+
+// Prints the error with its faults; the exit status that goes with it.
+int refuse(const Error& error);
+// The same where drives are read: what can't be read is the question's fault, 2.
+int refuse_unreadable(const Error& error);
+// The service in this process, or the one at the options' address.
+Result<std::unique_ptr<Inquiry>> inquiry(const AskOptions& options);
+// The exit status: 0, or 1 where the file can't be written.
+int save(const std::string& file, const std::string& text);
+
+// "name=number" as a member of the object that is being written; what is not a number is left to the reader.
+void write_setting(api::json::Writer& w, const std::string& setting);
+
+// "name" or "name:key=value,key=value"; what is not a number is left to the request's reader to refuse.
+void write_effect(api::json::Writer& w, const std::string& setting);
+// "slip=0:0.9:0.1" (from, to, step) or "load_n=20,50,80", for a wheel sweep's request; as above.
+void write_sweep_axis(api::json::Writer& w, const std::string& sweep);
+// The same sweep as an axis. A name without values takes the Zhurong paper's range with `samples` values, and
+// "k_s" is "soil.k_s". Errors: invalid_request at /`flag`.
+Result<sim::SweepAxis> sweep_axis_of(const std::string& sweep, std::size_t samples, const std::string& flag);
+// The setting of write_effect as a value. Errors: invalid_request at /effect.
+Result<sim::EffectSetting> effect_of(const std::string& setting);
+// "0.01,24": height in metres and count; as above.
+void write_grousers(api::json::Writer& w, const std::string& grousers);
+
+}  // namespace slipway::server

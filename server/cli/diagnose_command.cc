@@ -1,0 +1,212 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <system_error>
+
+#include "api/documents/diagnosis_document.h"
+#include "api/files/campaign/drive_campaign_source.h"
+#include "api/files/catalogue.h"
+#include "api/files/corrected_model.h"
+#include "api/files/model_folder.h"
+#include "api/report/diagnosis_charts.h"
+#include "api/report/diagnosis_report.h"
+#include "gap/diagnosis/diagnosis.h"
+#include "server/cli/command_parts.h"
+#include "server/cli/commands.h"
+#include "server/cli/terminal_progress.h"
+#include "server/cli/text_table.h"
+
+namespace slipway::server {
+namespace {
+
+using gap::Diagnosis;
+using gap::Interval;
+
+constexpr std::size_t kMostCandidates = 6, kMostChannels = 8, kMostRegimes = 3, kMostLeast = 6;
+
+std::string names_words(const std::vector<std::string>& names) {
+  return names.empty() ? "nothing missing" : fmt::format("{}", fmt::join(names, " + "));
+}
+
+std::string interval_words(const Interval& x, double unit = 1.0) {
+  if (x.low == x.high) return fmt::format("{:.3g}", unit * x.value);
+  return fmt::format("{:.3g} ({:.3g} to {:.3g})", unit * x.value, unit * x.low, unit * x.high);
+}
+
+std::string effects_words(const Diagnosis& d) {
+  std::string out;
+  for (const gap::FoundEffect& found : d.effects) {
+    out += fmt::format("  {}{}, probability {:.2f}", found.name,
+                       found.variant.empty() ? "" : fmt::format(" ({})", found.variant), found.probability);
+    for (const gap::FoundParameter& p : found.parameters)
+      out += fmt::format(", {} = {}", p.name, interval_words(p.value));
+    out += "\n";
+  }
+  return out;
+}
+
+std::string candidates_words(const Diagnosis& d) {
+  TextTable table({"explanation", "probability", "complexity"});
+  std::size_t shown = 0;
+  for (const gap::ComparedSet& set : api::json::compared_sets(d)) {
+    if (++shown > kMostCandidates) break;
+    table.add({names_words(set.effects), fmt::format("{:.3f}", set.probability),
+               fmt::format("{}", set.complexity)});
+  }
+  return table.print();
+}
+
+std::string channels_words(const Diagnosis& d) {
+  std::vector<gap::ChannelGap> channels = d.channels;
+  std::stable_sort(channels.begin(), channels.end(), [](const auto& a, const auto& b) {
+    return a.significance < b.significance ||
+           (a.significance == b.significance && a.gap * b.noise > b.gap * a.noise);
+  });
+  TextTable table({"channel", "gap", "noise", "mean", "p", "unit"});
+  for (std::size_t i = 0; i < std::min(channels.size(), kMostChannels); ++i) {
+    const gap::ChannelGap& c = channels[i];
+    const double unit = gap::boundary_unit(c.channel);
+    table.add({fmt::format("{}{}", gap::name_of(c.channel), c.wheel ? " " + *c.wheel : ""),
+               fmt::format("{:.3g}", unit * c.gap), fmt::format("{:.3g}", unit * c.noise),
+               fmt::format("{:.3g}", unit * c.bias), fmt::format("{:.3f}", c.significance),
+               std::string(gap::unit_of(c.channel))});
+  }
+  return table.print();
+}
+
+std::string ladder_words(const Diagnosis& d) {
+  TextTable table({"channel", "nominal", "re-tuned", "with effects", "floor", "unit"});
+  for (const gap::ChannelShrink& c : d.gap) {
+    const double unit = gap::boundary_unit(c.channel);
+    table.add({std::string(gap::name_of(c.channel)), interval_words(c.nominal, unit),
+               interval_words(c.retuned, unit), interval_words(c.with_effects, unit),
+               interval_words(c.noise_floor, unit), std::string(gap::unit_of(c.channel))});
+  }
+  return table.print();
+}
+
+std::string regimes_words(const std::vector<gap::Regime>& regimes) {
+  std::string out;
+  for (std::size_t i = 0; i < std::min(regimes.size(), kMostRegimes); ++i) {
+    std::vector<std::string> conditions;
+    for (const gap::Condition& c : regimes[i].conditions)
+      conditions.push_back(fmt::format("{} {:.3g} to {:.3g}", c.variable, c.from, c.to));
+    out += fmt::format("  {} where {}: {:.0f} % of it in {:.0f} % of the data\n",
+                       gap::name_of(regimes[i].channel), fmt::join(conditions, " and "),
+                       100.0 * regimes[i].share_of_gap, 100.0 * regimes[i].share_of_data);
+  }
+  return out;
+}
+
+std::string channels_of_effects_words(const Diagnosis& d) {
+  std::vector<std::string> channels;
+  for (const gap::ChannelShare& c : d.channels_of_effects)
+    if (c.share >= 0.01)
+      channels.push_back(fmt::format("{} {:.0f} %", gap::name_of(c.channel), 100.0 * c.share));
+  return fmt::format("the effect acts in {} (of its squares, in deviations of the noise)\n",
+                     fmt::join(channels, ", "));
+}
+
+std::string answer_words(const Diagnosis& d) {
+  std::string out = fmt::format("{}: {}\n{}\n", d.campaign, gap::name_of(d.verdict), d.reason);
+  if (!d.overturned_by.empty()) out += fmt::format("would overturn it: {}\n", d.overturned_by);
+  out += effects_words(d);
+  out += fmt::format("\n{} drives, {} windows, {} observations; explanations compared:\n", d.drives,
+                     d.windows, d.observations);
+  out += candidates_words(d);
+  for (const gap::ConfusablePair& pair : d.confusable)
+    out +=
+        fmt::format("alike on these drives: {} and {} ({:.0f} deg apart)\n", pair.a, pair.b, pair.angle_deg);
+  out += "\nwhere, before any re-tuning (measured less predicted):\n" + channels_words(d);
+  if (!d.regimes.empty()) out += "the gap is\n" + regimes_words(d.regimes);
+  if (!d.channels_of_effects.empty()) out += channels_of_effects_words(d);
+  if (!d.regimes_of_effect.empty()) out += "what the effect does is\n" + regimes_words(d.regimes_of_effect);
+  if (!d.gap.empty())
+    out += "\nhow far, rms on drives held out of the fit (90 % intervals):\n" + ladder_words(d);
+  if (d.closed_fraction)
+    out += fmt::format("of the gap that re-tuning leaves, closed: {}\n", interval_words(*d.closed_fraction));
+  for (const gap::ResidualShape& shape : d.residual)
+    out +=
+        fmt::format("unexplained: {:.0f} % at {}, by {}\n", 100.0 * shape.share, shape.entry, shape.variable);
+  if (!d.least_detectable.empty()) out += "\nsmallest effects that would have been seen:\n";
+  for (std::size_t i = 0; i < std::min(d.least_detectable.size(), kMostLeast); ++i)
+    out += fmt::format("  {} {} = {:.3g}\n", d.least_detectable[i].effect, d.least_detectable[i].parameter,
+                       d.least_detectable[i].value);
+  if (!d.next_drives.empty()) out += "\ndrives that would tell most:\n";
+  for (const gap::NextDrive& n : d.next_drives)
+    out += fmt::format(
+        "  tilt {:.0f} deg, heading {:.0f} deg, {:.3g} m/s, curvature {:.2g} 1/m, motors at {:.0f} C: {:.2f} "
+        "bits\n",
+        n.tilt_deg, n.heading_deg, n.speed_m_s, n.curvature_1_m, n.motor_temp_c, n.information_bits);
+  for (const std::string& note : d.notes) out += "note: " + note + "\n";
+  return out;
+}
+
+// Where it can't be made, writing into it tells.
+std::filesystem::path made(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  return folder;
+}
+
+int write_report(const std::string& folder, const gap::DriveCampaign& campaign, const Diagnosis& d) {
+  const std::filesystem::path path = made(folder);
+  const std::vector<api::NamedChart> charts = api::draw_diagnosis(campaign, d);
+  int status = save((path / "diagnosis.json").string(), api::json::diagnosis_document(campaign, d));
+  const api::ReportPage report = api::diagnosis_report(campaign, d, charts);
+  if (status == 0) status = save((path / "report.md").string(), report.markdown());
+  if (status == 0) status = save((path / "report.html").string(), report.html());
+  for (const api::NamedChart& chart : charts)
+    if (status == 0) status = save((path / (chart.name + ".svg")).string(), chart.svg);
+  return status;
+}
+
+int write_model(const std::string& folder, const gap::DriveCampaign& campaign, const Diagnosis& d) {
+  const auto model = api::corrected_model(campaign, d);
+  if (!model) {
+    std::cerr << "no corrected model is offered: nothing is written\n";
+    return 0;
+  }
+  // As a data folder has them: a rover's file is called as the rover.
+  const std::filesystem::path path(folder);
+  const auto rover = made((path / "rovers").string()) / (model->rover.name + ".json");
+  const auto soils = made((path / "soils").string()) / (model->soils.front().name + ".json");
+  int status = save(rover.string(), api::json::rover_document(*model));
+  if (status == 0) status = save(soils.string(), api::json::soils_document(*model));
+  return status != 0 ? status : save((path / "model.json").string(), api::model_document(campaign, *model));
+}
+
+}  // namespace
+
+int diagnose(const DiagnoseCommand& options) {
+  const auto catalogue = api::load_catalogue(options.data);
+  if (!catalogue) return refuse_unreadable(catalogue.error());
+  const auto campaign = api::load_drive_campaign(options.campaign, *catalogue);
+  if (!campaign) return refuse_unreadable(campaign.error());
+  gap::DiagnosisOptions diagnosis;
+  diagnosis.search.withheld = options.without;
+  diagnosis.search.threads = static_cast<std::size_t>(options.threads);
+  diagnosis.seed = options.seed;
+  std::optional<Result<Diagnosis>> result;
+  {
+    TerminalProgress progress;
+    result = gap::diagnose(*campaign, diagnosis, progress);
+  }
+  if (!*result) return refuse(result->error());
+  const Diagnosis& d = **result;
+  if (options.json)
+    std::cout << api::json::diagnosis_document(*campaign, d) << std::flush;
+  else
+    std::cout << answer_words(d) << std::flush;
+  int status = options.report.empty() ? 0 : write_report(options.report, *campaign, d);
+  if (status == 0 && !options.model.empty()) status = write_model(options.model, *campaign, d);
+  return status;
+}
+
+}  // namespace slipway::server

@@ -1,0 +1,288 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "api/documents/benchmark_document.h"
+#include "api/documents/diagnosis_document.h"
+#include "api/documents/drives_needed_document.h"
+#include "api/files/campaign/drive_campaign_source.h"
+#include "api/files/catalogue.h"
+#include "api/files/sealed_set/benchmark_answers.h"
+#include "api/files/sealed_set/hidden_traces_csv.h"
+#include "api/files/sealed_set/sealed_campaign_folder.h"
+#include "api/report/benchmark_report.h"
+#include "benchmark/baselines.h"
+#include "benchmark/benchmark_score.h"
+#include "benchmark/sealed_campaigns.h"
+#include "gap/diagnosis/diagnosis.h"
+#include "server/cli/command_parts.h"
+#include "server/cli/commands.h"
+#include "server/cli/drives_needed_command.h"
+#include "sim/effects/effect_catalogue.h"
+
+namespace slipway::server {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kMadeRover = "mer-class";  // of campaigns that are made here
+
+// A diagnosis with something taken out of it: what does it owe to which part?
+struct Variant {
+  std::string_view name;
+  gap::Retuning retuning = gap::Retuning::kAll;
+  bool something_else = true;
+  bool single = false;          // the effect with the best trace alone, no second, no pair
+  bool whole_evidence = false;  // not tempered
+  Result<gap::Diagnosis> (*method)(const gap::DriveCampaign&, const gap::DiagnosisOptions&,
+                                   Progress&) = &gap::diagnose;
+};
+constexpr std::array kVariants{
+    Variant{.name = "as-is"},
+    Variant{.name = "no-retuning", .retuning = gap::Retuning::kNone},
+    Variant{.name = "no-closures", .retuning = gap::Retuning::kNoClosures},
+    Variant{.name = "no-unknown", .something_else = false},
+    Variant{.name = "nearest-signature",
+            .retuning = gap::Retuning::kNone,
+            .something_else = false,
+            .single = true},
+    Variant{.name = "evidence-without-retuning",
+            .retuning = gap::Retuning::kNone,
+            .something_else = false,
+            .whole_evidence = true},
+    Variant{.name = "sample-level-folds", .method = &gap::diagnose_sample_by_sample},
+    Variant{.name = "sparse-regression", .method = &gap::diagnose_by_sparse_regression},
+    Variant{.name = "gaussian-process", .method = &gap::shrink_by_gaussian_process},
+};
+
+const Variant* variant_named(std::string_view name) {
+  const auto row =
+      std::find_if(kVariants.begin(), kVariants.end(), [&](const Variant& v) { return v.name == name; });
+  return row == kVariants.end() ? nullptr : &*row;
+}
+
+struct Timed {
+  gap::Diagnosis diagnosis;
+  double seconds = 0.0;
+};
+
+// The folder's campaigns, by the dynamic rung.
+Result<void> make_campaigns(const GapBenchmarkCommand& options, const api::Catalogue& catalogue) {
+  const auto sets = slipway::campaign::sealed_sets();
+  if (std::find(sets.begin(), sets.end(), options.make) == sets.end()) {
+    const std::string message =
+        fmt::format("unknown set \"{}\", known are: {}", options.make, fmt::join(sets, ", "));
+    return fail(ErrorCode::kInvalidRequest, message, {{"/make", message}});
+  }
+  const auto rover = catalogue.rovers.find(kMadeRover);
+  if (rover == catalogue.rovers.end())
+    return fail(ErrorCode::kNotFound, fmt::format("the data folder has no rover {}", kMadeRover));
+  const auto campaigns = slipway::campaign::sealed_campaigns(options.make, options.seed, rover->second);
+  Interruptible patience;
+  const auto tell = [&](const std::string& name, std::size_t drives, std::size_t made) {
+    std::cerr << fmt::format("made [{}/{}] {}: {} drives\n", made, campaigns.size(), name, drives);
+  };
+  return api::make_sealed_folder({options.folder, options.make, options.seed}, campaigns,
+                                 static_cast<std::size_t>(options.threads), tell, patience);
+}
+
+std::vector<std::string> campaigns_in(const GapBenchmarkCommand& options) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(options.folder, error)) {
+    const std::string name = entry.path().filename().string();
+    const bool wanted = options.only.empty() ||
+                        std::find(options.only.begin(), options.only.end(), name) != options.only.end();
+    if (wanted && fs::is_regular_file(entry.path() / "campaign.json", error)) names.push_back(name);
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+// What a diagnosis is told besides the campaign.
+struct Told {
+  std::vector<std::string> withheld;
+  bool oracle = false;  // all that is not withheld is at work
+};
+
+Result<Timed> diagnosed(const GapBenchmarkCommand& options, const api::Catalogue& catalogue,
+                        const std::string& name, const Told& told) {
+  const auto start = std::chrono::steady_clock::now();
+  auto campaign = api::load_drive_campaign(fs::path(options.folder) / name, catalogue);
+  if (!campaign) return fail(campaign.error());
+  gap::DiagnosisOptions how;
+  how.search.withheld = told.withheld;
+  how.told = told.oracle;
+  how.search.threads = static_cast<std::size_t>(options.threads);
+  how.seed = options.seed;
+  const Variant& variant = *variant_named(options.variant);
+  campaign->retuning = variant.retuning;
+  how.search.something_else = variant.something_else;
+  if (variant.single) {
+    how.search.most_refitted = 1;
+    how.search.most_paired = 0;
+  }
+  how.search.whole_evidence = variant.whole_evidence;
+  Interruptible patience;
+  auto diagnosis = variant.method(*campaign, how, patience);
+  if (!diagnosis) return fail(diagnosis.error());
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  if (!options.keep.empty()) {
+    std::string file = name;
+    if (told.oracle) file += "-oracle";
+    for (const std::string& effect : told.withheld)
+      if (!told.oracle) file += "-without-" + effect;
+    std::error_code error;
+    fs::create_directories(options.keep, error);
+    save((fs::path(options.keep) / (file + ".json")).string(),
+         api::json::diagnosis_document(*campaign, *diagnosis));
+  }
+  return Timed{std::move(*diagnosis), took.count()};
+}
+
+void tell(std::size_t number, std::size_t of, const std::string& name, const Timed& timed) {
+  std::vector<std::string> effects;
+  for (const gap::FoundEffect& effect : timed.diagnosis.effects) effects.push_back(effect.name);
+  std::cerr << fmt::format("[{}/{}] {}: {} {} ({:.1f} s)\n", number, of, name,
+                           gap::name_of(timed.diagnosis.verdict), fmt::join(effects, " + "), timed.seconds);
+}
+
+Result<std::string> bytes_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) return fail(ErrorCode::kUnreadableData, file.string() + " can't be read");
+  return std::string{std::istreambuf_iterator<char>(stream), {}};
+}
+
+// answers.json, with traces.csv where there is one.
+Result<std::map<std::string, gap::HiddenAnswer>> answers_of(const fs::path& folder) {
+  const auto bytes = bytes_of(folder / "answers.json");
+  if (!bytes) return fail(bytes.error());
+  auto answers = api::json::read_benchmark_answers(*bytes);
+  if (!answers) return fail(answers.error());
+  std::map<std::string, gap::HiddenAnswer> by_name;
+  for (gap::HiddenAnswer& answer : *answers) by_name.emplace(answer.campaign, std::move(answer));
+  const fs::path traces_file = folder / "traces.csv";
+  if (std::error_code error; !fs::exists(traces_file, error)) return by_name;
+  const auto text = bytes_of(traces_file);
+  if (!text) return fail(text.error());
+  auto traces = api::read_hidden_traces_csv(traces_file.string(), *text);
+  if (!traces) return fail(traces.error());
+  for (auto& [campaign, of] : *traces)
+    if (const auto answer = by_name.find(campaign); answer != by_name.end())
+      answer->second.traces = std::move(of);
+  return by_name;
+}
+
+std::set<std::string> library() {
+  std::set<std::string> names;
+  for (const sim::Effect& effect : sim::effect_catalogue()) names.emplace(effect.name);
+  return names;
+}
+
+int tell_drives_needed(const GapBenchmarkCommand& options, const api::Catalogue& catalogue,
+                       std::span<const std::string> names) {
+  const auto answers = answers_of(options.folder);
+  if (!answers) return refuse_unreadable(answers.error());
+  const auto needed = drives_needed(options, catalogue, names, *answers, library());
+  if (!needed) return refuse_unreadable(needed.error());
+  std::cout << (options.json ? api::json::drives_needed_document(*needed)
+                             : api::drives_needed_report(*needed))
+            << std::flush;
+  return 0;
+}
+
+}  // namespace
+
+int gap_benchmark(const GapBenchmarkCommand& options) {
+  if (variant_named(options.variant) == nullptr) {
+    std::vector<std::string_view> known;
+    for (const Variant& variant : kVariants) known.push_back(variant.name);
+    std::cerr << fmt::format("unknown variant \"{}\", known are: {}\n", options.variant,
+                             fmt::join(known, ", "));
+    return 2;
+  }
+  const auto catalogue = api::load_catalogue(options.data);
+  if (!catalogue) return refuse_unreadable(catalogue.error());
+  if (!options.make.empty())
+    if (const auto made = make_campaigns(options, *catalogue); !made) return refuse_unreadable(made.error());
+  const std::vector<std::string> names = campaigns_in(options);
+  if (names.empty()) {
+    std::cerr << options.folder << " holds no drive campaign of that name\n";
+    return 2;
+  }
+  // What can't be read is said before the first diagnosis, not after an hour of them.
+  for (const std::string& name : names)
+    if (auto campaign = api::load_drive_campaign(fs::path(options.folder) / name, *catalogue); !campaign)
+      return refuse_unreadable(campaign.error());
+  if (options.drives_needed) return tell_drives_needed(options, *catalogue, names);
+  // All diagnoses before the key is opened.
+  std::vector<Timed> open;
+  for (const std::string& name : names) {
+    auto timed = diagnosed(options, *catalogue, name, {});
+    // Interrupted: what is done is scored.
+    if (!timed && timed.error().code == ErrorCode::kCancelled && !open.empty()) break;
+    if (!timed) return refuse_unreadable(timed.error());
+    open.push_back(std::move(*timed));
+    tell(open.size(), names.size(), name, open.back());
+  }
+  const auto answers = answers_of(options.folder);
+  if (!answers) return refuse_unreadable(answers.error());
+  const std::set<std::string> known = library();
+  api::Benchmark benchmark{.variant = options.variant, .cases = {}, .withheld = {}};
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    const auto answer = answers->find(names[i]);
+    if (answer == answers->end()) {
+      std::cerr << "answers.json says nothing of " << names[i] << ": it is not scored\n";
+      continue;
+    }
+    const std::set<std::string>& hidden = answer->second.effects;
+    benchmark.cases.push_back(gap::score_case(answer->second, open[i].diagnosis, known, open[i].seconds));
+    if (options.oracle && !hidden.empty() && !given_up() &&
+        std::includes(known.begin(), known.end(), hidden.begin(), hidden.end())) {
+      Told told{.withheld = {}, .oracle = true};
+      std::set_difference(known.begin(), known.end(), hidden.begin(), hidden.end(),
+                          std::back_inserter(told.withheld));
+      auto timed = diagnosed(options, *catalogue, names[i], told);
+      if (!timed && timed.error().code != ErrorCode::kCancelled) return refuse_unreadable(timed.error());
+      if (timed) {
+        if (timed->diagnosis.closed_fraction)
+          benchmark.cases.back().oracle_closed_fraction = timed->diagnosis.closed_fraction->value;
+        tell(i + 1, names.size(), names[i] + " told", *timed);
+      }
+    }
+    for (const std::string& effect : hidden) {
+      if (!options.without_each || !known.contains(effect) || given_up()) continue;
+      auto timed = diagnosed(options, *catalogue, names[i], {.withheld = {effect}, .oracle = false});
+      if (!timed && timed.error().code == ErrorCode::kCancelled) continue;
+      if (!timed) return refuse_unreadable(timed.error());
+      tell(i + 1, names.size(), names[i] + " without " + effect, *timed);
+      benchmark.withheld.push_back(
+          gap::score_withheld(answer->second, effect, open[i].diagnosis, timed->diagnosis));
+    }
+  }
+  const std::string set = fs::path(options.folder).lexically_normal().filename().string();
+  if (!options.csv.empty())
+    if (const int failed = save(options.csv, api::benchmark_csv(benchmark, set)); failed != 0) return failed;
+  if (!options.withheld_csv.empty())
+    if (const int failed = save(options.withheld_csv, api::withheld_csv(benchmark, set)); failed != 0)
+      return failed;
+  std::cout << (options.json ? api::json::benchmark_document(benchmark) : api::benchmark_report(benchmark))
+            << std::flush;
+  return 0;
+}
+
+}  // namespace slipway::server

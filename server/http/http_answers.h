@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "server/http/http_engine.h"
+#include "server/http/http_message.h"
+#include "server/http/http_options.h"
+#include "server/http/http_routes.h"
+
+namespace slipway::server {
+
+// What becomes of a request, and of an exception: the one place where those are caught.
+class Answers {
+ public:
+  // Both outlive this.
+  Answers(const HttpOptions& options, const RouteTable& routes) : options_(options), routes_(routes) {}
+
+  // Never throws.
+  HttpEngine::Outgoing to_request(HttpEngine& engine, HttpEngine::Exchange exchange) const;
+  // In one piece: it is sent from a buffer of the loop.
+  std::string to_refused(HttpEngine& engine, std::string_view method, const Error& error) const;
+
+  void log(std::string_view line) const;
+
+ private:
+  HttpResponse problem(const Error& error, const HttpRequest* request) const;
+  HttpResponse routed(HttpRequest& request) const;
+
+  const HttpOptions& options_;
+  const RouteTable& routes_;
+};
+
+}  // namespace slipway::server

@@ -1,0 +1,212 @@
+// What becomes of one connection in the loop; http_loop.cc has what concerns all of them.
+
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "server/http/http_loop.h"
+
+namespace slipway::server {
+namespace {
+
+// Read from one connection before the others have their turn.
+constexpr std::size_t kReadPerTurn = std::size_t{256} << 10;
+// Bodies up to this size are read even when max_buffered_bytes is exhausted: a flood of large ones must not
+// shut out the small requests of everyone else.
+constexpr std::size_t kAlwaysBuffered = std::size_t{16} << 10;
+
+}  // namespace
+
+void HttpLoop::go_on(Connection& connection, HttpWorkers& workers) {
+  if (!proceed(connection, workers)) return close(connection);
+  if (connection.phase != Phase::kWorking) recount(connection);
+  retime(connection);
+}
+
+bool HttpLoop::proceed(Connection& connection, HttpWorkers& workers) {
+  std::size_t read = 0;
+  for (bool blocked = false; !blocked;) {
+    switch (connection.phase) {
+      case Phase::kWorking:
+        return true;
+      case Phase::kSending:
+        if (!send_rest(connection, blocked)) return false;
+        break;
+      case Phase::kLingering:
+        if (!linger(connection, blocked)) return false;
+        break;
+      case Phase::kReceiving: {
+        const RequestGatherer::State state = connection.gatherer.feed({});
+        if (state == RequestGatherer::State::kReady) {
+          dispatch(connection, workers);
+        } else if (state == RequestGatherer::State::kRefused) {
+          refuse(connection, connection.gatherer.refusal());
+        } else if (!receive(connection, blocked)) {
+          return false;
+        }
+        if (!keep_to_budget(connection)) return false;
+        break;
+      }
+    }
+    read += piece_read_;
+    piece_read_ = 0;
+    if (read >= kReadPerTurn && !blocked) {
+      again_.push_back(connection.id);
+      return true;
+    }
+  }
+  return true;
+}
+
+bool HttpLoop::receive(Connection& connection, bool& blocked) {
+  if (connection.gatherer.take_continue()) {
+    // 25 bytes into a socket on which nothing is under way; a client that does not take them is not worth
+    // waiting for.
+    std::string_view interim = "HTTP/1.1 100 Continue\r\n\r\n";
+    if (send_some(connection.socket.fd(), interim) != Transfer::kSome) return false;
+  }
+  if (!connection.readable) {
+    blocked = true;
+    return true;
+  }
+  const std::size_t wanted = std::min(connection.gatherer.appetite(), piece_.size());
+  const Transfer received = receive_some(connection.socket.fd(), piece_.data(), wanted, piece_read_);
+  if (received == Transfer::kSome) {
+    // Less than asked for means that nothing is left, and saves the call that would say so; but the end of
+    // the stream may have been announced with these bytes and is not announced again.
+    if (piece_read_ < wanted && !connection.hung_up) connection.readable = false;
+    connection.gatherer.feed({piece_.data(), piece_read_});
+    return true;
+  }
+  connection.readable = false;
+  blocked = true;
+  return received == Transfer::kBlocked;
+}
+
+void HttpLoop::dispatch(Connection& connection, HttpWorkers& workers) {
+  recount(connection);  // and so it stays counted while it is with a worker
+  Work work;
+  work.connection = connection.id;
+  work.fd = connection.socket.fd();
+  work.gathered = connection.gatherer.take();
+  work.remote_address = connection.address;
+  ++connection.requests;
+  work.close = draining_ || !work.gathered.head.keep_alive ||
+               connection.requests >= options_.max_requests_per_connection;
+  connection.phase = Phase::kWorking;
+  workers.submit(std::move(work));
+}
+
+void HttpLoop::refuse(Connection& connection, const Error& error) {
+  counters_.requests_refused.fetch_add(1, std::memory_order_relaxed);
+  connection.unsent = answers_.to_refused(engine_, connection.gatherer.head().method, error);
+  connection.gatherer.refuse(error);  // and what it holds is free for others
+  connection.sent = 0;
+  connection.phase = Phase::kSending;
+  // What follows on this connection is the rest of something that was not understood.
+  connection.close_after = true;
+}
+
+bool HttpLoop::send_rest(Connection& connection, bool& blocked) {
+  std::string_view rest = std::string_view(connection.unsent).substr(connection.sent);
+  const Transfer sent = send_some(connection.socket.fd(), rest);
+  if (sent == Transfer::kBroken) return false;
+  connection.sent = connection.unsent.size() - rest.size();
+  if (sent == Transfer::kBlocked) {
+    blocked = true;
+    return keep_to_budget(connection);
+  }
+  connection.unsent = {};
+  connection.sent = 0;
+  if (!connection.close_after) {
+    connection.phase = Phase::kReceiving;
+    return true;
+  }
+  connection.phase = Phase::kLingering;
+  return ::shutdown(connection.socket.fd(), SHUT_WR) == 0;
+}
+
+bool HttpLoop::linger(Connection& connection, bool& blocked) {
+  blocked = !connection.readable;
+  if (blocked) return true;
+  const Transfer received = receive_some(connection.socket.fd(), piece_.data(), piece_.size(), piece_read_);
+  if (received == Transfer::kSome) {
+    connection.discarded += piece_read_;
+    return connection.discarded <= options_.max_body_bytes;
+  }
+  connection.readable = false;
+  blocked = true;
+  return received == Transfer::kBlocked;
+}
+
+bool HttpLoop::keep_to_budget(Connection& connection) {
+  if (connection.phase == Phase::kWorking) return true;
+  recount(connection);
+  if (counters_.buffered_bytes <= options_.max_buffered_bytes || connection.counted <= kAlwaysBuffered)
+    return true;
+  if (connection.phase == Phase::kReceiving) {
+    refuse(connection,
+           {ErrorCode::kTooManyJobs, "too many large requests are under way; try again later", {}});
+    return true;
+  }
+  return true;  // an answer being sent had its share from the worker, or is a refusal and small
+}
+
+void HttpLoop::recount(Connection& connection) {
+  const std::size_t now = connection.gatherer.held() + connection.unsent.size();
+  counters_.buffered_bytes += now - connection.counted;  // modulo 2^64, so that it may shrink
+  connection.counted = now;
+}
+
+void HttpLoop::retime(Connection& connection) {
+  using State = RequestGatherer::State;
+  Timing timing = Timing::kNone;
+  if (connection.phase == Phase::kSending) timing = Timing::kSending;
+  if (connection.phase == Phase::kLingering) timing = Timing::kLingering;
+  if (connection.phase == Phase::kReceiving) {
+    const State state = connection.gatherer.state();
+    timing = state == State::kHead      ? Timing::kHead
+             : state == State::kBody    ? Timing::kBody
+             : connection.requests == 0 ? Timing::kFresh
+                                        : Timing::kIdle;
+  }
+  // A deadline runs from the beginning of what it is for, so that dripping bytes do not extend it.
+  if (timing == connection.timing) return;
+  connection.timing = timing;
+  const auto allowed = [&]() -> std::chrono::milliseconds {
+    switch (timing) {
+      case Timing::kFresh:
+      case Timing::kHead:
+        return options_.header_deadline;
+      case Timing::kIdle:
+        return options_.idle_deadline;
+      case Timing::kBody:
+        return options_.body_deadline;
+      case Timing::kSending:
+        return options_.write_deadline;
+      case Timing::kLingering:
+        return options_.linger_deadline;
+      case Timing::kNone:
+        break;
+    }
+    return std::chrono::milliseconds::zero();
+  }();
+  connection.deadline = timing == Timing::kNone ? Clock::time_point::max() : Clock::now() + allowed;
+}
+
+void HttpLoop::close(Connection& connection) {
+  counters_.buffered_bytes -= connection.counted;
+  if (connection.admitted) {
+    --admitted_;
+    const auto of_address = per_address_.find(connection.address);
+    if (--of_address->second == 0) per_address_.erase(of_address);
+    counters_.open_connections.store(admitted_, std::memory_order_relaxed);
+  } else {
+    --turned_away_;
+  }
+  connections_.erase(connection.id);
+}
+
+}  // namespace slipway::server

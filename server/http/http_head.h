@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "core/result.h"
+#include "server/http/http_options.h"
+
+namespace slipway::server {
+
+enum class BodyFraming { kNone, kLength, kChunked };
+
+// What the head of a request says about how to read on, and the head as it is passed on.
+struct RequestHead {
+  std::string method;
+  BodyFraming framing = BodyFraming::kNone;
+  std::size_t content_length = 0;  // with kLength
+  bool keep_alive = true;          // what the client wants
+  bool expects_continue = false;   // it waits for "100 Continue" before it sends the body
+  std::string forwarded;           // the head for cpp-httplib, without the headers it must not act on
+};
+
+// Checks a whole head (up to and including its empty line) against RFC 9112, refusing whatever two parsers
+// could read in two ways: such differences are how one request is smuggled inside another.
+Result<RequestHead> read_head(std::string_view head, const HttpOptions& options);
+
+// What is known of a head of which only the beginning is there.
+struct HeadScan {
+  enum class Found { kNothingYet, kEnd, kMalformed } found = Found::kNothingYet;
+  std::size_t size = 0;  // with kEnd: of the head, with its empty line
+  std::size_t resume_at =
+      0;  // with kNothingYet: where to go on, so that a dripped head is not scanned anew each time
+};
+HeadScan scan_head(std::string_view bytes, std::size_t resume_at);
+
+}  // namespace slipway::server

@@ -1,0 +1,90 @@
+#include "server/http/http_workers.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "server/http/http_socket.h"
+
+namespace slipway::server {
+
+HttpWorkers::HttpWorkers(const HttpOptions& options, const Answers& answers, LiveCounters& counters,
+                         std::function<void(WorkDone)> done)
+    : options_(options), answers_(answers), counters_(counters), done_(std::move(done)) {
+  const std::size_t count = std::max<std::size_t>(1, options.worker_threads);
+  for (std::size_t i = 0; i < count; ++i) threads_.emplace_back([this] { run(); });
+}
+
+HttpWorkers::~HttpWorkers() {
+  stop();
+}
+
+void HttpWorkers::submit(Work work) {
+  {
+    const std::lock_guard lock(mutex_);
+    waiting_.push_back(std::move(work));
+  }
+  condition_.notify_one();
+}
+
+void HttpWorkers::stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  condition_.notify_all();
+  for (std::thread& thread : threads_) {
+    if (thread.joinable()) thread.join();
+  }
+}
+
+void HttpWorkers::run() {
+  HttpEngine engine(options_);
+  for (;;) {
+    Work work;
+    {
+      std::unique_lock lock(mutex_);
+      condition_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
+      if (stopping_) return;
+      work = std::move(waiting_.front());
+      waiting_.pop_front();
+    }
+    answer(engine, std::move(work));
+  }
+}
+
+void HttpWorkers::answer(HttpEngine& engine, Work work) {
+  WorkDone done{work.connection, {}, 0, 0, work.close, false};
+  HttpEngine::Outgoing out = answers_.to_request(
+      engine, {work.gathered.head.forwarded, std::move(work.gathered.body), work.remote_address, work.close});
+  counters_.requests_served.fetch_add(1, std::memory_order_relaxed);
+  // Sent from here rather than from the loop: one hop less before the client has its answer.
+  std::string_view front = out.front;
+  Transfer outcome = send_some(work.fd, front, !out.body.empty());
+  if (outcome == Transfer::kSome) {
+    std::string_view body = out.body;
+    outcome = send_some(work.fd, body);
+    const std::size_t sent = out.body.size() - body.size();
+    if (outcome == Transfer::kBlocked) keep(done, std::move(out.body), sent);
+  } else if (outcome == Transfer::kBlocked) {
+    keep(done, std::string(front) + out.body, 0);
+  }
+  done.broken = done.broken || outcome == Transfer::kBroken;
+  out = {};  // before the loop hears of it and there is more work
+  done_(std::move(done));
+}
+
+void HttpWorkers::keep(WorkDone& done, std::string unsent, std::size_t sent) {
+  // Taken here and not in the loop, which may be many answers behind.
+  const std::size_t size = unsent.size();
+  if (counters_.buffered_bytes.fetch_add(size) + size > options_.max_buffered_bytes) {
+    counters_.buffered_bytes -= size;
+    answers_.log("an answer was dropped: too many bytes wait to be taken by slow clients");
+    done.broken = true;
+    return;
+  }
+  done.unsent = std::move(unsent);
+  done.sent = sent;
+  done.counted = size;
+}
+
+}  // namespace slipway::server

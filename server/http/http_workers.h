@@ -1,0 +1,77 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "server/http/http_answers.h"
+#include "server/http/http_gatherer.h"
+#include "server/http/http_options.h"
+
+namespace slipway::server {
+
+// The live form of HttpCounters, and the budget of which several threads take.
+struct LiveCounters {
+  std::atomic<std::uint64_t> open_connections = 0;
+  std::atomic<std::uint64_t> requests_served = 0;
+  std::atomic<std::uint64_t> requests_refused = 0;
+  std::atomic<std::uint64_t> connections_refused = 0;
+  std::atomic<std::size_t> buffered_bytes = 0;
+};
+
+// A whole request, and the socket that is the worker's to send on until it gives the work back.
+struct Work {
+  std::uint64_t connection = 0;
+  int fd = -1;
+  RequestGatherer::Gathered gathered;
+  std::string remote_address;
+  bool close = false;
+};
+
+struct WorkDone {
+  std::uint64_t connection = 0;
+  std::string unsent;  // what the client did not take at once: from `sent` on
+  std::size_t sent = 0;
+  std::size_t counted = 0;  // of `unsent`, in the budget of buffered bytes already
+  bool close = false;
+  bool broken = false;  // the client has gone
+};
+
+// The threads in which handlers run. They never wait for a client: what a socket does not take is given back.
+class HttpWorkers {
+ public:
+  // `answers` and `counters` outlive this; `done` is called from the threads.
+  HttpWorkers(const HttpOptions& options, const Answers& answers, LiveCounters& counters,
+              std::function<void(WorkDone)> done);
+  ~HttpWorkers();
+  HttpWorkers(const HttpWorkers&) = delete;
+  HttpWorkers& operator=(const HttpWorkers&) = delete;
+
+  // As many as there are connections can wait, and no more: each has one request here at a time.
+  void submit(Work work);
+  // Returns when the handlers that are running have; what waits is forgotten.
+  void stop();
+
+ private:
+  void run();
+  void answer(HttpEngine& engine, Work work);
+  void keep(WorkDone& done, std::string unsent, std::size_t sent);
+
+  const HttpOptions& options_;
+  const Answers& answers_;
+  LiveCounters& counters_;
+  std::function<void(WorkDone)> done_;
+  std::mutex mutex_;
+  std::condition_variable condition_;
+  std::deque<Work> waiting_;
+  bool stopping_ = false;
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace slipway::server

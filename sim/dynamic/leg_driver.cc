@@ -1,0 +1,95 @@
+#include "sim/dynamic/leg_driver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/smooth_step.h"
+
+namespace slipway::sim {
+namespace {
+
+constexpr double kRamp_s = 2.0;
+// Half of what the steering motors can do, and not faster than flown rovers steer.
+constexpr double kSteeringRate_rad_s = 0.1;
+constexpr double kSameAngle_rad = 1e-6;
+
+double steering_rate(const RoverModel& rover) {
+  const double most = rover.steering.value_or(rover.drive).max_wheel_rate_rad_s;
+  return std::min(kSteeringRate_rad_s, 0.5 * most);
+}
+
+// Of the two that roll a wheel the same way, half a turn apart, the one that is steered like the other: a
+// wheel about to cross a quarter turn rolls on rather than swing round.
+WheelCommand nearest_to(const WheelCommand& other, WheelCommand told) {
+  const double apart = told.steer_rad - other.steer_rad;
+  if (std::abs(apart) <= 0.5 * std::numbers::pi) return told;
+  return {.steer_rad = told.steer_rad - std::copysign(std::numbers::pi, apart),
+          .rate_rad_s = -told.rate_rad_s};
+}
+
+}  // namespace
+
+LegDriver::LegDriver(const RoverModel& rover, const DriveLeg& leg, Feedback feedback, double start_s,
+                     const PerWheel<double>& steered_rad)
+    : rover_(rover),
+      leg_(leg),
+      feedback_(feedback),
+      from_rad_(steered_rad),
+      plain_(wheel_commands(rover, leg.command)),
+      start_s_(start_s) {
+  double most = 0.0;
+  for (std::size_t k = 0; k < plain_.size(); ++k)
+    if (rover.wheels[k].steerable) most = std::max(most, std::abs(plain_[k].steer_rad - from_rad_[k]));
+  // The smooth step is fastest half way, one and a half times its mean.
+  steered_s_ = start_s + (most > kSameAngle_rad ? 1.5 * most / steering_rate(rover) : 0.0);
+  // A rover that is told more than its motors' greatest rate takes longer.
+  const double duration = commanded_duration_s(leg) / attainable_share(rover, leg.command);
+  ramp_s_ = std::min(kRamp_s, duration);
+  ramped_s_ = steered_s_ + ramp_s_;
+  nominal_end_s_ = steered_s_ + duration + ramp_s_;
+  stopping_share_ = duration > 0.0 ? 0.5 * ramp_s_ / duration : 0.0;
+  cruised_s_ =
+      feedback == Feedback::kPose ? std::numeric_limits<double>::infinity() : nominal_end_s_ - ramp_s_;
+  end_s_ = cruised_s_ + ramp_s_;
+}
+
+void LegDriver::stop(double t) {
+  cruised_s_ = std::max(t, ramped_s_);
+  end_s_ = cruised_s_ + ramp_s_;
+}
+
+double LegDriver::rate_share(double t) const {
+  if (ramp_s_ <= 0.0) return 0.0;
+  return smooth_step((t - steered_s_) / ramp_s_) * (1.0 - smooth_step((t - cruised_s_) / ramp_s_));
+}
+
+double LegDriver::curvature_correction(const LegPlace& place) const {
+  const double l = rover_.body_length_m;
+  const double across = feedback_ == Feedback::kPose ? place.across_m / (l * l) : 0.0;
+  const double wanted = across + 2.0 * place.heading_rad / l;
+  const double limit = 0.5 / rover_.min_turn_radius_m;
+  return (leg_.command.speed_m_s < 0.0 ? 1.0 : -1.0) * limit * std::tanh(wanted / limit);
+}
+
+PerWheel<WheelCommand> LegDriver::told(double t, const LegPlace& place) const {
+  PerWheel<WheelCommand> told = plain_;
+  if (uses_pose() && t > steered_s_) {
+    DriveCommand corrected = leg_.command;
+    // Comes in with the rates: no jump when steering ends.
+    corrected.curvature_1_m += smooth_step((t - steered_s_) / ramp_s_) * curvature_correction(place);
+    told = wheel_commands(rover_, corrected);
+    for (std::size_t k = 0; k < told.size(); ++k)
+      if (rover_.wheels[k].steerable) told[k] = nearest_to(plain_[k], told[k]);
+  }
+  const double share = rate_share(t);
+  const double steered = steered_s_ > start_s_ ? smooth_step((t - start_s_) / (steered_s_ - start_s_)) : 1.0;
+  for (std::size_t k = 0; k < told.size(); ++k) {
+    told[k].rate_rad_s *= share;
+    told[k].steer_rad = from_rad_[k] + steered * (told[k].steer_rad - from_rad_[k]);
+  }
+  return told;
+}
+
+}  // namespace slipway::sim

@@ -1,0 +1,454 @@
+#include "sim/dynamic/rover_dynamics.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "core/angle.h"
+#include "sim/wheel/entry_angle.h"
+#include "sim/wheel/slip_ratio.h"
+
+namespace slipway::sim {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kStandstillShare = 0.01;  // of the wheels' cruising rate: slower counts as through rest
+constexpr double kStallShare = 0.2;        // of the told rate: a slower wheel is stalled
+constexpr double kStop_nm_rad = 2e4, kStopDamping_s_rad = 1.0;
+constexpr double kSunkenAxle_radii = 0.929;  // 1 - cos of the laws' greatest entry angle
+constexpr double kForgotten_lengths = 8.0;   // of the body: ruts farther behind can't be met any more
+
+double yaw_of(const Eigen::Matrix3d& R) {
+  return std::atan2(R(1, 0), R(0, 0));
+}
+
+Attitude attitude_of(const Eigen::Matrix3d& R) {
+  return {.roll_rad = std::atan2(R(2, 1), R(2, 2)),
+          .pitch_rad = std::asin(std::clamp(-R(2, 0), -1.0, 1.0)),
+          .yaw_rad = yaw_of(R)};
+}
+
+double smallest_cruise_rate(const RoverModel& rover) {
+  double radius = 0.0;
+  for (const WheelModel& wheel : rover.wheels) radius = std::max(radius, wheel.radius_m);
+  return rover.cruise_speed_m_s / radius;
+}
+
+}  // namespace
+
+RoverDynamics::RoverDynamics(const RoverModel& rover, double gravity_m_s2, const Ground& ground,
+                             const DriveSoils& soils, const DynamicOptions& options)
+    : rover_(rover),
+      gravity_m_s2_(gravity_m_s2),
+      ground_(ground),
+      soils_(soils),
+      options_(options),
+      bodies_(rover_multibody(rover)),
+      dynamics_(bodies_.tree),
+      contacts_(rover, gravity_m_s2, options.contact_points, kStandstillShare * smallest_cruise_rate(rover)),
+      standstill_rad_s_(kStandstillShare * smallest_cruise_rate(rover)),
+      drive_control_(
+          control_of(at_temperature(rover.drive, options.motor_temp_c.value_or(rover.drive.reference_temp_c)),
+                     gripping_load_kg_m2())),
+      steering_control_(control_of(rover.steering.value_or(rover.drive), 0.0)),
+      halted_rad_(rover.wheels.size()),
+      told_(rover.wheels.size()),
+      angles_(bodies_.tree.joint_count()),
+      rates_(bodies_.tree.joint_count()),
+      accelerations_(bodies_.tree.joint_count()),
+      kinematics_(rover.wheels.size()),
+      contact_(rover.wheels.size()),
+      drive_(rover.wheels.size()),
+      soil_(rover.wheels.size()),
+      has_soil_(rover.wheels.size(), false),
+      turned_rad_(rover.wheels.size()),
+      last_rate_rad_s_(rover.wheels.size()),
+      trails_(rover.wheels.size()) {
+  lay_out();
+  for (std::size_t k = 0; k < rover_.wheels.size(); ++k)
+    contacts_.set_soil(k, soils_.of(soil_[k]), rover_.cruise_speed_m_s);
+}
+
+void RoverDynamics::lay_out() {
+  int next = angles_at_;
+  for (const RevoluteBody& body : bodies_.tree.bodies()) angle_state_.push_back(body.round ? -1 : next++);
+  twist_at_ = next;
+  rates_at_ = twist_at_ + 6;
+  slips_at_ = rates_at_ + joints();
+  integrals_at_ = slips_at_ + 2 * wheels();
+  size_ = integrals_at_ + wheels();
+}
+
+// A wheel's share of the rover's mass, at its rim.
+double RoverDynamics::gripping_load_kg_m2() const {
+  const double radius = rover_.smallest_wheel_radius_m();
+  return rover_.mass_kg / wheels() * radius * radius;
+}
+
+// A locked wheel's armature is infinite, and not all rovers steer: the drive's rotor is what any control is
+// for. A driven wheel that grips moves its share of the rover too: without it the integral would take tens of
+// seconds to find the load behind a motor of low gear, and each leg would begin short of its speed.
+MotorControl RoverDynamics::control_of(const DriveMotor& motor, double load_kg_m2) const {
+  const double rotor = motor.gear_ratio * motor.gear_ratio * motor.rotor_inertia_kg_m2;
+  const RevoluteBody& wheel = bodies_.tree.bodies()[bodies_.wheel[0]];
+  return {motor, rotor + wheel.mass.inertia_kg_m2(1, 1) + load_kg_m2, standstill_rad_s_};
+}
+
+std::vector<double> RoverDynamics::tolerances(double relative) const {
+  // Of the sizes that matter to a drive: 0.1 m, 0.1 rad, cruising speeds, a slip of 0.1, 10 V.
+  std::vector<double> absolute(size_, relative * 0.1);
+  for (int i = twist_at_; i < slips_at_; ++i) absolute[i] = relative * rover_.cruise_speed_m_s;
+  for (int i = integrals_at_; i < size_; ++i) absolute[i] = relative * 10.0;
+  return absolute;
+}
+
+std::vector<double> RoverDynamics::at_rest(const Stance& stance) {
+  std::vector<double> y(size_, 0.0);
+  const double load = rover_.mass_kg * gravity_m_s2_ / wheels();
+  double sunk = 0.0;
+  for (int k = 0; k < wheels(); ++k) {
+    const Eigen::Vector3d p = stance.p_MB + stance.R_MB * stance.p_B_wheel[k];
+    const Soil& soil = soils_.of(ground_.soil_at(p.x(), p.y()));
+    const WheelGeometry wheel = rover_.wheels[k].geometry();
+    const auto theta = balanced_entry_angle_rad(wheel, soil, load, {});
+    sunk += sinkage_m(wheel.radius_m, theta.value_or(0.5 * kLargestEntryAngleRad)) / wheels();
+  }
+  const Eigen::Quaterniond q(stance.R_MB);
+  origin_M_ = stance.p_MB - sunk * stance.R_MB.col(2);
+  y[3] = q.w(), y[4] = q.x(), y[5] = q.y(), y[6] = q.z();
+  for (int s = 0; s < 2; ++s) {
+    if (bodies_.rocker[s] >= 0)
+      y[angle_state_[bodies_.rocker[s]]] = s == 0 ? stance.rocker_rad : -stance.rocker_rad;
+    if (bodies_.bogie[s] >= 0) y[angle_state_[bodies_.bogie[s]]] = stance.bogie_rad[s];
+  }
+  for (int k = 0; k < wheels(); ++k)
+    if (bodies_.steering[k] >= 0) y[angle_state_[bodies_.steering[k]]] = rover_.wheels[k].steering_offset_rad;
+  return y;
+}
+
+void RoverDynamics::halt(const PerWheel<double>& steered_rad) {
+  driver_ = nullptr;
+  halted_rad_ = steered_rad;
+}
+
+void RoverDynamics::follow(const LegDriver* driver, const Pose2& leg_start) {
+  driver_ = driver;
+  leg_start_ = leg_start;
+  const PerWheel<WheelCommand> plain = wheel_commands(rover_, driver->leg().command);
+  for (std::size_t k = 0; k < plain.size(); ++k)
+    contacts_.set_told_direction(k, plain[k].rate_rad_s < 0.0 ? -1.0 : 1.0);
+}
+
+void RoverDynamics::unpack(const double* y) {
+  p_MB_ = origin_M_ + Vector3d(y[0], y[1], y[2]);
+  R_MB_ = Eigen::Quaterniond(y[3], y[4], y[5], y[6]).normalized().toRotationMatrix();
+  for (int j = 0; j < joints(); ++j) {
+    angles_[j] = angle_state_[j] >= 0 ? y[angle_state_[j]] : 0.0;
+    rates_[j] = y[rates_at_ + j];
+  }
+  dynamics_.set_state(R_MB_, Eigen::Map<const SpatialVector>(y + twist_at_), angles_.data(), rates_.data());
+}
+
+void RoverDynamics::find_kinematics(const double* y) {
+  for (std::size_t k = 0; k < kinematics_.size(); ++k) {
+    const int joint = bodies_.wheel[k];
+    WheelKinematics& at = kinematics_[k];
+    const Vector3d& p_B = dynamics_.pivot_B(joint);
+    at.centre = p_MB_ + R_MB_ * p_B;
+    at.axle.noalias() = R_MB_ * dynamics_.axis_B(joint);
+    at.velocity.noalias() = R_MB_ * dynamics_.point_velocity(joint, p_B);
+    at.rate_rad_s = rates_[joint];
+    at.slip_x = y[slips_at_ + 2 * k];
+    at.slip_y = y[slips_at_ + 2 * k + 1];
+  }
+}
+
+bool RoverDynamics::find_contacts(const double* y) {
+  if (!std::all_of(y, y + size_, [](double value) { return std::isfinite(value); })) return false;
+  unpack(y);
+  find_kinematics(y);
+  if (contacts_.find(ground_, ruts_, kinematics_, contact_)) return true;
+  for (std::size_t k = 0; k < kinematics_.size(); ++k)
+    if (!contacts_.find_ground(ground_, ruts_, k, kinematics_[k], contact_[k]))
+      lost_ground_ = kinematics_[k].centre.head<2>();
+  return false;
+}
+
+void RoverDynamics::add_suspension_torques() {
+  const auto stop = [&](int joint, double limit) {
+    const double beyond = std::abs(angles_[joint]) - limit;
+    if (beyond <= 0.0) return;
+    const double side = angles_[joint] > 0.0 ? 1.0 : -1.0;
+    const double stiff = kStop_nm_rad * beyond * std::sqrt(beyond);
+    dynamics_.add_torque(
+        joint, -side * stiff * std::max(0.0, 1.0 + 1.5 * kStopDamping_s_rad * side * rates_[joint]));
+  };
+  const auto [left, right] = bodies_.rocker;
+  if (left < 0) return;
+  const double e = angles_[left] + angles_[right], e_rate = rates_[left] + rates_[right];
+  const double torque =
+      -bodies_.differential_stiffness_nm_rad * e - bodies_.differential_damping_nms_rad * e_rate;
+  for (const int rocker : bodies_.rocker) {
+    dynamics_.add_torque(rocker, torque);
+    stop(rocker, bodies_.rocker_stop_rad);
+  }
+  for (const int bogie : bodies_.bogie)
+    if (bogie >= 0) stop(bogie, bodies_.bogie_stop_rad);
+}
+
+int RoverDynamics::joint_stops() const {
+  int stops = 0;
+  for (int s = 0; s < 2; ++s) stops += (bodies_.rocker[s] >= 0 ? 1 : 0) + (bodies_.bogie[s] >= 0 ? 1 : 0);
+  return stops;
+}
+
+RoverDynamics::WheelDriveState RoverDynamics::drive_of(std::size_t k, const double* y) const {
+  const WheelModel& wheel = rover_.wheels[k];
+  const double rate = rates_[bodies_.wheel[k]];
+  WheelDriveState out;
+  if (wheel.drive == WheelDrive::kDriven)
+    out.motor = drive_control_.keep_rate(told_[k].rate_rad_s, rate, y[integrals_at_ + k]);
+  out.torque_nm = out.motor.torque_nm - wheel.drag_nm * std::tanh(rate / standstill_rad_s_);
+  return out;
+}
+
+// As in the quasi-static rung: the true attitude is the one that the ground gives and the rover's bias.
+Vector3d RoverDynamics::gravity_M() const {
+  const Vector3d down(0.0, 0.0, -gravity_m_s2_);
+  if (rover_.roll_bias_rad == 0.0 && rover_.pitch_bias_rad == 0.0) return down;
+  Attitude truth = attitude_of(R_MB_);
+  truth.roll_rad += rover_.roll_bias_rad;
+  truth.pitch_rad += rover_.pitch_bias_rad;
+  return R_MB_ * (rotation_MB(truth).transpose() * down);
+}
+
+void RoverDynamics::set_told(double t, const double* y) {
+  if (driver_) {
+    told_ = driver_->told(t, driver_->uses_pose() ? place(y) : LegPlace{});
+  } else {
+    for (std::size_t k = 0; k < told_.size(); ++k) told_[k] = {halted_rad_[k], 0.0};
+  }
+  for (std::size_t k = 0; k < told_.size(); ++k) told_[k] = true_motion(rover_.wheels[k], told_[k]);
+}
+
+bool RoverDynamics::derivative(double t, const double* y, double* rate) {
+  if (!find_contacts(y)) return false;
+  set_told(t, y);
+  add_suspension_torques();
+  for (std::size_t k = 0; k < kinematics_.size(); ++k) {
+    const int joint = bodies_.wheel[k];
+    const ContactState& contact = contact_[k];
+    if (contact.depth_m > 0.0)
+      dynamics_.add_force(joint, dynamics_.pivot_B(joint), R_MB_.transpose() * contact.force,
+                          R_MB_.transpose() * contact.moment);
+    if (const int steering = bodies_.steering[k]; steering >= 0)
+      dynamics_.add_torque(
+          steering,
+          steering_control_.keep_angle(told_[k].steer_rad, angles_[steering], rates_[steering]).torque_nm);
+    drive_[k] = drive_of(k, y);
+    dynamics_.add_torque(joint, drive_[k].torque_nm);
+    rate[slips_at_ + 2 * k] = contact.slip_x_rate;
+    rate[slips_at_ + 2 * k + 1] = contact.slip_y_rate;
+    rate[integrals_at_ + k] =
+        rover_.wheels[k].drive == WheelDrive::kDriven
+            ? drive_control_.integral_rate_v_s(drive_[k].motor, told_[k].rate_rad_s, rates_[joint])
+            : 0.0;
+  }
+  dynamics_.accelerations(gravity_M(), base_rate_, accelerations_.data());
+
+  const Vector3d omega(y[twist_at_], y[twist_at_ + 1], y[twist_at_ + 2]);
+  const Vector3d v(y[twist_at_ + 3], y[twist_at_ + 4], y[twist_at_ + 5]);
+  Eigen::Map<Vector3d>{rate} = R_MB_ * v;
+  const Eigen::Quaterniond q(y[3], y[4], y[5], y[6]);
+  const Eigen::Quaterniond turning = q * Eigen::Quaterniond(0.0, omega.x(), omega.y(), omega.z());
+  const double to_unit = 1.0 - q.squaredNorm();
+  rate[3] = 0.5 * turning.w() + to_unit * q.w();
+  rate[4] = 0.5 * turning.x() + to_unit * q.x();
+  rate[5] = 0.5 * turning.y() + to_unit * q.y();
+  rate[6] = 0.5 * turning.z() + to_unit * q.z();
+  for (int j = 0; j < joints(); ++j) {
+    if (angle_state_[j] >= 0) rate[angle_state_[j]] = rates_[j];
+    rate[rates_at_ + j] = accelerations_[j];
+  }
+  Eigen::Map<SpatialVector>{rate + twist_at_} = base_rate_;
+  return true;
+}
+
+Pose2 RoverDynamics::pose(const double* y) const {
+  const Eigen::Matrix3d R = Eigen::Quaterniond(y[3], y[4], y[5], y[6]).normalized().toRotationMatrix();
+  return {origin_M_.x() + y[0], origin_M_.y() + y[1], yaw_rad_ + wrapped_rad(yaw_of(R) - yaw_rad_)};
+}
+
+double RoverDynamics::tilt_rad(const double* y) const {
+  const Eigen::Matrix3d R = Eigen::Quaterniond(y[3], y[4], y[5], y[6]).normalized().toRotationMatrix();
+  return std::acos(std::clamp(R(2, 2), -1.0, 1.0));
+}
+
+BellyClearance RoverDynamics::belly(const double* y) const {
+  const Eigen::Matrix3d R = Eigen::Quaterniond(y[3], y[4], y[5], y[6]).normalized().toRotationMatrix();
+  return belly_clearance(rover_, ground_, origin_M_ + Vector3d(y[0], y[1], y[2]), R);
+}
+
+double RoverDynamics::speed_m_s(const double* y) const {
+  return Vector3d(y[twist_at_ + 3], y[twist_at_ + 4], y[twist_at_ + 5]).norm();
+}
+
+double RoverDynamics::fastest_wheel_rad_s(const double* y) const {
+  double fastest = 0.0;
+  for (const int joint : bodies_.wheel) fastest = std::max(fastest, std::abs(y[rates_at_ + joint]));
+  return fastest;
+}
+
+PerWheel<double> RoverDynamics::steered_rad(const double* y) const {
+  PerWheel<double> steered(rover_.wheels.size());
+  for (std::size_t k = 0; k < steered.size(); ++k)
+    if (bodies_.steering[k] >= 0)
+      steered[k] = y[angle_state_[bodies_.steering[k]]] - rover_.wheels[k].steering_offset_rad;
+  return steered;
+}
+
+LegPlace RoverDynamics::place(const double* y) const {
+  if (!driver_) return {};
+  const Pose2 now = pose(y);
+  return place_on_leg(driver_->leg(), leg_start_, now, now.yaw_rad - leg_start_.yaw_rad);
+}
+
+bool RoverDynamics::events(double t, const double* y, double* value) {
+  if (!std::all_of(y, y + size_, [](double v) { return std::isfinite(v); })) return false;
+  unpack(y);
+  find_kinematics(y);
+  set_told(t, y);
+  const bool seeks = driver_ && options_.feedback == Feedback::kPose && t < driver_->cruised_s();
+  *value++ = seeks ? 1.0 - driver_->stopping_share() - place(y).share : 1.0;
+  *value++ = kTippedRad - tilt_rad(y);
+  for (std::size_t k = 0; k < kinematics_.size(); ++k) {
+    ContactState contact;
+    if (!contacts_.find_ground(ground_, ruts_, k, kinematics_[k], contact)) {
+      lost_ground_ = kinematics_[k].centre.head<2>();
+      return false;
+    }
+    const double depth = contact.depth_m / rover_.wheels[k].radius_m;
+    *value++ = kSunkenAxle_radii - depth;
+    *value++ = depth;
+    // A ramp is not a stall.
+    const bool driven = rover_.wheels[k].drive == WheelDrive::kDriven && driver_ && t > driver_->ramped_s() &&
+                        t < driver_->cruised_s();
+    const double told = std::abs(told_[k].rate_rad_s);
+    *value++ =
+        driven ? (std::abs(kinematics_[k].rate_rad_s) - kStallShare * told) / standstill_rad_s_ + 1.0 : 1.0;
+  }
+  for (int s = 0; s < 2; ++s)
+    if (bodies_.rocker[s] >= 0) *value++ = bodies_.rocker_stop_rad - std::abs(angles_[bodies_.rocker[s]]);
+  for (int s = 0; s < 2; ++s)
+    if (bodies_.bogie[s] >= 0) *value++ = bodies_.bogie_stop_rad - std::abs(angles_[bodies_.bogie[s]]);
+  return true;
+}
+
+void RoverDynamics::after_step(double t, const double* y) {
+  yaw_rad_ = pose(y).yaw_rad;
+  lost_ground_.reset();
+  unpack(y);
+  find_kinematics(y);
+  set_told(t, y);
+  figures_ = {.slip_ratio = slip_ratio(t, y)};
+  double power = 0.0;
+  for (std::size_t k = 0; k < kinematics_.size(); ++k) {
+    const WheelKinematics& at = kinematics_[k];
+    const std::optional<std::size_t> soil = ground_.soil_at(at.centre.x(), at.centre.y());
+    const Soil& here = soils_.of(soil);
+    const double rim = rover_.wheels[k].radius_m * std::abs(at.rate_rad_s);
+    if (!has_soil_[k] || soil != soil_[k] || here.rate_shear_exponent != 0.0)
+      contacts_.set_soil(k, here, rim);
+    has_soil_[k] = true;
+    soil_[k] = soil;
+    const MotorDrive motor = drive_of(k, y).motor;
+    power += motor.electric_power_w;
+    figures_.current_a = std::max(figures_.current_a, std::abs(motor.current_a));
+    if (stepped_) turned_rad_[k] += 0.5 * (at.rate_rad_s + last_rate_rad_s_[k]) * (t - last_t_);
+    last_rate_rad_s_[k] = at.rate_rad_s;
+  }
+  if (stepped_) energy_j_ += 0.5 * (power + last_power_w_) * (t - last_t_);
+  last_power_w_ = power;
+  last_t_ = t;
+  stepped_ = true;
+  for (std::size_t k = 0; k < kinematics_.size(); ++k) {
+    ContactState contact;
+    if (!contacts_.find_ground(ground_, ruts_, k, kinematics_[k], contact) || contact.depth_m <= 0.0)
+      continue;
+    figures_.sinkage_m = std::max(figures_.sinkage_m, contact.depth_m + contact.rut_m);
+    const WheelModel& wheel = rover_.wheels[k];
+    trails_[k].move_to(kinematics_[k].centre.head<2>(), contact.depth_m + contact.rut_m, wheel.width_m,
+                       wheel.radius_m + 2.0 * ruts_.cell_m(), ruts_);
+  }
+  if (!options_.keep_ruts) ruts_.forget_beyond(p_MB_.head<2>(), kForgotten_lengths * rover_.body_length_m);
+}
+
+void RoverDynamics::reset_counts() {
+  energy_j_ = 0.0;
+  for (double& turned : turned_rad_) turned = 0.0;
+}
+
+DriveSample RoverDynamics::sample(double t, const double* y) {
+  std::vector<double> rate(size_);
+  DriveSample out;
+  derivative(t, y, rate.data());
+  out.time_s = t;
+  out.p_MB = p_MB_;
+  out.attitude = attitude_of(R_MB_);
+  out.attitude.yaw_rad = pose(y).yaw_rad;
+  out.angular_rate_B = {y[twist_at_], y[twist_at_ + 1], y[twist_at_ + 2]};
+  out.velocity_B = {y[twist_at_ + 3], y[twist_at_ + 4], y[twist_at_ + 5]};
+  out.specific_force_B = base_rate_.tail<3>() + out.angular_rate_B.cross(out.velocity_B) -
+                         R_MB_.transpose() * Vector3d(0.0, 0.0, -gravity_m_s2_);
+  for (int s = 0; s < 2; ++s) {
+    if (bodies_.rocker[s] >= 0) out.rocker_rad[s] = angles_[bodies_.rocker[s]];
+    if (bodies_.bogie[s] >= 0) out.bogie_rad[s] = angles_[bodies_.bogie[s]];
+  }
+  const std::size_t count = rover_.wheels.size();
+  out.wheels = PerWheel<WheelState>(count);
+  out.steer_rad = out.told_rate_rad_s = out.voltage_v = PerWheel<double>(count);
+  out.turned_rad = turned_rad_;
+  for (std::size_t k = 0; k < count; ++k) {
+    const ContactState& contact = contact_[k];
+    WheelState& wheel = out.wheels[k];
+    wheel.rate_rad_s = kinematics_[k].rate_rad_s;
+    wheel.in_air = contact.depth_m <= 0.0;
+    wheel.current_a = drive_[k].motor.current_a;
+    wheel.load_n = contact.load_n;
+    wheel.entry_angle_rad = contact.entry_angle_rad;
+    wheel.sinkage_m = std::max(0.0, contact.depth_m) + contact.rut_m;
+    wheel.drawbar_pull_n = contact.drawbar_pull_n;
+    wheel.lateral_force_n = contact.lateral_n;
+    wheel.torque_nm = contact.torque_nm;
+    wheel.slip_ratio = bounded_slip(slip_from_speed_ratio(contact.motion.forward));
+    wheel.slip_angle_rad = std::atan2(contact.motion.leftward, contact.motion.forward);
+    if (bodies_.steering[k] >= 0) out.steer_rad[k] = angles_[bodies_.steering[k]];
+    if (rover_.wheels[k].drive == WheelDrive::kDriven) out.told_rate_rad_s[k] = told_[k].rate_rad_s;
+    out.voltage_v[k] = drive_[k].motor.voltage_v;
+    out.turned_rad[k] += 0.5 * (wheel.rate_rad_s + last_rate_rad_s_[k]) * (t - last_t_);
+  }
+  if (const std::optional<double> slip = slip_ratio(t, y)) {
+    out.slip_ratio = *slip;
+    out.driving = true;
+  }
+  return out;
+}
+
+std::optional<double> RoverDynamics::slip_ratio(double t, const double* y) const {
+  if (!driver_ || driver_->rate_share(t) <= 0.5) return std::nullopt;
+  const DriveCommand& command = driver_->leg().command;
+  const double told = driver_->rate_share(t) * attainable_share(rover_, command) *
+                      (command.turn_in_place ? command.turn_rate_rad_s : command.speed_m_s);
+  const Eigen::Vector2d velocity_B(y[twist_at_ + 3], y[twist_at_ + 4]);
+  const double done = command.turn_in_place ? y[twist_at_ + 2] : travel_direction(command).dot(velocity_B);
+  return bounded_slip(slip_from_speed_ratio(done / told));
+}
+
+double RoverDynamics::mechanical_energy_j(const double* y) {
+  unpack(y);
+  const Vector3d com = p_MB_ + R_MB_ * dynamics_.com_B();
+  return dynamics_.kinetic_energy_j() + bodies_.tree.mass_kg() * gravity_m_s2_ * com.z();
+}
+
+}  // namespace slipway::sim

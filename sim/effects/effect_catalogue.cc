@@ -1,0 +1,162 @@
+#include "sim/effects/effect_catalogue.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "sim/effects/attitude_bias.h"
+#include "sim/effects/bulldozing.h"
+#include "sim/effects/com_offset.h"
+#include "sim/effects/dragging_wheel.h"
+#include "sim/effects/duricrust.h"
+#include "sim/effects/gearbox_friction.h"
+#include "sim/effects/grousers.h"
+#include "sim/effects/hardpan.h"
+#include "sim/effects/motor_temperature.h"
+#include "sim/effects/multipass.h"
+#include "sim/effects/rate_shear.h"
+#include "sim/effects/side_bulldozing.h"
+#include "sim/effects/slip_sinkage.h"
+#include "sim/effects/smooth_rim.h"
+#include "sim/effects/soft_patch.h"
+#include "sim/effects/soil_gravity.h"
+#include "sim/effects/steering_offset.h"
+#include "sim/effects/wheel_radius.h"
+
+namespace slipway::sim {
+namespace {
+
+std::span<const Effect> rows() {
+  static const std::array kRows{
+      kSlipSinkage,      kMultipass,       kGrousers,       kBulldozing,    kSideBulldozing, kComOffset,
+      kMotorTemperature, kGearboxFriction, kWheelRadius,    kDraggingWheel, kRateShear,      kDuricrust,
+      kHardpan,          kSoftPatch,       kSteeringOffset, kAttitudeBias,  kSoilGravity,    kSmoothRim};
+  return kRows;
+}
+
+template <class Rows>
+std::string names_of(const Rows& all) {
+  std::string list;
+  for (const auto& row : all) list += fmt::format("{}{}", list.empty() ? "" : ", ", row.name);
+  return list;
+}
+
+void check_parameters(const Effect& effect, const EffectSetting& setting, std::size_t index,
+                      std::vector<Fault>& faults) {
+  for (const auto& [name, value] : setting.parameters) {
+    const std::string pointer = fmt::format("/{}/parameters/{}", index, name);
+    const auto field = std::find_if(effect.fields.begin(), effect.fields.end(),
+                                    [&key = name](const Field& f) { return f.name == key; });
+    if (field == effect.fields.end()) {
+      faults.push_back({pointer, fmt::format("unknown parameter \"{}\" of {}, known are: {}", name,
+                                             effect.name, names_of(effect.fields))});
+    } else if (!(value >= field->lowest && value <= field->highest)) {
+      faults.push_back({pointer, fmt::format("{} = {:g}, must be in [{:g}, {:g}]", name, value, field->lowest,
+                                             field->highest)});
+    }
+  }
+}
+
+// Calls act(effect, values) for every row that is switched on, in the catalogue's order.
+template <class Act>
+void for_each_on(std::span<const EffectSetting> settings, const Act& act) {
+  for (const Effect& effect : rows()) {
+    const auto is_this = [&](const EffectSetting& s) { return s.name == effect.name; };
+    const auto setting = std::find_if(settings.begin(), settings.end(), is_this);
+    if (setting == settings.end() || !setting->on) continue;
+    std::vector<double> values;
+    for (const Field& field : effect.fields) {
+      const auto given = setting->parameters.find(std::string(field.name));
+      values.push_back(given == setting->parameters.end() ? field.initial : given->second);
+    }
+    act(effect, values);
+  }
+}
+
+}  // namespace
+
+std::span<const Effect> effect_catalogue() {
+  return rows();
+}
+
+const Effect* find_effect(std::string_view name) {
+  const auto all = rows();
+  const auto row = std::find_if(all.begin(), all.end(), [name](const Effect& e) { return e.name == name; });
+  return row == all.end() ? nullptr : &*row;
+}
+
+std::vector<Fault> faults_of(std::span<const EffectSetting> settings) {
+  std::vector<Fault> faults;
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    const EffectSetting& setting = settings[i];
+    const auto same = [&](const EffectSetting& other) { return other.name == setting.name; };
+    if (std::any_of(settings.begin(), settings.begin() + static_cast<std::ptrdiff_t>(i), same))
+      faults.push_back(
+          {fmt::format("/{}/name", i), fmt::format("effect \"{}\" is switched on twice", setting.name)});
+    if (const Effect* effect = find_effect(setting.name)) {
+      check_parameters(*effect, setting, i, faults);
+    } else {
+      faults.push_back({fmt::format("/{}/name", i),
+                        fmt::format("unknown effect \"{}\", known are: {}", setting.name, names_of(rows()))});
+    }
+  }
+  return faults;
+}
+
+std::vector<Fault> faults_of(std::span<const EffectSetting> settings, const RoverModel& rover) {
+  std::vector<Fault> faults;
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    const auto wheel = settings[i].parameters.find("wheel");
+    if (wheel == settings[i].parameters.end()) continue;
+    const double last = static_cast<double>(rover.wheels.size()) - 1.0;
+    if (wheel->second != std::round(wheel->second) || wheel->second > last)
+      faults.push_back({fmt::format("/{}/parameters/wheel", i),
+                        fmt::format("wheel = {:g}, must be a whole number up to {:g}: {} has {} wheels",
+                                    wheel->second, last, rover.name, rover.wheels.size())});
+  }
+  return faults;
+}
+
+void apply_effects(std::span<const EffectSetting> settings, RoverModel& rover) {
+  for_each_on(settings, [&](const Effect& effect, std::span<const double> values) {
+    if (effect.on_rover) effect.on_rover(values, rover);
+  });
+}
+
+void apply_effects(std::span<const EffectSetting> settings, Soil& soil) {
+  for_each_on(settings, [&](const Effect& effect, std::span<const double> values) {
+    if (effect.on_soil && !effect.region) effect.on_soil(values, soil);
+  });
+}
+
+std::vector<Disc> effect_regions(std::span<const EffectSetting> settings) {
+  std::vector<Disc> regions;
+  for_each_on(settings, [&](const Effect& effect, std::span<const double> values) {
+    if (effect.region) regions.push_back(effect.region(values));
+  });
+  return regions;
+}
+
+void apply_in_region(std::span<const EffectSetting> settings, std::size_t region, Soil& soil) {
+  std::size_t index = 0;
+  for_each_on(settings, [&](const Effect& effect, std::span<const double> values) {
+    if (effect.region && index++ == region) effect.on_soil(values, soil);
+  });
+}
+
+std::vector<EffectSetting> in_force(std::span<const EffectSetting> rovers,
+                                    std::span<const EffectSetting> requested) {
+  std::vector<EffectSetting> all;
+  for (const EffectSetting& own : rovers) {
+    const auto same = [&](const EffectSetting& other) { return other.name == own.name; };
+    if (std::none_of(requested.begin(), requested.end(), same)) all.push_back(own);
+  }
+  all.insert(all.end(), requested.begin(), requested.end());
+  std::erase_if(all, [](const EffectSetting& setting) { return !setting.on; });
+  return all;
+}
+
+}  // namespace slipway::sim

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/pose.h"
+#include "core/progress.h"
+#include "core/result.h"
+#include "sim/prediction/drive_limits.h"
+#include "sim/quasi_static/quasi_static.h"
+#include "sim/rover/ground.h"
+#include "sim/rover/rover_model.h"
+#include "sim/soil/soil.h"
+
+namespace slipway::sim {
+
+// One place of a path at which the rover is balanced. Stations are in driving order.
+struct PathStation {
+  Pose2 pose;
+  double distance_m = 0.0;     // driven by B since the path's start
+  double turned_rad = 0.0;     // turned in place between the previous station and this one, signed
+  double curvature_1_m = 0.0;  // of the arc through this station
+  bool turning_in_place = false;
+  bool backwards = false;
+  double crab_rad = 0.0;  // direction of travel from the rover's x axis, positive to the left
+};
+
+// Beliefs about the ground, in the order of Ground::soil_at's index, and the one for where it is unknown.
+struct SoilBeliefs {
+  std::vector<SoilDistribution> known;
+  SoilDistribution unknown;
+
+  const SoilDistribution& of(std::optional<std::size_t> soil) const { return soil ? known[*soil] : unknown; }
+};
+
+struct StationPrediction {
+  PathStation station;
+  double height_m = 0.0;
+  Attitude attitude;
+  double clearance_m = 0.0;
+  std::optional<std::size_t> soil;  // under B's origin; nothing on unknown ground
+  bool on_unknown_ground = false;   // any wheel
+  StationState state;               // under the beliefs' mean soils
+  double elapsed_s = 0.0;           // since the start
+  // Over the soil draws (see RiskOptions); equal to the state's where there were none.
+  double slip_ratio_p05 = 0.0, slip_ratio_p50 = 0.0, slip_ratio_p95 = 0.0;
+  double current_a_p95 = 0.0;  // of the worst wheel
+  double sinkage_m_p95 = 0.0;  // of the worst wheel
+  double risk = 0.0;           // share of draws that break a limit or are immobilised here
+};
+
+struct Immobilisation {
+  double distance_m = 0.0;
+  Pose2 pose;
+  std::string reason;  // "no traction: ..." with the numbers
+};
+
+// A drive as predicted. "Immobilised at 41 m" is an answer, not an error.
+struct DrivePrediction {
+  std::vector<std::string> wheel_names;  // in the order of every station's wheels
+  std::vector<StationPrediction> stations;
+  double length_m = 0.0;
+  double turned_rad = 0.0;       // in place, in all
+  double duration_s = 0.0;       // under the mean soils
+  double energy_j = 0.0;         // of the drive motors
+  double mean_slip_ratio = 0.0;  // over the length
+  Peak max_slip_ratio, max_tilt_rad, max_current_a, max_sinkage_m;
+  double unknown_length_m = 0.0;              // driven with any wheel on unknown ground
+  std::optional<Immobilisation> immobilised;  // under the mean soils; the stations end there
+  std::vector<std::string> broken_limits;     // under the mean soils: "slip 0.52 at 31.2 m, limit 0.40"
+  // Over soil draws: the share of whole drives that break a limit or end immobilised, with a 90 % Wilson
+  // interval.
+  int draws = 0;
+  double risk = 0.0, risk_low = 0.0, risk_high = 0.0;
+  double risk_immobilised = 0.0;
+  Peak worst_place;  // the station with the largest risk
+  double duration_s_p95 = 0.0, energy_j_p95 = 0.0;
+};
+
+// Soil draws along a drive. Draw d's soil parameters at distance s follow a first-order autoregressive
+// process with the belief's correlation length; the numbers depend on (seed, draw, soil) only, so routes
+// compared under one seed meet the same luck.
+struct RiskOptions {
+  int draws = 24;
+  double spacing_m = 0.5;  // stations are thinned to about this for the draws
+  std::uint64_t seed = 1;
+};
+
+// The widest spacing of stations that still sees every obstacle a wheel sees.
+double largest_station_spacing_m(const RoverModel& rover);
+
+// Balances the rover at every station under the mean soils, then under the draws, on `threads` threads (0:
+// all). Errors: off_map or no_data where a station has no ground under a wheel (the fault names the station,
+// "/stations/12"), cancelled. An empty path is a broken promise.
+Result<DrivePrediction> predict_drive(const RoverModel& rover, double gravity_m_s2, const Ground& ground,
+                                      const SoilBeliefs& beliefs, std::span<const PathStation> path,
+                                      const DriveLimits& limits, const RiskOptions& risk, std::size_t threads,
+                                      Progress& progress, const DriveConditions& conditions = {});
+
+}  // namespace slipway::sim

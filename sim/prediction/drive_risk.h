@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/progress.h"
+#include "sim/prediction/drive_prediction.h"
+
+namespace slipway::sim {
+
+// A station with its rover set down: what all soil draws of a drive share.
+struct PreparedStation {
+  Stance stance;
+  PerWheel<std::optional<std::size_t>> soil;  // index of the belief under each wheel; nothing: unknown
+  DriveCommand command;
+  double distance_m = 0.0;
+  double drive_m = 0.0;   // since the last station
+  double turn_rad = 0.0;  // in place since the last station, without sign
+};
+
+// The largest current and deepest sinkage of a state's wheels.
+double largest_current_a(const StationState& state);
+double deepest_sinkage_m(const StationState& state);
+
+// Whether the motion at a station breaks a limit that depends on the soil.
+bool breaks(const DriveLimits& limits, const StationState& state);
+// Whether the ground's shape alone breaks one.
+bool breaks(const DriveLimits& limits, const Stance& stance);
+
+// Time for the station's part of the drive and energy spent in it, at the station's balance.
+struct Effort {
+  double duration_s = 0.0;
+  double energy_j = 0.0;
+};
+Effort effort_of(const PreparedStation& station, const StationState& state);
+
+// Fills the prediction's fields over soil draws (risk, intervals, quantiles per station). False where
+// cancelled.
+bool assess_risk(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs& beliefs,
+                 std::span<const PreparedStation> stations, const DriveLimits& limits,
+                 const RiskOptions& options, std::size_t threads, Progress& progress,
+                 DrivePrediction& prediction);
+
+}  // namespace slipway::sim

@@ -1,0 +1,234 @@
+#include "sim/quasi_static/balance_search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
+
+#include "sim/wheel/entry_angle.h"
+
+namespace slipway::sim {
+namespace {
+
+using Vector = RoverBalance::Vector;
+constexpr int kMotions = RoverBalance::kMotions;
+constexpr double kLeastEntryAngleRad = RoverBalance::kLeastEntryAngleRad;
+
+constexpr double kFastestSpeedRatio = 3.0;  // at 200 % of the wheels' speed it slides away downhill
+constexpr double kTouchingEntryAngleRad = 0.05;
+constexpr std::array<double, 3> kColdStartSpeedRatios{0.9, 0.6, 0.3};
+constexpr double kClearance_m = 1e-9;  // a wheel this far into the ground still counts as hanging
+
+// Entry angles for resting loads by Bekker's closed form; the primary motion at a share of what was
+// commanded. Says which wheels hang.
+Vector cold_start(RoverBalance& balance, const Primary& primary, double share) {
+  Vector x = Vector::Zero(kMotions + balance.wheel_count());
+  x[primary.motion] = primary.sign * share;
+  const RoverBalance::Loads loads = balance.resting_loads_n();
+  for (int k = 0; k < balance.wheel_count(); ++k) {
+    if (balance.in_air(k)) continue;
+    const WheelGeometry& wheel = balance.geometry(k);
+    const double load = std::max(loads[k], 0.02 * balance.weight_n());
+    x[kMotions + k] = entry_angle_rad(wheel.radius_m, bekker_sinkage_m(wheel, balance.soil(k), load));
+  }
+  keep_in_range(x);
+  return x;
+}
+
+// Why no balance was found, read off the last iterate.
+Attempt reason_of(const RoverBalance& balance, const Vector& x) {
+  if (x.head<kMotions>().cwiseAbs().maxCoeff() > kFastestSpeedRatio) return {Outcome::kNoTraction, -1};
+  for (int k = 0; k < balance.wheel_count(); ++k)
+    if (x[kMotions + k] > 0.95 * kLargestEntryAngleRad) return {Outcome::kSunkToAxle, k};
+  for (int k = 0; k < balance.wheel_count(); ++k)
+    if (!balance.in_air(k) && x[kMotions + k] < 10.0 * kLeastEntryAngleRad) return {Outcome::kWheelLifted, k};
+  return {Outcome::kNotConverged, -1};
+}
+
+// The slow and certain way: the net push along the commanded motion falls as the rover goes faster, so its
+// zero is bracketed. No push left at full spin: no traction. Still pushed at three times the wheels' speed:
+// it slides away.
+Attempt bracketed(RoverBalance& balance, const Primary& primary, Vector& x) {
+  const auto push_at = [&](double ratio, Vector& state) -> std::optional<double> {
+    state[primary.motion] = primary.sign * ratio;
+    if (!newton(balance, state, &primary, 60)) return std::nullopt;
+    return primary.sign * balance.residual(state)[primary.equation];
+  };
+  constexpr std::array<double, 7> kRatios{kSpinningSpeedRatio, 0.2, 0.5, 0.8, 1.0, 1.5, kFastestSpeedRatio};
+  std::optional<double> slower_ratio;
+  Vector state = x;
+  bool solved_any = false;
+  for (const double ratio : kRatios) {
+    Vector trial = state;
+    const std::optional<double> push = push_at(ratio, trial);
+    x = trial;
+    if (!push) continue;
+    solved_any = true;
+    state = trial;
+    if (*push <= 0.0) {
+      if (!slower_ratio) return {Outcome::kNoTraction, -1};
+      double low = *slower_ratio, high = ratio;
+      for (int iteration = 0; iteration < 60 && high - low > 1e-12; ++iteration) {
+        Vector full = state;
+        if (newton(balance, full, nullptr, 20)) {
+          x = full;
+          return {};
+        }
+        const double middle = 0.5 * (low + high);
+        const std::optional<double> there = push_at(middle, state);
+        if (!there) return reason_of(balance, state);
+        (*there > 0.0 ? low : high) = middle;
+      }
+      x = state;
+      return {};
+    }
+    slower_ratio = ratio;
+  }
+  return solved_any && slower_ratio == kFastestSpeedRatio ? Attempt{Outcome::kNoTraction, -1}
+                                                          : reason_of(balance, x);
+}
+
+// The wheel in the air that reaches deepest into the ground, where one does.
+std::optional<int> wheel_to_set_down(const RoverBalance& balance, const Vector& x) {
+  std::optional<int> deepest;
+  double lowest = -kClearance_m;
+  for (int k = 0; k < balance.wheel_count(); ++k) {
+    if (!balance.in_air(k)) continue;
+    const double height = balance.height_in_air_m(k, x);
+    if (height >= lowest) continue;
+    lowest = height;
+    deepest = k;
+  }
+  return deepest;
+}
+
+// The wheel that the balance asks to pull the rover down: dragged through cohesive soil a wheel can.
+std::optional<int> pulling_wheel(const RoverBalance& balance) {
+  std::optional<int> lightest;
+  double least = -kBalanceTolerance * balance.weight_n();
+  for (int k = 0; k < balance.wheel_count(); ++k) {
+    const double load = balance.contact(k).forces.vertical_n;
+    if (load >= least) continue;
+    least = load;
+    lightest = k;
+  }
+  return lightest;
+}
+
+// Of a search that failed: the wheel with hardly any hold on the ground.
+std::optional<int> hardly_touching_wheel(const RoverBalance& balance, const Vector& x) {
+  std::optional<int> lightest;
+  double least = 3.0 * kLeastEntryAngleRad;
+  for (int k = 0; k < balance.wheel_count(); ++k) {
+    if (balance.in_air(k) || x[kMotions + k] > least) continue;
+    least = x[kMotions + k];
+    lightest = k;
+  }
+  return lightest;
+}
+
+struct ContactChange {
+  int wheel = -1;
+  bool into_air = false;
+};
+
+// What is wrong with the wheels in contact after a search; nothing where they are the right ones or nothing
+// else can be tried.
+std::optional<ContactChange> contact_change(const RoverBalance& balance, const Vector& x, bool solved) {
+  if (solved) {
+    if (const std::optional<int> deepest = wheel_to_set_down(balance, x))
+      return ContactChange{*deepest, false};
+  }
+  if (!balance.can_spare_a_wheel()) return std::nullopt;
+  const std::optional<int> wheel = solved ? pulling_wheel(balance) : hardly_touching_wheel(balance, x);
+  return wheel ? std::optional(ContactChange{*wheel, true}) : std::nullopt;
+}
+
+// A root beyond full spin is the rover sliding back against its wheels.
+Attempt judged(const RoverBalance& balance, const Primary& primary, const Vector& x) {
+  if (x[primary.motion] * primary.sign < kSpinningSpeedRatio) return {Outcome::kNoTraction, -1};
+  if (const std::optional<int> wheel = pulling_wheel(balance)) return {Outcome::kWheelLifted, *wheel};
+  return {};
+}
+
+// Entry angles that go with the wheels in contact: the least for one in the air, a touch for one just set
+// down.
+Vector with_contacts(const RoverBalance& balance, Vector x) {
+  for (int k = 0; k < balance.wheel_count(); ++k) {
+    double& theta = x[kMotions + k];
+    if (balance.in_air(k)) {
+      theta = kLeastEntryAngleRad;
+    } else if (theta <= kLeastEntryAngleRad) {
+      theta = kTouchingEntryAngleRad;
+    }
+  }
+  return x;
+}
+
+// Newton; and where its answer will not do, another set of wheels in contact, until every one that carries
+// pushes and every other hangs clear. False where that ends without a balance. `inverse` goes with all wheels
+// in contact.
+bool find_in_contact(RoverBalance& balance, int most_iterations, Vector& x,
+                     const RoverBalance::Matrix* inverse = nullptr) {
+  const Vector start = x;
+  for (int round = 0; round <= 2 * balance.wheel_count(); ++round) {
+    const bool solved =
+        newton(balance, x, nullptr, most_iterations, balance.all_in_contact() ? inverse : nullptr);
+    const std::optional<ContactChange> change = contact_change(balance, x, solved);
+    if (!change) return solved;
+    balance.set_in_air(change->wheel, change->into_air);
+    x = with_contacts(balance, solved ? x : start);
+  }
+  return false;
+}
+
+// The same around the slow and certain way.
+Attempt bracketed_in_contact(RoverBalance& balance, const Primary& primary, Vector& x) {
+  const Vector start = x;
+  for (int round = 0; round <= 2 * balance.wheel_count(); ++round) {
+    const Attempt attempt = bracketed(balance, primary, x);
+    std::optional<ContactChange> change;
+    if (attempt.outcome == Outcome::kMoving) change = contact_change(balance, x, true);
+    if (attempt.outcome == Outcome::kWheelLifted && balance.can_spare_a_wheel())
+      change = ContactChange{attempt.wheel, true};
+    if (!change) return attempt.outcome == Outcome::kMoving ? judged(balance, primary, x) : attempt;
+    balance.set_in_air(change->wheel, change->into_air);
+    x = with_contacts(balance, start);
+  }
+  return {Outcome::kNotConverged, -1};
+}
+
+}  // namespace
+
+Primary primary_of(const DriveCommand& command) {
+  if (command.turn_in_place) return {2, 5, command.turn_rate_rad_s < 0.0 ? -1.0 : 1.0};
+  return {0, 0, command.speed_m_s < 0.0 ? -1.0 : 1.0};
+}
+
+Attempt find_balance(RoverBalance& balance, const Primary& primary, bool warm, Vector& x,
+                     const RoverBalance::Matrix* inverse, Thoroughness thoroughness) {
+  if (!balance.any_driven()) {
+    x = cold_start(balance, primary, 0.0);
+    return {Outcome::kNoTraction, -1};
+  }
+  if (warm) {
+    if (balance.can_spare_a_wheel()) {
+      balance.resting_loads_n();  // for the wheels that hang
+      x = with_contacts(balance, x);
+    }
+    if (find_in_contact(balance, 20, x, inverse)) return judged(balance, primary, x);
+  }
+  // A dead wheel's soil forces turn over within a thousandth of the speed: there the first start often fails
+  // where another finds the balance.
+  const std::span<const double> starts(kColdStartSpeedRatios.data(), balance.all_driven() ? 1 : 3);
+  for (const double share : starts) {
+    x = cold_start(balance, primary, share);
+    if (find_in_contact(balance, 40, x)) return judged(balance, primary, x);
+  }
+  if (thoroughness == Thoroughness::kQuick) return {Outcome::kNotConverged, -1};
+  x = cold_start(balance, primary, kColdStartSpeedRatios[0]);
+  return bracketed_in_contact(balance, primary, x);
+}
+
+}  // namespace slipway::sim

@@ -1,0 +1,137 @@
+// The statically undetermined part of RoverBalance: which wheels carry, and how depths and gaps go together.
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "sim/quasi_static/rover_balance.h"
+#include "sim/rover/multipass.h"
+#include "sim/wheel/entry_angle.h"
+
+namespace slipway::sim {
+namespace {
+
+// z_ref is never less than this share of the radius: on rock the wheels hardly sink.
+constexpr double kLeastSinkageRatio = 0.01;
+
+}  // namespace
+
+void RoverBalance::set_gap_gradient() {
+  const int n = wheel_count();
+  gap_gradient_.resize(n, 3 + joints_);
+  gap_.resize(n);
+  double sinkage = 0.0, radius = 0.0;
+  for (int k = 0; k < n; ++k) {
+    const Eigen::Vector3d& normal = stance_.normal_B[k];
+    const Eigen::Vector3d& p = stance_.p_B_wheel[k];
+    gap_[k] = stance_.gap_m[k] - places_[k].highest_m;
+    gap_gradient_(k, 0) = normal.z();
+    gap_gradient_(k, 1) = normal.dot(Eigen::Vector3d::UnitX().cross(p)) / length_;
+    gap_gradient_(k, 2) = normal.dot(Eigen::Vector3d::UnitY().cross(p)) / length_;
+    for (int j = 0; j < joints_; ++j)
+      gap_gradient_(k, 3 + j) = normal.dot(joint_motion(rover_, stance_, k, j).shift) / length_;
+    if (undetermined_ == 0) continue;
+    sinkage += bekker_sinkage_m(places_[k].geometry, soils_[k], weight_ / n) / n;
+    radius += places_[k].geometry.radius_m / n;
+  }
+  if (undetermined_ > 0) sinkage_scale_m_ = std::max(kLeastSinkageRatio * radius, std::min(radius, sinkage));
+}
+
+void RoverBalance::set_compatibility() {
+  const int spare = in_contact_ - (3 + joints_);
+  compatibility_of_gap_.resize(spare);
+  compatibility_.setZero(spare, wheel_count());
+  if (spare == 0) return;
+  GapGradient a(in_contact_, 3 + joints_);
+  Loads gap(in_contact_);
+  PerWheel<int> wheel(in_contact_);
+  for (int k = 0, row = 0; k < wheel_count(); ++k) {
+    if (in_air_[k]) continue;
+    a.row(row) = gap_gradient_.row(k);
+    gap[row] = gap_[k];
+    wheel[row++] = k;
+  }
+  // The last columns of Q in A = Q R span the null space of A^T.
+  using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostWheels, kMostWheels>;
+  const Square q = a.householderQr().householderQ() * Square::Identity(in_contact_, in_contact_);
+  const Square z = q.rightCols(spare).transpose() / sinkage_scale_m_;
+  compatibility_of_gap_ = z * gap;
+  // Depths are linear in the own sinkages: column k is what a unit of wheel k's leaves in its followers'
+  // ruts.
+  for (int k = 0; k < wheel_count(); ++k) {
+    if (in_air_[k]) continue;
+    PerWheel<double> unit(wheel_count());
+    unit[k] = 1.0;
+    const PerWheel<double> depth = sim::total_sinkages_m(leaders_, rut_shares_, unit);
+    for (int row = 0; row < in_contact_; ++row) compatibility_.col(k) += z.col(row) * depth[wheel[row]];
+  }
+}
+
+void RoverBalance::set_in_air(int k, bool in_air) {
+  if (in_air_[k] == in_air) return;
+  in_air_[k] = in_air;
+  at_.resize(0);
+  in_contact_ += in_air ? -1 : 1;
+  set_compatibility();
+}
+
+// Over the wheels S in contact: A_S^T A_S q = A_S^T height_S + push.
+RoverBalance::Freedoms RoverBalance::body_motion(const Loads& height_m, const Freedoms& push) const {
+  using Normal = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostFreedoms, kMostFreedoms>;
+  Normal normal = Normal::Zero(push.size(), push.size());
+  Freedoms right = push;
+  for (int k = 0; k < wheel_count(); ++k) {
+    if (in_air_[k]) continue;
+    normal += gap_gradient_.row(k).transpose() * gap_gradient_.row(k);
+    right += gap_gradient_.row(k).transpose() * height_m[k];
+  }
+  return normal.ldlt().solve(right);
+}
+
+// A spring's load is -stiffness (gap + A q), and A^T load + gravity = 0.
+RoverBalance::Loads RoverBalance::resting_loads_n() {
+  // Where every load is determined, this start is the only one to ask for the gradient.
+  if (undetermined_ == 0) set_gap_gradient();
+  const int n = wheel_count();
+  const double stiffness = 1.0 / (n * sinkage_scale_m_);  // per unit of weight
+  Freedoms pull(3 + joints_);
+  pull.head<3>() = gravity_.segment<3>(2);
+  pull.tail(joints_) = gravity_.tail(joints_);
+  Loads load = Loads::Zero(n);
+  for (int round = 0; round < 2 * n; ++round) {
+    const Freedoms q = body_motion(-gap_, pull / stiffness);
+    int lightest = -1, deepest = -1;
+    for (int k = 0; k < n; ++k) {
+      load[k] = -stiffness * (gap_[k] + gap_gradient_.row(k).dot(q));
+      if (!in_air_[k] && load[k] < 0.0 && (lightest < 0 || load[k] < load[lightest])) lightest = k;
+      if (in_air_[k] && load[k] > 0.0 && (deepest < 0 || load[k] > load[deepest])) deepest = k;
+    }
+    if (lightest >= 0 && can_spare_a_wheel()) {
+      set_in_air(lightest, true);
+    } else if (deepest >= 0) {
+      set_in_air(deepest, false);
+    } else {
+      break;
+    }
+  }
+  for (int k = 0; k < n; ++k)
+    if (in_air_[k]) load[k] = 0.0;
+  return load * weight_;
+}
+
+PerWheel<double> RoverBalance::total_sinkages_m(const Vector& unknowns) const {
+  PerWheel<double> own(wheel_count());
+  for (int k = 0; k < wheel_count(); ++k)
+    own[k] = in_air_[k] ? 0.0 : sinkage_m(places_[k].geometry.radius_m, unknowns[kMotions + k]);
+  return sim::total_sinkages_m(leaders_, rut_shares_, own);
+}
+
+double RoverBalance::height_in_air_m(int wheel, const Vector& unknowns) const {
+  const PerWheel<double> depth = total_sinkages_m(unknowns);
+  Loads height(wheel_count());
+  for (int k = 0; k < wheel_count(); ++k) height[k] = -(gap_[k] + depth[k]);
+  const Freedoms q = body_motion(height, Freedoms::Zero(3 + joints_));
+  return gap_gradient_.row(wheel).dot(q) - height[wheel];
+}
+
+}  // namespace slipway::sim

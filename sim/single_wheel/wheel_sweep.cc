@@ -1,0 +1,148 @@
+#include "sim/single_wheel/wheel_sweep.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/angle.h"
+
+namespace slipway::sim {
+namespace {
+
+std::size_t rows_of(const WheelSweep& sweep) {
+  std::size_t rows = 1;
+  for (const SweepAxis& axis : sweep.axes) rows *= axis.values.size();
+  return rows;
+}
+
+// The rig of one row, and the values it stands at.
+WheelRig rig_of(const WheelSweep& sweep, std::size_t row, std::vector<double>& at) {
+  WheelRig rig = sweep.rig;
+  at.resize(sweep.axes.size());
+  for (std::size_t a = sweep.axes.size(); a-- > 0;) {
+    const SweepAxis& axis = sweep.axes[a];
+    at[a] = axis.values[row % axis.values.size()];
+    row /= axis.values.size();
+  }
+  for (const SweepSetting& setting : sweep.set) set_sweep_parameter(setting.parameter, setting.value, rig);
+  for (std::size_t a = 0; a < sweep.axes.size(); ++a)
+    set_sweep_parameter(sweep.axes[a].parameter, at[a], rig);
+  return rig;
+}
+
+std::string unknown_parameter(const std::string& parameter) {
+  std::string known;
+  for (const std::string& name : sweep_field_names()) known += (known.empty() ? "" : ", ") + name;
+  return fmt::format("\"{:.80}\" is nothing a single wheel can be swept over, known: {}", parameter, known);
+}
+
+// Nothing where the value is in the parameter's range.
+std::optional<std::string> out_of_range(const std::string& parameter, const Field& field, double value) {
+  if (value >= field.lowest && value <= field.highest) return std::nullopt;
+  return fmt::format("{} = {:g}{}{}, must be in [{:g}, {:g}]", parameter, value, field.unit == "1" ? "" : " ",
+                     field.unit == "1" ? "" : field.unit, field.lowest, field.highest);
+}
+
+void check_axis(const SweepAxis& axis, const std::string& pointer, std::vector<Fault>& faults) {
+  const auto field = sweep_field(axis.parameter);
+  if (!field) return faults.push_back({pointer + "/parameter", unknown_parameter(axis.parameter)});
+  for (std::size_t i = 0; i < axis.values.size(); ++i) {
+    if (const auto fault = out_of_range(axis.parameter, *field, axis.values[i]))
+      return faults.push_back({fmt::format("{}/values/{}", pointer, i), *fault});  // one of a range is enough
+  }
+}
+
+void check_setting(const SweepSetting& setting, std::vector<Fault>& faults) {
+  const std::string pointer = "/set/" + setting.parameter;
+  const auto field = sweep_field(setting.parameter);
+  if (!field) return faults.push_back({pointer, unknown_parameter(setting.parameter)});
+  if (const auto fault = out_of_range(setting.parameter, *field, setting.value))
+    faults.push_back({pointer, *fault});
+}
+
+// Where the blame for a row's fault lies: the axis that sets the parameter, or the parameter itself.
+std::string pointer_to(const WheelSweep& sweep, std::string_view parameter) {
+  for (std::size_t a = 0; a < sweep.axes.size(); ++a) {
+    if (sweep.axes[a].parameter == parameter) return fmt::format("/sweep/{}", a);
+  }
+  return fmt::format("/{}", parameter);
+}
+
+// What no rig can do; nothing where it can.
+std::optional<Fault> impossible(const WheelSweep& sweep, const SingleWheelTest& test) {
+  constexpr double kRight = 0.5 * std::numbers::pi * (1.0 - 1e-9);
+  if (test.slip_definition == SlipDefinition::kForward && std::abs(test.slip_angle_rad) >= kRight)
+    return Fault{pointer_to(sweep, "slip_angle_deg"),
+                 "slip_angle_deg = 90 deg, must be below 90 where slip is by the forward speed, which is 0 "
+                 "there; slip_definition \"travel\" knows a slip at 90 deg"};
+  const double deepest = sinkage_m(test.wheel.radius_m, kLargestEntryAngleRad);
+  if (test.sinkage_m && *test.sinkage_m > deepest)
+    return Fault{
+        pointer_to(sweep, "sinkage_m"),
+        fmt::format("sinkage_m = {:g} m, must be at most {:.6g}: the axle", *test.sinkage_m, deepest)};
+  if (!(test.soil.pressure.stiffness(test.wheel.width_m) > 0.0))
+    return Fault{"/soil", fmt::format("k_c / b + k_phi = {:g}, must be positive for a wheel of width {:g} m",
+                                      test.soil.pressure.stiffness(test.wheel.width_m), test.wheel.width_m)};
+  return std::nullopt;
+}
+
+}  // namespace
+
+double rounded_to_twelve(double value) {
+  return std::stod(fmt::format("{:.12g}", value));
+}
+
+std::vector<double> stepped(double lowest, double highest, double step) {
+  std::vector<double> values;
+  const double steps = std::max(0.0, std::floor((highest - lowest) / step + 1e-9));
+  const double nothing = 1e-12 * std::max(std::abs(lowest), std::abs(highest));
+  for (std::size_t i = 0; static_cast<double>(i) <= steps && i <= kMostSweepRows; ++i) {
+    const double value = lowest + static_cast<double>(i) * step;
+    values.push_back(std::abs(value) <= nothing ? 0.0 : rounded_to_twelve(value));
+  }
+  return values;
+}
+
+std::vector<Fault> parameter_faults(const WheelSweep& sweep) {
+  std::vector<Fault> faults;
+  for (const SweepSetting& setting : sweep.set) check_setting(setting, faults);
+  for (std::size_t a = 0; a < sweep.axes.size(); ++a)
+    check_axis(sweep.axes[a], fmt::format("/sweep/{}", a), faults);
+  return faults;
+}
+
+std::vector<Fault> faults_of(const WheelSweep& sweep) {
+  std::vector<Fault> faults = parameter_faults(sweep);
+  if (sweep.axes.size() > kMostSweepAxes)
+    faults.push_back({"/sweep", fmt::format("sweep has {} axes, must have at most {}", sweep.axes.size(),
+                                            kMostSweepAxes)});
+  if (sweep.axes.size() == 2 && sweep.axes[0].parameter == sweep.axes[1].parameter)
+    faults.push_back({"/sweep/1/parameter", fmt::format("{} is swept twice", sweep.axes[1].parameter)});
+  if (rows_of(sweep) > kMostSweepRows)
+    faults.push_back(
+        {"/sweep", fmt::format("sweep has {} rows, must have at most {}", rows_of(sweep), kMostSweepRows)});
+  if (!faults.empty()) return faults;
+  for (const SweepPoint& point : points_of(sweep)) {
+    if (auto fault = impossible(sweep, point.test)) return {*fault};
+  }
+  return faults;
+}
+
+std::vector<SweepPoint> points_of(const WheelSweep& sweep) {
+  std::vector<SweepPoint> points(rows_of(sweep));
+  for (std::size_t i = 0; i < points.size(); ++i) points[i].test = test_of(rig_of(sweep, i, points[i].at));
+  return points;
+}
+
+std::vector<SweepRow> run_wheel_sweep(const WheelSweep& sweep) {
+  std::vector<SweepRow> rows;
+  for (SweepPoint& point : points_of(sweep)) {
+    SingleWheelResult result = run_single_wheel_test(point.test);
+    rows.push_back({std::move(point), std::move(result)});
+  }
+  return rows;
+}
+
+}  // namespace slipway::sim

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "sim/soil/bulldozing_law.h"
+
+namespace slipway::sim {
+
+// Thrust of one grouser: the passive earth pressure on its face [ARTEMIS eq. 15]
+//
+//   F_g = b (gamma h^2 N_phi / 2 + 2 c h sqrt(N_phi)) cos(alpha),    N_phi = tan^2(pi/4 + phi/2)
+//
+//   b  width, m    h  height, m    gamma  unit weight, N/m^3    c  cohesion, Pa    phi  friction angle
+//
+// with alpha = 0 (grousers straight across). It acts on the grouser at 2/3 of its height, F_g cos(theta)
+// along the travel and F_g sin(theta) upward [ARTEMIS eq. 18, 20]. The count in contact is taken as its mean
+// over a turn, count (theta_f - theta_r) / (2 pi), and each grouser's share of F_g as the share of the shear
+// strength mobilised where it stands: the paper's full F_g would push a wheel that rolls freely. A wedge of
+// soil before a cleat may yield at less displacement than the soil under the rim (Grousers::mobilisation),
+// and that displacement may be of slip alone (Grousers::by_slip): closures, of which the paper says nothing.
+template <class V>
+V grouser_force_n(const V& width_m, const V& height_m, const V& unit_weight_n_m3, const V& cohesion_pa,
+                  const V& tan_phi) {
+  return passive_pressure_n(width_m, height_m, unit_weight_n_m3, cohesion_pa, tan_phi);
+}
+
+// The arm of a grouser's thrust about the axle.
+template <class V>
+V grouser_arm_m(const V& radius_m, const V& height_m) {
+  return radius_m + V(2.0 / 3.0) * height_m;
+}
+
+}  // namespace slipway::sim

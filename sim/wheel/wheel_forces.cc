@@ -1,0 +1,91 @@
+#include "sim/wheel/wheel_forces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "sim/wheel/wheel_kernel.h"
+
+namespace slipway::sim {
+WheelNumbers numbers_of(const WheelGeometry& wheel, const Soil& soil, double entry_angle_rad,
+                        const WheelMotion& motion) {
+  return {.radius = wheel.radius_m,
+          .width = wheel.width_m,
+          .rim_friction = wheel.rim_friction,
+          .grouser_height = wheel.grousers.height_m,
+          .grouser_count = wheel.grousers.count,
+          .per_cleat_shear = 1.0 / (wheel.grousers.mobilisation * soil.shear_modulus_x_m),
+          .cleat_by_slip = wheel.grousers.by_slip,
+          .stiffness = soil.pressure.stiffness(wheel.width_m),
+          .n = soil.pressure.n,
+          .cohesion = soil.cohesion_pa,
+          .phi = soil.friction_angle_rad,
+          .per_shear_x = 1.0 / soil.shear_modulus_x_m,
+          .per_shear_y = 1.0 / soil.shear_modulus_y_m,
+          .c1 = soil.c1,
+          .c2 = soil.c2,
+          .n1 = soil.n1,
+          .n1_skid = soil.n1_skid,
+          .n1_lateral = soil.n1_lateral,
+          .exit_ratio = soil.exit_angle_ratio,
+          .coupling = soil.shear_coupling,
+          .unit_weight = soil.unit_weight_n_m3(),
+          .bulldozing = soil.bulldozing,
+          .side_bulldozing = soil.side_bulldozing,
+          .crust_strength = soil.crust.strength_pa,
+          .per_crust_depth = 1.0 / soil.crust.depth_m,
+          .hardpan_modulus = soil.hardpan.modulus_pa_m,
+          .hardpan_depth = soil.hardpan.depth_m,
+          .theta_f = entry_angle_rad,
+          .forward = motion.forward,
+          .leftward = motion.leftward};
+}
+
+WheelForces wheel_forces(const WheelGeometry& wheel, const Soil& soil, double entry_angle_rad,
+                         const WheelMotion& motion) {
+  const WheelNumbers numbers = numbers_of(wheel, soil, entry_angle_rad, motion);
+  LawParts parts;
+  parts.include(numbers);
+  WheelForces forces;
+  wheel_kernel().one(numbers, parts, forces);
+  return forces;
+}
+
+void wheel_forces(const WheelGeometry& wheel, std::span<const Soil> soils,
+                  std::span<const double> entry_angles_rad, std::span<const WheelMotion> motions,
+                  std::span<WheelForces> forces) {
+  const std::size_t count = soils.size();
+  if (entry_angles_rad.size() != count || motions.size() != count || forces.size() != count)
+    throw std::invalid_argument("wheel_forces: one entry angle, motion and force a soil");
+  constexpr std::size_t kChunk = 64;
+  std::array<WheelNumbers, kChunk> numbers;
+  for (std::size_t first = 0; first < count; first += kChunk) {
+    const std::size_t here = std::min(kChunk, count - first);
+    for (std::size_t k = 0; k < here; ++k)
+      numbers[k] = numbers_of(wheel, soils[first + k], entry_angles_rad[first + k], motions[first + k]);
+    wheel_forces({numbers.data(), here}, forces.subspan(first, here));
+  }
+}
+
+void wheel_forces(std::span<const WheelNumbers> wheels, std::span<WheelForces> forces) {
+  if (forces.size() != wheels.size()) throw std::invalid_argument("wheel_forces: one force a wheel");
+  const WheelKernel& kernel = wheel_kernel();
+  LawParts parts;
+  for (const WheelNumbers& wheel : wheels) parts.include(wheel);
+  const std::size_t rest = wheels.size() % kernel.lanes;
+  const std::size_t packed = 2 * rest < kernel.lanes ? wheels.size() - rest : wheels.size();
+  kernel.many(wheels.data(), parts, forces.data(), packed);
+  for (std::size_t k = packed; k < wheels.size(); ++k) kernel.one(wheels[k], parts, forces[k]);
+}
+
+double sinkage_m(double radius_m, double entry_angle_rad) {
+  const double half = std::sin(0.5 * entry_angle_rad);
+  return 2.0 * radius_m * half * half;
+}
+
+double entry_angle_rad(double radius_m, double sinkage_m) {
+  return 2.0 * std::asin(std::sqrt(std::clamp(0.5 * sinkage_m / radius_m, 0.0, 1.0)));
+}
+
+}  // namespace slipway::sim

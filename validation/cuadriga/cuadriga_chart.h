@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "validation/cuadriga/cuadriga_held_out.h"
+
+namespace slipway::validation {
+
+// Slip and charge per metre against gradient: held-out windows as dots, and what the fit of all logs says of
+// a window at the middle turn rate and wheel speed: median, 50 and 90 %.
+std::string draw_cuadriga_drives(const std::string& title, const CrossValidation& answer);
+
+}  // namespace slipway::validation
