@@ -229,7 +229,7 @@ Result<PredictionAnswer> Service::predict(const PredictionRequest& request, Prog
   auto prediction = planner::predict_path(problem, request.path, progress, request.manner);
   if (!prediction) return fail(prediction.error());
   PredictionAnswer answer{request, std::move(setting->provenance), std::move(*prediction), std::nullopt};
-  if (request.rung == Rung::kDynamic) {
+  if (request.level == FidelityLevel::kDynamic) {
     planner::StageProgress stage(progress, "verifying by dynamics", 0.3, 1.0);
     auto dynamic = planner::verify_path(problem, request.path, answer.prediction, stage, request.manner);
     if (!dynamic) return fail(dynamic.error());

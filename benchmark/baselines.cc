@@ -115,8 +115,8 @@ Correction gaussian_process(const PreparedCampaign& prepared, std::size_t thread
     parallel_for(all.size(), threads, [&](std::size_t s) {
       const auto& [learnt, asked] = *all[s];
       if (learnt.empty()) return;
-      const std::vector<double> told = means(learnt, asked);
-      for (std::size_t i = 0; i < asked.size(); ++i) residuals[asked[i].row] -= told[i];
+      const std::vector<double> predicted = means(learnt, asked);
+      for (std::size_t i = 0; i < asked.size(); ++i) residuals[asked[i].row] -= predicted[i];
     });
     return residuals;
   };
@@ -179,8 +179,8 @@ Result<Diagnosis> shrink_by_gaussian_process(const DriveCampaign& campaign, cons
   const auto prepared = prepared_for(campaign, options, d, progress);
   if (!prepared) return fail(prepared.error());
   auto shrunk =
-      shrink_on_held_out(*prepared, campaign, {{gaussian_process(*prepared, options.search.threads)}, {}},
-                         resample_drives(campaign, options.resamples, options.seed), options, progress);
+      close_gap_on_held_out(*prepared, campaign, {{gaussian_process(*prepared, options.search.threads)}, {}},
+                            resample_drives(campaign, options.resamples, options.seed), options, progress);
   if (!shrunk) return fail(shrunk.error());
   d.verdict = Verdict::kUnknown;
   d.candidates.push_back({{"unknown"}, 1.0, std::nullopt, 0});

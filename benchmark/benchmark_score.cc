@@ -302,7 +302,7 @@ BenchmarkFigures figures_of(std::span<const CaseScore> cases) {
     if (c.wheel_right) count(f.wheel_right, *c.wheel_right);
     if (c.truth_kind == TruthKind::kNothing) count(f.alarm_nothing, c.false_alarm);
     if (c.truth_kind == TruthKind::kParameters) count(f.alarm_parameters, c.false_alarm);
-    if (c.truth_kind == TruthKind::kOutsideLibrary) count(f.unknown_told, c.verdict_right);
+    if (c.truth_kind == TruthKind::kOutsideLibrary) count(f.unknown_reported, c.verdict_right);
     (c.truth_kind == TruthKind::kOutsideLibrary ? outside : inside).push_back(c.unknown_probability);
     statements.push_back({c.stated, c.exact});
     if (c.place_overlap) {

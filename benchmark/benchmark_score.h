@@ -102,7 +102,7 @@ struct BenchmarkFigures {
   Rate exact, alike, exact_sized, alike_sized;  // of campaigns with effects; sized: of size 1 and above
   Rate held, verdict_right;
   Rate alarm_nothing, alarm_parameters;
-  Rate unknown_told;  // verdict "unknown" where the cause is outside the library
+  Rate unknown_reported;  // verdict "unknown" where the cause is outside the library
   Rate confident_wrong;
   Rate wheel_right;
   Rate overlap;  // soft patches whose disc overlaps by half or more

@@ -139,7 +139,7 @@ sim::DriveLeg turn(double rate_rad_s) {
 }
 
 // Up and backward twice, down, across either way; where it is not steep both arcs and a turn on the spot.
-void add_tilted_table(CampaignTable& table, int tilt_deg, bool small, Dice& dice) {
+void add_tilted_table(DriveTable& table, int tilt_deg, bool small, Dice& dice) {
   const std::size_t terrain = table.terrains.size();
   const std::string name = fmt::format("tilt_{:02}", tilt_deg);
   dem::Relief relief;
@@ -168,7 +168,7 @@ void add_tilted_table(CampaignTable& table, int tilt_deg, bool small, Dice& dice
   add("turn", 0.0, 0.0, 1)->legs = {turn(table.rover->turn_rate_rad_s)};
 }
 
-void add_rough_field(CampaignTable& table, Dice& dice) {
+void add_rough_field(DriveTable& table, Dice& dice) {
   constexpr std::array kCurvatures{0.0, 0.0, 0.0, 0.0, 0.15, -0.15};
   constexpr double kFarthest_m = 9.0;
   dem::Relief relief;
@@ -188,7 +188,7 @@ void add_rough_field(CampaignTable& table, Dice& dice) {
 }
 
 // Where drives are told to be, every tenth of their ways.
-std::vector<std::vector<Pose2>> commanded_ways(const CampaignTable& table) {
+std::vector<std::vector<Pose2>> commanded_ways(const DriveTable& table) {
   std::vector<std::vector<Pose2>> ways;
   for (const TableDrive& drive : expand(table)) {
     std::vector<Pose2>& along = ways.emplace_back();
@@ -199,7 +199,7 @@ std::vector<std::vector<Pose2>> commanded_ways(const CampaignTable& table) {
 }
 
 // Where many drives pass, but at most half of them: the others tell the place from the rest.
-sim::Disc place_of_patch(const CampaignTable& table, double radius_m, Dice& dice) {
+sim::Disc place_of_patch(const DriveTable& table, double radius_m, Dice& dice) {
   const std::vector<std::vector<Pose2>> ways = commanded_ways(table);
   sim::Disc best{0.0, 0.0, radius_m};
   std::size_t most = 0;
@@ -276,7 +276,7 @@ SealedCampaign made_of(const Order& order, const std::string& name, std::uint64_
   made.recorded.bus_voltage_v = rover->drive.bus_voltage_v;
   made.recorded.sinkage = order.sinkage;
   made.recorded.more_columns = false;
-  CampaignTable& table = made.driven;
+  DriveTable& table = made.driven;
   table.name = name;
   table.rover = rover;
   table.seed = dice.bits();

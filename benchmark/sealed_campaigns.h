@@ -8,17 +8,17 @@
 #include <string_view>
 #include <vector>
 
-#include "campaign/campaign_table.h"
 #include "campaign/drive_csv.h"
+#include "campaign/drive_table.h"
 #include "sim/effects/effect_catalogue.h"
 
 namespace slipway::campaign {
 
 // A campaign to judge the diagnosis by: drives in motion with something hidden, and what its operators tell.
 struct SealedCampaign {
-  std::string name;        // "d01": says nothing of what is in it
-  CampaignTable driven;    // as it is: the soils' true means, true motors, effects at work
-  CampaignTable believed;  // as its operators know it: of the same drives
+  std::string name;     // "d01": says nothing of what is in it
+  DriveTable driven;    // as it is: the soils' true means, true motors, effects at work
+  DriveTable believed;  // as its operators know it: of the same drives
   // What is hidden. A soft patch is a soil of the driven terrain, not an effect of the driven table.
   std::vector<sim::EffectSetting> hidden;
   std::optional<sim::Disc> place;  // of a soft patch

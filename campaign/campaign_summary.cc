@@ -90,7 +90,7 @@ std::optional<Band> band_of(std::vector<double> values) {
               .highest = values.back()};
 }
 
-std::vector<TerrainSummary> summarise(const CampaignTable& table, std::span<const TableDrive> drives,
+std::vector<TerrainSummary> summarise(const DriveTable& table, std::span<const TableDrive> drives,
                                       const std::map<std::string, DriveRecord>& records) {
   std::vector<Gathered> by_terrain(table.terrains.size());
   for (const TableDrive& drive : drives) {

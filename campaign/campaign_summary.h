@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "campaign/campaign_table.h"
 #include "campaign/drive_record.h"
+#include "campaign/drive_table.h"
 
 namespace slipway::campaign {
 
@@ -39,7 +39,7 @@ struct TerrainSummary {
 
 // In the order of the table's terrains; those without a drive that is done are left out. Drives without a
 // record are not done yet.
-std::vector<TerrainSummary> summarise(const CampaignTable& table, std::span<const TableDrive> drives,
+std::vector<TerrainSummary> summarise(const DriveTable& table, std::span<const TableDrive> drives,
                                       const std::map<std::string, DriveRecord>& records);
 
 }  // namespace slipway::campaign

@@ -8,7 +8,7 @@
 
 namespace slipway::campaign {
 
-DriveRecord record_of(const CampaignTable& table, const TableDrive& drive, const MadeDrive& made,
+DriveRecord record_of(const DriveTable& table, const TableDrive& drive, const MadeDrive& made,
                       const std::string& digest, std::vector<std::string> files) {
   DriveRecord record;
   record.id = drive.id;

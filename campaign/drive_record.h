@@ -26,7 +26,7 @@ struct DriveRecord {
   std::vector<std::pair<std::string, sim::Soil>> soils;  // that it could meet, by name
 };
 
-DriveRecord record_of(const CampaignTable& table, const TableDrive& drive, const MadeDrive& made,
+DriveRecord record_of(const DriveTable& table, const TableDrive& drive, const MadeDrive& made,
                       const std::string& digest, std::vector<std::string> files);
 
 // Final less commanded: how far the drive is from where it should have ended, and how much its heading is

@@ -19,7 +19,7 @@ namespace {
 // Sub-streams of the table's seed.
 enum Stream : std::uint64_t { kSoilStream = 1, kSensorStream = 2 };
 
-sim::Soil soil_of(const CampaignTable& table, const TableDrive& drive, const std::string& name) {
+sim::Soil soil_of(const DriveTable& table, const TableDrive& drive, const std::string& name) {
   const sim::SoilDistribution& belief = table.soils.find(name)->second;
   sim::Soil soil = belief.mean;
   if (table.draw_soils) {
@@ -33,7 +33,7 @@ sim::Soil soil_of(const CampaignTable& table, const TableDrive& drive, const std
   return soil;
 }
 
-sim::DriveSoils soils_of(const CampaignTable& table, const TableDrive& drive) {
+sim::DriveSoils soils_of(const DriveTable& table, const TableDrive& drive) {
   sim::DriveSoils soils;
   for (const std::string& name : soils_of(table.terrains[drive.terrain]))
     soils.known.push_back(soil_of(table, drive, name));
@@ -57,7 +57,7 @@ class WithinCampaign final : public Progress {
 
 }  // namespace
 
-MadeDrive make_drive(const CampaignTable& table, const TableDrive& drive, Simulator simulator,
+MadeDrive make_drive(const DriveTable& table, const TableDrive& drive, Simulator simulator,
                      Progress& progress) {
   const DriveEntry& entry = table.entries[drive.entry];
   const sim::RoverModel rover = driven_rover(table, entry);
@@ -79,7 +79,7 @@ MadeDrive make_drive(const CampaignTable& table, const TableDrive& drive, Simula
   return made;
 }
 
-Result<void> run_campaign(const CampaignTable& table, std::span<const TableDrive> drives,
+Result<void> run_campaign(const DriveTable& table, std::span<const TableDrive> drives,
                           const RunOptions& options, const DriveTaker& taker, Progress& progress) {
   std::atomic<bool> given_up{false};
   std::mutex mutex;

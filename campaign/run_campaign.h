@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "campaign/campaign_table.h"
+#include "campaign/drive_table.h"
 #include "core/progress.h"
 #include "core/result.h"
 #include "sim/dynamic/drive_sensors.h"
@@ -29,7 +29,7 @@ struct RunOptions {
 
 // Makes one drive. Its soil and its sensors' errors depend on the table's seed and the drive's id alone, so
 // that a drive is the same in any company, order and number of threads.
-MadeDrive make_drive(const CampaignTable& table, const TableDrive& drive, Simulator simulator,
+MadeDrive make_drive(const DriveTable& table, const TableDrive& drive, Simulator simulator,
                      Progress& progress);
 
 // Takes a drive that has been made; called from several threads at once. An error ends the campaign.
@@ -37,7 +37,7 @@ using DriveTaker = std::function<Result<void>(const TableDrive&, const MadeDrive
 
 // Makes these drives in parallel and gives each away as soon as it is made: a campaign's memory is that of
 // the drives that are being made. Errors: cancelled; those of the taker.
-Result<void> run_campaign(const CampaignTable& table, std::span<const TableDrive> drives,
+Result<void> run_campaign(const DriveTable& table, std::span<const TableDrive> drives,
                           const RunOptions& options, const DriveTaker& taker, Progress& progress);
 
 }  // namespace slipway::campaign

@@ -40,7 +40,7 @@ void set_in_soil(std::string_view name, double value, sim::Soil& soil) {
 }
 
 // The rover's own setting of the effect is the base, unless the table has one.
-void set_in_effects(const EffectField& place, double value, CampaignTable& table) {
+void set_in_effects(const EffectField& place, double value, DriveTable& table) {
   const auto named = [&](const sim::EffectSetting& s) { return s.name == place.effect; };
   auto setting = std::find_if(table.effects.begin(), table.effects.end(), named);
   if (setting == table.effects.end()) {
@@ -74,7 +74,7 @@ std::vector<Fault> faults_of(const TuneRequest& request) {
   return faults;
 }
 
-double tilt_at_start(const CampaignTable& table, const TableDrive& drive) {
+double tilt_at_start(const DriveTable& table, const TableDrive& drive) {
   const auto surface = table.terrains[drive.terrain].ground->surface(drive.start.x_m, drive.start.y_m);
   return surface ? std::acos(std::clamp(surface->normal.z(), -1.0, 1.0)) : 0.0;
 }
@@ -115,12 +115,12 @@ std::vector<std::string> tuning_field_names() {
   return names;
 }
 
-void set_tuned(std::string_view name, double value, CampaignTable& table) {
+void set_tuned(std::string_view name, double value, DriveTable& table) {
   if (const auto place = effect_field(name)) return set_in_effects(*place, value, table);
   for (auto& [soil_name, soil] : table.soils) set_in_soil(name, value, soil.mean);
 }
 
-Result<TableTuning> tune(const CampaignTable& table, std::span<const TableDrive> drives,
+Result<TableTuning> tune(const DriveTable& table, std::span<const TableDrive> drives,
                          const MeasuredFinals& measured, const TuneRequest& request, Progress& progress) {
   if (auto faults = faults_of(request); !faults.empty())
     return fail(ErrorCode::kInvalidRequest, "the parameters can't be tuned", std::move(faults));
@@ -150,7 +150,7 @@ Result<TableTuning> tune(const CampaignTable& table, std::span<const TableDrive>
                             fmt::join(soils, ", ")));
   result.soil = *soils.begin();
   const gap::FinalPose model = [&](std::size_t drive, std::span<const double> x) -> std::optional<Pose2> {
-    CampaignTable tried = table;
+    DriveTable tried = table;
     tried.draw_soils = false;
     for (std::size_t k = 0; k < x.size(); ++k) set_tuned(request.parameters[k].sweep.name, x[k], tried);
     Quiet quiet(progress);

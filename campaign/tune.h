@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "campaign/campaign_table.h"
+#include "campaign/drive_table.h"
 #include "campaign/run_campaign.h"
 #include "core/field.h"
 #include "core/pose.h"
@@ -24,7 +24,7 @@ std::vector<std::string> tuning_field_names();
 
 // The table with one number changed in all its soils or its effects, for names that tuning_field knows. An
 // effect that is off is switched on.
-void set_tuned(std::string_view name, double value, CampaignTable& table);
+void set_tuned(std::string_view name, double value, DriveTable& table);
 
 using MeasuredFinals = std::map<std::string, Pose2>;  // by the drive's id; headings need not be wrapped
 
@@ -47,7 +47,7 @@ struct TableTuning {
 // Errors: invalid_request for parameters that can't be tuned or ranges beyond what they may be
 // ("/parameters/0 /name"), and for drives on more than one soil; no_data where no drive has a measured end;
 // those of gap::tune_drives.
-Result<TableTuning> tune(const CampaignTable& table, std::span<const TableDrive> drives,
+Result<TableTuning> tune(const DriveTable& table, std::span<const TableDrive> drives,
                          const MeasuredFinals& measured, const TuneRequest& request, Progress& progress);
 
 }  // namespace slipway::campaign

@@ -86,7 +86,7 @@ void add_pose(Chart& chart, const DriveRecord& record) {
 
 }  // namespace
 
-std::string draw_slip_by_terrain(const campaign::CampaignTable& table, std::span<const TableDrive> drives,
+std::string draw_slip_by_terrain(const campaign::DriveTable& table, std::span<const TableDrive> drives,
                                  const std::map<std::string, DriveRecord>& records,
                                  std::span<const campaign::TerrainSummary> summaries) {
   const auto values = [&](bool going, double (*value)(const DriveRecord&)) {
@@ -117,7 +117,7 @@ std::string draw_slip_by_terrain(const campaign::CampaignTable& table, std::span
   return draw_charts(fmt::format("Slip and heading errors of {}", table.name), charts);
 }
 
-std::string draw_final_poses(const campaign::CampaignTable& table, std::span<const TableDrive> drives,
+std::string draw_final_poses(const campaign::DriveTable& table, std::span<const TableDrive> drives,
                              const std::map<std::string, DriveRecord>& records) {
   std::vector<Chart> charts;
   for (std::size_t t = 0; t < table.terrains.size() && charts.size() < kMostPosePanels; ++t) {

@@ -39,7 +39,7 @@ void write_figures(Writer& w, const BenchmarkFigures& f) {
        {"verdict_right", &f.verdict_right},
        {"false_alarm_nothing", &f.alarm_nothing},
        {"false_alarm_parameters", &f.alarm_parameters},
-       {"unknown_told", &f.unknown_told},
+       {"unknown_told", &f.unknown_reported},
        {"confident_wrong", &f.confident_wrong},
        {"wheel_right", &f.wheel_right},
        {"place_overlap_half", &f.overlap},

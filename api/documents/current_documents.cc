@@ -79,7 +79,7 @@ std::string write_current_inversion(const CurrentInversion& inversion) {
   w.begin_object().text("format", "current_inverse/1");
   write_request(w, inversion.request);
   w.text("verdict", sim::describe(answer.verdict)).texts("reasons", answer.words);
-  if (answer.found.told) w.significant("slip", *answer.found.told);
+  if (answer.found.reported) w.significant("slip", *answer.found.reported);
   w.key("slips").begin_array();
   for (const double slip : answer.found.slips) w.significant(slip);
   w.end_array();

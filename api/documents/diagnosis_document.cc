@@ -203,7 +203,7 @@ void write_extrapolations(Writer& w, const Diagnosis& d) {
 
 void write_gap(Writer& w, const Diagnosis& d) {
   w.key("gap").begin_object().key("channels").begin_array();
-  for (const gap::ChannelShrink& channel : d.gap) {
+  for (const gap::ChannelClosure& channel : d.gap) {
     const double unit = gap::boundary_unit(channel.channel);
     w.begin_object().text("channel", gap::name_of(channel.channel));
     w.text("unit", gap::unit_of(channel.channel));

@@ -10,7 +10,7 @@ namespace slipway::api::json {
 namespace {
 
 using planner::DynamicVerification;
-using planner::RungDifference;
+using planner::LevelDifference;
 using sim::DriveSample;
 using sim::WheelState;
 
@@ -49,7 +49,7 @@ constexpr std::array kWheelColumns{
     WheelColumn{"torque_nm", [](const WheelState& w) { return w.torque_nm; }},
 };
 
-void write_difference(Writer& w, std::string_view name, const RungDifference& difference) {
+void write_difference(Writer& w, std::string_view name, const LevelDifference& difference) {
   w.key(name).begin_object().significant("mean", difference.mean);
   w.significant("mean_abs", difference.mean_abs);
   write_peak(w, "largest", difference.largest);

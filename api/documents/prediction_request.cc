@@ -7,7 +7,7 @@ namespace slipway::api::json {
 namespace {
 
 // In the order of Rung.
-const std::vector<std::string_view> kRungs{"quasi_static", "dynamic"};
+const std::vector<std::string_view> kLevels{"quasi_static", "dynamic"};
 
 }  // namespace
 
@@ -25,7 +25,7 @@ Result<Reading<PredictionRequest>> read_prediction_request(std::string_view byte
   reader.boolean("backwards", kOptional, request.manner.backwards);
   reader.angle_deg("crab_deg", kOptional, {"deg", -90.0, 90.0}, request.manner.crab_rad);
   std::size_t rung = 0;
-  if (reader.choice("rung", kOptional, kRungs, rung)) request.rung = static_cast<Rung>(rung);
+  if (reader.choice("rung", kOptional, kLevels, rung)) request.level = static_cast<FidelityLevel>(rung);
   read_drive_assumptions(reader, request.drive);
   reader.refuse_unknown();
   return reading;
@@ -39,7 +39,7 @@ std::string write_prediction_request(const PredictionRequest& request) {
   for (const planner::Waypoint& corner : request.path) write_waypoint(w, corner);
   w.end_array();
   w.boolean("backwards", request.manner.backwards).angle_deg("crab_deg", request.manner.crab_rad);
-  w.text("rung", kRungs[static_cast<std::size_t>(request.rung)]);
+  w.text("rung", kLevels[static_cast<std::size_t>(request.level)]);
   write_drive_assumptions(w, request.drive);
   w.end_object();
   return w.take();

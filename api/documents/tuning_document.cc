@@ -121,7 +121,7 @@ void write_points(Writer& w, const DriveTuning& tuning) {
 
 }  // namespace
 
-std::string tuning_document(const campaign::CampaignTable& table, const campaign::TuneRequest& request,
+std::string tuning_document(const campaign::DriveTable& table, const campaign::TuneRequest& request,
                             const campaign::TableTuning& result) {
   const gap::TuningOptions& options = request.options;
   Writer w;

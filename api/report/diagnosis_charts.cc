@@ -123,7 +123,7 @@ std::string draw_channels(const Diagnosis& d) {
 
 std::string draw_ladder(const Diagnosis& d) {
   std::vector<Chart> charts;
-  for (const gap::ChannelShrink& channel : d.gap) {
+  for (const gap::ChannelClosure& channel : d.gap) {
     const double unit = chart_unit(channel.channel);
     Chart& chart = charts.emplace_back();
     chart.title = words_of(channel.channel);
@@ -179,19 +179,19 @@ std::string draw_windows(const Diagnosis& d) {
 std::string draw_parameters(const Diagnosis& d) {
   Chart chart;
   chart.y.title = "in deviations of the prior";
-  ChartSeries told = series_of("the drives tell", ChartMark::kPoints, 1),
-              untold = series_of("as believed before", ChartMark::kPoints, 0);
+  ChartSeries determined = series_of("the drives tell", ChartMark::kPoints, 1),
+              undetermined = series_of("as believed before", ChartMark::kPoints, 0);
   for (const gap::RetunedParameter& p : d.retuned) {
     if (!(p.prior_std > 0.0) || !std::isfinite(p.value.value)) continue;
     const auto at = static_cast<double>(chart.x.categories.size());
     chart.x.categories.push_back(p.name);
     add_bar(chart, "90 % interval", at, p.value.low / p.prior_std, p.value.high / p.prior_std, 0);
-    ChartSeries& series = p.determined ? told : untold;
+    ChartSeries& series = p.determined ? determined : undetermined;
     series.x.push_back(at);
     series.y.push_back(p.value.value / p.prior_std);
   }
   if (chart.x.categories.empty()) return {};
-  chart.series = {std::move(told), std::move(untold)};
+  chart.series = {std::move(determined), std::move(undetermined)};
   return draw_charts(fmt::format("{}: parameters re-tuned", d.campaign), std::span(&chart, 1));
 }
 

@@ -168,13 +168,13 @@ class Report {
         "Root mean square of prediction less measurement on drives held out of the fit, 90 % intervals. The "
         "floor is what sensors and the drives' own scatter make it. Closed: of what re-tuning leaves above "
         "the floor.");
-    const bool closed = std::any_of(d_.gap.begin(), d_.gap.end(), [](const gap::ChannelShrink& c) {
+    const bool closed = std::any_of(d_.gap.begin(), d_.gap.end(), [](const gap::ChannelClosure& c) {
       return c.closed_fraction.has_value();
     });
     std::vector<std::string> heads{"channel", "unit", "nominal", "re-tuned", "with effects", "floor"};
     if (closed) heads.emplace_back("closed");
     page_.table(std::move(heads));
-    for (const gap::ChannelShrink& c : d_.gap) {
+    for (const gap::ChannelClosure& c : d_.gap) {
       const double unit = gap::boundary_unit(c.channel);
       std::vector<ReportText> cells{gap::name_of(c.channel),
                                     gap::unit_of(c.channel),

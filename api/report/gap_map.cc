@@ -36,12 +36,13 @@ constexpr std::array kLevels{Level{1.25, "#1a9850", "as the noise (below 1.25)"}
                              Level{4.0, "#d7191c", "2.5 to 4"},
                              Level{1e300, "#67001f", "above 4 deviations"}};
 
-struct Rung {
+struct FidelityLevel {
   const char* words;
   double WindowGap::*value;
 };
-constexpr std::array kRungs{Rung{"nominal", &WindowGap::nominal}, Rung{"re-tuned", &WindowGap::retuned},
-                            Rung{"with effects", &WindowGap::with_effects}};
+constexpr std::array kLevels{FidelityLevel{"nominal", &WindowGap::nominal},
+                             FidelityLevel{"re-tuned", &WindowGap::retuned},
+                             FidelityLevel{"with effects", &WindowGap::with_effects}};
 
 std::size_t level_of(double deviations) {
   std::size_t k = 0;
@@ -96,7 +97,8 @@ std::string hillshade_in(const sim::Ground& ground, const Frame& frame) {
 }
 
 // Beside the largest differences the rest is faint: they are drawn last.
-std::string windows_in(const std::vector<const WindowGap*>& windows, const Frame& frame, const Rung& rung) {
+std::string windows_in(const std::vector<const WindowGap*>& windows, const Frame& frame,
+                       const FidelityLevel& rung) {
   std::array<std::string, kLevels.size()> paths;
   for (const WindowGap* window : windows) {
     const double value = window->*rung.value;
@@ -178,7 +180,7 @@ std::string draw_gap_map(const gap::DriveCampaign& campaign, const gap::Diagnosi
   for (const WindowGap& window : d.window_gaps) windows.at(window.terrain).push_back(&window);
   const std::vector<std::size_t> shown = shown_terrains(windows);
   if (shown.empty()) return {};
-  const std::size_t rungs = d.effects.empty() ? 2 : kRungs.size();
+  const std::size_t rungs = d.effects.empty() ? 2 : kLevels.size();
   const double row_px = kRowTitle_px + kMapHeight_px + kGap_px;
   const double width = 2.0 * kLeft_px + 3.0 * kMap_px + 2.0 * kGap_px,
                legend_top = kTitle_px + row_px * static_cast<double>(shown.size()) + 12.0;
@@ -212,9 +214,9 @@ std::string draw_gap_map(const gap::DriveCampaign& campaign, const gap::Diagnosi
       out += fmt::format(
           "<text x=\"{:.0f}\" y=\"{:.0f}\" font-weight=\"bold\">{}</text>\n<g transform=\"translate({:.0f} "
           "{:.0f})\"><g clip-path=\"url(#map)\">\n",
-          left, top + 16.0, xml_text(fmt::format("{}, {}", terrain.name, kRungs[k].words)), left,
+          left, top + 16.0, xml_text(fmt::format("{}, {}", terrain.name, kLevels[k].words)), left,
           top + kRowTitle_px);
-      out += ground + windows_in(windows[t], frame, kRungs[k]) + places + scale_bar(frame);
+      out += ground + windows_in(windows[t], frame, kLevels[k]) + places + scale_bar(frame);
       out += fmt::format("</g><rect width=\"{:.0f}\" height=\"{:.0f}\" fill=\"none\" stroke=\"#888\"/></g>\n",
                          kMap_px, kMapHeight_px);
     }

@@ -8,7 +8,7 @@
 namespace slipway::api {
 
 // How closely a drive is looked at.
-enum class Rung {
+enum class FidelityLevel {
   kQuasiStatic,
   kDynamic,  // besides the quasi-static one
 };
@@ -19,7 +19,7 @@ struct PredictionRequest {
   std::string rover;
   std::vector<planner::Waypoint> path;  // corners, joined by turns in place and straight drives
   planner::Manner manner;
-  Rung rung = Rung::kQuasiStatic;
+  FidelityLevel level = FidelityLevel::kQuasiStatic;
   DriveAssumptions drive;
 };
 

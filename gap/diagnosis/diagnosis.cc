@@ -27,11 +27,11 @@ namespace {
 constexpr std::size_t kLeastDrives = 3, kLeastWindows = 6;
 constexpr int kMostRefittedAgain = 6, kMostPairedAgain = 2, kMostSecondsAgain = 2;
 constexpr std::size_t kMostKept = 6;  // sets of effects that are fitted again
-constexpr double kTold = 0.7;  // of a prior deviation: what is left open of a parameter that drives tell of
+constexpr double kDeterminedShare =
+    0.7;  // of a prior deviation: what is left open of a parameter that drives tell of
 constexpr double kSeldom = 0.02;  // of resamples: sets that so few choose are not fitted again
 constexpr double kAlike_deg = 30.0;
 constexpr std::size_t kMostRegimes = 5, kMostNext = 3;
-
 
 class Diagnoser {
  public:
@@ -109,8 +109,8 @@ class Diagnoser {
 
  private:
   Result<void> search(const SearchOptions& options, std::span<const FittedExplanation> found_before = {}) {
-    const auto look = options_.told ? fit_told_explanation : search_explanations;
-    auto found = look(campaign_, *prepared_.model, *prepared_.noise, *prepared_.null, prepared_.wildcard,
+    const auto look = options_.given ? fit_given_explanation : search_explanations;
+    auto found = look(campaign_, *prepared_.model, *prepared_.noise, *prepared_.null, prepared_.discrepancy,
                       options, progress_, found_before);
     if (!found) return fail(found.error());
     search_ = std::move(*found);
@@ -126,7 +126,7 @@ class Diagnoser {
   const Candidate& best() const { return search_.candidates[best_]; }
   const FittedExplanation& best_fit() const { return search_.fits[best().fit]; }
   // What the verdict says: a fit whose effects are all named, or the re-tuned one.
-  const FittedExplanation& told_fit() const {
+  const FittedExplanation& reported_fit() const {
     return d_.effects.size() == best().effects.size() ? best_fit() : search_.fits[0];
   }
   bool explains() const { return d_.verdict == Verdict::kEffects || d_.verdict == Verdict::kEffectSet; }
@@ -137,7 +137,7 @@ class Diagnoser {
       const Parameter& parameter = fit.hypothesis.parameters()[p];
       const Interval value = parameter_interval(fit, p);
       const double error = (value.high - value.value) / kReach90;
-      d_.retuned.push_back({parameter.name, value, parameter.std, error < kTold * parameter.std});
+      d_.retuned.push_back({parameter.name, value, parameter.std, error < kDeterminedShare * parameter.std});
     }
   }
 
@@ -168,7 +168,7 @@ class Diagnoser {
     d_.regimes_retuned =
         regimes_of(prepared_, campaign_, search_.fits[0].residuals, LookedAt::kGap, options_, kMostRegimes);
     if (d_.verdict == Verdict::kUnknown) {
-      d_.residual = describe_unexplained(prepared_, told_fit());
+      d_.residual = describe_unexplained(prepared_, reported_fit());
       d_.places = gap_places(prepared_, campaign_, search_.fits[0].residuals, options_);
     }
     if (!explains()) return;
@@ -224,14 +224,14 @@ class Diagnoser {
   Result<void> shrink() {
     const DriveResampling drives = resample_drives(campaign_, options_.resamples, options_.seed);
     const CorrectionChoice choice = choose_corrections(drives);
-    auto shrunk = shrink_on_held_out(prepared_, campaign_, choice, drives, options_, progress_);
+    auto shrunk = close_gap_on_held_out(prepared_, campaign_, choice, drives, options_, progress_);
     if (!shrunk) return fail(shrunk.error());
     d_.gap = std::move(shrunk->channels);
     d_.planners_view = shrunk->planners_view;
     d_.held_out = std::move(shrunk->points);
     d_.window_gaps = std::move(shrunk->windows);
     d_.candidates[best_].held_out_score = shrunk->log_density_gain;
-    doubt_what_leaves_a_gap(told_fit(), d_);
+    doubt_what_leaves_a_gap(reported_fit(), d_);
     if (explains()) {
       auto extrapolated =
           extrapolate(prepared_, campaign_, choice.corrections.front(), drives, options_, progress_);
@@ -240,15 +240,15 @@ class Diagnoser {
       doubt_what_does_not_extrapolate(d_);
     }
     if (explains()) d_.closed_fraction = shrunk->closed_fraction;
-    for (ChannelShrink& channel : d_.gap)
+    for (ChannelClosure& channel : d_.gap)
       if (!explains()) channel.closed_fraction.reset();
     const bool offered = explains() ? shrunk->log_density_gain > 0.0
                                     : d_.verdict == Verdict::kParameters || unknown_but_nearer();
     if (offered) {
-      const FittedExplanation& told = explains() ? best_fit() : search_.fits[0];
-      d_.model = told.hypothesis.state(told.x);
-      d_.model_effects = told.hypothesis.settings(told.x);
-      d_.left_open = posterior_of(told);
+      const FittedExplanation& reported = explains() ? best_fit() : search_.fits[0];
+      d_.model = reported.hypothesis.state(reported.x);
+      d_.model_effects = reported.hypothesis.settings(reported.x);
+      d_.left_open = posterior_of(reported);
     } else if (explains()) {
       d_.notes.push_back(
           "the correction did not improve drives held out of the fit: no corrected model is offered");
@@ -262,7 +262,7 @@ class Diagnoser {
     constexpr double kNoWorse = 1.02, kMuchBetter = 0.8;
     if (d_.verdict != Verdict::kUnknown) return false;
     bool better = false;
-    for (const ChannelShrink& c : d_.gap) {
+    for (const ChannelClosure& c : d_.gap) {
       if (c.retuned.value > kNoWorse * c.nominal.value) return false;
       better = better || c.retuned.value < kMuchBetter * c.nominal.value;
     }

@@ -70,7 +70,7 @@ ErrorChange change_of(const Errors& all, const std::vector<Errors>& resampled, c
   return change;
 }
 
-ChannelCheck score_of(std::span<const ToldValue> told, Channel channel, SlopeClass slope,
+ChannelCheck score_of(std::span<const PredictedValue> predicted, Channel channel, SlopeClass slope,
                       const ModelCheckOptions& options) {
   ChannelCheck check;
   check.channel = channel;
@@ -78,7 +78,7 @@ ChannelCheck score_of(std::span<const ToldValue> told, Channel channel, SlopeCla
   std::map<std::size_t, Errors> by_group;
   Errors all;
   double within_50 = 0.0, within_90 = 0.0;
-  for (const ToldValue& t : told) {
+  for (const PredictedValue& t : predicted) {
     if (t.channel != channel || !is_of(slope, t.gradient_rad)) continue;
     const double error = t.corrected - t.measured;
     const Errors one{{t.nominal - t.measured}, {error}};
@@ -198,11 +198,12 @@ std::string_view name_of(SlopeClass slope) {
   return kNames[static_cast<std::size_t>(slope)];
 }
 
-std::vector<ChannelCheck> score_told(std::span<const ToldValue> told, const ModelCheckOptions& options) {
+std::vector<ChannelCheck> score_predicted(std::span<const PredictedValue> predicted,
+                                          const ModelCheckOptions& options) {
   std::vector<ChannelCheck> checks;
   for (int c = 0; c < kChannels; ++c)
     for (const SlopeClass slope : kSlopeClasses) {
-      const ChannelCheck check = score_of(told, static_cast<Channel>(c), slope, options);
+      const ChannelCheck check = score_of(predicted, static_cast<Channel>(c), slope, options);
       if (check.values > 0) checks.push_back(check);
     }
   return checks;
@@ -240,7 +241,7 @@ Result<ModelCheck> check_model(const DriveCampaign& campaign, const CorrectedBel
   ModelCheck check;
   check.drives = campaign.drives.size();
   const std::vector<std::size_t> groups = repeat_groups(campaign);
-  std::vector<ToldValue> told;
+  std::vector<PredictedValue> predicted;
   for (std::size_t w = 0; w < windows.size(); ++w) {
     if (!model->used(w)) continue;
     ++check.windows;
@@ -253,14 +254,14 @@ Result<ModelCheck> check_model(const DriveCampaign& campaign, const CorrectedBel
       check.unanswered_corrected += std::isfinite(corrected[row]) ? 0 : 1;
       if (!std::isfinite(nominal[row]) || !std::isfinite(corrected[row])) continue;
       const auto at = static_cast<Eigen::Index>(row);
-      told.push_back({o.channel, groups[windows[w].drive], model->conditions(w).pitch_rad, o.value,
-                      nominal[row], corrected[row],
-                      std::hypot(noise.deviation()[at], std::sqrt(left_open[at]))});
+      predicted.push_back({o.channel, groups[windows[w].drive], model->conditions(w).pitch_rad, o.value,
+                           nominal[row], corrected[row],
+                           std::hypot(noise.deviation()[at], std::sqrt(left_open[at]))});
     }
   }
-  check.values = told.size();
+  check.values = predicted.size();
   progress.report("resampling drives", 0.9);
-  check.channels = score_told(told, options);
+  check.channels = score_predicted(predicted, options);
   return check;
 }
 

@@ -33,7 +33,7 @@ struct CorrectedBelief {
 };
 
 // One observation, in its channel's unit.
-struct ToldValue {
+struct PredictedValue {
   Channel channel = Channel::kSlip;
   std::size_t group = 0;      // its drive's; repeats share theirs
   double gradient_rad = 0.0;  // along the travel, positive uphill
@@ -71,7 +71,8 @@ struct ModelCheckOptions {
 };
 
 // Each channel that has values, by slope class where it has some.
-std::vector<ChannelCheck> score_told(std::span<const ToldValue> told, const ModelCheckOptions& options);
+std::vector<ChannelCheck> score_predicted(std::span<const PredictedValue> predicted,
+                                          const ModelCheckOptions& options);
 
 struct ModelCheck {
   std::vector<ChannelCheck> channels;

@@ -44,8 +44,8 @@ double gain_of_parameters(const PreparedCampaign& prepared, const DriveCampaign&
   options.threads = threads;
   const FittedExplanation nominal = fit_explanation(pinned, *prepared.model, *prepared.noise, start, options);
   const auto evidence = [&](const FittedExplanation& fit) {
-    return fit.log_evidence + wildcard_gain(fit, *prepared.noise, prepared.wildcard,
-                                            Eigen::MatrixXd(fit.white_jacobian.rows(), 0))
+    return fit.log_evidence + discrepancy_gain(fit, *prepared.noise, prepared.discrepancy,
+                                               Eigen::MatrixXd(fit.white_jacobian.rows(), 0))
                                   .imprecision;
   };
   return evidence(null) - evidence(nominal);
@@ -129,7 +129,7 @@ void judge_without_effects(const DriveCampaign& campaign, const PreparedCampaign
 std::optional<std::string> gap_left(const Diagnosis& d) {
   double most = d.effects.empty() ? kLeftOfNothing : kLeftBesideEffects;
   std::optional<std::string> words;
-  for (const ChannelShrink& c : d.gap) {
+  for (const ChannelClosure& c : d.gap) {
     if (c.channel == Channel::kRoll || c.channel == Channel::kPitch) continue;
     const double floor = c.noise_floor.value;
     if (c.with_effects.low <= most * floor) continue;
@@ -143,14 +143,14 @@ std::optional<std::string> gap_left(const Diagnosis& d) {
 }
 
 // A parameter that the answer needs at one of its two ends.
-std::optional<std::string> parameter_at_its_end(const FittedExplanation& told) {
-  for (std::size_t p = 0; p < told.hypothesis.nuisance_count(); ++p) {
-    const Parameter& parameter = told.hypothesis.parameters()[p];
+std::optional<std::string> parameter_at_its_end(const FittedExplanation& reported) {
+  for (std::size_t p = 0; p < reported.hypothesis.nuisance_count(); ++p) {
+    const Parameter& parameter = reported.hypothesis.parameters()[p];
     const bool two_sided = parameter.lowest < parameter.neutral && parameter.neutral < parameter.highest;
-    if (two_sided && (told.x[p] <= parameter.lowest || told.x[p] >= parameter.highest))
+    if (two_sided && (reported.x[p] <= parameter.lowest || reported.x[p] >= parameter.highest))
       return fmt::format(
           "{} would have to be further from what was believed than it may be ({:.1f} deviations)",
-          parameter.name, std::abs(told.x[p] - parameter.neutral) / parameter.std);
+          parameter.name, std::abs(reported.x[p] - parameter.neutral) / parameter.std);
   }
   return std::nullopt;
 }
@@ -175,7 +175,7 @@ void withdraw_effects(Diagnosis& d) {
       fmt::format("{} would explain a part, and may be the unknown cause's shadow: nothing is named",
                   fmt::join(names, " and ")));
   d.effects.clear();
-  for (ChannelShrink& c : d.gap) c.with_effects = c.retuned;
+  for (ChannelClosure& c : d.gap) c.with_effects = c.retuned;
   for (HeldOutPoint& point : d.held_out) point.with_effects = point.retuned;
   for (WindowGap& window : d.window_gaps) window.with_effects = window.retuned;
   d.planners_view.with_effects = d.planners_view.retuned;
@@ -253,11 +253,11 @@ void doubt_what_does_not_extrapolate(Diagnosis& d) {
   }
 }
 
-void doubt_what_leaves_a_gap(const FittedExplanation& told, Diagnosis& d) {
+void doubt_what_leaves_a_gap(const FittedExplanation& reported, Diagnosis& d) {
   const double unknown = unknown_probability(d);
   if (d.verdict == Verdict::kUnknown || d.verdict == Verdict::kInsufficient || unknown <= 0.0) return;
   std::optional<std::string> why = gap_left(d);
-  if (!why) why = parameter_at_its_end(told);
+  if (!why) why = parameter_at_its_end(reported);
   if (!why) return;
   if (unknown < kDoubt)
     for (ComparedSet& c : d.candidates)

@@ -22,6 +22,6 @@ void doubt_what_does_not_extrapolate(Diagnosis& d);
 // An answer that leaves far more than the floor on drives held out of the fit, or that needs a parameter at
 // the end of what it may be, is none: the cause is unknown. `told`: the fit that the answer stands for; d has
 // its `gap`.
-void doubt_what_leaves_a_gap(const FittedExplanation& told, Diagnosis& d);
+void doubt_what_leaves_a_gap(const FittedExplanation& reported, Diagnosis& d);
 
 }  // namespace slipway::gap

@@ -20,7 +20,7 @@ class LegList {
       legs_.pop_back();
       if (std::abs(whole) < kNoTurn_rad) return;
     }
-    sim::DriveLeg leg{.command = told()};
+    sim::DriveLeg leg{.command = commanded()};
     leg.command.turn_in_place = true;
     leg.command.turn_rate_rad_s = std::copysign(rover_.turn_rate_rad_s, whole);
     leg.turn_rad = std::abs(whole);
@@ -29,7 +29,7 @@ class LegList {
 
   void drive(double length_m, double curvature_1_m) {
     if (length_m < kNoWay_m) return;
-    sim::DriveLeg leg{.command = told(), .length_m = length_m};
+    sim::DriveLeg leg{.command = commanded(), .length_m = length_m};
     // A command's curvature is of its speed's sign: backwards, left of the travel is right of the body.
     leg.command.curvature_1_m = manner_.backwards ? -curvature_1_m : curvature_1_m;
     if (!legs_.empty() && !legs_.back().command.turn_in_place &&
@@ -43,7 +43,7 @@ class LegList {
   std::vector<sim::DriveLeg> take() { return std::move(legs_); }
 
  private:
-  sim::DriveCommand told() const {
+  sim::DriveCommand commanded() const {
     return {.speed_m_s = manner_.backwards ? -rover_.cruise_speed_m_s : rover_.cruise_speed_m_s,
             .crab_rad = manner_.crab_rad};
   }

@@ -136,7 +136,7 @@ class Comparison {
     out.compared_m = way_m_;
     if (way_m_ <= 0.0) return;
     const auto of = [&](int q) {
-      return RungDifference{sum_[q] / way_m_, sum_abs_[q] / way_m_, largest_[q]};
+      return LevelDifference{sum_[q] / way_m_, sum_abs_[q] / way_m_, largest_[q]};
     };
     out.slip_ratio = of(0);
     out.sinkage_m = of(1);

@@ -11,7 +11,7 @@
 namespace slipway::planner {
 
 // How far the dynamic rung is from the quasi-static one at equal distances along the way.
-struct RungDifference {
+struct LevelDifference {
   double mean = 0.0;      // dynamic less quasi-static, over the compared way
   double mean_abs = 0.0;  // the same without sign
   sim::Peak largest;      // without sign
@@ -34,7 +34,7 @@ struct DynamicVerification {
   // Of the rover's slip (over the same time), its deepest wheel and its largest current; driven parts only,
   // as far as both rungs got.
   double compared_m = 0.0;
-  RungDifference slip_ratio, sinkage_m, current_a;
+  LevelDifference slip_ratio, sinkage_m, current_a;
   std::vector<std::string> wheel_names;  // in the order of every sample's wheels
   std::vector<sim::DriveSample>
       samples;  // evenly thinned, at most kMostVerificationSamples, the last included

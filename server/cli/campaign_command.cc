@@ -33,7 +33,7 @@ int print_list(const CampaignCommand& options, const api::Catalogue& catalogue) 
   return 0;
 }
 
-int print_drives(const slipway::campaign::CampaignTable& table, const std::vector<TableDrive>& drives) {
+int print_drives(const slipway::campaign::DriveTable& table, const std::vector<TableDrive>& drives) {
   TextTable text({"drive", "x", "y", "heading", "legs", "terrain"});
   for (const TableDrive& drive : drives)
     text.add({drive.id, fmt::format("{:g} m", drive.start.x_m), fmt::format("{:g} m", drive.start.y_m),
@@ -67,7 +67,7 @@ std::string summary_table(const std::vector<TerrainSummary>& summaries) {
 }
 
 // Makes what is not done yet.
-Result<void> make(const CampaignCommand& options, const slipway::campaign::CampaignTable& table,
+Result<void> make(const CampaignCommand& options, const slipway::campaign::DriveTable& table,
                   const std::vector<TableDrive>& drives, const api::CampaignFolder& folder) {
   std::vector<TableDrive> missing;
   for (const TableDrive& drive : drives)
@@ -84,7 +84,7 @@ Result<void> make(const CampaignCommand& options, const slipway::campaign::Campa
       progress);
 }
 
-int conclude(const CampaignCommand& options, const slipway::campaign::CampaignTable& table,
+int conclude(const CampaignCommand& options, const slipway::campaign::DriveTable& table,
              const std::vector<TableDrive>& all, api::CampaignFolder& folder) {
   const auto summaries = folder.conclude(table, all);
   if (!summaries) return refuse(summaries.error());

@@ -43,13 +43,13 @@ std::string words_of(const api::CurrentInversion& inversion) {
       fmt::format("{:.3f} A of wheel {} of {} under {:.1f} N on {}: {}\n", request.current_a, request.wheel,
                   request.rover, request.load_n.value_or(0.0), request.soil, sim::describe(answer.verdict));
   for (const std::string& reason : answer.words) out += fmt::format("  - {}\n", reason);
-  if (answer.found.told) out += fmt::format("slip               {:.3f}", *answer.found.told);
-  if (const sim::SlipQuantiles& q = answer.quantiles; answer.found.told && q.solved > 0)
+  if (answer.found.reported) out += fmt::format("slip               {:.3f}", *answer.found.reported);
+  if (const sim::SlipQuantiles& q = answer.quantiles; answer.found.reported && q.solved > 0)
     out += fmt::format(
         "   (5, 50, 95 % of {} soil draws: {:.3f}, {:.3f}, {:.3f}; {} draws ask for less current "
         "at any slip, {} for more)",
         q.draws, q.p05, q.p50, q.p95, q.above, q.below);
-  if (answer.found.told) out += "\n";
+  if (answer.found.reported) out += "\n";
   if (answer.wheel)
     out += fmt::format("sinkage            {:.1f} mm\ndrawbar pull       {:.1f} N\n",
                        1e3 * answer.wheel->sinkage_m, answer.wheel->forces.drawbar_pull_n);

@@ -82,7 +82,7 @@ std::string channels_words(const Diagnosis& d) {
 
 std::string ladder_words(const Diagnosis& d) {
   TextTable table({"channel", "nominal", "re-tuned", "with effects", "floor", "unit"});
-  for (const gap::ChannelShrink& c : d.gap) {
+  for (const gap::ChannelClosure& c : d.gap) {
     const double unit = gap::boundary_unit(c.channel);
     table.add({std::string(gap::name_of(c.channel)), interval_words(c.nominal, unit),
                interval_words(c.retuned, unit), interval_words(c.with_effects, unit),

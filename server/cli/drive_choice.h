@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "campaign/campaign_table.h"
+#include "campaign/drive_table.h"
 #include "core/result.h"
 
 namespace slipway::server {

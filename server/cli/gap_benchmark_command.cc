@@ -114,19 +114,19 @@ std::vector<std::string> campaigns_in(const GapBenchmarkCommand& options) {
 }
 
 // What a diagnosis is told besides the campaign.
-struct Told {
+struct Given {
   std::vector<std::string> withheld;
   bool oracle = false;  // all that is not withheld is at work
 };
 
 Result<Timed> diagnosed(const GapBenchmarkCommand& options, const api::Catalogue& catalogue,
-                        const std::string& name, const Told& told) {
+                        const std::string& name, const Given& given) {
   const auto start = std::chrono::steady_clock::now();
   auto campaign = api::load_drive_campaign(fs::path(options.folder) / name, catalogue);
   if (!campaign) return fail(campaign.error());
   gap::DiagnosisOptions how;
-  how.search.withheld = told.withheld;
-  how.told = told.oracle;
+  how.search.withheld = given.withheld;
+  how.given = given.oracle;
   how.search.threads = static_cast<std::size_t>(options.threads);
   how.seed = options.seed;
   const Variant& variant = *variant_named(options.variant);
@@ -143,9 +143,9 @@ Result<Timed> diagnosed(const GapBenchmarkCommand& options, const api::Catalogue
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   if (!options.keep.empty()) {
     std::string file = name;
-    if (told.oracle) file += "-oracle";
-    for (const std::string& effect : told.withheld)
-      if (!told.oracle) file += "-without-" + effect;
+    if (given.oracle) file += "-oracle";
+    for (const std::string& effect : given.withheld)
+      if (!given.oracle) file += "-without-" + effect;
     std::error_code error;
     fs::create_directories(options.keep, error);
     save((fs::path(options.keep) / (file + ".json")).string(),
@@ -253,10 +253,10 @@ int gap_benchmark(const GapBenchmarkCommand& options) {
     benchmark.cases.push_back(gap::score_case(answer->second, open[i].diagnosis, known, open[i].seconds));
     if (options.oracle && !hidden.empty() && !given_up() &&
         std::includes(known.begin(), known.end(), hidden.begin(), hidden.end())) {
-      Told told{.withheld = {}, .oracle = true};
+      Given given{.withheld = {}, .oracle = true};
       std::set_difference(known.begin(), known.end(), hidden.begin(), hidden.end(),
-                          std::back_inserter(told.withheld));
-      auto timed = diagnosed(options, *catalogue, names[i], told);
+                          std::back_inserter(given.withheld));
+      auto timed = diagnosed(options, *catalogue, names[i], given);
       if (!timed && timed.error().code != ErrorCode::kCancelled) return refuse_unreadable(timed.error());
       if (timed) {
         if (timed->diagnosis.closed_fraction)

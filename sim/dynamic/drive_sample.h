@@ -20,11 +20,11 @@ struct DriveSample {
   std::array<double, 2> rocker_rad{}, bogie_rad{};  // left, right; 0 where there are none
   PerWheel<WheelState> wheels;  // sinkage and slip as in WheelState; loads along the ground's normal
   PerWheel<double> steer_rad;
-  PerWheel<double> told_rate_rad_s;  // at the wheel
-  PerWheel<double> turned_rad;       // of each wheel since the start: what an encoder counts
-  PerWheel<double> voltage_v;        // at the drive motors
-  double slip_ratio = 0.0;           // of the rover at that instant: 1 - speed / commanded speed
-  double progress_m = 0.0;           // of B along the legs' lines since the start; turning in place adds none
+  PerWheel<double> commanded_rate_rad_s;  // at the wheel
+  PerWheel<double> turned_rad;            // of each wheel since the start: what an encoder counts
+  PerWheel<double> voltage_v;             // at the drive motors
+  double slip_ratio = 0.0;                // of the rover at that instant: 1 - speed / commanded speed
+  double progress_m = 0.0;  // of B along the legs' lines since the start; turning in place adds none
   int leg = 0;
   bool driving = false;  // between the halts
 };

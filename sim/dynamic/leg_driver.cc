@@ -22,11 +22,11 @@ double steering_rate(const RoverModel& rover) {
 
 // Of the two that roll a wheel the same way, half a turn apart, the one that is steered like the other: a
 // wheel about to cross a quarter turn rolls on rather than swing round.
-WheelCommand nearest_to(const WheelCommand& other, WheelCommand told) {
-  const double apart = told.steer_rad - other.steer_rad;
-  if (std::abs(apart) <= 0.5 * std::numbers::pi) return told;
-  return {.steer_rad = told.steer_rad - std::copysign(std::numbers::pi, apart),
-          .rate_rad_s = -told.rate_rad_s};
+WheelCommand nearest_to(const WheelCommand& other, WheelCommand commanded) {
+  const double apart = commanded.steer_rad - other.steer_rad;
+  if (std::abs(apart) <= 0.5 * std::numbers::pi) return commanded;
+  return {.steer_rad = commanded.steer_rad - std::copysign(std::numbers::pi, apart),
+          .rate_rad_s = -commanded.rate_rad_s};
 }
 
 }  // namespace
@@ -73,23 +73,23 @@ double LegDriver::curvature_correction(const LegPlace& place) const {
   return (leg_.command.speed_m_s < 0.0 ? 1.0 : -1.0) * limit * std::tanh(wanted / limit);
 }
 
-PerWheel<WheelCommand> LegDriver::told(double t, const LegPlace& place) const {
-  PerWheel<WheelCommand> told = plain_;
+PerWheel<WheelCommand> LegDriver::commanded(double t, const LegPlace& place) const {
+  PerWheel<WheelCommand> commanded = plain_;
   if (uses_pose() && t > steered_s_) {
     DriveCommand corrected = leg_.command;
     // Comes in with the rates: no jump when steering ends.
     corrected.curvature_1_m += smooth_step((t - steered_s_) / ramp_s_) * curvature_correction(place);
-    told = wheel_commands(rover_, corrected);
-    for (std::size_t k = 0; k < told.size(); ++k)
-      if (rover_.wheels[k].steerable) told[k] = nearest_to(plain_[k], told[k]);
+    commanded = wheel_commands(rover_, corrected);
+    for (std::size_t k = 0; k < commanded.size(); ++k)
+      if (rover_.wheels[k].steerable) commanded[k] = nearest_to(plain_[k], commanded[k]);
   }
   const double share = rate_share(t);
   const double steered = steered_s_ > start_s_ ? smooth_step((t - start_s_) / (steered_s_ - start_s_)) : 1.0;
-  for (std::size_t k = 0; k < told.size(); ++k) {
-    told[k].rate_rad_s *= share;
-    told[k].steer_rad = from_rad_[k] + steered * (told[k].steer_rad - from_rad_[k]);
+  for (std::size_t k = 0; k < commanded.size(); ++k) {
+    commanded[k].rate_rad_s *= share;
+    commanded[k].steer_rad = from_rad_[k] + steered * (commanded[k].steer_rad - from_rad_[k]);
   }
-  return told;
+  return commanded;
 }
 
 }  // namespace slipway::sim

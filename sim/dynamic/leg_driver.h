@@ -39,7 +39,7 @@ class LegDriver {
   // Of the commanded rates that are told at t, in [0, 1].
   double rate_share(double t) const;
   // told to each wheel; true motion (offsets, shares, failures) is the wheel's own.
-  PerWheel<WheelCommand> told(double t, const LegPlace& place) const;
+  PerWheel<WheelCommand> commanded(double t, const LegPlace& place) const;
   const DriveLeg& leg() const { return leg_; }
   bool uses_pose() const { return feedback_ != Feedback::kNone && !leg_.command.turn_in_place; }
 

@@ -37,16 +37,16 @@ MotorDrive MotorControl::driven_by(double wanted_v, double rate) const {
   return out;
 }
 
-MotorDrive MotorControl::keep_rate(double told, double rate, double integral_v) const {
-  return driven_by(back_emf_v(told) + rate_gain_ * (told - rate) + integral_v, rate);
+MotorDrive MotorControl::keep_rate(double commanded, double rate, double integral_v) const {
+  return driven_by(back_emf_v(commanded) + rate_gain_ * (commanded - rate) + integral_v, rate);
 }
 
-double MotorControl::integral_rate_v_s(const MotorDrive& drive, double told, double rate) const {
-  return integral_gain_ * (told - rate) + kControl_rad_s * (drive.voltage_v - drive.unclipped_v);
+double MotorControl::integral_rate_v_s(const MotorDrive& drive, double commanded, double rate) const {
+  return integral_gain_ * (commanded - rate) + kControl_rad_s * (drive.voltage_v - drive.unclipped_v);
 }
 
-MotorDrive MotorControl::keep_angle(double told_rad, double angle_rad, double rate) const {
-  return driven_by(angle_gain_ * (told_rad - angle_rad) - damping_gain_ * rate, rate);
+MotorDrive MotorControl::keep_angle(double commanded_rad, double angle_rad, double rate) const {
+  return driven_by(angle_gain_ * (commanded_rad - angle_rad) - damping_gain_ * rate, rate);
 }
 
 }  // namespace slipway::sim

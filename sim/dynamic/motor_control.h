@@ -19,8 +19,8 @@ struct MotorDrive {
 //
 //   i = (V - k_t N w) / R        torque as in motor.h, dry friction over `standstill` as tanh(w / standstill)
 //
-// Rate control of a drive motor:   V = k_t N w_told + k_p e + V_i,  V_i' = k_i e + (V_clipped - V) T_c,  e =
-// w_told - w Control of a steering motor:     V = k_p (a_told - a) - k_d a'
+// Rate control of a drive motor:   V = k_t N w_commanded + k_p e + V_i,  V_i' = k_i e + (V_clipped - V) T_c,
+// e = w_commanded - w Control of a steering motor:     V = k_p (a_commanded - a) - k_d a'
 //
 // The gains put both poles of the joint with that inertia at kControl_rad_s, or the slower one where the back
 // EMF damps more, but never feed a rate forward. T_c is that too.
@@ -31,9 +31,9 @@ class MotorControl {
   // inertia: of what turns about the joint, armature included, and of the load that it moves.
   MotorControl(const DriveMotor& motor, double inertia_kg_m2, double standstill_rad_s);
 
-  MotorDrive keep_rate(double told_rad_s, double rate_rad_s, double integral_v) const;
-  double integral_rate_v_s(const MotorDrive& drive, double told_rad_s, double rate_rad_s) const;
-  MotorDrive keep_angle(double told_rad, double angle_rad, double rate_rad_s) const;
+  MotorDrive keep_rate(double commanded_rad_s, double rate_rad_s, double integral_v) const;
+  double integral_rate_v_s(const MotorDrive& drive, double commanded_rad_s, double rate_rad_s) const;
+  MotorDrive keep_angle(double commanded_rad, double angle_rad, double rate_rad_s) const;
 
  private:
   MotorDrive driven_by(double voltage_v, double rate_rad_s) const;

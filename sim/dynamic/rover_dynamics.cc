@@ -137,7 +137,7 @@ void RoverDynamics::follow(const LegDriver* driver, const Pose2& leg_start) {
   leg_start_ = leg_start;
   const PerWheel<WheelCommand> plain = wheel_commands(rover_, driver->leg().command);
   for (std::size_t k = 0; k < plain.size(); ++k)
-    contacts_.set_told_direction(k, plain[k].rate_rad_s < 0.0 ? -1.0 : 1.0);
+    contacts_.set_commanded_direction(k, plain[k].rate_rad_s < 0.0 ? -1.0 : 1.0);
 }
 
 void RoverDynamics::unpack(const double* y) {
@@ -223,9 +223,9 @@ Vector3d RoverDynamics::gravity_M() const {
   return R_MB_ * (rotation_MB(truth).transpose() * down);
 }
 
-void RoverDynamics::set_told(double t, const double* y) {
+void RoverDynamics::set_commanded(double t, const double* y) {
   if (driver_) {
-    told_ = driver_->told(t, driver_->uses_pose() ? place(y) : LegPlace{});
+    told_ = driver_->commanded(t, driver_->uses_pose() ? place(y) : LegPlace{});
   } else {
     for (std::size_t k = 0; k < told_.size(); ++k) told_[k] = {halted_rad_[k], 0.0};
   }
@@ -234,7 +234,7 @@ void RoverDynamics::set_told(double t, const double* y) {
 
 bool RoverDynamics::derivative(double t, const double* y, double* rate) {
   if (!find_contacts(y)) return false;
-  set_told(t, y);
+  set_commanded(t, y);
   add_suspension_torques();
   for (std::size_t k = 0; k < kinematics_.size(); ++k) {
     const int joint = bodies_.wheel[k];
@@ -318,7 +318,7 @@ bool RoverDynamics::events(double t, const double* y, double* value) {
   if (!std::all_of(y, y + size_, [](double v) { return std::isfinite(v); })) return false;
   unpack(y);
   find_kinematics(y);
-  set_told(t, y);
+  set_commanded(t, y);
   const bool seeks = driver_ && options_.feedback == Feedback::kPose && t < driver_->cruised_s();
   *value++ = seeks ? 1.0 - driver_->stopping_share() - place(y).share : 1.0;
   *value++ = kTippedRad - tilt_rad(y);
@@ -334,9 +334,10 @@ bool RoverDynamics::events(double t, const double* y, double* value) {
     // A ramp is not a stall.
     const bool driven = rover_.wheels[k].drive == WheelDrive::kDriven && driver_ && t > driver_->ramped_s() &&
                         t < driver_->cruised_s();
-    const double told = std::abs(told_[k].rate_rad_s);
-    *value++ =
-        driven ? (std::abs(kinematics_[k].rate_rad_s) - kStallShare * told) / standstill_rad_s_ + 1.0 : 1.0;
+    const double commanded = std::abs(told_[k].rate_rad_s);
+    *value++ = driven
+                   ? (std::abs(kinematics_[k].rate_rad_s) - kStallShare * commanded) / standstill_rad_s_ + 1.0
+                   : 1.0;
   }
   for (int s = 0; s < 2; ++s)
     if (bodies_.rocker[s] >= 0) *value++ = bodies_.rocker_stop_rad - std::abs(angles_[bodies_.rocker[s]]);
@@ -350,7 +351,7 @@ void RoverDynamics::after_step(double t, const double* y) {
   lost_ground_.reset();
   unpack(y);
   find_kinematics(y);
-  set_told(t, y);
+  set_commanded(t, y);
   figures_ = {.slip_ratio = slip_ratio(t, y)};
   double power = 0.0;
   for (std::size_t k = 0; k < kinematics_.size(); ++k) {
@@ -407,7 +408,7 @@ DriveSample RoverDynamics::sample(double t, const double* y) {
   }
   const std::size_t count = rover_.wheels.size();
   out.wheels = PerWheel<WheelState>(count);
-  out.steer_rad = out.told_rate_rad_s = out.voltage_v = PerWheel<double>(count);
+  out.steer_rad = out.commanded_rate_rad_s = out.voltage_v = PerWheel<double>(count);
   out.turned_rad = turned_rad_;
   for (std::size_t k = 0; k < count; ++k) {
     const ContactState& contact = contact_[k];
@@ -424,7 +425,7 @@ DriveSample RoverDynamics::sample(double t, const double* y) {
     wheel.slip_ratio = bounded_slip(slip_from_speed_ratio(contact.motion.forward));
     wheel.slip_angle_rad = std::atan2(contact.motion.leftward, contact.motion.forward);
     if (bodies_.steering[k] >= 0) out.steer_rad[k] = angles_[bodies_.steering[k]];
-    if (rover_.wheels[k].drive == WheelDrive::kDriven) out.told_rate_rad_s[k] = told_[k].rate_rad_s;
+    if (rover_.wheels[k].drive == WheelDrive::kDriven) out.commanded_rate_rad_s[k] = told_[k].rate_rad_s;
     out.voltage_v[k] = drive_[k].motor.voltage_v;
     out.turned_rad[k] += 0.5 * (wheel.rate_rad_s + last_rate_rad_s_[k]) * (t - last_t_);
   }
@@ -438,11 +439,11 @@ DriveSample RoverDynamics::sample(double t, const double* y) {
 std::optional<double> RoverDynamics::slip_ratio(double t, const double* y) const {
   if (!driver_ || driver_->rate_share(t) <= 0.5) return std::nullopt;
   const DriveCommand& command = driver_->leg().command;
-  const double told = driver_->rate_share(t) * attainable_share(rover_, command) *
-                      (command.turn_in_place ? command.turn_rate_rad_s : command.speed_m_s);
+  const double commanded = driver_->rate_share(t) * attainable_share(rover_, command) *
+                           (command.turn_in_place ? command.turn_rate_rad_s : command.speed_m_s);
   const Eigen::Vector2d velocity_B(y[twist_at_ + 3], y[twist_at_ + 4]);
   const double done = command.turn_in_place ? y[twist_at_ + 2] : travel_direction(command).dot(velocity_B);
-  return bounded_slip(slip_from_speed_ratio(done / told));
+  return bounded_slip(slip_from_speed_ratio(done / commanded));
 }
 
 double RoverDynamics::mechanical_energy_j(const double* y) {

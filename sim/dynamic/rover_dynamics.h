@@ -106,7 +106,7 @@ class RoverDynamics {
   void add_suspension_torques();
   WheelDriveState drive_of(std::size_t wheel, const double* y) const;
   Eigen::Vector3d gravity_M() const;
-  void set_told(double t, const double* y);
+  void set_commanded(double t, const double* y);
   double gripping_load_kg_m2() const;
   MotorControl control_of(const DriveMotor& motor, double load_kg_m2) const;
 

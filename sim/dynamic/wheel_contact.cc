@@ -144,7 +144,7 @@ std::size_t WheelContacts::add_trials(std::size_t k, const WheelKinematics& at, 
   one.stiffness *= 1.0 + place.stiffening * contact.driven_on;
   one.bulldozing *= 1.0 - contact.driven_on * (1.0 - place.track_bulldozing);
   const double turning =
-      place.locked ? kBlended_standstills * place.told_direction : at.rate_rad_s / standstill_rad_s_;
+      place.locked ? kBlended_standstills * place.commanded_direction : at.rate_rad_s / standstill_rad_s_;
   const double ahead = turning >= kBlended_standstills    ? 1.0
                        : turning <= -kBlended_standstills ? 0.0
                                                           : 0.5 + 0.5 * std::tanh(turning);
@@ -197,7 +197,7 @@ bool WheelContacts::find(const Ground& ground, const RutMap& ruts, const PerWhee
     contact.entry_angle_rad =
         std::min(entry_angle_rad(r, std::min(contact.depth_m, r)), kLargestEntryAngleRad);
     count += add_trials(k, wheels[k], contact, &trials[count], &numbers[count]);
-    const double rolls = places_[k].locked            ? places_[k].told_direction
+    const double rolls = places_[k].locked            ? places_[k].commanded_direction
                          : wheels[k].rate_rad_s < 0.0 ? -1.0
                                                       : 1.0;
     contact.motion = {1.0 - rolls * wheels[k].slip_x, -wheels[k].slip_y};

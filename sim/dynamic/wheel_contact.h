@@ -78,7 +78,9 @@ class WheelContacts {
   // The soil that a wheel meets at its rim speed from now on.
   void set_soil(std::size_t wheel, const Soil& soil, double rim_speed_m_s);
   // Which way a locked wheel is dragged, -1 or 1.
-  void set_told_direction(std::size_t wheel, double direction) { places_[wheel].told_direction = direction; }
+  void set_commanded_direction(std::size_t wheel, double direction) {
+    places_[wheel].commanded_direction = direction;
+  }
   double relaxation_m(std::size_t wheel) const { return places_[wheel].relaxation_m; }
 
   // Depth, rut and normal of one wheel; false where there is no ground.
@@ -97,7 +99,7 @@ class WheelContacts {
     bool remembers = false;                        // a track is not like fresh soil
     double track_bulldozing = 0.0;                 // see Soil
     double relaxation_m = 0.1, normal_damping_s_m = 0.0, tangential_damping_ns_m = 0.0;
-    double told_direction = 1.0;
+    double commanded_direction = 1.0;
     bool locked = false;
   };
   // One evaluation of the law for one wheel in one direction of rolling.

@@ -14,7 +14,7 @@ void change(std::span<const double> values, RoverModel& rover) {
   // B's origin stays on the ground, so everything above the axles rises by what the radius grows.
   const double rise = scale * rover.smallest_wheel_radius_m();
   for (WheelModel& wheel : rover.wheels) {
-    wheel.told_radius_m = wheel.reckoned_radius_m();
+    wheel.software_radius_m = wheel.reckoned_radius_m();
     wheel.position_m.z() += scale * wheel.radius_m;
     wheel.radius_m *= 1.0 + scale;
   }

@@ -94,11 +94,11 @@ StationState state_of(const RoverModel& rover, RoverBalance& balance, const Vect
   state.forward_m_s = along * d.x() - across * d.y();
   state.leftward_m_s = along * d.y() + across * d.x();
   state.yaw_rate_rad_s = x[2] * v / balance.half_wheelbase_m();
-  const double told = attainable_share(rover, command) *
-                      (command.turn_in_place ? command.turn_rate_rad_s : command.speed_m_s);
+  const double commanded = attainable_share(rover, command) *
+                           (command.turn_in_place ? command.turn_rate_rad_s : command.speed_m_s);
   const double done = command.turn_in_place ? state.yaw_rate_rad_s : along;
   state.slip_ratio =
-      attempt.outcome == Outcome::kNoTraction ? 1.0 : bounded_slip(slip_from_speed_ratio(done / told));
+      attempt.outcome == Outcome::kNoTraction ? 1.0 : bounded_slip(slip_from_speed_ratio(done / commanded));
   state.side_slip_rad = command.turn_in_place ? 0.0 : std::atan2(across, std::abs(along));
   state.wheels = PerWheel<WheelState>(rover.wheels.size());
   for (int k = 0; k < balance.wheel_count(); ++k) state.wheels[k] = wheel_state(balance, x, k);

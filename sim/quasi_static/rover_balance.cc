@@ -59,17 +59,17 @@ RoverBalance::RoverBalance(const RoverModel& rover, double gravity_m_s2, const S
       travel_(travel_direction(command)),
       weight_(rover.mass_kg * gravity_m_s2),
       length_(half_wheelbase(rover)) {
-  const PerWheel<WheelCommand> told = wheel_commands(rover, command);
+  const PerWheel<WheelCommand> commanded = wheel_commands(rover, command);
   double fastest = kLeastSpeedScale_m_s;
   for (int k = 0; k < wheel_count(); ++k)
-    fastest = std::max(fastest, std::abs(told[k].rate_rad_s) * rover.wheels[k].radius_m);
+    fastest = std::max(fastest, std::abs(commanded[k].rate_rad_s) * rover.wheels[k].radius_m);
   // Wheels that can't roll the way they are told to go (crabbing without steering) are dragged at that speed.
   if (fastest <= kLeastSpeedScale_m_s && !command.turn_in_place)
     fastest = std::max(fastest, std::abs(command.speed_m_s));
   speed_scale_ = fastest;
-  set_soils(gravity_m_s2, command, told);
+  set_soils(gravity_m_s2, command, commanded);
   for (int k = 0; k < wheel_count(); ++k) {
-    place_wheel(k, told[k]);
+    place_wheel(k, commanded[k]);
     place_slices(k);
   }
   set_gravity();
@@ -79,13 +79,13 @@ RoverBalance::RoverBalance(const RoverModel& rover, double gravity_m_s2, const S
 }
 
 void RoverBalance::set_soils(double gravity_m_s2, const DriveCommand& command,
-                             const PerWheel<WheelCommand>& told) {
+                             const PerWheel<WheelCommand>& commanded) {
   leaders_ = leaders(rover_, command);
   rut_shares_ = PerWheel<double>(soils_.size());
   for (std::size_t k = 0; k < soils_.size(); ++k) {
     const bool in_a_track = leaders_[k] >= 0;
     if (in_a_track) rut_shares_[k] = rut_share(soils_[k].multipass_stiffening, soils_[k].pressure.n);
-    const double rim_speed = std::abs(told[k].rate_rad_s) * rover_.wheels[k].radius_m;
+    const double rim_speed = std::abs(commanded[k].rate_rad_s) * rover_.wheels[k].radius_m;
     soils_[k] = soil_in_force(soils_[k], gravity_m_s2, rim_speed, in_a_track);
   }
 }
@@ -111,14 +111,14 @@ void RoverBalance::set_gravity() {
       gravity_[6 + j] += own * g.dot(joint_motion(rover_, stance_, k, j).shift) / length_;
 }
 
-void RoverBalance::place_wheel(int k, const WheelCommand& told) {
+void RoverBalance::place_wheel(int k, const WheelCommand& commanded) {
   const WheelModel& wheel = rover_.wheels[k];
   const Eigen::Vector3d& normal = stance_.normal_B[k];
   WheelPlace& place = places_[k];
   place.geometry = wheel.geometry();
   place.numbers = numbers_of(place.geometry, soils_[k], 0.0, {});
-  place.motion = true_motion(wheel, told);
-  place.direction = told.rate_rad_s < 0.0 ? -1.0 : 1.0;
+  place.motion = true_motion(wheel, commanded);
+  place.direction = commanded.rate_rad_s < 0.0 ? -1.0 : 1.0;
   const double steer = place.motion.steer_rad;
   const Eigen::Vector3d heading(std::cos(steer), std::sin(steer), 0.0);
   const Eigen::Vector3d axle(-std::sin(steer), std::cos(steer), 0.0);

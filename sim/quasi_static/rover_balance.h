@@ -111,8 +111,8 @@ class RoverBalance {
     Eigen::RowVector3d forward_ratio, leftward_ratio;  // of the three motions on u and v_y / (r |w|)
   };
 
-  void place_wheel(int wheel, const WheelCommand& told);
-  void set_soils(double gravity_m_s2, const DriveCommand& command, const PerWheel<WheelCommand>& told);
+  void place_wheel(int wheel, const WheelCommand& commanded);
+  void set_soils(double gravity_m_s2, const DriveCommand& command, const PerWheel<WheelCommand>& commanded);
   void set_gravity();
   void set_gap_gradient();
   void set_compatibility();

@@ -32,9 +32,9 @@ double TractionLimitSearch::surplus(double roll_rad, double pitch_rad) {
   const StationState state =
       solver_.solve(stance_on_plane(rover_, {.roll_rad = roll_rad, .pitch_rad = pitch_rad, .yaw_rad = 0.0}),
                     soil_, command_);
-  const double told_m_s = command_.speed_m_s * attainable_share(rover_, command_);
+  const double commanded_m_s = command_.speed_m_s * attainable_share(rover_, command_);
   const double surplus =
-      state.along_m_s / told_m_s - std::hypot(kSpinningSpeedRatio, state.leftward_m_s / told_m_s);
+      state.along_m_s / commanded_m_s - std::hypot(kSpinningSpeedRatio, state.leftward_m_s / commanded_m_s);
   if (state.moving()) return surplus;
   // Just beyond the limit the balance goes on, of a rover that slides back; elsewhere its speed says nothing.
   return surplus < 0.0 ? std::max(surplus, -1.0) : -1.0;

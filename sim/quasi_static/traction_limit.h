@@ -10,7 +10,7 @@ namespace slipway::sim {
 // speed along its heading, v_x, falls below the one at which it slides across, v_y, and on no side slope to
 // nothing,
 //
-//   v_x^2 = v_y^2 + (0.02 v_told)^2
+//   v_x^2 = v_y^2 + (0.02 v_commanded)^2
 //
 // A motor that stalls or a wheel that lifts may come before. Past this point a rover slides down more than it
 // drives, and on some soils its motion jumps: all at once the wheels spin and hold it sideways no more. One

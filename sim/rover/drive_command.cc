@@ -13,7 +13,7 @@ namespace slipway::sim {
 namespace {
 
 // Velocity of a wheel's place on the rover that moves as told, frame B.
-Eigen::Vector2d told_velocity(const WheelModel& wheel, const DriveCommand& command) {
+Eigen::Vector2d commanded_velocity(const WheelModel& wheel, const DriveCommand& command) {
   const double yaw_rate =
       command.turn_in_place ? command.turn_rate_rad_s : command.speed_m_s * command.curvature_1_m;
   const double speed = command.turn_in_place ? 0.0 : command.speed_m_s;
@@ -21,8 +21,8 @@ Eigen::Vector2d told_velocity(const WheelModel& wheel, const DriveCommand& comma
   return speed * travel_direction(command) + turning;
 }
 
-WheelCommand told_wheel(const WheelModel& wheel, const DriveCommand& command) {
-  const Eigen::Vector2d velocity = told_velocity(wheel, command);
+WheelCommand commanded_wheel(const WheelModel& wheel, const DriveCommand& command) {
+  const Eigen::Vector2d velocity = commanded_velocity(wheel, command);
   const double radius = wheel.reckoned_radius_m();
   if (!wheel.steerable || velocity.norm() == 0.0)
     return {.steer_rad = 0.0, .rate_rad_s = velocity.x() / radius};
@@ -42,18 +42,18 @@ Eigen::Vector2d travel_direction(const DriveCommand& command) {
 double attainable_share(const RoverModel& rover, const DriveCommand& command) {
   double fastest = 0.0;
   for (const WheelModel& wheel : rover.wheels)
-    fastest = std::max(fastest, std::abs(told_wheel(wheel, command).rate_rad_s));
+    fastest = std::max(fastest, std::abs(commanded_wheel(wheel, command).rate_rad_s));
   return fastest > rover.drive.max_wheel_rate_rad_s ? rover.drive.max_wheel_rate_rad_s / fastest : 1.0;
 }
 
 PerWheel<WheelCommand> wheel_commands(const RoverModel& rover, const DriveCommand& command) {
-  PerWheel<WheelCommand> told(rover.wheels.size());
+  PerWheel<WheelCommand> commanded(rover.wheels.size());
   const double share = attainable_share(rover, command);
-  for (std::size_t k = 0; k < told.size(); ++k) {
-    told[k] = told_wheel(rover.wheels[k], command);
-    told[k].rate_rad_s *= share;
+  for (std::size_t k = 0; k < commanded.size(); ++k) {
+    commanded[k] = commanded_wheel(rover.wheels[k], command);
+    commanded[k].rate_rad_s *= share;
   }
-  return told;
+  return commanded;
 }
 
 std::optional<std::string> why_no_crab(const RoverModel& rover, double crab_rad) {
@@ -65,8 +65,8 @@ std::optional<std::string> why_no_crab(const RoverModel& rover, double crab_rad)
                      rover.name, fmt::join(straight, ", "));
 }
 
-WheelCommand true_motion(const WheelModel& wheel, const WheelCommand& told) {
-  WheelCommand motion = told;
+WheelCommand true_motion(const WheelModel& wheel, const WheelCommand& commanded) {
+  WheelCommand motion = commanded;
   motion.steer_rad += wheel.steering_offset_rad;
   if (wheel.drive == WheelDrive::kLocked) motion.rate_rad_s = 0.0;
   if (wheel.drive == WheelDrive::kDriven) motion.rate_rad_s *= wheel.rate_share;

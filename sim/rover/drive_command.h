@@ -49,6 +49,6 @@ std::optional<std::string> why_no_crab(const RoverModel& rover, double crab_rad)
 
 // How a wheel really stands and turns when told so: steered by its offset, turning at its share of the rate;
 // not at all where it is locked. A free wheel's rate is the ground's to say: here the told one.
-WheelCommand true_motion(const WheelModel& wheel, const WheelCommand& told);
+WheelCommand true_motion(const WheelModel& wheel, const WheelCommand& commanded);
 
 }  // namespace slipway::sim

@@ -35,13 +35,14 @@ struct WheelModel {
   Side side = Side::kLeft;
   bool on_bogie = false;  // of a rocker-bogie: carried by the side's bogie, otherwise by its rocker
   WheelDrive drive = WheelDrive::kDriven;
-  double drag_nm = 0.0;                 // resisting torque at the axle besides the soil's, >= 0
-  double rate_share = 1.0;              // of the told rate that the wheel really turns at, (0, 1]
-  double steering_offset_rad = 0.0;     // true less told steering angle
-  std::optional<double> told_radius_m;  // that the rover's own software reckons with; radius_m where absent
+  double drag_nm = 0.0;              // resisting torque at the axle besides the soil's, >= 0
+  double rate_share = 1.0;           // of the told rate that the wheel really turns at, (0, 1]
+  double steering_offset_rad = 0.0;  // true less told steering angle
+  std::optional<double>
+      software_radius_m;  // that the rover's own software reckons with; radius_m where absent
 
   WheelGeometry geometry() const { return {radius_m, width_m, grousers.value_or(Grousers{}), rim_friction}; }
-  double reckoned_radius_m() const { return told_radius_m.value_or(radius_m); }
+  double reckoned_radius_m() const { return software_radius_m.value_or(radius_m); }
 };
 
 enum class SuspensionType {

@@ -47,9 +47,9 @@ SlipQuantiles quantiles_of(SingleWheelTest test, const SoilDistribution& belief,
     for (int k = 0; k < kSoilDims; ++k) normals[k] = random_normal(key, static_cast<std::uint64_t>(k));
     test.soil = draw_soil(belief, normals);
     const SlipsOfCurrent found = slips_of_current(test, current_a);
-    if (found.told) {
-      slips.push_back(*found.told);
-      over += *found.told > options.max_slip ? 1 : 0;
+    if (found.reported) {
+      slips.push_back(*found.reported);
+      over += *found.reported > options.max_slip ? 1 : 0;
     } else if (!found.stands || current_a > found.greatest_current_a) {
       ++q.above;
     } else {
@@ -83,13 +83,13 @@ void judge(double current_a, const InverseOptions& options, CurrentInverse& answ
   std::vector<std::string>& words = answer.words;
   if (found.sunk_from_slip)
     words.push_back(fmt::format("the wheel is sunk to its axle from slip {:.2f} on", *found.sunk_from_slip));
-  if (!found.told) {
+  if (!found.reported) {
     const bool above = !found.stands || current_a > found.greatest_current_a;
     answer.verdict = above ? Trafficability::kNoGo : Trafficability::kCaution;
     words.push_back(no_slip(current_a, found));
     return;
   }
-  const double slip = *found.told;
+  const double slip = *found.reported;
   const SlipQuantiles& q = answer.quantiles;
   if (found.slips.size() > 1) {
     std::string all;
@@ -117,8 +117,8 @@ void judge(double current_a, const InverseOptions& options, CurrentInverse& answ
 
 void measure_reserve(const SingleWheelTest& test, CurrentInverse& answer) {
   answer.greatest = greatest_pull(test);
-  if (!answer.found.told || !answer.greatest) return;
-  answer.wheel = at_slip(test, *answer.found.told);
+  if (!answer.found.reported || !answer.greatest) return;
+  answer.wheel = at_slip(test, *answer.found.reported);
   const double pull = answer.wheel->forces.drawbar_pull_n;
   if (answer.greatest->pull_n <= 0.0) {
     answer.words.push_back(
@@ -152,7 +152,7 @@ SlipsOfCurrent slips_of_current(const SingleWheelTest& test, double current_a) {
       if (before && (*before > 0.0) != (*here > 0.0)) {
         const bool rising = *here > 0.0;
         found.slips.push_back(root_between(test, current_a, slip_before, slip, rising));
-        if (rising && !found.told) found.told = found.slips.back();
+        if (rising && !found.reported) found.reported = found.slips.back();
       }
     } else if (found.stands && !found.sunk_from_slip) {
       found.sunk_from_slip = slip;

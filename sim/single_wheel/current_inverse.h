@@ -20,7 +20,7 @@ struct SlipsOfCurrent {
   std::vector<double> slips;  // every slip that asks for this current, rising, to 1e-10
   // The lowest of them at which the current rises with slip, as it does from free rolling: where a wheel that
   // was driven off from rest is.
-  std::optional<double> told;
+  std::optional<double> reported;
   bool stands = false;  // at any slip that was searched; the currents between which it stands
   double least_current_a = 0.0, greatest_current_a = 0.0;
   std::optional<double> sunk_from_slip;  // it stands below this slip, and is sunk to its axle at it

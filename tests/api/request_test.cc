@@ -161,11 +161,11 @@ TEST(PredictionRequest, ARoverThatDoesNotSteerDoesNotCrab) {
 TEST(PredictionRequest, TheRungIsReadAndEchoed) {
   const auto request = small_world().read_prediction(example("prediction_dynamic.json"));
   ASSERT_TRUE(request) << request.error().detail;
-  EXPECT_EQ(request->rung, Rung::kDynamic);
+  EXPECT_EQ(request->level, FidelityLevel::kDynamic);
   EXPECT_EQ(request->drive.failed_wheels.at("lr"), sim::WheelFailure::kOff);
   const auto plain = small_world().read_prediction(example("prediction_path.json"));
   ASSERT_TRUE(plain);
-  EXPECT_EQ(plain->rung, Rung::kQuasiStatic);
+  EXPECT_EQ(plain->level, FidelityLevel::kQuasiStatic);
   const std::string echoed = json::write_prediction_request(*request);
   const auto again = json::read_prediction_request(echoed);
   ASSERT_TRUE(again && again->faults.empty());

@@ -23,7 +23,7 @@ sim::SensorReading reading_at(double time_s) {
   sample.attitude = {.roll_rad = 0.0, .pitch_rad = rad_from_deg(-5.0), .yaw_rad = rad_from_deg(200.0)};
   sample.wheels = sim::PerWheel<sim::WheelState>(wheels);
   sample.steer_rad = sim::PerWheel<double>(wheels, rad_from_deg(12.0));
-  sample.told_rate_rad_s = sample.turned_rad = sample.voltage_v = sim::PerWheel<double>(wheels, 0.0);
+  sample.commanded_rate_rad_s = sample.turned_rad = sample.voltage_v = sim::PerWheel<double>(wheels, 0.0);
   for (sim::WheelState& wheel : sample.wheels) {
     wheel.rate_rad_s = rad_from_deg(28.0);
     wheel.sinkage_m = 0.011;

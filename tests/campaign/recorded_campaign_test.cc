@@ -35,7 +35,7 @@ void expect_series(const gap::MeasuredDriveSeries& read, std::span<const sim::Se
 }
 
 TEST(RecordedCampaign, OurOwnDrivesAreReadAsTheyWereMade) {
-  const CampaignTable table = *read_table(kSmallTable);
+  const DriveTable table = *read_table(kSmallTable);
   const std::filesystem::path path = empty_folder("recorded");
   auto folder = api::CampaignFolder::open(path, "a digest", false);
   std::map<std::string, std::vector<sim::SensorReading>> made;

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-CampaignTable small_table() {
+DriveTable small_table() {
   return *read_table(kSmallTable);
 }
 
@@ -45,7 +45,7 @@ class Impatient final : public Progress {
   std::atomic<int> left_;
 };
 
-Result<void> run_into(const CampaignTable& table, api::CampaignFolder& folder, std::size_t threads,
+Result<void> run_into(const DriveTable& table, api::CampaignFolder& folder, std::size_t threads,
                       Progress& progress) {
   const std::vector<TableDrive> all = expand(table);
   std::vector<TableDrive> missing;
@@ -62,7 +62,7 @@ Result<void> run_into(const CampaignTable& table, api::CampaignFolder& folder, s
 }
 
 std::map<std::string, std::string> whole_campaign(const std::string& name, std::size_t threads) {
-  const CampaignTable table = small_table();
+  const DriveTable table = small_table();
   const fs::path path = empty_folder(name);
   auto folder = api::CampaignFolder::open(path, "a digest", false);
   NoProgress progress;
@@ -87,7 +87,7 @@ TEST(RunCampaign, TheSameBytesOnAnyNumberOfThreads) {
 
 TEST(RunCampaign, GoingOnGivesTheBytesOfAnUnbrokenRun) {
   const auto unbroken = whole_campaign("unbroken", 2);
-  const CampaignTable table = small_table();
+  const DriveTable table = small_table();
   const fs::path path = empty_folder("broken");
   {
     auto folder = api::CampaignFolder::open(path, "a digest", false);
@@ -143,7 +143,7 @@ TEST(RunCampaign, AFolderOfSomebodyElsesCampaignIsRefused) {
 }
 
 TEST(RunCampaign, ADriveIsTheSameInAnyCompany) {
-  const CampaignTable table = small_table();
+  const DriveTable table = small_table();
   const std::vector<TableDrive> all = expand(table);
   NoProgress progress;
   std::mutex mutex;
@@ -167,7 +167,7 @@ TEST(RunCampaign, ADriveIsTheSameInAnyCompany) {
 }
 
 TEST(RunCampaign, WithoutDrawsEveryDriveIsOnTheMeanSoil) {
-  CampaignTable table = small_table();
+  DriveTable table = small_table();
   table.draw_soils = false;
   NoProgress progress;
   const MadeDrive made = make_drive(table, expand(table)[1], &sim::simulate_drive, progress);
@@ -182,7 +182,7 @@ Result<sim::DynamicDrive> lost(const sim::RoverModel&, double, const sim::Ground
 }
 
 TEST(RunCampaign, ADriveWithoutAnAnswerIsRecordedAndTheOthersGoOn) {
-  const CampaignTable table = small_table();
+  const DriveTable table = small_table();
   const fs::path path = empty_folder("lost");
   auto folder = api::CampaignFolder::open(path, "a digest", false);
   NoProgress progress;
@@ -199,7 +199,7 @@ TEST(RunCampaign, ADriveWithoutAnAnswerIsRecordedAndTheOthersGoOn) {
 }
 
 TEST(RunCampaign, AnErrorOfTheTakerEndsIt) {
-  const CampaignTable table = small_table();
+  const DriveTable table = small_table();
   NoProgress progress;
   const auto run = run_campaign(
       table, expand(table), {.threads = 1, .simulator = &lost},
@@ -212,7 +212,7 @@ TEST(RunCampaign, AnErrorOfTheTakerEndsIt) {
 }
 
 TEST(RunCampaign, ASoilMapIsDrivenOnAndTold) {
-  CampaignTable table = small_table();
+  DriveTable table = small_table();
   TableTerrain& slope = table.terrains[1];
   const dem::GridGeometry halves{
       .rows = 1, .columns = 2, .west_m = -3.0, .north_m = 3.0, .cell_x_m = 3.0, .cell_y_m = 6.0};
@@ -235,7 +235,7 @@ TEST(RunCampaign, ASoilMapIsDrivenOnAndTold) {
 }
 
 TEST(DeformedTerrain, IsLoweredByTheRutsAndNowhereElse) {
-  const CampaignTable table = small_table();
+  const DriveTable table = small_table();
   const dem::Terrain& ground = *table.terrains[1].ground;
   sim::RutMap ruts;
   EXPECT_EQ(deformed_terrain(ground, ruts), nullptr);

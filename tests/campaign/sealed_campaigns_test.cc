@@ -47,7 +47,7 @@ TEST(SealedCampaigns, TheirTablesCanBeDriven) {
   for (const std::string_view set : sealed_sets())
     for (const std::uint64_t seed : {1U, 2U, 3U})
       for (const SealedCampaign& sealed : sealed_campaigns(set, seed, rover())) {
-        for (const CampaignTable* table : {&sealed.driven, &sealed.believed})
+        for (const DriveTable* table : {&sealed.driven, &sealed.believed})
           for (const Fault& fault : faults_of(*table))
             ADD_FAILURE() << sealed.name << fault.pointer << ": " << fault.message;
         EXPECT_TRUE(sim::faults_of(sealed.hidden).empty()) << sealed.name;
@@ -135,7 +135,7 @@ Result<void> make(const std::filesystem::path& folder, std::uint64_t seed, std::
       progress);
 }
 
-TEST(SealedFolder, GoesOnAfterAnInterruptionWithTheSameBytes) {
+TEST(SealedSet, GoesOnAfterAnInterruptionWithTheSameBytes) {
   NoProgress patience;
   GivenUp impatience;
   const auto whole = empty_folder("sealed_whole"), parts = empty_folder("sealed_parts");
@@ -153,7 +153,7 @@ TEST(SealedFolder, GoesOnAfterAnInterruptionWithTheSameBytes) {
   EXPECT_EQ(campaign->drives[1].repeat_of, campaign->drives[0].id);
 }
 
-TEST(SealedFolder, LeavesAloneWhatItDidNotMake) {
+TEST(SealedSet, LeavesAloneWhatItDidNotMake) {
   NoProgress patience;
   const auto folder = empty_folder("sealed_foreign");
   ASSERT_TRUE(make(folder, 7, 1, patience));

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "api/files/catalogue.h"
-#include "api/files/drive_table/campaign_table_file.h"
-#include "campaign/campaign_table.h"
+#include "api/files/drive_table/drive_table_file.h"
+#include "campaign/drive_table.h"
 
 namespace slipway::campaign {
 
@@ -14,7 +14,7 @@ inline const api::Catalogue& shipped_catalogue() {
   return catalogue;
 }
 
-inline Result<CampaignTable> read_table(const std::string& bytes) {
+inline Result<DriveTable> read_table(const std::string& bytes) {
   return api::json::read_campaign_table(bytes, SLIPWAY_DATA_FOLDER, shipped_catalogue());
 }
 

@@ -40,7 +40,7 @@ Result<sim::DynamicDrive> toy(const sim::RoverModel&, double, const sim::Ground&
   return drive;
 }
 
-MeasuredFinals finals_of(const CampaignTable& table, Simulator simulator, double noise_m) {
+MeasuredFinals finals_of(const DriveTable& table, Simulator simulator, double noise_m) {
   MeasuredFinals finals;
   std::uint64_t counter = 0;
   for (const TableDrive& drive : expand(table)) {
@@ -67,9 +67,9 @@ TEST(Tune, NamesAreTheSweepsAndEveryEffectThatIsNotOfAPlace) {
 }
 
 TEST(Tune, EveryNameChangesTheTable) {
-  const CampaignTable table = *read_table(kSixDrives);
+  const DriveTable table = *read_table(kSixDrives);
   for (const std::string& name : tuning_field_names()) {
-    CampaignTable changed = table;
+    DriveTable changed = table;
     set_tuned(name, tuning_field(name)->highest, changed);
     if (name.starts_with("effects.")) {
       ASSERT_EQ(changed.effects.size(), 1U) << name;
@@ -83,7 +83,7 @@ TEST(Tune, EveryNameChangesTheTable) {
 }
 
 TEST(Tune, RepeatsAreOneDriveAndTheUnmeasuredAreLeftOut) {
-  CampaignTable table = *read_table(kSixDrives);
+  DriveTable table = *read_table(kSixDrives);
   table.entries[0].repeats = 3;
   const auto drives = expand(table);
   MeasuredFinals finals = finals_of(table, &toy, 0.001);
@@ -105,7 +105,7 @@ TEST(Tune, RepeatsAreOneDriveAndTheUnmeasuredAreLeftOut) {
 }
 
 TEST(Tune, RefusesNamesRangesSoilsAndNothingMeasured) {
-  CampaignTable table = *read_table(kSixDrives);
+  DriveTable table = *read_table(kSixDrives);
   const auto drives = expand(table);
   const MeasuredFinals finals = finals_of(table, &toy, 0.0);
   NoProgress progress;
@@ -130,7 +130,7 @@ TEST(Tune, RefusesNamesRangesSoilsAndNothingMeasured) {
 }
 
 TEST(Tune, FindsFrictionAngleAndShearModulusOfSixSimulatedDrives) {
-  CampaignTable table = *read_table(kSixDrives);
+  DriveTable table = *read_table(kSixDrives);
   table.draw_soils = false;
   sim::Soil& soil = table.soils.find("dry_sand")->second.mean;
   soil.pressure = {990.0, 1.528e6, 1.1};

@@ -83,9 +83,9 @@ TEST(DriveWindow, AnOutlierIsPassedOver) {
 TEST(DriveWindow, RowsBeforeTheRoverSetsOffAndAfterItHaltsAreLeftOut) {
   DriveCampaign campaign = constant_motion(0.04, 0.0, 0.0, 0.0, 0.0, 0.05, 0.0);
   MeasuredDriveSeries& drive = campaign.drives[0];
-  const double told_rad_s = sim::wheel_commands(*campaign.rover, drive.command)[0].rate_rad_s;
+  const double commanded_rad_s = sim::wheel_commands(*campaign.rover, drive.command)[0].rate_rad_s;
   for (DriveSample& sample : drive.samples)
-    for (WheelReading& wheel : sample.wheels) wheel.rate_rad_s = told_rad_s;
+    for (WheelReading& wheel : sample.wheels) wheel.rate_rad_s = commanded_rad_s;
   const auto driving = cut_windows(campaign);
   // It stands for 4 s at either end.
   std::vector<DriveSample> samples;

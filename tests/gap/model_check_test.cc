@@ -22,15 +22,15 @@ const ChannelCheck& find(const std::vector<ChannelCheck>& checks, Channel channe
 }
 
 // A value of a current: what either model is off by, on level ground.
-ToldValue told(std::size_t group, double nominal_error, double corrected_error) {
+PredictedValue predicted(std::size_t group, double nominal_error, double corrected_error) {
   return {Channel::kCurrent, group, 0.0, 1.0, 1.0 + nominal_error, 1.0 + corrected_error, 1.0};
 }
 
 TEST(ModelCheck, ErrorsThatAreHalvedInEveryDriveAreHalfWayDownForSure) {
-  std::vector<ToldValue> values;
+  std::vector<PredictedValue> values;
   for (std::size_t group = 0; group < 6; ++group)
-    for (const double error : {-4.0, 2.0, 2.0}) values.push_back(told(group, error, 0.5 * error));
-  const auto checks = score_told(values, {});
+    for (const double error : {-4.0, 2.0, 2.0}) values.push_back(predicted(group, error, 0.5 * error));
+  const auto checks = score_predicted(values, {});
   const ChannelCheck& c = find(checks, Channel::kCurrent, SlopeClass::kAll);
   EXPECT_EQ(c.values, 18U);
   EXPECT_EQ(c.drives, 6U);
@@ -46,18 +46,18 @@ TEST(ModelCheck, ErrorsThatAreHalvedInEveryDriveAreHalfWayDownForSure) {
 }
 
 TEST(ModelCheck, AWorseModelIsDownByLessThanNothing) {
-  std::vector<ToldValue> values;
-  for (std::size_t group = 0; group < 6; ++group) values.push_back(told(group, 1.0, 1.5));
-  const auto checks = score_told(values, {});
+  std::vector<PredictedValue> values;
+  for (std::size_t group = 0; group < 6; ++group) values.push_back(predicted(group, 1.0, 1.5));
+  const auto checks = score_predicted(values, {});
   EXPECT_NEAR(find(checks, Channel::kCurrent, SlopeClass::kAll).rms.down_percent, -50.0, 1e-12);
 }
 
 // Better in some drives, worse in others: the interval reaches over nothing.
 TEST(ModelCheck, DrivesThatDisagreeWidenTheInterval) {
-  std::vector<ToldValue> values;
+  std::vector<PredictedValue> values;
   for (std::size_t group = 0; group < 8; ++group)
-    values.push_back(told(group, 1.0, group % 2 == 0 ? 0.2 : 1.4));
-  const auto checks = score_told(values, {});
+    values.push_back(predicted(group, 1.0, group % 2 == 0 ? 0.2 : 1.4));
+  const auto checks = score_predicted(values, {});
   const ErrorChange& rms = find(checks, Channel::kCurrent, SlopeClass::kAll).rms;
   EXPECT_NEAR(rms.down_percent, 0.0, 1e-9);
   ASSERT_TRUE(rms.down_interval);
@@ -75,21 +75,22 @@ TEST(ModelCheck, RepeatsAreOneDriveAndFewDrivesHaveNoInterval) {
   campaign.drives[4].repeat_of = "b";
   const std::vector<std::size_t> groups = repeat_groups(campaign);
   EXPECT_EQ(groups, (std::vector<std::size_t>{0, 1, 0, 2, 1}));
-  std::vector<ToldValue> values;
-  for (const std::size_t group : groups) values.push_back(told(group, 1.0, 0.5));
-  const auto checks = score_told(values, {});
+  std::vector<PredictedValue> values;
+  for (const std::size_t group : groups) values.push_back(predicted(group, 1.0, 0.5));
+  const auto checks = score_predicted(values, {});
   const ChannelCheck& c = find(checks, Channel::kCurrent, SlopeClass::kAll);
   EXPECT_EQ(c.drives, 3U);
   EXPECT_FALSE(c.rms.down_interval);
 }
 
 TEST(ModelCheck, IntervalsAndSlopesAreThoseOfTheValues) {
-  std::vector<ToldValue> values{told(0, 1.0, 0.5), told(1, 1.0, 1.0), told(2, 1.0, 1.6), told(3, 1.0, 1.7)};
+  std::vector<PredictedValue> values{predicted(0, 1.0, 0.5), predicted(1, 1.0, 1.0), predicted(2, 1.0, 1.6),
+                                     predicted(3, 1.0, 1.7)};
   values[0].gradient_rad = rad_from_deg(9.0);
   values[1].gradient_rad = rad_from_deg(-9.0);
   values[2].gradient_rad = rad_from_deg(7.0);
   values[3].gradient_rad = rad_from_deg(-7.0);
-  const auto checks = score_told(values, {});
+  const auto checks = score_predicted(values, {});
   const ChannelCheck& all = find(checks, Channel::kCurrent, SlopeClass::kAll);
   EXPECT_NEAR(all.within_50, 0.25, 1e-12);
   EXPECT_NEAR(all.within_90, 0.75, 1e-12);

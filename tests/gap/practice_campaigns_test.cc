@@ -65,7 +65,7 @@ TEST(PracticeCampaigns, MotorTemperatureIsFoundAndCanBeWithheld) {
   ASSERT_EQ(names(found), std::vector<std::string>{"motor_temperature"});
   EXPECT_NEAR(parameter(found, "friction_per_k").value.value, 0.02, 0.002);
   ASSERT_TRUE(found.model) << "the correction improves drives that were held out";
-  for (const ChannelShrink& channel : found.gap) {
+  for (const ChannelClosure& channel : found.gap) {
     if (channel.channel == Channel::kCurrent) {
       EXPECT_LT(channel.with_effects.high, 0.7 * channel.retuned.low);
     }

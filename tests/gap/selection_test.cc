@@ -77,7 +77,7 @@ Diagnosis answer_with(Verdict verdict, double least_left) {
   d.candidates[0].probability = 0.95;
   d.candidates[1].effects = {"unknown"};
   d.candidates[1].probability = 0.05;
-  ChannelShrink current;
+  ChannelClosure current;
   current.channel = Channel::kCurrent;
   current.retuned = {3.0, 2.8, 3.2};
   current.with_effects = {least_left + 0.1, least_left, least_left + 0.2};

@@ -44,7 +44,7 @@ class Drive {
     drive_friction_ = world.scatter.friction * random.bounded();
     drive_modulus_ = world.scatter.shear_modulus * random.bounded();
     hub_phase_ = random.uniform(0.0, 2.0 * std::numbers::pi);
-    told_ = told_wheels(world.rover, order);
+    told_ = commanded_wheels(world.rover, order);
     x_ = order.start_x_m;
     y_ = order.start_y_m;
     yaw_ = order.start_yaw_rad;
@@ -361,7 +361,7 @@ class Drive {
 
 }  // namespace
 
-std::array<WheelRow, kWheels> told_wheels(const RoverOnFile& rover, const DriveOrder& order) {
+std::array<WheelRow, kWheels> commanded_wheels(const RoverOnFile& rover, const DriveOrder& order) {
   std::array<WheelRow, kWheels> told;
   for (int k = 0; k < kWheels; ++k) {
     const double x = rover.wheel_m[k].x(), y = rover.wheel_m[k].y();

@@ -67,7 +67,7 @@ struct World {
 };
 
 // Told rates and steering angles of the six wheels.
-std::array<WheelRow, kWheels> told_wheels(const RoverOnFile& rover, const DriveOrder& order);
+std::array<WheelRow, kWheels> commanded_wheels(const RoverOnFile& rover, const DriveOrder& order);
 
 struct SimulatedDrive {
   std::vector<DriveRow> rows;

@@ -20,7 +20,8 @@ DriveSample a_sample() {
   sample.rocker_rad = {0.1, -0.1};
   sample.bogie_rad = {-0.03, 0.04};
   sample.wheels = PerWheel<WheelState>(6);
-  sample.steer_rad = sample.told_rate_rad_s = sample.turned_rad = sample.voltage_v = PerWheel<double>(6, 0.3);
+  sample.steer_rad = sample.commanded_rate_rad_s = sample.turned_rad = sample.voltage_v =
+      PerWheel<double>(6, 0.3);
   for (int k = 0; k < 6; ++k) {
     sample.wheels[k].current_a = 0.5 + 0.1 * k;
     sample.wheels[k].sinkage_m = 0.01 + 0.002 * k;

@@ -19,14 +19,14 @@ struct Driven {
 
   // The last sample at full rates.
   const DriveSample& cruising() const {
-    const auto told = [](const DriveSample& sample) {
+    const auto commanded = [](const DriveSample& sample) {
       double fastest = 0.0;
-      for (const double rate : sample.told_rate_rad_s) fastest = std::max(fastest, std::abs(rate));
+      for (const double rate : sample.commanded_rate_rad_s) fastest = std::max(fastest, std::abs(rate));
       return fastest;
     };
     const DriveSample* best = &samples.front();
     for (const DriveSample& sample : samples)
-      if (sample.driving && told(sample) >= told(*best) * (1.0 - 1e-9)) best = &sample;
+      if (sample.driving && commanded(sample) >= commanded(*best) * (1.0 - 1e-9)) best = &sample;
     return *best;
   }
 };

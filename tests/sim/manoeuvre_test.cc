@@ -37,18 +37,18 @@ TEST(WheelCommands, CrabMotionTurnsEverySteeredWheelTheSameWay) {
 }
 
 TEST(WheelCommands, AWheelWithoutSteeringIsToldTheForwardPart) {
-  const auto told =
+  const auto commanded =
       wheel_commands(four_wheeler(SuspensionType::kRigid), {.speed_m_s = 0.04, .curvature_1_m = 0.5});
-  EXPECT_NEAR(told[0].rate_rad_s, 0.04 * (1.0 - 0.5 * 0.5) / 0.125, 1e-12);
-  EXPECT_NEAR(told[2].rate_rad_s, 0.04 * (1.0 + 0.5 * 0.5) / 0.125, 1e-12);
-  for (const WheelCommand& wheel : told) EXPECT_EQ(wheel.steer_rad, 0.0);
+  EXPECT_NEAR(commanded[0].rate_rad_s, 0.04 * (1.0 - 0.5 * 0.5) / 0.125, 1e-12);
+  EXPECT_NEAR(commanded[2].rate_rad_s, 0.04 * (1.0 + 0.5 * 0.5) / 0.125, 1e-12);
+  for (const WheelCommand& wheel : commanded) EXPECT_EQ(wheel.steer_rad, 0.0);
 }
 
 TEST(WheelCommands, TheRoverReckonsWithTheRadiusItWasToldAndRollsOnTheTrueOne) {
   RoverModel rover = six_wheeler();
   for (WheelModel& wheel : rover.wheels) {
-    wheel.told_radius_m = wheel.radius_m;
-    wheel.radius_m = 0.9 * *wheel.told_radius_m;  // worn
+    wheel.software_radius_m = wheel.radius_m;
+    wheel.radius_m = 0.9 * *wheel.software_radius_m;  // worn
   }
   EXPECT_NEAR(wheel_commands(rover, {.speed_m_s = 0.04})[0].rate_rad_s, 0.04 / 0.125, 1e-15);
   const StationState state = drive(rover, {.speed_m_s = 0.04});

@@ -13,13 +13,13 @@ namespace slipway::sim {
 namespace {
 
 // A wheel of this inertia against a constant load, by small explicit steps.
-double rate_after(const DriveMotor& motor, double told, double load_nm, double inertia, double seconds) {
+double rate_after(const DriveMotor& motor, double commanded, double load_nm, double inertia, double seconds) {
   const MotorControl control(motor, inertia, 0.003);
   double rate = 0.0, integral = 0.0;
   constexpr double kStep_s = 1e-4;
   for (double t = 0.0; t < seconds; t += kStep_s) {
-    const MotorDrive drive = control.keep_rate(told, rate, integral);
-    integral += kStep_s * control.integral_rate_v_s(drive, told, rate);
+    const MotorDrive drive = control.keep_rate(commanded, rate, integral);
+    integral += kStep_s * control.integral_rate_v_s(drive, commanded, rate);
     rate += kStep_s * (drive.torque_nm - load_nm * std::tanh(rate / 0.003)) / inertia;
   }
   return rate;
@@ -51,10 +51,11 @@ TEST(MotorControl, TakesTheSamePowerAsTheMotorsLaw) {
   for (const bool known : {false, true}) {
     DriveMotor motor;
     if (known) motor.resistance_ohm = 1.5;
-    const double told = 0.1;
+    const double commanded = 0.1;
     for (const double integral_v : {-0.5, 0.0, 0.5, 4.0}) {
-      const MotorDrive drive = MotorControl(motor, 1.0, 1e-4).keep_rate(told, told, integral_v);
-      EXPECT_NEAR(drive.electric_power_w, motor_state(motor, drive.torque_nm, told).electric_power_w, 1e-9)
+      const MotorDrive drive = MotorControl(motor, 1.0, 1e-4).keep_rate(commanded, commanded, integral_v);
+      EXPECT_NEAR(drive.electric_power_w, motor_state(motor, drive.torque_nm, commanded).electric_power_w,
+                  1e-9)
           << known << " " << integral_v;
     }
   }
@@ -80,15 +81,15 @@ TEST(LegDriver, SteersBeforeItDrivesAndNoFasterThanItsMotorsCan) {
   leg.command = {.speed_m_s = 0.04, .curvature_1_m = 0.5};
   leg.length_m = 1.0;
   const LegDriver driver(rover, leg, Feedback::kNone, 0.0, PerWheel<double>(6));
-  const PerWheel<WheelCommand> told = wheel_commands(rover, leg.command);
+  const PerWheel<WheelCommand> commanded = wheel_commands(rover, leg.command);
   double last = 0.0;
   for (double t = 0.0; t < driver.steered_s(); t += 0.01) {
-    const PerWheel<WheelCommand> now = driver.told(t, {});
+    const PerWheel<WheelCommand> now = driver.commanded(t, {});
     EXPECT_EQ(now[0].rate_rad_s, 0.0);
     EXPECT_LE(std::abs(now[0].steer_rad - last), 0.1 * 0.01 + 1e-9);
     last = now[0].steer_rad;
   }
-  EXPECT_NEAR(driver.told(driver.steered_s(), {})[0].steer_rad, told[0].steer_rad, 1e-9);
+  EXPECT_NEAR(driver.commanded(driver.steered_s(), {})[0].steer_rad, commanded[0].steer_rad, 1e-9);
 }
 
 // A rover left of its line is steered right, whichever way it drives.
@@ -99,11 +100,11 @@ TEST(LegDriver, SteersBackToItsLine) {
     leg.command.speed_m_s = speed;
     leg.length_m = 5.0;
     const LegDriver driver(rover, leg, Feedback::kPose, 0.0, PerWheel<double>(6));
-    const PerWheel<WheelCommand> told =
-        driver.told(10.0, {.share = 0.5, .across_m = 0.2, .heading_rad = 0.0});
+    const PerWheel<WheelCommand> commanded =
+        driver.commanded(10.0, {.share = 0.5, .across_m = 0.2, .heading_rad = 0.0});
     // Its path then bends to the right of its travel: the leading steered wheel points there.
     const std::size_t leading = speed > 0.0 ? 0 : 2;
-    EXPECT_LT(told[leading].steer_rad, 0.0);
+    EXPECT_LT(commanded[leading].steer_rad, 0.0);
   }
 }
 
@@ -119,11 +120,11 @@ TEST(LegDriver, RollsOnPastAQuarterTurn) {
     const double t = driver.ramped_s() + 1.0;
     const PerWheel<WheelCommand> plain = wheel_commands(rover, leg.command);
     for (const double across : {-0.2, 0.2}) {
-      const PerWheel<WheelCommand> told = driver.told(t, {.share = 0.5, .across_m = across});
-      for (std::size_t k = 0; k < told.size(); ++k) {
-        EXPECT_LT(std::abs(told[k].steer_rad - plain[k].steer_rad), 0.5 * std::numbers::pi) << k;
+      const PerWheel<WheelCommand> commanded = driver.commanded(t, {.share = 0.5, .across_m = across});
+      for (std::size_t k = 0; k < commanded.size(); ++k) {
+        EXPECT_LT(std::abs(commanded[k].steer_rad - plain[k].steer_rad), 0.5 * std::numbers::pi) << k;
         if (!rover.wheels[k].steerable) continue;
-        EXPECT_GT(told[k].rate_rad_s * plain[k].rate_rad_s, 0.0) << k;
+        EXPECT_GT(commanded[k].rate_rad_s * plain[k].rate_rad_s, 0.0) << k;
       }
     }
   }

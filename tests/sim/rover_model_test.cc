@@ -105,23 +105,24 @@ TEST(WheelCommands, StraightDrivingTurnsAllWheelsAlike) {
 TEST(WheelCommands, OnAnArcEveryWheelPointsAcrossTheTurnsCentre) {
   const RoverModel rover = six_wheeler();
   const double curvature = 0.4;
-  const auto told = wheel_commands(rover, {.speed_m_s = 0.03, .curvature_1_m = curvature});
+  const auto commanded = wheel_commands(rover, {.speed_m_s = 0.03, .curvature_1_m = curvature});
   for (int k = 0; k < 6; ++k) {
     if (!rover.wheels[k].steerable) continue;
     const Eigen::Vector2d to_centre(-rover.wheels[k].position_m.x(),
                                     1.0 / curvature - rover.wheels[k].position_m.y());
-    const Eigen::Vector2d heading(std::cos(told[k].steer_rad), std::sin(told[k].steer_rad));
+    const Eigen::Vector2d heading(std::cos(commanded[k].steer_rad), std::sin(commanded[k].steer_rad));
     EXPECT_NEAR(heading.dot(to_centre), 0.0, 1e-12);
-    EXPECT_NEAR(told[k].rate_rad_s * rover.wheels[k].radius_m, 0.03 * curvature * to_centre.norm(), 1e-12);
+    EXPECT_NEAR(commanded[k].rate_rad_s * rover.wheels[k].radius_m, 0.03 * curvature * to_centre.norm(),
+                1e-12);
   }
 }
 
 TEST(WheelCommands, ASpeedBeyondTheMotorsIsScaledDownForAllWheelsTogether) {
   const RoverModel rover = six_wheeler();
   const DriveCommand fast{.speed_m_s = 1.0, .curvature_1_m = 0.3};
-  const auto told = wheel_commands(rover, fast);
+  const auto commanded = wheel_commands(rover, fast);
   double fastest = 0.0;
-  for (const WheelCommand& wheel : told) fastest = std::max(fastest, std::abs(wheel.rate_rad_s));
+  for (const WheelCommand& wheel : commanded) fastest = std::max(fastest, std::abs(wheel.rate_rad_s));
   EXPECT_NEAR(fastest, rover.drive.max_wheel_rate_rad_s, 1e-12);
   EXPECT_LT(attainable_share(rover, fast), 0.1);
   EXPECT_EQ(attainable_share(rover, {.speed_m_s = 0.04}), 1.0);

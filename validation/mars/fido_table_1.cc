@@ -19,8 +19,8 @@
 namespace slipway::validation {
 namespace {
 
-using campaign::CampaignTable;
 using campaign::DriveRecord;
+using campaign::DriveTable;
 using campaign::TableDrive;
 using Records = std::map<std::string, DriveRecord>;
 
@@ -43,11 +43,11 @@ constexpr std::array kPublished{
     Published{"20.764", 10, 60, 5, 20, 0.4},
 };
 
-bool goes(const CampaignTable& table, const TableDrive& drive) {
+bool goes(const DriveTable& table, const TableDrive& drive) {
   return !table.entries[drive.entry].legs.front().command.turn_in_place;
 }
 
-Result<Records> records_of(const CampaignTable& table, const std::vector<TableDrive>& drives) {
+Result<Records> records_of(const DriveTable& table, const std::vector<TableDrive>& drives) {
   Records records;
   std::mutex mutex;
   NoProgress progress;
@@ -66,7 +66,7 @@ Result<Records> records_of(const CampaignTable& table, const std::vector<TableDr
 }
 
 // 1 up, 0 across, -1 down: which way a drive sets out.
-int slope_direction(const CampaignTable& table, const TableDrive& drive) {
+int slope_direction(const DriveTable& table, const TableDrive& drive) {
   const double along = table.entries[drive.entry].legs.front().command.speed_m_s < 0.0 ? -1.0 : 1.0;
   return static_cast<int>(std::lround(along * std::cos(drive.start.yaw_rad)));
 }
@@ -79,8 +79,8 @@ struct Slips {
   double p95() const { return quantile(all, 0.95); }
 };
 
-std::array<Slips, kPublished.size()> slips_of(const CampaignTable& table,
-                                              const std::vector<TableDrive>& drives, const Records& records) {
+std::array<Slips, kPublished.size()> slips_of(const DriveTable& table, const std::vector<TableDrive>& drives,
+                                              const Records& records) {
   std::array<Slips, kPublished.size()> slips;
   for (const TableDrive& drive : drives) {
     const auto record = records.find(drive.id);
@@ -99,7 +99,7 @@ struct Misses {
   std::vector<double> heading_deg, position_m, turn_deg;
 };
 
-std::array<Misses, kPublished.size()> misses_of(const CampaignTable& table,
+std::array<Misses, kPublished.size()> misses_of(const DriveTable& table,
                                                 const std::vector<TableDrive>& drives, const Records& drawn,
                                                 const Records& mean) {
   std::array<Misses, kPublished.size()> misses;
@@ -197,9 +197,9 @@ std::vector<TableDrive> only(const std::vector<TableDrive>& drives,
 
 // Whether the three lower tilts fix what the steepest shows: the same first repeats on another friction
 // angle.
-Result<std::string> without_the_steepest(const CampaignTable& table, const std::vector<TableDrive>& drives,
+Result<std::string> without_the_steepest(const DriveTable& table, const std::vector<TableDrive>& drives,
                                          double change_deg) {
-  CampaignTable other = table;
+  DriveTable other = table;
   for (auto& [name, soil] : other.soils) soil.mean.friction_angle_rad += rad_from_deg(change_deg);
   const auto records = records_of(other, drives);
   if (!records) return fail(records.error());
@@ -215,9 +215,9 @@ Result<std::string> without_the_steepest(const CampaignTable& table, const std::
 }
 
 // Another seed draws other soils from the same distribution.
-Result<std::string> other_seeds(const CampaignTable& table, const std::vector<TableDrive>& drives) {
+Result<std::string> other_seeds(const DriveTable& table, const std::vector<TableDrive>& drives) {
   std::vector<std::string> words;
-  CampaignTable other = table;
+  DriveTable other = table;
   for (const std::uint64_t seed : kOtherSeeds) {
     other.seed = seed;
     const auto records = records_of(other, drives);
@@ -235,7 +235,7 @@ Result<Report> fido_table_1(const std::filesystem::path& data) {
   if (!catalogue) return fail(catalogue.error());
   const auto loaded = api::load_campaign_table("fido_table_1", data, *catalogue);
   if (!loaded) return fail(loaded.error());
-  const CampaignTable& table = loaded->table;
+  const DriveTable& table = loaded->table;
   const std::vector<TableDrive> all = campaign::expand(table);
   if (table.terrains.size() != kPublished.size())
     return fail(ErrorCode::kUnreadableData, "the table of FIDO's drives has other tilts");
@@ -247,7 +247,7 @@ Result<Report> fido_table_1(const std::filesystem::path& data) {
       only(firsts, [&](const TableDrive& drive) { return goes(table, drive); });
   const std::vector<TableDrive> steepest =
       only(all, [&](const TableDrive& drive) { return goes(table, drive) && drive.terrain == kSteepest; });
-  CampaignTable on_the_mean = table;
+  DriveTable on_the_mean = table;
   on_the_mean.draw_soils = false;
   const auto drawn = records_of(table, drives);
   if (!drawn) return fail(drawn.error());

@@ -35,7 +35,7 @@ struct Model {
   sim::Soil soil;
 };
 
-Model with_effects(const campaign::CampaignTable& table, sim::Soil soil,
+Model with_effects(const campaign::DriveTable& table, sim::Soil soil,
                    const std::vector<sim::EffectSetting>& more) {
   std::vector<sim::EffectSetting> settings = sim::in_force(table.rover->effects, table.effects);
   settings.insert(settings.end(), more.begin(), more.end());
@@ -84,7 +84,7 @@ Slips up_slope(const Model& model, double gravity_m_s2) {
 }
 
 // The sand of the shipped table, made firmer until the rover slips up the steepest tilt as ROAMS's did.
-sim::Soil as_roams(const campaign::CampaignTable& table) {
+sim::Soil as_roams(const campaign::DriveTable& table) {
   sim::Soil soil = table.soils.begin()->second.mean;
   double low = rad_from_deg(36.0), high = rad_from_deg(55.0);
   for (int k = 0; k < 20; ++k) {
@@ -111,7 +111,7 @@ struct Signature {
   }
 };
 
-std::vector<Signature> signatures_of(const campaign::CampaignTable& table, const sim::Soil& soil,
+std::vector<Signature> signatures_of(const campaign::DriveTable& table, const sim::Soil& soil,
                                      const Slips& base) {
   std::vector<Signature> all;
   for (const sim::Effect& effect : sim::effect_catalogue()) {
@@ -183,7 +183,7 @@ Result<Report> roams_table_1(const std::filesystem::path& data) {
   if (!catalogue) return fail(catalogue.error());
   const auto loaded = api::load_campaign_table("fido_table_1", data, *catalogue);
   if (!loaded) return fail(loaded.error());
-  const campaign::CampaignTable& table = loaded->table;
+  const campaign::DriveTable& table = loaded->table;
   const sim::Soil soil = as_roams(table);
   const Slips base = up_slope(with_effects(table, soil, {}), table.gravity_m_s2);
   const std::vector<Signature> all = signatures_of(table, soil, base);

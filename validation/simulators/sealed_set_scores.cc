@@ -86,7 +86,7 @@ std::vector<std::string> row_of(const std::string& set, const std::string& varia
           words(f.exact_sized),
           words(f.alike_sized),
           words(alarms),
-          words(f.unknown_told),
+          words(f.unknown_reported),
           words(f.unknown_auroc),
           words(f.confident_wrong),
           words(f.calibration),

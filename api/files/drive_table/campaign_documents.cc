@@ -37,7 +37,7 @@ void write_soil_classes(Writer& w, const campaign::TableTerrain& terrain) {
   w.end_object().end_object();
 }
 
-void write_grounds(Writer& w, const campaign::CampaignTable& table, const std::set<std::size_t>& used) {
+void write_grounds(Writer& w, const campaign::DriveTable& table, const std::set<std::size_t>& used) {
   std::set<std::string> soils;
   for (const std::size_t t : used)
     for (const std::string& name : campaign::soils_of(table.terrains[t])) soils.insert(name);
@@ -81,7 +81,7 @@ std::string leg_suffix(std::size_t legs, std::size_t leg) {
   return legs > 1 ? fmt::format("-leg{}", leg + 1) : "";
 }
 
-void write_drive(Writer& w, const campaign::CampaignTable& table, const campaign::TableDrive& drive,
+void write_drive(Writer& w, const campaign::DriveTable& table, const campaign::TableDrive& drive,
                  const campaign::DriveRecord& record) {
   const campaign::DriveEntry& entry = table.entries[drive.entry];
   for (std::size_t leg = 0; leg < entry.legs.size(); ++leg) {
@@ -107,8 +107,7 @@ void write_band(Writer& w, std::string_view key, const std::optional<campaign::B
 
 }  // namespace
 
-std::string campaign_document(const campaign::CampaignTable& table,
-                              std::span<const campaign::TableDrive> drives,
+std::string campaign_document(const campaign::DriveTable& table, std::span<const campaign::TableDrive> drives,
                               const std::map<std::string, campaign::DriveRecord>& records) {
   std::set<std::size_t> used;
   for (const campaign::TableDrive& drive : drives) {
@@ -130,7 +129,7 @@ std::string campaign_document(const campaign::CampaignTable& table,
   return w.take() + "\n";
 }
 
-std::string campaign_summary_document(const campaign::CampaignTable& table, std::size_t drives,
+std::string campaign_summary_document(const campaign::DriveTable& table, std::size_t drives,
                                       std::span<const campaign::TerrainSummary> summaries) {
   constexpr double kDegPerRad = deg_from_rad(1.0);
   int done = 0;

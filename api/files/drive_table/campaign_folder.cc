@@ -108,7 +108,7 @@ Result<void> CampaignFolder::write(const std::string& file, const std::string& b
   return write_whole_file(folder_ / file, bytes);
 }
 
-Result<std::vector<std::string>> CampaignFolder::write_measurements(const campaign::CampaignTable& table,
+Result<std::vector<std::string>> CampaignFolder::write_measurements(const campaign::DriveTable& table,
                                                                     const campaign::TableDrive& drive,
                                                                     const campaign::MadeDrive& made) const {
   const campaign::DriveEntry& entry = table.entries[drive.entry];
@@ -128,8 +128,7 @@ Result<std::vector<std::string>> CampaignFolder::write_measurements(const campai
   return files;
 }
 
-Result<void> CampaignFolder::write_drive(const campaign::CampaignTable& table,
-                                         const campaign::TableDrive& drive,
+Result<void> CampaignFolder::write_drive(const campaign::DriveTable& table, const campaign::TableDrive& drive,
                                          const campaign::MadeDrive& made) const {
   const campaign::DriveEntry& entry = table.entries[drive.entry];
   std::vector<std::string> files;
@@ -157,7 +156,7 @@ Result<void> CampaignFolder::write_drive(const campaign::CampaignTable& table,
   return write("drives/" + drive.id + ".json", json::drive_record_document(record));
 }
 
-Result<void> CampaignFolder::write_terrains(const campaign::CampaignTable& table,
+Result<void> CampaignFolder::write_terrains(const campaign::DriveTable& table,
                                             std::span<const campaign::TableDrive> drives) const {
   std::set<std::size_t> used;
   for (const campaign::TableDrive& drive : drives)
@@ -178,7 +177,7 @@ Result<void> CampaignFolder::write_terrains(const campaign::CampaignTable& table
 }
 
 Result<std::vector<campaign::TerrainSummary>> CampaignFolder::conclude(
-    const campaign::CampaignTable& table, std::span<const campaign::TableDrive> drives) {
+    const campaign::DriveTable& table, std::span<const campaign::TableDrive> drives) {
   if (const auto read = read_records(); !read) return fail(read.error());
   if (const auto written = write_terrains(table, drives); !written) return fail(written.error());
   std::vector<campaign::TerrainSummary> summaries = campaign::summarise(table, drives, done_);

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "campaign/campaign_summary.h"
-#include "campaign/campaign_table.h"
 #include "campaign/drive_record.h"
+#include "campaign/drive_table.h"
 #include "core/result.h"
 
 namespace slipway::api {
@@ -30,11 +30,11 @@ class CampaignFolder {
   const std::vector<std::string>& notes() const { return notes_; }
 
   // Writes a drive's files. For several threads at once; does not change done().
-  Result<void> write_drive(const campaign::CampaignTable& table, const campaign::TableDrive& drive,
+  Result<void> write_drive(const campaign::DriveTable& table, const campaign::TableDrive& drive,
                            const campaign::MadeDrive& made) const;
 
   // Reads what is done and writes what is of the whole campaign: campaign.json, terrains, summary and plots.
-  Result<std::vector<campaign::TerrainSummary>> conclude(const campaign::CampaignTable& table,
+  Result<std::vector<campaign::TerrainSummary>> conclude(const campaign::DriveTable& table,
                                                          std::span<const campaign::TableDrive> drives);
 
  private:
@@ -43,10 +43,10 @@ class CampaignFolder {
   Result<void> read_records();
   void delete_drives();
   Result<void> write(const std::string& file, const std::string& bytes) const;
-  Result<std::vector<std::string>> write_measurements(const campaign::CampaignTable& table,
+  Result<std::vector<std::string>> write_measurements(const campaign::DriveTable& table,
                                                       const campaign::TableDrive& drive,
                                                       const campaign::MadeDrive& made) const;
-  Result<void> write_terrains(const campaign::CampaignTable& table,
+  Result<void> write_terrains(const campaign::DriveTable& table,
                               std::span<const campaign::TableDrive> drives) const;
 
   std::filesystem::path folder_;

@@ -7,7 +7,7 @@
 #include <system_error>
 #include <utility>
 
-#include "api/files/drive_table/campaign_table_file.h"
+#include "api/files/drive_table/drive_table_file.h"
 #include "api/files/soil_file.h"
 #include "api/json/faults.h"
 #include "campaign/digest.h"
@@ -23,7 +23,7 @@ fs::path shipped(const fs::path& data, const std::string& name) {
   return data / "campaigns" / (name + ".json");
 }
 
-Result<std::string> digest_of(const std::string& bytes, const campaign::CampaignTable& table,
+Result<std::string> digest_of(const std::string& bytes, const campaign::DriveTable& table,
                               const fs::path& data) {
   const auto rover = read_data_file(data / "rovers" / (table.rover->name + ".json"));
   if (!rover) return fail(rover.error());

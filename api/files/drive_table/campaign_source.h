@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "api/files/catalogue.h"
-#include "campaign/campaign_table.h"
+#include "campaign/drive_table.h"
 #include "core/result.h"
 
 namespace slipway::api {
 
 struct LoadedTable {
-  campaign::CampaignTable table;
+  campaign::DriveTable table;
   // Of everything its drives depend on: the program's version, the table, rover, soils and terrains.
   std::string digest;
 };

@@ -79,7 +79,7 @@ std::optional<std::string> file_of(const json::MeasuredCampaign& campaign, const
   return std::nullopt;
 }
 
-Result<campaign::MeasuredFinals> read_folder(const fs::path& folder, const campaign::CampaignTable& table,
+Result<campaign::MeasuredFinals> read_folder(const fs::path& folder, const campaign::DriveTable& table,
                                              std::span<const campaign::TableDrive> drives) {
   const auto bytes = read_data_file(folder / "campaign.json");
   if (!bytes) return fail(bytes.error());
@@ -121,8 +121,7 @@ Result<campaign::MeasuredFinals> read_survey(const fs::path& path) {
 
 }  // namespace
 
-Result<campaign::MeasuredFinals> read_measured_finals(const fs::path& path,
-                                                      const campaign::CampaignTable& table,
+Result<campaign::MeasuredFinals> read_measured_finals(const fs::path& path, const campaign::DriveTable& table,
                                                       std::span<const campaign::TableDrive> drives) {
   std::error_code ignored;
   return fs::is_directory(path, ignored) ? read_folder(path, table, drives) : read_survey(path);

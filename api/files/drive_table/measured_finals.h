@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <span>
 
-#include "campaign/campaign_table.h"
+#include "campaign/drive_table.h"
 #include "campaign/tune.h"
 #include "core/result.h"
 
@@ -15,7 +15,7 @@ namespace slipway::api {
 // Drives that are not there, or whose last row has no pose, are left out. Errors: unreadable_data with its
 // place; those of json::read_measured_campaign.
 Result<campaign::MeasuredFinals> read_measured_finals(const std::filesystem::path& path,
-                                                      const campaign::CampaignTable& table,
+                                                      const campaign::DriveTable& table,
                                                       std::span<const campaign::TableDrive> drives);
 
 }  // namespace slipway::api

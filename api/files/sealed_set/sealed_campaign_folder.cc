@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using campaign::SealedCampaign;
 
-std::string made_document(const SealedFolder& folder) {
+std::string made_document(const SealedSet& folder) {
   json::Writer w;
   w.begin_object().text("format", "sealed-campaigns/1").text("set", folder.set);
   w.whole("seed", static_cast<std::int64_t>(folder.seed)).text("version", version()).end_object();
@@ -30,7 +30,7 @@ std::string made_document(const SealedFolder& folder) {
 }
 
 // Empty, or begun by the same call.
-Result<void> claim(const SealedFolder& folder) {
+Result<void> claim(const SealedSet& folder) {
   if (const auto made = make_folder(folder.path); !made) return made;
   const fs::path mark = folder.path / "made.json";
   std::error_code error;
@@ -110,9 +110,8 @@ std::string answers_document(std::span<const SealedCampaign> campaigns) {
 
 }  // namespace
 
-Result<void> make_sealed_folder(const SealedFolder& folder,
-                                std::span<const campaign::SealedCampaign> campaigns, std::size_t threads,
-                                const SealedTaker& taker, Progress& progress) {
+Result<void> make_sealed_folder(const SealedSet& folder, std::span<const campaign::SealedCampaign> campaigns,
+                                std::size_t threads, const SealedTaker& taker, Progress& progress) {
   if (const auto claimed = claim(folder); !claimed) return claimed;
   std::error_code error;
   std::size_t count = 0;

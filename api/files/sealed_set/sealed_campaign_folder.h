@@ -16,7 +16,7 @@ namespace slipway::api {
 
 // A folder of campaigns to judge the diagnosis by: a drive-campaign/1 of its own in each NAME/, made.json
 // that says from which set and seed, and answers.json, the key. Nothing in NAME/ says what is hidden.
-struct SealedFolder {
+struct SealedSet {
   std::filesystem::path path;
   std::string set;
   std::uint64_t seed = 1;
@@ -29,8 +29,7 @@ using SealedTaker = std::function<void(const std::string& name, std::size_t driv
 // campaign.json is its last file, answers.json that of all. Drives that slid off, tipped over or have no
 // answer are left out. Errors: conflict where the folder holds anything else than campaigns of this set, seed
 // and version; unwritable_file; cancelled, after which the same call goes on.
-Result<void> make_sealed_folder(const SealedFolder& folder,
-                                std::span<const campaign::SealedCampaign> campaigns, std::size_t threads,
-                                const SealedTaker& taker, Progress& progress);
+Result<void> make_sealed_folder(const SealedSet& folder, std::span<const campaign::SealedCampaign> campaigns,
+                                std::size_t threads, const SealedTaker& taker, Progress& progress);
 
 }  // namespace slipway::api

@@ -14,9 +14,9 @@ constexpr std::size_t kMostShapes = 5;
 
 std::vector<ResidualShape> describe_unexplained(const PreparedCampaign& prepared,
                                                 const FittedExplanation& fit) {
-  const WildcardEstimate found = estimate_wildcard(fit, *prepared.noise, prepared.wildcard);
+  const DiscrepancyEstimate found = estimate_discrepancy(fit, *prepared.noise, prepared.discrepancy);
   const Eigen::VectorXd squares =
-      (prepared.noise->whiten(prepared.wildcard.values) * found.mean.asDiagonal()).colwise().squaredNorm();
+      (prepared.noise->whiten(prepared.discrepancy.values) * found.mean.asDiagonal()).colwise().squaredNorm();
   const double all = squares.sum();
   if (!(all > 0.0)) return {};
   std::vector<Eigen::Index> order(static_cast<std::size_t>(squares.size()));
@@ -26,7 +26,7 @@ std::vector<ResidualShape> describe_unexplained(const PreparedCampaign& prepared
   order.resize(std::min(order.size(), kMostShapes));
   std::vector<ResidualShape> shapes;
   for (const Eigen::Index c : order) {
-    const Wildcard::Column& column = prepared.wildcard.columns[static_cast<std::size_t>(c)];
+    const DiscrepancyTerm::Column& column = prepared.discrepancy.columns[static_cast<std::size_t>(c)];
     ResidualShape shape{column.entry, column.variable, squares[c] / all, {}};
     // A coefficient is linear in its variable: two ends and the middle say its shape.
     for (const double at : {-1.0, 0.0, 1.0}) {

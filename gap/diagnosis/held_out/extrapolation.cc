@@ -10,7 +10,7 @@
 namespace slipway::gap {
 namespace {
 
-constexpr double kTold = 2.0 / 3.0;  // quantile of the groups of drives from which on they are told
+constexpr double kPredicted = 2.0 / 3.0;  // quantile of the groups of drives from which on they are told
 constexpr std::size_t kLeastGroups = 4;
 
 // How harsh a window is: the more, the larger `sense` times the number is. What differs by less than `least`
@@ -66,7 +66,7 @@ Result<std::vector<Extrapolation>> extrapolate(const PreparedCampaign& prepared,
     if (known.size() < 3 * kLeastGroups) continue;
     const auto [least, most] = std::minmax_element(known.begin(), known.end());
     if (*most - *least < harshness.least) continue;
-    const double from = quantile(known, kTold);
+    const double from = quantile(known, kPredicted);
     std::vector<bool> learnt_from;
     for (std::size_t d = 0; d < campaign.drives.size(); ++d)
       learnt_from.push_back(!(mean[drives.groups[d]] > from));

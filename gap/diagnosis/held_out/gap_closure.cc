@@ -73,9 +73,9 @@ void keep(const PreparedCampaign& prepared, const DriveCampaign& campaign,
 
 }  // namespace
 
-Result<Shrink> shrink_on_held_out(const PreparedCampaign& prepared, const DriveCampaign& campaign,
-                                  const CorrectionChoice& choice, const DriveResampling& drives,
-                                  const DiagnosisOptions& options, Progress& progress) {
+Result<Shrink> close_gap_on_held_out(const PreparedCampaign& prepared, const DriveCampaign& campaign,
+                                     const CorrectionChoice& choice, const DriveResampling& drives,
+                                     const DiagnosisOptions& options, Progress& progress) {
   const WindowModel& model = *prepared.model;
   Shrink shrink;
   PlannersTally tally(prepared, campaign.drives.size());

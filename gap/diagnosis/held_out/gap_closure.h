@@ -16,7 +16,7 @@ namespace slipway::gap {
 // How far the gap shrinks on drives that a fit has not seen: both explanations are fitted to the other folds,
 // folds being whole drives with their repeats.
 struct Shrink {
-  std::vector<ChannelShrink> channels;
+  std::vector<ChannelClosure> channels;
   std::optional<Interval> closed_fraction;
   double log_density_gain = 0.0;  // held-out log density of the correction over the null's, a drive
   PlannersView planners_view;
@@ -31,8 +31,8 @@ struct CorrectionChoice {
 };
 
 // Intervals are over resamples of drives, the choice repeated in each as far as `choice` says.
-Result<Shrink> shrink_on_held_out(const PreparedCampaign& prepared, const DriveCampaign& campaign,
-                                  const CorrectionChoice& choice, const DriveResampling& drives,
-                                  const DiagnosisOptions& options, Progress& progress);
+Result<Shrink> close_gap_on_held_out(const PreparedCampaign& prepared, const DriveCampaign& campaign,
+                                     const CorrectionChoice& choice, const DriveResampling& drives,
+                                     const DiagnosisOptions& options, Progress& progress);
 
 }  // namespace slipway::gap

@@ -41,9 +41,9 @@ void PlannersTally::add(std::size_t window, const HeldOutComparison& comparison)
     drive.measured += o.value;
     drive.windows += 1.0;
     for (std::size_t m = 0; m < kModels; ++m) {
-      const double told = o.value - residuals[m];
-      drive.told[m] += told;
-      if (told > kCensoredSlip) ++(of.censored ? models[m]->called : models[m]->false_calls);
+      const double predicted = o.value - residuals[m];
+      drive.predicted[m] += predicted;
+      if (predicted > kCensoredSlip) ++(of.censored ? models[m]->called : models[m]->false_calls);
     }
   }
 }
@@ -60,7 +60,7 @@ PlannersView PlannersTally::view() const {
       ++view.pairs;
       for (std::size_t m = 0; m < kModels; ++m)
         models[m]->in_order +=
-            apart * (one.told[m] / one.windows - other.told[m] / other.windows) > 0.0 ? 1.0 : 0.0;
+            apart * (one.predicted[m] / one.windows - other.predicted[m] / other.windows) > 0.0 ? 1.0 : 0.0;
     }
   for (PlannersFigures* figures : models) {
     if (view.observations > 0) figures->within_90 /= static_cast<double>(view.observations);

@@ -23,7 +23,7 @@ class PlannersTally {
   // Sums of slip over a drive's windows.
   struct DriveSlip {
     double measured = 0.0, windows = 0.0;
-    std::array<double, kModels> told{};
+    std::array<double, kModels> predicted{};
   };
 
   const PreparedCampaign& prepared_;

@@ -33,12 +33,13 @@ void adopt_measured_rates(DriveCampaign& campaign) {
 namespace {
 
 // Turned in all, in the sense that was commanded; below 0: against it.
-double turned_as_told(const DriveCampaign& campaign, const MeasuredDriveSeries& drive) {
-  const auto told = sim::wheel_commands(*campaign.rover, drive.command);
+double turned_as_commanded(const DriveCampaign& campaign, const MeasuredDriveSeries& drive) {
+  const auto commanded = sim::wheel_commands(*campaign.rover, drive.command);
   double sum = 0.0;
   for (const DriveSample& sample : drive.samples)
-    for (std::size_t k = 0; k < told.size(); ++k)
-      if (std::isfinite(sample.wheels[k].rate_rad_s)) sum += sample.wheels[k].rate_rad_s * told[k].rate_rad_s;
+    for (std::size_t k = 0; k < commanded.size(); ++k)
+      if (std::isfinite(sample.wheels[k].rate_rad_s))
+        sum += sample.wheels[k].rate_rad_s * commanded[k].rate_rad_s;
   return sum;
 }
 
@@ -48,7 +49,7 @@ void note_turned_against_command(DriveCampaign& campaign) {
   constexpr std::size_t kMostNamed = 5;
   std::vector<std::string> against;
   for (const MeasuredDriveSeries& drive : campaign.drives)
-    if (turned_as_told(campaign, drive) < 0.0) against.push_back(drive.id);
+    if (turned_as_commanded(campaign, drive) < 0.0) against.push_back(drive.id);
   if (against.empty()) return;
   const std::size_t count = against.size();
   if (count > kMostNamed) against.resize(kMostNamed);

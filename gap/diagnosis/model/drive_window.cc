@@ -224,11 +224,11 @@ class WindowMaker {
 
   void add_wheels() {
     const MeasurementStd& std = campaign_.measurement_std;
-    const auto told = sim::wheel_commands(*campaign_.rover, drive_.command);
-    for (std::size_t k = 0; k < told.size(); ++k) {
+    const auto commanded = sim::wheel_commands(*campaign_.rover, drive_.command);
+    for (std::size_t k = 0; k < commanded.size(); ++k) {
       const int wheel = static_cast<int>(k);
       const int bearer = options_.currents_split_evenly ? -1 : wheel;
-      const double sense = told[k].rate_rad_s < 0.0 && !options_.currents_in_sense_of_rate ? -1.0 : 1.0;
+      const double sense = commanded[k].rate_rad_s < 0.0 && !options_.currents_in_sense_of_rate ? -1.0 : 1.0;
       Readings current = readings_of(drive_, from_, to_,
                                      [&](const DriveSample& s) { return sense * s.wheels[k].current_a; });
       if (current.count() > 0 && (k == 0 || bearer == wheel)) {
@@ -273,12 +273,12 @@ struct Stretch {
 
 // Wheels whose rates were measured turn at half of the told rates or more, taken together; none measured:
 // nothing says that they don't.
-bool under_way(const DriveSample& sample, const sim::PerWheel<sim::WheelCommand>& told) {
+bool under_way(const DriveSample& sample, const sim::PerWheel<sim::WheelCommand>& commanded) {
   double turned = 0.0, asked = 0.0;
-  for (std::size_t k = 0; k < told.size(); ++k) {
+  for (std::size_t k = 0; k < commanded.size(); ++k) {
     if (!std::isfinite(sample.wheels[k].rate_rad_s)) continue;
     turned += std::abs(sample.wheels[k].rate_rad_s);
-    asked += std::abs(told[k].rate_rad_s);
+    asked += std::abs(commanded[k].rate_rad_s);
   }
   return turned >= 0.5 * asked;
 }
@@ -288,9 +288,9 @@ bool under_way(const DriveSample& sample, const sim::PerWheel<sim::WheelCommand>
 Stretch driven_rows(const DriveCampaign& campaign, const MeasuredDriveSeries& drive) {
   Stretch rows{0, drive.samples.size() - 1};
   if (drive.final_only) return rows;
-  const auto told = sim::wheel_commands(*campaign.rover, drive.command);
-  while (rows.from < rows.to && !under_way(drive.samples[rows.from], told)) ++rows.from;
-  while (rows.from < rows.to && !under_way(drive.samples[rows.to], told)) --rows.to;
+  const auto commanded = sim::wheel_commands(*campaign.rover, drive.command);
+  while (rows.from < rows.to && !under_way(drive.samples[rows.from], commanded)) ++rows.from;
+  while (rows.from < rows.to && !under_way(drive.samples[rows.to], commanded)) --rows.to;
   return rows.from < rows.to ? rows : Stretch{0, drive.samples.size() - 1};
 }
 
@@ -330,10 +330,10 @@ double boundary_unit(Channel channel) {
 bool currents_in_sense_of_rate(const DriveCampaign& campaign) {
   double sum = 0.0;
   for (const MeasuredDriveSeries& drive : campaign.drives) {
-    const auto told = sim::wheel_commands(*campaign.rover, drive.command);
+    const auto commanded = sim::wheel_commands(*campaign.rover, drive.command);
     for (const DriveSample& sample : drive.samples)
-      for (std::size_t k = 0; k < told.size(); ++k)
-        if (told[k].rate_rad_s < 0.0 && std::isfinite(sample.wheels[k].current_a))
+      for (std::size_t k = 0; k < commanded.size(); ++k)
+        if (commanded[k].rate_rad_s < 0.0 && std::isfinite(sample.wheels[k].current_a))
           sum += sample.wheels[k].current_a;
   }
   return sum > 0.0;

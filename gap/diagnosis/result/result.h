@@ -92,7 +92,7 @@ struct GapPlace {
 };
 
 // Root mean square of prediction less measurement in drives that the fit has not seen.
-struct ChannelShrink {
+struct ChannelClosure {
   Channel channel = Channel::kSlip;
   Interval nominal, retuned, with_effects, noise_floor;
   // (retuned - with_effects) / (retuned - noise_floor), within 0 and 1; nothing where re-tuning left no gap.
@@ -169,7 +169,7 @@ struct Diagnosis {
   std::vector<Regime> regimes, regimes_retuned, regimes_of_effect;
   std::vector<ChannelShare> channels_of_effects;  // of what the named effects do; the largest first
   std::vector<GapPlace> places;
-  std::vector<ChannelShrink> gap;
+  std::vector<ChannelClosure> gap;
   PlannersView planners_view;
   std::vector<HeldOutPoint> held_out;  // for pictures
   std::vector<WindowGap> window_gaps;  // of drives held out of the fit, for maps

@@ -157,8 +157,8 @@ Eigen::MatrixXd lever_responses(const DriveCampaign& campaign, const WindowModel
   return responses;
 }
 
-Wildcard make_wildcard(const DriveCampaign& campaign, const WindowModel& model, const FittedExplanation& fit,
-                       std::size_t threads) {
+DiscrepancyTerm make_discrepancy_term(const DriveCampaign& campaign, const WindowModel& model,
+                                      const FittedExplanation& fit, std::size_t threads) {
   const Hypothesis probe(campaign, levers());
   std::vector<double> x(fit.x.begin(), fit.x.begin() + static_cast<std::ptrdiff_t>(probe.nuisance_count()));
   const std::vector<double> neutral = probe.neutral();
@@ -213,7 +213,7 @@ Wildcard make_wildcard(const DriveCampaign& campaign, const WindowModel& model, 
            });
 
   const std::vector<std::vector<Circumstance>> variables = circumstances(model, expected);
-  Wildcard wildcard;
+  DiscrepancyTerm discrepancy;
   std::vector<Eigen::VectorXd> columns;
   for (std::size_t e = 0; e < entries.size() && !variables.empty(); ++e) {
     const std::size_t used = e < shared_entries ? variables.front().size() : 1;
@@ -226,17 +226,18 @@ Wildcard make_wildcard(const DriveCampaign& campaign, const WindowModel& model, 
             variables[w][v].value;
       if (column.squaredNorm() == 0.0) continue;
       columns.push_back(std::move(column));
-      wildcard.columns.push_back({entries[e], std::string(variables.front()[v].name)});
+      discrepancy.columns.push_back({entries[e], std::string(variables.front()[v].name)});
     }
   }
-  wildcard.values.resize(rows, static_cast<Eigen::Index>(columns.size()));
+  discrepancy.values.resize(rows, static_cast<Eigen::Index>(columns.size()));
   for (std::size_t c = 0; c < columns.size(); ++c)
-    wildcard.values.col(static_cast<Eigen::Index>(c)) = columns[c];
-  return wildcard;
+    discrepancy.values.col(static_cast<Eigen::Index>(c)) = columns[c];
+  return discrepancy;
 }
 
-Eigen::MatrixXd whitened(const FittedExplanation& fit, const NoiseModel& noise, const Wildcard& wildcard) {
-  return fit.row_weights.asDiagonal() * noise.whiten(wildcard.values);
+Eigen::MatrixXd whitened(const FittedExplanation& fit, const NoiseModel& noise,
+                         const DiscrepancyTerm& discrepancy) {
+  return fit.row_weights.asDiagonal() * noise.whiten(discrepancy.values);
 }
 
 Eigen::MatrixXd form_columns(const DriveCampaign& campaign, const WindowModel& model, const NoiseModel& noise,
@@ -273,9 +274,9 @@ Eigen::MatrixXd form_columns(const DriveCampaign& campaign, const WindowModel& m
   return fit.row_weights.asDiagonal() * noise.whiten(values);
 }
 
-WildcardGain wildcard_gain(const FittedExplanation& fit, const NoiseModel& noise, const Wildcard& wildcard,
-                           const Eigen::MatrixXd& form) {
-  const Eigen::MatrixXd white = whitened(fit, noise, wildcard);
+DiscrepancyGain discrepancy_gain(const FittedExplanation& fit, const NoiseModel& noise,
+                                 const DiscrepancyTerm& discrepancy, const Eigen::MatrixXd& form) {
+  const Eigen::MatrixXd white = whitened(fit, noise, discrepancy);
   const double without = log_marginal(fit.white_linear, fit.white_jacobian);
   std::vector<double> imprecise, other;
   for_sizes(fit, white, form, [&](bool something_else, const Eigen::MatrixXd& columns) {
@@ -288,10 +289,11 @@ WildcardGain wildcard_gain(const FittedExplanation& fit, const NoiseModel& noise
 }
 
 Eigen::MatrixXd columns_beside(const FittedExplanation& fit, const NoiseModel& noise,
-                               const Wildcard& wildcard, const Eigen::MatrixXd& form, bool something_else) {
+                               const DiscrepancyTerm& discrepancy, const Eigen::MatrixXd& form,
+                               bool something_else) {
   Eigen::MatrixXd best = fit.white_jacobian;
   double most = -std::numeric_limits<double>::infinity();
-  for_sizes(fit, whitened(fit, noise, wildcard), form, [&](bool else_too, const Eigen::MatrixXd& columns) {
+  for_sizes(fit, whitened(fit, noise, discrepancy), form, [&](bool else_too, const Eigen::MatrixXd& columns) {
     if (noise.cancelled()) return false;
     if (else_too != something_else) return true;
     if (const double value = log_marginal(fit.white_linear, columns); value > most) {
@@ -303,9 +305,9 @@ Eigen::MatrixXd columns_beside(const FittedExplanation& fit, const NoiseModel& n
   return best;
 }
 
-WildcardEstimate estimate_wildcard(const FittedExplanation& fit, const NoiseModel& noise,
-                                   const Wildcard& wildcard) {
-  const Eigen::MatrixXd white = whitened(fit, noise, wildcard);
+DiscrepancyEstimate estimate_discrepancy(const FittedExplanation& fit, const NoiseModel& noise,
+                                         const DiscrepancyTerm& discrepancy) {
+  const Eigen::MatrixXd white = whitened(fit, noise, discrepancy);
   double best = -std::numeric_limits<double>::infinity();
   double size = kSizes[0];
   for (const double s : kSizes) {

@@ -14,7 +14,7 @@ namespace slipway::gap {
 //
 // A column is what an entry point does to every observation, at the fit, times a function of the window's
 // circumstances: a constant pull, a pull that grows with the slope, a current that is wrong when cold.
-struct Wildcard {
+struct DiscrepancyTerm {
   struct Column {
     std::string entry;     // "tangential_force"
     std::string variable;  // "constant", "pitch", "slip", ...
@@ -39,11 +39,12 @@ Eigen::MatrixXd lever_responses(const DriveCampaign& campaign, const WindowModel
                                 std::span<const double> null_x, std::size_t threads);
 constexpr int kLevers = 5;
 
-Wildcard make_wildcard(const DriveCampaign& campaign, const WindowModel& model, const FittedExplanation& fit,
-                       std::size_t threads);
+DiscrepancyTerm make_discrepancy_term(const DriveCampaign& campaign, const WindowModel& model,
+                                      const FittedExplanation& fit, std::size_t threads);
 
 // Its whitened columns, rows weighed as in the fit.
-Eigen::MatrixXd whitened(const FittedExplanation& fit, const NoiseModel& noise, const Wildcard& wildcard);
+Eigen::MatrixXd whitened(const FittedExplanation& fit, const NoiseModel& noise,
+                         const DiscrepancyTerm& discrepancy);
 
 // No simulator is exact: every explanation has the wildcard beside it up to this size, and only more than
 // that is something else.
@@ -60,23 +61,24 @@ Eigen::MatrixXd form_columns(const DriveCampaign& campaign, const WindowModel& m
 
 // By how much the logarithm of a fitted explanation's evidence rises with the wildcard beside it, averaged
 // over sizes from none to kImprecision, and over larger ones; the effects' forms are averaged over likewise.
-struct WildcardGain {
+struct DiscrepancyGain {
   double imprecision = 0.0, something_else = 0.0;
 };
 // `form`: of form_columns.
-WildcardGain wildcard_gain(const FittedExplanation& fit, const NoiseModel& noise, const Wildcard& wildcard,
-                           const Eigen::MatrixXd& form);
+DiscrepancyGain discrepancy_gain(const FittedExplanation& fit, const NoiseModel& noise,
+                                 const DiscrepancyTerm& discrepancy, const Eigen::MatrixXd& form);
 
 // The fit's whitened columns with the form's and the wildcard's behind, these at their most probable sizes
-// among those that wildcard_gain averages over.
+// among those that discrepancy_gain averages over.
 Eigen::MatrixXd columns_beside(const FittedExplanation& fit, const NoiseModel& noise,
-                               const Wildcard& wildcard, const Eigen::MatrixXd& form, bool something_else);
+                               const DiscrepancyTerm& discrepancy, const Eigen::MatrixXd& form,
+                               bool something_else);
 
 // The coefficients' means and standard errors, in units of the columns, at the most probable size.
-struct WildcardEstimate {
+struct DiscrepancyEstimate {
   Eigen::VectorXd mean, error;
 };
-WildcardEstimate estimate_wildcard(const FittedExplanation& fit, const NoiseModel& noise,
-                                   const Wildcard& wildcard);
+DiscrepancyEstimate estimate_discrepancy(const FittedExplanation& fit, const NoiseModel& noise,
+                                         const DiscrepancyTerm& discrepancy);
 
 }  // namespace slipway::gap

@@ -49,14 +49,14 @@ double linear_gain(const FittedExplanation& fit, const Eigen::MatrixXd& known, c
 
 std::vector<ScreenedEffect> screen_effects(const DriveCampaign& campaign, const WindowModel& model,
                                            const NoiseModel& noise, const FittedExplanation& fit,
-                                           const Wildcard& wildcard, std::span<const EffectVariant> variants,
-                                           std::size_t threads) {
+                                           const DiscrepancyTerm& discrepancy,
+                                           std::span<const EffectVariant> variants, std::size_t threads) {
   std::vector<ScreenedEffect> all(variants.size());
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(fit.white_jacobian);
   const Eigen::MatrixXd basis =
       qr.householderQ() * Eigen::MatrixXd::Identity(fit.white_jacobian.rows(), fit.white_jacobian.cols());
-  Eigen::MatrixXd known(fit.white_jacobian.rows(), fit.white_jacobian.cols() + wildcard.values.cols());
-  known << fit.white_jacobian, kImprecision * whitened(fit, noise, wildcard);
+  Eigen::MatrixXd known(fit.white_jacobian.rows(), fit.white_jacobian.cols() + discrepancy.values.cols());
+  known << fit.white_jacobian, kImprecision * whitened(fit, noise, discrepancy);
   parallel_for(variants.size(), threads, [&](std::size_t v) {
     if (model.cancelled()) return;
     std::vector<EffectVariant> effects(fit.hypothesis.effects().begin(), fit.hypothesis.effects().end());

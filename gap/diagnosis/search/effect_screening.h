@@ -26,7 +26,7 @@ struct ScreenedEffect {
 // Every variant beside the fit, best first.
 std::vector<ScreenedEffect> screen_effects(const DriveCampaign& campaign, const WindowModel& model,
                                            const NoiseModel& noise, const FittedExplanation& fit,
-                                           const Wildcard& wildcard, std::span<const EffectVariant> variants,
-                                           std::size_t threads);
+                                           const DiscrepancyTerm& discrepancy,
+                                           std::span<const EffectVariant> variants, std::size_t threads);
 
 }  // namespace slipway::gap

@@ -74,11 +74,12 @@ double log_sum_exp(const std::vector<double>& values) {
 class Searcher {
  public:
   Searcher(const DriveCampaign& campaign, const WindowModel& model, const NoiseModel& noise,
-           FittedExplanation null, const Wildcard& wildcard, const SearchOptions& options, Progress& progress)
+           FittedExplanation null, const DiscrepancyTerm& discrepancy, const SearchOptions& options,
+           Progress& progress)
       : campaign_(campaign),
         model_(model),
         noise_(noise),
-        wildcard_(wildcard),
+        discrepancy_(discrepancy),
         options_(options),
         progress_(progress),
         variants_(effect_variants(*campaign.rover, options.withheld)) {
@@ -147,7 +148,7 @@ class Searcher {
       int fitted = 0;
       std::set<std::string> done;
       for (const ScreenedEffect& second : screen_effects(campaign_, model_, noise_, search_.fits[base],
-                                                         wildcard_, variants_, options_.threads)) {
+                                                         discrepancy_, variants_, options_.threads)) {
         if (progress_.cancelled()) return;
         if (fitted >= options_.most_seconds || second.start.empty() || second.gain < least_gain) break;
         const EffectVariant& v = variants_[second.variant];
@@ -176,7 +177,7 @@ class Searcher {
   }
 
   // Only what has every effect of the library; nothing, where none was fitted.
-  Result<ExplanationSearch> told() && {
+  Result<ExplanationSearch> given() && {
     options_.something_else = false;
     if (variants_of_.size() == 1)
       for (const auto& [effect, fit] : singles_) add_candidates(fit, 0.0, 0.0);
@@ -190,11 +191,11 @@ class Searcher {
   // At the null, and at the nominal parameters where that had to go far from them.
   void screen() {
     screened_ =
-        screen_effects(campaign_, model_, noise_, search_.fits[0], wildcard_, variants_, options_.threads);
+        screen_effects(campaign_, model_, noise_, search_.fits[0], discrepancy_, variants_, options_.threads);
     if (went_far(search_.fits[0])) {
       const FittedExplanation nominal = at_nominal(search_.fits[0], model_, noise_, options_);
       for (const ScreenedEffect& f :
-           screen_effects(campaign_, model_, noise_, nominal, wildcard_, variants_, options_.threads)) {
+           screen_effects(campaign_, model_, noise_, nominal, discrepancy_, variants_, options_.threads)) {
         other_start_[f.variant] = f.start;
         for (ScreenedEffect& s : screened_)
           if (s.variant == f.variant) s.gain = std::max(s.gain, f.gain);
@@ -228,9 +229,9 @@ class Searcher {
       log_prior_unknown -= std::log(variants_of_[v.effect]);
     }
     c.fit = fit;
-    const WildcardGain gain =
-        wildcard_gain(search_.fits[fit], noise_, wildcard_,
-                      form_columns(campaign_, model_, noise_, search_.fits[fit], options_.threads));
+    const DiscrepancyGain gain =
+        discrepancy_gain(search_.fits[fit], noise_, discrepancy_,
+                         form_columns(campaign_, model_, noise_, search_.fits[fit], options_.threads));
     c.log_evidence = search_.fits[fit].log_evidence + gain.imprecision;
     c.log_prior = log_prior;
     search_.candidates.push_back(c);
@@ -252,7 +253,7 @@ class Searcher {
   const DriveCampaign& campaign_;
   const WindowModel& model_;
   const NoiseModel& noise_;
-  const Wildcard& wildcard_;
+  const DiscrepancyTerm& discrepancy_;
   SearchOptions options_;
   Progress& progress_;
   std::vector<EffectVariant> variants_;
@@ -270,27 +271,27 @@ class Searcher {
 
 Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, const WindowModel& model,
                                               const NoiseModel& noise, FittedExplanation null,
-                                              const Wildcard& wildcard, const SearchOptions& options,
-                                              Progress& progress,
+                                              const DiscrepancyTerm& discrepancy,
+                                              const SearchOptions& options, Progress& progress,
                                               std::span<const FittedExplanation> found_before) {
   constexpr double kLeastGain = 1.0;
-  Searcher searcher(campaign, model, noise, std::move(null), wildcard, options, progress);
+  Searcher searcher(campaign, model, noise, std::move(null), discrepancy, options, progress);
   searcher.fit_again(found_before);
   searcher.fit_singles();
   searcher.fit_pairs(kLeastGain);
   return std::move(searcher).compete();
 }
 
-Result<ExplanationSearch> fit_told_explanation(const DriveCampaign& campaign, const WindowModel& model,
-                                               const NoiseModel& noise, FittedExplanation null,
-                                               const Wildcard& wildcard, const SearchOptions& options,
-                                               Progress& progress,
-                                               std::span<const FittedExplanation> found_before) {
-  Searcher searcher(campaign, model, noise, std::move(null), wildcard, options, progress);
+Result<ExplanationSearch> fit_given_explanation(const DriveCampaign& campaign, const WindowModel& model,
+                                                const NoiseModel& noise, FittedExplanation null,
+                                                const DiscrepancyTerm& discrepancy,
+                                                const SearchOptions& options, Progress& progress,
+                                                std::span<const FittedExplanation> found_before) {
+  Searcher searcher(campaign, model, noise, std::move(null), discrepancy, options, progress);
   searcher.fit_again(found_before);
   searcher.fit_singles();
   searcher.fit_pairs(-std::numeric_limits<double>::infinity());
-  return std::move(searcher).told();
+  return std::move(searcher).given();
 }
 
 void weigh(std::span<Candidate> candidates, const SearchOptions& options) {

@@ -56,17 +56,17 @@ struct ExplanationSearch {
 // What was `found_before` under another noise competes again, from where it stood.
 Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, const WindowModel& model,
                                               const NoiseModel& noise, FittedExplanation null,
-                                              const Wildcard& wildcard, const SearchOptions& options,
-                                              Progress& progress,
+                                              const DiscrepancyTerm& discrepancy,
+                                              const SearchOptions& options, Progress& progress,
                                               std::span<const FittedExplanation> found_before = {});
 
 // An oracle's: the effects that are not withheld are at work, all of them (two at most), and nothing else is
 // compared.
-Result<ExplanationSearch> fit_told_explanation(const DriveCampaign& campaign, const WindowModel& model,
-                                               const NoiseModel& noise, FittedExplanation null,
-                                               const Wildcard& wildcard, const SearchOptions& options,
-                                               Progress& progress,
-                                               std::span<const FittedExplanation> found_before = {});
+Result<ExplanationSearch> fit_given_explanation(const DriveCampaign& campaign, const WindowModel& model,
+                                                const NoiseModel& noise, FittedExplanation null,
+                                                const DiscrepancyTerm& discrepancy,
+                                                const SearchOptions& options, Progress& progress,
+                                                std::span<const FittedExplanation> found_before = {});
 
 // The candidates' probabilities from evidence and prior. The logarithm of the evidence is
 // believed by a share, since no simulator is exact: mostly by one, and, as answers of sealed campaigns that

@@ -63,9 +63,10 @@ std::size_t PreparedCampaign::used_windows() const {
 void prepare_around(PreparedCampaign& prepared, const DriveCampaign& campaign, const FittedExplanation& found,
                     std::size_t threads) {
   prepared.model->start_from(found.hypothesis.state(found.x), threads);
-  prepared.wildcard = make_wildcard(campaign, *prepared.model, found, threads);
-  Eigen::MatrixXd systematic(found.jacobian.rows(), found.jacobian.cols() + prepared.wildcard.values.cols());
-  systematic << found.jacobian, prepared.wildcard.values;
+  prepared.discrepancy = make_discrepancy_term(campaign, *prepared.model, found, threads);
+  Eigen::MatrixXd systematic(found.jacobian.rows(),
+                             found.jacobian.cols() + prepared.discrepancy.values.cols());
+  systematic << found.jacobian, prepared.discrepancy.values;
   prepared.noise->estimate(found.residuals + found.jacobian * in_prior_units(found), systematic);
   ExplanationOptions options;
   options.threads = threads;

@@ -30,7 +30,7 @@ struct PreparedCampaign {
   std::unique_ptr<WindowModel> model;
   std::unique_ptr<NoiseModel> noise;
   std::optional<FittedExplanation> null;
-  Wildcard wildcard;
+  DiscrepancyTerm discrepancy;
   Eigen::VectorXd nominal_residuals;  // measured less predicted before any re-tuning; NaN without an answer
 
   // Number of windows that a diagnosis can use.

@@ -91,7 +91,7 @@ SelectionBootstrap resample_selection(const ExplanationSearch& search, const Pre
     const Eigen::MatrixXd form = form_columns(campaign, model, *prepared.noise, fit, options.threads);
     running.push_back(c);
     evidence.emplace_back(fit.white_linear,
-                          columns_beside(fit, *prepared.noise, prepared.wildcard, form, c.with_unknown),
+                          columns_beside(fit, *prepared.noise, prepared.discrepancy, form, c.with_unknown),
                           group_of_row, drives.group_count);
     whole.push_back(evidence.back().counted(once));
   }

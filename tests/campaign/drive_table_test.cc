@@ -1,4 +1,4 @@
-#include "campaign/campaign_table.h"
+#include "campaign/drive_table.h"
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text.replace(at, what.size(), by);
 }
 
-TEST(CampaignTable, ExpandsTerrainsHeadingsAndRepeats) {
+TEST(DriveTable, ExpandsTerrainsHeadingsAndRepeats) {
   const auto table = read_table(kSmallTable);
   ASSERT_TRUE(table) << table.error().detail;
   std::vector<std::string> ids;
@@ -41,7 +41,7 @@ TEST(CampaignTable, ExpandsTerrainsHeadingsAndRepeats) {
   EXPECT_EQ(drives[4].terrain, 1U);
 }
 
-TEST(CampaignTable, LegsTakeTheRoversSpeedsAndTheCommandsSigns) {
+TEST(DriveTable, LegsTakeTheRoversSpeedsAndTheCommandsSigns) {
   const auto table = read_table(kSmallTable);
   ASSERT_TRUE(table);
   const sim::DriveLeg& back = table->entries[2].legs[0];
@@ -53,14 +53,14 @@ TEST(CampaignTable, LegsTakeTheRoversSpeedsAndTheCommandsSigns) {
   EXPECT_NEAR(right.turn_rad, rad_from_deg(10.0), 1e-12);
 }
 
-TEST(CampaignTable, HeadingsThatAreNotWholeAreToldApart) {
+TEST(DriveTable, HeadingsThatAreNotWholeAreToldApart) {
   const auto table = read_table(replaced(kSmallTable, "[0, 90]", "[22.5, -90]"));
   ASSERT_TRUE(table) << table.error().detail;
   EXPECT_EQ(expand(*table)[0].id, "ahead-level-h022p5-r1");
   EXPECT_EQ(expand(*table)[2].id, "ahead-level-h270-r1");
 }
 
-TEST(CampaignTable, NamesEveryFaultOfItsPartsTogether) {
+TEST(DriveTable, NamesEveryFaultOfItsPartsTogether) {
   const auto table = read_table(R"({
     "format": "campaign-table/1", "name": "Not a name", "summary": "s", "sources": [], "rover": "fido",
     "gravity_m_s2": 0, "sensors": {"position_m": {"noise": -1}, "sonar_m": {}}, "simulation": {"feedback": "eyes"},
@@ -95,7 +95,7 @@ TEST(CampaignTable, NamesEveryFaultOfItsPartsTogether) {
   EXPECT_EQ(pointers, wanted);
 }
 
-TEST(CampaignTable, NamesEveryFaultBetweenItsPartsTogether) {
+TEST(DriveTable, NamesEveryFaultBetweenItsPartsTogether) {
   std::string bytes =
       replaced(kSmallTable, R"("id": "both")", R"("id": "turn", "failed_wheels": {"xx": "free"})");
   bytes = replaced(bytes, R"("id": "ahead",)", R"("id": "ahead", "start": {"x_m": 40, "y_m": 0},)");
@@ -109,7 +109,7 @@ TEST(CampaignTable, NamesEveryFaultBetweenItsPartsTogether) {
   EXPECT_NE(table.error().faults[3].message.find("lf, lm, lr"), std::string::npos);
 }
 
-TEST(CampaignTable, ARoverThatDoesNotSteerDoesNotCrab) {
+TEST(DriveTable, ARoverThatDoesNotSteerDoesNotCrab) {
   const std::string crabs = replaced(kSmallTable, R"("legs": [{"length_m": 0.3}])",
                                      R"("legs": [{"length_m": 0.3}, {"length_m": 0.3, "crab_deg": 40}])");
   EXPECT_TRUE(read_table(crabs));
@@ -122,7 +122,7 @@ TEST(CampaignTable, ARoverThatDoesNotSteerDoesNotCrab) {
     EXPECT_NE(message.find(wheel.name), std::string::npos) << message;
 }
 
-TEST(CampaignTable, FailedWheelsAndEffectsAreTheDrivesNotTheOperators) {
+TEST(DriveTable, FailedWheelsAndEffectsAreTheDrivesNotTheOperators) {
   const std::string bytes = replaced(
       replaced(kSmallTable, R"("id": "turn",)", R"("id": "turn", "failed_wheels": {"rf": "locked"},)"),
       R"("seed": 7,)", R"("seed": 7, "effects": [{"name": "grousers", "parameters": {"height_m": 0.01}}],)");
@@ -135,7 +135,7 @@ TEST(CampaignTable, FailedWheelsAndEffectsAreTheDrivesNotTheOperators) {
   EXPECT_FALSE(table->rover->wheels[0].grousers.has_value());
 }
 
-TEST(CampaignTable, WheelsFailAsInRequests) {
+TEST(DriveTable, WheelsFailAsInRequests) {
   const auto table =
       read_table(replaced(kSmallTable, R"("id": "turn",)",
                           R"("id": "turn", "failed_wheels": {"rf": "off", "lm": "free", "lr": "locked"},)"));
@@ -150,7 +150,7 @@ TEST(CampaignTable, WheelsFailAsInRequests) {
   }
 }
 
-TEST(CampaignTable, AnElevationFileMayHaveASoilMap) {
+TEST(DriveTable, AnElevationFileMayHaveASoilMap) {
   const std::string bytes = R"({
     "format": "campaign-table/1", "name": "gale", "summary": "s", "sources": [], "rover": "msl-class",
     "gravity_m_s2": 3.71, "terrains": [{"name": "gale", "soil": "dry_sand", "file": "elevation.tif",
@@ -170,7 +170,7 @@ TEST(CampaignTable, AnElevationFileMayHaveASoilMap) {
   EXPECT_FALSE(read_table(replaced(kSmallTable, R"("tilt_deg": 5,)", R"("tilt_deg": 5, "soil_map": {},)")));
 }
 
-TEST(CampaignTable, RocksStandOnAShape) {
+TEST(DriveTable, RocksStandOnAShape) {
   const auto with_rocks = [](const char* rocks) {
     return read_table(replaced(kSmallTable, R"("tilt_deg": 5,)",
                                std::string(R"("tilt_deg": 5, "cell_m": 0.05, "rocks": )") + rocks + ","));
@@ -193,7 +193,7 @@ TEST(CampaignTable, RocksStandOnAShape) {
   EXPECT_EQ(pointers, (Texts{"cover_share", "height_share", "largest_m", "shape", "smallest_m"}));
 }
 
-TEST(CampaignTable, ShippedTablesAreWithoutFault) {
+TEST(DriveTable, ShippedTablesAreWithoutFault) {
   std::map<std::string, std::size_t> drives;
   for (const std::string& name : api::campaign_names(SLIPWAY_DATA_FOLDER)) {
     const auto loaded = api::load_campaign_table(name, SLIPWAY_DATA_FOLDER, shipped_catalogue());
@@ -208,7 +208,7 @@ TEST(CampaignTable, ShippedTablesAreWithoutFault) {
   EXPECT_EQ(drives["spirit_dead_wheel"], 4U);
 }
 
-TEST(CampaignTable, UnknownNamesListThoseThereAre) {
+TEST(DriveTable, UnknownNamesListThoseThereAre) {
   std::string twice = replaced(kSmallTable, R"("name": "slope")", R"("name": "level")");
   twice = replaced(twice, R"("id": "turn", "terrains": ["level"])", R"("id": "turn", "terrains": ["hill"])");
   const auto table = read_table(twice);

@@ -6,16 +6,15 @@
 
 #include "api/files/catalogue.h"
 #include "api/json/strict_reader.h"
-#include "campaign/campaign_table.h"
+#include "campaign/drive_table.h"
 #include "core/result.h"
 
 namespace slipway::api::json {
 
 // Reads a table of drives ("campaign-table/1", docs/campaigns.md) against what the service ships; elevation
 // files are looked for in `folder`. All faults together, those of campaign::faults_of too: invalid_request.
-Result<campaign::CampaignTable> read_campaign_table(std::string_view bytes,
-                                                    const std::filesystem::path& folder,
-                                                    const Catalogue& catalogue);
+Result<campaign::DriveTable> read_campaign_table(std::string_view bytes, const std::filesystem::path& folder,
+                                                 const Catalogue& catalogue);
 
 // Parts of it. The terrains need the soils' names, the drives the terrains'; what is not given for a leg is
 // the rover's.

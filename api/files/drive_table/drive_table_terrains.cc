@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "api/files/drive_table/campaign_table_file.h"
+#include "api/files/drive_table/drive_table_file.h"
 #include "api/json/faults.h"
 #include "dem/elevation_source.h"
 #include "dem/synthetic_terrain.h"

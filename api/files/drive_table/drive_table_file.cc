@@ -1,4 +1,4 @@
-#include "api/files/drive_table/campaign_table_file.h"
+#include "api/files/drive_table/drive_table_file.h"
 
 #include <cstdint>
 #include <utility>
@@ -14,7 +14,7 @@ namespace {
 // In the order of sim::Feedback.
 const std::vector<std::string_view> kFeedbacks{"none", "heading", "pose"};
 
-void read_rover_name(ObjectReader& reader, const Catalogue& catalogue, campaign::CampaignTable& table) {
+void read_rover_name(ObjectReader& reader, const Catalogue& catalogue, campaign::DriveTable& table) {
   std::string name;
   if (!reader.text("rover", kRequired, {.most = 64}, name)) return;
   const auto found = catalogue.rovers.find(name);
@@ -26,7 +26,7 @@ void read_rover_name(ObjectReader& reader, const Catalogue& catalogue, campaign:
 }
 
 // The table's own soils stand before the catalogue's of the same name.
-void read_table_soils(ObjectReader& reader, const Catalogue& catalogue, campaign::CampaignTable& table) {
+void read_table_soils(ObjectReader& reader, const Catalogue& catalogue, campaign::DriveTable& table) {
   std::vector<sim::SoilDistribution> own = read_soils(reader, "soils", kOptional);
   for (std::size_t i = 0; i < own.size(); ++i) {
     if (own[i].name.empty()) continue;
@@ -54,12 +54,11 @@ void read_simulation(ObjectReader& reader, sim::DynamicOptions& options) {
 
 }  // namespace
 
-Result<campaign::CampaignTable> read_campaign_table(std::string_view bytes,
-                                                    const std::filesystem::path& folder,
-                                                    const Catalogue& catalogue) {
+Result<campaign::DriveTable> read_campaign_table(std::string_view bytes, const std::filesystem::path& folder,
+                                                 const Catalogue& catalogue) {
   const auto document = parse(bytes, {.bytes = 16U << 20U, .values = 1'000'000});
   if (!document) return fail(document.error());
-  campaign::CampaignTable table;
+  campaign::DriveTable table;
   std::vector<Fault> faults;
   ObjectReader reader(*document, "", faults);
   std::size_t format = 0;

@@ -1,7 +1,7 @@
 #include <array>
 #include <string>
 
-#include "api/files/drive_table/campaign_table_file.h"
+#include "api/files/drive_table/drive_table_file.h"
 #include "core/angle.h"
 
 namespace slipway::api::json {

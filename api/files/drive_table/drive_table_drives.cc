@@ -3,7 +3,7 @@
 #include <optional>
 #include <utility>
 
-#include "api/files/drive_table/campaign_table_file.h"
+#include "api/files/drive_table/drive_table_file.h"
 #include "api/files/failed_wheels.h"
 #include "api/json/faults.h"
 #include "core/angle.h"

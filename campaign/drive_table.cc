@@ -1,4 +1,4 @@
-#include "campaign/campaign_table.h"
+#include "campaign/drive_table.h"
 
 #include <fmt/format.h>
 
@@ -29,14 +29,14 @@ std::string heading_name(double heading_rad) {
   return name;
 }
 
-std::size_t count_of(const CampaignTable& table) {
+std::size_t count_of(const DriveTable& table) {
   std::size_t count = 0;
   for (const DriveEntry& entry : table.entries)
     count += entry.terrains.size() * entry.headings_rad.size() * static_cast<std::size_t>(entry.repeats);
   return count;
 }
 
-void check_entry(const CampaignTable& table, std::size_t k, std::vector<Fault>& faults) {
+void check_entry(const DriveTable& table, std::size_t k, std::vector<Fault>& faults) {
   const DriveEntry& entry = table.entries[k];
   const std::string pointer = fmt::format("/drives/{}", k);
   for (const std::size_t t : entry.terrains) {
@@ -60,7 +60,7 @@ void check_entry(const CampaignTable& table, std::size_t k, std::vector<Fault>& 
   }
 }
 
-void check_effects(const CampaignTable& table, std::vector<Fault>& faults) {
+void check_effects(const DriveTable& table, std::vector<Fault>& faults) {
   std::vector<Fault> of_effects = sim::faults_of(table.effects);
   if (of_effects.empty()) of_effects = sim::faults_of(table.effects, *table.rover);
   for (Fault& fault : of_effects) faults.push_back({"/effects" + fault.pointer, std::move(fault.message)});
@@ -78,7 +78,7 @@ void check_effects(const CampaignTable& table, std::vector<Fault>& faults) {
 
 }  // namespace
 
-std::vector<TableDrive> expand(const CampaignTable& table) {
+std::vector<TableDrive> expand(const DriveTable& table) {
   std::vector<TableDrive> drives;
   drives.reserve(count_of(table));
   for (std::size_t k = 0; k < table.entries.size(); ++k) {
@@ -102,7 +102,7 @@ std::vector<TableDrive> expand(const CampaignTable& table) {
   return drives;
 }
 
-std::vector<Fault> faults_of(const CampaignTable& table) {
+std::vector<Fault> faults_of(const DriveTable& table) {
   std::vector<Fault> faults;
   check_effects(table, faults);
   for (std::size_t k = 0; k < table.entries.size(); ++k) check_entry(table, k, faults);
@@ -135,11 +135,11 @@ std::int16_t class_elsewhere(const TableTerrain& terrain) {
   return free;
 }
 
-std::optional<double> motor_temp_c(const CampaignTable& table, const DriveEntry& entry) {
+std::optional<double> motor_temp_c(const DriveTable& table, const DriveEntry& entry) {
   return entry.motor_temp_c ? entry.motor_temp_c : table.options.motor_temp_c;
 }
 
-sim::RoverModel driven_rover(const CampaignTable& table, const DriveEntry& entry) {
+sim::RoverModel driven_rover(const DriveTable& table, const DriveEntry& entry) {
   sim::RoverModel rover = *table.rover;
   sim::apply_effects(sim::in_force(table.rover->effects, table.effects), rover);
   sim::fail_wheels(rover, entry.failed_wheels, {.motor_temp_c = motor_temp_c(table, entry)});

@@ -26,20 +26,20 @@ struct TableTerrain {
   std::string name;
   std::shared_ptr<const dem::Terrain> ground;
   std::string crs_wkt;  // empty: a place of its own, on no planet's map
-  std::string soil;     // a name in CampaignTable::soils; with a soil map, where that says nothing
-  std::shared_ptr<const dem::SoilMap> soil_map;  // may be null; its soils are CampaignTable's, too
+  std::string soil;     // a name in DriveTable::soils; with a soil map, where that says nothing
+  std::shared_ptr<const dem::SoilMap> soil_map;  // may be null; its soils are DriveTable's, too
 };
 
 // One line of a table: the same drive on several terrains, in several headings, several times.
 struct DriveEntry {
   std::string id;
-  std::vector<std::size_t> terrains;  // indices into CampaignTable::terrains
+  std::vector<std::size_t> terrains;  // indices into DriveTable::terrains
   double x_m = 0.0, y_m = 0.0;        // of the start
   std::vector<double> headings_rad{0.0};
   std::vector<sim::DriveLeg> legs;
   int repeats = 1;
   sim::FailedWheels failed_wheels;
-  std::optional<double> motor_temp_c = {};  // in place of CampaignTable::options'
+  std::optional<double> motor_temp_c = {};  // in place of DriveTable::options'
   bool final_only = false;                  // recorded before and after, as by a survey: two rows
   bool plot = false;                        // its time history
   bool deformed_terrain = false;            // the ground with its ruts
@@ -48,7 +48,7 @@ struct DriveEntry {
 // What a campaign is made from. What the operators know (the rover, the soils' means) and what is really at
 // work (effects, draws of the soils, failed wheels) stay apart: only the former is told in a campaign's own
 // document.
-struct CampaignTable {
+struct DriveTable {
   std::string name, summary;
   std::vector<std::string> sources, assumed;
   std::shared_ptr<const sim::RoverModel> rover;
@@ -76,12 +76,12 @@ constexpr std::size_t kMostDrives = 20'000;
 // Terrains vary slowest, then headings, then repeats. An id is the entry's with "-" and the terrain's name
 // where the entry lists several, "-h090" for the heading where there are several, and "-r1" where there are
 // repeats.
-std::vector<TableDrive> expand(const CampaignTable& table);
+std::vector<TableDrive> expand(const DriveTable& table);
 
 // What must hold between the parts of a table whose numbers were read: ids that are given once, starts on
 // their terrains, wheels that the rover has, effects that it can have. Pointers are those of the table's
 // file.
-std::vector<Fault> faults_of(const CampaignTable& table);
+std::vector<Fault> faults_of(const DriveTable& table);
 
 // The soils of a terrain by name: the map's in its order, then the one elsewhere.
 std::vector<std::string> soils_of(const TableTerrain& terrain);
@@ -90,9 +90,9 @@ std::vector<std::string> soils_of(const TableTerrain& terrain);
 std::int16_t class_elsewhere(const TableTerrain& terrain);
 
 // Of the drive motors: the entry's, else the table's.
-std::optional<double> motor_temp_c(const CampaignTable& table, const DriveEntry& entry);
+std::optional<double> motor_temp_c(const DriveTable& table, const DriveEntry& entry);
 
 // The rover as it really drives an entry: effects at work, wheels failed.
-sim::RoverModel driven_rover(const CampaignTable& table, const DriveEntry& entry);
+sim::RoverModel driven_rover(const DriveTable& table, const DriveEntry& entry);
 
 }  // namespace slipway::campaign
