@@ -61,7 +61,7 @@ struct PredictOptions {
   std::vector<PlaceOption> path;
   bool backwards = false;
   std::optional<double> crab_deg;
-  std::string rung;  // empty: the request's default
+  std::string level;  // empty: the request's default
   std::string plot;  // file for the dynamic drive's time history; empty: none
 };
 
