@@ -181,7 +181,7 @@ int run_command_line(int argc, char** argv) {
   command->add_flag("--backwards", predict_options.backwards, "drive the path backwards");
   command->add_option("--crab-deg", predict_options.crab_deg,
                       "direction of travel from the body's axis, positive to the left");
-  command->add_option("--rung", predict_options.level,
+  command->add_option("--rung", predict_options.rung,
                       "quasi_static, or dynamic: drive the path as a multibody too");
   command->add_option("--plot", predict_options.plot,
                       "write the time history of the dynamic drive (SVG) to this file; needs that rung");
