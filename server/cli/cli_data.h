@@ -8,7 +8,8 @@ class App;
 
 namespace slipway::server {
 
-// --data of a command that reads `what` from the data folder; left empty where it is not given, see data_folder.h.
+// --data of a command that reads `what` from the data folder; left empty where it is not given, see
+// data_folder.h.
 void add_data_option(CLI::App& command, std::string& data, const std::string& what);
 
 }  // namespace slipway::server

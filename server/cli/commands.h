@@ -62,7 +62,7 @@ struct PredictOptions {
   bool backwards = false;
   std::optional<double> crab_deg;
   std::string level;  // empty: the request's default
-  std::string plot;  // file for the dynamic drive's time history; empty: none
+  std::string plot;   // file for the dynamic drive's time history; empty: none
 };
 
 struct TerrainOptions {
