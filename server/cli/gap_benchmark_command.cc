@@ -215,7 +215,7 @@ int gap_benchmark(const GapBenchmarkCommand& options) {
                              fmt::join(known, ", "));
     return 2;
   }
-  const auto catalogue = api::load_catalogue(options.data);
+  const auto catalogue = open_catalogue(options.data);
   if (!catalogue) return refuse_unreadable(catalogue.error());
   if (!options.make.empty())
     if (const auto made = make_campaigns(options, *catalogue); !made) return refuse_unreadable(made.error());
