@@ -30,7 +30,7 @@ endfunction()
 # Puts the sources of a target into batches of at most so many bytes. Those that factorise matrices come first and together: what
 # Eigen instantiates for them takes longest.
 function(slipway_unity target most_bytes)
-  if(NOT SLIPWAY_UNITY)
+  if(NOT SLIPWAY_UNITY OR NOT SLIPWAY_PCH)
     return()
   endif()
   get_target_property(sources ${target} SOURCES)

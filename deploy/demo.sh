@@ -5,7 +5,7 @@
 # --built takes a slipway that is built already, and installs and builds nothing.
 set -eu
 cd "$(dirname "$0")/.."
-. deploy/stages.sh
+. tests/stages.sh
 port="${PORT:-8080}"
 once=""
 slipway=""
@@ -18,27 +18,27 @@ while [ $# -gt 0 ]; do
   shift
 done
 
-say() { printf '\n== %s\n' "$*"; }
 fail() { echo "demo: $*" >&2; exit 1; }
 
 if [ -z "$slipway" ]; then
-  stage install
-  say "installing what is missing"
-  sh deploy/install.sh || fail "the packages above could not be installed; mend that and run this again"
-  stage build
-  say "building (preset release)"
-  cmake --preset release || fail "cmake could not configure; the first message above says what is missing"
-  cmake --build --preset release || fail "the build broke; the first error above says where"
+  stage "install packages" sh deploy/install.sh ||
+    fail "the packages above could not be installed; mend that and run this again"
+  stage "configure" cmake --preset release ||
+    fail "cmake could not configure; the first message above says what is missing"
+  stage "build" cmake --build --preset release || fail "the build broke; the first error above says where"
   slipway=build/release/server/slipway
 fi
 
-stage plan
 mkdir -p var
 log=var/demo.log
 say "starting the service on the shipped terrain"
 "$slipway" serve --port "$port" --jobs var/demo-jobs.sqlite >"$log" 2>&1 &
 server=$!
-trap 'kill "$server" 2>/dev/null || true; wait "$server" 2>/dev/null || true' EXIT INT TERM
+end_service() {
+  kill "$server" 2>/dev/null || true
+  wait "$server" 2>/dev/null || true
+}
+trap end_service EXIT INT TERM
 url="http://127.0.0.1:$port"
 # Another service may hold the port and answer in this one's place: only what this one says of itself counts.
 tries=0
@@ -49,9 +49,8 @@ until grep -q " serves .* on $url," "$log"; do
   sleep 0.1
 done
 
-say "asking $url for routes from Curiosity's stop of sol 960 to its stop of sol 1073"
-"$slipway" plan --url "$url" --terrain gale --rover msl-class \
-  --start 8142688.55,-276614.34 --goal 8142528.03,-276775.79 --map var/demo-routes.svg
+stage "asking $url for routes from Curiosity's stop of sol 960 to its stop of sol 1073" "$slipway" plan --url "$url" --terrain gale \
+  --rover msl-class --start 8142688.55,-276614.34 --goal 8142528.03,-276775.79 --map var/demo-routes.svg || fail "there is no plan"
 echo
 echo "The routes on the hillshade: var/demo-routes.svg"
 print_stages

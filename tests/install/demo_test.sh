@@ -10,8 +10,9 @@ trap 'kill "${foreign:-}" 2>/dev/null || true; rm -rf "$folder"' EXIT
 . "$source/tests/command_expectations.sh"
 
 # A copy of what the demo uses: it writes into the tree that it stands in.
-mkdir "$folder/tree"
+mkdir -p "$folder/tree/tests"
 cp -r "$source/deploy" "$folder/tree"
+cp "$source/tests/stages.sh" "$folder/tree/tests"
 
 # A foreign service, which answers every question of the demo.
 "$slipway" serve --port 0 --jobs "" >"$folder/foreign.log" 2>&1 &
@@ -31,6 +32,6 @@ kill "$foreign"
 wait "$foreign" 2>/dev/null || true
 expect 0 env PORT="$port" sh "$folder/tree/deploy/demo.sh" --once --built "$slipway"
 holds '^route ' "$folder/out"
-holds '^plan  *[0-9.]* min' "$folder/out"
+holds '^stage  *minutes' "$folder/out"
 [ -s "$folder/tree/var/demo-routes.svg" ] || { echo "no picture"; exit 1; }
 echo "as expected"
