@@ -49,8 +49,9 @@ until grep -q " serves .* on $url," "$log"; do
   sleep 0.1
 done
 
-stage "asking $url for routes from Curiosity's stop of sol 960 to its stop of sol 1073" "$slipway" plan --url "$url" --terrain gale \
-  --rover msl-class --start 8142688.55,-276614.34 --goal 8142528.03,-276775.79 --map var/demo-routes.svg || fail "there is no plan"
+say "asking $url for routes from Curiosity's stop of sol 960 to its stop of sol 1073"
+stage "plan" "$slipway" plan --url "$url" --terrain gale --rover msl-class --start 8142688.55,-276614.34 \
+  --goal 8142528.03,-276775.79 --map var/demo-routes.svg || fail "there is no plan"
 echo
 echo "The routes on the hillshade: var/demo-routes.svg"
 print_stages

@@ -25,7 +25,7 @@ import tempfile
 slipway, root, which = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve(), sys.argv[3]
 write = "--write" in sys.argv[4:]
 
-BLOCK = re.compile(r"^(?:<!-- (?P<slow>slow )?output of: (?P<command>.+) -->\n)?```(?P<language>\w*)\n(?P<body>.*?)^```$",
+BLOCK = re.compile(r"^(?:<!-- (?P<slow>slow )?output of: (?P<command>[^\n]+) -->\n)?```(?P<language>\w*)\n(?P<body>.*?)^```$",
                    re.MULTILINE | re.DOTALL)
 
 
