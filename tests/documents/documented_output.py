@@ -10,6 +10,8 @@ A block of output stands behind a line that names its command:
     ...
     ```
 
+A picture stands behind `<!-- picture of: slipway plan ... --map routes.svg -->`, which writes a file of the same name.
+
 "slow output of:" marks a command that takes more than a few seconds. The command is run by sh, in a folder that holds a link to
 the source tree's data, and its standard output is compared with the block; --write puts it there. A block that names no language and no
 command is an error, so that no output escapes: a block of text is fenced as ```text. Every curl of the README is asked of a running
@@ -27,6 +29,9 @@ write = "--write" in sys.argv[4:]
 
 BLOCK = re.compile(r"^(?:<!-- (?P<slow>slow )?output of: (?P<command>[^\n]+) -->\n)?```(?P<language>\w*)\n(?P<body>.*?)^```$",
                    re.MULTILINE | re.DOTALL)
+
+
+PICTURE = re.compile(r"^<!-- picture of: (?P<command>[^\n]+) -->\n!\[[^\]]*\]\((?P<path>[^)]+)\)$", re.MULTILINE)
 
 
 def documents():
@@ -77,6 +82,27 @@ def check_blocks(document, folder, faults):
     return ran
 
 
+def check_pictures(document, folder, faults):
+    """Compares the pictures of one document with what their commands draw, or puts them there; the number of commands that ran."""
+    ran = 0
+    for match in PICTURE.finditer(document.read_text()):
+        ran += 1
+        picture = document.parent / match["path"]
+        place = f"{document.relative_to(root)}: {match['path']}"
+        try:
+            run(match["command"], folder)
+            drawn = (folder / picture.name).read_bytes()
+        except (RuntimeError, OSError) as broken:
+            faults.append(f"{place}: {match['command']}: {broken}")
+            continue
+        if write and (not picture.exists() or picture.read_bytes() != drawn):
+            picture.write_bytes(drawn)
+            print(f"{place}: written")
+        elif not picture.exists() or picture.read_bytes() != drawn:
+            faults.append(f"{place}: {match['command']} draws another picture")
+    return ran
+
+
 def check_requests(folder, faults):
     """Asks a service what the README asks one; the number of questions."""
     commands = [line for block in re.findall(r"^```sh\n(.*?)^```$", (root / "README.md").read_text(), re.MULTILINE | re.DOTALL)
@@ -105,6 +131,8 @@ def main():
         (folder / "data").symlink_to(root / "data")
         for document in documents():
             ran += check_blocks(document, folder, faults)
+            if which != "slow":
+                ran += check_pictures(document, folder, faults)
         if which != "slow":
             asked = check_requests(folder, faults)
     if ran == 0 or (which != "slow" and asked == 0):
