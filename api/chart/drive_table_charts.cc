@@ -120,7 +120,7 @@ std::string draw_slip_by_terrain(const campaign::DriveTable& table, std::span<co
 std::string draw_final_poses(const campaign::DriveTable& table, std::span<const TableDrive> drives,
                              const std::map<std::string, DriveRecord>& records) {
   std::vector<Chart> charts;
-  for (std::size_t t = 0; t < table.terrains.size() && charts.size() < kMostPosePanels; ++t) {
+  for (std::size_t t = 0; t < table.terrains.size() && charts.size() < kMaxPosePanels; ++t) {
     Chart chart = poses_of(table.terrains[t].name);
     for (const TableDrive& drive : drives) {
       const DriveRecord* const record = drive.terrain == t ? answered(records, drive) : nullptr;

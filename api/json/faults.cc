@@ -30,9 +30,9 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string in_quotes(std::string_view text) {
-  constexpr std::size_t kMostShown = 40;
-  if (text.size() <= kMostShown) return fmt::format("\"{}\"", text);
-  std::size_t end = kMostShown;
+  constexpr std::size_t kMaxShown = 40;
+  if (text.size() <= kMaxShown) return fmt::format("\"{}\"", text);
+  std::size_t end = kMaxShown;
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
   return fmt::format("\"{}...\"", text.substr(0, end));
 }

@@ -13,7 +13,7 @@ namespace {
 
 using Vector = RoverBalance::Vector;
 constexpr int kMotions = RoverBalance::kMotions;
-constexpr double kLeastEntryAngleRad = RoverBalance::kLeastEntryAngleRad;
+constexpr double kMinEntryAngleRad = RoverBalance::kMinEntryAngleRad;
 
 constexpr double kFastestSpeedRatio = 3.0;  // at 200 % of the wheels' speed it slides away downhill
 constexpr double kTouchingEntryAngleRad = 0.05;
@@ -42,7 +42,7 @@ Attempt reason_of(const RoverBalance& balance, const Vector& x) {
   for (int k = 0; k < balance.wheel_count(); ++k)
     if (x[kMotions + k] > 0.95 * kLargestEntryAngleRad) return {Outcome::kSunkToAxle, k};
   for (int k = 0; k < balance.wheel_count(); ++k)
-    if (!balance.in_air(k) && x[kMotions + k] < 10.0 * kLeastEntryAngleRad) return {Outcome::kWheelLifted, k};
+    if (!balance.in_air(k) && x[kMotions + k] < 10.0 * kMinEntryAngleRad) return {Outcome::kWheelLifted, k};
   return {Outcome::kNotConverged, -1};
 }
 
@@ -119,7 +119,7 @@ std::optional<int> pulling_wheel(const RoverBalance& balance) {
 // Of a search that failed: the wheel with hardly any hold on the ground.
 std::optional<int> hardly_touching_wheel(const RoverBalance& balance, const Vector& x) {
   std::optional<int> lightest;
-  double least = 3.0 * kLeastEntryAngleRad;
+  double least = 3.0 * kMinEntryAngleRad;
   for (int k = 0; k < balance.wheel_count(); ++k) {
     if (balance.in_air(k) || x[kMotions + k] > least) continue;
     least = x[kMotions + k];
@@ -158,8 +158,8 @@ Vector with_contacts(const RoverBalance& balance, Vector x) {
   for (int k = 0; k < balance.wheel_count(); ++k) {
     double& theta = x[kMotions + k];
     if (balance.in_air(k)) {
-      theta = kLeastEntryAngleRad;
-    } else if (theta <= kLeastEntryAngleRad) {
+      theta = kMinEntryAngleRad;
+    } else if (theta <= kMinEntryAngleRad) {
       theta = kTouchingEntryAngleRad;
     }
   }
@@ -169,12 +169,12 @@ Vector with_contacts(const RoverBalance& balance, Vector x) {
 // Newton; and where its answer will not do, another set of wheels in contact, until every one that carries
 // pushes and every other hangs clear. False where that ends without a balance. `inverse` goes with all wheels
 // in contact.
-bool find_in_contact(RoverBalance& balance, int most_iterations, Vector& x,
+bool find_in_contact(RoverBalance& balance, int max_iterations, Vector& x,
                      const RoverBalance::Matrix* inverse = nullptr) {
   const Vector start = x;
   for (int round = 0; round <= 2 * balance.wheel_count(); ++round) {
     const bool solved =
-        newton(balance, x, nullptr, most_iterations, balance.all_in_contact() ? inverse : nullptr);
+        newton(balance, x, nullptr, max_iterations, balance.all_in_contact() ? inverse : nullptr);
     const std::optional<ContactChange> change = contact_change(balance, x, solved);
     if (!change) return solved;
     balance.set_in_air(change->wheel, change->into_air);

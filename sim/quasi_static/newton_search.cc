@@ -33,10 +33,10 @@ class NewtonSearch {
     if (inverse != nullptr) inverse_ = *inverse;
   }
 
-  bool solve(Vector& x, int most_iterations) {
+  bool solve(Vector& x, int max_iterations) {
     Vector r = residual(x);
     bool fresh = false;
-    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    for (int iteration = 0; iteration < max_iterations; ++iteration) {
       if (r.cwiseAbs().maxCoeff() < kBalanceTolerance) return true;
       if (!have_inverse_) {
         if (!invert_jacobian(x)) return false;
@@ -114,12 +114,12 @@ class NewtonSearch {
 
 void keep_in_range(Vector& x) {
   for (int k = kMotions; k < x.size(); ++k)
-    x[k] = std::clamp(x[k], RoverBalance::kLeastEntryAngleRad, kLargestEntryAngleRad);
+    x[k] = std::clamp(x[k], RoverBalance::kMinEntryAngleRad, kLargestEntryAngleRad);
 }
 
-bool newton(RoverBalance& balance, Vector& x, const Primary* held, int most_iterations,
+bool newton(RoverBalance& balance, Vector& x, const Primary* held, int max_iterations,
             const Matrix* inverse) {
-  return NewtonSearch(balance, held, inverse).solve(x, most_iterations);
+  return NewtonSearch(balance, held, inverse).solve(x, max_iterations);
 }
 
 std::optional<Matrix> inverse_jacobian(const RoverBalance& balance, const Vector& x) {

@@ -23,7 +23,7 @@ void keep_in_range(RoverBalance::Vector& unknowns);
 // are. With `held`, its motion keeps its value and its equation is left out. False where it ends elsewhere;
 // `x` is the last iterate, and the balance's contacts are those at `x`. `inverse`, where given, is that of
 // the Jacobian somewhere near: a search that it serves well needs no Jacobian of its own.
-bool newton(RoverBalance& balance, RoverBalance::Vector& x, const Primary* held, int most_iterations,
+bool newton(RoverBalance& balance, RoverBalance::Vector& x, const Primary* held, int max_iterations,
             const RoverBalance::Matrix* inverse = nullptr);
 
 // Of the Jacobian at the unknowns of the last residual; nothing where it has none.

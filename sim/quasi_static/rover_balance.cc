@@ -19,7 +19,7 @@ namespace {
 // fastest one. All shear is mobilised long before.
 constexpr double kSlowestRateRatio = 1e-3;
 // No wheel is told to turn and the rover not to move: any scale will do.
-constexpr double kLeastSpeedScale_m_s = 1e-9;
+constexpr double kMinSpeedScale_m_s = 1e-9;
 
 double half_wheelbase(const RoverModel& rover) {
   double front = rover.wheels.front().position_m.x(), rear = front;
@@ -60,11 +60,11 @@ RoverBalance::RoverBalance(const RoverModel& rover, double gravity_m_s2, const S
       weight_(rover.mass_kg * gravity_m_s2),
       length_(half_wheelbase(rover)) {
   const PerWheel<WheelCommand> commanded = wheel_commands(rover, command);
-  double fastest = kLeastSpeedScale_m_s;
+  double fastest = kMinSpeedScale_m_s;
   for (int k = 0; k < wheel_count(); ++k)
     fastest = std::max(fastest, std::abs(commanded[k].rate_rad_s) * rover.wheels[k].radius_m);
   // Wheels that can't roll the way they are told to go (crabbing without steering) are dragged at that speed.
-  if (fastest <= kLeastSpeedScale_m_s && !command.turn_in_place)
+  if (fastest <= kMinSpeedScale_m_s && !command.turn_in_place)
     fastest = std::max(fastest, std::abs(command.speed_m_s));
   speed_scale_ = fastest;
   set_soils(gravity_m_s2, command, commanded);
@@ -210,9 +210,9 @@ RoverBalance::WheelContact RoverBalance::sliced_contact(const Trial& trial) cons
 }
 
 void RoverBalance::contacts_of(std::span<const Trial> trials, std::span<WheelContact> contacts) const {
-  std::array<WheelNumbers, kMostTrials> numbers;
-  std::array<WheelForces, kMostTrials> forces;
-  std::array<std::size_t, kMostTrials> of;
+  std::array<WheelNumbers, kMaxTrials> numbers;
+  std::array<WheelForces, kMaxTrials> forces;
+  std::array<std::size_t, kMaxTrials> of;
   std::size_t count = 0;
   for (std::size_t t = 0; t < trials.size(); ++t) {
     const Trial& trial = trials[t];
@@ -272,7 +272,7 @@ const RoverBalance::Vector& RoverBalance::residual(const Vector& unknowns) {
   for (int k = 0; k < wheel_count(); ++k) {
     if (!in_air_[k]) continue;
     own[k] = 0.0;
-    sum[--row] = unknowns[kMotions + k] - kLeastEntryAngleRad;
+    sum[--row] = unknowns[kMotions + k] - kMinEntryAngleRad;
   }
   sum.segment(top, row - top) = compatibility_ * own + compatibility_of_gap_;
   return sum;
@@ -282,8 +282,8 @@ RoverBalance::Matrix RoverBalance::jacobian(const Vector& unknowns) const {
   const int top = equilibrium_count(), size = kMotions + wheel_count();
   Matrix jacobian = Matrix::Zero(size, size);
   constexpr double kStep = 1e-7;
-  std::array<Trial, kMostTrials> trials;
-  std::array<WheelContact, kMostTrials> moved;
+  std::array<Trial, kMaxTrials> trials;
+  std::array<WheelContact, kMaxTrials> moved;
   std::size_t count = 0;
   for (int k = 0; k < wheel_count(); ++k) {
     if (in_air_[k]) continue;

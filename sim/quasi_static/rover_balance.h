@@ -38,9 +38,9 @@ namespace slipway::sim {
 class RoverBalance {
  public:
   static constexpr int kMotions = 3;
-  static constexpr int kMostEquations = kMotions + kMostWheels;
-  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostEquations, 1>;
-  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostEquations, kMostEquations>;
+  static constexpr int kMaxEquations = kMotions + kMostWheels;
+  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxEquations, 1>;
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxEquations, kMaxEquations>;
   using Loads = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostWheels, 1>;
 
   // What the ground does to one wheel and how the wheel moves over it.
@@ -51,7 +51,7 @@ class RoverBalance {
     double overturning_nm = 0.0;  // of a sliced wheel, about its heading; positive presses its left side up
   };
 
-  static constexpr double kLeastEntryAngleRad = 1e-3;
+  static constexpr double kMinEntryAngleRad = 1e-3;
 
   // Rover, stance and gravity's magnitude as they are; `soils` are those of the wheels' places, which the
   // balance turns into the ones in force. Rover and stance must outlive the balance.
@@ -92,10 +92,10 @@ class RoverBalance {
   double height_in_air_m(int wheel, const Vector& unknowns) const;
 
  private:
-  static constexpr int kMostEquilibrium = 6 + kMostJoints;
-  static constexpr int kMostFreedoms = 3 + kMostJoints;
-  using GapGradient = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostWheels, kMostFreedoms>;
-  using Freedoms = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostFreedoms, 1>;
+  static constexpr int kMaxEquilibrium = 6 + kMostJoints;
+  static constexpr int kMaxFreedoms = 3 + kMostJoints;
+  using GapGradient = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostWheels, kMaxFreedoms>;
+  using Freedoms = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxFreedoms, 1>;
 
   struct WheelPlace {
     WheelGeometry geometry;
@@ -103,7 +103,7 @@ class RoverBalance {
     WheelCommand motion;     // true steering and rate
     double direction = 1.0;  // of rolling
     // Of (pull, lateral, vertical, torque, overturning moment) on the equations of equilibrium.
-    Eigen::Matrix<double, Eigen::Dynamic, 5, 0, kMostEquilibrium, 5> effect;
+    Eigen::Matrix<double, Eigen::Dynamic, 5, 0, kMaxEquilibrium, 5> effect;
     // Of a sliced wheel: the ground under each slice, below the highest one. Its entry angle is the highest
     // slice's, so that there is none at which it can't touch.
     SliceHeights slice_height_m{};
@@ -122,7 +122,7 @@ class RoverBalance {
     double entry_angle_rad = 0.0;
     WheelMotion motion;
   };
-  static constexpr int kMostTrials = 3 * kMostWheels;  // of a Jacobian
+  static constexpr int kMaxTrials = 3 * kMostWheels;  // of a Jacobian
   // All at once, which costs about half of one by one.
   void contacts_of(std::span<const Trial> trials, std::span<WheelContact> contacts) const;
   void find_contacts(const Vector& unknowns);

@@ -12,7 +12,7 @@ namespace slipway::sim {
 namespace {
 
 // z_ref is never less than this share of the radius: on rock the wheels hardly sink.
-constexpr double kLeastSinkageRatio = 0.01;
+constexpr double kMinSinkageRatio = 0.01;
 
 }  // namespace
 
@@ -34,7 +34,7 @@ void RoverBalance::set_gap_gradient() {
     sinkage += bekker_sinkage_m(places_[k].geometry, soils_[k], weight_ / n) / n;
     radius += places_[k].geometry.radius_m / n;
   }
-  if (undetermined_ > 0) sinkage_scale_m_ = std::max(kLeastSinkageRatio * radius, std::min(radius, sinkage));
+  if (undetermined_ > 0) sinkage_scale_m_ = std::max(kMinSinkageRatio * radius, std::min(radius, sinkage));
 }
 
 void RoverBalance::set_compatibility() {
@@ -77,7 +77,7 @@ void RoverBalance::set_in_air(int k, bool in_air) {
 
 // Over the wheels S in contact: A_S^T A_S q = A_S^T height_S + push.
 RoverBalance::Freedoms RoverBalance::body_motion(const Loads& height_m, const Freedoms& push) const {
-  using Normal = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostFreedoms, kMostFreedoms>;
+  using Normal = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxFreedoms, kMaxFreedoms>;
   Normal normal = Normal::Zero(push.size(), push.size());
   Freedoms right = push;
   for (int k = 0; k < wheel_count(); ++k) {
