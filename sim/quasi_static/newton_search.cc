@@ -11,7 +11,7 @@ using Vector = RoverBalance::Vector;
 using Matrix = RoverBalance::Matrix;
 constexpr int kMotions = RoverBalance::kMotions;
 
-// Takes as much of a Newton step as keeps every entry angle positive and every change moderate.
+// Takes the largest part of a Newton step that keeps every entry angle positive and every change moderate.
 Vector limited_step(const Vector& x, const Vector& full) {
   double share = 1.0;
   const double fastest = full.head<kMotions>().cwiseAbs().maxCoeff();
@@ -48,7 +48,7 @@ class NewtonSearch {
       Vector next_r = residual(next);
       if (next_r.norm() > 0.5 * r.norm()) {
         have_inverse_ = false;
-        if (!fresh) {  // a stale direction: look again from here, or from there where that is better
+        if (!fresh) {  // the direction is out of date: try again with a fresh Jacobian from the better point
           if (next_r.norm() < r.norm()) {
             x = next;
             r = next_r;
@@ -75,7 +75,7 @@ class NewtonSearch {
     return r;
   }
 
-  // At the point of the last residual.
+  // The Jacobian at the point of the last residual.
   bool invert_jacobian(const Vector& x) {
     Matrix jacobian = balance_.jacobian(x);
     if (held_) {
