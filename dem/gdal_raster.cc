@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 using GeoTransform = std::array<double, 6>;
 
-// Collects reasons, so that one attempt tells all that must be mended.
+// Collects reasons, so that one attempt reports everything that must be mended.
 class Refusals {
  public:
   void add(const Error& error) {

@@ -38,12 +38,12 @@ std::string in_quotes(std::string_view text) {
 }
 
 std::optional<std::string> nearest(std::string_view name, const std::vector<std::string>& known) {
-  constexpr std::size_t kLongest = 64;  // a longer name is no slip of the finger
-  if (name.size() > kLongest) return std::nullopt;
+  constexpr std::size_t kMaxBytes = 64;  // longer names are not compared
+  if (name.size() > kMaxBytes) return std::nullopt;
   std::optional<std::string> best;
   std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;
   for (const std::string& candidate : known) {
-    // A unit left off is the slip that a distance misses: "max_tilt" for "max_tilt_deg".
+    // A name without its unit is far away by edits but still near: "max_tilt" for "max_tilt_deg".
     const bool begins = name.size() >= 3 && candidate.starts_with(name);
     const std::size_t distance = begins ? 1 : edit_distance(name, candidate);
     if (distance < least) {

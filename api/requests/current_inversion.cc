@@ -37,7 +37,7 @@ std::vector<Fault> faults_of(const CurrentInversionRequest& request) {
   return faults;
 }
 
-// Rover and wheel into the rig, and what they give the request.
+// Puts the rover's wheel on the rig, and fills in the defaults that rover and wheel give the request.
 void settle(const sim::RoverModel& rover, CurrentInversionRequest& request, sim::WheelRig& rig,
             std::vector<Fault>& faults) {
   rig.rover = rover;
