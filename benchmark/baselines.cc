@@ -16,7 +16,7 @@
 namespace slipway::gap {
 namespace {
 
-constexpr std::size_t kMostTerms = 3;
+constexpr std::size_t kMaxTerms = 3;
 
 // chi^2 of what columns with prior deviation 1 leave of residuals, the price of the coefficients included.
 double left_over(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& columns) {
@@ -150,7 +150,7 @@ Result<Diagnosis> diagnose_by_sparse_regression(const DriveCampaign& campaign,
   std::vector<std::string> found;
   Eigen::MatrixXd known = null.white_jacobian;
   double least = left_over(null.white_linear, known);
-  while (found.size() < kMostTerms) {
+  while (found.size() < kMaxTerms) {
     double best = 0.0;  // fall of the criterion
     std::size_t chosen = 0;
     for (std::size_t v = 0; v < variants.size(); ++v) {

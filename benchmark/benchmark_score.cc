@@ -17,7 +17,7 @@ using Names = std::set<std::string>;
 
 const std::string kUnknownName = "unknown";
 constexpr double kSmallAngle_deg = 25.0, kConfident = 0.9, kHeld = 0.95;
-constexpr std::size_t kMostHeld = 3;
+constexpr std::size_t kMaxHeld = 3;
 
 bool names_effects(Verdict v) {
   return v == Verdict::kEffects || v == Verdict::kEffectSet;
@@ -176,7 +176,7 @@ CaseScore score_case(const HiddenAnswer& answer, const Diagnosis& d, const std::
   }
   const auto sets = merged_sets(d);
   double sum = 0.0;
-  for (std::size_t i = 0; i < sets.size() && i < kMostHeld && sum < kHeld; ++i) {
+  for (std::size_t i = 0; i < sets.size() && i < kMaxHeld && sum < kHeld; ++i) {
     sum += sets[i].second;
     score.held = score.held || sets[i].first == truth;
   }

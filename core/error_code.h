@@ -5,7 +5,7 @@
 
 namespace slipway {
 
-// Every way in which a correct caller can be refused. One row each in error_table().
+// Every way in which a correct caller can be refused. Each has one row in error_table().
 enum class ErrorCode {
   kMalformedHttp,
   kMalformedJson,

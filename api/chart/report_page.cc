@@ -32,7 +32,7 @@ code{font-size:.92em;background:#f0f0ee;padding:0 .2em}
 @media print{body,main{background:#fff;padding:0}h2{break-after:avoid}figure,tr{break-inside:avoid}nav{display:none}}
 )css";
 
-// In one line, and without a table's own sign.
+// The text in one line, with the sign that separates a table's columns escaped.
 std::string markdown_text(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -64,7 +64,7 @@ std::string html_of(const ReportText& text) {
   return out;
 }
 
-// Ids of several pictures on one page are told apart by their names.
+// Ids within several pictures on one page differ by the pictures' names.
 std::string named_apart(const NamedChart& chart) {
   std::string out;
   const std::string_view svg = chart.svg;

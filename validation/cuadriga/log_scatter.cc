@@ -11,7 +11,7 @@
 namespace slipway::validation {
 namespace {
 
-constexpr double kMostGrowth = 3.0, kGrowthStep = 0.05;
+constexpr double kMaxGrowth = 3.0, kGrowthStep = 0.05;
 
 double growth_at(double growth, double gradient_rad) {
   const double tens = deg_from_rad(gradient_rad) / 10.0;
@@ -28,7 +28,7 @@ std::map<std::string, std::size_t> counts_of(const std::vector<std::string>& log
 double best_growth(const std::vector<LogResidual>& residuals) {
   double best = 0.0, lowest_cost = std::numeric_limits<double>::infinity();
   const auto count = static_cast<double>(residuals.size());
-  for (double growth = 0.0; growth <= kMostGrowth; growth += kGrowthStep) {
+  for (double growth = 0.0; growth <= kMaxGrowth; growth += kGrowthStep) {
     double scale = 0.0, logs_of_h = 0.0;
     for (const LogResidual& r : residuals) {
       const double h = growth_at(growth, r.gradient_rad);
