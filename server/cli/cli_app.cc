@@ -149,6 +149,10 @@ int run_command_line(int argc, char** argv) {
       ->check(CLI::Range(0, 65535));
   command->add_option("--jobs", serve_options.jobs, "SQLite file of the jobs; \"\" keeps them in memory")
       ->capture_default_str();
+  command
+      ->add_option("--allow-origin", serve_options.allowed_origins,
+                   "let web pages of this origin, https://HOST[:PORT], read the answers; may be repeated")
+      ->allow_extra_args(false);
   command->footer("Example:\n  slipway serve --port 8080\n  curl http://127.0.0.1:8080/v1/terrains");
   command->callback([&] { run = [&] { return serve(serve_options); }; });
 

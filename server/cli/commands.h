@@ -21,7 +21,8 @@ struct ServeOptions {
   std::string data = "data";
   std::string address = "127.0.0.1";
   int port = 8080;
-  std::string jobs = "var/jobs.sqlite";  // empty: in memory, lost with the process
+  std::string jobs = "var/jobs.sqlite";      // empty: in memory, lost with the process
+  std::vector<std::string> allowed_origins;  // of web pages that may read the answers, "https://HOST:PORT"
 };
 
 // A point "x,y" or "x,y,yaw_deg".
@@ -61,8 +62,8 @@ struct PredictOptions {
   std::vector<PlaceOption> path;
   bool backwards = false;
   std::optional<double> crab_deg;
-  std::string rung;  // empty: the request's default
-  std::string plot;  // file for the dynamic drive's time history; empty: none
+  std::string level;  // of fidelity; empty: the request's default
+  std::string plot;   // file for the dynamic drive's time history; empty: none
 };
 
 struct TerrainOptions {
