@@ -14,6 +14,7 @@
 #include "api/service.h"
 #include "core/version.h"
 #include "server/cli/commands.h"
+#include "server/cli/data_folder.h"
 #include "server/cli/tables.h"
 #include "server/http/http_cross_origin.h"
 #include "server/http/http_listener.h"
@@ -98,11 +99,13 @@ HttpOptions http_options(const ServeOptions& options) {
 int serve(const ServeOptions& options) {
   const sigset_t signals = block_ending_signals();
   if (const auto fault = fault_of(options)) return refuse(*fault);
+  const auto data = data_folder(options.data);
+  if (!data) return refuse(data.error());
   const HttpOptions http = http_options(options);
   // First of all: a start that fails for want of the port has touched neither the store nor its jobs.
   auto listener = listen_at(http);
   if (!listener) return refuse(listener.error());
-  const auto service = api::Service::open({.data = options.data});
+  const auto service = api::Service::open({.data = *data});
   if (!service) return refuse(service.error());
   const auto jobs = open_jobs(options.jobs);
   if (!jobs) return refuse(jobs.error());
@@ -111,7 +114,7 @@ int serve(const ServeOptions& options) {
   HttpServer server(http, api_routes(**service, runner));
   const auto port = server.start(*std::move(listener));
   if (!port) return refuse(port.error());
-  std::cout << fmt::format("slipway {} serves {} on http://{}:{}, jobs in {}\n", version(), options.data,
+  std::cout << fmt::format("slipway {} serves {} on http://{}:{}, jobs in {}\n", version(), *data,
                            options.address, *port, options.jobs.empty() ? "memory" : options.jobs)
             << std::flush;
   int signal = 0;
