@@ -23,9 +23,9 @@ struct DataFolder {
 };
 
 // The first that there is of: the option's folder, the variable's, `data` in the executable's folder, and
-// share/slipway/data under the prefix whose bin holds the executable. A build folder has a link to the source tree's data beside its
-// executable. What an option or a variable names is used or refused, never passed over. Errors: unreadable_data with every place
-// that was looked at.
+// share/slipway/data under the prefix whose bin holds the executable. A build folder has a link to the source
+// tree's data beside its executable. What an option or a variable names is used or refused, never passed
+// over. Errors: unreadable_data with every place that was looked at.
 Result<DataFolder> find_data_folder(const DataPlaces& places);
 
 // The places of this process.
@@ -34,7 +34,8 @@ DataPlaces data_places(const std::string& option);
 // The folder to work with, `option` being what --data gave. Errors as above.
 Result<std::string> data_folder(const std::string& option);
 
-// What --version prints: the program's version, then the data folder and how it was found, or where it was looked for.
+// What --version prints: the program's version, then the data folder and how it was found, or where it was
+// looked for.
 std::string version_text();
 
 }  // namespace slipway::server
