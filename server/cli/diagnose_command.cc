@@ -185,7 +185,7 @@ Result<void> clear_model(const std::string& folder, bool is_offered) {
   if (!removed) return fail(removed.error());
   if (*removed) std::cerr << fmt::format("the model of campaign {} was taken out of {}\n", **removed, folder);
   if (!is_offered) {
-    std::cerr << "no corrected model is offered: none is written\n";
+    std::cerr << "no corrected model is offered: nothing is written\n";
     return {};
   }
   for (const char* part : {"rovers", "soils"})

@@ -20,7 +20,7 @@ std::string prediction_request(const PredictOptions& options) {
   w.end_array();
   if (options.backwards) w.boolean("backwards", true);
   if (options.crab_deg) w.exact("crab_deg", *options.crab_deg);
-  if (!options.rung.empty()) w.text("rung", options.rung);
+  if (!options.level.empty()) w.text("rung", options.level);
   w.end_object();
   return w.take();
 }
@@ -33,7 +33,7 @@ int predict(const PredictOptions& given) {
   PredictOptions options = given;
   options.drive.rover = *rover;
   // Said before the work is done; of a request in a file its answer says it.
-  if (!options.plot.empty() && options.request.empty() && options.rung != "dynamic")
+  if (!options.plot.empty() && options.request.empty() && options.level != "dynamic")
     return refuse({ErrorCode::kInvalidRequest,
                    "there is no such plot",
                    {{"/plot", "only a prediction at the dynamic level has a time history: --rung dynamic"}}});
