@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cstdlib>
-#include <string_view>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "core/version.h"
 
@@ -46,7 +46,7 @@ Result<DataFolder> find_data_folder(const DataPlaces& places) {
     const fs::path beside = places.executable.parent_path();
     for (const auto& [place, folder] : {std::pair{"beside the executable", beside / "data"},
                                         {"under the install prefix", beside / SLIPWAY_DATA_FROM_BIN}}) {
-      if (holds_data(folder)) return DataFolder{plain(folder), place};
+      if (holds_data(folder)) return DataFolder{plain(folder), fmt::format("looking {}", place)};
       looked_at.push_back({place, fmt::format("{} has no folders rovers and soils", plain(folder))});
     }
   }

@@ -1,9 +1,7 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "core/result.h"
 
@@ -19,7 +17,7 @@ struct DataPlaces {
 
 struct DataFolder {
   std::string path;
-  std::string found_by;  // "--data", "SLIPWAY_DATA", "beside the executable" or "under the install prefix"
+  std::string found_by;  // "--data", "SLIPWAY_DATA" or "looking beside the executable"
 };
 
 // The first that there is of: the option's folder, the variable's, `data` in the executable's folder, and

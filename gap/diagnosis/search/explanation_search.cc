@@ -24,7 +24,7 @@ constexpr double kNothing = 0.25, kOne = 0.375, kTwo = 0.125, kSomethingElse = 0
                  kOneAndSomethingElse = 0.075;
 
 // Shares of the evidence that are believed, and how often each; chosen on sealed campaigns, see
-// docs/diagnosis.md.
+// docs/guide/diagnosis.md.
 struct Belief {
   double share, weight;
 };
