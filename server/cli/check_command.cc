@@ -24,9 +24,10 @@ std::string down_words(const gap::ErrorChange& change) {
 }
 
 std::string answer_words(const api::ModelCheckAnswer& answer) {
-  std::string out = fmt::format("{} as told by {} on {}, corrected with campaign {}: {} drives, {} windows\n",
-                                answer.campaign, answer.rover, fmt::join(answer.soils, ", "),
-                                answer.corrected_with, answer.check.drives, answer.check.windows);
+  std::string out =
+      fmt::format("{} as predicted with {} on {}, corrected with campaign {}: {} drives, {} windows\n",
+                  answer.campaign, answer.rover, fmt::join(answer.soils, ", "), answer.corrected_with,
+                  answer.check.drives, answer.check.windows);
   TextTable table({"channel", "slope", "values", "drives", "rms, nominal", "corrected", "down",
                    "median, nominal", "corrected", "down", "in 50 %", "in 90 %", "unit"});
   for (const gap::ChannelCheck& c : answer.check.channels) {

@@ -11,7 +11,7 @@ namespace slipway::server {
 void add_check_command(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<CheckCommand>();
   CLI::App* command = app.add_subcommand(
-      "check", "how a corrected model tells the drives of a campaign that it was not made of");
+      "check", "how well a corrected model predicts the drives of a campaign that it was not made of");
   command->add_option("campaign", options->campaign, "folder of a drive campaign")->required();
   command
       ->add_option("--model", options->model,

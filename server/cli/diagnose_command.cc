@@ -140,7 +140,7 @@ std::string answer_words(const Diagnosis& d) {
   for (std::size_t i = 0; i < std::min(d.least_detectable.size(), kMostLeast); ++i)
     out += fmt::format("  {} {} = {:.3g}\n", d.least_detectable[i].effect, d.least_detectable[i].parameter,
                        d.least_detectable[i].value);
-  if (!d.next_drives.empty()) out += "\ndrives that would tell most:\n";
+  if (!d.next_drives.empty()) out += "\ndrives that would say most:\n";
   for (const gap::NextDrive& n : d.next_drives)
     out += fmt::format(
         "  tilt {:.0f} deg, heading {:.0f} deg, {:.3g} m/s, curvature {:.2g} 1/m, motors at {:.0f} C: {:.2f} "

@@ -40,9 +40,9 @@ void add_gap_benchmark_command(CLI::App& app, std::function<int()>& run) {
                         "diagnose again with each hidden effect taken out of the library");
   command->add_option("--withheld-csv", options->withheld_csv,
                       "file for the scores with effects taken out, one line an effect");
-  CLI::Option* const oracle =
-      command->add_flag("--oracle", options->oracle,
-                        "diagnose again with the answer told: how much of the gap could have been closed?");
+  CLI::Option* const oracle = command->add_flag(
+      "--oracle", options->oracle,
+      "diagnose again with the hidden effects given: how much of the gap could have been closed?");
   CLI::Option* const needed =
       command->add_flag("--drives-needed", options->drives_needed,
                         "instead: how many drives a right answer takes where next drives are those that "

@@ -23,7 +23,8 @@ void add_predict_command(CLI::App& app, std::function<int()>& run) {
   command->add_flag("--backwards", options->backwards, "drive the path backwards");
   command->add_option("--crab-deg", options->crab_deg,
                       "direction of travel from the body's axis, positive to the left");
-  command->add_option("--rung", options->level, "quasi_static, or dynamic: drive the path as a multibody too");
+  command->add_option("--rung", options->level,
+                      "quasi_static, or dynamic: drive the path as a multibody too");
   command->add_option("--plot", options->plot,
                       "write the time history of the dynamic drive (SVG) to this file; needs that level");
   command->add_option("--request", options->request,

@@ -198,7 +198,7 @@ class Contract(unittest.TestCase):
                                capture_output=True, check=True).stdout
         self.assertEqual(first, local.rstrip(b"\n"))
 
-    def test_a_poller_is_told_when_nothing_changed(self):
+    def test_a_poller_hears_when_nothing_changed(self):
         status, headers, _ = self.server.ask("POST", "/v1/plans", plan(routes=1, draws=4))
         self.assertEqual(status, 201)
         location = headers["Location"]
@@ -432,7 +432,7 @@ class Contract(unittest.TestCase):
             self.assertEqual(shown.returncode, 0)
             self.assertIn("Example:", shown.stdout)
 
-    def test_a_path_is_driven_in_the_dynamic_rung_with_a_dead_wheel(self):
+    def test_a_path_is_driven_at_the_dynamic_level_with_a_dead_wheel(self):
         path = [f"{p['x_m']},{p['y_m']}" for p in (STOP_967, {"x_m": STOP_967["x_m"] - 3.0, "y_m": STOP_967["y_m"]})]
         options = ["--data", DATA, "--path", *path, "--rung", "dynamic", "--failed", "rf=off", "--draws", "4"]
         shown = subprocess.run([SLIPWAY, "predict", *options], capture_output=True, text=True, check=True).stdout

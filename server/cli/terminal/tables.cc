@@ -66,13 +66,13 @@ std::string lines(const JsonValue& list, std::string_view before) {
   return out;
 }
 
-// The dynamic rung's figures beside the quasi-static ones, and how the drive went.
+// The figures of the dynamic level beside the quasi-static ones, and how the drive went.
 std::string dynamic_lines(const JsonValue& figures, const std::string& label) {
   const JsonValue& dynamic = at(figures, "dynamic");
   if (!dynamic.is(JsonValue::Kind::kObject)) return {};
   TextTable table({label, "driven", "time", "energy", "largest slip", "largest tilt", "sinkage", "current"});
-  const auto add = [&](const char* rung, const JsonValue& f, const char* driven) {
-    table.add({rung, fmt::format("{:.1f} m", number(f, driven)), duration(number(f, "duration_s")),
+  const auto add = [&](const char* level, const JsonValue& f, const char* driven) {
+    table.add({level, fmt::format("{:.1f} m", number(f, driven)), duration(number(f, "duration_s")),
                at(f, "energy_wh").is(JsonValue::Kind::kNull)
                    ? "-"
                    : fmt::format("{:.0f} Wh", number(f, "energy_wh")),
@@ -84,7 +84,7 @@ std::string dynamic_lines(const JsonValue& figures, const std::string& label) {
   std::string out = table.print();
   const std::string& reason = text(dynamic, "reason");
   out += fmt::format("{}: {}{}{}\n", label, text(dynamic, "end"), reason.empty() ? "" : ", ", reason);
-  out += lines(at(dynamic, "broken_limits"), "Limit broken in the dynamic rung: ");
+  out += lines(at(dynamic, "broken_limits"), "Limit broken at the dynamic level: ");
   const JsonValue& less = at(dynamic, "less_quasi_static");
   out += fmt::format(
       "Dynamic less balance over {:.0f} m, mean: slip {:+.3f}, sinkage {:+.1f} mm, current {:+.2f} A\n",
