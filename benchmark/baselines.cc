@@ -18,7 +18,8 @@ namespace {
 
 constexpr std::size_t kMaxTerms = 3;
 
-// chi^2 of what columns with prior deviation 1 leave of residuals, the price of the coefficients included.
+// The chi^2 that a regression on columns with prior standard deviation 1 leaves, including the coefficients'
+// prior.
 double left_over(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& columns) {
   Eigen::MatrixXd hessian = columns.transpose() * columns;
   hessian.diagonal().array() += 1.0;
@@ -57,7 +58,7 @@ Eigen::MatrixXd covariance(std::span<const Sample> samples, const Kernel& kernel
   return k;
 }
 
-// Means at `asked` by the kernel under which the samples are most likely, of a small grid.
+// The means at `asked` by the kernel, of a small grid, under which the samples are most likely.
 std::vector<double> means(std::span<const Sample> samples, std::span<const Sample> asked) {
   Eigen::VectorXd y(static_cast<Eigen::Index>(samples.size()));
   for (std::size_t i = 0; i < samples.size(); ++i) y[static_cast<Eigen::Index>(i)] = samples[i].value;
@@ -86,7 +87,8 @@ std::vector<double> means(std::span<const Sample> samples, std::span<const Sampl
   return out;
 }
 
-// Residuals less what processes over the circumstances, one a channel and wheel, tell of them.
+// The residuals less the predictions of Gaussian processes over the conditions, one for each channel and
+// wheel.
 Correction gaussian_process(const PreparedCampaign& prepared, std::size_t threads) {
   return [&prepared, threads](const FittedExplanation& retuned, const std::vector<bool>& seen) {
     const WindowModel& model = *prepared.model;
