@@ -115,8 +115,8 @@ Correction gaussian_process(const PreparedCampaign& prepared, std::size_t thread
     parallel_for(all.size(), threads, [&](std::size_t s) {
       const auto& [learnt, asked] = *all[s];
       if (learnt.empty()) return;
-      const std::vector<double> predicted = means(learnt, asked);
-      for (std::size_t i = 0; i < asked.size(); ++i) residuals[asked[i].row] -= predicted[i];
+      const std::vector<double> corrections = means(learnt, asked);
+      for (std::size_t i = 0; i < asked.size(); ++i) residuals[asked[i].row] -= corrections[i];
     });
     return residuals;
   };
