@@ -116,8 +116,8 @@ Correction gaussian_process(const PreparedCampaign& prepared, const DiscrepancyO
     parallel_for(all.size(), threads, [&](std::size_t s) {
       const auto& [learnt, asked] = *all[s];
       if (learnt.empty()) return;
-      const std::vector<double> left = means(learnt, asked);
-      for (std::size_t i = 0; i < asked.size(); ++i) residuals[asked[i].row] -= left[i];
+      const std::vector<double> corrections = means(learnt, asked);
+      for (std::size_t i = 0; i < asked.size(); ++i) residuals[asked[i].row] -= corrections[i];
     });
     return residuals;
   };

@@ -13,6 +13,7 @@
 #include "api/service.h"
 #include "core/version.h"
 #include "server/cli/commands.h"
+#include "server/cli/data_folder.h"
 #include "server/cli/tables.h"
 #include "server/http/http_server.h"
 #include "server/routes.h"
@@ -51,7 +52,9 @@ int refuse(const Error& error) {
 
 int serve(const ServeOptions& options) {
   const sigset_t signals = block_ending_signals();
-  const auto service = api::Service::open({.data = options.data});
+  const auto data = data_folder(options.data);
+  if (!data) return refuse(data.error());
+  const auto service = api::Service::open({.data = *data});
   if (!service) return refuse(service.error());
   const auto store = open_store(options.jobs);
   if (!store) return refuse(store.error());
@@ -65,7 +68,7 @@ int serve(const ServeOptions& options) {
   HttpServer server(http, api_routes(**service, runner));
   const auto port = server.start();
   if (!port) return refuse(port.error());
-  std::cout << fmt::format("slipway {} serves {} on http://{}:{}, jobs in {}\n", version(), options.data,
+  std::cout << fmt::format("slipway {} serves {} on http://{}:{}, jobs in {}\n", version(), *data,
                            options.address, *port, options.jobs.empty() ? "memory" : options.jobs)
             << std::flush;
   int signal = 0;

@@ -10,6 +10,7 @@
 #include "core/angle.h"
 #include "server/cli/command_parts.h"
 #include "server/cli/commands.h"
+#include "server/cli/data_folder.h"
 #include "server/cli/drive_choice.h"
 #include "server/cli/terminal_progress.h"
 #include "server/cli/text_table.h"
@@ -21,10 +22,10 @@ using slipway::campaign::Band;
 using slipway::campaign::TableDrive;
 using slipway::campaign::TerrainSummary;
 
-int print_list(const CampaignCommand& options, const api::Catalogue& catalogue) {
+int print_list(const std::string& data, const api::Catalogue& catalogue) {
   TextTable text({"campaign", "drives", "rover", "summary"});
-  for (const std::string& name : api::campaign_names(options.data)) {
-    const auto loaded = api::load_campaign_table(name, options.data, catalogue);
+  for (const std::string& name : api::campaign_names(data)) {
+    const auto loaded = api::load_campaign_table(name, data, catalogue);
     if (!loaded) return refuse(loaded.error());
     text.add({name, fmt::format("{}", slipway::campaign::expand(loaded->table).size()),
               loaded->table.rover->name, loaded->table.summary});
@@ -105,10 +106,12 @@ int conclude(const CampaignCommand& options, const slipway::campaign::DriveTable
 }  // namespace
 
 int campaign(const CampaignCommand& options) {
-  const auto catalogue = api::load_catalogue(options.data);
+  const auto data = data_folder(options.data);
+  if (!data) return refuse(data.error());
+  const auto catalogue = api::load_catalogue(*data);
   if (!catalogue) return refuse(catalogue.error());
-  if (options.table == "list") return print_list(options, *catalogue);
-  const auto loaded = api::load_campaign_table(options.table, options.data, *catalogue);
+  if (options.table == "list") return print_list(*data, *catalogue);
+  const auto loaded = api::load_campaign_table(options.table, *data, *catalogue);
   if (!loaded) return refuse(loaded.error());
   const std::vector<TableDrive> all = slipway::campaign::expand(loaded->table);
   const auto drives = chosen_drives(all, options.only, "/only");

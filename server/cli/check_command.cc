@@ -49,7 +49,7 @@ std::string answer_words(const api::ModelCheckAnswer& answer) {
 }  // namespace
 
 int check(const CheckCommand& options) {
-  const auto catalogue = api::load_catalogue(options.data);
+  const auto catalogue = open_catalogue(options.data);
   if (!catalogue) return refuse_unreadable(catalogue.error());
   const auto campaign = api::load_drive_campaign(options.campaign, *catalogue);
   const auto model = api::load_model_folder(options.model);

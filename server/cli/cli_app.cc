@@ -9,15 +9,16 @@
 #include <string>
 
 #include "api/service.h"
-#include "core/version.h"
 #include "server/cli/cli_campaign.h"
 #include "server/cli/cli_check.h"
+#include "server/cli/cli_data.h"
 #include "server/cli/cli_diagnose.h"
 #include "server/cli/cli_estimate.h"
 #include "server/cli/cli_gap_benchmark.h"
 #include "server/cli/cli_tune.h"
 #include "server/cli/cli_wheel.h"
 #include "server/cli/commands.h"
+#include "server/cli/data_folder.h"
 #include "sim/rover/wheel_failure.h"
 
 namespace slipway::server {
@@ -75,7 +76,7 @@ void add_places(CLI::App& command, const std::string& name, std::vector<PlaceOpt
 }
 
 void add_ask(CLI::App& command, AskOptions& ask) {
-  command.add_option("--data", ask.data, "folder with rovers, soils and terrains")->capture_default_str();
+  add_data_option(command, ask.data, "rovers, soils and terrains");
   command.add_option("--url", ask.url, "ask a running service, http://HOST:PORT, instead of this process");
   command.add_flag("--json", ask.json, "print the whole document, for machines");
 }
@@ -112,8 +113,7 @@ void add_drive(CLI::App& command, DriveOptions& drive) {
 }
 
 void add_validate(CLI::App& command, ValidateOptions& options) {
-  command.add_option("--data", options.data, "folder with rovers, soils, terrains and validation data")
-      ->capture_default_str();
+  add_data_option(command, options.data, "rovers, soils, terrains and validation data");
   CLI::Option* only =
       command.add_option("--only", options.only, "names of comparisons, see --list; all where not given");
   command.add_option("--plots", options.plots, "write one SVG per comparison into this folder");
@@ -135,14 +135,13 @@ void add_validate(CLI::App& command, ValidateOptions& options) {
 int run_command_line(int argc, char** argv) {
   CLI::App app("Traverse planning and slip-risk service for planetary rovers");
   app.require_subcommand(1);
-  app.set_version_flag("--version", std::string(version()));
+  app.set_version_flag("--version", &version_text);
   app.footer(kPlanExample);
   std::function<int()> run;
 
   ServeOptions serve_options;
   CLI::App* command = app.add_subcommand("serve", "answer over HTTP until interrupted");
-  command->add_option("--data", serve_options.data, "folder with rovers, soils and terrains")
-      ->capture_default_str();
+  add_data_option(*command, serve_options.data, "rovers, soils and terrains");
   command->add_option("--address", serve_options.address, "address to listen on")->capture_default_str();
   command->add_option("--port", serve_options.port, "port; 0 takes a free one")
       ->capture_default_str()
@@ -182,7 +181,7 @@ int run_command_line(int argc, char** argv) {
   command->add_flag("--backwards", predict_options.backwards, "drive the path backwards");
   command->add_option("--crab-deg", predict_options.crab_deg,
                       "direction of travel from the body's axis, positive to the left");
-  command->add_option("--rung", predict_options.level,
+  command->add_option("--rung", predict_options.rung,
                       "quasi_static, or dynamic: drive the path as a multibody too");
   command->add_option("--plot", predict_options.plot,
                       "write the time history of the dynamic drive (SVG) to this file; needs that rung");

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "server/cli/cli_data.h"
 #include "server/cli/commands.h"
 
 namespace slipway::server {
@@ -12,8 +13,7 @@ void add_campaign_command(CLI::App& app, std::function<int()>& run) {
   CLI::App* command =
       app.add_subcommand("campaign", "make a table of drives and record them as a drive campaign");
   command->add_option("table", options->table, "file of a table, name of a shipped one, or list")->required();
-  command->add_option("--data", options->data, "folder with rovers, soils and campaigns")
-      ->capture_default_str();
+  add_data_option(*command, options->data, "rovers, soils and campaigns");
   command->add_option("--out", options->out, "folder of the campaign; made where it is not there");
   command->add_option("--threads", options->threads, "at once; 0: as many as the machine has")
       ->capture_default_str()

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "server/cli/cli_data.h"
 #include "server/cli/commands.h"
 #include "server/cli/largest_exact_whole.h"
 
@@ -21,7 +22,7 @@ void add_check_command(CLI::App& app, std::function<int()>& run) {
   command->add_option(
       "--ground", options->ground,
       "a soil of this campaign that is the model's, where the other campaign called it otherwise");
-  command->add_option("--data", options->data, "folder with rovers and soils")->capture_default_str();
+  add_data_option(*command, options->data, "rovers and soils");
   command->add_option("--seed", options->seed, "of the resampling of drives")
       ->capture_default_str()
       ->check(CLI::Range(std::uint64_t{0}, kLargestExactWhole));

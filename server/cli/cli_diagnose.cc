@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "server/cli/cli_data.h"
 #include "server/cli/commands.h"
 #include "server/cli/largest_exact_whole.h"
 
@@ -15,7 +16,7 @@ void add_diagnose_command(CLI::App& app, std::function<int()>& run) {
       "diagnose",
       "where prediction and recorded drives part, which effect is missing, how far the gap closes");
   command->add_option("campaign", options->campaign, "folder of a drive campaign")->required();
-  command->add_option("--data", options->data, "folder with rovers and soils")->capture_default_str();
+  add_data_option(*command, options->data, "rovers and soils");
   command->add_option("--without", options->without, "an effect that is not looked for, see slipway effects");
   command->add_option("--seed", options->seed, "the same seed gives the same answer")
       ->capture_default_str()

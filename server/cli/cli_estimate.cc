@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "server/cli/cli_data.h"
 #include "server/cli/commands.h"
 #include "server/cli/largest_exact_whole.h"
 
@@ -67,7 +68,7 @@ std::shared_ptr<EstimateCommand> add(CLI::App& parent, const char* name, const c
   options->from = from;
   command = parent.add_subcommand(name, about);
   command->add_option("input", options->file, input)->required();
-  command->add_option("--data", options->ask.data, "folder with rovers and soils")->capture_default_str();
+  add_data_option(*command, options->ask.data, "rovers and soils");
   command->add_flag("--json", options->ask.json, "print the whole document, for machines");
   command->add_option("--channels", options->channels, "what is read of what was measured; otherwise all")
       ->delimiter(',');

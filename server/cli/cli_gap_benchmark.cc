@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "server/cli/cli_data.h"
 #include "server/cli/commands.h"
 #include "server/cli/largest_exact_whole.h"
 
@@ -19,7 +20,7 @@ void add_gap_benchmark_command(CLI::App& app, std::function<int()>& run) {
   command->add_option(
       "--make", options->make,
       "first make campaigns in that folder, by drives in motion: smoke (2), each, each_heavy_wheels (23)");
-  command->add_option("--data", options->data, "folder with rovers and soils")->capture_default_str();
+  add_data_option(*command, options->data, "rovers and soils");
   command->add_option("--only", options->only, "names of campaigns; all without it")->delimiter(',');
   command->add_option("--seed", options->seed, "the same seed gives the same campaigns and diagnoses")
       ->capture_default_str()

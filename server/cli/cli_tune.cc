@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gap/estimate/least_squares.h"
+#include "server/cli/cli_data.h"
 #include "server/cli/commands.h"
 
 namespace slipway::server {
@@ -16,8 +17,7 @@ void add_tune_command(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<TuneCommand>();
   CLI::App* command = app.add_subcommand("tune", "tune a table's soil to where its drives really ended");
   command->add_option("table", options->table, "file of a table, or name of a shipped one")->required();
-  command->add_option("--data", options->data, "folder with rovers, soils and campaigns")
-      ->capture_default_str();
+  add_data_option(*command, options->data, "rovers, soils and campaigns");
   command
       ->add_option("--measured", options->measured,
                    "folder of a campaign, or CSV with columns drive, x_m, y_m, yaw_deg")

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "server/cli/cli_data.h"
 #include "server/cli/commands.h"
 
 namespace slipway::server {
@@ -23,7 +24,7 @@ constexpr const char* kInvertExample =
     "  slipway current invert --rover zhurong-class --soil jlu_mars_2_dense --current 0.7 --gravity 9.81";
 
 void add_data(CLI::App& command, AskOptions& ask) {
-  command.add_option("--data", ask.data, "folder with rovers, soils and terrains")->capture_default_str();
+  add_data_option(command, ask.data, "rovers, soils and terrains");
   command.add_flag("--json", ask.json, "print the whole document, for machines");
 }
 

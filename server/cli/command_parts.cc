@@ -8,6 +8,7 @@
 #include <sstream>
 #include <vector>
 
+#include "server/cli/data_folder.h"
 #include "server/cli/tables.h"
 
 namespace slipway::server {
@@ -53,9 +54,17 @@ int refuse_unreadable(const Error& error) {
   return error.code == ErrorCode::kUnreadableData || error.code == ErrorCode::kUnreadableRaster ? 2 : status;
 }
 
+Result<api::Catalogue> open_catalogue(const std::string& data_option) {
+  const auto data = data_folder(data_option);
+  if (!data) return fail(data.error());
+  return api::load_catalogue(*data);
+}
+
 Result<std::unique_ptr<Inquiry>> inquiry(const AskOptions& options) {
   if (!options.url.empty()) return remote_inquiry(options.url);
-  return local_inquiry({.data = options.data, .model = options.model, .ground = options.ground});
+  auto data = data_folder(options.data);
+  if (!data) return fail(data.error());
+  return local_inquiry({.data = std::move(*data), .model = options.model, .ground = options.ground});
 }
 
 int save(const std::string& file, const std::string& text) {

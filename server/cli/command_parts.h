@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "api/files/catalogue.h"
 #include "api/json/writer.h"
 #include "core/progress.h"
 #include "core/result.h"
@@ -25,6 +26,8 @@ class Interruptible final : public Progress {
 int refuse(const Error& error);
 // The same where drives are read: what can't be read is the question's fault, 2.
 int refuse_unreadable(const Error& error);
+// The rovers and soils of the data folder that --data names, or that is found where it is not given.
+Result<api::Catalogue> open_catalogue(const std::string& data_option);
 // The service in this process, or the one at the options' address.
 Result<std::unique_ptr<Inquiry>> inquiry(const AskOptions& options);
 // The exit status: 0, or 1 where the file can't be written.

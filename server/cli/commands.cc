@@ -93,7 +93,7 @@ std::string prediction_request(const PredictOptions& options) {
   w.end_array();
   if (options.backwards) w.boolean("backwards", true);
   if (options.crab_deg) w.exact("crab_deg", *options.crab_deg);
-  if (!options.level.empty()) w.text("rung", options.level);
+  if (!options.rung.empty()) w.text("rung", options.rung);
   w.end_object();
   return w.take();
 }
@@ -203,7 +203,7 @@ int predict(const PredictOptions& given) {
   if (!with_rover) return refuse(with_rover.error());
   const PredictOptions& options = *with_rover;
   // Said before the work is done; of a request in a file its answer says it.
-  if (!options.plot.empty() && options.request.empty() && options.level != "dynamic")
+  if (!options.plot.empty() && options.request.empty() && options.rung != "dynamic")
     return refuse({ErrorCode::kInvalidRequest,
                    "there is no such plot",
                    {{"/plot", "only the dynamic rung has a time history: --rung dynamic"}}});

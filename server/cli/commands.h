@@ -10,7 +10,7 @@ namespace slipway::server {
 
 // What the command line was asked, in plain structs: how it was parsed is cli_app's affair.
 struct AskOptions {
-  std::string data = "data";
+  std::string data;                 // folder of --data; empty here and below: see data_folder.h
   std::string url;                  // empty: the service in this process
   bool json = false;                // the document instead of a table
   std::string model;                // folder of a corrected model, as diagnose writes it; empty: none
@@ -18,7 +18,7 @@ struct AskOptions {
 };
 
 struct ServeOptions {
-  std::string data = "data";
+  std::string data;
   std::string address = "127.0.0.1";
   int port = 8080;
   std::string jobs = "var/jobs.sqlite";  // empty: in memory, lost with the process
@@ -61,8 +61,8 @@ struct PredictOptions {
   std::vector<PlaceOption> path;
   bool backwards = false;
   std::optional<double> crab_deg;
-  std::string rung;  // empty: the request's default
-  std::string plot;  // file for the dynamic drive's time history; empty: none
+  std::string level;  // empty: the request's default
+  std::string plot;   // file for the dynamic drive's time history; empty: none
 };
 
 struct TerrainOptions {
@@ -72,7 +72,7 @@ struct TerrainOptions {
 };
 
 struct ValidateOptions {
-  std::string data = "data";
+  std::string data;
   std::vector<std::string> only;  // names of comparisons; empty: all
   std::string plots;              // folder for one SVG per comparison; empty: none
   std::string check;              // page whose printed part must be what comes out; empty: none
@@ -118,7 +118,7 @@ struct CurrentInvertCommand {
 };
 
 struct CampaignCommand {
-  std::string data = "data";
+  std::string data;
   std::string table;              // a file, a shipped table's name, or "list"
   std::string out;                // folder
   int threads = 0;                // 0: as many as the machine has
@@ -127,7 +127,7 @@ struct CampaignCommand {
 };
 
 struct TuneCommand {
-  std::string data = "data";
+  std::string data;
   std::string table;                    // a file or a shipped table's name
   std::string measured;                 // a campaign's folder or a survey's CSV
   std::vector<std::string> parameters;  // "soil.n=0.8..1.2", "soil.k_phi=1e5..1e7:log"
@@ -146,7 +146,7 @@ struct TuneCommand {
 };
 
 struct DiagnoseCommand {
-  std::string data = "data";
+  std::string data;
   std::string campaign;              // folder of a "drive-campaign/1"
   std::vector<std::string> without;  // effects that are not looked for
   std::uint64_t seed = 1;
@@ -156,7 +156,7 @@ struct DiagnoseCommand {
 };
 
 struct CheckCommand {
-  std::string data = "data";
+  std::string data;
   std::string campaign, model;      // folders
   std::vector<std::string> ground;  // the campaign's soils that are the model's
   std::uint64_t seed = 1;
@@ -186,7 +186,7 @@ struct EstimateCommand {
 };
 
 struct GapBenchmarkCommand {
-  std::string data = "data";
+  std::string data;
   std::string folder;             // of campaigns, with answers.json
   std::string make;               // set of campaigns to make there first; empty: they are there
   std::vector<std::string> only;  // names of campaigns; empty: all

@@ -10,6 +10,7 @@
 #include "core/angle.h"
 #include "server/cli/command_parts.h"
 #include "server/cli/commands.h"
+#include "server/cli/data_folder.h"
 
 namespace slipway::server {
 namespace {
@@ -68,7 +69,9 @@ std::string words_of(const api::CurrentInversion& inversion) {
 }  // namespace
 
 int current_map(const CurrentMapCommand& options) {
-  const auto service = api::Service::open({.data = options.ask.data});
+  const auto data = data_folder(options.ask.data);
+  if (!data) return refuse(data.error());
+  const auto service = api::Service::open({.data = *data});
   if (!service) return refuse(service.error());
   const auto maps = maps_of((*service)->catalogue(), options);
   if (!maps) return refuse(maps.error());
@@ -86,7 +89,9 @@ int current_map(const CurrentMapCommand& options) {
 }
 
 int current_invert(const CurrentInvertCommand& options) {
-  const auto service = api::Service::open({.data = options.ask.data});
+  const auto data = data_folder(options.ask.data);
+  if (!data) return refuse(data.error());
+  const auto service = api::Service::open({.data = *data});
   if (!service) return refuse(service.error());
   api::CurrentInversionRequest request;
   request.rover = options.rover;

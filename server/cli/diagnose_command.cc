@@ -185,7 +185,7 @@ int write_model(const std::string& folder, const gap::DriveCampaign& campaign, c
 }  // namespace
 
 int diagnose(const DiagnoseCommand& options) {
-  const auto catalogue = api::load_catalogue(options.data);
+  const auto catalogue = open_catalogue(options.data);
   if (!catalogue) return refuse_unreadable(catalogue.error());
   const auto campaign = api::load_drive_campaign(options.campaign, *catalogue);
   if (!campaign) return refuse_unreadable(campaign.error());

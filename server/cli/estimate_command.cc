@@ -182,7 +182,7 @@ std::string answer_words(const api::SoilEstimateAnswer& answer) {
 int estimate(const EstimateCommand& options) {
   auto request = request_of(options);
   if (!request) return refuse(request.error());
-  const auto catalogue = api::load_catalogue(options.ask.data);
+  const auto catalogue = open_catalogue(options.ask.data);
   if (!catalogue) return refuse_unreadable(catalogue.error());
   std::optional<Result<api::SoilEstimateAnswer>> answer;
   if (options.from == From::kDrives) {

@@ -215,7 +215,7 @@ int gap_benchmark(const GapBenchmarkCommand& options) {
                              fmt::join(known, ", "));
     return 2;
   }
-  const auto catalogue = api::load_catalogue(options.data);
+  const auto catalogue = open_catalogue(options.data);
   if (!catalogue) return refuse_unreadable(catalogue.error());
   if (!options.make.empty())
     if (const auto made = make_campaigns(options, *catalogue); !made) return refuse_unreadable(made.error());
@@ -242,7 +242,7 @@ int gap_benchmark(const GapBenchmarkCommand& options) {
   const auto answers = answers_of(options.folder);
   if (!answers) return refuse_unreadable(answers.error());
   const std::set<std::string> known = library();
-  api::Benchmark benchmark{.variant = options.variant, .cases = {}, .withheld = {}};
+  gap::Benchmark benchmark{.variant = options.variant, .cases = {}, .withheld = {}};
   for (std::size_t i = 0; i < open.size(); ++i) {
     const auto answer = answers->find(names[i]);
     if (answer == answers->end()) {

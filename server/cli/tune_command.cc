@@ -18,6 +18,7 @@
 #include "core/angle.h"
 #include "server/cli/command_parts.h"
 #include "server/cli/commands.h"
+#include "server/cli/data_folder.h"
 #include "server/cli/drive_choice.h"
 #include "server/cli/terminal_progress.h"
 #include "server/cli/text_table.h"
@@ -196,9 +197,11 @@ int write_files(const std::string& folder, const std::string& title, const std::
 int tune(const TuneCommand& options) {
   auto parameters = parameters_of(options);
   if (!parameters) return refuse(parameters.error());
-  const auto catalogue = api::load_catalogue(options.data);
+  const auto data = data_folder(options.data);
+  if (!data) return refuse(data.error());
+  const auto catalogue = api::load_catalogue(*data);
   if (!catalogue) return refuse(catalogue.error());
-  const auto loaded = api::load_campaign_table(options.table, options.data, *catalogue);
+  const auto loaded = api::load_campaign_table(options.table, *data, *catalogue);
   if (!loaded) return refuse(loaded.error());
   const auto drives = chosen_drives(slipway::campaign::expand(loaded->table), options.drives, "/drives");
   if (!drives) return refuse(drives.error());

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "server/cli/commands.h"
+#include "server/cli/data_folder.h"
 #include "server/cli/tables.h"
 #include "validation/comparison_catalogue.h"
 #include "validation/document.h"
@@ -79,6 +80,8 @@ int validate(const ValidateOptions& options) {
   if (options.list) return print_list();
   const auto comparisons = chosen(options.only);
   if (!comparisons) return refuse(comparisons.error());
+  const auto data = data_folder(options.data);
+  if (!data) return refuse(data.error());
   std::vector<Outcome> outcomes;
   std::string printed;
   bool holds = true;
@@ -86,7 +89,7 @@ int validate(const ValidateOptions& options) {
     if (given_up()) return refuse({ErrorCode::kCancelled, "given up between two comparisons", {}});
     std::cerr << fmt::format("[{}/{}] {}: {}\n", outcomes.size() + 1, comparisons->size(), comparison->name,
                              comparison->summary);
-    auto report = comparison->run(options.data);
+    auto report = comparison->run(*data);
     if (!report) return refuse(report.error());
     for (const validation::StatedBand& band : report->bands)
       if (!band.holds())

@@ -216,7 +216,7 @@ Result<Report> sealed_campaigns(const std::filesystem::path& data) {
       "too; L3: "
       "another physics, in which a key of \"parameters\" says that nothing was hidden, not that the laws "
       "agree "
-      "(docs/gap_benchmark.md). \"earlier\": by the program as it was then; its settings were changed with "
+      "(docs/results/gap_benchmark.md). \"earlier\": by the program as it was then; its settings were changed with "
       "those "
       "seeds in sight. This page only counts what slipway gap-benchmark --csv wrote "
       "(data/validation/sealed_campaigns_scores.csv, sealed_campaigns_withheld.csv), which takes seven "
