@@ -31,7 +31,8 @@ bool names_nothing(Verdict v) {
 std::vector<std::pair<Names, double>> merged_sets(const Diagnosis& d) {
   std::vector<std::pair<Names, double>> sets;
   for (const ComparedSet& c : d.candidates) {
-    const Names names(c.effects.begin(), c.effects.end());
+    const std::vector<std::string> listed = names_of(c);
+    const Names names(listed.begin(), listed.end());
     const auto known =
         std::find_if(sets.begin(), sets.end(), [&](const auto& set) { return set.first == names; });
     if (known == sets.end())

@@ -58,7 +58,7 @@ std::string candidates_words(const Diagnosis& d) {
   std::size_t shown = 0;
   for (const gap::ComparedSet& set : api::json::compared_sets(d)) {
     if (++shown > kMostCandidates) break;
-    table.add({names_words(set.effects), fmt::format("{:.3f}", set.probability),
+    table.add({names_words(gap::names_of(set)), fmt::format("{:.3f}", set.probability),
                fmt::format("{}", set.complexity)});
   }
   return table.print();

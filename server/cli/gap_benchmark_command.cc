@@ -147,10 +147,10 @@ Result<Timed> diagnosed(const GapBenchmarkCommand& options, const api::Catalogue
   campaign->retuning = variant.retuning;
   how.search.something_else = variant.something_else;
   if (variant.single) {
-    how.search.most_refitted = 1;
-    how.search.most_paired = 0;
+    how.search.max_refitted = 1;
+    how.search.max_paired = 0;
   }
-  how.search.whole_evidence = variant.whole_evidence;
+  how.evidence.whole = variant.whole_evidence;
   Interruptible patience;
   auto diagnosis = variant.method(*campaign, how, patience);
   if (!diagnosis) return fail(diagnosis.error());
