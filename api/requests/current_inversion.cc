@@ -53,6 +53,8 @@ void settle(const sim::RoverModel& rover, CurrentInversionRequest& request, sim:
   if (!request.load_n)
     request.load_n = rover.mass_kg * request.gravity_m_s2 / static_cast<double>(rover.wheels.size());
   if (!request.speed_m_s) request.speed_m_s = rover.cruise_speed_m_s;
+  if (request.motor_temp_c)
+    if (auto fault = temperature_without_effect(rover, request.effects)) faults.push_back(*std::move(fault));
   rig.effects = request.effects;
   rig.motor_temp_c = request.motor_temp_c;
   rig.test.load_n = *request.load_n;

@@ -95,6 +95,10 @@ std::vector<Fault> faults_of(const Catalogue& catalogue, const SoilEstimateReque
   const auto rover = catalogue.rovers.find(tested.rover);
   if (!tested.rover.empty() && rover == catalogue.rovers.end())
     faults.push_back({"/rover", unknown_name("rover", tested.rover, names_of(catalogue.rovers))});
+  if (tested.rover.empty() && !tested.wheel.empty())
+    faults.push_back({"/wheel", "a wheel is named of a rover, and there is none"});
+  if (tested.rover.empty() && tested.motor_temp_c)
+    faults.push_back({"/motor_temp_c", "a temperature needs the motor of a rover, and there is none"});
   if (rover != catalogue.rovers.end()) wheel_of(*rover->second, tested.wheel, faults);
   check("radius_m", tested.radius_m, 0.01, 2.0, "m", faults);
   check("width_m", tested.width_m, 0.005, 2.0, "m", faults);

@@ -1,3 +1,5 @@
+#include "server/cli/campaign_command.h"
+
 #include <fmt/format.h>
 
 #include <iostream>
@@ -9,11 +11,10 @@
 #include "campaign/run_campaign.h"
 #include "core/angle.h"
 #include "server/cli/command_parts.h"
-#include "server/cli/commands.h"
 #include "server/cli/data_folder.h"
 #include "server/cli/drive_choice.h"
-#include "server/cli/terminal_progress.h"
-#include "server/cli/text_table.h"
+#include "server/cli/terminal/terminal_progress.h"
+#include "server/cli/terminal/text_table.h"
 
 namespace slipway::server {
 namespace {
@@ -30,8 +31,7 @@ int print_list(const std::string& data, const api::Catalogue& catalogue) {
     text.add({name, fmt::format("{}", slipway::campaign::expand(loaded->table).size()),
               loaded->table.rover->name, loaded->table.summary});
   }
-  std::cout << text.print() << std::flush;
-  return 0;
+  return deliver({}, text.print());
 }
 
 int print_drives(const slipway::campaign::DriveTable& table, const std::vector<TableDrive>& drives) {
@@ -40,8 +40,7 @@ int print_drives(const slipway::campaign::DriveTable& table, const std::vector<T
     text.add({drive.id, fmt::format("{:g} m", drive.start.x_m), fmt::format("{:g} m", drive.start.y_m),
               fmt::format("{:g} deg", deg_from_rad(drive.start.yaw_rad)),
               fmt::format("{}", table.entries[drive.entry].legs.size()), table.terrains[drive.terrain].name});
-  std::cout << text.print() << fmt::format("{} drives\n", drives.size()) << std::flush;
-  return 0;
+  return deliver({}, text.print() + fmt::format("{} drives\n", drives.size()));
 }
 
 std::string range_of(const std::optional<Band>& band, double unit, int decimals) {
@@ -89,10 +88,8 @@ int conclude(const CampaignCommand& options, const slipway::campaign::DriveTable
              const std::vector<TableDrive>& all, api::CampaignFolder& folder) {
   const auto summaries = folder.conclude(table, all);
   if (!summaries) return refuse(summaries.error());
-  std::cout << (options.json ? api::json::campaign_summary_document(table, all.size(), *summaries)
-                             : summary_table(*summaries))
-            << std::flush;
-  int status = 0;
+  int status = deliver({}, options.json ? api::json::campaign_summary_document(table, all.size(), *summaries)
+                                        : summary_table(*summaries));
   for (const TableDrive& drive : all) {
     const auto record = folder.done().find(drive.id);
     if (record == folder.done().end() || record->second.answered) continue;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/version.h"
+#include "server/cli/terminal/tables.h"
 
 namespace slipway::server {
 namespace {

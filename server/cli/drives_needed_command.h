@@ -9,7 +9,7 @@
 #include "api/report/drives_needed_report.h"
 #include "benchmark/benchmark_score.h"
 #include "core/result.h"
-#include "server/cli/commands.h"
+#include "server/cli/gap_benchmark_command.h"
 
 namespace slipway::server {
 

@@ -21,8 +21,7 @@ Diagnosis found(Verdict verdict, std::vector<std::string> effects, double probab
   Diagnosis d;
   d.verdict = verdict;
   for (const std::string& name : effects) d.effects.push_back({name, "", probability, {}});
-  if (verdict == Verdict::kUnknown) effects.push_back("unknown");
-  d.candidates.push_back({effects, probability, std::nullopt, 0});
+  d.candidates.push_back({effects, probability, std::nullopt, 0, 0.0, verdict == Verdict::kUnknown});
   d.candidates.push_back({{}, 1.0 - probability, std::nullopt, 0});
   return d;
 }
@@ -88,7 +87,7 @@ TEST(BenchmarkScore, AnEffectOfOneWheelIsFoundAtThatWheelOrNot) {
 TEST(BenchmarkScore, AStatedProbabilityIsThatOfWhatIsSaid) {
   Diagnosis d = found(Verdict::kUnknown, {"hardpan"}, 0.6);
   d.effects.clear();
-  d.candidates[1].effects = {"unknown"};
+  d.candidates[1].with_unknown = true;
   EXPECT_NEAR(score_case(hidden({"tether"}), d, kLibrary, 1.0).stated, 1.0, 1e-12);
   // A smaller set than the most probable one.
   Diagnosis smaller = found(Verdict::kEffectSet, {"hardpan"}, 0.3);

@@ -69,7 +69,8 @@ void set_variances(const std::vector<std::string>& logs, const std::vector<doubl
   scatter.between = std::sqrt(std::max(0.0, (among / (groups - 1.0) - within) / size));
 }
 
-// Where the weights of the sorted values, each half before and half after its value, reach the share.
+// The weighted quantile: the value at which the cumulated weights reach the share, where each weight counts
+// half before and half after its value.
 double weighted_quantile(const std::vector<std::pair<double, double>>& sorted, double share) {
   double total = 0.0;
   for (const auto& [value, weight] : sorted) total += weight;
@@ -149,7 +150,7 @@ LogScatter measure_scatter(const std::vector<LogResidual>& residuals) {
 PredictiveOffsets offsets_at(const LogScatter& scatter, double gradient_rad, double parameter_std) {
   const double scatter_std = scatter.std_at(gradient_rad);
   const double widening = scatter_std > 0.0 ? std::hypot(scatter_std, parameter_std) / scatter_std : 1.0;
-  // About the middle of the scatter, which parameters do not move.
+  // The offsets are widened about the scatter's median, which the parameters' uncertainty does not move.
   const double middle = scatter.quantiles[2];
   const auto offset = [&](std::size_t k) {
     return scatter.at(gradient_rad) * (middle + widening * (scatter.quantiles[k] - middle));
