@@ -28,8 +28,8 @@ int main(int argc, char** argv) {
   std::signal(SIGINT, [](int) { slipway::server::interrupt(); });
   occupy_closed_streams();
   // Names out of files and requests end in what is printed: none of them commands the terminal.
-  const slipway::server::PrintableOutput answers(std::cout);
-  const slipway::server::PrintableOutput messages(std::cerr);
+  slipway::server::PrintableOutput answers(std::cout);
+  slipway::server::PrintableOutput messages(std::cerr);
   try {
     const int status = slipway::server::run_command_line(argc, argv);
     return slipway::server::output_has_gone_out() ? status : std::max(status, 1);

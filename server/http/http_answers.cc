@@ -65,11 +65,15 @@ std::string Answers::to_refused(HttpEngine& engine, std::string_view method, con
 }
 
 HttpResponse Answers::routed(HttpRequest& request) const {
+  HttpResponse response = answered(request);
+  share_across_origins(options_.cross_origin, request, response);
+  return response;
+}
+
+HttpResponse Answers::answered(HttpRequest& request) const {
   const auto as_problem = [this](const Error& error, const HttpRequest* r) { return problem(error, r); };
   try {
-    HttpResponse response = routes_.answer(request, as_problem);
-    share_across_origins(options_.cross_origin, request, response);
-    return response;
+    return routes_.answer(request, as_problem);
   } catch (...) {
     // Its text may hold what is nobody's business, so only the operator sees it.
     log(fmt::format("{} {} threw: {}", request.method, request.raw_path, text_of(std::current_exception())));
