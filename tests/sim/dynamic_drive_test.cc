@@ -226,15 +226,15 @@ TEST(DynamicDrive, ItsGreatestFiguresDoNotDependOnTheSamples) {
 }
 
 // The greatest figures are taken at the integrator's steps, and something may be greater between two of them.
-// Loads, sinkage, tilt and currents follow the ground, so that is little: below 1 % at six tolerances from
-// 1e-3 to 1e-8.
+// Sinkage and tilt follow the ground, so that is little: below 0.1 %. Interpolated currents are up to 1.5 %
+// greater at the default tolerance, and 0.01 % at 1e-5.
 //
 // Slip is different. It is defined once the rates are above half of what is commanded, and there it is
-// greatest, for the wheels turn up faster than the rover follows: on this ground 0.3231 at that moment (at
-// any tolerance, seen every 10 ms) and 0.3045 only 40 ms later. The first step after that moment sees what is
-// left by then, between 0.303 and 0.322 as tolerance and rounding place it. So the figure at the steps lies
-// between the greatest slip ever and the greatest one later than the longest step there, which is below 0.1
-// s.
+// greatest, for the wheels turn up faster than the rover follows: in this turn 0.325 at that moment, at any
+// tolerance, and 0.3045 only 50 ms later. The first step after that moment sees what is left by then, from
+// 0.302 to 0.325 as tolerance and rounding place it. So the figure at the steps lies between the greatest
+// slip ever and the greatest one later than the longest step there, which is below 0.1 s. Compiled with -O1
+// and -O2, at six tolerances from 1e-3 to 1e-8, it does.
 TEST(DynamicDrive, ItsGreatestFiguresAreThoseOfDenseSamples) {
   const FunctionGround hills([](double x, double y) { return 0.1 * std::sin(2.0 * x) * std::cos(3.0 * y); });
   DynamicOptions options;
@@ -257,10 +257,10 @@ TEST(DynamicDrive, ItsGreatestFiguresAreThoseOfDenseSamples) {
     }
   }
   const DynamicDrive& greatest = driven.drive;
-  EXPECT_NEAR(greatest.max_current_a.value / current.value, 1.0, 0.02);
-  EXPECT_NEAR(greatest.max_sinkage_m.value / sinkage.value, 1.0, 0.005);
-  EXPECT_NEAR(greatest.max_tilt_rad.value / tilt.value, 1.0, 0.005);
-  EXPECT_LT(greatest.max_slip_ratio.value, 1.01 * slip.value);
+  EXPECT_NEAR(greatest.max_current_a.value / current.value, 1.0, 0.03);
+  EXPECT_NEAR(greatest.max_sinkage_m.value / sinkage.value, 1.0, 0.003);
+  EXPECT_NEAR(greatest.max_tilt_rad.value / tilt.value, 1.0, 0.003);
+  EXPECT_LT(greatest.max_slip_ratio.value, 1.02 * slip.value);
   EXPECT_GT(greatest.max_slip_ratio.value, 0.99 * later_slip.value);
 }
 
