@@ -47,7 +47,7 @@ TEST(WheelFailure, NamesAreInTheOrderOfTheFailures) {
   EXPECT_EQ(describe(WheelFailure::kOff), "off");
 }
 
-// Slip of the rover in the middle of 2 m over level loam, in either rung.
+// Slip of the rover in the middle of 2 m over level loam, at either fidelity level.
 struct BothSlips {
   double balance, dynamic;
   DriveEnd end;
@@ -76,7 +76,7 @@ BothSlips slips(const RoverModel& rover) {
   return {balance->mean_slip_ratio, sum / std::max(1, count), drive->end};
 }
 
-TEST(WheelFailure, BothRungsSlipMoreTheHarderTheWheelIsToTurn) {
+TEST(WheelFailure, BothLevelsSlipMoreTheHarderTheWheelIsToTurn) {
   const BothSlips whole = slips(six_wheeler());
   BothSlips last = whole;
   for (const WheelFailure failure : {WheelFailure::kFree, WheelFailure::kOff}) {
