@@ -28,8 +28,8 @@ class Listener {
       throw std::runtime_error("no listening socket");
     }
     port_ = ntohs(address.sin_port);
-    // This listener must answer, since without a fence a request would otherwise wait for ever instead of
-    // failing the test.
+    // The listener accepts connections and never answers, so that without a fence a request would wait for
+    // ever instead of failing the test.
     CPLSetConfigOption("GDAL_HTTP_TIMEOUT", "2");
   }
   ~Listener() { close(socket_); }

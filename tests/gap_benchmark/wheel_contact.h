@@ -20,7 +20,7 @@ double highest_level(const std::vector<SoilNode>& across);
 // The rut that a wheel leaves behind.
 struct Rut {
   std::vector<SoilNode>
-      across;  // from right to left in the direction of travel; empty where the law keeps no record
+      across;  // from right to left in the direction of travel; empty means undisturbed soil
   double berm_height_m = 0.0, berm_width_m = 0.0;  // on either side
 };
 
