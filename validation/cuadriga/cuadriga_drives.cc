@@ -163,6 +163,31 @@ std::string scatter_words(const CuadrigaFit& fit) {
       fit.log_charge.growth);
 }
 
+std::vector<StatedBand> bands_of(const Score& slip, const Score& charge, const TableError& table,
+                                 double shipped) {
+  return {
+      {"share of held-out windows in the 90 % interval of slip", slip.within_90.of_windows, 0.80, 0.97},
+      {"share of held-out windows in the 90 % interval of charge", charge.within_90.of_windows, 0.80, 0.97},
+      {"share of held-out windows in the 50 % interval of slip", slip.within_50.of_windows, 0.40, 0.65},
+      {"share of held-out windows in the 50 % interval of charge", charge.within_50.of_windows, 0.40, 0.65},
+      {"median error of slip over the straight line's", slip.ours / slip.line, 0.0, 1.0},
+      {"median error of charge over the straight line's", charge.ours / charge.line, 0.0, 1.0},
+      {"largest difference of the shipped soil and motors to the fit of all logs, relative", shipped, 0.0,
+       0.02},
+      {"largest error of the table in slip, straight drives", table.slip_straight, 0.0, 0.003},
+      {"largest error of the table in slip, turns", table.slip_turning, 0.0, 0.03}};
+}
+
+std::string table_words(const TableError& table) {
+  return fmt::format(
+      "Slip and torques come from a table. Between its nodes it is off by at most {:.4f} of "
+      "slip and {:.2f} A on straight drives up to 20 deg, and by {:.4f} and {:.2f} A in turns "
+      "up to {:.0f} deg/s and 12 deg. On steeper ground a turn adds what it adds at 12 deg, "
+      "and sharper turns are treated like the sharpest one in the table.",
+      table.slip_straight, table.current_straight_a, table.slip_turning, table.current_turning_a,
+      table.fastest_turn_deg_s);
+}
+
 }  // namespace
 
 Result<Report> cuadriga_drives(const std::filesystem::path& data) {
@@ -216,24 +241,9 @@ Result<Report> cuadriga_drives(const std::filesystem::path& data) {
       scatter_words(answer->of_all),
       left_over_words(sound)};
   for (std::string& words : fit_words(answer->of_all)) report.notes.push_back(std::move(words));
-  report.notes.push_back(
-      fmt::format("Slip and torques come from a table. Between its nodes it is off by at most {:.4f} of "
-                  "slip and {:.2f} A on straight drives up to 20 deg, and by {:.4f} and {:.2f} A in turns "
-                  "up to {:.0f} deg/s and 12 deg. On steeper ground a turn adds what it adds at 12 deg, "
-                  "and sharper turns are treated like the sharpest one in the table.",
-                  table.slip_straight, table.current_straight_a, table.slip_turning, table.current_turning_a,
-                  table.fastest_turn_deg_s));
-  report.bands = {
-      {"share of held-out windows in the 90 % interval of slip", slip.within_90.of_windows, 0.80, 0.97},
-      {"share of held-out windows in the 90 % interval of charge", charge.within_90.of_windows, 0.80, 0.97},
-      {"share of held-out windows in the 50 % interval of slip", slip.within_50.of_windows, 0.40, 0.65},
-      {"share of held-out windows in the 50 % interval of charge", charge.within_50.of_windows, 0.40, 0.65},
-      {"median error of slip over the straight line's", slip.ours / slip.line, 0.0, 1.0},
-      {"median error of charge over the straight line's", charge.ours / charge.line, 0.0, 1.0},
-      {"largest difference of the shipped soil and motors to the fit of all logs, relative",
-       shipped_difference(*catalogue, answer->of_all.model.parameters()), 0.0, 0.02},
-      {"largest error of the table in slip, straight drives", table.slip_straight, 0.0, 0.003},
-      {"largest error of the table in slip, turns", table.slip_turning, 0.0, 0.03}};
+  report.notes.push_back(table_words(table));
+  report.bands =
+      bands_of(slip, charge, table, shipped_difference(*catalogue, answer->of_all.model.parameters()));
   report.plot = draw_cuadriga_drives(report.title, *answer);
   return report;
 }

@@ -121,6 +121,20 @@ void state_bands(const gap::ModuliFit& plates, const gap::ShearStrengthFit& annu
                   {"annulus", "friction_angle", "deg", kPublishedFriction_deg, phi_deg}};
 }
 
+// The report with its title, source and columns, without rows.
+Report virtual_bevameter_report() {
+  Report report;
+  report.title = "Soil moduli fitted to plate and annulus tests";
+  report.source =
+      "Chrono CRM to SCM calibration study, 2022: plates of 0.2 and 0.3 m radius pressed 0.2 m into a "
+      "virtual "
+      "soil bin, an annulus of 0.15 to 0.2 m turned under 25 to 200 kg; its published answer is k_c -1.1e5, "
+      "k_phi 2.2e6, n 1.2, c 2495 Pa, phi 24 deg";
+  report.peers = "the published answer is the study's own fit of the same figures";
+  report.columns = {"fit", "k_c N/m^(n+1)", "k_phi N/m^(n+2)", "n", "c Pa", "phi deg", "rms kPa"};
+  return report;
+}
+
 }  // namespace
 
 Result<Report> virtual_bevameter(const std::filesystem::path& data) {
@@ -136,15 +150,7 @@ Result<Report> virtual_bevameter(const std::filesystem::path& data) {
   const std::vector<gap::PlateTest> tests = plates_of(*plate_table);
   const gap::AnnulusTest annulus = annulus_of(*annulus_table);
 
-  Report report;
-  report.title = "Soil moduli fitted to plate and annulus tests";
-  report.source =
-      "Chrono CRM to SCM calibration study, 2022: plates of 0.2 and 0.3 m radius pressed 0.2 m into a "
-      "virtual "
-      "soil bin, an annulus of 0.15 to 0.2 m turned under 25 to 200 kg; its published answer is k_c -1.1e5, "
-      "k_phi 2.2e6, n 1.2, c 2495 Pa, phi 24 deg";
-  report.peers = "the published answer is the study's own fit of the same figures";
-  report.columns = {"fit", "k_c N/m^(n+1)", "k_phi N/m^(n+2)", "n", "c Pa", "phi deg", "rms kPa"};
+  Report report = virtual_bevameter_report();
   report.rows.push_back({"published", "-110000", "2200000", "1.2", "2495", "24", "-"});
   constexpr std::array<std::pair<const char*, PlateMeasure>, 4> kWays{
       {{"plates: force (used)", PlateMeasure::kForce},

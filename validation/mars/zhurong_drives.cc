@@ -189,6 +189,18 @@ std::string pull_plot(const api::Catalogue& catalogue, double load_n, const std:
   return api::draw_charts(title, {&chart, 1});
 }
 
+// The report with its title, source and columns, without rows.
+Report zhurong_wheels_report() {
+  Report report;
+  report.title = "Zhurong's six currents at zero slip, each wheel by its own load";
+  report.source =
+      "Zhurong paper, Table 4 (JLU Mars 2 dense); loads by the statics of the shipped zhurong-class rover";
+  report.peers = "the paper averages the load: 0.114 A for every wheel";
+  report.columns = {"load split", "lf +Y1", "lm +Y2", "lr +Y3",
+                    "rf -Y1",     "rm -Y2", "rr -Y3", "mean abs error"};
+  return report;
+}
+
 }  // namespace
 
 Result<Report> zhurong_wheels(const std::filesystem::path& data) {
@@ -212,13 +224,7 @@ Result<Report> zhurong_wheels(const std::filesystem::path& data) {
   const double of_rows = percent_explained(currents_a(alike, soil, *rows)),
                of_sides = percent_explained(currents_a(alike, soil, *sides)),
                of_fore_aft = percent_explained(currents_a(alike, soil, *fore_aft));
-  Report report;
-  report.title = "Zhurong's six currents at zero slip, each wheel by its own load";
-  report.source =
-      "Zhurong paper, Table 4 (JLU Mars 2 dense); loads by the statics of the shipped zhurong-class rover";
-  report.peers = "the paper averages the load: 0.114 A for every wheel";
-  report.columns = {"load split", "lf +Y1", "lm +Y2", "lr +Y3",
-                    "rf -Y1",     "rm -Y2", "rr -Y3", "mean abs error"};
+  Report report = zhurong_wheels_report();
   std::vector<std::string> measured{"measured, A"};
   for (const double current : kMeasured_a) measured.push_back(fmt::format("{:.3f}", current));
   measured.push_back("-");
