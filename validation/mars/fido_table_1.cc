@@ -127,8 +127,8 @@ double rounded(double value) {
   return 0.1 * std::round(10.0 * value);
 }
 
-bool near(double ours, double theirs) {
-  return std::abs(rounded(ours) - theirs) <= kMargin;
+bool near(double predicted, double theirs) {
+  return std::abs(rounded(predicted) - theirs) <= kMargin;
 }
 
 std::string median_or_nothing(const std::vector<double>& values) {
