@@ -20,9 +20,10 @@ struct LabelledPolygon {
   std::unique_ptr<OGRGeometry> geometry;
 };
 
-// Reads a GeoJSON FeatureCollection. Its own "crs" member is never looked at: it would name a datum of the
-// Earth, or an address to fetch one from. Everything that is wrong is reported together: syntax, geometry
-// types, rings that don't close, coordinates that are not finite or not degrees, a property that is absent.
+// Reads a GeoJSON FeatureCollection. Its own "crs" member is ignored, since it would name a datum of the
+// Earth or an address from which to fetch one. Everything that is wrong is reported together: syntax,
+// geometry types, rings that don't close, coordinates that are not finite or not degrees, a property that is
+// absent.
 Result<std::vector<LabelledPolygon>> read_geojson_polygons(const std::filesystem::path& path,
                                                            const std::string& property,
                                                            PolygonCoordinates coordinates,

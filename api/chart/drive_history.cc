@@ -73,7 +73,8 @@ Result<std::string> draw_drive_history(std::string_view answer) {
   if (!document) return fail(document.error());
   const JsonValue* const drive = within(&*document, {"routes", "features", "properties", "dynamic"});
   if (drive == nullptr)
-    return fail(ErrorCode::kNoData, "the answer has no dynamic drive to draw: ask for the dynamic rung");
+    return fail(ErrorCode::kNoData,
+                "the answer has no dynamic drive to draw: request the dynamic level (rung)");
   const JsonValue* const samples = drive->find("samples");
   const JsonValue* const wheels = samples != nullptr ? samples->find("wheels") : nullptr;
   const JsonValue *const end = drive->find("end"), *const at = drive->find("at_m"),

@@ -145,7 +145,8 @@ std::optional<ContactChange> contact_change(const RoverBalance& balance, const V
   return wheel ? std::optional(ContactChange{*wheel, true}) : std::nullopt;
 }
 
-// Whether the rover slides back against its wheels, which is a root of the equations beyond full spin.
+// The outcome of a solution. In a solution beyond full spin the rover slides back against its wheels, and in
+// one with a pulling wheel that wheel lifts.
 Attempt judged(const RoverBalance& balance, const Primary& primary, const Vector& x) {
   if (x[primary.motion] * primary.sign < kSpinningSpeedRatio) return {Outcome::kNoTraction, -1};
   if (const std::optional<int> wheel = pulling_wheel(balance)) return {Outcome::kWheelLifted, *wheel};

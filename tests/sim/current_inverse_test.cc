@@ -35,14 +35,14 @@ TEST(SlipsOfCurrent, GiveBackTheSlipThatMadeTheCurrent) {
   }
 }
 
-TEST(SlipsOfCurrent, TheMotorsOwnCurrentIsMinded) {
+TEST(SlipsOfCurrent, TheMotorsIdleCurrentIsAccountedFor) {
   SingleWheelTest test = zhurong_on(jlu_mars()[1][2]);
   test.drive->no_load_current_a = 0.06;
   test.drive->gear_friction_nm = 0.4;
   EXPECT_NEAR(*slips_of_current(test, current_at(test, 0.25)).reported, 0.25, 1e-9);
 }
 
-TEST(SlipsOfCurrent, TellsWhatTheSoilGivesWhereNoneFits) {
+TEST(SlipsOfCurrent, ReportsTheRangeOfCurrentsWhereNoSlipFits) {
   const SingleWheelTest test = zhurong_on(jlu_mars()[1][2]);
   const SlipsOfCurrent found = slips_of_current(test, 9.0);
   EXPECT_TRUE(found.slips.empty());
@@ -52,7 +52,7 @@ TEST(SlipsOfCurrent, TellsWhatTheSoilGivesWhereNoneFits) {
 }
 
 // Held at its depth, the wheel is the paper's literal one, whose current falls again at high slip.
-TEST(SlipsOfCurrent, OfSeveralSlipsTheOneOnTheRisingBranchIsTold) {
+TEST(SlipsOfCurrent, OfSeveralSlipsTheOneOnTheRisingBranchIsReported) {
   SingleWheelTest test = zhurong_on(jlu_mars()[1][0]);
   test.sinkage_m = 0.0437;
   const double current = current_at(test, 0.25);
@@ -66,7 +66,7 @@ TEST(SlipsOfCurrent, OfSeveralSlipsTheOneOnTheRisingBranchIsTold) {
   EXPECT_EQ(inverse.verdict, Trafficability::kCaution) << "an ambiguous current is no GO";
 }
 
-TEST(SlipsOfCurrent, SaysFromWhereTheWheelIsSunk) {
+TEST(SlipsOfCurrent, ReportsTheSlipFromWhichTheWheelIsSunk) {
   SingleWheelTest test = zhurong_on(jlu_mars()[1][0]);
   test.soil.n1 = 0.6;
   const SlipsOfCurrent found = slips_of_current(test, 1.5);
@@ -90,7 +90,7 @@ TEST(GreatestPull, IsNoLessThanThePullAtAnySlip) {
   }
 }
 
-TEST(InvertCurrent, ASlopeInUseAndLeftAddUpToTheGreatest) {
+TEST(InvertCurrent, TheSlopesInUseAndLeftAddUpToTheMaximum) {
   const SingleWheelTest test = zhurong_on(jlu_mars()[1][2]);
   const CurrentInverse inverse = invert_current(test, usual_spread(test.soil), current_at(test, 0.3), {});
   ASSERT_TRUE(inverse.share_of_pull && inverse.slope_left_rad);

@@ -31,7 +31,7 @@ TEST(DynamicDrive, ConvergesWithTheTolerance) {
   EXPECT_NEAR(usual.yaw_rad, exact.yaw_rad, 2e-4);
 }
 
-// A place and a heading have no size that an error could be measured by.
+// The integrator's error control must not depend on the values of position and heading.
 TEST(DynamicDrive, TurnsAlikeBothWaysAndFromAnyHeading) {
   const auto turned = [](double yaw_rad, double rate_rad_s) {
     const Driven driven = drive(six_wheeler(), plane(0.0), sandy_loam(), yaw_rad, {turn(6.0, rate_rad_s)});
@@ -84,7 +84,7 @@ TEST(DynamicDrive, StartsAndStopsWithoutAJolt) {
         << sample.time_s;
 }
 
-TEST(DynamicDrive, EndsWhereItsLegEndsWhenItSeesItsPose) {
+TEST(DynamicDrive, WithPoseFeedbackItEndsWhereItsLegEnds) {
   DynamicOptions options;
   options.feedback = Feedback::kPose;
   const std::vector<DriveLeg> legs{arc(2.0, 0.4), turn(1.2), straight(1.5), turn(2.0, -0.03),
@@ -170,7 +170,7 @@ TEST(DynamicDrive, TheDifferentialKeepsTheRockersOpposite) {
   EXPECT_GT(largest, rad_from_deg(1.0));
 }
 
-// Ruts: the same rule as the quasi-static rung's for wheels in one line.
+// For wheels in one line, the ruts follow the same rule as at the quasi-static level.
 TEST(DynamicDrive, LaterWheelsMeetTheTracksOfEarlierOnes) {
   RoverModel rover = light_suspension(even_wheeler(SuspensionType::kAveraging, 2));
   Soil soil = sandy_loam();
@@ -211,7 +211,7 @@ TEST(DynamicDrive, ARockIsMetBeforeTheAxleIsAboveIt) {
   EXPECT_LT(first_contact(5), first_contact(1) - 0.02);
 }
 
-TEST(DynamicDrive, ItsGreatestFiguresDoNotDependOnTheSamples) {
+TEST(DynamicDrive, ItsMaximaDoNotDependOnTheSampleInterval) {
   const FunctionGround hills([](double x, double y) { return 0.1 * std::sin(2.0 * x) * std::cos(3.0 * y); });
   DynamicOptions often, once;
   often.sample_interval_s = 0.01;
@@ -264,7 +264,7 @@ TEST(DynamicDrive, ItsGreatestFiguresAreThoseOfDenseSamples) {
   EXPECT_GT(greatest.max_slip_ratio.value, 0.99 * later_slip.value);
 }
 
-TEST(DynamicDrive, CountsFromWhenTimeStarts) {
+TEST(DynamicDrive, CountsEnergyAndEncodersFromTheStartOfTime) {
   const Driven driven = drive(six_wheeler(), plane(rad_from_deg(20.0)), sandy_loam(), 0.0, {straight(0.2)});
   for (const double turned : driven.samples.front().turned_rad) EXPECT_EQ(turned, 0.0);
   double greatest_w = 0.0;
@@ -275,7 +275,7 @@ TEST(DynamicDrive, CountsFromWhenTimeStarts) {
     greatest_w = std::max(greatest_w, power_w);
   }
   EXPECT_LE(driven.drive.energy_j, 1.5 * greatest_w * driven.drive.duration_s);
-  // Nothing is used by what slides while it is set down.
+  // A rover that slides while it settles has used no energy.
   const Driven slid = drive(six_wheeler(), plane(rad_from_deg(50.0)), loose_sand(), 0.0, {straight(1.0)});
   ASSERT_EQ(slid.drive.end, DriveEnd::kSlid);
   EXPECT_EQ(slid.drive.energy_j, 0.0);

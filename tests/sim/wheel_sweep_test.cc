@@ -184,7 +184,7 @@ TEST(SingleWheelTest, TheHeldSpeedSetsTheRimSpeed) {
   EXPECT_DOUBLE_EQ(rim_speed_m_s(test), 0.02);
 }
 
-TEST(Stepped, MeetsBothEndsAndHasNoRoundingDust) {
+TEST(Stepped, ReachesBothEndsWithoutRoundingErrors) {
   EXPECT_EQ(stepped(-0.2, 0.3, 0.1), (std::vector<double>{-0.2, -0.1, 0.0, 0.1, 0.2, 0.3}));
   EXPECT_EQ(stepped(0.7, 1.4, 0.1).size(), 8U);
   EXPECT_EQ(stepped(0.0, 1.0, 0.3), (std::vector<double>{0.0, 0.3, 0.6, 0.9}));
@@ -212,7 +212,7 @@ TEST(WheelSweep, EffectsSoilAndWheelCanBeSwept) {
   EXPECT_GT(slope[1].result.sinkage_m, slope[0].result.sinkage_m);
 }
 
-TEST(WheelSweep, WhatIsSetStandsThroughoutAndTheSweepGoesOnFromThere) {
+TEST(WheelSweep, SetValuesHoldInEveryRowAndTheSweepStartsFromThem) {
   WheelSweep sweep = sweep_of({{"slip", {0.1, 0.5}}});
   sweep.set = {{"soil.n", 1.3}, {"soil.k_phi", 2e6}, {"effects.grousers.height_m", 0.02}};
   WheelSweep swept = sweep_of({{"slip", {0.1, 0.5}}});
@@ -284,7 +284,7 @@ TEST(WheelSweep, AnyCombinationGivesFiniteNumbersOrAReason) {
   EXPECT_GT(stood, 1500);
 }
 
-TEST(WheelSweep, ARoversOwnEffectsAreAtWorkAndCanBeSweptFrom) {
+TEST(WheelSweep, ARoversOwnEffectsActAndCanBeSwept) {
   WheelSweep sweep = sweep_of({{"effects.grousers.count", {24.0}}});
   sweep.rig.rover.effects = {{.name = "grousers", .parameters = {{"height_m", 0.03}}}};
   EXPECT_EQ(points_of(sweep)[0].test.wheel.grousers.height_m, 0.03);
@@ -293,7 +293,7 @@ TEST(WheelSweep, ARoversOwnEffectsAreAtWorkAndCanBeSweptFrom) {
   EXPECT_EQ(points_of(sweep)[0].test.wheel.grousers.height_m, 0.0);
 }
 
-TEST(WheelSweep, EffectsThatHaveNoBearingOnOneWheelAreKnown) {
+TEST(WheelSweep, EffectsThatDoNotActOnOneWheelAreKnown) {
   std::vector<std::string> without;
   for (const Effect& effect : effect_catalogue())
     if (!acts_on_single_wheel(effect.name)) without.emplace_back(effect.name);

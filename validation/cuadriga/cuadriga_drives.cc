@@ -21,7 +21,7 @@ constexpr double kEdges_deg[] = {-24.0, -12.0, -8.0, -4.0, 0.0, 4.0, 8.0, 12.0, 
 
 // The errors of a quantity's predictions over some windows.
 struct Score {
-  double ours = 0.0, mean = 0.0, line = 0.0, plane = 0.0;  // median of absolute errors
+  double model = 0.0, mean = 0.0, line = 0.0, plane = 0.0;  // median of absolute errors
   Coverage within_50, within_90;
   double width_90 = 0.0;  // median
 };
@@ -39,20 +39,20 @@ constexpr Quantity kCharge{"charge_per_metre", "A s/m", &CuadrigaWindow::charge_
 Score score_of(const std::vector<HeldOut>& windows, const Quantity& q) {
   std::vector<std::string> logs;
   std::vector<bool> in_50, in_90;
-  std::vector<double> ours, mean, line, plane, widths;
+  std::vector<double> model, mean, line, plane, widths;
   for (const HeldOut& h : windows) {
     const double measured = h.window.*q.measured;
     const Prediction& predicted = h.*q.predicted;
     logs.push_back(h.window.log);
     in_50.push_back(predicted.holds_50(measured));
     in_90.push_back(predicted.holds_90(measured));
-    ours.push_back(measured - predicted.median);
+    model.push_back(measured - predicted.median);
     mean.push_back(measured - (h.*q.simple).mean);
     line.push_back(measured - (h.*q.simple).line);
     plane.push_back(measured - (h.*q.simple).plane);
     widths.push_back(predicted.high_90 - predicted.low_90);
   }
-  return {median_abs(ours),         median_abs(mean),         median_abs(line), median_abs(plane),
+  return {median_abs(model),        median_abs(mean),         median_abs(line), median_abs(plane),
           coverage_of(logs, in_50), coverage_of(logs, in_90), median(widths)};
 }
 
@@ -107,9 +107,9 @@ std::string score_words(const char* name, const char* format, const Score& all, 
       "Median absolute error of {} on held-out windows: {}; a straight line in gradient has {}, a "
       "plane in gradient and turn rate {}, the mean {}. Steeper than {:.0f} deg: {}; {}, {} and "
       "{}. Including the windows whose positions jump: {}; {}, {} and {}.",
-      name, number(all.ours), number(all.line), number(all.plane), number(all.mean), kSteep_deg,
-      number(steep.ours), number(steep.line), number(steep.plane), number(steep.mean),
-      number(with_jumps.ours), number(with_jumps.line), number(with_jumps.plane), number(with_jumps.mean));
+      name, number(all.model), number(all.line), number(all.plane), number(all.mean), kSteep_deg,
+      number(steep.model), number(steep.line), number(steep.plane), number(steep.mean),
+      number(with_jumps.model), number(with_jumps.line), number(with_jumps.plane), number(with_jumps.mean));
 }
 
 // A sentence on where the predictions fail, with the log whose charge is least often in its intervals.
@@ -161,6 +161,31 @@ std::string scatter_words(const CuadrigaFit& fit) {
       "the factors 1 + {:.2f} and 1 + {:.2f} (gradient / 10 deg)^2.",
       fit.slip.between, fit.slip.within, fit.log_charge.between, fit.log_charge.within, fit.slip.growth,
       fit.log_charge.growth);
+}
+
+std::vector<StatedBand> bands_of(const Score& slip, const Score& charge, const TableError& table,
+                                 double shipped) {
+  return {
+      {"share of held-out windows in the 90 % interval of slip", slip.within_90.of_windows, 0.80, 0.97},
+      {"share of held-out windows in the 90 % interval of charge", charge.within_90.of_windows, 0.80, 0.97},
+      {"share of held-out windows in the 50 % interval of slip", slip.within_50.of_windows, 0.40, 0.65},
+      {"share of held-out windows in the 50 % interval of charge", charge.within_50.of_windows, 0.40, 0.65},
+      {"median error of slip over the straight line's", slip.model / slip.line, 0.0, 1.0},
+      {"median error of charge over the straight line's", charge.model / charge.line, 0.0, 1.0},
+      {"largest difference of the shipped soil and motors to the fit of all logs, relative", shipped, 0.0,
+       0.02},
+      {"largest error of the table in slip, straight drives", table.slip_straight, 0.0, 0.003},
+      {"largest error of the table in slip, turns", table.slip_turning, 0.0, 0.03}};
+}
+
+std::string table_words(const TableError& table) {
+  return fmt::format(
+      "Slip and torques come from a table. Between its nodes it is off by at most {:.4f} of "
+      "slip and {:.2f} A on straight drives up to 20 deg, and by {:.4f} and {:.2f} A in turns "
+      "up to {:.0f} deg/s and 12 deg. On steeper ground a turn adds what it adds at 12 deg, "
+      "and sharper turns are treated like the sharpest one in the table.",
+      table.slip_straight, table.current_straight_a, table.slip_turning, table.current_turning_a,
+      table.fastest_turn_deg_s);
 }
 
 }  // namespace
@@ -216,24 +241,9 @@ Result<Report> cuadriga_drives(const std::filesystem::path& data) {
       scatter_words(answer->of_all),
       left_over_words(sound)};
   for (std::string& words : fit_words(answer->of_all)) report.notes.push_back(std::move(words));
-  report.notes.push_back(
-      fmt::format("Slip and torques come from a table. Between its nodes it is off by at most {:.4f} of "
-                  "slip and {:.2f} A on straight drives up to 20 deg, and by {:.4f} and {:.2f} A in turns "
-                  "up to {:.0f} deg/s and 12 deg. On steeper ground a turn adds what it adds at 12 deg, "
-                  "and sharper turns are treated like the sharpest one in the table.",
-                  table.slip_straight, table.current_straight_a, table.slip_turning, table.current_turning_a,
-                  table.fastest_turn_deg_s));
-  report.bands = {
-      {"share of held-out windows in the 90 % interval of slip", slip.within_90.of_windows, 0.80, 0.97},
-      {"share of held-out windows in the 90 % interval of charge", charge.within_90.of_windows, 0.80, 0.97},
-      {"share of held-out windows in the 50 % interval of slip", slip.within_50.of_windows, 0.40, 0.65},
-      {"share of held-out windows in the 50 % interval of charge", charge.within_50.of_windows, 0.40, 0.65},
-      {"median error of slip over the straight line's", slip.ours / slip.line, 0.0, 1.0},
-      {"median error of charge over the straight line's", charge.ours / charge.line, 0.0, 1.0},
-      {"largest difference of the shipped soil and motors to the fit of all logs, relative",
-       shipped_difference(*catalogue, answer->of_all.model.parameters()), 0.0, 0.02},
-      {"largest error of the table in slip, straight drives", table.slip_straight, 0.0, 0.003},
-      {"largest error of the table in slip, turns", table.slip_turning, 0.0, 0.03}};
+  report.notes.push_back(table_words(table));
+  report.bands =
+      bands_of(slip, charge, table, shipped_difference(*catalogue, answer->of_all.model.parameters()));
   report.plot = draw_cuadriga_drives(report.title, *answer);
   return report;
 }

@@ -50,11 +50,8 @@ double pooled_scatter(const std::vector<WheelCondition>& conditions, double Whee
   return std::sqrt(sum / static_cast<double>(conditions.size()));
 }
 
-}  // namespace
-
-Result<Report> pavlov_tests(const std::filesystem::path& data) {
-  const auto conditions = load_wheel_conditions(data / "validation" / "single_wheel_smooth.csv");
-  if (!conditions) return fail(conditions.error());
+// The report with its title, source and columns, without rows.
+Report pavlov_tests_report() {
   Report report;
   report.title = "189 single-wheel tests over slip and slip angle: the data and their scatter";
   report.source =
@@ -63,6 +60,15 @@ Result<Report> pavlov_tests(const std::filesystem::path& data) {
       "travel 10 mm/s; three repeats of 63 conditions";
   report.columns = {"slip angle deg", "slip",   "half",         "repeats",
                     "load N",         "pull N", "side force N", "sinkage mm"};
+  return report;
+}
+
+}  // namespace
+
+Result<Report> pavlov_tests(const std::filesystem::path& data) {
+  const auto conditions = load_wheel_conditions(data / "validation" / "single_wheel_smooth.csv");
+  if (!conditions) return fail(conditions.error());
+  Report report = pavlov_tests_report();
   std::size_t tests = 0, fit = 0;
   double slip_off = 0.0, command_off = 0.0;
   std::set<double> off;

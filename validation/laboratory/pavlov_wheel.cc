@@ -89,11 +89,11 @@ Result<gap::LeastSquaresFit> fit(const std::vector<WheelCondition>& conditions,
     const sim::Soil sand = sand_of(moduli, x);
     for (std::size_t k = 0; k < used.size(); ++k) {
       const WheelCondition& c = *used[k];
-      const Reading ours = read_rig(sand, c);
+      const Reading predicted = read_rig(sand, c);
       const double unit = 0.15 * c.mean(&WheelTest::load_n);
-      r[3 * k] = (ours.pull_n - c.mean(&WheelTest::drawbar_pull_n)) / unit;
-      r[3 * k + 1] = (ours.side_n - c.mean(&WheelTest::side_force_n)) / unit;
-      r[3 * k + 2] = (ours.sinkage_m - c.mean(&WheelTest::sinkage_m)) / 0.008;
+      r[3 * k] = (predicted.pull_n - c.mean(&WheelTest::drawbar_pull_n)) / unit;
+      r[3 * k + 1] = (predicted.side_n - c.mean(&WheelTest::side_force_n)) / unit;
+      r[3 * k + 2] = (predicted.sinkage_m - c.mean(&WheelTest::sinkage_m)) / 0.008;
     }
     return true;
   };
@@ -107,11 +107,11 @@ Result<gap::LeastSquaresFit> fit(const std::vector<WheelCondition>& conditions,
 struct Errors {
   std::vector<double> pull, side, sinkage_mm;  // forces over the load
 
-  void add(const Reading& ours, const WheelCondition& c) {
+  void add(const Reading& predicted, const WheelCondition& c) {
     const double load = c.mean(&WheelTest::load_n);
-    pull.push_back((ours.pull_n - c.mean(&WheelTest::drawbar_pull_n)) / load);
-    side.push_back((ours.side_n - c.mean(&WheelTest::side_force_n)) / load);
-    sinkage_mm.push_back(1e3 * (ours.sinkage_m - c.mean(&WheelTest::sinkage_m)));
+    pull.push_back((predicted.pull_n - c.mean(&WheelTest::drawbar_pull_n)) / load);
+    side.push_back((predicted.side_n - c.mean(&WheelTest::side_force_n)) / load);
+    sinkage_mm.push_back(1e3 * (predicted.sinkage_m - c.mean(&WheelTest::sinkage_m)));
   }
   static double rms(const std::vector<double>& values) {
     double sum = 0.0;
@@ -132,7 +132,7 @@ struct Errors {
 };
 
 api::Chart panel(const char* title, const std::vector<WheelCondition>& conditions, const sim::Soil& sand,
-                 double WheelTest::*measured, double Reading::*ours, double scale) {
+                 double WheelTest::*measured, double Reading::*predicted, double scale) {
   api::Chart chart;
   chart.title = title;
   chart.x.title = "slip";
@@ -141,12 +141,12 @@ api::Chart panel(const char* title, const std::vector<WheelCondition>& condition
   for (const int angle : {0, 30, 60, 75}) {
     api::ChartSeries points{
         fmt::format("measured, slip angle {} deg", angle), api::ChartMark::kPoints, {}, {}, colour};
-    api::ChartSeries line{fmt::format("ours, {} deg", angle), api::ChartMark::kLine, {}, {}, colour};
+    api::ChartSeries line{fmt::format("predicted, {} deg", angle), api::ChartMark::kLine, {}, {}, colour};
     for (const WheelCondition& c : conditions) {
       if (std::lround(deg_from_rad(c.slip_angle_rad)) != angle) continue;
       for (api::ChartSeries* series : {&points, &line}) series->x.push_back(c.mean(&WheelTest::slip_ratio));
       points.y.push_back(scale * c.mean(measured));
-      line.y.push_back(scale * (read_rig(sand, c).*ours));
+      line.y.push_back(scale * (read_rig(sand, c).*predicted));
     }
     chart.series.push_back(points);
     chart.series.push_back(line);
@@ -155,24 +155,26 @@ api::Chart panel(const char* title, const std::vector<WheelCondition>& condition
   return chart;
 }
 
-void add_row(const WheelCondition& c, const Reading& ours, Report& report) {
+void add_row(const WheelCondition& c, const Reading& predicted, Report& report) {
   const auto pair = [](double measured, double predicted) {
     return fmt::format("{:.1f} / {:.1f}", measured, predicted);
   };
   const double pull = c.mean(&WheelTest::drawbar_pull_n), side = c.mean(&WheelTest::side_force_n);
   const double load = c.mean(&WheelTest::load_n), angle = deg_from_rad(c.slip_angle_rad);
-  report.rows.push_back(
-      {fmt::format("{:.0f}", angle), fmt::format("{:.2f}", c.mean(&WheelTest::slip_ratio)),
-       c.half == Half::kFit ? (within_the_law(c) ? "fit" : "left out") : "predict",
-       fmt::format("{:.1f}", load), pair(pull, ours.pull_n),
-       fmt::format("{:+.0f} %", 100.0 * (ours.pull_n - pull) / load), pair(side, ours.side_n),
-       fmt::format("{:+.0f} %", 100.0 * (ours.side_n - side) / load),
-       pair(1e3 * c.mean(&WheelTest::sinkage_m), 1e3 * ours.sinkage_m) + (ours.sunk ? " sunk" : "")});
+  report.rows.push_back({fmt::format("{:.0f}", angle), fmt::format("{:.2f}", c.mean(&WheelTest::slip_ratio)),
+                         c.half == Half::kFit ? (within_the_law(c) ? "fit" : "left out") : "predict",
+                         fmt::format("{:.1f}", load), pair(pull, predicted.pull_n),
+                         fmt::format("{:+.0f} %", 100.0 * (predicted.pull_n - pull) / load),
+                         pair(side, predicted.side_n),
+                         fmt::format("{:+.0f} %", 100.0 * (predicted.side_n - side) / load),
+                         pair(1e3 * c.mean(&WheelTest::sinkage_m), 1e3 * predicted.sinkage_m) +
+                             (predicted.sunk ? " sunk" : "")});
   const std::string name =
       fmt::format("slip angle {:.0f} deg, slip {:.2f}", angle, c.mean(&WheelTest::slip_ratio));
-  report.cases.push_back({name, "drawbar_pull", "N", pull, ours.pull_n});
-  report.cases.push_back({name, "side_force", "N", side, ours.side_n});
-  report.cases.push_back({name, "sinkage", "mm", 1e3 * c.mean(&WheelTest::sinkage_m), 1e3 * ours.sinkage_m});
+  report.cases.push_back({name, "drawbar_pull", "N", pull, predicted.pull_n});
+  report.cases.push_back({name, "side_force", "N", side, predicted.side_n});
+  report.cases.push_back(
+      {name, "sinkage", "mm", 1e3 * c.mean(&WheelTest::sinkage_m), 1e3 * predicted.sinkage_m});
 }
 
 }  // namespace
@@ -207,9 +209,9 @@ Result<Report> pavlov_wheel(const std::filesystem::path& data) {
                     "sinkage mm, measured / predicted"};
   Errors seen, held_out, beyond;
   for (const WheelCondition& c : *conditions) {
-    const Reading ours = read_rig(sand, c);
-    add_row(c, ours, report);
-    (!within_the_law(c) ? beyond : c.half == Half::kFit ? seen : held_out).add(ours, c);
+    const Reading predicted = read_rig(sand, c);
+    add_row(c, predicted, report);
+    (!within_the_law(c) ? beyond : c.half == Half::kFit ? seen : held_out).add(predicted, c);
   }
   report.notes = {"Predicted half, while the wheel stayed above its axle's depth: " + held_out.words() + ".",
                   "Fitted half: " + seen.words() + ".",

@@ -95,12 +95,8 @@ std::vector<api::Chart> charts_of(const std::vector<SandboxTest>& tests, const s
   return {one, two};
 }
 
-}  // namespace
-
-Result<Report> plate_tests(const std::filesystem::path& data) {
-  const auto plates = load_sandbox_plates(data / "validation" / "plate_sinkage_large_sandbox.csv");
-  if (!plates) return fail(plates.error());
-  const std::vector<SandboxTest>& tests = *plates;
+// The report with its title, source and columns, without rows.
+Report plate_tests_report() {
   Report report;
   report.title = "Nine plate tests of one sand";
   report.source =
@@ -111,6 +107,16 @@ Result<Report> plate_tests(const std::filesystem::path& data) {
   report.columns = {"test",       "plate mm",       "samples",
                     "deepest mm", "k_c kN/m^(n+1)", "k or k_phi kN/m^(n+2)",
                     "n",          "rms kPa",        "explained variance"};
+  return report;
+}
+
+}  // namespace
+
+Result<Report> plate_tests(const std::filesystem::path& data) {
+  const auto plates = load_sandbox_plates(data / "validation" / "plate_sinkage_large_sandbox.csv");
+  if (!plates) return fail(plates.error());
+  const std::vector<SandboxTest>& tests = *plates;
+  Report report = plate_tests_report();
   NoProgress progress;
   std::vector<gap::PlateTest> all;
   double least_explained = 1.0, upstream = 0.0;

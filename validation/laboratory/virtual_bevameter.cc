@@ -54,7 +54,7 @@ void add_fit_row(const char* way, const gap::ModuliFit& fit, Report& report) {
                          fmt::format("{:.1f}", 1e-3 * fit.rms_pa)});
 }
 
-api::Chart plate_chart(const std::vector<gap::PlateTest>& tests, const sim::BekkerModuli& ours) {
+api::Chart plate_chart(const std::vector<gap::PlateTest>& tests, const sim::BekkerModuli& predicted) {
   api::Chart chart;
   chart.title = "plates";
   chart.x.title = "sinkage, m";
@@ -75,7 +75,7 @@ api::Chart plate_chart(const std::vector<gap::PlateTest>& tests, const sim::Bekk
     for (int i = 0; i <= 40; ++i) {
       const double z = 0.005 * i;
       line.x.push_back(z);
-      line.y.push_back(1e-3 * area * ours.stiffness(test.radius_m) * std::pow(z, ours.n));
+      line.y.push_back(1e-3 * area * predicted.stiffness(test.radius_m) * std::pow(z, predicted.n));
       published.x.push_back(z);
       published.y.push_back(1e-3 * area * kPublished.stiffness(test.radius_m) * std::pow(z, kPublished.n));
     }
@@ -84,7 +84,7 @@ api::Chart plate_chart(const std::vector<gap::PlateTest>& tests, const sim::Bekk
   return chart;
 }
 
-api::Chart annulus_chart(const gap::AnnulusTest& test, const gap::ShearStrengthFit& ours) {
+api::Chart annulus_chart(const gap::AnnulusTest& test, const gap::ShearStrengthFit& predicted) {
   api::Chart chart;
   chart.title = "annulus";
   chart.x = {"normal stress, kPa", 0.0, {}, false, {}};
@@ -99,7 +99,8 @@ api::Chart annulus_chart(const gap::AnnulusTest& test, const gap::ShearStrengthF
     return api::ChartSeries{
         name, mark, {0.0, 40.0}, {1e-3 * c_pa, 1e-3 * c_pa + 40.0 * std::tan(phi_rad)}, colour};
   };
-  chart.series = {points, line("", api::ChartMark::kLine, ours.cohesion_pa, ours.friction_angle_rad, 2),
+  chart.series = {points,
+                  line("", api::ChartMark::kLine, predicted.cohesion_pa, predicted.friction_angle_rad, 2),
                   line("published answer", api::ChartMark::kDashedLine, kPublishedCohesion_pa,
                        rad_from_deg(kPublishedFriction_deg), 6)};
   return chart;
@@ -107,7 +108,7 @@ api::Chart annulus_chart(const gap::AnnulusTest& test, const gap::ShearStrengthF
 
 void state_bands(const gap::ModuliFit& plates, const gap::ShearStrengthFit& annulus, Report& report) {
   const double phi_deg = deg_from_rad(annulus.friction_angle_rad);
-  const auto error = [](double ours, double published) { return ours / published - 1.0; };
+  const auto error = [](double predicted, double published) { return predicted / published - 1.0; };
   report.bands = {
       {"k_c, which rounds to the printed -1.1e5,", plates.moduli.k_c, -1.15e5, -1.05e5},
       {"relative error of k_phi", error(plates.moduli.k_phi, kPublished.k_phi), -0.01, 0.01},
@@ -119,6 +120,20 @@ void state_bands(const gap::ModuliFit& plates, const gap::ShearStrengthFit& annu
                   {"plates", "n", "1", kPublished.n, plates.moduli.n},
                   {"annulus", "cohesion", "Pa", kPublishedCohesion_pa, annulus.cohesion_pa},
                   {"annulus", "friction_angle", "deg", kPublishedFriction_deg, phi_deg}};
+}
+
+// The report with its title, source and columns, without rows.
+Report virtual_bevameter_report() {
+  Report report;
+  report.title = "Soil moduli fitted to plate and annulus tests";
+  report.source =
+      "Chrono CRM to SCM calibration study, 2022: plates of 0.2 and 0.3 m radius pressed 0.2 m into a "
+      "virtual "
+      "soil bin, an annulus of 0.15 to 0.2 m turned under 25 to 200 kg; its published answer is k_c -1.1e5, "
+      "k_phi 2.2e6, n 1.2, c 2495 Pa, phi 24 deg";
+  report.peers = "the published answer is the study's own fit of the same figures";
+  report.columns = {"fit", "k_c N/m^(n+1)", "k_phi N/m^(n+2)", "n", "c Pa", "phi deg", "rms kPa"};
+  return report;
 }
 
 }  // namespace
@@ -136,15 +151,7 @@ Result<Report> virtual_bevameter(const std::filesystem::path& data) {
   const std::vector<gap::PlateTest> tests = plates_of(*plate_table);
   const gap::AnnulusTest annulus = annulus_of(*annulus_table);
 
-  Report report;
-  report.title = "Soil moduli fitted to plate and annulus tests";
-  report.source =
-      "Chrono CRM to SCM calibration study, 2022: plates of 0.2 and 0.3 m radius pressed 0.2 m into a "
-      "virtual "
-      "soil bin, an annulus of 0.15 to 0.2 m turned under 25 to 200 kg; its published answer is k_c -1.1e5, "
-      "k_phi 2.2e6, n 1.2, c 2495 Pa, phi 24 deg";
-  report.peers = "the published answer is the study's own fit of the same figures";
-  report.columns = {"fit", "k_c N/m^(n+1)", "k_phi N/m^(n+2)", "n", "c Pa", "phi deg", "rms kPa"};
+  Report report = virtual_bevameter_report();
   report.rows.push_back({"published", "-110000", "2200000", "1.2", "2495", "24", "-"});
   constexpr std::array<std::pair<const char*, PlateMeasure>, 4> kWays{
       {{"plates: force (used)", PlateMeasure::kForce},

@@ -89,17 +89,17 @@ void add_ripple(const campaign::MadeDrive& made, const sim::RoverModel& rover, R
   const auto row = [&](const char* what, const char* published, std::string ours) {
     report.rows.push_back({"Opportunity, sol 2143", what, published, std::move(ours)});
   };
-  row("greatest slip going up, %", "up to 65", fmt::format("{:.0f}", 100.0 * climb.slip));
-  row("greatest sinkage going up, mm: front (downslope), middle, rear", "up to about 50",
+  row("maximum slip going up, %", "up to 65", fmt::format("{:.0f}", 100.0 * climb.slip));
+  row("maximum sinkage going up, mm: front (downslope), middle, rear", "up to about 50",
       fmt::format("{:.0f}, {:.0f}, {:.0f}", climb.sinkage_mm[0], climb.sinkage_mm[1], climb.sinkage_mm[2]));
-  row("greatest torque going up, N m: front, middle, rear", "greatest in front",
+  row("maximum torque going up, N m: front, middle, rear", "maximum in front",
       fmt::format("{:.1f}, {:.1f}, {:.1f}", climb.torque_nm[0], climb.torque_nm[1], climb.torque_nm[2]));
   row("pitch going up, deg", "positive: front downhill", fmt::format("up to {:+.0f}", climb.pitch_deg));
   const bool crosses = climb.ends_x_m > 2.5;
   row("crosses the ripple", "yes", crosses ? "yes" : "no");
-  report.bands.push_back({"sol 2143: greatest slip", rounded(climb.slip, 0.01), 0.6, 0.7});
+  report.bands.push_back({"sol 2143: maximum slip", rounded(climb.slip, 0.01), 0.6, 0.7});
   report.bands.push_back(
-      {"sol 2143: greatest sinkage of a front wheel, mm", rounded(climb.sinkage_mm[0], 1.0), 45, 55});
+      {"sol 2143: maximum sinkage of a front wheel, mm", rounded(climb.sinkage_mm[0], 1.0), 45, 55});
   report.bands.push_back({"sol 2143: that of a rear wheel, mm", rounded(climb.sinkage_mm[2], 1.0), 0, 45});
   report.bands.push_back({"sol 2143: crosses", crosses ? 1.0 : 0.0, 1, 1});
   report.cases.push_back({"sol 2143", "greatest slip", "1", kSol2143Slip, climb.slip});

@@ -37,9 +37,8 @@ std::string words(const char* what, const Agreement& a) {
   return fmt::format("{}: r {:.2f}, rms {:.1f} deg, bias {:+.1f} deg.", what, a.r, a.rms, a.bias);
 }
 
-}  // namespace
-
-Result<Report> curiosity_attitude(const std::filesystem::path& data) {
+// The report with its title, source and columns, without rows.
+Report curiosity_attitude_report() {
   Report report;
   report.title = "Attitude at Curiosity's real stops";
   report.source =
@@ -55,6 +54,13 @@ Result<Report> curiosity_attitude(const std::filesystem::path& data) {
                     "predicted",
                     "roll measured",
                     "predicted"};
+  return report;
+}
+
+}  // namespace
+
+Result<Report> curiosity_attitude(const std::filesystem::path& data) {
+  Report report = curiosity_attitude_report();
   const auto catalogue = api::load_catalogue(data);
   if (!catalogue) return fail(catalogue.error());
   const sim::RoverModel& rover = *catalogue->rovers.at("msl-class");

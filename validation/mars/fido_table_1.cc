@@ -127,8 +127,8 @@ double rounded(double value) {
   return 0.1 * std::round(10.0 * value);
 }
 
-bool near(double ours, double theirs) {
-  return std::abs(rounded(ours) - theirs) <= kMargin;
+bool near(double predicted, double theirs) {
+  return std::abs(rounded(predicted) - theirs) <= kMargin;
 }
 
 std::string median_or_nothing(const std::vector<double>& values) {
@@ -227,6 +227,31 @@ Result<std::string> other_seeds(const DriveTable& table, const std::vector<Table
   return fmt::format("{}", fmt::join(words, " and "));
 }
 
+// The report with its title, source and columns, without rows.
+Report fido_table_1_report() {
+  Report report;
+  report.title = "FIDO on a tilt table";
+  report.source =
+      "ROAMS paper (Huntsberger et al.), Table 1 and section 4: slip of FIDO's 2 m drives, straight and in "
+      "arcs, on "
+      "four tilts";
+  report.peers =
+      "ROAMS with one set of parameters, tuned on a part of the same drives: maximum slip 4, 6, 10 "
+      "and 20 % where FIDO had 5, 8, 20 and 60 %";
+  report.columns = {"tilt deg",
+                    "slip % measured",
+                    "ROAMS",
+                    "predicted, 5 to 95 %",
+                    "within 5 points",
+                    "median up",
+                    "across",
+                    "down",
+                    "% of headings within 6 deg",
+                    "% of positions",
+                    "turns: 95 % within deg"};
+  return report;
+}
+
 }  // namespace
 
 // Compares the shipped table's drives with FIDO's and ROAMS's on the same tilts.
@@ -256,26 +281,7 @@ Result<Report> fido_table_1(const std::filesystem::path& data) {
   const auto slips = slips_of(table, drives, *drawn);
   const auto misses = misses_of(table, drives, *drawn, *mean);
 
-  Report report;
-  report.title = "FIDO on a tilt table";
-  report.source =
-      "ROAMS paper (Huntsberger et al.), Table 1 and section 4: slip of FIDO's 2 m drives, straight and in "
-      "arcs, on "
-      "four tilts";
-  report.peers =
-      "ROAMS with one set of parameters, tuned on a part of the same drives: maximum slip 4, 6, 10 "
-      "and 20 % where FIDO had 5, 8, 20 and 60 %";
-  report.columns = {"tilt deg",
-                    "slip % measured",
-                    "ROAMS",
-                    "predicted, 5 to 95 %",
-                    "within 5 points",
-                    "median up",
-                    "across",
-                    "down",
-                    "% of headings within 6 deg",
-                    "% of positions",
-                    "turns: 95 % within deg"};
+  Report report = fido_table_1_report();
   for (std::size_t t = 0; t < kPublished.size(); ++t) add_tilt(t, slips[t], misses[t], report);
   report.plot = chart_of(report.title, slips);
   report.notes.push_back(

@@ -178,6 +178,64 @@ void add_drives(const std::vector<Signature>& candidates, double gravity_m_s2, R
       settled, candidates.size(), widest));
 }
 
+// The report with its title, source and columns, without rows.
+Report roams_table_1_report() {
+  Report report;
+  report.title =
+      "ROAMS's Table 1 as a case: where the gap is, which effect is like it, and which drive would "
+      "decide";
+  report.source =
+      "ROAMS paper (Huntsberger et al.), Table 1: minimum and maximum slip of FIDO and of ROAMS on "
+      "four tilts";
+  report.columns = {"points of slip", "0.085 deg", "5.743 deg", "10.758 deg", "20.764 deg"};
+  return report;
+}
+
+// FIDO less ROAMS on a tilt, in percentage points of slip: at the lower and at the upper end.
+double lower_gap(std::size_t t) {
+  return kPublished[t].least - kPublished[t].roams_least;
+}
+
+double upper_gap(std::size_t t) {
+  return kPublished[t].most - kPublished[t].roams_most;
+}
+
+double whole_gap() {
+  double gap = 0.0;
+  for (const Published& p : kPublished)
+    gap += std::abs(p.least - p.roams_least) + std::abs(p.most - p.roams_most);
+  return gap;
+}
+
+// Adds the rows of the gap and of the effects' signatures. Returns the effects that change nothing.
+std::vector<std::string> add_rows(const std::vector<Signature>& all, const Slips& base, double gap,
+                                  Report& report) {
+  const auto row = [&](const std::string& name, const auto& value, const char* form) {
+    std::vector<std::string> cells{name};
+    for (std::size_t t = 0; t < kTilts; ++t) cells.push_back(fmt::format(fmt::runtime(form), value(t)));
+    report.rows.push_back(std::move(cells));
+  };
+  const auto share_of = [&](double part) { return 100.0 * std::abs(part) / gap; };
+  row("FIDO less ROAMS, minimum slip", lower_gap, "{:+.0f}");
+  row(
+      "its share of the gap", [&](std::size_t t) { return share_of(lower_gap(t)); }, "{:.0f} %");
+  row("FIDO less ROAMS, maximum slip", upper_gap, "{:+.0f}");
+  row(
+      "its share of the gap", [&](std::size_t t) { return share_of(upper_gap(t)); }, "{:.0f} %");
+  row(
+      "predicted slip up the slope, sand as ROAMS's, %", [&](std::size_t t) { return base[t]; }, "{:.1f}");
+  std::vector<std::string> nothing;
+  for (const Signature& s : all) {
+    if (std::all_of(s.rise.begin(), s.rise.end(), [](double r) { return std::abs(r) < kShown; })) {
+      nothing.push_back(s.effect);
+      continue;
+    }
+    row(
+        "with " + s.effect + " (" + s.size + ")", [&](std::size_t t) { return s.rise[t]; }, "{:+.1f}");
+  }
+  return nothing;
+}
+
 }  // namespace
 
 // Compares the gap between ROAMS and FIDO with the signatures of the catalogue's effects.
@@ -191,42 +249,10 @@ Result<Report> roams_table_1(const std::filesystem::path& data) {
   const Slips base = up_slope(with_effects(table, soil, {}), table.gravity_m_s2);
   const std::vector<Signature> all = signatures_of(table, soil, base);
 
-  double gap = 0.0;
-  for (const Published& p : kPublished)
-    gap += std::abs(p.least - p.roams_least) + std::abs(p.most - p.roams_most);
-  Report report;
-  report.title =
-      "ROAMS's Table 1 as a case: where the gap is, which effect is like it, and which drive would "
-      "decide";
-  report.source =
-      "ROAMS paper (Huntsberger et al.), Table 1: minimum and maximum slip of FIDO and of ROAMS on "
-      "four tilts";
-  report.columns = {"points of slip", "0.085 deg", "5.743 deg", "10.758 deg", "20.764 deg"};
-  const auto row = [&](const std::string& name, const auto& value, const char* form) {
-    std::vector<std::string> cells{name};
-    for (std::size_t t = 0; t < kTilts; ++t) cells.push_back(fmt::format(fmt::runtime(form), value(t)));
-    report.rows.push_back(std::move(cells));
-  };
-  const auto low = [](std::size_t t) { return kPublished[t].least - kPublished[t].roams_least; };
-  const auto high = [](std::size_t t) { return kPublished[t].most - kPublished[t].roams_most; };
-  row("FIDO less ROAMS, minimum slip", low, "{:+.0f}");
-  row(
-      "its share of the gap", [&](std::size_t t) { return 100.0 * std::abs(low(t)) / gap; }, "{:.0f} %");
-  row("FIDO less ROAMS, maximum slip", high, "{:+.0f}");
-  row(
-      "its share of the gap", [&](std::size_t t) { return 100.0 * std::abs(high(t)) / gap; }, "{:.0f} %");
-  row(
-      "predicted slip up the slope, sand as ROAMS's, %", [&](std::size_t t) { return base[t]; }, "{:.1f}");
-  std::vector<std::string> nothing;
-  for (const Signature& s : all) {
-    if (std::all_of(s.rise.begin(), s.rise.end(), [](double r) { return std::abs(r) < kShown; })) {
-      nothing.push_back(s.effect);
-      continue;
-    }
-    row(
-        "with " + s.effect + " (" + s.size + ")", [&](std::size_t t) { return s.rise[t]; }, "{:+.1f}");
-  }
-  const double share = 100.0 * high(kSteepest) / gap;
+  const double gap = whole_gap();
+  Report report = roams_table_1_report();
+  const std::vector<std::string> nothing = add_rows(all, base, gap, report);
+  const double share = 100.0 * upper_gap(kSteepest) / gap;
   report.notes.push_back(
       fmt::format("Where the gap is: the upper tail on 20.764 deg alone holds {:.0f} % of all {:.0f} points, "
                   "and the maximum slip occurs up the slope. On 0 to 6 deg there is almost no gap.",
@@ -237,7 +263,7 @@ Result<Report> roams_table_1(const std::filesystem::path& data) {
       "friction angle of {:.1f} deg, with which the rover slips by {:.0f} % there as ROAMS did. "
       "Effects are ordered by the rise on 20.764 deg (at most {:.0f} points) less their excess "
       "over the gap on the lower tilts. 100 % is a rover that makes no headway.",
-      deg_from_rad(soil.friction_angle_rad), base[kSteepest], high(kSteepest)));
+      deg_from_rad(soil.friction_angle_rad), base[kSteepest], upper_gap(kSteepest)));
   if (!nothing.empty())
     report.notes.push_back(
         fmt::format("These effects do not change the slip up the slope: {}.", fmt::join(nothing, ", ")));

@@ -86,8 +86,8 @@ Result<LoadShift> explain(const sim::RoverModel& rover, const sim::Soil& soil,
   const auto fit = gap::fit_least_squares(
       unknowns, kMeasured_a.size(),
       [&](std::span<const double> x, std::span<double> r) {
-        const std::vector<double> ours = currents_a(rover, soil, shift_of(x));
-        for (std::size_t k = 0; k < r.size(); ++k) r[k] = ours[k] / kMeasured_a[k] - 1.0;
+        const std::vector<double> predicted = currents_a(rover, soil, shift_of(x));
+        for (std::size_t k = 0; k < r.size(); ++k) r[k] = predicted[k] / kMeasured_a[k] - 1.0;
         return true;
       },
       {.tolerance = 1e-9, .residual_std_known = false}, progress);
@@ -179,7 +179,7 @@ std::string pull_plot(const api::Catalogue& catalogue, double load_n, const std:
       }
     chart.series.push_back(points);
     api::ChartSeries line{
-        std::string(name) + ", ours, leaders bulldozing", api::ChartMark::kLine, {}, {}, colour++};
+        std::string(name) + ", predicted, leaders bulldozing", api::ChartMark::kLine, {}, {}, colour++};
     for (int k = 0; k <= 47; ++k) {
       line.x.push_back(0.02 * k);
       line.y.push_back(six_wheel_pull_n(soil, load_n, 0.02 * k, 1.0).value_or(std::nan("")));
@@ -187,6 +187,18 @@ std::string pull_plot(const api::Catalogue& catalogue, double load_n, const std:
     chart.series.push_back(line);
   }
   return api::draw_charts(title, {&chart, 1});
+}
+
+// The report with its title, source and columns, without rows.
+Report zhurong_wheels_report() {
+  Report report;
+  report.title = "Zhurong's six currents at zero slip, each wheel by its own load";
+  report.source =
+      "Zhurong paper, Table 4 (JLU Mars 2 dense); loads by the statics of the shipped zhurong-class rover";
+  report.peers = "the paper averages the load: 0.114 A for every wheel";
+  report.columns = {"load split", "lf +Y1", "lm +Y2", "lr +Y3",
+                    "rf -Y1",     "rm -Y2", "rr -Y3", "mean abs error"};
+  return report;
 }
 
 }  // namespace
@@ -212,13 +224,7 @@ Result<Report> zhurong_wheels(const std::filesystem::path& data) {
   const double of_rows = percent_explained(currents_a(alike, soil, *rows)),
                of_sides = percent_explained(currents_a(alike, soil, *sides)),
                of_fore_aft = percent_explained(currents_a(alike, soil, *fore_aft));
-  Report report;
-  report.title = "Zhurong's six currents at zero slip, each wheel by its own load";
-  report.source =
-      "Zhurong paper, Table 4 (JLU Mars 2 dense); loads by the statics of the shipped zhurong-class rover";
-  report.peers = "the paper averages the load: 0.114 A for every wheel";
-  report.columns = {"load split", "lf +Y1", "lm +Y2", "lr +Y3",
-                    "rf -Y1",     "rm -Y2", "rr -Y3", "mean abs error"};
+  Report report = zhurong_wheels_report();
   std::vector<std::string> measured{"measured, A"};
   for (const double current : kMeasured_a) measured.push_back(fmt::format("{:.3f}", current));
   measured.push_back("-");
@@ -269,8 +275,8 @@ Result<Report> zhurong_pull(const std::filesystem::path& data) {
     const sim::Soil soil = on_earth(catalogue->soils.find(point.soil)->second.mean);
     const double bare = six_wheel_pull_n(soil, load_n, point.slip, 0.0).value_or(0.0);
     const double pushed = six_wheel_pull_n(soil, load_n, point.slip, 1.0).value_or(0.0);
-    const auto error = [&](double ours) {
-      return fmt::format("{:+.0f} %", 100.0 * (ours / point.pull_n - 1.0));
+    const auto error = [&](double predicted) {
+      return fmt::format("{:+.0f} %", 100.0 * (predicted / point.pull_n - 1.0));
     };
     report.rows.push_back({point.soil, fmt::format("{:.2f}", point.slip), fmt::format("{:.0f}", point.pull_n),
                            fmt::format("{:.0f}", bare), error(bare), fmt::format("{:.0f}", pushed),

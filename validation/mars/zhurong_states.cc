@@ -43,15 +43,8 @@ std::vector<api::Chart> empty_charts() {
   return {torque, current};
 }
 
-}  // namespace
-
-Result<Report> zhurong_states(const std::filesystem::path& data) {
-  const auto table = CsvTable::read(
-      data / "validation" / "zhurong_table_1.csv",
-      {.numbers = {"k_c_kn", "k_phi_kn", "n", "cohesion_kpa", "friction_angle_deg", "shear_modulus_cm", "c1"},
-       .numbers_or_empty = {"reproduced_torque_times_k_i", "reproduced_sinkage_mm"},
-       .texts = {"state"}});
-  if (!table) return fail(table.error());
+// The report with its title, source and columns, without rows.
+Report zhurong_states_report() {
   Report report;
   report.title = "Zhurong's current model at zero slip, literal and balanced";
   report.source =
@@ -66,6 +59,19 @@ Result<Report> zhurong_states(const std::filesystem::path& data) {
                     "current A (literal, gear 79.3)",
                     "balanced: sinkage mm",
                     "balanced: current A"};
+  return report;
+}
+
+}  // namespace
+
+Result<Report> zhurong_states(const std::filesystem::path& data) {
+  const auto table = CsvTable::read(
+      data / "validation" / "zhurong_table_1.csv",
+      {.numbers = {"k_c_kn", "k_phi_kn", "n", "cohesion_kpa", "friction_angle_deg", "shear_modulus_cm", "c1"},
+       .numbers_or_empty = {"reproduced_torque_times_k_i", "reproduced_sinkage_mm"},
+       .texts = {"state"}});
+  if (!table) return fail(table.error());
+  Report report = zhurong_states_report();
   std::vector<api::Chart> charts = empty_charts();
   double worst = 0.0;
   for (std::size_t k = 0; k < table->rows(); ++k) {

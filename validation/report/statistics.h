@@ -11,8 +11,6 @@
 
 namespace slipway::validation {
 
-// The median; for an even count the mean of the two in the middle. There must be at least one value.
-double median(std::vector<double> values);
 // The median of absolute values; 0 where there are no values.
 double median_abs(std::vector<double> values);
 

@@ -73,7 +73,7 @@ void add_row(const Straight& route, const sim::DrivePrediction& balance,
 }  // namespace
 
 // Compares the dynamic level with the quasi-static one along straight drives on real terrain.
-Result<Report> dynamic_rung(const std::filesystem::path& data) {
+Result<Report> dynamic_level(const std::filesystem::path& data) {
   const auto catalogue = api::load_catalogue(data);
   if (!catalogue) return fail(catalogue.error());
   const auto source = dem::open_elevation((data / "terrains/gale/elevation.tif").string());

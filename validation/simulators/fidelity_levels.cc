@@ -141,7 +141,7 @@ std::string error_map(const std::vector<Attempt>& attempts) {
 }  // namespace
 
 // Compares the table level with the quasi-static one between the nodes, where the table is worst.
-Result<Report> rungs(const std::filesystem::path& data) {
+Result<Report> table_level(const std::filesystem::path& data) {
   const auto catalogue = api::load_catalogue(data);
   if (!catalogue) return fail(catalogue.error());
   Report report;

@@ -38,14 +38,8 @@ Result<CsvTable> read(const std::filesystem::path& data) {
   return CsvTable::read(data / "validation" / "practice_p01_drives.csv", columns);
 }
 
-}  // namespace
-
-Result<Report> independent_simulator(const std::filesystem::path& data) {
-  const auto drives = read(data);
-  if (!drives) return fail(drives.error());
-  const auto catalogue = api::load_catalogue(data);
-  if (!catalogue) return fail(catalogue.error());
-  const sim::RoverModel& rover = *catalogue->rovers.at("mer-class");  // the campaign's rover
+// The report with its title, source and columns, without rows.
+Report independent_simulator_report() {
   Report report;
   report.title = "The quasi-static rover against another rover simulator";
   report.source =
@@ -54,6 +48,18 @@ Result<Report> independent_simulator(const std::filesystem::path& data) {
       "drives";
   report.columns = {"drive",     "pitch deg",           "roll deg", "slip", "predicted", "side slip deg",
                     "predicted", "rear left current A", "predicted"};
+  return report;
+}
+
+}  // namespace
+
+Result<Report> independent_simulator(const std::filesystem::path& data) {
+  const auto drives = read(data);
+  if (!drives) return fail(drives.error());
+  const auto catalogue = api::load_catalogue(data);
+  if (!catalogue) return fail(catalogue.error());
+  const sim::RoverModel& rover = *catalogue->rovers.at("mer-class");  // the campaign's rover
+  Report report = independent_simulator_report();
   Series slip, side, current, sinkage;
   double worst = 0.0;
   for (std::size_t row = 0; row < drives->rows(); ++row) {

@@ -138,6 +138,40 @@ Result<std::vector<std::string>> withheld_notes(const std::filesystem::path& dat
   return notes;
 }
 
+// The report with its title, source and columns, without rows.
+Report sealed_campaigns_report() {
+  Report report;
+  report.title = "The diagnosis on campaigns by other simulators whose answers were opened last";
+  report.source =
+      "tests/gap_benchmark (its wheel law and effects are written with other equations) and the practice "
+      "campaigns; shares with 90 % intervals";
+  report.columns = {"set",        "variant",         "fidelity",      "right, all",
+                    "exactly",    "or look-alike",   "false alarms",  "unknown found",
+                    "AUROC",      "wrong above 0.9", "calibration",   "Brier",
+                    "gap closed", "of the oracle's", "patch overlap", "s a campaign"};
+  return report;
+}
+
+// Adds the notes on the columns and on the sets of campaigns.
+void explain_columns(Report& report) {
+  report.notes.emplace_back(
+      "Columns: \"right, all\" counts every campaign; \"exactly\" and \"or look-alike\" count only "
+      "effects of the library at their usual size and above (targets 0.85 and 0.93); false alarms "
+      "are effects or \"unknown\" where nothing is off or only parameters are (0.03 and 0.05); "
+      "AUROC of P(unknown) (0.85); a wrong name with more than 0.9 (0.05); calibration and Brier "
+      "score of the probability that the answer gives itself (0.05, 0.15); median share of the gap "
+      "closed on held-out drives, and of the share that a diagnosis closes to which the effects "
+      "are given (0.90), where no named effect counts as 0.");
+  report.notes.emplace_back(
+      "L2: the practice campaigns' wheel law with each effect by another equation; L2c: another "
+      "wheel law too; L3: another physics, in which a key of \"parameters\" means that nothing was "
+      "hidden, not that the laws agree (docs/results/gap_benchmark.md). \"earlier\": by an earlier version "
+      "of the program, whose settings were changed with those seeds in sight. This page only "
+      "counts the rows that slipway gap-benchmark --csv wrote "
+      "(data/validation/sealed_campaigns_scores.csv, sealed_campaigns_withheld.csv); making them "
+      "again takes seven minutes a set on two cores.");
+}
+
 }  // namespace
 
 Result<Report> sealed_campaigns(const std::filesystem::path& data) {
@@ -157,15 +191,7 @@ Result<Report> sealed_campaigns(const std::filesystem::path& data) {
     if (!groups.contains(key)) order.push_back(key);
     groups[key].push_back(std::move(s.score));
   }
-  Report report;
-  report.title = "The diagnosis on campaigns by other simulators whose answers were opened last";
-  report.source =
-      "tests/gap_benchmark (its wheel law and effects are written with other equations) and the practice "
-      "campaigns; shares with 90 % intervals";
-  report.columns = {"set",        "variant",         "fidelity",      "right, all",
-                    "exactly",    "or look-alike",   "false alarms",  "unknown found",
-                    "AUROC",      "wrong above 0.9", "calibration",   "Brier",
-                    "gap closed", "of the oracle's", "patch overlap", "s a campaign"};
+  Report report = sealed_campaigns_report();
   for (const auto& [set, variant] : order) {
     const std::vector<CaseScore>& all = groups[{set, variant}];
     report.rows.push_back(row_of(set, variant, "all", all));
@@ -199,22 +225,7 @@ Result<Report> sealed_campaigns(const std::filesystem::path& data) {
   const auto withheld = withheld_notes(data);
   if (!withheld) return fail(withheld.error());
   report.notes.insert(report.notes.end(), withheld->begin(), withheld->end());
-  report.notes.emplace_back(
-      "Columns: \"right, all\" counts every campaign; \"exactly\" and \"or look-alike\" count only "
-      "effects of the library at their usual size and above (targets 0.85 and 0.93); false alarms "
-      "are effects or \"unknown\" where nothing is off or only parameters are (0.03 and 0.05); "
-      "AUROC of P(unknown) (0.85); a wrong name with more than 0.9 (0.05); calibration and Brier "
-      "score of the probability that the answer gives itself (0.05, 0.15); median share of the gap "
-      "closed on held-out drives, and of the share that a diagnosis closes to which the effects "
-      "are given (0.90), where no named effect counts as 0.");
-  report.notes.emplace_back(
-      "L2: the practice campaigns' wheel law with each effect by another equation; L2c: another "
-      "wheel law too; L3: another physics, in which a key of \"parameters\" means that nothing was "
-      "hidden, not that the laws agree (docs/results/gap_benchmark.md). \"earlier\": by an earlier version "
-      "of the program, whose settings were changed with those seeds in sight. This page only "
-      "counts the rows that slipway gap-benchmark --csv wrote "
-      "(data/validation/sealed_campaigns_scores.csv, sealed_campaigns_withheld.csv); making them "
-      "again takes seven minutes a set on two cores.");
+  explain_columns(report);
   return report;
 }
 
