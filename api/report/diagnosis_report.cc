@@ -86,6 +86,7 @@ class Report {
     write_next();
     write_model();
     write_notes();
+    write_options();
     return std::move(page_);
   }
 
@@ -339,6 +340,23 @@ class Report {
                     n.stiffness, n.friction, n.shear_modulus, n.within_drives));
     page_.item(fmt::format("Slipway {}, seed {}, campaign fingerprint {}", version(), d_.seed,
                            d_.campaign_fingerprint));
+  }
+
+  // What the answer depends on besides the drives, a row a step.
+  void write_options() {
+    if (d_.options.empty()) return;
+    page_.section("Options");
+    page_.paragraph(
+        "The numbers that this answer depends on besides the drives, by the step that uses them.");
+    page_.table({"step", "options"});
+    for (std::size_t i = 0; i < d_.options.size();) {
+      const std::string_view step = d_.options[i].step;
+      std::string words;
+      for (; i < d_.options.size() && d_.options[i].step == step; ++i)
+        words += fmt::format("{}{} {:.6g}", words.empty() ? "" : ", ", d_.options[i].name,
+                             fmt::join(d_.options[i].values, " / "));
+      page_.row({std::string(step), words});
+    }
   }
 
   const gap::DriveCampaign& campaign_;
