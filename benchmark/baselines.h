@@ -17,10 +17,10 @@ Result<Diagnosis> diagnose_by_sparse_regression(const DriveCampaign& campaign,
                                                 const DiagnosisOptions& options, Progress& progress);
 
 // A Gaussian process over slope, slip, direction, ... for each channel and wheel, learnt from the re-tuned
-// null's residuals [Rasmussen & Williams 2006]: it shrinks the gap and explains nothing, so its verdict is
+// null's residuals [Rasmussen & Williams 2006]: it closes the gap and explains nothing, so its verdict is
 // "unknown".
-Result<Diagnosis> shrink_by_gaussian_process(const DriveCampaign& campaign, const DiagnosisOptions& options,
-                                             Progress& progress);
+Result<Diagnosis> diagnose_by_gaussian_process(const DriveCampaign& campaign, const DiagnosisOptions& options,
+                                               Progress& progress);
 
 // The diagnosis as if samples were independent: every window is taken for a drive of its own, so that windows
 // of one drive stand on both sides of a fold, and what they share counts as often as there are windows.

@@ -214,7 +214,7 @@ class Report {
     for (const gap::Regime& regime : regimes) {
       std::vector<std::string> conditions;
       for (const gap::Condition& c : regime.conditions)
-        conditions.push_back(fmt::format("{} {:.3g} to {:.3g}", c.variable, c.from, c.to));
+        conditions.push_back(fmt::format("{} {:.3g} to {:.3g}", gap::name_of(c.variable), c.from, c.to));
       page_.row({fmt::format("{}", ++number), std::string(gap::name_of(regime.channel)),
                  fmt::format("{}", fmt::join(conditions, " and ")),
                  fmt::format("{:.0f} %", 100.0 * regime.share_of_gap),

@@ -189,7 +189,7 @@ class Estimation {
           std::sqrt(e.residual_variance)));
     if (holds(free_, SoilParameter::kKc) && observations_.one_width())
       e.notes.push_back(
-          "all wheels and plates have one width: only k_c / b + k_phi can be told, not k_c and "
+          "all wheels and plates have one width: only k_c / b + k_phi can be determined, not k_c and "
           "k_phi apart; k_bekker in their place is better");
   }
 

@@ -226,7 +226,6 @@ TEST_F(ADiagnosis, IsShownWithAllItsTextEscaped) {
   d.channels.back().wheel = bad;
   d.retuned.front().name = bad;
   d.places.front().terrain = bad;
-  d.regimes.front().conditions.front().variable = bad;
   const std::string page = diagnosis_report(campaign(), d, draw_diagnosis(campaign(), d)).html();
   EXPECT_EQ(page.find("<script"), std::string::npos);
   EXPECT_EQ(page.find(" id=\"a"), std::string::npos);
