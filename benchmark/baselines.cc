@@ -176,8 +176,8 @@ Result<Diagnosis> diagnose_by_sparse_regression(const DriveCampaign& campaign,
   return d;
 }
 
-Result<Diagnosis> shrink_by_gaussian_process(const DriveCampaign& campaign, const DiagnosisOptions& options,
-                                             Progress& progress) {
+Result<Diagnosis> diagnose_by_gaussian_process(const DriveCampaign& campaign, const DiagnosisOptions& options,
+                                               Progress& progress) {
   Diagnosis d;
   const auto prepared = prepared_for(campaign, options, d, progress);
   if (!prepared) return fail(prepared.error());

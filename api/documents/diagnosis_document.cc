@@ -132,7 +132,7 @@ void write_regimes(Writer& w, std::string_view key, std::span<const gap::Regime>
   for (const gap::Regime& regime : regimes) {
     w.begin_object().key("condition").begin_array();
     for (const gap::Condition& condition : regime.conditions) {
-      w.begin_object().text("variable", condition.variable);
+      w.begin_object().text("variable", gap::name_of(condition.variable));
       // An open end is not there.
       write_finite(w, "from", condition.from);
       write_finite(w, "to", condition.to);

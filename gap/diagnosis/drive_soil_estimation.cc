@@ -84,7 +84,8 @@ class SoilOfDrives {
     p.high_open = high >= searched.highest;
     p.low = value_at(std::max(low, searched.lowest));
     p.high = value_at(std::min(high, searched.highest));
-    judge(p, {.says_more = error < kOfPrior * searched.std});
+    const DeterminationOptions determination;
+    judge(p, {.says_more = error < determination.max_of_prior * searched.std}, determination);
     estimate_.parameters.push_back(std::move(p));
   }
 
@@ -100,8 +101,6 @@ class SoilOfDrives {
         if (a != b) estimate_.correlation(i, j) = covariance(a, b) / (deviation(a) * deviation(b));
       }
   }
-
-  static constexpr double kOfPrior = 0.7;
 
   const NominalSoil& nominal_;
   const FittedExplanation& fit_;

@@ -98,7 +98,7 @@ std::string regimes_words(const std::vector<gap::Regime>& regimes) {
   for (std::size_t i = 0; i < std::min(regimes.size(), kMostRegimes); ++i) {
     std::vector<std::string> conditions;
     for (const gap::Condition& c : regimes[i].conditions)
-      conditions.push_back(fmt::format("{} {:.3g} to {:.3g}", c.variable, c.from, c.to));
+      conditions.push_back(fmt::format("{} {:.3g} to {:.3g}", gap::name_of(c.variable), c.from, c.to));
     out += fmt::format("  {} where {}: {:.0f} % of it in {:.0f} % of the data\n",
                        gap::name_of(regimes[i].channel), fmt::join(conditions, " and "),
                        100.0 * regimes[i].share_of_gap, 100.0 * regimes[i].share_of_data);

@@ -70,7 +70,7 @@ constexpr std::array kVariants{
             .whole_evidence = true},
     Variant{.name = "sample-level-folds", .method = &gap::diagnose_sample_by_sample},
     Variant{.name = "sparse-regression", .method = &gap::diagnose_by_sparse_regression},
-    Variant{.name = "gaussian-process", .method = &gap::shrink_by_gaussian_process},
+    Variant{.name = "gaussian-process", .method = &gap::diagnose_by_gaussian_process},
 };
 
 const Variant* variant_named(std::string_view name) {

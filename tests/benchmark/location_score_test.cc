@@ -58,21 +58,21 @@ TEST(LocationScore, ASliceIsHeldAgainstTheStretchesThatHoldMoreThanTheirShare) {
   const auto overlap = [&](std::vector<Condition> conditions) {
     return slice_overlap(steep_current(), told(current, std::move(conditions)))->value;
   };
-  EXPECT_EQ(overlap({{"slope_deg", 11.0, 15.0}}), 1.0);
-  EXPECT_EQ(overlap({{"slope_deg", 13.0, 15.0}}), 0.5);
-  EXPECT_EQ(overlap({{"slope_deg", 6.0, 15.0}}), 0.5);
-  EXPECT_EQ(overlap({{"slope_deg", 0.0, 6.0}}), 0.0);
+  EXPECT_EQ(overlap({{WindowVariable::kSlope, 11.0, 15.0}}), 1.0);
+  EXPECT_EQ(overlap({{WindowVariable::kSlope, 13.0, 15.0}}), 0.5);
+  EXPECT_EQ(overlap({{WindowVariable::kSlope, 6.0, 15.0}}), 0.5);
+  EXPECT_EQ(overlap({{WindowVariable::kSlope, 0.0, 6.0}}), 0.0);
   // Both conditions have to hold; ends are readings, so that a hair beyond them is within.
-  EXPECT_EQ(overlap({{"slope_deg", 11.0, 14.95}, {"turning", 0.0, 0.0}}), 1.0);
-  EXPECT_EQ(overlap({{"slope_deg", 11.0, 15.0}, {"turning", 1.0, 1.0}}), 0.0);
+  EXPECT_EQ(overlap({{WindowVariable::kSlope, 11.0, 14.95}, {WindowVariable::kTurning, 0.0, 0.0}}), 1.0);
+  EXPECT_EQ(overlap({{WindowVariable::kSlope, 11.0, 15.0}, {WindowVariable::kTurning, 1.0, 1.0}}), 0.0);
   // A channel without a slice is not located.
   EXPECT_EQ(overlap({}), 0.0);
 }
 
 TEST(LocationScore, IsOfTheSlicesOwnChannel) {
-  const Diagnosis slip = told({{Channel::kSlip, 1.0}}, {{"slope_deg", 0.0, 0.0}});
+  const Diagnosis slip = told({{Channel::kSlip, 1.0}}, {{WindowVariable::kSlope, 0.0, 0.0}});
   EXPECT_EQ(slice_overlap(steep_current(), slip)->value, 1.0);
-  const Diagnosis sinkage = told({{Channel::kSinkage, 1.0}}, {{"slope_deg", 0.0, 0.0}});
+  const Diagnosis sinkage = told({{Channel::kSinkage, 1.0}}, {{WindowVariable::kSlope, 0.0, 0.0}});
   EXPECT_EQ(slice_overlap(steep_current(), sinkage)->value, 0.0);
 }
 
@@ -84,7 +84,7 @@ TEST(LocationScore, TheMostThatASliceHasIsThatOfTheKeysOwnSlices) {
     steep.push_back(trace_at(i / 2, Channel::kCurrent, i >= 14 ? 9.0 : 1.0));
     scattered.push_back(trace_at(i / 2, Channel::kCurrent, i % 2 == 0 ? 9.0 : 1.0));
   }
-  const Diagnosis d = told({{Channel::kCurrent, 1.0}}, {{"slope_deg", 8.0, 9.0}});
+  const Diagnosis d = told({{Channel::kCurrent, 1.0}}, {{WindowVariable::kSlope, 8.0, 9.0}});
   EXPECT_NEAR(slice_overlap(steep, d)->value, 4.0 / 6.0, 1e-12);
   EXPECT_EQ(slice_overlap(steep, d)->attainable, 1.0);
   EXPECT_LT(slice_overlap(scattered, d)->attainable, 0.5);
@@ -96,7 +96,7 @@ TEST(LocationScore, CountsWhereEffectsOfTheLibraryWereHiddenAndNamed) {
   answer.campaign = "s01";
   answer.effects = {"hardpan"};
   answer.traces = steep_current();
-  const Diagnosis d = told({{Channel::kCurrent, 1.0}}, {{"slope_deg", 11.0, 15.0}});
+  const Diagnosis d = told({{Channel::kCurrent, 1.0}}, {{WindowVariable::kSlope, 11.0, 15.0}});
   // Under another name at the right place: it is located.
   const CaseScore named = score_case(answer, d, library, 1.0);
   EXPECT_EQ(named.channel_right, true);

@@ -15,25 +15,26 @@ double rounded(double value) {
 
 // The pieces of a variable from its sorted readings: its values where there are few, else stretches of
 // equally many readings, neighbours sharing the reading between them.
-std::vector<Condition> pieces_of(int variable, std::span<const double> sorted, const SliceOptions& options) {
+std::vector<Condition> pieces_of(WindowVariable variable, std::span<const double> sorted,
+                                 const SliceOptions& options) {
   const std::set<double> values(sorted.begin(), sorted.end());
   std::vector<Condition> pieces;
   if (values.size() < 2) return pieces;
   if (values.size() <= static_cast<std::size_t>(options.max_values)) {
-    for (const double value : values) pieces.push_back({variable_name(variable), value, value});
+    for (const double value : values) pieces.push_back({variable, value, value});
     return pieces;
   }
   const auto count = static_cast<std::size_t>(options.pieces);
   for (std::size_t k = 0; k < count; ++k) {
     const double from = sorted[k * (sorted.size() - 1) / count];
     const double to = sorted[(k + 1) * (sorted.size() - 1) / count];
-    if (pieces.empty() || pieces.back().to < to) pieces.push_back({variable_name(variable), from, to});
+    if (pieces.empty() || pieces.back().to < to) pieces.push_back({variable, from, to});
   }
   return pieces;
 }
 
 // Slices of one variable: each piece, and the lowest and the highest of them together.
-std::vector<Slice> slices_of_one(std::span<const WindowVariables> variables, int variable,
+std::vector<Slice> slices_of_one(std::span<const WindowVariables> variables, WindowVariable variable,
                                  const SliceOptions& options) {
   std::vector<double> readings;
   for (const WindowVariables& of : variables) readings.push_back(rounded(variable_of(of, variable)));
@@ -42,7 +43,7 @@ std::vector<Slice> slices_of_one(std::span<const WindowVariables> variables, int
   const std::vector<Condition> pieces = pieces_of(variable, sorted, options);
   std::vector<Slice> slices;
   const auto keep = [&](double from, double to) {
-    Slice slice{{{variable_name(variable), from, to}}, {}};
+    Slice slice{{{variable, from, to}}, {}};
     for (std::size_t w = 0; w < readings.size(); ++w)
       if (readings[w] >= from && readings[w] <= to) slice.windows.push_back(w);
     if (slice.windows.size() >= least_of_slice(readings.size(), options) &&
@@ -75,7 +76,8 @@ std::size_t least_of_slice(std::size_t windows, const SliceOptions& options) {
 std::vector<Slice> slices_of(std::span<const WindowVariables> variables, const SliceOptions& options) {
   std::vector<std::vector<Slice>> by_variable;
   const std::size_t least = least_of_slice(variables.size(), options);
-  for (int v = 0; v < kWindowVariables; ++v) by_variable.push_back(slices_of_one(variables, v, options));
+  for (int v = 0; v < kWindowVariables; ++v)
+    by_variable.push_back(slices_of_one(variables, static_cast<WindowVariable>(v), options));
   std::vector<Slice> all;
   for (std::size_t a = 0; a < by_variable.size(); ++a)
     for (const Slice& one : by_variable[a]) {

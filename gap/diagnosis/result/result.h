@@ -12,6 +12,7 @@
 #include "gap/diagnosis/model/drive_window.h"
 #include "gap/diagnosis/model/noise_model.h"
 #include "gap/diagnosis/model/window_model.h"
+#include "gap/diagnosis/model/window_variables.h"
 #include "gap/diagnosis/search/diagnosis_options.h"
 #include "gap/diagnosis/search/parameter_posterior.h"
 #include "gap/estimate/interval.h"
@@ -71,7 +72,7 @@ struct ChannelGap {
 };
 
 struct Condition {
-  std::string variable;  // "slope_deg", ...
+  WindowVariable variable = WindowVariable::kSlope;
   double from = 0.0, to = 0.0;
 };
 

@@ -39,7 +39,7 @@ struct PreparationOptions {
   // The suspension's own stance is believed unless the recorded attitudes lie nearer to the plane under the
   // wheels, their root mean square being less than this share of the suspension's.
   double plane_is_nearer = 0.8;
-  int scatter_rounds = 2;  // the scatter and the re-tuned parameters need each other; a third changes nothing
+  int scatter_rounds = 2;  // the scatter and the re-tuned parameters need each other
 };
 
 // The discrepancy term: what could be missing that the library has no name for. See discrepancy_term.h.
@@ -85,7 +85,7 @@ struct SoftPatchOptions {
 // Which effects are fitted, and which of their sets compete: see explanation_search.h.
 struct SearchOptions {
   std::vector<std::string> withheld;  // effects that are not looked for
-  int max_refitted = 8;               // effects that are fitted in full: the right one was never lower
+  int max_refitted = 8;               // effects that are fitted in full, which costs most
   int max_variants = 2;               // of each of them
   int max_paired = 4;                 // of those, whose pairs are looked for
   int max_seconds = 3;                // of each of those
