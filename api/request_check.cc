@@ -9,7 +9,6 @@
 
 #include "api/json/faults.h"
 #include "api/json/json_value.h"
-#include "planner/search/planner_catalogue.h"
 #include "sim/effects/effect_catalogue.h"
 #include "sim/rover/drive_command.h"
 
@@ -127,9 +126,10 @@ void RequestCheck::crab(double crab_rad) {
     add(ErrorCode::kInvalidRequest, "/crab_deg", std::move(*why));
 }
 
-void RequestCheck::planners(const std::vector<std::string>& planners) {
+void RequestCheck::planners(const std::vector<std::string>& planners,
+                            std::span<const planner::PlannerRow> known_rows) {
   std::vector<std::string> known;
-  for (const planner::PlannerRow& row : planner::planner_catalogue()) known.emplace_back(row.name);
+  for (const planner::PlannerRow& row : known_rows) known.emplace_back(row.name);
   for (std::size_t i = 0; i < planners.size(); ++i) {
     const std::string pointer = fmt::format("/planners/{}", i);
     const auto begin = planners.begin();

@@ -83,7 +83,7 @@ Catalogue Service::catalogue_for(const std::optional<RequestedModel>& model, std
 }
 
 Result<PlanRequest> Service::read_plan(std::string_view json) const {
-  auto reading = json::read_plan_request(json);
+  auto reading = json::read_plan_request(json, options_.costs);
   if (!reading) return fail(reading.error());
   PlanRequest& request = reading->request;
   const Catalogue catalogue = catalogue_for(request.drive.model, request.rover, reading->faults);
@@ -95,7 +95,7 @@ Result<PlanRequest> Service::read_plan(std::string_view json) const {
   for (std::size_t i = 0; i < request.waypoints.size(); ++i) {
     check.place(request.waypoints[i], fmt::format("/waypoints/{}", i));
   }
-  check.planners(request.planners);
+  check.planners(request.planners, options_.planners);
   check.drive(request.drive);
   if (!check.passed()) return fail(check.error());
   return std::move(reading->request);
@@ -210,7 +210,7 @@ Result<PlanAnswer> Service::plan(const PlanRequest& request, Progress& progress)
   problem.routes = request.routes;
   problem.verify = request.verify;
   problem.planners = request.planners;
-  auto plan = planner::make_plan(problem, progress);
+  auto plan = planner::make_plan(problem, progress, options_.planners);
   if (!plan) return fail(plan.error());
   return PlanAnswer{request, std::move(setting->provenance), std::move(*plan)};
 }

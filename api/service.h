@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,8 @@
 #include "api/requests/soil_estimate.h"
 #include "core/progress.h"
 #include "core/result.h"
+#include "planner/problem/cost_catalogue.h"
+#include "planner/search/planner_catalogue.h"
 
 namespace slipway::api {
 
@@ -20,6 +23,9 @@ struct ServiceOptions {
   std::size_t threads = 0;               // of one plan or prediction; 0: as many as the machine has
   std::filesystem::path model = {};      // folder of a corrected model to plan with; empty: none
   std::vector<std::string> ground = {};  // soils of terrains that are that model's, see with_model()
+  // What routes cost and what searches for them. The rows must outlive the service.
+  std::span<const planner::CostTerm> costs = planner::cost_catalogue();
+  std::span<const planner::PlannerRow> planners = planner::planner_catalogue();
 };
 
 // What the server and the command line both ask: immutable once opened, thread-safe.
@@ -29,6 +35,8 @@ class Service {
   static Result<std::unique_ptr<Service>> open(ServiceOptions options);
 
   const Catalogue& catalogue() const { return catalogue_; }
+  std::span<const planner::CostTerm> costs() const { return options_.costs; }
+  std::span<const planner::PlannerRow> planners() const { return options_.planners; }
   // The drives that ship. A name among them is all that a request says of where drives are: it opens no
   // other.
   const std::vector<ShippedCampaign>& campaigns() const { return shipped_; }

@@ -26,14 +26,14 @@ constexpr std::size_t kMostSimulated = 6;  // unless more routes are asked for
 // verified after it.
 constexpr double kSimulating = 0.5, kSimulated = 0.98, kSimulatedUnverified = 0.7;
 constexpr double kLineSpacing_m = 0.25;
-// A candidate that lies this much within one that is simulated anyway has nothing new to tell.
+// A candidate that shares more of its length than this with one that is simulated anyway adds nothing.
 constexpr double kSameRoute = 0.9;
 
 tl::unexpected<Error> cancelled() {
   return fail(ErrorCode::kCancelled, "the plan was cancelled");
 }
 
-// The ones to simulate, cheapest first: those that differ, then the cheapest others that are no copies.
+// The candidates to simulate: those that differ, then the cheapest others that are no copies of these.
 std::vector<std::size_t> shortlist(const Proposal& proposal, std::size_t wanted) {
   const std::vector<std::size_t> order = proposal.by_cost();
   std::vector<std::size_t> list = select_routes(proposal.differences, order, wanted);
@@ -66,15 +66,17 @@ std::string dropped_for_keep_outs(const std::vector<Pose2>& poses) {
 
 class Planning {
  public:
-  Planning(const PlanProblem& problem, Progress& progress)
+  Planning(const PlanProblem& problem, std::span<const PlannerRow> planners, Progress& progress)
       : problem_(problem),
+        planners_(planners),
         progress_(progress),
         ground_(problem.terrain, problem.soil_map),
         keep_out_(problem.keep_out, *problem.rover) {}
 
   Result<Plan> run() {
     progress_.report("reading the ground", 0.0);
-    if (std::optional<Error> error = faults_of(problem_, keep_out_, ground_)) return fail(std::move(*error));
+    if (std::optional<Error> error = faults_of(problem_, planners_, keep_out_, ground_))
+      return fail(std::move(*error));
     const GroundTables tables = build_ground_tables(problem_);
     if (progress_.cancelled()) return cancelled();
     map_.emplace(problem_, keep_out_, search_extent(problem_));
@@ -82,7 +84,7 @@ class Planning {
     std::optional<Proposal> proposal = propose(tables);
     if (progress_.cancelled()) return cancelled();
     if (!std::isfinite(proposal->grid_optimum) && map_->geometry() != whole_map()) {
-      // Perhaps a way around that leaves the window.
+      // There may be a way around outside the window.
       map_.emplace(problem_, keep_out_, problem_.terrain->geometry().extent());
       proposal = propose(tables);
       if (progress_.cancelled()) return cancelled();
@@ -108,7 +110,7 @@ class Planning {
 
   Proposal propose(const GroundTables& tables) {
     StageProgress stage(progress_, "proposing routes", 0.1, 0.5);
-    return propose_routes(problem_, *map_, tables, stage);
+    return propose_routes(problem_, planners_, *map_, tables, stage);
   }
 
   void say_why_none(const Proposal& proposal, Plan& plan) const {
@@ -194,7 +196,8 @@ class Planning {
     }
   }
 
-  // The best-ranked in the dynamic rung. What it refutes is judged and ranked anew.
+  // Drives the best-ranked routes in the dynamic simulation. A route that it refutes is judged and ranked
+  // anew.
   Result<void> verify(const Proposal& proposal, Plan& plan) {
     const std::size_t count = std::min(plan.routes.size(), static_cast<std::size_t>(problem_.verify));
     const double share =
@@ -233,6 +236,7 @@ class Planning {
   }
 
   const PlanProblem& problem_;
+  std::span<const PlannerRow> planners_;
   Progress& progress_;
   TerrainGround ground_;
   KeepOut keep_out_;
@@ -243,8 +247,8 @@ class Planning {
 
 }  // namespace
 
-Result<Plan> make_plan(const PlanProblem& problem, Progress& progress) {
-  return Planning(problem, progress).run();
+Result<Plan> make_plan(const PlanProblem& problem, Progress& progress, std::span<const PlannerRow> planners) {
+  return Planning(problem, planners, progress).run();
 }
 
 }  // namespace slipway::planner

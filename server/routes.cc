@@ -56,7 +56,7 @@ std::vector<Route> api_routes(const api::Service& service, api::JobRunner& runne
       fixed("/v1/rovers", api::json::write_rovers(catalogue)),
       fixed("/v1/soils", api::json::write_soils(catalogue)),
       fixed("/v1/effects", api::json::write_effects()),
-      fixed("/v1/planners", api::json::write_planners()),
+      fixed("/v1/planners", api::json::write_planners(service.planners(), service.costs())),
       fixed("/v1/drive-campaigns", api::json::write_drive_campaigns(service.campaigns())),
       {"GET", "/v1/terrains/{name}/point",
        [&service](const HttpRequest& r) { return ground_at(service, r); }},

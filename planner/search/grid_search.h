@@ -14,9 +14,9 @@ struct CostField {
 };
 
 // Dijkstra over the map's cells and 16 directions (eight neighbours and eight knight's moves), each edge
-// costing what the motion cost says of driving in that direction; turns in place are free here. It tells with
-// certainty whether a goal can be reached on the grid, its optimum is a yardstick for OMPL's routes, and its
-// fields show OMPL's samplers where good routes run.
+// costing what the motion cost says of driving in that direction; turns in place are free here. It shows with
+// certainty whether a goal can be reached on the grid, its optimum is a yardstick for the routes that
+// planners find, and its fields show their samplers where good routes run.
 class GridSearch {
  public:
   explicit GridSearch(const MotionCost& cost);

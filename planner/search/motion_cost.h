@@ -9,16 +9,17 @@
 
 namespace slipway::planner {
 
-// What the search minimises: the cost catalogue's sum through the table rung, for one set of weights.
+// What the search minimises: the cost catalogue's sum, for one set of weights, with the figures of each metre
+// taken from the slip tables.
 //
-// Per metre at a pose, from pitch and roll on the cell's plane:
-//   duration  1 / (cruise speed (1 - slip)), hours
-//   energy    of the table, 100 Wh
-//   slip      slip ratio, per 100 m
-//   unknown   1 on unknown ground, per 100 m; unknown ground's numbers are those of its weak soil
+// The figures of a metre at a pose, from pitch and roll on the cell's plane:
+//   duration  1 / (cruise speed (1 - slip))
+//   energy    of the table
+//   slip      slip ratio
+//   unknown   1 on unknown ground; unknown ground's numbers are those of its weak soil
 //   risk      P(slip over its limit) once per correlation length, the logarithm of slip taken as normal with
 //             the spread between the mean and the weak soil's slip
-// and all of it rises steeply from 3/4 of a limit (slip, current, sinkage, tilt) on. Off the map, near
+// and the sum rises steeply from 3/4 of a limit (slip, current, sinkage, tilt) on. Off the map, near
 // missing elevation, beyond the tilt limit, with too little clearance, in a keep-out and where the mean
 // soil's rover is immobilised no motion is valid, and its cost is infinite.
 class MotionCost {
@@ -50,6 +51,7 @@ class MotionCost {
   // Keep-outs near by are not asked.
   double per_metre_at(const Eigen::Vector2d& place, const Eigen::Vector2d& heading) const;
   void tabulate(const PlanProblem& problem, const GroundTable& table, bool unknown, const Weights& weights);
+  void set_turn_cost(const GroundTables& tables, const Weights& weights);
 
   const TraverseMap* map_;
   MotionLimits limits_;

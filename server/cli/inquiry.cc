@@ -45,7 +45,7 @@ class LocalInquiry final : public Inquiry {
     if (kind == "rovers") return api::json::write_rovers(all);
     if (kind == "soils") return api::json::write_soils(all);
     if (kind == "effects") return api::json::write_effects();
-    return api::json::write_planners();
+    return api::json::write_planners(service_->planners(), service_->costs());
   }
 
   Result<std::string> ground_at(std::string_view terrain, double x_m, double y_m) override {

@@ -95,7 +95,7 @@ TEST(KeepOut, ATurnInPlaceSweepsItsCornersThroughWhatIsClearBeforeAndAfter) {
   const KeepOut keep_out(std::vector<Polygon>{{{1.1, -0.05}, {1.2, -0.05}, {1.2, 0.05}, {1.1, 0.05}}},
                          *test_rover());  // corners reach 1.235 m
   const Motion turn{.from = {0.0, 0.0, 0.0}, .to = {0.0, 0.0, 2.0}, .first_turn_rad = 2.0};
-  const Motion away{.from = {0.0, 0.0, 0.0}, .to = {0.0, 0.0, 0.4}, .first_turn_rad = 0.4};
+  const Motion away{.from = {0.0, 0.0, 0.0}, .to = {0.0, 0.0, 0.3}, .first_turn_rad = 0.3};
   EXPECT_FALSE(keep_out.hits(turn.from));
   EXPECT_FALSE(keep_out.hits(turn.to));
   EXPECT_TRUE(keep_out.hits_along(turn));
