@@ -36,6 +36,7 @@ Result<sim::WheelRig> rig_of(const Catalogue& catalogue, CurrentMapOptions& opti
     faults.push_back({"/soil", unknown_name("soil", soil, names_of(catalogue.soils))});
   } else {
     rig.soil = found->second.mean;
+    rig.soil_format = catalogue.soil_format;
   }
   rig.test.gravity_m_s2 = options.gravity_m_s2;
   rig.test.slip = options.slip;

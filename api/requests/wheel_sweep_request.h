@@ -19,7 +19,7 @@ struct WheelSweepRequest {
   std::optional<double> load_n;        // nothing: an equal share of the rover's weight
   std::optional<double> speed_m_s;     // nothing: the rover's cruise speed
   std::optional<double> motor_temp_c;  // nothing: what the motor is given at
-  sim::SingleWheelTest test;           // the other conditions
+  sim::WheelRigConditions test;           // the other conditions
   std::vector<sim::EffectSetting> effects;
   std::vector<sim::SweepSetting> set;
   std::vector<sim::SweepAxis> sweep;

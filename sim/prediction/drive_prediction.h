@@ -69,6 +69,10 @@ struct DrivePrediction {
   double mean_slip_ratio = 0.0;  // over the length
   Peak max_slip_ratio, max_tilt_rad, max_current_a, max_sinkage_m;
   double unknown_length_m = 0.0;              // driven with any wheel on unknown ground
+  // Driven with any wheel on ground that is known by a slip curve: energy, current and sinkage, their peaks and limits
+  // are of the rest of the way alone.
+  double slip_curve_length_m = 0.0;
+  bool by_slip_curve = false;  // any station is on such ground
   std::optional<Immobilisation> immobilised;  // under the mean soils; the stations end there
   std::vector<std::string> broken_limits;     // under the mean soils: "slip 0.52 at 31.2 m, limit 0.40"
   // Over soil draws: the share of whole drives that break a limit or end immobilised, with a 90 % Wilson

@@ -35,6 +35,7 @@ enum class Outcome {
   kSunkToAxle,    // a wheel would sink to its axle
   kStalled,       // a motor would need more current or voltage than it has
   kNotConverged,  // the solver gave up: not a statement about the rover
+  kOutsideSlipCurve,  // the soil is known by a slip curve, which has no such slope
 };
 
 // "no traction": for messages.
@@ -54,6 +55,9 @@ struct StationState {
   // What a camera looking back would measure: depth of the track behind each side's last wheel.
   double left_rut_depth_m = 0.0, right_rut_depth_m = 0.0;
   PerWheel<WheelState> wheels;
+  // A wheel stands on ground that is known by a slip curve: speeds and slip are known, while nothing is of what stands
+  // in `wheels`, of ruts and of power, all of which are 0.
+  bool by_slip_curve = false;
 
   bool moving() const { return outcome == Outcome::kMoving; }
 };
@@ -83,7 +87,9 @@ class QuasiStaticSolver {
 
   QuasiStaticSolver(const RoverModel& rover, double gravity_m_s2);
 
-  // soils: the soil under each wheel. With a `start` it is in the last answer's place.
+  // soils: the soil under each wheel. With a `start` it is in the last answer's place. Where a wheel stands on a soil
+  // with a slip curve there is no balance: the motion is the slowest of those that the wheels' curves give and, where
+  // other wheels stand on soils with laws, of the balance on these.
   StationState solve(const Stance& stance, const PerWheel<Soil>& soils, const DriveCommand& command,
                      const Start* start = nullptr, Thoroughness thoroughness = Thoroughness::kSure);
   StationState solve(const Stance& stance, const Soil& soil, const DriveCommand& command);
@@ -95,6 +101,9 @@ class QuasiStaticSolver {
   void reset() { warm_ = false; }
 
  private:
+  StationState solve_with_slip_curves(const Stance& stance, const PerWheel<Soil>& soils, const DriveCommand& command,
+                                      Thoroughness thoroughness);
+
   const RoverModel& rover_;
   double gravity_m_s2_;
   bool warm_ = false;
