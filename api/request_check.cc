@@ -107,8 +107,8 @@ void RequestCheck::drive(const DriveAssumptions& drive) {
   const double fastest = rover_->drive.max_wheel_rate_rad_s * rover_->smallest_wheel_radius_m();
   if (*drive.speed_m_s > fastest) {
     add(ErrorCode::kInvalidRequest, "/speed_m_s",
-        fmt::format("speed_m_s = {} m/s, must be in (0, {:.6g}]: the motors of {} turn no faster",
-                    *drive.speed_m_s, fastest, rover_->name));
+        fmt::format("speed_m_s = {} m/s, must be in [{:g}, {:.6g}]: the motors of {} turn no faster",
+                    *drive.speed_m_s, RequestLimits::kLeastSpeed_m_s, fastest, rover_->name));
   }
 }
 

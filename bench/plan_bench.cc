@@ -1,5 +1,5 @@
-// What a plan costs on real relief: the whole answer, one search per planner against the grid's optimum, and
-// the look-up that all searches spend their time in.
+// The cost of a plan on real relief: the whole answer, one search for each planner against the grid's
+// optimum, and the look-up in which all searches spend their time.
 
 #include <benchmark/benchmark.h>
 
@@ -38,7 +38,7 @@ PlanProblem gale() {
   return problem;
 }
 
-// Everything that a search points to.
+// The data to which a search holds pointers.
 struct World {
   PlanProblem problem = gale();
   KeepOut keep_out{problem.keep_out, *problem.rover};
@@ -72,8 +72,8 @@ void BM_PlanOfThreeRoutesOver300m(benchmark::State& state) {
 }
 BENCHMARK(BM_PlanOfThreeRoutesOver300m)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-// cost_over_grid_optimum: of the smoothed route, mean over seeds. The grid turns for nothing and sees 16
-// directions.
+// cost_over_grid_optimum is that of the smoothed route, as the mean over seeds. On the grid turns cost
+// nothing, and there are 16 directions.
 void BM_Search(benchmark::State& state, const std::string& planner, int iterations) {
   const World& w = world();
   double sum = 0.0, found = 0.0;

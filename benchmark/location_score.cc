@@ -9,8 +9,9 @@
 namespace slipway::gap {
 namespace {
 
-// By how much a stretch may lie outside of a slice whose ends are other windows' readings, in the order of
-// the window's variables: the readings' errors, and how far the ground under three stations is off its mean.
+// The margins by which a stretch may lie outside a slice, whose ends are other windows' readings, in the
+// order of the window's variables. They are the readings' errors, and the error of the mean ground under
+// three stations.
 constexpr std::array<double, kWindowVariables> kSlack{0.1, 0.1, 0.005, 1e-4, 1e-4, 0.1, 1e-4, 0.5};
 
 double square_of(const HiddenTrace& trace, Channel channel) {

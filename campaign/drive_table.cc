@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "campaign/campaign_files.h"
 #include "core/angle.h"
 #include "sim/effects/effect_catalogue.h"
 #include "sim/rover/drive_command.h"
@@ -25,7 +26,12 @@ std::string heading_name(double heading_rad) {
   if (heading_deg >= 360.0) heading_deg -= 360.0;
   const double whole = std::floor(heading_deg);
   std::string name = fmt::format("h{:03.0f}", whole);
-  if (heading_deg > whole) name += "p" + fmt::format("{:.6g}", heading_deg - whole).substr(2);
+  if (heading_deg > whole) {
+    // "0.500000" without the zeros at its end; never with an exponent, which would put a minus into the id.
+    std::string fraction = fmt::format("{:.6f}", heading_deg - whole);
+    fraction.erase(fraction.find_last_not_of('0') + 1);
+    name += "p" + fraction.substr(2);
+  }
   return name;
 }
 
@@ -127,12 +133,16 @@ std::vector<Fault> faults_of(const DriveTable& table) {
     return faults;
   }
   std::set<std::string> ids, reported;
-  for (const TableDrive& drive : expand(table)) {
+  const std::vector<TableDrive> drives = expand(table);
+  for (const TableDrive& drive : drives) {
     if (ids.insert(drive.id).second || !reported.insert(drive.id).second) continue;
     faults.push_back(
         {fmt::format("/drives/{}/id", drive.entry),
          fmt::format("drive {} is given twice: an id, a terrain or a heading is repeated", drive.id)});
   }
+  // Drives of one id collide in every file: said once, above.
+  if (reported.empty())
+    for (Fault& fault : colliding_files(table, drives)) faults.push_back(std::move(fault));
   return faults;
 }
 

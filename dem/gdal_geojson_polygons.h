@@ -13,7 +13,8 @@
 
 namespace slipway::dem {
 
-// One feature of a file: what its property says, and its Polygon or MultiPolygon in the file's coordinates.
+// One feature of a file: the value of its property, and its Polygon or MultiPolygon in the file's
+// coordinates.
 struct LabelledPolygon {
   std::string label;
   std::unique_ptr<OGRGeometry> geometry;

@@ -120,7 +120,15 @@ class Table {
   std::vector<Fault> faults_;
 };
 
+// A file may be wrong in every cell: so many faults are reported one by one, and how many more there are.
+constexpr std::size_t kMostFaults = 100;
+
 tl::unexpected<Error> unreadable(std::string_view file, std::vector<Fault> faults) {
+  if (faults.size() > kMostFaults) {
+    const std::size_t more = faults.size() - kMostFaults;
+    faults.resize(kMostFaults);
+    faults.push_back({std::string(file), fmt::format("{} faults more like these", more)});
+  }
   return fail(ErrorCode::kUnreadableData, fmt::format("{} can't be read", file), std::move(faults));
 }
 

@@ -123,9 +123,9 @@ class Report {
         {"explanation", "probability", "estimated parameters", "held-out score", "chosen by resamples"});
     std::size_t shown = 0;
     for (const gap::ComparedSet& set : json::compared_sets(d_)) {
-      const bool ends = set.effects.empty() || set.effects == std::vector<std::string>{"unknown"};
+      const bool ends = set.effects.empty();  // nothing missing, or something unknown alone
       if (++shown > kMostCandidates && !ends) continue;
-      page_.row({set_words(set.effects), probability_words(set.probability),
+      page_.row({set_words(gap::names_of(set)), probability_words(set.probability),
                  fmt::format("{}", set.complexity),
                  set.held_out_score ? number_words("{:+.2f}", *set.held_out_score) : "",
                  fmt::format("{:.0f} %", 100.0 * set.chosen_share)});

@@ -15,7 +15,7 @@ std::string soil_name(int simulant, std::string_view state) {
   return fmt::format("jlu_mars_{}_{}", simulant, state);
 }
 
-// The rig of rover, soil and options, with the load settled; all faults together.
+// Makes the rig from rover, soil and options, with the load filled in; reports all faults together.
 Result<sim::WheelRig> rig_of(const Catalogue& catalogue, CurrentMapOptions& options,
                              const std::string& soil) {
   std::vector<Fault> faults;
@@ -44,7 +44,7 @@ Result<sim::WheelRig> rig_of(const Catalogue& catalogue, CurrentMapOptions& opti
   return rig;
 }
 
-// Numbers that are given beside the axes hold to the axes' ranges.
+// Numbers beside the axes must be in the same ranges as the axes' values.
 std::vector<Fault> faults_of(const CurrentMapOptions& options) {
   std::vector<Fault> faults;
   const auto check = [&](std::string_view name, double value) {

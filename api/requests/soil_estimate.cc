@@ -64,8 +64,8 @@ bool measures_current(const gap::SoilData& data) {
   });
 }
 
-// Another name for other numbers: "dry_sand-3f9a2c". What the data do not determine is said with it: the soil
-// may be planned with far from the estimate's own words.
+// The estimated soil gets a name of its own for its numbers, "dry_sand-3f9a2c". Its summary states what the
+// data do not determine, since the soil may be used for planning without the rest of the estimate.
 void name_posterior(gap::SoilEstimate& estimate, const std::string& nominal, const std::string& what) {
   std::vector<std::string_view> open;
   for (const gap::EstimatedParameter& p : estimate.parameters)
@@ -122,6 +122,10 @@ std::vector<Fault> faults_of(const Catalogue& catalogue, const SoilEstimateReque
   const auto rover = catalogue.rovers.find(tested.rover);
   if (!tested.rover.empty() && rover == catalogue.rovers.end())
     faults.push_back({"/rover", unknown_name("rover", tested.rover, names_of(catalogue.rovers))});
+  if (tested.rover.empty() && !tested.wheel.empty())
+    faults.push_back({"/wheel", "a wheel is named of a rover, and there is none"});
+  if (tested.rover.empty() && tested.motor_temp_c)
+    faults.push_back({"/motor_temp_c", "a temperature needs the motor of a rover, and there is none"});
   if (rover != catalogue.rovers.end()) wheel_of(*rover->second, tested.wheel, faults);
   check("radius_m", tested.radius_m, 0.01, 2.0, "m", faults);
   check("width_m", tested.width_m, 0.005, 2.0, "m", faults);
@@ -149,7 +153,7 @@ Result<SoilEstimateAnswer> estimate_soil(const Catalogue& catalogue, const SoilE
   std::optional<sim::DriveMotor> drive;
   if (const auto found = catalogue.rovers.find(tested.rover); found != catalogue.rovers.end()) {
     sim::RoverModel rover = *found->second;
-    // The rover's own effects are at work on wheel, motor and soil.
+    // The rover's own effects act on wheel, motor and soil.
     sim::apply_effects(rover.effects, rover);
     sim::apply_effects(rover.effects, nominal.mean);
     std::vector<Fault> none;

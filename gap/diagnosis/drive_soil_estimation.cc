@@ -146,7 +146,9 @@ Result<DriveSoilEstimate> estimate_soils_of_drives(const DriveCampaign& campaign
                                                    std::size_t threads, Progress& progress) {
   if (!any_reading(campaign, looked_at))
     return fail(ErrorCode::kNoData, "the drives have no reading of the channels that are looked at");
-  const auto prepared = prepare(campaign, WindowOptions{}, threads, progress, looked_at);
+  DiagnosisOptions options;
+  options.search.threads = threads;
+  const auto prepared = prepare(campaign, options, progress, looked_at);
   if (!prepared) return fail(prepared.error());
   DriveSoilEstimate estimate;
   for (std::size_t s = 0; s < campaign.soils.size(); ++s)

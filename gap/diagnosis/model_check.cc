@@ -214,7 +214,7 @@ Result<ModelCheck> check_model(const DriveCampaign& campaign, const CorrectedBel
   const auto cancelled = [] { return fail(ErrorCode::kCancelled, "the check was cancelled"); };
   progress.report("predicting with the nominal model", 0.1);
   const std::vector<DriveWindow> windows = cut_windows(campaign, options.windows);
-  const std::unique_ptr<WindowModel> model = window_model_of(campaign, windows);
+  const std::unique_ptr<WindowModel> model = window_model_of(campaign, windows, options.preparation);
   model->watch(progress);
   const Hypothesis nominal_model(campaign, {});
   const std::vector<double> nominal =
@@ -232,7 +232,8 @@ Result<ModelCheck> check_model(const DriveCampaign& campaign, const CorrectedBel
   const Eigen::MatrixXd jacobian = hypothesis.scaled_jacobian(*model, x, options.threads);
   NoiseModel noise(
       *model,
-      scatter_response(hypothesis, jacobian, lever_responses(as_corrected, *model, x, options.threads)),
+      scatter_response(hypothesis, jacobian,
+                       lever_responses(as_corrected, *model, x, options.discrepancy, options.threads)),
       finite_or_zero(corrected), answerable(*model));
   if (progress.cancelled()) return cancelled();
   noise.set(belief.scatter);

@@ -33,6 +33,8 @@ class GridSearch {
  private:
   CostField spread(double x_m, double y_m, bool to_go) const;
   bool passes_corners(std::size_t row, std::size_t column, int step) const;
+  // Of the body driven straight from the cell's centre by the step, or back: it covers the same ground.
+  bool clear_of_keep_outs(std::size_t row, std::size_t column, int step) const;
 
   const TraverseMap& map_;
   std::vector<float> per_metre_;  // per cell and direction

@@ -130,14 +130,12 @@ double MotionCost::per_metre_at(const Eigen::Vector2d& place, const Eigen::Vecto
   if (index < 0) return kInfinity;
   const auto cell = static_cast<std::size_t>(index);
   const Passage passage = map_->cell(cell).passage;
-  if (passage != Passage::kFree) {
-    if (passage != Passage::kNearKeepOut) return kInfinity;
-    if (map_->keep_out().hits({place.x(), place.y(), std::atan2(heading.y(), heading.x())})) return kInfinity;
-  }
+  if (passage != Passage::kFree && passage != Passage::kNearKeepOut) return kInfinity;
   return per_metre_in_cell(cell, heading.x(), heading.y());
 }
 
 double MotionCost::per_metre(const Pose2& pose) const {
+  if (!map_->may_stand(pose)) return kInfinity;
   return per_metre_at({pose.x_m, pose.y_m}, {std::cos(pose.yaw_rad), std::sin(pose.yaw_rad)});
 }
 
@@ -175,8 +173,9 @@ double MotionCost::of(const Motion& motion, double step_m) const {
       heading = turn_half * between;
     }
   }
-  // The body sweeps its corners where it turns: its end must be free too.
-  return map_->may_stand(motion.to) ? cost : kInfinity;
+  // The steps above are as long as a cell, keep-outs may be smaller, and a turn in place sweeps the body's
+  // corners beyond both of its ends: keep-outs are asked about the whole motion.
+  return map_->may_stand(motion.to) && !map_->keep_out().hits_along(motion) ? cost : kInfinity;
 }
 
 }  // namespace slipway::planner

@@ -31,9 +31,10 @@ class MotionCost {
 
   // Per metre driven; infinite where the pose is not allowed.
   double per_metre(const Pose2& pose) const;
-  // The same in a cell, in the direction (c, s); keep-outs near by are judged at the cell's centre.
+  // The same in a cell, in the direction (c, s), without regard to the cell's passage.
   double per_metre_in_cell(std::size_t cell, double c, double s) const;
-  // Midpoint rule over steps of at most `step_m` (0: a search cell).
+  // Midpoint rule over steps of at most `step_m` (0: a search cell). Infinite where the body meets a keep-out
+  // anywhere along the motion, which is exact whatever the step.
   double of(const Motion& motion, double step_m = 0.0) const;
   double of_turn(double turned_rad) const;
   // What a bend of a polyline is taken to cost before it is rounded: a turn, with the pause coming in
@@ -46,6 +47,7 @@ class MotionCost {
 
  private:
   double on_slope(std::uint8_t soil, double uphill, double leftward_rise) const;
+  // Keep-outs near by are not asked.
   double per_metre_at(const Eigen::Vector2d& place, const Eigen::Vector2d& heading) const;
   void tabulate(const PlanProblem& problem, const GroundTable& table, bool unknown, const Weights& weights);
 

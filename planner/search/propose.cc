@@ -176,7 +176,10 @@ class Proposer {
       first.first_turn_rad = 0.0;
     }
     const double cost = fine_cost(asked_cost_, draft.motions);
-    if (!std::isfinite(cost)) return;
+    if (!std::isfinite(cost)) {
+      if (const auto pose = first_hit(map_.keep_out(), draft.motions)) proposal_.in_keep_out.push_back(*pose);
+      return;
+    }
     proposal_.differences.add(centreline(draft.motions, kLineSpacing_m));
     proposal_.candidates.push_back({std::move(draft.motions), draft.planner, profile, cost});
   }

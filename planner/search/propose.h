@@ -24,6 +24,8 @@ struct Proposal {
   std::vector<Candidate> candidates;
   Differences differences;    // of the candidates
   double grid_optimum = 0.0;  // of all legs, under the request's weights; infinite where a leg has no way
+  // Where routes that planners found would have taken the body into a keep-out: these are no candidates.
+  std::vector<Pose2> in_keep_out = {};
   // The cheapest first, the ones to simulate: routes that differ, as many as were asked for if they exist.
   std::vector<std::size_t> by_cost() const;
 };

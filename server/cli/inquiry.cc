@@ -75,10 +75,10 @@ class RemoteInquiry final : public Inquiry {
   RemoteInquiry(std::string host, int port) : host_(std::move(host)), port_(port) {}
 
   Result<std::string> plan(const std::string& request, Progress& progress) override {
-    return job("/v1/plans", request, progress);
+    return job(api::find_kind(api::job_kinds(), api::kPlanKind)->path, request, progress);
   }
   Result<std::string> predict(const std::string& request, Progress& progress) override {
-    return job("/v1/predictions", request, progress);
+    return job(api::find_kind(api::job_kinds(), api::kPredictionKind)->path, request, progress);
   }
   Result<std::string> wheel_sweep(const std::string& request) override {
     return call("POST", "/v1/wheel-sweeps", request, {});

@@ -6,6 +6,8 @@
 #include <exception>
 #include <utility>
 
+#include "server/http/http_cross_origin.h"
+
 namespace slipway::server {
 namespace {
 
@@ -65,7 +67,9 @@ std::string Answers::to_refused(HttpEngine& engine, std::string_view method, con
 HttpResponse Answers::routed(HttpRequest& request) const {
   const auto as_problem = [this](const Error& error, const HttpRequest* r) { return problem(error, r); };
   try {
-    return routes_.answer(request, as_problem);
+    HttpResponse response = routes_.answer(request, as_problem);
+    share_across_origins(options_.cross_origin, request, response);
+    return response;
   } catch (...) {
     // Its text may hold what is nobody's business, so only the operator sees it.
     log(fmt::format("{} {} threw: {}", request.method, request.raw_path, text_of(std::current_exception())));

@@ -25,7 +25,7 @@ DriveCommand command_at(const RoverModel& rover, const PathStation& station,
   return command;
 }
 
-// A wheel of the level rover at this pose that has no ground under it.
+// A wheel that has no ground under it when the rover is level at this pose.
 std::optional<std::string> wheel_without_ground(const RoverModel& rover, const Ground& ground,
                                                 const Pose2& pose) {
   const double c = std::cos(pose.yaw_rad), s = std::sin(pose.yaw_rad);
@@ -70,7 +70,7 @@ class Predictor {
     for (const WheelModel& wheel : rover.wheels) prediction_.wheel_names.push_back(wheel.name);
   }
 
-  // False where the drive ends here: the rover is immobilised.
+  // Returns false where the rover is immobilised, so that the drive ends here.
   bool add(const PathStation& station) {
     const std::optional<Stance> stance = settle(rover_, ground_, station.pose);
     if (!stance) return no_stance(station);
@@ -99,7 +99,7 @@ class Predictor {
   }
 
  private:
-  // Every wheel has ground under it (predict_drive looked), but not in any way the suspension can follow.
+  // Every wheel has ground under it (predict_drive checked this), but the suspension cannot follow its shape.
   bool no_stance(const PathStation& station) {
     prediction_.immobilised = {
         station.distance_m, station.pose,
@@ -179,8 +179,7 @@ Result<DrivePrediction> predict_drive(const RoverModel& rover, double gravity_m_
                                       const DriveLimits& limits, const RiskOptions& risk, std::size_t threads,
                                       Progress& progress, const DriveConditions& conditions) {
   if (path.empty()) throw std::invalid_argument("predict_drive: a path needs a station");
-  // The whole path is looked at first: a missing piece of ground behind a place of immobilisation is a fault
-  // all the same.
+  // The whole path is checked first, since missing ground is a fault even behind a place of immobilisation.
   std::vector<Fault> faults;
   for (std::size_t k = 0; k < path.size() && faults.size() < kMostFaults; ++k) {
     if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the prediction was dismissed");

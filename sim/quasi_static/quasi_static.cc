@@ -40,8 +40,9 @@ WheelState wheel_state(const RoverBalance& balance, const Vector& x, int k) {
   return state;
 }
 
-// Depths below the undisturbed surface, and those of the ruts that the rover leaves: of each side's last
-// wheel on the ground in the direction of travel; turning in place, of its deepest.
+// Sets the sinkages below the undisturbed surface and the depths of the ruts that the rover leaves. A side's
+// rut is that of its last wheel on the ground in the direction of travel; when turning in place, of its
+// deepest.
 void set_depths(const RoverModel& rover, const RoverBalance& balance, const Vector& x,
                 const DriveCommand& command, StationState& state) {
   const PerWheel<double> depth = balance.total_sinkages_m(x);
@@ -62,7 +63,8 @@ void set_depths(const RoverModel& rover, const RoverBalance& balance, const Vect
   }
 }
 
-// Currents and power of the driven wheels; the first that asks too much of its motor stalls the rover.
+// Sets the currents and the power of the driven wheels. The first wheel that exceeds its motor's limits
+// stalls the rover.
 void set_motors(const RoverModel& rover, const RoverBalance& balance, const DriveCommand& command,
                 StationState& state) {
   const DriveMotor drive =
@@ -167,7 +169,7 @@ StationState QuasiStaticSolver::solve(const Stance& stance, const PerWheel<Soil>
     warm_ = true;
     last_ = start->unknowns;
   }
-  // A start from another kind of motion is worse than a cold one.
+  // The answer of another kind of motion is a worse start than a cold one.
   if (warm_ && last_[primary.motion] * primary.sign <= 0.0) warm_ = false;
   const Attempt attempt = find_balance(balance, primary, warm_, last_,
                                        start != nullptr ? &start->inverse_jacobian : nullptr, thoroughness);

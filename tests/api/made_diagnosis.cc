@@ -33,7 +33,7 @@ gap::Diagnosis full_diagnosis(const gap::DriveCampaign& campaign) {
   d.candidates = {{{"motor_temperature"}, 0.5, 1.5, 2},
                   {{"grousers"}, 0.2, kNan, 1},
                   {{"motor_temperature"}, 0.1, std::nullopt, 2},
-                  {{"unknown", "grousers"}, 0.1, std::nullopt, 1}};
+                  {{"grousers"}, 0.1, std::nullopt, 1, 0.0, true}};
   d.confusable = {{"bulldozing", "grousers", 12.0}};
   d.channels = {{gap::Channel::kYawRate, std::nullopt, 0.01, 0.005, -0.001, 0.01},
                 {gap::Channel::kCurrent, "lf", 0.04, kNan, 0.03, 0.002}};

@@ -45,6 +45,12 @@ TEST(WheelTestsCsv, EveryFaultIsNamedWithItsPlace) {
   EXPECT_EQ(places, expected);
   EXPECT_NE(tests.error().faults[0].message.find("torque_nm"), std::string::npos);
   EXPECT_EQ(tests.error().faults[1].message, "load_n = -5, must be in (0, 1e+06]");
+  std::string wrong = "load_n,slip_ratio,sinkage_m\n";
+  for (int row = 0; row < 5000; ++row) wrong += "x,y,z\n";
+  const auto many = read_wheel_tests_csv("b.csv", wrong);
+  ASSERT_FALSE(many);
+  ASSERT_EQ(many.error().faults.size(), 101U) << "a hundred, and how many more";
+  EXPECT_EQ(many.error().faults.back().message, "14900 faults more like these");
   EXPECT_FALSE(read_wheel_tests_csv("b.csv", ""));
   EXPECT_FALSE(read_wheel_tests_csv("b.csv", "load_n,slip_ratio\n60,0.1\n"));
 }

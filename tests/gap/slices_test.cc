@@ -45,7 +45,7 @@ std::vector<std::size_t> made_drives() {
 
 std::vector<Regime> located(const std::vector<double>& squares, LookedAt looked_at) {
   const std::vector<ChannelSquares> channels{{Channel::kCurrent, squares}};
-  return regimes_in(slices_of(made_windows()), channels, made_drives(), looked_at, DiagnosisOptions{}, 5,
+  return regimes_in(slices_of(made_windows()), channels, made_drives(), looked_at, DiagnosisOptions{},
                     [] { return false; });
 }
 

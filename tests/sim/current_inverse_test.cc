@@ -29,7 +29,7 @@ TEST(SlipsOfCurrent, GiveBackTheSlipThatMadeTheCurrent) {
       for (const double slip : {-0.2, 0.0, 0.137, 0.4, 0.85}) {
         const SlipsOfCurrent found = slips_of_current(test, current_at(test, slip));
         ASSERT_EQ(found.slips.size(), 1U) << slip;
-        EXPECT_NEAR(*found.commanded, slip, 1e-9);
+        EXPECT_NEAR(*found.reported, slip, 1e-9);
       }
     }
   }
@@ -39,14 +39,14 @@ TEST(SlipsOfCurrent, TheMotorsOwnCurrentIsMinded) {
   WheelRigConditions test = zhurong_on(jlu_mars()[1][2]);
   test.drive->no_load_current_a = 0.06;
   test.drive->gear_friction_nm = 0.4;
-  EXPECT_NEAR(*slips_of_current(test, current_at(test, 0.25)).commanded, 0.25, 1e-9);
+  EXPECT_NEAR(*slips_of_current(test, current_at(test, 0.25)).reported, 0.25, 1e-9);
 }
 
 TEST(SlipsOfCurrent, TellsWhatTheSoilGivesWhereNoneFits) {
   const WheelRigConditions test = zhurong_on(jlu_mars()[1][2]);
   const SlipsOfCurrent found = slips_of_current(test, 9.0);
   EXPECT_TRUE(found.slips.empty());
-  EXPECT_FALSE(found.commanded);
+  EXPECT_FALSE(found.reported);
   EXPECT_NEAR(found.greatest_current_a, current_at(test, kHighestSearchedSlip), 1e-12);
   EXPECT_NEAR(found.least_current_a, current_at(test, kLowestSearchedSlip), 1e-12);
 }
@@ -59,7 +59,7 @@ TEST(SlipsOfCurrent, OfSeveralSlipsTheOneOnTheRisingBranchIsTold) {
   const SlipsOfCurrent found = slips_of_current(test, current);
   ASSERT_EQ(found.slips.size(), 2U);
   EXPECT_NEAR(found.slips[0], 0.25, 1e-9);
-  EXPECT_NEAR(*found.commanded, 0.25, 1e-9);
+  EXPECT_NEAR(*found.reported, 0.25, 1e-9);
   EXPECT_GT(found.slips[1], 0.6);
   EXPECT_NEAR(current_at(test, found.slips[1]), current, 1e-6);
   const CurrentInverse inverse = invert_current(test, certain("loose", test.soil), current, {.draws = 5});

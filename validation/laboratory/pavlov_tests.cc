@@ -21,7 +21,7 @@ std::string with_scatter(const WheelCondition& c, double WheelTest::*quantity, d
   return fmt::format("{:.1f} +- {:.1f}", scale * c.mean(quantity), scale * c.scatter(quantity));
 }
 
-// One quantity over slip, a line per slip angle.
+// A chart of one quantity over slip, with a line for each slip angle.
 api::Chart chart_over_slip(const char* title, const std::vector<WheelCondition>& conditions,
                            double WheelTest::*quantity, double scale) {
   api::Chart chart;
@@ -43,7 +43,7 @@ api::Chart chart_over_slip(const char* title, const std::vector<WheelCondition>&
   return chart;
 }
 
-// Root mean square over conditions of the scatter of repeats.
+// The root mean square over conditions of the scatter of repeats.
 double pooled_scatter(const std::vector<WheelCondition>& conditions, double WheelTest::*quantity) {
   double sum = 0.0;
   for (const WheelCondition& c : conditions) sum += std::pow(c.scatter(quantity), 2);
@@ -91,20 +91,21 @@ Result<Report> pavlov_tests(const std::filesystem::path& data) {
   for (const double speed : off)
     speeds += fmt::format("{}{:g} mm/s", speeds.empty() ? "" : ", ", 1e3 * speed);
   report.notes = {
-      fmt::format(
-          "Scatter of repeats, the floor under any prediction: pull {:.2f} N, side force {:.2f} N, load "
-          "{:.2f} N, sinkage {:.1f} mm (root mean square over conditions).",
-          pooled_scatter(*conditions, &WheelTest::drawbar_pull_n),
-          pooled_scatter(*conditions, &WheelTest::side_force_n),
-          pooled_scatter(*conditions, &WheelTest::load_n),
-          1e3 * pooled_scatter(*conditions, &WheelTest::sinkage_m)),
-      fmt::format("The split for fitting and predicting is a chessboard over slip angle and rim speed: {} "
-                  "conditions to fit, {} to predict, repeats together.",
+      fmt::format("The scatter of repeats is a lower bound for the error of any prediction: pull {:.2f} N, "
+                  "side force {:.2f} N, load {:.2f} N, sinkage {:.1f} mm (root mean square over "
+                  "conditions).",
+                  pooled_scatter(*conditions, &WheelTest::drawbar_pull_n),
+                  pooled_scatter(*conditions, &WheelTest::side_force_n),
+                  pooled_scatter(*conditions, &WheelTest::load_n),
+                  1e3 * pooled_scatter(*conditions, &WheelTest::sinkage_m)),
+      fmt::format("Conditions are split for fitting and predicting like a chessboard over slip angle and "
+                  "rim speed: {} are for fitting and {} for predicting, with all repeats of a condition "
+                  "together.",
                   fit, conditions->size() - fit),
       off.empty()
           ? "Every rim ran at its commanded speed to within 0.5 mm/s."
-          : fmt::format("Commanded and measured rim speed part by up to {:.1f} mm/s, at {}; slips here are "
-                        "the measured ones.",
+          : fmt::format("Commanded and measured rim speed differ by up to {:.1f} mm/s, at {}; slips here are "
+                        "computed from the measured ones.",
                         1e3 * command_off, speeds)};
   report.bands = {
       {"tests", static_cast<double>(tests), 189, 189},

@@ -19,11 +19,12 @@ namespace {
 
 struct Reading {
   double pull_n = 0.0, side_n = 0.0, sinkage_m = 0.0;
-  bool sunk = false;  // to the axle: forces are those at the deepest entry angle that the law knows
+  bool sunk = false;  // to the axle; the forces are then those at the law's maximum entry angle
 };
 
-// The wheel moves at the rig's speed along the travel direction, its rim at its own; side force as the rig
-// counts it, against the side motion. A locked rim is taken to turn at a thousandth of the travel.
+// The readings of a wheel that moves at the rig's speed along the travel direction while its rim turns at its
+// own speed. The side force is positive against the side motion, as on the rig. A locked rim is modelled as
+// turning at a thousandth of the travel speed.
 Reading read_rig(const sim::Soil& sand, const WheelCondition& c) {
   const double rim = std::max(c.mean(&WheelTest::rim_speed_m_s), 1e-3 * kPavlovTravel_m_s);
   const sim::WheelMotion motion{kPavlovTravel_m_s * std::cos(c.slip_angle_rad) / rim,
@@ -34,8 +35,8 @@ Reading read_rig(const sim::Soil& sand, const WheelCondition& c) {
   return {f.drawbar_pull_n, -f.lateral_n, sim::sinkage_m(kPavlovWheel.radius_m, theta), !balanced};
 }
 
-// Fitted on the wheel tests: nine numbers. The moduli are the plate tests'; c 1.0 kPa, phi 29 deg and the
-// density upstream's; the shear resultant keeps within the strength (coupling 1).
+// The nine numbers that are fitted on the wheel tests. The moduli come from the plate tests; c = 1.0 kPa, phi
+// = 29 deg and the density are upstream's; the shear resultant stays within the strength (coupling 1).
 std::vector<gap::Unknown> unknowns() {
   return {{.name = "K_x", .start = 0.02, .lowest = 0.001, .highest = 0.06, .step_scale = 0.005, .prior = {}},
           {.name = "K_y", .start = 0.02, .lowest = 0.001, .highest = 0.06, .step_scale = 0.005, .prior = {}},
@@ -73,12 +74,12 @@ sim::Soil sand_of(const sim::BekkerModuli& moduli, std::span<const double> x) {
   return sand;
 }
 
-// A wheel that lies below its own axle is beyond the law.
+// The law does not apply to a wheel that has sunk below its own axle.
 bool within_the_law(const WheelCondition& c) {
   return c.mean(&WheelTest::sinkage_m) < kPavlovWheel.radius_m;
 }
 
-// Residuals in units of 15 % of the load and 8 mm.
+// The residuals in units of 15 % of the load and of 8 mm.
 Result<gap::LeastSquaresFit> fit(const std::vector<WheelCondition>& conditions,
                                  const sim::BekkerModuli& moduli) {
   std::vector<const WheelCondition*> used;
@@ -199,30 +200,29 @@ Result<Report> pavlov_wheel(const std::filesystem::path& data) {
                     "slip",
                     "half",
                     "load N",
-                    "pull N, measured / ours",
+                    "pull N, measured / predicted",
                     "error / load",
-                    "side force N, measured / ours",
+                    "side force N, measured / predicted",
                     "error / load",
-                    "sinkage mm, measured / ours"};
+                    "sinkage mm, measured / predicted"};
   Errors seen, held_out, beyond;
   for (const WheelCondition& c : *conditions) {
     const Reading ours = read_rig(sand, c);
     add_row(c, ours, report);
     (!within_the_law(c) ? beyond : c.half == Half::kFit ? seen : held_out).add(ours, c);
   }
-  report.notes = {"Predicted half, where the wheel stayed above its axle's depth: " + held_out.words() + ".",
+  report.notes = {"Predicted half, while the wheel stayed above its axle's depth: " + held_out.words() + ".",
                   "Fitted half: " + seen.words() + ".",
-                  "Moved sideways (90 deg) the wheel dug itself in below its own axle (61 to 77 mm, r 58 "
-                  "mm), where a law of a rim's "
-                  "arc has nothing to say; those conditions are left out of the fit: " +
+                  "Moved sideways (90 deg) the wheel dug itself in below its own axle (61 to 77 "
+                  "mm, r 58 mm), where a law of a rim's contact arc does not apply; those "
+                  "conditions are left out of the fit: " +
                       beyond.words() + ".",
                   fmt::format("Plate tests: k {:.0f} kPa/m^n, n {:.3f}. Fitted on the wheel tests: {}.",
                               1e-3 * moduli->moduli.k_phi, moduli->moduli.n, words_of(unknowns(), *fitted)),
-                  "The resistance of the front hardly falls with the slip angle, and the sinkage exponent "
-                  "rises with skid and with "
-                  "sideways motion besides slip: both shapes were found on these tests (both halves were "
-                  "seen while the form was "
-                  "chosen; the numbers are the fitted half's)."};
+                  "The resistance in front hardly falls with the slip angle, and the sinkage "
+                  "exponent rises with skid and with sideways motion in addition to slip. Both "
+                  "forms were found on these tests: both halves were seen while the form was "
+                  "chosen, and the numbers are fitted on one half."};
   report.bands = {
       {"held-out pull, rms over the load, %", 100.0 * Errors::rms(held_out.pull), 0.0, 15.0},
       {"held-out side force, rms over the load, %", 100.0 * Errors::rms(held_out.side), 0.0, 15.0}};

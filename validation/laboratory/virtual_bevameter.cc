@@ -167,21 +167,21 @@ Result<Report> virtual_bevameter(const std::filesystem::path& data) {
                          with_error("{:.2f}", phi_deg, kPublishedFriction_deg),
                          fmt::format("{:.2f}", 1e-3 * strength->rms_pa)});
   report.notes = {
-      fmt::format(
-          "k_c misses the published figure by {:.1f} %, where 1 % was aimed at; all three moduli round "
-          "to the two digits that are printed. One standard error of the fit is {:.0f} for k_c, {:.0f} "
-          "for k_phi and {:.3f} for n: a per cent is far inside what these sixteen forces can tell.",
-          100.0 * std::abs(used->moduli.k_c / kPublished.k_c - 1.0), std::sqrt(used->covariance(0, 0)),
-          std::sqrt(used->covariance(1, 1)), std::sqrt(used->covariance(2, 2))),
-      "What is made small decides the answer: least squares of the force, which is what a bevameter "
-      "measures, "
-      "gives the published one; of pressure, and of logarithms the more so, other ones, because the first "
-      "2.5 cm are stiffer than the power law and logarithms count them like the rest.",
-      "Loads in kg are taken at standard gravity. b is the plate's radius. k_c is negative: the wide plate "
-      "meets more pressure, the reverse of "
-      "cohesion.",
-      fmt::format("The peaks bend: tau over sigma falls from {:.2f} to {:.2f}, so a straight line gives a "
-                  "cohesion that the lowest load does not show.",
+      fmt::format("k_c differs from the published figure by {:.1f} %, where 1 % was the aim; all three "
+                  "moduli round to the two printed digits. One standard error of the fit is {:.0f} for "
+                  "k_c, {:.0f} for k_phi and {:.3f} for n, so that these sixteen forces cannot determine "
+                  "them to a per cent.",
+                  100.0 * std::abs(used->moduli.k_c / kPublished.k_c - 1.0),
+                  std::sqrt(used->covariance(0, 0)), std::sqrt(used->covariance(1, 1)),
+                  std::sqrt(used->covariance(2, 2))),
+      "The answer depends on the quantity that is minimised. Least squares of the force, which a "
+      "bevameter measures, gives the published answer. Least squares of the pressure gives "
+      "another, and of logarithms one even farther away, because the first 2.5 cm are stiffer than "
+      "the power law and logarithms give them the same weight as the rest.",
+      "Loads in kg are taken at standard gravity. b is the plate's radius. k_c is negative, "
+      "because the wider plate meets more pressure.",
+      fmt::format("The peak strength is not a straight line: tau over sigma falls from {:.2f} to {:.2f}, "
+                  "so that a straight line gives a cohesion that the lowest load does not show.",
                   annulus.shear_stress_pa(annulus.peak_torque_nm.front()) /
                       annulus.mean_stress_pa(annulus.load_n.front()),
                   annulus.shear_stress_pa(annulus.peak_torque_nm.back()) /

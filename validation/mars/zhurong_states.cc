@@ -33,7 +33,7 @@ std::vector<api::Chart> empty_charts() {
   api::Chart torque, current;
   torque.title = "torque times k_I, by eq. A16 to A19";
   torque.x.title = "another reproduction of the paper";
-  torque.y.title = "ours";
+  torque.y.title = "predicted";
   torque.diagonal = true;
   torque.series = {{"", ChartMark::kPoints, {}, {}, 0}};
   current.title = "motor current at zero slip";
@@ -60,9 +60,9 @@ Result<Report> zhurong_states(const std::filesystem::path& data) {
   report.peers = "the paper prints 0.114 A for JLU Mars 2 dense and measured 0.110 A";
   report.columns = {"state",
                     "sinkage A18 mm, reproduced",
-                    "ours",
+                    "predicted",
                     "T k_I, reproduced",
-                    "ours",
+                    "predicted",
                     "current A (literal, gear 79.3)",
                     "balanced: sinkage mm",
                     "balanced: current A"};

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <cstddef>
+#include <optional>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "gap/diagnosis/search/explanation.h"
@@ -15,11 +19,42 @@ struct PatchSearch {
 };
 
 PatchSearch search_soft_patches(const DriveCampaign& campaign, const WindowModel& model,
-                                const NoiseModel& noise, const FittedExplanation& fit, std::size_t most);
+                                const NoiseModel& noise, const FittedExplanation& fit,
+                                const SoftPatchOptions& options);
 
 // The patch of a fitted explanation moved and resized while that raises its evidence.
 FittedExplanation refine_soft_patch(const DriveCampaign& campaign, const WindowModel& model,
-                                    const NoiseModel& noise, FittedExplanation fit,
-                                    const ExplanationOptions& options);
+                                    const NoiseModel& noise, FittedExplanation fit, const FitOptions& options,
+                                    const SoftPatchOptions& patch_options, std::size_t threads);
+
+inline constexpr std::string_view kSoftPatch = "soft_patch";  // the effect's name in the catalogue
+
+// The disc of a variant or a setting of soft_patch.
+struct Disc {
+  double x_m = 0.0, y_m = 0.0, radius_m = 0.0;
+};
+bool is_soft_patch(const EffectVariant& variant);
+Disc disc_of(const EffectVariant& soft_patch);
+
+// What is left of a linear fit of prior deviation 1, and what one more column would bring beside it.
+class ColumnBeside {
+ public:
+  ColumnBeside(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& known);
+  // The gain of log evidence, by Schur's complement: log_marginal with the column less without it. Nothing
+  // where the column's estimate is not positive, since soil can only be weaker.
+  std::optional<double> gain(const Eigen::VectorXd& column) const;
+
+ private:
+  const Eigen::MatrixXd& known_;
+  Eigen::LLT<Eigen::MatrixXd> factor_;
+  Eigen::VectorXd left_;
+};
+
+// The best discs, none overlapping a better one by more than half of their radii's sum; `most` at most.
+struct ScoredDisc {
+  Disc disc;
+  double gain = 0.0;
+};
+std::vector<Disc> best_apart(std::vector<ScoredDisc> discs, std::size_t most);
 
 }  // namespace slipway::gap
