@@ -68,7 +68,8 @@ Result<std::unique_ptr<Service>> Service::open(ServiceOptions options) {
 }
 
 std::shared_ptr<const Catalogue> Service::catalogue_for(const std::optional<RequestedModel>& model,
-                                                       std::string& rover, std::vector<Fault>& faults) const {
+                                                        std::string& rover,
+                                                        std::vector<Fault>& faults) const {
   if (!model) return catalogue_;
   auto with = with_model(*catalogue_, *model->corrected, model->ground);
   if (!with) {
@@ -86,7 +87,8 @@ Result<PlanRequest> Service::read_plan(std::string_view json) const {
   auto reading = json::read_plan_request(json);
   if (!reading) return fail(reading.error());
   PlanRequest& request = reading->request;
-  const std::shared_ptr<const Catalogue> catalogue = catalogue_for(request.drive.model, request.rover, reading->faults);
+  const std::shared_ptr<const Catalogue> catalogue =
+      catalogue_for(request.drive.model, request.rover, reading->faults);
   RequestCheck check(*catalogue, std::move(reading->faults));
   check.names(request.terrain, request.rover);
   check.ground(request.drive.model, options_.ground);
@@ -105,7 +107,8 @@ Result<PredictionRequest> Service::read_prediction(std::string_view json) const 
   auto reading = json::read_prediction_request(json);
   if (!reading) return fail(reading.error());
   PredictionRequest& request = reading->request;
-  const std::shared_ptr<const Catalogue> catalogue = catalogue_for(request.drive.model, request.rover, reading->faults);
+  const std::shared_ptr<const Catalogue> catalogue =
+      catalogue_for(request.drive.model, request.rover, reading->faults);
   RequestCheck check(*catalogue, std::move(reading->faults));
   check.names(request.terrain, request.rover);
   check.ground(request.drive.model, options_.ground);

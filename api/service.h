@@ -20,7 +20,8 @@ struct ServiceOptions {
   std::size_t threads = 0;               // of one plan or prediction; 0: as many as the machine has
   std::filesystem::path model = {};      // folder of a corrected model to plan with; empty: none
   std::vector<std::string> ground = {};  // soils of terrains that are that model's, see with_model()
-  const sim::SoilFormat* soil_format = &sim::soil_format();  // what its soil files may hold; outlives the service
+  const sim::SoilFormat* soil_format =
+      &sim::soil_format();  // what its soil files may hold; outlives the service
 };
 
 // What the server and the command line both ask: immutable once opened, thread-safe.
@@ -61,10 +62,10 @@ class Service {
   };
   Result<Setting> set_up(const std::string& terrain, const std::string& rover,
                          const std::vector<planner::Waypoint>& places, const DriveAssumptions& drive) const;
-  // The service's own, or a copy with the request's model in it where it has one; its rover takes the place of the one
-  // it was made of. What can't be taken is added to the faults.
-  std::shared_ptr<const Catalogue> catalogue_for(const std::optional<RequestedModel>& model, std::string& rover,
-                          std::vector<Fault>& faults) const;
+  // The service's own, or a copy with the request's model in it where it has one; its rover takes the place
+  // of the one it was made of. What can't be taken is added to the faults.
+  std::shared_ptr<const Catalogue> catalogue_for(const std::optional<RequestedModel>& model,
+                                                 std::string& rover, std::vector<Fault>& faults) const;
 
   // Errors: invalid_request at /campaign, and those of load_drive_campaign.
   Result<gap::DriveCampaign> shipped_drives(const std::string& name) const;

@@ -82,7 +82,8 @@ void check_effects(const DriveTable& table, std::vector<Fault>& faults) {
   }
 }
 
-// A recorded campaign describes its soils by Bekker's law and Janosi and Hanamoto's, and its drives are simulated.
+// A recorded campaign describes its soils by Bekker's law and Janosi and Hanamoto's, and its drives are
+// simulated.
 void check_soils(const DriveTable& table, std::vector<Fault>& faults) {
   for (std::size_t t = 0; t < table.terrains.size(); ++t)
     for (const std::string& name : soils_of(table.terrains[t])) {
@@ -90,9 +91,10 @@ void check_soils(const DriveTable& table, std::vector<Fault>& faults) {
       if (soil == table.soils.end()) continue;
       const sim::Soil& mean = soil->second.mean;
       if (mean.has_bekker_law() && mean.shear_law.row == nullptr) continue;
-      faults.push_back({fmt::format("/terrains/{}/soil", t),
-                        fmt::format("soil {} has {}, a drive table's soils have Bekker's law and Janosi and Hanamoto's",
-                                    name, mean.slip_curve ? "a slip curve" : "laws of its own choice")});
+      faults.push_back(
+          {fmt::format("/terrains/{}/soil", t),
+           fmt::format("soil {} has {}, a drive table's soils have Bekker's law and Janosi and Hanamoto's",
+                       name, mean.slip_curve ? "a slip curve" : "laws of its own choice")});
     }
 }
 

@@ -9,9 +9,9 @@ namespace slipway {
 
 // What a number is kept in, where the boundary has the unit of its key.
 enum class KeptAs {
-  kSame,        // SI on both sides
-  kRadians,     // degrees at the boundary, or degrees per second
-  kPerRadian,   // per degree at the boundary
+  kSame,       // SI on both sides
+  kRadians,    // degrees at the boundary, or degrees per second
+  kPerRadian,  // per degree at the boundary
 };
 
 enum class FieldPresence {
@@ -25,8 +25,8 @@ enum class FieldWriting {
   kUnlessInitial,  // left out where the file said nothing, or the same
 };
 
-// One number of a model's file: key, unit, range and member. Readers, writers, the check of a model, sweeps and
-// estimation all take these from the one row. A row has one of the two members.
+// One number of a model's file: key, unit, range and member. Readers, writers, the check of a model, sweeps
+// and estimation all take these from the one row. A row has one of the two members.
 template <class Owner>
 struct ModelField {
   Field field;  // unit and range at the boundary

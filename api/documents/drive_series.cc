@@ -108,7 +108,8 @@ void write_drive_figures(Writer& w, const sim::DrivePrediction& p) {
   w.significant("mean_slip", p.mean_slip_ratio);
   write_peak(w, "max_slip", p.max_slip_ratio);
   write_peak(w, "max_tilt_deg", p.max_tilt_rad, deg_from_rad(1.0));
-  for (const auto& [name, peak] : {std::pair{"max_current_a", &p.max_current_a}, {"max_sinkage_m", &p.max_sinkage_m}}) {
+  for (const auto& [name, peak] :
+       {std::pair{"max_current_a", &p.max_current_a}, {"max_sinkage_m", &p.max_sinkage_m}}) {
     if (known)
       write_peak(w, name, *peak);
     else

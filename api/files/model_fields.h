@@ -12,7 +12,8 @@
 
 namespace slipway::api::json {
 
-// Reads one number of a model by its row. `less_known`: whether what a file of its own must give has to be there.
+// Reads one number of a model by its row. `less_known`: whether what a file of its own must give has to be
+// there.
 template <class Owner>
 bool read_field(ObjectReader& reader, const ModelField<Owner>& row, Presence less_known, Owner& object) {
   const NumberRule rule{row.field.unit, row.field.lowest, row.field.highest};
@@ -29,17 +30,21 @@ bool read_field(ObjectReader& reader, const ModelField<Owner>& row, Presence les
 }
 
 template <class Owner>
-void read_fields(ObjectReader& reader, std::span<const ModelField<Owner>> rows, Presence less_known, Owner& object) {
+void read_fields(ObjectReader& reader, std::span<const ModelField<Owner>> rows, Presence less_known,
+                 Owner& object) {
   for (const ModelField<Owner>& row : rows) read_field(reader, row, less_known, object);
 }
 
-// Writes one number so that it is read back as the same: exactly, or in degrees with the digits that were read.
+// Writes one number so that it is read back as the same: exactly, or in degrees with the digits that were
+// read.
 template <class Owner>
 void write_field(Writer& w, const ModelField<Owner>& row, const Owner& object) {
   Owner copy = object, initial{};
-  const std::optional<double> value = row.maybe != nullptr ? row.maybe(copy) : std::optional(row.number(copy));
+  const std::optional<double> value =
+      row.maybe != nullptr ? row.maybe(copy) : std::optional(row.number(copy));
   if (!value) return;
-  if (row.writing == FieldWriting::kUnlessInitial && row.number != nullptr && *value == row.number(initial)) return;
+  if (row.writing == FieldWriting::kUnlessInitial && row.number != nullptr && *value == row.number(initial))
+    return;
   if (row.kept_as == KeptAs::kRadians) {
     w.angle_deg(row.field.name, *value);
   } else if (row.kept_as == KeptAs::kPerRadian) {

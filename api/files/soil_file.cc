@@ -20,8 +20,9 @@ constexpr std::array<std::string_view, sim::kSoilDims> kQuantities{"stiffness", 
 
 // The keys of a soil's spread, in the order of sim::SoilNormals; slip_ratio is that of a slip curve.
 constexpr std::array kSpread{
-    ModelField<sim::SoilStd>{.field = {"stiffness_ratio", "1", "of both moduli of sinkage, over their mean", 0.0, 2.0},
-                             .number = [](sim::SoilStd& s) -> double& { return s.stiffness_ratio; }},
+    ModelField<sim::SoilStd>{
+        .field = {"stiffness_ratio", "1", "of both moduli of sinkage, over their mean", 0.0, 2.0},
+        .number = [](sim::SoilStd& s) -> double& { return s.stiffness_ratio; }},
     ModelField<sim::SoilStd>{.field = {"n", "1", "of the exponent of sinkage", 0.0, 1.0},
                              .number = [](sim::SoilStd& s) -> double& { return s.n; }},
     ModelField<sim::SoilStd>{.field = {"cohesion_pa", "Pa", "of the cohesion", 0.0, 1e6},
@@ -29,8 +30,9 @@ constexpr std::array kSpread{
     ModelField<sim::SoilStd>{.field = {"friction_angle_deg", "deg", "of the friction angle", 0.0, 30.0},
                              .number = [](sim::SoilStd& s) -> double& { return s.friction_angle_rad; },
                              .kept_as = KeptAs::kRadians},
-    ModelField<sim::SoilStd>{.field = {"shear_modulus_ratio", "1", "of both shear moduli, over their mean", 0.0, 2.0},
-                             .number = [](sim::SoilStd& s) -> double& { return s.shear_modulus_ratio; }},
+    ModelField<sim::SoilStd>{
+        .field = {"shear_modulus_ratio", "1", "of both shear moduli, over their mean", 0.0, 2.0},
+        .number = [](sim::SoilStd& s) -> double& { return s.shear_modulus_ratio; }},
 };
 constexpr std::array kSlipSpread{
     ModelField<sim::SoilStd>{.field = {"slip_ratio", "1", "of the slip at every slope", 0.0, 1.0},
@@ -93,8 +95,8 @@ void check_soil(ObjectReader& reader, const sim::SoilDistribution& soil) {
   }
 }
 
-// The row that "pressure_law" or "shear_law" names, with the numbers of its fields; no row where none or the first is
-// named, by which a soil is computed anyway.
+// The row that "pressure_law" or "shear_law" names, with the numbers of its fields; no row where none or the
+// first is named, by which a soil is computed anyway.
 template <class Law>
 const Law* read_law(ObjectReader& reader, std::string_view key, std::span<const Law* const> laws,
                     sim::LawParameters& parameters) {
@@ -113,10 +115,11 @@ const Law* read_law(ObjectReader& reader, std::string_view key, std::span<const 
   return chosen == 0 ? nullptr : &law;
 }
 
-void read_soil_parameters(ObjectReader& reader, const sim::SoilFormat& format, Presence less_known, bool with_laws,
-                          sim::Soil& soil) {
+void read_soil_parameters(ObjectReader& reader, const sim::SoilFormat& format, Presence less_known,
+                          bool with_laws, sim::Soil& soil) {
   if (with_laws) {
-    soil.pressure_law.row = read_law(reader, "pressure_law", format.laws.pressure, soil.pressure_law.parameters);
+    soil.pressure_law.row =
+        read_law(reader, "pressure_law", format.laws.pressure, soil.pressure_law.parameters);
     soil.shear_law.row = read_law(reader, "shear_law", format.laws.shear, soil.shear_law.parameters);
   }
   for (const sim::SoilField& row : format.fields) {
@@ -205,7 +208,9 @@ void write_correlation(Writer& w, const sim::SoilCorrelation& correlation) {
     for (int j = i + 1; j < sim::kSoilDims; ++j) {
       if (correlation(i, j) == 0.0) continue;
       w.begin_object().text("first", kQuantities[static_cast<std::size_t>(i)]);
-      w.text("second", kQuantities[static_cast<std::size_t>(j)]).exact("value", correlation(i, j)).end_object();
+      w.text("second", kQuantities[static_cast<std::size_t>(j)])
+          .exact("value", correlation(i, j))
+          .end_object();
     }
   }
   w.end_array();
@@ -216,8 +221,10 @@ void write_correlation(Writer& w, const sim::SoilCorrelation& correlation) {
 void read_campaign_soil(ObjectReader& reader, Presence less_known, sim::Soil& soil) {
   for (const std::string_view key : {"pressure_law", "shear_law", "slip_curve"})
     if (reader.member(key, kOptional) != nullptr)
-      reader.fault(key, std::string(key) + " stands in a soil file only: drives are diagnosed on soils with Bekker's law and "
-                                           "Janosi and Hanamoto's");
+      reader.fault(key,
+                   std::string(key) +
+                       " stands in a soil file only: drives are diagnosed on soils with Bekker's law and "
+                       "Janosi and Hanamoto's");
   read_soil_parameters(reader, sim::soil_format(), less_known, false, soil);
 }
 

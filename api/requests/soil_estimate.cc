@@ -26,8 +26,8 @@ std::string shortened(const std::string& text, std::size_t most) {
   return text.substr(0, end);
 }
 
-// What a soil file takes for a name: small letters, digits, - and _. Anything else, a whole character of UTF-8 at a
-// time, becomes one _.
+// What a soil file takes for a name: small letters, digits, - and _. Anything else, a whole character of
+// UTF-8 at a time, becomes one _.
 std::string file_name_of(const std::string& name) {
   std::string out;
   for (const char c : name) {
@@ -115,9 +115,10 @@ std::vector<Fault> faults_of(const Catalogue& catalogue, const SoilEstimateReque
     faults.push_back({"/soil", unknown_name("soil", request.soil, names_of(catalogue.soils))});
   else if (const sim::Soil& start = catalogue.soils.find(request.soil)->second.mean;
            !start.has_bekker_law() || start.shear_law.row != nullptr)
-    faults.push_back({"/soil", fmt::format("{} has other laws than Bekker's and Janosi and Hanamoto's, whose parameters "
-                                           "are what is estimated",
-                                           in_quotes(request.soil))});
+    faults.push_back(
+        {"/soil", fmt::format("{} has other laws than Bekker's and Janosi and Hanamoto's, whose parameters "
+                              "are what is estimated",
+                              in_quotes(request.soil))});
   const TestedWheel& tested = request.wheel;
   const auto rover = catalogue.rovers.find(tested.rover);
   if (!tested.rover.empty() && rover == catalogue.rovers.end())

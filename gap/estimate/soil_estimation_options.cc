@@ -55,8 +55,9 @@ std::vector<Fault> faults_of(std::span<const SoilParameter> free, const SoilEsti
     for (const double value : {bound.lowest, bound.highest})
       if (const double shown = row.boundary_unit * value, near = 1e-12 * std::abs(shown);
           shown < field.lowest - near || shown > field.highest + near)
-        faults.push_back({pointer, fmt::format("{} = {:g}, must be in [{:g}, {:g}], which a soil's file holds", row.name,
-                                               shown, field.lowest, field.highest)});
+        faults.push_back(
+            {pointer, fmt::format("{} = {:g}, must be in [{:g}, {:g}], which a soil's file holds", row.name,
+                                  shown, field.lowest, field.highest)});
     if (!(bound.lowest < bound.highest))
       faults.push_back({pointer, fmt::format("{} to {}: the lower bound must be below the upper",
                                              bound.lowest, bound.highest)});

@@ -20,16 +20,16 @@ struct Searched {
 };
 
 constexpr std::array<Searched, kSoilParameters> kSearched{{
-    {SoilParameter::kBekker, "k_bekker", "both moduli of sinkage as one, k_c / b + k_phi", "", 1.0 / kMostStiffer,
-     kMostStiffer, 2.0},
+    {SoilParameter::kBekker, "k_bekker", "both moduli of sinkage as one, k_c / b + k_phi", "",
+     1.0 / kMostStiffer, kMostStiffer, 2.0},
     {SoilParameter::kKc, "k_c", "cohesive modulus of sinkage; may be negative", "k_c", -20.0, 20.0, 1.0},
     {SoilParameter::kKphi, "k_phi", "frictional modulus of sinkage", "k_phi", -20.0, 20.0, 1.0},
     {SoilParameter::kN, "n", "exponent of sinkage", "n", 0.1, 3.0, 0.5},
     {SoilParameter::kCohesion, "cohesion", "cohesion", "cohesion_pa", 0.0, 50e3, 1000.0},
     {SoilParameter::kFrictionAngle, "friction_angle", "angle of internal friction", "friction_angle_deg",
      rad_from_deg(1.0), rad_from_deg(59.0), 0.5},
-    {SoilParameter::kShearModulus, "shear_modulus", "Janosi's modulus of shear K", "shear_modulus_x_m", 1e-4, 0.5,
-     1.0},
+    {SoilParameter::kShearModulus, "shear_modulus", "Janosi's modulus of shear K", "shear_modulus_x_m", 1e-4,
+     0.5, 1.0},
 }};
 
 std::array<SoilParameterRow, kSoilParameters> make_rows() {

@@ -410,8 +410,8 @@ Result<DynamicDrive> simulate_drive_beside_slip_curves(const RoverModel& rover, 
     if (on_slip_curve(ground, soils, p.x(), p.y()))
       return fail(ErrorCode::kInvalidRequest, slip_curve_reason(p), {{"/start", slip_curve_reason(p)}});
   }
-  return simulate_drive_on(rover, gravity_m_s2, GroundWithLaws(ground, soils), soils, start, legs, options, sink,
-                           progress);
+  return simulate_drive_on(rover, gravity_m_s2, GroundWithLaws(ground, soils), soils, start, legs, options,
+                           sink, progress);
 }
 
 }  // namespace
@@ -424,7 +424,8 @@ Result<DynamicDrive> simulate_drive(const RoverModel& rover, double gravity_m_s2
     return fail(ErrorCode::kInvalidRequest, "the drive can't be simulated", std::move(faults));
   const auto has_curve = [](const Soil& soil) { return soil.slip_curve != nullptr; };
   if (std::any_of(soils.known.begin(), soils.known.end(), has_curve) || has_curve(soils.unknown))
-    return simulate_drive_beside_slip_curves(rover, gravity_m_s2, ground, soils, start, legs, options, sink, progress);
+    return simulate_drive_beside_slip_curves(rover, gravity_m_s2, ground, soils, start, legs, options, sink,
+                                             progress);
   return simulate_drive_on(rover, gravity_m_s2, ground, soils, start, legs, options, sink, progress);
 }
 

@@ -17,9 +17,10 @@ inline bool on_slip_curve(const Ground& ground, const DriveSoils& soils, double 
 }
 
 inline std::string slip_curve_reason(const Eigen::Vector2d& place) {
-  return fmt::format("the dynamic level needs a soil with laws of its forces; the ground at ({:.2f}, {:.2f}) m is known by "
-                     "a slip curve alone",
-                     place.x(), place.y());
+  return fmt::format(
+      "the dynamic level needs a soil with laws of its forces; the ground at ({:.2f}, {:.2f}) m is known by "
+      "a slip curve alone",
+      place.x(), place.y());
 }
 
 // The ground without what is known by a slip curve alone.
@@ -30,7 +31,9 @@ class GroundWithLaws : public Ground {
     if (on_slip_curve(ground_, soils_, x_m, y_m)) return std::nullopt;
     return ground_.at(x_m, y_m);
   }
-  std::optional<std::size_t> soil_at(double x_m, double y_m) const override { return ground_.soil_at(x_m, y_m); }
+  std::optional<std::size_t> soil_at(double x_m, double y_m) const override {
+    return ground_.soil_at(x_m, y_m);
+  }
 
  private:
   const Ground& ground_;

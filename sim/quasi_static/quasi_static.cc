@@ -139,12 +139,14 @@ StationState QuasiStaticSolver::solve(const Stance& stance, const Soil& soil, co
   return solve(stance, PerWheel<Soil>(rover_.wheels.size(), soil), command);
 }
 
-// A balance can't be found with wheels whose forces are unknown. On the border of such ground the other ground's soil is
-// put under all wheels, and the motion is the slower one.
+// A balance can't be found with wheels whose forces are unknown. On the border of such ground the other
+// ground's soil is put under all wheels, and the motion is the slower one.
 StationState QuasiStaticSolver::solve_with_slip_curves(const Stance& stance, const PerWheel<Soil>& soils,
-                                                       const DriveCommand& command, Thoroughness thoroughness) {
+                                                       const DriveCommand& command,
+                                                       Thoroughness thoroughness) {
   StationState state = motion_on_slip_curves(rover_, stance, soils, command);
-  const Soil* modelled = std::find_if(soils.begin(), soils.end(), [](const Soil& s) { return s.slip_curve == nullptr; });
+  const Soil* modelled =
+      std::find_if(soils.begin(), soils.end(), [](const Soil& s) { return s.slip_curve == nullptr; });
   if (modelled == soils.end() || !state.moving()) return state;
   PerWheel<Soil> replaced = soils;
   for (Soil& soil : replaced)

@@ -69,7 +69,8 @@ StationState motion_on_slip_curves(const RoverModel& rover, const Stance& stance
     return state;
   }
   const Eigen::Vector2d d = travel_direction(command);
-  const double along = ratio * share * command.speed_m_s, across = std::tan(slip.side_slip_rad) * std::abs(along);
+  const double along = ratio * share * command.speed_m_s,
+               across = std::tan(slip.side_slip_rad) * std::abs(along);
   state.along_m_s = along;
   state.forward_m_s = along * d.x() - across * d.y();
   state.leftward_m_s = along * d.y() + across * d.x();

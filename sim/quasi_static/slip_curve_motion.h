@@ -7,8 +7,8 @@
 
 namespace slipway::sim {
 
-// Slopes of the ground under the body: along the way that it goes, uphill positive, and across the command's direction
-// of travel, positive where its left side is up (also of a rover that drives backwards).
+// Slopes of the ground under the body: along the way that it goes, uphill positive, and across the command's
+// direction of travel, positive where its left side is up (also of a rover that drives backwards).
 struct TravelSlopes {
   double along_rad = 0.0, across_rad = 0.0;
 };
@@ -22,8 +22,9 @@ struct SlipOnCurve {
 };
 SlipOnCurve slip_on_curve(const Soil& soil, const TravelSlopes& slopes);
 
-// The motion of a rover of which at least one wheel stands on a soil with a slip curve: that of the curve with the most
-// slip among its wheels'. Forces, loads, sinkage, currents and power are not known (StationState::by_slip_curve).
+// The motion of a rover of which at least one wheel stands on a soil with a slip curve: that of the curve
+// with the most slip among its wheels'. Forces, loads, sinkage, currents and power are not known
+// (StationState::by_slip_curve).
 StationState motion_on_slip_curves(const RoverModel& rover, const Stance& stance, const PerWheel<Soil>& soils,
                                    const DriveCommand& command);
 

@@ -15,7 +15,8 @@ struct TableEntry {
   double current_a = 0.0;   // largest of the wheels
   double energy_j_m = 0.0;  // per metre made good
   bool immobile = false;    // then slip is 1, energy 0 and the rest as at the limit
-  bool by_slip_curve = false;  // the soil has a slip curve: sinkage, current and energy are not known, and 0 here
+  bool by_slip_curve =
+      false;  // the soil has a slip curve: sinkage, current and energy are not known, and 0 here
 };
 
 // The table level: slip, sinkage, current and energy over the body's pitch and roll on a plane, from the

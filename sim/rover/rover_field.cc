@@ -22,9 +22,10 @@ constexpr std::array kMass{
 using Maybe = std::optional<double>;
 
 constexpr std::array kPartMasses{
-    ModelField<MassDistribution>{.field = {"wheel_kg", "kg", "of each wheel with its motors", 1e-3, 5000.0, 5.0},
-                                 .maybe = [](MassDistribution& m) -> Maybe& { return m.wheel_kg; },
-                                 .presence = kOptional},
+    ModelField<MassDistribution>{
+        .field = {"wheel_kg", "kg", "of each wheel with its motors", 1e-3, 5000.0, 5.0},
+        .maybe = [](MassDistribution& m) -> Maybe& { return m.wheel_kg; },
+        .presence = kOptional},
     ModelField<MassDistribution>{.field = {"rocker_kg", "kg", "of each rocker", 1e-3, 5000.0, 5.0},
                                  .maybe = [](MassDistribution& m) -> Maybe& { return m.rocker_kg; },
                                  .presence = kOptional},
@@ -41,36 +42,38 @@ constexpr std::array kWheel{
 };
 
 constexpr std::array kGrousers{
-    ModelField<Grousers>{.field = {"height_m", "m", "of each grouser, at most the wheel's radius", 0.0, 1.0, 0.0},
-                         .number = [](Grousers& g) -> double& { return g.height_m; }},
+    ModelField<Grousers>{
+        .field = {"height_m", "m", "of each grouser, at most the wheel's radius", 0.0, 1.0, 0.0},
+        .number = [](Grousers& g) -> double& { return g.height_m; }},
     ModelField<Grousers>{.field = {"count", "1", "around the rim", 0.0, 500.0, 0.0},
                          .number = [](Grousers& g) -> double& { return g.count; }},
 };
 
 constexpr std::array kDifferential{
-    ModelField<Suspension>{.field = {"differential_stiffness_nm_per_deg", "N m/deg",
-                                     "torque on each rocker per sum of the rockers' angles", 1.7e-5, 1e7, 100.0},
-                           .maybe = [](Suspension& s) -> Maybe& { return s.differential_stiffness_nm_rad; },
-                           .presence = kOptional,
-                           .kept_as = kPerRadian},
+    ModelField<Suspension>{
+        .field = {"differential_stiffness_nm_per_deg", "N m/deg",
+                  "torque on each rocker per sum of the rockers' angles", 1.7e-5, 1e7, 100.0},
+        .maybe = [](Suspension& s) -> Maybe& { return s.differential_stiffness_nm_rad; },
+        .presence = kOptional,
+        .kept_as = kPerRadian},
     ModelField<Suspension>{.field = {"differential_damping_nms_per_deg", "N m s/deg",
                                      "torque on each rocker per rate of the rockers' angles", 0.0, 1e6, 10.0},
                            .maybe = [](Suspension& s) -> Maybe& { return s.differential_damping_nms_rad; },
                            .presence = kOptional,
                            .kept_as = kPerRadian},
-    ModelField<Suspension>{.field = {"rocker_stop_deg", "deg", "either way from the rockers' place at rest", 0.57, 90.0,
-                                     45.0},
-                           .maybe = [](Suspension& s) -> Maybe& { return s.rocker_stop_rad; },
-                           .presence = kOptional,
-                           .kept_as = kRadians},
+    ModelField<Suspension>{
+        .field = {"rocker_stop_deg", "deg", "either way from the rockers' place at rest", 0.57, 90.0, 45.0},
+        .maybe = [](Suspension& s) -> Maybe& { return s.rocker_stop_rad; },
+        .presence = kOptional,
+        .kept_as = kRadians},
 };
 
 constexpr std::array kBogie{
-    ModelField<Suspension>{.field = {"bogie_stop_deg", "deg", "either way from the bogies' place at rest", 0.57, 90.0,
-                                     45.0},
-                           .maybe = [](Suspension& s) -> Maybe& { return s.bogie_stop_rad; },
-                           .presence = kOptional,
-                           .kept_as = kRadians},
+    ModelField<Suspension>{
+        .field = {"bogie_stop_deg", "deg", "either way from the bogies' place at rest", 0.57, 90.0, 45.0},
+        .maybe = [](Suspension& s) -> Maybe& { return s.bogie_stop_rad; },
+        .presence = kOptional,
+        .kept_as = kRadians},
 };
 
 constexpr std::array kMotor{
@@ -80,15 +83,18 @@ constexpr std::array kMotor{
                            .number = [](DriveMotor& m) -> double& { return m.gear_ratio; }},
     ModelField<DriveMotor>{.field = {"gear_efficiency", "1", "torque out over torque in", 0.05, 1.0, 0.8},
                            .number = [](DriveMotor& m) -> double& { return m.gear_efficiency; }},
-    ModelField<DriveMotor>{.field = {"no_load_current_a", "A", "of motor and gear without load", 0.0, 10.0, 0.1},
-                           .number = [](DriveMotor& m) -> double& { return m.no_load_current_a; }},
-    ModelField<DriveMotor>{.field = {"damping_nms_rad", "N m s/rad", "viscous drag at the motor", 0.0, 10.0, 0.0},
-                           .number = [](DriveMotor& m) -> double& { return m.damping_nms_rad; },
-                           .presence = kOptional,
-                           .writing = kUnlessInitial},
-    ModelField<DriveMotor>{.field = {"max_wheel_rate_deg_s", "deg/s", "greatest wheel rate", 0.057, 5000.0, 20.0},
-                           .number = [](DriveMotor& m) -> double& { return m.max_wheel_rate_rad_s; },
-                           .kept_as = kRadians},
+    ModelField<DriveMotor>{
+        .field = {"no_load_current_a", "A", "of motor and gear without load", 0.0, 10.0, 0.1},
+        .number = [](DriveMotor& m) -> double& { return m.no_load_current_a; }},
+    ModelField<DriveMotor>{
+        .field = {"damping_nms_rad", "N m s/rad", "viscous drag at the motor", 0.0, 10.0, 0.0},
+        .number = [](DriveMotor& m) -> double& { return m.damping_nms_rad; },
+        .presence = kOptional,
+        .writing = kUnlessInitial},
+    ModelField<DriveMotor>{
+        .field = {"max_wheel_rate_deg_s", "deg/s", "greatest wheel rate", 0.057, 5000.0, 20.0},
+        .number = [](DriveMotor& m) -> double& { return m.max_wheel_rate_rad_s; },
+        .kept_as = kRadians},
     ModelField<DriveMotor>{.field = {"bus_voltage_v", "V", "of the supply", 1.0, 400.0, 28.0},
                            .number = [](DriveMotor& m) -> double& { return m.bus_voltage_v; }},
     ModelField<DriveMotor>{.field = {"resistance_ohm", "ohm", "of the windings", 1e-3, 1000.0, 1.0},
@@ -104,28 +110,34 @@ constexpr std::array kMotor{
 };
 
 constexpr std::array kClosures{
-    ModelField<RoverModel>{.field = {"pull_below_axle", "1", "share of a wheel's pull that acts at the rim's lowest "
-                                     "point", 0.0, 1.0, 0.0},
+    ModelField<RoverModel>{.field = {"pull_below_axle", "1",
+                                     "share of a wheel's pull that acts at the rim's lowest "
+                                     "point",
+                                     0.0, 1.0, 0.0},
                            .number = [](RoverModel& r) -> double& { return r.pull_below_axle; },
                            .presence = kOptional,
                            .writing = kUnlessInitial},
-    ModelField<RoverModel>{.field = {"wheel_weight", "1", "share of the wheels' own weight that hangs at the wheels",
-                                     0.0, 3.0, 0.0},
-                           .number = [](RoverModel& r) -> double& { return r.wheel_weight; },
-                           .presence = kOptional,
-                           .writing = kUnlessInitial},
+    ModelField<RoverModel>{
+        .field = {"wheel_weight", "1", "share of the wheels' own weight that hangs at the wheels", 0.0, 3.0,
+                  0.0},
+        .number = [](RoverModel& r) -> double& { return r.wheel_weight; },
+        .presence = kOptional,
+        .writing = kUnlessInitial},
 };
 
 constexpr std::array kBody{
-    ModelField<RoverModel>{.field = {"belly_clearance_m", "m", "of the body over level ground", 0.01, 2.0, 0.3},
-                           .number = [](RoverModel& r) -> double& { return r.belly_clearance_m; },
-                           .presence = kLessKnown},
-    ModelField<RoverModel>{.field = {"body_length_m", "m", "of the rectangle that must stay clear", 0.1, 10.0, 1.6},
-                           .number = [](RoverModel& r) -> double& { return r.body_length_m; },
-                           .presence = kLessKnown},
-    ModelField<RoverModel>{.field = {"body_width_m", "m", "of the rectangle that must stay clear", 0.1, 10.0, 1.5},
-                           .number = [](RoverModel& r) -> double& { return r.body_width_m; },
-                           .presence = kLessKnown},
+    ModelField<RoverModel>{
+        .field = {"belly_clearance_m", "m", "of the body over level ground", 0.01, 2.0, 0.3},
+        .number = [](RoverModel& r) -> double& { return r.belly_clearance_m; },
+        .presence = kLessKnown},
+    ModelField<RoverModel>{
+        .field = {"body_length_m", "m", "of the rectangle that must stay clear", 0.1, 10.0, 1.6},
+        .number = [](RoverModel& r) -> double& { return r.body_length_m; },
+        .presence = kLessKnown},
+    ModelField<RoverModel>{
+        .field = {"body_width_m", "m", "of the rectangle that must stay clear", 0.1, 10.0, 1.5},
+        .number = [](RoverModel& r) -> double& { return r.body_width_m; },
+        .presence = kLessKnown},
     ModelField<RoverModel>{.field = {"max_tilt_deg", "deg", "greatest tilt of the body", 0.57, 60.0, 28.6},
                            .number = [](RoverModel& r) -> double& { return r.max_tilt_rad; },
                            .presence = kLessKnown,
@@ -133,10 +145,11 @@ constexpr std::array kBody{
     ModelField<RoverModel>{.field = {"cruise_speed_m_s", "m/s", "commanded on the straight", 1e-4, 5.0, 0.04},
                            .number = [](RoverModel& r) -> double& { return r.cruise_speed_m_s; },
                            .presence = kLessKnown},
-    ModelField<RoverModel>{.field = {"turn_rate_deg_s", "deg/s", "commanded turning in place", 0.0057, 100.0, 1.7},
-                           .number = [](RoverModel& r) -> double& { return r.turn_rate_rad_s; },
-                           .presence = kLessKnown,
-                           .kept_as = kRadians},
+    ModelField<RoverModel>{
+        .field = {"turn_rate_deg_s", "deg/s", "commanded turning in place", 0.0057, 100.0, 1.7},
+        .number = [](RoverModel& r) -> double& { return r.turn_rate_rad_s; },
+        .presence = kLessKnown,
+        .kept_as = kRadians},
     ModelField<RoverModel>{.field = {"min_turn_radius_m", "m", "of an arc", 0.0, 100.0, 1.5},
                            .number = [](RoverModel& r) -> double& { return r.min_turn_radius_m; },
                            .presence = kLessKnown},
@@ -174,8 +187,8 @@ std::span<const ModelField<RoverModel>> body_fields() {
 
 std::string out_of_range_in_words(std::string_view key, double value, const Field& field) {
   const bool unit = field.unit != "1";
-  return fmt::format("{} = {:g}{}{}, must be in [{:g}, {:g}]", key, value, unit ? " " : "", unit ? field.unit : "",
-                     field.lowest, field.highest);
+  return fmt::format("{} = {:g}{}{}, must be in [{:g}, {:g}]", key, value, unit ? " " : "",
+                     unit ? field.unit : "", field.lowest, field.highest);
 }
 
 template <class Owner>
@@ -183,7 +196,8 @@ void check_fields(std::span<const ModelField<Owner>> fields, const Owner& object
                   std::vector<Fault>& faults) {
   Owner copy = object;
   for (const ModelField<Owner>& row : fields) {
-    const std::optional<double> kept = row.maybe != nullptr ? row.maybe(copy) : std::optional(row.number(copy));
+    const std::optional<double> kept =
+        row.maybe != nullptr ? row.maybe(copy) : std::optional(row.number(copy));
     if (!kept) continue;
     // A value at the end of the range may pass it by rounding, in and out of degrees.
     const double value = row.to_boundary(*kept), near = 1e-12 * std::abs(value);
@@ -195,8 +209,8 @@ void check_fields(std::span<const ModelField<Owner>> fields, const Owner& object
 
 template void check_fields(std::span<const ModelField<RoverModel>>, const RoverModel&, const std::string&,
                            std::vector<Fault>&);
-template void check_fields(std::span<const ModelField<MassDistribution>>, const MassDistribution&, const std::string&,
-                           std::vector<Fault>&);
+template void check_fields(std::span<const ModelField<MassDistribution>>, const MassDistribution&,
+                           const std::string&, std::vector<Fault>&);
 template void check_fields(std::span<const ModelField<WheelModel>>, const WheelModel&, const std::string&,
                            std::vector<Fault>&);
 template void check_fields(std::span<const ModelField<Grousers>>, const Grousers&, const std::string&,

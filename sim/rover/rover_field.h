@@ -11,8 +11,8 @@
 
 namespace slipway::sim {
 
-// The numbers of a rover's file, object by object, each in the order in which it is written. Points (positions,
-// pivots, inertia) and what is no number are read and checked by themselves.
+// The numbers of a rover's file, object by object, each in the order in which it is written. Points
+// (positions, pivots, inertia) and what is no number are read and checked by themselves.
 std::span<const ModelField<RoverModel>> mass_fields();
 std::span<const ModelField<MassDistribution>> part_mass_fields();  // of "masses"
 std::span<const ModelField<WheelModel>> wheel_fields();

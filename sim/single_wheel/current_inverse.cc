@@ -193,8 +193,8 @@ std::string_view describe(Trafficability verdict) {
   return "no_go";
 }
 
-CurrentInverse invert_current(const WheelRigConditions& test, const SoilDistribution& belief, double current_a,
-                              const InverseOptions& options) {
+CurrentInverse invert_current(const WheelRigConditions& test, const SoilDistribution& belief,
+                              double current_a, const InverseOptions& options) {
   CurrentInverse answer;
   WheelRigConditions mean = test;
   mean.soil = belief.mean;

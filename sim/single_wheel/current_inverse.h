@@ -74,7 +74,7 @@ struct CurrentInverse {
 
 // `test.soil` is not used: the belief's mean and draws, whose effects were applied. Deterministic in the
 // seed.
-CurrentInverse invert_current(const WheelRigConditions& test, const SoilDistribution& belief, double current_a,
-                              const InverseOptions& options);
+CurrentInverse invert_current(const WheelRigConditions& test, const SoilDistribution& belief,
+                              double current_a, const InverseOptions& options);
 
 }  // namespace slipway::sim

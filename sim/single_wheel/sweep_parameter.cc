@@ -31,7 +31,8 @@ constexpr std::array kConditions{
               [](double v, WheelRig& rig) { rig.test.slip_angle_rad = rad_from_deg(v); }},
     Condition{{"load_n", "N", "on the wheel", 0.1, 1e5, 100.0},
               [](double v, WheelRig& rig) { rig.test.load_n = v; }},
-    Condition{{"sinkage_m", "m", "held", 1e-5, 1.0, 0.01}, [](double v, WheelRig& rig) { rig.test.sinkage_m = v; }},
+    Condition{{"sinkage_m", "m", "held", 1e-5, 1.0, 0.01},
+              [](double v, WheelRig& rig) { rig.test.sinkage_m = v; }},
     Condition{{"speed_m_s", "m/s", "that is held", 1e-4, 10.0, 0.04},
               [](double v, WheelRig& rig) { rig.test.speed_m_s = v; }},
     Condition{{"gravity_m_s2", "m/s^2", "of the place", 0.1, 30.0, 3.71},
@@ -153,7 +154,8 @@ std::vector<std::string> sweep_field_names(const SoilFormat& format) {
   for (const ModelField<WheelModel>& row : wheel_fields())
     names.push_back(std::string(kWheel) + std::string(row.field.name));
   names.emplace_back(kStiffness.name);
-  for (const SoilField& row : format.fields) names.push_back(std::string(kSoil) + std::string(row.field.name));
+  for (const SoilField& row : format.fields)
+    names.push_back(std::string(kSoil) + std::string(row.field.name));
   add_names(format.laws.pressure, names);
   add_names(format.laws.shear, names);
   for (const Effect& effect : effect_catalogue()) {
@@ -175,8 +177,8 @@ std::optional<std::string> not_of_this_soil(std::string_view name, const Soil& s
   const std::size_t dot = key.find('.');
   if (dot == std::string_view::npos || key.substr(0, dot) == pressure || key.substr(0, dot) == shear)
     return std::nullopt;
-  return fmt::format("{} is a parameter of the law {}, the soil has the pressure law {} and the shear law {}", name,
-                     key.substr(0, dot), pressure, shear);
+  return fmt::format("{} is a parameter of the law {}, the soil has the pressure law {} and the shear law {}",
+                     name, key.substr(0, dot), pressure, shear);
 }
 
 void set_sweep_parameter(std::string_view name, double value, WheelRig& rig) {

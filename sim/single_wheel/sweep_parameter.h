@@ -27,18 +27,18 @@ struct WheelRig {
 // The conditions with wheel, soil and motor as the effects make them.
 WheelRigConditions conditions_of(const WheelRig& rig);
 
-// The range of what a sweep can vary, in the unit of the boundary; nothing where there is no such name, or where an
-// effect has no bearing on a single wheel. Names are those of the rig's conditions ("slip", "load_n"), "wheel." and
-// "soil." with a field of the rover's and the soil's file ("wheel.radius_m", "soil.n"), "soil.LAW.PARAMETER" of a law
-// of the soil's format ("soil.reece.k_phi") and "effects.NAME.PARAMETER". soil.k_s sets k_c = 0 and k_phi = k_s, as in
-// the Zhurong paper's section 3.2.
+// The range of what a sweep can vary, in the unit of the boundary; nothing where there is no such name, or
+// where an effect has no bearing on a single wheel. Names are those of the rig's conditions ("slip",
+// "load_n"), "wheel." and "soil." with a field of the rover's and the soil's file ("wheel.radius_m",
+// "soil.n"), "soil.LAW.PARAMETER" of a law of the soil's format ("soil.reece.k_phi") and
+// "effects.NAME.PARAMETER". soil.k_s sets k_c = 0 and k_phi = k_s, as in the Zhurong paper's section 3.2.
 std::optional<Field> sweep_field(std::string_view name, const SoilFormat& format = soil_format());
 // All names that sweep_field knows.
 std::vector<std::string> sweep_field_names(const SoilFormat& format = soil_format());
 // `name` is one that sweep_field knows with the rig's format. An effect that is off is switched on.
 void set_sweep_parameter(std::string_view name, double value, WheelRig& rig);
-// Why this rig's soil has no such parameter: moduli of Bekker's law on a soil with another law, or the parameters of a
-// law that it did not choose.
+// Why this rig's soil has no such parameter: moduli of Bekker's law on a soil with another law, or the
+// parameters of a law that it did not choose.
 std::optional<std::string> not_of_this_soil(std::string_view name, const Soil& soil);
 
 // Whether an effect changes anything of a single wheel on a rig: its soil, its geometry or its motor.

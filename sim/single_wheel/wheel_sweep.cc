@@ -45,7 +45,8 @@ std::optional<std::string> out_of_range(const std::string& parameter, const Fiel
   return out_of_range_in_words(parameter, value, field);
 }
 
-void check_axis(const SweepAxis& axis, const WheelRig& rig, const std::string& pointer, std::vector<Fault>& faults) {
+void check_axis(const SweepAxis& axis, const WheelRig& rig, const std::string& pointer,
+                std::vector<Fault>& faults) {
   const auto field = sweep_field(axis.parameter, *rig.soil_format);
   if (!field)
     return faults.push_back({pointer + "/parameter", unknown_parameter(axis.parameter, *rig.soil_format)});
@@ -87,7 +88,8 @@ std::optional<Fault> impossible(const WheelSweep& sweep, const WheelRigCondition
       test.soil.pressure_form({.width_m = test.wheel.width_m, .radius_m = test.wheel.radius_m}).stiffness;
   if (!(stiffness > 0.0))
     return Fault{"/soil", fmt::format("{} = {:g}, must be positive for a wheel of width {:g} m",
-                                      test.soil.pressure_law.row == nullptr ? "k_c / b + k_phi" : "the pressure's factor",
+                                      test.soil.pressure_law.row == nullptr ? "k_c / b + k_phi"
+                                                                            : "the pressure's factor",
                                       stiffness, test.wheel.width_m)};
   return std::nullopt;
 }
@@ -128,7 +130,8 @@ std::vector<Fault> faults_of(const WheelSweep& sweep) {
     faults.push_back(
         {"/sweep", fmt::format("sweep has {} rows, must have at most {}", rows_of(sweep), kMostSweepRows)});
   if (sweep.rig.soil.slip_curve != nullptr) {
-    faults.push_back({"/soil", "the soil is known by a slip curve alone, which says nothing of a single wheel's forces"});
+    faults.push_back(
+        {"/soil", "the soil is known by a slip curve alone, which says nothing of a single wheel's forces"});
     return faults;
   }
   for (std::size_t a = 0; a < sweep.axes.size(); ++a)
@@ -146,7 +149,8 @@ std::vector<Fault> faults_of(const WheelSweep& sweep) {
 
 std::vector<SweepPoint> points_of(const WheelSweep& sweep) {
   std::vector<SweepPoint> points(rows_of(sweep));
-  for (std::size_t i = 0; i < points.size(); ++i) points[i].test = conditions_of(rig_of(sweep, i, points[i].at));
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i].test = conditions_of(rig_of(sweep, i, points[i].at));
   return points;
 }
 

@@ -12,7 +12,8 @@ constexpr std::array kFields{
 
 PressureForm form(const Soil& soil, const ContactSize& contact) {
   const LawParameters& p = soil.pressure_law.parameters;
-  return {reece_stiffness_pa({.k_c = p[0], .k_phi = p[1]}, soil.cohesion_pa, soil.unit_weight_n_m3(), contact.width_m),
+  return {reece_stiffness_pa({.k_c = p[0], .k_phi = p[1]}, soil.cohesion_pa, soil.unit_weight_n_m3(),
+                             contact.width_m),
           1.0 / contact.width_m};
 }
 

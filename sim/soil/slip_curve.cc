@@ -40,7 +40,8 @@ std::vector<Fault> faults_of(const SlipCurve& curve) {
   if (curve.side_slip_rad.size() != curve.cross_slope_rad.size())
     fault("side_slip_deg", "side_slip_deg and cross_slope_deg must have as many values");
   if (!rises(curve.slope_rad)) fault("slope_deg", "slope_deg must rise from value to value");
-  if (!rises(curve.cross_slope_rad)) fault("cross_slope_deg", "cross_slope_deg must rise from value to value");
+  if (!rises(curve.cross_slope_rad))
+    fault("cross_slope_deg", "cross_slope_deg must rise from value to value");
   if (curve.slope_rad.empty() || curve.slope_rad.front() > 0.0 || curve.slope_rad.back() < 0.0)
     fault("slope_deg", "slope_deg must span the level, 0 deg");
   if (curve.cross_slope_rad.empty() || curve.cross_slope_rad.front() != 0.0)

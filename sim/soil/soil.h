@@ -69,12 +69,14 @@ struct Soil {
   double measured_gravity_m_s2 = 9.81;
   double gravity_m_s2 = 3.71;  // of the place; the soil's weight presses back in bulldozing and on grousers
 
-  // Ground that is known by the slip of rovers on slopes alone: nothing else of this soil is then known or used.
+  // Ground that is known by the slip of rovers on slopes alone: nothing else of this soil is then known or
+  // used.
   std::shared_ptr<const SlipCurve> slip_curve;
   double slip_deviation = 0.0;  // of a draw: its slip less the curve's
 
   double unit_weight_n_m3() const { return density_kg_m3 * gravity_m_s2; }
-  // Pressure under a contact as a power of depth, whatever law is chosen; of a law that is none, one that comes near.
+  // Pressure under a contact as a power of depth, whatever law is chosen; of a law that is none, one that
+  // comes near.
   PressureForm pressure_form(const ContactSize& contact) const;
   // Multiplies all pressure at a depth by a ratio, whatever law is chosen.
   void stiffen(double ratio) {
@@ -93,7 +95,8 @@ struct SoilStd {
   double cohesion_pa = 0.0;
   double friction_angle_rad = 0.0;
   double shear_modulus_ratio = 0.0;
-  double slip_ratio = 0.0;  // of ground that is known by a slip curve: of the slip at every slope, in place of the others
+  double slip_ratio =
+      0.0;  // of ground that is known by a slip curve: of the slip at every slope, in place of the others
 };
 
 constexpr int kSoilDims = 5;  // stiffness, n, cohesion, tan(friction angle), shear modulus
@@ -118,8 +121,9 @@ struct SoilDistribution {
 // is applied here. A zero standard deviation leaves the mean exactly.
 Soil draw_soil(const SoilDistribution& distribution, const SoilNormals& normals);
 
-// The direction of weakness, of length one: in equal parts less stiffness, cohesion and friction and more shear before
-// the thrust is there. One standard deviation that way gives the planner's weak soil, and more slip on a slip curve.
+// The direction of weakness, of length one: in equal parts less stiffness, cohesion and friction and more
+// shear before the thrust is there. One standard deviation that way gives the planner's weak soil, and more
+// slip on a slip curve.
 SoilNormals towards_weakness();
 
 }  // namespace slipway::sim

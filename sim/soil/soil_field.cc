@@ -47,7 +47,8 @@ constexpr std::array kFields{
     SoilField{.field = {"exit_angle_ratio", "1", "exit angle over entry angle", 0.0, 1.0, 0.0},
               .number = [](Soil& s) -> double& { return s.exit_angle_ratio; },
               .presence = kOptional},
-    SoilField{.field = {"shear_coupling", "1", "0: shear along and across independent, 1: one resultant", 0.0, 1.0, 0.0},
+    SoilField{.field = {"shear_coupling", "1", "0: shear along and across independent, 1: one resultant", 0.0,
+                        1.0, 0.0},
               .number = [](Soil& s) -> double& { return s.shear_coupling; },
               .presence = kOptional},
 };

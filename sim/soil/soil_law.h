@@ -25,27 +25,28 @@ struct ContactSize {
 //
 //   p = stiffness (z per_depth)^n
 //
-// Bekker's law has per_depth = 1 / (1 m) and a stiffness in N/m^(n+2); a law of z / b has per_depth = 1 / b and a
-// stiffness in Pa. n is Soil's exponent, to which slip sinkage adds.
+// Bekker's law has per_depth = 1 / (1 m) and a stiffness in N/m^(n+2); a law of z / b has per_depth = 1 / b
+// and a stiffness in Pa. n is Soil's exponent, to which slip sinkage adds.
 struct PressureForm {
   double stiffness = 0.0;
   double per_depth_1_m = 1.0;
 };
 
-// One row: a law for the pressure under a wheel's rim. At a depth of 0 the pressure must be 0, and it must rise below.
+// One row: a law for the pressure under a wheel's rim. At a depth of 0 the pressure must be 0, and it must
+// rise below.
 struct PressureSinkageLaw {
   std::string_view name;
   std::string_view summary;
   std::string_view reference;
-  // Parameters that stand in the soil file's "pressure_law" beside the name, each required there. Bekker's own, k_c
-  // and k_phi, stand in the soil itself.
+  // Parameters that stand in the soil file's "pressure_law" beside the name, each required there. Bekker's
+  // own, k_c and k_phi, stand in the soil itself.
   std::span<const Field> fields;
-  // The law's form on this soil under this contact. A law that is no power of depth gives one that comes near it, from
-  // which the search for a wheel's sinkage starts.
+  // The law's form on this soil under this contact. A law that is no power of depth gives one that comes near
+  // it, from which the search for a wheel's sinkage starts.
   PressureForm (*form)(const Soil& soil, const ContactSize& contact);
-  // For a law that is no power of depth: the numbers that it needs under this contact, once for each wheel, and the
-  // pressure from them, for each node of the wheel's quadrature; both or neither. The kernel then leaves its packs for
-  // every node, which costs about three times as much as Bekker's law.
+  // For a law that is no power of depth: the numbers that it needs under this contact, once for each wheel,
+  // and the pressure from them, for each node of the wheel's quadrature; both or neither. The kernel then
+  // leaves its packs for every node, which costs about three times as much as Bekker's law.
   LawParameters (*numbers)(const Soil& soil, const ContactSize& contact) = nullptr;
   double (*pressure_pa)(const LawParameters& numbers, double n, double depth_m) = nullptr;
 };
@@ -60,8 +61,8 @@ struct ShearForm {
   double hump;
 };
 
-// One row: a law for the share of the soil's shear strength that is mobilised at a displacement x of shear moduli. It
-// must be 0 at 0, where its slope is positive, and stay above 0 and below 1.05.
+// One row: a law for the share of the soil's shear strength that is mobilised at a displacement x of shear
+// moduli. It must be 0 at 0, where its slope is positive, and stay above 0 and below 1.05.
 struct ShearLaw {
   std::string_view name;
   std::string_view summary;

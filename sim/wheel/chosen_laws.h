@@ -7,8 +7,9 @@
 
 namespace slipway::sim {
 
-// The laws that the soils under a pack's wheels choose, each lane by its own. A law that is a power of depth, or has
-// the kernel's form of shear, is computed in packs; any other lane by lane from the law's own function.
+// The laws that the soils under a pack's wheels choose, each lane by its own. A law that is a power of depth,
+// or has the kernel's form of shear, is computed in packs; any other lane by lane from the law's own
+// function.
 template <class V, std::size_t kLanes>
 class ChosenLawsInLanes {
  public:

@@ -8,8 +8,8 @@
 
 namespace slipway::sim {
 
-// One wheel, its soil and its motion as the kernel computes with them, for one wheel (V a double) or for a pack of
-// them: field by field as in WheelGeometry, Soil and WheelMotion.
+// One wheel, its soil and its motion as the kernel computes with them, for one wheel (V a double) or for a
+// pack of them: field by field as in WheelGeometry, Soil and WheelMotion.
 template <class V>
 struct WheelValues {
   V radius, width, rim_friction, grouser_height, grouser_count, per_cleat_shear, cleat_by_slip;
@@ -23,17 +23,36 @@ struct WheelValues {
 
 // Every one of them, so that they can be spread over packs.
 template <class V>
-inline constexpr std::array kWheelMembers{
-    &WheelValues<V>::radius,          &WheelValues<V>::width,           &WheelValues<V>::rim_friction,
-    &WheelValues<V>::grouser_height,  &WheelValues<V>::grouser_count,   &WheelValues<V>::per_cleat_shear,
-    &WheelValues<V>::cleat_by_slip,   &WheelValues<V>::stiffness,       &WheelValues<V>::n,
-    &WheelValues<V>::cohesion,        &WheelValues<V>::phi,             &WheelValues<V>::per_shear_x,
-    &WheelValues<V>::per_shear_y,     &WheelValues<V>::c1,              &WheelValues<V>::c2,
-    &WheelValues<V>::n1,              &WheelValues<V>::n1_skid,         &WheelValues<V>::n1_lateral,
-    &WheelValues<V>::exit_ratio,      &WheelValues<V>::coupling,        &WheelValues<V>::unit_weight,
-    &WheelValues<V>::bulldozing,      &WheelValues<V>::side_bulldozing, &WheelValues<V>::crust_strength,
-    &WheelValues<V>::per_crust_depth, &WheelValues<V>::hardpan_modulus, &WheelValues<V>::hardpan_depth,
-    &WheelValues<V>::theta_f,         &WheelValues<V>::forward,         &WheelValues<V>::leftward};
+inline constexpr std::array kWheelMembers{&WheelValues<V>::radius,
+                                          &WheelValues<V>::width,
+                                          &WheelValues<V>::rim_friction,
+                                          &WheelValues<V>::grouser_height,
+                                          &WheelValues<V>::grouser_count,
+                                          &WheelValues<V>::per_cleat_shear,
+                                          &WheelValues<V>::cleat_by_slip,
+                                          &WheelValues<V>::stiffness,
+                                          &WheelValues<V>::n,
+                                          &WheelValues<V>::cohesion,
+                                          &WheelValues<V>::phi,
+                                          &WheelValues<V>::per_shear_x,
+                                          &WheelValues<V>::per_shear_y,
+                                          &WheelValues<V>::c1,
+                                          &WheelValues<V>::c2,
+                                          &WheelValues<V>::n1,
+                                          &WheelValues<V>::n1_skid,
+                                          &WheelValues<V>::n1_lateral,
+                                          &WheelValues<V>::exit_ratio,
+                                          &WheelValues<V>::coupling,
+                                          &WheelValues<V>::unit_weight,
+                                          &WheelValues<V>::bulldozing,
+                                          &WheelValues<V>::side_bulldozing,
+                                          &WheelValues<V>::crust_strength,
+                                          &WheelValues<V>::per_crust_depth,
+                                          &WheelValues<V>::hardpan_modulus,
+                                          &WheelValues<V>::hardpan_depth,
+                                          &WheelValues<V>::theta_f,
+                                          &WheelValues<V>::forward,
+                                          &WheelValues<V>::leftward};
 static_assert(sizeof(WheelValues<double>) == kWheelMembers<double>.size() * sizeof(double),
               "a number of the kernel is missing in the list that spreads them");
 
@@ -41,7 +60,7 @@ static_assert(sizeof(WheelValues<double>) == kWheelMembers<double>.size() * size
 struct ChosenLaws {
   const PressureSinkageLaw* pressure;
   const ShearLaw* shear;
-  double per_depth;               // p = stiffness (z per_depth)^n
+  double per_depth;                // p = stiffness (z per_depth)^n
   LawParameters pressure_numbers;  // of a law that is no power of depth; its stiffness is a factor
   ShearForm shear_form;
   LawParameters shear_parameters;

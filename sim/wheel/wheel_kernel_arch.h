@@ -21,7 +21,8 @@ WheelValues<Pack> in_every_lane(const WheelValues<double>& wheel) {
   WheelValues<Pack> packed;
   [&]<std::size_t... k>(std::index_sequence<k...>) {
     ((packed.*kWheelMembers<Pack>[k] = Pack(wheel.*kWheelMembers<double>[k])), ...);
-  }(std::make_index_sequence<kValues>{});
+  }
+  (std::make_index_sequence<kValues>{});
   return packed;
 }
 
@@ -32,12 +33,14 @@ WheelValues<Pack> in_lanes(const std::array<const WheelNumbers*, kLanes>& wheels
     const WheelValues<double>& wheel = *wheels[lane];
     [&]<std::size_t... k>(std::index_sequence<k...>) {
       ((columns[k][lane] = wheel.*kWheelMembers<double>[k]), ...);
-    }(std::make_index_sequence<kValues>{});
+    }
+    (std::make_index_sequence<kValues>{});
   }
   WheelValues<Pack> packed;
   [&]<std::size_t... k>(std::index_sequence<k...>) {
     ((packed.*kWheelMembers<Pack>[k] = Pack::load_aligned(columns[k])), ...);
-  }(std::make_index_sequence<kValues>{});
+  }
+  (std::make_index_sequence<kValues>{});
   return packed;
 }
 
@@ -80,9 +83,8 @@ void many_wheels(const WheelNumbers* wheels, const LawParts& parts, WheelForces*
     std::array<const WheelNumbers*, kLanes> lanes;
     for (std::size_t lane = 0; lane < kLanes; ++lane) lanes[lane] = &wheels[first + (lane < here ? lane : 0)];
     const WheelValues<Pack> in = in_lanes(lanes);
-    const LaneForces<Pack> f = parts.chosen_laws
-                                   ? lanes_by(ChosenLawsInLanes<Pack, kLanes>(lanes), in, parts)
-                                   : lanes_by(DefaultLaws{}, in, parts);
+    const LaneForces<Pack> f = parts.chosen_laws ? lanes_by(ChosenLawsInLanes<Pack, kLanes>(lanes), in, parts)
+                                                 : lanes_by(DefaultLaws{}, in, parts);
     alignas(64) double pull[kLanes], lateral[kLanes], vertical[kLanes], torque[kLanes];
     f.pull.store_aligned(pull);
     f.lateral.store_aligned(lateral);

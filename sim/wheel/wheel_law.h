@@ -19,8 +19,9 @@ namespace slipway::sim {
 // Below this share of the rim's speed a wheel hardly pushes soil before it.
 constexpr double kStandingSpeedRatio = 0.05;
 
-// The laws that a soil has when it chooses none: Bekker's pressure, and Janosi and Hanamoto's shear. A policy of this
-// shape gives the pressure at a depth and the mobilised share of the strength; chosen_laws.h has the other one.
+// The laws that a soil has when it chooses none: Bekker's pressure, and Janosi and Hanamoto's shear. A policy
+// of this shape gives the pressure at a depth and the mobilised share of the strength; chosen_laws.h has the
+// other one.
 struct DefaultLaws {
   template <class V>
   V pressure_pa(const WheelValues<V>& in, const V& n, const V& depth_m) const {
@@ -103,8 +104,9 @@ void rim_sincos(const V& theta, V& sine, V& cosine) {
 // Adds nodes of one arc. `weight` holds the quadrature's weights times the arc's length. V is a pack of nodes
 // of one wheel, or of one node of several wheels; parameters come in the same type.
 template <class Laws, class V>
-void add_nodes(const Laws& laws, const WheelValues<V>& in, const ContactAngles<V>& at, const LawParts& parts, const V& theta,
-               const V& sine, const V& cosine, const V& sigma, const V& weight, ContactIntegrals<V>& sum) {
+void add_nodes(const Laws& laws, const WheelValues<V>& in, const ContactAngles<V>& at, const LawParts& parts,
+               const V& theta, const V& sine, const V& cosine, const V& sigma, const V& weight,
+               ContactIntegrals<V>& sum) {
   const V to_entry = in.theta_f - theta;
   const V j_x = in.radius * (to_entry - in.forward * (at.sin_f - sine));
   V m_x = V(0.0), m_y = V(0.0);
@@ -139,7 +141,8 @@ void add_nodes(const Laws& laws, const WheelValues<V>& in, const ContactAngles<V
 
 // The pressure under the rim at depth z: the base law and what effects add.
 template <class Laws, class V>
-V pressure_under_rim(const Laws& laws, const WheelValues<V>& in, const ContactAngles<V>& at, const LawParts& parts, const V& z) {
+V pressure_under_rim(const Laws& laws, const WheelValues<V>& in, const ContactAngles<V>& at,
+                     const LawParts& parts, const V& z) {
   V sigma = laws.pressure_pa(in, at.n, z);
   if (parts.crust) sigma += duricrust_pressure_pa(in.crust_strength, z * in.per_crust_depth);
   if (parts.hardpan) sigma += hardpan_pressure_pa(in.hardpan_modulus, in.hardpan_depth, z);
@@ -149,8 +152,8 @@ V pressure_under_rim(const Laws& laws, const WheelValues<V>& in, const ContactAn
 // One pack of nodes t with weights (for an arc of length 1), on both arcs: the rear arc repeats the front
 // one's stresses at its own angles, so they are computed once.
 template <class Laws, class V>
-void add_both_arcs(const Laws& laws, const WheelValues<V>& in, const ContactAngles<V>& at, const LawParts& parts, const V& t,
-                   const V& weight, ContactIntegrals<V>& sum) {
+void add_both_arcs(const Laws& laws, const WheelValues<V>& in, const ContactAngles<V>& at,
+                   const LawParts& parts, const V& t, const V& weight, ContactIntegrals<V>& sum) {
   const V front_length = in.theta_f - at.theta_m, rear_length = at.theta_m - at.theta_r;
   const V front = in.theta_f - t * front_length;
   V sine, cosine;

@@ -258,7 +258,8 @@ void expect_read_back(std::span<const ModelField<Owner>> fields) {
     reader.refuse_unknown();
     EXPECT_TRUE(faults.empty()) << faults.front().message;
     for (const ModelField<Owner>& row : fields) {
-      const double was = row.maybe ? *row.maybe(out) : row.number(out), is = row.maybe ? *row.maybe(in) : row.number(in);
+      const double was = row.maybe ? *row.maybe(out) : row.number(out),
+                   is = row.maybe ? *row.maybe(in) : row.number(in);
       EXPECT_NEAR(is, was, 1e-11 * std::abs(was)) << row.field.name;
     }
   }

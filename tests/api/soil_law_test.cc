@@ -64,8 +64,8 @@ std::string sandy_loam(const std::string& members, bool with_bekker) {
 const std::string kReece = R"("pressure_law":{"name":"reece","k_c":40,"k_phi":200})";
 
 std::string sweep(const Service& service, const std::string& members) {
-  const auto answer =
-      run_wheel_sweep(service.catalogue(), R"({"rover":"mer-class","soil":"mer_b_sandy_loam","slip":0.3)" + members + "}");
+  const auto answer = run_wheel_sweep(
+      service.catalogue(), R"({"rover":"mer-class","soil":"mer_b_sandy_loam","slip":0.3)" + members + "}");
   EXPECT_TRUE(answer) << (answer ? "" : answer.error().faults.front().message);
   return answer ? json::write_wheel_sweep_answer(*answer) : "";
 }
@@ -110,7 +110,8 @@ TEST(SoilLaw, TheDefaultLawsByNameLeaveTheSoilAsItWas) {
   EXPECT_EQ(json::write_soils(named.service().catalogue()), json::write_soils(small_world().catalogue()));
 }
 
-std::vector<std::string> faults_of_soil(const std::string& soil, const sim::SoilFormat& format = sim::soil_format()) {
+std::vector<std::string> faults_of_soil(const std::string& soil,
+                                        const sim::SoilFormat& format = sim::soil_format()) {
   const auto read = json::read_soil_file(R"({"format":"soils/1","soils":[)" + soil + "]}", format);
   std::vector<std::string> pointers;
   if (!read)
@@ -122,8 +123,9 @@ TEST(SoilLaw, EveryFaultOfAChoiceIsNamed) {
   using Pointers = std::vector<std::string>;
   EXPECT_EQ(faults_of_soil(sandy_loam(R"("pressure_law":{"name":"bernstein"})", true)),
             (Pointers{"/soils/0/pressure_law/name"}));
-  EXPECT_EQ(faults_of_soil(sandy_loam(R"("pressure_law":{"name":"reece","k_c":-1e9,"m":1})", false)),
-            (Pointers{"/soils/0/pressure_law/k_c", "/soils/0/pressure_law/k_phi", "/soils/0/pressure_law/m"}));
+  EXPECT_EQ(
+      faults_of_soil(sandy_loam(R"("pressure_law":{"name":"reece","k_c":-1e9,"m":1})", false)),
+      (Pointers{"/soils/0/pressure_law/k_c", "/soils/0/pressure_law/k_phi", "/soils/0/pressure_law/m"}));
   // Bekker's moduli beside another law would be ignored.
   EXPECT_EQ(faults_of_soil(sandy_loam(kReece, true)), (Pointers{"/soils/0/k_c", "/soils/0/k_phi"}));
 }
@@ -131,9 +133,9 @@ TEST(SoilLaw, EveryFaultOfAChoiceIsNamed) {
 TEST(SoilLaw, WhatASoilHasNotIsNotSwept) {
   const WorldWithSoil reece(sandy_loam(kReece, false));
   const auto fault = [](const Service& service, const std::string& parameter) {
-    const auto answer = read_wheel_sweep(service.catalogue(),
-                                         R"({"rover":"mer-class","soil":"mer_b_sandy_loam","sweep":[{"parameter":")" +
-                                             parameter + R"(","values":[0.5]}]})");
+    const auto answer = read_wheel_sweep(
+        service.catalogue(), R"({"rover":"mer-class","soil":"mer_b_sandy_loam","sweep":[{"parameter":")" +
+                                 parameter + R"(","values":[0.5]}]})");
     return answer ? "" : answer.error().faults.front().pointer;
   };
   EXPECT_EQ(fault(reece.service(), "soil.k_c"), "/sweep/0/parameter");
@@ -144,19 +146,22 @@ TEST(SoilLaw, WhatASoilHasNotIsNotSwept) {
 
 // A law added as CONTRIBUTING says: a row, and its place in a catalogue. Pressure that saturates with depth
 // [Kacigin & Guskov 1968], which is no power of it.
-constexpr std::array kSaturatingFields{Field{"greatest_pa", "Pa", "the pressure that depth comes near", 1e3, 1e7, 1e5},
-                                       Field{"depth_m", "m", "at which two thirds of it are there", 1e-3, 1.0, 0.02}};
+constexpr std::array kSaturatingFields{
+    Field{"greatest_pa", "Pa", "the pressure that depth comes near", 1e3, 1e7, 1e5},
+    Field{"depth_m", "m", "at which two thirds of it are there", 1e-3, 1.0, 0.02}};
 const sim::PressureSinkageLaw kSaturating{
     .name = "saturating",
     .summary = "p = p_0 (1 - exp(-z / d))",
     .reference = "a test's",
     .fields = kSaturatingFields,
-    .form = [](const sim::Soil& soil, const sim::ContactSize&) {
-      const sim::LawParameters& p = soil.pressure_law.parameters;
-      return sim::PressureForm{p[0] / std::pow(p[1], soil.pressure.n), 1.0};
-    },
+    .form =
+        [](const sim::Soil& soil, const sim::ContactSize&) {
+          const sim::LawParameters& p = soil.pressure_law.parameters;
+          return sim::PressureForm{p[0] / std::pow(p[1], soil.pressure.n), 1.0};
+        },
     .numbers = [](const sim::Soil& soil, const sim::ContactSize&) { return soil.pressure_law.parameters; },
-    .pressure_pa = [](const sim::LawParameters& p, double, double z) { return p[0] * (1.0 - std::exp(-z / p[1])); }};
+    .pressure_pa = [](const sim::LawParameters& p, double,
+                      double z) { return p[0] * (1.0 - std::exp(-z / p[1])); }};
 
 TEST(SoilLaw, ALawOfATestsOwnActsFromTheSoilFileToTheWheelAndThePrediction) {
   std::vector<const sim::PressureSinkageLaw*> pressure(sim::soil_law_catalogue().pressure.begin(),
@@ -168,8 +173,8 @@ TEST(SoilLaw, ALawOfATestsOwnActsFromTheSoilFileToTheWheelAndThePrediction) {
   const WorldWithSoil on_soft(sandy_loam(soft, false), format), on_firm(sandy_loam(firm, false), format);
   EXPECT_LT(pull_of(on_soft.service()), pull_of(on_firm.service()));
   EXPECT_GT(largest_slip(on_soft.service()), largest_slip(on_firm.service()));
-  EXPECT_NEAR(pull_of(on_soft.service(), R"(,"set":{"soil.saturating.greatest_pa":200000})"), pull_of(on_firm.service()),
-              1e-9);
+  EXPECT_NEAR(pull_of(on_soft.service(), R"(,"set":{"soil.saturating.greatest_pa":200000})"),
+              pull_of(on_firm.service()), 1e-9);
   EXPECT_NE(json::write_soils(on_soft.service().catalogue()).find(soft), std::string::npos);
   EXPECT_EQ(faults_of_soil(sandy_loam(soft, false)), (std::vector<std::string>{"/soils/0/pressure_law/name"}))
       << "without its row it is unknown";
@@ -178,17 +183,21 @@ TEST(SoilLaw, ALawOfATestsOwnActsFromTheSoilFileToTheWheelAndThePrediction) {
 // A field added as CONTRIBUTING says: a row with key, unit, range and member.
 TEST(SoilField, AFieldOfATestsOwnIsReadSweptAndWrittenBack) {
   std::vector<sim::SoilField> fields(sim::soil_fields().begin(), sim::soil_fields().end());
-  fields.push_back({.field = {"front_bulldozing", "1", "share of the passive pressure on the front", 0.0, 2.0, 0.0},
-                    .number = [](sim::Soil& s) -> double& { return s.bulldozing; },
-                    .presence = FieldPresence::kOptional});
+  fields.push_back(
+      {.field = {"front_bulldozing", "1", "share of the passive pressure on the front", 0.0, 2.0, 0.0},
+       .number = [](sim::Soil& s) -> double& { return s.bulldozing; },
+       .presence = FieldPresence::kOptional});
   const sim::SoilFormat format{fields, sim::soil_law_catalogue()};
   const WorldWithSoil pushed(sandy_loam(R"("front_bulldozing":1.5)", true), format);
   EXPECT_LT(pull_of(pushed.service()), pull_of(small_world()));
-  EXPECT_NEAR(pull_of(pushed.service(), R"(,"set":{"soil.front_bulldozing":0})"), pull_of(small_world()), 1e-9);
-  EXPECT_NE(json::write_soils(pushed.service().catalogue()).find(R"("front_bulldozing":1.5)"), std::string::npos);
+  EXPECT_NEAR(pull_of(pushed.service(), R"(,"set":{"soil.front_bulldozing":0})"), pull_of(small_world()),
+              1e-9);
+  EXPECT_NE(json::write_soils(pushed.service().catalogue()).find(R"("front_bulldozing":1.5)"),
+            std::string::npos);
   EXPECT_EQ(faults_of_soil(sandy_loam(R"("front_bulldozing":3)", true), format),
             (std::vector<std::string>{"/soils/0/front_bulldozing"}));
-  const auto columns = sweep(pushed.service(), R"(,"sweep":[{"parameter":"soil.front_bulldozing","values":[0,1]}])");
+  const auto columns =
+      sweep(pushed.service(), R"(,"sweep":[{"parameter":"soil.front_bulldozing","values":[0,1]}])");
   EXPECT_NE(columns.find("share of the passive pressure on the front"), std::string::npos);
 }
 
@@ -213,8 +222,7 @@ TEST(SlipCurveSoil, IsServedAsItsFileAndItsFaultsAreNamed) {
   std::string bad = tabulated(0.25);
   bad.replace(bad.find("[-30,0,"), 7, "[30,0,");
   bad.insert(1, R"("n":1.0,)");
-  EXPECT_EQ(faults_of_soil(bad),
-            (std::vector<std::string>{"/soils/0/slip_curve/slope_deg", "/soils/0/n"}));
+  EXPECT_EQ(faults_of_soil(bad), (std::vector<std::string>{"/soils/0/slip_curve/slope_deg", "/soils/0/n"}));
 }
 
 TEST(SlipCurveSoil, APredictionHasItsSlipAndNoFiguresOfWheels) {
@@ -250,7 +258,8 @@ TEST(SlipCurveSoil, APlanDrivesOverItAndItsSlipCounts) {
 
 TEST(SlipCurveSoil, WhatNeedsForcesIsRefusedWithAReason) {
   const WorldWithSoil curve(tabulated(0.25));
-  const auto wheel = read_wheel_sweep(curve.service().catalogue(), R"({"rover":"mer-class","soil":"mer_b_sandy_loam"})");
+  const auto wheel =
+      read_wheel_sweep(curve.service().catalogue(), R"({"rover":"mer-class","soil":"mer_b_sandy_loam"})");
   ASSERT_FALSE(wheel);
   EXPECT_EQ(wheel.error().faults.front().pointer, "/soil");
   EXPECT_NE(wheel.error().faults.front().message.find("slip curve"), std::string::npos);

@@ -1,10 +1,11 @@
+#include "gap/estimate/plate_sinkage.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/angle.h"
 #include "core/random.h"
-#include "gap/estimate/plate_sinkage.h"
 
 namespace slipway::gap {
 namespace {

@@ -30,10 +30,12 @@ SoilDistribution tabulated(double std_slip = 0.0) {
   return belief;
 }
 
-StationState state_at(double pitch_deg, double roll_deg, double speed_m_s = 0.04, const Soil& soil = tabulated().mean) {
+StationState state_at(double pitch_deg, double roll_deg, double speed_m_s = 0.04,
+                      const Soil& soil = tabulated().mean) {
   const RoverModel rover = six_wheeler();
   QuasiStaticSolver solver(rover, 3.71);
-  const Attitude attitude{.roll_rad = rad_from_deg(roll_deg), .pitch_rad = rad_from_deg(pitch_deg), .yaw_rad = 0.0};
+  const Attitude attitude{
+      .roll_rad = rad_from_deg(roll_deg), .pitch_rad = rad_from_deg(pitch_deg), .yaw_rad = 0.0};
   return solver.solve(stance_on_plane(rover, attitude), soil, {.speed_m_s = speed_m_s});
 }
 
@@ -53,8 +55,8 @@ TEST(SlipCurve, EveryFaultIsNamed) {
   bad.cross_slope_rad.front() = 0.1;
   std::vector<std::string> pointers;
   for (const Fault& fault : faults_of(bad)) pointers.push_back(fault.pointer);
-  EXPECT_EQ(pointers, (std::vector<std::string>{"/slip_curve/slip", "/slip_curve/slope_deg", "/slip_curve/slope_deg",
-                                                "/slip_curve/cross_slope_deg"}));
+  EXPECT_EQ(pointers, (std::vector<std::string>{"/slip_curve/slip", "/slip_curve/slope_deg",
+                                                "/slip_curve/slope_deg", "/slip_curve/cross_slope_deg"}));
 }
 
 TEST(SlipCurve, TheRoverSlipsAsTabulatedUphillDownhillAndBackwards) {
@@ -85,7 +87,8 @@ TEST(SlipCurve, BeyondTheTabulatedSlopesNothingIsPredicted) {
 TEST(SlipCurve, OnABorderTheSlowerMotionCounts) {
   const RoverModel rover = six_wheeler();
   QuasiStaticSolver solver(rover, 3.71);
-  const Stance stance = stance_on_plane(rover, {.roll_rad = 0.0, .pitch_rad = rad_from_deg(-18.0), .yaw_rad = 0.0});
+  const Stance stance =
+      stance_on_plane(rover, {.roll_rad = 0.0, .pitch_rad = rad_from_deg(-18.0), .yaw_rad = 0.0});
   PerWheel<Soil> soils(6, sandy_loam());
   const double on_loam = solver.solve(stance, soils, {}).slip_ratio;
   soils[0] = tabulated().mean;
@@ -139,8 +142,8 @@ TEST(SlipCurve, ADriveOnItHasSlipDurationAndRiskAndNoFiguresOfWheels) {
   EXPECT_GT(drive->stations[8].slip_ratio_p95, 0.55);
   EXPECT_LT(drive->stations[8].slip_ratio_p05, 0.45);
   const FunctionGround steep([](double x, double) { return std::tan(rad_from_deg(22.0)) * x; });
-  const auto stopped = predict_drive(rover, 3.71, steep, {{tabulated()}, tabulated()}, eastward(10.0), {}, {.draws = 0},
-                                     1, progress);
+  const auto stopped = predict_drive(rover, 3.71, steep, {{tabulated()}, tabulated()}, eastward(10.0), {},
+                                     {.draws = 0}, 1, progress);
   ASSERT_TRUE(stopped && stopped->immobilised);
   EXPECT_NE(stopped->immobilised->reason.find("outside the slip curve"), std::string::npos)
       << stopped->immobilised->reason;
@@ -153,8 +156,9 @@ TEST(SlipCurve, TheDynamicLevelRefusesItAndSaysWhy) {
   DriveLeg leg;
   leg.command.speed_m_s = 0.04;
   leg.length_m = 1.0;
-  const auto drive = simulate_drive(rover, 3.71, level, {.known = {tabulated().mean}, .unknown = tabulated().mean}, {},
-                                    std::vector{leg}, {}, [](const DriveSample&) {}, progress);
+  const auto drive = simulate_drive(
+      rover, 3.71, level, {.known = {tabulated().mean}, .unknown = tabulated().mean}, {}, std::vector{leg},
+      {}, [](const DriveSample&) {}, progress);
   ASSERT_FALSE(drive);
   EXPECT_EQ(drive.error().code, ErrorCode::kInvalidRequest);
   EXPECT_NE(drive.error().detail.find("slip curve"), std::string::npos) << drive.error().detail;

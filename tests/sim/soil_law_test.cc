@@ -60,14 +60,17 @@ TEST_P(PressureRow, CarriesNothingAtTheSurfaceAndMoreTheDeeperAWheelSits) {
   EXPECT_FALSE(GetParam()->summary.empty() || GetParam()->reference.empty());
 }
 INSTANTIATE_TEST_SUITE_P(Catalogue, PressureRow,
-                         testing::ValuesIn(soil_law_catalogue().pressure.begin(), soil_law_catalogue().pressure.end()),
+                         testing::ValuesIn(soil_law_catalogue().pressure.begin(),
+                                           soil_law_catalogue().pressure.end()),
                          [](const auto& row) { return std::string(row.param->name); });
 
 class ShearRow : public testing::TestWithParam<const ShearLaw*> {};
 
 TEST_P(ShearRow, RisesFromNothingAndStaysWithinTheStrength) {
   const ShearForm form = GetParam()->form(in_the_middle(GetParam()->fields));
-  const auto mobilised = [&](double x) { return (form.end + form.hump * std::exp(-x)) * (1.0 - std::exp(-x)); };
+  const auto mobilised = [&](double x) {
+    return (form.end + form.hump * std::exp(-x)) * (1.0 - std::exp(-x));
+  };
   EXPECT_EQ(mobilised(0.0), 0.0);
   for (const double x : {1e-3, 0.1, 0.5, 1.0, 5.0, 20.0, 100.0}) {
     EXPECT_GT(mobilised(x), 0.0);
@@ -75,7 +78,8 @@ TEST_P(ShearRow, RisesFromNothingAndStaysWithinTheStrength) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(Catalogue, ShearRow,
-                         testing::ValuesIn(soil_law_catalogue().shear.begin(), soil_law_catalogue().shear.end()),
+                         testing::ValuesIn(soil_law_catalogue().shear.begin(),
+                                           soil_law_catalogue().shear.end()),
                          [](const auto& row) { return std::string(row.param->name); });
 
 TEST(ReecePressure, IsBekkersLawWithItsOwnModuliUnderOneWidth) {
@@ -84,7 +88,8 @@ TEST(ReecePressure, IsBekkersLawWithItsOwnModuliUnderOneWidth) {
   const double stiffness = reece.cohesion_pa * 40.0 + reece.unit_weight_n_m3() * kWheel.width_m * 200.0;
   bekker.pressure = {0.0, stiffness / std::pow(kWheel.width_m, bekker.pressure.n), bekker.pressure.n};
   for (const double theta : {0.1, 0.4, 0.9})
-    expect_near(wheel_forces(kWheel, reece, theta, {0.8, 0.1}), wheel_forces(kWheel, bekker, theta, {0.8, 0.1}), 1e-12);
+    expect_near(wheel_forces(kWheel, reece, theta, {0.8, 0.1}),
+                wheel_forces(kWheel, bekker, theta, {0.8, 0.1}), 1e-12);
   EXPECT_NEAR(*balanced_entry_angle_rad(kWheel, reece, 110.0, {0.8, 0.0}),
               *balanced_entry_angle_rad(kWheel, bekker, 110.0, {0.8, 0.0}), 1e-10);
 }
@@ -93,7 +98,9 @@ TEST(ReecePressure, DrySoilCarriesInProportionToGravityAndWeightlessSoilByDepthO
   Soil dry = reece_soil();
   dry.cohesion_pa = 0.0;
   const auto stiffness = [](const Soil& soil, double gravity, double width) {
-    return soil_in_force(soil, gravity, 0.04, false).pressure_form({.width_m = width, .radius_m = 0.1}).stiffness;
+    return soil_in_force(soil, gravity, 0.04, false)
+        .pressure_form({.width_m = width, .radius_m = 0.1})
+        .stiffness;
   };
   EXPECT_NEAR(stiffness(dry, 9.81, 0.2) / stiffness(dry, 1.62, 0.2), 9.81 / 1.62, 1e-12);
   Soil clay = reece_soil();
@@ -106,7 +113,8 @@ TEST(ReecePressure, SlipSinkageRaisesTheExponentOfDepthOverWidth) {
   soil.n1 = 0.3;
   Soil raised = reece_soil();
   raised.pressure.n += 0.3 * 0.5;
-  expect_near(wheel_forces(kWheel, soil, 0.4, {0.5, 0.0}), wheel_forces(kWheel, raised, 0.4, {0.5, 0.0}), 1e-12);
+  expect_near(wheel_forces(kWheel, soil, 0.4, {0.5, 0.0}), wheel_forces(kWheel, raised, 0.4, {0.5, 0.0}),
+              1e-12);
 }
 
 TEST(ReecePressure, ATrackIsStifferUnderItToo) {
@@ -120,36 +128,43 @@ TEST(ReecePressure, ATrackIsStifferUnderItToo) {
 TEST(WongShear, IsWholeAtItsModulusAndFallsToTheResidual) {
   for (const double residual : {0.3, 0.6, 0.9}) {
     const ShearForm form = wong_shear_form(residual);
-    const auto mobilised = [&](double x) { return (form.end + form.hump * std::exp(-x)) * (1.0 - std::exp(-x)); };
+    const auto mobilised = [&](double x) {
+      return (form.end + form.hump * std::exp(-x)) * (1.0 - std::exp(-x));
+    };
     EXPECT_NEAR(mobilised(1.0), 1.0, 1e-12);
     EXPECT_NEAR(mobilised(40.0), residual, 1e-12);
     const double e = std::numbers::e, x = 0.4;  // as the law is printed
     EXPECT_NEAR(mobilised(x),
-                residual * (1.0 + (1.0 / (residual * (1.0 - 1.0 / e)) - 1.0) * std::exp(1.0 - x)) * (1.0 - std::exp(-x)),
+                residual * (1.0 + (1.0 / (residual * (1.0 - 1.0 / e)) - 1.0) * std::exp(1.0 - x)) *
+                    (1.0 - std::exp(-x)),
                 1e-12);
     for (double at = 0.0; at < 6.0; at += 0.01) EXPECT_LT(mobilised(at), 1.031);
   }
 }
 
 TEST(WongShear, AtHighSlipAWheelPullsLessTheLowerTheResidual) {
-  const auto pull = [](const Soil& soil) { return wheel_forces(kWheel, soil, 0.4, {0.1, 0.0}).drawbar_pull_n; };
+  const auto pull = [](const Soil& soil) {
+    return wheel_forces(kWheel, soil, 0.4, {0.1, 0.0}).drawbar_pull_n;
+  };
   EXPECT_LT(pull(wong_soil(0.4)), pull(wong_soil(0.8)));
   EXPECT_LT(pull(wong_soil(0.4)), pull(sandy_loam()));
 }
 
 // Bekker's law and Janosi and Hanamoto's, written as laws that have not the kernel's form.
-const PressureSinkageLaw kOwnBekker{
-    .name = "own_bekker",
-    .summary = "Bekker's law lane by lane",
-    .reference = "[Bekker 1956]",
-    .fields = {},
-    .form = [](const Soil& soil, const ContactSize& contact) {
-      return PressureForm{soil.pressure.stiffness(contact.width_m), 1.0};
-    },
-    .numbers = [](const Soil& soil, const ContactSize& contact) {
-      return LawParameters{soil.pressure.stiffness(contact.width_m)};
-    },
-    .pressure_pa = [](const LawParameters& numbers, double n, double z) { return numbers[0] * std::pow(z, n); }};
+const PressureSinkageLaw kOwnBekker{.name = "own_bekker",
+                                    .summary = "Bekker's law lane by lane",
+                                    .reference = "[Bekker 1956]",
+                                    .fields = {},
+                                    .form =
+                                        [](const Soil& soil, const ContactSize& contact) {
+                                          return PressureForm{soil.pressure.stiffness(contact.width_m), 1.0};
+                                        },
+                                    .numbers =
+                                        [](const Soil& soil, const ContactSize& contact) {
+                                          return LawParameters{soil.pressure.stiffness(contact.width_m)};
+                                        },
+                                    .pressure_pa = [](const LawParameters& numbers, double n,
+                                                      double z) { return numbers[0] * std::pow(z, n); }};
 const ShearLaw kOwnJanosi{.name = "own_janosi",
                           .summary = "Janosi and Hanamoto's law lane by lane",
                           .reference = "[Janosi & Hanamoto 1961]",
@@ -188,13 +203,17 @@ TEST(SoilLaws, ALawOfItsOwnFormActsInEveryInstructionSetAsTheSameLawInPacks) {
   }
   Soil plain = sandy_loam(), own = own_laws();
   for (const double theta : {0.05, 0.4, 1.2})
-    expect_near(wheel_forces(wheel, own, theta, {0.7, 0.1}), wheel_forces(wheel, plain, theta, {0.7, 0.1}), 1e-12);
+    expect_near(wheel_forces(wheel, own, theta, {0.7, 0.1}), wheel_forces(wheel, plain, theta, {0.7, 0.1}),
+                1e-12);
 }
 
 TEST(SoilLaws, WheelsInOnePackMayStandOnSoilsWithDifferentLaws) {
   std::vector<Soil> soils;
   for (int k = 0; k < 13; ++k)
-    soils.push_back(k % 4 == 0 ? sandy_loam() : k % 4 == 1 ? reece_soil() : k % 4 == 2 ? wong_soil(0.5) : own_laws());
+    soils.push_back(k % 4 == 0   ? sandy_loam()
+                    : k % 4 == 1 ? reece_soil()
+                    : k % 4 == 2 ? wong_soil(0.5)
+                                 : own_laws());
   const std::vector<double> angles(soils.size(), 0.4);
   const std::vector<WheelMotion> motions(soils.size(), {0.7, 0.1});
   std::vector<WheelForces> together(soils.size());

@@ -80,9 +80,9 @@ std::string dynamic_lines(const JsonValue& figures, const std::string& label) {
   TextTable table({label, "driven", "time", "energy", "largest slip", "largest tilt", "sinkage", "current"});
   const auto add = [&](const char* level, const JsonValue& f, const char* driven) {
     table.add({level, fmt::format("{:.1f} m", number(f, driven)), duration(number(f, "duration_s")),
-               figure(f, "energy_wh", "{:.0f} Wh"),
-               peak(f, "max_slip", "{:.2f}"), peak(f, "max_tilt_deg", "{:.1f} deg"),
-               peak(f, "max_sinkage_m", "{:.3f} m"), peak(f, "max_current_a", "{:.2f} A")});
+               figure(f, "energy_wh", "{:.0f} Wh"), peak(f, "max_slip", "{:.2f}"),
+               peak(f, "max_tilt_deg", "{:.1f} deg"), peak(f, "max_sinkage_m", "{:.3f} m"),
+               peak(f, "max_current_a", "{:.2f} A")});
   };
   add("balance", figures, "length_m");
   add("dynamic", dynamic, "at_m");
@@ -153,10 +153,10 @@ Result<std::string> comparison_table(std::string_view comparison) {
       const JsonValue& f = at(routes, side);
       if (!f.is(JsonValue::Kind::kObject)) continue;
       table.add({fmt::format("{} {} (rank {:.0f})", pair, side, number(f, "rank")),
-                 figure(f, "energy_wh", "{:.0f} Wh"),
-                 fmt::format("{:.3f}", number(f, "mean_slip")), fmt::format("{:.2f}", number(f, "max_slip")),
-                 figure(f, "max_sinkage_m", "{:.3f} m"), figure(f, "max_current_a", "{:.2f} A"),
-                 fmt::format("{:.0f} %", 100.0 * number(f, "risk")), text(f, "verdict")});
+                 figure(f, "energy_wh", "{:.0f} Wh"), fmt::format("{:.3f}", number(f, "mean_slip")),
+                 fmt::format("{:.2f}", number(f, "max_slip")), figure(f, "max_sinkage_m", "{:.3f} m"),
+                 figure(f, "max_current_a", "{:.2f} A"), fmt::format("{:.0f} %", 100.0 * number(f, "risk")),
+                 text(f, "verdict")});
     }
     const JsonValue& changed = at(routes, "changed");
     if (changed.elements.empty()) changes += fmt::format("Route {}: nothing changed to speak of\n", pair);
@@ -264,9 +264,14 @@ std::string law_parameters(const JsonValue& law) {
 std::vector<std::string> soil_row(const JsonValue& s) {
   if (const JsonValue* curve = s.find("slip_curve")) {
     const auto& slopes = at(*curve, "slope_deg").elements;
-    return {text(s, "name"), "slip curve", fmt::format("{:g} to {:g} deg", slopes.front().number, slopes.back().number),
-            "-",             "-",          "-",
-            "-",             text(s, "source")};
+    return {text(s, "name"),
+            "slip curve",
+            fmt::format("{:g} to {:g} deg", slopes.front().number, slopes.back().number),
+            "-",
+            "-",
+            "-",
+            "-",
+            text(s, "source")};
   }
   const JsonValue* pressure = s.find("pressure_law");
   const JsonValue* shear = s.find("shear_law");
@@ -284,8 +289,8 @@ std::vector<std::string> soil_row(const JsonValue& s) {
 }  // namespace
 
 Result<std::string> soil_table(std::string_view document) {
-  return catalogue_table(document, "soils", {"soil", "k_c", "k_phi", "n", "cohesion", "friction", "K", "source"},
-                         &soil_row);
+  return catalogue_table(document, "soils",
+                         {"soil", "k_c", "k_phi", "n", "cohesion", "friction", "K", "source"}, &soil_row);
 }
 
 Result<std::string> effect_table(std::string_view document) {
