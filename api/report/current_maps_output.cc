@@ -9,6 +9,7 @@
 #include "api/documents/wheel_sweep_answer.h"
 #include "api/report/sweep_chart.h"
 #include "core/angle.h"
+#include "sim/wheel/entry_angle.h"
 
 // CSV and pictures of current maps.
 namespace slipway::api {
@@ -24,7 +25,7 @@ constexpr std::array kInForce{
     InForce{"slip", "slip", [](const sim::WheelRigConditions& t) { return t.slip; }},
     InForce{"load_n", "load_n", [](const sim::WheelRigConditions& t) { return t.load_n; }},
     InForce{"k_s", "soil.k_s",
-            [](const sim::WheelRigConditions& t) { return t.soil.pressure.stiffness(t.wheel.width_m); }},
+            [](const sim::WheelRigConditions& t) { return sim::power_stiffness(t.wheel, t.soil); }},
     InForce{"n", "soil.n", [](const sim::WheelRigConditions& t) { return t.soil.pressure.n; }},
     InForce{"cohesion_pa", "soil.cohesion_pa",
             [](const sim::WheelRigConditions& t) { return t.soil.cohesion_pa; }},

@@ -60,7 +60,7 @@ void check_wheel(const WheelModel& wheel, const std::string& at, FaultList& faul
   faults.require_in(at + "/rate_share", "rate_share", wheel.rate_share, 0.01, 1.0);
   faults.require_in(at + "/steering_offset_deg", "steering_offset_rad", wheel.steering_offset_rad, -0.8, 0.8);
   if (wheel.software_radius_m)
-    faults.require_in(at + "/told_radius_m", "told_radius_m", *wheel.software_radius_m, 0.01, 2.0);
+    faults.require_in(at + "/software_radius_m", "software_radius_m", *wheel.software_radius_m, 0.01, 2.0);
 }
 
 // False where there are too many or too few to look further.

@@ -95,7 +95,7 @@ void judge(double current_a, const InverseOptions& options, CurrentInverse& answ
     std::string all;
     for (const double one : found.slips) all += fmt::format("{}{:.3f}", all.empty() ? "" : ", ", one);
     words.push_back(
-        fmt::format("slips of {} ask for the same current: the first on the rising branch is told", all));
+        fmt::format("slips of {} ask for the same current: the first on the rising branch is reported", all));
   }
   if (slip > options.max_slip) {
     answer.verdict = Trafficability::kNoGo;

@@ -59,7 +59,7 @@ struct SlipQuantiles {
 // What a wheel's current says of its drive.
 struct CurrentInverse {
   SlipsOfCurrent found;
-  std::optional<WheelRigResult> wheel;  // at the slip that is told
+  std::optional<WheelRigResult> wheel;  // at the slip that is reported
   std::optional<GreatestPull> greatest;
   // Share of the greatest pull in use; nothing where the wheel pulls nothing at this slip, or can't at any.
   std::optional<double> share_of_pull;

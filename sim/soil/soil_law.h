@@ -33,7 +33,8 @@ struct PressureForm {
 };
 
 // One row: a law for the pressure under a wheel's rim. At a depth of 0 the pressure must be 0, and it must
-// rise below.
+// rise below. What reads the exponent n elsewhere (slip sinkage, the rebound of a rut) takes it as that of a
+// power of depth.
 struct PressureSinkageLaw {
   std::string_view name;
   std::string_view summary;

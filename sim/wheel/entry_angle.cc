@@ -10,16 +10,11 @@
 
 namespace slipway::sim {
 
-namespace {
-
-// k of p = k z^n.
 double power_stiffness(const WheelGeometry& wheel, const Soil& soil) {
   if (soil.pressure_law.row == nullptr) return soil.pressure.stiffness(wheel.width_m);
   const PressureForm form = soil.pressure_form({.width_m = wheel.width_m, .radius_m = wheel.radius_m});
   return form.stiffness * std::pow(form.per_depth_1_m, soil.pressure.n);
 }
-
-}  // namespace
 
 double bekker_sinkage_m(const WheelGeometry& wheel, const Soil& soil, double load_n) {
   const double n = soil.pressure.n;

@@ -5,6 +5,10 @@
 
 namespace slipway::sim {
 
+// k in N/m^(n+2) of the pressure p = k z^n under this wheel: k_c / b + k_phi of Bekker's law, and what stands
+// in its place in another law's form (PressureForm).
+double power_stiffness(const WheelGeometry& wheel, const Soil& soil);
+
 // Bekker's closed form for the sinkage of a towed wheel [Bekker 1956; Zhurong eq. A18]:
 //
 //   z0 = (3 W / ((3 - n) b (k_c / b + k_phi) sqrt(D)))^(2 / (2 n + 1))
