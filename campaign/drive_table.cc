@@ -82,6 +82,22 @@ void check_effects(const DriveTable& table, std::vector<Fault>& faults) {
   }
 }
 
+// A recorded campaign describes its soils by Bekker's law and Janosi and Hanamoto's, and its drives are
+// simulated.
+void check_soils(const DriveTable& table, std::vector<Fault>& faults) {
+  for (std::size_t t = 0; t < table.terrains.size(); ++t)
+    for (const std::string& name : soils_of(table.terrains[t])) {
+      const auto soil = table.soils.find(name);
+      if (soil == table.soils.end()) continue;
+      const sim::Soil& mean = soil->second.mean;
+      if (mean.has_bekker_law() && mean.shear_law.row == nullptr) continue;
+      faults.push_back(
+          {fmt::format("/terrains/{}/soil", t),
+           fmt::format("soil {} has {}, a drive table's soils have Bekker's law and Janosi and Hanamoto's",
+                       name, mean.slip_curve ? "a slip curve" : "laws of its own choice")});
+    }
+}
+
 }  // namespace
 
 std::vector<TableDrive> expand(const DriveTable& table) {
@@ -111,6 +127,7 @@ std::vector<TableDrive> expand(const DriveTable& table) {
 std::vector<Fault> faults_of(const DriveTable& table) {
   std::vector<Fault> faults;
   check_effects(table, faults);
+  check_soils(table, faults);
   for (std::size_t k = 0; k < table.entries.size(); ++k) check_entry(table, k, faults);
   if (const std::size_t count = count_of(table); count > kMostDrives) {
     faults.push_back(

@@ -98,7 +98,7 @@ std::string write_rovers(const Catalogue& catalogue) {
 std::string write_soils(const Catalogue& catalogue) {
   Writer w;
   w.begin_object().text("unknown_soil", kUnknownGround).key("soils").begin_array();
-  for (const auto& [name, soil] : catalogue.soils) write_soil(w, soil);
+  for (const auto& [name, soil] : catalogue.soils) write_soil(w, soil, *catalogue.soil_format);
   w.end_array().end_object();
   return w.take();
 }

@@ -105,6 +105,9 @@ std::vector<std::string> superlatives(const Route& route, const std::vector<Rout
   compare(
       "shortest", [](const Route& r) { return std::round(r.prediction.length_m); },
       [](const Route& r) { return fmt::format("{:.0f} m", r.prediction.length_m); });
+  // The energy on ground that is known by a slip curve alone is in no route's figure.
+  if (std::any_of(routes.begin(), routes.end(), [](const Route& r) { return r.prediction.by_slip_curve; }))
+    return words;
   compare(
       "least energy", [](const Route& r) { return std::round(r.prediction.energy_j / 3600.0); },
       [](const Route& r) { return fmt::format("{:.0f} Wh", r.prediction.energy_j / 3600.0); });

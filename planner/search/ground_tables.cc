@@ -31,9 +31,7 @@ std::vector<bool> soils_in_use(const PlanProblem& problem) {
 }  // namespace
 
 sim::Soil weak_soil(const sim::SoilDistribution& belief) {
-  sim::SoilNormals normals = sim::SoilNormals::Zero();
-  normals << -0.5, 0.0, -0.5, -0.5, 0.5;  // of length one
-  return sim::draw_soil(belief, normals);
+  return sim::draw_soil(belief, sim::towards_weakness());
 }
 
 GroundTables build_ground_tables(const PlanProblem& problem) {

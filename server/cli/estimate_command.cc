@@ -11,6 +11,7 @@
 
 #include "api/documents/soil_estimate_document.h"
 #include "api/files/campaign/drive_campaign_source.h"
+#include "api/files/soil_file.h"
 #include "api/files/soil_tests_csv.h"
 #include "api/files/terrain_site.h"
 #include "api/json/faults.h"
@@ -204,8 +205,12 @@ int estimate(const EstimateCommand& options) {
   }
   if (!*answer) return refuse(answer->error());
   std::vector<OutputFile> files;
-  if (!options.soil_out.empty())
-    files.push_back({options.soil_out, api::json::estimated_soils_document(**answer)});
+  if (!options.soil_out.empty()) {
+    const std::string soils = api::json::estimated_soils_document(**answer);
+    // A soil that no wheel can stand on, of a k_c far below 0 say, is an estimate but no soil file.
+    if (const auto read_back = api::json::read_soil_file(soils); !read_back) return refuse(read_back.error());
+    files.push_back({options.soil_out, soils});
+  }
   if (!options.plot.empty())
     files.push_back({options.plot, api::draw_soil_estimate((*answer)->estimates.front())});
   return deliver(

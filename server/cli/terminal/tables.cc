@@ -35,8 +35,15 @@ std::string duration(double seconds) {
 
 std::string peak(const JsonValue& figures, std::string_view key, const char* format) {
   const JsonValue& p = at(figures, key);
+  if (p.is(JsonValue::Kind::kNull)) return "-";
   return fmt::format("{} @{:.0f} m", fmt::format(fmt::runtime(format), number(p, "value")),
                      number(p, "at_m"));
+}
+
+// "-" where it is not known: on ground that is known by a slip curve alone.
+std::string figure(const JsonValue& figures, std::string_view key, const char* format) {
+  if (at(figures, key).is(JsonValue::Kind::kNull)) return "-";
+  return fmt::format(fmt::runtime(format), number(figures, key));
 }
 
 std::vector<std::string> figures_row(std::string label, const JsonValue& f, std::string verdict) {
@@ -44,7 +51,7 @@ std::vector<std::string> figures_row(std::string label, const JsonValue& f, std:
   return {std::move(label),
           fmt::format("{:.1f} m", number(f, "length_m")),
           duration(number(f, "duration_s")),
-          fmt::format("{:.0f} Wh", number(f, "energy_wh")),
+          figure(f, "energy_wh", "{:.0f} Wh"),
           fmt::format("{:.3f}", number(f, "mean_slip")),
           peak(f, "max_slip", "{:.2f}"),
           peak(f, "max_tilt_deg", "{:.1f} deg"),
@@ -73,11 +80,9 @@ std::string dynamic_lines(const JsonValue& figures, const std::string& label) {
   TextTable table({label, "driven", "time", "energy", "largest slip", "largest tilt", "sinkage", "current"});
   const auto add = [&](const char* level, const JsonValue& f, const char* driven) {
     table.add({level, fmt::format("{:.1f} m", number(f, driven)), duration(number(f, "duration_s")),
-               at(f, "energy_wh").is(JsonValue::Kind::kNull)
-                   ? "-"
-                   : fmt::format("{:.0f} Wh", number(f, "energy_wh")),
-               peak(f, "max_slip", "{:.2f}"), peak(f, "max_tilt_deg", "{:.1f} deg"),
-               peak(f, "max_sinkage_m", "{:.3f} m"), peak(f, "max_current_a", "{:.2f} A")});
+               figure(f, "energy_wh", "{:.0f} Wh"), peak(f, "max_slip", "{:.2f}"),
+               peak(f, "max_tilt_deg", "{:.1f} deg"), peak(f, "max_sinkage_m", "{:.3f} m"),
+               peak(f, "max_current_a", "{:.2f} A")});
   };
   add("balance", figures, "length_m");
   add("dynamic", dynamic, "at_m");
@@ -148,11 +153,10 @@ Result<std::string> comparison_table(std::string_view comparison) {
       const JsonValue& f = at(routes, side);
       if (!f.is(JsonValue::Kind::kObject)) continue;
       table.add({fmt::format("{} {} (rank {:.0f})", pair, side, number(f, "rank")),
-                 fmt::format("{:.0f} Wh", number(f, "energy_wh")),
-                 fmt::format("{:.3f}", number(f, "mean_slip")), fmt::format("{:.2f}", number(f, "max_slip")),
-                 fmt::format("{:.3f} m", number(f, "max_sinkage_m")),
-                 fmt::format("{:.2f} A", number(f, "max_current_a")),
-                 fmt::format("{:.0f} %", 100.0 * number(f, "risk")), text(f, "verdict")});
+                 figure(f, "energy_wh", "{:.0f} Wh"), fmt::format("{:.3f}", number(f, "mean_slip")),
+                 fmt::format("{:.2f}", number(f, "max_slip")), figure(f, "max_sinkage_m", "{:.3f} m"),
+                 figure(f, "max_current_a", "{:.2f} A"), fmt::format("{:.0f} %", 100.0 * number(f, "risk")),
+                 text(f, "verdict")});
     }
     const JsonValue& changed = at(routes, "changed");
     if (changed.elements.empty()) changes += fmt::format("Route {}: nothing changed to speak of\n", pair);
@@ -246,19 +250,47 @@ Result<std::string> rover_table(std::string_view document) {
       });
 }
 
+namespace {
+
+// "reece", and "k_c = 12, k_phi = 900".
+std::string law_parameters(const JsonValue& law) {
+  std::string out;
+  for (std::size_t i = 0; i < law.keys.size(); ++i)
+    if (law.keys[i] != "name")
+      out += fmt::format("{}{} = {:g}", out.empty() ? "" : ", ", law.keys[i], law.elements[i].number);
+  return out;
+}
+
+std::vector<std::string> soil_row(const JsonValue& s) {
+  if (const JsonValue* curve = s.find("slip_curve")) {
+    const auto& slopes = at(*curve, "slope_deg").elements;
+    return {text(s, "name"),
+            "slip curve",
+            fmt::format("{:g} to {:g} deg", slopes.front().number, slopes.back().number),
+            "-",
+            "-",
+            "-",
+            "-",
+            text(s, "source")};
+  }
+  const JsonValue* pressure = s.find("pressure_law");
+  const JsonValue* shear = s.find("shear_law");
+  return {text(s, "name"),
+          pressure ? text(*pressure, "name") : fmt::format("{:g}", number(s, "k_c")),
+          pressure ? law_parameters(*pressure) : fmt::format("{:g}", number(s, "k_phi")),
+          fmt::format("{:g}", number(s, "n")),
+          fmt::format("{:g} Pa", number(s, "cohesion_pa")),
+          fmt::format("{:g} deg", number(s, "friction_angle_deg")),
+          fmt::format("{:g} m", number(s, "shear_modulus_x_m")) +
+              (shear ? fmt::format(" ({}: {})", text(*shear, "name"), law_parameters(*shear)) : ""),
+          text(s, "source")};
+}
+
+}  // namespace
+
 Result<std::string> soil_table(std::string_view document) {
-  return catalogue_table(
-      document, "soils", {"soil", "k_c", "k_phi", "n", "cohesion", "friction", "K", "source"},
-      [](const JsonValue& s) {
-        return std::vector<std::string>{text(s, "name"),
-                                        fmt::format("{:g}", number(s, "k_c")),
-                                        fmt::format("{:g}", number(s, "k_phi")),
-                                        fmt::format("{:g}", number(s, "n")),
-                                        fmt::format("{:g} Pa", number(s, "cohesion_pa")),
-                                        fmt::format("{:g} deg", number(s, "friction_angle_deg")),
-                                        fmt::format("{:g} m", number(s, "shear_modulus_x_m")),
-                                        text(s, "source")};
-      });
+  return catalogue_table(document, "soils",
+                         {"soil", "k_c", "k_phi", "n", "cohesion", "friction", "K", "source"}, &soil_row);
 }
 
 Result<std::string> effect_table(std::string_view document) {

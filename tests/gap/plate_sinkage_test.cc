@@ -1,19 +1,20 @@
+#include "gap/estimate/plate_sinkage.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/angle.h"
 #include "core/random.h"
-#include "gap/estimate/plate_sinkage.h"
 
 namespace slipway::gap {
 namespace {
 
 // Exact tests of a soil with these moduli, with relative noise.
-std::vector<PlateTest> tests_of(const sim::BekkerModuli& moduli, std::vector<double> radii, double noise) {
-  std::vector<PlateTest> tests;
+std::vector<PlateRecord> tests_of(const sim::BekkerModuli& moduli, std::vector<double> radii, double noise) {
+  std::vector<PlateRecord> tests;
   for (const double radius : radii) {
-    PlateTest test{radius, {}, {}};
+    PlateRecord test{radius, {}, {}};
     for (int i = 1; i <= 20; ++i) {
       const double z = 0.002 * i;
       test.sinkage_m.push_back(z);
@@ -73,14 +74,14 @@ TEST(FitModuli, PlatesOfOneSizeDoNotTellKcFromKphi) {
 
 TEST(FitModuli, TooFewSamplesAreRefused) {
   NoProgress progress;
-  const std::vector<PlateTest> tests{{0.1, {0.0, 0.01, 0.02}, {0.0, 1e3, 2e3}}};
+  const std::vector<PlateRecord> tests{{0.1, {0.0, 0.01, 0.02}, {0.0, 1e3, 2e3}}};
   const auto fit = fit_moduli(tests, {}, progress);
   ASSERT_FALSE(fit);
   EXPECT_EQ(fit.error().code, ErrorCode::kNoData);
 }
 
 TEST(FitShearStrength, GivesBackMohrCoulombOfExactTests) {
-  AnnulusTest test{0.15, 0.2, {}, {}};
+  AnnulusRecord test{0.15, 0.2, {}, {}};
   for (int i = 1; i <= 6; ++i) {
     const double load = 250.0 * i;
     const double tau = 2000.0 + test.mean_stress_pa(load) * std::tan(rad_from_deg(30.0));
