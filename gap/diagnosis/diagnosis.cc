@@ -178,17 +178,15 @@ class Diagnoser {
     d_.regimes_of_effect =
         regimes_of(prepared_, campaign_, signature, LookedAt::kTrace, options_, kMostRegimes);
     for (std::size_t e = 0; e < best().effects.size(); ++e) {
-      if (best().effects[e] != "soft_patch") continue;
-      const EffectVariant& patch = best_fit().hypothesis.effects()[e];
+      const std::optional<sim::Disc> place = place_of(best_fit().hypothesis.effects()[e]);
+      if (!place) continue;
       // It lies on the terrain of the windows that meet it.
       std::string terrain = campaign_.terrains.front().name;
       for (const DriveWindow& w : prepared_.windows)
         for (const Pose2& pose : w.stations)
-          if (std::hypot(pose.x_m - patch.fixed[0].second, pose.y_m - patch.fixed[1].second) <
-              patch.fixed[2].second)
+          if (std::hypot(pose.x_m - place->x_m, pose.y_m - place->y_m) < place->radius_m)
             terrain = campaign_.terrains[campaign_.drives[w.drive].terrain].name;
-      d_.places.push_back({terrain, patch.fixed[0].second, patch.fixed[1].second, patch.fixed[2].second,
-                           Channel::kSlip, 1.0});
+      d_.places.push_back({terrain, place->x_m, place->y_m, place->radius_m, Channel::kSlip, 1.0});
     }
   }
 

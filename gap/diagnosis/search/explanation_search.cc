@@ -14,7 +14,6 @@
 namespace slipway::gap {
 namespace {
 
-const std::string kSoftPatch = "soft_patch";
 constexpr std::size_t kMostPatches = 3;
 constexpr int kMostVariants = 2;  // of an effect, that are fitted in full
 
@@ -84,11 +83,15 @@ class Searcher {
         progress_(progress),
         variants_(effect_variants(*campaign.rover, options.withheld)) {
     for (const EffectVariant& v : variants_) ++variants_of_[v.effect];
-    if (std::find(options.withheld.begin(), options.withheld.end(), kSoftPatch) == options.withheld.end()) {
+    for (const sim::Effect& effect : sim::effect_catalogue()) {
+      const auto& withheld = options.withheld;
+      if (effect.variant_at == nullptr ||
+          std::find(withheld.begin(), withheld.end(), effect.name) != withheld.end())
+        continue;
       progress.report("looking for soft places", 0.18);
-      const PatchSearch patches = search_soft_patches(campaign, model, noise, null, kMostPatches);
+      const PatchSearch patches = search_soft_patches(effect, campaign, model, noise, null, kMostPatches);
       variants_.insert(variants_.end(), patches.variants.begin(), patches.variants.end());
-      variants_of_[kSoftPatch] = static_cast<double>(patches.looks);
+      variants_of_[std::string(effect.name)] = static_cast<double>(patches.looks);
     }
     search_.fits.push_back(std::move(null));
     progress.report("screening effects", 0.2);
@@ -129,7 +132,7 @@ class Searcher {
         FittedExplanation second = fitted(fit.hypothesis, other->second);
         if (second.log_evidence > fit.log_evidence) fit = std::move(second);
       }
-      if (v.effect == kSoftPatch && tried_[v.effect] == 1)
+      if (place_of(v) && tried_[v.effect] == 1)
         fit = refine_soft_patch(campaign_, model_, noise_, std::move(fit), fit_options(options_));
       const auto best = best_fit_.find(v.effect);
       if (best == best_fit_.end() || fit.log_evidence > search_.fits[best->second].log_evidence)

@@ -1,26 +1,17 @@
 #include "gap/diagnosis/search/soft_patch_search.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "sim/effects/effect_catalogue.h"
 
 namespace slipway::gap {
 namespace {
 
 constexpr std::array kRadii_m{0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0};
 constexpr double kWholeMap_m = 1000.0;
-
-EffectVariant patch(double x_m, double y_m, double radius_m) {
-  EffectVariant v;
-  v.effect = "soft_patch";
-  v.label = fmt::format("{:.1f} m around ({:.1f}, {:.1f})", radius_m, x_m, y_m);
-  v.free = {{"weakening", 0.3, 0.0, 0.95}};
-  v.fixed = {{"x_m", x_m}, {"y_m", y_m}, {"radius_m", radius_m}};
-  return v;
-}
 
 struct Disc {
   double x_m, y_m, radius_m, gain;
@@ -32,8 +23,9 @@ bool alike(const Disc& a, const Disc& b) {
 
 }  // namespace
 
-PatchSearch search_soft_patches(const DriveCampaign& campaign, const WindowModel& model,
-                                const NoiseModel& noise, const FittedExplanation& fit, std::size_t most) {
+PatchSearch search_soft_patches(const sim::Effect& effect, const DriveCampaign& campaign,
+                                const WindowModel& model, const NoiseModel& noise,
+                                const FittedExplanation& fit, std::size_t most) {
   PatchSearch search;
   const auto windows = model.windows();
   double x_m = 0.0, y_m = 0.0;
@@ -47,7 +39,8 @@ PatchSearch search_soft_patches(const DriveCampaign& campaign, const WindowModel
   if (count == 0) return search;
   // What weaker soil everywhere would do, window by window.
   const Hypothesis everywhere(
-      campaign, {patch(x_m / static_cast<double>(count), y_m / static_cast<double>(count), kWholeMap_m)});
+      campaign, {variant_at(effect, {x_m / static_cast<double>(count), y_m / static_cast<double>(count),
+                                     kWholeMap_m})});
   std::vector<double> x(fit.x.begin(),
                         fit.x.begin() + static_cast<std::ptrdiff_t>(everywhere.nuisance_count()));
   x.push_back(0.0);
@@ -97,7 +90,7 @@ PatchSearch search_soft_patches(const DriveCampaign& campaign, const WindowModel
     if (kept.size() >= most) break;
     if (std::any_of(kept.begin(), kept.end(), [&](const Disc& k) { return alike(k, disc); })) continue;
     kept.push_back(disc);
-    search.variants.push_back(patch(disc.x_m, disc.y_m, disc.radius_m));
+    search.variants.push_back(variant_at(effect, {disc.x_m, disc.y_m, disc.radius_m}));
   }
   search.looks = std::max<std::size_t>(windows.size(), 1);
   return search;
@@ -108,8 +101,9 @@ FittedExplanation refine_soft_patch(const DriveCampaign& campaign, const WindowM
                                     const ExplanationOptions& options) {
   std::size_t which = 0;
   const auto effects = fit.hypothesis.effects();
-  while (which < effects.size() && effects[which].effect != "soft_patch") ++which;
+  while (which < effects.size() && !place_of(effects[which])) ++which;
   if (which == effects.size()) return fit;
+  const sim::Effect& effect = *sim::find_effect(effects[which].effect);
   ExplanationOptions quick = options;
   quick.iterations = 3;
   for (const double step : {0.5, 0.25}) {
@@ -118,13 +112,12 @@ FittedExplanation refine_soft_patch(const DriveCampaign& campaign, const WindowM
       for (int k = 0; k < 6; ++k) {
         if (model.cancelled()) return fit;
         std::vector<EffectVariant> moved(fit.hypothesis.effects().begin(), fit.hypothesis.effects().end());
-        double x_m = moved[which].fixed[0].second, y_m = moved[which].fixed[1].second;
-        double radius_m = moved[which].fixed[2].second;
-        const double shift = step * radius_m * (k % 2 == 0 ? 1.0 : -1.0);
-        if (k / 2 == 0) x_m += shift;
-        if (k / 2 == 1) y_m += shift;
-        if (k / 2 == 2) radius_m += 0.6 * shift;
-        moved[which] = patch(x_m, y_m, radius_m);
+        sim::Disc place = *place_of(moved[which]);
+        const double shift = step * place.radius_m * (k % 2 == 0 ? 1.0 : -1.0);
+        if (k / 2 == 0) place.x_m += shift;
+        if (k / 2 == 1) place.y_m += shift;
+        if (k / 2 == 2) place.radius_m += 0.6 * shift;
+        moved[which] = variant_at(effect, place);
         FittedExplanation trial = fit_explanation(Hypothesis(campaign, moved), model, noise, fit.x, quick);
         if (trial.log_evidence <= fit.log_evidence + 0.1) continue;
         fit = std::move(trial);

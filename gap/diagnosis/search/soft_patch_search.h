@@ -7,15 +7,18 @@
 
 namespace slipway::gap {
 
-// Where weaker soil could lie: discs around measured stations, those first that would raise the evidence of
-// the fit most, none overlapping a better one by more than half. As variants of soft_patch, weakening free.
+// Places where an effect with a region, such as weaker soil, could be at work: discs around measured
+// stations, those first that would raise the evidence of the fit most, none overlapping a better one by more
+// than half.
 struct PatchSearch {
   std::vector<EffectVariant> variants;
   std::size_t looks = 0;  // how many discs that are much different were looked at
 };
 
-PatchSearch search_soft_patches(const DriveCampaign& campaign, const WindowModel& model,
-                                const NoiseModel& noise, const FittedExplanation& fit, std::size_t most);
+// `effect` must have variant_at.
+PatchSearch search_soft_patches(const sim::Effect& effect, const DriveCampaign& campaign,
+                                const WindowModel& model, const NoiseModel& noise,
+                                const FittedExplanation& fit, std::size_t most);
 
 // The patch of a fitted explanation moved and resized while that raises its evidence.
 FittedExplanation refine_soft_patch(const DriveCampaign& campaign, const WindowModel& model,
