@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "core/quantile.h"
+#include "sim/effects/effect_catalogue.h"
 
 namespace slipway::gap {
 namespace {
@@ -203,7 +204,10 @@ CaseScore score_case(const HiddenAnswer& answer, const Diagnosis& d, const std::
   }
   if (answer.place) {
     score.place_overlap = 0.0;
-    const bool named = found.contains("soft_patch");
+    const bool named = std::any_of(found.begin(), found.end(), [](const std::string& name) {
+      const sim::Effect* const effect = sim::find_effect(name);
+      return effect != nullptr && effect->region != nullptr;
+    });
     for (const GapPlace& place : d.places)
       if (named)
         score.place_overlap = std::max(*score.place_overlap,

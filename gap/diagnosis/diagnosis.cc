@@ -188,16 +188,15 @@ class Diagnoser {
     d_.channels_of_effects = channel_shares(prepared_, signature, options_);
     d_.regimes_of_effect = regimes_of(prepared_, campaign_, signature, LookedAt::kTrace, options_);
     for (std::size_t e = 0; e < best().effects.size(); ++e) {
-      const EffectVariant& effect = best_fit().hypothesis.effects()[e];
-      if (!is_soft_patch(effect)) continue;
-      const Disc patch = disc_of(effect);
+      const std::optional<sim::Disc> place = place_of(best_fit().hypothesis.effects()[e]);
+      if (!place) continue;
       // It lies on the terrain of the windows that meet it.
       std::string terrain = campaign_.terrains.front().name;
       for (const DriveWindow& w : prepared_.windows)
         for (const Pose2& pose : w.stations)
-          if (std::hypot(pose.x_m - patch.x_m, pose.y_m - patch.y_m) < patch.radius_m)
+          if (std::hypot(pose.x_m - place->x_m, pose.y_m - place->y_m) < place->radius_m)
             terrain = campaign_.terrains[campaign_.drives[w.drive].terrain].name;
-      d_.places.push_back({terrain, patch.x_m, patch.y_m, patch.radius_m, Channel::kSlip, 1.0});
+      d_.places.push_back({terrain, place->x_m, place->y_m, place->radius_m, Channel::kSlip, 1.0});
     }
   }
 

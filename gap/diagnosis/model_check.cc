@@ -111,7 +111,7 @@ std::vector<EffectVariant> open_effects(const CorrectedBelief& belief) {
   std::vector<EffectVariant> variants;
   for (const sim::EffectSetting& setting : belief.rover->effects) {
     const sim::Effect* const effect = sim::find_effect(setting.name);
-    if (effect == nullptr || setting.name == "attitude_bias") continue;
+    if (effect == nullptr || effect->shown_tilt != nullptr) continue;
     EffectVariant variant{.effect = setting.name, .label = "", .free = {}, .fixed = {}};
     for (const auto& [field, value] : setting.parameters) {
       const auto place = belief.left_open.place_of(setting.name + "." + field, "");

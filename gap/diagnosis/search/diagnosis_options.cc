@@ -111,10 +111,8 @@ void list_discrepancy(const DiscrepancyOptions& options, Lister& list) {
 
 void list_soft_patch(const SoftPatchOptions& options, Lister& list) {
   list.step("soft_patch");
-  const auto& [radii_m, weakening_std, max_weakening, max_patches, min_rise] = options;
+  const auto& [radii_m, max_patches, min_rise] = options;
   SLIPWAY_FIELD(radii_m);
-  SLIPWAY_FIELD(weakening_std);
-  SLIPWAY_FIELD(max_weakening);
   SLIPWAY_FIELD(max_patches);
   SLIPWAY_FIELD(min_rise);
 }

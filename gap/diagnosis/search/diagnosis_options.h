@@ -76,8 +76,6 @@ struct DiscrepancyOptions {
 // Where softer ground could lie: see soft_patch_search.h.
 struct SoftPatchOptions {
   std::array<double, 7> radii_m{0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0};  // from a wheel base to a crater
-  double weakening_std = 0.3;  // prior deviation of the share of stiffness and strength that is missing there
-  double max_weakening = 0.95;
   int max_patches = 3;    // that compete: more would be one place said several times
   double min_rise = 0.1;  // of the log evidence, for which a disc is moved or resized
 };

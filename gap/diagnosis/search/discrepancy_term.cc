@@ -7,6 +7,10 @@
 
 #include "core/angle.h"
 #include "gap/diagnosis/search/effect_trace.h"
+#include "sim/effects/attitude_bias.h"
+#include "sim/effects/com_offset.h"
+#include "sim/effects/effect_catalogue.h"
+#include "sim/effects/steering_offset.h"
 
 namespace slipway::gap {
 namespace {
@@ -39,18 +43,18 @@ constexpr std::array<Entry, kLevers> kLeverEntries{Entry::kTangentialForce, Entr
 // Effects of the catalogue as levers: what a force along, a force across, a shifted load, a turned wheel
 // does. Their bounds are never reached: only derivatives are taken.
 std::vector<EffectVariant> levers(const DiscrepancyOptions& options) {
-  const auto lever = [](const char* effect, std::vector<EffectVariant::Free> free,
+  const auto lever = [](const sim::Effect& effect, std::vector<EffectVariant::Free> free,
                         std::vector<std::pair<std::string, double>> fixed = {}) {
     EffectVariant v;
-    v.effect = effect;
+    v.effect = effect.name;
     v.free = std::move(free);
     v.fixed = std::move(fixed);
     return v;
   };
   const double tilt = options.tilt_deg, shift = options.load_shift_m;
-  return {lever("attitude_bias", {{"pitch_deg", tilt, -10.0, 10.0}, {"roll_deg", tilt, -10.0, 10.0}}),
-          lever("com_offset", {{"x_m", shift, -0.5, 0.5}, {"y_m", shift, -0.5, 0.5}}),
-          lever("steering_offset", {{"angle_deg", options.steering_deg, -20.0, 20.0}}, {{"wheel", -1.0}})};
+  return {lever(sim::kAttitudeBias, {{"pitch_deg", tilt, -10.0, 10.0}, {"roll_deg", tilt, -10.0, 10.0}}),
+          lever(sim::kComOffset, {{"x_m", shift, -0.5, 0.5}, {"y_m", shift, -0.5, 0.5}}),
+          lever(sim::kSteeringOffset, {{"angle_deg", options.steering_deg, -20.0, 20.0}}, {{"wheel", -1.0}})};
 }
 
 // A force that keeps its direction on the map and what changes over the hours could enter at some points
@@ -302,7 +306,7 @@ Eigen::MatrixXd form_columns(const DriveCampaign& campaign, const WindowModel& m
   const std::vector<int> axle_of = axles(*campaign.rover);
   std::vector<Eigen::VectorXd> columns;
   for (const EffectVariant& effect : fit.hypothesis.effects()) {
-    if (!has_many_forms(effect.effect)) continue;
+    if (!sim::find_effect(effect.effect)->has_many_forms) continue;
     const Eigen::VectorXd trace = options.form_imprecision * effect_trace(fit, model, effect.effect, threads);
     const auto add = [&](const auto& share) {
       Eigen::VectorXd column = trace;

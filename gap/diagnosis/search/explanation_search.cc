@@ -46,12 +46,16 @@ class Searcher {
         progress_(progress),
         variants_(effect_variants(*campaign.rover, options.search.withheld)) {
     for (const EffectVariant& v : variants_) ++variants_of_[v.effect];
-    const auto& withheld = options.search.withheld;
-    if (std::find(withheld.begin(), withheld.end(), kSoftPatch) == withheld.end()) {
+    for (const sim::Effect& effect : sim::effect_catalogue()) {
+      const auto& withheld = options.search.withheld;
+      if (effect.variant_at == nullptr ||
+          std::find(withheld.begin(), withheld.end(), effect.name) != withheld.end())
+        continue;
       progress.report("looking for soft places", 0.18);
-      const PatchSearch patches = search_soft_patches(campaign, model, noise, null, options.soft_patch);
+      const PatchSearch patches =
+          search_soft_patches(effect, campaign, model, noise, null, options.soft_patch);
       variants_.insert(variants_.end(), patches.variants.begin(), patches.variants.end());
-      variants_of_[std::string(kSoftPatch)] = static_cast<double>(patches.looks);
+      variants_of_[std::string(effect.name)] = static_cast<double>(patches.looks);
     }
     search_.fits.push_back(std::move(null));
     progress.report("screening effects", 0.2);
@@ -92,7 +96,7 @@ class Searcher {
         FittedExplanation second = fitted(fit.hypothesis, other->second);
         if (second.log_evidence > fit.log_evidence) fit = std::move(second);
       }
-      if (is_soft_patch(v) && tried_[v.effect] == 1)
+      if (place_of(v) && tried_[v.effect] == 1)
         fit = refine_soft_patch(campaign_, model_, noise_, std::move(fit), options_.fit, options_.soft_patch,
                                 options_.search.threads);
       const auto best = best_fit_.find(v.effect);

@@ -1,7 +1,5 @@
 #include "gap/diagnosis/search/soft_patch_search.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,21 +15,12 @@ constexpr std::array kMoves{0.5, 0.25};
 constexpr double kResize = 0.6;
 constexpr int kMaxSweeps = 3, kMaxIterations = 3;
 
-EffectVariant patch(const Disc& disc, const SoftPatchOptions& options) {
-  EffectVariant v;
-  v.effect = kSoftPatch;
-  v.label = fmt::format("{:.1f} m around ({:.1f}, {:.1f})", disc.radius_m, disc.x_m, disc.y_m);
-  v.free = {{"weakening", options.weakening_std, 0.0, options.max_weakening}};
-  v.fixed = {{"x_m", disc.x_m}, {"y_m", disc.y_m}, {"radius_m", disc.radius_m}};
-  return v;
-}
-
-bool overlap(const Disc& a, const Disc& b) {
+bool overlap(const sim::Disc& a, const sim::Disc& b) {
   return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m) < 0.5 * (a.radius_m + b.radius_m);
 }
 
 // The mean of all measured stations; nothing where there are none.
-std::optional<Disc> whole_map(std::span<const DriveWindow> windows) {
+std::optional<sim::Disc> whole_map(std::span<const DriveWindow> windows) {
   double x_m = 0.0, y_m = 0.0;
   std::size_t count = 0;
   for (const DriveWindow& w : windows)
@@ -41,14 +30,14 @@ std::optional<Disc> whole_map(std::span<const DriveWindow> windows) {
       ++count;
     }
   if (count == 0) return std::nullopt;
-  return Disc{x_m / static_cast<double>(count), y_m / static_cast<double>(count), kWholeMap_m};
+  return sim::Disc{x_m / static_cast<double>(count), y_m / static_cast<double>(count), kWholeMap_m};
 }
 
 // What weaker soil everywhere would do to every observation, for a prior deviation of the weakening.
 Eigen::VectorXd weaker_everywhere(const DriveCampaign& campaign, const WindowModel& model,
-                                  const FittedExplanation& fit, const Disc& all,
-                                  const SoftPatchOptions& options) {
-  const Hypothesis everywhere(campaign, {patch(all, options)});
+                                  const FittedExplanation& fit, const sim::Effect& effect,
+                                  const sim::Disc& all) {
+  const Hypothesis everywhere(campaign, {variant_at(effect, all)});
   std::vector<double> x(fit.x.begin(),
                         fit.x.begin() + static_cast<std::ptrdiff_t>(everywhere.nuisance_count()));
   x.push_back(0.0);
@@ -65,7 +54,7 @@ Eigen::VectorXd weaker_everywhere(const DriveCampaign& campaign, const WindowMod
 }
 
 // A response in every window times the share of its stations that lie in the disc.
-Eigen::VectorXd inside(Eigen::VectorXd response, const WindowModel& model, const Disc& disc) {
+Eigen::VectorXd inside(Eigen::VectorXd response, const WindowModel& model, const sim::Disc& disc) {
   const auto windows = model.windows();
   for (std::size_t v = 0; v < windows.size(); ++v) {
     double share = 0.0;
@@ -79,7 +68,7 @@ Eigen::VectorXd inside(Eigen::VectorXd response, const WindowModel& model, const
 }
 
 // The disc's neighbours in turn: to either side along x, along y, larger and smaller.
-Disc neighbour(Disc disc, int which, double move) {
+sim::Disc neighbour(sim::Disc disc, int which, double move) {
   const double shift = move * disc.radius_m * (which % 2 == 0 ? 1.0 : -1.0);
   if (which / 2 == 0) disc.x_m += shift;
   if (which / 2 == 1) disc.y_m += shift;
@@ -88,14 +77,6 @@ Disc neighbour(Disc disc, int which, double move) {
 }
 
 }  // namespace
-
-bool is_soft_patch(const EffectVariant& variant) {
-  return variant.effect == kSoftPatch;
-}
-
-Disc disc_of(const EffectVariant& soft_patch) {
-  return {soft_patch.fixed[0].second, soft_patch.fixed[1].second, soft_patch.fixed[2].second};
-}
 
 ColumnBeside::ColumnBeside(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& known) : known_(known) {
   Eigen::MatrixXd hessian = known.transpose() * known;
@@ -113,27 +94,27 @@ std::optional<double> ColumnBeside::gain(const Eigen::VectorXd& column) const {
   return 0.5 * score * score / (1.0 + information) - 0.5 * std::log1p(information);
 }
 
-std::vector<Disc> best_apart(std::vector<ScoredDisc> discs, std::size_t most) {
+std::vector<sim::Disc> best_apart(std::vector<ScoredDisc> discs, std::size_t most) {
   std::stable_sort(discs.begin(), discs.end(),
                    [](const ScoredDisc& a, const ScoredDisc& b) { return a.gain > b.gain; });
-  std::vector<Disc> kept;
+  std::vector<sim::Disc> kept;
   for (const ScoredDisc& scored : discs) {
     if (kept.size() >= most) break;
-    if (std::any_of(kept.begin(), kept.end(), [&](const Disc& k) { return overlap(k, scored.disc); }))
+    if (std::any_of(kept.begin(), kept.end(), [&](const sim::Disc& k) { return overlap(k, scored.disc); }))
       continue;
     kept.push_back(scored.disc);
   }
   return kept;
 }
 
-PatchSearch search_soft_patches(const DriveCampaign& campaign, const WindowModel& model,
-                                const NoiseModel& noise, const FittedExplanation& fit,
-                                const SoftPatchOptions& options) {
+PatchSearch search_soft_patches(const sim::Effect& effect, const DriveCampaign& campaign,
+                                const WindowModel& model, const NoiseModel& noise,
+                                const FittedExplanation& fit, const SoftPatchOptions& options) {
   PatchSearch search;
   const auto windows = model.windows();
-  const std::optional<Disc> all = whole_map(windows);
+  const std::optional<sim::Disc> all = whole_map(windows);
   if (!all) return search;
-  const Eigen::VectorXd response = weaker_everywhere(campaign, model, fit, *all, options);
+  const Eigen::VectorXd response = weaker_everywhere(campaign, model, fit, effect, *all);
   const ColumnBeside beside(fit.white_linear, fit.white_jacobian);
   std::vector<ScoredDisc> discs;
   for (std::size_t w = 0; w < windows.size(); ++w) {
@@ -141,14 +122,14 @@ PatchSearch search_soft_patches(const DriveCampaign& campaign, const WindowModel
     if (!model.used(w)) continue;
     const Pose2& centre = windows[w].stations[windows[w].stations.size() / 2];
     for (const double radius_m : options.radii_m) {
-      const Disc disc{centre.x_m, centre.y_m, radius_m};
+      const sim::Disc disc{centre.x_m, centre.y_m, radius_m};
       const Eigen::VectorXd white =
           fit.row_weights.asDiagonal() * noise.whiten(inside(response, model, disc));
       if (const auto gain = beside.gain(white)) discs.push_back({disc, *gain});
     }
   }
-  for (const Disc& disc : best_apart(std::move(discs), static_cast<std::size_t>(options.max_patches)))
-    search.variants.push_back(patch(disc, options));
+  for (const sim::Disc& disc : best_apart(std::move(discs), static_cast<std::size_t>(options.max_patches)))
+    search.variants.push_back(variant_at(effect, disc));
   search.looks = std::max<std::size_t>(windows.size(), 1);
   return search;
 }
@@ -157,8 +138,10 @@ FittedExplanation refine_soft_patch(const DriveCampaign& campaign, const WindowM
                                     const NoiseModel& noise, FittedExplanation fit, const FitOptions& options,
                                     const SoftPatchOptions& patch_options, std::size_t threads) {
   const auto effects = fit.hypothesis.effects();
-  const auto found = std::find_if(effects.begin(), effects.end(), is_soft_patch);
+  const auto found = std::find_if(effects.begin(), effects.end(),
+                                  [](const EffectVariant& v) { return place_of(v).has_value(); });
   if (found == effects.end()) return fit;
+  const sim::Effect& effect = *sim::find_effect(found->effect);
   const auto which = static_cast<std::size_t>(found - effects.begin());
   FitOptions quick = options;
   quick.max_iterations = kMaxIterations;
@@ -168,7 +151,7 @@ FittedExplanation refine_soft_patch(const DriveCampaign& campaign, const WindowM
       for (int k = 0; k < 6; ++k) {
         if (model.cancelled()) return fit;
         std::vector<EffectVariant> moved(fit.hypothesis.effects().begin(), fit.hypothesis.effects().end());
-        moved[which] = patch(neighbour(disc_of(moved[which]), k, move), patch_options);
+        moved[which] = variant_at(effect, neighbour(*place_of(moved[which]), k, move));
         FittedExplanation trial =
             fit_explanation(Hypothesis(campaign, moved), model, noise, fit.x, quick, threads);
         if (trial.log_evidence <= fit.log_evidence + patch_options.min_rise) continue;

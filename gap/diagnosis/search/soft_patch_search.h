@@ -4,37 +4,29 @@
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "gap/diagnosis/search/explanation.h"
 
 namespace slipway::gap {
 
-// Where weaker soil could lie: discs around measured stations, those first that would raise the evidence of
-// the fit most, none overlapping a better one by more than half. As variants of soft_patch, weakening free.
+// Places where an effect with a region, such as weaker soil, could be at work: discs around measured
+// stations, those first that would raise the evidence of the fit most, none overlapping a better one by more
+// than half.
 struct PatchSearch {
   std::vector<EffectVariant> variants;
   std::size_t looks = 0;  // how many discs that are much different were looked at
 };
 
-PatchSearch search_soft_patches(const DriveCampaign& campaign, const WindowModel& model,
-                                const NoiseModel& noise, const FittedExplanation& fit,
-                                const SoftPatchOptions& options);
+// `effect` must have variant_at.
+PatchSearch search_soft_patches(const sim::Effect& effect, const DriveCampaign& campaign,
+                                const WindowModel& model, const NoiseModel& noise,
+                                const FittedExplanation& fit, const SoftPatchOptions& options);
 
 // The patch of a fitted explanation moved and resized while that raises its evidence.
 FittedExplanation refine_soft_patch(const DriveCampaign& campaign, const WindowModel& model,
                                     const NoiseModel& noise, FittedExplanation fit, const FitOptions& options,
                                     const SoftPatchOptions& patch_options, std::size_t threads);
-
-inline constexpr std::string_view kSoftPatch = "soft_patch";  // the effect's name in the catalogue
-
-// The disc of a variant or a setting of soft_patch.
-struct Disc {
-  double x_m = 0.0, y_m = 0.0, radius_m = 0.0;
-};
-bool is_soft_patch(const EffectVariant& variant);
-Disc disc_of(const EffectVariant& soft_patch);
 
 // What is left of a linear fit of prior deviation 1, and what one more column would bring beside it.
 class ColumnBeside {
@@ -52,9 +44,9 @@ class ColumnBeside {
 
 // The best discs, none overlapping a better one by more than half of their radii's sum; `most` at most.
 struct ScoredDisc {
-  Disc disc;
+  sim::Disc disc;
   double gain = 0.0;
 };
-std::vector<Disc> best_apart(std::vector<ScoredDisc> discs, std::size_t most);
+std::vector<sim::Disc> best_apart(std::vector<ScoredDisc> discs, std::size_t most);
 
 }  // namespace slipway::gap
