@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/angle.h"
+#include "sim/dynamic/drive_result.h"
 #include "sim/wheel/entry_angle.h"
-#include "sim/wheel/slip_ratio.h"
 
 namespace slipway::sim {
 namespace {

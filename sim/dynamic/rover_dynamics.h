@@ -114,6 +114,8 @@ class RoverDynamics {
   void add_suspension_torques();
   WheelDriveState drive_of(std::size_t wheel, const double* y) const;
   Eigen::Vector3d gravity_M() const;
+  // The inverse of rotation_MB().
+  static Attitude attitude_of(const Eigen::Matrix3d& R_MB);
   void set_commanded(double t, const double* y);
   double gripping_load_kg_m2() const;
   MotorControl control_of(const DriveMotor& motor, double load_kg_m2) const;

@@ -16,13 +16,13 @@ double yaw_of(const Eigen::Matrix3d& R) {
   return std::atan2(R(1, 0), R(0, 0));
 }
 
-Attitude attitude_of(const Eigen::Matrix3d& R) {
+}  // namespace
+
+Attitude RoverDynamics::attitude_of(const Eigen::Matrix3d& R) {
   return {.roll_rad = std::atan2(R(2, 1), R(2, 2)),
           .pitch_rad = std::asin(std::clamp(-R(2, 0), -1.0, 1.0)),
           .yaw_rad = yaw_of(R)};
 }
-
-}  // namespace
 
 Pose2 RoverDynamics::pose(const double* y) const {
   const Eigen::Matrix3d R = Eigen::Quaterniond(y[3], y[4], y[5], y[6]).normalized().toRotationMatrix();

@@ -6,6 +6,7 @@
 #include "sim/dynamic/rut_map.h"
 #include "sim/rover/ground.h"
 #include "sim/rover/rover_model.h"
+#include "sim/rover/stance.h"
 #include "sim/wheel/per_wheel.h"
 #include "sim/wheel/sliced_wheel.h"
 #include "sim/wheel/wheel_kernel.h"
