@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/random.h"
 #include "gap/diagnosis/describe/localise.h"
@@ -58,24 +60,37 @@ std::vector<PlacedWindow> lines() {
   return windows;
 }
 
+// Twelve drives in all directions over one spot, which each of them meets in another window.
+constexpr double kSpotX_m = 6.0, kSpotY_m = 5.0;
+std::vector<PlacedWindow> star() {
+  std::vector<PlacedWindow> windows;
+  for (std::size_t d = 0; d < 12; ++d)
+    for (int k = 0; k < 8; ++k) {
+      const double along_m = 2.0 * (k - static_cast<int>(d % 8)), angle = std::numbers::pi * d / 12.0;
+      windows.push_back(
+          {0, d, kSpotX_m + along_m * std::cos(angle), kSpotY_m + along_m * std::sin(angle), true});
+    }
+  return windows;
+}
+
 TEST(Places, AreFoundWhereDrivesCrossOneSpot) {
-  const std::vector<PlacedWindow> windows = lines();
+  const std::vector<PlacedWindow> windows = star();
   ChannelSquares of{Channel::kSinkage, {}};
   for (const PlacedWindow& w : windows)
-    of.squares.push_back(std::hypot(w.x_m - 6.0, w.y_m - 5.0) < 1.5 ? 60.0 : 1.0);
+    of.squares.push_back(w.x_m == kSpotX_m && w.y_m == kSpotY_m ? 60.0 : 1.0);
   const std::vector<FoundPlace> places = places_in(windows, of, {}, never);
   ASSERT_FALSE(places.empty());
   for (const FoundPlace& place : places) {
-    EXPECT_LT(std::hypot(place.x_m - 6.0, place.y_m - 5.0), place.radius_m + 1.5);
+    EXPECT_LE(std::hypot(place.x_m - kSpotX_m, place.y_m - kSpotY_m), place.radius_m) << "the spot is in it";
     EXPECT_EQ(place.channel, Channel::kSinkage);
   }
   const FoundPlace& best =
       *std::max_element(places.begin(), places.end(),
                         [](const FoundPlace& a, const FoundPlace& b) { return a.excess < b.excess; });
-  EXPECT_EQ(best.x_m, 6.0);
-  EXPECT_EQ(best.y_m, 5.0);
+  EXPECT_EQ(best.x_m, kSpotX_m);
+  EXPECT_EQ(best.y_m, kSpotY_m);
   EXPECT_EQ(best.radius_m, 1.5);
-  EXPECT_NEAR(best.share, 180.0 / (180.0 + 93.0), 1e-12) << "three of 96 windows";
+  EXPECT_NEAR(best.share, 720.0 / (720.0 + 84.0), 1e-12) << "twelve of 96 windows";
 }
 
 TEST(Places, AreNotSeenInScatterNorInOneDriveAlone) {
