@@ -325,7 +325,7 @@ Result<DriveTuning> tune_drives(std::span<const TunedParameter> parameters,
     return fail(ErrorCode::kInvalidRequest, "the drives can't be tuned to", std::move(faults));
   std::vector<SweptParameter> swept;
   for (const TunedParameter& p : parameters) swept.push_back(p.sweep);
-  const CaseScore score = [&](std::size_t drive, std::span<const double> x) -> std::optional<double> {
+  const ScoreOfCase score = [&](std::size_t drive, std::span<const double> x) -> std::optional<double> {
     const std::optional<Pose2> end = model(drive, x);
     if (!end) return std::nullopt;
     double sum = 0.0;

@@ -79,7 +79,7 @@ std::vector<std::size_t> place_of(std::size_t node, const std::vector<std::vecto
 
 class Sweeper {
  public:
-  Sweeper(std::span<const double> weights, const CaseScore& score, std::size_t threads, Progress& progress)
+  Sweeper(std::span<const double> weights, const ScoreOfCase& score, std::size_t threads, Progress& progress)
       : weights_(weights),
         case_count_(weights.size()),
         score_(score),
@@ -120,7 +120,7 @@ class Sweeper {
  private:
   std::span<const double> weights_;
   std::size_t case_count_;
-  const CaseScore& score_;
+  const ScoreOfCase& score_;
   std::size_t threads_;
   Progress& progress_;
   std::vector<std::size_t> all_cases_;
@@ -162,7 +162,7 @@ std::optional<double> score_over(const SweepPoint& point, std::span<const std::s
 }
 
 Result<ParameterSweep> sweep_coarse_then_fine(std::span<const SweptParameter> parameters,
-                                              std::span<const double> weights, const CaseScore& score,
+                                              std::span<const double> weights, const ScoreOfCase& score,
                                               std::size_t threads, Progress& progress) {
   if (auto faults = faults_of(parameters, weights); !faults.empty())
     return fail(ErrorCode::kInvalidRequest, "the parameters can't be swept", std::move(faults));

@@ -22,7 +22,7 @@ struct SweptParameter {
 
 // How badly the model does in one case at x: 0 is perfect, the rest >= 0. Nothing where the model has no
 // answer there. Called from several threads at once.
-using CaseScore = std::function<std::optional<double>(std::size_t number, std::span<const double> x)>;
+using ScoreOfCase = std::function<std::optional<double>(std::size_t number, std::span<const double> x)>;
 
 // One parameter vector as tried.
 struct SweepPoint {
@@ -59,7 +59,7 @@ std::optional<double> score_over(const SweepPoint& point, std::span<const std::s
 // Errors: invalid_request for parameters that can't be swept ("/parameters/0/lowest") or more than
 // kMostSweepCases scores; not_converged where no point of the coarse grid has a score; cancelled.
 Result<ParameterSweep> sweep_coarse_then_fine(std::span<const SweptParameter> parameters,
-                                              std::span<const double> weights, const CaseScore& score,
+                                              std::span<const double> weights, const ScoreOfCase& score,
                                               std::size_t threads, Progress& progress);
 constexpr double kMostSweepCases = 1e6;
 

@@ -40,7 +40,7 @@ TEST(ParameterSweep, TheFineGridLiesBetweenTheNeighboursOfTheCoarseBest) {
 
 TEST(ParameterSweep, APointOfBothGridsIsTriedOnce) {
   std::atomic<int> calls{0};
-  const CaseScore counted = [&](std::size_t number, std::span<const double> x) {
+  const ScoreOfCase counted = [&](std::size_t number, std::span<const double> x) {
     ++calls;
     return bowl(number, x);
   };
@@ -72,7 +72,7 @@ TEST(ParameterSweep, ThreadsDoNotChangeTheResult) {
 TEST(ParameterSweep, ABestAtTheEndOfARangeIsRefinedTowardsTheInside) {
   NoProgress progress;
   const std::vector<SweptParameter> one{{.name = "a", .lowest = 4.0, .highest = 8.0, .coarse = 5, .fine = 3}};
-  const CaseScore away = [](std::size_t, std::span<const double> x) { return std::abs(x[0] - 1.0); };
+  const ScoreOfCase away = [](std::size_t, std::span<const double> x) { return std::abs(x[0] - 1.0); };
   const auto sweep = sweep_coarse_then_fine(one, kOne, away, 1, progress);
   ASSERT_TRUE(sweep);
   EXPECT_EQ(sweep->fine.axes[0], (std::vector<double>{4.0, 4.5, 5.0}));
@@ -81,7 +81,7 @@ TEST(ParameterSweep, ABestAtTheEndOfARangeIsRefinedTowardsTheInside) {
 
 TEST(ParameterSweep, APointWithoutAnAnswerInACaseIsNotTheBest) {
   NoProgress progress;
-  const CaseScore hole = [](std::size_t number, std::span<const double> x) -> std::optional<double> {
+  const ScoreOfCase hole = [](std::size_t number, std::span<const double> x) -> std::optional<double> {
     if (number == 1 && x[0] < 5.0) return std::nullopt;
     return bowl(number, x);
   };
@@ -91,7 +91,7 @@ TEST(ParameterSweep, APointWithoutAnAnswerInACaseIsNotTheBest) {
   EXPECT_FALSE(sweep->points[0].score);
   const std::size_t answered[] = {0, 2};
   EXPECT_TRUE(score_over(sweep->points[0], answered, kThree));
-  const CaseScore none = [](std::size_t, std::span<const double>) { return std::optional<double>(); };
+  const ScoreOfCase none = [](std::size_t, std::span<const double>) { return std::optional<double>(); };
   const auto nothing = sweep_coarse_then_fine(kBowl, kThree, none, 2, progress);
   ASSERT_FALSE(nothing);
   EXPECT_EQ(nothing.error().code, ErrorCode::kNotConverged);
@@ -103,7 +103,7 @@ TEST(ParameterSweep, TheSurfaceOverTwoOfThreeIsTheBestThatTheThirdAllows) {
       {.name = "a", .lowest = 0.0, .highest = 4.0, .coarse = 5, .fine = 2},
       {.name = "b", .lowest = 0.0, .highest = 2.0, .coarse = 3, .fine = 2},
       {.name = "c", .lowest = 0.0, .highest = 4.0, .coarse = 5, .fine = 2}};
-  const CaseScore valley = [](std::size_t, std::span<const double> x) {
+  const ScoreOfCase valley = [](std::size_t, std::span<const double> x) {
     return std::abs(x[0] - x[2]) + std::abs(x[1] - 1.0);
   };
   const auto sweep = sweep_coarse_then_fine(three, kOne, valley, 1, progress);
