@@ -57,6 +57,11 @@ TEST(DiagnosisOptions, AreAllOnTheMethodsPage) {
   std::stringstream page;
   page << file.rdbuf();
   ASSERT_FALSE(page.str().empty());
+  std::size_t rows = 0;
+  for (std::string line; std::getline(page, line);)
+    if (line.starts_with("| `") && line.find(".", 3) < line.find("`", 3) && line.find("` | ") != line.npos)
+      ++rows;
+  EXPECT_EQ(rows, listed_options({}).size()) << "an option that is no more, or one that is there twice";
   for (const ListedOption& option : listed_options({})) {
     std::vector<std::string> values;
     for (const double value : option.values) values.push_back(fmt::format("{:.6g}", value));

@@ -63,7 +63,7 @@ TEST(ColumnBeside, HasTheGainOfTheLogMarginal) {
 }
 
 TEST(BestApart, KeepsTheBestDiscsThatDoNotOverlap) {
-  const std::vector<Disc> kept = best_apart({{{0.0, 0.0, 1.0}, 5.0},
+  const std::vector<sim::Disc> kept = best_apart({{{0.0, 0.0, 1.0}, 5.0},
                                              {{0.5, 0.0, 1.0}, 9.0},  // best, over the first
                                              {{3.0, 0.0, 1.0}, 4.0},
                                              {{3.0, 0.5, 4.0}, 3.0},  // over the one before
