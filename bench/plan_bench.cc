@@ -74,8 +74,9 @@ BENCHMARK(BM_PlanOfThreeRoutesOver300m)->Unit(benchmark::kMillisecond)->UseRealT
 
 // cost_over_grid_optimum is that of the smoothed route, as the mean over seeds. On the grid turns cost
 // nothing, and there are 16 directions.
-void BM_Search(benchmark::State& state, const std::string& planner, int iterations) {
+void BM_Search(benchmark::State& state, const PlannerRow& row, int iterations) {
   const World& w = world();
+  const std::unique_ptr<LegPlanner> planner = row.make();
   double sum = 0.0, found = 0.0;
   std::uint64_t seed = 0;
   for (auto _ : state) {
@@ -89,7 +90,7 @@ void BM_Search(benchmark::State& state, const std::string& planner, int iteratio
     search.seed = ++seed;
     search.iterations = iterations;
     search.range_m = 16.0;
-    const std::vector<Pose2> poses = search_leg(planner, search);
+    const std::vector<Pose2> poses = planner->search(search);
     if (poses.empty()) continue;
     sum += fine_cost(w.cost, smooth_leg(w.cost, poses, true)) / w.sampler.optimum();
     found += 1.0;
@@ -127,7 +128,7 @@ BENCHMARK(BM_CostLookUp);
   for (const PlannerRow& row : planner_catalogue()) {
     for (const int iterations : {1000, 3000}) {
       const std::string name = "BM_Search/" + std::string(row.name) + "/" + std::to_string(iterations);
-      benchmark::RegisterBenchmark(name.c_str(), BM_Search, std::string(row.name), iterations)
+      benchmark::RegisterBenchmark(name.c_str(), BM_Search, row, iterations)
           ->Unit(benchmark::kMillisecond)
           ->Iterations(8);
     }

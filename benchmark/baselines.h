@@ -20,8 +20,8 @@ Result<Diagnosis> diagnose_by_sparse_regression(const DriveCampaign& campaign,
 // A Gaussian process over slope, slip, direction, ... for each channel and wheel, trained on the re-tuned
 // null model's residuals [Rasmussen & Williams 2006]. It closes the gap and explains nothing, so that its
 // verdict is "unknown".
-Result<Diagnosis> shrink_by_gaussian_process(const DriveCampaign& campaign, const DiagnosisOptions& options,
-                                             Progress& progress);
+Result<Diagnosis> diagnose_by_gaussian_process(const DriveCampaign& campaign, const DiagnosisOptions& options,
+                                               Progress& progress);
 
 // The diagnosis as if samples were independent: every window is treated as a drive of its own, so that
 // windows of one drive are on both sides of a fold, and their common errors count as often as there are

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "core/quantile.h"
+#include "sim/effects/effect_catalogue.h"
 
 namespace slipway::gap {
 namespace {
@@ -31,7 +32,8 @@ bool names_nothing(Verdict v) {
 std::vector<std::pair<Names, double>> merged_sets(const Diagnosis& d) {
   std::vector<std::pair<Names, double>> sets;
   for (const ComparedSet& c : d.candidates) {
-    const Names names(c.effects.begin(), c.effects.end());
+    const std::vector<std::string> listed = names_of(c);
+    const Names names(listed.begin(), listed.end());
     const auto known =
         std::find_if(sets.begin(), sets.end(), [&](const auto& set) { return set.first == names; });
     if (known == sets.end())
@@ -202,7 +204,10 @@ CaseScore score_case(const HiddenAnswer& answer, const Diagnosis& d, const std::
   }
   if (answer.place) {
     score.place_overlap = 0.0;
-    const bool named = found.contains("soft_patch");
+    const bool named = std::any_of(found.begin(), found.end(), [](const std::string& name) {
+      const sim::Effect* const effect = sim::find_effect(name);
+      return effect != nullptr && effect->region != nullptr;
+    });
     for (const GapPlace& place : d.places)
       if (named)
         score.place_overlap = std::max(*score.place_overlap,

@@ -20,12 +20,9 @@ double square_of(const HiddenTrace& trace, Channel channel) {
 
 bool lies_in(const HiddenTrace& trace, const Regime& slice) {
   return std::all_of(slice.conditions.begin(), slice.conditions.end(), [&](const Condition& condition) {
-    for (int v = 0; v < kWindowVariables; ++v) {
-      if (condition.variable != variable_name(v)) continue;
-      const double value = variable_of(trace.at, v), slack = kSlack[static_cast<std::size_t>(v)];
-      return value >= condition.from - slack && value <= condition.to + slack;
-    }
-    return false;
+    const double value = variable_of(trace.at, condition.variable);
+    const double slack = kSlack[static_cast<std::size_t>(condition.variable)];
+    return value >= condition.from - slack && value <= condition.to + slack;
   });
 }
 

@@ -14,6 +14,12 @@
 #include "core/angle.h"
 #include "core/random.h"
 #include "dem/synthetic_terrain.h"
+#include "sim/effects/com_offset.h"
+#include "sim/effects/gearbox_friction.h"
+#include "sim/effects/grousers.h"
+#include "sim/effects/multipass.h"
+#include "sim/effects/slip_sinkage.h"
+#include "sim/effects/wheel_radius.h"
 
 namespace slipway::campaign {
 namespace {
@@ -24,8 +30,8 @@ constexpr std::array kSpeeds{0.025, 0.04, 0.05};
 constexpr std::array kTemperatures{-40.0, -20.0, 0.0, 20.0};
 constexpr double kTiltDrive_s = 60.0, kTurn_s = 40.0, kRoughDrive_s = 150.0;
 
-// Wheels and linkage, as the quasi-static rung has them by default: the whole weight acts at the centre of
-// mass.
+// Wheels and linkage, as the quasi-static fidelity level has them by default: the whole weight acts at the
+// centre of mass.
 const sim::MassDistribution kNearlyWeightless{.wheel_kg = 0.3, .rocker_kg = 0.3, .bogie_kg = 0.2};
 
 class Dice {
@@ -73,7 +79,7 @@ sim::Soil soil_of(const TrueSoil& row) {
   return soil;
 }
 
-// What is asked of a campaign before anything is drawn.
+// What a campaign is to be, before anything is drawn.
 struct Order {
   std::vector<std::string_view> effects;
   double size = 1.0;
@@ -187,7 +193,7 @@ void add_rough_field(DriveTable& table, Dice& dice) {
   }
 }
 
-// Where drives are told to be, every tenth of their ways.
+// Where the drives are commanded to be, at every tenth of their ways.
 std::vector<std::vector<Pose2>> commanded_ways(const DriveTable& table) {
   std::vector<std::vector<Pose2>> ways;
   for (const TableDrive& drive : expand(table)) {
@@ -217,14 +223,14 @@ sim::Disc place_of_patch(const DriveTable& table, double radius_m, Dice& dice) {
   return best;
 }
 
-// The driven ground is of a weaker soil in a place.
-void hide_patch(SealedCampaign& made, sim::EffectSetting& patch, Dice& dice) {
+// An effect with a region is hidden as a soil of its own in one place of the driven ground. Its fields x_m,
+// y_m and radius_m are the place.
+void hide_in_place(SealedCampaign& made, sim::EffectSetting& patch, Dice& dice) {
   const sim::Disc disc = place_of_patch(made.driven, patch.parameters.at("radius_m"), dice);
   patch.parameters["x_m"] = disc.x_m;
   patch.parameters["y_m"] = disc.y_m;
   sim::Soil soft = made.driven.soils.find(kSoil)->second.mean;
-  const std::array values{disc.x_m, disc.y_m, disc.radius_m, patch.parameters.at("weakening")};
-  sim::find_effect("soft_patch")->on_soil(values, soft);
+  sim::apply_in_region({&patch, 1}, 0, soft);
   made.driven.soils.emplace(kSoftSoil, distribution(kSoftSoil, soft));
   TableTerrain& terrain = made.driven.terrains[0];
   const dem::GridGeometry& grid = terrain.ground->geometry();
@@ -246,8 +252,8 @@ void hide(const Order& order, SealedCampaign& made, Dice& dice) {
   for (const std::string_view name : order.effects) {
     sim::EffectSetting& effect =
         made.hidden.emplace_back(hidden_effect(name, order.size, dice.bits(), *made.driven.rover));
-    if (name == "soft_patch") {
-      hide_patch(made, effect, dice);
+    if (sim::find_effect(name)->region != nullptr) {
+      hide_in_place(made, effect, dice);
     } else {
       made.driven.effects.push_back(effect);
     }
@@ -316,18 +322,22 @@ std::vector<Order> each(Dice& dice) {
   using Names = std::vector<std::string_view>;
   std::vector<Order> orders;
   for (const std::string_view name : hidden_effects()) orders.push_back({Names{name}, drawn_size(dice)});
-  for (const auto& pair : {Names{"grousers", "wheel_radius"}, Names{"slip_sinkage", "com_offset"},
-                           Names{"multipass", "gearbox_friction"}})
+  for (const auto& pair : {Names{sim::kGrousers.name, sim::kWheelRadius.name},
+                           Names{sim::kSlipSinkage.name, sim::kComOffset.name},
+                           Names{sim::kMultipass.name, sim::kGearboxFriction.name}})
     orders.push_back({pair, 1.0});
   for (const std::string_view nominal : {"true", "near", "usual", "far"})
     orders.push_back({.effects = {}, .size = 1.0, .nominal = nominal});
   for (Order& order : orders) {
-    const auto hides = [&](std::string_view name) {
-      return std::find(order.effects.begin(), order.effects.end(), name) != order.effects.end();
+    const auto hides = [&](const auto& which) {
+      return std::any_of(order.effects.begin(), order.effects.end(),
+                         [&](std::string_view name) { return which(*sim::find_effect(name)); });
     };
-    order.rough = dice.uniform() < 0.3 || hides("soft_patch");
+    order.rough =
+        dice.uniform() < 0.3 || hides([](const sim::Effect& effect) { return effect.region != nullptr; });
     order.sinkage = dice.uniform() > 0.12;
-    order.temperature = dice.uniform() > 0.12 || hides("motor_temperature");
+    order.temperature = dice.uniform() > 0.12 ||
+                        hides([](const sim::Effect& effect) { return effect.reads_motor_temperature; });
   }
   return orders;
 }
@@ -343,9 +353,10 @@ std::vector<SealedCampaign> sealed_campaigns(std::string_view set, std::uint64_t
   const std::uint64_t key = random_key(seed, digest_of(set == "smoke" ? "smoke" : "each"));
   Dice dice(key);
   std::vector<Order> orders =
-      set != "smoke" ? each(dice)
-                     : std::vector<Order>{{.effects = {}, .size = 1.0, .nominal = "true", .small = true},
-                                          {.effects = {"gearbox_friction"}, .size = 2.0, .small = true}};
+      set != "smoke"
+          ? each(dice)
+          : std::vector<Order>{{.effects = {}, .size = 1.0, .nominal = "true", .small = true},
+                               {.effects = {sim::kGearboxFriction.name}, .size = 2.0, .small = true}};
   dice.shuffle(orders);
   for (Order& order : orders) order.heavy_wheels = set == "each_heavy_wheels";
   std::vector<SealedCampaign> campaigns;

@@ -76,13 +76,18 @@ Result<void> check_height_unit(GDALRasterBand& band, const Encoding& encoding, c
           file, band.GetUnitType(), shell_word(file), shell_word(converted_name(file))));
 }
 
+// In 64 bits: a raster may have as many rows as an int can count.
+int end_with_margin(int first, int count, int cells) {
+  return static_cast<int>(std::min<long long>(static_cast<long long>(first) + count + kMargin, cells));
+}
+
 CellWindow with_margin(const CellWindow& window, const GridGeometry& geometry) {
   const int row = std::max(window.row - kMargin, 0);
   const int column = std::max(window.column - kMargin, 0);
   return {.row = row,
           .column = column,
-          .rows = std::min(window.row + window.rows + kMargin, geometry.rows) - row,
-          .columns = std::min(window.column + window.columns + kMargin, geometry.columns) - column};
+          .rows = end_with_margin(window.row, window.rows, geometry.rows) - row,
+          .columns = end_with_margin(window.column, window.columns, geometry.columns) - column};
 }
 
 class GdalElevation final : public ElevationSource {
@@ -133,9 +138,10 @@ class GdalElevation final : public ElevationSource {
     const int least_rows = std::clamp(1'000'000 / window.columns, 1, window.rows);
     for (int row = window.row; row < window.row + window.rows;) {
       // Up to the next edge of a block row, so that no block is decoded twice.
-      const int wanted = row + least_rows;
-      const int edge = (wanted + block_rows - 1) / block_rows * block_rows;
-      const int end = std::min({edge, wanted + least_rows, window.row + window.rows});
+      const long long wanted = static_cast<long long>(row) + least_rows;
+      const long long edge = (wanted + block_rows - 1) / block_rows * block_rows;
+      const long long last = static_cast<long long>(window.row) + window.rows;
+      const int end = static_cast<int>(std::min({edge, wanted + least_rows, last}));
       const CellWindow stripe{row, window.column, end - row, window.columns};
       const std::size_t first =
           static_cast<std::size_t>(row - window.row) * static_cast<std::size_t>(window.columns);

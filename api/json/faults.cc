@@ -79,11 +79,17 @@ std::vector<Fault> moved_under(std::string_view prefix, std::vector<Fault> fault
 
 std::optional<Fault> temperature_without_effect(const sim::RoverModel& rover,
                                                 const std::vector<sim::EffectSetting>& requested) {
-  for (const sim::EffectSetting& effect : sim::in_force(rover.effects, requested))
-    if (effect.name == "motor_temperature") return std::nullopt;
+  for (const sim::EffectSetting& setting : sim::in_force(rover.effects, requested))
+    if (const sim::Effect* const effect = sim::find_effect(setting.name);
+        effect != nullptr && effect->reads_motor_temperature)
+      return std::nullopt;
+  std::vector<std::string_view> readers;
+  for (const sim::Effect& effect : sim::effect_catalogue())
+    if (effect.reads_motor_temperature) readers.push_back(effect.name);
   return Fault{
       "/motor_temp_c",
-      "motor_temp_c counts only where the effect motor_temperature is on: switch it on or leave this out"};
+      fmt::format("motor_temp_c counts only where the effect {} is on: switch it on or leave this out",
+                  fmt::join(readers, " or "))};
 }
 
 std::string summary_of(const std::vector<Fault>& faults) {

@@ -20,7 +20,7 @@ struct WheelSweepRequest {
   std::optional<double> load_n;        // an equal share of the rover's weight where it is empty
   std::optional<double> speed_m_s;     // the rover's cruise speed where it is empty
   std::optional<double> motor_temp_c;  // the motor's reference temperature where it is empty
-  sim::SingleWheelTest test;           // the other conditions
+  sim::WheelRigConditions test;        // the other conditions
   std::vector<sim::EffectSetting> effects;
   std::vector<sim::SweepSetting> set;
   std::vector<sim::SweepAxis> sweep;

@@ -8,6 +8,7 @@
 
 #include "core/angle.h"
 #include "sim/dynamic/cvode_integrator.h"
+#include "sim/dynamic/ground_with_laws.h"
 #include "sim/dynamic/leg_driver.h"
 #include "sim/dynamic/rover_dynamics.h"
 #include "sim/rover/stance.h"
@@ -38,6 +39,8 @@ class Drive {
         std::span<const DriveLeg> legs, const DynamicOptions& options, const DriveSink& sink,
         Progress& progress)
       : rover_(rover),
+        ground_(ground),
+        soils_(soils),
         legs_(legs),
         options_(options),
         sink_(sink),
@@ -197,6 +200,8 @@ class Drive {
     const std::optional<Eigen::Vector2d>& lost = dynamics_.lost_ground();
     if (!lost) return error;
     const Pose2 at = dynamics_.pose(state());
+    if (on_slip_curve(ground_, soils_, lost->x(), lost->y()))
+      return {ErrorCode::kInvalidRequest, slip_curve_reason(*lost), {}};
     return {ErrorCode::kNoData,
             fmt::format("the drive leaves the known ground at ({:.2f}, {:.2f}) m, with the rover at ({:.2f}, "
                         "{:.2f}) m after {:.1f} s",
@@ -349,6 +354,8 @@ class Drive {
   static constexpr std::size_t kMaxEvents = 1000;
 
   const RoverModel& rover_;
+  const Ground& ground_;
+  const DriveSoils& soils_;
   std::span<const DriveLeg> legs_;
   const DynamicOptions& options_;
   const DriveSink& sink_;
@@ -368,14 +375,10 @@ class Drive {
   double before_leg_m_ = 0.0, checked_s_ = 0.0, checked_share_ = 0.0;
 };
 
-}  // namespace
-
-Result<DynamicDrive> simulate_drive(const RoverModel& rover, double gravity_m_s2, const Ground& ground,
-                                    const DriveSoils& soils, const Pose2& start,
-                                    std::span<const DriveLeg> legs, const DynamicOptions& options,
-                                    const DriveSink& sink, Progress& progress) {
-  if (auto faults = faults_of(legs, options); !faults.empty())
-    return fail(ErrorCode::kInvalidRequest, "the drive can't be simulated", std::move(faults));
+Result<DynamicDrive> simulate_drive_on(const RoverModel& rover, double gravity_m_s2, const Ground& ground,
+                                       const DriveSoils& soils, const Pose2& start,
+                                       std::span<const DriveLeg> legs, const DynamicOptions& options,
+                                       const DriveSink& sink, Progress& progress) {
   const double c = std::cos(start.yaw_rad), s = std::sin(start.yaw_rad);
   for (const WheelModel& wheel : rover.wheels) {
     const double x = start.x_m + c * wheel.position_m.x() - s * wheel.position_m.y();
@@ -392,6 +395,38 @@ Result<DynamicDrive> simulate_drive(const RoverModel& rover, double gravity_m_s2
                 {{"/start", fmt::format("no stance at ({:.2f}, {:.2f}) m", start.x_m, start.y_m)}});
   Drive drive(rover, gravity_m_s2, ground, soils, legs, options, sink, progress);
   return drive.run(*stance);
+}
+
+// Drives as far as the ground has soils with laws.
+Result<DynamicDrive> simulate_drive_beside_slip_curves(const RoverModel& rover, double gravity_m_s2,
+                                                       const Ground& ground, const DriveSoils& soils,
+                                                       const Pose2& start, std::span<const DriveLeg> legs,
+                                                       const DynamicOptions& options, const DriveSink& sink,
+                                                       Progress& progress) {
+  const double c = std::cos(start.yaw_rad), s = std::sin(start.yaw_rad);
+  for (const WheelModel& wheel : rover.wheels) {
+    const Eigen::Vector2d p(start.x_m + c * wheel.position_m.x() - s * wheel.position_m.y(),
+                            start.y_m + s * wheel.position_m.x() + c * wheel.position_m.y());
+    if (on_slip_curve(ground, soils, p.x(), p.y()))
+      return fail(ErrorCode::kInvalidRequest, slip_curve_reason(p), {{"/start", slip_curve_reason(p)}});
+  }
+  return simulate_drive_on(rover, gravity_m_s2, GroundWithLaws(ground, soils), soils, start, legs, options,
+                           sink, progress);
+}
+
+}  // namespace
+
+Result<DynamicDrive> simulate_drive(const RoverModel& rover, double gravity_m_s2, const Ground& ground,
+                                    const DriveSoils& soils, const Pose2& start,
+                                    std::span<const DriveLeg> legs, const DynamicOptions& options,
+                                    const DriveSink& sink, Progress& progress) {
+  if (auto faults = faults_of(legs, options); !faults.empty())
+    return fail(ErrorCode::kInvalidRequest, "the drive can't be simulated", std::move(faults));
+  const auto has_curve = [](const Soil& soil) { return soil.slip_curve != nullptr; };
+  if (std::any_of(soils.known.begin(), soils.known.end(), has_curve) || has_curve(soils.unknown))
+    return simulate_drive_beside_slip_curves(rover, gravity_m_s2, ground, soils, start, legs, options, sink,
+                                             progress);
+  return simulate_drive_on(rover, gravity_m_s2, ground, soils, start, legs, options, sink, progress);
 }
 
 }  // namespace slipway::sim

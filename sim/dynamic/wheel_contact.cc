@@ -173,8 +173,7 @@ void WheelContacts::add_sliced(const Trial& trial, const WheelNumbers& numbers, 
   const Place& place = places_[trial.wheel];
   Soil soil = place.soil;
   const double stiffer = numbers.stiffness / place.numbers.stiffness;
-  soil.pressure.k_c *= stiffer;
-  soil.pressure.k_phi *= stiffer;
+  soil.stiffen(stiffer);
   soil.bulldozing = numbers.bulldozing;
   const SlicedWheelForces sliced = sliced_wheel_forces(
       place.geometry, soil, {contact.slice_height_m.data(), static_cast<std::size_t>(rover_.wheel_slices)},

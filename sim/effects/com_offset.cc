@@ -15,12 +15,23 @@ void change(std::span<const double> values, RoverModel& rover) {
   rover.com_m += Eigen::Vector3d(values[0], values[1], values[2]);
 }
 
+// The height is re-tuned in every hypothesis: by it other laws of pulls and ruts show.
+std::vector<EffectVariant> variants(const RoverModel& /*rover*/) {
+  return {{.free = {free_field(kFields, "x_m", 0.05), free_field(kFields, "y_m", 0.05)}}};
+}
+
+EffectParameters hidden(const HiddenDraw& draw) {
+  return {{"x_m", draw.sign(0) * 0.06 * draw.size}, {"y_m", draw.sign(1) * 0.03 * draw.size}};
+}
+
 }  // namespace
 
 constexpr Effect kComOffset{.name = "com_offset",
-                            .summary = "the centre of mass is not where the rover file has it",
+                            .summary = "the centre of mass does not lie where the rover file has it",
                             .reference = "Zhurong section 4.1: random shifts of the centroid",
                             .fields = kFields,
-                            .on_rover = &change};
+                            .on_rover = &change,
+                            .variants = &variants,
+                            .hidden = &hidden};
 
 }  // namespace slipway::sim

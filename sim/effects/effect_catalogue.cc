@@ -3,39 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
-#include "sim/effects/attitude_bias.h"
-#include "sim/effects/bulldozing.h"
-#include "sim/effects/com_offset.h"
-#include "sim/effects/dragging_wheel.h"
-#include "sim/effects/duricrust.h"
-#include "sim/effects/gearbox_friction.h"
-#include "sim/effects/grousers.h"
-#include "sim/effects/hardpan.h"
-#include "sim/effects/motor_temperature.h"
-#include "sim/effects/multipass.h"
-#include "sim/effects/rate_shear.h"
-#include "sim/effects/side_bulldozing.h"
-#include "sim/effects/slip_sinkage.h"
-#include "sim/effects/smooth_rim.h"
-#include "sim/effects/soft_patch.h"
-#include "sim/effects/soil_gravity.h"
-#include "sim/effects/steering_offset.h"
-#include "sim/effects/wheel_radius.h"
-
 namespace slipway::sim {
 namespace {
-
-std::span<const Effect> rows() {
-  static const std::array kRows{
-      kSlipSinkage,      kMultipass,       kGrousers,       kBulldozing,    kSideBulldozing, kComOffset,
-      kMotorTemperature, kGearboxFriction, kWheelRadius,    kDraggingWheel, kRateShear,      kDuricrust,
-      kHardpan,          kSoftPatch,       kSteeringOffset, kAttitudeBias,  kSoilGravity,    kSmoothRim};
-  return kRows;
-}
 
 template <class Rows>
 std::string names_of(const Rows& all) {
@@ -63,29 +35,29 @@ void check_parameters(const Effect& effect, const EffectSetting& setting, std::s
 // Calls act(effect, values) for every row that is switched on, in the catalogue's order.
 template <class Act>
 void for_each_on(std::span<const EffectSetting> settings, const Act& act) {
-  for (const Effect& effect : rows()) {
+  for (const Effect& effect : effect_catalogue()) {
     const auto is_this = [&](const EffectSetting& s) { return s.name == effect.name; };
     const auto setting = std::find_if(settings.begin(), settings.end(), is_this);
     if (setting == settings.end() || !setting->on) continue;
-    std::vector<double> values;
-    for (const Field& field : effect.fields) {
-      const auto given = setting->parameters.find(std::string(field.name));
-      values.push_back(given == setting->parameters.end() ? field.initial : given->second);
-    }
-    act(effect, values);
+    act(effect, values_of(effect, *setting));
   }
 }
 
 }  // namespace
 
-std::span<const Effect> effect_catalogue() {
-  return rows();
-}
-
 const Effect* find_effect(std::string_view name) {
-  const auto all = rows();
+  const std::span<const Effect> all = effect_catalogue();
   const auto row = std::find_if(all.begin(), all.end(), [name](const Effect& e) { return e.name == name; });
   return row == all.end() ? nullptr : &*row;
+}
+
+std::vector<double> values_of(const Effect& effect, const EffectSetting& setting) {
+  std::vector<double> values;
+  for (const Field& field : effect.fields) {
+    const auto given = setting.parameters.find(std::string(field.name));
+    values.push_back(given == setting.parameters.end() ? field.initial : given->second);
+  }
+  return values;
 }
 
 std::vector<Fault> faults_of(std::span<const EffectSetting> settings) {
@@ -99,8 +71,8 @@ std::vector<Fault> faults_of(std::span<const EffectSetting> settings) {
     if (const Effect* effect = find_effect(setting.name)) {
       check_parameters(*effect, setting, i, faults);
     } else {
-      faults.push_back({fmt::format("/{}/name", i),
-                        fmt::format("unknown effect \"{}\", known are: {}", setting.name, names_of(rows()))});
+      faults.push_back({fmt::format("/{}/name", i), fmt::format("unknown effect \"{}\", known are: {}",
+                                                                setting.name, names_of(effect_catalogue()))});
     }
   }
   return faults;
@@ -109,13 +81,16 @@ std::vector<Fault> faults_of(std::span<const EffectSetting> settings) {
 std::vector<Fault> faults_of(std::span<const EffectSetting> settings, const RoverModel& rover) {
   std::vector<Fault> faults;
   for (std::size_t i = 0; i < settings.size(); ++i) {
-    const auto wheel = settings[i].parameters.find("wheel");
+    const Effect* const effect = find_effect(settings[i].name);
+    if (effect == nullptr || effect->wheel_field.empty()) continue;
+    const auto wheel = settings[i].parameters.find(std::string(effect->wheel_field));
     if (wheel == settings[i].parameters.end()) continue;
     const double last = static_cast<double>(rover.wheels.size()) - 1.0;
     if (wheel->second != std::round(wheel->second) || wheel->second > last)
-      faults.push_back({fmt::format("/{}/parameters/wheel", i),
-                        fmt::format("wheel = {:g}, must be a whole number up to {:g}: {} has {} wheels",
-                                    wheel->second, last, rover.name, rover.wheels.size())});
+      faults.push_back({fmt::format("/{}/parameters/{}", i, effect->wheel_field),
+                        fmt::format("{} = {:g}, must be a whole number up to {:g}: {} has {} wheels",
+                                    effect->wheel_field, wheel->second, last, rover.name,
+                                    rover.wheels.size())});
   }
   return faults;
 }

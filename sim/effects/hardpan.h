@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/effects/effect_catalogue.h"
+#include "sim/effects/effect.h"
 
 namespace slipway::sim {
 

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "sim/effects/effect_catalogue.h"
+#include "sim/effects/effect.h"
 
 namespace slipway::sim {
 
-// Later wheels meet soil that earlier ones compacted; see sim/multipass.h for who follows whom and how
-// deep the rut gets.
+// Wheels behind others meet soil that those have compacted; sim/rover/multipass.h says which wheel follows
+// which, and how deep the rut gets.
 extern const Effect kMultipass;
 
 }  // namespace slipway::sim

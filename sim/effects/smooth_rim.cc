@@ -16,10 +16,13 @@ void change(std::span<const double> values, RoverModel& rover) {
 
 }  // namespace
 
+// Drives of one place can't distinguish it from the strength of their soil: it has no hypothesis, and no
+// benchmark hides it.
 constexpr Effect kSmoothRim{.name = "smooth_rim",
                             .summary = "a smooth rim slides on the soil before the soil shears",
                             .reference = "[Ding et al. 2011]: a smooth and a lugged wheel on one sand",
                             .fields = kFields,
-                            .on_rover = &change};
+                            .on_rover = &change,
+                            .variants = &no_variants};
 
 }  // namespace slipway::sim

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "sim/effects/effect_catalogue.h"
+#include "sim/effects/effect.h"
 
 namespace slipway::sim {
 
-// The steered wheels stand at another angle than told.
+// The steered wheels stand at another angle than commanded.
 extern const Effect kSteeringOffset;
 
 }  // namespace slipway::sim

@@ -6,7 +6,7 @@ namespace slipway::sim {
 namespace {
 
 constexpr std::array kFields{
-    Field{"scale", "1", "effective radius over the file's, less 1", -0.2, 0.2, 0.03, 0.0},
+    Field{"scale", "1", "effective radius over the rover file's, minus 1", -0.2, 0.2, 0.03, 0.0},
 };
 
 void change(std::span<const double> values, RoverModel& rover) {
@@ -24,12 +24,17 @@ void change(std::span<const double> values, RoverModel& rover) {
   rover.belly_clearance_m += rise;
 }
 
+EffectParameters hidden(const HiddenDraw& draw) {
+  return {{"scale", draw.sign(0) * 0.03 * draw.size}};
+}
+
 }  // namespace
 
 constexpr Effect kWheelRadius{.name = "wheel_radius",
-                              .summary = "the wheels' effective radius differs from the file's",
+                              .summary = "the wheels' effective radius differs from the rover file's",
                               .reference = "Zhurong section 2.2: lugs between 145 and 150 mm",
                               .fields = kFields,
-                              .on_rover = &change};
+                              .on_rover = &change,
+                              .hidden = &hidden};
 
 }  // namespace slipway::sim

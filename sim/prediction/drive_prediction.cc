@@ -45,7 +45,9 @@ std::string reason_text(const RoverModel& rover, const SoilBeliefs& beliefs, con
       fmt::format("{} at {:.1f} m on {}: tilt {:.1f} deg (pitch {:.1f}, roll {:.1f})",
                   describe(state.outcome), at.station.distance_m, soil, deg_from_rad(at.attitude.tilt_rad()),
                   deg_from_rad(at.attitude.pitch_rad), deg_from_rad(at.attitude.roll_rad));
-  if (state.wheel >= 0) {
+  if (state.by_slip_curve) {
+    text += fmt::format(", slip {:.2f} (the soil is known by its slip curve alone)", state.slip_ratio);
+  } else if (state.wheel >= 0) {
     const WheelState& wheel = state.wheels[state.wheel];
     text += fmt::format(", wheel {}: slip {:.2f}, sinkage {:.3f} m, {:.2f} A", rover.wheels[state.wheel].name,
                         wheel.slip_ratio, wheel.sinkage_m, wheel.current_a);
@@ -128,6 +130,7 @@ class Predictor {
     const StationState& state = predicted.state = solver_.solve(ready.stance, soils, ready.command);
     const double s = ready.distance_m;
     DrivePrediction& p = prediction_;
+    p.by_slip_curve |= state.by_slip_curve;
     p.max_tilt_rad.raise(ready.stance.attitude.tilt_rad(), s);
     p.max_slip_ratio.raise(std::abs(state.slip_ratio), s);
     p.max_current_a.raise(largest_current_a(state), s);
@@ -149,6 +152,7 @@ class Predictor {
     p.turned_rad += ready.command.turn_in_place ? ready.turn_rad : 0.0;
     slip_length_ += std::abs(state.slip_ratio) * ready.drive_m;
     if (predicted.on_unknown_ground) p.unknown_length_m += ready.drive_m;
+    if (state.by_slip_curve) p.slip_curve_length_m += ready.drive_m;
     predicted.elapsed_s = p.duration_s;
   }
 

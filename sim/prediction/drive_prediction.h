@@ -68,7 +68,11 @@ struct DrivePrediction {
   double energy_j = 0.0;         // of the drive motors
   double mean_slip_ratio = 0.0;  // over the length
   Peak max_slip_ratio, max_tilt_rad, max_current_a, max_sinkage_m;
-  double unknown_length_m = 0.0;              // length driven with any wheel on unknown ground
+  double unknown_length_m = 0.0;  // length driven with any wheel on unknown ground
+  // Length driven with any wheel on ground that is known by a slip curve: energy, current and sinkage, their
+  // peaks and limits are of the rest of the way alone.
+  double slip_curve_length_m = 0.0;
+  bool by_slip_curve = false;                 // any station is on such ground
   std::optional<Immobilisation> immobilised;  // on the mean soils; the stations end there
   std::vector<std::string> broken_limits;     // on the mean soils: "slip 0.52 at 31.2 m, limit 0.40"
   // The share of soil draws in which the drive breaks a limit or ends immobilised, with a 90 % Wilson

@@ -6,6 +6,7 @@
 
 #include "sim/quasi_static/balance_search.h"
 #include "sim/quasi_static/rover_balance.h"
+#include "sim/quasi_static/slip_curve_motion.h"
 #include "sim/rover/motor.h"
 #include "sim/wheel/slip_ratio.h"
 
@@ -125,6 +126,8 @@ std::string_view describe(Outcome outcome) {
       return "motor stalled";
     case Outcome::kNotConverged:
       return "not converged";
+    case Outcome::kOutsideSlipCurve:
+      return "outside the slip curve";
   }
   return "unknown outcome";
 }
@@ -136,9 +139,32 @@ StationState QuasiStaticSolver::solve(const Stance& stance, const Soil& soil, co
   return solve(stance, PerWheel<Soil>(rover_.wheels.size(), soil), command);
 }
 
+// A balance can't be found with wheels whose forces are unknown. On the border of such ground the other
+// ground's soil is put under all wheels, and the motion is the slower one.
+StationState QuasiStaticSolver::solve_with_slip_curves(const Stance& stance, const PerWheel<Soil>& soils,
+                                                       const DriveCommand& command,
+                                                       Thoroughness thoroughness) {
+  StationState state = motion_on_slip_curves(rover_, stance, soils, command);
+  const Soil* modelled =
+      std::find_if(soils.begin(), soils.end(), [](const Soil& s) { return s.slip_curve == nullptr; });
+  if (modelled == soils.end() || !state.moving()) return state;
+  PerWheel<Soil> replaced = soils;
+  for (Soil& soil : replaced)
+    if (soil.slip_curve != nullptr) soil = *modelled;
+  StationState other = solve(stance, replaced, command, nullptr, thoroughness);
+  if (other.moving() && std::abs(other.slip_ratio) <= std::abs(state.slip_ratio)) return state;
+  other.by_slip_curve = true;
+  other.wheels = state.wheels;
+  other.wheel = -1;
+  other.electric_power_w = other.left_rut_depth_m = other.right_rut_depth_m = 0.0;
+  return other;
+}
+
 StationState QuasiStaticSolver::solve(const Stance& stance, const PerWheel<Soil>& soils,
                                       const DriveCommand& command, const Start* start,
                                       Thoroughness thoroughness) {
+  if (std::any_of(soils.begin(), soils.end(), [](const Soil& soil) { return soil.slip_curve != nullptr; }))
+    return solve_with_slip_curves(stance, soils, command, thoroughness);
   RoverBalance balance(rover_, gravity_m_s2_, stance, soils, command);
   const Primary primary = primary_of(command);
   if (start != nullptr) {

@@ -35,6 +35,7 @@ enum class Outcome {
   kSunkToAxle,    // a wheel would sink to its axle
   kStalled,       // a motor would need more current or voltage than it has
   kNotConverged,  // the solver gave up, which is no statement about the rover
+  kOutsideSlipCurve,  // the soil is known by a slip curve, which has no such slope
 };
 
 // The outcome as words for messages: "no traction".
@@ -55,6 +56,9 @@ struct StationState {
   // Depth of the track behind each side's last wheel, as a camera that looks back would measure it.
   double left_rut_depth_m = 0.0, right_rut_depth_m = 0.0;
   PerWheel<WheelState> wheels;
+  // A wheel stands on ground that is known by a slip curve: speeds and slip are known, while nothing is of
+  // what stands in `wheels`, of ruts and of power, all of which are 0.
+  bool by_slip_curve = false;
 
   bool moving() const { return outcome == Outcome::kMoving; }
 };
@@ -85,6 +89,8 @@ class QuasiStaticSolver {
   QuasiStaticSolver(const RoverModel& rover, double gravity_m_s2);
 
   // soils has the soil under each wheel. A `start` replaces the last answer as the starting point.
+  // Where a wheel stands on a soil with a slip curve there is no balance: the motion is the slowest of those
+  // that the wheels' curves give and, where other wheels stand on soils with laws, of the balance on these.
   StationState solve(const Stance& stance, const PerWheel<Soil>& soils, const DriveCommand& command,
                      const Start* start = nullptr, Thoroughness thoroughness = Thoroughness::kSure);
   StationState solve(const Stance& stance, const Soil& soil, const DriveCommand& command);
@@ -96,6 +102,9 @@ class QuasiStaticSolver {
   void reset() { warm_ = false; }
 
  private:
+  StationState solve_with_slip_curves(const Stance& stance, const PerWheel<Soil>& soils,
+                                      const DriveCommand& command, Thoroughness thoroughness);
+
   const RoverModel& rover_;
   double gravity_m_s2_;
   bool warm_ = false;

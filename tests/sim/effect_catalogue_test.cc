@@ -67,7 +67,9 @@ TEST_P(EffectRow, WithItsNeutralValuesItChangesNothingAnywhere) {
     const DriveCommand command{.speed_m_s = 0.02 + 0.03 * uniform(2),
                                .curvature_1_m = 0.4 * (uniform(3) - 0.5),
                                .motor_temp_c = -60.0 + 100.0 * uniform(4)};
-    const Soil soil = trial % 2 ? sandy_loam() : loose_sand();
+    Soil soil = trial % 2 ? sandy_loam() : loose_sand();
+    // A soil's file may give slip sinkage of its own.
+    if (trial % 3 == 0) soil.n1 = uniform(5), soil.n1_skid = uniform(6), soil.n1_lateral = uniform(7);
     expect_same_to_the_bit(drive({&setting, 1}, attitude, command, soil), drive({}, attitude, command, soil));
   }
 }
@@ -132,6 +134,29 @@ TEST(EffectCatalogue, ARequestReplacesOrSwitchesOffWhatTheRoverFileHas) {
 TEST(SlipSinkage, ASlippingWheelSinksDeeper) {
   const EffectSetting setting{"slip_sinkage", {{"n1", 0.3}}};
   EXPECT_GT(climb({&setting, 1}).wheels[2].sinkage_m, climb({}).wheels[2].sinkage_m);
+}
+
+TEST(SlipSinkage, IsAddedToWhatTheSoilHasAlready) {
+  Soil soil = sandy_loam();
+  soil.n1 = 0.2;
+  const EffectSetting setting{"slip_sinkage", {{"n1", 0.3}, {"n1_skid", 0.1}}};
+  apply_effects({&setting, 1}, soil);
+  EXPECT_EQ(soil.n1, 0.5);
+  EXPECT_EQ(soil.n1_skid, 0.1);
+  EXPECT_EQ(soil.n1_lateral, 0.0);
+}
+
+TEST_P(EffectRow, WhatABenchmarkHidesOfItGrowsWithItsSizeAndIsWithinItsRange) {
+  if (GetParam().hidden == nullptr) GTEST_SKIP() << "it is not hidden";
+  const RoverModel rover = six_wheeler();
+  for (std::uint64_t key = 0; key < 10; ++key) {
+    const EffectSetting usual{std::string(GetParam().name), GetParam().hidden({1.0, key, rover})};
+    const EffectSetting large{usual.name, GetParam().hidden({2.0, key, rover})};
+    EXPECT_TRUE(faults_of({&usual, 1}).empty());
+    EXPECT_TRUE(faults_of({&large, 1}).empty());
+    EXPECT_TRUE(faults_of({&large, 1}, rover).empty());
+    EXPECT_NE(usual.parameters, large.parameters);
+  }
 }
 
 TEST(Grousers, RaiseThePullAndLowerTheSlipOfAClimb) {

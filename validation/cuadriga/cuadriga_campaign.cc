@@ -141,7 +141,7 @@ struct Answer {
 // Predicts every log by a fit of the logs of the other folds.
 Result<Answer> predict_held_out(const gap::DriveCampaign& campaign) {
   NoProgress progress;
-  const auto prepared = gap::prepare(campaign, {}, 0, progress);
+  const auto prepared = gap::prepare(campaign, {}, progress);
   if (!prepared) return fail(prepared.error());
   const gap::FittedExplanation& all = *prepared->null;
   Answer answer;
@@ -153,10 +153,10 @@ Result<Answer> predict_held_out(const gap::DriveCampaign& campaign) {
     for (std::size_t w = 0; w < prepared->windows.size(); ++w)
       for (std::size_t i = 0; in_fold(w) && i < prepared->windows[w].observations.size(); ++i)
         seen[prepared->model->offset(w) + i] = false;
-    gap::ExplanationOptions options;
-    options.iterations = 4;
+    gap::FitOptions options;
+    options.max_iterations = 4;
     const gap::FittedExplanation fit = gap::fit_explanation(
-        all.hypothesis, *prepared->model, *prepared->noise, all.hypothesis.neutral(), options, seen);
+        all.hypothesis, *prepared->model, *prepared->noise, all.hypothesis.neutral(), options, 0, seen);
     for (std::size_t w = 0; w < prepared->windows.size(); ++w)
       if (in_fold(w) && prepared->model->used(w)) predict(*prepared, campaign, fit, w, answer.held);
   }

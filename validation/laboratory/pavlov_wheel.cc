@@ -184,7 +184,7 @@ Result<Report> pavlov_wheel(const std::filesystem::path& data) {
   const auto plates = load_sandbox_plates(data / "validation" / "plate_sinkage_large_sandbox.csv");
   if (!conditions) return fail(conditions.error());
   if (!plates) return fail(plates.error());
-  std::vector<gap::PlateTest> tests;
+  std::vector<gap::PlateRecord> tests;
   for (const SandboxTest& test : *plates) tests.push_back(test.plate);
   NoProgress progress;
   const auto moduli = gap::fit_moduli(

@@ -18,7 +18,7 @@ constexpr sim::BekkerModuli kUpstream{0.0, 8e6, 1.46};
 constexpr double kEarlierStiffness_kpa = 5.0e3, kEarlierExponent = 1.34;
 
 // The root mean square error of the pressures by these moduli, relative to the test's maximum pressure.
-double relative_rms(const gap::PlateTest& test, const sim::BekkerModuli& moduli) {
+double relative_rms(const gap::PlateRecord& test, const sim::BekkerModuli& moduli) {
   double sum = 0.0;
   for (std::size_t i = 0; i < test.sinkage_m.size(); ++i)
     sum += std::pow(
@@ -118,7 +118,7 @@ Result<Report> plate_tests(const std::filesystem::path& data) {
   const std::vector<SandboxTest>& tests = *plates;
   Report report = plate_tests_report();
   NoProgress progress;
-  std::vector<gap::PlateTest> all;
+  std::vector<gap::PlateRecord> all;
   double least_explained = 1.0, upstream = 0.0;
   for (const SandboxTest& test : tests) {
     const auto fit = gap::fit_moduli(
@@ -132,7 +132,7 @@ Result<Report> plate_tests(const std::filesystem::path& data) {
     all.push_back(test.plate);
   }
   std::size_t samples = 0;
-  for (const gap::PlateTest& plate : all) samples += plate.sinkage_m.size();
+  for (const gap::PlateRecord& plate : all) samples += plate.sinkage_m.size();
   const auto pooled =
       gap::fit_moduli(all, {.measure = PlateMeasure::kPressure, .cohesive_modulus = false}, progress);
   const auto separate = gap::fit_moduli(all, {.measure = PlateMeasure::kPressure}, progress);

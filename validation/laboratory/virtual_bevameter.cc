@@ -24,8 +24,8 @@ double area_m2(double radius_m) {
   return std::numbers::pi * radius_m * radius_m;
 }
 
-std::vector<gap::PlateTest> plates_of(const CsvTable& table) {
-  std::vector<gap::PlateTest> tests;
+std::vector<gap::PlateRecord> plates_of(const CsvTable& table) {
+  std::vector<gap::PlateRecord> tests;
   for (std::size_t k = 0; k < table.rows(); ++k) {
     const double radius = table.number(k, "plate_radius_m");
     if (tests.empty() || tests.back().radius_m != radius) tests.push_back({radius, {}, {}});
@@ -35,8 +35,8 @@ std::vector<gap::PlateTest> plates_of(const CsvTable& table) {
   return tests;
 }
 
-gap::AnnulusTest annulus_of(const CsvTable& table) {
-  gap::AnnulusTest test{0.15, 0.2, {}, {}};
+gap::AnnulusRecord annulus_of(const CsvTable& table) {
+  gap::AnnulusRecord test{0.15, 0.2, {}, {}};
   for (const double load : table.numbers("load_kg")) test.load_n.push_back(load * kStandardGravity_m_s2);
   test.peak_torque_nm = table.numbers("peak_torque_nm");
   return test;
@@ -54,13 +54,13 @@ void add_fit_row(const char* way, const gap::ModuliFit& fit, Report& report) {
                          fmt::format("{:.1f}", 1e-3 * fit.rms_pa)});
 }
 
-api::Chart plate_chart(const std::vector<gap::PlateTest>& tests, const sim::BekkerModuli& predicted) {
+api::Chart plate_chart(const std::vector<gap::PlateRecord>& tests, const sim::BekkerModuli& predicted) {
   api::Chart chart;
   chart.title = "plates";
   chart.x.title = "sinkage, m";
   chart.y.title = "force, kN";
   for (std::size_t k = 0; k < tests.size(); ++k) {
-    const gap::PlateTest& test = tests[k];
+    const gap::PlateRecord& test = tests[k];
     const double area = area_m2(test.radius_m);
     api::ChartSeries points{fmt::format("measured, radius {:g} m", test.radius_m),
                             api::ChartMark::kPoints,
@@ -84,7 +84,7 @@ api::Chart plate_chart(const std::vector<gap::PlateTest>& tests, const sim::Bekk
   return chart;
 }
 
-api::Chart annulus_chart(const gap::AnnulusTest& test, const gap::ShearStrengthFit& predicted) {
+api::Chart annulus_chart(const gap::AnnulusRecord& test, const gap::ShearStrengthFit& predicted) {
   api::Chart chart;
   chart.title = "annulus";
   chart.x = {"normal stress, kPa", 0.0, {}, false, {}};
@@ -148,8 +148,8 @@ Result<Report> virtual_bevameter(const std::filesystem::path& data) {
       CsvTable::read(folder / "virtual_bevameter_annulus.csv",
                      {.numbers = {"load_kg", "peak_torque_nm"}, .numbers_or_empty = {}, .texts = {}});
   if (!annulus_table) return fail(annulus_table.error());
-  const std::vector<gap::PlateTest> tests = plates_of(*plate_table);
-  const gap::AnnulusTest annulus = annulus_of(*annulus_table);
+  const std::vector<gap::PlateRecord> tests = plates_of(*plate_table);
+  const gap::AnnulusRecord annulus = annulus_of(*annulus_table);
 
   Report report = virtual_bevameter_report();
   report.rows.push_back({"published", "-110000", "2200000", "1.2", "2495", "24", "-"});

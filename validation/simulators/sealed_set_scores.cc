@@ -165,7 +165,7 @@ void explain_columns(Report& report) {
   report.notes.emplace_back(
       "L2: the practice campaigns' wheel law with each effect by another equation; L2c: another "
       "wheel law too; L3: another physics, in which a key of \"parameters\" means that nothing was "
-      "hidden, not that the laws agree (docs/gap_benchmark.md). \"earlier\": by an earlier version "
+      "hidden, not that the laws agree (docs/results/gap_benchmark.md). \"earlier\": by an earlier version "
       "of the program, whose settings were changed with those seeds in sight. This page only "
       "counts the rows that slipway gap-benchmark --csv wrote "
       "(data/validation/sealed_campaigns_scores.csv, sealed_campaigns_withheld.csv); making them "

@@ -13,9 +13,6 @@
 namespace slipway::gap {
 namespace {
 
-constexpr double kOutlier = 6.0;
-constexpr int kNeighbours = 2;  // on either side
-
 struct Row {
   std::string_view name, unit;
   double boundary_unit;
@@ -43,14 +40,15 @@ struct Readings {
     return sum / static_cast<double>(count());
   }
   // Without what lies far from its neighbours' median.
-  Readings kept(double std) const {
+  Readings kept(double std, const WindowOptions& options) const {
+    const auto neighbours = static_cast<std::size_t>(options.outlier_neighbours);
     if (count() < 5 || std <= 0.0) return *this;
     Readings left;
     for (std::size_t i = 0; i < count(); ++i) {
       std::vector<double> around;
-      const std::size_t from = i < kNeighbours ? 0 : i - kNeighbours;
-      for (std::size_t j = from; j <= std::min(count() - 1, i + kNeighbours); ++j) around.push_back(value[j]);
-      if (std::abs(value[i] - median_of(std::move(around))) > kOutlier * std) continue;
+      const std::size_t from = i < neighbours ? 0 : i - neighbours;
+      for (std::size_t j = from; j <= std::min(count() - 1, i + neighbours); ++j) around.push_back(value[j]);
+      if (std::abs(value[i] - median_of(std::move(around))) > options.outlier * std) continue;
       left.time_s.push_back(time_s[i]);
       left.value.push_back(value[i]);
     }
@@ -129,7 +127,7 @@ class WindowMaker {
       Readings angles =
           readings_of(drive_, from_, to_, [&](const DriveSample& s) { return s.attitude.*member; });
       unwrap(angles);
-      return angles.kept(std.attitude_rad);
+      return angles.kept(std.attitude_rad, options_);
     };
     const Readings x = readings_of(drive_, from_, to_, [](const DriveSample& s) { return s.p_MB.x(); });
     const Readings y = readings_of(drive_, from_, to_, [](const DriveSample& s) { return s.p_MB.y(); });
@@ -233,7 +231,7 @@ class WindowMaker {
                                      [&](const DriveSample& s) { return sense * s.wheels[k].current_a; });
       if (current.count() > 0 && (k == 0 || bearer == wheel)) {
         const double scatter = std::hypot(std.current_a, std.current_relative * current.mean());
-        current = current.kept(2.0 * scatter);
+        current = current.kept(2.0 * scatter, options_);
         observe(Channel::kCurrent, bearer, current.mean(), scatter / std::sqrt(current.count()));
       }
       const Readings sinkage =
@@ -294,9 +292,9 @@ Stretch driven_rows(const DriveCampaign& campaign, const MeasuredDriveSeries& dr
   return rows.from < rows.to ? rows : Stretch{0, drive.samples.size() - 1};
 }
 
-std::vector<Stretch> stretches_of(const MeasuredDriveSeries& drive, const Stretch& rows, double lasting_s) {
-  constexpr double kPause = 0.75;  // of a window
-  const double longest_s = std::max(kPause * lasting_s, 1.5 * interval_s(drive));
+std::vector<Stretch> stretches_of(const MeasuredDriveSeries& drive, const Stretch& rows, double lasting_s,
+                                  const WindowOptions& options) {
+  const double longest_s = std::max(options.pause_share * lasting_s, 1.5 * interval_s(drive));
   std::vector<Stretch> stretches{{rows.from, rows.from}};
   for (std::size_t i = rows.from + 1; i <= rows.to; ++i) {
     if (drive.samples[i].time_s - drive.samples[i - 1].time_s > longest_s && !drive.final_only)
@@ -363,7 +361,7 @@ std::vector<DriveWindow> cut_windows(const DriveCampaign& campaign, const Window
   for (std::size_t d = 0; d < campaign.drives.size(); ++d) {
     const MeasuredDriveSeries& drive = campaign.drives[d];
     const double lasting_s = window_s(drive, options);
-    for (const Stretch& stretch : stretches_of(drive, driven_rows(campaign, drive), lasting_s)) {
+    for (const Stretch& stretch : stretches_of(drive, driven_rows(campaign, drive), lasting_s, options)) {
       const int count = windows_in(drive, stretch, lasting_s);
       const double start_s = drive.samples[stretch.from].time_s;
       const double step_s = (drive.samples[stretch.to].time_s - start_s) / count;

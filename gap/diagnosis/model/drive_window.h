@@ -53,6 +53,9 @@ struct WindowOptions {
   double length_m = 1.5;  // commanded; more where rows are so far apart that it would not hold three
   double turn_rad = 0.8;  // of a turn in place
   int stations = 3;
+  double outlier = 6.0;  // sensor's deviations off the neighbours' median: such a reading is passed over
+  int outlier_neighbours = 2;              // on either side
+  double pause_share = 0.75;               // of a window: none reaches across a longer pause in the rows
   bool currents_in_sense_of_rate = false;  // this and the next: found in the campaign's own readings
   bool currents_split_evenly = false;
 };
@@ -64,7 +67,7 @@ bool currents_split_evenly(const DriveCampaign& campaign);
 // Windows of every drive, in the drives' order. A drive shorter than a window is one. None reaches across a
 // pause in the rows that is nearly as long as itself. Where rates were measured, rows before the wheels first
 // turn at half of the told rates, and after they last do, are left out. Samples whose value lies beyond
-// kOutlier deviations of their neighbours' median are passed over; windows with fewer than two poses have no
+// `outlier` deviations of their neighbours' median are passed over; windows with fewer than two poses have no
 // slip, side slip and yaw rate. Drives that are final_only are one window without currents.
 std::vector<DriveWindow> cut_windows(const DriveCampaign& campaign, const WindowOptions& options = {});
 
