@@ -1,9 +1,9 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "gap/diagnosis/diagnosis.h"
 #include "gap/diagnosis/model/window_variables.h"
@@ -15,7 +15,7 @@ struct HiddenTrace {
   std::string drive;
   WindowVariables at;
   // Squared, in deviations of the channel's noise, mean over wheels; nothing where it is not observed.
-  std::array<std::optional<double>, kChannels> mean_square{};
+  std::vector<std::optional<double>> mean_square = std::vector<std::optional<double>>(channel_count());
 };
 
 // The channel in which the sum over stretches is largest; nothing where there is none above 0.

@@ -32,7 +32,7 @@ struct SoilEstimateRequest {
   gap::SoilData data;                  // of wheels only loads, motions and readings are given
   std::string campaign;                // of drives; then there are no tests
   gap::SoilEstimationOptions options;  // of tests
-  std::array<bool, gap::kChannels> looked_at = gap::kAllChannels;  // of drives
+  std::vector<bool> looked_at;         // channels of drives; empty: all
 };
 
 // Switches all channels but these off: of tests by gap::SoilChannel's names, of drives by gap::Channel's. A

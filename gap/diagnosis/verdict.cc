@@ -130,7 +130,7 @@ std::optional<std::string> gap_left(const Diagnosis& d) {
   double most = d.effects.empty() ? kLeftOfNothing : kLeftBesideEffects;
   std::optional<std::string> words;
   for (const ChannelClosure& c : d.gap) {
-    if (c.channel == Channel::kRoll || c.channel == Channel::kPitch) continue;
+    if (row_of(c.channel).of_the_stance) continue;
     const double floor = c.noise_floor.value;
     if (c.with_effects.low <= most * floor) continue;
     if (!d.effects.empty() && c.retuned.value - c.with_effects.value >= kForgiven * (c.retuned.value - floor))

@@ -34,10 +34,10 @@ struct EffectVariant {
     double lowest = 0.0, highest = 0.0;  // bounds of the estimate
     std::optional<double> neutral = {};  // where it is not the field's own: what this rover has already
   };
-  std::string effect;  // the row's name; a row's own functions leave it empty
-  std::string label;   // distinguishes the variants of one effect: "lf", "at 10 mm"; may be empty
-  std::vector<Free> free;
-  std::vector<std::pair<std::string, double>> fixed;
+  std::string effect = {};  // the row's name; a row's own functions leave it empty
+  std::string label = {};   // distinguishes the variants of one effect: "lf", "at 10 mm"; may be empty
+  std::vector<Free> free = {};
+  std::vector<std::pair<std::string, double>> fixed = {};
   // Fields that keep their initial value. All that is not free, fixed or in here is at its neutral value.
   std::vector<std::string> at_initial = {};
   // Of a row with `shown_tilt`: the share of the error that the inclinometer shows, and the share of it that

@@ -44,7 +44,7 @@ std::vector<double> squares_of(const PreparedCampaign& prepared, const Eigen::Ve
 std::vector<ChannelSquares> channel_squares(const PreparedCampaign& prepared,
                                             const Eigen::VectorXd& residuals) {
   std::vector<ChannelSquares> all;
-  for (int c = 0; c < kChannels; ++c)
+  for (std::size_t c = 0; c < channel_count(); ++c)
     all.push_back({static_cast<Channel>(c), squares_of(prepared, residuals, static_cast<Channel>(c))});
   return all;
 }
@@ -167,7 +167,9 @@ std::vector<GapPlace> gap_places(const PreparedCampaign& prepared, const DriveCa
   };
   std::vector<Disc> found;
   const std::vector<std::size_t> drive_of = drives_of(prepared);
-  for (const Channel channel : {Channel::kSlip, Channel::kSideSlip, Channel::kCurrent, Channel::kSinkage}) {
+  for (std::size_t c = 0; c < channel_count(); ++c) {
+    const auto channel = static_cast<Channel>(c);
+    if (!row_of(channel).located) continue;
     const std::vector<double> squares = squares_of(prepared, residuals, channel);
     const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
     const Excess excess(squares);

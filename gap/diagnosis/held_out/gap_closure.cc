@@ -21,7 +21,7 @@ std::optional<double> closed(const HeldOutErrors& e) {
   return closed_of(e.scaled_retuned, e.scaled_with, e.scaled_count, e.scaled_count);
 }
 
-std::optional<double> closed(const HeldOutErrors& e, int c) {
+std::optional<double> closed(const HeldOutErrors& e, std::size_t c) {
   return closed_of(e.retuned[c], e.with[c], e.floor[c], e.count[c]);
 }
 
@@ -118,7 +118,7 @@ Result<Shrink> close_gap_on_held_out(const PreparedCampaign& prepared, const Dri
     sums.resampled.emplace_back();
     for (const std::size_t group : drives.resamples[b]) sums.resampled.back().add(errors[chosen][group]);
   }
-  for (int c = 0; c < kChannels; ++c) {
+  for (std::size_t c = 0; c < channel_count(); ++c) {
     if (sums.all.count[c] == 0.0) continue;
     const auto rms = [&](const auto& squares) {
       return sums.interval([c, squares](const HeldOutErrors& e) {

@@ -1,37 +1,14 @@
 #pragma once
 
 #include <cstddef>
-#include <string_view>
 #include <vector>
 
 #include "core/pose.h"
+#include "gap/diagnosis/model/channel.h"
 #include "gap/diagnosis/model/drive_campaign.h"
 #include "sim/rover/drive_command.h"
 
 namespace slipway::gap {
-
-// What is compared between prediction and drive.
-enum class Channel {
-  kSlip,      // 1 - speed along the commanded direction / commanded; turning in place: of the yaw rate
-  kSideSlip,  // speed to the left over the commanded speed; not of turns in place
-  kYawRate,   // less the commanded one, rad/s; not of turns in place
-  kRoll,      // measured less that of the rover set down on the map, rad
-  kPitch,
-  kCurrent,  // of a wheel's motor, A, positive in the sense of its rate
-  kSinkage,  // of a wheel, m
-};
-constexpr int kChannels = 7;
-
-std::string_view name_of(Channel channel);  // "slip", "side_slip", ...
-std::string_view unit_of(Channel channel);  // at the boundary: "1", "deg/s", "deg", "A", "m"
-double boundary_unit(Channel channel);      // what one internal unit is there: 57.3 of an angle
-
-struct Observation {
-  Channel channel = Channel::kSlip;
-  int wheel = -1;  // of a wheel's channel; a current of none is the mean of all wheels
-  double value = 0.0;
-  double sensor_std = 0.0;  // by the campaign's measurement_std and the number of readings
-};
 
 // A stretch of a drive, anchored at its own measured poses so that the error of one does not travel to the
 // next.
@@ -53,6 +30,9 @@ struct WindowOptions {
   double length_m = 1.5;  // commanded; more where rows are so far apart that it would not hold three
   double turn_rad = 0.8;  // of a turn in place
   int stations = 3;
+  double outlier = 6.0;  // sensor's deviations off the neighbours' median: such a reading is passed over
+  int outlier_neighbours = 2;              // on either side
+  double pause_share = 0.75;               // of a window: none reaches across a longer pause in the rows
   bool currents_in_sense_of_rate = false;  // this and the next: found in the campaign's own readings
   bool currents_split_evenly = false;
 };
@@ -63,8 +43,8 @@ bool currents_split_evenly(const DriveCampaign& campaign);
 
 // Windows of every drive, in the drives' order. A drive shorter than a window is one. None reaches across a
 // pause in the rows that is nearly as long as itself. Where rates were measured, rows before the wheels first
-// turn at half of the told rates, and after they last do, are left out. Samples whose value lies beyond
-// kOutlier deviations of their neighbours' median are passed over; windows with fewer than two poses have no
+// turn at half of the commanded rates, and after they last do, are left out. Samples whose value lies beyond
+// `outlier` deviations of their neighbours' median are passed over; windows with fewer than two poses have no
 // slip, side slip and yaw rate. Drives that are final_only are one window without currents.
 std::vector<DriveWindow> cut_windows(const DriveCampaign& campaign, const WindowOptions& options = {});
 

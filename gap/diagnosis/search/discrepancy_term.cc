@@ -1,5 +1,7 @@
 #include "gap/diagnosis/search/discrepancy_term.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
@@ -186,7 +188,7 @@ DiscrepancyTerm make_discrepancy_term(const DriveCampaign& campaign, const Windo
       stiffness += jacobian.col(p);
   add("pressure_sinkage", std::move(stiffness));
   // Sensors.
-  const auto sensor = [&](const char* name, const auto& value) {
+  const auto sensor = [&](std::string_view name, const auto& value) {
     Eigen::VectorXd response = Eigen::VectorXd::Zero(rows);
     Eigen::Index i = 0;
     for (const DriveWindow& window : model.windows())
@@ -194,27 +196,22 @@ DiscrepancyTerm make_discrepancy_term(const DriveCampaign& campaign, const Windo
         const double f = expected[static_cast<std::size_t>(i)];
         response[i++] = value(o, std::isfinite(f) ? f : 0.0);
       }
-    add(name, std::move(response));
+    add(std::string(name), std::move(response));
   };
-  sensor("slip_sensor",
-         [](const Observation& o, double) { return o.channel == Channel::kSlip ? 0.03 : 0.0; });
-  sensor("side_slip",
-         [](const Observation& o, double) { return o.channel == Channel::kSideSlip ? 0.02 : 0.0; });
-  sensor("yaw", [](const Observation& o, double) { return o.channel == Channel::kYawRate ? 0.001 : 0.0; });
-  sensor("roll_sensor",
-         [](const Observation& o, double) { return o.channel == Channel::kRoll ? 0.01 : 0.0; });
-  sensor("pitch_sensor",
-         [](const Observation& o, double) { return o.channel == Channel::kPitch ? 0.01 : 0.0; });
-  sensor("torque_to_current",
-         [](const Observation& o, double f) { return o.channel == Channel::kCurrent ? 0.05 * f : 0.0; });
-  sensor("sinkage",
-         [](const Observation& o, double) { return o.channel == Channel::kSinkage ? 0.002 : 0.0; });
+  const std::span<const ChannelRow> channels = channel_catalogue();
+  for (std::size_t c = 0; c < channels.size(); ++c)
+    sensor(channels[c].sensor_entry, [&, c](const Observation& o, double f) {
+      return o.channel == static_cast<Channel>(c) ? channels[c].sensor_error(f) : 0.0;
+    });
   const auto shared_entries = entries.size();
-  for (std::size_t k = 0; k < campaign.rover->wheels.size(); ++k)
-    sensor(("torque_to_current_" + campaign.rover->wheels[k].name).c_str(),
-           [k](const Observation& o, double f) {
-             return o.channel == Channel::kCurrent && o.wheel == static_cast<int>(k) ? 0.05 * f : 0.0;
-           });
+  for (std::size_t c = 0; c < channels.size(); ++c)
+    for (std::size_t k = 0; channels[c].sensor_error_by_wheel && k < campaign.rover->wheels.size(); ++k)
+      sensor(fmt::format("{}_{}", channels[c].sensor_entry, campaign.rover->wheels[k].name),
+             [&, c, k](const Observation& o, double f) {
+               return o.channel == static_cast<Channel>(c) && o.wheel == static_cast<int>(k)
+                          ? channels[c].sensor_error(f)
+                          : 0.0;
+             });
 
   const std::vector<std::vector<Circumstance>> variables = circumstances(model, expected);
   DiscrepancyTerm discrepancy;
@@ -264,7 +261,7 @@ Eigen::MatrixXd form_columns(const DriveCampaign& campaign, const WindowModel& m
       if (std::find(kFormVariables.begin(), kFormVariables.end(), variables.front()[v].name) !=
           kFormVariables.end())
         add([&](std::size_t w, const Observation&) { return variables[w][v].value; });
-    for (int c = 0; c < kChannels; ++c)
+    for (std::size_t c = 0; c < channel_count(); ++c)
       add([&](std::size_t, const Observation& o) {
         return o.channel == static_cast<Channel>(c) ? 1.0 : 0.0;
       });

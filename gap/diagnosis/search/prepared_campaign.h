@@ -42,12 +42,11 @@ struct PreparedCampaign {
 void prepare_around(PreparedCampaign& prepared, const DriveCampaign& campaign, const FittedExplanation& found,
                     std::size_t threads);
 
-inline constexpr std::array<bool, kChannels> kAllChannels{true, true, true, true, true, true, true};
-
-// The campaign must outlive what is made of it. Of channels that are not `looked_at` nothing is used. Errors:
+// The campaign must outlive what is made of it. Channels that are not `looked_at` (empty: all are) are
+// not used. Errors:
 // cancelled.
 Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const WindowOptions& options,
                                  std::size_t threads, Progress& progress,
-                                 const std::array<bool, kChannels>& looked_at = kAllChannels);
+                                 const std::vector<bool>& looked_at = {});
 
 }  // namespace slipway::gap
