@@ -2,63 +2,93 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "api/documents/diagnosis_document.h"
 #include "api/documents/plan_answer.h"
 #include "api/documents/prediction_answer.h"
 #include "api/documents/soil_estimate_document.h"
 #include "api/report/diagnosis_charts.h"
 #include "api/report/diagnosis_report.h"
+#include "api/report/route_map.h"
 
 namespace slipway::api {
 namespace {
 
-// No document has a line's end in it: within strings it is escaped.
-constexpr char kBetweenParts = '\n';
+std::string diagnosis_page(const DiagnosisAnswer& answer) {
+  return diagnosis_report(answer.campaign, answer.diagnosis,
+                          draw_diagnosis(answer.campaign, answer.diagnosis))
+      .html();
+}
+
+std::vector<JobKind> all_kinds() {
+  return {
+      job_kind(JobKindRow<PlanRequest, PlanAnswer>{.name = std::string(kPlanKind),
+                                                   .path = "/v1/plans",
+                                                   .read = &Service::read_plan,
+                                                   .run = &Service::plan,
+                                                   .write = &json::write_plan_answer,
+                                                   .map = &draw_route_map,
+                                                   .may_name_model = true}),
+      job_kind(JobKindRow<PredictionRequest, PredictionAnswer>{.name = std::string(kPredictionKind),
+                                                               .path = "/v1/predictions",
+                                                               .read = &Service::read_prediction,
+                                                               .run = &Service::predict,
+                                                               .write = &json::write_prediction_answer,
+                                                               .map = &draw_route_map,
+                                                               .usual_wait = std::chrono::seconds(10),
+                                                               .is_short = true,
+                                                               .may_name_model = true}),
+      job_kind(JobKindRow<DiagnosisRequest, DiagnosisAnswer>{.name = std::string(kDiagnosisKind),
+                                                             .path = "/v1/diagnoses",
+                                                             .read = &Service::read_diagnosis,
+                                                             .run = &Service::diagnose,
+                                                             .write =
+                                                                 [](const DiagnosisAnswer& answer) {
+                                                                   return json::diagnosis_document(
+                                                                       answer.campaign, answer.diagnosis);
+                                                                 },
+                                                             .report = &diagnosis_page}),
+      job_kind(JobKindRow<SoilEstimateRequest, SoilEstimateAnswer>{.name = "soil_estimate",
+                                                                   .path = "/v1/soil-estimates",
+                                                                   .read = &Service::read_soil_estimate,
+                                                                   .run = &Service::estimate_soil,
+                                                                   .write = &json::soil_estimate_document,
+                                                                   .is_short = true}),
+  };
+}
 
 }  // namespace
 
-KeptAnswer parts_of(std::string_view kept) {
-  const std::size_t end = kept.find(kBetweenParts);
-  if (end == std::string_view::npos) return {kept, {}};
-  return {kept.substr(0, end), kept.substr(end + 1)};
+const std::vector<JobKind>& job_kinds() {
+  static const std::vector<JobKind> kinds = all_kinds();
+  return kinds;
 }
 
-JobWork service_work(const Service& service) {
-  return [&service](const std::string& kind, const std::string& request,
-                    Progress& progress) -> Result<std::string> {
-    // Read again from the bytes that were accepted: after a restart there is nothing else.
-    if (kind == kPlanKind) {
-      const auto plan_request = service.read_plan(request);
-      if (!plan_request) return fail(plan_request.error());
-      const auto answer = service.plan(*plan_request, progress);
-      if (!answer) return fail(answer.error());
-      return json::write_plan_answer(*answer);
-    }
-    if (kind == kPredictionKind) {
-      const auto prediction_request = service.read_prediction(request);
-      if (!prediction_request) return fail(prediction_request.error());
-      const auto answer = service.predict(*prediction_request, progress);
-      if (!answer) return fail(answer.error());
-      return json::write_prediction_answer(*answer);
-    }
-    if (kind == kDiagnosisKind) {
-      const auto diagnosis_request = service.read_diagnosis(request);
-      if (!diagnosis_request) return fail(diagnosis_request.error());
-      const auto answer = service.diagnose(*diagnosis_request, progress);
-      if (!answer) return fail(answer.error());
-      const gap::Diagnosis& d = answer->diagnosis;
-      const ReportPage report = diagnosis_report(answer->campaign, d, draw_diagnosis(answer->campaign, d));
-      return json::diagnosis_document(answer->campaign, d) + kBetweenParts + report.html();
-    }
-    if (kind == kSoilEstimateKind) {
-      const auto estimate_request = service.read_soil_estimate(request);
-      if (!estimate_request) return fail(estimate_request.error());
-      const auto answer = service.estimate_soil(*estimate_request, progress);
-      if (!answer) return fail(answer.error());
-      return json::soil_estimate_document(*answer);
-    }
-    return fail(ErrorCode::kInternal, fmt::format("no work is known for jobs of kind {}", kind));
+const JobKind* find_kind(const std::vector<JobKind>& kinds, std::string_view name) {
+  const auto found =
+      std::find_if(kinds.begin(), kinds.end(), [&](const JobKind& kind) { return kind.name == name; });
+  return found == kinds.end() ? nullptr : &*found;
+}
+
+JobWork service_work(const Service& service, const std::vector<JobKind>& kinds) {
+  return [&service, &kinds](const std::string& kind, const std::string& request,
+                            Progress& progress) -> Result<std::string> {
+    const JobKind* const known = find_kind(kinds, kind);
+    if (known == nullptr)
+      return fail(ErrorCode::kInternal, fmt::format("no work is known for jobs of kind {}", kind));
+    return known->work(service, request, progress);
   };
+}
+
+std::vector<std::vector<std::string>> worker_kinds(const std::vector<JobKind>& kinds) {
+  std::vector<std::vector<std::string>> workers(2);
+  for (const JobKind& kind : kinds) {
+    workers[0].push_back(kind.name);
+    if (kind.is_short) workers[1].push_back(kind.name);
+  }
+  if (workers[1].empty()) workers.pop_back();
+  return workers;
 }
 
 }  // namespace slipway::api

@@ -2,26 +2,32 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "api/job_kind.h"
 #include "api/jobs/job_runner.h"
 #include "api/service.h"
 
 namespace slipway::api {
 
+// Of those kinds that the code asks for by name: the command line's questions, and the job that offers a
+// model.
 inline constexpr std::string_view kPlanKind = "plan";
 inline constexpr std::string_view kPredictionKind = "prediction";
 inline constexpr std::string_view kDiagnosisKind = "diagnosis";
-inline constexpr std::string_view kSoilEstimateKind = "soil_estimate";
 
-// What a job keeps: the answer's document and, of a diagnosis, its report as an HTML page behind it.
-struct KeptAnswer {
-  std::string_view document;
-  std::string_view page;  // empty: none was kept
-};
-KeptAnswer parts_of(std::string_view kept);
+// The catalogue: every kind of job that the service does, one row each.
+const std::vector<JobKind>& job_kinds();
 
-// What a job runner does with the service's jobs: request bytes -> what is kept of the answer. The service
-// must outlive it.
-JobWork service_work(const Service& service);
+// The row of this name; nullptr where there is none.
+const JobKind* find_kind(const std::vector<JobKind>& kinds, std::string_view name);
+
+// What a job runner does with jobs of these kinds: request bytes -> what is kept of the answer. The service
+// and the kinds must outlive it.
+JobWork service_work(const Service& service, const std::vector<JobKind>& kinds = job_kinds());
+
+// The kinds that each worker of a runner claims: the first takes all, the second short work alone, so that it
+// does not wait behind long work.
+std::vector<std::vector<std::string>> worker_kinds(const std::vector<JobKind>& kinds = job_kinds());
 
 }  // namespace slipway::api

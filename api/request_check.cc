@@ -9,7 +9,6 @@
 
 #include "api/json/faults.h"
 #include "api/json/json_value.h"
-#include "planner/search/planner_catalogue.h"
 #include "sim/effects/effect_catalogue.h"
 #include "sim/rover/drive_command.h"
 
@@ -107,8 +106,8 @@ void RequestCheck::drive(const DriveAssumptions& drive) {
   const double fastest = rover_->drive.max_wheel_rate_rad_s * rover_->smallest_wheel_radius_m();
   if (*drive.speed_m_s > fastest) {
     add(ErrorCode::kInvalidRequest, "/speed_m_s",
-        fmt::format("speed_m_s = {} m/s, must be in (0, {:.6g}]: the motors of {} turn no faster",
-                    *drive.speed_m_s, fastest, rover_->name));
+        fmt::format("speed_m_s = {} m/s, must be in [{:g}, {:.6g}]: the motors of {} turn no faster",
+                    *drive.speed_m_s, RequestLimits::kLeastSpeed_m_s, fastest, rover_->name));
   }
 }
 
@@ -127,9 +126,10 @@ void RequestCheck::crab(double crab_rad) {
     add(ErrorCode::kInvalidRequest, "/crab_deg", std::move(*why));
 }
 
-void RequestCheck::planners(const std::vector<std::string>& planners) {
+void RequestCheck::planners(const std::vector<std::string>& planners,
+                            std::span<const planner::PlannerRow> known_rows) {
   std::vector<std::string> known;
-  for (const planner::PlannerRow& row : planner::planner_catalogue()) known.emplace_back(row.name);
+  for (const planner::PlannerRow& row : known_rows) known.emplace_back(row.name);
   for (std::size_t i = 0; i < planners.size(); ++i) {
     const std::string pointer = fmt::format("/planners/{}", i);
     const auto begin = planners.begin();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "api/files/catalogue.h"
 #include "api/requests/plan_request.h"
 #include "core/result.h"
+#include "planner/search/planner_catalogue.h"
 
 namespace slipway::api {
 
@@ -26,7 +28,7 @@ class RequestCheck {
   void place(const planner::Waypoint& place, const std::string& pointer);
   void drive(const DriveAssumptions& drive);
   void crab(double crab_rad);
-  void planners(const std::vector<std::string>& planners);
+  void planners(const std::vector<std::string>& planners, std::span<const planner::PlannerRow> known);
   // A path no longer than RequestLimits::kPathLength_m.
   void path_length(const std::vector<planner::Waypoint>& path);
 

@@ -52,7 +52,7 @@ sim::SoilDistribution believed(const Catalogue& catalogue, const RegionalSoil& s
 }  // namespace
 
 Result<std::unique_ptr<Service>> Service::open(ServiceOptions options) {
-  auto catalogue = load_catalogue(options.data);
+  auto catalogue = load_catalogue(options.data, *options.soil_format);
   if (!catalogue) return fail(catalogue.error());
   if (!options.model.empty()) {
     const auto folder = load_model_folder(options.model);
@@ -61,16 +61,17 @@ Result<std::unique_ptr<Service>> Service::open(ServiceOptions options) {
     if (!catalogue) return fail(catalogue.error());
   }
   std::unique_ptr<Service> service(new Service(std::move(options)));
-  service->catalogue_ = std::move(*catalogue);
-  service->shipped_ = shipped_campaigns(service->options_.data, service->catalogue_);
+  service->catalogue_ = std::make_shared<const Catalogue>(std::move(*catalogue));
+  service->shipped_ = shipped_campaigns(service->options_.data, *service->catalogue_);
   for (const ShippedCampaign& campaign : service->shipped_) service->campaigns_.push_back(campaign.name);
   return service;
 }
 
-Catalogue Service::catalogue_for(const std::optional<RequestedModel>& model, std::string& rover,
-                                 std::vector<Fault>& faults) const {
+std::shared_ptr<const Catalogue> Service::catalogue_for(const std::optional<RequestedModel>& model,
+                                                        std::string& rover,
+                                                        std::vector<Fault>& faults) const {
   if (!model) return catalogue_;
-  auto with = with_model(catalogue_, *model->corrected, model->ground);
+  auto with = with_model(*catalogue_, *model->corrected, model->ground);
   if (!with) {
     for (Fault& fault : moved_under("/model", with.error().faults)) faults.push_back(std::move(fault));
     return catalogue_;
@@ -79,15 +80,16 @@ Catalogue Service::catalogue_for(const std::optional<RequestedModel>& model, std
   if (rover != model->corrected->model.rover.name)
     for (Fault& fault : not_of_this_rover(*model->corrected, rover).faults)
       faults.push_back(std::move(fault));
-  return *std::move(with);
+  return std::make_shared<const Catalogue>(*std::move(with));
 }
 
 Result<PlanRequest> Service::read_plan(std::string_view json) const {
-  auto reading = json::read_plan_request(json);
+  auto reading = json::read_plan_request(json, options_.costs);
   if (!reading) return fail(reading.error());
   PlanRequest& request = reading->request;
-  const Catalogue catalogue = catalogue_for(request.drive.model, request.rover, reading->faults);
-  RequestCheck check(catalogue, std::move(reading->faults));
+  const std::shared_ptr<const Catalogue> catalogue =
+      catalogue_for(request.drive.model, request.rover, reading->faults);
+  RequestCheck check(*catalogue, std::move(reading->faults));
   check.names(request.terrain, request.rover);
   check.ground(request.drive.model, options_.ground);
   check.place(request.start, "/start");
@@ -95,7 +97,7 @@ Result<PlanRequest> Service::read_plan(std::string_view json) const {
   for (std::size_t i = 0; i < request.waypoints.size(); ++i) {
     check.place(request.waypoints[i], fmt::format("/waypoints/{}", i));
   }
-  check.planners(request.planners);
+  check.planners(request.planners, options_.planners);
   check.drive(request.drive);
   if (!check.passed()) return fail(check.error());
   return std::move(reading->request);
@@ -105,8 +107,9 @@ Result<PredictionRequest> Service::read_prediction(std::string_view json) const 
   auto reading = json::read_prediction_request(json);
   if (!reading) return fail(reading.error());
   PredictionRequest& request = reading->request;
-  const Catalogue catalogue = catalogue_for(request.drive.model, request.rover, reading->faults);
-  RequestCheck check(catalogue, std::move(reading->faults));
+  const std::shared_ptr<const Catalogue> catalogue =
+      catalogue_for(request.drive.model, request.rover, reading->faults);
+  RequestCheck check(*catalogue, std::move(reading->faults));
   check.names(request.terrain, request.rover);
   check.ground(request.drive.model, options_.ground);
   for (std::size_t i = 0; i < request.path.size(); ++i)
@@ -135,7 +138,7 @@ Result<SoilEstimateRequest> Service::read_soil_estimate(std::string_view json) c
   if (!reading) return fail(reading.error());
   const SoilEstimateRequest& request = reading->request;
   std::vector<Fault>& faults = reading->faults;
-  for (Fault& fault : faults_of(catalogue_, request))
+  for (Fault& fault : faults_of(*catalogue_, request))
     if (!has_fault_under(faults, fault.pointer)) faults.push_back(std::move(fault));
   if (!request.campaign.empty() && !has_fault_under(faults, "/campaign") &&
       std::find(campaigns_.begin(), campaigns_.end(), request.campaign) == campaigns_.end())
@@ -149,13 +152,13 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
                                          const DriveAssumptions& drive) const {
   std::vector<Fault> faults;
   std::string driven_name = rover;
-  const Catalogue catalogue = catalogue_for(drive.model, driven_name, faults);
-  RequestCheck check(catalogue, std::move(faults));
+  const std::shared_ptr<const Catalogue> catalogue = catalogue_for(drive.model, driven_name, faults);
+  RequestCheck check(*catalogue, std::move(faults));
   check.names(terrain, driven_name);
   check.drive(drive);
   if (!check.passed()) return fail(check.error());
-  const TerrainSite& site = *catalogue.terrains.find(terrain)->second;
-  sim::RoverModel driven = *catalogue.rovers.find(driven_name)->second;
+  const TerrainSite& site = *catalogue->terrains.find(terrain)->second;
+  sim::RoverModel driven = *catalogue->rovers.find(driven_name)->second;
   const std::vector<sim::EffectSetting> effects = sim::in_force(driven.effects, drive.effects);
   sim::apply_effects(effects, driven);
   sim::fail_wheels(driven, drive.failed_wheels, drive.conditions);
@@ -169,8 +172,8 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
   RegionalSoils soils = soils_in_regions(ground->soil_map, sim::effect_regions(effects));
   problem.soil_map = soils.map;
   for (const RegionalSoil& soil : soils.soils)
-    problem.beliefs.known.push_back(believed(catalogue, soil, effects));
-  problem.beliefs.unknown = believed(catalogue, {std::string(kUnknownGround), {}}, effects);
+    problem.beliefs.known.push_back(believed(*catalogue, soil, effects));
+  problem.beliefs.unknown = believed(*catalogue, {std::string(kUnknownGround), {}}, effects);
   problem.conditions = drive.conditions;
   problem.rover = std::make_shared<const sim::RoverModel>(std::move(driven));
   problem.gravity_m_s2 = site.description().gravity_m_s2;
@@ -210,7 +213,7 @@ Result<PlanAnswer> Service::plan(const PlanRequest& request, Progress& progress)
   problem.routes = request.routes;
   problem.verify = request.verify;
   problem.planners = request.planners;
-  auto plan = planner::make_plan(problem, progress);
+  auto plan = planner::make_plan(problem, progress, options_.planners);
   if (!plan) return fail(plan.error());
   return PlanAnswer{request, std::move(setting->provenance), std::move(*plan)};
 }
@@ -240,7 +243,7 @@ Result<PredictionAnswer> Service::predict(const PredictionRequest& request, Prog
 
 Result<gap::DriveCampaign> Service::shipped_drives(const std::string& name) const {
   for (const ShippedCampaign& campaign : shipped_)
-    if (campaign.name == name) return load_drive_campaign(campaign.folder, catalogue_);
+    if (campaign.name == name) return load_drive_campaign(campaign.folder, *catalogue_);
   return fail(ErrorCode::kInvalidRequest, unknown_name("campaign", name, campaigns_),
               {{"/campaign", unknown_name("campaign", name, campaigns_)}});
 }
@@ -260,7 +263,7 @@ Result<DiagnosisAnswer> Service::diagnose(const DiagnosisRequest& request, Progr
 
 Result<SoilEstimateAnswer> Service::estimate_soil(const SoilEstimateRequest& request,
                                                   Progress& progress) const {
-  if (request.campaign.empty()) return api::estimate_soil(catalogue_, request, progress);
+  if (request.campaign.empty()) return api::estimate_soil(*catalogue_, request, progress);
   progress.report("reading the drives", 0.0);
   const auto campaign = shipped_drives(request.campaign);
   if (!campaign) return fail(campaign.error());
@@ -268,13 +271,13 @@ Result<SoilEstimateAnswer> Service::estimate_soil(const SoilEstimateRequest& req
 }
 
 Result<GroundAt> Service::ground_at(std::string_view terrain, double x_m, double y_m) const {
-  const auto found = catalogue_.terrains.find(terrain);
-  if (found == catalogue_.terrains.end()) {
-    return fail(ErrorCode::kNotFound, unknown_name("terrain", terrain, names_of(catalogue_.terrains)));
+  const auto found = catalogue_->terrains.find(terrain);
+  if (found == catalogue_->terrains.end()) {
+    return fail(ErrorCode::kNotFound, unknown_name("terrain", terrain, names_of(catalogue_->terrains)));
   }
   const TerrainSite& site = *found->second;
-  RequestCheck check(catalogue_, {});
-  check.names(std::string(terrain), names_of(catalogue_.rovers).front());
+  RequestCheck check(*catalogue_, {});
+  check.names(std::string(terrain), names_of(catalogue_->rovers).front());
   check.place({x_m, y_m, std::nullopt}, "");
   if (!check.passed()) return fail(check.error());
   const dem::GridGeometry& geometry = site.info().geometry;

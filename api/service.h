@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,8 @@
 #include "api/requests/soil_estimate.h"
 #include "core/progress.h"
 #include "core/result.h"
+#include "planner/problem/cost_catalogue.h"
+#include "planner/search/planner_catalogue.h"
 
 namespace slipway::api {
 
@@ -20,6 +23,11 @@ struct ServiceOptions {
   std::size_t threads = 0;               // of one plan or prediction; 0: as many as the machine has
   std::filesystem::path model = {};      // folder of a corrected model to plan with; empty: none
   std::vector<std::string> ground = {};  // soils of terrains that are that model's, see with_model()
+  // What routes cost and what searches for them. The rows must outlive the service.
+  std::span<const planner::CostTerm> costs = planner::cost_catalogue();
+  std::span<const planner::PlannerRow> planners = planner::planner_catalogue();
+  const sim::SoilFormat* soil_format =
+      &sim::soil_format();  // what its soil files may hold; outlives the service
 };
 
 // What the server and the command line both ask: immutable once opened, thread-safe.
@@ -28,7 +36,9 @@ class Service {
   // Errors: unreadable_data with the faults of all files.
   static Result<std::unique_ptr<Service>> open(ServiceOptions options);
 
-  const Catalogue& catalogue() const { return catalogue_; }
+  const Catalogue& catalogue() const { return *catalogue_; }
+  std::span<const planner::CostTerm> costs() const { return options_.costs; }
+  std::span<const planner::PlannerRow> planners() const { return options_.planners; }
   // The drives that ship. A name among them is all that a request says of where drives are: it opens no
   // other.
   const std::vector<ShippedCampaign>& campaigns() const { return shipped_; }
@@ -60,16 +70,16 @@ class Service {
   };
   Result<Setting> set_up(const std::string& terrain, const std::string& rover,
                          const std::vector<planner::Waypoint>& places, const DriveAssumptions& drive) const;
-  // With the request's model in it, where it has one; its rover takes the place of the one it was made of.
-  // What can't be taken is added to the faults.
-  Catalogue catalogue_for(const std::optional<RequestedModel>& model, std::string& rover,
-                          std::vector<Fault>& faults) const;
+  // The service's own, or a copy with the request's model in it where it has one; its rover takes the place
+  // of the one it was made of. What can't be taken is added to the faults.
+  std::shared_ptr<const Catalogue> catalogue_for(const std::optional<RequestedModel>& model,
+                                                 std::string& rover, std::vector<Fault>& faults) const;
 
   // Errors: invalid_request at /campaign, and those of load_drive_campaign.
   Result<gap::DriveCampaign> shipped_drives(const std::string& name) const;
 
   ServiceOptions options_;
-  Catalogue catalogue_;
+  std::shared_ptr<const Catalogue> catalogue_;
   std::vector<ShippedCampaign> shipped_;
   std::vector<std::string> campaigns_;  // their names
 };

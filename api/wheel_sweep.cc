@@ -86,6 +86,7 @@ Result<WheelSweepAnswer> read_wheel_sweep(const Catalogue& catalogue, std::strin
   } else {
     answer.sweep.rig.soil = soil->second.mean;
   }
+  answer.sweep.rig.soil_format = catalogue.soil_format;
   answer.sweep.set = answer.request.set;
   answer.sweep.axes = answer.request.sweep;
   for (Fault& fault : sim::parameter_faults(answer.sweep)) check.add(fault.pointer, std::move(fault.message));

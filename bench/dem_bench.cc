@@ -1,4 +1,4 @@
-// What a look at the ground costs, and what it costs to open a large elevation raster and read a window of
+// The cost of reading the ground's height, of opening a large elevation raster, and of reading a window of
 // it.
 
 #include <benchmark/benchmark.h>

@@ -1,4 +1,4 @@
-// Cost of the dynamic rung, per unit of work.
+// The cost of the dynamic level per unit of work.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -69,7 +69,8 @@ void BM_PressRut(benchmark::State& state) {
 }
 BENCHMARK(BM_PressRut);
 
-// Of the processor: a drive is one thread's work, and what else the machine does is not its cost.
+// Processor time is measured: a drive is the work of one thread, and other load of the machine is not its
+// cost.
 double processor_s() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
@@ -109,7 +110,8 @@ double law_s() {
   return (processor_s() - start) / kCalls;
 }
 
-// Twenty metres with heading feedback; rows: height of the bumps (mm, rms), tolerance as 10^-n.
+// A drive of twenty metres with heading feedback. The arguments are the height of the bumps (mm, rms) and n
+// of the tolerance 10^-n.
 void BM_Drive(benchmark::State& state) {
   const RoverModel rover = six_wheeler();
   const planner::TerrainGround ground = rough_ground(1e-3 * static_cast<double>(state.range(0)), 30.0);
@@ -157,7 +159,7 @@ double resident_kb() {
   return 0.0;
 }
 
-// Fifty times twenty metres to and fro: a kilometre, whose memory must not grow.
+// A kilometre as fifty times twenty metres to and fro, over which the memory must not grow.
 void BM_Kilometre(benchmark::State& state) {
   const RoverModel rover = six_wheeler();
   const planner::TerrainGround ground = rough_ground(0.02, 1100.0 / 16.0);

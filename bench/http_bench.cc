@@ -1,5 +1,5 @@
-// What a request costs over 127.0.0.1 with a handler that does nothing: client and server share the machine's
-// cores.
+// The cost of a request over 127.0.0.1 with a handler that does nothing. Client and server share the
+// machine's cores.
 
 #include <arpa/inet.h>
 #include <benchmark/benchmark.h>
@@ -92,7 +92,7 @@ class BenchServer {
   int port_ = 0;
 };
 
-// One connection, one request at a time, while others are open: what one client waits for an answer.
+// The time that one client waits for an answer, with one request at a time, while other connections are open.
 void one_client(benchmark::State& state) {
   const BenchServer server;
   std::vector<Connection> idle;
@@ -113,7 +113,7 @@ BENCHMARK(one_client)
     ->UseRealTime()
     ->Unit(benchmark::kMicrosecond);
 
-// Kept connections that all ask as fast as they are answered.
+// Kept connections that each send the next request as soon as they are answered.
 void many_clients(benchmark::State& state) {
   const BenchServer server;
   const auto count = static_cast<std::size_t>(state.range(0));
@@ -144,7 +144,7 @@ BENCHMARK(many_clients)
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 
-// A connection for each request, as a client without keep-alive makes it.
+// A new connection for each request, as from a client without keep-alive.
 void new_connection(benchmark::State& state) {
   const BenchServer server;
   for (auto _ : state) {

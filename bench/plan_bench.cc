@@ -1,5 +1,5 @@
-// What a plan costs on real relief: the whole answer, one search per planner against the grid's optimum, and
-// the look-up that all searches spend their time in.
+// The cost of a plan on real relief: the whole answer, one search for each planner against the grid's
+// optimum, and the look-up in which all searches spend their time.
 
 #include <benchmark/benchmark.h>
 
@@ -38,7 +38,7 @@ PlanProblem gale() {
   return problem;
 }
 
-// Everything that a search points to.
+// The data to which a search holds pointers.
 struct World {
   PlanProblem problem = gale();
   KeepOut keep_out{problem.keep_out, *problem.rover};
@@ -72,10 +72,11 @@ void BM_PlanOfThreeRoutesOver300m(benchmark::State& state) {
 }
 BENCHMARK(BM_PlanOfThreeRoutesOver300m)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-// cost_over_grid_optimum: of the smoothed route, mean over seeds. The grid turns for nothing and sees 16
-// directions.
-void BM_Search(benchmark::State& state, const std::string& planner, int iterations) {
+// cost_over_grid_optimum is that of the smoothed route, as the mean over seeds. On the grid turns cost
+// nothing, and there are 16 directions.
+void BM_Search(benchmark::State& state, const PlannerRow& row, int iterations) {
   const World& w = world();
+  const std::unique_ptr<LegPlanner> planner = row.make();
   double sum = 0.0, found = 0.0;
   std::uint64_t seed = 0;
   for (auto _ : state) {
@@ -89,7 +90,7 @@ void BM_Search(benchmark::State& state, const std::string& planner, int iteratio
     search.seed = ++seed;
     search.iterations = iterations;
     search.range_m = 16.0;
-    const std::vector<Pose2> poses = search_leg(planner, search);
+    const std::vector<Pose2> poses = planner->search(search);
     if (poses.empty()) continue;
     sum += fine_cost(w.cost, smooth_leg(w.cost, poses, true)) / w.sampler.optimum();
     found += 1.0;
@@ -127,7 +128,7 @@ BENCHMARK(BM_CostLookUp);
   for (const PlannerRow& row : planner_catalogue()) {
     for (const int iterations : {1000, 3000}) {
       const std::string name = "BM_Search/" + std::string(row.name) + "/" + std::to_string(iterations);
-      benchmark::RegisterBenchmark(name.c_str(), BM_Search, std::string(row.name), iterations)
+      benchmark::RegisterBenchmark(name.c_str(), BM_Search, row, iterations)
           ->Unit(benchmark::kMillisecond)
           ->Iterations(8);
     }

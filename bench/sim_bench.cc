@@ -1,5 +1,6 @@
-// Cost of the laws and of the quasi-static rung, per unit of work. Ratios within one run compare machines;
-// the absolute figures are in docs/validation.md with the machine they were measured on.
+// The cost of the laws and of the quasi-static level per unit of work. Ratios within one run can be compared
+// between machines; the absolute figures are in docs/validation.md with the machine on which they were
+// measured.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -32,7 +33,7 @@ void BM_WheelForces(benchmark::State& state) {
 }
 BENCHMARK(BM_WheelForces);
 
-// The same with the entry angle solved for a load: what a single-wheel rig reports.
+// The same with the entry angle solved for a load, as for a single-wheel rig.
 void BM_BalancedWheel(benchmark::State& state) {
   const Soil soil = sandy_loam();
   double load = 80.0;
@@ -68,7 +69,8 @@ void BM_WheelForcesAllEffects(benchmark::State& state) {
 }
 BENCHMARK(BM_WheelForcesAllEffects);
 
-// The same for 1,024 draws of the soil at once; the counter is the time of one. arg 1: every effect on.
+// The same for 1,024 draws of the soil at once; the counter is the time of one draw. With arg 1 every effect
+// is on.
 void BM_WheelForcesOverDraws(benchmark::State& state) {
   constexpr int kDraws = 1024;
   const bool all = state.range(0) != 0;

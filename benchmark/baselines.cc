@@ -16,9 +16,10 @@
 namespace slipway::gap {
 namespace {
 
-constexpr std::size_t kMostTerms = 3;
+constexpr std::size_t kMaxTerms = 3;
 
-// chi^2 of what columns with prior deviation 1 leave of residuals, the price of the coefficients included.
+// The chi^2 that a regression on columns with prior standard deviation 1 leaves, including the coefficients'
+// prior.
 double left_over(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& columns) {
   Eigen::MatrixXd hessian = columns.transpose() * columns;
   hessian.diagonal().array() += 1.0;
@@ -57,7 +58,7 @@ Eigen::MatrixXd covariance(std::span<const Sample> samples, const Kernel& kernel
   return k;
 }
 
-// Means at `asked` by the kernel under which the samples are most likely, of a small grid.
+// The means at `asked` by the kernel, of a small grid, under which the samples are most likely.
 std::vector<double> means(std::span<const Sample> samples, std::span<const Sample> asked) {
   Eigen::VectorXd y(static_cast<Eigen::Index>(samples.size()));
   for (std::size_t i = 0; i < samples.size(); ++i) y[static_cast<Eigen::Index>(i)] = samples[i].value;
@@ -86,19 +87,21 @@ std::vector<double> means(std::span<const Sample> samples, std::span<const Sampl
   return out;
 }
 
-// Residuals less what processes over the circumstances, one a channel and wheel, tell of them.
-Correction gaussian_process(const PreparedCampaign& prepared, std::size_t threads) {
-  return [&prepared, threads](const FittedExplanation& retuned, const std::vector<bool>& seen) {
+// The residuals less the predictions of Gaussian processes over the conditions, one for each channel and
+// wheel.
+Correction gaussian_process(const PreparedCampaign& prepared, const DiscrepancyOptions& options,
+                            std::size_t threads) {
+  return [&prepared, &options, threads](const FittedExplanation& retuned, const std::vector<bool>& seen) {
     const WindowModel& model = *prepared.model;
     const std::vector<double> predicted = retuned.hypothesis.predict(model, retuned.x, threads);
-    const auto circumstance = circumstances(model, predicted);
+    const auto circumstance = circumstances(model, predicted, options);
     using Series = std::pair<std::vector<Sample>, std::vector<Sample>>;  // seen, asked
     std::map<std::pair<Channel, int>, Series> series;
     for (std::size_t w = 0; w < prepared.windows.size(); ++w) {
       if (!model.used(w)) continue;
       Eigen::VectorXd at(static_cast<Eigen::Index>(circumstance[w].size()));
       for (std::size_t v = 0; v < circumstance[w].size(); ++v)
-        at[static_cast<Eigen::Index>(v)] = circumstance[w][v].value;
+        at[static_cast<Eigen::Index>(v)] = circumstance[w][v];
       for (std::size_t i = 0; i < prepared.windows[w].observations.size(); ++i) {
         const Observation& o = prepared.windows[w].observations[i];
         const std::size_t row = model.offset(w) + i;
@@ -115,8 +118,8 @@ Correction gaussian_process(const PreparedCampaign& prepared, std::size_t thread
     parallel_for(all.size(), threads, [&](std::size_t s) {
       const auto& [learnt, asked] = *all[s];
       if (learnt.empty()) return;
-      const std::vector<double> predicted = means(learnt, asked);
-      for (std::size_t i = 0; i < asked.size(); ++i) residuals[asked[i].row] -= predicted[i];
+      const std::vector<double> corrections = means(learnt, asked);
+      for (std::size_t i = 0; i < asked.size(); ++i) residuals[asked[i].row] -= corrections[i];
     });
     return residuals;
   };
@@ -127,7 +130,7 @@ Result<PreparedCampaign> prepared_for(const DriveCampaign& campaign, const Diagn
   d.campaign = campaign.name;
   d.seed = options.seed;
   d.drives = campaign.drives.size();
-  return prepare(campaign, options.windows, options.search.threads, progress);
+  return prepare(campaign, options, progress);
 }
 
 }  // namespace
@@ -150,7 +153,7 @@ Result<Diagnosis> diagnose_by_sparse_regression(const DriveCampaign& campaign,
   std::vector<std::string> found;
   Eigen::MatrixXd known = null.white_jacobian;
   double least = left_over(null.white_linear, known);
-  while (found.size() < kMostTerms) {
+  while (found.size() < kMaxTerms) {
     double best = 0.0;  // fall of the criterion
     std::size_t chosen = 0;
     for (std::size_t v = 0; v < variants.size(); ++v) {
@@ -173,19 +176,19 @@ Result<Diagnosis> diagnose_by_sparse_regression(const DriveCampaign& campaign,
   return d;
 }
 
-Result<Diagnosis> shrink_by_gaussian_process(const DriveCampaign& campaign, const DiagnosisOptions& options,
-                                             Progress& progress) {
+Result<Diagnosis> diagnose_by_gaussian_process(const DriveCampaign& campaign, const DiagnosisOptions& options,
+                                               Progress& progress) {
   Diagnosis d;
   const auto prepared = prepared_for(campaign, options, d, progress);
   if (!prepared) return fail(prepared.error());
-  auto shrunk =
-      close_gap_on_held_out(*prepared, campaign, {{gaussian_process(*prepared, options.search.threads)}, {}},
-                            resample_drives(campaign, options.resamples, options.seed), options, progress);
-  if (!shrunk) return fail(shrunk.error());
+  auto closure = close_gap_on_held_out(
+      *prepared, campaign, {{gaussian_process(*prepared, options.discrepancy, options.search.threads)}, {}},
+      resample_drives(campaign, options.resamples, options.seed), options, progress);
+  if (!closure) return fail(closure.error());
   d.verdict = Verdict::kUnknown;
-  d.candidates.push_back({{"unknown"}, 1.0, std::nullopt, 0});
-  d.gap = std::move(shrunk->channels);
-  d.closed_fraction = shrunk->closed_fraction;
+  d.candidates.push_back({{}, 1.0, std::nullopt, 0, 0.0, true});
+  d.gap = std::move(closure->channels);
+  d.closed_fraction = closure->closed_fraction;
   return d;
 }
 

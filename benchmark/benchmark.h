@@ -8,14 +8,14 @@
 
 namespace slipway::gap {
 
-// What a benchmark of the diagnosis came to.
+// The result of a benchmark of the diagnosis.
 struct Benchmark {
-  std::string variant;  // of the diagnosis: "as it is", or what was taken out of it
+  std::string variant;  // of the diagnosis: "as it is", or the part that was left out
   std::vector<CaseScore> cases;
   std::vector<WithheldScore> withheld;
 };
 
-// The cases of all, then of each fidelity and kind that there is, under their names.
+// The figures of all cases, then those of each fidelity and kind that occurs, under their names.
 std::vector<std::pair<std::string, std::vector<CaseScore>>> benchmark_groups(const Benchmark& benchmark);
 
 }  // namespace slipway::gap

@@ -18,7 +18,7 @@ using Names = std::set<std::string>;
 
 const std::string kUnknownName = "unknown";
 constexpr double kSmallAngle_deg = 25.0, kConfident = 0.9, kHeld = 0.95;
-constexpr std::size_t kMostHeld = 3;
+constexpr std::size_t kMaxHeld = 3;
 
 bool names_effects(Verdict v) {
   return v == Verdict::kEffects || v == Verdict::kEffectSet;
@@ -28,11 +28,12 @@ bool names_nothing(Verdict v) {
   return v == Verdict::kNoGap || v == Verdict::kNotDetected || v == Verdict::kParameters;
 }
 
-// What was compared, each set once, most probable first.
+// The sets of effects that were compared, each once, with the most probable first.
 std::vector<std::pair<Names, double>> merged_sets(const Diagnosis& d) {
   std::vector<std::pair<Names, double>> sets;
   for (const ComparedSet& c : d.candidates) {
-    const Names names(c.effects.begin(), c.effects.end());
+    const std::vector<std::string> listed = names_of(c);
+    const Names names(listed.begin(), listed.end());
     const auto known =
         std::find_if(sets.begin(), sets.end(), [&](const auto& set) { return set.first == names; });
     if (known == sets.end())
@@ -56,7 +57,7 @@ std::string words(const Names& names) {
   return names.empty() ? "nothing" : fmt::format("{}", fmt::join(names, " + "));
 }
 
-// The truth as a diagnosis can say it: what it has no name for is "unknown".
+// The truth in the names of a diagnosis, in which a cause without a name is "unknown".
 Names sayable(const HiddenAnswer& answer, const Names& library) {
   Names truth;
   for (const std::string& effect : answer.effects)
@@ -70,7 +71,7 @@ bool confusable(const Diagnosis& d, const std::string& a, const std::string& b) 
   });
 }
 
-// Whether one set becomes the other when one name is put for a look-alike.
+// Whether one set becomes the other when one name is replaced by a look-alike.
 bool exchanged(const Diagnosis& d, const Names& a, const Names& b) {
   Names only_a, only_b;
   std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::inserter(only_a, only_a.end()));
@@ -83,7 +84,7 @@ std::optional<double> median_of(std::vector<double> values) {
   return median(std::move(values));
 }
 
-// P(X >= k) of n trials of chance p.
+// P(X >= k) for n trials of probability p.
 double upper_tail(std::size_t k, std::size_t n, double p) {
   if (k == 0) return 1.0;
   if (p <= 0.0) return 0.0;
@@ -97,7 +98,7 @@ double upper_tail(std::size_t k, std::size_t n, double p) {
   return std::min(sum, 1.0);
 }
 
-// The chance at which P(X >= k) is `tail`.
+// The probability p at which P(X >= k) is `tail`.
 double chance_of_tail(std::size_t k, std::size_t n, double tail) {
   double low = 0.0, high = 1.0;
   for (int i = 0; i < 60; ++i) {
@@ -107,8 +108,8 @@ double chance_of_tail(std::size_t k, std::size_t n, double tail) {
   return 0.5 * (low + high);
 }
 
-// What the answer gives its own claim: that something is unknown, whatever stands beside it, or that this
-// very set is at work.
+// The probability that the answer states for its own claim: that something is unknown, with or without
+// effects, or that exactly this set of effects acts.
 double stated_by(const Diagnosis& d, const std::vector<std::pair<Names, double>>& sets, const Names& found) {
   double sum = 0.0;
   for (const auto& [names, probability] : sets)
@@ -116,7 +117,7 @@ double stated_by(const Diagnosis& d, const std::vector<std::pair<Names, double>>
   return sum;
 }
 
-// Whether effects of single wheels were found at those wheels; nothing where none was both hidden and found.
+// Whether effects of single wheels were found at those wheels; empty where none was both hidden and found.
 std::optional<bool> wheel_right(const HiddenAnswer& answer, const Diagnosis& d) {
   std::optional<bool> right;
   for (const FoundEffect& effect : d.effects) {
@@ -162,7 +163,8 @@ CaseScore score_case(const HiddenAnswer& answer, const Diagnosis& d, const std::
   switch (score.truth_kind) {
     case TruthKind::kNothing:
     case TruthKind::kParameters:
-      // A shift that does not matter is no gap; one that does is a matter of parameters. Neither is an alarm.
+      // A small shift of parameters leaves no gap, and a large one is reported as parameters. Neither is an
+      // alarm.
       score.verdict_right = names_nothing(d.verdict);
       score.exact = score.verdict_right;
       break;
@@ -177,7 +179,7 @@ CaseScore score_case(const HiddenAnswer& answer, const Diagnosis& d, const std::
   }
   const auto sets = merged_sets(d);
   double sum = 0.0;
-  for (std::size_t i = 0; i < sets.size() && i < kMostHeld && sum < kHeld; ++i) {
+  for (std::size_t i = 0; i < sets.size() && i < kMaxHeld && sum < kHeld; ++i) {
     sum += sets[i].second;
     score.held = score.held || sets[i].first == truth;
   }

@@ -8,7 +8,7 @@
 namespace slipway::gap {
 namespace {
 
-// Degrees along the nose (positive uphill) and to the left.
+// The gradient in degrees along the rover's x axis (positive uphill) and to its left.
 Eigen::Vector2d tilt_of(const DriveKind& kind) {
   const double heading = rad_from_deg(kind.heading_deg);
   // Headed left of uphill, uphill is to the right.
@@ -19,7 +19,7 @@ double sense_of(const DriveKind& kind) {
   return kind.turn_in_place ? 0.0 : kind.speed_m_s < 0.0 ? -1.0 : 1.0;
 }
 
-// Standard deviation of what is told of each kind; 1 where all are alike.
+// The standard deviation of a quantity over all kinds; 1 where all are equal.
 template <class Value>
 double spread_of(std::span<const DriveKind> kinds, const Value& value) {
   double sum = 0.0, squares = 0.0, count = 0.0;

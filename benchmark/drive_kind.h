@@ -10,28 +10,28 @@
 
 namespace slipway::gap {
 
-// What was asked of a drive, in the words of NextDrive.
+// The commands and conditions of a drive, in the quantities of NextDrive.
 struct DriveKind {
   double tilt_deg = 0.0;
-  double heading_deg = 0.0;  // of the nose, from straight uphill, positive to the left; also of one backward
-  double speed_m_s = 0.0;    // negative: backward; 0 of a turn in place
+  double heading_deg = 0.0;  // of the rover's x axis from straight uphill, positive to the left
+  double speed_m_s = 0.0;    // negative is backward; 0 for a turn in place
   double curvature_1_m = 0.0;
-  std::optional<double> motor_temp_c = {};  // mean over wheels and rows; nothing: not recorded
+  std::optional<double> motor_temp_c = {};  // mean over wheels and rows; empty where it was not recorded
   bool turn_in_place = false;
 };
 
-// Of a recorded drive: tilt and heading are those of the mean gradient of the map, along and across the nose,
-// at the poses that were measured. On hills they are an average over what the drive met.
+// The kind of a recorded drive. Tilt and heading are those of the map's mean gradient along and across the
+// rover at the measured poses; on hills they are averages over the drive.
 DriveKind kind_of(const DriveCampaign& campaign, std::size_t drive);
 DriveKind kind_of(const NextDrive& drive);
 
-// How far one kind of drive is from another.
+// A distance between kinds of drives.
 class DriveDistance {
  public:
-  // Each quantity counts by its spread (standard deviation) over the drives that could be made. Gradients
-  // count along and across the nose, by one spread, so that headings do not matter on level ground.
+  // Each quantity is in units of its spread (standard deviation) over the possible drives. Gradients are
+  // taken along and across the rover, with one spread, so that headings do not matter on level ground.
   explicit DriveDistance(std::span<const DriveKind> pool);
-  // In spreads; a motor temperature that one of them does not have is not compared.
+  // The distance in units of the spreads; the motor temperature is left out where one of them has none.
   double between(const DriveKind& a, const DriveKind& b) const;
 
  private:
@@ -39,7 +39,8 @@ class DriveDistance {
          turn_ = 1.0;
 };
 
-// Which of `among` (indices into `kinds`, not empty) is nearest to what is asked for; the first of equals.
+// The one of `among` (indices into `kinds`, not empty) that is nearest to the wanted kind; the first of
+// equals.
 std::size_t nearest_drive(const DriveDistance& distance, std::span<const DriveKind> kinds,
                           std::span<const std::size_t> among, const DriveKind& asked);
 

@@ -9,7 +9,7 @@
 namespace slipway::gap {
 namespace {
 
-// How many of n fair coins show heads k times or fewer, as a chance.
+// The probability that n fair coins show at most k heads.
 double lower_tail_of_coins(std::size_t k, std::size_t n) {
   double sum = 0.0, term = std::pow(0.5, static_cast<double>(n));
   for (std::size_t i = 0; i <= k; ++i) {

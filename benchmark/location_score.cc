@@ -9,8 +9,9 @@
 namespace slipway::gap {
 namespace {
 
-// By how much a stretch may lie outside of a slice whose ends are other windows' readings, in the order of
-// the window's variables: the readings' errors, and how far the ground under three stations is off its mean.
+// The margins by which a stretch may lie outside a slice, whose ends are other windows' readings, in the
+// order of the window's variables. They are the readings' errors, and the error of the mean ground under
+// three stations.
 constexpr std::array<double, kWindowVariables> kSlack{0.1, 0.1, 0.005, 1e-4, 1e-4, 0.1, 1e-4, 0.5};
 
 double square_of(const HiddenTrace& trace, Channel channel) {
@@ -19,12 +20,9 @@ double square_of(const HiddenTrace& trace, Channel channel) {
 
 bool lies_in(const HiddenTrace& trace, const Regime& slice) {
   return std::all_of(slice.conditions.begin(), slice.conditions.end(), [&](const Condition& condition) {
-    for (int v = 0; v < kWindowVariables; ++v) {
-      if (condition.variable != variable_name(v)) continue;
-      const double value = variable_of(trace.at, v), slack = kSlack[static_cast<std::size_t>(v)];
-      return value >= condition.from - slack && value <= condition.to + slack;
-    }
-    return false;
+    const double value = variable_of(trace.at, condition.variable);
+    const double slack = kSlack[static_cast<std::size_t>(condition.variable)];
+    return value >= condition.from - slack && value <= condition.to + slack;
   });
 }
 

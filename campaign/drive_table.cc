@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "campaign/campaign_files.h"
 #include "core/angle.h"
 #include "sim/effects/effect_catalogue.h"
 #include "sim/rover/drive_command.h"
@@ -25,7 +26,12 @@ std::string heading_name(double heading_rad) {
   if (heading_deg >= 360.0) heading_deg -= 360.0;
   const double whole = std::floor(heading_deg);
   std::string name = fmt::format("h{:03.0f}", whole);
-  if (heading_deg > whole) name += "p" + fmt::format("{:.6g}", heading_deg - whole).substr(2);
+  if (heading_deg > whole) {
+    // "0.500000" without the zeros at its end; never with an exponent, which would put a minus into the id.
+    std::string fraction = fmt::format("{:.6f}", heading_deg - whole);
+    fraction.erase(fraction.find_last_not_of('0') + 1);
+    name += "p" + fraction.substr(2);
+  }
   return name;
 }
 
@@ -76,6 +82,22 @@ void check_effects(const DriveTable& table, std::vector<Fault>& faults) {
   }
 }
 
+// A recorded campaign describes its soils by Bekker's law and Janosi and Hanamoto's, and its drives are
+// simulated.
+void check_soils(const DriveTable& table, std::vector<Fault>& faults) {
+  for (std::size_t t = 0; t < table.terrains.size(); ++t)
+    for (const std::string& name : soils_of(table.terrains[t])) {
+      const auto soil = table.soils.find(name);
+      if (soil == table.soils.end()) continue;
+      const sim::Soil& mean = soil->second.mean;
+      if (mean.has_bekker_law() && mean.shear_law.row == nullptr) continue;
+      faults.push_back(
+          {fmt::format("/terrains/{}/soil", t),
+           fmt::format("soil {} has {}, a drive table's soils have Bekker's law and Janosi and Hanamoto's",
+                       name, mean.slip_curve ? "a slip curve" : "laws of its own choice")});
+    }
+}
+
 }  // namespace
 
 std::vector<TableDrive> expand(const DriveTable& table) {
@@ -105,6 +127,7 @@ std::vector<TableDrive> expand(const DriveTable& table) {
 std::vector<Fault> faults_of(const DriveTable& table) {
   std::vector<Fault> faults;
   check_effects(table, faults);
+  check_soils(table, faults);
   for (std::size_t k = 0; k < table.entries.size(); ++k) check_entry(table, k, faults);
   if (const std::size_t count = count_of(table); count > kMostDrives) {
     faults.push_back(
@@ -112,12 +135,16 @@ std::vector<Fault> faults_of(const DriveTable& table) {
     return faults;
   }
   std::set<std::string> ids, reported;
-  for (const TableDrive& drive : expand(table)) {
+  const std::vector<TableDrive> drives = expand(table);
+  for (const TableDrive& drive : drives) {
     if (ids.insert(drive.id).second || !reported.insert(drive.id).second) continue;
     faults.push_back(
         {fmt::format("/drives/{}/id", drive.entry),
          fmt::format("drive {} is given twice: an id, a terrain or a heading is repeated", drive.id)});
   }
+  // Drives of one id collide in every file: said once, above.
+  if (reported.empty())
+    for (Fault& fault : colliding_files(table, drives)) faults.push_back(std::move(fault));
   return faults;
 }
 

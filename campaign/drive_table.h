@@ -46,7 +46,7 @@ struct DriveEntry {
 };
 
 // What a campaign is made from. What the operators know (the rover, the soils' means) and what is really at
-// work (effects, draws of the soils, failed wheels) stay apart: only the former is told in a campaign's own
+// work (effects, draws of the soils, failed wheels) stay apart: only the former is written in a campaign's own
 // document.
 struct DriveTable {
   std::string name, summary;

@@ -105,8 +105,8 @@ std::optional<Field> tuning_field(std::string_view name) {
 
 std::vector<std::string> tuning_field_names() {
   std::vector<std::string> names{std::string(kShearModulus.name)};
-  for (const sim::SweepParameter& parameter : sim::sweep_parameters())
-    if (parameter.field.name.starts_with(kSoil)) names.emplace_back(parameter.field.name);
+  for (const std::string& name : sim::sweep_field_names())
+    if (name.starts_with(kSoil)) names.push_back(name);
   for (const sim::Effect& effect : sim::effect_catalogue()) {
     if (effect.region != nullptr) continue;
     for (const Field& field : effect.fields)

@@ -5,7 +5,8 @@
 
 namespace slipway {
 
-// Radians inside, degrees at the boundary: these two are the only crossing.
+// The program computes in radians; requests, answers and files have degrees. Only these two functions
+// convert.
 constexpr double deg_from_rad(double rad) {
   return rad * (180.0 / std::numbers::pi);
 }

@@ -5,7 +5,7 @@
 
 namespace slipway {
 
-// Every way in which a correct caller can be refused. One row each in error_table().
+// Every way in which a correct caller can be refused. Each has one row in error_table().
 enum class ErrorCode {
   kMalformedHttp,
   kMalformedJson,
@@ -39,7 +39,7 @@ struct ErrorRow {
   std::string_view help;  // one sentence: what the caller can do
 };
 
-// The one table of errors: the HTTP status, the problem's type and docs/errors.md all come from here.
+// The one table of errors: the HTTP status, the problem's type and docs/reference/errors.md all come from here.
 std::span<const ErrorRow> error_table();
 
 const ErrorRow& error_row(ErrorCode code);

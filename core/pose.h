@@ -5,7 +5,7 @@
 
 namespace slipway {
 
-// B's position and heading in the map frame M. yaw is counter-clockwise from map east.
+// Position and heading of the body frame B in the map frame M. The yaw is counter-clockwise from map east.
 struct Pose2 {
   double x_m = 0.0;
   double y_m = 0.0;

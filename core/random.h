@@ -15,7 +15,7 @@ double random_uniform(std::uint64_t key, std::uint64_t counter);
 // Standard normal, by the inverse of its distribution function [Wichura 1988, AS 241], |error| < 1e-15.
 double random_normal(std::uint64_t key, std::uint64_t counter);
 
-// A key for a sub-stream: the same parent and index always give the same key.
+// The key of a sub-stream. The same parent and index always give the same key.
 std::uint64_t random_key(std::uint64_t parent, std::uint64_t index);
 
 // The normal distribution's quantile; p in (0, 1).

@@ -9,7 +9,7 @@
 
 namespace slipway {
 
-// One thing that is wrong with an input, and its place in it.
+// One fault of an input, and its place in it.
 struct Fault {
   std::string pointer;  // JSON pointer (RFC 6901); "" is the whole input; a row of a CSV is "/12/column"
   std::string message;  // "max_slope_deg = 212 deg, must be in [0, 60]"
@@ -17,7 +17,7 @@ struct Fault {
   bool operator==(const Fault&) const = default;
 };
 
-// Why a correct caller did not get an answer. All faults of an input are reported together.
+// The reason why a correct caller did not get an answer. All faults of an input are reported together.
 struct Error {
   ErrorCode code = ErrorCode::kInternal;
   std::string detail;  // one sentence for a person

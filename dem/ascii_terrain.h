@@ -25,7 +25,7 @@ namespace slipway::dem {
 struct AsciiOptions {
   double cell_m = 1.0;
   double height_step_m = 0.1;
-  std::string default_soil{};           // empty: unknown ground
+  std::string default_soil{};           // empty for unknown ground
   std::map<char, std::string> soils{};  // letter -> soil name
 };
 

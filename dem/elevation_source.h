@@ -10,7 +10,7 @@
 
 namespace slipway::dem {
 
-// What is known of an elevation raster without reading its cells.
+// The properties of an elevation raster that are known without reading its cells.
 struct ElevationInfo {
   GridGeometry geometry;
   std::string crs_name;  // "Mars2000 Equidistant Cylindrical clon0"
@@ -21,8 +21,8 @@ struct ElevationInfo {
   bool scaled = false;    // heights are scale * stored + offset
 };
 
-// An elevation raster on disk: opened fast, read by windows. Thread-safe (reads are serialised: GDAL datasets
-// are not).
+// An elevation raster on disk, which opens fast and is read by windows. It is thread-safe: reads are
+// serialised, since GDAL datasets are not thread-safe.
 class ElevationSource {
  public:
   virtual ~ElevationSource() = default;
@@ -33,11 +33,11 @@ class ElevationSource {
   virtual Result<std::shared_ptr<const Terrain>> read(const Extent& extent) const = 0;
 };
 
-// What is done with a raster that names no coordinate reference system, or one of its own place (a local or
-// engineering system) in metres.
+// How to treat a raster that names no coordinate reference system, or a local (engineering) system in metres.
 enum class PlacelessRaster {
-  kRefused,     // nobody can say that its numbers are metres, nor where it lies
-  kLocalFrame,  // its x and y are metres east and north in a frame of its own: the caller has it in writing
+  kRefused,     // it is refused, since its units and its place are unknown
+  kLocalFrame,  // its x and y are metres east and north in a frame of its own, as the caller knows from
+                // elsewhere
 };
 
 constexpr long long kMostWindowCells = 36'000'000;  // 6,000 x 6,000 cells, 180 MB in memory

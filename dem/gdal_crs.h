@@ -15,12 +15,12 @@ struct RasterCentre {
   double y = 0.0;
 };
 
-// The promise that map coordinates are metres, x east and y north. Otherwise the reason, and the command that
+// Checks that map coordinates are metres, x east and y north. The error has the reason, and the command that
 // would convert `file` (a name without a folder).
 Result<void> check_metric_projection(const OGRSpatialReference* crs, const RasterCentre& centre,
                                      const std::string& file);
 
-// Whether a raster says nothing of where it lies, or lies in a system of its own place in metres.
+// Whether a raster has no coordinate reference system, or a local one in metres.
 bool is_local_frame(const OGRSpatialReference* crs);
 
 // Name, WKT, body and semi-major axis of a CRS that passed the check.
@@ -29,7 +29,7 @@ void describe_crs(const OGRSpatialReference& crs, ElevationInfo& info);
 // "gdalwarp -t_srs '...' -r bilinear in.tif in_m.tif", ready to be pasted into a shell.
 std::string warp_command(const std::string& options, const std::string& file);
 
-// What a command calls its output: "elevation_m.tif" for "elevation.img".
+// The name of a command's output: "elevation_m.tif" for "elevation.img".
 std::string converted_name(const std::string& file);
 
 // A word for a POSIX shell: in single quotes unless it is plain.

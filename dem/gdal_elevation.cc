@@ -15,9 +15,9 @@
 namespace slipway::dem {
 namespace {
 
-constexpr int kMargin = 2;  // what the normals at the window's edge reach for
+constexpr int kMargin = 2;  // cells around a window that the normals at its edge need
 
-// Which stored values are heights, and how they become metres.
+// Decides which stored values are heights, and converts them into metres.
 struct Encoding {
   double scale = 1.0;
   double offset_m = 0.0;

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The canonical folder this thread is admitted to; empty: none.
+// The canonical folder to which this thread is admitted; empty for none.
 thread_local fs::path admitted_folder;
 
 bool admitted(const char* name) {

@@ -4,17 +4,17 @@
 
 namespace slipway::dem {
 
-// What GDAL may touch. A raster can name other files and addresses from inside (external overviews, detached
-// labels, layered formats, a CRS by URL), and GDAL would follow. Once the fence stands, in this whole
-// process:
+// Limits the files that GDAL may open. A raster can refer to other files and addresses (external overviews,
+// detached labels, layered formats, a CRS by URL), and GDAL would follow. Once the fence is raised, in this
+// whole process:
 //   - plain files open for reading only, and only those in the folder that the calling thread has been
 //   admitted to;
 //   - every /vsi file system but /vsimem/ is refused: archives, sub-files, standard input, the network;
 //   - GDAL's own HTTP requests and PROJ's grid downloads are refused.
 void raise_file_fence();
 
-// Admits the calling thread to the folder that holds `file`, for as long as this lives; before and after it,
-// none.
+// Admits the calling thread to the folder that holds `file` for the life of this object. Without one, a
+// thread is admitted to no folder.
 class FolderAdmission {
  public:
   explicit FolderAdmission(const std::filesystem::path& file);

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMostBytes = 64ULL << 20;  // 160 times the mapped units of Marias Pass
+constexpr std::uintmax_t kMaxBytes = 64ULL << 20;  // 160 times the mapped units of Marias Pass
 
 // By name as it is written: GDAL's own look-up takes a slash in a name for a path.
 std::optional<CPLJSONObject> member(const CPLJSONObject& object, const std::string& name) {
@@ -145,9 +145,9 @@ Result<std::vector<LabelledPolygon>> read_geojson_polygons(const fs::path& path,
     return fail(ErrorCode::kUnreadableData, fmt::format("{} is not a regular file that can be read.", file));
   }
   const std::uintmax_t bytes = fs::file_size(path, problem);
-  if (problem || bytes > kMostBytes) {
+  if (problem || bytes > kMaxBytes) {
     return fail(ErrorCode::kUnreadableData,
-                fmt::format("{} has {} bytes, must have at most {}.", file, bytes, kMostBytes));
+                fmt::format("{} has {} bytes, must have at most {}.", file, bytes, kMaxBytes));
   }
   CPLJSONDocument document;
   if (!document.Load(fs::canonical(path, problem).string())) {

@@ -1,13 +1,11 @@
 #include <cpl_string.h>
-#include <cpl_vsi.h>
 #include <fmt/format.h>
 #include <gdal_priv.h>
 
 #include <array>
-#include <atomic>
-#include <memory>
 #include <vector>
 
+#include "dem/gdal_memory_file.h"
 #include "dem/gdal_session.h"
 #include "dem/geotiff.h"
 
@@ -15,10 +13,6 @@ namespace slipway::dem {
 namespace {
 
 constexpr float kNodata = -9999.0F;
-
-struct VsiFree {
-  void operator()(GByte* bytes) const { VSIFree(bytes); }
-};
 
 std::vector<float> stored_heights(const Terrain& terrain) {
   const GridGeometry& geometry = terrain.geometry();
@@ -60,23 +54,20 @@ bool write(GDALDataset& raster, const GridGeometry& geometry, void* cells, GDALD
 Result<std::string> encode(const GridGeometry& geometry, void* cells, GDALDataType type,
                            const std::string& crs_wkt) {
   const GdalSession session;
-  // A name of its own for each call: the memory files are the process's.
-  static std::atomic<unsigned long long> count{0};
-  const std::string name = fmt::format("/vsimem/slipway-{}.tif", count++);
+  GdalMemoryFile file(".tif");
   CPLStringList options;
   options.AddNameValue("COMPRESS", "DEFLATE");
   options.AddNameValue("PREDICTOR", type == GDT_Float32 ? "3" : "2");
   GDALDatasetUniquePtr raster(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
-      name.c_str(), geometry.columns, geometry.rows, 1, type, options.List()));
+      file.name().c_str(), geometry.columns, geometry.rows, 1, type, options.List()));
   const bool complete = raster && write(*raster, geometry, cells, type, crs_wkt);
   raster.reset();  // closing writes the directory of the file
-  vsi_l_offset size = 0;
-  const std::unique_ptr<GByte, VsiFree> bytes(VSIGetMemFileBuffer(name.c_str(), &size, TRUE));
+  auto bytes = file.take();
   if (!complete || !bytes) {
     return fail(ErrorCode::kInternal,
                 fmt::format("The raster could not be encoded: {}", session.complaints()));
   }
-  return std::string(reinterpret_cast<const char*>(bytes.get()), static_cast<std::size_t>(size));
+  return *std::move(bytes);
 }
 
 }  // namespace

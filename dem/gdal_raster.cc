@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 using GeoTransform = std::array<double, 6>;
 
-// Collects reasons, so that one attempt tells all that must be mended.
+// Collects reasons, so that one attempt reports everything that must be mended.
 class Refusals {
  public:
   void add(const Error& error) {
@@ -75,11 +75,11 @@ void check_band(GDALDataset& dataset, const std::string& file, Refusals& refusal
   band.GetBlockSize(&block_columns, &block_rows);
   // Doubles: the product of two large blocks overflows even 64-bit integers in a forged header.
   const double bytes = static_cast<double>(block_columns) * block_rows * GDALGetDataTypeSizeBytes(type);
-  if (!(block_columns > 0 && block_rows > 0 && bytes <= static_cast<double>(kMostBlockBytes))) {
+  if (!(block_columns > 0 && block_rows > 0 && bytes <= static_cast<double>(kMaxBlockBytes))) {
     refusals.add(
         fmt::format("{} is stored in blocks of {} x {} cells, {:.0f} MB each, must be at most {} MB. Convert "
                     "it with: gdal_translate -co TILED=YES -co COMPRESS=DEFLATE {} {}",
-                    file, block_rows, block_columns, bytes / 1e6, kMostBlockBytes / 1'000'000,
+                    file, block_rows, block_columns, bytes / 1e6, kMaxBlockBytes / 1'000'000,
                     shell_word(file), shell_word(converted_name(file))));
   }
 }

@@ -19,13 +19,13 @@ struct CheckedRaster {
 
 // Opens a regular file with an allowed driver, read-only, and refuses what can't be used: more or fewer than
 // one band, complex numbers, a grid that is rotated, south-up or without a place, another CRS than a metric
-// projection, blocks that would cost more memory than kMostBlockBytes to read one cell. All reasons are
+// projection, blocks that would cost more memory than kMaxBlockBytes to read one cell. All reasons are
 // reported together. A placeless raster that is let through has an empty crs_wkt.
 Result<CheckedRaster> open_checked_raster(const std::filesystem::path& path, const GdalSession& session,
                                           PlacelessRaster placeless);
 
 // A strip or tile is decoded as a whole, so a small file with one huge block would be a bomb.
-constexpr long long kMostBlockBytes = 256LL << 20;
+constexpr long long kMaxBlockBytes = 256LL << 20;
 
 // "rows 0 to 299, columns 5 to 304", as a person counts them in the raster.
 std::string describe(const CellWindow& window);

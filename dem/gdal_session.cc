@@ -12,7 +12,7 @@
 namespace slipway::dem {
 namespace {
 
-// Decoded blocks that are kept, over all open rasters: some rows of tiles of a large one.
+// Memory for decoded blocks of all open rasters; it holds some rows of tiles of a large raster.
 constexpr GIntBig kBlockCacheBytes = 128LL << 20;
 
 // Formats in which planetary and field elevations are published. Left out on purpose: VRT and every other

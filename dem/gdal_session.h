@@ -12,13 +12,13 @@
 namespace slipway::dem {
 
 // One operation on GDAL by one thread. The first one in the process registers the allowed drivers and raises
-// the file fence. While it lives, what GDAL complains of is gathered here and nothing reaches stderr.
-// Sessions don't nest.
+// the file fence. While it lives, GDAL's complaints are gathered here and nothing reaches stderr. Sessions
+// must not be nested.
 class GdalSession {
  public:
-  // Work in memory: no file may be opened.
+  // For work in memory: no file may be opened.
   GdalSession();
-  // Work on this file and on what lies in its folder.
+  // For work on this file and on other files in its folder.
   explicit GdalSession(const std::filesystem::path& file);
   ~GdalSession();
   GdalSession(const GdalSession&) = delete;

@@ -52,10 +52,10 @@ struct GridGeometry {
   Eigen::Vector2d centre_m(const Cell& cell) const;
   // (row, column) as fractions, whole numbers at cell centres; also outside the raster.
   Eigen::Vector2d fractional_index(double x_m, double y_m) const;
-  // The cell that holds the point; nothing outside. A point on the south or east outer edge belongs to the
-  // last cell.
+  // The cell that holds the point; empty outside. A point on the south or east outer edge belongs to the last
+  // cell.
   std::optional<Cell> cell_at(double x_m, double y_m) const;
-  // The cells whose area meets the extent, clipped to the raster; nothing where they don't meet.
+  // The cells whose area meets the extent, clipped to the raster; empty where none does.
   std::optional<CellWindow> window(const Extent& extent) const;
   // The geometry of that window.
   GridGeometry sub(const CellWindow& window) const;

@@ -28,12 +28,13 @@ struct Rock {
 // F_k(smallest) - F_k(largest).
 double covered_share(const RockField& field);
 
-// The rocks whose centre or rim may be in the extent. Places are independent of each other, so some overlap:
-// there are as many as make what is covered, overlaps counted once, the share above. A place has the same
-// rocks whatever extent is asked for.
+// The rocks whose centre or rim may be in the extent. Their places are independent of each other, so that
+// some overlap; their number is such that together, with overlaps counted once, they cover the share above. A
+// place has the same rocks for any extent.
 std::vector<Rock> rocks_in(const RockField& field, const Extent& extent);
 
-// Adds the rocks to heights at the cells' centres, row by row from the north; where they overlap, the higher.
+// Adds the rocks to heights at the cells' centres, row by row from the north. Where rocks overlap, the higher
+// one counts.
 void add_rocks(const RockField& field, const GridGeometry& geometry, std::vector<float>& heights);
 
 }  // namespace slipway::dem

@@ -7,8 +7,8 @@
 
 namespace slipway::dem {
 
-// What makes a legend ambiguous, as faults at "/legend/3/value" or "/legend/3/label". Values matter where a
-// raster is matched, labels where polygons are.
+// Values or labels that occur twice in a legend, as faults at "/legend/3/value" or "/legend/3/label". A
+// raster is matched by values, polygons by labels.
 std::vector<Fault> repeated_values(const std::vector<SoilClass>& legend);
 std::vector<Fault> repeated_labels(const std::vector<SoilClass>& legend);
 

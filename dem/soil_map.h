@@ -13,7 +13,7 @@
 
 namespace slipway::dem {
 
-// One row of a legend: what a mapped class is called and which soil it is believed to be. A class without a
+// One row of a legend: the label of a mapped class, and the soil that it is assumed to be. A class without a
 // soil is unknown ground.
 struct SoilClass {
   int value = 0;                    // the raster's value; for polygons the row's own number
@@ -21,9 +21,9 @@ struct SoilClass {
   std::optional<std::string> soil;  // the name of a soil distribution
 };
 
-// Which soil is believed to lie where: immutable, shared by pointer. A cell without a class, a class that the
-// legend does not know, and a class without a soil are unknown ground, which is an answer (nothing), never a
-// default.
+// The assumed soil at each place: immutable, shared by pointer. A cell without a class, a class that the
+// legend does not have, and a class without a soil are unknown ground. It is returned as an empty optional
+// and never replaced by a default.
 class SoilMap {
  public:
   // classes and known: rows * columns values from the north-west; known[i] == 0 marks a cell without a class.
@@ -35,9 +35,10 @@ class SoilMap {
   // The names of the soils in the legend, without repeats, in the legend's order.
   const std::vector<std::string>& soils() const { return soils_; }
 
-  // The class of the cell that holds the point (the nearest value, never interpolated).
+  // The class of the cell that holds the point (the nearest value, never interpolated); empty where there is
+  // none.
   std::optional<int> class_at(double x_m, double y_m) const;
-  // Index into soils(); nothing on unknown ground.
+  // Index into soils(); empty on unknown ground.
   std::optional<std::size_t> soil_at(double x_m, double y_m) const;
   // The share of the map's cells that are unknown ground, in [0, 1].
   double unknown_fraction() const;
@@ -46,16 +47,16 @@ class SoilMap {
   std::optional<std::size_t> index_at(double x_m, double y_m) const;
 
   GridGeometry geometry_;
-  std::vector<std::int16_t> soil_index_;  // per cell; -1 never leaves this class
+  std::vector<std::int16_t> soil_index_;  // of each cell; -1 on unknown ground
   std::vector<std::int16_t> classes_;
   std::vector<std::uint8_t> known_;
   std::vector<SoilClass> legend_;
   std::vector<std::string> soils_;
 };
 
-// Reads a class raster (integer, one band) on the cells that meet the extent. Its geometry need not be that
-// of the elevation, its CRS must be (errors as open_elevation), and it has none where the
-// elevation lies in a local frame. Cells at nodata have no class.
+// Reads a class raster (integer, one band) on the cells that meet the extent. Its geometry may differ from
+// the elevation's, but its CRS must be the same (errors as open_elevation); where the elevation lies in a
+// local frame, it must have none. Cells at nodata have no class.
 Result<std::shared_ptr<const SoilMap>> read_soil_raster(const std::filesystem::path& path,
                                                         const ElevationInfo& ground, const Extent& extent,
                                                         std::vector<SoilClass> legend);

@@ -9,7 +9,7 @@
 
 namespace slipway::dem {
 
-// Ground in closed form, for tests and examples: what a reader can check by hand. All are square grids
+// Ground in closed form for tests and examples, which a reader can check by hand. All are square grids
 // centred on the map's origin.
 struct SyntheticGrid {
   double size_m = 20.0;  // length of a side
@@ -25,7 +25,7 @@ std::shared_ptr<const Terrain> make_ripple(const SyntheticGrid& grid, double hei
 // A bowl around the origin, a paraboloid of the given radius and depth whose rim lies on a plane of height 0.
 std::shared_ptr<const Terrain> make_crater(const SyntheticGrid& grid, double radius_m, double depth_m);
 
-// A plane that rises towards +x, with what lies on it added to its height.
+// A plane that rises towards +x, with ripple, roughness and rocks added to its height.
 struct Relief {
   double slope_rad = 0.0;
   struct Ripple {

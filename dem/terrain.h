@@ -25,26 +25,26 @@ struct SurfacePoint {
 // and are joined bilinearly; a missing cell is masked, and a point that needs a missing cell has no height.
 class Terrain {
  public:
-  // heights_m and valid: rows * columns values, row by row from the north. valid[i] == 0 marks a missing
-  // cell, whose height is never read. Broken sizes, and a valid cell without a finite height, throw
-  // std::invalid_argument.
+  // heights_m and valid have rows * columns values, row by row from the north. valid[i] == 0 marks a missing
+  // cell, whose height is never read. Throws std::invalid_argument where the sizes do not agree or a valid
+  // cell has no finite height.
   Terrain(GridGeometry geometry, std::vector<float> heights_m, std::vector<std::uint8_t> valid);
 
   const GridGeometry& geometry() const { return geometry_; }
   bool has_data(const Cell& cell) const;
-  // The height at the cell's centre; nothing where masked or outside.
+  // The height at the cell's centre; empty where the cell is masked or outside.
   std::optional<double> height_m(const Cell& cell) const;
 
-  // Bilinear between the four nearest centres; within half a cell of the outer edge the edge centres are
-  // extended. Nothing outside the extent or where one of the four is masked.
+  // The height, bilinear between the four nearest centres; within half a cell of the outer edge the edge
+  // centres are extended. Empty outside the extent and where one of the four centres is masked.
   std::optional<double> height_m(double x_m, double y_m) const;
-  // Height, and the normal of the bilinear blend of the four centres' central-difference gradients (so the
-  // normal is continuous). Nothing as above; a masked neighbour makes the difference one-sided.
+  // The height, and the normal of the bilinear blend of the four centres' central-difference gradients, which
+  // makes the normal continuous. A masked neighbour makes a difference one-sided. Empty as above.
   std::optional<SurfacePoint> surface(double x_m, double y_m) const;
-  // The same at a cell's centre. Nothing where masked or outside, and where a direction has no neighbour with
-  // data: a cell alone has no slope.
+  // The same at a cell's centre. Empty where the cell is masked or outside, and where it has no neighbour
+  // with data in a direction, since a single cell has no slope.
   std::optional<SurfacePoint> surface(const Cell& cell) const;
-  // Root mean square distance (m) of the cell centres within radius_m to their least-squares plane; nothing
+  // Root mean square distance (m) of the cell centres within radius_m to their least-squares plane; empty
   // with fewer than four centres with data.
   std::optional<double> roughness_m(double x_m, double y_m, double radius_m) const;
 

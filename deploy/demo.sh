@@ -1,49 +1,63 @@
 #!/bin/sh
-# From a fresh machine to a plan: installs, builds, serves the bundled terrain, and asks the service over HTTP for a
-# route between two places where Curiosity really stopped. Goes on serving until interrupted; --once ends it.
-#   sh deploy/demo.sh [--once]     PORT=8080 by default
+# From a fresh machine to a plan: installs, builds, serves the shipped terrain, and asks the service over HTTP for routes
+# between two places where Curiosity really stopped. Goes on serving until interrupted; --once ends it.
+#   sh deploy/demo.sh [--once] [--built PROGRAM]     PORT=8080 by default
+# --built takes a slipway that is built already, and installs and builds nothing.
 set -eu
 cd "$(dirname "$0")/.."
+. tests/stages.sh
 port="${PORT:-8080}"
 once=""
-case "${1:-}" in
-  "") ;;
-  --once) once=yes ;;
-  *) echo "usage: sh deploy/demo.sh [--once]" >&2; exit 2 ;;
-esac
+slipway=""
+while [ $# -gt 0 ]; do
+  case "$1" in
+    --once) once=yes ;;
+    --built) slipway="${2:?--built needs a program}"; shift ;;
+    *) echo "usage: sh deploy/demo.sh [--once] [--built PROGRAM]" >&2; exit 2 ;;
+  esac
+  shift
+done
 
-say() { printf '\n== %s\n' "$*"; }
 fail() { echo "demo: $*" >&2; exit 1; }
 
-say "installing what is missing"
-sh deploy/install.sh || fail "the packages above could not be installed; mend that and run this again"
-say "building (preset release)"
-cmake --preset release || fail "cmake could not configure; the first message above says what is missing"
-cmake --build --preset release || fail "the build broke; the first error above says where"
+if [ -z "$slipway" ]; then
+  stage "install packages" sh deploy/install.sh ||
+    fail "the packages above could not be installed; mend that and run this again"
+  stage "configure" cmake --preset release ||
+    fail "cmake could not configure; the first message above says what is missing"
+  stage "build" cmake --build --preset release || fail "the build broke; the first error above says where"
+  slipway=build/release/server/slipway
+fi
 
-slipway=build/release/server/slipway
-log=build/release/demo.log
-say "starting the service on the bundled terrain"
 mkdir -p var
-"$slipway" serve --data data --port "$port" --jobs var/demo-jobs.sqlite >"$log" 2>&1 &
+log=var/demo.log
+say "starting the service on the shipped terrain"
+"$slipway" serve --port "$port" --jobs var/demo-jobs.sqlite >"$log" 2>&1 &
 server=$!
-trap 'kill "$server" 2>/dev/null || true; wait "$server" 2>/dev/null || true' EXIT INT TERM
+end_service() {
+  kill "$server" 2>/dev/null || true
+  wait "$server" 2>/dev/null || true
+}
+trap end_service EXIT INT TERM
 url="http://127.0.0.1:$port"
+# Another service may hold the port and answer in this one's place: only what this one says of itself counts.
 tries=0
-until "$slipway" health --url "$url" >/dev/null 2>&1; do
+until grep -q " serves .* on $url," "$log"; do
   kill -0 "$server" 2>/dev/null || { cat "$log" >&2; fail "the service did not start; is port $port taken? PORT=8081 sh deploy/demo.sh uses another"; }
   tries=$((tries + 1))
-  [ "$tries" -lt 100 ] || fail "the service did not answer within 10 s; its log is $log"
+  [ "$tries" -lt 100 ] || fail "the service did not start within 10 s; its log is $log"
   sleep 0.1
 done
 
-say "asking $url for a plan from Curiosity's stop of sol 960 to its stop of sol 1073"
-"$slipway" plan --url "$url" --terrain gale --rover msl-class \
-  --start 8142688.55,-276614.34 --goal 8142528.03,-276775.79 --map build/release/demo-routes.svg
+say "asking $url for routes from Curiosity's stop of sol 960 to its stop of sol 1073"
+stage "plan" "$slipway" plan --url "$url" --terrain gale --rover msl-class --start 8142688.55,-276614.34 \
+  --goal 8142528.03,-276775.79 --map var/demo-routes.svg || fail "there is no plan"
 echo
-echo "The routes on the hillshade: build/release/demo-routes.svg"
+echo "The routes on the hillshade: var/demo-routes.svg"
+print_stages
 if [ -n "$once" ]; then
   exit 0
 fi
+echo
 echo "Serving on $url until interrupted (Ctrl-C). Try: curl $url/v1/terrains"
 wait "$server"

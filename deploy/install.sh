@@ -9,7 +9,7 @@ packages="g++ cmake ninja-build pkg-config ccache
   libgdal-dev libompl-dev libboost-dev libceres-dev libsundials-dev
   libcpp-httplib-dev nlohmann-json3-dev libsqlite3-dev libcli11-dev"
 if [ "${1:-}" = "--test" ]; then
-  packages="$packages libgtest-dev libbenchmark-dev libsimbody-dev clang-format curl python3"
+  packages="$packages libgtest-dev libbenchmark-dev libsimbody-dev clang-format curl python3 python3-jsonschema"
 fi
 
 missing=""

@@ -26,33 +26,14 @@ constexpr std::size_t kMostSimulated = 6;  // unless more routes are asked for
 // verified after it.
 constexpr double kSimulating = 0.5, kSimulated = 0.98, kSimulatedUnverified = 0.7;
 constexpr double kLineSpacing_m = 0.25;
-// A candidate that lies this much within one that is simulated anyway has nothing new to tell.
+// A candidate that shares more of its length than this with one that is simulated anyway adds nothing.
 constexpr double kSameRoute = 0.9;
 
 tl::unexpected<Error> cancelled() {
   return fail(ErrorCode::kCancelled, "the plan was cancelled");
 }
 
-// Around all places, with room for detours of half the longest leg.
-dem::Extent search_extent(const PlanProblem& problem) {
-  dem::Extent extent{problem.start.x_m, problem.start.y_m, problem.start.x_m, problem.start.y_m};
-  double longest = 0.0;
-  Waypoint last = problem.start;
-  const auto include = [&](const Waypoint& place) {
-    longest = std::max(longest, std::hypot(place.x_m - last.x_m, place.y_m - last.y_m));
-    extent.west_m = std::min(extent.west_m, place.x_m);
-    extent.south_m = std::min(extent.south_m, place.y_m);
-    extent.east_m = std::max(extent.east_m, place.x_m);
-    extent.north_m = std::max(extent.north_m, place.y_m);
-    last = place;
-  };
-  for (const Waypoint& place : problem.waypoints) include(place);
-  include(problem.goal);
-  const double room = std::max(60.0, 0.5 * longest);
-  return {extent.west_m - room, extent.south_m - room, extent.east_m + room, extent.north_m + room};
-}
-
-// The ones to simulate, cheapest first: those that differ, then the cheapest others that are no copies.
+// The candidates to simulate: those that differ, then the cheapest others that are no copies of these.
 std::vector<std::size_t> shortlist(const Proposal& proposal, std::size_t wanted) {
   const std::vector<std::size_t> order = proposal.by_cost();
   std::vector<std::size_t> list = select_routes(proposal.differences, order, wanted);
@@ -75,17 +56,27 @@ std::string too_alike(const PlanProblem& problem, std::size_t candidates, std::s
       candidates - kept, candidates, 100.0 * kLargestOverlap, problem.rover->body_width_m);
 }
 
+std::string dropped_for_keep_outs(const std::vector<Pose2>& poses) {
+  return fmt::format(
+      "{} that a planner found {} dropped: the rover's body would enter a keep-out{} at ({:.2f}, {:.2f})",
+      poses.size() == 1 ? "a route" : fmt::format("{} routes", poses.size()),
+      poses.size() == 1 ? "is" : "are", poses.size() == 1 ? "" : ", the first", poses.front().x_m,
+      poses.front().y_m);
+}
+
 class Planning {
  public:
-  Planning(const PlanProblem& problem, Progress& progress)
+  Planning(const PlanProblem& problem, std::span<const PlannerRow> planners, Progress& progress)
       : problem_(problem),
+        planners_(planners),
         progress_(progress),
         ground_(problem.terrain, problem.soil_map),
         keep_out_(problem.keep_out, *problem.rover) {}
 
   Result<Plan> run() {
     progress_.report("reading the ground", 0.0);
-    if (std::optional<Error> error = faults_of(problem_, keep_out_, ground_)) return fail(std::move(*error));
+    if (std::optional<Error> error = faults_of(problem_, planners_, keep_out_, ground_))
+      return fail(std::move(*error));
     const GroundTables tables = build_ground_tables(problem_);
     if (progress_.cancelled()) return cancelled();
     map_.emplace(problem_, keep_out_, search_extent(problem_));
@@ -93,7 +84,7 @@ class Planning {
     std::optional<Proposal> proposal = propose(tables);
     if (progress_.cancelled()) return cancelled();
     if (!std::isfinite(proposal->grid_optimum) && map_->geometry() != whole_map()) {
-      // Perhaps a way around that leaves the window.
+      // There may be a way around outside the window.
       map_.emplace(problem_, keep_out_, problem_.terrain->geometry().extent());
       proposal = propose(tables);
       if (progress_.cancelled()) return cancelled();
@@ -119,13 +110,15 @@ class Planning {
 
   Proposal propose(const GroundTables& tables) {
     StageProgress stage(progress_, "proposing routes", 0.1, 0.5);
-    return propose_routes(problem_, *map_, tables, stage);
+    return propose_routes(problem_, planners_, *map_, tables, stage);
   }
 
   void say_why_none(const Proposal& proposal, Plan& plan) const {
     if (std::isfinite(proposal.grid_optimum)) {
       plan.fewer_because.emplace_back(
           "a way exists on the grid of cells, but no planner found motions of arcs and turns through it");
+      if (!proposal.in_keep_out.empty())
+        plan.fewer_because.push_back(dropped_for_keep_outs(proposal.in_keep_out));
       return;
     }
     Waypoint from = problem_.start;
@@ -143,6 +136,7 @@ class Planning {
     std::vector<std::size_t> candidate_of;
     Differences differences(problem_.rover->body_width_m);
     std::size_t without_ground = 0;
+    std::vector<Pose2> in_keep_out = proposal.in_keep_out;
     for (std::size_t k = 0; k < list.size(); ++k) {
       const Candidate& candidate = proposal.candidates[list[k]];
       const double end = problem_.verify > 0 ? kSimulatedUnverified : kSimulated;
@@ -152,6 +146,10 @@ class Planning {
                           kSimulating + share * static_cast<double>(k + 1));
       const auto stations =
           route_stations(candidate.motions, sim::largest_station_spacing_m(*problem_.rover));
+      if (const auto pose = inside_keep_out(candidate.motions, stations)) {
+        in_keep_out.push_back(*pose);
+        continue;
+      }
       Result<sim::DrivePrediction> drive =
           sim::predict_drive(*problem_.rover, problem_.gravity_m_s2, ground_, problem_.beliefs, stations,
                              problem_.limits, problem_.risk, problem_.threads, stage, problem_.conditions);
@@ -172,8 +170,18 @@ class Planning {
     }
     choose(std::move(routes), candidate_of, differences, plan);
     if (plan.routes.size() < static_cast<std::size_t>(problem_.routes))
-      say_why_fewer(proposal, without_ground, list.front(), plan);
+      say_why_fewer(proposal, without_ground, in_keep_out, list.front(), plan);
     return {};
+  }
+
+  // What is given out is tested itself, whatever the search has tested: every station, and all that the body
+  // sweeps between them.
+  std::optional<Pose2> inside_keep_out(const std::vector<Motion>& motions,
+                                       const std::vector<sim::PathStation>& stations) const {
+    if (keep_out_.empty()) return std::nullopt;
+    for (const sim::PathStation& station : stations)
+      if (keep_out_.hits(station.pose)) return station.pose;
+    return first_hit(keep_out_, motions);
   }
 
   void choose(std::vector<Route> routes, const std::vector<std::size_t>& candidate_of,
@@ -188,7 +196,8 @@ class Planning {
     }
   }
 
-  // The best-ranked in the dynamic rung. What it refutes is judged and ranked anew.
+  // Drives the best-ranked routes in the dynamic simulation. A route that it refutes is judged and ranked
+  // anew.
   Result<void> verify(const Proposal& proposal, Plan& plan) {
     const std::size_t count = std::min(plan.routes.size(), static_cast<std::size_t>(problem_.verify));
     const double share =
@@ -208,11 +217,13 @@ class Planning {
     return {};
   }
 
-  void say_why_fewer(const Proposal& proposal, std::size_t without_ground, std::size_t best,
-                     Plan& plan) const {
+  void say_why_fewer(const Proposal& proposal, std::size_t without_ground,
+                     const std::vector<Pose2>& in_keep_out, std::size_t best, Plan& plan) const {
     const std::size_t all = proposal.candidates.size();
-    if (plan.routes.size() + without_ground < all)
-      plan.fewer_because.push_back(too_alike(problem_, all - without_ground, plan.routes.size()));
+    const std::size_t refused = without_ground + in_keep_out.size() - proposal.in_keep_out.size();
+    if (plan.routes.size() + refused < all)
+      plan.fewer_because.push_back(too_alike(problem_, all - refused, plan.routes.size()));
+    if (!in_keep_out.empty()) plan.fewer_because.push_back(dropped_for_keep_outs(in_keep_out));
     if (without_ground > 0) {
       plan.fewer_because.push_back(
           fmt::format("{} of {} candidates lead a wheel over missing elevation", without_ground, all));
@@ -225,6 +236,7 @@ class Planning {
   }
 
   const PlanProblem& problem_;
+  std::span<const PlannerRow> planners_;
   Progress& progress_;
   TerrainGround ground_;
   KeepOut keep_out_;
@@ -235,8 +247,8 @@ class Planning {
 
 }  // namespace
 
-Result<Plan> make_plan(const PlanProblem& problem, Progress& progress) {
-  return Planning(problem, progress).run();
+Result<Plan> make_plan(const PlanProblem& problem, Progress& progress, std::span<const PlannerRow> planners) {
+  return Planning(problem, planners, progress).run();
 }
 
 }  // namespace slipway::planner

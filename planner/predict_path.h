@@ -9,12 +9,13 @@
 
 namespace slipway::planner {
 
-// The prediction for a path that is given, corners joined by turns in place and straight drives. Errors:
-// off_map, no_data with the corner or place ("/path/3").
+// Predicts the drive along a given path, whose corners are joined by turns in place and straight drives.
+// Errors: off_map, no_data with the corner or place ("/path/3").
 Result<sim::DrivePrediction> predict_path(const PlanProblem& problem, const std::vector<Waypoint>& corners,
                                           Progress& progress, const Manner& manner = {});
 
-// The same path, of which predict_path() gave `prediction`, driven in the dynamic rung. Errors: cancelled.
+// Drives the same path, of which predict_path() gave `prediction`, in the dynamic simulation. Errors:
+// cancelled.
 Result<DynamicVerification> verify_path(const PlanProblem& problem, const std::vector<Waypoint>& corners,
                                         const sim::DrivePrediction& prediction, Progress& progress,
                                         const Manner& manner = {});

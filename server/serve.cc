@@ -4,30 +4,57 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <system_error>
 
+#include "api/files/file_lock.h"
 #include "api/job_kinds.h"
 #include "api/jobs/job_runner.h"
 #include "api/jobs/memory_job_store.h"
 #include "api/jobs/sqlite_job_store.h"
 #include "api/service.h"
 #include "core/version.h"
-#include "server/cli/commands.h"
-#include "server/cli/tables.h"
+#include "server/cli/data_folder.h"
+#include "server/cli/serve_command.h"
+#include "server/cli/terminal/tables.h"
+#include "server/http/http_cross_origin.h"
+#include "server/http/http_listener.h"
 #include "server/http/http_server.h"
+#include "server/responses.h"
 #include "server/routes.h"
 
 namespace slipway::server {
 namespace {
 
-Result<std::shared_ptr<api::JobStore>> open_store(const std::string& path) {
-  if (path.empty()) return std::shared_ptr<api::JobStore>(api::make_memory_job_store());
+// The jobs' store, and the name under which this process works on them.
+struct Jobs {
+  std::shared_ptr<api::JobStore> store;
+  api::JobRunnerOptions runner;
+  std::optional<api::FileLock> lock;
+};
+
+Result<Jobs> open_jobs(const std::string& path) {
+  Jobs jobs;
+  jobs.runner.workers = api::worker_kinds();
+  if (path.empty()) {
+    jobs.store = api::make_memory_job_store();
+    return jobs;
+  }
   std::error_code failed;
   if (const auto folder = std::filesystem::path(path).parent_path(); !folder.empty())
     std::filesystem::create_directories(folder, failed);
   auto store = api::open_sqlite_job_store(path);
   if (!store) return fail(store.error());
-  return std::shared_ptr<api::JobStore>(std::move(*store));
+  jobs.store = std::move(*store);
+  // A process takes back at its start what one of its name left running when it died. One name for all would
+  // take the jobs of a service that lives: only the holder of the lock works under the shared name.
+  auto lock = api::FileLock::take(path + ".lock");
+  if (lock) {
+    jobs.lock = *std::move(lock);
+  } else {
+    jobs.runner.worker = fmt::format("{} {}", jobs.runner.worker, api::new_job_id());
+  }
+  return jobs;
 }
 
 // Blocks the signals that end the program, so that every thread started later leaves them to
@@ -44,28 +71,51 @@ sigset_t block_ending_signals() {
 
 int refuse(const Error& error) {
   std::cerr << error_text(error);
-  return 1;
+  return error.code == ErrorCode::kInvalidRequest ? 2 : 1;
+}
+
+std::optional<Error> fault_of(const ServeOptions& options) {
+  std::vector<Fault> faults;
+  for (const std::string& origin : options.allowed_origins)
+    if (const auto fault = fault_of_origin(origin))
+      faults.push_back({"/allow-origin", fmt::format("\"{}\" is no origin: {}", origin, *fault)});
+  if (faults.empty()) return std::nullopt;
+  return Error{ErrorCode::kInvalidRequest, "the service can't be started so", std::move(faults)};
+}
+
+HttpOptions http_options(const ServeOptions& options) {
+  HttpOptions http;
+  http.address = options.address;
+  http.port = options.port;
+  http.problem = problem_response;
+  http.cross_origin.origins = options.allowed_origins;
+  http.cross_origin.request_headers = {"Content-Type", "If-None-Match", "Prefer"};
+  http.cross_origin.response_headers = {"Allow",    "Content-Location",   "ETag",
+                                        "Location", "Preference-Applied", "Retry-After"};
+  return http;
 }
 
 }  // namespace
 
 int serve(const ServeOptions& options) {
   const sigset_t signals = block_ending_signals();
-  const auto service = api::Service::open({.data = options.data});
+  if (const auto fault = fault_of(options)) return refuse(*fault);
+  const auto data = data_folder(options.data);
+  if (!data) return refuse(data.error());
+  const HttpOptions http = http_options(options);
+  // First of all: a start that fails for want of the port has touched neither the store nor its jobs.
+  auto listener = listen_at(http);
+  if (!listener) return refuse(listener.error());
+  const auto service = api::Service::open({.data = *data});
   if (!service) return refuse(service.error());
-  const auto store = open_store(options.jobs);
-  if (!store) return refuse(store.error());
-  api::JobRunner runner(*store, api::service_work(**service));
+  const auto jobs = open_jobs(options.jobs);
+  if (!jobs) return refuse(jobs.error());
+  api::JobRunner runner(jobs->store, api::service_work(**service), jobs->runner);
   if (const auto started = runner.start(); !started) return refuse(started.error());
-
-  HttpOptions http;
-  http.address = options.address;
-  http.port = options.port;
-  http.problem = problem_response;
   HttpServer server(http, api_routes(**service, runner));
-  const auto port = server.start();
+  const auto port = server.start(*std::move(listener));
   if (!port) return refuse(port.error());
-  std::cout << fmt::format("slipway {} serves {} on http://{}:{}, jobs in {}\n", version(), options.data,
+  std::cout << fmt::format("slipway {} serves {} on http://{}:{}, jobs in {}\n", version(), *data,
                            options.address, *port, options.jobs.empty() ? "memory" : options.jobs)
             << std::flush;
   int signal = 0;

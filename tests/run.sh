@@ -1,16 +1,20 @@
 #!/bin/sh
-# Installs, builds (warnings are errors) and runs every test. Further arguments go to ctest: sh tests/run.sh -L unit
+# Installs, builds (warnings are errors) and runs every test; then builds the quick tests and the fuzzers with the address
+# and undefined-behaviour sanitizers and runs those. Ends with a table of what each stage took.
+#   sh tests/run.sh                 everything
+#   sh tests/run.sh -L unit         further arguments go to ctest, and the sanitizers' stages are left out
 set -eu
 cd "$(dirname "$0")/.."
+. tests/stages.sh
 
-say() { printf '\n== %s\n' "$*"; }
-fail() { echo "tests/run.sh: $*" >&2; exit 1; }
-
-say "installing what is missing"
-sh deploy/install.sh --test || fail "the packages above could not be installed; mend that and run this again"
-say "configuring (preset check)"
-cmake --preset check || fail "cmake could not configure; the first message above says what is missing"
-say "building (preset check)"
-cmake --build --preset check || fail "the build broke; the first error above says where"
-say "running every test"
-ctest --preset check --progress -j "$(nproc)" "$@" || fail "a test failed; run it alone with: ctest --preset check -R NAME"
+stage "install packages" sh deploy/install.sh --test ||
+  fail "the packages above could not be installed; mend that and run this again"
+stage "configure" cmake --preset check || fail "cmake could not configure; the first message above says what is missing"
+stage "build" cmake --build --preset check || fail "the build broke; the first error above says where"
+stage "test" ctest --preset check --progress -j "$(nproc)" "$@" ||
+  fail "a test failed; run it alone with: ctest --preset check -R NAME"
+[ $# = 0 ] || exit 0
+stage "configure with sanitizers" cmake --preset asan || fail "cmake could not configure the preset asan"
+stage "build with sanitizers" cmake --build --preset asan || fail "the build with sanitizers broke"
+stage "test with sanitizers" ctest --preset asan --progress -j "$(nproc)" ||
+  fail "a sanitizer found something; run the test alone with: ctest --preset asan -R NAME"

@@ -36,7 +36,7 @@ std::span<const Comparison> comparison_catalogue() {
                  "University of Malaga", &cuadriga_data},
       Comparison{"cuadriga_drives", "that rover's slip and charge per metre predicted on logs not fitted",
                  "University of Malaga", &cuadriga_drives},
-      Comparison{"cuadriga_campaign", "that rover's logs told by a model re-tuned on the others",
+      Comparison{"cuadriga_campaign", "that rover's logs predicted by a model re-tuned on the others",
                  "University of Malaga", &cuadriga_campaign},
       Comparison{"independent_simulator", "the quasi-static rover against another rover simulator",
                  "practice campaign p01", &independent_simulator},
@@ -50,9 +50,9 @@ std::span<const Comparison> comparison_catalogue() {
                  "two other simulators", &sealed_campaigns},
       Comparison{"artemis_cases", "Opportunity across a ripple, Spirit with a dead wheel, in motion",
                  "ARTEMIS paper", &artemis_cases},
-      Comparison{"rungs", "the table rung against the quasi-static rung", "this project", &rungs},
-      Comparison{"dynamic_rung", "the dynamic rung against the quasi-static one on ten drives",
-                 "this project", &dynamic_rung},
+      Comparison{"rungs", "the table level against the quasi-static level", "this project", &table_level},
+      Comparison{"dynamic_rung", "the dynamic level against the quasi-static one on ten drives",
+                 "this project", &dynamic_level},
   };
   return kComparisons;
 }

@@ -9,9 +9,9 @@
 
 namespace slipway::validation {
 
-// One row per comparison: a new one is a file and a row.
+// One row per comparison; a new comparison is a file and a row.
 struct Comparison {
-  std::string_view name;     // "ding_2011": on the command line and of its plot
+  std::string_view name;     // "ding_2011", on the command line and in the name of its plot
   std::string_view summary;  // one line for people
   std::string_view source;   // who measured or computed it, in short
   Result<Report> (*run)(const std::filesystem::path& data);

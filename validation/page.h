@@ -15,8 +15,8 @@ inline constexpr std::string_view kPageEnd = "<!-- end: printed by slipway valid
 // its markers are missing.
 Result<bool> page_holds(const std::filesystem::path& page, const std::string& printed);
 
-// Puts them there and leaves the rest of the page as it is. Errors as above; storage where it can't be
-// written.
+// Puts these bytes between the markers and leaves the rest of the page unchanged. Errors: as above, and
+// storage where the page cannot be written.
 Result<void> write_page(const std::filesystem::path& page, const std::string& printed);
 
 }  // namespace slipway::validation

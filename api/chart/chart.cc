@@ -11,7 +11,7 @@
 namespace slipway::api {
 namespace {
 
-// Okabe and Ito's palette: apart from each other for every common kind of colour blindness.
+// Okabe and Ito's palette, whose colours can be distinguished with every common kind of colour blindness.
 constexpr std::array kColours{"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"};
 constexpr double kPanel_px = 420.0, kPlotHeight_px = 270.0;
 constexpr double kLeft_px = 66.0, kRight_px = 18.0, kTitle_px = 44.0, kPanelTitle_px = 26.0;
@@ -37,7 +37,7 @@ std::string dot(std::size_t colour, double x, double y) {
                      colour_of(colour));
 }
 
-// One point's sign: its shape goes with its colour, so that either tells the series.
+// The sign of one point. Its shape belongs to its colour, so that either one identifies the series.
 std::string sign(std::size_t colour, double x, double y) {
   const char* c = colour_of(colour);
   switch (colour % 4) {
@@ -90,7 +90,7 @@ std::string legend_sign(const LegendEntry& entry, double x, double y) {
   return text;
 }
 
-// Each entry once, none without a name.
+// The legend's entries, each once; entries without a name are left out.
 void add_entry(std::vector<LegendEntry>& entries, LegendEntry entry) {
   if (!entry.name.empty() && std::find(entries.begin(), entries.end(), entry) == entries.end())
     entries.push_back(std::move(entry));
@@ -156,7 +156,7 @@ void draw_line(std::string& out, const ChartSeries& s, const AxisScale& x, const
       colour_of(s.colour), s.mark == ChartMark::kDashedLine ? " stroke-dasharray=\"6 4\"" : "");
 }
 
-// Whole signs, also of points on the frame; none of what lies beyond it. Dots, of which there may be
+// Draws whole signs, also of points on the frame, and no points beyond it. Dots, of which there may be
 // thousands, are one path.
 void draw_points(std::string& out, const ChartSeries& s, const AxisScale& x, const AxisScale& y) {
   if (has_line(s.mark) && !has_points(s.mark)) return;
@@ -175,7 +175,7 @@ void draw_points(std::string& out, const ChartSeries& s, const AxisScale& x, con
         dots, colour_of(s.colour));
 }
 
-// Over the cells of a heat map, whose frame the lines do not leave.
+// Draws series over the cells of a heat map; the lines do not leave its frame.
 void draw_series(std::string& out, std::span<const ChartSeries> series, const AxisScale& x,
                  const AxisScale& y) {
   if (series.empty()) return;
@@ -238,7 +238,7 @@ void draw_panel(std::string& out, const Chart& chart, std::size_t index, double 
   for (const ChartSeries& s : chart.series) draw_points(out, s, x, y);
 }
 
-// Rows of entries that fit the width; returns the legend's height.
+// Lays the entries out in rows that fit the width; returns the legend's height.
 double draw_legend(std::string& out, const std::vector<LegendEntry>& entries, double width, double top) {
   double x = kLeft_px, y = top + kLegendRow_px / 2.0;
   for (const LegendEntry& entry : entries) {

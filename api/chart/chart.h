@@ -10,28 +10,28 @@ namespace slipway::api {
 
 struct ChartAxis {
   std::string title;                      // with its unit: "drawbar pull, N"
-  std::optional<double> lowest, highest;  // where absent, as the data need
+  std::optional<double> lowest, highest;  // the ends; where absent, they follow from the data
   bool logarithmic = false;               // values that are not positive are then left out
-  std::vector<std::string> categories;    // of an x axis: value k stands over the k-th of these names
+  std::vector<std::string> categories;    // names along an x axis; the value k is above the k-th of them
 };
 
 enum class ChartMark {
   kLine,
   kDashedLine,
   kPoints,
-  kDots,  // small ones, for hundreds of values
+  kDots,  // small points for hundreds of values
   kLineAndPoints,
 };
 
-// What is measured and what is predicted of one thing best have the same colour and different marks.
+// Measured and predicted values of one quantity should have the same colour and different marks.
 struct ChartSeries {
-  std::string name;  // in the legend; empty: not there
+  std::string name;  // in the legend; an empty name is not in it
   ChartMark mark = ChartMark::kLine;
-  std::vector<double> x, y;  // of one length; a value that is not finite is left out and parts the line
-  std::size_t colour = 0;    // index into a palette for colour-blind eyes
+  std::vector<double> x, y;  // of the same length; a value that is not finite is left out and breaks the line
+  std::size_t colour = 0;    // index into a palette that colour-blind people can distinguish
 };
 
-// The space between two lines, filled.
+// A filled area between two lines.
 struct ChartBand {
   std::string name;
   std::vector<double> x, lower, upper;
@@ -43,11 +43,11 @@ struct Chart {
   ChartAxis x, y;
   std::vector<ChartBand> bands;
   std::vector<ChartSeries> series;
-  bool diagonal = false;  // draws y = x: predicted against measured
+  bool diagonal = false;  // draws y = x, for predicted against measured values
 };
 
-// Charts beside each other under one title with one legend, as an SVG document. The same charts give the same
-// bytes.
+// Draws charts beside each other under one title with one legend, as an SVG document. The same charts give
+// the same bytes.
 std::string draw_charts(std::string_view title, std::span<const Chart> charts);
 
 // Values over two axes as coloured cells with a colour bar.
@@ -63,15 +63,16 @@ struct HeatMap {
 std::string draw_heat_map(const HeatMap& map);
 
 struct NamedChart {
-  std::string name;  // of a file, without its ending
+  std::string name;  // of its file, without the ending
   std::string svg;
 };
 
-// Round numbers a step of 1, 2 or 5 times a power of ten apart, from the last at or below `lowest` to the
-// first at or above `highest`: at most about `wanted` + 2 of them. lowest <= highest, wanted >= 1.
+// Round numbers whose distance is 1, 2 or 5 times a power of ten, from the last one at or below `lowest` to
+// the first one at or above `highest`; at most about `wanted` + 2 of them. It needs lowest <= highest and
+// wanted >= 1.
 std::vector<double> nice_ticks(double lowest, double highest, int wanted);
 
-// &, <, > and quotes as entities, control characters as spaces: text that may stand in an XML document.
+// The text for an XML document: &, <, > and quotes become entities, control characters become spaces.
 std::string xml_text(std::string_view text);
 
 }  // namespace slipway::api

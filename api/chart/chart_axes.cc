@@ -8,7 +8,7 @@
 namespace slipway::api {
 namespace {
 
-// 1, 2 or 5 times a power of ten, at least this.
+// The smallest of 1, 2 and 5 times a power of ten that is not below `at_least`.
 double nice_step(double at_least) {
   const double power = std::pow(10.0, std::floor(std::log10(at_least)));
   for (const double factor : {1.0, 2.0, 5.0})

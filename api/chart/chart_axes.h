@@ -7,10 +7,10 @@
 
 namespace slipway::api {
 
-// A chart's axis laid out: which values map to which pixels, and where its ticks stand.
+// The layout of a chart's axis: the map from values to pixels, and its ticks.
 class AxisScale {
  public:
-  // values: all that is to be shown on the axis. begin_px is where its lowest value stands.
+  // values are all that the axis must show. begin_px is the place of the lowest value.
   AxisScale(const ChartAxis& axis, const std::vector<double>& values, double begin_px, double end_px);
 
   struct Tick {
@@ -19,9 +19,9 @@ class AxisScale {
   };
   const std::vector<Tick>& ticks() const { return ticks_; }
   double px(double value) const;
-  // Finite, and positive on a logarithmic axis.
+  // Whether the value is finite, and positive on a logarithmic axis.
   bool shows(double value) const;
-  // Shown, and between the axis's ends.
+  // Whether the value can be shown and is between the axis's ends.
   bool contains(double value) const;
   double lowest() const { return lowest_; }
   double highest() const { return highest_; }

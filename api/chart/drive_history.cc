@@ -15,7 +15,7 @@ namespace {
 
 using json::JsonValue;
 
-// A member of a member of ..., and the first of an array; nullptr where there is none.
+// Follows a path of keys into a document, into the first element of an array; nullptr where there is none.
 const JsonValue* within(const JsonValue* value, std::initializer_list<std::string_view> keys) {
   for (const std::string_view key : keys) {
     if (value != nullptr) value = value->find(key);
@@ -25,7 +25,7 @@ const JsonValue* within(const JsonValue* value, std::initializer_list<std::strin
   return value;
 }
 
-// One value of every sample; false where the column does not fit.
+// Reads one value of every sample; returns false where the column does not fit.
 template <typename Set>
 bool read_column(const JsonValue& of, std::string_view name, std::vector<sim::SensorReading>& readings,
                  const Set& set) {
@@ -47,7 +47,7 @@ bool read_wheel(const JsonValue& wheel, std::size_t k, std::vector<sim::SensorRe
                      [k](DriveSample& s, double v) { s.wheels[k].torque_nm = v; });
 }
 
-// What the time history shows of the samples; empty where they do not fit each other.
+// The columns of the time history; empty where their lengths differ.
 std::vector<sim::SensorReading> readings_of(const JsonValue& samples, const JsonValue& wheels) {
   using sim::DriveSample;
   const JsonValue* const times = samples.find("time_s");
@@ -73,7 +73,8 @@ Result<std::string> draw_drive_history(std::string_view answer) {
   if (!document) return fail(document.error());
   const JsonValue* const drive = within(&*document, {"routes", "features", "properties", "dynamic"});
   if (drive == nullptr)
-    return fail(ErrorCode::kNoData, "the answer has no dynamic drive to draw: ask for the dynamic rung");
+    return fail(ErrorCode::kNoData,
+                "the answer has no dynamic drive to draw: request the dynamic level (rung)");
   const JsonValue* const samples = drive->find("samples");
   const JsonValue* const wheels = samples != nullptr ? samples->find("wheels") : nullptr;
   const JsonValue *const end = drive->find("end"), *const at = drive->find("at_m"),
@@ -89,7 +90,7 @@ Result<std::string> draw_drive_history(std::string_view answer) {
                                                 reason != nullptr ? reason->text : end->text));
   const std::vector<sim::SensorReading> readings = readings_of(*samples, *wheels);
   if (readings.empty()) return fail(ErrorCode::kInternal, "the samples of the dynamic drive do not fit");
-  sim::RoverModel named;  // the chart asks for the wheels' names alone
+  sim::RoverModel named;  // the chart needs only the wheels' names
   for (const std::string& name : wheels->keys) named.wheels.emplace_back().name = name;
   return draw_time_history(
       fmt::format("{}: {}, {:.2f} of {:.2f} m", rover->text, end->text, at->number, commanded->number), named,

@@ -25,7 +25,7 @@ const DriveRecord* answered(const std::map<std::string, DriveRecord>& records, c
   return record != records.end() && record->second.answered ? &record->second : nullptr;
 }
 
-// A bar for each terrain; values of its drives as dots beside each other, in the table's order.
+// Draws a bar for each terrain, and its drives' values as dots beside each other in the table's order.
 Chart by_terrain(std::span<const campaign::TerrainSummary> summaries, std::string title,
                  const std::function<std::vector<double>(const std::string&)>& values_of,
                  std::optional<Band> campaign::TerrainSummary::*band, double unit) {
@@ -79,7 +79,7 @@ void add_pose(Chart& chart, const DriveRecord& record) {
     chart.series[2].x.push_back(pose.x_m);
     chart.series[2].y.push_back(pose.y_m);
   }
-  // Parts the line between two drives.
+  // Breaks the line between two drives.
   chart.series[2].x.push_back(std::numeric_limits<double>::quiet_NaN());
   chart.series[2].y.push_back(std::numeric_limits<double>::quiet_NaN());
 }
@@ -120,7 +120,7 @@ std::string draw_slip_by_terrain(const campaign::DriveTable& table, std::span<co
 std::string draw_final_poses(const campaign::DriveTable& table, std::span<const TableDrive> drives,
                              const std::map<std::string, DriveRecord>& records) {
   std::vector<Chart> charts;
-  for (std::size_t t = 0; t < table.terrains.size() && charts.size() < kMostPosePanels; ++t) {
+  for (std::size_t t = 0; t < table.terrains.size() && charts.size() < kMaxPosePanels; ++t) {
     Chart chart = poses_of(table.terrains[t].name);
     for (const TableDrive& drive : drives) {
       const DriveRecord* const record = drive.terrain == t ? answered(records, drive) : nullptr;
@@ -140,7 +140,7 @@ std::string draw_time_history(const std::string& title, const sim::RoverModel& r
     ChartSeries s{.name = std::move(name), .mark = mark, .x = {}, .y = {}, .colour = colour};
     for (const sim::SensorReading& reading : readings) {
       const double y = value(reading);
-      // A reading that is missing does not part the line of those that are there.
+      // A missing reading does not break the line.
       if (std::isnan(y)) continue;
       s.x.push_back(reading.sample.time_s);
       s.y.push_back(y);
@@ -171,7 +171,7 @@ std::string draw_time_history(const std::string& title, const sim::RoverModel& r
   add_angle("yaw since the start", ChartMark::kDots,
             [=](const Attitude& a) { return a.yaw_rad - before_rad; });
   for (std::size_t k = 0; k < rover.wheels.size(); ++k) {
-    // Wheels of an axle often do the same: dashes let the one below be seen.
+    // The curves of an axle's two wheels often coincide; dashes leave the lower one visible.
     const bool right = rover.wheels[k].position_m.y() < 0.0;
     const auto add = [&](std::size_t panel, const Value& value) {
       charts[panel].series.push_back(

@@ -17,10 +17,10 @@ std::string draw_slip_by_terrain(const campaign::DriveTable& table,
                                  const std::map<std::string, campaign::DriveRecord>& records,
                                  std::span<const campaign::TerrainSummary> summaries);
 
-// Where drives should have ended and where they did, terrain by terrain: the first kMostPosePanels of them.
+// Where drives should have ended and where they did, terrain by terrain: the first kMaxPosePanels of them.
 std::string draw_final_poses(const campaign::DriveTable& table, std::span<const campaign::TableDrive> drives,
                              const std::map<std::string, campaign::DriveRecord>& records);
-constexpr std::size_t kMostPosePanels = 12;
+constexpr std::size_t kMaxPosePanels = 12;
 
 // One drive over time: slip, attitude, and for each wheel sinkage, current, torque and load; those of wheels
 // on the right are dashed.

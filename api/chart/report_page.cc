@@ -32,12 +32,34 @@ code{font-size:.92em;background:#f0f0ee;padding:0 .2em}
 @media print{body,main{background:#fff;padding:0}h2{break-after:avoid}figure,tr{break-inside:avoid}nav{display:none}}
 )css";
 
-// In one line, and without a table's own sign.
+bool is_control(char c) {
+  constexpr char kDelete = 0x7f;
+  return static_cast<unsigned char>(c) < 0x20 || c == kDelete;
+}
+
+// Text in one line that is read as text: names out of files make no tables, links, pictures or HTML.
 std::string markdown_text(const std::string& text) {
+  constexpr std::string_view kSigns = "|\\`*[]";
+  std::string out;
+  for (const char c : text) {
+    if (kSigns.find(c) != std::string_view::npos) out += '\\';
+    if (c == '<') {
+      out += "&lt;";
+    } else if (c == '&') {
+      out += "&amp;";
+    } else {
+      out += is_control(c) ? ' ' : c;
+    }
+  }
+  return out;
+}
+
+// Between backticks everything is text but a backtick, and in tables their own sign.
+std::string markdown_code(const std::string& text) {
   std::string out;
   for (const char c : text) {
     if (c == '|') out += '\\';
-    out += c == '\n' ? ' ' : c;
+    out += is_control(c) ? ' ' : c == '`' ? '\'' : c;
   }
   return out;
 }
@@ -48,7 +70,8 @@ std::string markdown_of(const ReportText& text) {
     const std::string_view around = span.style == Style::kStrong ? "**"
                                     : span.style == Style::kCode ? "`"
                                                                  : "";
-    out += fmt::format("{0}{1}{0}", around, markdown_text(span.text));
+    const bool is_code = span.style == Style::kCode;
+    out += fmt::format("{0}{1}{0}", around, is_code ? markdown_code(span.text) : markdown_text(span.text));
   }
   return out;
 }
@@ -64,7 +87,7 @@ std::string html_of(const ReportText& text) {
   return out;
 }
 
-// Ids of several pictures on one page are told apart by their names.
+// Ids within several pictures on one page differ by the pictures' names.
 std::string named_apart(const NamedChart& chart) {
   std::string out;
   const std::string_view svg = chart.svg;

@@ -9,8 +9,6 @@
 #include "core/angle.h"
 #include "core/error_code.h"
 #include "core/version.h"
-#include "planner/problem/cost_catalogue.h"
-#include "planner/search/planner_catalogue.h"
 #include "sim/effects/effect_catalogue.h"
 
 namespace slipway::api::json {
@@ -100,7 +98,7 @@ std::string write_rovers(const Catalogue& catalogue) {
 std::string write_soils(const Catalogue& catalogue) {
   Writer w;
   w.begin_object().text("unknown_soil", kUnknownGround).key("soils").begin_array();
-  for (const auto& [name, soil] : catalogue.soils) write_soil(w, soil);
+  for (const auto& [name, soil] : catalogue.soils) write_soil(w, soil, *catalogue.soil_format);
   w.end_array().end_object();
   return w.take();
 }
@@ -121,15 +119,16 @@ std::string write_effects() {
   return w.take();
 }
 
-std::string write_planners() {
+std::string write_planners(std::span<const planner::PlannerRow> planners,
+                           std::span<const planner::CostTerm> costs) {
   Writer w;
   w.begin_object().key("planners").begin_array();
-  for (const planner::PlannerRow& row : planner::planner_catalogue()) {
+  for (const planner::PlannerRow& row : planners) {
     w.begin_object().text("name", row.name).text("summary", row.summary).text("reference", row.reference);
     w.boolean("in_default_set", row.in_default_set).end_object();
   }
   w.end_array().key("cost_terms").begin_array();
-  for (const planner::CostTerm& term : planner::cost_catalogue()) {
+  for (const planner::CostTerm& term : costs) {
     w.begin_object()
         .text("name", term.name)
         .text("summary", term.summary)

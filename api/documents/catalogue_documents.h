@@ -1,10 +1,13 @@
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "api/files/campaign/shipped_campaigns.h"
 #include "api/files/catalogue.h"
 #include "api/requests/answers.h"
+#include "planner/problem/cost_catalogue.h"
+#include "planner/search/planner_catalogue.h"
 
 namespace slipway::api::json {
 
@@ -14,7 +17,9 @@ std::string write_rovers(const Catalogue& catalogue);
 std::string write_soils(const Catalogue& catalogue);
 std::string write_effects();
 std::string write_drive_campaigns(const std::vector<ShippedCampaign>& campaigns);
-std::string write_planners();  // with the cost terms that routes are ranked by
+// The planners, with the cost terms that routes are searched and ranked by.
+std::string write_planners(std::span<const planner::PlannerRow> planners = planner::planner_catalogue(),
+                           std::span<const planner::CostTerm> costs = planner::cost_catalogue());
 std::string write_errors();
 
 std::string write_ground_at(const GroundAt& at);

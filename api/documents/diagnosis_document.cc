@@ -48,12 +48,31 @@ void write_finite(Writer& w, std::string_view key, double value) {
   if (std::isfinite(value)) w.significant(key, value);
 }
 
+// The numbers that the answer depends on, by the step that uses them.
+void write_options(Writer& w, std::span<const gap::ListedOption> options) {
+  w.key("options").begin_object();
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    const gap::ListedOption& option = options[i];
+    if (i == 0 || options[i - 1].step != option.step) w.key(option.step).begin_object();
+    if (option.list) {
+      w.key(option.name).begin_array();
+      for (const double value : option.values) w.exact(value);
+      w.end_array();
+    } else {
+      w.exact(option.name, option.values.front());
+    }
+    if (i + 1 == options.size() || options[i + 1].step != option.step) w.end_object();
+  }
+  w.end_object();
+}
+
 void write_provenance(Writer& w, const gap::DriveCampaign& campaign, const Diagnosis& d) {
   w.key("provenance").begin_object();
   w.key("hashes").begin_object().text("campaign", d.campaign_fingerprint).key("terrains").begin_object();
   for (const gap::CampaignTerrain& terrain : campaign.terrains) w.text(terrain.name, terrain.fingerprint);
   w.end_object().end_object();
   w.text("version", version()).whole("seed", static_cast<std::int64_t>(d.seed));
+  write_options(w, d.options);
   w.texts("effects", d.library);
   std::vector<std::string> withheld;
   for (const sim::Effect& effect : sim::effect_catalogue())
@@ -81,7 +100,7 @@ void write_effects_found(Writer& w, const Diagnosis& d) {
 void write_candidates(Writer& w, const Diagnosis& d) {
   w.key("candidates").begin_array();
   for (const gap::ComparedSet& set : compared_sets(d)) {
-    w.begin_object().texts("effects", set.effects).exact("probability", set.probability);
+    w.begin_object().texts("effects", gap::names_of(set)).exact("probability", set.probability);
     if (set.held_out_score) write_finite(w, "held_out_score", *set.held_out_score);
     w.whole("complexity", set.complexity);
     w.significant("chosen_share", set.chosen_share).end_object();
@@ -113,7 +132,7 @@ void write_regimes(Writer& w, std::string_view key, std::span<const gap::Regime>
   for (const gap::Regime& regime : regimes) {
     w.begin_object().key("condition").begin_array();
     for (const gap::Condition& condition : regime.conditions) {
-      w.begin_object().text("variable", condition.variable);
+      w.begin_object().text("variable", gap::name_of(condition.variable));
       // An open end is not there.
       write_finite(w, "from", condition.from);
       write_finite(w, "to", condition.to);
@@ -284,24 +303,28 @@ void write_retuned(Writer& w, const Diagnosis& d) {
 
 std::vector<gap::ComparedSet> compared_sets(const Diagnosis& diagnosis) {
   std::vector<gap::ComparedSet> sets;
-  const auto same = [&](const std::vector<std::string>& effects) {
-    const std::set<std::string> names(effects.begin(), effects.end());
+  const auto same = [&](const gap::ComparedSet& as) {
+    const std::set<std::string> effects(as.effects.begin(), as.effects.end());
     return std::find_if(sets.begin(), sets.end(), [&](const gap::ComparedSet& set) {
-      return std::set<std::string>(set.effects.begin(), set.effects.end()) == names;
+      return set.with_unknown == as.with_unknown &&
+             std::set<std::string>(set.effects.begin(), set.effects.end()) == effects;
     });
   };
   double sum = 0.0;
   for (const gap::ComparedSet& candidate : diagnosis.candidates) {
     sum += candidate.probability;
-    if (const auto known = same(candidate.effects); known != sets.end()) {
+    if (const auto known = same(candidate); known != sets.end()) {
       known->probability += candidate.probability;
       known->chosen_share += candidate.chosen_share;
     } else {
       sets.push_back(candidate);
     }
   }
-  for (const std::vector<std::string>& always : {std::vector<std::string>{}, {"unknown"}})
-    if (same(always) == sets.end()) sets.push_back({always, 0.0, std::nullopt, 0});
+  for (const bool unknown : {false, true}) {
+    gap::ComparedSet always;
+    always.with_unknown = unknown;
+    if (same(always) == sets.end()) sets.push_back(always);
+  }
   for (gap::ComparedSet& set : sets) {
     if (sum > 0.0)
       set.probability /= sum;

@@ -9,7 +9,7 @@
 
 namespace slipway::api::json {
 
-// "diagnosis/1": the verdict, what was compared, where the gap is and how far it shrinks, next drives, and
+// "diagnosis/1": the verdict, what was compared, where the gap is and how far it closes, next drives, and
 // the corrected model. The same diagnosis gives the same bytes; units are those of the boundary.
 std::string diagnosis_document(const gap::DriveCampaign& campaign, const gap::Diagnosis& diagnosis);
 

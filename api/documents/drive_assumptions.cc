@@ -29,7 +29,7 @@ void read_drive_assumptions(ObjectReader& reader, DriveAssumptions& drive) {
   read_failed_wheels(reader, drive.failed_wheels);
   reader.whole("draws", kOptional, 1, RequestLimits::kDraws, drive.draws);
   reader.whole("seed", kOptional, std::uint64_t{0}, kLargestExactWhole, drive.seed);
-  reader.number("speed_m_s", kOptional, {"m/s", 0.0, 10.0, true}, drive.speed_m_s);
+  reader.number("speed_m_s", kOptional, {"m/s", RequestLimits::kLeastSpeed_m_s, 10.0}, drive.speed_m_s);
   reader.number("motor_temp_c", kOptional, {"degC", -150.0, 150.0}, drive.conditions.motor_temp_c);
   read_whole_model(reader, drive.model);
 }

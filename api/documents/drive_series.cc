@@ -16,6 +16,7 @@ constexpr double kJoulesPerWattHour = 3600.0;
 struct Column {
   std::string_view name;
   double (*value)(const StationPrediction& station);
+  bool of_wheels = false;  // comes from the wheels' forces: not known on ground that has a slip curve alone
 };
 
 constexpr std::array kPlaceColumns{
@@ -38,11 +39,11 @@ constexpr std::array kColumns{
     Column{"slip_p95", [](const StationPrediction& s) { return s.slip_ratio_p95; }},
     Column{"side_slip_deg", [](const StationPrediction& s) { return deg_from_rad(s.state.side_slip_rad); }},
     Column{"yaw_rate_deg_s", [](const StationPrediction& s) { return deg_from_rad(s.state.yaw_rate_rad_s); }},
-    Column{"left_rut_depth_m", [](const StationPrediction& s) { return s.state.left_rut_depth_m; }},
-    Column{"right_rut_depth_m", [](const StationPrediction& s) { return s.state.right_rut_depth_m; }},
-    Column{"current_a_p95", [](const StationPrediction& s) { return s.current_a_p95; }},
-    Column{"sinkage_m_p95", [](const StationPrediction& s) { return s.sinkage_m_p95; }},
-    Column{"power_w", [](const StationPrediction& s) { return s.state.electric_power_w; }},
+    Column{"left_rut_depth_m", [](const StationPrediction& s) { return s.state.left_rut_depth_m; }, true},
+    Column{"right_rut_depth_m", [](const StationPrediction& s) { return s.state.right_rut_depth_m; }, true},
+    Column{"current_a_p95", [](const StationPrediction& s) { return s.current_a_p95; }, true},
+    Column{"sinkage_m_p95", [](const StationPrediction& s) { return s.sinkage_m_p95; }, true},
+    Column{"power_w", [](const StationPrediction& s) { return s.state.electric_power_w; }, true},
     Column{"risk", [](const StationPrediction& s) { return s.risk; }},
     Column{"elapsed_s", [](const StationPrediction& s) { return s.elapsed_s; }},
 };
@@ -60,6 +61,13 @@ constexpr std::array kWheelColumns{
     WheelColumn{"torque_nm", [](const WheelState& w) { return w.torque_nm; }},
     WheelColumn{"current_a", [](const WheelState& w) { return w.current_a; }},
 };
+
+void write_figure(Writer& w, double value, bool known) {
+  if (known)
+    w.significant(value);
+  else
+    w.null();
+}
 
 void write_words(Writer& w, const std::vector<StationPrediction>& stations, const Provenance& provenance) {
   w.key("outcome").begin_array();
@@ -93,14 +101,22 @@ void write_drive_figures(Writer& w, const sim::DrivePrediction& p) {
   w.text("fidelity", "quasi_static");
   w.metres("length_m", p.length_m).significant("turned_deg", deg_from_rad(p.turned_rad));
   w.significant("duration_s", p.duration_s).significant("duration_p95_s", p.duration_s_p95);
-  w.significant("energy_wh", p.energy_j / kJoulesPerWattHour);
-  w.significant("energy_p95_wh", p.energy_j_p95 / kJoulesPerWattHour);
+  // What comes from the wheels' forces is null where part of the way is known by a slip curve alone.
+  const bool known = !p.by_slip_curve;
+  write_figure(w.key("energy_wh"), p.energy_j / kJoulesPerWattHour, known);
+  write_figure(w.key("energy_p95_wh"), p.energy_j_p95 / kJoulesPerWattHour, known);
   w.significant("mean_slip", p.mean_slip_ratio);
   write_peak(w, "max_slip", p.max_slip_ratio);
   write_peak(w, "max_tilt_deg", p.max_tilt_rad, deg_from_rad(1.0));
-  write_peak(w, "max_current_a", p.max_current_a);
-  write_peak(w, "max_sinkage_m", p.max_sinkage_m);
+  for (const auto& [name, peak] :
+       {std::pair{"max_current_a", &p.max_current_a}, {"max_sinkage_m", &p.max_sinkage_m}}) {
+    if (known)
+      write_peak(w, name, *peak);
+    else
+      w.key(name).null();
+  }
   w.metres("unknown_length_m", p.unknown_length_m);
+  if (p.by_slip_curve) w.metres("slip_curve_length_m", p.slip_curve_length_m);
   w.key("immobilised");
   if (p.immobilised) {
     w.begin_object().metres("at_m", p.immobilised->distance_m).metres("x_m", p.immobilised->pose.x_m);
@@ -125,7 +141,8 @@ void write_stations(Writer& w, const sim::DrivePrediction& prediction, const Pro
   }
   for (const Column& column : kColumns) {
     w.key(column.name).begin_array();
-    for (const StationPrediction& s : stations) w.significant(column.value(s));
+    for (const StationPrediction& s : stations)
+      write_figure(w, column.value(s), !(column.of_wheels && s.state.by_slip_curve));
     w.end_array();
   }
   write_words(w, stations, provenance);
@@ -134,7 +151,8 @@ void write_stations(Writer& w, const sim::DrivePrediction& prediction, const Pro
     w.key(prediction.wheel_names[wheel]).begin_object();
     for (const WheelColumn& column : kWheelColumns) {
       w.key(column.name).begin_array();
-      for (const StationPrediction& s : stations) w.significant(column.value(s.state.wheels[wheel]));
+      for (const StationPrediction& s : stations)
+        write_figure(w, column.value(s.state.wheels[wheel]), !s.state.by_slip_curve);
       w.end_array();
     }
     w.end_object();

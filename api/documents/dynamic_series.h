@@ -5,7 +5,7 @@
 
 namespace slipway::api::json {
 
-// "dynamic": a drive in the dynamic rung, its figures alone.
+// "dynamic": a drive at the dynamic level, its figures alone.
 void write_dynamic_figures(Writer& w, const planner::DynamicVerification& dynamic);
 
 // The same with its events and samples, one array per quantity and one element per sample.

@@ -66,7 +66,7 @@ Result<std::string> whole_model(const RequestedModel& reference, std::string_vie
   if (offered == nullptr) {
     const JsonValue* const verdict = document->find("verdict");
     return fail(ErrorCode::kInvalidRequest, fmt::format("the diagnosis offers no model: its verdict is {}",
-                                                        verdict == nullptr ? "not told" : verdict->text));
+                                                        verdict == nullptr ? "not given" : verdict->text));
   }
   Writer w;
   w.begin_object().text("diagnosis", reference.diagnosis).texts("ground", reference.ground);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "api/json/parse.h"
@@ -34,8 +35,10 @@ constexpr std::array<Figure, 6> kFigures{Figure{"mean_slip", false},     Figure{
                                          Figure{"max_sinkage_m", false}, Figure{"max_current_a", false},
                                          Figure{"energy_wh", false},     Figure{"risk", true}};
 
-double figure(const JsonValue& route, const char* key) {
+// Nothing where a plan has null: on ground that is known by a slip curve alone.
+std::optional<double> figure(const JsonValue& route, const char* key) {
   const JsonValue& value = at(route, key);
+  if (value.is(JsonValue::Kind::kNull)) return std::nullopt;
   return value.is(JsonValue::Kind::kObject) ? at(value, "value").number : value.number;
 }
 
@@ -111,10 +114,11 @@ std::vector<std::string> changes_of(const Pair& pair) {
         fmt::format("rank {:.0f}, was {:.0f}", at(after, "rank").number, at(before, "rank").number));
   if (pair.apart_m > kMoved_m) changes.push_back(fmt::format("moved by {:.1f} m on average", pair.apart_m));
   for (const Figure& f : kFigures) {
-    const double old = figure(before, f.key), now = figure(after, f.key);
-    const bool changed = f.is_share ? std::abs(now - old) >= kChangedRisk
-                                    : std::abs(now - old) > kChanged * std::max(std::abs(old), 1e-9);
-    if (changed) changes.push_back(fmt::format("{} {:.3g}, was {:.3g}", f.key, now, old));
+    const std::optional<double> old = figure(before, f.key), now = figure(after, f.key);
+    if (!old || !now) continue;
+    const bool changed = f.is_share ? std::abs(*now - *old) >= kChangedRisk
+                                    : std::abs(*now - *old) > kChanged * std::max(std::abs(*old), 1e-9);
+    if (changed) changes.push_back(fmt::format("{} {:.3g}, was {:.3g}", f.key, *now, *old));
   }
   return changes;
 }
@@ -129,7 +133,12 @@ void write_side(Writer& w, std::string_view side, const Route* route) {
   w.begin_object()
       .whole("rank", std::lround(at(row, "rank").number))
       .text("verdict", at(row, "verdict").text);
-  for (const Figure& f : kFigures) w.significant(f.key, figure(row, f.key));
+  for (const Figure& f : kFigures) {
+    if (const std::optional<double> value = figure(row, f.key))
+      w.significant(f.key, *value);
+    else
+      w.key(f.key).null();
+  }
   w.end_object();
 }
 

@@ -6,7 +6,6 @@
 
 #include "api/documents/drive_assumptions.h"
 #include "api/json/parse.h"
-#include "planner/problem/cost_catalogue.h"
 
 namespace slipway::api::json {
 namespace {
@@ -62,20 +61,22 @@ void read_ring(const Element& element, planner::Polygon& ring, std::vector<Fault
 void read_weights(ObjectReader& reader, planner::Weights& weights) {
   auto object = reader.object("weights", kOptional);
   if (!object) return;
-  for (const planner::CostTerm& term : planner::cost_catalogue()) {
-    object->number(term.weight.name, kOptional, {term.weight.unit, term.weight.lowest, term.weight.highest},
-                   weights.*term.in_weights);
+  for (std::size_t row = 0; row < weights.terms().size(); ++row) {
+    const Field& field = weights.terms()[row].weight;
+    object->number(field.name, kOptional, {field.unit, field.lowest, field.highest}, weights[row]);
   }
   object->refuse_unknown();
 }
 
 }  // namespace
 
-Result<Reading<PlanRequest>> read_plan_request(std::string_view bytes) {
+Result<Reading<PlanRequest>> read_plan_request(std::string_view bytes,
+                                               std::span<const planner::CostTerm> costs) {
   const auto document = parse(bytes, {.bytes = RequestLimits::kBodyBytes});
   if (!document) return fail(document.error());
   Reading<PlanRequest> reading;
   PlanRequest& request = reading.request;
+  request.weights = planner::Weights(costs);
   ObjectReader reader(*document, "", reading.faults);
   if (!reader.is_object()) return reading;
   read_names(reader, request.terrain, request.rover);
@@ -118,9 +119,8 @@ std::string write_plan_request(const PlanRequest& request) {
   }
   w.end_array();
   w.key("weights").begin_object();
-  for (const planner::CostTerm& term : planner::cost_catalogue()) {
-    w.exact(term.weight.name, request.weights.*term.in_weights);
-  }
+  for (std::size_t row = 0; row < request.weights.terms().size(); ++row)
+    w.exact(request.weights.terms()[row].weight.name, request.weights[row]);
   w.end_object();
   w.whole("routes", request.routes).whole("verify", request.verify);
   w.texts("planners", request.planners);

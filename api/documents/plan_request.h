@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -9,7 +10,9 @@
 namespace slipway::api::json {
 
 // Errors only where the bytes are no JSON document; everything else is a fault in the reading.
-Result<Reading<PlanRequest>> read_plan_request(std::string_view bytes);
+// `costs`: the terms whose weights the request may set.
+Result<Reading<PlanRequest>> read_plan_request(
+    std::string_view bytes, std::span<const planner::CostTerm> costs = planner::cost_catalogue());
 
 // Whole, with every default filled in: what it gives reads back as the same request.
 std::string write_plan_request(const PlanRequest& request);

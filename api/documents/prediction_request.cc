@@ -24,8 +24,8 @@ Result<Reading<PredictionRequest>> read_prediction_request(std::string_view byte
   }
   reader.boolean("backwards", kOptional, request.manner.backwards);
   reader.angle_deg("crab_deg", kOptional, {"deg", -90.0, 90.0}, request.manner.crab_rad);
-  std::size_t rung = 0;
-  if (reader.choice("rung", kOptional, kLevels, rung)) request.level = static_cast<FidelityLevel>(rung);
+  std::size_t level = 0;
+  if (reader.choice("rung", kOptional, kLevels, level)) request.level = static_cast<FidelityLevel>(level);
   read_drive_assumptions(reader, request.drive);
   reader.refuse_unknown();
   return reading;

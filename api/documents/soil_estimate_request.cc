@@ -54,7 +54,7 @@ void read_plate_tests(ObjectReader& reader, SoilEstimateRequest& request) {
   for (const Element& element : reader.list("plate_tests", kOptional, {1, kMostPlates})) {
     ObjectReader test = reader.object(element);
     if (!test.is_object()) continue;
-    gap::PlateTest& plate = request.data.plates.emplace_back();
+    gap::PlateRecord& plate = request.data.plates.emplace_back();
     test.number("plate_radius_m", kRequired, {"m", 0.001, 5.0}, plate.radius_m);
     test.numbers("sinkage_m", kRequired, {1, kMostSamples}, {"m", 0.0, 5.0, true}, plate.sinkage_m);
     test.numbers("pressure_pa", kRequired, {1, kMostSamples}, {"Pa", -1e9, 1e9}, plate.pressure_pa);

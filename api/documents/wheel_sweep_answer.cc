@@ -70,7 +70,7 @@ void write_columns(Writer& w, const sim::WheelSweep& sweep) {
   w.key("columns").begin_array();
   for (const sim::SweepAxis& axis : sweep.axes) {
     if (is_column(axis.parameter)) continue;
-    const auto field = sim::sweep_field(axis.parameter);
+    const auto field = sim::sweep_field(axis.parameter, *sweep.rig.soil_format);
     write_column(w, axis.parameter, field ? field->unit : "", field ? field->summary : "");
   }
   for (const Column& column : kColumns) write_column(w, column.name, column.unit, column.summary);

@@ -33,7 +33,7 @@ void read_grousers(ObjectReader& reader, std::optional<sim::Grousers>& grousers)
 }
 
 void read_test(ObjectReader& reader, WheelSweepRequest& request) {
-  sim::SingleWheelTest& test = request.test;
+  sim::WheelRigConditions& test = request.test;
   reader.number("gravity_m_s2", kOptional, rule_of("gravity_m_s2"), test.gravity_m_s2);
   reader.number("load_n", kOptional, rule_of("load_n"), request.load_n);
   reader.number("sinkage_m", kOptional, rule_of("sinkage_m"), test.sinkage_m);
@@ -110,7 +110,7 @@ Result<Reading<WheelSweepRequest>> read_wheel_sweep_request(std::string_view byt
 }
 
 std::string write_wheel_sweep_request(const WheelSweepRequest& request) {
-  const sim::SingleWheelTest& test = request.test;
+  const sim::WheelRigConditions& test = request.test;
   Writer w;
   w.begin_object().text("rover", request.rover);
   if (!request.wheel.empty()) w.text("wheel", request.wheel);

@@ -57,7 +57,7 @@ void load_soils(const fs::path& data, Catalogue& catalogue, std::vector<Fault>& 
     if (path.extension() != ".json") continue;
     const std::string file = "soils/" + path.filename().string();
     const auto bytes = read_data_file(path);
-    auto soils = bytes ? json::read_soil_file(*bytes)
+    auto soils = bytes ? json::read_soil_file(*bytes, *catalogue.soil_format)
                        : Result<std::vector<sim::SoilDistribution>>(fail(bytes.error()));
     if (!soils) {
       add_faults(file, soils.error(), faults);
@@ -104,8 +104,9 @@ void load_terrains(const fs::path& data, Catalogue& catalogue, std::vector<Fault
 
 }  // namespace
 
-Result<Catalogue> load_catalogue(const fs::path& data) {
+Result<Catalogue> load_catalogue(const fs::path& data, const sim::SoilFormat& format) {
   Catalogue catalogue;
+  catalogue.soil_format = &format;
   std::vector<Fault> faults;
   load_rovers(data, catalogue, faults);
   load_soils(data, catalogue, faults);

@@ -10,7 +10,7 @@
 #include "api/files/terrain_site.h"
 #include "core/result.h"
 #include "sim/rover/rover_model.h"
-#include "sim/soil/soil.h"
+#include "sim/soil/soil_field.h"
 
 namespace slipway::api {
 
@@ -22,11 +22,13 @@ struct Catalogue {
   std::map<std::string, std::shared_ptr<const sim::RoverModel>, std::less<>> rovers;
   std::map<std::string, sim::SoilDistribution, std::less<>> soils;
   std::map<std::string, std::shared_ptr<const TerrainSite>, std::less<>> terrains;
+  const sim::SoilFormat* soil_format = &sim::soil_format();  // that the soils were read by
 };
 
 // Loads rovers/*.json, soils/*.json and terrains/*/terrain.json under the folder. The faults of all files are
 // reported together; pointers begin with the file, "rovers/mer-class.json#/mass_kg".
-Result<Catalogue> load_catalogue(const std::filesystem::path& data);
+Result<Catalogue> load_catalogue(const std::filesystem::path& data,
+                                 const sim::SoilFormat& format = sim::soil_format());
 
 template <class Map>
 std::vector<std::string> names_of(const Map& map) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <system_error>
 #include <utility>
 
 #include "api/files/noise_scales.h"
@@ -85,6 +86,22 @@ auto read_file(const std::filesystem::path& folder, const std::string& file, con
 }
 
 }  // namespace
+
+Result<std::optional<std::string>> remove_model(const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path described = folder / "model.json";
+  if (!fs::exists(fs::symlink_status(described, error))) return std::nullopt;
+  const auto description = read_file(folder, "model.json", read_description);
+  if (!description) return fail(description.error());
+  // The description first: without it the folder holds no model, even where the rest can't be removed.
+  for (const fs::path& path : {described, folder / "rovers" / (description->rover.corrected + ".json"),
+                               folder / "soils" / (description->soils.front().corrected + ".json")})
+    if (fs::remove(path, error); error)
+      return fail(ErrorCode::kUnwritableFile,
+                  fmt::format("cannot remove {}: {}", path.string(), error.message()));
+  return description->campaign;
+}
 
 std::string digest_of(const sim::RoverModel& rover) {
   sim::RoverModel same = rover;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,11 @@ std::string model_document(const gap::DriveCampaign& campaign, const CorrectedMo
 
 // The faults of all its files are reported together, as those of a data folder.
 Result<ModelFolder> load_model_folder(const std::filesystem::path& folder);
+
+// Takes the model out of a folder: model.json and the files of rover and soils that it names; other files
+// stay. The name of the campaign that it was made of; nothing where the folder holds no model. Errors:
+// unreadable_data where model.json is none of ours; unwritable_file.
+Result<std::optional<std::string>> remove_model(const std::filesystem::path& folder);
 
 // That a rover is neither the one that the model was made of nor the corrected one: invalid_request at
 // /rover.

@@ -7,11 +7,12 @@
 #include <optional>
 
 #include "api/files/effect_settings.h"
+#include "api/files/model_fields.h"
 #include "api/json/faults.h"
 #include "api/json/parse.h"
 #include "api/json/strict_reader.h"
-#include "core/angle.h"
 #include "sim/effects/effect_catalogue.h"
+#include "sim/rover/rover_field.h"
 #include "sim/wheel/sliced_wheel.h"
 
 namespace slipway::api::json {
@@ -37,8 +38,7 @@ std::optional<sim::Grousers> read_grousers(ObjectReader& reader) {
   auto object = reader.object("grousers", kOptional);
   if (!object) return std::nullopt;
   sim::Grousers grousers;
-  object->number("height_m", kRequired, {"m", 0.0, 1.0}, grousers.height_m);
-  object->number("count", kRequired, {"1", 0.0, 500.0}, grousers.count);
+  read_fields(*object, sim::grouser_fields(), kRequired, grousers);
   object->refuse_unknown();
   return grousers;
 }
@@ -59,8 +59,7 @@ void read_wheels(ObjectReader& reader, sim::RoverModel& rover) {
     sim::WheelModel& wheel = rover.wheels.emplace_back();
     object.text("name", kRequired, {.most = 8, .is_name = true}, wheel.name);
     read_point(object, "position_m", wheel.position_m);
-    object.number("radius_m", kRequired, {"m", 0.0, 1.0, true}, wheel.radius_m);
-    object.number("width_m", kRequired, {"m", 0.0, 1.0, true}, wheel.width_m);
+    read_fields(object, sim::wheel_fields(), kRequired, wheel);
     wheel.grousers = read_grousers(object);
     if (!wheel.grousers) wheel.grousers = everywhere;
     object.boolean("steerable", kRequired, wheel.steerable);
@@ -75,16 +74,9 @@ void read_wheels(ObjectReader& reader, sim::RoverModel& rover) {
 // Of what is between the bodies; each type has the joints it has.
 void read_joints(ObjectReader& reader, sim::Suspension& suspension) {
   if (suspension.type == sim::SuspensionType::kRigid) return;
-  std::optional<double> stiffness_per_deg, damping_per_deg;
-  reader.number("differential_stiffness_nm_per_deg", kOptional, {"N m/deg", 0.0, 1e7, true},
-                stiffness_per_deg);
-  reader.number("differential_damping_nms_per_deg", kOptional, {"N m s/deg", 0.0, 1e6}, damping_per_deg);
-  if (stiffness_per_deg) suspension.differential_stiffness_nm_rad = *stiffness_per_deg / rad_from_deg(1.0);
-  if (damping_per_deg) suspension.differential_damping_nms_rad = *damping_per_deg / rad_from_deg(1.0);
-  constexpr NumberRule kStop{"deg", 0.0, 90.0, true};
-  reader.angle_deg("rocker_stop_deg", kOptional, kStop, suspension.rocker_stop_rad);
+  read_fields(reader, sim::differential_fields(), kRequired, suspension);
   if (suspension.type == sim::SuspensionType::kRockerBogie)
-    reader.angle_deg("bogie_stop_deg", kOptional, kStop, suspension.bogie_stop_rad);
+    read_fields(reader, sim::bogie_fields(), kRequired, suspension);
 }
 
 void read_suspension(ObjectReader& reader, sim::RoverModel& rover) {
@@ -112,18 +104,7 @@ void read_suspension(ObjectReader& reader, sim::RoverModel& rover) {
 bool read_motor(ObjectReader& reader, std::string_view key, Presence presence, sim::DriveMotor& drive) {
   auto object = reader.object(key, presence);
   if (!object) return false;
-  object->number("torque_constant_nm_per_a", kRequired, {"N m/A", 0.0, 10.0, true},
-                 drive.torque_constant_nm_per_a);
-  object->number("gear_ratio", kRequired, {"1", 1.0, 1e5}, drive.gear_ratio);
-  object->number("gear_efficiency", kRequired, {"1", 0.0, 1.0, true}, drive.gear_efficiency);
-  object->number("no_load_current_a", kRequired, {"A", 0.0, 10.0}, drive.no_load_current_a);
-  object->number("damping_nms_rad", kOptional, {"N m s/rad", 0.0, 10.0}, drive.damping_nms_rad);
-  object->angle_deg("max_wheel_rate_deg_s", kRequired, {"deg/s", 0.0, 5000.0, true},
-                    drive.max_wheel_rate_rad_s);
-  object->number("bus_voltage_v", kRequired, {"V", 0.0, 400.0, true}, drive.bus_voltage_v);
-  object->number("resistance_ohm", kOptional, {"ohm", 0.0, 1000.0, true}, drive.resistance_ohm);
-  object->number("max_current_a", kOptional, {"A", 0.0, 1000.0, true}, drive.max_current_a);
-  object->number("rotor_inertia_kg_m2", kOptional, {"kg m2", 0.0, 1.0}, drive.rotor_inertia_kg_m2);
+  read_fields(*object, sim::motor_fields(), kRequired, drive);
   object->refuse_unknown();
   return true;
 }
@@ -131,24 +112,11 @@ bool read_motor(ObjectReader& reader, std::string_view key, Presence presence, s
 void read_masses(ObjectReader& reader, sim::MassDistribution& masses) {
   auto object = reader.object("masses", kOptional);
   if (!object) return;
-  constexpr NumberRule kPart{"kg", 0.0, 5000.0, true};
-  object->number("wheel_kg", kOptional, kPart, masses.wheel_kg);
-  object->number("rocker_kg", kOptional, kPart, masses.rocker_kg);
-  object->number("bogie_kg", kOptional, kPart, masses.bogie_kg);
+  read_fields(*object, sim::part_mass_fields(), kRequired, masses);
   std::vector<double> xyz;
   if (object->numbers("body_inertia_kg_m2", kOptional, {3, 3}, {"kg m2", 0.0, 1e5, true}, xyz))
     masses.body_inertia_kg_m2 = Eigen::Vector3d(xyz[0], xyz[1], xyz[2]);
   object->refuse_unknown();
-}
-
-void read_body(ObjectReader& reader, Presence presence, sim::RoverModel& rover) {
-  reader.number("belly_clearance_m", presence, {"m", 0.0, 2.0, true}, rover.belly_clearance_m);
-  reader.number("body_length_m", presence, {"m", 0.0, 10.0, true}, rover.body_length_m);
-  reader.number("body_width_m", presence, {"m", 0.0, 10.0, true}, rover.body_width_m);
-  reader.angle_deg("max_tilt_deg", presence, {"deg", 0.0, 60.0, true}, rover.max_tilt_rad);
-  reader.number("cruise_speed_m_s", presence, {"m/s", 0.0, 5.0, true}, rover.cruise_speed_m_s);
-  reader.angle_deg("turn_rate_deg_s", presence, {"deg/s", 0.0, 100.0, true}, rover.turn_rate_rad_s);
-  reader.number("min_turn_radius_m", presence, {"m", 0.0, 100.0}, rover.min_turn_radius_m);
 }
 
 // What a campaign does not say of its rover and planning asks for, from what it does say.
@@ -210,10 +178,10 @@ void write_wheels(Writer& w, const sim::RoverModel& rover) {
   for (const sim::WheelModel& wheel : rover.wheels) {
     w.begin_object().text("name", wheel.name);
     write_point(w, "position_m", wheel.position_m);
-    w.exact("radius_m", wheel.radius_m).exact("width_m", wheel.width_m);
+    write_fields(w, sim::wheel_fields(), wheel);
     if (wheel.grousers) {
-      w.key("grousers").begin_object().exact("height_m", wheel.grousers->height_m);
-      w.exact("count", wheel.grousers->count).end_object();
+      write_fields(w.key("grousers").begin_object(), sim::grouser_fields(), *wheel.grousers);
+      w.end_object();
     }
     w.boolean("steerable", wheel.steerable);
     if (wheel.drive != sim::WheelDrive::kDriven)
@@ -222,11 +190,6 @@ void write_wheels(Writer& w, const sim::RoverModel& rover) {
   }
   w.end_array();
   if (rover.wheel_slices > 1) w.exact("wheel_slices", rover.wheel_slices);
-}
-
-// Kept per radian, written per degree with the digits that were read.
-void write_per_deg(Writer& w, std::string_view key, double per_rad) {
-  w.exact(key, std::stod(fmt::format("{:.12g}", per_rad * rad_from_deg(1.0))));
 }
 
 void write_suspension(Writer& w, const sim::RoverModel& rover) {
@@ -241,35 +204,21 @@ void write_suspension(Writer& w, const sim::RoverModel& rover) {
       if (wheel.on_bogie && wheel.side == sim::Side::kLeft) on_bogie.push_back(wheel.name.substr(1));
     w.texts("bogie_wheels", on_bogie);
   }
-  if (suspension.differential_stiffness_nm_rad)
-    write_per_deg(w, "differential_stiffness_nm_per_deg", *suspension.differential_stiffness_nm_rad);
-  if (suspension.differential_damping_nms_rad)
-    write_per_deg(w, "differential_damping_nms_per_deg", *suspension.differential_damping_nms_rad);
-  if (suspension.rocker_stop_rad) w.angle_deg("rocker_stop_deg", *suspension.rocker_stop_rad);
-  if (suspension.bogie_stop_rad) w.angle_deg("bogie_stop_deg", *suspension.bogie_stop_rad);
+  write_fields(w, sim::differential_fields(), suspension);
+  write_fields(w, sim::bogie_fields(), suspension);
   w.end_object();
 }
 
 void write_masses(Writer& w, const sim::MassDistribution& masses) {
   if (!masses.wheel_kg && !masses.rocker_kg && !masses.bogie_kg && !masses.body_inertia_kg_m2) return;
   w.key("masses").begin_object();
-  if (masses.wheel_kg) w.exact("wheel_kg", *masses.wheel_kg);
-  if (masses.rocker_kg) w.exact("rocker_kg", *masses.rocker_kg);
-  if (masses.bogie_kg) w.exact("bogie_kg", *masses.bogie_kg);
+  write_fields(w, sim::part_mass_fields(), masses);
   if (masses.body_inertia_kg_m2) write_point(w, "body_inertia_kg_m2", *masses.body_inertia_kg_m2);
   w.end_object();
 }
 
 void write_motor(Writer& w, std::string_view key, const sim::DriveMotor& drive) {
-  w.key(key).begin_object().exact("torque_constant_nm_per_a", drive.torque_constant_nm_per_a);
-  w.exact("gear_ratio", drive.gear_ratio).exact("gear_efficiency", drive.gear_efficiency);
-  w.exact("no_load_current_a", drive.no_load_current_a);
-  if (drive.damping_nms_rad != 0.0) w.exact("damping_nms_rad", drive.damping_nms_rad);
-  w.angle_deg("max_wheel_rate_deg_s", drive.max_wheel_rate_rad_s).exact("bus_voltage_v", drive.bus_voltage_v);
-  if (drive.resistance_ohm) w.exact("resistance_ohm", *drive.resistance_ohm);
-  if (drive.max_current_a) w.exact("max_current_a", *drive.max_current_a);
-  if (drive.rotor_inertia_kg_m2 != sim::DriveMotor{}.rotor_inertia_kg_m2)
-    w.exact("rotor_inertia_kg_m2", drive.rotor_inertia_kg_m2);
+  write_fields(w.key(key).begin_object(), sim::motor_fields(), drive);
   w.end_object();
 }
 
@@ -287,7 +236,7 @@ Result<sim::RoverModel> read_rover_file(std::string_view bytes) {
   reader.text("summary", kRequired, {.most = 500}, rover.summary);
   reader.texts("sources", kRequired, {1, kMostSources}, {.most = 500}, rover.sources);
   reader.texts("assumed", kRequired, {0, kMostSources}, {}, rover.assumed);
-  reader.number("mass_kg", kRequired, {"kg", 0.0, 5000.0, true}, rover.mass_kg);
+  read_fields(reader, sim::mass_fields(), kRequired, rover);
   read_point(reader, "com_m", rover.com_m);
   read_masses(reader, rover.masses);
   read_wheels(reader, rover);
@@ -295,9 +244,8 @@ Result<sim::RoverModel> read_rover_file(std::string_view bytes) {
   read_motor(reader, "drive", kRequired, rover.drive);
   if (sim::DriveMotor steering; read_motor(reader, "steering", kOptional, steering))
     rover.steering = steering;
-  reader.number("pull_below_axle", kOptional, {"1", 0.0, 1.0}, rover.pull_below_axle);
-  reader.number("wheel_weight", kOptional, {"1", 0.0, 3.0}, rover.wheel_weight);
-  read_body(reader, kRequired, rover);
+  read_fields(reader, sim::closure_fields(), kRequired, rover);
+  read_fields(reader, sim::body_fields(), kRequired, rover);
   read_effects(reader, rover.effects);
   reader.refuse_unknown();
   // What holds between the numbers can only be asked of a rover whose numbers were read.
@@ -316,7 +264,7 @@ sim::RoverModel read_campaign_rover(ObjectReader& reader) {
   sim::RoverModel rover;
   const std::size_t before = reader.faults().size();
   reader.text("name", kRequired, {}, rover.name);
-  reader.number("mass_kg", kRequired, {"kg", 0.0, 5000.0, true}, rover.mass_kg);
+  read_fields(reader, sim::mass_fields(), kRequired, rover);
   read_point(reader, "com_m", rover.com_m);
   read_masses(reader, rover.masses);
   read_wheels(reader, rover);
@@ -328,7 +276,7 @@ sim::RoverModel read_campaign_rover(ObjectReader& reader) {
     assume_body(rover);
   }
   rover.assumed = {"body"};
-  read_body(reader, kOptional, rover);
+  read_fields(reader, sim::body_fields(), kOptional, rover);
   reader.refuse_unknown();
   if (reader.faults().size() == before)
     for (const Fault& fault : sim::faults_of(rover))
@@ -339,25 +287,22 @@ sim::RoverModel read_campaign_rover(ObjectReader& reader) {
 void write_rover(Writer& w, const sim::RoverModel& rover) {
   w.begin_object().text("format", "rover/1").text("name", rover.name).text("summary", rover.summary);
   w.texts("sources", rover.sources).texts("assumed", rover.assumed);
-  w.exact("mass_kg", rover.mass_kg);
+  write_fields(w, sim::mass_fields(), rover);
   write_point(w, "com_m", rover.com_m);
   write_masses(w, rover.masses);
   write_wheels(w, rover);
   write_suspension(w, rover);
   write_motor(w, "drive", rover.drive);
   if (rover.steering) write_motor(w, "steering", *rover.steering);
-  if (rover.pull_below_axle != 0.0) w.exact("pull_below_axle", rover.pull_below_axle);
-  if (rover.wheel_weight != 0.0) w.exact("wheel_weight", rover.wheel_weight);
-  w.exact("belly_clearance_m", rover.belly_clearance_m);
-  w.exact("body_length_m", rover.body_length_m).exact("body_width_m", rover.body_width_m);
-  w.angle_deg("max_tilt_deg", rover.max_tilt_rad).exact("cruise_speed_m_s", rover.cruise_speed_m_s);
-  w.angle_deg("turn_rate_deg_s", rover.turn_rate_rad_s).exact("min_turn_radius_m", rover.min_turn_radius_m);
+  write_fields(w, sim::closure_fields(), rover);
+  write_fields(w, sim::body_fields(), rover);
   if (!rover.effects.empty()) write_effects(w, rover.effects);
   w.end_object();
 }
 
 void write_campaign_rover(Writer& w, const sim::RoverModel& rover) {
-  w.begin_object().text("name", rover.name).exact("mass_kg", rover.mass_kg);
+  w.begin_object().text("name", rover.name);
+  write_fields(w, sim::mass_fields(), rover);
   write_point(w, "com_m", rover.com_m);
   write_wheels(w, rover);
   write_suspension(w, rover);

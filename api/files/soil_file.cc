@@ -1,11 +1,14 @@
 #include "api/files/soil_file.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <array>
 
+#include "api/files/model_fields.h"
 #include "api/json/faults.h"
 #include "api/json/parse.h"
 #include "api/json/strict_reader.h"
+#include "core/angle.h"
 
 namespace slipway::api::json {
 namespace {
@@ -15,14 +18,36 @@ constexpr std::size_t kMostSoils = 1000;
 constexpr std::array<std::string_view, sim::kSoilDims> kQuantities{"stiffness", "n", "cohesion",
                                                                    "friction_angle", "shear_modulus"};
 
-void read_std(ObjectReader& reader, sim::SoilStd& std) {
+// The keys of a soil's spread, in the order of sim::SoilNormals; slip_ratio is that of a slip curve.
+constexpr std::array kSpread{
+    ModelField<sim::SoilStd>{
+        .field = {"stiffness_ratio", "1", "of both moduli of sinkage, over their mean", 0.0, 2.0},
+        .number = [](sim::SoilStd& s) -> double& { return s.stiffness_ratio; }},
+    ModelField<sim::SoilStd>{.field = {"n", "1", "of the exponent of sinkage", 0.0, 1.0},
+                             .number = [](sim::SoilStd& s) -> double& { return s.n; }},
+    ModelField<sim::SoilStd>{.field = {"cohesion_pa", "Pa", "of the cohesion", 0.0, 1e6},
+                             .number = [](sim::SoilStd& s) -> double& { return s.cohesion_pa; }},
+    ModelField<sim::SoilStd>{.field = {"friction_angle_deg", "deg", "of the friction angle", 0.0, 30.0},
+                             .number = [](sim::SoilStd& s) -> double& { return s.friction_angle_rad; },
+                             .kept_as = KeptAs::kRadians},
+    ModelField<sim::SoilStd>{
+        .field = {"shear_modulus_ratio", "1", "of both shear moduli, over their mean", 0.0, 2.0},
+        .number = [](sim::SoilStd& s) -> double& { return s.shear_modulus_ratio; }},
+};
+constexpr std::array kSlipSpread{
+    ModelField<sim::SoilStd>{.field = {"slip_ratio", "1", "of the slip at every slope", 0.0, 1.0},
+                             .number = [](sim::SoilStd& s) -> double& { return s.slip_ratio; }},
+};
+
+std::span<const ModelField<sim::SoilStd>> spread_of(const sim::Soil& soil) {
+  if (soil.slip_curve != nullptr) return kSlipSpread;
+  return kSpread;
+}
+
+void read_std(ObjectReader& reader, const sim::Soil& mean, sim::SoilStd& std) {
   auto object = reader.object("std", kRequired);
   if (!object) return;
-  object->number("stiffness_ratio", kRequired, {"1", 0.0, 2.0}, std.stiffness_ratio);
-  object->number("n", kRequired, {"1", 0.0, 1.0}, std.n);
-  object->number("cohesion_pa", kRequired, {"Pa", 0.0, 1e6}, std.cohesion_pa);
-  object->angle_deg("friction_angle_deg", kRequired, {"deg", 0.0, 30.0}, std.friction_angle_rad);
-  object->number("shear_modulus_ratio", kRequired, {"1", 0.0, 2.0}, std.shear_modulus_ratio);
+  read_fields(*object, spread_of(mean), kRequired, std);
   object->refuse_unknown();
 }
 
@@ -51,10 +76,15 @@ void read_correlation(ObjectReader& reader, sim::SoilCorrelation& correlation) {
 void check_soil(ObjectReader& reader, const sim::SoilDistribution& soil) {
   constexpr double kNarrowestWheel_m = 0.05;
   constexpr double kWidestWheel_m = 0.6;
+  if (soil.mean.slip_curve != nullptr) return;
   for (const double width_m : {kNarrowestWheel_m, kWidestWheel_m}) {
-    if (soil.mean.pressure.stiffness(width_m) > 0.0) continue;
-    reader.fault("k_phi", "k_c / b + k_phi is not positive for a wheel of width b = " +
-                              std::to_string(width_m) + " m");
+    if (soil.mean.pressure_form({.width_m = width_m, .radius_m = width_m}).stiffness > 0.0) continue;
+    if (soil.mean.pressure_law.row == nullptr)
+      reader.fault("k_phi", "k_c / b + k_phi is not positive for a wheel of width b = " +
+                                std::to_string(width_m) + " m");
+    else
+      reader.fault("pressure_law", "the pressure is not positive under a wheel of width b = " +
+                                       std::to_string(width_m) + " m");
   }
   if (soil.mean.cohesion_pa == 0.0 && soil.std.cohesion_pa > 0.0) {
     reader.fault("std", "cohesion_pa = 0 Pa can't have a spread: draws are log-normal");
@@ -65,86 +95,177 @@ void check_soil(ObjectReader& reader, const sim::SoilDistribution& soil) {
   }
 }
 
-void read_soil(const Element& element, sim::SoilDistribution& soil, std::vector<Fault>& faults) {
+// The row that "pressure_law" or "shear_law" names, with the numbers of its fields; no row where none or the
+// first is named, by which a soil is computed anyway.
+template <class Law>
+const Law* read_law(ObjectReader& reader, std::string_view key, std::span<const Law* const> laws,
+                    sim::LawParameters& parameters) {
+  auto object = reader.object(key, kOptional);
+  if (!object) return nullptr;
+  std::vector<std::string_view> names;
+  for (const Law* law : laws) names.push_back(law->name);
+  std::size_t chosen = 0;
+  if (!object->choice("name", kRequired, names, chosen)) return nullptr;  // its other keys depend on it
+  const Law& law = *laws[chosen];
+  for (std::size_t i = 0; i < law.fields.size(); ++i) {
+    const Field& field = law.fields[i];
+    object->number(field.name, kRequired, {field.unit, field.lowest, field.highest}, parameters[i]);
+  }
+  object->refuse_unknown();
+  return chosen == 0 ? nullptr : &law;
+}
+
+void read_soil_parameters(ObjectReader& reader, const sim::SoilFormat& format, Presence less_known,
+                          bool with_laws, sim::Soil& soil) {
+  if (with_laws) {
+    soil.pressure_law.row =
+        read_law(reader, "pressure_law", format.laws.pressure, soil.pressure_law.parameters);
+    soil.shear_law.row = read_law(reader, "shear_law", format.laws.shear, soil.shear_law.parameters);
+  }
+  for (const sim::SoilField& row : format.fields) {
+    if (is_bekker_modulus(row) && soil.pressure_law.row != nullptr) continue;
+    // Where nothing is said of it, shear across is like shear along.
+    if (row.field.name == "shear_modulus_y_m") soil.shear_modulus_y_m = soil.shear_modulus_x_m;
+    read_field(reader, row, less_known, soil);
+  }
+}
+
+void read_slip_curve(ObjectReader& reader, sim::Soil& soil) {
+  auto object = reader.object("slip_curve", kRequired);
+  if (!object) return;
+  constexpr CountRule kCount{2, 200};
+  const auto in_radians = [](std::vector<double> degrees) {
+    for (double& value : degrees) value = rad_from_deg(value);
+    return degrees;
+  };
+  const auto column = [&](std::string_view key, const NumberRule& rule) {
+    std::vector<double> values;
+    object->numbers(key, kRequired, kCount, rule, values);
+    return values;
+  };
+  const std::size_t before = reader.faults().size();
+  sim::SlipCurve curve;
+  curve.slope_rad = in_radians(column("slope_deg", {"deg", -45.0, 45.0}));
+  curve.slip_ratio = column("slip", {"1", -1.0, 1.0});
+  curve.cross_slope_rad = in_radians(column("cross_slope_deg", {"deg", 0.0, 45.0}));
+  curve.side_slip_rad = in_radians(column("side_slip_deg", {"deg", -89.0, 89.0}));
+  object->refuse_unknown();
+  if (reader.faults().size() == before)
+    for (const Fault& fault : sim::faults_of(curve))
+      reader.faults().push_back({reader.pointer() + fault.pointer, fault.message});
+  soil.slip_curve = std::make_shared<const sim::SlipCurve>(std::move(curve));
+}
+
+void read_soil(const Element& element, const sim::SoilFormat& format, sim::SoilDistribution& soil,
+               std::vector<Fault>& faults) {
   const std::size_t before = faults.size();
   ObjectReader reader(*element.value, element.pointer, faults);
   reader.text("name", kRequired, {.most = 64, .is_name = true}, soil.name);
   reader.text("summary", kRequired, {.most = 500}, soil.summary);
   reader.text("source", kRequired, {.most = 500}, soil.source);
   reader.texts("assumed", kRequired, {0, 30}, {.most = 500}, soil.assumed);
-  read_soil_parameters(reader, kRequired, soil.mean);
-  read_std(reader, soil.std);
-  read_correlation(reader, soil.correlation);
+  if (element.value->find("slip_curve") != nullptr) {
+    read_slip_curve(reader, soil.mean);
+  } else {
+    read_soil_parameters(reader, format, kRequired, true, soil.mean);
+    read_correlation(reader, soil.correlation);
+  }
+  read_std(reader, soil.mean, soil.std);
   reader.number("correlation_length_m", kRequired, {"m", 0.0, 1e4, true}, soil.correlation_length_m);
   reader.refuse_unknown();
   if (faults.size() == before) check_soil(reader, soil);
 }
 
-}  // namespace
-
-void read_soil_parameters(ObjectReader& reader, Presence less_known, sim::Soil& soil) {
-  reader.number("k_c", kRequired, {"N/m^(n+1)", -1e10, 1e10}, soil.pressure.k_c);
-  reader.number("k_phi", kRequired, {"N/m^(n+2)", -1e10, 1e11}, soil.pressure.k_phi);
-  reader.number("n", kRequired, {"1", 0.1, 3.0}, soil.pressure.n);
-  reader.number("cohesion_pa", kRequired, {"Pa", 0.0, 1e6}, soil.cohesion_pa);
-  reader.angle_deg("friction_angle_deg", kRequired, {"deg", 0.0, 60.0, true}, soil.friction_angle_rad);
-  reader.number("shear_modulus_x_m", kRequired, {"m", 0.0, 1.0, true}, soil.shear_modulus_x_m);
-  soil.shear_modulus_y_m = soil.shear_modulus_x_m;
-  reader.number("shear_modulus_y_m", kOptional, {"m", 0.0, 1.0, true}, soil.shear_modulus_y_m);
-  reader.number("density_kg_m3", less_known, {"kg/m^3", 100.0, 5000.0}, soil.density_kg_m3);
-  reader.number("c1", less_known, {"1", 0.0, 1.0}, soil.c1);
-  reader.number("c2", less_known, {"1", -1.0, 1.0}, soil.c2);
-  reader.number("n1", kOptional, {"1", 0.0, 2.0}, soil.n1);
-  reader.number("n1_skid", kOptional, {"1", 0.0, 2.0}, soil.n1_skid);
-  reader.number("n1_lateral", kOptional, {"1", 0.0, 2.0}, soil.n1_lateral);
-  reader.number("exit_angle_ratio", kOptional, {"1", 0.0, 1.0}, soil.exit_angle_ratio);
-  reader.number("shear_coupling", kOptional, {"1", 0.0, 1.0}, soil.shear_coupling);
+template <class Choice>
+void write_law(Writer& w, std::string_view key, const Choice& choice) {
+  if (choice.row == nullptr) return;
+  w.key(key).begin_object().text("name", choice.row->name);
+  for (std::size_t i = 0; i < choice.row->fields.size(); ++i)
+    w.exact(choice.row->fields[i].name, choice.parameters[i]);
+  w.end_object();
 }
 
-std::vector<sim::SoilDistribution> read_soils(ObjectReader& reader, std::string_view key, Presence presence) {
+void write_degrees(Writer& w, std::string_view key, const std::vector<double>& radians) {
+  w.key(key).begin_array();
+  for (const double value : radians) w.angle_deg(value);
+  w.end_array();
+}
+
+void write_slip_curve(Writer& w, const sim::SlipCurve& curve) {
+  w.key("slip_curve").begin_object();
+  write_degrees(w, "slope_deg", curve.slope_rad);
+  w.key("slip").begin_array();
+  for (const double slip : curve.slip_ratio) w.exact(slip);
+  w.end_array();
+  write_degrees(w, "cross_slope_deg", curve.cross_slope_rad);
+  write_degrees(w, "side_slip_deg", curve.side_slip_rad);
+  w.end_object();
+}
+
+void write_correlation(Writer& w, const sim::SoilCorrelation& correlation) {
+  w.key("correlation").begin_array();
+  for (int i = 0; i < sim::kSoilDims; ++i) {
+    for (int j = i + 1; j < sim::kSoilDims; ++j) {
+      if (correlation(i, j) == 0.0) continue;
+      w.begin_object().text("first", kQuantities[static_cast<std::size_t>(i)]);
+      w.text("second", kQuantities[static_cast<std::size_t>(j)])
+          .exact("value", correlation(i, j))
+          .end_object();
+    }
+  }
+  w.end_array();
+}
+
+}  // namespace
+
+void read_campaign_soil(ObjectReader& reader, Presence less_known, sim::Soil& soil) {
+  for (const std::string_view key : {"pressure_law", "shear_law", "slip_curve"})
+    if (reader.member(key, kOptional) != nullptr)
+      reader.fault(key,
+                   std::string(key) +
+                       " stands in a soil file only: drives are diagnosed on soils with Bekker's law and "
+                       "Janosi and Hanamoto's");
+  read_soil_parameters(reader, sim::soil_format(), less_known, false, soil);
+}
+
+std::vector<sim::SoilDistribution> read_soils(ObjectReader& reader, std::string_view key, Presence presence,
+                                              const sim::SoilFormat& format) {
   std::vector<sim::SoilDistribution> soils;
   for (const Element& element : reader.list(key, presence, {1, kMostSoils}))
-    read_soil(element, soils.emplace_back(), reader.faults());
+    read_soil(element, format, soils.emplace_back(), reader.faults());
   return soils;
 }
 
-Result<std::vector<sim::SoilDistribution>> read_soil_file(std::string_view bytes) {
+Result<std::vector<sim::SoilDistribution>> read_soil_file(std::string_view bytes,
+                                                          const sim::SoilFormat& allowed) {
   const auto document = parse(bytes);
   if (!document) return fail(document.error());
   std::vector<Fault> faults;
   ObjectReader reader(*document, "", faults);
   std::size_t format = 0;
   reader.choice("format", kRequired, {"soils/1"}, format);
-  std::vector<sim::SoilDistribution> soils = read_soils(reader, "soils", kRequired);
+  std::vector<sim::SoilDistribution> soils = read_soils(reader, "soils", kRequired, allowed);
   reader.refuse_unknown();
   if (!faults.empty()) return fail(ErrorCode::kUnreadableData, summary_of(faults), faults);
   return soils;
 }
 
-void write_soil(Writer& w, const sim::SoilDistribution& soil) {
+void write_soil(Writer& w, const sim::SoilDistribution& soil, const sim::SoilFormat& format) {
   const sim::Soil& mean = soil.mean;
   w.begin_object().text("name", soil.name).text("summary", soil.summary).text("source", soil.source);
   w.texts("assumed", soil.assumed);
-  w.exact("k_c", mean.pressure.k_c).exact("k_phi", mean.pressure.k_phi).exact("n", mean.pressure.n);
-  w.exact("cohesion_pa", mean.cohesion_pa).angle_deg("friction_angle_deg", mean.friction_angle_rad);
-  w.exact("shear_modulus_x_m", mean.shear_modulus_x_m).exact("shear_modulus_y_m", mean.shear_modulus_y_m);
-  w.exact("density_kg_m3", mean.density_kg_m3).exact("c1", mean.c1).exact("c2", mean.c2).exact("n1", mean.n1);
-  w.exact("n1_skid", mean.n1_skid).exact("n1_lateral", mean.n1_lateral);
-  w.exact("exit_angle_ratio", mean.exit_angle_ratio).exact("shear_coupling", mean.shear_coupling);
-  w.key("std").begin_object().exact("stiffness_ratio", soil.std.stiffness_ratio).exact("n", soil.std.n);
-  w.exact("cohesion_pa", soil.std.cohesion_pa).angle_deg("friction_angle_deg", soil.std.friction_angle_rad);
-  w.exact("shear_modulus_ratio", soil.std.shear_modulus_ratio).end_object();
-  w.key("correlation").begin_array();
-  for (int i = 0; i < sim::kSoilDims; ++i) {
-    for (int j = i + 1; j < sim::kSoilDims; ++j) {
-      if (soil.correlation(i, j) == 0.0) continue;
-      w.begin_object().text("first", kQuantities[static_cast<std::size_t>(i)]);
-      w.text("second", kQuantities[static_cast<std::size_t>(j)])
-          .exact("value", soil.correlation(i, j))
-          .end_object();
-    }
+  if (mean.slip_curve != nullptr) {
+    write_slip_curve(w, *mean.slip_curve);
+  } else {
+    write_law(w, "pressure_law", mean.pressure_law);
+    write_law(w, "shear_law", mean.shear_law);
+    for (const sim::SoilField& row : format.fields)
+      if (mean.pressure_law.row == nullptr || !is_bekker_modulus(row)) write_field(w, row, mean);
   }
-  w.end_array().exact("correlation_length_m", soil.correlation_length_m).end_object();
+  write_fields(w.key("std").begin_object(), spread_of(mean), soil.std);
+  w.end_object();
+  if (mean.slip_curve == nullptr) write_correlation(w, soil.correlation);
+  w.exact("correlation_length_m", soil.correlation_length_m).end_object();
 }
 
 }  // namespace slipway::api::json

@@ -120,7 +120,15 @@ class Table {
   std::vector<Fault> faults_;
 };
 
+// A file may be wrong in every cell: so many faults are reported one by one, and how many more there are.
+constexpr std::size_t kMostFaults = 100;
+
 tl::unexpected<Error> unreadable(std::string_view file, std::vector<Fault> faults) {
+  if (faults.size() > kMostFaults) {
+    const std::size_t more = faults.size() - kMostFaults;
+    faults.resize(kMostFaults);
+    faults.push_back({std::string(file), fmt::format("{} faults more like these", more)});
+  }
   return fail(ErrorCode::kUnreadableData, fmt::format("{} can't be read", file), std::move(faults));
 }
 
@@ -163,13 +171,13 @@ Result<std::vector<gap::WheelObservation>> read_wheel_tests_csv(std::string_view
   return observations;
 }
 
-Result<std::vector<gap::PlateTest>> read_plate_tests_csv(std::string_view file, std::string_view text) {
+Result<std::vector<gap::PlateRecord>> read_plate_tests_csv(std::string_view file, std::string_view text) {
   Table table(file, kPlateColumns);
   const auto rows = table.read(text);
   if (table.faults().empty() && table.has(2) == table.has(3))
     table.fault(1, table.has(2) ? "there are both columns pressure_pa and force_n: one of them is enough"
                                 : "there is no column pressure_pa or force_n");
-  std::vector<gap::PlateTest> tests;
+  std::vector<gap::PlateRecord> tests;
   std::optional<double> test;
   for (const auto& row : rows) {
     const double radius = row.values[0].value_or(1.0), sinkage = row.values[1].value_or(0.0);

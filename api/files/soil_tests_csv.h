@@ -39,6 +39,6 @@ Result<std::vector<gap::WheelObservation>> read_wheel_tests_csv(std::string_view
 // Plate tests, a sample each: plate_radius_m, sinkage_m, and pressure_pa or force_n over the plate's area.
 // Samples of one radius that follow each other are one test, and a column `test` tells more of one radius
 // apart. Samples at or above the surface are left out.
-Result<std::vector<gap::PlateTest>> read_plate_tests_csv(std::string_view file, std::string_view text);
+Result<std::vector<gap::PlateRecord>> read_plate_tests_csv(std::string_view file, std::string_view text);
 
 }  // namespace slipway::api

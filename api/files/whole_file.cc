@@ -1,27 +1,68 @@
 #include "api/files/whole_file.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <atomic>
 #include <fstream>
+#include <string_view>
 #include <system_error>
 
 namespace slipway::api {
+namespace {
 
 namespace fs = std::filesystem;
 
-Result<void> write_whole_file(const fs::path& path, const std::string& bytes) {
-  const fs::path unfinished = path.string() + std::string(kUnfinished);
-  {
-    std::ofstream stream(unfinished, std::ios::binary);
-    if (!(stream << bytes << std::flush))
-      return fail(ErrorCode::kUnwritableFile, fmt::format("cannot write {}", path.string()));
-  }
+constexpr std::string_view kUnfinished = ".slipway-part";
+
+tl::unexpected<Error> unwritable(const fs::path& path, const std::string& why) {
+  return fail(ErrorCode::kUnwritableFile, why.empty()
+                                              ? fmt::format("cannot write {}", path.string())
+                                              : fmt::format("cannot write {}: {}", path.string(), why));
+}
+
+bool written(const fs::path& path, const std::string& bytes) {
+  std::ofstream stream(path, std::ios::binary);
+  stream << bytes << std::flush;
+  stream.close();
+  return !stream.fail();
+}
+
+// Beside the file, so that it can be renamed to it, and of this process and call alone.
+fs::path unfinished_name(const fs::path& path) {
+  static std::atomic<unsigned> calls{0};
+  return path.parent_path() /
+         fmt::format(".{}.{}-{}{}", path.filename().string(), ::getpid(), ++calls, kUnfinished);
+}
+
+}  // namespace
+
+Result<void> write_whole_file(const fs::path& given, const std::string& bytes) {
   std::error_code error;
+  // Through a link the file that it leads to is written, and the link stays.
+  const fs::path path = fs::is_symlink(given, error) ? fs::weakly_canonical(given, error) : given;
+  const fs::file_status before = fs::status(path, error);
+  if (fs::is_directory(before)) return unwritable(given, "it is a folder");
+  if (fs::exists(before) && !fs::is_regular_file(before)) {
+    if (!written(path, bytes)) return unwritable(given, "");
+    return {};
+  }
+  const fs::path unfinished = unfinished_name(path);
+  if (!written(unfinished, bytes)) {
+    fs::remove(unfinished, error);
+    return unwritable(given, "");
+  }
+  if (fs::exists(before)) fs::permissions(unfinished, before.permissions(), error);
   fs::rename(unfinished, path, error);
-  if (error)
-    return fail(ErrorCode::kUnwritableFile,
-                fmt::format("cannot write {}: {}", path.string(), error.message()));
-  return {};
+  if (!error) return {};
+  const std::string why = error.message();
+  fs::remove(unfinished, error);
+  return unwritable(given, why);
+}
+
+bool is_unfinished(const fs::path& path) {
+  const std::string name = path.filename().string();
+  return name.starts_with('.') && name.ends_with(kUnfinished);
 }
 
 Result<void> make_folder(const fs::path& path) {

@@ -19,7 +19,7 @@ bool has_ended(JobState state);
 // What is known of a job, without the bytes of its request and outcome.
 struct Job {
   std::string id;    // 32 hexadecimal digits: 128 random bits, so that nobody guesses another's job
-  std::string kind;  // "plan", "prediction", "diagnosis"
+  std::string kind;  // the name of a JobKind: "plan"
   JobState state = JobState::kAccepted;
   std::string stage;            // what the work is at, a short noun phrase
   double progress = 0.0;        // of the whole, in [0, 1]

@@ -22,10 +22,9 @@ using JobWork =
     std::function<Result<std::string>(const std::string& kind, const std::string& request, Progress&)>;
 
 struct JobRunnerOptions {
-  // One list of kinds per worker thread: that worker claims only these. Short work has a worker of its own,
-  // so that it does not wait behind long work.
-  std::vector<std::vector<std::string>> workers{{"plan", "diagnosis", "prediction", "soil_estimate"},
-                                                {"prediction", "soil_estimate"}};
+  // One list of kinds per worker thread: that worker claims only these; an empty list claims every kind.
+  // Short work has a worker of its own, so that it does not wait behind long work: see worker_kinds().
+  std::vector<std::vector<std::string>> workers{{}};
   std::size_t most_unfinished = 64;  // accepted and running jobs; more are refused
   std::size_t most_kept = 1000;      // ended jobs
   int most_attempts = 5;             // a job that ends the process so often has failed

@@ -46,8 +46,8 @@ class JobStore {
   // survive. too_many_jobs when `most_unfinished` jobs are accepted or running already.
   virtual Result<Job> append(const NewJob& job, std::int64_t now, std::size_t most_unfinished) = 0;
 
-  // The oldest job of these kinds that is accepted, or running under a lease that has ended. It is running
-  // afterwards, its attempt one higher. Nothing where there is none.
+  // The oldest job of these kinds (of any kind where none is named) that is accepted, or running under a
+  // lease that has ended. It is running afterwards, its attempt one higher. Nothing where there is none.
   virtual Result<std::optional<ClaimedJob>> claim(std::string_view worker,
                                                   const std::vector<std::string>& kinds, std::int64_t now,
                                                   std::int64_t lease_until) = 0;

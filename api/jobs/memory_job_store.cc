@@ -41,7 +41,9 @@ class MemoryJobStore final : public JobStore {
     for (Entry& entry : entries_) {
       const bool free = entry.job.state == JobState::kAccepted ||
                         (entry.job.state == JobState::kRunning && entry.lease_until < now);
-      if (!free || std::find(kinds.begin(), kinds.end(), entry.job.kind) == kinds.end()) continue;
+      const bool of_kind =
+          kinds.empty() || std::find(kinds.begin(), kinds.end(), entry.job.kind) != kinds.end();
+      if (!free || !of_kind) continue;
       entry.job.state = JobState::kRunning;
       entry.job.started_ms = now;
       ++entry.job.attempt;

@@ -118,14 +118,14 @@ class SqliteJobStore final : public JobStore {
   Result<std::optional<ClaimedJob>> claim(std::string_view worker, const std::vector<std::string>& kinds,
                                           std::int64_t now, std::int64_t lease_until) override {
     return guarded(write_mutex_, [&]() -> std::optional<ClaimedJob> {
-      if (kinds.empty()) return std::nullopt;
       std::string places;
       for (std::size_t i = 0; i < kinds.size(); ++i) places += i == 0 ? "?" : ", ?";
+      const std::string of_kind = kinds.empty() ? "" : fmt::format("AND kind IN ({}) ", places);
       SqliteTransaction transaction(quick_);
       auto next = quick_.prepare(
           fmt::format("SELECT id, request FROM jobs WHERE state IN ('accepted', 'running') AND "
-                      "(state = 'accepted' OR lease_until_ms < ?) AND kind IN ({}) ORDER BY sequence LIMIT 1",
-                      places));
+                      "(state = 'accepted' OR lease_until_ms < ?) {}ORDER BY sequence LIMIT 1",
+                      of_kind));
       next.bind(now);
       for (const std::string& kind : kinds) next.bind(kind);
       if (!next.step()) return std::nullopt;

@@ -30,20 +30,20 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string in_quotes(std::string_view text) {
-  constexpr std::size_t kMostShown = 40;
-  if (text.size() <= kMostShown) return fmt::format("\"{}\"", text);
-  std::size_t end = kMostShown;
+  constexpr std::size_t kMaxShown = 40;
+  if (text.size() <= kMaxShown) return fmt::format("\"{}\"", text);
+  std::size_t end = kMaxShown;
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
   return fmt::format("\"{}...\"", text.substr(0, end));
 }
 
 std::optional<std::string> nearest(std::string_view name, const std::vector<std::string>& known) {
-  constexpr std::size_t kLongest = 64;  // a longer name is no slip of the finger
-  if (name.size() > kLongest) return std::nullopt;
+  constexpr std::size_t kMaxBytes = 64;  // longer names are not compared
+  if (name.size() > kMaxBytes) return std::nullopt;
   std::optional<std::string> best;
   std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;
   for (const std::string& candidate : known) {
-    // A unit left off is the slip that a distance misses: "max_tilt" for "max_tilt_deg".
+    // A name without its unit is far away by edits but still near: "max_tilt" for "max_tilt_deg".
     const bool begins = name.size() >= 3 && candidate.starts_with(name);
     const std::size_t distance = begins ? 1 : edit_distance(name, candidate);
     if (distance < least) {

@@ -10,10 +10,11 @@
 
 namespace slipway::api {
 
-// Text from outside as a message shows it: in quotes, cut where long, never half a UTF-8 character.
+// Text from outside as a message shows it: in quotes and shortened where it is long, never within a UTF-8
+// character.
 std::string in_quotes(std::string_view text);
 
-// Of `known`, the one that `name` was probably meant to be.
+// The name among `known` that `name` was probably meant to be; empty where none is near.
 std::optional<std::string> nearest(std::string_view name, const std::vector<std::string>& known);
 
 // "unknown rover \"mer\"; did you mean \"mer-class\"? known: fido-class, mer-class"
@@ -25,7 +26,7 @@ bool has_fault_under(const std::vector<Fault>& faults, std::string_view pointer)
 // Puts `prefix` before every pointer.
 std::vector<Fault> moved_under(std::string_view prefix, std::vector<Fault> faults);
 
-// Why a request's motor_temp_c is refused where nothing reads it; nothing where motor_temperature is on.
+// The fault of a request whose motor_temp_c has no effect; empty where the effect motor_temperature is on.
 std::optional<Fault> temperature_without_effect(const sim::RoverModel& rover,
                                                 const std::vector<sim::EffectSetting>& requested);
 

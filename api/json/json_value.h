@@ -7,8 +7,8 @@
 
 namespace slipway::api::json {
 
-// A JSON document in memory, in our own words, so that the parser's library stays behind parse.cc. Numbers
-// are doubles: every whole number up to 2^53 is exact, and no key of ours allows more.
+// A JSON document in memory in a type of Slipway's own, so that only parse.cc depends on the parser's
+// library. Numbers are doubles: every whole number up to 2^53 is exact, and no key allows larger ones.
 struct JsonValue {
   enum class Kind { kNull, kBoolean, kNumber, kString, kArray, kObject };
 
@@ -33,7 +33,7 @@ struct JsonValue {
 std::string child_pointer(std::string_view pointer, std::string_view key);
 std::string child_pointer(std::string_view pointer, std::size_t index);
 
-// The value as a fault shows it: 212, "uphill" (cut where long), a list of 3.
+// The value as a fault shows it: 212, "uphill" (shortened where it is long), a list of 3.
 std::string describe(const JsonValue& value);
 
 }  // namespace slipway::api::json

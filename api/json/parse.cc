@@ -14,8 +14,8 @@ namespace {
 
 using Library = nlohmann::json;
 
-// Builds our document from the library's events, so that its own document (which keeps the last of two equal
-// keys and lets any depth through) never exists.
+// Builds a JsonValue from the library's events. The library's own document is not used, since it keeps the
+// last of two equal keys and allows any depth.
 class Builder : public nlohmann::json_sax<Library> {
  public:
   explicit Builder(const ParseLimits& limits) : limits_(limits) {}
@@ -64,7 +64,7 @@ class Builder : public nlohmann::json_sax<Library> {
 
   JsonValue root;
   Error error;
-  std::size_t error_position = 0;  // one past the offending byte; 0: not a syntax error
+  std::size_t error_position = 0;  // one past the offending byte; 0 where the syntax is right
 
  private:
   bool number(double value) {
@@ -92,7 +92,7 @@ class Builder : public nlohmann::json_sax<Library> {
     return true;
   }
 
-  // Pointers to open values stay good: only the innermost one's elements grow.
+  // Pointers to open values stay valid, since only the innermost one's elements grow.
   JsonValue* place(JsonValue value) {
     if (++values_ > limits_.values) {
       refuse(fmt::format("more than {} values", limits_.values));

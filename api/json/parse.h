@@ -8,7 +8,7 @@
 
 namespace slipway::api::json {
 
-// What a document may cost before it is refused.
+// The maximum size of a document; a larger one is refused.
 struct ParseLimits {
   std::size_t bytes = std::size_t{1} << 20U;
   std::size_t values = 100'000;
@@ -16,9 +16,10 @@ struct ParseLimits {
   std::size_t keys = 200;  // of one object; they are compared pairwise
 };
 
-// Bytes from outside -> a document. Refused, with line and column: anything but one JSON text, NaN and
-// Infinity, numbers a double can't hold, invalid UTF-8 (malformed_json); a key given twice, deeper nesting,
-// more values (malformed_json, with a pointer); more bytes (payload_too_large).
+// Parses bytes from outside. Errors: malformed_json with line and column for anything but one JSON text, for
+// NaN and Infinity, for numbers that a double cannot hold, and for invalid UTF-8; malformed_json with a
+// pointer for a key given twice, and for nesting or numbers of values beyond the limits; payload_too_large
+// for too many bytes.
 Result<JsonValue> parse(std::string_view bytes, const ParseLimits& limits = {});
 
 }  // namespace slipway::api::json

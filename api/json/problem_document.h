@@ -11,8 +11,8 @@ namespace slipway::api::json {
 // "faults"}.
 std::string write_problem(const Error& error);
 
-// What write_problem wrote, read again: so that a stored failure is answered as it happened. Bytes that are
-// none are an internal error.
+// Reads a document of write_problem again, so that a stored failure gives the same answer later. Other bytes
+// give an internal error.
 Error read_problem(std::string_view bytes);
 
 }  // namespace slipway::api::json

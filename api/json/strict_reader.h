@@ -13,15 +13,15 @@
 
 namespace slipway::api::json {
 
-// Whether the key must be there. An optional key that is absent leaves its target as it was: the default
-// stands in the struct that is read into, and nowhere else.
+// Whether the key must be present. An absent optional key leaves its target unchanged, so that the default
+// stands only in the struct that is read into.
 enum class Presence { kRequired, kOptional };
 constexpr Presence kRequired = Presence::kRequired;
 constexpr Presence kOptional = Presence::kOptional;
 
-// What a number must be, in the unit of the boundary.
+// The range of a number, in the unit of the document.
 struct NumberRule {
-  std::string_view unit;  // "" or "1": none is shown
+  std::string_view unit;  // messages show none for "" or "1"
   double lowest = -std::numeric_limits<double>::infinity();
   double highest = std::numeric_limits<double>::infinity();
   bool above_lowest = false;  // lowest itself is refused
@@ -44,19 +44,20 @@ struct Element {
   std::string pointer;
 };
 
-// "slope_deg = 212 deg, must be in [0, 60]"; false where a fault was added and `out` left alone.
+// Reads a number or text. Returns false where it added a fault ("slope_deg = 212 deg, must be in [0, 60]")
+// and left `out` unchanged.
 bool read_number(const JsonValue& value, const std::string& pointer, std::string_view label,
                  const NumberRule& rule, double& out, std::vector<Fault>& faults);
 bool read_text(const JsonValue& value, const std::string& pointer, std::string_view label,
                const TextRule& rule, std::string& out, std::vector<Fault>& faults);
 
-// Reads one object and writes down every fault of it: wrong types, missing keys, values out of range, and (in
-// refuse_unknown, which every reader calls last) keys that nobody asked for. Nothing is clamped or converted.
+// Reads one object and collects all its faults: wrong types, missing keys, values out of range, and (in
+// refuse_unknown, which every reader calls last) unknown keys. Nothing is clamped or converted.
 class ObjectReader {
  public:
-  // A value that is no object is a fault, after which nothing is read and nothing more is said.
-  // passed_over: where given, keys that nobody asked for are written down there by their pointers instead of
-  // being faults (see refuse_unknown), in this object and in those within it.
+  // A value that is no object is one fault; nothing is read from it and no other fault is added.
+  // Where passed_over is given, unknown keys of this object and of those within it are listed there by their
+  // pointers instead of being faults (see refuse_unknown).
   ObjectReader(const JsonValue& value, std::string pointer, std::vector<Fault>& faults,
                std::vector<std::string>* passed_over = nullptr);
 
@@ -64,10 +65,10 @@ class ObjectReader {
   const std::string& pointer() const { return pointer_; }
   std::vector<Fault>& faults() const { return faults_; }
 
-  // Each returns whether `out` was set.
+  // Each of these returns whether `out` was set.
   bool number(std::string_view key, Presence presence, const NumberRule& rule, double& out);
   bool number(std::string_view key, Presence presence, const NumberRule& rule, std::optional<double>& out);
-  // Given in degrees, kept in radians.
+  // The document has degrees; `out_rad` gets radians.
   bool angle_deg(std::string_view key, Presence presence, const NumberRule& rule_deg, double& out_rad);
   bool angle_deg(std::string_view key, Presence presence, const NumberRule& rule_deg,
                  std::optional<double>& out_rad);
@@ -81,16 +82,17 @@ class ObjectReader {
   }
   bool text(std::string_view key, Presence presence, const TextRule& rule, std::string& out);
   bool boolean(std::string_view key, Presence presence, bool& out);
-  // The text must be one of `allowed`; out is its index.
+  // The text must be one of `allowed`; `out` gets its index.
   bool choice(std::string_view key, Presence presence, const std::vector<std::string_view>& allowed,
               std::size_t& out);
 
-  // The raw member, for what this class does not know; nullptr where absent (a fault when required).
+  // The member itself, for readers of other types; nullptr where it is absent, which is a fault when
+  // required.
   const JsonValue* member(std::string_view key, Presence presence);
   std::optional<ObjectReader> object(std::string_view key, Presence presence);
   // An element of a list as an object, read as this one is.
   ObjectReader object(const Element& element) const;
-  // Empty where absent or refused.
+  // The elements of a list; empty where the list is absent or refused.
   std::vector<Element> list(std::string_view key, Presence presence, const CountRule& rule);
   bool numbers(std::string_view key, Presence presence, const CountRule& count, const NumberRule& rule,
                std::vector<double>& out);
@@ -98,8 +100,8 @@ class ObjectReader {
              std::vector<std::string>& out);
 
   void fault(std::string_view key, std::string message);
-  // Faults for the keys that were not asked for, each with the nearest known one. Where such keys may be
-  // passed over, only for those that look like a required one that is missing.
+  // Adds a fault for each unknown key, with the nearest known one. Where unknown keys may be passed over,
+  // only those that look like a missing required key are faults.
   void refuse_unknown();
 
  private:

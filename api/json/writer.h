@@ -10,9 +10,9 @@
 
 namespace slipway::api::json {
 
-// Writes one JSON document, in the order it is told, so that the same values give the same bytes. A number
-// that is not finite is a broken promise and throws std::domain_error with its key: no answer of ours holds
-// NaN or a null in place of one.
+// Writes one JSON document in the order of the calls, so that the same values give the same bytes. A number
+// that is not finite throws std::domain_error with its key, since no answer may hold NaN or a null in its
+// place.
 class Writer {
  public:
   Writer& begin_object();
@@ -25,12 +25,12 @@ class Writer {
   Writer& boolean(bool value);
   Writer& null();
   Writer& whole(std::int64_t value);
-  Writer& exact(double value);         // the fewest digits that read back as the same double
+  Writer& exact(double value);         // with the fewest digits that read back as the same double
   Writer& significant(double value);   // six significant digits
   Writer& metres(double value);        // to a millimetre: map coordinates and heights
   Writer& raw(std::string_view json);  // a whole JSON value
 
-  Writer& angle_deg(double rad);  // in degrees, to twelve digits: what was 25 deg in a request is 25 again
+  Writer& angle_deg(double rad);  // in degrees with twelve digits, so that 25 deg in a request is 25 again
 
   // key and value
   Writer& text(std::string_view name, std::string_view value) { return key(name).text(value); }
@@ -50,10 +50,10 @@ class Writer {
 
   std::string out_;
   std::string last_key_;
-  bool first_ = true;  // nothing stands before in this object or array
+  bool first_ = true;  // no member or element has been written in this object or array
 };
 
-// A document as bytes again.
+// Writes a document in memory.
 void write_value(Writer& w, const JsonValue& value);
 
 }  // namespace slipway::api::json

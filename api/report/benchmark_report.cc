@@ -38,8 +38,8 @@ void write_figures(std::string& out, const std::string& title, std::span<const C
   row(out, "verdict of the right class", "", rate_words(f.verdict_right));
   row(out, "false alarm where nothing is missing", "0.03", rate_words(f.alarm_nothing));
   row(out, "false alarm where only parameters are off", "0.05", rate_words(f.alarm_parameters));
-  row(out, "unknown causes told as unknown", "", rate_words(f.unknown_reported));
-  row(out, "unknown told from known (area under ROC)", "0.85", number_words(f.unknown_auroc));
+  row(out, "unknown causes reported as unknown", "", rate_words(f.unknown_reported));
+  row(out, "unknown distinguished from known (area under ROC)", "0.85", number_words(f.unknown_auroc));
   row(out, "a wrong name with more than 0.9", "0.05", rate_words(f.confident_wrong));
   row(out, "calibration error", "0.05", number_words(f.calibration));
   row(out, "Brier score", "0.15", number_words(f.brier));

@@ -9,6 +9,7 @@
 #include "api/documents/wheel_sweep_answer.h"
 #include "api/report/sweep_chart.h"
 #include "core/angle.h"
+#include "sim/wheel/entry_angle.h"
 
 // CSV and pictures of current maps.
 namespace slipway::api {
@@ -17,21 +18,21 @@ namespace {
 struct InForce {
   std::string_view column;     // in the CSV
   std::string_view parameter;  // of a sweep
-  double (*value)(const sim::SingleWheelTest& test);
+  double (*value)(const sim::WheelRigConditions& test);
 };
 
 constexpr std::array kInForce{
-    InForce{"slip", "slip", [](const sim::SingleWheelTest& t) { return t.slip; }},
-    InForce{"load_n", "load_n", [](const sim::SingleWheelTest& t) { return t.load_n; }},
+    InForce{"slip", "slip", [](const sim::WheelRigConditions& t) { return t.slip; }},
+    InForce{"load_n", "load_n", [](const sim::WheelRigConditions& t) { return t.load_n; }},
     InForce{"k_s", "soil.k_s",
-            [](const sim::SingleWheelTest& t) { return t.soil.pressure.stiffness(t.wheel.width_m); }},
-    InForce{"n", "soil.n", [](const sim::SingleWheelTest& t) { return t.soil.pressure.n; }},
+            [](const sim::WheelRigConditions& t) { return sim::power_stiffness(t.wheel, t.soil); }},
+    InForce{"n", "soil.n", [](const sim::WheelRigConditions& t) { return t.soil.pressure.n; }},
     InForce{"cohesion_pa", "soil.cohesion_pa",
-            [](const sim::SingleWheelTest& t) { return t.soil.cohesion_pa; }},
+            [](const sim::WheelRigConditions& t) { return t.soil.cohesion_pa; }},
     InForce{"friction_angle_deg", "soil.friction_angle_deg",
-            [](const sim::SingleWheelTest& t) { return deg_from_rad(t.soil.friction_angle_rad); }},
+            [](const sim::WheelRigConditions& t) { return deg_from_rad(t.soil.friction_angle_rad); }},
     InForce{"shear_modulus_x_m", "soil.shear_modulus_x_m",
-            [](const sim::SingleWheelTest& t) { return t.soil.shear_modulus_x_m; }},
+            [](const sim::WheelRigConditions& t) { return t.soil.shear_modulus_x_m; }},
 };
 
 // Axes that are none of the columns above get one of their own.

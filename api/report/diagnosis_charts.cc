@@ -63,12 +63,12 @@ std::string draw_explanations(const Diagnosis& d) {
   std::size_t rank = 0;
   for (const gap::ComparedSet& set : json::compared_sets(d)) {
     ++rank;
-    const bool ends = set.effects.empty() || set.effects == std::vector<std::string>{"unknown"};
+    const bool ends = set.effects.empty();  // nothing missing, or something unknown alone
     if (rank > kMostExplanations && !ends) continue;
     const std::size_t index = chart.x.categories.size();
     const auto at = static_cast<double>(index);
-    const std::string name =
-        set.effects.empty() ? "nothing missing" : fmt::format("{}", fmt::join(set.effects, " + "));
+    const std::vector<std::string> names = gap::names_of(set);
+    const std::string name = names.empty() ? "nothing missing" : fmt::format("{}", fmt::join(names, " + "));
     chart.x.categories.push_back(fmt::format("{}", rank));
     add_bar(chart, fmt::format("{}: {}", rank, name), at, 0.0, set.probability, index);
     ChartSeries top = series_of("", ChartMark::kLine, index);

@@ -86,6 +86,7 @@ class Report {
     write_next();
     write_model();
     write_notes();
+    write_options();
     return std::move(page_);
   }
 
@@ -123,9 +124,9 @@ class Report {
         {"explanation", "probability", "estimated parameters", "held-out score", "chosen by resamples"});
     std::size_t shown = 0;
     for (const gap::ComparedSet& set : json::compared_sets(d_)) {
-      const bool ends = set.effects.empty() || set.effects == std::vector<std::string>{"unknown"};
+      const bool ends = set.effects.empty();  // nothing missing, or something unknown alone
       if (++shown > kMostCandidates && !ends) continue;
-      page_.row({set_words(set.effects), probability_words(set.probability),
+      page_.row({set_words(gap::names_of(set)), probability_words(set.probability),
                  fmt::format("{}", set.complexity),
                  set.held_out_score ? number_words("{:+.2f}", *set.held_out_score) : "",
                  fmt::format("{:.0f} %", 100.0 * set.chosen_share)});
@@ -213,7 +214,7 @@ class Report {
     for (const gap::Regime& regime : regimes) {
       std::vector<std::string> conditions;
       for (const gap::Condition& c : regime.conditions)
-        conditions.push_back(fmt::format("{} {:.3g} to {:.3g}", c.variable, c.from, c.to));
+        conditions.push_back(fmt::format("{} {:.3g} to {:.3g}", gap::name_of(c.variable), c.from, c.to));
       page_.row({fmt::format("{}", ++number), std::string(gap::name_of(regime.channel)),
                  fmt::format("{}", fmt::join(conditions, " and ")),
                  fmt::format("{:.0f} %", 100.0 * regime.share_of_gap),
@@ -339,6 +340,23 @@ class Report {
                     n.stiffness, n.friction, n.shear_modulus, n.within_drives));
     page_.item(fmt::format("Slipway {}, seed {}, campaign fingerprint {}", version(), d_.seed,
                            d_.campaign_fingerprint));
+  }
+
+  // What the answer depends on besides the drives, a row a step.
+  void write_options() {
+    if (d_.options.empty()) return;
+    page_.section("Options");
+    page_.paragraph(
+        "The numbers that this answer depends on besides the drives, by the step that uses them.");
+    page_.table({"step", "options"});
+    for (std::size_t i = 0; i < d_.options.size();) {
+      const std::string_view step = d_.options[i].step;
+      std::string words;
+      for (; i < d_.options.size() && d_.options[i].step == step; ++i)
+        words += fmt::format("{}{} {:.6g}", words.empty() ? "" : ", ", d_.options[i].name,
+                             fmt::join(d_.options[i].values, " / "));
+      page_.row({std::string(step), words});
+    }
   }
 
   const gap::DriveCampaign& campaign_;

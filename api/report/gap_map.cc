@@ -36,13 +36,13 @@ constexpr std::array kLevels{Level{1.25, "#1a9850", "as the noise (below 1.25)"}
                              Level{4.0, "#d7191c", "2.5 to 4"},
                              Level{1e300, "#67001f", "above 4 deviations"}};
 
-struct FidelityLevel {
+struct LadderStep {
   const char* words;
   double WindowGap::*value;
 };
-constexpr std::array kLevels{FidelityLevel{"nominal", &WindowGap::nominal},
-                             FidelityLevel{"re-tuned", &WindowGap::retuned},
-                             FidelityLevel{"with effects", &WindowGap::with_effects}};
+constexpr std::array kLadder{LadderStep{"nominal", &WindowGap::nominal},
+                             LadderStep{"re-tuned", &WindowGap::retuned},
+                             LadderStep{"with effects", &WindowGap::with_effects}};
 
 std::size_t level_of(double deviations) {
   std::size_t k = 0;
@@ -98,10 +98,10 @@ std::string hillshade_in(const sim::Ground& ground, const Frame& frame) {
 
 // Beside the largest differences the rest is faint: they are drawn last.
 std::string windows_in(const std::vector<const WindowGap*>& windows, const Frame& frame,
-                       const FidelityLevel& rung) {
+                       const LadderStep& step) {
   std::array<std::string, kLevels.size()> paths;
   for (const WindowGap* window : windows) {
-    const double value = window->*rung.value;
+    const double value = window->*step.value;
     if (!std::isfinite(value) || window->stations.empty()) continue;
     std::string& path = paths[level_of(value)];
     const Pose2& first = window->stations.front();
@@ -180,7 +180,7 @@ std::string draw_gap_map(const gap::DriveCampaign& campaign, const gap::Diagnosi
   for (const WindowGap& window : d.window_gaps) windows.at(window.terrain).push_back(&window);
   const std::vector<std::size_t> shown = shown_terrains(windows);
   if (shown.empty()) return {};
-  const std::size_t rungs = d.effects.empty() ? 2 : kLevels.size();
+  const std::size_t steps = d.effects.empty() ? 2 : kLadder.size();
   const double row_px = kRowTitle_px + kMapHeight_px + kGap_px;
   const double width = 2.0 * kLeft_px + 3.0 * kMap_px + 2.0 * kGap_px,
                legend_top = kTitle_px + row_px * static_cast<double>(shown.size()) + 12.0;
@@ -209,14 +209,14 @@ std::string draw_gap_map(const gap::DriveCampaign& campaign, const gap::Diagnosi
             "stroke-width=\"2\" stroke-dasharray=\"5 3\"/>\n",
             frame.x(place.x_m), frame.y(place.y_m), frame.px_per_m * place.radius_m);
     const std::string ground = terrain.ground ? hillshade_in(*terrain.ground, frame) : std::string();
-    for (std::size_t k = 0; k < rungs; ++k) {
+    for (std::size_t k = 0; k < steps; ++k) {
       const double left = kLeft_px + (kMap_px + kGap_px) * static_cast<double>(k);
       out += fmt::format(
           "<text x=\"{:.0f}\" y=\"{:.0f}\" font-weight=\"bold\">{}</text>\n<g transform=\"translate({:.0f} "
           "{:.0f})\"><g clip-path=\"url(#map)\">\n",
-          left, top + 16.0, xml_text(fmt::format("{}, {}", terrain.name, kLevels[k].words)), left,
+          left, top + 16.0, xml_text(fmt::format("{}, {}", terrain.name, kLadder[k].words)), left,
           top + kRowTitle_px);
-      out += ground + windows_in(windows[t], frame, kLevels[k]) + places + scale_bar(frame);
+      out += ground + windows_in(windows[t], frame, kLadder[k]) + places + scale_bar(frame);
       out += fmt::format("</g><rect width=\"{:.0f}\" height=\"{:.0f}\" fill=\"none\" stroke=\"#888\"/></g>\n",
                          kMap_px, kMapHeight_px);
     }

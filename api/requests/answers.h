@@ -15,16 +15,16 @@
 
 namespace slipway::api {
 
-// What an answer rests on, so that it can be repeated and defended. Nothing in it depends on time or machine.
+// The inputs of an answer, so that it can be repeated and checked. They do not depend on time or machine.
 struct Provenance {
   std::string terrain_title;
   std::string terrain_fingerprint;  // of the heights in the window that was read
   std::string crs_name;
   std::string body;
   double gravity_m_s2 = 0.0;
-  std::string soil_assumption;     // why the mapped classes are believed to be these soils
+  std::string soil_assumption;     // why the mapped classes are assumed to be these soils
   std::vector<std::string> soils;  // by the index in the stations
-  std::string unknown_soil;        // believed where no map names a soil
+  std::string unknown_soil;        // assumed where no map names a soil
   std::uint64_t seed = 1;
 };
 
@@ -38,7 +38,7 @@ struct PredictionAnswer {
   PredictionRequest request;
   Provenance provenance;
   sim::DrivePrediction prediction;
-  std::optional<planner::DynamicVerification> dynamic;  // where that rung was asked for
+  std::optional<planner::DynamicVerification> dynamic;  // where the dynamic level was requested
 };
 
 struct DiagnosisAnswer {
@@ -47,7 +47,7 @@ struct DiagnosisAnswer {
   gap::Diagnosis diagnosis;
 };
 
-// What the ground is at one point.
+// The ground at one point.
 struct GroundAt {
   double x_m = 0.0;
   double y_m = 0.0;
@@ -57,7 +57,7 @@ struct GroundAt {
   std::optional<double> roughness_m;  // RMS distance to the plane through the cells within the radius
   double roughness_radius_m = 0.0;
   std::optional<std::string> label;  // of the mapped class
-  std::optional<std::string> soil;   // nothing: unknown ground
+  std::optional<std::string> soil;   // empty on unknown ground
 };
 
 }  // namespace slipway::api

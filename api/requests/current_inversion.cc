@@ -25,11 +25,11 @@ void check_parameter(std::string_view name, const std::optional<double>& value, 
 
 std::vector<Fault> faults_of(const CurrentInversionRequest& request) {
   std::vector<Fault> faults = moved_under("/effects", sim::faults_of(request.effects));
-  constexpr double kMostAmperes = 1000.0;
-  constexpr int kMostDraws = 10'000;
-  check_number("current_a", request.current_a, -kMostAmperes, kMostAmperes, faults);
+  constexpr double kMaxAmperes = 1000.0;
+  constexpr int kMaxDraws = 10'000;
+  check_number("current_a", request.current_a, -kMaxAmperes, kMaxAmperes, faults);
   check_number("max_slip", request.options.max_slip, 0.0, 1.0, faults);
-  check_number("draws", request.options.draws, 1, kMostDraws, faults);
+  check_number("draws", request.options.draws, 1, kMaxDraws, faults);
   check_parameter("load_n", request.load_n, faults);
   check_parameter("gravity_m_s2", request.gravity_m_s2, faults);
   check_parameter("speed_m_s", request.speed_m_s, faults);
@@ -37,7 +37,7 @@ std::vector<Fault> faults_of(const CurrentInversionRequest& request) {
   return faults;
 }
 
-// Rover and wheel into the rig, and what they give the request.
+// Puts the rover's wheel on the rig, and fills in the defaults that rover and wheel give the request.
 void settle(const sim::RoverModel& rover, CurrentInversionRequest& request, sim::WheelRig& rig,
             std::vector<Fault>& faults) {
   rig.rover = rover;
@@ -53,6 +53,8 @@ void settle(const sim::RoverModel& rover, CurrentInversionRequest& request, sim:
   if (!request.load_n)
     request.load_n = rover.mass_kg * request.gravity_m_s2 / static_cast<double>(rover.wheels.size());
   if (!request.speed_m_s) request.speed_m_s = rover.cruise_speed_m_s;
+  if (request.motor_temp_c)
+    if (auto fault = temperature_without_effect(rover, request.effects)) faults.push_back(*std::move(fault));
   rig.effects = request.effects;
   rig.motor_temp_c = request.motor_temp_c;
   rig.test.load_n = *request.load_n;
@@ -74,10 +76,14 @@ Result<CurrentInversion> invert_current(const Catalogue& catalogue, const Curren
   const auto soil = catalogue.soils.find(request.soil);
   if (soil == catalogue.soils.end())
     faults.push_back({"/soil", unknown_name("soil", request.soil, names_of(catalogue.soils))});
+  else if (soil->second.mean.slip_curve != nullptr)
+    faults.push_back(
+        {"/soil", fmt::format("{} is known by a slip curve alone, which says nothing of a wheel's current",
+                              request.soil)});
   if (!faults.empty()) return fail(ErrorCode::kInvalidRequest, summary_of(faults), faults);
   sim::SoilDistribution belief = soil->second;
   sim::apply_effects(sim::in_force(rig.rover.effects, rig.effects), belief.mean);
-  inversion.answer = sim::invert_current(sim::test_of(rig), belief, request.current_a, request.options);
+  inversion.answer = sim::invert_current(sim::conditions_of(rig), belief, request.current_a, request.options);
   return inversion;
 }
 

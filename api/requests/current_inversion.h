@@ -11,16 +11,17 @@
 
 namespace slipway::api {
 
-// Which slip does a wheel's measured current mean, and how much pull is left?
+// The question which slip a wheel's measured current means, and how much pull is left. Empty values stand for
+// defaults.
 struct CurrentInversionRequest {
   std::string rover;
-  std::string wheel;  // "": the rover's first
+  std::string wheel;  // the rover's first where it is empty
   std::string soil;
   double current_a = 0.0;
-  std::optional<double> load_n;  // nothing: an equal share of the rover's weight
+  std::optional<double> load_n;  // an equal share of the rover's weight where it is empty
   double gravity_m_s2 = 3.71;
-  std::optional<double> speed_m_s;     // of the rim; nothing: the rover's cruise speed
-  std::optional<double> motor_temp_c;  // nothing: what the motor is given at
+  std::optional<double> speed_m_s;     // of the rim; the rover's cruise speed where it is empty
+  std::optional<double> motor_temp_c;  // the motor's reference temperature where it is empty
   std::vector<sim::EffectSetting> effects;
   sim::InverseOptions options;
 };

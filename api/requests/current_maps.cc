@@ -15,7 +15,7 @@ std::string soil_name(int simulant, std::string_view state) {
   return fmt::format("jlu_mars_{}_{}", simulant, state);
 }
 
-// The rig of rover, soil and options, with the load settled; all faults together.
+// Makes the rig from rover, soil and options, with the load filled in; reports all faults together.
 Result<sim::WheelRig> rig_of(const Catalogue& catalogue, CurrentMapOptions& options,
                              const std::string& soil) {
   std::vector<Fault> faults;
@@ -36,6 +36,7 @@ Result<sim::WheelRig> rig_of(const Catalogue& catalogue, CurrentMapOptions& opti
     faults.push_back({"/soil", unknown_name("soil", soil, names_of(catalogue.soils))});
   } else {
     rig.soil = found->second.mean;
+    rig.soil_format = catalogue.soil_format;
   }
   rig.test.gravity_m_s2 = options.gravity_m_s2;
   rig.test.slip = options.slip;
@@ -43,7 +44,7 @@ Result<sim::WheelRig> rig_of(const Catalogue& catalogue, CurrentMapOptions& opti
   return rig;
 }
 
-// Numbers that are given beside the axes hold to the axes' ranges.
+// Numbers beside the axes must be in the same ranges as the axes' values.
 std::vector<Fault> faults_of(const CurrentMapOptions& options) {
   std::vector<Fault> faults;
   const auto check = [&](std::string_view name, double value) {
@@ -65,8 +66,12 @@ Result<CurrentPanel> panel_of(const Catalogue& catalogue, CurrentMapOptions& opt
   auto rig = rig_of(catalogue, options, soil);
   if (!rig) return fail(rig.error());
   const sim::WheelSweep sweep{std::move(*rig), std::move(axes)};
-  if (auto faults = sim::faults_of(sweep); !faults.empty())
-    return fail(ErrorCode::kInvalidRequest, summary_of(faults), faults);
+  std::vector<Fault> faults = sim::faults_of(sweep);
+  if (options.model == sim::CurrentModel::kLiteral && sweep.rig.soil.pressure_law.row != nullptr)
+    faults.push_back(
+        {"/soil", fmt::format("{} has another pressure law than Bekker's, which the paper's equations are of",
+                              in_quotes(soil))});
+  if (!faults.empty()) return fail(ErrorCode::kInvalidRequest, summary_of(faults), faults);
   CurrentPanel panel;
   panel.soil = soil;
   panel.points = sim::run_current_map(sweep, options.model);

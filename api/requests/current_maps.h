@@ -11,12 +11,12 @@
 
 namespace slipway::api {
 
-// What maps of the drive current have in common.
+// Options that all maps of the drive current have.
 struct CurrentMapOptions {
-  std::string rover = "zhurong-class";  // its first wheel
-  std::optional<double> load_n;         // nothing: an equal share of the rover's weight
+  std::string rover = "zhurong-class";  // whose first wheel is used
+  std::optional<double> load_n;         // an equal share of the rover's weight where it is empty
   double gravity_m_s2 = 9.81;           // the paper's soils were measured, and its rover driven, on Earth
-  double slip = 0.1;                    // where no axis is slip
+  double slip = 0.1;                    // used where no axis is slip
   sim::CurrentModel model = sim::CurrentModel::kLiteral;
 };
 
@@ -24,15 +24,15 @@ struct CurrentMapOptions {
 struct CurrentPanel {
   std::string name;   // "a1"
   std::string title;  // "JLU Mars 1 shear parameters, n"
-  std::string soil;   // whose parameters are not varied
+  std::string soil;   // gives the parameters that are not varied
   std::vector<sim::SweepAxis> axes;
   std::vector<sim::CurrentPoint> points;
 };
 
 struct CurrentMaps {
   std::string title;
-  int figure = 0;             // of the Zhurong paper; 0: none of them
-  CurrentMapOptions options;  // with the load that defaults gave
+  int figure = 0;             // number of the Zhurong paper's figure, 0 for other maps
+  CurrentMapOptions options;  // with the load filled in
   std::vector<CurrentPanel> panels;
 };
 

@@ -6,10 +6,10 @@
 
 namespace slipway::api {
 
-// POST /v1/diagnoses: what do these recorded drives show that the simulator lacks?
+// POST /v1/diagnoses asks which effects these recorded drives show that the simulator lacks.
 struct DiagnosisRequest {
   std::string campaign;              // one that the service ships
-  std::vector<std::string> without;  // effects that are not looked for
+  std::vector<std::string> without;  // effects that are left out of the search
   std::uint64_t seed = 1;
 };
 

@@ -15,21 +15,24 @@ namespace {
 std::vector<std::string> notes_of(const gap::DriveCampaign& campaign, const ModelFolder& model,
                                   const gap::ModelCheck& check) {
   std::vector<std::string> notes{
-      "Intervals of the corrected prediction hold what the diagnosis left open of soils, closures, motors "
-      "and effects, the scatter of drives and windows as it was in its campaign, and these drives' sensors; "
-      "not what the laws have wrong."};
+      "Intervals of the corrected prediction account for the uncertainty that the diagnosis left in soils, "
+      "closures, motors and effects, for the scatter of drives and windows as it was in its campaign, and "
+      "for "
+      "these drives' sensors; they do not account for errors of the laws."};
   if (!model.model.left_open)
     notes.emplace_back(
-        "The model does not say what its drives left open (model.json has no \"left_open\"): the intervals "
-        "hold scatter and sensors alone.");
+        "The model does not state the uncertainty that its drives left (model.json has no \"left_open\"): "
+        "the "
+        "intervals account for scatter and sensors alone.");
   if (!model.model.noise)
     notes.emplace_back(
-        "The model does not say what its drives scattered by (model.json has no \"noise\"): what is usual is "
-        "taken.");
+        "The model does not state the scatter of its drives (model.json has no \"noise\"): the usual scatter "
+        "is "
+        "assumed.");
   const auto other_values = [&](std::string_view what, const std::string& name) {
     notes.push_back(
-        fmt::format("The {} {} has other nominal values here than in the campaign that the model was made "
-                    "of: what is told as corrected is of the model's.",
+        fmt::format("The {} {} has other nominal values here than in the campaign from which the model was "
+                    "made: the corrected predictions use the model's.",
                     what, in_quotes(name)));
   };
   if (!model.rover_digest.empty() && model.rover_digest != digest_of(*campaign.rover))
@@ -40,10 +43,11 @@ std::vector<std::string> notes_of(const gap::DriveCampaign& campaign, const Mode
           model.soil_digests[s] != digest_of(soil))
         other_values("soil", soil.name);
   if (model.campaign == campaign.name)
-    notes.push_back(fmt::format(
-        "The model was corrected with a campaign that is called {} too: if these are the drives that it was "
-        "fitted to, the figures say nothing of drives to come.",
-        in_quotes(campaign.name)));
+    notes.push_back(
+        fmt::format("The model was corrected with a campaign that is called {} too: if these are the drives "
+                    "to which it was "
+                    "fitted, the figures do not apply to future drives.",
+                    in_quotes(campaign.name)));
   if (check.unanswered_nominal + check.unanswered_corrected > 0)
     notes.push_back(fmt::format(
         "Left out: values for which a model says that the rover would not move ({} by the nominal, {} by the "
@@ -51,7 +55,7 @@ std::vector<std::string> notes_of(const gap::DriveCampaign& campaign, const Mode
         check.unanswered_nominal, check.unanswered_corrected));
   if (std::any_of(check.channels.begin(), check.channels.end(),
                   [](const gap::ChannelCheck& c) { return c.drives < gap::kLeastDrives; }))
-    notes.push_back(fmt::format("Of fewer than {} drives, repeats counted once, no interval is told.",
+    notes.push_back(fmt::format("Channels with fewer than {} drives, repeats counted once, have no interval.",
                                 gap::kLeastDrives));
   return notes;
 }

@@ -11,21 +11,20 @@
 
 namespace slipway::api {
 
-// What is believed of a campaign's rover and soils by a model that was corrected with another campaign. The
-// soils are the model's by the names that they had there, or where they are among `ground`. Errors:
-// invalid_request with every name that the model does not stand in for, at /rover/name, /soils/NAME and
-// /ground/I.
+// The rover and soils of a campaign according to a model that was corrected with another campaign. A soil is
+// replaced by the model's where it has the name that it had there, or where it is among `ground`. Errors:
+// invalid_request with every name that the model does not replace, at /rover/name, /soils/NAME and /ground/I.
 Result<gap::CorrectedBelief> belief_of(const gap::DriveCampaign& campaign, const ModelFolder& model,
                                        const std::vector<std::string>& ground);
 
 struct ModelCheckAnswer {
-  std::string campaign, fingerprint;  // whose drives were told
+  std::string campaign, fingerprint;  // of the campaign whose drives were predicted
   std::string corrected_with;         // the model's campaign
   std::string rover;                  // the corrected one
   std::vector<std::string> soils;
   std::uint64_t seed = 1;
   gap::ModelCheck check;
-  std::vector<std::string> notes;  // what the intervals hold, what was left out
+  std::vector<std::string> notes;  // what the intervals account for, and what was left out
 };
 
 // Errors: those of belief_of; cancelled.

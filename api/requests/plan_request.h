@@ -23,8 +23,8 @@ struct RequestedModel {
   std::shared_ptr<const ModelFolder> corrected;
 };
 
-// What a drive is predicted with, whether its path is planned or given. The defaults are those of the rooms
-// below.
+// The assumptions with which a drive is predicted, whether its path is planned or given. The defaults are
+// those of the libraries below.
 struct DriveAssumptions {
   sim::DriveLimits limits;
   sim::DriveConditions conditions;
@@ -32,11 +32,11 @@ struct DriveAssumptions {
   sim::FailedWheels failed_wheels;
   int draws = sim::RiskOptions{}.draws;
   std::uint64_t seed = 1;
-  std::optional<double> speed_m_s;      // nothing: the rover's cruise speed
-  std::optional<RequestedModel> model;  // nothing: rover and soils as the catalogue has them
+  std::optional<double> speed_m_s;      // the rover's cruise speed where it is empty
+  std::optional<RequestedModel> model;  // where it is empty, rover and soils are the catalogue's
 };
 
-// POST /v1/plans: how do we get from start to goal?
+// POST /v1/plans asks for routes from start to goal.
 struct PlanRequest {
   std::string terrain;
   std::string rover;
@@ -45,20 +45,20 @@ struct PlanRequest {
   std::vector<planner::Polygon> keep_out;
   planner::Weights weights;
   int routes = planner::PlanProblem{}.routes;
-  std::vector<std::string> planners;           // empty: the catalogue's default set
-  int verify = planner::PlanProblem{}.verify;  // of the best routes in the dynamic rung
+  std::vector<std::string> planners;           // the catalogue's default set where it is empty
+  int verify = planner::PlanProblem{}.verify;  // number of the best routes to simulate at the dynamic level
   DriveAssumptions drive;
 };
 
-// What a request's reader found: all that could be read, and every fault. With faults, the request is only
-// good for finding more of them.
+// The outcome of reading a request: everything that could be read, and every fault. A request with faults
+// serves only to find more of them.
 template <class Request>
 struct Reading {
   Request request;
   std::vector<Fault> faults;
 };
 
-// What one request may ask for: more is refused by the readers.
+// The maximum sizes of one request; the readers refuse larger ones.
 struct RequestLimits {
   static constexpr std::size_t kBodyBytes = std::size_t{1} << 20U;
   static constexpr std::size_t kWaypoints = 50;
@@ -66,6 +66,7 @@ struct RequestLimits {
   static constexpr std::size_t kKeepOutCorners = 500;
   static constexpr std::size_t kPathCorners = 2000;
   static constexpr double kPathLength_m = 20'000.0;
+  static constexpr double kLeastSpeed_m_s = 1e-4;  // slower drives take longer than any mission
   static constexpr int kRoutes = 8;
   static constexpr int kDraws = 500;
 };

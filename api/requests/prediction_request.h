@@ -7,13 +7,13 @@
 
 namespace slipway::api {
 
-// How closely a drive is looked at.
+// The fidelity level at which a drive is predicted.
 enum class FidelityLevel {
   kQuasiStatic,
-  kDynamic,  // besides the quasi-static one
+  kDynamic,  // in addition to the quasi-static level
 };
 
-// POST /v1/predictions: what do the wheels do on this path?
+// POST /v1/predictions asks what the wheels do on this path.
 struct PredictionRequest {
   std::string terrain;
   std::string rover;

@@ -16,7 +16,29 @@
 namespace slipway::api {
 namespace {
 
-constexpr std::size_t kMostName = 40;
+constexpr std::size_t kMostName = 40, kMostText = 480;
+
+// At most so many bytes, without a character of UTF-8 that is cut in its middle.
+std::string shortened(const std::string& text, std::size_t most) {
+  if (text.size() <= most) return text;
+  std::size_t end = most;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
+  return text.substr(0, end);
+}
+
+// What a soil file takes for a name: small letters, digits, - and _. Anything else, a whole character of
+// UTF-8 at a time, becomes one _.
+std::string file_name_of(const std::string& name) {
+  std::string out;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if ((byte & 0xC0) == 0x80) continue;
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+    const bool capital = c >= 'A' && c <= 'Z';
+    out += plain ? c : capital ? static_cast<char>(c - 'A' + 'a') : '_';
+  }
+  return out.substr(0, kMostName);
+}
 
 void check(std::string_view name, const std::optional<double>& value, double lowest, double highest,
            std::string_view unit, std::vector<Fault>& faults) {
@@ -42,8 +64,8 @@ bool measures_current(const gap::SoilData& data) {
   });
 }
 
-// Another name for other numbers: "dry_sand-3f9a2c". What the data do not determine is said with it: the soil
-// may be planned with far from the estimate's own words.
+// The estimated soil gets a name of its own for its numbers, "dry_sand-3f9a2c". Its summary states what the
+// data do not determine, since the soil may be used for planning without the rest of the estimate.
 void name_posterior(gap::SoilEstimate& estimate, const std::string& nominal, const std::string& what) {
   std::vector<std::string_view> open;
   for (const gap::EstimatedParameter& p : estimate.parameters)
@@ -52,12 +74,12 @@ void name_posterior(gap::SoilEstimate& estimate, const std::string& nominal, con
   json::Writer w;
   json::write_soil(w, soil);
   const std::string version = fmt::format("{:016x}", campaign::digest_of(w.take())).substr(0, 6);
-  soil.summary = fmt::format("{} as {} show it{}{}", nominal, what,
-                             open.empty() ? "" : "; not determined: ", fmt::join(open, ", "))
-                     .substr(0, 480);
-  soil.source =
-      fmt::format("estimated by slipway estimate from {}, starting from {}", what, nominal).substr(0, 480);
-  soil.name = fmt::format("{}-{}", nominal.substr(0, kMostName), version);
+  soil.summary = shortened(fmt::format("{} as {} show it{}{}", nominal, what,
+                                       open.empty() ? "" : "; not determined: ", fmt::join(open, ", ")),
+                           kMostText);
+  soil.source = shortened(
+      fmt::format("estimated by slipway estimate from {}, starting from {}", what, nominal), kMostText);
+  soil.name = fmt::format("{}-{}", file_name_of(nominal), version);
 }
 
 std::string tests_words(const gap::SoilData& data) {
@@ -95,10 +117,20 @@ std::vector<Fault> faults_of(const Catalogue& catalogue, const SoilEstimateReque
   std::vector<Fault> faults;
   if (!catalogue.soils.contains(request.soil))
     faults.push_back({"/soil", unknown_name("soil", request.soil, names_of(catalogue.soils))});
+  else if (const sim::Soil& start = catalogue.soils.find(request.soil)->second.mean;
+           !start.has_bekker_law() || start.shear_law.row != nullptr)
+    faults.push_back(
+        {"/soil", fmt::format("{} has other laws than Bekker's and Janosi and Hanamoto's, whose parameters "
+                              "are what is estimated",
+                              in_quotes(request.soil))});
   const TestedWheel& tested = request.wheel;
   const auto rover = catalogue.rovers.find(tested.rover);
   if (!tested.rover.empty() && rover == catalogue.rovers.end())
     faults.push_back({"/rover", unknown_name("rover", tested.rover, names_of(catalogue.rovers))});
+  if (tested.rover.empty() && !tested.wheel.empty())
+    faults.push_back({"/wheel", "a wheel is named of a rover, and there is none"});
+  if (tested.rover.empty() && tested.motor_temp_c)
+    faults.push_back({"/motor_temp_c", "a temperature needs the motor of a rover, and there is none"});
   if (rover != catalogue.rovers.end()) wheel_of(*rover->second, tested.wheel, faults);
   check("radius_m", tested.radius_m, 0.01, 2.0, "m", faults);
   check("width_m", tested.width_m, 0.005, 2.0, "m", faults);
@@ -126,7 +158,7 @@ Result<SoilEstimateAnswer> estimate_soil(const Catalogue& catalogue, const SoilE
   std::optional<sim::DriveMotor> drive;
   if (const auto found = catalogue.rovers.find(tested.rover); found != catalogue.rovers.end()) {
     sim::RoverModel rover = *found->second;
-    // The rover's own effects are at work on wheel, motor and soil.
+    // The rover's own effects act on wheel, motor and soil.
     sim::apply_effects(rover.effects, rover);
     sim::apply_effects(rover.effects, nominal.mean);
     std::vector<Fault> none;

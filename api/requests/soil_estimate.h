@@ -14,29 +14,29 @@
 
 namespace slipway::api {
 
-// The wheel of tests that give none of their own: a rover's, or numbers of one's own.
+// The wheel of tests that do not describe their own: a rover's, or one given by its numbers.
 struct TestedWheel {
-  std::string rover;  // "": no rover, no motor
-  std::string wheel;  // of the rover; "": its first
+  std::string rover;  // without a rover there is no motor
+  std::string wheel;  // of the rover; its first where it is empty
   std::optional<double> radius_m, width_m;
   std::optional<sim::Grousers> grousers;
   std::optional<double> motor_temp_c;
 };
 
-// POST /v1/soil-estimates: which soil do these tests, or these drives, show?
+// POST /v1/soil-estimates asks which soil these tests, or these drives, show.
 struct SoilEstimateRequest {
-  std::string soil = "unknown_ground";  // that the search starts from and that priors lie around
+  std::string soil = "unknown_ground";  // the start of the search and the mean of the priors
   TestedWheel wheel;
-  double gravity_m_s2 = 3.71;          // where the wheels were tested; read by effects alone
-  double speed_m_s = 0.04;             // of the rim; counts for the motor and for the effect rate_shear
-  gap::SoilData data;                  // of wheels only loads, motions and readings are given
-  std::string campaign;                // of drives; then there are no tests
+  double gravity_m_s2 = 3.71;          // where the wheels were tested; only effects use it
+  double speed_m_s = 0.04;             // of the rim; used by the motor and the effect rate_shear
+  gap::SoilData data;                  // tests; wheel tests have only loads, motions and readings
+  std::string campaign;                // of drives; there are no tests then
   gap::SoilEstimationOptions options;  // of tests
   std::vector<bool> looked_at;         // channels of drives; empty: all
 };
 
-// Switches all channels but these off: of tests by gap::SoilChannel's names, of drives by gap::Channel's. A
-// fault for each name that is not known, "/channels/0".
+// Switches off all channels but these, which have gap::SoilChannel's names for tests and gap::Channel's for
+// drives. Returns a fault for each unknown name, at "/channels/0".
 std::vector<Fault> choose_channels(const std::vector<std::string>& names, SoilEstimateRequest& request);
 
 // The request with every name and default filled in, and the estimates: one of tests, one a soil of drives.
@@ -51,7 +51,7 @@ struct SoilEstimateAnswer {
 // Errors: invalid_request with the faults of names and numbers; those of gap::estimate_soil.
 Result<SoilEstimateAnswer> estimate_soil(const Catalogue& catalogue, const SoilEstimateRequest& request,
                                          Progress& progress);
-// From the drives of a campaign that was read.
+// The same from the drives of a campaign that has been read.
 Result<SoilEstimateAnswer> estimate_soil(const gap::DriveCampaign& campaign,
                                          const SoilEstimateRequest& request, std::size_t threads,
                                          Progress& progress);

@@ -9,10 +9,10 @@
 
 namespace slipway::api {
 
-// A soil of the catalogue, as it lies in some regions of effects.
+// A soil of the catalogue in the parts of the map that lie in the same regions of effects.
 struct RegionalSoil {
   std::string base;                  // name in the catalogue
-  std::vector<std::size_t> regions;  // indices into the effects' regions; empty: in none
+  std::vector<std::size_t> regions;  // indices into the effects' regions; empty outside all regions
 
   // "jlu_mars_2_dense" or "jlu_mars_2_dense@place_1".
   std::string name() const;
@@ -23,9 +23,9 @@ struct RegionalSoils {
   std::vector<RegionalSoil> soils;  // in the order of map->soils()
 };
 
-// A soil map on which the cells whose centres lie in a region hold a soil of their own, so that search,
-// tables and simulation all see it. Unknown ground in a region is ground that is known to be such a place.
-// Without regions the map itself.
+// Makes a soil map on which the cells whose centres lie in a region have a soil of their own, so that search,
+// tables and simulation all use it. Unknown ground in a region gets such a soil too. Without regions the map
+// is returned unchanged.
 RegionalSoils soils_in_regions(std::shared_ptr<const dem::SoilMap> map,
                                const std::vector<sim::Disc>& regions);
 

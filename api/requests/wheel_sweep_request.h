@@ -9,23 +9,24 @@
 
 namespace slipway::api {
 
-// POST /v1/wheel-sweeps: what would a single-wheel rig report? Names, and what differs from the rover's file.
+// POST /v1/wheel-sweeps asks what a single-wheel rig would report. It has the names of rover, wheel and soil,
+// and the values that differ from the rover's file.
 struct WheelSweepRequest {
   std::string rover;
-  std::string wheel;  // "": the rover's first
+  std::string wheel;  // the rover's first where it is empty
   std::string soil;
   std::optional<double> radius_m, width_m;
   std::optional<sim::Grousers> grousers;
-  std::optional<double> load_n;        // nothing: an equal share of the rover's weight
-  std::optional<double> speed_m_s;     // nothing: the rover's cruise speed
-  std::optional<double> motor_temp_c;  // nothing: what the motor is given at
-  sim::SingleWheelTest test;           // the other conditions
+  std::optional<double> load_n;        // an equal share of the rover's weight where it is empty
+  std::optional<double> speed_m_s;     // the rover's cruise speed where it is empty
+  std::optional<double> motor_temp_c;  // the motor's reference temperature where it is empty
+  sim::WheelRigConditions test;        // the other conditions
   std::vector<sim::EffectSetting> effects;
   std::vector<sim::SweepSetting> set;
   std::vector<sim::SweepAxis> sweep;
 };
 
-// The request with every default filled in, what it means, and its rows.
+// The request with every default filled in, the sweep that follows from it, and its rows.
 struct WheelSweepAnswer {
   WheelSweepRequest request;
   sim::WheelSweep sweep;

@@ -18,20 +18,12 @@
 #include "gap/diagnosis/search/effect_trace.h"
 #include "gap/diagnosis/search/prepared_campaign.h"
 #include "gap/diagnosis/search/selection.h"
+#include "gap/diagnosis/search/soft_patch_search.h"
 #include "gap/diagnosis/verdict.h"
 #include "sim/effects/effect_catalogue.h"
 
 namespace slipway::gap {
 namespace {
-
-constexpr std::size_t kLeastDrives = 3, kLeastWindows = 6;
-constexpr int kMostRefittedAgain = 6, kMostPairedAgain = 2, kMostSecondsAgain = 2;
-constexpr std::size_t kMostKept = 6;  // sets of effects that are fitted again
-constexpr double kDeterminedShare =
-    0.7;  // of a prior deviation: what is left open of a parameter that drives tell of
-constexpr double kSeldom = 0.02;  // of resamples: sets that so few choose are not fitted again
-constexpr double kAlike_deg = 30.0;
-constexpr std::size_t kMostRegimes = 5, kMostNext = 3;
 
 class Diagnoser {
  public:
@@ -39,9 +31,32 @@ class Diagnoser {
       : campaign_(campaign), options_(options), progress_(progress) {}
 
   Result<Diagnosis> run() {
+    say_what_was_asked();
+    auto prepared = prepare(campaign_, options_, progress_);
+    if (!prepared) return fail(prepared.error());
+    prepared_ = std::move(*prepared);
+    describe_preparation();
+    d_.channels = channel_gaps(prepared_, campaign_, prepared_.nominal_residuals, options_);
+    if (too_few()) return std::move(d_);
+    if (auto searched = search(options_); !searched) return fail(searched.error());
+    if (auto searched = search_again(); !searched) return fail(searched.error());
+    judge(campaign_, prepared_, search_, best_, options_, d_);
+    compare_look_alikes();
+    if (auto closed = close_gap(); !closed) return fail(closed.error());
+    describe_parameters();
+    localise();
+    propose_drives();
+    if (progress_.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
+    progress_.report("done", 1.0);
+    return std::move(d_);
+  }
+
+ private:
+  void say_what_was_asked() {
     d_.campaign = campaign_.name;
     d_.campaign_fingerprint = campaign_.fingerprint;
     d_.seed = options_.seed;
+    d_.options = listed_options(options_);
     d_.drives = campaign_.drives.size();
     d_.notes = campaign_.notes;
     for (const sim::Effect& effect : sim::effect_catalogue())
@@ -49,9 +64,9 @@ class Diagnoser {
     if (!options_.search.withheld.empty())
       d_.notes.push_back(fmt::format("withheld from the library, as was asked: {}",
                                      fmt::join(options_.search.withheld, ", ")));
-    auto prepared = prepare(campaign_, options_.windows, options_.search.threads, progress_);
-    if (!prepared) return fail(prepared.error());
-    prepared_ = std::move(*prepared);
+  }
+
+  void describe_preparation() {
     d_.windows = prepared_.used_windows();
     d_.observations = prepared_.noise->used_count();
     d_.noise = prepared_.noise->scales();
@@ -72,50 +87,46 @@ class Diagnoser {
       d_.notes.push_back(
           "no drive is said to be a repeat: the drives' own scatter is estimated from drives of different "
           "kinds");
-    d_.channels = channel_gaps(prepared_, campaign_, prepared_.nominal_residuals, options_);
-    if (d_.drives < kLeastDrives || d_.windows < kLeastWindows) {
-      d_.verdict = Verdict::kInsufficient;
-      d_.reason = fmt::format(
-          "{} drives with {} windows of use (positions and attitudes in two rows at least) are too few to "
-          "tell causes apart",
-          d_.drives, d_.windows);
-      d_.overturned_by = fmt::format("{} drives and {} windows at least", kLeastDrives, kLeastWindows);
-      return std::move(d_);
-    }
-    if (auto searched = search(options_.search); !searched) return fail(searched.error());
-    if (!best().effects.empty()) {
-      // With what was found in it, the model takes less of the gap for scatter. What was far behind need not
-      // be fitted again.
-      prepare_around(prepared_, campaign_, best_fit(), options_.search.threads);
-      d_.noise = prepared_.noise->scales();
-      SearchOptions again = options_.search;
-      again.most_refitted = std::min(again.most_refitted, kMostRefittedAgain);
-      again.most_paired = std::min(again.most_paired, kMostPairedAgain);
-      again.most_seconds = std::min(again.most_seconds, kMostSecondsAgain);
-      const std::vector<FittedExplanation> kept = most_probable_fits(search_, kMostKept);
-      if (auto searched = search(again, kept); !searched) return fail(searched.error());
-    }
-    judge(campaign_, prepared_, search_, best_, options_.search.threads, d_);
-    compare_look_alikes();
-    auto shrunk = shrink();
-    if (!shrunk) return fail(shrunk.error());
-    describe_parameters();
-    localise();
-    propose_drives();
-    if (progress_.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
-    progress_.report("done", 1.0);
-    return std::move(d_);
   }
 
- private:
-  Result<void> search(const SearchOptions& options, std::span<const FittedExplanation> found_before = {}) {
+  // Whether nothing can be said; the verdict says so.
+  bool too_few() {
+    const VerdictOptions& limits = options_.verdict;
+    if (d_.drives >= static_cast<std::size_t>(limits.min_drives) &&
+        d_.windows >= static_cast<std::size_t>(limits.min_windows))
+      return false;
+    d_.verdict = Verdict::kInsufficient;
+    d_.reason = fmt::format(
+        "{} drives with {} windows of use (positions and attitudes in two rows at least) are too few to "
+        "tell causes apart",
+        d_.drives, d_.windows);
+    d_.overturned_by =
+        fmt::format("{} drives and {} windows at least", limits.min_drives, limits.min_windows);
+    return true;
+  }
+
+  Result<void> search(const DiagnosisOptions& options, std::span<const FittedExplanation> found_before = {}) {
     const auto look = options_.given ? fit_given_explanation : search_explanations;
     auto found = look(campaign_, *prepared_.model, *prepared_.noise, *prepared_.null, prepared_.discrepancy,
                       options, progress_, found_before);
     if (!found) return fail(found.error());
     search_ = std::move(*found);
-    best_ = chosen_among(search_.candidates);
+    best_ = chosen_among(search_.candidates, options_.selection);
     return {};
+  }
+
+  // With what was found in it, the model takes less of the gap for scatter. What was far behind need not be
+  // fitted again.
+  Result<void> search_again() {
+    if (best().effects.empty()) return {};
+    prepare_around(prepared_, campaign_, best_fit(), options_);
+    d_.noise = prepared_.noise->scales();
+    const SecondSearchOptions& second = options_.second_search;
+    DiagnosisOptions again = options_;
+    again.search.max_refitted = std::min(again.search.max_refitted, second.max_refitted);
+    again.search.max_paired = std::min(again.search.max_paired, second.max_paired);
+    again.search.max_seconds = std::min(again.search.max_seconds, second.max_seconds);
+    return search(again, most_probable_fits(search_, static_cast<std::size_t>(second.max_kept)));
   }
 
   bool is_withheld(std::string_view effect) const {
@@ -137,14 +148,15 @@ class Diagnoser {
       const Parameter& parameter = fit.hypothesis.parameters()[p];
       const Interval value = parameter_interval(fit, p);
       const double error = (value.high - value.value) / kReach90;
-      d_.retuned.push_back({parameter.name, value, parameter.std, error < kDeterminedShare * parameter.std});
+      d_.retuned.push_back(
+          {parameter.name, value, parameter.std, error < options_.verdict.determined_share * parameter.std});
     }
   }
 
   void compare_look_alikes() {
     std::vector<const ScreenedVariant*> first;
     for (const ScreenedVariant& s : search_.screened)
-      if (s.signature.size() > 0 && s.signature.norm() > 1.0 &&
+      if (s.signature.size() > 0 && s.signature.norm() > options_.verdict.min_signature &&
           std::none_of(first.begin(), first.end(),
                        [&](const auto* f) { return f->variant.effect == s.variant.effect; }))
         first.push_back(&s);
@@ -153,7 +165,7 @@ class Diagnoser {
         const double cosine = std::abs(first[a]->signature.dot(first[b]->signature)) /
                               (first[a]->signature.norm() * first[b]->signature.norm());
         const double angle = std::acos(std::min(1.0, cosine)) * 180.0 / std::numbers::pi;
-        if (angle < kAlike_deg)
+        if (angle < options_.verdict.max_angle_deg)
           d_.confusable.push_back({first[a]->variant.effect, first[b]->variant.effect, angle});
       }
     std::stable_sort(
@@ -163,20 +175,18 @@ class Diagnoser {
 
   void localise() {
     progress_.report("locating the gap", 0.97);
-    d_.regimes =
-        regimes_of(prepared_, campaign_, prepared_.nominal_residuals, LookedAt::kGap, options_, kMostRegimes);
+    d_.regimes = regimes_of(prepared_, campaign_, prepared_.nominal_residuals, LookedAt::kGap, options_);
     d_.regimes_retuned =
-        regimes_of(prepared_, campaign_, search_.fits[0].residuals, LookedAt::kGap, options_, kMostRegimes);
+        regimes_of(prepared_, campaign_, search_.fits[0].residuals, LookedAt::kGap, options_);
     if (d_.verdict == Verdict::kUnknown) {
-      d_.residual = describe_unexplained(prepared_, reported_fit());
+      d_.residual = describe_unexplained(prepared_, reported_fit(), options_);
       d_.places = gap_places(prepared_, campaign_, search_.fits[0].residuals, options_);
     }
     if (!explains()) return;
     // What the effects do, all else as fitted: only this picture locates the cause.
     const Eigen::VectorXd signature = effect_trace(best_fit(), *prepared_.model, {}, options_.search.threads);
-    d_.channels_of_effects = channel_shares(prepared_, signature);
-    d_.regimes_of_effect =
-        regimes_of(prepared_, campaign_, signature, LookedAt::kTrace, options_, kMostRegimes);
+    d_.channels_of_effects = channel_shares(prepared_, signature, options_);
+    d_.regimes_of_effect = regimes_of(prepared_, campaign_, signature, LookedAt::kTrace, options_);
     for (std::size_t e = 0; e < best().effects.size(); ++e) {
       const std::optional<sim::Disc> place = place_of(best_fit().hypothesis.effects()[e]);
       if (!place) continue;
@@ -190,17 +200,16 @@ class Diagnoser {
     }
   }
 
-  // The correction that is told, and which others would have been had other drives been made.
+  // The correction that is reported, and which others would have been had other drives been made.
   CorrectionChoice choose_corrections(const DriveResampling& drives) {
     const auto refit = [&](std::size_t candidate) {
-      return refitted(prepared_, search_.fits[search_.candidates[candidate].fit], options_.search.threads);
+      return refitted(prepared_, search_.fits[search_.candidates[candidate].fit], options_);
     };
     const auto corrects = [&](std::size_t candidate) {
       const Candidate& c = search_.candidates[candidate];
       return !c.with_unknown && !c.effects.empty();
     };
-    const SelectionBootstrap selection =
-        resample_selection(search_, prepared_, campaign_, options_.search, drives);
+    const SelectionBootstrap selection = resample_selection(search_, prepared_, campaign_, options_, drives);
     for (std::size_t c = 0; c < selection.share.size(); ++c)
       d_.candidates[c].chosen_share = selection.share[c];
     if (!explains()) return {{uncorrected()}, {}};
@@ -208,7 +217,7 @@ class Diagnoser {
     std::map<std::size_t, std::size_t> correction_of{{best_, 0}};
     for (std::size_t c = 0; c < selection.share.size(); ++c) {
       if (c == best_ || selection.share[c] == 0.0) continue;
-      if (corrects(c) && selection.share[c] < kSeldom) {
+      if (corrects(c) && selection.share[c] < options_.held_out.min_chosen_share) {
         correction_of[c] = 0;
         continue;
       }
@@ -219,29 +228,35 @@ class Diagnoser {
     return choice;
   }
 
-  Result<void> shrink() {
+  Result<void> close_gap() {
     const DriveResampling drives = resample_drives(campaign_, options_.resamples, options_.seed);
     const CorrectionChoice choice = choose_corrections(drives);
-    auto shrunk = close_gap_on_held_out(prepared_, campaign_, choice, drives, options_, progress_);
-    if (!shrunk) return fail(shrunk.error());
-    d_.gap = std::move(shrunk->channels);
-    d_.planners_view = shrunk->planners_view;
-    d_.held_out = std::move(shrunk->points);
-    d_.window_gaps = std::move(shrunk->windows);
-    d_.candidates[best_].held_out_score = shrunk->log_density_gain;
-    doubt_what_leaves_a_gap(reported_fit(), d_);
+    auto closure = close_gap_on_held_out(prepared_, campaign_, choice, drives, options_, progress_);
+    if (!closure) return fail(closure.error());
+    d_.gap = std::move(closure->channels);
+    d_.planners_view = closure->planners_view;
+    d_.held_out = std::move(closure->points);
+    d_.window_gaps = std::move(closure->windows);
+    d_.candidates[best_].held_out_score = closure->log_density_gain;
+    doubt_what_leaves_a_gap(reported_fit(), options_.verdict, d_);
     if (explains()) {
       auto extrapolated =
           extrapolate(prepared_, campaign_, choice.corrections.front(), drives, options_, progress_);
       if (!extrapolated) return fail(extrapolated.error());
       d_.extrapolations = std::move(*extrapolated);
-      doubt_what_does_not_extrapolate(d_);
+      doubt_what_does_not_extrapolate(options_.verdict, d_);
     }
-    if (explains()) d_.closed_fraction = shrunk->closed_fraction;
+    if (explains()) d_.closed_fraction = closure->closed_fraction;
     for (ChannelClosure& channel : d_.gap)
       if (!explains()) channel.closed_fraction.reset();
-    const bool offered = explains() ? shrunk->log_density_gain > 0.0
-                                    : d_.verdict == Verdict::kParameters || unknown_but_nearer();
+    offer_model(closure->log_density_gain);
+    return {};
+  }
+
+  // The model to plan with, where it predicts better than the nominal one.
+  void offer_model(double log_density_gain) {
+    const bool offered =
+        explains() ? log_density_gain > 0.0 : d_.verdict == Verdict::kParameters || unknown_but_nearer();
     if (offered) {
       const FittedExplanation& reported = explains() ? best_fit() : search_.fits[0];
       d_.model = reported.hypothesis.state(reported.x);
@@ -251,24 +266,22 @@ class Diagnoser {
       d_.notes.push_back(
           "the correction did not improve drives held out of the fit: no corrected model is offered");
     }
-    return {};
   }
 
   // A model beside which something unknown is at work is still the better one to plan with, where no channel
-  // of drives held out is told worse by it than by the nominal one and one is told much better.
+  // of drives held out is predicted worse by it than by the nominal one and one is predicted much better.
   bool unknown_but_nearer() {
-    constexpr double kNoWorse = 1.02, kMuchBetter = 0.8;
     if (d_.verdict != Verdict::kUnknown) return false;
     bool better = false;
     for (const ChannelClosure& c : d_.gap) {
-      if (c.retuned.value > kNoWorse * c.nominal.value) return false;
-      better = better || c.retuned.value < kMuchBetter * c.nominal.value;
+      if (c.retuned.value > options_.held_out.no_worse * c.nominal.value) return false;
+      better = better || c.retuned.value < options_.held_out.much_better * c.nominal.value;
     }
     if (better)
       d_.notes.emplace_back(
           "the corrected model is the re-tuned one, without the effects named, and leaves something "
-          "unexplained; it is offered because it told drives held out of the fit better than the nominal "
-          "one");
+          "unexplained; it is offered because it predicted drives held out of the fit better than the "
+          "nominal one");
     return better;
   }
 
@@ -276,12 +289,13 @@ class Diagnoser {
     std::vector<const FittedExplanation*> fits;
     std::vector<double> probabilities;
     for (const Candidate& c : search_.candidates) {
-      if (c.with_unknown || fits.size() >= 4) continue;
+      if (c.with_unknown || fits.size() >= static_cast<std::size_t>(options_.next_drives.max_explanations))
+        continue;
       fits.push_back(&search_.fits[c.fit]);
       probabilities.push_back(c.probability);
     }
-    d_.next_drives =
-        next_drives(campaign_, prepared_.noise->scales(), fits, probabilities, kMostNext, progress_);
+    d_.next_drives = next_drives(campaign_, prepared_.noise->scales(), fits, probabilities,
+                                 options_.next_drives, progress_);
   }
 
   const DriveCampaign& campaign_;

@@ -85,7 +85,8 @@ class SoilOfDrives {
     p.high_open = high >= searched.highest;
     p.low = value_at(std::max(low, searched.lowest));
     p.high = value_at(std::min(high, searched.highest));
-    judge(p, {.says_more = error < kOfPrior * searched.std});
+    const DeterminationOptions determination;
+    judge(p, {.says_more = error < determination.max_of_prior * searched.std}, determination);
     estimate_.parameters.push_back(std::move(p));
   }
 
@@ -101,8 +102,6 @@ class SoilOfDrives {
         if (a != b) estimate_.correlation(i, j) = covariance(a, b) / (deviation(a) * deviation(b));
       }
   }
-
-  static constexpr double kOfPrior = 0.7;
 
   const NominalSoil& nominal_;
   const FittedExplanation& fit_;
@@ -147,7 +146,9 @@ Result<DriveSoilEstimate> estimate_soils_of_drives(const DriveCampaign& campaign
                                                    Progress& progress) {
   if (!any_reading(campaign, looked_at))
     return fail(ErrorCode::kNoData, "the drives have no reading of the channels that are looked at");
-  const auto prepared = prepare(campaign, WindowOptions{}, threads, progress, looked_at);
+  DiagnosisOptions options;
+  options.search.threads = threads;
+  const auto prepared = prepare(campaign, options, progress, looked_at);
   if (!prepared) return fail(prepared.error());
   DriveSoilEstimate estimate;
   for (std::size_t s = 0; s < campaign.soils.size(); ++s)

@@ -27,11 +27,11 @@ struct DriveSoilEstimate {
 };
 
 // The soils that recorded drives show, by the fit that a diagnosis begins with (prepared_campaign.h): soils,
-// closures of the laws and the motors' torque constant are re-tuned together in the quasi-static rung, under
-// the drives' own scatter. Of each soil k_bekker, n, cohesion, friction angle and shear modulus, with the
-// priors of the nuisance catalogue. Intervals are Laplace's, at 90 % and of the data without the parameter's
-// own prior. `looked_at` is by channel; empty: all are. With the current alone it is the Zhurong paper's
-// question.
+// closures of the laws and the motors' torque constant are re-tuned together at the quasi-static fidelity
+// level, under the drives' own scatter. Of each soil k_bekker, n, cohesion, friction angle and shear modulus,
+// with the priors of the nuisance catalogue. Intervals are Laplace's, at 90 % and of the data without the
+// parameter's own prior. `looked_at` is by channel; empty: all are. With the
+// current alone it is the Zhurong paper's question.
 //
 // Errors: cancelled; no_data where no window has a reading that is looked at.
 Result<DriveSoilEstimate> estimate_soils_of_drives(const DriveCampaign& campaign,

@@ -141,16 +141,14 @@ std::vector<double> at_belief(const Hypothesis& hypothesis, const CorrectedBelie
 
 // Variance of every observation by what the model leaves open.
 Eigen::VectorXd variance_left_open(const Hypothesis& hypothesis, const Eigen::MatrixXd& jacobian,
-                                   const DriveCampaign& campaign, const CorrectedBelief& belief) {
+                                   const CorrectedBelief& belief) {
   const auto parameters = hypothesis.parameters();
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(jacobian.rows(), belief.left_open.covariance.cols());
   for (std::size_t p = 0; p < parameters.size(); ++p) {
-    // A soil's nuisance has its name: "friction/sand". That of the only soil, and all others, have none.
-    const std::string& name = parameters[p].name;
-    const std::size_t slash = name.find('/');
-    std::size_t soil = 0;
-    while (slash != std::string::npos && campaign.soils[soil].name != name.substr(slash + 1)) ++soil;
-    const auto place = belief.left_open.place_of(name.substr(0, slash), belief.called[soil]);
+    // Nuisances of several soils are called by their soils' names, which differ from campaign to campaign.
+    const std::string nuisance = parameters[p].name.substr(0, parameters[p].name.find('/'));
+    const std::size_t soil = parameters[p].soil < 0 ? 0 : static_cast<std::size_t>(parameters[p].soil);
+    const auto place = belief.left_open.place_of(nuisance, belief.called[soil]);
     if (place)
       columns.col(static_cast<Eigen::Index>(*place)) +=
           jacobian.col(static_cast<Eigen::Index>(p)) / parameters[p].std;
@@ -214,7 +212,7 @@ Result<ModelCheck> check_model(const DriveCampaign& campaign, const CorrectedBel
   const auto cancelled = [] { return fail(ErrorCode::kCancelled, "the check was cancelled"); };
   progress.report("predicting with the nominal model", 0.1);
   const std::vector<DriveWindow> windows = cut_windows(campaign, options.windows);
-  const std::unique_ptr<WindowModel> model = window_model_of(campaign, windows);
+  const std::unique_ptr<WindowModel> model = window_model_of(campaign, windows, options.preparation);
   model->watch(progress);
   const Hypothesis nominal_model(campaign, {});
   const std::vector<double> nominal =
@@ -232,11 +230,12 @@ Result<ModelCheck> check_model(const DriveCampaign& campaign, const CorrectedBel
   const Eigen::MatrixXd jacobian = hypothesis.scaled_jacobian(*model, x, options.threads);
   NoiseModel noise(
       *model,
-      scatter_response(hypothesis, jacobian, lever_responses(as_corrected, *model, x, options.threads)),
+      scatter_response(hypothesis, jacobian,
+                       lever_responses(as_corrected, *model, x, options.discrepancy, options.threads)),
       finite_or_zero(corrected), answerable(*model));
   if (progress.cancelled()) return cancelled();
   noise.set(belief.scatter);
-  const Eigen::VectorXd left_open = variance_left_open(hypothesis, jacobian, as_corrected, belief);
+  const Eigen::VectorXd left_open = variance_left_open(hypothesis, jacobian, belief);
 
   ModelCheck check;
   check.drives = campaign.drives.size();

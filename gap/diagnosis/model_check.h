@@ -65,6 +65,8 @@ struct ChannelCheck {
 
 struct ModelCheckOptions {
   WindowOptions windows;
+  PreparationOptions preparation;
+  DiscrepancyOptions discrepancy;  // of the levers, by which the map's detail acts
   std::size_t threads = 0;
   std::uint64_t seed = 1;
   int resamples = 1000;

@@ -17,82 +17,91 @@
 namespace slipway::gap {
 namespace {
 
-constexpr double kParametersGain = 20.0;  // of the logarithm of the evidence, for calling parameters mis-set
-constexpr double kSurelySeen = 6.0;    // standard errors: what the tempered evidence asks for over its prior
-constexpr double kSmall = 0.5;         // of an effect's usual size
-constexpr double kBeyondChance = 2.0;  // standard errors
-// What may be left on held-out drives, over the floor. An effect's equation may be another's: what it leaves
-// is forgiven where it closes this share of the channel's gap.
-constexpr double kLeftOfNothing = 1.25, kLeftBesideEffects = 1.5, kForgiven = 0.5;
-constexpr double kRival = 0.75;  // of an answer's probability: a rival that has as much is alike
-constexpr double kDoubt = 0.9;   // the probability of something unknown that such an answer leaves, at least
-
 constexpr std::string_view kSameLook =
     "an effect of the library with another equation than the library's would look the same";
 
 // How much more probable the drives are when soils and motors may differ from the nominal ones, closures
 // being free in either case.
 double gain_of_parameters(const PreparedCampaign& prepared, const DriveCampaign& campaign,
-                          std::size_t threads) {
+                          const DiagnosisOptions& options) {
   const FittedExplanation& null = *prepared.null;
   const Hypothesis pinned(campaign, {}, FreeNuisances::kClosures);
   std::vector<double> start;
   for (const Parameter& closure : pinned.parameters())
     for (std::size_t p = 0; p < null.x.size(); ++p)
       if (null.hypothesis.parameters()[p].name == closure.name) start.push_back(null.x[p]);
-  ExplanationOptions options;
-  options.threads = threads;
-  const FittedExplanation nominal = fit_explanation(pinned, *prepared.model, *prepared.noise, start, options);
+  const FittedExplanation nominal =
+      fit_explanation(pinned, *prepared.model, *prepared.noise, start, options.fit, options.search.threads);
   const auto evidence = [&](const FittedExplanation& fit) {
-    return fit.log_evidence + discrepancy_gain(fit, *prepared.noise, prepared.discrepancy,
-                                               Eigen::MatrixXd(fit.white_jacobian.rows(), 0))
-                                  .imprecision;
+    const Eigen::MatrixXd no_form(fit.white_jacobian.rows(), 0);
+    const DiscrepancyGain gain =
+        discrepancy_gain(fit, whitened(fit, *prepared.noise, prepared.discrepancy), no_form,
+                         options.discrepancy, [&] { return prepared.model->cancelled(); });
+    return fit.log_evidence + gain.imprecision;
   };
   return evidence(null) - evidence(nominal);
 }
 
-std::vector<std::string> names_in(const Candidate& c) {
-  std::vector<std::string> names = c.effects;
-  if (c.with_unknown) names.emplace_back("unknown");
-  return names;
+ComparedSet compared(const Candidate& c) {
+  ComparedSet set;
+  set.effects = c.effects;
+  set.with_unknown = c.with_unknown;
+  return set;
 }
 
 // The most probable set that is not this one, if any.
-const Candidate* rival_of(const ExplanationSearch& search, const std::vector<std::string>& named) {
-  const auto rival = std::find_if(search.candidates.begin(), search.candidates.end(),
-                                  [&](const Candidate& c) { return names_in(c) != named; });
+const Candidate* rival_of(const ExplanationSearch& search, const Candidate& chosen) {
+  const auto rival =
+      std::find_if(search.candidates.begin(), search.candidates.end(), [&](const Candidate& c) {
+        return c.effects != chosen.effects || c.with_unknown != chosen.with_unknown;
+      });
   return rival == search.candidates.end() ? nullptr : &*rival;
 }
 
 std::string next_best(const Candidate& rival) {
-  const std::vector<std::string> names = names_in(rival);
+  const std::vector<std::string> names = names_of(compared(rival));
   return fmt::format("next best: {} (probability {:.2g})",
                      names.empty() ? "nothing missing" : fmt::format("{}", fmt::join(names, " and ")),
                      rival.probability);
 }
 
 // Nearly as probable, and no unknown cause.
-bool alike(const Candidate* rival, double probability) {
-  return rival != nullptr && !rival->with_unknown && rival->probability > kRival * probability;
+bool alike(const Candidate* rival, double probability, const VerdictOptions& options) {
+  return rival != nullptr && !rival->with_unknown && rival->probability > options.rival_share * probability;
 }
 
-void judge_without_effects(const DriveCampaign& campaign, const PreparedCampaign& prepared,
-                           const ExplanationSearch& search, double probability, std::size_t threads,
-                           Diagnosis& d) {
-  for (const ScreenedVariant& s : search.screened) {
+// Which probabilities belong to the same set, whatever the order of its effects.
+using SetKey = std::pair<std::set<std::string>, bool>;
+SetKey key_of(const Candidate& c) {
+  return {{c.effects.begin(), c.effects.end()}, c.with_unknown};
+}
+
+// The least size of each effect that these drives would surely have shown, of its first variant's first
+// field.
+std::vector<LeastDetectable> least_detectable_of(std::span<const ScreenedVariant> screened,
+                                                 const VerdictOptions& options) {
+  std::vector<LeastDetectable> least;
+  for (const ScreenedVariant& s : screened) {
     if (s.visibility <= 0.0) continue;
-    if (std::any_of(d.least_detectable.begin(), d.least_detectable.end(),
+    if (std::any_of(least.begin(), least.end(),
                     [&](const LeastDetectable& l) { return l.effect == s.variant.effect; }))
       continue;
     const EffectVariant::Free& free = s.variant.free.front();
-    d.least_detectable.push_back({s.variant.effect, free.field, kSurelySeen * free.std / s.visibility});
+    least.push_back({s.variant.effect, free.field, options.surely_seen * free.std / s.visibility});
   }
-  const Candidate* const rival = rival_of(search, {});
+  return least;
+}
+
+void judge_without_effects(const DriveCampaign& campaign, const PreparedCampaign& prepared,
+                           const ExplanationSearch& search, const Candidate& chosen, double probability,
+                           const DiagnosisOptions& options, Diagnosis& d) {
+  d.least_detectable = least_detectable_of(search.screened, options.verdict);
+  const Candidate* const rival = rival_of(search, chosen);
   const auto or_rival = [&](std::string_view words) {
     return rival != nullptr ? fmt::format("{}; {}", words, next_best(*rival)) : std::string(words);
   };
-  const double gain = gain_of_parameters(prepared, campaign, threads);
-  if (gain > kParametersGain) {
+  const double gain = gain_of_parameters(prepared, campaign, options);
+  if (gain > options.verdict.min_parameters_gain) {
     d.verdict = Verdict::kParameters;
     d.reason = fmt::format(
         "re-tuned soil and motor parameters explain the drives (log evidence +{:.0f}); no effect is "
@@ -101,18 +110,12 @@ void judge_without_effects(const DriveCampaign& campaign, const PreparedCampaign
     d.overturned_by = or_rival("an effect that acts like these parameters in every drive that was made");
     return;
   }
-  // Of effects at their usual size, how many could have hidden?
-  int hidden = 0, all = 0;
-  for (const ScreenedVariant& s : search.screened) {
-    ++all;
-    if (s.visibility * kSmall < kSurelySeen) ++hidden;
-  }
   d.overturned_by = or_rival("drives that show an effect below the least size that these could have shown");
-  if (alike(rival, probability)) {
+  if (alike(rival, probability, options.verdict)) {
     d.verdict = Verdict::kNotDetected;
     d.reason = fmt::format("no gap was surely found (probability {:.2f}), but these drives leave more open",
                            probability);
-  } else if (2 * hidden < all) {
+  } else if (hidden_share(search.screened, options.verdict) < options.verdict.max_hidden_share) {
     d.verdict = Verdict::kNoGap;
     d.reason = fmt::format(
         "with parameters re-tuned within what was believed of them, prediction and drives agree within the "
@@ -126,14 +129,15 @@ void judge_without_effects(const DriveCampaign& campaign, const PreparedCampaign
 
 // The channel of which most is left over its floor, where that is too much; nothing else. Attitudes do not
 // count: how a rover leans as its wheels sink is in no model here.
-std::optional<std::string> gap_left(const Diagnosis& d) {
-  double most = d.effects.empty() ? kLeftOfNothing : kLeftBesideEffects;
+std::optional<std::string> gap_left(const Diagnosis& d, const VerdictOptions& options) {
+  double most = d.effects.empty() ? options.max_left_of_nothing : options.max_left_beside_effects;
   std::optional<std::string> words;
   for (const ChannelClosure& c : d.gap) {
     if (row_of(c.channel).of_the_stance) continue;
     const double floor = c.noise_floor.value;
     if (c.with_effects.low <= most * floor) continue;
-    if (!d.effects.empty() && c.retuned.value - c.with_effects.value >= kForgiven * (c.retuned.value - floor))
+    if (!d.effects.empty() &&
+        c.retuned.value - c.with_effects.value >= options.forgiven_closure * (c.retuned.value - floor))
       continue;
     most = c.with_effects.low / floor;
     words = fmt::format("on drives held out of the fit {} is {:.1f} times its floor off (at least {:.1f})",
@@ -155,18 +159,14 @@ std::optional<std::string> parameter_at_its_end(const FittedExplanation& reporte
   return std::nullopt;
 }
 
-bool holds_unknown(const ComparedSet& set) {
-  return std::find(set.effects.begin(), set.effects.end(), "unknown") != set.effects.end();
-}
-
 double unknown_probability(const Diagnosis& d) {
   double sum = 0.0;
   for (const ComparedSet& c : d.candidates)
-    if (holds_unknown(c)) sum += c.probability;
+    if (c.with_unknown) sum += c.probability;
   return sum;
 }
 
-// No effect is told: what drives look like with the effects is what they look like re-tuned.
+// No effect is named: what drives look like with the effects is what they look like re-tuned.
 void withdraw_effects(Diagnosis& d) {
   std::vector<std::string> names;
   for (const FoundEffect& effect : d.effects) names.push_back(effect.name);
@@ -181,6 +181,24 @@ void withdraw_effects(Diagnosis& d) {
   d.planners_view.with_effects = d.planners_view.retuned;
 }
 
+// The effects of the chosen explanation, with their parameters.
+std::vector<FoundEffect> found_effects(const Candidate& chosen, const FittedExplanation& fit,
+                                       const std::map<std::string, double>& probability_of) {
+  std::vector<FoundEffect> all;
+  const auto parameters = fit.hypothesis.parameters();
+  for (std::size_t e = 0; e < chosen.effects.size(); ++e) {
+    const std::string& name = chosen.effects[e];
+    FoundEffect found{name, fit.hypothesis.effects()[e].label, probability_of.at(name), {}};
+    for (std::size_t p = fit.hypothesis.nuisance_count(); p < parameters.size(); ++p)
+      if (parameters[p].effect == name)
+        found.parameters.push_back({parameters[p].name.substr(name.size() + 1), parameter_interval(fit, p)});
+    for (const auto& [field, value] : fit.hypothesis.effects()[e].fixed)
+      found.parameters.push_back({field, {value, value, value}});
+    all.push_back(std::move(found));
+  }
+  return all;
+}
+
 }  // namespace
 
 Interval parameter_interval(const FittedExplanation& fit, std::size_t parameter) {
@@ -189,34 +207,42 @@ Interval parameter_interval(const FittedExplanation& fit, std::size_t parameter)
                          fit.hypothesis.parameters()[parameter].std * std::sqrt(fit.covariance(i, i)));
 }
 
+double hidden_share(std::span<const ScreenedVariant> screened, const VerdictOptions& options) {
+  if (screened.empty()) return 1.0;
+  const auto hidden = std::count_if(screened.begin(), screened.end(), [&](const ScreenedVariant& s) {
+    return s.visibility * options.small_effect < options.surely_seen;
+  });
+  return static_cast<double>(hidden) / static_cast<double>(screened.size());
+}
+
 void judge(const DriveCampaign& campaign, const PreparedCampaign& prepared, const ExplanationSearch& search,
-           std::size_t best, std::size_t threads, Diagnosis& d) {
+           std::size_t best, const DiagnosisOptions& options, Diagnosis& d) {
   const Candidate& chosen = search.candidates[best];
-  const FittedExplanation& fit = search.fits[chosen.fit];
-  std::map<std::set<std::string>, double> sets;
+  std::map<SetKey, double> sets;
   std::map<std::string, double> single;
   double unknown = 0.0;
   for (const Candidate& c : search.candidates) {
-    const std::vector<std::string> names = names_in(c);
-    sets[{names.begin(), names.end()}] += c.probability;
+    sets[key_of(c)] += c.probability;
     for (const std::string& name : c.effects) single[name] += c.probability;
     if (c.with_unknown) unknown += c.probability;
-    d.candidates.push_back({names, c.probability, std::nullopt,
-                            static_cast<int>(search.fits[c.fit].x.size() - search.fits[0].x.size())});
+    ComparedSet set = compared(c);
+    set.probability = c.probability;
+    set.complexity = static_cast<int>(search.fits[c.fit].x.size() - search.fits[0].x.size());
+    d.candidates.push_back(std::move(set));
   }
-  const std::vector<std::string> named = names_in(chosen);
-  const double probability = sets[{named.begin(), named.end()}];
+  const double probability = sets[key_of(chosen)];
   if (chosen.with_unknown) {
     d.verdict = Verdict::kUnknown;
     d.reason =
         fmt::format("a gap remains that no effect of the library explains (probability {:.2f})", unknown);
     d.overturned_by = kSameLook;
   } else if (chosen.effects.empty()) {
-    judge_without_effects(campaign, prepared, search, probability, threads, d);
+    judge_without_effects(campaign, prepared, search, chosen, probability, options, d);
   } else {
-    const Candidate* const rival = rival_of(search, named);
-    d.verdict =
-        probability >= kCertain && !alike(rival, probability) ? Verdict::kEffects : Verdict::kEffectSet;
+    const Candidate* const rival = rival_of(search, chosen);
+    const bool certain =
+        probability >= options.selection.certain && !alike(rival, probability, options.verdict);
+    d.verdict = certain ? Verdict::kEffects : Verdict::kEffectSet;
     d.reason =
         fmt::format("{} explain{} what re-tuned parameters leave over (probability {:.2f})",
                     fmt::join(chosen.effects, " and "), chosen.effects.size() == 1 ? "s" : "", probability);
@@ -226,42 +252,33 @@ void judge(const DriveCampaign& campaign, const PreparedCampaign& prepared, cons
     d.notes.push_back(
         fmt::format("{} would fit beside what is unexplained, and may be its shadow: nothing is named",
                     fmt::join(chosen.effects, " and ")));
-  if (d.verdict != Verdict::kEffects && d.verdict != Verdict::kEffectSet) return;
-  for (std::size_t e = 0; e < chosen.effects.size(); ++e) {
-    FoundEffect found{chosen.effects[e], fit.hypothesis.effects()[e].label, single[chosen.effects[e]], {}};
-    const auto parameters = fit.hypothesis.parameters();
-    for (std::size_t p = fit.hypothesis.nuisance_count(); p < parameters.size(); ++p)
-      if (parameters[p].effect == found.name)
-        found.parameters.push_back(
-            {parameters[p].name.substr(found.name.size() + 1), parameter_interval(fit, p)});
-    for (const auto& [field, value] : fit.hypothesis.effects()[e].fixed)
-      found.parameters.push_back({field, {value, value, value}});
-    d.effects.push_back(std::move(found));
-  }
+  if (d.verdict == Verdict::kEffects || d.verdict == Verdict::kEffectSet)
+    d.effects = found_effects(chosen, search.fits[chosen.fit], single);
 }
 
-void doubt_what_does_not_extrapolate(Diagnosis& d) {
+void doubt_what_does_not_extrapolate(const VerdictOptions& options, Diagnosis& d) {
   if (d.verdict != Verdict::kEffects) return;
   for (const Extrapolation& e : d.extrapolations) {
-    if (e.log_density_gain + kBeyondChance * e.error >= 0.0) continue;
+    if (e.log_density_gain + options.beyond_chance * e.error >= 0.0) continue;
     d.verdict = Verdict::kEffectSet;
     d.reason += fmt::format(
-        "; but learnt from the other drives it tells those of {} {} {:.3g} worse than re-tuned "
+        "; but learnt from the other drives it predicts those of {} {} {:.3g} worse than re-tuned "
         "parameters alone",
         e.variable, e.above ? "above" : "below", e.limit);
     return;
   }
 }
 
-void doubt_what_leaves_a_gap(const FittedExplanation& reported, Diagnosis& d) {
+void doubt_what_leaves_a_gap(const FittedExplanation& reported, const VerdictOptions& options, Diagnosis& d) {
   const double unknown = unknown_probability(d);
   if (d.verdict == Verdict::kUnknown || d.verdict == Verdict::kInsufficient || unknown <= 0.0) return;
-  std::optional<std::string> why = gap_left(d);
+  std::optional<std::string> why = gap_left(d, options);
   if (!why) why = parameter_at_its_end(reported);
   if (!why) return;
-  if (unknown < kDoubt)
+  const double doubt = options.min_doubt;
+  if (unknown < doubt)
     for (ComparedSet& c : d.candidates)
-      c.probability *= holds_unknown(c) ? kDoubt / unknown : (1.0 - kDoubt) / (1.0 - unknown);
+      c.probability *= c.with_unknown ? doubt / unknown : (1.0 - doubt) / (1.0 - unknown);
   std::stable_sort(d.candidates.begin(), d.candidates.end(),
                    [](const ComparedSet& a, const ComparedSet& b) { return a.probability > b.probability; });
   withdraw_effects(d);

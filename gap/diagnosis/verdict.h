@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 #include "gap/diagnosis/diagnosis.h"
 #include "gap/diagnosis/search/explanation_search.h"
@@ -11,17 +12,21 @@ namespace slipway::gap {
 // 90 % interval of a fit's parameter.
 Interval parameter_interval(const FittedExplanation& fit, std::size_t parameter);
 
+// The share of the screened variants that drives would not surely have shown at VerdictOptions::small_effect
+// of their usual size; 1 where none was screened.
+double hidden_share(std::span<const ScreenedVariant> screened, const VerdictOptions& options);
+
 // What the candidate chosen means: the verdict, its reason and what would overturn it, the effects found, or
 // how small ones could have hidden.
 void judge(const DriveCampaign& campaign, const PreparedCampaign& prepared, const ExplanationSearch& search,
-           std::size_t chosen, std::size_t threads, Diagnosis& d);
+           std::size_t chosen, const DiagnosisOptions& options, Diagnosis& d);
 
-// Not certain of effects that told harsh drives worse than re-tuned parameters did, by more than chance.
-void doubt_what_does_not_extrapolate(Diagnosis& d);
+// Not certain of effects that predicted harsh drives worse than re-tuned parameters did, by more than chance.
+void doubt_what_does_not_extrapolate(const VerdictOptions& options, Diagnosis& d);
 
 // An answer that leaves far more than the floor on drives held out of the fit, or that needs a parameter at
-// the end of what it may be, is none: the cause is unknown. `told`: the fit that the answer stands for; d has
-// its `gap`.
-void doubt_what_leaves_a_gap(const FittedExplanation& reported, Diagnosis& d);
+// the end of what it may be, is none: the cause is unknown. `reported`: the fit that the answer stands for; d
+// has its `gap`.
+void doubt_what_leaves_a_gap(const FittedExplanation& reported, const VerdictOptions& options, Diagnosis& d);
 
 }  // namespace slipway::gap

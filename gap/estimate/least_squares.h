@@ -23,7 +23,7 @@ struct Prior {
 
 // A number to be estimated, in the caller's own unit.
 struct Unknown {
-  std::string name;    // unique; undetermined directions are told by it
+  std::string name;    // unique; undetermined directions are reported by it
   double start = 0.0;  // within [lowest, highest]
   double lowest = -std::numeric_limits<double>::infinity();
   double highest = std::numeric_limits<double>::infinity();
@@ -92,7 +92,7 @@ struct LeastSquaresFit {
   double residual_variance = 0.0;
   // Through an SVD of the Jacobian of residuals and priors at the estimate, over the determined directions
   // alone. With a loss, residuals are weighted by psi'(r), and by 0 where that is negative: one that lies
-  // beyond the scale of the loss tells nothing of how sure the estimate is. An unknown on a bound is treated
+  // beyond the scale of the loss says nothing of how sure the estimate is. An unknown on a bound is treated
   // as if it were free.
   Eigen::MatrixXd covariance;
   std::vector<UndeterminedDirection> undetermined;

@@ -11,10 +11,10 @@ struct Sample {
   double radius_m, sinkage_m, pressure_pa;
 };
 
-std::vector<Sample> usable(std::span<const PlateTest> tests, PlateMeasure measure) {
+std::vector<Sample> usable(std::span<const PlateRecord> tests, PlateMeasure measure) {
   const bool logarithms = measure == PlateMeasure::kLogPressure || measure == PlateMeasure::kWongWeighted;
   std::vector<Sample> samples;
-  for (const PlateTest& test : tests)
+  for (const PlateRecord& test : tests)
     for (std::size_t i = 0; i < std::min(test.sinkage_m.size(), test.pressure_pa.size()); ++i)
       if (test.sinkage_m[i] > 0.0 && (!logarithms || test.pressure_pa[i] > 0.0))
         samples.push_back({test.radius_m, test.sinkage_m[i], test.pressure_pa[i]});
@@ -69,7 +69,7 @@ void judge(const std::vector<Sample>& samples, ModuliFit& fit) {
 
 }  // namespace
 
-Result<ModuliFit> fit_moduli(std::span<const PlateTest> tests, const ModuliOptions& options,
+Result<ModuliFit> fit_moduli(std::span<const PlateRecord> tests, const ModuliOptions& options,
                              Progress& progress) {
   const std::vector<Sample> samples = usable(tests, options.measure);
   const std::size_t first = options.cohesive_modulus ? 0 : 1;
@@ -108,16 +108,16 @@ Result<ModuliFit> fit_moduli(std::span<const PlateTest> tests, const ModuliOptio
   return fit;
 }
 
-double AnnulusTest::mean_stress_pa(double load) const {
+double AnnulusRecord::mean_stress_pa(double load) const {
   return load / (std::numbers::pi * (std::pow(outer_radius_m, 2) - std::pow(inner_radius_m, 2)));
 }
 
-double AnnulusTest::shear_stress_pa(double torque) const {
+double AnnulusRecord::shear_stress_pa(double torque) const {
   return torque /
          (2.0 / 3.0 * std::numbers::pi * (std::pow(outer_radius_m, 3) - std::pow(inner_radius_m, 3)));
 }
 
-Result<ShearStrengthFit> fit_shear_strength(const AnnulusTest& test, Progress& progress) {
+Result<ShearStrengthFit> fit_shear_strength(const AnnulusRecord& test, Progress& progress) {
   const std::size_t count = std::min(test.load_n.size(), test.peak_torque_nm.size());
   if (count < 3) return fail(ErrorCode::kNoData, "an annulus test needs three loads");
   std::vector<double> sigma, tau;

@@ -12,7 +12,7 @@
 namespace slipway::gap {
 
 // A round plate pressed into level soil.
-struct PlateTest {
+struct PlateRecord {
   double radius_m = 0.1;            // Bekker's b of a round plate
   std::vector<double> sinkage_m;    // > 0, one per pressure
   std::vector<double> pressure_pa;  // force over the plate's area
@@ -42,11 +42,11 @@ struct ModuliFit {
 
 // Bekker's moduli from plate tests, p = (k_c / b + k_phi) z^n [Bekker 1956; Wong 2010]. k_c may
 // come out negative. Errors: no_data with fewer usable samples than unknowns; those of fit_least_squares.
-Result<ModuliFit> fit_moduli(std::span<const PlateTest> tests, const ModuliOptions& options,
+Result<ModuliFit> fit_moduli(std::span<const PlateRecord> tests, const ModuliOptions& options,
                              Progress& progress);
 
 // An annulus turned on level soil under loads, to its peak torque at each.
-struct AnnulusTest {
+struct AnnulusRecord {
   double inner_radius_m = 0.0, outer_radius_m = 0.0;
   std::vector<double> load_n;
   std::vector<double> peak_torque_nm;  // one per load
@@ -65,6 +65,6 @@ struct ShearStrengthFit {
 // Mohr-Coulomb's tau = c + sigma tan phi through the peaks, every peak's torque counting alike [Wong 2010].
 // Cohesion is not kept from being negative. Errors: no_data with fewer than three loads; those of
 // fit_least_squares.
-Result<ShearStrengthFit> fit_shear_strength(const AnnulusTest& test, Progress& progress);
+Result<ShearStrengthFit> fit_shear_strength(const AnnulusRecord& test, Progress& progress);
 
 }  // namespace slipway::gap

@@ -7,8 +7,6 @@
 namespace slipway::gap {
 namespace {
 
-constexpr double kMissed = 25.0;  // a variance of residuals: five times what the readings scatter
-
 // Three digits; thousands apart.
 std::string number(double value) {
   const double a = std::abs(value);
@@ -68,13 +66,12 @@ std::string_view name_of(Determination determination) {
   return "undetermined";
 }
 
-void judge(EstimatedParameter& p, const DeterminationGrounds& grounds) {
-  constexpr double kQuarter = 0.25;
+void judge(EstimatedParameter& p, const DeterminationGrounds& grounds, const DeterminationOptions& options) {
   const double size = grounds.scale.value_or(std::abs(p.value));
-  const bool model_holds = grounds.residual_variance <= kMissed;
+  const bool model_holds = grounds.residual_variance <= options.max_residual_variance;
   if (!grounds.says_more || !model_holds)
     p.determination = Determination::kUndetermined;
-  else if (!p.low_open && !p.high_open && p.high - p.low <= 2.0 * kQuarter * size)
+  else if (!p.low_open && !p.high_open && p.high - p.low <= 2.0 * options.max_half_width * size)
     p.determination = Determination::kDetermined;
   else if (p.low_open != p.high_open)
     p.determination = Determination::kOneSided;

@@ -32,16 +32,26 @@ struct EstimatedParameter {
   std::string words;  // one sentence
 };
 
+// When data are said to determine a parameter.
+struct DeterminationOptions {
+  double max_of_prior = 0.7;  // posterior over prior deviation: the data halved the variance
+  // Half of the 90 % interval over the value, which a traverse planner can still work with.
+  double max_half_width = 0.25;
+  // Of residuals in deviations: five times what the readings scatter, the model does not hold.
+  double max_residual_variance = 25.0;
+};
+
 // How a parameter is judged besides its interval.
 struct DeterminationGrounds {
   bool says_more = true;  // the posterior is far narrower than the prior, where there is one
   // Of residuals in deviations, see SoilEstimate. Where the model misses the readings by far more than they
   // scatter, no interval around its best miss says what the soil is.
   double residual_variance = 1.0;
-  std::optional<double> scale = {};  // what a quarter is taken of; nothing: the value
+  std::optional<double> scale = {};  // what the half width is compared with; nothing: the value
 };
 
 // Fills determination and words from value and interval.
-void judge(EstimatedParameter& parameter, const DeterminationGrounds& grounds);
+void judge(EstimatedParameter& parameter, const DeterminationGrounds& grounds,
+           const DeterminationOptions& options = {});
 
 }  // namespace slipway::gap

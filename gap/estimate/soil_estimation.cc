@@ -120,12 +120,11 @@ class Estimation {
   // From elsewhere: what soils of all kinds differ by, half of it, and where n is another, k so that the
   // pressure at a usual depth is the same.
   std::vector<Unknown> drawn_start(int start) const {
-    constexpr double kShare = 0.5, kUsualDepth_m = 0.03;
     std::vector<Unknown> moved = unknowns_;
     double exponent_change = 0.0;
     for (std::size_t k = 0; k < moved.size(); ++k) {
       const SoilParameter axis = axes_.axes()[k];
-      const double change = kShare * wide_std(axis) *
+      const double change = options_.start_share * wide_std(axis) *
                             random_normal(random_key(options_.seed, static_cast<std::uint64_t>(start)), k);
       if (axis == SoilParameter::kN)
         exponent_change = nominal_.mean.pressure.n * (std::exp(moved[k].start + change) - 1.0);
@@ -133,7 +132,7 @@ class Estimation {
     }
     for (std::size_t k = 0; k < moved.size(); ++k) {
       if (axes_.axes()[k] == SoilParameter::kBekker)
-        moved[k].start -= exponent_change * std::log(kUsualDepth_m);
+        moved[k].start -= exponent_change * std::log(options_.usual_depth_m);
       moved[k].start = std::clamp(moved[k].start, moved[k].lowest, moved[k].highest);
     }
     return moved;
@@ -142,9 +141,8 @@ class Estimation {
   Result<LeastSquaresFit> search() {
     const ResidualFunction residuals = residuals_of(axes_);
     auto best = fit_least_squares(unknowns_, readings(), residuals, fit_options_, within_);
-    constexpr double kPoor = 4.0;  // a variance: twice the noise
     const auto is_poor = [&](const Result<LeastSquaresFit>& fit) {
-      return !fit || !fit->converged || fit->residual_variance > kPoor;
+      return !fit || !fit->converged || fit->residual_variance > options_.poor_variance;
     };
     for (int start = 1; start <= options_.further_starts && is_poor(best); ++start) {
       if (progress_.cancelled()) break;
@@ -169,7 +167,7 @@ class Estimation {
       deviations[c] += left / data[i].std * (left / data[i].std);
       counts[c] += 1.0;
       const bool beyond = options_.loss != RobustLoss::kNone &&
-                          std::abs(left / data[i].std) > kOutlierScales * fit_options_.loss_scale;
+                          std::abs(left / data[i].std) > options_.outlier_scales * fit_options_.loss_scale;
       e.data.push_back({data[i], fitted[i], beyond});
     }
     for (std::size_t c = 0; c < counts.size(); ++c)
@@ -191,7 +189,7 @@ class Estimation {
           std::sqrt(e.residual_variance)));
     if (holds(free_, SoilParameter::kKc) && observations_.one_width())
       e.notes.push_back(
-          "all wheels and plates have one width: only k_c / b + k_phi can be told, not k_c and "
+          "all wheels and plates have one width: only k_c / b + k_phi can be determined, not k_c and "
           "k_phi apart; k_bekker in their place is better");
   }
 
@@ -322,14 +320,13 @@ class Estimation {
     p.high_open = interval.high_open;
     // A modulus that may be negative is measured by the stiffness.
     const bool modulus = parameter == SoilParameter::kKc || parameter == SoilParameter::kKphi;
-    constexpr double kOfPrior = 0.7;
-    judge(p, {.says_more = deviation && (!prior || *deviation < kOfPrior * *prior),
-              .residual_variance = fit_.residual_variance,
-              .scale = modulus ? std::optional(axes_.scale(parameter)) : std::nullopt});
+    judge(p,
+          {.says_more = deviation && (!prior || *deviation < options_.determination.max_of_prior * *prior),
+           .residual_variance = fit_.residual_variance,
+           .scale = modulus ? std::optional(axes_.scale(parameter)) : std::nullopt},
+          options_.determination);
     return p;
   }
-
-  static constexpr double kOutlierScales = 2.0;  // of the loss
 
   const sim::SoilDistribution& nominal_;
   std::vector<SoilParameter> free_;
@@ -357,8 +354,7 @@ Result<SoilEstimate> estimate_soil(const sim::SoilDistribution& nominal, const S
     if (data.wheels[i][SoilChannel::kCurrent].value && !data.wheels[i].test.drive)
       return fail(ErrorCode::kInvalidRequest, "a measured current needs the motor that it was measured at");
   Estimation estimation(nominal, data, free, options, progress);
-  constexpr std::size_t kFewest = 2;
-  if (estimation.readings() < kFewest)
+  if (estimation.readings() < options.min_readings)
     return fail(ErrorCode::kNoData,
                 fmt::format("{} readings are too few to estimate a soil from", estimation.readings()));
   return estimation.run();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace slipway::gap {
 
@@ -48,6 +49,15 @@ std::vector<Fault> faults_of(std::span<const SoilParameter> free, const SoilEsti
       faults.push_back({pointer, fmt::format("{} is not free", row_of(bound.parameter).name)});
     else if (bound.parameter == SoilParameter::kKphi)
       faults.push_back({pointer, "k_phi follows from k_c and the stiffness: bound k_c"});
+    // Beyond what a soil's file may hold, the estimate could not be read back.
+    const SoilParameterRow& row = row_of(bound.parameter);
+    const Field field = row.field ? row.field->field : Field{"k_bekker", row.unit, "", 1e-6, 1e11};
+    for (const double value : {bound.lowest, bound.highest})
+      if (const double shown = row.boundary_unit * value, near = 1e-12 * std::abs(shown);
+          shown < field.lowest - near || shown > field.highest + near)
+        faults.push_back(
+            {pointer, fmt::format("{} = {:g}, must be in [{:g}, {:g}], which a soil's file holds", row.name,
+                                  shown, field.lowest, field.highest)});
     if (!(bound.lowest < bound.highest))
       faults.push_back({pointer, fmt::format("{} to {}: the lower bound must be below the upper",
                                              bound.lowest, bound.highest)});

@@ -9,6 +9,7 @@
 
 #include "core/result.h"
 #include "gap/estimate/least_squares.h"
+#include "gap/estimate/soil_determination.h"
 #include "gap/estimate/soil_observation.h"
 #include "gap/estimate/soil_parameter.h"
 
@@ -36,8 +37,17 @@ struct SoilEstimationOptions {
   ReadingNoise noise = {};
   RobustLoss loss = RobustLoss::kNone;
   std::optional<double> loss_scale = {};  // in deviations; nothing: usual_loss_scale()
-  // Searches from elsewhere between the bounds where the first leaves more than twice the noise.
+  // Searches from elsewhere between the bounds where the first does not converge or leaves residuals of more
+  // than `poor_variance` in deviations: twice the noise.
   int further_starts = 12;
+  double poor_variance = 4.0;
+  // Further starts are drawn with this share of what soils of all kinds differ by; where n is another, k is
+  // so that the pressure at a usual depth of sinkage stays.
+  double start_share = 0.5;
+  double usual_depth_m = 0.03;
+  double outlier_scales = 2.0;   // of the loss: readings beyond are counted as outliers
+  std::size_t min_readings = 2;  // fewer are refused
+  DeterminationOptions determination = {};
   bool profile = true;  // 90 % intervals by profile likelihood; otherwise from the covariance
   std::uint64_t seed = 1;
 };

@@ -28,7 +28,7 @@ bool same(const sim::WheelGeometry& a, const sim::WheelGeometry& b) {
          a.grousers.count == b.grousers.count && a.rim_friction == b.rim_friction;
 }
 
-sim::WheelMotion motion_of(const sim::SingleWheelTest& test) {
+sim::WheelMotion motion_of(const sim::WheelRigConditions& test) {
   return test.slip_definition == sim::SlipDefinition::kForward
              ? sim::forward_motion(test.slip, test.slip_angle_rad)
              : sim::rig_motion(test.slip, test.slip_angle_rad);
@@ -60,7 +60,7 @@ SoilObservations::SoilObservations(const SoilData& data, const ReadingNoise& noi
     narrowest = std::min(narrowest, group.wheel.width_m);
     widest = std::max(widest, group.wheel.width_m);
   }
-  for (const PlateTest& plate : data.plates) {
+  for (const PlateRecord& plate : data.plates) {
     narrowest = std::min(narrowest, plate.radius_m);
     widest = std::max(widest, plate.radius_m);
   }
@@ -118,7 +118,7 @@ void SoilObservations::list_readings(const ReadingNoise& noise, const std::array
       if (reading.value) add(channel, i, 0, *reading.value, reading.std);
     }
   for (std::size_t i = 0; i < data_.plates.size(); ++i) {
-    const PlateTest& plate = data_.plates[i];
+    const PlateRecord& plate = data_.plates[i];
     for (std::size_t s = 0; s < std::min(plate.sinkage_m.size(), plate.pressure_pa.size()); ++s)
       if (plate.sinkage_m[s] > 0.0) add(SoilChannel::kPressure, i, s, plate.pressure_pa[s], std::nullopt);
   }
@@ -194,7 +194,7 @@ void SoilObservations::balance(Group& g) {
   evaluate(g.angles, g.forces);
 }
 
-// As sim::run_single_wheel_test splits the pull: thrust is what strength and grousers add to it.
+// As sim::run_wheel_rig splits the pull: thrust is what strength and grousers add to it.
 void SoilObservations::find_thrust(Group& g) {
   std::vector<sim::Soil> soils = g.soils;
   for (sim::Soil& soil : soils) soil.bulldozing = soil.side_bulldozing = 0.0;
@@ -214,7 +214,7 @@ bool SoilObservations::predict(const sim::Soil& soil, std::span<double> values) 
   for (Group& g : groups_) {
     if (!(soil.pressure.stiffness(g.wheel.width_m) > 0.0)) return false;
     for (std::size_t i = 0; i < g.tests.size(); ++i) {
-      const sim::SingleWheelTest& test = data_.wheels[g.tests[i]].test;
+      const sim::WheelRigConditions& test = data_.wheels[g.tests[i]].test;
       g.soils[i] = sim::soil_in_force(soil, test.gravity_m_s2, g.rim_speeds_m_s[i], test.in_a_track);
     }
     balance(g);
@@ -223,7 +223,7 @@ bool SoilObservations::predict(const sim::Soil& soil, std::span<double> values) 
   for (std::size_t k = 0; k < list_.size(); ++k) {
     const SoilDatum& datum = list_[k];
     if (datum.channel == SoilChannel::kPressure) {
-      const PlateTest& plate = data_.plates[datum.test];
+      const PlateRecord& plate = data_.plates[datum.test];
       const double stiffness = soil.pressure.stiffness(plate.radius_m);
       if (!(stiffness > 0.0)) return false;
       values[k] = sim::bekker_pressure_pa(stiffness, soil.pressure.n, plate.sinkage_m[datum.sample]);

@@ -31,7 +31,7 @@ struct SoilReading {
 // One steady test of a wheel: how it was held (the soil in it is not read), and what was measured. A current
 // needs the test's motor.
 struct WheelObservation {
-  sim::SingleWheelTest test;
+  sim::WheelRigConditions test;
   std::array<SoilReading, kWheelChannels> readings;
 
   SoilReading& operator[](SoilChannel channel) { return readings[static_cast<std::size_t>(channel)]; }
@@ -42,7 +42,7 @@ struct WheelObservation {
 
 struct SoilData {
   std::vector<WheelObservation> wheels;
-  std::vector<PlateTest> plates;
+  std::vector<PlateRecord> plates;
 };
 
 // The standard deviation of a reading that has none of its own: a share of it in quadrature with a share of

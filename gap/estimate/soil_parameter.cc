@@ -11,53 +11,71 @@ namespace {
 constexpr double kCohesionScale_pa = 1000.0;
 constexpr double kMostStiffer = 1000.0;  // than the soil that a search starts from, or softer
 
-constexpr std::array<SoilParameterRow, kSoilParameters> kRows{{
-    {SoilParameter::kBekker, "k_bekker", "both moduli of sinkage as one, k_c / b + k_phi", "N/m^(n+2)", 1.0,
+// What the table of a soil's fields does not say of a parameter.
+struct Searched {
+  SoilParameter parameter;
+  std::string_view name, summary;
+  std::string_view key;  // of the soil's file
+  double lowest, highest, wide_std;
+};
+
+constexpr std::array<Searched, kSoilParameters> kSearched{{
+    {SoilParameter::kBekker, "k_bekker", "both moduli of sinkage as one, k_c / b + k_phi", "",
      1.0 / kMostStiffer, kMostStiffer, 2.0},
-    {SoilParameter::kKc, "k_c", "cohesive modulus of sinkage; may be negative", "N/m^(n+1)", 1.0, -20.0, 20.0,
-     1.0},
-    {SoilParameter::kKphi, "k_phi", "frictional modulus of sinkage", "N/m^(n+2)", 1.0, -20.0, 20.0, 1.0},
-    {SoilParameter::kN, "n", "exponent of sinkage", "1", 1.0, 0.1, 3.0, 0.5},
-    {SoilParameter::kCohesion, "cohesion", "cohesion", "Pa", 1.0, 0.0, 50e3, 1000.0},
-    {SoilParameter::kFrictionAngle, "friction_angle", "angle of internal friction", "deg", deg_from_rad(1.0),
+    {SoilParameter::kKc, "k_c", "cohesive modulus of sinkage; may be negative", "k_c", -20.0, 20.0, 1.0},
+    {SoilParameter::kKphi, "k_phi", "frictional modulus of sinkage", "k_phi", -20.0, 20.0, 1.0},
+    {SoilParameter::kN, "n", "exponent of sinkage", "n", 0.1, 3.0, 0.5},
+    {SoilParameter::kCohesion, "cohesion", "cohesion", "cohesion_pa", 0.0, 50e3, 1000.0},
+    {SoilParameter::kFrictionAngle, "friction_angle", "angle of internal friction", "friction_angle_deg",
      rad_from_deg(1.0), rad_from_deg(59.0), 0.5},
-    {SoilParameter::kShearModulus, "shear_modulus", "Janosi's modulus of shear K", "m", 1.0, 1e-4, 0.5, 1.0},
+    {SoilParameter::kShearModulus, "shear_modulus", "Janosi's modulus of shear K", "shear_modulus_x_m", 1e-4,
+     0.5, 1.0},
 }};
+
+std::array<SoilParameterRow, kSoilParameters> make_rows() {
+  std::array<SoilParameterRow, kSoilParameters> rows;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Searched& s = kSearched[i];
+    const sim::SoilField* field = sim::find_soil_field(s.key);
+    rows[i] = {.parameter = s.parameter,
+               .name = s.name,
+               .summary = s.summary,
+               .unit = field ? field->field.unit : sim::find_soil_field("k_phi")->field.unit,
+               .boundary_unit = field ? field->to_boundary(1.0) : 1.0,
+               .field = field,
+               .lowest = s.lowest,
+               .highest = s.highest,
+               .wide_std = s.wide_std};
+  }
+  return rows;
+}
+
+const std::array<SoilParameterRow, kSoilParameters>& rows() {
+  static const auto all = make_rows();
+  return all;
+}
 
 }  // namespace
 
 std::span<const SoilParameterRow> soil_parameter_rows() {
-  return kRows;
+  return rows();
 }
 
 const SoilParameterRow& row_of(SoilParameter parameter) {
-  return kRows[static_cast<std::size_t>(parameter)];
+  return rows()[static_cast<std::size_t>(parameter)];
 }
 
 std::optional<SoilParameter> soil_parameter(std::string_view name) {
-  for (const SoilParameterRow& row : kRows)
+  for (const SoilParameterRow& row : rows())
     if (row.name == name) return row.parameter;
   return std::nullopt;
 }
 
 double value_of(SoilParameter parameter, const sim::Soil& soil, double width_m) {
-  switch (parameter) {
-    case SoilParameter::kBekker:
-      return soil.pressure.stiffness(width_m);
-    case SoilParameter::kKc:
-      return soil.pressure.k_c;
-    case SoilParameter::kKphi:
-      return soil.pressure.k_phi;
-    case SoilParameter::kN:
-      return soil.pressure.n;
-    case SoilParameter::kCohesion:
-      return soil.cohesion_pa;
-    case SoilParameter::kFrictionAngle:
-      return soil.friction_angle_rad;
-    case SoilParameter::kShearModulus:
-      return soil.shear_modulus_x_m;
-  }
-  return 0.0;
+  const sim::SoilField* field = row_of(parameter).field;
+  if (field == nullptr) return soil.pressure.stiffness(width_m);
+  sim::Soil copy = soil;
+  return field->number(copy);
 }
 
 SoilAxes::SoilAxes(const sim::Soil& base, double width_m, std::vector<SoilParameter> axes)

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "gap/estimate/least_squares.h"
-#include "sim/soil/soil.h"
+#include "sim/soil/soil_field.h"
 
 namespace slipway::gap {
 
@@ -22,8 +22,11 @@ struct SoilParameterRow {
   std::string_view summary;
   std::string_view unit;       // at the boundary
   double boundary_unit = 1.0;  // what one internal unit is there: 57.3 of an angle
-  // Of its value, in SI and radians; of a modulus of sinkage in units of k_bekker (k_c: times b) where the
-  // search starts.
+  // Its row in the table of a soil's file, from which unit and member are; none for k_bekker, which is two of
+  // them.
+  const sim::SoilField* field = nullptr;
+  // Between which it is searched, inside what a file may hold: its value, in SI and radians; of a modulus of
+  // sinkage in units of k_bekker (k_c: times b) where the search starts.
   double lowest = 0.0, highest = 0.0;
   // Of what is searched, its logarithm or tangent's logarithm, or itself (k_c in units of k b, cohesion in
   // Pa): one standard deviation of what soils of all kinds have.

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "core/angle.h"
+#include "sim/soil/soil_field.h"
 
 namespace slipway::gap {
 namespace {
@@ -51,6 +52,12 @@ sim::SoilDistribution posterior_soil(const sim::SoilDistribution& nominal, const
                                      const LeastSquaresFit& fit) {
   sim::SoilDistribution soil = nominal;
   soil.mean = axes.soil_at(fit.estimate);
+  // A bound's end may be passed by rounding, which the reader of soil files would not take.
+  for (const sim::SoilField& row : sim::soil_fields()) {
+    double& kept = row.number(soil.mean);
+    const double value = row.to_boundary(kept);
+    if (!row.holds(value)) kept = row.from_boundary(std::clamp(value, row.field.lowest, row.field.highest));
+  }
   soil.assumed = {"correlation_length_m: the nominal soil's",
                   "what was not estimated: the nominal soil's, see its source"};
   std::array<std::optional<std::size_t>, sim::kSoilDims> place;

@@ -10,7 +10,7 @@
 
 namespace slipway::planner {
 
-// The motions as what the rover is told, at its cruise speed and turn rate. Motions are of the direction of
+// The motions as commands to the rover, at its cruise speed and turn rate. Motions are of the direction of
 // travel; the manner says how the body stands to it. Turns without a drive between them are one leg, drives
 // of one curvature without a turn between them too: the rover would not halt there.
 std::vector<sim::DriveLeg> drive_legs(const std::vector<Motion>& motions, const sim::RoverModel& rover,

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/angle.h"
-#include "planner/problem/cost_catalogue.h"
+#include "planner/problem/weights.h"
 
 namespace slipway::planner {
 namespace {
@@ -46,8 +46,8 @@ std::string verdict_reason(const Route& route) {
   const DynamicVerification* const dynamic = route.dynamic ? &*route.dynamic : nullptr;
   if (dynamic && dynamic->refutes()) {
     if (!dynamic->end || dynamic->end == sim::DriveEnd::kFinished)
-      return "no go in the dynamic rung: " + joined(dynamic->broken_limits);
-    return fmt::format("no go in the dynamic rung: {} at {:.1f} m, {}", end_in_words(*dynamic),
+      return "no go in the dynamic simulation: " + joined(dynamic->broken_limits);
+    return fmt::format("no go in the dynamic simulation: {} at {:.1f} m, {}", end_in_words(*dynamic),
                        dynamic->distance_m, dynamic->reason);
   }
   std::string why;
@@ -63,18 +63,20 @@ std::string verdict_reason(const Route& route) {
                        100.0 * drive.risk_high, 100.0 * kAcceptedRisk);
   }
   if (dynamic && !dynamic->end)
-    why += fmt::format("{}no answer from the dynamic rung: {}", why.empty() ? "" : ", ", dynamic->reason);
+    why +=
+        fmt::format("{}no answer from the dynamic simulation: {}", why.empty() ? "" : ", ", dynamic->reason);
   if (!why.empty()) return "caution: " + why;
   return fmt::format("go: within every limit, on known ground, risk {:.0f} % of {} soil draws",
                      100.0 * drive.risk, drive.draws);
 }
 
-// What the dynamic rung adds to a route that it does not refute.
+// What the dynamic simulation adds to a route that it does not refute.
 std::string confirmation(const Route& route) {
   const DynamicVerification& dynamic = *route.dynamic;
   const sim::Peak &slip = dynamic.extremes.max_slip_ratio, &balanced = route.prediction.max_slip_ratio;
   return fmt::format(
-      "driven to its end in the dynamic rung within every limit: largest slip {:.2f} at {:.0f} m (balance: "
+      "driven to its end in the dynamic simulation within every limit: largest slip {:.2f} at {:.0f} m "
+      "(balance: "
       "{:.2f} at {:.0f} m), {:.0f} s (balance: {:.0f} s)",
       slip.value, slip.distance_m, balanced.value, balanced.distance_m, dynamic.duration_s,
       route.prediction.duration_s);
@@ -103,6 +105,9 @@ std::vector<std::string> superlatives(const Route& route, const std::vector<Rout
   compare(
       "shortest", [](const Route& r) { return std::round(r.prediction.length_m); },
       [](const Route& r) { return fmt::format("{:.0f} m", r.prediction.length_m); });
+  // The energy on ground that is known by a slip curve alone is in no route's figure.
+  if (std::any_of(routes.begin(), routes.end(), [](const Route& r) { return r.prediction.by_slip_curve; }))
+    return words;
   compare(
       "least energy", [](const Route& r) { return std::round(r.prediction.energy_j / 3600.0); },
       [](const Route& r) { return fmt::format("{:.0f} Wh", r.prediction.energy_j / 3600.0); });
@@ -130,10 +135,13 @@ void judge(const PlanProblem& problem, Route& route) {
   const sim::DrivePrediction& drive = route.prediction;
   route.cost = 0.0;
   route.shares.clear();
-  for (const CostTerm& term : cost_catalogue()) {
-    CostShare share{
-        .name = std::string(term.name), .value = term.value(drive), .unit = std::string(term.unit)};
-    share.weight = problem.weights.*term.in_weights;
+  const DriveFigures figures = figures_of(drive);
+  const std::span<const CostTerm> terms = problem.weights.terms();
+  for (std::size_t row = 0; row < terms.size(); ++row) {
+    CostShare share{.name = std::string(terms[row].name),
+                    .value = terms[row].value(figures),
+                    .unit = std::string(terms[row].unit)};
+    share.weight = problem.weights[row];
     share.cost = share.weight * share.value;
     route.cost += share.cost;
     route.shares.push_back(std::move(share));

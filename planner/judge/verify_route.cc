@@ -151,7 +151,7 @@ class Comparison {
   std::array<sim::Peak, 3> largest_;
 };
 
-// What is known of a drive that the rung gave up on.
+// What is known of a drive that the simulation gave up on.
 void end_without_answer(const Error& error, const std::vector<sim::DriveSample>& samples, const Pose2& start,
                         DynamicVerification& out) {
   out.reason = error.detail;

@@ -10,14 +10,14 @@
 
 namespace slipway::planner {
 
-// How far the dynamic rung is from the quasi-static one at equal distances along the way.
+// How far the dynamic simulation is from the quasi-static one at equal distances along the way.
 struct LevelDifference {
   double mean = 0.0;      // dynamic less quasi-static, over the compared way
   double mean_abs = 0.0;  // the same without sign
   sim::Peak largest;      // without sign
 };
 
-// A route as it was driven in the dynamic rung, under the beliefs' mean soils, with its pose fed back.
+// A route as it was driven in the dynamic simulation, on the beliefs' mean soils, with its pose fed back.
 struct DynamicVerification {
   std::optional<sim::DriveEnd> end;  // nothing: not simulated to an end, `reason` says why
   std::string reason;                // empty where finished
@@ -26,13 +26,13 @@ struct DynamicVerification {
   double commanded_m = 0.0;
   double duration_s = 0.0;
   std::optional<double> energy_j;  // from the bus, of the drive motors; nothing where there is no end
-  // Slip is the mean over the time that a station's spacing takes: what a balance has no say in, the first
-  // grip after each halt, is no slip of the way. Without clearance: this rung only tells where the belly
-  // touches.
+  // Slip is the mean over the time that a station's spacing takes: the first grip after each halt, of which a
+  // balance knows nothing, does not count as slip on the way. There is no clearance: the dynamic simulation
+  // only shows where the belly touches.
   sim::DriveExtremes extremes;
   std::vector<std::string> broken_limits;  // in the words of DrivePrediction's
   // Of the rover's slip (over the same time), its deepest wheel and its largest current; driven parts only,
-  // as far as both rungs got.
+  // as far as both simulations got.
   double compared_m = 0.0;
   LevelDifference slip_ratio, sinkage_m, current_a;
   std::vector<std::string> wheel_names;  // in the order of every sample's wheels

@@ -1,38 +1,63 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/pose.h"
+#include "planner/problem/motion.h"
 #include "planner/problem/problem.h"
 #include "sim/rover/rover_model.h"
 
 namespace slipway::planner {
 
-// The polygons that the rover's body must stay out of. A polygon that crosses itself encloses what an odd
-// number of its edges surrounds.
+// The polygons that the rover's body, a rectangle about its pose, must stay out of. Polygons and body are
+// closed: to touch is to hit. A polygon that crosses itself encloses what an odd number of its edges
+// surrounds.
 class KeepOut {
  public:
   KeepOut(std::span<const Polygon> polygons, const sim::RoverModel& rover);
 
-  bool empty() const { return polygons_.empty(); }
+  bool empty() const { return zones_.empty(); }
   // The body's rectangle meets a polygon.
   bool hits(const Pose2& pose) const;
-  // The polygon that holds the point or is nearer to it than the body's half width or half length, whichever
-  // is less: then the body meets it at any heading.
-  bool hits_at_any_heading(double x_m, double y_m) const { return distance_m(x_m, y_m) <= inscribed_m_; }
-  // The body meets no polygon at any heading.
-  bool clear_at_any_heading(double x_m, double y_m) const { return distance_m(x_m, y_m) > circumscribed_m_; }
+  // The body meets a polygon anywhere along the motion, both turns in place included. Exact, not sampled:
+  // what a rectangle sweeps when it is shifted is a rectangle, and a rectangle that is turned about a point
+  // meets a polygon first where a corner of the one crosses an edge of the other, on a circle about that
+  // point.
+  bool hits_along(const Motion& motion) const;
+  // Where hits_along(motion) holds: the first pose, to `step_m` along the drive and half a degree in a turn,
+  // at which the body is inside; the motion's end where none of these is. Nothing where the motion is clear.
+  std::optional<Pose2> first_hit(const Motion& motion, double step_m = 0.05) const;
+  // The body meets a polygon at every heading: one holds the point or is nearer to it than the body's half
+  // width or half length, whichever is less.
+  bool hits_at_any_heading(double x_m, double y_m) const { return within(x_m, y_m, inscribed_m_); }
+  // The body meets no polygon at any heading, wherever it stands within `reach_m` of the point.
+  bool clear_at_any_heading(double x_m, double y_m, double reach_m = 0.0) const {
+    return !within(x_m, y_m, circumscribed_m_ + reach_m);
+  }
 
  private:
-  // To the nearest polygon; 0 inside one.
-  double distance_m(double x_m, double y_m) const;
+  struct Zone {
+    Polygon polygon;
+    Eigen::Vector2d low, high;  // its bounding box
 
-  std::vector<Polygon> polygons_;
-  double half_length_m_;
-  double half_width_m_;
+    bool box_within(const Eigen::Vector2d& point, double distance_m) const;
+  };
+
+  // A polygon holds the point or is at most so far from it.
+  bool within(double x_m, double y_m, double distance_m) const;
+  bool turning_hits(const Zone& zone, const Pose2& from, const Eigen::Vector2d& centre_in_body,
+                    double turn_rad) const;
+  bool driving_hits(const Zone& zone, const Motion& motion) const;
+
+  std::vector<Zone> zones_;
+  Eigen::Vector2d half_;  // of the body, along and across
   double inscribed_m_;
   double circumscribed_m_;
 };
+
+// Of a route's motions in their order.
+std::optional<Pose2> first_hit(const KeepOut& keep_out, std::span<const Motion> motions);
 
 }  // namespace slipway::planner

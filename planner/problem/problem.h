@@ -9,21 +9,13 @@
 
 #include "dem/soil_map.h"
 #include "dem/terrain.h"
+#include "planner/problem/weights.h"
 #include "sim/prediction/drive_prediction.h"
 #include "sim/rover/rover_model.h"
 
 namespace slipway::planner {
 
 using Polygon = std::vector<Eigen::Vector2d>;  // map metres, closed implicitly, at least three corners
-
-// What a route costs, per row of the cost catalogue: weight times the term's value.
-struct Weights {
-  double duration = 1.0;  // per hour
-  double energy = 1.0;    // per 100 Wh
-  double slip = 4.0;      // per 100 m driven at 100 % slip
-  double unknown = 2.0;   // per 100 m on unknown ground
-  double risk = 20.0;     // per unit of probability that a limit is broken
-};
 
 // How the rover stands to its direction of travel.
 struct Manner {
@@ -55,15 +47,15 @@ struct PlanProblem {
   std::vector<Polygon> keep_out;
   sim::DriveLimits limits;
   sim::DriveConditions conditions;
-  Weights weights;
+  Weights weights;  // with the terms of the cost that they are of
   int routes = 3;
-  int verify = 0;                     // of the best-ranked ones in the dynamic rung
+  int verify = 0;                     // how many of the best-ranked are driven in the dynamic simulation too
   std::vector<std::string> planners;  // names of the catalogue; empty: its default set
   std::uint64_t seed = 1;
   sim::RiskOptions risk;
   std::size_t threads = 0;  // 0: as many as the machine has
 };
 
-constexpr int kMostVerified = 3;  // routes of a plan in the dynamic rung
+constexpr int kMostVerified = 3;  // routes of a plan that are driven in the dynamic simulation
 
 }  // namespace slipway::planner

@@ -22,8 +22,8 @@ struct CostShare {
 enum class Verdict {
   kGo,       // within every limit, on known ground, risk within the accepted one
   kCaution,  // within every limit under the mean soils, but on unknown ground, at more than the accepted
-             // risk, or with no answer from a rung that was asked
-  kNoGo,     // a limit is broken or the rover immobilised under the mean soils, in any rung it was driven in
+             // risk, or with no answer from a simulation that was asked for
+  kNoGo,     // a limit is broken or the rover immobilised under the mean soils, in any simulation of it
 };
 
 // "go", "caution", "no_go".
@@ -46,7 +46,7 @@ struct Route {
 struct Plan {
   std::vector<Route> routes;               // by rank
   std::vector<std::string> fewer_because;  // why there are fewer than asked for; empty otherwise
-  int candidates = 0;                      // proposed by OMPL before selection
+  int candidates = 0;                      // proposed by the planners before selection
 };
 
 }  // namespace slipway::planner

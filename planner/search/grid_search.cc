@@ -81,6 +81,21 @@ bool GridSearch::passes_corners(std::size_t row, std::size_t column, int step) c
          per_metre_[second * kGridSteps + step] < kInfinity;
 }
 
+bool GridSearch::clear_of_keep_outs(std::size_t row, std::size_t column, int step) const {
+  const Step& s = kSteps[static_cast<std::size_t>(step)];
+  const auto columns = static_cast<std::size_t>(map_.geometry().columns);
+  // A step runs within the rectangle of cells between its ends; free ones are clear wherever the body stands.
+  bool near = false;
+  for (int up = std::min(0, s.up); up <= std::max(0, s.up); ++up)
+    for (int right = std::min(0, s.right); right <= std::max(0, s.right); ++right)
+      near |= map_.cell((row - up) * columns + (column + right)).passage != Passage::kFree;
+  if (!near) return true;
+  const Eigen::Vector2d from = map_.centre_m(row * columns + column);
+  const Eigen::Vector2d to = map_.centre_m((row - s.up) * columns + (column + s.right));
+  const double bearing = std::atan2(to.y() - from.y(), to.x() - from.x());
+  return !map_.keep_out().hits_along(straight({from.x(), from.y(), bearing}, to.x(), to.y()));
+}
+
 CostField GridSearch::spread(double x_m, double y_m, bool to_go) const {
   CostField field{.cost = std::vector<float>(map_.cells(), kInfinity),
                   .step = std::vector<std::int16_t>(map_.cells(), -1)};
@@ -113,7 +128,9 @@ CostField GridSearch::spread(double x_m, double y_m, bool to_go) const {
         continue;
       const auto next = static_cast<std::size_t>(next_row) * columns + static_cast<std::size_t>(next_column);
       const float cost = here.cost + half_length[k] * (half + per_metre_[next * kGridSteps + driven]);
-      if (!(cost < field.cost[next]) || !passes_corners(row, column, k)) continue;
+      if (!(cost < field.cost[next]) || !passes_corners(row, column, k) ||
+          !clear_of_keep_outs(row, column, k))
+        continue;
       field.cost[next] = cost;
       field.step[next] = static_cast<std::int16_t>(driven);
       open.push({cost, static_cast<std::uint32_t>(next)});

@@ -14,9 +14,9 @@ struct CostField {
 };
 
 // Dijkstra over the map's cells and 16 directions (eight neighbours and eight knight's moves), each edge
-// costing what the motion cost says of driving in that direction; turns in place are free here. It tells with
-// certainty whether a goal can be reached on the grid, its optimum is a yardstick for OMPL's routes, and its
-// fields show OMPL's samplers where good routes run.
+// costing what the motion cost says of driving in that direction; turns in place are free here. It shows with
+// certainty whether a goal can be reached on the grid, its optimum is a yardstick for the routes that
+// planners find, and its fields show their samplers where good routes run.
 class GridSearch {
  public:
   explicit GridSearch(const MotionCost& cost);
@@ -33,6 +33,8 @@ class GridSearch {
  private:
   CostField spread(double x_m, double y_m, bool to_go) const;
   bool passes_corners(std::size_t row, std::size_t column, int step) const;
+  // Of the body driven straight from the cell's centre by the step, or back: it covers the same ground.
+  bool clear_of_keep_outs(std::size_t row, std::size_t column, int step) const;
 
   const TraverseMap& map_;
   std::vector<float> per_metre_;  // per cell and direction

@@ -8,7 +8,8 @@ namespace slipway::planner {
 namespace {
 
 // At a limit of 25 deg these columns are 3.1 deg of roll apart; cubic between them, the table's error of slip
-// stays mostly below a hundredth up to the traction limit (validation's rungs, with columns 2.5 deg apart).
+// stays mostly below a hundredth up to the traction limit (measured in docs/validation.md, with columns 2.5
+// deg apart).
 constexpr double kNodesToLimit = 8.0;
 
 // The soils that lie anywhere on the map: a legend may name many more, and a table costs hundreds of
@@ -30,9 +31,7 @@ std::vector<bool> soils_in_use(const PlanProblem& problem) {
 }  // namespace
 
 sim::Soil weak_soil(const sim::SoilDistribution& belief) {
-  sim::SoilNormals normals = sim::SoilNormals::Zero();
-  normals << -0.5, 0.0, -0.5, -0.5, 0.5;  // of length one
-  return sim::draw_soil(belief, normals);
+  return sim::draw_soil(belief, sim::towards_weakness());
 }
 
 GroundTables build_ground_tables(const PlanProblem& problem) {

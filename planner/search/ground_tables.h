@@ -8,7 +8,7 @@
 
 namespace slipway::planner {
 
-// The table rung of one kind of ground: the mean soil, and one that is one standard deviation weaker.
+// Slip tables of one kind of ground: for the mean soil, and for one that is one standard deviation weaker.
 struct GroundTable {
   sim::SlipTable mean;
   sim::SlipTable weak;

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <string_view>
 #include <vector>
 
 #include "planner/search/motion_cost.h"
@@ -10,23 +9,28 @@
 
 namespace slipway::planner {
 
-// One search by one planner of OMPL between two places.
+// One leg: what a planner is given to get from one place to the next.
 struct LegSearch {
   const MotionCost* cost = nullptr;
-  const PoseSampler* sampler = nullptr;
+  const PoseSampler* sampler = nullptr;  // where to look, with the grid's cheapest way
   Pose2 from;
   double to_x_m = 0.0;
   double to_y_m = 0.0;
-  std::vector<double> arrival_rad;  // headings that will do; with one, it is kept exactly
+  std::vector<double> arrival_rad;  // headings that will do, in (-pi, pi]; with one, it is kept exactly
   std::uint64_t seed = 1;
   int iterations = 2000;
   double range_m = 12.0;  // longest motion
   std::function<bool()> cancelled;
 };
 
-// The poses of the cheapest route found, from and to included; empty where none was found or the search was
-// cancelled. `planner` is a name of the catalogue. The same search gives the same poses in any process and
-// thread.
-std::vector<Pose2> search_leg(std::string_view planner, const LegSearch& search);
+// A way to search one leg. What it finds is joined by connect(), smoothed and held against every limit after,
+// so a planner may be of any kind; a route of infinite cost is dropped.
+class LegPlanner {
+ public:
+  virtual ~LegPlanner() = default;
+  // The poses of the cheapest route found, from and to included; empty where none was found or the search was
+  // cancelled. The same search gives the same poses in any process and thread; called from several threads.
+  virtual std::vector<Pose2> search(const LegSearch& leg) const = 0;
+};
 
 }  // namespace slipway::planner

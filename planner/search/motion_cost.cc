@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/angle.h"
 
@@ -11,9 +12,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kSlopeStep = 0.0175;  // a degree
-constexpr double kJoulesPer100Wh = 360'000.0;
-constexpr double kSteepFrom = 0.75;  // of a limit
-constexpr double kMostSlip = 0.95;   // of the duration's 1 / (1 - slip)
+constexpr double kSteepFrom = 0.75;    // of a limit
+constexpr double kMostSlip = 0.95;     // of the duration's 1 / (1 - slip)
 // A turn in place is not only its turning: the wheels are steered first and straightened after.
 constexpr double kSteeringPause_s = 20.0;
 constexpr double kFullPause_rad = rad_from_deg(30.0);
@@ -42,6 +42,32 @@ double share_of_limits(const sim::DriveLimits& limits, const sim::TableEntry& en
                    entry.sinkage_m / limits.max_sinkage_m, tilt_rad / limits.max_tilt_rad});
 }
 
+// A metre driven on a slope, and how near it comes to the limits.
+struct Metre {
+  DriveFigures figures;
+  double share_of_limits = 0.0;
+};
+
+// Nothing where the mean soil's rover does not move.
+std::optional<Metre> metre_on(const PlanProblem& problem, const GroundTable& table, bool unknown,
+                              double pitch_rad, double roll_rad) {
+  const sim::TableEntry mean = *table.mean.at(pitch_rad, roll_rad);
+  const sim::TableEntry weak = *table.weak.at(pitch_rad, roll_rad);
+  if (mean.immobile) return std::nullopt;
+  const sim::TableEntry& entry = unknown && !weak.immobile ? weak : mean;
+  const double slip = std::clamp(entry.slip_ratio, 0.0, kMostSlip);
+  const double over =
+      probability_over(problem.limits.max_slip_ratio, mean.slip_ratio, weak.immobile ? 1.0 : weak.slip_ratio);
+  const double tilt = Attitude{.roll_rad = roll_rad, .pitch_rad = pitch_rad, .yaw_rad = 0.0}.tilt_rad();
+  return Metre{{.length_m = 1.0,
+                .duration_s = 1.0 / (problem.rover->cruise_speed_m_s * (1.0 - slip)),
+                .energy_j = entry.energy_j_m,
+                .slip_length_m = slip,
+                .unknown_length_m = unknown ? 1.0 : 0.0,
+                .risk = over / std::max(table.correlation_length_m, 1.0)},
+               share_of_limits(problem.limits, entry, tilt)};
+}
+
 }  // namespace
 
 MotionCost::MotionCost(const PlanProblem& problem, const TraverseMap& map, const GroundTables& tables,
@@ -61,10 +87,16 @@ MotionCost::MotionCost(const PlanProblem& problem, const TraverseMap& map, const
     }
   }
   tabulate(problem, *tables.unknown, true, weights);
+  set_turn_cost(tables, weights);
+}
+
+// A turn in place draws what driving on the level draws, for as long as it takes.
+void MotionCost::set_turn_cost(const GroundTables& tables, const Weights& weights) {
   const double level_w = tables.unknown->mean.at(0.0, 0.0)->energy_j_m * limits_.cruise_speed_m_s;
-  const double per_second = weights.duration / 3600.0 + weights.energy * level_w / kJoulesPer100Wh;
-  turn_cost_per_rad_ = per_second / limits_.turn_rate_rad_s;
-  turn_cost_each_ = weights.duration / 3600.0 * kSteeringPause_s;
+  const double seconds_per_rad = 1.0 / limits_.turn_rate_rad_s;
+  turn_cost_per_rad_ =
+      weights.cost({.turned_rad = 1.0, .duration_s = seconds_per_rad, .energy_j = level_w * seconds_per_rad});
+  turn_cost_each_ = weights.cost({.duration_s = kSteeringPause_s});
 }
 
 void MotionCost::tabulate(const PlanProblem& problem, const GroundTable& table, bool unknown,
@@ -80,24 +112,10 @@ void MotionCost::tabulate(const PlanProblem& problem, const GroundTable& table, 
       const double roll =
           std::clamp(std::asin(leftward / std::sqrt(1.0 + uphill * uphill + leftward * leftward)), -limit_rad,
                      limit_rad);
-      const sim::TableEntry mean = *table.mean.at(pitch, roll);
-      const sim::TableEntry weak = *table.weak.at(pitch, roll);
-      if (mean.immobile) {
-        per_slope_.push_back(std::numeric_limits<float>::infinity());
-        continue;
-      }
-      const bool take_weak = unknown && !weak.immobile;
-      const sim::TableEntry& entry = take_weak ? weak : mean;
-      const double slip = std::clamp(entry.slip_ratio, 0.0, kMostSlip);
-      const double over =
-          weak.immobile ? probability_over(problem.limits.max_slip_ratio, mean.slip_ratio, 1.0)
-                        : probability_over(problem.limits.max_slip_ratio, mean.slip_ratio, weak.slip_ratio);
-      const double sum = weights.duration / 3600.0 / (limits_.cruise_speed_m_s * (1.0 - slip)) +
-                         weights.energy * entry.energy_j_m / kJoulesPer100Wh + weights.slip * slip / 100.0 +
-                         (unknown ? weights.unknown / 100.0 : 0.0) +
-                         weights.risk * over / std::max(table.correlation_length_m, 1.0);
-      const double tilt = Attitude{.roll_rad = roll, .pitch_rad = pitch, .yaw_rad = 0.0}.tilt_rad();
-      per_slope_.push_back(static_cast<float>(sum * steepness(share_of_limits(problem.limits, entry, tilt))));
+      const std::optional<Metre> metre = metre_on(problem, table, unknown, pitch, roll);
+      const double cost =
+          metre ? weights.cost(metre->figures) * steepness(metre->share_of_limits) : kInfinity;
+      per_slope_.push_back(static_cast<float>(cost));
     }
   }
 }
@@ -130,14 +148,12 @@ double MotionCost::per_metre_at(const Eigen::Vector2d& place, const Eigen::Vecto
   if (index < 0) return kInfinity;
   const auto cell = static_cast<std::size_t>(index);
   const Passage passage = map_->cell(cell).passage;
-  if (passage != Passage::kFree) {
-    if (passage != Passage::kNearKeepOut) return kInfinity;
-    if (map_->keep_out().hits({place.x(), place.y(), std::atan2(heading.y(), heading.x())})) return kInfinity;
-  }
+  if (passage != Passage::kFree && passage != Passage::kNearKeepOut) return kInfinity;
   return per_metre_in_cell(cell, heading.x(), heading.y());
 }
 
 double MotionCost::per_metre(const Pose2& pose) const {
+  if (!map_->may_stand(pose)) return kInfinity;
   return per_metre_at({pose.x_m, pose.y_m}, {std::cos(pose.yaw_rad), std::sin(pose.yaw_rad)});
 }
 
@@ -175,8 +191,9 @@ double MotionCost::of(const Motion& motion, double step_m) const {
       heading = turn_half * between;
     }
   }
-  // The body sweeps its corners where it turns: its end must be free too.
-  return map_->may_stand(motion.to) ? cost : kInfinity;
+  // The steps above are as long as a cell, keep-outs may be smaller, and a turn in place sweeps the body's
+  // corners beyond both of its ends: keep-outs are asked about the whole motion.
+  return map_->may_stand(motion.to) && !map_->keep_out().hits_along(motion) ? cost : kInfinity;
 }
 
 }  // namespace slipway::planner

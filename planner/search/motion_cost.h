@@ -9,16 +9,17 @@
 
 namespace slipway::planner {
 
-// What the search minimises: the cost catalogue's sum through the table rung, for one set of weights.
+// What the search minimises: the cost catalogue's sum, for one set of weights, with the figures of each metre
+// taken from the slip tables.
 //
-// Per metre at a pose, from pitch and roll on the cell's plane:
-//   duration  1 / (cruise speed (1 - slip)), hours
-//   energy    of the table, 100 Wh
-//   slip      slip ratio, per 100 m
-//   unknown   1 on unknown ground, per 100 m; unknown ground's numbers are those of its weak soil
+// The figures of a metre at a pose, from pitch and roll on the cell's plane:
+//   duration  1 / (cruise speed (1 - slip))
+//   energy    of the table
+//   slip      slip ratio
+//   unknown   1 on unknown ground; unknown ground's numbers are those of its weak soil
 //   risk      P(slip over its limit) once per correlation length, the logarithm of slip taken as normal with
 //             the spread between the mean and the weak soil's slip
-// and all of it rises steeply from 3/4 of a limit (slip, current, sinkage, tilt) on. Off the map, near
+// and the sum rises steeply from 3/4 of a limit (slip, current, sinkage, tilt) on. Off the map, near
 // missing elevation, beyond the tilt limit, with too little clearance, in a keep-out and where the mean
 // soil's rover is immobilised no motion is valid, and its cost is infinite.
 class MotionCost {
@@ -31,9 +32,10 @@ class MotionCost {
 
   // Per metre driven; infinite where the pose is not allowed.
   double per_metre(const Pose2& pose) const;
-  // The same in a cell, in the direction (c, s); keep-outs near by are judged at the cell's centre.
+  // The same in a cell, in the direction (c, s), without regard to the cell's passage.
   double per_metre_in_cell(std::size_t cell, double c, double s) const;
-  // Midpoint rule over steps of at most `step_m` (0: a search cell).
+  // Midpoint rule over steps of at most `step_m` (0: a search cell). Infinite where the body meets a keep-out
+  // anywhere along the motion, which is exact whatever the step.
   double of(const Motion& motion, double step_m = 0.0) const;
   double of_turn(double turned_rad) const;
   // What a bend of a polyline is taken to cost before it is rounded: a turn, with the pause coming in
@@ -46,8 +48,10 @@ class MotionCost {
 
  private:
   double on_slope(std::uint8_t soil, double uphill, double leftward_rise) const;
+  // Keep-outs near by are not asked.
   double per_metre_at(const Eigen::Vector2d& place, const Eigen::Vector2d& heading) const;
   void tabulate(const PlanProblem& problem, const GroundTable& table, bool unknown, const Weights& weights);
+  void set_turn_cost(const GroundTables& tables, const Weights& weights);
 
   const TraverseMap* map_;
   MotionLimits limits_;

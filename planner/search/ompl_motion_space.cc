@@ -1,6 +1,7 @@
 #include "planner/search/ompl_motion_space.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "core/angle.h"
 #include "core/random.h"
@@ -37,15 +38,17 @@ class GuidedSampler final : public ob::StateSampler {
 
 }  // namespace
 
+// Due west is pi here and -pi in OMPL, whose headings lie in [-pi, pi): a state at pi would be out of bounds
+// and dropped without a word.
 Pose2 pose_of(const ob::State* state) {
   const auto* se2 = state->as<ob::SE2StateSpace::StateType>();
-  return {se2->getX(), se2->getY(), se2->getYaw()};
+  return {se2->getX(), se2->getY(), wrapped_rad(se2->getYaw())};
 }
 
 void set_pose(ob::State* state, const Pose2& pose) {
   auto* se2 = state->as<ob::SE2StateSpace::StateType>();
   se2->setXY(pose.x_m, pose.y_m);
-  se2->setYaw(pose.yaw_rad);
+  se2->setYaw(pose.yaw_rad >= std::numbers::pi ? -std::numbers::pi : pose.yaw_rad);
 }
 
 MotionSpace::MotionSpace(const LegSearch& search) : search_(search) {

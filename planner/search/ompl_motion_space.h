@@ -9,7 +9,7 @@
 
 namespace slipway::planner {
 
-// SE(2) in which a rover moves by our motion model. Included by planner/ompl_*.cc only.
+// SE(2) in which a rover moves by our motion model. Included by planner/search/ompl_*.cc only.
 class MotionSpace final : public ompl::base::SE2StateSpace {
  public:
   explicit MotionSpace(const LegSearch& search);

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/angle.h"
-#include "planner/problem/cost_catalogue.h"
 #include "planner/search/planner_catalogue.h"
 #include "sim/rover/stance.h"
 
@@ -17,14 +16,14 @@ constexpr int kMostRoutes = 10;
 constexpr std::size_t kMostWaypoints = 50;
 constexpr std::size_t kMostSoils = 254;  // a search's cell keeps its soil in a byte
 
-std::string known_planners() {
+std::string names_of(std::span<const PlannerRow> planners) {
   std::string names;
-  for (const PlannerRow& row : planner_catalogue())
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", row.name);
+  for (const PlannerRow& row : planners) names += fmt::format("{}{}", names.empty() ? "" : ", ", row.name);
   return names;
 }
 
-void check_settings(const PlanProblem& problem, std::vector<Fault>& faults) {
+void check_settings(const PlanProblem& problem, std::span<const PlannerRow> planners,
+                    std::vector<Fault>& faults) {
   if (problem.routes < 1 || problem.routes > kMostRoutes)
     faults.push_back(
         {"/routes", fmt::format("routes = {}, must be in [1, {}]", problem.routes, kMostRoutes)});
@@ -40,20 +39,19 @@ void check_settings(const PlanProblem& problem, std::vector<Fault>& faults) {
         {"/soil_map", fmt::format("{} soils, must be at most {}", problem.beliefs.known.size(), kMostSoils)});
   }
   for (std::size_t i = 0; i < problem.planners.size(); ++i) {
-    const auto rows = planner_catalogue();
-    const auto known = [&](const PlannerRow& row) { return row.name == problem.planners[i]; };
-    if (std::none_of(rows.begin(), rows.end(), known)) {
+    if (planner_named(problem.planners[i], planners) == nullptr) {
       faults.push_back(
-          {fmt::format("/planners/{}", i),
-           fmt::format("planner \"{}\" is not known; known are {}", problem.planners[i], known_planners())});
+          {fmt::format("/planners/{}", i), fmt::format("planner \"{}\" is not known; known are {}",
+                                                       problem.planners[i], names_of(planners))});
     }
   }
-  for (const CostTerm& term : cost_catalogue()) {
-    const double weight = problem.weights.*term.in_weights;
-    if (weight >= term.weight.lowest && weight <= term.weight.highest) continue;
-    faults.push_back({fmt::format("/weights/{}", term.weight.name),
-                      fmt::format("{} = {:g}, must be in [{:g}, {:g}]", term.weight.name, weight,
-                                  term.weight.lowest, term.weight.highest)});
+  for (std::size_t row = 0; row < problem.weights.terms().size(); ++row) {
+    const Field& field = problem.weights.terms()[row].weight;
+    const double weight = problem.weights[row];
+    if (weight >= field.lowest && weight <= field.highest) continue;
+    faults.push_back(
+        {fmt::format("/weights/{}", field.name),
+         fmt::format("{} = {:g}, must be in [{:g}, {:g}]", field.name, weight, field.lowest, field.highest)});
   }
   for (std::size_t i = 0; i < problem.keep_out.size(); ++i) {
     const Polygon& polygon = problem.keep_out[i];
@@ -126,8 +124,8 @@ std::optional<ErrorCode> check_place(const PlanProblem& problem, const sim::Grou
   return ErrorCode::kNoData;
 }
 
-std::optional<Error> faults_of(const PlanProblem& problem, const KeepOut& keep_out,
-                               const sim::Ground& ground) {
+std::optional<Error> faults_of(const PlanProblem& problem, std::span<const PlannerRow> planners,
+                               const KeepOut& keep_out, const sim::Ground& ground) {
   std::vector<Fault> faults;
   std::vector<ErrorCode> codes;
   // The circle that the body describes when it turns there.
@@ -140,7 +138,7 @@ std::optional<Error> faults_of(const PlanProblem& problem, const KeepOut& keep_o
       check_standing(problem, keep_out, ground, place, pointer, faults);
     }
   };
-  check_settings(problem, faults);
+  check_settings(problem, planners, faults);
   check(problem.start, "/start");
   check(problem.goal, "/goal");
   for (std::size_t i = 0; i < problem.waypoints.size(); ++i)

@@ -1,18 +1,20 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "core/result.h"
 #include "planner/problem/keep_out.h"
 #include "planner/problem/problem.h"
+#include "planner/search/planner_catalogue.h"
 #include "sim/rover/ground.h"
 
 namespace slipway::planner {
 
 // Everything that is wrong with a problem before any search, together. The code is off_map or no_data where a
 // place is, otherwise invalid_request.
-std::optional<Error> faults_of(const PlanProblem& problem, const KeepOut& keep_out,
-                               const sim::Ground& ground);
+std::optional<Error> faults_of(const PlanProblem& problem, std::span<const PlannerRow> planners,
+                               const KeepOut& keep_out, const sim::Ground& ground);
 
 // One place: on the map, with elevation there and on a circle around it (0: there only). Appends to `faults`;
 // returns what is wrong.

@@ -16,13 +16,15 @@ class PoseSampler {
 
   Pose2 draw(std::uint64_t seed, std::uint64_t counter) const;
   double optimum() const { return optimum_; }  // of the way on the grid; infinite where there is none
+  // The cells of that way, start and goal included; empty where there is none.
+  const std::vector<std::size_t>& way() const { return way_; }
   // The heading in which the cheapest way passes the cell.
   double flow_rad(std::size_t cell) const;
 
  private:
   const TraverseMap& map_;
   double optimum_;
-  std::vector<std::size_t> way_;         // cells of the cheapest way
+  std::vector<std::size_t> way_;
   std::vector<std::size_t> cells_;       // worth sampling
   std::vector<double> cumulative_;       // of their weights
   std::vector<std::int16_t> flow_step_;  // per map cell

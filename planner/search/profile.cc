@@ -5,35 +5,32 @@
 namespace slipway::planner {
 namespace {
 
-Weights balanced(const Weights& asked) {
-  return asked;
-}
-
 // A little slip and risk stay in, so that a way over hopeless ground is not the shortest one.
-Weights shortest(const Weights& asked) {
-  return {.duration = 1.0, .energy = 0.0, .slip = 0.1 * asked.slip, .unknown = 0.0, .risk = 0.1 * asked.risk};
-}
-
-Weights least_slip(const Weights& asked) {
-  return {.duration = 0.2,
-          .energy = 0.2 * asked.energy,
-          .slip = 10.0,
-          .unknown = asked.unknown,
-          .risk = asked.risk};
-}
-
-Weights least_risk(const Weights& asked) {
-  return {.duration = 0.3, .energy = 0.3 * asked.energy, .slip = asked.slip, .unknown = 8.0, .risk = 100.0};
-}
+constexpr std::array<ProfileWeight, 5> kShortest{{{"duration", 0.0, 1.0},
+                                                  {"energy", 0.0, 0.0},
+                                                  {"slip", 0.1, 0.0},
+                                                  {"unknown", 0.0, 0.0},
+                                                  {"risk", 0.1, 0.0}}};
+constexpr std::array<ProfileWeight, 3> kLeastSlip{
+    {{"duration", 0.0, 0.2}, {"energy", 0.2, 0.0}, {"slip", 0.0, 10.0}}};
+constexpr std::array<ProfileWeight, 4> kLeastRisk{
+    {{"duration", 0.0, 0.3}, {"energy", 0.3, 0.0}, {"unknown", 0.0, 8.0}, {"risk", 0.0, 100.0}}};
 
 }  // namespace
 
+Weights Profile::weights(const Weights& asked) const {
+  Weights weights = asked;
+  for (const ProfileWeight& row : changed)
+    weights.set(row.term, row.share_of_asked * asked.of(row.term) + row.fixed);
+  return weights;
+}
+
 std::span<const Profile> profiles() {
   static constexpr std::array<Profile, 4> kProfiles{{
-      {"balanced", "the request's own weights", balanced},
-      {"shortest", "duration, with a tenth of the weight on slip and risk", shortest},
-      {"least_slip", "slip before all else", least_slip},
-      {"least_risk", "risk and unknown ground before all else", least_risk},
+      {"balanced", "the request's own weights", {}},
+      {"shortest", "duration, with a tenth of the weight on slip and risk", kShortest},
+      {"least_slip", "slip before all else", kLeastSlip},
+      {"least_risk", "risk and unknown ground before all else", kLeastRisk},
   }};
   return kProfiles;
 }

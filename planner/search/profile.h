@@ -3,16 +3,26 @@
 #include <span>
 #include <string_view>
 
-#include "planner/problem/problem.h"
+#include "planner/problem/weights.h"
 
 namespace slipway::planner {
 
+// A weight of the request as a search takes it: a share of what was asked for, and a part that stands
+// whatever was.
+struct ProfileWeight {
+  std::string_view term;  // of the cost catalogue
+  double share_of_asked = 0.0;
+  double fixed = 0.0;
+};
+
 // What a search is asked to minimise. Routes are always ranked by the request's own weights; the other
-// profiles only make different proposals.
+// profiles only make different proposals. A term that a profile doesn't name keeps the request's weight.
 struct Profile {
   std::string_view name;
   std::string_view summary;
-  Weights (*weights)(const Weights& asked);
+  std::span<const ProfileWeight> changed;
+
+  Weights weights(const Weights& asked) const;
 };
 
 std::span<const Profile> profiles();

@@ -35,10 +35,15 @@ struct Guide {
   std::optional<PoseSampler> sampler;  // of the leg in work
 };
 
+struct NamedPlanner {
+  std::string name;
+  std::unique_ptr<LegPlanner> planner;
+};
+
 // One route in the making.
 struct Draft {
   std::size_t guide = 0;
-  std::string planner;
+  const NamedPlanner* by = nullptr;
   Pose2 at;
   std::vector<Motion> motions;
   bool found = true;
@@ -56,13 +61,22 @@ int iterations_for(double length_m) {
   return static_cast<int>(std::clamp(800.0 + 4.0 * length_m, 1000.0, 4000.0));
 }
 
+// Poses that begin and end where the leg does: others would make a route with a leap in it.
+bool joins(const std::vector<Pose2>& poses, const LegSearch& leg) {
+  constexpr double kSamePlace_m = 1e-6;
+  return poses.size() >= 2 &&
+         std::hypot(poses.front().x_m - leg.from.x_m, poses.front().y_m - leg.from.y_m) < kSamePlace_m &&
+         std::hypot(poses.back().x_m - leg.to_x_m, poses.back().y_m - leg.to_y_m) < kSamePlace_m;
+}
+
 double range_for(double length_m) {
   return std::clamp(length_m / 15.0, 4.0, 16.0);
 }
 
 class Proposer {
  public:
-  Proposer(const PlanProblem& problem, const TraverseMap& map, const GroundTables& tables, Progress& progress)
+  Proposer(const PlanProblem& problem, std::span<const PlannerRow> planners, const TraverseMap& map,
+           const GroundTables& tables, Progress& progress)
       : problem_(problem),
         map_(map),
         tables_(tables),
@@ -70,11 +84,10 @@ class Proposer {
         places_(places_of(problem)),
         asked_cost_(problem, map, tables, problem.weights),
         proposal_{.candidates = {}, .differences = Differences(problem.rover->body_width_m)} {
-    planners_ = problem.planners;
-    if (planners_.empty()) {
-      for (const PlannerRow& row : planner_catalogue())
-        if (row.in_default_set) planners_.emplace_back(row.name);
-    }
+    for (const std::string& name : problem.planners) add_planner(*planner_named(name, planners));
+    if (!planners_.empty()) return;
+    for (const PlannerRow& row : planners)
+      if (row.in_default_set) add_planner(row);
   }
 
   Proposal run() {
@@ -96,6 +109,8 @@ class Proposer {
   }
 
  private:
+  void add_planner(const PlannerRow& row) { planners_.push_back({std::string(row.name), row.make()}); }
+
   bool enough() const {
     return select_routes(proposal_.differences, proposal_.by_cost(), wanted()).size() >= wanted();
   }
@@ -105,8 +120,8 @@ class Proposer {
   void search(std::vector<Guide>& guides, int round) {
     std::vector<Draft> drafts;
     for (std::size_t g = 0; g < guides.size(); ++g)
-      for (const std::string& planner : planners_)
-        drafts.push_back({.guide = g, .planner = planner, .at = {}, .motions = {}});
+      for (const NamedPlanner& planner : planners_)
+        drafts.push_back({.guide = g, .by = &planner, .at = {}, .motions = {}});
     for (std::size_t leg = 0; leg + 1 < places_.size() && !progress_.cancelled(); ++leg) {
       parallel_for(guides.size(), problem_.threads, [&](std::size_t g) { look_ahead(guides[g], leg); });
       if (progress_.cancelled()) return;
@@ -150,8 +165,8 @@ class Proposer {
     search.iterations = iterations_for(length);
     search.range_m = range_for(length);
     search.cancelled = [this] { return progress_.cancelled(); };
-    const std::vector<Pose2> poses = search_leg(draft.planner, search);
-    if (poses.size() < 2) return false;
+    const std::vector<Pose2> poses = draft.by->planner->search(search);
+    if (!joins(poses, search)) return false;
     const std::vector<Motion> motions = smooth_leg(guide.cost, poses, to.yaw_rad.has_value());
     draft.motions.insert(draft.motions.end(), motions.begin(), motions.end());
     draft.at = draft.motions.back().to;
@@ -176,9 +191,12 @@ class Proposer {
       first.first_turn_rad = 0.0;
     }
     const double cost = fine_cost(asked_cost_, draft.motions);
-    if (!std::isfinite(cost)) return;
+    if (!std::isfinite(cost)) {
+      if (const auto pose = first_hit(map_.keep_out(), draft.motions)) proposal_.in_keep_out.push_back(*pose);
+      return;
+    }
     proposal_.differences.add(centreline(draft.motions, kLineSpacing_m));
-    proposal_.candidates.push_back({std::move(draft.motions), draft.planner, profile, cost});
+    proposal_.candidates.push_back({std::move(draft.motions), draft.by->name, profile, cost});
   }
 
   // The extra cost factor of every cell that is near a route that differs so far.
@@ -219,7 +237,7 @@ class Proposer {
   Progress& progress_;
   std::vector<Waypoint> places_;
   MotionCost asked_cost_;
-  std::vector<std::string> planners_;
+  std::vector<NamedPlanner> planners_;
   Proposal proposal_;
 };
 
@@ -233,9 +251,9 @@ std::vector<std::size_t> Proposal::by_cost() const {
   return order;
 }
 
-Proposal propose_routes(const PlanProblem& problem, const TraverseMap& map, const GroundTables& tables,
-                        Progress& progress) {
-  return Proposer(problem, map, tables, progress).run();
+Proposal propose_routes(const PlanProblem& problem, std::span<const PlannerRow> planners,
+                        const TraverseMap& map, const GroundTables& tables, Progress& progress) {
+  return Proposer(problem, planners, map, tables, progress).run();
 }
 
 }  // namespace slipway::planner

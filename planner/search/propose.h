@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -8,31 +9,34 @@
 #include "planner/problem/problem.h"
 #include "planner/search/ground_tables.h"
 #include "planner/search/motion_cost.h"
+#include "planner/search/planner_catalogue.h"
 #include "planner/search/select_routes.h"
 
 namespace slipway::planner {
 
-// A route that OMPL found, before it is simulated.
+// A route that a planner found, before it is simulated.
 struct Candidate {
   std::vector<Motion> motions;
   std::string planner;
   std::string profile;
-  double cost = 0.0;  // under the request's weights, through the table rung
+  double cost = 0.0;  // under the request's weights, by the slip tables
 };
 
 struct Proposal {
   std::vector<Candidate> candidates;
   Differences differences;    // of the candidates
   double grid_optimum = 0.0;  // of all legs, under the request's weights; infinite where a leg has no way
+  // Where routes that planners found would have taken the body into a keep-out: these are no candidates.
+  std::vector<Pose2> in_keep_out = {};
   // The cheapest first, the ones to simulate: routes that differ, as many as were asked for if they exist.
   std::vector<std::size_t> by_cost() const;
 };
 
-// Searches each profile with each planner, then in rounds with the bands around the routes so far made dear,
-// until `problem.routes` routes differ or the rounds are used up. Searches run in parallel; the outcome
-// doesn't depend on it. Empty candidates where there is no way (then grid_optimum is infinite) and where it
-// was cancelled.
-Proposal propose_routes(const PlanProblem& problem, const TraverseMap& map, const GroundTables& tables,
-                        Progress& progress);
+// Searches each profile with each planner that the problem names (none: the default set of `planners`), then
+// in rounds with the bands around the routes so far made dear, until `problem.routes` routes differ or the
+// rounds are used up. Searches run in parallel; the outcome doesn't depend on it. Empty candidates where
+// there is no way (then grid_optimum is infinite) and where it was cancelled.
+Proposal propose_routes(const PlanProblem& problem, std::span<const PlannerRow> planners,
+                        const TraverseMap& map, const GroundTables& tables, Progress& progress);
 
 }  // namespace slipway::planner

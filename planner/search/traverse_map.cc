@@ -87,12 +87,32 @@ bool surrounded_by_data(const dem::Terrain& terrain, const Eigen::Vector2d& cent
   return true;
 }
 
-Passage passage_near(const KeepOut& keep_out, const Eigen::Vector2d& centre) {
-  if (keep_out.empty() || keep_out.clear_at_any_heading(centre.x(), centre.y())) return Passage::kFree;
+// Free is a cell in which the body is clear wherever it stands, not at the centre alone.
+Passage passage_near(const KeepOut& keep_out, const Eigen::Vector2d& centre, double half_diagonal_m) {
+  if (keep_out.empty() || keep_out.clear_at_any_heading(centre.x(), centre.y(), half_diagonal_m))
+    return Passage::kFree;
   return keep_out.hits_at_any_heading(centre.x(), centre.y()) ? Passage::kKeepOut : Passage::kNearKeepOut;
 }
 
 }  // namespace
+
+dem::Extent search_extent(const PlanProblem& problem) {
+  dem::Extent extent{problem.start.x_m, problem.start.y_m, problem.start.x_m, problem.start.y_m};
+  double longest = 0.0;
+  Waypoint last = problem.start;
+  const auto include = [&](const Waypoint& place) {
+    longest = std::max(longest, std::hypot(place.x_m - last.x_m, place.y_m - last.y_m));
+    extent.west_m = std::min(extent.west_m, place.x_m);
+    extent.south_m = std::min(extent.south_m, place.y_m);
+    extent.east_m = std::max(extent.east_m, place.x_m);
+    extent.north_m = std::max(extent.north_m, place.y_m);
+    last = place;
+  };
+  for (const Waypoint& place : problem.waypoints) include(place);
+  include(problem.goal);
+  const double room = std::max(60.0, 0.5 * longest);
+  return {extent.west_m - room, extent.south_m - room, extent.east_m + room, extent.north_m + room};
+}
 
 TraverseMap::TraverseMap(const PlanProblem& problem, const KeepOut& keep_out, const dem::Extent& extent)
     : geometry_(search_geometry(problem.terrain->geometry(), extent)), keep_out_(keep_out) {
@@ -128,7 +148,7 @@ GroundCell TraverseMap::cell_of(const PlanProblem& problem, const Eigen::Vector2
   }
   cell.gradient_x = static_cast<float>(plane.gradient_x);
   cell.gradient_y = static_cast<float>(plane.gradient_y);
-  cell.passage = passage_near(keep_out_, centre);
+  cell.passage = passage_near(keep_out_, centre, 0.5 * std::hypot(geometry_.cell_x_m, geometry_.cell_y_m));
   if (cell.passage == Passage::kKeepOut) return cell;
   const double tilt = std::atan(std::hypot(plane.gradient_x, plane.gradient_y));
   if (tilt > std::min(problem.limits.max_tilt_rad, rover.max_tilt_rad)) cell.passage = Passage::kSteep;

@@ -12,12 +12,12 @@ namespace slipway::planner {
 
 // Why no route passes over a cell, or how it may.
 enum class Passage : std::uint8_t {
-  kFree,
-  kNearKeepOut,  // depends on the heading: ask KeepOut
+  kFree,         // of keep-outs: the body meets none at any place and heading in the cell
+  kNearKeepOut,  // depends on place and heading: ask KeepOut
   kNoData,       // missing elevation, or the map's edge, nearer than the body's circumscribed circle
   kSteep,        // steeper than the tilt limit at any heading
   kRough,        // the ground under the body rises above the belly
-  kKeepOut,      // the body meets a keep-out at any heading
+  kKeepOut,      // at the cell's centre the body meets a keep-out at every heading
 };
 
 // The search's cell: the ground as a plane over the rover's footprint.
@@ -33,6 +33,9 @@ constexpr std::uint8_t kUnknownSoil = 255;
 // More cells than this are never searched: a larger window gets larger cells, in whole numbers of the
 // terrain's.
 constexpr long long kMostSearchCells = 500'000;
+
+// What a search looks at: around all places of the problem, with room for detours of half the longest leg.
+dem::Extent search_extent(const PlanProblem& problem);
 
 // The search's view of the ground, built once per problem and immutable after. Slopes are least-squares
 // planes over a square as wide as the rover, or three terrain cells where those are wider: what the

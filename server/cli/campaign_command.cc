@@ -1,3 +1,5 @@
+#include "server/cli/campaign_command.h"
+
 #include <fmt/format.h>
 
 #include <iostream>
@@ -9,10 +11,10 @@
 #include "campaign/run_campaign.h"
 #include "core/angle.h"
 #include "server/cli/command_parts.h"
-#include "server/cli/commands.h"
+#include "server/cli/data_folder.h"
 #include "server/cli/drive_choice.h"
-#include "server/cli/terminal_progress.h"
-#include "server/cli/text_table.h"
+#include "server/cli/terminal/terminal_progress.h"
+#include "server/cli/terminal/text_table.h"
 
 namespace slipway::server {
 namespace {
@@ -21,16 +23,15 @@ using slipway::campaign::Band;
 using slipway::campaign::TableDrive;
 using slipway::campaign::TerrainSummary;
 
-int print_list(const CampaignCommand& options, const api::Catalogue& catalogue) {
+int print_list(const std::string& data, const api::Catalogue& catalogue) {
   TextTable text({"campaign", "drives", "rover", "summary"});
-  for (const std::string& name : api::campaign_names(options.data)) {
-    const auto loaded = api::load_campaign_table(name, options.data, catalogue);
+  for (const std::string& name : api::campaign_names(data)) {
+    const auto loaded = api::load_campaign_table(name, data, catalogue);
     if (!loaded) return refuse(loaded.error());
     text.add({name, fmt::format("{}", slipway::campaign::expand(loaded->table).size()),
               loaded->table.rover->name, loaded->table.summary});
   }
-  std::cout << text.print() << std::flush;
-  return 0;
+  return deliver({}, text.print());
 }
 
 int print_drives(const slipway::campaign::DriveTable& table, const std::vector<TableDrive>& drives) {
@@ -39,8 +40,7 @@ int print_drives(const slipway::campaign::DriveTable& table, const std::vector<T
     text.add({drive.id, fmt::format("{:g} m", drive.start.x_m), fmt::format("{:g} m", drive.start.y_m),
               fmt::format("{:g} deg", deg_from_rad(drive.start.yaw_rad)),
               fmt::format("{}", table.entries[drive.entry].legs.size()), table.terrains[drive.terrain].name});
-  std::cout << text.print() << fmt::format("{} drives\n", drives.size()) << std::flush;
-  return 0;
+  return deliver({}, text.print() + fmt::format("{} drives\n", drives.size()));
 }
 
 std::string range_of(const std::optional<Band>& band, double unit, int decimals) {
@@ -88,10 +88,8 @@ int conclude(const CampaignCommand& options, const slipway::campaign::DriveTable
              const std::vector<TableDrive>& all, api::CampaignFolder& folder) {
   const auto summaries = folder.conclude(table, all);
   if (!summaries) return refuse(summaries.error());
-  std::cout << (options.json ? api::json::campaign_summary_document(table, all.size(), *summaries)
-                             : summary_table(*summaries))
-            << std::flush;
-  int status = 0;
+  int status = deliver({}, options.json ? api::json::campaign_summary_document(table, all.size(), *summaries)
+                                        : summary_table(*summaries));
   for (const TableDrive& drive : all) {
     const auto record = folder.done().find(drive.id);
     if (record == folder.done().end() || record->second.answered) continue;
@@ -105,10 +103,12 @@ int conclude(const CampaignCommand& options, const slipway::campaign::DriveTable
 }  // namespace
 
 int campaign(const CampaignCommand& options) {
-  const auto catalogue = api::load_catalogue(options.data);
+  const auto data = data_folder(options.data);
+  if (!data) return refuse(data.error());
+  const auto catalogue = api::load_catalogue(*data);
   if (!catalogue) return refuse(catalogue.error());
-  if (options.table == "list") return print_list(options, *catalogue);
-  const auto loaded = api::load_campaign_table(options.table, options.data, *catalogue);
+  if (options.table == "list") return print_list(*data, *catalogue);
+  const auto loaded = api::load_campaign_table(options.table, *data, *catalogue);
   if (!loaded) return refuse(loaded.error());
   const std::vector<TableDrive> all = slipway::campaign::expand(loaded->table);
   const auto drives = chosen_drives(all, options.only, "/only");

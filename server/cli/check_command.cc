@@ -1,7 +1,8 @@
+#include "server/cli/check_command.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <iostream>
 #include <optional>
 #include <string>
 
@@ -10,9 +11,8 @@
 #include "api/files/catalogue.h"
 #include "api/requests/model_check.h"
 #include "server/cli/command_parts.h"
-#include "server/cli/commands.h"
-#include "server/cli/terminal_progress.h"
-#include "server/cli/text_table.h"
+#include "server/cli/terminal/terminal_progress.h"
+#include "server/cli/terminal/text_table.h"
 
 namespace slipway::server {
 namespace {
@@ -24,9 +24,10 @@ std::string down_words(const gap::ErrorChange& change) {
 }
 
 std::string answer_words(const api::ModelCheckAnswer& answer) {
-  std::string out = fmt::format("{} as told by {} on {}, corrected with campaign {}: {} drives, {} windows\n",
-                                answer.campaign, answer.rover, fmt::join(answer.soils, ", "),
-                                answer.corrected_with, answer.check.drives, answer.check.windows);
+  std::string out =
+      fmt::format("{} as predicted with {} on {}, corrected with campaign {}: {} drives, {} windows\n",
+                  answer.campaign, answer.rover, fmt::join(answer.soils, ", "), answer.corrected_with,
+                  answer.check.drives, answer.check.windows);
   TextTable table({"channel", "slope", "values", "drives", "rms, nominal", "corrected", "down",
                    "median, nominal", "corrected", "down", "in 50 %", "in 90 %", "unit"});
   for (const gap::ChannelCheck& c : answer.check.channels) {
@@ -49,11 +50,11 @@ std::string answer_words(const api::ModelCheckAnswer& answer) {
 }  // namespace
 
 int check(const CheckCommand& options) {
-  const auto catalogue = api::load_catalogue(options.data);
+  const auto catalogue = open_catalogue(options.data);
   if (!catalogue) return refuse_unreadable(catalogue.error());
   const auto campaign = api::load_drive_campaign(options.campaign, *catalogue);
   const auto model = api::load_model_folder(options.model);
-  // Both are told at once.
+  // The faults of both are printed, not those of the first alone.
   const int unread = campaign ? 0 : refuse_unreadable(campaign.error());
   if (!model) return refuse_unreadable(model.error());
   if (unread != 0) return unread;
@@ -66,9 +67,7 @@ int check(const CheckCommand& options) {
     answer = api::check_model(*campaign, *model, options.ground, how, progress);
   }
   if (!*answer) return refuse(answer->error());
-  std::cout << (options.json ? api::json::model_check_document(**answer) : answer_words(**answer))
-            << std::flush;
-  return 0;
+  return deliver({}, options.json ? api::json::model_check_document(**answer) : answer_words(**answer));
 }
 
 }  // namespace slipway::server

@@ -2,13 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
+#include <algorithm>
 #include <iostream>
 #include <optional>
 #include <sstream>
 #include <vector>
 
-#include "server/cli/tables.h"
+#include "api/files/whole_file.h"
+#include "server/cli/data_folder.h"
+#include "server/cli/terminal/tables.h"
 
 namespace slipway::server {
 namespace {
@@ -45,7 +47,10 @@ tl::unexpected<Error> bad(const std::string& flag, const std::string& message) {
 
 int refuse(const Error& error) {
   std::cerr << error_text(error);
-  return error.code == ErrorCode::kInvalidRequest || error.code == ErrorCode::kMalformedJson ? 2 : 1;
+  const bool of_the_question = error.code == ErrorCode::kInvalidRequest ||
+                               error.code == ErrorCode::kMalformedJson ||
+                               error.code == ErrorCode::kPayloadTooLarge;
+  return of_the_question ? 2 : 1;
 }
 
 int refuse_unreadable(const Error& error) {
@@ -53,16 +58,35 @@ int refuse_unreadable(const Error& error) {
   return error.code == ErrorCode::kUnreadableData || error.code == ErrorCode::kUnreadableRaster ? 2 : status;
 }
 
-Result<std::unique_ptr<Inquiry>> inquiry(const AskOptions& options) {
-  if (!options.url.empty()) return remote_inquiry(options.url);
-  return local_inquiry({.data = options.data, .model = options.model, .ground = options.ground});
+Result<api::Catalogue> open_catalogue(const std::string& data_option) {
+  const auto data = data_folder(data_option);
+  if (!data) return fail(data.error());
+  return api::load_catalogue(*data);
 }
 
-int save(const std::string& file, const std::string& text) {
-  std::ofstream stream(file);
-  if (!(stream << text << std::flush))
-    return refuse({ErrorCode::kUnwritableFile, fmt::format("cannot write {}", file), {}});
-  return 0;
+Result<std::unique_ptr<Inquiry>> inquiry(const AskOptions& options) {
+  if (!options.url.empty()) return remote_inquiry(options.url);
+  auto data = data_folder(options.data);
+  if (!data) return fail(data.error());
+  return local_inquiry({.data = std::move(*data), .model = options.model, .ground = options.ground});
+}
+
+int save(const OutputFile& file) {
+  const auto written = api::write_whole_file(file.path, file.bytes);
+  return written ? 0 : refuse(written.error());
+}
+
+int deliver(const std::vector<OutputFile>& files, const std::string& text) {
+  int status = 0;
+  for (const OutputFile& file : files) status = std::max(status, save(file));
+  std::cout << text << std::flush;
+  return status;
+}
+
+bool output_has_gone_out() {
+  if (std::cout << std::flush) return true;
+  std::cerr << error_text({ErrorCode::kUnwritableFile, "standard output can't be written", {}});
+  return false;
 }
 
 void write_setting(api::json::Writer& w, const std::string& setting) {
@@ -139,10 +163,10 @@ Result<sim::EffectSetting> effect_of(const std::string& setting) {
 }
 
 void write_grousers(Writer& w, const std::string& grousers) {
-  const std::vector<std::string> parts = parts_of(grousers, ',');
+  const std::size_t comma = grousers.find(',');
   w.begin_object();
-  if (!parts.empty()) write_number_or_text(w.key("height_m"), parts[0]);
-  if (parts.size() > 1) write_number_or_text(w.key("count"), parts[1]);
+  write_number_or_text(w.key("height_m"), grousers.substr(0, comma));
+  if (comma != std::string::npos) write_number_or_text(w.key("count"), grousers.substr(comma + 1));
   w.end_object();
 }
 

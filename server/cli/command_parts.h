@@ -3,12 +3,15 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "api/files/catalogue.h"
 #include "api/json/writer.h"
 #include "core/progress.h"
 #include "core/result.h"
-#include "server/cli/commands.h"
+#include "server/cli/ask_options.h"
 #include "server/cli/inquiry.h"
+#include "server/cli/terminal/interruption.h"
 #include "sim/single_wheel/current_map.h"
 
 // What several commands do alike.
@@ -25,10 +28,23 @@ class Interruptible final : public Progress {
 int refuse(const Error& error);
 // The same where drives are read: what can't be read is the question's fault, 2.
 int refuse_unreadable(const Error& error);
+// The rovers and soils of the data folder that --data names, or that is found where it is not given.
+Result<api::Catalogue> open_catalogue(const std::string& data_option);
 // The service in this process, or the one at the options' address.
 Result<std::unique_ptr<Inquiry>> inquiry(const AskOptions& options);
-// The exit status: 0, or 1 where the file can't be written.
-int save(const std::string& file, const std::string& text);
+// A file that a command was asked to write.
+struct OutputFile {
+  std::string path;
+  std::string bytes;
+};
+// Writes the file, which has its old content until the new one is whole. The exit status: 0, or 1 with its
+// reason on standard error.
+int save(const OutputFile& file);
+// Writes the files, then prints the text: who closes the pipe or fills the disk loses no file. The exit
+// status.
+int deliver(const std::vector<OutputFile>& files, const std::string& text);
+// Whether all that was printed has gone out. Otherwise says so on standard error.
+bool output_has_gone_out();
 
 // "name=number" as a member of the object that is being written; what is not a number is left to the reader.
 void write_setting(api::json::Writer& w, const std::string& setting);
@@ -42,7 +58,7 @@ void write_sweep_axis(api::json::Writer& w, const std::string& sweep);
 Result<sim::SweepAxis> sweep_axis_of(const std::string& sweep, std::size_t samples, const std::string& flag);
 // The setting of write_effect as a value. Errors: invalid_request at /effect.
 Result<sim::EffectSetting> effect_of(const std::string& setting);
-// "0.01,24": height in metres and count; as above.
+// "0.01,24": height in metres and count; as above, and what stands behind the count is left to it too.
 void write_grousers(api::json::Writer& w, const std::string& grousers);
 
 }  // namespace slipway::server

@@ -1,6 +1,8 @@
+#include "server/cli/current_command.h"
+
 #include <fmt/format.h>
 
-#include <iostream>
+#include <vector>
 
 #include "api/documents/current_documents.h"
 #include "api/report/current_maps_output.h"
@@ -9,7 +11,7 @@
 #include "api/service.h"
 #include "core/angle.h"
 #include "server/cli/command_parts.h"
-#include "server/cli/commands.h"
+#include "server/cli/data_folder.h"
 
 namespace slipway::server {
 namespace {
@@ -68,25 +70,29 @@ std::string words_of(const api::CurrentInversion& inversion) {
 }  // namespace
 
 int current_map(const CurrentMapCommand& options) {
-  const auto service = api::Service::open({.data = options.ask.data});
+  const auto data = data_folder(options.ask.data);
+  if (!data) return refuse(data.error());
+  const auto service = api::Service::open({.data = *data});
   if (!service) return refuse(service.error());
   const auto maps = maps_of((*service)->catalogue(), options);
   if (!maps) return refuse(maps.error());
   const std::string csv = api::current_maps_csv(*maps);
+  std::vector<OutputFile> files;
+  if (!options.csv.empty()) files.push_back({options.csv, csv});
+  if (!options.plot.empty()) files.push_back({options.plot, api::draw_current_maps(*maps)});
+  std::string printed;
   if (options.ask.json) {
-    std::cout << api::json::write_current_maps(*maps) << "\n";
+    printed = api::json::write_current_maps(*maps) + "\n";
   } else if (options.csv.empty()) {
-    std::cout << csv;
+    printed = csv;
   }
-  std::cout << std::flush;
-  if (!options.csv.empty()) {
-    if (const int status = save(options.csv, csv); status != 0) return status;
-  }
-  return options.plot.empty() ? 0 : save(options.plot, api::draw_current_maps(*maps));
+  return deliver(files, printed);
 }
 
 int current_invert(const CurrentInvertCommand& options) {
-  const auto service = api::Service::open({.data = options.ask.data});
+  const auto data = data_folder(options.ask.data);
+  if (!data) return refuse(data.error());
+  const auto service = api::Service::open({.data = *data});
   if (!service) return refuse(service.error());
   api::CurrentInversionRequest request;
   request.rover = options.rover;
@@ -107,10 +113,8 @@ int current_invert(const CurrentInvertCommand& options) {
   request.options.seed = options.seed;
   const auto inversion = api::invert_current((*service)->catalogue(), request);
   if (!inversion) return refuse(inversion.error());
-  std::cout << (options.ask.json ? api::json::write_current_inversion(*inversion) + "\n"
-                                 : words_of(*inversion))
-            << std::flush;
-  return 0;
+  return deliver(
+      {}, options.ask.json ? api::json::write_current_inversion(*inversion) + "\n" : words_of(*inversion));
 }
 
 }  // namespace slipway::server

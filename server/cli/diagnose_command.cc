@@ -1,3 +1,5 @@
+#include "server/cli/diagnose_command.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -7,20 +9,20 @@
 #include <iostream>
 #include <optional>
 #include <string>
-#include <system_error>
+#include <vector>
 
 #include "api/documents/diagnosis_document.h"
 #include "api/files/campaign/drive_campaign_source.h"
 #include "api/files/catalogue.h"
 #include "api/files/corrected_model.h"
 #include "api/files/model_folder.h"
+#include "api/files/whole_file.h"
 #include "api/report/diagnosis_charts.h"
 #include "api/report/diagnosis_report.h"
 #include "gap/diagnosis/diagnosis.h"
 #include "server/cli/command_parts.h"
-#include "server/cli/commands.h"
-#include "server/cli/terminal_progress.h"
-#include "server/cli/text_table.h"
+#include "server/cli/terminal/terminal_progress.h"
+#include "server/cli/terminal/text_table.h"
 
 namespace slipway::server {
 namespace {
@@ -56,7 +58,7 @@ std::string candidates_words(const Diagnosis& d) {
   std::size_t shown = 0;
   for (const gap::ComparedSet& set : api::json::compared_sets(d)) {
     if (++shown > kMostCandidates) break;
-    table.add({names_words(set.effects), fmt::format("{:.3f}", set.probability),
+    table.add({names_words(gap::names_of(set)), fmt::format("{:.3f}", set.probability),
                fmt::format("{}", set.complexity)});
   }
   return table.print();
@@ -96,7 +98,7 @@ std::string regimes_words(const std::vector<gap::Regime>& regimes) {
   for (std::size_t i = 0; i < std::min(regimes.size(), kMostRegimes); ++i) {
     std::vector<std::string> conditions;
     for (const gap::Condition& c : regimes[i].conditions)
-      conditions.push_back(fmt::format("{} {:.3g} to {:.3g}", c.variable, c.from, c.to));
+      conditions.push_back(fmt::format("{} {:.3g} to {:.3g}", gap::name_of(c.variable), c.from, c.to));
     out += fmt::format("  {} where {}: {:.0f} % of it in {:.0f} % of the data\n",
                        gap::name_of(regimes[i].channel), fmt::join(conditions, " and "),
                        100.0 * regimes[i].share_of_gap, 100.0 * regimes[i].share_of_data);
@@ -138,7 +140,7 @@ std::string answer_words(const Diagnosis& d) {
   for (std::size_t i = 0; i < std::min(d.least_detectable.size(), kMostLeast); ++i)
     out += fmt::format("  {} {} = {:.3g}\n", d.least_detectable[i].effect, d.least_detectable[i].parameter,
                        d.least_detectable[i].value);
-  if (!d.next_drives.empty()) out += "\ndrives that would tell most:\n";
+  if (!d.next_drives.empty()) out += "\ndrives that would say most:\n";
   for (const gap::NextDrive& n : d.next_drives)
     out += fmt::format(
         "  tilt {:.0f} deg, heading {:.0f} deg, {:.3g} m/s, curvature {:.2g} 1/m, motors at {:.0f} C: {:.2f} "
@@ -148,44 +150,53 @@ std::string answer_words(const Diagnosis& d) {
   return out;
 }
 
-// Where it can't be made, writing into it tells.
-std::filesystem::path made(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  return folder;
-}
-
-int write_report(const std::string& folder, const gap::DriveCampaign& campaign, const Diagnosis& d) {
-  const std::filesystem::path path = made(folder);
-  const std::vector<api::NamedChart> charts = api::draw_diagnosis(campaign, d);
-  int status = save((path / "diagnosis.json").string(), api::json::diagnosis_document(campaign, d));
-  const api::ReportPage report = api::diagnosis_report(campaign, d, charts);
-  if (status == 0) status = save((path / "report.md").string(), report.markdown());
-  if (status == 0) status = save((path / "report.html").string(), report.html());
-  for (const api::NamedChart& chart : charts)
-    if (status == 0) status = save((path / (chart.name + ".svg")).string(), chart.svg);
-  return status;
-}
-
-int write_model(const std::string& folder, const gap::DriveCampaign& campaign, const Diagnosis& d) {
-  const auto model = api::corrected_model(campaign, d);
-  if (!model) {
-    std::cerr << "no corrected model is offered: nothing is written\n";
-    return 0;
-  }
-  // As a data folder has them: a rover's file is called as the rover.
+std::vector<OutputFile> report_files(const std::string& folder, const gap::DriveCampaign& campaign,
+                                     const Diagnosis& d) {
   const std::filesystem::path path(folder);
-  const auto rover = made((path / "rovers").string()) / (model->rover.name + ".json");
-  const auto soils = made((path / "soils").string()) / (model->soils.front().name + ".json");
-  int status = save(rover.string(), api::json::rover_document(*model));
-  if (status == 0) status = save(soils.string(), api::json::soils_document(*model));
-  return status != 0 ? status : save((path / "model.json").string(), api::model_document(campaign, *model));
+  const std::vector<api::NamedChart> charts = api::draw_diagnosis(campaign, d);
+  const api::ReportPage report = api::diagnosis_report(campaign, d, charts);
+  std::vector<OutputFile> files{
+      {(path / "diagnosis.json").string(), api::json::diagnosis_document(campaign, d)},
+      {(path / "report.md").string(), report.markdown()},
+      {(path / "report.html").string(), report.html()}};
+  for (const api::NamedChart& chart : charts)
+    files.push_back({(path / (chart.name + ".svg")).string(), chart.svg});
+  return files;
+}
+
+// The files of the corrected model; none where none is offered.
+std::vector<OutputFile> model_files(const std::string& folder, const gap::DriveCampaign& campaign,
+                                    const Diagnosis& d) {
+  const auto model = api::corrected_model(campaign, d);
+  if (!model) return {};
+  // As a data folder has them: a rover's file is called as the rover. The description is last: without it the
+  // folder holds no model.
+  const std::filesystem::path path(folder);
+  return {
+      {(path / "rovers" / (model->rover.name + ".json")).string(), api::json::rover_document(*model)},
+      {(path / "soils" / (model->soils.front().name + ".json")).string(), api::json::soils_document(*model)},
+      {(path / "model.json").string(), api::model_document(campaign, *model)}};
+}
+
+// Makes the folder ready for the new model: that of an earlier diagnosis is taken out, so that nobody plans
+// with it for the new one, whether one is offered now or not.
+Result<void> clear_model(const std::string& folder, bool is_offered) {
+  const auto removed = api::remove_model(folder);
+  if (!removed) return fail(removed.error());
+  if (*removed) std::cerr << fmt::format("the model of campaign {} was taken out of {}\n", **removed, folder);
+  if (!is_offered) {
+    std::cerr << "no corrected model is offered: nothing is written\n";
+    return {};
+  }
+  for (const char* part : {"rovers", "soils"})
+    if (auto made = api::make_folder(std::filesystem::path(folder) / part); !made) return made;
+  return {};
 }
 
 }  // namespace
 
 int diagnose(const DiagnoseCommand& options) {
-  const auto catalogue = api::load_catalogue(options.data);
+  const auto catalogue = open_catalogue(options.data);
   if (!catalogue) return refuse_unreadable(catalogue.error());
   const auto campaign = api::load_drive_campaign(options.campaign, *catalogue);
   if (!campaign) return refuse_unreadable(campaign.error());
@@ -200,13 +211,21 @@ int diagnose(const DiagnoseCommand& options) {
   }
   if (!*result) return refuse(result->error());
   const Diagnosis& d = **result;
-  if (options.json)
-    std::cout << api::json::diagnosis_document(*campaign, d) << std::flush;
-  else
-    std::cout << answer_words(d) << std::flush;
-  int status = options.report.empty() ? 0 : write_report(options.report, *campaign, d);
-  if (status == 0 && !options.model.empty()) status = write_model(options.model, *campaign, d);
-  return status;
+  // A folder that can't be written is no reason to throw the diagnosis away: it is printed all the same.
+  int status = 0;
+  std::vector<OutputFile> files;
+  const auto add = [&](const Result<void>& folder, const std::vector<OutputFile>& into_it) {
+    if (!folder) status = refuse(folder.error());
+    if (folder) files.insert(files.end(), into_it.begin(), into_it.end());
+  };
+  if (!options.report.empty())
+    add(api::make_folder(options.report), report_files(options.report, *campaign, d));
+  if (!options.model.empty()) {
+    const std::vector<OutputFile> model = model_files(options.model, *campaign, d);
+    add(clear_model(options.model, !model.empty()), model);
+  }
+  return std::max(
+      status, deliver(files, options.json ? api::json::diagnosis_document(*campaign, d) : answer_words(d)));
 }
 
 }  // namespace slipway::server

@@ -73,11 +73,11 @@ Result<std::optional<gap::DrivesNeededCase>> needed_of(const GapBenchmarkCommand
 
 }  // namespace
 
-Result<api::DrivesNeeded> drives_needed(const GapBenchmarkCommand& options, const api::Catalogue& catalogue,
+Result<gap::DrivesNeeded> drives_needed(const GapBenchmarkCommand& options, const api::Catalogue& catalogue,
                                         std::span<const std::string> names,
                                         const std::map<std::string, gap::HiddenAnswer>& answers,
                                         const std::set<std::string>& library) {
-  api::DrivesNeeded all{.seed = options.seed, .first = gap::AcquisitionOptions{}.first, .cases = {}};
+  gap::DrivesNeeded all{.seed = options.seed, .first = gap::AcquisitionOptions{}.first, .cases = {}};
   gap::DiagnosisOptions how;
   how.search.threads = 1;
   how.seed = options.seed;

@@ -9,7 +9,7 @@
 #include "api/report/drives_needed_report.h"
 #include "benchmark/benchmark_score.h"
 #include "core/result.h"
-#include "server/cli/commands.h"
+#include "server/cli/gap_benchmark_command.h"
 
 namespace slipway::server {
 
@@ -17,7 +17,7 @@ namespace slipway::server {
 // `library`; others are left out. The answers choose campaigns and end runs; neither a diagnosis nor a choice
 // of drives sees them. A line for each run on standard error; interrupted, what is done is the answer.
 // Errors: those of reading a campaign.
-Result<api::DrivesNeeded> drives_needed(const GapBenchmarkCommand& options, const api::Catalogue& catalogue,
+Result<gap::DrivesNeeded> drives_needed(const GapBenchmarkCommand& options, const api::Catalogue& catalogue,
                                         std::span<const std::string> names,
                                         const std::map<std::string, gap::HiddenAnswer>& answers,
                                         const std::set<std::string>& library);

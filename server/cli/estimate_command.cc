@@ -1,13 +1,17 @@
+#include "server/cli/estimate_command.h"
+
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 #include <filesystem>
-#include <iostream>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "api/documents/soil_estimate_document.h"
 #include "api/files/campaign/drive_campaign_source.h"
+#include "api/files/soil_file.h"
 #include "api/files/soil_tests_csv.h"
 #include "api/files/terrain_site.h"
 #include "api/json/faults.h"
@@ -15,9 +19,8 @@
 #include "api/requests/soil_estimate.h"
 #include "core/angle.h"
 #include "server/cli/command_parts.h"
-#include "server/cli/commands.h"
-#include "server/cli/terminal_progress.h"
-#include "server/cli/text_table.h"
+#include "server/cli/terminal/terminal_progress.h"
+#include "server/cli/terminal/text_table.h"
 
 namespace slipway::server {
 namespace {
@@ -28,7 +31,7 @@ using From = EstimateCommand::From;
 std::optional<double> number(std::string_view text) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
   return value;
 }
 
@@ -109,6 +112,9 @@ Result<api::SoilEstimateRequest> request_of(const EstimateCommand& options) {
       faults.push_back({"/grousers", fmt::format("{} is not height in m and count, as 0.01,24 is",
                                                  api::in_quotes(options.grousers))});
   }
+  if (options.loss_scale && options.loss == "none")
+    faults.push_back(
+        {"/loss-scale", "loss-scale says where outliers begin, which without a --loss are none"});
   estimation.priors = gap::soil_priors(options.priors).value_or(gap::SoilPriors::kWide);
   for (std::size_t i = 0; i < gap::robust_loss_names().size(); ++i)
     if (gap::robust_loss_names()[i] == options.loss) estimation.loss = static_cast<gap::RobustLoss>(i);
@@ -182,7 +188,7 @@ std::string answer_words(const api::SoilEstimateAnswer& answer) {
 int estimate(const EstimateCommand& options) {
   auto request = request_of(options);
   if (!request) return refuse(request.error());
-  const auto catalogue = api::load_catalogue(options.ask.data);
+  const auto catalogue = open_catalogue(options.ask.data);
   if (!catalogue) return refuse_unreadable(catalogue.error());
   std::optional<Result<api::SoilEstimateAnswer>> answer;
   if (options.from == From::kDrives) {
@@ -198,15 +204,17 @@ int estimate(const EstimateCommand& options) {
     answer = api::estimate_soil(*catalogue, *request, progress);
   }
   if (!*answer) return refuse(answer->error());
-  std::cout << (options.ask.json ? api::json::soil_estimate_document(**answer) + "\n"
-                                 : answer_words(**answer))
-            << std::flush;
-  int status = 0;
-  if (!options.soil_out.empty())
-    status = save(options.soil_out, api::json::estimated_soils_document(**answer));
-  if (status == 0 && !options.plot.empty())
-    status = save(options.plot, api::draw_soil_estimate((*answer)->estimates.front()));
-  return status;
+  std::vector<OutputFile> files;
+  if (!options.soil_out.empty()) {
+    const std::string soils = api::json::estimated_soils_document(**answer);
+    // A soil that no wheel can stand on, of a k_c far below 0 say, is an estimate but no soil file.
+    if (const auto read_back = api::json::read_soil_file(soils); !read_back) return refuse(read_back.error());
+    files.push_back({options.soil_out, soils});
+  }
+  if (!options.plot.empty())
+    files.push_back({options.plot, api::draw_soil_estimate((*answer)->estimates.front())});
+  return deliver(
+      files, options.ask.json ? api::json::soil_estimate_document(**answer) + "\n" : answer_words(**answer));
 }
 
 }  // namespace slipway::server

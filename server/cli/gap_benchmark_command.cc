@@ -1,3 +1,5 @@
+#include "server/cli/gap_benchmark_command.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -9,6 +11,7 @@
 #include <iostream>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -24,13 +27,14 @@
 #include "api/files/sealed_set/benchmark_answers.h"
 #include "api/files/sealed_set/hidden_traces_csv.h"
 #include "api/files/sealed_set/sealed_campaign_folder.h"
+#include "api/files/whole_file.h"
+#include "api/json/faults.h"
 #include "api/report/benchmark_report.h"
 #include "benchmark/baselines.h"
 #include "benchmark/benchmark_score.h"
 #include "benchmark/sealed_campaigns.h"
 #include "gap/diagnosis/diagnosis.h"
 #include "server/cli/command_parts.h"
-#include "server/cli/commands.h"
 #include "server/cli/drives_needed_command.h"
 #include "sim/effects/effect_catalogue.h"
 
@@ -66,7 +70,7 @@ constexpr std::array kVariants{
             .whole_evidence = true},
     Variant{.name = "sample-level-folds", .method = &gap::diagnose_sample_by_sample},
     Variant{.name = "sparse-regression", .method = &gap::diagnose_by_sparse_regression},
-    Variant{.name = "gaussian-process", .method = &gap::shrink_by_gaussian_process},
+    Variant{.name = "gaussian-process", .method = &gap::diagnose_by_gaussian_process},
 };
 
 const Variant* variant_named(std::string_view name) {
@@ -80,7 +84,7 @@ struct Timed {
   double seconds = 0.0;
 };
 
-// The folder's campaigns, by the dynamic rung.
+// Makes the folder's campaigns, by dynamics.
 Result<void> make_campaigns(const GapBenchmarkCommand& options, const api::Catalogue& catalogue) {
   const auto sets = slipway::campaign::sealed_sets();
   if (std::find(sets.begin(), sets.end(), options.make) == sets.end()) {
@@ -100,20 +104,30 @@ Result<void> make_campaigns(const GapBenchmarkCommand& options, const api::Catal
                                  static_cast<std::size_t>(options.threads), tell, patience);
 }
 
-std::vector<std::string> campaigns_in(const GapBenchmarkCommand& options) {
+// The campaigns to diagnose, by name. Errors: unreadable_data; invalid_request at /only with every name that
+// is none.
+Result<std::vector<std::string>> campaigns_in(const GapBenchmarkCommand& options) {
   std::vector<std::string> names;
   std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(options.folder, error)) {
-    const std::string name = entry.path().filename().string();
-    const bool wanted = options.only.empty() ||
-                        std::find(options.only.begin(), options.only.end(), name) != options.only.end();
-    if (wanted && fs::is_regular_file(entry.path() / "campaign.json", error)) names.push_back(name);
-  }
+  for (fs::directory_iterator it(options.folder, error), end; !error && it != end; it.increment(error))
+    if (std::error_code none; fs::is_regular_file(it->path() / "campaign.json", none))
+      names.push_back(it->path().filename().string());
   std::sort(names.begin(), names.end());
+  if (names.empty())
+    return fail(ErrorCode::kUnreadableData, fmt::format("{} holds no drive campaign", options.folder));
+  std::vector<Fault> faults;
+  for (const std::string& name : options.only)
+    if (!std::binary_search(names.begin(), names.end(), name))
+      faults.push_back({"/only", api::unknown_name("campaign", name, names)});
+  if (!faults.empty()) return fail(ErrorCode::kInvalidRequest, api::summary_of(faults), faults);
+  std::erase_if(names, [&](const std::string& name) {
+    return !options.only.empty() &&
+           std::find(options.only.begin(), options.only.end(), name) == options.only.end();
+  });
   return names;
 }
 
-// What a diagnosis is told besides the campaign.
+// What a diagnosis is given besides the campaign.
 struct Given {
   std::vector<std::string> withheld;
   bool oracle = false;  // all that is not withheld is at work
@@ -133,10 +147,10 @@ Result<Timed> diagnosed(const GapBenchmarkCommand& options, const api::Catalogue
   campaign->retuning = variant.retuning;
   how.search.something_else = variant.something_else;
   if (variant.single) {
-    how.search.most_refitted = 1;
-    how.search.most_paired = 0;
+    how.search.max_refitted = 1;
+    how.search.max_paired = 0;
   }
-  how.search.whole_evidence = variant.whole_evidence;
+  how.evidence.whole = variant.whole_evidence;
   Interruptible patience;
   auto diagnosis = variant.method(*campaign, how, patience);
   if (!diagnosis) return fail(diagnosis.error());
@@ -146,10 +160,9 @@ Result<Timed> diagnosed(const GapBenchmarkCommand& options, const api::Catalogue
     if (given.oracle) file += "-oracle";
     for (const std::string& effect : given.withheld)
       if (!given.oracle) file += "-without-" + effect;
-    std::error_code error;
-    fs::create_directories(options.keep, error);
-    save((fs::path(options.keep) / (file + ".json")).string(),
-         api::json::diagnosis_document(*campaign, *diagnosis));
+    const auto kept = api::write_whole_file(fs::path(options.keep) / (file + ".json"),
+                                            api::json::diagnosis_document(*campaign, *diagnosis));
+    if (!kept) return fail(kept.error());
   }
   return Timed{std::move(*diagnosis), took.count()};
 }
@@ -199,10 +212,118 @@ int tell_drives_needed(const GapBenchmarkCommand& options, const api::Catalogue&
   if (!answers) return refuse_unreadable(answers.error());
   const auto needed = drives_needed(options, catalogue, names, *answers, library());
   if (!needed) return refuse_unreadable(needed.error());
-  std::cout << (options.json ? api::json::drives_needed_document(*needed)
-                             : api::drives_needed_report(*needed))
-            << std::flush;
-  return 0;
+  const int status = deliver(
+      {}, options.json ? api::json::drives_needed_document(*needed) : api::drives_needed_report(*needed));
+  return given_up() ? refuse({ErrorCode::kCancelled, "interrupted: what was done is counted", {}}) : status;
+}
+
+// A diagnosis that was given up is none, and no error.
+Result<std::optional<Timed>> diagnosed_or_given_up(const GapBenchmarkCommand& options,
+                                                   const api::Catalogue& catalogue, const std::string& name,
+                                                   const Given& given) {
+  if (given_up()) return std::nullopt;
+  auto timed = diagnosed(options, catalogue, name, given);
+  if (timed) return std::optional<Timed>(*std::move(timed));
+  if (timed.error().code == ErrorCode::kCancelled) return std::nullopt;
+  return fail(std::move(timed.error()));
+}
+
+// The diagnoses of the first campaigns: of all, unless they are interrupted.
+Result<std::vector<Timed>> diagnose_all(const GapBenchmarkCommand& options, const api::Catalogue& catalogue,
+                                        const std::vector<std::string>& names) {
+  std::vector<Timed> open;
+  for (const std::string& name : names) {
+    auto timed = diagnosed_or_given_up(options, catalogue, name, {});
+    if (!timed) return fail(timed.error());
+    if (!*timed) break;
+    open.push_back(**std::move(timed));
+    tell(open.size(), names.size(), name, open.back());
+  }
+  return open;
+}
+
+// What the scores of all campaigns are made with.
+struct Scoring {
+  const GapBenchmarkCommand& options;
+  const api::Catalogue& catalogue;
+  const std::vector<std::string>& names;
+  const std::set<std::string> known = library();
+};
+
+// How much of the gap could have been closed: a diagnosis that is given the hidden effects.
+Result<void> score_oracle(const Scoring& scoring, std::size_t i, const std::set<std::string>& hidden,
+                          gap::Benchmark& benchmark) {
+  const auto& known = scoring.known;
+  if (!scoring.options.oracle || hidden.empty() ||
+      !std::includes(known.begin(), known.end(), hidden.begin(), hidden.end()))
+    return {};
+  Given given{.withheld = {}, .oracle = true};
+  std::set_difference(known.begin(), known.end(), hidden.begin(), hidden.end(),
+                      std::back_inserter(given.withheld));
+  auto timed = diagnosed_or_given_up(scoring.options, scoring.catalogue, scoring.names[i], given);
+  if (!timed) return fail(timed.error());
+  if (!*timed) return {};
+  if ((*timed)->diagnosis.closed_fraction)
+    benchmark.cases.back().oracle_closed_fraction = (*timed)->diagnosis.closed_fraction->value;
+  tell(i + 1, scoring.names.size(), scoring.names[i] + " given the answer", **timed);
+  return {};
+}
+
+// The diagnoses again, with each hidden effect taken out of the library.
+Result<void> score_withheld(const Scoring& scoring, std::size_t i, const gap::HiddenAnswer& answer,
+                            const gap::Diagnosis& open, gap::Benchmark& benchmark) {
+  for (const std::string& effect : answer.effects) {
+    if (!scoring.options.without_each || !scoring.known.contains(effect)) continue;
+    auto timed = diagnosed_or_given_up(scoring.options, scoring.catalogue, scoring.names[i],
+                                       {.withheld = {effect}, .oracle = false});
+    if (!timed) return fail(timed.error());
+    if (!*timed) continue;
+    tell(i + 1, scoring.names.size(), scoring.names[i] + " without " + effect, **timed);
+    benchmark.withheld.push_back(gap::score_withheld(answer, effect, open, (*timed)->diagnosis));
+  }
+  return {};
+}
+
+// Scores what was diagnosed; `unscored` counts campaigns without an answer.
+Result<gap::Benchmark> score(const Scoring& scoring, const std::vector<Timed>& open, std::size_t& unscored) {
+  const auto answers = answers_of(scoring.options.folder);
+  if (!answers) return fail(answers.error());
+  gap::Benchmark benchmark{.variant = scoring.options.variant, .cases = {}, .withheld = {}};
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    const auto answer = answers->find(scoring.names[i]);
+    if (answer == answers->end()) {
+      std::cerr << "answers.json says nothing of " << scoring.names[i] << ": it is not scored\n";
+      ++unscored;
+      continue;
+    }
+    benchmark.cases.push_back(
+        gap::score_case(answer->second, open[i].diagnosis, scoring.known, open[i].seconds));
+    if (auto scored = score_oracle(scoring, i, answer->second.effects, benchmark); !scored)
+      return fail(scored.error());
+    if (auto scored = score_withheld(scoring, i, answer->second, open[i].diagnosis, benchmark); !scored)
+      return fail(scored.error());
+  }
+  return benchmark;
+}
+
+int score_and_print(const Scoring& scoring, const std::vector<Timed>& open) {
+  const GapBenchmarkCommand& options = scoring.options;
+  std::size_t unscored = 0;
+  const auto benchmark = score(scoring, open, unscored);
+  if (!benchmark) return refuse_unreadable(benchmark.error());
+  const std::string set = fs::path(options.folder).lexically_normal().filename().string();
+  std::vector<OutputFile> files;
+  if (!options.csv.empty()) files.push_back({options.csv, api::benchmark_csv(*benchmark, set)});
+  if (!options.withheld_csv.empty())
+    files.push_back({options.withheld_csv, api::withheld_csv(*benchmark, set)});
+  const int status = deliver(
+      files, options.json ? api::json::benchmark_document(*benchmark) : api::benchmark_report(*benchmark));
+  if (given_up())
+    return refuse({ErrorCode::kCancelled,
+                   fmt::format("interrupted: {} of {} campaigns were diagnosed, and what was done is scored",
+                               open.size(), scoring.names.size()),
+                   {}});
+  return unscored > 0 ? std::max(status, 1) : status;
 }
 
 }  // namespace
@@ -215,74 +336,24 @@ int gap_benchmark(const GapBenchmarkCommand& options) {
                              fmt::join(known, ", "));
     return 2;
   }
-  const auto catalogue = api::load_catalogue(options.data);
+  const auto catalogue = open_catalogue(options.data);
   if (!catalogue) return refuse_unreadable(catalogue.error());
   if (!options.make.empty())
     if (const auto made = make_campaigns(options, *catalogue); !made) return refuse_unreadable(made.error());
-  const std::vector<std::string> names = campaigns_in(options);
-  if (names.empty()) {
-    std::cerr << options.folder << " holds no drive campaign of that name\n";
-    return 2;
-  }
-  // What can't be read is said before the first diagnosis, not after an hour of them.
-  for (const std::string& name : names)
+  const auto names = campaigns_in(options);
+  if (!names) return refuse_unreadable(names.error());
+  // What can't be read or written is said before the first diagnosis, not after an hour of them.
+  for (const std::string& name : *names)
     if (auto campaign = api::load_drive_campaign(fs::path(options.folder) / name, *catalogue); !campaign)
       return refuse_unreadable(campaign.error());
-  if (options.drives_needed) return tell_drives_needed(options, *catalogue, names);
+  if (!options.keep.empty())
+    if (const auto made = api::make_folder(options.keep); !made) return refuse(made.error());
+  if (options.drives_needed) return tell_drives_needed(options, *catalogue, *names);
   // All diagnoses before the key is opened.
-  std::vector<Timed> open;
-  for (const std::string& name : names) {
-    auto timed = diagnosed(options, *catalogue, name, {});
-    // Interrupted: what is done is scored.
-    if (!timed && timed.error().code == ErrorCode::kCancelled && !open.empty()) break;
-    if (!timed) return refuse_unreadable(timed.error());
-    open.push_back(std::move(*timed));
-    tell(open.size(), names.size(), name, open.back());
-  }
-  const auto answers = answers_of(options.folder);
-  if (!answers) return refuse_unreadable(answers.error());
-  const std::set<std::string> known = library();
-  api::Benchmark benchmark{.variant = options.variant, .cases = {}, .withheld = {}};
-  for (std::size_t i = 0; i < open.size(); ++i) {
-    const auto answer = answers->find(names[i]);
-    if (answer == answers->end()) {
-      std::cerr << "answers.json says nothing of " << names[i] << ": it is not scored\n";
-      continue;
-    }
-    const std::set<std::string>& hidden = answer->second.effects;
-    benchmark.cases.push_back(gap::score_case(answer->second, open[i].diagnosis, known, open[i].seconds));
-    if (options.oracle && !hidden.empty() && !given_up() &&
-        std::includes(known.begin(), known.end(), hidden.begin(), hidden.end())) {
-      Given given{.withheld = {}, .oracle = true};
-      std::set_difference(known.begin(), known.end(), hidden.begin(), hidden.end(),
-                          std::back_inserter(given.withheld));
-      auto timed = diagnosed(options, *catalogue, names[i], given);
-      if (!timed && timed.error().code != ErrorCode::kCancelled) return refuse_unreadable(timed.error());
-      if (timed) {
-        if (timed->diagnosis.closed_fraction)
-          benchmark.cases.back().oracle_closed_fraction = timed->diagnosis.closed_fraction->value;
-        tell(i + 1, names.size(), names[i] + " told", *timed);
-      }
-    }
-    for (const std::string& effect : hidden) {
-      if (!options.without_each || !known.contains(effect) || given_up()) continue;
-      auto timed = diagnosed(options, *catalogue, names[i], {.withheld = {effect}, .oracle = false});
-      if (!timed && timed.error().code == ErrorCode::kCancelled) continue;
-      if (!timed) return refuse_unreadable(timed.error());
-      tell(i + 1, names.size(), names[i] + " without " + effect, *timed);
-      benchmark.withheld.push_back(
-          gap::score_withheld(answer->second, effect, open[i].diagnosis, timed->diagnosis));
-    }
-  }
-  const std::string set = fs::path(options.folder).lexically_normal().filename().string();
-  if (!options.csv.empty())
-    if (const int failed = save(options.csv, api::benchmark_csv(benchmark, set)); failed != 0) return failed;
-  if (!options.withheld_csv.empty())
-    if (const int failed = save(options.withheld_csv, api::withheld_csv(benchmark, set)); failed != 0)
-      return failed;
-  std::cout << (options.json ? api::json::benchmark_document(benchmark) : api::benchmark_report(benchmark))
-            << std::flush;
-  return 0;
+  const auto open = diagnose_all(options, *catalogue, *names);
+  if (!open) return refuse_unreadable(open.error());
+  if (open->empty()) return refuse({ErrorCode::kCancelled, "interrupted before the first diagnosis", {}});
+  return score_and_print({.options = options, .catalogue = *catalogue, .names = *names}, *open);
 }
 
 }  // namespace slipway::server

@@ -45,7 +45,7 @@ class LocalInquiry final : public Inquiry {
     if (kind == "rovers") return api::json::write_rovers(all);
     if (kind == "soils") return api::json::write_soils(all);
     if (kind == "effects") return api::json::write_effects();
-    return api::json::write_planners();
+    return api::json::write_planners(service_->planners(), service_->costs());
   }
 
   Result<std::string> ground_at(std::string_view terrain, double x_m, double y_m) override {
@@ -75,10 +75,10 @@ class RemoteInquiry final : public Inquiry {
   RemoteInquiry(std::string host, int port) : host_(std::move(host)), port_(port) {}
 
   Result<std::string> plan(const std::string& request, Progress& progress) override {
-    return job("/v1/plans", request, progress);
+    return job(api::find_kind(api::job_kinds(), api::kPlanKind)->path, request, progress);
   }
   Result<std::string> predict(const std::string& request, Progress& progress) override {
-    return job("/v1/predictions", request, progress);
+    return job(api::find_kind(api::job_kinds(), api::kPredictionKind)->path, request, progress);
   }
   Result<std::string> wheel_sweep(const std::string& request) override {
     return call("POST", "/v1/wheel-sweeps", request, {});

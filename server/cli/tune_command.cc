@@ -1,3 +1,5 @@
+#include "server/cli/tune_command.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,20 +9,21 @@
 #include <iostream>
 #include <optional>
 #include <string_view>
-#include <system_error>
+#include <utility>
 #include <vector>
 
 #include "api/documents/tuning_document.h"
 #include "api/files/drive_table/campaign_source.h"
 #include "api/files/drive_table/measured_finals.h"
+#include "api/files/whole_file.h"
 #include "api/report/tuning_charts.h"
 #include "campaign/tune.h"
 #include "core/angle.h"
 #include "server/cli/command_parts.h"
-#include "server/cli/commands.h"
+#include "server/cli/data_folder.h"
 #include "server/cli/drive_choice.h"
-#include "server/cli/terminal_progress.h"
-#include "server/cli/text_table.h"
+#include "server/cli/terminal/terminal_progress.h"
+#include "server/cli/terminal/text_table.h"
 
 namespace slipway::server {
 namespace {
@@ -31,7 +34,7 @@ using slipway::campaign::TuneRequest;
 std::optional<double> number(std::string_view text) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
   return value;
 }
 
@@ -85,6 +88,9 @@ Result<std::vector<gap::TunedParameter>> parameters_of(const TuneCommand& option
     }
     if (!found) faults.push_back({"/prior", fmt::format("{} is none of the parameters", given->name)});
   }
+  if (options.loss_scale && options.loss == "none")
+    faults.push_back(
+        {"/loss-scale", "loss-scale says where outliers begin, which without a --loss are none"});
   if (!faults.empty()) return fail(ErrorCode::kInvalidRequest, "this can't be tuned", std::move(faults));
   return parameters;
 }
@@ -180,15 +186,13 @@ std::string answer_words(const TableTuning& result) {
   return out;
 }
 
-int write_files(const std::string& folder, const std::string& title, const std::string& document,
-                const TableTuning& result) {
+std::vector<OutputFile> files_of(const std::string& folder, const std::string& title,
+                                 const std::string& document, const TableTuning& result) {
   const std::filesystem::path path(folder);
-  std::error_code error;
-  std::filesystem::create_directories(path, error);
-  int status = save((path / "tuning.json").string(), document);
-  for (const api::NamedChart& chart : api::draw_tuning(title, result))
-    if (status == 0) status = save((path / (chart.name + ".svg")).string(), chart.svg);
-  return status;
+  std::vector<OutputFile> files{{(path / "tuning.json").string(), document}};
+  for (api::NamedChart& chart : api::draw_tuning(title, result))
+    files.push_back({(path / (chart.name + ".svg")).string(), std::move(chart.svg)});
+  return files;
 }
 
 }  // namespace
@@ -196,9 +200,11 @@ int write_files(const std::string& folder, const std::string& title, const std::
 int tune(const TuneCommand& options) {
   auto parameters = parameters_of(options);
   if (!parameters) return refuse(parameters.error());
-  const auto catalogue = api::load_catalogue(options.data);
+  const auto data = data_folder(options.data);
+  if (!data) return refuse(data.error());
+  const auto catalogue = api::load_catalogue(*data);
   if (!catalogue) return refuse(catalogue.error());
-  const auto loaded = api::load_campaign_table(options.table, options.data, *catalogue);
+  const auto loaded = api::load_campaign_table(options.table, *data, *catalogue);
   if (!loaded) return refuse(loaded.error());
   const auto drives = chosen_drives(slipway::campaign::expand(loaded->table), options.drives, "/drives");
   if (!drives) return refuse(drives.error());
@@ -227,8 +233,12 @@ int tune(const TuneCommand& options) {
     std::cerr << fmt::format("{} of {} drives have no measured end, the first is {}\n",
                              tuning.unmeasured.size(), drives->size(), tuning.unmeasured.front());
   const std::string document = api::json::tuning_document(loaded->table, request, tuning);
-  std::cout << (options.json ? document : answer_words(tuning)) << std::flush;
-  return options.out.empty() ? 0 : write_files(options.out, loaded->table.name, document, tuning);
+  std::vector<OutputFile> files;
+  if (!options.out.empty()) {
+    if (const auto made = api::make_folder(options.out); !made) return refuse(made.error());
+    files = files_of(options.out, loaded->table.name, document, tuning);
+  }
+  return deliver(files, options.json ? document : answer_words(tuning));
 }
 
 }  // namespace slipway::server

@@ -1,12 +1,12 @@
-#include <iostream>
-#include <sstream>
+#include "server/cli/wheel_command.h"
+
+#include <vector>
 
 #include "api/documents/wheel_sweep_answer.h"
 #include "api/json/writer.h"
 #include "api/report/sweep_chart.h"
 #include "server/cli/command_parts.h"
-#include "server/cli/commands.h"
-#include "server/cli/tables.h"
+#include "server/cli/terminal/tables.h"
 
 namespace slipway::server {
 namespace {
@@ -56,15 +56,18 @@ int wheel(const WheelOptions& options) {
   if (!answer) return refuse(answer.error());
   const auto printed = options.ask.json ? answer : wheel_table(*answer);
   if (!printed) return refuse(printed.error());
-  std::cout << *printed << (options.ask.json ? "\n" : "") << std::flush;
+  std::vector<OutputFile> files;
   if (!options.csv.empty()) {
     const auto csv = api::json::wheel_sweep_csv(*answer);
     if (!csv) return refuse(csv.error());
-    if (const int status = save(options.csv, *csv); status != 0) return status;
+    files.push_back({options.csv, *csv});
   }
-  if (options.plot.empty()) return 0;
-  const auto picture = api::draw_wheel_sweep(*answer);
-  return picture ? save(options.plot, *picture) : refuse(picture.error());
+  if (!options.plot.empty()) {
+    const auto picture = api::draw_wheel_sweep(*answer);
+    if (!picture) return refuse(picture.error());
+    files.push_back({options.plot, *picture});
+  }
+  return deliver(files, *printed + (options.ask.json ? "\n" : ""));
 }
 
 }  // namespace slipway::server

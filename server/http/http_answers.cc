@@ -6,6 +6,8 @@
 #include <exception>
 #include <utility>
 
+#include "server/http/http_cross_origin.h"
+
 namespace slipway::server {
 namespace {
 
@@ -63,6 +65,12 @@ std::string Answers::to_refused(HttpEngine& engine, std::string_view method, con
 }
 
 HttpResponse Answers::routed(HttpRequest& request) const {
+  HttpResponse response = answered(request);
+  share_across_origins(options_.cross_origin, request, response);
+  return response;
+}
+
+HttpResponse Answers::answered(HttpRequest& request) const {
   const auto as_problem = [this](const Error& error, const HttpRequest* r) { return problem(error, r); };
   try {
     return routes_.answer(request, as_problem);

@@ -25,7 +25,9 @@ class Answers {
 
  private:
   HttpResponse problem(const Error& error, const HttpRequest* request) const;
+  // The answer to a request, with what lets pages of other origins read it.
   HttpResponse routed(HttpRequest& request) const;
+  HttpResponse answered(HttpRequest& request) const;
 
   const HttpOptions& options_;
   const RouteTable& routes_;

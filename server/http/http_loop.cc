@@ -18,7 +18,7 @@ constexpr std::uint64_t kWakeId = 1;
 constexpr std::chrono::milliseconds kSweepEvery{25};
 // Connections accepted in one turn, so that a flood of them does not keep the others waiting.
 constexpr int kAcceptedPerTurn = 64;
-// Of those over a cap, so many at once are told why; the rest are just closed.
+// Of the connections over a cap, so many at once get an answer that says why; the rest are just closed.
 constexpr std::size_t kTurnedAwayAtOnce = 32;
 
 }  // namespace

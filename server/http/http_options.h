@@ -13,6 +13,16 @@
 
 namespace slipway::server {
 
+// Cross-origin resource sharing [the Fetch standard, https://fetch.spec.whatwg.org/#http-cors-protocol]:
+// without it a browser shows no page of another origin what the server answers. Only pages are held by it,
+// and only by their browser: it guards no secret.
+struct CrossOrigin {
+  std::vector<std::string> origins;  // as browsers send them, see fault_of_origin(); empty: no page may
+  // Headers that a page may send besides those that are always allowed, and may read.
+  std::vector<std::string> request_headers, response_headers;
+  std::chrono::seconds preflight_kept{600};  // how long a browser need not ask again
+};
+
 // Every limit exists because a client without one could take the server from the others. The defaults suit
 // one machine that serves a team; a public address belongs behind a reverse proxy.
 struct HttpOptions {
@@ -64,6 +74,9 @@ struct HttpOptions {
   int listen_backlog = 256;
   // A connection is closed after so many, which lets a load balancer spread its clients anew.
   std::size_t max_requests_per_connection = 1'000;
+
+  // Which web pages of other origins may read the answers (CORS).
+  CrossOrigin cross_origin;
 
   // Turns an error into the response to send, a problem document (RFC 9457). The request is null when its
   // head could not be read. Called from several threads at once.

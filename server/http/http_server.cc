@@ -42,8 +42,13 @@ class HttpServer::Running {
     if (loop_) return fail(ErrorCode::kConflict, "the server is running");
     auto listener = listen_at(options_);
     if (!listener) return fail(std::move(listener.error()));
-    const int port = listener->port;
-    loop_.emplace(options_, answers_, counters_, std::move(*listener));
+    return start(*std::move(listener));
+  }
+
+  Result<int> start(Listener listener) {
+    if (loop_) return fail(ErrorCode::kConflict, "the server is running");
+    const int port = listener.port;
+    loop_.emplace(options_, answers_, counters_, std::move(listener));
     if (!loop_->fault().empty()) {
       const std::string fault = loop_->fault();
       loop_.reset();
@@ -91,6 +96,10 @@ HttpServer::~HttpServer() {
 
 Result<int> HttpServer::start() {
   return running_->start();
+}
+
+Result<int> HttpServer::start(Listener listener) {
+  return running_->start(std::move(listener));
 }
 
 void HttpServer::stop() {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "server/http/http_listener.h"
 #include "server/http/http_message.h"
 #include "server/http/http_options.h"
 #include "server/http/http_routes.h"
@@ -23,6 +24,9 @@ class HttpServer {
   // Binds and serves from threads of its own; the port it got, or why it can't listen there. For one thread,
   // as stop() is, after which it may be started again.
   Result<int> start();
+  // The same on a port that listen_at() has bound before: a program binds first, so that a start that fails
+  // for want of the port has changed nothing.
+  Result<int> start(Listener listener);
 
   // New connections and requests are refused, those that have begun are answered up to
   // options.drain_deadline. A handler that is still running then is waited for: threads can't be ended from

@@ -27,9 +27,9 @@ struct CvodeIntegrator::Solver {
   SUNLinearSolver linear = nullptr;
   void* cvode = nullptr;
   std::vector<int> directions;
-  std::string message;  // CVODE's last words
+  std::string message;  // CVODE's last error message
   double t = 0.0;
-  Work before;  // of runs before the last restart
+  Work before;  // done before the last restart
 
   ~Solver() {
     CVodeFree(&cvode);
@@ -42,7 +42,7 @@ struct CvodeIntegrator::Solver {
 
 namespace {
 
-// Nothing may throw across a callback of a C library.
+// No exception may cross a callback of a C library.
 template <class Call>
 int guarded(Call call) noexcept {
   try {
@@ -59,7 +59,7 @@ int derivative(realtype t, N_Vector y, N_Vector rate, void* data) {
 
 int events(realtype t, N_Vector y, realtype* value, void* data) {
   auto& system = static_cast<CvodeIntegrator::Solver*>(data)->system;
-  // CVODE gives up where a value is 0 to the last bit twice in a row, which a slow event may well be.
+  // CVODE gives up where an event's value is exactly 0 twice in a row, which happens with slow events.
   return guarded([&] {
     if (!system.events(t, NV_DATA_S(y), value)) return false;
     std::replace(value, value + system.event_count, 0.0, std::numeric_limits<double>::min());
@@ -85,7 +85,7 @@ void require(int flag, const char* what) {
   if (flag != CV_SUCCESS) throw std::runtime_error(fmt::format("SUNDIALS: {} failed with {}", what, flag));
 }
 
-// Eigen's LU in place of SUNDIALS's own, which does not use the machine's vector units: half the cost.
+// Eigen's LU replaces SUNDIALS's own, which does not use the machine's vector units and costs twice as much.
 Eigen::Map<Eigen::MatrixXd> dense(SUNMatrix matrix) {
   return {SM_DATA_D(matrix), SM_ROWS_D(matrix), SM_COLUMNS_D(matrix)};
 }
@@ -136,7 +136,7 @@ std::string reason_of(int flag) {
 }  // namespace
 
 CvodeIntegrator::CvodeIntegrator(StiffSystem system, double relative_tolerance, std::vector<double> absolute,
-                                 double longest_step)
+                                 double max_step_s)
     : solver_(std::make_unique<Solver>()) {
   Solver& s = *solver_;
   s.system = std::move(system);
@@ -156,7 +156,7 @@ CvodeIntegrator::CvodeIntegrator(StiffSystem system, double relative_tolerance, 
   require(CVodeWFtolerances(s.cvode, error_weights), "tolerances");
   require(CVodeSetUserData(s.cvode, &s), "user data");
   require(CVodeSetLinearSolver(s.cvode, s.linear, s.matrix), "linear solver");
-  require(CVodeSetMaxStep(s.cvode, longest_step), "longest step");
+  require(CVodeSetMaxStep(s.cvode, max_step_s), "longest step");
   require(CVodeSetMaxConvFails(s.cvode, 30), "convergence failures");
   require(CVodeSetMaxErrTestFails(s.cvode, 30), "error test failures");
   if (s.system.event_count > 0) {
@@ -178,7 +178,7 @@ void CvodeIntegrator::restart(double t, std::span<const double> y) {
   begin_anew();
 }
 
-// From where it is.
+// Restarts CVODE at its present time and state.
 void CvodeIntegrator::begin_anew() {
   Solver& s = *solver_;
   s.before = work();
@@ -187,13 +187,13 @@ void CvodeIntegrator::begin_anew() {
 
 Result<CvodeIntegrator::Step> CvodeIntegrator::step(double t_stop) {
   Solver& s = *solver_;
-  // An event may have been met within a step that went on beyond a stop which was only set upon it.
+  // The last step may have gone beyond t_stop, where an event within it made the caller set an earlier stop.
   double reached = s.t;
   require(CVodeGetCurrentTime(s.cvode, &reached), "current time");
   if (t_stop < reached) begin_anew();
   require(CVodeSetStopTime(s.cvode, t_stop), "stop time");
   int flag = CVode(s.cvode, t_stop, s.y, &s.t, CV_ONE_STEP);
-  // History from before a kink of the ground may be what fails: once more without it.
+  // The step may fail because of history from before a kink of the ground, so it is tried once more without.
   if (flag == CV_CONV_FAILURE || flag == CV_ERR_FAILURE) {
     begin_anew();
     require(CVodeSetStopTime(s.cvode, t_stop), "stop time");

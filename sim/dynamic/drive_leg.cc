@@ -8,7 +8,7 @@
 namespace slipway::sim {
 namespace {
 
-// Of B's way as driven, backwards too: where it sets out to, and how it bends.
+// The line of B's path in the direction of travel, which is backwards where the speed is negative.
 struct TravelLine {
   double direction_rad;  // at the start, map frame
   double curvature_1_m;  // positive turns left, seen along the travel
@@ -25,7 +25,7 @@ double sinc(double x) {
   return x == 0.0 ? 1.0 : std::sin(x) / x;
 }
 
-// A leg of no length is done.
+// The share of a leg that is done; a leg without length is done.
 double share_of(double done, double whole) {
   return whole > 0.0 ? done / whole : 1.0;
 }
@@ -60,8 +60,8 @@ LegPlace place_on_leg(const DriveLeg& leg, const Pose2& start, const Pose2& now,
     const double east = now.x_m - start.x_m, north = now.y_m - start.y_m;
     const double c = std::cos(line.direction_rad), s = std::sin(line.direction_rad);
     const double ahead = c * east + s * north, left = c * north - s * east;
-    // About the arc's centre, which is at 1 / k to the left: multiplied by k, so that a straight is an arc
-    // too.
+    // The position about the arc's centre, which is at 1 / k to the left, is multiplied by k, so that a
+    // straight line is an arc too.
     const double k = line.curvature_1_m;
     double angle = std::atan2(k * ahead, 1.0 - k * left);
     angle += 2.0 * std::numbers::pi * std::round((turned_rad - angle) / (2.0 * std::numbers::pi));

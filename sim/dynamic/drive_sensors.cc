@@ -7,7 +7,7 @@
 namespace slipway::sim {
 namespace {
 
-// Part of what the readings are a function of: new channels go last.
+// The readings depend on these numbers, so that new channels must go last.
 enum class Channel {
   kPosition,
   kAttitude,
@@ -26,14 +26,14 @@ class ChannelReading {
                  std::size_t index)
       : error_(error),
         key_(random_key(random_key(sensors.seed, drive), static_cast<std::uint64_t>(channel))),
-        noise_counter_((index + 1) * kMostValues) {}
+        noise_counter_((index + 1) * kMaxValues) {}
 
   void read(double& value) {
     const double noise = std::hypot(error_.noise, error_.relative_noise * value);
     double wrong = error_.bias;
     if (error_.bias_std != 0.0) wrong += error_.bias_std * random_normal(key_, value_);
     if (noise != 0.0) wrong += noise * random_normal(key_, noise_counter_ + value_);
-    if (wrong != 0.0) value += wrong;  // a true -0 stays one
+    if (wrong != 0.0) value += wrong;  // without an error, a true value of -0 stays -0
     ++value_;
   }
   void read(Eigen::Vector3d& value) {
@@ -41,8 +41,8 @@ class ChannelReading {
   }
 
  private:
-  static constexpr std::uint64_t kMostValues = 64;  // of a channel: biases have the first of these counters
-  static_assert(kMostValues >= kMostWheels + 4);
+  static constexpr std::uint64_t kMaxValues = 64;  // of a channel at a sample; the first block is the biases'
+  static_assert(kMaxValues >= kMostWheels + 4);
 
   const SensorError& error_;
   std::uint64_t key_, noise_counter_, value_ = 0;

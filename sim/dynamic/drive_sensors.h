@@ -3,17 +3,17 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "sim/dynamic/dynamic_drive.h"
+#include "sim/dynamic/drive_sample.h"
 
 namespace slipway::sim {
 
-// One measured channel: reading = true + bias + noise; true where all is 0.
+// The errors of one measured channel: reading = true value + bias + noise.
 struct SensorError {
-  double noise = 0.0;           // one standard deviation, in the channel's unit
-  double relative_noise = 0.0;  // one standard deviation per unit of the true value, in quadrature
-  double bias = 0.0;            // constant over a drive
-  double bias_std = 0.0;        // drawn anew for each drive and each value of the channel, besides
-  double interval_s = 0.0;      // of readings; 0, or less than the samples': at every sample
+  double noise = 0.0;           // standard deviation, in the channel's unit
+  double relative_noise = 0.0;  // standard deviation per unit of the true value, added in quadrature
+  double bias = 0.0;            // the same in all drives
+  double bias_std = 0.0;    // of a further bias that is drawn for each drive and each value of the channel
+  double interval_s = 0.0;  // between readings; at or below the sample interval, every sample is read
 };
 
 // The rover's sensors; true readings by default.
@@ -29,17 +29,17 @@ struct DriveSensors {
   std::uint64_t seed = 1;
 };
 
-// A sample with what the sensors make of it, and which channels have a reading at this instant: values of the
-// others are not to be read. What no sensor measures stays true.
+// A sample as the sensors read it. The flags state which channels have a reading at this instant; the values
+// of the others must not be used. Values that no sensor measures stay true.
 struct SensorReading {
-  DriveSample sample;  // measured values in place of the true ones
+  DriveSample sample;  // has measured values in place of the true ones
   bool has_position = true, has_attitude = true, has_current = true, has_sinkage = true, has_encoder = true,
        has_potentiometer = true, has_gyro = true, has_accelerometer = true;
 };
 
-// Reads sample number `index` of drive `drive`, whose samples are sample_interval_s > 0 apart: a pure
-// function, so that any order gives the same readings. A channel reads at the first sample and at the first
-// one in each of its intervals.
+// Reads sample number `index` of drive `drive`, whose samples are sample_interval_s > 0 apart. This is a pure
+// function, so that any order gives the same readings. A channel has a reading at the first sample and at the
+// first sample of each of its intervals.
 SensorReading read_sensors(const DriveSensors& sensors, std::uint64_t drive, std::size_t index,
                            double sample_interval_s, const DriveSample& truth);
 

@@ -8,7 +8,7 @@
 
 namespace slipway::sim {
 
-// The soils of a drive, in the order of Ground::soil_at's index, and the one for where it is unknown.
+// The soils of a drive in the order of Ground::soil_at's index, and the soil of unknown ground.
 struct DriveSoils {
   std::vector<Soil> known;
   Soil unknown;

@@ -8,6 +8,7 @@
 
 #include "core/angle.h"
 #include "sim/dynamic/cvode_integrator.h"
+#include "sim/dynamic/ground_with_laws.h"
 #include "sim/dynamic/leg_driver.h"
 #include "sim/dynamic/rover_dynamics.h"
 #include "sim/rover/stance.h"
@@ -15,18 +16,19 @@
 namespace slipway::sim {
 namespace {
 
-constexpr double kLongestSettling_s = 40.0;
-constexpr double kAtRest_m_s = 2e-5;    // slower counts as at rest
-constexpr double kRestFor_s = 0.5;      // and must last
-constexpr double kSliding_m_s = 5e-4;   // faster drift, over the second half of kLongestSettling_s: slides
-constexpr double kSlid_m = 0.2;         // farther than this while settling: the same
-constexpr double kTelling_radii = 0.5;  // of a wheel: falling short by less says nothing, soil must give
-constexpr double kLongestTravel_radii = 0.5;  // of a wheel within one step
-constexpr double kBellyLook_m = 0.01;         // of way, or of a turn at the body's ends, between looks at it
+constexpr double kMaxSettling_s = 40.0;
+constexpr double kAtRest_m_s = 2e-5;   // a slower rover counts as at rest
+constexpr double kRestFor_s = 0.5;     // and must stay so for this time
+constexpr double kSliding_m_s = 5e-4;  // a rover that drifts faster in the second half of settling slides
+constexpr double kSlid_m = 0.2;        // a rover that drifts farther while settling slides too
+// Progress is not judged before this length was commanded, in wheel radii: soil must shear before it grips.
+constexpr double kMinCommanded_radii = 0.5;
+constexpr double kMaxTravel_radii = 0.5;  // of a wheel within one step
+constexpr double kBellyLook_m = 0.01;     // travel of the body's ends between two checks of the belly
 constexpr double kNudge_s = 1e-6;
-constexpr long kMostStepsPerSecond = 4000;  // more, over a second: the motion is too rough to follow
+constexpr long kMaxStepsPerSecond = 4000;  // a motion that needs more is too rough to follow
 
-// To the centimetre, without a sign where that is 0.
+// The value to print with two decimals, so that no "-0.00" is printed.
 double printed_m(double metres) {
   return std::abs(metres) < 0.005 ? 0.0 : metres;
 }
@@ -37,6 +39,8 @@ class Drive {
         std::span<const DriveLeg> legs, const DynamicOptions& options, const DriveSink& sink,
         Progress& progress)
       : rover_(rover),
+        ground_(ground),
+        soils_(soils),
         legs_(legs),
         options_(options),
         sink_(sink),
@@ -50,7 +54,7 @@ class Drive {
                      .events = [this](double t, const double* y,
                                       double* value) { return dynamics_.events(t, y, value); }},
                     options.relative_tolerance, dynamics_.tolerances(options.relative_tolerance),
-                    kLongestTravel_radii * rover.smallest_wheel_radius_m() / rover.cruise_speed_m_s),
+                    kMaxTravel_radii * rover.smallest_wheel_radius_m() / rover.cruise_speed_m_s),
         between_(dynamics_.size()) {
     for (const DriveLeg& leg : legs) {
       out_.commanded_m += leg.command.turn_in_place ? 0.0 : leg.length_m;
@@ -76,17 +80,18 @@ class Drive {
  private:
   const double* state() const { return integrator_.state().data(); }
 
-  // Until the rover stands still; time starts then. A rover that does not is an answer. One that rocks on its
-  // wheels has speed but goes nowhere: its drift counts.
+  // Integrates until the rover stands still, and starts the drive's time then. A rover that slides instead
+  // ends the drive with that answer. A rover that rocks on its wheels has speed but goes nowhere, so that its
+  // drift decides.
   Result<void> settle() {
     double still_since = 0.0, t = 0.0, half_t = 0.0;
     Pose2 half = put_down_;
     bool rests = false;
-    while (t < kLongestSettling_s && !ended_) {
-      auto step = advance(t < 0.5 * kLongestSettling_s ? 0.5 * kLongestSettling_s : kLongestSettling_s);
+    while (t < kMaxSettling_s && !ended_) {
+      auto step = advance(t < 0.5 * kMaxSettling_s ? 0.5 * kMaxSettling_s : kMaxSettling_s);
       if (!step) return fail(std::move(step.error()));
       t = step->t;
-      if (t <= 0.5 * kLongestSettling_s) {
+      if (t <= 0.5 * kMaxSettling_s) {
         half_t = t;
         half = dynamics_.pose(state());
       }
@@ -117,7 +122,7 @@ class Drive {
   }
 
   Result<void> drive_leg(const DriveLeg& leg) {
-    // A jump of the motion's third derivative only: no restart.
+    // Following the driver changes only the third derivative of the motion, so that no restart is needed.
     const Pose2 leg_start = options_.feedback == Feedback::kNone
                                 ? dynamics_.pose(state())
                                 : next_start_.value_or(dynamics_.pose(state()));
@@ -128,7 +133,7 @@ class Drive {
     checked_s_ = now_s_;
     checked_share_ = 0.0;
     const double share_before = dynamics_.place(state()).share;
-    // The profile's kinks are stops, so that no step smooths them over.
+    // The steps stop at the kinks of the rates' profile, so that no step smooths one over.
     while (!ended_ && now_s_ < driver.end_s()) {
       double stop = driver.end_s();
       for (const double kink : {driver.steered_s(), driver.ramped_s(), driver.cruised_s()})
@@ -138,7 +143,7 @@ class Drive {
       if (!step) return fail(std::move(step.error()));
       check_progress(leg);
     }
-    // With its pose fed back a leg ends where its way is done.
+    // With pose feedback a leg ends only where its length is done, so that there is nothing to check.
     if (!ended_ && options_.feedback != Feedback::kPose) check_leg(leg, share_before);
     note({.kind = DriveEventKind::kLegEnds, .time_s = now_s_ - began_s_, .leg = leg_});
     next_start_ = commanded_pose(leg, leg_start, 1.0);
@@ -171,17 +176,17 @@ class Drive {
     return step;
   }
 
-  // Never hangs: a motion that takes too many steps a second is refused.
+  // Refuses a motion that takes too many steps per second of motion, so that no drive hangs.
   Result<void> check_pace(double t) {
     if (t - pace_s_ >= 1.0) {
       pace_s_ = t;
       pace_steps_ = 0;
     }
-    if (++pace_steps_ <= kMostStepsPerSecond) return {};
+    if (++pace_steps_ <= kMaxStepsPerSecond) return {};
     return fail(ErrorCode::kNotConverged,
                 fmt::format("the motion is too rough to follow at {:.3f} s: more than {} steps in a second, "
                             "speed {:.3f} m/s, tilt {:.1f} deg",
-                            t, kMostStepsPerSecond, dynamics_.speed_m_s(state()),
+                            t, kMaxStepsPerSecond, dynamics_.speed_m_s(state()),
                             deg_from_rad(dynamics_.tilt_rad(state()))));
   }
 
@@ -190,11 +195,13 @@ class Drive {
     return std::min(1.0, (now_s_ - began_s_) / whole_s_);
   }
 
-  // The integrator can't tell why the derivative refused.
+  // Replaces the integrator's error, which cannot know why the derivative refused, where the ground was lost.
   Error off_ground(Error error) {
     const std::optional<Eigen::Vector2d>& lost = dynamics_.lost_ground();
     if (!lost) return error;
     const Pose2 at = dynamics_.pose(state());
+    if (on_slip_curve(ground_, soils_, lost->x(), lost->y()))
+      return {ErrorCode::kInvalidRequest, slip_curve_reason(*lost), {}};
     return {ErrorCode::kNoData,
             fmt::format("the drive leaves the known ground at ({:.2f}, {:.2f}) m, with the rover at ({:.2f}, "
                         "{:.2f}) m after {:.1f} s",
@@ -224,17 +231,18 @@ class Drive {
     return before_leg_m_ + driver_->leg().length_m * dynamics_.place(y).share;
   }
 
-  // By the integrator's steps: what is greatest does not depend on when samples are taken.
+  // Called at the integrator's steps, so that the maxima do not depend on the sample interval.
   void raise_peaks() {
     const RoverDynamics::Figures& figures = dynamics_.figures();
-    const double at_m = std::max(0.0, progress_m(state()));  // slid back: no place on the way
+    const double at_m = std::max(0.0, progress_m(state()));  // a rover that slid back is not on the way
     raise(out_.max_tilt_rad, dynamics_.tilt_rad(state()), at_m);
     raise(out_.max_current_a, figures.current_a, at_m);
     raise(out_.max_sinkage_m, figures.sinkage_m, at_m);
     if (figures.slip_ratio) raise(out_.max_slip_ratio, std::abs(*figures.slip_ratio), at_m);
   }
 
-  // Settling and sinking alone bring it down slowly: where it moved is where to look.
+  // Checks the belly's clearance only where the rover has moved, since settling and sinking alone lower it
+  // slowly.
   void watch_belly() {
     const Pose2 at = dynamics_.pose(state());
     if (belly_looked_ &&
@@ -255,7 +263,7 @@ class Drive {
   }
 
   void note(DriveEvent event) {
-    if (out_.events.size() < kMostEvents) out_.events.push_back(event);
+    if (out_.events.size() < kMaxEvents) out_.events.push_back(event);
   }
 
   void take_events() {
@@ -278,22 +286,22 @@ class Drive {
         note({DriveEventKind::kJointStop, now_s_ - began_s_, -1, leg_});
   }
 
-  // The way of a share of a leg; of the wheels, when turning in place.
+  // The commanded distance on a share of a leg; when turning in place, that of the outer wheels.
   double leg_way_m(const DriveLeg& leg, double share) const {
     return share * (leg.command.turn_in_place ? 0.5 * rover_.track_m() * leg.turn_rad : leg.length_m);
   }
 
-  // A leg that is over before give_up_s.
+  // Judges the progress on a leg that ended before give_up_s.
   void check_leg(const DriveLeg& leg, double share_before) {
     const double made = dynamics_.place(state()).share - share_before;
-    if (made >= kLeastProgress ||
-        leg_way_m(leg, 1.0 - made) < kTelling_radii * rover_.smallest_wheel_radius_m())
+    if (made >= kMinProgress ||
+        leg_way_m(leg, 1.0 - made) < kMinCommanded_radii * rover_.smallest_wheel_radius_m())
       return;
     end(DriveEnd::kImmobilised,
         stuck_text(fmt::format("no progress on leg {} of {}", leg_ + 1, legs_.size())));
   }
 
-  // Every give_up_s of cruise, or longer where too little was commanded in that time to tell.
+  // Judges the progress every give_up_s of cruise, or later where too little was commanded in that time.
   void check_progress(const DriveLeg& leg) {
     if (now_s_ < driver_->ramped_s()) {
       checked_s_ = now_s_;
@@ -304,8 +312,8 @@ class Drive {
     const double share = dynamics_.place(state()).share;
     const double commanded =
         (now_s_ - checked_s_) / commanded_duration_s(leg) * attainable_share(rover_, leg.command);
-    if (leg_way_m(leg, commanded) < kTelling_radii * rover_.smallest_wheel_radius_m()) return;
-    if (share - checked_share_ < kLeastProgress * commanded)
+    if (leg_way_m(leg, commanded) < kMinCommanded_radii * rover_.smallest_wheel_radius_m()) return;
+    if (share - checked_share_ < kMinProgress * commanded)
       end(DriveEnd::kImmobilised, stuck_text(fmt::format("no progress for {:.0f} s", now_s_ - checked_s_)));
     checked_s_ = now_s_;
     checked_share_ = share;
@@ -343,9 +351,11 @@ class Drive {
     return std::move(out_);
   }
 
-  static constexpr std::size_t kMostEvents = 1000;
+  static constexpr std::size_t kMaxEvents = 1000;
 
   const RoverModel& rover_;
+  const Ground& ground_;
+  const DriveSoils& soils_;
   std::span<const DriveLeg> legs_;
   const DynamicOptions& options_;
   const DriveSink& sink_;
@@ -365,83 +375,10 @@ class Drive {
   double before_leg_m_ = 0.0, checked_s_ = 0.0, checked_share_ = 0.0;
 };
 
-std::vector<Fault> faults_of(std::span<const DriveLeg> legs, const DynamicOptions& options) {
-  std::vector<Fault> faults;
-  for (std::size_t i = 0; i < legs.size(); ++i) {
-    const DriveLeg& leg = legs[i];
-    const double duration = commanded_duration_s(leg);
-    if (!(duration > 0.0) || !std::isfinite(duration))
-      faults.push_back(
-          {fmt::format("/legs/{}", i), "a leg needs a length or a turn, and a speed that is not 0"});
-  }
-  if (legs.empty()) faults.push_back({"/legs", "a drive needs a leg"});
-  if (!(options.relative_tolerance >= 1e-10 && options.relative_tolerance <= 1e-2))
-    faults.push_back(
-        {"/relative_tolerance",
-         fmt::format("relative_tolerance = {:g}, must be in [1e-10, 0.01]", options.relative_tolerance)});
-  if (options.contact_points < 1 || options.contact_points > 9)
-    faults.push_back(
-        {"/contact_points", fmt::format("contact_points = {}, must be in [1, 9]", options.contact_points)});
-  if (!(options.sample_interval_s > 0.0))
-    faults.push_back({"/sample_interval_s", "sample_interval_s must be above 0"});
-  return faults;
-}
-
-}  // namespace
-
-DriveSoils mean_soils(const SoilBeliefs& beliefs) {
-  DriveSoils soils;
-  for (const SoilDistribution& belief : beliefs.known) soils.known.push_back(belief.mean);
-  soils.unknown = beliefs.unknown.mean;
-  return soils;
-}
-
-std::string_view describe(DriveEnd end) {
-  switch (end) {
-    case DriveEnd::kFinished:
-      return "finished";
-    case DriveEnd::kImmobilised:
-      return "immobilised";
-    case DriveEnd::kTipped:
-      return "tipped";
-    case DriveEnd::kSunkToAxle:
-      return "sunk_to_axle";
-    case DriveEnd::kSlid:
-      return "slid";
-  }
-  return "unknown";
-}
-
-std::string_view describe(DriveEventKind kind) {
-  switch (kind) {
-    case DriveEventKind::kLegEnds:
-      return "leg_ends";
-    case DriveEventKind::kLiftOff:
-      return "lift_off";
-    case DriveEventKind::kTouchDown:
-      return "touch_down";
-    case DriveEventKind::kStall:
-      return "stall";
-    case DriveEventKind::kStallEnds:
-      return "stall_ends";
-    case DriveEventKind::kJointStop:
-      return "joint_stop";
-  }
-  return "unknown";
-}
-
-double final_slip_ratio(const DynamicDrive& drive) {
-  if (drive.commanded_m <= 0.0) return 0.0;
-  return std::hypot(drive.final.x_m - drive.commanded.x_m, drive.final.y_m - drive.commanded.y_m) /
-         drive.commanded_m;
-}
-
-Result<DynamicDrive> simulate_drive(const RoverModel& rover, double gravity_m_s2, const Ground& ground,
-                                    const DriveSoils& soils, const Pose2& start,
-                                    std::span<const DriveLeg> legs, const DynamicOptions& options,
-                                    const DriveSink& sink, Progress& progress) {
-  if (auto faults = faults_of(legs, options); !faults.empty())
-    return fail(ErrorCode::kInvalidRequest, "the drive can't be simulated", std::move(faults));
+Result<DynamicDrive> simulate_drive_on(const RoverModel& rover, double gravity_m_s2, const Ground& ground,
+                                       const DriveSoils& soils, const Pose2& start,
+                                       std::span<const DriveLeg> legs, const DynamicOptions& options,
+                                       const DriveSink& sink, Progress& progress) {
   const double c = std::cos(start.yaw_rad), s = std::sin(start.yaw_rad);
   for (const WheelModel& wheel : rover.wheels) {
     const double x = start.x_m + c * wheel.position_m.x() - s * wheel.position_m.y();
@@ -458,6 +395,38 @@ Result<DynamicDrive> simulate_drive(const RoverModel& rover, double gravity_m_s2
                 {{"/start", fmt::format("no stance at ({:.2f}, {:.2f}) m", start.x_m, start.y_m)}});
   Drive drive(rover, gravity_m_s2, ground, soils, legs, options, sink, progress);
   return drive.run(*stance);
+}
+
+// Drives as far as the ground has soils with laws.
+Result<DynamicDrive> simulate_drive_beside_slip_curves(const RoverModel& rover, double gravity_m_s2,
+                                                       const Ground& ground, const DriveSoils& soils,
+                                                       const Pose2& start, std::span<const DriveLeg> legs,
+                                                       const DynamicOptions& options, const DriveSink& sink,
+                                                       Progress& progress) {
+  const double c = std::cos(start.yaw_rad), s = std::sin(start.yaw_rad);
+  for (const WheelModel& wheel : rover.wheels) {
+    const Eigen::Vector2d p(start.x_m + c * wheel.position_m.x() - s * wheel.position_m.y(),
+                            start.y_m + s * wheel.position_m.x() + c * wheel.position_m.y());
+    if (on_slip_curve(ground, soils, p.x(), p.y()))
+      return fail(ErrorCode::kInvalidRequest, slip_curve_reason(p), {{"/start", slip_curve_reason(p)}});
+  }
+  return simulate_drive_on(rover, gravity_m_s2, GroundWithLaws(ground, soils), soils, start, legs, options,
+                           sink, progress);
+}
+
+}  // namespace
+
+Result<DynamicDrive> simulate_drive(const RoverModel& rover, double gravity_m_s2, const Ground& ground,
+                                    const DriveSoils& soils, const Pose2& start,
+                                    std::span<const DriveLeg> legs, const DynamicOptions& options,
+                                    const DriveSink& sink, Progress& progress) {
+  if (auto faults = faults_of(legs, options); !faults.empty())
+    return fail(ErrorCode::kInvalidRequest, "the drive can't be simulated", std::move(faults));
+  const auto has_curve = [](const Soil& soil) { return soil.slip_curve != nullptr; };
+  if (std::any_of(soils.known.begin(), soils.known.end(), has_curve) || has_curve(soils.unknown))
+    return simulate_drive_beside_slip_curves(rover, gravity_m_s2, ground, soils, start, legs, options, sink,
+                                             progress);
+  return simulate_drive_on(rover, gravity_m_s2, ground, soils, start, legs, options, sink, progress);
 }
 
 }  // namespace slipway::sim

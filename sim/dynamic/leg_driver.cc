@@ -11,17 +11,18 @@ namespace slipway::sim {
 namespace {
 
 constexpr double kRamp_s = 2.0;
-// Half of what the steering motors can do, and not faster than flown rovers steer.
+// Wheels steer at half of the steering motors' maximum rate, but not faster than flown rovers steer.
 constexpr double kSteeringRate_rad_s = 0.1;
 constexpr double kSameAngle_rad = 1e-6;
 
 double steering_rate(const RoverModel& rover) {
-  const double most = rover.steering.value_or(rover.drive).max_wheel_rate_rad_s;
-  return std::min(kSteeringRate_rad_s, 0.5 * most);
+  const double max_rate = rover.steering.value_or(rover.drive).max_wheel_rate_rad_s;
+  return std::min(kSteeringRate_rad_s, 0.5 * max_rate);
 }
 
-// Of the two that roll a wheel the same way, half a turn apart, the one that is steered like the other: a
-// wheel about to cross a quarter turn rolls on rather than swing round.
+// Two steering angles half a turn apart roll a wheel the same way, with opposite rates. Returns the one
+// nearer to the other command, so that a wheel about to cross a quarter turn rolls on rather than swing
+// round.
 WheelCommand nearest_to(const WheelCommand& other, WheelCommand commanded) {
   const double apart = commanded.steer_rad - other.steer_rad;
   if (std::abs(apart) <= 0.5 * std::numbers::pi) return commanded;
@@ -39,12 +40,13 @@ LegDriver::LegDriver(const RoverModel& rover, const DriveLeg& leg, Feedback feed
       from_rad_(steered_rad),
       plain_(wheel_commands(rover, leg.command)),
       start_s_(start_s) {
-  double most = 0.0;
+  double max_turn = 0.0;
   for (std::size_t k = 0; k < plain_.size(); ++k)
-    if (rover.wheels[k].steerable) most = std::max(most, std::abs(plain_[k].steer_rad - from_rad_[k]));
-  // The smooth step is fastest half way, one and a half times its mean.
-  steered_s_ = start_s + (most > kSameAngle_rad ? 1.5 * most / steering_rate(rover) : 0.0);
-  // A rover that is told more than its motors' greatest rate takes longer.
+    if (rover.wheels[k].steerable)
+      max_turn = std::max(max_turn, std::abs(plain_[k].steer_rad - from_rad_[k]));
+  // The maximum rate of the smooth step, at half way, is one and a half times its mean.
+  steered_s_ = start_s + (max_turn > kSameAngle_rad ? 1.5 * max_turn / steering_rate(rover) : 0.0);
+  // A rover whose commanded rates exceed its motors' maximum takes longer.
   const double duration = commanded_duration_s(leg) / attainable_share(rover, leg.command);
   ramp_s_ = std::min(kRamp_s, duration);
   ramped_s_ = steered_s_ + ramp_s_;
@@ -77,7 +79,7 @@ PerWheel<WheelCommand> LegDriver::commanded(double t, const LegPlace& place) con
   PerWheel<WheelCommand> commanded = plain_;
   if (uses_pose() && t > steered_s_) {
     DriveCommand corrected = leg_.command;
-    // Comes in with the rates: no jump when steering ends.
+    // The correction rises together with the rates, so that the steering does not jump.
     corrected.curvature_1_m += smooth_step((t - steered_s_) / ramp_s_) * curvature_correction(place);
     commanded = wheel_commands(rover_, corrected);
     for (std::size_t k = 0; k < commanded.size(); ++k)

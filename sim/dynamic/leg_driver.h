@@ -5,40 +5,42 @@
 
 namespace slipway::sim {
 
-// What the rover's software tells its wheels on one leg: steer at a halt, start gently, drive, stop gently.
+// The commands of the rover's software to its wheels on one leg: it steers at a halt, starts gently, drives
+// and stops gently.
 //
-//   t_0 .. t_s   wheels halted, steering from where it stood to the leg's angles
+//   t_0 .. t_s   wheels are halted and steer from their present angles to the leg's
 //   t_s .. t_r   rates rise as the smooth step p = x^2 (3 - 2 x)
-//   t_r .. t_e   cruise; then as long down as it went up
+//   t_r .. t_e   cruise; afterwards the rates fall in the same time as they rose
 //
-// Without feedback of the pose the cruise ends so that the rates' integral is that of the commanded length;
-// with it when stop() says so.
+// Without pose feedback the cruise ends so that the integral of the rates is that of the commanded length;
+// with it the cruise ends when stop() is called.
 //
-// Feedback turns the leg's curvature by
+// Feedback changes the leg's curvature by
 //
 //   d kappa = +-(e / l^2 + 2 psi / l)      + when driving backwards, - forwards
 //
-// (e across, psi heading: see LegPlace), which brings a rover without slip back along e'' + 2 e' / l + e /
-// l^2 = 0, e over the driven way, without overshoot; l is a body length. Its size is limited smoothly to half
-// the tightest arc's. Feedback::kHeading leaves e out.
+// where e is the distance across and psi the heading (see LegPlace). It brings a rover without slip back to
+// the line by e'' + 2 e' / l + e / l^2 = 0 over the driven distance, without overshoot; l is a body length.
+// The change is limited smoothly to half the curvature of the tightest arc. Feedback::kHeading leaves e out.
 class LegDriver {
  public:
   LegDriver(const RoverModel& rover, const DriveLeg& leg, Feedback feedback, double start_s,
             const PerWheel<double>& steered_rad);
 
   double steered_s() const { return steered_s_; }  // end of steering
-  double ramped_s() const { return ramped_s_; }
-  double cruised_s() const { return cruised_s_; }  // end of cruise; infinite with feedback until stopped
+  double ramped_s() const { return ramped_s_; }    // end of the rising ramp
+  double cruised_s() const { return cruised_s_; }  // end of cruise; infinite with pose feedback before stop()
   double end_s() const { return end_s_; }
-  double nominal_end_s() const { return nominal_end_s_; }
-  // From now on the rates fall.
+  double nominal_end_s() const { return nominal_end_s_; }  // end of a rover without slip
+  // The rates fall from t on, or from the end of the rising ramp where that is later.
   void stop(double t);
-  // The way that is still driven once the rates begin to fall, as a share of the leg.
+  // The share of the leg that is still driven while the rates fall.
   double stopping_share() const { return stopping_share_; }
 
-  // Of the commanded rates that are told at t, in [0, 1].
+  // The commanded rates at t as a share of those at cruise, in [0, 1].
   double rate_share(double t) const;
-  // told to each wheel; true motion (offsets, shares, failures) is the wheel's own.
+  // The commanded angle and rate of each wheel. The wheel's true motion also has its offsets, its share of
+  // the rate and its failures.
   PerWheel<WheelCommand> commanded(double t, const LegPlace& place) const;
   const DriveLeg& leg() const { return leg_; }
   bool uses_pose() const { return feedback_ != Feedback::kNone && !leg_.command.turn_in_place; }

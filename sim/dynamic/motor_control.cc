@@ -8,7 +8,8 @@ MotorControl::MotorControl(const DriveMotor& motor, double inertia, double stand
     : motor_(motor), standstill_rad_s_(standstill_rad_s) {
   const double emf = back_emf_v(1.0);
   const double per_volt = emf * motor.gear_efficiency / winding_resistance_ohm(motor);
-  // The back EMF alone may damp more than two poles at kControl_rad_s need; then the slower one is put there.
+  // The back EMF alone may damp more than two poles at kControl_rad_s need; then only the slower one is
+  // there.
   const double damped_1_s = std::max(2.0 * kControl_rad_s, emf * per_volt / inertia);
   const double damping = damped_1_s * inertia / per_volt - emf;
   const double stiffness = kControl_rad_s * (damped_1_s - kControl_rad_s) * inertia / per_volt;

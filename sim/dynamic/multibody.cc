@@ -9,7 +9,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// V x* momentum less what acts from outside.
+// The bias force: V x* momentum less the external force.
 SpatialVector bias_force(const SpatialVector& velocity, const SpatialVector& momentum,
                          const SpatialVector& outside) {
   const Vector3d omega = velocity.head<3>(), v = velocity.tail<3>();
@@ -19,7 +19,7 @@ SpatialVector bias_force(const SpatialVector& velocity, const SpatialVector& mom
   return bias;
 }
 
-// Lies with its centre on its axis and has one moment of inertia about all axes square to it.
+// Whether the body's centre is on its axis and it has one moment of inertia about all axes square to it.
 bool is_round(const RevoluteBody& body) {
   const MassProperties& mass = body.mass;
   const Vector3d& a = body.axis;
@@ -103,7 +103,7 @@ void MultibodyDynamics::set_state(const Matrix3d& R_MB, const SpatialVector& bas
     link.rate = rates[i];
     const Vector3d moment = link.pivot.cross(link.axis);
     link.subspace << link.axis, moment;
-    // V_p x S qd, as S x S is 0; by halves, which are in registers.
+    // V_p x S qd, since S x S is 0; angular and linear halves stay in registers.
     const SpatialVector& carried = on_base ? base_velocity_ : links_[body.parent].velocity;
     const Vector3d omega = carried.head<3>(), v = carried.tail<3>();
     const Vector3d turning = link.rate * link.axis, moving = link.rate * moment;
@@ -161,12 +161,12 @@ void MultibodyDynamics::accelerations(const Vector3d& gravity_M, SpatialVector& 
       links_[body.parent].bias += link.bias;
     }
   }
-  // Without gravity first: the whole tree falls alike, so that the joints see none of it.
+  // Gravity is left out at first: the whole tree falls alike, so that it does not act on the joints.
   SpatialVector seen = -base_articulated.llt().solve(base_bias);
   for (int i = 0; i < multibody_.joint_count(); ++i) {
     const int parent = multibody_.bodies()[i].parent;
     Link& link = links_[i];
-    // The bias has done its work: here it carries the acceleration outwards.
+    // The bias force is no longer needed, so its storage carries the acceleration outwards.
     link.bias = (parent < 0 ? seen : links_[parent].bias) + link.coriolis;
     joint_accelerations[i] = (link.u - link.u_vector.dot(link.bias)) * link.per_d;
     link.bias += link.subspace * joint_accelerations[i];

@@ -16,22 +16,24 @@ struct MassProperties {
 // A body that turns against its parent about one axis.
 struct RevoluteBody {
   std::string name;
-  int parent = -1;                                    // index of an earlier body, -1: the base
+  int parent = -1;                                    // index of an earlier body; -1 is the base
   Eigen::Vector3d pivot_m = Eigen::Vector3d::Zero();  // on the axis, where all joints are at 0, frame B
   Eigen::Vector3d axis = Eigen::Vector3d::UnitY();    // unit, where all joints are at 0, frame B
   MassProperties mass = {};
-  double armature_kg_m2 = 0.0;  // of a motor's rotor about this joint, gear ratio squared times its own;
-                                // infinite: welded, at rate 0
-  bool round = false;  // looks alike at every angle: a wheel, centred on its axis, with one moment of
-                       // inertia about all that are square to it; its angle is never read
+  // The inertia of the motor's rotor about this joint, which is the gear ratio squared times its own. An
+  // infinite armature welds the joint at rate 0.
+  double armature_kg_m2 = 0.0;
+  // True for a wheel: it is centred on its axis and has the same moment of inertia about all axes square to
+  // it, so that its angle is never read.
+  bool round = false;
 };
 
 // A floating base with a tree of bodies on revolute joints: immutable, shared by pointer. The base's frame is
 // B.
 class Multibody {
  public:
-  // Bodies come after their parents. Throws std::invalid_argument where one doesn't, has no mass at all
-  // behind a joint without armature, or is called round and isn't.
+  // Bodies come after their parents. Throws std::invalid_argument where a body does not, where a joint
+  // without armature carries no mass, and where a body is marked round without being so.
   Multibody(MassProperties base, std::vector<RevoluteBody> bodies);
 
   int joint_count() const { return static_cast<int>(bodies_.size()); }
@@ -59,22 +61,23 @@ using SpatialMatrix = Eigen::Matrix<double, 6, 6>;
 //   I^A_p += I^A_i - U_i U_i^T / D_i       p^A_p += p^A_i + (I^A_i - U_i U_i^T / D_i) c_i + U_i u_i / D_i
 //   A_0 = -(I^A_0)^-1 p^A_0,      qdd_i = (u_i - U_i . (A_p + c_i)) / D_i,       A_i = A_p + c_i + S_i qdd_i
 //
-//   a_i, r_i  axis and a point on it      p^A  bias force: V x* I V less what acts from outside
-// Gravity is the acceleration that the base is seen to lack.
+//   a_i, r_i  axis and a point on it      p^A  bias force, V x* I V less the external forces
+// Gravity enters as an acceleration that is added to the base's at the end.
 //
-// A workspace: one a thread; no allocation after construction. Properties (tests): agrees with an independent
-// library to 1e-9; without forces energy and both momenta are kept.
+// This is a workspace for one thread; it does not allocate after construction. Tests show that it agrees with an
+// independent library to 1e-9, and that energy and both momenta are conserved without forces.
 // clang-format on
 class MultibodyDynamics {
  public:
   explicit MultibodyDynamics(const Multibody& multibody);  // which must outlive it
 
-  // R_MB: B to map. base: B's spatial velocity. Spans of joint_count(). Clears forces and torques.
+  // R_MB turns B into the map; base is B's spatial velocity; the arrays have joint_count() values. Clears the
+  // forces and torques.
   void set_state(const Eigen::Matrix3d& R_MB, const SpatialVector& base, const double* angles_rad,
                  const double* rates_rad_s);
 
-  // At the state, in axes of B about B's origin.
-  const Eigen::Matrix3d& R_Bi(int body) const { return links_[body].R_Bi; }  // of a round body: of angle 0
+  // Values at the state, in axes of B about B's origin.
+  const Eigen::Matrix3d& R_Bi(int body) const { return links_[body].R_Bi; }  // at angle 0 for a round body
   const Eigen::Vector3d& pivot_B(int body) const { return links_[body].pivot; }
   const Eigen::Vector3d& axis_B(int body) const { return links_[body].axis; }
   const SpatialVector& velocity(int body) const { return body < 0 ? base_velocity_ : links_[body].velocity; }
@@ -82,20 +85,20 @@ class MultibodyDynamics {
   Eigen::Vector3d point_velocity(int body, const Eigen::Vector3d& p_B) const;
 
   void add_force(int body, const Eigen::Vector3d& p_B, const Eigen::Vector3d& force_B,
-                 const Eigen::Vector3d& moment_B);  // body -1: the base
+                 const Eigen::Vector3d& moment_B);  // body -1 is the base
   void add_torque(int joint, double torque_nm) { links_[joint].torque += torque_nm; }
 
-  // Base's spatial acceleration (its components' rate of change in B) and the joints'. gravity_M:
-  // acceleration, map axes. joint_accelerations: joint_count() numbers.
+  // Computes the base's spatial acceleration (the rate of change of its components in B) and the joints'
+  // accelerations (joint_count() values). gravity_M is the gravitational acceleration in map axes [m/s^2].
   void accelerations(const Eigen::Vector3d& gravity_M, SpatialVector& base, double* joint_accelerations);
 
-  double kinetic_energy_j() const;  // with the armatures' share
-  // About B's origin, axes of B; armatures, whose rotors are not bodies, have no part in it.
+  double kinetic_energy_j() const;  // includes the armatures' share
+  // About B's origin in axes of B. The armatures are left out, since their rotors are not bodies.
   SpatialVector momentum() const;
   Eigen::Vector3d com_B() const;
 
  private:
-  // Of one body, in axes of B.
+  // The inertia of one body, in axes of B.
   struct RigidInertia {
     double mass_kg = 0.0;
     Eigen::Vector3d com = Eigen::Vector3d::Zero();

@@ -13,23 +13,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kStandstillShare = 0.01;  // of the wheels' cruising rate: slower counts as through rest
-constexpr double kStallShare = 0.2;        // of the told rate: a slower wheel is stalled
+constexpr double kStandstillShare = 0.01;  // of the wheels' cruise rate; slower wheels count as passing rest
+constexpr double kStallShare = 0.2;        // of the commanded rate; a slower wheel counts as stalled
 constexpr double kStop_nm_rad = 2e4, kStopDamping_s_rad = 1.0;
-constexpr double kSunkenAxle_radii = 0.929;  // 1 - cos of the laws' greatest entry angle
-constexpr double kForgotten_lengths = 8.0;   // of the body: ruts farther behind can't be met any more
+constexpr double kSunkenAxle_radii = 0.929;  // 1 - cos of the laws' maximum entry angle
+constexpr double kForgotten_lengths = 8.0;   // body lengths; the wheels cannot return to ruts farther away
 
-double yaw_of(const Eigen::Matrix3d& R) {
-  return std::atan2(R(1, 0), R(0, 0));
-}
-
-Attitude attitude_of(const Eigen::Matrix3d& R) {
-  return {.roll_rad = std::atan2(R(2, 1), R(2, 2)),
-          .pitch_rad = std::asin(std::clamp(-R(2, 0), -1.0, 1.0)),
-          .yaw_rad = yaw_of(R)};
-}
-
-double smallest_cruise_rate(const RoverModel& rover) {
+double min_cruise_rate(const RoverModel& rover) {
   double radius = 0.0;
   for (const WheelModel& wheel : rover.wheels) radius = std::max(radius, wheel.radius_m);
   return rover.cruise_speed_m_s / radius;
@@ -46,14 +36,14 @@ RoverDynamics::RoverDynamics(const RoverModel& rover, double gravity_m_s2, const
       options_(options),
       bodies_(rover_multibody(rover)),
       dynamics_(bodies_.tree),
-      contacts_(rover, gravity_m_s2, options.contact_points, kStandstillShare * smallest_cruise_rate(rover)),
-      standstill_rad_s_(kStandstillShare * smallest_cruise_rate(rover)),
+      contacts_(rover, gravity_m_s2, options.contact_points, kStandstillShare * min_cruise_rate(rover)),
+      standstill_rad_s_(kStandstillShare * min_cruise_rate(rover)),
       drive_control_(
           control_of(at_temperature(rover.drive, options.motor_temp_c.value_or(rover.drive.reference_temp_c)),
                      gripping_load_kg_m2())),
       steering_control_(control_of(rover.steering.value_or(rover.drive), 0.0)),
       halted_rad_(rover.wheels.size()),
-      told_(rover.wheels.size()),
+      commanded_(rover.wheels.size()),
       angles_(bodies_.tree.joint_count()),
       rates_(bodies_.tree.joint_count()),
       accelerations_(bodies_.tree.joint_count()),
@@ -80,15 +70,16 @@ void RoverDynamics::lay_out() {
   size_ = integrals_at_ + wheels();
 }
 
-// A wheel's share of the rover's mass, at its rim.
+// The moment of inertia about the axle that a wheel's share of the rover's mass has at its rim.
 double RoverDynamics::gripping_load_kg_m2() const {
   const double radius = rover_.smallest_wheel_radius_m();
   return rover_.mass_kg / wheels() * radius * radius;
 }
 
-// A locked wheel's armature is infinite, and not all rovers steer: the drive's rotor is what any control is
-// for. A driven wheel that grips moves its share of the rover too: without it the integral would take tens of
-// seconds to find the load behind a motor of low gear, and each leg would begin short of its speed.
+// The inertia is computed from the motor's rotor rather than from the tree, because a locked wheel's armature
+// is infinite and not all rovers steer. A driven wheel that grips also moves its share of the rover. Without
+// that share the controller's integral would take tens of seconds to find the load behind a motor of low
+// gear, and each leg would begin below its commanded speed.
 MotorControl RoverDynamics::control_of(const DriveMotor& motor, double load_kg_m2) const {
   const double rotor = motor.gear_ratio * motor.gear_ratio * motor.rotor_inertia_kg_m2;
   const RevoluteBody& wheel = bodies_.tree.bodies()[bodies_.wheel[0]];
@@ -96,7 +87,7 @@ MotorControl RoverDynamics::control_of(const DriveMotor& motor, double load_kg_m
 }
 
 std::vector<double> RoverDynamics::tolerances(double relative) const {
-  // Of the sizes that matter to a drive: 0.1 m, 0.1 rad, cruising speeds, a slip of 0.1, 10 V.
+  // Relative to the scales that matter to a drive: 0.1 m, 0.1 rad, cruise speed, a slip of 0.1, and 10 V.
   std::vector<double> absolute(size_, relative * 0.1);
   for (int i = twist_at_; i < slips_at_; ++i) absolute[i] = relative * rover_.cruise_speed_m_s;
   for (int i = integrals_at_; i < size_; ++i) absolute[i] = relative * 10.0;
@@ -208,12 +199,13 @@ RoverDynamics::WheelDriveState RoverDynamics::drive_of(std::size_t k, const doub
   const double rate = rates_[bodies_.wheel[k]];
   WheelDriveState out;
   if (wheel.drive == WheelDrive::kDriven)
-    out.motor = drive_control_.keep_rate(told_[k].rate_rad_s, rate, y[integrals_at_ + k]);
+    out.motor = drive_control_.keep_rate(commanded_[k].rate_rad_s, rate, y[integrals_at_ + k]);
   out.torque_nm = out.motor.torque_nm - wheel.drag_nm * std::tanh(rate / standstill_rad_s_);
   return out;
 }
 
-// As in the quasi-static rung: the true attitude is the one that the ground gives and the rover's bias.
+// As at the quasi-static level, the true attitude is the one that the ground gives plus the rover's attitude
+// bias.
 Vector3d RoverDynamics::gravity_M() const {
   const Vector3d down(0.0, 0.0, -gravity_m_s2_);
   if (rover_.roll_bias_rad == 0.0 && rover_.pitch_bias_rad == 0.0) return down;
@@ -225,11 +217,12 @@ Vector3d RoverDynamics::gravity_M() const {
 
 void RoverDynamics::set_commanded(double t, const double* y) {
   if (driver_) {
-    told_ = driver_->commanded(t, driver_->uses_pose() ? place(y) : LegPlace{});
+    commanded_ = driver_->commanded(t, driver_->uses_pose() ? place(y) : LegPlace{});
   } else {
-    for (std::size_t k = 0; k < told_.size(); ++k) told_[k] = {halted_rad_[k], 0.0};
+    for (std::size_t k = 0; k < commanded_.size(); ++k) commanded_[k] = {halted_rad_[k], 0.0};
   }
-  for (std::size_t k = 0; k < told_.size(); ++k) told_[k] = true_motion(rover_.wheels[k], told_[k]);
+  for (std::size_t k = 0; k < commanded_.size(); ++k)
+    commanded_[k] = true_motion(rover_.wheels[k], commanded_[k]);
 }
 
 bool RoverDynamics::derivative(double t, const double* y, double* rate) {
@@ -244,15 +237,15 @@ bool RoverDynamics::derivative(double t, const double* y, double* rate) {
                           R_MB_.transpose() * contact.moment);
     if (const int steering = bodies_.steering[k]; steering >= 0)
       dynamics_.add_torque(
-          steering,
-          steering_control_.keep_angle(told_[k].steer_rad, angles_[steering], rates_[steering]).torque_nm);
+          steering, steering_control_.keep_angle(commanded_[k].steer_rad, angles_[steering], rates_[steering])
+                        .torque_nm);
     drive_[k] = drive_of(k, y);
     dynamics_.add_torque(joint, drive_[k].torque_nm);
     rate[slips_at_ + 2 * k] = contact.slip_x_rate;
     rate[slips_at_ + 2 * k + 1] = contact.slip_y_rate;
     rate[integrals_at_ + k] =
         rover_.wheels[k].drive == WheelDrive::kDriven
-            ? drive_control_.integral_rate_v_s(drive_[k].motor, told_[k].rate_rad_s, rates_[joint])
+            ? drive_control_.integral_rate_v_s(drive_[k].motor, commanded_[k].rate_rad_s, rates_[joint])
             : 0.0;
   }
   dynamics_.accelerations(gravity_M(), base_rate_, accelerations_.data());
@@ -275,45 +268,6 @@ bool RoverDynamics::derivative(double t, const double* y, double* rate) {
   return true;
 }
 
-Pose2 RoverDynamics::pose(const double* y) const {
-  const Eigen::Matrix3d R = Eigen::Quaterniond(y[3], y[4], y[5], y[6]).normalized().toRotationMatrix();
-  return {origin_M_.x() + y[0], origin_M_.y() + y[1], yaw_rad_ + wrapped_rad(yaw_of(R) - yaw_rad_)};
-}
-
-double RoverDynamics::tilt_rad(const double* y) const {
-  const Eigen::Matrix3d R = Eigen::Quaterniond(y[3], y[4], y[5], y[6]).normalized().toRotationMatrix();
-  return std::acos(std::clamp(R(2, 2), -1.0, 1.0));
-}
-
-BellyClearance RoverDynamics::belly(const double* y) const {
-  const Eigen::Matrix3d R = Eigen::Quaterniond(y[3], y[4], y[5], y[6]).normalized().toRotationMatrix();
-  return belly_clearance(rover_, ground_, origin_M_ + Vector3d(y[0], y[1], y[2]), R);
-}
-
-double RoverDynamics::speed_m_s(const double* y) const {
-  return Vector3d(y[twist_at_ + 3], y[twist_at_ + 4], y[twist_at_ + 5]).norm();
-}
-
-double RoverDynamics::fastest_wheel_rad_s(const double* y) const {
-  double fastest = 0.0;
-  for (const int joint : bodies_.wheel) fastest = std::max(fastest, std::abs(y[rates_at_ + joint]));
-  return fastest;
-}
-
-PerWheel<double> RoverDynamics::steered_rad(const double* y) const {
-  PerWheel<double> steered(rover_.wheels.size());
-  for (std::size_t k = 0; k < steered.size(); ++k)
-    if (bodies_.steering[k] >= 0)
-      steered[k] = y[angle_state_[bodies_.steering[k]]] - rover_.wheels[k].steering_offset_rad;
-  return steered;
-}
-
-LegPlace RoverDynamics::place(const double* y) const {
-  if (!driver_) return {};
-  const Pose2 now = pose(y);
-  return place_on_leg(driver_->leg(), leg_start_, now, now.yaw_rad - leg_start_.yaw_rad);
-}
-
 bool RoverDynamics::events(double t, const double* y, double* value) {
   if (!std::all_of(y, y + size_, [](double v) { return std::isfinite(v); })) return false;
   unpack(y);
@@ -331,10 +285,10 @@ bool RoverDynamics::events(double t, const double* y, double* value) {
     const double depth = contact.depth_m / rover_.wheels[k].radius_m;
     *value++ = kSunkenAxle_radii - depth;
     *value++ = depth;
-    // A ramp is not a stall.
+    // During the ramps a wheel may be slow without being stalled.
     const bool driven = rover_.wheels[k].drive == WheelDrive::kDriven && driver_ && t > driver_->ramped_s() &&
                         t < driver_->cruised_s();
-    const double commanded = std::abs(told_[k].rate_rad_s);
+    const double commanded = std::abs(commanded_[k].rate_rad_s);
     *value++ = driven
                    ? (std::abs(kinematics_[k].rate_rad_s) - kStallShare * commanded) / standstill_rad_s_ + 1.0
                    : 1.0;
@@ -388,68 +342,6 @@ void RoverDynamics::after_step(double t, const double* y) {
 void RoverDynamics::reset_counts() {
   energy_j_ = 0.0;
   for (double& turned : turned_rad_) turned = 0.0;
-}
-
-DriveSample RoverDynamics::sample(double t, const double* y) {
-  std::vector<double> rate(size_);
-  DriveSample out;
-  derivative(t, y, rate.data());
-  out.time_s = t;
-  out.p_MB = p_MB_;
-  out.attitude = attitude_of(R_MB_);
-  out.attitude.yaw_rad = pose(y).yaw_rad;
-  out.angular_rate_B = {y[twist_at_], y[twist_at_ + 1], y[twist_at_ + 2]};
-  out.velocity_B = {y[twist_at_ + 3], y[twist_at_ + 4], y[twist_at_ + 5]};
-  out.specific_force_B = base_rate_.tail<3>() + out.angular_rate_B.cross(out.velocity_B) -
-                         R_MB_.transpose() * Vector3d(0.0, 0.0, -gravity_m_s2_);
-  for (int s = 0; s < 2; ++s) {
-    if (bodies_.rocker[s] >= 0) out.rocker_rad[s] = angles_[bodies_.rocker[s]];
-    if (bodies_.bogie[s] >= 0) out.bogie_rad[s] = angles_[bodies_.bogie[s]];
-  }
-  const std::size_t count = rover_.wheels.size();
-  out.wheels = PerWheel<WheelState>(count);
-  out.steer_rad = out.commanded_rate_rad_s = out.voltage_v = PerWheel<double>(count);
-  out.turned_rad = turned_rad_;
-  for (std::size_t k = 0; k < count; ++k) {
-    const ContactState& contact = contact_[k];
-    WheelState& wheel = out.wheels[k];
-    wheel.rate_rad_s = kinematics_[k].rate_rad_s;
-    wheel.in_air = contact.depth_m <= 0.0;
-    wheel.current_a = drive_[k].motor.current_a;
-    wheel.load_n = contact.load_n;
-    wheel.entry_angle_rad = contact.entry_angle_rad;
-    wheel.sinkage_m = std::max(0.0, contact.depth_m) + contact.rut_m;
-    wheel.drawbar_pull_n = contact.drawbar_pull_n;
-    wheel.lateral_force_n = contact.lateral_n;
-    wheel.torque_nm = contact.torque_nm;
-    wheel.slip_ratio = bounded_slip(slip_from_speed_ratio(contact.motion.forward));
-    wheel.slip_angle_rad = std::atan2(contact.motion.leftward, contact.motion.forward);
-    if (bodies_.steering[k] >= 0) out.steer_rad[k] = angles_[bodies_.steering[k]];
-    if (rover_.wheels[k].drive == WheelDrive::kDriven) out.commanded_rate_rad_s[k] = told_[k].rate_rad_s;
-    out.voltage_v[k] = drive_[k].motor.voltage_v;
-    out.turned_rad[k] += 0.5 * (wheel.rate_rad_s + last_rate_rad_s_[k]) * (t - last_t_);
-  }
-  if (const std::optional<double> slip = slip_ratio(t, y)) {
-    out.slip_ratio = *slip;
-    out.driving = true;
-  }
-  return out;
-}
-
-std::optional<double> RoverDynamics::slip_ratio(double t, const double* y) const {
-  if (!driver_ || driver_->rate_share(t) <= 0.5) return std::nullopt;
-  const DriveCommand& command = driver_->leg().command;
-  const double commanded = driver_->rate_share(t) * attainable_share(rover_, command) *
-                           (command.turn_in_place ? command.turn_rate_rad_s : command.speed_m_s);
-  const Eigen::Vector2d velocity_B(y[twist_at_ + 3], y[twist_at_ + 4]);
-  const double done = command.turn_in_place ? y[twist_at_ + 2] : travel_direction(command).dot(velocity_B);
-  return bounded_slip(slip_from_speed_ratio(done / commanded));
-}
-
-double RoverDynamics::mechanical_energy_j(const double* y) {
-  unpack(y);
-  const Vector3d com = p_MB_ + R_MB_ * dynamics_.com_B();
-  return dynamics_.kinetic_energy_j() + bodies_.tree.mass_kg() * gravity_m_s2_ * com.z();
 }
 
 }  // namespace slipway::sim

@@ -5,7 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "sim/dynamic/dynamic_drive.h"
+#include "sim/dynamic/drive_sample.h"
+#include "sim/dynamic/drive_soils.h"
+#include "sim/dynamic/dynamic_options.h"
 #include "sim/dynamic/leg_driver.h"
 #include "sim/dynamic/motor_control.h"
 #include "sim/dynamic/rover_multibody.h"
@@ -16,83 +18,89 @@
 namespace slipway::sim {
 
 // clang-format off
-// The rover in motion as a system of first order, y:
+// The rover in motion as a first-order system y' = f(t, y). The state vector y has, in this order:
 //
-//   p_MB less where it set out (3), q_MB (w, ...)  q' = q (0, omega) / 2 + (1 - |q|^2) q
-//   angles of rockers, bogies, steerings           in the tree's order
-//   omega, v of B's origin (axes of B)             multibody.h
-//   rates of all joints, wheels too                in the tree's order
-//   slip states (x, y) of each wheel               wheel_contact.h
+//   p_MB less the starting position (3), q_MB (w, x, y, z)   q' = q (0, omega) / 2 + (1 - |q|^2) q
+//   angles of rockers, bogies, steering joints               in the tree's order
+//   omega, v of B's origin (axes of B)                       see multibody.h
+//   rates of all joints, wheels included                     in the tree's order
+//   slip states (x, y) of each wheel                         see wheel_contact.h
 //   integral voltage of each wheel's rate control
 //
-// Internal constraints [ROAMS section 2.3]: the differential's torque on both rockers -(k e + c e'), e the sum of
-// their angles; stops by Hunt and Crossley, k d^(3/2) (1 + 3/2 c d'), d the angle beyond the stop.
+// The internal constraints are those of [ROAMS section 2.3]. The differential's torque on both rockers is
+// -(k e + c e'), where e is the sum of their angles. The joint stops follow Hunt and Crossley,
+// k d^(3/2) (1 + 3/2 c d'), where d is the angle beyond the stop.
 //
-// Drive and steering motors under rate and angle control: motor_control.h.
-// Soil does not resist steering: a point on the steering's axis has no arm.
+// The drive motors are under rate control and the steering motors under angle control, see motor_control.h.
+// The soil does not resist steering, since a contact point on the steering axis has no lever arm.
 //
-// Not modelled: the forces on a body that touches the ground (see belly()), inductance, the legs' elasticity.
+// The model leaves out the forces on a body that touches the ground (see belly()), the motors' inductance, and the
+// elasticity of the suspension.
 // clang-format on
 class RoverDynamics {
  public:
-  // All must outlive it.
+  // All arguments must outlive this object.
   RoverDynamics(const RoverModel& rover, double gravity_m_s2, const Ground& ground, const DriveSoils& soils,
                 const DynamicOptions& options);
 
   int size() const { return size_; }
-  // Place and attitude come first; where the map's origin lies and which way is east is no measure of an
-  // error.
+  // The number of states of position and attitude, which come first. Their error must not be scaled by their
+  // values, since the map's origin and its east direction are arbitrary.
   int pose_size() const { return angles_at_; }
-  // Absolute tolerances that go with a relative one.
+  // The absolute tolerance of each state that belongs to this relative tolerance.
   std::vector<double> tolerances(double relative) const;
-  // At rest as settle() leaves it, sunk under equal loads.
+  // The state at rest in this stance, with the wheels sunk under equal loads.
   std::vector<double> at_rest(const Stance& stance);
 
-  // Nothing told: wheels halted, steered as they are.
+  // From now on the commanded wheel rates are 0 and the commanded steering angles are these.
   void halt(const PerWheel<double>& steered_rad);
-  void follow(const LegDriver* driver, const Pose2& leg_start);  // must stay where it is
+  // From now on the wheels follow the commands of this driver, which must outlive the leg.
+  void follow(const LegDriver* driver, const Pose2& leg_start);
   const LegDriver* driver() const { return driver_; }
 
-  // False off the ground: see lost_ground().
+  // The state's rate of change. Returns false where a wheel has no ground (see lost_ground()) or a state is
+  // not finite.
   bool derivative(double t, const double* y, double* rate);
-  // Where the last refusal since after_step() was.
+  // The place without ground that the last refusal since after_step() met, in the map frame [m].
   const std::optional<Eigen::Vector2d>& lost_ground() const { return lost_ground_; }
 
-  // Soils under the wheels, what they leave behind, headings unwrapped: after each step that counts.
+  // Must be called after each accepted step: looks up the soils under the wheels, presses their ruts, unwraps
+  // the heading, and integrates energy and encoders.
   void after_step(double t, const double* y);
 
-  // Events, of order one, zero where they happen; in this order: leg's goal, tilt, then for each wheel depth
-  // of the axle, lift-off, stall; then stops of the joints.
+  // Event functions, of order one and zero where the event happens, in this order: the leg's goal, tilt; then
+  // for each wheel the depth of its axle, lift-off, stall; then the stops of the joints. Returns false as
+  // derivative() does.
   int event_count() const { return 2 + 3 * wheels() + joint_stops(); }
   bool events(double t, const double* y, double* value);
 
-  // At the last after_step(): largest of the wheels; slip as in DriveSample, nothing between the drives.
+  // Maxima over the wheels at the last after_step(), and the slip as in DriveSample, which is empty between
+  // legs.
   struct Figures {
     double current_a = 0.0, sinkage_m = 0.0;
     std::optional<double> slip_ratio = {};
   };
   const Figures& figures() const { return figures_; }
 
-  // At a state; found by a new evaluation.
+  // The whole sample at a state, by a new evaluation of the equations.
   DriveSample sample(double t, const double* y);
-  Pose2 pose(const double* y) const;  // yaw unwrapped from the last after_step()
+  Pose2 pose(const double* y) const;  // its yaw is unwrapped from the last after_step()
   double tilt_rad(const double* y) const;
-  BellyClearance belly(const double* y) const;  // over undeformed ground
-  double speed_m_s(const double* y) const;      // of B's origin
-  double fastest_wheel_rad_s(const double* y) const;
-  PerWheel<double> steered_rad(const double* y) const;
-  LegPlace place(const double* y) const;
-  // Since the start or reset_counts(), integrated by after_step().
+  BellyClearance belly(const double* y) const;          // over the ground without ruts
+  double speed_m_s(const double* y) const;              // of B's origin
+  PerWheel<double> steered_rad(const double* y) const;  // true angles less the wheels' steering offsets
+  LegPlace place(const double* y) const;                // on the leg that is followed
+  // Electric energy since the start or the last reset_counts(), integrated by after_step().
   double energy_j() const { return energy_j_; }
-  void reset_counts();  // of energy and encoders
+  void reset_counts();  // sets energy and encoder angles to 0
   RutMap& ruts() { return ruts_; }
   int wheels() const { return static_cast<int>(rover_.wheels.size()); }
-  // Kinetic and potential energy of the bodies, J: for tests of drift.
+  // Kinetic and potential energy of the bodies [J], for tests of the energy's drift.
   double mechanical_energy_j(const double* y);
 
  private:
   struct WheelDriveState {
-    MotorDrive motor;        // all 0 of a wheel without a motor
+    MotorDrive motor;        // all values are 0 for a wheel without a motor
     double torque_nm = 0.0;  // about the axle, drag included
   };
 
@@ -123,17 +131,18 @@ class RoverDynamics {
   MotorControl drive_control_, steering_control_;
 
   int size_ = 0, angles_at_ = 7, twist_at_ = 0, rates_at_ = 0, slips_at_ = 0, integrals_at_ = 0;
-  std::vector<int> angle_state_;  // of each joint in y, -1 for wheels
+  std::vector<int> angle_state_;  // index of each joint's angle in y, -1 for wheels
 
   const LegDriver* driver_ = nullptr;
   Pose2 leg_start_;
   PerWheel<double> halted_rad_;
-  PerWheel<WheelCommand> told_;
+  PerWheel<WheelCommand> commanded_;
 
-  // Where it was set down: maps count in thousands of kilometres, a drive in millimetres.
+  // The starting position, from which the state's position counts: map coordinates are thousands of
+  // kilometres and would leave too few digits for the millimetres of a drive.
   Eigen::Vector3d origin_M_ = Eigen::Vector3d::Zero();
 
-  // Of the state last unpacked.
+  // Values at the state that was unpacked last.
   Eigen::Vector3d p_MB_;
   Eigen::Matrix3d R_MB_ = Eigen::Matrix3d::Identity();
   std::vector<double> angles_, rates_, accelerations_;

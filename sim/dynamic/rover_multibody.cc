@@ -18,7 +18,8 @@ Vector3d on_side(const Vector3d& left, Side side) {
   return {left.x(), side == Side::kLeft ? left.y() : -left.y(), left.z()};
 }
 
-// Of equal points, with a little of its own so that points in a line are a body too.
+// The mass properties of equal point masses, with a small inertia added so that points in a line are valid
+// too.
 MassProperties of_points(double mass_kg, const std::vector<Vector3d>& points) {
   MassProperties mass{.mass_kg = mass_kg};
   for (const Vector3d& p : points) mass.com_m += p / static_cast<double>(points.size());
@@ -93,7 +94,7 @@ void add_wheels(const RoverModel& rover, std::vector<RevoluteBody>& bodies, Rove
     spin.pivot_m = wheel.position_m;
     spin.mass = disc(rover.wheel_mass_kg(), wheel);
     spin.round = true;
-    // A locked wheel is welded: a rotor that nothing turns.
+    // A locked wheel is welded by an infinite armature.
     spin.armature_kg_m2 =
         wheel.drive == WheelDrive::kLocked ? std::numeric_limits<double>::infinity() : armature(rover.drive);
     out.wheel[k] = static_cast<int>(bodies.size());
@@ -128,7 +129,7 @@ RoverMultibody rover_multibody(const RoverModel& rover) {
   add_wheels(rover, bodies, out);
   const MassProperties body = body_of(rover, bodies);
   out.tree = Multibody(body, std::move(bodies));
-  // Weight on Earth: the differential is built there.
+  // The weight is that on Earth, for which the differential is assumed to be built.
   constexpr double kEarth_m_s2 = 9.81;
   const double load_nm = 0.1 * rover.mass_kg * kEarth_m_s2 * half_wheelbase(rover);
   out.differential_stiffness_nm_rad =

@@ -10,7 +10,8 @@ constexpr std::int64_t kTileShift = 5;
 constexpr std::int64_t kWithinTile = RutMap::kTileCells - 1;
 static_assert(RutMap::kTileCells == 1 << kTileShift);
 
-// Of the tile that holds a cell, row above column; columns and rows are within 2^36 of the origin.
+// The key of the tile that holds a cell, with the row in the upper bits; columns and rows must be within 2^36
+// of the origin.
 std::uint64_t tile_key(std::int64_t column, std::int64_t row) {
   return static_cast<std::uint64_t>(row >> kTileShift) << 32 |
          static_cast<std::uint32_t>(column >> kTileShift);
@@ -42,8 +43,8 @@ float RutMap::depth(std::int64_t column, std::int64_t row) const {
 }
 
 RutMap::Rut RutMap::at(double x_m, double y_m) const {
-  // Of the lower left of the four cells whose centres are around the place, and the place's share of the way
-  // to the next ones.
+  // The lower left of the four cells whose centres are around the place, and the place's fraction of the
+  // distance to the next centres.
   const double x = x_m * per_cell_ - 0.5, y = y_m * per_cell_ - 0.5;
   const std::int64_t column = floor_index(x), row = floor_index(y);
   const double right = x - static_cast<double>(column), up = y - static_cast<double>(row);

@@ -7,12 +7,12 @@
 
 namespace slipway::sim {
 
-// What one wheel has left behind but is still near to. Its track is pressed into the map only once the wheel
-// has left it, so that it never meets the rut that it stands in.
+// The part of one wheel's track that is still near the wheel. A track is pressed into the map only once the
+// wheel has left it, so that a wheel never meets the rut in which it stands.
 class RutTrail {
  public:
-  // The wheel is at a place now, pressed to a depth below the undisturbed surface; its track behind it is
-  // pressed where it is farther than `clear_m`.
+  // Records that the wheel is at this place now, at this depth below the undisturbed surface, and presses the
+  // parts of its track that are farther away than clear_m.
   void move_to(const Eigen::Vector2d& place, double depth_m, double width_m, double clear_m, RutMap& ruts);
 
  private:

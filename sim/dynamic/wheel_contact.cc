@@ -16,14 +16,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kFarthestPoint_radii = 0.6;     // from the wheel's middle along its travel
-constexpr double kBlend_radii = 0.05;            // of depths over which points blend
-constexpr double kSlowestTransportShare = 0.01;  // of the wheel's speed over the ground
-constexpr double kBlended_standstills = 12.0;    // tanh is 1 beyond to 1e-10
-constexpr double kDraggedRatio = 100.0;          // speed over the rim's: all shear is mobilised long before
-constexpr double kSlidesBack = 0.25;  // speed backwards over the rim's at which the contact is all behind
+constexpr double kMaxPointOffset_radii = 0.6;  // from the wheel's middle along its travel
+constexpr double kBlend_radii = 0.05;          // of depths over which points blend
+constexpr double kMinTransportShare = 0.01;    // of the wheel's speed over the ground
+constexpr double kBlended_standstills = 12.0;  // beyond these tanh is 1 to within 1e-10
+constexpr double kDraggedRatio = 100.0;        // of speed to the rim's; the shear is mobilised far below it
+constexpr double kSlidesBack = 0.25;  // ratio of backward to rim speed from which the contact is all behind
 constexpr int kRutSamples = 4;        // across a wheel
-constexpr double kLeastRelaxation_radii = 0.2;
+constexpr double kMinRelaxation_radii = 0.2;
 
 void add_forces(double direction, double weight, const WheelForces& forces, ContactState& contact) {
   contact.drawbar_pull_n += weight * direction * forces.drawbar_pull_n;
@@ -57,14 +57,14 @@ void WheelContacts::set_soil(std::size_t k, const Soil& soil, double rim_speed_m
   place.track_bulldozing = soil.track_bulldozing;
   const double load = rover_.mass_kg * gravity_m_s2_ / static_cast<double>(places_.size());
   const double r = place.geometry.radius_m;
-  // A soil that can't carry the wheel at rest: the deepest the laws know.
+  // A soil that cannot carry the wheel at rest gets the maximum entry angle of the laws.
   const double theta =
       balanced_entry_angle_rad(place.geometry, place.soil, load, {}).value_or(kLargestEntryAngleRad);
   const double z = sinkage_m(r, theta), dz = 1e-3 * z;
   const double deeper = wheel_forces(place.geometry, place.soil, entry_angle_rad(r, z - dz), {}).vertical_n;
   const double stiffness = std::max(load - deeper, 1e-3 * load) / dz;
   const double mass = load / gravity_m_s2_;
-  place.relaxation_m = std::max(theta, kLeastRelaxation_radii) * r;
+  place.relaxation_m = std::max(theta, kMinRelaxation_radii) * r;
   place.normal_damping_s_m = 2.0 * kNormalDamping * std::sqrt(mass * stiffness) / load;
   const double slipping = wheel_forces(place.geometry, place.soil, theta, {.forward = 0.95}).drawbar_pull_n;
   const double rolling = wheel_forces(place.geometry, place.soil, theta, {}).drawbar_pull_n;
@@ -81,7 +81,7 @@ bool WheelContacts::find_ground(const Ground& ground, const RutMap& ruts, std::s
   std::array<Vector3d, 9> normal;
   double deepest = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < points_; ++i) {
-    const double offset = points_ == 1 ? 0.0 : kFarthestPoint_radii * r * (2.0 * i / (points_ - 1.0) - 1.0);
+    const double offset = points_ == 1 ? 0.0 : kMaxPointOffset_radii * r * (2.0 * i / (points_ - 1.0) - 1.0);
     const double x = at.centre.x() + offset * along.x(), y = at.centre.y() + offset * along.y();
     const std::optional<GroundPoint> point = ground.at(x, y);
     if (!point) return false;
@@ -126,7 +126,7 @@ void WheelContacts::find_slices(const Ground& ground, std::size_t k, const Wheel
     const Vector3d p = at.centre + slice_offset_m(wheel.width_m, s, rover_.wheel_slices) * at.axle;
     const std::optional<GroundPoint> point = ground.at(p.x(), p.y());
     const double middle = contact.depth_m + contact.rut_m - wheel.radius_m;
-    // A slice off the map hangs in the air.
+    // A slice off the map has no contact.
     contact.slice_height_m[s] =
         point ? (point->height_m - p.z()) * contact.normal.z() - middle : -wheel.radius_m;
     highest = std::max(highest, contact.slice_height_m[s]);
@@ -173,8 +173,7 @@ void WheelContacts::add_sliced(const Trial& trial, const WheelNumbers& numbers, 
   const Place& place = places_[trial.wheel];
   Soil soil = place.soil;
   const double stiffer = numbers.stiffness / place.numbers.stiffness;
-  soil.pressure.k_c *= stiffer;
-  soil.pressure.k_phi *= stiffer;
+  soil.stiffen(stiffer);
   soil.bulldozing = numbers.bulldozing;
   const SlicedWheelForces sliced = sliced_wheel_forces(
       place.geometry, soil, {contact.slice_height_m.data(), static_cast<std::size_t>(rover_.wheel_slices)},
@@ -185,8 +184,8 @@ void WheelContacts::add_sliced(const Trial& trial, const WheelNumbers& numbers, 
 
 bool WheelContacts::find(const Ground& ground, const RutMap& ruts, const PerWheel<WheelKinematics>& wheels,
                          PerWheel<ContactState>& contacts) const {
-  std::array<WheelNumbers, kMostTrials> numbers;
-  std::array<Trial, kMostTrials> trials;
+  std::array<WheelNumbers, kMaxTrials> numbers;
+  std::array<Trial, kMaxTrials> trials;
   std::size_t count = 0;
   for (std::size_t k = 0; k < wheels.size(); ++k) {
     ContactState& contact = contacts[k];
@@ -206,7 +205,7 @@ bool WheelContacts::find(const Ground& ground, const RutMap& ruts, const PerWhee
     for (std::size_t n = 0; n < count; ++n)
       add_sliced(trials[n], numbers[n], wheels[trials[n].wheel], contacts[trials[n].wheel]);
   } else {
-    std::array<WheelForces, kMostTrials> forces;
+    std::array<WheelForces, kMaxTrials> forces;
     wheel_forces({numbers.data(), count}, {forces.data(), count});
     for (std::size_t n = 0; n < count; ++n)
       add_forces(trials[n].direction, trials[n].weight, forces[n], contacts[trials[n].wheel]);
@@ -215,20 +214,20 @@ bool WheelContacts::find(const Ground& ground, const RutMap& ruts, const PerWhee
   return true;
 }
 
-// Slip states, dampings, and all of it in frame M.
+// Adds the rates of the slip states and the dampings, and turns the forces into frame M.
 void WheelContacts::finish(std::size_t k, const WheelKinematics& at, ContactState& contact) const {
   const Place& place = places_[k];
   const Vector3d x = at.axle.cross(contact.normal).normalized();
   const Vector3d y = contact.normal.cross(x);
   const double v_x = at.velocity.dot(x), v_y = at.velocity.dot(y);
   const double rim = place.geometry.radius_m * at.rate_rad_s;
-  const double transport = std::max(std::abs(rim), kSlowestTransportShare * std::hypot(v_x, v_y));
+  const double transport = std::max(std::abs(rim), kMinTransportShare * std::hypot(v_x, v_y));
   const bool touches = contact.depth_m > 0.0;
   contact.slip_x_rate = ((touches ? rim - v_x : 0.0) - transport * at.slip_x) / place.relaxation_m;
   contact.slip_y_rate = ((touches ? -v_y : 0.0) - transport * at.slip_y) / place.relaxation_m;
   if (!touches) return;
   const double sinking = -at.velocity.dot(contact.normal);
-  // Damping comes with the contact: full where the wheel carries its share of the weight.
+  // Damping grows with the load and is full where the wheel carries its share of the weight.
   const double share = std::clamp(
       contact.load_n * static_cast<double>(places_.size()) / (rover_.mass_kg * gravity_m_s2_), 0.0, 1.0);
   const double damping = share * place.tangential_damping_ns_m * place.relaxation_m;
@@ -239,7 +238,8 @@ void WheelContacts::finish(std::size_t k, const WheelKinematics& at, ContactStat
   contact.torque_nm += along * place.geometry.radius_m;
   contact.force = contact.drawbar_pull_n * x + contact.lateral_n * y + contact.load_n * contact.normal;
   contact.moment -= contact.torque_nm * at.axle;
-  contact.moment += contact.lateral_n * place.geometry.radius_m * x;  // it acts at the rim's lowest point
+  contact.moment +=
+      contact.lateral_n * place.geometry.radius_m * x;  // the side force acts at the lowest point
 }
 
 }  // namespace slipway::sim

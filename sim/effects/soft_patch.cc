@@ -17,8 +17,7 @@ constexpr std::array kFields{
 
 void change(std::span<const double> values, Soil& soil) {
   const double left = 1.0 - values[3];
-  soil.pressure.k_c *= left;
-  soil.pressure.k_phi *= left;
+  soil.stiffen(left);
   soil.cohesion_pa *= left;
   if (left < 1.0) soil.friction_angle_rad = std::atan(left * std::tan(soil.friction_angle_rad));
 }

@@ -8,7 +8,7 @@
 
 namespace slipway::sim {
 
-// What must hold along a drive. A prediction never stops at a limit; it says where it is broken.
+// Limits that must hold along a drive. A prediction does not stop where one is broken, but reports the place.
 struct DriveLimits {
   double max_slip_ratio = 0.4;  // MER operations stopped drives at 40 %
   double max_tilt_rad = rad_from_deg(25.0);
@@ -17,7 +17,7 @@ struct DriveLimits {
   double min_clearance_m = 0.0;  // of the belly over the ground
 };
 
-// A greatest value and where on the way it is.
+// A maximum and the distance along the drive at which it occurs.
 struct Peak {
   double value = 0.0;
   double distance_m = 0.0;
@@ -27,10 +27,10 @@ struct Peak {
   }
 };
 
-// The extremes of a drive that limits are about.
+// The extremes of a drive for which there are limits.
 struct DriveExtremes {
   Peak max_slip_ratio, max_tilt_rad, max_current_a, max_sinkage_m;
-  std::optional<Peak> least_clearance_m = {};  // nothing where a rung does not look at the belly
+  std::optional<Peak> least_clearance_m = {};  // empty where a fidelity level does not compute the clearance
 };
 
 // "slip 0.52 at 31.2 m, limit 0.4", one for each limit that is broken.

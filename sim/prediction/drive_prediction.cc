@@ -25,7 +25,7 @@ DriveCommand command_at(const RoverModel& rover, const PathStation& station,
   return command;
 }
 
-// A wheel of the level rover at this pose that has no ground under it.
+// A wheel that has no ground under it when the rover is level at this pose.
 std::optional<std::string> wheel_without_ground(const RoverModel& rover, const Ground& ground,
                                                 const Pose2& pose) {
   const double c = std::cos(pose.yaw_rad), s = std::sin(pose.yaw_rad);
@@ -45,7 +45,9 @@ std::string reason_text(const RoverModel& rover, const SoilBeliefs& beliefs, con
       fmt::format("{} at {:.1f} m on {}: tilt {:.1f} deg (pitch {:.1f}, roll {:.1f})",
                   describe(state.outcome), at.station.distance_m, soil, deg_from_rad(at.attitude.tilt_rad()),
                   deg_from_rad(at.attitude.pitch_rad), deg_from_rad(at.attitude.roll_rad));
-  if (state.wheel >= 0) {
+  if (state.by_slip_curve) {
+    text += fmt::format(", slip {:.2f} (the soil is known by its slip curve alone)", state.slip_ratio);
+  } else if (state.wheel >= 0) {
     const WheelState& wheel = state.wheels[state.wheel];
     text += fmt::format(", wheel {}: slip {:.2f}, sinkage {:.3f} m, {:.2f} A", rover.wheels[state.wheel].name,
                         wheel.slip_ratio, wheel.sinkage_m, wheel.current_a);
@@ -68,7 +70,7 @@ class Predictor {
     for (const WheelModel& wheel : rover.wheels) prediction_.wheel_names.push_back(wheel.name);
   }
 
-  // False where the drive ends here: the rover is immobilised.
+  // Returns false where the rover is immobilised, so that the drive ends here.
   bool add(const PathStation& station) {
     const std::optional<Stance> stance = settle(rover_, ground_, station.pose);
     if (!stance) return no_stance(station);
@@ -97,7 +99,7 @@ class Predictor {
   }
 
  private:
-  // Every wheel has ground under it (predict_drive looked), but not in any way the suspension can follow.
+  // Every wheel has ground under it (predict_drive checked this), but the suspension cannot follow its shape.
   bool no_stance(const PathStation& station) {
     prediction_.immobilised = {
         station.distance_m, station.pose,
@@ -128,6 +130,7 @@ class Predictor {
     const StationState& state = predicted.state = solver_.solve(ready.stance, soils, ready.command);
     const double s = ready.distance_m;
     DrivePrediction& p = prediction_;
+    p.by_slip_curve |= state.by_slip_curve;
     p.max_tilt_rad.raise(ready.stance.attitude.tilt_rad(), s);
     p.max_slip_ratio.raise(std::abs(state.slip_ratio), s);
     p.max_current_a.raise(largest_current_a(state), s);
@@ -149,6 +152,7 @@ class Predictor {
     p.turned_rad += ready.command.turn_in_place ? ready.turn_rad : 0.0;
     slip_length_ += std::abs(state.slip_ratio) * ready.drive_m;
     if (predicted.on_unknown_ground) p.unknown_length_m += ready.drive_m;
+    if (state.by_slip_curve) p.slip_curve_length_m += ready.drive_m;
     predicted.elapsed_s = p.duration_s;
   }
 
@@ -175,8 +179,7 @@ Result<DrivePrediction> predict_drive(const RoverModel& rover, double gravity_m_
                                       const DriveLimits& limits, const RiskOptions& risk, std::size_t threads,
                                       Progress& progress, const DriveConditions& conditions) {
   if (path.empty()) throw std::invalid_argument("predict_drive: a path needs a station");
-  // The whole path is looked at first: a missing piece of ground behind a place of immobilisation is a fault
-  // all the same.
+  // The whole path is checked first, since missing ground is a fault even behind a place of immobilisation.
   std::vector<Fault> faults;
   for (std::size_t k = 0; k < path.size() && faults.size() < kMostFaults; ++k) {
     if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the prediction was dismissed");

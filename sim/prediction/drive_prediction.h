@@ -21,14 +21,14 @@ namespace slipway::sim {
 struct PathStation {
   Pose2 pose;
   double distance_m = 0.0;     // driven by B since the path's start
-  double turned_rad = 0.0;     // turned in place between the previous station and this one, signed
+  double turned_rad = 0.0;     // signed angle turned in place between the previous station and this one
   double curvature_1_m = 0.0;  // of the arc through this station
   bool turning_in_place = false;
   bool backwards = false;
   double crab_rad = 0.0;  // direction of travel from the rover's x axis, positive to the left
 };
 
-// Beliefs about the ground, in the order of Ground::soil_at's index, and the one for where it is unknown.
+// The soil distributions of the ground in the order of Ground::soil_at's index, and that of unknown ground.
 struct SoilBeliefs {
   std::vector<SoilDistribution> known;
   SoilDistribution unknown;
@@ -41,11 +41,11 @@ struct StationPrediction {
   double height_m = 0.0;
   Attitude attitude;
   double clearance_m = 0.0;
-  std::optional<std::size_t> soil;  // under B's origin; nothing on unknown ground
-  bool on_unknown_ground = false;   // any wheel
-  StationState state;               // under the beliefs' mean soils
+  std::optional<std::size_t> soil;  // under B's origin; empty on unknown ground
+  bool on_unknown_ground = false;   // true where any wheel is on unknown ground
+  StationState state;               // on the mean soils
   double elapsed_s = 0.0;           // since the start
-  // Over the soil draws (see RiskOptions); equal to the state's where there were none.
+  // Quantiles over the soil draws (see RiskOptions); equal to the state's values where there are no draws.
   double slip_ratio_p05 = 0.0, slip_ratio_p50 = 0.0, slip_ratio_p95 = 0.0;
   double current_a_p95 = 0.0;  // of the worst wheel
   double sinkage_m_p95 = 0.0;  // of the worst wheel
@@ -58,20 +58,24 @@ struct Immobilisation {
   std::string reason;  // "no traction: ..." with the numbers
 };
 
-// A drive as predicted. "Immobilised at 41 m" is an answer, not an error.
+// A predicted drive. "Immobilised at 41 m" is an answer, not an error.
 struct DrivePrediction {
   std::vector<std::string> wheel_names;  // in the order of every station's wheels
   std::vector<StationPrediction> stations;
   double length_m = 0.0;
-  double turned_rad = 0.0;       // in place, in all
-  double duration_s = 0.0;       // under the mean soils
+  double turned_rad = 0.0;       // sum of the turns in place
+  double duration_s = 0.0;       // on the mean soils
   double energy_j = 0.0;         // of the drive motors
   double mean_slip_ratio = 0.0;  // over the length
   Peak max_slip_ratio, max_tilt_rad, max_current_a, max_sinkage_m;
-  double unknown_length_m = 0.0;              // driven with any wheel on unknown ground
-  std::optional<Immobilisation> immobilised;  // under the mean soils; the stations end there
-  std::vector<std::string> broken_limits;     // under the mean soils: "slip 0.52 at 31.2 m, limit 0.40"
-  // Over soil draws: the share of whole drives that break a limit or end immobilised, with a 90 % Wilson
+  double unknown_length_m = 0.0;  // length driven with any wheel on unknown ground
+  // Length driven with any wheel on ground that is known by a slip curve: energy, current and sinkage, their
+  // peaks and limits are of the rest of the way alone.
+  double slip_curve_length_m = 0.0;
+  bool by_slip_curve = false;                 // any station is on such ground
+  std::optional<Immobilisation> immobilised;  // on the mean soils; the stations end there
+  std::vector<std::string> broken_limits;     // on the mean soils: "slip 0.52 at 31.2 m, limit 0.40"
+  // The share of soil draws in which the drive breaks a limit or ends immobilised, with a 90 % Wilson
   // interval.
   int draws = 0;
   double risk = 0.0, risk_low = 0.0, risk_high = 0.0;
@@ -81,20 +85,20 @@ struct DrivePrediction {
 };
 
 // Soil draws along a drive. Draw d's soil parameters at distance s follow a first-order autoregressive
-// process with the belief's correlation length; the numbers depend on (seed, draw, soil) only, so routes
-// compared under one seed meet the same luck.
+// process with the distribution's correlation length. The random numbers depend on (seed, draw, soil) only,
+// so that routes compared under one seed have the same draws.
 struct RiskOptions {
   int draws = 24;
-  double spacing_m = 0.5;  // stations are thinned to about this for the draws
+  double spacing_m = 0.5;  // stations are thinned to about this spacing for the draws
   std::uint64_t seed = 1;
 };
 
-// The widest spacing of stations that still sees every obstacle a wheel sees.
+// The maximum spacing of stations at which no obstacle that a wheel would meet is missed.
 double largest_station_spacing_m(const RoverModel& rover);
 
-// Balances the rover at every station under the mean soils, then under the draws, on `threads` threads (0:
-// all). Errors: off_map or no_data where a station has no ground under a wheel (the fault names the station,
-// "/stations/12"), cancelled. An empty path is a broken promise.
+// Balances the rover at every station on the mean soils, then on the draws, on `threads` threads (0 takes all
+// that the machine has). Errors: off_map or no_data where a station has no ground under a wheel (the fault
+// names the station, "/stations/12"), cancelled. The path must not be empty.
 Result<DrivePrediction> predict_drive(const RoverModel& rover, double gravity_m_s2, const Ground& ground,
                                       const SoilBeliefs& beliefs, std::span<const PathStation> path,
                                       const DriveLimits& limits, const RiskOptions& risk, std::size_t threads,

@@ -12,15 +12,15 @@
 namespace slipway::sim {
 namespace {
 
-// What one soil draw does to a drive at the sampled stations.
+// The results of one soil draw at the sampled stations of a drive.
 struct DrawnDrive {
   std::vector<double> slip, current_a, sinkage_m;  // per sampled station that was reached
-  std::vector<bool> bad;                           // a limit is broken or the rover immobilised there
+  std::vector<bool> bad;                           // true where a limit is broken or the rover is immobilised
   bool immobilised = false;
   double duration_s = 0.0, energy_j = 0.0;
 };
 
-// The soils of one draw along the drive: a first-order autoregressive process per belief.
+// The soils of one draw along the drive: a first-order autoregressive process for each soil distribution.
 class DrawnSoils {
  public:
   DrawnSoils(const SoilBeliefs& beliefs, std::uint64_t key) : beliefs_(beliefs), key_(key) {
@@ -60,8 +60,8 @@ class DrawnSoils {
   std::vector<Soil> soils_;
 };
 
-// Every station where the rover turns, and of the driven ones those about `spacing_m` apart; always the first
-// and last.
+// Every station where the rover turns in place, driven ones about `spacing_m` apart, and always the first and
+// last.
 std::vector<std::size_t> sampled_stations(std::span<const PreparedStation> stations, double spacing_m) {
   std::vector<std::size_t> sampled{0};
   for (std::size_t k = 1; k < stations.size(); ++k) {
@@ -72,7 +72,7 @@ std::vector<std::size_t> sampled_stations(std::span<const PreparedStation> stati
   return sampled;
 }
 
-// The part of the drive that a sampled station stands for: all since the last one.
+// The part of the drive that a sampled station represents, which is all since the last sampled one.
 PreparedStation span_of(std::span<const PreparedStation> stations, std::size_t after, std::size_t at) {
   PreparedStation span = stations[at];
   for (std::size_t k = after + 1; k < at; ++k) {
@@ -130,7 +130,7 @@ void fill_station(const std::vector<DrawnDrive>& drives, std::size_t sample, Sta
     bad += drive.bad[sample] ? 1 : 0;
   }
   station.risk = static_cast<double>(bad) / static_cast<double>(drives.size());
-  if (slip.empty()) return;  // no draw came this far: the mean soils' values stand
+  if (slip.empty()) return;  // no draw came this far, so that the values on the mean soils remain
   station.slip_ratio_p05 = quantile(slip, 0.05);
   station.slip_ratio_p50 = quantile(slip, 0.50);
   station.slip_ratio_p95 = quantile(slip, 0.95);
@@ -185,7 +185,7 @@ Effort effort_of(const PreparedStation& station, const StationState& state) {
   if (station.command.turn_in_place) {
     effort.duration_s = station.turn_rad / std::abs(state.yaw_rate_rad_s);
   } else if (station.drive_m > 0.0) {
-    // Seen from above, as paths are measured.
+    // Distances are horizontal, as those of paths.
     const Eigen::Vector2d d = travel_direction(station.command);
     const double rise = station.stance.R_MB(2, 0) * d.x() + station.stance.R_MB(2, 1) * d.y();
     const double over_ground = std::abs(state.along_m_s) * std::sqrt(1.0 - rise * rise);

@@ -9,17 +9,17 @@
 
 namespace slipway::sim {
 
-// A station with its rover set down: what all soil draws of a drive share.
+// A station with the stance of the rover on it, which all soil draws of a drive share.
 struct PreparedStation {
   Stance stance;
-  PerWheel<std::optional<std::size_t>> soil;  // index of the belief under each wheel; nothing: unknown
+  PerWheel<std::optional<std::size_t>> soil;  // index of the soil under each wheel; empty on unknown ground
   DriveCommand command;
   double distance_m = 0.0;
   double drive_m = 0.0;   // since the last station
-  double turn_rad = 0.0;  // in place since the last station, without sign
+  double turn_rad = 0.0;  // turned in place since the last station, without sign
 };
 
-// The largest current and deepest sinkage of a state's wheels.
+// The maximum current and sinkage over the wheels of a state.
 double largest_current_a(const StationState& state);
 double deepest_sinkage_m(const StationState& state);
 
@@ -35,8 +35,8 @@ struct Effort {
 };
 Effort effort_of(const PreparedStation& station, const StationState& state);
 
-// Fills the prediction's fields over soil draws (risk, intervals, quantiles per station). False where
-// cancelled.
+// Fills the prediction's fields over soil draws (risk, intervals, quantiles per station). Returns false where
+// it was cancelled.
 bool assess_risk(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs& beliefs,
                  std::span<const PreparedStation> stations, const DriveLimits& limits,
                  const RiskOptions& options, std::size_t threads, Progress& progress,

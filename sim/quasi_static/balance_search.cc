@@ -13,15 +13,15 @@ namespace {
 
 using Vector = RoverBalance::Vector;
 constexpr int kMotions = RoverBalance::kMotions;
-constexpr double kLeastEntryAngleRad = RoverBalance::kLeastEntryAngleRad;
+constexpr double kMinEntryAngleRad = RoverBalance::kMinEntryAngleRad;
 
-constexpr double kFastestSpeedRatio = 3.0;  // at 200 % of the wheels' speed it slides away downhill
+constexpr double kMaxSpeedRatio = 3.0;  // a rover that is faster than this times its wheels slides away
 constexpr double kTouchingEntryAngleRad = 0.05;
 constexpr std::array<double, 3> kColdStartSpeedRatios{0.9, 0.6, 0.3};
 constexpr double kClearance_m = 1e-9;  // a wheel this far into the ground still counts as hanging
 
-// Entry angles for resting loads by Bekker's closed form; the primary motion at a share of what was
-// commanded. Says which wheels hang.
+// A cold start: entry angles for the resting loads by Bekker's closed form, and the primary motion at a share
+// of the commanded one. Also sets the wheels in the air that carry no load at rest.
 Vector cold_start(RoverBalance& balance, const Primary& primary, double share) {
   Vector x = Vector::Zero(kMotions + balance.wheel_count());
   x[primary.motion] = primary.sign * share;
@@ -36,26 +36,26 @@ Vector cold_start(RoverBalance& balance, const Primary& primary, double share) {
   return x;
 }
 
-// Why no balance was found, read off the last iterate.
+// The reason why no balance was found, judged by the last iterate.
 Attempt reason_of(const RoverBalance& balance, const Vector& x) {
-  if (x.head<kMotions>().cwiseAbs().maxCoeff() > kFastestSpeedRatio) return {Outcome::kNoTraction, -1};
+  if (x.head<kMotions>().cwiseAbs().maxCoeff() > kMaxSpeedRatio) return {Outcome::kNoTraction, -1};
   for (int k = 0; k < balance.wheel_count(); ++k)
     if (x[kMotions + k] > 0.95 * kLargestEntryAngleRad) return {Outcome::kSunkToAxle, k};
   for (int k = 0; k < balance.wheel_count(); ++k)
-    if (!balance.in_air(k) && x[kMotions + k] < 10.0 * kLeastEntryAngleRad) return {Outcome::kWheelLifted, k};
+    if (!balance.in_air(k) && x[kMotions + k] < 10.0 * kMinEntryAngleRad) return {Outcome::kWheelLifted, k};
   return {Outcome::kNotConverged, -1};
 }
 
-// The slow and certain way: the net push along the commanded motion falls as the rover goes faster, so its
-// zero is bracketed. No push left at full spin: no traction. Still pushed at three times the wheels' speed:
-// it slides away.
+// The slow and certain method. The net force along the commanded motion falls as the rover goes faster, so
+// that its zero can be bracketed. Where the force is negative even at full spin, there is no traction; where
+// it is still positive at three times the wheels' speed, the rover slides away.
 Attempt bracketed(RoverBalance& balance, const Primary& primary, Vector& x) {
   const auto push_at = [&](double ratio, Vector& state) -> std::optional<double> {
     state[primary.motion] = primary.sign * ratio;
     if (!newton(balance, state, &primary, 60)) return std::nullopt;
     return primary.sign * balance.residual(state)[primary.equation];
   };
-  constexpr std::array<double, 7> kRatios{kSpinningSpeedRatio, 0.2, 0.5, 0.8, 1.0, 1.5, kFastestSpeedRatio};
+  constexpr std::array<double, 7> kRatios{kSpinningSpeedRatio, 0.2, 0.5, 0.8, 1.0, 1.5, kMaxSpeedRatio};
   std::optional<double> slower_ratio;
   Vector state = x;
   bool solved_any = false;
@@ -85,11 +85,11 @@ Attempt bracketed(RoverBalance& balance, const Primary& primary, Vector& x) {
     }
     slower_ratio = ratio;
   }
-  return solved_any && slower_ratio == kFastestSpeedRatio ? Attempt{Outcome::kNoTraction, -1}
-                                                          : reason_of(balance, x);
+  return solved_any && slower_ratio == kMaxSpeedRatio ? Attempt{Outcome::kNoTraction, -1}
+                                                      : reason_of(balance, x);
 }
 
-// The wheel in the air that reaches deepest into the ground, where one does.
+// The wheel in the air that cuts deepest into the ground, if there is one.
 std::optional<int> wheel_to_set_down(const RoverBalance& balance, const Vector& x) {
   std::optional<int> deepest;
   double lowest = -kClearance_m;
@@ -103,7 +103,7 @@ std::optional<int> wheel_to_set_down(const RoverBalance& balance, const Vector& 
   return deepest;
 }
 
-// The wheel that the balance asks to pull the rover down: dragged through cohesive soil a wheel can.
+// The wheel whose load would have to be negative, which happens to wheels dragged through cohesive soil.
 std::optional<int> pulling_wheel(const RoverBalance& balance) {
   std::optional<int> lightest;
   double least = -kBalanceTolerance * balance.weight_n();
@@ -116,10 +116,10 @@ std::optional<int> pulling_wheel(const RoverBalance& balance) {
   return lightest;
 }
 
-// Of a search that failed: the wheel with hardly any hold on the ground.
+// After a search that failed: the wheel with hardly any contact with the ground.
 std::optional<int> hardly_touching_wheel(const RoverBalance& balance, const Vector& x) {
   std::optional<int> lightest;
-  double least = 3.0 * kLeastEntryAngleRad;
+  double least = 3.0 * kMinEntryAngleRad;
   for (int k = 0; k < balance.wheel_count(); ++k) {
     if (balance.in_air(k) || x[kMotions + k] > least) continue;
     least = x[kMotions + k];
@@ -133,8 +133,8 @@ struct ContactChange {
   bool into_air = false;
 };
 
-// What is wrong with the wheels in contact after a search; nothing where they are the right ones or nothing
-// else can be tried.
+// The change that the set of wheels in contact needs after a search; empty where the set is right or where no
+// other can be tried.
 std::optional<ContactChange> contact_change(const RoverBalance& balance, const Vector& x, bool solved) {
   if (solved) {
     if (const std::optional<int> deepest = wheel_to_set_down(balance, x))
@@ -145,36 +145,37 @@ std::optional<ContactChange> contact_change(const RoverBalance& balance, const V
   return wheel ? std::optional(ContactChange{*wheel, true}) : std::nullopt;
 }
 
-// A root beyond full spin is the rover sliding back against its wheels.
+// The outcome of a solution. In a solution beyond full spin the rover slides back against its wheels, and in
+// one with a pulling wheel that wheel lifts.
 Attempt judged(const RoverBalance& balance, const Primary& primary, const Vector& x) {
   if (x[primary.motion] * primary.sign < kSpinningSpeedRatio) return {Outcome::kNoTraction, -1};
   if (const std::optional<int> wheel = pulling_wheel(balance)) return {Outcome::kWheelLifted, *wheel};
   return {};
 }
 
-// Entry angles that go with the wheels in contact: the least for one in the air, a touch for one just set
-// down.
+// Sets the entry angles that belong to the wheels in contact: the minimum for a wheel in the air, and a small
+// one for a wheel that was just set down.
 Vector with_contacts(const RoverBalance& balance, Vector x) {
   for (int k = 0; k < balance.wheel_count(); ++k) {
     double& theta = x[kMotions + k];
     if (balance.in_air(k)) {
-      theta = kLeastEntryAngleRad;
-    } else if (theta <= kLeastEntryAngleRad) {
+      theta = kMinEntryAngleRad;
+    } else if (theta <= kMinEntryAngleRad) {
       theta = kTouchingEntryAngleRad;
     }
   }
   return x;
 }
 
-// Newton; and where its answer will not do, another set of wheels in contact, until every one that carries
-// pushes and every other hangs clear. False where that ends without a balance. `inverse` goes with all wheels
-// in contact.
-bool find_in_contact(RoverBalance& balance, int most_iterations, Vector& x,
+// Newton's search, repeated with other sets of wheels in contact until every wheel in contact pushes on the
+// ground and every other is clear of it. Returns false where that ends without a balance. `inverse` is for
+// all wheels in contact.
+bool find_in_contact(RoverBalance& balance, int max_iterations, Vector& x,
                      const RoverBalance::Matrix* inverse = nullptr) {
   const Vector start = x;
   for (int round = 0; round <= 2 * balance.wheel_count(); ++round) {
     const bool solved =
-        newton(balance, x, nullptr, most_iterations, balance.all_in_contact() ? inverse : nullptr);
+        newton(balance, x, nullptr, max_iterations, balance.all_in_contact() ? inverse : nullptr);
     const std::optional<ContactChange> change = contact_change(balance, x, solved);
     if (!change) return solved;
     balance.set_in_air(change->wheel, change->into_air);
@@ -183,7 +184,7 @@ bool find_in_contact(RoverBalance& balance, int most_iterations, Vector& x,
   return false;
 }
 
-// The same around the slow and certain way.
+// The same with the slow and certain method in Newton's place.
 Attempt bracketed_in_contact(RoverBalance& balance, const Primary& primary, Vector& x) {
   const Vector start = x;
   for (int round = 0; round <= 2 * balance.wheel_count(); ++round) {
@@ -219,8 +220,8 @@ Attempt find_balance(RoverBalance& balance, const Primary& primary, bool warm, V
     }
     if (find_in_contact(balance, 20, x, inverse)) return judged(balance, primary, x);
   }
-  // A dead wheel's soil forces turn over within a thousandth of the speed: there the first start often fails
-  // where another finds the balance.
+  // The soil forces on a failed wheel change sign within a thousandth of the speed. There the first start
+  // often fails where another finds the balance.
   const std::span<const double> starts(kColdStartSpeedRatios.data(), balance.all_driven() ? 1 : 3);
   for (const double share : starts) {
     x = cold_start(balance, primary, share);

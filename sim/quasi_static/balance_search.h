@@ -6,19 +6,19 @@
 
 namespace slipway::sim {
 
-constexpr double kSpinningSpeedRatio = 0.02;  // at 98 % slip a drive counts as immobilised
+constexpr double kSpinningSpeedRatio = 0.02;  // a drive with more than 98 % slip counts as immobilised
 
 Primary primary_of(const DriveCommand& command);
 
 // How a search for the rover's balance ended.
 struct Attempt {
   Outcome outcome = Outcome::kMoving;
-  int wheel = -1;  // that the outcome is about
+  int wheel = -1;  // index of the wheel that the outcome concerns, -1 where it concerns none
 };
 
-// Finds the unknowns at which the balance's equations hold and every wheel that carries nothing hangs clear.
-// `x` is where the search starts when `warm`, and the answer (without one, the last iterate) afterwards. For
-// `inverse` see newton().
+// Finds the unknowns at which the balance's equations hold and every unloaded wheel is clear of the ground.
+// When `warm` is true the search starts from `x`; afterwards `x` is the answer, or the last iterate where
+// there is none. For `inverse` see newton().
 Attempt find_balance(RoverBalance& balance, const Primary& primary, bool warm, RoverBalance::Vector& x,
                      const RoverBalance::Matrix* inverse = nullptr,
                      Thoroughness thoroughness = Thoroughness::kSure);

@@ -11,7 +11,7 @@ using Vector = RoverBalance::Vector;
 using Matrix = RoverBalance::Matrix;
 constexpr int kMotions = RoverBalance::kMotions;
 
-// Takes as much of a Newton step as keeps every entry angle positive and every change moderate.
+// Takes the largest part of a Newton step that keeps every entry angle positive and every change moderate.
 Vector limited_step(const Vector& x, const Vector& full) {
   double share = 1.0;
   const double fastest = full.head<kMotions>().cwiseAbs().maxCoeff();
@@ -33,10 +33,10 @@ class NewtonSearch {
     if (inverse != nullptr) inverse_ = *inverse;
   }
 
-  bool solve(Vector& x, int most_iterations) {
+  bool solve(Vector& x, int max_iterations) {
     Vector r = residual(x);
     bool fresh = false;
-    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    for (int iteration = 0; iteration < max_iterations; ++iteration) {
       if (r.cwiseAbs().maxCoeff() < kBalanceTolerance) return true;
       if (!have_inverse_) {
         if (!invert_jacobian(x)) return false;
@@ -48,7 +48,7 @@ class NewtonSearch {
       Vector next_r = residual(next);
       if (next_r.norm() > 0.5 * r.norm()) {
         have_inverse_ = false;
-        if (!fresh) {  // a stale direction: look again from here, or from there where that is better
+        if (!fresh) {  // the direction is out of date: try again with a fresh Jacobian from the better point
           if (next_r.norm() < r.norm()) {
             x = next;
             r = next_r;
@@ -75,7 +75,7 @@ class NewtonSearch {
     return r;
   }
 
-  // At the point of the last residual.
+  // The Jacobian at the point of the last residual.
   bool invert_jacobian(const Vector& x) {
     Matrix jacobian = balance_.jacobian(x);
     if (held_) {
@@ -114,12 +114,12 @@ class NewtonSearch {
 
 void keep_in_range(Vector& x) {
   for (int k = kMotions; k < x.size(); ++k)
-    x[k] = std::clamp(x[k], RoverBalance::kLeastEntryAngleRad, kLargestEntryAngleRad);
+    x[k] = std::clamp(x[k], RoverBalance::kMinEntryAngleRad, kLargestEntryAngleRad);
 }
 
-bool newton(RoverBalance& balance, Vector& x, const Primary* held, int most_iterations,
+bool newton(RoverBalance& balance, Vector& x, const Primary* held, int max_iterations,
             const Matrix* inverse) {
-  return NewtonSearch(balance, held, inverse).solve(x, most_iterations);
+  return NewtonSearch(balance, held, inverse).solve(x, max_iterations);
 }
 
 std::optional<Matrix> inverse_jacobian(const RoverBalance& balance, const Vector& x) {

@@ -6,27 +6,28 @@
 
 namespace slipway::sim {
 
-// The motion that the driver asks for, and the equation that fixes it.
+// The commanded motion, and the equation that determines its speed.
 struct Primary {
-  int motion = 0;     // 0 along the direction of travel, 2 yaw
-  int equation = 0;   // 0 force along it, 5 moment about z
+  int motion = 0;     // index of the unknown: 0 is along the direction of travel, 2 is yaw
+  int equation = 0;   // index of the equation: 0 is the force along the travel, 5 the moment about z
   double sign = 1.0;  // of the commanded motion
 };
 
-// Of the balance's equations: of the weight, and of the weight times half the wheelbase.
+// The tolerance of the balance's equations, relative to the weight for forces and to the weight times half
+// the wheelbase for moments.
 constexpr double kBalanceTolerance = 1e-9;
 
-// Entry angles into the range that the laws know.
+// Moves the entry angles into the range of the laws.
 void keep_in_range(RoverBalance::Vector& unknowns);
 
-// Newton's search for the unknowns at which the balance holds, from `x`, with the wheels in contact as they
-// are. With `held`, its motion keeps its value and its equation is left out. False where it ends elsewhere;
-// `x` is the last iterate, and the balance's contacts are those at `x`. `inverse`, where given, is that of
-// the Jacobian somewhere near: a search that it serves well needs no Jacobian of its own.
-bool newton(RoverBalance& balance, RoverBalance::Vector& x, const Primary* held, int most_iterations,
+// Newton's search, from `x`, for the unknowns at which the balance holds. It does not change which wheels are
+// in contact. With `held`, that motion keeps its value and its equation is left out. Returns false where it
+// does not converge; `x` is then the last iterate, and the balance's contacts are those at `x`. `inverse` may
+// give the inverse Jacobian at a point nearby, so that no Jacobian is needed where it serves well.
+bool newton(RoverBalance& balance, RoverBalance::Vector& x, const Primary* held, int max_iterations,
             const RoverBalance::Matrix* inverse = nullptr);
 
-// Of the Jacobian at the unknowns of the last residual; nothing where it has none.
+// The inverse of the Jacobian at the unknowns of the last residual; empty where it is singular.
 std::optional<RoverBalance::Matrix> inverse_jacobian(const RoverBalance& balance,
                                                      const RoverBalance::Vector& x);
 

@@ -6,6 +6,7 @@
 
 #include "sim/quasi_static/balance_search.h"
 #include "sim/quasi_static/rover_balance.h"
+#include "sim/quasi_static/slip_curve_motion.h"
 #include "sim/rover/motor.h"
 #include "sim/wheel/slip_ratio.h"
 
@@ -39,8 +40,9 @@ WheelState wheel_state(const RoverBalance& balance, const Vector& x, int k) {
   return state;
 }
 
-// Depths below the undisturbed surface, and those of the ruts that the rover leaves: of each side's last
-// wheel on the ground in the direction of travel; turning in place, of its deepest.
+// Sets the sinkages below the undisturbed surface and the depths of the ruts that the rover leaves. A side's
+// rut is that of its last wheel on the ground in the direction of travel; when turning in place, of its
+// deepest.
 void set_depths(const RoverModel& rover, const RoverBalance& balance, const Vector& x,
                 const DriveCommand& command, StationState& state) {
   const PerWheel<double> depth = balance.total_sinkages_m(x);
@@ -61,7 +63,8 @@ void set_depths(const RoverModel& rover, const RoverBalance& balance, const Vect
   }
 }
 
-// Currents and power of the driven wheels; the first that asks too much of its motor stalls the rover.
+// Sets the currents and the power of the driven wheels. The first wheel that exceeds its motor's limits
+// stalls the rover.
 void set_motors(const RoverModel& rover, const RoverBalance& balance, const DriveCommand& command,
                 StationState& state) {
   const DriveMotor drive =
@@ -123,6 +126,8 @@ std::string_view describe(Outcome outcome) {
       return "motor stalled";
     case Outcome::kNotConverged:
       return "not converged";
+    case Outcome::kOutsideSlipCurve:
+      return "outside the slip curve";
   }
   return "unknown outcome";
 }
@@ -134,16 +139,39 @@ StationState QuasiStaticSolver::solve(const Stance& stance, const Soil& soil, co
   return solve(stance, PerWheel<Soil>(rover_.wheels.size(), soil), command);
 }
 
+// A balance can't be found with wheels whose forces are unknown. On the border of such ground the other
+// ground's soil is put under all wheels, and the motion is the slower one.
+StationState QuasiStaticSolver::solve_with_slip_curves(const Stance& stance, const PerWheel<Soil>& soils,
+                                                       const DriveCommand& command,
+                                                       Thoroughness thoroughness) {
+  StationState state = motion_on_slip_curves(rover_, stance, soils, command);
+  const Soil* modelled =
+      std::find_if(soils.begin(), soils.end(), [](const Soil& s) { return s.slip_curve == nullptr; });
+  if (modelled == soils.end() || !state.moving()) return state;
+  PerWheel<Soil> replaced = soils;
+  for (Soil& soil : replaced)
+    if (soil.slip_curve != nullptr) soil = *modelled;
+  StationState other = solve(stance, replaced, command, nullptr, thoroughness);
+  if (other.moving() && std::abs(other.slip_ratio) <= std::abs(state.slip_ratio)) return state;
+  other.by_slip_curve = true;
+  other.wheels = state.wheels;
+  other.wheel = -1;
+  other.electric_power_w = other.left_rut_depth_m = other.right_rut_depth_m = 0.0;
+  return other;
+}
+
 StationState QuasiStaticSolver::solve(const Stance& stance, const PerWheel<Soil>& soils,
                                       const DriveCommand& command, const Start* start,
                                       Thoroughness thoroughness) {
+  if (std::any_of(soils.begin(), soils.end(), [](const Soil& soil) { return soil.slip_curve != nullptr; }))
+    return solve_with_slip_curves(stance, soils, command, thoroughness);
   RoverBalance balance(rover_, gravity_m_s2_, stance, soils, command);
   const Primary primary = primary_of(command);
   if (start != nullptr) {
     warm_ = true;
     last_ = start->unknowns;
   }
-  // A start from another kind of motion is worse than a cold one.
+  // The answer of another kind of motion is a worse start than a cold one.
   if (warm_ && last_[primary.motion] * primary.sign <= 0.0) warm_ = false;
   const Attempt attempt = find_balance(balance, primary, warm_, last_,
                                        start != nullptr ? &start->inverse_jacobian : nullptr, thoroughness);

@@ -14,67 +14,72 @@ namespace slipway::sim {
 
 struct WheelState {
   double load_n = 0.0;           // along the ground's normal
-  double rate_rad_s = 0.0;       // that the wheel really turns at, positive rolls forward
+  double rate_rad_s = 0.0;       // true rotation rate, positive rolls forward
   double slip_ratio = 0.0;       // [-1, 1], positive driving [ARTEMIS eq. 21]
   double slip_angle_rad = 0.0;   // of the wheel's velocity to its plane, positive to the left
-  double entry_angle_rad = 0.0;  // into the soil that the wheel meets: in a track, from the rut's bottom
+  double entry_angle_rad = 0.0;  // into the soil that the wheel meets; in a track, from the rut's bottom
   double sinkage_m = 0.0;        // of the lowest point below the undisturbed surface
   double drawbar_pull_n = 0.0;   // along the rolling direction
   double lateral_force_n = 0.0;  // to the left
-  double torque_nm = 0.0;        // that turns the wheel against the soil, positive drives forward; a driven
-                                 // wheel's motor overcomes its drag besides
-  double current_a = 0.0;        // at the motor; 0 of a wheel that is not driven
-  bool in_air = false;           // carries nothing: hangs over a hollow
+  // About the axle, that turns the wheel against the soil; positive drives forward. A driven wheel's motor
+  // overcomes the wheel's drag in addition.
+  double torque_nm = 0.0;
+  double current_a = 0.0;  // at the motor; 0 for a wheel that is not driven
+  bool in_air = false;     // true where the wheel has no contact and no load
 };
 
 enum class Outcome {
   kMoving,
-  kNoTraction,    // all the thrust the soil gives does not hold the rover on the slope: it digs in or slides
-                  // away
-  kWheelLifted,   // the balance asks for a pulling wheel: the rover rears or tips
+  kNoTraction,    // the soil's whole thrust cannot hold the rover on the slope, which digs in or slides away
+  kWheelLifted,   // the balance would need a wheel that pulls on the ground: the rover rears or tips
   kSunkToAxle,    // a wheel would sink to its axle
   kStalled,       // a motor would need more current or voltage than it has
-  kNotConverged,  // the solver gave up: not a statement about the rover
+  kNotConverged,  // the solver gave up, which is no statement about the rover
+  kOutsideSlipCurve,  // the soil is known by a slip curve, which has no such slope
 };
 
-// "no traction": for messages.
+// The outcome as words for messages: "no traction".
 std::string_view describe(Outcome outcome);
 
 // The balanced motion of the rover at one station.
 struct StationState {
   Outcome outcome = Outcome::kMoving;
-  int wheel = -1;             // the wheel that the outcome is about, where it is about one
+  int wheel = -1;             // index of the wheel that the outcome concerns, -1 where it concerns none
   double along_m_s = 0.0;     // of B along the commanded direction of travel
   double forward_m_s = 0.0;   // of B along its x axis
-  double leftward_m_s = 0.0;  // of B along its y axis: without crab, the side slip
+  double leftward_m_s = 0.0;  // of B along its y axis; without crab, the speed of side slip
   double yaw_rate_rad_s = 0.0;
-  double slip_ratio = 0.0;     // of the rover: 1 - along / commanded; turning in place: of the yaw rate
+  // Slip of the rover, 1 - along / commanded speed; when turning in place, of the yaw rate.
+  double slip_ratio = 0.0;
   double side_slip_rad = 0.0;  // direction of B's velocity to the commanded direction, positive to the left
   double electric_power_w = 0.0;  // of the drive motors
-  // What a camera looking back would measure: depth of the track behind each side's last wheel.
+  // Depth of the track behind each side's last wheel, as a camera that looks back would measure it.
   double left_rut_depth_m = 0.0, right_rut_depth_m = 0.0;
   PerWheel<WheelState> wheels;
+  // A wheel stands on ground that is known by a slip curve: speeds and slip are known, while nothing is of
+  // what stands in `wheels`, of ruts and of power, all of which are 0.
+  bool by_slip_curve = false;
 
   bool moving() const { return outcome == Outcome::kMoving; }
 };
 
-// How long to look before there is said to be no balance.
+// How much is tried before the solver reports that there is no balance.
 enum class Thoroughness {
-  kSure,   // until every sure way has failed
-  kQuick,  // Newton's searches alone, which miss one balance in thousands; then the outcome is kNotConverged
+  kSure,   // every method, bracketing included
+  kQuick,  // Newton's searches alone, which miss one balance in thousands; the outcome is then kNotConverged
 };
 
 // Solves for the motion (along and across the direction of travel, yaw rate) and the entry angles at which
 // the wheels' forces, gravity and the commanded wheel rates balance: see RoverBalance for the equations.
 // Rovers with more wheels than their suspension can keep on the ground may lift some of them.
 //
-// A workspace: one per thread. Each solve starts from the last one's answer and falls back to a cold start,
-// so stations are best solved in order; the answer does not depend on the start beyond the solver's tolerance
-// (1e-9 of the weight).
+// This is a workspace for one thread. Each solve starts from the last one's answer and falls back to a cold
+// start, so stations are best solved in order; the answer does not depend on the start beyond the solver's
+// tolerance (1e-9 of the weight).
 class QuasiStaticSolver {
  public:
-  // A balance that was found and how the balance's equations change there: from it, the balances of the same
-  // station with soils or a rover that differ a little are a few evaluations away.
+  // A balance and its inverse Jacobian. From it, the balances of the same station with slightly different
+  // soils or rovers take a few evaluations.
   struct Start {
     Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3 + kMostWheels, 1> unknowns;
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3 + kMostWheels, 3 + kMostWheels>
@@ -83,18 +88,23 @@ class QuasiStaticSolver {
 
   QuasiStaticSolver(const RoverModel& rover, double gravity_m_s2);
 
-  // soils: the soil under each wheel. With a `start` it is in the last answer's place.
+  // soils has the soil under each wheel. A `start` replaces the last answer as the starting point.
+  // Where a wheel stands on a soil with a slip curve there is no balance: the motion is the slowest of those
+  // that the wheels' curves give and, where other wheels stand on soils with laws, of the balance on these.
   StationState solve(const Stance& stance, const PerWheel<Soil>& soils, const DriveCommand& command,
                      const Start* start = nullptr, Thoroughness thoroughness = Thoroughness::kSure);
   StationState solve(const Stance& stance, const Soil& soil, const DriveCommand& command);
-  // The last solve's balance, asked with what it was solved for, for others to start from; nothing where the
-  // rover did not move on all of its wheels.
+  // The balance of the last solve as a starting point for others; the arguments must be those of that solve.
+  // Empty where the rover did not move on all of its wheels.
   std::optional<Start> start_of_last(const Stance& stance, const PerWheel<Soil>& soils,
                                      const DriveCommand& command) const;
-  // Forget the last answer, so that the next solve is a cold start.
+  // Forgets the last answer, so that the next solve is a cold start.
   void reset() { warm_ = false; }
 
  private:
+  StationState solve_with_slip_curves(const Stance& stance, const PerWheel<Soil>& soils,
+                                      const DriveCommand& command, Thoroughness thoroughness);
+
   const RoverModel& rover_;
   double gravity_m_s2_;
   bool warm_ = false;

@@ -15,11 +15,11 @@
 namespace slipway::sim {
 namespace {
 
-// A wheel that stands still still slips against the ground: as a wheel turning this slowly against the
-// fastest one. All shear is mobilised long before.
-constexpr double kSlowestRateRatio = 1e-3;
-// No wheel is told to turn and the rover not to move: any scale will do.
-constexpr double kLeastSpeedScale_m_s = 1e-9;
+// A wheel that does not turn is treated as one that turns at this share of the fastest wheel's rate, since
+// its slip would be infinite otherwise. All shear is mobilised at much lower slip.
+constexpr double kMinRateRatio = 1e-3;
+// The speed scale where no wheel is commanded to turn and the rover not to move; any scale serves then.
+constexpr double kMinSpeedScale_m_s = 1e-9;
 
 double half_wheelbase(const RoverModel& rover) {
   double front = rover.wheels.front().position_m.x(), rear = front;
@@ -30,7 +30,7 @@ double half_wheelbase(const RoverModel& rover) {
   return 0.5 * (front - rear);
 }
 
-// Force f at p and moment m, frame B.
+// A force at p and a moment, in frame B.
 struct Wrench {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // about the point where the force acts
@@ -60,11 +60,11 @@ RoverBalance::RoverBalance(const RoverModel& rover, double gravity_m_s2, const S
       weight_(rover.mass_kg * gravity_m_s2),
       length_(half_wheelbase(rover)) {
   const PerWheel<WheelCommand> commanded = wheel_commands(rover, command);
-  double fastest = kLeastSpeedScale_m_s;
+  double fastest = kMinSpeedScale_m_s;
   for (int k = 0; k < wheel_count(); ++k)
     fastest = std::max(fastest, std::abs(commanded[k].rate_rad_s) * rover.wheels[k].radius_m);
-  // Wheels that can't roll the way they are told to go (crabbing without steering) are dragged at that speed.
-  if (fastest <= kLeastSpeedScale_m_s && !command.turn_in_place)
+  // Wheels that cannot roll in their commanded direction (a crab without steering) are dragged at that speed.
+  if (fastest <= kMinSpeedScale_m_s && !command.turn_in_place)
     fastest = std::max(fastest, std::abs(command.speed_m_s));
   speed_scale_ = fastest;
   set_soils(gravity_m_s2, command, commanded);
@@ -90,8 +90,8 @@ void RoverBalance::set_soils(double gravity_m_s2, const DriveCommand& command,
   }
 }
 
-// The body hangs on the rocker pivots through the differential, which passes equal moments to both sides: on
-// the joints weighs only what wheels have of their own.
+// The body's weight acts at the rocker pivots, and the differential passes equal moments to both sides. On
+// the joints therefore acts only the wheels' own weight.
 void RoverBalance::set_gravity() {
   Attitude truth = stance_.attitude;
   truth.roll_rad += rover_.roll_bias_rad;
@@ -128,8 +128,9 @@ void RoverBalance::place_wheel(int k, const WheelCommand& commanded) {
   std::array<JointMotion, kMostJoints> joint;
   for (int j = 0; j < joints_; ++j) joint[j] = joint_motion(rover_, stance_, k, j);
 
-  // Columns: drawbar pull, lateral, vertical, torque, overturning moment. A wheel that turns backwards pulls
-  // and is driven backwards. The lateral force acts at the rim's lowest point.
+  // The columns are for drawbar pull, lateral and vertical force, torque, and overturning moment. The pull
+  // and the torque of a wheel that turns backwards point backwards. The lateral force acts at the rim's
+  // lowest point.
   const std::array<Wrench, 5> unit{
       Wrench{.force = place.direction * x,
              .moment = -rover_.pull_below_axle * wheel.radius_m * place.direction * y},
@@ -149,11 +150,11 @@ void RoverBalance::place_wheel(int k, const WheelCommand& commanded) {
   place.effect /= weight_;
 
   // On sloping ground under one wheel the rim travels along its tangent while the body keeps its own speed.
-  // A free wheel's motion is first given per speed scale; its rim speed is found with its forces.
+  // A free wheel's motion is given per speed scale at first; its rim speed is found together with its forces.
   const double rim_speed =
       wheel.drive == WheelDrive::kFree
           ? speed_scale_
-          : std::max(std::abs(place.motion.rate_rad_s) * wheel.radius_m, kSlowestRateRatio * speed_scale_);
+          : std::max(std::abs(place.motion.rate_rad_s) * wheel.radius_m, kMinRateRatio * speed_scale_);
   const double along = place.direction * speed_scale_ / (rim_speed * std::max(0.2, x.dot(heading)));
   const double across = speed_scale_ / (rim_speed * std::max(0.2, y.dot(axle)));
   const Eigen::Vector3d d(travel_.x(), travel_.y(), 0.0), e(-travel_.y(), travel_.x(), 0.0);
@@ -194,8 +195,8 @@ RoverBalance::WheelContact RoverBalance::free_contact(const Trial& trial) const 
   const WheelPlace& place = places_[trial.wheel];
   const WheelModel& wheel = rover_.wheels[trial.wheel];
   const FreeRolling rolling = roll_freely(place.geometry, soils_[trial.wheel], trial.entry_angle_rad,
-                                          trial.motion, wheel.drag_nm, kSlowestRateRatio);
-  const bool stands = rolling.rim_ratio <= kSlowestRateRatio;
+                                          trial.motion, wheel.drag_nm, kMinRateRatio);
+  const bool stands = rolling.rim_ratio <= kMinRateRatio;
   return {rolling.forces, rolling.motion,
           stands ? 0.0 : place.direction * rolling.rim_ratio * speed_scale_ / wheel.radius_m, 0.0};
 }
@@ -210,9 +211,9 @@ RoverBalance::WheelContact RoverBalance::sliced_contact(const Trial& trial) cons
 }
 
 void RoverBalance::contacts_of(std::span<const Trial> trials, std::span<WheelContact> contacts) const {
-  std::array<WheelNumbers, kMostTrials> numbers;
-  std::array<WheelForces, kMostTrials> forces;
-  std::array<std::size_t, kMostTrials> of;
+  std::array<WheelNumbers, kMaxTrials> numbers;
+  std::array<WheelForces, kMaxTrials> forces;
+  std::array<std::size_t, kMaxTrials> of;
   std::size_t count = 0;
   for (std::size_t t = 0; t < trials.size(); ++t) {
     const Trial& trial = trials[t];
@@ -272,7 +273,7 @@ const RoverBalance::Vector& RoverBalance::residual(const Vector& unknowns) {
   for (int k = 0; k < wheel_count(); ++k) {
     if (!in_air_[k]) continue;
     own[k] = 0.0;
-    sum[--row] = unknowns[kMotions + k] - kLeastEntryAngleRad;
+    sum[--row] = unknowns[kMotions + k] - kMinEntryAngleRad;
   }
   sum.segment(top, row - top) = compatibility_ * own + compatibility_of_gap_;
   return sum;
@@ -282,8 +283,8 @@ RoverBalance::Matrix RoverBalance::jacobian(const Vector& unknowns) const {
   const int top = equilibrium_count(), size = kMotions + wheel_count();
   Matrix jacobian = Matrix::Zero(size, size);
   constexpr double kStep = 1e-7;
-  std::array<Trial, kMostTrials> trials;
-  std::array<WheelContact, kMostTrials> moved;
+  std::array<Trial, kMaxTrials> trials;
+  std::array<WheelContact, kMaxTrials> moved;
   std::size_t count = 0;
   for (int k = 0; k < wheel_count(); ++k) {
     if (in_air_[k]) continue;

@@ -20,95 +20,96 @@ namespace slipway::sim {
 //   6 .. 5 + J  joints  sum ((F_k + m_k g) . dp_k/dq_j + M_k . y dturn_k/dq_j) = 0  see suspension.h
 //   the rest    compatibility   Z^T (z + gap) / z_ref = 0
 //
-// F_k is the soil's force at wheel k's centre, M_k = -T_k about its axle and r L_k about its heading (the
-// lateral force L_k acts at the rim's lowest point), m_k is what of the wheel's mass hangs at the wheel
-// (RoverModel::wheel_weight; none by default), and the suspension has no other mass of its own. Gravity is
-// that of the true attitude, the stance's with the rover's bias of attitude added. Forces are divided by the
-// weight, moments by weight and half the wheelbase.
+// F_k is the soil's force at wheel k's centre. M_k is -T_k about its axle and r L_k about its heading, since
+// the lateral force L_k acts at the rim's lowest point. m_k is the mass that acts at the wheel itself
+// (RoverModel::wheel_weight; none by default); the suspension has no other mass of its own. Gravity is that
+// of the true attitude, which is the stance's plus the rover's attitude bias. Forces are divided by the
+// weight, and moments by the weight and half the wheelbase.
 //
 // Compatibility: the depths z_k of the wheels in contact below the undisturbed surface and the stance's gaps
 // must be reachable by the body's heave, roll and pitch and by the joints, z + gap = -A q with A the gaps'
-// gradient (N x (3 + J)); Z is the null space of A^T. There are N - 3 - J of these: none for six wheels on a
-// rocker-bogie or four on an averaging suspension, one for four rigid wheels. A wheel in the air is not part
-// of A and has in their place the equation that its entry angle is the least there is. z_ref is the order of
-// the wheels' sinkage, so that an error in depth weighs about as much as the load that it makes.
+// gradient (N x (3 + J)); Z is the null space of A^T. There are N - 3 - J such equations: none for six wheels
+// on a rocker-bogie or four on an averaging suspension, and one for four rigid wheels. A wheel in the air is
+// not part of A; its equation says that its entry angle is kMinEntryAngleRad. z_ref is of the order of the
+// wheels' sinkage, so that an error in depth weighs about as much as the load that it causes.
 //
-// The 3 + N unknowns: speed of B along d and e over `speed_scale`, yaw rate times half the wheelbase over the
-// same, and the N entry angles.
+// The 3 + N unknowns are the speeds of B along d and e over `speed_scale`, the yaw rate times half the
+// wheelbase over the same, and the N entry angles.
 class RoverBalance {
  public:
   static constexpr int kMotions = 3;
-  static constexpr int kMostEquations = kMotions + kMostWheels;
-  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostEquations, 1>;
-  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostEquations, kMostEquations>;
+  static constexpr int kMaxEquations = kMotions + kMostWheels;
+  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxEquations, 1>;
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxEquations, kMaxEquations>;
   using Loads = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostWheels, 1>;
 
-  // What the ground does to one wheel and how the wheel moves over it.
+  // The forces of the ground on one wheel, and the wheel's motion over it.
   struct WheelContact {
     WheelForces forces;
     WheelMotion motion;           // per rim speed
     double rate_rad_s = 0.0;      // positive rolls forward
-    double overturning_nm = 0.0;  // of a sliced wheel, about its heading; positive presses its left side up
+    double overturning_nm = 0.0;  // moment about a sliced wheel's heading; positive presses its left side up
   };
 
-  static constexpr double kLeastEntryAngleRad = 1e-3;
+  static constexpr double kMinEntryAngleRad = 1e-3;
 
-  // Rover, stance and gravity's magnitude as they are; `soils` are those of the wheels' places, which the
-  // balance turns into the ones in force. Rover and stance must outlive the balance.
+  // `soils` has the undisturbed soil at each wheel's place; the balance turns it into the soil in force.
+  // Rover and stance must outlive the balance.
   RoverBalance(const RoverModel& rover, double gravity_m_s2, const Stance& stance,
                const PerWheel<Soil>& soils, const DriveCommand& command);
 
   const Vector& residual(const Vector& unknowns);
-  // At the unknowns of the last residual, by one-sided differences of each wheel's five loads over its three
-  // arguments.
+  // The Jacobian at the unknowns of the last residual, by one-sided differences of each wheel's five loads
+  // over its three arguments.
   Matrix jacobian(const Vector& unknowns) const;
 
   int wheel_count() const { return static_cast<int>(places_.size()); }
-  // Of the last residual; nothing but the rate for a wheel in the air.
+  // The contact at the last residual; a wheel in the air has a rate and no forces.
   const WheelContact& contact(int wheel) const { return contacts_[wheel]; }
-  // Which way a wheel is told to roll; forward where it is told to stand.
+  // The commanded direction of rolling, 1 or -1; forward where the commanded rate is 0.
   double direction(int wheel) const { return places_[wheel].direction; }
   const WheelGeometry& geometry(int wheel) const { return places_[wheel].geometry; }
   const Soil& soil(int wheel) const { return soils_[wheel]; }
-  // Whether any wheel, every wheel has a motor that turns it.
+  // Whether any wheel, or every wheel, has a motor that turns it.
   bool any_driven() const;
   bool all_driven() const;
   double speed_scale_m_s() const { return speed_scale_; }
   double half_wheelbase_m() const { return length_; }
   double weight_n() const { return weight_; }
 
-  // Wheels in the air: none to begin with. Only a statically undetermined vehicle can spare one.
+  // At first all wheels are in contact. Only a statically undetermined vehicle can have wheels in the air.
   bool in_air(int wheel) const { return in_air_[wheel]; }
   bool all_in_contact() const { return in_contact_ == wheel_count(); }
   bool can_spare_a_wheel() const { return in_contact_ > wheel_count() - undetermined_; }
   void set_in_air(int wheel, bool in_air);
-  // Wheel loads if nothing pulled or pushed along the ground, of springs that sink z_ref under the mean load:
-  // the start of a solve. For a statically determined vehicle the springs do not matter. Lifts the wheels
-  // that would hang.
+  // Wheel loads without forces along the ground, on springs that sink z_ref under the mean load; a solve
+  // starts from them. For a statically determined vehicle the springs do not matter. Sets the wheels in the
+  // air that carry no load so.
   Loads resting_loads_n();
   // Depths of the wheels below the undisturbed surface.
   PerWheel<double> total_sinkages_m(const Vector& unknowns) const;
-  // The height of a wheel in the air over the ground under it; negative: it cuts in.
+  // The height of a wheel in the air over the ground under it; negative where it cuts into the ground.
   double height_in_air_m(int wheel, const Vector& unknowns) const;
 
  private:
-  static constexpr int kMostEquilibrium = 6 + kMostJoints;
-  static constexpr int kMostFreedoms = 3 + kMostJoints;
-  using GapGradient = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostWheels, kMostFreedoms>;
-  using Freedoms = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostFreedoms, 1>;
+  static constexpr int kMaxEquilibrium = 6 + kMostJoints;
+  static constexpr int kMaxFreedoms = 3 + kMostJoints;
+  using GapGradient = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostWheels, kMaxFreedoms>;
+  using Freedoms = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxFreedoms, 1>;
 
   struct WheelPlace {
     WheelGeometry geometry;
     WheelNumbers numbers;    // of wheel and soil; angle and motion are filled in where they are known
     WheelCommand motion;     // true steering and rate
     double direction = 1.0;  // of rolling
-    // Of (pull, lateral, vertical, torque, overturning moment) on the equations of equilibrium.
-    Eigen::Matrix<double, Eigen::Dynamic, 5, 0, kMostEquilibrium, 5> effect;
-    // Of a sliced wheel: the ground under each slice, below the highest one. Its entry angle is the highest
-    // slice's, so that there is none at which it can't touch.
+    // Coefficients of (pull, lateral, vertical, torque, overturning moment) in the equations of equilibrium.
+    Eigen::Matrix<double, Eigen::Dynamic, 5, 0, kMaxEquilibrium, 5> effect;
+    // For a sliced wheel, the ground under each slice relative to the highest. The wheel's entry angle is
+    // that of the slice on the highest ground, so that the wheel touches the ground at any entry angle.
     SliceHeights slice_height_m{};
-    double highest_m = 0.0;                            // of that slice over the wheel's contact plane
-    Eigen::RowVector3d forward_ratio, leftward_ratio;  // of the three motions on u and v_y / (r |w|)
+    double highest_m = 0.0;  // height of that ground over the wheel's contact plane
+    Eigen::RowVector3d forward_ratio,
+        leftward_ratio;  // derivatives of u and v_y / (r |w|) by the three motions
   };
 
   void place_wheel(int wheel, const WheelCommand& commanded);
@@ -116,14 +117,14 @@ class RoverBalance {
   void set_gravity();
   void set_gap_gradient();
   void set_compatibility();
-  // A wheel at an entry angle and in a motion that are not, or not yet, those of its contact.
+  // A wheel at an entry angle and in a motion at which its contact is to be evaluated.
   struct Trial {
     int wheel = 0;
     double entry_angle_rad = 0.0;
     WheelMotion motion;
   };
-  static constexpr int kMostTrials = 3 * kMostWheels;  // of a Jacobian
-  // All at once, which costs about half of one by one.
+  static constexpr int kMaxTrials = 3 * kMostWheels;  // as many as a Jacobian needs
+  // Evaluates all trials at once, which costs about half of one by one.
   void contacts_of(std::span<const Trial> trials, std::span<WheelContact> contacts) const;
   void find_contacts(const Vector& unknowns);
   WheelContact free_contact(const Trial& trial) const;
@@ -132,7 +133,7 @@ class RoverBalance {
   void place_slices(int wheel);
   WheelMotion motion_of(int wheel, const Vector& unknowns) const;
   // The motion q of heave, roll, pitch and joints that lifts the wheels in contact by these heights, by least
-  // squares; `push` is 0 then (see resting_loads_n).
+  // squares with `push` = 0 (for another use see resting_loads_n).
   Freedoms body_motion(const Loads& height_m, const Freedoms& push) const;
   int equilibrium_count() const { return 6 + joints_; }
 
@@ -147,12 +148,12 @@ class RoverBalance {
   int joints_, undetermined_, in_contact_;
   Eigen::Vector2d travel_;
   double weight_, length_, speed_scale_;
-  double sinkage_scale_m_ = 1.0;  // z_ref; of no matter where all loads are determined
-  Vector at_, residual_at_;   // the last residual and its unknowns; nothing once the wheels in contact change
-  Vector gravity_;            // on the equations of equilibrium
-  GapGradient gap_gradient_;  // by heave, roll, pitch (times half the wheelbase) and joints
+  double sinkage_scale_m_ = 1.0;  // z_ref; without meaning where all loads are determined
+  Vector at_, residual_at_;       // unknowns and values of the last residual; empty once the contacts change
+  Vector gravity_;                // its part in the equations of equilibrium
+  GapGradient gap_gradient_;      // by heave, roll, pitch (times half the wheelbase) and joints
   Loads gap_;
-  // Rows of compatibility on the own sinkages, one for each wheel that a determined vehicle could spare.
+  // The compatibility equations as rows over the wheels' own sinkages.
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostWheels, kMostWheels> compatibility_;
   Loads compatibility_of_gap_;
 };

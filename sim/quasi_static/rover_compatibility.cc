@@ -1,4 +1,5 @@
-// The statically undetermined part of RoverBalance: which wheels carry, and how depths and gaps go together.
+// The statically undetermined part of RoverBalance: which wheels carry load, and the compatibility of depths
+// and gaps.
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
@@ -11,8 +12,8 @@
 namespace slipway::sim {
 namespace {
 
-// z_ref is never less than this share of the radius: on rock the wheels hardly sink.
-constexpr double kLeastSinkageRatio = 0.01;
+// The minimum of z_ref as a share of the radius, since wheels hardly sink into hard soil.
+constexpr double kMinSinkageRatio = 0.01;
 
 }  // namespace
 
@@ -34,7 +35,7 @@ void RoverBalance::set_gap_gradient() {
     sinkage += bekker_sinkage_m(places_[k].geometry, soils_[k], weight_ / n) / n;
     radius += places_[k].geometry.radius_m / n;
   }
-  if (undetermined_ > 0) sinkage_scale_m_ = std::max(kLeastSinkageRatio * radius, std::min(radius, sinkage));
+  if (undetermined_ > 0) sinkage_scale_m_ = std::max(kMinSinkageRatio * radius, std::min(radius, sinkage));
 }
 
 void RoverBalance::set_compatibility() {
@@ -56,8 +57,8 @@ void RoverBalance::set_compatibility() {
   const Square q = a.householderQr().householderQ() * Square::Identity(in_contact_, in_contact_);
   const Square z = q.rightCols(spare).transpose() / sinkage_scale_m_;
   compatibility_of_gap_ = z * gap;
-  // Depths are linear in the own sinkages: column k is what a unit of wheel k's leaves in its followers'
-  // ruts.
+  // Depths are linear in the wheels' own sinkages: column k has the depths that a unit sinkage of wheel k
+  // causes, its own and those of the wheels that follow in its rut.
   for (int k = 0; k < wheel_count(); ++k) {
     if (in_air_[k]) continue;
     PerWheel<double> unit(wheel_count());
@@ -75,9 +76,9 @@ void RoverBalance::set_in_air(int k, bool in_air) {
   set_compatibility();
 }
 
-// Over the wheels S in contact: A_S^T A_S q = A_S^T height_S + push.
+// Solves A_S^T A_S q = A_S^T height_S + push over the wheels S in contact.
 RoverBalance::Freedoms RoverBalance::body_motion(const Loads& height_m, const Freedoms& push) const {
-  using Normal = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostFreedoms, kMostFreedoms>;
+  using Normal = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxFreedoms, kMaxFreedoms>;
   Normal normal = Normal::Zero(push.size(), push.size());
   Freedoms right = push;
   for (int k = 0; k < wheel_count(); ++k) {
@@ -90,7 +91,7 @@ RoverBalance::Freedoms RoverBalance::body_motion(const Loads& height_m, const Fr
 
 // A spring's load is -stiffness (gap + A q), and A^T load + gravity = 0.
 RoverBalance::Loads RoverBalance::resting_loads_n() {
-  // Where every load is determined, this start is the only one to ask for the gradient.
+  // Where every load is determined, only this function needs the gradient.
   if (undetermined_ == 0) set_gap_gradient();
   const int n = wheel_count();
   const double stiffness = 1.0 / (n * sinkage_scale_m_);  // per unit of weight

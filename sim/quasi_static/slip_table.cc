@@ -5,6 +5,9 @@
 #include <cmath>
 
 #include "core/angle.h"
+#include "core/pose.h"
+#include "sim/quasi_static/balance_search.h"
+#include "sim/quasi_static/slip_curve_motion.h"
 #include "sim/quasi_static/traction_limit.h"
 #include "sim/rover/drive_command.h"
 #include "sim/wheel/slip_ratio.h"
@@ -50,6 +53,10 @@ SlipTable::SlipTable(const RoverModel& rover, double gravity_m_s2, const Soil& s
       fields_(kMotionFields + 2 * wheels_) {
   const int half = std::max(1, static_cast<int>(std::ceil(limit_rad / step_rad - 1e-9)));
   limit_rad_ = half * step_rad_;
+  if (soil.slip_curve != nullptr) {
+    curve_soil_ = soil;
+    return;
+  }
   columns_.resize(static_cast<std::size_t>(2 * half + 1));
   const DriveCommand command{.speed_m_s = rover.cruise_speed_m_s, .motor_temp_c = conditions.motor_temp_c};
   speed_m_s_ = command.speed_m_s * attainable_share(rover, command);
@@ -158,8 +165,18 @@ TableEntry SlipTable::entry_of(const double* values, double pitch_rad) const {
   return entry;
 }
 
+TableEntry SlipTable::entry_on_curve(double pitch_rad, double roll_rad) const {
+  const Eigen::Matrix3d R_MB = rotation_MB({.roll_rad = roll_rad, .pitch_rad = pitch_rad, .yaw_rad = 0.0});
+  const SlipOnCurve slip = slip_on_curve(*curve_soil_, travel_slopes(R_MB, {}));
+  TableEntry entry{.slip_ratio = slip.slip_ratio, .side_slip_rad = slip.side_slip_rad, .by_slip_curve = true};
+  entry.immobile = slip.outside || speed_ratio_from_slip(slip.slip_ratio) < kSpinningSpeedRatio;
+  if (entry.immobile) entry.slip_ratio = 1.0;
+  return entry;
+}
+
 std::optional<TableEntry> SlipTable::at(double pitch_rad, double roll_rad) const {
   if (!(std::abs(pitch_rad) <= limit_rad_ && std::abs(roll_rad) <= limit_rad_)) return std::nullopt;
+  if (curve_soil_) return entry_on_curve(pitch_rad, roll_rad);
   TableEntry stuck{.slip_ratio = 1.0, .immobile = true};
   const double place = (roll_rad + limit_rad_) / step_rad_;
   const Stencil across = columns_about(place);

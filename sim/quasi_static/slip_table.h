@@ -15,10 +15,12 @@ struct TableEntry {
   double current_a = 0.0;   // largest of the wheels
   double energy_j_m = 0.0;  // per metre made good
   bool immobile = false;    // then slip is 1, energy 0 and the rest as at the limit
+  bool by_slip_curve =
+      false;  // the soil has a slip curve: sinkage, current and energy are not known, and 0 here
 };
 
-// The table rung: slip, sinkage, current and energy over the body's pitch and roll on a plane, from the
-// quasi-static rung at nodes. Immutable.
+// The table level: slip, sinkage, current and energy over the body's pitch and roll on a plane, from the
+// quasi-static level at nodes. Immutable.
 //
 // Slip has a limit at which the rover comes to a stand, p(roll), close to which it turns up steeply. So a
 // column of nodes at one roll counts its pitch from its own limit, d = pitch - p(roll), no cell straddles the
@@ -29,6 +31,8 @@ struct TableEntry {
 // Tabulated are quantities that stay smooth where slip and side slip do not: the speed ratios along and
 // across, the power, and each wheel's sinkage and current, whose largest is taken after. Cubic between nodes
 // (Lagrange's polynomial through four each way), one-sided at the table's edges and at the limit.
+//
+// A soil with a slip curve needs no nodes: its curve is asked at every attitude.
 class SlipTable {
  public:
   // Columns every step_rad over [-limit_rad, limit_rad] in roll, driving at the rover's cruise speed.
@@ -58,12 +62,14 @@ class SlipTable {
   double d_rad(double xi) const;
   Stencil columns_about(double place) const;
   TableEntry entry_of(const double* values, double pitch_rad) const;
+  TableEntry entry_on_curve(double pitch_rad, double roll_rad) const;
 
   double limit_rad_, step_rad_;
-  double speed_m_s_;  // told, as far as it can be attained
+  double speed_m_s_;  // commanded, as far as it can be attained
   int wheels_, fields_;
   std::vector<Column> columns_;
   std::vector<double> values_;
+  std::optional<Soil> curve_soil_;  // where it has a slip curve
 };
 
 }  // namespace slipway::sim

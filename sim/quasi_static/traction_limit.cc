@@ -24,8 +24,8 @@ TractionLimitSearch::TractionLimitSearch(const RoverModel& rover, double gravity
     : rover_(rover),
       soil_(soil),
       command_(command),
-      lowest_rad_(steepest_climb_rad),
-      highest_rad_(steepest_descent_rad),
+      min_pitch_rad_(steepest_climb_rad),
+      max_pitch_rad_(steepest_descent_rad),
       solver_(rover, gravity_m_s2) {}
 
 double TractionLimitSearch::surplus(double roll_rad, double pitch_rad) {
@@ -36,13 +36,14 @@ double TractionLimitSearch::surplus(double roll_rad, double pitch_rad) {
   const double surplus =
       state.along_m_s / commanded_m_s - std::hypot(kSpinningSpeedRatio, state.leftward_m_s / commanded_m_s);
   if (state.moving()) return surplus;
-  // Just beyond the limit the balance goes on, of a rover that slides back; elsewhere its speed says nothing.
+  // Just beyond the limit there is still a balance of a rover that slides back. Where there is none, the
+  // speed has no meaning.
   return surplus < 0.0 ? std::max(surplus, -1.0) : -1.0;
 }
 
 std::optional<TractionLimitSearch::Trial> TractionLimitSearch::find_moving(double roll_rad, double from_rad,
                                                                            double step_rad) {
-  for (double pitch = from_rad; pitch >= lowest_rad_ && pitch <= highest_rad_; pitch += step_rad) {
+  for (double pitch = from_rad; pitch >= min_pitch_rad_ && pitch <= max_pitch_rad_; pitch += step_rad) {
     const Trial trial{pitch, surplus(roll_rad, pitch)};
     if (trial.surplus >= 0.0) return trial;
     if (step_rad > 0.0) step_rad = std::min(2.0 * step_rad, kWalk_rad);
@@ -51,16 +52,17 @@ std::optional<TractionLimitSearch::Trial> TractionLimitSearch::find_moving(doubl
 }
 
 std::optional<double> TractionLimitSearch::find(double roll_rad, std::optional<double> guess_rad) {
-  // Near a neighbour's limit first, upwards from there; without one from the steepest descent down.
+  // The search begins near the neighbour's limit and goes up from there; without one it begins at the
+  // steepest descent.
   const std::optional<Trial> start = guess_rad ? find_moving(roll_rad, *guess_rad + kNear_rad, kNear_rad)
-                                               : find_moving(roll_rad, highest_rad_, -kWalk_rad);
+                                               : find_moving(roll_rad, max_pitch_rad_, -kWalk_rad);
   if (!start) return std::nullopt;
   double step = guess_rad ? kNear_rad : kWalk_rad;
   Trial ahead = *start, stuck = *start;
   while (stuck.surplus >= 0.0) {
     ahead = stuck;
-    if (ahead.pitch_rad <= lowest_rad_) return lowest_rad_;
-    stuck.pitch_rad = std::max(lowest_rad_, ahead.pitch_rad - step);
+    if (ahead.pitch_rad <= min_pitch_rad_) return min_pitch_rad_;
+    stuck.pitch_rad = std::max(min_pitch_rad_, ahead.pitch_rad - step);
     stuck.surplus = surplus(roll_rad, stuck.pitch_rad);
     step = std::min(2.0 * step, kWalk_rad);
   }

@@ -12,7 +12,7 @@
 namespace slipway::sim {
 namespace {
 
-// Velocity of a wheel's place on the rover that moves as told, frame B.
+// Velocity of a wheel's place on the rover that moves as commanded, frame B.
 Eigen::Vector2d commanded_velocity(const WheelModel& wheel, const DriveCommand& command) {
   const double yaw_rate =
       command.turn_in_place ? command.turn_rate_rad_s : command.speed_m_s * command.curvature_1_m;

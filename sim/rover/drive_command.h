@@ -28,7 +28,7 @@ struct DriveCommand {
 // place.
 Eigen::Vector2d travel_direction(const DriveCommand& command);
 
-// What the wheels are told: Ackermann steering about the turn's centre and the rate that would roll without
+// The commands of the wheels: Ackermann steering about the turn's centre and the rate that would roll without
 // slip on the radius that the rover's software believes in.
 struct WheelCommand {
   double steer_rad = 0.0;
@@ -36,8 +36,8 @@ struct WheelCommand {
 };
 
 // Steerable wheels point along the path of a rover turning about its centre; the others stay straight and are
-// told the forward part of their place's velocity, which is skid steering. Rates are scaled down together
-// where one would exceed the motor's maximum.
+// commanded the forward part of their place's velocity, which is skid steering. Rates are scaled down
+// together where one would exceed the motor's maximum.
 PerWheel<WheelCommand> wheel_commands(const RoverModel& rover, const DriveCommand& command);
 
 // The share of the commanded speed that the motors' greatest rate allows, in (0, 1].
@@ -47,8 +47,8 @@ double attainable_share(const RoverModel& rover, const DriveCommand& command);
 // can, though wheels that don't steer be dragged.
 std::optional<std::string> why_no_crab(const RoverModel& rover, double crab_rad);
 
-// How a wheel really stands and turns when told so: steered by its offset, turning at its share of the rate;
-// not at all where it is locked. A free wheel's rate is the ground's to say: here the told one.
+// How a wheel really stands and turns under its command: steered by its offset, turning at its share of the
+// rate; not at all where it is locked. A free wheel's rate is the ground's to say: here the commanded one.
 WheelCommand true_motion(const WheelModel& wheel, const WheelCommand& commanded);
 
 }  // namespace slipway::sim

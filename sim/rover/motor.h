@@ -20,7 +20,7 @@ struct DriveMotor {
   // gearbox_friction).
   double gear_friction_nm = 0.0;
   double gear_viscous_nms_rad = 0.0;  // at the wheel
-  double rotor_inertia_kg_m2 = 4e-7;  // of the motor's shaft, before the gear; read by the dynamic rung
+  double rotor_inertia_kg_m2 = 4e-7;  // of the motor's shaft, before the gear; read by the dynamic level
 
   // Change per kelvin above the reference temperature (effect motor_temperature): the torque constant falls
   // by its share, the winding's resistance rises, all friction falls as lubricant thins.
@@ -63,7 +63,7 @@ bool stalls(const DriveMotor& drive, const MotorState& state);
 
 // The winding's resistance, ohm; where none is given the one that lets twenty times the no-load current, and
 // 10 A at least, flow at the greatest rate, and lets a tenth of the bus voltage drop at least: the dynamic
-// rung needs one, and it must not stall a motor that the other rungs know no limit of.
+// level needs one, and it must not stall a motor that the other levels know no limit of.
 double winding_resistance_ohm(const DriveMotor& drive);
 
 // The greatest torque at standstill that bus voltage and current limit allow; infinite where neither the

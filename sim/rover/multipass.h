@@ -6,9 +6,10 @@
 namespace slipway::sim {
 
 // For each wheel the index of the nearest wheel ahead of it whose track it drives in, or -1. A wheel's track
-// is the line of its place when the rover moves as told: wheel k follows wheel m where their lines lie closer
-// than half the sum of their widths: across the direction of travel on the straight and in crab motion, in
-// the radii about the turn's centre on an arc. Turning in place no wheel follows another for long: none.
+// is the line of its place when the rover moves as commanded: wheel k follows wheel m where their lines lie
+// closer than half the sum of their widths: across the direction of travel on the straight and in crab
+// motion, in the radii about the turn's centre on an arc. Turning in place no wheel follows another for long:
+// none.
 PerWheel<int> leaders(const RoverModel& rover, const DriveCommand& command);
 
 // The share of a rut's depth that is still there for the wheel that drives in it.

@@ -10,6 +10,7 @@
 #include <set>
 #include <string_view>
 
+#include "sim/rover/rover_field.h"
 #include "sim/wheel/sliced_wheel.h"
 
 namespace slipway::sim {
@@ -28,6 +29,7 @@ class FaultList {
   void add(std::string pointer, std::string message) {
     faults_.push_back({std::move(pointer), std::move(message)});
   }
+  std::vector<Fault>& all() { return faults_; }
   std::vector<Fault> take() { return std::move(faults_); }
 
  private:
@@ -46,8 +48,7 @@ void check_names(const RoverModel& rover, FaultList& faults) {
 }
 
 void check_wheel(const WheelModel& wheel, const std::string& at, FaultList& faults) {
-  faults.require_in(at + "/radius_m", "radius_m", wheel.radius_m, 0.02, 1.0);
-  faults.require_in(at + "/width_m", "width_m", wheel.width_m, 0.01, 1.0);
+  check_fields(wheel_fields(), wheel, at, faults.all());
   const double y = wheel.position_m.y();
   if (wheel.side == Side::kLeft ? !(y >= 0.0) : !(y <= 0.0))
     faults.add(at + "/position_m", "position_m[1] must be positive on the left and negative on the right");
@@ -59,7 +60,7 @@ void check_wheel(const WheelModel& wheel, const std::string& at, FaultList& faul
   faults.require_in(at + "/rate_share", "rate_share", wheel.rate_share, 0.01, 1.0);
   faults.require_in(at + "/steering_offset_deg", "steering_offset_rad", wheel.steering_offset_rad, -0.8, 0.8);
   if (wheel.software_radius_m)
-    faults.require_in(at + "/told_radius_m", "told_radius_m", *wheel.software_radius_m, 0.02, 1.0);
+    faults.require_in(at + "/software_radius_m", "software_radius_m", *wheel.software_radius_m, 0.01, 2.0);
 }
 
 // False where there are too many or too few to look further.
@@ -133,7 +134,7 @@ bool inside_wheels(const RoverModel& rover, const Eigen::Vector2d& point) {
 }
 
 void check_mass(const RoverModel& rover, FaultList& faults) {
-  faults.require_in("/mass_kg", "mass_kg", rover.mass_kg, 1.0, 5000.0);
+  check_fields(mass_fields(), rover, "", faults.all());
   faults.require_in("/com_m", "com_m[2]", rover.com_m.z(), 0.01, 3.0);
   if (!rover.wheels.empty() && !inside_wheels(rover, rover.com_m.head<2>()))
     faults.add("/com_m", "com_m lies outside the wheels: the rover would tip over on level ground");
@@ -143,9 +144,7 @@ void check_mass(const RoverModel& rover, FaultList& faults) {
 void check_masses(const RoverModel& rover, FaultList& faults) {
   constexpr double kLeastBodyShare = 0.1;
   const MassDistribution& masses = rover.masses;
-  if (masses.wheel_kg) faults.require_in("/masses/wheel_kg", "wheel_kg", *masses.wheel_kg, 1e-3, 5000.0);
-  if (masses.rocker_kg) faults.require_in("/masses/rocker_kg", "rocker_kg", *masses.rocker_kg, 1e-3, 5000.0);
-  if (masses.bogie_kg) faults.require_in("/masses/bogie_kg", "bogie_kg", *masses.bogie_kg, 1e-3, 5000.0);
+  check_fields(part_mass_fields(), masses, "/masses", faults.all());
   if (masses.body_inertia_kg_m2) {
     const Eigen::Vector3d& inertia = *masses.body_inertia_kg_m2;
     for (int axis = 0; axis < 3; ++axis)
@@ -161,37 +160,6 @@ void check_masses(const RoverModel& rover, FaultList& faults) {
     faults.add("/masses", fmt::format("wheels and suspension leave the body {:.4g} of {:.4g} kg, must be at "
                                       "least {:.0f} %",
                                       left, rover.mass_kg, 100.0 * kLeastBodyShare));
-}
-
-void check_suspension(const Suspension& suspension, FaultList& faults) {
-  if (suspension.differential_stiffness_nm_rad)
-    faults.require_in("/suspension/differential_stiffness_nm_per_deg", "differential_stiffness_nm_rad",
-                      *suspension.differential_stiffness_nm_rad, 1e-3, 1e9);
-  if (suspension.differential_damping_nms_rad)
-    faults.require_in("/suspension/differential_damping_nms_per_deg", "differential_damping_nms_rad",
-                      *suspension.differential_damping_nms_rad, 0.0, 1e8);
-  if (suspension.rocker_stop_rad)
-    faults.require_in("/suspension/rocker_stop_deg", "rocker_stop_rad", *suspension.rocker_stop_rad, 0.01,
-                      1.6);
-  if (suspension.bogie_stop_rad)
-    faults.require_in("/suspension/bogie_stop_deg", "bogie_stop_rad", *suspension.bogie_stop_rad, 0.01, 1.6);
-}
-
-void check_motor(const DriveMotor& drive, const std::string& at, FaultList& faults) {
-  faults.require_in(at + "/torque_constant_nm_per_a", "torque_constant_nm_per_a",
-                    drive.torque_constant_nm_per_a, 1e-4, 10.0);
-  faults.require_in(at + "/gear_ratio", "gear_ratio", drive.gear_ratio, 1.0, 1e5);
-  faults.require_in(at + "/gear_efficiency", "gear_efficiency", drive.gear_efficiency, 0.05, 1.0);
-  faults.require_in(at + "/no_load_current_a", "no_load_current_a", drive.no_load_current_a, 0.0, 10.0);
-  faults.require_in(at + "/max_wheel_rate_deg_s", "max_wheel_rate_rad_s", drive.max_wheel_rate_rad_s, 1e-3,
-                    100.0);
-  faults.require_in(at + "/damping_nms_rad", "damping_nms_rad", drive.damping_nms_rad, 0.0, 10.0);
-  faults.require_in(at + "/bus_voltage_v", "bus_voltage_v", drive.bus_voltage_v, 1.0, 400.0);
-  if (drive.resistance_ohm)
-    faults.require_in(at + "/resistance_ohm", "resistance_ohm", *drive.resistance_ohm, 1e-3, 1e3);
-  if (drive.max_current_a)
-    faults.require_in(at + "/max_current_a", "max_current_a", *drive.max_current_a, 1e-3, 1e3);
-  faults.require_in(at + "/rotor_inertia_kg_m2", "rotor_inertia_kg_m2", drive.rotor_inertia_kg_m2, 0.0, 1.0);
 }
 
 }  // namespace
@@ -241,16 +209,11 @@ std::vector<Fault> faults_of(const RoverModel& rover) {
   faults.require_in("/wheel_slices", "wheel_slices", rover.wheel_slices, 1, kMostSlices);
   check_mass(rover, faults);
   check_masses(rover, faults);
-  check_suspension(rover.suspension, faults);
-  check_motor(rover.drive, "/drive", faults);
-  if (rover.steering) check_motor(*rover.steering, "/steering", faults);
-  faults.require_in("/belly_clearance_m", "belly_clearance_m", rover.belly_clearance_m, 0.01, 2.0);
-  faults.require_in("/body_length_m", "body_length_m", rover.body_length_m, 0.1, 10.0);
-  faults.require_in("/body_width_m", "body_width_m", rover.body_width_m, 0.1, 10.0);
-  faults.require_in("/max_tilt_deg", "max_tilt_rad", rover.max_tilt_rad, 0.01, 1.05);
-  faults.require_in("/cruise_speed_m_s", "cruise_speed_m_s", rover.cruise_speed_m_s, 1e-4, 5.0);
-  faults.require_in("/turn_rate_deg_s", "turn_rate_rad_s", rover.turn_rate_rad_s, 1e-4, 2.0);
-  faults.require_in("/min_turn_radius_m", "min_turn_radius_m", rover.min_turn_radius_m, 0.0, 100.0);
+  check_fields(differential_fields(), rover.suspension, "/suspension", faults.all());
+  check_fields(bogie_fields(), rover.suspension, "/suspension", faults.all());
+  check_fields(motor_fields(), rover.drive, "/drive", faults.all());
+  if (rover.steering) check_fields(motor_fields(), *rover.steering, "/steering", faults.all());
+  check_fields(body_fields(), rover, "", faults.all());
   faults.require_in("/roll_bias_deg", "roll_bias_rad", rover.roll_bias_rad, -0.5, 0.5);
   faults.require_in("/pitch_bias_deg", "pitch_bias_rad", rover.pitch_bias_rad, -0.5, 0.5);
   return faults.take();

@@ -17,7 +17,7 @@ enum class Side { kLeft, kRight };
 
 // What turns a wheel.
 enum class WheelDrive {
-  kDriven,  // its motor keeps the told rate
+  kDriven,  // its motor keeps the commanded rate
   kLocked,  // it does not turn: a dead motor behind a gear that can't be driven back
   kFree,    // no torque but the drag of its bearing and gear: it turns as the ground turns it
 };
@@ -36,8 +36,8 @@ struct WheelModel {
   bool on_bogie = false;  // of a rocker-bogie: carried by the side's bogie, otherwise by its rocker
   WheelDrive drive = WheelDrive::kDriven;
   double drag_nm = 0.0;              // resisting torque at the axle besides the soil's, >= 0
-  double rate_share = 1.0;           // of the told rate that the wheel really turns at, (0, 1]
-  double steering_offset_rad = 0.0;  // true less told steering angle
+  double rate_share = 1.0;           // of the commanded rate that the wheel really turns at, (0, 1]
+  double steering_offset_rad = 0.0;  // true less commanded steering angle
   std::optional<double>
       software_radius_m;  // that the rover's own software reckons with; radius_m where absent
 
@@ -53,7 +53,7 @@ enum class SuspensionType {
 };
 
 // How the wheels hang on the body. Left side given; right mirrored in y. A type reads the pivots it has.
-// What is optional is read by the dynamic rung only; rover_multibody.h says what stands in for it.
+// What is optional is read by the dynamic level only; rover_multibody.h says what stands in for it.
 struct Suspension {
   SuspensionType type = SuspensionType::kRockerBogie;
   Eigen::Vector3d rocker_pivot_m = Eigen::Vector3d::Zero();  // rocker-bogie, averaging
@@ -64,7 +64,7 @@ struct Suspension {
   std::optional<double> rocker_stop_rad = {}, bogie_stop_rad = {};
 };
 
-// Where the mass is: what the dynamic rung needs besides the whole mass and its centre; rover_multibody.h
+// Where the mass is: what the dynamic level needs besides the whole mass and its centre; rover_multibody.h
 // says what stands in for what is not given.
 struct MassDistribution {
   std::optional<double> wheel_kg = {};   // each wheel with its motors
@@ -95,8 +95,8 @@ struct RoverModel {
   // balance; a closure that a diagnosis may re-tune.
   double pull_below_axle = 0.0;
   // How much of the wheels' own weight hangs at the wheels and turns the suspension's joints on slopes: 0, as
-  // if all mass were in the body; 1, all of it, as in the dynamic rung. Read by the balance; a closure that a
-  // diagnosis may re-tune.
+  // if all mass were in the body; 1, all of it, as in the dynamic level. Read by the balance; a closure that
+  // a diagnosis may re-tune.
   double wheel_weight = 0.0;
   double belly_clearance_m = 0.3;  // lowest point of the body between the wheels, above level ground
   double body_length_m = 1.6;      // of the rectangle that must stay on the map and out of keep-outs

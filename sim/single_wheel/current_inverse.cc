@@ -12,20 +12,20 @@
 namespace slipway::sim {
 namespace {
 
-SingleWheelResult at_slip(SingleWheelTest test, double slip) {
+WheelRigResult at_slip(WheelRigConditions test, double slip) {
   test.slip = slip;
-  return run_single_wheel_test(test);
+  return run_wheel_rig(test);
 }
 
 // Current less what was measured; nothing where the wheel is sunk.
-std::optional<double> surplus(const SingleWheelTest& test, double slip, double current_a) {
-  const SingleWheelResult result = at_slip(test, slip);
+std::optional<double> surplus(const WheelRigConditions& test, double slip, double current_a) {
+  const WheelRigResult result = at_slip(test, slip);
   if (!result.stands() || !result.current_a) return std::nullopt;
   return *result.current_a - current_a;
 }
 
 // The root between two slips of different sign, by halving.
-double root_between(const SingleWheelTest& test, double current_a, double low, double high, bool rising) {
+double root_between(const WheelRigConditions& test, double current_a, double low, double high, bool rising) {
   while (high - low > 1e-10) {
     const double middle = 0.5 * (low + high);
     const auto value = surplus(test, middle, current_a);
@@ -35,7 +35,7 @@ double root_between(const SingleWheelTest& test, double current_a, double low, d
   return 0.5 * (low + high);
 }
 
-SlipQuantiles quantiles_of(SingleWheelTest test, const SoilDistribution& belief, double current_a,
+SlipQuantiles quantiles_of(WheelRigConditions test, const SoilDistribution& belief, double current_a,
                            const InverseOptions& options) {
   SlipQuantiles q;
   q.draws = options.draws;
@@ -95,7 +95,7 @@ void judge(double current_a, const InverseOptions& options, CurrentInverse& answ
     std::string all;
     for (const double one : found.slips) all += fmt::format("{}{:.3f}", all.empty() ? "" : ", ", one);
     words.push_back(
-        fmt::format("slips of {} ask for the same current: the first on the rising branch is told", all));
+        fmt::format("slips of {} ask for the same current: the first on the rising branch is reported", all));
   }
   if (slip > options.max_slip) {
     answer.verdict = Trafficability::kNoGo;
@@ -115,7 +115,7 @@ void judge(double current_a, const InverseOptions& options, CurrentInverse& answ
   }
 }
 
-void measure_reserve(const SingleWheelTest& test, CurrentInverse& answer) {
+void measure_reserve(const WheelRigConditions& test, CurrentInverse& answer) {
   answer.greatest = greatest_pull(test);
   if (!answer.found.reported || !answer.greatest) return;
   answer.wheel = at_slip(test, *answer.found.reported);
@@ -136,7 +136,7 @@ void measure_reserve(const SingleWheelTest& test, CurrentInverse& answer) {
 
 }  // namespace
 
-SlipsOfCurrent slips_of_current(const SingleWheelTest& test, double current_a) {
+SlipsOfCurrent slips_of_current(const WheelRigConditions& test, double current_a) {
   SlipsOfCurrent found;
   std::optional<double> before;
   double slip_before = 0.0;
@@ -163,10 +163,10 @@ SlipsOfCurrent slips_of_current(const SingleWheelTest& test, double current_a) {
   return found;
 }
 
-std::optional<GreatestPull> greatest_pull(const SingleWheelTest& test) {
+std::optional<GreatestPull> greatest_pull(const WheelRigConditions& test) {
   std::optional<GreatestPull> best;
   const auto try_slip = [&](double slip) {
-    const SingleWheelResult result = at_slip(test, slip);
+    const WheelRigResult result = at_slip(test, slip);
     if (result.stands() && (!best || result.forces.drawbar_pull_n > best->pull_n))
       best = GreatestPull{slip, result.forces.drawbar_pull_n};
   };
@@ -193,10 +193,10 @@ std::string_view describe(Trafficability verdict) {
   return "no_go";
 }
 
-CurrentInverse invert_current(const SingleWheelTest& test, const SoilDistribution& belief, double current_a,
-                              const InverseOptions& options) {
+CurrentInverse invert_current(const WheelRigConditions& test, const SoilDistribution& belief,
+                              double current_a, const InverseOptions& options) {
   CurrentInverse answer;
-  SingleWheelTest mean = test;
+  WheelRigConditions mean = test;
   mean.soil = belief.mean;
   answer.found = slips_of_current(mean, current_a);
   answer.quantiles = quantiles_of(test, belief, current_a, options);

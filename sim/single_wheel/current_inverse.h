@@ -27,14 +27,14 @@ struct SlipsOfCurrent {
 };
 
 // The test's own slip is not used; it has a drive.
-SlipsOfCurrent slips_of_current(const SingleWheelTest& test, double current_a);
+SlipsOfCurrent slips_of_current(const WheelRigConditions& test, double current_a);
 
 // The greatest drawbar pull over slips of 0 and above, and the slip of it. Nothing where the wheel does not
 // stand.
 struct GreatestPull {
   double slip = 0.0, pull_n = 0.0;
 };
-std::optional<GreatestPull> greatest_pull(const SingleWheelTest& test);
+std::optional<GreatestPull> greatest_pull(const WheelRigConditions& test);
 
 enum class Trafficability { kGo, kCaution, kNoGo };
 std::string_view describe(Trafficability verdict);  // "go", "caution", "no_go"
@@ -59,7 +59,7 @@ struct SlipQuantiles {
 // What a wheel's current says of its drive.
 struct CurrentInverse {
   SlipsOfCurrent found;
-  std::optional<SingleWheelResult> wheel;  // at the slip that is told
+  std::optional<WheelRigResult> wheel;  // at the slip that is reported
   std::optional<GreatestPull> greatest;
   // Share of the greatest pull in use; nothing where the wheel pulls nothing at this slip, or can't at any.
   std::optional<double> share_of_pull;
@@ -74,7 +74,7 @@ struct CurrentInverse {
 
 // `test.soil` is not used: the belief's mean and draws, whose effects were applied. Deterministic in the
 // seed.
-CurrentInverse invert_current(const SingleWheelTest& test, const SoilDistribution& belief, double current_a,
-                              const InverseOptions& options);
+CurrentInverse invert_current(const WheelRigConditions& test, const SoilDistribution& belief,
+                              double current_a, const InverseOptions& options);
 
 }  // namespace slipway::sim

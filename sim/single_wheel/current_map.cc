@@ -11,7 +11,7 @@
 namespace slipway::sim {
 namespace {
 
-CurrentPoint literal_point(const SingleWheelTest& test) {
+CurrentPoint literal_point(const WheelRigConditions& test) {
   CurrentPoint point;
   const double deepest = sinkage_m(test.wheel.radius_m, kLargestEntryAngleRad);
   const double bekker = bekker_sinkage_m(test.wheel, test.soil, test.load_n);
@@ -27,8 +27,8 @@ CurrentPoint literal_point(const SingleWheelTest& test) {
   return point;
 }
 
-CurrentPoint balanced_point(const SingleWheelTest& test) {
-  const SingleWheelResult result = run_single_wheel_test(test);
+CurrentPoint balanced_point(const WheelRigConditions& test) {
+  const WheelRigResult result = run_wheel_rig(test);
   CurrentPoint point;
   point.reason = result.reason;
   if (!result.stands()) return point;

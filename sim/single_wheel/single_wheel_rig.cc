@@ -19,14 +19,14 @@ double bounded_speed_ratio(double slip) {
   return slip <= -1.0 + 1.0 / kLockedSpeedRatio ? kLockedSpeedRatio : speed_ratio_from_slip(slip);
 }
 
-WheelMotion motion_of(const SingleWheelTest& test) {
+WheelMotion motion_of(const WheelRigConditions& test) {
   return test.slip_definition == SlipDefinition::kForward ? forward_motion(test.slip, test.slip_angle_rad)
                                                           : rig_motion(test.slip, test.slip_angle_rad);
 }
 
 // Splits the pull by taking parts of the law away: without shear strength only the normal stress is left.
-void split_pull(const SingleWheelTest& test, const Soil& met, const WheelMotion& motion,
-                SingleWheelResult& result) {
+void split_pull(const WheelRigConditions& test, const Soil& met, const WheelMotion& motion,
+                WheelRigResult& result) {
   const auto pull = [&](const WheelGeometry& wheel, const Soil& soil) {
     return wheel_forces(wheel, soil, result.entry_angle_rad, motion).drawbar_pull_n;
   };
@@ -43,15 +43,15 @@ void split_pull(const SingleWheelTest& test, const Soil& met, const WheelMotion&
 
 }  // namespace
 
-std::string_view describe(TestOutcome outcome) {
+std::string_view describe(RigOutcome outcome) {
   switch (outcome) {
-    case TestOutcome::kBalanced:
+    case RigOutcome::kBalanced:
       return "balanced";
-    case TestOutcome::kHeld:
+    case RigOutcome::kHeld:
       return "held";
-    case TestOutcome::kSunkToAxle:
+    case RigOutcome::kSunkToAxle:
       return "sunk_to_axle";
-    case TestOutcome::kNotBalanced:
+    case RigOutcome::kNotBalanced:
       break;
   }
   return "not_balanced";
@@ -67,25 +67,25 @@ WheelMotion rig_motion(double slip, double slip_angle_rad) {
   return {travel * std::cos(slip_angle_rad), travel * std::sin(slip_angle_rad)};
 }
 
-double rim_speed_m_s(const SingleWheelTest& test) {
+double rim_speed_m_s(const WheelRigConditions& test) {
   const WheelMotion motion = motion_of(test);
   const double travel = std::hypot(motion.forward, motion.leftward);
   if (travel >= kLockedSpeedRatio * (1.0 - 1e-6)) return 0.0;
   return test.speed_is_of_travel && travel > 0.0 ? test.speed_m_s / travel : test.speed_m_s;
 }
 
-SingleWheelResult run_single_wheel_test(const SingleWheelTest& test) {
+WheelRigResult run_wheel_rig(const WheelRigConditions& test) {
   const WheelMotion motion = motion_of(test);
   const double rim_speed = rim_speed_m_s(test);
   const Soil met = soil_in_force(test.soil, test.gravity_m_s2, rim_speed, test.in_a_track);
-  SingleWheelResult result;
+  WheelRigResult result;
   if (test.sinkage_m) {
-    result.outcome = TestOutcome::kHeld;
+    result.outcome = RigOutcome::kHeld;
     result.entry_angle_rad = entry_angle_rad(test.wheel.radius_m, *test.sinkage_m);
   } else {
     const auto balanced = balanced_entry_angle_rad(test.wheel, met, test.load_n, motion);
     if (!balanced) {
-      result.outcome = TestOutcome::kSunkToAxle;
+      result.outcome = RigOutcome::kSunkToAxle;
       result.reason = balanced.error().detail;
       return result;
     }
@@ -94,7 +94,7 @@ SingleWheelResult run_single_wheel_test(const SingleWheelTest& test) {
   result.forces = wheel_forces(test.wheel, met, result.entry_angle_rad, motion);
   if (const double carried = result.forces.vertical_n;
       !test.sinkage_m && std::abs(carried - test.load_n) > kBalanceTolerance * test.load_n) {
-    result.outcome = TestOutcome::kNotBalanced;
+    result.outcome = RigOutcome::kNotBalanced;
     result.reason = fmt::format("not balanced: {:.4g} N are carried of {:.4g} N where the solver stopped",
                                 carried, test.load_n);
     return result;

@@ -33,7 +33,7 @@ WheelMotion forward_motion(double slip, double slip_angle_rad);
 WheelMotion rig_motion(double slip, double slip_angle_rad);
 
 // One steady test of a single wheel on level soil: how it is held and moved.
-struct SingleWheelTest {
+struct WheelRigConditions {
   WheelGeometry wheel;
   Soil soil;  // of the place, with its effects; what gravity, speed and track make of it is done here
   double gravity_m_s2 = 3.71;
@@ -51,7 +51,7 @@ struct SingleWheelTest {
   std::optional<DriveMotor> drive;  // for the current; at its working temperature
 };
 
-enum class TestOutcome {
+enum class RigOutcome {
   kBalanced,     // the soil carries the load
   kHeld,         // at the given depth
   kSunkToAxle,   // no depth up to the axle carries the load
@@ -60,11 +60,11 @@ enum class TestOutcome {
 };
 
 // "balanced", "held", "sunk_to_axle", "not_balanced".
-std::string_view describe(TestOutcome outcome);
+std::string_view describe(RigOutcome outcome);
 
 // What a rig reports. Where the wheel does not stand nothing but slip, angle and reason is said.
-struct SingleWheelResult {
-  TestOutcome outcome = TestOutcome::kBalanced;
+struct WheelRigResult {
+  RigOutcome outcome = RigOutcome::kBalanced;
   std::string reason;  // of an outcome that is no balance
   double entry_angle_rad = 0.0;
   double exit_angle_rad = 0.0;  // theta_r, negative behind the lowest point
@@ -78,11 +78,11 @@ struct SingleWheelResult {
   // Pull times v_x over torque times rate; where the wheel drives (T > 0) and pulls (DP >= 0).
   std::optional<double> tractive_efficiency;
 
-  bool stands() const { return outcome == TestOutcome::kBalanced || outcome == TestOutcome::kHeld; }
+  bool stands() const { return outcome == RigOutcome::kBalanced || outcome == RigOutcome::kHeld; }
 };
 
 // The rates are those of the test: r w of the rim, 0 for a locked wheel.
-double rim_speed_m_s(const SingleWheelTest& test);
-SingleWheelResult run_single_wheel_test(const SingleWheelTest& test);
+double rim_speed_m_s(const WheelRigConditions& test);
+WheelRigResult run_wheel_rig(const WheelRigConditions& test);
 
 }  // namespace slipway::sim

@@ -1,66 +1,93 @@
 #include "sim/single_wheel/sweep_parameter.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "core/angle.h"
 #include "sim/effects/effect_catalogue.h"
+#include "sim/rover/rover_field.h"
 
 namespace slipway::sim {
 namespace {
 
 constexpr std::string_view kEffects = "effects.";
 
-constexpr std::array kParameters{
-    SweepParameter{{"slip", "1", "slip, by its definition", -1.0, 1.0, 0.0},
-                   [](double v, WheelRig& rig) { rig.test.slip = v; }},
-    SweepParameter{{"slip_angle_deg", "deg", "from the wheel's plane to its travel", -90.0, 90.0, 0.0},
-                   [](double v, WheelRig& rig) { rig.test.slip_angle_rad = rad_from_deg(v); }},
-    SweepParameter{{"load_n", "N", "on the wheel", 0.1, 1e5, 100.0},
-                   [](double v, WheelRig& rig) { rig.test.load_n = v; }},
-    SweepParameter{{"sinkage_m", "m", "held", 1e-5, 1.0, 0.01},
-                   [](double v, WheelRig& rig) { rig.test.sinkage_m = v; }},
-    SweepParameter{{"speed_m_s", "m/s", "that is held", 1e-4, 10.0, 0.04},
-                   [](double v, WheelRig& rig) { rig.test.speed_m_s = v; }},
-    SweepParameter{{"gravity_m_s2", "m/s^2", "of the place", 0.1, 30.0, 3.71},
-                   [](double v, WheelRig& rig) { rig.test.gravity_m_s2 = v; }},
-    SweepParameter{{"motor_temp_c", "degC", "of the motor", -150.0, 150.0, 20.0},
-                   [](double v, WheelRig& rig) { rig.motor_temp_c = v; }},
-    SweepParameter{{"wheel.radius_m", "m", "of the rim", 0.01, 2.0, 0.125},
-                   [](double v, WheelRig& rig) { rig.rover.wheels[rig.wheel].radius_m = v; }},
-    SweepParameter{{"wheel.width_m", "m", "of the rim", 0.01, 2.0, 0.16},
-                   [](double v, WheelRig& rig) { rig.rover.wheels[rig.wheel].width_m = v; }},
-    SweepParameter{{"soil.k_c", "N/m^(n+1)", "cohesive modulus", -1e10, 1e10, 0.0},
-                   [](double v, WheelRig& rig) { rig.soil.pressure.k_c = v; }},
-    SweepParameter{{"soil.k_phi", "N/m^(n+2)", "frictional modulus", -1e10, 1e11, 1e6},
-                   [](double v, WheelRig& rig) { rig.soil.pressure.k_phi = v; }},
-    SweepParameter{{"soil.k_s", "N/m^(n+2)", "k_c / b + k_phi in one", 1.0, 1e11, 1e6},
-                   [](double v, WheelRig& rig) {
-                     rig.soil.pressure.k_c = 0.0;
-                     rig.soil.pressure.k_phi = v;
-                   }},
-    SweepParameter{{"soil.n", "1", "exponent of sinkage", 0.1, 2.9, 1.0},
-                   [](double v, WheelRig& rig) { rig.soil.pressure.n = v; }},
-    SweepParameter{{"soil.cohesion_pa", "Pa", "cohesion", 0.0, 1e6, 500.0},
-                   [](double v, WheelRig& rig) { rig.soil.cohesion_pa = v; }},
-    SweepParameter{{"soil.friction_angle_deg", "deg", "internal friction", 0.1, 60.0, 30.0},
-                   [](double v, WheelRig& rig) { rig.soil.friction_angle_rad = rad_from_deg(v); }},
-    SweepParameter{{"soil.shear_modulus_x_m", "m", "Janosi-Hanamoto's K, forward", 1e-4, 1.0, 0.01},
-                   [](double v, WheelRig& rig) { rig.soil.shear_modulus_x_m = v; }},
-    SweepParameter{{"soil.shear_modulus_y_m", "m", "Janosi-Hanamoto's K, sideways", 1e-4, 1.0, 0.01},
-                   [](double v, WheelRig& rig) { rig.soil.shear_modulus_y_m = v; }},
-    SweepParameter{{"soil.density_kg_m3", "kg/m^3", "of the soil", 100.0, 5000.0, 1500.0},
-                   [](double v, WheelRig& rig) { rig.soil.density_kg_m3 = v; }},
-    SweepParameter{{"soil.c1", "1", "of the angle of greatest stress", 0.0, 1.0, 0.4},
-                   [](double v, WheelRig& rig) { rig.soil.c1 = v; }},
-    SweepParameter{{"soil.c2", "1", "of the angle of greatest stress", -1.0, 1.0, 0.2},
-                   [](double v, WheelRig& rig) { rig.soil.c2 = v; }},
-    SweepParameter{{"soil.exit_angle_ratio", "1", "exit over entry angle", 0.0, 1.0, 0.0},
-                   [](double v, WheelRig& rig) { rig.soil.exit_angle_ratio = v; }},
-    SweepParameter{{"soil.shear_coupling", "1", "0 independent, 1 one resultant", 0.0, 1.0, 0.0},
-                   [](double v, WheelRig& rig) { rig.soil.shear_coupling = v; }},
+constexpr std::string_view kSoil = "soil.";
+constexpr std::string_view kWheel = "wheel.";
+
+// One number of the rig itself, in the unit of the boundary.
+struct Condition {
+  Field field;
+  void (*set)(double value, WheelRig& rig);
 };
+
+constexpr std::array kConditions{
+    Condition{{"slip", "1", "slip, by its definition", -1.0, 1.0, 0.0},
+              [](double v, WheelRig& rig) { rig.test.slip = v; }},
+    Condition{{"slip_angle_deg", "deg", "from the wheel's plane to its travel", -90.0, 90.0, 0.0},
+              [](double v, WheelRig& rig) { rig.test.slip_angle_rad = rad_from_deg(v); }},
+    Condition{{"load_n", "N", "on the wheel", 0.1, 1e5, 100.0},
+              [](double v, WheelRig& rig) { rig.test.load_n = v; }},
+    Condition{{"sinkage_m", "m", "held", 1e-5, 1.0, 0.01},
+              [](double v, WheelRig& rig) { rig.test.sinkage_m = v; }},
+    Condition{{"speed_m_s", "m/s", "that is held", 1e-4, 10.0, 0.04},
+              [](double v, WheelRig& rig) { rig.test.speed_m_s = v; }},
+    Condition{{"gravity_m_s2", "m/s^2", "of the place", 0.1, 30.0, 3.71},
+              [](double v, WheelRig& rig) { rig.test.gravity_m_s2 = v; }},
+    Condition{{"motor_temp_c", "degC", "of the motor", -150.0, 150.0, 20.0},
+              [](double v, WheelRig& rig) { rig.motor_temp_c = v; }},
+};
+
+// Both moduli of Bekker's law as one.
+constexpr Field kStiffness{"soil.k_s", "N/m^(n+2)", "k_c / b + k_phi in one", 1.0, 1e11, 1e6};
+
+const Condition* find_condition(std::string_view name) {
+  const auto found = std::find_if(kConditions.begin(), kConditions.end(),
+                                  [&](const Condition& row) { return row.field.name == name; });
+  return found == kConditions.end() ? nullptr : &*found;
+}
+
+const ModelField<WheelModel>* find_wheel_field(std::string_view name) {
+  if (!name.starts_with(kWheel)) return nullptr;
+  for (const ModelField<WheelModel>& row : wheel_fields())
+    if (row.field.name == name.substr(kWheel.size())) return &row;
+  return nullptr;
+}
+
+const SoilField* field_of_soil(std::string_view name, const SoilFormat& format) {
+  return name.starts_with(kSoil) ? find_soil_field(name.substr(kSoil.size()), format) : nullptr;
+}
+
+// A parameter of a law, "soil.reece.k_c": its place among the law's fields.
+template <class Law>
+struct LawParameter {
+  const Law* law = nullptr;
+  std::size_t place = 0;
+};
+
+template <class Law>
+LawParameter<Law> law_parameter(std::string_view name, std::span<const Law* const> laws) {
+  if (!name.starts_with(kSoil)) return {};
+  name.remove_prefix(kSoil.size());
+  const std::size_t dot = name.find('.');
+  if (dot == std::string_view::npos) return {};
+  for (const Law* law : laws) {
+    if (law->name != name.substr(0, dot)) continue;
+    for (std::size_t i = 0; i < law->fields.size(); ++i)
+      if (law->fields[i].name == name.substr(dot + 1)) return {law, i};
+  }
+  return {};
+}
+
+template <class Law>
+void add_names(std::span<const Law* const> laws, std::vector<std::string>& names) {
+  for (const Law* law : laws)
+    for (const Field& field : law->fields)
+      names.push_back(std::string(kSoil) + std::string(law->name) + "." + std::string(field.name));
+}
 
 // "effects.grousers.height_m" -> {"grousers", "height_m"}.
 std::optional<std::pair<std::string, std::string>> effect_and_field(std::string_view name) {
@@ -73,20 +100,16 @@ std::optional<std::pair<std::string, std::string>> effect_and_field(std::string_
 
 }  // namespace
 
-SingleWheelTest test_of(const WheelRig& rig) {
+WheelRigConditions conditions_of(const WheelRig& rig) {
   const std::vector<EffectSetting> effects = in_force(rig.rover.effects, rig.effects);
   RoverModel rover = rig.rover;
-  SingleWheelTest test = rig.test;
+  WheelRigConditions test = rig.test;
   test.soil = rig.soil;
   apply_effects(effects, rover);
   apply_effects(effects, test.soil);
   test.wheel = rover.wheels[rig.wheel].geometry();
   test.drive = at_temperature(rover.drive, rig.motor_temp_c.value_or(rover.drive.reference_temp_c));
   return test;
-}
-
-std::span<const SweepParameter> sweep_parameters() {
-  return kParameters;
 }
 
 bool acts_on_single_wheel(std::string_view effect) {
@@ -108,10 +131,15 @@ bool acts_on_single_wheel(std::string_view effect) {
          currents(before) != currents(after);
 }
 
-std::optional<Field> sweep_field(std::string_view name) {
-  for (const SweepParameter& parameter : kParameters) {
-    if (parameter.field.name == name) return parameter.field;
-  }
+std::optional<Field> sweep_field(std::string_view name, const SoilFormat& format) {
+  if (const Condition* condition = find_condition(name)) return condition->field;
+  if (const auto* wheel = find_wheel_field(name)) return wheel->field;
+  if (name == kStiffness.name) return kStiffness;
+  if (const SoilField* soil = field_of_soil(name, format)) return soil->field;
+  if (const auto pressure = law_parameter(name, format.laws.pressure); pressure.law != nullptr)
+    return pressure.law->fields[pressure.place];
+  if (const auto shear = law_parameter(name, format.laws.shear); shear.law != nullptr)
+    return shear.law->fields[shear.place];
   const auto parts = effect_and_field(name);
   if (!parts || !acts_on_single_wheel(parts->first)) return std::nullopt;
   for (const Field& field : find_effect(parts->first)->fields) {
@@ -120,9 +148,16 @@ std::optional<Field> sweep_field(std::string_view name) {
   return std::nullopt;
 }
 
-std::vector<std::string> sweep_field_names() {
+std::vector<std::string> sweep_field_names(const SoilFormat& format) {
   std::vector<std::string> names;
-  for (const SweepParameter& parameter : kParameters) names.emplace_back(parameter.field.name);
+  for (const Condition& condition : kConditions) names.emplace_back(condition.field.name);
+  for (const ModelField<WheelModel>& row : wheel_fields())
+    names.push_back(std::string(kWheel) + std::string(row.field.name));
+  names.emplace_back(kStiffness.name);
+  for (const SoilField& row : format.fields)
+    names.push_back(std::string(kSoil) + std::string(row.field.name));
+  add_names(format.laws.pressure, names);
+  add_names(format.laws.shear, names);
   for (const Effect& effect : effect_catalogue()) {
     if (!acts_on_single_wheel(effect.name)) continue;
     for (const Field& field : effect.fields)
@@ -131,9 +166,43 @@ std::vector<std::string> sweep_field_names() {
   return names;
 }
 
+std::optional<std::string> not_of_this_soil(std::string_view name, const Soil& soil) {
+  if (!name.starts_with(kSoil)) return std::nullopt;
+  const std::string_view key = name.substr(kSoil.size());
+  const std::string_view pressure = row_of(soil.pressure_law).name, shear = row_of(soil.shear_law).name;
+  if (key == "k_c" || key == "k_phi" || key == "k_s") {
+    if (soil.pressure_law.row == nullptr) return std::nullopt;
+    return fmt::format("{} is a modulus of Bekker's law, the soil has the pressure law {}", name, pressure);
+  }
+  const std::size_t dot = key.find('.');
+  if (dot == std::string_view::npos || key.substr(0, dot) == pressure || key.substr(0, dot) == shear)
+    return std::nullopt;
+  return fmt::format("{} is a parameter of the law {}, the soil has the pressure law {} and the shear law {}",
+                     name, key.substr(0, dot), pressure, shear);
+}
+
 void set_sweep_parameter(std::string_view name, double value, WheelRig& rig) {
-  for (const SweepParameter& parameter : kParameters) {
-    if (parameter.field.name == name) return parameter.set(value, rig);
+  if (const Condition* condition = find_condition(name)) return condition->set(value, rig);
+  if (const auto* wheel = find_wheel_field(name)) {
+    wheel->number(rig.rover.wheels[rig.wheel]) = wheel->from_boundary(value);
+    return;
+  }
+  if (name == kStiffness.name) {
+    rig.soil.pressure.k_c = 0.0;
+    rig.soil.pressure.k_phi = value;
+    return;
+  }
+  if (const SoilField* soil = field_of_soil(name, *rig.soil_format)) {
+    soil->number(rig.soil) = soil->from_boundary(value);
+    return;
+  }
+  if (const auto pressure = law_parameter(name, rig.soil_format->laws.pressure); pressure.law != nullptr) {
+    rig.soil.pressure_law.parameters[pressure.place] = value;
+    return;
+  }
+  if (const auto shear = law_parameter(name, rig.soil_format->laws.shear); shear.law != nullptr) {
+    rig.soil.shear_law.parameters[shear.place] = value;
+    return;
   }
   const auto parts = effect_and_field(name);
   if (!parts) return;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,40 +9,37 @@
 #include "sim/rover/effect_setting.h"
 #include "sim/rover/rover_model.h"
 #include "sim/single_wheel/single_wheel_rig.h"
-#include "sim/soil/soil.h"
+#include "sim/soil/soil_field.h"
 
 namespace slipway::sim {
 
-// A single-wheel test before effects: what a sweep varies, and what a test is made of.
+// A wheel on a rig before effects: what a sweep varies, and what the rig's conditions are made of.
 struct WheelRig {
-  RoverModel rover;  // its wheel and motor are tested; its own effects are at work
+  RoverModel rover;  // its wheel and motor are on the rig; its own effects are at work
   std::size_t wheel = 0;
   Soil soil;                           // of the place, without effects
   std::vector<EffectSetting> effects;  // added to the rover's own
   std::optional<double> motor_temp_c;  // nothing: the temperature its motor is given at
-  SingleWheelTest test;                // wheel, soil and drive in it are filled in by test_of
+  WheelRigConditions test;             // wheel, soil and drive in it are filled in by conditions_of
+  const SoilFormat* soil_format = &sim::soil_format();  // whose fields and laws can be swept
 };
 
-// The test with wheel, soil and motor as the effects make them.
-SingleWheelTest test_of(const WheelRig& rig);
+// The conditions with wheel, soil and motor as the effects make them.
+WheelRigConditions conditions_of(const WheelRig& rig);
 
-// One number of a rig that a sweep can vary, in the unit of the boundary.
-struct SweepParameter {
-  Field field;  // "slip", "load_n", "soil.n", "wheel.radius_m"
-  void (*set)(double value, WheelRig& rig);
-};
-
-// Test conditions, wheel and soil. soil.k_s sets k_c = 0 and k_phi = k_s, as in the Zhurong paper's
-// section 3.2.
-std::span<const SweepParameter> sweep_parameters();
-
-// The range of a parameter of the list above or "effects.NAME.PARAMETER"; nothing where there is none, or
-// where the effect has no bearing on a single wheel.
-std::optional<Field> sweep_field(std::string_view name);
+// The range of what a sweep can vary, in the unit of the boundary; nothing where there is no such name, or
+// where an effect has no bearing on a single wheel. Names are those of the rig's conditions ("slip",
+// "load_n"), "wheel." and "soil." with a field of the rover's and the soil's file ("wheel.radius_m",
+// "soil.n"), "soil.LAW.PARAMETER" of a law of the soil's format ("soil.reece.k_phi") and
+// "effects.NAME.PARAMETER". soil.k_s sets k_c = 0 and k_phi = k_s, as in the Zhurong paper's section 3.2.
+std::optional<Field> sweep_field(std::string_view name, const SoilFormat& format = soil_format());
 // All names that sweep_field knows.
-std::vector<std::string> sweep_field_names();
-// `name` is one that sweep_field knows. An effect that is off is switched on.
+std::vector<std::string> sweep_field_names(const SoilFormat& format = soil_format());
+// `name` is one that sweep_field knows with the rig's format. An effect that is off is switched on.
 void set_sweep_parameter(std::string_view name, double value, WheelRig& rig);
+// Why this rig's soil has no such parameter: moduli of Bekker's law on a soil with another law, or the
+// parameters of a law that it did not choose.
+std::optional<std::string> not_of_this_soil(std::string_view name, const Soil& soil);
 
 // Whether an effect changes anything of a single wheel on a rig: its soil, its geometry or its motor.
 bool acts_on_single_wheel(std::string_view effect);

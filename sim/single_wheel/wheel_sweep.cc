@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/angle.h"
+#include "sim/rover/rover_field.h"
 
 namespace slipway::sim {
 namespace {
@@ -32,32 +33,33 @@ WheelRig rig_of(const WheelSweep& sweep, std::size_t row, std::vector<double>& a
   return rig;
 }
 
-std::string unknown_parameter(const std::string& parameter) {
+std::string unknown_parameter(const std::string& parameter, const SoilFormat& format) {
   std::string known;
-  for (const std::string& name : sweep_field_names()) known += (known.empty() ? "" : ", ") + name;
+  for (const std::string& name : sweep_field_names(format)) known += (known.empty() ? "" : ", ") + name;
   return fmt::format("\"{:.80}\" is nothing a single wheel can be swept over, known: {}", parameter, known);
 }
 
-// Nothing where the value is in the parameter's range.
+// What is wrong with a value; nothing where it is in the parameter's range.
 std::optional<std::string> out_of_range(const std::string& parameter, const Field& field, double value) {
   if (value >= field.lowest && value <= field.highest) return std::nullopt;
-  return fmt::format("{} = {:g}{}{}, must be in [{:g}, {:g}]", parameter, value, field.unit == "1" ? "" : " ",
-                     field.unit == "1" ? "" : field.unit, field.lowest, field.highest);
+  return out_of_range_in_words(parameter, value, field);
 }
 
-void check_axis(const SweepAxis& axis, const std::string& pointer, std::vector<Fault>& faults) {
-  const auto field = sweep_field(axis.parameter);
-  if (!field) return faults.push_back({pointer + "/parameter", unknown_parameter(axis.parameter)});
+void check_axis(const SweepAxis& axis, const WheelRig& rig, const std::string& pointer,
+                std::vector<Fault>& faults) {
+  const auto field = sweep_field(axis.parameter, *rig.soil_format);
+  if (!field)
+    return faults.push_back({pointer + "/parameter", unknown_parameter(axis.parameter, *rig.soil_format)});
   for (std::size_t i = 0; i < axis.values.size(); ++i) {
     if (const auto fault = out_of_range(axis.parameter, *field, axis.values[i]))
       return faults.push_back({fmt::format("{}/values/{}", pointer, i), *fault});  // one of a range is enough
   }
 }
 
-void check_setting(const SweepSetting& setting, std::vector<Fault>& faults) {
+void check_setting(const SweepSetting& setting, const WheelRig& rig, std::vector<Fault>& faults) {
   const std::string pointer = "/set/" + setting.parameter;
-  const auto field = sweep_field(setting.parameter);
-  if (!field) return faults.push_back({pointer, unknown_parameter(setting.parameter)});
+  const auto field = sweep_field(setting.parameter, *rig.soil_format);
+  if (!field) return faults.push_back({pointer, unknown_parameter(setting.parameter, *rig.soil_format)});
   if (const auto fault = out_of_range(setting.parameter, *field, setting.value))
     faults.push_back({pointer, *fault});
 }
@@ -71,7 +73,7 @@ std::string pointer_to(const WheelSweep& sweep, std::string_view parameter) {
 }
 
 // What no rig can do; nothing where it can.
-std::optional<Fault> impossible(const WheelSweep& sweep, const SingleWheelTest& test) {
+std::optional<Fault> impossible(const WheelSweep& sweep, const WheelRigConditions& test) {
   constexpr double kRight = 0.5 * std::numbers::pi * (1.0 - 1e-9);
   if (test.slip_definition == SlipDefinition::kForward && std::abs(test.slip_angle_rad) >= kRight)
     return Fault{pointer_to(sweep, "slip_angle_deg"),
@@ -82,9 +84,13 @@ std::optional<Fault> impossible(const WheelSweep& sweep, const SingleWheelTest& 
     return Fault{
         pointer_to(sweep, "sinkage_m"),
         fmt::format("sinkage_m = {:g} m, must be at most {:.6g}: the axle", *test.sinkage_m, deepest)};
-  if (!(test.soil.pressure.stiffness(test.wheel.width_m) > 0.0))
-    return Fault{"/soil", fmt::format("k_c / b + k_phi = {:g}, must be positive for a wheel of width {:g} m",
-                                      test.soil.pressure.stiffness(test.wheel.width_m), test.wheel.width_m)};
+  const double stiffness =
+      test.soil.pressure_form({.width_m = test.wheel.width_m, .radius_m = test.wheel.radius_m}).stiffness;
+  if (!(stiffness > 0.0))
+    return Fault{"/soil", fmt::format("{} = {:g}, must be positive for a wheel of width {:g} m",
+                                      test.soil.pressure_law.row == nullptr ? "k_c / b + k_phi"
+                                                                            : "the pressure's factor",
+                                      stiffness, test.wheel.width_m)};
   return std::nullopt;
 }
 
@@ -107,9 +113,9 @@ std::vector<double> stepped(double lowest, double highest, double step) {
 
 std::vector<Fault> parameter_faults(const WheelSweep& sweep) {
   std::vector<Fault> faults;
-  for (const SweepSetting& setting : sweep.set) check_setting(setting, faults);
+  for (const SweepSetting& setting : sweep.set) check_setting(setting, sweep.rig, faults);
   for (std::size_t a = 0; a < sweep.axes.size(); ++a)
-    check_axis(sweep.axes[a], fmt::format("/sweep/{}", a), faults);
+    check_axis(sweep.axes[a], sweep.rig, fmt::format("/sweep/{}", a), faults);
   return faults;
 }
 
@@ -123,6 +129,17 @@ std::vector<Fault> faults_of(const WheelSweep& sweep) {
   if (rows_of(sweep) > kMostSweepRows)
     faults.push_back(
         {"/sweep", fmt::format("sweep has {} rows, must have at most {}", rows_of(sweep), kMostSweepRows)});
+  if (sweep.rig.soil.slip_curve != nullptr) {
+    faults.push_back(
+        {"/soil", "the soil is known by a slip curve alone, which says nothing of a single wheel's forces"});
+    return faults;
+  }
+  for (std::size_t a = 0; a < sweep.axes.size(); ++a)
+    if (auto fault = not_of_this_soil(sweep.axes[a].parameter, sweep.rig.soil))
+      faults.push_back({fmt::format("/sweep/{}/parameter", a), std::move(*fault)});
+  for (const SweepSetting& setting : sweep.set)
+    if (auto fault = not_of_this_soil(setting.parameter, sweep.rig.soil))
+      faults.push_back({"/set/" + setting.parameter, std::move(*fault)});
   if (!faults.empty()) return faults;
   for (const SweepPoint& point : points_of(sweep)) {
     if (auto fault = impossible(sweep, point.test)) return {*fault};
@@ -132,14 +149,15 @@ std::vector<Fault> faults_of(const WheelSweep& sweep) {
 
 std::vector<SweepPoint> points_of(const WheelSweep& sweep) {
   std::vector<SweepPoint> points(rows_of(sweep));
-  for (std::size_t i = 0; i < points.size(); ++i) points[i].test = test_of(rig_of(sweep, i, points[i].at));
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i].test = conditions_of(rig_of(sweep, i, points[i].at));
   return points;
 }
 
 std::vector<SweepRow> run_wheel_sweep(const WheelSweep& sweep) {
   std::vector<SweepRow> rows;
   for (SweepPoint& point : points_of(sweep)) {
-    SingleWheelResult result = run_single_wheel_test(point.test);
+    WheelRigResult result = run_wheel_rig(point.test);
     rows.push_back({std::move(point), std::move(result)});
   }
   return rows;

@@ -41,12 +41,12 @@ struct WheelSweep {
 // One place of a sweep, and the test that is made there.
 struct SweepPoint {
   std::vector<double> at;  // the value of each axis
-  SingleWheelTest test;
+  WheelRigConditions test;
 };
 
 struct SweepRow {
   SweepPoint point;
-  SingleWheelResult result;
+  WheelRigResult result;
 };
 
 // Axes that can't be swept, values out of range, too many rows, tests that no rig can make (a slip angle of

@@ -3,6 +3,8 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "sim/soil/soil_law_catalogue.h"
+
 namespace slipway::sim {
 namespace {
 
@@ -17,6 +19,19 @@ double log_normal(double mean, double std, double standard_normal) {
 
 }  // namespace
 
+PressureForm Soil::pressure_form(const ContactSize& contact) const {
+  if (pressure_law.row == nullptr) return {pressure.stiffness(contact.width_m), 1.0};
+  PressureForm form = pressure_law.row->form(*this, contact);
+  form.stiffness *= pressure_law.stiffening;
+  return form;
+}
+
+SoilNormals towards_weakness() {
+  SoilNormals normals;
+  normals << -0.5, 0.0, -0.5, -0.5, 0.5;
+  return normals;
+}
+
 Soil draw_soil(const SoilDistribution& distribution, const SoilNormals& normals) {
   SoilNormals z = normals;
   if (!distribution.correlation.isIdentity(0.0)) {
@@ -25,9 +40,12 @@ Soil draw_soil(const SoilDistribution& distribution, const SoilNormals& normals)
   const Soil& mean = distribution.mean;
   const SoilStd& std = distribution.std;
   Soil soil = mean;
+  if (mean.slip_curve != nullptr) {
+    soil.slip_deviation = std.slip_ratio * towards_weakness().dot(normals);
+    return soil;
+  }
   const double stiffness = log_normal(1.0, std.stiffness_ratio, z[0]);
-  soil.pressure.k_c = mean.pressure.k_c * stiffness;
-  soil.pressure.k_phi = mean.pressure.k_phi * stiffness;
+  soil.stiffen(stiffness);
   soil.pressure.n = log_normal(mean.pressure.n, std.n, z[1]);
   soil.cohesion_pa = log_normal(mean.cohesion_pa, std.cohesion_pa, z[2]);
   if (std.friction_angle_rad > 0.0) {

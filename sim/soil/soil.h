@@ -1,8 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <string>
 #include <vector>
+
+#include "sim/soil/slip_curve.h"
+#include "sim/soil/soil_law.h"
 
 namespace slipway::sim {
 
@@ -31,7 +35,10 @@ struct Hardpan {
 
 // What the constitutive laws need of a soil.
 struct Soil {
+  // Bekker's law and, where `pressure_law` chooses another, its exponent n alone.
   BekkerModuli pressure;
+  PressureLawChoice pressure_law;
+  ShearLawChoice shear_law;
   double cohesion_pa = 0.0;
   double friction_angle_rad = 0.0;
   double shear_modulus_x_m = 0.01;  // Janosi-Hanamoto's K along the rolling direction
@@ -62,7 +69,22 @@ struct Soil {
   double measured_gravity_m_s2 = 9.81;
   double gravity_m_s2 = 3.71;  // of the place; the soil's weight presses back in bulldozing and on grousers
 
+  // Ground that is known by the slip of rovers on slopes alone: nothing else of this soil is then known or
+  // used.
+  std::shared_ptr<const SlipCurve> slip_curve;
+  double slip_deviation = 0.0;  // of a draw: its slip less the curve's
+
   double unit_weight_n_m3() const { return density_kg_m3 * gravity_m_s2; }
+  // Pressure under a contact as a power of depth, whatever law is chosen; of a law that is none, one that
+  // comes near.
+  PressureForm pressure_form(const ContactSize& contact) const;
+  // Multiplies all pressure at a depth by a ratio, whatever law is chosen.
+  void stiffen(double ratio) {
+    pressure.k_c *= ratio;
+    pressure.k_phi *= ratio;
+    pressure_law.stiffening *= ratio;
+  }
+  bool has_bekker_law() const { return slip_curve == nullptr && pressure_law.row == nullptr; }
 };
 
 // One standard deviation of what is uncertain, in the same units as the mean. Stiffness and shear modulus are
@@ -73,6 +95,8 @@ struct SoilStd {
   double cohesion_pa = 0.0;
   double friction_angle_rad = 0.0;
   double shear_modulus_ratio = 0.0;
+  double slip_ratio =
+      0.0;  // of ground that is known by a slip curve: of the slip at every slope, in place of the others
 };
 
 constexpr int kSoilDims = 5;  // stiffness, n, cohesion, tan(friction angle), shear modulus
@@ -81,7 +105,7 @@ using SoilCorrelation = Eigen::Matrix<double, kSoilDims, kSoilDims>;
 
 // What is believed of a soil: a mean, its spread and how far along the ground one draw holds. The five
 // uncertain quantities are log-normal with these means and standard deviations (so every draw is a soil), and
-// their logarithms have the given correlation.
+// their logarithms have the given correlation. The slip of a slip curve is normal about it.
 struct SoilDistribution {
   std::string name;                  // "mpf_drift"
   std::string summary;               // one line for people
@@ -96,5 +120,10 @@ struct SoilDistribution {
 // Turns standard normal numbers into one soil of the distribution. `normals` are independent; the correlation
 // is applied here. A zero standard deviation leaves the mean exactly.
 Soil draw_soil(const SoilDistribution& distribution, const SoilNormals& normals);
+
+// The direction of weakness, of length one: in equal parts less stiffness, cohesion and friction and more
+// shear before the thrust is there. One standard deviation that way gives the planner's weak soil, and more
+// slip on a slip curve.
+SoilNormals towards_weakness();
 
 }  // namespace slipway::sim

@@ -19,8 +19,7 @@ Soil soil_in_force(const Soil& soil, double gravity_m_s2, double rim_speed_m_s, 
   double stiffer = in_a_track ? 1.0 + soil.multipass_stiffening : 1.0;
   if (soil.gravity_exponent != 0.0)
     stiffer *= std::pow(gravity_m_s2 / soil.measured_gravity_m_s2, soil.gravity_exponent);
-  met.pressure.k_c *= stiffer;
-  met.pressure.k_phi *= stiffer;
+  met.stiffen(stiffer);
   return met;
 }
 

@@ -2,29 +2,45 @@
 
 #include <array>
 
-#include "sim/soil/bekker_pressure.h"
-#include "sim/soil/janosi_hanamoto.h"
+#include "sim/soil/reece_pressure.h"
+#include "sim/soil/soil.h"
+#include "sim/soil/wong_shear.h"
 
 namespace slipway::sim {
 namespace {
 
-constexpr std::array kPressureSinkage{
-    PressureSinkageLaw{"bekker", "p = (k_c / b + k_phi) z^n", "[Bekker 1956]; ARTEMIS eq. 1",
-                       &bekker_pressure_pa<double>},
-};
-
-constexpr std::array kShear{
-    ShearLaw{"janosi_hanamoto", "tau = (c + sigma tan phi) (1 - exp(-j / K))",
-             "[Janosi & Hanamoto 1961]; ARTEMIS eq. 3", &janosi_hanamoto_mobilised<double>},
-};
+constexpr std::array kPressure{&kBekkerPressure, &kReecePressure};
+constexpr std::array kShear{&kJanosiHanamotoShear, &kWongShear};
 
 }  // namespace
 
-std::span<const PressureSinkageLaw> pressure_sinkage_catalogue() {
-  return kPressureSinkage;
+const PressureSinkageLaw kBekkerPressure{.name = "bekker",
+                                         .summary = "p = (k_c / b + k_phi) z^n",
+                                         .reference = "[Bekker 1956]; [ARTEMIS] eq. 1",
+                                         .fields = {},
+                                         .form = [](const Soil& soil, const ContactSize& contact) {
+                                           return PressureForm{soil.pressure.stiffness(contact.width_m), 1.0};
+                                         }};
+
+const ShearLaw kJanosiHanamotoShear{.name = "janosi_hanamoto",
+                                    .summary = "tau = (c + sigma tan phi) (1 - exp(-j / K))",
+                                    .reference = "[Janosi & Hanamoto 1961]; [ARTEMIS] eq. 3",
+                                    .fields = {},
+                                    .form = [](const LawParameters&) {
+                                      return ShearForm{1.0, 0.0};
+                                    }};
+
+const SoilLawCatalogue& soil_law_catalogue() {
+  static const SoilLawCatalogue catalogue{kPressure, kShear};
+  return catalogue;
 }
-std::span<const ShearLaw> shear_catalogue() {
-  return kShear;
+
+const PressureSinkageLaw& row_of(const PressureLawChoice& choice) {
+  return choice.row == nullptr ? kBekkerPressure : *choice.row;
+}
+
+const ShearLaw& row_of(const ShearLawChoice& choice) {
+  return choice.row == nullptr ? kJanosiHanamotoShear : *choice.row;
 }
 
 }  // namespace slipway::sim

@@ -3,31 +3,25 @@
 #include <span>
 #include <string_view>
 
-#include "sim/soil/soil.h"
+#include "sim/soil/soil_law.h"
 
 namespace slipway::sim {
 
-// A law for the pressure under a wheel's rim at given depths. Must be zero at depth 0, positive and rising
-// below.
-struct PressureSinkageLaw {
-  std::string_view name;
-  std::string_view summary;
-  std::string_view reference;
-  // stiffness: k_c / b + k_phi; n is the exponent in force (slip sinkage included); depth_m >= 0.
-  double (*pressure_pa)(const double& stiffness, const double& n, const double& depth_m);
+// The laws that a soil file may name. The first row of each kind is what a soil has that names none.
+struct SoilLawCatalogue {
+  std::span<const PressureSinkageLaw* const> pressure;
+  std::span<const ShearLaw* const> shear;
 };
 
-// A law for the share of the soil's shear strength that is mobilised at a shear displacement over the shear
-// modulus. Must be 0 at 0, rise, and stay below or at 1.
-struct ShearLaw {
-  std::string_view name;
-  std::string_view summary;
-  std::string_view reference;
-  double (*mobilised)(const double& displacement_over_modulus);
-};
+// The laws that ship, as explicit lists. Rows live as long as the program: soils point to them.
+const SoilLawCatalogue& soil_law_catalogue();
 
-// Explicit lists; the first row of each is what the wheel uses.
-std::span<const PressureSinkageLaw> pressure_sinkage_catalogue();
-std::span<const ShearLaw> shear_catalogue();
+// The rows by which a soil without a choice is computed.
+extern const PressureSinkageLaw kBekkerPressure;
+extern const ShearLaw kJanosiHanamotoShear;
+
+// The row in force; Bekker's, Janosi and Hanamoto's where the soil chooses none.
+const PressureSinkageLaw& row_of(const PressureLawChoice& choice);
+const ShearLaw& row_of(const ShearLawChoice& choice);
 
 }  // namespace slipway::sim

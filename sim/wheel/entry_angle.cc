@@ -10,9 +10,15 @@
 
 namespace slipway::sim {
 
+double power_stiffness(const WheelGeometry& wheel, const Soil& soil) {
+  if (soil.pressure_law.row == nullptr) return soil.pressure.stiffness(wheel.width_m);
+  const PressureForm form = soil.pressure_form({.width_m = wheel.width_m, .radius_m = wheel.radius_m});
+  return form.stiffness * std::pow(form.per_depth_1_m, soil.pressure.n);
+}
+
 double bekker_sinkage_m(const WheelGeometry& wheel, const Soil& soil, double load_n) {
   const double n = soil.pressure.n;
-  const double stiffness = soil.pressure.stiffness(wheel.width_m) * wheel.width_m;
+  const double stiffness = power_stiffness(wheel, soil) * wheel.width_m;
   return std::pow(3.0 * load_n / ((3.0 - n) * stiffness * std::sqrt(2.0 * wheel.radius_m)),
                   2.0 / (2.0 * n + 1.0));
 }

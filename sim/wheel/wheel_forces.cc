@@ -8,38 +8,71 @@
 #include "sim/wheel/wheel_kernel.h"
 
 namespace slipway::sim {
+namespace {
+
+// Fills in what the chosen laws make of the soil under this wheel, and the stiffness that goes with them.
+void choose_laws(const WheelGeometry& wheel, const Soil& soil, WheelNumbers& numbers) {
+  ChosenLaws& laws = numbers.laws;
+  laws.pressure = soil.pressure_law.row;
+  laws.shear = soil.shear_law.row;
+  if (laws.pressure != nullptr) {
+    const ContactSize contact{.width_m = wheel.width_m, .radius_m = wheel.radius_m};
+    if (laws.pressure->pressure_pa != nullptr) {
+      laws.pressure_numbers = laws.pressure->numbers(soil, contact);
+      numbers.stiffness = soil.pressure_law.stiffening;
+    } else {
+      const PressureForm form = soil.pressure_form(contact);
+      numbers.stiffness = form.stiffness;
+      laws.per_depth = form.per_depth_1_m;
+    }
+  }
+  if (laws.shear == nullptr) return;
+  laws.shear_parameters = soil.shear_law.parameters;
+  if (laws.shear->mobilised == nullptr) laws.shear_form = laws.shear->form(soil.shear_law.parameters);
+}
+
+}  // namespace
+
 WheelNumbers numbers_of(const WheelGeometry& wheel, const Soil& soil, double entry_angle_rad,
                         const WheelMotion& motion) {
-  return {.radius = wheel.radius_m,
-          .width = wheel.width_m,
-          .rim_friction = wheel.rim_friction,
-          .grouser_height = wheel.grousers.height_m,
-          .grouser_count = wheel.grousers.count,
-          .per_cleat_shear = 1.0 / (wheel.grousers.mobilisation * soil.shear_modulus_x_m),
-          .cleat_by_slip = wheel.grousers.by_slip,
-          .stiffness = soil.pressure.stiffness(wheel.width_m),
-          .n = soil.pressure.n,
-          .cohesion = soil.cohesion_pa,
-          .phi = soil.friction_angle_rad,
-          .per_shear_x = 1.0 / soil.shear_modulus_x_m,
-          .per_shear_y = 1.0 / soil.shear_modulus_y_m,
-          .c1 = soil.c1,
-          .c2 = soil.c2,
-          .n1 = soil.n1,
-          .n1_skid = soil.n1_skid,
-          .n1_lateral = soil.n1_lateral,
-          .exit_ratio = soil.exit_angle_ratio,
-          .coupling = soil.shear_coupling,
-          .unit_weight = soil.unit_weight_n_m3(),
-          .bulldozing = soil.bulldozing,
-          .side_bulldozing = soil.side_bulldozing,
-          .crust_strength = soil.crust.strength_pa,
-          .per_crust_depth = 1.0 / soil.crust.depth_m,
-          .hardpan_modulus = soil.hardpan.modulus_pa_m,
-          .hardpan_depth = soil.hardpan.depth_m,
-          .theta_f = entry_angle_rad,
-          .forward = motion.forward,
-          .leftward = motion.leftward};
+  WheelNumbers numbers{{.radius = wheel.radius_m,
+                        .width = wheel.width_m,
+                        .rim_friction = wheel.rim_friction,
+                        .grouser_height = wheel.grousers.height_m,
+                        .grouser_count = wheel.grousers.count,
+                        .per_cleat_shear = 1.0 / (wheel.grousers.mobilisation * soil.shear_modulus_x_m),
+                        .cleat_by_slip = wheel.grousers.by_slip,
+                        .stiffness = soil.pressure.stiffness(wheel.width_m),
+                        .n = soil.pressure.n,
+                        .cohesion = soil.cohesion_pa,
+                        .phi = soil.friction_angle_rad,
+                        .per_shear_x = 1.0 / soil.shear_modulus_x_m,
+                        .per_shear_y = 1.0 / soil.shear_modulus_y_m,
+                        .c1 = soil.c1,
+                        .c2 = soil.c2,
+                        .n1 = soil.n1,
+                        .n1_skid = soil.n1_skid,
+                        .n1_lateral = soil.n1_lateral,
+                        .exit_ratio = soil.exit_angle_ratio,
+                        .coupling = soil.shear_coupling,
+                        .unit_weight = soil.unit_weight_n_m3(),
+                        .bulldozing = soil.bulldozing,
+                        .side_bulldozing = soil.side_bulldozing,
+                        .crust_strength = soil.crust.strength_pa,
+                        .per_crust_depth = 1.0 / soil.crust.depth_m,
+                        .hardpan_modulus = soil.hardpan.modulus_pa_m,
+                        .hardpan_depth = soil.hardpan.depth_m,
+                        .theta_f = entry_angle_rad,
+                        .forward = motion.forward,
+                        .leftward = motion.leftward},
+                       {.pressure = nullptr,
+                        .shear = nullptr,
+                        .per_depth = 1.0,
+                        .pressure_numbers = {},
+                        .shear_form = {1.0, 0.0},
+                        .shear_parameters = {}}};
+  if (soil.pressure_law.row != nullptr || soil.shear_law.row != nullptr) choose_laws(wheel, soil, numbers);
+  return numbers;
 }
 
 WheelForces wheel_forces(const WheelGeometry& wheel, const Soil& soil, double entry_angle_rad,

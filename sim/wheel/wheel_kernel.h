@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 
@@ -7,15 +8,67 @@
 
 namespace slipway::sim {
 
-// One wheel, its soil and its motion as plain numbers, field by field as in WheelGeometry, Soil and
-// WheelMotion.
-struct WheelNumbers {
-  double radius, width, rim_friction, grouser_height, grouser_count, per_cleat_shear, cleat_by_slip;
-  double stiffness, n, cohesion, phi, per_shear_x, per_shear_y;  // k_c / b + k_phi; 1 / K
-  double c1, c2, n1, n1_skid, n1_lateral, exit_ratio, coupling;
-  double unit_weight, bulldozing, side_bulldozing;
-  double crust_strength, per_crust_depth, hardpan_modulus, hardpan_depth;
-  double theta_f, forward, leftward;
+// One wheel, its soil and its motion as the kernel computes with them, for one wheel (V a double) or for a
+// pack of them: field by field as in WheelGeometry, Soil and WheelMotion.
+template <class V>
+struct WheelValues {
+  V radius, width, rim_friction, grouser_height, grouser_count, per_cleat_shear, cleat_by_slip;
+  // p = stiffness z^n, for Bekker's law with stiffness = k_c / b + k_phi; per_shear: 1 / K.
+  V stiffness, n, cohesion, phi, per_shear_x, per_shear_y;
+  V c1, c2, n1, n1_skid, n1_lateral, exit_ratio, coupling;
+  V unit_weight, bulldozing, side_bulldozing;
+  V crust_strength, per_crust_depth, hardpan_modulus, hardpan_depth;
+  V theta_f, forward, leftward;
+};
+
+// Every one of them, so that they can be spread over packs.
+template <class V>
+inline constexpr std::array kWheelMembers{&WheelValues<V>::radius,
+                                          &WheelValues<V>::width,
+                                          &WheelValues<V>::rim_friction,
+                                          &WheelValues<V>::grouser_height,
+                                          &WheelValues<V>::grouser_count,
+                                          &WheelValues<V>::per_cleat_shear,
+                                          &WheelValues<V>::cleat_by_slip,
+                                          &WheelValues<V>::stiffness,
+                                          &WheelValues<V>::n,
+                                          &WheelValues<V>::cohesion,
+                                          &WheelValues<V>::phi,
+                                          &WheelValues<V>::per_shear_x,
+                                          &WheelValues<V>::per_shear_y,
+                                          &WheelValues<V>::c1,
+                                          &WheelValues<V>::c2,
+                                          &WheelValues<V>::n1,
+                                          &WheelValues<V>::n1_skid,
+                                          &WheelValues<V>::n1_lateral,
+                                          &WheelValues<V>::exit_ratio,
+                                          &WheelValues<V>::coupling,
+                                          &WheelValues<V>::unit_weight,
+                                          &WheelValues<V>::bulldozing,
+                                          &WheelValues<V>::side_bulldozing,
+                                          &WheelValues<V>::crust_strength,
+                                          &WheelValues<V>::per_crust_depth,
+                                          &WheelValues<V>::hardpan_modulus,
+                                          &WheelValues<V>::hardpan_depth,
+                                          &WheelValues<V>::theta_f,
+                                          &WheelValues<V>::forward,
+                                          &WheelValues<V>::leftward};
+static_assert(sizeof(WheelValues<double>) == kWheelMembers<double>.size() * sizeof(double),
+              "a number of the kernel is missing in the list that spreads them");
+
+// The laws of a wheel's soil that are not Bekker's and Janosi and Hanamoto's. Both rows are null for those.
+struct ChosenLaws {
+  const PressureSinkageLaw* pressure;
+  const ShearLaw* shear;
+  double per_depth;                // p = stiffness (z per_depth)^n
+  LawParameters pressure_numbers;  // of a law that is no power of depth; its stiffness is a factor
+  ShearForm shear_form;
+  LawParameters shear_parameters;
+};
+
+// Without initial values, as arrays of them are filled one by one in the solvers' loops.
+struct WheelNumbers : WheelValues<double> {
+  ChosenLaws laws;
 };
 
 WheelNumbers numbers_of(const WheelGeometry& wheel, const Soil& soil, double entry_angle_rad,
@@ -25,6 +78,8 @@ WheelNumbers numbers_of(const WheelGeometry& wheel, const Soil& soil, double ent
 struct LawParts {
   bool lateral = false, independent = false, coupled = false, grousers = false, bulldozing = false,
        side_bulldozing = false, crust = false, hardpan = false;
+  // Any wheel's soil has other laws than Bekker's and Janosi and Hanamoto's.
+  bool chosen_laws = false;
 
   void include(const WheelNumbers& in);
 };

@@ -2,7 +2,10 @@
 
 // Compiled once for each instruction set, each in a file of its own with its own flags. Every function
 // template here carries the set in its type, so that the linker can't mix them up.
+#include <utility>
+
 #include "sim/wheel/arc_quadrature.h"
+#include "sim/wheel/chosen_laws.h"
 #include "sim/wheel/wheel_kernel.h"
 #include "sim/wheel/wheel_law.h"
 
@@ -11,26 +14,44 @@ namespace {
 
 using Pack = xsimd::batch<double, SLIPWAY_KERNEL_ARCH>;
 constexpr std::size_t kLanes = Pack::size;
-constexpr std::size_t kFields = sizeof(WheelNumbers) / sizeof(double);
+constexpr std::size_t kValues = kWheelMembers<double>.size();
 
-static_assert(sizeof(WheelCase<Pack>) == (kFields + 1) * sizeof(Pack), "WheelCase has tan_phi besides");
-
-// Same order of fields as WheelNumbers, and tan_phi behind phi.
-WheelCase<Pack> case_of(const Pack* f) {
-  return {f[0],       f[1],  f[2],  f[3],  f[4],  f[5],  f[6],  f[7],  f[8],  f[9],  f[10],
-          tan(f[10]), f[11], f[12], f[13], f[14], f[15], f[16], f[17], f[18], f[19], f[20],
-          f[21],      f[22], f[23], f[24], f[25], f[26], f[27], f[28], f[29]};
+// One wheel in every lane.
+WheelValues<Pack> in_every_lane(const WheelValues<double>& wheel) {
+  WheelValues<Pack> packed;
+  [&]<std::size_t... k>(std::index_sequence<k...>) {
+    ((packed.*kWheelMembers<Pack>[k] = Pack(wheel.*kWheelMembers<double>[k])), ...);
+  }
+  (std::make_index_sequence<kValues>{});
+  return packed;
 }
 
-void one_wheel(const WheelNumbers& numbers, const LawParts& parts, WheelForces& out) {
-  const double* fields = &numbers.radius;
-  Pack spread[kFields];
-  for (std::size_t k = 0; k < kFields; ++k) spread[k] = Pack(fields[k]);
-  const WheelCase<Pack> in = case_of(spread);
+// A wheel in each lane.
+WheelValues<Pack> in_lanes(const std::array<const WheelNumbers*, kLanes>& wheels) {
+  alignas(64) double columns[kValues][kLanes];
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    const WheelValues<double>& wheel = *wheels[lane];
+    [&]<std::size_t... k>(std::index_sequence<k...>) {
+      ((columns[k][lane] = wheel.*kWheelMembers<double>[k]), ...);
+    }
+    (std::make_index_sequence<kValues>{});
+  }
+  WheelValues<Pack> packed;
+  [&]<std::size_t... k>(std::index_sequence<k...>) {
+    ((packed.*kWheelMembers<Pack>[k] = Pack::load_aligned(columns[k])), ...);
+  }
+  (std::make_index_sequence<kValues>{});
+  return packed;
+}
+
+// The nodes of one wheel's arcs in packs.
+template <class Laws>
+void one_wheel_by(const Laws& laws, const WheelNumbers& numbers, const LawParts& parts, WheelForces& out) {
+  const WheelValues<Pack> in = in_every_lane(numbers);
   const ContactAngles<Pack> at = contact_angles(in);
   ContactIntegrals<Pack> sum;
   for (std::size_t k = 0; k < kArcNodes; k += kLanes)
-    add_both_arcs(in, at, parts, Pack::load_aligned(&kArcQuadrature.node[k]),
+    add_both_arcs(laws, in, at, parts, Pack::load_aligned(&kArcQuadrature.node[k]),
                   Pack::load_aligned(&kArcQuadrature.weight[k]), sum);
   for (Pack* part : {&sum.tau, &sum.tau_cos, &sum.tau_sin, &sum.tau_y, &sum.sigma_cos, &sum.sigma_sin, &sum.m,
                      &sum.m_cos, &sum.m_sin})
@@ -39,22 +60,31 @@ void one_wheel(const WheelNumbers& numbers, const LawParts& parts, WheelForces& 
   out = {f.pull.get(0), f.lateral.get(0), f.vertical.get(0), f.torque.get(0)};
 }
 
+// The same node of several wheels in a pack.
+template <class Laws>
+LaneForces<Pack> lanes_by(const Laws& laws, const WheelValues<Pack>& in, const LawParts& parts) {
+  const ContactAngles<Pack> at = contact_angles(in);
+  ContactIntegrals<Pack> sum;
+  for (std::size_t k = 0; k < kArcNodes; ++k)
+    add_both_arcs(laws, in, at, parts, Pack(kArcQuadrature.node[k]), Pack(kArcQuadrature.weight[k]), sum);
+  return total_forces(in, at, parts, sum);
+}
+
+void one_wheel(const WheelNumbers& numbers, const LawParts& parts, WheelForces& out) {
+  if (!parts.chosen_laws) return one_wheel_by(DefaultLaws{}, numbers, parts, out);
+  std::array<const WheelNumbers*, kLanes> lanes;
+  lanes.fill(&numbers);
+  one_wheel_by(ChosenLawsInLanes<Pack, kLanes>(lanes), numbers, parts, out);
+}
+
 void many_wheels(const WheelNumbers* wheels, const LawParts& parts, WheelForces* out, std::size_t count) {
   for (std::size_t first = 0; first < count; first += kLanes) {
     const std::size_t here = count - first < kLanes ? count - first : kLanes;
-    alignas(64) double columns[kFields][kLanes];
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const double* fields = &wheels[first + (lane < here ? lane : 0)].radius;
-      for (std::size_t k = 0; k < kFields; ++k) columns[k][lane] = fields[k];
-    }
-    Pack packed[kFields];
-    for (std::size_t k = 0; k < kFields; ++k) packed[k] = Pack::load_aligned(columns[k]);
-    const WheelCase<Pack> in = case_of(packed);
-    const ContactAngles<Pack> at = contact_angles(in);
-    ContactIntegrals<Pack> sum;
-    for (std::size_t k = 0; k < kArcNodes; ++k)
-      add_both_arcs(in, at, parts, Pack(kArcQuadrature.node[k]), Pack(kArcQuadrature.weight[k]), sum);
-    const LaneForces<Pack> f = total_forces(in, at, parts, sum);
+    std::array<const WheelNumbers*, kLanes> lanes;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) lanes[lane] = &wheels[first + (lane < here ? lane : 0)];
+    const WheelValues<Pack> in = in_lanes(lanes);
+    const LaneForces<Pack> f = parts.chosen_laws ? lanes_by(ChosenLawsInLanes<Pack, kLanes>(lanes), in, parts)
+                                                 : lanes_by(DefaultLaws{}, in, parts);
     alignas(64) double pull[kLanes], lateral[kLanes], vertical[kLanes], torque[kLanes];
     f.pull.store_aligned(pull);
     f.lateral.store_aligned(lateral);

@@ -19,22 +19,25 @@ namespace slipway::sim {
 // Below this share of the rim's speed a wheel hardly pushes soil before it.
 constexpr double kStandingSpeedRatio = 0.05;
 
-// One wheel, its soil and its motion: what the law reads. Field by field as in WheelGeometry, Soil,
-// WheelMotion.
-template <class V>
-struct WheelCase {
-  V radius, width, rim_friction, grouser_height, grouser_count, per_cleat_shear, cleat_by_slip;
-  V stiffness, n, cohesion, phi, tan_phi, per_shear_x, per_shear_y;  // k_c / b + k_phi; 1 / K
-  V c1, c2, n1, n1_skid, n1_lateral, exit_ratio, coupling;
-  V unit_weight, bulldozing, side_bulldozing;
-  V crust_strength, per_crust_depth, hardpan_modulus, hardpan_depth;
-  V theta_f, forward, leftward;
+// The laws that a soil has when it chooses none: Bekker's pressure, and Janosi and Hanamoto's shear. A policy
+// of this shape gives the pressure at a depth and the mobilised share of the strength; chosen_laws.h has the
+// other one.
+struct DefaultLaws {
+  template <class V>
+  V pressure_pa(const WheelValues<V>& in, const V& n, const V& depth_m) const {
+    return bekker_pressure_pa(in.stiffness, n, depth_m);
+  }
+  template <class V>
+  V mobilised(const V& displacement_over_modulus) const {
+    return janosi_hanamoto_mobilised(displacement_over_modulus);
+  }
 };
 
 template <class V>
 struct ContactAngles {
   V theta_m, theta_r, n;
   V sin_f, cos_f;
+  V tan_phi;
 };
 
 template <class V>
@@ -43,7 +46,7 @@ V slip_of(const V& speed_ratio) {
 }
 
 template <class V>
-ContactAngles<V> contact_angles(const WheelCase<V>& in) {
+ContactAngles<V> contact_angles(const WheelValues<V>& in) {
   const V slip = min(V(1.0), abs(slip_of(in.forward)));
   const V share = max(-in.exit_ratio, min(V(0.99), in.c1 + in.c2 * slip));
   // How the wheel digs itself in: by its slip over the ground in whatever direction it moves, more in skid
@@ -52,7 +55,7 @@ ContactAngles<V> contact_angles(const WheelCase<V>& in) {
   const V sliding = slip_of(sqrt(square));
   const V sin2_beta = in.leftward * in.leftward / (square + V(1e-12));
   const V n = in.n + in.n1 * abs(sliding) + in.n1_skid * max(V(0.0), -sliding) + in.n1_lateral * sin2_beta;
-  return {share * in.theta_f, -in.exit_ratio * in.theta_f, n, sin(in.theta_f), cos(in.theta_f)};
+  return {share * in.theta_f, -in.exit_ratio * in.theta_f, n, sin(in.theta_f), cos(in.theta_f), tan(in.phi)};
 }
 
 // Integrals over the contact, per b r: of the shear and normal stress and of the mobilised share m.
@@ -63,18 +66,18 @@ struct ContactIntegrals {
 };
 
 // The mobilised share of the strength, with the sign of the displacement.
-template <class V>
-V mobilised(const V& displacement, const V& per_modulus) {
-  return copysign(janosi_hanamoto_mobilised(abs(displacement) * per_modulus), displacement);
+template <class Laws, class V>
+V mobilised(const Laws& laws, const V& displacement, const V& per_modulus) {
+  return copysign(laws.mobilised(abs(displacement) * per_modulus), displacement);
 }
 
 // Blends independent mobilisation (left at 0 where the coupling is 1) with one resultant against the
-// slipping: j = |(j_x / K_x, j_y / K_y)|, (m_x, m_y) = (1 - exp(-j)) (j_x / K_x, j_y / K_y) / j.
-template <class V>
-void couple(const WheelCase<V>& in, const V& j_x, const V& j_y, V& m_x, V& m_y) {
+// slipping: j = |(j_x / K_x, j_y / K_y)|, (m_x, m_y) = m(j) (j_x / K_x, j_y / K_y) / j.
+template <class Laws, class V>
+void couple(const Laws& laws, const WheelValues<V>& in, const V& j_x, const V& j_y, V& m_x, V& m_y) {
   const V a = j_x * in.per_shear_x, b = j_y * in.per_shear_y;
   const V j = sqrt(a * a + b * b) + V(1e-300);
-  const V per_j = janosi_hanamoto_mobilised(j) / j;
+  const V per_j = laws.mobilised(j) / j;
   m_x += in.coupling * (per_j * a - m_x);
   m_y += in.coupling * (per_j * b - m_y);
 }
@@ -100,23 +103,24 @@ void rim_sincos(const V& theta, V& sine, V& cosine) {
 
 // Adds nodes of one arc. `weight` holds the quadrature's weights times the arc's length. V is a pack of nodes
 // of one wheel, or of one node of several wheels; parameters come in the same type.
-template <class V>
-void add_nodes(const WheelCase<V>& in, const ContactAngles<V>& at, const LawParts& parts, const V& theta,
-               const V& sine, const V& cosine, const V& sigma, const V& weight, ContactIntegrals<V>& sum) {
+template <class Laws, class V>
+void add_nodes(const Laws& laws, const WheelValues<V>& in, const ContactAngles<V>& at, const LawParts& parts,
+               const V& theta, const V& sine, const V& cosine, const V& sigma, const V& weight,
+               ContactIntegrals<V>& sum) {
   const V to_entry = in.theta_f - theta;
   const V j_x = in.radius * (to_entry - in.forward * (at.sin_f - sine));
   V m_x = V(0.0), m_y = V(0.0);
   if (parts.lateral) {
     const V j_y = in.radius * in.leftward * to_entry;
     if (parts.independent) {
-      m_x = mobilised(j_x, in.per_shear_x);
-      m_y = mobilised(j_y, in.per_shear_y);
+      m_x = mobilised(laws, j_x, in.per_shear_x);
+      m_y = mobilised(laws, j_y, in.per_shear_y);
     }
-    if (parts.coupled) couple(in, j_x, j_y, m_x, m_y);
+    if (parts.coupled) couple(laws, in, j_x, j_y, m_x, m_y);
   } else {
-    m_x = mobilised(j_x, in.per_shear_x);
+    m_x = mobilised(laws, j_x, in.per_shear_x);
   }
-  const V strength = weight * in.rim_friction * (in.cohesion + sigma * in.tan_phi);
+  const V strength = weight * in.rim_friction * (in.cohesion + sigma * at.tan_phi);
   const V tau = strength * m_x;
   sum.tau += tau;
   sum.tau_cos += tau * cosine;
@@ -128,7 +132,7 @@ void add_nodes(const WheelCase<V>& in, const ContactAngles<V>& at, const LawPart
     const V j_slip = in.radius * to_entry * (V(1.0) - in.forward);
     const V j_cleat = j_x + in.cleat_by_slip * (j_slip - j_x);
     const V m = weight * select(in.per_cleat_shear == in.per_shear_x && in.cleat_by_slip == V(0.0), m_x,
-                                mobilised(j_cleat, in.per_cleat_shear));
+                                mobilised(laws, j_cleat, in.per_cleat_shear));
     sum.m += m;
     sum.m_cos += m * cosine;
     sum.m_sin += m * sine;
@@ -136,9 +140,10 @@ void add_nodes(const WheelCase<V>& in, const ContactAngles<V>& at, const LawPart
 }
 
 // The pressure under the rim at depth z: the base law and what effects add.
-template <class V>
-V pressure_under_rim(const WheelCase<V>& in, const ContactAngles<V>& at, const LawParts& parts, const V& z) {
-  V sigma = bekker_pressure_pa(in.stiffness, at.n, z);
+template <class Laws, class V>
+V pressure_under_rim(const Laws& laws, const WheelValues<V>& in, const ContactAngles<V>& at,
+                     const LawParts& parts, const V& z) {
+  V sigma = laws.pressure_pa(in, at.n, z);
   if (parts.crust) sigma += duricrust_pressure_pa(in.crust_strength, z * in.per_crust_depth);
   if (parts.hardpan) sigma += hardpan_pressure_pa(in.hardpan_modulus, in.hardpan_depth, z);
   return sigma;
@@ -146,18 +151,18 @@ V pressure_under_rim(const WheelCase<V>& in, const ContactAngles<V>& at, const L
 
 // One pack of nodes t with weights (for an arc of length 1), on both arcs: the rear arc repeats the front
 // one's stresses at its own angles, so they are computed once.
-template <class V>
-void add_both_arcs(const WheelCase<V>& in, const ContactAngles<V>& at, const LawParts& parts, const V& t,
-                   const V& weight, ContactIntegrals<V>& sum) {
+template <class Laws, class V>
+void add_both_arcs(const Laws& laws, const WheelValues<V>& in, const ContactAngles<V>& at,
+                   const LawParts& parts, const V& t, const V& weight, ContactIntegrals<V>& sum) {
   const V front_length = in.theta_f - at.theta_m, rear_length = at.theta_m - at.theta_r;
   const V front = in.theta_f - t * front_length;
   V sine, cosine;
   rim_sincos(front, sine, cosine);
-  const V sigma = pressure_under_rim(in, at, parts, in.radius * (cosine - at.cos_f));
-  add_nodes(in, at, parts, front, sine, cosine, sigma, weight * front_length, sum);
+  const V sigma = pressure_under_rim(laws, in, at, parts, in.radius * (cosine - at.cos_f));
+  add_nodes(laws, in, at, parts, front, sine, cosine, sigma, weight * front_length, sum);
   const V rear = at.theta_r + t * rear_length;
   rim_sincos(rear, sine, cosine);
-  add_nodes(in, at, parts, rear, sine, cosine, sigma, weight * rear_length, sum);
+  add_nodes(laws, in, at, parts, rear, sine, cosine, sigma, weight * rear_length, sum);
 }
 
 template <class V>
@@ -167,14 +172,14 @@ struct LaneForces {
 
 // The forces from the integrals, and what does not come from them: grousers, bulldozing.
 template <class V>
-LaneForces<V> total_forces(const WheelCase<V>& in, const ContactAngles<V>& at, const LawParts& parts,
+LaneForces<V> total_forces(const WheelValues<V>& in, const ContactAngles<V>& at, const LawParts& parts,
                            const ContactIntegrals<V>& sum) {
   const V area = in.width * in.radius;
   LaneForces<V> f{area * (sum.tau_cos - sum.sigma_sin), area * sum.tau_y,
                   area * (sum.sigma_cos + sum.tau_sin), area * in.radius * sum.tau};
   if (parts.grousers) {
     const V per_radian =
-        grouser_force_n(in.width, in.grouser_height, in.unit_weight, in.cohesion, in.tan_phi) *
+        grouser_force_n(in.width, in.grouser_height, in.unit_weight, in.cohesion, at.tan_phi) *
         in.grouser_count * V(0.5 / M_PI);
     f.pull += per_radian * sum.m_cos;
     f.vertical += per_radian * sum.m_sin;
@@ -187,12 +192,12 @@ LaneForces<V> total_forces(const WheelCase<V>& in, const ContactAngles<V>& at, c
     if (parts.bulldozing) {
       const V z = in.radius * (V(1.0) - at.cos_f);
       f.pull -= in.bulldozing * front_share(in.forward / speed) *
-                passive_pressure_n(in.width, z, in.unit_weight, in.cohesion, in.tan_phi);
+                passive_pressure_n(in.width, z, in.unit_weight, in.cohesion, at.tan_phi);
     }
     if (parts.side_bulldozing)
       f.lateral -= in.side_bulldozing * (in.leftward / speed) *
                    side_wall_force_n(in.radius, in.theta_f, at.sin_f, at.cos_f, in.unit_weight, in.cohesion,
-                                     in.phi, in.tan_phi);
+                                     in.phi, at.tan_phi);
   }
   return f;
 }

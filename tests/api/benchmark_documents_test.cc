@@ -32,7 +32,7 @@ TEST(BenchmarkAnswers, NamesEveryFault) {
 }
 
 TEST(BenchmarkDocument, IsOneDocumentWithFiguresForEachFidelity) {
-  Benchmark benchmark{.variant = "as-is", .cases = {}, .withheld = {}};
+  gap::Benchmark benchmark{.variant = "as-is", .cases = {}, .withheld = {}};
   gap::CaseScore score;
   score.campaign = "s01";
   score.truth = score.found = "hardpan";

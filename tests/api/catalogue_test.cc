@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "api/files/model_fields.h"
 #include "api/files/rover_file.h"
 #include "api/files/soil_file.h"
 #include "api/files/stops.h"
@@ -13,6 +14,7 @@
 #include "api/json/writer.h"
 #include "core/angle.h"
 #include "core/random.h"
+#include "sim/rover/rover_field.h"
 #include "small_world.h"
 
 namespace slipway::api {
@@ -229,6 +231,50 @@ TEST(RoverFile, FaultsOfTheNewKeysAreAllNamed) {
   for (const Fault& fault : rover.error().faults) pointers.insert(fault.pointer);
   EXPECT_EQ(pointers,
             (std::set<std::string>{"/wheels/0/name", "/wheels/0/drive", "/suspension/rocker_pivot_m"}));
+}
+
+// Every row of the rover's tables, at both ends of its range.
+template <class Owner>
+void expect_read_back(std::span<const ModelField<Owner>> fields) {
+  for (const bool highest : {false, true}) {
+    Owner out{};
+    for (const ModelField<Owner>& row : fields) {
+      const double value = row.from_boundary(highest ? row.field.highest : row.field.lowest);
+      if (row.maybe != nullptr)
+        row.maybe(out) = value;
+      else
+        row.number(out) = value;
+    }
+    std::vector<Fault> faults;
+    sim::check_fields<Owner>(fields, out, "", faults);
+    EXPECT_TRUE(faults.empty()) << faults.front().message;
+    json::Writer w;
+    json::write_fields<Owner>(w.begin_object(), fields, out);
+    const auto document = json::parse(w.end_object().take());
+    ASSERT_TRUE(document);
+    json::ObjectReader reader(*document, "", faults);
+    Owner in{};
+    json::read_fields<Owner>(reader, fields, json::kRequired, in);
+    reader.refuse_unknown();
+    EXPECT_TRUE(faults.empty()) << faults.front().message;
+    for (const ModelField<Owner>& row : fields) {
+      const double was = row.maybe ? *row.maybe(out) : row.number(out),
+                   is = row.maybe ? *row.maybe(in) : row.number(in);
+      EXPECT_NEAR(is, was, 1e-11 * std::abs(was)) << row.field.name;
+    }
+  }
+}
+
+TEST(RoverFields, AreReadAndWrittenOverTheirWholeRange) {
+  expect_read_back(sim::mass_fields());
+  expect_read_back(sim::part_mass_fields());
+  expect_read_back(sim::wheel_fields());
+  expect_read_back(sim::grouser_fields());
+  expect_read_back(sim::differential_fields());
+  expect_read_back(sim::bogie_fields());
+  expect_read_back(sim::motor_fields());
+  expect_read_back(sim::closure_fields());
+  expect_read_back(sim::body_fields());
 }
 
 TEST(ShippedSoils, AreServedAsTheFilesThatTheyCameFrom) {

@@ -27,11 +27,10 @@ TEST(ChannelCatalogue, ItsRowsStandInTheOrderOfTheNamesThatCodeSpeaksOf) {
 }
 
 TEST(ChannelCatalogue, EveryRowIsWholeAndTheRoversComeFirst) {
-  std::set<std::string_view> names, entries;
+  std::set<std::string_view> names;
   bool wheels = false;
   for (const gap::ChannelRow& row : gap::channel_catalogue()) {
     EXPECT_TRUE(names.insert(row.name).second) << row.name;
-    EXPECT_TRUE(entries.insert(row.sensor_entry).second) << row.sensor_entry;
     EXPECT_FALSE(row.unit.empty()) << row.name;
     EXPECT_FALSE(row.chart_unit.empty()) << row.name;
     EXPECT_GT(row.boundary_unit, 0.0) << row.name;
@@ -39,7 +38,6 @@ TEST(ChannelCatalogue, EveryRowIsWholeAndTheRoversComeFirst) {
     ASSERT_NE(row.observe, nullptr) << row.name;
     ASSERT_NE(row.predict, nullptr) << row.name;
     EXPECT_GT(row.left_over(gap::NoiseScales{}, 1.0), 0.0) << row.name;
-    EXPECT_GT(row.sensor_error(1.0), 0.0) << row.name;
     EXPECT_EQ(row.column.name.empty(), row.column.set == nullptr) << row.name;
     EXPECT_TRUE(row.per_wheel || !wheels) << row.name << " comes behind a wheel's channel";
     wheels = wheels || row.per_wheel;

@@ -155,7 +155,7 @@ TEST(Contract, ASoilEstimateFitsTheDescription) {
   const auto request = small_world().read_soil_estimate(R"({"plate_tests":[{"plate_radius_m":0.05,
     "sinkage_m":[0.005,0.01,0.02],"pressure_pa":[4900,10100,21300]}]})");
   ASSERT_TRUE(request) << request.error().detail;
-  const std::string document = answer_to(kSoilEstimateKind, R"({"plate_tests":[{"plate_radius_m":0.05,
+  const std::string document = answer_to("soil_estimate", R"({"plate_tests":[{"plate_radius_m":0.05,
     "sinkage_m":[0.005,0.01,0.02],"pressure_pa":[4900,10100,21300]}]})");
   EXPECT_EQ(complaints_about("SoilEstimate", document), std::vector<std::string>{});
   EXPECT_TRUE(json::geojson_of(document));
@@ -169,7 +169,6 @@ TEST(Contract, ADiagnosisFitsTheDescriptionWhateverIsInIt) {
   const std::string document = json::diagnosis_document(campaign, full);
   EXPECT_EQ(complaints_about("Diagnosis", document), std::vector<std::string>{});
   EXPECT_EQ(document, json::diagnosis_document(campaign, full));
-  EXPECT_EQ(complaints_about("DriveCampaigns", example("drive_campaigns.json")), std::vector<std::string>{});
   const auto shipped = Service::open({.data = SLIPWAY_DATA_FOLDER});
   ASSERT_TRUE(shipped);
   EXPECT_EQ(complaints_about("DriveCampaigns", json::write_drive_campaigns((*shipped)->campaigns())),

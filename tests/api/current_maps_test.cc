@@ -100,7 +100,7 @@ TEST(CurrentInversion, GivesTheSlipOfABalancedMapsCurrent) {
   request.current_a = *map->panels[0].points[0].current_a;
   const auto inversion = invert_current(catalogue(), request);
   ASSERT_TRUE(inversion) << inversion.error().detail;
-  EXPECT_NEAR(*inversion->answer.found.told, 0.33, 1e-9);
+  EXPECT_NEAR(*inversion->answer.found.reported, 0.33, 1e-9);
   EXPECT_EQ(json::write_current_inversion(*inversion),
             json::write_current_inversion(invert_current(catalogue(), request).value()));
 }
@@ -115,8 +115,8 @@ TEST(CurrentInversion, EffectsAreAtWorkOnTheDrawsToo) {
   request.effects = {{.name = "bulldozing", .parameters = {}},
                      {.name = "slip_sinkage", .parameters = {{"n1", 0.5}}}};
   const auto sinking = invert_current(catalogue(), request).value();
-  ASSERT_TRUE(plain.answer.found.told && sinking.answer.found.told);
-  EXPECT_NE(*plain.answer.found.told, *sinking.answer.found.told);
+  ASSERT_TRUE(plain.answer.found.reported && sinking.answer.found.reported);
+  EXPECT_NE(*plain.answer.found.reported, *sinking.answer.found.reported);
   EXPECT_NE(plain.answer.quantiles.p50, sinking.answer.quantiles.p50);
 }
 

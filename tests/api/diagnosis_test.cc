@@ -61,6 +61,15 @@ TEST_F(ADiagnosis, HasEveryKeyOfItsContract) {
   EXPECT_EQ(d.find("provenance")->find("hashes")->find("campaign")->text, campaign().fingerprint);
 }
 
+TEST_F(ADiagnosis, SaysWhichOptionsItWasMadeWith) {
+  const JsonValue d = document(diagnosis());
+  const JsonValue& options = *d.find("provenance")->find("options");
+  EXPECT_EQ(options.find("fit")->find("huber")->number, gap::FitOptions{}.huber);
+  EXPECT_EQ(options.find("evidence")->find("shares")->elements.size(), 2U);
+  EXPECT_EQ(options.find("run")->find("resamples")->number, gap::DiagnosisOptions{}.resamples);
+  EXPECT_NE(diagnosis_report(campaign(), diagnosis(), {}).markdown().find("huber 4"), std::string::npos);
+}
+
 TEST_F(ADiagnosis, GivesEverySetOnceWithProbabilitiesThatAddUpToOne) {
   for (const bool empty : {false, true}) {
     const JsonValue d = document(empty ? gap::Diagnosis{} : diagnosis());
@@ -217,7 +226,6 @@ TEST_F(ADiagnosis, IsShownWithAllItsTextEscaped) {
   d.channels.back().wheel = bad;
   d.retuned.front().name = bad;
   d.places.front().terrain = bad;
-  d.regimes.front().conditions.front().variable = bad;
   const std::string page = diagnosis_report(campaign(), d, draw_diagnosis(campaign(), d)).html();
   EXPECT_EQ(page.find("<script"), std::string::npos);
   EXPECT_EQ(page.find(" id=\"a"), std::string::npos);

@@ -266,5 +266,12 @@ TEST_F(DriveCampaignFolder, AnyBytesLoadOrTellTheirFaults) {
   EXPECT_GT(loaded, 10);
 }
 
+// Names are compared with each other: a million would be compared for hours.
+TEST_F(DriveCampaignFolder, AMillionColumnsAreRefusedAtOnce) {
+  std::string header = "t_s";
+  for (int c = 0; c < 1'000'000; ++c) header += "," + std::to_string(c);
+  expect_csv_fault(header + "\n" + kRows, "/1", "1000001 columns, must be 1000 at most");
+}
+
 }  // namespace
 }  // namespace slipway::api

@@ -41,6 +41,13 @@ TEST(HiddenTracesCsv, AreByCampaignWithWhatIsNotObservedLeftOut) {
   EXPECT_EQ(traces->at("s03").front().at.turning, 1.0);
 }
 
+// Not a million faults, each with the name that was probably meant.
+TEST(HiddenTracesCsv, AMillionColumnsAreRefusedAtOnce) {
+  std::string header = "campaign";
+  for (int c = 0; c < 1'000'000; ++c) header += "," + std::to_string(c);
+  EXPECT_EQ(faults_of(header + "\n").size(), 1U + 17U) << "too many, and so none of those that must be there";
+}
+
 TEST(HiddenTracesCsv, WithoutRowsNothingIsHidden) {
   const auto traces = read_hidden_traces_csv("traces.csv", kHeader);
   ASSERT_TRUE(traces);

@@ -26,6 +26,7 @@ gap::Diagnosis full_diagnosis(const gap::DriveCampaign& campaign) {
   gap::Diagnosis d;
   d.campaign = campaign.name;
   d.campaign_fingerprint = campaign.fingerprint;
+  d.options = gap::listed_options({});
   d.library = {"motor_temperature", "soft_patch"};
   d.verdict = gap::Verdict::kEffects;
   d.reason = "made up";
@@ -33,11 +34,11 @@ gap::Diagnosis full_diagnosis(const gap::DriveCampaign& campaign) {
   d.candidates = {{{"motor_temperature"}, 0.5, 1.5, 2},
                   {{"grousers"}, 0.2, kNan, 1},
                   {{"motor_temperature"}, 0.1, std::nullopt, 2},
-                  {{"unknown", "grousers"}, 0.1, std::nullopt, 1}};
+                  {{"grousers"}, 0.1, std::nullopt, 1, 0.0, true}};
   d.confusable = {{"bulldozing", "grousers", 12.0}};
   d.channels = {{gap::Channel::kYawRate, std::nullopt, 0.01, 0.005, -0.001, 0.01},
                 {gap::Channel::kCurrent, "lf", 0.04, kNan, 0.03, 0.002}};
-  d.regimes = {{{{"slope_deg", 5.0, kInfinite}}, gap::Channel::kSlip, 0.7, 0.2, 0.01}};
+  d.regimes = {{{{gap::WindowVariable::kSlope, 5.0, kInfinite}}, gap::Channel::kSlip, 0.7, 0.2, 0.01}};
   d.regimes_retuned = d.regimes_of_effect = d.regimes;
   d.channels_of_effects = {{gap::Channel::kCurrent, 0.75}, {gap::Channel::kSlip, 0.25}};
   d.places = {{campaign.terrains.front().name, 3.0, -2.0, 1.5, gap::Channel::kSlip, 0.4}};

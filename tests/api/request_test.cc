@@ -27,7 +27,7 @@ TEST(PlanRequest, DefaultsAreThoseOfTheRoomsBelow) {
   const auto request = small_world().read_plan(example("plan_shortest.json"));
   ASSERT_TRUE(request);
   EXPECT_EQ(request->drive.limits.max_slip_ratio, sim::DriveLimits{}.max_slip_ratio);
-  EXPECT_EQ(request->weights.slip, planner::Weights{}.slip);
+  EXPECT_EQ(request->weights.of("slip"), planner::Weights().of("slip"));
   EXPECT_EQ(request->routes, 3);
   EXPECT_EQ(request->drive.draws, 24);
   EXPECT_FALSE(request->start.yaw_rad);
@@ -40,7 +40,7 @@ TEST(PlanRequest, EveryKeyIsReadInItsUnit) {
   EXPECT_DOUBLE_EQ(request->drive.limits.max_tilt_rad, rad_from_deg(20.0));
   EXPECT_EQ(request->waypoints.size(), 1U);
   EXPECT_EQ(request->keep_out.at(0).at(2), Eigen::Vector2d(28.0, 35.0));
-  EXPECT_EQ(request->weights.duration, 2.0);
+  EXPECT_EQ(request->weights.of("duration"), 2.0);
   EXPECT_EQ(request->planners, std::vector<std::string>{"rrt_star"});
   EXPECT_EQ(request->drive.effects.at(0).parameters.at("n1"), 0.3);
   EXPECT_EQ(request->drive.seed, 7U);

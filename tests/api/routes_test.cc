@@ -11,6 +11,7 @@
 #include "api/json/parse.h"
 #include "api/openapi.h"
 #include "core/version.h"
+#include "server/responses.h"
 #include "small_world.h"
 
 namespace slipway::server {

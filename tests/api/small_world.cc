@@ -53,7 +53,7 @@ std::string file_bytes(const fs::path& path) {
 }
 
 std::string example(const std::string& name) {
-  return file_bytes(fs::path(SLIPWAY_API_FOLDER) / "examples" / name);
+  return file_bytes(fs::path(SLIPWAY_API_TEST_FOLDER) / "requests" / name);
 }
 
 }  // namespace slipway::api::testing

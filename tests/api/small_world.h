@@ -28,7 +28,7 @@ const Service& small_world();
 
 void write_file(const std::filesystem::path& path, const std::string& bytes);
 std::string file_bytes(const std::filesystem::path& path);
-// api/examples/<name>
+// tests/api/requests/<name>
 std::string example(const std::string& name);
 
 }  // namespace slipway::api::testing

@@ -45,6 +45,12 @@ TEST(WheelTestsCsv, EveryFaultIsNamedWithItsPlace) {
   EXPECT_EQ(places, expected);
   EXPECT_NE(tests.error().faults[0].message.find("torque_nm"), std::string::npos);
   EXPECT_EQ(tests.error().faults[1].message, "load_n = -5, must be in (0, 1e+06]");
+  std::string wrong = "load_n,slip_ratio,sinkage_m\n";
+  for (int row = 0; row < 5000; ++row) wrong += "x,y,z\n";
+  const auto many = read_wheel_tests_csv("b.csv", wrong);
+  ASSERT_FALSE(many);
+  ASSERT_EQ(many.error().faults.size(), 101U) << "a hundred, and how many more";
+  EXPECT_EQ(many.error().faults.back().message, "14900 faults more like these");
   EXPECT_FALSE(read_wheel_tests_csv("b.csv", ""));
   EXPECT_FALSE(read_wheel_tests_csv("b.csv", "load_n,slip_ratio\n60,0.1\n"));
 }
@@ -62,7 +68,7 @@ TEST(PlateTestsCsv, ForcesAreTakenOverThePlatesArea) {
 
 SoilEstimateRequest plates() {
   SoilEstimateRequest request;
-  gap::PlateTest plate{0.05, {}, {}};
+  gap::PlateRecord plate{0.05, {}, {}};
   for (int i = 1; i < 10; ++i) {
     plate.sinkage_m.push_back(0.004 * i);
     plate.pressure_pa.push_back(8e5 * std::pow(0.004 * i, 0.9));
@@ -81,6 +87,56 @@ TEST(SoilEstimate, TheSoilIsAFileOfItsOwnThatIsReadAgain) {
   EXPECT_NEAR(soils->front().mean.pressure.n, 0.9, 0.01);
   EXPECT_TRUE(soils->front().name.starts_with("unknown_ground-")) << soils->front().name;
   EXPECT_NE(draw_soil_estimate(answer->estimates.front()).find("<svg"), std::string::npos);
+}
+
+// Whatever is written is read back: at the end of a bound, under any name.
+TEST(SoilEstimate, ASoilFoundAtABoundIsReadAgain) {
+  NoProgress progress;
+  for (const double bound : {0.05, 3.0}) {
+    SoilEstimateRequest request = plates();
+    const double n = bound < 1.0 ? 0.04 : 3.2;
+    for (std::size_t i = 0; i < request.data.plates[0].sinkage_m.size(); ++i)
+      request.data.plates[0].pressure_pa[i] = 8e5 * std::pow(request.data.plates[0].sinkage_m[i], n);
+    request.options.bounds = {{gap::SoilParameter::kN, bound < 1.0 ? 0.05 : 0.5, bound < 1.0 ? 2.0 : 3.0}};
+    const auto answer = estimate_soil(small_world().catalogue(), request, progress);
+    ASSERT_TRUE(answer) << answer.error().detail;
+    const auto soils = json::read_soil_file(json::estimated_soils_document(*answer));
+    ASSERT_TRUE(soils) << soils.error().faults.front().message;
+    EXPECT_NEAR(soils->front().mean.pressure.n, bound, 1e-3);
+  }
+}
+
+TEST(SoilEstimate, ABoundThatNoSoilFileHoldsIsRefused) {
+  NoProgress progress;
+  SoilEstimateRequest request = plates();
+  request.options.bounds = {{gap::SoilParameter::kN, 0.001, 4.0}};
+  const auto answer = estimate_soil(small_world().catalogue(), request, progress);
+  ASSERT_FALSE(answer);
+  ASSERT_EQ(answer.error().faults.size(), 2U);
+  EXPECT_EQ(answer.error().faults[0].message, "n = 0.001, must be in [0.01, 3], which a soil's file holds");
+}
+
+TEST(SoilEstimate, ANameThatNoSoilFileTakesIsWrittenAsOneThatItTakes) {
+  NoProgress progress;
+  // Forty bytes end in the middle of an umlaut.
+  const std::string nominal = "Lockere D\u00fcnen";
+  std::string name = "Lockere DÃ¼nen, am FuÃ des HÃ¼gels, sehr fein und sehr tief";
+  Catalogue catalogue = small_world().catalogue();
+  catalogue.soils[name] = catalogue.soils.at("unknown_ground");
+  SoilEstimateRequest request = plates();
+  request.soil = name;
+  for (int lengthened = 0; lengthened < 3; ++lengthened) {
+    std::string longer = name;
+    for (int k = 0; k < 250; ++k) longer += "Ã¼";
+    longer += std::string(static_cast<std::size_t>(lengthened), 'x');
+    catalogue.soils[longer] = catalogue.soils.at("unknown_ground");
+    request.soil = longer;
+    const auto answer = estimate_soil(catalogue, request, progress);
+    ASSERT_TRUE(answer) << answer.error().detail;
+    const auto soils = json::read_soil_file(json::estimated_soils_document(*answer));
+    ASSERT_TRUE(soils) << soils.error().detail;
+    EXPECT_TRUE(soils->front().name.starts_with("lockere_d_nen__am_fu__")) << soils->front().name;
+  }
 }
 
 TEST(SoilEstimate, TheSameRequestGivesTheSameBytes) {

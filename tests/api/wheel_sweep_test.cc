@@ -58,7 +58,7 @@ TEST(WheelSweepRequest, DefaultsAreThoseOfTheRover) {
 TEST(WheelSweepRequest, EveryKeyIsReadAndEchoed) {
   const auto answer = read_wheel_sweep(catalogue(), example("wheel_sweep_every_key.json"));
   ASSERT_TRUE(answer) << answer.error().detail;
-  const sim::SingleWheelTest test = sim::points_of(answer->sweep).back().test;
+  const sim::WheelRigConditions test = sim::points_of(answer->sweep).back().test;
   EXPECT_EQ(test.wheel.radius_m, 0.13);
   EXPECT_EQ(test.wheel.grousers.count, 24.0);
   EXPECT_EQ(test.soil.n1, 0.4);

@@ -41,6 +41,42 @@ TEST(DriveTable, ExpandsTerrainsHeadingsAndRepeats) {
   EXPECT_EQ(drives[4].terrain, 1U);
 }
 
+TEST(DriveTable, NamesWhoseFilesCollideAreRefused) {
+  struct Collision {
+    std::string what, by, pointer, file;
+  };
+  for (const Collision& c : {
+           Collision{R"("id": "turn")", R"("id": "both-leg1")", "/drives/2/id", "both-leg1.csv"},
+           Collision{R"("id": "both")", R"("id": "slope-x")", "", ""},
+           Collision{R"("name": "level")", R"("name": "both-deformed")", "/drives/2/id", "both-deformed.tif"},
+           Collision{R"("id": "turn", "terrains": ["level"],)",
+                     R"("id": "final_poses", "plot": true, "terrains": ["level"],)", "/drives/1/id",
+                     "plots/final_poses.svg"},
+       }) {
+    std::string text = replaced(kSmallTable, c.what, c.by);
+    if (c.by.find("both-deformed") != std::string::npos)
+      while (text.find("\"level\"") != std::string::npos)
+        text = replaced(text, "\"level\"", "\"both-deformed\"");
+    const auto table = read_table(text);
+    if (c.file.empty()) {
+      EXPECT_TRUE(table) << table.error().detail;
+      continue;
+    }
+    ASSERT_FALSE(table) << c.file;
+    EXPECT_EQ(table.error().code, ErrorCode::kInvalidRequest);
+    EXPECT_EQ(pointers_of(table.error()), Texts{c.pointer});
+    EXPECT_NE(table.error().faults[0].message.find("would both be written to " + c.file), std::string::npos)
+        << table.error().faults[0].message;
+  }
+}
+
+TEST(DriveTable, AnIdIsMadeOfLettersDigitsAndHyphensWhateverTheHeading) {
+  const auto table = read_table(replaced(kSmallTable, "[0, 90]", "[10.00001, 10.5]"));
+  ASSERT_TRUE(table) << table.error().detail;
+  EXPECT_EQ(expand(*table)[0].id, "ahead-level-h010p00001-r1");
+  EXPECT_EQ(expand(*table)[2].id, "ahead-level-h010p5-r1");
+}
+
 TEST(DriveTable, LegsTakeTheRoversSpeedsAndTheCommandsSigns) {
   const auto table = read_table(kSmallTable);
   ASSERT_TRUE(table);

@@ -97,7 +97,7 @@ TEST(RunCampaign, GoingOnGivesTheBytesOfAnUnbrokenRun) {
     EXPECT_EQ(run.error().code, ErrorCode::kCancelled);
   }
   // What a kill leaves behind: a file that is not whole, and one whose drive has no record yet.
-  std::ofstream(path / "turn.csv.part") << "t_s,x";
+  std::ofstream(path / ".turn.csv.17-3.slipway-part") << "t_s,x";
   std::ofstream(path / "turn.csv") << "t_s,x_m\n0,1\n";
   auto folder = api::CampaignFolder::open(path, "a digest", false);
   ASSERT_TRUE(folder);
@@ -105,6 +105,32 @@ TEST(RunCampaign, GoingOnGivesTheBytesOfAnUnbrokenRun) {
   NoProgress progress;
   ASSERT_TRUE(run_into(table, *folder, 2, progress));
   EXPECT_EQ(files_of(path), unbroken);
+}
+
+TEST(RunCampaign, WhatIsNotOfThisProgramIsLeftInTheFolder) {
+  const fs::path path = empty_folder("foreign");
+  fs::create_directories(path / "drives");
+  const std::vector<fs::path> foreign{path / "thesis.part", path / "turn.csv.part",
+                                      path / "drives" / "x.part"};
+  for (const fs::path& file : foreign) std::ofstream(file) << "mine";
+  auto folder = api::CampaignFolder::open(path, "a digest", false);
+  ASSERT_TRUE(folder) << folder.error().detail;
+  NoProgress progress;
+  ASSERT_TRUE(run_into(small_table(), *folder, 2, progress));
+  for (const fs::path& file : foreign) EXPECT_EQ(fs::file_size(file), 4U) << file;
+}
+
+TEST(RunCampaign, TwoAtOnceInOneFolderAreAConflict) {
+  const fs::path path = empty_folder("shared");
+  {
+    const auto first = api::CampaignFolder::open(path, "a digest", false);
+    ASSERT_TRUE(first) << first.error().detail;
+    const auto second = api::CampaignFolder::open(path, "a digest", true);
+    ASSERT_FALSE(second);
+    EXPECT_EQ(second.error().code, ErrorCode::kConflict);
+    EXPECT_NE(second.error().detail.find("another process works with"), std::string::npos);
+  }
+  EXPECT_TRUE(api::CampaignFolder::open(path, "a digest", false)) << "the right to it ends with its holder";
 }
 
 TEST(RunCampaign, ARecordThatCantBeReadIsADriveToMakeAgain) {

@@ -31,10 +31,10 @@ def plan(**changes):
 class Server:
     """`slipway serve` on a free port, in a folder of its own."""
 
-    def __init__(self, folder):
+    def __init__(self, folder, *options):
         self.folder = folder
         self.process = subprocess.Popen(
-            [SLIPWAY, "serve", "--data", DATA, "--port", "0", "--jobs", str(folder / "jobs.sqlite")],
+            [SLIPWAY, "serve", "--data", DATA, "--port", "0", "--jobs", str(folder / "jobs.sqlite"), *options],
             stdout=subprocess.PIPE, text=True)
         line = self.process.stdout.readline()
         match = re.search(r"http://127\.0\.0\.1:(\d+)", line)
@@ -111,7 +111,9 @@ class Contract(unittest.TestCase):
         return problem
 
     def test_every_address_of_the_description_answers(self):
-        description = json.loads(self.server.ask("GET", "/openapi.json")[2])
+        served = self.server.ask("GET", "/openapi.json")[2]
+        self.assertEqual(served, (SOURCE / "api/openapi.json").read_bytes(), "what openapi_lint reads is what is served")
+        description = json.loads(served)
         for path, methods in description["paths"].items():
             if "get" in methods and "{" not in path:
                 status, _, body = self.server.ask("GET", path)
@@ -196,7 +198,7 @@ class Contract(unittest.TestCase):
                                capture_output=True, check=True).stdout
         self.assertEqual(first, local.rstrip(b"\n"))
 
-    def test_a_poller_is_told_when_nothing_changed(self):
+    def test_a_poller_hears_when_nothing_changed(self):
         status, headers, _ = self.server.ask("POST", "/v1/plans", plan(routes=1, draws=4))
         self.assertEqual(status, 201)
         location = headers["Location"]
@@ -258,7 +260,7 @@ class Contract(unittest.TestCase):
 
     def test_the_campaigns_that_ship_are_listed_and_a_diagnosis_of_one_is_a_page(self):
         campaigns = json.loads(self.server.ask("GET", "/v1/drive-campaigns")[2])["campaigns"]
-        example = json.loads((SOURCE / "api/examples/drive_campaigns.json").read_text())["campaigns"]
+        example = json.loads(self.server.ask("GET", "/openapi.json")[2])["paths"]["/v1/drive-campaigns"]["get"]["responses"]["200"]["content"]["application/json"]["examples"]["practice"]["value"]["campaigns"]
         p05 = next(c for c in campaigns if c["name"] == "p05")
         self.assertEqual(list(p05), list(example[0]))
         self.assertIn("cuadriga_2018_2019", [c["name"] for c in campaigns if c["rover"] == "cuadriga"])
@@ -351,6 +353,64 @@ class Contract(unittest.TestCase):
             finally:
                 again.stop()
 
+    def test_a_start_that_fails_takes_no_job_from_the_service_that_runs(self):
+        with tempfile.TemporaryDirectory() as folder:
+            server = Server(pathlib.Path(folder))
+            try:
+                _, headers, _ = server.ask("POST", "/v1/plans", plan(draws=400, routes=3), {"Prefer": "respond-async"})
+                location = headers["Location"]
+                deadline = time.time() + 60
+                while json.loads(server.ask("GET", location)[2])["state"] == "accepted" and time.time() < deadline:
+                    time.sleep(0.02)
+                command = [SLIPWAY, "serve", "--data", DATA, "--jobs", str(server.folder / "jobs.sqlite"), "--port", str(server.port)]
+                for _ in range(6):
+                    failed = subprocess.run(command, capture_output=True, text=True, timeout=60)
+                    self.assertEqual(failed.returncode, 1)
+                    self.assertIn("can't listen", failed.stderr)
+                # One that does start, on another port, leaves the running job to whom it belongs.
+                other = Server(server.folder)
+                job = json.loads(other.ask("GET", location)[2])
+                self.assertEqual((job["state"], job["attempt"]), ("running", 1))
+                self.assertEqual(other.stop(), 0)
+                job = server.end_of(location)
+                self.assertEqual((job["state"], job["attempt"]), ("successful", 1), job)
+            finally:
+                server.stop()
+            nowhere = pathlib.Path(folder) / "elsewhere" / "jobs.sqlite"
+            with socket.socket() as taken:
+                taken.bind(("127.0.0.1", 0))
+                taken.listen()
+                failed = subprocess.run([SLIPWAY, "serve", "--data", DATA, "--port", str(taken.getsockname()[1]), "--jobs", str(nowhere)], capture_output=True)
+            self.assertEqual(failed.returncode, 1)
+            self.assertFalse(nowhere.parent.exists(), "a failed start makes no store")
+
+    def test_web_pages_of_the_listed_origins_may_read(self):
+        page = {"Origin": "http://localhost:5173"}
+        self.assertNotIn("Access-Control-Allow-Origin", self.server.ask("GET", "/v1/rovers", headers=page)[1])
+        with tempfile.TemporaryDirectory() as folder:
+            server = Server(pathlib.Path(folder), "--allow-origin", page["Origin"], "--allow-origin", "https://ops.example.org")
+            try:
+                for origin, allowed in ((page["Origin"], True), ("https://ops.example.org", True), ("https://evil.example.org", False)):
+                    status, headers, _ = server.ask("GET", "/v1/rovers", headers={"Origin": origin})
+                    self.assertEqual((status, headers.get("Access-Control-Allow-Origin")), (200, origin if allowed else None))
+                    self.assertIn("Origin", headers["Vary"])
+                status, headers, _ = server.ask("OPTIONS", "/v1/plans", headers={
+                    **page, "Access-Control-Request-Method": "POST", "Access-Control-Request-Headers": "content-type,prefer"})
+                self.assertEqual((status, headers["Access-Control-Allow-Origin"]), (204, page["Origin"]))
+                self.assertIn("POST", headers["Access-Control-Allow-Methods"])
+                for name in ("Content-Type", "Prefer", "If-None-Match"):
+                    self.assertIn(name, headers["Access-Control-Allow-Headers"])
+                status, headers, _ = server.ask("POST", "/v1/plans", {}, page)
+                self.assertEqual((status, headers["Access-Control-Allow-Origin"]), (422, page["Origin"]))
+                status, headers, _ = server.ask("POST", "/v1/plans", plan(routes=1, draws=1), page)
+                self.assertIn("Location", headers["Access-Control-Expose-Headers"])
+            finally:
+                server.stop()
+        for origin in ("*", "ops.example.org", "https://ops.example.org/"):
+            refused = subprocess.run([SLIPWAY, "serve", "--data", DATA, "--port", "0", "--jobs", "", "--allow-origin", origin], capture_output=True, text=True, timeout=20)
+            self.assertEqual(refused.returncode, 2)
+            self.assertIn("/allow-origin", refused.stderr)
+
     def test_the_command_line_asks_a_server_and_prints_a_table(self):
         with tempfile.TemporaryDirectory() as folder:
             picture = os.path.join(folder, "routes.svg")
@@ -372,7 +432,7 @@ class Contract(unittest.TestCase):
             self.assertEqual(shown.returncode, 0)
             self.assertIn("Example:", shown.stdout)
 
-    def test_a_path_is_driven_in_the_dynamic_rung_with_a_dead_wheel(self):
+    def test_a_path_is_driven_at_the_dynamic_level_with_a_dead_wheel(self):
         path = [f"{p['x_m']},{p['y_m']}" for p in (STOP_967, {"x_m": STOP_967["x_m"] - 3.0, "y_m": STOP_967["y_m"]})]
         options = ["--data", DATA, "--path", *path, "--rung", "dynamic", "--failed", "rf=off", "--draws", "4"]
         shown = subprocess.run([SLIPWAY, "predict", *options], capture_output=True, text=True, check=True).stdout

@@ -16,7 +16,7 @@ TEST(ParallelFor, EveryIndexIsVisitedOnceOnAnyNumberOfThreads) {
   }
 }
 
-TEST(ParallelFor, NothingToDoIsDone) {
+TEST(ParallelFor, AnEmptyRangeCallsNothing) {
   parallel_for(0, 4, [](std::size_t) { FAIL(); });
 }
 

@@ -7,7 +7,7 @@
 namespace slipway {
 namespace {
 
-TEST(Random, ANumberDependsOnItsKeyAndCounterOnly) {
+TEST(Random, ANumberDependsOnlyOnItsKeyAndCounter) {
   EXPECT_EQ(random_bits(1, 2), random_bits(1, 2));
   EXPECT_NE(random_bits(1, 2), random_bits(1, 3));
   EXPECT_NE(random_bits(1, 2), random_bits(2, 2));

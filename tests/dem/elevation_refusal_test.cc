@@ -155,7 +155,7 @@ TEST_F(ElevationRefusal, AVirtualRasterOverAGoodOneIsRefused) {
   EXPECT_EQ(refusal_of(path).code, ErrorCode::kUnreadableRaster);
 }
 
-TEST_F(ElevationRefusal, WhatIsNoRasterFileIsRefusedAndSaysSo) {
+TEST_F(ElevationRefusal, AFileThatIsNoRasterIsRefusedWithTheReason) {
   expect_refusal(refusal_of(folder_ / "nothing.tif"), ErrorCode::kUnreadableRaster, {"does not exist"});
   expect_refusal(refusal_of(folder_ / ""), ErrorCode::kUnreadableRaster, {"not a regular file"});
   expect_refusal(refusal_of(folder_.write("text.tif", "no raster at all\n")), ErrorCode::kUnreadableRaster,

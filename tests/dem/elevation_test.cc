@@ -216,10 +216,10 @@ TEST_F(LargeElevation, AWindowReadsJustTheWindow) {
   EXPECT_EQ(terrain->geometry().rows, 304);
   EXPECT_EQ(terrain->geometry().columns, 304);
   EXPECT_EQ(terrain->height_m(8000.5, 8083.5), 64.0);
-  EXPECT_LT(peak_mb() - before, 50);  // the whole would be 1,024 and more
+  EXPECT_LT(peak_mb() - before, 50);  // the whole raster would take 1,024 MB and more
 }
 
-TEST_F(LargeElevation, TheWholeIsRefusedBecauseAWindowHasAMostNumberOfCells) {
+TEST_F(LargeElevation, TheWholeIsRefusedBecauseAWindowHasAMaximumNumberOfCells) {
   const auto source = open_elevation(folder_ / "large.tif").value();
   const auto terrain = source->read(source->info().geometry.extent());
   ASSERT_FALSE(terrain);

@@ -24,7 +24,7 @@ std::shared_ptr<const Terrain> whole_gale() {
   return gale()->read(gale()->info().geometry.extent()).value();
 }
 
-// Every code a soil of its own, so that nothing of the map is folded.
+// A legend with a soil for every code, so that all classes of the map stay distinct.
 std::vector<SoilClass> all_units() {
   std::vector<SoilClass> legend;
   for (const char* label :

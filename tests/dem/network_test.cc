@@ -14,7 +14,7 @@
 namespace slipway::dem {
 namespace {
 
-// A door on this machine, and whether anybody has knocked.
+// A listening socket on this machine that records whether anyone has connected.
 class Listener {
  public:
   Listener() : socket_(socket(AF_INET, SOCK_STREAM, 0)) {
@@ -28,7 +28,8 @@ class Listener {
       throw std::runtime_error("no listening socket");
     }
     port_ = ntohs(address.sin_port);
-    // Nobody answers here: without a fence a request would wait for ever instead of failing the test.
+    // The listener accepts connections and never answers, so that without a fence a request would wait for
+    // ever instead of failing the test.
     CPLSetConfigOption("GDAL_HTTP_TIMEOUT", "2");
   }
   ~Listener() { close(socket_); }

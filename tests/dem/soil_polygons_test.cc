@@ -119,7 +119,7 @@ TEST_F(SoilPolygons, AllFaultsAreReportedTogetherAndNameTheFeature) {
                                       "/features/8/geometry", "/features/9/geometry"}));
 }
 
-TEST_F(SoilPolygons, WhatIsNoFeatureCollectionIsRefused) {
+TEST_F(SoilPolygons, AFileThatIsNoFeatureCollectionIsRefused) {
   for (const char* text : {"", "{", "[]", "null", R"({"type":"Polygon"})", R"({"type":"FeatureCollection"})",
                            R"({"type":"FeatureCollection","features":{}})"}) {
     const auto map = read(text);

@@ -150,9 +150,8 @@ TEST(TerrainRoughness, ACheckerboardHasItsAmplitude) {
         return (static_cast<int>(std::floor(x)) + static_cast<int>(std::floor(y))) % 2 == 0 ? 0.125 : -0.125;
       },
       {}, grid);
-  // The correlation of x and y with a checkerboard of eight columns is not nil but 0.5 per axis sum; within
-  // radius 6 all 64 centres take part. Closed form: variance a^2 less what the two fitted slopes explain,
-  // which is 0.
+  // Within radius 6 all 64 centres take part. In closed form the mean square is a^2 less the part that the
+  // two fitted slopes explain, which is 0.
   EXPECT_NEAR(*terrain.roughness_m(0.0, 0.0, 6.0), 0.125, 1e-9);
 }
 
@@ -174,7 +173,7 @@ TEST(TerrainRoughness, WithFewerThanFourCentresThereIsNone) {
   EXPECT_FALSE(terrain.roughness_m(500.0, 500.0, 1.0));
 }
 
-TEST(TerrainFingerprint, ItChangesWithAHeightTheMaskAndTheGeometryAndWithNothingElse) {
+TEST(TerrainFingerprint, ItChangesWithAHeightTheMaskAndTheGeometryOnly) {
   const auto plane = [](double x, double y) { return x + y; };
   const std::string whole = sampled(plane).fingerprint();
   EXPECT_EQ(whole.size(), 16U);
@@ -182,7 +181,7 @@ TEST(TerrainFingerprint, ItChangesWithAHeightTheMaskAndTheGeometryAndWithNothing
   EXPECT_NE(whole, sampled(plane, {7}).fingerprint());
   EXPECT_NE(whole,
             sampled([](double x, double y) { return x + y + (x > -36.0 ? 1e-3 : 0.0); }).fingerprint());
-  // What lies under the mask is never read.
+  // Heights of masked cells are never read.
   const GridGeometry two{.rows = 1, .columns = 2};
   EXPECT_EQ(Terrain(two, {1.0F, 2.0F}, {1, 0}).fingerprint(),
             Terrain(two, {1.0F, 9.0F}, {1, 0}).fingerprint());
@@ -192,7 +191,7 @@ TEST(TerrainFingerprint, ItChangesWithAHeightTheMaskAndTheGeometryAndWithNothing
             Terrain(moved, {1.0F, 2.0F}, {1, 1}).fingerprint());
 }
 
-TEST(Terrain, BrokenSizesAndHeightsThatAreNoneAreBrokenPromises) {
+TEST(Terrain, WrongSizesAndHeightsThatAreNotFiniteThrow) {
   const GridGeometry two{.rows = 1, .columns = 2};
   EXPECT_THROW(Terrain(two, {1.0F}, {1, 1}), std::invalid_argument);
   EXPECT_THROW(Terrain(two, {1.0F, 2.0F}, {1}), std::invalid_argument);

@@ -74,7 +74,8 @@ TEST(DriveWindow, BackwardDrivesHaveThePositiveSlipOfForwardOnes) {
 TEST(DriveWindow, AnOutlierIsPassedOver) {
   DriveCampaign campaign = constant_motion(0.04, 0.0, 0.0, 0.0, 0.0, 0.05, 0.0);
   campaign.drives[0].samples[10].wheels[2].current_a = 40.0;
-  for (const Observation& o : cut_windows(campaign)[0].observations)
+  const std::vector<DriveWindow> windows = cut_windows(campaign);
+  for (const Observation& o : windows[0].observations)
     if (o.channel == Channel::kCurrent) {
       EXPECT_NEAR(o.value, 0.2, 1e-9) << o.wheel;
     }
@@ -129,8 +130,9 @@ TEST(DriveWindow, SurveysBeforeAndAfterSayPoseAlone) {
 TEST(DriveWindow, OneCurrentForAllWheelsIsATotalAndComparedAsTheirMean) {
   DriveCampaign campaign = constant_motion(0.04, 0.0, 0.0, 0.0, 0.0, 0.05, 0.0);
   const auto currents = [&] {
+    const std::vector<DriveWindow> windows = cut_windows(campaign);
     std::vector<int> wheels;
-    for (const Observation& o : cut_windows(campaign)[0].observations)
+    for (const Observation& o : windows[0].observations)
       if (o.channel == Channel::kCurrent) wheels.push_back(o.wheel);
     return wheels;
   };

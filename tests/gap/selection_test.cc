@@ -35,12 +35,12 @@ TEST(Weigh, BelievesAShareOfTheEvidenceAndNowAndThenATenthOfIt) {
   std::vector<Candidate> c{candidate({"a"}, 0.0), candidate({}, 0.0)};
   c[0].log_evidence = 500.0;  // a tenth of the share leaves a few percent to the other
   c[0].log_prior = c[1].log_prior = std::log(0.5);
-  weigh(c, {});
+  weigh(c, EvidenceOptions{});
   EXPECT_NEAR(c[0].probability + c[1].probability, 1.0, 1e-12);
   EXPECT_GT(c[1].probability, 1e-4) << "no simulator is exact: one answer is never certain";
   EXPECT_LT(c[1].probability, 0.05);
-  SearchOptions all_of_it;
-  all_of_it.whole_evidence = true;
+  EvidenceOptions all_of_it;
+  all_of_it.whole = true;
   c[0].log_evidence = std::log(3.0);
   weigh(c, all_of_it);
   EXPECT_NEAR(c[0].probability, 0.75, 1e-12) << "Bayes's theorem";
@@ -75,7 +75,7 @@ Diagnosis answer_with(Verdict verdict, double least_left) {
   d.candidates.resize(2);
   if (verdict == Verdict::kEffects) d.candidates[0].effects = {"hardpan"};
   d.candidates[0].probability = 0.95;
-  d.candidates[1].effects = {"unknown"};
+  d.candidates[1].with_unknown = true;
   d.candidates[1].probability = 0.05;
   ChannelClosure current;
   current.channel = Channel::kCurrent;
@@ -89,10 +89,10 @@ Diagnosis answer_with(Verdict verdict, double least_left) {
 TEST(Verdict, IsUnknownWhereAnAnswerLeavesMoreThanItsFloor) {
   DriveCampaign campaign;
   campaign.soils.resize(1);
-  FittedExplanation told{Hypothesis(campaign, {}), {}, {}, {}, {}, {}, {}, {}, 0.0, true};
-  told.x = told.hypothesis.neutral();
+  FittedExplanation reported{{}, Hypothesis(campaign, {})};
+  reported.x = reported.hypothesis.neutral();
   const auto doubted = [&](Diagnosis d) {
-    doubt_what_leaves_a_gap(told, d);
+    doubt_what_leaves_a_gap(reported, VerdictOptions{}, d);
     return d;
   };
   EXPECT_EQ(doubted(answer_with(Verdict::kNoGap, 1.2)).verdict, Verdict::kNoGap);
@@ -102,7 +102,7 @@ TEST(Verdict, IsUnknownWhereAnAnswerLeavesMoreThanItsFloor) {
   const Diagnosis gap = doubted(answer_with(Verdict::kParameters, 1.4));
   EXPECT_EQ(gap.verdict, Verdict::kUnknown);
   EXPECT_NE(gap.reason.find("current"), std::string::npos) << gap.reason;
-  EXPECT_EQ(gap.candidates.front().effects, std::vector<std::string>{"unknown"});
+  EXPECT_EQ(names_of(gap.candidates.front()), std::vector<std::string>{"unknown"});
   EXPECT_NEAR(gap.candidates[0].probability, 0.9, 1e-12);
   EXPECT_NEAR(gap.candidates[1].probability, 0.1, 1e-12);
 
@@ -120,18 +120,18 @@ TEST(Verdict, IsUnknownWhereAnAnswerLeavesMoreThanItsFloor) {
   leaning.gap.front().channel = Channel::kPitch;
   EXPECT_EQ(doubted(leaning).verdict, Verdict::kNoGap) << "sunk wheels make a rover lean";
 
-  told.x.front() = told.hypothesis.parameters().front().highest;
+  reported.x.front() = reported.hypothesis.parameters().front().highest;
   EXPECT_EQ(doubted(answer_with(Verdict::kParameters, 1.0)).verdict, Verdict::kUnknown) << "at its end";
 }
 
-TEST(Verdict, IsInDoubtWhereHarshDrivesAreToldWorseThanByChance) {
+TEST(Verdict, IsInDoubtWhereHarshDrivesArePredictedWorseThanByChance) {
   Diagnosis d;
   d.verdict = Verdict::kEffects;
   d.extrapolations.push_back({"slope_deg", true, 12.0, 10, -3.0, 2.0});
-  doubt_what_does_not_extrapolate(d);
+  doubt_what_does_not_extrapolate(VerdictOptions{}, d);
   EXPECT_EQ(d.verdict, Verdict::kEffects) << "within chance";
   d.extrapolations.push_back({"motor_temp_c", false, -20.0, 10, -5.0, 2.0});
-  doubt_what_does_not_extrapolate(d);
+  doubt_what_does_not_extrapolate(VerdictOptions{}, d);
   EXPECT_EQ(d.verdict, Verdict::kEffectSet);
   EXPECT_NE(d.reason.find("motor_temp_c below -20"), std::string::npos) << d.reason;
 }

@@ -30,8 +30,8 @@ std::vector<WindowVariables> made_windows() {
 std::size_t windows_of(const std::vector<Slice>& slices, const std::string& variable, double from,
                        double to) {
   const auto found = std::find_if(slices.begin(), slices.end(), [&](const Slice& s) {
-    return s.conditions.size() == 1 && s.conditions[0].variable == variable && s.conditions[0].from == from &&
-           s.conditions[0].to == to;
+    return s.conditions.size() == 1 && name_of(s.conditions[0].variable) == variable &&
+           s.conditions[0].from == from && s.conditions[0].to == to;
   });
   return found == slices.end() ? 0 : found->windows.size();
 }
@@ -45,7 +45,7 @@ std::vector<std::size_t> made_drives() {
 
 std::vector<Regime> located(const std::vector<double>& squares, LookedAt looked_at) {
   const std::vector<ChannelSquares> channels{{Channel::kCurrent, squares}};
-  return regimes_in(slices_of(made_windows()), channels, made_drives(), looked_at, DiagnosisOptions{}, 5,
+  return regimes_in(slices_of(made_windows()), channels, made_drives(), looked_at, DiagnosisOptions{},
                     [] { return false; });
 }
 
@@ -92,10 +92,10 @@ TEST(Regimes, OfATraceAreThoseThatFitWhereItIsLarge) {
   const std::vector<Regime> regimes = located(squares, LookedAt::kTrace);
   ASSERT_FALSE(regimes.empty());
   ASSERT_EQ(regimes.front().conditions.size(), 1u);
-  EXPECT_EQ(regimes.front().conditions[0].variable, "slope_deg");
+  EXPECT_EQ(regimes.front().conditions[0].variable, WindowVariable::kSlope);
   EXPECT_NEAR(regimes.front().conditions[0].from, 8.0, 1.5);
   EXPECT_LE(regimes.front().significance, 0.1);
-  EXPECT_EQ(located(squares, LookedAt::kGap).front().conditions[0].variable, "slope_deg");
+  EXPECT_EQ(located(squares, LookedAt::kGap).front().conditions[0].variable, WindowVariable::kSlope);
 }
 
 TEST(Regimes, OfATraceAreNotDecidedByFewWindows) {

@@ -13,7 +13,7 @@ constexpr std::array<bool, kSoilChannels> kAll{true, true, true, true, true, tru
 SoilData made_plates(const sim::BekkerModuli& moduli, const std::vector<double>& radii, double noise) {
   SoilData data;
   for (const double radius : radii) {
-    PlateTest plate{radius, {}, {}};
+    PlateRecord plate{radius, {}, {}};
     for (std::uint64_t i = 1; i <= 15; ++i) {
       const double z = 0.003 * static_cast<double>(i);
       plate.sinkage_m.push_back(z);

@@ -70,9 +70,9 @@ inline SoilData made_wheel_tests(const sim::Soil& soil, const MadeWheelTests& ma
     o.test.load_n = 20.0 + 70.0 * (i % 5);
     o.test.slip = 0.03 + 0.75 * (i / 5) / std::max(1.0, made.count / 5.0 - 1.0);
     if (made.current) o.test.drive = sim::DriveMotor{};
-    sim::SingleWheelTest test = o.test;
+    sim::WheelRigConditions test = o.test;
     test.soil = soil;
-    const sim::SingleWheelResult result = sim::run_single_wheel_test(test);
+    const sim::WheelRigResult result = sim::run_wheel_rig(test);
     const auto noisy = [&](double value, SoilChannel channel) {
       const auto counter = static_cast<std::uint64_t>(10 * i + static_cast<int>(channel));
       return value * (1.0 + made.noise * random_normal(random_key(made.seed, 7), counter));

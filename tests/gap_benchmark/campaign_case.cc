@@ -90,7 +90,7 @@ std::vector<CampaignCase> full(CaseList list) {
   for (const char* effect : {"motor_temperature", "gearbox_friction"})
     list.add({effect}, 1.0).temperature = false;
   for (const char* effect : {"com_offset", "bulldozing", "wheel_radius"})
-    list.add({effect}, 1.0).most_drives = 6;
+    list.add({effect}, 1.0).max_drives = 6;
   return list.take();
 }
 
@@ -105,7 +105,7 @@ std::vector<CampaignCase> smoke(CaseList list) {
     CampaignCase& made =
         something ? list.add({"gearbox_friction"}, 2.0) : list.add_control(NominalSoil::kTrue);
     made.on_hills = false;
-    made.most_drives = 9;
+    made.max_drives = 9;
     made.soil = "sandy-loam";
     made.fidelity = Fidelity::kOtherEffects;
   }

@@ -27,20 +27,20 @@ struct CampaignCase {
   double size = 1.0;
   NominalSoil nominal = NominalSoil::kUsual;
   Fidelity fidelity = Fidelity::kOtherEffects;
-  std::optional<std::string> soil;  // nothing: drawn
-  std::size_t most_drives = 0;      // 0: all
+  std::optional<std::string> soil;  // drawn where it is empty
+  std::size_t max_drives = 0;       // 0 for all drives
   bool sinkage = true, temperature = true;
   std::uint64_t seed = 0;  // of everything drawn in it
   bool even_soil = false;  // no scatter and no sensor noise, for comparisons
 };
 
-// The cases of a set: "blind" (26 as a judge would choose), "full" (every effect at three sizes and much
-// more), "each" (every cause once), "smoke" (two small ones), "nothing" (p01 again),
-// "other_physics" (ten of L3, whatever is asked for).
+// The cases of a set: "blind" (26, as an independent judge might choose them), "full" (every effect at three
+// sizes and much more), "each" (every cause once), "smoke" (two small ones), "nothing" (p01 again),
+// "other_physics" (ten, always of L3).
 std::optional<std::vector<CampaignCase>> cases_of(const std::string& set, std::optional<Fidelity> fidelity,
                                                   RandomStream& random);
 
-// A cause that is no term of the fidelity's wheel law: name of the first, or nothing.
+// The name of the first cause that the fidelity's wheel law cannot have; empty where there is none.
 std::optional<std::string> impossible_cause(const CampaignCase& made_of);
 
 const std::vector<TrueSoil>& true_soils();

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kStep_s = 2.0, kSurveyEvery = 5;
 constexpr double kHeating_k = 8.0, kHeatingTime_s = 300.0;
-constexpr int kFirstPasses = 3;  // until the wheels behind stand in the ruts of those ahead
+constexpr int kFirstPasses = 3;  // repeats after which the rear wheels stand in the ruts of those ahead
 constexpr double kRutLeft = 0.4;
 constexpr double kReferenceTemp_c = 20.0, kReferenceSpeed_m_s = 0.04;
 
@@ -226,7 +226,7 @@ class Drive {
     return out;
   }
 
-  // The deepest rut that this wheel runs in, of what does not spring back and cave in: its sinkage is
+  // The deepest rut in which this wheel runs, less the part that springs back and caves in. The sinkage is
   // measured from the undisturbed surface.
   double rut_under(int k) const {
     double rut = 0.0;
@@ -362,10 +362,10 @@ class Drive {
 }  // namespace
 
 std::array<WheelRow, kWheels> commanded_wheels(const RoverOnFile& rover, const DriveOrder& order) {
-  std::array<WheelRow, kWheels> told;
+  std::array<WheelRow, kWheels> commands;
   for (int k = 0; k < kWheels; ++k) {
     const double x = rover.wheel_m[k].x(), y = rover.wheel_m[k].y();
-    WheelRow& wheel = told[static_cast<std::size_t>(k)];
+    WheelRow& wheel = commands[static_cast<std::size_t>(k)];
     const double turn = order.turn_rate_rad_s();
     const double along = order.turn_in_place ? -turn * y : order.speed_m_s - turn * y, across = turn * x;
     const bool steers = k % 3 != 1;
@@ -373,7 +373,7 @@ std::array<WheelRow, kWheels> commanded_wheels(const RoverOnFile& rover, const D
     wheel.steer_rad = steers ? std::atan(across / along) : 0.0;
     wheel.rate_rad_s = sense * (steers ? std::hypot(along, across) : std::abs(along)) / rover.radius_m;
   }
-  return told;
+  return commands;
 }
 
 SimulatedDrive simulate_drive(const World& world, const TerrainGrid& ground, const DriveOrder& order,

@@ -19,16 +19,16 @@ struct DriveOrder {
   bool turn_in_place = false;
   double start_x_m = 0.0, start_y_m = 0.0, start_yaw_rad = 0.0;
   double motor_temp_c = 20.0;
-  double share_of_day = 0.0;  // 0 first drive, 1 last
+  double share_of_day = 0.0;  // from 0 for the first drive to 1 for the last
 
-  // Told, of the heading.
+  // Commanded rate of the heading.
   double turn_rate_rad_s() const {
     constexpr double kTurnArm_m = 0.88;
     return turn_in_place ? speed_m_s / kTurnArm_m : speed_m_s * curvature_1_m;
   }
 };
 
-// How soils differ from drive to drive and along a drive: deviations of logarithms.
+// The scatter of soils from drive to drive and along a drive, as standard deviations of logarithms.
 struct SoilScatter {
   double stiffness = 0.055, friction = 0.010, shear_modulus = 0.06;
   double along = 0.5;  // of these, along a drive
@@ -39,7 +39,8 @@ struct WheelRow {
   double rate_rad_s = 0.0, steer_rad = 0.0, current_a = 0.0, sinkage_m = 0.0;
 };
 
-// How the rover moves, which no log has: true heading, forward and left along the body.
+// The true motion of the rover, which no log has: its heading, and its speeds forward and to the left of the
+// body.
 struct RoverMotion {
   double heading_rad = 0.0, way_m = 0.0;
   double forward_m_s = 0.0, left_m_s = 0.0;
@@ -47,7 +48,7 @@ struct RoverMotion {
   double roll_rad = 0.0, pitch_rad = 0.0;  // of the ground, as the suspension lies on it
 };
 
-// As sensors without noise would show it.
+// A row as sensors without noise would record it.
 struct DriveRow {
   double time_s = 0.0, x_m = 0.0, y_m = 0.0, z_m = 0.0, roll_rad = 0.0, pitch_rad = 0.0, yaw_rad = 0.0;
   double motor_temp_c = 0.0;
@@ -66,21 +67,21 @@ struct World {
   HiddenTruth hidden;
 };
 
-// Told rates and steering angles of the six wheels.
+// Commanded rates and steering angles of the six wheels.
 std::array<WheelRow, kWheels> commanded_wheels(const RoverOnFile& rover, const DriveOrder& order);
 
 struct SimulatedDrive {
   std::vector<DriveRow> rows;
-  bool complete = true;  // false: left the map, or the balance was not found
+  bool complete = true;  // false where the rover left the map or the balance was not found
 };
 
-// Explicit Euler steps of 2 s, a row each.
+// Simulates a drive by explicit Euler steps of 2 s, with a row for each.
 SimulatedDrive simulate_drive(const World& world, const TerrainGrid& ground, const DriveOrder& order,
                               RandomStream& random);
 
-// The rows that a drive of the same soil (`random` as it was for that drive) would have at the poses and
-// times of these, were the world this one: what another world does at a place, without where it would have
-// led to. Nothing where the balance was not found.
+// The rows that a drive on the same soil (`random` as it was for that drive) would have at the poses and
+// times of these rows in another world. It shows the effect of that world at each place, without the change
+// of the path. Empty where the balance was not found.
 std::vector<std::optional<DriveRow>> replay_drive(const World& world, const TerrainGrid& ground,
                                                   const DriveOrder& order, RandomStream& random,
                                                   std::span<const DriveRow> at);

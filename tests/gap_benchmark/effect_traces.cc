@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 constexpr double kStretch_m = 1.5, kStretch_rad = 0.8;
-constexpr double kStuckSlip = 0.9;  // above it a reading of slip says only that it was great
+constexpr double kStuckSlip = 0.9;  // a reading above it only says that the slip was high
 
 struct Stretch {
   std::size_t from = 0, to = 0;  // rows, both in it
@@ -40,10 +40,10 @@ std::vector<Stretch> stretches_of(const MadeDrive& drive) {
   return stretches;
 }
 
-// One value for each wheel of a wheel's channel, else one.
+// One value for each wheel in a channel of the wheels, otherwise a single one.
 using Reading = std::array<std::vector<double>, kTraceChannels.size()>;
 
-// What sensors without noise would show. Motion is what a log gives: the body's, by the recorded heading and
+// The readings of sensors without noise. The motion is computed as from a log, with the recorded heading and
 // attitude.
 Reading reading_of(const DriveOrder& order, const DriveRow& row) {
   const RoverMotion& m = row.motion;
@@ -74,7 +74,8 @@ Reading reading_of(const DriveOrder& order, const DriveRow& row) {
   return reading;
 }
 
-// Of the mean of a stretch's readings, by its sensors alone: of speeds and rates by the line through them.
+// The standard deviation of the mean of a stretch's readings due to its sensors alone; for speeds and rates
+// that of the line through positions or headings.
 double sensor_deviation(std::size_t channel, const DriveOrder& order, std::span<const DriveRow> rows,
                         std::size_t surveyed, double mean) {
   double middle_s = 0.0, spread = 0.0;
@@ -99,8 +100,8 @@ double sensor_deviation(std::size_t channel, const DriveOrder& order, std::span<
   }
 }
 
-// The world without what is hidden, and worlds whose soil is off by a deviation of the drives' scatter, in
-// stiffness, friction and shear modulus.
+// The world without the hidden causes, and worlds whose stiffness, friction or shear modulus is off by one
+// standard deviation of the scatter from drive to drive.
 struct Worlds {
   World bare;
   std::array<World, 3> scattered;

@@ -9,7 +9,8 @@
 
 namespace slipway::gap_benchmark {
 
-// What observations of a stretch may depend on, and what is observed, by the diagnosis' names.
+// The variables on which observations of a stretch may depend, and the observed channels, by the diagnosis's
+// names.
 constexpr std::array<const char*, 8> kTraceVariables{"slope_deg", "cross_slope_deg", "slip",
                                                      "speed_m_s", "curvature_1_m",   "temperature_c",
                                                      "turning",   "time_s"};
@@ -17,17 +18,19 @@ enum TraceChannel { kSlip, kSideSlip, kYawRate, kRoll, kPitch, kCurrent, kSinkag
 constexpr std::array<const char*, 7> kTraceChannels{"slip",  "side_slip", "yaw_rate", "roll",
                                                     "pitch", "current",   "sinkage"};
 
-// What the hidden causes do to a stretch of a drive (1.5 m of commanded way, or 0.8 rad of a turn).
+// The action of the hidden causes in a stretch of a drive (1.5 m of commanded distance, or 0.8 rad of a
+// turn).
 struct EffectTrace {
   std::string drive;
   std::array<double, kTraceVariables.size()> variables{};
-  // Squared, mean over the wheels of a wheel's channel; nothing where it is not observed there.
+  // The squared change in units of its standard deviation, for wheels' channels the mean over wheels; empty
+  // where the channel is not observed.
   std::array<std::optional<double>, kTraceChannels.size()> mean_square;
 };
 
-// Of every stretch: mean reading less the one that the same rover on the same soil at the same poses would
-// give without the hidden causes, over the deviation of a stretch's mean: of its sensors, and of what the
-// soil scatters from drive to drive. None where nothing is hidden.
+// For every stretch: the mean reading less the one that the same rover on the same soil at the same poses
+// would give without the hidden causes, over the standard deviation of a stretch's mean, which is that of its
+// sensors and of the soil's scatter from drive to drive. Empty where nothing is hidden.
 std::vector<EffectTrace> effect_traces(const SealedCampaign& campaign);
 
 // traces.csv: campaign, drive, the variables, then NAME_mean_square of each channel.

@@ -1,4 +1,4 @@
-// Where hidden causes act, by the generator's own word.
+// Tests of the generator's own record of where hidden causes act.
 #include "effect_traces.h"
 
 #include <gtest/gtest.h>
@@ -8,11 +8,11 @@
 namespace slipway::gap_benchmark {
 namespace {
 
-SealedCampaign made(std::vector<std::string> causes, bool on_hills = false, std::size_t most_drives = 8) {
+SealedCampaign made(std::vector<std::string> causes, bool on_hills = false, std::size_t max_drives = 8) {
   CampaignCase made_of;
   made_of.causes = std::move(causes);
   made_of.on_hills = on_hills;
-  made_of.most_drives = most_drives;
+  made_of.max_drives = max_drives;
   made_of.seed = 5;
   RandomStream random(made_of.seed);
   return make_campaign(made_of, random);
@@ -30,7 +30,7 @@ std::string main_channel_of(std::vector<std::string> causes) {
   return kTraceChannels[static_cast<std::size_t>(std::max_element(sums.begin(), sums.end()) - sums.begin())];
 }
 
-TEST(EffectTraces, WhatIsHiddenInTheMotorsIsInTheCurrentAlone) {
+TEST(EffectTraces, CausesHiddenInTheMotorsActOnTheCurrentAlone) {
   for (const char* cause : {"motor_temperature", "gearbox_friction", "current_gain_drift"}) {
     const std::vector<EffectTrace> traces = effect_traces(made({cause}));
     ASSERT_GT(traces.size(), 8u);
@@ -46,7 +46,7 @@ TEST(EffectTraces, OtherCausesActMostWhereTheirPhysicsSay) {
   EXPECT_EQ(main_channel_of({"steering_offset"}), "side_slip");
 }
 
-TEST(EffectTraces, ABiasOfTheInclinometerIsInWhatItReads) {
+TEST(EffectTraces, ABiasOfTheInclinometerIsInItsReadings) {
   SealedCampaign campaign = made({});
   campaign.effects["attitude_bias"]["roll_deg"] = 1.0;
   campaign.world.hidden.roll_bias_rad = 0.0174533;
@@ -58,7 +58,7 @@ TEST(EffectTraces, ABiasOfTheInclinometerIsInWhatItReads) {
   EXPECT_LT(sums[kCurrent], 1e-9 * sums[kRoll]);
 }
 
-TEST(EffectTraces, NothingHiddenHasNoRows) {
+TEST(EffectTraces, ACampaignWithNothingHiddenHasNoRows) {
   EXPECT_TRUE(effect_traces(made({})).empty());
   EXPECT_EQ(traces_rows("s01", {}), "");
 }

@@ -26,7 +26,7 @@ for case in scores["campaigns"]:
     assert case["hidden"] == (" + ".join(sorted(answers[name]["effects"])) or "nothing"), case
     assert case["exact"], case  # both are plain
     assert ("oracle_closed_fraction" in case) == bool(answers[name]["effects"]), case
-    # Nothing beside a campaign's measurements tells what is in it.
+    # A campaign's folder has nothing but its measurements that could reveal its hidden effects.
     campaign = json.loads((folder / "first" / name / "campaign.json").read_text())
     assert set(campaign) == {"format", "name", "gravity_m_s2", "rover", "soils", "terrains", "measurement_std", "drives"}
     assert campaign["rover"]["drive"]["torque_constant_nm_per_a"] == 0.0224
@@ -34,12 +34,12 @@ for case in scores["campaigns"]:
     assert {p.name for p in (folder / "first" / name).iterdir()} == files | {"campaign.json"}
     columns = next(csv.reader((folder / "first" / name / campaign["drives"][0]["file"]).open()))
     assert len(columns) == 7 + 5 * 6 + 1, columns
-# Told the answer, it closes about what it closed unasked; without the effect in its library it names no other.
+# With the hidden effects given, the diagnosis closes about the same share; with the effect withheld it names no other.
 scored = {row["campaign"]: row for row in csv.DictReader((folder / "scores.csv").open())}
 assert abs(float(scored["d02"]["oracle_closed_fraction"]) - float(scored["d02"]["closed_fraction"])) < 0.1, scored
-told = json.loads((folder / "kept" / "d02-oracle.json").read_text())
-assert [e["name"] for e in told["effects"]] == sorted(answers["d02"]["effects"]), told["effects"]
-assert [c["effects"] for c in told["candidates"] if c["probability"] > 0] == [sorted(answers["d02"]["effects"])], told["candidates"]
+with_answer = json.loads((folder / "kept" / "d02-oracle.json").read_text())
+assert [e["name"] for e in with_answer["effects"]] == sorted(answers["d02"]["effects"]), with_answer["effects"]
+assert [c["effects"] for c in with_answer["candidates"] if c["probability"] > 0] == [sorted(answers["d02"]["effects"])], with_answer["candidates"]
 withheld = list(csv.DictReader((folder / "withheld.csv").open()))
 assert [(w["campaign"], w["withheld"]) for w in withheld] == [("d02", e) for e in answers["d02"]["effects"]], withheld
 assert withheld == [dict(w, **{"verdict": s["verdict"], "found": s["found"]}) for w, s in zip(withheld, scores["withheld"])]

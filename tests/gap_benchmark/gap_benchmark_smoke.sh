@@ -34,7 +34,7 @@ for case in scores["campaigns"]:
     hidden = " + ".join(sorted(answers[case["campaign"]]["effects"])) or "nothing"
     assert case["hidden"] == hidden, case
 assert scores["figures"]["all"]["campaigns"] == 2
-# Where the friction acts: the key's traces are of the campaign that hides it, and its channel is told.
+# The key's traces are of the campaign that hides the friction, and the diagnosis names the channel in which it acts.
 traces = list(csv.DictReader((folder / "first" / "traces.csv").open()))
 assert {row["campaign"] for row in traces} == {"s02"}, traces[:1]
 assert all(float(row["current_mean_square"]) > 0 == float(row["slip_mean_square"]) for row in traces)

@@ -9,12 +9,12 @@
 
 namespace slipway::gap_benchmark {
 
-// The library's sixteen, by the names of its catalogue.
+// The library's sixteen effects by the names of its catalogue.
 std::span<const std::string_view> library_effects();
-// Causes that are in no library.
+// Causes that are outside every library.
 std::span<const std::string_view> foreign_causes();
 bool is_known_cause(std::string_view name);
-// Causes that are terms of the arc's stresses: other wheel laws don't have them.
+// Causes that are terms of the contact arc's stresses, which other wheel laws do not have.
 bool is_of_arc_law(std::string_view name);
 
 // Puts a cause of `size` times its usual size into the truth, and its name and parameters into the answer. A

@@ -7,8 +7,8 @@
 
 namespace slipway::gap_benchmark {
 
-// A soil as campaigns give it, angles in radians. It is not the library's type: nothing here shares code with
-// it.
+// A soil as in campaign.json, with angles in radians. It is not the library's type, since this program shares
+// no code with the library.
 struct TrueSoil {
   std::string name;
   double k_c = 20000.0, k_phi = 1.2e6, n = 0.95;
@@ -16,7 +16,7 @@ struct TrueSoil {
   double density_kg_m3 = 1500.0, c1 = 0.18, c2 = 0.32;
 };
 
-// Closures of the wheel law and of the suspension, which no measurement of the soil gives.
+// Closure parameters of the wheel law and of the suspension, which cannot be measured on the soil.
 struct Closure {
   bool parabolic_stress = false;  // instead of Wong and Reece's two branches of Bekker's power
   bool coupled_shear = false;     // one vector of shear displacement instead of one along and one across
@@ -25,9 +25,10 @@ struct Closure {
   double pull_below_axle = 1.0;  // 1: pulls act on the ground below the axle; 0: torque reacts on the carrier
 };
 
-// What acts in the drives and in no prediction. Zero (or one, for factors) is absence.
+// The hidden causes, which act in the drives and in no prediction. A value of 0, or of 1 for factors, means
+// absence.
 struct HiddenTruth {
-  bool other_equations = true;  // false: the library's own equations, in code of their own
+  bool other_equations = true;  // false for the library's own equations, in other code
 
   double slip_sinkage = 0.0;  // n1
   double multipass = 0.0;     // stiffening
@@ -46,19 +47,20 @@ struct HiddenTruth {
   double steering_rad = 0.0;
   int steered = -1;  // all
   double roll_bias_rad = 0.0, pitch_bias_rad = 0.0;
-  bool bias_of_gravity = false;  // map and inclinometer share it; else the inclinometer's alone
+  bool bias_of_gravity =
+      false;  // true where map and inclinometer share it, false where only the inclinometer has it
 
-  // Causes that no library has.
+  // Causes that are outside every library.
   double tether_n = 0.0;
   double wind_n = 0.0, wind_rad = 0.0;  // a push in one direction of the map
   double odometry_yaw_scale = 0.0;
   double current_gain_drift = 0.0;  // from the first drive to the last
   int slipping_hub = -1;
-  double hub_share = 0.0;        // greatest share of the rim's speed lost, once a turn
+  double hub_share = 0.0;        // maximum share of the rim's speed that is lost, once a turn
   double solar_softening = 0.0;  // share of friction and cohesion lost at noon
 };
 
-// As answers.json has them: names of the effects with their parameters in the unit of the key.
+// The names of the effects with their parameters in the units of the keys, as in answers.json.
 using EffectAnswers = std::map<std::string, std::map<std::string, double>>;
 
 }  // namespace slipway::gap_benchmark

@@ -79,7 +79,7 @@ class Balance {
 
   Entry entry_of(int k, double forward, double left, double depth, WheelLoads& loads) const {
     const WheelPlace& place = task_.wheels[static_cast<std::size_t>(k)];
-    const double told = place.steer_rad, c = std::cos(told), s = std::sin(told);
+    const double steer = place.steer_rad, c = std::cos(steer), s = std::sin(steer);
     WheelMotion motion;
     motion.forward_m_s = c * forward + s * left;
     motion.left_m_s = -s * forward + c * left;
@@ -91,7 +91,8 @@ class Balance {
     const Eigen::Vector3d force = loads.normal_n * up + loads.pull_n * along + loads.side_n * across;
     const Eigen::Vector2d& at = rover_.wheel_m[static_cast<std::size_t>(k)];
     const Eigen::Vector3d axle(at.x(), at.y(), place.height_m + radius_);
-    // Pull and side force on the ground turn about the axle; of the pull perhaps only a share.
+    // Pull and side force act on the ground and have a moment about the axle; of the pull perhaps only a
+    // share does.
     const double below = closure_.pull_below_axle;
     const double twist = below * radius_ * loads.pull_n + (1.0 - below) * loads.torque_nm;
     const Eigen::Vector3d moment = -twist * across + radius_ * loads.side_n * along;
@@ -178,7 +179,7 @@ bool balance_rover(const RoverOnFile& rover, const BalanceTask& task, const Whee
   const Balance balance(rover, task, law, closure, hidden);
   const BalanceState start = state;
   if (balance.solve(state, false)) return true;
-  // From standing loads, at several shares of the told speed.
+  // The search starts from the loads at rest, at several shares of the commanded speed.
   for (const double share : {0.9, 0.6, 0.3, 0.1}) {
     state = BalanceState{};
     double rim = 0.0, turn = 0.0;

@@ -11,7 +11,7 @@ namespace slipway::gap_benchmark {
 constexpr int kWheels = 6;
 constexpr std::array<const char*, kWheels> kWheelNames{"lf", "lm", "lr", "rf", "rm", "rr"};
 
-// The rover as its operators have it on file; x forward, y left, z up from the ground under the centre.
+// The rover as its operators know it, with x forward, y left and z up from the ground under the centre.
 struct RoverOnFile {
   double mass_kg = 174.0;
   Eigen::Vector3d com_m{-0.03, 0.0, 0.38};
@@ -22,7 +22,7 @@ struct RoverOnFile {
   double torque_constant_nm_a = 0.0224, gear_ratio = 1500.0, gear_efficiency = 0.55, no_load_a = 0.06;
 };
 
-// What a wheel stands on and is told.
+// The ground under a wheel, and the wheel's commands.
 struct WheelPlace {
   double height_m = 0.0;                // of the ground above the body's ground plane
   double grade_x = 0.0, grade_y = 0.0;  // of the ground, in the body's frame
@@ -40,11 +40,12 @@ struct BalanceState {
   double forward_m_s = 0.0, left_m_s = 0.0, yaw_rate_rad_s = 0.0;
   std::array<double, kWheels> depth_m{0.012, 0.012, 0.012, 0.012, 0.012, 0.012};
   std::array<WheelLoads, kWheels> loads;
-  bool held = false;  // no motion balances the forces: the rover stands
+  bool held = false;  // true where no motion balances the forces, so that the rover stands
 };
 
-// Motion and sinkages at which soil, by a wheel law, weight and linkage balance: three forces, three moments,
-// both bogies and the differential, by Newton's method on nine unknowns. Starts from `state`.
+// Finds the motion and sinkages at which the soil's forces by a wheel law, the weight and the linkage
+// balance: three forces, three moments, both bogies and the differential, by Newton's method on nine
+// unknowns. It starts from `state`.
 bool balance_rover(const RoverOnFile& rover, const BalanceTask& task, const WheelLaw& law,
                    const Closure& closure, const HiddenTruth& hidden, BalanceState& state);
 

@@ -29,7 +29,7 @@ std::string drive_name(std::size_t number) {
 }
 
 // 44 drives on a table tilted by 0 to 18 deg: up twice, down, across either way, both arcs, backward twice, a
-// turn on the spot; neither arcs nor a turn where it is steep.
+// turn in place; there are neither arcs nor a turn on the steep tables.
 std::vector<DriveOrder> tilt_orders(RandomStream& random) {
   std::vector<DriveOrder> orders;
   for (const int tilt : {0, 5, 10, 15, 18}) {
@@ -74,7 +74,8 @@ DriveOrder hills_order(std::size_t number, RandomStream& random) {
 
 Closure closure_of(Fidelity fidelity, RandomStream& random, TrueSoil& soil) {
   Closure closure;
-  if (fidelity == Fidelity::kOtherPhysics) closure.pull_below_axle = 0.0;  // forces act where they act
+  if (fidelity == Fidelity::kOtherPhysics)
+    closure.pull_below_axle = 0.0;  // forces act at their contact points
   if (fidelity != Fidelity::kOtherClosures) return closure;
   closure.parabolic_stress = random.uniform() < 0.5;
   closure.coupled_shear = random.uniform() < 0.7;
@@ -106,7 +107,7 @@ double digits(double value, int count) {
   return std::strtod(text.data(), nullptr);
 }
 
-// What the operators believe of the soil.
+// The soil as the operators assume it.
 TrueSoil believed(const TrueSoil& soil, double spread, RandomStream& random) {
   TrueSoil nominal = soil;
   nominal.c1 = 0.18;
@@ -136,7 +137,7 @@ const TrueSoil& drawn_soil(RandomStream& random) {
   return random.uniform() < 0.5 ? soils[random.below(2)] : soils[2 + random.below(soils.size() - 2)];
 }
 
-// A patch where several drives pass, not all of them.
+// A patch at a place where several drives pass, but not all of them.
 void place_patch(const std::vector<MadeDrive>& drives, RandomStream& random, HiddenTruth& hidden) {
   std::size_t most = 0;
   for (int trial = 0; trial < 30; ++trial) {
@@ -163,7 +164,7 @@ std::vector<MadeDrive> drive_all(const World& world, const std::vector<NamedTerr
       if (terrain.name != orders[i].terrain) continue;
       RandomStream random(seed + i);
       std::vector<DriveRow> rows = simulate_drive(world, terrain.grid, orders[i], random).rows;
-      // Where the rover never got away there is nothing to record.
+      // A drive in which the rover never moved has no rows.
       if (rows.size() >= 2) drives.push_back({orders[i], std::move(rows), seed + i});
     }
   return drives;
@@ -176,7 +177,7 @@ std::vector<DriveOrder> hills_orders(const World& world, const TerrainGrid& grou
     RandomStream soil(random.seed());
     const SimulatedDrive drive = simulate_drive(world, ground, order, soil);
     if (!drive.complete) continue;
-    // Where the rover hardly gets away, operators would not have driven.
+    // Operators would not have driven where the rover hardly moves.
     const double way = std::hypot(drive.rows.back().x_m - drive.rows.front().x_m,
                                   drive.rows.back().y_m - drive.rows.front().y_m);
     if (way < 0.2 * order.speed_m_s * order.duration_s) continue;
@@ -215,11 +216,11 @@ SealedCampaign make_campaign(const CampaignCase& made_of, RandomStream& random) 
     }
     orders = tilt_orders(random);
   }
-  if (made_of.most_drives > 0 && orders.size() > made_of.most_drives) {
-    // Every so many, so that all tilts stay.
+  if (made_of.max_drives > 0 && orders.size() > made_of.max_drives) {
+    // Drives are left out at equal intervals, so that all tilts remain.
     std::vector<DriveOrder> kept;
-    for (std::size_t i = 0; i < made_of.most_drives; ++i)
-      kept.push_back(orders[i * orders.size() / made_of.most_drives]);
+    for (std::size_t i = 0; i < made_of.max_drives; ++i)
+      kept.push_back(orders[i * orders.size() / made_of.max_drives]);
     orders = std::move(kept);
   }
   // Hours of the day: the order in which drives were made is not that of their numbers on tilt tables.

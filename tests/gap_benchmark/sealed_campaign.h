@@ -19,10 +19,10 @@ struct NamedTerrain {
 struct MadeDrive {
   DriveOrder order;
   std::vector<DriveRow> rows;
-  std::uint64_t soil_seed = 0;  // of its soil's scatter
+  std::uint64_t soil_seed = 0;  // of the scatter of its soil
 };
 
-// A campaign with everything in it, also what is told to nobody.
+// A campaign with all its data, including the hidden ones.
 struct SealedCampaign {
   CampaignCase made_of;
   World world;
@@ -35,7 +35,7 @@ struct SealedCampaign {
 
 SealedCampaign make_campaign(const CampaignCase& made_of, RandomStream& random);
 
-// Writes campaign.json, the drives and the terrains. What is wrong, or nothing.
+// Writes campaign.json, the drives and the terrains. Returns an error message, or nothing.
 std::string write_campaign(const SealedCampaign& campaign, const std::string& name,
                            const std::filesystem::path& folder);
 

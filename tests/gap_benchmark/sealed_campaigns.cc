@@ -1,9 +1,8 @@
 // sealed_campaigns OUT [--seed N] [--set blind|full|each|smoke|nothing|other_physics] [--only CAUSE,...]
 // [--fidelity L1|L2|L2c|L3] [--size X]
 //
-// Makes campaigns of drives in which something may be hidden, and answers.json and traces.csv (where it acts)
-// beside them. Shares no code
-// with the library that is judged on them.
+// Makes campaigns of drives with hidden effects in most of them, and writes answers.json and traces.csv
+// (where the effects act) beside them. It shares no code with the library that is judged on them.
 
 #include <algorithm>
 #include <cstdint>

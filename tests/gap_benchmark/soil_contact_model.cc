@@ -8,16 +8,16 @@ namespace {
 
 constexpr double kElastic_pa_m = 2e8;     // stiffness of unloading; more than a hundred times Bekker's
 constexpr double kDisplacedShare = 0.25;  // of the volume that a wheel presses in; the rest is compacted
-constexpr double kSlowest_m_s = 1e-6;     // nodes under a wheel that stands pass through it after all
-constexpr double kLeastLength_m = 1e-6;   // of a patch
+constexpr double kMinSpeed_m_s = 1e-6;    // of nodes through the contact, also under a wheel at rest
+constexpr double kMinLength_m = 1e-6;     // of a patch
 
 // A strip of the contact.
 struct Strip {
-  SoilNode node;           // as it is met, with the heap on it
-  double pressed_m = 0.0;  // lowest point below the surface before the heap
-  double depth_m = 0.0;    // and below the heap; none: no contact
-  double before_m = 0.0;   // contact's length before the lowest point
-  double behind_m = 0.0;   // and behind it
+  SoilNode node;           // that the wheel meets, with the heap on it
+  double pressed_m = 0.0;  // depth of the lowest point below the surface without the heap
+  double depth_m = 0.0;    // depth below the heap; 0 without contact
+  double before_m = 0.0;   // length of the contact before the lowest point
+  double behind_m = 0.0;   // length of the contact behind it
 };
 
 // The contact of one wheel, without its motion.
@@ -34,8 +34,8 @@ class Patch {
       strips_.push_back({.node = node, .pressed_m = std::max(node.level_m() - lowest, 0.0)});
       pressed += strips_.back().pressed_m / static_cast<double>(met.size());
     }
-    // What is pushed away goes to the front and the two sides of the patch, by their lengths. What lies in
-    // front is pushed again: a node enters h = f (z + h) higher than it was.
+    // The displaced soil goes to the front and the two sides of the patch in proportion to their lengths.
+    // Soil in front is pushed again, so that a node enters h = f (z + h) higher than it was.
     const double length = chord(pressed);
     const double to_front = kDisplacedShare * width_m / (width_m + 2.0 * length);
     beside_m2_ = kDisplacedShare * pressed * width_m * length / (width_m + 2.0 * length);
@@ -57,14 +57,15 @@ class Patch {
   double across_m() const { return across_m_; }
   double beside_m2() const { return beside_m2_; }  // cross-section of what is heaped on either side
 
-  // Pressure on a node as it is pressed further, `rise_m` above the lowest point.
+  // The pressure on a node that is being pressed, `rise_m` above the lowest point.
   double pressing(const Strip& strip, double rise_m) const {
     const double elastic = std::max(strip.depth_m - rise_m, 0.0), sinkage = elastic + strip.node.plastic_m;
     return std::min(kElastic_pa_m * elastic,
                     std::max(strip.node.yield_pa, stiffness_ * std::pow(sinkage, soil_.n)));
   }
   double lowest_pressure(const Strip& strip) const { return pressing(strip, 0.0); }
-  // And as it springs back from where it was pressed most; not positive: no contact any more.
+  // The pressure on a node that springs back from its deepest point; where it is not positive, contact has
+  // ended.
   double springing_back(const Strip& strip, double rise_m, double least_rise_m) const {
     return pressing(strip, least_rise_m) - kElastic_pa_m * (rise_m - least_rise_m);
   }
@@ -82,7 +83,7 @@ class Patch {
       sum += length;
       squares += length * length;
     }
-    if (sum < kLeastLength_m) return kLeastLength_m;
+    if (sum < kMinLength_m) return kMinLength_m;
     const double length = squares / sum, width = sum / length * across_m_;
     return width * length / (width + length);
   }
@@ -99,7 +100,7 @@ class NodePath {
   struct Node {
     double x_m = 0.0, sine = 0.0, cosine = 1.0;  // ahead of the axle; of the angle on the rim
     double length_m = 0.0, rise_m = 0.0;         // of the rim over it; above the lowest point
-    // If it came in by the front: its pressure, and how far the rim has slid over it.
+    // For a node that entered at the front: its pressure, and the distance that the rim has slid over it.
     double sigma_pa = 0.0, slid_m = 0.0;
   };
 
@@ -108,7 +109,7 @@ class NodePath {
            double ahead_m_s)
       : front_m_(strip.before_m) {
     nodes_.reserve(static_cast<std::size_t>(grid.nodes_before + grid.nodes_behind + grid.nodes_far_behind));
-    const double slowness = 1.0 / std::max(ahead_m_s, kSlowest_m_s);
+    const double slowness = 1.0 / std::max(ahead_m_s, kMinSpeed_m_s);
     double x = front_m_, slid = 0.0;
     const auto add = [&](double step) {
       Node node{.x_m = x - 0.5 * step, .sine = (x - 0.5 * step) / radius_m};
@@ -130,7 +131,7 @@ class NodePath {
   }
 
   const std::vector<Node>& nodes() const { return nodes_; }
-  // How far the rim slides over a node between the front and x: linear between nodes.
+  // The distance that the rim slides over a node between the front and x, linear between nodes.
   double slid_until(double x_m) const {
     const auto next =
         std::find_if(nodes_.begin(), nodes_.end(), [&](const Node& node) { return node.x_m <= x_m; });
@@ -150,12 +151,12 @@ SoilContactModel::SoilContactModel(double radius_m, double width_m, const Contac
     : radius_m_(radius_m), width_m_(width_m), grid_(grid) {}
 
 WheelLoads SoilContactModel::loads(double depth_m, const WheelMotion& motion, const ContactSoil& soil) const {
-  // In the direction of travel: a wheel that backs is turned about.
+  // All quantities are in the direction of travel, so that a wheel that drives backwards is mirrored.
   const double way = motion.forward_m_s != 0.0 ? motion.forward_m_s : motion.rate_rad_s;
   const double sense = way < 0.0 ? -1.0 : 1.0;
   const double ahead = sense * motion.forward_m_s, left = sense * motion.left_m_s;
   const double rim = sense * motion.rate_rad_s * radius_m_;
-  const double passing = std::max(ahead, kSlowest_m_s);
+  const double passing = std::max(ahead, kMinSpeed_m_s);
 
   const Patch patch(radius_m_, width_m_, depth_m, soil, grid_.strips);
   double normal = 0.0, pull = 0.0, side = 0.0, torque = 0.0;
@@ -168,13 +169,13 @@ WheelLoads SoilContactModel::loads(double depth_m, const WheelMotion& motion, co
       path = NodePath(patch, strip, radius_m_, grid_, rim, ahead);
       laid_through = &strip.node;
     }
-    // Nodes come in by the front, or by the side toward which the wheel moves.
+    // Nodes enter at the front, or at the side toward which the wheel moves.
     const double from_right = (static_cast<double>(s) + 0.5) * patch.across_m();
     const double to_side = left > 0.0 ? width_m_ - from_right : from_right;
     const double until_side = left == 0.0 ? 2.0 * radius_m_ : to_side * passing / std::abs(left);
     for (const NodePath::Node& node : path.nodes()) {
       const double entry = std::min(strip.before_m, node.x_m + until_side);
-      // What comes in by the side behind the lowest point is pressed as deep as there.
+      // Nodes that enter at the side behind the lowest point are pressed as deep as at that point.
       double sigma = node.sigma_pa;
       if (entry < 0.0) {
         const double least_rise = radius_m_ - std::sqrt(radius_m_ * radius_m_ - entry * entry);
@@ -211,7 +212,7 @@ Rut SoilContactModel::rut(double depth_m, const ContactSoil& soil) const {
     }
     rut.across.push_back(node);
   }
-  // A berm with either flank at the angle of friction, told as a bar of its mean height.
+  // A berm whose flanks have the friction angle is represented by a bar of its mean height.
   const double crest = std::sqrt(patch.beside_m2() * soil.tan_phi);
   rut.berm_height_m = 0.5 * crest;
   rut.berm_width_m = crest > 0.0 ? 2.0 * crest / soil.tan_phi : 0.0;

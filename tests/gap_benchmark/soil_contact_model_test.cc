@@ -147,7 +147,7 @@ TEST(SoilContactModel, SideForceIsOddInTheSlipAngle) {
   }
 }
 
-TEST(SoilContactModel, BackingTurnsTheWheelAbout) {
+TEST(SoilContactModel, DrivingBackwardsMirrorsTheWheel) {
   const ContactSoil soil = sandy_loam();
   const SoilContactModel law(kRadius_m, kWidth_m);
   const WheelMotion motion = at_slip(0.3, 0.1);
@@ -159,7 +159,7 @@ TEST(SoilContactModel, BackingTurnsTheWheelAbout) {
   EXPECT_EQ(one.torque_nm, -other.torque_nm);
 }
 
-TEST(SoilContactModel, SlidingSidewaysItDoesNotMatterWhichWayTheWheelCreeps) {
+TEST(SoilContactModel, SlidingSidewaysTheDirectionOfCreepDoesNotMatter) {
   const ContactSoil soil = sandy_loam();
   const SoilContactModel law(kRadius_m, kWidth_m);
   for (const double left : {-0.02, 0.01}) {
@@ -187,7 +187,7 @@ TEST(SoilContactModel, LaterPassesSinkLess) {
   }
 }
 
-TEST(SoilContactModel, WhatIsPushedAwayIsHeapedBesideInItsShare) {
+TEST(SoilContactModel, TheStatedShareOfThePushedSoilIsHeapedAtTheSides) {
   const SoilContactModel law(kRadius_m, kWidth_m);
   const Rut rut = law.rut(0.012, sandy_loam());
   const double side = std::sqrt(0.012 * (2.0 * kRadius_m - 0.012));

@@ -44,7 +44,7 @@ class Arc {
 
   double entry() const { return theta_1_; }
   double exit() const { return theta_2_; }
-  double greatest() const { return theta_m_; }
+  double angle_of_max_stress() const { return theta_m_; }
 
   double pressure(double theta) const {
     if (parabolic_) {
@@ -147,8 +147,8 @@ WheelLoads wheel_loads(double radius_m, double width_m, double depth_m, const Wh
       add(from + i * step, radius_m * width_m * share * step / 3.0);
     }
   };
-  simpson(arc.exit(), arc.greatest());
-  simpson(arc.greatest(), theta_1);
+  simpson(arc.exit(), arc.angle_of_max_stress());
+  simpson(arc.angle_of_max_stress(), theta_1);
 
   const double kp = passive(soil.tan_phi);
   if (hidden.bulldozing > 0.0) {

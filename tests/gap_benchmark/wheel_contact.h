@@ -6,25 +6,25 @@
 
 namespace slipway::gap_benchmark {
 
-// What a strip of soil along the track has been through. Heights above the undisturbed surface.
+// The history of a strip of soil along the track. Heights are above the undisturbed surface.
 struct SoilNode {
-  double origin_m = 0.0;   // where its surface was when nothing had pressed it; heaps raise it
-  double plastic_m = 0.0;  // sunk since, and for good
-  double yield_pa = 0.0;   // greatest pressure that it has borne
+  double origin_m = 0.0;   // height of its surface before it was pressed; heaps raise it
+  double plastic_m = 0.0;  // permanent sinkage since then
+  double yield_pa = 0.0;   // maximum pressure that it has carried
 
   double level_m() const { return origin_m - plastic_m; }
   bool operator==(const SoilNode&) const = default;
 };
 double highest_level(const std::vector<SoilNode>& across);
 
-// What a wheel leaves behind.
+// The rut that a wheel leaves behind.
 struct Rut {
   std::vector<SoilNode>
-      across;  // from right to left in the direction of travel; empty: as if nothing had passed
+      across;  // from right to left in the direction of travel; empty means undisturbed soil
   double berm_height_m = 0.0, berm_width_m = 0.0;  // on either side
 };
 
-// Soil under one wheel at one instant, with everything in force that depends on place, pass and time.
+// The soil under one wheel at one instant, with all changes by place, pass and time.
 struct ContactSoil {
   double stiffness = 0.0;  // k_c / b + k_phi, N/m^(n+2), with b the wheel's width
   double n = 1.0, cohesion_pa = 0.0, tan_phi = 0.0, shear_modulus_m = 0.01, weight_n_m3 = 0.0;
@@ -33,7 +33,7 @@ struct ContactSoil {
   std::vector<SoilNode> met;     // across the wheel, as in Rut; empty: undisturbed
 };
 
-// Motion in the wheel's own plane: forward and left over the ground, and the rim's turning.
+// The motion of a wheel: forward and left over the ground in its own axes, and the rotation of the rim.
 struct WheelMotion {
   double forward_m_s = 0.0, left_m_s = 0.0, rate_rad_s = 0.0;
 };
@@ -43,18 +43,19 @@ struct WheelLoads {
   double torque_nm = 0.0;                             // of the motor, positive turning forward
 };
 
-// What the soil does to a wheel, and the wheel to the soil.
+// A wheel law: the forces of the soil on a wheel, and the rut that the wheel leaves.
 class WheelLaw {
  public:
   virtual ~WheelLaw() = default;
-  // Forces on a wheel sunk to a depth.
+  // The forces on a wheel at a sinkage.
   virtual WheelLoads loads(double depth_m, const WheelMotion& motion, const ContactSoil& soil) const = 0;
-  // What it leaves behind; nothing by laws that keep no record of the soil.
+  // The rut that the wheel leaves; empty for laws that keep no record of the soil.
   virtual Rut rut(double /*depth_m*/, const ContactSoil& /*soil*/) const { return {}; }
 };
 
-// Stresses as functions of the angle on the rim: Bekker's pressure under Wong and Reece's angle of greatest
-// stress, Mohr-Coulomb strength, Janosi and Hanamoto's mobilisation, by Simpson's rule over the arc.
+// A law with stresses as functions of the angle on the rim: Bekker's pressure with Wong and Reece's angle of
+// maximum stress, Mohr-Coulomb strength, and Janosi and Hanamoto's mobilisation, integrated by Simpson's rule
+// over the arc.
 class ArcLaw : public WheelLaw {
  public:
   ArcLaw(double radius_m, double width_m, const Closure& closure, const HiddenTruth& hidden)

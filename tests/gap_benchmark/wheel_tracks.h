@@ -7,7 +7,8 @@
 
 namespace slipway::gap_benchmark {
 
-// Where the wheels run: lanes to the left of a common line, stations along it, in the direction of travel.
+// The tracks of the wheels: lanes to the left of a common line and stations along it, in the direction of
+// travel.
 struct Tracks {
   std::array<double, kWheels> lane_m{}, station_m{};
 
@@ -19,8 +20,8 @@ struct Tracks {
 };
 Tracks tracks_of(const RoverOnFile& rover, const BalanceState& state);
 
-// The soil that a wheel meets: undisturbed, then what the wheels ahead left, the foremost first, by their
-// tracks' overlap. Empty where none left anything.
+// The soil that a wheel meets: undisturbed soil changed by the ruts of the wheels ahead, from the foremost
+// on, where their tracks overlap. Empty where there are no ruts.
 std::vector<SoilNode> soil_met(int wheel, const Tracks& tracks, const std::array<Rut, kWheels>& ruts,
                                double width_m);
 

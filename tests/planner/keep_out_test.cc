@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numbers>
+
+#include "core/angle.h"
+#include "core/random.h"
 #include "tests/planner/plan_fixture.h"
 
 namespace slipway::planner {
@@ -33,6 +38,75 @@ TEST(KeepOut, AgreesWithItsBoundsAtAnyHeading) {
       EXPECT_TRUE(!keep_out.clear_at_any_heading(x, 9.0) || !hit);
     }
   }
+}
+
+Motion some_motion(std::uint64_t n) {
+  const auto pose = [](std::uint64_t key) {
+    return Pose2{8.0 * random_uniform(key, 0), 8.0 * random_uniform(key, 1),
+                 wrapped_rad(6.28 * random_uniform(key, 2))};
+  };
+  return connect(pose(2 * n), pose(2 * n + 1), motion_limits(*test_rover()));
+}
+
+// The poses of a motion, closer than a millimetre at the body's corners.
+std::vector<Pose2> poses_along(const Motion& motion) {
+  std::vector<Pose2> poses;
+  const auto turn = [&](const Pose2& start, double turn_rad) {
+    for (int k = 0; k <= 4000; ++k)
+      poses.push_back({start.x_m, start.y_m, start.yaw_rad + turn_rad * k / 4000.0});
+  };
+  turn(motion.from, motion.first_turn_rad);
+  for (int k = 0; k <= 20'000; ++k) poses.push_back(motion.at(motion.length_m * k / 20'000.0));
+  turn({motion.to.x_m, motion.to.y_m, motion.to.yaw_rad - motion.last_turn_rad}, motion.last_turn_rad);
+  return poses;
+}
+
+TEST(KeepOut, AMotionHitsWhereAnyOfItsPosesDoesAndNowhereElse) {
+  auto larger = std::make_shared<sim::RoverModel>(*test_rover());
+  larger->body_length_m += 0.002;
+  larger->body_width_m += 0.002;
+  int hit = 0, clear = 0;
+  for (std::uint64_t n = 0; n < 150; ++n) {
+    const double x = 8.0 * random_uniform(n, 11), y = 8.0 * random_uniform(n, 12);
+    const double size = 0.05 + 1.5 * random_uniform(n, 13);
+    const std::vector<Polygon> polygons{
+        {{x, y}, {x + size, y + 0.2 * size}, {x + 0.3 * size, y + 0.3 * size}, {x + 0.1 * size, y + size}}};
+    const KeepOut keep_out(polygons, *test_rover()), nearly(polygons, *larger);
+    const Motion motion = some_motion(n);
+    const std::vector<Pose2> poses = poses_along(motion);
+    const auto any = [&](const KeepOut& zones) {
+      return std::any_of(poses.begin(), poses.end(), [&](const Pose2& pose) { return zones.hits(pose); });
+    };
+    const bool along = keep_out.hits_along(motion);
+    (along ? hit : clear) += 1;
+    EXPECT_TRUE(along || !any(keep_out)) << n;
+    EXPECT_TRUE(!along || any(nearly)) << n;
+    ASSERT_EQ(keep_out.first_hit(motion).has_value(), along) << n;
+    if (along) {
+      EXPECT_TRUE(nearly.hits(*keep_out.first_hit(motion, 0.001)) ||
+                  *keep_out.first_hit(motion) == motion.to);
+    }
+  }
+  EXPECT_GT(hit, 30);
+  EXPECT_GT(clear, 30);
+}
+
+TEST(KeepOut, ATurnInPlaceSweepsItsCornersThroughWhatIsClearBeforeAndAfter) {
+  const KeepOut keep_out(std::vector<Polygon>{{{1.1, -0.05}, {1.2, -0.05}, {1.2, 0.05}, {1.1, 0.05}}},
+                         *test_rover());  // corners reach 1.235 m
+  const Motion turn{.from = {0.0, 0.0, 0.0}, .to = {0.0, 0.0, 2.0}, .first_turn_rad = 2.0};
+  const Motion away{.from = {0.0, 0.0, 0.0}, .to = {0.0, 0.0, 0.3}, .first_turn_rad = 0.3};
+  EXPECT_FALSE(keep_out.hits(turn.from));
+  EXPECT_FALSE(keep_out.hits(turn.to));
+  EXPECT_TRUE(keep_out.hits_along(turn));
+  EXPECT_FALSE(keep_out.hits_along(away));
+}
+
+TEST(KeepOut, ClearWithinAReachHoldsForEveryPlaceInIt) {
+  const KeepOut keep_out(kSquare, *test_rover());
+  EXPECT_TRUE(keep_out.clear_at_any_heading(8.0, 15.0));
+  EXPECT_FALSE(keep_out.clear_at_any_heading(8.0, 15.0, 0.8));
+  EXPECT_TRUE(keep_out.hits({8.79, 15.0, 0.55}));
 }
 
 }  // namespace

@@ -53,7 +53,8 @@ TEST(MotionCost, DependsOnTheHeadingOnASlopeAndNotOnTheLevel) {
 
 TEST(MotionCost, AgreesWithTheSlipTableOnTheCataloguesSum) {
   World world(ramp(10.0));
-  const Weights only_slip{.duration = 0.0, .energy = 0.0, .slip = 4.0, .unknown = 0.0, .risk = 0.0};
+  Weights only_slip;
+  for (const CostTerm& term : only_slip.terms()) only_slip.set(term.name, term.name == "slip" ? 4.0 : 0.0);
   const MotionCost cost(world.problem, world.map, world.tables, only_slip);
   const double slip = world.tables.known[0]->mean.at(-rad_from_deg(10.0), 0.0)->slip_ratio;
   EXPECT_NEAR(cost.per_metre({0.0, 0.0, 0.0}), 4.0 * slip / 100.0, 0.05 * 4.0 * slip / 100.0);

@@ -91,7 +91,7 @@ Driven driven(const PlanProblem& problem, const std::vector<Waypoint>& corners, 
 const std::vector<Waypoint> kCorner{
     {5.0, 8.0, std::nullopt}, {9.0, 8.0, std::nullopt}, {9.0, 5.0, std::nullopt}};
 
-TEST(VerifyRoute, OnLevelGroundBothRungsAgreeAndTheDriveArrives) {
+TEST(VerifyRoute, OnLevelGroundBothSimulationsAgreeAndTheDriveArrives) {
   const PlanProblem problem = problem_of(kYard);
   for (const Manner& manner : {Manner{}, Manner{.backwards = true}}) {
     const auto [balance, dynamic] = driven(problem, kCorner, manner);
@@ -187,7 +187,7 @@ Route safe_route(const PlanProblem& problem) {
   return route;
 }
 
-TEST(Verdict, WhatTheDynamicRungRefutesIsNoGoAndSaysSo) {
+TEST(Verdict, WhatTheDynamicSimulationRefutesIsNoGoAndSaysSo) {
   const PlanProblem problem = problem_of(kYard);
   std::vector<Route> routes{safe_route(problem), safe_route(problem), safe_route(problem),
                             safe_route(problem)};
@@ -205,12 +205,12 @@ TEST(Verdict, WhatTheDynamicRungRefutesIsNoGoAndSaysSo) {
   EXPECT_EQ(routes[3].verdict, Verdict::kNoGo);
   EXPECT_TRUE(ranks_before(routes[0], routes[2]));
   explain(routes);
-  EXPECT_EQ(routes[1].reasons[0], "caution: no answer from the dynamic rung: the integrator gives up");
-  EXPECT_EQ(routes[2].reasons[0], "no go in the dynamic rung: immobilised at 2.0 m, stuck");
-  EXPECT_EQ(routes[3].reasons[0], "no go in the dynamic rung: slip 0.5 at 3.0 m, limit 0.4");
+  EXPECT_EQ(routes[1].reasons[0], "caution: no answer from the dynamic simulation: the integrator gives up");
+  EXPECT_EQ(routes[2].reasons[0], "no go in the dynamic simulation: immobilised at 2.0 m, stuck");
+  EXPECT_EQ(routes[3].reasons[0], "no go in the dynamic simulation: slip 0.5 at 3.0 m, limit 0.4");
 }
 
-TEST(PlanVerified, AsManyOfTheBestRoutesAsAskedForAreDrivenInTheDynamicRung) {
+TEST(PlanVerified, AsManyOfTheBestRoutesAsAskedForAreDrivenInTheDynamicSimulation) {
   PlanProblem problem = problem_of(kYard);
   problem.routes = 2;
   problem.verify = 1;

@@ -88,7 +88,7 @@ TEST(HttpServer, AnExceptionBecomesA500WithoutItsText) {
   EXPECT_EQ(client.ask(get("/throws_int")).status, 500);
   EXPECT_EQ(client.ask(get("/healthz")).status, 200);
   const std::lock_guard lock(mutex);
-  EXPECT_NE(log.find("swordfish"), std::string::npos) << "the operator is told";
+  EXPECT_NE(log.find("swordfish"), std::string::npos) << "the operator reads it in the log";
 }
 
 TEST(HttpServer, AProblemFunctionThatThrowsStillLeavesAProblemDocument) {

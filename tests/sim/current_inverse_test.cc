@@ -9,13 +9,13 @@
 namespace slipway::sim {
 namespace {
 
-SingleWheelTest zhurong_on(const Soil& soil) {
-  return test_of(zhurong_rig(soil));
+WheelRigConditions zhurong_on(const Soil& soil) {
+  return conditions_of(zhurong_rig(soil));
 }
 
-double current_at(SingleWheelTest test, double slip) {
+double current_at(WheelRigConditions test, double slip) {
   test.slip = slip;
-  return *run_single_wheel_test(test).current_a;
+  return *run_wheel_rig(test).current_a;
 }
 
 SoilDistribution usual_spread(const Soil& soil) {
@@ -25,73 +25,73 @@ SoilDistribution usual_spread(const Soil& soil) {
 TEST(SlipsOfCurrent, GiveBackTheSlipThatMadeTheCurrent) {
   for (const auto& simulant : jlu_mars()) {
     for (const Soil& soil : simulant) {
-      const SingleWheelTest test = zhurong_on(soil);
+      const WheelRigConditions test = zhurong_on(soil);
       for (const double slip : {-0.2, 0.0, 0.137, 0.4, 0.85}) {
         const SlipsOfCurrent found = slips_of_current(test, current_at(test, slip));
         ASSERT_EQ(found.slips.size(), 1U) << slip;
-        EXPECT_NEAR(*found.commanded, slip, 1e-9);
+        EXPECT_NEAR(*found.reported, slip, 1e-9);
       }
     }
   }
 }
 
-TEST(SlipsOfCurrent, TheMotorsOwnCurrentIsMinded) {
-  SingleWheelTest test = zhurong_on(jlu_mars()[1][2]);
+TEST(SlipsOfCurrent, TheMotorsIdleCurrentIsAccountedFor) {
+  WheelRigConditions test = zhurong_on(jlu_mars()[1][2]);
   test.drive->no_load_current_a = 0.06;
   test.drive->gear_friction_nm = 0.4;
-  EXPECT_NEAR(*slips_of_current(test, current_at(test, 0.25)).commanded, 0.25, 1e-9);
+  EXPECT_NEAR(*slips_of_current(test, current_at(test, 0.25)).reported, 0.25, 1e-9);
 }
 
-TEST(SlipsOfCurrent, TellsWhatTheSoilGivesWhereNoneFits) {
-  const SingleWheelTest test = zhurong_on(jlu_mars()[1][2]);
+TEST(SlipsOfCurrent, ReportsTheRangeOfCurrentsWhereNoSlipFits) {
+  const WheelRigConditions test = zhurong_on(jlu_mars()[1][2]);
   const SlipsOfCurrent found = slips_of_current(test, 9.0);
   EXPECT_TRUE(found.slips.empty());
-  EXPECT_FALSE(found.commanded);
+  EXPECT_FALSE(found.reported);
   EXPECT_NEAR(found.greatest_current_a, current_at(test, kHighestSearchedSlip), 1e-12);
   EXPECT_NEAR(found.least_current_a, current_at(test, kLowestSearchedSlip), 1e-12);
 }
 
 // Held at its depth, the wheel is the paper's literal one, whose current falls again at high slip.
-TEST(SlipsOfCurrent, OfSeveralSlipsTheOneOnTheRisingBranchIsTold) {
-  SingleWheelTest test = zhurong_on(jlu_mars()[1][0]);
+TEST(SlipsOfCurrent, OfSeveralSlipsTheOneOnTheRisingBranchIsReported) {
+  WheelRigConditions test = zhurong_on(jlu_mars()[1][0]);
   test.sinkage_m = 0.0437;
   const double current = current_at(test, 0.25);
   const SlipsOfCurrent found = slips_of_current(test, current);
   ASSERT_EQ(found.slips.size(), 2U);
   EXPECT_NEAR(found.slips[0], 0.25, 1e-9);
-  EXPECT_NEAR(*found.commanded, 0.25, 1e-9);
+  EXPECT_NEAR(*found.reported, 0.25, 1e-9);
   EXPECT_GT(found.slips[1], 0.6);
   EXPECT_NEAR(current_at(test, found.slips[1]), current, 1e-6);
   const CurrentInverse inverse = invert_current(test, certain("loose", test.soil), current, {.draws = 5});
   EXPECT_EQ(inverse.verdict, Trafficability::kCaution) << "an ambiguous current is no GO";
 }
 
-TEST(SlipsOfCurrent, SaysFromWhereTheWheelIsSunk) {
-  SingleWheelTest test = zhurong_on(jlu_mars()[1][0]);
+TEST(SlipsOfCurrent, ReportsTheSlipFromWhichTheWheelIsSunk) {
+  WheelRigConditions test = zhurong_on(jlu_mars()[1][0]);
   test.soil.n1 = 0.6;
   const SlipsOfCurrent found = slips_of_current(test, 1.5);
   ASSERT_TRUE(found.sunk_from_slip);
   test.slip = *found.sunk_from_slip;
-  EXPECT_FALSE(run_single_wheel_test(test).stands());
+  EXPECT_FALSE(run_wheel_rig(test).stands());
   test.slip -= kSearchedSlipStep;
-  EXPECT_TRUE(run_single_wheel_test(test).stands());
+  EXPECT_TRUE(run_wheel_rig(test).stands());
 }
 
 TEST(GreatestPull, IsNoLessThanThePullAtAnySlip) {
   for (const auto& simulant : jlu_mars()) {
     for (const Soil& soil : simulant) {
-      SingleWheelTest test = zhurong_on(soil);
+      WheelRigConditions test = zhurong_on(soil);
       const GreatestPull best = greatest_pull(test).value();
       for (double slip = 0.0; slip <= kHighestSearchedSlip; slip += 0.013) {
         test.slip = slip;
-        EXPECT_GE(best.pull_n + 1e-6, run_single_wheel_test(test).forces.drawbar_pull_n);
+        EXPECT_GE(best.pull_n + 1e-6, run_wheel_rig(test).forces.drawbar_pull_n);
       }
     }
   }
 }
 
-TEST(InvertCurrent, ASlopeInUseAndLeftAddUpToTheGreatest) {
-  const SingleWheelTest test = zhurong_on(jlu_mars()[1][2]);
+TEST(InvertCurrent, TheSlopesInUseAndLeftAddUpToTheMaximum) {
+  const WheelRigConditions test = zhurong_on(jlu_mars()[1][2]);
   const CurrentInverse inverse = invert_current(test, usual_spread(test.soil), current_at(test, 0.3), {});
   ASSERT_TRUE(inverse.share_of_pull && inverse.slope_left_rad);
   const double pull = inverse.wheel->forces.drawbar_pull_n;
@@ -102,7 +102,7 @@ TEST(InvertCurrent, ASlopeInUseAndLeftAddUpToTheGreatest) {
 }
 
 TEST(InvertCurrent, AWheelThatIsPushedHasNoShareOfPull) {
-  const SingleWheelTest test = zhurong_on(jlu_mars()[1][2]);
+  const WheelRigConditions test = zhurong_on(jlu_mars()[1][2]);
   const CurrentInverse inverse =
       invert_current(test, certain("dense", test.soil), current_at(test, 0.05), {.draws = 1});
   EXPECT_LT(inverse.wheel->forces.drawbar_pull_n, 0.0);
@@ -112,7 +112,7 @@ TEST(InvertCurrent, AWheelThatIsPushedHasNoShareOfPull) {
 }
 
 TEST(InvertCurrent, QuantilesHoldTheMeanAndRepeat) {
-  const SingleWheelTest test = zhurong_on(jlu_mars()[1][2]);
+  const WheelRigConditions test = zhurong_on(jlu_mars()[1][2]);
   const double current = current_at(test, 0.2);
   const CurrentInverse a = invert_current(test, usual_spread(test.soil), current, {});
   const CurrentInverse b = invert_current(test, usual_spread(test.soil), current, {});
@@ -126,7 +126,7 @@ TEST(InvertCurrent, QuantilesHoldTheMeanAndRepeat) {
 }
 
 TEST(InvertCurrent, ACertainSoilHasNoSpread) {
-  const SingleWheelTest test = zhurong_on(jlu_mars()[1][2]);
+  const WheelRigConditions test = zhurong_on(jlu_mars()[1][2]);
   const CurrentInverse inverse =
       invert_current(test, certain("dense", test.soil), current_at(test, 0.2), {.draws = 3});
   EXPECT_NEAR(inverse.quantiles.p05, 0.2, 1e-9);
@@ -135,7 +135,7 @@ TEST(InvertCurrent, ACertainSoilHasNoSpread) {
 }
 
 TEST(InvertCurrent, JudgesBySlipLimitAndRisk) {
-  const SingleWheelTest test = zhurong_on(jlu_mars()[1][2]);
+  const WheelRigConditions test = zhurong_on(jlu_mars()[1][2]);
   const auto verdict = [&](double slip, const SoilDistribution& belief) {
     return invert_current(test, belief, current_at(test, slip), {}).verdict;
   };
@@ -153,7 +153,7 @@ TEST(InvertCurrent, JudgesBySlipLimitAndRisk) {
 }
 
 TEST(InvertCurrent, AWheelThatIsSunkEverywhereIsNoGo) {
-  SingleWheelTest test = zhurong_on(jlu_mars()[1][0]);
+  WheelRigConditions test = zhurong_on(jlu_mars()[1][0]);
   test.load_n = 5e4;
   const CurrentInverse inverse = invert_current(test, certain("loose", test.soil), 1.0, {.draws = 2});
   EXPECT_EQ(inverse.verdict, Trafficability::kNoGo);

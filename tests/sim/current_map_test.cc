@@ -7,8 +7,8 @@
 
 #include "tests/sim/zhurong_simulants.h"
 
-// What the Zhurong paper says of its figures 9 to 11, held against its own equations (literal) and against
-// the balanced wheel. Where a statement does not hold, the test says what does.
+// The Zhurong paper's statements on its figures 9 to 11, compared with its own equations (literal) and with
+// the balanced wheel. Where a statement does not hold, the test checks what holds instead.
 namespace slipway::sim {
 namespace {
 
@@ -88,7 +88,7 @@ TEST(CurrentMap, BelowALeastStiffnessThePapersRangeSinksTheWheel) {
   }
 }
 
-// The paper's text has it both ways; its equations say that current rises with n, as sinkage does.
+// The paper's text states both; by its equations current rises with n, as sinkage does.
 TEST(CurrentMap, CurrentRisesWithTheExponentContraryToThePapersText) {
   for (const CurrentModel model : kBoth) {
     for (std::size_t s = 0; s < 3; ++s) {

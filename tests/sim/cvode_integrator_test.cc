@@ -79,7 +79,7 @@ TEST(CvodeIntegrator, StopsWhereABallMeetsTheGround) {
 }
 
 // CVODE itself gives up on an event that is 0 to the last bit for longer than rounding.
-TEST(CvodeIntegrator, OutlivesAnEventThatStaysAtZero) {
+TEST(CvodeIntegrator, ContinuesPastAnEventThatStaysAtZero) {
   StiffSystem still = falling_ball();
   still.derivative = [](double t, const double*, double* rate) {
     rate[0] = t < 1.0 ? -1.0 : 0.0;
@@ -108,7 +108,7 @@ TEST(CvodeIntegrator, InterpolatesWithinItsLastStep) {
   EXPECT_NEAR(y[0], 100.0 - 0.5 * 9.81 * at * at, 1e-6);
 }
 
-TEST(CvodeIntegrator, SaysInASentenceWhyItGaveUp) {
+TEST(CvodeIntegrator, GivesASentenceAsTheReasonWhereItGivesUp) {
   StiffSystem nowhere = falling_ball();
   nowhere.derivative = [](double, const double*, double*) { return false; };
   CvodeIntegrator integrator(nowhere, 1e-6, {1e-9, 1e-9}, 1.0);
@@ -119,7 +119,7 @@ TEST(CvodeIntegrator, SaysInASentenceWhyItGaveUp) {
   EXPECT_NE(step.error().detail.find("left what the model knows"), std::string::npos) << step.error().detail;
 }
 
-TEST(CvodeIntegrator, LetsNothingThrowThroughTheLibrary) {
+TEST(CvodeIntegrator, LetsNoExceptionPassThroughTheLibrary) {
   StiffSystem throwing = falling_ball();
   throwing.derivative = [](double, const double*, double*) -> bool { throw std::runtime_error("no"); };
   CvodeIntegrator integrator(throwing, 1e-6, {1e-9, 1e-9}, 1.0);

@@ -8,7 +8,7 @@
 namespace slipway::sim {
 namespace {
 
-TEST(DriveEndings, AWeakMotorStallsAndTheRoverSaysSo) {
+TEST(DriveEndings, AWeakMotorStallsAndTheReasonNamesIt) {
   RoverModel rover = six_wheeler();
   rover.drive.max_current_a = 0.12;
   DynamicOptions options;
@@ -32,8 +32,8 @@ TEST(DriveEndings, GivesUpWhereItMakesNoProgress) {
   EXPECT_LT(driven.drive.duration_s, 200.0);
 }
 
-// A leg may be over before it is time to give up.
-TEST(DriveEndings, IsNotFinishedWhereALegMadeNoWay) {
+// A leg may end before give_up_s is over.
+TEST(DriveEndings, IsNotFinishedWhereALegMadeNoProgress) {
   const std::vector<DriveLeg> legs{straight(1.0), straight(1.0, -0.04)};
   const Driven stuck = drive(six_wheeler(), plane(rad_from_deg(28.0)), loose_sand(), 0.0, legs);
   EXPECT_LT(stuck.drive.duration_s, 60.0);
@@ -41,14 +41,14 @@ TEST(DriveEndings, IsNotFinishedWhereALegMadeNoWay) {
   EXPECT_EQ(stuck.drive.end, DriveEnd::kImmobilised);
   EXPECT_TRUE(stuck.drive.reason.starts_with("no progress on leg 1 of 2 after ")) << stuck.drive.reason;
   EXPECT_GE(stuck.drive.max_current_a.distance_m, 0.0);
-  // Whoever is told less than the soil gives has not failed.
+  // A rover whose command is smaller than the soil's elastic displacement has not failed.
   const Driven short_one =
       drive(six_wheeler(), plane(rad_from_deg(20.0)), loose_sand(), 0.0, {straight(0.01)});
   EXPECT_LT(short_one.drive.progress_m, 0.0);
   EXPECT_EQ(short_one.drive.end, DriveEnd::kFinished);
 }
 
-TEST(DriveEndings, DoesNotGiveUpOnWhatIsSlow) {
+TEST(DriveEndings, DoesNotGiveUpOnASlowDrive) {
   DynamicOptions options;
   options.give_up_s = 2.0;
   const Driven slow =
@@ -63,7 +63,7 @@ TEST(DriveEndings, DoesNotGiveUpOnWhatIsSlow) {
   EXPECT_LT(stuck.drive.duration_s, 400.0);
 }
 
-TEST(DriveEndings, RefusesWhatItCannotStartFrom) {
+TEST(DriveEndings, RefusesAStartThatIsImpossible) {
   const FunctionGround small([](double, double) { return 0.0; }, 2.0);
   const RoverModel rover = six_wheeler();
   const DriveSoils soils{{sandy_loam()}, sandy_loam()};
@@ -95,7 +95,7 @@ TEST(DriveEndings, RefusesWhatItCannotStartFrom) {
   EXPECT_EQ(uneven.error().code, ErrorCode::kInvalidRequest);
 }
 
-TEST(DriveEndings, SaysWhereARoverDoesNotRest) {
+TEST(DriveEndings, ReportsARoverThatDoesNotComeToRest) {
   const Driven driven = drive(six_wheeler(), plane(rad_from_deg(50.0)), loose_sand(), 0.0, {straight(1.0)});
   EXPECT_EQ(driven.drive.end, DriveEnd::kSlid);
   EXPECT_NE(driven.drive.reason.find("does not come to rest"), std::string::npos);
@@ -117,8 +117,8 @@ RoverModel heavy_wheeler() {
   return rover;
 }
 
-// What rocks on its wheels does not slide: steeper ground never helps.
-TEST(DriveEndings, SlidesWhereItIsSteeperIfAtAll) {
+// A rover that only rocks on its wheels does not slide, and steeper ground does not stop a sliding one.
+TEST(DriveEndings, ARoverThatSlidesAlsoSlidesOnSteeperGround) {
   for (const double yaw_deg : {0.0, 180.0}) {
     bool slid = false;
     for (double tilt_deg = 31.0; tilt_deg <= 38.0; tilt_deg += 1.0) {
@@ -133,7 +133,7 @@ TEST(DriveEndings, SlidesWhereItIsSteeperIfAtAll) {
 }
 
 TEST(DriveEndings, EndsWithItsBellyOnARidge) {
-  // Between the wheels, along and across the way: these roll past it, or over it.
+  // The ridge is between the wheels, which roll past it, or lies across the way, so that they roll over it.
   const FunctionGround between([](double x, double y) {
     return 0.35 * std::exp(-std::pow(y / 0.15, 2)) * 0.5 * (1.0 + std::tanh((x - 1.6) / 0.05));
   });
@@ -144,7 +144,7 @@ TEST(DriveEndings, EndsWithItsBellyOnARidge) {
   RoverModel high = six_wheeler();
   high.belly_clearance_m = 0.4;
   EXPECT_EQ(drive(high, between, sandy_loam(), 0.0, {straight(2.0)}).drive.end, DriveEnd::kFinished);
-  // Where it is set down on one, it says so at once.
+  // A rover that is set down on a ridge is immobilised at once.
   const FunctionGround along([](double, double y) { return 0.35 * std::exp(-std::pow(y / 0.15, 2)); });
   const Driven set_down = drive(six_wheeler(), along, sandy_loam(), 0.0, {straight(2.0)});
   EXPECT_EQ(set_down.drive.end, DriveEnd::kImmobilised);

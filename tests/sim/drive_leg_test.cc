@@ -21,7 +21,7 @@ void expect_near(const Pose2& pose, const Pose2& expected, double tolerance, con
   EXPECT_NEAR(pose.yaw_rad, expected.yaw_rad, tolerance) << said;
 }
 
-// Moved from a pose in its own axes.
+// The pose that results from moving in the axes of another.
 Pose2 moved(const Pose2& from, double forward_m, double left_m, double turned_rad) {
   const double c = std::cos(from.yaw_rad), s = std::sin(from.yaw_rad);
   return {from.x_m + c * forward_m - s * left_m, from.y_m + s * forward_m + c * left_m,
@@ -95,7 +95,7 @@ TEST(DriveLeg, ThePoseMovesAsTheCommandSays) {
 
 TEST(DriveLeg, APlaceIsFoundWhereItWasMadeBeforeOnAndBehindTheLeg) {
   for (std::uint64_t trial = 0; trial < 2000; ++trial) {
-    // Up to three full turns: the heading's change tells them apart.
+    // The arcs have up to three full turns, which the heading's change distinguishes.
     const DriveLeg leg = any_leg(trial, 6.0 * kPi);
     const double share = 1.4 * random_uniform(6, trial) - 0.2;
     const double reach = std::min(0.3, 0.5 / std::abs(leg.command.curvature_1_m));

@@ -31,7 +31,7 @@ TEST(DynamicDrive, ConvergesWithTheTolerance) {
   EXPECT_NEAR(usual.yaw_rad, exact.yaw_rad, 2e-4);
 }
 
-// A place and a heading have no size that an error could be measured by.
+// The integrator's error control must not depend on the values of position and heading.
 TEST(DynamicDrive, TurnsAlikeBothWaysAndFromAnyHeading) {
   const auto turned = [](double yaw_rad, double rate_rad_s) {
     const Driven driven = drive(six_wheeler(), plane(0.0), sandy_loam(), yaw_rad, {turn(6.0, rate_rad_s)});
@@ -84,7 +84,7 @@ TEST(DynamicDrive, StartsAndStopsWithoutAJolt) {
         << sample.time_s;
 }
 
-TEST(DynamicDrive, EndsWhereItsLegEndsWhenItSeesItsPose) {
+TEST(DynamicDrive, WithPoseFeedbackItEndsWhereItsLegEnds) {
   DynamicOptions options;
   options.feedback = Feedback::kPose;
   const std::vector<DriveLeg> legs{arc(2.0, 0.4), turn(1.2), straight(1.5), turn(2.0, -0.03),
@@ -170,7 +170,7 @@ TEST(DynamicDrive, TheDifferentialKeepsTheRockersOpposite) {
   EXPECT_GT(largest, rad_from_deg(1.0));
 }
 
-// Ruts: the same rule as the quasi-static rung's for wheels in one line.
+// For wheels in one line, the ruts follow the same rule as at the quasi-static level.
 TEST(DynamicDrive, LaterWheelsMeetTheTracksOfEarlierOnes) {
   RoverModel rover = light_suspension(even_wheeler(SuspensionType::kAveraging, 2));
   Soil soil = sandy_loam();
@@ -211,7 +211,7 @@ TEST(DynamicDrive, ARockIsMetBeforeTheAxleIsAboveIt) {
   EXPECT_LT(first_contact(5), first_contact(1) - 0.02);
 }
 
-TEST(DynamicDrive, ItsGreatestFiguresDoNotDependOnTheSamples) {
+TEST(DynamicDrive, ItsMaximaDoNotDependOnTheSampleInterval) {
   const FunctionGround hills([](double x, double y) { return 0.1 * std::sin(2.0 * x) * std::cos(3.0 * y); });
   DynamicOptions often, once;
   often.sample_interval_s = 0.01;
@@ -219,30 +219,52 @@ TEST(DynamicDrive, ItsGreatestFiguresDoNotDependOnTheSamples) {
   const std::vector<DriveLeg> legs{arc(1.5, 0.2), turn(0.3)};
   const Driven fine = drive(six_wheeler(), hills, loose_sand(), 0.3, legs, often);
   const DynamicDrive coarse = drive(six_wheeler(), hills, loose_sand(), 0.3, legs, once).drive;
-  const auto expect_alike = [](const Peak& a, const Peak& b, double share = 0.01) {
-    EXPECT_NEAR(a.value / b.value, 1.0, share);
-  };
-  expect_alike(coarse.max_current_a, fine.drive.max_current_a);
-  expect_alike(coarse.max_sinkage_m, fine.drive.max_sinkage_m);
-  expect_alike(coarse.max_slip_ratio, fine.drive.max_slip_ratio);
-  expect_alike(coarse.max_tilt_rad, fine.drive.max_tilt_rad);
-  // They are those of dense samples, but for what is greatest within a step.
-  Peak current, sinkage, slip, tilt;
-  for (const DriveSample& sample : fine.samples) {
+  EXPECT_EQ(coarse.max_current_a.value, fine.drive.max_current_a.value);
+  EXPECT_EQ(coarse.max_sinkage_m.value, fine.drive.max_sinkage_m.value);
+  EXPECT_EQ(coarse.max_slip_ratio.value, fine.drive.max_slip_ratio.value);
+  EXPECT_EQ(coarse.max_tilt_rad.value, fine.drive.max_tilt_rad.value);
+}
+
+// The greatest figures are taken at the integrator's steps, and something may be greater between two of them.
+// Sinkage and tilt follow the ground, so that is little: below 0.1 %. Interpolated currents are up to 1.5 %
+// greater at the default tolerance, and 0.01 % at 1e-5.
+//
+// Slip is different. It is defined once the rates are above half of what is commanded, and there it is
+// greatest, for the wheels turn up faster than the rover follows: in this turn 0.325 at that moment, at any
+// tolerance, and 0.3045 only 50 ms later. The first step after that moment sees what is left by then, from
+// 0.302 to 0.325 as tolerance and rounding place it. So the figure at the steps lies between the greatest
+// slip ever and the greatest one later than the longest step there, which is below 0.1 s. Compiled with -O1
+// and -O2, at six tolerances from 1e-3 to 1e-8, it does.
+TEST(DynamicDrive, ItsGreatestFiguresAreThoseOfDenseSamples) {
+  const FunctionGround hills([](double x, double y) { return 0.1 * std::sin(2.0 * x) * std::cos(3.0 * y); });
+  DynamicOptions options;
+  options.sample_interval_s = 0.01;
+  const Driven driven = drive(six_wheeler(), hills, loose_sand(), 0.3, {arc(1.5, 0.2), turn(0.3)}, options);
+  Peak current, sinkage, slip, later_slip, tilt;
+  double set_off_s = 0.0;
+  bool was_driving = false;
+  for (const DriveSample& sample : driven.samples) {
     tilt.raise(sample.attitude.tilt_rad(), 0.0);
-    if (sample.driving) slip.raise(std::abs(sample.slip_ratio), 0.0);
+    if (sample.driving && !was_driving) set_off_s = sample.time_s;
+    was_driving = sample.driving;
+    if (sample.driving) {
+      slip.raise(std::abs(sample.slip_ratio), 0.0);
+      if (sample.time_s > set_off_s + 0.1) later_slip.raise(std::abs(sample.slip_ratio), 0.0);
+    }
     for (const WheelState& wheel : sample.wheels) {
       current.raise(std::abs(wheel.current_a), 0.0);
       sinkage.raise(wheel.sinkage_m, 0.0);
     }
   }
-  expect_alike(coarse.max_current_a, current, 0.03);
-  expect_alike(coarse.max_sinkage_m, sinkage, 0.03);
-  expect_alike(coarse.max_slip_ratio, slip, 0.03);
-  expect_alike(coarse.max_tilt_rad, tilt, 0.03);
+  const DynamicDrive& greatest = driven.drive;
+  EXPECT_NEAR(greatest.max_current_a.value / current.value, 1.0, 0.03);
+  EXPECT_NEAR(greatest.max_sinkage_m.value / sinkage.value, 1.0, 0.003);
+  EXPECT_NEAR(greatest.max_tilt_rad.value / tilt.value, 1.0, 0.003);
+  EXPECT_LT(greatest.max_slip_ratio.value, 1.02 * slip.value);
+  EXPECT_GT(greatest.max_slip_ratio.value, 0.99 * later_slip.value);
 }
 
-TEST(DynamicDrive, CountsFromWhenTimeStarts) {
+TEST(DynamicDrive, CountsEnergyAndEncodersFromTheStartOfTime) {
   const Driven driven = drive(six_wheeler(), plane(rad_from_deg(20.0)), sandy_loam(), 0.0, {straight(0.2)});
   for (const double turned : driven.samples.front().turned_rad) EXPECT_EQ(turned, 0.0);
   double greatest_w = 0.0;
@@ -253,7 +275,7 @@ TEST(DynamicDrive, CountsFromWhenTimeStarts) {
     greatest_w = std::max(greatest_w, power_w);
   }
   EXPECT_LE(driven.drive.energy_j, 1.5 * greatest_w * driven.drive.duration_s);
-  // Nothing is used by what slides while it is set down.
+  // A rover that slides while it settles has used no energy.
   const Driven slid = drive(six_wheeler(), plane(rad_from_deg(50.0)), loose_sand(), 0.0, {straight(1.0)});
   ASSERT_EQ(slid.drive.end, DriveEnd::kSlid);
   EXPECT_EQ(slid.drive.energy_j, 0.0);

@@ -77,7 +77,7 @@ inline Driven drive(const RoverModel& rover, const Ground& ground, const Soil& s
   return driven ? std::move(*driven) : Driven{};
 }
 
-// All mass in the body and no compliance, as the quasi-static rung has it.
+// A rover with all mass in the body and no compliance, as at the quasi-static level.
 inline RoverModel light_suspension(RoverModel rover) {
   rover.masses = {.wheel_kg = 1e-3, .rocker_kg = 1e-3, .bogie_kg = 1e-3, .body_inertia_kg_m2 = std::nullopt};
   rover.suspension.differential_stiffness_nm_rad = 1e8;

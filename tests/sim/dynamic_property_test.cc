@@ -75,7 +75,7 @@ bool is_finite(const DriveSample& sample) {
 
 class AnyDrive : public testing::TestWithParam<int> {};
 
-// An answer or a reasoned refusal: never a NaN, a hang or a crash.
+// Every drive has an answer or a refusal with its reason, and never a NaN, a hang or a crash.
 TEST_P(AnyDrive, HasAnAnswerOrAReason) {
   for (int n = 0; n < 40; ++n) {
     Dice dice(random_key(2026, static_cast<std::uint64_t>(GetParam() * 40 + n)));

@@ -57,7 +57,7 @@ TEST_P(EffectRow, SwitchedOffChangesNothing) {
 }
 
 // Random stations: slopes, speeds, curvatures and soils.
-TEST_P(EffectRow, WithItsNeutralNumbersItChangesNothingAnywhere) {
+TEST_P(EffectRow, WithItsNeutralValuesItChangesNothingAnywhere) {
   EffectSetting setting = at(&Field::highest);
   for (const Field& field : GetParam().fields)
     if (field.neutral) setting.parameters[std::string(field.name)] = *field.neutral;
@@ -74,7 +74,7 @@ TEST_P(EffectRow, WithItsNeutralNumbersItChangesNothingAnywhere) {
   }
 }
 
-TEST_P(EffectRow, OnWithItsInitialOrHighestNumbersChangesThePrediction) {
+TEST_P(EffectRow, OnWithItsInitialOrMaximumValuesChangesThePrediction) {
   bool changed = false;
   for (double Field::*value : {&Field::initial, &Field::highest}) {
     const EffectSetting setting = at(value);
@@ -114,7 +114,7 @@ TEST(EffectCatalogue, UnknownNamesAreRefusedWithTheKnownOnes) {
   EXPECT_EQ(faults[2].message, "effect \"slip_sinkage\" is switched on twice");
 }
 
-TEST(EffectCatalogue, HasTheNamesThatTheGapDiagnosisSpeaksOf) {
+TEST(EffectCatalogue, HasTheNamesThatTheGapDiagnosisUses) {
   for (const char* name :
        {"slip_sinkage", "multipass", "grousers", "bulldozing", "side_bulldozing", "com_offset",
         "motor_temperature", "gearbox_friction", "wheel_radius", "dragging_wheel", "rate_shear", "duricrust",
@@ -173,7 +173,7 @@ TEST(Bulldozing, CostsSlipAndSideWallsHoldTheRoverAgainstSlidingSideways) {
             std::abs(drive({}, across, ahead, loose_sand()).side_slip_rad));
 }
 
-TEST(WheelRadius, AWheelThatIsLargerThanReckonedDrivesFartherThanTold) {
+TEST(WheelRadius, AWheelThatIsLargerThanAssumedDrivesFartherThanCommanded) {
   const EffectSetting setting{"wheel_radius", {{"scale", 0.05}}};
   const DriveCommand ahead{.speed_m_s = 0.04};
   const double with = drive({&setting, 1}, {}, ahead, sandy_loam()).slip_ratio;

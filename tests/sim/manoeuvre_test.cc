@@ -19,7 +19,7 @@ StationState drive(const RoverModel& rover, const DriveCommand& command, const A
   return solver.solve(stance_on_plane(rover, attitude), sandy_loam(), command);
 }
 
-// The rover seen from its left side: what was left is now ahead.
+// The rover in axes turned by a quarter, so that its left side is ahead.
 RoverModel turned_right(RoverModel rover) {
   const auto turn = [](const Eigen::Vector3d& p) { return Eigen::Vector3d(p.y(), -p.x(), p.z()); };
   rover.com_m = turn(rover.com_m);
@@ -36,7 +36,7 @@ TEST(WheelCommands, CrabMotionTurnsEverySteeredWheelTheSameWay) {
   }
 }
 
-TEST(WheelCommands, AWheelWithoutSteeringIsToldTheForwardPart) {
+TEST(WheelCommands, AWheelWithoutSteeringIsCommandedTheForwardPart) {
   const auto commanded =
       wheel_commands(four_wheeler(SuspensionType::kRigid), {.speed_m_s = 0.04, .curvature_1_m = 0.5});
   EXPECT_NEAR(commanded[0].rate_rad_s, 0.04 * (1.0 - 0.5 * 0.5) / 0.125, 1e-12);
@@ -44,7 +44,7 @@ TEST(WheelCommands, AWheelWithoutSteeringIsToldTheForwardPart) {
   for (const WheelCommand& wheel : commanded) EXPECT_EQ(wheel.steer_rad, 0.0);
 }
 
-TEST(WheelCommands, TheRoverReckonsWithTheRadiusItWasToldAndRollsOnTheTrueOne) {
+TEST(WheelCommands, TheRoverComputesWithItsAssumedRadiusAndRollsOnTheTrueOne) {
   RoverModel rover = six_wheeler();
   for (WheelModel& wheel : rover.wheels) {
     wheel.software_radius_m = wheel.radius_m;
@@ -82,7 +82,7 @@ TEST(CrabMotion, UpASlopeSidewaysSlipsAsUpItStraight) {
   EXPECT_NEAR(crab.slip_ratio, straight.slip_ratio, 1e-7);
 }
 
-TEST(CrabMotion, TimeIsReckonedAlongTheDirectionOfTravel) {
+TEST(CrabMotion, TimeIsComputedAlongTheDirectionOfTravel) {
   const RoverModel rover = all_steered(six_wheeler());
   PreparedStation station;
   station.stance = stance_on_plane(rover, {});
@@ -112,7 +112,7 @@ TEST(SkidSteering, TurningInPlaceScrubsSoItYawsLessAndDrawsMoreThanSteeredWheels
   EXPECT_GT(largest_current_a(skid), 1.2 * largest_current_a(steered));
 }
 
-TEST(SkidSteering, OnAnArcItTurnsTheWayItIsToldButWider) {
+TEST(SkidSteering, OnAnArcItTurnsAsCommandedButWider) {
   const StationState state =
       drive(four_wheeler(SuspensionType::kAveraging), {.speed_m_s = 0.04, .curvature_1_m = 0.5});
   ASSERT_TRUE(state.moving());

@@ -46,7 +46,7 @@ TEST(MotorControl, StaysWithinTheCurrentLimit) {
     EXPECT_LE(std::abs(MotorControl(motor, 1.0, 0.003).keep_rate(0.4, rate, 20.0).current_a), 0.5 + 1e-12);
 }
 
-// As motor.h has it: a resistance that no file gives heats nothing, however slowly the rover creeps.
+// As in motor.h, a resistance that no file gives causes no heat, however slowly the rover creeps.
 TEST(MotorControl, TakesTheSamePowerAsTheMotorsLaw) {
   for (const bool known : {false, true}) {
     DriveMotor motor;
@@ -61,7 +61,7 @@ TEST(MotorControl, TakesTheSamePowerAsTheMotorsLaw) {
   }
 }
 
-TEST(LegDriver, ToldRatesCoverTheCommandedLength) {
+TEST(LegDriver, CommandedRatesCoverTheCommandedLength) {
   const RoverModel rover = six_wheeler();
   DriveLeg leg;
   leg.command = {.speed_m_s = 0.04, .curvature_1_m = 0.3};

@@ -62,7 +62,7 @@ TEST(Motor, StallTorqueTakesTheWholeBusVoltageAtStandstill) {
   EXPECT_EQ(attainable_rate_rad_s(drive, 1.001 * most), 0.0);
 }
 
-TEST(Motor, TheAttainableRateUsesUpTheBusVoltageUnderHeavyTorqueAndIsTheGreatestUnderNone) {
+TEST(Motor, TheAttainableRateUsesTheBusVoltageUnderHeavyTorqueAndIsTheMaximumUnderNone) {
   DriveMotor drive = motor();
   EXPECT_EQ(attainable_rate_rad_s(drive, 0.0), drive.max_wheel_rate_rad_s);
   const double torque = 0.9 * stall_torque_nm(drive);

@@ -207,7 +207,7 @@ TEST(Multibody, FallingFreelyNoJointMovesAndEveryPointFallsAlike) {
   EXPECT_NEAR((state.R_MB * found.base.tail<3>() - state.gravity_M).norm(), 0.0, 1e-14);
 }
 
-// A tree that nothing holds: attitude and place of B, its velocity and the joints.
+// The state of a free tree: attitude and position of B, its velocity, and the joints.
 struct Tumbling {
   Quaterniond q_MB;
   Vector3d p_M;
@@ -281,7 +281,7 @@ TEST(Multibody, TumblingFreelyKeepsEnergyAndBothMomenta) {
   EXPECT_LT(angular, 1e-11);
 }
 
-TEST(Multibody, EnergyChangesByThePowerOfWhatActs) {
+TEST(Multibody, EnergyChangesByThePowerOfTheForces) {
   const Multibody multibody = rocker_bogie_rover(6, 0.05);
   MultibodyDynamics dynamics(multibody);
   for (std::uint64_t trial = 0; trial < 20; ++trial) {

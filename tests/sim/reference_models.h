@@ -113,8 +113,8 @@ inline RoverModel all_steered(RoverModel rover) {
   return rover;
 }
 
-// Ground in closed form: height as a function of place, normals by central differences; unknown soil where
-// told.
+// Ground in closed form: the height is a function of the place, and normals are by central differences. The
+// soil is unknown where the second function says so.
 class FunctionGround final : public Ground {
  public:
   using Height = std::function<double(double, double)>;

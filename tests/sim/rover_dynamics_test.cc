@@ -28,7 +28,7 @@ class LevelStart : public testing::Test {
   std::vector<double> state_;
 };
 
-// Lost on a trial step, found on a shorter one: not a reason for whatever happens later.
+// Ground that is lost on a trial step and found on a shorter one must not be the reason of a later failure.
 TEST_F(LevelStart, LostGroundIsForgottenWithTheNextStep) {
   std::vector<double> rate(state_.size()), values(static_cast<std::size_t>(dynamics_.event_count())),
       off = state_;

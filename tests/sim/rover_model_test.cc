@@ -82,7 +82,7 @@ TEST(RoverModel, ABodysMomentsOfInertiaAreThoseOfABody) {
   EXPECT_TRUE(faults_of(rover).empty());
 }
 
-TEST(RoverModel, WhatTheDynamicRungReadsHasItsRangesToo) {
+TEST(RoverModel, ParametersOfTheDynamicLevelHaveRangesToo) {
   RoverModel rover = six_wheeler();
   rover.suspension.differential_stiffness_nm_rad = -1.0;
   rover.suspension.bogie_stop_rad = 3.0;

@@ -20,7 +20,7 @@ std::vector<RoverModel> vehicles() {
           even_wheeler(SuspensionType::kRigid, 6)};
 }
 
-TEST(RoverMultibody, WeighsWhatTheRoverWeighsWithItsCentreWhereTheRoversIs) {
+TEST(RoverMultibody, HasTheRoversMassAndCentreOfMass) {
   for (const RoverModel& rover : vehicles()) {
     const RoverMultibody bodies = rover_multibody(rover);
     MultibodyDynamics dynamics(bodies.tree);
@@ -31,7 +31,7 @@ TEST(RoverMultibody, WeighsWhatTheRoverWeighsWithItsCentreWhereTheRoversIs) {
   }
 }
 
-// The same joints as the other rungs': wheels' centres agree with the suspension's at any angles.
+// The joints are those of the other fidelity levels: wheel centres agree with the suspension's at any angles.
 TEST(RoverMultibody, PutsItsWheelsWhereTheSuspensionDoes) {
   for (const RoverModel& rover : vehicles()) {
     const RoverMultibody bodies = rover_multibody(rover);

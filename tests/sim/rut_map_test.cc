@@ -107,7 +107,7 @@ TEST(RutMap, AWheelThatDoesNotMoveOrIsNotPressedLeavesNothing) {
   EXPECT_EQ(ruts.tile_count(), 0u);
 }
 
-TEST(RutMap, ForgetsWhatIsFarAndKeepsWhatIsNear) {
+TEST(RutMap, ForgetsFarTilesAndKeepsNearOnes) {
   RutMap ruts;
   ruts.press({0.0, 0.0}, {100.0, 0.0}, 0.2, 0.03);
   const std::size_t before = ruts.tile_count();

@@ -145,7 +145,7 @@ TEST(SlicedWheelsOfARover, AcrossARidgeAlongItsTrackCarryOnTheirMiddle) {
   EXPECT_GT(on_cut.wheels[0].sinkage_m, 1.1 * on_whole.wheels[0].sinkage_m);
 }
 
-TEST(SlicedWheelsOfARover, OnRoughGroundChangeTheAnswerByThis) {
+TEST(SlicedWheelsOfARover, OnRoughGroundChangeTheAnswerByTheStatedAmount) {
   const FunctionGround rough([](double x, double y) {
     return 0.03 * std::sin(5.0 * x) * std::cos(7.0 * y) + 0.01 * std::sin(23.0 * y + 3.0 * x);
   });

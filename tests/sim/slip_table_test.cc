@@ -24,7 +24,7 @@ class SlipTableOnLoam : public testing::Test {
   }
 };
 
-TEST_F(SlipTableOnLoam, BetweenNodesItIsTheQuasiStaticRungToAThousandthOfSlip) {
+TEST_F(SlipTableOnLoam, BetweenNodesItIsTheQuasiStaticLevelToAThousandthOfSlip) {
   int moving = 0;
   for (double pitch = -23.0; pitch < 23.0; pitch += 1.7)
     for (double roll = -19.0; roll < 19.0; roll += 3.1) {
@@ -43,7 +43,7 @@ TEST_F(SlipTableOnLoam, BetweenNodesItIsTheQuasiStaticRungToAThousandthOfSlip) {
   EXPECT_GT(moving, 300);
 }
 
-TEST_F(SlipTableOnLoam, UpToTheTractionLimitEnergyIsThePowerPerMetreMadeGood) {
+TEST_F(SlipTableOnLoam, UpToTheTractionLimitEnergyIsThePowerPerMetreOfProgress) {
   for (const double pitch : {-21.3, -22.4, -23.2}) {
     const StationState state = exact(pitch, 1.3);
     const double energy = state.electric_power_w / (state.forward_m_s * std::cos(rad_from_deg(pitch)));

@@ -18,10 +18,10 @@ struct Motion {
 
 class SlowLimit : public testing::TestWithParam<Motion> {};
 
-// In steady motion the dynamic rung is the quasi-static one, at any speed. What is left is that wheels which
-// sink unequally turn the suspension a little (a third of a degree up 15 deg), which shifts their loads by up
-// to 1 %.
-TEST_P(SlowLimit, IsTheQuasiStaticRung) {
+// In steady motion the dynamic level agrees with the quasi-static one at any speed. The remaining difference
+// is that unequal sinkage turns the suspension a little (a third of a degree on a climb of 15 deg), which
+// shifts the wheels' loads by up to 1 %.
+TEST_P(SlowLimit, IsTheQuasiStaticLevel) {
   const Motion& motion = GetParam();
   const RoverModel rover = light_suspension(six_wheeler());
   DynamicOptions options{.relative_tolerance = 1e-8, .feedback = Feedback::kNone, .sample_interval_s = 0.5};
@@ -56,9 +56,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Motion{"arc", 0.0, 0.0, arc(2.0, 0.4)}, Motion{"turn", 0.0, 0.0, turn(2.0)}),
     [](const auto& named) { return std::string(named.param.name); });
 
-// Wheels of 3 % of the rover's mass each: up a slope they turn the bogies, which the balance tells where it
-// is told that they weigh at their own places.
-TEST(SlowLimitOfHeavyWheels, IsTheQuasiStaticRungWithTheWheelsOwnWeight) {
+// Wheels of 3 % of the rover's mass each turn the bogies on a climb. The balance shows this too where the
+// wheels' weight acts at their own places (wheel_weight).
+TEST(SlowLimitOfHeavyWheels, IsTheQuasiStaticLevelWithTheWheelsOwnWeight) {
   RoverModel rover = light_suspension(six_wheeler());
   rover.masses.wheel_kg.reset();
   DynamicOptions options{.relative_tolerance = 1e-8, .feedback = Feedback::kNone, .sample_interval_s = 0.5};

@@ -1,4 +1,4 @@
-// Wheels whose motor does not do what it is told.
+// Wheels whose motor does not follow its command.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -113,7 +113,7 @@ TEST(DrivenWheel, DragCostsCurrentAndNothingElse) {
   EXPECT_LT(backwards.wheels[2].current_a, 0.0);
 }
 
-TEST(DrivenWheel, AWheelThatTurnsSlowerThanToldYawsTheRoverToItsSide) {
+TEST(DrivenWheel, AWheelThatTurnsSlowerThanCommandedYawsTheRoverToItsSide) {
   RoverModel rover = six_wheeler();
   for (int k = 0; k < 3; ++k) rover.wheels[k].rate_share = 0.9;
   const StationState state = level(rover);

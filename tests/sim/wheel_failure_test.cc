@@ -47,7 +47,10 @@ TEST(WheelFailure, NamesAreInTheOrderOfTheFailures) {
   EXPECT_EQ(describe(WheelFailure::kOff), "off");
 }
 
-// Slip of the rover in the middle of 2 m over level loam, in either rung.
+// Slip of the rover in steady motion over level loam, at either level of fidelity: on the second of two
+// metres, without its last tenth. There the rates go down to a stop, and the rover, which lags behind them,
+// slips less and less: samples of that moved a mean over all of the second metre by up to a quarter,
+// depending on where they fell.
 struct BothSlips {
   double balance, dynamic;
   DriveEnd end;
@@ -67,7 +70,7 @@ BothSlips slips(const RoverModel& rover) {
   const auto drive = simulate_drive(
       rover, 3.71, level, mean_soils(loam), {}, legs, {.feedback = Feedback::kPose},
       [&](const DriveSample& sample) {
-        if (!sample.driving || sample.progress_m < 1.0) return;
+        if (!sample.driving || sample.progress_m < 1.0 || sample.progress_m > 1.9) return;
         sum += sample.slip_ratio;
         ++count;
       },
@@ -76,7 +79,10 @@ BothSlips slips(const RoverModel& rover) {
   return {balance->mean_slip_ratio, sum / std::max(1, count), drive->end};
 }
 
-TEST(WheelFailure, BothRungsSlipMoreTheHarderTheWheelIsToTurn) {
+// In steady motion the two levels agree within 0.7 % (0.3 % with a free wheel, at tolerances from 1e-3 to
+// 1e-7, with one contact point as with three). Without feedback of the pose it is 0.04 %: what is left is the
+// steering that holds the rover on its line, which the balance does not have.
+TEST(WheelFailure, BothLevelsSlipMoreTheHarderTheWheelIsToTurn) {
   const BothSlips whole = slips(six_wheeler());
   BothSlips last = whole;
   for (const WheelFailure failure : {WheelFailure::kFree, WheelFailure::kOff}) {
@@ -85,7 +91,7 @@ TEST(WheelFailure, BothRungsSlipMoreTheHarderTheWheelIsToTurn) {
     const BothSlips now = slips(rover);
     EXPECT_GT(now.balance, last.balance) << describe(failure);
     EXPECT_GT(now.dynamic, last.dynamic) << describe(failure);
-    EXPECT_NEAR(now.dynamic, now.balance, 0.25 * now.balance) << describe(failure);
+    EXPECT_NEAR(now.dynamic, now.balance, 0.015 * now.balance) << describe(failure);
     last = now;
   }
   RoverModel rover = six_wheeler();

@@ -11,8 +11,8 @@
 #include "sim/soil/bulldozing_law.h"
 #include "sim/soil/duricrust_law.h"
 #include "sim/soil/hardpan_law.h"
+#include "sim/soil/janosi_hanamoto.h"
 #include "sim/soil/soil_in_force.h"
-#include "sim/soil/soil_law_catalogue.h"
 #include "sim/soil/terzaghi.h"
 #include "sim/wheel/entry_angle.h"
 #include "sim/wheel/slip_ratio.h"
@@ -358,37 +358,16 @@ TEST(SlipRatio, SpeedRatioAndSlipAreInverse) {
     EXPECT_NEAR(slip_from_speed_ratio(speed_ratio_from_slip(slip)), slip, 1e-15);
 }
 
-class PressureSinkageRow : public testing::TestWithParam<PressureSinkageLaw> {};
-
-TEST_P(PressureSinkageRow, IsZeroAtTheSurfaceAndRisesWithDepth) {
-  EXPECT_EQ(GetParam().pressure_pa(8e5, 0.9, 0.0), 0.0);
-  double above = 0.0;
-  for (const double depth : {1e-4, 1e-3, 5e-3, 1e-2, 5e-2, 0.1, 0.2}) {
-    const double p = GetParam().pressure_pa(8e5, 0.9, depth);
-    EXPECT_GT(p, above);
-    above = p;
-  }
-}
-INSTANTIATE_TEST_SUITE_P(Catalogue, PressureSinkageRow,
-                         testing::ValuesIn(pressure_sinkage_catalogue().begin(),
-                                           pressure_sinkage_catalogue().end()),
-                         [](const auto& row) { return std::string(row.param.name); });
-
-class ShearRow : public testing::TestWithParam<ShearLaw> {};
-
-TEST_P(ShearRow, RisesFromNothingToAtMostTheWholeStrength) {
-  EXPECT_EQ(GetParam().mobilised(0.0), 0.0);
-  EXPECT_NEAR(GetParam().mobilised(1e-6), 1e-6, 1e-11) << "the slope at the origin is 1 / K";
+TEST(JanosiHanamoto, RisesFromNothingToTheWholeStrength) {
+  EXPECT_EQ(janosi_hanamoto_mobilised(0.0), 0.0);
+  EXPECT_NEAR(janosi_hanamoto_mobilised(1e-6), 1e-6, 1e-11) << "the slope at the origin is 1 / K";
   double before = 0.0;
   for (const double ratio : {1e-3, 0.1, 0.5, 1.0, 5.0, 20.0, 100.0}) {
-    EXPECT_GE(GetParam().mobilised(ratio), before);
-    before = GetParam().mobilised(ratio);
+    EXPECT_GE(janosi_hanamoto_mobilised(ratio), before);
+    before = janosi_hanamoto_mobilised(ratio);
   }
   EXPECT_LE(before, 1.0);
 }
-INSTANTIATE_TEST_SUITE_P(Catalogue, ShearRow,
-                         testing::ValuesIn(shear_catalogue().begin(), shear_catalogue().end()),
-                         [](const auto& row) { return std::string(row.param.name); });
 
 TEST(BekkerPressureSinkage, DoublingDepthRaisesPressureByTwoToTheN) {
   for (const double depth : {0.01, 0.03, 0.08})

@@ -13,8 +13,8 @@
 namespace slipway::sim {
 namespace {
 
-SingleWheelTest test_on(const Soil& soil) {
-  SingleWheelTest test;
+WheelRigConditions test_on(const Soil& soil) {
+  WheelRigConditions test;
   test.wheel = {0.125, 0.16};
   test.soil = soil;
   test.load_n = 108.0;
@@ -51,65 +51,65 @@ TEST(RigMotion, AgreesWithForwardMotionStraightAheadOnly) {
 }
 
 TEST(RigMotion, ALockedWheelHasTheForcesOfTheLimit) {
-  SingleWheelTest test = test_on(sandy_loam());
+  WheelRigConditions test = test_on(sandy_loam());
   test.sinkage_m = 0.02;
   test.slip = -1.0;
-  const SingleWheelResult locked = run_single_wheel_test(test);
+  const WheelRigResult locked = run_wheel_rig(test);
   test.slip = -1.0 + 1e-6;
-  const SingleWheelResult nearly = run_single_wheel_test(test);
+  const WheelRigResult nearly = run_wheel_rig(test);
   EXPECT_NEAR(locked.forces.drawbar_pull_n, nearly.forces.drawbar_pull_n,
               1e-5 * std::abs(nearly.forces.drawbar_pull_n));
   test.slip = -1.0;
   EXPECT_EQ(rim_speed_m_s(test), 0.0);
 }
 
-TEST(SingleWheelTest, ABalancedWheelCarriesItsLoad) {
+TEST(WheelRigConditions, ABalancedWheelCarriesItsLoad) {
   for (const double slip : {-0.5, 0.0, 0.3, 0.9}) {
     for (const double beta_deg : {0.0, 20.0}) {
-      SingleWheelTest test = test_on(sandy_loam());
+      WheelRigConditions test = test_on(sandy_loam());
       test.slip = slip;
       test.slip_angle_rad = rad_from_deg(beta_deg);
-      const SingleWheelResult result = run_single_wheel_test(test);
-      ASSERT_EQ(result.outcome, TestOutcome::kBalanced);
+      const WheelRigResult result = run_wheel_rig(test);
+      ASSERT_EQ(result.outcome, RigOutcome::kBalanced);
       EXPECT_NEAR(result.forces.vertical_n, 108.0, 1e-6);
     }
   }
 }
 
-TEST(SingleWheelTest, AHeldWheelCarriesWhatTheSameSinkageBalances) {
-  SingleWheelTest test = test_on(loose_sand());
-  const SingleWheelResult free = run_single_wheel_test(test);
+TEST(WheelRigConditions, AHeldWheelCarriesWhatTheSameSinkageBalances) {
+  WheelRigConditions test = test_on(loose_sand());
+  const WheelRigResult free = run_wheel_rig(test);
   test.sinkage_m = free.sinkage_m;
-  const SingleWheelResult held = run_single_wheel_test(test);
-  EXPECT_EQ(held.outcome, TestOutcome::kHeld);
+  const WheelRigResult held = run_wheel_rig(test);
+  EXPECT_EQ(held.outcome, RigOutcome::kHeld);
   EXPECT_NEAR(held.forces.vertical_n, 108.0, 1e-6);
   EXPECT_NEAR(held.forces.drawbar_pull_n, free.forces.drawbar_pull_n, 1e-6);
 }
 
-TEST(SingleWheelTest, TooMuchLoadIsSunkToTheAxleWithReason) {
-  SingleWheelTest test = test_on(loose_sand());
+TEST(WheelRigConditions, TooMuchLoadIsSunkToTheAxleWithReason) {
+  WheelRigConditions test = test_on(loose_sand());
   test.load_n = 5e4;
-  const SingleWheelResult result = run_single_wheel_test(test);
-  EXPECT_EQ(result.outcome, TestOutcome::kSunkToAxle);
+  const WheelRigResult result = run_wheel_rig(test);
+  EXPECT_EQ(result.outcome, RigOutcome::kSunkToAxle);
   EXPECT_NE(result.reason.find("sunk to the axle: the soil carries"), std::string::npos) << result.reason;
   EXPECT_FALSE(result.current_a);
 }
 
-TEST(SingleWheelTest, WhereTheSolverFindsNoBalanceItSaysSo) {
-  SingleWheelTest test = test_on(sandy_loam());
+TEST(WheelRigConditions, WhereTheSolverFindsNoBalanceItSaysSo) {
+  WheelRigConditions test = test_on(sandy_loam());
   test.soil.pressure = {0.0, 1e11, 0.1};
   test.load_n = 0.5;
-  const SingleWheelResult result = run_single_wheel_test(test);
-  EXPECT_EQ(result.outcome, TestOutcome::kNotBalanced);
+  const WheelRigResult result = run_wheel_rig(test);
+  EXPECT_EQ(result.outcome, RigOutcome::kNotBalanced);
   EXPECT_TRUE(result.reason.starts_with("not balanced: ")) << result.reason;
 }
 
-TEST(SingleWheelTest, ThrustLessResistanceIsThePull) {
-  SingleWheelTest test = test_on(loose_sand());
+TEST(WheelRigConditions, ThrustLessResistanceIsThePull) {
+  WheelRigConditions test = test_on(loose_sand());
   test.soil.bulldozing = 1.0;
   test.wheel.grousers = {0.01, 24.0};
   test.slip = 0.3;
-  const SingleWheelResult r = run_single_wheel_test(test);
+  const WheelRigResult r = run_wheel_rig(test);
   EXPECT_GT(r.bulldozing_resistance_n, 1.0);
   EXPECT_GT(r.compaction_resistance_n, 1.0);
   EXPECT_NEAR(r.thrust_n - r.compaction_resistance_n - r.bulldozing_resistance_n, r.forces.drawbar_pull_n,
@@ -129,25 +129,25 @@ TEST(SingleWheelTest, ThrustLessResistanceIsThePull) {
   EXPECT_NEAR(r.compaction_resistance_n, 0.16 * 0.125 * sum, 1e-3);
 }
 
-TEST(SingleWheelTest, EfficiencyIsUsefulOverDrivingPowerAndBelowOne) {
-  SingleWheelTest test = test_on(sandy_loam());
+TEST(WheelRigConditions, EfficiencyIsUsefulOverDrivingPowerAndBelowOne) {
+  WheelRigConditions test = test_on(sandy_loam());
   test.slip = 0.2;
-  const SingleWheelResult r = run_single_wheel_test(test);
+  const WheelRigResult r = run_wheel_rig(test);
   ASSERT_TRUE(r.tractive_efficiency);
   EXPECT_NEAR(*r.tractive_efficiency, r.forces.drawbar_pull_n * 0.8 * 0.125 / r.forces.torque_nm, 1e-12);
   EXPECT_GT(*r.tractive_efficiency, 0.0);
   EXPECT_LT(*r.tractive_efficiency, 0.8);
   test.slip = -0.3;
-  EXPECT_FALSE(run_single_wheel_test(test).tractive_efficiency) << "a braked wheel has none";
+  EXPECT_FALSE(run_wheel_rig(test).tractive_efficiency) << "a braked wheel has none";
 }
 
-TEST(SingleWheelTest, DrawnSidewaysItIsHeldBackFromEitherSideAlike) {
-  SingleWheelTest test = test_on(sandy_loam());
+TEST(WheelRigConditions, DrawnSidewaysItIsHeldBackFromEitherSideAlike) {
+  WheelRigConditions test = test_on(sandy_loam());
   test.slip_definition = SlipDefinition::kTravel;
   test.slip_angle_rad = rad_from_deg(90.0);
-  const SingleWheelResult left = run_single_wheel_test(test);
+  const WheelRigResult left = run_wheel_rig(test);
   test.slip_angle_rad = rad_from_deg(-90.0);
-  const SingleWheelResult right = run_single_wheel_test(test);
+  const WheelRigResult right = run_wheel_rig(test);
   EXPECT_LT(left.forces.lateral_n, -10.0) << "against the motion to the left";
   EXPECT_NEAR(left.forces.lateral_n, -right.forces.lateral_n, 1e-9);
   EXPECT_NEAR(left.forces.drawbar_pull_n, right.forces.drawbar_pull_n, 1e-9);
@@ -155,28 +155,28 @@ TEST(SingleWheelTest, DrawnSidewaysItIsHeldBackFromEitherSideAlike) {
 
 // With independent shear the rim's thrust stays however fast the wheel is dragged sideways; with one
 // resultant the dragging takes it all.
-TEST(SingleWheelTest, ALockedWheelDraggedSidewaysHasNoThrustWhereShearIsCoupled) {
-  SingleWheelTest test = test_on(sandy_loam());
+TEST(WheelRigConditions, ALockedWheelDraggedSidewaysHasNoThrustWhereShearIsCoupled) {
+  WheelRigConditions test = test_on(sandy_loam());
   test.slip_definition = SlipDefinition::kTravel;
   test.slip_angle_rad = rad_from_deg(90.0);
   test.slip = -1.0;
-  EXPECT_GT(run_single_wheel_test(test).thrust_n, 20.0);
+  EXPECT_GT(run_wheel_rig(test).thrust_n, 20.0);
   test.soil.shear_coupling = 1.0;
-  const SingleWheelResult coupled = run_single_wheel_test(test);
+  const WheelRigResult coupled = run_wheel_rig(test);
   EXPECT_NEAR(coupled.thrust_n, 0.0, 1e-3);
   EXPECT_LT(coupled.forces.lateral_n, -20.0);
 }
 
-TEST(SingleWheelTest, ASecondPassSinksLess) {
-  SingleWheelTest test = test_on(loose_sand());
+TEST(WheelRigConditions, ASecondPassSinksLess) {
+  WheelRigConditions test = test_on(loose_sand());
   test.soil.multipass_stiffening = 0.9;
-  const double first = run_single_wheel_test(test).sinkage_m;
+  const double first = run_wheel_rig(test).sinkage_m;
   test.in_a_track = true;
-  EXPECT_LT(run_single_wheel_test(test).sinkage_m, 0.8 * first);
+  EXPECT_LT(run_wheel_rig(test).sinkage_m, 0.8 * first);
 }
 
-TEST(SingleWheelTest, TheHeldSpeedSetsTheRimSpeed) {
-  SingleWheelTest test;
+TEST(WheelRigConditions, TheHeldSpeedSetsTheRimSpeed) {
+  WheelRigConditions test;
   test.slip = 0.5;
   test.speed_m_s = 0.01;
   EXPECT_DOUBLE_EQ(rim_speed_m_s(test), 0.01);
@@ -184,7 +184,7 @@ TEST(SingleWheelTest, TheHeldSpeedSetsTheRimSpeed) {
   EXPECT_DOUBLE_EQ(rim_speed_m_s(test), 0.02);
 }
 
-TEST(Stepped, MeetsBothEndsAndHasNoRoundingDust) {
+TEST(Stepped, ReachesBothEndsWithoutRoundingErrors) {
   EXPECT_EQ(stepped(-0.2, 0.3, 0.1), (std::vector<double>{-0.2, -0.1, 0.0, 0.1, 0.2, 0.3}));
   EXPECT_EQ(stepped(0.7, 1.4, 0.1).size(), 8U);
   EXPECT_EQ(stepped(0.0, 1.0, 0.3), (std::vector<double>{0.0, 0.3, 0.6, 0.9}));
@@ -212,7 +212,7 @@ TEST(WheelSweep, EffectsSoilAndWheelCanBeSwept) {
   EXPECT_GT(slope[1].result.sinkage_m, slope[0].result.sinkage_m);
 }
 
-TEST(WheelSweep, WhatIsSetStandsThroughoutAndTheSweepGoesOnFromThere) {
+TEST(WheelSweep, SetValuesHoldInEveryRowAndTheSweepStartsFromThem) {
   WheelSweep sweep = sweep_of({{"slip", {0.1, 0.5}}});
   sweep.set = {{"soil.n", 1.3}, {"soil.k_phi", 2e6}, {"effects.grousers.height_m", 0.02}};
   WheelSweep swept = sweep_of({{"slip", {0.1, 0.5}}});
@@ -268,8 +268,8 @@ TEST(WheelSweep, AnyCombinationGivesFiniteNumbersOrAReason) {
       if (names[k] == "slip_angle_deg" && rig.test.slip_definition == SlipDefinition::kForward) value *= 0.99;
       set_sweep_parameter(names[k], value, rig);
     }
-    const SingleWheelTest test = test_of(rig);
-    const SingleWheelResult r = run_single_wheel_test(test);
+    const WheelRigConditions test = conditions_of(rig);
+    const WheelRigResult r = run_wheel_rig(test);
     if (!r.stands()) {
       EXPECT_FALSE(r.reason.empty());
       continue;
@@ -284,7 +284,7 @@ TEST(WheelSweep, AnyCombinationGivesFiniteNumbersOrAReason) {
   EXPECT_GT(stood, 1500);
 }
 
-TEST(WheelSweep, ARoversOwnEffectsAreAtWorkAndCanBeSweptFrom) {
+TEST(WheelSweep, ARoversOwnEffectsActAndCanBeSwept) {
   WheelSweep sweep = sweep_of({{"effects.grousers.count", {24.0}}});
   sweep.rig.rover.effects = {{.name = "grousers", .parameters = {{"height_m", 0.03}}}};
   EXPECT_EQ(points_of(sweep)[0].test.wheel.grousers.height_m, 0.03);
@@ -293,7 +293,7 @@ TEST(WheelSweep, ARoversOwnEffectsAreAtWorkAndCanBeSweptFrom) {
   EXPECT_EQ(points_of(sweep)[0].test.wheel.grousers.height_m, 0.0);
 }
 
-TEST(WheelSweep, EffectsThatHaveNoBearingOnOneWheelAreKnown) {
+TEST(WheelSweep, EffectsThatDoNotActOnOneWheelAreKnown) {
   std::vector<std::string> without;
   for (const Effect& effect : effect_catalogue())
     if (!acts_on_single_wheel(effect.name)) without.emplace_back(effect.name);

@@ -48,7 +48,7 @@ TEST(CuadrigaModel, ASoilTooWeakForTheSteepestDriveIsNoAnswer) {
   EXPECT_FALSE(ClimbTable::tabulate(*catalogue->rovers.at("cuadriga"), ground_of(weak)));
 }
 
-TEST(CuadrigaWindows, TheTurnRateIsOfTheNeighboursInTheLogAlone) {
+TEST(CuadrigaWindows, TheTurnRateComesFromNeighboursInTheSameLog) {
   const auto windows = load_cuadriga_windows(kData / "validation" / "cuadriga_windows.csv");
   ASSERT_TRUE(windows);
   const CuadrigaWindow &first = (*windows)[0], &second = (*windows)[1], &third = (*windows)[2];

@@ -50,7 +50,7 @@ TEST(FoldsByLog, NoLogIsInTwoFoldsAndNoFoldIsEmpty) {
   EXPECT_LE(most->second - least->second, 17) << "folds differ by no more than the longest log";
 }
 
-TEST(MeasureScatter, FindsTheTwoStandardDeviationsAndTheGrowthThatTheDrivesWereMadeWith) {
+TEST(MeasureScatter, FindsTheTrueStandardDeviationsAndGrowth) {
   const LogScatter scatter = measure_scatter(drives(300, 0.6, 0.8, 0.5, 11));
   EXPECT_NEAR(scatter.between, 0.6, 0.06);
   EXPECT_NEAR(scatter.within, 0.8, 0.04);
@@ -64,7 +64,7 @@ TEST(MeasureScatter, DrivesWithoutALevelOfTheirOwnHaveNoScatterBetween) {
   EXPECT_LT(measure_scatter(drives(300, 0.0, 1.0, 0.0, 5)).between, 0.12);
 }
 
-TEST(PredictiveIntervals, HoldTheirShareOfDrivesThatTheyHaveNotSeen) {
+TEST(PredictiveIntervals, HoldTheirShareOfHeldOutDrives) {
   const LogScatter scatter = measure_scatter(drives(200, 0.6, 0.8, 0.5, 21));
   const std::vector<LogResidual> unseen = drives(200, 0.6, 0.8, 0.5, 22);
   std::vector<std::string> logs;
@@ -79,7 +79,7 @@ TEST(PredictiveIntervals, HoldTheirShareOfDrivesThatTheyHaveNotSeen) {
   EXPECT_NEAR(coverage_of(logs, in_90).of_windows, 0.9, 0.03);
 }
 
-TEST(PredictiveIntervals, AreWiderByWhatTheParametersLeaveOpen) {
+TEST(PredictiveIntervals, AreWiderByTheParametersUncertainty) {
   const LogScatter scatter = measure_scatter(drives(50, 0.6, 0.8, 0.0, 3));
   const PredictiveOffsets known = offsets_at(scatter, 0.1, 0.0);
   const PredictiveOffsets unsure = offsets_at(scatter, 0.1, std::sqrt(3.0) * scatter.std_at(0.1));
@@ -87,7 +87,7 @@ TEST(PredictiveIntervals, AreWiderByWhatTheParametersLeaveOpen) {
   EXPECT_EQ(unsure.median, known.median);
 }
 
-TEST(WeightsByLog, ALogThatSaysOneThingCountsAsOneWindow) {
+TEST(WeightsByLog, ALogOfEqualWindowsCountsAsOneWindow) {
   const std::vector<std::string> logs{"a", "a", "a", "a", "b"};
   const std::vector<double> alike = weights_by_log(logs, 1.0), apart = weights_by_log(logs, 0.0);
   EXPECT_DOUBLE_EQ(alike[0], 0.25);
@@ -95,7 +95,7 @@ TEST(WeightsByLog, ALogThatSaysOneThingCountsAsOneWindow) {
   EXPECT_DOUBLE_EQ(apart[0], 1.0);
 }
 
-TEST(CoverageOf, CountsWindowsAndLogsApart) {
+TEST(CoverageOf, CountsWindowsAndLogsSeparately) {
   const Coverage coverage = coverage_of({"a", "a", "a", "b"}, {true, true, true, false});
   EXPECT_DOUBLE_EQ(coverage.of_windows, 0.75);
   EXPECT_DOUBLE_EQ(coverage.mean_over_logs, 0.5);

@@ -16,7 +16,7 @@ std::string content_of(const std::filesystem::path& path) {
   return text.str();
 }
 
-TEST(Page, WritingReplacesWhatStandsBetweenTheMarkersAndNothingElse) {
+TEST(Page, WritingReplacesOnlyTheTextBetweenTheMarkers) {
   const auto path = std::filesystem::path(testing::TempDir()) / "page.md";
   std::ofstream(path) << "# Title\n\n" << kPageBegin << "old\n" << kPageEnd << "\nlast words\n";
   EXPECT_FALSE(page_holds(path, "new\n").value());
@@ -57,7 +57,7 @@ TEST(Report, ABandThatIsNotANumberDoesNotHold) {
   EXPECT_FALSE(band.holds());
 }
 
-TEST(Document, SaysMeasuredPredictedAndErrorOfEveryCase) {
+TEST(Document, HasMeasuredPredictedAndErrorOfEveryCase) {
   const Comparison comparison{"ding_2011", "", "", nullptr};
   Outcome outcome{&comparison, {}};
   outcome.report.cases = {{"smooth", "pull", "N", 10.0, 9.0},
@@ -71,7 +71,7 @@ TEST(Document, SaysMeasuredPredictedAndErrorOfEveryCase) {
   EXPECT_NE(json.find(R"("quantity":"side","unit":"N","measured":2})"), std::string::npos);
 }
 
-TEST(ComparisonCatalogue, NamesAreUniqueAndEveryRowSaysItsSource) {
+TEST(ComparisonCatalogue, NamesAreUniqueAndEveryRowStatesItsSource) {
   for (const Comparison& comparison : comparison_catalogue()) {
     EXPECT_EQ(find_comparison(comparison.name), &comparison);
     EXPECT_FALSE(comparison.summary.empty());

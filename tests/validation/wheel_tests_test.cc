@@ -75,7 +75,7 @@ TEST(CuadrigaWindows, EveryWindowIsInOneGroupOfItsGradient) {
   EXPECT_EQ(count, 624U);
 }
 
-TEST(CuadrigaWindows, AJumpOfThePositionsIsSeen) {
+TEST(CuadrigaWindows, AJumpOfThePositionsIsDetected) {
   CuadrigaWindow window;
   window.distance_m = 2.0;
   window.gps_speed_m_s = 0.5;

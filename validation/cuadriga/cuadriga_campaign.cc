@@ -21,8 +21,8 @@ namespace {
 constexpr int kFolds = 6;
 constexpr double kSteep_deg = 8.0;
 
-// A quantity of a window of a log that the fit had not seen.
-struct Told {
+// A quantity of a window of a log that was held out of the fit.
+struct HeldOutValue {
   std::size_t log = 0;
   double gradient_rad = 0.0;
   double measured = 0.0, nominal = 0.0, corrected = 0.0, low = 0.0, high = 0.0;
@@ -35,11 +35,11 @@ struct Score {
   std::size_t windows = 0, logs = 0;
 };
 
-Score score_of(const std::vector<Told>& told) {
+Score score_of(const std::vector<HeldOutValue>& values) {
   std::vector<double> before, after;
   std::set<std::size_t> logs;
   Score score;
-  for (const Told& t : told) {
+  for (const HeldOutValue& t : values) {
     before.push_back(t.measured - t.nominal);
     after.push_back(t.measured - t.corrected);
     logs.insert(t.log);
@@ -47,13 +47,13 @@ Score score_of(const std::vector<Told>& told) {
     score.rms += after.back() * after.back();
     score.within_90 += t.held() ? 100.0 : 0.0;
   }
-  const auto count = static_cast<double>(told.size());
+  const auto count = static_cast<double>(values.size());
   score.nominal_rms = std::sqrt(score.nominal_rms / count);
   score.rms = std::sqrt(score.rms / count);
   score.within_90 /= count;
   score.nominal_median = median_abs(before);
   score.median = median_abs(after);
-  score.windows = told.size();
+  score.windows = values.size();
   score.logs = logs.size();
   return score;
 }
@@ -62,14 +62,14 @@ double percent_down(double before, double after) {
   return 100.0 * (1.0 - after / before);
 }
 
-// What a window's prediction and its deviation are, by channel.
+// A window's measured and predicted values and their standard deviation in a channel.
 struct Number {
   double measured = 0.0, nominal = 0.0, corrected = 0.0, deviation = 0.0;
   bool known = false;
 };
 
 struct HeldOutLogs {
-  std::vector<Told> slip, charge_as;
+  std::vector<HeldOutValue> slip, charge_as;
 };
 
 Number number_of(const gap::PreparedCampaign& prepared, const gap::FittedExplanation& fit, std::size_t w,
@@ -88,8 +88,8 @@ Number number_of(const gap::PreparedCampaign& prepared, const gap::FittedExplana
   return {};
 }
 
-void tell(const gap::PreparedCampaign& prepared, const gap::DriveCampaign& campaign,
-          const gap::FittedExplanation& fit, std::size_t w, HeldOutLogs& out) {
+void predict(const gap::PreparedCampaign& prepared, const gap::DriveCampaign& campaign,
+             const gap::FittedExplanation& fit, std::size_t w, HeldOutLogs& out) {
   const Number slip = number_of(prepared, fit, w, gap::Channel::kSlip);
   const Number current = number_of(prepared, fit, w, gap::Channel::kCurrent);
   const gap::DriveWindow& window = prepared.windows[w];
@@ -104,7 +104,7 @@ void tell(const gap::PreparedCampaign& prepared, const gap::DriveCampaign& campa
     return wheels * current_a / (window.command.speed_m_s * std::max(0.05, 1.0 - slip_ratio));
   };
   const double corrected = charge(current.corrected, slip.corrected);
-  // Of the logarithm: current and slip are taken to err apart.
+  // The factor of the interval, on a logarithmic scale; current and slip are assumed to err independently.
   const double factor =
       std::exp(kReach90 * std::hypot(current.deviation / std::max(0.1, current.corrected),
                                      slip.deviation / std::max(0.05, 1.0 - slip.corrected)));
@@ -113,10 +113,10 @@ void tell(const gap::PreparedCampaign& prepared, const gap::DriveCampaign& campa
                            corrected * factor});
 }
 
-void add_rows(const std::string& name, const std::vector<Told>& told, int digits, Report& report) {
-  const auto add = [&](const std::string& where, const std::function<bool(const Told&)>& wanted) {
-    std::vector<Told> some;
-    std::copy_if(told.begin(), told.end(), std::back_inserter(some), wanted);
+void add_rows(const std::string& name, const std::vector<HeldOutValue>& values, int digits, Report& report) {
+  const auto add = [&](const std::string& where, const std::function<bool(const HeldOutValue&)>& wanted) {
+    std::vector<HeldOutValue> some;
+    std::copy_if(values.begin(), values.end(), std::back_inserter(some), wanted);
     if (some.empty()) return;
     const Score s = score_of(some);
     report.rows.push_back(
@@ -127,10 +127,10 @@ void add_rows(const std::string& name, const std::vector<Told>& told, int digits
          fmt::format("{:.0f} %", percent_down(s.nominal_rms, s.rms)), fmt::format("{:.0f} %", s.within_90)});
   };
   const double steep = rad_from_deg(kSteep_deg);
-  add("", [](const Told&) { return true; });
-  add(", up more than 8 deg", [&](const Told& t) { return t.gradient_rad > steep; });
-  add(", within 8 deg", [&](const Told& t) { return std::abs(t.gradient_rad) <= steep; });
-  add(", down more than 8 deg", [&](const Told& t) { return t.gradient_rad < -steep; });
+  add("", [](const HeldOutValue&) { return true; });
+  add(", up more than 8 deg", [&](const HeldOutValue& t) { return t.gradient_rad > steep; });
+  add(", within 8 deg", [&](const HeldOutValue& t) { return std::abs(t.gradient_rad) <= steep; });
+  add(", down more than 8 deg", [&](const HeldOutValue& t) { return t.gradient_rad < -steep; });
 }
 
 struct Answer {
@@ -138,10 +138,10 @@ struct Answer {
   std::string parameters;  // re-tuned on all logs
 };
 
-// Every log told by a fit of the logs of the other folds.
-Result<Answer> tell_held_out(const gap::DriveCampaign& campaign) {
+// Predicts every log by a fit of the logs of the other folds.
+Result<Answer> predict_held_out(const gap::DriveCampaign& campaign) {
   NoProgress progress;
-  const auto prepared = gap::prepare(campaign, {}, 0, progress);
+  const auto prepared = gap::prepare(campaign, {}, progress);
   if (!prepared) return fail(prepared.error());
   const gap::FittedExplanation& all = *prepared->null;
   Answer answer;
@@ -153,12 +153,12 @@ Result<Answer> tell_held_out(const gap::DriveCampaign& campaign) {
     for (std::size_t w = 0; w < prepared->windows.size(); ++w)
       for (std::size_t i = 0; in_fold(w) && i < prepared->windows[w].observations.size(); ++i)
         seen[prepared->model->offset(w) + i] = false;
-    gap::ExplanationOptions options;
-    options.iterations = 4;
+    gap::FitOptions options;
+    options.max_iterations = 4;
     const gap::FittedExplanation fit = gap::fit_explanation(
-        all.hypothesis, *prepared->model, *prepared->noise, all.hypothesis.neutral(), options, seen);
+        all.hypothesis, *prepared->model, *prepared->noise, all.hypothesis.neutral(), options, 0, seen);
     for (std::size_t w = 0; w < prepared->windows.size(); ++w)
-      if (in_fold(w) && prepared->model->used(w)) tell(*prepared, campaign, fit, w, answer.held);
+      if (in_fold(w) && prepared->model->used(w)) predict(*prepared, campaign, fit, w, answer.held);
   }
   for (std::size_t p = 0; p < all.x.size(); ++p)
     answer.parameters +=
@@ -166,7 +166,7 @@ Result<Answer> tell_held_out(const gap::DriveCampaign& campaign) {
   return answer;
 }
 
-// The rover as it ships, whose motors were fitted to these drives, in place of the campaign's nominal one.
+// The campaign with the shipped rover, whose motors were fitted to these drives, in place of the nominal one.
 Result<gap::DriveCampaign> with_shipped_rover(gap::DriveCampaign campaign, const api::Catalogue& catalogue) {
   const auto shipped = catalogue.rovers.find("cuadriga");
   if (shipped == catalogue.rovers.end())
@@ -177,20 +177,20 @@ Result<gap::DriveCampaign> with_shipped_rover(gap::DriveCampaign campaign, const
 
 }  // namespace
 
-// Re-tuned on the other logs, what the corrected model says of a log.
+// The comparison: each log is predicted by a model that was re-tuned on the other logs.
 Result<Report> cuadriga_campaign(const std::filesystem::path& data) {
   const auto catalogue = api::load_catalogue(data);
   if (!catalogue) return fail(catalogue.error());
   const auto campaign = api::load_drive_campaign(data / "drive-campaigns" / "cuadriga_2018_2019", *catalogue);
   if (!campaign) return fail(campaign.error());
-  const auto assumed = tell_held_out(*campaign);
+  const auto assumed = predict_held_out(*campaign);
   if (!assumed) return fail(assumed.error());
   const auto fitted = with_shipped_rover(*campaign, *catalogue);
   if (!fitted) return fail(fitted.error());
-  const auto shipped = tell_held_out(*fitted);
+  const auto shipped = predict_held_out(*fitted);
   if (!shipped) return fail(shipped.error());
   Report report;
-  report.title = "A real rover's logs, told by a model that was re-tuned on the others";
+  report.title = "A real rover's logs, predicted by a model that was re-tuned on the others";
   report.source =
       "University of Malaga (spaceuma/CAMIS_python), Cuadriga in 2018 and 2019 as the campaign "
       "data/drive-campaigns/cuadriga_2018_2019; six folds of whole logs";
@@ -198,30 +198,29 @@ Result<Report> cuadriga_campaign(const std::filesystem::path& data) {
                     "rms, nominal", "corrected", "down", "in the 90 % interval"};
   add_rows("slip", assumed->held.slip, 3, report);
   add_rows("charge per metre, A s/m", assumed->held.charge_as, 2, report);
-  add_rows("from the rover that ships: slip", shipped->held.slip, 3, report);
-  add_rows("from the rover that ships: charge, A s/m", shipped->held.charge_as, 2, report);
+  add_rows("from the shipped rover: slip", shipped->held.slip, 3, report);
+  add_rows("from the shipped rover: charge, A s/m", shipped->held.charge_as, 2, report);
   const Score slip = score_of(assumed->held.slip), charge = score_of(assumed->held.charge_as),
               shipped_charge = score_of(shipped->held.charge_as);
   report.notes = {
-      "Misses: slip of a window is mostly noise, and no model can halve its error: the correction gains next "
-      "to nothing there. Against the rover as it ships it gains next to nothing at all: that rover's motors "
-      "had been fitted to these very drives (comparison cuadriga_drives).",
-      "Nominal: Wong's upland sandy loam, fitted to nothing here, and motors of 0.1 N m/A without idle "
-      "current, as one who has not seen these drives might assume. How far that is off is an assumption: "
-      "what "
-      "the correction of charge gains says that the fit finds the motors, not how good a model is.",
-      "Corrected: soil, closures and motors re-tuned by the diagnosis' own fit (gap/nuisance_catalogue), no "
-      "effect "
-      "added, on the logs of the other folds.",
-      "Intervals hold the estimate's error and the scatter of soils and windows; that scatter was estimated "
-      "on all "
-      "logs, the held-out ones among them, which makes them a little too good. Those of charge take current "
-      "and "
-      "slip to err apart.",
-      "Windows that turn by more than 3 deg/s are not in the campaign: nothing is said of turns.",
-      "Re-tuned on all logs (logarithms of a factor on the nominal value, or as gap/nuisance_catalogue "
-      "says): " +
-          assumed->parameters + ". From the rover that ships: " + shipped->parameters + "."};
+      "Misses: the slip of a window is mostly noise, so that no model can halve its error and the "
+      "correction gains next to nothing in slip. Nor does it gain on the rover as it ships, "
+      "because that rover's motors had been fitted to these very drives (comparison "
+      "cuadriga_drives).",
+      "Nominal: Wong's upland sandy loam, which was not fitted to these drives, and motors of 0.1 "
+      "N m/A without idle current, as someone might assume who has not seen these drives. How far "
+      "this is off is itself an assumption: the gain in charge shows that the fit finds the "
+      "motors, but not how good the model is.",
+      "Corrected: soil, closures and motors are re-tuned on the logs of the other folds by the "
+      "diagnosis's own fit (gap/diagnosis/model/nuisance_catalogue); no effect is added.",
+      "The intervals account for the estimate's error and the scatter of soils and windows. That "
+      "scatter was estimated on all logs, with the held-out ones among them, which makes the "
+      "intervals a little too good. Those of charge assume that current and slip err independently.",
+      "Windows that turn by more than 3 deg/s are not in the campaign, so that this comparison "
+      "does not cover turns.",
+      "Parameters re-tuned on all logs (logarithms of a factor on the nominal value, or as "
+      "gap/diagnosis/model/nuisance_catalogue states): " +
+          assumed->parameters + ". From the shipped rover: " + shipped->parameters + "."};
   report.bands = {
       {"charge per metre: median error down on held-out logs, %",
        percent_down(charge.nominal_median, charge.median), 30.0, 100.0},
@@ -232,7 +231,7 @@ Result<Report> cuadriga_campaign(const std::filesystem::path& data) {
       {"slip: corrected rms error over nominal, held-out logs", slip.rms / slip.nominal_rms, 0.0, 1.05},
       {"share of held-out windows in the 90 % interval of slip, %", slip.within_90, 80.0, 98.0},
       {"share of held-out windows in the 90 % interval of charge, %", charge.within_90, 80.0, 98.0},
-      {"the same, from the rover that ships, %", shipped_charge.within_90, 80.0, 98.0}};
+      {"the same, from the shipped rover, %", shipped_charge.within_90, 80.0, 98.0}};
   return report;
 }
 

@@ -25,7 +25,8 @@ api::Chart chart_of(const std::string& title, const CrossValidation& answer, dou
   }
   api::ChartBand wide{"90 %", {}, {}, {}, 1}, narrow{"50 %", {}, {}, {}, 1};
   api::ChartSeries line{"predicted median", api::ChartMark::kLine, {}, {}, 1};
-  for (double degrees = ClimbTable::kLowest_deg; degrees <= -ClimbTable::kLowest_deg; degrees += 1.0) {
+  for (double degrees = ClimbTable::kMinGradient_deg; degrees <= -ClimbTable::kMinGradient_deg;
+       degrees += 1.0) {
     const Prediction p = predict({rad_from_deg(degrees), turn_rate_rad_s});
     for (auto* xs : {&wide.x, &narrow.x, &line.x}) xs->push_back(degrees);
     line.y.push_back(p.median);

@@ -11,10 +11,11 @@
 namespace slipway::validation {
 namespace {
 
-constexpr std::size_t kFewestLogs = 3;  // for an interval over logs to say anything
-constexpr double kLowest_deg = -28.0, kHighest_deg = 28.0, kWidth_deg = 4.0;
+constexpr std::size_t kMinLogs = 3;  // for an interval over logs to have a meaning
+constexpr double kMinGradient_deg = -28.0, kMaxGradient_deg = 28.0, kWidth_deg = 4.0;
 
-// Medians given with the data and said to be of all years, by the gradient a group begins at.
+// Medians that are given with the data and said to be of all years, with the gradient at which each group
+// begins.
 struct MedianOfAllYears {
   double lowest_deg, slip, charge_as;
 };
@@ -23,7 +24,7 @@ constexpr MedianOfAllYears kAllYears[] = {
 
 std::vector<GradientGroup> groups_of(const std::vector<CuadrigaWindow>& windows,
                                      double CuadrigaWindow::*quantity, std::uint64_t seed) {
-  return group_by_gradient(windows, quantity, rad_from_deg(kLowest_deg), rad_from_deg(kHighest_deg),
+  return group_by_gradient(windows, quantity, rad_from_deg(kMinGradient_deg), rad_from_deg(kMaxGradient_deg),
                            rad_from_deg(kWidth_deg), seed);
 }
 
@@ -43,7 +44,7 @@ api::Chart chart_of(const char* title, const std::vector<CuadrigaWindow>& window
   api::ChartSeries line{"median", api::ChartMark::kLineAndPoints, {}, {}, 1};
   for (const GradientGroup& group : groups) {
     const double middle = deg_from_rad(0.5 * (group.lowest_rad + group.highest_rad));
-    if (group.logs < kFewestLogs) continue;
+    if (group.logs < kMinLogs) continue;
     line.x.push_back(middle);
     line.y.push_back(group.median);
     band.x.push_back(middle);
@@ -56,7 +57,7 @@ api::Chart chart_of(const char* title, const std::vector<CuadrigaWindow>& window
 }
 
 std::string interval_words(const GradientGroup& group, const char* format) {
-  if (group.logs < kFewestLogs) return "too few logs";
+  if (group.logs < kMinLogs) return "too few logs";
   return fmt::format(fmt::runtime(format), group.interval.low, group.interval.high);
 }
 
@@ -105,21 +106,17 @@ Result<Report> cuadriga_data(const std::filesystem::path& data) {
   }
   for (std::size_t k = 0; k < slips.size(); ++k) add_group(slips[k], charges[k], report);
   report.notes = {
-      "The medians given with the data, said to be of all years, are not those of these windows of 2018 and "
-      "2019: "
-      "slip and charge are lower here on every gradient that both have. No filter on GPS error, roll, date "
-      "or "
-      "sign of slip was found that gives them, nor does the map's pitch in the place of the path's gradient. "
-      "Where "
-      "there is an interval, they lie within it.",
-      "Wheel speed was calibrated on level driving, so a slip below 0.03 is noise. Voltage was not logged: "
-      "charge "
-      "per metre stands for energy. Slip is 1 - v / (r w) on both sides of zero, v from the distance of a "
-      "window, not its mean GPS speed.",
-      "In four windows the GPS positions jump (slip -0.6 to -21.7); the medians are with them.",
-      "The interval is of the median over logs as they happened to be driven; where fewer than three logs "
-      "reach "
-      "a gradient there is none. Above 16 deg five windows are left. The soils of these sites are not known.",
+      "The medians given with the data, which are said to be of all years, are not those of these "
+      "windows of 2018 and 2019: slip and charge are lower here on every gradient that both have. "
+      "No filter on GPS error, roll, date or sign of slip was found that gives those medians, nor "
+      "does the map's pitch in place of the path's gradient. Where there is an interval, they are "
+      "within it.",
+      "Wheel speed was calibrated on level driving, so a slip below 0.03 is noise. Voltage was not "
+      "logged; charge per metre is used in place of energy. Slip is 1 - v / (r w) on both sides of "
+      "zero, where v is from the distance of a window, not its mean GPS speed.",
+      "In four windows the GPS positions jump (slip -0.6 to -21.7); the medians include them.",
+      "The interval is that of the median over logs; where fewer than three logs reach a gradient "
+      "there is none. Above 16 deg five windows are left. The soils of these sites are not known.",
       "The predictions are in the next comparison."};
   report.bands = {{"windows", static_cast<double>(windows->size()), 624, 624},
                   {"logs", static_cast<double>(logs.size()), 24, 24},

@@ -10,10 +10,10 @@ namespace slipway::validation {
 namespace {
 
 constexpr int kStarts = 2;
-// Rolling resistance of the level over the weight, times the cube root of k_phi: 0.21 at 1e6 N/m^3.
+// Rolling resistance on level ground over the weight, times the cube root of k_phi; it is 0.21 at 1e6 N/m^3.
 constexpr double kResistance = 21.0;
 
-// Before anything is known of the scatter: of slip, and of current in A.
+// First guesses of the scatter of slip, and of current in A.
 LogScatter guessed(double within) {
   LogScatter scatter;
   scatter.within = within;
@@ -21,16 +21,16 @@ LogScatter guessed(double within) {
   return scatter;
 }
 
-// Half the square of this costs s^2 (sqrt(1 + z^2 / s^2) - 1): a square near 0, |z| far out, without a kink
-// [Charbonnier et al. 1997]. Softened before it is weighted, so that the windows of a long log are outliers
-// as early as those of a short one.
+// The residual whose half square is s^2 (sqrt(1 + z^2 / s^2) - 1), which is z^2 / 2 near 0 and grows like |z|
+// far out, without a kink [Charbonnier et al. 1997]. The loss is applied before the weights, so that it
+// limits windows of long and short logs alike.
 double softened(double z) {
   constexpr double kFrom = 1.5;
   const double cost = kFrom * kFrom * (std::sqrt(1.0 + z * z / (kFrom * kFrom)) - 1.0);
   return std::copysign(std::sqrt(2.0 * cost), z);
 }
 
-// Solves the table anew only for a soil that is not among the last eight: half of the unknowns are the
+// Solves the table again only for a soil that is not among the last eight, since half of the unknowns are the
 // motors'.
 class ModelSource {
  public:
@@ -170,7 +170,7 @@ Result<CuadrigaFit> fit_cuadriga(const sim::RoverModel& rover, const std::vector
     below[k] -= step;
     above[k] += step;
     const auto low = source.model(below), high = source.model(above);
-    // Where the fit lies at the edge of what climbs, one-sided.
+    // The difference is one-sided where the rover does not climb on the other side of the fit.
     fit.neighbours.emplace_back(low.value_or(model), high.value_or(model));
     fit.steps.push_back(low && high ? step : 0.5 * step);
   }

@@ -56,7 +56,7 @@ Result<CrossValidation> cross_validate(const sim::RoverModel& rover,
   std::vector<std::string> logs;
   for (const CuadrigaWindow& w : windows) logs.push_back(w.log);
   const std::vector<int> fold_of = folds_by_log(logs, folds);
-  // One more than there are folds leaves nothing out.
+  // The last fit, after those of the folds, leaves nothing out.
   std::vector<std::optional<Result<CuadrigaFit>>> fits(static_cast<std::size_t>(folds) + 1);
   parallel_for(fits.size(), 0, [&](std::size_t fold) {
     fits[fold] = fit_cuadriga(rover, outside_fold(windows, fold_of, static_cast<int>(fold)));

@@ -13,8 +13,8 @@ constexpr double kGravity_m_s2 = 9.81;
 constexpr double kSpeed_m_s =
     0.5;  // of all drives; without an effect of rate it changes neither slip nor torque
 
-// What the rover is told, until one is too sharp for it; none of them where it is steep, where a search that
-// fails takes a hundred times as long as one that does not.
+// The commanded curvatures; the table ends at the first that is too sharp for the rover. On steep ground none
+// is used, since a search that fails takes a hundred times as long as one that succeeds.
 constexpr double kCurvatures_1_m[] = {0.0, 0.15, 0.3, 0.5};
 constexpr double kSteepestTurn_deg = 12.0;
 
@@ -46,7 +46,7 @@ ClimbState nothing_of(std::size_t wheels) {
   return {0.0, 0.0, sim::PerWheel<double>(wheels, 0.0)};
 }
 
-// Where only the straight drive was solved, a turn adds what it adds at `like`.
+// Where only the straight drive was solved, a turn adds the same as at the gradient `like`.
 void add_turns(const std::vector<ClimbState>& like, std::vector<ClimbState>& turns) {
   const ClimbState straight = turns.front();
   for (std::size_t k = 1; k < like.size(); ++k) {
@@ -71,7 +71,8 @@ ClimbState at_turn(const std::vector<ClimbState>& turns, double turn_rate_rad_s)
   return state;
 }
 
-// The motors of the shipped file are among what is fitted, so they must not stall the rover here.
+// The motors are among the fitted parameters, so that those of the shipped file must not stall the rover
+// here.
 sim::RoverModel without_limits(const sim::RoverModel& rover) {
   sim::RoverModel free = rover;
   free.drive.bus_voltage_v = 1e6;
@@ -99,10 +100,10 @@ std::optional<ClimbTable> ClimbTable::tabulate(const sim::RoverModel& rover, con
   const sim::RoverModel free = without_limits(rover);
   sim::QuasiStaticSolver solver(free, kGravity_m_s2);
   ClimbTable table;
-  const auto last = static_cast<int>(std::lround((kHighest_deg - kLowest_deg) / kStep_deg));
-  // The steepest first: a soil that does not carry there costs one solve.
+  const auto last = static_cast<int>(std::lround((kMaxGradient_deg - kMinGradient_deg) / kStep_deg));
+  // The steepest gradient comes first, so that a soil that does not carry the rover there costs one solve.
   for (int k = last; k >= 0; --k) {
-    const double gradient_deg = kLowest_deg + k * kStep_deg;
+    const double gradient_deg = kMinGradient_deg + k * kStep_deg;
     const sim::Stance stance = stance_at(free, rad_from_deg(gradient_deg));
     std::vector<ClimbState> turns;
     for (const double curvature : kCurvatures_1_m) {
@@ -115,7 +116,7 @@ std::optional<ClimbTable> ClimbTable::tabulate(const sim::RoverModel& rover, con
     table.stations_.push_back(std::move(turns));
   }
   std::reverse(table.stations_.begin(), table.stations_.end());
-  const auto turns_at = [](int k) { return std::abs(kLowest_deg + k * kStep_deg) <= kSteepestTurn_deg; };
+  const auto turns_at = [](int k) { return std::abs(kMinGradient_deg + k * kStep_deg) <= kSteepestTurn_deg; };
   int lowest = 0, highest = last;
   while (!turns_at(lowest)) ++lowest;
   while (!turns_at(highest)) --highest;
@@ -127,7 +128,7 @@ std::optional<ClimbTable> ClimbTable::tabulate(const sim::RoverModel& rover, con
 }
 
 ClimbState ClimbTable::at(const ClimbConditions& conditions) const {
-  const double place = (deg_from_rad(conditions.gradient_rad) - kLowest_deg) / kStep_deg;
+  const double place = (deg_from_rad(conditions.gradient_rad) - kMinGradient_deg) / kStep_deg;
   const int last = static_cast<int>(stations_.size()) - 1;
   const int first = std::clamp(static_cast<int>(std::floor(place)) - 1, 0, last - 3);
   ClimbState state = nothing_of(stations_.front().front().torque_nm.size());

@@ -9,26 +9,26 @@
 
 namespace slipway::validation {
 
-// What the fit of Cuadriga's drives may choose; everything else of rover and soil is as it is shipped or as
-// ground_of() says.
+// The free parameters of the fit of Cuadriga's drives. All others of rover and soil are as shipped or as in
+// ground_of().
 struct CuadrigaParameters {
   double k_phi = 0.0;  // N/m^(n+2), with k_c = 0 and n as in ground_of()
   double friction_angle_rad = 0.0;
   double shear_modulus_m = 0.0;
-  double torque_per_ampere_nm = 0.0;  // of a wheel's torque and its motor's current: k_t N eta
-  double idle_current_a = 0.0;        // of all motors: no load, gears, electronics
-  // Of the current that a wheel's torque means, what comes back where the ground drives the wheel: 1 all of
-  // it, 0 nothing, -1 braking costs what driving does.
+  double torque_per_ampere_nm = 0.0;  // wheel torque over motor current, k_t N eta
+  double idle_current_a = 0.0;        // of all motors without load, with gears and electronics
+  // The share of the current of a wheel's torque that is returned where the ground drives the wheel: 1 is all
+  // of it, 0 is nothing, and with -1 braking costs as much as driving.
   double returned_share = 1.0;
 };
 
 // The soil of a parameter set.
 sim::Soil ground_of(const CuadrigaParameters& parameters);
 
-// What sets windows apart for the model. Left turns and right ones are alike without roll.
+// The inputs of the model for a window. Without roll, left and right turns are equivalent.
 struct ClimbConditions {
   double gradient_rad = 0.0;     // positive uphill
-  double turn_rate_rad_s = 0.0;  // that the rover really turns at
+  double turn_rate_rad_s = 0.0;  // the true one of the rover
 };
 
 struct ClimbState {
@@ -37,40 +37,40 @@ struct ClimbState {
   sim::PerWheel<double> torque_nm;
 };
 
-// Slip and torques against gradient and turn, tabulated on the quasi-static rung: 21 gradients by up to four
-// told curvatures. Skidding, the rover turns slower than told, so the curvature is looked up by the turn that
-// comes of it: linear between curvatures, in gradient the cubic through the four nearest. A turn that the
-// table does not reach has the state of the sharpest it holds; steeper than 12 deg a turn adds what it adds
-// there.
+// Slip and torques over gradient and turn, tabulated at the quasi-static level: 21 gradients by up to four
+// commanded curvatures. Skid steering makes the rover turn more slowly than commanded, so the curvature is
+// looked up by the turn rate that results from it. Interpolation is linear between curvatures, and in
+// gradient it is the cubic through the four nearest. A turn beyond the table has the state of its sharpest
+// turn; steeper than 12 deg a turn adds what it adds at 12 deg.
 class ClimbTable {
  public:
-  static constexpr double kLowest_deg = -24.0, kHighest_deg = 26.0, kStep_deg = 2.5;
+  static constexpr double kMinGradient_deg = -24.0, kMaxGradient_deg = 26.0, kStep_deg = 2.5;
 
-  // Nothing where the rover does not climb straight ahead at every gradient of the table: Cuadriga did.
+  // Empty where the rover does not climb straight ahead at every gradient of the table, as Cuadriga did.
   static std::optional<ClimbTable> tabulate(const sim::RoverModel& rover, const sim::Soil& soil);
 
-  // Gradient in [kLowest, kHighest].
+  // The gradient must be in [kMinGradient_deg, kMaxGradient_deg].
   ClimbState at(const ClimbConditions& conditions) const;
 
  private:
   std::vector<std::vector<ClimbState>> stations_;  // by gradient, by rising turn rate
 };
 
-// One station, solved and not interpolated, told to turn at a curvature; nothing where it does not move.
+// One station with a commanded curvature, solved without interpolation; empty where the rover does not move.
 std::optional<ClimbState> solve_climb(const sim::RoverModel& rover, const sim::Soil& soil,
                                       double gradient_rad, double curvature_1_m);
 
-// Of all motors.
+// The current of all motors [A].
 double current_of(const CuadrigaParameters& parameters, const ClimbState& state);
 
-// Predicts what the logs hold.
+// Predicts the quantities of the logs.
 class CuadrigaModel {
  public:
   CuadrigaModel(CuadrigaParameters parameters, ClimbTable table)
       : parameters_(parameters), table_(std::move(table)), level_slip_(table_.at({}).slip_ratio) {}
 
-  // As logged: the wheel speed was calibrated on level driving, so that it reads the rover's own speed there
-  // and slip counts from that on level ground, 1 - (1 - s) / (1 - s_level).
+  // The slip as logged. The wheel speed was calibrated on level driving, where it equals the rover's own
+  // speed, so that slip counts from that on level ground: 1 - (1 - s) / (1 - s_level).
   double slip(const ClimbConditions& conditions) const;
   double current_a(const ClimbConditions& conditions) const;
   // Current over speed, at the wheel speed as logged.

@@ -24,7 +24,7 @@ TableError table_error(const sim::RoverModel& rover, const CuadrigaParameters& p
     current = std::max(current, std::abs(model.current_a(at) - current_of(parameters, *solved)));
     error.fastest_turn_deg_s = std::max(error.fastest_turn_deg_s, deg_from_rad(solved->turn_rate_rad_s));
   };
-  for (double g = ClimbTable::kLowest_deg + 0.5 * ClimbTable::kStep_deg; g < 20.0;
+  for (double g = ClimbTable::kMinGradient_deg + 0.5 * ClimbTable::kStep_deg; g < 20.0;
        g += ClimbTable::kStep_deg) {
     if (g < -20.0) continue;
     compare(g, 0.0, error.slip_straight, error.current_straight_a);
@@ -43,37 +43,32 @@ std::vector<std::string> fit_words(const CuadrigaFit& fit) {
   const auto together = [&](int a, int b) { return covariance(a, b) / (error(a) * error(b)); };
   const double cosine = std::cos(p.friction_angle_rad);
   std::vector<std::string> words{
-      fmt::format("Fit of all logs: k_phi {:.3g} N/m^3 with k_c 0 and n 1 (times or over {:.2f}), friction "
-                  "angle {:.1f} +- "
-                  "{:.1f} deg with 1 kPa of cohesion, K {:.2f} mm (times or over {:.2f}), {:.2f} +- {:.2f} N "
-                  "m of a wheel per "
-                  "ampere, {:.2f} +- {:.2f} A idle for all four. Correlations: stiffness and tan(phi) "
-                  "{:.2f}, stiffness and K "
-                  "{:.2f}, tan(phi) and K {:.2f}.",
+      fmt::format("Fit of all logs: k_phi {:.3g} N/m^3 with k_c 0 and n 1 (standard error: a factor of "
+                  "{:.2f}), friction angle {:.1f} +- {:.1f} deg with 1 kPa of cohesion, K {:.2f} mm (a "
+                  "factor of {:.2f}), wheel torque per ampere {:.2f} +- {:.2f} N m, idle current {:.2f} +- "
+                  "{:.2f} A for all four motors. Correlations: stiffness and tan(phi) {:.2f}, stiffness "
+                  "and K {:.2f}, tan(phi) and K {:.2f}.",
                   p.k_phi, std::exp(error(0)), deg_from_rad(p.friction_angle_rad),
                   deg_from_rad(error(1) * cosine * cosine), 1e3 * p.shear_modulus_m, std::exp(error(2)),
                   p.torque_per_ampere_nm, error(3), p.idle_current_a, error(4), together(0, 1),
                   together(0, 2), together(1, 2)),
-      fmt::format("A wheel that the ground drives, down a slope or inside a turn, gives back {:.2f} +- "
-                  "{:.2f} of the current "
-                  "that its torque means: nothing, within the error. The motors of sim/motor.h give all of "
-                  "it back, so "
-                  "predictions with the shipped rover leave out what turns and steep descents cost.",
+      fmt::format("A wheel that the ground drives, down a slope or inside a turn, returns {:.2f} +- {:.2f} "
+                  "of the current that belongs to its torque, which is 0 within the error. The motors of "
+                  "sim/rover/motor.h return all of it, so that predictions with the shipped rover miss the "
+                  "charge that turns and steep descents cost.",
                   p.returned_share, error(5)),
-      fmt::format(
-          "The soil is one that this model needs, not one that was measured: a rigid wheel in the place of a "
-          "tyre, one soil for several sites. Only soils on which the rover climbs {:.0f} deg were allowed, "
-          "as it did (net traction, tan(phi) less rolling resistance, at least {:.2f}); {} The wheel speed "
-          "was calibrated on the level, where the model slips {:.3f}: slip counts from there.",
-          ClimbTable::kHighest_deg, cuadriga_unknowns()[1].lowest,
-          fit.search.on_bound[1] ? "the fit lies on that bound, and its errors are as if it did not."
-                                 : "the fit keeps away from that bound.",
-          fit.model.level_slip()),
-      "Priors: stiffness 3e6 N/m^3 times or over e^1.5, net traction 0.65 +- 0.15, K 10 mm times or over e, "
-      "returned "
-      "share 0 +- 1; none for torque per ampere and idle current. Gear ratio, efficiency and torque constant "
-      "are "
-      "one product."};
+      fmt::format("The soil is the one that this model needs and was not measured: the model has a rigid "
+                  "wheel in place of a tyre, and one soil for several sites. Only soils on which the rover "
+                  "climbs {:.0f} deg were allowed, as it did (net traction, tan(phi) less rolling "
+                  "resistance, at least {:.2f}); {} The wheel speed was calibrated on level ground, where "
+                  "the model slips {:.3f}; slip counts from there.",
+                  ClimbTable::kMaxGradient_deg, cuadriga_unknowns()[1].lowest,
+                  fit.search.on_bound[1] ? "the fit lies on that bound, and its errors ignore the bound."
+                                         : "the fit does not lie on that bound.",
+                  fit.model.level_slip()),
+      "Priors: stiffness 3e6 N/m^3 with a factor of e^1.5, net traction 0.65 +- 0.15, K 10 mm with "
+      "a factor of e, returned share 0 +- 1; torque per ampere and idle current have none. Gear "
+      "ratio, efficiency and torque constant are estimated as one product."};
   for (const gap::UndeterminedDirection& direction : fit.search.undetermined)
     words.push_back("Undetermined: " + direction.words + ".");
   return words;

@@ -8,7 +8,7 @@
 
 namespace slipway::validation {
 
-// How far the table is from solving each window, midway between its stations: largest differences.
+// The maximum differences between the table and solved stations, midway between the table's nodes.
 struct TableError {
   double slip_straight = 0.0, current_straight_a = 0.0;
   double slip_turning = 0.0, current_turning_a = 0.0;
@@ -16,11 +16,12 @@ struct TableError {
 };
 TableError table_error(const sim::RoverModel& rover, const CuadrigaParameters& parameters);
 
-// What was estimated with its standard errors, what the data leave open, what was assumed.
+// Sentences on the estimates with their standard errors, on what the data do not determine, and on
+// assumptions.
 std::vector<std::string> fit_words(const CuadrigaFit& fit);
 
-// The largest relative difference of the soil uma_rescue_area and of the motors of cuadriga, as they are
-// shipped, to the fit: they are its numbers, rounded. 1 where there is no such soil.
+// The maximum relative difference between the shipped soil uma_rescue_area and motors of cuadriga, which are
+// the fit's numbers rounded, and the fit. 1 where there is no such soil.
 double shipped_difference(const api::Catalogue& catalogue, const CuadrigaParameters& parameters);
 
 }  // namespace slipway::validation

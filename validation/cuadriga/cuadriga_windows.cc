@@ -12,12 +12,12 @@ namespace {
 
 constexpr int kDraws = 2000;
 constexpr double kLevel = 0.95;
-constexpr double kFarthestNeighbour_s = 2.6;
+constexpr double kMaxNeighbour_s = 2.6;
 
 void set_turn_rates(std::vector<CuadrigaWindow>& windows) {
   const auto follows = [&](std::size_t k) {
     return k < windows.size() && windows[k].log == windows[k - 1].log &&
-           windows[k].time_s - windows[k - 1].time_s < kFarthestNeighbour_s;
+           windows[k].time_s - windows[k - 1].time_s < kMaxNeighbour_s;
   };
   for (std::size_t k = 0; k < windows.size(); ++k) {
     const std::size_t before = k > 0 && follows(k) ? k - 1 : k, after = follows(k + 1) ? k + 1 : k;

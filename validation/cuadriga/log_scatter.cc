@@ -11,7 +11,7 @@
 namespace slipway::validation {
 namespace {
 
-constexpr double kMostGrowth = 3.0, kGrowthStep = 0.05;
+constexpr double kMaxGrowth = 3.0, kGrowthStep = 0.05;
 
 double growth_at(double growth, double gradient_rad) {
   const double tens = deg_from_rad(gradient_rad) / 10.0;
@@ -28,7 +28,7 @@ std::map<std::string, std::size_t> counts_of(const std::vector<std::string>& log
 double best_growth(const std::vector<LogResidual>& residuals) {
   double best = 0.0, lowest_cost = std::numeric_limits<double>::infinity();
   const auto count = static_cast<double>(residuals.size());
-  for (double growth = 0.0; growth <= kMostGrowth; growth += kGrowthStep) {
+  for (double growth = 0.0; growth <= kMaxGrowth; growth += kGrowthStep) {
     double scale = 0.0, logs_of_h = 0.0;
     for (const LogResidual& r : residuals) {
       const double h = growth_at(growth, r.gradient_rad);
@@ -69,7 +69,8 @@ void set_variances(const std::vector<std::string>& logs, const std::vector<doubl
   scatter.between = std::sqrt(std::max(0.0, (among / (groups - 1.0) - within) / size));
 }
 
-// Where the weights of the sorted values, each half before and half after its value, reach the share.
+// The weighted quantile: the value at which the cumulated weights reach the share, where each weight counts
+// half before and half after its value.
 double weighted_quantile(const std::vector<std::pair<double, double>>& sorted, double share) {
   double total = 0.0;
   for (const auto& [value, weight] : sorted) total += weight;
@@ -149,7 +150,7 @@ LogScatter measure_scatter(const std::vector<LogResidual>& residuals) {
 PredictiveOffsets offsets_at(const LogScatter& scatter, double gradient_rad, double parameter_std) {
   const double scatter_std = scatter.std_at(gradient_rad);
   const double widening = scatter_std > 0.0 ? std::hypot(scatter_std, parameter_std) / scatter_std : 1.0;
-  // About the middle of the scatter, which parameters do not move.
+  // The offsets are widened about the scatter's median, which the parameters' uncertainty does not move.
   const double middle = scatter.quantiles[2];
   const auto offset = [&](std::size_t k) {
     return scatter.at(gradient_rad) * (middle + widening * (scatter.quantiles[k] - middle));

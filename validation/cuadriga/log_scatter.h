@@ -7,27 +7,28 @@
 
 namespace slipway::validation {
 
-// Which fold predicts each item of a list of log names: logs stay whole, the longest are dealt first, each to
-// the fold with the fewest items so far. fold_of[k] in [0, folds).
+// The fold, in [0, folds), that predicts each item of a list of log names. Logs stay whole; the longest are
+// assigned first, each to the fold with the fewest items so far.
 std::vector<int> folds_by_log(const std::vector<std::string>& logs, int folds);
 
-// What is left over of one window by a prediction.
+// The residual of a prediction in one window.
 struct LogResidual {
   std::string log;
   double gradient_rad = 0.0;
   double value = 0.0;
 };
 
-// How far windows of a log that was not seen scatter about a prediction:
+// The scatter of residuals in windows of a log that was not in the fit:
 //
 //   value = h(gradient) z,  h = 1 + growth (gradient / 10 deg)^2,  z = z_log + z_window
 //
-// growth     of the largest Laplace likelihood on a grid
-// between, within   standard deviations of z_log and z_window: analysis of variance of one factor, unbalanced
-// quantiles  of z itself, a window counting 1 / (1 + (n - 1) rho) with n its log's windows and rho the share
-// of
-//            the variance that lies between logs: what a log tells, not how long it is. Scatter here is
-//            skewed and heavy in its tails; a normal distribution is not.
+// growth           the one with the maximum Laplace likelihood on a grid
+// between, within  standard deviations of z_log and z_window, by an unbalanced one-way analysis of variance
+// quantiles        of z; a window has the weight 1 / (1 + (n - 1) rho), with n windows in its log and rho the
+//                  share of the variance between logs, so that a log counts by its information and not its
+//                  length
+//
+// Quantiles are used because the scatter is skewed and has heavy tails, unlike a normal distribution.
 struct LogScatter {
   static constexpr std::array<double, 5> kShares{0.05, 0.25, 0.5, 0.75, 0.95};
 
@@ -40,21 +41,21 @@ struct LogScatter {
   double share_between() const;  // rho; 0 where there is no scatter
 };
 
-// Two logs at least, one of them with two windows.
+// There must be at least two logs, one of them with two windows.
 LogScatter measure_scatter(const std::vector<LogResidual>& residuals);
 
-// Of each residual: 1 / (1 + (n - 1) rho), n the number of its log's.
+// The weight 1 / (1 + (n - 1) rho) of each residual, with n the number of windows in its log.
 std::vector<double> weights_by_log(const std::vector<std::string>& logs, double share_between);
 
-// Median, 50 and 90 % about a prediction: offsets to be added to it.
+// Offsets that give the median and the 50 and 90 % intervals when they are added to a prediction.
 struct PredictiveOffsets {
   double low_90 = 0.0, low_50 = 0.0, median = 0.0, high_50 = 0.0, high_90 = 0.0;
 };
-// Scatter's quantiles, widened as the parameters' uncertainty adds to its variance.
+// The scatter's quantiles, widened by the variance that the parameters' uncertainty adds.
 PredictiveOffsets offsets_at(const LogScatter& scatter, double gradient_rad, double parameter_std);
 
-// How many windows lie in their intervals: of all, the mean over logs of each log's own share, and the lowest
-// of a log.
+// The share of windows that are in their intervals: of all windows, the mean over logs of each log's own
+// share, and the minimum over logs.
 struct Coverage {
   double of_windows = 0.0, mean_over_logs = 0.0, lowest_of_a_log = 0.0;
 };

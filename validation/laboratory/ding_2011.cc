@@ -16,11 +16,10 @@ Report table_of_errors(const std::vector<DingTest>& tests, const DingModel& mode
                        double most_sinkage, double most_torque) {
   Report report;
   report.peers =
-      "open ones on the same rows, median errors: the plain wheel pull 35 to 40 %, sinkage 42 to 85 %, "
-      "torque "
-      "4 to 14 %; RoverDevKit pull 27 %";
-  report.columns = {"wheel", "slip",  "pull N",     "ours", "error", "sinkage mm",
-                    "ours",  "error", "torque N m", "ours", "error"};
+      "open models on the same rows, median errors: the plain wheel has pull 35 to 40 %, sinkage "
+      "42 to 85 %, torque 4 to 14 %; RoverDevKit has pull 27 %";
+  report.columns = {"wheel",     "slip",  "pull N",     "predicted", "error", "sinkage mm",
+                    "predicted", "error", "torque N m", "predicted", "error"};
   for (const bool lugged : {false, true}) {
     const char* wheel = lugged ? "lugged" : "smooth";
     const DingErrors errors = add_ding_rows(tests, lugged, model, report);
@@ -34,7 +33,7 @@ Report table_of_errors(const std::vector<DingTest>& tests, const DingModel& mode
   return report;
 }
 
-// What is fitted to both wheels at once; everything else as published.
+// The parameters that are fitted to both wheels at once; all others are as published.
 struct FittedSand {
   sim::Soil sand;
   double rim_friction = 1.0;
@@ -60,8 +59,8 @@ std::vector<gap::Unknown> unknowns() {
       {.name = "c2", .start = 0.32, .lowest = 0.0, .highest = 0.7, .step_scale = 0.1, .prior = {}}};
 }
 
-// To all tests but those at slip `left_out`. Residuals in units of what a digitised figure and a model of
-// this kind may be off by: 2 N, 1.5 mm, 0.4 N m; heavy tails.
+// Fits all tests but those at slip `left_out`. Residuals are in units of the expected errors of a digitised
+// figure and of a model of this kind, 2 N, 1.5 mm and 0.4 N m, with a loss for heavy tails.
 Result<gap::LeastSquaresFit> fit(const std::vector<DingTest>& tests, double left_out, int starts) {
   std::vector<DingTest> used;
   for (const DingTest& test : tests)
@@ -84,7 +83,7 @@ Result<gap::LeastSquaresFit> fit(const std::vector<DingTest>& tests, double left
       progress);
 }
 
-// Every slip predicted by a fit that has not seen it.
+// The median errors where every slip is predicted by a fit without it.
 Result<std::string> left_out_errors(const std::vector<DingTest>& tests) {
   std::vector<double> pull, sinkage, torque;
   for (const double slip : {0.0, 0.1, 0.2, 0.3, 0.4, 0.6}) {
@@ -118,11 +117,10 @@ Result<Report> ding_2011(const std::filesystem::path& data) {
       "Ding et al. 2011, smooth and lugged wheel, r 157.35 mm, b 165 mm, 80 N, digitised by the authors of "
       "RoverDevKit; soil n 1.1, k_c 15.6, k_phi 2407.4, c 0.25 kPa, phi 31.9 deg, K 11 mm";
   report.notes = {
-      "Not in the model of this table: slip sinkage (the measured wheel digs from 5 to 17 mm and more as it "
-      "slips, "
-      "the bare wheel hardly at all), grousers, the smooth rim. c1 and c2 are Wong and Reece's for loose "
-      "sand. "
-      "Digitised figures carry a reading error of about 5 %."};
+      "The model of this table has no slip sinkage (the measured wheel digs from 5 to 17 mm and "
+      "more as it slips, the modelled wheel hardly at all), no grousers and no smooth rim. c1 and "
+      "c2 are Wong and Reece's for loose sand. Digitised figures carry a reading error of about 5 "
+      "%."};
   report.plot = ding_plot(*tests, model, report.title);
   return report;
 }
@@ -144,17 +142,13 @@ Result<Report> ding_2011_fitted(const std::filesystem::path& data) {
   report.source =
       "as above; k_c, k_phi, c and phi as published, six numbers fitted to all rows of both wheels at once";
   report.notes = {
-      fmt::format(
-          "Fitted: {}. Median errors where every slip is predicted by a fit that has not seen it: {}.",
-          words_of(unknowns(), *fitted), *left_out),
-      "The pull at slip 0.1 stays far too low for both wheels (the measured curve rises and bends faster "
-      "than one "
-      "exponential does), and at slip 0.6 the lugged wheel digs to 27 mm where ours digs to about 18: lugs "
-      "carry "
-      "soil away, which n1 does not know.",
-      "Lugs act by passive earth pressure alone (ARTEMIS eq. 15). The smooth rim passes on less than the "
-      "sand's "
-      "shear strength; without that, one sand can't give both wheels' torques."};
+      fmt::format("Fitted: {}. Median errors where every slip is predicted by a fit without it: {}.",
+                  words_of(unknowns(), *fitted), *left_out),
+      "The pull at slip 0.1 stays far too low for both wheels (the measured curve rises and bends "
+      "faster than one exponential does), and at slip 0.6 the lugged wheel digs to 27 mm where the "
+      "predicted one digs to about 18, since lugs carry soil away, which n1 does not model.",
+      "Lugs act by passive earth pressure alone (ARTEMIS eq. 15). The smooth rim transmits less "
+      "than the sand's shear strength; without this, one sand cannot give both wheels' torques."};
   report.plot = ding_plot(*tests, model, report.title);
   return report;
 }

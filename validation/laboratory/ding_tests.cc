@@ -34,8 +34,11 @@ api::Chart panel(const std::vector<DingTest>& tests, const DingModel& model, con
     series.y.push_back(test.measured.*quantity);
   }
   for (const bool lugged : {false, true}) {
-    api::ChartSeries line{
-        lugged ? "ours, lugged" : "ours, smooth", api::ChartMark::kLine, {}, {}, lugged ? std::size_t{1} : 0};
+    api::ChartSeries line{lugged ? "predicted, lugged" : "predicted, smooth",
+                          api::ChartMark::kLine,
+                          {},
+                          {},
+                          lugged ? std::size_t{1} : 0};
     for (int k = 0; k <= 30; ++k) {
       const auto reading = model(lugged, 0.02 * k);
       if (!reading) continue;
@@ -88,21 +91,22 @@ DingErrors add_ding_rows(const std::vector<DingTest>& tests, bool lugged, const 
   for (const DingTest& test : tests) {
     if (test.lugged != lugged) continue;
     const RigReading& measured = test.measured;
-    const auto ours = model(test.lugged, test.slip);
+    const auto predicted = model(test.lugged, test.slip);
     const std::string name = fmt::format("{}, slip {:.1f}", test.wheel(), test.slip);
-    if (!ours) {
+    if (!predicted) {
       report.rows.push_back({test.wheel(), fmt::format("{:.1f}", test.slip), "sunk to the axle"});
       continue;
     }
     report.rows.push_back(
         {test.wheel(), fmt::format("{:.1f}", test.slip), fmt::format("{:g}", measured.pull_n),
-         fmt::format("{:.1f}", ours->pull_n), percent(ours->pull_n, measured.pull_n, pull),
-         fmt::format("{:g}", measured.sinkage_mm), fmt::format("{:.1f}", ours->sinkage_mm),
-         percent(ours->sinkage_mm, measured.sinkage_mm, sinkage), fmt::format("{:g}", measured.torque_nm),
-         fmt::format("{:.2f}", ours->torque_nm), percent(ours->torque_nm, measured.torque_nm, torque)});
-    report.cases.push_back({name, "drawbar_pull", "N", measured.pull_n, ours->pull_n});
-    report.cases.push_back({name, "sinkage", "mm", measured.sinkage_mm, ours->sinkage_mm});
-    report.cases.push_back({name, "torque", "N m", measured.torque_nm, ours->torque_nm});
+         fmt::format("{:.1f}", predicted->pull_n), percent(predicted->pull_n, measured.pull_n, pull),
+         fmt::format("{:g}", measured.sinkage_mm), fmt::format("{:.1f}", predicted->sinkage_mm),
+         percent(predicted->sinkage_mm, measured.sinkage_mm, sinkage),
+         fmt::format("{:g}", measured.torque_nm), fmt::format("{:.2f}", predicted->torque_nm),
+         percent(predicted->torque_nm, measured.torque_nm, torque)});
+    report.cases.push_back({name, "drawbar_pull", "N", measured.pull_n, predicted->pull_n});
+    report.cases.push_back({name, "sinkage", "mm", measured.sinkage_mm, predicted->sinkage_mm});
+    report.cases.push_back({name, "torque", "N m", measured.torque_nm, predicted->torque_nm});
   }
   return {median_abs(pull), median_abs(sinkage), median_abs(torque)};
 }

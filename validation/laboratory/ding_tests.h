@@ -11,7 +11,7 @@
 
 namespace slipway::validation {
 
-// What a single-wheel rig reports of a wheel under its load at a slip.
+// The readings of a single-wheel rig for a wheel under its load at a slip.
 struct RigReading {
   double pull_n = 0.0, sinkage_mm = 0.0, torque_nm = 0.0;
 };
@@ -33,12 +33,12 @@ Result<std::vector<DingTest>> load_ding_tests(const std::filesystem::path& csv);
 // sand.
 sim::Soil ding_sand();
 
-// The balanced wheel; nothing where it sinks to its axle. rim_friction: of a smooth rim (WheelGeometry). Lugs
-// are grousers where `grousers` says so.
+// The readings of the balanced wheel; empty where it sinks to its axle. rim_friction is that of a smooth rim
+// (WheelGeometry). Where `grousers` is true, lugs act as grousers.
 std::optional<RigReading> ding_reading(const sim::Soil& sand, bool lugged, bool grousers, double rim_friction,
                                        double slip);
 
-// Rows, cases and median errors of predictions, and the three panels of the plot.
+// Add the rows, cases and median errors of predictions, and draw the three panels of the plot.
 using DingModel = std::function<std::optional<RigReading>(bool lugged, double slip)>;
 struct DingErrors {
   double pull = 0.0, sinkage = 0.0, torque = 0.0;  // medians of absolute relative errors

@@ -5,8 +5,8 @@
 
 namespace slipway::validation {
 
-// A soil as papers print it; everything else at its default. cohesion Pa, angle of friction deg, shear
-// modulus K m, c1 and c2 of the angle of greatest stress.
+// A soil with the parameters that papers print and defaults for all others. The cohesion is in Pa, the
+// friction angle in degrees, and the shear modulus K in m; c1 and c2 give the angle of maximum stress.
 inline sim::Soil laboratory_soil(const sim::BekkerModuli& moduli, double cohesion_pa, double friction_deg,
                                  double shear_modulus_m, double c1, double c2) {
   sim::Soil soil;

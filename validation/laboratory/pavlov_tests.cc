@@ -21,7 +21,7 @@ std::string with_scatter(const WheelCondition& c, double WheelTest::*quantity, d
   return fmt::format("{:.1f} +- {:.1f}", scale * c.mean(quantity), scale * c.scatter(quantity));
 }
 
-// One quantity over slip, a line per slip angle.
+// A chart of one quantity over slip, with a line for each slip angle.
 api::Chart chart_over_slip(const char* title, const std::vector<WheelCondition>& conditions,
                            double WheelTest::*quantity, double scale) {
   api::Chart chart;
@@ -43,18 +43,15 @@ api::Chart chart_over_slip(const char* title, const std::vector<WheelCondition>&
   return chart;
 }
 
-// Root mean square over conditions of the scatter of repeats.
+// The root mean square over conditions of the scatter of repeats.
 double pooled_scatter(const std::vector<WheelCondition>& conditions, double WheelTest::*quantity) {
   double sum = 0.0;
   for (const WheelCondition& c : conditions) sum += std::pow(c.scatter(quantity), 2);
   return std::sqrt(sum / static_cast<double>(conditions.size()));
 }
 
-}  // namespace
-
-Result<Report> pavlov_tests(const std::filesystem::path& data) {
-  const auto conditions = load_wheel_conditions(data / "validation" / "single_wheel_smooth.csv");
-  if (!conditions) return fail(conditions.error());
+// The report with its title, source and columns, without rows.
+Report pavlov_tests_report() {
   Report report;
   report.title = "189 single-wheel tests over slip and slip angle: the data and their scatter";
   report.source =
@@ -63,6 +60,15 @@ Result<Report> pavlov_tests(const std::filesystem::path& data) {
       "travel 10 mm/s; three repeats of 63 conditions";
   report.columns = {"slip angle deg", "slip",   "half",         "repeats",
                     "load N",         "pull N", "side force N", "sinkage mm"};
+  return report;
+}
+
+}  // namespace
+
+Result<Report> pavlov_tests(const std::filesystem::path& data) {
+  const auto conditions = load_wheel_conditions(data / "validation" / "single_wheel_smooth.csv");
+  if (!conditions) return fail(conditions.error());
+  Report report = pavlov_tests_report();
   std::size_t tests = 0, fit = 0;
   double slip_off = 0.0, command_off = 0.0;
   std::set<double> off;
@@ -91,20 +97,21 @@ Result<Report> pavlov_tests(const std::filesystem::path& data) {
   for (const double speed : off)
     speeds += fmt::format("{}{:g} mm/s", speeds.empty() ? "" : ", ", 1e3 * speed);
   report.notes = {
-      fmt::format(
-          "Scatter of repeats, the floor under any prediction: pull {:.2f} N, side force {:.2f} N, load "
-          "{:.2f} N, sinkage {:.1f} mm (root mean square over conditions).",
-          pooled_scatter(*conditions, &WheelTest::drawbar_pull_n),
-          pooled_scatter(*conditions, &WheelTest::side_force_n),
-          pooled_scatter(*conditions, &WheelTest::load_n),
-          1e3 * pooled_scatter(*conditions, &WheelTest::sinkage_m)),
-      fmt::format("The split for fitting and predicting is a chessboard over slip angle and rim speed: {} "
-                  "conditions to fit, {} to predict, repeats together.",
+      fmt::format("The scatter of repeats is a lower bound for the error of any prediction: pull {:.2f} N, "
+                  "side force {:.2f} N, load {:.2f} N, sinkage {:.1f} mm (root mean square over "
+                  "conditions).",
+                  pooled_scatter(*conditions, &WheelTest::drawbar_pull_n),
+                  pooled_scatter(*conditions, &WheelTest::side_force_n),
+                  pooled_scatter(*conditions, &WheelTest::load_n),
+                  1e3 * pooled_scatter(*conditions, &WheelTest::sinkage_m)),
+      fmt::format("Conditions are split for fitting and predicting like a chessboard over slip angle and "
+                  "rim speed: {} are for fitting and {} for predicting, with all repeats of a condition "
+                  "together.",
                   fit, conditions->size() - fit),
       off.empty()
           ? "Every rim ran at its commanded speed to within 0.5 mm/s."
-          : fmt::format("Commanded and measured rim speed part by up to {:.1f} mm/s, at {}; slips here are "
-                        "the measured ones.",
+          : fmt::format("Commanded and measured rim speed differ by up to {:.1f} mm/s, at {}; slips here are "
+                        "computed from the measured ones.",
                         1e3 * command_off, speeds)};
   report.bands = {
       {"tests", static_cast<double>(tests), 189, 189},

@@ -19,11 +19,12 @@ namespace {
 
 struct Reading {
   double pull_n = 0.0, side_n = 0.0, sinkage_m = 0.0;
-  bool sunk = false;  // to the axle: forces are those at the deepest entry angle that the law knows
+  bool sunk = false;  // to the axle; the forces are then those at the law's maximum entry angle
 };
 
-// The wheel moves at the rig's speed along the travel direction, its rim at its own; side force as the rig
-// counts it, against the side motion. A locked rim is taken to turn at a thousandth of the travel.
+// The readings of a wheel that moves at the rig's speed along the travel direction while its rim turns at its
+// own speed. The side force is positive against the side motion, as on the rig. A locked rim is modelled as
+// turning at a thousandth of the travel speed.
 Reading read_rig(const sim::Soil& sand, const WheelCondition& c) {
   const double rim = std::max(c.mean(&WheelTest::rim_speed_m_s), 1e-3 * kPavlovTravel_m_s);
   const sim::WheelMotion motion{kPavlovTravel_m_s * std::cos(c.slip_angle_rad) / rim,
@@ -34,8 +35,8 @@ Reading read_rig(const sim::Soil& sand, const WheelCondition& c) {
   return {f.drawbar_pull_n, -f.lateral_n, sim::sinkage_m(kPavlovWheel.radius_m, theta), !balanced};
 }
 
-// Fitted on the wheel tests: nine numbers. The moduli are the plate tests'; c 1.0 kPa, phi 29 deg and the
-// density upstream's; the shear resultant keeps within the strength (coupling 1).
+// The nine numbers that are fitted on the wheel tests. The moduli come from the plate tests; c = 1.0 kPa, phi
+// = 29 deg and the density are upstream's; the shear resultant stays within the strength (coupling 1).
 std::vector<gap::Unknown> unknowns() {
   return {{.name = "K_x", .start = 0.02, .lowest = 0.001, .highest = 0.06, .step_scale = 0.005, .prior = {}},
           {.name = "K_y", .start = 0.02, .lowest = 0.001, .highest = 0.06, .step_scale = 0.005, .prior = {}},
@@ -73,12 +74,12 @@ sim::Soil sand_of(const sim::BekkerModuli& moduli, std::span<const double> x) {
   return sand;
 }
 
-// A wheel that lies below its own axle is beyond the law.
+// The law does not apply to a wheel that has sunk below its own axle.
 bool within_the_law(const WheelCondition& c) {
   return c.mean(&WheelTest::sinkage_m) < kPavlovWheel.radius_m;
 }
 
-// Residuals in units of 15 % of the load and 8 mm.
+// The residuals in units of 15 % of the load and of 8 mm.
 Result<gap::LeastSquaresFit> fit(const std::vector<WheelCondition>& conditions,
                                  const sim::BekkerModuli& moduli) {
   std::vector<const WheelCondition*> used;
@@ -88,11 +89,11 @@ Result<gap::LeastSquaresFit> fit(const std::vector<WheelCondition>& conditions,
     const sim::Soil sand = sand_of(moduli, x);
     for (std::size_t k = 0; k < used.size(); ++k) {
       const WheelCondition& c = *used[k];
-      const Reading ours = read_rig(sand, c);
+      const Reading predicted = read_rig(sand, c);
       const double unit = 0.15 * c.mean(&WheelTest::load_n);
-      r[3 * k] = (ours.pull_n - c.mean(&WheelTest::drawbar_pull_n)) / unit;
-      r[3 * k + 1] = (ours.side_n - c.mean(&WheelTest::side_force_n)) / unit;
-      r[3 * k + 2] = (ours.sinkage_m - c.mean(&WheelTest::sinkage_m)) / 0.008;
+      r[3 * k] = (predicted.pull_n - c.mean(&WheelTest::drawbar_pull_n)) / unit;
+      r[3 * k + 1] = (predicted.side_n - c.mean(&WheelTest::side_force_n)) / unit;
+      r[3 * k + 2] = (predicted.sinkage_m - c.mean(&WheelTest::sinkage_m)) / 0.008;
     }
     return true;
   };
@@ -106,11 +107,11 @@ Result<gap::LeastSquaresFit> fit(const std::vector<WheelCondition>& conditions,
 struct Errors {
   std::vector<double> pull, side, sinkage_mm;  // forces over the load
 
-  void add(const Reading& ours, const WheelCondition& c) {
+  void add(const Reading& predicted, const WheelCondition& c) {
     const double load = c.mean(&WheelTest::load_n);
-    pull.push_back((ours.pull_n - c.mean(&WheelTest::drawbar_pull_n)) / load);
-    side.push_back((ours.side_n - c.mean(&WheelTest::side_force_n)) / load);
-    sinkage_mm.push_back(1e3 * (ours.sinkage_m - c.mean(&WheelTest::sinkage_m)));
+    pull.push_back((predicted.pull_n - c.mean(&WheelTest::drawbar_pull_n)) / load);
+    side.push_back((predicted.side_n - c.mean(&WheelTest::side_force_n)) / load);
+    sinkage_mm.push_back(1e3 * (predicted.sinkage_m - c.mean(&WheelTest::sinkage_m)));
   }
   static double rms(const std::vector<double>& values) {
     double sum = 0.0;
@@ -131,7 +132,7 @@ struct Errors {
 };
 
 api::Chart panel(const char* title, const std::vector<WheelCondition>& conditions, const sim::Soil& sand,
-                 double WheelTest::*measured, double Reading::*ours, double scale) {
+                 double WheelTest::*measured, double Reading::*predicted, double scale) {
   api::Chart chart;
   chart.title = title;
   chart.x.title = "slip";
@@ -140,12 +141,12 @@ api::Chart panel(const char* title, const std::vector<WheelCondition>& condition
   for (const int angle : {0, 30, 60, 75}) {
     api::ChartSeries points{
         fmt::format("measured, slip angle {} deg", angle), api::ChartMark::kPoints, {}, {}, colour};
-    api::ChartSeries line{fmt::format("ours, {} deg", angle), api::ChartMark::kLine, {}, {}, colour};
+    api::ChartSeries line{fmt::format("predicted, {} deg", angle), api::ChartMark::kLine, {}, {}, colour};
     for (const WheelCondition& c : conditions) {
       if (std::lround(deg_from_rad(c.slip_angle_rad)) != angle) continue;
       for (api::ChartSeries* series : {&points, &line}) series->x.push_back(c.mean(&WheelTest::slip_ratio));
       points.y.push_back(scale * c.mean(measured));
-      line.y.push_back(scale * (read_rig(sand, c).*ours));
+      line.y.push_back(scale * (read_rig(sand, c).*predicted));
     }
     chart.series.push_back(points);
     chart.series.push_back(line);
@@ -154,24 +155,26 @@ api::Chart panel(const char* title, const std::vector<WheelCondition>& condition
   return chart;
 }
 
-void add_row(const WheelCondition& c, const Reading& ours, Report& report) {
+void add_row(const WheelCondition& c, const Reading& predicted, Report& report) {
   const auto pair = [](double measured, double predicted) {
     return fmt::format("{:.1f} / {:.1f}", measured, predicted);
   };
   const double pull = c.mean(&WheelTest::drawbar_pull_n), side = c.mean(&WheelTest::side_force_n);
   const double load = c.mean(&WheelTest::load_n), angle = deg_from_rad(c.slip_angle_rad);
-  report.rows.push_back(
-      {fmt::format("{:.0f}", angle), fmt::format("{:.2f}", c.mean(&WheelTest::slip_ratio)),
-       c.half == Half::kFit ? (within_the_law(c) ? "fit" : "left out") : "predict",
-       fmt::format("{:.1f}", load), pair(pull, ours.pull_n),
-       fmt::format("{:+.0f} %", 100.0 * (ours.pull_n - pull) / load), pair(side, ours.side_n),
-       fmt::format("{:+.0f} %", 100.0 * (ours.side_n - side) / load),
-       pair(1e3 * c.mean(&WheelTest::sinkage_m), 1e3 * ours.sinkage_m) + (ours.sunk ? " sunk" : "")});
+  report.rows.push_back({fmt::format("{:.0f}", angle), fmt::format("{:.2f}", c.mean(&WheelTest::slip_ratio)),
+                         c.half == Half::kFit ? (within_the_law(c) ? "fit" : "left out") : "predict",
+                         fmt::format("{:.1f}", load), pair(pull, predicted.pull_n),
+                         fmt::format("{:+.0f} %", 100.0 * (predicted.pull_n - pull) / load),
+                         pair(side, predicted.side_n),
+                         fmt::format("{:+.0f} %", 100.0 * (predicted.side_n - side) / load),
+                         pair(1e3 * c.mean(&WheelTest::sinkage_m), 1e3 * predicted.sinkage_m) +
+                             (predicted.sunk ? " sunk" : "")});
   const std::string name =
       fmt::format("slip angle {:.0f} deg, slip {:.2f}", angle, c.mean(&WheelTest::slip_ratio));
-  report.cases.push_back({name, "drawbar_pull", "N", pull, ours.pull_n});
-  report.cases.push_back({name, "side_force", "N", side, ours.side_n});
-  report.cases.push_back({name, "sinkage", "mm", 1e3 * c.mean(&WheelTest::sinkage_m), 1e3 * ours.sinkage_m});
+  report.cases.push_back({name, "drawbar_pull", "N", pull, predicted.pull_n});
+  report.cases.push_back({name, "side_force", "N", side, predicted.side_n});
+  report.cases.push_back(
+      {name, "sinkage", "mm", 1e3 * c.mean(&WheelTest::sinkage_m), 1e3 * predicted.sinkage_m});
 }
 
 }  // namespace
@@ -181,7 +184,7 @@ Result<Report> pavlov_wheel(const std::filesystem::path& data) {
   const auto plates = load_sandbox_plates(data / "validation" / "plate_sinkage_large_sandbox.csv");
   if (!conditions) return fail(conditions.error());
   if (!plates) return fail(plates.error());
-  std::vector<gap::PlateTest> tests;
+  std::vector<gap::PlateRecord> tests;
   for (const SandboxTest& test : *plates) tests.push_back(test.plate);
   NoProgress progress;
   const auto moduli = gap::fit_moduli(
@@ -199,30 +202,29 @@ Result<Report> pavlov_wheel(const std::filesystem::path& data) {
                     "slip",
                     "half",
                     "load N",
-                    "pull N, measured / ours",
+                    "pull N, measured / predicted",
                     "error / load",
-                    "side force N, measured / ours",
+                    "side force N, measured / predicted",
                     "error / load",
-                    "sinkage mm, measured / ours"};
+                    "sinkage mm, measured / predicted"};
   Errors seen, held_out, beyond;
   for (const WheelCondition& c : *conditions) {
-    const Reading ours = read_rig(sand, c);
-    add_row(c, ours, report);
-    (!within_the_law(c) ? beyond : c.half == Half::kFit ? seen : held_out).add(ours, c);
+    const Reading predicted = read_rig(sand, c);
+    add_row(c, predicted, report);
+    (!within_the_law(c) ? beyond : c.half == Half::kFit ? seen : held_out).add(predicted, c);
   }
-  report.notes = {"Predicted half, where the wheel stayed above its axle's depth: " + held_out.words() + ".",
+  report.notes = {"Predicted half, while the wheel stayed above its axle's depth: " + held_out.words() + ".",
                   "Fitted half: " + seen.words() + ".",
-                  "Moved sideways (90 deg) the wheel dug itself in below its own axle (61 to 77 mm, r 58 "
-                  "mm), where a law of a rim's "
-                  "arc has nothing to say; those conditions are left out of the fit: " +
+                  "Moved sideways (90 deg) the wheel dug itself in below its own axle (61 to 77 "
+                  "mm, r 58 mm), where a law of a rim's contact arc does not apply; those "
+                  "conditions are left out of the fit: " +
                       beyond.words() + ".",
                   fmt::format("Plate tests: k {:.0f} kPa/m^n, n {:.3f}. Fitted on the wheel tests: {}.",
                               1e-3 * moduli->moduli.k_phi, moduli->moduli.n, words_of(unknowns(), *fitted)),
-                  "The resistance of the front hardly falls with the slip angle, and the sinkage exponent "
-                  "rises with skid and with "
-                  "sideways motion besides slip: both shapes were found on these tests (both halves were "
-                  "seen while the form was "
-                  "chosen; the numbers are the fitted half's)."};
+                  "The resistance in front hardly falls with the slip angle, and the sinkage "
+                  "exponent rises with skid and with sideways motion in addition to slip. Both "
+                  "forms were found on these tests: both halves were seen while the form was "
+                  "chosen, and the numbers are fitted on one half."};
   report.bands = {
       {"held-out pull, rms over the load, %", 100.0 * Errors::rms(held_out.pull), 0.0, 15.0},
       {"held-out side force, rms over the load, %", 100.0 * Errors::rms(held_out.side), 0.0, 15.0}};

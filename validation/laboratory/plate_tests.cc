@@ -17,8 +17,8 @@ using gap::PlateMeasure;
 constexpr sim::BekkerModuli kUpstream{0.0, 8e6, 1.46};
 constexpr double kEarlierStiffness_kpa = 5.0e3, kEarlierExponent = 1.34;
 
-// Root mean square of the pressures that moduli miss, relative to the test's greatest pressure.
-double relative_rms(const gap::PlateTest& test, const sim::BekkerModuli& moduli) {
+// The root mean square error of the pressures by these moduli, relative to the test's maximum pressure.
+double relative_rms(const gap::PlateRecord& test, const sim::BekkerModuli& moduli) {
   double sum = 0.0;
   for (std::size_t i = 0; i < test.sinkage_m.size(); ++i)
     sum += std::pow(
@@ -46,7 +46,7 @@ std::size_t colour_of(const SandboxTest& test) {
   return test.plate.radius_m < 0.035 ? 0 : test.plate.radius_m < 0.045 ? 2 : 1;
 }
 
-// Every eighth sample of each test, smallest plate first.
+// A series with every eighth sample of each test, with the smallest plate first.
 void add_samples(const std::vector<SandboxTest>& tests, api::Chart& chart) {
   std::vector<SandboxTest> ordered = tests;
   std::stable_sort(ordered.begin(), ordered.end(), [](const SandboxTest& a, const SandboxTest& b) {
@@ -95,12 +95,8 @@ std::vector<api::Chart> charts_of(const std::vector<SandboxTest>& tests, const s
   return {one, two};
 }
 
-}  // namespace
-
-Result<Report> plate_tests(const std::filesystem::path& data) {
-  const auto plates = load_sandbox_plates(data / "validation" / "plate_sinkage_large_sandbox.csv");
-  if (!plates) return fail(plates.error());
-  const std::vector<SandboxTest>& tests = *plates;
+// The report with its title, source and columns, without rows.
+Report plate_tests_report() {
   Report report;
   report.title = "Nine plate tests of one sand";
   report.source =
@@ -111,8 +107,18 @@ Result<Report> plate_tests(const std::filesystem::path& data) {
   report.columns = {"test",       "plate mm",       "samples",
                     "deepest mm", "k_c kN/m^(n+1)", "k or k_phi kN/m^(n+2)",
                     "n",          "rms kPa",        "explained variance"};
+  return report;
+}
+
+}  // namespace
+
+Result<Report> plate_tests(const std::filesystem::path& data) {
+  const auto plates = load_sandbox_plates(data / "validation" / "plate_sinkage_large_sandbox.csv");
+  if (!plates) return fail(plates.error());
+  const std::vector<SandboxTest>& tests = *plates;
+  Report report = plate_tests_report();
   NoProgress progress;
-  std::vector<gap::PlateTest> all;
+  std::vector<gap::PlateRecord> all;
   double least_explained = 1.0, upstream = 0.0;
   for (const SandboxTest& test : tests) {
     const auto fit = gap::fit_moduli(
@@ -126,7 +132,7 @@ Result<Report> plate_tests(const std::filesystem::path& data) {
     all.push_back(test.plate);
   }
   std::size_t samples = 0;
-  for (const gap::PlateTest& plate : all) samples += plate.sinkage_m.size();
+  for (const gap::PlateRecord& plate : all) samples += plate.sinkage_m.size();
   const auto pooled =
       gap::fit_moduli(all, {.measure = PlateMeasure::kPressure, .cohesive_modulus = false}, progress);
   const auto separate = gap::fit_moduli(all, {.measure = PlateMeasure::kPressure}, progress);
@@ -144,22 +150,21 @@ Result<Report> plate_tests(const std::filesystem::path& data) {
   }
   const double k_kpa = 1e-3 * logarithms->moduli.k_phi, n = logarithms->moduli.n;
   report.notes = {
-      fmt::format(
-          "Within one test the power law explains at least {:.2f} % of the pressure's variance. Between "
-          "tests it does not carry over: with one modulus the worst test is missed by an rms of {:.0f} % "
-          "of its greatest pressure, with k_c and k_phi by {:.0f} %, with upstream's values by {:.0f} %.",
-          100.0 * least_explained, 100.0 * worst_pooled, 100.0 * worst_separate, 100.0 * upstream),
-      fmt::format(
-          "The earlier fit (k 5.0e3, n 1.34) is found again as a straight line through the logarithms of "
-          "all samples: k {:.0f}, n {:.3f}. It gives the first millimetres, where the plate's seating "
-          "and the load cell's zero show, the same weight as the rest.",
-          k_kpa, n),
-      "k and n compensate each other: compare pressures, not moduli. The standard errors take samples for "
-      "independent, which those of one test are not; the spread between the three tests of a plate is the "
-      "better measure.",
-      "Here b is the plate's radius. Bigger plates meet more pressure at the same depth, so k_c comes out "
-      "negative for this sand too."};
-  report.bands = {{"least explained variance within a test", least_explained, 0.98, 1.0},
+      fmt::format("Within one test the power law explains at least {:.2f} % of the pressure's variance. It "
+                  "does not carry over from test to test: with one modulus the worst test is missed by an "
+                  "rms of {:.0f} % of its maximum pressure, with k_c and k_phi by {:.0f} %, with "
+                  "upstream's values by {:.0f} %.",
+                  100.0 * least_explained, 100.0 * worst_pooled, 100.0 * worst_separate, 100.0 * upstream),
+      fmt::format("The earlier fit (k 5.0e3, n 1.34) is reproduced by a straight line through the "
+                  "logarithms of all samples: k {:.0f}, n {:.3f}. It gives the first millimetres, where "
+                  "the plate's seating and the load cell's zero show, the same weight as the rest.",
+                  k_kpa, n),
+      "k and n compensate each other, so that pressures should be compared, not moduli. The "
+      "standard errors treat samples as independent, which those of one test are not; the spread "
+      "between the three tests of a plate is the better measure.",
+      "Here b is the plate's radius. Larger plates meet more pressure at the same depth, so that "
+      "k_c is negative for this sand too."};
+  report.bands = {{"minimum explained variance within a test", least_explained, 0.98, 1.0},
                   {"relative difference of k of the plain logarithms to 5.0e3",
                    k_kpa / kEarlierStiffness_kpa - 1.0, -0.02, 0.02},
                   {"n of the plain logarithms", n, kEarlierExponent - 0.005, kEarlierExponent + 0.005}};

@@ -12,7 +12,7 @@ namespace slipway::validation {
 // One of the nine plate tests in the sand of the single-wheel tests [Pavlov & Johnson 2022].
 struct SandboxTest {
   std::string name;
-  gap::PlateTest plate;
+  gap::PlateRecord plate;
 };
 
 // Errors: unreadable_data.

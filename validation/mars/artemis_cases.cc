@@ -17,9 +17,9 @@ namespace {
 using sim::SensorReading;
 
 constexpr double kSol2143Slip = 0.65, kSol2143Sinkage_mm = 50.0, kSpiritSlip = 0.9;
-constexpr double kStarting_s = 4.0;  // speeding up
+constexpr double kStarting_s = 4.0;  // time of the acceleration at the start
 
-// Drives of a shipped table with true values in place of the sensors'.
+// Simulates drives of a shipped table with true values in place of the sensors' readings.
 Result<std::map<std::string, campaign::MadeDrive>> drives_of(const std::string& name,
                                                              const std::filesystem::path& data,
                                                              const api::Catalogue& catalogue) {
@@ -54,18 +54,18 @@ bool drives_on(const SensorReading& reading) {
   return reading.sample.driving && reading.sample.time_s > kStarting_s;
 }
 
-// As many digits as another machine prints, too.
+// Rounds to digits that are the same on all machines.
 double rounded(double value, double step) {
   return step * std::round(value / step);
 }
 
 struct Climb {
   double slip = 0.0;
-  std::array<double, 3> sinkage_mm{}, torque_nm{};  // greatest of front, middle, rear
+  std::array<double, 3> sinkage_mm{}, torque_nm{};  // maxima of the front, middle and rear wheels
   double pitch_deg = 0.0, ends_x_m = 0.0;
 };
 
-// Until the crest, at x = 0; positive pitch is the front downhill.
+// The maxima until the crest at x = 0; a positive pitch has the front downhill.
 Climb climb_of(const campaign::MadeDrive& made, const sim::RoverModel& rover) {
   Climb climb;
   const std::array<std::size_t, 3> wheels{wheel_of(rover, "rf"), wheel_of(rover, "rm"),
@@ -89,24 +89,24 @@ void add_ripple(const campaign::MadeDrive& made, const sim::RoverModel& rover, R
   const auto row = [&](const char* what, const char* published, std::string ours) {
     report.rows.push_back({"Opportunity, sol 2143", what, published, std::move(ours)});
   };
-  row("greatest slip going up, %", "up to 65", fmt::format("{:.0f}", 100.0 * climb.slip));
-  row("greatest sinkage going up, mm: front (downslope), middle, rear", "up to about 50",
+  row("maximum slip going up, %", "up to 65", fmt::format("{:.0f}", 100.0 * climb.slip));
+  row("maximum sinkage going up, mm: front (downslope), middle, rear", "up to about 50",
       fmt::format("{:.0f}, {:.0f}, {:.0f}", climb.sinkage_mm[0], climb.sinkage_mm[1], climb.sinkage_mm[2]));
-  row("greatest torque going up, N m: front, middle, rear", "greatest in front",
+  row("maximum torque going up, N m: front, middle, rear", "maximum in front",
       fmt::format("{:.1f}, {:.1f}, {:.1f}", climb.torque_nm[0], climb.torque_nm[1], climb.torque_nm[2]));
   row("pitch going up, deg", "positive: front downhill", fmt::format("up to {:+.0f}", climb.pitch_deg));
   const bool crosses = climb.ends_x_m > 2.5;
   row("crosses the ripple", "yes", crosses ? "yes" : "no");
-  report.bands.push_back({"sol 2143: greatest slip", rounded(climb.slip, 0.01), 0.6, 0.7});
+  report.bands.push_back({"sol 2143: maximum slip", rounded(climb.slip, 0.01), 0.6, 0.7});
   report.bands.push_back(
-      {"sol 2143: greatest sinkage of a front wheel, mm", rounded(climb.sinkage_mm[0], 1.0), 45, 55});
+      {"sol 2143: maximum sinkage of a front wheel, mm", rounded(climb.sinkage_mm[0], 1.0), 45, 55});
   report.bands.push_back({"sol 2143: that of a rear wheel, mm", rounded(climb.sinkage_mm[2], 1.0), 0, 45});
   report.bands.push_back({"sol 2143: crosses", crosses ? 1.0 : 0.0, 1, 1});
   report.cases.push_back({"sol 2143", "greatest slip", "1", kSol2143Slip, climb.slip});
   report.cases.push_back({"sol 2143", "greatest sinkage", "mm", kSol2143Sinkage_mm, climb.sinkage_mm[0]});
 }
 
-// How far a wheel's place on the rover is carried between start and end.
+// The distance between a wheel's positions at the start and at the end.
 double carried_m(const sim::DynamicDrive& drive, const sim::WheelModel& wheel) {
   const auto at = [&](const Pose2& pose) {
     const double c = std::cos(pose.yaw_rad), s = std::sin(pose.yaw_rad);
@@ -116,7 +116,7 @@ double carried_m(const sim::DynamicDrive& drive, const sim::WheelModel& wheel) {
   return (at(drive.final) - at(drive.start)).norm();
 }
 
-// side: 1 where a rover that turns about its dead right front wheel yaws to the left, -1 to the right.
+// side is 1 where a rover that turns about its dead right front wheel yaws to the left, and -1 to the right.
 void add_yaw(const char* way, double side, const sim::DynamicDrive& drive, const sim::RoverModel& rover,
              Report& report) {
   const double yaw_deg = deg_from_rad(drive.final.yaw_rad - drive.start.yaw_rad);
@@ -168,11 +168,11 @@ Result<Report> artemis_cases(const std::filesystem::path& data) {
 
   Report report;
   report.title = "What happened to Opportunity and Spirit";
-  report.source = "ARTEMIS paper, section 2.3: what was seen of the rovers, and what ARTEMIS replicated";
+  report.source = "ARTEMIS paper, section 2.3: what was observed of the rovers, and what ARTEMIS reproduced";
   report.peers =
-      "ARTEMIS, on soils chosen for their likeness: the same by its authors' word, without numbers of its "
-      "own";
-  report.columns = {"drive", "what", "published", "ours"};
+      "ARTEMIS, on soils chosen to be like the observed ones, reproduces the same by its authors' "
+      "word, without numbers of its own";
+  report.columns = {"drive", "what", "published", "predicted"};
   add_ripple(**ripple, rover, report);
   add_yaw("backward, dragging it", 1.0, *(*dragging)->drive, rover, report);
   add_yaw("forward, pushing it", -1.0, *(*pushing)->drive, rover, report);
@@ -183,22 +183,25 @@ Result<Report> artemis_cases(const std::filesystem::path& data) {
   report.cases.push_back({"Spirit up a slope", "median slip", "1", kSpiritSlip, slip});
   add_lift(**lifts, rover, report);
   report.notes.push_back(
-      "A fit, not a prediction: the ripple's sand and its slip sinkage were chosen to match 65 % and 5 cm; "
-      "slightly less cohesion (800 of 900 Pa) and the rover digs in and stays. The slope was chosen for "
-      "about 90 %. Not chosen: which wheels are worst, and which way the rover yaws.");
+      "This is a fit, not a prediction: the ripple's sand and its slip sinkage were chosen to "
+      "match 65 % and 5 cm. With slightly less cohesion (800 instead of 900 Pa) the rover digs in "
+      "and does not cross. The slope was chosen for about 90 %. The model itself gives which "
+      "wheels are worst and which way the rover yaws.");
   report.notes.push_back(
-      "Middle wheels sink deepest here and have the greatest torque, a little before the front ones; the "
-      "paper shows a front wheel only. This rover's rocker and bogie are assumed.");
+      "The middle wheels sink deepest here and have the maximum torque, a little before the front "
+      "ones; the paper shows a front wheel only. This rover's rocker and bogie are assumed.");
   report.notes.push_back(
-      "Both drives on level ground turn about the dead wheel as Spirit did; pushed ahead it stays where it "
-      "is. Nothing steers against it, as Spirit's drivers did.");
+      "In both drives on level ground the rover turns about the dead wheel as Spirit did, and the "
+      "dead wheel stays where it is when it is pushed. Nothing steers against the turn, as "
+      "Spirit's drivers did.");
   report.notes.push_back(
-      "The right middle wheel lifts where the soil holds wheels with more than their load, for the bogie's "
-      "pivot is high: on the bundled dense soil at Spirit (15 kPa), and with its friction angle from about "
-      "10 kPa on; with 5 kPa or less not on slopes or before bumps either. It stays up for the rest of the "
-      "drive, Spirit's came down. In such soil the laws let a locked wheel that is dragged carry less than "
-      "nothing at times, as no real soil does: dragging is shown on another.");
-  report.notes.push_back("Left out of what ARTEMIS lists: sliding down slopes.");
+      "The right middle wheel lifts where the soil holds wheels with more than their load, since "
+      "the bogie's pivot is high: on the bundled dense soil at Spirit (15 kPa of cohesion), and "
+      "with its friction angle from about 10 kPa on; with 5 kPa or less it does not lift, even on "
+      "slopes or before bumps. It stays up for the rest of the drive, while Spirit's came down. In "
+      "such soil the laws give a dragged locked wheel a negative load at times, as no real soil "
+      "does; dragging is therefore shown on another soil.");
+  report.notes.push_back("One case that ARTEMIS lists is left out: sliding down slopes.");
   return report;
 }
 

@@ -16,7 +16,7 @@
 namespace slipway::validation {
 namespace {
 
-// Tilt of the least-squares plane through the cells within 1.5 m.
+// The tilt of the least-squares plane through the cells within 1.5 m.
 double plane_tilt_rad(const dem::Terrain& terrain, double x_m, double y_m) {
   std::vector<Eigen::Vector3d> points;
   for (int i = -2; i <= 2; ++i)
@@ -37,9 +37,8 @@ std::string words(const char* what, const Agreement& a) {
   return fmt::format("{}: r {:.2f}, rms {:.1f} deg, bias {:+.1f} deg.", what, a.r, a.rms, a.bias);
 }
 
-}  // namespace
-
-Result<Report> curiosity_attitude(const std::filesystem::path& data) {
+// The report with its title, source and columns, without rows.
+Report curiosity_attitude_report() {
   Report report;
   report.title = "Attitude at Curiosity's real stops";
   report.source =
@@ -52,9 +51,16 @@ Result<Report> curiosity_attitude(const std::filesystem::path& data) {
                     "rover set down",
                     "plane fit 3 m",
                     "pitch measured",
-                    "ours",
+                    "predicted",
                     "roll measured",
-                    "ours"};
+                    "predicted"};
+  return report;
+}
+
+}  // namespace
+
+Result<Report> curiosity_attitude(const std::filesystem::path& data) {
+  Report report = curiosity_attitude_report();
   const auto catalogue = api::load_catalogue(data);
   if (!catalogue) return fail(catalogue.error());
   const sim::RoverModel& rover = *catalogue->rovers.at("msl-class");
@@ -101,8 +107,9 @@ Result<Report> curiosity_attitude(const std::filesystem::path& data) {
   report.notes.push_back(words("Pitch of the rover set down", agreement(pitch, pitch_measured)));
   report.notes.push_back(words("Roll of the rover set down", agreement(roll, roll_measured)));
   report.notes.push_back(
-      "The DEM's cells are 1 m and its heights smooth away what a wheel stands on; the residual is what the "
-      "map does not know, and a plan's tilt is uncertain by as much.");
+      "The DEM's cells are 1 m wide and its heights are smoother than the ground under a wheel. "
+      "The residual is due to what the map does not show, and a plan's tilt is uncertain by as "
+      "much.");
   report.bands = {{"stops", static_cast<double>(stops->rows()), 32, 32},
                   {"rms of tilt, deg", tilt.rms, 0.0, 4.5}};
   const api::Chart panels[] = {scatter_chart("tilt, deg", tilt_measured, settled),

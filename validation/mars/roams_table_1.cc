@@ -18,8 +18,8 @@ namespace slipway::validation {
 namespace {
 
 constexpr std::size_t kTilts = 4, kSteepest = 3;
-constexpr double kStuck = 100.0;  // percent of slip of a rover that does not get ahead
-constexpr double kShown = 0.1;    // points: less is nothing
+constexpr double kStuck = 100.0;  // slip in percent of a rover that makes no headway
+constexpr double kShown = 0.1;    // percentage points; a smaller change is not shown
 constexpr std::size_t kMostCandidates = 4;
 
 // ROAMS paper, Table 1. Percent of slip.
@@ -42,7 +42,7 @@ Model with_effects(const campaign::DriveTable& table, sim::Soil soil,
   Model model{*table.rover, soil};
   sim::apply_effects(settings, model.rover);
   sim::apply_effects(settings, model.soil);
-  // A patch: the rover is in it.
+  // An effect of a patch acts on the whole ground.
   for (std::size_t r = 0; r < sim::effect_regions(settings).size(); ++r)
     sim::apply_in_region(settings, r, model.soil);
   return model;
@@ -51,7 +51,7 @@ Model with_effects(const campaign::DriveTable& table, sim::Soil soil,
 struct Drive {
   const char* name;
   double tilt_deg, heading_deg;  // 0 up, 90 across, 180 down
-  double speed_share;            // of the cruise; negative: backwards, up the slope all the same
+  double speed_share;            // of the cruise speed; negative is backwards, but still up the slope
 };
 
 struct Outcome {
@@ -83,7 +83,8 @@ Slips up_slope(const Model& model, double gravity_m_s2) {
   return slips;
 }
 
-// The sand of the shipped table, made firmer until the rover slips up the steepest tilt as ROAMS's did.
+// The sand of the shipped table with a higher friction angle, so that the rover slips up the steepest tilt as
+// ROAMS's did.
 sim::Soil as_roams(const campaign::DriveTable& table) {
   sim::Soil soil = table.soils.begin()->second.mean;
   double low = rad_from_deg(36.0), high = rad_from_deg(55.0);
@@ -99,9 +100,10 @@ sim::Soil as_roams(const campaign::DriveTable& table) {
 
 struct Signature {
   std::string effect, size;
-  Slips rise{};  // points of slip up the slope
+  Slips rise{};  // increase of the slip up the slope, in percentage points
   Model model;
-  // Rise on the steepest tilt less what is there on the lower ones beyond what FIDO and ROAMS differed by.
+  // The rise on the steepest tilt less the part of the rise on the lower tilts that exceeds the difference
+  // between FIDO and ROAMS.
   double score() const {
     double too_much = 0.0;
     for (std::size_t t = 0; t < kSteepest; ++t)
@@ -142,7 +144,8 @@ constexpr std::array kDrives{Drive{"20.764 deg up", 20.764, 0.0, 1.0},
                              Drive{"15 deg up", 15.0, 0.0, 1.0},
                              Drive{"15 deg up, backwards", 15.0, 0.0, -1.0}};
 
-// What each candidate says of a drive, how far the two nearest are apart, in points of slip or side slip.
+// Adds the predictions of each candidate for a drive, and the difference of the two nearest in percentage
+// points of slip and side slip.
 void add_drives(const std::vector<Signature>& candidates, double gravity_m_s2, Report& report) {
   double widest = -1.0;
   std::string settled;
@@ -163,21 +166,79 @@ void add_drives(const std::vector<Signature>& candidates, double gravity_m_s2, R
         nearest =
             std::min(nearest, std::hypot(outcomes[a].slip_percent - outcomes[b].slip_percent,
                                          outcomes[a].side_slip_percent - outcomes[b].side_slip_percent));
-    report.notes.push_back(fmt::format("Drive {}: {}; the two most alike are {:.1f} points apart.",
+    report.notes.push_back(fmt::format("Drive {}: {}; the two most similar differ by {:.1f} points.",
                                        drive.name, fmt::join(words, ", "), nearest));
     if (nearest <= widest) continue;
     widest = nearest;
     settled = drive.name;
   }
   report.notes.push_back(fmt::format(
-      "The drive that would settle it: {}, on which no two of these {} candidates are nearer than "
-      "{:.1f} points. FIDO's surveys before and after would be read for it to 0.1 points.",
+      "The drive that would decide: {}, on which any two of these {} candidates differ by at least "
+      "{:.1f} points. FIDO's surveys before and after would have to be read to 0.1 points for it.",
       settled, candidates.size(), widest));
+}
+
+// The report with its title, source and columns, without rows.
+Report roams_table_1_report() {
+  Report report;
+  report.title =
+      "ROAMS's Table 1 as a case: where the gap is, which effect is like it, and which drive would "
+      "decide";
+  report.source =
+      "ROAMS paper (Huntsberger et al.), Table 1: minimum and maximum slip of FIDO and of ROAMS on "
+      "four tilts";
+  report.columns = {"points of slip", "0.085 deg", "5.743 deg", "10.758 deg", "20.764 deg"};
+  return report;
+}
+
+// FIDO less ROAMS on a tilt, in percentage points of slip: at the lower and at the upper end.
+double lower_gap(std::size_t t) {
+  return kPublished[t].least - kPublished[t].roams_least;
+}
+
+double upper_gap(std::size_t t) {
+  return kPublished[t].most - kPublished[t].roams_most;
+}
+
+double whole_gap() {
+  double gap = 0.0;
+  for (const Published& p : kPublished)
+    gap += std::abs(p.least - p.roams_least) + std::abs(p.most - p.roams_most);
+  return gap;
+}
+
+// Adds the rows of the gap and of the effects' signatures. Returns the effects that change nothing.
+std::vector<std::string> add_rows(const std::vector<Signature>& all, const Slips& base, double gap,
+                                  Report& report) {
+  const auto row = [&](const std::string& name, const auto& value, const char* form) {
+    std::vector<std::string> cells{name};
+    for (std::size_t t = 0; t < kTilts; ++t) cells.push_back(fmt::format(fmt::runtime(form), value(t)));
+    report.rows.push_back(std::move(cells));
+  };
+  const auto share_of = [&](double part) { return 100.0 * std::abs(part) / gap; };
+  row("FIDO less ROAMS, minimum slip", lower_gap, "{:+.0f}");
+  row(
+      "its share of the gap", [&](std::size_t t) { return share_of(lower_gap(t)); }, "{:.0f} %");
+  row("FIDO less ROAMS, maximum slip", upper_gap, "{:+.0f}");
+  row(
+      "its share of the gap", [&](std::size_t t) { return share_of(upper_gap(t)); }, "{:.0f} %");
+  row(
+      "predicted slip up the slope, sand as ROAMS's, %", [&](std::size_t t) { return base[t]; }, "{:.1f}");
+  std::vector<std::string> nothing;
+  for (const Signature& s : all) {
+    if (std::all_of(s.rise.begin(), s.rise.end(), [](double r) { return std::abs(r) < kShown; })) {
+      nothing.push_back(s.effect);
+      continue;
+    }
+    row(
+        "with " + s.effect + " (" + s.size + ")", [&](std::size_t t) { return s.rise[t]; }, "{:+.1f}");
+  }
+  return nothing;
 }
 
 }  // namespace
 
-// Where ROAMS and FIDO part, and which effect of the catalogue has that signature.
+// Compares the gap between ROAMS and FIDO with the signatures of the catalogue's effects.
 Result<Report> roams_table_1(const std::filesystem::path& data) {
   const auto catalogue = api::load_catalogue(data);
   if (!catalogue) return fail(catalogue.error());
@@ -188,70 +249,40 @@ Result<Report> roams_table_1(const std::filesystem::path& data) {
   const Slips base = up_slope(with_effects(table, soil, {}), table.gravity_m_s2);
   const std::vector<Signature> all = signatures_of(table, soil, base);
 
-  double gap = 0.0;
-  for (const Published& p : kPublished)
-    gap += std::abs(p.least - p.roams_least) + std::abs(p.most - p.roams_most);
-  Report report;
-  report.title =
-      "ROAMS's Table 1 as a case: where the gap is, which effect looks like it, what drive settles it";
-  report.source =
-      "ROAMS paper (Huntsberger et al.), Table 1: least and most slip of FIDO and of ROAMS on four tilts";
-  report.columns = {"points of slip", "0.085 deg", "5.743 deg", "10.758 deg", "20.764 deg"};
-  const auto row = [&](const std::string& name, const auto& value, const char* form) {
-    std::vector<std::string> cells{name};
-    for (std::size_t t = 0; t < kTilts; ++t) cells.push_back(fmt::format(fmt::runtime(form), value(t)));
-    report.rows.push_back(std::move(cells));
-  };
-  const auto low = [](std::size_t t) { return kPublished[t].least - kPublished[t].roams_least; };
-  const auto high = [](std::size_t t) { return kPublished[t].most - kPublished[t].roams_most; };
-  row("FIDO less ROAMS, least slip", low, "{:+.0f}");
-  row(
-      "its share of the gap", [&](std::size_t t) { return 100.0 * std::abs(low(t)) / gap; }, "{:.0f} %");
-  row("FIDO less ROAMS, most slip", high, "{:+.0f}");
-  row(
-      "its share of the gap", [&](std::size_t t) { return 100.0 * std::abs(high(t)) / gap; }, "{:.0f} %");
-  row(
-      "our slip up the slope, sand as ROAMS's, %", [&](std::size_t t) { return base[t]; }, "{:.1f}");
-  std::vector<std::string> nothing;
-  for (const Signature& s : all) {
-    if (std::all_of(s.rise.begin(), s.rise.end(), [](double r) { return std::abs(r) < kShown; })) {
-      nothing.push_back(s.effect);
-      continue;
-    }
-    row(
-        "with " + s.effect + " (" + s.size + ")", [&](std::size_t t) { return s.rise[t]; }, "{:+.1f}");
-  }
-  const double share = 100.0 * high(kSteepest) / gap;
+  const double gap = whole_gap();
+  Report report = roams_table_1_report();
+  const std::vector<std::string> nothing = add_rows(all, base, gap, report);
+  const double share = 100.0 * upper_gap(kSteepest) / gap;
+  report.notes.push_back(
+      fmt::format("Where the gap is: the upper tail on 20.764 deg alone holds {:.0f} % of all {:.0f} points, "
+                  "and the maximum slip occurs up the slope. On 0 to 6 deg there is almost no gap.",
+                  share, gap));
   report.notes.push_back(fmt::format(
-      "Where: the upper tail on 20.764 deg alone holds {:.0f} % of all {:.0f} points of gap, and most "
-      "slip is met up the slope. On 0 to 6 deg there is next to none.",
-      share, gap));
-  report.notes.push_back(fmt::format(
-      "Which: every effect of the catalogue that is not at work already, one at a time at its initial size, "
-      "on "
-      "the FIDO-class rover up the slope, on the table's sand with a friction angle of {:.1f} deg, on which "
-      "it "
-      "slips by {:.0f} % there as ROAMS did. Ordered by the rise on 20.764 deg (at most {:.0f} points) less "
-      "what "
-      "they do on the lower tilts beyond the gap there. 100 % is a rover that does not get ahead.",
-      deg_from_rad(soil.friction_angle_rad), base[kSteepest], high(kSteepest)));
+      "Which effect is like it: every effect of the catalogue that does not act already is added "
+      "alone at its initial size to the FIDO-class rover up the slope, on the table's sand with a "
+      "friction angle of {:.1f} deg, with which the rover slips by {:.0f} % there as ROAMS did. "
+      "Effects are ordered by the rise on 20.764 deg (at most {:.0f} points) less their excess "
+      "over the gap on the lower tilts. 100 % is a rover that makes no headway.",
+      deg_from_rad(soil.friction_angle_rad), base[kSteepest], upper_gap(kSteepest)));
   if (!nothing.empty())
-    report.notes.push_back(fmt::format("No trace in slip up the slope: {}.", fmt::join(nothing, ", ")));
+    report.notes.push_back(
+        fmt::format("These effects do not change the slip up the slope: {}.", fmt::join(nothing, ", ")));
   const std::vector<Signature> candidates(
       all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(kMostCandidates, all.size())));
   report.notes.push_back(fmt::format(
-      "First: {} ({:+.1f} points on 20.764 deg, {:+.1f} on 10.758, {:+.1f} on 5.743, {:+.1f} on 0.085).",
+      "The first is {} ({:+.1f} points on 20.764 deg, {:+.1f} on 10.758, {:+.1f} on 5.743, {:+.1f} "
+      "on 0.085).",
       candidates[0].effect, candidates[0].rise[3], candidates[0].rise[2], candidates[0].rise[1],
       candidates[0].rise[0]));
   add_drives(candidates, table.gravity_m_s2, report);
   report.notes.push_back(
-      "What this is not: a diagnosis of FIDO's drives. They are not published one by one, the shipped rover "
-      "is "
-      "of FIDO's class, sizes are the catalogue's own, and softer sand alone would raise the same tail (the "
-      "comparison fido_table_1 fits all eight numbers with no other effect than grousers).");
+      "This is not a diagnosis of FIDO's drives. They are not published one by one, the shipped "
+      "rover is only of FIDO's class, the effects' sizes are the catalogue's own, and softer sand "
+      "alone would raise the same tail (the comparison fido_table_1 fits all eight numbers with no "
+      "other effect than grousers).");
   report.bands = {
       {"share of the gap in the upper tail on 20.764 deg, %", share, 60.0, 75.0},
-      {"our slip up 20.764 deg on sand as ROAMS's, %", base[kSteepest], 19.0, 21.0},
+      {"predicted slip up 20.764 deg on sand as ROAMS's, %", base[kSteepest], 19.0, 21.0},
       {"rise of the first candidate on 20.764 deg, points", candidates[0].rise[kSteepest], 5.0, 80.0}};
   return report;
 }

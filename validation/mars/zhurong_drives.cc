@@ -20,16 +20,16 @@ namespace {
 constexpr double kEarthGravity_m_s2 = 9.81;
 constexpr sim::WheelGeometry kWheel{.radius_m = 0.1475, .width_m = 0.2};
 
-// Table 4: mean currents at zero slip on JLU Mars 2, dense; +Y is the left side, 1 the front.
+// Table 4: mean currents at zero slip on JLU Mars 2, dense. +Y is the left side, and 1 is the front.
 constexpr std::array kNames{"lf", "lm", "lr", "rf", "rm", "rr"};
 constexpr std::array kMeasured_a{0.125, 0.100, 0.128, 0.108, 0.096, 0.110};
 
-// Where the load of the six wheels may be other than the file has it.
+// Shifts of the rover's geometry that change the load of the six wheels.
 struct LoadShift {
   double com_x_m = 0.0, com_y_m = 0.0, bogie_x_m = 0.0;
 };
 
-// What the wheels of the level rover carry at rest.
+// The loads of the level rover's wheels at rest.
 std::vector<double> resting_loads_n(sim::RoverModel rover, const sim::Soil& soil, const LoadShift& shift) {
   rover.com_m += Eigen::Vector3d(shift.com_x_m, shift.com_y_m, 0.0);
   rover.suspension.bogie_pivot_m.x() += shift.bogie_x_m;
@@ -45,8 +45,8 @@ double torque_nm(const sim::Soil& soil, double load_n) {
   return theta ? sim::wheel_forces(kWheel, soil, *theta, {1.0, 0.0}).torque_nm : 0.0;
 }
 
-// Currents by each wheel's own load; the gain from torque to current makes their mean the measured one, since
-// the paper's own is off by a gear ratio that it does not print.
+// The currents by each wheel's own load. The gain from torque to current is set so that their mean is the
+// measured one, since the paper's own lacks a gear ratio that it does not print.
 std::vector<double> currents_a(const sim::RoverModel& rover, const sim::Soil& soil, const LoadShift& shift) {
   std::vector<double> currents;
   for (const double load : resting_loads_n(rover, soil, shift)) currents.push_back(torque_nm(soil, load));
@@ -64,7 +64,7 @@ double mean_abs_error(const std::vector<double>& predicted) {
 
 using Lever = double LoadShift::*;
 
-// The shift that fits the six currents best, of what may be shifted.
+// The shift of these quantities that fits the six currents best.
 Result<LoadShift> explain(const sim::RoverModel& rover, const sim::Soil& soil,
                           const std::vector<Lever>& levers) {
   std::vector<gap::Unknown> unknowns;
@@ -86,8 +86,8 @@ Result<LoadShift> explain(const sim::RoverModel& rover, const sim::Soil& soil,
   const auto fit = gap::fit_least_squares(
       unknowns, kMeasured_a.size(),
       [&](std::span<const double> x, std::span<double> r) {
-        const std::vector<double> ours = currents_a(rover, soil, shift_of(x));
-        for (std::size_t k = 0; k < r.size(); ++k) r[k] = ours[k] / kMeasured_a[k] - 1.0;
+        const std::vector<double> predicted = currents_a(rover, soil, shift_of(x));
+        for (std::size_t k = 0; k < r.size(); ++k) r[k] = predicted[k] / kMeasured_a[k] - 1.0;
         return true;
       },
       {.tolerance = 1e-9, .residual_std_known = false}, progress);
@@ -101,8 +101,8 @@ double squares(const std::vector<double>& predicted) {
   return sum;
 }
 
-// The same rover with its mass over the wheels' mean place and the bogies' pivots midway between theirs: on
-// the level all wheels carry alike.
+// The same rover with its centre of mass above the mean of the wheels' places and the bogies' pivots midway
+// between their wheels, so that all wheels have the same load on level ground.
 sim::RoverModel with_even_loads(sim::RoverModel rover) {
   double all_m = 0.0, bogie_m = 0.0;
   int of_bogie = 0;
@@ -118,7 +118,8 @@ sim::RoverModel with_even_loads(sim::RoverModel rover) {
   return rover;
 }
 
-// Percent of the six squared errors of even loads that a shift of the load takes away, the gain free in both.
+// The percentage by which a shift of the load reduces the sum of the six squared errors of equal loads. The
+// gain is free in both.
 double percent_explained(const std::vector<double>& currents) {
   const double mean = std::accumulate(kMeasured_a.begin(), kMeasured_a.end(), 0.0) / kMeasured_a.size();
   const double even = squares(std::vector<double>(kMeasured_a.size(), mean));
@@ -134,7 +135,7 @@ std::vector<std::string> current_row(const std::string& name, const std::vector<
   return row;
 }
 
-// Pull of six wheels. The followers run in the leaders' tracks and push no heap before them.
+// The pull of six wheels. The following wheels run in the leading wheels' tracks and push no heap of soil.
 std::optional<double> six_wheel_pull_n(sim::Soil soil, double load_n, double slip, double bulldozing) {
   const sim::WheelMotion motion{sim::speed_ratio_from_slip(slip), 0.0};
   double pull = 0.0;
@@ -147,7 +148,7 @@ std::optional<double> six_wheel_pull_n(sim::Soil soil, double load_n, double sli
   return pull;
 }
 
-// The ends of the measured ranges that the paper's text gives.
+// The ends of the measured ranges as the paper's text gives them.
 struct PullPoint {
   const char* soil;
   double slip, pull_n;
@@ -178,7 +179,7 @@ std::string pull_plot(const api::Catalogue& catalogue, double load_n, const std:
       }
     chart.series.push_back(points);
     api::ChartSeries line{
-        std::string(name) + ", ours, leaders bulldozing", api::ChartMark::kLine, {}, {}, colour++};
+        std::string(name) + ", predicted, leaders bulldozing", api::ChartMark::kLine, {}, {}, colour++};
     for (int k = 0; k <= 47; ++k) {
       line.x.push_back(0.02 * k);
       line.y.push_back(six_wheel_pull_n(soil, load_n, 0.02 * k, 1.0).value_or(std::nan("")));
@@ -186,6 +187,18 @@ std::string pull_plot(const api::Catalogue& catalogue, double load_n, const std:
     chart.series.push_back(line);
   }
   return api::draw_charts(title, {&chart, 1});
+}
+
+// The report with its title, source and columns, without rows.
+Report zhurong_wheels_report() {
+  Report report;
+  report.title = "Zhurong's six currents at zero slip, each wheel by its own load";
+  report.source =
+      "Zhurong paper, Table 4 (JLU Mars 2 dense); loads by the statics of the shipped zhurong-class rover";
+  report.peers = "the paper averages the load: 0.114 A for every wheel";
+  report.columns = {"load split", "lf +Y1", "lm +Y2", "lr +Y3",
+                    "rf -Y1",     "rm -Y2", "rr -Y3", "mean abs error"};
+  return report;
 }
 
 }  // namespace
@@ -198,7 +211,8 @@ Result<Report> zhurong_wheels(const std::filesystem::path& data) {
   const Lever forward = &LoadShift::com_x_m, left = &LoadShift::com_y_m, pivots = &LoadShift::bogie_x_m;
   const auto centre = explain(rover, soil, {forward, left}),
              both = explain(rover, soil, {forward, left, pivots});
-  // Each cause alone, from wheels that carry alike: what the file's own geometry explains is not counted.
+  // Each cause alone starts from equally loaded wheels, so that the part that the file's own geometry
+  // explains is not counted.
   const sim::RoverModel alike = with_even_loads(rover);
   const auto sides = explain(alike, soil, {left}), rows = explain(alike, soil, {pivots}),
              fore_aft = explain(alike, soil, {forward, pivots});
@@ -210,42 +224,34 @@ Result<Report> zhurong_wheels(const std::filesystem::path& data) {
   const double of_rows = percent_explained(currents_a(alike, soil, *rows)),
                of_sides = percent_explained(currents_a(alike, soil, *sides)),
                of_fore_aft = percent_explained(currents_a(alike, soil, *fore_aft));
-  Report report;
-  report.title = "Zhurong's six currents at zero slip, each wheel by its own load";
-  report.source =
-      "Zhurong paper, Table 4 (JLU Mars 2 dense); loads by the statics of the shipped zhurong-class rover";
-  report.peers = "the paper averages the load: 0.114 A for every wheel";
-  report.columns = {"load split", "lf +Y1", "lm +Y2", "lr +Y3",
-                    "rf -Y1",     "rm -Y2", "rr -Y3", "mean abs error"};
+  Report report = zhurong_wheels_report();
   std::vector<std::string> measured{"measured, A"};
   for (const double current : kMeasured_a) measured.push_back(fmt::format("{:.3f}", current));
   measured.push_back("-");
   report.rows = {measured,
-                 current_row("even, as in the paper", even),
-                 current_row("the rover as filed", filed),
+                 current_row("equal loads, as in the paper", even),
+                 current_row("the rover's file unchanged", filed),
                  current_row("centre of mass shifted", shifted),
                  current_row("centre of mass and bogie pivots shifted", best),
-                 current_row("from even: mass to a side alone", currents_a(alike, soil, *sides)),
-                 current_row("from even: bogie pivots back alone", currents_a(alike, soil, *rows))};
+                 current_row("equal loads, then mass to a side", currents_a(alike, soil, *sides)),
+                 current_row("equal loads, then bogie pivots back", currents_a(alike, soil, *rows))};
   for (std::size_t k = 0; k < best.size(); ++k)
     report.cases.push_back({kNames[k], "current", "A", kMeasured_a[k], best[k]});
   report.notes = {
-      fmt::format(
-          "The centre of mass that explains the sides and the front: {:+.0f} mm forward, {:+.0f} mm to the "
-          "left of the file's, which alone leaves {:.1f} %.",
-          1e3 * centre->com_x_m, 1e3 * centre->com_y_m, 100.0 * mean_abs_error(shifted)),
-      fmt::format(
-          "No centre of mass unloads the middle wheels of a rocker-bogie: that takes the bogies' pivots "
-          "{:.0f} mm farther back than the file's assumed place (then {:+.0f} mm forward, {:+.0f} mm left). "
-          "The "
-          "flight geometry is not published; three numbers and a gain stand against six currents.",
-          -1e3 * both->bogie_x_m, 1e3 * both->com_x_m, 1e3 * both->com_y_m),
-      fmt::format("What explains more, each alone, from wheels that carry alike: the middle row's deficit "
-                  "(bogie pivots {:.0f} mm back) takes away {:.0f} % of the squared errors, mass {:.0f} mm "
-                  "to the left {:.0f} %; pivots and mass forward or back together {:.0f} %.",
+      fmt::format("A centre of mass {:+.0f} mm forward and {:+.0f} mm to the left of the file's explains "
+                  "the differences between the sides and of the front; alone it leaves {:.1f} %.",
+                  1e3 * centre->com_x_m, 1e3 * centre->com_y_m, 100.0 * mean_abs_error(shifted)),
+      fmt::format("No centre of mass unloads the middle wheels of a rocker-bogie. This needs the bogies' "
+                  "pivots {:.0f} mm farther back than the file's assumed place (then the centre of mass is "
+                  "{:+.0f} mm forward and {:+.0f} mm left). The flight geometry is not published; three "
+                  "numbers and a gain are fitted to six currents.",
+                  -1e3 * both->bogie_x_m, 1e3 * both->com_x_m, 1e3 * both->com_y_m),
+      fmt::format("Each cause alone, starting from equally loaded wheels: the middle row's deficit (bogie "
+                  "pivots {:.0f} mm back) removes {:.0f} % of the squared errors, mass {:.0f} mm to the "
+                  "left removes {:.0f} %, and pivots and mass forward or back together remove {:.0f} %.",
                   -1e3 * rows->bogie_x_m, of_rows, 1e3 * sides->com_y_m, of_sides, of_fore_aft),
-      "The gain from torque to current is calibrated on the measured mean: the paper's constant lacks a gear "
-      "ratio."};
+      "The gain from torque to current is calibrated on the measured mean, since the paper's "
+      "constant lacks a gear ratio."};
   report.bands = {
       {"mean absolute error, the paper's even load, %", 100.0 * mean_abs_error(even), 9.8, 10.8},
       {"mean absolute error, load split by the vehicle, %", 100.0 * mean_abs_error(best), 0.0, 5.0},
@@ -269,8 +275,8 @@ Result<Report> zhurong_pull(const std::filesystem::path& data) {
     const sim::Soil soil = on_earth(catalogue->soils.find(point.soil)->second.mean);
     const double bare = six_wheel_pull_n(soil, load_n, point.slip, 0.0).value_or(0.0);
     const double pushed = six_wheel_pull_n(soil, load_n, point.slip, 1.0).value_or(0.0);
-    const auto error = [&](double ours) {
-      return fmt::format("{:+.0f} %", 100.0 * (ours / point.pull_n - 1.0));
+    const auto error = [&](double predicted) {
+      return fmt::format("{:+.0f} %", 100.0 * (predicted / point.pull_n - 1.0));
     };
     report.rows.push_back({point.soil, fmt::format("{:.2f}", point.slip), fmt::format("{:.0f}", point.pull_n),
                            fmt::format("{:.0f}", bare), error(bare), fmt::format("{:.0f}", pushed),
@@ -282,14 +288,12 @@ Result<Report> zhurong_pull(const std::filesystem::path& data) {
                               100.0 * (pushed / point.pull_n - 1.0), -10.0, 10.0});
   }
   report.notes = {
-      "At the low end the balanced wheels push back where the vehicle pulled: their compaction resistance, "
-      "about 45 N "
-      "a wheel, is more than the measured vehicle can have had. The paper's wheels have lugs and dense "
-      "simulant "
-      "rebounds; neither K nor an exit angle was measured on the vehicle, and none is fitted here.",
-      "The front pair alone pushes soil before it, by the whole passive pressure (effect bulldozing); the "
-      "followers "
-      "run in its tracks."};
+      "At the low end the balanced wheels resist where the vehicle pulled: their compaction "
+      "resistance, about 45 N a wheel, is more than the measured vehicle can have had. The paper's "
+      "wheels have lugs, and dense simulant rebounds; neither K nor an exit angle was measured on "
+      "the vehicle, and none is fitted here.",
+      "Only the front pair pushes soil ahead, by the whole passive pressure (effect bulldozing); "
+      "the following wheels run in its tracks."};
   report.plot = pull_plot(*catalogue, load_n, report.title);
   return report;
 }

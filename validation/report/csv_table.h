@@ -12,9 +12,9 @@ namespace slipway::validation {
 // A CSV file with one header line, without quotes.
 class CsvTable {
  public:
-  // Every cell of `numbers` must be a finite number, of `numbers_or_empty` also nothing; `texts` must be
-  // there. Columns of `numbers_if_there` may be absent, their cells empty. Errors: unreadable_data with every
-  // fault ("/LINE", "/COLUMN", "/LINE/COLUMN").
+  // Every cell of the columns `numbers` must be a finite number; cells of `numbers_or_empty` may also be
+  // empty. The columns `texts` must be present. Columns of `numbers_if_there` may be absent, and their cells
+  // may be empty. Errors: unreadable_data with every fault ("/LINE", "/COLUMN", "/LINE/COLUMN").
   struct Columns {
     std::vector<std::string> numbers, numbers_or_empty, texts, numbers_if_there = {};
   };
@@ -24,7 +24,7 @@ class CsvTable {
   const std::string& text(std::size_t row, std::string_view column) const;
   bool has(std::string_view column) const;
   bool empty(std::size_t row, std::string_view column) const { return text(row, column).empty(); }
-  double number(std::size_t row, std::string_view column) const;  // of a column that was asked to hold them
+  double number(std::size_t row, std::string_view column) const;  // the column must be one of numbers
   // A whole column.
   std::vector<double> numbers(std::string_view column) const;
 

@@ -8,8 +8,8 @@
 namespace slipway::validation {
 namespace {
 
-// A rounded zero has no sign: which one it came from is the last bit's to say, and that differs between
-// machines.
+// A value that is rounded to zero is printed without a sign, since its sign depends on the last bit, which
+// differs between machines.
 std::string without_signed_zeros(const std::string& text) {
   static const std::regex kSignedZero(R"((^|[ (+])[-+](0(?:\.0+)?)(?![0-9.]))");
   return std::regex_replace(text, kSignedZero, "$1$2");

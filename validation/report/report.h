@@ -6,16 +6,16 @@
 
 namespace slipway::validation {
 
-// One measured number and what this project predicts for it.
+// One measured number and its prediction.
 struct Case {
   std::string name;      // "smooth, slip 0.2"
   std::string quantity;  // "drawbar_pull"
-  std::string unit;      // "N"; "1" of what has none
+  std::string unit;      // "N"; "1" for a number without a unit
   double measured = 0.0;
-  std::optional<double> predicted;  // nothing where the data are shown before there is a prediction
+  std::optional<double> predicted;  // empty where there is no prediction of the data yet
 };
 
-// A figure and the range that it is stated to lie in.
+// A figure and the range in which it is stated to be.
 struct StatedBand {
   std::string what;  // with its unit: "rms of slip"
   double value = 0.0, lowest = 0.0, highest = 0.0;
@@ -27,13 +27,13 @@ struct StatedBand {
 struct Report {
   std::string title;
   std::string source;  // who measured or computed it
-  std::string peers;   // what others reach on the same figures; empty where nothing is known
+  std::string peers;   // results of others on the same figures; empty where none are known
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
-  std::vector<std::string> notes;  // what to make of it, misses first
+  std::vector<std::string> notes;  // the interpretation, misses first
   std::vector<StatedBand> bands;
   std::vector<Case> cases;
-  std::string plot;  // an SVG document; empty where a picture says no more than the table
+  std::string plot;  // an SVG document; empty where a picture would show no more than the table
 
   bool holds() const;
   std::string markdown() const;

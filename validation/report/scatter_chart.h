@@ -7,7 +7,8 @@
 
 namespace slipway::validation {
 
-// Predicted against measured, one point each, with the line where they agree. quantity: with its unit.
+// Predicted against measured values, with the line where they agree. quantity is the axis title with its
+// unit.
 api::Chart scatter_chart(const std::string& quantity, const std::vector<double>& measured,
                          const std::vector<double>& predicted);
 

@@ -7,12 +7,6 @@
 
 namespace slipway::validation {
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
-
 double median_abs(std::vector<double> values) {
   if (values.empty()) return 0.0;
   for (double& v : values) v = std::abs(v);

@@ -11,9 +11,7 @@
 
 namespace slipway::validation {
 
-// Of an even count the mean of the two in the middle. Values not empty.
-double median(std::vector<double> values);
-// The median of absolute values; 0 of nothing.
+// The median of absolute values; 0 where there are no values.
 double median_abs(std::vector<double> values);
 
 struct Agreement {
@@ -28,8 +26,8 @@ struct Interval {
 };
 
 // Percentile bootstrap of the median with whole groups resampled [Efron 1979; Cameron, Gelbach and Miller
-// 2008], so that what is correlated within a drive is not counted twice. groups: the values of each drive,
-// none empty. level in (0, 1). The same seed gives the same interval.
+// 2008], so that values correlated within a drive are not counted as independent. groups has the values of
+// each drive, at least one each; level is in (0, 1). The same seed gives the same interval.
 Interval median_interval_by_group(const std::vector<std::vector<double>>& groups, double level, int draws,
                                   std::uint64_t seed);
 

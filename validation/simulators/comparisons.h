@@ -12,8 +12,8 @@ namespace slipway::validation {
 // Errors: unreadable_data, where a file is missing or is not as expected.
 Result<Report> kernel_cross_check(const std::filesystem::path& data);
 Result<Report> independent_simulator(const std::filesystem::path& data);
-Result<Report> rungs(const std::filesystem::path& data);
-Result<Report> dynamic_rung(const std::filesystem::path& data);
+Result<Report> table_level(const std::filesystem::path& data);
+Result<Report> dynamic_level(const std::filesystem::path& data);
 Result<Report> sealed_campaigns(const std::filesystem::path& data);
 
 }  // namespace slipway::validation

@@ -27,7 +27,8 @@ struct Straight {
   double to_x_m = 0.0, to_y_m = 0.0;
 };
 
-// Anywhere on the terrain in any direction, where the ground is known and no steeper than the limit.
+// Straight lines anywhere on the terrain in any direction, where the ground is known and no steeper than the
+// limit.
 std::vector<Straight> straights_on(const dem::Terrain& terrain) {
   std::vector<Straight> routes;
   const dem::Extent grid = terrain.geometry().extent();
@@ -71,8 +72,8 @@ void add_row(const Straight& route, const sim::DrivePrediction& balance,
 
 }  // namespace
 
-// The dynamic rung against the quasi-static one along straight drives on real terrain.
-Result<Report> dynamic_rung(const std::filesystem::path& data) {
+// Compares the dynamic level with the quasi-static one along straight drives on real terrain.
+Result<Report> dynamic_level(const std::filesystem::path& data) {
   const auto catalogue = api::load_catalogue(data);
   if (!catalogue) return fail(catalogue.error());
   const auto source = dem::open_elevation((data / "terrains/gale/elevation.tif").string());
@@ -80,14 +81,14 @@ Result<Report> dynamic_rung(const std::filesystem::path& data) {
   const auto terrain = (*source)->read((*source)->info().geometry.extent());
   if (!terrain) return fail(terrain.error());
   Report report;
-  report.title = "The dynamic rung against the quasi-static rung";
+  report.title = "The dynamic level against the quasi-static level";
   report.source =
       "this project's own quasi-static solver, along ten straight drives of 25 m on the Marias Pass DEM";
   report.columns = {"route",
                     "end",
                     "steepest tilt deg",
-                    "mean slip, balance",
-                    "dynamic less balance",
+                    "mean slip, quasi-static",
+                    "dynamic less quasi-static",
                     "mean, unsigned",
                     "largest",
                     "sinkage mm",
@@ -120,13 +121,11 @@ Result<Report> dynamic_rung(const std::filesystem::path& data) {
       {"mean difference of the deepest wheel's sinkage, unsigned, m", sinkage, 0.0, 0.001});
   report.bands.push_back({"mean difference of the largest current, unsigned, A", current, 0.0, 0.03});
   report.notes.push_back(
-      "Where they part: the balance holds the rover's heading by assumption, the dynamics steers for it, so "
-      "that on "
-      "side slopes it drives at a small angle to its way; a wheel's slip follows a change of ground over the "
-      "length "
-      "of its contact; the dynamics looks at the ground in three points under each wheel; and near the "
-      "traction "
-      "limit, where a little more load asks for much more slip, all of this is magnified.");
+      "Reasons for the differences: the balance assumes the rover's heading, while the dynamic "
+      "rover steers to hold it, so that on side slopes it drives at a small angle to its path; a "
+      "wheel's slip follows a change of ground over the length of its contact; the dynamic level "
+      "reads the ground at three points under each wheel; and near the traction limit, where a "
+      "little more load needs much more slip, all of this is magnified.");
   return report;
 }
 

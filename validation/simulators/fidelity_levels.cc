@@ -18,13 +18,14 @@ constexpr double kCurrentBand = 0.01, kEnergyBand = 0.03;
 constexpr int kPitches = 44, kRolls = 28;
 const double kTableLimit_rad = rad_from_deg(30.0), kTableStep_rad = rad_from_deg(2.5);
 
-// Both rungs at one attitude between the table's nodes.
+// Both levels at one attitude between the table's nodes.
 struct Attempt {
   sim::StationState exact;
   sim::TableEntry entry;
   double energy_j_m = 0.0;
 
-  // Neither stuck nor sliding down across its heading faster than it drives along it: what the table knows.
+  // Whether the table covers the attitude: the rover is not stuck and does not slide down across its heading
+  // faster than it drives along it.
   bool gets_ahead() const {
     return exact.moving() && std::abs(exact.leftward_m_s) < exact.forward_m_s && !entry.immobile;
   }
@@ -50,8 +51,8 @@ std::vector<Attempt> attempts_on(const sim::RoverModel& rover, double gravity_m_
   return attempts;
 }
 
-// The largest differences of the table. Sinkage is compared with its value; current and energy, which pass
-// through nothing downhill, with the largest that is met where they are less than a tenth of it.
+// The maximum differences of the table. Sinkage is relative to its value. Current and energy pass through 0
+// downhill; where they are less than a tenth of their maximum, they are relative to that maximum.
 struct Differences {
   int attitudes = 0;
   double slip = 0.0, slip_rms = 0.0, side_slip_deg = 0.0, sinkage = 0.0, current = 0.0, energy = 0.0;
@@ -103,7 +104,7 @@ void compare(const std::string& name, const std::vector<Attempt>& attempts, doub
   band("largest difference of energy per metre, share", d.energy, kEnergyBand);
 }
 
-// Attitudes at which the two disagree on whether the rover gets ahead.
+// Counts the attitudes at which the two disagree on whether the rover makes headway.
 void compare_limits(const std::string& name, const std::vector<Attempt>& attempts, Report& report) {
   int wrong = 0;
   for (const Attempt& a : attempts) {
@@ -139,12 +140,12 @@ std::string error_map(const std::vector<Attempt>& attempts) {
 
 }  // namespace
 
-// The table rung against the quasi-static one, between the nodes where it is worst.
-Result<Report> rungs(const std::filesystem::path& data) {
+// Compares the table level with the quasi-static one between the nodes, where the table is worst.
+Result<Report> table_level(const std::filesystem::path& data) {
   const auto catalogue = api::load_catalogue(data);
   if (!catalogue) return fail(catalogue.error());
   Report report;
-  report.title = "The table rung against the quasi-static rung";
+  report.title = "The table level against the quasi-static level";
   report.source =
       "this project's own quasi-static solver, at attitudes between the table's nodes (2.5 deg apart in "
       "roll)";
@@ -175,11 +176,9 @@ Result<Report> rungs(const std::filesystem::path& data) {
     }
   }
   report.notes.push_back(
-      "The table ends where the rover no longer gets ahead: where it slides down across its heading faster "
-      "than "
-      "it drives along it, or its wheels spin. Beyond, it says immobile; the quasi-static rung often still "
-      "finds "
-      "a motion there, mostly sideways.");
+      "The table ends where the rover makes no more headway: where it slides down across its "
+      "heading faster than it drives along it, or its wheels spin. Beyond, the table says "
+      "immobile, while the quasi-static level often still finds a motion there, mostly sideways.");
   return report;
 }
 

@@ -38,6 +38,19 @@ Result<CsvTable> read(const std::filesystem::path& data) {
   return CsvTable::read(data / "validation" / "practice_p01_drives.csv", columns);
 }
 
+// The report with its title, source and columns, without rows.
+Report independent_simulator_report() {
+  Report report;
+  report.title = "The quasi-static rover against another rover simulator";
+  report.source =
+      "35 straight drives of the practice campaign p01 (tilts 0 to 18 deg; up, down, across; forward and "
+      "backward) by a simulator that is not this project's, with sensor noise and soil that varies along the "
+      "drives";
+  report.columns = {"drive",     "pitch deg",           "roll deg", "slip", "predicted", "side slip deg",
+                    "predicted", "rear left current A", "predicted"};
+  return report;
+}
+
 }  // namespace
 
 Result<Report> independent_simulator(const std::filesystem::path& data) {
@@ -46,14 +59,7 @@ Result<Report> independent_simulator(const std::filesystem::path& data) {
   const auto catalogue = api::load_catalogue(data);
   if (!catalogue) return fail(catalogue.error());
   const sim::RoverModel& rover = *catalogue->rovers.at("mer-class");  // the campaign's rover
-  Report report;
-  report.title = "The quasi-static rover against another rover simulator";
-  report.source =
-      "35 straight drives of the practice campaign p01 (tilts 0 to 18 deg; up, down, across; forward and "
-      "backward) by a simulator that is not this project's, with sensor noise and soil that varies along the "
-      "drives";
-  report.columns = {"drive", "pitch deg",           "roll deg", "slip", "ours", "side slip deg",
-                    "ours",  "rear left current A", "ours"};
+  Report report = independent_simulator_report();
   Series slip, side, current, sinkage;
   double worst = 0.0;
   for (std::size_t row = 0; row < drives->rows(); ++row) {
@@ -89,9 +95,9 @@ Result<Report> independent_simulator(const std::filesystem::path& data) {
       "{:.4f} A, sinkage {:.2f} mm.",
       slip.rms(), worst, side.rms(), current.rms(), sinkage.rms()));
   report.notes.push_back(
-      "The currents part where the load is shared: here the drive torques act on the bogies, which shifts "
-      "load from the middle to the rear wheels; the other simulator loads both wheels of a bogie alike on "
-      "level ground.");
+      "The currents differ because the load is shared differently: here the drive torques act on "
+      "the bogies, which shifts load from the middle to the rear wheels, while the other simulator "
+      "loads both wheels of a bogie equally on level ground.");
   report.bands = {{"drives", static_cast<double>(drives->rows()), 35, 35},
                   {"rms of slip", slip.rms(), 0.0, 0.02},
                   {"rms of a wheel's current, A", current.rms(), 0.0, 0.04}};

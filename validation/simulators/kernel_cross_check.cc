@@ -89,8 +89,8 @@ Result<Report> kernel_cross_check(const std::filesystem::path& data) {
   report.source =
       "RoverDevKit regression rows (arXiv 2606.21755): r 0.1 m, b 0.06 m, 50 N, n 1, k_c 1.4, k_phi 820, "
       "c 1 kPa, phi 45 deg, c1 0.4, c2 0.2";
-  report.columns = {"slip", "sinkage mm, band", "ours", "pull N, band",
-                    "ours", "torque N m, band", "ours", "inside"};
+  report.columns = {"slip",      "sinkage mm, band", "predicted", "pull N, band",
+                    "predicted", "torque N m, band", "predicted", "inside"};
   for (const BandRow& row : rows) {
     const Prediction ours = predict(kShearModulus_m, row.slip);
     report.rows.push_back({fmt::format("{:.2f}", row.slip), row.sinkage_mm.words("{:.0f} to {:.0f}"),

@@ -90,7 +90,7 @@ void read_soils(ObjectReader& reader, DriveCampaignFile& file) {
     soil.soil.gravity_m_s2 = file.gravity_m_s2;
     auto parameters = object->object(name, kRequired);
     if (!parameters) continue;
-    read_soil_parameters(*parameters, kOptional, soil.soil);
+    read_campaign_soil(*parameters, kOptional, soil.soil);
     parameters->refuse_unknown();
     if (file.faults.size() > before) continue;
     check_soil(*parameters, soil.soil, file.rover.get());

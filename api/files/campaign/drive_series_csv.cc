@@ -110,6 +110,10 @@ class Reader {
       fault(1, 0, "the file is empty, must have a header and two rows at least");
       return finish();
     }
+    if (const std::size_t columns = csv_cells(lines[0].text).size(); columns > kMostColumns) {
+      fault(lines[0].number, 0, fmt::format("{} columns, must be {} at most", columns, kMostColumns));
+      return finish();
+    }
     read_header(lines[0]);
     const std::size_t rows = lines.size() - 1;
     if (rows < 2)

@@ -11,6 +11,7 @@
 #include "api/files/drive_table/campaign_documents.h"
 #include "api/files/terrain_site.h"
 #include "api/files/whole_file.h"
+#include "campaign/campaign_files.h"
 #include "campaign/deformed_terrain.h"
 #include "campaign/drive_csv.h"
 #include "dem/geotiff.h"
@@ -36,7 +37,7 @@ void delete_unfinished(const fs::path& folder) {
   for (const fs::path& place : {folder, folder / "drives", folder / "plots"}) {
     std::vector<fs::path> unfinished;
     for (fs::directory_iterator it(place, error), end; !error && it != end; it.increment(error))
-      if (it->path().extension() == kUnfinished) unfinished.push_back(it->path());
+      if (is_unfinished(it->path())) unfinished.push_back(it->path());
     for (const fs::path& path : unfinished) fs::remove(path, error);
   }
 }
@@ -56,6 +57,12 @@ Result<CampaignFolder> CampaignFolder::open(fs::path path, std::string digest, b
     return fail(ErrorCode::kConflict,
                 fmt::format("{} holds a campaign that was not made here; give another folder",
                             folder.folder_.string()));
+  if (const auto made = make_folder(folder.folder_); !made) return fail(made.error());
+  auto lock = FileLock::take(folder.folder_);
+  if (!lock)
+    return fail(lock.error().code,
+                fmt::format("{}; wait until it has ended, or give another folder", lock.error().detail));
+  folder.lock_ = *std::move(lock);
   for (const char* part : {"drives", "plots"})
     if (const auto made = make_folder(folder.folder_ / part); !made) return fail(made.error());
   delete_unfinished(folder.folder_);
@@ -120,7 +127,7 @@ Result<std::vector<std::string>> CampaignFolder::write_measurements(const campai
   for (int leg = 0; leg < legs; ++leg) {
     const auto readings = legs > 1 ? campaign::readings_of_leg(made.readings, leg) : made.readings;
     if (readings.empty()) continue;
-    files.push_back(legs > 1 ? fmt::format("{}-leg{}.csv", drive.id, leg + 1) : drive.id + ".csv");
+    files.push_back(campaign::measurement_file(table, drive, leg));
     if (const auto written = write(files.back(), campaign::drive_csv(*table.rover, readings, options));
         !written)
       return fail(written.error());
@@ -142,18 +149,18 @@ Result<void> CampaignFolder::write_drive(const campaign::DriveTable& table, cons
     if (deformed) {
       const auto raster = dem::encode_geotiff(*deformed, terrain.crs_wkt);
       if (!raster) return fail(raster.error());
-      files.push_back(drive.id + "-deformed.tif");
+      files.push_back(campaign::deformed_terrain_file(drive));
       if (const auto written = write(files.back(), *raster); !written) return written;
     }
     if (entry.plot) {
-      files.push_back("plots/" + drive.id + ".svg");
+      files.push_back(campaign::time_history_file(drive));
       const auto written =
           write(files.back(), draw_time_history(title_of(drive, made), *table.rover, made.readings));
       if (!written) return written;
     }
   }
   const campaign::DriveRecord record = campaign::record_of(table, drive, made, digest_, std::move(files));
-  return write("drives/" + drive.id + ".json", json::drive_record_document(record));
+  return write(campaign::record_file(drive), json::drive_record_document(record));
 }
 
 Result<void> CampaignFolder::write_terrains(const campaign::DriveTable& table,
@@ -166,12 +173,12 @@ Result<void> CampaignFolder::write_terrains(const campaign::DriveTable& table,
     const campaign::TableTerrain& terrain = table.terrains[t];
     const auto raster = dem::encode_geotiff(*terrain.ground, terrain.crs_wkt);
     if (!raster) return fail(raster.error());
-    if (const auto written = write(terrain.name + ".tif", *raster); !written) return written;
+    if (const auto written = write(campaign::elevation_file(terrain), *raster); !written) return written;
     if (!terrain.soil_map) continue;
     const auto classes =
         dem::encode_geotiff(*terrain.soil_map, campaign::class_elsewhere(terrain), terrain.crs_wkt);
     if (!classes) return fail(classes.error());
-    if (const auto written = write(terrain.name + "-soil.tif", *classes); !written) return written;
+    if (const auto written = write(campaign::soil_map_file(terrain), *classes); !written) return written;
   }
   return {};
 }
@@ -184,8 +191,8 @@ Result<std::vector<campaign::TerrainSummary>> CampaignFolder::conclude(
   const std::string poses = draw_final_poses(table, drives, done_);
   std::vector<std::pair<std::string, std::string>> files;
   if (!poses.empty()) {
-    files.emplace_back("plots/slip_by_terrain.svg", draw_slip_by_terrain(table, drives, done_, summaries));
-    files.emplace_back("plots/final_poses.svg", poses);
+    files.emplace_back(campaign::kSlipPlotFile, draw_slip_by_terrain(table, drives, done_, summaries));
+    files.emplace_back(campaign::kPosesPlotFile, poses);
   }
   files.emplace_back("summary.json", json::campaign_summary_document(table, drives.size(), summaries));
   files.emplace_back("campaign.json", json::campaign_document(table, drives, done_));

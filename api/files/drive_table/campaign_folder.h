@@ -2,10 +2,12 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "api/files/file_lock.h"
 #include "campaign/campaign_summary.h"
 #include "campaign/drive_record.h"
 #include "campaign/drive_table.h"
@@ -20,7 +22,8 @@ namespace slipway::api {
 class CampaignFolder {
  public:
   // Makes the folder, or finds what an earlier run of the same table has done in it. Errors: conflict where
-  // it holds a campaign of something else; with `start_over` its drives are deleted first. unwritable_file.
+  // it holds a campaign of something else (with `start_over` its drives are deleted first) or where another
+  // process makes one in it; unwritable_file.
   static Result<CampaignFolder> open(std::filesystem::path folder, std::string digest, bool start_over);
 
   // The drives that are done, by id.
@@ -51,6 +54,7 @@ class CampaignFolder {
 
   std::filesystem::path folder_;
   std::string digest_;
+  std::optional<FileLock> lock_;  // of the folder, while this lives
   std::map<std::string, campaign::DriveRecord> done_;
   std::vector<std::string> notes_;
 };

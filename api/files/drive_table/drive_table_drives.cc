@@ -20,7 +20,7 @@ void read_turn(ObjectReader& reader, const sim::RoverModel& rover, sim::DriveLeg
   double rate_rad_s = rover.turn_rate_rad_s;
   leg.command.turn_in_place = true;
   reader.angle_deg("turn_deg", kRequired, {"deg", -3600.0, 3600.0}, turn_rad);
-  reader.angle_deg("turn_rate_deg_s", kOptional, {"deg/s", 0.0, 100.0, true}, rate_rad_s);
+  reader.angle_deg("turn_rate_deg_s", kOptional, {"deg/s", 1e-3, 100.0}, rate_rad_s);
   if (turn_rad == 0.0) reader.fault("turn_deg", "turn_deg = 0 deg, must turn somewhere");
   leg.turn_rad = std::abs(turn_rad);
   leg.command.turn_rate_rad_s = std::copysign(rate_rad_s, turn_rad);
@@ -31,7 +31,7 @@ void read_way(ObjectReader& reader, const sim::RoverModel& rover, sim::DriveLeg&
   double speed_m_s = rover.cruise_speed_m_s;
   bool backwards = false;
   reader.number("length_m", kRequired, {"m", 0.0, 10'000.0, true}, leg.length_m);
-  reader.number("speed_m_s", kOptional, {"m/s", 0.0, 5.0, true}, speed_m_s);
+  reader.number("speed_m_s", kOptional, {"m/s", 1e-4, 5.0}, speed_m_s);
   reader.boolean("backwards", kOptional, backwards);
   reader.number("curvature_1_m", kOptional, {"1/m", -10.0, 10.0}, leg.command.curvature_1_m);
   reader.angle_deg("crab_deg", kOptional, {"deg", -90.0, 90.0}, leg.command.crab_rad);

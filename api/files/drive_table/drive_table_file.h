@@ -11,8 +11,9 @@
 
 namespace slipway::api::json {
 
-// Reads a table of drives ("campaign-table/1", docs/campaigns.md) against what the service ships; elevation
-// files are looked for in `folder`. All faults together, those of campaign::faults_of too: invalid_request.
+// Reads a table of drives ("campaign-table/1", docs/guide/campaigns.md) against what the service ships;
+// elevation files are looked for in `folder`. All faults together, those of campaign::faults_of too:
+// invalid_request.
 Result<campaign::DriveTable> read_campaign_table(std::string_view bytes, const std::filesystem::path& folder,
                                                  const Catalogue& catalogue);
 

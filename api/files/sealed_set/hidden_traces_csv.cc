@@ -19,7 +19,8 @@ using Traces = std::map<std::string, std::vector<gap::HiddenTrace>>;
 
 std::vector<std::string> column_names() {
   std::vector<std::string> names{"campaign", "drive"};
-  for (int v = 0; v < gap::kWindowVariables; ++v) names.emplace_back(gap::variable_name(v));
+  for (int v = 0; v < gap::kWindowVariables; ++v)
+    names.emplace_back(gap::name_of(static_cast<gap::WindowVariable>(v)));
   for (std::size_t c = 0; c < gap::channel_count(); ++c)
     names.push_back(fmt::format("{}_mean_square", gap::name_of(static_cast<gap::Channel>(c))));
   return names;

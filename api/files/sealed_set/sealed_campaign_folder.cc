@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "api/files/drive_table/campaign_documents.h"
+#include "api/files/file_lock.h"
 #include "api/files/terrain_site.h"
 #include "api/files/whole_file.h"
 #include "api/json/writer.h"
@@ -31,7 +32,6 @@ std::string made_document(const SealedSet& folder) {
 
 // Empty, or begun by the same call.
 Result<void> claim(const SealedSet& folder) {
-  if (const auto made = make_folder(folder.path); !made) return made;
   const fs::path mark = folder.path / "made.json";
   std::error_code error;
   if (fs::is_empty(folder.path, error)) return write_whole_file(mark, made_document(folder));
@@ -112,6 +112,9 @@ std::string answers_document(std::span<const SealedCampaign> campaigns) {
 
 Result<void> make_sealed_folder(const SealedSet& folder, std::span<const campaign::SealedCampaign> campaigns,
                                 std::size_t threads, const SealedTaker& taker, Progress& progress) {
+  if (const auto made = make_folder(folder.path); !made) return made;
+  const auto lock = FileLock::take(folder.path);
+  if (!lock) return fail(lock.error());
   if (const auto claimed = claim(folder); !claimed) return claimed;
   std::error_code error;
   std::size_t count = 0;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include "core/angle.h"
@@ -15,11 +16,9 @@
 namespace slipway::gap {
 namespace {
 
-constexpr int kFunctions = 5;
-
-std::array<double, kFunctions> functions_of(const WindowVariables& v) {
-  return {1.0, v.slope_deg / 10.0, std::clamp(v.slip, -1.0, 1.0), v.speed_m_s < 0.0 ? -1.0 : 1.0,
-          v.temperature_c / 30.0};
+std::array<double, kBiasFunctions> functions_of(const WindowVariables& v, const LocationOptions& options) {
+  return {1.0, v.slope_deg / options.slope_scale_deg, std::clamp(v.slip, -1.0, 1.0),
+          v.speed_m_s < 0.0 ? -1.0 : 1.0, v.temperature_c / options.temperature_scale_c};
 }
 
 // Of each window and channel: the mean square of residuals in deviations.
@@ -55,6 +54,80 @@ std::vector<std::size_t> drives_of(const PreparedCampaign& prepared) {
   return drives;
 }
 
+// What a channel of one wheel (or of the rover) has in all windows.
+struct ChannelSums {
+  Channel channel = Channel::kSlip;
+  int wheel = -1;
+  double square = 0.0, noise = 0.0, sum = 0.0;
+  int count = 0;
+};
+
+// By channel and wheel, in their order, with the drives' sums beside.
+struct SummedChannels {
+  std::vector<ChannelSums> sums;
+  std::vector<DriveSums> drives;
+};
+
+SummedChannels sum_channels(const PreparedCampaign& prepared, const DriveCampaign& campaign,
+                            const Eigen::VectorXd& residuals, const LocationOptions& options) {
+  const std::vector<WindowVariables> variables = window_variables(prepared, campaign);
+  std::map<std::pair<int, int>, std::pair<ChannelSums, DriveSums>> groups;
+  for (std::size_t w = 0; w < prepared.windows.size(); ++w) {
+    for (std::size_t i = 0; i < prepared.windows[w].observations.size(); ++i) {
+      const Observation& o = prepared.windows[w].observations[i];
+      const auto row = static_cast<Eigen::Index>(prepared.model->offset(w) + i);
+      const double deviation = prepared.noise->deviation()[row];
+      if (deviation <= 0.0 || !std::isfinite(residuals[row])) continue;
+      if (prepared.windows[w].censored && o.channel == Channel::kSlip) continue;
+      auto& [sums, drives] = groups[{static_cast<int>(o.channel), o.wheel}];
+      sums.channel = o.channel;
+      sums.wheel = o.wheel;
+      sums.square += residuals[row] * residuals[row];
+      sums.noise += deviation * deviation;
+      sums.sum += residuals[row];
+      ++sums.count;
+      const auto f = functions_of(variables[w], options);
+      auto& of_drive = drives[prepared.windows[w].drive];
+      for (int k = 0; k < kBiasFunctions; ++k) of_drive[k] += residuals[row] / deviation * f[k];
+    }
+  }
+  SummedChannels summed;
+  for (auto& [name, group] : groups) {
+    summed.sums.push_back(group.first);
+    summed.drives.push_back(std::move(group.second));
+  }
+  return summed;
+}
+
+// A disc with the windows in it.
+struct FilledDisc {
+  FoundPlace place;
+  Slice slice;
+};
+
+// Nothing where the disc is no place: too few windows or drives, or where most windows are.
+std::optional<FilledDisc> filled(std::span<const PlacedWindow> windows, const PlacedWindow& centre,
+                                 double radius_m, const ChannelSquares& of, double sum,
+                                 const LocationOptions& options) {
+  FilledDisc disc;
+  disc.place = {centre.terrain, centre.x_m, centre.y_m, radius_m, 0.0, 0.0, of.channel};
+  std::set<std::size_t> drives;
+  for (std::size_t v = 0; v < windows.size(); ++v) {
+    const PlacedWindow& at = windows[v];
+    if (at.terrain != centre.terrain || std::hypot(at.x_m - centre.x_m, at.y_m - centre.y_m) > radius_m)
+      continue;
+    disc.slice.windows.push_back(v);
+    drives.insert(at.drive);
+    disc.place.share += of.squares[v] / sum;
+  }
+  const std::size_t count = disc.slice.windows.size();
+  if (count < static_cast<std::size_t>(options.min_place_windows) ||
+      drives.size() < static_cast<std::size_t>(options.min_place_drives) ||
+      static_cast<std::size_t>(options.max_place_one_in) * count > windows.size())
+    return std::nullopt;
+  return disc;
+}
+
 }  // namespace
 
 std::vector<WindowVariables> window_variables(const PreparedCampaign& prepared,
@@ -78,68 +151,49 @@ std::vector<WindowVariables> window_variables(const PreparedCampaign& prepared,
   return all;
 }
 
+double largest_t(const DriveSums& drives, const std::function<double(std::size_t drive)>& sign) {
+  double most = 0.0;
+  for (int k = 0; k < kBiasFunctions; ++k) {
+    double sum = 0.0, square = 0.0;
+    for (const auto& [drive, sums] : drives) {
+      sum += sign(drive) * sums[k];
+      square += sums[k] * sums[k];
+    }
+    if (square > 0.0) most = std::max(most, std::abs(sum) / std::sqrt(square));
+  }
+  return most;
+}
+
+std::vector<double> sign_flip_significance(std::span<const DriveSums> groups, int resamples,
+                                           std::uint64_t seed, const std::function<bool()>& cancelled) {
+  std::vector<double> flipped(static_cast<std::size_t>(resamples), 0.0);
+  for (std::size_t b = 0; b < flipped.size(); ++b) {
+    if (cancelled()) return {};
+    const std::uint64_t key = random_key(seed, 1000 + b);
+    const auto sign = [key](std::size_t drive) { return random_uniform(key, drive) < 0.5 ? -1.0 : 1.0; };
+    for (const DriveSums& drives : groups) flipped[b] = std::max(flipped[b], largest_t(drives, sign));
+  }
+  std::vector<double> significance;
+  for (const DriveSums& drives : groups)
+    significance.push_back(p_of_permutations(largest_t(drives, [](std::size_t) { return 1.0; }), flipped));
+  return significance;
+}
+
 std::vector<ChannelGap> channel_gaps(const PreparedCampaign& prepared, const DriveCampaign& campaign,
                                      const Eigen::VectorXd& residuals, const DiagnosisOptions& options) {
-  struct Group {
-    Channel channel;
-    int wheel;
-    double square = 0.0, noise = 0.0, sum = 0.0;
-    int count = 0;
-    std::map<std::size_t, std::array<double, kFunctions>> drives;  // sums of residual times function
-  };
-  const std::vector<WindowVariables> variables = window_variables(prepared, campaign);
-  std::map<std::pair<int, int>, Group> groups;
-  for (std::size_t w = 0; w < prepared.windows.size(); ++w) {
-    for (std::size_t i = 0; i < prepared.windows[w].observations.size(); ++i) {
-      const Observation& o = prepared.windows[w].observations[i];
-      const auto row = static_cast<Eigen::Index>(prepared.model->offset(w) + i);
-      const double deviation = prepared.noise->deviation()[row];
-      if (deviation <= 0.0 || !std::isfinite(residuals[row])) continue;
-      if (prepared.windows[w].censored && o.channel == Channel::kSlip) continue;
-      Group& g =
-          groups
-              .try_emplace({static_cast<int>(o.channel), o.wheel}, Group{o.channel, o.wheel, 0, 0, 0, 0, {}})
-              .first->second;
-      g.square += residuals[row] * residuals[row];
-      g.noise += deviation * deviation;
-      g.sum += residuals[row];
-      ++g.count;
-      const auto f = functions_of(variables[w]);
-      auto& sums = g.drives[prepared.windows[w].drive];
-      for (int k = 0; k < kFunctions; ++k) sums[k] += residuals[row] / deviation * f[k];
-    }
-  }
-  // |t| of each group's sums over drives, with the drives' signs as given.
-  const auto largest_t = [](const Group& g, const auto& sign) {
-    double most = 0.0;
-    for (int k = 0; k < kFunctions; ++k) {
-      double sum = 0.0, square = 0.0;
-      for (const auto& [drive, sums] : g.drives) {
-        sum += sign(drive) * sums[k];
-        square += sums[k] * sums[k];
-      }
-      if (square > 0.0) most = std::max(most, std::abs(sum) / std::sqrt(square));
-    }
-    return most;
-  };
-  std::vector<double> flipped(static_cast<std::size_t>(options.resamples), 0.0);
-  for (std::size_t b = 0; b < flipped.size(); ++b) {
-    if (prepared.model->cancelled()) return {};
-    const std::uint64_t key = random_key(options.seed, 1000 + b);
-    const auto sign = [key](std::size_t drive) { return random_uniform(key, drive) < 0.5 ? -1.0 : 1.0; };
-    for (const auto& [name, g] : groups) flipped[b] = std::max(flipped[b], largest_t(g, sign));
-  }
+  const SummedChannels summed = sum_channels(prepared, campaign, residuals, options.location);
+  const std::vector<double> significance = sign_flip_significance(
+      summed.drives, options.resamples, options.seed, [&] { return prepared.model->cancelled(); });
   std::vector<ChannelGap> gaps;
-  for (const auto& [name, g] : groups) {
+  for (std::size_t i = 0; i < significance.size(); ++i) {
+    const ChannelSums& sums = summed.sums[i];
     ChannelGap gap;
-    gap.channel = g.channel;
-    if (g.wheel >= 0) gap.wheel = campaign.rover->wheels[static_cast<std::size_t>(g.wheel)].name;
-    gap.gap = std::sqrt(g.square / g.count);
-    gap.noise = std::sqrt(g.noise / g.count);
-    gap.bias = g.sum / g.count;
-    const double t = largest_t(g, [](std::size_t) { return 1.0; });
-    const auto above = std::count_if(flipped.begin(), flipped.end(), [t](double f) { return f >= t; });
-    gap.significance = (1.0 + static_cast<double>(above)) / (1.0 + static_cast<double>(flipped.size()));
+    gap.channel = sums.channel;
+    if (sums.wheel >= 0) gap.wheel = campaign.rover->wheels[static_cast<std::size_t>(sums.wheel)].name;
+    gap.gap = std::sqrt(sums.square / sums.count);
+    gap.noise = std::sqrt(sums.noise / sums.count);
+    gap.bias = sums.sum / sums.count;
+    gap.significance = significance[i];
     gaps.push_back(gap);
   }
   return gaps;
@@ -147,85 +201,78 @@ std::vector<ChannelGap> channel_gaps(const PreparedCampaign& prepared, const Dri
 
 std::vector<Regime> regimes_of(const PreparedCampaign& prepared, const DriveCampaign& campaign,
                                const Eigen::VectorXd& residuals, LookedAt looked_at,
-                               const DiagnosisOptions& options, std::size_t most) {
-  const std::vector<Slice> slices = slices_of(window_variables(prepared, campaign));
+                               const DiagnosisOptions& options) {
+  const std::vector<Slice> slices = slices_of(window_variables(prepared, campaign), options.slices);
   return regimes_in(slices, channel_squares(prepared, residuals), drives_of(prepared), looked_at, options,
-                    most, [&] { return prepared.model->cancelled(); });
+                    [&] { return prepared.model->cancelled(); });
 }
 
-std::vector<ChannelShare> channel_shares(const PreparedCampaign& prepared, const Eigen::VectorXd& residuals) {
-  return shares_of(channel_squares(prepared, residuals));
+std::vector<ChannelShare> channel_shares(const PreparedCampaign& prepared, const Eigen::VectorXd& residuals,
+                                         const DiagnosisOptions& options) {
+  return shares_of(channel_squares(prepared, residuals), options);
+}
+
+std::vector<FoundPlace> places_in(std::span<const PlacedWindow> windows, const ChannelSquares& of,
+                                  const DiagnosisOptions& options, const std::function<bool()>& cancelled) {
+  const double sum = std::accumulate(of.squares.begin(), of.squares.end(), 0.0);
+  const Excess excess(of.squares);
+  if (excess.variance() <= 0.0 || excess.mean() < 1.0) return {};
+  std::vector<FilledDisc> discs;
+  std::vector<std::size_t> drive_of;
+  for (const PlacedWindow& window : windows) {
+    drive_of.push_back(window.drive);
+    if (!window.used) continue;
+    for (const double radius_m : options.location.place_radii_m)
+      if (auto disc = filled(windows, window, radius_m, of, sum, options.location)) {
+        disc->place.excess = excess(of.squares, disc->slice);
+        discs.push_back(std::move(*disc));
+      }
+  }
+  std::vector<double> by_chance(permutation_count(options), 0.0);
+  for (std::size_t b = 0; b < by_chance.size(); ++b) {
+    if (cancelled()) return {};
+    std::vector<double> permuted;
+    for (const std::size_t w : reordered(drive_of, random_key(options.seed, 9000 + b)))
+      permuted.push_back(of.squares[w]);
+    for (const FilledDisc& disc : discs) by_chance[b] = std::max(by_chance[b], excess(permuted, disc.slice));
+  }
+  std::vector<FoundPlace> found;
+  for (const FilledDisc& disc : discs)
+    if (p_of_permutations(disc.place.excess, by_chance) < options.location.max_place_significance)
+      found.push_back(disc.place);
+  return found;
 }
 
 std::vector<GapPlace> gap_places(const PreparedCampaign& prepared, const DriveCampaign& campaign,
                                  const Eigen::VectorXd& residuals, const DiagnosisOptions& options) {
-  constexpr std::array kRadii_m{1.5, 3.0};
-  struct Disc {
-    GapPlace place;
-    double excess = 0.0;
-    Slice slice;
-  };
-  std::vector<Disc> found;
-  const std::vector<std::size_t> drive_of = drives_of(prepared);
+  std::vector<PlacedWindow> windows;
+  for (std::size_t w = 0; w < prepared.windows.size(); ++w) {
+    const DriveWindow& window = prepared.windows[w];
+    const Pose2& middle = window.stations[window.stations.size() / 2];
+    windows.push_back({campaign.drives[window.drive].terrain, window.drive, middle.x_m, middle.y_m,
+                       prepared.model->used(w)});
+  }
+  const auto cancelled = [&] { return prepared.model->cancelled(); };
+  std::vector<FoundPlace> found;
   for (std::size_t c = 0; c < channel_count(); ++c) {
+    if (cancelled()) return {};
     const auto channel = static_cast<Channel>(c);
     if (!row_of(channel).located) continue;
-    const std::vector<double> squares = squares_of(prepared, residuals, channel);
-    const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
-    const Excess excess(squares);
-    if (excess.variance() <= 0.0 || excess.mean() < 1.0) continue;
-    std::vector<Disc> discs;
-    for (std::size_t w = 0; w < prepared.windows.size(); ++w) {
-      if (!prepared.model->used(w)) continue;
-      const std::size_t terrain = campaign.drives[prepared.windows[w].drive].terrain;
-      const Pose2& centre = prepared.windows[w].stations[prepared.windows[w].stations.size() / 2];
-      for (const double radius_m : kRadii_m) {
-        Disc disc{{campaign.terrains[terrain].name, centre.x_m, centre.y_m, radius_m, channel, 0.0}, 0.0, {}};
-        std::set<std::size_t> drives;
-        for (std::size_t v = 0; v < prepared.windows.size(); ++v) {
-          const Pose2& at = prepared.windows[v].stations[prepared.windows[v].stations.size() / 2];
-          if (campaign.drives[prepared.windows[v].drive].terrain != terrain ||
-              std::hypot(at.x_m - centre.x_m, at.y_m - centre.y_m) > radius_m)
-            continue;
-          disc.slice.windows.push_back(v);
-          drives.insert(prepared.windows[v].drive);
-          disc.place.share_of_gap += squares[v] / sum;
-        }
-        // A place is one that several drives met, and that is not where they all are.
-        if (disc.slice.windows.size() < 3 || drives.size() < 2 ||
-            3 * disc.slice.windows.size() > squares.size())
-          continue;
-        disc.excess = excess(squares, disc.slice);
-        discs.push_back(std::move(disc));
-      }
-    }
-    std::vector<double> by_chance(static_cast<std::size_t>(options.resamples) / 4 + 1, 0.0);
-    for (std::size_t b = 0; b < by_chance.size(); ++b) {
-      if (prepared.model->cancelled()) return {};
-      std::vector<double> permuted;
-      for (const std::size_t w : reordered(drive_of, random_key(options.seed, 9000 + b)))
-        permuted.push_back(squares[w]);
-      for (const Disc& disc : discs) by_chance[b] = std::max(by_chance[b], excess(permuted, disc.slice));
-    }
-    for (Disc& disc : discs) {
-      const auto above =
-          std::count_if(by_chance.begin(), by_chance.end(), [&](double x) { return x >= disc.excess; });
-      if ((1.0 + static_cast<double>(above)) / (1.0 + static_cast<double>(by_chance.size())) < 0.05)
-        found.push_back(std::move(disc));
-    }
+    const ChannelSquares of{channel, squares_of(prepared, residuals, channel)};
+    for (const FoundPlace& place : places_in(windows, of, options, cancelled)) found.push_back(place);
   }
   std::stable_sort(found.begin(), found.end(),
-                   [](const Disc& a, const Disc& b) { return a.excess > b.excess; });
+                   [](const FoundPlace& a, const FoundPlace& b) { return a.excess > b.excess; });
   std::vector<GapPlace> places;
-  for (const Disc& disc : found) {
-    if (places.size() >= 5) break;
+  for (const FoundPlace& place : found) {
+    if (places.size() >= static_cast<std::size_t>(options.location.max_places)) break;
+    const std::string& terrain = campaign.terrains[place.terrain].name;
     if (std::any_of(places.begin(), places.end(), [&](const GapPlace& p) {
-          return p.terrain == disc.place.terrain &&
-                 std::hypot(p.x_m - disc.place.x_m, p.y_m - disc.place.y_m) <
-                     p.radius_m + disc.place.radius_m;
+          return p.terrain == terrain &&
+                 std::hypot(p.x_m - place.x_m, p.y_m - place.y_m) < p.radius_m + place.radius_m;
         }))
       continue;
-    places.push_back(disc.place);
+    places.push_back({terrain, place.x_m, place.y_m, place.radius_m, place.channel, place.share});
   }
   return places;
 }

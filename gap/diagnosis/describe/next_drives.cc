@@ -12,15 +12,10 @@
 namespace slipway::gap {
 namespace {
 
-constexpr std::array kTilts_deg{0.0, 5.0, 10.0, 15.0};
-constexpr std::array kHeadings_deg{0.0, 90.0, 180.0};  // from straight uphill
-constexpr std::array kSpeedShares{1.0, 0.5, -1.0};
-constexpr std::array kCurvatures_1_m{0.0, 0.3};
-constexpr std::array kTemperatures_c{20.0, -40.0};
-
 // What a drive would show, each channel over the error that one drive would leave.
 std::vector<double> outcome(const DriveCampaign& campaign, const ModelState& state,
-                            const NoiseScales& scatter, const NextDrive& drive) {
+                            const NoiseScales& scatter, const NextDrive& drive,
+                            const NextDriveOptions& options) {
   const double tilt = rad_from_deg(drive.tilt_deg), heading = rad_from_deg(drive.heading_deg);
   // Straight uphill the nose is up: negative pitch. Across, headed left of uphill, the right side is up.
   const Attitude attitude{.roll_rad = std::asin(-std::sin(tilt) * std::sin(heading)),
@@ -32,24 +27,39 @@ std::vector<double> outcome(const DriveCampaign& campaign, const ModelState& sta
                                              .curvature_1_m = drive.curvature_1_m,
                                              .motor_temp_c = drive.motor_temp_c});
   const double speed = std::abs(drive.speed_m_s);
-  std::vector<double> values{(at.moving() ? at.slip_ratio : 1.0) / std::max(0.01, scatter.slip)};
+  std::vector<double> values{(at.moving() ? at.slip_ratio : 1.0) /
+                             std::max(options.min_slip_error, scatter.slip)};
   if (!at.moving()) {
     values.resize(3 + 2 * state.rover.wheels.size(), 0.0);
     return values;
   }
-  values.push_back(at.leftward_m_s / speed / std::max(0.01, scatter.side_slip));
-  values.push_back(at.yaw_rate_rad_s / std::max(3e-4, scatter.yaw_rate_rad_s));
+  values.push_back(at.leftward_m_s / speed / std::max(options.min_side_slip_error, scatter.side_slip));
+  values.push_back(at.yaw_rate_rad_s / std::max(options.min_yaw_rate_error_rad_s, scatter.yaw_rate_rad_s));
   for (const sim::WheelState& wheel : at.wheels) {
-    values.push_back(wheel.current_a / std::max(0.003, scatter.current_share * std::abs(wheel.current_a)));
-    values.push_back(wheel.sinkage_m / std::max(0.001, scatter.sinkage_m));
+    values.push_back(wheel.current_a / std::max(options.min_current_error_a,
+                                                scatter.current_share * std::abs(wheel.current_a)));
+    values.push_back(wheel.sinkage_m / std::max(options.min_sinkage_error_m, scatter.sinkage_m));
   }
   return values;
 }
 
-// What an outcome is expected to tell of which of the explanations is true, each a normal of deviation 1 in
-// every direction: a lower bound, never more than their entropy, nothing where none of them is [Kolchinsky &
-// Tracey 2017, section 3, by Bhattacharyya distances].
-double information_bits(const std::vector<std::vector<double>>& outcomes,
+// Every drive on planes that is compared, without its information.
+std::vector<NextDrive> drives_to_compare(double cruise_speed_m_s, const NextDriveOptions& options) {
+  std::vector<NextDrive> drives;
+  for (const double tilt : options.tilts_deg)
+    for (const double heading : options.headings_deg)
+      for (const double share : options.speed_shares)
+        for (const double curvature : options.curvatures_1_m)
+          for (const double temperature : options.temperatures_c) {
+            if (tilt == 0.0 && heading > 0.0) continue;
+            drives.push_back({tilt, heading, share * cruise_speed_m_s, curvature, temperature, 0.0});
+          }
+  return drives;
+}
+
+}  // namespace
+
+double information_bits(std::span<const std::vector<double>> outcomes,
                         std::span<const double> probabilities) {
   const double all = std::accumulate(probabilities.begin(), probabilities.end(), 0.0);
   double bits = 0.0;
@@ -66,46 +76,41 @@ double information_bits(const std::vector<std::vector<double>>& outcomes,
   return bits;
 }
 
-}  // namespace
-
-std::vector<NextDrive> next_drives(const DriveCampaign& campaign, const NoiseScales& scatter,
-                                   std::span<const FittedExplanation* const> explanations,
-                                   std::span<const double> probabilities, std::size_t most,
-                                   const Progress& progress) {
-  std::vector<ModelState> states;
-  for (const FittedExplanation* e : explanations) states.push_back(e->hypothesis.state(e->x));
-  std::vector<NextDrive> drives;
-  for (const double tilt : kTilts_deg)
-    for (const double heading : kHeadings_deg)
-      for (const double share : kSpeedShares)
-        for (const double curvature : kCurvatures_1_m)
-          for (const double temperature : kTemperatures_c) {
-            if (tilt == 0.0 && heading > 0.0) continue;
-            if (progress.cancelled()) return {};
-            NextDrive drive{tilt,      heading,     share * campaign.rover->cruise_speed_m_s,
-                            curvature, temperature, 0.0};
-            std::vector<std::vector<double>> outcomes;
-            outcomes.reserve(states.size());
-            for (const ModelState& state : states)
-              outcomes.push_back(outcome(campaign, state, scatter, drive));
-            drive.information_bits = information_bits(outcomes, probabilities);
-            drives.push_back(drive);
-          }
+std::vector<NextDrive> one_of_a_kind(std::vector<NextDrive> drives, const NextDriveOptions& options) {
   std::stable_sort(drives.begin(), drives.end(), [](const NextDrive& a, const NextDrive& b) {
     return a.information_bits > b.information_bits;
   });
-  // One of a kind: neighbours that say as much are left out.
   std::vector<NextDrive> chosen;
   for (const NextDrive& d : drives) {
-    if (chosen.size() >= most || d.information_bits < 1e-3) break;
+    if (chosen.size() >= static_cast<std::size_t>(options.max_drives) ||
+        d.information_bits < options.min_bits)
+      break;
     if (std::any_of(chosen.begin(), chosen.end(), [&](const NextDrive& c) {
           return c.heading_deg == d.heading_deg && c.speed_m_s == d.speed_m_s &&
-                 std::abs(c.tilt_deg - d.tilt_deg) < 6.0;
+                 std::abs(c.tilt_deg - d.tilt_deg) < options.min_tilt_apart_deg;
         }))
       continue;
     chosen.push_back(d);
   }
   return chosen;
+}
+
+std::vector<NextDrive> next_drives(const DriveCampaign& campaign, const NoiseScales& scatter,
+                                   std::span<const FittedExplanation* const> explanations,
+                                   std::span<const double> probabilities, const NextDriveOptions& options,
+                                   const Progress& progress) {
+  std::vector<ModelState> states;
+  for (const FittedExplanation* e : explanations) states.push_back(e->hypothesis.state(e->x));
+  std::vector<NextDrive> drives = drives_to_compare(campaign.rover->cruise_speed_m_s, options);
+  for (NextDrive& drive : drives) {
+    if (progress.cancelled()) return {};
+    std::vector<std::vector<double>> outcomes;
+    outcomes.reserve(states.size());
+    for (const ModelState& state : states)
+      outcomes.push_back(outcome(campaign, state, scatter, drive, options));
+    drive.information_bits = information_bits(outcomes, probabilities);
+  }
+  return one_of_a_kind(std::move(drives), options);
 }
 
 }  // namespace slipway::gap

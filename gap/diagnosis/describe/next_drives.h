@@ -13,7 +13,16 @@ namespace slipway::gap {
 // information that one of them is expected to give about which is true.
 std::vector<NextDrive> next_drives(const DriveCampaign& campaign, const NoiseScales& scatter,
                                    std::span<const FittedExplanation* const> explanations,
-                                   std::span<const double> probabilities, std::size_t most,
+                                   std::span<const double> probabilities, const NextDriveOptions& options,
                                    const Progress& progress);
+
+// What an outcome is expected to say of which of the explanations is true, each a normal of deviation 1 in
+// every direction around what it predicts: a lower bound, never more than their entropy, nothing where none
+// of them is [Kolchinsky & Tracey 2017, Entropy 19, section 3, by Bhattacharyya distances]. `probabilities`
+// may add up to less than 1: what is missing is an explanation of which nothing is known.
+double information_bits(std::span<const std::vector<double>> outcomes, std::span<const double> probabilities);
+
+// The drives of most information, neighbours that say as much left out.
+std::vector<NextDrive> one_of_a_kind(std::vector<NextDrive> drives, const NextDriveOptions& options);
 
 }  // namespace slipway::gap

@@ -5,15 +5,12 @@
 #include <functional>
 #include <iterator>
 #include <numeric>
+#include <optional>
 
 #include "core/random.h"
 
 namespace slipway::gap {
 namespace {
-
-constexpr double kSignificant = 0.1;
-constexpr double kWorthASlice = 0.1;   // of a trace
-constexpr double kPlainlyOff = 100.0;  // of a window's square
 
 struct Scored {
   Regime regime;
@@ -28,15 +25,15 @@ std::vector<double> in_order(std::span<const double> values, std::span<const std
   return permuted;
 }
 
-// Beyond ten deviations none above the largest that more windows have than a slice needs: what fewer do is no
-// slice, and one that a model calls stuck, a hundred deviations off, would outweigh all others.
-std::vector<double> limited(std::span<const double> squares) {
+// None far off above the largest that more windows have than a slice needs: what fewer do is no slice, and
+// one that a model calls stuck would outweigh all others.
+std::vector<double> limited(std::span<const double> squares, const DiagnosisOptions& options) {
   std::vector<double> all(squares.begin(), squares.end());
-  const std::size_t least = least_of_slice(all.size());
+  const std::size_t least = least_of_slice(all.size(), options.slices);
   if (all.size() <= least) return all;
   std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(least), all.end(),
                    std::greater<double>());
-  const double most = std::max(all[least], kPlainlyOff);
+  const double most = std::max(all[least], options.location.plainly_off);
   std::transform(squares.begin(), squares.end(), all.begin(), [most](double s) { return std::min(s, most); });
   return all;
 }
@@ -60,6 +57,83 @@ bool much_the_same(const Scored& a, const Scored& b) {
   std::set_intersection(a.slice->windows.begin(), a.slice->windows.end(), b.slice->windows.begin(),
                         b.slice->windows.end(), std::back_inserter(shared));
   return 2 * shared.size() > std::min(a.slice->windows.size(), b.slice->windows.size());
+}
+
+// The slices of one channel that stand out, by the figure that they are ranked by: the same figure of all
+// slices in permuted windows is what chance does.
+class ChannelRegimes {
+ public:
+  ChannelRegimes(const ChannelSquares& of, double share, LookedAt looked_at, const DiagnosisOptions& options)
+      : channel_(of.channel),
+        share_(share),
+        trace_(looked_at == LookedAt::kTrace),
+        options_(options.location),
+        weights_(trace_ ? limited(of.squares, options) : of.squares),
+        excess_(weights_) {
+    for (const double w : weights_) marks_.push_back(w > excess_.mean() ? 1.0 : 0.0);
+    marked_ = std::accumulate(marks_.begin(), marks_.end(), 0.0);
+  }
+
+  // Whether there is something to look for: more than noise or, of a trace, a good share of it.
+  bool worth_a_slice() const {
+    return excess_.variance() > 0.0 &&
+           (excess_.mean() >= 1.0 || (trace_ && share_ >= options_.min_trace_share));
+  }
+
+  // Nothing where it was cancelled.
+  std::optional<std::vector<Scored>> significant(std::span<const Slice> slices,
+                                                 std::span<const std::vector<std::size_t>> orders,
+                                                 const std::function<bool()>& cancelled) const {
+    const std::vector<double>& looked = trace_ ? marks_ : weights_;
+    std::vector<double> by_chance(orders.size(), 0.0);
+    for (std::size_t b = 0; b < orders.size(); ++b) {
+      if (cancelled()) return std::nullopt;
+      const std::vector<double> permuted = in_order(looked, orders[b]);
+      for (const Slice& slice : slices) by_chance[b] = std::max(by_chance[b], score(permuted, slice));
+    }
+    const double sum = std::accumulate(weights_.begin(), weights_.end(), 0.0);
+    std::vector<Scored> scored;
+    for (const Slice& slice : slices) {
+      const double own = score(looked, slice);
+      const double p = p_of_permutations(own, by_chance);
+      if (p > options_.max_significance) continue;
+      const double data = static_cast<double>(slice.windows.size()) / static_cast<double>(weights_.size());
+      scored.push_back({{slice.conditions, channel_, sum_in(weights_, slice) / sum, data, p},
+                        trace_ ? share_ * own : own,
+                        &slice});
+    }
+    return scored;
+  }
+
+ private:
+  double score(std::span<const double> values, const Slice& slice) const {
+    return trace_ ? overlap(values, marked_, slice) : excess_(values, slice);
+  }
+
+  Channel channel_;
+  double share_;
+  bool trace_;
+  const LocationOptions& options_;
+  std::vector<double> weights_;
+  Excess excess_;
+  std::vector<double> marks_;
+  double marked_ = 0.0;
+};
+
+// The best first, each that is not much the same as a better one.
+std::vector<Regime> best_apart(std::vector<Scored> scored, std::size_t most) {
+  std::stable_sort(scored.begin(), scored.end(),
+                   [](const Scored& a, const Scored& b) { return a.rank > b.rank; });
+  std::vector<const Scored*> kept;
+  std::vector<Regime> regimes;
+  for (const Scored& s : scored) {
+    if (regimes.size() >= most) break;
+    if (std::any_of(kept.begin(), kept.end(), [&](const Scored* k) { return much_the_same(*k, s); }))
+      continue;
+    kept.push_back(&s);
+    regimes.push_back(s.regime);
+  }
+  return regimes;
 }
 
 }  // namespace
@@ -95,11 +169,12 @@ std::vector<std::size_t> reordered(std::span<const std::size_t> drive_of, std::u
   return order;
 }
 
-std::vector<ChannelShare> shares_of(std::span<const ChannelSquares> channels) {
+std::vector<ChannelShare> shares_of(std::span<const ChannelSquares> channels,
+                                    const DiagnosisOptions& options) {
   std::vector<ChannelShare> shares;
   double total = 0.0;
   for (const ChannelSquares& of : channels) {
-    const std::vector<double> weights = limited(of.squares);
+    const std::vector<double> weights = limited(of.squares, options);
     const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
     if (sum > 0.0) shares.push_back({of.channel, sum});
     total += sum;
@@ -110,63 +185,36 @@ std::vector<ChannelShare> shares_of(std::span<const ChannelSquares> channels) {
   return shares;
 }
 
+double p_of_permutations(double own, std::span<const double> by_chance) {
+  const auto above = std::count_if(by_chance.begin(), by_chance.end(), [own](double x) { return x >= own; });
+  return (1.0 + static_cast<double>(above)) / (1.0 + static_cast<double>(by_chance.size()));
+}
+
+std::size_t permutation_count(const DiagnosisOptions& options) {
+  return static_cast<std::size_t>(options.resamples) /
+             static_cast<std::size_t>(options.location.resamples_per_permutation) +
+         1;
+}
+
 std::vector<Regime> regimes_in(std::span<const Slice> slices, std::span<const ChannelSquares> channels,
                                std::span<const std::size_t> drive_of, LookedAt looked_at,
-                               const DiagnosisOptions& options, std::size_t most,
-                               const std::function<bool()>& cancelled) {
-  std::vector<std::vector<std::size_t>> orders(static_cast<std::size_t>(options.resamples) / 4 + 1);
+                               const DiagnosisOptions& options, const std::function<bool()>& cancelled) {
+  std::vector<std::vector<std::size_t>> orders(permutation_count(options));
   for (std::size_t b = 0; b < orders.size(); ++b)
     orders[b] = reordered(drive_of, random_key(options.seed, 5000 + b));
-  const bool trace = looked_at == LookedAt::kTrace;
-  const std::vector<ChannelShare> shares = shares_of(channels);
+  const std::vector<ChannelShare> shares = shares_of(channels, options);
   std::vector<Scored> scored;
   for (const ChannelSquares& of : channels) {
-    const std::vector<double> weights = trace ? limited(of.squares) : of.squares;
-    const Excess excess(weights);
     double share = 0.0;
     for (const ChannelShare& s : shares)
       if (s.channel == of.channel) share = s.share;
-    const bool small = excess.mean() < 1.0 && (!trace || share < kWorthASlice);
-    if (excess.variance() <= 0.0 || small) continue;
-    std::vector<double> marks;
-    for (const double w : weights) marks.push_back(w > excess.mean() ? 1.0 : 0.0);
-    const double marked = std::accumulate(marks.begin(), marks.end(), 0.0);
-    // The figure that slices are ranked by is the one that is held against chance.
-    const std::vector<double>& looked = trace ? marks : weights;
-    const auto score = [&](std::span<const double> values, const Slice& slice) {
-      return trace ? overlap(values, marked, slice) : excess(values, slice);
-    };
-    std::vector<double> by_chance(orders.size(), 0.0);
-    for (std::size_t b = 0; b < orders.size(); ++b) {
-      if (cancelled()) return {};
-      const std::vector<double> permuted = in_order(looked, orders[b]);
-      for (const Slice& slice : slices) by_chance[b] = std::max(by_chance[b], score(permuted, slice));
-    }
-    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-    for (const Slice& slice : slices) {
-      const double own = score(looked, slice);
-      const auto above =
-          std::count_if(by_chance.begin(), by_chance.end(), [own](double x) { return x >= own; });
-      const double p = (1.0 + static_cast<double>(above)) / (1.0 + static_cast<double>(by_chance.size()));
-      if (p > kSignificant) continue;
-      const double data = static_cast<double>(slice.windows.size()) / static_cast<double>(of.squares.size());
-      scored.push_back({{slice.conditions, of.channel, sum_in(weights, slice) / sum, data, p},
-                        trace ? share * own : own,
-                        &slice});
-    }
+    const ChannelRegimes regimes(of, share, looked_at, options);
+    if (!regimes.worth_a_slice()) continue;
+    auto found = regimes.significant(slices, orders, cancelled);
+    if (!found) return {};
+    std::move(found->begin(), found->end(), std::back_inserter(scored));
   }
-  std::stable_sort(scored.begin(), scored.end(),
-                   [](const Scored& a, const Scored& b) { return a.rank > b.rank; });
-  std::vector<const Scored*> kept;
-  std::vector<Regime> regimes;
-  for (const Scored& s : scored) {
-    if (regimes.size() >= most) break;
-    if (std::any_of(kept.begin(), kept.end(), [&](const Scored* k) { return much_the_same(*k, s); }))
-      continue;
-    kept.push_back(&s);
-    regimes.push_back(s.regime);
-  }
-  return regimes;
+  return best_apart(std::move(scored), static_cast<std::size_t>(options.location.max_regimes));
 }
 
 }  // namespace slipway::gap

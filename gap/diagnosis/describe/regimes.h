@@ -21,23 +21,30 @@ struct ChannelSquares {
 // noise.
 enum class LookedAt { kGap, kTrace };
 
-// Slices of one and two conditions whose windows hold more of a channel than of the data, best first, `most`
-// at most, p below 0.1 by permuting drives (the best of all slices). Of a gap by how far they stand out, in
-// channels above their noise. Of a trace by how nearly they are the windows above the channel's mean
-// (intersection over union), times the channel's share, in channels that have a tenth of it or are above
-// their noise. `drive_of`: of each window. None where it was cancelled.
+// Slices of one and two conditions whose windows hold more of a channel than of the data, best first, p at
+// most LocationOptions::max_significance by permuting drives (the best of all slices). Of a gap by how far
+// they stand out, in channels above their noise. Of a trace by how nearly they are the windows above the
+// channel's mean (intersection over union), times the channel's share, in channels that have min_trace_share
+// of it or are above their noise. `drive_of`: of each window. None where it was cancelled.
 std::vector<Regime> regimes_in(std::span<const Slice> slices, std::span<const ChannelSquares> channels,
                                std::span<const std::size_t> drive_of, LookedAt looked_at,
-                               const DiagnosisOptions& options, std::size_t most,
-                               const std::function<bool()>& cancelled);
+                               const DiagnosisOptions& options, const std::function<bool()>& cancelled);
 
 // Each channel's share of a trace, the largest first; none where there are none. Here and above, the few
-// windows of a trace that are further off than all others, by more than ten deviations, weigh no more than
-// the next.
-std::vector<ChannelShare> shares_of(std::span<const ChannelSquares> channels);
+// windows of a trace that are further off than all others, beyond LocationOptions::plainly_off, weigh no more
+// than the next.
+std::vector<ChannelShare> shares_of(std::span<const ChannelSquares> channels,
+                                    const DiagnosisOptions& options = {});
 
 // The windows in another order: drives permuted, the whole turned round, so that neighbours stay neighbours.
 std::vector<std::size_t> reordered(std::span<const std::size_t> drive_of, std::uint64_t key);
+
+// How many permutations of drives are made.
+std::size_t permutation_count(const DiagnosisOptions& options);
+
+// The probability that chance alone does as well: (1 + how many of those by chance are at least as large) /
+// (1 + how many there are) [Phipson & Smyth 2010, Statistical Applications in Genetics 9].
+double p_of_permutations(double own, std::span<const double> by_chance);
 
 // By how many deviations of as many windows drawn at random a slice's mean is above the mean of all.
 class Excess {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "gap/diagnosis/result/result.h"
@@ -9,6 +10,11 @@ namespace slipway::gap {
 
 // What remains beside a fit, by where it enters and what it depends on, the largest shares first.
 std::vector<ResidualShape> describe_unexplained(const PreparedCampaign& prepared,
-                                                const FittedExplanation& fit);
+                                                const FittedExplanation& fit,
+                                                const DiagnosisOptions& options);
+
+// A column's effect at the lowest (-1), middle (0) and highest (1) value of its circumstance, of its
+// coefficient's mean and standard error: being linear, three points say its shape. 90 % intervals.
+std::vector<std::pair<double, Interval>> shape_of(Circumstance circumstance, double mean, double error);
 
 }  // namespace slipway::gap

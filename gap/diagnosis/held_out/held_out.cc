@@ -5,26 +5,19 @@
 namespace slipway::gap {
 namespace {
 
-ExplanationOptions fit_options_of(std::size_t threads) {
-  ExplanationOptions options;
-  options.threads = threads;
-  options.iterations = 4;
-  return options;
-}
-
-// As heavy-tailed as the fits' loss.
-double loss(double deviations) {
-  const double huber = ExplanationOptions{}.huber, a = std::abs(deviations);
-  return a <= huber ? 0.5 * a * a : huber * (a - 0.5 * huber);
+FitOptions fit_options_of(const DiagnosisOptions& options) {
+  FitOptions of_folds = options.fit;
+  of_folds.max_iterations = options.held_out.max_iterations;
+  return of_folds;
 }
 
 }  // namespace
 
 Correction refitted(const PreparedCampaign& prepared, const FittedExplanation& explanation,
-                    std::size_t threads) {
-  return [&prepared, &explanation, threads](const FittedExplanation&, const std::vector<bool>& seen) {
+                    const DiagnosisOptions& options) {
+  return [&](const FittedExplanation&, const std::vector<bool>& seen) {
     return fit_explanation(explanation.hypothesis, *prepared.model, *prepared.noise, explanation.x,
-                           fit_options_of(threads), seen)
+                           fit_options_of(options), options.search.threads, seen)
         .residuals;
   };
 }
@@ -34,9 +27,9 @@ Correction uncorrected() {
 }
 
 FittedExplanation retuned_on(const PreparedCampaign& prepared, const std::vector<bool>& seen,
-                             std::size_t threads) {
+                             const DiagnosisOptions& options) {
   return fit_explanation(prepared.null->hypothesis, *prepared.model, *prepared.noise, prepared.null->x,
-                         fit_options_of(threads), seen);
+                         fit_options_of(options), options.search.threads, seen);
 }
 
 std::vector<bool> rows_of(const WindowModel& model, const std::vector<bool>& drives) {
@@ -63,8 +56,9 @@ void HeldOutErrors::add(const HeldOutErrors& e) {
 }
 
 HeldOutComparison::HeldOutComparison(const PreparedCampaign& prepared, const Eigen::VectorXd& retuned,
-                                     const Eigen::VectorXd& corrected)
+                                     const Eigen::VectorXd& corrected, const FitOptions& options)
     : prepared_(prepared),
+      loss_{options.huber},
       retuned_(retuned),
       corrected_(corrected),
       white_retuned_(prepared.noise->whiten(retuned)),
@@ -94,7 +88,7 @@ HeldOutErrors HeldOutComparison::errors(std::size_t window) const {
     e.scaled_retuned += square(retuned_[row] / deviation);
     e.scaled_with += square(corrected_[row] / deviation);
     e.scaled_count += 1.0;
-    e.log_gain += loss(white_retuned_[row]) - loss(white_corrected_[row]);
+    e.log_gain += loss_(white_retuned_[row]) - loss_(white_corrected_[row]);
   }
   return e;
 }

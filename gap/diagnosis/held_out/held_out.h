@@ -12,15 +12,15 @@ namespace slipway::gap {
 // fitted.
 using Correction =
     std::function<Eigen::VectorXd(const FittedExplanation& retuned, const std::vector<bool>& seen)>;
-// `explanation` fitted again to what was seen; both must outlive it.
+// `explanation` fitted again to what was seen; all three must outlive it.
 Correction refitted(const PreparedCampaign& prepared, const FittedExplanation& explanation,
-                    std::size_t threads);
+                    const DiagnosisOptions& options);
 // Nothing but what was re-tuned.
 Correction uncorrected();
 
 // The re-tuned null, learnt from what was seen.
 FittedExplanation retuned_on(const PreparedCampaign& prepared, const std::vector<bool>& seen,
-                             std::size_t threads);
+                             const DiagnosisOptions& options);
 
 // Rows of the windows of these drives.
 std::vector<bool> rows_of(const WindowModel& model, const std::vector<bool>& drives);
@@ -42,9 +42,10 @@ struct HeldOutErrors {
 // What a window that was held out adds; nothing where it has no observation to compare.
 class HeldOutComparison {
  public:
-  // By whitened residuals: `prepared` must outlive it.
+  // Residuals of all observations by either. Log densities are those of the whitened residuals under the
+  // fits' loss. `prepared` must outlive it.
   HeldOutComparison(const PreparedCampaign& prepared, const Eigen::VectorXd& retuned,
-                    const Eigen::VectorXd& corrected);
+                    const Eigen::VectorXd& corrected, const FitOptions& options);
 
   // Whether an observation has numbers to compare. Of a slip beyond the censoring there are none.
   bool compares(std::size_t window, std::size_t observation) const;
@@ -54,6 +55,7 @@ class HeldOutComparison {
 
  private:
   const PreparedCampaign& prepared_;
+  HuberLoss loss_;
   Eigen::VectorXd retuned_, corrected_, white_retuned_, white_corrected_;
 };
 

@@ -59,11 +59,6 @@ struct ChannelRow {
   // is the model's own value.
   double (*left_over)(const NoiseScales& scales, double expected) = nullptr;
 
-  // Error of the channel's own sensor, as a part of the discrepancy term: its name there, and its size where
-  // it would matter. By wheel: besides the error that all wheels have in common, one of each wheel.
-  std::string_view sensor_entry = {};
-  double (*sensor_error)(double expected) = nullptr;
-  bool sensor_error_by_wheel = false;
   // Whether gaps in it are looked for in places of the map.
   bool located = false;
   // How the rover leans as its wheels sink is in no model here: what is left of a gap in the stance does not

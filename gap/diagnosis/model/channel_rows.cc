@@ -73,8 +73,6 @@ constexpr ChannelRow kSlipChannel{.name = "slip",
                                   .predict = &predicted_slip,
                                   .predicted_when_stuck = true,
                                   .left_over = [](const NoiseScales& scales, double) { return scales.slip; },
-                                  .sensor_entry = "slip_sensor",
-                                  .sensor_error = [](double) { return 0.03; },
                                   .located = true};
 
 constexpr ChannelRow kSideSlipChannel{
@@ -84,8 +82,6 @@ constexpr ChannelRow kSideSlipChannel{
     .observe = &motion<&WindowReadings::Motion::side_slip>,
     .predict = &predicted_side_slip,
     .left_over = [](const NoiseScales& scales, double) { return scales.side_slip; },
-    .sensor_entry = "side_slip",
-    .sensor_error = [](double) { return 0.02; },
     .located = true};
 
 constexpr ChannelRow kYawRateChannel{
@@ -96,9 +92,7 @@ constexpr ChannelRow kYawRateChannel{
     .chart_scale = kDegPerRad,
     .observe = &motion<&WindowReadings::Motion::yaw_rate>,
     .predict = &predicted_yaw_rate,
-    .left_over = [](const NoiseScales& scales, double) { return scales.yaw_rate_rad_s; },
-    .sensor_entry = "yaw",
-    .sensor_error = [](double) { return 0.001; }};
+    .left_over = [](const NoiseScales& scales, double) { return scales.yaw_rate_rad_s; }};
 
 constexpr ChannelRow kRollChannel{
     .name = "roll",
@@ -110,8 +104,6 @@ constexpr ChannelRow kRollChannel{
     .predict = [](const StationPrediction& at, std::size_t) { return at.stance.attitude.roll_rad; },
     .predicted_when_stuck = true,
     .left_over = [](const NoiseScales& scales, double) { return scales.attitude_rad; },
-    .sensor_entry = "roll_sensor",
-    .sensor_error = [](double) { return 0.01; },
     .of_the_stance = true};
 
 constexpr ChannelRow kPitchChannel{
@@ -124,8 +116,6 @@ constexpr ChannelRow kPitchChannel{
     .predict = [](const StationPrediction& at, std::size_t) { return at.stance.attitude.pitch_rad; },
     .predicted_when_stuck = true,
     .left_over = [](const NoiseScales& scales, double) { return scales.attitude_rad; },
-    .sensor_entry = "pitch_sensor",
-    .sensor_error = [](double) { return 0.01; },
     .of_the_stance = true};
 
 constexpr ChannelRow kCurrentChannel{
@@ -139,9 +129,6 @@ constexpr ChannelRow kCurrentChannel{
     .predict = &predicted_current,
     .left_over = [](const NoiseScales& scales,
                     double expected) { return scales.current_share * std::abs(expected); },
-    .sensor_entry = "torque_to_current",
-    .sensor_error = [](double expected) { return 0.05 * expected; },
-    .sensor_error_by_wheel = true,
     .located = true};
 
 constexpr ChannelRow kSinkageChannel{
@@ -155,8 +142,6 @@ constexpr ChannelRow kSinkageChannel{
     .observe = &sinkage,
     .predict = &predicted_sinkage,
     .left_over = [](const NoiseScales& scales, double) { return scales.sinkage_m; },
-    .sensor_entry = "sinkage",
-    .sensor_error = [](double) { return 0.002; },
     .located = true};
 
 }  // namespace slipway::gap

@@ -107,7 +107,8 @@ Hypothesis::Hypothesis(const DriveCampaign& campaign, std::vector<EffectVariant>
       const double std = wide ? kTotalTorqueStd : row.std;
       const double farthest = wide ? 3.0 * kTotalTorqueStd : 0.0;
       parameters_.push_back({name, "", 0.0, held ? kHeld * std : std, std::min(row.lowest, -farthest),
-                             std::max(row.highest, farthest)});
+                             std::max(row.highest, farthest), quantity_of(row),
+                             row.kind == NuisanceKind::kSoil ? soil : -1});
       places_.push_back({&row, row.kind == NuisanceKind::kSoil ? soil : -1});
     }
   }

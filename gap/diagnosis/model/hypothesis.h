@@ -33,6 +33,8 @@ struct Parameter {
   double neutral = 0.0;  // where the model is the nominal one
   double std = 1.0;      // of the prior around neutral
   double lowest = 0.0, highest = 0.0;
+  std::optional<SoilQuantity> quantity = {};  // of a soil's nuisance that is one of these
+  int soil = -1;                              // of a soil's nuisance: index into DriveCampaign::soils
 };
 
 // Which nuisances are free. kClosures: soils and motors are held at their nominal values.

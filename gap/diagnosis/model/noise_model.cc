@@ -14,17 +14,16 @@ Scales numbers_of(NoiseScales& s) {
           &s.slip,      &s.side_slip, &s.yaw_rate_rad_s, &s.attitude_rad,  &s.current_share, &s.sinkage_m};
 }
 
-// Of the logarithms of the scales around their initial values.
-constexpr double kPriorStd = 1.2;
-
-// A slip beyond the censoring says little but that it is there.
-constexpr double kCensoredStd = 0.3;
-
 }  // namespace
 
 NoiseModel::NoiseModel(const WindowModel& model, Eigen::MatrixXd response, std::vector<double> expected,
-                       std::vector<bool> used)
-    : model_(model), response_(std::move(response)), expected_(std::move(expected)), used_(std::move(used)) {
+                       std::vector<bool> used, const NoiseOptions& options)
+    : model_(model),
+      response_(std::move(response)),
+      expected_(std::move(expected)),
+      used_(std::move(used)),
+      options_(options),
+      scales_(options.initial) {
   const auto windows = model.windows();
   for (std::size_t w = 0; w < windows.size(); ++w) {
     for (std::size_t i = 0; i < windows[w].observations.size(); ++i) {
@@ -69,7 +68,8 @@ void NoiseModel::set(const NoiseScales& scales) {
       const Observation& o = windows[w].observations[row - model_.offset(w)];
       const double over = row_of(o.channel).left_over(scales, expected_[row]);
       v(a, a) += o.sensor_std * o.sensor_std + over * over;
-      if (windows[w].censored && o.channel == Channel::kSlip) v(a, a) += kCensoredStd * kCensoredStd;
+      if (windows[w].censored && o.channel == Channel::kSlip)
+        v(a, a) += options_.censored_slip_std * options_.censored_slip_std;
       deviation_[static_cast<Eigen::Index>(row)] = std::sqrt(v(a, a));
     }
     block.factor = v.llt().matrixL();
@@ -99,7 +99,7 @@ double log_marginal(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& col
 }
 
 void NoiseModel::estimate(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& systematic) {
-  NoiseScales initial;
+  NoiseScales initial = options_.initial;
   const Scales believed = numbers_of(initial);
   NoiseScales best = scales_;
   Eigen::MatrixXd both(residuals.size(), systematic.cols() + 1);
@@ -111,7 +111,7 @@ void NoiseModel::estimate(const Eigen::VectorXd& residuals, const Eigen::MatrixX
     const Scales numbers = numbers_of(copy);
     double prior = 0.0;
     for (int k = 0; k < kNoiseScales; ++k)
-      prior += std::pow(std::log(*numbers[k] / *believed[k]) / kPriorStd, 2);
+      prior += std::pow(std::log(*numbers[k] / *believed[k]) / options_.prior_std, 2);
     return log_marginal(white.col(0), white.rightCols(systematic.cols())) - 0.5 * log_determinant_ -
            0.5 * prior;
   };

@@ -25,6 +25,12 @@ struct NoiseScales {
 };
 constexpr int kNoiseScales = 12;
 
+struct NoiseOptions {
+  NoiseScales initial;     // what the scales are believed to be before the drives
+  double prior_std = 1.2;  // of the logarithms of the scales around them: a factor of 3 is no surprise
+  double censored_slip_std = 0.3;  // a slip beyond the censoring says little but that it is there
+};
+
 // The covariance of all residuals: blocks of one drive each (drives are independent),
 //
 //   V_d = diag(sensor^2 + left over^2) + G_d S G_d^T + sum over windows (w^2 G_w S G_w^T + H_w T H_w^T)
@@ -36,7 +42,7 @@ class NoiseModel {
   // response: observations x 7, derivatives by those seven; expected: the model's own values there.
   // Observations that are not `used` have no part.
   NoiseModel(const WindowModel& model, Eigen::MatrixXd response, std::vector<double> expected,
-             std::vector<bool> used);
+             std::vector<bool> used, const NoiseOptions& options = {});
 
   void set(const NoiseScales& scales);
   const NoiseScales& scales() const { return scales_; }
@@ -67,6 +73,7 @@ class NoiseModel {
   std::vector<double> expected_;
   std::vector<bool> used_;
   std::vector<Block> blocks_;
+  NoiseOptions options_;
   NoiseScales scales_;
   double log_determinant_ = 0.0;
   Eigen::VectorXd deviation_;

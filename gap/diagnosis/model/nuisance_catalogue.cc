@@ -67,6 +67,12 @@ constexpr std::array kRows{
 
 }  // namespace
 
+std::optional<SoilQuantity> quantity_of(const Nuisance& row) {
+  const auto name = std::find(kSoilNuisances.begin(), kSoilNuisances.end(), row.name);
+  if (name == kSoilNuisances.end()) return std::nullopt;
+  return static_cast<SoilQuantity>(name - kSoilNuisances.begin());
+}
+
 std::span<const Nuisance> nuisance_catalogue() {
   return kRows;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -24,6 +26,13 @@ struct Nuisance {
   void (*on_soil)(double value, sim::Soil& soil) = nullptr;
   void (*on_rover)(double value, sim::RoverModel& rover) = nullptr;
 };
+
+// The quantities of a soil that scatter from drive to drive or are estimated, in the order of
+// sim::SoilNormals, and their rows' names.
+enum class SoilQuantity { kStiffness, kN, kCohesion, kFriction, kShearModulus };
+inline constexpr std::array<std::string_view, sim::kSoilDims> kSoilNuisances{"stiffness", "n", "cohesion",
+                                                                             "friction", "shear_modulus"};
+std::optional<SoilQuantity> quantity_of(const Nuisance& row);
 
 // A row of kSensor that neither soil nor rover feels: seconds by which headings are recorded later than
 // positions, which turns the way that a turning rover seems to go.

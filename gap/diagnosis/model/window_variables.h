@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 namespace slipway::gap {
 
 // What a gap may depend on, of one window.
@@ -13,8 +15,10 @@ struct WindowVariables {
   double turning = 0.0;
   double time_s = 0.0;  // since the drive began
 };
+// The same, in that order.
+enum class WindowVariable { kSlope, kCrossSlope, kSlip, kSpeed, kCurvature, kTemperature, kTurning, kTime };
 constexpr int kWindowVariables = 8;
-const char* variable_name(int variable);
-double variable_of(const WindowVariables& of, int variable);
+std::string_view name_of(WindowVariable variable);  // "slope_deg", ...
+double variable_of(const WindowVariables& of, WindowVariable variable);
 
 }  // namespace slipway::gap

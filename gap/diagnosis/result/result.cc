@@ -14,4 +14,10 @@ std::string_view name_of(Verdict verdict) {
   return kVerdicts[static_cast<std::size_t>(verdict)];
 }
 
+std::vector<std::string> names_of(const ComparedSet& set) {
+  std::vector<std::string> names = set.effects;
+  if (set.with_unknown) names.emplace_back("unknown");
+  return names;
+}
+
 }  // namespace slipway::gap

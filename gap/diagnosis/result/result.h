@@ -12,6 +12,8 @@
 #include "gap/diagnosis/model/drive_window.h"
 #include "gap/diagnosis/model/noise_model.h"
 #include "gap/diagnosis/model/window_model.h"
+#include "gap/diagnosis/model/window_variables.h"
+#include "gap/diagnosis/search/diagnosis_options.h"
 #include "gap/diagnosis/search/parameter_posterior.h"
 #include "gap/estimate/interval.h"
 #include "sim/rover/effect_setting.h"
@@ -34,19 +36,23 @@ struct FoundEffect {
 };
 
 struct ComparedSet {
-  std::vector<std::string> effects;  // "unknown" among them where something else is
+  std::vector<std::string> effects;  // of the library
   double probability = 0.0;
   std::optional<double> held_out_score;  // mean log density a drive, over the null's; of what was refitted
   int complexity = 0;                    // estimated parameters besides the nuisances
   double chosen_share = 0.0;             // of resamples of the drives, those that would have led to this set
+  bool with_unknown = false;             // something besides them that the library has no name for
 };
+// Its effects, and "unknown" behind them where something else is: for documents and people.
+std::vector<std::string> names_of(const ComparedSet& set);
 
-// What the found correction is worth where it had not been: learnt from the gentle drives, told of the harsh.
+// What the found correction is worth where it had not been: learnt from the gentle drives, predicted of the
+// harsh.
 struct Extrapolation {
   std::string variable;  // "slope_deg", ...
-  bool above = true;     // told are drives above (or below) the limit, which is in the variable's unit
+  bool above = true;     // drives above (or below) the limit are predicted; it is in the variable's unit
   double limit = 0.0;
-  std::size_t groups = 0;         // drives told, repeats as one
+  std::size_t groups = 0;         // drives predicted, repeats as one
   double log_density_gain = 0.0;  // over re-tuned parameters alone, a drive
   double error = 0.0;             // its standard error
 };
@@ -66,7 +72,7 @@ struct ChannelGap {
 };
 
 struct Condition {
-  std::string variable;  // "slope_deg", ...
+  WindowVariable variable = WindowVariable::kSlope;
   double from = 0.0, to = 0.0;
 };
 
@@ -99,10 +105,10 @@ struct ChannelClosure {
   std::optional<Interval> closed_fraction = {};
 };
 
-// What planning with a model would have told of drives held out of the fit.
+// What planning with a model would have predicted of drives held out of the fit.
 struct PlannersFigures {
   double within_90 = 0.0;       // share of observations in the 90 % interval of sensors and scatter
-  std::size_t called = 0;       // windows told immobilised (slip above kCensoredSlip) that were
+  std::size_t called = 0;       // windows predicted immobilised (slip above kCensoredSlip) that were
   std::size_t false_calls = 0;  // and that were not
   double in_order = 0.0;        // share of pairs of drives, of which one clearly slipped more
 };
@@ -133,7 +139,7 @@ struct HeldOutPoint {
 // What is left over that nobody has named: where it enters, what it depends on, its shape.
 struct ResidualShape {
   std::string entry, variable;
-  double share = 0.0;                              // of what the wildcard explains
+  double share = 0.0;                              // of what the discrepancy term explains
   std::vector<std::pair<double, Interval>> shape;  // over the variable: at, effect on the entry's channel
 };
 
@@ -143,6 +149,7 @@ struct NextDrive {
   double information_bits = 0.0;
 };
 
+// The least size of an effect that the drives would surely have shown.
 struct LeastDetectable {
   std::string effect, parameter;
   double value = 0.0;
@@ -158,6 +165,7 @@ struct RetunedParameter {
 struct Diagnosis {
   std::string campaign, campaign_fingerprint;
   std::uint64_t seed = 1;
+  std::vector<ListedOption> options;
   std::vector<std::string> library;  // effects that were looked for
   Verdict verdict = Verdict::kInsufficient;
   std::string reason;         // one sentence

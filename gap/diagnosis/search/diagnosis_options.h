@@ -1,20 +1,269 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "gap/diagnosis/model/drive_window.h"
-#include "gap/diagnosis/search/explanation_search.h"
+#include "gap/diagnosis/model/noise_model.h"
 
 namespace slipway::gap {
 
+// Every number that the answer of a diagnosis depends on, with the reason for its value, by the step that
+// uses it. docs/method/estimator.md has the equations with the names of these fields beside the symbols, and
+// an answer's provenance has their values: see listed_options. Numbers that decide only how a result is
+// computed (the step of a difference, the order of a search) are constants beside the code.
+//
+// "Deviations" are standard deviations of the whitened noise; "prior deviations" are those that a parameter
+// is believed by before the drives; "gain" is a difference of natural logarithms of evidences.
+
+// How the most probable parameters of an explanation are found: see posterior_mode.h.
+struct FitOptions {
+  // Deviations beyond which a residual counts linearly. No window is Gaussian that far out, and a smaller
+  // threshold would weigh down the slopes on which effects show.
+  double huber = 4.0;
+  // Deviations by which an observation is off where the model has no answer because the rover would not move:
+  // as much as the loss still takes in full.
+  double no_answer = 4.0;
+  double tolerance = 1e-3;  // of a step, in the parameters' own standard errors
+  double min_fall = 0.02;   // of the cost in an iteration: evidences that differ by less are not told apart
+  int max_iterations = 12;
+};
+
+// How a campaign is prepared: see prepared_campaign.h.
+struct PreparationOptions {
+  // The suspension's own stance is believed unless the recorded attitudes lie nearer to the plane under the
+  // wheels, their root mean square being less than this share of the suspension's.
+  double plane_is_nearer = 0.8;
+  int scatter_rounds = 2;  // the scatter and the re-tuned parameters need each other
+};
+
+// The discrepancy term: what could be missing that the library has no name for. See discrepancy_term.h.
+struct DiscrepancyOptions {
+  // Sizes of the term as something else, in units of its columns: weak, plain, strong; a factor of three
+  // apart, so that the best of them is never far off. The evidence is averaged over them.
+  std::array<double, 3> sizes{0.4, 1.2, 3.6};
+  // No simulator is exact: the term stands beside every explanation up to this size, and only more than that
+  // is something else.
+  double imprecision = 0.1;
+  std::array<double, 3> imprecision_shares{0.1, 0.3, 1.0};  // of `imprecision` that are averaged over
+  // That an effect is at work does not say that its equation is the library's: what it does may be off by
+  // this share, differently by circumstance, axle and channel.
+  double form_imprecision = 0.3;
+  std::array<double, 3> form_sizes{0.0, 0.3, 1.0};  // of `form_imprecision` that are averaged over
+  // What one unit of each column is: an error of that entry that would matter to a planner.
+  double tilt_deg = 1.0;  // of the direction under which weights act: a force along or across
+  double load_shift_m = 0.05;
+  double steering_deg = 1.0;
+  double slip_reading = 0.03;
+  double side_slip_reading = 0.02;
+  double yaw_rate_rad_s = 0.001;
+  double attitude_rad = 0.01;
+  double current_share = 0.05;  // of the predicted current
+  double sinkage_m = 0.002;
+  // What a circumstance is divided by, so that it is about 1 where drives are harsh.
+  double pitch_deg = 10.0;
+  double roll_deg = 10.0;
+  double slip = 0.2;
+  double curvature_1_m = 0.4;
+  double temperature_c = 30.0;
+};
+
+// Where softer ground could lie: see soft_patch_search.h.
+struct SoftPatchOptions {
+  std::array<double, 7> radii_m{0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0};  // from a wheel base to a crater
+  int max_patches = 3;    // that compete: more would be one place said several times
+  double min_rise = 0.1;  // of the log evidence, for which a disc is moved or resized
+};
+
+// Which effects are fitted, and which of their sets compete: see explanation_search.h.
+struct SearchOptions {
+  std::vector<std::string> withheld;  // effects that are not looked for
+  int max_refitted = 8;               // effects that are fitted in full, which costs most
+  int max_variants = 2;               // of each of them
+  int max_paired = 4;                 // of those, whose pairs are looked for
+  int max_seconds = 3;                // of each of those
+  double min_pair_gain = 1.0;         // that a second effect promises by its derivatives, or it is not fitted
+  // Prior deviations: re-tuned parameters that had to go this far are no point from which effects look
+  // linear, so that effects are screened at the nominal parameters too.
+  double max_linear_shift = 2.5;
+  // An effect smaller than this share of its usual size (the deviation of its prior) is not worth a name: it
+  // is how one simulator's numerics differ from another's.
+  double min_named_size = 0.3;
+  bool something_else = true;  // the discrepancy term competes; without it for ablations
+  std::size_t threads = 0;
+};
+
+// With a first explanation found, the search is repeated under the scatter that it leaves, with less: what
+// was far behind need not be fitted again.
+struct SecondSearchOptions {
+  int max_refitted = 6;
+  int max_paired = 2;
+  int max_seconds = 2;
+  int max_kept = 6;  // sets that the first search found, fitted again from where they stood
+};
+
+// What is believed before the drives: that nothing is missing, that one effect is, two are, or something that
+// the library does not have. A diagnosis is asked for where something seems to be wrong. They add up to 1 but
+// for pairs beside something else.
+struct PriorOptions {
+  double nothing = 0.25;
+  double one_effect = 0.375;   // shared by the effects of the library
+  double two_effects = 0.125;  // shared by their pairs
+  double something_else = 0.175;
+  double one_and_something_else = 0.075;
+  double pair_beside_something_else_log = -2.0;  // logarithm of its prior over that of the pair alone
+};
+
+// How much of the log evidence is believed, since no simulator is exact: with one share alone answers of
+// "0.99" were wrong in one case of four on sealed campaigns; under the second share a set keeps some
+// probability unless it is far behind. See weigh.
+struct EvidenceShare {
+  double share, weight;
+};
+struct EvidenceOptions {
+  std::array<EvidenceShare, 2> shares{EvidenceShare{0.12, 0.7}, EvidenceShare{0.012, 0.3}};
+  bool whole = false;  // believed as it stands, for ablations
+};
+
+// Which of the compared sets the answer is: see selection.h.
+struct SelectionOptions {
+  double certain = 0.5;           // probability from which the first set is the answer whatever follows
+  double unknown_majority = 0.5;  // of all sets with something else, beyond which one of them is the answer
+  double simpler_share = 0.5;  // of the first set's probability, for which a smaller one of the same is taken
+  double min_running = 0.01;   // probability of sets that resamples choose among
+  int max_running = 6;         // of them, at most
+};
+
+// What the chosen set means: see verdict.h.
+struct VerdictOptions {
+  int min_drives = 3;   // fewer say nothing of what differs from drive to drive
+  int min_windows = 6;  // fewer than parameters
+  // Gain of soils and motors being free over their being nominal, closures free in either case, beyond which
+  // parameters are called mis-set.
+  double min_parameters_gain = 20.0;
+  double surely_seen = 6.0;       // standard errors that the believed share of the evidence asks for
+  double small_effect = 0.5;      // of an effect's usual size: what drives should have shown
+  double max_hidden_share = 0.5;  // of the variants that could have hidden at that size, for no gap
+  double beyond_chance = 2.0;     // standard errors by which harsh drives are predicted worse
+  // What may be left on held-out drives over the floor, nothing being named; and beside named effects, whose
+  // equation may be another's.
+  double max_left_of_nothing = 1.25;
+  double max_left_beside_effects = 1.5;
+  double forgiven_closure = 0.5;  // share of the channel's gap: effects that close so much may leave the rest
+  double rival_share = 0.75;      // of the answer's probability: a rival with as much is alike
+  double min_doubt = 0.9;         // probability of something unknown where an answer left a gap
+  double determined_share = 0.7;  // of a prior deviation, below which drives determine a parameter
+  double max_angle_deg = 30.0;    // between signatures of effects that are hard to tell apart
+  double min_signature = 1.0;     // deviations, of signatures that are compared
+  int max_unexplained_shapes = 5;  // parts of what is unexplained that are described
+};
+
+// Predictions of drives that a fit has not seen: see gap_closure.h.
+struct HeldOutOptions {
+  int max_iterations = 4;          // of fits to folds, which begin at the answer of all drives
+  double min_chosen_share = 0.02;  // of resamples: sets that fewer choose are not fitted to folds
+  // A re-tuned model beside something unknown is offered where no channel is predicted worse than by the
+  // nominal one, this many times, and one is predicted better, by this factor.
+  double no_worse = 1.02;
+  double much_better = 0.8;
+  double clearly_more_slip = 0.05;  // between drives' mean slips that a planner could rank
+};
+
+// Harsh drives predicted from gentle ones: see extrapolation.h.
+struct ExtrapolationOptions {
+  double learnt_quantile = 2.0 / 3.0;  // of the groups of drives by harshness; those beyond are predicted
+  int min_groups = 4;                  // of drives that are predicted, for a standard error
+  // Ranges over a campaign below which nothing is extrapolated.
+  double min_slope_range_deg = 5.0;
+  double min_temperature_range_c = 20.0;
+  double min_speed_range_m_s = 0.02;
+};
+
+// Slices that a gap is looked for in: see slices.h.
+struct SliceOptions {
+  int min_windows = 3;
+  int min_one_in = 20;      // a slice has one in so many windows at least; fewer are single events
+  double max_share = 0.75;  // of the windows: nearly all of them are no place
+  int pieces = 5;           // that a variable is cut into
+  int max_values = 6;       // a variable with no more values is cut at them
+};
+
+// Where the gap is: see localise.h and regimes.h.
+struct LocationOptions {
+  double max_significance = 0.1;  // p of a regime, corrected for all slices
+  double min_trace_share = 0.1;   // of a trace that a channel has, for regimes in it
+  // Squared deviations: windows further off than all others weigh no more than the next, for a window that a
+  // model calls stuck is a hundred deviations off and would outweigh all.
+  double plainly_off = 100.0;
+  int resamples_per_permutation = 4;  // one permutation costs as much as all slices
+  int max_regimes = 5;
+  double slope_scale_deg = 10.0;  // what a channel's bias may go with: see channel_gaps
+  double temperature_scale_c = 30.0;
+  std::array<double, 2> place_radii_m{1.5, 3.0};
+  double max_place_significance = 0.05;
+  int min_place_windows = 3;
+  int min_place_drives = 2;  // a place is one that several drives met
+  int max_place_one_in = 3;  // of windows: it is not where they all are
+  int max_places = 5;
+};
+
+// Drives that would tell the explanations apart: see next_drives.h.
+struct NextDriveOptions {
+  std::array<double, 4> tilts_deg{0.0, 5.0, 10.0, 15.0};
+  std::array<double, 3> headings_deg{0.0, 90.0, 180.0};  // from straight uphill
+  std::array<double, 3> speed_shares{1.0, 0.5, -1.0};    // of the rover's cruise speed
+  std::array<double, 2> curvatures_1_m{0.0, 0.3};
+  std::array<double, 2> temperatures_c{20.0, -40.0};
+  // The least error that one drive leaves in a channel, whatever the scatter that was found.
+  double min_slip_error = 0.01;
+  double min_side_slip_error = 0.01;
+  double min_yaw_rate_error_rad_s = 3e-4;
+  double min_current_error_a = 0.003;
+  double min_sinkage_error_m = 0.001;
+  int max_explanations = 4;         // that drives are to tell apart
+  int max_drives = 3;               // that are proposed
+  double min_bits = 1e-3;           // below which no drive is proposed
+  double min_tilt_apart_deg = 6.0;  // between proposed drives that are otherwise alike
+};
+
 struct DiagnosisOptions {
-  SearchOptions search;
   WindowOptions windows;
+  NoiseOptions noise;
+  PreparationOptions preparation;
+  FitOptions fit;
+  DiscrepancyOptions discrepancy;
+  SoftPatchOptions soft_patch;
+  SearchOptions search;
+  SecondSearchOptions second_search;
+  PriorOptions priors;
+  EvidenceOptions evidence;
+  SelectionOptions selection;
+  VerdictOptions verdict;
+  HeldOutOptions held_out;
+  ExtrapolationOptions extrapolation;
+  SliceOptions slices;
+  LocationOptions location;
+  NextDriveOptions next_drives;
   std::uint64_t seed = 1;
   // An oracle's: what is not withheld is at work, all of it (see fit_given_explanation).
   bool given = false;
   int folds = 5;
   int resamples = 400;  // of bootstraps and permutations
 };
+
+// One field, under its name in these structs: "fit", "huber", {4}. A list has more values than one or is
+// marked as one.
+struct ListedOption {
+  std::string_view step, name;
+  std::vector<double> values;
+  bool list = false;
+};
+// All fields but the effects that were withheld, the seed and the number of threads; steps together.
+std::vector<ListedOption> listed_options(const DiagnosisOptions& options);
 
 }  // namespace slipway::gap

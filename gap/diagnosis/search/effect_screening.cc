@@ -9,81 +9,108 @@
 namespace slipway::gap {
 namespace {
 
-// Linear evidence of columns beside a fit, one-sided ones kept on their side, and the estimate.
-double linear_gain(const FittedExplanation& fit, const Eigen::MatrixXd& known, const Eigen::MatrixXd& columns,
-                   std::span<const Parameter> parameters, Eigen::VectorXd& estimate) {
-  std::vector<Eigen::Index> kept;
-  for (Eigen::Index c = 0; c < columns.cols(); ++c) kept.push_back(c);
-  estimate = Eigen::VectorXd::Zero(columns.cols());
-  const double without = log_marginal(fit.white_linear, known);
-  for (;;) {
-    if (kept.empty()) return 0.0;
-    Eigen::MatrixXd all(columns.rows(), known.cols() + static_cast<Eigen::Index>(kept.size()));
-    all << known, columns(Eigen::all, kept);
-    Eigen::MatrixXd hessian = all.transpose() * all;
-    hessian.diagonal().array() += 1.0;
-    const Eigen::VectorXd solved = hessian.llt().solve(all.transpose() * fit.white_linear).tail(kept.size());
-    std::vector<Eigen::Index> allowed;
-    for (std::size_t i = 0; i < kept.size(); ++i) {
-      const Parameter& p = parameters[static_cast<std::size_t>(kept[i])];
-      const double value = p.neutral + p.std * solved[static_cast<Eigen::Index>(i)];
-      if ((p.lowest == p.neutral && value < p.neutral) || (p.highest == p.neutral && value > p.neutral))
-        continue;
-      allowed.push_back(kept[i]);
-    }
-    if (allowed.size() == kept.size()) {
-      double gain = log_marginal(fit.white_linear, all) - without;
-      for (std::size_t i = 0; i < kept.size(); ++i) {
-        const Parameter& p = parameters[static_cast<std::size_t>(kept[i])];
-        estimate[kept[i]] = std::clamp(solved[static_cast<Eigen::Index>(i)], (p.lowest - p.neutral) / p.std,
-                                       (p.highest - p.neutral) / p.std);
-        if (p.lowest == p.neutral || p.highest == p.neutral) gain += std::log(2.0);
-      }
-      return gain;
-    }
-    kept = std::move(allowed);
-  }
+// Of an effect that is in the fit already: below every gain.
+constexpr double kInTheFit = -1e9;
+
+bool is_one_sided(const Parameter& p) {
+  return p.lowest == p.neutral || p.highest == p.neutral;
+}
+
+bool on_its_side(const Parameter& p, double value) {
+  return !((p.lowest == p.neutral && value < p.neutral) || (p.highest == p.neutral && value > p.neutral));
+}
+
+Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns) {
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
+  return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
+}
+
+// What screening knows of a fit: its columns with those of the discrepancy term, and the directions that
+// re-tuning takes.
+struct Known {
+  Eigen::MatrixXd columns, basis;
+};
+
+// A variant that is not in the fit.
+ScreenedEffect screened(std::size_t variant, const Hypothesis& with, const WindowModel& model,
+                        const NoiseModel& noise, const FittedExplanation& fit, const Known& known) {
+  ScreenedEffect effect;
+  effect.variant = variant;
+  const Eigen::MatrixXd columns = added_columns(with, model, noise, fit, effect.start);
+  const auto added = with.parameters().subspan(fit.x.size());
+  const LinearGain found = linear_gain(fit.white_linear, known.columns, columns, added);
+  effect.gain = found.gain;
+  for (std::size_t p = 0; p < added.size(); ++p)
+    effect.start[fit.x.size() + p] =
+        std::clamp(added[p].neutral + added[p].std * found.estimate[static_cast<Eigen::Index>(p)],
+                   added[p].lowest, added[p].highest);
+  // What the found combination does; of one that is not there, the first field.
+  Eigen::VectorXd direction = columns * found.estimate;
+  if (found.estimate.squaredNorm() == 0.0) direction = columns.col(0);
+  effect.signature = direction - known.basis * (known.basis.transpose() * direction);
+  const double length = direction.norm();
+  effect.kept_share = length > 0.0 ? effect.signature.norm() / length : 0.0;
+  const Eigen::VectorXd first = columns.col(0) - known.basis * (known.basis.transpose() * columns.col(0));
+  effect.visibility = first.norm();
+  return effect;
 }
 
 }  // namespace
 
+LinearGain linear_gain(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& known,
+                       const Eigen::MatrixXd& columns, std::span<const Parameter> parameters) {
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index c = 0; c < columns.cols(); ++c) kept.push_back(c);
+  LinearGain found{0.0, Eigen::VectorXd::Zero(columns.cols())};
+  const double without = log_marginal(residuals, known);
+  while (!kept.empty()) {
+    Eigen::MatrixXd all(columns.rows(), known.cols() + static_cast<Eigen::Index>(kept.size()));
+    all << known, columns(Eigen::all, kept);
+    Eigen::MatrixXd hessian = all.transpose() * all;
+    hessian.diagonal().array() += 1.0;
+    const Eigen::VectorXd solved = hessian.llt().solve(all.transpose() * residuals).tail(kept.size());
+    std::vector<Eigen::Index> allowed;
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      const Parameter& p = parameters[static_cast<std::size_t>(kept[i])];
+      if (on_its_side(p, p.neutral + p.std * solved[static_cast<Eigen::Index>(i)]))
+        allowed.push_back(kept[i]);
+    }
+    if (allowed.size() < kept.size()) {
+      kept = std::move(allowed);
+      continue;
+    }
+    found.gain = log_marginal(residuals, all) - without;
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      const Parameter& p = parameters[static_cast<std::size_t>(kept[i])];
+      found.estimate[kept[i]] = std::clamp(solved[static_cast<Eigen::Index>(i)],
+                                           (p.lowest - p.neutral) / p.std, (p.highest - p.neutral) / p.std);
+      if (is_one_sided(p)) found.gain += std::log(2.0);
+    }
+    break;
+  }
+  return found;
+}
+
 std::vector<ScreenedEffect> screen_effects(const DriveCampaign& campaign, const WindowModel& model,
                                            const NoiseModel& noise, const FittedExplanation& fit,
                                            const DiscrepancyTerm& discrepancy,
-                                           std::span<const EffectVariant> variants, std::size_t threads) {
+                                           std::span<const EffectVariant> variants,
+                                           const DiscrepancyOptions& options, std::size_t threads) {
+  Known known;
+  known.basis = orthonormal_basis(fit.white_jacobian);
+  known.columns.resize(fit.white_jacobian.rows(), fit.white_jacobian.cols() + discrepancy.values.cols());
+  known.columns << fit.white_jacobian, options.imprecision * whitened(fit, noise, discrepancy);
   std::vector<ScreenedEffect> all(variants.size());
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(fit.white_jacobian);
-  const Eigen::MatrixXd basis =
-      qr.householderQ() * Eigen::MatrixXd::Identity(fit.white_jacobian.rows(), fit.white_jacobian.cols());
-  Eigen::MatrixXd known(fit.white_jacobian.rows(), fit.white_jacobian.cols() + discrepancy.values.cols());
-  known << fit.white_jacobian, kImprecision * whitened(fit, noise, discrepancy);
   parallel_for(variants.size(), threads, [&](std::size_t v) {
     if (model.cancelled()) return;
     std::vector<EffectVariant> effects(fit.hypothesis.effects().begin(), fit.hypothesis.effects().end());
-    for (const EffectVariant& there : effects)
-      if (there.effect == variants[v].effect) {
-        all[v] = {v, -1e9, {}, {}, 0.0, 0.0};
-        return;
-      }
+    if (std::any_of(effects.begin(), effects.end(),
+                    [&](const EffectVariant& there) { return there.effect == variants[v].effect; })) {
+      all[v] = {v, kInTheFit, {}, {}, 0.0, 0.0};
+      return;
+    }
     effects.push_back(variants[v]);
-    const Hypothesis hypothesis(campaign, effects);
-    std::vector<double> start;
-    const Eigen::MatrixXd columns = added_columns(hypothesis, model, noise, fit, start);
-    Eigen::VectorXd estimate;
-    const auto added = hypothesis.parameters().subspan(fit.x.size());
-    const double gain = linear_gain(fit, known, columns, added, estimate);
-    for (std::size_t p = 0; p < added.size(); ++p)
-      start[fit.x.size() + p] =
-          std::clamp(added[p].neutral + added[p].std * estimate[static_cast<Eigen::Index>(p)],
-                     added[p].lowest, added[p].highest);
-    // What the found combination does; of one that is not there, the first field.
-    Eigen::VectorXd direction = columns * estimate;
-    if (estimate.squaredNorm() == 0.0) direction = columns.col(0);
-    const Eigen::VectorXd projected = direction - basis * (basis.transpose() * direction);
-    const double length = direction.norm();
-    const Eigen::VectorXd first = columns.col(0) - basis * (basis.transpose() * columns.col(0));
-    all[v] = {v,           gain, std::move(start), projected, length > 0.0 ? projected.norm() / length : 0.0,
-              first.norm()};
+    all[v] = screened(v, Hypothesis(campaign, effects), model, noise, fit, known);
   });
   std::stable_sort(all.begin(), all.end(),
                    [](const ScreenedEffect& a, const ScreenedEffect& b) { return a.gain > b.gain; });

@@ -14,52 +14,15 @@
 namespace slipway::gap {
 namespace {
 
-constexpr std::size_t kMostPatches = 3;
-constexpr int kMostVariants = 2;  // of an effect, that are fitted in full
-
-// What is believed before the drives: that nothing is missing, that one effect is, two are, something else. A
-// diagnosis is asked for where something seems to be wrong.
-constexpr double kNothing = 0.25, kOne = 0.375, kTwo = 0.125, kSomethingElse = 0.175,
-                 kOneAndSomethingElse = 0.075;
-
-// Shares of the evidence that are believed, and how often each; chosen on sealed campaigns, see
-// docs/diagnosis.md.
-struct Belief {
-  double share, weight;
-};
-constexpr std::array kBeliefs{Belief{0.12, 0.7}, Belief{0.012, 0.3}};
-constexpr std::array kAllOfIt{Belief{1.0, 1.0}};
-
-ExplanationOptions fit_options(const SearchOptions& options) {
-  ExplanationOptions o;
-  o.threads = options.threads;
-  return o;
-}
+constexpr std::array kWholeEvidence{EvidenceShare{1.0, 1.0}};
 
 // The fit that no iteration has moved from the nominal parameters.
 FittedExplanation at_nominal(const FittedExplanation& null, const WindowModel& model, const NoiseModel& noise,
-                             const SearchOptions& options) {
-  ExplanationOptions untouched = fit_options(options);
-  untouched.iterations = 0;
-  return fit_explanation(null.hypothesis, model, noise, null.hypothesis.neutral(), untouched);
-}
-
-// A null that had to go this far from what was believed, in prior deviations, is no point from which effects
-// look linear.
-constexpr double kFar = 2.5;
-
-bool went_far(const FittedExplanation& null) {
-  const auto parameters = null.hypothesis.parameters();
-  for (std::size_t p = 0; p < parameters.size(); ++p)
-    if (std::abs(null.x[p] - parameters[p].neutral) > kFar * parameters[p].std) return true;
-  return false;
-}
-
-// Whether each effect of a fit is at work by a good part of its usual size.
-bool worth_naming(const FittedExplanation& fit, double least_size) {
-  const auto effects = fit.hypothesis.effects();
-  return std::all_of(effects.begin(), effects.end(),
-                     [&](const EffectVariant& v) { return size_of(fit, v.effect) >= least_size; });
+                             const DiagnosisOptions& options) {
+  FitOptions untouched = options.fit;
+  untouched.max_iterations = 0;
+  return fit_explanation(null.hypothesis, model, noise, null.hypothesis.neutral(), untouched,
+                         options.search.threads);
 }
 
 double log_sum_exp(const std::vector<double>& values) {
@@ -73,7 +36,7 @@ double log_sum_exp(const std::vector<double>& values) {
 class Searcher {
  public:
   Searcher(const DriveCampaign& campaign, const WindowModel& model, const NoiseModel& noise,
-           FittedExplanation null, const DiscrepancyTerm& discrepancy, const SearchOptions& options,
+           FittedExplanation null, const DiscrepancyTerm& discrepancy, const DiagnosisOptions& options,
            Progress& progress)
       : campaign_(campaign),
         model_(model),
@@ -81,15 +44,16 @@ class Searcher {
         discrepancy_(discrepancy),
         options_(options),
         progress_(progress),
-        variants_(effect_variants(*campaign.rover, options.withheld)) {
+        variants_(effect_variants(*campaign.rover, options.search.withheld)) {
     for (const EffectVariant& v : variants_) ++variants_of_[v.effect];
     for (const sim::Effect& effect : sim::effect_catalogue()) {
-      const auto& withheld = options.withheld;
+      const auto& withheld = options.search.withheld;
       if (effect.variant_at == nullptr ||
           std::find(withheld.begin(), withheld.end(), effect.name) != withheld.end())
         continue;
       progress.report("looking for soft places", 0.18);
-      const PatchSearch patches = search_soft_patches(effect, campaign, model, noise, null, kMostPatches);
+      const PatchSearch patches =
+          search_soft_patches(effect, campaign, model, noise, null, options.soft_patch);
       variants_.insert(variants_.end(), patches.variants.begin(), patches.variants.end());
       variants_of_[std::string(effect.name)] = static_cast<double>(patches.looks);
     }
@@ -108,7 +72,7 @@ class Searcher {
       const std::size_t index = add_fit(before.hypothesis, before.x);
       if (names.size() == 1) {
         best_fit_[*names.begin()] = index;
-        tried_[*names.begin()] = kMostVariants;
+        tried_[*names.begin()] = options_.search.max_variants;
       } else {
         pairs_[names] = index;
       }
@@ -121,11 +85,11 @@ class Searcher {
       if (progress_.cancelled()) return;
       const EffectVariant& v = variants_[s.variant];
       const bool known = tried_.contains(v.effect);
-      if (!known && static_cast<int>(tried_.size()) >= options_.most_refitted) continue;
-      if (tried_[v.effect] >= kMostVariants) continue;
+      if (!known && static_cast<int>(tried_.size()) >= options_.search.max_refitted) continue;
+      if (tried_[v.effect] >= options_.search.max_variants) continue;
       ++tried_[v.effect];
       progress_.report("fitting effects", 0.25 + 0.3 * static_cast<double>(search_.fits.size()) /
-                                                     (2.0 * options_.most_refitted));
+                                                     (2.0 * options_.search.max_refitted));
       const std::size_t index = add_fit(Hypothesis(campaign_, {v}), s.start);
       FittedExplanation& fit = search_.fits[index];
       if (const auto other = other_start_.find(s.variant); other != other_start_.end()) {
@@ -133,7 +97,8 @@ class Searcher {
         if (second.log_evidence > fit.log_evidence) fit = std::move(second);
       }
       if (place_of(v) && tried_[v.effect] == 1)
-        fit = refine_soft_patch(campaign_, model_, noise_, std::move(fit), fit_options(options_));
+        fit = refine_soft_patch(campaign_, model_, noise_, std::move(fit), options_.fit, options_.soft_patch,
+                                options_.search.threads);
       const auto best = best_fit_.find(v.effect);
       if (best == best_fit_.end() || fit.log_evidence > search_.fits[best->second].log_evidence)
         best_fit_[v.effect] = index;
@@ -145,15 +110,15 @@ class Searcher {
   }
 
   // They grow from the best single effects, by seconds that promise a gain of so much at least.
-  void fit_pairs(double least_gain) {
-    for (std::size_t s = 0; s < singles_.size() && s < static_cast<std::size_t>(options_.most_paired); ++s) {
+  void fit_pairs(double min_gain) {
+    for (std::size_t s = 0; s < singles_.size() && s < static_cast<std::size_t>(options_.search.max_paired);
+         ++s) {
       const std::size_t base = singles_[s].second;
       int fitted = 0;
       std::set<std::string> done;
-      for (const ScreenedEffect& second : screen_effects(campaign_, model_, noise_, search_.fits[base],
-                                                         discrepancy_, variants_, options_.threads)) {
+      for (const ScreenedEffect& second : screened_beside(search_.fits[base])) {
         if (progress_.cancelled()) return;
-        if (fitted >= options_.most_seconds || second.start.empty() || second.gain < least_gain) break;
+        if (fitted >= options_.search.max_seconds || second.start.empty() || second.gain < min_gain) break;
         const EffectVariant& v = variants_[second.variant];
         const std::set<std::string> names{singles_[s].first, v.effect};
         if (pairs_.contains(names) || !done.insert(v.effect).second) continue;
@@ -169,36 +134,35 @@ class Searcher {
 
   // All that was fitted and is worth a name against each other, nothing, and something else.
   Result<ExplanationSearch> compete() && {
-    add_candidates(0, std::log(kNothing), std::log(kSomethingElse));
+    const auto effects = static_cast<double>(variants_of_.size());
+    add_candidates(0, log_prior_of_nothing(options_.priors));
     for (const auto& [effect, fit] : singles_)
-      if (worth_naming(search_.fits[fit], options_.least_size))
-        add_candidates(fit, log_single(), std::log(kOneAndSomethingElse / families()));
+      if (worth_naming(search_.fits[fit], options_.search.min_named_size))
+        add_candidates(fit, log_prior_of_one(options_.priors, effects));
     for (const auto& [names, fit] : pairs_)
-      if (worth_naming(search_.fits[fit], options_.least_size))
-        add_candidates(fit, log_pair(), log_pair() - 2.0);
+      if (worth_naming(search_.fits[fit], options_.search.min_named_size))
+        add_candidates(fit, log_prior_of_two(options_.priors, effects));
     return std::move(*this).weighed();
   }
 
   // Only what has every effect of the library; nothing, where none was fitted.
   Result<ExplanationSearch> given() && {
-    options_.something_else = false;
+    options_.search.something_else = false;
     if (variants_of_.size() == 1)
-      for (const auto& [effect, fit] : singles_) add_candidates(fit, 0.0, 0.0);
+      for (const auto& [effect, fit] : singles_) add_candidates(fit, {});
     for (const auto& [names, fit] : pairs_)
-      if (names.size() == variants_of_.size()) add_candidates(fit, 0.0, 0.0);
-    if (search_.candidates.empty()) add_candidates(0, 0.0, 0.0);
+      if (names.size() == variants_of_.size()) add_candidates(fit, {});
+    if (search_.candidates.empty()) add_candidates(0, {});
     return std::move(*this).weighed();
   }
 
  private:
   // At the null, and at the nominal parameters where that had to go far from them.
   void screen() {
-    screened_ =
-        screen_effects(campaign_, model_, noise_, search_.fits[0], discrepancy_, variants_, options_.threads);
-    if (went_far(search_.fits[0])) {
+    screened_ = screened_beside(search_.fits[0]);
+    if (went_far(search_.fits[0], options_.search.max_linear_shift)) {
       const FittedExplanation nominal = at_nominal(search_.fits[0], model_, noise_, options_);
-      for (const ScreenedEffect& f :
-           screen_effects(campaign_, model_, noise_, nominal, discrepancy_, variants_, options_.threads)) {
+      for (const ScreenedEffect& f : screened_beside(nominal)) {
         other_start_[f.variant] = f.start;
         for (ScreenedEffect& s : screened_)
           if (s.variant == f.variant) s.gain = std::max(s.gain, f.gain);
@@ -210,44 +174,46 @@ class Searcher {
       search_.screened.push_back({variants_[s.variant], s.gain, s.signature, s.kept_share, s.visibility});
   }
 
+  std::vector<ScreenedEffect> screened_beside(const FittedExplanation& fit) const {
+    return screen_effects(campaign_, model_, noise_, fit, discrepancy_, variants_, options_.discrepancy,
+                          options_.search.threads);
+  }
   FittedExplanation fitted(const Hypothesis& hypothesis, std::span<const double> start) const {
-    return fit_explanation(hypothesis, model_, noise_, start, fit_options(options_));
+    return fit_explanation(hypothesis, model_, noise_, start, options_.fit, options_.search.threads);
   }
   std::size_t add_fit(const Hypothesis& hypothesis, std::span<const double> start) {
     search_.fits.push_back(fitted(hypothesis, start));
     return search_.fits.size() - 1;
   }
 
-  double families() const { return static_cast<double>(variants_of_.size()); }
-  double log_single() const { return std::log(kOne / families()); }
-  double log_pair() const { return std::log(kTwo / std::max(1.0, 0.5 * families() * (families() - 1.0))); }
-
   // A set, alone and with something else besides.
-  void add_candidates(std::size_t fit, double log_prior, double log_prior_unknown) {
+  void add_candidates(std::size_t index, LogPrior prior) {
     if (model_.cancelled()) return;
     Candidate c;
-    for (const EffectVariant& v : search_.fits[fit].hypothesis.effects()) {
+    const FittedExplanation& fit = search_.fits[index];
+    for (const EffectVariant& v : fit.hypothesis.effects()) {
       c.effects.push_back(v.effect);
-      log_prior -= std::log(variants_of_[v.effect]);
-      log_prior_unknown -= std::log(variants_of_[v.effect]);
+      prior.alone -= std::log(variants_of_[v.effect]);
+      prior.with_something_else -= std::log(variants_of_[v.effect]);
     }
-    c.fit = fit;
-    const DiscrepancyGain gain =
-        discrepancy_gain(search_.fits[fit], noise_, discrepancy_,
-                         form_columns(campaign_, model_, noise_, search_.fits[fit], options_.threads));
-    c.log_evidence = search_.fits[fit].log_evidence + gain.imprecision;
-    c.log_prior = log_prior;
+    c.fit = index;
+    const DiscrepancyGain gain = discrepancy_gain(
+        fit, whitened(fit, noise_, discrepancy_),
+        form_columns(campaign_, model_, noise_, fit, options_.discrepancy, options_.search.threads),
+        options_.discrepancy, [this] { return model_.cancelled(); });
+    c.log_evidence = fit.log_evidence + gain.imprecision;
+    c.log_prior = prior.alone;
     search_.candidates.push_back(c);
-    if (!options_.something_else) return;
+    if (!options_.search.something_else) return;
     c.with_unknown = true;
-    c.log_evidence = search_.fits[fit].log_evidence + gain.something_else;
-    c.log_prior = log_prior_unknown;
+    c.log_evidence = fit.log_evidence + gain.something_else;
+    c.log_prior = prior.with_something_else;
     search_.candidates.push_back(c);
   }
 
   Result<ExplanationSearch> weighed() && {
     if (progress_.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
-    weigh(search_.candidates, options_);
+    weigh(search_.candidates, options_.evidence);
     std::stable_sort(search_.candidates.begin(), search_.candidates.end(),
                      [](const Candidate& a, const Candidate& b) { return a.probability > b.probability; });
     return std::move(search_);
@@ -257,7 +223,7 @@ class Searcher {
   const WindowModel& model_;
   const NoiseModel& noise_;
   const DiscrepancyTerm& discrepancy_;
-  SearchOptions options_;
+  DiagnosisOptions options_;
   Progress& progress_;
   std::vector<EffectVariant> variants_;
   std::map<std::string, double> variants_of_;  // how many each effect has, or places that were looked at
@@ -275,20 +241,19 @@ class Searcher {
 Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, const WindowModel& model,
                                               const NoiseModel& noise, FittedExplanation null,
                                               const DiscrepancyTerm& discrepancy,
-                                              const SearchOptions& options, Progress& progress,
+                                              const DiagnosisOptions& options, Progress& progress,
                                               std::span<const FittedExplanation> found_before) {
-  constexpr double kLeastGain = 1.0;
   Searcher searcher(campaign, model, noise, std::move(null), discrepancy, options, progress);
   searcher.fit_again(found_before);
   searcher.fit_singles();
-  searcher.fit_pairs(kLeastGain);
+  searcher.fit_pairs(options.search.min_pair_gain);
   return std::move(searcher).compete();
 }
 
 Result<ExplanationSearch> fit_given_explanation(const DriveCampaign& campaign, const WindowModel& model,
                                                 const NoiseModel& noise, FittedExplanation null,
                                                 const DiscrepancyTerm& discrepancy,
-                                                const SearchOptions& options, Progress& progress,
+                                                const DiagnosisOptions& options, Progress& progress,
                                                 std::span<const FittedExplanation> found_before) {
   Searcher searcher(campaign, model, noise, std::move(null), discrepancy, options, progress);
   searcher.fit_again(found_before);
@@ -297,11 +262,38 @@ Result<ExplanationSearch> fit_given_explanation(const DriveCampaign& campaign, c
   return std::move(searcher).given();
 }
 
-void weigh(std::span<Candidate> candidates, const SearchOptions& options) {
+bool went_far(const FittedExplanation& null, double max_shift) {
+  const auto parameters = null.hypothesis.parameters();
+  for (std::size_t p = 0; p < parameters.size(); ++p)
+    if (std::abs(null.x[p] - parameters[p].neutral) > max_shift * parameters[p].std) return true;
+  return false;
+}
+
+bool worth_naming(const FittedExplanation& fit, double min_size) {
+  const auto effects = fit.hypothesis.effects();
+  return std::all_of(effects.begin(), effects.end(),
+                     [&](const EffectVariant& v) { return size_of(fit, v.effect) >= min_size; });
+}
+
+LogPrior log_prior_of_nothing(const PriorOptions& options) {
+  return {std::log(options.nothing), std::log(options.something_else)};
+}
+
+LogPrior log_prior_of_one(const PriorOptions& options, double effects) {
+  return {std::log(options.one_effect / effects), std::log(options.one_and_something_else / effects)};
+}
+
+LogPrior log_prior_of_two(const PriorOptions& options, double effects) {
+  const double pairs = std::max(1.0, 0.5 * effects * (effects - 1.0));
+  const double alone = std::log(options.two_effects / pairs);
+  return {alone, alone + options.pair_beside_something_else_log};
+}
+
+void weigh(std::span<Candidate> candidates, const EvidenceOptions& options) {
   for (Candidate& c : candidates) c.probability = 0.0;
-  const std::span<const Belief> beliefs =
-      options.whole_evidence ? std::span<const Belief>(kAllOfIt) : std::span<const Belief>(kBeliefs);
-  for (const Belief& belief : beliefs) {
+  const std::span<const EvidenceShare> shares =
+      options.whole ? std::span<const EvidenceShare>(kWholeEvidence) : options.shares;
+  for (const EvidenceShare& belief : shares) {
     std::vector<double> weights;
     for (const Candidate& c : candidates) weights.push_back(belief.share * c.log_evidence + c.log_prior);
     const double all = log_sum_exp(weights);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,25 +12,12 @@
 
 namespace slipway::gap {
 
-struct SearchOptions {
-  std::vector<std::string> withheld;  // effects that are not looked for
-  int most_refitted = 8;              // effects that are fitted in full
-  int most_paired = 4;                // of those, whose pairs are looked for
-  int most_seconds = 3;               // of each of those
-  // An effect smaller than this share of its usual size (the deviation of its prior) is not worth a name: it
-  // is how one simulator's numerics differ from another's.
-  double least_size = 0.3;
-  bool something_else = true;   // the wildcard competes; without it for ablations
-  bool whole_evidence = false;  // believed as it stands, for ablations; see weigh
-  std::size_t threads = 0;
-};
-
 // A set of effects that was compared. Its fit is one of ExplanationSearch::fits.
 struct Candidate {
   std::vector<std::string> effects;  // in the order of its hypothesis; empty: none
   bool with_unknown = false;         // something else besides
   std::size_t fit = 0;
-  double log_evidence = 0.0;  // the wildcard's part among it
+  double log_evidence = 0.0;  // the discrepancy term's part among it
   double log_prior = 0.0;
   double probability = 0.0;
 };
@@ -57,7 +43,7 @@ struct ExplanationSearch {
 Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, const WindowModel& model,
                                               const NoiseModel& noise, FittedExplanation null,
                                               const DiscrepancyTerm& discrepancy,
-                                              const SearchOptions& options, Progress& progress,
+                                              const DiagnosisOptions& options, Progress& progress,
                                               std::span<const FittedExplanation> found_before = {});
 
 // An oracle's: the effects that are not withheld are at work, all of them (two at most), and nothing else is
@@ -65,13 +51,27 @@ Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, con
 Result<ExplanationSearch> fit_given_explanation(const DriveCampaign& campaign, const WindowModel& model,
                                                 const NoiseModel& noise, FittedExplanation null,
                                                 const DiscrepancyTerm& discrepancy,
-                                                const SearchOptions& options, Progress& progress,
+                                                const DiagnosisOptions& options, Progress& progress,
                                                 std::span<const FittedExplanation> found_before = {});
 
-// The candidates' probabilities from evidence and prior. The logarithm of the evidence is
-// believed by a share, since no simulator is exact: mostly by one, and, as answers of sealed campaigns that
-// were sure and wrong ask for, now and then by a tenth of it.
-void weigh(std::span<Candidate> candidates, const SearchOptions& options);
+// The candidates' probabilities from evidence and prior: P = sum_k weight_k exp(share_k E + log prior) / Z_k,
+// each share of the log evidence E normalised over the candidates by itself.
+void weigh(std::span<Candidate> candidates, const EvidenceOptions& options);
+
+// What a set of effects is believed by before the drives (natural logarithms): alone, and with something else
+// besides. A set's share of its prior is divided by the number of effects in the library, or of their pairs.
+struct LogPrior {
+  double alone = 0.0, with_something_else = 0.0;
+};
+LogPrior log_prior_of_nothing(const PriorOptions& options);
+LogPrior log_prior_of_one(const PriorOptions& options, double effects);
+LogPrior log_prior_of_two(const PriorOptions& options, double effects);
+
+// Whether each effect of a fit is at work by a good part of its usual size.
+bool worth_naming(const FittedExplanation& fit, double min_size);
+
+// Whether a re-tuned null had to go so far from what was believed, in prior deviations.
+bool went_far(const FittedExplanation& null, double max_shift);
 
 // The fits of the most probable sets of effects, at most so many.
 std::vector<FittedExplanation> most_probable_fits(const ExplanationSearch& search, std::size_t most);

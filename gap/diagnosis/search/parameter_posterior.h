@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gap/diagnosis/model/noise_model.h"
+#include "gap/diagnosis/model/nuisance_catalogue.h"
 #include "gap/diagnosis/search/explanation.h"
 #include "sim/soil/soil.h"
 
@@ -31,10 +32,6 @@ struct ParameterPosterior {
 
 // The covariance of Laplace's approximation, priors included.
 ParameterPosterior posterior_of(const FittedExplanation& fit);
-
-// The nuisances in the order of sim::SoilNormals.
-inline constexpr std::array<std::string_view, sim::kSoilDims> kSoilNuisances{"stiffness", "n", "cohesion",
-                                                                             "friction", "shear_modulus"};
 
 // The soil's spread: what the estimate leaves open, and what differs from drive to drive.
 void set_spread(const ParameterPosterior& posterior, const NoiseScales& scatter, sim::SoilDistribution& soil);

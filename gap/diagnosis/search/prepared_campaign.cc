@@ -6,18 +6,6 @@
 namespace slipway::gap {
 namespace {
 
-Eigen::VectorXd in_prior_units(const FittedExplanation& fit) {
-  const auto parameters = fit.hypothesis.parameters();
-  Eigen::VectorXd u(static_cast<Eigen::Index>(fit.x.size()));
-  for (std::size_t p = 0; p < fit.x.size(); ++p)
-    u[static_cast<Eigen::Index>(p)] = (fit.x[p] - parameters[p].neutral) / parameters[p].std;
-  return u;
-}
-
-// The suspension's own stance is believed unless the attitudes recorded are nearer to the plane under the
-// wheels by this much (of rms).
-constexpr double kPlaneIsNearer = 0.8;
-
 // A rigid frame on uneven ground would stand on three of its wheels. Real ones have tyres and give: where no
 // attitude was recorded that says otherwise, they stand on the plane.
 bool stands_on_plane(const DriveCampaign& campaign, const WindowModel& model) {
@@ -25,30 +13,29 @@ bool stands_on_plane(const DriveCampaign& campaign, const WindowModel& model) {
          std::isnan(model.attitude_misfit_rad());
 }
 
-// How often the scatter is estimated and the null fitted under it.
-constexpr int kRounds = 2;
-
 }  // namespace
 
 std::unique_ptr<WindowModel> window_model_of(const DriveCampaign& campaign,
-                                             std::span<const DriveWindow> windows) {
+                                             std::span<const DriveWindow> windows,
+                                             const PreparationOptions& options) {
   auto suspension = std::make_unique<WindowModel>(campaign, windows);
   auto plane = std::make_unique<WindowModel>(campaign, windows, Footing::kPlane);
-  const bool nearer =
-      plane->attitude_misfit_rad() < kPlaneIsNearer * suspension->attitude_misfit_rad() ||  // false for NaN
-      stands_on_plane(campaign, *suspension);
+  const bool nearer = plane->attitude_misfit_rad() <
+                          options.plane_is_nearer * suspension->attitude_misfit_rad() ||  // false for NaN
+                      stands_on_plane(campaign, *suspension);
   return nearer ? std::move(plane) : std::move(suspension);
 }
 
 Eigen::MatrixXd scatter_response(const Hypothesis& hypothesis, const Eigen::MatrixXd& jacobian,
                                  const Eigen::MatrixXd& levers) {
-  constexpr std::array<std::string_view, 3> kNames{"stiffness", "friction", "shear_modulus"};
-  Eigen::MatrixXd response = Eigen::MatrixXd::Zero(jacobian.rows(), kNames.size() + 4);
+  constexpr std::array kScattered{SoilQuantity::kStiffness, SoilQuantity::kFriction,
+                                  SoilQuantity::kShearModulus};
+  Eigen::MatrixXd response = Eigen::MatrixXd::Zero(jacobian.rows(), kScattered.size() + 4);
   response.rightCols(4) = levers.leftCols(4);
   const auto parameters = hypothesis.parameters();
   for (std::size_t p = 0; p < parameters.size(); ++p)
-    for (std::size_t k = 0; k < kNames.size(); ++k)
-      if (parameters[p].effect.empty() && parameters[p].name.starts_with(kNames[k]))
+    for (std::size_t k = 0; k < kScattered.size(); ++k)
+      if (parameters[p].quantity == kScattered[k])
         response.col(static_cast<Eigen::Index>(k)) +=
             jacobian.col(static_cast<Eigen::Index>(p)) / parameters[p].std;
   return response;
@@ -61,28 +48,29 @@ std::size_t PreparedCampaign::used_windows() const {
 }
 
 void prepare_around(PreparedCampaign& prepared, const DriveCampaign& campaign, const FittedExplanation& found,
-                    std::size_t threads) {
+                    const DiagnosisOptions& options) {
+  const std::size_t threads = options.search.threads;
   prepared.model->start_from(found.hypothesis.state(found.x), threads);
-  prepared.discrepancy = make_discrepancy_term(campaign, *prepared.model, found, threads);
+  prepared.discrepancy =
+      make_discrepancy_term(campaign, *prepared.model, found, options.discrepancy, threads);
   Eigen::MatrixXd systematic(found.jacobian.rows(),
                              found.jacobian.cols() + prepared.discrepancy.values.cols());
   systematic << found.jacobian, prepared.discrepancy.values;
-  prepared.noise->estimate(found.residuals + found.jacobian * in_prior_units(found), systematic);
-  ExplanationOptions options;
-  options.threads = threads;
+  prepared.noise->estimate(
+      found.residuals + found.jacobian * in_prior_units(found.hypothesis.parameters(), found.x), systematic);
   const std::vector<double> start = prepared.null->x;
-  prepared.null =
-      fit_explanation(prepared.null->hypothesis, *prepared.model, *prepared.noise, start, options);
+  prepared.null = fit_explanation(prepared.null->hypothesis, *prepared.model, *prepared.noise, start,
+                                  options.fit, threads);
   prepared.model->start_from(prepared.null->hypothesis.state(prepared.null->x), threads);
 }
 
-Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const WindowOptions& options,
-                                 std::size_t threads, Progress& progress,
-                                 const std::vector<bool>& looked_at) {
+Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const DiagnosisOptions& options,
+                                 Progress& progress, const std::vector<bool>& looked_at) {
+  const std::size_t threads = options.search.threads;
   PreparedCampaign made;
   progress.report("cutting drives into windows", 0.0);
-  made.windows = cut_windows(campaign, options);
-  made.model = window_model_of(campaign, made.windows);
+  made.windows = cut_windows(campaign, options.windows);
+  made.model = window_model_of(campaign, made.windows, options.preparation);
   made.model->watch(progress);
   const WindowModel& model = *made.model;
   std::vector<bool> used(model.observation_count(), false);
@@ -103,15 +91,15 @@ Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const WindowOpti
   progress.report("fitting soil and closures", 0.02);
   const Eigen::MatrixXd jacobian = hypothesis.scaled_jacobian(model, neutral, threads);
   made.noise = std::make_unique<NoiseModel>(
-      model, scatter_response(hypothesis, jacobian, lever_responses(campaign, model, neutral, threads)),
-      expected, used);
-  ExplanationOptions fit_options;
-  fit_options.threads = threads;
-  made.null = fit_explanation(hypothesis, model, *made.noise, neutral, fit_options);
-  for (int round = 0; round < kRounds; ++round) {
+      model,
+      scatter_response(hypothesis, jacobian,
+                       lever_responses(campaign, model, neutral, options.discrepancy, threads)),
+      expected, used, options.noise);
+  made.null = fit_explanation(hypothesis, model, *made.noise, neutral, options.fit, threads);
+  for (int round = 0; round < options.preparation.scatter_rounds; ++round) {
     if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
     progress.report("estimating the drives' own scatter", 0.06 + 0.05 * round);
-    prepare_around(made, campaign, *made.null, threads);
+    prepare_around(made, campaign, *made.null, options);
   }
   if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
   return made;

@@ -17,7 +17,8 @@ namespace slipway::gap {
 // The rover stands as its suspension does on the map, or on the plane under its wheels, whichever the
 // recorded attitudes show. Campaign and windows must outlive the model.
 std::unique_ptr<WindowModel> window_model_of(const DriveCampaign& campaign,
-                                             std::span<const DriveWindow> windows);
+                                             std::span<const DriveWindow> windows,
+                                             const PreparationOptions& options);
 
 // What a noise model asks for: derivatives of every observation by the logarithms of all soils' stiffness,
 // tan(friction) and shear modulus, of a hypothesis' scaled jacobian, and by the levers of the map's detail.
@@ -40,13 +41,12 @@ struct PreparedCampaign {
 // Estimates the drives' scatter anew around an explanation that was found, and fits the null under it: with
 // an effect missing, what it does was in part taken for scatter.
 void prepare_around(PreparedCampaign& prepared, const DriveCampaign& campaign, const FittedExplanation& found,
-                    std::size_t threads);
+                    const DiagnosisOptions& options);
 
 // The campaign must outlive what is made of it. Channels that are not `looked_at` (empty: all are) are
 // not used. Errors:
 // cancelled.
-Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const WindowOptions& options,
-                                 std::size_t threads, Progress& progress,
-                                 const std::vector<bool>& looked_at = {});
+Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const DiagnosisOptions& options,
+                                 Progress& progress, const std::vector<bool>& looked_at = {});
 
 }  // namespace slipway::gap

@@ -9,13 +9,9 @@
 namespace slipway::gap {
 namespace {
 
-constexpr double kMuchLess = 0.5;       // of a probability
-constexpr double kInTheRunning = 0.01;  // of a candidate's probability
-constexpr std::size_t kMostInTheRunning = 6;
-
-std::size_t simplest_of_the_best(std::span<const Candidate> candidates) {
+std::size_t simplest_of_the_best(std::span<const Candidate> candidates, const SelectionOptions& options) {
   std::size_t best = 0;
-  if (candidates.front().probability >= kCertain) return best;
+  if (candidates.front().probability >= options.certain) return best;
   for (std::size_t i = 1; i < candidates.size(); ++i) {
     const Candidate &held = candidates[best], &other = candidates[i];
     const auto in_held = [&](const std::string& effect) {
@@ -24,18 +20,54 @@ std::size_t simplest_of_the_best(std::span<const Candidate> candidates) {
     if (!other.effects.empty() && other.effects.size() < held.effects.size() &&
         other.with_unknown == held.with_unknown &&
         std::all_of(other.effects.begin(), other.effects.end(), in_held) &&
-        other.probability > kMuchLess * candidates.front().probability)
+        other.probability > options.simpler_share * candidates.front().probability)
       best = i;
   }
   return best;
 }
 
+// The explanations that resamples choose among, most probable first, with their linearised evidence.
+struct Running {
+  std::vector<Candidate> candidates;
+  std::vector<GroupedEvidence> evidence;
+  std::vector<double> whole;  // of all drives, once each
+};
+
+Running running_of(const ExplanationSearch& search, const PreparedCampaign& prepared,
+                   const DriveCampaign& campaign, const DiagnosisOptions& options,
+                   const DriveResampling& drives) {
+  const WindowModel& model = *prepared.model;
+  std::vector<std::size_t> group_of_row(model.observation_count());
+  for (std::size_t w = 0; w < model.windows().size(); ++w)
+    for (std::size_t i = 0; i < model.windows()[w].observations.size(); ++i)
+      group_of_row[model.offset(w) + i] = drives.groups[model.windows()[w].drive];
+  const std::vector<int> once(drives.group_count, 1);
+  const SelectionOptions& limits = options.selection;
+  Running running;
+  for (const Candidate& c : search.candidates) {
+    if (c.probability < limits.min_running ||
+        running.candidates.size() >= static_cast<std::size_t>(limits.max_running))
+      break;
+    const FittedExplanation& fit = search.fits[c.fit];
+    const Eigen::MatrixXd form =
+        form_columns(campaign, model, *prepared.noise, fit, options.discrepancy, options.search.threads);
+    running.candidates.push_back(c);
+    running.evidence.emplace_back(
+        fit.white_linear,
+        columns_beside(fit, whitened(fit, *prepared.noise, prepared.discrepancy), form, c.with_unknown,
+                       options.discrepancy, [&] { return model.cancelled(); }),
+        group_of_row, drives.group_count);
+    running.whole.push_back(running.evidence.back().counted(once));
+  }
+  return running;
+}
+
 }  // namespace
 
-std::size_t chosen_among(std::span<const Candidate> candidates) {
+std::size_t chosen_among(std::span<const Candidate> candidates, const SelectionOptions& options) {
   double unknown = 0.0;
   for (const Candidate& c : candidates) unknown += c.with_unknown ? c.probability : 0.0;
-  if (unknown <= 0.5) return simplest_of_the_best(candidates);
+  if (unknown <= options.unknown_majority) return simplest_of_the_best(candidates, options);
   const auto first =
       std::find_if(candidates.begin(), candidates.end(), [](const Candidate& c) { return c.with_unknown; });
   return static_cast<std::size_t>(first - candidates.begin());
@@ -73,47 +105,35 @@ double GroupedEvidence::counted(std::span<const int> times) const {
          factor.matrixLLT().diagonal().array().log().sum();
 }
 
+std::size_t chosen_of_resample(std::vector<Candidate> candidates, const EvidenceOptions& evidence,
+                               const SelectionOptions& selection) {
+  weigh(candidates, evidence);
+  std::vector<std::size_t> order(candidates.size());
+  for (std::size_t c = 0; c < order.size(); ++c) order[c] = c;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t z) {
+    return candidates[a].probability > candidates[z].probability;
+  });
+  std::vector<Candidate> sorted;
+  for (const std::size_t c : order) sorted.push_back(candidates[c]);
+  return order[chosen_among(sorted, selection)];
+}
+
 SelectionBootstrap resample_selection(const ExplanationSearch& search, const PreparedCampaign& prepared,
-                                      const DriveCampaign& campaign, const SearchOptions& options,
+                                      const DriveCampaign& campaign, const DiagnosisOptions& options,
                                       const DriveResampling& drives) {
   const WindowModel& model = *prepared.model;
-  std::vector<Candidate> running;  // most probable first, as the search's
-  std::vector<GroupedEvidence> evidence;
-  std::vector<double> whole;  // of all drives, once each
-  std::vector<std::size_t> group_of_row(model.observation_count());
-  for (std::size_t w = 0; w < model.windows().size(); ++w)
-    for (std::size_t i = 0; i < model.windows()[w].observations.size(); ++i)
-      group_of_row[model.offset(w) + i] = drives.groups[model.windows()[w].drive];
-  const std::vector<int> once(drives.group_count, 1);
-  for (const Candidate& c : search.candidates) {
-    if (c.probability < kInTheRunning || running.size() >= kMostInTheRunning) break;
-    const FittedExplanation& fit = search.fits[c.fit];
-    const Eigen::MatrixXd form = form_columns(campaign, model, *prepared.noise, fit, options.threads);
-    running.push_back(c);
-    evidence.emplace_back(fit.white_linear,
-                          columns_beside(fit, *prepared.noise, prepared.discrepancy, form, c.with_unknown),
-                          group_of_row, drives.group_count);
-    whole.push_back(evidence.back().counted(once));
-  }
+  const Running running = running_of(search, prepared, campaign, options, drives);
   SelectionBootstrap answer;
   answer.chosen.resize(drives.resamples.size());
   answer.share.assign(search.candidates.size(), 0.0);
-  parallel_for(drives.resamples.size(), options.threads, [&](std::size_t b) {
+  parallel_for(drives.resamples.size(), options.search.threads, [&](std::size_t b) {
     if (model.cancelled()) return;
     std::vector<int> times(drives.group_count, 0);
     for (const std::size_t group : drives.resamples[b]) ++times[group];
-    std::vector<Candidate> drawn = running;
+    std::vector<Candidate> drawn = running.candidates;
     for (std::size_t c = 0; c < drawn.size(); ++c)
-      drawn[c].log_evidence += evidence[c].counted(times) - whole[c];
-    weigh(drawn, options);
-    std::vector<std::size_t> order(drawn.size());
-    for (std::size_t c = 0; c < order.size(); ++c) order[c] = c;
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t z) {
-      return drawn[a].probability > drawn[z].probability;
-    });
-    std::vector<Candidate> sorted;
-    for (const std::size_t c : order) sorted.push_back(drawn[c]);
-    answer.chosen[b] = order[chosen_among(sorted)];
+      drawn[c].log_evidence += running.evidence[c].counted(times) - running.whole[c];
+    answer.chosen[b] = chosen_of_resample(std::move(drawn), options.evidence, options.selection);
   });
   for (const std::size_t chosen : answer.chosen)
     answer.share[chosen] += 1.0 / static_cast<double>(drives.resamples.size());

@@ -11,13 +11,10 @@
 
 namespace slipway::gap {
 
-// Of a set's probability: below it the answer is a set of sets.
-inline constexpr double kCertain = 0.5;
-
 // Which of the candidates, most probable first, the answer is: the most probable one with something unknown
-// where that has more than half in all; else the most probable one, or, where none is certain, one with fewer
+// where these have the majority; else the most probable one, or, where none is certain, one with fewer
 // effects of the same that is not much less probable. What adds little is not worth a name.
-std::size_t chosen_among(std::span<const Candidate> candidates);
+std::size_t chosen_among(std::span<const Candidate> candidates, const SelectionOptions& options = {});
 
 // The evidence of a linearised explanation, made of its parts by groups of drives: whitened residuals and
 // columns of prior deviation 1.
@@ -34,15 +31,19 @@ class GroupedEvidence {
   std::vector<Eigen::MatrixXd> hessian_;
 };
 
+// The candidate that is chosen of some whose evidence changed; their order need not be that of probability.
+std::size_t chosen_of_resample(std::vector<Candidate> candidates, const EvidenceOptions& evidence,
+                               const SelectionOptions& selection);
+
 // Which candidate would have been chosen had other drives of the same kinds been made: drives, with their
 // repeats, drawn with replacement. Fits are not repeated: a drive that counts twice does so in the linearised
-// evidence of each explanation. Candidates of less than a hundredth have no part.
+// evidence of each explanation. Candidates below SelectionOptions::min_running have no part.
 struct SelectionBootstrap {
   std::vector<std::size_t> chosen;  // of each resample
   std::vector<double> share;        // of each candidate: of the resamples that chose it
 };
 SelectionBootstrap resample_selection(const ExplanationSearch& search, const PreparedCampaign& prepared,
-                                      const DriveCampaign& campaign, const SearchOptions& options,
+                                      const DriveCampaign& campaign, const DiagnosisOptions& options,
                                       const DriveResampling& drives);
 
 }  // namespace slipway::gap

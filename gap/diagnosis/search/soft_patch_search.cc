@@ -1,33 +1,26 @@
 #include "gap/diagnosis/search/soft_patch_search.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "sim/effects/effect_catalogue.h"
-
 namespace slipway::gap {
 namespace {
 
-constexpr std::array kRadii_m{0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0};
-constexpr double kWholeMap_m = 1000.0;
+// A disc that holds every map, and the weakening by which the response to it is found: see weaker_everywhere.
+constexpr double kWholeMap_m = 1000.0, kProbe = 0.1;
+// Of the radius, by which a disc is moved, and how much less it is resized: they set only how fast it is
+// found.
+constexpr std::array kMoves{0.5, 0.25};
+constexpr double kResize = 0.6;
+constexpr int kMaxSweeps = 3, kMaxIterations = 3;
 
-struct Disc {
-  double x_m, y_m, radius_m, gain;
-};
-
-bool alike(const Disc& a, const Disc& b) {
+bool overlap(const sim::Disc& a, const sim::Disc& b) {
   return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m) < 0.5 * (a.radius_m + b.radius_m);
 }
 
-}  // namespace
-
-PatchSearch search_soft_patches(const sim::Effect& effect, const DriveCampaign& campaign,
-                                const WindowModel& model, const NoiseModel& noise,
-                                const FittedExplanation& fit, std::size_t most) {
-  PatchSearch search;
-  const auto windows = model.windows();
+// The mean of all measured stations; nothing where there are none.
+std::optional<sim::Disc> whole_map(std::span<const DriveWindow> windows) {
   double x_m = 0.0, y_m = 0.0;
   std::size_t count = 0;
   for (const DriveWindow& w : windows)
@@ -36,90 +29,132 @@ PatchSearch search_soft_patches(const sim::Effect& effect, const DriveCampaign& 
       y_m += pose.y_m;
       ++count;
     }
-  if (count == 0) return search;
-  // What weaker soil everywhere would do, window by window.
-  const Hypothesis everywhere(
-      campaign, {variant_at(effect, {x_m / static_cast<double>(count), y_m / static_cast<double>(count),
-                                     kWholeMap_m})});
+  if (count == 0) return std::nullopt;
+  return sim::Disc{x_m / static_cast<double>(count), y_m / static_cast<double>(count), kWholeMap_m};
+}
+
+// What weaker soil everywhere would do to every observation, for a prior deviation of the weakening.
+Eigen::VectorXd weaker_everywhere(const DriveCampaign& campaign, const WindowModel& model,
+                                  const FittedExplanation& fit, const sim::Effect& effect,
+                                  const sim::Disc& all) {
+  const Hypothesis everywhere(campaign, {variant_at(effect, all)});
   std::vector<double> x(fit.x.begin(),
                         fit.x.begin() + static_cast<std::ptrdiff_t>(everywhere.nuisance_count()));
   x.push_back(0.0);
   const std::vector<double> at = everywhere.predict(model, x);
-  x.back() = 0.1;
+  x.back() = kProbe;
   const std::vector<double> weaker = everywhere.predict(model, x);
-  const double scale = everywhere.parameters().back().std / 0.1;
+  const double scale = everywhere.parameters().back().std / kProbe;
   Eigen::VectorXd response = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(at.size()));
   for (std::size_t i = 0; i < at.size(); ++i) {
     const double d = scale * (weaker[i] - at[i]);
     response[static_cast<Eigen::Index>(i)] = std::isfinite(d) ? d : 0.0;
   }
-  const Eigen::MatrixXd& known = fit.white_jacobian;
+  return response;
+}
+
+// A response in every window times the share of its stations that lie in the disc.
+Eigen::VectorXd inside(Eigen::VectorXd response, const WindowModel& model, const sim::Disc& disc) {
+  const auto windows = model.windows();
+  for (std::size_t v = 0; v < windows.size(); ++v) {
+    double share = 0.0;
+    for (const Pose2& pose : windows[v].stations)
+      if (std::hypot(pose.x_m - disc.x_m, pose.y_m - disc.y_m) < disc.radius_m)
+        share += 1.0 / static_cast<double>(windows[v].stations.size());
+    response.segment(static_cast<Eigen::Index>(model.offset(v)),
+                     static_cast<Eigen::Index>(windows[v].observations.size())) *= share;
+  }
+  return response;
+}
+
+// The disc's neighbours in turn: to either side along x, along y, larger and smaller.
+sim::Disc neighbour(sim::Disc disc, int which, double move) {
+  const double shift = move * disc.radius_m * (which % 2 == 0 ? 1.0 : -1.0);
+  if (which / 2 == 0) disc.x_m += shift;
+  if (which / 2 == 1) disc.y_m += shift;
+  if (which / 2 == 2) disc.radius_m += kResize * shift;
+  return disc;
+}
+
+}  // namespace
+
+ColumnBeside::ColumnBeside(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& known) : known_(known) {
   Eigen::MatrixXd hessian = known.transpose() * known;
   hessian.diagonal().array() += 1.0;
-  const Eigen::LLT<Eigen::MatrixXd> llt(hessian);
-  const Eigen::VectorXd solved = llt.solve(known.transpose() * fit.white_linear);
-  const Eigen::VectorXd left = fit.white_linear - known * solved;
+  factor_.compute(hessian);
+  const Eigen::VectorXd solved = factor_.solve(known.transpose() * residuals);
+  left_ = residuals - known * solved;
+}
 
-  std::vector<Disc> discs;
+std::optional<double> ColumnBeside::gain(const Eigen::VectorXd& column) const {
+  const Eigen::VectorXd crossed = known_.transpose() * column;
+  const double information = column.squaredNorm() - crossed.dot(factor_.solve(crossed));
+  const double score = column.dot(left_);
+  if (score <= 0.0) return std::nullopt;
+  return 0.5 * score * score / (1.0 + information) - 0.5 * std::log1p(information);
+}
+
+std::vector<sim::Disc> best_apart(std::vector<ScoredDisc> discs, std::size_t most) {
+  std::stable_sort(discs.begin(), discs.end(),
+                   [](const ScoredDisc& a, const ScoredDisc& b) { return a.gain > b.gain; });
+  std::vector<sim::Disc> kept;
+  for (const ScoredDisc& scored : discs) {
+    if (kept.size() >= most) break;
+    if (std::any_of(kept.begin(), kept.end(), [&](const sim::Disc& k) { return overlap(k, scored.disc); }))
+      continue;
+    kept.push_back(scored.disc);
+  }
+  return kept;
+}
+
+PatchSearch search_soft_patches(const sim::Effect& effect, const DriveCampaign& campaign,
+                                const WindowModel& model, const NoiseModel& noise,
+                                const FittedExplanation& fit, const SoftPatchOptions& options) {
+  PatchSearch search;
+  const auto windows = model.windows();
+  const std::optional<sim::Disc> all = whole_map(windows);
+  if (!all) return search;
+  const Eigen::VectorXd response = weaker_everywhere(campaign, model, fit, effect, *all);
+  const ColumnBeside beside(fit.white_linear, fit.white_jacobian);
+  std::vector<ScoredDisc> discs;
   for (std::size_t w = 0; w < windows.size(); ++w) {
     if (model.cancelled()) return search;
     if (!model.used(w)) continue;
     const Pose2& centre = windows[w].stations[windows[w].stations.size() / 2];
-    for (const double radius_m : kRadii_m) {
-      Eigen::VectorXd column = response;
-      for (std::size_t v = 0; v < windows.size(); ++v) {
-        double inside = 0.0;
-        for (const Pose2& pose : windows[v].stations)
-          if (std::hypot(pose.x_m - centre.x_m, pose.y_m - centre.y_m) < radius_m)
-            inside += 1.0 / static_cast<double>(windows[v].stations.size());
-        column.segment(static_cast<Eigen::Index>(model.offset(v)),
-                       static_cast<Eigen::Index>(windows[v].observations.size())) *= inside;
-      }
-      const Eigen::VectorXd white = fit.row_weights.asDiagonal() * noise.whiten(column);
-      const Eigen::VectorXd crossed = known.transpose() * white;
-      const double information = white.squaredNorm() - crossed.dot(llt.solve(crossed));
-      const double score = white.dot(left);
-      if (score <= 0.0) continue;  // soil can only be weaker
-      discs.push_back({centre.x_m, centre.y_m, radius_m,
-                       0.5 * score * score / (1.0 + information) - 0.5 * std::log1p(information)});
+    for (const double radius_m : options.radii_m) {
+      const sim::Disc disc{centre.x_m, centre.y_m, radius_m};
+      const Eigen::VectorXd white =
+          fit.row_weights.asDiagonal() * noise.whiten(inside(response, model, disc));
+      if (const auto gain = beside.gain(white)) discs.push_back({disc, *gain});
     }
   }
-  std::stable_sort(discs.begin(), discs.end(), [](const Disc& a, const Disc& b) { return a.gain > b.gain; });
-  std::vector<Disc> kept;
-  for (const Disc& disc : discs) {
-    if (kept.size() >= most) break;
-    if (std::any_of(kept.begin(), kept.end(), [&](const Disc& k) { return alike(k, disc); })) continue;
-    kept.push_back(disc);
-    search.variants.push_back(variant_at(effect, {disc.x_m, disc.y_m, disc.radius_m}));
-  }
+  for (const sim::Disc& disc : best_apart(std::move(discs), static_cast<std::size_t>(options.max_patches)))
+    search.variants.push_back(variant_at(effect, disc));
   search.looks = std::max<std::size_t>(windows.size(), 1);
   return search;
 }
 
 FittedExplanation refine_soft_patch(const DriveCampaign& campaign, const WindowModel& model,
-                                    const NoiseModel& noise, FittedExplanation fit,
-                                    const ExplanationOptions& options) {
-  std::size_t which = 0;
+                                    const NoiseModel& noise, FittedExplanation fit, const FitOptions& options,
+                                    const SoftPatchOptions& patch_options, std::size_t threads) {
   const auto effects = fit.hypothesis.effects();
-  while (which < effects.size() && !place_of(effects[which])) ++which;
-  if (which == effects.size()) return fit;
-  const sim::Effect& effect = *sim::find_effect(effects[which].effect);
-  ExplanationOptions quick = options;
-  quick.iterations = 3;
-  for (const double step : {0.5, 0.25}) {
-    for (int sweep = 0; sweep < 3; ++sweep) {
+  const auto found = std::find_if(effects.begin(), effects.end(),
+                                  [](const EffectVariant& v) { return place_of(v).has_value(); });
+  if (found == effects.end()) return fit;
+  const sim::Effect& effect = *sim::find_effect(found->effect);
+  const auto which = static_cast<std::size_t>(found - effects.begin());
+  FitOptions quick = options;
+  quick.max_iterations = kMaxIterations;
+  for (const double move : kMoves) {
+    for (int sweep = 0; sweep < kMaxSweeps; ++sweep) {
       bool better = false;
       for (int k = 0; k < 6; ++k) {
         if (model.cancelled()) return fit;
         std::vector<EffectVariant> moved(fit.hypothesis.effects().begin(), fit.hypothesis.effects().end());
-        sim::Disc place = *place_of(moved[which]);
-        const double shift = step * place.radius_m * (k % 2 == 0 ? 1.0 : -1.0);
-        if (k / 2 == 0) place.x_m += shift;
-        if (k / 2 == 1) place.y_m += shift;
-        if (k / 2 == 2) place.radius_m += 0.6 * shift;
-        moved[which] = variant_at(effect, place);
-        FittedExplanation trial = fit_explanation(Hypothesis(campaign, moved), model, noise, fit.x, quick);
-        if (trial.log_evidence <= fit.log_evidence + 0.1) continue;
+        moved[which] = variant_at(effect, neighbour(*place_of(moved[which]), k, move));
+        FittedExplanation trial =
+            fit_explanation(Hypothesis(campaign, moved), model, noise, fit.x, quick, threads);
+        if (trial.log_evidence <= fit.log_evidence + patch_options.min_rise) continue;
         fit = std::move(trial);
         better = true;
       }

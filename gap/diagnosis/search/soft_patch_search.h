@@ -1,6 +1,9 @@
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <cstddef>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "gap/diagnosis/search/explanation.h"
@@ -18,11 +21,32 @@ struct PatchSearch {
 // `effect` must have variant_at.
 PatchSearch search_soft_patches(const sim::Effect& effect, const DriveCampaign& campaign,
                                 const WindowModel& model, const NoiseModel& noise,
-                                const FittedExplanation& fit, std::size_t most);
+                                const FittedExplanation& fit, const SoftPatchOptions& options);
 
 // The patch of a fitted explanation moved and resized while that raises its evidence.
 FittedExplanation refine_soft_patch(const DriveCampaign& campaign, const WindowModel& model,
-                                    const NoiseModel& noise, FittedExplanation fit,
-                                    const ExplanationOptions& options);
+                                    const NoiseModel& noise, FittedExplanation fit, const FitOptions& options,
+                                    const SoftPatchOptions& patch_options, std::size_t threads);
+
+// What is left of a linear fit of prior deviation 1, and what one more column would bring beside it.
+class ColumnBeside {
+ public:
+  ColumnBeside(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& known);
+  // The gain of log evidence, by Schur's complement: log_marginal with the column less without it. Nothing
+  // where the column's estimate is not positive, since soil can only be weaker.
+  std::optional<double> gain(const Eigen::VectorXd& column) const;
+
+ private:
+  const Eigen::MatrixXd& known_;
+  Eigen::LLT<Eigen::MatrixXd> factor_;
+  Eigen::VectorXd left_;
+};
+
+// The best discs, none overlapping a better one by more than half of their radii's sum; `most` at most.
+struct ScoredDisc {
+  sim::Disc disc;
+  double gain = 0.0;
+};
+std::vector<sim::Disc> best_apart(std::vector<ScoredDisc> discs, std::size_t most);
 
 }  // namespace slipway::gap

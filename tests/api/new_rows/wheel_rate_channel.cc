@@ -33,8 +33,6 @@ constexpr ChannelRow kWheelRateChannel{
     .observe = &rate,
     .predict = [](const StationPrediction& at,
                   std::size_t wheel) { return at.state->wheels[wheel].rate_rad_s; },
-    .left_over = [](const NoiseScales&, double) { return 2e-3; },
-    .sensor_entry = "encoder",
-    .sensor_error = [](double) { return 0.01; }};
+    .left_over = [](const NoiseScales&, double) { return 2e-3; }};
 
 }  // namespace slipway::gap

@@ -1,0 +1,219 @@
+#include "gap/diagnosis/search/posterior_mode.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace slipway::gap {
+namespace {
+
+// While an iteration lowers the cost by more than this, one-sided derivatives do. It decides only how much
+// work is done.
+constexpr double kNear = 1.0;
+// Passes of the active set; each holds at least one parameter more, and more than two are rarely needed.
+constexpr int kMaxPasses = 4;
+
+bool is_fitted(const std::vector<bool>& fitted_rows, Eigen::Index row) {
+  return fitted_rows.empty() || fitted_rows[static_cast<std::size_t>(row)];
+}
+
+// A point that was tried, with what the model says there.
+struct Trial {
+  std::vector<double> x, predicted;
+  Eigen::VectorXd residuals, white, u;
+  double cost = 0.0;
+};
+
+class ModeSearch {
+ public:
+  ModeSearch(const FittedModel& model, const FitOptions& options, const std::vector<bool>& fitted_rows)
+      : model_(model), options_(options), fitted_rows_(fitted_rows), loss_{options.huber} {}
+
+  PosteriorMode run(std::span<const double> start) {
+    at_ = trial_at({start.begin(), start.end()});
+    for (int iteration = 0;; ++iteration) {
+      const bool last = converged_ || iteration >= options_.max_iterations || model_.cancelled();
+      linearise(last);
+      weights_ = loss_weights(at_.white, loss_, fitted_rows_);
+      NormalEquations equations = normal_equations(columns_, weights_);
+      covariance_ = std::move(equations.covariance);
+      if (last || !improve(equations)) break;
+    }
+    return answer();
+  }
+
+ private:
+  Trial trial_at(std::vector<double> x) const {
+    Trial trial;
+    trial.x = std::move(x);
+    trial.predicted = model_.predict(trial.x);
+    const Eigen::VectorXd& y = model_.measured();
+    trial.residuals.resize(y.size());
+    for (Eigen::Index i = 0; i < y.size(); ++i) {
+      const double f = trial.predicted[static_cast<std::size_t>(i)];
+      trial.residuals[i] = std::isfinite(f) ? y[i] - f : options_.no_answer * model_.deviation()[i];
+    }
+    trial.white = model_.whiten(trial.residuals);
+    trial.u = in_prior_units(model_.parameters(), trial.x);
+    trial.cost = negative_log_posterior(trial.white, trial.u, loss_, fitted_rows_);
+    return trial;
+  }
+
+  // Near the answer by central differences, once: from there on they hardly change.
+  void linearise(bool last) {
+    if (central_ && (near_ || last)) return;
+    central_ = near_ || last;
+    fresh_ = true;
+    jacobian_ = model_.scaled_jacobian(at_.x, central_ ? std::span<const double>{} : at_.predicted);
+    columns_ = model_.whiten(jacobian_);
+  }
+
+  // One step. Whether to go on: not, where no step lowers the cost although the derivatives are those of
+  // here.
+  bool improve(const NormalEquations& equations) {
+    const auto parameters = model_.parameters();
+    const auto count = static_cast<Eigen::Index>(parameters.size());
+    // r(x + J du) = r - J du.
+    const Eigen::VectorXd gradient = equations.weighted.transpose() * at_.white - at_.u;
+    Eigen::VectorXd low(count), high(count);
+    for (Eigen::Index p = 0; p < count; ++p) {
+      const Parameter& parameter = parameters[static_cast<std::size_t>(p)];
+      low[p] = (parameter.lowest - parameter.neutral) / parameter.std - at_.u[p];
+      high[p] = (parameter.highest - parameter.neutral) / parameter.std - at_.u[p];
+    }
+    const Eigen::VectorXd step = bounded_step(equations.hessian, gradient, low, high);
+    double largest = 0.0;  // in the parameters' own standard errors
+    for (Eigen::Index p = 0; p < count; ++p)
+      largest = std::max(largest, std::abs(step[p]) / std::sqrt(covariance_(p, p)));
+    Trial trial;
+    const auto cost_at = [&](double share) {
+      std::vector<double> x(at_.x.size());
+      for (std::size_t p = 0; p < x.size(); ++p)
+        x[p] = std::clamp(at_.x[p] + share * step[static_cast<Eigen::Index>(p)] * parameters[p].std,
+                          parameters[p].lowest, parameters[p].highest);
+      trial = trial_at(std::move(x));
+      return trial.cost;
+    };
+    if (const auto share = shortened_step(at_.cost, cost_at, [&] { return model_.cancelled(); })) {
+      const double fall = at_.cost - trial.cost;
+      converged_ = fall < options_.min_fall || *share * largest < options_.tolerance;
+      near_ = fall < kNear;
+      fresh_ = false;
+      at_ = std::move(trial);
+      return true;
+    }
+    converged_ = near_ && fresh_;
+    if (converged_) return false;
+    near_ = true;
+    central_ = central_ && fresh_;
+    return true;
+  }
+
+  PosteriorMode answer() {
+    PosteriorMode mode;
+    mode.row_weights = weights_.cwiseSqrt();
+    mode.white_jacobian = mode.row_weights.asDiagonal() * columns_;
+    mode.white_linear = mode.row_weights.asDiagonal() * (at_.white + columns_ * at_.u);
+    mode.log_evidence = laplace_log_evidence(at_.cost, covariance_, model_.parameters());
+    mode.x = std::move(at_.x);
+    mode.residuals = std::move(at_.residuals);
+    mode.jacobian = std::move(jacobian_);
+    mode.covariance = std::move(covariance_);
+    mode.converged = converged_;
+    return mode;
+  }
+
+  const FittedModel& model_;
+  const FitOptions& options_;
+  const std::vector<bool>& fitted_rows_;
+  HuberLoss loss_;
+  Trial at_;
+  Eigen::MatrixXd jacobian_, columns_;  // columns_: whitened
+  Eigen::VectorXd weights_;
+  Eigen::MatrixXd covariance_;
+  // near_: the last step hardly lowered the cost; central_: the derivatives are central differences; fresh_:
+  // they were taken at this very point.
+  bool near_ = false, central_ = false, fresh_ = false, converged_ = false;
+};
+
+}  // namespace
+
+Eigen::VectorXd in_prior_units(std::span<const Parameter> parameters, std::span<const double> x) {
+  Eigen::VectorXd u(static_cast<Eigen::Index>(x.size()));
+  for (std::size_t p = 0; p < x.size(); ++p)
+    u[static_cast<Eigen::Index>(p)] = (x[p] - parameters[p].neutral) / parameters[p].std;
+  return u;
+}
+
+Eigen::VectorXd loss_weights(const Eigen::VectorXd& white, const HuberLoss& loss,
+                             const std::vector<bool>& fitted_rows) {
+  Eigen::VectorXd weights = Eigen::VectorXd::Ones(white.size());
+  for (Eigen::Index i = 0; i < white.size(); ++i)
+    weights[i] = is_fitted(fitted_rows, i) ? loss.weight(white[i]) : 0.0;
+  return weights;
+}
+
+double negative_log_posterior(const Eigen::VectorXd& white, const Eigen::VectorXd& u, const HuberLoss& loss,
+                              const std::vector<bool>& fitted_rows) {
+  double cost = 0.5 * u.squaredNorm();
+  for (Eigen::Index i = 0; i < white.size(); ++i)
+    if (is_fitted(fitted_rows, i)) cost += loss(white[i]);
+  return cost;
+}
+
+NormalEquations normal_equations(const Eigen::MatrixXd& columns, const Eigen::VectorXd& weights) {
+  NormalEquations equations;
+  equations.weighted = weights.asDiagonal() * columns;
+  equations.hessian = equations.weighted.transpose() * columns;
+  equations.hessian.diagonal().array() += 1.0;
+  const Eigen::LLT<Eigen::MatrixXd> llt(equations.hessian);
+  equations.covariance = llt.solve(Eigen::MatrixXd::Identity(columns.cols(), columns.cols()));
+  return equations;
+}
+
+Eigen::VectorXd bounded_step(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& gradient,
+                             const Eigen::VectorXd& low, const Eigen::VectorXd& high) {
+  const Eigen::Index count = gradient.size();
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(count);
+  std::vector<bool> held(static_cast<std::size_t>(count), false);
+  for (int pass = 0; pass < kMaxPasses; ++pass) {
+    std::vector<Eigen::Index> free;
+    for (Eigen::Index p = 0; p < count; ++p)
+      if (!held[static_cast<std::size_t>(p)]) free.push_back(p);
+    // Held ones are at their bounds: their part of the step is known.
+    Eigen::VectorXd g = gradient;
+    for (Eigen::Index p = 0; p < count; ++p)
+      if (held[static_cast<std::size_t>(p)]) g -= hessian.col(p) * step[p];
+    const Eigen::MatrixXd sub = hessian(free, free);
+    const Eigen::VectorXd solved = sub.llt().solve(Eigen::VectorXd(g(free)));
+    bool crossed = false;
+    for (std::size_t i = 0; i < free.size(); ++i) {
+      const Eigen::Index p = free[i];
+      step[p] = solved[static_cast<Eigen::Index>(i)];
+      if (!(step[p] < low[p] || step[p] > high[p])) continue;
+      step[p] = std::clamp(step[p], low[p], high[p]);
+      held[static_cast<std::size_t>(p)] = true;
+      crossed = true;
+    }
+    if (!crossed) break;
+  }
+  return step;
+}
+
+double laplace_log_evidence(double cost, const Eigen::MatrixXd& covariance,
+                            std::span<const Parameter> parameters) {
+  const Eigen::LLT<Eigen::MatrixXd> llt(covariance);
+  double log_evidence = -cost + llt.matrixLLT().diagonal().array().log().sum();
+  for (const Parameter& parameter : parameters)
+    if (!parameter.effect.empty() &&
+        (parameter.lowest == parameter.neutral || parameter.highest == parameter.neutral))
+      log_evidence += std::log(2.0);
+  return log_evidence;
+}
+
+PosteriorMode find_mode(const FittedModel& model, std::span<const double> start, const FitOptions& options,
+                        const std::vector<bool>& fitted_rows) {
+  return ModeSearch(model, options, fitted_rows).run(start);
+}
+
+}  // namespace slipway::gap

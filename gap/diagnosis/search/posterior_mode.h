@@ -1,0 +1,99 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "gap/diagnosis/model/hypothesis.h"
+#include "gap/diagnosis/search/diagnosis_options.h"
+#include "gap/diagnosis/search/huber_loss.h"
+
+namespace slipway::gap {
+
+// The most probable parameters of a model under normal priors that are cut at bounds, with residuals that are
+// normal at their centre and heavy-tailed (Huber's loss), and Laplace's approximation of the evidence there.
+//
+// With u = (x - neutral) / prior deviation and w = L^-1 (y - f(x)) the whitened residuals, the cost is
+//
+//   J(u) = sum_i loss(w_i) + u^T u / 2,
+//
+// the negative logarithm of posterior density up to a constant. It is lowered by Gauss-Newton steps with
+// reweighted rows: linearise, step within the bounds, halve the step until the cost falls.
+
+// What the mode is searched of: predictions, their derivatives, and the noise's whitening.
+class FittedModel {
+ public:
+  virtual ~FittedModel() = default;
+  virtual std::span<const Parameter> parameters() const = 0;
+  virtual const Eigen::VectorXd& measured() const = 0;
+  // Of every observation; NaN where the model has no answer.
+  virtual std::vector<double> predict(std::span<const double> x) const = 0;
+  // Columns of derivatives of the predictions, times the parameters' prior deviations. With what is
+  // `predicted` at x one-sided, which costs half; without (empty) central.
+  virtual Eigen::MatrixXd scaled_jacobian(std::span<const double> x,
+                                          std::span<const double> predicted) const = 0;
+  virtual Eigen::MatrixXd whiten(const Eigen::MatrixXd& columns) const = 0;  // L^-1 columns
+  virtual const Eigen::VectorXd& deviation() const = 0;                      // of each observation's noise
+  virtual bool cancelled() const = 0;
+};
+
+struct PosteriorMode {
+  std::vector<double> x;
+  Eigen::VectorXd residuals;  // measured less predicted at x; where there is no answer, FitOptions::no_answer
+  // Whitened, rows of outliers weighed down: residuals with what the parameters explain put back, and
+  // columns.
+  Eigen::VectorXd white_linear;
+  Eigen::MatrixXd white_jacobian;
+  Eigen::VectorXd row_weights;  // square roots of the loss's weights
+  Eigen::MatrixXd jacobian;     // columns times the prior deviations, at x
+  Eigen::MatrixXd covariance;   // of (x - neutral) over the prior deviations
+  double log_evidence = 0.0;    // of the drives, up to a constant common to all explanations
+  bool converged = false;
+};
+
+// The mode nearest to `start`. Rows of `fitted_rows` alone weigh (empty: all).
+PosteriorMode find_mode(const FittedModel& model, std::span<const double> start, const FitOptions& options,
+                        const std::vector<bool>& fitted_rows = {});
+
+// The parts of it.
+
+// u of x.
+Eigen::VectorXd in_prior_units(std::span<const Parameter> parameters, std::span<const double> x);
+
+// The loss's weight of every whitened residual; 0 of rows that are not fitted.
+Eigen::VectorXd loss_weights(const Eigen::VectorXd& white, const HuberLoss& loss,
+                             const std::vector<bool>& fitted_rows);
+
+// J(u).
+double negative_log_posterior(const Eigen::VectorXd& white, const Eigen::VectorXd& u, const HuberLoss& loss,
+                              const std::vector<bool>& fitted_rows);
+
+// The normal equations of whitened columns A with row weights W: H = A^T W A + 1, C = H^-1.
+struct NormalEquations {
+  Eigen::MatrixXd weighted;  // W A
+  Eigen::MatrixXd hessian, covariance;
+};
+NormalEquations normal_equations(const Eigen::MatrixXd& columns, const Eigen::VectorXd& weights);
+
+// The step s that minimises s^T H s / 2 - g^T s with what would cross a bound held there: the active set
+// grows by what crosses, in a few passes. `low` and `high`: of the step.
+Eigen::VectorXd bounded_step(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& gradient,
+                             const Eigen::VectorXd& low, const Eigen::VectorXd& high);
+
+// The largest share 1, 1/2, 1/4, 1/8, 1/16 of a step at which `cost_at` is below `cost`; none where no share
+// is or the work is cancelled.
+template <class CostAt, class Cancelled>
+std::optional<double> shortened_step(double cost, const CostAt& cost_at, const Cancelled& cancelled) {
+  for (double share = 1.0; share > 0.05 && !cancelled(); share *= 0.5)
+    if (!(cost_at(share) >= cost)) return share;
+  return std::nullopt;
+}
+
+// Laplace's approximation: the logarithm of the integral of exp(-J) over u with the prior's constant, by the
+// curvature at the mode, -J + log |C| / 2. A prior of an effect that is cut at its neutral value is twice as
+// dense on its one side.
+double laplace_log_evidence(double cost, const Eigen::MatrixXd& covariance,
+                            std::span<const Parameter> parameters);
+
+}  // namespace slipway::gap

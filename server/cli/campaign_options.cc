@@ -1,0 +1,32 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "server/cli/campaign_command.h"
+#include "server/cli/data_option.h"
+
+namespace slipway::server {
+
+void add_campaign_command(CLI::App& app, std::function<int()>& run) {
+  const auto options = std::make_shared<CampaignCommand>();
+  CLI::App* command =
+      app.add_subcommand("campaign", "make a table of drives and record them as a drive campaign");
+  command->add_option("table", options->table, "file of a table, name of a shipped one, or list")->required();
+  add_data_option(*command, options->data, "rovers, soils and campaigns");
+  command->add_option("--out", options->out, "folder of the campaign; made where it is not there");
+  command->add_option("--threads", options->threads, "at once; 0: as many as the machine has")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1024));
+  command->add_option("--only", options->only,
+                      "ids of drives, * and ? stand for anything; campaign.json then holds what is done");
+  command->add_flag("--no-resume", options->start_over, "delete what an earlier run has done");
+  command->add_flag("--dry-run", options->dry_run, "print which drives there are, make none");
+  command->add_flag("--json", options->json, "print the summary as a document, for machines");
+  command->footer(
+      "Example: the tilt table of the ROAMS paper, given up and gone on with at will\n"
+      "  slipway campaign fido_table_1 --out fido\n"
+      "Exit status: 0 every drive has an answer (getting stuck is one), 1 one has none, 2 the table has "
+      "faults.");
+  command->callback([options, &run] { run = [options] { return campaign(*options); }; });
+}
+
+}  // namespace slipway::server

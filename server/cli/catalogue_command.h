@@ -1,0 +1,24 @@
+#pragma once
+
+#include <functional>
+
+#include "server/cli/ask_options.h"
+
+namespace CLI {
+class App;
+}
+
+namespace slipway::server {
+
+// What the service has: a table of rovers, soils or effects, and whether it answers. The exit status: 0 an
+// answer, 1 none, 2 a question that can't be asked.
+int rovers(const AskOptions& options);
+int soils(const AskOptions& options);
+int effects(const AskOptions& options);
+// Asks a running service, for which it needs its address.
+int health(const AskOptions& options);
+
+// Adds the four subcommands; `run` then runs the one that is given.
+void add_catalogue_commands(CLI::App& app, std::function<int()>& run);
+
+}  // namespace slipway::server

@@ -1,0 +1,18 @@
+#include "server/cli/catalogue_printing.h"
+
+#include "server/cli/command_parts.h"
+
+namespace slipway::server {
+
+int print_catalogue(const AskOptions& ask, std::string_view kind,
+                    Result<std::string> (*table)(std::string_view)) {
+  const auto service = inquiry(ask);
+  if (!service) return refuse(service.error());
+  const auto document = (*service)->catalogue(kind);
+  if (!document) return refuse(document.error());
+  const auto printed = ask.json ? document : table(*document);
+  if (!printed) return refuse(printed.error());
+  return deliver({}, *printed + (ask.json ? "\n" : ""));
+}
+
+}  // namespace slipway::server

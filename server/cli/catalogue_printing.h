@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/result.h"
+#include "server/cli/ask_options.h"
+
+namespace slipway::server {
+
+// Asks for a catalogue ("terrains", "rovers", "soils", "effects") and prints its document or its table. The
+// exit status.
+int print_catalogue(const AskOptions& ask, std::string_view kind,
+                    Result<std::string> (*table)(std::string_view));
+
+}  // namespace slipway::server

@@ -1,0 +1,78 @@
+#include "server/cli/data_folder.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "core/version.h"
+#include "server/cli/terminal/tables.h"
+
+namespace slipway::server {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Every command needs these two; what else a folder lacks, the command that needs it says.
+bool holds_data(const fs::path& folder) {
+  std::error_code failed;
+  return fs::is_directory(folder / "rovers", failed) && fs::is_directory(folder / "soils", failed);
+}
+
+// Without links and "..", where the folder can be resolved.
+std::string plain(const fs::path& folder) {
+  std::error_code failed;
+  const fs::path resolved = fs::weakly_canonical(folder, failed);
+  return (failed ? folder : resolved).string();
+}
+
+}  // namespace
+
+Result<DataFolder> find_data_folder(const DataPlaces& places) {
+  std::vector<Fault> looked_at;
+  // A named folder is the user's choice: it is used as it was written, and nothing stands in for it.
+  for (const auto& [name, folder] : {std::pair{"--data", places.option}, {"SLIPWAY_DATA", places.variable}}) {
+    if (folder.empty()) {
+      looked_at.push_back({name, "is not given"});
+    } else if (holds_data(folder)) {
+      return DataFolder{folder, name};
+    } else {
+      return fail(ErrorCode::kUnreadableData, fmt::format("{} names no data folder", name),
+                  {{name, fmt::format("{} has no folders rovers and soils", folder)}});
+    }
+  }
+  if (!places.executable.empty()) {
+    const fs::path beside = places.executable.parent_path();
+    for (const auto& [place, folder] : {std::pair{"beside the executable", beside / "data"},
+                                        {"under the install prefix", beside / SLIPWAY_DATA_FROM_BIN}}) {
+      if (holds_data(folder)) return DataFolder{plain(folder), fmt::format("looking {}", place)};
+      looked_at.push_back({place, fmt::format("{} has no folders rovers and soils", plain(folder))});
+    }
+  }
+  return fail(ErrorCode::kUnreadableData, "there is no data folder; name one by --data or SLIPWAY_DATA",
+              std::move(looked_at));
+}
+
+DataPlaces data_places(const std::string& option) {
+  const char* variable = std::getenv("SLIPWAY_DATA");
+  std::error_code failed;
+  return {.option = option,
+          .variable = variable ? variable : "",
+          .executable = fs::read_symlink("/proc/self/exe", failed)};
+}
+
+Result<std::string> data_folder(const std::string& option) {
+  auto found = find_data_folder(data_places(option));
+  if (!found) return fail(found.error());
+  return std::move(found->path);
+}
+
+std::string version_text() {
+  const auto found = find_data_folder(data_places(""));
+  if (found) return fmt::format("{}\ndata: {} (found by {})", version(), found->path, found->found_by);
+  return fmt::format("{}\ndata: none\n{}", version(), error_text(found.error()));
+}
+
+}  // namespace slipway::server

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/result.h"
+#include "server/cli/ask_options.h"
+#include "server/cli/drive_options.h"
+#include "server/cli/inquiry.h"
+
+// What the answers to plans and predictions have in common.
+namespace slipway::server {
+
+// Files for what is drawn of an answer; empty: not wanted.
+struct Pictures {
+  std::string map, history;
+};
+
+// Asks, draws what is wanted, then prints the document or its table. The exit status.
+int ask_and_print(const AskOptions& ask, const Pictures& pictures, const Result<std::string>& request,
+                  Result<std::string> (Inquiry::*question)(const std::string&, Progress&),
+                  Result<std::string> (*table)(std::string_view));
+
+// The name of the rover to drive: the corrected one where a model is given and the rover that it was made of
+// is asked for. Errors: those of reading the model; invalid_request where it says nothing of this rover,
+// unless `any_rover` (a request from a file names its own).
+Result<std::string> models_rover(const AskOptions& ask, const std::string& rover, bool any_rover);
+
+}  // namespace slipway::server

@@ -1,0 +1,78 @@
+#include "server/cli/drive_options.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <exception>
+
+#include "sim/rover/wheel_failure.h"
+
+namespace slipway::server {
+namespace {
+
+// "x,y" or "x,y,yaw_deg".
+PlaceOption place_of(const std::string& text) {
+  PlaceOption place;
+  std::vector<double> numbers;
+  std::size_t begin = 0;
+  while (begin <= text.size()) {
+    const std::size_t comma = std::min(text.find(',', begin), text.size());
+    const std::string part = text.substr(begin, comma - begin);
+    std::size_t used = 0;
+    try {
+      numbers.push_back(std::stod(part, &used));
+    } catch (const std::exception&) {
+      used = 0;
+    }
+    if (used == 0 || used != part.size() || !std::isfinite(numbers.back()))
+      throw CLI::ValidationError("\"" + text + "\" must be x,y or x,y,yaw_deg in map metres");
+    begin = comma + 1;
+  }
+  if (numbers.size() < 2 || numbers.size() > 3)
+    throw CLI::ValidationError("\"" + text + "\" must be x,y or x,y,yaw_deg in map metres");
+  place.x_m = numbers[0];
+  place.y_m = numbers[1];
+  if (numbers.size() == 3) place.yaw_deg = numbers[2];
+  return place;
+}
+
+}  // namespace
+
+void add_place(CLI::App& command, const std::string& name, std::optional<PlaceOption>& place,
+               const std::string& help) {
+  command.add_option_function<std::string>(
+      name, [&place](const std::string& text) { place = place_of(text); }, help);
+}
+
+void add_places(CLI::App& command, const std::string& name, std::vector<PlaceOption>& places,
+                const std::string& help) {
+  command.add_option_function<std::vector<std::string>>(
+      name,
+      [&places](const std::vector<std::string>& texts) {
+        for (const std::string& text : texts) places.push_back(place_of(text));
+      },
+      help);
+}
+
+void add_drive(CLI::App& command, DriveOptions& drive) {
+  command.add_option("--terrain", drive.terrain, "name of the terrain")->capture_default_str();
+  command.add_option("--rover", drive.rover, "name of the rover")->capture_default_str();
+  command.add_option("--max-slip", drive.max_slip, "limit of slip, 0 to 1");
+  command.add_option("--max-tilt-deg", drive.max_tilt_deg, "limit of tilt");
+  command.add_option("--speed-m-s", drive.speed_m_s, "commanded speed");
+  command.add_option("--draws", drive.draws, "soil draws for the risk");
+  command.add_option("--seed", drive.seed, "the same seed gives the same answer");
+  command.add_option(
+      "--effect", drive.effects,
+      "switch an effect on, NAME or NAME:parameter=value,..., or off, NAME:off; see slipway effects");
+  command.add_option("--failed", drive.failed,
+                     fmt::format("a wheel whose drive has failed, WHEEL={}",
+                                 fmt::join(sim::wheel_failure_names(), " or WHEEL=")));
+  command.add_option("--motor-temp-c", drive.motor_temp_c, "temperature of the drive motors");
+  command.add_option("--map", drive.map, "write a picture of the routes (SVG) to this file");
+}
+
+}  // namespace slipway::server

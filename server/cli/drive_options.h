@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace slipway::server {
+
+// A point "x,y" or "x,y,yaw_deg".
+struct PlaceOption {
+  double x_m = 0.0, y_m = 0.0;
+  std::optional<double> yaw_deg;
+};
+
+struct DriveOptions {
+  std::string terrain = "gale";
+  std::string rover = "msl-class";
+  std::optional<double> max_slip, max_tilt_deg, speed_m_s;
+  std::optional<int> draws;
+  std::optional<long long> seed;
+  std::optional<double> motor_temp_c;
+  std::vector<std::string> failed;   // "rf=locked"
+  std::vector<std::string> effects;  // "slip_sinkage", "slip_sinkage:n1=0.2" or "slip_sinkage:off"
+  std::string map;                   // file for the picture; empty: none
+};
+
+// What plans and predictions have in common: --terrain, --rover, limits, effects and more.
+void add_drive(CLI::App& command, DriveOptions& drive);
+// An option whose value is "x,y" or "x,y,yaw_deg".
+void add_place(CLI::App& command, const std::string& name, std::optional<PlaceOption>& place,
+               const std::string& help);
+// The same with several values.
+void add_places(CLI::App& command, const std::string& name, std::vector<PlaceOption>& places,
+                const std::string& help);
+
+}  // namespace slipway::server

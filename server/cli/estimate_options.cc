@@ -1,0 +1,108 @@
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <memory>
+
+#include "server/cli/data_option.h"
+#include "server/cli/estimate_command.h"
+#include "server/cli/largest_exact_whole.h"
+
+namespace slipway::server {
+namespace {
+
+constexpr const char* kExample =
+    "Example: the soil under a wheel on a rig; that under plates; that of drives, from currents alone\n"
+    "  slipway estimate wheel tests.csv --wheel-radius 0.125 --wheel-width 0.16 --soil unknown_ground\n"
+    "  slipway estimate plates plates.csv --free k_c,k_phi,n --soil-out soils/found.json\n"
+    "  slipway estimate drives data/gap-practice/p01 --channels current\n"
+    "Exit status: 0 an estimate, whatever it determines, 1 none, 2 input that can't be read, with every "
+    "fault.";
+
+using From = EstimateCommand::From;
+
+void add_of_tests(CLI::App& command, EstimateCommand& options) {
+  command.add_option("--soil", options.soil, "that the search starts from and that priors lie around")
+      ->capture_default_str();
+  command
+      .add_option("--free", options.free,
+                  "what is estimated: k_bekker, or k_c,k_phi; n, cohesion, friction_angle, shear_modulus")
+      ->delimiter(',');
+  command.add_flag("--merge-stiffness", options.merge_stiffness, "k_bekker in the place of k_c and k_phi");
+  command.add_option("--bound", options.bounds, "NAME=lowest:highest, angles in degrees; may be repeated");
+  command
+      .add_option("--prior", options.priors,
+                  "around the soil: wide (what soils of all kinds have), soil (its own spread), none")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"none", "wide", "soil"}));
+  command.add_option("--loss", options.loss, "what outliers cost")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"none", "huber", "cauchy"}));
+  command.add_option("--loss-scale", options.loss_scale, "in deviations, where outliers begin");
+  command.add_option("--noise", options.noise, "of readings without a deviation of their own, as a share")
+      ->capture_default_str()
+      ->check(CLI::Range(1e-4, 1.0));
+  command.add_option("--seed", options.seed, "the same seed gives the same answer")
+      ->capture_default_str()
+      ->check(CLI::Range(std::uint64_t{0}, kLargestExactWhole));
+  command.add_option("--plot", options.plot, "write measured against fitted (SVG) to this file");
+}
+
+void add_of_wheels(CLI::App& command, EstimateCommand& options) {
+  CLI::Option* const rover = command.add_option("--rover", options.rover,
+                                                "whose wheel and motor were tested; its effects are at work");
+  command.add_option("--wheel", options.wheel, "of the rover; otherwise its first")->needs(rover);
+  command.add_option("--wheel-radius", options.radius_m, "of the rim, m");
+  command.add_option("--wheel-width", options.width_m, "of the rim, m");
+  command.add_option("--grousers", options.grousers, "height in m and count: 0.01,24");
+  command.add_option("--gravity", options.gravity_m_s2, "m/s^2; read by effects and grousers alone")
+      ->capture_default_str();
+  command.add_option("--speed-m-s", options.speed_m_s, "of the rim, for the motor")->capture_default_str();
+  command.add_option("--motor-temp-c", options.motor_temp_c, "of the rover's motor")->needs(rover);
+  command
+      .add_option("--slip-definition", options.slip_definition,
+                  "what slip compares the rim's speed with: forward (along the wheel's plane) or travel")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"forward", "travel"}));
+}
+
+std::shared_ptr<EstimateCommand> add(CLI::App& parent, const char* name, const char* about, const char* input,
+                                     From from, CLI::App*& command, std::function<int()>& run) {
+  const auto options = std::make_shared<EstimateCommand>();
+  options->from = from;
+  command = parent.add_subcommand(name, about);
+  command->add_option("input", options->file, input)->required();
+  add_data_option(*command, options->ask.data, "rovers and soils");
+  command->add_flag("--json", options->ask.json, "print the whole document, for machines");
+  command->add_option("--channels", options->channels, "what is read of what was measured; otherwise all")
+      ->delimiter(',');
+  command->add_option("--soil-out", options->soil_out,
+                      "file for the estimated soil: put into a data folder's soils it is planned with");
+  command->footer(kExample);
+  command->callback([options, &run] { run = [options] { return estimate(*options); }; });
+  return options;
+}
+
+}  // namespace
+
+void add_estimate_command(CLI::App& app, std::function<int()>& run) {
+  CLI::App* parent =
+      app.add_subcommand("estimate", "the soil that wheel tests, plate tests or drives show, and how surely");
+  parent->require_subcommand(1);
+  parent->footer(kExample);
+  CLI::App* command = nullptr;
+  auto options = add(*parent, "wheel", "from tests of a single wheel",
+                     "CSV: load_n, slip_ratio, and of torque_nm, drawbar_pull_n, thrust_n, sinkage_m, "
+                     "current_a what was measured",
+                     From::kWheel, command, run);
+  add_of_wheels(*command, *options);
+  add_of_tests(*command, *options);
+  options = add(*parent, "plates", "from plates pressed into the soil",
+                "CSV: plate_radius_m, sinkage_m, pressure_pa or force_n", From::kPlates, command, run);
+  add_of_tests(*command, *options);
+  options = add(*parent, "drives", "from recorded drives, around the campaign's own soils",
+                "folder of a drive campaign", From::kDrives, command, run);
+  command->add_option("--threads", options->threads, "at once; 0: as many as the machine has")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1024));
+}
+
+}  // namespace slipway::server

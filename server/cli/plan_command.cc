@@ -1,0 +1,76 @@
+#include "server/cli/plan_command.h"
+
+#include "api/documents/plan_comparison.h"
+#include "api/json/writer.h"
+#include "server/cli/command_parts.h"
+#include "server/cli/drive_answer.h"
+#include "server/cli/drive_request.h"
+#include "server/cli/terminal/tables.h"
+#include "server/cli/terminal/terminal_progress.h"
+
+namespace slipway::server {
+namespace {
+
+using api::json::Writer;
+
+std::string plan_request(const PlanOptions& options) {
+  Writer w;
+  w.begin_object();
+  write_drive(w, options.drive);
+  if (options.start) write_place(w.key("start"), *options.start);
+  if (options.goal) write_place(w.key("goal"), *options.goal);
+  if (!options.via.empty()) {
+    w.key("waypoints").begin_array();
+    for (const PlaceOption& place : options.via) write_place(w, place);
+    w.end_array();
+  }
+  if (options.routes) w.whole("routes", *options.routes);
+  if (options.verify) w.whole("verify", *options.verify);
+  if (!options.planners.empty()) w.texts("planners", options.planners);
+  w.end_object();
+  return w.take();
+}
+
+Result<std::string> plan_of(const AskOptions& ask, const Result<std::string>& request) {
+  if (!request) return request;
+  const auto service = inquiry(ask);
+  if (!service) return fail(service.error());
+  TerminalProgress progress;
+  return (*service)->plan(*request, progress);
+}
+
+int compare_plans(const PlanOptions& nominal, const Result<std::string>& nominal_request,
+                  const PlanOptions& corrected, const Result<std::string>& corrected_request) {
+  AskOptions without = nominal.ask;
+  without.model.clear();
+  without.ground.clear();
+  const auto before = plan_of(without, nominal_request);
+  if (!before) return refuse(before.error());
+  const auto after = plan_of(corrected.ask, corrected_request);
+  if (!after) return refuse(after.error());
+  const auto comparison = api::json::compare_plans(*before, *after);
+  if (!comparison) return refuse(comparison.error());
+  const auto printed = nominal.ask.json ? comparison : comparison_table(*comparison);
+  if (!printed) return refuse(printed.error());
+  return deliver({}, *printed + (nominal.ask.json ? "\n" : ""));
+}
+
+}  // namespace
+
+int plan(const PlanOptions& given) {
+  const auto rover = models_rover(given.ask, given.drive.rover, !given.request.empty());
+  if (!rover) return refuse(rover.error());
+  PlanOptions options = given;
+  options.drive.rover = *rover;
+  const auto request_of = [](const PlanOptions& o) {
+    return o.request.empty() ? Result<std::string>(plan_request(o)) : read_request(o.request);
+  };
+  const auto request = request_of(options);
+  // A file's request is asked of both as it is, and standard input is read once.
+  if (given.compare)
+    return compare_plans(given, given.request.empty() ? request_of(given) : request, options, request);
+  return ask_and_print(options.ask, {.map = options.drive.map, .history = {}}, request, &Inquiry::plan,
+                       &plan_table);
+}
+
+}  // namespace slipway::server

@@ -1,0 +1,316 @@
+#include "server/cli/terminal/tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "api/json/parse.h"
+#include "server/cli/terminal/text_table.h"
+
+namespace slipway::server {
+namespace {
+
+using api::json::JsonValue;
+
+const JsonValue kNothing;
+
+const JsonValue& at(const JsonValue& value, std::string_view key) {
+  const JsonValue* found = value.find(key);
+  return found ? *found : kNothing;
+}
+
+double number(const JsonValue& value, std::string_view key) {
+  return at(value, key).number;
+}
+const std::string& text(const JsonValue& value, std::string_view key) {
+  return at(value, key).text;
+}
+
+std::string duration(double seconds) {
+  const long minutes = std::lround(seconds / 60.0);
+  return fmt::format("{}:{:02d} h", minutes / 60, minutes % 60);
+}
+
+std::string peak(const JsonValue& figures, std::string_view key, const char* format) {
+  const JsonValue& p = at(figures, key);
+  if (p.is(JsonValue::Kind::kNull)) return "-";
+  return fmt::format("{} @{:.0f} m", fmt::format(fmt::runtime(format), number(p, "value")),
+                     number(p, "at_m"));
+}
+
+// "-" where it is not known: on ground that is known by a slip curve alone.
+std::string figure(const JsonValue& figures, std::string_view key, const char* format) {
+  if (at(figures, key).is(JsonValue::Kind::kNull)) return "-";
+  return fmt::format(fmt::runtime(format), number(figures, key));
+}
+
+std::vector<std::string> figures_row(std::string label, const JsonValue& f, std::string verdict) {
+  const JsonValue& risk = at(f, "risk");
+  return {std::move(label),
+          fmt::format("{:.1f} m", number(f, "length_m")),
+          duration(number(f, "duration_s")),
+          figure(f, "energy_wh", "{:.0f} Wh"),
+          fmt::format("{:.3f}", number(f, "mean_slip")),
+          peak(f, "max_slip", "{:.2f}"),
+          peak(f, "max_tilt_deg", "{:.1f} deg"),
+          peak(f, "max_sinkage_m", "{:.3f} m"),
+          peak(f, "max_current_a", "{:.2f} A"),
+          fmt::format("{:.0f} %", 100.0 * number(risk, "value")),
+          fmt::format("{:.0f} m", number(f, "unknown_length_m")),
+          std::move(verdict)};
+}
+
+std::vector<std::string> figures_header() {
+  return {"route",        "length",  "time",    "energy", "mean slip", "largest slip",
+          "largest tilt", "sinkage", "current", "risk",   "unknown",   "verdict"};
+}
+
+std::string lines(const JsonValue& list, std::string_view before) {
+  std::string out;
+  for (const JsonValue& line : list.elements) out += fmt::format("{}{}\n", before, line.text);
+  return out;
+}
+
+// The figures of the dynamic level beside the quasi-static ones, and how the drive went.
+std::string dynamic_lines(const JsonValue& figures, const std::string& label) {
+  const JsonValue& dynamic = at(figures, "dynamic");
+  if (!dynamic.is(JsonValue::Kind::kObject)) return {};
+  TextTable table({label, "driven", "time", "energy", "largest slip", "largest tilt", "sinkage", "current"});
+  const auto add = [&](const char* level, const JsonValue& f, const char* driven) {
+    table.add({level, fmt::format("{:.1f} m", number(f, driven)), duration(number(f, "duration_s")),
+               figure(f, "energy_wh", "{:.0f} Wh"), peak(f, "max_slip", "{:.2f}"),
+               peak(f, "max_tilt_deg", "{:.1f} deg"), peak(f, "max_sinkage_m", "{:.3f} m"),
+               peak(f, "max_current_a", "{:.2f} A")});
+  };
+  add("balance", figures, "length_m");
+  add("dynamic", dynamic, "at_m");
+  std::string out = table.print();
+  const std::string& reason = text(dynamic, "reason");
+  out += fmt::format("{}: {}{}{}\n", label, text(dynamic, "end"), reason.empty() ? "" : ", ", reason);
+  out += lines(at(dynamic, "broken_limits"), "Limit broken at the dynamic level: ");
+  const JsonValue& less = at(dynamic, "less_quasi_static");
+  out += fmt::format(
+      "Dynamic less balance over {:.0f} m, mean: slip {:+.3f}, sinkage {:+.1f} mm, current {:+.2f} A\n",
+      number(less, "compared_m"), number(at(less, "slip"), "mean"),
+      1e3 * number(at(less, "sinkage_m"), "mean"), number(at(less, "current_a"), "mean"));
+  return out;
+}
+
+Result<JsonValue> read(std::string_view document) {
+  return api::json::parse(document, {.bytes = document.size(), .values = document.size()});
+}
+
+Result<std::string> catalogue_table(std::string_view document, std::string_view key,
+                                    std::vector<std::string> header,
+                                    std::vector<std::string> (*row)(const JsonValue&)) {
+  const auto parsed = read(document);
+  if (!parsed) return fail(parsed.error());
+  TextTable table(std::move(header));
+  for (const JsonValue& entry : at(*parsed, key).elements) table.add(row(entry));
+  return table.print();
+}
+
+}  // namespace
+
+Result<std::string> plan_table(std::string_view answer) {
+  const auto document = read(answer);
+  if (!document) return fail(document.error());
+  const JsonValue& summary = at(*document, "summary");
+  std::string out;
+  if (!summary.elements.empty()) {
+    TextTable table(figures_header());
+    for (const JsonValue& route : summary.elements)
+      table.add(figures_row(fmt::format("{:.0f}", number(route, "rank")), route, text(route, "verdict")));
+    out = table.print() + "\n";
+  }
+  for (const JsonValue& route : summary.elements) {
+    out += fmt::format("Route {:.0f}: {} (cost {:.2f}, proposed by {}, {})\n", number(route, "rank"),
+                       text(route, "verdict"), number(route, "cost"), text(route, "planner"),
+                       text(route, "profile"));
+    out += lines(at(route, "reasons"), "  - ");
+  }
+  for (const JsonValue& route : summary.elements) {
+    const std::string shown =
+        dynamic_lines(route, fmt::format("Route {:.0f} verified by dynamics", number(route, "rank")));
+    if (!shown.empty()) out += "\n" + shown;
+  }
+  out += lines(at(*document, "fewer_because"), "Fewer routes than asked for: ");
+  return out;
+}
+
+// Two rows a pair of routes, and under them what changed.
+Result<std::string> comparison_table(std::string_view comparison) {
+  const auto document = read(comparison);
+  if (!document) return fail(document.error());
+  TextTable table({"route", "energy", "mean slip", "largest slip", "sinkage", "current", "risk", "verdict"});
+  std::string changes;
+  std::size_t pair = 0;
+  for (const JsonValue& routes : at(*document, "routes").elements) {
+    ++pair;
+    for (const char* const side : {"nominal", "corrected"}) {
+      const JsonValue& f = at(routes, side);
+      if (!f.is(JsonValue::Kind::kObject)) continue;
+      table.add({fmt::format("{} {} (rank {:.0f})", pair, side, number(f, "rank")),
+                 figure(f, "energy_wh", "{:.0f} Wh"), fmt::format("{:.3f}", number(f, "mean_slip")),
+                 fmt::format("{:.2f}", number(f, "max_slip")), figure(f, "max_sinkage_m", "{:.3f} m"),
+                 figure(f, "max_current_a", "{:.2f} A"), fmt::format("{:.0f} %", 100.0 * number(f, "risk")),
+                 text(f, "verdict")});
+    }
+    const JsonValue& changed = at(routes, "changed");
+    if (changed.elements.empty()) changes += fmt::format("Route {}: nothing changed to speak of\n", pair);
+    changes += lines(changed, fmt::format("Route {}: ", pair));
+  }
+  return table.print() + "\n" + changes;
+}
+
+Result<std::string> prediction_table(std::string_view answer) {
+  const auto document = read(answer);
+  if (!document) return fail(document.error());
+  const JsonValue& figures = at(*document, "summary");
+  const JsonValue& stuck = at(figures, "immobilised");
+  TextTable table(figures_header());
+  table.add(figures_row("given", figures, stuck.is(JsonValue::Kind::kNull) ? "arrives" : "immobilised"));
+  std::string out = table.print();
+  if (!stuck.is(JsonValue::Kind::kNull)) out += fmt::format("\nImmobilised: {}\n", text(stuck, "reason"));
+  out += lines(at(figures, "broken_limits"), "Limit broken: ");
+  const std::string shown = dynamic_lines(figures, "Verified by dynamics");
+  if (!shown.empty()) out += "\n" + shown;
+  return out;
+}
+
+Result<std::string> wheel_table(std::string_view answer) {
+  const auto document = read(answer);
+  if (!document) return fail(document.error());
+  struct Shown {
+    const char *key, *title, *format;
+    double scale;
+  };
+  constexpr Shown kShown[] = {{"slip", "slip", "{:.3f}", 1.0},
+                              {"slip_angle_deg", "slip angle deg", "{:.1f}", 1.0},
+                              {"load_n", "load N", "{:.1f}", 1.0},
+                              {"sinkage_m", "sinkage mm", "{:.1f}", 1e3},
+                              {"entry_angle_deg", "entry deg", "{:.1f}", 1.0},
+                              {"drawbar_pull_n", "pull N", "{:.1f}", 1.0},
+                              {"lateral_force_n", "lateral N", "{:.1f}", 1.0},
+                              {"torque_nm", "torque N m", "{:.3f}", 1.0},
+                              {"current_a", "current A", "{:.3f}", 1.0},
+                              {"thrust_n", "thrust N", "{:.1f}", 1.0},
+                              {"compaction_resistance_n", "compaction N", "{:.1f}", 1.0},
+                              {"tractive_efficiency", "efficiency", "{:.3f}", 1.0}};
+  // Swept parameters that are none of the columns stand before them.
+  std::vector<std::string> header, extra;
+  for (const JsonValue& axis : at(at(*document, "request"), "sweep").elements) {
+    const std::string& name = text(axis, "parameter");
+    const auto is_this = [&](const Shown& shown) { return name == shown.key; };
+    if (std::none_of(std::begin(kShown), std::end(kShown), is_this)) extra.push_back(name);
+  }
+  header = extra;
+  for (const Shown& shown : kShown) header.emplace_back(shown.title);
+  header.emplace_back("outcome");
+  TextTable table(header);
+  for (const JsonValue& row : at(*document, "rows").elements) {
+    std::vector<std::string> cells;
+    for (const std::string& name : extra) cells.push_back(fmt::format("{:g}", number(row, name)));
+    for (const Shown& shown : kShown) {
+      const bool there = row.find(shown.key) != nullptr;
+      cells.push_back(there ? fmt::format(fmt::runtime(shown.format), shown.scale * number(row, shown.key))
+                            : "-");
+    }
+    const std::string& reason = text(row, "reason");
+    cells.push_back(reason.empty() ? text(row, "outcome") : reason);
+    table.add(std::move(cells));
+  }
+  return table.print();
+}
+
+Result<std::string> terrain_table(std::string_view document) {
+  return catalogue_table(document, "terrains", {"terrain", "size", "cell", "gravity", "stops", "title"},
+                         [](const JsonValue& t) {
+                           const JsonValue& e = at(t, "extent");
+                           return std::vector<std::string>{
+                               text(t, "name"),
+                               fmt::format("{:.0f} x {:.0f} m", number(e, "east_m") - number(e, "west_m"),
+                                           number(e, "north_m") - number(e, "south_m")),
+                               fmt::format("{:g} m", number(t, "cell_x_m")),
+                               fmt::format("{:g} m/s2", number(t, "gravity_m_s2")),
+                               fmt::format("{}", at(t, "stops").elements.size()),
+                               text(t, "title")};
+                         });
+}
+
+Result<std::string> rover_table(std::string_view document) {
+  return catalogue_table(
+      document, "rovers", {"rover", "mass", "speed", "steepest", "summary"}, [](const JsonValue& r) {
+        return std::vector<std::string>{text(r, "name"), fmt::format("{:g} kg", number(r, "mass_kg")),
+                                        fmt::format("{:g} m/s", number(r, "cruise_speed_m_s")),
+                                        fmt::format("{:g} deg", number(r, "max_tilt_deg")),
+                                        text(r, "summary")};
+      });
+}
+
+namespace {
+
+// "reece", and "k_c = 12, k_phi = 900".
+std::string law_parameters(const JsonValue& law) {
+  std::string out;
+  for (std::size_t i = 0; i < law.keys.size(); ++i)
+    if (law.keys[i] != "name")
+      out += fmt::format("{}{} = {:g}", out.empty() ? "" : ", ", law.keys[i], law.elements[i].number);
+  return out;
+}
+
+std::vector<std::string> soil_row(const JsonValue& s) {
+  if (const JsonValue* curve = s.find("slip_curve")) {
+    const auto& slopes = at(*curve, "slope_deg").elements;
+    return {text(s, "name"),
+            "slip curve",
+            fmt::format("{:g} to {:g} deg", slopes.front().number, slopes.back().number),
+            "-",
+            "-",
+            "-",
+            "-",
+            text(s, "source")};
+  }
+  const JsonValue* pressure = s.find("pressure_law");
+  const JsonValue* shear = s.find("shear_law");
+  return {text(s, "name"),
+          pressure ? text(*pressure, "name") : fmt::format("{:g}", number(s, "k_c")),
+          pressure ? law_parameters(*pressure) : fmt::format("{:g}", number(s, "k_phi")),
+          fmt::format("{:g}", number(s, "n")),
+          fmt::format("{:g} Pa", number(s, "cohesion_pa")),
+          fmt::format("{:g} deg", number(s, "friction_angle_deg")),
+          fmt::format("{:g} m", number(s, "shear_modulus_x_m")) +
+              (shear ? fmt::format(" ({}: {})", text(*shear, "name"), law_parameters(*shear)) : ""),
+          text(s, "source")};
+}
+
+}  // namespace
+
+Result<std::string> soil_table(std::string_view document) {
+  return catalogue_table(document, "soils",
+                         {"soil", "k_c", "k_phi", "n", "cohesion", "friction", "K", "source"}, &soil_row);
+}
+
+Result<std::string> effect_table(std::string_view document) {
+  return catalogue_table(document, "effects", {"effect", "what it is", "parameters"}, [](const JsonValue& e) {
+    std::string parameters;
+    for (const JsonValue& p : at(e, "parameters").elements)
+      parameters += fmt::format("{}{} = {:g} [{:g}, {:g}]{}", parameters.empty() ? "" : "; ", text(p, "name"),
+                                number(p, "initial"), number(p, "lowest"), number(p, "highest"),
+                                text(p, "unit") == "1" ? "" : " " + text(p, "unit"));
+    return std::vector<std::string>{text(e, "name"), text(e, "summary"), parameters};
+  });
+}
+
+std::string error_text(const Error& error) {
+  const ErrorRow& row = error_row(error.code);
+  std::string out = fmt::format("{}: {}\n", row.name, error.detail);
+  for (const Fault& fault : error.faults)
+    out +=
+        fmt::format("  {}: {}\n", fault.pointer.empty() ? "(the whole input)" : fault.pointer, fault.message);
+  return out + fmt::format("{}\n", row.help);
+}
+
+}  // namespace slipway::server

@@ -1,0 +1,236 @@
+#include "server/job_routes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "api/chart/report_page.h"
+#include "api/documents/job_document.h"
+#include "api/documents/plan_answer.h"
+#include "api/job_kinds.h"
+#include "api/json/problem_document.h"
+#include "server/query.h"
+#include "server/request_headers.h"
+#include "server/responses.h"
+
+namespace slipway::server {
+namespace {
+
+using std::chrono::seconds;
+
+constexpr std::string_view kGeoJson = "application/geo+json";
+constexpr std::string_view kHtml = "text/html; charset=utf-8";
+constexpr std::string_view kSvg = "image/svg+xml";
+constexpr int kPollSeconds = 1;
+
+class JobRoutes {
+ public:
+  JobRoutes(const api::Service& service, api::JobRunner& runner, const RouteOptions& options,
+            const std::vector<api::JobKind>& kinds)
+      : service_(service), runner_(runner), options_(options), kinds_(kinds) {}
+
+  // Records a request without faults, and waits for its end where the client wants that.
+  HttpResponse submit(const api::JobKind& kind, const HttpRequest& request) {
+    auto recorded = kind.accept(service_, runner_.store(), request.body);
+    if (!recorded) return problem_response(recorded.error(), &request);
+    const Preferences preferences = preferences_of(request);
+    const auto job = runner_.submit(kind.name, *std::move(recorded));
+    if (!job) return problem_response(job.error(), &request);
+    seconds wait = preferences.wait.value_or(preferences.respond_async ? seconds(0) : kind.usual_wait);
+    wait = std::min(wait, options_.longest_wait);
+    HttpResponse response = wait.count() > 0 ? after_waiting(*job, wait, request) : created(*job);
+    if (preferences.respond_async && wait.count() == 0) {
+      response.headers.emplace_back("Preference-Applied", "respond-async");
+    }
+    return response;
+  }
+
+  HttpResponse get(const HttpRequest& request) {
+    const auto job = find(request);
+    return job ? job_response(*job, request) : problem_response(job.error(), &request);
+  }
+
+  HttpResponse list(const HttpRequest& request) {
+    constexpr std::size_t kUsuallyListed = 50;
+    Query query(request, {"limit"});
+    const std::size_t limit = query.count("limit", kUsuallyListed, options_.most_listed);
+    if (const auto error = query.error()) return problem_response(*error, &request);
+    const auto jobs = runner_.store().list(limit);
+    if (!jobs) return problem_response(jobs.error(), &request);
+    HttpResponse response = document(api::json::write_jobs(*jobs));
+    const std::string tag = tag_of(response.body);
+    return tagged(std::move(response), tag, request);
+  }
+
+  HttpResponse result(const HttpRequest& request) {
+    const auto job = find(request);
+    if (!job) return problem_response(job.error(), &request);
+    return outcome_response(*job, request);
+  }
+
+  // The picture of a successful job's answer.
+  HttpResponse map(const HttpRequest& request) {
+    const auto job = find(request);
+    if (!job) return problem_response(job.error(), &request);
+    const api::JobKind* const kind = api::find_kind(kinds_, job->kind);
+    if (kind == nullptr || !kind->map)
+      return problem(ErrorCode::kNotFound, fmt::format("jobs of kind {} have no map", job->kind), request);
+    if (job->state != api::JobState::kSuccessful) return outcome_response(*job, request);
+    const auto kept = kept_outcome(*job);
+    if (!kept) return problem_response(kept.error(), &request);
+    const auto svg = kind->map(service_.catalogue(), api::parts_of(*kept).document);
+    if (!svg) return problem_response(svg.error(), &request);
+    HttpResponse response = document(*svg);
+    response.content_type = kSvg;
+    return response;
+  }
+
+  // The report of a successful job, as a page.
+  HttpResponse report(const HttpRequest& request) {
+    const auto job = find(request);
+    if (!job) return problem_response(job.error(), &request);
+    const api::JobKind* const kind = api::find_kind(kinds_, job->kind);
+    if (kind == nullptr || !kind->has_report)
+      return problem(ErrorCode::kNotFound, fmt::format("jobs of kind {} have no report", job->kind), request);
+    if (job->state != api::JobState::kSuccessful) return outcome_response(*job, request);
+    const auto kept = kept_outcome(*job);
+    if (!kept) return problem_response(kept.error(), &request);
+    const std::string_view page = api::parts_of(*kept).page;
+    if (page.empty()) return problem(ErrorCode::kNotFound, "the job's report is not kept", request);
+    HttpResponse response = document(std::string(page));
+    response.content_type = kHtml;
+    response.headers.emplace_back("Content-Security-Policy",
+                                  fmt::format("{}; frame-ancestors 'self'", api::kReportPolicy));
+    response.headers.emplace_back("X-Content-Type-Options", "nosniff");
+    const std::string tag = tag_of(response.body);
+    return tagged(std::move(response), tag, request);
+  }
+
+  HttpResponse dismiss(const HttpRequest& request) {
+    const auto job = runner_.dismiss(request.parameter("id"));
+    if (!job) return problem_response(job.error(), &request);
+    if (!*job) return problem(ErrorCode::kNotFound, "there is no job of this id", request);
+    if ((*job)->state != api::JobState::kDismissed) {
+      return problem(ErrorCode::kConflict, fmt::format("the job is {} already", api::describe((*job)->state)),
+                     request);
+    }
+    return document(api::json::write_job(**job, std::nullopt));
+  }
+
+ private:
+  Result<api::Job> find(const HttpRequest& request) {
+    const auto job = runner_.store().get(request.parameter("id"));
+    if (!job) return fail(job.error());
+    if (!*job) return fail(ErrorCode::kNotFound, "there is no job of this id");
+    return **job;
+  }
+
+  // What is kept of a job that has ended.
+  Result<std::string> kept_outcome(const api::Job& job) {
+    auto outcome = runner_.store().outcome(job.id);
+    if (!outcome) return fail(std::move(outcome.error()));
+    if (!*outcome) return fail(ErrorCode::kNotFound, "the job's result is no longer kept");
+    return **std::move(outcome);
+  }
+
+  HttpResponse created(const api::Job& job) {
+    HttpResponse response = document(api::json::write_job(job, std::nullopt), 201);
+    response.headers.emplace_back("Location", "/v1/jobs/" + job.id);
+    if (!api::has_ended(job.state))
+      response.headers.emplace_back("Retry-After", std::to_string(kPollSeconds));
+    return response;
+  }
+
+  HttpResponse after_waiting(const api::Job& accepted, seconds wait, const HttpRequest& request) {
+    if (++waiting_ > options_.most_waiting) {
+      --waiting_;
+      return created(accepted);  // without Preference-Applied: it was not
+    }
+    const auto job = runner_.wait(accepted.id, wait);
+    --waiting_;
+    // It is recorded, whatever the store says now: the client must learn where.
+    const api::Job known = job && *job ? **job : accepted;
+    HttpResponse response = api::has_ended(known.state) ? outcome_response(known, request) : created(known);
+    if (api::has_ended(known.state))
+      response.headers.emplace_back("Content-Location", "/v1/jobs/" + known.id + "/result");
+    response.headers.emplace_back("Preference-Applied", fmt::format("wait={}", wait.count()));
+    return response;
+  }
+
+  HttpResponse job_response(const api::Job& job, const HttpRequest& request) {
+    std::optional<std::string> failure;
+    if (job.state == api::JobState::kFailed) failure = runner_.store().outcome(job.id).value_or(std::nullopt);
+    HttpResponse response = document(api::json::write_job(job, failure));
+    if (!api::has_ended(job.state))
+      response.headers.emplace_back("Retry-After", std::to_string(kPollSeconds));
+    return tagged(std::move(response), fmt::format("\"{}-{}\"", job.id, job.version), request);
+  }
+
+  // The answer of a successful job, the problem of a failed one, the reason why there is neither.
+  HttpResponse outcome_response(const api::Job& job, const HttpRequest& request) {
+    if (job.state == api::JobState::kDismissed)
+      return problem(ErrorCode::kCancelled, "the job was dismissed", request);
+    if (!api::has_ended(job.state)) {
+      HttpResponse response =
+          problem(ErrorCode::kConflict,
+                  fmt::format("the job is {}: it has no result yet", api::describe(job.state)), request);
+      response.headers.emplace_back("Retry-After", std::to_string(kPollSeconds));
+      return response;
+    }
+    const auto kept = kept_outcome(job);
+    if (!kept) return problem_response(kept.error(), &request);
+    if (job.state == api::JobState::kFailed) {
+      return problem_response(api::json::read_problem(*kept), &request);
+    }
+    return answer(std::string(api::parts_of(*kept).document), request);
+  }
+
+  static HttpResponse answer(const std::string& bytes, const HttpRequest& request) {
+    HttpResponse response = document(bytes);
+    if (accepts(request, kGeoJson)) {
+      auto geojson = api::json::geojson_of(bytes);
+      if (!geojson) return problem_response(geojson.error(), &request);
+      response.body = std::move(*geojson);
+      response.content_type = kGeoJson;
+    }
+    response.headers.emplace_back("Vary", "Accept");
+    const std::string tag = tag_of(response.body);
+    return request.method == "POST" ? response : tagged(std::move(response), tag, request);
+  }
+
+  const api::Service& service_;
+  api::JobRunner& runner_;
+  RouteOptions options_;
+  const std::vector<api::JobKind>& kinds_;
+  std::atomic<int> waiting_{0};
+};
+
+}  // namespace
+
+std::vector<Route> job_routes(const api::Service& service, api::JobRunner& runner,
+                              const RouteOptions& options, const std::vector<api::JobKind>& kinds) {
+  const auto jobs = std::make_shared<JobRoutes>(service, runner, options, kinds);
+  std::vector<Route> routes{
+      {"GET", "/v1/jobs", [jobs](const HttpRequest& r) { return jobs->list(r); }},
+      {"GET", "/v1/jobs/{id}", [jobs](const HttpRequest& r) { return jobs->get(r); }},
+      {"GET", "/v1/jobs/{id}/result", [jobs](const HttpRequest& r) { return jobs->result(r); }},
+      {"GET", "/v1/jobs/{id}/map", [jobs](const HttpRequest& r) { return jobs->map(r); }},
+      {"GET", "/v1/jobs/{id}/report", [jobs](const HttpRequest& r) { return jobs->report(r); }},
+      {"DELETE", "/v1/jobs/{id}", [jobs](const HttpRequest& r) { return jobs->dismiss(r); }},
+  };
+  for (const api::JobKind& kind : kinds) {
+    routes.push_back(
+        {"POST", kind.path, [jobs, &kind](const HttpRequest& r) { return jobs->submit(kind, r); }});
+    if (kind.has_report)
+      routes.push_back(
+          {"GET", kind.path + "/{id}/report", [jobs](const HttpRequest& r) { return jobs->report(r); }});
+  }
+  return routes;
+}
+
+}  // namespace slipway::server

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "server/http/http_message.h"
+
+namespace slipway::server {
+
+// Reads the parameters of a query: each may be given once, and no others. The faults are gathered, so that a
+// refusal names all of them. The request must outlive this.
+class Query {
+ public:
+  Query(const HttpRequest& request, std::vector<std::string> known);
+
+  // A finite number; 0 with a fault where there is none.
+  double required_number(const std::string& name);
+  // A whole number in [1, most]; `initial` where the parameter is not given.
+  std::size_t count(const std::string& name, std::size_t initial, std::size_t most);
+
+  // invalid_request with every fault; nothing where there was none.
+  std::optional<Error> error() const;
+
+ private:
+  const HttpRequest& request_;
+  std::vector<Fault> faults_;
+};
+
+}  // namespace slipway::server

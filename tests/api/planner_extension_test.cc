@@ -1,0 +1,147 @@
+// A cost and a planner that somebody adds: one row each, and from the request's JSON to the answer's they act
+// as those that are built in do.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "api/documents/catalogue_documents.h"
+#include "api/documents/plan_answer.h"
+#include "api/json/parse.h"
+#include "small_world.h"
+
+namespace slipway::api {
+namespace {
+
+using json::JsonValue;
+
+double right_angles(const planner::DriveFigures& drive) {
+  return drive.turned_rad / (0.5 * M_PI);
+}
+
+std::span<const planner::CostTerm> costs_with_turning() {
+  static const std::vector<planner::CostTerm> rows = [] {
+    std::vector<planner::CostTerm> all(planner::cost_catalogue().begin(), planner::cost_catalogue().end());
+    all.push_back({"turning",
+                   "turns in place",
+                   {"turning", "1/(90 deg)", "cost of a right angle turned in place", 0.0, 50.0, 0.0},
+                   "90 deg",
+                   right_angles});
+    return all;
+  }();
+  return rows;
+}
+
+// Straight to the goal, whatever lies between.
+class Beeline final : public planner::LegPlanner {
+ public:
+  std::vector<Pose2> search(const planner::LegSearch& leg) const override {
+    return {leg.from, {leg.to_x_m, leg.to_y_m, leg.arrival_rad.front()}};
+  }
+};
+
+std::span<const planner::PlannerRow> planners_with_beeline() {
+  static const std::vector<planner::PlannerRow> rows = [] {
+    std::vector<planner::PlannerRow> all(planner::planner_catalogue().begin(),
+                                         planner::planner_catalogue().end());
+    all.push_back({"beeline", "straight to the goal", "Euclid", false,
+                   []() -> std::unique_ptr<planner::LegPlanner> { return std::make_unique<Beeline>(); }});
+    return all;
+  }();
+  return rows;
+}
+
+const Service& extended_world() {
+  static const testing::ScratchFolder folder;
+  static const std::unique_ptr<Service> service = [] {
+    testing::copy_small_world(folder.path());
+    return std::move(Service::open({.data = folder.path(),
+                                    .threads = 2,
+                                    .costs = costs_with_turning(),
+                                    .planners = planners_with_beeline()}))
+        .value();
+  }();
+  return *service;
+}
+
+// From (20, 30), heading away from the goal.
+std::string request_with(const std::string& members) {
+  return R"({"terrain":"yard","rover":"mer-class","start":{"x_m":20,"y_m":30,"yaw_deg":170},)"
+         R"("goal":{"x_m":45,"y_m":40},"draws":2)" +
+         members + "}";
+}
+
+JsonValue answer_of(const Service& service, const std::string& request) {
+  const auto read = service.read_plan(request);
+  EXPECT_TRUE(read) << read.error().detail;
+  NoProgress progress;
+  const auto answer = service.plan(read.value(), progress);
+  EXPECT_TRUE(answer) << answer.error().detail;
+  return json::parse(json::write_plan_answer(answer.value())).value();
+}
+
+const JsonValue* share_of(const JsonValue& route, std::string_view name) {
+  for (const JsonValue& share : route.find("cost_shares")->elements)
+    if (share.find("name")->text == name) return &share;
+  return nullptr;
+}
+
+double turned(const JsonValue& answer) {
+  return share_of(answer.find("summary")->elements.at(0), "turning")->find("value")->number;
+}
+
+TEST(AddedCost, ActsFromTheRequestsWeightsToTheRoutesThatAreSearchedAndTheirShares) {
+  const std::string one_route = R"(,"routes":1,"planners":["rrt_star"])";
+  const JsonValue freely = answer_of(extended_world(), request_with(one_route));
+  const JsonValue dearly =
+      answer_of(extended_world(), request_with(R"(,"weights":{"turning":50})" + one_route));
+  EXPECT_EQ(dearly.find("request")->find("weights")->find("turning")->number, 50.0);
+  const JsonValue& route = dearly.find("summary")->elements.at(0);
+  const JsonValue* const share = share_of(route, "turning");
+  ASSERT_NE(share, nullptr);
+  EXPECT_EQ(share->find("weight")->number, 50.0);
+  EXPECT_NEAR(share->find("cost")->number, 50.0 * share->find("value")->number,
+              1e-3 * share->find("cost")->number + 1e-9);
+  double sum = 0.0;
+  for (const JsonValue& each : route.find("cost_shares")->elements) sum += each.find("cost")->number;
+  EXPECT_NEAR(route.find("cost")->number, sum, 1e-2 * sum);
+  // Away from the goal by half a turn: in place where that is cheap, around an arc where it is dear.
+  EXPECT_GT(turned(freely), 1.0);
+  EXPECT_LT(turned(dearly), turned(freely) - 0.3);
+}
+
+TEST(AddedCost, IsReadAsStrictlyAsTheOthersAndListed) {
+  const auto over = extended_world().read_plan(request_with(R"(,"weights":{"turning":51})"));
+  ASSERT_FALSE(over);
+  EXPECT_EQ(over.error().faults.at(0).pointer, "/weights/turning");
+  EXPECT_FALSE(testing::small_world().read_plan(request_with(R"(,"weights":{"turning":5})")));
+  const std::string listed = json::write_planners(extended_world().planners(), extended_world().costs());
+  EXPECT_NE(listed.find(R"("name":"turning")"), std::string::npos);
+  EXPECT_EQ(json::write_planners().find(R"("name":"turning")"), std::string::npos);
+}
+
+TEST(AddedPlanner, ProposesTheRoutesOfAPlanThatAsksForIt) {
+  const JsonValue answer = answer_of(extended_world(), request_with(R"(,"planners":["beeline"],"routes":1)"));
+  const JsonValue& route = answer.find("summary")->elements.at(0);
+  EXPECT_EQ(route.find("planner")->text, "beeline");
+  EXPECT_NEAR(route.find("length_m")->number, std::hypot(25.0, 10.0), 0.5);
+  const std::string listed = json::write_planners(extended_world().planners(), extended_world().costs());
+  EXPECT_NE(listed.find(R"("name":"beeline")"), std::string::npos);
+  EXPECT_FALSE(testing::small_world().read_plan(request_with(R"(,"planners":["beeline"])")));
+}
+
+TEST(AddedPlanner, ThatHeedsNoKeepOutGivesNoRouteAndTheAnswerSaysWhere) {
+  const JsonValue answer =
+      answer_of(extended_world(),
+                request_with(R"(,"planners":["beeline"],"keep_out":[[[30,30],[34,30],[34,40],[30,40]]])"));
+  EXPECT_TRUE(answer.find("summary")->elements.empty());
+  std::string because;
+  for (const JsonValue& words : answer.find("fewer_because")->elements) because += words.text + "\n";
+  EXPECT_NE(because.find("the rover's body would enter a keep-out, the first at (2"), std::string::npos)
+      << because;
+}
+
+}  // namespace
+}  // namespace slipway::api

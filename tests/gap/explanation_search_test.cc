@@ -1,0 +1,137 @@
+#include "gap/diagnosis/search/explanation_search.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "gap/diagnosis/search/selection.h"
+#include "gap/diagnosis/verdict.h"
+
+namespace slipway::gap {
+namespace {
+
+DriveCampaign campaign_of_one_soil() {
+  DriveCampaign campaign;
+  campaign.soils.resize(1);
+  return campaign;
+}
+
+EffectVariant variant(const std::string& effect, const std::string& field, double std) {
+  EffectVariant v;
+  v.effect = effect;
+  v.free = {{field, std, -10.0, 10.0}};
+  return v;
+}
+
+TEST(Priors, AddUpToOneOverAllSetsThatStandAlone) {
+  const PriorOptions options;
+  for (const double effects : {2.0, 7.0, 16.0}) {
+    const double pairs = 0.5 * effects * (effects - 1.0);
+    const LogPrior nothing = log_prior_of_nothing(options), one = log_prior_of_one(options, effects),
+                   two = log_prior_of_two(options, effects);
+    EXPECT_NEAR(std::exp(nothing.alone) + std::exp(nothing.with_something_else) +
+                    effects * (std::exp(one.alone) + std::exp(one.with_something_else)) +
+                    pairs * std::exp(two.alone),
+                1.0, 1e-12)
+        << effects;
+    EXPECT_NEAR(two.with_something_else - two.alone, options.pair_beside_something_else_log, 1e-12);
+  }
+  EXPECT_NEAR(std::exp(log_prior_of_two(options, 1.0).alone), options.two_effects, 1e-12)
+      << "no pair: finite";
+}
+
+TEST(Weigh, IsTheMixtureOfSharesEachNormalisedByItself) {
+  std::vector<Candidate> c(2);
+  c[0].log_evidence = 10.0;
+  c[0].log_prior = std::log(0.2);
+  c[1].log_prior = std::log(0.8);
+  EvidenceOptions options;
+  options.shares = {EvidenceShare{0.5, 0.75}, EvidenceShare{0.0, 0.25}};
+  weigh(c, options);
+  const double first = 0.2 * std::exp(5.0) / (0.2 * std::exp(5.0) + 0.8);
+  EXPECT_NEAR(c[0].probability, 0.75 * first + 0.25 * 0.2, 1e-12);
+  EXPECT_NEAR(c[1].probability, 0.75 * (1.0 - first) + 0.25 * 0.8, 1e-12);
+}
+
+TEST(WorthNaming, AsksEachEffectForAGoodPartOfItsUsualSize) {
+  const DriveCampaign campaign = campaign_of_one_soil();
+  FittedExplanation fit{
+      {}, Hypothesis(campaign, {variant("slip_sinkage", "n1", 0.3), variant("wheel_radius", "scale", 0.02)})};
+  fit.x = fit.hypothesis.neutral();
+  const std::size_t first = fit.hypothesis.nuisance_count();
+  fit.x[first] += 0.3 * 0.31;
+  fit.x[first + 1] -= 0.02 * 0.29;
+  EXPECT_NEAR(size_of(fit, "slip_sinkage"), 0.31, 1e-9);
+  EXPECT_NEAR(size_of(fit, "wheel_radius"), 0.29, 1e-9);
+  EXPECT_FALSE(worth_naming(fit, 0.3));
+  EXPECT_TRUE(worth_naming(fit, 0.28));
+}
+
+TEST(WentFar, IsOfTheParameterThatWentFarthest) {
+  const DriveCampaign campaign = campaign_of_one_soil();
+  FittedExplanation null{{}, Hypothesis(campaign, {})};
+  null.x = null.hypothesis.neutral();
+  EXPECT_FALSE(went_far(null, 2.5));
+  null.x[2] -= 2.6 * null.hypothesis.parameters()[2].std;
+  EXPECT_TRUE(went_far(null, 2.5));
+  EXPECT_FALSE(went_far(null, 2.7));
+}
+
+TEST(Hypothesis, SaysWhichQuantityOfWhichSoilAParameterIs) {
+  DriveCampaign campaign;
+  campaign.soils.resize(2);
+  campaign.soils[0].name = "sand";
+  campaign.soils[1].name = "frictionless";
+  const Hypothesis hypothesis(campaign, {});
+  int frictions = 0;
+  for (const Parameter& p : hypothesis.parameters()) {
+    if (p.quantity != SoilQuantity::kFriction) continue;
+    EXPECT_EQ(p.name, "friction/" + campaign.soils[static_cast<std::size_t>(p.soil)].name);
+    EXPECT_EQ(p.soil, frictions++);
+  }
+  EXPECT_EQ(frictions, 2);
+}
+
+TEST(MostProbableFits, TakeEachFitOnce) {
+  const DriveCampaign campaign = campaign_of_one_soil();
+  ExplanationSearch search;
+  for (const double mark : {1.0, 2.0, 3.0}) {
+    search.fits.push_back({{}, Hypothesis(campaign, {})});
+    search.fits.back().log_evidence = mark;
+  }
+  for (const std::size_t fit : {2U, 2U, 0U, 1U}) {
+    search.candidates.emplace_back();
+    search.candidates.back().fit = fit;
+  }
+  const std::vector<FittedExplanation> fits = most_probable_fits(search, 2);
+  ASSERT_EQ(fits.size(), 2U);
+  EXPECT_EQ(fits[0].log_evidence, 3.0);
+  EXPECT_EQ(fits[1].log_evidence, 1.0);
+}
+
+TEST(ChosenOfResample, IsThatOfTheChangedEvidenceWhateverTheOrderWas) {
+  std::vector<Candidate> c(3);
+  c[0].effects = {"a"};
+  c[1].effects = {"b"};
+  c[0].log_evidence = 0.0;
+  c[1].log_evidence = 100.0;
+  EXPECT_EQ(chosen_of_resample(c, {}, {}), 1U);
+  c[0].log_evidence = 200.0;
+  EXPECT_EQ(chosen_of_resample(c, {}, {}), 0U);
+}
+
+TEST(HiddenShare, CountsVariantsThatWouldNotHaveBeenSeen) {
+  VerdictOptions options;
+  options.surely_seen = 6.0;
+  options.small_effect = 0.5;
+  std::vector<ScreenedVariant> screened(4);
+  screened[0].visibility = 11.9;
+  screened[1].visibility = 12.1;
+  screened[2].visibility = 50.0;
+  screened[3].visibility = 0.0;
+  EXPECT_DOUBLE_EQ(hidden_share(screened, options), 0.5);
+  EXPECT_DOUBLE_EQ(hidden_share({}, options), 1.0) << "nothing was looked for";
+}
+
+}  // namespace
+}  // namespace slipway::gap

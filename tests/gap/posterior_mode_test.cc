@@ -1,0 +1,185 @@
+#include "gap/diagnosis/search/posterior_mode.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <cmath>
+
+#include "tests/gap/linear_model.h"
+
+namespace slipway::gap {
+namespace {
+
+using testing::LinearModel;
+using testing::parameter;
+using testing::random_matrix;
+using testing::to_the_end;
+
+TEST(HuberLoss, IsASquareAtTheCentreAndALineBeyondTheThreshold) {
+  const HuberLoss loss{2.0};
+  EXPECT_DOUBLE_EQ(loss(1.5), 1.125);
+  EXPECT_DOUBLE_EQ(loss(-2.0), 2.0);
+  EXPECT_DOUBLE_EQ(loss(5.0), 8.0) << "2 (5 - 1)";
+  EXPECT_DOUBLE_EQ(loss.weight(1.9), 1.0);
+  EXPECT_DOUBLE_EQ(loss.weight(-8.0), 0.25);
+  // The weighted row has the loss's slope.
+  constexpr double kStep = 1e-6;
+  for (const double r : {-7.0, -1.0, 0.5, 3.0})
+    EXPECT_NEAR(loss.weight(r) * r, (loss(r + kStep) - loss(r - kStep)) / (2.0 * kStep), 1e-8) << r;
+}
+
+TEST(NegativeLogPosterior, AddsThePriorAndTheLossOfFittedRows) {
+  const Eigen::Vector3d white(1.0, -3.0, 10.0);
+  const Eigen::Vector2d u(2.0, 1.0);
+  const HuberLoss loss{2.0};
+  EXPECT_DOUBLE_EQ(negative_log_posterior(white, u, loss, {}), 2.5 + 0.5 + 4.0 + 18.0);
+  EXPECT_DOUBLE_EQ(negative_log_posterior(white, u, loss, {true, true, false}), 2.5 + 0.5 + 4.0);
+  EXPECT_EQ(loss_weights(white, loss, {true, false, true}), Eigen::Vector3d(1.0, 0.0, 0.2));
+}
+
+TEST(NormalEquations, AreThoseOfRidgeRegression) {
+  const Eigen::MatrixXd a = random_matrix(7, 3, 11);
+  const Eigen::VectorXd weights = random_matrix(7, 1, 5).cwiseAbs();
+  const NormalEquations equations = normal_equations(a, weights);
+  const Eigen::MatrixXd expected = a.transpose() * weights.asDiagonal() * a + Eigen::MatrixXd::Identity(3, 3);
+  EXPECT_LT((equations.hessian - expected).norm(), 1e-12);
+  EXPECT_LT((equations.covariance - expected.inverse()).norm(), 1e-12);
+}
+
+TEST(BoundedStep, IsNewtonsWhereNoBoundIsReached) {
+  const Eigen::Matrix2d h{{2.0, 1.0}, {1.0, 3.0}};
+  const Eigen::Vector2d g(1.0, 2.0), far(10.0, 10.0);
+  const Eigen::VectorXd step = bounded_step(h, g, -far, far);
+  EXPECT_NEAR(step[0], 0.2, 1e-14);
+  EXPECT_NEAR(step[1], 0.6, 1e-14);
+}
+
+// With one parameter at its bound, the other's best step is that of the quadratic restricted to it.
+TEST(BoundedStep, HoldsWhatWouldCrossItsBoundAndSolvesForTheRest) {
+  const Eigen::Matrix2d h{{2.0, 1.0}, {1.0, 3.0}};
+  const Eigen::Vector2d g(1.0, 2.0), low(-10.0, -10.0), high(10.0, 0.3);
+  const Eigen::VectorXd step = bounded_step(h, g, low, high);
+  EXPECT_DOUBLE_EQ(step[1], 0.3);
+  EXPECT_NEAR(step[0], (1.0 - 1.0 * 0.3) / 2.0, 1e-14);
+}
+
+// The second crosses only once the first is held.
+TEST(BoundedStep, FindsBoundsOneAfterTheOther) {
+  const Eigen::Matrix2d h{{1.0, 0.9}, {0.9, 1.0}};
+  const Eigen::Vector2d g(1.0, 0.9), low(-10.0, -10.0), high(0.5, 0.2);
+  const Eigen::VectorXd step = bounded_step(h, g, low, high);
+  EXPECT_DOUBLE_EQ(step[0], 0.5);
+  EXPECT_DOUBLE_EQ(step[1], 0.2) << "free, it would be 0.9 - 0.9 * 0.5";
+}
+
+TEST(BoundedStep, StaysWhereEverythingIsAtItsBound) {
+  const Eigen::Matrix2d h = Eigen::Matrix2d::Identity();
+  const Eigen::VectorXd step =
+      bounded_step(h, Eigen::Vector2d(3.0, -3.0), Eigen::Vector2d(-1.0, 0.0), Eigen::Vector2d(0.0, 1.0));
+  EXPECT_EQ(step, Eigen::Vector2d(0.0, 0.0));
+}
+
+TEST(ShortenedStep, IsHalvedUntilTheCostFalls) {
+  const auto never = [] { return false; };
+  // (s - 0.2)^2 from s = 0: full and half steps are worse.
+  const auto cost_at = [](double share) { return (share - 0.2) * (share - 0.2); };
+  EXPECT_EQ(shortened_step(0.04, cost_at, never), 0.25);
+  EXPECT_EQ(shortened_step(2.0, cost_at, never), 1.0);
+  EXPECT_EQ(shortened_step(0.0, cost_at, never), std::nullopt) << "no share is better";
+  EXPECT_EQ(shortened_step(2.0, cost_at, [] { return true; }), std::nullopt);
+}
+
+// y = A x + e with x ~ N(0, S), e ~ N(0, V): the posterior is normal, and the evidence N(y; 0, V + A S A^T).
+TEST(FindMode, OfALinearGaussianModelHasItsPosteriorAndItsEvidence) {
+  constexpr Eigen::Index kRows = 12;
+  const Eigen::MatrixXd a = random_matrix(kRows, 3, 21);
+  const Eigen::VectorXd y = 3.0 * random_matrix(kRows, 1, 31),
+                        v = random_matrix(kRows, 1, 41).cwiseAbs().array() + 0.3;
+  const std::vector<Parameter> parameters{parameter(0.5), parameter(2.0), parameter(1.0)};
+  const Eigen::Vector3d prior(0.25, 4.0, 1.0);  // variances
+  const PosteriorMode mode =
+      find_mode(LinearModel(a, y, v, parameters), std::vector<double>{0.4, -1.0, 2.0}, to_the_end());
+
+  const Eigen::MatrixXd noise = v.cwiseAbs2().asDiagonal();
+  const Eigen::MatrixXd precision =
+      a.transpose() * noise.inverse() * a + Eigen::MatrixXd(prior.cwiseInverse().asDiagonal());
+  const Eigen::MatrixXd covariance = precision.inverse();
+  const Eigen::VectorXd mean = covariance * a.transpose() * noise.inverse() * y;
+  for (Eigen::Index p = 0; p < 3; ++p) {
+    EXPECT_NEAR(mode.x[static_cast<std::size_t>(p)], mean[p], 1e-9);
+    for (Eigen::Index q = 0; q < 3; ++q)
+      EXPECT_NEAR(mode.covariance(p, q) * std::sqrt(prior[p] * prior[q]), covariance(p, q), 1e-12);
+  }
+  // Up to (2 pi)^(-n/2) |V|^(-1/2), which all explanations share.
+  const Eigen::MatrixXd marginal = noise + a * prior.asDiagonal() * a.transpose();
+  const double expected =
+      -0.5 * y.dot(marginal.inverse() * y) - 0.5 * std::log(marginal.determinant() / noise.determinant());
+  EXPECT_NEAR(mode.log_evidence, expected, 1e-9);
+  EXPECT_TRUE(mode.converged);
+  EXPECT_LT((mode.residuals - (y - a * mean)).norm(), 1e-8);
+  // What the screening of further columns starts from: residuals at the neutral parameters.
+  EXPECT_LT((mode.white_linear - y.cwiseQuotient(v)).norm(), 1e-8);
+}
+
+// One parameter of prior deviation 1, observed as 0, 0 and 10 with deviation 1. Beyond the threshold 1 the
+// third pulls with 1: 3 u = 1.
+TEST(FindMode, WeighsDownAnOutlierAsHubersLossDoes) {
+  FitOptions options = to_the_end();
+  options.huber = 1.0;
+  const LinearModel model(Eigen::MatrixXd::Ones(3, 1), Eigen::Vector3d(0.0, 0.0, 10.0),
+                          Eigen::Vector3d::Ones(), {parameter(1.0)});
+  const PosteriorMode mode = find_mode(model, std::vector<double>{0.0}, options);
+  EXPECT_NEAR(mode.x[0], 1.0 / 3.0, 1e-5);
+  EXPECT_NEAR(mode.row_weights[2] * mode.row_weights[2], 1.0 / (10.0 - mode.x[0]), 1e-12);
+  // Without the outlier's row nothing pulls.
+  const PosteriorMode without = find_mode(model, std::vector<double>{0.0}, options, {true, true, false});
+  EXPECT_EQ(without.x[0], 0.0);
+  EXPECT_EQ(without.white_jacobian(2, 0), 0.0);
+}
+
+TEST(FindMode, StopsAtABoundWithTheOthersAtTheirBest) {
+  const Eigen::MatrixXd a{{1.0, 0.5}, {0.0, 1.0}, {1.0, 1.0}};
+  const Eigen::Vector3d y(3.0, 1.0, 4.0);
+  const LinearModel model(a, y, Eigen::Vector3d::Ones(), {parameter(1.0, 0.0, 0.4), parameter(1.0)});
+  const PosteriorMode mode = find_mode(model, std::vector<double>{0.0, 0.0}, to_the_end());
+  EXPECT_DOUBLE_EQ(mode.x[0], 0.4);
+  const Eigen::VectorXd left = y - 0.4 * a.col(0);
+  EXPECT_NEAR(mode.x[1], a.col(1).dot(left) / (1.0 + a.col(1).squaredNorm()), 1e-9);
+  EXPECT_TRUE(mode.converged);
+}
+
+TEST(FindMode, TakesAnObservationWithoutAnAnswerForOneThatIsFarOff) {
+  class Stuck : public LinearModel {
+   public:
+    using LinearModel::LinearModel;
+    std::vector<double> predict(std::span<const double> x) const override {
+      std::vector<double> f = LinearModel::predict(x);
+      f[1] = std::numeric_limits<double>::quiet_NaN();
+      return f;
+    }
+  };
+  FitOptions options;
+  options.no_answer = 3.0;
+  const PosteriorMode mode = find_mode(Stuck(Eigen::MatrixXd::Zero(2, 1), Eigen::Vector2d(0.0, 7.0),
+                                             Eigen::Vector2d(1.0, 0.5), {parameter(1.0)}),
+                                       std::vector<double>{0.0}, options);
+  EXPECT_DOUBLE_EQ(mode.residuals[1], 1.5);
+  EXPECT_DOUBLE_EQ(mode.log_evidence, -4.5);
+}
+
+// A prior of one side only holds its probability on half the room.
+TEST(LaplaceEvidence, OfAOneSidedPriorIsTwiceAsDense) {
+  const Eigen::MatrixXd covariance = Eigen::Matrix2d{{0.25, 0.0}, {0.0, 0.04}};
+  const std::vector<Parameter> two_sided{parameter(1.0), parameter(1.0)};
+  const std::vector<Parameter> one_sided{parameter(1.0), parameter(1.0, 0.0)};
+  const double expected = -3.0 + std::log(0.5 * 0.2);
+  EXPECT_NEAR(laplace_log_evidence(3.0, covariance, two_sided), expected, 1e-12);
+  EXPECT_NEAR(laplace_log_evidence(3.0, covariance, one_sided), expected + std::log(2.0), 1e-12);
+  std::vector<Parameter> nuisance = one_sided;
+  nuisance[1].effect.clear();
+  EXPECT_NEAR(laplace_log_evidence(3.0, covariance, nuisance), expected, 1e-12) << "in every explanation";
+}
+
+}  // namespace
+}  // namespace slipway::gap

@@ -1,0 +1,37 @@
+#!/bin/sh
+# The demo plans on its own service, and fails where another service holds its port.
+#   demo_test.sh SLIPWAY SOURCE_FOLDER
+set -eu
+slipway="$1"
+source="$2"
+folder="$(mktemp -d)"
+trap 'kill "${foreign:-}" 2>/dev/null || true; rm -rf "$folder"' EXIT
+
+. "$source/tests/command_expectations.sh"
+
+# A copy of what the demo uses: it writes into the tree that it stands in.
+mkdir -p "$folder/tree/tests"
+cp -r "$source/deploy" "$folder/tree"
+cp "$source/tests/stages.sh" "$folder/tree/tests"
+
+# A foreign service, which answers every question of the demo.
+"$slipway" serve --port 0 --jobs "" >"$folder/foreign.log" 2>&1 &
+foreign=$!
+port=""
+for _ in $(seq 100); do
+  port="$(sed -n 's|.* on http://127\.0\.0\.1:\([0-9]*\),.*|\1|p' "$folder/foreign.log")"
+  [ -z "$port" ] || break
+  sleep 0.1
+done
+[ -n "$port" ] || { echo "the foreign service did not start"; cat "$folder/foreign.log"; exit 1; }
+
+expect 1 env PORT="$port" sh "$folder/tree/deploy/demo.sh" --once --built "$slipway"
+holds "is port $port taken" "$folder/err"
+kill -0 "$foreign" || { echo "the demo ended the foreign service"; exit 1; }
+kill "$foreign"
+wait "$foreign" 2>/dev/null || true
+expect 0 env PORT="$port" sh "$folder/tree/deploy/demo.sh" --once --built "$slipway"
+holds '^route ' "$folder/out"
+holds '^stage  *minutes' "$folder/out"
+[ -s "$folder/tree/var/demo-routes.svg" ] || { echo "no picture"; exit 1; }
+echo "as expected"

@@ -1,0 +1,74 @@
+#include "planner/problem/cost_catalogue.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "core/random.h"
+#include "planner/problem/weights.h"
+#include "planner/search/profile.h"
+
+namespace slipway::planner {
+namespace {
+
+constexpr std::array kFigures{&DriveFigures::length_m,      &DriveFigures::turned_rad,
+                              &DriveFigures::duration_s,    &DriveFigures::energy_j,
+                              &DriveFigures::slip_length_m, &DriveFigures::unknown_length_m,
+                              &DriveFigures::risk};
+
+DriveFigures some_figures(std::uint64_t key) {
+  DriveFigures figures;
+  for (std::size_t k = 0; k < kFigures.size(); ++k) figures.*kFigures[k] = 100.0 * random_uniform(key, k);
+  return figures;
+}
+
+DriveFigures sum_of(const DriveFigures& a, const DriveFigures& b) {
+  DriveFigures sum;
+  for (const auto figure : kFigures) sum.*figure = a.*figure + b.*figure;
+  return sum;
+}
+
+TEST(CostCatalogue, EveryTermOfADriveIsTheSumOfItsStretches) {
+  for (const CostTerm& term : cost_catalogue()) {
+    const DriveFigures a = some_figures(1), b = some_figures(2);
+    EXPECT_EQ(term.value({}), 0.0) << term.name;
+    EXPECT_NEAR(term.value(sum_of(a, b)), term.value(a) + term.value(b), 1e-9) << term.name;
+  }
+}
+
+TEST(Weights, AreTheCataloguesUntilTheyAreSetAndAddUpByRow) {
+  Weights weights;
+  ASSERT_EQ(weights.terms().size(), cost_catalogue().size());
+  const DriveFigures figures = some_figures(3);
+  double sum = 0.0;
+  for (const CostTerm& term : cost_catalogue()) {
+    EXPECT_EQ(weights.of(term.name), term.weight.initial);
+    sum += term.weight.initial * term.value(figures);
+  }
+  EXPECT_NEAR(weights.cost(figures), sum, 1e-9);
+  weights.set("slip", 7.0);
+  weights.set("no_such_term", 9.0);
+  EXPECT_EQ(weights.of("slip"), 7.0);
+  EXPECT_EQ(weights.of("no_such_term"), 0.0);
+  EXPECT_NEAR(weights.cost(figures) - sum, 3.0 * figures.slip_length_m / 100.0, 1e-9);
+}
+
+TEST(Profiles, NameTermsOfTheCatalogueAndKeepTheWeightsThatTheyDoNotName) {
+  Weights asked;
+  for (std::size_t row = 0; row < asked.terms().size(); ++row) asked[row] = 2.0 + static_cast<double>(row);
+  for (const Profile& profile : profiles()) {
+    const Weights weights = profile.weights(asked);
+    for (std::size_t row = 0; row < asked.terms().size(); ++row) {
+      double expected = asked[row];
+      for (const ProfileWeight& changed : profile.changed)
+        if (changed.term == asked.terms()[row].name)
+          expected = changed.share_of_asked * asked[row] + changed.fixed;
+      EXPECT_EQ(weights[row], expected) << profile.name << " " << asked.terms()[row].name;
+    }
+    for (const ProfileWeight& changed : profile.changed)
+      EXPECT_NE(asked.of(changed.term), 0.0) << changed.term;
+  }
+}
+
+}  // namespace
+}  // namespace slipway::planner

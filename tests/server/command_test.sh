@@ -1,0 +1,186 @@
+#!/bin/sh
+# What every command owes to a person or a script: files before words, nothing ignored, nothing half written, and an
+# exit status that says so.
+#   command_test.sh SLIPWAY DATA_FOLDER
+set -eu
+slipway="$1"
+data="$2"
+folder="$(mktemp -d)"
+trap 'rm -rf "$folder"' EXIT
+
+. "$(dirname "$0")/../command_expectations.sh"
+
+wheel="$slipway wheel --data $data --rover mer-class --soil jlu_mars_2_dense --load 100"
+swept="$wheel --sweep slip=0:0.4:0.1"
+stops="--start 8142579.73,-276648.74 --goal 8142566.40,-276711.67"
+path="--path 8142640,-276640 8142610,-276643"
+
+# Standard output that can't be written: not 0, and the files are there all the same.
+expect 0 $swept --csv "$folder/whole.csv" --plot "$folder/whole.svg"
+status=0
+$swept --csv "$folder/full.csv" --plot "$folder/full.svg" >/dev/full 2>"$folder/err" || status=$?
+[ "$status" = 1 ] || { echo "exit status $status with a full disk behind standard output"; exit 1; }
+holds "standard output can't be written" "$folder/err"
+status=0
+$swept --csv "$folder/closed.csv" >&- 2>"$folder/err" || status=$?
+[ "$status" = 1 ] || { echo "exit status $status with standard output closed"; exit 1; }
+for made in full closed; do cmp "$folder/whole.csv" "$folder/$made.csv"; done
+cmp "$folder/whole.svg" "$folder/full.svg"
+for question in soils rovers effects "terrain" "campaign list" "validate --list" "current map --figure 10" "--help"; do
+  status=0
+  case "$question" in --help) ;; effects | "validate --list") ;; *) question="$question --data $data" ;; esac
+  "$slipway" $question >/dev/full 2>/dev/null || status=$?
+  [ "$status" = 1 ] || { echo "exit status $status of $question with a full standard output"; exit 1; }
+done
+
+# A file has its old content until the new one is whole: here no file may grow beyond nothing.
+echo "what was there" >"$folder/kept.csv"
+(ulimit -f 0; $swept --csv "$folder/kept.csv" >/dev/null 2>&1) && { echo "a file grew past its limit"; exit 1; }
+holds 'what was there' "$folder/kept.csv"
+expect 1 $swept --csv "$folder/no/such/folder.csv"
+ln -s "$folder/target.csv" "$folder/link.csv"
+echo old >"$folder/target.csv"
+expect 0 $swept --csv "$folder/link.csv"
+[ -L "$folder/link.csv" ] && cmp "$folder/whole.csv" "$folder/target.csv"
+expect 0 $swept --csv /dev/null
+[ -c /dev/null ] || { echo "/dev/null was replaced by a file"; exit 1; }
+
+# An option that would be ignored is refused, with its name.
+ignored() {
+  option="$1"
+  shift
+  expect 2 "$@"
+  cat "$folder/out" "$folder/err" >"$folder/both"
+  holds "$option" "$folder/both"
+}
+printf 'load_n,slip_ratio,torque_nm\n60,0.1,1\n60,0.3,2\n60,0.5,3\n' >"$folder/wheel.csv"
+estimate="$slipway estimate wheel $folder/wheel.csv --data $data"
+sizes="--wheel-radius 0.125 --wheel-width 0.16"
+ignored '--wheel requires --rover' $estimate $sizes --wheel nosuch
+ignored '/wheel' $estimate --rover mer-class --wheel nosuch
+ignored '--motor-temp-c requires --rover' $estimate $sizes --motor-temp-c -40
+ignored 'loss-scale' $estimate $sizes --loss-scale 2
+ignored 'seed' "$slipway" estimate drives "$data/gap-practice/p01" --data "$data" --seed 2
+ignored 'loss-scale' "$slipway" tune opportunity_sol_2143 --data "$data" --measured x --parameter soil.n=0.8..1.2 --loss-scale 2
+ignored '--at' "$slipway" terrain --data "$data" --name nosuch
+ignored '--soil' "$slipway" current map --data "$data" --figure 10 --soil nonsense
+ignored '--x' "$slipway" current map --data "$data" --figure 10 --x slip
+ignored '/grousers/count' $wheel --grousers 0.01,24,7
+ignored '/motor_temp_c' "$slipway" current invert --data "$data" --current 0.7 --gravity 9.81 --motor-temp-c -40
+ignored '/motor_temp_c' $wheel --motor-temp-c -40
+ignored '/url' "$slipway" health
+ignored '/url' "$slipway" health --data "$data"
+
+# What is no finite number, and a speed that no rover drives.
+for bad in nan inf -inf NaN infinity 1e999; do
+  ignored '--max-slip' "$slipway" plan --data "$data" $stops --max-slip "$bad"
+  ignored '--speed-m-s' "$slipway" predict --data "$data" $path --speed-m-s "$bad"
+  ignored '--radius' $wheel --radius "$bad"
+  ignored '--gravity' "$slipway" current invert --data "$data" --current 0.7 --gravity "$bad"
+  ignored 'must be x,y' "$slipway" plan --data "$data" --start "$bad,1" --goal 1,2
+  ignored '/sweep/0' $wheel --sweep "slip=0:$bad:0.1"
+  ignored '/parameter' "$slipway" tune opportunity_sol_2143 --data "$data" --measured x --parameter "soil.n=$bad..1"
+  ignored '/bound' $estimate $sizes --bound "n=$bad:1"
+done
+ignored '/speed_m_s' "$slipway" predict --data "$data" $path --speed-m-s 1e-300
+
+# A request on standard input is read to its limit and no further, and Ctrl-C ends the waiting for it.
+status=0
+head -c 400000000 /dev/zero 2>/dev/null | timeout 20 "$slipway" plan --data "$data" --request - 2>"$folder/err" || status=$?
+[ "$status" = 2 ] || { echo "exit status $status of 400 MB"; exit 1; }
+holds 'payload_too_large' "$folder/err"
+mkfifo "$folder/silent"
+sleep 30 >"$folder/silent" &
+writer=$!
+"$slipway" plan --data "$data" --request - <"$folder/silent" >/dev/null 2>"$folder/err" &
+waiting=$!
+sleep 1
+kill -INT "$waiting"
+(sleep 10; kill -9 "$waiting" 2>/dev/null) &
+guard=$!
+status=0
+wait "$waiting" || status=$?
+kill "$guard" "$writer" 2>/dev/null || true
+[ "$status" = 1 ] || { echo "exit status $status of an interrupted request"; exit 1; }
+holds 'cancelled' "$folder/err"
+
+# A campaign with a hostile name: neither the terminal nor the report obeys it. No model is offered, and that of an
+# earlier diagnosis is not left to be planned with.
+cp -r "$data/gap-practice/p01" "$folder/hostile"
+python3 - "$folder/hostile/campaign.json" <<'NAME'
+import json, pathlib, sys
+path = pathlib.Path(sys.argv[1])
+campaign = json.loads(path.read_text())
+campaign["name"] = "<script>alert(1)</script>\x1b[2J\x07\u009b31m [x](javascript:y)"
+path.write_text(json.dumps(campaign))
+NAME
+mkdir -p "$folder/model/rovers" "$folder/model/soils"
+echo '{"format": "corrected-model/1", "campaign": "an earlier one", "rover": {"nominal": "mer-class", "corrected": "mer-class-a1"}, "soils": [{"nominal": "nominal", "corrected": "nominal-a1"}]}' >"$folder/model/model.json"
+echo '{}' >"$folder/model/rovers/mer-class-a1.json"
+echo '{}' >"$folder/model/soils/nominal-a1.json"
+echo '{}' >"$folder/model/rovers/mine.json"
+status=0
+"$slipway" diagnose "$folder/hostile" --data "$data" --report "$folder/report" --model "$folder/model" >/dev/full 2>"$folder/err" || status=$?
+[ "$status" = 1 ] || { echo "exit status $status of a diagnosis that nobody could read"; exit 1; }
+holds 'model of campaign an earlier one was taken out' "$folder/err"
+[ "$(cd "$folder/model" && find . -type f)" = "./rovers/mine.json" ] || { echo "other files are in the model's folder:"; find "$folder/model"; exit 1; }
+python3 - "$folder/report" <<'REPORT'
+import pathlib, sys
+folder = pathlib.Path(sys.argv[1])
+for file in ("report.md", "report.html"):
+    text = (folder / file).read_text()
+    assert "alert(1)" in text, file
+    assert "<script" not in text and "\x1b" not in text and "\x07" not in text, file
+assert (folder / "diagnosis.json").stat().st_size > 1000
+REPORT
+sed -i 's/"format"/"formatt"/' "$folder/hostile/campaign.json"
+"$slipway" diagnose "$(printf "$folder/no\033[2Jwhere")" --data "$data" 2>"$folder/err" && exit 1
+expect 2 "$slipway" wheel --data "$data" --soil "$(printf 'a\033[2Jb\302\233c\177d')"
+for text in out err; do
+  if LC_ALL=C grep -q "$(printf '[\001-\010\013-\037\177]')" "$folder/$text"; then echo "a control byte is in $text"; exit 1; fi
+done
+
+# A benchmark that is not whole does not end with 0.
+mkdir "$folder/set"
+cp "$data/gap-practice/answers.json" "$folder/set"
+cp -r "$data/gap-practice/p01" "$folder/set"
+cp -r "$data/gap-practice/p01" "$folder/set/p02"
+expect 2 "$slipway" gap-benchmark "$folder/set" --data "$data" --only p01,nosuch
+holds 'nosuch' "$folder/err"
+echo file >"$folder/taken"
+expect 1 "$slipway" gap-benchmark "$folder/set" --data "$data" --only p01 --keep "$folder/taken/kept"
+holds 'taken' "$folder/err"
+"$slipway" gap-benchmark "$folder/set" --data "$data" >"$folder/out" 2>"$folder/err" &
+benchmark=$!
+tries=0
+until grep -q '^\[1/2\]' "$folder/err" || [ "$tries" -gt 600 ]; do sleep 0.2; tries=$((tries + 1)); done
+kill -INT "$benchmark"
+status=0
+wait "$benchmark" || status=$?
+[ "$status" = 1 ] || { echo "exit status $status of an interrupted benchmark"; cat "$folder/err"; exit 1; }
+holds '1 of 2 campaigns' "$folder/err"
+holds '1 campaigns' "$folder/out"
+
+# Two campaigns in one folder, and files of others in it.
+cat >"$folder/table.json" <<'TABLE'
+{"format": "campaign-table/1", "name": "small", "summary": "arcs", "sources": [], "rover": "fido-class",
+ "gravity_m_s2": 9.81, "seed": 3, "terrains": [{"name": "level", "soil": "dry_sand"}],
+ "drives": [{"id": "arc", "legs": [{"length_m": 2.5, "curvature_1_m": 0.3}], "repeats": 30}]}
+TABLE
+mkdir "$folder/campaign"
+echo mine >"$folder/campaign/thesis.part"
+"$slipway" campaign "$folder/table.json" --data "$data" --out "$folder/campaign" >/dev/null 2>"$folder/first" &
+first=$!
+tries=0
+until [ -e "$folder/campaign/drives/arc-r1.json" ] || [ "$tries" -gt 600 ]; do sleep 0.05; tries=$((tries + 1)); done
+expect 1 "$slipway" campaign "$folder/table.json" --data "$data" --out "$folder/campaign"
+holds 'another process works with' "$folder/err"
+status=0
+wait "$first" || status=$?
+[ "$status" = 0 ] || { echo "the first campaign ended with $status"; cat "$folder/first"; exit 1; }
+holds mine "$folder/campaign/thesis.part"
+sed 's/"id": "arc"/"id": "a", "deformed_terrain": true/; s/"name": "level"/"name": "a-deformed"/; s/, "repeats": 30//' "$folder/table.json" >"$folder/collide.json"
+expect 2 "$slipway" campaign "$folder/collide.json" --data "$data" --out "$folder/collide"
+holds 'a-deformed.tif' "$folder/err"
+[ ! -e "$folder/collide" ] || { echo "a folder was made for a table with faults"; exit 1; }
+echo "as expected"
