@@ -26,7 +26,9 @@ TEST(DiagnosisOptions, AreListedOnceEachWithTheStepsTogether) {
   std::string_view last;
   for (const ListedOption& option : options) {
     EXPECT_TRUE(names.emplace(option.step, option.name).second) << option.step << "." << option.name;
-    if (option.step != last) EXPECT_TRUE(steps.insert(option.step).second) << option.step << " is torn apart";
+    if (option.step != last) {
+      EXPECT_TRUE(steps.insert(option.step).second) << option.step << " is torn apart";
+    }
     last = option.step;
     ASSERT_FALSE(option.values.empty());
     EXPECT_TRUE(option.list || option.values.size() == 1);
