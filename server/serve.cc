@@ -14,6 +14,7 @@
 #include "api/jobs/sqlite_job_store.h"
 #include "api/service.h"
 #include "core/version.h"
+#include "server/cli/command_parts.h"
 #include "server/cli/data_folder.h"
 #include "server/cli/serve_command.h"
 #include "server/cli/terminal/tables.h"
@@ -67,11 +68,6 @@ sigset_t block_ending_signals() {
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
   return signals;
-}
-
-int refuse(const Error& error) {
-  std::cerr << error_text(error);
-  return error.code == ErrorCode::kInvalidRequest ? 2 : 1;
 }
 
 std::optional<Error> fault_of(const ServeOptions& options) {

@@ -101,7 +101,7 @@ void read_whole_model(ObjectReader& reader, std::optional<RequestedModel>& model
     nominal->refuse_unknown();
   }
   auto rover = read_document(*object, "rover", read_rover_file);
-  auto soils = read_document(*object, "soils", read_soil_file);
+  auto soils = read_document(*object, "soils", [](std::string_view bytes) { return read_soil_file(bytes); });
   object->refuse_unknown();
   if (soils && soils->size() != folder->nominal_soils.size())
     object->fault("soils", fmt::format("are {}, must be as many as the nominal ones", soils->size()));

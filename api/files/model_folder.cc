@@ -151,7 +151,7 @@ Result<ModelFolder> load_model_folder(const std::filesystem::path& folder) {
   if (!rover) faults = rover.error().faults;
   // A soils' file is called as its first soil.
   const auto soils = read_file(folder, fmt::format("soils/{}.json", description->soils.front().corrected),
-                               json::read_soil_file);
+                               [](std::string_view bytes) { return json::read_soil_file(bytes); });
   if (!soils) faults.insert(faults.end(), soils.error().faults.begin(), soils.error().faults.end());
   for (std::size_t i = 0; soils && i < description->soils.size(); ++i) {
     const Substitute& substitute = description->soils[i];

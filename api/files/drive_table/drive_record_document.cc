@@ -22,7 +22,7 @@ void read_pose(ObjectReader& reader, std::string_view key, Pose2& pose) {
   object->angle_deg("yaw_deg", kRequired, kAny, pose.yaw_rad);
 }
 
-void write_peak(Writer& w, std::string_view key, const sim::Peak& peak, double unit = 1.0) {
+void write_exact_peak(Writer& w, std::string_view key, const sim::Peak& peak, double unit = 1.0) {
   w.key(key).begin_object().exact("value", unit * peak.value).exact("at_m", peak.distance_m).end_object();
 }
 
@@ -49,10 +49,10 @@ void write_answer(Writer& w, const campaign::DriveRecord& record) {
   write_pose(w, "start", record.start);
   write_pose(w, "final", record.final);
   write_pose(w, "commanded", record.commanded);
-  write_peak(w, "max_slip_ratio", record.max_slip_ratio);
-  write_peak(w, "max_tilt_deg", record.max_tilt_rad, deg_from_rad(1.0));
-  write_peak(w, "max_current_a", record.max_current_a);
-  write_peak(w, "max_sinkage_m", record.max_sinkage_m);
+  write_exact_peak(w, "max_slip_ratio", record.max_slip_ratio);
+  write_exact_peak(w, "max_tilt_deg", record.max_tilt_rad, deg_from_rad(1.0));
+  write_exact_peak(w, "max_current_a", record.max_current_a);
+  write_exact_peak(w, "max_sinkage_m", record.max_sinkage_m);
   w.key("events").begin_array();
   for (const sim::DriveEvent& event : record.events) {
     w.begin_object().text("kind", sim::describe(event.kind)).exact("t_s", event.time_s);

@@ -7,23 +7,23 @@
 namespace slipway::api::json {
 namespace {
 
-struct Channel {
+struct SensedChannel {
   std::string_view key, unit;
   sim::SensorError sim::DriveSensors::*error;
   bool in_degrees;
 };
 
 constexpr std::array kChannels{
-    Channel{"position_m", "m", &sim::DriveSensors::position_m, false},
-    Channel{"attitude_deg", "deg", &sim::DriveSensors::attitude_rad, true},
-    Channel{"current_a", "A", &sim::DriveSensors::current_a, false},
-    Channel{"sinkage_m", "m", &sim::DriveSensors::sinkage_m, false},
-    Channel{"encoder_deg_s", "deg/s", &sim::DriveSensors::encoder_rad_s, true},
-    Channel{"potentiometer_deg", "deg", &sim::DriveSensors::potentiometer_rad, true},
-    Channel{"gyro_deg_s", "deg/s", &sim::DriveSensors::gyro_rad_s, true},
-    Channel{"accelerometer_m_s2", "m/s^2", &sim::DriveSensors::accelerometer_m_s2, false}};
+    SensedChannel{"position_m", "m", &sim::DriveSensors::position_m, false},
+    SensedChannel{"attitude_deg", "deg", &sim::DriveSensors::attitude_rad, true},
+    SensedChannel{"current_a", "A", &sim::DriveSensors::current_a, false},
+    SensedChannel{"sinkage_m", "m", &sim::DriveSensors::sinkage_m, false},
+    SensedChannel{"encoder_deg_s", "deg/s", &sim::DriveSensors::encoder_rad_s, true},
+    SensedChannel{"potentiometer_deg", "deg", &sim::DriveSensors::potentiometer_rad, true},
+    SensedChannel{"gyro_deg_s", "deg/s", &sim::DriveSensors::gyro_rad_s, true},
+    SensedChannel{"accelerometer_m_s2", "m/s^2", &sim::DriveSensors::accelerometer_m_s2, false}};
 
-void read_channel(ObjectReader& sensors, const Channel& channel, sim::SensorError& error) {
+void read_channel(ObjectReader& sensors, const SensedChannel& channel, sim::SensorError& error) {
   auto object = sensors.object(channel.key, kOptional);
   if (!object) return;
   constexpr double kMost = 1e3;
@@ -42,7 +42,7 @@ void read_channel(ObjectReader& sensors, const Channel& channel, sim::SensorErro
 void read_table_sensors(ObjectReader& table, sim::DriveSensors& sensors) {
   auto object = table.object("sensors", kOptional);
   if (!object) return;
-  for (const Channel& channel : kChannels) read_channel(*object, channel, sensors.*channel.error);
+  for (const SensedChannel& channel : kChannels) read_channel(*object, channel, sensors.*channel.error);
   object->refuse_unknown();
 }
 
