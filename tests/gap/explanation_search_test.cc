@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 #include "gap/diagnosis/search/selection.h"
 #include "gap/diagnosis/verdict.h"
+#include "tests/sim/reference_models.h"
 
 namespace slipway::gap {
 namespace {
@@ -13,6 +15,7 @@ namespace {
 DriveCampaign campaign_of_one_soil() {
   DriveCampaign campaign;
   campaign.soils.resize(1);
+  campaign.rover = std::make_shared<sim::RoverModel>(sim::six_wheeler());
   return campaign;
 }
 

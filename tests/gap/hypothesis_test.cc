@@ -16,7 +16,7 @@
 namespace slipway::gap {
 namespace {
 
-constexpr double kSlope = 0.2;  // the ground rises eastward, rad
+constexpr double kSlope = 0.1;  // the ground rises eastward, rad; a rover on loose sand still climbs it
 
 // A plane that rises eastward, with the first soil in the west and the last in the east.
 class Incline : public sim::Ground {
