@@ -6,6 +6,7 @@
 
 #include "api/job_kinds.h"
 #include "api/jobs/memory_job_store.h"
+#include "api/json/faults.h"
 #include "api/json/parse.h"
 #include "api/json/strict_reader.h"
 #include "api/json/writer.h"
