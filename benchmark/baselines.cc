@@ -113,6 +113,7 @@ Correction gaussian_process(const PreparedCampaign& prepared, const DiscrepancyO
       }
     }
     std::vector<Series*> all;
+    all.reserve(series.size());
     for (auto& [key, own] : series) all.push_back(&own);
     Eigen::VectorXd residuals = retuned.residuals;
     parallel_for(all.size(), threads, [&](std::size_t s) {

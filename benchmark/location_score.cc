@@ -40,7 +40,7 @@ double overlap_of(const std::vector<bool>& a, const std::vector<bool>& b) {
 std::optional<Channel> main_channel(std::span<const HiddenTrace> truth) {
   std::optional<Channel> main;
   double most = 0.0;
-  for (int c = 0; c < kChannels; ++c) {
+  for (std::size_t c = 0; c < channel_count(); ++c) {
     double sum = 0.0;
     for (const HiddenTrace& trace : truth) sum += square_of(trace, static_cast<Channel>(c));
     if (sum <= most) continue;

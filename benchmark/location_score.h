@@ -1,9 +1,9 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "gap/diagnosis/diagnosis.h"
 #include "gap/diagnosis/model/window_variables.h"
@@ -16,7 +16,7 @@ struct HiddenTrace {
   WindowVariables at;
   // The squared change in each channel in units of the noise's standard deviation, mean over wheels; empty
   // where the channel is not observed.
-  std::array<std::optional<double>, kChannels> mean_square{};
+  std::vector<std::optional<double>> mean_square = std::vector<std::optional<double>>(channel_count());
 };
 
 // The channel in which the sum over stretches is largest; empty where no sum is above 0.

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "benchmark/benchmark.h"
+#include "benchmark/benchmark_result.h"
 
 namespace slipway::api::json {
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "benchmark/benchmark.h"
+#include "benchmark/benchmark_result.h"
 
 namespace slipway::api {
 

@@ -29,14 +29,8 @@ std::string words_of(Channel channel) {
   return words;
 }
 
-// Millimetres of sinkage, so that ticks stay short.
-double chart_unit(Channel channel) {
-  constexpr double kMmPerM = 1e3;
-  return channel == Channel::kSinkage ? kMmPerM : gap::boundary_unit(channel);
-}
-
 std::string with_unit(Channel channel) {
-  const std::string_view unit = channel == Channel::kSinkage ? "mm" : gap::unit_of(channel);
+  const std::string_view unit = gap::row_of(channel).chart_unit;
   return unit == "1" ? words_of(channel) : fmt::format("{}, {}", words_of(channel), unit);
 }
 
@@ -124,7 +118,7 @@ std::string draw_channels(const Diagnosis& d) {
 std::string draw_ladder(const Diagnosis& d) {
   std::vector<Chart> charts;
   for (const gap::ChannelClosure& channel : d.gap) {
-    const double unit = chart_unit(channel.channel);
+    const double unit = gap::row_of(channel.channel).chart_scale;
     Chart& chart = charts.emplace_back();
     chart.title = words_of(channel.channel);
     chart.y.title = with_unit(channel.channel) + ", rms";
@@ -149,9 +143,9 @@ std::string draw_ladder(const Diagnosis& d) {
 std::string draw_windows(const Diagnosis& d) {
   const bool effects = !d.effects.empty();
   std::vector<Chart> charts;
-  for (int c = 0; c < gap::kChannels; ++c) {
+  for (std::size_t c = 0; c < gap::channel_count(); ++c) {
     const auto channel = static_cast<Channel>(c);
-    const double unit = chart_unit(channel);
+    const double unit = gap::row_of(channel).chart_scale;
     ChartSeries nominal = series_of("nominal", ChartMark::kDots, 6),
                 retuned = series_of("re-tuned", ChartMark::kDots, 4),
                 with = series_of("with effects", ChartMark::kDots, 0);

@@ -95,16 +95,20 @@ std::vector<Fault> choose_channels(const std::vector<std::string>& names, SoilEs
   if (names.empty()) return faults;
   std::vector<std::string> known;
   const bool drives = !request.campaign.empty();
-  const int count = drives ? gap::kChannels : gap::kSoilChannels;
-  for (int c = 0; c < count; ++c)
-    known.emplace_back(drives ? gap::name_of(static_cast<gap::Channel>(c))
-                              : gap::name_of(static_cast<gap::SoilChannel>(c)));
+  if (drives)
+    for (const gap::ChannelRow& row : gap::channel_catalogue()) known.emplace_back(row.name);
+  for (int c = 0; !drives && c < gap::kSoilChannels; ++c)
+    known.emplace_back(gap::name_of(static_cast<gap::SoilChannel>(c)));
   for (std::size_t i = 0; i < names.size(); ++i)
     if (std::find(known.begin(), known.end(), names[i]) == known.end())
       faults.push_back({fmt::format("/channels/{}", i), unknown_name("channel", names[i], known)});
+  if (drives) request.looked_at.assign(known.size(), false);
   for (std::size_t c = 0; c < known.size(); ++c) {
     const bool chosen = std::find(names.begin(), names.end(), known[c]) != names.end();
-    (drives ? request.looked_at[c] : request.options.channels[c]) = chosen;
+    if (drives)
+      request.looked_at[c] = chosen;
+    else
+      request.options.channels[c] = chosen;
   }
   return faults;
 }

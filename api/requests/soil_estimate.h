@@ -32,7 +32,7 @@ struct SoilEstimateRequest {
   gap::SoilData data;                  // tests; wheel tests have only loads, motions and readings
   std::string campaign;                // of drives; there are no tests then
   gap::SoilEstimationOptions options;  // of tests
-  std::array<bool, gap::kChannels> looked_at = gap::kAllChannels;  // of drives
+  std::vector<bool> looked_at;         // channels of drives; empty: all
 };
 
 // Switches off all channels but these, which have gap::SoilChannel's names for tests and gap::Channel's for

@@ -1,6 +1,7 @@
 #include "gap/diagnosis/drive_soil_estimation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string_view>
@@ -112,7 +113,7 @@ class SoilOfDrives {
 std::vector<DriveChannelResidual> left_over(const PreparedCampaign& prepared) {
   std::vector<DriveChannelResidual> channels;
   const NoiseModel& noise = *prepared.noise;
-  for (int c = 0; c < kChannels; ++c) {
+  for (std::size_t c = 0; c < channel_count(); ++c) {
     DriveChannelResidual channel{static_cast<Channel>(c), 0, 0.0, 0.0};
     for (std::size_t w = 0; w < prepared.windows.size(); ++w)
       for (std::size_t i = 0; i < prepared.windows[w].observations.size(); ++i) {
@@ -131,18 +132,18 @@ std::vector<DriveChannelResidual> left_over(const PreparedCampaign& prepared) {
   return channels;
 }
 
-bool any_reading(const DriveCampaign& campaign, const std::array<bool, kChannels>& looked_at) {
+bool any_reading(const DriveCampaign& campaign, const std::vector<bool>& looked_at) {
   for (const DriveWindow& window : cut_windows(campaign))
     for (const Observation& o : window.observations)
-      if (looked_at[static_cast<std::size_t>(o.channel)]) return true;
+      if (looked_at.empty() || looked_at[static_cast<std::size_t>(o.channel)]) return true;
   return false;
 }
 
 }  // namespace
 
 Result<DriveSoilEstimate> estimate_soils_of_drives(const DriveCampaign& campaign,
-                                                   const std::array<bool, kChannels>& looked_at,
-                                                   std::size_t threads, Progress& progress) {
+                                                   const std::vector<bool>& looked_at, std::size_t threads,
+                                                   Progress& progress) {
   if (!any_reading(campaign, looked_at))
     return fail(ErrorCode::kNoData, "the drives have no reading of the channels that are looked at");
   DiagnosisOptions options;

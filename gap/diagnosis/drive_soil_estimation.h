@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -31,11 +30,12 @@ struct DriveSoilEstimate {
 // closures of the laws and the motors' torque constant are re-tuned together at the quasi-static fidelity
 // level, under the drives' own scatter. Of each soil k_bekker, n, cohesion, friction angle and shear modulus,
 // with the priors of the nuisance catalogue. Intervals are Laplace's, at 90 % and of the data without the
-// parameter's own prior. With the current alone `looked_at` it is the Zhurong paper's question.
+// parameter's own prior. `looked_at` is by channel; empty: all are. With the
+// current alone it is the Zhurong paper's question.
 //
 // Errors: cancelled; no_data where no window has a reading that is looked at.
 Result<DriveSoilEstimate> estimate_soils_of_drives(const DriveCampaign& campaign,
-                                                   const std::array<bool, kChannels>& looked_at,
-                                                   std::size_t threads, Progress& progress);
+                                                   const std::vector<bool>& looked_at, std::size_t threads,
+                                                   Progress& progress);
 
 }  // namespace slipway::gap

@@ -199,7 +199,7 @@ std::string_view name_of(SlopeClass slope) {
 std::vector<ChannelCheck> score_predicted(std::span<const PredictedValue> predicted,
                                           const ModelCheckOptions& options) {
   std::vector<ChannelCheck> checks;
-  for (int c = 0; c < kChannels; ++c)
+  for (std::size_t c = 0; c < channel_count(); ++c)
     for (const SlopeClass slope : kSlopeClasses) {
       const ChannelCheck check = score_of(predicted, static_cast<Channel>(c), slope, options);
       if (check.values > 0) checks.push_back(check);

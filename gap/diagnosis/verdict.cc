@@ -133,7 +133,7 @@ std::optional<std::string> gap_left(const Diagnosis& d, const VerdictOptions& op
   double most = d.effects.empty() ? options.max_left_of_nothing : options.max_left_beside_effects;
   std::optional<std::string> words;
   for (const ChannelClosure& c : d.gap) {
-    if (c.channel == Channel::kRoll || c.channel == Channel::kPitch) continue;
+    if (row_of(c.channel).of_the_stance) continue;
     const double floor = c.noise_floor.value;
     if (c.with_effects.low <= most * floor) continue;
     if (!d.effects.empty() &&

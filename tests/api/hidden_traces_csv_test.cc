@@ -7,7 +7,7 @@
 namespace slipway::api {
 namespace {
 
-const std::string kHeader =
+const std::string kTracesHeader =
     "campaign,drive,slope_deg,cross_slope_deg,slip,speed_m_s,curvature_1_m,temperature_c,turning,time_s,"
     "slip_mean_square,side_slip_mean_square,yaw_rate_mean_square,roll_mean_square,pitch_mean_square,"
     "current_mean_square,sinkage_mean_square\n";
@@ -25,7 +25,7 @@ bool has(const std::vector<Fault>& faults, const std::string& place, const std::
 
 TEST(HiddenTracesCsv, AreByCampaignWithWhatIsNotObservedLeftOut) {
   const auto traces =
-      read_hidden_traces_csv("traces.csv", kHeader + "s01,D001,-5,1,0.1,-0.04,0.4,20,0,15,1.5,2,3,0,0,4,\n" +
+      read_hidden_traces_csv("traces.csv", kTracesHeader + "s01,D001,-5,1,0.1,-0.04,0.4,20,0,15,1.5,2,3,0,0,4,\n" +
                                                "s03,D002,0,0,0.1,0,0,-40,1,10,1,,,0,0,0,0\n" +
                                                "s01,D002,0,0,0,0.05,0,0,0,5,,,,,,,\n");
   ASSERT_TRUE(traces);
@@ -49,14 +49,14 @@ TEST(HiddenTracesCsv, AMillionColumnsAreRefusedAtOnce) {
 }
 
 TEST(HiddenTracesCsv, WithoutRowsNothingIsHidden) {
-  const auto traces = read_hidden_traces_csv("traces.csv", kHeader);
+  const auto traces = read_hidden_traces_csv("traces.csv", kTracesHeader);
   ASSERT_TRUE(traces);
   EXPECT_TRUE(traces->empty());
   EXPECT_TRUE(has(faults_of(""), "traces.csv", "empty"));
 }
 
 TEST(HiddenTracesCsv, NamesEveryFaultWithItsLineAndColumn) {
-  const auto faults = faults_of(kHeader + "s01,,x,1,0.1,0.04,0,20,0,15,-1,2,3,0,0,4,0\n" +
+  const auto faults = faults_of(kTracesHeader + "s01,,x,1,0.1,0.04,0,20,0,15,-1,2,3,0,0,4,0\n" +
                                 "s01,D001,0,,0.1,0.04,0,20,0,15,1,2,3,0,0,nan,0\n" + "s01,D001,0\n");
   EXPECT_TRUE(has(faults, "traces.csv, line 2, column 2 (drive)", "missing"));
   EXPECT_TRUE(has(faults, "traces.csv, line 2, column 3 (slope_deg)", "is no number"));
@@ -68,7 +68,7 @@ TEST(HiddenTracesCsv, NamesEveryFaultWithItsLineAndColumn) {
 }
 
 TEST(HiddenTracesCsv, NamesEveryFaultOfTheHeader) {
-  std::string header = kHeader;
+  std::string header = kTracesHeader;
   header.replace(header.find("slope_deg"), 9, "slop_deg");
   header.replace(header.find("pitch_mean_square"), 17, "roll_mean_square");
   const auto faults = faults_of(header);

@@ -28,6 +28,8 @@
 #include "fuzz_target.h"
 #include "mutation.h"
 
+// The sanitizers' own function, there where they are.
+// NOLINTNEXTLINE(bugprone-reserved-identifier)
 extern "C" __attribute__((weak)) void __sanitizer_set_death_callback(void (*callback)());
 
 namespace slipway::fuzz {
@@ -123,9 +125,8 @@ class Fuzzer {
       std::memcpy(&eight, &coverage[i], 8);
       if (eight == 0) continue;
       for (std::size_t k = i; k < i + 8; ++k) {
-        if (coverage[k] == 0) continue;
-        const auto bit = static_cast<std::uint8_t>(1U << (std::bit_width(coverage[k]) - 1U));
-        if ((seen_[k] & bit) != 0) continue;
+        const std::uint8_t bit = std::bit_floor(coverage[k]);
+        if (bit == 0 || (seen_[k] & bit) != 0) continue;
         seen_[k] |= bit;
         ++branches_;
       }

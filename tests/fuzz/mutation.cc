@@ -7,7 +7,7 @@
 namespace slipway::fuzz {
 namespace {
 
-using std::string_view_literals::operator""sv;
+using namespace std::string_view_literals;
 
 // Words that have broken readers of others: numbers at and beyond what a double holds, words that some
 // parsers take for numbers, text that is no UTF-8, control characters, and the framing of JSON, CSV and HTTP.

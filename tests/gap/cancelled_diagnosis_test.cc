@@ -77,8 +77,8 @@ TEST(ACancelledDiagnosis, StopsWithinATenthOfASecondInEveryStage) {
   const DriveCampaign campaign = some_drives(3);
   DiagnosisOptions options;
   options.search.threads = 1;
-  options.search.most_refitted = 3;
-  options.search.most_paired = 1;
+  options.search.max_refitted = 3;
+  options.search.max_paired = 1;
   for (const char* stage :
        {"fitting soil and closures", "estimating the drives' own scatter", "looking for soft places",
         "screening effects", "fitting effects", "locating the gap", "predicting held-out drives"}) {

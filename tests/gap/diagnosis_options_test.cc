@@ -26,7 +26,9 @@ TEST(DiagnosisOptions, AreListedOnceEachWithTheStepsTogether) {
   std::string_view last;
   for (const ListedOption& option : options) {
     EXPECT_TRUE(names.emplace(option.step, option.name).second) << option.step << "." << option.name;
-    if (option.step != last) EXPECT_TRUE(steps.insert(option.step).second) << option.step << " is torn apart";
+    if (option.step != last) {
+      EXPECT_TRUE(steps.insert(option.step).second) << option.step << " is torn apart";
+    }
     last = option.step;
     ASSERT_FALSE(option.values.empty());
     EXPECT_TRUE(option.list || option.values.size() == 1);
@@ -57,6 +59,11 @@ TEST(DiagnosisOptions, AreAllOnTheMethodsPage) {
   std::stringstream page;
   page << file.rdbuf();
   ASSERT_FALSE(page.str().empty());
+  std::size_t rows = 0;
+  for (std::string line; std::getline(page, line);)
+    if (line.starts_with("| `") && line.find(".", 3) < line.find("`", 3) && line.find("` | ") != line.npos)
+      ++rows;
+  EXPECT_EQ(rows, listed_options({}).size()) << "an option that is no more, or one that is there twice";
   for (const ListedOption& option : listed_options({})) {
     std::vector<std::string> values;
     for (const double value : option.values) values.push_back(fmt::format("{:.6g}", value));

@@ -30,7 +30,9 @@ TEST(Folds, HoldOutEachDriveOnceTogetherWithItsRepeats) {
     for (std::size_t d = 0; d < groups.size(); ++d) {
       held_out[d] += learnt[d] ? 0 : 1;
       for (std::size_t e = 0; e < d; ++e)
-        if (groups[d] == groups[e]) EXPECT_EQ(learnt[d], learnt[e]) << d << " repeats " << e;
+        if (groups[d] == groups[e]) {
+          EXPECT_EQ(learnt[d], learnt[e]) << d << " repeats " << e;
+        }
     }
   }
   EXPECT_EQ(held_out, std::vector<int>(groups.size(), 1));

@@ -66,7 +66,8 @@ std::vector<PlacedWindow> star() {
   std::vector<PlacedWindow> windows;
   for (std::size_t d = 0; d < 12; ++d)
     for (int k = 0; k < 8; ++k) {
-      const double along_m = 2.0 * (k - static_cast<int>(d % 8)), angle = std::numbers::pi * d / 12.0;
+      const double along_m = 2.0 * (k - static_cast<int>(d % 8)),
+                   angle = std::numbers::pi * static_cast<double>(d) / 12.0;
       windows.push_back(
           {0, d, kSpotX_m + along_m * std::cos(angle), kSpotY_m + along_m * std::sin(angle), true});
     }

@@ -63,12 +63,12 @@ TEST(ColumnBeside, HasTheGainOfTheLogMarginal) {
 }
 
 TEST(BestApart, KeepsTheBestDiscsThatDoNotOverlap) {
-  const std::vector<Disc> kept = best_apart({{{0.0, 0.0, 1.0}, 5.0},
-                                             {{0.5, 0.0, 1.0}, 9.0},  // best, over the first
-                                             {{3.0, 0.0, 1.0}, 4.0},
-                                             {{3.0, 0.5, 4.0}, 3.0},  // over the one before
-                                             {{-9.0, 0.0, 1.0}, 2.0}},
-                                            2);
+  const std::vector<sim::Disc> kept = best_apart({{{0.0, 0.0, 1.0}, 5.0},
+                                                  {{0.5, 0.0, 1.0}, 9.0},  // best, over the first
+                                                  {{3.0, 0.0, 1.0}, 4.0},
+                                                  {{3.0, 0.5, 4.0}, 3.0},  // over the one before
+                                                  {{-9.0, 0.0, 1.0}, 2.0}},
+                                                 2);
   ASSERT_EQ(kept.size(), 2U);
   EXPECT_EQ(kept[0].x_m, 0.5);
   EXPECT_EQ(kept[1].x_m, 3.0);

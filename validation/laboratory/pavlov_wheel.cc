@@ -156,8 +156,8 @@ api::Chart panel(const char* title, const std::vector<WheelCondition>& condition
 }
 
 void add_row(const WheelCondition& c, const Reading& predicted, Report& report) {
-  const auto pair = [](double measured_value, double predicted_value) {
-    return fmt::format("{:.1f} / {:.1f}", measured_value, predicted_value);
+  const auto pair = [](double measured, double value) {
+    return fmt::format("{:.1f} / {:.1f}", measured, value);
   };
   const double pull = c.mean(&WheelTest::drawbar_pull_n), side = c.mean(&WheelTest::side_force_n);
   const double load = c.mean(&WheelTest::load_n), angle = deg_from_rad(c.slip_angle_rad);

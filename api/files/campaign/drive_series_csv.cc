@@ -13,25 +13,21 @@
 #include "api/files/csv_cells.h"
 #include "api/json/faults.h"
 #include "core/angle.h"
+#include "gap/diagnosis/model/channel.h"
 
 namespace slipway::api {
 namespace {
 
-constexpr std::size_t kMostFaults = 100;  // of one file, that are told one by one
+constexpr std::size_t kMostFaults = 100;  // of one file, that are reported one by one
 constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
-
-// What a column holds: its range in the unit of its name, and where it goes.
-struct Channel {
-  std::string_view name;  // of a wheel's without the wheel
-  double lowest, highest;
-  void (*set)(gap::DriveSample& sample, std::size_t wheel, double value);
-};
 
 constexpr double kFarthest_m = 1e8;  // map coordinates of a whole planet
 constexpr double kMostTurns_deg = 36'000.0;
 using Sample = gap::DriveSample;
+using gap::SampleColumn;
 
-constexpr std::array<Channel, 8> kChannels{{
+// Columns of the rover that more than one channel, or none, is read from.
+constexpr std::array<SampleColumn, 8> kColumns{{
     {"t_s", -1e11, 1e11, [](Sample& s, std::size_t, double v) { s.time_s = v; }},
     {"x_m", -kFarthest_m, kFarthest_m, [](Sample& s, std::size_t, double v) { s.p_MB.x() = v; }},
     {"y_m", -kFarthest_m, kFarthest_m, [](Sample& s, std::size_t, double v) { s.p_MB.y() = v; }},
@@ -44,30 +40,42 @@ constexpr std::array<Channel, 8> kChannels{{
      [](Sample& s, std::size_t, double v) { s.attitude.yaw_rad = rad_from_deg(v); }},
     {"bus_voltage_v", 0.0, 1000.0, [](Sample& s, std::size_t, double v) { s.bus_voltage_v = v; }},
 }};
-constexpr std::size_t kTime = 0;  // in kChannels
+constexpr std::size_t kTime = 0;  // in kColumns
 
-constexpr std::array<Channel, 5> kWheelChannels{{
+constexpr std::array<SampleColumn, 2> kWheelCommandColumns{{
     {"rate_deg_s", -1e4, 1e4,
      [](Sample& s, std::size_t k, double v) { s.wheels[k].rate_rad_s = rad_from_deg(v); }},
     {"steer_deg", -360.0, 360.0,
      [](Sample& s, std::size_t k, double v) { s.wheels[k].steer_rad = rad_from_deg(v); }},
-    {"current_a", -1000.0, 1000.0, [](Sample& s, std::size_t k, double v) { s.wheels[k].current_a = v; }},
-    {"sinkage_m", -2.0, 2.0, [](Sample& s, std::size_t k, double v) { s.wheels[k].sinkage_m = v; }},
-    {"motor_temp_c", -273.15, 1000.0,
-     [](Sample& s, std::size_t k, double v) { s.wheels[k].motor_temp_c = v; }},
 }};
+constexpr SampleColumn kMotorTemperatureColumn{
+    "motor_temp_c", -273.15, 1000.0,
+    [](Sample& s, std::size_t k, double v) { s.wheels[k].motor_temp_c = v; }};
 
-// Measured as a whole or not at all: indices into kChannels.
+// All columns of the rover, or of a wheel: those above and those of the channels' own.
+std::vector<SampleColumn> columns_known(bool per_wheel) {
+  std::vector<SampleColumn> all;
+  if (per_wheel)
+    all.assign(kWheelCommandColumns.begin(), kWheelCommandColumns.end());
+  else
+    all.assign(kColumns.begin(), kColumns.end());
+  for (const gap::ChannelRow& row : gap::channel_catalogue())
+    if (row.per_wheel == per_wheel && !row.column.name.empty()) all.push_back(row.column);
+  if (per_wheel) all.push_back(kMotorTemperatureColumn);
+  return all;
+}
+
+// Measured as a whole or not at all: indices into kColumns.
 struct Group {
   std::string_view name;
-  std::array<std::size_t, 3> channels;
+  std::array<std::size_t, 3> columns;
   std::size_t alone = kNowhere;  // what may be there without the others: a heading without an inclinometer
 };
 constexpr std::array<Group, 2> kGroups{{{"a position", {1, 2, 3}}, {"an attitude", {4, 5, 6}, 6}}};
 
 struct Column {
   std::string name;
-  const Channel* channel = nullptr;  // nullptr: passed over
+  const SampleColumn* known = nullptr;  // nullptr: passed over
   std::size_t wheel = 0;
 };
 
@@ -86,9 +94,9 @@ std::string shown(std::string_view text) {
 }
 
 // "lf" of "lf_rate_deg_s"; "" where the column is not of this kind.
-std::string_view wheel_in(std::string_view name, const Channel& channel) {
-  if (name.size() < channel.name.size() + 2 || !name.ends_with(channel.name)) return {};
-  const std::string_view wheel = name.substr(0, name.size() - channel.name.size() - 1);
+std::string_view wheel_in(std::string_view name, const SampleColumn& column) {
+  if (name.size() < column.name.size() + 2 || !name.ends_with(column.name)) return {};
+  const std::string_view wheel = name.substr(0, name.size() - column.name.size() - 1);
   return name[wheel.size()] == '_' ? wheel : std::string_view();
 }
 
@@ -142,10 +150,10 @@ class Reader {
   void read_header(const CsvLine& line) {
     line_ = line.number;
     for (const std::string_view name : csv_cells(line.text)) columns_.push_back({std::string(name)});
-    places_.fill(kNowhere);
+    places_.assign(rover_columns_.size(), kNowhere);
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       read_column(c);
-      numbers_before_.push_back(numbers_before_.back() + (columns_[c].channel != nullptr ? 1 : 0));
+      numbers_before_.push_back(numbers_before_.back() + (columns_[c].known != nullptr ? 1 : 0));
     }
     if (places_[kTime] == kNowhere) fault(line_, 0, "there is no column t_s, which every file must have");
     for (const Group& group : kGroups) check_columns(group);
@@ -157,9 +165,9 @@ class Reader {
     for (std::size_t before = 0; before < c; ++before)
       if (columns_[before].name == name)
         return fault(line_, c, fmt::format("{} is column {} as well", shown(name), before + 1));
-    for (std::size_t i = 0; i < kChannels.size(); ++i) {
-      if (kChannels[i].name != name) continue;
-      columns_[c].channel = &kChannels[i];
+    for (std::size_t i = 0; i < rover_columns_.size(); ++i) {
+      if (rover_columns_[i].name != name) continue;
+      columns_[c].known = &rover_columns_[i];
       places_[i] = c;
       return;
     }
@@ -167,11 +175,11 @@ class Reader {
   }
 
   bool is_wheel_column(std::size_t c) {
-    for (const Channel& channel : kWheelChannels) {
-      const std::string_view wheel = wheel_in(columns_[c].name, channel);
+    for (const SampleColumn& column : wheel_columns_) {
+      const std::string_view wheel = wheel_in(columns_[c].name, column);
       const auto at = std::find(wheels_.begin(), wheels_.end(), wheel);
       if (wheel.empty() || at == wheels_.end()) continue;
-      columns_[c].channel = &channel;
+      columns_[c].known = &column;
       columns_[c].wheel = static_cast<std::size_t>(at - wheels_.begin());
       return true;
     }
@@ -182,10 +190,10 @@ class Reader {
     std::vector<std::string_view> there, absent;
     std::size_t first = kNowhere;
     bool others = false;
-    for (const std::size_t channel : group.channels) {
-      others = others || (channel != group.alone && places_[channel] != kNowhere);
-      (places_[channel] == kNowhere ? absent : there).push_back(kChannels[channel].name);
-      first = std::min(first, places_[channel]);
+    for (const std::size_t column : group.columns) {
+      others = others || (column != group.alone && places_[column] != kNowhere);
+      (places_[column] == kNowhere ? absent : there).push_back(rover_columns_[column].name);
+      first = std::min(first, places_[column]);
     }
     if (others && !absent.empty())
       fault(line_, first,
@@ -206,7 +214,7 @@ class Reader {
   }
 
   // A row with too few or too many cells. A cell may belong to a column as far away as cells are too few or
-  // too many: it is told where it would be no number in any of them.
+  // too many: it is reported where it would be no number in any of them.
   void read_torn_row(std::span<const std::string_view> cells) {
     const std::size_t columns = columns_.size();
     fault(line_, std::min(cells.size(), columns),
@@ -229,19 +237,19 @@ class Reader {
 
   // Whether there was a value, and it was good.
   bool read_cell(std::size_t c, std::string_view cell, gap::DriveSample& sample) {
-    const Channel* const channel = columns_[c].channel;
-    if (channel == nullptr) return false;
+    const SampleColumn* const column = columns_[c].known;
+    if (column == nullptr) return false;
     if (cell.empty()) {
-      if (channel == &kChannels[kTime]) fault(line_, c, "the cell is empty: every row has its time");
+      if (column == &rover_columns_[kTime]) fault(line_, c, "the cell is empty: every row has its time");
       return false;
     }
     const std::optional<double> value = number_in(c, cell);
     if (!value) return false;
-    if (*value < channel->lowest || *value > channel->highest) {
-      fault(line_, c, fmt::format("{}, must be in [{}, {}]", *value, channel->lowest, channel->highest));
+    if (*value < column->lowest || *value > column->highest) {
+      fault(line_, c, fmt::format("{}, must be in [{}, {}]", *value, column->lowest, column->highest));
       return false;
     }
-    channel->set(sample, columns_[c].wheel, *value);
+    column->set(sample, columns_[c].wheel, *value);
     return true;
   }
 
@@ -255,13 +263,13 @@ class Reader {
   void check_cells(const Group& group, std::span<const std::string_view> cells) {
     std::size_t absent = kNowhere;
     bool others = false;
-    for (const std::size_t channel : group.channels) {
-      const std::size_t place = places_[channel];
-      if (place == kNowhere) return;  // told of the header, or alone
+    for (const std::size_t column : group.columns) {
+      const std::size_t place = places_[column];
+      if (place == kNowhere) return;  // reported of the header, or alone
       if (cells[place].empty())
         absent = std::min(absent, place);
       else
-        others = others || channel != group.alone;
+        others = others || column != group.alone;
     }
     if (others && absent != kNowhere)
       fault(line_, absent,
@@ -273,8 +281,9 @@ class Reader {
   const std::string& file_;
   const std::vector<std::string>& wheels_;
   std::vector<Column> columns_;
-  std::vector<std::size_t> numbers_before_{0};          // how many columns before each have a channel
-  std::array<std::size_t, kChannels.size()> places_{};  // the column of each channel
+  std::vector<std::size_t> numbers_before_{0};  // how many columns before each are known
+  std::vector<SampleColumn> rover_columns_ = columns_known(false), wheel_columns_ = columns_known(true);
+  std::vector<std::size_t> places_;  // where each of rover_columns_ is
   std::size_t line_ = 0;
   std::optional<double> last_time_s_;
   std::size_t faults_ = 0;
@@ -293,16 +302,16 @@ std::optional<std::string> column_meant(std::string_view name, const std::vector
   std::transform(lower.begin(), lower.end(), lower.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   std::vector<std::string> known;
-  for (const Channel& channel : kChannels) known.emplace_back(channel.name);
-  for (const Channel& channel : kWheelChannels) {
-    if (const std::string_view wheel = wheel_in(lower, channel); !wheel.empty()) {
+  for (const SampleColumn& column : columns_known(false)) known.emplace_back(column.name);
+  for (const SampleColumn& column : columns_known(true)) {
+    if (const std::string_view wheel = wheel_in(lower, column); !wheel.empty()) {
       // "yaw_rate_deg_s" and "bus_current_a" are nobody's wheel; two letters are meant as one.
       const auto meant = nearest(wheel, wheels);
       const bool alike = meant && wheel.find_first_of(*meant) != std::string_view::npos;
       if (!alike || wheel.size() == 3 || wheel.size() == 4) return std::nullopt;
-      return fmt::format("{}_{}", *meant, channel.name);
+      return fmt::format("{}_{}", *meant, column.name);
     }
-    for (const std::string& wheel : wheels) known.push_back(fmt::format("{}_{}", wheel, channel.name));
+    for (const std::string& wheel : wheels) known.push_back(fmt::format("{}_{}", wheel, column.name));
   }
   return nearest(lower, known);
 }

@@ -13,8 +13,7 @@ namespace slipway::api {
 namespace {
 
 constexpr std::size_t kMostRows = 200'000;
-constexpr std::size_t kFirstVariable = 2, kFirstChannel = kFirstVariable + gap::kWindowVariables,
-                      kColumns = kFirstChannel + gap::kChannels;
+constexpr std::size_t kFirstVariable = 2, kFirstChannel = kFirstVariable + gap::kWindowVariables;
 
 using Traces = std::map<std::string, std::vector<gap::HiddenTrace>>;
 
@@ -22,7 +21,7 @@ std::vector<std::string> column_names() {
   std::vector<std::string> names{"campaign", "drive"};
   for (int v = 0; v < gap::kWindowVariables; ++v)
     names.emplace_back(gap::name_of(static_cast<gap::WindowVariable>(v)));
-  for (int c = 0; c < gap::kChannels; ++c)
+  for (std::size_t c = 0; c < gap::channel_count(); ++c)
     names.push_back(fmt::format("{}_mean_square", gap::name_of(static_cast<gap::Channel>(c))));
   return names;
 }
@@ -62,7 +61,7 @@ class TraceTable {
 
   void read_header(const CsvLine& line) {
     header_ = read_csv_header(line, file_, names_, faults_);
-    for (std::size_t k = 0; k < kColumns; ++k)
+    for (std::size_t k = 0; k < names_.size(); ++k)
       if (!header_.places[k]) fault(line.number, fmt::format("there is no column {}", names_[k]));
   }
 
@@ -72,7 +71,7 @@ class TraceTable {
       fault(line.number, fmt::format("{} cells, must be {} as in the header", cells.size(), header_.width));
     std::string campaign;
     gap::HiddenTrace trace;
-    for (std::size_t k = 0; k < kColumns; ++k) {
+    for (std::size_t k = 0; k < names_.size(); ++k) {
       if (!header_.places[k] || *header_.places[k] >= cells.size()) continue;
       const std::string_view cell = cells[*header_.places[k]];
       const std::string place =

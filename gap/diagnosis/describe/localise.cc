@@ -43,7 +43,7 @@ std::vector<double> squares_of(const PreparedCampaign& prepared, const Eigen::Ve
 std::vector<ChannelSquares> channel_squares(const PreparedCampaign& prepared,
                                             const Eigen::VectorXd& residuals) {
   std::vector<ChannelSquares> all;
-  for (int c = 0; c < kChannels; ++c)
+  for (std::size_t c = 0; c < channel_count(); ++c)
     all.push_back({static_cast<Channel>(c), squares_of(prepared, residuals, static_cast<Channel>(c))});
   return all;
 }
@@ -254,8 +254,10 @@ std::vector<GapPlace> gap_places(const PreparedCampaign& prepared, const DriveCa
   }
   const auto cancelled = [&] { return prepared.model->cancelled(); };
   std::vector<FoundPlace> found;
-  for (const Channel channel : {Channel::kSlip, Channel::kSideSlip, Channel::kCurrent, Channel::kSinkage}) {
+  for (std::size_t c = 0; c < channel_count(); ++c) {
     if (cancelled()) return {};
+    const auto channel = static_cast<Channel>(c);
+    if (!row_of(channel).located) continue;
     const ChannelSquares of{channel, squares_of(prepared, residuals, channel)};
     for (const FoundPlace& place : places_in(windows, of, options, cancelled)) found.push_back(place);
   }

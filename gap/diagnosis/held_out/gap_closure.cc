@@ -14,7 +14,7 @@ std::optional<double> closed(const HeldOutErrors& e) {
   return closed_share(e.scaled_retuned, e.scaled_with, e.scaled_count, e.scaled_count);
 }
 
-std::optional<double> closed(const HeldOutErrors& e, int c) {
+std::optional<double> closed(const HeldOutErrors& e, std::size_t c) {
   return closed_share(e.retuned[c], e.with[c], e.floor[c], e.count[c]);
 }
 
@@ -41,7 +41,7 @@ void keep(const PreparedCampaign& prepared, const DriveCampaign& campaign,
 // Root mean squares of each channel that has values, and what is closed of its gap.
 std::vector<ChannelClosure> channels_of(const Bootstrapped& sums) {
   std::vector<ChannelClosure> channels;
-  for (int c = 0; c < kChannels; ++c) {
+  for (std::size_t c = 0; c < channel_count(); ++c) {
     if (sums.all.count[c] == 0.0) continue;
     const auto rms = [&](const auto& squares) {
       return sums.interval([c, squares](const HeldOutErrors& e) {

@@ -41,7 +41,7 @@ std::vector<bool> rows_of(const WindowModel& model, const std::vector<bool>& dri
 }
 
 void HeldOutErrors::add(const HeldOutErrors& e) {
-  for (int c = 0; c < kChannels; ++c) {
+  for (std::size_t c = 0; c < channel_count(); ++c) {
     nominal[c] += e.nominal[c];
     retuned[c] += e.retuned[c];
     with[c] += e.with[c];

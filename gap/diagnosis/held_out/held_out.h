@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <functional>
 #include <vector>
@@ -29,11 +28,15 @@ std::vector<bool> rows_of(const WindowModel& model, const std::vector<bool>& dri
 // Sums over observations of drives held out of a fit: of squares, and of squares in deviations of their
 // noise.
 struct HeldOutErrors {
-  std::array<double, kChannels> nominal{}, retuned{}, with{}, floor{}, count{};
+  // By channel.
+  std::vector<double> nominal = zeros(), retuned = zeros(), with = zeros(), floor = zeros(), count = zeros();
   double scaled_nominal = 0.0, scaled_retuned = 0.0, scaled_with = 0.0, scaled_count = 0.0;
   double log_gain = 0.0;  // of the logarithm of the density, of the correction over the re-tuned null
 
   void add(const HeldOutErrors& e);
+
+ private:
+  static std::vector<double> zeros() { return std::vector<double>(channel_count(), 0.0); }
 };
 
 // What a window that was held out adds; nothing where it has no observation to compare.

@@ -1,37 +1,14 @@
 #pragma once
 
 #include <cstddef>
-#include <string_view>
 #include <vector>
 
 #include "core/pose.h"
+#include "gap/diagnosis/model/channel.h"
 #include "gap/diagnosis/model/drive_campaign.h"
 #include "sim/rover/drive_command.h"
 
 namespace slipway::gap {
-
-// What is compared between prediction and drive.
-enum class Channel {
-  kSlip,      // 1 - speed along the commanded direction / commanded; turning in place: of the yaw rate
-  kSideSlip,  // speed to the left over the commanded speed; not of turns in place
-  kYawRate,   // less the commanded one, rad/s; not of turns in place
-  kRoll,      // measured less that of the rover set down on the map, rad
-  kPitch,
-  kCurrent,  // of a wheel's motor, A, positive in the sense of its rate
-  kSinkage,  // of a wheel, m
-};
-constexpr int kChannels = 7;
-
-std::string_view name_of(Channel channel);  // "slip", "side_slip", ...
-std::string_view unit_of(Channel channel);  // at the boundary: "1", "deg/s", "deg", "A", "m"
-double boundary_unit(Channel channel);      // what one internal unit is there: 57.3 of an angle
-
-struct Observation {
-  Channel channel = Channel::kSlip;
-  int wheel = -1;  // of a wheel's channel; a current of none is the mean of all wheels
-  double value = 0.0;
-  double sensor_std = 0.0;  // by the campaign's measurement_std and the number of readings
-};
 
 // A stretch of a drive, anchored at its own measured poses so that the error of one does not travel to the
 // next.
@@ -66,7 +43,7 @@ bool currents_split_evenly(const DriveCampaign& campaign);
 
 // Windows of every drive, in the drives' order. A drive shorter than a window is one. None reaches across a
 // pause in the rows that is nearly as long as itself. Where rates were measured, rows before the wheels first
-// turn at half of the told rates, and after they last do, are left out. Samples whose value lies beyond
+// turn at half of the commanded rates, and after they last do, are left out. Samples whose value lies beyond
 // `outlier` deviations of their neighbours' median are passed over; windows with fewer than two poses have no
 // slip, side slip and yaw rate. Drives that are final_only are one window without currents.
 std::vector<DriveWindow> cut_windows(const DriveCampaign& campaign, const WindowOptions& options = {});

@@ -14,25 +14,6 @@ Scales numbers_of(NoiseScales& s) {
           &s.slip,      &s.side_slip, &s.yaw_rate_rad_s, &s.attitude_rad,  &s.current_share, &s.sinkage_m};
 }
 
-double left_over(const Observation& o, double expected, const NoiseScales& s) {
-  switch (o.channel) {
-    case Channel::kSlip:
-      return s.slip;
-    case Channel::kSideSlip:
-      return s.side_slip;
-    case Channel::kYawRate:
-      return s.yaw_rate_rad_s;
-    case Channel::kRoll:
-    case Channel::kPitch:
-      return s.attitude_rad;
-    case Channel::kCurrent:
-      return s.current_share * std::abs(expected);
-    case Channel::kSinkage:
-      return s.sinkage_m;
-  }
-  return 0.0;
-}
-
 }  // namespace
 
 NoiseModel::NoiseModel(const WindowModel& model, Eigen::MatrixXd response, std::vector<double> expected,
@@ -85,7 +66,7 @@ void NoiseModel::set(const NoiseScales& scales) {
       const auto row = static_cast<std::size_t>(block.rows[static_cast<std::size_t>(a)]);
       const std::size_t w = block.window[static_cast<std::size_t>(a)];
       const Observation& o = windows[w].observations[row - model_.offset(w)];
-      const double over = left_over(o, expected_[row], scales);
+      const double over = row_of(o.channel).left_over(scales, expected_[row]);
       v(a, a) += o.sensor_std * o.sensor_std + over * over;
       if (windows[w].censored && o.channel == Channel::kSlip)
         v(a, a) += options_.censored_slip_std * options_.censored_slip_std;

@@ -6,6 +6,7 @@
 
 #include "core/angle.h"
 #include "core/parallel_for.h"
+#include "gap/diagnosis/model/station_prediction.h"
 #include "sim/effects/effect_catalogue.h"
 
 namespace slipway::gap {
@@ -18,10 +19,32 @@ constexpr double kSameAttitude_rad = rad_from_deg(0.02);
 // what was driven on.
 constexpr double kMostTilt_rad = rad_from_deg(35.0);
 
-// Means over a window's stations.
-struct Motion {
-  double slip = 0.0, side_slip = 0.0, yaw_rate = 0.0, roll = 0.0, pitch = 0.0;
-  sim::PerWheel<double> current, sinkage;
+// Every channel's numbers, those of wheels one a wheel: at a station, or means over a window's stations.
+class ChannelValues {
+ public:
+  explicit ChannelValues(std::size_t wheels) {
+    for (const ChannelRow& row : channel_catalogue()) values_.emplace_back(row.per_wheel ? wheels : 1, 0.0);
+  }
+  // Of a station, in which the rover moves or does not.
+  void predict(const StationPrediction& at) {
+    const std::span<const ChannelRow> rows = channel_catalogue();
+    for (std::size_t c = 0; c < rows.size(); ++c)
+      for (std::size_t k = 0; k < values_[c].size(); ++k)
+        values_[c][k] = at.state != nullptr || rows[c].predicted_when_stuck ? rows[c].predict(at, k) : 0.0;
+  }
+  void add(double share, const ChannelValues& other) {
+    for (std::size_t c = 0; c < values_.size(); ++c)
+      for (std::size_t k = 0; k < values_[c].size(); ++k) values_[c][k] += share * other.values_[c][k];
+  }
+  // Of a wheel's channel without a wheel: the mean of all.
+  double of(const Observation& o) const {
+    const std::vector<double>& all = values_[static_cast<std::size_t>(o.channel)];
+    if (o.wheel >= 0) return all[static_cast<std::size_t>(o.wheel)];
+    return std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
+  }
+
+ private:
+  std::vector<std::vector<double>> values_;
 };
 
 bool same_shape_as(const sim::RoverModel& a, const sim::RoverModel& b) {
@@ -152,13 +175,10 @@ void WindowModel::predict_window(std::size_t w, const ModelState& state, std::sp
   const DriveWindow& window = windows_[w];
   const std::size_t wheels = state.rover.wheels.size();
   const bool regions = !sim::effect_regions(state.effects).empty();
-  Motion mean;
-  mean.current = sim::PerWheel<double>(wheels);
-  mean.sinkage = sim::PerWheel<double>(wheels);
+  ChannelValues mean(wheels), last(wheels);
   bool moving = true;
   const double share = 1.0 / static_cast<double>(places.size());
   const Place* before = nullptr;
-  Motion last;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Place& place = places[i];
     const bool as_before =
@@ -178,73 +198,19 @@ void WindowModel::predict_window(std::size_t w, const ModelState& state, std::sp
             place.stance, soils_at(place, state), window.command,
             start != nullptr && start->balance ? &*start->balance : nullptr,
             start == nullptr || start->moving ? sim::Thoroughness::kSure : sim::Thoroughness::kQuick);
-      last = {};
-      last.current = sim::PerWheel<double>(wheels);
-      last.sinkage = sim::PerWheel<double>(wheels);
-      if (stuck || !gets_on(at)) {
+      const bool moves = !stuck && gets_on(at);
+      if (!moves) {
         moving = false;
-        last.slip = 1.0;
         solver.reset();
-      } else {
-        const double speed = window.command.speed_m_s;
-        last.slip = at.slip_ratio;
-        last.yaw_rate = at.yaw_rate_rad_s;
-        if (!window.command.turn_in_place) {
-          last.yaw_rate -= speed * window.command.curvature_1_m;
-          const Eigen::Vector2d travel = sim::travel_direction(window.command);
-          last.side_slip = (travel.x() * at.leftward_m_s - travel.y() * at.forward_m_s) / std::abs(speed);
-        }
-        for (std::size_t k = 0; k < wheels; ++k) {
-          last.current[k] = at.wheels[k].current_a * (at.wheels[k].rate_rad_s < 0.0 ? -1.0 : 1.0);
-          const double below_track =
-              state.rover.wheels[k].radius_m * (1.0 - std::cos(at.wheels[k].entry_angle_rad));
-          last.sinkage[k] =
-              (1.0 - state.track_left_out) * at.wheels[k].sinkage_m + state.track_left_out * below_track;
-        }
       }
-      last.roll = place.stance.attitude.roll_rad;
-      last.pitch = place.stance.attitude.pitch_rad;
+      last.predict({moves ? &at : nullptr, place.stance, window.command, state.rover, state.track_left_out});
     }
     before = &place;
-    mean.slip += share * last.slip;
-    mean.side_slip += share * last.side_slip;
-    mean.yaw_rate += share * last.yaw_rate;
-    mean.roll += share * last.roll;
-    mean.pitch += share * last.pitch;
-    for (std::size_t k = 0; k < wheels; ++k) {
-      mean.current[k] += share * last.current[k];
-      mean.sinkage[k] += share * last.sinkage[k];
-    }
+    mean.add(share, last);
   }
   for (std::size_t i = 0; i < window.observations.size(); ++i) {
     const Observation& o = window.observations[i];
-    const auto k = static_cast<std::size_t>(std::max(0, o.wheel));
-    switch (o.channel) {
-      case Channel::kSlip:
-        out[i] = mean.slip;
-        break;
-      case Channel::kSideSlip:
-        out[i] = moving ? mean.side_slip : kNotMeasured;
-        break;
-      case Channel::kYawRate:
-        out[i] = moving ? mean.yaw_rate : kNotMeasured;
-        break;
-      case Channel::kRoll:
-        out[i] = mean.roll;
-        break;
-      case Channel::kPitch:
-        out[i] = mean.pitch;
-        break;
-      case Channel::kCurrent:
-        out[i] = !moving       ? kNotMeasured
-                 : o.wheel < 0 ? std::accumulate(mean.current.begin(), mean.current.end(), 0.0) /
-                                     static_cast<double>(wheels)
-                               : mean.current[k];
-        break;
-      case Channel::kSinkage:
-        out[i] = moving ? mean.sinkage[k] : kNotMeasured;
-        break;
-    }
+    out[i] = moving || row_of(o.channel).predicted_when_stuck ? mean.of(o) : kNotMeasured;
   }
 }
 

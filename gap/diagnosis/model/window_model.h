@@ -29,8 +29,8 @@ struct ModelState {
 // nothing confirms.
 enum class Footing { kSuspension, kPlane };
 
-// Predicts every observation of a campaign's windows by the quasi-static rung: the rover stands at the
-// window's measured stations on the map and is told what the drive was told.
+// Predicts every observation of a campaign's windows at the quasi-static fidelity level: the rover stands
+// at the window's measured stations on the map and is commanded what the drive was.
 class WindowModel {
  public:
   // Stances of the nominal rover are found here, once. Windows with a station where there is no ground are
@@ -49,7 +49,7 @@ class WindowModel {
   // numbers do not change by more than the solver's tolerance.
   void start_from(const ModelState& state, std::size_t threads = 1);
   // One number for each observation of each window, in their order. NaN where the rover would not move, but
-  // for slip, which is 1 there. Same numbers for any number of threads.
+  // for slip, which is 1 there, and what depends on the stance alone. Same numbers for any number of threads.
   std::vector<double> predict(const ModelState& state, std::size_t threads = 1) const;
   // Of a state so near that of the starts that the rover moves where it moved there, and only there: for
   // derivatives.

@@ -317,7 +317,7 @@ Eigen::MatrixXd form_columns(const DriveCampaign& campaign, const WindowModel& m
     };
     for (const Circumstance circumstance : kFormCircumstances)
       add([&](std::size_t w, const Observation&) { return met[w][static_cast<std::size_t>(circumstance)]; });
-    for (int c = 0; c < kChannels; ++c)
+    for (std::size_t c = 0; c < channel_count(); ++c)
       add([&](std::size_t, const Observation& o) {
         return o.channel == static_cast<Channel>(c) ? 1.0 : 0.0;
       });

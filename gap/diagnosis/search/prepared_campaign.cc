@@ -65,7 +65,7 @@ void prepare_around(PreparedCampaign& prepared, const DriveCampaign& campaign, c
 }
 
 Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const DiagnosisOptions& options,
-                                 Progress& progress, const std::array<bool, kChannels>& looked_at) {
+                                 Progress& progress, const std::vector<bool>& looked_at) {
   const std::size_t threads = options.search.threads;
   PreparedCampaign made;
   progress.report("cutting drives into windows", 0.0);
@@ -77,7 +77,7 @@ Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const DiagnosisO
   for (std::size_t w = 0; w < made.windows.size(); ++w)
     for (std::size_t i = 0; model.used(w) && i < made.windows[w].observations.size(); ++i)
       used[model.offset(w) + i] =
-          looked_at[static_cast<std::size_t>(made.windows[w].observations[i].channel)];
+          looked_at.empty() || looked_at[static_cast<std::size_t>(made.windows[w].observations[i].channel)];
   const Hypothesis hypothesis(campaign, {});
   const std::vector<double> neutral = hypothesis.neutral();
   made.model->start_from(hypothesis.state(neutral), threads);

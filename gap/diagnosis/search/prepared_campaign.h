@@ -43,12 +43,10 @@ struct PreparedCampaign {
 void prepare_around(PreparedCampaign& prepared, const DriveCampaign& campaign, const FittedExplanation& found,
                     const DiagnosisOptions& options);
 
-inline constexpr std::array<bool, kChannels> kAllChannels{true, true, true, true, true, true, true};
-
-// The campaign must outlive what is made of it. Of channels that are not `looked_at` nothing is used. Errors:
+// The campaign must outlive what is made of it. Channels that are not `looked_at` (empty: all are) are
+// not used. Errors:
 // cancelled.
 Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const DiagnosisOptions& options,
-                                 Progress& progress,
-                                 const std::array<bool, kChannels>& looked_at = kAllChannels);
+                                 Progress& progress, const std::vector<bool>& looked_at = {});
 
 }  // namespace slipway::gap

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "sim/quasi_static/quasi_static.h"
+#include "sim/rover/drive_command.h"
+#include "sim/rover/rover_model.h"
+#include "sim/rover/stance.h"
+
+namespace slipway::gap {
+
+// What the model predicts at one station of a window: what channels are predicted from.
+struct StationPrediction {
+  const sim::StationState* state = nullptr;  // null: the rover does not move on
+  const sim::Stance& stance;
+  const sim::DriveCommand& command;
+  const sim::RoverModel& rover;
+  double track_left_out = 0.0;  // see kTrackLeftOut
+};
+
+}  // namespace slipway::gap
