@@ -114,10 +114,14 @@ TEST(JobRunner, ADismissalWakesWhoWaits) {
 
 TEST(JobRunner, ShortWorkDoesNotWaitBehindLongWork) {
   Endless endless;
-  JobRunner runner(make_memory_job_store(),
-                   [&](const std::string& kind, const std::string& request, Progress& p) {
-                     return kind == "plan" ? endless(kind, request, p) : echo(kind, request, p);
-                   });
+  JobRunnerOptions options;
+  options.workers = {{"plan", "prediction"}, {"prediction"}};
+  JobRunner runner(
+      make_memory_job_store(),
+      [&](const std::string& kind, const std::string& request, Progress& p) {
+        return kind == "plan" ? endless(kind, request, p) : echo(kind, request, p);
+      },
+      options);
   ASSERT_TRUE(runner.start());
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(runner.submit("plan", "{}"));
   const std::string id = runner.submit("prediction", "{}")->id;
