@@ -100,6 +100,9 @@ TEST_P(JobStores, ClaimsTakeTheOldestOfTheirKindsOnce) {
   EXPECT_EQ(store_->claim("b", {"prediction"}, now_, now_ + 10).value(), std::nullopt);
   EXPECT_EQ(store_->claim("b", kBoth, now_, now_ + 10).value()->job.id, plan);
   EXPECT_EQ(store_->claim("b", {}, now_, now_ + 10).value(), std::nullopt);
+  const std::string any = accept("another_kind");
+  EXPECT_EQ(store_->claim("b", kBoth, now_, now_ + 10).value(), std::nullopt);
+  EXPECT_EQ(store_->claim("b", {}, now_, now_ + 10).value()->job.id, any) << "where no kind is named, any";
 }
 
 TEST_P(JobStores, AnExpiredLeaseIsClaimedAgainAndTheOldOneIsFencedOff) {
