@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 #include "gap/diagnosis/search/selection.h"
 #include "gap/diagnosis/verdict.h"
@@ -12,6 +13,7 @@ namespace {
 
 DriveCampaign campaign_of_one_soil() {
   DriveCampaign campaign;
+  campaign.rover = std::make_shared<sim::RoverModel>();
   campaign.soils.resize(1);
   return campaign;
 }
