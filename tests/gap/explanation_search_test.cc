@@ -14,6 +14,7 @@ namespace {
 
 DriveCampaign campaign_of_one_soil() {
   DriveCampaign campaign;
+  campaign.rover = std::make_shared<sim::RoverModel>();
   campaign.soils.resize(1);
   campaign.rover = std::make_shared<sim::RoverModel>(sim::six_wheeler());
   return campaign;
