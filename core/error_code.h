@@ -39,7 +39,8 @@ struct ErrorRow {
   std::string_view help;  // one sentence: what the caller can do
 };
 
-// The one table of errors: the HTTP status, the problem's type and docs/reference/errors.md all come from here.
+// The one table of errors: the HTTP status, the problem's type and docs/reference/errors.md all come from
+// here.
 std::span<const ErrorRow> error_table();
 
 const ErrorRow& error_row(ErrorCode code);

@@ -87,10 +87,10 @@ std::vector<Fault> faults_of(std::span<const EffectSetting> settings, const Rove
     if (wheel == settings[i].parameters.end()) continue;
     const double last = static_cast<double>(rover.wheels.size()) - 1.0;
     if (wheel->second != std::round(wheel->second) || wheel->second > last)
-      faults.push_back({fmt::format("/{}/parameters/{}", i, effect->wheel_field),
-                        fmt::format("{} = {:g}, must be a whole number up to {:g}: {} has {} wheels",
-                                    effect->wheel_field, wheel->second, last, rover.name,
-                                    rover.wheels.size())});
+      faults.push_back(
+          {fmt::format("/{}/parameters/{}", i, effect->wheel_field),
+           fmt::format("{} = {:g}, must be a whole number up to {:g}: {} has {} wheels", effect->wheel_field,
+                       wheel->second, last, rover.name, rover.wheels.size())});
   }
   return faults;
 }

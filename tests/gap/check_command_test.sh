@@ -49,7 +49,7 @@ assert sum(c["values"] for c in slopes) == current["values"]
 CHECK
 expect 0 "$slipway" check "$folder/half-1" --model "$folder/model" --data "$data"
 holds '^current  *all' "$folder/out"
-holds 'note: Intervals of the corrected prediction hold' "$folder/out"
+holds 'note: Intervals of the corrected prediction account for' "$folder/out"
 
 # Soil that is called otherwise is refused with its place, and taken where it is named.
 sed -i 's/"nominal"/"sand"/g' "$folder/half-1/campaign.json"
