@@ -1,8 +1,9 @@
 #!/bin/sh
-# Installs, builds (warnings are errors) and runs every test; then builds the quick tests and the fuzzers with the address
-# and undefined-behaviour sanitizers and runs those. Ends with a table of what each stage took.
-#   sh tests/run.sh                 everything
-#   sh tests/run.sh -L unit         further arguments go to ctest, and the sanitizers' stages are left out
+# Installs, builds (warnings are errors) and runs every test. Ends with a table of what each stage took.
+#   sh tests/run.sh                       everything
+#   sh tests/run.sh -L unit               further arguments go to ctest
+#   SANITIZE=yes sh tests/run.sh          builds the quick tests and the fuzzers once more, with the address and
+#                                         undefined-behaviour sanitizers, and runs those too
 set -eu
 cd "$(dirname "$0")/.."
 . tests/stages.sh
@@ -13,7 +14,7 @@ stage "configure" cmake --preset check || fail "cmake could not configure; the f
 stage "build" cmake --build --preset check || fail "the build broke; the first error above says where"
 stage "test" ctest --preset check --progress -j "$(nproc)" "$@" ||
   fail "a test failed; run it alone with: ctest --preset check -R NAME"
-[ $# = 0 ] || exit 0
+[ "${SANITIZE:-}" = yes ] || exit 0
 stage "configure with sanitizers" cmake --preset asan || fail "cmake could not configure the preset asan"
 stage "build with sanitizers" cmake --build --preset asan || fail "the build with sanitizers broke"
 stage "test with sanitizers" ctest --preset asan --progress -j "$(nproc)" ||
