@@ -46,8 +46,8 @@ struct DriveEntry {
 };
 
 // What a campaign is made from. What the operators know (the rover, the soils' means) and what is really at
-// work (effects, draws of the soils, failed wheels) stay apart: only the former is written in a campaign's own
-// document.
+// work (effects, draws of the soils, failed wheels) stay apart: only the former is written in a campaign's
+// own document.
 struct DriveTable {
   std::string name, summary;
   std::vector<std::string> sources, assumed;
