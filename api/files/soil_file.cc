@@ -117,12 +117,18 @@ const Law* read_law(ObjectReader& reader, std::string_view key, std::span<const 
 
 void read_soil_parameters(ObjectReader& reader, const sim::SoilFormat& format, Presence less_known,
                           bool with_laws, sim::Soil& soil) {
+  const std::size_t before = reader.faults().size();
   if (with_laws) {
     soil.pressure_law.row =
         read_law(reader, "pressure_law", format.laws.pressure, soil.pressure_law.parameters);
     soil.shear_law.row = read_law(reader, "shear_law", format.laws.shear, soil.shear_law.parameters);
   }
+  const bool law_is_unclear = reader.faults().size() > before;
   for (const sim::SoilField& row : format.fields) {
+    if (is_bekker_modulus(row) && law_is_unclear) {
+      reader.member(row.field.name, kOptional);  // whether it must be there is not known
+      continue;
+    }
     if (is_bekker_modulus(row) && soil.pressure_law.row != nullptr) continue;
     // Where nothing is said of it, shear across is like shear along.
     if (row.field.name == "shear_modulus_y_m") soil.shear_modulus_y_m = soil.shear_modulus_x_m;

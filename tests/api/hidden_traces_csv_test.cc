@@ -24,10 +24,10 @@ bool has(const std::vector<Fault>& faults, const std::string& place, const std::
 }
 
 TEST(HiddenTracesCsv, AreByCampaignWithWhatIsNotObservedLeftOut) {
-  const auto traces =
-      read_hidden_traces_csv("traces.csv", kTracesHeader + "s01,D001,-5,1,0.1,-0.04,0.4,20,0,15,1.5,2,3,0,0,4,\n" +
-                                               "s03,D002,0,0,0.1,0,0,-40,1,10,1,,,0,0,0,0\n" +
-                                               "s01,D002,0,0,0,0.05,0,0,0,5,,,,,,,\n");
+  const auto traces = read_hidden_traces_csv(
+      "traces.csv", kTracesHeader + "s01,D001,-5,1,0.1,-0.04,0.4,20,0,15,1.5,2,3,0,0,4,\n" +
+                        "s03,D002,0,0,0.1,0,0,-40,1,10,1,,,0,0,0,0\n" +
+                        "s01,D002,0,0,0,0.05,0,0,0,5,,,,,,,\n");
   ASSERT_TRUE(traces);
   ASSERT_EQ(traces->size(), 2u);
   ASSERT_EQ(traces->at("s01").size(), 2u);

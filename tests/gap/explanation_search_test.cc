@@ -3,16 +3,20 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 #include "gap/diagnosis/search/selection.h"
 #include "gap/diagnosis/verdict.h"
+#include "tests/sim/reference_models.h"
 
 namespace slipway::gap {
 namespace {
 
 DriveCampaign campaign_of_one_soil() {
   DriveCampaign campaign;
+  campaign.rover = std::make_shared<sim::RoverModel>();
   campaign.soils.resize(1);
+  campaign.rover = std::make_shared<sim::RoverModel>(sim::six_wheeler());
   return campaign;
 }
 

@@ -16,7 +16,7 @@
 namespace slipway::gap {
 namespace {
 
-constexpr double kSlope = 0.2;  // the ground rises eastward, rad
+constexpr double kSlope = 0.1;  // the ground rises eastward, rad; a rover on loose sand still climbs it
 
 // A plane that rises eastward, with the first soil in the west and the last in the east.
 class Incline : public sim::Ground {
@@ -110,7 +110,8 @@ TEST(Hypothesis, AtItsNeutralValuesEveryEffectLeavesASinkingSoilAndARoverWithGro
   std::vector<EffectVariant> variants = effect_variants(rover, {});
   variants.push_back(variant_at(*sim::find_effect("soft_patch"), {1.0, 0.3, 2.0}));
   for (const EffectVariant& variant : variants)
-    EXPECT_EQ(predicted.of({variant}), nominal) << variant.effect << " " << variant.label;
+    EXPECT_LT(largest_difference(predicted.of({variant}), nominal), 1e-9)
+        << variant.effect << " " << variant.label;
 }
 
 // A rover file may have effects of its own: a hypothesis starts from them.

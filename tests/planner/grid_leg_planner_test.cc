@@ -56,8 +56,8 @@ TEST(GridPlanner, FindsItsWayBetweenKeepOutsAndKeepsTheGoalsHeading) {
   PlanProblem problem = problem_of(kYard);
   problem.planners = {"grid"};
   problem.goal.yaw_rad = -2.0;
-  problem.keep_out = {{{12.0, 6.0}, {16.0, 6.0}, {16.0, 12.0}, {12.0, 12.0}},
-                      {{27.0, 7.0}, {31.0, 7.0}, {31.0, 18.0}, {27.0, 18.0}}};
+  problem.keep_out = {{{13.0, 8.0}, {16.0, 8.0}, {16.0, 11.0}, {13.0, 11.0}},
+                      {{29.0, 9.0}, {31.0, 9.0}, {31.0, 13.0}, {29.0, 13.0}}};
   const KeepOut keep_out(problem.keep_out, *problem.rover);
   const Plan plan = grid_plan(problem);
   ASSERT_FALSE(plan.routes.empty()) << plan.fewer_because.at(0);

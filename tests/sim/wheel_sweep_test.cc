@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -235,6 +236,8 @@ TEST(WheelSweep, EveryParameterThatIsKnownRunsAtTheEndsOfItsRange) {
     const Field field = *sweep_field(name);
     if (name == "sinkage_m" || name == "slip_angle_deg" || name == "soil.k_c" || name == "soil.k_phi")
       continue;
+    // Parameters of a law, "soil.LAW.PARAMETER", exist on soils that name the law alone.
+    if (std::count(name.begin(), name.end(), '.') > 1) continue;
     const WheelSweep sweep = sweep_of({{name, {field.lowest, field.highest}}});
     EXPECT_EQ(faults_of(sweep), std::vector<Fault>{}) << name;
     for (const SweepRow& row : run_wheel_sweep(sweep)) {

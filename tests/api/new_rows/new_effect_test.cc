@@ -52,11 +52,11 @@ TEST(NewEffect, ChangesThePredictionOfARequestThatSwitchesItOn) {
 }
 
 TEST(NewEffect, IsRefusedBeyondItsRange) {
-  const auto answer = json::read_prediction_request(
+  const auto request = testing::small_world().read_prediction(
       request_with(R"(, "effects": [{"name": "extra_mass", "parameters": {"mass_kg": 900}}])"));
-  ASSERT_TRUE(answer);
-  ASSERT_EQ(answer->faults.size(), 1U);
-  EXPECT_EQ(answer->faults[0].pointer, "/effects/0/parameters/mass_kg");
+  ASSERT_FALSE(request);
+  ASSERT_EQ(request.error().faults.size(), 1U);
+  EXPECT_EQ(request.error().faults[0].pointer, "/effects/0/parameters/mass_kg");
 }
 
 TEST(NewEffect, IsAHypothesisOfTheDiagnosisWithADerivativeAtNeutral) {
