@@ -107,7 +107,7 @@ void RequestCheck::drive(const DriveAssumptions& drive) {
   if (*drive.speed_m_s > fastest) {
     add(ErrorCode::kInvalidRequest, "/speed_m_s",
         fmt::format("speed_m_s = {} m/s, must be in [{:g}, {:.6g}]: the motors of {} turn no faster",
-                    *drive.speed_m_s, RequestLimits::kLeastSpeed_m_s, fastest, rover_->name));
+                    *drive.speed_m_s, RequestLimits::kMinSpeed_m_s, fastest, rover_->name));
   }
 }
 

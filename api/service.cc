@@ -30,12 +30,12 @@ dem::Extent window_around(const std::vector<planner::Waypoint>& places, const de
     box.south_m = std::min(box.south_m, place.y_m);
     box.north_m = std::max(box.north_m, place.y_m);
   }
-  constexpr double kLeastMargin_m = 60.0;
+  constexpr double kMinMargin_m = 60.0;
   constexpr double kMarginRatio = 0.4;
-  constexpr double kLeastMarginCells = 8.0;
+  constexpr double kMinMarginCells = 8.0;
   const double size = std::max(box.east_m - box.west_m, box.north_m - box.south_m);
-  const double margin = std::max({kLeastMargin_m, kMarginRatio * size,
-                                  kLeastMarginCells * std::max(geometry.cell_x_m, geometry.cell_y_m)});
+  const double margin = std::max(
+      {kMinMargin_m, kMarginRatio * size, kMinMarginCells * std::max(geometry.cell_x_m, geometry.cell_y_m)});
   return {box.west_m - margin, box.south_m - margin, box.east_m + margin, box.north_m + margin};
 }
 

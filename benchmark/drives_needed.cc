@@ -47,7 +47,7 @@ std::optional<double> DrivesNeededCase::ratio(std::size_t first) const {
 
 DrivesNeededSummary summary_of(std::span<const DrivesNeededCase> cases, std::size_t first) {
   constexpr double kTail = 0.05;
-  constexpr std::size_t kFewest = 5;
+  constexpr std::size_t kMin = 5;
   DrivesNeededSummary summary;
   std::vector<double> ratios;
   for (const DrivesNeededCase& c : cases) {
@@ -65,7 +65,7 @@ DrivesNeededSummary summary_of(std::span<const DrivesNeededCase> cases, std::siz
   summary.compared = ratios.size();
   if (ratios.empty()) return summary;
   summary.median_ratio = median(ratios);
-  if (ratios.size() < kFewest) return summary;
+  if (ratios.size() < kMin) return summary;
   std::sort(ratios.begin(), ratios.end());
   std::size_t outside = 0;  // of either end
   while (lower_tail_of_coins(outside, ratios.size()) <= kTail) ++outside;

@@ -176,7 +176,7 @@ void add_tilted_table(DriveTable& table, int tilt_deg, bool small, Dice& dice) {
 
 void add_rough_field(DriveTable& table, Dice& dice) {
   constexpr std::array kCurvatures{0.0, 0.0, 0.0, 0.0, 0.15, -0.15};
-  constexpr double kFarthest_m = 9.0;
+  constexpr double kMax_m = 9.0;
   dem::Relief relief;
   relief.roughness = {.rms_m = 0.35, .lattice_m = 6.0, .seed = dice.bits()};
   table.terrains.push_back(
@@ -185,8 +185,8 @@ void add_rough_field(DriveTable& table, Dice& dice) {
     DriveEntry& entry = table.entries.emplace_back();
     entry.id = fmt::format("drive_{:02}", i);
     entry.terrains = {0};
-    entry.x_m = rounded(dice.between(-kFarthest_m, kFarthest_m));
-    entry.y_m = rounded(dice.between(-kFarthest_m, kFarthest_m));
+    entry.x_m = rounded(dice.between(-kMax_m, kMax_m));
+    entry.y_m = rounded(dice.between(-kMax_m, kMax_m));
     entry.headings_rad = {dice.between(-std::numbers::pi, std::numbers::pi)};
     entry.legs = {way(dice.one_of(kSpeeds), kRoughDrive_s, dice.one_of(kCurvatures))};
     entry.motor_temp_c = dice.one_of(kTemperatures);

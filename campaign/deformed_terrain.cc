@@ -28,7 +28,7 @@ dem::GridGeometry grid_over(const dem::Extent& ruts, double rut_cell_m) {
   const double high_m = ruts.north_m - ruts.south_m + 2.0 * kDeformedMargin_m;
   const double fine_cells = wide_m / rut_cell_m * (high_m / rut_cell_m);
   const double multiple =
-      std::max(1.0, std::ceil(std::sqrt(fine_cells / static_cast<double>(kMostDeformedCells))));
+      std::max(1.0, std::ceil(std::sqrt(fine_cells / static_cast<double>(kMaxDeformedCells))));
   const double cell_m = multiple * rut_cell_m;
   return {.rows = static_cast<int>(std::ceil(high_m / cell_m)) + 1,
           .columns = static_cast<int>(std::ceil(wide_m / cell_m)) + 1,

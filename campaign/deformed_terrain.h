@@ -8,10 +8,10 @@
 namespace slipway::campaign {
 
 // The ground around the ruts, with them: on cells of the ruts' size, or a whole multiple of it where those
-// would be more than kMostDeformedCells. Each cell takes the deepest rut in it. Nothing without ruts.
+// would be more than kMaxDeformedCells. Each cell takes the deepest rut in it. Nothing without ruts.
 std::shared_ptr<const dem::Terrain> deformed_terrain(const dem::Terrain& ground, const sim::RutMap& ruts);
 
-constexpr long long kMostDeformedCells = 4'000'000;
+constexpr long long kMaxDeformedCells = 4'000'000;
 constexpr double kDeformedMargin_m = 1.0;  // of undisturbed ground on each side
 
 }  // namespace slipway::campaign

@@ -129,9 +129,9 @@ std::vector<Fault> faults_of(const DriveTable& table) {
   check_effects(table, faults);
   check_soils(table, faults);
   for (std::size_t k = 0; k < table.entries.size(); ++k) check_entry(table, k, faults);
-  if (const std::size_t count = count_of(table); count > kMostDrives) {
+  if (const std::size_t count = count_of(table); count > kMaxDrives) {
     faults.push_back(
-        {"/drives", fmt::format("drives make {} drives, must be at most {}", count, kMostDrives)});
+        {"/drives", fmt::format("drives make {} drives, must be at most {}", count, kMaxDrives)});
     return faults;
   }
   std::set<std::string> ids, reported;

@@ -71,7 +71,7 @@ struct TableDrive {
   std::string repeat_of;  // id of the first of its repeats; empty for that one
 };
 
-constexpr std::size_t kMostDrives = 20'000;
+constexpr std::size_t kMaxDrives = 20'000;
 
 // Terrains vary slowest, then headings, then repeats. An id is the entry's with "-" and the terrain's name
 // where the entry lists several, "-h090" for the heading where there are several, and "-r1" where there are

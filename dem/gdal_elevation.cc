@@ -115,11 +115,11 @@ class GdalElevation final : public ElevationSource {
     }
     const CellWindow window = with_margin(*met, info_.geometry);
     const long long cells = static_cast<long long>(window.rows) * window.columns;
-    if (cells > kMostWindowCells) {
+    if (cells > kMaxWindowCells) {
       return fail(
           ErrorCode::kInvalidRequest,
           fmt::format("The extent takes {} cells of the terrain, must be at most {}; choose a smaller one.",
-                      cells, kMostWindowCells));
+                      cells, kMaxWindowCells));
     }
     return read(window);
   }

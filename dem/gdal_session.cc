@@ -65,9 +65,9 @@ GdalSession::~GdalSession() {
 
 void CPL_STDCALL GdalSession::gather(CPLErr severity, CPLErrorNum /*number*/, const char* message) {
   // A damaged file can complain once a block; the first few say what is wrong.
-  constexpr std::size_t kMost = 5;
+  constexpr std::size_t kMax = 5;
   auto* session = static_cast<GdalSession*>(CPLGetErrorHandlerUserData());
-  if (severity < CE_Warning || session->complaints_.size() >= kMost) return;
+  if (severity < CE_Warning || session->complaints_.size() >= kMax) return;
   std::string text(message);
   for (std::size_t at = text.find(session->folder_); !session->folder_.empty() && at != std::string::npos;
        at = text.find(session->folder_)) {

@@ -120,9 +120,9 @@ std::vector<Fault> move_to_map(std::vector<LabelledPolygon>& polygons, const ToM
 Result<GridGeometry> grid_over(const ElevationInfo& ground, const Extent& extent) {
   const std::optional<CellWindow> window = ground.geometry.window(extent);
   if (!window) return fail(ErrorCode::kOffMap, "The extent does not meet the elevation's.");
-  if (static_cast<long long>(window->rows) * window->columns > kMostWindowCells) {
+  if (static_cast<long long>(window->rows) * window->columns > kMaxWindowCells) {
     return fail(ErrorCode::kInvalidRequest,
-                fmt::format("The extent takes more than {} cells; choose a smaller one.", kMostWindowCells));
+                fmt::format("The extent takes more than {} cells; choose a smaller one.", kMaxWindowCells));
   }
   return ground.geometry.sub(*window);
 }

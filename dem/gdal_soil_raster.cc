@@ -120,10 +120,10 @@ Result<std::shared_ptr<const SoilMap>> read_soil_raster(const std::filesystem::p
   if (!usable) return fail(usable.error());
   const std::optional<CellWindow> window = raster->info.geometry.window(extent);
   if (!window) return fail(ErrorCode::kOffMap, fmt::format("{} does not meet the extent asked for.", file));
-  if (static_cast<long long>(window->rows) * window->columns > kMostWindowCells) {
+  if (static_cast<long long>(window->rows) * window->columns > kMaxWindowCells) {
     return fail(ErrorCode::kInvalidRequest,
                 fmt::format("The extent takes more than {} cells of {}; choose a smaller one.",
-                            kMostWindowCells, file));
+                            kMaxWindowCells, file));
   }
   std::optional<Classes> read = read_classes(*raster->dataset->GetRasterBand(1), *window);
   if (!read) {

@@ -21,7 +21,7 @@
 namespace slipway::planner {
 namespace {
 
-constexpr std::size_t kMostSimulated = 6;  // unless more routes are asked for
+constexpr std::size_t kMaxSimulated = 6;  // unless more routes are asked for
 // Where in the whole work the candidates' simulation begins and ends, and where it ends when routes are
 // verified after it.
 constexpr double kSimulating = 0.5, kSimulated = 0.98, kSimulatedUnverified = 0.7;
@@ -37,7 +37,7 @@ tl::unexpected<Error> cancelled() {
 std::vector<std::size_t> shortlist(const Proposal& proposal, std::size_t wanted) {
   const std::vector<std::size_t> order = proposal.by_cost();
   std::vector<std::size_t> list = select_routes(proposal.differences, order, wanted);
-  const std::size_t most = std::max(kMostSimulated, wanted);
+  const std::size_t most = std::max(kMaxSimulated, wanted);
   const std::size_t spare = wanted > list.size() ? most : std::min(most, list.size() + 1);
   for (const std::size_t i : order) {
     const bool copy = std::any_of(list.begin(), list.end(), [&](std::size_t other) {
@@ -53,7 +53,7 @@ std::string too_alike(const PlanProblem& problem, std::size_t candidates, std::s
       "{} of {} candidates share more than {:.0f} % of their length, within {:.1f} m (the rover's width), "
       "with "
       "one of the routes given",
-      candidates - kept, candidates, 100.0 * kLargestOverlap, problem.rover->body_width_m);
+      candidates - kept, candidates, 100.0 * kMaxOverlap, problem.rover->body_width_m);
 }
 
 std::string dropped_for_keep_outs(const std::vector<Pose2>& poses) {
@@ -144,8 +144,7 @@ class Planning {
       StageProgress stage(progress_, fmt::format("simulating route {} of {}", k + 1, list.size()),
                           kSimulating + share * static_cast<double>(k),
                           kSimulating + share * static_cast<double>(k + 1));
-      const auto stations =
-          route_stations(candidate.motions, sim::largest_station_spacing_m(*problem_.rover));
+      const auto stations = route_stations(candidate.motions, sim::max_station_spacing_m(*problem_.rover));
       if (const auto pose = inside_keep_out(candidate.motions, stations)) {
         in_keep_out.push_back(*pose);
         continue;

@@ -83,7 +83,7 @@ Result<sim::DrivePrediction> predict_path(const PlanProblem& problem, const std:
   }
 
   const CornerPath path = join(corners, manner);
-  auto stations = route_stations(path.motions, sim::largest_station_spacing_m(*problem.rover));
+  auto stations = route_stations(path.motions, sim::max_station_spacing_m(*problem.rover));
   for (sim::PathStation& station : stations) {
     station.pose.yaw_rad = manner.body_yaw(station.pose.yaw_rad);
     station.backwards = manner.backwards;

@@ -80,7 +80,7 @@ Result<std::string> draw_drive_history(std::string_view answer) {
   const JsonValue *const end = drive->find("end"), *const at = drive->find("at_m"),
                          *const commanded = drive->find("commanded_m"),
                          *const rover = document->find("rover"), *const reason = drive->find("reason");
-  if (wheels == nullptr || wheels->elements.size() > sim::kMostWheels ||
+  if (wheels == nullptr || wheels->elements.size() > sim::kMaxWheels ||
       std::any_of(wheels->elements.begin(), wheels->elements.end(),
                   [](const JsonValue& w) { return w.keys.empty(); }) ||
       end == nullptr || at == nullptr || commanded == nullptr || rover == nullptr)

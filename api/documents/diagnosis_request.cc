@@ -8,8 +8,8 @@
 namespace slipway::api::json {
 namespace {
 
-constexpr std::uint64_t kLargestExactWhole = 9'007'199'254'740'991;  // 2^53 - 1
-constexpr std::size_t kMostWithheld = 100;
+constexpr std::uint64_t kMaxExactWhole = 9'007'199'254'740'991;  // 2^53 - 1
+constexpr std::size_t kMaxWithheld = 100;
 
 }  // namespace
 
@@ -21,8 +21,8 @@ Result<Reading<DiagnosisRequest>> read_diagnosis_request(std::string_view bytes)
   ObjectReader reader(*document, "", reading.faults);
   if (!reader.is_object()) return reading;
   reader.text("campaign", kRequired, {.most = 64, .is_name = true}, request.campaign);
-  reader.texts("without", kOptional, {0, kMostWithheld}, {.most = 64, .is_name = true}, request.without);
-  reader.whole("seed", kOptional, std::uint64_t{0}, kLargestExactWhole, request.seed);
+  reader.texts("without", kOptional, {0, kMaxWithheld}, {.most = 64, .is_name = true}, request.without);
+  reader.whole("seed", kOptional, std::uint64_t{0}, kMaxExactWhole, request.seed);
   reader.refuse_unknown();
   std::vector<std::string> known;
   for (const sim::Effect& effect : sim::effect_catalogue()) known.emplace_back(effect.name);

@@ -8,7 +8,7 @@ namespace slipway::api::json {
 namespace {
 
 constexpr NumberRule kMapMetres{"m", -1e8, 1e8};
-constexpr std::uint64_t kLargestExactWhole = 9'007'199'254'740'991;  // 2^53 - 1
+constexpr std::uint64_t kMaxExactWhole = 9'007'199'254'740'991;  // 2^53 - 1
 
 void read_limits(ObjectReader& reader, sim::DriveLimits& limits) {
   auto object = reader.object("limits", kOptional);
@@ -28,8 +28,8 @@ void read_drive_assumptions(ObjectReader& reader, DriveAssumptions& drive) {
   read_effects(reader, drive.effects);
   read_failed_wheels(reader, drive.failed_wheels);
   reader.whole("draws", kOptional, 1, RequestLimits::kDraws, drive.draws);
-  reader.whole("seed", kOptional, std::uint64_t{0}, kLargestExactWhole, drive.seed);
-  reader.number("speed_m_s", kOptional, {"m/s", RequestLimits::kLeastSpeed_m_s, 10.0}, drive.speed_m_s);
+  reader.whole("seed", kOptional, std::uint64_t{0}, kMaxExactWhole, drive.seed);
+  reader.number("speed_m_s", kOptional, {"m/s", RequestLimits::kMinSpeed_m_s, 10.0}, drive.speed_m_s);
   reader.number("motor_temp_c", kOptional, {"degC", -150.0, 150.0}, drive.conditions.motor_temp_c);
   read_whole_model(reader, drive.model);
 }

@@ -52,8 +52,8 @@ void read_ring(const Element& element, planner::Polygon& ring, std::vector<Fault
   }
   if (faults.size() != before) return;
   if (ring.front() == ring.back()) ring.pop_back();  // a ring closed as GeoJSON closes it
-  constexpr double kLeastArea_m2 = 1e-4;
-  if (ring.size() < 3 || std::abs(doubled_area(ring)) < 2.0 * kLeastArea_m2) {
+  constexpr double kMinArea_m2 = 1e-4;
+  if (ring.size() < 3 || std::abs(doubled_area(ring)) < 2.0 * kMinArea_m2) {
     faults.push_back({element.pointer, "encloses no area"});
   }
 }
@@ -92,7 +92,7 @@ Result<Reading<PlanRequest>> read_plan_request(std::string_view bytes,
   }
   read_weights(reader, request.weights);
   reader.whole("routes", kOptional, 1, RequestLimits::kRoutes, request.routes);
-  reader.whole("verify", kOptional, 0, planner::kMostVerified, request.verify);
+  reader.whole("verify", kOptional, 0, planner::kMaxVerified, request.verify);
   reader.texts("planners", kOptional, {0, 20}, {.most = 64}, request.planners);
   read_drive_assumptions(reader, request.drive);
   reader.refuse_unknown();

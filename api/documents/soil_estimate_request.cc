@@ -13,8 +13,8 @@
 namespace slipway::api::json {
 namespace {
 
-constexpr std::uint64_t kLargestExactWhole = 9'007'199'254'740'991;  // 2^53 - 1
-constexpr std::size_t kMostTests = 2000, kMostPlates = 100, kMostSamples = 2000;
+constexpr std::uint64_t kMaxExactWhole = 9'007'199'254'740'991;  // 2^53 - 1
+constexpr std::size_t kMaxTests = 2000, kMaxPlates = 100, kMaxSamples = 2000;
 
 void read_wheel(ObjectReader& reader, TestedWheel& wheel) {
   reader.text("rover", kOptional, {.most = 64, .is_name = true}, wheel.rover);
@@ -31,7 +31,7 @@ void read_wheel(ObjectReader& reader, TestedWheel& wheel) {
 }
 
 void read_wheel_tests(ObjectReader& reader, sim::SlipDefinition definition, SoilEstimateRequest& request) {
-  for (const Element& element : reader.list("wheel_tests", kOptional, {1, kMostTests})) {
+  for (const Element& element : reader.list("wheel_tests", kOptional, {1, kMaxTests})) {
     const std::size_t before = reader.faults().size();
     ObjectReader test = reader.object(element);
     if (!test.is_object()) continue;
@@ -51,13 +51,13 @@ void read_wheel_tests(ObjectReader& reader, sim::SlipDefinition definition, Soil
 }
 
 void read_plate_tests(ObjectReader& reader, SoilEstimateRequest& request) {
-  for (const Element& element : reader.list("plate_tests", kOptional, {1, kMostPlates})) {
+  for (const Element& element : reader.list("plate_tests", kOptional, {1, kMaxPlates})) {
     ObjectReader test = reader.object(element);
     if (!test.is_object()) continue;
     gap::PlateRecord& plate = request.data.plates.emplace_back();
     test.number("plate_radius_m", kRequired, {"m", 0.001, 5.0}, plate.radius_m);
-    test.numbers("sinkage_m", kRequired, {1, kMostSamples}, {"m", 0.0, 5.0, true}, plate.sinkage_m);
-    test.numbers("pressure_pa", kRequired, {1, kMostSamples}, {"Pa", -1e9, 1e9}, plate.pressure_pa);
+    test.numbers("sinkage_m", kRequired, {1, kMaxSamples}, {"m", 0.0, 5.0, true}, plate.sinkage_m);
+    test.numbers("pressure_pa", kRequired, {1, kMaxSamples}, {"Pa", -1e9, 1e9}, plate.pressure_pa);
     test.refuse_unknown();
     if (!has_fault_under(reader.faults(), element.pointer) &&
         plate.sinkage_m.size() != plate.pressure_pa.size())
@@ -111,7 +111,7 @@ void read_options(ObjectReader& reader, gap::SoilEstimationOptions& options) {
   if (reader.number("noise", kOptional, {"", 1e-4, 1.0}, options.noise.share))
     options.noise.share_of_rms = 0.25 * options.noise.share;
   reader.boolean("profile", kOptional, options.profile);
-  reader.whole("seed", kOptional, std::uint64_t{0}, kLargestExactWhole, options.seed);
+  reader.whole("seed", kOptional, std::uint64_t{0}, kMaxExactWhole, options.seed);
 }
 
 }  // namespace

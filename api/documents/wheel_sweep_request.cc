@@ -56,7 +56,7 @@ void read_axis(const Element& element, sim::SweepAxis& axis, std::vector<Fault>&
   reader.text("parameter", kRequired, {.most = 100}, axis.parameter);
   const NumberRule any{"", -1e12, 1e12};
   if (element.value->find("values") != nullptr) {
-    reader.numbers("values", kRequired, {1, sim::kMostSweepRows}, any, axis.values);
+    reader.numbers("values", kRequired, {1, sim::kMaxSweepRows}, any, axis.values);
     return reader.refuse_unknown();
   }
   // Where the parameter is unknown, that is the fault that is said.
@@ -103,7 +103,7 @@ Result<Reading<WheelSweepRequest>> read_wheel_sweep_request(std::string_view byt
   read_test(reader, request);
   read_effects(reader, request.effects);
   read_settings(reader, request.set);
-  for (const Element& element : reader.list("sweep", kOptional, {0, sim::kMostSweepAxes}))
+  for (const Element& element : reader.list("sweep", kOptional, {0, sim::kMaxSweepAxes}))
     read_axis(element, request.sweep.emplace_back(), reading.faults);
   reader.refuse_unknown();
   return reading;

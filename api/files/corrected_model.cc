@@ -18,13 +18,13 @@
 namespace slipway::api {
 namespace {
 
-constexpr std::size_t kMostName = 28;  // of each part; a whole name has 64 at most
-constexpr std::size_t kMostSummary = 480;
+constexpr std::size_t kMaxName = 28;  // of each part; a whole name has 64 at most
+constexpr std::size_t kMaxSummary = 480;
 
 // Made of what a catalogue's name may have.
 std::string as_name(std::string_view text) {
   std::string name;
-  for (const char c : text.substr(0, kMostName)) {
+  for (const char c : text.substr(0, kMaxName)) {
     const bool lower = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
     const bool upper = c >= 'A' && c <= 'Z';
     name += lower ? c : upper ? static_cast<char>(c - 'A' + 'a') : '-';
@@ -90,7 +90,7 @@ std::optional<CorrectedModel> corrected_model(const gap::DriveCampaign& campaign
   rover.summary =
       fmt::format("{} as campaign {} shows it: {}", as_name(rover.name), as_name(campaign.name),
                   names.empty() ? "no effect is missing" : fmt::format("{}", fmt::join(names, ", ")))
-          .substr(0, kMostSummary);
+          .substr(0, kMaxSummary);
   rover.sources = {source};
   const std::string version = version_of(model);
   const auto versioned = [&](const std::string& name) {

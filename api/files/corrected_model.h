@@ -19,8 +19,8 @@ struct CorrectedModel {
   sim::RoverModel rover;
   std::vector<sim::SoilDistribution> soils;  // in the campaign's order
   std::vector<sim::EffectSetting> effects;   // all that are at work; places on a map are in no rover's file
-  std::optional<gap::NoiseScales> noise;     // what the campaign's drives scatter by, where it is told
-  std::optional<gap::ParameterPosterior> left_open;  // what they leave open, where it is told
+  std::optional<gap::NoiseScales> noise;     // what the campaign's drives scatter by, where it is known
+  std::optional<gap::ParameterPosterior> left_open;  // what they leave open, where it is known
 };
 
 // Nothing where the diagnosis offers none.

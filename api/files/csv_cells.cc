@@ -50,9 +50,9 @@ CsvHeader read_csv_header(const CsvLine& line, std::string_view file, const std:
                           std::vector<Fault>& faults) {
   const std::vector<std::string_view> names = csv_cells(line.text);
   CsvHeader header{std::vector<std::optional<std::size_t>>(known.size()), names.size()};
-  if (names.size() > kMostColumns) {
+  if (names.size() > kMaxColumns) {
     faults.push_back({fmt::format("{}, line {}", file, line.number),
-                      fmt::format("{} columns, must be {} at most", names.size(), kMostColumns)});
+                      fmt::format("{} columns, must be {} at most", names.size(), kMaxColumns)});
     return header;
   }
   for (std::size_t c = 0; c < names.size(); ++c) {

@@ -23,14 +23,14 @@ std::vector<CsvLine> csv_lines(std::string_view text);
 std::vector<std::string_view> csv_cells(std::string_view line);
 
 // A header with more columns than this is refused before its names are compared with each other.
-inline constexpr std::size_t kMostColumns = 1000;
+inline constexpr std::size_t kMaxColumns = 1000;
 
 // Where each known column stands in a header, and how many cells its rows must have.
 struct CsvHeader {
   std::vector<std::optional<std::size_t>> places;  // of `known`, in its order
   std::size_t width = 0;
 };
-// Columns that are not known, or there twice, are faults of `file`; so are more than kMostColumns, alone.
+// Columns that are not known, or there twice, are faults of `file`; so are more than kMaxColumns, alone.
 CsvHeader read_csv_header(const CsvLine& line, std::string_view file, const std::vector<std::string>& known,
                           std::vector<Fault>& faults);
 

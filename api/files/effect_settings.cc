@@ -3,7 +3,7 @@
 namespace slipway::api::json {
 namespace {
 
-constexpr std::size_t kMostEffects = 50;
+constexpr std::size_t kMaxEffects = 50;
 
 void read_parameters(ObjectReader& effect, sim::EffectSetting& setting) {
   const JsonValue* const parameters = effect.member("parameters", kOptional);
@@ -26,7 +26,7 @@ void read_parameters(ObjectReader& effect, sim::EffectSetting& setting) {
 }  // namespace
 
 void read_effects(ObjectReader& reader, std::vector<sim::EffectSetting>& effects) {
-  for (const Element& element : reader.list("effects", kOptional, {0, kMostEffects})) {
+  for (const Element& element : reader.list("effects", kOptional, {0, kMaxEffects})) {
     ObjectReader effect(*element.value, element.pointer, reader.faults());
     sim::EffectSetting& setting = effects.emplace_back();  // also when faulty: the indices must stay
     effect.text("name", kRequired, {.most = 64}, setting.name);

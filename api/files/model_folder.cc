@@ -20,7 +20,7 @@ namespace slipway::api {
 namespace {
 
 constexpr std::string_view kFormat = "corrected-model/1";
-constexpr std::size_t kMostSoils = 1000;
+constexpr std::size_t kMaxSoils = 1000;
 
 struct Substitute {
   std::string nominal, corrected;
@@ -60,7 +60,7 @@ Result<Description> read_description(std::string_view bytes) {
   reader.choice("format", json::kRequired, {kFormat}, format);
   reader.text("campaign", json::kRequired, {}, description.campaign);
   if (auto rover = reader.object("rover", json::kRequired)) description.rover = read_substitute(*rover);
-  for (const json::Element& element : reader.list("soils", json::kRequired, {1, kMostSoils}))
+  for (const json::Element& element : reader.list("soils", json::kRequired, {1, kMaxSoils}))
     description.soils.push_back(read_substitute(reader.object(element)));
   if (auto noise = reader.object("noise", json::kOptional))
     description.noise = json::read_noise_scales(*std::move(noise));

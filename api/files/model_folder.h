@@ -19,7 +19,7 @@ struct ModelFolder {
   std::string nominal_rover;
   std::vector<std::string> nominal_soils;  // in the order of model.soils
   CorrectedModel model;
-  // Of the values that the nominal rover and soils had, see digest_of; empty where it is not told.
+  // Of the values that the nominal rover and soils had, see digest_of; empty where it is not known.
   std::string rover_digest = {};
   std::vector<std::string> soil_digests = {};
 };

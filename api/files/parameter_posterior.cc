@@ -6,7 +6,7 @@ namespace slipway::api::json {
 namespace {
 
 constexpr std::string_view kKey = "left_open";
-constexpr std::size_t kMostParameters = 10000;
+constexpr std::size_t kMaxParameters = 10000;
 
 }  // namespace
 
@@ -28,7 +28,7 @@ void write_parameter_posterior(Writer& w, const gap::ParameterPosterior& posteri
 
 std::optional<gap::ParameterPosterior> read_parameter_posterior(ObjectReader& model) {
   const std::size_t before = model.faults().size();
-  const std::vector<Element> elements = model.list(kKey, kOptional, {1, kMostParameters});
+  const std::vector<Element> elements = model.list(kKey, kOptional, {1, kMaxParameters});
   if (elements.empty()) return std::nullopt;
   gap::ParameterPosterior posterior;
   const auto count = static_cast<Eigen::Index>(elements.size());

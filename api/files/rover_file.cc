@@ -19,7 +19,7 @@ namespace slipway::api::json {
 namespace {
 
 constexpr NumberRule kBodyMetres{"m", -10.0, 10.0};
-constexpr std::size_t kMostSources = 50;
+constexpr std::size_t kMaxSources = 50;
 
 // In the order of sim::WheelDrive and sim::SuspensionType.
 const std::vector<std::string_view> kWheelDrives{"driven", "locked", "free"};
@@ -51,10 +51,10 @@ sim::Side side_of(const sim::WheelModel& wheel) {
 }
 
 void read_wheels(ObjectReader& reader, sim::RoverModel& rover) {
-  reader.whole("wheel_slices", kOptional, 1, sim::kMostSlices, rover.wheel_slices);
+  reader.whole("wheel_slices", kOptional, 1, sim::kMaxSlices, rover.wheel_slices);
   // Given for the rover, they are on every wheel that has none of its own.
   const std::optional<sim::Grousers> everywhere = read_grousers(reader);
-  for (const Element& element : reader.list("wheels", kRequired, {3, sim::kMostWheels})) {
+  for (const Element& element : reader.list("wheels", kRequired, {3, sim::kMaxWheels})) {
     ObjectReader object = reader.object(element);
     sim::WheelModel& wheel = rover.wheels.emplace_back();
     object.text("name", kRequired, {.most = 8, .is_name = true}, wheel.name);
@@ -234,8 +234,8 @@ Result<sim::RoverModel> read_rover_file(std::string_view bytes) {
   reader.choice("format", kRequired, {"rover/1"}, format);
   reader.text("name", kRequired, {.most = 64, .is_name = true}, rover.name);
   reader.text("summary", kRequired, {.most = 500}, rover.summary);
-  reader.texts("sources", kRequired, {1, kMostSources}, {.most = 500}, rover.sources);
-  reader.texts("assumed", kRequired, {0, kMostSources}, {}, rover.assumed);
+  reader.texts("sources", kRequired, {1, kMaxSources}, {.most = 500}, rover.sources);
+  reader.texts("assumed", kRequired, {0, kMaxSources}, {}, rover.assumed);
   read_fields(reader, sim::mass_fields(), kRequired, rover);
   read_point(reader, "com_m", rover.com_m);
   read_masses(reader, rover.masses);

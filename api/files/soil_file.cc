@@ -13,7 +13,7 @@
 namespace slipway::api::json {
 namespace {
 
-constexpr std::size_t kMostSoils = 1000;
+constexpr std::size_t kMaxSoils = 1000;
 // The uncertain quantities, in the order of sim::SoilNormals.
 constexpr std::array<std::string_view, sim::kSoilDims> kQuantities{"stiffness", "n", "cohesion",
                                                                    "friction_angle", "shear_modulus"};
@@ -237,7 +237,7 @@ void read_campaign_soil(ObjectReader& reader, Presence less_known, sim::Soil& so
 std::vector<sim::SoilDistribution> read_soils(ObjectReader& reader, std::string_view key, Presence presence,
                                               const sim::SoilFormat& format) {
   std::vector<sim::SoilDistribution> soils;
-  for (const Element& element : reader.list(key, presence, {1, kMostSoils}))
+  for (const Element& element : reader.list(key, presence, {1, kMaxSoils}))
     read_soil(element, format, soils.emplace_back(), reader.faults());
   return soils;
 }

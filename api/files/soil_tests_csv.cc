@@ -14,7 +14,7 @@
 namespace slipway::api {
 namespace {
 
-constexpr std::size_t kMostRows = 20'000;
+constexpr std::size_t kMaxRows = 20'000;
 
 using Column = TestColumn;
 
@@ -57,9 +57,9 @@ class Table {
       faults_.push_back({std::string(file_), "the file is empty"});
       return rows;
     }
-    if (lines.size() - 1 > kMostRows) {
+    if (lines.size() - 1 > kMaxRows) {
       faults_.push_back(
-          {std::string(file_), fmt::format("{} rows, must be {} at most", lines.size() - 1, kMostRows)});
+          {std::string(file_), fmt::format("{} rows, must be {} at most", lines.size() - 1, kMaxRows)});
       return rows;
     }
     read_header(lines.front());
@@ -121,12 +121,12 @@ class Table {
 };
 
 // A file may be wrong in every cell: so many faults are reported one by one, and how many more there are.
-constexpr std::size_t kMostFaults = 100;
+constexpr std::size_t kMaxFaults = 100;
 
 tl::unexpected<Error> unreadable(std::string_view file, std::vector<Fault> faults) {
-  if (faults.size() > kMostFaults) {
-    const std::size_t more = faults.size() - kMostFaults;
-    faults.resize(kMostFaults);
+  if (faults.size() > kMaxFaults) {
+    const std::size_t more = faults.size() - kMaxFaults;
+    faults.resize(kMaxFaults);
     faults.push_back({std::string(file), fmt::format("{} faults more like these", more)});
   }
   return fail(ErrorCode::kUnreadableData, fmt::format("{} can't be read", file), std::move(faults));

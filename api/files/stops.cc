@@ -11,7 +11,7 @@
 namespace slipway::api {
 namespace {
 
-constexpr std::size_t kMostStops = 10'000;
+constexpr std::size_t kMaxStops = 10'000;
 
 // Cells of a row; the tables that ship hold no quoted cells.
 std::vector<std::string_view> cells_of(std::string_view row) {
@@ -71,8 +71,8 @@ Result<std::vector<Stop>> read_stops(std::string_view csv) {
       header = cells_of(line);
       continue;
     }
-    if (stops.size() == kMostStops) {
-      return fail(ErrorCode::kUnreadableData, fmt::format("more than {} stops", kMostStops));
+    if (stops.size() == kMaxStops) {
+      return fail(ErrorCode::kUnreadableData, fmt::format("more than {} stops", kMaxStops));
     }
     read_stop(header, {line, number}, stops.emplace_back(), faults);
   }

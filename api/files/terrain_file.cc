@@ -9,7 +9,7 @@
 namespace slipway::api::json {
 namespace {
 
-constexpr std::size_t kMostClasses = 1000;
+constexpr std::size_t kMaxClasses = 1000;
 
 // A plain name: it can't leave its folder and names no driver, handler or hidden file.
 void read_file_name(ObjectReader& reader, std::string_view key, Presence presence, std::string& out) {
@@ -30,7 +30,7 @@ void read_file_name(ObjectReader& reader, std::string_view key, Presence presenc
 
 void read_legend(ObjectReader& soil, TerrainDescription& terrain) {
   int row = 0;
-  for (const Element& element : soil.list("legend", kRequired, {0, kMostClasses})) {
+  for (const Element& element : soil.list("legend", kRequired, {0, kMaxClasses})) {
     ObjectReader reader(*element.value, element.pointer, soil.faults());
     dem::SoilClass& entry = terrain.legend.emplace_back();
     entry.value = row++;

@@ -15,7 +15,7 @@
 namespace slipway::api {
 namespace {
 
-constexpr std::uintmax_t kMostFileBytes = std::uintmax_t{64} << 20U;
+constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{64} << 20U;
 
 dem::Extent clipped(const dem::Extent& wanted, const dem::Extent& map) {
   return {std::max(wanted.west_m, map.west_m), std::max(wanted.south_m, map.south_m),
@@ -51,9 +51,9 @@ Result<std::string> read_data_file(const std::filesystem::path& path) {
     return fail(ErrorCode::kUnreadableData,
                 fmt::format("{} can't be read as a file", path.filename().string()));
   }
-  if (size > kMostFileBytes) {
+  if (size > kMaxFileBytes) {
     return fail(ErrorCode::kUnreadableData, fmt::format("{} has {} bytes, at most {} are read",
-                                                        path.filename().string(), size, kMostFileBytes));
+                                                        path.filename().string(), size, kMaxFileBytes));
   }
   std::ifstream stream(path, std::ios::binary);
   std::string bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());

@@ -145,8 +145,8 @@ std::string printable(std::string text) {
       text.begin(), text.end(),
       [](char c) { return static_cast<unsigned char>(c) >= 0x80U || static_cast<unsigned char>(c) < 0x20U; },
       '?');
-  constexpr std::size_t kMost = 300;
-  if (text.size() > kMost) text.replace(kMost, std::string::npos, "...");
+  constexpr std::size_t kMax = 300;
+  if (text.size() > kMax) text.replace(kMax, std::string::npos, "...");
   return text;
 }
 

@@ -21,7 +21,7 @@ using gap::Interval;
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 constexpr double kHalfBar = 0.3;  // of the width between two categories
-constexpr std::size_t kMostExplanations = 5;
+constexpr std::size_t kMaxExplanations = 5;
 
 std::string words_of(Channel channel) {
   std::string words(gap::name_of(channel));
@@ -64,7 +64,7 @@ std::string draw_explanations(const Diagnosis& d) {
   for (const gap::ComparedSet& set : json::compared_sets(d)) {
     ++rank;
     const bool ends = set.effects.empty();  // nothing missing, or something unknown alone
-    if (rank > kMostExplanations && !ends) continue;
+    if (rank > kMaxExplanations && !ends) continue;
     const std::size_t index = chart.x.categories.size();
     const auto at = static_cast<double>(index);
     const std::vector<std::string> names = gap::names_of(set);
@@ -125,14 +125,14 @@ std::string draw_ladder(const Diagnosis& d) {
     chart.y.lowest = 0.0;
     chart.x.categories = {"nominal", "re-tuned", "with effects", "floor"};
     ChartSeries values = series_of("held-out drives", ChartMark::kLine, 1);
-    const std::array<Interval, 4> rungs{channel.nominal, channel.retuned, channel.with_effects,
+    const std::array<Interval, 4> levels{channel.nominal, channel.retuned, channel.with_effects,
                                         channel.noise_floor};
-    for (std::size_t k = 0; k < rungs.size(); ++k) {
+    for (std::size_t k = 0; k < levels.size(); ++k) {
       const auto at = static_cast<double>(k);
-      if (!std::isfinite(rungs[k].value)) continue;
-      if (std::isfinite(rungs[k].low) && std::isfinite(rungs[k].high))
-        add_bar(chart, "90 % interval", at, unit * rungs[k].low, unit * rungs[k].high, 0);
-      add_level(values, at, unit * rungs[k].value);
+      if (!std::isfinite(levels[k].value)) continue;
+      if (std::isfinite(levels[k].low) && std::isfinite(levels[k].high))
+        add_bar(chart, "90 % interval", at, unit * levels[k].low, unit * levels[k].high, 0);
+      add_level(values, at, unit * levels[k].value);
     }
     chart.series = {std::move(values)};
   }

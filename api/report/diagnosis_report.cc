@@ -22,7 +22,7 @@ using gap::Verdict;
 using Spans = std::vector<ReportText::Span>;
 using Style = ReportText::Style;
 
-constexpr std::size_t kMostCandidates = 10;
+constexpr std::size_t kMaxCandidates = 10;
 
 // What the verdict means, for someone who has not read the manual.
 std::string_view meaning(Verdict verdict) {
@@ -125,7 +125,7 @@ class Report {
     std::size_t shown = 0;
     for (const gap::ComparedSet& set : json::compared_sets(d_)) {
       const bool ends = set.effects.empty();  // nothing missing, or something unknown alone
-      if (++shown > kMostCandidates && !ends) continue;
+      if (++shown > kMaxCandidates && !ends) continue;
       page_.row({set_words(gap::names_of(set)), probability_words(set.probability),
                  fmt::format("{}", set.complexity),
                  set.held_out_score ? number_words("{:+.2f}", *set.held_out_score) : "",
@@ -147,8 +147,8 @@ class Report {
     const gap::PlannersView& view = d_.planners_view;
     if (view.observations == 0) return;
     page_.paragraph(
-        fmt::format("What planning with each model would have told of these drives: {} observations, {} "
-                    "windows of which {} "
+        fmt::format("What planning with each model would have predicted of these drives: {} observations, "
+                    "{} windows of which {} "
                     "slipped by more than {:g}, {} pairs of drives of which one clearly slipped more.",
                     view.observations, view.windows, view.immobilised, gap::kCensoredSlip, view.pairs));
     page_.table(
@@ -193,10 +193,9 @@ class Report {
     write_planners_view();
     if (!d_.extrapolations.empty()) {
       page_.paragraph(
-          "Learnt from the gentle drives, told of the harshest third: gain of log density a drive over "
-          "re-tuned "
-          "parameters alone.");
-      page_.table({"told", "drives", "gain", "standard error"});
+          "Learnt from the gentle drives and used to predict the harshest third: gain of log density a drive "
+          "over re-tuned parameters alone.");
+      page_.table({"predicted", "drives", "gain", "standard error"});
       for (const gap::Extrapolation& e : d_.extrapolations)
         page_.row({fmt::format("{} {} {:.3g}", e.variable, e.above ? "above" : "below", e.limit),
                    fmt::format("{}", e.groups), number_words("{:+.2f}", e.log_density_gain),

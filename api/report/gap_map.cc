@@ -18,11 +18,11 @@ namespace {
 
 using gap::WindowGap;
 
-constexpr std::size_t kMostTerrains = 6;
+constexpr std::size_t kMaxTerrains = 6;
 constexpr double kMap_px = 392.0, kMapHeight_px = 300.0, kGap_px = 14.0;
 constexpr double kLeft_px = 14.0, kTitle_px = 44.0, kRowTitle_px = 24.0, kLegend_px = 66.0;
 constexpr int kColumns = 98, kRows = 75;  // of the hillshade
-constexpr double kMargin = 1.12, kLeast_m = 2.0;
+constexpr double kMargin = 1.12, kMin_m = 2.0;
 constexpr double kExaggeration = 1.5, kDarkest = 120.0, kBrightest = 250.0;
 
 struct Level {
@@ -61,8 +61,8 @@ struct Frame {
     north_m = std::max(north_m, y_m + around_m);
   }
   void close() {
-    const double width = kMargin * std::max(kLeast_m, east_m - west_m),
-                 height = kMargin * std::max(kLeast_m, north_m - south_m);
+    const double width = kMargin * std::max(kMin_m, east_m - west_m),
+                 height = kMargin * std::max(kMin_m, north_m - south_m);
     px_per_m = std::min(kMap_px / width, kMapHeight_px / height);
     const double x_m = 0.5 * (west_m + east_m), y_m = 0.5 * (south_m + north_m);
     west_m = x_m - 0.5 * kMap_px / px_per_m;
@@ -164,10 +164,10 @@ std::vector<std::size_t> shown_terrains(const std::vector<std::vector<const Wind
       worst[t] += window->nominal * window->nominal / static_cast<double>(windows[t].size());
     if (!windows[t].empty()) shown.push_back(t);
   }
-  if (shown.size() > kMostTerrains) {
+  if (shown.size() > kMaxTerrains) {
     std::stable_sort(shown.begin(), shown.end(),
                      [&](std::size_t a, std::size_t b) { return worst[a] > worst[b]; });
-    shown.resize(kMostTerrains);
+    shown.resize(kMaxTerrains);
     std::sort(shown.begin(), shown.end());
   }
   return shown;

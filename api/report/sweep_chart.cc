@@ -161,7 +161,7 @@ Chart sweep_chart(std::string_view title, std::span<const sim::SweepAxis> axes,
 
 std::string draw_sweep(std::string_view title, std::span<const sim::SweepAxis> axes,
                        std::span<const SweptQuantity> quantities) {
-  if (axes.size() > 1 && axes[1].values.size() > kMostSweepLines)
+  if (axes.size() > 1 && axes[1].values.size() > kMaxSweepLines)
     return draw_as_heat_map(title, axes, quantities.front());
   std::vector<Chart> charts;
   for (const SweptQuantity& quantity : quantities) charts.push_back(sweep_chart("", axes, quantity));

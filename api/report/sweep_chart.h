@@ -19,14 +19,14 @@ struct SweptQuantity {
 };
 
 // The most lines that one chart of a sweep tells apart.
-constexpr std::size_t kMostSweepLines = 7;
+constexpr std::size_t kMaxSweepLines = 7;
 
 // A parameter of a sweep as an axis says it, with its unit: "load, N", "slip angle, deg", "grousers height,
 // m".
 std::string parameter_title(std::string_view parameter);
 
 // The quantity over the first axis, a line for each value of the second; at least one axis, and at most
-// kMostSweepLines values on the second. An axis whose values stand in equal ratios is logarithmic.
+// kMaxSweepLines values on the second. An axis whose values stand in equal ratios is logarithmic.
 Chart sweep_chart(std::string_view title, std::span<const sim::SweepAxis> axes,
                   const SweptQuantity& quantity);
 

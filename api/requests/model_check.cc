@@ -54,9 +54,9 @@ std::vector<std::string> notes_of(const gap::DriveCampaign& campaign, const Mode
         "corrected one).",
         check.unanswered_nominal, check.unanswered_corrected));
   if (std::any_of(check.channels.begin(), check.channels.end(),
-                  [](const gap::ChannelCheck& c) { return c.drives < gap::kLeastDrives; }))
+                  [](const gap::ChannelCheck& c) { return c.drives < gap::kMinDrives; }))
     notes.push_back(fmt::format("Channels with fewer than {} drives, repeats counted once, have no interval.",
-                                gap::kLeastDrives));
+                                gap::kMinDrives));
   return notes;
 }
 

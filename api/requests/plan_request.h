@@ -66,7 +66,7 @@ struct RequestLimits {
   static constexpr std::size_t kKeepOutCorners = 500;
   static constexpr std::size_t kPathCorners = 2000;
   static constexpr double kPathLength_m = 20'000.0;
-  static constexpr double kLeastSpeed_m_s = 1e-4;  // slower drives take longer than any mission
+  static constexpr double kMinSpeed_m_s = 1e-4;  // slower drives take longer than any mission
   static constexpr int kRoutes = 8;
   static constexpr int kDraws = 500;
 };

@@ -16,7 +16,7 @@
 namespace slipway::api {
 namespace {
 
-constexpr std::size_t kMostName = 40, kMostText = 480;
+constexpr std::size_t kMaxName = 40, kMaxText = 480;
 
 // At most so many bytes, without a character of UTF-8 that is cut in its middle.
 std::string shortened(const std::string& text, std::size_t most) {
@@ -37,7 +37,7 @@ std::string file_name_of(const std::string& name) {
     const bool capital = c >= 'A' && c <= 'Z';
     out += plain ? c : capital ? static_cast<char>(c - 'A' + 'a') : '_';
   }
-  return out.substr(0, kMostName);
+  return out.substr(0, kMaxName);
 }
 
 void check(std::string_view name, const std::optional<double>& value, double lowest, double highest,
@@ -76,9 +76,9 @@ void name_posterior(gap::SoilEstimate& estimate, const std::string& nominal, con
   const std::string version = fmt::format("{:016x}", campaign::digest_of(w.take())).substr(0, 6);
   soil.summary = shortened(fmt::format("{} as {} show it{}{}", nominal, what,
                                        open.empty() ? "" : "; not determined: ", fmt::join(open, ", ")),
-                           kMostText);
+                           kMaxText);
   soil.source = shortened(
-      fmt::format("estimated by slipway estimate from {}, starting from {}", what, nominal), kMostText);
+      fmt::format("estimated by slipway estimate from {}, starting from {}", what, nominal), kMaxText);
   soil.name = fmt::format("{}-{}", file_name_of(nominal), version);
 }
 

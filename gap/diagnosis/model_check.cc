@@ -93,7 +93,7 @@ ChannelCheck score_of(std::span<const PredictedValue> predicted, Channel channel
   std::vector<const Errors*> groups;
   for (const auto& [group, errors] : by_group) groups.push_back(&errors);
   std::vector<Errors> resampled;
-  if (groups.size() >= kLeastDrives)
+  if (groups.size() >= kMinDrives)
     for (const auto& picks : resampled_indices(groups.size(), options.resamples, options.seed)) {
       resampled.emplace_back();
       for (const std::size_t pick : picks) resampled.back().add(*groups[pick]);

@@ -48,12 +48,12 @@ constexpr double kLevelWithin_deg = 8.0;
 std::string_view name_of(SlopeClass slope);  // "all", "up", "level", "down"
 
 // An error of both models, and how far down the correction brings it. down is negative where it got worse;
-// its 90 % interval is bootstrapped over drives, and none is told of fewer than kLeastDrives.
+// its 90 % interval is bootstrapped over drives, and none is given for fewer than kMinDrives.
 struct ErrorChange {
   double nominal = 0.0, corrected = 0.0, down_percent = 0.0;
   std::optional<Interval> down_interval;
 };
-constexpr std::size_t kLeastDrives = 5;
+constexpr std::size_t kMinDrives = 5;
 
 struct ChannelCheck {
   Channel channel = Channel::kSlip;

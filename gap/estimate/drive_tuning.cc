@@ -182,7 +182,7 @@ class Fitter {
   // last one left over go on until it stays what it was.
   Result<LeastSquaresFit> fit_robustly(std::span<const std::size_t> chosen, std::span<const double> start,
                                        Known& known, double& noise, Progress& progress) const {
-    constexpr int kMostRounds = 8;
+    constexpr int kMaxRounds = 8;
     constexpr double kSame = 0.05;
     if (options_.scales_are_errors) return fit_in_units_of(1.0, chosen, start, true, known, progress);
     std::vector<double> at(start.begin(), start.end());
@@ -192,7 +192,7 @@ class Fitter {
       auto found = fit_in_units_of(noise, chosen, at, true, known, progress);
       if (!found) return found;
       const double next = noise * noise_of(found->residuals, start.size()).value_or(1.0);
-      if (round == kMostRounds || std::abs(next - noise) <= kSame * noise) return found;
+      if (round == kMaxRounds || std::abs(next - noise) <= kSame * noise) return found;
       noise = next;
       at = found->estimate;
     }

@@ -38,10 +38,10 @@ std::vector<Fault> faults_of(std::span<const SweptParameter> parameters, std::sp
   }
   if (weights.empty()) faults.push_back({"", "there is no case to score"});
   const double scores = (coarse + fine) * static_cast<double>(weights.size());
-  if (scores > kMostSweepCases)
+  if (scores > kMaxSweepCases)
     faults.push_back(
         {"/parameters", fmt::format("{} scores are asked for, {} at most: fewer values or parameters", scores,
-                                    kMostSweepCases)});
+                                    kMaxSweepCases)});
   return faults;
 }
 

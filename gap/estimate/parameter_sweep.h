@@ -57,11 +57,11 @@ std::optional<double> score_over(const SweepPoint& point, std::span<const std::s
 // threads (0: as many as the machine has), the result does not depend on their number.
 //
 // Errors: invalid_request for parameters that can't be swept ("/parameters/0/lowest") or more than
-// kMostSweepCases scores; not_converged where no point of the coarse grid has a score; cancelled.
+// kMaxSweepCases scores; not_converged where no point of the coarse grid has a score; cancelled.
 Result<ParameterSweep> sweep_coarse_then_fine(std::span<const SweptParameter> parameters,
                                               std::span<const double> weights, const ScoreOfCase& score,
                                               std::size_t threads, Progress& progress);
-constexpr double kMostSweepCases = 1e6;
+constexpr double kMaxSweepCases = 1e6;
 
 // The score surface over two parameters: at each pair of their values the best score that the others allow
 // (its profile, where there are more than two). Over one parameter where `x` and `y` are the same: a row.

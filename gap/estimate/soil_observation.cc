@@ -34,7 +34,7 @@ sim::WheelMotion motion_of(const sim::WheelRigConditions& test) {
              : sim::rig_motion(test.slip, test.slip_angle_rad);
 }
 
-constexpr double kLeastAngle = 1e-4;
+constexpr double kMinAngle = 1e-4;
 constexpr double kOfLoad = 1e-10;  // how far off the load a wheel may be left, well below a step's change
 
 }  // namespace
@@ -148,7 +148,7 @@ void SoilObservations::balance(Group& g) {
   const auto solve_alone = [&](std::size_t i) {
     const auto angle = sim::balanced_entry_angle_rad(g.wheel, g.soils[i], g.loads_n[i], g.motions[i]);
     g.sunk[i] = !angle.has_value();
-    g.angles[i] = angle.value_or(sim::kLargestEntryAngleRad);
+    g.angles[i] = angle.value_or(sim::kMaxEntryAngleRad);
   };
   for (std::size_t i = 0; i < count; ++i)
     if (!g.held[i] && (!g.warm || g.sunk[i])) solve_alone(i);
@@ -161,8 +161,8 @@ void SoilObservations::balance(Group& g) {
       g.slopes[i] = (g.forces[i].vertical_n - g.before[i].vertical_n) / kStep;
     g.warm = true;
   }
-  constexpr int kMostSteps = 8;
-  for (int step = 0; step <= kMostSteps; ++step) {
+  constexpr int kMaxSteps = 8;
+  for (int step = 0; step <= kMaxSteps; ++step) {
     evaluate(g.angles, g.forces);
     bool settled = true, alone = false;
     for (std::size_t i = 0; i < count; ++i) {
@@ -179,8 +179,8 @@ void SoilObservations::balance(Group& g) {
       }
       const double next = g.angles[i] - surplus / g.slopes[i];
       g.tried[i] = g.angles[i];
-      if (step == kMostSteps || !(g.slopes[i] > 0.0) || !(next > kLeastAngle) ||
-          !(next < sim::kLargestEntryAngleRad)) {
+      if (step == kMaxSteps || !(g.slopes[i] > 0.0) || !(next > kMinAngle) ||
+          !(next < sim::kMaxEntryAngleRad)) {
         solve_alone(i);
         alone = true;
       } else {
@@ -188,7 +188,7 @@ void SoilObservations::balance(Group& g) {
       }
     }
     if (settled) return;
-    if (step == kMostSteps && !alone) return;
+    if (step == kMaxSteps && !alone) return;
     g.before = g.forces;
   }
   evaluate(g.angles, g.forces);

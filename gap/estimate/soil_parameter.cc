@@ -9,7 +9,7 @@ namespace slipway::gap {
 namespace {
 
 constexpr double kCohesionScale_pa = 1000.0;
-constexpr double kMostStiffer = 1000.0;  // than the soil that a search starts from, or softer
+constexpr double kMaxStiffer = 1000.0;  // than the soil that a search starts from, or softer
 
 // What the table of a soil's fields does not say of a parameter.
 struct Searched {
@@ -21,7 +21,7 @@ struct Searched {
 
 constexpr std::array<Searched, kSoilParameters> kSearched{{
     {SoilParameter::kBekker, "k_bekker", "both moduli of sinkage as one, k_c / b + k_phi", "",
-     1.0 / kMostStiffer, kMostStiffer, 2.0},
+     1.0 / kMaxStiffer, kMaxStiffer, 2.0},
     {SoilParameter::kKc, "k_c", "cohesive modulus of sinkage; may be negative", "k_c", -20.0, 20.0, 1.0},
     {SoilParameter::kKphi, "k_phi", "frictional modulus of sinkage", "k_phi", -20.0, 20.0, 1.0},
     {SoilParameter::kN, "n", "exponent of sinkage", "n", 0.1, 3.0, 0.5},

@@ -20,7 +20,7 @@ constexpr std::array<SoilParameter, sim::kSoilDims> kQuantities{
     SoilParameter::kShearModulus};
 
 // What a soil's file holds at most: ratios, n, Pa, rad.
-constexpr std::array<double, sim::kSoilDims> kMost{2.0, 1.0, 1e6, rad_from_deg(30.0), 2.0};
+constexpr std::array<double, sim::kSoilDims> kMax{2.0, 1.0, 1e6, rad_from_deg(30.0), 2.0};
 
 std::array<double*, sim::kSoilDims> fields_of(sim::SoilStd& std) {
   return {&std.stiffness_ratio, &std.n, &std.cohesion_pa, &std.friction_angle_rad, &std.shear_modulus_ratio};
@@ -72,10 +72,10 @@ sim::SoilDistribution posterior_soil(const sim::SoilDistribution& nominal, const
     const bool ratio =
         kQuantities[q] == SoilParameter::kBekker || kQuantities[q] == SoilParameter::kShearModulus;
     field = ratio ? std : axes.value_std(kQuantities[q], soil.mean, std);
-    if (field > kMost[q]) {
+    if (field > kMax[q]) {
       soil.assumed.push_back(fmt::format("std of {}: {:.3g} was found, a file holds {:.3g} at most",
-                                         row_of(kQuantities[q]).name, field, kMost[q]));
-      field = kMost[q];
+                                         row_of(kQuantities[q]).name, field, kMax[q]));
+      field = kMax[q];
     }
   }
   // Draws are log-normal: a cohesion of 0 has no spread.

@@ -68,8 +68,8 @@ class Profile {
     double inside = 0.0, outside = room, step = std::min(first_step, room);
     std::optional<double> rise_inside = 0.0, rise_outside;
     std::vector<double> x = at;
-    constexpr int kMostRefits = 7;
-    for (int refit = 0; refit < kMostRefits && room > 0.0 && !progress_.cancelled(); ++refit) {
+    constexpr int kMaxRefits = 7;
+    for (int refit = 0; refit < kMaxRefits && room > 0.0 && !progress_.cancelled(); ++refit) {
       // The others go along as they went so far.
       std::vector<double> there = x;
       const double gone = std::abs(x[profiled_] - centre);

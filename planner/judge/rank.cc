@@ -11,7 +11,7 @@
 namespace slipway::planner {
 namespace {
 
-constexpr double kShortest_m = 0.5;  // differences in length below this are not worth words
+constexpr double kMin_m = 0.5;  // differences in length below this are not worth words
 
 // "a 14 deg climb", "a 9 deg descent", "a 12 deg side slope", "ground within 2 deg of level".
 std::string slope_in_words(const Attitude& attitude) {
@@ -189,7 +189,7 @@ void explain(std::vector<Route>& routes) {
     for (std::string& words : superlatives(route, routes)) route.reasons.push_back(std::move(words));
     std::string line = largest_slip(route.prediction);
     const double longer = route.prediction.length_m - shortest;
-    if (!route.prediction.immobilised && longer >= kShortest_m)
+    if (!route.prediction.immobilised && longer >= kMin_m)
       line += fmt::format("; {:.0f} m longer than the shortest", longer);
     route.reasons.push_back(std::move(line));
   }

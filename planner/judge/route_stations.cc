@@ -8,12 +8,12 @@
 namespace slipway::planner {
 namespace {
 
-constexpr double kLargestTurnStep_rad = rad_from_deg(15.0);
+constexpr double kMaxTurnStep_rad = rad_from_deg(15.0);
 constexpr double kNoTurn_rad = 1e-9;
 
 void append_turn(std::vector<sim::PathStation>& path, double turn_rad, const Pose2& end) {
   if (std::abs(turn_rad) < kNoTurn_rad) return;
-  const int pieces = static_cast<int>(std::ceil(std::abs(turn_rad) / kLargestTurnStep_rad - 1e-9));
+  const int pieces = static_cast<int>(std::ceil(std::abs(turn_rad) / kMaxTurnStep_rad - 1e-9));
   const double start = end.yaw_rad - turn_rad;
   for (int k = 1; k <= pieces; ++k) {
     sim::PathStation station;

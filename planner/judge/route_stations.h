@@ -7,7 +7,7 @@
 
 namespace slipway::planner {
 
-// The motions as stations for the simulator: on driven parts at most sim::largest_station_spacing_m apart, in
+// The motions as stations for the simulator: on driven parts at most sim::max_station_spacing_m apart, in
 // turns in place at most 15 deg. A station's flags tell how it was reached from the one before it. Never
 // empty; where a motion ends, the last station has exactly its place and heading.
 std::vector<sim::PathStation> route_stations(const std::vector<Motion>& motions, double spacing_m);

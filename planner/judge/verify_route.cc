@@ -22,7 +22,7 @@ class ThinnedSamples {
     last_ = sample;
     if (count_++ % every_ != 0) return;
     // Room for the last one besides.
-    if (kept_.size() + 1 >= kMostVerificationSamples) {
+    if (kept_.size() + 1 >= kMaxVerificationSamples) {
       for (std::size_t i = 0; 2 * i < kept_.size(); ++i) kept_[i] = kept_[2 * i];
       kept_.resize((kept_.size() + 1) / 2);
       every_ *= 2;
@@ -196,7 +196,7 @@ Result<DynamicVerification> verify_route(const PlanProblem& problem, const std::
   }
   ThinnedSamples samples;
   Comparison comparison(quasi_static, legs);
-  SteadySlip steady(sim::largest_station_spacing_m(*problem.rover) / problem.rover->cruise_speed_m_s);
+  SteadySlip steady(sim::max_station_spacing_m(*problem.rover) / problem.rover->cruise_speed_m_s);
   const auto drive = sim::simulate_drive(
       *problem.rover, problem.gravity_m_s2, TerrainGround(problem.terrain, problem.soil_map),
       sim::mean_soils(problem.beliefs), start, legs,

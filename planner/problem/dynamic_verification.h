@@ -37,7 +37,7 @@ struct DynamicVerification {
   LevelDifference slip_ratio, sinkage_m, current_a;
   std::vector<std::string> wheel_names;  // in the order of every sample's wheels
   std::vector<sim::DriveSample>
-      samples;  // evenly thinned, at most kMostVerificationSamples, the last included
+      samples;  // evenly thinned, at most kMaxVerificationSamples, the last included
   std::vector<sim::DriveEvent> events;
   sim::IntegrationWork work;
 
@@ -45,7 +45,7 @@ struct DynamicVerification {
   bool refutes() const { return (end && *end != sim::DriveEnd::kFinished) || !broken_limits.empty(); }
 };
 
-constexpr std::size_t kMostVerificationSamples = 400;
+constexpr std::size_t kMaxVerificationSamples = 400;
 
 // "immobilised", or "no_answer" where there is no end.
 std::string_view end_in_words(const DynamicVerification& verification);

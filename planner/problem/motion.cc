@@ -11,7 +11,7 @@ namespace {
 // Nearer than this two places are one, and a chord has no bearing.
 constexpr double kSamePlace_m = 1e-6;
 // Half the sweep of the widest arc: beyond it the arc is much longer than its chord and a turn is shorter.
-constexpr double kLargestHalfSweep = std::numbers::pi / 3.0;
+constexpr double kMaxHalfSweep = std::numbers::pi / 3.0;
 // Flatter than this an arc is a straight: its sagitta over 100 m is under a millimetre.
 constexpr double kStraightCurvature_1_m = 1e-6;
 
@@ -49,7 +49,7 @@ Motion connect(const Pose2& from, const Pose2& to, const MotionLimits& limits) {
   const double half_sweep = wrapped_rad(to.yaw_rad - bearing);
   const double curvature = 2.0 * std::sin(half_sweep) / chord;
   const bool arc_fits =
-      std::abs(half_sweep) <= kLargestHalfSweep && std::abs(curvature) * limits.min_turn_radius_m <= 1.0;
+      std::abs(half_sweep) <= kMaxHalfSweep && std::abs(curvature) * limits.min_turn_radius_m <= 1.0;
   if (arc_fits && std::abs(curvature) > kStraightCurvature_1_m) {
     motion.curvature_1_m = curvature;
     motion.length_m = 2.0 * half_sweep / curvature;

@@ -56,6 +56,6 @@ struct PlanProblem {
   std::size_t threads = 0;  // 0: as many as the machine has
 };
 
-constexpr int kMostVerified = 3;  // routes of a plan that are driven in the dynamic simulation
+constexpr int kMaxVerified = 3;  // routes of a plan that are driven in the dynamic simulation
 
 }  // namespace slipway::planner

@@ -13,7 +13,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kSlopeStep = 0.0175;  // a degree
 constexpr double kSteepFrom = 0.75;    // of a limit
-constexpr double kMostSlip = 0.95;     // of the duration's 1 / (1 - slip)
+constexpr double kMaxSlip = 0.95;      // of the duration's 1 / (1 - slip)
 // A turn in place is not only its turning: the wheels are steered first and straightened after.
 constexpr double kSteeringPause_s = 20.0;
 constexpr double kFullPause_rad = rad_from_deg(30.0);
@@ -55,7 +55,7 @@ std::optional<Metre> metre_on(const PlanProblem& problem, const GroundTable& tab
   const sim::TableEntry weak = *table.weak.at(pitch_rad, roll_rad);
   if (mean.immobile) return std::nullopt;
   const sim::TableEntry& entry = unknown && !weak.immobile ? weak : mean;
-  const double slip = std::clamp(entry.slip_ratio, 0.0, kMostSlip);
+  const double slip = std::clamp(entry.slip_ratio, 0.0, kMaxSlip);
   const double over =
       probability_over(problem.limits.max_slip_ratio, mean.slip_ratio, weak.immobile ? 1.0 : weak.slip_ratio);
   const double tilt = Attitude{.roll_rad = roll_rad, .pitch_rad = pitch_rad, .yaw_rad = 0.0}.tilt_rad();

@@ -45,10 +45,9 @@ ob::PlannerPtr rrt_star(const ob::SpaceInformationPtr& space, const LegSearch& s
 // BIT* draws from the space's sampler alone: its own generator serves just-in-time sampling, which is off.
 ob::PlannerPtr bit_star(const ob::SpaceInformationPtr& space, const LegSearch& search) {
   constexpr int kBatches = 5;
-  constexpr int kLargestBatch = 1000;
+  constexpr int kMaxBatch = 1000;
   auto planner = std::make_shared<og::BITstar>(space);
-  planner->setSamplesPerBatch(
-      static_cast<unsigned int>(std::min(search.iterations / kBatches, kLargestBatch)));
+  planner->setSamplesPerBatch(static_cast<unsigned int>(std::min(search.iterations / kBatches, kMaxBatch)));
   planner->setPruning(false);
   return planner;
 }

@@ -12,9 +12,9 @@
 namespace slipway::planner {
 namespace {
 
-constexpr int kMostRoutes = 10;
-constexpr std::size_t kMostWaypoints = 50;
-constexpr std::size_t kMostSoils = 254;  // a search's cell keeps its soil in a byte
+constexpr int kMaxRoutes = 10;
+constexpr std::size_t kMaxWaypoints = 50;
+constexpr std::size_t kMaxSoils = 254;  // a search's cell keeps its soil in a byte
 
 std::string names_of(std::span<const PlannerRow> planners) {
   std::string names;
@@ -24,19 +24,18 @@ std::string names_of(std::span<const PlannerRow> planners) {
 
 void check_settings(const PlanProblem& problem, std::span<const PlannerRow> planners,
                     std::vector<Fault>& faults) {
-  if (problem.routes < 1 || problem.routes > kMostRoutes)
+  if (problem.routes < 1 || problem.routes > kMaxRoutes)
+    faults.push_back({"/routes", fmt::format("routes = {}, must be in [1, {}]", problem.routes, kMaxRoutes)});
+  if (problem.verify < 0 || problem.verify > kMaxVerified)
     faults.push_back(
-        {"/routes", fmt::format("routes = {}, must be in [1, {}]", problem.routes, kMostRoutes)});
-  if (problem.verify < 0 || problem.verify > kMostVerified)
-    faults.push_back(
-        {"/verify", fmt::format("verify = {}, must be in [0, {}]", problem.verify, kMostVerified)});
-  if (problem.waypoints.size() > kMostWaypoints) {
+        {"/verify", fmt::format("verify = {}, must be in [0, {}]", problem.verify, kMaxVerified)});
+  if (problem.waypoints.size() > kMaxWaypoints) {
     faults.push_back({"/waypoints", fmt::format("{} waypoints, must be at most {}", problem.waypoints.size(),
-                                                kMostWaypoints)});
+                                                kMaxWaypoints)});
   }
-  if (problem.beliefs.known.size() > kMostSoils) {
+  if (problem.beliefs.known.size() > kMaxSoils) {
     faults.push_back(
-        {"/soil_map", fmt::format("{} soils, must be at most {}", problem.beliefs.known.size(), kMostSoils)});
+        {"/soil_map", fmt::format("{} soils, must be at most {}", problem.beliefs.known.size(), kMaxSoils)});
   }
   for (std::size_t i = 0; i < problem.planners.size(); ++i) {
     if (planner_named(problem.planners[i], planners) == nullptr) {

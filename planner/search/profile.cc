@@ -11,9 +11,9 @@ constexpr std::array<ProfileWeight, 5> kShortest{{{"duration", 0.0, 1.0},
                                                   {"slip", 0.1, 0.0},
                                                   {"unknown", 0.0, 0.0},
                                                   {"risk", 0.1, 0.0}}};
-constexpr std::array<ProfileWeight, 3> kLeastSlip{
+constexpr std::array<ProfileWeight, 3> kMinSlip{
     {{"duration", 0.0, 0.2}, {"energy", 0.2, 0.0}, {"slip", 0.0, 10.0}}};
-constexpr std::array<ProfileWeight, 4> kLeastRisk{
+constexpr std::array<ProfileWeight, 4> kMinRisk{
     {{"duration", 0.0, 0.3}, {"energy", 0.3, 0.0}, {"unknown", 0.0, 8.0}, {"risk", 0.0, 100.0}}};
 
 }  // namespace
@@ -29,8 +29,8 @@ std::span<const Profile> profiles() {
   static constexpr std::array<Profile, 4> kProfiles{{
       {"balanced", "the request's own weights", {}},
       {"shortest", "duration, with a tenth of the weight on slip and risk", kShortest},
-      {"least_slip", "slip before all else", kLeastSlip},
-      {"least_risk", "risk and unknown ground before all else", kLeastRisk},
+      {"least_slip", "slip before all else", kMinSlip},
+      {"least_risk", "risk and unknown ground before all else", kMinRisk},
   }};
   return kProfiles;
 }

@@ -22,7 +22,7 @@ namespace slipway::planner {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr int kMostRounds = 4;
+constexpr int kMaxRounds = 4;
 constexpr double kBandWidths = 2.0;   // half width of the band around a route, in rover widths
 constexpr double kBandFactor = 1.0;   // the first round's extra cost in the band; doubles each round
 constexpr double kSharedEnds = 0.12;  // of a leg, at both ends, where no band is
@@ -99,7 +99,7 @@ class Proposer {
     }
     search(guides, 0);
     if (proposal_.candidates.empty()) return std::move(proposal_);
-    for (int round = 1; round <= kMostRounds && !enough() && !progress_.cancelled(); ++round) {
+    for (int round = 1; round <= kMaxRounds && !enough() && !progress_.cancelled(); ++round) {
       guides.clear();
       guides.push_back({"apart_from_the_others", asked_cost_, std::nullopt});
       guides.front().cost.penalise(bands(kBandFactor * std::pow(2.0, round - 1)));

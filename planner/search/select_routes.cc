@@ -40,7 +40,7 @@ void Differences::add(std::vector<Eigen::Vector2d> centreline) {
 }
 
 bool Differences::differ(std::size_t a, std::size_t b) const {
-  return shared_[a][b] <= kLargestOverlap;
+  return shared_[a][b] <= kMaxOverlap;
 }
 
 std::vector<std::size_t> select_routes(const Differences& differences, const std::vector<std::size_t>& order,

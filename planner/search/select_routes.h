@@ -8,9 +8,9 @@ namespace slipway::planner {
 
 // Two routes differ when neither shares more than this much of its length with the other within a rover's
 // width.
-constexpr double kLargestOverlap = 0.6;
+constexpr double kMaxOverlap = 0.6;
 
-// Which of some routes differ: neither shares more than kLargestOverlap of its length with the other.
+// Which of some routes differ: neither shares more than kMaxOverlap of its length with the other.
 class Differences {
  public:
   // width_m: the rover's.

@@ -13,7 +13,7 @@ namespace {
 using Corners = std::vector<Eigen::Vector2d>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kLongestSide_m = 8.0;
+constexpr double kMaxSide_m = 8.0;
 constexpr double kSameCorner_m = 1e-3;
 constexpr int kSweeps = 24;
 constexpr std::array<double, 6> kMoves_m{2.0, -2.0, 1.0, -1.0, 0.4, -0.4};
@@ -207,7 +207,7 @@ Corners corners_along(const std::vector<Motion>& motions) {
   Corners corners;
   for (const Motion& motion : motions) {
     if (corners.empty()) corners.emplace_back(motion.from.x_m, motion.from.y_m);
-    const double longest = motion.curvature_1_m == 0.0 ? kLongestSide_m : 0.5 * kLongestSide_m;
+    const double longest = motion.curvature_1_m == 0.0 ? kMaxSide_m : 0.5 * kMaxSide_m;
     const int parts = static_cast<int>(std::ceil(motion.length_m / longest));
     for (int k = 1; k <= parts; ++k) {
       const Pose2 pose = motion.at(motion.length_m * k / parts);

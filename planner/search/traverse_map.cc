@@ -17,7 +17,7 @@ dem::GridGeometry search_geometry(const dem::GridGeometry& terrain, const dem::E
   int step = std::max(1, static_cast<int>(std::floor(0.25 / geometry.cell_x_m + 1e-9)));
   const auto rows = [&] { return (window.rows + step - 1) / step; };
   const auto columns = [&] { return (window.columns + step - 1) / step; };
-  while (static_cast<long long>(rows()) * columns() > kMostSearchCells) ++step;
+  while (static_cast<long long>(rows()) * columns() > kMaxSearchCells) ++step;
   geometry.rows = rows();
   geometry.columns = columns();
   geometry.cell_x_m *= step;

@@ -32,7 +32,7 @@ constexpr std::uint8_t kUnknownSoil = 255;
 
 // More cells than this are never searched: a larger window gets larger cells, in whole numbers of the
 // terrain's.
-constexpr long long kMostSearchCells = 500'000;
+constexpr long long kMaxSearchCells = 500'000;
 
 // What a search looks at: around all places of the problem, with room for detours of half the longest leg.
 dem::Extent search_extent(const PlanProblem& problem);

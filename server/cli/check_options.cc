@@ -23,7 +23,7 @@ void add_check_command(CLI::App& app, std::function<int()>& run) {
   add_data_option(*command, options->data, "rovers and soils");
   command->add_option("--seed", options->seed, "of the resampling of drives")
       ->capture_default_str()
-      ->check(CLI::Range(std::uint64_t{0}, kLargestExactWhole));
+      ->check(CLI::Range(std::uint64_t{0}, kMaxExactWhole));
   command->add_option("--threads", options->threads, "at once; 0: as many as the machine has")
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));

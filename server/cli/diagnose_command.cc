@@ -30,7 +30,7 @@ namespace {
 using gap::Diagnosis;
 using gap::Interval;
 
-constexpr std::size_t kMostCandidates = 6, kMostChannels = 8, kMostRegimes = 3, kMostLeast = 6;
+constexpr std::size_t kMaxCandidates = 6, kMaxChannels = 8, kMaxRegimes = 3, kMaxLeast = 6;
 
 std::string names_words(const std::vector<std::string>& names) {
   return names.empty() ? "nothing missing" : fmt::format("{}", fmt::join(names, " + "));
@@ -57,7 +57,7 @@ std::string candidates_words(const Diagnosis& d) {
   TextTable table({"explanation", "probability", "complexity"});
   std::size_t shown = 0;
   for (const gap::ComparedSet& set : api::json::compared_sets(d)) {
-    if (++shown > kMostCandidates) break;
+    if (++shown > kMaxCandidates) break;
     table.add({names_words(gap::names_of(set)), fmt::format("{:.3f}", set.probability),
                fmt::format("{}", set.complexity)});
   }
@@ -71,7 +71,7 @@ std::string channels_words(const Diagnosis& d) {
            (a.significance == b.significance && a.gap * b.noise > b.gap * a.noise);
   });
   TextTable table({"channel", "gap", "noise", "mean", "p", "unit"});
-  for (std::size_t i = 0; i < std::min(channels.size(), kMostChannels); ++i) {
+  for (std::size_t i = 0; i < std::min(channels.size(), kMaxChannels); ++i) {
     const gap::ChannelGap& c = channels[i];
     const double unit = gap::boundary_unit(c.channel);
     table.add({fmt::format("{}{}", gap::name_of(c.channel), c.wheel ? " " + *c.wheel : ""),
@@ -95,7 +95,7 @@ std::string ladder_words(const Diagnosis& d) {
 
 std::string regimes_words(const std::vector<gap::Regime>& regimes) {
   std::string out;
-  for (std::size_t i = 0; i < std::min(regimes.size(), kMostRegimes); ++i) {
+  for (std::size_t i = 0; i < std::min(regimes.size(), kMaxRegimes); ++i) {
     std::vector<std::string> conditions;
     for (const gap::Condition& c : regimes[i].conditions)
       conditions.push_back(fmt::format("{} {:.3g} to {:.3g}", gap::name_of(c.variable), c.from, c.to));
@@ -137,7 +137,7 @@ std::string answer_words(const Diagnosis& d) {
     out +=
         fmt::format("unexplained: {:.0f} % at {}, by {}\n", 100.0 * shape.share, shape.entry, shape.variable);
   if (!d.least_detectable.empty()) out += "\nsmallest effects that would have been seen:\n";
-  for (std::size_t i = 0; i < std::min(d.least_detectable.size(), kMostLeast); ++i)
+  for (std::size_t i = 0; i < std::min(d.least_detectable.size(), kMaxLeast); ++i)
     out += fmt::format("  {} {} = {:.3g}\n", d.least_detectable[i].effect, d.least_detectable[i].parameter,
                        d.least_detectable[i].value);
   if (!d.next_drives.empty()) out += "\ndrives that would say most:\n";

@@ -18,7 +18,7 @@ void add_diagnose_command(CLI::App& app, std::function<int()>& run) {
   command->add_option("--without", options->without, "an effect that is not looked for, see slipway effects");
   command->add_option("--seed", options->seed, "the same seed gives the same answer")
       ->capture_default_str()
-      ->check(CLI::Range(std::uint64_t{0}, kLargestExactWhole));
+      ->check(CLI::Range(std::uint64_t{0}, kMaxExactWhole));
   command->add_option("--threads", options->threads, "at once; 0: as many as the machine has")
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));

@@ -42,7 +42,7 @@ void add_of_tests(CLI::App& command, EstimateCommand& options) {
       ->check(CLI::Range(1e-4, 1.0));
   command.add_option("--seed", options.seed, "the same seed gives the same answer")
       ->capture_default_str()
-      ->check(CLI::Range(std::uint64_t{0}, kLargestExactWhole));
+      ->check(CLI::Range(std::uint64_t{0}, kMaxExactWhole));
   command.add_option("--plot", options.plot, "write measured against fitted (SVG) to this file");
 }
 

@@ -22,7 +22,7 @@ void add_gap_benchmark_command(CLI::App& app, std::function<int()>& run) {
   command->add_option("--only", options->only, "names of campaigns; all without it")->delimiter(',');
   command->add_option("--seed", options->seed, "the same seed gives the same campaigns and diagnoses")
       ->capture_default_str()
-      ->check(CLI::Range(std::uint64_t{0}, kLargestExactWhole));
+      ->check(CLI::Range(std::uint64_t{0}, kMaxExactWhole));
   command->add_option("--threads", options->threads, "at once; 0: as many as the machine has")
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));

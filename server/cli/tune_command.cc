@@ -137,16 +137,16 @@ std::string sets_table(const gap::DriveTuning& tuning) {
   return text.print();
 }
 
-constexpr std::size_t kMostNamed = 5;  // drives; tuning.json has all
+constexpr std::size_t kMaxNamed = 5;  // drives; tuning.json has all
 
 // What the uncertainties rest on: "noise 0.031 of the scales; far off: a-r1, b".
 std::string noise_words(const TableTuning& result, const gap::TuningFit& fit) {
   std::string out = fmt::format("  noise {:.3g} of the scales", fit.noise);
   if (fit.fit.residual_variance > 1.005)
     out += fmt::format(", scatter {:.3g} times that", std::sqrt(fit.fit.residual_variance));
-  for (std::size_t i = 0; i < std::min(fit.beyond.size(), kMostNamed); ++i)
+  for (std::size_t i = 0; i < std::min(fit.beyond.size(), kMaxNamed); ++i)
     out += (i == 0 ? "; far off: " : ", ") + result.drives[fit.beyond[i]].name;
-  if (fit.beyond.size() > kMostNamed) out += fmt::format(" and {} more", fit.beyond.size() - kMostNamed);
+  if (fit.beyond.size() > kMaxNamed) out += fmt::format(" and {} more", fit.beyond.size() - kMaxNamed);
   return out + "\n";
 }
 

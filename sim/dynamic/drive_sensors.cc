@@ -42,7 +42,7 @@ class ChannelReading {
 
  private:
   static constexpr std::uint64_t kMaxValues = 64;  // of a channel at a sample; the first block is the biases'
-  static_assert(kMaxValues >= kMostWheels + 4);
+  static_assert(kMaxValues >= kMaxWheels + 4);
 
   const SensorError& error_;
   std::uint64_t key_, noise_counter_, value_ = 0;

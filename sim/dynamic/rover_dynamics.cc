@@ -102,7 +102,7 @@ std::vector<double> RoverDynamics::at_rest(const Stance& stance) {
     const Soil& soil = soils_.of(ground_.soil_at(p.x(), p.y()));
     const WheelGeometry wheel = rover_.wheels[k].geometry();
     const auto theta = balanced_entry_angle_rad(wheel, soil, load, {});
-    sunk += sinkage_m(wheel.radius_m, theta.value_or(0.5 * kLargestEntryAngleRad)) / wheels();
+    sunk += sinkage_m(wheel.radius_m, theta.value_or(0.5 * kMaxEntryAngleRad)) / wheels();
   }
   const Eigen::Quaterniond q(stance.R_MB);
   origin_M_ = stance.p_MB - sunk * stance.R_MB.col(2);

@@ -59,7 +59,7 @@ void WheelContacts::set_soil(std::size_t k, const Soil& soil, double rim_speed_m
   const double r = place.geometry.radius_m;
   // A soil that cannot carry the wheel at rest gets the maximum entry angle of the laws.
   const double theta =
-      balanced_entry_angle_rad(place.geometry, place.soil, load, {}).value_or(kLargestEntryAngleRad);
+      balanced_entry_angle_rad(place.geometry, place.soil, load, {}).value_or(kMaxEntryAngleRad);
   const double z = sinkage_m(r, theta), dz = 1e-3 * z;
   const double deeper = wheel_forces(place.geometry, place.soil, entry_angle_rad(r, z - dz), {}).vertical_n;
   const double stiffness = std::max(load - deeper, 1e-3 * load) / dz;
@@ -193,8 +193,7 @@ bool WheelContacts::find(const Ground& ground, const RutMap& ruts, const PerWhee
     if (!find_ground(ground, ruts, k, wheels[k], contact)) return false;
     if (contact.depth_m <= 0.0) continue;
     const double r = places_[k].geometry.radius_m;
-    contact.entry_angle_rad =
-        std::min(entry_angle_rad(r, std::min(contact.depth_m, r)), kLargestEntryAngleRad);
+    contact.entry_angle_rad = std::min(entry_angle_rad(r, std::min(contact.depth_m, r)), kMaxEntryAngleRad);
     count += add_trials(k, wheels[k], contact, &trials[count], &numbers[count]);
     const double rolls = places_[k].locked            ? places_[k].commanded_direction
                          : wheels[k].rate_rad_s < 0.0 ? -1.0

@@ -11,7 +11,7 @@
 namespace slipway::sim {
 namespace {
 
-constexpr std::size_t kMostFaults = 20;
+constexpr std::size_t kMaxFaults = 20;
 
 DriveCommand command_at(const RoverModel& rover, const PathStation& station,
                         const DriveConditions& conditions) {
@@ -170,7 +170,7 @@ class Predictor {
 
 }  // namespace
 
-double largest_station_spacing_m(const RoverModel& rover) {
+double max_station_spacing_m(const RoverModel& rover) {
   return 2.0 * rover.smallest_wheel_radius_m();
 }
 
@@ -181,7 +181,7 @@ Result<DrivePrediction> predict_drive(const RoverModel& rover, double gravity_m_
   if (path.empty()) throw std::invalid_argument("predict_drive: a path needs a station");
   // The whole path is checked first, since missing ground is a fault even behind a place of immobilisation.
   std::vector<Fault> faults;
-  for (std::size_t k = 0; k < path.size() && faults.size() < kMostFaults; ++k) {
+  for (std::size_t k = 0; k < path.size() && faults.size() < kMaxFaults; ++k) {
     if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the prediction was dismissed");
     if (const auto wheel = wheel_without_ground(rover, ground, path[k].pose))
       faults.push_back(

@@ -94,7 +94,7 @@ struct RiskOptions {
 };
 
 // The maximum spacing of stations at which no obstacle that a wheel would meet is missed.
-double largest_station_spacing_m(const RoverModel& rover);
+double max_station_spacing_m(const RoverModel& rover);
 
 // Balances the rover at every station on the mean soils, then on the draws, on `threads` threads (0 takes all
 // that the machine has). Errors: off_map or no_data where a station has no ground under a wheel (the fault

@@ -40,7 +40,7 @@ Vector cold_start(RoverBalance& balance, const Primary& primary, double share) {
 Attempt reason_of(const RoverBalance& balance, const Vector& x) {
   if (x.head<kMotions>().cwiseAbs().maxCoeff() > kMaxSpeedRatio) return {Outcome::kNoTraction, -1};
   for (int k = 0; k < balance.wheel_count(); ++k)
-    if (x[kMotions + k] > 0.95 * kLargestEntryAngleRad) return {Outcome::kSunkToAxle, k};
+    if (x[kMotions + k] > 0.95 * kMaxEntryAngleRad) return {Outcome::kSunkToAxle, k};
   for (int k = 0; k < balance.wheel_count(); ++k)
     if (!balance.in_air(k) && x[kMotions + k] < 10.0 * kMinEntryAngleRad) return {Outcome::kWheelLifted, k};
   return {Outcome::kNotConverged, -1};

@@ -114,7 +114,7 @@ class NewtonSearch {
 
 void keep_in_range(Vector& x) {
   for (int k = kMotions; k < x.size(); ++k)
-    x[k] = std::clamp(x[k], RoverBalance::kMinEntryAngleRad, kLargestEntryAngleRad);
+    x[k] = std::clamp(x[k], RoverBalance::kMinEntryAngleRad, kMaxEntryAngleRad);
 }
 
 bool newton(RoverBalance& balance, Vector& x, const Primary* held, int max_iterations,

@@ -81,9 +81,8 @@ class QuasiStaticSolver {
   // A balance and its inverse Jacobian. From it, the balances of the same station with slightly different
   // soils or rovers take a few evaluations.
   struct Start {
-    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3 + kMostWheels, 1> unknowns;
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3 + kMostWheels, 3 + kMostWheels>
-        inverse_jacobian;
+    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3 + kMaxWheels, 1> unknowns;
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3 + kMaxWheels, 3 + kMaxWheels> inverse_jacobian;
   };
 
   QuasiStaticSolver(const RoverModel& rover, double gravity_m_s2);

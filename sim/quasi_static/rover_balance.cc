@@ -125,7 +125,7 @@ void RoverBalance::place_wheel(int k, const WheelCommand& commanded) {
   const Eigen::Vector3d x = axle.cross(normal).normalized();
   const Eigen::Vector3d y = normal.cross(x);
   const Eigen::Vector3d& p = stance_.p_B_wheel[k];
-  std::array<JointMotion, kMostJoints> joint;
+  std::array<JointMotion, kMaxJoints> joint;
   for (int j = 0; j < joints_; ++j) joint[j] = joint_motion(rover_, stance_, k, j);
 
   // The columns are for drawbar pull, lateral and vertical force, torque, and overturning moment. The pull
@@ -238,8 +238,8 @@ void RoverBalance::contacts_of(std::span<const Trial> trials, std::span<WheelCon
 }
 
 void RoverBalance::find_contacts(const Vector& unknowns) {
-  std::array<Trial, kMostWheels> trials;
-  std::array<WheelContact, kMostWheels> found;
+  std::array<Trial, kMaxWheels> trials;
+  std::array<WheelContact, kMaxWheels> found;
   std::size_t count = 0;
   for (int k = 0; k < wheel_count(); ++k) {
     const WheelMotion motion = motion_of(k, unknowns);

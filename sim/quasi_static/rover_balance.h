@@ -38,10 +38,10 @@ namespace slipway::sim {
 class RoverBalance {
  public:
   static constexpr int kMotions = 3;
-  static constexpr int kMaxEquations = kMotions + kMostWheels;
+  static constexpr int kMaxEquations = kMotions + kMaxWheels;
   using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxEquations, 1>;
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxEquations, kMaxEquations>;
-  using Loads = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostWheels, 1>;
+  using Loads = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxWheels, 1>;
 
   // The forces of the ground on one wheel, and the wheel's motion over it.
   struct WheelContact {
@@ -92,9 +92,9 @@ class RoverBalance {
   double height_in_air_m(int wheel, const Vector& unknowns) const;
 
  private:
-  static constexpr int kMaxEquilibrium = 6 + kMostJoints;
-  static constexpr int kMaxFreedoms = 3 + kMostJoints;
-  using GapGradient = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostWheels, kMaxFreedoms>;
+  static constexpr int kMaxEquilibrium = 6 + kMaxJoints;
+  static constexpr int kMaxFreedoms = 3 + kMaxJoints;
+  using GapGradient = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxWheels, kMaxFreedoms>;
   using Freedoms = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxFreedoms, 1>;
 
   struct WheelPlace {
@@ -123,7 +123,7 @@ class RoverBalance {
     double entry_angle_rad = 0.0;
     WheelMotion motion;
   };
-  static constexpr int kMaxTrials = 3 * kMostWheels;  // as many as a Jacobian needs
+  static constexpr int kMaxTrials = 3 * kMaxWheels;  // as many as a Jacobian needs
   // Evaluates all trials at once, which costs about half of one by one.
   void contacts_of(std::span<const Trial> trials, std::span<WheelContact> contacts) const;
   void find_contacts(const Vector& unknowns);
@@ -154,7 +154,7 @@ class RoverBalance {
   GapGradient gap_gradient_;      // by heave, roll, pitch (times half the wheelbase) and joints
   Loads gap_;
   // The compatibility equations as rows over the wheels' own sinkages.
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostWheels, kMostWheels> compatibility_;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxWheels, kMaxWheels> compatibility_;
   Loads compatibility_of_gap_;
 };
 

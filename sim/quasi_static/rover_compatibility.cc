@@ -53,7 +53,7 @@ void RoverBalance::set_compatibility() {
     wheel[row++] = k;
   }
   // The last columns of Q in A = Q R span the null space of A^T.
-  using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostWheels, kMostWheels>;
+  using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxWheels, kMaxWheels>;
   const Square q = a.householderQr().householderQ() * Square::Identity(in_contact_, in_contact_);
   const Square z = q.rightCols(spare).transpose() / sinkage_scale_m_;
   compatibility_of_gap_ = z * gap;

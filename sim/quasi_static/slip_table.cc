@@ -185,7 +185,7 @@ std::optional<TableEntry> SlipTable::at(double pitch_rad, double roll_rad) const
   for (int c = 0; c < across.count; ++c)
     limit += across.weight[c] * columns_[across.first + c].traction_limit_rad;
   const double d = std::max(0.0, pitch_rad - limit), at = xi(d);
-  std::array<double, kMotionFields + 2 * kMostWheels> values{};
+  std::array<double, kMotionFields + 2 * kMaxWheels> values{};
   for (int c = 0; c < across.count; ++c) {
     const Column& column = columns_[across.first + c];
     const Stencil along = Stencil::at(at, column.first, column.last);

@@ -17,7 +17,7 @@ namespace slipway::sim {
 namespace {
 
 constexpr std::array<std::string_view, 6> kNames{"lf", "lm", "lr", "rf", "rm", "rr"};
-constexpr std::size_t kLongestName = 8;
+constexpr std::size_t kMaxName = 8;
 
 class FaultList {
  public:
@@ -41,8 +41,8 @@ void check_names(const RoverModel& rover, FaultList& faults) {
   for (std::size_t k = 0; k < rover.wheels.size(); ++k) {
     const std::string& name = rover.wheels[k].name;
     const std::string at = fmt::format("/wheels/{}/name", k);
-    if (name.empty() || name.size() > kLongestName)
-      faults.add(at, fmt::format("name = \"{}\", must have 1 to {} characters", name, kLongestName));
+    if (name.empty() || name.size() > kMaxName)
+      faults.add(at, fmt::format("name = \"{}\", must have 1 to {} characters", name, kMaxName));
     if (!seen.insert(name).second) faults.add(at, fmt::format("name = \"{}\" is another wheel's", name));
   }
 }
@@ -65,8 +65,8 @@ void check_wheel(const WheelModel& wheel, const std::string& at, FaultList& faul
 
 // False where there are too many or too few to look further.
 bool check_wheels(const RoverModel& rover, FaultList& faults) {
-  if (rover.wheels.size() < 3 || rover.wheels.size() > kMostWheels) {
-    faults.add("/wheels", fmt::format("{} wheels, must be 3 to {}", rover.wheels.size(), kMostWheels));
+  if (rover.wheels.size() < 3 || rover.wheels.size() > kMaxWheels) {
+    faults.add("/wheels", fmt::format("{} wheels, must be 3 to {}", rover.wheels.size(), kMaxWheels));
     return false;
   }
   check_names(rover, faults);
@@ -142,7 +142,7 @@ void check_mass(const RoverModel& rover, FaultList& faults) {
 
 // What suspension and wheels leave for the body: its motion can't be that of no mass.
 void check_masses(const RoverModel& rover, FaultList& faults) {
-  constexpr double kLeastBodyShare = 0.1;
+  constexpr double kMinBodyShare = 0.1;
   const MassDistribution& masses = rover.masses;
   check_fields(part_mass_fields(), masses, "/masses", faults.all());
   if (masses.body_inertia_kg_m2) {
@@ -156,10 +156,10 @@ void check_masses(const RoverModel& rover, FaultList& faults) {
                  "body_inertia_kg_m2: one moment is above the sum of the two others, which no body has");
   }
   const double left = rover.body_mass_kg();
-  if (rover.mass_kg > 0.0 && left < kLeastBodyShare * rover.mass_kg)
+  if (rover.mass_kg > 0.0 && left < kMinBodyShare * rover.mass_kg)
     faults.add("/masses", fmt::format("wheels and suspension leave the body {:.4g} of {:.4g} kg, must be at "
                                       "least {:.0f} %",
-                                      left, rover.mass_kg, 100.0 * kLeastBodyShare));
+                                      left, rover.mass_kg, 100.0 * kMinBodyShare));
 }
 
 }  // namespace
@@ -206,7 +206,7 @@ std::vector<Fault> faults_of(const RoverModel& rover) {
     if (rover.suspension.type == SuspensionType::kRockerBogie) check_rocker_bogie(rover, faults);
     check_sides(rover, faults);
   }
-  faults.require_in("/wheel_slices", "wheel_slices", rover.wheel_slices, 1, kMostSlices);
+  faults.require_in("/wheel_slices", "wheel_slices", rover.wheel_slices, 1, kMaxSlices);
   check_mass(rover, faults);
   check_masses(rover, faults);
   check_fields(differential_fields(), rover.suspension, "/suspension", faults.all());

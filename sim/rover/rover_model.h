@@ -74,7 +74,7 @@ struct MassDistribution {
   std::optional<Eigen::Vector3d> body_inertia_kg_m2 = {};
 };
 
-// A rover on any number of wheels from 3 to kMostWheels: immutable once built, shared by pointer.
+// A rover on any number of wheels from 3 to kMaxWheels: immutable once built, shared by pointer.
 struct RoverModel {
   std::string name;
   std::string summary;
@@ -83,7 +83,7 @@ struct RoverModel {
   double mass_kg = 0.0;
   Eigen::Vector3d com_m = Eigen::Vector3d::Zero();
   std::vector<WheelModel> wheels;  // left and right sides both have at least one
-  // Across each wheel, 1 to kMostSlices: with more than one the ground's height may differ over its width
+  // Across each wheel, 1 to kMaxSlices: with more than one the ground's height may differ over its width
   // (see sliced_wheel.h). Free wheels stay whole.
   int wheel_slices = 1;
   Suspension suspension;
@@ -120,7 +120,7 @@ struct RoverModel {
   double track_m() const;       // widest distance between left and right wheel centres
 };
 
-// Everything that a model must satisfy before it is used: 3 to kMostWheels wheels with unique names, each
+// Everything that a model must satisfy before it is used: 3 to kMaxWheels wheels with unique names, each
 // side with one; a rocker-bogie has six named lf lm lr rf rm rr, two of each side on its bogie; an averaging
 // suspension has two or more a side, one behind the other; masses, radii, efficiencies in range, the centre
 // of mass inside the wheels. Returns every fault; pointers are those of the rover file

@@ -13,14 +13,14 @@ namespace slipway::sim {
 namespace {
 
 // Unknowns: z, roll, pitch, joints.
-constexpr int kMostUnknowns = 3 + kMostJoints;
-using Gaps = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostWheels, 1>;
-using Unknowns = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostUnknowns, 1>;
-using Gradient = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostWheels, kMostUnknowns>;
+constexpr int kMaxUnknowns = 3 + kMaxJoints;
+using Gaps = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxWheels, 1>;
+using Unknowns = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxUnknowns, 1>;
+using Gradient = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxWheels, kMaxUnknowns>;
 
 constexpr double kGapTolerance_m = 1e-7;
 constexpr double kAcceptedGap_m = 5e-3;  // where the ground's kinks keep Newton from its tolerance
-constexpr int kMostIterations = 25;
+constexpr int kMaxIterations = 25;
 constexpr double kLinkageReach_rad = 0.8;  // rockers and bogies turn no further than this
 
 // One equation a wheel: the gap along the ground's normal between rim and ground, and its gradient with
@@ -112,7 +112,7 @@ std::optional<Stance> settle(const RoverModel& rover, const Ground& ground, cons
   step(rover, stance, Unknowns::Zero(unknowns));
   Gaps gap(wheels);
   Gradient gradient(wheels, unknowns);
-  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     if (!linearise(rover, ground, stance, gap, gradient)) return std::nullopt;
     if (gap.cwiseAbs().maxCoeff() < kGapTolerance_m) break;
     Unknowns change = newton_step(gradient, gap);

@@ -13,7 +13,7 @@
 namespace slipway::sim {
 
 // One a slice of RoverModel::wheel_slices; the others are 0.
-using SliceHeights = std::array<double, kMostSlices>;
+using SliceHeights = std::array<double, kMaxSlices>;
 
 // How the rover stands on undeformed ground: the suspension's angles and where every wheel touches.
 struct Stance {

@@ -10,7 +10,7 @@ namespace slipway::sim {
 //                 1, 2 the left and the right bogie against their rockers
 //   averaging     0 the differential
 //   rigid         none
-constexpr int kMostJoints = 3;
+constexpr int kMaxJoints = 3;
 
 int joint_count(SuspensionType type);
 

@@ -71,7 +71,7 @@ std::string no_slip(double current_a, const SlipsOfCurrent& found) {
     return "no slip explains it: the wheel is sunk to its axle under this load at every slip";
   return fmt::format(
       "no slip in [{:.2f}, {:.2f}] explains {:.3f} A: this soil and load ask for {:.3f} to {:.3f} A; {}",
-      kLowestSearchedSlip, kHighestSearchedSlip, current_a, found.least_current_a, found.greatest_current_a,
+      kMinSearchedSlip, kMaxSearchedSlip, current_a, found.least_current_a, found.greatest_current_a,
       current_a > found.greatest_current_a
           ? "the wheel meets more than this soil gives, or soil or load are others"
           : "the ground drives the wheel, or soil or load are others");
@@ -140,9 +140,9 @@ SlipsOfCurrent slips_of_current(const WheelRigConditions& test, double current_a
   SlipsOfCurrent found;
   std::optional<double> before;
   double slip_before = 0.0;
-  const auto steps = std::lround((kHighestSearchedSlip - kLowestSearchedSlip) / kSearchedSlipStep);
+  const auto steps = std::lround((kMaxSearchedSlip - kMinSearchedSlip) / kSearchedSlipStep);
   for (long k = 0; k <= steps; ++k) {
-    const double slip = kLowestSearchedSlip + static_cast<double>(k) * kSearchedSlipStep;
+    const double slip = kMinSearchedSlip + static_cast<double>(k) * kSearchedSlipStep;
     const auto here = surplus(test, slip, current_a);
     if (here) {
       const double current = *here + current_a;
@@ -170,13 +170,13 @@ std::optional<GreatestPull> greatest_pull(const WheelRigConditions& test) {
     if (result.stands() && (!best || result.forces.drawbar_pull_n > best->pull_n))
       best = GreatestPull{slip, result.forces.drawbar_pull_n};
   };
-  const auto steps = std::lround(kHighestSearchedSlip / kSearchedSlipStep);
+  const auto steps = std::lround(kMaxSearchedSlip / kSearchedSlipStep);
   for (long k = 0; k <= steps; ++k) try_slip(static_cast<double>(k) * kSearchedSlipStep);
   // Closer around the best, step by step.
   for (double step = 0.5 * kSearchedSlipStep; best && step > 1e-6; step *= 0.5) {
     const double centre = best->slip;
     for (const double slip : {centre - step, centre + step})
-      if (slip >= 0.0 && slip <= kHighestSearchedSlip) try_slip(slip);
+      if (slip >= 0.0 && slip <= kMaxSearchedSlip) try_slip(slip);
   }
   return best;
 }

@@ -12,8 +12,8 @@ namespace slipway::sim {
 
 // Which slip explains a measured current, where soil and load are known: current(slip) of one balanced wheel,
 // inverted. The slips that are searched, and the step of the search: roots closer together than that are one.
-constexpr double kLowestSearchedSlip = -0.9;
-constexpr double kHighestSearchedSlip = 0.99;
+constexpr double kMinSearchedSlip = -0.9;
+constexpr double kMaxSearchedSlip = 0.99;
 constexpr double kSearchedSlipStep = 0.01;
 
 struct SlipsOfCurrent {

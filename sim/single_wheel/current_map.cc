@@ -13,7 +13,7 @@ namespace {
 
 CurrentPoint literal_point(const WheelRigConditions& test) {
   CurrentPoint point;
-  const double deepest = sinkage_m(test.wheel.radius_m, kLargestEntryAngleRad);
+  const double deepest = sinkage_m(test.wheel.radius_m, kMaxEntryAngleRad);
   const double bekker = bekker_sinkage_m(test.wheel, test.soil, test.load_n);
   if (!(bekker <= deepest)) {
     point.reason = fmt::format("sunk to the axle: equation A18 gives {:.0f} mm of a radius of {:.0f} mm",

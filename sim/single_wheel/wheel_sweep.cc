@@ -79,7 +79,7 @@ std::optional<Fault> impossible(const WheelSweep& sweep, const WheelRigCondition
     return Fault{pointer_to(sweep, "slip_angle_deg"),
                  "slip_angle_deg = 90 deg, must be below 90 where slip is by the forward speed, which is 0 "
                  "there; slip_definition \"travel\" knows a slip at 90 deg"};
-  const double deepest = sinkage_m(test.wheel.radius_m, kLargestEntryAngleRad);
+  const double deepest = sinkage_m(test.wheel.radius_m, kMaxEntryAngleRad);
   if (test.sinkage_m && *test.sinkage_m > deepest)
     return Fault{
         pointer_to(sweep, "sinkage_m"),
@@ -104,7 +104,7 @@ std::vector<double> stepped(double lowest, double highest, double step) {
   std::vector<double> values;
   const double steps = std::max(0.0, std::floor((highest - lowest) / step + 1e-9));
   const double nothing = 1e-12 * std::max(std::abs(lowest), std::abs(highest));
-  for (std::size_t i = 0; static_cast<double>(i) <= steps && i <= kMostSweepRows; ++i) {
+  for (std::size_t i = 0; static_cast<double>(i) <= steps && i <= kMaxSweepRows; ++i) {
     const double value = lowest + static_cast<double>(i) * step;
     values.push_back(std::abs(value) <= nothing ? 0.0 : rounded_to_twelve(value));
   }
@@ -121,14 +121,14 @@ std::vector<Fault> parameter_faults(const WheelSweep& sweep) {
 
 std::vector<Fault> faults_of(const WheelSweep& sweep) {
   std::vector<Fault> faults = parameter_faults(sweep);
-  if (sweep.axes.size() > kMostSweepAxes)
-    faults.push_back({"/sweep", fmt::format("sweep has {} axes, must have at most {}", sweep.axes.size(),
-                                            kMostSweepAxes)});
+  if (sweep.axes.size() > kMaxSweepAxes)
+    faults.push_back(
+        {"/sweep", fmt::format("sweep has {} axes, must have at most {}", sweep.axes.size(), kMaxSweepAxes)});
   if (sweep.axes.size() == 2 && sweep.axes[0].parameter == sweep.axes[1].parameter)
     faults.push_back({"/sweep/1/parameter", fmt::format("{} is swept twice", sweep.axes[1].parameter)});
-  if (rows_of(sweep) > kMostSweepRows)
+  if (rows_of(sweep) > kMaxSweepRows)
     faults.push_back(
-        {"/sweep", fmt::format("sweep has {} rows, must have at most {}", rows_of(sweep), kMostSweepRows)});
+        {"/sweep", fmt::format("sweep has {} rows, must have at most {}", rows_of(sweep), kMaxSweepRows)});
   if (sweep.rig.soil.slip_curve != nullptr) {
     faults.push_back(
         {"/soil", "the soil is known by a slip curve alone, which says nothing of a single wheel's forces"});

@@ -22,8 +22,8 @@ double rounded_to_twelve(double value);
 // > 0.
 std::vector<double> stepped(double lowest, double highest, double step);
 
-constexpr std::size_t kMostSweepAxes = 2;
-constexpr std::size_t kMostSweepRows = 5000;
+constexpr std::size_t kMaxSweepAxes = 2;
+constexpr std::size_t kMaxSweepRows = 5000;
 
 // One parameter that stands at another value throughout.
 struct SweepSetting {

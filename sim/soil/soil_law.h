@@ -12,8 +12,8 @@ namespace slipway::sim {
 struct Soil;
 
 // The parameters that a law has of its own, in the order of its fields; SI and radians.
-constexpr std::size_t kMostLawParameters = 4;
-using LawParameters = std::array<double, kMostLawParameters>;
+constexpr std::size_t kMaxLawParameters = 4;
+using LawParameters = std::array<double, kMaxLawParameters>;
 
 // The wheel or plate that presses on the soil, as far as a pressure-sinkage law may depend on it.
 struct ContactSize {

@@ -26,7 +26,7 @@ double bekker_sinkage_m(const WheelGeometry& wheel, const Soil& soil, double loa
 namespace {
 
 struct Bracket {
-  double low = 0.0, high = kLargestEntryAngleRad;
+  double low = 0.0, high = kMaxEntryAngleRad;
 };
 
 // Where the load carried first rises past the load, on a grid of entry angles evaluated at once. Errors:
@@ -37,7 +37,7 @@ Result<Bracket> first_bearing(const WheelGeometry& wheel, const Soil& soil, doub
   std::array<WheelNumbers, kAngles> numbers;
   std::array<WheelForces, kAngles> forces;
   const auto angle = [](std::size_t k) {
-    return kLargestEntryAngleRad * static_cast<double>(k + 1) / static_cast<double>(kAngles);
+    return kMaxEntryAngleRad * static_cast<double>(k + 1) / static_cast<double>(kAngles);
   };
   for (std::size_t k = 0; k < kAngles; ++k) numbers[k] = numbers_of(wheel, soil, angle(k), motion);
   wheel_forces(numbers, forces);

@@ -19,7 +19,7 @@ double bekker_sinkage_m(const WheelGeometry& wheel, const Soil& soil, double loa
 
 // The entry angle at which the soil carries the load [ARTEMIS eq. 20]: W(theta_f) = load; the shallowest
 // where several do. Newton kept inside a bracket. Errors: not_converged where no angle up to
-// kLargestEntryAngleRad carries the load (sunk to the axle); the detail says how much is carried at most.
+// kMaxEntryAngleRad carries the load (sunk to the axle); the detail says how much is carried at most.
 // load_n > 0.
 Result<double> balanced_entry_angle_rad(const WheelGeometry& wheel, const Soil& soil, double load_n,
                                         const WheelMotion& motion);

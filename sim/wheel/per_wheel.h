@@ -8,7 +8,7 @@
 namespace slipway::sim {
 
 // The most wheels a rover may have: what the solvers set room aside for.
-constexpr int kMostWheels = 12;
+constexpr int kMaxWheels = 12;
 
 // One value for each wheel of a rover, in the order of its wheels: as many as the rover has, kept in place so
 // that nothing is allocated in a solver's loop.
@@ -46,7 +46,7 @@ class PerWheel {
   const T* end() const { return values_.data() + count_; }
 
  private:
-  std::array<T, kMostWheels> values_{};
+  std::array<T, kMaxWheels> values_{};
   std::size_t count_ = 0;
 };
 

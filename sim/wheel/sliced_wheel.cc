@@ -15,20 +15,20 @@ SlicedWheelForces sliced_wheel_forces(const WheelGeometry& wheel, const Soil& so
                                       std::span<const double> ground_height_m, double sinkage_m,
                                       const WheelMotion& motion) {
   const int slices = static_cast<int>(ground_height_m.size());
-  if (slices < 1 || slices > kMostSlices) throw std::invalid_argument("sliced_wheel_forces: 1 to 9 slices");
+  if (slices < 1 || slices > kMaxSlices) throw std::invalid_argument("sliced_wheel_forces: 1 to 9 slices");
   const int leading = motion.leftward > 0.0 ? slices - 1 : 0;
   // The stiffness is that under the whole width.
   WheelNumbers slice = numbers_of(wheel, soil, 0.0, motion);
   slice.width /= slices;
   SlicedWheelForces out;
-  std::array<WheelNumbers, kMostSlices> numbers;
-  std::array<WheelForces, kMostSlices> forces;
-  std::array<int, kMostSlices> of;
+  std::array<WheelNumbers, kMaxSlices> numbers;
+  std::array<WheelForces, kMaxSlices> forces;
+  std::array<int, kMaxSlices> of;
   std::size_t count = 0;
   for (int s = 0; s < slices; ++s) {
     const double depth = sinkage_m + ground_height_m[s];
     if (depth <= 0.0) continue;
-    slice.theta_f = std::min(entry_angle_rad(wheel.radius_m, depth), kLargestEntryAngleRad);
+    slice.theta_f = std::min(entry_angle_rad(wheel.radius_m, depth), kMaxEntryAngleRad);
     numbers[count] = slice;
     if (s != leading) numbers[count].side_bulldozing = 0.0;
     out.slices[s].entry_angle_rad = slice.theta_f;

@@ -7,7 +7,7 @@
 
 namespace slipway::sim {
 
-constexpr int kMostSlices = 9;
+constexpr int kMaxSlices = 9;
 
 // A wheel on ground whose height differs across its width, divided into N slices normal to its axle, each
 // with an entry and an exit angle of its own [ARTEMIS section 2.1]. Slices of equal width b / N from the
@@ -31,10 +31,10 @@ struct SliceContact {
 struct SlicedWheelForces {
   WheelForces total;
   double overturning_nm = 0.0;
-  std::array<SliceContact, kMostSlices> slices{};  // as many as there are heights
+  std::array<SliceContact, kMaxSlices> slices{};  // as many as there are heights
 };
 
-// One height a slice, 1 to kMostSlices of them.
+// One height a slice, 1 to kMaxSlices of them.
 SlicedWheelForces sliced_wheel_forces(const WheelGeometry& wheel, const Soil& soil,
                                       std::span<const double> ground_height_m, double sinkage_m,
                                       const WheelMotion& motion);

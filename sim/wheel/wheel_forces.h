@@ -84,7 +84,7 @@ void wheel_forces(const WheelGeometry& wheel, std::span<const Soil> soils,
                   std::span<WheelForces> forces);
 
 // The laws' own limit: beyond it a wheel counts as sunk to its axle.
-constexpr double kLargestEntryAngleRad = 1.5;
+constexpr double kMaxEntryAngleRad = 1.5;
 
 // z = r (1 - cos theta_f)
 double sinkage_m(double radius_m, double entry_angle_rad);

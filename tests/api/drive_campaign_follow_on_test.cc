@@ -1,4 +1,4 @@
-// Of several faults of a campaign each is told, and what only follows from one of them is not.
+// Of several faults of a campaign each is reported, and what only follows from one of them is not.
 
 #include <gtest/gtest.h>
 

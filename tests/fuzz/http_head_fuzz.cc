@@ -15,8 +15,8 @@ using namespace slipway;
 
 // The body's framing says the same whether its bytes come at once or one by one.
 void check_chunked(std::string_view bytes) {
-  constexpr std::size_t kMostBytes = 1000;
-  server::ChunkedBody whole(kMostBytes), dripped(kMostBytes);
+  constexpr std::size_t kMaxBytes = 1000;
+  server::ChunkedBody whole(kMaxBytes), dripped(kMaxBytes);
   std::string body_whole, body_dripped;
   std::string_view rest = bytes;
   const auto state = whole.feed(rest, body_whole);
@@ -25,7 +25,7 @@ void check_chunked(std::string_view bytes) {
     std::string_view one = bytes.substr(i, 1);
     dripped_state = dripped.feed(one, body_dripped);
   }
-  fuzz::require(body_whole.size() <= kMostBytes, "a chunked body keeps to its budget");
+  fuzz::require(body_whole.size() <= kMaxBytes, "a chunked body keeps to its budget");
   fuzz::require(state == dripped_state, "a chunked body ends the same way in pieces");
   if (state == server::ChunkedBody::State::kDone)
     fuzz::require(body_whole == body_dripped, "a chunked body has the same bytes in pieces");

@@ -94,11 +94,11 @@ bool is_word(char c) {
 }  // namespace
 
 void Mutator::learn(std::string_view input) {
-  constexpr std::size_t kMostWords = 4000, kLongest = 40;
-  for (std::size_t at = 0; at < input.size() && words_.size() < kMostWords;) {
+  constexpr std::size_t kMaxWords = 4000, kMax = 40;
+  for (std::size_t at = 0; at < input.size() && words_.size() < kMaxWords;) {
     std::size_t end = at;
     while (end < input.size() && is_word(input[end])) ++end;
-    if (end > at && end - at <= kLongest) {
+    if (end > at && end - at <= kMax) {
       const std::string_view found = input.substr(at, end - at);
       if (std::find(words_.begin(), words_.end(), found) == words_.end()) words_.emplace_back(found);
     }

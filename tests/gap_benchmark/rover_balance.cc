@@ -12,7 +12,7 @@ using Vector9 = Eigen::Matrix<double, 9, 1>;
 using Matrix9 = Eigen::Matrix<double, 9, 9>;
 
 constexpr double kDepthStep_m = 1e-6, kSpeedStep_m_s = 1e-7;
-constexpr int kMostSteps = 60;
+constexpr int kMaxSteps = 60;
 constexpr double kBalanced = 1e-8;  // of the weight
 
 class Balance {
@@ -36,7 +36,7 @@ class Balance {
     Matrix9 slope;
     std::array<WheelLoads, kWheels> loads;
     Vector9 residual = residual_of(x, held, &slope, loads);
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < kMaxSteps; ++step) {
       if (residual.cwiseAbs().maxCoeff() < kBalanced) {
         state.forward_m_s = x[0];
         state.left_m_s = x[1];

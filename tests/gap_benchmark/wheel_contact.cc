@@ -7,8 +7,8 @@
 namespace slipway::gap_benchmark {
 namespace {
 
-constexpr int kPanels = 12;               // of Simpson's rule on either branch; even
-constexpr double kSlowestRim_m_s = 1e-4;  // a locked wheel's shear displacement stays finite
+constexpr int kPanels = 12;           // of Simpson's rule on either branch; even
+constexpr double kMinRim_m_s = 1e-4;  // a locked wheel's shear displacement stays finite
 
 double smooth_sign(double x, double width) {
   return std::tanh(x / width);
@@ -88,7 +88,7 @@ WheelLoads wheel_loads(double radius_m, double width_m, double depth_m, const Wh
   const double sense = motion.rate_rad_s != 0.0 ? (motion.rate_rad_s > 0.0 ? 1.0 : -1.0)
                                                 : (motion.forward_m_s >= 0.0 ? 1.0 : -1.0);
   const double ahead = sense * motion.forward_m_s;
-  const double rim = std::max(radius_m * std::abs(motion.rate_rad_s), kSlowestRim_m_s);
+  const double rim = std::max(radius_m * std::abs(motion.rate_rad_s), kMinRim_m_s);
   const double travel = ahead / rim;  // 1 - slip while driving
   const double slip = travel <= 1.0 ? std::min(1.0 - travel, 1.0) : 1.0 / travel - 1.0;
   const double sideways = motion.left_m_s / rim;

@@ -13,10 +13,10 @@ struct Tracks {
   std::array<double, kWheels> lane_m{}, station_m{};
 
   bool is_ahead(int wheel, int of) const {
-    return wheel != of && station_m[static_cast<std::size_t>(wheel)] >=
-                              station_m[static_cast<std::size_t>(of)] + kLeastLead_m;
+    return wheel != of &&
+           station_m[static_cast<std::size_t>(wheel)] >= station_m[static_cast<std::size_t>(of)] + kMinLead_m;
   }
-  static constexpr double kLeastLead_m = 0.2;
+  static constexpr double kMinLead_m = 0.2;
 };
 Tracks tracks_of(const RoverOnFile& rover, const BalanceState& state);
 

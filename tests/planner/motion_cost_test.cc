@@ -107,7 +107,7 @@ TEST(TraverseMap, KeepsItsCellsBoundedOnALargeTerrain) {
   problem.terrain = dem::make_ramp({.size_m = 2000.0, .cell_m = 1.0}, rad_from_deg(3.0), 0.0);
   const KeepOut keep_out({}, *problem.rover);
   const TraverseMap map(problem, keep_out, problem.terrain->geometry().extent());
-  EXPECT_LE(map.cells(), static_cast<std::size_t>(kMostSearchCells));
+  EXPECT_LE(map.cells(), static_cast<std::size_t>(kMaxSearchCells));
   EXPECT_NEAR(map.cell(map.cells() / 2 + 700).gradient_x, std::tan(rad_from_deg(3.0)), 1e-3);
 }
 

@@ -71,7 +71,7 @@ TEST(Plan, FindsThreeRoutesThatDifferOnOpenGround) {
     EXPECT_NEAR(route.prediction.stations.back().station.pose.y_m, problem.goal.y_m, 1e-6);
   }
   for (std::size_t a = 0; a < 3; ++a)
-    for (std::size_t b = 0; b < a; ++b) EXPECT_LE(differences.shared(a, b), kLargestOverlap + 0.02);
+    for (std::size_t b = 0; b < a; ++b) EXPECT_LE(differences.shared(a, b), kMaxOverlap + 0.02);
   EXPECT_TRUE(plan.fewer_because.empty());
   EXPECT_EQ(plan.routes.front().verdict, Verdict::kGo);
   EXPECT_LE(plan.routes[0].cost, plan.routes[1].cost);

@@ -116,8 +116,8 @@ TEST(VerifyRoute, SamplesAreBoundedInOrderAndEndWhereTheDriveEnds) {
   const auto dynamic =
       driven(problem_of(kYard), {{3.0, 8.0, std::nullopt}, {28.0, 8.0, std::nullopt}}).dynamic;
   ASSERT_EQ(dynamic.end, sim::DriveEnd::kFinished) << dynamic.reason;
-  EXPECT_LE(dynamic.samples.size(), kMostVerificationSamples);
-  EXPECT_GE(dynamic.samples.size(), kMostVerificationSamples / 2);
+  EXPECT_LE(dynamic.samples.size(), kMaxVerificationSamples);
+  EXPECT_GE(dynamic.samples.size(), kMaxVerificationSamples / 2);
   EXPECT_EQ(dynamic.samples.front().time_s, 0.0);
   EXPECT_NEAR(dynamic.samples.back().time_s, dynamic.duration_s, 1e-9);
   for (std::size_t k = 1; k < dynamic.samples.size(); ++k)

@@ -47,8 +47,8 @@ TEST(SlipsOfCurrent, ReportsTheRangeOfCurrentsWhereNoSlipFits) {
   const SlipsOfCurrent found = slips_of_current(test, 9.0);
   EXPECT_TRUE(found.slips.empty());
   EXPECT_FALSE(found.reported);
-  EXPECT_NEAR(found.greatest_current_a, current_at(test, kHighestSearchedSlip), 1e-12);
-  EXPECT_NEAR(found.least_current_a, current_at(test, kLowestSearchedSlip), 1e-12);
+  EXPECT_NEAR(found.greatest_current_a, current_at(test, kMaxSearchedSlip), 1e-12);
+  EXPECT_NEAR(found.least_current_a, current_at(test, kMinSearchedSlip), 1e-12);
 }
 
 // Held at its depth, the wheel is the paper's literal one, whose current falls again at high slip.
@@ -82,7 +82,7 @@ TEST(GreatestPull, IsNoLessThanThePullAtAnySlip) {
     for (const Soil& soil : simulant) {
       WheelRigConditions test = zhurong_on(soil);
       const GreatestPull best = greatest_pull(test).value();
-      for (double slip = 0.0; slip <= kHighestSearchedSlip; slip += 0.013) {
+      for (double slip = 0.0; slip <= kMaxSearchedSlip; slip += 0.013) {
         test.slip = slip;
         EXPECT_GE(best.pull_n + 1e-6, run_wheel_rig(test).forces.drawbar_pull_n);
       }

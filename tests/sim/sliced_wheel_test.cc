@@ -35,7 +35,7 @@ TEST(SlicedWheel, OnLevelGroundTheSlicesTogetherAreTheWholeWheel) {
     const WheelMotion motion{0.8, leftward};
     const WheelForces whole =
         wheel_forces(kWheel, soil_with_effects(), entry_angle_rad(kWheel.radius_m, kSinkage_m), motion);
-    for (int slices = 1; slices <= kMostSlices; ++slices) {
+    for (int slices = 1; slices <= kMaxSlices; ++slices) {
       const SlicedWheelForces cut =
           sliced_wheel_forces(kWheel, soil_with_effects(), tilted(slices, 0.0), kSinkage_m, motion);
       EXPECT_NEAR(cut.total.drawbar_pull_n, whole.drawbar_pull_n, 1e-11 * whole.vertical_n);

@@ -321,7 +321,7 @@ TEST(EntryAngle, ABrakedWheelInCohesiveSoilStandsAtTheShallowestDepthThatCarries
   soil.friction_angle_rad = rad_from_deg(40.0);
   const WheelMotion motion{speed_ratio_from_slip(-0.9), 0.0};
   const double load = 200.0;
-  ASSERT_LT(wheel_forces(kWheel, soil, kLargestEntryAngleRad, motion).vertical_n, load);
+  ASSERT_LT(wheel_forces(kWheel, soil, kMaxEntryAngleRad, motion).vertical_n, load);
   const auto theta = balanced_entry_angle_rad(kWheel, soil, load, motion);
   ASSERT_TRUE(theta) << theta.error().detail;
   EXPECT_NEAR(wheel_forces(kWheel, soil, *theta, motion).vertical_n, load, 1e-9 * load);

@@ -30,7 +30,7 @@ Reading read_rig(const sim::Soil& sand, const WheelCondition& c) {
   const sim::WheelMotion motion{kPavlovTravel_m_s * std::cos(c.slip_angle_rad) / rim,
                                 kPavlovTravel_m_s * std::sin(c.slip_angle_rad) / rim};
   const auto balanced = sim::balanced_entry_angle_rad(kPavlovWheel, sand, c.mean(&WheelTest::load_n), motion);
-  const double theta = balanced ? *balanced : sim::kLargestEntryAngleRad;
+  const double theta = balanced ? *balanced : sim::kMaxEntryAngleRad;
   const sim::WheelForces f = sim::wheel_forces(kPavlovWheel, sand, theta, motion);
   return {f.drawbar_pull_n, -f.lateral_n, sim::sinkage_m(kPavlovWheel.radius_m, theta), !balanced};
 }

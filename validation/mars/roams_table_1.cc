@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kTilts = 4, kSteepest = 3;
 constexpr double kStuck = 100.0;  // slip in percent of a rover that makes no headway
 constexpr double kShown = 0.1;    // percentage points; a smaller change is not shown
-constexpr std::size_t kMostCandidates = 4;
+constexpr std::size_t kMaxCandidates = 4;
 
 // ROAMS paper, Table 1. Percent of slip.
 struct Published {
@@ -268,7 +268,7 @@ Result<Report> roams_table_1(const std::filesystem::path& data) {
     report.notes.push_back(
         fmt::format("These effects do not change the slip up the slope: {}.", fmt::join(nothing, ", ")));
   const std::vector<Signature> candidates(
-      all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(kMostCandidates, all.size())));
+      all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(kMaxCandidates, all.size())));
   report.notes.push_back(fmt::format(
       "The first is {} ({:+.1f} points on 20.764 deg, {:+.1f} on 10.758, {:+.1f} on 5.743, {:+.1f} "
       "on 0.085).",

@@ -20,7 +20,7 @@ namespace slipway::api::json {
 namespace {
 
 constexpr ParseLimits kLimits{.bytes = std::size_t{16} << 20U, .values = 500'000, .depth = 64, .keys = 2000};
-constexpr std::size_t kMostDrives = 10'000;
+constexpr std::size_t kMaxDrives = 10'000;
 
 std::vector<std::string> names_in(const std::vector<gap::NominalSoil>& soils) {
   std::vector<std::string> names;
@@ -48,8 +48,8 @@ void read_rover(ObjectReader& reader, const Catalogue& catalogue, DriveCampaignF
   const std::size_t before = file.faults.size();
   ObjectReader object = *reader.object("rover", kRequired);
   sim::RoverModel rover = read_campaign_rover(object);
-  // Its wheels' names are enough to read the drives' files by, so that their faults are told as well.
-  const bool nameable = !rover.wheels.empty() && rover.wheels.size() <= sim::kMostWheels;
+  // Its wheels' names are enough to read the drives' files by, so that their faults are reported as well.
+  const bool nameable = !rover.wheels.empty() && rover.wheels.size() <= sim::kMaxWheels;
   if (file.faults.size() == before || nameable)
     file.rover = std::make_shared<const sim::RoverModel>(std::move(rover));
 }
@@ -101,7 +101,7 @@ void read_soils(ObjectReader& reader, DriveCampaignFile& file) {
 void check_soil_name(ObjectReader& reader, std::string_view key, const std::string& name,
                      const DriveCampaignFile& file) {
   const std::vector<std::string> known = names_in(file.soils);
-  if (known.empty()) return;  // which was told
+  if (known.empty()) return;  // which was reported
   if (std::find(known.begin(), known.end(), name) == known.end())
     reader.fault(key, unknown_name("soil", name, known));
 }
@@ -213,7 +213,7 @@ void read_command(ObjectReader& drive, const sim::RoverModel* rover, gap::Measur
 // Index into the terrains; 0 with a fault where there is none of the name.
 std::size_t terrain_index(ObjectReader& drive, const DriveCampaignFile& file) {
   std::string name;
-  if (!drive.text("terrain", kRequired, {}, name) || file.terrains.empty()) return 0;  // which was told
+  if (!drive.text("terrain", kRequired, {}, name) || file.terrains.empty()) return 0;  // which was reported
   std::vector<std::string> known;
   for (std::size_t t = 0; t < file.terrains.size(); ++t) {
     if (file.terrains[t].name == name) return t;
@@ -241,7 +241,7 @@ void check_repeats(const std::map<std::string, std::size_t>& ids, bool all_read,
 void read_drives(ObjectReader& reader, DriveCampaignFile& file) {
   std::map<std::string, std::size_t> first_with, first_of_file;
   bool all_ids = true;
-  for (const Element& element : reader.list("drives", kRequired, {1, kMostDrives})) {
+  for (const Element& element : reader.list("drives", kRequired, {1, kMaxDrives})) {
     ObjectReader object = reader.object(element);
     all_ids = all_ids && object.is_object();
     if (!object.is_object()) continue;
@@ -258,7 +258,7 @@ void read_drives(ObjectReader& reader, DriveCampaignFile& file) {
       if (const auto [first, is_new] = first_of_file.emplace(entry.file, index); !is_new) {
         object.fault("file", fmt::format("file = {} is that of {} as well", in_quotes(entry.file),
                                          file.drives[first->second].pointer));
-        entry.file.clear();  // its faults are told once
+        entry.file.clear();  // its faults are reported once
       }
     drive.terrain = terrain_index(object, file);
     read_command(object, file.rover.get(), drive);
@@ -286,9 +286,9 @@ void note_passed_over(const std::vector<std::string>& passed_over, std::vector<s
   std::set<std::string> keys;
   for (const std::string& pointer : passed_over) keys.insert(without_indices(pointer));
   if (keys.empty()) return;
-  constexpr std::size_t kMostNamed = 30;
+  constexpr std::size_t kMaxNamed = 30;
   std::vector<std::string> named(keys.begin(), keys.end());
-  const std::size_t more = named.size() > kMostNamed ? named.size() - kMostNamed : 0;
+  const std::size_t more = named.size() > kMaxNamed ? named.size() - kMaxNamed : 0;
   named.resize(named.size() - more);
   notes.push_back(fmt::format("campaign.json: keys that the format does not have were passed over: {}{}",
                               fmt::join(named, ", "), more > 0 ? fmt::format(" and {} more", more) : ""));

@@ -30,8 +30,8 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kDocument = "campaign.json";
 // What a campaign may cost in memory: 180 MB of terrain, and about half a gigabyte of samples.
-constexpr long long kMostCells = dem::kMostWindowCells;
-constexpr std::size_t kMostRows = 1'000'000;
+constexpr long long kMaxCells = dem::kMaxWindowCells;
+constexpr std::size_t kMaxRows = 1'000'000;
 
 // The file's true place, or why it is not to be read.
 Result<fs::path> place_in(const fs::path& folder, const std::string& name) {
@@ -124,11 +124,11 @@ class Loader {
     if (!source) return fail(source.error());
     const dem::GridGeometry& geometry = (*source)->info().geometry;
     cells_ += static_cast<long long>(geometry.rows) * geometry.columns;
-    if (cells_ > kMostCells)
+    if (cells_ > kMaxCells)
       return fail(
           ErrorCode::kUnreadableData,
           fmt::format("the campaign's terrains have more than {} cells: cut them to where the drives are",
-                      kMostCells));
+                      kMaxCells));
     const auto terrain = (*source)->read(geometry.extent());
     if (!terrain) return fail(terrain.error());
     const std::uint64_t digest = digest_of_file(*path, campaign::digest_of({}));
@@ -178,7 +178,7 @@ class Loader {
     const auto bytes = path ? read_data_file(*path) : Result<std::string>(fail(path.error()));
     if (!bytes) return add(entry.pointer + "/file", bytes.error().detail);
     digest_ = campaign::digest_of(*bytes, digest_);
-    DriveSeries series = read_drive_series(*bytes, entry.file, wheels_, kMostRows - rows_);
+    DriveSeries series = read_drive_series(*bytes, entry.file, wheels_, kMaxRows - rows_);
     rows_ += series.samples.size();
     faults_.insert(faults_.end(), series.faults.begin(), series.faults.end());
     passed_over_.merge(series.passed_over);
@@ -194,9 +194,9 @@ class Loader {
 
   void note_columns() {
     if (passed_over_.empty()) return;
-    constexpr std::size_t kMostNamed = 200;
+    constexpr std::size_t kMaxNamed = 200;
     std::vector<std::string> names(passed_over_.begin(), passed_over_.end());
-    const std::size_t more = names.size() > kMostNamed ? names.size() - kMostNamed : 0;
+    const std::size_t more = names.size() > kMaxNamed ? names.size() - kMaxNamed : 0;
     names.resize(names.size() - more);
     for (std::string& name : names)
       if (const auto meant = column_meant(name, wheels_))

@@ -18,25 +18,25 @@
 namespace slipway::api {
 namespace {
 
-constexpr std::size_t kMostFaults = 100;  // of one file, that are reported one by one
+constexpr std::size_t kMaxFaults = 100;  // of one file, that are reported one by one
 constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
 
-constexpr double kFarthest_m = 1e8;  // map coordinates of a whole planet
-constexpr double kMostTurns_deg = 36'000.0;
+constexpr double kMax_m = 1e8;  // map coordinates of a whole planet
+constexpr double kMaxTurns_deg = 36'000.0;
 using Sample = gap::DriveSample;
 using gap::SampleColumn;
 
 // Columns of the rover that more than one channel, or none, is read from.
 constexpr std::array<SampleColumn, 8> kColumns{{
     {"t_s", -1e11, 1e11, [](Sample& s, std::size_t, double v) { s.time_s = v; }},
-    {"x_m", -kFarthest_m, kFarthest_m, [](Sample& s, std::size_t, double v) { s.p_MB.x() = v; }},
-    {"y_m", -kFarthest_m, kFarthest_m, [](Sample& s, std::size_t, double v) { s.p_MB.y() = v; }},
+    {"x_m", -kMax_m, kMax_m, [](Sample& s, std::size_t, double v) { s.p_MB.x() = v; }},
+    {"y_m", -kMax_m, kMax_m, [](Sample& s, std::size_t, double v) { s.p_MB.y() = v; }},
     {"z_m", -1e5, 1e5, [](Sample& s, std::size_t, double v) { s.p_MB.z() = v; }},
     {"roll_deg", -180.0, 180.0,
      [](Sample& s, std::size_t, double v) { s.attitude.roll_rad = rad_from_deg(v); }},
     {"pitch_deg", -180.0, 180.0,
      [](Sample& s, std::size_t, double v) { s.attitude.pitch_rad = rad_from_deg(v); }},
-    {"yaw_deg", -kMostTurns_deg, kMostTurns_deg,
+    {"yaw_deg", -kMaxTurns_deg, kMaxTurns_deg,
      [](Sample& s, std::size_t, double v) { s.attitude.yaw_rad = rad_from_deg(v); }},
     {"bus_voltage_v", 0.0, 1000.0, [](Sample& s, std::size_t, double v) { s.bus_voltage_v = v; }},
 }};
@@ -110,8 +110,8 @@ class Reader {
       fault(1, 0, "the file is empty, must have a header and two rows at least");
       return finish();
     }
-    if (const std::size_t columns = csv_cells(lines[0].text).size(); columns > kMostColumns) {
-      fault(lines[0].number, 0, fmt::format("{} columns, must be {} at most", columns, kMostColumns));
+    if (const std::size_t columns = csv_cells(lines[0].text).size(); columns > kMaxColumns) {
+      fault(lines[0].number, 0, fmt::format("{} columns, must be {} at most", columns, kMaxColumns));
       return finish();
     }
     read_header(lines[0]);
@@ -133,7 +133,7 @@ class Reader {
  private:
   // column: from 0, also one behind the last.
   void fault(std::size_t line, std::size_t column, const std::string& message) {
-    if (++faults_ > kMostFaults) return;
+    if (++faults_ > kMaxFaults) return;
     const std::string name = column < columns_.size() ? printable(columns_[column].name) : "";
     series_.faults.push_back({fmt::format("{}#/{}{}{}", file_, line, name.empty() ? "" : "/", name),
                               fmt::format("{}, line {}, column {}{}: {}", file_, line, column + 1,
@@ -141,9 +141,9 @@ class Reader {
   }
 
   DriveSeries finish() {
-    if (faults_ > kMostFaults)
+    if (faults_ > kMaxFaults)
       series_.faults.push_back(
-          {file_ + "#", fmt::format("{}: {} faults more like these", file_, faults_ - kMostFaults)});
+          {file_ + "#", fmt::format("{}: {} faults more like these", file_, faults_ - kMaxFaults)});
     return std::move(series_);
   }
 

@@ -19,7 +19,7 @@ struct ShippedCampaign {
   std::vector<gap::MeasuredDriveSeries> drives;  // without samples; terrains are indices into those above
 };
 
-// Sorted by name. Names alone of those whose campaign.json is at fault: whoever asks for one is told why.
+// Sorted by name. Names alone of those whose campaign.json is at fault: whoever asks for one gets the reason.
 std::vector<ShippedCampaign> shipped_campaigns(const std::filesystem::path& data, const Catalogue& catalogue);
 
 }  // namespace slipway::api

@@ -11,9 +11,9 @@
 namespace slipway::api::json {
 namespace {
 
-constexpr std::size_t kMostEntries = 5000;
-constexpr std::size_t kMostLegs = 100;
-constexpr int kMostRepeats = 1000;
+constexpr std::size_t kMaxEntries = 5000;
+constexpr std::size_t kMaxLegs = 100;
+constexpr int kMaxRepeats = 1000;
 
 void read_turn(ObjectReader& reader, const sim::RoverModel& rover, sim::DriveLeg& leg) {
   double turn_rad = 0.0;
@@ -40,7 +40,7 @@ void read_way(ObjectReader& reader, const sim::RoverModel& rover, sim::DriveLeg&
 
 std::vector<sim::DriveLeg> read_legs(ObjectReader& entry, const sim::RoverModel& rover) {
   std::vector<sim::DriveLeg> legs;
-  for (const Element& element : entry.list("legs", kRequired, {1, kMostLegs})) {
+  for (const Element& element : entry.list("legs", kRequired, {1, kMaxLegs})) {
     ObjectReader reader(*element.value, element.pointer, entry.faults());
     if (!reader.is_object()) continue;
     sim::DriveLeg& leg = legs.emplace_back();
@@ -93,14 +93,14 @@ std::vector<campaign::DriveEntry> read_table_drives(ObjectReader& table,
                                                     const std::vector<campaign::TableTerrain>& terrains,
                                                     const sim::RoverModel& rover) {
   std::vector<campaign::DriveEntry> entries;
-  for (const Element& element : table.list("drives", kRequired, {1, kMostEntries})) {
+  for (const Element& element : table.list("drives", kRequired, {1, kMaxEntries})) {
     ObjectReader reader(*element.value, element.pointer, table.faults());
     campaign::DriveEntry& entry = entries.emplace_back();
     reader.text("id", kRequired, {.most = 64, .is_name = true}, entry.id);
     read_terrains(reader, terrains, entry.terrains);
     read_start(reader, entry);
     entry.legs = read_legs(reader, rover);
-    reader.whole("repeats", kOptional, 1, kMostRepeats, entry.repeats);
+    reader.whole("repeats", kOptional, 1, kMaxRepeats, entry.repeats);
     read_failed_wheels(reader, entry.failed_wheels);
     reader.number("motor_temp_c", kOptional, {"degC", -150.0, 150.0}, entry.motor_temp_c);
     reader.boolean("final_only", kOptional, entry.final_only);

@@ -26,11 +26,11 @@ constexpr std::array kChannels{
 void read_channel(ObjectReader& sensors, const SensedChannel& channel, sim::SensorError& error) {
   auto object = sensors.object(channel.key, kOptional);
   if (!object) return;
-  constexpr double kMost = 1e3;
-  object->number("noise", kOptional, {channel.unit, 0.0, kMost}, error.noise);
+  constexpr double kMax = 1e3;
+  object->number("noise", kOptional, {channel.unit, 0.0, kMax}, error.noise);
   object->number("relative_noise", kOptional, {"1", 0.0, 10.0}, error.relative_noise);
-  object->number("bias", kOptional, {channel.unit, -kMost, kMost}, error.bias);
-  object->number("bias_std", kOptional, {channel.unit, 0.0, kMost}, error.bias_std);
+  object->number("bias", kOptional, {channel.unit, -kMax, kMax}, error.bias);
+  object->number("bias_std", kOptional, {channel.unit, 0.0, kMax}, error.bias_std);
   object->number("interval_s", kOptional, {"s", 0.0, 1e5}, error.interval_s);
   object->refuse_unknown();
   if (!channel.in_degrees) return;

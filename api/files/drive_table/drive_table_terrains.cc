@@ -13,8 +13,8 @@
 namespace slipway::api::json {
 namespace {
 
-constexpr double kMostCells = 4'000'000.0;
-constexpr std::size_t kMostTerrains = 200;
+constexpr double kMaxCells = 4'000'000.0;
+constexpr std::size_t kMaxTerrains = 200;
 
 void read_ripple(ObjectReader& terrain, dem::Relief& relief) {
   auto object = terrain.object("ripple", kOptional);
@@ -66,9 +66,9 @@ void make_synthetic(ObjectReader& reader, campaign::TableTerrain& terrain) {
   reader.number("size_m", kOptional, {"m", 1.0, 2000.0}, grid.size_m);
   reader.number("cell_m", kOptional, {"m", 0.01, 10.0}, grid.cell_m);
   read_rocks(reader, grid.cell_m, relief);
-  if (const double cells = grid.size_m / grid.cell_m; cells * cells > kMostCells)
+  if (const double cells = grid.size_m / grid.cell_m; cells * cells > kMaxCells)
     reader.fault("cell_m", fmt::format("size_m / cell_m = {:.0f} cells a side, must be at most {:.0f}", cells,
-                                       std::sqrt(kMostCells)));
+                                       std::sqrt(kMaxCells)));
   if (reader.faults().size() == before) terrain.ground = dem::make_relief(grid, relief);
 }
 
@@ -150,7 +150,7 @@ std::vector<campaign::TableTerrain> read_table_terrains(
     const std::map<std::string, sim::SoilDistribution, std::less<>>& soils) {
   std::vector<campaign::TableTerrain> terrains;
   std::set<std::string> names;
-  for (const Element& element : table.list("terrains", kRequired, {1, kMostTerrains})) {
+  for (const Element& element : table.list("terrains", kRequired, {1, kMaxTerrains})) {
     ObjectReader reader(*element.value, element.pointer, table.faults());
     campaign::TableTerrain& terrain = terrains.emplace_back();  // also when faulty: the indices must stay
     if (reader.text("name", kRequired, {.most = 64, .is_name = true}, terrain.name) &&

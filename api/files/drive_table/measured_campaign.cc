@@ -7,7 +7,7 @@ namespace slipway::api::json {
 namespace {
 
 constexpr ParseLimits kLimits{.bytes = std::size_t{64} << 20U, .values = 5'000'000};
-constexpr std::size_t kMostDrives = 200'000;
+constexpr std::size_t kMaxDrives = 200'000;
 
 }  // namespace
 
@@ -19,7 +19,7 @@ Result<MeasuredCampaign> read_measured_campaign(std::string_view bytes) {
   std::size_t format = 0;
   reader.choice("format", kRequired, {"drive-campaign/1"}, format);
   MeasuredCampaign campaign;
-  for (const Element& element : reader.list("drives", kRequired, {0, kMostDrives})) {
+  for (const Element& element : reader.list("drives", kRequired, {0, kMaxDrives})) {
     ObjectReader drive(*element.value, element.pointer, faults);
     std::string id, file;
     if (!drive.text("id", kRequired, {}, id) || !drive.text("file", kRequired, {}, file)) continue;

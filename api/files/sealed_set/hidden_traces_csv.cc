@@ -12,7 +12,7 @@
 namespace slipway::api {
 namespace {
 
-constexpr std::size_t kMostRows = 200'000;
+constexpr std::size_t kMaxRows = 200'000;
 constexpr std::size_t kFirstVariable = 2, kFirstChannel = kFirstVariable + gap::kWindowVariables;
 
 using Traces = std::map<std::string, std::vector<gap::HiddenTrace>>;
@@ -42,9 +42,9 @@ class TraceTable {
     Traces traces;
     if (lines.empty()) {
       faults_.push_back({std::string(file_), "the file is empty"});
-    } else if (lines.size() - 1 > kMostRows) {
+    } else if (lines.size() - 1 > kMaxRows) {
       faults_.push_back(
-          {std::string(file_), fmt::format("{} rows, must be {} at most", lines.size() - 1, kMostRows)});
+          {std::string(file_), fmt::format("{} rows, must be {} at most", lines.size() - 1, kMaxRows)});
     } else {
       read_header(lines.front());
       for (std::size_t i = 1; i < lines.size(); ++i) read_row(lines[i], traces);

@@ -44,8 +44,8 @@ Result<void> claim(const SealedSet& folder) {
 }
 
 bool is_kept(const campaign::MadeDrive& made) {
-  constexpr std::size_t kFewestRows = 5;
-  if (!made.drive || made.readings.size() < kFewestRows) return false;
+  constexpr std::size_t kMinRows = 5;
+  if (!made.drive || made.readings.size() < kMinRows) return false;
   return made.drive->end != sim::DriveEnd::kSlid && made.drive->end != sim::DriveEnd::kTipped;
 }
 

@@ -22,7 +22,7 @@ struct SealedSet {
   std::uint64_t seed = 1;
 };
 
-// Told after each campaign: its name, how many drives it has, how many of how many campaigns are made.
+// Reported after each campaign: its name, how many drives it has, how many of how many campaigns are made.
 using SealedTaker = std::function<void(const std::string& name, std::size_t drives, std::size_t made)>;
 
 // Makes what is not made yet of these campaigns, which are the folder's set of its seed. A campaign's

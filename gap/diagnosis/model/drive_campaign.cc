@@ -46,16 +46,16 @@ double turned_as_commanded(const DriveCampaign& campaign, const MeasuredDriveSer
 }  // namespace
 
 void note_turned_against_command(DriveCampaign& campaign) {
-  constexpr std::size_t kMostNamed = 5;
+  constexpr std::size_t kMaxNamed = 5;
   std::vector<std::string> against;
   for (const MeasuredDriveSeries& drive : campaign.drives)
     if (turned_as_commanded(campaign, drive) < 0.0) against.push_back(drive.id);
   if (against.empty()) return;
   const std::size_t count = against.size();
-  if (count > kMostNamed) against.resize(kMostNamed);
+  if (count > kMaxNamed) against.resize(kMaxNamed);
   campaign.notes.push_back(
       fmt::format("{} of {} drives ({}{}): the wheels turned against the commanded direction", count,
-                  campaign.drives.size(), fmt::join(against, ", "), count > kMostNamed ? ", ..." : ""));
+                  campaign.drives.size(), fmt::join(against, ", "), count > kMaxNamed ? ", ..." : ""));
 }
 
 DriveCampaign subset_of(const DriveCampaign& campaign, std::span<const std::size_t> drives) {

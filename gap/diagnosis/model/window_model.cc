@@ -17,7 +17,7 @@ constexpr double kSameAttitude_rad = rad_from_deg(0.02);
 
 // Where no attitude was recorded and the map is steeper than this, the map shows a tree or a wall and not
 // what was driven on.
-constexpr double kMostTilt_rad = rad_from_deg(35.0);
+constexpr double kMaxTilt_rad = rad_from_deg(35.0);
 
 // Every channel's numbers, those of wheels one a wheel: at a station, or means over a window's stations.
 class ChannelValues {
@@ -143,7 +143,7 @@ std::vector<WindowModel::Place> WindowModel::places_of(const sim::RoverModel& ro
     attitude.roll_rad += place.stance.attitude.roll_rad / static_cast<double>(places.size());
     attitude.pitch_rad += place.stance.attitude.pitch_rad / static_cast<double>(places.size());
   }
-  if (attitude.tilt_rad() > kMostTilt_rad) return {};
+  if (attitude.tilt_rad() > kMaxTilt_rad) return {};
   const Eigen::Vector3d p_MB = mean.stance.p_MB;
   mean.stance = sim::stance_on_plane(rover, attitude);
   mean.stance.p_MB = p_MB;
