@@ -2,9 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <string_view>
 
 namespace slipway::sim {
+
+std::string_view describe(Rule rule) {
+  static constexpr std::array<std::string_view, kRules> kNames{"slip_check", "tilt",      "current",
+                                                               "sinkage",    "clearance", "embedding"};
+  return kNames[static_cast<std::size_t>(rule)];
+}
 
 std::vector<std::string> broken_limits(const DriveExtremes& extremes, const DriveLimits& limits) {
   std::vector<std::string> broken;

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/angle.h"
@@ -16,6 +17,23 @@ struct DriveLimits {
   double max_sinkage_m = 0.08;   // of any wheel
   double min_clearance_m = 0.0;  // of the belly over the ground
 };
+
+// How the rover watches itself on the way. Documented operations: checks of the slip every 5 m with a limit
+// of 40 % for the Mars Exploration Rovers, of 60 to 70 % at other times; data/rules has presets.
+struct SlipChecks {
+  double slip_check_every_m = 5.0;  // of way that the wheels roll
+  // At a slip over this the wheels dig rather than drive.
+  double embedding_slip_ratio = 0.9;
+  double embedding_turns = 1.0;           // of the wheels at such a slip that embed the rover
+  double embedding_sinkage_share = 0.75;  // of a wheel's radius, deeper than which the rover is embedded
+};
+
+// What may end a drive, or break a limit along it. Slip check, tilt and current stop the drive for a sol.
+enum class Rule { kSlipCheck, kTilt, kCurrent, kSinkage, kClearance, kEmbedding };
+inline constexpr std::size_t kRules = 6;
+
+// "slip_check", "tilt", "current", "sinkage", "clearance", "embedding".
+std::string_view describe(Rule rule);
 
 // A maximum and the distance along the drive at which it occurs.
 struct Peak {

@@ -70,25 +70,30 @@ class Predictor {
     for (const WheelModel& wheel : rover.wheels) prediction_.wheel_names.push_back(wheel.name);
   }
 
-  // Returns false where the rover is immobilised, so that the drive ends here.
+  // Returns false where the rover has no stance, so that no draw of the soil takes it further. Where the mean
+  // soils immobilise it, the prediction on them ends, while draws of better soils drive on.
   bool add(const PathStation& station) {
     const std::optional<Stance> stance = settle(rover_, ground_, station.pose);
     if (!stance) return no_stance(station);
     PreparedStation ready;
     ready.stance = *stance;
     ready.command = command_at(rover_, station, conditions_);
+    ready.pose = station.pose;
     ready.distance_m = station.distance_m;
-    if (!prepared_.empty()) ready.drive_m = station.distance_m - prepared_.back().distance_m;
+    if (!prepared_.stations.empty())
+      ready.drive_m = station.distance_m - prepared_.stations.back().distance_m;
     ready.turn_rad = std::abs(station.turned_rad);
     if (station.turning_in_place && station.turned_rad == 0.0) ready.command.turn_in_place = false;
     StationPrediction predicted = stand(station, ready);
-    predict(ready, predicted);
-    prepared_.push_back(ready);
-    prediction_.stations.push_back(predicted);
-    return !prediction_.immobilised;
+    if (!prediction_.immobilised) {
+      predict(ready, predicted);
+      prediction_.stations.push_back(predicted);
+    }
+    prepared_.stations.push_back(std::move(ready));
+    return true;
   }
 
-  const std::vector<PreparedStation>& prepared() const { return prepared_; }
+  const PreparedDrive& prepared() const { return prepared_; }
 
   DrivePrediction finish() {
     DrivePrediction& p = prediction_;
@@ -101,10 +106,13 @@ class Predictor {
  private:
   // Every wheel has ground under it (predict_drive checked this), but the suspension cannot follow its shape.
   bool no_stance(const PathStation& station) {
-    prediction_.immobilised = {
-        station.distance_m, station.pose,
-        fmt::format("no stance at {:.1f} m: the ground is too uneven for the suspension",
-                    station.distance_m)};
+    prepared_.without_stance = true;
+    if (!prediction_.immobilised) {
+      prediction_.immobilised = {
+          station.distance_m, station.pose,
+          fmt::format("no stance at {:.1f} m: the ground is too uneven for the suspension",
+                      station.distance_m)};
+    }
     return false;
   }
 
@@ -163,7 +171,7 @@ class Predictor {
   const DriveConditions& conditions_;
   QuasiStaticSolver solver_;
   DrivePrediction prediction_;
-  std::vector<PreparedStation> prepared_;
+  PreparedDrive prepared_;
   Peak least_clearance_{1e9, 0.0};
   double slip_length_ = 0.0;
 };
@@ -199,9 +207,8 @@ Result<DrivePrediction> predict_drive(const RoverModel& rover, double gravity_m_
     if (!predictor.add(path[k])) break;
   }
   DrivePrediction prediction = predictor.finish();
-  if (risk.draws > 0 && !predictor.prepared().empty() &&
-      !assess_risk(rover, gravity_m_s2, beliefs, predictor.prepared(), limits, risk, threads, progress,
-                   prediction))
+  if (risk.draws > 0 && !assess_risk(rover, gravity_m_s2, beliefs, predictor.prepared(), limits, risk,
+                                     threads, progress, prediction))
     return fail(ErrorCode::kCancelled, "the prediction was dismissed");
   return prediction;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -58,6 +59,33 @@ struct Immobilisation {
   std::string reason;  // "no traction: ..." with the numbers
 };
 
+// A share of the draws with its 90 % interval: Wilson's, at the effective number of draws.
+struct DrawnShare {
+  double share = 0.0, low = 0.0, high = 0.0;
+};
+
+// What the draws say of one rule.
+struct RuleRisk {
+  Rule rule = Rule::kSlipCheck;
+  double limit = 0.0;  // slip, rad, A, m, m; of embedding 1
+  // Of the value of each draw that comes nearest to the limit: 5th, 50th and 95th percentile.
+  double value_p05 = 0.0, value_p50 = 0.0, value_p95 = 0.0;
+  DrawnShare trips;                 // share of the draws in which it trips
+  double from_m = 0.0, to_m = 0.0;  // where it trips in any draw; both 0 where it does in none
+  std::size_t station = 0;          // where the value comes nearest most often
+  int wheel = -1;                   // whose it is there; -1 where it is the rover's
+};
+
+// Stops, which cost a sol each, and embeddings, which may cost the rover; see OutcomeFollower.
+struct DriveOutcomes {
+  DrawnShare stop;       // drives with at least one stop
+  DrawnShare embedding;  // drives that end embedded
+  double expected_stops = 0.0, expected_stops_low = 0.0,
+         expected_stops_high = 0.0;  // mean with 90 % interval
+  std::vector<RuleRisk> rules;       // in the order of Rule
+  double effective_draws = 0.0;      // (sum of the weights)^2 / sum of their squares
+};
+
 // A predicted drive. "Immobilised at 41 m" is an answer, not an error.
 struct DrivePrediction {
   std::vector<std::string> wheel_names;  // in the order of every station's wheels
@@ -82,15 +110,28 @@ struct DrivePrediction {
   double risk_immobilised = 0.0;
   Peak worst_place;  // the station with the largest risk
   double duration_s_p95 = 0.0, energy_j_p95 = 0.0;
+  DriveOutcomes outcomes;
 };
 
-// Soil draws along a drive. Draw d's soil parameters at distance s follow a first-order autoregressive
-// process with the distribution's correlation length. The random numbers depend on (seed, draw, soil) only,
-// so that routes compared under one seed have the same draws.
+// The bars that decide a drive.
+struct OutcomeBars {
+  double max_embedding = 0.01;  // probability
+  double max_expected_stops = 0.5;
+};
+
+// Draws of the ground along a drive (see DrawnGround). Draw d's ground depends on (seed, d) and the place
+// only, so that routes compared under one seed meet the same ground.
 struct RiskOptions {
   int draws = 24;
-  double spacing_m = 0.5;  // stations are thinned to about this spacing for the draws
+  // Where this is more than `draws`, these are only the first batch: more are taken until the intervals of
+  // embedding and expected stops lie on one side of their bars, or there are so many.
+  int max_draws = 0;
+  OutcomeBars bars;
+  SlipChecks checks;
   std::uint64_t seed = 1;
+  // What earlier drives make of the draws: the weight of draw d, which has none beyond the last. All weigh
+  // the same where it is empty.
+  std::shared_ptr<const std::vector<double>> weights = {};
 };
 
 // The maximum spacing of stations at which no obstacle that a wheel would meet is missed.

@@ -1,159 +1,299 @@
 #include "sim/prediction/drive_risk.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
+#include <map>
+#include <numeric>
 
 #include "core/normal_interval.h"
 #include "core/parallel_for.h"
-#include "core/quantile.h"
 #include "core/random.h"
+#include "sim/prediction/drawn_ground.h"
+#include "sim/prediction/drive_outcome.h"
 
 namespace slipway::sim {
 namespace {
 
-// The results of one soil draw at the sampled stations of a drive.
+// Quantiles along the way are of the first draws where all of them at all stations would not fit in memory.
+constexpr std::size_t kMaxStates = 4'000'000;
+constexpr int kMinProfileDraws = 24;
+
+// The results of one draw along a drive.
 struct DrawnDrive {
-  std::vector<double> slip, current_a, sinkage_m;  // per sampled station that was reached
-  std::vector<bool> bad;                           // true where a limit is broken or the rover is immobilised
+  double weight = 1.0;
+  std::vector<float> slip, current_a, sinkage_m;  // per station that was reached, where they are kept
+  std::vector<bool> bad;  // per station: a limit is broken or the rover is immobilised
+  bool any_bad = false;
   bool immobilised = false;
   double duration_s = 0.0, energy_j = 0.0;
+  DriveOutcome outcome;
 };
 
-// The soils of one draw along the drive: a first-order autoregressive process for each soil distribution.
-class DrawnSoils {
+class DrawnDriver {
  public:
-  DrawnSoils(const SoilBeliefs& beliefs, std::uint64_t key) : beliefs_(beliefs), key_(key) {
-    for (std::size_t belief = 0; belief <= beliefs.known.size(); ++belief) {
-      normals_.push_back(innovation(belief));
-      soils_.push_back(draw_soil(of(belief), normals_.back()));
-    }
-  }
+  DrawnDriver(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs& beliefs,
+              const PreparedDrive& drive, const DriveLimits& limits, const SlipChecks& checks)
+      : rover_(rover),
+        gravity_m_s2_(gravity_m_s2),
+        beliefs_(beliefs),
+        drive_(drive),
+        limits_(limits),
+        checks_(checks) {}
 
-  void advance(double distance_m) {
-    if (distance_m <= 0.0) return;
-    ++step_;
-    for (std::size_t belief = 0; belief < normals_.size(); ++belief) {
-      const double kept = std::exp(-distance_m / of(belief).correlation_length_m);
-      normals_[belief] = kept * normals_[belief] + std::sqrt(1.0 - kept * kept) * innovation(belief);
-      soils_[belief] = draw_soil(of(belief), normals_[belief]);
+  DrawnDrive run(std::uint64_t key, bool keep_states, const Progress& progress) const {
+    DrawnDrive drawn;
+    DrawnGround ground(beliefs_, key);
+    QuasiStaticSolver solver(rover_, gravity_m_s2_);
+    OutcomeFollower follower(rover_, limits_, checks_);
+    PerWheel<Soil> under(rover_.wheels.size());
+    bool embedded = false;
+    for (std::size_t s = 0; s < drive_.stations.size() && !(embedded && drawn.immobilised); ++s) {
+      if (progress.cancelled()) break;
+      const PreparedStation& station = drive_.stations[s];
+      for (std::size_t k = 0; k < under.size(); ++k)
+        under[k] = ground.at(station.soil[k], station.pose.x_m, station.pose.y_m);
+      const StationState state = solver.solve(station.stance, under, station.command);
+      if (!embedded) embedded = !follower.add(station, s, state);
+      if (!drawn.immobilised) add(station, state, keep_states, drawn);
     }
+    drawn.outcome = follower.finish();
+    if (drive_.without_stance) {
+      // The wheels meet ground that the suspension cannot follow: no draw of the soil passes there.
+      drawn.any_bad = drawn.immobilised = true;
+      drawn.outcome.embedded = true;
+    }
+    return drawn;
   }
-
-  const Soil& at(std::optional<std::size_t> soil) const { return soil ? soils_[*soil] : soils_.back(); }
 
  private:
-  const SoilDistribution& of(std::size_t belief) const {
-    return belief < beliefs_.known.size() ? beliefs_.known[belief] : beliefs_.unknown;
-  }
-  SoilNormals innovation(std::size_t belief) const {
-    const std::uint64_t key = random_key(key_, belief);
-    SoilNormals z;
-    for (int k = 0; k < kSoilDims; ++k) z[k] = random_normal(key, step_ * kSoilDims + k);
-    return z;
-  }
-
-  const SoilBeliefs& beliefs_;
-  std::uint64_t key_;
-  std::uint64_t step_ = 0;
-  std::vector<SoilNormals> normals_;
-  std::vector<Soil> soils_;
-};
-
-// Every station where the rover turns in place, driven ones about `spacing_m` apart, and always the first and
-// last.
-std::vector<std::size_t> sampled_stations(std::span<const PreparedStation> stations, double spacing_m) {
-  std::vector<std::size_t> sampled{0};
-  for (std::size_t k = 1; k < stations.size(); ++k) {
-    const bool far = stations[k].distance_m - stations[sampled.back()].distance_m >= spacing_m - 1e-9;
-    const bool turn = stations[k].command.turn_in_place && !stations[sampled.back()].command.turn_in_place;
-    if (far || turn || k + 1 == stations.size()) sampled.push_back(k);
-  }
-  return sampled;
-}
-
-// The part of the drive that a sampled station represents, which is all since the last sampled one.
-PreparedStation span_of(std::span<const PreparedStation> stations, std::size_t after, std::size_t at) {
-  PreparedStation span = stations[at];
-  for (std::size_t k = after + 1; k < at; ++k) {
-    span.drive_m += stations[k].drive_m;
-    span.turn_rad += stations[k].turn_rad;
-  }
-  return span;
-}
-
-DrawnDrive drive_on(const RoverModel& rover, double gravity_m_s2, DrawnSoils soils,
-                    std::span<const PreparedStation> spans, const DriveLimits& limits,
-                    const Progress& progress) {
-  DrawnDrive drive;
-  QuasiStaticSolver solver(rover, gravity_m_s2);
-  for (const PreparedStation& station : spans) {
-    if (progress.cancelled()) break;
-    soils.advance(station.drive_m);
-    PerWheel<Soil> under(station.soil.size());
-    for (std::size_t k = 0; k < under.size(); ++k) under[k] = soils.at(station.soil[k]);
-    const StationState state = solver.solve(station.stance, under, station.command);
-    drive.slip.push_back(state.slip_ratio);
-    drive.current_a.push_back(largest_current_a(state));
-    drive.sinkage_m.push_back(deepest_sinkage_m(state));
-    drive.bad.push_back(!state.moving() || breaks(limits, state) || breaks(limits, station.stance));
+  void add(const PreparedStation& station, const StationState& state, bool keep_states,
+           DrawnDrive& drawn) const {
+    const bool bad = !state.moving() || breaks(limits_, state) || breaks(limits_, station.stance);
+    drawn.any_bad |= bad;
+    drawn.bad.push_back(bad);
+    if (keep_states) {
+      drawn.slip.push_back(static_cast<float>(state.slip_ratio));
+      drawn.current_a.push_back(static_cast<float>(largest_current_a(state)));
+      drawn.sinkage_m.push_back(static_cast<float>(deepest_sinkage_m(state)));
+    }
     if (!state.moving()) {
-      drive.immobilised = true;
-      break;
+      drawn.immobilised = true;
+      return;
     }
     const Effort effort = effort_of(station, state);
-    drive.duration_s += effort.duration_s;
-    drive.energy_j += effort.energy_j;
+    drawn.duration_s += effort.duration_s;
+    drawn.energy_j += effort.energy_j;
   }
-  return drive;
+
+  const RoverModel& rover_;
+  double gravity_m_s2_;
+  const SoilBeliefs& beliefs_;
+  const PreparedDrive& drive_;
+  const DriveLimits& limits_;
+  const SlipChecks& checks_;
+};
+
+// Type 7 of Hyndman and Fan where all weigh the same. There must be a value.
+double weighted_quantile(std::vector<std::pair<double, double>> values, double share) {
+  std::sort(values.begin(), values.end());
+  double sum = 0.0;
+  for (const auto& [value, weight] : values) sum += weight;
+  const double span = sum - values.back().second;
+  if (span <= 0.0) return values.back().first;
+  double before = 0.0;
+  for (std::size_t k = 0; k + 1 < values.size(); ++k) {
+    const double here = before / span, next = (before + values[k].second) / span;
+    if (share <= next) {
+      const double part = next > here ? (share - here) / (next - here) : 0.0;
+      return values[k].first + part * (values[k + 1].first - values[k].first);
+    }
+    before += values[k].second;
+  }
+  return values.back().first;
 }
 
-// Wilson's interval for a share of n, at 90 % [Wilson 1927].
-void set_interval(DrivePrediction& prediction, double share, double n) {
-  constexpr double z = kReach90;
-  const double centre = (share + z * z / (2.0 * n)) / (1.0 + z * z / n);
-  const double half = z / (1.0 + z * z / n) * std::sqrt(share * (1.0 - share) / n + z * z / (4.0 * n * n));
-  prediction.risk = share;
-  prediction.risk_low = std::max(0.0, centre - half);
-  prediction.risk_high = std::min(1.0, centre + half);
-}
+// Sums over weighted draws.
+class Weighted {
+ public:
+  explicit Weighted(const std::vector<DrawnDrive>& drives) : drives_(drives) {
+    double squares = 0.0;
+    for (const DrawnDrive& drive : drives) {
+      sum_ += drive.weight;
+      squares += drive.weight * drive.weight;
+    }
+    effective_ = sum_ * sum_ / squares;
+  }
 
-// Quantiles over the draws that reached a sampled station, for the stations that it stands for.
-void fill_station(const std::vector<DrawnDrive>& drives, std::size_t sample, StationPrediction& station) {
-  std::vector<double> slip, current, sinkage;
-  int bad = 0;
+  double effective() const { return effective_; }
+
+  template <class Of>
+  double mean(Of of) const {
+    double total = 0.0;
+    for (const DrawnDrive& drive : drives_) total += drive.weight * static_cast<double>(of(drive));
+    return total / sum_;
+  }
+
+  // Wilson's interval for a share of n, at 90 % [Wilson 1927].
+  template <class Of>
+  DrawnShare share(Of of) const {
+    constexpr double z = kReach90;
+    const double n = effective_, p = std::clamp(mean(of), 0.0, 1.0);
+    const double centre = (p + z * z / (2.0 * n)) / (1.0 + z * z / n);
+    const double half = z / (1.0 + z * z / n) * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n));
+    return {p, std::max(0.0, centre - half), std::min(1.0, centre + half)};
+  }
+
+  template <class Of>
+  double quantile(Of of, double at) const {
+    std::vector<std::pair<double, double>> values;
+    for (const DrawnDrive& drive : drives_) values.emplace_back(of(drive), drive.weight);
+    return weighted_quantile(std::move(values), at);
+  }
+
+ private:
+  const std::vector<DrawnDrive>& drives_;
+  double sum_ = 0.0, effective_ = 0.0;
+};
+
+// Quantiles over the draws that reached a station.
+void fill_station(const std::vector<DrawnDrive>& drives, std::size_t s, StationPrediction& station) {
+  std::vector<std::pair<double, double>> slip, current, sinkage;
+  double bad = 0.0, all = 0.0;
   for (const DrawnDrive& drive : drives) {
-    if (sample >= drive.slip.size()) continue;
-    slip.push_back(drive.slip[sample]);
-    current.push_back(drive.current_a[sample]);
-    sinkage.push_back(drive.sinkage_m[sample]);
-    bad += drive.bad[sample] ? 1 : 0;
+    all += drive.weight;
+    if (s < drive.bad.size() && drive.bad[s]) bad += drive.weight;
+    if (s >= drive.slip.size()) continue;
+    slip.emplace_back(drive.slip[s], drive.weight);
+    current.emplace_back(drive.current_a[s], drive.weight);
+    sinkage.emplace_back(drive.sinkage_m[s], drive.weight);
   }
-  station.risk = static_cast<double>(bad) / static_cast<double>(drives.size());
+  station.risk = bad / all;
   if (slip.empty()) return;  // no draw came this far, so that the values on the mean soils remain
-  station.slip_ratio_p05 = quantile(slip, 0.05);
-  station.slip_ratio_p50 = quantile(slip, 0.50);
-  station.slip_ratio_p95 = quantile(slip, 0.95);
-  station.current_a_p95 = quantile(current, 0.95);
-  station.sinkage_m_p95 = quantile(sinkage, 0.95);
+  station.slip_ratio_p05 = weighted_quantile(slip, 0.05);
+  station.slip_ratio_p50 = weighted_quantile(slip, 0.50);
+  station.slip_ratio_p95 = weighted_quantile(slip, 0.95);
+  station.current_a_p95 = weighted_quantile(current, 0.95);
+  station.sinkage_m_p95 = weighted_quantile(sinkage, 0.95);
 }
 
-void summarise(const std::vector<DrawnDrive>& drives, DrivePrediction& prediction) {
-  std::vector<double> duration, energy;
-  double bad = 0.0, immobilised = 0.0;
-  for (const DrawnDrive& drive : drives) {
-    bad += std::any_of(drive.bad.begin(), drive.bad.end(), [](bool b) { return b; }) ? 1.0 : 0.0;
-    immobilised += drive.immobilised ? 1.0 : 0.0;
-    if (drive.immobilised) continue;
-    duration.push_back(drive.duration_s);
-    energy.push_back(drive.energy_j);
+double limit_of(Rule rule, const DriveLimits& limits) {
+  switch (rule) {
+    case Rule::kSlipCheck:
+      return limits.max_slip_ratio;
+    case Rule::kTilt:
+      return limits.max_tilt_rad;
+    case Rule::kCurrent:
+      return limits.max_current_a;
+    case Rule::kSinkage:
+      return limits.max_sinkage_m;
+    case Rule::kClearance:
+      return limits.min_clearance_m;
+    case Rule::kEmbedding:
+      break;
   }
-  const double n = static_cast<double>(drives.size());
+  return 1.0;
+}
+
+RuleRisk rule_risk(Rule rule, const std::vector<DrawnDrive>& drives, const Weighted& weighted,
+                   const DriveLimits& limits) {
+  const auto value = [&](const DrawnDrive& d) { return d.outcome.of(rule).value; };
+  RuleRisk risk{.rule = rule,
+                .limit = limit_of(rule, limits),
+                .value_p05 = weighted.quantile(value, 0.05),
+                .value_p50 = weighted.quantile(value, 0.50),
+                .value_p95 = weighted.quantile(value, 0.95),
+                .trips = weighted.share([&](const DrawnDrive& d) { return d.outcome.of(rule).tripped; })};
+  std::map<std::pair<std::size_t, int>, double> places;
+  bool first = true;
+  for (const DrawnDrive& drive : drives) {
+    const RuleTrace& trace = drive.outcome.of(rule);
+    if (drive.weight <= 0.0) continue;
+    places[{trace.station, trace.wheel}] += drive.weight;
+    if (!trace.tripped) continue;
+    risk.from_m = first ? trace.first_m : std::min(risk.from_m, trace.first_m);
+    risk.to_m = first ? trace.last_m : std::max(risk.to_m, trace.last_m);
+    first = false;
+  }
+  double most = 0.0;
+  for (const auto& [place, weight] : places) {
+    if (weight <= most) continue;
+    most = weight;
+    risk.station = place.first;
+    risk.wheel = place.second;
+  }
+  return risk;
+}
+
+DriveOutcomes outcomes_of(const std::vector<DrawnDrive>& drives, const Weighted& weighted,
+                          const DriveLimits& limits) {
+  DriveOutcomes out;
+  out.effective_draws = weighted.effective();
+  out.stop = weighted.share([](const DrawnDrive& d) { return d.outcome.stops > 0; });
+  out.embedding = weighted.share([](const DrawnDrive& d) { return d.outcome.embedded; });
+  const double mean = weighted.mean([](const DrawnDrive& d) { return d.outcome.stops; });
+  const double square = weighted.mean([](const DrawnDrive& d) { return d.outcome.stops * d.outcome.stops; });
+  const double error = std::sqrt(std::max(0.0, square - mean * mean) / weighted.effective());
+  // Where hardly any draw stops, their scatter says little: the share of draws with a stop bounds the mean.
+  out.expected_stops = mean;
+  out.expected_stops_low = std::max({0.0, mean - kReach90 * error, std::min(mean, out.stop.low)});
+  out.expected_stops_high = std::max(mean + kReach90 * error, mean > 0.0 ? mean : out.stop.high);
+  for (std::size_t rule = 0; rule < kRules; ++rule)
+    out.rules.push_back(rule_risk(static_cast<Rule>(rule), drives, weighted, limits));
+  return out;
+}
+
+void summarise(const std::vector<DrawnDrive>& drives, const DriveLimits& limits,
+               DrivePrediction& prediction) {
+  const Weighted weighted(drives);
+  const DrawnShare risk = weighted.share([](const DrawnDrive& d) { return d.any_bad; });
   prediction.draws = static_cast<int>(drives.size());
-  set_interval(prediction, bad / n, n);
-  prediction.risk_immobilised = immobilised / n;
-  prediction.duration_s_p95 = duration.empty() ? prediction.duration_s : quantile(duration, 0.95);
-  prediction.energy_j_p95 = energy.empty() ? prediction.energy_j : quantile(energy, 0.95);
+  prediction.risk = risk.share;
+  prediction.risk_low = risk.low;
+  prediction.risk_high = risk.high;
+  prediction.risk_immobilised = weighted.mean([](const DrawnDrive& d) { return d.immobilised; });
+  prediction.outcomes = outcomes_of(drives, weighted, limits);
+  std::vector<std::pair<double, double>> duration, energy;
+  for (const DrawnDrive& drive : drives) {
+    if (drive.immobilised || drive.weight <= 0.0) continue;
+    duration.emplace_back(drive.duration_s, drive.weight);
+    energy.emplace_back(drive.energy_j, drive.weight);
+  }
+  prediction.duration_s_p95 = duration.empty() ? prediction.duration_s : weighted_quantile(duration, 0.95);
+  prediction.energy_j_p95 = energy.empty() ? prediction.energy_j : weighted_quantile(energy, 0.95);
+}
+
+// Both bars have their interval on one side, or one of them is passed for sure.
+bool decided(const DriveOutcomes& outcomes, const OutcomeBars& bars) {
+  if (outcomes.embedding.low > bars.max_embedding || outcomes.expected_stops_low > bars.max_expected_stops)
+    return true;
+  return outcomes.embedding.high < bars.max_embedding &&
+         outcomes.expected_stops_high < bars.max_expected_stops;
+}
+
+// The number of draws after each look at them.
+std::size_t next_batch(std::size_t drawn, const RiskOptions& options) {
+  const auto first = static_cast<std::size_t>(options.draws);
+  if (drawn == 0) return first;
+  // 272 without an embedding are the fewest that show less than 1 %.
+  constexpr std::size_t kClean = 272;
+  const std::size_t next = drawn < kClean ? std::min(2 * drawn, kClean) : 2 * drawn;
+  return std::min(next, static_cast<std::size_t>(options.max_draws));
+}
+
+// The draws from drives.size() to `count`. False where it was cancelled.
+bool draw_more(const DrawnDriver& driver, std::size_t count, std::size_t stations, const RiskOptions& options,
+               std::size_t threads, const Progress& progress, std::vector<DrawnDrive>& drives) {
+  const std::size_t before = drives.size();
+  const std::size_t kept =
+      std::max<std::size_t>(kMinProfileDraws, kMaxStates / std::max<std::size_t>(stations, 1));
+  drives.resize(count);
+  parallel_for(count - before, threads, [&](std::size_t k) {
+    const std::size_t draw = before + k;
+    drives[draw] = driver.run(random_key(options.seed, draw), draw < kept, progress);
+    if (!options.weights) return;
+    drives[draw].weight = draw < options.weights->size() ? (*options.weights)[draw] : 0.0;
+  });
+  return !progress.cancelled();
 }
 
 }  // namespace
@@ -195,31 +335,41 @@ Effort effort_of(const PreparedStation& station, const StationState& state) {
   return effort;
 }
 
-bool assess_risk(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs& beliefs,
-                 std::span<const PreparedStation> stations, const DriveLimits& limits,
-                 const RiskOptions& options, std::size_t threads, Progress& progress,
-                 DrivePrediction& prediction) {
-  const std::vector<std::size_t> sampled = sampled_stations(stations, options.spacing_m);
-  std::vector<PreparedStation> spans;
-  for (std::size_t s = 0; s < sampled.size(); ++s)
-    spans.push_back(span_of(stations, s == 0 ? sampled[0] : sampled[s - 1], sampled[s]));
-
-  std::vector<DrawnDrive> drives(static_cast<std::size_t>(options.draws));
-  parallel_for(drives.size(), threads, [&](std::size_t draw) {
-    DrawnSoils soils(beliefs, random_key(options.seed, draw));
-    drives[draw] = drive_on(rover, gravity_m_s2, std::move(soils), spans, limits, progress);
+std::vector<DrawnOutcome> drawn_outcomes(const RoverModel& rover, double gravity_m_s2,
+                                         const SoilBeliefs& beliefs, const PreparedDrive& drive,
+                                         const DriveLimits& limits, const RiskOptions& options,
+                                         std::size_t threads, Progress& progress) {
+  const DrawnDriver driver(rover, gravity_m_s2, beliefs, drive, limits, options.checks);
+  std::vector<DrawnOutcome> outcomes(static_cast<std::size_t>(options.draws));
+  parallel_for(outcomes.size(), threads, [&](std::size_t draw) {
+    const DrawnDrive drawn = driver.run(random_key(options.seed, draw), false, progress);
+    outcomes[draw] = {drawn.outcome.stops > 0, drawn.outcome.embedded};
   });
-  if (progress.cancelled()) return false;
+  if (progress.cancelled()) outcomes.clear();
+  return outcomes;
+}
 
-  summarise(drives, prediction);
-  std::size_t sample = 0;
+bool assess_risk(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs& beliefs,
+                 const PreparedDrive& drive, const DriveLimits& limits, const RiskOptions& options,
+                 std::size_t threads, Progress& progress, DrivePrediction& prediction) {
+  const DrawnDriver driver(rover, gravity_m_s2, beliefs, drive, limits, options.checks);
+  std::vector<DrawnDrive> drives;
+  const auto most = static_cast<std::size_t>(std::max(options.draws, options.max_draws));
+  do {
+    if (!draw_more(driver, next_batch(drives.size(), options), drive.stations.size(), options, threads,
+                   progress, drives))
+      return false;
+    summarise(drives, limits, prediction);
+  } while (drives.size() < most && !decided(prediction.outcomes, options.bars));
+
   for (std::size_t k = 0; k < prediction.stations.size(); ++k) {
-    while (sample + 1 < sampled.size() && sampled[sample] < k) ++sample;
     StationPrediction& station = prediction.stations[k];
-    fill_station(drives, sample, station);
+    fill_station(drives, k, station);
     if (station.risk > prediction.worst_place.value)
       prediction.worst_place = {station.risk, station.station.distance_m};
   }
+  if (drive.without_stance && prediction.immobilised)
+    prediction.worst_place = {1.0, prediction.immobilised->distance_m};
   return true;
 }
 

@@ -14,6 +14,7 @@ struct PreparedStation {
   Stance stance;
   PerWheel<std::optional<std::size_t>> soil;  // index of the soil under each wheel; empty on unknown ground
   DriveCommand command;
+  Pose2 pose;
   double distance_m = 0.0;
   double drive_m = 0.0;   // since the last station
   double turn_rad = 0.0;  // turned in place since the last station, without sign
@@ -35,11 +36,27 @@ struct Effort {
 };
 Effort effort_of(const PreparedStation& station, const StationState& state);
 
-// Fills the prediction's fields over soil draws (risk, intervals, quantiles per station). Returns false where
-// it was cancelled.
+// The whole path as the draws drive it.
+struct PreparedDrive {
+  std::vector<PreparedStation> stations;  // to the path's end, or to where the rover has no stance
+  bool without_stance = false;            // the path goes on where no stance is possible
+};
+
+// How each draw of the ground went, from draw `first` on: what the drive's outcome weights are learnt from.
+struct DrawnOutcome {
+  bool stopped = false;
+  bool embedded = false;
+};
+// Empty where it was cancelled.
+std::vector<DrawnOutcome> drawn_outcomes(const RoverModel& rover, double gravity_m_s2,
+                                         const SoilBeliefs& beliefs, const PreparedDrive& drive,
+                                         const DriveLimits& limits, const RiskOptions& options,
+                                         std::size_t threads, Progress& progress);
+
+// Fills the prediction's fields over soil draws (risk, outcomes, intervals, quantiles per station). Returns
+// false where it was cancelled.
 bool assess_risk(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs& beliefs,
-                 std::span<const PreparedStation> stations, const DriveLimits& limits,
-                 const RiskOptions& options, std::size_t threads, Progress& progress,
-                 DrivePrediction& prediction);
+                 const PreparedDrive& drive, const DriveLimits& limits, const RiskOptions& options,
+                 std::size_t threads, Progress& progress, DrivePrediction& prediction);
 
 }  // namespace slipway::sim

@@ -103,6 +103,25 @@ constexpr int kSoilDims = 5;  // stiffness, n, cohesion, tan(friction angle), sh
 using SoilNormals = Eigen::Matrix<double, kSoilDims, 1>;
 using SoilCorrelation = Eigen::Matrix<double, kSoilDims, kSoilDims>;
 
+// How the spread about the mean is shared out among the levels of the ground, as shares of the variance that
+// add up to 1. What is shared everywhere is one number for all ground of this soil; the rest changes from
+// unit to unit and from patch to patch (see DrawnGround).
+struct SpreadShares {
+  double everywhere = 0.5;
+  double unit = 0.3;
+  double patch = 0.2;
+};
+
+struct SoilDistribution;
+
+// One of the soils that the ground may be. Sinkage under load and strength are drawn apart, since tables of
+// soils often share one assumed stiffness among rows whose strengths were measured one by one.
+struct SoilAlternative {
+  std::shared_ptr<const SoilDistribution> soil;
+  double pressure_weight = 1.0;  // for k_c, k_phi, n and the law of pressure
+  double strength_weight = 1.0;  // for everything else
+};
+
 // What is believed of a soil: a mean, its spread and how far along the ground one draw holds. The five
 // uncertain quantities are log-normal with these means and standard deviations (so every draw is a soil), and
 // their logarithms have the given correlation. The slip of a slip curve is normal about it.
@@ -114,7 +133,13 @@ struct SoilDistribution {
   Soil mean;
   SoilStd std;
   SoilCorrelation correlation = SoilCorrelation::Identity();
-  double correlation_length_m = 5.0;
+  double correlation_length_m = 5.0;  // of a patch
+  SpreadShares shares;
+  // Where it is not known which soil the ground is, the soils that it may be; a draw is of one of these, and
+  // mean and std above serve the prediction on the mean soil alone.
+  std::vector<SoilAlternative> alternatives;
+  // Each unit of the ground is another draw of the alternatives; false where all ground of this soil is one.
+  bool alternatives_by_unit = false;
 };
 
 // Turns standard normal numbers into one soil of the distribution. `normals` are independent; the correlation

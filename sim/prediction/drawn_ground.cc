@@ -1,0 +1,131 @@
+#include "sim/prediction/drawn_ground.h"
+
+#include <cmath>
+
+#include "core/random.h"
+
+namespace slipway::sim {
+namespace {
+
+// Streams of one belief's random numbers.
+enum Stream : std::uint64_t { kEverywhere, kUnit, kPatch, kPressureChoice, kStrengthChoice, kJitter };
+
+SoilNormals normals_of(std::uint64_t key) {
+  SoilNormals z;
+  for (int k = 0; k < kSoilDims; ++k) z[k] = random_normal(key, static_cast<std::uint64_t>(k));
+  return z;
+}
+
+std::uint64_t cell_key(std::uint64_t key, long long column, long long row) {
+  return random_key(random_key(key, static_cast<std::uint64_t>(column)), static_cast<std::uint64_t>(row));
+}
+
+// FNV-1a of the soil's name: the index of a soil in a map's legend is another for another window of the map.
+std::uint64_t name_key(std::uint64_t key, const std::string& name) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+  return random_key(key, hash);
+}
+
+// The cell of the lattice whose jittered centre is nearest.
+std::uint64_t unit_at(std::uint64_t key, double x_m, double y_m) {
+  const auto column = static_cast<long long>(std::floor(x_m / kUnitLength_m));
+  const auto row = static_cast<long long>(std::floor(y_m / kUnitLength_m));
+  double nearest = 1e300;
+  std::uint64_t unit = 0;
+  for (long long r = row - 1; r <= row + 1; ++r) {
+    for (long long c = column - 1; c <= column + 1; ++c) {
+      const std::uint64_t cell = cell_key(key, c, r);
+      const double dx = (static_cast<double>(c) + random_uniform(cell, 0)) * kUnitLength_m - x_m;
+      const double dy = (static_cast<double>(r) + random_uniform(cell, 1)) * kUnitLength_m - y_m;
+      if (dx * dx + dy * dy >= nearest) continue;
+      nearest = dx * dx + dy * dy;
+      unit = cell;
+    }
+  }
+  return unit;
+}
+
+const SoilDistribution& chosen(const std::vector<SoilAlternative>& alternatives,
+                               double SoilAlternative::*weight, double uniform) {
+  double sum = 0.0;
+  for (const SoilAlternative& each : alternatives) sum += each.*weight;
+  double left = uniform * sum;
+  for (const SoilAlternative& each : alternatives) {
+    left -= each.*weight;
+    if (left < 0.0) return *each.soil;
+  }
+  return *alternatives.back().soil;
+}
+
+}  // namespace
+
+DrawnGround::DrawnGround(const SoilBeliefs& beliefs, std::uint64_t key)
+    : beliefs_(beliefs), key_(key), drawn_(beliefs.known.size() + 1) {}
+
+const Soil& DrawnGround::at(std::optional<std::size_t> soil, double x_m, double y_m) {
+  std::optional<Belief>& place = drawn_[soil.value_or(beliefs_.known.size())];
+  if (!place) {
+    place.emplace();
+    place->distribution = &beliefs_.of(soil);
+    place->key = name_key(key_, place->distribution->name);
+    place->everywhere = normals_of(random_key(place->key, kEverywhere));
+  }
+  Belief& belief = *place;
+  // The wheels of a rover at one place are asked for one after another with the place of the rover.
+  if (!belief.drawn || belief.x_m != x_m || belief.y_m != y_m) {
+    belief.soil = draw(belief, x_m, y_m);
+    belief.x_m = x_m;
+    belief.y_m = y_m;
+    belief.drawn = true;
+  }
+  return belief.soil;
+}
+
+SoilNormals DrawnGround::blended(Corners& corners, std::uint64_t key, double length_m, double x_m,
+                                 double y_m) {
+  const double u = x_m / length_m, v = y_m / length_m;
+  const auto column = static_cast<long long>(std::floor(u));
+  const auto row = static_cast<long long>(std::floor(v));
+  if (!corners.filled || corners.column != column || corners.row != row) {
+    for (int k = 0; k < 4; ++k)
+      corners.normals[static_cast<std::size_t>(k)] = normals_of(cell_key(key, column + k % 2, row + k / 2));
+    corners.filled = true;
+    corners.column = column;
+    corners.row = row;
+  }
+  const double a = u - static_cast<double>(column), b = v - static_cast<double>(row);
+  const std::array<double, 4> weights{(1.0 - a) * (1.0 - b), a * (1.0 - b), (1.0 - a) * b, a * b};
+  SoilNormals sum = SoilNormals::Zero();
+  double variance = 0.0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    sum += weights[k] * corners.normals[k];
+    variance += weights[k] * weights[k];
+  }
+  return sum / std::sqrt(variance);
+}
+
+Soil DrawnGround::draw(Belief& belief, double x_m, double y_m) {
+  const SoilDistribution& of = *belief.distribution;
+  const std::uint64_t key = belief.key;
+  const SoilNormals z =
+      std::sqrt(of.shares.everywhere) * belief.everywhere +
+      std::sqrt(of.shares.unit) * blended(belief.unit, random_key(key, kUnit), kUnitLength_m, x_m, y_m) +
+      std::sqrt(of.shares.patch) *
+          blended(belief.patch, random_key(key, kPatch), of.correlation_length_m, x_m, y_m);
+  if (of.alternatives.empty()) return draw_soil(of, z);
+  const std::uint64_t choice = of.alternatives_by_unit ? unit_at(random_key(key, kJitter), x_m, y_m) : key;
+  const SoilDistribution& strength =
+      chosen(of.alternatives, &SoilAlternative::strength_weight, random_uniform(choice, kStrengthChoice));
+  const SoilDistribution& pressure =
+      chosen(of.alternatives, &SoilAlternative::pressure_weight, random_uniform(choice, kPressureChoice));
+  Soil soil = draw_soil(strength, z);
+  if (&pressure != &strength) {
+    const Soil other = draw_soil(pressure, z);
+    soil.pressure = other.pressure;
+    soil.pressure_law = other.pressure_law;
+  }
+  return soil;
+}
+
+}  // namespace slipway::sim

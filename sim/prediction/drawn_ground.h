@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "sim/prediction/drive_prediction.h"
+
+namespace slipway::sim {
+
+// The size of a unit of ground over which one soil holds: of the units that are mapped at Marias Pass most
+// are 50 to 200 m wide.
+inline constexpr double kUnitLength_m = 100.0;
+
+// One draw of all the ground, for a workspace of one thread: which soil lies at each place. It is a function
+// of the key and the place alone, so that routes under one key meet the same ground wherever they cross,
+// however their stations are spaced, and a drive of the past tells of the ground of the next.
+//
+// The normal numbers of a soil are the sum of one for all ground of that soil, one that changes over
+// kUnitLength_m and one that changes over the soil's correlation length, weighted by the shares of the
+// variance. Those that change are normal numbers at the corners of a lattice, blended between them with a
+// variance of one everywhere. Of alternatives one is chosen for all ground of the soil, or one for each unit:
+// the cell of the nearest of the jittered centres of a lattice.
+class DrawnGround {
+ public:
+  DrawnGround(const SoilBeliefs& beliefs, std::uint64_t key);
+
+  // The soil at a place of ground that is believed to be soil `soil`, or unknown ground where it is empty.
+  // The reference holds until the next call.
+  const Soil& at(std::optional<std::size_t> soil, double x_m, double y_m);
+
+ private:
+  // Normal numbers at the corners of one cell of a lattice.
+  struct Corners {
+    bool filled = false;
+    long long column = 0, row = 0;
+    std::array<SoilNormals, 4> normals;
+  };
+  struct Belief {
+    const SoilDistribution* distribution = nullptr;
+    std::uint64_t key = 0;
+    SoilNormals everywhere;
+    Corners unit, patch;
+    Soil soil;
+    double x_m = 0.0, y_m = 0.0;  // where `soil` was drawn
+    bool drawn = false;
+  };
+
+  static SoilNormals blended(Corners& corners, std::uint64_t key, double length_m, double x_m, double y_m);
+  static Soil draw(Belief& belief, double x_m, double y_m);
+
+  const SoilBeliefs& beliefs_;
+  std::uint64_t key_;
+  std::vector<std::optional<Belief>> drawn_;  // by soil; the last is unknown ground
+};
+
+}  // namespace slipway::sim

@@ -1,0 +1,129 @@
+// One draw of the ground: a function of key and place, with the spread that is believed.
+#include "sim/prediction/drawn_ground.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/random.h"
+#include "tests/sim/reference_models.h"
+
+namespace slipway::sim {
+namespace {
+
+SoilDistribution loam() {
+  return spread("loam", sandy_loam(), 0.3);
+}
+
+double log_k(const Soil& soil) {
+  return std::log(soil.pressure.k_phi);
+}
+
+double covariance(const SoilDistribution& belief, double apart_m) {
+  const SoilBeliefs beliefs{{belief}, belief};
+  double xx = 0.0, xy = 0.0, mx = 0.0, my = 0.0;
+  constexpr int kDraws = 4000;
+  for (int d = 0; d < kDraws; ++d) {
+    DrawnGround ground(beliefs, random_key(7, static_cast<std::uint64_t>(d)));
+    const double x = log_k(ground.at(0, 1234.5, -77.0)), y = log_k(ground.at(0, 1234.5 + apart_m, -77.0));
+    mx += x / kDraws;
+    my += y / kDraws;
+    xx += x * x / kDraws;
+    xy += x * y / kDraws;
+  }
+  return (xy - mx * my) / (xx - mx * mx);
+}
+
+TEST(DrawnGround, IsAFunctionOfKeyAndPlaceInWhateverOrderItIsAsked) {
+  const SoilBeliefs beliefs{{loam()}, spread("unknown_ground", loose_sand(), 0.5)};
+  DrawnGround forth(beliefs, 11), back(beliefs, 11), other(beliefs, 12);
+  std::vector<double> going;
+  for (int k = 0; k < 60; ++k) going.push_back(log_k(forth.at(0, 3.0 * k, 0.7 * k)));
+  for (int k = 59; k >= 0; --k)
+    EXPECT_EQ(log_k(back.at(0, 3.0 * k, 0.7 * k)), going[static_cast<std::size_t>(k)]);
+  EXPECT_NE(log_k(other.at(0, 0.0, 0.0)), going.front());
+}
+
+TEST(DrawnGround, ASoilIsTheSameWhateverItsPlaceInTheLegend) {
+  const SoilBeliefs first{{loam()}, loam()};
+  const SoilBeliefs second{{spread("sand", loose_sand(), 0.3), loam()}, loam()};
+  EXPECT_EQ(log_k(DrawnGround(first, 5).at(0, 40.0, 2.0)), log_k(DrawnGround(second, 5).at(1, 40.0, 2.0)));
+}
+
+TEST(DrawnGround, HasTheBelievedSpreadAtEveryPlaceOfTheLattice) {
+  const SoilBeliefs beliefs{{loam()}, loam()};
+  for (const double x : {0.0, 1.3, 2.5, 50.0}) {  // at corners and between them
+    double sum = 0.0, square = 0.0;
+    constexpr int kDraws = 4000;
+    for (int d = 0; d < kDraws; ++d) {
+      const double z =
+          log_k(DrawnGround(beliefs, random_key(3, static_cast<std::uint64_t>(d))).at(0, x, 2.1));
+      sum += z / kDraws;
+      square += z * z / kDraws;
+    }
+    EXPECT_NEAR(std::sqrt(square - sum * sum), std::sqrt(std::log1p(0.09)), 0.012) << x;
+    EXPECT_NEAR(sum, std::log(1.2e6) - 0.5 * std::log1p(0.09), 0.02) << x;
+  }
+}
+
+TEST(DrawnGround, SharesItsSpreadBetweenAllGroundUnitsAndPatches) {
+  EXPECT_NEAR(covariance(loam(), 0.5), 0.99, 0.03) << "within a patch";
+  EXPECT_NEAR(covariance(loam(), 12.0), 0.5 + 0.3, 0.06) << "two patches of a unit";
+  EXPECT_NEAR(covariance(loam(), 1000.0), 0.5, 0.05) << "two units";
+  SoilDistribution patchy = loam();
+  patchy.shares = {0.0, 0.0, 1.0};
+  EXPECT_NEAR(covariance(patchy, 1000.0), 0.0, 0.05);
+}
+
+TEST(DrawnGround, WithoutSpreadEveryDrawIsTheMean) {
+  const SoilBeliefs beliefs{{certain("loam", sandy_loam())}, certain("sand", loose_sand())};
+  DrawnGround ground(beliefs, 99);
+  EXPECT_EQ(ground.at(0, 5.0, 6.0).pressure.k_phi, sandy_loam().pressure.k_phi);
+  EXPECT_EQ(ground.at({}, 5.0, 6.0).cohesion_pa, loose_sand().cohesion_pa);
+}
+
+SoilDistribution either(double loam_weight, double sand_weight, bool by_unit) {
+  SoilDistribution mixed = certain("either", sandy_loam());
+  const auto loam = std::make_shared<SoilDistribution>(certain("loam", sandy_loam()));
+  const auto sand = std::make_shared<SoilDistribution>(certain("sand", loose_sand()));
+  mixed.alternatives = {{loam, loam_weight, loam_weight}, {sand, sand_weight, sand_weight}};
+  mixed.alternatives_by_unit = by_unit;
+  return mixed;
+}
+
+TEST(DrawnGround, ChoosesAmongAlternativesByTheirWeights) {
+  const SoilBeliefs beliefs{{either(3.0, 1.0, false)}, loam()};
+  int sand = 0, mixed = 0;
+  constexpr int kDraws = 4000;
+  for (int d = 0; d < kDraws; ++d) {
+    DrawnGround ground(beliefs, random_key(1, static_cast<std::uint64_t>(d)));
+    const Soil& soil = ground.at(0, 0.0, 0.0);
+    const bool weak = soil.cohesion_pa == loose_sand().cohesion_pa;
+    sand += weak;
+    mixed += weak != (soil.pressure.n == loose_sand().pressure.n);
+    EXPECT_EQ(ground.at(0, 5000.0, 0.0).cohesion_pa, soil.cohesion_pa) << "one soil for all ground";
+  }
+  EXPECT_NEAR(sand, 1000, 90);
+  EXPECT_NEAR(mixed, 2 * 0.25 * 0.75 * kDraws, 120) << "pressure and strength are drawn apart";
+}
+
+TEST(DrawnGround, OfUnknownGroundEveryUnitIsAnotherDraw) {
+  const SoilBeliefs beliefs{{}, either(1.0, 1.0, true)};
+  int changes = 0, places = 0;
+  for (int d = 0; d < 50; ++d) {
+    DrawnGround ground(beliefs, random_key(2, static_cast<std::uint64_t>(d)));
+    double before = ground.at({}, 0.0, 0.0).cohesion_pa;
+    for (int k = 1; k < 100; ++k, ++places) {
+      const double here = ground.at({}, 20.0 * k, 0.0).cohesion_pa;
+      changes += here != before;
+      before = here;
+    }
+  }
+  // A line of 100 m crosses 4 / pi of the sides of such cells [Moller 1994]; half of these change the soil.
+  const double per_100_m = 5.0 * changes / places;
+  EXPECT_GT(per_100_m, 0.4);
+  EXPECT_LT(per_100_m, 0.8);
+}
+
+}  // namespace
+}  // namespace slipway::sim

@@ -1,0 +1,213 @@
+// Risk over draws of the ground: the properties that a decision leans on.
+#include "sim/prediction/drive_risk.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/angle.h"
+#include "tests/sim/reference_models.h"
+
+namespace slipway::sim {
+namespace {
+
+const RoverModel kRover = six_wheeler();
+const SoilBeliefs kSure{{certain("loam", sandy_loam())}, certain("unknown_ground", sandy_loam())};
+const SoilBeliefs kUnsure{{spread("loam", sandy_loam(), 0.4)}, spread("unknown_ground", loose_sand(), 0.5)};
+const FunctionGround kHills([](double x, double y) { return 0.2 * std::sin(0.7 * x) * std::cos(0.5 * y); });
+
+FunctionGround slope(double deg) {
+  const double rise = std::tan(rad_from_deg(deg));
+  return FunctionGround([rise](double x, double) { return rise * x; });
+}
+
+void add_drive(std::vector<PathStation>& path, double length_m) {
+  const Pose2 from = path.back().pose;
+  const double before = path.back().distance_m;
+  const int pieces = static_cast<int>(std::ceil(length_m / 0.25 - 1e-9));
+  for (int k = 1; k <= pieces; ++k) {
+    const double s = length_m * k / pieces;
+    path.push_back(
+        {.pose = {from.x_m + s * std::cos(from.yaw_rad), from.y_m + s * std::sin(from.yaw_rad), from.yaw_rad},
+         .distance_m = before + s});
+  }
+}
+
+void add_turn(std::vector<PathStation>& path, double turn_deg) {
+  const int pieces = static_cast<int>(std::ceil(std::abs(turn_deg) / 15.0));
+  for (int k = 0; k < pieces; ++k) {
+    PathStation next = path.back();
+    next.turned_rad = rad_from_deg(turn_deg / pieces);
+    next.pose.yaw_rad += next.turned_rad;
+    next.turning_in_place = true;
+    path.push_back(next);
+  }
+}
+
+std::vector<PathStation> straight(double length_m) {
+  std::vector<PathStation> path(1);
+  add_drive(path, length_m);
+  return path;
+}
+
+std::vector<PathStation> zigzag() {
+  std::vector<PathStation> path(1);
+  for (int k = 0; k < 6; ++k) {
+    add_drive(path, 4.1);
+    add_turn(path, k % 2 == 0 ? 80.0 : -80.0);
+  }
+  return path;
+}
+
+DrivePrediction predict(const Ground& ground, const SoilBeliefs& beliefs,
+                        const std::vector<PathStation>& path, const RiskOptions& risk = {},
+                        const DriveLimits& limits = {}) {
+  NoProgress progress;
+  auto drive = predict_drive(kRover, 3.71, ground, beliefs, path, limits, risk, 0, progress);
+  EXPECT_TRUE(drive);
+  return std::move(drive).value();
+}
+
+TEST(DriveRisk, WithoutSpreadEveryPercentileIsTheMeanAlsoWhereTheRoverTurns) {
+  const DrivePrediction drive = predict(kHills, kSure, zigzag(), {.draws = 5});
+  EXPECT_NEAR(drive.duration_s_p95, drive.duration_s, 1e-6 * drive.duration_s);
+  EXPECT_NEAR(drive.energy_j_p95, drive.energy_j, 1e-6 * drive.energy_j);
+  for (const StationPrediction& s : drive.stations) {
+    EXPECT_NEAR(s.slip_ratio_p05, s.state.slip_ratio, 1e-6);
+    EXPECT_NEAR(s.slip_ratio_p50, s.state.slip_ratio, 1e-6);
+    EXPECT_NEAR(s.slip_ratio_p95, s.state.slip_ratio, 1e-6);
+    EXPECT_NEAR(s.current_a_p95, largest_current_a(s.state), 1e-6);
+    EXPECT_NEAR(s.sinkage_m_p95, deepest_sinkage_m(s.state), 1e-6);
+  }
+}
+
+TEST(DriveRisk, AP95OfAZigzagIsNotBelowItsMedian) {
+  const DrivePrediction drive = predict(kHills, kUnsure, zigzag(), {.draws = 48});
+  EXPECT_GE(drive.duration_s_p95, 0.95 * drive.duration_s);
+  for (const StationPrediction& s : drive.stations) {
+    EXPECT_GE(s.slip_ratio_p95, s.slip_ratio_p50);
+    EXPECT_GE(s.slip_ratio_p50, s.slip_ratio_p05);
+  }
+}
+
+TEST(DriveRisk, ALimitThatTheGroundBreaksIsCertainAtWhateverLength) {
+  // A step up at 13.9 m tilts the rover beyond 14 deg over the last quarter of a metre only.
+  const FunctionGround ends_steep([](double x, double) { return x < 14.4 ? 0.0 : 0.6 * (x - 14.4); });
+  const DriveLimits tight{.max_tilt_rad = rad_from_deg(3.0)};
+  for (const double length : {14.0, 13.99}) {
+    const DrivePrediction drive = predict(ends_steep, kSure, straight(length), {.draws = 8}, tight);
+    ASSERT_FALSE(drive.broken_limits.empty());
+    EXPECT_EQ(drive.risk, 1.0) << length;
+    EXPECT_EQ(drive.outcomes.stop.share, 1.0) << length;
+  }
+}
+
+TEST(DriveRisk, IsSteadyUnderACentimetre) {
+  const DriveLimits tight{.max_slip_ratio = 0.12};
+  const RiskOptions many{.draws = 100};
+  const double whole = predict(kHills, kUnsure, straight(14.0), many, tight).risk;
+  const double shorter = predict(kHills, kUnsure, straight(13.99), many, tight).risk;
+  EXPECT_GT(whole, 0.02);
+  EXPECT_LT(whole, 0.98);
+  EXPECT_NEAR(whole, shorter, 0.05);
+}
+
+TEST(DriveRisk, WithoutStanceItIsCertain) {
+  const FunctionGround wall([](double x, double) { return x < 4.0 ? 0.0 : 40.0 * (x - 4.0); });
+  const DrivePrediction drive = predict(wall, kSure, straight(8.0), {.draws = 4});
+  ASSERT_TRUE(drive.immobilised);
+  EXPECT_EQ(drive.risk, 1.0);
+  EXPECT_EQ(drive.outcomes.embedding.share, 1.0);
+  EXPECT_EQ(drive.draws, 4);
+}
+
+TEST(DriveRisk, DrawsGoPastAPlaceWhereOnlyTheMeanSoilEnds) {
+  // A hump too steep for the mean soil and not for every draw of it; after it the ground is level.
+  const FunctionGround hump([](double x, double) { return 2.2 * std::exp(-std::pow((x - 8.0) / 4.0, 2)); });
+  const SoilBeliefs beliefs{{spread("sand", loose_sand(), 0.9)}, certain("unknown_ground", sandy_loam())};
+  const DrivePrediction drive = predict(hump, beliefs, straight(20.0), {.draws = 60});
+  ASSERT_TRUE(drive.immobilised);
+  EXPECT_GT(drive.risk_immobilised, 0.0);
+  EXPECT_LT(drive.risk_immobilised, 1.0);
+}
+
+TEST(DriveRisk, GrowsWithTheSlopeTheSpreadAndTheWay) {
+  const DriveLimits tight{.max_slip_ratio = 0.25};
+  const RiskOptions many{.draws = 120};
+  const auto stops = [&](double deg, double relative, double length_m) {
+    const SoilBeliefs beliefs{{spread("loam", sandy_loam(), relative)},
+                              certain("unknown_ground", sandy_loam())};
+    const DrivePrediction drive = predict(slope(deg), beliefs, straight(length_m), many, tight);
+    return std::pair(drive.outcomes.stop.share, drive.risk);
+  };
+  std::pair<double, double> before{0.0, 0.0};
+  for (const double deg : {0.0, 6.0, 9.0, 12.0, 15.0}) {
+    const auto now = stops(deg, 0.4, 20.0);
+    EXPECT_GE(now.first, before.first) << deg;
+    EXPECT_GE(now.second, before.second) << deg;
+    before = now;
+  }
+  EXPECT_EQ(before.first, 1.0);
+  before = {0.0, 0.0};
+  for (const double length : {5.0, 10.0, 40.0, 80.0}) {
+    const auto now = stops(9.0, 0.4, length);
+    EXPECT_GE(now.first, before.first) << length;
+    EXPECT_GE(now.second, before.second) << length;
+    before = now;
+  }
+  EXPECT_LT(stops(6.0, 0.1, 20.0).second, stops(6.0, 0.6, 20.0).second + 1e-12);
+}
+
+TEST(DriveRisk, DrawsUntilTheBarsAreDecidedAndNoFurther) {
+  const RiskOptions sequential{.draws = 24, .max_draws = 1000};
+  const DrivePrediction firm = predict(slope(2.0), kUnsure, straight(5.0), sequential);
+  EXPECT_EQ(firm.draws, 272) << "the fewest clean draws that show less than 1 %";
+  EXPECT_LT(firm.outcomes.embedding.high, 0.01);
+  const DrivePrediction hopeless = predict(slope(28.0), kUnsure, straight(5.0), sequential);
+  EXPECT_EQ(hopeless.draws, 24);
+  EXPECT_GT(hopeless.outcomes.expected_stops_low, 0.5);
+}
+
+TEST(DriveRisk, WeightsOfDrawsCountAndLessenTheirEffectiveNumber) {
+  const DriveLimits tight{.max_slip_ratio = 0.2};
+  RiskOptions options{.draws = 64};
+  const DrivePrediction even = predict(slope(8.0), kUnsure, straight(10.0), options, tight);
+  EXPECT_NEAR(even.outcomes.effective_draws, 64.0, 1e-9);
+  ASSERT_GT(even.outcomes.stop.share, 0.05);
+  ASSERT_LT(even.outcomes.stop.share, 0.95);
+  // All weight on the draws that do not stop.
+  NoProgress progress;
+  std::vector<double> weights;
+  for (int d = 0; d < 64; ++d) {
+    RiskOptions one = options;
+    std::vector<double> only(64, 0.0);
+    only[static_cast<std::size_t>(d)] = 1.0;
+    one.weights = std::make_shared<const std::vector<double>>(only);
+    const DrivePrediction alone = predict(slope(8.0), kUnsure, straight(10.0), one, tight);
+    EXPECT_NEAR(alone.outcomes.effective_draws, 1.0, 1e-9);
+    weights.push_back(1.0 - alone.outcomes.stop.share);
+  }
+  options.weights = std::make_shared<const std::vector<double>>(weights);
+  const DrivePrediction clean = predict(slope(8.0), kUnsure, straight(10.0), options, tight);
+  EXPECT_EQ(clean.outcomes.stop.share, 0.0);
+  EXPECT_NEAR(clean.outcomes.effective_draws, 64.0 * (1.0 - even.outcomes.stop.share), 1e-6);
+}
+
+TEST(DriveRisk, TheRulesSayWhereAndByHowMuch) {
+  const DriveLimits tight{.max_slip_ratio = 0.3, .max_current_a = 0.2};
+  const FunctionGround ramp([](double x, double) { return x < 6.0 ? 0.0 : 0.25 * (x - 6.0); });
+  const DrivePrediction drive = predict(ramp, kUnsure, straight(12.0), {.draws = 32}, tight);
+  ASSERT_EQ(drive.outcomes.rules.size(), kRules);
+  const RuleRisk& tilt = drive.outcomes.rules[static_cast<std::size_t>(Rule::kTilt)];
+  EXPECT_NEAR(tilt.value_p50, std::atan(0.25), 0.01);
+  EXPECT_EQ(tilt.trips.share, 0.0);
+  const RuleRisk& current = drive.outcomes.rules[static_cast<std::size_t>(Rule::kCurrent)];
+  EXPECT_EQ(current.trips.share, 1.0);
+  EXPECT_GE(current.wheel, 0);
+  EXPECT_GT(current.value_p50, 0.2);
+  EXPECT_LE(current.from_m, current.to_m);
+  EXPECT_LE(current.to_m, 12.0 + 1e-9);
+}
+
+}  // namespace
+}  // namespace slipway::sim
