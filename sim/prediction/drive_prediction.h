@@ -126,8 +126,8 @@ struct RiskOptions {
   // Where this is more than `draws`, these are only the first batch: more are taken until the intervals of
   // embedding and expected stops lie on one side of their bars, or there are so many.
   int max_draws = 0;
-  OutcomeBars bars;
-  SlipChecks checks;
+  OutcomeBars bars = {};
+  SlipChecks checks = {};
   std::uint64_t seed = 1;
   // What earlier drives make of the draws: the weight of draw d, which has none beyond the last. All weigh
   // the same where it is empty.

@@ -39,11 +39,10 @@ DriveOutcome drive(const std::vector<Piece>& pieces, const SlipChecks& checks = 
       StationState state;
       state.outcome = piece.moving ? Outcome::kMoving : Outcome::kNoTraction;
       state.slip_ratio = piece.slip_ratio;
+      state.wheels = PerWheel<WheelState>(kRover.wheels.size());
       for (std::size_t k = 0; k < kRover.wheels.size(); ++k) {
-        WheelState wheel;
-        wheel.current_a = piece.current_a * (k == 2 ? 1.0 : 0.9);
-        wheel.sinkage_m = piece.sinkage_m * (k == 4 ? 1.0 : 0.9);
-        state.wheels.push_back(wheel);
+        state.wheels[k].current_a = piece.current_a * (k == 2 ? 1.0 : 0.9);
+        state.wheels[k].sinkage_m = piece.sinkage_m * (k == 4 ? 1.0 : 0.9);
       }
       if (!follower.add(station, index++, state)) return follower.finish();
     }

@@ -141,7 +141,7 @@ TEST(DriveRisk, GrowsWithTheSlopeTheSpreadAndTheWay) {
     return std::pair(drive.outcomes.stop.share, drive.risk);
   };
   std::pair<double, double> before{0.0, 0.0};
-  for (const double deg : {0.0, 6.0, 9.0, 12.0, 15.0}) {
+  for (const double deg : {0.0, 6.0, 9.0, 12.0, 15.0, 20.0}) {
     const auto now = stops(deg, 0.4, 20.0);
     EXPECT_GE(now.first, before.first) << deg;
     EXPECT_GE(now.second, before.second) << deg;
