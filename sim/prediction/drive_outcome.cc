@@ -27,8 +27,13 @@ void OutcomeFollower::note(Rule rule, double value, bool trips, int wheel) {
 bool OutcomeFollower::embed(double value) {
   note(Rule::kEmbedding, value, true);
   outcome_.embedded = true;
-  outcome_.embedded_m = distance_m_;
+  outcome_.events.push_back({Rule::kEmbedding, index_});
   return false;
+}
+
+void OutcomeFollower::halt(Rule rule) {
+  ++outcome_.stops;
+  outcome_.events.push_back({rule, index_});
 }
 
 // The wheels roll on without way to speak of. False where they dig themselves in before the next check.
@@ -44,7 +49,7 @@ bool OutcomeFollower::check_slip() {
   const bool over = slip > limits_.max_slip_ratio;
   note(Rule::kSlipCheck, slip, over);
   rolled_m_ = come_m_ = spun_m_ = 0.0;
-  outcome_.stops += over ? 1 : 0;
+  if (over) halt(Rule::kSlipCheck);
   return over;
 }
 
@@ -54,7 +59,7 @@ void OutcomeFollower::watch(Rule rule, double value, double limit, int wheel) {
   bool& was_over = over_[static_cast<std::size_t>(rule)];
   note(rule, value, over, wheel);
   if (over && !was_over) {
-    ++outcome_.stops;
+    halt(rule);
     rolled_m_ = come_m_ = spun_m_ = 0.0;
   }
   was_over = over;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "sim/prediction/drive_limits.h"
 #include "sim/prediction/drive_risk.h"
@@ -17,13 +18,19 @@ struct RuleTrace {
   double first_m = 0.0, last_m = 0.0;  // where it tripped, along the way; only where it did
 };
 
+// A place where a drive halts or is embedded.
+struct OutcomeEvent {
+  Rule rule = Rule::kSlipCheck;
+  std::size_t station = 0;
+};
+
 // How one drive went, with the slip checked on the way.
 struct DriveOutcome {
   // Times that the rover halts itself by the check of its slip, its tilt or its current and waits for the
   // next sol. The drive is taken to go on from there, so that a bad stretch costs as many as it is long.
   int stops = 0;
   bool embedded = false;
-  double embedded_m = 0.0;
+  std::vector<OutcomeEvent> events;  // the stops, and the embedding last
   std::array<RuleTrace, kRules> rules;
 
   const RuleTrace& of(Rule rule) const { return rules[static_cast<std::size_t>(rule)]; }
@@ -50,6 +57,7 @@ class OutcomeFollower {
   RuleTrace& trace(Rule rule) { return outcome_.rules[static_cast<std::size_t>(rule)]; }
   void note(Rule rule, double value, bool trips, int wheel = -1);
   void watch(Rule rule, double value, double limit, int wheel = -1);
+  void halt(Rule rule);
   bool embed(double value);
   bool spin(double rolled_m);
   bool spin_on_the_spot();

@@ -70,6 +70,9 @@ class Predictor {
     for (const WheelModel& wheel : rover.wheels) prediction_.wheel_names.push_back(wheel.name);
   }
 
+  // Without balances on the mean soils: for what is asked of the draws alone.
+  void draws_alone() { draws_alone_ = true; }
+
   // Returns false where the rover has no stance, so that no draw of the soil takes it further. Where the mean
   // soils immobilise it, the prediction on them ends, while draws of better soils drive on.
   bool add(const PathStation& station) {
@@ -85,7 +88,7 @@ class Predictor {
     ready.turn_rad = std::abs(station.turned_rad);
     if (station.turning_in_place && station.turned_rad == 0.0) ready.command.turn_in_place = false;
     StationPrediction predicted = stand(station, ready);
-    if (!prediction_.immobilised) {
+    if (!prediction_.immobilised && !draws_alone_) {
       predict(ready, predicted);
       prediction_.stations.push_back(predicted);
     }
@@ -174,7 +177,24 @@ class Predictor {
   PreparedDrive prepared_;
   Peak least_clearance_{1e9, 0.0};
   double slip_length_ = 0.0;
+  bool draws_alone_ = false;
 };
+
+// The whole path is checked first, since missing ground is a fault even behind a place of immobilisation.
+std::optional<Error> ground_faults(const RoverModel& rover, const Ground& ground,
+                                   std::span<const PathStation> path, const Progress& progress) {
+  std::vector<Fault> faults;
+  for (std::size_t k = 0; k < path.size() && faults.size() < kMaxFaults; ++k) {
+    if (progress.cancelled()) return Error{ErrorCode::kCancelled, "the prediction was dismissed", {}};
+    if (const auto wheel = wheel_without_ground(rover, ground, path[k].pose))
+      faults.push_back(
+          {fmt::format("/stations/{}", k),
+           fmt::format("no elevation under wheel {} at ({:.2f}, {:.2f}), {:.1f} m along the path", *wheel,
+                       path[k].pose.x_m, path[k].pose.y_m, path[k].distance_m)});
+  }
+  if (faults.empty()) return std::nullopt;
+  return Error{ErrorCode::kNoData, "the path leaves the ground that is known", std::move(faults)};
+}
 
 }  // namespace
 
@@ -187,19 +207,7 @@ Result<DrivePrediction> predict_drive(const RoverModel& rover, double gravity_m_
                                       const DriveLimits& limits, const RiskOptions& risk, std::size_t threads,
                                       Progress& progress, const DriveConditions& conditions) {
   if (path.empty()) throw std::invalid_argument("predict_drive: a path needs a station");
-  // The whole path is checked first, since missing ground is a fault even behind a place of immobilisation.
-  std::vector<Fault> faults;
-  for (std::size_t k = 0; k < path.size() && faults.size() < kMaxFaults; ++k) {
-    if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the prediction was dismissed");
-    if (const auto wheel = wheel_without_ground(rover, ground, path[k].pose))
-      faults.push_back(
-          {fmt::format("/stations/{}", k),
-           fmt::format("no elevation under wheel {} at ({:.2f}, {:.2f}), {:.1f} m along the path", *wheel,
-                       path[k].pose.x_m, path[k].pose.y_m, path[k].distance_m)});
-  }
-  if (!faults.empty())
-    return fail(ErrorCode::kNoData, "the path leaves the ground that is known", std::move(faults));
-
+  if (auto error = ground_faults(rover, ground, path, progress)) return fail(std::move(*error));
   Predictor predictor(rover, gravity_m_s2, ground, beliefs, limits, conditions);
   for (std::size_t k = 0; k < path.size(); ++k) {
     if (k % 64 == 0 && progress.cancelled())
@@ -211,6 +219,23 @@ Result<DrivePrediction> predict_drive(const RoverModel& rover, double gravity_m_
                                      threads, progress, prediction))
     return fail(ErrorCode::kCancelled, "the prediction was dismissed");
   return prediction;
+}
+
+Result<std::vector<DrawnOutcome>> drawn_outcomes(const RoverModel& rover, double gravity_m_s2,
+                                                 const Ground& ground, const SoilBeliefs& beliefs,
+                                                 std::span<const PathStation> path, const DriveLimits& limits,
+                                                 const RiskOptions& risk, std::size_t threads,
+                                                 Progress& progress, const DriveConditions& conditions) {
+  if (path.empty()) throw std::invalid_argument("drawn_outcomes: a path needs a station");
+  if (auto error = ground_faults(rover, ground, path, progress)) return fail(std::move(*error));
+  Predictor predictor(rover, gravity_m_s2, ground, beliefs, limits, conditions);
+  predictor.draws_alone();
+  for (const PathStation& station : path)
+    if (!predictor.add(station)) break;
+  auto outcomes =
+      outcomes_of_draws(rover, gravity_m_s2, beliefs, predictor.prepared(), limits, risk, threads, progress);
+  if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the prediction was dismissed");
+  return outcomes;
 }
 
 }  // namespace slipway::sim

@@ -76,6 +76,22 @@ struct RuleRisk {
   int wheel = -1;                   // whose it is there; -1 where it is the rover's
 };
 
+// Stops and embeddings on one kind of ground: the mean number of stops there, and the share of draws that are
+// embedded there.
+struct GroundRisk {
+  std::optional<std::size_t> soil;  // empty: unknown ground
+  double length_m = 0.0;
+  double expected_stops = 0.0;
+  double embedding = 0.0;
+};
+
+// The same of one stretch of the way.
+struct StretchRisk {
+  double from_m = 0.0, to_m = 0.0;
+  double expected_stops = 0.0;
+  double embedding = 0.0;
+};
+
 // Stops, which cost a sol each, and embeddings, which may cost the rover; see OutcomeFollower.
 struct DriveOutcomes {
   DrawnShare stop;       // drives with at least one stop
@@ -83,7 +99,13 @@ struct DriveOutcomes {
   double expected_stops = 0.0, expected_stops_low = 0.0,
          expected_stops_high = 0.0;  // mean with 90 % interval
   std::vector<RuleRisk> rules;       // in the order of Rule
-  double effective_draws = 0.0;      // (sum of the weights)^2 / sum of their squares
+  std::vector<GroundRisk>
+      grounds;  // those that the path meets; with a wheel on unknown ground the rover is there
+  std::vector<StretchRisk> stretches;  // of equal length, 10 m or more, at most 100
+  // What is left where nothing ever went wrong on unknown ground.
+  DrawnShare embedding_on_known;
+  double expected_stops_on_known = 0.0;
+  double effective_draws = 0.0;  // (sum of the weights)^2 / sum of their squares
 };
 
 // A predicted drive. "Immobilised at 41 m" is an answer, not an error.
@@ -133,6 +155,18 @@ struct RiskOptions {
   // the same where it is empty.
   std::shared_ptr<const std::vector<double>> weights = {};
 };
+
+// Balances the rover on the draws of the ground along the path, without a prediction on the mean soils: how
+// each of risk.draws draws goes. Errors as predict_drive().
+struct DrawnOutcome {
+  bool stopped = false;
+  bool embedded = false;
+};
+Result<std::vector<DrawnOutcome>> drawn_outcomes(const RoverModel& rover, double gravity_m_s2,
+                                                 const Ground& ground, const SoilBeliefs& beliefs,
+                                                 std::span<const PathStation> path, const DriveLimits& limits,
+                                                 const RiskOptions& risk, std::size_t threads,
+                                                 Progress& progress, const DriveConditions& conditions = {});
 
 // The maximum spacing of stations at which no obstacle that a wheel would meet is missed.
 double max_station_spacing_m(const RoverModel& rover);

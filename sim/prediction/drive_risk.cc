@@ -43,7 +43,7 @@ class DrawnDriver {
   DrawnDrive run(std::uint64_t key, bool keep_states, const Progress& progress) const {
     DrawnDrive drawn;
     DrawnGround ground(beliefs_, key);
-    QuasiStaticSolver solver(rover_, gravity_m_s2_);
+    QuasiStaticSolver solver(rover_, gravity_m_s2_, Precision::kDraws);
     OutcomeFollower follower(rover_, limits_, checks_);
     PerWheel<Soil> under(rover_.wheels.size());
     bool embedded = false;
@@ -61,6 +61,7 @@ class DrawnDriver {
       // The wheels meet ground that the suspension cannot follow: no draw of the soil passes there.
       drawn.any_bad = drawn.immobilised = true;
       drawn.outcome.embedded = true;
+      drawn.outcome.rules[static_cast<std::size_t>(Rule::kEmbedding)].tripped = true;
     }
     return drawn;
   }
@@ -224,8 +225,48 @@ RuleRisk rule_risk(Rule rule, const std::vector<DrawnDrive>& drives, const Weigh
   return risk;
 }
 
+// The ground that a station stands for: unknown where any wheel is on unknown ground.
+std::optional<std::size_t> ground_of(const PreparedStation& station) {
+  std::optional<std::size_t> soil = station.soil[0];
+  for (std::size_t k = 0; k < station.soil.size(); ++k)
+    if (!station.soil[k]) soil.reset();
+  return soil;
+}
+
+// Stops and embeddings by ground and by stretch.
+void locate(const std::vector<DrawnDrive>& drives, const std::vector<PreparedStation>& stations,
+            DriveOutcomes& out) {
+  constexpr double kMinStretch_m = 10.0;
+  constexpr double kMaxStretches = 100.0;
+  if (stations.empty()) return;
+  const double length = stations.back().distance_m;
+  const double pieces = std::clamp(std::ceil(length / kMinStretch_m - 1e-9), 1.0, kMaxStretches);
+  for (int k = 0; k < static_cast<int>(pieces); ++k)
+    out.stretches.push_back({length * k / pieces, length * (k + 1) / pieces, 0.0, 0.0});
+  std::map<std::optional<std::size_t>, GroundRisk> grounds;
+  for (const PreparedStation& station : stations) {
+    GroundRisk& ground = grounds[ground_of(station)];
+    ground.soil = ground_of(station);
+    ground.length_m += station.drive_m;
+  }
+  double sum = 0.0;
+  for (const DrawnDrive& drive : drives) sum += drive.weight;
+  for (const DrawnDrive& drive : drives) {
+    for (const OutcomeEvent& event : drive.outcome.events) {
+      const PreparedStation& station = stations[event.station];
+      const auto piece = static_cast<std::size_t>(
+          length > 0.0 ? std::min(pieces - 1.0, std::floor(station.distance_m / length * pieces)) : 0.0);
+      GroundRisk& ground = grounds[ground_of(station)];
+      const bool embeds = event.rule == Rule::kEmbedding;
+      (embeds ? ground.embedding : ground.expected_stops) += drive.weight / sum;
+      (embeds ? out.stretches[piece].embedding : out.stretches[piece].expected_stops) += drive.weight / sum;
+    }
+  }
+  for (const auto& [soil, ground] : grounds) out.grounds.push_back(ground);
+}
+
 DriveOutcomes outcomes_of(const std::vector<DrawnDrive>& drives, const Weighted& weighted,
-                          const DriveLimits& limits) {
+                          const std::vector<PreparedStation>& stations, const DriveLimits& limits) {
   DriveOutcomes out;
   out.effective_draws = weighted.effective();
   out.stop = weighted.share([](const DrawnDrive& d) { return d.outcome.stops > 0; });
@@ -237,6 +278,15 @@ DriveOutcomes outcomes_of(const std::vector<DrawnDrive>& drives, const Weighted&
   out.expected_stops = mean;
   out.expected_stops_low = std::max({0.0, mean - kReach90 * error, std::min(mean, out.stop.low)});
   out.expected_stops_high = std::max(mean + kReach90 * error, mean > 0.0 ? mean : out.stop.high);
+  const auto on_known = [&](const DrawnDrive& d, bool embeddings) {
+    return static_cast<double>(
+        std::count_if(d.outcome.events.begin(), d.outcome.events.end(), [&](const OutcomeEvent& event) {
+          return (event.rule == Rule::kEmbedding) == embeddings && ground_of(stations[event.station]);
+        }));
+  };
+  out.embedding_on_known = weighted.share([&](const DrawnDrive& d) { return on_known(d, true); });
+  out.expected_stops_on_known = weighted.mean([&](const DrawnDrive& d) { return on_known(d, false); });
+  locate(drives, stations, out);
   for (std::size_t rule = 0; rule < kRules; ++rule)
     out.rules.push_back(rule_risk(static_cast<Rule>(rule), drives, weighted, limits));
   return out;
@@ -251,7 +301,7 @@ void summarise(const std::vector<DrawnDrive>& drives, const DriveLimits& limits,
   prediction.risk_low = risk.low;
   prediction.risk_high = risk.high;
   prediction.risk_immobilised = weighted.mean([](const DrawnDrive& d) { return d.immobilised; });
-  prediction.outcomes = outcomes_of(drives, weighted, limits);
+  prediction.outcomes = outcomes_of(drives, weighted, stations, limits);
   std::vector<std::pair<double, double>> duration, energy;
   for (const DrawnDrive& drive : drives) {
     if (drive.immobilised || drive.weight <= 0.0) continue;
@@ -335,10 +385,10 @@ Effort effort_of(const PreparedStation& station, const StationState& state) {
   return effort;
 }
 
-std::vector<DrawnOutcome> drawn_outcomes(const RoverModel& rover, double gravity_m_s2,
-                                         const SoilBeliefs& beliefs, const PreparedDrive& drive,
-                                         const DriveLimits& limits, const RiskOptions& options,
-                                         std::size_t threads, Progress& progress) {
+std::vector<DrawnOutcome> outcomes_of_draws(const RoverModel& rover, double gravity_m_s2,
+                                            const SoilBeliefs& beliefs, const PreparedDrive& drive,
+                                            const DriveLimits& limits, const RiskOptions& options,
+                                            std::size_t threads, Progress& progress) {
   const DrawnDriver driver(rover, gravity_m_s2, beliefs, drive, limits, options.checks);
   std::vector<DrawnOutcome> outcomes(static_cast<std::size_t>(options.draws));
   parallel_for(outcomes.size(), threads, [&](std::size_t draw) {
@@ -359,7 +409,7 @@ bool assess_risk(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs
     if (!draw_more(driver, next_batch(drives.size(), options), drive.stations.size(), options, threads,
                    progress, drives))
       return false;
-    summarise(drives, limits, prediction);
+    summarise(drives, drive.stations, limits, prediction);
   } while (drives.size() < most && !decided(prediction.outcomes, options.bars));
 
   for (std::size_t k = 0; k < prediction.stations.size(); ++k) {

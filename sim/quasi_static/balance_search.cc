@@ -168,14 +168,14 @@ Vector with_contacts(const RoverBalance& balance, Vector x) {
 }
 
 // Newton's search, repeated with other sets of wheels in contact until every wheel in contact pushes on the
-// ground and every other is clear of it. Returns false where that ends without a balance. `inverse` is for
+// ground and every other is clear of it. Returns false where that ends without a balance. `memory` is for
 // all wheels in contact.
-bool find_in_contact(RoverBalance& balance, int max_iterations, Vector& x,
-                     const RoverBalance::Matrix* inverse = nullptr) {
+bool find_in_contact(RoverBalance& balance, int max_iterations, Vector& x, NewtonMemory* memory = nullptr) {
   const Vector start = x;
   for (int round = 0; round <= 2 * balance.wheel_count(); ++round) {
-    const bool solved =
-        newton(balance, x, nullptr, max_iterations, balance.all_in_contact() ? inverse : nullptr);
+    const bool all = balance.all_in_contact();
+    const bool solved = newton(balance, x, nullptr, max_iterations, all ? memory : nullptr);
+    if (!all && memory != nullptr) memory->inverse.reset();
     const std::optional<ContactChange> change = contact_change(balance, x, solved);
     if (!change) return solved;
     balance.set_in_air(change->wheel, change->into_air);
@@ -208,7 +208,7 @@ Primary primary_of(const DriveCommand& command) {
 }
 
 Attempt find_balance(RoverBalance& balance, const Primary& primary, bool warm, Vector& x,
-                     const RoverBalance::Matrix* inverse, Thoroughness thoroughness) {
+                     NewtonMemory* memory, Thoroughness thoroughness) {
   if (!balance.any_driven()) {
     x = cold_start(balance, primary, 0.0);
     return {Outcome::kNoTraction, -1};
@@ -218,14 +218,15 @@ Attempt find_balance(RoverBalance& balance, const Primary& primary, bool warm, V
       balance.resting_loads_n();  // for the wheels that hang
       x = with_contacts(balance, x);
     }
-    if (find_in_contact(balance, 20, x, inverse)) return judged(balance, primary, x);
+    if (find_in_contact(balance, 20, x, memory)) return judged(balance, primary, x);
   }
   // The soil forces on a failed wheel change sign within a thousandth of the speed. There the first start
   // often fails where another finds the balance.
+  if (memory != nullptr) memory->inverse.reset();
   const std::span<const double> starts(kColdStartSpeedRatios.data(), balance.all_driven() ? 1 : 3);
   for (const double share : starts) {
     x = cold_start(balance, primary, share);
-    if (find_in_contact(balance, 40, x)) return judged(balance, primary, x);
+    if (find_in_contact(balance, 40, x, memory)) return judged(balance, primary, x);
   }
   if (thoroughness == Thoroughness::kQuick) return {Outcome::kNotConverged, -1};
   x = cold_start(balance, primary, kColdStartSpeedRatios[0]);

@@ -18,9 +18,9 @@ struct Attempt {
 
 // Finds the unknowns at which the balance's equations hold and every unloaded wheel is clear of the ground.
 // When `warm` is true the search starts from `x`; afterwards `x` is the answer, or the last iterate where
-// there is none. For `inverse` see newton().
+// there is none. `memory` is for all wheels in contact, and comes back empty where they are not; see
+// newton().
 Attempt find_balance(RoverBalance& balance, const Primary& primary, bool warm, RoverBalance::Vector& x,
-                     const RoverBalance::Matrix* inverse = nullptr,
-                     Thoroughness thoroughness = Thoroughness::kSure);
+                     NewtonMemory* memory = nullptr, Thoroughness thoroughness = Thoroughness::kSure);
 
 }  // namespace slipway::sim

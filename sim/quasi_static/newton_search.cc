@@ -28,16 +28,19 @@ Vector limited_step(const Vector& x, const Vector& full) {
 class NewtonSearch {
  public:
   // With `held`, its motion keeps its value and its equation is left out.
-  NewtonSearch(RoverBalance& balance, const Primary* held, const Matrix* inverse)
-      : balance_(balance), held_(held), have_inverse_(inverse != nullptr) {
-    if (inverse != nullptr) inverse_ = *inverse;
+  NewtonSearch(RoverBalance& balance, const Primary* held, const NewtonMemory* memory)
+      : balance_(balance), held_(held), have_inverse_(memory != nullptr && memory->inverse) {
+    if (have_inverse_) inverse_ = *memory->inverse;
+    if (memory != nullptr) tolerance_ = memory->tolerance;
   }
+
+  std::optional<Matrix> inverse() const { return have_inverse_ ? std::optional(inverse_) : std::nullopt; }
 
   bool solve(Vector& x, int max_iterations) {
     Vector r = residual(x);
     bool fresh = false;
     for (int iteration = 0; iteration < max_iterations; ++iteration) {
-      if (r.cwiseAbs().maxCoeff() < kBalanceTolerance) return true;
+      if (r.cwiseAbs().maxCoeff() < tolerance_) return true;
       if (!have_inverse_) {
         if (!invert_jacobian(x)) return false;
         fresh = true;
@@ -65,7 +68,7 @@ class NewtonSearch {
       x = next;
       r = next_r;
     }
-    return r.cwiseAbs().maxCoeff() < kBalanceTolerance;
+    return r.cwiseAbs().maxCoeff() < tolerance_;
   }
 
  private:
@@ -108,6 +111,7 @@ class NewtonSearch {
   const Primary* held_;
   Matrix inverse_;
   bool have_inverse_;
+  double tolerance_ = kBalanceTolerance;
 };
 
 }  // namespace
@@ -117,9 +121,11 @@ void keep_in_range(Vector& x) {
     x[k] = std::clamp(x[k], RoverBalance::kMinEntryAngleRad, kMaxEntryAngleRad);
 }
 
-bool newton(RoverBalance& balance, Vector& x, const Primary* held, int max_iterations,
-            const Matrix* inverse) {
-  return NewtonSearch(balance, held, inverse).solve(x, max_iterations);
+bool newton(RoverBalance& balance, Vector& x, const Primary* held, int max_iterations, NewtonMemory* memory) {
+  NewtonSearch search(balance, held, memory);
+  const bool solved = search.solve(x, max_iterations);
+  if (memory != nullptr) memory->inverse = memory->keep && solved ? search.inverse() : std::nullopt;
+  return solved;
 }
 
 std::optional<Matrix> inverse_jacobian(const RoverBalance& balance, const Vector& x) {

@@ -20,12 +20,20 @@ constexpr double kBalanceTolerance = 1e-9;
 // Moves the entry angles into the range of the laws.
 void keep_in_range(RoverBalance::Vector& unknowns);
 
+// What a search is given of the one before it, and leaves to the one after.
+struct NewtonMemory {
+  // The inverse Jacobian at a point nearby: no Jacobian is needed where it serves well. A search that ends
+  // with every wheel in contact leaves its own, where `keep` asks for it.
+  std::optional<RoverBalance::Matrix> inverse;
+  bool keep = false;
+  double tolerance = kBalanceTolerance;
+};
+
 // Newton's search, from `x`, for the unknowns at which the balance holds. It does not change which wheels are
 // in contact. With `held`, that motion keeps its value and its equation is left out. Returns false where it
-// does not converge; `x` is then the last iterate, and the balance's contacts are those at `x`. `inverse` may
-// give the inverse Jacobian at a point nearby, so that no Jacobian is needed where it serves well.
+// does not converge; `x` is then the last iterate, and the balance's contacts are those at `x`.
 bool newton(RoverBalance& balance, RoverBalance::Vector& x, const Primary* held, int max_iterations,
-            const RoverBalance::Matrix* inverse = nullptr);
+            NewtonMemory* memory = nullptr);
 
 // The inverse of the Jacobian at the unknowns of the last residual; empty where it is singular.
 std::optional<RoverBalance::Matrix> inverse_jacobian(const RoverBalance& balance,

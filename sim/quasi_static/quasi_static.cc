@@ -132,8 +132,8 @@ std::string_view describe(Outcome outcome) {
   return "unknown outcome";
 }
 
-QuasiStaticSolver::QuasiStaticSolver(const RoverModel& rover, double gravity_m_s2)
-    : rover_(rover), gravity_m_s2_(gravity_m_s2) {}
+QuasiStaticSolver::QuasiStaticSolver(const RoverModel& rover, double gravity_m_s2, Precision precision)
+    : rover_(rover), gravity_m_s2_(gravity_m_s2), precision_(precision) {}
 
 StationState QuasiStaticSolver::solve(const Stance& stance, const Soil& soil, const DriveCommand& command) {
   return solve(stance, PerWheel<Soil>(rover_.wheels.size(), soil), command);
@@ -173,8 +173,14 @@ StationState QuasiStaticSolver::solve(const Stance& stance, const PerWheel<Soil>
   }
   // The answer of another kind of motion is a worse start than a cold one.
   if (warm_ && last_[primary.motion] * primary.sign <= 0.0) warm_ = false;
-  const Attempt attempt = find_balance(balance, primary, warm_, last_,
-                                       start != nullptr ? &start->inverse_jacobian : nullptr, thoroughness);
+  NewtonMemory memory;
+  if (precision_ == Precision::kDraws) {
+    constexpr double kTolerance = 1e-6;
+    memory = {.inverse = warm_ ? last_inverse_ : std::nullopt, .keep = true, .tolerance = kTolerance};
+  }
+  if (start != nullptr) memory.inverse = start->inverse_jacobian;
+  const Attempt attempt = find_balance(balance, primary, warm_, last_, &memory, thoroughness);
+  last_inverse_ = std::move(memory.inverse);
   warm_ = attempt.outcome == Outcome::kMoving;
   return state_of(rover_, balance, last_, command, attempt);
 }

@@ -69,6 +69,14 @@ enum class Thoroughness {
   kQuick,  // Newton's searches alone, which miss one balance in thousands; the outcome is then kNotConverged
 };
 
+// How exactly a balance is solved.
+enum class Precision {
+  kExact,  // to 1e-9 of the weight
+  // To 1e-6 of the weight, with the Jacobian of the solve before where it serves: for draws of the ground,
+  // whose scatter is a hundred times that and more. Half the time.
+  kDraws,
+};
+
 // Solves for the motion (along and across the direction of travel, yaw rate) and the entry angles at which
 // the wheels' forces, gravity and the commanded wheel rates balance: see RoverBalance for the equations.
 // Rovers with more wheels than their suspension can keep on the ground may lift some of them.
@@ -85,7 +93,7 @@ class QuasiStaticSolver {
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3 + kMaxWheels, 3 + kMaxWheels> inverse_jacobian;
   };
 
-  QuasiStaticSolver(const RoverModel& rover, double gravity_m_s2);
+  QuasiStaticSolver(const RoverModel& rover, double gravity_m_s2, Precision precision = Precision::kExact);
 
   // soils has the soil under each wheel. A `start` replaces the last answer as the starting point.
   // Where a wheel stands on a soil with a slip curve there is no balance: the motion is the slowest of those
@@ -98,7 +106,10 @@ class QuasiStaticSolver {
   std::optional<Start> start_of_last(const Stance& stance, const PerWheel<Soil>& soils,
                                      const DriveCommand& command) const;
   // Forgets the last answer, so that the next solve is a cold start.
-  void reset() { warm_ = false; }
+  void reset() {
+    warm_ = false;
+    last_inverse_.reset();
+  }
 
  private:
   StationState solve_with_slip_curves(const Stance& stance, const PerWheel<Soil>& soils,
@@ -106,8 +117,10 @@ class QuasiStaticSolver {
 
   const RoverModel& rover_;
   double gravity_m_s2_;
+  Precision precision_;
   bool warm_ = false;
   decltype(Start::unknowns) last_;
+  std::optional<decltype(Start::inverse_jacobian)> last_inverse_;  // of draws
 };
 
 }  // namespace slipway::sim

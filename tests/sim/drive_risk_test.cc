@@ -73,11 +73,11 @@ TEST(DriveRisk, WithoutSpreadEveryPercentileIsTheMeanAlsoWhereTheRoverTurns) {
   EXPECT_NEAR(drive.duration_s_p95, drive.duration_s, 1e-6 * drive.duration_s);
   EXPECT_NEAR(drive.energy_j_p95, drive.energy_j, 1e-6 * drive.energy_j);
   for (const StationPrediction& s : drive.stations) {
-    EXPECT_NEAR(s.slip_ratio_p05, s.state.slip_ratio, 1e-6);
-    EXPECT_NEAR(s.slip_ratio_p50, s.state.slip_ratio, 1e-6);
-    EXPECT_NEAR(s.slip_ratio_p95, s.state.slip_ratio, 1e-6);
-    EXPECT_NEAR(s.current_a_p95, largest_current_a(s.state), 1e-6);
-    EXPECT_NEAR(s.sinkage_m_p95, deepest_sinkage_m(s.state), 1e-6);
+    EXPECT_NEAR(s.slip_ratio_p05, s.state.slip_ratio, 1e-5);
+    EXPECT_NEAR(s.slip_ratio_p50, s.state.slip_ratio, 1e-5);
+    EXPECT_NEAR(s.slip_ratio_p95, s.state.slip_ratio, 1e-5);
+    EXPECT_NEAR(s.current_a_p95, largest_current_a(s.state), 1e-5);
+    EXPECT_NEAR(s.sinkage_m_p95, deepest_sinkage_m(s.state), 1e-5);
   }
 }
 
@@ -190,7 +190,7 @@ TEST(DriveRisk, WeightsOfDrawsCountAndLessenTheirEffectiveNumber) {
   options.weights = std::make_shared<const std::vector<double>>(weights);
   const DrivePrediction clean = predict(slope(8.0), kUnsure, straight(10.0), options, tight);
   EXPECT_EQ(clean.outcomes.stop.share, 0.0);
-  EXPECT_NEAR(clean.outcomes.effective_draws, 64.0 * (1.0 - even.outcomes.stop.share), 1e-6);
+  EXPECT_NEAR(clean.outcomes.effective_draws, 64.0 * (1.0 - even.outcomes.stop.share), 1e-5);
 }
 
 TEST(DriveRisk, TheRulesSayWhereAndByHowMuch) {
