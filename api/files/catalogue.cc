@@ -52,6 +52,26 @@ void load_rovers(const fs::path& data, Catalogue& catalogue, std::vector<Fault>&
   if (catalogue.rovers.empty() && faults.empty()) faults.push_back({"rovers#", "there is no rover"});
 }
 
+// Joins the names of alternatives with the soils that they name.
+void join_alternatives(Catalogue& catalogue, std::vector<Fault>& faults) {
+  for (auto& [name, soil] : catalogue.soils) {
+    for (std::size_t i = 0; i < soil.alternatives.size(); ++i) {
+      sim::SoilAlternative& alternative = soil.alternatives[i];
+      const std::string pointer = fmt::format("soils#{}/alternatives/{}/soil", name, i);
+      const auto found = catalogue.soils.find(alternative.name);
+      if (found == catalogue.soils.end()) {
+        faults.push_back({pointer, unknown_name("soil", alternative.name, names_of(catalogue.soils))});
+      } else if (!found->second.alternatives.empty() || found->second.mean.slip_curve != nullptr) {
+        faults.push_back({pointer, fmt::format("soil {} can't be an alternative: it has alternatives of its own, "
+                                               "or is known by a slip curve alone",
+                                               alternative.name)});
+      } else {
+        alternative.soil = std::make_shared<const sim::SoilDistribution>(found->second);
+      }
+    }
+  }
+}
+
 void load_soils(const fs::path& data, Catalogue& catalogue, std::vector<Fault>& faults) {
   for (const fs::path& path : entries_of(data / "soils")) {
     if (path.extension() != ".json") continue;
@@ -71,6 +91,7 @@ void load_soils(const fs::path& data, Catalogue& catalogue, std::vector<Fault>& 
       }
     }
   }
+  if (faults.empty()) join_alternatives(catalogue, faults);
   if (faults.empty() && !catalogue.soils.contains(kUnknownGround)) {
     faults.push_back({"soils#", fmt::format("there is no soil {}", kUnknownGround)});
   }

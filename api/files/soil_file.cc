@@ -162,6 +162,38 @@ void read_slip_curve(ObjectReader& reader, sim::Soil& soil) {
   soil.slip_curve = std::make_shared<const sim::SlipCurve>(std::move(curve));
 }
 
+void read_shares(ObjectReader& reader, sim::SpreadShares& shares) {
+  auto object = reader.object("spread_shares", kOptional);
+  if (!object) return;
+  constexpr NumberRule kShare{"1", 0.0, 1.0};
+  object->number("everywhere", kRequired, kShare, shares.everywhere);
+  object->number("unit", kRequired, kShare, shares.unit);
+  object->number("patch", kRequired, kShare, shares.patch);
+  object->refuse_unknown();
+  constexpr double kRounding = 1e-6;
+  if (std::abs(shares.everywhere + shares.unit + shares.patch - 1.0) > kRounding)
+    reader.fault("spread_shares", "the shares must add up to 1");
+}
+
+// Names alone: the soils that they name may stand in other files.
+void read_alternatives(ObjectReader& reader, sim::SoilDistribution& soil) {
+  constexpr NumberRule kWeight{"1", 0.0, 1e6};
+  double pressure = 0.0, strength = 0.0;
+  for (const Element& element : reader.list("alternatives", kOptional, {1, 100})) {
+    ObjectReader row(*element.value, element.pointer, reader.faults());
+    sim::SoilAlternative& alternative = soil.alternatives.emplace_back();
+    row.text("soil", kRequired, {.most = 64, .is_name = true}, alternative.name);
+    row.number("pressure_weight", kOptional, kWeight, alternative.pressure_weight);
+    row.number("strength_weight", kOptional, kWeight, alternative.strength_weight);
+    row.refuse_unknown();
+    pressure += alternative.pressure_weight;
+    strength += alternative.strength_weight;
+  }
+  if (!soil.alternatives.empty() && (pressure <= 0.0 || strength <= 0.0))
+    reader.fault("alternatives", "the weights of pressure and of strength must each have a positive sum");
+  reader.boolean("alternatives_by_unit", kOptional, soil.alternatives_by_unit);
+}
+
 void read_soil(const Element& element, const sim::SoilFormat& format, sim::SoilDistribution& soil,
                std::vector<Fault>& faults) {
   const std::size_t before = faults.size();
@@ -178,6 +210,8 @@ void read_soil(const Element& element, const sim::SoilFormat& format, sim::SoilD
   }
   read_std(reader, soil.mean, soil.std);
   reader.number("correlation_length_m", kRequired, {"m", 0.0, 1e4, true}, soil.correlation_length_m);
+  read_shares(reader, soil.shares);
+  read_alternatives(reader, soil);
   reader.refuse_unknown();
   if (faults.size() == before) check_soil(reader, soil);
 }

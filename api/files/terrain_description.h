@@ -26,7 +26,9 @@ struct TerrainDescription {
   dem::PolygonCoordinates soil_coordinates = dem::PolygonCoordinates::kMap;
   std::vector<dem::SoilClass> legend;
   std::string assumption;  // why these classes are believed to be these soils
+  double confidence = 1.0;  // the probability that a class is the soil that the legend gives
   std::optional<std::string> stops_file;
+  std::optional<std::string> outcomes_file;  // how drives on this ground ended
   std::optional<std::string> provenance_file;
 };
 

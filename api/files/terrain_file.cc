@@ -67,6 +67,7 @@ void read_soil(ObjectReader& soil, TerrainDescription& terrain) {
   }
   read_legend(soil, terrain);
   soil.text("assumption", kRequired, {.most = 2000}, terrain.assumption);
+  soil.number("confidence", kOptional, {"1", 0.0, 1.0, true}, terrain.confidence);
   soil.refuse_unknown();
 }
 
@@ -88,6 +89,9 @@ Result<TerrainDescription> read_terrain_file(std::string_view bytes) {
   std::string file;
   read_file_name(reader, "stops", kOptional, file);
   if (!file.empty()) terrain.stops_file = file;
+  file.clear();
+  read_file_name(reader, "drive_outcomes", kOptional, file);
+  if (!file.empty()) terrain.outcomes_file = file;
   file.clear();
   read_file_name(reader, "provenance", kOptional, file);
   if (!file.empty()) terrain.provenance_file = file;

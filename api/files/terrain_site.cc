@@ -39,6 +39,7 @@ void check_files(const std::filesystem::path& folder, const TerrainDescription& 
   if (terrain.soil_source == SoilSource::kRaster) check("/soil/raster", terrain.soil_file);
   if (terrain.soil_source == SoilSource::kPolygons) check("/soil/polygons", terrain.soil_file);
   if (terrain.stops_file) check("/stops", *terrain.stops_file);
+  if (terrain.outcomes_file) check("/drive_outcomes", *terrain.outcomes_file);
   if (terrain.provenance_file) check("/provenance", *terrain.provenance_file);
 }
 
@@ -91,6 +92,16 @@ Result<std::shared_ptr<const TerrainSite>> TerrainSite::open(const std::filesyst
         site->stops_ = std::move(*stops);
       } else {
         faults.push_back({"/stops", stops.error().detail});
+      }
+    }
+    if (site->description_.outcomes_file) {
+      const auto bytes = read_data_file(folder / *site->description_.outcomes_file);
+      auto outcomes =
+          bytes ? read_drive_outcomes(*bytes) : Result<DriveOutcomeTable>(fail(bytes.error()));
+      if (outcomes) {
+        site->outcomes_ = std::move(*outcomes);
+      } else {
+        faults.push_back({"/drive_outcomes", outcomes.error().detail});
       }
     }
   }

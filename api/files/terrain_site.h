@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "api/files/drive_outcomes.h"
 #include "api/files/stops.h"
 #include "api/files/terrain_description.h"
 #include "core/result.h"
@@ -31,6 +32,8 @@ class TerrainSite {
   const TerrainDescription& description() const { return description_; }
   const dem::ElevationInfo& info() const { return elevation_->info(); }
   const std::vector<Stop>& stops() const { return stops_; }
+  // Drives of the past on this ground; none where the terrain has no such table.
+  const DriveOutcomeTable& outcomes() const { return outcomes_; }
 
   // The ground over the extent, which is clipped to the terrain. Errors as dem::ElevationSource::read.
   Result<GroundWindow> read(const dem::Extent& extent) const;
@@ -44,6 +47,7 @@ class TerrainSite {
   TerrainDescription description_;
   std::shared_ptr<const dem::ElevationSource> elevation_;
   std::vector<Stop> stops_;
+  DriveOutcomeTable outcomes_;
 };
 
 // A file of the service's own data, whole. Errors: unreadable_data where it can't be read or is no regular

@@ -96,6 +96,7 @@ struct StretchRisk {
 struct DriveOutcomes {
   DrawnShare stop;       // drives with at least one stop
   DrawnShare embedding;  // drives that end embedded
+  DrawnShare completed;  // drives with neither
   double expected_stops = 0.0, expected_stops_low = 0.0,
          expected_stops_high = 0.0;  // mean with 90 % interval
   std::vector<RuleRisk> rules;       // in the order of Rule

@@ -271,6 +271,8 @@ DriveOutcomes outcomes_of(const std::vector<DrawnDrive>& drives, const Weighted&
   out.effective_draws = weighted.effective();
   out.stop = weighted.share([](const DrawnDrive& d) { return d.outcome.stops > 0; });
   out.embedding = weighted.share([](const DrawnDrive& d) { return d.outcome.embedded; });
+  out.completed =
+      weighted.share([](const DrawnDrive& d) { return d.outcome.stops == 0 && !d.outcome.embedded; });
   const double mean = weighted.mean([](const DrawnDrive& d) { return d.outcome.stops; });
   const double square = weighted.mean([](const DrawnDrive& d) { return d.outcome.stops * d.outcome.stops; });
   const double error = std::sqrt(std::max(0.0, square - mean * mean) / weighted.effective());
@@ -292,8 +294,8 @@ DriveOutcomes outcomes_of(const std::vector<DrawnDrive>& drives, const Weighted&
   return out;
 }
 
-void summarise(const std::vector<DrawnDrive>& drives, const DriveLimits& limits,
-               DrivePrediction& prediction) {
+void summarise(const std::vector<DrawnDrive>& drives, const std::vector<PreparedStation>& stations,
+               const DriveLimits& limits, DrivePrediction& prediction) {
   const Weighted weighted(drives);
   const DrawnShare risk = weighted.share([](const DrawnDrive& d) { return d.any_bad; });
   prediction.draws = static_cast<int>(drives.size());

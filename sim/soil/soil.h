@@ -117,7 +117,8 @@ struct SoilDistribution;
 // One of the soils that the ground may be. Sinkage under load and strength are drawn apart, since tables of
 // soils often share one assumed stiffness among rows whose strengths were measured one by one.
 struct SoilAlternative {
-  std::shared_ptr<const SoilDistribution> soil;
+  std::string name;
+  std::shared_ptr<const SoilDistribution> soil;  // of that name; without alternatives of its own
   double pressure_weight = 1.0;  // for k_c, k_phi, n and the law of pressure
   double strength_weight = 1.0;  // for everything else
 };

@@ -86,7 +86,7 @@ SoilDistribution either(double loam_weight, double sand_weight, bool by_unit) {
   SoilDistribution mixed = certain("either", sandy_loam());
   const auto loam = std::make_shared<SoilDistribution>(certain("loam", sandy_loam()));
   const auto sand = std::make_shared<SoilDistribution>(certain("sand", loose_sand()));
-  mixed.alternatives = {{loam, loam_weight, loam_weight}, {sand, sand_weight, sand_weight}};
+  mixed.alternatives = {{"loam", loam, loam_weight, loam_weight}, {"sand", sand, sand_weight, sand_weight}};
   mixed.alternatives_by_unit = by_unit;
   return mixed;
 }

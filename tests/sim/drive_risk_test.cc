@@ -138,7 +138,7 @@ TEST(DriveRisk, GrowsWithTheSlopeTheSpreadAndTheWay) {
     const SoilBeliefs beliefs{{spread("loam", sandy_loam(), relative)},
                               certain("unknown_ground", sandy_loam())};
     const DrivePrediction drive = predict(slope(deg), beliefs, straight(length_m), many, tight);
-    return std::pair(drive.outcomes.stop.share, drive.risk);
+    return std::pair(1.0 - drive.outcomes.completed.share, drive.risk);
   };
   std::pair<double, double> before{0.0, 0.0};
   for (const double deg : {0.0, 6.0, 9.0, 12.0, 15.0, 20.0}) {
