@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "api/documents/check_answer.h"
 #include "api/documents/diagnosis_document.h"
 #include "api/documents/plan_answer.h"
 #include "api/documents/prediction_answer.h"
@@ -39,6 +40,15 @@ std::vector<JobKind> all_kinds() {
                                                                .usual_wait = std::chrono::seconds(10),
                                                                .is_short = true,
                                                                .may_name_model = true}),
+      job_kind(JobKindRow<CheckRequest, CheckAnswer>{.name = std::string(kCheckKind),
+                                                     .path = "/v1/checks",
+                                                     .read = &Service::read_check,
+                                                     .run = &Service::check,
+                                                     .write = &json::write_check_answer,
+                                                     .map = &draw_route_map,
+                                                     .usual_wait = std::chrono::seconds(10),
+                                                     .is_short = true,
+                                                     .may_name_model = true}),
       job_kind(JobKindRow<DiagnosisRequest, DiagnosisAnswer>{.name = std::string(kDiagnosisKind),
                                                              .path = "/v1/diagnoses",
                                                              .read = &Service::read_diagnosis,

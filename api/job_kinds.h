@@ -14,6 +14,7 @@ namespace slipway::api {
 // model.
 inline constexpr std::string_view kPlanKind = "plan";
 inline constexpr std::string_view kPredictionKind = "prediction";
+inline constexpr std::string_view kCheckKind = "check";
 inline constexpr std::string_view kDiagnosisKind = "diagnosis";
 
 // The catalogue: every kind of job that the service does, one row each.

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <utility>
 
+#include "api/documents/check_request.h"
 #include "api/documents/diagnosis_request.h"
 #include "api/documents/plan_request.h"
 #include "api/documents/prediction_request.h"
 #include "api/documents/soil_estimate_request.h"
 #include "api/files/campaign/drive_campaign_source.h"
 #include "api/files/model_folder.h"
+#include "api/ground_evidence.h"
 #include "api/json/faults.h"
 #include "api/request_check.h"
 #include "api/requests/soil_regions.h"
@@ -39,15 +41,48 @@ dem::Extent window_around(const std::vector<planner::Waypoint>& places, const de
   return {box.west_m - margin, box.south_m - margin, box.east_m + margin, box.north_m + margin};
 }
 
-// What is believed of a soil under the effects in force, in their regions where it lies in some.
-sim::SoilDistribution believed(const Catalogue& catalogue, const RegionalSoil& soil,
+// The effects in force on a soil and on its alternatives, in their regions where it lies in some.
+void apply(const std::vector<sim::EffectSetting>& effects, const std::vector<std::size_t>& regions,
+           sim::SoilDistribution& belief) {
+  sim::apply_effects(effects, belief.mean);
+  for (const std::size_t region : regions) sim::apply_in_region(effects, region, belief.mean);
+  for (sim::SoilAlternative& alternative : belief.alternatives) {
+    sim::SoilDistribution changed = *alternative.soil;
+    apply(effects, regions, changed);
+    alternative.soil = std::make_shared<const sim::SoilDistribution>(std::move(changed));
+  }
+}
+
+// What is believed of a soil. With less than full confidence in the map's legend it may be any of the soils
+// of unknown ground instead, one for all of its ground.
+sim::SoilDistribution believed(const Catalogue& catalogue, const RegionalSoil& soil, double confidence,
                                const std::vector<sim::EffectSetting>& effects) {
   sim::SoilDistribution belief = catalogue.soils.find(soil.base)->second;
-  sim::apply_effects(effects, belief.mean);
-  for (const std::size_t region : soil.regions) sim::apply_in_region(effects, region, belief.mean);
+  const sim::SoilDistribution& unknown = catalogue.soils.find(kUnknownGround)->second;
+  if (confidence < 1.0 && belief.name != unknown.name && belief.alternatives.empty() &&
+      belief.mean.slip_curve == nullptr) {
+    double pressure = 0.0, strength = 0.0;
+    for (const sim::SoilAlternative& each : unknown.alternatives) {
+      pressure += each.pressure_weight;
+      strength += each.strength_weight;
+    }
+    belief.alternatives.push_back(
+        {belief.name, std::make_shared<const sim::SoilDistribution>(belief), confidence, confidence});
+    for (sim::SoilAlternative other : unknown.alternatives) {
+      other.pressure_weight *= (1.0 - confidence) / pressure;
+      other.strength_weight *= (1.0 - confidence) / strength;
+      belief.alternatives.push_back(std::move(other));
+    }
+  }
+  apply(effects, soil.regions, belief);
   if (!soil.regions.empty()) belief.name = soil.name();
   return belief;
 }
+
+// Draws of a decision: the fewest that say something, and the most that are taken.
+constexpr int kFirstDraws = 32, kMaxDecidingDraws = 1000;
+// Draws that are weighed by drives of the past, of which some weigh little.
+constexpr int kWeighedDraws = 1000;
 
 }  // namespace
 
@@ -149,7 +184,7 @@ Result<SoilEstimateRequest> Service::read_soil_estimate(std::string_view json) c
 
 Result<Service::Setting> Service::set_up(const std::string& terrain, const std::string& rover,
                                          const std::vector<planner::Waypoint>& places,
-                                         const DriveAssumptions& drive) const {
+                                         const DriveAssumptions& drive, Progress& progress) const {
   std::vector<Fault> faults;
   std::string driven_name = rover;
   const std::shared_ptr<const Catalogue> catalogue = catalogue_for(drive.model, driven_name, faults);
@@ -163,7 +198,12 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
   sim::apply_effects(effects, driven);
   sim::fail_wheels(driven, drive.failed_wheels, drive.conditions);
   if (drive.speed_m_s) driven.cruise_speed_m_s = *drive.speed_m_s;
-  auto ground = site.read(window_around(places, site.info().geometry));
+  std::vector<planner::Waypoint> to_read = places;
+  if (drive.as_of_sol) {
+    const std::vector<planner::Waypoint> past = places_of(site.outcomes(), *drive.as_of_sol);
+    to_read.insert(to_read.end(), past.begin(), past.end());
+  }
+  auto ground = site.read(window_around(to_read, site.info().geometry));
   if (!ground) return fail(ground.error());
 
   Setting setting;
@@ -172,15 +212,18 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
   RegionalSoils soils = soils_in_regions(ground->soil_map, sim::effect_regions(effects));
   problem.soil_map = soils.map;
   for (const RegionalSoil& soil : soils.soils)
-    problem.beliefs.known.push_back(believed(*catalogue, soil, effects));
-  problem.beliefs.unknown = believed(*catalogue, {std::string(kUnknownGround), {}}, effects);
+    problem.beliefs.known.push_back(believed(*catalogue, soil, site.description().confidence, effects));
+  problem.beliefs.unknown = believed(*catalogue, {std::string(kUnknownGround), {}}, 1.0, effects);
   problem.conditions = drive.conditions;
   problem.rover = std::make_shared<const sim::RoverModel>(std::move(driven));
   problem.gravity_m_s2 = site.description().gravity_m_s2;
   problem.limits = drive.limits;
   problem.seed = drive.seed;
   problem.risk.seed = drive.seed;
-  problem.risk.draws = drive.draws;
+  problem.risk.draws = drive.draws.value_or(kFirstDraws);
+  problem.risk.max_draws = drive.draws ? 0 : kMaxDecidingDraws;
+  problem.risk.checks = drive.checks;
+  problem.risk.bars = drive.bars;
   problem.threads = options_.threads;
 
   setting.provenance = {.terrain_title = site.description().title,
@@ -195,6 +238,15 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
   // By what is believed of them: a corrected soil's name is another than the map's.
   for (const sim::SoilDistribution& belief : problem.beliefs.known)
     setting.provenance.soils.push_back(belief.name);
+  if (drive.as_of_sol) {
+    progress.report("weighing drives of the past", 0.0);
+    problem.risk.draws = drive.draws.value_or(kWeighedDraws);
+    problem.risk.max_draws = 0;
+    auto evidence = weigh_draws(problem, site.outcomes(), *drive.as_of_sol, progress);
+    if (!evidence) return fail(evidence.error());
+    problem.risk.weights = evidence->weights;
+    setting.provenance.past_drives = evidence->drives;
+  }
   return setting;
 }
 
@@ -202,7 +254,7 @@ Result<PlanAnswer> Service::plan(const PlanRequest& request, Progress& progress)
   progress.report("reading the terrain", 0.0);
   std::vector<planner::Waypoint> places{request.start, request.goal};
   places.insert(places.end(), request.waypoints.begin(), request.waypoints.end());
-  auto setting = set_up(request.terrain, request.rover, places, request.drive);
+  auto setting = set_up(request.terrain, request.rover, places, request.drive, progress);
   if (!setting) return fail(setting.error());
   planner::PlanProblem& problem = setting->problem;
   problem.start = request.start;
@@ -224,14 +276,16 @@ Result<PredictionAnswer> Service::predict(const PredictionRequest& request, Prog
     return fail(ErrorCode::kInvalidRequest, "a path has at least two corners",
                 {{"/path", "must have two corners"}});
   }
-  auto setting = set_up(request.terrain, request.rover, request.path, request.drive);
+  auto setting = set_up(request.terrain, request.rover, request.path, request.drive, progress);
   if (!setting) return fail(setting.error());
   planner::PlanProblem& problem = setting->problem;
   problem.start = request.path.front();
   problem.goal = request.path.back();
   auto prediction = planner::predict_path(problem, request.path, progress, request.manner);
   if (!prediction) return fail(prediction.error());
-  PredictionAnswer answer{request, std::move(setting->provenance), std::move(*prediction), std::nullopt};
+  planner::DriveDecision decision = planner::decide(problem, *prediction);
+  PredictionAnswer answer{request, std::move(setting->provenance), std::move(*prediction), std::nullopt,
+                          std::move(decision)};
   if (request.level == FidelityLevel::kDynamic) {
     planner::StageProgress stage(progress, "verifying by dynamics", 0.3, 1.0);
     auto dynamic = planner::verify_path(problem, request.path, answer.prediction, stage, request.manner);
@@ -239,6 +293,45 @@ Result<PredictionAnswer> Service::predict(const PredictionRequest& request, Prog
     answer.dynamic = std::move(*dynamic);
   }
   return answer;
+}
+
+Result<CheckAnswer> Service::check(const CheckRequest& request, Progress& progress) const {
+  progress.report("reading the terrain", 0.0);
+  const std::vector<planner::Motion> motions =
+      request.commands.empty()
+          ? planner::path_motions(request.path, request.manner)
+          : planner::command_motions({request.path.front().x_m, request.path.front().y_m,
+                                      request.manner.travel(request.path.front().yaw_rad.value_or(0.0))},
+                                     request.commands);
+  std::vector<planner::Waypoint> places;
+  for (const planner::Motion& motion : motions) {
+    places.push_back({motion.from.x_m, motion.from.y_m, {}});
+    places.push_back({motion.to.x_m, motion.to.y_m, {}});
+  }
+  auto setting = set_up(request.terrain, request.rover, places, request.drive, progress);
+  if (!setting) return fail(setting.error());
+  auto prediction = planner::predict_motions(setting->problem, motions, progress, request.manner);
+  if (!prediction) return fail(prediction.error());
+  planner::DriveDecision decision = planner::decide(setting->problem, *prediction);
+  return CheckAnswer{request, std::move(setting->provenance), std::move(*prediction), std::move(decision)};
+}
+
+Result<CheckRequest> Service::read_check(std::string_view json) const {
+  auto reading = json::read_check_request(json, catalogue_->rules);
+  if (!reading) return fail(reading.error());
+  CheckRequest& request = reading->request;
+  const std::shared_ptr<const Catalogue> catalogue =
+      catalogue_for(request.drive.model, request.rover, reading->faults);
+  RequestCheck check(*catalogue, std::move(reading->faults));
+  check.names(request.terrain, request.rover);
+  check.ground(request.drive.model, options_.ground);
+  for (std::size_t i = 0; i < request.path.size(); ++i)
+    check.place(request.path[i], request.commands.empty() ? fmt::format("/path/{}", i) : "/start");
+  check.path_length(request.path);
+  check.crab(request.manner.crab_rad);
+  check.drive(request.drive);
+  if (!check.passed()) return fail(check.error());
+  return std::move(reading->request);
 }
 
 Result<gap::DriveCampaign> Service::shipped_drives(const std::string& name) const {

@@ -48,12 +48,14 @@ class Service {
   // of that kind.
   Result<PlanRequest> read_plan(std::string_view json) const;
   Result<PredictionRequest> read_prediction(std::string_view json) const;
+  Result<CheckRequest> read_check(std::string_view json) const;
   Result<DiagnosisRequest> read_diagnosis(std::string_view json) const;
   Result<SoilEstimateRequest> read_soil_estimate(std::string_view json) const;
 
   // The same request gives the same answer, on any number of threads.
   Result<PlanAnswer> plan(const PlanRequest& request, Progress& progress) const;
   Result<PredictionAnswer> predict(const PredictionRequest& request, Progress& progress) const;
+  Result<CheckAnswer> check(const CheckRequest& request, Progress& progress) const;
   Result<DiagnosisAnswer> diagnose(const DiagnosisRequest& request, Progress& progress) const;
   Result<SoilEstimateAnswer> estimate_soil(const SoilEstimateRequest& request, Progress& progress) const;
 
@@ -69,7 +71,8 @@ class Service {
     Provenance provenance;
   };
   Result<Setting> set_up(const std::string& terrain, const std::string& rover,
-                         const std::vector<planner::Waypoint>& places, const DriveAssumptions& drive) const;
+                         const std::vector<planner::Waypoint>& places, const DriveAssumptions& drive,
+                         Progress& progress) const;
   // The service's own, or a copy with the request's model in it where it has one; its rover takes the place
   // of the one it was made of. What can't be taken is added to the faults.
   std::shared_ptr<const Catalogue> catalogue_for(const std::optional<RequestedModel>& model,

@@ -48,6 +48,25 @@ CornerPath join(const std::vector<Waypoint>& corners, const Manner& manner) {
   return path;
 }
 
+std::vector<sim::PathStation> stations_of(const PlanProblem& problem, const std::vector<Motion>& motions,
+                                          const Manner& manner) {
+  auto stations = route_stations(motions, sim::max_station_spacing_m(*problem.rover));
+  for (sim::PathStation& station : stations) {
+    station.pose.yaw_rad = manner.body_yaw(station.pose.yaw_rad);
+    station.backwards = manner.backwards;
+    station.crab_rad = manner.crab_rad;
+  }
+  return stations;
+}
+
+Result<sim::DrivePrediction> predict_stations(const PlanProblem& problem,
+                                              const std::vector<sim::PathStation>& stations,
+                                              Progress& progress) {
+  return sim::predict_drive(*problem.rover, problem.gravity_m_s2,
+                            TerrainGround(problem.terrain, problem.soil_map), problem.beliefs, stations,
+                            problem.limits, problem.risk, problem.threads, progress, problem.conditions);
+}
+
 // "/stations/12" to the corner on the way to which it lies.
 std::string corner_pointer(const CornerPath& path, const std::vector<sim::PathStation>& stations,
                            const std::string& pointer) {
@@ -83,21 +102,51 @@ Result<sim::DrivePrediction> predict_path(const PlanProblem& problem, const std:
   }
 
   const CornerPath path = join(corners, manner);
-  auto stations = route_stations(path.motions, sim::max_station_spacing_m(*problem.rover));
-  for (sim::PathStation& station : stations) {
-    station.pose.yaw_rad = manner.body_yaw(station.pose.yaw_rad);
-    station.backwards = manner.backwards;
-    station.crab_rad = manner.crab_rad;
-  }
-  Result<sim::DrivePrediction> drive =
-      sim::predict_drive(*problem.rover, problem.gravity_m_s2, ground, problem.beliefs, stations,
-                         problem.limits, problem.risk, problem.threads, progress, problem.conditions);
+  const auto stations = stations_of(problem, path.motions, manner);
+  Result<sim::DrivePrediction> drive = predict_stations(problem, stations, progress);
   if (!drive) {
     Error error = drive.error();
     for (Fault& fault : error.faults) fault.pointer = corner_pointer(path, stations, fault.pointer);
     return fail(std::move(error));
   }
   return drive;
+}
+
+std::vector<Motion> path_motions(const std::vector<Waypoint>& corners, const Manner& manner) {
+  return join(corners, manner).motions;
+}
+
+std::vector<Motion> command_motions(const Pose2& start, const std::vector<DriveStep>& steps) {
+  std::vector<Motion> motions;
+  Pose2 at = start;
+  for (const DriveStep& step : steps) {
+    Motion motion{.from = at, .to = at};
+    motion.first_turn_rad = step.turn_rad;
+    motion.length_m = step.drive_m;
+    motion.curvature_1_m = step.curvature_1_m;
+    motion.to = motion.at(step.drive_m);
+    motion.to.yaw_rad = wrapped_rad(motion.to.yaw_rad);
+    at = motion.to;
+    motions.push_back(motion);
+  }
+  if (motions.empty()) motions.push_back({.from = at, .to = at});
+  return motions;
+}
+
+Result<sim::DrivePrediction> predict_motions(const PlanProblem& problem, const std::vector<Motion>& motions,
+                                             Progress& progress, const Manner& manner) {
+  return predict_stations(problem, stations_of(problem, motions, manner), progress);
+}
+
+Result<std::vector<sim::DrawnOutcome>> drawn_outcomes(const PlanProblem& problem,
+                                                      const std::vector<Waypoint>& corners,
+                                                      Progress& progress) {
+  const TerrainGround ground(problem.terrain, problem.soil_map);
+  // Slip checks average over metres: every second station does.
+  const auto stations =
+      route_stations(join(corners, {}).motions, 2.0 * sim::max_station_spacing_m(*problem.rover));
+  return sim::drawn_outcomes(*problem.rover, problem.gravity_m_s2, ground, problem.beliefs, stations,
+                             problem.limits, problem.risk, problem.threads, progress, problem.conditions);
 }
 
 Result<DynamicVerification> verify_path(const PlanProblem& problem, const std::vector<Waypoint>& corners,

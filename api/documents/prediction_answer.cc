@@ -1,5 +1,6 @@
 #include "api/documents/prediction_answer.h"
 
+#include "api/documents/check_answer.h"
 #include "api/documents/drive_series.h"
 #include "api/documents/dynamic_series.h"
 #include "api/documents/prediction_request.h"
@@ -17,6 +18,8 @@ std::string write_prediction_answer(const PredictionAnswer& answer) {
   write_drive_figures(w, answer.prediction);
   if (answer.dynamic) write_dynamic_figures(w, *answer.dynamic);
   w.end_object();
+  write_decision(w, answer.decision);
+  write_outcomes(w, answer.prediction, answer.provenance);
   w.key("routes")
       .begin_object()
       .text("type", "FeatureCollection")

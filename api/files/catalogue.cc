@@ -62,9 +62,10 @@ void join_alternatives(Catalogue& catalogue, std::vector<Fault>& faults) {
       if (found == catalogue.soils.end()) {
         faults.push_back({pointer, unknown_name("soil", alternative.name, names_of(catalogue.soils))});
       } else if (!found->second.alternatives.empty() || found->second.mean.slip_curve != nullptr) {
-        faults.push_back({pointer, fmt::format("soil {} can't be an alternative: it has alternatives of its own, "
-                                               "or is known by a slip curve alone",
-                                               alternative.name)});
+        faults.push_back(
+            {pointer, fmt::format("soil {} can't be an alternative: it has alternatives of its own, "
+                                  "or is known by a slip curve alone",
+                                  alternative.name)});
       } else {
         alternative.soil = std::make_shared<const sim::SoilDistribution>(found->second);
       }
@@ -94,6 +95,24 @@ void load_soils(const fs::path& data, Catalogue& catalogue, std::vector<Fault>& 
   if (faults.empty()) join_alternatives(catalogue, faults);
   if (faults.empty() && !catalogue.soils.contains(kUnknownGround)) {
     faults.push_back({"soils#", fmt::format("there is no soil {}", kUnknownGround)});
+  }
+}
+
+void load_rules(const fs::path& data, Catalogue& catalogue, std::vector<Fault>& faults) {
+  std::error_code error;
+  if (!fs::exists(data / "rules", error)) return;
+  for (const fs::path& path : entries_of(data / "rules")) {
+    const auto bytes = read_data_file(path);
+    const std::string file = "rules/" + path.filename().string();
+    auto rules = bytes ? json::read_rules_file(*bytes) : Result<RuleSet>(fail(bytes.error()));
+    if (!rules) {
+      add_faults(file, rules.error(), faults);
+    } else if (rules->name != path.stem().string()) {
+      faults.push_back(
+          {file + "#/name", fmt::format("name = {}, must be the name of its file", rules->name)});
+    } else {
+      catalogue.rules[rules->name] = std::move(*rules);
+    }
   }
 }
 
@@ -131,6 +150,7 @@ Result<Catalogue> load_catalogue(const fs::path& data, const sim::SoilFormat& fo
   std::vector<Fault> faults;
   load_rovers(data, catalogue, faults);
   load_soils(data, catalogue, faults);
+  load_rules(data, catalogue, faults);
   load_terrains(data, catalogue, faults);
   if (!faults.empty()) {
     return fail(ErrorCode::kUnreadableData,

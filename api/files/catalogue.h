@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "api/files/drive_rules.h"
 #include "api/files/terrain_site.h"
 #include "core/result.h"
 #include "sim/rover/rover_model.h"
@@ -22,11 +23,12 @@ struct Catalogue {
   std::map<std::string, std::shared_ptr<const sim::RoverModel>, std::less<>> rovers;
   std::map<std::string, sim::SoilDistribution, std::less<>> soils;
   std::map<std::string, std::shared_ptr<const TerrainSite>, std::less<>> terrains;
+  std::map<std::string, RuleSet, std::less<>> rules;
   const sim::SoilFormat* soil_format = &sim::soil_format();  // that the soils were read by
 };
 
-// Loads rovers/*.json, soils/*.json and terrains/*/terrain.json under the folder. The faults of all files are
-// reported together; pointers begin with the file, "rovers/mer-class.json#/mass_kg".
+// Loads rovers/*.json, soils/*.json, rules/*.json and terrains/*/terrain.json under the folder. The faults of
+// all files are reported together; pointers begin with the file, "rovers/mer-class.json#/mass_kg".
 Result<Catalogue> load_catalogue(const std::filesystem::path& data,
                                  const sim::SoilFormat& format = sim::soil_format());
 

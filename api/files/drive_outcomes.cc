@@ -61,7 +61,7 @@ Result<DriveOutcomeTable> read_drive_outcomes(std::string_view bytes) {
   for (const Element& element : reader.list("drives", kRequired, {0, kMaxDrives}))
     read_drive(element, table, faults);
   reader.refuse_unknown();
-  if (!faults.empty()) return fail(ErrorCode::kUnreadableData, json::summary_of(faults), faults);
+  if (!faults.empty()) return fail(ErrorCode::kUnreadableData, summary_of(faults), faults);
   std::stable_sort(table.drives.begin(), table.drives.end(),
                    [](const PastDrive& a, const PastDrive& b) { return a.sol < b.sol; });
   return table;

@@ -95,9 +95,8 @@ Result<std::shared_ptr<const TerrainSite>> TerrainSite::open(const std::filesyst
       }
     }
     if (site->description_.outcomes_file) {
-      const auto bytes = read_data_file(folder / *site->description_.outcomes_file);
-      auto outcomes =
-          bytes ? read_drive_outcomes(*bytes) : Result<DriveOutcomeTable>(fail(bytes.error()));
+      const auto table = read_data_file(folder / *site->description_.outcomes_file);
+      auto outcomes = table ? read_drive_outcomes(*table) : Result<DriveOutcomeTable>(fail(table.error()));
       if (outcomes) {
         site->outcomes_ = std::move(*outcomes);
       } else {

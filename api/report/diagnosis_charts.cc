@@ -126,7 +126,7 @@ std::string draw_ladder(const Diagnosis& d) {
     chart.x.categories = {"nominal", "re-tuned", "with effects", "floor"};
     ChartSeries values = series_of("held-out drives", ChartMark::kLine, 1);
     const std::array<Interval, 4> levels{channel.nominal, channel.retuned, channel.with_effects,
-                                        channel.noise_floor};
+                                         channel.noise_floor};
     for (std::size_t k = 0; k < levels.size(); ++k) {
       const auto at = static_cast<double>(k);
       if (!std::isfinite(levels[k].value)) continue;

@@ -4,12 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "api/requests/check_request.h"
 #include "api/requests/diagnosis_request.h"
 #include "api/requests/plan_request.h"
 #include "api/requests/prediction_request.h"
 #include "dem/elevation_source.h"
 #include "gap/diagnosis/diagnosis.h"
 #include "gap/diagnosis/model/drive_campaign.h"
+#include "planner/judge/drive_decision.h"
 #include "planner/problem/dynamic_verification.h"
 #include "planner/problem/route.h"
 
@@ -26,6 +28,8 @@ struct Provenance {
   std::vector<std::string> soils;  // by the index in the stations
   std::string unknown_soil;        // assumed where no map names a soil
   std::uint64_t seed = 1;
+  // Where drives of the past weigh the draws: how many, and what is left of the draws.
+  std::optional<int> past_drives = {};
 };
 
 struct PlanAnswer {
@@ -39,6 +43,14 @@ struct PredictionAnswer {
   Provenance provenance;
   sim::DrivePrediction prediction;
   std::optional<planner::DynamicVerification> dynamic;  // where the dynamic level was requested
+  planner::DriveDecision decision;
+};
+
+struct CheckAnswer {
+  CheckRequest request;
+  Provenance provenance;
+  sim::DrivePrediction prediction;
+  planner::DriveDecision decision;
 };
 
 struct DiagnosisAnswer {

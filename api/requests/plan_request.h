@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "api/files/drive_rules.h"
 #include "core/result.h"
 #include "planner/problem/problem.h"
 #include "sim/effects/effect_catalogue.h"
@@ -25,13 +26,14 @@ struct RequestedModel {
 
 // The assumptions with which a drive is predicted, whether its path is planned or given. The defaults are
 // those of the libraries below.
-struct DriveAssumptions {
-  sim::DriveLimits limits;
+struct DriveAssumptions : DriveRules {
   sim::DriveConditions conditions;
   std::vector<sim::EffectSetting> effects;  // added to the rover's own; see sim::in_force
   sim::FailedWheels failed_wheels;
-  int draws = sim::RiskOptions{}.draws;
+  std::optional<int> draws;  // as many; where it is empty, as many as the bars need
   std::uint64_t seed = 1;
+  // Drives of the terrain's table before this sol count as evidence of the ground; none do where it is empty.
+  std::optional<int> as_of_sol;
   std::optional<double> speed_m_s;      // the rover's cruise speed where it is empty
   std::optional<RequestedModel> model;  // where it is empty, rover and soils are the catalogue's
 };
@@ -68,7 +70,8 @@ struct RequestLimits {
   static constexpr double kPathLength_m = 20'000.0;
   static constexpr double kMinSpeed_m_s = 1e-4;  // slower drives take longer than any mission
   static constexpr int kRoutes = 8;
-  static constexpr int kDraws = 500;
+  static constexpr int kDraws = 2000;
+  static constexpr int kMaxSol = 1'000'000;
 };
 
 }  // namespace slipway::api

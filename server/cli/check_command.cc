@@ -1,73 +1,65 @@
 #include "server/cli/check_command.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <optional>
-#include <string>
-
-#include "api/documents/model_check_document.h"
-#include "api/files/campaign/drive_campaign_source.h"
-#include "api/files/catalogue.h"
-#include "api/requests/model_check.h"
+#include "api/json/writer.h"
 #include "server/cli/command_parts.h"
-#include "server/cli/terminal/terminal_progress.h"
-#include "server/cli/terminal/text_table.h"
+#include "server/cli/drive_answer.h"
+#include "server/cli/drive_request.h"
+#include "server/cli/terminal/tables.h"
 
 namespace slipway::server {
 namespace {
 
-std::string down_words(const gap::ErrorChange& change) {
-  if (!change.down_interval) return fmt::format("{:.0f} %", change.down_percent);
-  return fmt::format("{:.0f} % ({:.0f} to {:.0f})", change.down_percent, change.down_interval->low,
-                     change.down_interval->high);
+using api::json::Writer;
+
+// "drive=5", "turn=-30" or "arc=4,6" (length, radius); what is none of these is left to the request's reader.
+void write_command(Writer& w, const std::string& command) {
+  const std::size_t equals = command.find('=');
+  const std::string kind = command.substr(0, equals);
+  const std::string value = equals == std::string::npos ? std::string() : command.substr(equals + 1);
+  w.begin_object();
+  if (kind == "arc") {
+    const std::size_t comma = value.find(',');
+    write_setting(w, "arc_m=" + value.substr(0, comma));
+    if (comma != std::string::npos) write_setting(w, "radius_m=" + value.substr(comma + 1));
+  } else {
+    write_setting(w, (kind == "turn" ? "turn_deg" : kind == "drive" ? "drive_m" : kind) + "=" + value);
+  }
+  w.end_object();
 }
 
-std::string answer_words(const api::ModelCheckAnswer& answer) {
-  std::string out =
-      fmt::format("{} as predicted with {} on {}, corrected with campaign {}: {} drives, {} windows\n",
-                  answer.campaign, answer.rover, fmt::join(answer.soils, ", "), answer.corrected_with,
-                  answer.check.drives, answer.check.windows);
-  TextTable table({"channel", "slope", "values", "drives", "rms, nominal", "corrected", "down",
-                   "median, nominal", "corrected", "down", "in 50 %", "in 90 %", "unit"});
-  for (const gap::ChannelCheck& c : answer.check.channels) {
-    const double unit = gap::boundary_unit(c.channel);
-    table.add({std::string(gap::name_of(c.channel)), std::string(gap::name_of(c.slope)),
-               fmt::format("{}", c.values), fmt::format("{}", c.drives),
-               fmt::format("{:.3g}", unit * c.rms.nominal), fmt::format("{:.3g}", unit * c.rms.corrected),
-               down_words(c.rms), fmt::format("{:.3g}", unit * c.median.nominal),
-               fmt::format("{:.3g}", unit * c.median.corrected), down_words(c.median),
-               fmt::format("{:.0f} %", 100.0 * c.within_50), fmt::format("{:.0f} %", 100.0 * c.within_90),
-               std::string(gap::unit_of(c.channel))});
+std::string check_request(const CheckOptions& options) {
+  Writer w;
+  w.begin_object();
+  write_drive(w, options.drive);
+  if (!options.path.empty()) {
+    w.key("path").begin_array();
+    for (const PlaceOption& place : options.path) write_place(w, place);
+    w.end_array();
   }
-  out += table.print();
-  out += fmt::format("slopes are along the travel, level within {:g} deg; intervals of \"down\" hold 90 %\n",
-                     gap::kLevelWithin_deg);
-  for (const std::string& note : answer.notes) out += "note: " + note + "\n";
-  return out;
+  if (options.start) write_place(w.key("start"), *options.start);
+  if (!options.commands.empty()) {
+    w.key("commands").begin_array();
+    for (const std::string& command : options.commands) write_command(w, command);
+    w.end_array();
+  }
+  if (!options.rules.empty()) w.text("rules", options.rules);
+  if (options.backwards) w.boolean("backwards", true);
+  if (options.crab_deg) w.exact("crab_deg", *options.crab_deg);
+  w.end_object();
+  return w.take();
 }
 
 }  // namespace
 
-int check(const CheckCommand& options) {
-  const auto catalogue = open_catalogue(options.data);
-  if (!catalogue) return refuse_unreadable(catalogue.error());
-  const auto campaign = api::load_drive_campaign(options.campaign, *catalogue);
-  const auto model = api::load_model_folder(options.model);
-  // The faults of both are printed, not those of the first alone.
-  const int unread = campaign ? 0 : refuse_unreadable(campaign.error());
-  if (!model) return refuse_unreadable(model.error());
-  if (unread != 0) return unread;
-  gap::ModelCheckOptions how;
-  how.threads = static_cast<std::size_t>(options.threads);
-  how.seed = options.seed;
-  std::optional<Result<api::ModelCheckAnswer>> answer;
-  {
-    TerminalProgress progress;
-    answer = api::check_model(*campaign, *model, options.ground, how, progress);
-  }
-  if (!*answer) return refuse(answer->error());
-  return deliver({}, options.json ? api::json::model_check_document(**answer) : answer_words(**answer));
+int check(const CheckOptions& given) {
+  const auto rover = models_rover(given.ask, given.drive.rover, !given.request.empty());
+  if (!rover) return refuse(rover.error());
+  CheckOptions options = given;
+  options.drive.rover = *rover;
+  return ask_and_print(
+      options.ask, {.map = options.drive.map, .history = {}},
+      options.request.empty() ? Result<std::string>(check_request(options)) : read_request(options.request),
+      &Inquiry::check, &check_table, &check_status);
 }
 
 }  // namespace slipway::server

@@ -1,9 +1,12 @@
 #pragma once
 
-#include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "server/cli/ask_options.h"
+#include "server/cli/drive_options.h"
 
 namespace CLI {
 class App;
@@ -11,17 +14,20 @@ class App;
 
 namespace slipway::server {
 
-struct CheckCommand {
-  std::string data;
-  std::string campaign, model;      // folders
-  std::vector<std::string> ground;  // the campaign's soils that are the model's
-  std::uint64_t seed = 1;
-  int threads = 0;  // 0: as many as the machine has
-  bool json = false;
+struct CheckOptions {
+  AskOptions ask;
+  DriveOptions drive;
+  std::vector<PlaceOption> path;
+  std::optional<PlaceOption> start;
+  std::vector<std::string> commands;  // "drive=5", "arc=4,6", "turn=-30"
+  std::string rules;
+  bool backwards = false;
+  std::optional<double> crab_deg;
+  std::string request;  // file with the whole request
 };
 
-// The exit status: 0 figures, whatever they are, 1 none, 2 input that can't be read.
-int check(const CheckCommand& options);
+// The exit status: of the verdict (see ExitStatus).
+int check(const CheckOptions& options);
 
 // Adds the subcommand; `run` then runs it where it is given.
 void add_check_command(CLI::App& app, std::function<int()>& run);

@@ -1,38 +1,47 @@
 #include <CLI/CLI.hpp>
-#include <cstdint>
 #include <memory>
 
 #include "server/cli/check_command.h"
-#include "server/cli/data_option.h"
-#include "server/cli/largest_exact_whole.h"
 
 namespace slipway::server {
+namespace {
+
+constexpr const char* kCheckExample =
+    "Example: may this drive be commanded?\n"
+    "  slipway check --path 8142579.7,-276648.7 8142578,-276680 --rules every_5_m\n"
+    "  slipway check --start 8142579.7,-276648.7,-90 --command drive=10 turn=30 arc=6,8\n"
+    "Exit status: 0 GO, 3 NO-GO, 4 UNKNOWN; 1 no answer, 2 a request that can't be used, with every fault.";
+
+}  // namespace
 
 void add_check_command(CLI::App& app, std::function<int()>& run) {
-  const auto options = std::make_shared<CheckCommand>();
-  CLI::App* command = app.add_subcommand(
-      "check", "how well a corrected model predicts the drives of a campaign that it was not made of");
-  command->add_option("campaign", options->campaign, "folder of a drive campaign")->required();
+  const auto options = std::make_shared<CheckOptions>();
+  CLI::App* command = app.add_subcommand("check", "GO, NO-GO or UNKNOWN for a path or a command sequence");
+  // What this command was before it checked drives.
   command
-      ->add_option("--model", options->model,
-                   "folder of a corrected model, as slipway diagnose --model writes it")
-      ->required();
-  command->add_option(
-      "--ground", options->ground,
-      "a soil of this campaign that is the model's, where the other campaign called it otherwise");
-  add_data_option(*command, options->data, "rovers and soils");
-  command->add_option("--seed", options->seed, "of the resampling of drives")
-      ->capture_default_str()
-      ->check(CLI::Range(std::uint64_t{0}, kMaxExactWhole));
-  command->add_option("--threads", options->threads, "at once; 0: as many as the machine has")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 1024));
-  command->add_flag("--json", options->json, "print the document, for machines");
-  command->footer(
-      "Example: does what the drives of one year showed hold in the next?\n"
-      "  slipway diagnose year_1 --model corrected\n"
-      "  slipway check year_2 --model corrected\n"
-      "Exit status: 0 whatever the figures, 1 none, 2 input that can't be read, with every fault.");
+      ->add_option_function<std::string>(
+          "campaign",
+          [](const std::string& folder) {
+            throw CLI::ValidationError(
+                "slipway check " + folder +
+                ": to test a corrected model on a campaign's drives, use slipway test-model");
+          },
+          "")
+      ->group("");
+  add_ask(*command, options->ask);
+  add_model(*command, options->ask);
+  add_drive(*command, options->drive);
+  add_places(*command, "--path", options->path, "corners of the path, each x,y or x,y,yaw_deg");
+  add_place(*command, "--start", options->start, "where a command sequence begins: x,y,yaw_deg");
+  command->add_option("--command", options->commands,
+                      "the sequence: drive=METRES, turn=DEGREES, arc=METRES,RADIUS (left positive)");
+  command->add_option("--rules", options->rules, "a set of rules of the data folder, by name");
+  command->add_flag("--backwards", options->backwards, "drive backwards");
+  command->add_option("--crab-deg", options->crab_deg,
+                      "direction of travel from the body's axis, positive to the left");
+  command->add_option("--request", options->request,
+                      "file with a whole request, - for standard input; other options are not used");
+  command->footer(kCheckExample);
   command->callback([options, &run] { run = [options] { return check(*options); }; });
 }
 

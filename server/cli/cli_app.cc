@@ -17,6 +17,7 @@
 #include "server/cli/predict_command.h"
 #include "server/cli/serve_command.h"
 #include "server/cli/terrain_command.h"
+#include "server/cli/test_model_command.h"
 #include "server/cli/tune_command.h"
 #include "server/cli/validate_command.h"
 #include "server/cli/wheel_command.h"
@@ -55,6 +56,7 @@ int run_command_line(int argc, char** argv) {
   add_tune_command(app, run);
   add_diagnose_command(app, run);
   add_check_command(app, run);
+  add_test_model_command(app, run);
   add_estimate_command(app, run);
   add_gap_benchmark_command(app, run);
   add_terrain_command(app, run);

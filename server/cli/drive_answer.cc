@@ -5,14 +5,23 @@
 
 #include "api/chart/drive_history.h"
 #include "api/files/model_folder.h"
+#include "api/json/parse.h"
 #include "server/cli/command_parts.h"
 #include "server/cli/terminal/terminal_progress.h"
 
 namespace slipway::server {
+namespace {
+
+// An answer of ours: whoever prints it has read it already.
+api::json::JsonValue read_answer(std::string_view answer) {
+  return api::json::parse(answer, {.bytes = answer.size(), .values = answer.size()}).value();
+}
+
+}  // namespace
 
 int ask_and_print(const AskOptions& ask, const Pictures& pictures, const Result<std::string>& request,
                   Result<std::string> (Inquiry::*question)(const std::string&, Progress&),
-                  Result<std::string> (*table)(std::string_view)) {
+                  Result<std::string> (*table)(std::string_view), ExitStatus (*verdict)(std::string_view)) {
   if (!request) return refuse(request.error());
   const auto service = inquiry(ask);
   if (!service) return refuse(service.error());
@@ -37,7 +46,22 @@ int ask_and_print(const AskOptions& ask, const Pictures& pictures, const Result<
     if (history) files.push_back({pictures.history, *std::move(history)});
   }
   const int status = deliver(files, *printed + (ask.json ? "\n" : ""));
-  return undrawn ? refuse(*undrawn) : status;
+  if (undrawn) return refuse(*undrawn);
+  return status == kDone ? verdict(*answer) : status;
+}
+
+ExitStatus check_status(std::string_view check) {
+  return status_of(read_answer(check).find("verdict")->text);
+}
+
+ExitStatus prediction_status(std::string_view prediction) {
+  return status_of(read_answer(prediction).find("decision")->find("verdict")->text);
+}
+
+ExitStatus plan_status(std::string_view plan) {
+  const api::json::JsonValue document = read_answer(plan);
+  const auto& routes = document.find("summary")->elements;
+  return routes.empty() ? kNoGo : status_of(routes.front().find("verdict")->text);
 }
 
 Result<std::string> models_rover(const AskOptions& ask, const std::string& rover, bool any_rover) {

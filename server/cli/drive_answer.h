@@ -6,6 +6,7 @@
 #include "core/result.h"
 #include "server/cli/ask_options.h"
 #include "server/cli/drive_options.h"
+#include "server/cli/exit_status.h"
 #include "server/cli/inquiry.h"
 
 // What the answers to plans and predictions have in common.
@@ -16,10 +17,16 @@ struct Pictures {
   std::string map, history;
 };
 
-// Asks, draws what is wanted, then prints the document or its table. The exit status.
+// Asks, draws what is wanted, then prints the document or its table. The exit status: that of the document's
+// verdict, where all went well.
 int ask_and_print(const AskOptions& ask, const Pictures& pictures, const Result<std::string>& request,
                   Result<std::string> (Inquiry::*question)(const std::string&, Progress&),
-                  Result<std::string> (*table)(std::string_view));
+                  Result<std::string> (*table)(std::string_view), ExitStatus (*verdict)(std::string_view));
+
+// The exit status of an answer's verdict; of a plan, of its best route's.
+ExitStatus check_status(std::string_view check);
+ExitStatus prediction_status(std::string_view prediction);
+ExitStatus plan_status(std::string_view plan);
 
 // The name of the rover to drive: the corrected one where a model is given and the rover that it was made of
 // is asked for. Errors: those of reading the model; invalid_request where it says nothing of this rover,

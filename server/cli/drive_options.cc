@@ -63,7 +63,14 @@ void add_drive(CLI::App& command, DriveOptions& drive) {
   command.add_option("--max-slip", drive.max_slip, "limit of slip, 0 to 1");
   command.add_option("--max-tilt-deg", drive.max_tilt_deg, "limit of tilt");
   command.add_option("--speed-m-s", drive.speed_m_s, "commanded speed");
-  command.add_option("--draws", drive.draws, "soil draws for the risk");
+  command.add_option("--slip-check-every-m", drive.slip_check_every_m,
+                     "way that the wheels roll between two checks of the slip");
+  command.add_option("--max-embedding", drive.max_embedding, "bar of a GO: probability of embedding");
+  command.add_option("--max-expected-stops", drive.max_expected_stops, "bar of a GO: stops to be expected");
+  command.add_option("--as-of-sol", drive.as_of_sol,
+                     "drives of the terrain's table before this sol count as evidence of the ground");
+  command.add_option("--draws", drive.draws,
+                     "draws of the ground for the risk; as many as the verdict needs where it is not given");
   command.add_option("--seed", drive.seed, "the same seed gives the same answer");
   command.add_option(
       "--effect", drive.effects,

@@ -20,6 +20,8 @@ struct DriveOptions {
   std::string terrain = "gale";
   std::string rover = "msl-class";
   std::optional<double> max_slip, max_tilt_deg, speed_m_s;
+  std::optional<double> slip_check_every_m, max_embedding, max_expected_stops;
+  std::optional<int> as_of_sol;
   std::optional<int> draws;
   std::optional<long long> seed;
   std::optional<double> motor_temp_c;

@@ -51,6 +51,14 @@ void write_drive(Writer& w, const DriveOptions& drive) {
     if (drive.max_tilt_deg) w.exact("max_tilt_deg", *drive.max_tilt_deg);
     w.end_object();
   }
+  if (drive.slip_check_every_m)
+    w.key("checks").begin_object().exact("slip_check_every_m", *drive.slip_check_every_m).end_object();
+  if (drive.max_embedding || drive.max_expected_stops) {
+    w.key("bars").begin_object();
+    if (drive.max_embedding) w.exact("max_embedding", *drive.max_embedding);
+    if (drive.max_expected_stops) w.exact("max_expected_stops", *drive.max_expected_stops);
+    w.end_object();
+  }
   if (!drive.effects.empty()) {
     w.key("effects").begin_array();
     for (const std::string& effect : drive.effects) write_effect(w, effect);
@@ -61,6 +69,7 @@ void write_drive(Writer& w, const DriveOptions& drive) {
     for (const std::string& failed : drive.failed) write_setting(w, failed);
     w.end_object();
   }
+  if (drive.as_of_sol) w.whole("as_of_sol", *drive.as_of_sol);
   if (drive.draws) w.whole("draws", *drive.draws);
   if (drive.seed) w.whole("seed", *drive.seed);
   if (drive.speed_m_s) w.exact("speed_m_s", *drive.speed_m_s);

@@ -32,6 +32,9 @@ class LocalInquiry final : public Inquiry {
   Result<std::string> predict(const std::string& request, Progress& progress) override {
     return ask(api::kPredictionKind, request, progress);
   }
+  Result<std::string> check(const std::string& request, Progress& progress) override {
+    return ask(api::kCheckKind, request, progress);
+  }
 
   Result<std::string> wheel_sweep(const std::string& request) override {
     const auto answer = api::run_wheel_sweep(service_->catalogue(), request);
@@ -79,6 +82,9 @@ class RemoteInquiry final : public Inquiry {
   }
   Result<std::string> predict(const std::string& request, Progress& progress) override {
     return job(api::find_kind(api::job_kinds(), api::kPredictionKind)->path, request, progress);
+  }
+  Result<std::string> check(const std::string& request, Progress& progress) override {
+    return job(api::find_kind(api::job_kinds(), api::kCheckKind)->path, request, progress);
   }
   Result<std::string> wheel_sweep(const std::string& request) override {
     return call("POST", "/v1/wheel-sweeps", request, {});

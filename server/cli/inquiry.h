@@ -17,6 +17,7 @@ class Inquiry {
   virtual ~Inquiry() = default;
   virtual Result<std::string> plan(const std::string& request, Progress& progress) = 0;
   virtual Result<std::string> predict(const std::string& request, Progress& progress) = 0;
+  virtual Result<std::string> check(const std::string& request, Progress& progress) = 0;
   virtual Result<std::string> wheel_sweep(const std::string& request) = 0;
   // "terrains", "rovers", "soils", "effects", "planners".
   virtual Result<std::string> catalogue(std::string_view kind) = 0;

@@ -70,7 +70,7 @@ int plan(const PlanOptions& given) {
   if (given.compare)
     return compare_plans(given, given.request.empty() ? request_of(given) : request, options, request);
   return ask_and_print(options.ask, {.map = options.drive.map, .history = {}}, request, &Inquiry::plan,
-                       &plan_table);
+                       &plan_table, &plan_status);
 }
 
 }  // namespace slipway::server

@@ -40,7 +40,7 @@ int predict(const PredictOptions& given) {
   return ask_and_print(options.ask, {.map = options.drive.map, .history = options.plot},
                        options.request.empty() ? Result<std::string>(prediction_request(options))
                                                : read_request(options.request),
-                       &Inquiry::predict, &prediction_table);
+                       &Inquiry::predict, &prediction_table, &prediction_status);
 }
 
 }  // namespace slipway::server

@@ -71,8 +71,9 @@ TEST(DriveCampaign, CellsAreWhereTheFileHasThem) {
   EXPECT_TRUE(std::isnan(drive.samples[1].wheels[0].sinkage_m));
 }
 
-// What says how turning in place and curvature are meant: the rates and angles that the wheels were commanded.
-// That simulator drove some arcs faster than the rover's greatest wheel rate, which it did not know.
+// What says how turning in place and curvature are meant: the rates and angles that the wheels were
+// commanded. That simulator drove some arcs faster than the rover's greatest wheel rate, which it did not
+// know.
 TEST(DriveCampaign, CommandsAreThoseThatTheWheelsWereGiven) {
   for (const char* name : {"p01", "p03", "p05", "p08"}) {
     const auto campaign = load_drive_campaign(kPractice / name, Catalogue{});

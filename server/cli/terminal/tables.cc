@@ -165,6 +165,58 @@ Result<std::string> comparison_table(std::string_view comparison) {
   return table.print() + "\n" + changes;
 }
 
+namespace {
+
+std::string_view verdict_words(std::string_view verdict) {
+  if (verdict == "go") return "GO";
+  return verdict == "no_go" ? "NO-GO" : "UNKNOWN";
+}
+
+std::string share_words(const JsonValue& share) {
+  return fmt::format("{:.1f} % ({:.1f} to {:.1f})", 100.0 * number(share, "value"),
+                     100.0 * number(share, "low"), 100.0 * number(share, "high"));
+}
+
+// One row a rule: what it is worth, how near the drive comes, where and how often it trips.
+std::string rules_table(const JsonValue& outcomes) {
+  TextTable table({"rule", "limit", "value 5, 50, 95 %", "margin", "trips (90 % interval)", "from", "to",
+                   "wheel", "cause"});
+  for (const JsonValue& rule : at(outcomes, "rules").elements) {
+    const JsonValue& value = at(rule, "value");
+    const std::string& unit = text(rule, "unit") == "1" ? std::string() : " " + text(rule, "unit");
+    const bool trips = !at(rule, "from_m").is(JsonValue::Kind::kNull);
+    table.add({text(rule, "rule"), fmt::format("{:.3g}{}", number(rule, "limit"), unit),
+               fmt::format("{:.3g}, {:.3g}, {:.3g}", number(value, "p05"), number(value, "p50"),
+                           number(value, "p95")),
+               fmt::format("{:.3g}", number(rule, "margin")), share_words(at(rule, "trips")),
+               trips ? fmt::format("{:.1f} m", number(rule, "from_m")) : "-",
+               trips ? fmt::format("{:.1f} m", number(rule, "to_m")) : "-",
+               at(rule, "wheel").is(JsonValue::Kind::kNull) ? "-" : text(rule, "wheel"),
+               text(rule, "cause")});
+  }
+  return table.print();
+}
+
+std::string decision_lines(std::string_view verdict, const JsonValue& reasons) {
+  std::string out = fmt::format("{}\n", verdict_words(verdict));
+  for (const JsonValue& reason : reasons.elements) out += fmt::format("  - {}\n", reason.text);
+  return out;
+}
+
+}  // namespace
+
+Result<std::string> check_table(std::string_view answer) {
+  const auto document = read(answer);
+  if (!document) return fail(document.error());
+  const JsonValue& outcomes = at(*document, "outcomes");
+  const JsonValue& figures = at(*document, "summary");
+  std::string out = decision_lines(text(*document, "verdict"), at(*document, "reasons"));
+  out += fmt::format("\n{:.1f} m, {}, {:.2f} sols expected, {:.0f} draws of the ground\n\n",
+                     number(figures, "length_m"), duration(number(figures, "duration_s")),
+                     number(outcomes, "expected_sols"), number(outcomes, "draws"));
+  return out + rules_table(outcomes);
+}
+
 Result<std::string> prediction_table(std::string_view answer) {
   const auto document = read(answer);
   if (!document) return fail(document.error());
@@ -177,7 +229,8 @@ Result<std::string> prediction_table(std::string_view answer) {
   out += lines(at(figures, "broken_limits"), "Limit broken: ");
   const std::string shown = dynamic_lines(figures, "Verified by dynamics");
   if (!shown.empty()) out += "\n" + shown;
-  return out;
+  const JsonValue& decision = at(*document, "decision");
+  return out + "\n" + decision_lines(text(decision, "verdict"), at(decision, "reasons"));
 }
 
 Result<std::string> wheel_table(std::string_view answer) {

@@ -12,6 +12,7 @@ namespace slipway::server {
 Result<std::string> plan_table(std::string_view answer);
 Result<std::string> comparison_table(std::string_view comparison);
 Result<std::string> prediction_table(std::string_view answer);
+Result<std::string> check_table(std::string_view answer);
 Result<std::string> wheel_table(std::string_view answer);
 Result<std::string> terrain_table(std::string_view document);
 Result<std::string> rover_table(std::string_view document);

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "api/json/writer.h"
+#include "api/requests/answers.h"
+
+namespace slipway::api::json {
+
+// "check/1": verdict and reasons, the rules one by one, grounds and stretches, and the path as GeoJSON with
+// its series. The same answer gives the same bytes. Throws std::domain_error where a number is not finite.
+std::string write_check_answer(const CheckAnswer& answer);
+
+// "decision": the verdict with its reasons.
+void write_decision(Writer& w, const planner::DriveDecision& decision);
+
+// "outcomes": stops and embeddings by rule, ground and stretch.
+void write_outcomes(Writer& w, const sim::DrivePrediction& prediction, const Provenance& provenance);
+
+}  // namespace slipway::api::json

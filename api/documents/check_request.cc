@@ -1,0 +1,134 @@
+#include "api/documents/check_request.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "api/documents/drive_assumptions.h"
+#include "api/json/faults.h"
+#include "api/json/parse.h"
+
+namespace slipway::api::json {
+namespace {
+
+constexpr std::size_t kMaxCommands = 1000;
+constexpr int kMaxRepeats = 1000;
+
+// One of {"drive_m": 5}, {"arc_m": 4, "radius_m": 6} and {"turn_deg": -30}, with "repeat" where it is done
+// again.
+void read_command(const Element& element, CheckRequest& request, std::vector<Fault>& faults) {
+  ObjectReader row(*element.value, element.pointer, faults);
+  if (!row.is_object()) return;
+  planner::DriveStep step;
+  const bool drives = row.number("drive_m", kOptional, {"m", 0.0, 1000.0, true}, step.drive_m);
+  const bool arcs = row.number("arc_m", kOptional, {"m", 0.0, 1000.0, true}, step.drive_m);
+  const bool turns = row.angle_deg("turn_deg", kOptional, {"deg", -360.0, 360.0}, step.turn_rad);
+  double radius_m = 0.0;
+  if (arcs) {
+    if (row.number("radius_m", kRequired, {"m", -1e6, 1e6}, radius_m)) {
+      if (std::abs(radius_m) < 0.01)
+        row.fault("radius_m", "radius_m must be 0.01 m or more to the left, or as much below 0 to the right");
+      else
+        step.curvature_1_m = 1.0 / radius_m;
+    }
+  }
+  int repeats = 1;
+  row.whole("repeat", kOptional, 1, kMaxRepeats, repeats);
+  row.refuse_unknown();
+  if (static_cast<int>(drives) + static_cast<int>(arcs) + static_cast<int>(turns) != 1) {
+    faults.push_back({element.pointer, "a command has exactly one of drive_m, arc_m and turn_deg"});
+    return;
+  }
+  if (request.commands.size() + static_cast<std::size_t>(repeats) > kMaxCommands) {
+    faults.push_back(
+        {element.pointer, fmt::format("there must be at most {} commands, repeats counted", kMaxCommands)});
+    return;
+  }
+  request.commands.insert(request.commands.end(), static_cast<std::size_t>(repeats), step);
+}
+
+void read_way(ObjectReader& reader, CheckRequest& request, std::vector<Fault>& faults) {
+  const JsonValue* const start = reader.member("start", kOptional);
+  const JsonValue* const commands = reader.member("commands", kOptional);
+  if (start == nullptr && commands == nullptr) {
+    for (const Element& element : reader.list("path", kRequired, {2, RequestLimits::kPathCorners}))
+      read_waypoint(*element.value, element.pointer, request.path.emplace_back(), faults);
+    return;
+  }
+  if (reader.member("path", kOptional) != nullptr)
+    reader.fault("path", "path and commands exclude each other");
+  if (start == nullptr) {
+    reader.fault("start",
+                 "start is missing: commands begin where the rover stands, with x_m, y_m and yaw_deg");
+  } else {
+    read_waypoint(*start, "/start", request.path.emplace_back(), faults);
+    if (!request.path.back().yaw_rad && !has_fault_under(faults, "/start"))
+      reader.fault("start", "start must have yaw_deg: commands begin with the rover's heading");
+  }
+  for (const Element& element : reader.list("commands", kRequired, {1, kMaxCommands}))
+    read_command(element, request, faults);
+}
+
+void write_command(Writer& w, const planner::DriveStep& step) {
+  w.begin_object();
+  if (step.drive_m <= 0.0)
+    w.angle_deg("turn_deg", step.turn_rad);
+  else if (step.curvature_1_m == 0.0)
+    w.exact("drive_m", step.drive_m);
+  else
+    w.exact("arc_m", step.drive_m).exact("radius_m", 1.0 / step.curvature_1_m);
+  w.end_object();
+}
+
+}  // namespace
+
+Result<Reading<CheckRequest>> read_check_request(std::string_view bytes,
+                                                 const std::map<std::string, RuleSet, std::less<>>& rules) {
+  const auto document = parse(bytes, {.bytes = RequestLimits::kBodyBytes});
+  if (!document) return fail(document.error());
+  Reading<CheckRequest> reading;
+  CheckRequest& request = reading.request;
+  ObjectReader reader(*document, "", reading.faults);
+  if (!reader.is_object()) return reading;
+  read_names(reader, request.terrain, request.rover);
+  read_way(reader, request, reading.faults);
+  reader.boolean("backwards", kOptional, request.manner.backwards);
+  reader.angle_deg("crab_deg", kOptional, {"deg", -90.0, 90.0}, request.manner.crab_rad);
+  if (reader.text("rules", kOptional, {.most = 64, .is_name = true}, request.rules)) {
+    const auto found = rules.find(request.rules);
+    if (found != rules.end()) {
+      static_cast<DriveRules&>(request.drive) = found->second.rules;
+    } else {
+      std::vector<std::string> names;
+      for (const auto& [name, set] : rules) names.push_back(name);
+      reader.fault("rules", unknown_name("set of rules", request.rules, names));
+    }
+  }
+  read_drive_assumptions(reader, request.drive);
+  reader.refuse_unknown();
+  return reading;
+}
+
+std::string write_check_request(const CheckRequest& request) {
+  Writer w;
+  w.begin_object();
+  w.text("terrain", request.terrain).text("rover", request.rover);
+  if (request.commands.empty()) {
+    w.key("path").begin_array();
+    for (const planner::Waypoint& corner : request.path) write_waypoint(w, corner);
+    w.end_array();
+  } else {
+    write_waypoint(w.key("start"), request.path.front());
+    w.key("commands").begin_array();
+    for (const planner::DriveStep& step : request.commands) write_command(w, step);
+    w.end_array();
+  }
+  w.boolean("backwards", request.manner.backwards).angle_deg("crab_deg", request.manner.crab_rad);
+  if (!request.rules.empty()) w.text("rules", request.rules);
+  write_drive_assumptions(w, request.drive);
+  w.end_object();
+  return w.take();
+}
+
+}  // namespace slipway::api::json

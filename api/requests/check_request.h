@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "api/requests/plan_request.h"
+#include "planner/predict_path.h"
+
+namespace slipway::api {
+
+// POST /v1/checks asks whether a drive may be commanded: GO, NO-GO or UNKNOWN, with the place and the reason.
+struct CheckRequest {
+  std::string terrain;
+  std::string rover;
+  std::vector<planner::Waypoint> path;  // corners; of a command sequence its start alone
+  std::vector<planner::DriveStep> commands;
+  std::string rules;  // name of a file of rules; empty: none
+  planner::Manner manner;
+  DriveAssumptions drive;
+};
+
+}  // namespace slipway::api

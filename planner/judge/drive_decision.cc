@@ -1,0 +1,146 @@
+#include "planner/judge/drive_decision.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/angle.h"
+
+namespace slipway::planner {
+namespace {
+
+using sim::Rule;
+
+std::string percent(double share) {
+  const double value = 100.0 * share;
+  return value < 10.0 && value > 0.0 ? fmt::format("{:.1f} %", value) : fmt::format("{:.0f} %", value);
+}
+
+std::string embedding_words(const sim::DriveOutcomes& outcomes, double bar, std::string_view side) {
+  return fmt::format("embedding in {} of the draws (90 % interval {} to {}), {} the bar of {}",
+                     percent(outcomes.embedding.share), percent(outcomes.embedding.low),
+                     percent(outcomes.embedding.high), side, percent(bar));
+}
+
+std::string stop_words(const sim::DriveOutcomes& outcomes, double bar, std::string_view side) {
+  return fmt::format("{:.2f} expected stops (90 % interval {:.2f} to {:.2f}), {} the bar of {:g}",
+                     outcomes.expected_stops, outcomes.expected_stops_low, outcomes.expected_stops_high, side,
+                     bar);
+}
+
+// "above", "below" or "on both sides of".
+std::string_view side_of(double low, double high, double bar) {
+  if (low > bar) return "above";
+  return high < bar ? "below" : "on both sides of";
+}
+
+std::string value_words(Rule rule, double value, double limit) {
+  switch (rule) {
+    case Rule::kTilt:
+      return fmt::format("tilt {:.1f} deg, limit {:g}", deg_from_rad(value), deg_from_rad(limit));
+    case Rule::kSlipCheck:
+      return fmt::format("slip {:.2f} over a check's interval, limit {:g}", value, limit);
+    case Rule::kCurrent:
+      return fmt::format("current {:.2f} A, limit {:g}", value, limit);
+    case Rule::kSinkage:
+      return fmt::format("sinkage {:.3f} m, limit {:g}", value, limit);
+    case Rule::kClearance:
+      return fmt::format("clearance {:.2f} m, limit {:g}", value, limit);
+    case Rule::kEmbedding:
+      break;
+  }
+  return "embedding";
+}
+
+// The rules that trip, the likeliest first: where, how often and by how much.
+void add_rules(const sim::DrivePrediction& drive, std::vector<std::string>& reasons) {
+  std::vector<sim::RuleRisk> rules = drive.outcomes.rules;
+  std::stable_sort(rules.begin(), rules.end(), [](const sim::RuleRisk& a, const sim::RuleRisk& b) {
+    return a.trips.share > b.trips.share;
+  });
+  for (const sim::RuleRisk& rule : rules) {
+    if (rule.trips.share <= 0.0) continue;
+    const std::string wheel =
+        rule.wheel < 0 ? std::string()
+                       : fmt::format(", wheel {}", drive.wheel_names[static_cast<std::size_t>(rule.wheel)]);
+    reasons.push_back(fmt::format("{} trips in {} of the draws, from {:.1f} to {:.1f} m{}: {}",
+                                  sim::describe(rule.rule), percent(rule.trips.share), rule.from_m, rule.to_m,
+                                  wheel, value_words(rule.rule, rule.value_p50, rule.limit)));
+  }
+}
+
+// The ground on which most goes wrong.
+void add_ground(const PlanProblem& problem, const sim::DriveOutcomes& outcomes,
+                std::vector<std::string>& reasons) {
+  const sim::GroundRisk* worst = nullptr;
+  double all = 0.0;
+  for (const sim::GroundRisk& ground : outcomes.grounds) {
+    all += ground.expected_stops + ground.embedding;
+    if (!worst || ground.expected_stops + ground.embedding > worst->expected_stops + worst->embedding)
+      worst = &ground;
+  }
+  if (all <= 0.0) return;
+  reasons.push_back(
+      fmt::format("{} decides: {} of what goes wrong happens on its {:.0f} m",
+                  worst->soil ? fmt::format("ground of soil {}", problem.beliefs.known[*worst->soil].name)
+                              : "unmapped ground",
+                  percent((worst->expected_stops + worst->embedding) / all), worst->length_m));
+}
+
+}  // namespace
+
+std::string_view describe(Decision decision) {
+  switch (decision) {
+    case Decision::kGo:
+      return "go";
+    case Decision::kNoGo:
+      return "no_go";
+    case Decision::kUnknown:
+      break;
+  }
+  return "unknown";
+}
+
+DriveDecision decide(const PlanProblem& problem, const sim::DrivePrediction& drive) {
+  const sim::DriveOutcomes& outcomes = drive.outcomes;
+  const sim::OutcomeBars& bars = problem.risk.bars;
+  DriveDecision out;
+  const std::string embedding =
+      embedding_words(outcomes, bars.max_embedding,
+                      side_of(outcomes.embedding.low, outcomes.embedding.high, bars.max_embedding));
+  const std::string stops =
+      stop_words(outcomes, bars.max_expected_stops,
+                 side_of(outcomes.expected_stops_low, outcomes.expected_stops_high, bars.max_expected_stops));
+  const bool scrapes = std::any_of(
+      outcomes.rules.begin(), outcomes.rules.end(),
+      [](const sim::RuleRisk& rule) { return rule.rule == Rule::kClearance && rule.trips.share >= 1.0; });
+  const bool no_stance = drive.immobilised && drive.immobilised->reason.starts_with("no stance");
+  const bool over =
+      outcomes.embedding.low > bars.max_embedding || outcomes.expected_stops_low > bars.max_expected_stops;
+  const bool under =
+      outcomes.embedding.high < bars.max_embedding && outcomes.expected_stops_high < bars.max_expected_stops;
+  const bool known_is_under = outcomes.embedding_on_known.high < bars.max_embedding &&
+                              outcomes.expected_stops_on_known < bars.max_expected_stops;
+  if (no_stance) {
+    out.decision = Decision::kNoGo;
+    out.reasons.push_back(drive.immobilised->reason);
+  } else if (scrapes) {
+    out.decision = Decision::kNoGo;
+    out.reasons.push_back("the belly comes nearer to the ground than its limit, whatever the soil");
+  } else if (over && known_is_under) {
+    out.reasons.push_back("what goes wrong hangs on ground that no map names");
+  } else if (over) {
+    out.decision = Decision::kNoGo;
+  } else if (under) {
+    out.decision = Decision::kGo;
+  } else {
+    out.reasons.push_back(fmt::format("{} draws of the ground do not decide", drive.draws));
+  }
+  out.reasons.push_back(embedding);
+  out.reasons.push_back(stops);
+  add_rules(drive, out.reasons);
+  add_ground(problem, outcomes, out.reasons);
+  return out;
+}
+
+}  // namespace slipway::planner
