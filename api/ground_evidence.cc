@@ -1,5 +1,7 @@
 #include "api/ground_evidence.h"
 
+#include <cmath>
+
 #include "planner/predict_path.h"
 
 namespace slipway::api {
@@ -26,6 +28,35 @@ std::vector<planner::Waypoint> on_the_map(const planner::PlanProblem& problem,
 
 bool counts(const PastDrive& drive, int as_of_sol) {
   return drive.sol < as_of_sol && drive.outcome != PastOutcome::kNoReport;
+}
+
+double effective(const std::vector<double>& weights, double power) {
+  double sum = 0.0, squares = 0.0;
+  for (const double weight : weights) {
+    sum += std::pow(weight, power);
+    squares += std::pow(weight, 2.0 * power);
+  }
+  return sum * sum / squares;
+}
+
+// Raises the weights to the largest power up to 1 that leaves kMinEffective of the draws effective, and
+// scales them to a mean of 1. The effective number.
+double flatten(std::vector<double>& weights) {
+  const double wanted = kMinEffective * static_cast<double>(weights.size());
+  double low = 0.0, high = 1.0;
+  double power = 1.0;
+  if (effective(weights, 1.0) < wanted) {
+    constexpr int kHalvings = 40;
+    for (int k = 0; k < kHalvings; ++k) {
+      power = 0.5 * (low + high);
+      (effective(weights, power) < wanted ? high : low) = power;
+    }
+    power = low;
+  }
+  double sum = 0.0;
+  for (double& weight : weights) sum += weight = std::pow(weight, power);
+  for (double& weight : weights) weight *= static_cast<double>(weights.size()) / sum;
+  return effective(weights, 1.0);
 }
 
 }  // namespace
@@ -57,13 +88,7 @@ Result<GroundEvidence> weigh_draws(const planner::PlanProblem& problem, const Dr
     }
     ++evidence.drives;
   }
-  double sum = 0.0, squares = 0.0;
-  for (const double weight : weights) {
-    sum += weight;
-    squares += weight * weight;
-  }
-  evidence.effective_draws = sum * sum / squares;
-  for (double& weight : weights) weight *= static_cast<double>(weights.size()) / sum;
+  evidence.effective_draws = flatten(weights);
   evidence.weights = std::make_shared<const std::vector<double>>(std::move(weights));
   return evidence;
 }

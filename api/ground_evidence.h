@@ -19,7 +19,11 @@ struct GroundEvidence {
 
 // The share of drives whose outcome a model calls wrongly though its ground is right: what it leaves out,
 // rocks and ripples above all, stops drives too. Assumed.
-inline constexpr double kModelError = 0.15;
+inline constexpr double kModelError = 0.05;
+
+// Where many drives leave few draws with any weight, the weights are flattened until this share is effective:
+// the answer then leans less on them than it might, and never on a handful of draws.
+inline constexpr double kMinEffective = 0.1;
 
 // Weighs each draw by the probability of the outcomes of the drives before `as_of_sol` on its ground: 1 -
 // kModelError where the draw stops as the drive did, or passes as it did, and kModelError where it does not

@@ -8,7 +8,7 @@ namespace slipway::sim {
 namespace {
 
 // Streams of one belief's random numbers.
-enum Stream : std::uint64_t { kEverywhere, kUnit, kPatch, kPressureChoice, kStrengthChoice, kJitter };
+enum Stream : std::uint64_t { kEverywhere, kUnit, kPatch, kPressureChoice, kStrengthChoice, kJitter, kWeak };
 
 SoilNormals normals_of(std::uint64_t key) {
   SoilNormals z;
@@ -58,10 +58,23 @@ const SoilDistribution& chosen(const std::vector<SoilAlternative>& alternatives,
   return *alternatives.back().soil;
 }
 
+// The strength of one soil with the pressure of another.
+Soil joined(const SoilDistribution& strength, const SoilDistribution& pressure, const SoilNormals& z) {
+  Soil soil = draw_soil(strength, z);
+  if (&pressure == &strength) return soil;
+  const Soil other = draw_soil(pressure, z);
+  soil.pressure = other.pressure;
+  soil.pressure_law = other.pressure_law;
+  return soil;
+}
+
 }  // namespace
 
-DrawnGround::DrawnGround(const SoilBeliefs& beliefs, std::uint64_t key)
-    : beliefs_(beliefs), key_(key), drawn_(beliefs.known.size() + 1) {}
+DrawnGround::DrawnGround(const SoilBeliefs& beliefs, std::uint64_t key, DrivesLevel drives_level)
+    : beliefs_(beliefs),
+      key_(key),
+      drives_level_(std::move(drives_level)),
+      drawn_(beliefs.known.size() + 1) {}
 
 const Soil& DrawnGround::at(std::optional<std::size_t> soil, double x_m, double y_m) {
   std::optional<Belief>& place = drawn_[soil.value_or(beliefs_.known.size())];
@@ -105,27 +118,41 @@ SoilNormals DrawnGround::blended(Corners& corners, std::uint64_t key, double len
   return sum / std::sqrt(variance);
 }
 
-Soil DrawnGround::draw(Belief& belief, double x_m, double y_m) {
+// The rows of pressure and strength of a unit, drawn anew until the rover drives level ground of them.
+void DrawnGround::choose(Belief& belief, std::uint64_t unit) const {
+  constexpr std::uint64_t kMaxTries = 50;
+  const SoilDistribution& of = *belief.distribution;
+  // Units and patches differ from what all ground of the soil shares: most are not weaker than this.
+  constexpr double kDeviations = 1.5;
+  const SoilNormals weak = std::sqrt(of.shares.everywhere) * belief.everywhere +
+                           kDeviations * std::sqrt(of.shares.unit + of.shares.patch) * towards_weakness();
+  for (std::uint64_t tried = 0; tried < kMaxTries; ++tried) {
+    const std::uint64_t choice = random_key(unit, tried);
+    belief.strength =
+        &chosen(of.alternatives, &SoilAlternative::strength_weight, random_uniform(choice, kStrengthChoice));
+    belief.pressure =
+        &chosen(of.alternatives, &SoilAlternative::pressure_weight, random_uniform(choice, kPressureChoice));
+    if (!drives_level_ || drives_level_(joined(*belief.strength, *belief.pressure, weak)) ||
+        random_uniform(choice, kWeak) < kWeakShare)
+      return;
+  }
+}
+
+Soil DrawnGround::draw(Belief& belief, double x_m, double y_m) const {
   const SoilDistribution& of = *belief.distribution;
   const std::uint64_t key = belief.key;
-  const SoilNormals z =
+  const SoilNormals patch = std::sqrt(of.shares.patch) *
+                            blended(belief.patch, random_key(key, kPatch), of.correlation_length_m, x_m, y_m);
+  const SoilNormals unit =
       std::sqrt(of.shares.everywhere) * belief.everywhere +
-      std::sqrt(of.shares.unit) * blended(belief.unit, random_key(key, kUnit), kUnitLength_m, x_m, y_m) +
-      std::sqrt(of.shares.patch) *
-          blended(belief.patch, random_key(key, kPatch), of.correlation_length_m, x_m, y_m);
-  if (of.alternatives.empty()) return draw_soil(of, z);
+      std::sqrt(of.shares.unit) * blended(belief.unit, random_key(key, kUnit), kUnitLength_m, x_m, y_m);
+  if (of.alternatives.empty()) return draw_soil(of, unit + patch);
   const std::uint64_t choice = of.alternatives_by_unit ? unit_at(random_key(key, kJitter), x_m, y_m) : key;
-  const SoilDistribution& strength =
-      chosen(of.alternatives, &SoilAlternative::strength_weight, random_uniform(choice, kStrengthChoice));
-  const SoilDistribution& pressure =
-      chosen(of.alternatives, &SoilAlternative::pressure_weight, random_uniform(choice, kPressureChoice));
-  Soil soil = draw_soil(strength, z);
-  if (&pressure != &strength) {
-    const Soil other = draw_soil(pressure, z);
-    soil.pressure = other.pressure;
-    soil.pressure_law = other.pressure_law;
+  if (belief.chosen_for != choice) {
+    choose(belief, choice);
+    belief.chosen_for = choice;
   }
-  return soil;
+  return joined(*belief.strength, *belief.pressure, unit + patch);
 }
 
 }  // namespace slipway::sim

@@ -24,7 +24,10 @@ struct SlipChecks {
   double slip_check_every_m = 5.0;  // of way that the wheels roll
   // At a slip over this the wheels dig rather than drive.
   double embedding_slip_ratio = 0.9;
-  double embedding_turns = 1.0;           // of the wheels at such a slip that embed the rover
+  // Turns of the wheels at such a slip, without a check between them, that embed the rover. Opportunity's
+  // wheels turned some 60 times at Purgatory, and it was; a check every 5 m lets them turn three to seven
+  // times.
+  double embedding_turns = 10.0;
   double embedding_sinkage_share = 0.75;  // of a wheel's radius, deeper than which the rover is embedded
 };
 

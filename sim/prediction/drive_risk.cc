@@ -29,6 +29,12 @@ struct DrawnDrive {
   DriveOutcome outcome;
 };
 
+class LevelGround final : public Ground {
+ public:
+  std::optional<GroundPoint> at(double /*x_m*/, double /*y_m*/) const override { return GroundPoint{}; }
+  std::optional<std::size_t> soil_at(double /*x_m*/, double /*y_m*/) const override { return std::nullopt; }
+};
+
 class DrawnDriver {
  public:
   DrawnDriver(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs& beliefs,
@@ -38,11 +44,12 @@ class DrawnDriver {
         beliefs_(beliefs),
         drive_(drive),
         limits_(limits),
-        checks_(checks) {}
+        checks_(checks),
+        level_(settle(rover, LevelGround(), {})) {}
 
   DrawnDrive run(std::uint64_t key, bool keep_states, const Progress& progress) const {
     DrawnDrive drawn;
-    DrawnGround ground(beliefs_, key);
+    DrawnGround ground(beliefs_, key, [this](const Soil& soil) { return drives_level(soil); });
     QuasiStaticSolver solver(rover_, gravity_m_s2_, Precision::kDraws);
     OutcomeFollower follower(rover_, limits_, checks_);
     PerWheel<Soil> under(rover_.wheels.size());
@@ -67,6 +74,12 @@ class DrawnDriver {
   }
 
  private:
+  bool drives_level(const Soil& soil) const {
+    if (!level_) return true;
+    QuasiStaticSolver solver(rover_, gravity_m_s2_, Precision::kDraws);
+    return solver.solve(*level_, soil, {.speed_m_s = rover_.cruise_speed_m_s}).moving();
+  }
+
   void add(const PreparedStation& station, const StationState& state, bool keep_states,
            DrawnDrive& drawn) const {
     const bool bad = !state.moving() || breaks(limits_, state) || breaks(limits_, station.stance);
@@ -92,6 +105,7 @@ class DrawnDriver {
   const PreparedDrive& drive_;
   const DriveLimits& limits_;
   const SlipChecks& checks_;
+  std::optional<Stance> level_;
 };
 
 // Type 7 of Hyndman and Fan where all weigh the same. There must be a value.
