@@ -17,11 +17,13 @@ namespace slipway::sim {
 //
 // Feedback changes the leg's curvature by
 //
-//   d kappa = +-(e / l^2 + 2 psi / l)      + when driving backwards, - forwards
+//   d kappa = +-2 (psi - psi_line) / l            + when driving backwards, - forwards
+//   psi_line = -a tanh(e / (2 a l)), a = 45 deg   the heading that leads back to the line
 //
-// where e is the distance across and psi the heading (see LegPlace). It brings a rover without slip back to
-// the line by e'' + 2 e' / l + e / l^2 = 0 over the driven distance, without overshoot; l is a body length.
-// The change is limited smoothly to half the curvature of the tightest arc. Feedback::kHeading leaves e out.
+// where e is the distance across and psi the heading (see LegPlace). Near the line it brings a rover without
+// slip back by e'' + 2 e' / l + e / l^2 = 0 over the driven distance, without overshoot; l is a body length.
+// From far away the rover comes back at 45 deg: without that bound it would circle. The change is limited
+// smoothly to half the curvature of the tightest arc. Feedback::kHeading leaves e out (psi_line = 0).
 class LegDriver {
  public:
   LegDriver(const RoverModel& rover, const DriveLeg& leg, Feedback feedback, double start_s,
@@ -56,5 +58,8 @@ class LegDriver {
   double start_s_, steered_s_ = 0.0, ramped_s_ = 0.0, cruised_s_ = 0.0, end_s_ = 0.0, nominal_end_s_ = 0.0;
   double ramp_s_ = 1.0, stopping_share_ = 0.0;
 };
+
+// The heading less the leg's own that leads a rover at this place back to the leg's line (psi_line above).
+double heading_to_line_rad(const RoverModel& rover, const LegPlace& place);
 
 }  // namespace slipway::sim
