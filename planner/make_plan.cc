@@ -72,8 +72,8 @@ std::string dropped_for_keep_outs(const std::vector<Pose2>& poses) {
 // once.
 std::vector<std::string> unpredicted_in_words(const std::vector<Error>& errors, std::size_t candidates) {
   std::vector<std::string> words;
-  const auto without_ground =
-      std::count_if(errors.begin(), errors.end(), [](const Error& e) { return e.code == ErrorCode::kNoData; });
+  const auto without_ground = std::count_if(errors.begin(), errors.end(),
+                                            [](const Error& e) { return e.code == ErrorCode::kNoData; });
   if (without_ground > 0)
     words.push_back(
         fmt::format("{} of {} candidates lead a wheel over missing elevation", without_ground, candidates));
@@ -308,8 +308,7 @@ class Planning {
   TerrainGround ground_;
   KeepOut keep_out_;
   std::unique_ptr<TraverseMap> map_;
-  std::vector<std::size_t>
-      chosen_;  // the candidate behind each of the plan's routes, in their order
+  std::vector<std::size_t> chosen_;  // the candidate behind each of the plan's routes, in their order
 };
 
 }  // namespace

@@ -232,7 +232,8 @@ class Watch {
     out_.left_the_route = true;
     const OffRoute& off = out_.max_distance_from_route;
     out_.reason = fmt::format(
-        "the drive is {:.2f} m off its route at ({:.2f}, {:.2f}) after {:.1f} m, where {:.2f} m are the most: "
+        "the drive is {:.2f} m off its route at ({:.2f}, {:.2f}) after {:.1f} m, where {:.2f} m are the "
+        "most: "
         "slip {:.2f}, tilt {:.1f} deg",
         off.distance_m, off.x_m, off.y_m, off.at_m, max_off_route_m_, sample.slip_ratio,
         deg_from_rad(sample.attitude.tilt_rad()));

@@ -37,9 +37,9 @@ struct DynamicVerification {
   // nothing. It says neither that the route can be driven nor that it can't.
   bool left_the_route = false;
   OffRoute max_distance_from_route;
-  std::string reason;                // empty where finished
-  double distance_m = 0.0;           // where it ended: progress along the legs, 0 where it slid back
-  Pose2 pose;                        // of B there; yaw wrapped
+  std::string reason;       // empty where finished
+  double distance_m = 0.0;  // where it ended: progress along the legs, 0 where it slid back
+  Pose2 pose;               // of B there; yaw wrapped
   double commanded_m = 0.0;
   double duration_s = 0.0;
   std::optional<double> energy_j;  // from the bus, of the drive motors; nothing where there is no end

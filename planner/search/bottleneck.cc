@@ -35,16 +35,16 @@ double breach_of(const PlanProblem& problem, const MotionCost& cost, std::size_t
       return kInKeepOut;
     case Passage::kSteep:
     case Passage::kRough:
-      return std::max({1.0, tilt,
-                       (cell.rise_m + problem.limits.min_clearance_m) / problem.rover->belly_clearance_m});
+      return std::max(
+          {1.0, tilt, (cell.rise_m + problem.limits.min_clearance_m) / problem.rover->belly_clearance_m});
     case Passage::kNearKeepOut:
       if (!cost.map().may_stand({place.x(), place.y(), heading_rad})) return kInKeepOut;
       [[fallthrough]];
     case Passage::kFree:
       break;
   }
-  const bool held = std::isfinite(
-      cost.per_metre_in_cell(index, std::cos(heading_rad), std::sin(heading_rad)));
+  const bool held =
+      std::isfinite(cost.per_metre_in_cell(index, std::cos(heading_rad), std::sin(heading_rad)));
   return held ? 0.0 : std::min(tilt, kMaxHoldless);
 }
 
@@ -182,9 +182,9 @@ bool has_way(const PlanProblem& problem, const TraverseMap& like, const Waypoint
   // A little less, so that the window has the same cells whatever the rounding.
   const dem::Extent window = like.geometry().extent();
   const double little = 0.25 * like.cell_m();
-  const TraverseMap map(problem, keep_out,
-                        {window.west_m + little, window.south_m + little, window.east_m - little,
-                         window.north_m - little});
+  const TraverseMap map(
+      problem, keep_out,
+      {window.west_m + little, window.south_m + little, window.east_m - little, window.north_m - little});
   const GroundTables tables = build_ground_tables(problem);
   const MotionCost cost(problem, map, tables, problem.weights);
   const GridSearch grid(cost);
@@ -197,14 +197,13 @@ std::optional<std::string> bottleneck(const PlanProblem& problem, const MotionCo
                                       const Waypoint& from, const Waypoint& to) {
   const TraverseMap& map = cost.map();
   const std::vector<Crossing> way = least_breach(problem, cost, from, to);
-  const auto worst = std::max_element(way.begin(), way.end(),
-                                      [](const Crossing& a, const Crossing& b) { return a.breach < b.breach; });
+  const auto worst = std::max_element(
+      way.begin(), way.end(), [](const Crossing& a, const Crossing& b) { return a.breach < b.breach; });
   if (worst == way.end() || worst->breach <= 0.0) return std::nullopt;
   const Eigen::Vector2d place = map.centre_m(worst->cell);
   const bool in_keep_out = worst->breach >= kInKeepOut && worst->breach < kNoElevation;
-  std::string words =
-      fmt::format("every way breaks a limit, the least at ({:.1f}, {:.1f}): {}", place.x(), place.y(),
-                  breach_in_words(problem, map.cell(worst->cell), in_keep_out));
+  std::string words = fmt::format("every way breaks a limit, the least at ({:.1f}, {:.1f}): {}", place.x(),
+                                  place.y(), breach_in_words(problem, map.cell(worst->cell), in_keep_out));
   const Relaxed relaxed = relax(problem, map, way);
   if (!relaxed.possible || relaxed.words.empty()) return words + "; no limit of the request opens a way";
   return words + (has_way(relaxed.problem, map, from, to)

@@ -10,9 +10,9 @@ namespace slipway::planner {
 // What closes every way between two places of a map without a way, as a sentence: of all ways on the grid the
 // one whose worst breach of a limit is least, the place of that breach, and what would open the way.
 //
-// Breaches in their order: a slope on which the mean soil holds no rover, by its share of the tilt limit; tilt
-// and the ground's rise under the belly, by their ratio to the limit; a keep-out; missing elevation. A change
-// of limits is only offered where a search with it finds a way. Nothing where a place is off the map.
+// Breaches in their order: a slope on which the mean soil holds no rover, by its share of the tilt limit;
+// tilt and the ground's rise under the belly, by their ratio to the limit; a keep-out; missing elevation. A
+// change of limits is only offered where a search with it finds a way. Nothing where a place is off the map.
 std::optional<std::string> bottleneck(const PlanProblem& problem, const MotionCost& cost,
                                       const Waypoint& from, const Waypoint& to);
 

@@ -10,11 +10,8 @@ namespace {
 // What a profile puts first never weighs less than was asked for, and the rest never more: a request that
 // already weighs slip by 50 gets no "least slip" search with 10. A little slip and risk stay in the shortest,
 // so that a way over hopeless ground is not it.
-constexpr std::array<ProfileWeight, 5> kShortest{{{"duration", 1.0, 1.0},
-                                                  {"energy", 0.0},
-                                                  {"slip", 0.1},
-                                                  {"unknown", 0.0},
-                                                  {"risk", 0.1}}};
+constexpr std::array<ProfileWeight, 5> kShortest{
+    {{"duration", 1.0, 1.0}, {"energy", 0.0}, {"slip", 0.1}, {"unknown", 0.0}, {"risk", 0.1}}};
 constexpr std::array<ProfileWeight, 3> kMinSlip{
     {{.term = "duration", .share_of_asked = 1.0, .max = 0.2}, {"energy", 0.2}, {"slip", 1.0, 10.0}}};
 constexpr std::array<ProfileWeight, 4> kMinRisk{{{.term = "duration", .share_of_asked = 1.0, .max = 0.3},

@@ -148,8 +148,8 @@ std::vector<Eigen::Vector2d> TraverseMap::judged_places(const PlanProblem& probl
   // Cells so far apart that their footprints still cover all between them, the outermost ones included.
   const auto offsets_m = [&](double side_m, double cell_m) {
     const auto cells = static_cast<int>(std::lround(side_m / cell_m));
-    const int pieces = (cells - 2 + footprint_reach(*problem.rover, cell_m)) /
-                       footprint_reach(*problem.rover, cell_m);
+    const int pieces =
+        (cells - 2 + footprint_reach(*problem.rover, cell_m)) / footprint_reach(*problem.rover, cell_m);
     std::vector<double> offsets;
     for (int k = 0; k <= pieces; ++k)
       offsets.push_back(((pieces == 0 ? 0 : (cells - 1) * k / pieces) - 0.5 * (cells - 1)) * cell_m);

@@ -153,8 +153,7 @@ class Drive {
     const double yaw = dynamics_.pose(state()).yaw_rad;
     leg_start.yaw_rad = yaw - wrapped_rad(yaw - leg_start.yaw_rad);
     if (!leg.command.turn_in_place) return leg;
-    const double left =
-        leg_start.yaw_rad + std::copysign(leg.turn_rad, leg.command.turn_rate_rad_s) - yaw;
+    const double left = leg_start.yaw_rad + std::copysign(leg.turn_rad, leg.command.turn_rate_rad_s) - yaw;
     if (left * leg.command.turn_rate_rad_s >= 0.0) return leg;
     DriveLeg back = leg;
     back.command.turn_rate_rad_s = -leg.command.turn_rate_rad_s;

@@ -10,7 +10,8 @@
 
 namespace slipway::planner {
 
-// Ground by a height over (x, y); a NaN is a missing cell. Its south-west corner is the origin; all of it is firm.
+// Ground by a height over (x, y); a NaN is a missing cell. Its south-west corner is the origin; all of it is
+// firm.
 inline PlanProblem problem_on(int rows, int columns, double cell_x_m, double cell_y_m,
                               const std::function<double(double, double)>& height_m) {
   const dem::GridGeometry g{rows, columns, 0.0, rows * cell_y_m, cell_x_m, cell_y_m};

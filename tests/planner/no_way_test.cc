@@ -14,11 +14,11 @@ namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
-// A wall along x = 750 whose only gap is five cells, 150 m north of the straight line: so narrow that the
+// A wall along x = 750 whose only gap is seven cells, 150 m north of the straight line: so narrow that the
 // larger cells of the whole map close it.
 TEST(SearchWindow, GrowsUntilItHoldsTheOnlyGap) {
   PlanProblem problem = problem_on(1500, 1500, 1.0, 1.0, [](double x, double y) {
-    return std::abs(x - 750.5) < 1.0 && std::abs(y - 749.5) > 2.6 ? kNothing : 0.0;
+    return std::abs(x - 750.5) < 1.0 && std::abs(y - 749.5) > 3.6 ? kNothing : 0.0;
   });
   problem.start = {730.5, 599.5, std::nullopt};
   problem.goal = {770.5, 599.5, std::nullopt};
@@ -30,7 +30,7 @@ TEST(SearchWindow, GrowsUntilItHoldsTheOnlyGap) {
   const TraverseMap first(problem, none, search_extent(problem));
   ASSERT_EQ(window_fit(problem, first, tables), WindowFit::kNoWay);
   const Plan plan = plan_on(problem);
-  ASSERT_FALSE(plan.routes.empty()) << plan.fewer_because.front();
+  ASSERT_FALSE(plan.routes.empty()) << plan.fewer_because.at(0) << plan.fewer_because.at(1);
   EXPECT_GT(plan.routes.front().prediction.length_m, 300.0);
 }
 
@@ -45,11 +45,11 @@ TEST(SearchWindow, GrowsWhereTheBestWayTouchesItsEdge) {
   for (int row = 0; row < g.rows; ++row)
     for (int column = 0; column < g.columns; ++column) {
       const Eigen::Vector2d p = g.centre_m({row, column});
-      mapped.push_back(std::abs(p.x() - 150.5) < 1.2 * (85.0 - std::abs(p.y() - 150.0)) ? 0 : 1);
+      const double aside = std::abs(p.y() - 150.0);
+      mapped.push_back(aside > 15.0 && std::abs(p.x() - 150.5) < 0.5 * (85.0 - aside) ? 0 : 1);
     }
-  problem.soil_map =
-      std::make_shared<dem::SoilMap>(g, std::vector<std::int16_t>(mapped.size(), 0), mapped,
-                                     std::vector<dem::SoilClass>{{0, "a", "firm"}});
+  problem.soil_map = std::make_shared<dem::SoilMap>(g, std::vector<std::int16_t>(mapped.size(), 0), mapped,
+                                                    std::vector<dem::SoilClass>{{0, "a", "firm"}});
   problem.weights.set("unknown", 1000.0);
   problem.start = {130.5, 150.0, std::nullopt};
   problem.goal = {170.5, 150.0, std::nullopt};
@@ -104,17 +104,18 @@ TEST(NoWay, NamesTheBottleneckAndTheLeastChangeOfALimitThatOpensIt) {
 
 TEST(NoWay, NamesTheKeepOutThatClosesTheWay) {
   PlanProblem problem = ridge(0.0, 0.0);
-  problem.keep_out = {{{10.0, 50.0}, {12.0, 50.0}, {12.0, 52.0}}, {{39.0, -1.0}, {41.0, -1.0}, {41.0, 61.0}, {39.0, 61.0}}};
+  problem.keep_out = {{{10.0, 50.0}, {12.0, 50.0}, {12.0, 52.0}},
+                      {{39.0, -1.0}, {41.0, -1.0}, {41.0, 61.0}, {39.0, 61.0}}};
   const Plan plan = plan_on(problem);
   ASSERT_TRUE(plan.routes.empty());
   const std::string& why = plan.fewer_because.front();
-  EXPECT_NE(why.find("in or too near to a keep-out; with no keep_out/1 there is a way"), std::string::npos) << why;
+  EXPECT_NE(why.find("in or too near to a keep-out; with no keep_out/1 there is a way"), std::string::npos)
+      << why;
 }
 
 TEST(NoWay, SaysThatNoLimitOpensAWayOverMissingElevation) {
-  PlanProblem problem = problem_on(60, 80, 1.0, 1.0, [](double x, double) {
-    return std::abs(x - 40.0) < 1.0 ? kNothing : 0.0;
-  });
+  PlanProblem problem = problem_on(
+      60, 80, 1.0, 1.0, [](double x, double) { return std::abs(x - 40.0) < 1.0 ? kNothing : 0.0; });
   problem.start = {20.0, 20.0, std::nullopt};
   problem.goal = {60.0, 20.0, std::nullopt};
   const Plan plan = plan_on(problem);

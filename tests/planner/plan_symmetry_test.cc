@@ -75,8 +75,8 @@ TEST(PlanSymmetry, ATransposedMapOfCellsThatAreNotSquareHasTheSameVerdictAndCost
   const auto rocky = [](double x, double y) { return hills_m(x, y) + rock_m(x, y, 1.0, 0.5, 0.004); };
   const auto transposed = [&](double x, double y) { return rocky(y, x); };
   expect_same(plan_on(from_to(problem_on(2 * kCells, kCells, 1.0, 0.5, rocky), kStart, kGoal)),
-              plan_on(from_to(problem_on(kCells, 2 * kCells, 0.5, 1.0, transposed), {12.0, 10.0, std::nullopt},
-                              {47.0, 53.0, std::nullopt})),
+              plan_on(from_to(problem_on(kCells, 2 * kCells, 0.5, 1.0, transposed),
+                              {12.0, 10.0, std::nullopt}, {47.0, 53.0, std::nullopt})),
               "transposed");
 }
 
@@ -92,8 +92,7 @@ TEST(PlanSymmetry, AMovedMapHasTheSameRouteMoved) {
     for (int column = 0; column < kCells; ++column)
       heights.push_back(static_cast<float>(*problem.terrain->height_m(dem::Cell{row, column})));
   const std::size_t cells = heights.size();
-  moved.terrain =
-      std::make_shared<dem::Terrain>(g, std::move(heights), std::vector<std::uint8_t>(cells, 1));
+  moved.terrain = std::make_shared<dem::Terrain>(g, std::move(heights), std::vector<std::uint8_t>(cells, 1));
   moved.soil_map = std::make_shared<dem::SoilMap>(g, std::vector<std::int16_t>(cells, 0),
                                                   std::vector<std::uint8_t>(cells, 1),
                                                   std::vector<dem::SoilClass>{{0, "a", "firm"}});
@@ -109,11 +108,10 @@ TEST(PlanProperty, WhereTheStraightLineIsWithinEveryLimitThereIsAPlan) {
   int drivable = 0;
   for (int k = 0; k < 12; ++k) {
     const double steep = 0.5 + 0.1 * k;
-    PlanProblem problem = from_to(problem_on(kCells, kCells, 1.0, 1.0,
-                                             [&](double x, double y) {
-                                               return steep * hills_m(x + 7.0 * k, y - 5.0 * k);
-                                             }),
-                                  kStart, kGoal);
+    PlanProblem problem =
+        from_to(problem_on(kCells, kCells, 1.0, 1.0,
+                           [&](double x, double y) { return steep * hills_m(x + 7.0 * k, y - 5.0 * k); }),
+                kStart, kGoal);
     NoProgress progress;
     const auto line = predict_path(problem, {problem.start, problem.goal}, progress);
     if (!line || line->immobilised || !line->broken_limits.empty()) continue;

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdio>
 #include <limits>
 #include <numbers>
 
@@ -18,8 +17,8 @@ constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 TEST(TraverseMap, ALargeCellIsClosedWhereAnyTerrainCellInItIs) {
   PlanProblem problem = problem_on(1500, 1500, 1.0, 1.0, [](double x, double y) {
-    if (random_uniform(random_key(3, static_cast<std::uint64_t>(x) * 4096 + static_cast<std::uint64_t>(y)), 1) <
-        1e-4)
+    if (random_uniform(random_key(3, static_cast<std::uint64_t>(x) * 4096 + static_cast<std::uint64_t>(y)),
+                       1) < 1e-4)
       return kNothing;
     return rock_m(x, y, 1.0, 1.0, 0.0035);
   });
@@ -88,7 +87,7 @@ TEST(TraverseMap, OfATransposedTerrainIsTheTransposedMapAlsoWhereCellsAreNotSqua
 // Many slopes that the rover gets down and not up.
 TEST(GridSearch, CostToGoAndCostToComeAreTheSameWayOverOneWaySlopes) {
   PlanProblem problem = problem_on(60, 60, 1.0, 1.0, [](double x, double y) {
-    return 1.6 * std::sin(0.35 * x) * std::sin(0.3 * y) + 0.6 * std::sin(0.9 * x + 0.7 * y);
+    return 0.42 * std::sin(0.35 * x) * std::sin(0.3 * y) + 0.16 * std::sin(0.9 * x + 0.7 * y);
   });
   problem.beliefs.known = {soft_soil("firm")};
   const KeepOut none({}, *problem.rover);
@@ -114,7 +113,7 @@ TEST(GridSearch, CostToGoAndCostToComeAreTheSameWayOverOneWaySlopes) {
     }
   }
   EXPECT_GT(reached, 20);
-  std::printf("%d pairs reached, %d of them one way only\n", reached, one_way);
+  EXPECT_GT(one_way, 5);
 }
 
 TEST(RoundCorner, LeavesNoGapAndNoKinkForAnyTurnAndRadius) {
@@ -123,8 +122,7 @@ TEST(RoundCorner, LeavesNoGapAndNoKinkForAnyTurnAndRadius) {
     for (const double radius : {1.5, 2.5, 4.0, 6.0, 10.0}) {
       const Motion in = straight({3.0, -2.0, 0.7}, 3.0 + 20.0 * std::cos(0.7), -2.0 + 20.0 * std::sin(0.7));
       const double on = 0.7 + turn_deg * std::numbers::pi / 180.0;
-      const Motion out =
-          straight(in.to, in.to.x_m + 20.0 * std::cos(on), in.to.y_m + 20.0 * std::sin(on));
+      const Motion out = straight(in.to, in.to.x_m + 20.0 * std::cos(on), in.to.y_m + 20.0 * std::sin(on));
       const std::vector<Motion> parts = round_corner(in, out, radius);
       ASSERT_EQ(parts.size(), 3U);
       Pose2 at = in.from;
@@ -133,7 +131,8 @@ TEST(RoundCorner, LeavesNoGapAndNoKinkForAnyTurnAndRadius) {
         EXPECT_NEAR(wrapped_rad(part.departure_rad() - at.yaw_rad), 0.0, 1e-9);
         at = part.at(part.length_m);
       }
-      EXPECT_NEAR(std::hypot(out.to.x_m - at.x_m, out.to.y_m - at.y_m), 0.0, 1e-9) << turn_deg << " " << radius;
+      EXPECT_NEAR(std::hypot(out.to.x_m - at.x_m, out.to.y_m - at.y_m), 0.0, 1e-9)
+          << turn_deg << " " << radius;
     }
   }
 }

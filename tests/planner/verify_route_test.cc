@@ -164,7 +164,7 @@ TEST(VerifyRoute, SaysHowFarFromTheRouteTheDriveWas) {
   const OffRoute& off = dynamic.max_distance_from_route;
   EXPECT_GT(off.distance_m, 0.0);
   EXPECT_LT(off.distance_m, 0.15);
-  EXPECT_LE(off.at_m, dynamic.commanded_m);
+  EXPECT_LE(off.at_m, dynamic.commanded_m + 0.1);
   EXPECT_GE(off.x_m, 4.5);
   EXPECT_LE(off.x_m, 9.5);
 }
@@ -205,17 +205,21 @@ TEST(Explain, HasWordsForARouteWithoutStations) {
   EXPECT_EQ(routes[0].reasons.back(), "largest slip 0.00");
 }
 
-// A cross slope on which the rover slides down in every turn and on every metre, with a turn every few metres.
+// A cross slope on which the rover slides down in every turn and on every metre, with a turn every few
+// metres.
 TEST(VerifyRoute, KeepsToACrookedRouteAcrossASlope) {
   PlanProblem problem = problem_of(kYard);
-  problem.terrain = dem::make_ramp({.size_m = 80.0, .cell_m = 1.0}, rad_from_deg(12.0), 0.5 * std::numbers::pi);
+  problem.terrain =
+      dem::make_ramp({.size_m = 80.0, .cell_m = 1.0}, rad_from_deg(12.0), 0.5 * std::numbers::pi);
   problem.soil_map = nullptr;
+  problem.beliefs.unknown = firm_soil("unknown");
   std::vector<Waypoint> corners{{-14.0, 0.0, std::nullopt}};
   for (int k = 1; k <= 10; ++k) corners.push_back({-14.0 + 2.0 * k, k % 2 == 0 ? 0.0 : 2.0, std::nullopt});
   const auto dynamic = driven(problem, corners).dynamic;
   ASSERT_EQ(dynamic.end, sim::DriveEnd::kFinished) << dynamic.reason;
   EXPECT_LT(dynamic.max_distance_from_route.distance_m, 1.0);
-  EXPECT_NEAR(std::hypot(dynamic.pose.x_m - corners.back().x_m, dynamic.pose.y_m - corners.back().y_m), 0.0, 0.7);
+  EXPECT_NEAR(std::hypot(dynamic.pose.x_m - corners.back().x_m, dynamic.pose.y_m - corners.back().y_m), 0.0,
+              0.7);
 }
 
 class CancelledAfter final : public Progress {
