@@ -182,6 +182,10 @@ class Drive {
   Result<void> drive_piece(const DriveLeg& leg, const Pose2& leg_start) {
     // Following the driver changes only the third derivative of the motion, so that no restart is needed.
     LegDriver driver(rover_, leg, options_.feedback, now_s_, dynamics_.steered_rad(state()));
+    // After a turn the ground falls away to another side.
+    if (leg.command.turn_in_place) trim_rad_ = 0.0;
+    driver.trim(trim_rad_);
+    trimmed_share_.reset();
     dynamics_.follow(&driver, leg_start);
     driver_ = &driver;
     before_leg_m_ = out_.progress_m;
@@ -197,6 +201,7 @@ class Drive {
       auto step = advance(stop);
       if (!step) return fail(std::move(step.error()));
       stop_where_done(driver);
+      trim(driver, leg);
       check_progress(leg);
     }
     // With pose feedback a leg ends only where its length is done, so that there is nothing to check.
@@ -212,6 +217,16 @@ class Drive {
   void stop_where_done(LegDriver& driver) {
     if (options_.feedback != Feedback::kPose || std::isfinite(driver.cruised_s())) return;
     if (dynamics_.place(state()).share >= 1.0 - driver.stopping_share()) driver.stop(now_s_);
+  }
+
+  // Only while the rover gets on: one that spins on the spot learns nothing about its side slip.
+  void trim(LegDriver& driver, const DriveLeg& leg) {
+    if (options_.feedback != Feedback::kPose || leg.command.turn_in_place) return;
+    const LegPlace place = dynamics_.place(state());
+    const double driven_m = leg.length_m * (place.share - trimmed_share_.value_or(place.share));
+    trimmed_share_ = place.share;
+    trim_rad_ = trimmed_rad(rover_, place, std::max(0.0, driven_m), trim_rad_);
+    driver.trim(trim_rad_);
   }
 
   void add_progress(const DriveLeg& leg) {
@@ -432,6 +447,8 @@ class Drive {
   long steps_ = 0, pace_steps_ = 0;
   double pace_s_ = 0.0;
   double whole_s_ = 0.0, now_s_ = 0.0, began_s_ = -1.0, last_sample_s_ = 0.0, recorded_s_ = -1.0;
+  double trim_rad_ = 0.0;
+  std::optional<double> trimmed_share_;  // of the leg, when the trim was last set
   double before_leg_m_ = 0.0, checked_s_ = 0.0, checked_share_ = 0.0;
 };
 

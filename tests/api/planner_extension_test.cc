@@ -129,6 +129,14 @@ TEST(AddedPlanner, IsListedAndReadByTheServiceThatHasIt) {
   EXPECT_NE(listed.find(R"("name":"beeline")"), std::string::npos);
 }
 
+TEST(AddedPlanner, GivesARouteOfItsOwnWhereNothingLiesBetween) {
+  const JsonValue answer = answer_of(extended_world(), request_with(R"(,"planners":["beeline"],"routes":1)"));
+  std::string because;
+  for (const JsonValue& words : answer.find("fewer_because")->elements) because += words.text + "\n";
+  ASSERT_EQ(answer.find("summary")->elements.size(), 1U) << because;
+  EXPECT_EQ(answer.find("summary")->elements[0].find("planner")->text, "beeline");
+}
+
 TEST(AddedPlanner, ThatHeedsNoKeepOutGivesNoRouteAndTheAnswerSaysWhere) {
   const JsonValue answer =
       answer_of(extended_world(),
