@@ -58,13 +58,13 @@ TEST(TraverseMap, ACellThatHoldsAPlaceOfTheProblemIsJudgedAtThatPlace) {
 
 TEST(TraverseMap, OfATransposedTerrainIsTheTransposedMapAlsoWhereCellsAreNotSquare) {
   const auto height = [](double x, double y) {
-    return 0.3 * std::sin(0.5 * x) * std::cos(0.4 * y) + rock_m(x, y, 1.0, 0.5, 0.01);
+    return 0.3 * std::sin(0.5 * x) * std::cos(0.4 * y) + rock_m(x, y, 1.0, 0.25, 0.005);
   };
-  const int rows = 120, columns = 60;
-  const PlanProblem problem = problem_on(rows, columns, 1.0, 0.5, height);
+  const int rows = 240, columns = 60;
+  const PlanProblem problem = problem_on(rows, columns, 1.0, 0.25, height);
   // Reflected in the line x = y: east becomes north.
   const PlanProblem transposed =
-      problem_on(columns, rows, 0.5, 1.0, [&](double x, double y) { return height(y, x); });
+      problem_on(columns, rows, 0.25, 1.0, [&](double x, double y) { return height(y, x); });
   const KeepOut none({}, *problem.rover);
   const TraverseMap map(problem, none, problem.terrain->geometry().extent());
   const TraverseMap other(transposed, none, transposed.terrain->geometry().extent());
