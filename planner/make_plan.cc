@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -12,10 +13,13 @@
 #include "planner/judge/route_stations.h"
 #include "planner/judge/verify_route.h"
 #include "planner/problem/terrain_ground.h"
+#include "planner/search/bottleneck.h"
+#include "planner/search/grid_search.h"
 #include "planner/search/only_way.h"
 #include "planner/search/overlap.h"
 #include "planner/search/plan_faults.h"
 #include "planner/search/propose.h"
+#include "planner/search/search_window.h"
 #include "planner/search/stage_progress.h"
 
 namespace slipway::planner {
@@ -64,6 +68,23 @@ std::string dropped_for_keep_outs(const std::vector<Pose2>& poses) {
       poses.front().y_m);
 }
 
+// What kept candidates from being predicted: missing elevation is counted, any other error is given as it is,
+// once.
+std::vector<std::string> unpredicted_in_words(const std::vector<Error>& errors, std::size_t candidates) {
+  std::vector<std::string> words;
+  const auto without_ground = std::count_if(errors.begin(), errors.end(),
+                                            [](const Error& e) { return e.code == ErrorCode::kNoData; });
+  if (without_ground > 0)
+    words.push_back(
+        fmt::format("{} of {} candidates lead a wheel over missing elevation", without_ground, candidates));
+  for (const Error& error : errors) {
+    if (error.code == ErrorCode::kNoData) continue;
+    std::string line = "a candidate could not be predicted: " + error.detail;
+    if (std::find(words.begin(), words.end(), line) == words.end()) words.push_back(std::move(line));
+  }
+  return words;
+}
+
 class Planning {
  public:
   Planning(const PlanProblem& problem, std::span<const PlannerRow> planners, Progress& progress)
@@ -79,20 +100,14 @@ class Planning {
       return fail(std::move(*error));
     const GroundTables tables = build_ground_tables(problem_);
     if (progress_.cancelled()) return cancelled();
-    map_.emplace(problem_, keep_out_, search_extent(problem_));
+    open_window(tables);
     if (progress_.cancelled()) return cancelled();
     std::optional<Proposal> proposal = propose(tables);
     if (progress_.cancelled()) return cancelled();
-    if (!std::isfinite(proposal->grid_optimum) && map_->geometry() != whole_map()) {
-      // There may be a way around outside the window.
-      map_.emplace(problem_, keep_out_, problem_.terrain->geometry().extent());
-      proposal = propose(tables);
-      if (progress_.cancelled()) return cancelled();
-    }
     Plan plan;
     plan.candidates = static_cast<int>(proposal->candidates.size());
     if (proposal->candidates.empty()) {
-      say_why_none(*proposal, plan);
+      say_why_none(*proposal, tables, plan);
       return plan;
     }
     const Result<void> simulated = simulate(*proposal, plan);
@@ -106,26 +121,54 @@ class Planning {
   }
 
  private:
-  dem::GridGeometry whole_map() const { return problem_.terrain->geometry(); }
+  // Doubles the room around the places until the grid's best ways keep clear of the window's edge or the
+  // window is the whole map. A larger window may have larger cells, and none of the narrow ways that smaller
+  // cells had: then the smaller one stays.
+  void open_window(const GroundTables& tables) {
+    double rooms = 1.0;
+    map_ = std::make_unique<TraverseMap>(problem_, keep_out_, search_extent(problem_, rooms));
+    WindowFit fit = WindowFit::kInside;
+    while (!covers(*map_, *problem_.terrain) && !progress_.cancelled()) {
+      fit = window_fit(problem_, *map_, tables);
+      if (fit == WindowFit::kInside) return;
+      rooms *= 2.0;
+      auto wider = std::make_unique<TraverseMap>(problem_, keep_out_, search_extent(problem_, rooms));
+      if (fit == WindowFit::kAtEdge && wider->cell_m() > map_->cell_m() &&
+          window_fit(problem_, *wider, tables) == WindowFit::kNoWay)
+        return;
+      map_ = std::move(wider);
+    }
+  }
 
   Proposal propose(const GroundTables& tables) {
     StageProgress stage(progress_, "proposing routes", 0.1, 0.5);
     return propose_routes(problem_, planners_, *map_, tables, stage);
   }
 
-  void say_why_none(const Proposal& proposal, Plan& plan) const {
+  void say_why_none(const Proposal& proposal, const GroundTables& tables, Plan& plan) const {
     if (std::isfinite(proposal.grid_optimum)) {
       plan.fewer_because.emplace_back(
           "a way exists on the grid of cells, but no planner found motions of arcs and turns through it");
       if (!proposal.in_keep_out.empty())
         plan.fewer_because.push_back(dropped_for_keep_outs(proposal.in_keep_out));
+      if (!proposal.closed.empty())
+        plan.fewer_because.push_back(fmt::format("of {} such routes the first, which {}",
+                                                 proposal.closed.size(), proposal.closed.front()));
+      for (const std::vector<std::size_t>& way : proposal.grid_ways)
+        plan.fewer_because.push_back(hardest_place(*map_, way));
       return;
     }
+    const MotionCost cost(problem_, *map_, tables, problem_.weights);
     Waypoint from = problem_.start;
     std::vector<Waypoint> places = problem_.waypoints;
     places.push_back(problem_.goal);
+    const GridSearch grid(cost);
     for (const Waypoint& to : places) {
-      plan.fewer_because.push_back(no_way(*map_, from.x_m, from.y_m, to.x_m, to.y_m));
+      if (grid.way(grid.cost_to_go(to.x_m, to.y_m), from.x_m, from.y_m).empty()) {
+        std::string why = no_way(*map_, from.x_m, from.y_m, to.x_m, to.y_m);
+        if (const auto narrowest = bottleneck(problem_, cost, from, to)) why += "; " + *narrowest;
+        plan.fewer_because.push_back(std::move(why));
+      }
       from = to;
     }
   }
@@ -135,7 +178,7 @@ class Planning {
     std::vector<Route> routes;
     std::vector<std::size_t> candidate_of;
     Differences differences(problem_.rover->body_width_m);
-    std::size_t without_ground = 0;
+    std::vector<Error> unpredicted;
     std::vector<Pose2> in_keep_out = proposal.in_keep_out;
     for (std::size_t k = 0; k < list.size(); ++k) {
       const Candidate& candidate = proposal.candidates[list[k]];
@@ -154,8 +197,8 @@ class Planning {
                              problem_.limits, problem_.risk, problem_.threads, stage, problem_.conditions);
       if (progress_.cancelled()) return cancelled();
       if (!drive) {
-        // A wheel that the body's circle does not cover met a missing cell: this candidate cannot be driven.
-        ++without_ground;
+        // Mostly a wheel that the body's circle does not cover met a missing cell.
+        unpredicted.push_back(drive.error());
         continue;
       }
       Route route;
@@ -169,7 +212,7 @@ class Planning {
     }
     choose(std::move(routes), candidate_of, differences, plan);
     if (plan.routes.size() < static_cast<std::size_t>(problem_.routes))
-      say_why_fewer(proposal, without_ground, in_keep_out, list.front(), plan);
+      say_why_fewer(proposal, unpredicted, in_keep_out, list.front(), plan);
     return {};
   }
 
@@ -196,37 +239,62 @@ class Planning {
   }
 
   // Drives the best-ranked routes in the dynamic simulation. A route that it refutes is judged and ranked
-  // anew.
+  // anew, and what is best then is driven too, until the best one has been.
   Result<void> verify(const Proposal& proposal, Plan& plan) {
-    const std::size_t count = std::min(plan.routes.size(), static_cast<std::size_t>(problem_.verify));
-    const double share =
-        (kSimulated - kSimulatedUnverified) / static_cast<double>(std::max<std::size_t>(count, 1));
-    for (std::size_t i = 0; i < count; ++i) {
-      const double from = kSimulatedUnverified + share * static_cast<double>(i);
-      StageProgress stage(progress_, fmt::format("verifying by dynamics, route {} of {}", i + 1, count), from,
-                          from + share);
-      Route& route = plan.routes[i];
-      Result<DynamicVerification> verified =
-          verify_route(problem_, proposal.candidates[chosen_[i]].motions, {}, route.prediction, stage);
-      if (!verified) return fail(verified.error());
-      route.dynamic = std::move(*verified);
-      judge(problem_, route);
+    if (problem_.verify == 0) return {};
+    const std::size_t all = plan.routes.size();
+    const std::size_t asked = std::min(all, static_cast<std::size_t>(problem_.verify));
+    for (std::size_t i = 0; i < asked; ++i)
+      if (auto driven = verify_one(proposal, i, i, plan.routes[i]); !driven) return driven;
+    rank(plan);
+    for (std::size_t done = asked; done < all && !plan.routes.front().dynamic; ++done) {
+      if (auto driven = verify_one(proposal, 0, done, plan.routes.front()); !driven) return driven;
+      rank(plan);
     }
-    std::stable_sort(plan.routes.begin(), plan.routes.end(), ranks_before);
     return {};
   }
 
-  void say_why_fewer(const Proposal& proposal, std::size_t without_ground,
+  // The route at a place of the present order, as the `done`-th that is verified.
+  Result<void> verify_one(const Proposal& proposal, std::size_t place, std::size_t done, Route& route) {
+    // Half of what is left for each: nobody knows how many there will be.
+    const double left = kSimulated - kSimulatedUnverified;
+    const double from = kSimulated - left * std::pow(0.5, static_cast<double>(done));
+    StageProgress stage(progress_, fmt::format("verifying by dynamics, route {}", done + 1), from,
+                        0.5 * (from + kSimulated));
+    Result<DynamicVerification> verified =
+        verify_route(problem_, proposal.candidates[chosen_[place]].motions, {}, route.prediction, stage);
+    if (!verified) return fail(verified.error());
+    route.dynamic = std::move(*verified);
+    judge(problem_, route);
+    return {};
+  }
+
+  // Orders the routes, and the candidates behind them with them.
+  void rank(Plan& plan) {
+    std::vector<std::size_t> order(plan.routes.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return ranks_before(plan.routes[a], plan.routes[b]);
+    });
+    std::vector<Route> routes;
+    std::vector<std::size_t> chosen;
+    for (const std::size_t i : order) {
+      routes.push_back(std::move(plan.routes[i]));
+      chosen.push_back(chosen_[i]);
+    }
+    plan.routes = std::move(routes);
+    chosen_ = std::move(chosen);
+  }
+
+  void say_why_fewer(const Proposal& proposal, const std::vector<Error>& unpredicted,
                      const std::vector<Pose2>& in_keep_out, std::size_t best, Plan& plan) const {
     const std::size_t all = proposal.candidates.size();
-    const std::size_t refused = without_ground + in_keep_out.size() - proposal.in_keep_out.size();
+    const std::size_t refused = unpredicted.size() + in_keep_out.size() - proposal.in_keep_out.size();
     if (plan.routes.size() + refused < all)
       plan.fewer_because.push_back(too_alike(problem_, all - refused, plan.routes.size()));
     if (!in_keep_out.empty()) plan.fewer_because.push_back(dropped_for_keep_outs(in_keep_out));
-    if (without_ground > 0) {
-      plan.fewer_because.push_back(
-          fmt::format("{} of {} candidates lead a wheel over missing elevation", without_ground, all));
-    }
+    for (std::string& words : unpredicted_in_words(unpredicted, all))
+      plan.fewer_because.push_back(std::move(words));
     if (const auto gap = only_way(*map_, proposal.candidates[best].motions))
       plan.fewer_because.push_back(*gap);
     if (plan.fewer_because.empty()) {
@@ -239,9 +307,8 @@ class Planning {
   Progress& progress_;
   TerrainGround ground_;
   KeepOut keep_out_;
-  std::optional<TraverseMap> map_;
-  std::vector<std::size_t>
-      chosen_;  // the candidate behind each of the plan's routes, before the last ranking
+  std::unique_ptr<TraverseMap> map_;
+  std::vector<std::size_t> chosen_;  // the candidate behind each of the plan's routes, in their order
 };
 
 }  // namespace

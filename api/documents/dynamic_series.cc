@@ -60,6 +60,9 @@ void write_figures(Writer& w, const DynamicVerification& d) {
   w.text("fidelity", "dynamic").text("end", planner::end_in_words(d)).text("reason", d.reason);
   w.metres("at_m", d.distance_m).metres("x_m", d.pose.x_m).metres("y_m", d.pose.y_m);
   w.significant("yaw_deg", deg_from_rad(d.pose.yaw_rad)).metres("commanded_m", d.commanded_m);
+  const planner::OffRoute& off = d.max_distance_from_route;
+  w.key("max_distance_from_route_m").begin_object().metres("value", off.distance_m).metres("at_m", off.at_m);
+  w.metres("x_m", off.x_m).metres("y_m", off.y_m).end_object();
   w.significant("duration_s", d.duration_s).key("energy_wh");
   if (d.energy_j) {
     w.significant(*d.energy_j / kJoulesPerWattHour);

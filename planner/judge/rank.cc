@@ -28,6 +28,7 @@ std::string largest_slip(const sim::DrivePrediction& drive) {
       std::find_if(drive.stations.begin(), drive.stations.end(), [&](const sim::StationPrediction& s) {
         return s.station.distance_m >= peak.distance_m && std::abs(s.state.slip_ratio) >= peak.value - 1e-12;
       });
+  if (drive.stations.empty()) return fmt::format("largest slip {:.2f}", peak.value);
   const sim::StationPrediction& station = at == drive.stations.end() ? drive.stations.back() : *at;
   return fmt::format("largest slip {:.2f} at {:.0f} m on {}", peak.value, peak.distance_m,
                      slope_in_words(station.attitude));
@@ -63,8 +64,9 @@ std::string verdict_reason(const Route& route) {
                        100.0 * drive.risk_high, 100.0 * kAcceptedRisk);
   }
   if (dynamic && !dynamic->end)
-    why +=
-        fmt::format("{}no answer from the dynamic simulation: {}", why.empty() ? "" : ", ", dynamic->reason);
+    why += fmt::format("{}{} the dynamic simulation: {}", why.empty() ? "" : ", ",
+                       dynamic->left_the_route ? "neither confirmed nor refuted by" : "no answer from",
+                       dynamic->reason);
   if (!why.empty()) return "caution: " + why;
   return fmt::format("go: within every limit, on known ground, risk {:.0f} % of {} soil draws",
                      100.0 * drive.risk, drive.draws);

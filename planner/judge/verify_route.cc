@@ -9,6 +9,7 @@
 #include "core/angle.h"
 #include "planner/judge/drive_legs.h"
 #include "planner/problem/terrain_ground.h"
+#include "planner/search/overlap.h"
 #include "sim/dynamic/dynamic_drive.h"
 #include "sim/prediction/drive_risk.h"
 
@@ -151,14 +152,111 @@ class Comparison {
   std::array<sim::Peak, 3> largest_;
 };
 
+// How far the rover is from the line of its route.
+class RouteLine {
+ public:
+  explicit RouteLine(const std::vector<Motion>& motions) : line_(centreline(motions, kLineSpacing_m)) {}
+
+  double distance_m(const Eigen::Vector2d& place) const {
+    double least = (place - line_.front()).norm();
+    for (std::size_t i = 1; i < line_.size(); ++i) {
+      const Eigen::Vector2d along = line_[i] - line_[i - 1];
+      const double squared = along.squaredNorm();
+      const double t =
+          squared > 0.0 ? std::clamp((place - line_[i - 1]).dot(along) / squared, 0.0, 1.0) : 0.0;
+      least = std::min(least, (place - line_[i - 1] - t * along).norm());
+    }
+    return least;
+  }
+
+ private:
+  static constexpr double kLineSpacing_m = 0.25;
+  std::vector<Eigen::Vector2d> line_;
+};
+
+// Ends the simulation too where the rover has left its route.
+class UntilOffRoute final : public Progress {
+ public:
+  explicit UntilOffRoute(Progress& progress) : progress_(progress) {}
+  void report(std::string_view stage, double fraction) override { progress_.report(stage, fraction); }
+  bool cancelled() const override { return left_ || progress_.cancelled(); }
+  void leave() { left_ = true; }
+  bool left() const { return left_; }
+
+ private:
+  Progress& progress_;
+  bool left_ = false;
+};
+
+// Figures of a drive as its samples come.
+class Watch {
+ public:
+  Watch(const PlanProblem& problem, const std::vector<Motion>& motions,
+        const std::vector<sim::DriveLeg>& legs, const sim::DrivePrediction& quasi_static,
+        UntilOffRoute& progress, DynamicVerification& out)
+      : line_(motions),
+        max_off_route_m_(max_off_route_m(*problem.rover)),
+        comparison_(quasi_static, legs),
+        steady_(sim::max_station_spacing_m(*problem.rover) / problem.rover->cruise_speed_m_s),
+        progress_(progress),
+        out_(out) {}
+
+  void operator()(const sim::DriveSample& sample) {
+    if (progress_.left()) return;
+    samples_.add(sample);
+    const std::optional<double> slip_ratio = steady_.add(sample);
+    const double at_m = std::max(0.0, sample.progress_m);  // slid back: no place on the way
+    const Eigen::Vector2d place = sample.p_MB.head<2>();
+    const double off_m = line_.distance_m(place);
+    if (off_m > out_.max_distance_from_route.distance_m)
+      out_.max_distance_from_route = {off_m, at_m, place.x(), place.y()};
+    if (off_m > max_off_route_m_) {
+      leave(sample);
+      return;
+    }
+    if (slip_ratio) out_.extremes.max_slip_ratio.raise(std::abs(*slip_ratio), at_m);
+    out_.extremes.max_tilt_rad.raise(sample.attitude.tilt_rad(), at_m);
+    out_.extremes.max_current_a.raise(largest_current_a(sample), at_m);
+    out_.extremes.max_sinkage_m.raise(deepest_sinkage_m(sample), at_m);
+    comparison_.add(sample, slip_ratio);
+  }
+
+  void finish() {
+    out_.samples = samples_.take();
+    comparison_.finish(out_);
+  }
+
+ private:
+  void leave(const sim::DriveSample& sample) {
+    progress_.leave();
+    out_.left_the_route = true;
+    const OffRoute& off = out_.max_distance_from_route;
+    out_.reason = fmt::format(
+        "the drive is {:.2f} m off its route at ({:.2f}, {:.2f}) after {:.1f} m, where {:.2f} m are the "
+        "most: "
+        "slip {:.2f}, tilt {:.1f} deg",
+        off.distance_m, off.x_m, off.y_m, off.at_m, max_off_route_m_, sample.slip_ratio,
+        deg_from_rad(sample.attitude.tilt_rad()));
+  }
+
+  RouteLine line_;
+  double max_off_route_m_;
+  ThinnedSamples samples_;
+  Comparison comparison_;
+  SteadySlip steady_;
+  UntilOffRoute& progress_;
+  DynamicVerification& out_;
+};
+
 // What is known of a drive that the simulation gave up on.
-void end_without_answer(const Error& error, const std::vector<sim::DriveSample>& samples, const Pose2& start,
-                        DynamicVerification& out) {
-  out.reason = error.detail;
-  for (const Fault& fault : error.faults) out.reason += fmt::format(" ({})", fault.message);
+void end_without_answer(const Error& error, const Pose2& start, DynamicVerification& out) {
+  if (!out.left_the_route) {
+    out.reason = error.detail;
+    for (const Fault& fault : error.faults) out.reason += fmt::format(" ({})", fault.message);
+  }
   out.pose = start;
-  if (samples.empty()) return;
-  const sim::DriveSample& last = samples.back();
+  if (out.samples.empty()) return;
+  const sim::DriveSample& last = out.samples.back();
   out.distance_m = std::max(0.0, last.progress_m);
   out.pose = {last.p_MB.x(), last.p_MB.y(), wrapped_rad(last.attitude.yaw_rad)};
   out.duration_s = last.time_s;
@@ -178,7 +276,12 @@ void take_drive(sim::DynamicDrive drive, DynamicVerification& out) {
 }  // namespace
 
 std::string_view end_in_words(const DynamicVerification& verification) {
+  if (verification.left_the_route) return "left_the_route";
   return verification.end ? sim::describe(*verification.end) : "no_answer";
+}
+
+double max_off_route_m(const sim::RoverModel& rover) {
+  return 0.5 * rover.body_width_m + kMaxBesideBody_m;
 }
 
 Result<DynamicVerification> verify_route(const PlanProblem& problem, const std::vector<Motion>& motions,
@@ -194,35 +297,23 @@ Result<DynamicVerification> verify_route(const PlanProblem& problem, const std::
     out.energy_j = 0.0;
     return out;
   }
-  ThinnedSamples samples;
-  Comparison comparison(quasi_static, legs);
-  SteadySlip steady(sim::max_station_spacing_m(*problem.rover) / problem.rover->cruise_speed_m_s);
+  UntilOffRoute until(progress);
+  Watch watch(problem, motions, legs, quasi_static, until, out);
   const auto drive = sim::simulate_drive(
       *problem.rover, problem.gravity_m_s2, TerrainGround(problem.terrain, problem.soil_map),
       sim::mean_soils(problem.beliefs), start, legs,
       {.feedback = sim::Feedback::kPose, .motor_temp_c = problem.conditions.motor_temp_c},
-      [&](const sim::DriveSample& sample) {
-        samples.add(sample);
-        const std::optional<double> slip_ratio = steady.add(sample);
-        const double at_m = std::max(0.0, sample.progress_m);  // slid back: no place on the way
-        if (slip_ratio) out.extremes.max_slip_ratio.raise(std::abs(*slip_ratio), at_m);
-        out.extremes.max_tilt_rad.raise(sample.attitude.tilt_rad(), at_m);
-        out.extremes.max_current_a.raise(largest_current_a(sample), at_m);
-        out.extremes.max_sinkage_m.raise(deepest_sinkage_m(sample), at_m);
-        comparison.add(sample, slip_ratio);
-      },
-      progress);
-  if (!drive && (drive.error().code == ErrorCode::kCancelled || progress.cancelled()))
+      [&](const sim::DriveSample& sample) { watch(sample); }, until);
+  if (progress.cancelled() || (!drive && drive.error().code == ErrorCode::kCancelled && !until.left()))
     return fail(ErrorCode::kCancelled, "the verification was dismissed");
-  out.samples = samples.take();
+  watch.finish();
   for (const sim::DriveLeg& leg : legs) out.commanded_m += leg.command.turn_in_place ? 0.0 : leg.length_m;
   out.broken_limits = broken_limits(out.extremes, problem.limits);
-  if (drive) {
+  if (drive && !until.left()) {
     take_drive(*drive, out);
   } else {
-    end_without_answer(drive.error(), out.samples, start, out);
+    end_without_answer(drive ? Error{} : drive.error(), start, out);
   }
-  comparison.finish(out);
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include "core/pose.h"
 #include "sim/dynamic/dynamic_drive.h"
 #include "sim/prediction/drive_limits.h"
+#include "sim/rover/rover_model.h"
 
 namespace slipway::planner {
 
@@ -17,12 +18,28 @@ struct LevelDifference {
   sim::Peak largest;      // without sign
 };
 
+// The greatest distance between the rover and the line of its route, with its place.
+struct OffRoute {
+  double distance_m = 0.0;
+  double at_m = 0.0;            // progress along the legs
+  double x_m = 0.0, y_m = 0.0;  // of B
+};
+
+// Further off its route than half the body's width and this, the rover is on ground of which the route says
+// nothing: the verification ends there.
+constexpr double kMaxBesideBody_m = 1.0;
+double max_off_route_m(const sim::RoverModel& rover);
+
 // A route as it was driven in the dynamic simulation, on the beliefs' mean soils, with its pose fed back.
 struct DynamicVerification {
   std::optional<sim::DriveEnd> end;  // nothing: not simulated to an end, `reason` says why
-  std::string reason;                // empty where finished
-  double distance_m = 0.0;           // where it ended: progress along the legs, 0 where it slid back
-  Pose2 pose;                        // of B there; yaw wrapped
+  // The drive was stopped because it was further than max_off_route_m() from the route; then `end` is
+  // nothing. It says neither that the route can be driven nor that it can't.
+  bool left_the_route = false;
+  OffRoute max_distance_from_route;
+  std::string reason;       // empty where finished
+  double distance_m = 0.0;  // where it ended: progress along the legs, 0 where it slid back
+  Pose2 pose;               // of B there; yaw wrapped
   double commanded_m = 0.0;
   double duration_s = 0.0;
   std::optional<double> energy_j;  // from the bus, of the drive motors; nothing where there is no end
@@ -47,7 +64,7 @@ struct DynamicVerification {
 
 constexpr std::size_t kMaxVerificationSamples = 400;
 
-// "immobilised", or "no_answer" where there is no end.
+// "immobilised"; "left_the_route", or "no_answer", where there is no end.
 std::string_view end_in_words(const DynamicVerification& verification);
 
 }  // namespace slipway::planner

@@ -22,7 +22,7 @@ struct CostShare {
 enum class Verdict {
   kGo,       // within every limit, on known ground, risk within the accepted one
   kCaution,  // within every limit under the mean soils, but on unknown ground, at more than the accepted
-             // risk, or with no answer from a simulation that was asked for
+             // risk, or with no answer from a simulation that was asked for, or that left the route
   kNoGo,     // a limit is broken or the rover immobilised under the mean soils, in any simulation of it
 };
 

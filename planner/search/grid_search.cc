@@ -68,8 +68,8 @@ GridSearch::GridSearch(const MotionCost& cost) : map_(cost.map()), per_metre_(ma
   }
 }
 
-bool GridSearch::passes_corners(std::size_t row, std::size_t column, int step) const {
-  // A knight's move runs between two cells: both must be open in its direction.
+bool GridSearch::passes_corners(std::size_t row, std::size_t column, int step, int driven) const {
+  // A knight's move runs between two cells: both must be open in the direction that is driven.
   const Step& s = kSteps[static_cast<std::size_t>(step)];
   if (std::abs(s.right) + std::abs(s.up) != 3) return true;
   const auto columns = static_cast<std::size_t>(map_.geometry().columns);
@@ -77,8 +77,8 @@ bool GridSearch::passes_corners(std::size_t row, std::size_t column, int step) c
   const int half_up = s.up / 2;
   const std::size_t first = (row - half_up) * columns + (column + half_right);
   const std::size_t second = (row - (s.up - half_up)) * columns + (column + (s.right - half_right));
-  return per_metre_[first * kGridSteps + step] < kInfinity &&
-         per_metre_[second * kGridSteps + step] < kInfinity;
+  return per_metre_[first * kGridSteps + driven] < kInfinity &&
+         per_metre_[second * kGridSteps + driven] < kInfinity;
 }
 
 bool GridSearch::clear_of_keep_outs(std::size_t row, std::size_t column, int step) const {
@@ -128,7 +128,7 @@ CostField GridSearch::spread(double x_m, double y_m, bool to_go) const {
         continue;
       const auto next = static_cast<std::size_t>(next_row) * columns + static_cast<std::size_t>(next_column);
       const float cost = here.cost + half_length[k] * (half + per_metre_[next * kGridSteps + driven]);
-      if (!(cost < field.cost[next]) || !passes_corners(row, column, k) ||
+      if (!(cost < field.cost[next]) || !passes_corners(row, column, k, driven) ||
           !clear_of_keep_outs(row, column, k))
         continue;
       field.cost[next] = cost;

@@ -32,7 +32,7 @@ class GridSearch {
 
  private:
   CostField spread(double x_m, double y_m, bool to_go) const;
-  bool passes_corners(std::size_t row, std::size_t column, int step) const;
+  bool passes_corners(std::size_t row, std::size_t column, int step, int driven) const;
   // Of the body driven straight from the cell's centre by the step, or back: it covers the same ground.
   bool clear_of_keep_outs(std::size_t row, std::size_t column, int step) const;
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/angle.h"
 #include "planner/search/overlap.h"
 
 namespace slipway::planner {
@@ -42,6 +43,20 @@ std::optional<Gap> gap_at(const TraverseMap& map, const Eigen::Vector2d& place,
     ends[side] = p;
   }
   return Gap{ends[0], ends[1]};
+}
+
+std::optional<Gap> narrowest_gap(const TraverseMap& map, const std::vector<Eigen::Vector2d>& line) {
+  std::optional<Gap> narrowest;
+  for (std::size_t i = 1; i + 1 < line.size(); ++i) {
+    const Eigen::Vector2d along = line[i + 1] - line[i - 1];
+    // A gap at the very start or goal says nothing about the way between them.
+    const double from_end = std::min((line[i] - line.front()).norm(), (line[i] - line.back()).norm());
+    if (along.norm() < 1e-9 || from_end < kFromEnds_cells * map.cell_m()) continue;
+    const std::optional<Gap> gap =
+        gap_at(map, line[i], Eigen::Vector2d(-along.y(), along.x()) / along.norm());
+    if (gap && (!narrowest || gap->width_m() < narrowest->width_m())) narrowest = gap;
+  }
+  return narrowest;
 }
 
 // Cells that can be reached over edges from a cell, those in `closed` left out. Diagonal neighbours touch.
@@ -110,16 +125,7 @@ std::string_view words(Passage passage) {
 
 std::optional<std::string> only_way(const TraverseMap& map, const std::vector<Motion>& route) {
   const std::vector<Eigen::Vector2d> line = centreline(route, 0.5 * map.cell_m());
-  std::optional<Gap> narrowest;
-  for (std::size_t i = 1; i + 1 < line.size(); ++i) {
-    const Eigen::Vector2d along = line[i + 1] - line[i - 1];
-    // A gap at the very start or goal says nothing about the way between them.
-    const double from_end = std::min((line[i] - line.front()).norm(), (line[i] - line.back()).norm());
-    if (along.norm() < 1e-9 || from_end < kFromEnds_cells * map.cell_m()) continue;
-    const std::optional<Gap> gap =
-        gap_at(map, line[i], Eigen::Vector2d(-along.y(), along.x()) / along.norm());
-    if (gap && (!narrowest || gap->width_m() < narrowest->width_m())) narrowest = gap;
-  }
+  const std::optional<Gap> narrowest = narrowest_gap(map, line);
   if (!narrowest) return std::nullopt;
   const long long start = map.index_at(line.front().x(), line.front().y());
   const long long goal = map.index_at(line.back().x(), line.back().y());
@@ -133,6 +139,24 @@ std::optional<std::string> only_way(const TraverseMap& map, const std::vector<Mo
       "between ({:.1f}, {:.1f}) and ({:.1f}, {:.1f})",
       narrowest->width_m(), narrowest->left.x(), narrowest->left.y(), narrowest->right.x(),
       narrowest->right.y());
+}
+
+std::string hardest_place(const TraverseMap& map, const std::vector<std::size_t>& way) {
+  std::vector<Eigen::Vector2d> line;
+  std::size_t steepest = way.front();
+  for (const std::size_t cell : way) {
+    line.push_back(map.centre_m(cell));
+    if (map.cell(cell).tilt_rad > map.cell(steepest).tilt_rad) steepest = cell;
+  }
+  const Eigen::Vector2d place = map.centre_m(steepest);
+  std::string words = fmt::format("the grid's way is steepest at ({:.1f}, {:.1f}): {:.1f} deg", place.x(),
+                                  place.y(), deg_from_rad(map.cell(steepest).tilt_rad));
+  if (const std::optional<Gap> gap = narrowest_gap(map, line))
+    words += fmt::format(
+        ", and narrowest between ({:.1f}, {:.1f}) and ({:.1f}, {:.1f}): {:.1f} m that the rover's centre may "
+        "use",
+        gap->left.x(), gap->left.y(), gap->right.x(), gap->right.y(), gap->width_m());
+  return words;
 }
 
 std::string no_way(const TraverseMap& map, double start_x_m, double start_y_m, double goal_x_m,

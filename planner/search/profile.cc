@@ -1,27 +1,30 @@
 #include "planner/search/profile.h"
 
+#include <algorithm>
 #include <array>
 
 namespace slipway::planner {
 namespace {
 
 // A little slip and risk stay in, so that a way over hopeless ground is not the shortest one.
-constexpr std::array<ProfileWeight, 5> kShortest{{{"duration", 0.0, 1.0},
-                                                  {"energy", 0.0, 0.0},
-                                                  {"slip", 0.1, 0.0},
-                                                  {"unknown", 0.0, 0.0},
-                                                  {"risk", 0.1, 0.0}}};
+// What a profile puts first never weighs less than was asked for, and the rest never more: a request that
+// already weighs slip by 50 gets no "least slip" search with 10. A little slip and risk stay in the shortest,
+// so that a way over hopeless ground is not it.
+constexpr std::array<ProfileWeight, 5> kShortest{
+    {{"duration", 1.0, 1.0}, {"energy", 0.0}, {"slip", 0.1}, {"unknown", 0.0}, {"risk", 0.1}}};
 constexpr std::array<ProfileWeight, 3> kMinSlip{
-    {{"duration", 0.0, 0.2}, {"energy", 0.2, 0.0}, {"slip", 0.0, 10.0}}};
-constexpr std::array<ProfileWeight, 4> kMinRisk{
-    {{"duration", 0.0, 0.3}, {"energy", 0.3, 0.0}, {"unknown", 0.0, 8.0}, {"risk", 0.0, 100.0}}};
+    {{.term = "duration", .share_of_asked = 1.0, .max = 0.2}, {"energy", 0.2}, {"slip", 1.0, 10.0}}};
+constexpr std::array<ProfileWeight, 4> kMinRisk{{{.term = "duration", .share_of_asked = 1.0, .max = 0.3},
+                                                 {"energy", 0.3},
+                                                 {"unknown", 1.0, 8.0},
+                                                 {"risk", 1.0, 100.0}}};
 
 }  // namespace
 
 Weights Profile::weights(const Weights& asked) const {
   Weights weights = asked;
   for (const ProfileWeight& row : changed)
-    weights.set(row.term, row.share_of_asked * asked.of(row.term) + row.fixed);
+    weights.set(row.term, std::clamp(row.share_of_asked * asked.of(row.term), row.min, row.max));
   return weights;
 }
 

@@ -7,12 +7,13 @@
 
 namespace slipway::planner {
 
-// A weight of the request as a search takes it: a share of what was asked for, and a part that stands
-// whatever was.
+// A weight of the request as a search takes it: a share of what was asked for, but at least or at most some
+// weight.
 struct ProfileWeight {
   std::string_view term;  // of the cost catalogue
   double share_of_asked = 0.0;
-  double fixed = 0.0;
+  double min = 0.0;
+  double max = 1e9;
 };
 
 // What a search is asked to minimise. Routes are always ranked by the request's own weights; the other

@@ -1,5 +1,7 @@
 #include "planner/search/propose.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +12,7 @@
 #include "core/angle.h"
 #include "core/parallel_for.h"
 #include "core/random.h"
+#include "planner/search/bottleneck.h"
 #include "planner/search/grid_search.h"
 #include "planner/search/leg_search.h"
 #include "planner/search/overlap.h"
@@ -125,7 +128,10 @@ class Proposer {
     for (std::size_t leg = 0; leg + 1 < places_.size() && !progress_.cancelled(); ++leg) {
       parallel_for(guides.size(), problem_.threads, [&](std::size_t g) { look_ahead(guides[g], leg); });
       if (progress_.cancelled()) return;
-      if (round == 0) proposal_.grid_optimum += guides.front().sampler->optimum();
+      if (round == 0) {
+        proposal_.grid_optimum += guides.front().sampler->optimum();
+        proposal_.grid_ways.push_back(guides.front().sampler->way());
+      }
       parallel_for(drafts.size(), problem_.threads, [&](std::size_t d) {
         Draft& draft = drafts[d];
         if (draft.found) draft.found = drive_leg(guides[draft.guide], draft, leg, round, d);
@@ -192,7 +198,11 @@ class Proposer {
     }
     const double cost = fine_cost(asked_cost_, draft.motions);
     if (!std::isfinite(cost)) {
-      if (const auto pose = first_hit(map_.keep_out(), draft.motions)) proposal_.in_keep_out.push_back(*pose);
+      if (const auto pose = first_hit(map_.keep_out(), draft.motions)) {
+        proposal_.in_keep_out.push_back(*pose);
+      } else if (const auto closed = first_closed(problem_, asked_cost_, draft.motions)) {
+        proposal_.closed.push_back(fmt::format("{} found is closed at {}", draft.by->name, *closed));
+      }
       return;
     }
     proposal_.differences.add(centreline(draft.motions, kLineSpacing_m));
@@ -204,11 +214,12 @@ class Proposer {
     std::vector<float> penalty(map_.cells(), 0.0F);
     const double reach = kBandWidths * problem_.rover->body_width_m;
     const dem::GridGeometry& g = map_.geometry();
-    const int cells = static_cast<int>(std::ceil(reach / g.cell_x_m));
+    const int columns = static_cast<int>(std::ceil(reach / g.cell_x_m));
+    const int rows = static_cast<int>(std::ceil(reach / g.cell_y_m));
     for (const std::size_t chosen : select_routes(proposal_.differences, proposal_.by_cost(), wanted())) {
       for (const Eigen::Vector2d& place : centreline(proposal_.candidates[chosen].motions, map_.cell_m())) {
-        for (int dr = -cells; dr <= cells; ++dr) {
-          for (int dc = -cells; dc <= cells; ++dc) {
+        for (int dr = -rows; dr <= rows; ++dr) {
+          for (int dc = -columns; dc <= columns; ++dc) {
             const long long i = map_.index_at(place.x() + dc * g.cell_x_m, place.y() + dr * g.cell_y_m);
             if (i >= 0 && std::hypot(dc * g.cell_x_m, dr * g.cell_y_m) <= reach && !near_place(place, reach))
               penalty[static_cast<std::size_t>(i)] = static_cast<float>(factor);

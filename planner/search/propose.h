@@ -28,6 +28,10 @@ struct Proposal {
   double grid_optimum = 0.0;  // of all legs, under the request's weights; infinite where a leg has no way
   // Where routes that planners found would have taken the body into a keep-out: these are no candidates.
   std::vector<Pose2> in_keep_out = {};
+  // Where else routes that planners found are not allowed, in words: these are no candidates either.
+  std::vector<std::string> closed = {};
+  // The cells of the grid's cheapest way of each leg, under the request's weights.
+  std::vector<std::vector<std::size_t>> grid_ways = {};
   // The cheapest first, the ones to simulate: routes that differ, as many as were asked for if they exist.
   std::vector<std::size_t> by_cost() const;
 };

@@ -116,24 +116,6 @@ std::vector<Motion> straights(const Pose2& from, const Corners& corners) {
   return motions;
 }
 
-// The arc that rounds the corner between two straights, cut from both, and what is left of them.
-std::vector<Motion> rounded(const Motion& in, const Motion& out, double radius_m,
-                            const MotionLimits& limits) {
-  const double cut = radius_m * std::tan(0.5 * std::abs(out.first_turn_rad));
-  if (cut >= in.length_m || cut >= out.length_m) return {};
-  Motion before = in;
-  before.length_m -= cut;
-  before.to = before.at(before.length_m);
-  const Pose2 behind{out.from.x_m + cut * std::cos(out.to.yaw_rad),
-                     out.from.y_m + cut * std::sin(out.to.yaw_rad), out.to.yaw_rad};
-  Motion after = straight(behind, out.to.x_m, out.to.y_m);
-  after.first_turn_rad = 0.0;
-  after.to = out.to;
-  Motion arc = connect(before.to, behind, limits);
-  arc.first_turn_rad = 0.0;  // tangent by construction, but for rounding
-  return {before, arc, after};
-}
-
 std::vector<Motion> round_corners(const MotionCost& cost, std::vector<Motion> motions) {
   const MotionLimits& limits = cost.limits();
   const double fine = 0.5 * cost.map().cell_m();
@@ -148,7 +130,7 @@ std::vector<Motion> round_corners(const MotionCost& cost, std::vector<Motion> mo
     for (const double radius : kRadii_m) {
       const double cut = radius * std::tan(0.5 * turn);
       if (radius < limits.min_turn_radius_m || (more_corners && cut > 0.5 * motions[i].length_m)) continue;
-      std::vector<Motion> tried = rounded(in, motions[i], radius, limits);
+      std::vector<Motion> tried = round_corner(in, motions[i], radius);
       double sum = 0.0;
       for (const Motion& motion : tried) sum += cost.of(motion, fine);
       if (!tried.empty() && sum < least) {
@@ -219,6 +201,25 @@ Corners corners_along(const std::vector<Motion>& motions) {
 }
 
 }  // namespace
+
+std::vector<Motion> round_corner(const Motion& in, const Motion& out, double radius_m) {
+  const double cut = radius_m * std::tan(0.5 * std::abs(out.first_turn_rad));
+  if (cut >= in.length_m || cut >= out.length_m) return {};
+  Motion before = in;
+  before.length_m -= cut;
+  before.to = before.at(before.length_m);
+  const Pose2 behind{out.from.x_m + cut * std::cos(out.to.yaw_rad),
+                     out.from.y_m + cut * std::sin(out.to.yaw_rad), out.to.yaw_rad};
+  Motion after = straight(behind, out.to.x_m, out.to.y_m);
+  after.first_turn_rad = 0.0;
+  after.to = out.to;
+  // Not by connect(): an arc of the least radius is too tight for it by a rounding error, and its turns in
+  // place, which a tangent arc has none of, are no part of the route.
+  Motion arc{.from = before.to, .to = behind};
+  arc.curvature_1_m = std::copysign(1.0 / radius_m, out.first_turn_rad);
+  arc.length_m = radius_m * std::abs(out.first_turn_rad);
+  return {before, arc, after};
+}
 
 double fine_cost(const MotionCost& cost, const std::vector<Motion>& motions) {
   double sum = 0.0;

@@ -13,6 +13,10 @@ namespace slipway::planner {
 std::vector<Motion> smooth_leg(const MotionCost& cost, const std::vector<Pose2>& poses,
                                bool keep_last_heading);
 
+// A straight, the arc that rounds the corner to the next one, and what is left of that one: both are cut by
+// the same length. Empty where one of them is too short for the radius.
+std::vector<Motion> round_corner(const Motion& in, const Motion& out, double radius_m);
+
 // Sum over the motions, looked at twice as finely as the search does.
 double fine_cost(const MotionCost& cost, const std::vector<Motion>& motions);
 

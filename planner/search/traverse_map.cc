@@ -9,19 +9,29 @@
 namespace slipway::planner {
 namespace {
 
+// Finer than any rover of interest steers.
+constexpr double kFinestCell_m = 0.25;
+
 dem::GridGeometry search_geometry(const dem::GridGeometry& terrain, const dem::Extent& extent) {
   const dem::CellWindow window =
       terrain.window(extent).value_or(dem::CellWindow{0, 0, terrain.rows, terrain.columns});
   dem::GridGeometry geometry = terrain.sub(window);
-  // A quarter of a metre is finer than any rover of interest steers.
-  int step = std::max(1, static_cast<int>(std::floor(0.25 / geometry.cell_x_m + 1e-9)));
-  const auto rows = [&] { return (window.rows + step - 1) / step; };
-  const auto columns = [&] { return (window.columns + step - 1) / step; };
-  while (static_cast<long long>(rows()) * columns() > kMaxSearchCells) ++step;
+  const auto first = [](double cell_m) {
+    return std::max(1, static_cast<int>(std::floor(kFinestCell_m / cell_m + 1e-9)));
+  };
+  int step_x = first(geometry.cell_x_m), step_y = first(geometry.cell_y_m);
+  const auto rows = [&] { return (window.rows + step_y - 1) / step_y; };
+  const auto columns = [&] { return (window.columns + step_x - 1) / step_x; };
+  while (static_cast<long long>(rows()) * columns() > kMaxSearchCells) {
+    // The shorter side grows, both where they are equal.
+    const double x_m = step_x * geometry.cell_x_m, y_m = step_y * geometry.cell_y_m;
+    if (x_m <= y_m) ++step_x;
+    if (y_m <= x_m) ++step_y;
+  }
   geometry.rows = rows();
   geometry.columns = columns();
-  geometry.cell_x_m *= step;
-  geometry.cell_y_m *= step;
+  geometry.cell_x_m *= step_x;
+  geometry.cell_y_m *= step_y;
   return geometry;
 }
 
@@ -32,15 +42,21 @@ struct Footprint {
   double rise_m = 0.0;
 };
 
+// Of a footprint to each side of its cell, in cells.
+int footprint_reach(const sim::RoverModel& rover, double cell_m) {
+  const double half_width = 0.5 * std::min(rover.body_length_m, rover.body_width_m);
+  return std::max(1, static_cast<int>(std::lround(half_width / cell_m)));
+}
+
 // Least squares over the cells that have elevation; incomplete where they don't span a plane.
-Footprint footprint_of(const dem::Terrain& terrain, const dem::Cell& centre, int reach) {
+Footprint footprint_of(const dem::Terrain& terrain, const dem::Cell& centre, int reach_x, int reach_y) {
   const dem::GridGeometry& g = terrain.geometry();
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right_side = Eigen::Vector3d::Zero();
   const double reference = terrain.height_m(centre).value_or(0.0);
   const auto each_cell = [&](const auto& use) {
-    for (int dr = -reach; dr <= reach; ++dr) {
-      for (int dc = -reach; dc <= reach; ++dc) {
+    for (int dr = -reach_y; dr <= reach_y; ++dr) {
+      for (int dc = -reach_x; dc <= reach_x; ++dc) {
         const std::optional<double> z = terrain.height_m(dem::Cell{centre.row + dr, centre.column + dc});
         if (z) use(Eigen::Vector3d(1.0, dc * g.cell_x_m, -dr * g.cell_y_m), *z - reference);
       }
@@ -96,7 +112,7 @@ Passage passage_near(const KeepOut& keep_out, const Eigen::Vector2d& centre, dou
 
 }  // namespace
 
-dem::Extent search_extent(const PlanProblem& problem) {
+dem::Extent search_extent(const PlanProblem& problem, double rooms) {
   dem::Extent extent{problem.start.x_m, problem.start.y_m, problem.start.x_m, problem.start.y_m};
   double longest = 0.0;
   Waypoint last = problem.start;
@@ -110,7 +126,7 @@ dem::Extent search_extent(const PlanProblem& problem) {
   };
   for (const Waypoint& place : problem.waypoints) include(place);
   include(problem.goal);
-  const double room = std::max(60.0, 0.5 * longest);
+  const double room = rooms * std::max(60.0, 0.5 * longest);
   return {extent.west_m - room, extent.south_m - room, extent.east_m + room, extent.north_m + room};
 }
 
@@ -125,34 +141,80 @@ TraverseMap::TraverseMap(const PlanProblem& problem, const KeepOut& keep_out, co
   });
 }
 
-GroundCell TraverseMap::cell_of(const PlanProblem& problem, const Eigen::Vector2d& centre) const {
+std::vector<Eigen::Vector2d> TraverseMap::judged_places(const PlanProblem& problem,
+                                                        const Eigen::Vector2d& centre) const {
+  if (std::max(geometry_.cell_x_m, geometry_.cell_y_m) <= kFinestCell_m + 1e-9) return {centre};
+  const dem::GridGeometry& terrain = problem.terrain->geometry();
+  // Cells so far apart that their footprints still cover all between them, the outermost ones included.
+  const auto offsets_m = [&](double side_m, double cell_m) {
+    const auto cells = static_cast<int>(std::lround(side_m / cell_m));
+    const int pieces =
+        (cells - 2 + footprint_reach(*problem.rover, cell_m)) / footprint_reach(*problem.rover, cell_m);
+    std::vector<double> offsets;
+    for (int k = 0; k <= pieces; ++k)
+      offsets.push_back(((pieces == 0 ? 0 : (cells - 1) * k / pieces) - 0.5 * (cells - 1)) * cell_m);
+    return offsets;
+  };
+  std::vector<Eigen::Vector2d> places;
+  for (const double dy : offsets_m(geometry_.cell_y_m, terrain.cell_y_m)) {
+    for (const double dx : offsets_m(geometry_.cell_x_m, terrain.cell_x_m)) {
+      // The last row and column of search cells may reach beyond the terrain.
+      if (terrain.cell_at(centre.x() + dx, centre.y() + dy))
+        places.emplace_back(centre.x() + dx, centre.y() + dy);
+    }
+  }
+  return places;
+}
+
+void TraverseMap::judge_ground(const PlanProblem& problem, const std::vector<Eigen::Vector2d>& places,
+                               GroundCell& cell) const {
   const dem::Terrain& terrain = *problem.terrain;
   const sim::RoverModel& rover = *problem.rover;
+  const double circumscribed = 0.5 * std::hypot(rover.body_length_m, rover.body_width_m);
+  const int reach_x = footprint_reach(rover, terrain.geometry().cell_x_m);
+  const int reach_y = footprint_reach(rover, terrain.geometry().cell_y_m);
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const std::optional<dem::Cell> under = terrain.geometry().cell_at(places[k].x(), places[k].y());
+    Footprint plane;
+    if (under && surrounded_by_data(terrain, places[k], circumscribed))
+      plane = footprint_of(terrain, *under, reach_x, reach_y);
+    if (!plane.complete) {
+      cell.passage = Passage::kNoData;
+      return;
+    }
+    if (k == places.size() / 2) {
+      cell.gradient_x = static_cast<float>(plane.gradient_x);
+      cell.gradient_y = static_cast<float>(plane.gradient_y);
+    }
+    const double tilt = std::atan(std::hypot(plane.gradient_x, plane.gradient_y));
+    if (tilt > std::min(problem.limits.max_tilt_rad, rover.max_tilt_rad)) cell.passage = Passage::kSteep;
+    cell.tilt_rad = std::max(cell.tilt_rad, static_cast<float>(tilt));
+    cell.rise_m = std::max(cell.rise_m, static_cast<float>(plane.rise_m));
+    if (plane.rise_m + problem.limits.min_clearance_m > rover.belly_clearance_m)
+      cell.passage = Passage::kRough;
+  }
+}
+
+GroundCell TraverseMap::cell_of(const PlanProblem& problem, const Eigen::Vector2d& centre) const {
   GroundCell cell{.soil = kUnknownSoil};
   if (problem.soil_map) {
     const auto soil = problem.soil_map->soil_at(centre.x(), centre.y());
     if (soil) cell.soil = static_cast<std::uint8_t>(*soil);
   }
-  const std::optional<dem::Cell> under = terrain.geometry().cell_at(centre.x(), centre.y());
-  const double circumscribed = 0.5 * std::hypot(rover.body_length_m, rover.body_width_m);
-  if (!under || !surrounded_by_data(terrain, centre, circumscribed)) {
-    cell.passage = Passage::kNoData;
-    return cell;
-  }
-  const double half_width = 0.5 * std::min(rover.body_length_m, rover.body_width_m);
-  const int reach = std::max(1, static_cast<int>(std::lround(half_width / terrain.geometry().cell_x_m)));
-  const Footprint plane = footprint_of(terrain, *under, reach);
-  if (!plane.complete) {
-    cell.passage = Passage::kNoData;
-    return cell;
-  }
-  cell.gradient_x = static_cast<float>(plane.gradient_x);
-  cell.gradient_y = static_cast<float>(plane.gradient_y);
   cell.passage = passage_near(keep_out_, centre, 0.5 * std::hypot(geometry_.cell_x_m, geometry_.cell_y_m));
   if (cell.passage == Passage::kKeepOut) return cell;
-  const double tilt = std::atan(std::hypot(plane.gradient_x, plane.gradient_y));
-  if (tilt > std::min(problem.limits.max_tilt_rad, rover.max_tilt_rad)) cell.passage = Passage::kSteep;
-  if (plane.rise_m + problem.limits.min_clearance_m > rover.belly_clearance_m) cell.passage = Passage::kRough;
+  std::vector<Eigen::Vector2d> places = judged_places(problem, centre);
+  if (places.size() != 1) {
+    const auto stands_here = [&](const Waypoint& place) {
+      if (index_at(place.x_m, place.y_m) == index_at(centre.x(), centre.y()))
+        places = {{place.x_m, place.y_m}};
+    };
+    stands_here(problem.start);
+    stands_here(problem.goal);
+    for (const Waypoint& place : problem.waypoints) stands_here(place);
+  }
+  if (places.empty()) cell.passage = Passage::kNoData;
+  judge_ground(problem, places, cell);
   return cell;
 }
 

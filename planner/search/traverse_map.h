@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -20,10 +21,15 @@ enum class Passage : std::uint8_t {
   kKeepOut,      // at the cell's centre the body meets a keep-out at every heading
 };
 
-// The search's cell: the ground as a plane over the rover's footprint.
+// The search's cell: the ground as a plane over the rover's footprint. Where a cell covers several of the
+// terrain's, tilt, rise and missing elevation are the worst over all of these, so that no rock in it is
+// overlooked; only a cell that holds a place of the problem is judged at that place, where the rover must
+// stand.
 struct GroundCell {
-  float gradient_x = 0.0F;  // rise per metre towards east
+  float gradient_x = 0.0F;  // rise per metre towards east, about the cell's centre
   float gradient_y = 0.0F;  // rise per metre towards north
+  float tilt_rad = 0.0F;    // the greatest of any footprint's plane
+  float rise_m = 0.0F;      // the greatest height of the ground above a footprint's plane
   std::uint8_t soil = 0;    // index of the ground table; kUnknownSoil for unknown ground
   Passage passage = Passage::kFree;
 };
@@ -34,8 +40,9 @@ constexpr std::uint8_t kUnknownSoil = 255;
 // terrain's.
 constexpr long long kMaxSearchCells = 500'000;
 
-// What a search looks at: around all places of the problem, with room for detours of half the longest leg.
-dem::Extent search_extent(const PlanProblem& problem);
+// What a search looks at: around all places of the problem, with room for detours of half the longest leg
+// times `rooms`.
+dem::Extent search_extent(const PlanProblem& problem, double rooms = 1.0);
 
 // The search's view of the ground, built once per problem and immutable after. Slopes are least-squares
 // planes over a square as wide as the rover, or three terrain cells where those are wider: what the
@@ -46,7 +53,7 @@ class TraverseMap {
   TraverseMap(const PlanProblem& problem, const KeepOut& keep_out, const dem::Extent& extent);
 
   const dem::GridGeometry& geometry() const { return geometry_; }
-  double cell_m() const { return geometry_.cell_x_m; }
+  double cell_m() const { return std::min(geometry_.cell_x_m, geometry_.cell_y_m); }  // the shorter side
   std::size_t cells() const { return cells_.size(); }
   // -1 outside.
   long long index_at(double x_m, double y_m) const;
@@ -58,6 +65,10 @@ class TraverseMap {
 
  private:
   GroundCell cell_of(const PlanProblem& problem, const Eigen::Vector2d& centre) const;
+  void judge_ground(const PlanProblem& problem, const std::vector<Eigen::Vector2d>& places,
+                    GroundCell& cell) const;
+  // Of the terrain's cells in the search cell about a place, or the place itself where they are as large.
+  std::vector<Eigen::Vector2d> judged_places(const PlanProblem& problem, const Eigen::Vector2d& centre) const;
 
   dem::GridGeometry geometry_;
   const KeepOut& keep_out_;

@@ -26,6 +26,10 @@ constexpr double kMinCommanded_radii = 0.5;
 constexpr double kMaxTravel_radii = 0.5;  // of a wheel within one step
 constexpr double kBellyLook_m = 0.01;     // travel of the body's ends between two checks of the belly
 constexpr double kNudge_s = 1e-6;
+constexpr double kSameHeading_rad = rad_from_deg(1.0);  // a turn that overshot by less is not taken back
+// A heading further from the one that leads back to a leg's line is turned in place before the leg: at the
+// tightest correction, steering by so much takes two metres.
+constexpr double kSteeredBack_rad = rad_from_deg(20.0);
 constexpr long kMaxStepsPerSecond = 4000;  // a motion that needs more is too rough to follow
 
 // The value to print with two decimals, so that no "-0.00" is printed.
@@ -70,7 +74,9 @@ class Drive {
     put_down_ = dynamics_.pose(state());
     if (auto settled = settle(); !settled) return fail(std::move(settled.error()));
     out_.start = dynamics_.pose(state());
-    out_.commanded = out_.start;
+    // The rover's software knows where it was to start, also where it slides a little as it settles.
+    if (options_.feedback == Feedback::kPose) next_start_ = put_down_;
+    out_.commanded = next_start_.value_or(out_.start);
     for (const DriveLeg& leg : legs_) out_.commanded = commanded_pose(leg, out_.commanded, 1.0);
     for (leg_ = 0; leg_ < static_cast<int>(legs_.size()) && !ended_; ++leg_)
       if (auto driven = drive_leg(legs_[leg_]); !driven) return fail(std::move(driven.error()));
@@ -121,12 +127,65 @@ class Drive {
     return std::hypot(at.x_m - from.x_m, at.y_m - from.y_m);
   }
 
+  // With pose feedback a leg's line is where the commanded drive has it, not where the one before it ended:
+  // it is joined by turning in place where the heading is too far off to be steered back.
   Result<void> drive_leg(const DriveLeg& leg) {
+    Pose2 leg_start = options_.feedback == Feedback::kNone ? dynamics_.pose(state())
+                                                           : next_start_.value_or(dynamics_.pose(state()));
+    next_start_ = commanded_pose(leg, leg_start, 1.0);
+    const double before_m = out_.progress_m;
+    const bool by_pose = options_.feedback == Feedback::kPose;
+    const DriveLeg piece = by_pose ? rest_of_turn(leg, leg_start) : leg;
+    if (by_pose && !piece.command.turn_in_place)
+      if (auto turned = turn_onto(piece, leg_start); !turned) return turned;
+    if (!ended_ && !(by_pose && is_past(piece, leg_start)))
+      if (auto driven = drive_piece(piece, leg_start); !driven) return driven;
+    note({.kind = DriveEventKind::kLegEnds, .time_s = now_s_ - began_s_, .leg = leg_});
+    // How far the rover rolled past a leg's end is no progress on the next.
+    if (by_pose && !ended_) out_.progress_m = before_m + (leg.command.turn_in_place ? 0.0 : leg.length_m);
+    return {};
+  }
+
+  // What is left of a turn from the rover's true heading to the commanded one: the other way round where it
+  // has turned too far already. Other legs are left alone. Headings are counted from the nearest to the true
+  // one of those that differ by whole turns.
+  DriveLeg rest_of_turn(const DriveLeg& leg, Pose2& leg_start) const {
+    const double yaw = dynamics_.pose(state()).yaw_rad;
+    leg_start.yaw_rad = yaw - wrapped_rad(yaw - leg_start.yaw_rad);
+    if (!leg.command.turn_in_place) return leg;
+    const double left = leg_start.yaw_rad + std::copysign(leg.turn_rad, leg.command.turn_rate_rad_s) - yaw;
+    if (left * leg.command.turn_rate_rad_s >= 0.0) return leg;
+    DriveLeg back = leg;
+    back.command.turn_rate_rad_s = -leg.command.turn_rate_rad_s;
+    back.turn_rad = std::abs(left) > kSameHeading_rad ? std::abs(left) : 0.0;
+    leg_start.yaw_rad = yaw;
+    return back;
+  }
+
+  bool is_past(const DriveLeg& leg, const Pose2& leg_start) const {
+    const Pose2 now = dynamics_.pose(state());
+    return place_on_leg(leg, leg_start, now, now.yaw_rad - leg_start.yaw_rad).share >= 1.0;
+  }
+
+  // Turns in place to the heading that leads back to the leg's line, where steering alone would need long.
+  Result<void> turn_onto(const DriveLeg& leg, const Pose2& leg_start) {
+    const Pose2 now = dynamics_.pose(state());
+    const LegPlace place = place_on_leg(leg, leg_start, now, now.yaw_rad - leg_start.yaw_rad);
+    const double turn_rad = wrapped_rad(heading_to_line_rad(rover_, place) - place.heading_rad);
+    if (place.share >= 1.0 || std::abs(turn_rad) < kSteeredBack_rad) return {};
+    DriveLeg turn{.command = leg.command, .turn_rad = std::abs(turn_rad)};
+    turn.command.turn_in_place = true;
+    turn.command.turn_rate_rad_s = std::copysign(rover_.turn_rate_rad_s, turn_rad);
+    return drive_piece(turn, now);
+  }
+
+  Result<void> drive_piece(const DriveLeg& leg, const Pose2& leg_start) {
     // Following the driver changes only the third derivative of the motion, so that no restart is needed.
-    const Pose2 leg_start = options_.feedback == Feedback::kNone
-                                ? dynamics_.pose(state())
-                                : next_start_.value_or(dynamics_.pose(state()));
     LegDriver driver(rover_, leg, options_.feedback, now_s_, dynamics_.steered_rad(state()));
+    // After a turn the ground falls away to another side.
+    if (leg.command.turn_in_place) trim_rad_ = 0.0;
+    driver.trim(trim_rad_);
+    trimmed_share_.reset();
     dynamics_.follow(&driver, leg_start);
     driver_ = &driver;
     before_leg_m_ = out_.progress_m;
@@ -141,17 +200,33 @@ class Drive {
       if (!std::isfinite(stop)) stop = now_s_ + 10.0 * options_.give_up_s;
       auto step = advance(stop);
       if (!step) return fail(std::move(step.error()));
+      stop_where_done(driver);
+      trim(driver, leg);
       check_progress(leg);
     }
     // With pose feedback a leg ends only where its length is done, so that there is nothing to check.
     if (!ended_ && options_.feedback != Feedback::kPose) check_leg(leg, share_before);
-    note({.kind = DriveEventKind::kLegEnds, .time_s = now_s_ - began_s_, .leg = leg_});
-    next_start_ = commanded_pose(leg, leg_start, 1.0);
     const PerWheel<double> steered = dynamics_.steered_rad(state());
     add_progress(leg);
     driver_ = nullptr;
     dynamics_.halt(steered);
     return {};
+  }
+
+  // The event of a leg's end is a change of sign: a leg that begins behind that place would never end.
+  void stop_where_done(LegDriver& driver) {
+    if (options_.feedback != Feedback::kPose || std::isfinite(driver.cruised_s())) return;
+    if (dynamics_.place(state()).share >= 1.0 - driver.stopping_share()) driver.stop(now_s_);
+  }
+
+  // Only while the rover gets on: one that spins on the spot learns nothing about its side slip.
+  void trim(LegDriver& driver, const DriveLeg& leg) {
+    if (options_.feedback != Feedback::kPose || leg.command.turn_in_place) return;
+    const LegPlace place = dynamics_.place(state());
+    const double driven_m = leg.length_m * (place.share - trimmed_share_.value_or(place.share));
+    trimmed_share_ = place.share;
+    trim_rad_ = trimmed_rad(rover_, place, std::max(0.0, driven_m), trim_rad_);
+    driver.trim(trim_rad_);
   }
 
   void add_progress(const DriveLeg& leg) {
@@ -372,6 +447,8 @@ class Drive {
   long steps_ = 0, pace_steps_ = 0;
   double pace_s_ = 0.0;
   double whole_s_ = 0.0, now_s_ = 0.0, began_s_ = -1.0, last_sample_s_ = 0.0, recorded_s_ = -1.0;
+  double trim_rad_ = 0.0;
+  std::optional<double> trimmed_share_;  // of the leg, when the trim was last set
   double before_leg_m_ = 0.0, checked_s_ = 0.0, checked_share_ = 0.0;
 };
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/angle.h"
 #include "core/smooth_step.h"
 
 namespace slipway::sim {
@@ -14,6 +15,9 @@ constexpr double kRamp_s = 2.0;
 // Wheels steer at half of the steering motors' maximum rate, but not faster than flown rovers steer.
 constexpr double kSteeringRate_rad_s = 0.1;
 constexpr double kSameAngle_rad = 1e-6;
+constexpr double kTrimGain = 0.07;
+constexpr double kMaxTrim_rad = std::numbers::pi / 6.0;
+constexpr double kMaxApproach_rad = 0.25 * std::numbers::pi;  // of a leg's line, from far away
 
 double steering_rate(const RoverModel& rover) {
   const double max_rate = rover.steering.value_or(rover.drive).max_wheel_rate_rad_s;
@@ -68,9 +72,8 @@ double LegDriver::rate_share(double t) const {
 }
 
 double LegDriver::curvature_correction(const LegPlace& place) const {
-  const double l = rover_.body_length_m;
-  const double across = feedback_ == Feedback::kPose ? place.across_m / (l * l) : 0.0;
-  const double wanted = across + 2.0 * place.heading_rad / l;
+  const double to_line = feedback_ == Feedback::kPose ? heading_to_line_rad(rover_, place, trim_rad_) : 0.0;
+  const double wanted = 2.0 * wrapped_rad(place.heading_rad - to_line) / rover_.body_length_m;
   const double limit = 0.5 / rover_.min_turn_radius_m;
   return (leg_.command.speed_m_s < 0.0 ? 1.0 : -1.0) * limit * std::tanh(wanted / limit);
 }
@@ -92,6 +95,16 @@ PerWheel<WheelCommand> LegDriver::commanded(double t, const LegPlace& place) con
     commanded[k].steer_rad = from_rad_[k] + steered * (commanded[k].steer_rad - from_rad_[k]);
   }
   return commanded;
+}
+
+double heading_to_line_rad(const RoverModel& rover, const LegPlace& place, double trim_rad) {
+  const double near = 0.5 * place.across_m / rover.body_length_m + trim_rad;
+  return -kMaxApproach_rad * std::tanh(near / kMaxApproach_rad);
+}
+
+double trimmed_rad(const RoverModel& rover, const LegPlace& place, double driven_m, double trim_rad) {
+  const double l = rover.body_length_m;
+  return std::clamp(trim_rad + kTrimGain * place.across_m * driven_m / (l * l), -kMaxTrim_rad, kMaxTrim_rad);
 }
 
 }  // namespace slipway::sim

@@ -17,11 +17,16 @@ namespace slipway::sim {
 //
 // Feedback changes the leg's curvature by
 //
-//   d kappa = +-(e / l^2 + 2 psi / l)      + when driving backwards, - forwards
+//   d kappa = +-2 (psi - psi_line) / l            + when driving backwards, - forwards
+//   psi_line = -a tanh((e / (2 l) + i) / a), a = 45 deg   the heading that leads back to the line
 //
-// where e is the distance across and psi the heading (see LegPlace). It brings a rover without slip back to
-// the line by e'' + 2 e' / l + e / l^2 = 0 over the driven distance, without overshoot; l is a body length.
-// The change is limited smoothly to half the curvature of the tightest arc. Feedback::kHeading leaves e out.
+// where e is the distance across and psi the heading (see LegPlace). Near the line it brings a rover without
+// slip back by e'' + 2 e' / l + e / l^2 = 0 over the driven distance, without overshoot; l is a body length.
+// From far away the rover comes back at 45 deg: without that bound it would circle. i is the trim, di/ds =
+// 0.07 e / l^2: it takes away the 2 l beta that a rover slipping sideways by the angle beta would stay off
+// its line (the roots of x^3 + 2 x^2 + x + 0.14 are real, the slowest brings it in over some 4 l). The change
+// is limited smoothly to half the curvature of the tightest arc. Feedback::kHeading leaves e out (psi_line =
+// 0).
 class LegDriver {
  public:
   LegDriver(const RoverModel& rover, const DriveLeg& leg, Feedback feedback, double start_s,
@@ -34,6 +39,8 @@ class LegDriver {
   double nominal_end_s() const { return nominal_end_s_; }  // end of a rover without slip
   // The rates fall from t on, or from the end of the rising ramp where that is later.
   void stop(double t);
+  // See i above; 0 until it is set.
+  void trim(double trim_rad) { trim_rad_ = trim_rad; }
   // The share of the leg that is still driven while the rates fall.
   double stopping_share() const { return stopping_share_; }
 
@@ -54,7 +61,12 @@ class LegDriver {
   PerWheel<double> from_rad_;
   PerWheel<WheelCommand> plain_;  // without feedback
   double start_s_, steered_s_ = 0.0, ramped_s_ = 0.0, cruised_s_ = 0.0, end_s_ = 0.0, nominal_end_s_ = 0.0;
-  double ramp_s_ = 1.0, stopping_share_ = 0.0;
+  double ramp_s_ = 1.0, stopping_share_ = 0.0, trim_rad_ = 0.0;
 };
+
+// The heading less the leg's own that leads a rover at this place back to the leg's line (psi_line above).
+double heading_to_line_rad(const RoverModel& rover, const LegPlace& place, double trim_rad = 0.0);
+// The trim after another driven_m at a place; within 30 deg.
+double trimmed_rad(const RoverModel& rover, const LegPlace& place, double driven_m, double trim_rad);
 
 }  // namespace slipway::sim

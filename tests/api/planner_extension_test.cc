@@ -88,6 +88,13 @@ const JsonValue* share_of(const JsonValue& route, std::string_view name) {
   return nullptr;
 }
 
+// Why there are fewer routes than asked for, a line each.
+std::string because(const JsonValue& answer) {
+  std::string lines;
+  for (const JsonValue& words : answer.find("fewer_because")->elements) lines += words.text + "\n";
+  return lines;
+}
+
 double turned(const JsonValue& answer) {
   return share_of(answer.find("summary")->elements.at(0), "turning")->find("value")->number;
 }
@@ -129,15 +136,34 @@ TEST(AddedPlanner, IsListedAndReadByTheServiceThatHasIt) {
   EXPECT_NE(listed.find(R"("name":"beeline")"), std::string::npos);
 }
 
+TEST(AddedPlanner, GivesARouteOfItsOwnWhereTheStraightLineCanBeDriven) {
+  const JsonValue answer = answer_of(
+      extended_world(), R"({"terrain":"yard","rover":"mer-class","start":{"x_m":30,"y_m":40,"yaw_deg":270},)"
+                        R"("goal":{"x_m":30,"y_m":30},"draws":2,"planners":["beeline"],"routes":1})");
+  ASSERT_EQ(answer.find("summary")->elements.size(), 1U) << because(answer);
+  EXPECT_EQ(answer.find("summary")->elements[0].find("planner")->text, "beeline");
+}
+
+// The straight line leads up a slope that is too much for this soil, which no keep-out has anything to do
+// with.
+TEST(AddedPlanner, WhoseRouteTheGroundClosesIsAnsweredWithThePlaceAndTheReason) {
+  const JsonValue answer = answer_of(extended_world(), request_with(R"(,"planners":["beeline"])"));
+  EXPECT_TRUE(answer.find("summary")->elements.empty());
+  EXPECT_NE(
+      because(answer).find("beeline found is closed at (20.0, 30.0), heading 22 deg: a slope of 2.9 deg "
+                           "that the mean soil does not hold the rover on"),
+      std::string::npos)
+      << because(answer);
+}
+
 TEST(AddedPlanner, ThatHeedsNoKeepOutGivesNoRouteAndTheAnswerSaysWhere) {
   const JsonValue answer =
       answer_of(extended_world(),
                 request_with(R"(,"planners":["beeline"],"keep_out":[[[30,30],[34,30],[34,40],[30,40]]])"));
   EXPECT_TRUE(answer.find("summary")->elements.empty());
-  std::string because;
-  for (const JsonValue& words : answer.find("fewer_because")->elements) because += words.text + "\n";
-  EXPECT_NE(because.find("the rover's body would enter a keep-out, the first at (2"), std::string::npos)
-      << because;
+  EXPECT_NE(because(answer).find("the rover's body would enter a keep-out, the first at (2"),
+            std::string::npos)
+      << because(answer);
 }
 
 }  // namespace

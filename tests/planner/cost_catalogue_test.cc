@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 
 #include "core/random.h"
@@ -62,12 +63,30 @@ TEST(Profiles, NameTermsOfTheCatalogueAndKeepTheWeightsThatTheyDoNotName) {
       double expected = asked[row];
       for (const ProfileWeight& changed : profile.changed)
         if (changed.term == asked.terms()[row].name)
-          expected = changed.share_of_asked * asked[row] + changed.fixed;
+          expected = std::clamp(changed.share_of_asked * asked[row], changed.min, changed.max);
       EXPECT_EQ(weights[row], expected) << profile.name << " " << asked.terms()[row].name;
     }
     for (const ProfileWeight& changed : profile.changed)
       EXPECT_NE(asked.of(changed.term), 0.0) << changed.term;
   }
+}
+
+TEST(Profiles, NeverTurnARequestsOwnPreferenceRound) {
+  const auto ratio = [](const Weights& weights, std::string_view first) {
+    return weights.of(first) / weights.of("duration");
+  };
+  Weights asked;
+  asked.set("slip", 400.0);
+  asked.set("risk", 900.0);
+  const auto of = [&](std::string_view name) {
+    const auto rows = profiles();
+    return std::find_if(rows.begin(), rows.end(), [&](const Profile& p) { return p.name == name; })
+        ->weights(asked);
+  };
+  EXPECT_GE(ratio(of("least_slip"), "slip"), ratio(asked, "slip"));
+  EXPECT_GE(ratio(of("least_risk"), "risk"), ratio(asked, "risk"));
+  asked.set("duration", 500.0);
+  EXPECT_LE(ratio(of("shortest"), "slip"), ratio(asked, "slip"));
 }
 
 }  // namespace

@@ -157,6 +157,71 @@ TEST(VerifyRoute, APathOfOnePlaceIsDrivenAtOnce) {
   EXPECT_TRUE(dynamic.samples.empty());
 }
 
+TEST(VerifyRoute, SaysHowFarFromTheRouteTheDriveWas) {
+  const auto dynamic = driven(problem_of(kYard), kCorner).dynamic;
+  ASSERT_EQ(dynamic.end, sim::DriveEnd::kFinished) << dynamic.reason;
+  EXPECT_FALSE(dynamic.left_the_route);
+  const OffRoute& off = dynamic.max_distance_from_route;
+  EXPECT_GT(off.distance_m, 0.0);
+  EXPECT_LT(off.distance_m, 0.15);
+  EXPECT_LE(off.at_m, dynamic.commanded_m + 0.1);
+  EXPECT_GE(off.x_m, 4.5);
+  EXPECT_LE(off.x_m, 9.5);
+}
+
+// The commands lead the rover on along y = 8, the route goes on along y = 12.
+TEST(VerifyRoute, ADriveThatLeavesItsRouteNeitherConfirmsNorRefutesIt) {
+  PlanProblem problem = problem_of(kYard);
+  NoProgress progress;
+  const std::vector<Motion> motions{straight({5.0, 8.0, 0.0}, 9.0, 8.0),
+                                    straight({9.0, 10.5, 0.0}, 16.0, 10.5)};
+  const auto dynamic = verify_route(problem, motions, {}, {}, progress);
+  ASSERT_TRUE(dynamic);
+  EXPECT_TRUE(dynamic->left_the_route);
+  EXPECT_FALSE(dynamic->end);
+  EXPECT_FALSE(dynamic->refutes());
+  EXPECT_EQ(end_in_words(*dynamic), "left_the_route");
+  const double most = max_off_route_m(*problem.rover);
+  EXPECT_GT(dynamic->max_distance_from_route.distance_m, most);
+  EXPECT_LT(dynamic->max_distance_from_route.distance_m, most + 0.1);
+  EXPECT_NEAR(dynamic->max_distance_from_route.y_m, 8.0, 0.2);
+  EXPECT_NEAR(dynamic->pose.x_m, dynamic->max_distance_from_route.x_m, 1e-9);
+  Route route;
+  route.prediction = predict_path(problem, kCorner, progress).value();
+  route.prediction.risk = 0.0;
+  route.dynamic = *dynamic;
+  judge(problem, route);
+  EXPECT_EQ(route.verdict, Verdict::kCaution);
+  std::vector<Route> routes{route};
+  explain(routes);
+  EXPECT_TRUE(routes[0].reasons[0].starts_with(
+      "caution: neither confirmed nor refuted by the dynamic simulation: the drive is 1.7"))
+      << routes[0].reasons[0];
+}
+
+TEST(Explain, HasWordsForARouteWithoutStations) {
+  std::vector<Route> routes(1);
+  explain(routes);
+  EXPECT_EQ(routes[0].reasons.back(), "largest slip 0.00");
+}
+
+// A cross slope on which the rover slides down in every turn and on every metre, with a turn every few
+// metres.
+TEST(VerifyRoute, KeepsToACrookedRouteAcrossASlope) {
+  PlanProblem problem = problem_of(kYard);
+  problem.terrain =
+      dem::make_ramp({.size_m = 80.0, .cell_m = 1.0}, rad_from_deg(12.0), 0.5 * std::numbers::pi);
+  problem.soil_map = nullptr;
+  problem.beliefs.unknown = firm_soil("unknown");
+  std::vector<Waypoint> corners{{-14.0, 0.0, std::nullopt}};
+  for (int k = 1; k <= 10; ++k) corners.push_back({-14.0 + 2.0 * k, k % 2 == 0 ? 0.0 : 2.0, std::nullopt});
+  const auto dynamic = driven(problem, corners).dynamic;
+  ASSERT_EQ(dynamic.end, sim::DriveEnd::kFinished) << dynamic.reason;
+  EXPECT_LT(dynamic.max_distance_from_route.distance_m, 1.0);
+  EXPECT_NEAR(std::hypot(dynamic.pose.x_m - corners.back().x_m, dynamic.pose.y_m - corners.back().y_m), 0.0,
+              0.7);
+}
+
 class CancelledAfter final : public Progress {
  public:
   explicit CancelledAfter(int questions) : left_(questions) {}
@@ -225,6 +290,30 @@ TEST(PlanVerified, AsManyOfTheBestRoutesAsAskedForAreDrivenInTheDynamicSimulatio
   EXPECT_NEAR(dynamic.pose.x_m, problem.goal.x_m, 0.1);
   EXPECT_NEAR(dynamic.pose.y_m, problem.goal.y_m, 0.1);
   EXPECT_NEAR(dynamic.commanded_m, plan->routes[0].prediction.length_m, 1e-6);
+}
+
+// A limit between what the balance and the drive in motion draw: each route that is verified is refuted.
+TEST(PlanVerified, AfterARefutationTheNewBestIsVerifiedTooUntilOneIsOrNoneIsLeft) {
+  PlanProblem problem = problem_of(kYard);
+  problem.routes = 2;
+  problem.verify = 1;
+  NoProgress progress;
+  const auto within = make_plan(problem, progress);
+  ASSERT_TRUE(within) << within.error().detail;
+  ASSERT_EQ(within->routes.size(), 2U);
+  ASSERT_TRUE(within->routes[0].dynamic);
+  EXPECT_FALSE(within->routes[1].dynamic);
+  const double balance = std::max(within->routes[0].prediction.max_current_a.value,
+                                  within->routes[1].prediction.max_current_a.value);
+  const double in_motion = within->routes[0].dynamic->extremes.max_current_a.value;
+  ASSERT_GT(in_motion, 1.02 * balance);
+  problem.limits.max_current_a = 0.5 * (balance + in_motion);
+  const auto plan = make_plan(problem, progress);
+  ASSERT_TRUE(plan) << plan.error().detail;
+  ASSERT_EQ(plan->routes.size(), 2U);
+  EXPECT_TRUE(plan->routes[0].dynamic) << "the best route is verified or refuted";
+  ASSERT_TRUE(plan->routes[1].dynamic) << "the one that was best at first";
+  EXPECT_TRUE(plan->routes[1].dynamic->refutes());
 }
 
 TEST(PlanVerified, MoreThanThreeAreRefused) {

@@ -110,6 +110,38 @@ TEST(DynamicDrive, WithoutFeedbackSlidesDownACrossSlopeAndWithItHoldsItsLine) {
   EXPECT_LT(closed, 0.65 * open);
 }
 
+// Down a cross slope the rover leaves each short leg further than the next one is long: a leg that begins
+// behind its end must end there, and a small turn that is overshot must be taken back, not made a whole one.
+TEST(DynamicDrive, WithPoseFeedbackAChainOfShortLegsIsNeverLeft) {
+  DynamicOptions options;
+  options.feedback = Feedback::kPose;
+  std::vector<DriveLeg> legs{straight(1.0)};
+  for (int k = 0; k < 12; ++k) {
+    legs.push_back(turn(k % 2 == 0 ? 1.5 : 0.01, k % 4 < 2 ? 0.03 : -0.03));
+    legs.push_back(straight(0.03));
+  }
+  for (const double slope_deg : {4.0, 14.0}) {
+    const Driven driven =
+        drive(six_wheeler(), plane(rad_from_deg(slope_deg)), sandy_loam(), rad_from_deg(90.0), legs, options);
+    EXPECT_EQ(driven.drive.end, DriveEnd::kFinished) << driven.drive.reason;
+    EXPECT_NEAR(driven.drive.progress_m, driven.drive.commanded_m, 1e-9);
+    EXPECT_LT(std::hypot(driven.drive.final.x_m - driven.drive.commanded.x_m,
+                         driven.drive.final.y_m - driven.drive.commanded.y_m),
+              1.0)
+        << slope_deg;
+    EXPECT_LT(driven.drive.duration_s, 3000.0);
+  }
+}
+
+TEST(DynamicDrive, WithPoseFeedbackALongCrossSlopeIsTrimmedAway) {
+  DynamicOptions options;
+  options.feedback = Feedback::kPose;
+  const Driven driven = drive(six_wheeler(), plane(rad_from_deg(15.0)), sandy_loam(), rad_from_deg(90.0),
+                              {straight(30.0)}, options);
+  ASSERT_EQ(driven.drive.end, DriveEnd::kFinished) << driven.drive.reason;
+  EXPECT_LT(std::abs(driven.drive.commanded.x_m - driven.drive.final.x_m), 0.1);
+}
+
 TEST(DynamicDrive, YawsTowardsADeadWheel) {
   for (const int dead : {0, 3}) {
     RoverModel rover = six_wheeler();

@@ -108,6 +108,26 @@ TEST(LegDriver, SteersBackToItsLine) {
   }
 }
 
+// A kinematic rover from any distance and heading: it comes to its line, and never circles.
+TEST(LegDriver, BringsARoverBackFromAnyDistanceAndHeading) {
+  const RoverModel rover = six_wheeler();
+  const double l = rover.body_length_m, limit = 0.5 / rover.min_turn_radius_m, step = 0.02;
+  for (const double across : {-40.0, -8.0, -1.0, 0.3, 5.0, 20.0}) {
+    for (const double heading : {-3.0, -1.5, 0.0, 1.0, 2.5}) {
+      double e = across, psi = heading, ahead = 0.0;
+      for (double way = 0.0; way < 2.0 * std::abs(across) + 30.0; way += step) {
+        const double to_line = heading_to_line_rad(rover, {.across_m = e});
+        psi -= step * limit * std::tanh(2.0 * wrapped_rad(psi - to_line) / l / limit);
+        e += step * std::sin(psi);
+        ahead += step * std::cos(psi);
+      }
+      EXPECT_NEAR(e, 0.0, 0.02) << across << " " << heading;
+      EXPECT_NEAR(wrapped_rad(psi), 0.0, 0.02) << across << " " << heading;
+      EXPECT_GT(ahead, 0.5 * std::abs(across)) << "at 45 deg it gets on along the line too";
+    }
+  }
+}
+
 // Steered back to a line that it crabs along at a quarter turn, a wheel would swing half a turn and roll the
 // other way.
 TEST(LegDriver, RollsOnPastAQuarterTurn) {

@@ -89,6 +89,9 @@ std::string dynamic_lines(const JsonValue& figures, const std::string& label) {
   std::string out = table.print();
   const std::string& reason = text(dynamic, "reason");
   out += fmt::format("{}: {}{}{}\n", label, text(dynamic, "end"), reason.empty() ? "" : ", ", reason);
+  const JsonValue& off = at(dynamic, "max_distance_from_route_m");
+  out += fmt::format("Furthest from the route: {:.2f} m at {:.1f} m\n", number(off, "value"),
+                     number(off, "at_m"));
   out += lines(at(dynamic, "broken_limits"), "Limit broken at the dynamic level: ");
   const JsonValue& less = at(dynamic, "less_quasi_static");
   out += fmt::format(

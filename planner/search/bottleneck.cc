@@ -1,0 +1,236 @@
+#include "planner/search/bottleneck.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <span>
+#include <tuple>
+
+#include "core/angle.h"
+#include "planner/search/grid_search.h"
+
+namespace slipway::planner {
+namespace {
+
+constexpr double kNoElevation = 100.0, kInKeepOut = 10.0;  // above any ratio to a limit of interest
+constexpr double kMaxHoldless = 0.99;                      // a slope within the tilt limit is no breach of it
+constexpr double kOneDecimal = 10.0;
+
+double tilt_limit_rad(const PlanProblem& problem) {
+  return std::min(problem.limits.max_tilt_rad, problem.rover->max_tilt_rad);
+}
+
+// How far a cell, driven in a direction, is from what the limits allow: 0 where it is allowed.
+double breach_of(const PlanProblem& problem, const MotionCost& cost, std::size_t index, double heading_rad) {
+  const GroundCell& cell = cost.map().cell(index);
+  const Eigen::Vector2d place = cost.map().centre_m(index);
+  const double tilt = cell.tilt_rad / tilt_limit_rad(problem);
+  switch (cell.passage) {
+    case Passage::kNoData:
+      return kNoElevation;
+    case Passage::kKeepOut:
+      return kInKeepOut;
+    case Passage::kSteep:
+    case Passage::kRough:
+      return std::max(
+          {1.0, tilt, (cell.rise_m + problem.limits.min_clearance_m) / problem.rover->belly_clearance_m});
+    case Passage::kNearKeepOut:
+      if (!cost.map().may_stand({place.x(), place.y(), heading_rad})) return kInKeepOut;
+      [[fallthrough]];
+    case Passage::kFree:
+      break;
+  }
+  const bool held =
+      std::isfinite(cost.per_metre_in_cell(index, std::cos(heading_rad), std::sin(heading_rad)));
+  return held ? 0.0 : std::min(tilt, kMaxHoldless);
+}
+
+// A step of a way, with the cell that is furthest from the limits at either of its ends.
+struct Crossing {
+  std::size_t cell = 0;
+  double breach = 0.0;
+};
+
+struct Reached {
+  double breach, breached_m;
+  std::size_t cell;
+  bool operator>(const Reached& other) const {
+    return std::tie(breach, breached_m, cell) > std::tie(other.breach, other.breached_m, other.cell);
+  }
+};
+
+// The cells from one place to another on the way whose worst breach is least; of those, one with little
+// breached ground.
+std::vector<Crossing> least_breach(const PlanProblem& problem, const MotionCost& cost, const Waypoint& from,
+                                   const Waypoint& to) {
+  const TraverseMap& map = cost.map();
+  const long long start = map.index_at(from.x_m, from.y_m), goal = map.index_at(to.x_m, to.y_m);
+  if (start < 0 || goal < 0) return {};
+  const long long rows = map.geometry().rows, columns = map.geometry().columns;
+  const auto infinity = std::numeric_limits<double>::infinity();
+  std::vector<Reached> best(map.cells(), {infinity, infinity, 0});
+  std::vector<Crossing> crossing(map.cells());
+  std::vector<std::size_t> before(map.cells(), map.cells());
+  std::priority_queue<Reached, std::vector<Reached>, std::greater<>> open;
+  open.push(best[static_cast<std::size_t>(start)] = {0.0, 0.0, static_cast<std::size_t>(start)});
+  while (!open.empty() && open.top().cell != static_cast<std::size_t>(goal)) {
+    const Reached here = open.top();
+    open.pop();
+    if (here > best[here.cell]) continue;
+    const auto row = static_cast<long long>(here.cell) / columns;
+    const auto column = static_cast<long long>(here.cell) % columns;
+    for (int k = 0; k < 8; ++k) {
+      const double heading = k * rad_from_deg(45.0);
+      const long long next_row = row - std::lround(std::sin(heading));
+      const long long next_column = column + std::lround(std::cos(heading));
+      if (next_row < 0 || next_column < 0 || next_row >= rows || next_column >= columns) continue;
+      const auto next = static_cast<std::size_t>(next_row * columns + next_column);
+      Crossing step{next, breach_of(problem, cost, next, heading)};
+      const Crossing leaving{here.cell, breach_of(problem, cost, here.cell, heading)};
+      if (leaving.breach > step.breach) step = leaving;
+      Reached way{std::max(here.breach, step.breach), here.breached_m, next};
+      way.breached_m += (step.breach > 0.0 ? 1.0 : 1e-3) * (k % 2 == 0 ? 1.0 : std::sqrt(2.0)) * map.cell_m();
+      if (!(best[next] > way)) continue;
+      best[next] = way;
+      crossing[next] = step;
+      before[next] = here.cell;
+      open.push(way);
+    }
+  }
+  std::vector<Crossing> way;
+  for (auto at = static_cast<std::size_t>(goal); at < map.cells(); at = before[at])
+    way.push_back(crossing[at]);
+  std::reverse(way.begin(), way.end());
+  return way;
+}
+
+// The limits that the way would need, each no wider than it needs to be.
+struct Relaxed {
+  PlanProblem problem;
+  std::string words;  // "max_tilt_deg = 27.4 and without keep-out 1"
+  bool possible = true;
+};
+
+void add(std::string& words, std::string more) {
+  words += (words.empty() ? "" : " and ") + std::move(more);
+}
+
+Relaxed relax(const PlanProblem& problem, const TraverseMap& map, const std::vector<Crossing>& way) {
+  Relaxed out{.problem = problem, .words = {}};
+  double tilt = 0.0, rise = 0.0;
+  std::vector<std::size_t> zones;
+  for (const Crossing& crossing : way) {
+    if (crossing.breach <= 0.0) continue;
+    const GroundCell& cell = map.cell(crossing.cell);
+    out.possible &= cell.passage != Passage::kNoData;
+    tilt = std::max<double>(tilt, cell.tilt_rad);
+    rise = std::max<double>(rise, cell.rise_m);
+    const Eigen::Vector2d place = map.centre_m(crossing.cell);
+    if (crossing.breach < kInKeepOut) continue;
+    for (std::size_t z = 0; z < problem.keep_out.size(); ++z) {
+      const KeepOut zone(std::span(problem.keep_out).subspan(z, 1), *problem.rover);
+      if (!zone.clear_at_any_heading(place.x(), place.y()) &&
+          std::find(zones.begin(), zones.end(), z) == zones.end())
+        zones.push_back(z);
+    }
+  }
+  if (tilt > problem.rover->max_tilt_rad || rise > problem.rover->belly_clearance_m) out.possible = false;
+  if (tilt > problem.limits.max_tilt_rad) {
+    const double tilt_deg = std::ceil(kOneDecimal * deg_from_rad(tilt) + 1e-3) / kOneDecimal;
+    out.problem.limits.max_tilt_rad = std::min(rad_from_deg(tilt_deg), problem.rover->max_tilt_rad);
+    add(out.words, fmt::format("max_tilt_deg = {:.1f}", deg_from_rad(out.problem.limits.max_tilt_rad)));
+  }
+  if (rise + problem.limits.min_clearance_m > problem.rover->belly_clearance_m) {
+    out.problem.limits.min_clearance_m =
+        std::floor(1000.0 * (problem.rover->belly_clearance_m - rise) - 1e-3) / 1000.0;
+    out.possible &= out.problem.limits.min_clearance_m >= 0.0;
+    add(out.words, fmt::format("min_clearance_m = {:.3f}", out.problem.limits.min_clearance_m));
+  }
+  std::sort(zones.rbegin(), zones.rend());
+  for (const std::size_t z : zones) {
+    out.problem.keep_out.erase(out.problem.keep_out.begin() + static_cast<std::ptrdiff_t>(z));
+    add(out.words, fmt::format("no keep_out/{}", z));
+  }
+  return out;
+}
+
+// What a cell asks for that the limits don't allow.
+std::string breach_in_words(const PlanProblem& problem, const GroundCell& cell, bool keep_out) {
+  if (cell.passage == Passage::kNoData) return "where elevation is missing, or the map ends, near by";
+  if (keep_out) return "in or too near to a keep-out";
+  std::string words;
+  if (cell.tilt_rad > tilt_limit_rad(problem))
+    add(words, fmt::format("{:.1f} deg of tilt where {:.1f} is {}", deg_from_rad(cell.tilt_rad),
+                           deg_from_rad(tilt_limit_rad(problem)),
+                           problem.limits.max_tilt_rad > problem.rover->max_tilt_rad ? "the rover's own limit"
+                                                                                     : "the limit"));
+  const double clearance = problem.rover->belly_clearance_m - cell.rise_m;
+  if (clearance < problem.limits.min_clearance_m)
+    add(words, fmt::format("ground that leaves the belly {:.2f} m of clearance where {:.2f} is the limit",
+                           clearance, problem.limits.min_clearance_m));
+  if (words.empty())
+    words = fmt::format("a slope of {:.1f} deg that the mean soil does not hold the rover on",
+                        deg_from_rad(cell.tilt_rad));
+  return words;
+}
+
+bool has_way(const PlanProblem& problem, const TraverseMap& like, const Waypoint& from, const Waypoint& to) {
+  const KeepOut keep_out(problem.keep_out, *problem.rover);
+  // A little less, so that the window has the same cells whatever the rounding.
+  const dem::Extent window = like.geometry().extent();
+  const double little = 0.25 * like.cell_m();
+  const TraverseMap map(
+      problem, keep_out,
+      {window.west_m + little, window.south_m + little, window.east_m - little, window.north_m - little});
+  const GroundTables tables = build_ground_tables(problem);
+  const MotionCost cost(problem, map, tables, problem.weights);
+  const GridSearch grid(cost);
+  return !grid.way(grid.cost_to_go(to.x_m, to.y_m), from.x_m, from.y_m).empty();
+}
+
+}  // namespace
+
+std::optional<std::string> bottleneck(const PlanProblem& problem, const MotionCost& cost,
+                                      const Waypoint& from, const Waypoint& to) {
+  const TraverseMap& map = cost.map();
+  const std::vector<Crossing> way = least_breach(problem, cost, from, to);
+  const auto worst = std::max_element(
+      way.begin(), way.end(), [](const Crossing& a, const Crossing& b) { return a.breach < b.breach; });
+  if (worst == way.end() || worst->breach <= 0.0) return std::nullopt;
+  const Eigen::Vector2d place = map.centre_m(worst->cell);
+  const bool in_keep_out = worst->breach >= kInKeepOut && worst->breach < kNoElevation;
+  std::string words = fmt::format("every way breaks a limit, the least at ({:.1f}, {:.1f}): {}", place.x(),
+                                  place.y(), breach_in_words(problem, map.cell(worst->cell), in_keep_out));
+  const Relaxed relaxed = relax(problem, map, way);
+  if (!relaxed.possible || relaxed.words.empty()) return words + "; no limit of the request opens a way";
+  return words + (has_way(relaxed.problem, map, from, to)
+                      ? fmt::format("; with {} there is a way", relaxed.words)
+                      : fmt::format("; even with {} the mean soils hold the rover on no way", relaxed.words));
+}
+
+std::optional<std::string> first_closed(const PlanProblem& problem, const MotionCost& cost,
+                                        const std::vector<Motion>& motions) {
+  const TraverseMap& map = cost.map();
+  for (const Motion& motion : motions) {
+    const int pieces = std::max(1, static_cast<int>(std::ceil(2.0 * motion.length_m / map.cell_m())));
+    for (int k = 0; k <= pieces; ++k) {
+      const Pose2 pose = motion.at(motion.length_m * k / pieces);
+      if (std::isfinite(cost.per_metre(pose))) continue;
+      const long long at = map.index_at(pose.x_m, pose.y_m);
+      if (at < 0) return fmt::format("({:.1f}, {:.1f}) is off the map", pose.x_m, pose.y_m);
+      const auto index = static_cast<std::size_t>(at);
+      const double breach = breach_of(problem, cost, index, pose.yaw_rad);
+      return fmt::format(
+          "({:.1f}, {:.1f}), heading {:.0f} deg: {}", pose.x_m, pose.y_m, deg_from_rad(pose.yaw_rad),
+          breach_in_words(problem, map.cell(index), breach >= kInKeepOut && breach < kNoElevation));
+    }
+    if (const auto pose = map.keep_out().first_hit(motion))
+      return fmt::format("({:.1f}, {:.1f}): the rover's body would enter a keep-out", pose->x_m, pose->y_m);
+  }
+  return std::nullopt;
+}
+
+}  // namespace slipway::planner

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "planner/problem/problem.h"
+#include "planner/search/ground_tables.h"
+#include "planner/search/traverse_map.h"
+
+namespace slipway::planner {
+
+// How the grid's best ways through all places, under the request's own weights, lie in the map's window.
+enum class WindowFit {
+  kInside,  // none comes to an edge of the window
+  kAtEdge,  // one does, so that there may be a better one outside; the terrain's own edge is no such edge
+  kNoWay,   // between two places there is no way in the window
+};
+
+WindowFit window_fit(const PlanProblem& problem, const TraverseMap& map, const GroundTables& tables);
+
+// The map's window holds the whole terrain.
+bool covers(const TraverseMap& map, const dem::Terrain& terrain);
+
+}  // namespace slipway::planner
