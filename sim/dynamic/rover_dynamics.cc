@@ -206,7 +206,7 @@ RoverDynamics::WheelDriveState RoverDynamics::drive_of(std::size_t k, const doub
 // As at the quasi-static level, the true attitude is the one that the ground gives plus the rover's attitude
 // bias.
 Vector3d RoverDynamics::gravity_M() const {
-  Vector3d down(0.0, 0.0, -gravity_m_s2_);
+  const Vector3d down(0.0, 0.0, -gravity_m_s2_);
   if (rover_.roll_bias_rad == 0.0 && rover_.pitch_bias_rad == 0.0) return down;
   Attitude truth = attitude_of(R_MB_);
   truth.roll_rad += rover_.roll_bias_rad;
