@@ -239,8 +239,8 @@ void hide_in_place(SealedCampaign& made, sim::EffectSetting& patch, Dice& dice) 
   for (int row = 0; row < grid.rows; ++row)
     for (int column = 0; column < grid.columns; ++column) {
       const Eigen::Vector2d centre = grid.centre_m({row, column});
-      known[static_cast<std::size_t>(row * grid.columns + column)] =
-          disc.holds(centre.x(), centre.y()) ? 1 : 0;
+      known[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns) +
+            static_cast<std::size_t>(column)] = disc.holds(centre.x(), centre.y()) ? 1 : 0;
     }
   terrain.soil_map = std::make_shared<dem::SoilMap>(
       grid, std::vector<std::int16_t>(cells, 1), std::move(known),

@@ -57,11 +57,13 @@ void check_entry(const DriveTable& table, std::size_t k, std::vector<Fault>& fau
       faults.push_back({fmt::format("{}/legs/{}/crab_deg", pointer, i), std::move(*why)});
   for (const auto& [wheel, failure] : entry.failed_wheels) {
     const auto& wheels = table.rover->wheels;
-    if (std::any_of(wheels.begin(), wheels.end(), [&](const auto& w) { return w.name == wheel; })) continue;
+    if (std::any_of(wheels.begin(), wheels.end(),
+                    [&wheel = wheel](const auto& w) { return w.name == wheel; }))
+      continue;
     std::vector<std::string_view> names;
     for (const sim::WheelModel& known : wheels) names.push_back(known.name);
     faults.push_back(
-        {pointer + "/failed_wheels/" + wheel,
+        {fmt::format("{}/failed_wheels/{}", pointer, wheel),
          fmt::format("{} has no wheel {}, it has {}", table.rover->name, wheel, fmt::join(names, ", "))});
   }
 }

@@ -28,7 +28,7 @@ endfunction()
 # Puts the sources of a target into batches of at most so many bytes. Those with headers that take the compiler longest, Eigen's
 # factorisations and CLI11, come first and so together.
 function(slipway_unity target most_bytes)
-  if(NOT SLIPWAY_UNITY OR NOT SLIPWAY_PCH)
+  if(NOT SLIPWAY_UNITY)
     return()
   endif()
   get_target_property(sources ${target} SOURCES)

@@ -196,7 +196,7 @@ void draw_band(std::string& out, const ChartBand& b, const AxisScale& x, const A
   for (std::size_t i = 0; i < std::min({b.x.size(), b.lower.size(), b.upper.size()}); ++i) {
     if (!x.shows(b.x[i]) || !y.shows(b.lower[i]) || !y.shows(b.upper[i])) continue;
     there += fmt::format("{}{:.1f} {:.1f}", there.empty() ? "M" : "L", x.px(b.x[i]), y.px(b.upper[i]));
-    back = fmt::format("L{:.1f} {:.1f}", x.px(b.x[i]), y.px(b.lower[i])) + back;
+    back.insert(0, fmt::format("L{:.1f} {:.1f}", x.px(b.x[i]), y.px(b.lower[i])));
   }
   if (!there.empty())
     out += fmt::format("<path d=\"{}{}Z\" fill=\"{}\" fill-opacity=\"0.2\"/>\n", there, back,
@@ -325,9 +325,11 @@ std::string draw_charts(std::string_view title, std::span<const Chart> charts) {
   const double width = std::max(kPanel_px * static_cast<double>(across), letters);
   const double legend_top = kTitle_px + panel_height * static_cast<double>(down);
   std::string panels, legend;
-  for (std::size_t k = 0; k < charts.size(); ++k)
-    draw_panel(panels, charts[k], k, kPanel_px * static_cast<double>(k % across),
-               kTitle_px + panel_height * static_cast<double>(k / across));
+  for (std::size_t k = 0; k < charts.size(); ++k) {
+    const std::size_t row = k / across, column = k % across;
+    draw_panel(panels, charts[k], k, kPanel_px * static_cast<double>(column),
+               kTitle_px + panel_height * static_cast<double>(row));
+  }
   const double legend_height = draw_legend(legend, legend_of(charts), width, legend_top);
   return open_svg(width, legend_top + legend_height + 6.0, title) + panels + legend + "</svg>\n";
 }

@@ -23,7 +23,7 @@ std::vector<double> nice_ticks(double lowest, double highest, int wanted) {
   const double step = nice_step(span / wanted);
   const double first = std::floor(lowest / step + 1e-9), last = std::ceil(highest / step - 1e-9);
   std::vector<double> ticks;
-  for (double k = first; k <= last; k += 1.0) ticks.push_back(k * step);
+  for (int k = 0; first + k <= last; ++k) ticks.push_back((first + k) * step);
   if (ticks.size() == 1) ticks = {ticks[0] - step, ticks[0], ticks[0] + step};
   return ticks;
 }
@@ -73,9 +73,9 @@ void AxisScale::lay_logarithmic(const ChartAxis& axis, double lowest, double hig
   lowest_ = axis.lowest.value_or(std::pow(10.0, first));
   highest_ = axis.highest.value_or(std::pow(10.0, std::max(last, first + 1.0)));
   const bool few = last - first <= 2.0;
-  for (double k = first; k <= std::max(last, first + 1.0); k += 1.0)
+  for (int k = 0; first + k <= std::max(last, first + 1.0); ++k)
     for (const double factor : {1.0, 2.0, 5.0}) {
-      const double tick = factor * std::pow(10.0, k);
+      const double tick = factor * std::pow(10.0, first + k);
       if ((factor == 1.0 || few) && tick >= lowest_ * (1.0 - 1e-9) && tick <= highest_ * (1.0 + 1e-9))
         add_tick(tick, fmt::format("{:.3g}", tick));
     }

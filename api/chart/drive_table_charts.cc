@@ -158,8 +158,8 @@ std::string draw_time_history(const std::string& title, const sim::RoverModel& r
                             chart("torque, N m"), chart("load, N")};
   charts[0].series.push_back(
       series("rover", ChartMark::kLine, 6, [](const auto& r) { return r.sample.slip_ratio; }));
-  const auto add_angle = [&](std::string name, ChartMark mark, const auto& angle_rad) {
-    charts[1].series.push_back(series(std::move(name), mark, 6, [&](const auto& r) {
+  const auto add_angle = [&](const std::string& name, ChartMark mark, const auto& angle_rad) {
+    charts[1].series.push_back(series(name, mark, 6, [&](const auto& r) {
       return r.has_attitude ? deg_from_rad(angle_rad(r.sample.attitude)) : kNothing;
     }));
   };

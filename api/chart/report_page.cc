@@ -157,6 +157,7 @@ std::string ReportPage::markdown() const {
         out += "\n";
         for (const std::vector<ReportText>& row : block.rows) {
           std::vector<std::string> cells;
+          cells.reserve(row.size());
           for (const ReportText& text : row) cells.push_back(markdown_of(text));
           out += fmt::format("| {} |\n", fmt::join(cells, " | "));
         }

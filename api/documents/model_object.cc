@@ -35,8 +35,8 @@ auto read_document(ObjectReader& reader, std::string_view key, const Read& read)
   if (document) return document;
   const std::vector<Fault>& faults = document.error().faults;
   const std::string pointer = child_pointer(reader.pointer(), key);
-  const auto here =
-      faults.empty() ? std::vector<Fault>{{pointer, document.error().detail}} : moved_under(pointer, faults);
+  std::vector<Fault> here = moved_under(pointer, faults);
+  if (here.empty()) here.push_back({pointer, document.error().detail});
   reader.faults().insert(reader.faults().end(), here.begin(), here.end());
   return document;
 }

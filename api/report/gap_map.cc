@@ -216,7 +216,8 @@ std::string draw_gap_map(const gap::DriveCampaign& campaign, const gap::Diagnosi
           "{:.0f})\"><g clip-path=\"url(#map)\">\n",
           left, top + 16.0, xml_text(fmt::format("{}, {}", terrain.name, kLadder[k].words)), left,
           top + kRowTitle_px);
-      out += ground + windows_in(windows[t], frame, kLadder[k]) + places + scale_bar(frame);
+      out.append(ground).append(windows_in(windows[t], frame, kLadder[k])).append(places);
+      out += scale_bar(frame);
       out += fmt::format("</g><rect width=\"{:.0f}\" height=\"{:.0f}\" fill=\"none\" stroke=\"#888\"/></g>\n",
                          kMap_px, kMapHeight_px);
     }

@@ -24,7 +24,7 @@ std::string RegionalSoil::name() const {
   return name;
 }
 
-RegionalSoils soils_in_regions(std::shared_ptr<const dem::SoilMap> map,
+RegionalSoils soils_in_regions(const std::shared_ptr<const dem::SoilMap>& map,
                                const std::vector<sim::Disc>& regions) {
   RegionalSoils result;
   for (const std::string& name : map->soils()) result.soils.push_back({name, {}});

@@ -26,7 +26,7 @@ struct RegionalSoils {
 // Makes a soil map on which the cells whose centres lie in a region have a soil of their own, so that search,
 // tables and simulation all use it. Unknown ground in a region gets such a soil too. Without regions the map
 // is returned unchanged.
-RegionalSoils soils_in_regions(std::shared_ptr<const dem::SoilMap> map,
+RegionalSoils soils_in_regions(const std::shared_ptr<const dem::SoilMap>& map,
                                const std::vector<sim::Disc>& regions);
 
 }  // namespace slipway::api

@@ -116,7 +116,7 @@ std::vector<EffectVariant> open_effects(const CorrectedBelief& belief) {
     for (const auto& [field, value] : setting.parameters) {
       const auto place = belief.left_open.place_of(setting.name + "." + field, "");
       const auto row = std::find_if(effect->fields.begin(), effect->fields.end(),
-                                    [&](const auto& f) { return f.name == field; });
+                                    [&field = field](const auto& f) { return f.name == field; });
       if (place && row != effect->fields.end())
         variant.free.push_back({field, belief.left_open.deviation(*place), row->lowest, row->highest});
       else

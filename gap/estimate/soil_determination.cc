@@ -69,14 +69,12 @@ std::string_view name_of(Determination determination) {
 void judge(EstimatedParameter& p, const DeterminationGrounds& grounds, const DeterminationOptions& options) {
   const double size = grounds.scale.value_or(std::abs(p.value));
   const bool model_holds = grounds.residual_variance <= options.max_residual_variance;
-  if (!grounds.says_more || !model_holds)
-    p.determination = Determination::kUndetermined;
-  else if (!p.low_open && !p.high_open && p.high - p.low <= 2.0 * options.max_half_width * size)
+  const bool judgeable = grounds.says_more && model_holds;
+  p.determination = Determination::kUndetermined;
+  if (judgeable && !p.low_open && !p.high_open && p.high - p.low <= 2.0 * options.max_half_width * size)
     p.determination = Determination::kDetermined;
-  else if (p.low_open != p.high_open)
+  else if (judgeable && p.low_open != p.high_open)
     p.determination = Determination::kOneSided;
-  else
-    p.determination = Determination::kUndetermined;
   p.words = words_of(p, model_holds);
 }
 

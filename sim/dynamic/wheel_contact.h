@@ -108,7 +108,7 @@ class WheelContacts {
     std::size_t wheel = 0;
     double direction = 1.0, weight = 1.0;
   };
-  static constexpr std::size_t kMaxTrials = 4 * kMaxWheels;
+  static constexpr std::size_t kMaxTrials = std::size_t{4} * kMaxWheels;
 
   // Adds at most four trials of one wheel, and returns their number.
   std::size_t add_trials(std::size_t wheel, const WheelKinematics& kinematics, const ContactState& contact,

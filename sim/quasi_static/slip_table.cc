@@ -57,7 +57,7 @@ SlipTable::SlipTable(const RoverModel& rover, double gravity_m_s2, const Soil& s
     curve_soil_ = soil;
     return;
   }
-  columns_.resize(static_cast<std::size_t>(2 * half + 1));
+  columns_.resize(2 * static_cast<std::size_t>(half) + 1);
   const DriveCommand command{.speed_m_s = rover.cruise_speed_m_s, .motor_temp_c = conditions.motor_temp_c};
   speed_m_s_ = command.speed_m_s * attainable_share(rover, command);
   find_limits(rover, gravity_m_s2, soil, command);

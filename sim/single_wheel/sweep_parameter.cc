@@ -150,6 +150,7 @@ std::optional<Field> sweep_field(std::string_view name, const SoilFormat& format
 
 std::vector<std::string> sweep_field_names(const SoilFormat& format) {
   std::vector<std::string> names;
+  names.reserve(kConditions.size() + wheel_fields().size() + format.fields.size());
   for (const Condition& condition : kConditions) names.emplace_back(condition.field.name);
   for (const ModelField<WheelModel>& row : wheel_fields())
     names.push_back(std::string(kWheel) + std::string(row.field.name));

@@ -66,6 +66,15 @@ TEST(NiceTicks, StepsAreOneTwoOrFiveTimesAPowerOfTenAndCoverTheRange) {
   EXPECT_GE(nice_ticks(3.0, 3.0, 5).size(), 3U);  // one value is a range too
 }
 
+// Two neighbouring numbers are 16384 apart here: a double that counts the ticks, 2e16 and more, stays at its
+// value when one is added to it.
+TEST(NiceTicks, EndForNumbersTooLargeToBeCountedByOnes) {
+  const auto ticks = nice_ticks(1e20, 1e20 + 16384.0, 5);
+  EXPECT_LE(ticks.size(), 8U);
+  EXPECT_EQ(ticks.front(), 1e20);
+  EXPECT_EQ(ticks.back(), 1e20 + 16384.0);
+}
+
 TEST(TickWords, ShowAsManyDecimalsAsTheStepHas) {
   EXPECT_EQ(tick_words(0.30000000000000004, 0.1), "0.3");
   EXPECT_EQ(tick_words(0.25, 0.05), "0.25");

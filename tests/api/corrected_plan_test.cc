@@ -26,7 +26,8 @@ std::string plan(const std::vector<MadeRoute>& routes) {
             R"(","mean_slip":)" + std::to_string(routes[i].mean_slip) +
             R"(,"max_slip":{"value":0.2},"max_sinkage_m":{"value":0.01},"max_current_a":{"value":1},)" +
             R"("energy_wh":5,"risk":{"value":0}})";
-    features += comma + R"({"geometry":{"coordinates":[[)" + x + ",0,0],[" + x + ",10,0]]}}";
+    features.append(comma).append(R"({"geometry":{"coordinates":[[)").append(x).append(",0,0],[");
+    features.append(x).append(",10,0]]}}");
   }
   return R"({"format":"plan/1","summary":[)" + rows + R"(],"routes":{"features":[)" + features + "]}}";
 }

@@ -68,13 +68,15 @@ inline SoilData made_wheel_tests(const sim::Soil& soil, const MadeWheelTests& ma
     WheelObservation o;
     o.test.wheel = {.radius_m = 0.125, .width_m = 0.16};
     o.test.load_n = 20.0 + 70.0 * (i % 5);
-    o.test.slip = 0.03 + 0.75 * (i / 5) / std::max(1.0, made.count / 5.0 - 1.0);
+    const int slip_step = i / 5;
+    o.test.slip = 0.03 + 0.75 * slip_step / std::max(1.0, made.count / 5.0 - 1.0);
     if (made.current) o.test.drive = sim::DriveMotor{};
     sim::WheelRigConditions test = o.test;
     test.soil = soil;
     const sim::WheelRigResult result = sim::run_wheel_rig(test);
     const auto noisy = [&](double value, SoilChannel channel) {
-      const auto counter = static_cast<std::uint64_t>(10 * i + static_cast<int>(channel));
+      const auto counter =
+          std::uint64_t{10} * static_cast<std::uint64_t>(i) + static_cast<std::uint64_t>(channel);
       return value * (1.0 + made.noise * random_normal(random_key(made.seed, 7), counter));
     };
     const auto put = [&](bool wanted, SoilChannel channel, double value) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "api/files/catalogue.h"
 #include "api/files/drive_table/campaign_source.h"
@@ -39,7 +40,7 @@ Model with_effects(const campaign::DriveTable& table, sim::Soil soil,
                    const std::vector<sim::EffectSetting>& more) {
   std::vector<sim::EffectSetting> settings = sim::in_force(table.rover->effects, table.effects);
   settings.insert(settings.end(), more.begin(), more.end());
-  Model model{*table.rover, soil};
+  Model model{*table.rover, std::move(soil)};
   sim::apply_effects(settings, model.rover);
   sim::apply_effects(settings, model.soil);
   // An effect of a patch acts on the whole ground.

@@ -131,7 +131,7 @@ std::string error_map(const std::vector<Attempt>& attempts) {
   map.value_title = "difference of slip (grey: immobile)";
   for (int r = 0; r < kRolls; ++r)
     for (int p = 0; p < kPitches; ++p) {
-      const Attempt& a = attempts[static_cast<std::size_t>(p * kRolls + r)];
+      const Attempt& a = attempts[static_cast<std::size_t>(p) * kRolls + static_cast<std::size_t>(r)];
       map.values.push_back(a.gets_ahead() ? std::optional(std::abs(a.entry.slip_ratio - a.exact.slip_ratio))
                                           : std::nullopt);
     }

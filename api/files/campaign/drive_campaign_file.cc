@@ -24,6 +24,7 @@ constexpr std::size_t kMaxDrives = 10'000;
 
 std::vector<std::string> names_in(const std::vector<gap::NominalSoil>& soils) {
   std::vector<std::string> names;
+  names.reserve(soils.size());
   for (const gap::NominalSoil& soil : soils) names.push_back(soil.name);
   return names;
 }

@@ -19,7 +19,7 @@ constexpr std::size_t kMaxTerrains = 200;
 void read_ripple(ObjectReader& terrain, dem::Relief& relief) {
   auto object = terrain.object("ripple", kOptional);
   if (!object) return;
-  dem::Relief::Ripple& ripple = relief.ripple.emplace();
+  dem::Relief::Ripple& ripple = relief.ripple.emplace(dem::Relief::Ripple{});
   object->number("height_m", kRequired, {"m", 0.0, 10.0, true}, ripple.height_m);
   object->number("width_m", kRequired, {"m", 0.0, 100.0, true}, ripple.width_m);
   object->number("crest_x_m", kOptional, {"m", -1000.0, 1000.0}, ripple.crest_x_m);
@@ -29,7 +29,7 @@ void read_ripple(ObjectReader& terrain, dem::Relief& relief) {
 void read_roughness(ObjectReader& terrain, dem::Relief& relief) {
   auto object = terrain.object("roughness", kOptional);
   if (!object) return;
-  dem::Relief::Roughness& roughness = relief.roughness.emplace();
+  dem::Relief::Roughness& roughness = relief.roughness.emplace(dem::Relief::Roughness{});
   object->number("rms_m", kRequired, {"m", 0.0, 2.0, true}, roughness.rms_m);
   object->number("bump_m", kRequired, {"m", 0.01, 100.0}, roughness.lattice_m);
   object->whole("seed", kOptional, std::uint64_t{0}, std::uint64_t{1} << 53U, roughness.seed);

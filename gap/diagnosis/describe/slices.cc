@@ -75,6 +75,7 @@ std::size_t least_of_slice(std::size_t windows, const SliceOptions& options) {
 
 std::vector<Slice> slices_of(std::span<const WindowVariables> variables, const SliceOptions& options) {
   std::vector<std::vector<Slice>> by_variable;
+  by_variable.reserve(kWindowVariables);
   const std::size_t least = least_of_slice(variables.size(), options);
   for (int v = 0; v < kWindowVariables; ++v)
     by_variable.push_back(slices_of_one(variables, static_cast<WindowVariable>(v), options));

@@ -116,7 +116,7 @@ void NoiseModel::estimate(const Eigen::VectorXd& residuals, const Eigen::MatrixX
            0.5 * prior;
   };
   double value = score(best);
-  for (double step = 1.0; step > 0.15; step *= 0.5) {
+  for (const double step : {1.0, 0.5, 0.25}) {
     for (int sweep = 0; sweep < 3; ++sweep) {
       bool better = false;
       for (int k = 0; k < kNoiseScales; ++k) {

@@ -114,6 +114,7 @@ std::size_t chosen_of_resample(std::vector<Candidate> candidates, const Evidence
     return candidates[a].probability > candidates[z].probability;
   });
   std::vector<Candidate> sorted;
+  sorted.reserve(order.size());
   for (const std::size_t c : order) sorted.push_back(candidates[c]);
   return order[chosen_among(sorted, selection)];
 }
