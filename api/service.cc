@@ -16,6 +16,7 @@
 #include "api/json/faults.h"
 #include "api/request_check.h"
 #include "api/requests/soil_regions.h"
+#include "planner/judge/drive_decision.h"
 #include "planner/make_plan.h"
 #include "planner/predict_path.h"
 #include "planner/search/stage_progress.h"
@@ -82,6 +83,8 @@ sim::SoilDistribution believed(const Catalogue& catalogue, const RegionalSoil& s
 
 // Draws of a decision: the fewest that say something, and the most that are taken.
 constexpr int kFirstDraws = 32, kMaxDecidingDraws = 1000;
+// Of each route of a plan: 272 without an embedding are the fewest that make a GO.
+constexpr int kMaxPlanDraws = 272;
 // Draws that are weighed by drives of the past, of which some weigh little.
 constexpr int kWeighedDraws = 1000;
 
@@ -266,6 +269,7 @@ Result<PlanAnswer> Service::plan(const PlanRequest& request, Progress& progress)
   problem.routes = request.routes;
   problem.verify = request.verify;
   problem.planners = request.planners;
+  problem.deciding_draws = std::exchange(problem.risk.max_draws, 0) > 0 ? kMaxPlanDraws : 0;
   auto plan = planner::make_plan(problem, progress, options_.planners);
   if (!plan) return fail(plan.error());
   return PlanAnswer{request, std::move(setting->provenance), std::move(*plan)};

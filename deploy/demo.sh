@@ -50,9 +50,17 @@ until grep -q " serves .* on $url," "$log"; do
 done
 
 say "asking $url for routes from Curiosity's stop of sol 960 to its stop of sol 1073"
+status=0
 stage "plan" "$slipway" plan --url "$url" --terrain gale --rover msl-class --start 8142688.55,-276614.34 \
-  --goal 8142528.03,-276775.79 --map var/demo-routes.svg || fail "there is no plan"
+  --goal 8142528.03,-276775.79 --map var/demo-routes.svg || status=$?
 echo
+case "$status" in
+  0) echo "The best route is GO." ;;
+  3) [ -s var/demo-routes.svg ] || fail "there is no plan"
+     echo "No route is GO: the best one breaks a limit, for the reasons above." ;;
+  4) echo "The best route is one to be cautious of, for the reasons above." ;;
+  *) fail "there is no plan" ;;
+esac
 echo "The routes on the hillshade: var/demo-routes.svg"
 print_stages
 if [ -n "$once" ]; then

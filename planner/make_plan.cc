@@ -211,8 +211,32 @@ class Planning {
       candidate_of.push_back(list[k]);
     }
     choose(std::move(routes), candidate_of, differences, plan);
+    if (auto drawn = draw_until_decided(proposal, plan); !drawn) return drawn;
     if (plan.routes.size() < static_cast<std::size_t>(problem_.routes))
       say_why_fewer(proposal, unpredicted, in_keep_out, list.front(), plan);
+    return {};
+  }
+
+  // The candidates are compared by the first draws; those that are given out get as many as their verdicts
+  // need.
+  Result<void> draw_until_decided(const Proposal& proposal, Plan& plan) {
+    if (problem_.deciding_draws <= problem_.risk.draws) return {};
+    sim::RiskOptions risk = problem_.risk;
+    risk.max_draws = problem_.deciding_draws;
+    for (std::size_t i = 0; i < plan.routes.size(); ++i) {
+      StageProgress stage(progress_, fmt::format("deciding route {} of {}", i + 1, plan.routes.size()),
+                          kSimulated, kSimulated);
+      const auto stations = route_stations(proposal.candidates[chosen_[i]].motions,
+                                           sim::max_station_spacing_m(*problem_.rover));
+      Result<sim::DrivePrediction> drive =
+          sim::predict_drive(*problem_.rover, problem_.gravity_m_s2, ground_, problem_.beliefs, stations,
+                             problem_.limits, risk, problem_.threads, stage, problem_.conditions);
+      if (progress_.cancelled()) return cancelled();
+      if (!drive) return fail(drive.error());
+      plan.routes[i].prediction = std::move(*drive);
+      judge(problem_, plan.routes[i]);
+    }
+    rank(plan);
     return {};
   }
 

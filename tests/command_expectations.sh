@@ -6,6 +6,9 @@ expect() {
   shift
   status=0
   "$@" >"$folder/out" 2>"$folder/err" || status=$?
+  case "$wanted:$status" in
+    verdict:0 | verdict:3 | verdict:4) return 0 ;;  # a drive or a plan was answered, whatever its verdict
+  esac
   if [ "$status" != "$wanted" ]; then
     echo "exit status $status, expected $wanted, of: $*"
     cat "$folder/err"

@@ -9,11 +9,6 @@
 namespace slipway::api::json {
 namespace {
 
-void write_share(Writer& w, std::string_view name, const sim::DrawnShare& share) {
-  w.key(name).begin_object().significant("value", share.share).significant("low", share.low);
-  w.significant("high", share.high).end_object();
-}
-
 struct RuleUnit {
   std::string_view unit;
   double factor = 1.0;  // from SI

@@ -129,6 +129,14 @@ void write_drive_figures(Writer& w, const sim::DrivePrediction& p) {
   w.significant("high", p.risk_high).significant("immobilised", p.risk_immobilised).whole("draws", p.draws);
   w.key("worst_place").begin_object().significant("value", p.worst_place.value);
   w.metres("at_m", p.worst_place.distance_m).end_object().end_object();
+  write_share(w, "stop", p.outcomes.stop);
+  write_share(w, "embedding", p.outcomes.embedding);
+  w.significant("expected_stops", p.outcomes.expected_stops);
+}
+
+void write_share(Writer& w, std::string_view name, const sim::DrawnShare& share) {
+  w.key(name).begin_object().significant("value", share.share).significant("low", share.low);
+  w.significant("high", share.high).end_object();
 }
 
 void write_stations(Writer& w, const sim::DrivePrediction& prediction, const Provenance& provenance) {

@@ -20,4 +20,7 @@ void write_line(Writer& w, const sim::DrivePrediction& prediction);
 
 void write_provenance(Writer& w, const Provenance& provenance);
 
+// A share of the draws with its interval.
+void write_share(Writer& w, std::string_view name, const sim::DrawnShare& share);
+
 }  // namespace slipway::api::json

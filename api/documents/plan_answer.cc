@@ -1,5 +1,6 @@
 #include "api/documents/plan_answer.h"
 
+#include "api/documents/check_answer.h"
 #include "api/documents/drive_series.h"
 #include "api/documents/dynamic_series.h"
 #include "api/documents/plan_request.h"
@@ -54,6 +55,8 @@ std::string write_plan_answer(const PlanAnswer& answer) {
     write_line(w, route.prediction);
     w.key("properties").begin_object();
     write_route(w, route);
+    write_decision(w, route.decision);
+    write_outcomes(w, route.prediction, answer.provenance);
     write_stations(w, route.prediction, answer.provenance);
     if (route.dynamic) write_dynamic_drive(w, *route.dynamic);
     w.end_object().end_object();

@@ -305,7 +305,18 @@ void write_soil(Writer& w, const sim::SoilDistribution& soil, const sim::SoilFor
   write_fields(w.key("std").begin_object(), spread_of(mean), soil.std);
   w.end_object();
   if (mean.slip_curve == nullptr) write_correlation(w, soil.correlation);
-  w.exact("correlation_length_m", soil.correlation_length_m).end_object();
+  w.exact("correlation_length_m", soil.correlation_length_m);
+  w.key("spread_shares").begin_object().exact("everywhere", soil.shares.everywhere);
+  w.exact("unit", soil.shares.unit).exact("patch", soil.shares.patch).end_object();
+  if (!soil.alternatives.empty()) {
+    w.key("alternatives").begin_array();
+    for (const sim::SoilAlternative& alternative : soil.alternatives) {
+      w.begin_object().text("soil", alternative.name).exact("pressure_weight", alternative.pressure_weight);
+      w.exact("strength_weight", alternative.strength_weight).end_object();
+    }
+    w.end_array().boolean("alternatives_by_unit", soil.alternatives_by_unit);
+  }
+  w.end_object();
 }
 
 }  // namespace slipway::api::json

@@ -11,7 +11,7 @@
 #include "dem/elevation_source.h"
 #include "gap/diagnosis/diagnosis.h"
 #include "gap/diagnosis/model/drive_campaign.h"
-#include "planner/judge/drive_decision.h"
+#include "planner/problem/decision.h"
 #include "planner/problem/dynamic_verification.h"
 #include "planner/problem/route.h"
 

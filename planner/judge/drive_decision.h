@@ -1,24 +1,10 @@
 #pragma once
 
-#include <string>
-#include <string_view>
-#include <vector>
-
+#include "planner/problem/decision.h"
 #include "planner/problem/problem.h"
 #include "sim/prediction/drive_prediction.h"
 
 namespace slipway::planner {
-
-// What an operator does with a drive.
-enum class Decision { kGo, kNoGo, kUnknown };
-
-// "go", "no_go", "unknown".
-std::string_view describe(Decision decision);
-
-struct DriveDecision {
-  Decision decision = Decision::kUnknown;
-  std::vector<std::string> reasons;  // in words and numbers, the deciding ones first
-};
 
 // Decides a predicted drive by the problem's bars (sim::OutcomeBars).
 //   NO-GO    the rover has no stance somewhere, the ground's shape breaks a limit of clearance, or the lower

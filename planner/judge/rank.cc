@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/angle.h"
+#include "planner/judge/drive_decision.h"
 #include "planner/problem/weights.h"
 
 namespace slipway::planner {
@@ -40,6 +41,13 @@ std::string joined(const std::vector<std::string>& parts) {
   return all;
 }
 
+// The first reasons, which decide; the others are in the decision itself.
+std::string deciding(const DriveDecision& decision) {
+  constexpr std::size_t kDeciding = 2;
+  const std::size_t count = std::min(decision.reasons.size(), kDeciding);
+  return joined({decision.reasons.begin(), decision.reasons.begin() + static_cast<std::ptrdiff_t>(count)});
+}
+
 std::string verdict_reason(const Route& route) {
   const sim::DrivePrediction& drive = route.prediction;
   if (drive.immobilised) return "no go: immobilised, " + drive.immobilised->reason;
@@ -52,24 +60,13 @@ std::string verdict_reason(const Route& route) {
                        dynamic->distance_m, dynamic->reason);
   }
   std::string why;
-  if (drive.unknown_length_m > 0.0) {
-    why = fmt::format("{:.0f} of {:.0f} m on unknown ground", drive.unknown_length_m, drive.length_m);
-  } else if (std::any_of(drive.stations.begin(), drive.stations.end(),
-                         [](const sim::StationPrediction& s) { return s.on_unknown_ground; })) {
-    why = "a wheel touches unknown ground";
-  }
-  if (drive.risk > kAcceptedRisk) {
-    why += fmt::format("{}risk {:.0f} % (90 % interval {:.0f} to {:.0f} %) over the accepted {:.0f} %",
-                       why.empty() ? "" : ", ", 100.0 * drive.risk, 100.0 * drive.risk_low,
-                       100.0 * drive.risk_high, 100.0 * kAcceptedRisk);
-  }
+  if (drive.draws > 0 && route.decision.decision != Decision::kGo) why = deciding(route.decision);
   if (dynamic && !dynamic->end)
-    why += fmt::format("{}{} the dynamic simulation: {}", why.empty() ? "" : ", ",
+    why += fmt::format("{}{} the dynamic simulation: {}", why.empty() ? "" : "; ",
                        dynamic->left_the_route ? "neither confirmed nor refuted by" : "no answer from",
                        dynamic->reason);
   if (!why.empty()) return "caution: " + why;
-  return fmt::format("go: within every limit, on known ground, risk {:.0f} % of {} soil draws",
-                     100.0 * drive.risk, drive.draws);
+  return fmt::format("go: within every limit on the mean soils; {}", deciding(route.decision));
 }
 
 // What the dynamic simulation adds to a route that it does not refute.
@@ -148,13 +145,12 @@ void judge(const PlanProblem& problem, Route& route) {
     route.cost += share.cost;
     route.shares.push_back(std::move(share));
   }
-  const bool unknown = std::any_of(drive.stations.begin(), drive.stations.end(),
-                                   [](const sim::StationPrediction& s) { return s.on_unknown_ground; });
+  route.decision = decide(problem, drive);
   const bool refuted = route.dynamic && route.dynamic->refutes();
   const bool unanswered = route.dynamic && !route.dynamic->end;
   if (drive.immobilised || !drive.broken_limits.empty() || refuted) {
     route.verdict = Verdict::kNoGo;
-  } else if (unknown || drive.risk > kAcceptedRisk || unanswered) {
+  } else if ((drive.draws > 0 && route.decision.decision != Decision::kGo) || unanswered) {
     route.verdict = Verdict::kCaution;
   } else {
     route.verdict = Verdict::kGo;

@@ -53,6 +53,7 @@ struct PlanProblem {
   std::vector<std::string> planners;  // names of the catalogue; empty: its default set
   std::uint64_t seed = 1;
   sim::RiskOptions risk;
+  int deciding_draws = 0;   // of a plan's routes, as risk.max_draws; the candidates have risk.draws
   std::size_t threads = 0;  // 0: as many as the machine has
 };
 

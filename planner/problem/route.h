@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "planner/problem/decision.h"
 #include "planner/problem/dynamic_verification.h"
 #include "sim/prediction/drive_prediction.h"
 
@@ -29,8 +30,6 @@ enum class Verdict {
 // "go", "caution", "no_go".
 std::string_view describe(Verdict verdict);
 
-constexpr double kAcceptedRisk = 0.05;
-
 struct Route {
   int rank = 0;         // 1 is best
   std::string planner;  // that proposed it
@@ -40,6 +39,7 @@ struct Route {
   double cost = 0.0;
   std::vector<CostShare> shares;  // add up to cost
   Verdict verdict = Verdict::kGo;
+  DriveDecision decision;            // by the draws of the ground
   std::vector<std::string> reasons;  // why it is ranked so and judged so, in words and numbers
 };
 

@@ -1,5 +1,5 @@
 #!/bin/sh
-# slipway check: a model made of one half of a campaign's drives tells the other half.
+# slipway test-model: a model made of one half of a campaign's drives predicts the other half.
 #   check_command_test.sh SLIPWAY SOURCE_FOLDER
 set -eu
 slipway="$1"
@@ -26,9 +26,9 @@ done
 expect 0 "$slipway" diagnose "$folder/half-0" --data "$data" --model "$folder/model"
 holds '"noise"' "$folder/model/model.json"
 
-expect 0 "$slipway" check "$folder/half-1" --model "$folder/model" --data "$data" --json --threads 1
+expect 0 "$slipway" test-model "$folder/half-1" --model "$folder/model" --data "$data" --json --threads 1
 cp "$folder/out" "$folder/check.json"
-expect 0 "$slipway" check "$folder/half-1" --model "$folder/model" --data "$data" --json --threads 2
+expect 0 "$slipway" test-model "$folder/half-1" --model "$folder/model" --data "$data" --json --threads 2
 cmp "$folder/out" "$folder/check.json"
 python3 - "$folder/check.json" <<'CHECK'
 import json, sys
@@ -47,24 +47,24 @@ slopes = [c for c in d["channels"] if c["channel"] == "current" and c["slope"] !
 assert [c["slope"] for c in slopes] == ["up", "level", "down"], slopes
 assert sum(c["values"] for c in slopes) == current["values"]
 CHECK
-expect 0 "$slipway" check "$folder/half-1" --model "$folder/model" --data "$data"
+expect 0 "$slipway" test-model "$folder/half-1" --model "$folder/model" --data "$data"
 holds '^current  *all' "$folder/out"
 holds 'note: Intervals of the corrected prediction account for' "$folder/out"
 
 # Soil that is called otherwise is refused with its place, and taken where it is named.
 sed -i 's/"nominal"/"sand"/g' "$folder/half-1/campaign.json"
-expect 2 "$slipway" check "$folder/half-1" --model "$folder/model" --data "$data"
+expect 2 "$slipway" test-model "$folder/half-1" --model "$folder/model" --data "$data"
 holds '/soils/sand: "sand" is none of the soils that the model corrects: nominal' "$folder/err"
-expect 0 "$slipway" check "$folder/half-1" --model "$folder/model" --data "$data" --ground sand --json
+expect 0 "$slipway" test-model "$folder/half-1" --model "$folder/model" --data "$data" --ground sand --json
 # Another rover, and a ground that is not there: both are told.
 sed -i 's/"mer-class"/"mer-b"/' "$folder/half-1/campaign.json"
-expect 2 "$slipway" check "$folder/half-1" --model "$folder/model" --data "$data" --ground snad
+expect 2 "$slipway" test-model "$folder/half-1" --model "$folder/model" --data "$data" --ground snad
 holds "/rover/name: the campaign's rover is \"mer-b\", the model's was \"mer-class\"" "$folder/err"
 holds '/ground/0: unknown soil "snad"; did you mean "sand"' "$folder/err"
 # Neither drives nor a model: the faults of both.
 sed -i '5s/^[^,]*,/five,/' "$folder/half-1/D002.csv"
 rm "$folder/model/model.json"
-expect 2 "$slipway" check "$folder/half-1" --model "$folder/model" --data "$data"
+expect 2 "$slipway" test-model "$folder/half-1" --model "$folder/model" --data "$data"
 holds 'D002.csv, line 5, column 1 (t_s)' "$folder/err"
 holds 'model.json#' "$folder/err"
 [ ! -s "$folder/out" ]

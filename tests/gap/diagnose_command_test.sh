@@ -56,7 +56,7 @@ rover="$(basename "$folder/model/rovers/"*.json .json)"
 soil="$(basename "$folder/model/soils/"*.json .json)"
 sed -i "s/mer_b_sandy_loam/$soil/" "$folder/data/terrains/yard/terrain.json"
 predict() {
-  expect 0 "$slipway" predict --data "$folder/data" --terrain yard --rover "$rover" --path 20,30 28,30 30,36 --draws 4 --json "$@"
+  expect verdict "$slipway" predict --data "$folder/data" --terrain yard --rover "$rover" --path 20,30 28,30 30,36 --draws 4 --json "$@"
 }
 predict --motor-temp-c -60
 cp "$folder/out" "$folder/cold.json"
@@ -74,7 +74,7 @@ cp "$folder/out" "$folder/copied.json"
 mkdir "$folder/world"
 cp -r "$data/rovers" "$data/soils" "$source/tests/api/small_world/terrains" "$folder/world"
 world="--data $folder/world --terrain yard --rover mer-class --draws 4"
-expect 0 "$slipway" predict $world --path 20,30 28,30 30,36 --motor-temp-c 20 --json --model "$folder/model" --ground mer_b_sandy_loam
+expect verdict "$slipway" predict $world --path 20,30 28,30 30,36 --motor-temp-c 20 --json --model "$folder/model" --ground mer_b_sandy_loam
 python3 - "$folder/copied.json" "$folder/out" <<'CHECK'
 import json, sys
 copied, taken = (json.load(open(name)) for name in sys.argv[1:3])
@@ -85,9 +85,9 @@ CHECK
 
 # What it changes in a plan: the same request without the model is one side, with it the other.
 route="$world --start 20,30 --goal 30,60"
-expect 0 "$slipway" plan $route --json
+expect verdict "$slipway" plan $route --json
 cp "$folder/out" "$folder/before.json"
-expect 0 "$slipway" plan $route --json --model "$folder/model" --ground mer_b_sandy_loam
+expect verdict "$slipway" plan $route --json --model "$folder/model" --ground mer_b_sandy_loam
 cp "$folder/out" "$folder/after.json"
 expect 0 "$slipway" plan $route --json --model "$folder/model" --ground mer_b_sandy_loam --compare
 python3 - "$folder" "$folder/out" <<'CHECK'

@@ -82,7 +82,6 @@ PlanProblem flat(double size_m, double cell_m) {
                                                     std::vector<dem::SoilClass>{{0, "a", "firm"}});
   problem.beliefs.known = {firm_soil("firm")};
   problem.risk.draws = 1;
-  problem.risk.spacing_m = 5.0;
   return problem;
 }
 

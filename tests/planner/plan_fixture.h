@@ -88,7 +88,6 @@ inline PlanProblem problem_of(std::string_view drawing, double cell_m = 2.0, dou
   problem.limits.max_sinkage_m = 0.2;
   problem.limits.max_current_a = 20.0;
   problem.risk.draws = 4;
-  problem.risk.spacing_m = 1.0;
   return problem;
 }
 

@@ -1,0 +1,154 @@
+// A check from its request to its answer: paths, command sequences, rules, and every branch of the verdict.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "api/documents/check_answer.h"
+#include "api/documents/check_request.h"
+#include "api/files/drive_outcomes.h"
+#include "api/ground_evidence.h"
+#include "api/json/parse.h"
+#include "planner/judge/drive_decision.h"
+#include "small_world.h"
+
+namespace slipway::api {
+namespace {
+
+using json::JsonValue;
+
+std::string request_with(const std::string& members) {
+  return R"({"terrain":"yard","rover":"mer-class",)" + members + "}";
+}
+
+Result<JsonValue> checked(const std::string& members) {
+  const Service& service = testing::small_world();
+  const auto read = service.read_check(request_with(members));
+  if (!read) return fail(read.error());
+  NoProgress progress;
+  const auto answer = service.check(*read, progress);
+  if (!answer) return fail(answer.error());
+  return json::parse(json::write_check_answer(*answer));
+}
+
+std::vector<std::string> faults_of(const std::string& members) {
+  const auto read = testing::small_world().read_check(request_with(members));
+  std::vector<std::string> pointers;
+  if (!read)
+    for (const Fault& fault : read.error().faults) pointers.push_back(fault.pointer);
+  return pointers;
+}
+
+constexpr const char* kPath = R"("path":[{"x_m":20,"y_m":30},{"x_m":24,"y_m":30}],"draws":8)";
+
+TEST(Check, AnswersWithVerdictRulesGroundsAndStretches) {
+  const auto answer = checked(kPath);
+  ASSERT_TRUE(answer) << answer.error().detail;
+  EXPECT_EQ(answer->find("format")->text, "check/1");
+  const std::string& verdict = answer->find("verdict")->text;
+  EXPECT_TRUE(verdict == "go" || verdict == "no_go" || verdict == "unknown") << verdict;
+  EXPECT_FALSE(answer->find("reasons")->elements.empty());
+  const JsonValue* const outcomes = answer->find("outcomes");
+  EXPECT_EQ(outcomes->find("rules")->elements.size(), sim::kRules);
+  EXPECT_EQ(outcomes->find("draws")->number, 8.0);
+  double ground = 0.0;
+  for (const JsonValue& each : outcomes->find("grounds")->elements) ground += each.find("length_m")->number;
+  EXPECT_NEAR(ground, answer->find("summary")->find("length_m")->number, 0.01);
+  EXPECT_EQ(outcomes->find("stretches")->elements.size(), 1u);
+}
+
+TEST(Check, ACommandSequenceDrivesAsThePathThatItMakes) {
+  const auto path = checked(kPath);
+  const auto commands =
+      checked(R"("start":{"x_m":20,"y_m":30,"yaw_deg":0},"commands":[{"drive_m":2,"repeat":2}],"draws":8)");
+  ASSERT_TRUE(path && commands);
+  EXPECT_EQ(path->find("summary")->find("mean_slip")->number,
+            commands->find("summary")->find("mean_slip")->number);
+  EXPECT_EQ(path->find("outcomes")->find("stop")->find("value")->number,
+            commands->find("outcomes")->find("stop")->find("value")->number);
+}
+
+TEST(Check, AnArcEndsWhereItsRadiusLeads) {
+  const auto answer = checked(
+      R"("start":{"x_m":20,"y_m":30,"yaw_deg":0},"commands":[{"arc_m":4.712389,"radius_m":3}],"draws":1)");
+  ASSERT_TRUE(answer) << answer.error().detail;
+  const auto& line =
+      answer->find("routes")->find("features")->elements[0].find("geometry")->find("coordinates")->elements;
+  EXPECT_NEAR(line.back().elements[0].number, 23.0, 0.01);
+  EXPECT_NEAR(line.back().elements[1].number, 33.0, 0.01);
+}
+
+TEST(Check, TheSameRequestGivesTheSameBytes) {
+  const auto read = testing::small_world().read_check(request_with(kPath));
+  ASSERT_TRUE(read);
+  NoProgress progress;
+  EXPECT_EQ(json::write_check_answer(testing::small_world().check(*read, progress).value()),
+            json::write_check_answer(testing::small_world().check(*read, progress).value()));
+}
+
+TEST(Check, EveryFaultIsNamed) {
+  EXPECT_EQ(faults_of(R"("commands":[{"drive_m":2}])"), std::vector<std::string>{"/start"});
+  EXPECT_EQ(faults_of(R"("start":{"x_m":20,"y_m":30},"commands":[{"drive_m":2}])"),
+            std::vector<std::string>{"/start"});
+  EXPECT_EQ(faults_of(R"("start":{"x_m":20,"y_m":30,"yaw_deg":0},"commands":[{"drive_m":2,"turn_deg":5}])"),
+            std::vector<std::string>{"/commands/0"});
+  EXPECT_EQ(faults_of(R"("start":{"x_m":20,"y_m":30,"yaw_deg":0},"commands":[{"arc_m":2,"radius_m":0}])"),
+            std::vector<std::string>{"/commands/0/radius_m"});
+  EXPECT_EQ(faults_of(std::string(kPath) + R"(,"rules":"no_such")"), std::vector<std::string>{"/rules"});
+  EXPECT_EQ(
+      faults_of(std::string(kPath) + R"(,"checks":{"slip_check_every_m":0},"bars":{"max_embedding":2})"),
+      (std::vector<std::string>{"/checks/slip_check_every_m", "/bars/max_embedding"}));
+  EXPECT_EQ(faults_of(std::string(kPath) + R"(,"start":{"x_m":1,"y_m":1,"yaw_deg":0})").front(), "/path");
+}
+
+sim::DrivePrediction prediction_with(sim::DrawnShare embedding, double stops, double low, double high) {
+  sim::DrivePrediction drive;
+  drive.draws = 272;
+  drive.wheel_names = {"lf"};
+  drive.outcomes.embedding = embedding;
+  drive.outcomes.embedding_on_known = embedding;
+  drive.outcomes.expected_stops = drive.outcomes.expected_stops_on_known = stops;
+  drive.outcomes.expected_stops_low = low;
+  drive.outcomes.expected_stops_high = high;
+  return drive;
+}
+
+planner::Decision decided(const sim::DrivePrediction& drive) {
+  return planner::decide(planner::PlanProblem{}, drive).decision;
+}
+
+TEST(Decision, HasEveryBranch) {
+  const sim::DrawnShare never{0.0, 0.0, 0.0098}, often{0.2, 0.1, 0.3}, rarely{0.01, 0.004, 0.02};
+  EXPECT_EQ(decided(prediction_with(never, 0.1, 0.05, 0.2)), planner::Decision::kGo);
+  EXPECT_EQ(decided(prediction_with(often, 0.1, 0.05, 0.2)), planner::Decision::kNoGo);
+  EXPECT_EQ(decided(prediction_with(never, 2.0, 1.5, 2.5)), planner::Decision::kNoGo);
+  EXPECT_EQ(decided(prediction_with(rarely, 0.1, 0.05, 0.2)), planner::Decision::kUnknown);
+  EXPECT_EQ(decided(prediction_with(never, 0.5, 0.3, 0.7)), planner::Decision::kUnknown);
+  // Without what goes wrong on unmapped ground, both would be under their bars.
+  sim::DrivePrediction unmapped = prediction_with(often, 2.0, 1.5, 2.5);
+  unmapped.outcomes.embedding_on_known = never;
+  unmapped.outcomes.expected_stops_on_known = 0.1;
+  EXPECT_EQ(decided(unmapped), planner::Decision::kUnknown);
+  sim::DrivePrediction no_stance = prediction_with(never, 0.0, 0.0, 0.0);
+  no_stance.immobilised = {3.0, {}, "no stance at 3.0 m: the ground is too uneven for the suspension"};
+  EXPECT_EQ(decided(no_stance), planner::Decision::kNoGo);
+  sim::DrivePrediction scrapes = prediction_with(never, 0.0, 0.0, 0.0);
+  scrapes.outcomes.rules.push_back({.rule = sim::Rule::kClearance, .trips = {1.0, 0.9, 1.0}});
+  EXPECT_EQ(decided(scrapes), planner::Decision::kNoGo);
+}
+
+TEST(DriveOutcomeTable, ReadsDrivesBySolAndNamesEveryFault) {
+  const auto table = read_drive_outcomes(
+      R"({"format":"drive-outcomes/1","rover":"msl-class","drives":[)"
+      R"({"sol":5,"outcome":"slip_stop","path":[[0,0],[1,0]]},{"sol":2,"outcome":"completed","path":[[0,0],[1,0]]}]})");
+  ASSERT_TRUE(table) << table.error().detail;
+  EXPECT_EQ(table->drives.front().sol, 2);
+  EXPECT_EQ(table->drives.back().outcome, PastOutcome::kSlipStop);
+  EXPECT_EQ(places_of(*table, 5).size(), 2u) << "only drives before the sol";
+  const auto faulty = read_drive_outcomes(
+      R"({"format":"drive-outcomes/1","rover":"msl-class","drives":[{"sol":-1,"outcome":"lost","path":[[0,0],[1]]}]})");
+  ASSERT_FALSE(faulty);
+  EXPECT_EQ(faulty.error().faults.size(), 3u);
+}
+
+}  // namespace
+}  // namespace slipway::api
