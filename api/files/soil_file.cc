@@ -306,8 +306,11 @@ void write_soil(Writer& w, const sim::SoilDistribution& soil, const sim::SoilFor
   w.end_object();
   if (mean.slip_curve == nullptr) write_correlation(w, soil.correlation);
   w.exact("correlation_length_m", soil.correlation_length_m);
-  w.key("spread_shares").begin_object().exact("everywhere", soil.shares.everywhere);
-  w.exact("unit", soil.shares.unit).exact("patch", soil.shares.patch).end_object();
+  if (const sim::SpreadShares usual; soil.shares.everywhere != usual.everywhere ||
+                                     soil.shares.unit != usual.unit || soil.shares.patch != usual.patch) {
+    w.key("spread_shares").begin_object().exact("everywhere", soil.shares.everywhere);
+    w.exact("unit", soil.shares.unit).exact("patch", soil.shares.patch).end_object();
+  }
   if (!soil.alternatives.empty()) {
     w.key("alternatives").begin_array();
     for (const sim::SoilAlternative& alternative : soil.alternatives) {

@@ -94,25 +94,35 @@ TEST(DriveOutcome, ASinkageOverTheLimitIsNoStopAndOneNearTheAxleEmbeds) {
   EXPECT_EQ(embedded.events.back().station, 20u);
 }
 
-TEST(DriveOutcome, ARoverThatSpinsForATurnBeforeTheNextCheckIsEmbedded) {
-  EXPECT_TRUE(drive({{6.0, 0.0}, {0.25, 0.0, 0.0, 1.0, 0.02, false}}).embedded);
+constexpr Piece kStuck{0.25, 0.0, 0.0, 1.0, 0.02, false};
+constexpr SlipChecks kATurnEmbeds{.embedding_turns = 1.0};
+
+TEST(DriveOutcome, ARoverThatSpinsForTooManyTurnsBeforeTheNextCheckIsEmbedded) {
+  EXPECT_TRUE(drive({{6.0, 0.0}, kStuck}, kATurnEmbeds).embedded);
   // With a check every half metre it halts first.
   const DriveOutcome checked =
-      drive({{6.0, 0.0}, {0.25, 0.0, 0.0, 1.0, 0.02, false}}, {.slip_check_every_m = 0.5});
+      drive({{6.0, 0.0}, kStuck}, {.slip_check_every_m = 0.5, .embedding_turns = 1.0});
   EXPECT_FALSE(checked.embedded);
   EXPECT_EQ(checked.stops, 1);
+  // Ten turns roll 7.9 m: checks every 5 m stop it, checks every 20 m come too late.
+  EXPECT_FALSE(drive({{6.0, 0.0}, kStuck}).embedded);
+  EXPECT_EQ(drive({{6.0, 0.0}, kStuck}).stops, 1);
+  EXPECT_TRUE(drive({{6.0, 0.0}, kStuck}, {.slip_check_every_m = 20.0}).embedded);
 }
 
 TEST(DriveOutcome, LittleLeftBeforeACheckThatPassesIsSpunOutAfterIt) {
   // 4.75 m are rolled when it sticks: the check after 5 m sees 5 % of slip and lets it go on spinning.
-  EXPECT_TRUE(drive({{4.75, 0.0}, {0.25, 0.0, 0.0, 1.0, 0.02, false}}).embedded);
+  EXPECT_TRUE(drive({{4.75, 0.0}, kStuck}, kATurnEmbeds).embedded);
+  const DriveOutcome stopped = drive({{4.75, 0.0}, kStuck});
+  EXPECT_FALSE(stopped.embedded);
+  EXPECT_EQ(stopped.stops, 1);
 }
 
 TEST(DriveOutcome, ASlipNearOneDigsAsASpinDoes) {
   // 0.05 m at 0.95 roll 1 m, more than a turn.
-  EXPECT_TRUE(drive({{2.0, 0.0}, {0.05, 0.95}}).embedded);
-  EXPECT_FALSE(drive({{2.0, 0.0}, {0.02, 0.95}, {3.0, 0.0}}).embedded);
-  EXPECT_FALSE(drive({{2.0, 0.0}, {0.05, 0.85}, {3.0, 0.0}}).embedded);
+  EXPECT_TRUE(drive({{2.0, 0.0}, {0.05, 0.95}}, kATurnEmbeds).embedded);
+  EXPECT_FALSE(drive({{2.0, 0.0}, {0.02, 0.95}, {3.0, 0.0}}, kATurnEmbeds).embedded);
+  EXPECT_FALSE(drive({{2.0, 0.0}, {0.05, 0.85}, {3.0, 0.0}}, kATurnEmbeds).embedded);
 }
 
 TEST(DriveOutcome, WhatIsShorterByACentimetreIsCheckedToo) {
