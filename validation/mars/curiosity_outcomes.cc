@@ -12,7 +12,7 @@
 namespace slipway::validation {
 namespace {
 
-constexpr int kDraws = 200;
+constexpr int kDraws = 100;
 constexpr int kAllSols = 1'000'000;
 
 struct Scored {
@@ -65,7 +65,10 @@ std::vector<planner::Waypoint> on_the_map(const api::PastDrive& drive, const dem
 
 Result<sim::DrivePrediction> checked(const api::Service& service, const std::vector<planner::Waypoint>& path,
                                      std::optional<int> as_of_sol) {
-  api::CheckRequest request{.terrain = "gale", .rover = "msl-class", .path = path};
+  api::CheckRequest request;
+  request.terrain = "gale";
+  request.rover = "msl-class";
+  request.path = path;
   request.drive.draws = kDraws;
   request.drive.as_of_sol = as_of_sol;
   NoProgress progress;
@@ -144,7 +147,9 @@ Result<Report> curiosity_outcomes(const std::filesystem::path& data) {
     const auto with_all = checked(**service, path, kAllSols);
     for (const auto* each : {&as_of, &without, &with_all})
       if (!*each) return fail(each->error());
-    Scored drive{.sol = past.sol, .stopped = past.outcome == api::PastOutcome::kSlipStop};
+    Scored drive;
+    drive.sol = past.sol;
+    drive.stopped = past.outcome == api::PastOutcome::kSlipStop;
     drive.length_m = without->length_m;
     drive.mean_slip = without->mean_slip_ratio;
     drive.as_of = 1.0 - as_of->outcomes.completed.share;
