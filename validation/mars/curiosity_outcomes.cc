@@ -90,8 +90,9 @@ std::string words(const char* what, const Score& s) {
 
 void add_notes(const std::vector<Scored>& drives, Report& report) {
   const Score as_of = score(drives, &Scored::as_of);
-  report.notes.push_back(words("As of each sol (blind to its own outcome and later ones)", as_of));
-  report.notes.push_back(words("Without drives of the past (blind)", score(drives, &Scored::without)));
+  report.notes.push_back(words("As of each sol (its own outcome and later ones withheld)", as_of));
+  report.notes.push_back(
+      words("Without drives of the past (nothing fitted to them)", score(drives, &Scored::without)));
   report.notes.push_back(
       words("With all drives (fitted: each drive's own outcome is in it)", score(drives, &Scored::with_all)));
   const double rate = 3.0 / static_cast<double>(drives.size());
