@@ -28,8 +28,8 @@ inline constexpr double kWeakShare = 0.001;
 // the cell of the nearest of the jittered centres of a lattice.
 //
 // Alternatives on which the rover could not drive even level ground are drawn again, but for a share of
-// kWeakShare: their numbers come from tests of a few wheels and trenches, while rovers have driven such ground
-// for some 100 km and were embedded with their slip checked every few metres once (Spirit at Troy).
+// kWeakShare: their numbers come from tests of a few wheels and trenches, while rovers have driven such
+// ground for some 100 km and were embedded with their slip checked every few metres once (Spirit at Troy).
 class DrawnGround {
  public:
   // Whether the rover drives level ground of a soil; where it is empty, all soils are drawn as they come.

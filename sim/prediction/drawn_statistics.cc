@@ -1,0 +1,234 @@
+#include "sim/prediction/drawn_statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "core/normal_interval.h"
+
+namespace slipway::sim {
+namespace {
+
+// Type 7 of Hyndman and Fan where all weigh the same. There must be a value.
+double weighted_quantile(std::vector<std::pair<double, double>> values, double share) {
+  std::sort(values.begin(), values.end());
+  double sum = 0.0;
+  for (const auto& [value, weight] : values) sum += weight;
+  const double span = sum - values.back().second;
+  if (span <= 0.0) return values.back().first;
+  double before = 0.0;
+  for (std::size_t k = 0; k + 1 < values.size(); ++k) {
+    const double here = before / span, next = (before + values[k].second) / span;
+    if (share <= next) {
+      const double part = next > here ? (share - here) / (next - here) : 0.0;
+      return values[k].first + part * (values[k + 1].first - values[k].first);
+    }
+    before += values[k].second;
+  }
+  return values.back().first;
+}
+
+// Sums over weighted draws.
+class Weighted {
+ public:
+  explicit Weighted(const std::vector<DrawnDrive>& drives) : drives_(drives) {
+    double squares = 0.0;
+    for (const DrawnDrive& drive : drives) {
+      sum_ += drive.weight;
+      squares += drive.weight * drive.weight;
+    }
+    effective_ = sum_ * sum_ / squares;
+  }
+
+  double effective() const { return effective_; }
+
+  template <class Of>
+  double mean(Of of) const {
+    double total = 0.0;
+    for (const DrawnDrive& drive : drives_) total += drive.weight * static_cast<double>(of(drive));
+    return total / sum_;
+  }
+
+  // Wilson's interval for a share of n, at 90 % [Wilson 1927].
+  template <class Of>
+  DrawnShare share(Of of) const {
+    constexpr double z = kReach90;
+    const double n = effective_, p = std::clamp(mean(of), 0.0, 1.0);
+    const double centre = (p + z * z / (2.0 * n)) / (1.0 + z * z / n);
+    const double half = z / (1.0 + z * z / n) * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n));
+    return {p, std::max(0.0, centre - half), std::min(1.0, centre + half)};
+  }
+
+  template <class Of>
+  double quantile(Of of, double at) const {
+    std::vector<std::pair<double, double>> values;
+    for (const DrawnDrive& drive : drives_) values.emplace_back(of(drive), drive.weight);
+    return weighted_quantile(std::move(values), at);
+  }
+
+ private:
+  const std::vector<DrawnDrive>& drives_;
+  double sum_ = 0.0, effective_ = 0.0;
+};
+
+double limit_of(Rule rule, const DriveLimits& limits) {
+  switch (rule) {
+    case Rule::kSlipCheck:
+      return limits.max_slip_ratio;
+    case Rule::kTilt:
+      return limits.max_tilt_rad;
+    case Rule::kCurrent:
+      return limits.max_current_a;
+    case Rule::kSinkage:
+      return limits.max_sinkage_m;
+    case Rule::kClearance:
+      return limits.min_clearance_m;
+    case Rule::kEmbedding:
+      break;
+  }
+  return 1.0;
+}
+
+RuleRisk rule_risk(Rule rule, const std::vector<DrawnDrive>& drives, const Weighted& weighted,
+                   const DriveLimits& limits) {
+  const auto value = [&](const DrawnDrive& d) { return d.outcome.of(rule).value; };
+  RuleRisk risk{.rule = rule,
+                .limit = limit_of(rule, limits),
+                .value_p05 = weighted.quantile(value, 0.05),
+                .value_p50 = weighted.quantile(value, 0.50),
+                .value_p95 = weighted.quantile(value, 0.95),
+                .trips = weighted.share([&](const DrawnDrive& d) { return d.outcome.of(rule).tripped; })};
+  std::map<std::pair<std::size_t, int>, double> places;
+  bool first = true;
+  for (const DrawnDrive& drive : drives) {
+    const RuleTrace& trace = drive.outcome.of(rule);
+    if (drive.weight <= 0.0) continue;
+    places[{trace.station, trace.wheel}] += drive.weight;
+    if (!trace.tripped) continue;
+    risk.from_m = first ? trace.first_m : std::min(risk.from_m, trace.first_m);
+    risk.to_m = first ? trace.last_m : std::max(risk.to_m, trace.last_m);
+    first = false;
+  }
+  double most = 0.0;
+  for (const auto& [place, weight] : places) {
+    if (weight <= most) continue;
+    most = weight;
+    risk.station = place.first;
+    risk.wheel = place.second;
+  }
+  return risk;
+}
+
+// The ground that a station stands for: unknown where any wheel is on unknown ground.
+std::optional<std::size_t> ground_of(const PreparedStation& station) {
+  std::optional<std::size_t> soil = station.soil[0];
+  for (std::size_t k = 0; k < station.soil.size(); ++k)
+    if (!station.soil[k]) soil.reset();
+  return soil;
+}
+
+// Stops and embeddings by ground and by stretch.
+void locate(const std::vector<DrawnDrive>& drives, const std::vector<PreparedStation>& stations,
+            DriveOutcomes& out) {
+  constexpr double kMinStretch_m = 10.0;
+  constexpr double kMaxStretches = 100.0;
+  if (stations.empty()) return;
+  const double length = stations.back().distance_m;
+  const double pieces = std::clamp(std::ceil(length / kMinStretch_m - 1e-9), 1.0, kMaxStretches);
+  for (int k = 0; k < static_cast<int>(pieces); ++k)
+    out.stretches.push_back({length * k / pieces, length * (k + 1) / pieces, 0.0, 0.0});
+  std::map<std::optional<std::size_t>, GroundRisk> grounds;
+  for (const PreparedStation& station : stations) {
+    GroundRisk& ground = grounds[ground_of(station)];
+    ground.soil = ground_of(station);
+    ground.length_m += station.drive_m;
+  }
+  double sum = 0.0;
+  for (const DrawnDrive& drive : drives) sum += drive.weight;
+  for (const DrawnDrive& drive : drives) {
+    for (const OutcomeEvent& event : drive.outcome.events) {
+      const PreparedStation& station = stations[event.station];
+      const auto piece = static_cast<std::size_t>(
+          length > 0.0 ? std::min(pieces - 1.0, std::floor(station.distance_m / length * pieces)) : 0.0);
+      GroundRisk& ground = grounds[ground_of(station)];
+      const bool embeds = event.rule == Rule::kEmbedding;
+      (embeds ? ground.embedding : ground.expected_stops) += drive.weight / sum;
+      (embeds ? out.stretches[piece].embedding : out.stretches[piece].expected_stops) += drive.weight / sum;
+    }
+  }
+  for (const auto& [soil, ground] : grounds) out.grounds.push_back(ground);
+}
+
+DriveOutcomes outcomes_of(const std::vector<DrawnDrive>& drives, const Weighted& weighted,
+                          const std::vector<PreparedStation>& stations, const DriveLimits& limits) {
+  DriveOutcomes out;
+  out.effective_draws = weighted.effective();
+  out.stop = weighted.share([](const DrawnDrive& d) { return d.outcome.stops > 0; });
+  out.embedding = weighted.share([](const DrawnDrive& d) { return d.outcome.embedded; });
+  out.completed =
+      weighted.share([](const DrawnDrive& d) { return d.outcome.stops == 0 && !d.outcome.embedded; });
+  const double mean = weighted.mean([](const DrawnDrive& d) { return d.outcome.stops; });
+  const double square = weighted.mean([](const DrawnDrive& d) { return d.outcome.stops * d.outcome.stops; });
+  const double error = std::sqrt(std::max(0.0, square - mean * mean) / weighted.effective());
+  // Where hardly any draw stops, their scatter says little: the share of draws with a stop bounds the mean.
+  out.expected_stops = mean;
+  out.expected_stops_low = std::max({0.0, mean - kReach90 * error, std::min(mean, out.stop.low)});
+  out.expected_stops_high = std::max(mean + kReach90 * error, mean > 0.0 ? mean : out.stop.high);
+  const auto on_known = [&](const DrawnDrive& d, bool embeddings) {
+    return static_cast<double>(
+        std::count_if(d.outcome.events.begin(), d.outcome.events.end(), [&](const OutcomeEvent& event) {
+          return (event.rule == Rule::kEmbedding) == embeddings && ground_of(stations[event.station]);
+        }));
+  };
+  out.embedding_on_known = weighted.share([&](const DrawnDrive& d) { return on_known(d, true); });
+  out.expected_stops_on_known = weighted.mean([&](const DrawnDrive& d) { return on_known(d, false); });
+  locate(drives, stations, out);
+  for (std::size_t rule = 0; rule < kRules; ++rule)
+    out.rules.push_back(rule_risk(static_cast<Rule>(rule), drives, weighted, limits));
+  return out;
+}
+
+}  // namespace
+
+void fill_station(const std::vector<DrawnDrive>& drives, std::size_t s, StationPrediction& station) {
+  std::vector<std::pair<double, double>> slip, current, sinkage;
+  double bad = 0.0, all = 0.0;
+  for (const DrawnDrive& drive : drives) {
+    all += drive.weight;
+    if (s < drive.bad.size() && drive.bad[s]) bad += drive.weight;
+    if (s >= drive.slip.size()) continue;
+    slip.emplace_back(drive.slip[s], drive.weight);
+    current.emplace_back(drive.current_a[s], drive.weight);
+    sinkage.emplace_back(drive.sinkage_m[s], drive.weight);
+  }
+  station.risk = bad / all;
+  if (slip.empty()) return;  // no draw came this far, so that the values on the mean soils remain
+  station.slip_ratio_p05 = weighted_quantile(slip, 0.05);
+  station.slip_ratio_p50 = weighted_quantile(slip, 0.50);
+  station.slip_ratio_p95 = weighted_quantile(slip, 0.95);
+  station.current_a_p95 = weighted_quantile(current, 0.95);
+  station.sinkage_m_p95 = weighted_quantile(sinkage, 0.95);
+}
+
+void summarise(const std::vector<DrawnDrive>& drives, const std::vector<PreparedStation>& stations,
+               const DriveLimits& limits, DrivePrediction& prediction) {
+  const Weighted weighted(drives);
+  const DrawnShare risk = weighted.share([](const DrawnDrive& d) { return d.any_bad; });
+  prediction.draws = static_cast<int>(drives.size());
+  prediction.risk = risk.share;
+  prediction.risk_low = risk.low;
+  prediction.risk_high = risk.high;
+  prediction.risk_immobilised = weighted.mean([](const DrawnDrive& d) { return d.immobilised; });
+  prediction.outcomes = outcomes_of(drives, weighted, stations, limits);
+  std::vector<std::pair<double, double>> duration, energy;
+  for (const DrawnDrive& drive : drives) {
+    if (drive.immobilised || drive.weight <= 0.0) continue;
+    duration.emplace_back(drive.duration_s, drive.weight);
+    energy.emplace_back(drive.energy_j, drive.weight);
+  }
+  prediction.duration_s_p95 = duration.empty() ? prediction.duration_s : weighted_quantile(duration, 0.95);
+  prediction.energy_j_p95 = energy.empty() ? prediction.energy_j : weighted_quantile(energy, 0.95);
+}
+
+}  // namespace slipway::sim
