@@ -15,7 +15,7 @@
 #include "api/service.h"
 #include "core/version.h"
 #include "server/cli/command_parts.h"
-#include "server/cli/data_folder.h"
+#include "server/cli/inquiry/data_folder.h"
 #include "server/cli/serve_command.h"
 #include "server/cli/terminal/tables.h"
 #include "server/http/http_cross_origin.h"

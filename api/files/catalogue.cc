@@ -61,10 +61,9 @@ void join_alternatives(Catalogue& catalogue, std::vector<Fault>& faults) {
       const auto found = catalogue.soils.find(alternative.name);
       if (found == catalogue.soils.end()) {
         faults.push_back({pointer, unknown_name("soil", alternative.name, names_of(catalogue.soils))});
-      } else if (!found->second.alternatives.empty() || found->second.mean.slip_curve != nullptr) {
+      } else if (!found->second.alternatives.empty()) {
         faults.push_back(
-            {pointer, fmt::format("soil {} can't be an alternative: it has alternatives of its own, "
-                                  "or is known by a slip curve alone",
+            {pointer, fmt::format("soil {} can't be an alternative: it has alternatives of its own",
                                   alternative.name)});
       } else {
         alternative.soil = std::make_shared<const sim::SoilDistribution>(found->second);

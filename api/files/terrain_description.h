@@ -25,7 +25,7 @@ struct TerrainDescription {
   std::string soil_property;  // of the polygons: which property is the label
   dem::PolygonCoordinates soil_coordinates = dem::PolygonCoordinates::kMap;
   std::vector<dem::SoilClass> legend;
-  std::string assumption;  // why these classes are believed to be these soils
+  std::string assumption;   // why these classes are believed to be these soils
   double confidence = 1.0;  // the probability that a class is the soil that the legend gives
   std::optional<std::string> stops_file;
   std::optional<std::string> outcomes_file;  // how drives on this ground ended

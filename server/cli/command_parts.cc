@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "api/files/whole_file.h"
-#include "server/cli/data_folder.h"
+#include "server/cli/inquiry/data_folder.h"
 #include "server/cli/terminal/tables.h"
 
 namespace slipway::server {

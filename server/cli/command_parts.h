@@ -10,7 +10,7 @@
 #include "core/progress.h"
 #include "core/result.h"
 #include "server/cli/ask_options.h"
-#include "server/cli/inquiry.h"
+#include "server/cli/inquiry/inquiry.h"
 #include "server/cli/terminal/interruption.h"
 #include "sim/single_wheel/current_map.h"
 

@@ -11,7 +11,7 @@
 #include "api/service.h"
 #include "core/angle.h"
 #include "server/cli/command_parts.h"
-#include "server/cli/data_folder.h"
+#include "server/cli/inquiry/data_folder.h"
 
 namespace slipway::server {
 namespace {

@@ -7,7 +7,7 @@
 #include "server/cli/ask_options.h"
 #include "server/cli/drive_options.h"
 #include "server/cli/exit_status.h"
-#include "server/cli/inquiry.h"
+#include "server/cli/inquiry/inquiry.h"
 
 // What the answers to plans and predictions have in common.
 namespace slipway::server {

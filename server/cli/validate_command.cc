@@ -9,7 +9,7 @@
 
 #include "api/files/whole_file.h"
 #include "server/cli/command_parts.h"
-#include "server/cli/data_folder.h"
+#include "server/cli/inquiry/data_folder.h"
 #include "server/cli/terminal/tables.h"
 #include "validation/comparison_catalogue.h"
 #include "validation/document.h"

@@ -58,10 +58,11 @@ const SoilDistribution& chosen(const std::vector<SoilAlternative>& alternatives,
   return *alternatives.back().soil;
 }
 
-// The strength of one soil with the pressure of another.
+// The strength of one soil with the pressure of another. A soil that is known by its slip curve alone has
+// neither.
 Soil joined(const SoilDistribution& strength, const SoilDistribution& pressure, const SoilNormals& z) {
   Soil soil = draw_soil(strength, z);
-  if (&pressure == &strength) return soil;
+  if (&pressure == &strength || strength.mean.slip_curve || pressure.mean.slip_curve) return soil;
   const Soil other = draw_soil(pressure, z);
   soil.pressure = other.pressure;
   soil.pressure_law = other.pressure_law;

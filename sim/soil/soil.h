@@ -119,8 +119,8 @@ struct SoilDistribution;
 struct SoilAlternative {
   std::string name;
   std::shared_ptr<const SoilDistribution> soil;  // of that name; without alternatives of its own
-  double pressure_weight = 1.0;  // for k_c, k_phi, n and the law of pressure
-  double strength_weight = 1.0;  // for everything else
+  double pressure_weight = 1.0;                  // for k_c, k_phi, n and the law of pressure
+  double strength_weight = 1.0;                  // for everything else
 };
 
 // What is believed of a soil: a mean, its spread and how far along the ground one draw holds. The five

@@ -30,7 +30,7 @@ FOLDERS = {
     "api": ["json", "chart", "files", "files/campaign", "files/drive_table", "files/sealed_set", "requests", "jobs",
             "documents", "report", "."],
     "validation": ["report", "laboratory", {"cuadriga", "mars", "simulators"}, "."],
-    "server": ["http", "cli/terminal", "cli", "."],
+    "server": ["http", "cli/terminal", "cli/inquiry", "cli", "."],
 }
 MOST_SOURCES = 40  # .cc files in one folder
 

@@ -1,4 +1,4 @@
-#include "server/cli/data_folder.h"
+#include "server/cli/inquiry/data_folder.h"
 
 #include <fmt/format.h>
 

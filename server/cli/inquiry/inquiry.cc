@@ -1,4 +1,4 @@
-#include "server/cli/inquiry.h"
+#include "server/cli/inquiry/inquiry.h"
 
 #include <fmt/format.h>
 
