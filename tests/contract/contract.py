@@ -205,8 +205,7 @@ class Contract(unittest.TestCase):
         request = plan(routes=2, draws=8, seed=5)
         first = self.server.answer("/v1/plans", request)
         self.assertEqual(first, self.server.answer("/v1/plans", request))
-        local = subprocess.run([SLIPWAY, "plan", "--data", DATA, "--json", "--request", "-"], input=json.dumps(request).encode(),
-                               capture_output=True, check=True).stdout
+        local = answered([SLIPWAY, "plan", "--data", DATA, "--json", "--request", "-"], input=json.dumps(request).encode()).stdout
         self.assertEqual(first, local.rstrip(b"\n"))
 
     def test_a_poller_hears_when_nothing_changed(self):

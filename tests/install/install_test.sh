@@ -41,7 +41,7 @@ holds "^data: $source/data (found by looking beside the executable)$" "$folder/s
 plan="plan --start 8142688.55,-276614.34 --goal 8142660,-276640 --routes 1 --json"
 expect verdict "$built" $plan --data "$source/data"
 mv "$folder/out" "$folder/wanted"
-expect 0 "$slipway" $plan
+expect verdict "$slipway" $plan
 cmp "$folder/wanted" "$folder/out"
 expect 0 "$slipway" campaign list
 holds '^fido_table_1 ' "$folder/out"
