@@ -52,7 +52,8 @@ DrawnDrive DrawnDriver::run(std::uint64_t key, bool keep_states, const Progress&
 bool DrawnDriver::drives_level(const Soil& soil) const {
   if (!level_) return true;
   QuasiStaticSolver solver(rover_, gravity_m_s2_, Precision::kDraws);
-  return solver.solve(*level_, soil, {.speed_m_s = rover_.cruise_speed_m_s}).moving();
+  const StationState state = solver.solve(*level_, soil, {.speed_m_s = rover_.cruise_speed_m_s});
+  return state.moving() && state.slip_ratio < kMaxLevelSlip;
 }
 
 void DrawnDriver::add(const PreparedStation& station, const StationState& state, bool keep_states,

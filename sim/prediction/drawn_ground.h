@@ -17,6 +17,9 @@ inline constexpr double kUnitLength_m = 100.0;
 // The share of units in which the rover can't drive even on the level: one in some 1,000 units of 100 m.
 inline constexpr double kWeakShare = 0.001;
 
+// A rover drives level ground where it slips less than this on it.
+inline constexpr double kMaxLevelSlip = 0.2;
+
 // One draw of all the ground, for a workspace of one thread: which soil lies at each place. It is a function
 // of the key and the place alone, so that routes under one key meet the same ground wherever they cross,
 // however their stations are spaced, and a drive of the past tells of the ground of the next.
@@ -27,8 +30,8 @@ inline constexpr double kWeakShare = 0.001;
 // variance of one everywhere. Of alternatives one is chosen for all ground of the soil, or one for each unit:
 // the cell of the nearest of the jittered centres of a lattice.
 //
-// Alternatives on which the rover could not drive even level ground are drawn again, but for a share of
-// kWeakShare: their numbers come from tests of a few wheels and trenches, while rovers have driven such
+// Alternatives on which the rover would slip by 20 % or more on level ground are drawn again, but for a share
+// of kWeakShare: their numbers come from tests of a few wheels and trenches, while rovers have driven such
 // ground for some 100 km and were embedded with their slip checked every few metres once (Spirit at Troy).
 class DrawnGround {
  public:
