@@ -30,33 +30,32 @@ bool counts(const PastDrive& drive, int as_of_sol) {
   return drive.sol < as_of_sol && drive.outcome != PastOutcome::kNoReport;
 }
 
-double effective(const std::vector<double>& weights, double power) {
+double effective(const std::vector<sim::ConditionedDraw>& draws, double power) {
   double sum = 0.0, squares = 0.0;
-  for (const double weight : weights) {
-    sum += std::pow(weight, power);
-    squares += std::pow(weight, 2.0 * power);
+  for (const sim::ConditionedDraw& draw : draws) {
+    sum += std::pow(draw.weight, power);
+    squares += std::pow(draw.weight, 2.0 * power);
   }
   return sum * sum / squares;
 }
 
 // Raises the weights to the largest power up to 1 that leaves kMinEffective of the draws effective, and
-// scales them to a mean of 1. The effective number.
-double flatten(std::vector<double>& weights) {
-  const double wanted = kMinEffective * static_cast<double>(weights.size());
+// scales them to a mean of 1.
+void flatten(std::vector<sim::ConditionedDraw>& draws) {
+  const double wanted = kMinEffective * static_cast<double>(draws.size());
   double low = 0.0, high = 1.0;
   double power = 1.0;
-  if (effective(weights, 1.0) < wanted) {
+  if (effective(draws, 1.0) < wanted) {
     constexpr int kHalvings = 40;
     for (int k = 0; k < kHalvings; ++k) {
       power = 0.5 * (low + high);
-      (effective(weights, power) < wanted ? high : low) = power;
+      (effective(draws, power) < wanted ? high : low) = power;
     }
     power = low;
   }
   double sum = 0.0;
-  for (double& weight : weights) sum += weight = std::pow(weight, power);
-  for (double& weight : weights) weight *= static_cast<double>(weights.size()) / sum;
-  return effective(weights, 1.0);
+  for (sim::ConditionedDraw& draw : draws) sum += draw.weight = std::pow(draw.weight, power);
+  for (sim::ConditionedDraw& draw : draws) draw.weight *= static_cast<double>(draws.size()) / sum;
 }
 
 }  // namespace
@@ -68,28 +67,24 @@ std::vector<planner::Waypoint> places_of(const DriveOutcomeTable& table, int as_
   return places;
 }
 
-Result<GroundEvidence> weigh_draws(const planner::PlanProblem& problem, const DriveOutcomeTable& table,
-                                   int as_of_sol, Progress& progress) {
+Result<GroundEvidence> condition_draws(const planner::PlanProblem& problem, const DriveOutcomeTable& table,
+                                       int as_of_sol, Progress& progress) {
   GroundEvidence evidence;
-  std::vector<double> weights(static_cast<std::size_t>(problem.risk.draws), 1.0);
+  std::vector<sim::ConditionedDraw> draws(static_cast<std::size_t>(problem.risk.draws));
   for (const PastDrive& drive : table.drives) {
     if (!counts(drive, as_of_sol)) continue;
     const std::vector<planner::Waypoint> path = on_the_map(problem, drive.path);
     if (path.size() < 2) continue;
-    const auto outcomes = planner::drawn_outcomes(problem, path, progress);
-    if (!outcomes) {
-      if (outcomes.error().code == ErrorCode::kCancelled) return fail(outcomes.error());
-      continue;  // a wheel of this rover meets ground that is not known
-    }
     const bool stopped = drive.outcome == PastOutcome::kSlipStop;
-    for (std::size_t d = 0; d < weights.size(); ++d) {
-      const bool stops = (*outcomes)[d].stopped || (*outcomes)[d].embedded;
-      weights[d] *= stops == stopped ? 1.0 - kModelError : kModelError;
+    const sim::PastDriveReport report{stopped, kModelError, stopped ? kTriesOfStopped : kTriesOfCompleted};
+    if (const auto done = planner::condition_draws(problem, path, report, progress, draws); !done) {
+      if (done.error().code == ErrorCode::kCancelled) return fail(done.error());
+      continue;  // a wheel of this rover meets ground that is not known
     }
     ++evidence.drives;
   }
-  evidence.effective_draws = flatten(weights);
-  evidence.weights = std::make_shared<const std::vector<double>>(std::move(weights));
+  flatten(draws);
+  evidence.draws = std::make_shared<const std::vector<sim::ConditionedDraw>>(std::move(draws));
   return evidence;
 }
 

@@ -47,8 +47,8 @@ dem::Extent window_around(const std::vector<planner::Waypoint>& places, const de
 constexpr int kFirstDraws = 32, kMaxDecidingDraws = 1000;
 // Of each route of a plan: 272 without an embedding are the fewest that make a GO.
 constexpr int kMaxPlanDraws = 272;
-// Draws that are weighed by drives of the past, of which some weigh little.
-constexpr int kWeighedDraws = 1000;
+// Draws that are conditioned on drives of the past, of which some weigh little.
+constexpr int kWeighedDraws = 300;
 
 }  // namespace
 
@@ -169,7 +169,8 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
     const std::vector<planner::Waypoint> past = places_of(site.outcomes(), *drive.as_of_sol);
     to_read.insert(to_read.end(), past.begin(), past.end());
   }
-  auto ground = site.read(window_around(to_read, site.info().geometry));
+  const Legend& legend = *site.description().legend(drive.legend);
+  auto ground = site.read(window_around(to_read, site.info().geometry), legend);
   if (!ground) return fail(ground.error());
 
   Setting setting;
@@ -178,7 +179,7 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
   RegionalSoils soils = soils_in_regions(ground->soil_map, sim::effect_regions(effects));
   problem.soil_map = soils.map;
   for (const RegionalSoil& soil : soils.soils)
-    problem.beliefs.known.push_back(believed(*catalogue, soil, site.description().confidence, effects));
+    problem.beliefs.known.push_back(believed(*catalogue, soil, legend.confidence, effects));
   problem.beliefs.unknown = believed(*catalogue, {std::string(kUnknownGround), {}}, 1.0, effects);
   problem.conditions = drive.conditions;
   problem.rover = std::make_shared<const sim::RoverModel>(std::move(driven));
@@ -197,7 +198,8 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
                         .crs_name = site.info().crs_name,
                         .body = site.info().body,
                         .gravity_m_s2 = site.description().gravity_m_s2,
-                        .soil_assumption = site.description().assumption,
+                        .legend = legend.name,
+                        .soil_assumption = legend.assumption,
                         .soils = {},
                         .unknown_soil = problem.beliefs.unknown.name,
                         .seed = drive.seed};
@@ -205,12 +207,12 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
   for (const sim::SoilDistribution& belief : problem.beliefs.known)
     setting.provenance.soils.push_back(belief.name);
   if (drive.as_of_sol) {
-    progress.report("weighing drives of the past", 0.0);
+    progress.report("conditioning the ground on drives of the past", 0.0);
     problem.risk.draws = drive.draws.value_or(kWeighedDraws);
     problem.risk.max_draws = 0;
-    auto evidence = weigh_draws(problem, site.outcomes(), *drive.as_of_sol, progress);
+    auto evidence = condition_draws(problem, site.outcomes(), *drive.as_of_sol, progress);
     if (!evidence) return fail(evidence.error());
-    problem.risk.weights = evidence->weights;
+    problem.risk.conditioned = evidence->draws;
     setting.provenance.past_drives = evidence->drives;
   }
   return setting;

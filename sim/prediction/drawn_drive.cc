@@ -23,9 +23,12 @@ DrawnDriver::DrawnDriver(const RoverModel& rover, double gravity_m_s2, const Soi
       checks_(checks),
       level_(settle(rover, LevelGround(), {})) {}
 
-DrawnDrive DrawnDriver::run(std::uint64_t key, bool keep_states, const Progress& progress) const {
+DrawnDrive DrawnDriver::run(std::uint64_t key, bool keep_states, const Progress& progress,
+                            const RedrawnCells* redrawn, std::unordered_set<std::uint64_t>* met) const {
   DrawnDrive drawn;
-  DrawnGround ground(beliefs_, key, [this](const Soil& soil) { return drives_level(soil); });
+  DrawnGround ground(
+      beliefs_, key, [this](const Soil& soil) { return drives_level(soil); }, redrawn);
+  if (met) ground.note(*met);
   QuasiStaticSolver solver(rover_, gravity_m_s2_, Precision::kDraws);
   OutcomeFollower follower(rover_, limits_, checks_);
   PerWheel<Soil> under(rover_.wheels.size());

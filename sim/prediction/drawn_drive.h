@@ -28,7 +28,11 @@ class DrawnDriver {
   DrawnDriver(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs& beliefs,
               const PreparedDrive& drive, const DriveLimits& limits, const SlipChecks& checks);
 
-  DrawnDrive run(std::uint64_t key, bool keep_states, const Progress& progress) const;
+  // On the draw of a key; with cells that are drawn anew, and noting the cells that are met, where these are
+  // given.
+  DrawnDrive run(std::uint64_t key, bool keep_states, const Progress& progress,
+                 const RedrawnCells* redrawn = nullptr,
+                 std::unordered_set<std::uint64_t>* met = nullptr) const;
 
  private:
   bool drives_level(const Soil& soil) const;

@@ -58,7 +58,7 @@ class OutcomeFollower {
   void note(Rule rule, double value, bool trips, int wheel = -1);
   void watch(Rule rule, double value, double limit, int wheel = -1);
   void halt(Rule rule);
-  bool embed(double value);
+  bool embed();
   bool spin(double rolled_m);
   bool spin_on_the_spot();
   bool check_slip();
