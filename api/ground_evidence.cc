@@ -67,25 +67,48 @@ std::vector<planner::Waypoint> places_of(const DriveOutcomeTable& table, int as_
   return places;
 }
 
-Result<GroundEvidence> condition_draws(const planner::PlanProblem& problem, const DriveOutcomeTable& table,
-                                       int as_of_sol, Progress& progress) {
-  GroundEvidence evidence;
-  std::vector<sim::ConditionedDraw> draws(static_cast<std::size_t>(problem.risk.draws));
-  for (const PastDrive& drive : table.drives) {
+Result<void> condition_draws(const planner::PlanProblem& problem, const DriveOutcomeTable& table,
+                             int as_of_sol, Progress& progress, ConditionedGround& ground) {
+  ground.draws.resize(static_cast<std::size_t>(problem.risk.draws));
+  for (; ground.rows < table.drives.size() && table.drives[ground.rows].sol < as_of_sol; ++ground.rows) {
+    const PastDrive& drive = table.drives[ground.rows];
     if (!counts(drive, as_of_sol)) continue;
     const std::vector<planner::Waypoint> path = on_the_map(problem, drive.path);
     if (path.size() < 2) continue;
     const bool stopped = drive.outcome == PastOutcome::kSlipStop;
     const sim::PastDriveReport report{stopped, kModelError, stopped ? kTriesOfStopped : kTriesOfCompleted};
-    if (const auto done = planner::condition_draws(problem, path, report, progress, draws); !done) {
+    if (const auto done = planner::condition_draws(problem, path, report, progress, ground.draws); !done) {
       if (done.error().code == ErrorCode::kCancelled) return fail(done.error());
       continue;  // a wheel of this rover meets ground that is not known
     }
-    ++evidence.drives;
+    ++ground.drives;
   }
-  flatten(draws);
-  evidence.draws = std::make_shared<const std::vector<sim::ConditionedDraw>>(std::move(draws));
-  return evidence;
+  return {};
+}
+
+GroundEvidence evidence_of(ConditionedGround ground) {
+  flatten(ground.draws);
+  return {std::make_shared<const std::vector<sim::ConditionedDraw>>(std::move(ground.draws)), ground.drives};
+}
+
+Result<GroundEvidence> ConditionedGroundCache::get(const std::string& key,
+                                                   const planner::PlanProblem& problem,
+                                                   const DriveOutcomeTable& table, int as_of_sol,
+                                                   Progress& progress) {
+  ConditionedGround ground;
+  {
+    const std::lock_guard lock(mutex_);
+    const bool serves = ground_ && !key.empty() && key_ == key &&
+                        (ground_->rows == 0 || table.drives[ground_->rows - 1].sol < as_of_sol);
+    if (serves) ground = *ground_;
+  }
+  if (const auto done = condition_draws(problem, table, as_of_sol, progress, ground); !done)
+    return fail(done.error());
+  if (key.empty()) return evidence_of(std::move(ground));
+  const std::lock_guard lock(mutex_);
+  key_ = key;
+  ground_ = std::make_shared<const ConditionedGround>(ground);
+  return evidence_of(std::move(ground));
 }
 
 }  // namespace slipway::api

@@ -7,6 +7,7 @@
 
 #include "api/documents/check_request.h"
 #include "api/documents/diagnosis_request.h"
+#include "api/documents/drive_assumptions.h"
 #include "api/documents/plan_request.h"
 #include "api/documents/prediction_request.h"
 #include "api/documents/soil_estimate_request.h"
@@ -41,6 +42,20 @@ dem::Extent window_around(const std::vector<planner::Waypoint>& places, const de
   const double margin = std::max(
       {kMinMargin_m, kMarginRatio * size, kMinMarginCells * std::max(geometry.cell_x_m, geometry.cell_y_m)});
   return {box.west_m - margin, box.south_m - margin, box.east_m + margin, box.north_m + margin};
+}
+
+// All that the ground under drives of the past depends on but the sol. Empty where a request brings a model
+// of its own, whose numbers its name does not tell.
+std::string conditions_of(const std::string& terrain, const std::string& rover, DriveAssumptions drive,
+                          int draws) {
+  if (drive.model) return {};
+  drive.as_of_sol.reset();
+  drive.draws = draws;
+  json::Writer w;
+  w.begin_object().text("terrain", terrain).text("rover", rover);
+  json::write_drive_assumptions(w, drive);
+  w.end_object();
+  return w.take();
 }
 
 // Draws of a decision: the fewest that say something, and the most that are taken.
@@ -210,7 +225,8 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
     progress.report("conditioning the ground on drives of the past", 0.0);
     problem.risk.draws = drive.draws.value_or(kWeighedDraws);
     problem.risk.max_draws = 0;
-    auto evidence = condition_draws(problem, site.outcomes(), *drive.as_of_sol, progress);
+    auto evidence = conditioned_ground_.get(conditions_of(terrain, driven_name, drive, problem.risk.draws),
+                                            problem, site.outcomes(), *drive.as_of_sol, progress);
     if (!evidence) return fail(evidence.error());
     problem.risk.conditioned = evidence->draws;
     setting.provenance.past_drives = evidence->drives;

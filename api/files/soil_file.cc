@@ -228,6 +228,7 @@ void read_soil(const Element& element, const sim::SoilFormat& format, sim::SoilD
   read_std(reader, soil.mean, soil.std);
   reader.number("correlation_length_m", kRequired, {"m", 0.0, 1e4, true}, soil.correlation_length_m);
   read_shares(reader, soil.shares);
+  reader.number("slip_error", kOptional, {"1", 0.0, 2.0}, soil.slip_error);
   read_alternatives(reader, soil);
   reader.refuse_unknown();
   if (faults.size() == before) check_soil(reader, soil);
@@ -328,6 +329,7 @@ void write_soil(Writer& w, const sim::SoilDistribution& soil, const sim::SoilFor
     w.key("spread_shares").begin_object().exact("everywhere", soil.shares.everywhere);
     w.exact("unit", soil.shares.unit).exact("patch", soil.shares.patch).end_object();
   }
+  if (soil.slip_error > 0.0) w.exact("slip_error", soil.slip_error);
   if (!soil.alternatives.empty()) {
     w.key("alternatives").begin_array();
     for (const sim::SoilAlternative& alternative : soil.alternatives) {

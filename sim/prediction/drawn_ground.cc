@@ -19,12 +19,6 @@ enum Stream : std::uint64_t {
   kCommonness
 };
 
-SoilNormals normals_of(std::uint64_t key) {
-  SoilNormals z;
-  for (int k = 0; k < kSoilDims; ++k) z[k] = random_normal(key, static_cast<std::uint64_t>(k));
-  return z;
-}
-
 std::uint64_t cell_key(std::uint64_t key, long long column, long long row) {
   return random_key(random_key(key, static_cast<std::uint64_t>(column)), static_cast<std::uint64_t>(row));
 }
@@ -69,6 +63,17 @@ DrawnGround::DrawnGround(const SoilBeliefs& beliefs, std::uint64_t key, DrivesLe
       drives_level_(std::move(drives_level)),
       redrawn_(redrawn),
       drawn_(beliefs.known.size() + 1) {}
+
+DrawnGround::Normals DrawnGround::normals_of(std::uint64_t key) {
+  Normals z;
+  for (int k = 0; k <= kSoilDims; ++k) z[k] = random_normal(key, static_cast<std::uint64_t>(k));
+  return z;
+}
+
+double DrawnGround::slip_scale(std::optional<std::size_t> soil) const {
+  const std::optional<Belief>& belief = drawn_[soil.value_or(beliefs_.known.size())];
+  return belief ? belief->slip_scale : 1.0;
+}
 
 const Soil& DrawnGround::at(std::optional<std::size_t> soil, double x_m, double y_m) {
   std::optional<Belief>& place = drawn_[soil.value_or(beliefs_.known.size())];
@@ -119,8 +124,8 @@ std::uint64_t DrawnGround::cell_at(std::uint64_t key, double length_m, double x_
   return redrawn(best);
 }
 
-SoilNormals DrawnGround::blended(Corners& corners, std::uint64_t key, double length_m, double x_m,
-                                 double y_m) {
+DrawnGround::Normals DrawnGround::blended(Corners& corners, std::uint64_t key, double length_m, double x_m,
+                                          double y_m) {
   const double u = x_m / length_m, v = y_m / length_m;
   const auto column = static_cast<long long>(std::floor(u));
   const auto row = static_cast<long long>(std::floor(v));
@@ -134,7 +139,7 @@ SoilNormals DrawnGround::blended(Corners& corners, std::uint64_t key, double len
   }
   const double a = u - static_cast<double>(column), b = v - static_cast<double>(row);
   const std::array<double, 4> weights{(1.0 - a) * (1.0 - b), a * (1.0 - b), (1.0 - a) * b, a * b};
-  SoilNormals sum = SoilNormals::Zero();
+  Normals sum = Normals::Zero();
   double variance = 0.0;
   for (std::size_t k = 0; k < 4; ++k) {
     sum += weights[k] * corners.normals[k];
@@ -149,7 +154,7 @@ void DrawnGround::choose(Belief& belief, std::uint64_t cell) const {
   const SoilDistribution& of = *belief.distribution;
   // Units and patches differ from what all ground of the soil shares: most are not weaker than this.
   constexpr double kDeviations = 1.5;
-  const SoilNormals weak = std::sqrt(of.shares.everywhere) * belief.everywhere +
+  const SoilNormals weak = std::sqrt(of.shares.everywhere) * belief.everywhere.head<kSoilDims>() +
                            kDeviations * std::sqrt(of.shares.unit + of.shares.patch) * towards_weakness();
   for (std::uint64_t tried = 0; tried < kMaxTries; ++tried) {
     const std::uint64_t choice = random_key(cell, tried);
@@ -168,12 +173,15 @@ void DrawnGround::choose(Belief& belief, std::uint64_t cell) const {
 Soil DrawnGround::draw(Belief& belief, double x_m, double y_m) {
   const SoilDistribution& of = *belief.distribution;
   const std::uint64_t key = belief.key;
-  const SoilNormals patch = std::sqrt(of.shares.patch) *
-                            blended(belief.patch, random_key(key, kPatch), of.correlation_length_m, x_m, y_m);
-  const SoilNormals unit =
+  const Normals patch = std::sqrt(of.shares.patch) *
+                        blended(belief.patch, random_key(key, kPatch), of.correlation_length_m, x_m, y_m);
+  const Normals unit =
       std::sqrt(of.shares.everywhere) * belief.everywhere +
       std::sqrt(of.shares.unit) * blended(belief.unit, random_key(key, kUnit), kUnitLength_m, x_m, y_m);
-  if (of.alternatives.empty()) return draw_soil(of, unit + patch);
+  const Normals all = unit + patch;
+  belief.slip_scale = std::exp(of.slip_error * all[kSoilDims]);
+  const SoilNormals normals = all.head<kSoilDims>();
+  if (of.alternatives.empty()) return draw_soil(of, normals);
   std::uint64_t choice = key;
   if (of.alternatives_by == AlternativesBy::kUnit)
     choice = cell_at(random_key(key, kJitter), kUnitLength_m, x_m, y_m);
@@ -183,7 +191,7 @@ Soil DrawnGround::draw(Belief& belief, double x_m, double y_m) {
     choose(belief, choice);
     belief.chosen_for = choice;
   }
-  return joined(*belief.strength, *belief.pressure, unit + patch);
+  return joined(*belief.strength, *belief.pressure, normals);
 }
 
 }  // namespace slipway::sim

@@ -139,6 +139,10 @@ struct SoilDistribution {
   SoilCorrelation correlation = SoilCorrelation::Identity();
   double correlation_length_m = 5.0;  // of a patch
   SpreadShares shares;
+  // How far the slip on real ground of this kind is from the model's though the soil is right: ripples and
+  // roughness below the map's cells, and the model itself. Standard deviation of the logarithm of the ratio
+  // of ln(1 - slip), real over predicted; its levels are those of the spread.
+  double slip_error = 0.0;
   // Where it is not known which soil the ground is, the soils that it may be; a draw is of one of these, and
   // mean and std above serve the prediction on the mean soil alone.
   std::vector<SoilAlternative> alternatives;
