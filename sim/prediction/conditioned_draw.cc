@@ -28,7 +28,8 @@ void condition(const DrawnDriver& driver, std::uint64_t key, const PastDriveRepo
                const Progress& progress, ConditionedDraw& draw) {
   std::unordered_set<std::uint64_t> met;
   const auto likelihood = [&](const RedrawnCells& redrawn, std::unordered_set<std::uint64_t>* noted) {
-    const DriveOutcome outcome = driver.run(key, false, progress, &redrawn, noted).outcome;
+    const DrawnRun how{.to_first_stop = true, .redrawn = &redrawn, .met = noted};
+    const DriveOutcome outcome = driver.run(key, how, progress).outcome;
     const bool stops = outcome.stops > 0 || outcome.embedded;
     return stops == report.stopped ? 1.0 - report.model_error : report.model_error;
   };

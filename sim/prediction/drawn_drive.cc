@@ -40,12 +40,11 @@ DrawnDriver::DrawnDriver(const RoverModel& rover, double gravity_m_s2, const Soi
       checks_(checks),
       level_(settle(rover, LevelGround(), {})) {}
 
-DrawnDrive DrawnDriver::run(std::uint64_t key, bool keep_states, const Progress& progress,
-                            const RedrawnCells* redrawn, std::unordered_set<std::uint64_t>* met) const {
+DrawnDrive DrawnDriver::run(std::uint64_t key, const DrawnRun& how, const Progress& progress) const {
   DrawnDrive drawn;
   DrawnGround ground(
-      beliefs_, key, [this](const Soil& soil) { return drives_level(soil); }, redrawn);
-  if (met) ground.note(*met);
+      beliefs_, key, [this](const Soil& soil) { return drives_level(soil); }, how.redrawn);
+  if (how.met) ground.note(*how.met);
   QuasiStaticSolver solver(rover_, gravity_m_s2_, Precision::kDraws);
   OutcomeFollower follower(rover_, limits_, checks_);
   PerWheel<Soil> under(rover_.wheels.size());
@@ -58,7 +57,8 @@ DrawnDrive DrawnDriver::run(std::uint64_t key, bool keep_states, const Progress&
     StationState state = solver.solve(station.stance, under, station.command);
     scale_slip(slip_scale(ground, station), state);
     if (!embedded) embedded = !follower.add(station, s, state);
-    if (!drawn.immobilised) add(station, state, keep_states, drawn);
+    if (how.to_first_stop && (embedded || follower.stops() > 0)) break;
+    if (!drawn.immobilised) add(station, state, how.keep_states, drawn);
   }
   drawn.outcome = follower.finish();
   if (drive_.without_stance) {

@@ -50,6 +50,8 @@ class OutcomeFollower {
 
   // Returns false where the drive has ended: the rover is embedded.
   bool add(const PreparedStation& station, std::size_t index, const StationState& state);
+  // So far.
+  int stops() const { return outcome_.stops; }
   // The last interval is checked where the drive ends.
   const DriveOutcome& finish();
 

@@ -36,8 +36,8 @@ bool draw_more(const DrawnDriver& driver, std::size_t count, std::size_t station
     const std::size_t draw = before + k;
     const ConditionedDraw* conditioned =
         options.conditioned && draw < options.conditioned->size() ? &(*options.conditioned)[draw] : nullptr;
-    drives[draw] = driver.run(random_key(options.seed, draw), draw < kept, progress,
-                              conditioned ? &conditioned->redrawn : nullptr);
+    const DrawnRun how{.keep_states = draw < kept, .redrawn = conditioned ? &conditioned->redrawn : nullptr};
+    drives[draw] = driver.run(random_key(options.seed, draw), how, progress);
     if (options.conditioned) drives[draw].weight = conditioned ? conditioned->weight : 0.0;
   });
   return !progress.cancelled();
