@@ -168,6 +168,12 @@ TEST(DriveRisk, DrawsUntilTheBarsAreDecidedAndNoFurther) {
   EXPECT_GT(hopeless.outcomes.expected_stops_low, 0.5);
 }
 
+ConditionedDraw weighing(double weight) {
+  ConditionedDraw draw;
+  draw.weight = weight;
+  return draw;
+}
+
 TEST(DriveRisk, WeightsOfDrawsCountAndLessenTheirEffectiveNumber) {
   const DriveLimits tight{.max_slip_ratio = 0.2};
   RiskOptions options{.draws = 64};
@@ -180,12 +186,12 @@ TEST(DriveRisk, WeightsOfDrawsCountAndLessenTheirEffectiveNumber) {
   std::vector<ConditionedDraw> weights;
   for (int d = 0; d < 64; ++d) {
     RiskOptions one = options;
-    std::vector<ConditionedDraw> only(64, {.weight = 0.0});
+    std::vector<ConditionedDraw> only(64, weighing(0.0));
     only[static_cast<std::size_t>(d)].weight = 1.0;
     one.conditioned = std::make_shared<const std::vector<ConditionedDraw>>(only);
     const DrivePrediction alone = predict(slope(8.0), kUnsure, straight(10.0), one, tight);
     EXPECT_NEAR(alone.outcomes.effective_draws, 1.0, 1e-9);
-    weights.push_back({.weight = 1.0 - alone.outcomes.stop.share});
+    weights.push_back(weighing(1.0 - alone.outcomes.stop.share));
   }
   options.conditioned = std::make_shared<const std::vector<ConditionedDraw>>(weights);
   const DrivePrediction clean = predict(slope(8.0), kUnsure, straight(10.0), options, tight);
