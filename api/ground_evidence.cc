@@ -30,33 +30,32 @@ bool counts(const PastDrive& drive, int as_of_sol) {
   return drive.sol < as_of_sol && drive.outcome != PastOutcome::kNoReport;
 }
 
-double effective(const std::vector<double>& weights, double power) {
+double effective(const std::vector<sim::ConditionedDraw>& draws, double power) {
   double sum = 0.0, squares = 0.0;
-  for (const double weight : weights) {
-    sum += std::pow(weight, power);
-    squares += std::pow(weight, 2.0 * power);
+  for (const sim::ConditionedDraw& draw : draws) {
+    sum += std::pow(draw.weight, power);
+    squares += std::pow(draw.weight, 2.0 * power);
   }
   return sum * sum / squares;
 }
 
 // Raises the weights to the largest power up to 1 that leaves kMinEffective of the draws effective, and
-// scales them to a mean of 1. The effective number.
-double flatten(std::vector<double>& weights) {
-  const double wanted = kMinEffective * static_cast<double>(weights.size());
+// scales them to a mean of 1.
+void flatten(std::vector<sim::ConditionedDraw>& draws) {
+  const double wanted = kMinEffective * static_cast<double>(draws.size());
   double low = 0.0, high = 1.0;
   double power = 1.0;
-  if (effective(weights, 1.0) < wanted) {
+  if (effective(draws, 1.0) < wanted) {
     constexpr int kHalvings = 40;
     for (int k = 0; k < kHalvings; ++k) {
       power = 0.5 * (low + high);
-      (effective(weights, power) < wanted ? high : low) = power;
+      (effective(draws, power) < wanted ? high : low) = power;
     }
     power = low;
   }
   double sum = 0.0;
-  for (double& weight : weights) sum += weight = std::pow(weight, power);
-  for (double& weight : weights) weight *= static_cast<double>(weights.size()) / sum;
-  return effective(weights, 1.0);
+  for (sim::ConditionedDraw& draw : draws) sum += draw.weight = std::pow(draw.weight, power);
+  for (sim::ConditionedDraw& draw : draws) draw.weight *= static_cast<double>(draws.size()) / sum;
 }
 
 }  // namespace
@@ -68,29 +67,48 @@ std::vector<planner::Waypoint> places_of(const DriveOutcomeTable& table, int as_
   return places;
 }
 
-Result<GroundEvidence> weigh_draws(const planner::PlanProblem& problem, const DriveOutcomeTable& table,
-                                   int as_of_sol, Progress& progress) {
-  GroundEvidence evidence;
-  std::vector<double> weights(static_cast<std::size_t>(problem.risk.draws), 1.0);
-  for (const PastDrive& drive : table.drives) {
+Result<void> condition_draws(const planner::PlanProblem& problem, const DriveOutcomeTable& table,
+                             int as_of_sol, Progress& progress, ConditionedGround& ground) {
+  ground.draws.resize(static_cast<std::size_t>(problem.risk.draws));
+  for (; ground.rows < table.drives.size() && table.drives[ground.rows].sol < as_of_sol; ++ground.rows) {
+    const PastDrive& drive = table.drives[ground.rows];
     if (!counts(drive, as_of_sol)) continue;
     const std::vector<planner::Waypoint> path = on_the_map(problem, drive.path);
     if (path.size() < 2) continue;
-    const auto outcomes = planner::drawn_outcomes(problem, path, progress);
-    if (!outcomes) {
-      if (outcomes.error().code == ErrorCode::kCancelled) return fail(outcomes.error());
+    const bool stopped = drive.outcome == PastOutcome::kSlipStop;
+    const sim::PastDriveReport report{stopped, kModelError, stopped ? kTriesOfStopped : kTriesOfCompleted};
+    if (const auto done = planner::condition_draws(problem, path, report, progress, ground.draws); !done) {
+      if (done.error().code == ErrorCode::kCancelled) return fail(done.error());
       continue;  // a wheel of this rover meets ground that is not known
     }
-    const bool stopped = drive.outcome == PastOutcome::kSlipStop;
-    for (std::size_t d = 0; d < weights.size(); ++d) {
-      const bool stops = (*outcomes)[d].stopped || (*outcomes)[d].embedded;
-      weights[d] *= stops == stopped ? 1.0 - kModelError : kModelError;
-    }
-    ++evidence.drives;
+    ++ground.drives;
   }
-  evidence.effective_draws = flatten(weights);
-  evidence.weights = std::make_shared<const std::vector<double>>(std::move(weights));
-  return evidence;
+  return {};
+}
+
+GroundEvidence evidence_of(ConditionedGround ground) {
+  flatten(ground.draws);
+  return {std::make_shared<const std::vector<sim::ConditionedDraw>>(std::move(ground.draws)), ground.drives};
+}
+
+Result<GroundEvidence> ConditionedGroundCache::get(const std::string& key,
+                                                   const planner::PlanProblem& problem,
+                                                   const DriveOutcomeTable& table, int as_of_sol,
+                                                   Progress& progress) {
+  ConditionedGround ground;
+  {
+    const std::lock_guard lock(mutex_);
+    const bool serves = ground_ && !key.empty() && key_ == key &&
+                        (ground_->rows == 0 || table.drives[ground_->rows - 1].sol < as_of_sol);
+    if (serves) ground = *ground_;
+  }
+  if (const auto done = condition_draws(problem, table, as_of_sol, progress, ground); !done)
+    return fail(done.error());
+  if (key.empty()) return evidence_of(std::move(ground));
+  const std::lock_guard lock(mutex_);
+  key_ = key;
+  ground_ = std::make_shared<const ConditionedGround>(ground);
+  return evidence_of(std::move(ground));
 }
 
 }  // namespace slipway::api

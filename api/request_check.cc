@@ -53,9 +53,10 @@ void RequestCheck::ground(const std::optional<RequestedModel>& model,
   const std::string place = model ? "/model/ground" : "/ground";
   if (site_ == nullptr || already_faulty(place)) return;
   std::vector<std::string> there;
-  for (const dem::SoilClass& row : site_->description().legend)
-    if (row.soil && std::find(there.begin(), there.end(), *row.soil) == there.end())
-      there.push_back(*row.soil);
+  for (const Legend& legend : site_->description().legends)
+    for (const dem::SoilClass& row : legend.classes)
+      if (row.soil && std::find(there.begin(), there.end(), *row.soil) == there.end())
+        there.push_back(*row.soil);
   const std::vector<std::string>& named = model ? model->ground : of_service;
   for (std::size_t i = 0; i < named.size(); ++i)
     if (std::find(there.begin(), there.end(), named[i]) == there.end())
@@ -82,6 +83,12 @@ void RequestCheck::place(const planner::Waypoint& place, const std::string& poin
 }
 
 void RequestCheck::drive(const DriveAssumptions& drive) {
+  if (site_ != nullptr && !already_faulty("/legend") &&
+      site_->description().legend(drive.legend) == nullptr) {
+    std::vector<std::string> known;
+    for (const Legend& legend : site_->description().legends) known.push_back(legend.name);
+    add(ErrorCode::kInvalidRequest, "/legend", unknown_name("legend", drive.legend, known));
+  }
   for (Fault& fault : moved_under("/effects", sim::faults_of(drive.effects))) {
     const std::string at = fault.pointer;
     if (!already_faulty(at)) add(ErrorCode::kInvalidRequest, at, std::move(fault.message));

@@ -7,6 +7,7 @@
 
 #include "api/documents/check_request.h"
 #include "api/documents/diagnosis_request.h"
+#include "api/documents/drive_assumptions.h"
 #include "api/documents/plan_request.h"
 #include "api/documents/prediction_request.h"
 #include "api/documents/soil_estimate_request.h"
@@ -43,12 +44,26 @@ dem::Extent window_around(const std::vector<planner::Waypoint>& places, const de
   return {box.west_m - margin, box.south_m - margin, box.east_m + margin, box.north_m + margin};
 }
 
+// All that the ground under drives of the past depends on but the sol. Empty where a request brings a model
+// of its own, whose numbers its name does not tell.
+std::string conditions_of(const std::string& terrain, const std::string& rover, DriveAssumptions drive,
+                          int draws) {
+  if (drive.model) return {};
+  drive.as_of_sol.reset();
+  drive.draws = draws;
+  json::Writer w;
+  w.begin_object().text("terrain", terrain).text("rover", rover);
+  json::write_drive_assumptions(w, drive);
+  w.end_object();
+  return w.take();
+}
+
 // Draws of a decision: the fewest that say something, and the most that are taken.
 constexpr int kFirstDraws = 32, kMaxDecidingDraws = 1000;
 // Of each route of a plan: 272 without an embedding are the fewest that make a GO.
 constexpr int kMaxPlanDraws = 272;
-// Draws that are weighed by drives of the past, of which some weigh little.
-constexpr int kWeighedDraws = 1000;
+// Draws that are conditioned on drives of the past, of which some weigh little.
+constexpr int kWeighedDraws = 300;
 
 }  // namespace
 
@@ -169,7 +184,8 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
     const std::vector<planner::Waypoint> past = places_of(site.outcomes(), *drive.as_of_sol);
     to_read.insert(to_read.end(), past.begin(), past.end());
   }
-  auto ground = site.read(window_around(to_read, site.info().geometry));
+  const Legend& legend = *site.description().legend(drive.legend);
+  auto ground = site.read(window_around(to_read, site.info().geometry), legend);
   if (!ground) return fail(ground.error());
 
   Setting setting;
@@ -178,7 +194,7 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
   RegionalSoils soils = soils_in_regions(ground->soil_map, sim::effect_regions(effects));
   problem.soil_map = soils.map;
   for (const RegionalSoil& soil : soils.soils)
-    problem.beliefs.known.push_back(believed(*catalogue, soil, site.description().confidence, effects));
+    problem.beliefs.known.push_back(believed(*catalogue, soil, legend.confidence, effects));
   problem.beliefs.unknown = believed(*catalogue, {std::string(kUnknownGround), {}}, 1.0, effects);
   problem.conditions = drive.conditions;
   problem.rover = std::make_shared<const sim::RoverModel>(std::move(driven));
@@ -197,7 +213,8 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
                         .crs_name = site.info().crs_name,
                         .body = site.info().body,
                         .gravity_m_s2 = site.description().gravity_m_s2,
-                        .soil_assumption = site.description().assumption,
+                        .legend = legend.name,
+                        .soil_assumption = legend.assumption,
                         .soils = {},
                         .unknown_soil = problem.beliefs.unknown.name,
                         .seed = drive.seed};
@@ -205,12 +222,13 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
   for (const sim::SoilDistribution& belief : problem.beliefs.known)
     setting.provenance.soils.push_back(belief.name);
   if (drive.as_of_sol) {
-    progress.report("weighing drives of the past", 0.0);
+    progress.report("conditioning the ground on drives of the past", 0.0);
     problem.risk.draws = drive.draws.value_or(kWeighedDraws);
     problem.risk.max_draws = 0;
-    auto evidence = weigh_draws(problem, site.outcomes(), *drive.as_of_sol, progress);
+    auto evidence = conditioned_ground_.get(conditions_of(terrain, driven_name, drive, problem.risk.draws),
+                                            problem, site.outcomes(), *drive.as_of_sol, progress);
     if (!evidence) return fail(evidence.error());
-    problem.risk.weights = evidence->weights;
+    problem.risk.conditioned = evidence->draws;
     setting.provenance.past_drives = evidence->drives;
   }
   return setting;

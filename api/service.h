@@ -9,6 +9,7 @@
 
 #include "api/files/campaign/shipped_campaigns.h"
 #include "api/files/catalogue.h"
+#include "api/ground_evidence.h"
 #include "api/requests/answers.h"
 #include "api/requests/soil_estimate.h"
 #include "core/progress.h"
@@ -85,6 +86,7 @@ class Service {
   std::shared_ptr<const Catalogue> catalogue_;
   std::vector<ShippedCampaign> shipped_;
   std::vector<std::string> campaigns_;  // their names
+  mutable ConditionedGroundCache conditioned_ground_;
 };
 
 }  // namespace slipway::api

@@ -35,7 +35,7 @@ sim::SoilDistribution believed(const Catalogue& catalogue, const RegionalSoil& s
       other.strength_weight *= (1.0 - confidence) / strength;
       belief.alternatives.push_back(std::move(other));
     }
-    belief.alternatives_by_unit = true;
+    belief.alternatives_by = sim::AlternativesBy::kUnit;
   }
   apply(effects, soil.regions, belief);
   if (!soil.regions.empty()) belief.name = soil.name();

@@ -138,15 +138,16 @@ Result<sim::DrivePrediction> predict_motions(const PlanProblem& problem, const s
   return predict_stations(problem, stations_of(problem, motions, manner), progress);
 }
 
-Result<std::vector<sim::DrawnOutcome>> drawn_outcomes(const PlanProblem& problem,
-                                                      const std::vector<Waypoint>& corners,
-                                                      Progress& progress) {
+Result<void> condition_draws(const PlanProblem& problem, const std::vector<Waypoint>& corners,
+                             const sim::PastDriveReport& report, Progress& progress,
+                             std::vector<sim::ConditionedDraw>& draws) {
   const TerrainGround ground(problem.terrain, problem.soil_map);
   // Slip checks average over metres: every second station does.
   const auto stations =
       route_stations(join(corners, {}).motions, 2.0 * sim::max_station_spacing_m(*problem.rover));
-  return sim::drawn_outcomes(*problem.rover, problem.gravity_m_s2, ground, problem.beliefs, stations,
-                             problem.limits, problem.risk, problem.threads, progress, problem.conditions);
+  return sim::condition_draws(*problem.rover, problem.gravity_m_s2, ground, problem.beliefs, stations,
+                              problem.limits, problem.risk, report, problem.threads, progress, draws,
+                              problem.conditions);
 }
 
 Result<DynamicVerification> verify_path(const PlanProblem& problem, const std::vector<Waypoint>& corners,

@@ -32,10 +32,11 @@ Result<sim::DrivePrediction> predict_motions(const PlanProblem& problem, const s
 Result<sim::DrivePrediction> predict_path(const PlanProblem& problem, const std::vector<Waypoint>& corners,
                                           Progress& progress, const Manner& manner = {});
 
-// How each of the problem's draws of the ground goes along a path. Errors as predict_path().
-Result<std::vector<sim::DrawnOutcome>> drawn_outcomes(const PlanProblem& problem,
-                                                      const std::vector<Waypoint>& corners,
-                                                      Progress& progress);
+// Conditions draws of the ground on a drive of the past along a path, the problem's rover having driven it by
+// the problem's limits; see sim::condition_draws(). Errors as predict_path().
+Result<void> condition_draws(const PlanProblem& problem, const std::vector<Waypoint>& corners,
+                             const sim::PastDriveReport& report, Progress& progress,
+                             std::vector<sim::ConditionedDraw>& draws);
 
 // Drives the same path, of which predict_path() gave `prediction`, in the dynamic simulation. Errors:
 // cancelled.

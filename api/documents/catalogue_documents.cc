@@ -37,19 +37,31 @@ void write_extent(Writer& w, const dem::Extent& extent) {
   w.exact("east_m", extent.east_m).exact("north_m", extent.north_m).end_object();
 }
 
-void write_soil_source(Writer& w, const TerrainDescription& terrain) {
-  w.key("soil").begin_object();
-  w.text("source", terrain.soil_source == SoilSource::kRaster     ? "raster"
-                   : terrain.soil_source == SoilSource::kPolygons ? "polygons"
-                                                                  : "none");
-  w.text("assumption", terrain.assumption).text("unknown_soil", kUnknownGround).key("legend").begin_array();
-  for (const dem::SoilClass& entry : terrain.legend) {
+void write_legend(Writer& w, const Legend& legend) {
+  w.text("assumption", legend.assumption).exact("confidence", legend.confidence).key("legend").begin_array();
+  for (const dem::SoilClass& entry : legend.classes) {
     w.begin_object().whole("value", entry.value).text("label", entry.label).key("soil");
     if (entry.soil) {
       w.text(*entry.soil);
     } else {
       w.null();
     }
+    w.end_object();
+  }
+  w.end_array();
+}
+
+void write_soil_source(Writer& w, const TerrainDescription& terrain) {
+  w.key("soil").begin_object();
+  w.text("source", terrain.soil_source == SoilSource::kRaster     ? "raster"
+                   : terrain.soil_source == SoilSource::kPolygons ? "polygons"
+                                                                  : "none");
+  w.text("unknown_soil", kUnknownGround).text("legend_name", terrain.legends.front().name);
+  write_legend(w, terrain.legends.front());
+  w.key("other_legends").begin_array();
+  for (std::size_t l = 1; l < terrain.legends.size(); ++l) {
+    w.begin_object().text("name", terrain.legends[l].name);
+    write_legend(w, terrain.legends[l]);
     w.end_object();
   }
   w.end_array().end_object();

@@ -20,6 +20,7 @@ void read_drive_assumptions(ObjectReader& reader, DriveAssumptions& drive) {
   if (reader.whole("draws", kOptional, 1, RequestLimits::kDraws, draws)) drive.draws = draws;
   int sol = 0;
   if (reader.whole("as_of_sol", kOptional, 0, RequestLimits::kMaxSol, sol)) drive.as_of_sol = sol;
+  reader.text("legend", kOptional, {.most = 64, .is_name = true}, drive.legend);
   reader.whole("seed", kOptional, std::uint64_t{0}, kMaxExactWhole, drive.seed);
   reader.number("speed_m_s", kOptional, {"m/s", RequestLimits::kMinSpeed_m_s, 10.0}, drive.speed_m_s);
   reader.number("motor_temp_c", kOptional, {"degC", -150.0, 150.0}, drive.conditions.motor_temp_c);
@@ -36,6 +37,7 @@ void write_drive_assumptions(Writer& w, const DriveAssumptions& drive) {
   }
   if (drive.draws) w.whole("draws", *drive.draws);
   if (drive.as_of_sol) w.whole("as_of_sol", *drive.as_of_sol);
+  if (!drive.legend.empty()) w.text("legend", drive.legend);
   w.whole("seed", static_cast<std::int64_t>(drive.seed));
   if (drive.speed_m_s) w.exact("speed_m_s", *drive.speed_m_s);
   if (drive.conditions.motor_temp_c) w.exact("motor_temp_c", *drive.conditions.motor_temp_c);

@@ -117,11 +117,15 @@ void load_rules(const fs::path& data, Catalogue& catalogue, std::vector<Fault>& 
 
 void check_legend(const std::string& file, const TerrainDescription& terrain, const Catalogue& catalogue,
                   std::vector<Fault>& faults) {
-  for (std::size_t i = 0; i < terrain.legend.size(); ++i) {
-    const auto& soil = terrain.legend[i].soil;
-    if (!soil || catalogue.soils.contains(*soil)) continue;
-    faults.push_back({fmt::format("{}#/soil/legend/{}/soil", file, i),
-                      unknown_name("soil", *soil, names_of(catalogue.soils))});
+  for (std::size_t l = 0; l < terrain.legends.size(); ++l) {
+    const std::vector<dem::SoilClass>& classes = terrain.legends[l].classes;
+    const std::string place = l == 0 ? "/soil" : fmt::format("/soil/other_legends/{}", l - 1);
+    for (std::size_t i = 0; i < classes.size(); ++i) {
+      const auto& soil = classes[i].soil;
+      if (!soil || catalogue.soils.contains(*soil)) continue;
+      faults.push_back({fmt::format("{}#{}/legend/{}/soil", file, place, i),
+                        unknown_name("soil", *soil, names_of(catalogue.soils))});
+    }
   }
 }
 

@@ -39,6 +39,9 @@ constexpr std::array kSlipSpread{
                              .number = [](sim::SoilStd& s) -> double& { return s.slip_ratio; }},
 };
 
+// In the order of sim::AlternativesBy.
+const std::vector<std::string_view> kAlternativesBy{"everywhere", "unit", "patch"};
+
 std::span<const ModelField<sim::SoilStd>> spread_of(const sim::Soil& soil) {
   if (soil.slip_curve != nullptr) return kSlipSpread;
   return kSpread;
@@ -179,19 +182,33 @@ void read_shares(ObjectReader& reader, sim::SpreadShares& shares) {
 void read_alternatives(ObjectReader& reader, sim::SoilDistribution& soil) {
   constexpr NumberRule kWeight{"1", 0.0, 1e6};
   double pressure = 0.0, strength = 0.0;
+  std::size_t whole = 0;
   for (const Element& element : reader.list("alternatives", kOptional, {1, 100})) {
     ObjectReader row(*element.value, element.pointer, reader.faults());
     sim::SoilAlternative& alternative = soil.alternatives.emplace_back();
     row.text("soil", kRequired, {.most = 64, .is_name = true}, alternative.name);
-    row.number("pressure_weight", kOptional, kWeight, alternative.pressure_weight);
-    row.number("strength_weight", kOptional, kWeight, alternative.strength_weight);
+    if (element.value->find("weight") != nullptr) {
+      row.number("weight", kRequired, kWeight, alternative.strength_weight);
+      alternative.pressure_weight = alternative.strength_weight;
+      ++whole;
+    } else {
+      row.number("pressure_weight", kOptional, kWeight, alternative.pressure_weight);
+      row.number("strength_weight", kOptional, kWeight, alternative.strength_weight);
+    }
     row.refuse_unknown();
     pressure += alternative.pressure_weight;
     strength += alternative.strength_weight;
   }
   if (!soil.alternatives.empty() && (pressure <= 0.0 || strength <= 0.0))
     reader.fault("alternatives", "the weights of pressure and of strength must each have a positive sum");
-  reader.boolean("alternatives_by_unit", kOptional, soil.alternatives_by_unit);
+  if (whole > 0 && whole < soil.alternatives.size())
+    reader.fault("alternatives",
+                 "either all alternatives have a weight, and a draw is one of these soils, or none has");
+  soil.drawn_apart = whole == 0;
+  auto by = static_cast<std::size_t>(soil.alternatives_by);
+  reader.choice("alternatives_by", kOptional, kAlternativesBy, by);
+  soil.alternatives_by = static_cast<sim::AlternativesBy>(by);
+  reader.number("alternatives_spread", kOptional, {"1", 0.0, 5.0}, soil.alternatives_spread);
 }
 
 void read_soil(const Element& element, const sim::SoilFormat& format, sim::SoilDistribution& soil,
@@ -211,6 +228,7 @@ void read_soil(const Element& element, const sim::SoilFormat& format, sim::SoilD
   read_std(reader, soil.mean, soil.std);
   reader.number("correlation_length_m", kRequired, {"m", 0.0, 1e4, true}, soil.correlation_length_m);
   read_shares(reader, soil.shares);
+  reader.number("slip_error", kOptional, {"1", 0.0, 2.0}, soil.slip_error);
   read_alternatives(reader, soil);
   reader.refuse_unknown();
   if (faults.size() == before) check_soil(reader, soil);
@@ -311,13 +329,20 @@ void write_soil(Writer& w, const sim::SoilDistribution& soil, const sim::SoilFor
     w.key("spread_shares").begin_object().exact("everywhere", soil.shares.everywhere);
     w.exact("unit", soil.shares.unit).exact("patch", soil.shares.patch).end_object();
   }
+  if (soil.slip_error > 0.0) w.exact("slip_error", soil.slip_error);
   if (!soil.alternatives.empty()) {
     w.key("alternatives").begin_array();
     for (const sim::SoilAlternative& alternative : soil.alternatives) {
-      w.begin_object().text("soil", alternative.name).exact("pressure_weight", alternative.pressure_weight);
-      w.exact("strength_weight", alternative.strength_weight).end_object();
+      w.begin_object().text("soil", alternative.name);
+      if (soil.drawn_apart)
+        w.exact("pressure_weight", alternative.pressure_weight)
+            .exact("strength_weight", alternative.strength_weight);
+      else
+        w.exact("weight", alternative.strength_weight);
+      w.end_object();
     }
-    w.end_array().boolean("alternatives_by_unit", soil.alternatives_by_unit);
+    w.end_array().text("alternatives_by", kAlternativesBy[static_cast<std::size_t>(soil.alternatives_by)]);
+    if (soil.alternatives_spread > 0.0) w.exact("alternatives_spread", soil.alternatives_spread);
   }
   w.end_object();
 }

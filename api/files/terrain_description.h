@@ -14,6 +14,14 @@ enum class SoilSource {
   kPolygons,  // a GeoJSON file of units
 };
 
+// One reading of a map's classes: which soil each is believed to be, and why.
+struct Legend {
+  std::string name = "default";
+  std::vector<dem::SoilClass> classes;
+  std::string assumption;   // why these classes are believed to be these soils
+  double confidence = 1.0;  // the probability that a class is the soil that the legend gives
+};
+
 // What terrain.json says of a terrain. File names are plain names inside the terrain's own folder.
 struct TerrainDescription {
   std::string name;
@@ -24,12 +32,17 @@ struct TerrainDescription {
   std::string soil_file;
   std::string soil_property;  // of the polygons: which property is the label
   dem::PolygonCoordinates soil_coordinates = dem::PolygonCoordinates::kMap;
-  std::vector<dem::SoilClass> legend;
-  std::string assumption;   // why these classes are believed to be these soils
-  double confidence = 1.0;  // the probability that a class is the soil that the legend gives
+  std::vector<Legend> legends = {Legend{}};  // the first is used where a request names none
   std::optional<std::string> stops_file;
   std::optional<std::string> outcomes_file;  // how drives on this ground ended
   std::optional<std::string> provenance_file;
+
+  // By its name, the first where that is empty; nullptr where there is none of that name.
+  const Legend* legend(const std::string& legend_name) const {
+    for (const Legend& each : legends)
+      if (legend_name.empty() || each.name == legend_name) return &each;
+    return nullptr;
+  }
 };
 
 }  // namespace slipway::api

@@ -28,14 +28,13 @@ void read_file_name(ObjectReader& reader, std::string_view key, Presence presenc
   }
 }
 
-void read_legend(ObjectReader& soil, TerrainDescription& terrain) {
+void read_legend(ObjectReader& soil, SoilSource source, Legend& legend) {
   int row = 0;
   for (const Element& element : soil.list("legend", kRequired, {0, kMaxClasses})) {
     ObjectReader reader(*element.value, element.pointer, soil.faults());
-    dem::SoilClass& entry = terrain.legend.emplace_back();
+    dem::SoilClass& entry = legend.classes.emplace_back();
     entry.value = row++;
-    if (terrain.soil_source == SoilSource::kRaster)
-      reader.whole("value", kRequired, -32768, 32767, entry.value);
+    if (source == SoilSource::kRaster) reader.whole("value", kRequired, -32768, 32767, entry.value);
     reader.text("label", kRequired, {}, entry.label);
     const JsonValue* const name = reader.member("soil", kRequired);
     if (name != nullptr && !name->is(JsonValue::Kind::kNull)) {
@@ -46,6 +45,20 @@ void read_legend(ObjectReader& soil, TerrainDescription& terrain) {
       }
     }
     reader.refuse_unknown();
+  }
+  soil.text("assumption", kRequired, {.most = 2000}, legend.assumption);
+  soil.number("confidence", kOptional, {"1", 0.0, 1.0, true}, legend.confidence);
+}
+
+void read_other_legends(ObjectReader& soil, TerrainDescription& terrain) {
+  for (const Element& element : soil.list("other_legends", kOptional, {0, 20})) {
+    ObjectReader reader(*element.value, element.pointer, soil.faults());
+    Legend other;
+    reader.text("name", kRequired, {.most = 64, .is_name = true}, other.name);
+    if (terrain.legend(other.name) != nullptr) reader.fault("name", "another legend has this name");
+    read_legend(reader, terrain.soil_source, other);
+    reader.refuse_unknown();
+    terrain.legends.push_back(std::move(other));
   }
 }
 
@@ -65,9 +78,10 @@ void read_soil(ObjectReader& soil, TerrainDescription& terrain) {
     terrain.soil_coordinates =
         choice == 0 ? dem::PolygonCoordinates::kLongitudeLatitude : dem::PolygonCoordinates::kMap;
   }
-  read_legend(soil, terrain);
-  soil.text("assumption", kRequired, {.most = 2000}, terrain.assumption);
-  soil.number("confidence", kOptional, {"1", 0.0, 1.0, true}, terrain.confidence);
+  Legend& first = terrain.legends.front();
+  soil.text("legend_name", kOptional, {.most = 64, .is_name = true}, first.name);
+  read_legend(soil, terrain.soil_source, first);
+  read_other_legends(soil, terrain);
   soil.refuse_unknown();
 }
 

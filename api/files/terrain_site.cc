@@ -108,20 +108,20 @@ Result<std::shared_ptr<const TerrainSite>> TerrainSite::open(const std::filesyst
   return std::shared_ptr<const TerrainSite>(std::move(site));
 }
 
-Result<GroundWindow> TerrainSite::read(const dem::Extent& extent) const {
+Result<GroundWindow> TerrainSite::read(const dem::Extent& extent, const Legend& legend) const {
   auto terrain = elevation_->read(clipped(extent, info().geometry.extent()));
   if (!terrain) return fail(terrain.error());
   const dem::GridGeometry& geometry = (*terrain)->geometry();
   Result<std::shared_ptr<const dem::SoilMap>> soil_map;
   switch (description_.soil_source) {
     case SoilSource::kRaster:
-      soil_map = dem::read_soil_raster(folder_ / description_.soil_file, info(), geometry.extent(),
-                                       description_.legend);
+      soil_map =
+          dem::read_soil_raster(folder_ / description_.soil_file, info(), geometry.extent(), legend.classes);
       break;
     case SoilSource::kPolygons:
-      soil_map = dem::read_soil_polygons(folder_ / description_.soil_file, info(), geometry.extent(),
-                                         description_.soil_property, description_.soil_coordinates,
-                                         description_.legend);
+      soil_map =
+          dem::read_soil_polygons(folder_ / description_.soil_file, info(), geometry.extent(),
+                                  description_.soil_property, description_.soil_coordinates, legend.classes);
       break;
     case SoilSource::kNone: {
       const auto cells = static_cast<std::size_t>(geometry.rows) * static_cast<std::size_t>(geometry.columns);

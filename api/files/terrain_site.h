@@ -35,8 +35,12 @@ class TerrainSite {
   // Drives of the past on this ground; none where the terrain has no such table.
   const DriveOutcomeTable& outcomes() const { return outcomes_; }
 
-  // The ground over the extent, which is clipped to the terrain. Errors as dem::ElevationSource::read.
-  Result<GroundWindow> read(const dem::Extent& extent) const;
+  // The ground over the extent, which is clipped to the terrain, by one of its legends. Errors as
+  // dem::ElevationSource::read.
+  Result<GroundWindow> read(const dem::Extent& extent, const Legend& legend) const;
+  Result<GroundWindow> read(const dem::Extent& extent) const {
+    return read(extent, description_.legends.front());
+  }
   // Elevation only, of a few cells around a point that lies on the map.
   Result<std::shared_ptr<const dem::Terrain>> read_around(double x_m, double y_m, double radius_m) const;
 

@@ -24,6 +24,7 @@ struct Provenance {
   std::string crs_name;
   std::string body;
   double gravity_m_s2 = 0.0;
+  std::string legend;              // the name of the one by which the map was read
   std::string soil_assumption;     // why the mapped classes are assumed to be these soils
   std::vector<std::string> soils;  // by the index in the stations
   std::string unknown_soil;        // assumed where no map names a soil

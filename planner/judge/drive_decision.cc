@@ -114,16 +114,12 @@ DriveDecision decide(const PlanProblem& problem, const sim::DrivePrediction& dri
   const bool scrapes = std::any_of(
       outcomes.rules.begin(), outcomes.rules.end(),
       [](const sim::RuleRisk& rule) { return rule.rule == Rule::kClearance && rule.trips.share >= 1.0; });
-  const bool no_stance = drive.immobilised && drive.immobilised->reason.starts_with("no stance");
-  const bool over =
-      outcomes.embedding.low > bars.max_embedding || outcomes.expected_stops_low > bars.max_expected_stops;
-  const bool under =
-      outcomes.embedding.high < bars.max_embedding && outcomes.expected_stops_high < bars.max_expected_stops;
+  const bool over = bars.are_passed(outcomes);
   const bool known_is_under = outcomes.embedding_on_known.high < bars.max_embedding &&
                               outcomes.expected_stops_on_known < bars.max_expected_stops;
-  if (no_stance) {
+  if (drive.without_stance) {
     out.decision = Decision::kNoGo;
-    out.reasons.push_back(drive.immobilised->reason);
+    out.reasons.push_back(drive.without_stance->reason);
   } else if (scrapes) {
     out.decision = Decision::kNoGo;
     out.reasons.push_back("the belly comes nearer to the ground than its limit, whatever the soil");
@@ -131,7 +127,7 @@ DriveDecision decide(const PlanProblem& problem, const sim::DrivePrediction& dri
     out.reasons.push_back("what goes wrong hangs on ground that no map names");
   } else if (over) {
     out.decision = Decision::kNoGo;
-  } else if (under) {
+  } else if (bars.are_kept(outcomes)) {
     out.decision = Decision::kGo;
   } else {
     out.reasons.push_back(fmt::format("{} draws of the ground do not decide", drive.draws));

@@ -22,6 +22,7 @@ struct DriveOptions {
   std::optional<double> max_slip, max_tilt_deg, speed_m_s;
   std::optional<double> slip_check_every_m, max_embedding, max_expected_stops;
   std::optional<int> as_of_sol;
+  std::string legend;
   std::optional<int> draws;
   std::optional<long long> seed;
   std::optional<double> motor_temp_c;

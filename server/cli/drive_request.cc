@@ -69,6 +69,7 @@ void write_drive(Writer& w, const DriveOptions& drive) {
     for (const std::string& failed : drive.failed) write_setting(w, failed);
     w.end_object();
   }
+  if (!drive.legend.empty()) w.text("legend", drive.legend);
   if (drive.as_of_sol) w.whole("as_of_sol", *drive.as_of_sol);
   if (drive.draws) w.whole("draws", *drive.draws);
   if (drive.seed) w.whole("seed", *drive.seed);

@@ -1,5 +1,7 @@
 #include "sim/prediction/drawn_drive.h"
 
+#include <cmath>
+
 #include "sim/prediction/drawn_ground.h"
 
 namespace slipway::sim {
@@ -10,6 +12,21 @@ class LevelGround final : public Ground {
   std::optional<GroundPoint> at(double /*x_m*/, double /*y_m*/) const override { return GroundPoint{}; }
   std::optional<std::size_t> soil_at(double /*x_m*/, double /*y_m*/) const override { return std::nullopt; }
 };
+
+// Over the wheels in the mean of the logarithm.
+double slip_scale(const DrawnGround& ground, const PreparedStation& station) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < station.soil.size(); ++k) sum += std::log(ground.slip_scale(station.soil[k]));
+  return std::exp(sum / static_cast<double>(station.soil.size()));
+}
+
+// The rover comes less far for the same turning of its wheels, or further; its wheels' forces are left.
+void scale_slip(double scale, StationState& state) {
+  if (!state.moving() || state.slip_ratio >= 1.0 || scale == 1.0) return;
+  const double travel = std::pow(1.0 - state.slip_ratio, scale);
+  state.along_m_s *= travel / (1.0 - state.slip_ratio);
+  state.slip_ratio = 1.0 - travel;
+}
 
 }  // namespace
 
@@ -23,9 +40,11 @@ DrawnDriver::DrawnDriver(const RoverModel& rover, double gravity_m_s2, const Soi
       checks_(checks),
       level_(settle(rover, LevelGround(), {})) {}
 
-DrawnDrive DrawnDriver::run(std::uint64_t key, bool keep_states, const Progress& progress) const {
+DrawnDrive DrawnDriver::run(std::uint64_t key, const DrawnRun& how, const Progress& progress) const {
   DrawnDrive drawn;
-  DrawnGround ground(beliefs_, key, [this](const Soil& soil) { return drives_level(soil); });
+  DrawnGround ground(
+      beliefs_, key, [this](const Soil& soil) { return drives_level(soil); }, how.redrawn);
+  if (how.met) ground.note(*how.met);
   QuasiStaticSolver solver(rover_, gravity_m_s2_, Precision::kDraws);
   OutcomeFollower follower(rover_, limits_, checks_);
   PerWheel<Soil> under(rover_.wheels.size());
@@ -35,9 +54,11 @@ DrawnDrive DrawnDriver::run(std::uint64_t key, bool keep_states, const Progress&
     const PreparedStation& station = drive_.stations[s];
     for (std::size_t k = 0; k < under.size(); ++k)
       under[k] = ground.at(station.soil[k], station.pose.x_m, station.pose.y_m);
-    const StationState state = solver.solve(station.stance, under, station.command);
+    StationState state = solver.solve(station.stance, under, station.command);
+    scale_slip(slip_scale(ground, station), state);
     if (!embedded) embedded = !follower.add(station, s, state);
-    if (!drawn.immobilised) add(station, state, keep_states, drawn);
+    if (how.to_first_stop && (embedded || follower.stops() > 0)) break;
+    if (!drawn.immobilised) add(station, state, how.keep_states, drawn);
   }
   drawn.outcome = follower.finish();
   if (drive_.without_stance) {

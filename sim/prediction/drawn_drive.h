@@ -21,6 +21,14 @@ struct DrawnDrive {
   DriveOutcome outcome;
 };
 
+// How a draw is driven.
+struct DrawnRun {
+  bool keep_states = false;    // of every station
+  bool to_first_stop = false;  // no further than to the first stop or embedding
+  const RedrawnCells* redrawn = nullptr;
+  std::unordered_set<std::uint64_t>* met = nullptr;  // notes the cells that are met
+};
+
 // Drives a prepared drive on draws of the ground. What it is given must outlive it; used from several
 // threads.
 class DrawnDriver {
@@ -28,7 +36,8 @@ class DrawnDriver {
   DrawnDriver(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs& beliefs,
               const PreparedDrive& drive, const DriveLimits& limits, const SlipChecks& checks);
 
-  DrawnDrive run(std::uint64_t key, bool keep_states, const Progress& progress) const;
+  // On the draw of a key.
+  DrawnDrive run(std::uint64_t key, const DrawnRun& how, const Progress& progress) const;
 
  private:
   bool drives_level(const Soil& soil) const;

@@ -8,13 +8,16 @@ namespace slipway::sim {
 namespace {
 
 // Streams of one belief's random numbers.
-enum Stream : std::uint64_t { kEverywhere, kUnit, kPatch, kPressureChoice, kStrengthChoice, kJitter, kWeak };
-
-SoilNormals normals_of(std::uint64_t key) {
-  SoilNormals z;
-  for (int k = 0; k < kSoilDims; ++k) z[k] = random_normal(key, static_cast<std::uint64_t>(k));
-  return z;
-}
+enum Stream : std::uint64_t {
+  kEverywhere,
+  kUnit,
+  kPatch,
+  kPressureChoice,
+  kStrengthChoice,
+  kJitter,
+  kWeak,
+  kCommonness
+};
 
 std::uint64_t cell_key(std::uint64_t key, long long column, long long row) {
   return random_key(random_key(key, static_cast<std::uint64_t>(column)), static_cast<std::uint64_t>(row));
@@ -27,33 +30,15 @@ std::uint64_t name_key(std::uint64_t key, const std::string& name) {
   return random_key(key, hash);
 }
 
-// The cell of the lattice whose jittered centre is nearest.
-std::uint64_t unit_at(std::uint64_t key, double x_m, double y_m) {
-  const auto column = static_cast<long long>(std::floor(x_m / kUnitLength_m));
-  const auto row = static_cast<long long>(std::floor(y_m / kUnitLength_m));
-  double nearest = 1e300;
-  std::uint64_t unit = 0;
-  for (long long r = row - 1; r <= row + 1; ++r) {
-    for (long long c = column - 1; c <= column + 1; ++c) {
-      const std::uint64_t cell = cell_key(key, c, r);
-      const double dx = (static_cast<double>(c) + random_uniform(cell, 0)) * kUnitLength_m - x_m;
-      const double dy = (static_cast<double>(r) + random_uniform(cell, 1)) * kUnitLength_m - y_m;
-      if (dx * dx + dy * dy >= nearest) continue;
-      nearest = dx * dx + dy * dy;
-      unit = cell;
-    }
-  }
-  return unit;
-}
-
 const SoilDistribution& chosen(const std::vector<SoilAlternative>& alternatives,
-                               double SoilAlternative::*weight, double uniform) {
+                               double SoilAlternative::*weight, const std::vector<double>& commonness,
+                               double uniform) {
   double sum = 0.0;
-  for (const SoilAlternative& each : alternatives) sum += each.*weight;
+  for (std::size_t k = 0; k < alternatives.size(); ++k) sum += alternatives[k].*weight * commonness[k];
   double left = uniform * sum;
-  for (const SoilAlternative& each : alternatives) {
-    left -= each.*weight;
-    if (left < 0.0) return *each.soil;
+  for (std::size_t k = 0; k < alternatives.size(); ++k) {
+    left -= alternatives[k].*weight * commonness[k];
+    if (left < 0.0) return *alternatives[k].soil;
   }
   return *alternatives.back().soil;
 }
@@ -71,11 +56,24 @@ Soil joined(const SoilDistribution& strength, const SoilDistribution& pressure, 
 
 }  // namespace
 
-DrawnGround::DrawnGround(const SoilBeliefs& beliefs, std::uint64_t key, DrivesLevel drives_level)
+DrawnGround::DrawnGround(const SoilBeliefs& beliefs, std::uint64_t key, DrivesLevel drives_level,
+                         const RedrawnCells* redrawn)
     : beliefs_(beliefs),
       key_(key),
       drives_level_(std::move(drives_level)),
+      redrawn_(redrawn),
       drawn_(beliefs.known.size() + 1) {}
+
+DrawnGround::Normals DrawnGround::normals_of(std::uint64_t key) {
+  Normals z;
+  for (int k = 0; k <= kSoilDims; ++k) z[k] = random_normal(key, static_cast<std::uint64_t>(k));
+  return z;
+}
+
+double DrawnGround::slip_scale(std::optional<std::size_t> soil) const {
+  const std::optional<Belief>& belief = drawn_[soil.value_or(beliefs_.known.size())];
+  return belief ? belief->slip_scale : 1.0;
+}
 
 const Soil& DrawnGround::at(std::optional<std::size_t> soil, double x_m, double y_m) {
   std::optional<Belief>& place = drawn_[soil.value_or(beliefs_.known.size())];
@@ -84,6 +82,10 @@ const Soil& DrawnGround::at(std::optional<std::size_t> soil, double x_m, double 
     place->distribution = &beliefs_.of(soil);
     place->key = name_key(key_, place->distribution->name);
     place->everywhere = normals_of(random_key(place->key, kEverywhere));
+    const std::uint64_t commonness = random_key(place->key, kCommonness);
+    for (std::size_t k = 0; k < place->distribution->alternatives.size(); ++k)
+      place->commonness.push_back(
+          std::exp(place->distribution->alternatives_spread * random_normal(commonness, k)));
   }
   Belief& belief = *place;
   // The wheels of a rover at one place are asked for one after another with the place of the rover.
@@ -96,21 +98,48 @@ const Soil& DrawnGround::at(std::optional<std::size_t> soil, double x_m, double 
   return belief.soil;
 }
 
-SoilNormals DrawnGround::blended(Corners& corners, std::uint64_t key, double length_m, double x_m,
-                                 double y_m) {
+std::uint64_t DrawnGround::redrawn(std::uint64_t cell) {
+  if (met_) met_->insert(cell);
+  if (!redrawn_) return cell;
+  const auto found = redrawn_->find(cell);
+  return found == redrawn_->end() ? cell : found->second;
+}
+
+// The cell of the lattice whose jittered centre is nearest.
+std::uint64_t DrawnGround::cell_at(std::uint64_t key, double length_m, double x_m, double y_m) {
+  const auto column = static_cast<long long>(std::floor(x_m / length_m));
+  const auto row = static_cast<long long>(std::floor(y_m / length_m));
+  double nearest = 1e300;
+  std::uint64_t best = 0;
+  for (long long r = row - 1; r <= row + 1; ++r) {
+    for (long long c = column - 1; c <= column + 1; ++c) {
+      const std::uint64_t cell = cell_key(key, c, r);
+      const double dx = (static_cast<double>(c) + random_uniform(cell, 0)) * length_m - x_m;
+      const double dy = (static_cast<double>(r) + random_uniform(cell, 1)) * length_m - y_m;
+      if (dx * dx + dy * dy >= nearest) continue;
+      nearest = dx * dx + dy * dy;
+      best = cell;
+    }
+  }
+  return redrawn(best);
+}
+
+DrawnGround::Normals DrawnGround::blended(Corners& corners, std::uint64_t key, double length_m, double x_m,
+                                          double y_m) {
   const double u = x_m / length_m, v = y_m / length_m;
   const auto column = static_cast<long long>(std::floor(u));
   const auto row = static_cast<long long>(std::floor(v));
   if (!corners.filled || corners.column != column || corners.row != row) {
     for (int k = 0; k < 4; ++k)
-      corners.normals[static_cast<std::size_t>(k)] = normals_of(cell_key(key, column + k % 2, row + k / 2));
+      corners.normals[static_cast<std::size_t>(k)] =
+          normals_of(redrawn(cell_key(key, column + k % 2, row + k / 2)));
     corners.filled = true;
     corners.column = column;
     corners.row = row;
   }
   const double a = u - static_cast<double>(column), b = v - static_cast<double>(row);
   const std::array<double, 4> weights{(1.0 - a) * (1.0 - b), a * (1.0 - b), (1.0 - a) * b, a * b};
-  SoilNormals sum = SoilNormals::Zero();
+  Normals sum = Normals::Zero();
   double variance = 0.0;
   for (std::size_t k = 0; k < 4; ++k) {
     sum += weights[k] * corners.normals[k];
@@ -119,41 +148,50 @@ SoilNormals DrawnGround::blended(Corners& corners, std::uint64_t key, double len
   return sum / std::sqrt(variance);
 }
 
-// The rows of pressure and strength of a unit, drawn anew until the rover drives level ground of them.
-void DrawnGround::choose(Belief& belief, std::uint64_t unit) const {
+// The rows of pressure and strength of a cell, drawn anew until the rover drives level ground of them.
+void DrawnGround::choose(Belief& belief, std::uint64_t cell) const {
   constexpr std::uint64_t kMaxTries = 50;
   const SoilDistribution& of = *belief.distribution;
   // Units and patches differ from what all ground of the soil shares: most are not weaker than this.
   constexpr double kDeviations = 1.5;
-  const SoilNormals weak = std::sqrt(of.shares.everywhere) * belief.everywhere +
+  const SoilNormals weak = std::sqrt(of.shares.everywhere) * belief.everywhere.head<kSoilDims>() +
                            kDeviations * std::sqrt(of.shares.unit + of.shares.patch) * towards_weakness();
   for (std::uint64_t tried = 0; tried < kMaxTries; ++tried) {
-    const std::uint64_t choice = random_key(unit, tried);
-    belief.strength =
-        &chosen(of.alternatives, &SoilAlternative::strength_weight, random_uniform(choice, kStrengthChoice));
-    belief.pressure =
-        &chosen(of.alternatives, &SoilAlternative::pressure_weight, random_uniform(choice, kPressureChoice));
+    const std::uint64_t choice = random_key(cell, tried);
+    belief.strength = &chosen(of.alternatives, &SoilAlternative::strength_weight, belief.commonness,
+                              random_uniform(choice, kStrengthChoice));
+    belief.pressure = belief.strength;
+    if (of.drawn_apart)
+      belief.pressure = &chosen(of.alternatives, &SoilAlternative::pressure_weight, belief.commonness,
+                                random_uniform(choice, kPressureChoice));
     if (!drives_level_ || drives_level_(joined(*belief.strength, *belief.pressure, weak)) ||
         random_uniform(choice, kWeak) < kWeakShare)
       return;
   }
 }
 
-Soil DrawnGround::draw(Belief& belief, double x_m, double y_m) const {
+Soil DrawnGround::draw(Belief& belief, double x_m, double y_m) {
   const SoilDistribution& of = *belief.distribution;
   const std::uint64_t key = belief.key;
-  const SoilNormals patch = std::sqrt(of.shares.patch) *
-                            blended(belief.patch, random_key(key, kPatch), of.correlation_length_m, x_m, y_m);
-  const SoilNormals unit =
+  const Normals patch = std::sqrt(of.shares.patch) *
+                        blended(belief.patch, random_key(key, kPatch), of.correlation_length_m, x_m, y_m);
+  const Normals unit =
       std::sqrt(of.shares.everywhere) * belief.everywhere +
       std::sqrt(of.shares.unit) * blended(belief.unit, random_key(key, kUnit), kUnitLength_m, x_m, y_m);
-  if (of.alternatives.empty()) return draw_soil(of, unit + patch);
-  const std::uint64_t choice = of.alternatives_by_unit ? unit_at(random_key(key, kJitter), x_m, y_m) : key;
+  const Normals all = unit + patch;
+  belief.slip_scale = std::exp(of.slip_error * all[kSoilDims]);
+  const SoilNormals normals = all.head<kSoilDims>();
+  if (of.alternatives.empty()) return draw_soil(of, normals);
+  std::uint64_t choice = key;
+  if (of.alternatives_by == AlternativesBy::kUnit)
+    choice = cell_at(random_key(key, kJitter), kUnitLength_m, x_m, y_m);
+  else if (of.alternatives_by == AlternativesBy::kPatch)
+    choice = cell_at(random_key(key, kJitter), of.correlation_length_m, x_m, y_m);
   if (belief.chosen_for != choice) {
     choose(belief, choice);
     belief.chosen_for = choice;
   }
-  return joined(*belief.strength, *belief.pressure, unit + patch);
+  return joined(*belief.strength, *belief.pressure, normals);
 }
 
 }  // namespace slipway::sim

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <unordered_set>
 #include <vector>
 
 #include "sim/prediction/drive_prediction.h"
@@ -38,40 +39,58 @@ class DrawnGround {
   // Whether the rover drives level ground of a soil; where it is empty, all soils are drawn as they come.
   using DrivesLevel = std::function<bool(const Soil&)>;
 
-  DrawnGround(const SoilBeliefs& beliefs, std::uint64_t key, DrivesLevel drives_level = {});
+  // `redrawn` are the cells that what was driven has made another draw of; it must outlive this.
+  DrawnGround(const SoilBeliefs& beliefs, std::uint64_t key, DrivesLevel drives_level = {},
+              const RedrawnCells* redrawn = nullptr);
 
   // The soil at a place of ground that is believed to be soil `soil`, or unknown ground where it is empty.
   // The reference holds until the next call.
   const Soil& at(std::optional<std::size_t> soil, double x_m, double y_m);
+  // The ratio of ln(1 - slip), on the real ground over the model's, at the place of the last call for that
+  // soil.
+  double slip_scale(std::optional<std::size_t> soil) const;
+
+  // Notes the units and patches that are met from now on; `met` must outlive this.
+  void note(std::unordered_set<std::uint64_t>& met) { met_ = &met; }
 
  private:
+  // Those of a soil, and one for the error of slip.
+  using Normals = Eigen::Matrix<double, kSoilDims + 1, 1>;
   // Normal numbers at the corners of one cell of a lattice.
   struct Corners {
     bool filled = false;
     long long column = 0, row = 0;
-    std::array<SoilNormals, 4> normals;
+    std::array<Normals, 4> normals;
   };
   struct Belief {
     const SoilDistribution* distribution = nullptr;
     std::uint64_t key = 0;
-    SoilNormals everywhere;
+    Normals everywhere;
+    std::vector<double> commonness;  // factor of each alternative's weight in this draw
     Corners unit, patch;
     // The alternatives that were chosen for one unit, or for all ground.
     std::optional<std::uint64_t> chosen_for;
     const SoilDistribution* strength = nullptr;
     const SoilDistribution* pressure = nullptr;
     Soil soil;
+    double slip_scale = 1.0;
     double x_m = 0.0, y_m = 0.0;  // where `soil` was drawn
     bool drawn = false;
   };
 
-  static SoilNormals blended(Corners& corners, std::uint64_t key, double length_m, double x_m, double y_m);
-  Soil draw(Belief& belief, double x_m, double y_m) const;
-  void choose(Belief& belief, std::uint64_t unit) const;
+  static Normals normals_of(std::uint64_t key);
+  // The key of a unit or patch of this draw.
+  std::uint64_t redrawn(std::uint64_t cell);
+  std::uint64_t cell_at(std::uint64_t key, double length_m, double x_m, double y_m);
+  Normals blended(Corners& corners, std::uint64_t key, double length_m, double x_m, double y_m);
+  Soil draw(Belief& belief, double x_m, double y_m);
+  void choose(Belief& belief, std::uint64_t cell) const;
 
   const SoilBeliefs& beliefs_;
   std::uint64_t key_;
   DrivesLevel drives_level_;
+  const RedrawnCells* redrawn_;
+  std::unordered_set<std::uint64_t>* met_ = nullptr;
   std::vector<std::optional<Belief>> drawn_;  // by soil; the last is unknown ground
 };
 

@@ -24,8 +24,8 @@ void OutcomeFollower::note(Rule rule, double value, bool trips, int wheel) {
   of.tripped = true;
 }
 
-bool OutcomeFollower::embed(double value) {
-  note(Rule::kEmbedding, value, true);
+bool OutcomeFollower::embed() {
+  note(Rule::kEmbedding, 1.0, true);
   outcome_.embedded = true;
   outcome_.events.push_back({Rule::kEmbedding, index_});
   return false;
@@ -107,13 +107,13 @@ bool OutcomeFollower::add(const PreparedStation& station, std::size_t index, con
   note(Rule::kClearance, station.stance.belly_clearance_m,
        station.stance.belly_clearance_m < limits_.min_clearance_m);
   watch(Rule::kTilt, station.stance.attitude.tilt_rad(), limits_.max_tilt_rad);
-  if (!state.moving()) return spin_on_the_spot() || embed(1.0);
-  if (!watch_wheels(state)) return embed(1.0);
+  if (!state.moving()) return spin_on_the_spot() || embed();
+  if (!watch_wheels(state)) return embed();
   if (station.command.turn_in_place || station.drive_m <= 0.0) return true;
   const double rolled = station.drive_m / (1.0 - std::clamp(state.slip_ratio, 0.0, 0.999));
   come_m_ += station.drive_m;
   rolled_m_ += rolled;
-  if (state.slip_ratio > checks_.embedding_slip_ratio && !spin(rolled)) return embed(1.0);
+  if (state.slip_ratio > checks_.embedding_slip_ratio && !spin(rolled)) return embed();
   if (rolled_m_ >= checks_.slip_check_every_m) check_slip();
   return true;
 }

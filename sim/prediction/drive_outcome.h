@@ -50,6 +50,8 @@ class OutcomeFollower {
 
   // Returns false where the drive has ended: the rover is embedded.
   bool add(const PreparedStation& station, std::size_t index, const StationState& state);
+  // So far.
+  int stops() const { return outcome_.stops; }
   // The last interval is checked where the drive ends.
   const DriveOutcome& finish();
 
@@ -58,7 +60,7 @@ class OutcomeFollower {
   void note(Rule rule, double value, bool trips, int wheel = -1);
   void watch(Rule rule, double value, double limit, int wheel = -1);
   void halt(Rule rule);
-  bool embed(double value);
+  bool embed();
   bool spin(double rolled_m);
   bool spin_on_the_spot();
   bool check_slip();

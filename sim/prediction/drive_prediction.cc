@@ -6,6 +6,10 @@
 #include <cmath>
 
 #include "core/angle.h"
+#include "core/parallel_for.h"
+#include "core/random.h"
+#include "sim/prediction/conditioned_draw.h"
+#include "sim/prediction/drawn_drive.h"
 #include "sim/prediction/drive_risk.h"
 
 namespace slipway::sim {
@@ -110,12 +114,11 @@ class Predictor {
   // Every wheel has ground under it (predict_drive checked this), but the suspension cannot follow its shape.
   bool no_stance(const PathStation& station) {
     prepared_.without_stance = true;
-    if (!prediction_.immobilised) {
-      prediction_.immobilised = {
-          station.distance_m, station.pose,
-          fmt::format("no stance at {:.1f} m: the ground is too uneven for the suspension",
-                      station.distance_m)};
-    }
+    prediction_.without_stance = {
+        station.distance_m, station.pose,
+        fmt::format("no stance at {:.1f} m: the ground is too uneven for the suspension",
+                    station.distance_m)};
+    if (!prediction_.immobilised) prediction_.immobilised = prediction_.without_stance;
     return false;
   }
 
@@ -198,6 +201,14 @@ std::optional<Error> ground_faults(const RoverModel& rover, const Ground& ground
 
 }  // namespace
 
+bool OutcomeBars::are_kept(const DriveOutcomes& outcomes) const {
+  return outcomes.embedding.high < max_embedding && outcomes.expected_stops_high < max_expected_stops;
+}
+
+bool OutcomeBars::are_passed(const DriveOutcomes& outcomes) const {
+  return outcomes.embedding.low > max_embedding || outcomes.expected_stops_low > max_expected_stops;
+}
+
 double max_station_spacing_m(const RoverModel& rover) {
   return 2.0 * rover.smallest_wheel_radius_m();
 }
@@ -221,21 +232,23 @@ Result<DrivePrediction> predict_drive(const RoverModel& rover, double gravity_m_
   return prediction;
 }
 
-Result<std::vector<DrawnOutcome>> drawn_outcomes(const RoverModel& rover, double gravity_m_s2,
-                                                 const Ground& ground, const SoilBeliefs& beliefs,
-                                                 std::span<const PathStation> path, const DriveLimits& limits,
-                                                 const RiskOptions& risk, std::size_t threads,
-                                                 Progress& progress, const DriveConditions& conditions) {
-  if (path.empty()) throw std::invalid_argument("drawn_outcomes: a path needs a station");
+Result<void> condition_draws(const RoverModel& rover, double gravity_m_s2, const Ground& ground,
+                             const SoilBeliefs& beliefs, std::span<const PathStation> path,
+                             const DriveLimits& limits, const RiskOptions& risk,
+                             const PastDriveReport& report, std::size_t threads, Progress& progress,
+                             std::vector<ConditionedDraw>& draws, const DriveConditions& conditions) {
+  if (path.empty()) throw std::invalid_argument("condition_draws: a path needs a station");
   if (auto error = ground_faults(rover, ground, path, progress)) return fail(std::move(*error));
   Predictor predictor(rover, gravity_m_s2, ground, beliefs, limits, conditions);
   predictor.draws_alone();
   for (const PathStation& station : path)
     if (!predictor.add(station)) break;
-  auto outcomes =
-      outcomes_of_draws(rover, gravity_m_s2, beliefs, predictor.prepared(), limits, risk, threads, progress);
+  const DrawnDriver driver(rover, gravity_m_s2, beliefs, predictor.prepared(), limits, risk.checks);
+  parallel_for(draws.size(), threads, [&](std::size_t d) {
+    condition(driver, random_key(risk.seed, d), report, progress, draws[d]);
+  });
   if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the prediction was dismissed");
-  return outcomes;
+  return {};
 }
 
 }  // namespace slipway::sim

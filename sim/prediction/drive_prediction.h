@@ -5,6 +5,8 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "core/pose.h"
@@ -125,7 +127,9 @@ struct DrivePrediction {
   double slip_curve_length_m = 0.0;
   bool by_slip_curve = false;                 // any station is on such ground
   std::optional<Immobilisation> immobilised;  // on the mean soils; the stations end there
-  std::vector<std::string> broken_limits;     // on the mean soils: "slip 0.52 at 31.2 m, limit 0.40"
+  // Where the ground is too uneven for the suspension, on whatever soil; the path is driven no further.
+  std::optional<Immobilisation> without_stance;
+  std::vector<std::string> broken_limits;  // on the mean soils: "slip 0.52 at 31.2 m, limit 0.40"
   // The share of soil draws in which the drive breaks a limit or ends immobilised, with a 90 % Wilson
   // interval.
   int draws = 0;
@@ -140,6 +144,21 @@ struct DrivePrediction {
 struct OutcomeBars {
   double max_embedding = 0.01;  // probability
   double max_expected_stops = 0.5;
+
+  // Both intervals are under their bars, or one of them is over its bar.
+  bool are_kept(const DriveOutcomes& outcomes) const;
+  bool are_passed(const DriveOutcomes& outcomes) const;
+};
+
+// Units and patches of a draw of the ground that are another draw: of each cell's key the key that it has
+// instead.
+using RedrawnCells = std::unordered_map<std::uint64_t, std::uint64_t>;
+
+// What drives of the past make of one draw of the ground (see condition_draws()).
+struct ConditionedDraw {
+  double weight = 1.0;
+  RedrawnCells redrawn;
+  std::unordered_set<std::uint64_t> met;  // cells on which a drive of the past was
 };
 
 // Draws of the ground along a drive (see DrawnGround). Draw d's ground depends on (seed, d) and the place
@@ -152,22 +171,29 @@ struct RiskOptions {
   OutcomeBars bars = {};
   SlipChecks checks = {};
   std::uint64_t seed = 1;
-  // What earlier drives make of the draws: the weight of draw d, which has none beyond the last. All weigh
-  // the same where it is empty.
-  std::shared_ptr<const std::vector<double>> weights = {};
+  // What earlier drives make of the draws; those beyond the last have no weight. Where it is empty all weigh
+  // the same, as they were drawn.
+  std::shared_ptr<const std::vector<ConditionedDraw>> conditioned = {};
 };
 
-// Balances the rover on the draws of the ground along the path, without a prediction on the mean soils: how
-// each of risk.draws draws goes. Errors as predict_drive().
-struct DrawnOutcome {
-  bool stopped = false;
-  bool embedded = false;
+// How a drive of the past went, for the draws that are conditioned on it.
+struct PastDriveReport {
+  bool stopped = false;  // by its slip check, its tilt or its current, or it was embedded
+  // The share of drives whose outcome the model calls wrongly though its ground is right.
+  double model_error = 0.05;
+  int tries = 1;  // how many draws of the ground under it are made for each draw
 };
-Result<std::vector<DrawnOutcome>> drawn_outcomes(const RoverModel& rover, double gravity_m_s2,
-                                                 const Ground& ground, const SoilBeliefs& beliefs,
-                                                 std::span<const PathStation> path, const DriveLimits& limits,
-                                                 const RiskOptions& risk, std::size_t threads,
-                                                 Progress& progress, const DriveConditions& conditions = {});
+
+// Conditions draws of the ground on a drive along a path: each draw's ground where no earlier drive has been
+// is drawn `tries` times, one of these is kept with a probability that goes with how likely it makes the
+// report, and the draw's weight is multiplied by their mean likelihood [sequential importance resampling
+// within each draw; Doucet & Johansen 2009]. Draws under risk.seed; risk.conditioned is not used. Errors as
+// predict_drive().
+Result<void> condition_draws(const RoverModel& rover, double gravity_m_s2, const Ground& ground,
+                             const SoilBeliefs& beliefs, std::span<const PathStation> path,
+                             const DriveLimits& limits, const RiskOptions& risk,
+                             const PastDriveReport& report, std::size_t threads, Progress& progress,
+                             std::vector<ConditionedDraw>& draws, const DriveConditions& conditions = {});
 
 // The maximum spacing of stations at which no obstacle that a wheel would meet is missed.
 double max_station_spacing_m(const RoverModel& rover);

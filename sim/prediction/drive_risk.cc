@@ -15,14 +15,6 @@ namespace {
 constexpr std::size_t kMaxStates = 4'000'000;
 constexpr int kMinProfileDraws = 24;
 
-// Both bars have their interval on one side, or one of them is passed for sure.
-bool decided(const DriveOutcomes& outcomes, const OutcomeBars& bars) {
-  if (outcomes.embedding.low > bars.max_embedding || outcomes.expected_stops_low > bars.max_expected_stops)
-    return true;
-  return outcomes.embedding.high < bars.max_embedding &&
-         outcomes.expected_stops_high < bars.max_expected_stops;
-}
-
 // The number of draws after each look at them.
 std::size_t next_batch(std::size_t drawn, const RiskOptions& options) {
   const auto first = static_cast<std::size_t>(options.draws);
@@ -42,9 +34,11 @@ bool draw_more(const DrawnDriver& driver, std::size_t count, std::size_t station
   drives.resize(count);
   parallel_for(count - before, threads, [&](std::size_t k) {
     const std::size_t draw = before + k;
-    drives[draw] = driver.run(random_key(options.seed, draw), draw < kept, progress);
-    if (!options.weights) return;
-    drives[draw].weight = draw < options.weights->size() ? (*options.weights)[draw] : 0.0;
+    const ConditionedDraw* conditioned =
+        options.conditioned && draw < options.conditioned->size() ? &(*options.conditioned)[draw] : nullptr;
+    const DrawnRun how{.keep_states = draw < kept, .redrawn = conditioned ? &conditioned->redrawn : nullptr};
+    drives[draw] = driver.run(random_key(options.seed, draw), how, progress);
+    if (options.conditioned) drives[draw].weight = conditioned ? conditioned->weight : 0.0;
   });
   return !progress.cancelled();
 }
@@ -88,20 +82,6 @@ Effort effort_of(const PreparedStation& station, const StationState& state) {
   return effort;
 }
 
-std::vector<DrawnOutcome> outcomes_of_draws(const RoverModel& rover, double gravity_m_s2,
-                                            const SoilBeliefs& beliefs, const PreparedDrive& drive,
-                                            const DriveLimits& limits, const RiskOptions& options,
-                                            std::size_t threads, Progress& progress) {
-  const DrawnDriver driver(rover, gravity_m_s2, beliefs, drive, limits, options.checks);
-  std::vector<DrawnOutcome> outcomes(static_cast<std::size_t>(options.draws));
-  parallel_for(outcomes.size(), threads, [&](std::size_t draw) {
-    const DrawnDrive drawn = driver.run(random_key(options.seed, draw), false, progress);
-    outcomes[draw] = {drawn.outcome.stops > 0, drawn.outcome.embedded};
-  });
-  if (progress.cancelled()) outcomes.clear();
-  return outcomes;
-}
-
 bool assess_risk(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs& beliefs,
                  const PreparedDrive& drive, const DriveLimits& limits, const RiskOptions& options,
                  std::size_t threads, Progress& progress, DrivePrediction& prediction) {
@@ -113,7 +93,8 @@ bool assess_risk(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs
                    progress, drives))
       return false;
     summarise(drives, drive.stations, limits, prediction);
-  } while (drives.size() < most && !decided(prediction.outcomes, options.bars));
+  } while (drives.size() < most && !options.bars.are_kept(prediction.outcomes) &&
+           !options.bars.are_passed(prediction.outcomes));
 
   for (std::size_t k = 0; k < prediction.stations.size(); ++k) {
     StationPrediction& station = prediction.stations[k];
@@ -121,8 +102,7 @@ bool assess_risk(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs
     if (station.risk > prediction.worst_place.value)
       prediction.worst_place = {station.risk, station.station.distance_m};
   }
-  if (drive.without_stance && prediction.immobilised)
-    prediction.worst_place = {1.0, prediction.immobilised->distance_m};
+  if (prediction.without_stance) prediction.worst_place = {1.0, prediction.without_stance->distance_m};
   return true;
 }
 

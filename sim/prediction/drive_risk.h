@@ -42,12 +42,6 @@ struct PreparedDrive {
   bool without_stance = false;            // the path goes on where no stance is possible
 };
 
-// Each draw of the ground along the drive; empty where it was cancelled.
-std::vector<DrawnOutcome> outcomes_of_draws(const RoverModel& rover, double gravity_m_s2,
-                                            const SoilBeliefs& beliefs, const PreparedDrive& drive,
-                                            const DriveLimits& limits, const RiskOptions& options,
-                                            std::size_t threads, Progress& progress);
-
 // Fills the prediction's fields over soil draws (risk, outcomes, intervals, quantiles per station). Returns
 // false where it was cancelled.
 bool assess_risk(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs& beliefs,

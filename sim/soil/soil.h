@@ -112,10 +112,13 @@ struct SpreadShares {
   double patch = 0.2;
 };
 
+// Over what ground one of the alternatives holds: all ground of the soil, a unit (kUnitLength_m), or a patch
+// (the soil's correlation length).
+enum class AlternativesBy { kEverywhere, kUnit, kPatch };
+
 struct SoilDistribution;
 
-// One of the soils that the ground may be. Sinkage under load and strength are drawn apart, since tables of
-// soils often share one assumed stiffness among rows whose strengths were measured one by one.
+// One of the soils that the ground may be.
 struct SoilAlternative {
   std::string name;
   std::shared_ptr<const SoilDistribution> soil;  // of that name; without alternatives of its own
@@ -136,11 +139,21 @@ struct SoilDistribution {
   SoilCorrelation correlation = SoilCorrelation::Identity();
   double correlation_length_m = 5.0;  // of a patch
   SpreadShares shares;
+  // How far the slip on real ground of this kind is from the model's though the soil is right: ripples and
+  // roughness below the map's cells, and the model itself. Standard deviation of the logarithm of the ratio
+  // of ln(1 - slip), real over predicted; its levels are those of the spread.
+  double slip_error = 0.0;
   // Where it is not known which soil the ground is, the soils that it may be; a draw is of one of these, and
   // mean and std above serve the prediction on the mean soil alone.
   std::vector<SoilAlternative> alternatives;
-  // Each unit of the ground is another draw of the alternatives; false where all ground of this soil is one.
-  bool alternatives_by_unit = false;
+  AlternativesBy alternatives_by = AlternativesBy::kEverywhere;
+  // How little is known of how common each of them is: the standard deviation from draw to draw of the
+  // logarithm of each one's weight, the same for all ground of this soil.
+  double alternatives_spread = 0.0;
+  // Sinkage under load and strength are drawn apart, since tables of soils often share one assumed stiffness
+  // among rows whose strengths were measured one by one. Otherwise a draw is one of the soils as a whole, by
+  // its strength's weight.
+  bool drawn_apart = true;
 };
 
 // Turns standard normal numbers into one soil of the distribution. `normals` are independent; the correlation

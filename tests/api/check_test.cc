@@ -130,6 +130,11 @@ TEST(Decision, HasEveryBranch) {
   EXPECT_EQ(decided(unmapped), planner::Decision::kUnknown);
   sim::DrivePrediction no_stance = prediction_with(never, 0.0, 0.0, 0.0);
   no_stance.immobilised = {3.0, {}, "no stance at 3.0 m: the ground is too uneven for the suspension"};
+  no_stance.without_stance = no_stance.immobilised;
+  EXPECT_EQ(decided(no_stance), planner::Decision::kNoGo);
+  // The mean soils immobilise the rover before it comes to where no soil would help.
+  no_stance.immobilised = {1.0, {}, "no traction at 1.0 m"};
+  no_stance.outcomes.embedding = often;
   EXPECT_EQ(decided(no_stance), planner::Decision::kNoGo);
   sim::DrivePrediction scrapes = prediction_with(never, 0.0, 0.0, 0.0);
   scrapes.outcomes.rules.push_back({.rule = sim::Rule::kClearance, .trips = {1.0, 0.9, 1.0}});

@@ -87,7 +87,7 @@ SoilDistribution either(double loam_weight, double sand_weight, bool by_unit) {
   const auto loam = std::make_shared<SoilDistribution>(certain("loam", sandy_loam()));
   const auto sand = std::make_shared<SoilDistribution>(certain("sand", loose_sand()));
   mixed.alternatives = {{"loam", loam, loam_weight, loam_weight}, {"sand", sand, sand_weight, sand_weight}};
-  mixed.alternatives_by_unit = by_unit;
+  mixed.alternatives_by = by_unit ? AlternativesBy::kUnit : AlternativesBy::kEverywhere;
   return mixed;
 }
 
@@ -123,6 +123,65 @@ TEST(DrawnGround, OfUnknownGroundEveryUnitIsAnotherDraw) {
   const double per_100_m = 5.0 * changes / places;
   EXPECT_GT(per_100_m, 0.4);
   EXPECT_LT(per_100_m, 0.8);
+}
+
+TEST(DrawnGround, AlternativesByPatchChangeWithinAUnitAndAreWholeSoils) {
+  SoilDistribution patchy = either(3.0, 1.0, false);
+  patchy.alternatives_by = AlternativesBy::kPatch;
+  patchy.correlation_length_m = 10.0;
+  patchy.drawn_apart = false;
+  const SoilBeliefs beliefs{{patchy}, loam()};
+  int sand = 0, changes = 0;
+  constexpr int kDraws = 100, kPlaces = 100;
+  for (int d = 0; d < kDraws; ++d) {
+    DrawnGround ground(beliefs, random_key(8, static_cast<std::uint64_t>(d)));
+    bool before = false;
+    for (int k = 0; k < kPlaces; ++k) {
+      const Soil& soil = ground.at(0, 10.0 * k, 3.0);
+      const bool weak = soil.cohesion_pa == loose_sand().cohesion_pa;
+      EXPECT_EQ(weak, soil.pressure.n == loose_sand().pressure.n);
+      sand += weak;
+      changes += k > 0 && weak != before;
+      before = weak;
+    }
+  }
+  EXPECT_NEAR(sand / double{kDraws * kPlaces}, 0.25, 0.02);
+  EXPECT_GT(changes, kDraws * kPlaces / 8) << "steps as long as a patch mostly end in another";
+}
+
+TEST(DrawnGround, HowCommonAnAlternativeIsDiffersFromDrawToDraw) {
+  SoilDistribution patchy = either(3.0, 1.0, false);
+  patchy.alternatives_by = AlternativesBy::kPatch;
+  patchy.drawn_apart = false;
+  const auto variance = [&](double spread) {
+    patchy.alternatives_spread = spread;
+    const SoilBeliefs beliefs{{patchy}, loam()};
+    double sum = 0.0, square = 0.0;
+    for (int d = 0; d < 200; ++d) {
+      DrawnGround ground(beliefs, random_key(4, static_cast<std::uint64_t>(d)));
+      double share = 0.0;
+      for (int k = 0; k < 100; ++k)
+        share += 0.01 * (ground.at(0, 50.0 * k, 3.0).cohesion_pa == loose_sand().cohesion_pa);
+      sum += share / 200.0;
+      square += share * share / 200.0;
+    }
+    return square - sum * sum;
+  };
+  EXPECT_NEAR(variance(0.0), 0.25 * 0.75 / 100.0, 0.001);
+  EXPECT_GT(variance(1.0), 10.0 * 0.25 * 0.75 / 100.0);
+}
+
+TEST(DrawnGround, RedrawnCellsChangeTheGroundThereAndNowhereElse) {
+  const SoilBeliefs beliefs{{loam()}, loam()};
+  DrawnGround before(beliefs, 5);
+  std::unordered_set<std::uint64_t> met;
+  before.note(met);
+  const double here = log_k(before.at(0, 1.0, 1.0));
+  RedrawnCells redrawn;
+  for (const std::uint64_t cell : met) redrawn[cell] = random_key(cell, 1);
+  DrawnGround after(beliefs, 5, {}, &redrawn);
+  EXPECT_NE(log_k(after.at(0, 1.0, 1.0)), here);
+  EXPECT_EQ(log_k(after.at(0, 5000.0, 1.0)), log_k(before.at(0, 5000.0, 1.0)));
 }
 
 }  // namespace

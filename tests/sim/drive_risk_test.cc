@@ -168,6 +168,12 @@ TEST(DriveRisk, DrawsUntilTheBarsAreDecidedAndNoFurther) {
   EXPECT_GT(hopeless.outcomes.expected_stops_low, 0.5);
 }
 
+ConditionedDraw weighing(double weight) {
+  ConditionedDraw draw;
+  draw.weight = weight;
+  return draw;
+}
+
 TEST(DriveRisk, WeightsOfDrawsCountAndLessenTheirEffectiveNumber) {
   const DriveLimits tight{.max_slip_ratio = 0.2};
   RiskOptions options{.draws = 64};
@@ -177,20 +183,84 @@ TEST(DriveRisk, WeightsOfDrawsCountAndLessenTheirEffectiveNumber) {
   ASSERT_LT(even.outcomes.stop.share, 0.95);
   // All weight on the draws that do not stop.
   NoProgress progress;
-  std::vector<double> weights;
+  std::vector<ConditionedDraw> weights;
   for (int d = 0; d < 64; ++d) {
     RiskOptions one = options;
-    std::vector<double> only(64, 0.0);
-    only[static_cast<std::size_t>(d)] = 1.0;
-    one.weights = std::make_shared<const std::vector<double>>(only);
+    std::vector<ConditionedDraw> only(64, weighing(0.0));
+    only[static_cast<std::size_t>(d)].weight = 1.0;
+    one.conditioned = std::make_shared<const std::vector<ConditionedDraw>>(only);
     const DrivePrediction alone = predict(slope(8.0), kUnsure, straight(10.0), one, tight);
     EXPECT_NEAR(alone.outcomes.effective_draws, 1.0, 1e-9);
-    weights.push_back(1.0 - alone.outcomes.stop.share);
+    weights.push_back(weighing(1.0 - alone.outcomes.stop.share));
   }
-  options.weights = std::make_shared<const std::vector<double>>(weights);
+  options.conditioned = std::make_shared<const std::vector<ConditionedDraw>>(weights);
   const DrivePrediction clean = predict(slope(8.0), kUnsure, straight(10.0), options, tight);
   EXPECT_EQ(clean.outcomes.stop.share, 0.0);
   EXPECT_NEAR(clean.outcomes.effective_draws, 64.0 * (1.0 - even.outcomes.stop.share), 1e-5);
+}
+
+// Patches of loam and of loose sand on a slope that only the sand makes slippery.
+struct Patches {
+  SoilBeliefs beliefs{{certain("patches", sandy_loam())}, certain("unknown_ground", sandy_loam())};
+  DriveLimits tight{.max_slip_ratio = 0.3};
+  FunctionGround ground = slope(8.0);
+  RiskOptions options{.draws = 400};
+
+  Patches() {
+    SoilDistribution& patchy = beliefs.known.front();
+    const auto loam = std::make_shared<SoilDistribution>(certain("loam", sandy_loam()));
+    const auto sand = std::make_shared<SoilDistribution>(certain("sand", loose_sand()));
+    patchy.alternatives = {{"loam", loam, 0.8, 0.8}, {"sand", sand, 0.2, 0.2}};
+    patchy.alternatives_by = AlternativesBy::kPatch;
+    patchy.alternatives_spread = 1.0;
+    patchy.correlation_length_m = 10.0;
+    patchy.drawn_apart = false;
+  }
+  double stop_at(double from_m) const {
+    std::vector<PathStation> path = straight(6.0);
+    for (PathStation& station : path) station.pose.x_m += from_m;
+    return predict(ground, beliefs, path, options, tight).outcomes.stop.share;
+  }
+  // After a drive over the first 6 m.
+  Patches after(bool stopped, double model_error, int tries) const {
+    NoProgress progress;
+    std::vector<ConditionedDraw> draws(static_cast<std::size_t>(options.draws));
+    const auto done = condition_draws(kRover, 3.71, ground, beliefs, straight(6.0), tight, options,
+                                      {stopped, model_error, tries}, 1, progress, draws);
+    EXPECT_TRUE(done);
+    Patches out = *this;
+    out.options.conditioned = std::make_shared<const std::vector<ConditionedDraw>>(std::move(draws));
+    return out;
+  }
+};
+
+TEST(DriveRisk, WhatWasDrivenTellsOfTheSameGroundMostAndOfLikeGroundALittle) {
+  const Patches before;
+  const double first = before.stop_at(0.0), far = before.stop_at(3000.0);
+  ASSERT_GT(first, 0.05);
+  ASSERT_LT(first, 0.6);
+  const Patches stopped = before.after(true, 0.05, 16), passed = before.after(false, 0.05, 4);
+  // Where a rover was stopped it will be again, but for drives that something else stopped.
+  EXPECT_GT(stopped.stop_at(0.0), 0.75);
+  EXPECT_LT(passed.stop_at(0.0), 0.1 * first);
+  EXPECT_GT(stopped.stop_at(3000.0), 1.15 * far) << "loose patches are commoner than was believed";
+  EXPECT_LT(passed.stop_at(3000.0), far);
+}
+
+TEST(DriveRisk, ConditioningOnCertainGroundLeavesItAsItIs) {
+  Patches certain_ground;
+  certain_ground.beliefs.known.front().alternatives.clear();
+  const double before = certain_ground.stop_at(0.0);
+  EXPECT_EQ(certain_ground.after(true, 0.05, 8).stop_at(0.0), before);
+}
+
+// Bayes' rule by hand: with one try a draw's weight is the likelihood of the report on its own ground.
+TEST(DriveRisk, AWeightIsTheLikelihoodOfTheReport) {
+  const Patches before;
+  const Patches after = before.after(true, 0.1, 1);
+  const double prior = before.stop_at(0.0);
+  const double posterior = 0.9 * prior / (0.9 * prior + 0.1 * (1.0 - prior));
+  EXPECT_NEAR(after.stop_at(0.0), posterior, 1e-9);
 }
 
 TEST(DriveRisk, TheRulesSayWhereAndByHowMuch) {
