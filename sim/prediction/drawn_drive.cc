@@ -1,6 +1,7 @@
 #include "sim/prediction/drawn_drive.h"
 
 #include "sim/prediction/drawn_ground.h"
+#include "sim/prediction/odometry_shortfall.h"
 
 namespace slipway::sim {
 namespace {
@@ -21,13 +22,16 @@ DrawnDriver::DrawnDriver(const RoverModel& rover, double gravity_m_s2, const Soi
       drive_(drive),
       limits_(limits),
       checks_(checks),
-      level_(settle(rover, LevelGround(), {})) {}
+      level_(settle(rover, LevelGround(), {})) {
+  if (!drive.stations.empty()) stretch_ends_m_ = stretch_ends_m(drive.stations);
+}
 
 DrawnDrive DrawnDriver::run(std::uint64_t key, bool keep_states, const Progress& progress) const {
   DrawnDrive drawn;
   DrawnGround ground(beliefs_, key, [this](const Soil& soil) { return drives_level(soil); });
   QuasiStaticSolver solver(rover_, gravity_m_s2_, Precision::kDraws);
   OutcomeFollower follower(rover_, limits_, checks_);
+  ShortfallFollower shortfall(stretch_ends_m_);
   PerWheel<Soil> under(rover_.wheels.size());
   bool embedded = false;
   for (std::size_t s = 0; s < drive_.stations.size() && !(embedded && drawn.immobilised); ++s) {
@@ -37,9 +41,12 @@ DrawnDrive DrawnDriver::run(std::uint64_t key, bool keep_states, const Progress&
       under[k] = ground.at(station.soil[k], station.pose.x_m, station.pose.y_m);
     const StationState state = solver.solve(station.stance, under, station.command);
     if (!embedded) embedded = !follower.add(station, s, state);
-    if (!drawn.immobilised) add(station, state, keep_states, drawn);
+    if (drawn.immobilised) continue;
+    add(station, state, keep_states, drawn);
+    if (state.moving()) shortfall.add(station.drive_m, state.slip_ratio);
   }
   drawn.outcome = follower.finish();
+  drawn.shortfall_m = shortfall.finish(drawn.immobilised || drive_.without_stance);
   if (drive_.without_stance) {
     // The wheels meet ground that the suspension cannot follow: no draw of the soil passes there.
     drawn.any_bad = drawn.immobilised = true;

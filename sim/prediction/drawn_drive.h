@@ -19,6 +19,7 @@ struct DrawnDrive {
   bool immobilised = false;
   double duration_s = 0.0, energy_j = 0.0;
   DriveOutcome outcome;
+  std::vector<float> shortfall_m;  // at the end of each stretch, see ShortfallFollower
 };
 
 // Drives a prepared drive on draws of the ground. What it is given must outlive it; used from several
@@ -42,6 +43,7 @@ class DrawnDriver {
   const DriveLimits& limits_;
   const SlipChecks& checks_;
   std::optional<Stance> level_;
+  std::vector<double> stretch_ends_m_;
 };
 
 }  // namespace slipway::sim

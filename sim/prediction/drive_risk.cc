@@ -115,6 +115,7 @@ bool assess_risk(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs
     summarise(drives, drive.stations, limits, prediction);
   } while (drives.size() < most && !decided(prediction.outcomes, options.bars));
 
+  fill_events(drives, prediction.stations);
   for (std::size_t k = 0; k < prediction.stations.size(); ++k) {
     StationPrediction& station = prediction.stations[k];
     fill_station(drives, k, station);
