@@ -59,6 +59,14 @@ void advise_on_rule(const JsonValue& outcomes, std::vector<std::string>& advice)
   const std::string& name = text(*most, "rule");
   const std::string unit = text(*most, "unit") == "1" ? "" : " " + text(*most, "unit");
   const bool is_floor = name == "clearance";
+  constexpr double kSpinning = 0.99;  // of slip: hardly any way comes of it
+  if (name == "slip_check" && number(at(*most, "value"), "p95") > kSpinning) {
+    advice.push_back(
+        fmt::format("The rule that trips most is slip_check, in {:.1f} % of the draws, and no other limit "
+                    "helps: in more than 5 % of the draws the wheels spin on the spot",
+                    100.0 * number(at(*most, "trips"), "value")));
+    return;
+  }
   advice.push_back(
       fmt::format("The rule that trips most is {}: with {:.3g}{} for its limit of {:.3g}{} it would trip in "
                   "about 5 % of the draws, where "

@@ -312,19 +312,28 @@ class Picture {
   std::vector<LegendRow> legend_;
 };
 
+// Wider where it would be tall, so that a map goes on a page with words.
+dem::Extent broad(dem::Extent e) {
+  constexpr double kMaxHeightToWidth = 0.55;
+  const double width_m = std::max(e.east_m - e.west_m, (e.north_m - e.south_m) / kMaxHeightToWidth);
+  const double middle_m = 0.5 * (e.west_m + e.east_m);
+  return {middle_m - 0.5 * width_m, e.south_m, middle_m + 0.5 * width_m, e.north_m};
+}
+
 struct Drawn {
   const TerrainSite* site;
   std::vector<DrawnRoute> routes;
   GroundWindow ground;
 };
 
-Result<Drawn> read_drawn(const Catalogue& catalogue, const JsonValue& document) {
+Result<Drawn> read_drawn(const Catalogue& catalogue, const JsonValue& document, bool is_broad) {
   const auto site = catalogue.terrains.find(json::text(document, "terrain"));
   if (site == catalogue.terrains.end())
     return fail(ErrorCode::kInternal, "the answer names no terrain of this service");
   std::vector<DrawnRoute> routes = routes_of(document);
   if (routes.empty()) return fail(ErrorCode::kNoData, "the answer has no route to draw");
-  auto ground = site->second->read(extent_of(routes));
+  const dem::Extent extent = extent_of(routes);
+  auto ground = site->second->read(is_broad ? broad(extent) : extent);
   if (!ground) return fail(ground.error());
   return Drawn{site->second.get(), std::move(routes), *std::move(ground)};
 }
@@ -348,7 +357,7 @@ std::vector<double> outcomes_along(const std::vector<double>& distance_m, const 
 Result<std::string> draw_route_map(const Catalogue& catalogue, std::string_view answer) {
   const auto document = json::parse(answer, {.bytes = answer.size(), .values = answer.size()});
   if (!document) return fail(document.error());
-  const auto drawn = read_drawn(catalogue, *document);
+  const auto drawn = read_drawn(catalogue, *document, false);
   if (!drawn) return fail(drawn.error());
   const std::vector<DrawnRoute>& routes = drawn->routes;
   Picture picture(drawn->ground, kSlipColours);
@@ -363,7 +372,7 @@ Result<std::string> draw_route_map(const Catalogue& catalogue, std::string_view 
 }
 
 Result<std::string> draw_outcome_map(const Catalogue& catalogue, const JsonValue& check) {
-  auto drawn = read_drawn(catalogue, check);
+  auto drawn = read_drawn(catalogue, check, true);
   if (!drawn) return fail(drawn.error());
   DrawnRoute& route = drawn->routes.front();
   route.verdict = json::text(check, "verdict");
