@@ -35,8 +35,8 @@ code{font-size:.92em;background:#f0f0ee;padding:0 .2em}
 h2{border-top-color:#444}a{color:#7cc4ff}th,td{border-bottom-color:#333}figcaption{color:#aaa}code{background:#2a2a2a}
 svg{border-radius:4px}}
 @page{size:A4;margin:11mm}
-@media print{body,main{background:#fff;padding:0}body{font-size:8.5pt;line-height:1.3}main{max-width:none}
-.banner{font-size:22pt;padding:2mm 4mm;print-color-adjust:exact;-webkit-print-color-adjust:exact}
+@media print{:root{font-size:8.2pt}body,main{background:#fff;padding:0}body{font-size:1rem;line-height:1.3}main{max-width:none}
+.wide{overflow:visible;margin:1mm 0;break-inside:avoid}.banner{font-size:22pt;padding:2mm 4mm;print-color-adjust:exact;-webkit-print-color-adjust:exact}
 h1{font-size:13pt}h2{font-size:11pt;margin:3mm 0 1mm;padding-top:1mm;break-after:avoid}p,ul{margin:1mm 0;max-width:none}
 th,td{padding:.3mm 2mm .3mm 0}figure{margin:2mm 0}svg{max-height:125mm}figure,tr{break-inside:avoid}nav{display:none}}
 )css";

@@ -57,7 +57,7 @@ std::vector<double> largest(const JsonValue& stations, std::string_view key, std
   return values;
 }
 
-std::string draw_along(const JsonValue& stations, const JsonValue& limits) {
+std::vector<Chart> charts_along(const JsonValue& stations, const JsonValue& limits) {
   const std::vector<double> x = numbers(stations, "distance_m");
   Chart slip = chart_of("Slip", "slip");
   slip.bands.push_back(
@@ -78,7 +78,7 @@ std::string draw_along(const JsonValue& stations, const JsonValue& limits) {
   Chart tilt = chart_of("Tilt", "tilt, deg");
   tilt.series = {line("mean soils", x, numbers(stations, "tilt_deg"), kGreen),
                  limit(x, number(limits, "max_tilt_deg"))};
-  return draw_charts("Along the way", std::vector<Chart>{slip, sinkage, current, tilt});
+  return {slip, sinkage, current, tilt};
 }
 
 // A value of each stretch as a step line.
@@ -94,7 +94,7 @@ ChartSeries steps(std::string name, const JsonValue& stretches, std::string_view
   return series;
 }
 
-std::string draw_stretches(const JsonValue& check) {
+std::vector<Chart> charts_by_stretch(const JsonValue& check) {
   const JsonValue& stretches = at(at(check, "outcomes"), "stretches");
   Chart outcomes = chart_of("Where it stops or is embedded", "per stretch");
   outcomes.y.lowest = 0.0;
@@ -112,18 +112,18 @@ std::string draw_stretches(const JsonValue& check) {
   }
   position.bands.push_back({"5 to 95 % of the draws", x, low, high, kBlue});
   position.series = {line("median of the draws", x, middle, kBlue)};
-  return draw_charts("By stretch", std::vector<Chart>{outcomes, position});
+  return {outcomes, position};
 }
 
 }  // namespace
 
-std::vector<NamedChart> draw_check(const JsonValue& check) {
+NamedChart draw_check(const JsonValue& check) {
   const JsonValue& limits = at(at(check, "request"), "limits");
-  std::vector<NamedChart> charts;
+  std::vector<Chart> charts;
   for (const JsonValue& feature : at(at(check, "routes"), "features").elements)
-    charts.push_back({"along", draw_along(at(at(feature, "properties"), "stations"), limits)});
-  charts.push_back({"stretches", draw_stretches(check)});
-  return charts;
+    charts = charts_along(at(at(feature, "properties"), "stations"), limits);
+  for (Chart& chart : charts_by_stretch(check)) charts.push_back(std::move(chart));
+  return {"along", draw_charts("Along the way", charts)};
 }
 
 }  // namespace slipway::api

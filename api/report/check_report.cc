@@ -181,11 +181,8 @@ Result<std::string> check_report(const Catalogue& catalogue, std::string_view an
                  "The path by the stops and embeddings that are expected on each stretch");
   add_commands(page, *check);
   add_stretches(page, *check);
-  for (NamedChart& chart : draw_check(*check)) {
-    const bool along = chart.name == "along";
-    page.picture(std::move(chart), along ? "Against the limits of the request"
-                                         : "Stops and embeddings, and the error of the position");
-  }
+  page.picture(draw_check(*check),
+               "Against the limits of the request; stops, embeddings and the error of the position");
   add_provenance(page, *check);
   return page.html();
 }

@@ -166,10 +166,17 @@ class Picture {
         out_ += "\"/>\n";
       }
     };
+    has_keep_out_ = !json::at(request, "keep_out").elements.empty();
+    has_keep_in_ = !json::at(request, "keep_in").elements.empty();
+    if (!has_keep_out_ && !has_keep_in_) return;
+    // What leaves the map is cut off at its edges.
+    out_ += fmt::format(
+        "<clipPath id=\"map\"><rect width=\"{:.1f}\" height=\"{:.1f}\"/></clipPath>\n<g "
+        "clip-path=\"url(#map)\">\n",
+        kMapWidth_px, height_px_);
     draw("keep_out", "fill=\"#d7191c\" fill-opacity=\"0.35\" stroke=\"#67001f\"");
     draw("keep_in", "fill=\"none\" stroke=\"#0050a0\" stroke-width=\"2\" stroke-dasharray=\"10 5\"");
-    has_keep_out_ = json::has(request, "keep_out") && !json::at(request, "keep_out").elements.empty();
-    has_keep_in_ = json::has(request, "keep_in") && !json::at(request, "keep_in").elements.empty();
+    out_ += "</g>\n";
   }
 
   void draw_route(const DrawnRoute& route) {

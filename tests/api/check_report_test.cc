@@ -30,7 +30,7 @@ std::string answered(const std::string& members) {
   return json::write_check_answer(*answer);
 }
 
-constexpr const char* kPath = R"("path":[{"x_m":20,"y_m":30},{"x_m":44,"y_m":30}],"draws":8)";
+const std::string kPath = R"("path":[{"x_m":20,"y_m":30},{"x_m":44,"y_m":30}],"draws":8)";
 
 TEST(CheckReport, HoldsTheVerdictTheRulesTheMapAndTheChartsAndLoadsNothing) {
   const std::string answer = answered(kPath);
@@ -50,6 +50,19 @@ TEST(CheckReport, HoldsTheVerdictTheRulesTheMapAndTheChartsAndLoadsNothing) {
     EXPECT_EQ(page->find(outside), std::string::npos) << outside;
   EXPECT_EQ(*page, *check_report(testing::small_world().catalogue(), answer)) << "the same bytes";
   EXPECT_FALSE(check_report(testing::small_world().catalogue(), R"({"format":"plan/1"})"));
+}
+
+TEST(CheckReport, DrawsTheAreasOfTheRequestWithinTheMap) {
+  const Catalogue& catalogue = testing::small_world().catalogue();
+  const std::string zones =
+      R"(,"keep_out":[[[30,32],[34,32],[32,36]]],"keep_in":[[[0,20],[900,20],[900,40],[0,40]]])";
+  const std::string with = *check_report(catalogue, answered(kPath + zones));
+  const std::string without = *check_report(catalogue, answered(kPath));
+  for (const char* const part :
+       {">keep-out</text>", ">edge of a keep-in</text>", "clip-path=\"url(#map-map)\""}) {
+    EXPECT_NE(with.find(part), std::string::npos) << part;
+    EXPECT_EQ(without.find(part), std::string::npos) << part;
+  }
 }
 
 JsonValue parsed(const std::string& text) {
