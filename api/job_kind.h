@@ -38,6 +38,9 @@ struct JobKindRow {
   std::function<std::string(const Answer&)> write;
   // A picture (SVG) of an answer's document, drawn when it is asked for; empty: this kind has no map.
   std::function<Result<std::string>(const Catalogue&, std::string_view document)> map = nullptr;
+  // An HTML page of an answer's document, made when it is asked for; empty: there is none, or `report` has
+  // it.
+  std::function<Result<std::string>(const Catalogue&, std::string_view document)> page = nullptr;
   // An HTML page, written with the answer and kept beside it; empty: this kind has no report.
   std::function<std::string(const Answer&)> report = nullptr;
   std::chrono::seconds usual_wait{
@@ -56,7 +59,9 @@ struct JobKind {
   // What is to be kept of the answer to a recorded request.
   std::function<Result<std::string>(const Service&, std::string_view recorded, Progress&)> work;
   std::function<Result<std::string>(const Catalogue&, std::string_view document)> map;  // may be empty
-  bool has_report = false;
+  std::function<Result<std::string>(const Catalogue&, std::string_view document)> page =
+      nullptr;              // may be empty
+  bool has_report = false;  // made when it is asked for, where there is `page`, or else kept with the answer
   std::chrono::seconds usual_wait{0};
   bool is_short = false;
 };
@@ -69,7 +74,8 @@ template <class Request, class Answer>
 JobKind job_kind(JobKindRow<Request, Answer> of) {
   const auto row = std::make_shared<const JobKindRow<Request, Answer>>(std::move(of));
   JobKind kind{.name = row->name, .path = row->path, .accept = {}, .work = {}, .map = row->map};
-  kind.has_report = row->report != nullptr;
+  kind.page = row->page;
+  kind.has_report = row->report != nullptr || row->page != nullptr;
   kind.usual_wait = row->usual_wait;
   kind.is_short = row->is_short;
   kind.accept = [row](const Service& service, JobStore& store, std::string_view body) {

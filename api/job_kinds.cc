@@ -9,6 +9,7 @@
 #include "api/documents/plan_answer.h"
 #include "api/documents/prediction_answer.h"
 #include "api/documents/soil_estimate_document.h"
+#include "api/report/check_report.h"
 #include "api/report/diagnosis_charts.h"
 #include "api/report/diagnosis_report.h"
 #include "api/report/route_map.h"
@@ -46,6 +47,7 @@ std::vector<JobKind> all_kinds() {
                                                      .run = &Service::check,
                                                      .write = &json::write_check_answer,
                                                      .map = &draw_route_map,
+                                                     .page = &check_report,
                                                      .usual_wait = std::chrono::seconds(10),
                                                      .is_short = true,
                                                      .may_name_model = true}),

@@ -127,10 +127,14 @@ void RequestCheck::failed_wheels(const DriveAssumptions& drive) {
           unknown_name("wheel", name, known));
 }
 
-void RequestCheck::crab(double crab_rad) {
+void RequestCheck::crab(double crab_rad, bool among_zones) {
   if (rover_ == nullptr || already_faulty("/crab_deg")) return;
   if (auto why = sim::why_no_crab(*rover_, crab_rad))
     add(ErrorCode::kInvalidRequest, "/crab_deg", std::move(*why));
+  else if (among_zones && crab_rad != 0.0)
+    add(ErrorCode::kInvalidRequest, "/crab_deg",
+        "must be 0 with keep_out or keep_in: what the body sweeps is known of drives along its own axis "
+        "alone");
 }
 
 void RequestCheck::planners(const std::vector<std::string>& planners,

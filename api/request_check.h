@@ -27,7 +27,8 @@ class RequestCheck {
   void ground(const std::optional<RequestedModel>& model, const std::vector<std::string>& of_service);
   void place(const planner::Waypoint& place, const std::string& pointer);
   void drive(const DriveAssumptions& drive);
-  void crab(double crab_rad);
+  // among_zones: the request has keep-outs or keep-ins.
+  void crab(double crab_rad, bool among_zones);
   void planners(const std::vector<std::string>& planners, std::span<const planner::PlannerRow> known);
   // A path no longer than RequestLimits::kPathLength_m.
   void path_length(const std::vector<planner::Waypoint>& path);

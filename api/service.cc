@@ -19,6 +19,7 @@
 #include "api/requests/soil_regions.h"
 #include "api/soil_beliefs.h"
 #include "planner/judge/drive_decision.h"
+#include "planner/judge/trespass.h"
 #include "planner/make_plan.h"
 #include "planner/predict_path.h"
 #include "planner/search/stage_progress.h"
@@ -56,6 +57,15 @@ std::string conditions_of(const std::string& terrain, const std::string& rover, 
   json::write_drive_assumptions(w, drive);
   w.end_object();
   return w.take();
+}
+
+// The corners, or the start of a command sequence alone.
+template <class Request>
+void check_path(const Request& request, RequestCheck& check, bool is_start = false) {
+  for (std::size_t i = 0; i < request.path.size(); ++i)
+    check.place(request.path[i], is_start ? "/start" : fmt::format("/path/{}", i));
+  check.path_length(request.path);
+  check.crab(request.manner.crab_rad, !request.keep_out.empty() || !request.keep_in.empty());
 }
 
 // Draws of a decision: the fewest that say something, and the most that are taken.
@@ -99,42 +109,42 @@ std::shared_ptr<const Catalogue> Service::catalogue_for(const std::optional<Requ
   return std::make_shared<const Catalogue>(*std::move(with));
 }
 
-Result<PlanRequest> Service::read_plan(std::string_view json) const {
-  auto reading = json::read_plan_request(json, options_.costs);
+template <class Request, class Rest>
+Result<Request> Service::checked(Result<Reading<Request>> reading, const Rest& rest) const {
   if (!reading) return fail(reading.error());
-  PlanRequest& request = reading->request;
+  Request& request = reading->request;
   const std::shared_ptr<const Catalogue> catalogue =
       catalogue_for(request.drive.model, request.rover, reading->faults);
   RequestCheck check(*catalogue, std::move(reading->faults));
   check.names(request.terrain, request.rover);
   check.ground(request.drive.model, options_.ground);
-  check.place(request.start, "/start");
-  check.place(request.goal, "/goal");
-  for (std::size_t i = 0; i < request.waypoints.size(); ++i) {
-    check.place(request.waypoints[i], fmt::format("/waypoints/{}", i));
-  }
-  check.planners(request.planners, options_.planners);
+  rest(request, check);
   check.drive(request.drive);
   if (!check.passed()) return fail(check.error());
-  return std::move(reading->request);
+  return std::move(request);
+}
+
+Result<PlanRequest> Service::read_plan(std::string_view json) const {
+  return checked(json::read_plan_request(json, options_.costs),
+                 [this](const PlanRequest& request, RequestCheck& check) {
+                   check.place(request.start, "/start");
+                   check.place(request.goal, "/goal");
+                   for (std::size_t i = 0; i < request.waypoints.size(); ++i)
+                     check.place(request.waypoints[i], fmt::format("/waypoints/{}", i));
+                   check.planners(request.planners, options_.planners);
+                 });
 }
 
 Result<PredictionRequest> Service::read_prediction(std::string_view json) const {
-  auto reading = json::read_prediction_request(json);
-  if (!reading) return fail(reading.error());
-  PredictionRequest& request = reading->request;
-  const std::shared_ptr<const Catalogue> catalogue =
-      catalogue_for(request.drive.model, request.rover, reading->faults);
-  RequestCheck check(*catalogue, std::move(reading->faults));
-  check.names(request.terrain, request.rover);
-  check.ground(request.drive.model, options_.ground);
-  for (std::size_t i = 0; i < request.path.size(); ++i)
-    check.place(request.path[i], fmt::format("/path/{}", i));
-  check.path_length(request.path);
-  check.crab(request.manner.crab_rad);
-  check.drive(request.drive);
-  if (!check.passed()) return fail(check.error());
-  return std::move(reading->request);
+  return checked(json::read_prediction_request(json),
+                 [](const PredictionRequest& request, RequestCheck& check) { check_path(request, check); });
+}
+
+Result<CheckRequest> Service::read_check(std::string_view json) const {
+  return checked(json::read_check_request(json, catalogue_->rules),
+                 [](const CheckRequest& request, RequestCheck& check) {
+                   check_path(request, check, !request.commands.empty());
+                 });
 }
 
 Result<DiagnosisRequest> Service::read_diagnosis(std::string_view json) const {
@@ -245,6 +255,7 @@ Result<PlanAnswer> Service::plan(const PlanRequest& request, Progress& progress)
   problem.goal = request.goal;
   problem.waypoints = request.waypoints;
   problem.keep_out = request.keep_out;
+  problem.keep_in = request.keep_in;
   problem.weights = request.weights;
   problem.routes = request.routes;
   problem.verify = request.verify;
@@ -269,6 +280,9 @@ Result<PredictionAnswer> Service::predict(const PredictionRequest& request, Prog
   auto prediction = planner::predict_path(problem, request.path, progress, request.manner);
   if (!prediction) return fail(prediction.error());
   planner::DriveDecision decision = planner::decide(problem, *prediction);
+  problem.keep_out = request.keep_out;
+  problem.keep_in = request.keep_in;
+  planner::forbid_trespass(problem, planner::path_motions(request.path, request.manner), decision);
   PredictionAnswer answer{request, std::move(setting->provenance), std::move(*prediction), std::nullopt,
                           std::move(decision)};
   if (request.level == FidelityLevel::kDynamic) {
@@ -298,25 +312,10 @@ Result<CheckAnswer> Service::check(const CheckRequest& request, Progress& progre
   auto prediction = planner::predict_motions(setting->problem, motions, progress, request.manner);
   if (!prediction) return fail(prediction.error());
   planner::DriveDecision decision = planner::decide(setting->problem, *prediction);
+  setting->problem.keep_out = request.keep_out;
+  setting->problem.keep_in = request.keep_in;
+  planner::forbid_trespass(setting->problem, motions, decision);
   return CheckAnswer{request, std::move(setting->provenance), std::move(*prediction), std::move(decision)};
-}
-
-Result<CheckRequest> Service::read_check(std::string_view json) const {
-  auto reading = json::read_check_request(json, catalogue_->rules);
-  if (!reading) return fail(reading.error());
-  CheckRequest& request = reading->request;
-  const std::shared_ptr<const Catalogue> catalogue =
-      catalogue_for(request.drive.model, request.rover, reading->faults);
-  RequestCheck check(*catalogue, std::move(reading->faults));
-  check.names(request.terrain, request.rover);
-  check.ground(request.drive.model, options_.ground);
-  for (std::size_t i = 0; i < request.path.size(); ++i)
-    check.place(request.path[i], request.commands.empty() ? fmt::format("/path/{}", i) : "/start");
-  check.path_length(request.path);
-  check.crab(request.manner.crab_rad);
-  check.drive(request.drive);
-  if (!check.passed()) return fail(check.error());
-  return std::move(reading->request);
 }
 
 Result<gap::DriveCampaign> Service::shipped_drives(const std::string& name) const {

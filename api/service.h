@@ -79,6 +79,11 @@ class Service {
   std::shared_ptr<const Catalogue> catalogue_for(const std::optional<RequestedModel>& model,
                                                  std::string& rover, std::vector<Fault>& faults) const;
 
+  // A request that was read, where neither its reader, nor `rest(request, check)`, nor what is checked of all
+  // drives finds a fault.
+  template <class Request, class Rest>
+  Result<Request> checked(Result<Reading<Request>> reading, const Rest& rest) const;
+
   // Errors: invalid_request at /campaign, and those of load_drive_campaign.
   Result<gap::DriveCampaign> shipped_drives(const std::string& name) const;
 

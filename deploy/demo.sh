@@ -1,6 +1,6 @@
 #!/bin/sh
 # From a fresh machine to a plan: installs, builds, serves the shipped terrain, and asks the service over HTTP for routes
-# between two places where Curiosity really stopped. Goes on serving until interrupted; --once ends it.
+# between two places where Curiosity really stopped, and whether two drives may be commanded. Goes on serving until interrupted; --once ends it.
 #   sh deploy/demo.sh [--once] [--built PROGRAM]     PORT=8080 by default
 # --built takes a slipway that is built already, and installs and builds nothing.
 set -eu
@@ -62,6 +62,27 @@ case "$status" in
   *) fail "there is no plan" ;;
 esac
 echo "The routes on the hillshade: var/demo-routes.svg"
+
+# check NAME PATH...: what the service says of one drive, with the page to take into the meeting.
+check() {
+  name="$1"
+  shift
+  status=0
+  echo
+  say "asking $url whether a drive may be commanded: $name"
+  stage "check: $name" "$slipway" check --url "$url" --terrain gale --rover msl-class --path "$@" --rules every_5_m \
+    --report "var/demo-check-$name.html" || status=$?
+  case "$status" in
+    0) echo "GO: this drive may be commanded." ;;
+    3) echo "NO-GO: this drive may not be commanded, for the reasons above." ;;
+    4) echo "UNKNOWN: the draws of the ground do not decide, for the reasons above." ;;
+    *) fail "there is no answer to the check" ;;
+  esac
+  echo "One page for a meeting: var/demo-check-$name.html"
+}
+check plain 8142640,-276640 8142600,-276645
+check slope 8142579.7,-276648.7 8142578,-276680
+
 print_stages
 if [ -n "$once" ]; then
   exit 0

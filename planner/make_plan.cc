@@ -60,12 +60,11 @@ std::string too_alike(const PlanProblem& problem, std::size_t candidates, std::s
       candidates - kept, candidates, 100.0 * kMaxOverlap, problem.rover->body_width_m);
 }
 
-std::string dropped_for_keep_outs(const std::vector<Pose2>& poses) {
-  return fmt::format(
-      "{} that a planner found {} dropped: the rover's body would enter a keep-out{} at ({:.2f}, {:.2f})",
-      poses.size() == 1 ? "a route" : fmt::format("{} routes", poses.size()),
-      poses.size() == 1 ? "is" : "are", poses.size() == 1 ? "" : ", the first", poses.front().x_m,
-      poses.front().y_m);
+std::string dropped_for_keep_outs(const PlanProblem& problem, const std::vector<Pose2>& poses) {
+  return fmt::format("{} that a planner found {} dropped: the rover's body would {}{} at ({:.2f}, {:.2f})",
+                     poses.size() == 1 ? "a route" : fmt::format("{} routes", poses.size()),
+                     poses.size() == 1 ? "is" : "are", trespass_in_words(problem),
+                     poses.size() == 1 ? "" : ", the first", poses.front().x_m, poses.front().y_m);
 }
 
 // What kept candidates from being predicted: missing elevation is counted, any other error is given as it is,
@@ -92,7 +91,7 @@ class Planning {
         planners_(planners),
         progress_(progress),
         ground_(problem.terrain, problem.soil_map),
-        keep_out_(problem.keep_out, *problem.rover) {}
+        keep_out_(problem.keep_out, *problem.rover, problem.keep_in) {}
 
   Result<Plan> run() {
     progress_.report("reading the ground", 0.0);
@@ -115,6 +114,7 @@ class Planning {
     const Result<void> verified = verify(*proposal, plan);
     if (!verified) return fail(verified.error());
     progress_.report("ranking", 0.98);
+    mark_pareto_front(plan.routes);
     explain(plan.routes);
     progress_.report("ranking", 1.0);
     return plan;
@@ -150,7 +150,7 @@ class Planning {
       plan.fewer_because.emplace_back(
           "a way exists on the grid of cells, but no planner found motions of arcs and turns through it");
       if (!proposal.in_keep_out.empty())
-        plan.fewer_because.push_back(dropped_for_keep_outs(proposal.in_keep_out));
+        plan.fewer_because.push_back(dropped_for_keep_outs(problem_, proposal.in_keep_out));
       if (!proposal.closed.empty())
         plan.fewer_because.push_back(fmt::format("of {} such routes the first, which {}",
                                                  proposal.closed.size(), proposal.closed.front()));
@@ -316,7 +316,7 @@ class Planning {
     const std::size_t refused = unpredicted.size() + in_keep_out.size() - proposal.in_keep_out.size();
     if (plan.routes.size() + refused < all)
       plan.fewer_because.push_back(too_alike(problem_, all - refused, plan.routes.size()));
-    if (!in_keep_out.empty()) plan.fewer_because.push_back(dropped_for_keep_outs(in_keep_out));
+    if (!in_keep_out.empty()) plan.fewer_because.push_back(dropped_for_keep_outs(problem_, in_keep_out));
     for (std::string& words : unpredicted_in_words(unpredicted, all))
       plan.fewer_because.push_back(std::move(words));
     if (const auto gap = only_way(*map_, proposal.candidates[best].motions))

@@ -12,6 +12,7 @@
 #include "api/chart/report_page.h"
 #include "api/documents/job_document.h"
 #include "api/documents/plan_answer.h"
+#include "api/documents/station_csv.h"
 #include "api/job_kinds.h"
 #include "api/json/problem_document.h"
 #include "server/query.h"
@@ -23,6 +24,7 @@ namespace {
 
 using std::chrono::seconds;
 
+constexpr std::string_view kCsv = "text/csv";
 constexpr std::string_view kGeoJson = "application/geo+json";
 constexpr std::string_view kHtml = "text/html; charset=utf-8";
 constexpr std::string_view kSvg = "image/svg+xml";
@@ -100,9 +102,12 @@ class JobRoutes {
     if (job->state != api::JobState::kSuccessful) return outcome_response(*job, request);
     const auto kept = kept_outcome(*job);
     if (!kept) return problem_response(kept.error(), &request);
-    const std::string_view page = api::parts_of(*kept).page;
-    if (page.empty()) return problem(ErrorCode::kNotFound, "the job's report is not kept", request);
-    HttpResponse response = document(std::string(page));
+    const api::KeptAnswer parts = api::parts_of(*kept);
+    const Result<std::string> page = kind->page ? kind->page(service_.catalogue(), parts.document)
+                                                : Result<std::string>(std::string(parts.page));
+    if (!page) return problem_response(page.error(), &request);
+    if (page->empty()) return problem(ErrorCode::kNotFound, "the job's report is not kept", request);
+    HttpResponse response = document(*page);
     response.content_type = kHtml;
     response.headers.emplace_back("Content-Security-Policy",
                                   fmt::format("{}; frame-ancestors 'self'", api::kReportPolicy));
@@ -197,6 +202,12 @@ class JobRoutes {
       if (!geojson) return problem_response(geojson.error(), &request);
       response.body = std::move(*geojson);
       response.content_type = kGeoJson;
+    }
+    if (accepts(request, kCsv) && api::json::has_stations(bytes)) {
+      auto csv = api::json::station_csv(bytes);
+      if (!csv) return problem_response(csv.error(), &request);
+      response.body = std::move(*csv);
+      response.content_type = kCsv;
     }
     response.headers.emplace_back("Vary", "Accept");
     const std::string tag = tag_of(response.body);

@@ -11,7 +11,7 @@ namespace {
 using Style = ReportText::Style;
 
 constexpr std::string_view kStyle = R"css(
-:root{color-scheme:light}
+:root{color-scheme:light dark}
 body{margin:0;background:#f4f4f2;color:#222;font:16px/1.5 system-ui,sans-serif}
 main{max-width:1240px;margin:0 auto;padding:24px 28px 48px;background:#fff}
 h1{font-size:1.7rem;margin:0 0 .6rem}
@@ -29,7 +29,16 @@ figure{margin:1.2rem 0;overflow-x:auto}
 figcaption{font-size:.9rem;color:#555}
 svg{display:block;max-width:100%;height:auto}
 code{font-size:.92em;background:#f0f0ee;padding:0 .2em}
-@media print{body,main{background:#fff;padding:0}h2{break-after:avoid}figure,tr{break-inside:avoid}nav{display:none}}
+.banner{font-size:2.6rem;font-weight:700;line-height:1.1;margin:0 0 .8rem;padding:.5rem 1rem;border-radius:6px;color:#fff;max-width:none}
+.good{background:#1a7f37}.bad{background:#b3261e}.open{background:#8a5a00}
+@media screen and (prefers-color-scheme:dark){body{background:#111;color:#ddd}main{background:#1b1b1b}
+h2{border-top-color:#444}a{color:#7cc4ff}th,td{border-bottom-color:#333}figcaption{color:#aaa}code{background:#2a2a2a}
+svg{border-radius:4px}}
+@page{size:A4;margin:11mm}
+@media print{:root{font-size:8.2pt}body,main{background:#fff;padding:0}body{font-size:1rem;line-height:1.3}main{max-width:none}
+.wide{overflow:visible;margin:1mm 0;break-inside:avoid}.banner{font-size:22pt;padding:2mm 4mm;print-color-adjust:exact;-webkit-print-color-adjust:exact}
+h1{font-size:13pt}h2{font-size:11pt;margin:3mm 0 1mm;padding-top:1mm;break-after:avoid}p,ul{margin:1mm 0;max-width:none}
+th,td{padding:.3mm 2mm .3mm 0}figure{margin:2mm 0}svg{max-height:125mm}figure,tr{break-inside:avoid}nav{display:none}}
 )css";
 
 bool is_control(char c) {
@@ -105,7 +114,23 @@ std::string named_apart(const NamedChart& chart) {
   return out;
 }
 
+std::string_view class_of(ReportPage::Tone tone) {
+  switch (tone) {
+    case ReportPage::Tone::kGood:
+      return "good";
+    case ReportPage::Tone::kBad:
+      return "bad";
+    case ReportPage::Tone::kOpen:
+      break;
+  }
+  return "open";
+}
+
 }  // namespace
+
+void ReportPage::banner(std::string words, Tone tone) {
+  blocks_.push_back({.kind = Kind::kBanner, .text = std::move(words), .tone = tone});
+}
 
 void ReportPage::section(std::string heading) {
   blocks_.push_back({.kind = Kind::kSection, .text = std::move(heading)});
@@ -139,6 +164,9 @@ std::string ReportPage::markdown() const {
     before = block.kind;
     const std::string words = markdown_of(block.text);
     switch (block.kind) {
+      case Kind::kBanner:
+        out += fmt::format("**{}**\n", words);
+        break;
       case Kind::kSection:
         out += fmt::format("## {}\n", words);
         break;
@@ -177,6 +205,9 @@ std::string ReportPage::html() const {
     in_list = block.kind == Kind::kItem;
     const std::string words = html_of(block.text);
     switch (block.kind) {
+      case Kind::kBanner:
+        body += fmt::format("<p class=\"banner {}\">{}</p>\n", class_of(block.tone), words);
+        break;
       case Kind::kSection:
         body += fmt::format("<h2 id=\"section-{}\">{}</h2>\n", ++sections, words);
         contents += fmt::format("<a href=\"#section-{}\">{}</a>\n", sections, words);

@@ -30,6 +30,9 @@ class ReportPage {
  public:
   explicit ReportPage(std::string title) : title_(std::move(title)) {}
 
+  // Large words on a colour, under the title: what the page has to say above all.
+  enum class Tone { kGood, kBad, kOpen };
+  void banner(std::string words, Tone tone);
   void section(std::string heading);
   void paragraph(ReportText text);
   void item(ReportText text);  // of a list, with its neighbours
@@ -43,13 +46,14 @@ class ReportPage {
   std::string html() const;
 
  private:
-  enum class Kind { kSection, kParagraph, kItem, kTable, kPicture };
+  enum class Kind { kBanner, kSection, kParagraph, kItem, kTable, kPicture };
   struct Block {
     Kind kind = Kind::kParagraph;
     ReportText text = "";  // of a section, a picture: heading and caption
     std::vector<std::string> heads = {};
     std::vector<std::vector<ReportText>> rows = {};
     NamedChart chart = {};
+    Tone tone = Tone::kOpen;
   };
 
   std::string title_;

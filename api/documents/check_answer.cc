@@ -1,8 +1,10 @@
 #include "api/documents/check_answer.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "api/documents/check_request.h"
+#include "api/documents/drive_routes.h"
 #include "api/documents/drive_series.h"
 #include "core/angle.h"
 
@@ -97,6 +99,41 @@ void write_decision(Writer& w, const planner::DriveDecision& decision) {
   w.texts("reasons", decision.reasons).end_object();
 }
 
+namespace {
+
+void write_spread(Writer& w, std::string_view name, const sim::DrawnSpread& spread) {
+  w.key(name).begin_object().significant("p05", spread.p05).significant("p50", spread.p50);
+  w.significant("p95", spread.p95).end_object();
+}
+
+// The largest part of the way that is lost unseen between two checks: the slip over an interval times its
+// length.
+sim::DrawnSpread between_checks_m(const sim::DriveOutcomes& outcomes, double every_m) {
+  for (const sim::RuleRisk& rule : outcomes.rules)
+    if (rule.rule == sim::Rule::kSlipCheck)
+      return {every_m * rule.value_p05, every_m * rule.value_p50, every_m * rule.value_p95};
+  return {};
+}
+
+}  // namespace
+
+void write_position_uncertainty(Writer& w, const sim::DrivePrediction& prediction,
+                                const sim::SlipChecks& checks) {
+  const std::vector<sim::StretchRisk>& stretches = prediction.outcomes.stretches;
+  const double commanded_m = stretches.empty() ? 0.0 : stretches.back().to_m;
+  w.key("position_uncertainty").begin_object().metres("commanded_m", commanded_m);
+  write_spread(w, "shortfall_m", stretches.empty() ? sim::DrawnSpread{} : stretches.back().shortfall_m);
+  write_spread(w, "between_checks_m",
+               between_checks_m(prediction.outcomes, std::min(checks.slip_check_every_m, commanded_m)));
+  w.key("stretches").begin_array();
+  for (const sim::StretchRisk& stretch : stretches) {
+    w.begin_object().metres("from_m", stretch.from_m).metres("to_m", stretch.to_m);
+    write_spread(w, "shortfall_m", stretch.shortfall_m);
+    w.end_object();
+  }
+  w.end_array().end_object();
+}
+
 void write_outcomes(Writer& w, const sim::DrivePrediction& prediction, const Provenance& provenance) {
   const sim::DriveOutcomes& outcomes = prediction.outcomes;
   w.key("outcomes").begin_object();
@@ -142,20 +179,12 @@ std::string write_check_answer(const CheckAnswer& answer) {
   write_provenance(w, answer.provenance);
   w.key("request").raw(write_check_request(answer.request));
   write_outcomes(w, answer.prediction, answer.provenance);
+  write_position_uncertainty(w, answer.prediction, answer.request.drive.checks);
   w.key("summary").begin_object();
   write_drive_figures(w, answer.prediction);
   w.end_object();
-  w.key("routes")
-      .begin_object()
-      .text("type", "FeatureCollection")
-      .text("crs_name", answer.provenance.crs_name);
-  w.text("coordinates", "x_m, y_m, height_m in the terrain's projected system");
-  w.key("features").begin_array().begin_object().text("type", "Feature").whole("id", 1);
-  write_line(w, answer.prediction);
-  w.key("properties").begin_object();
-  write_drive_figures(w, answer.prediction);
-  write_stations(w, answer.prediction, answer.provenance);
-  w.end_object().end_object().end_array().end_object().end_object();
+  write_route(w, answer.prediction, answer.provenance);
+  w.end_object();
   return w.take();
 }
 

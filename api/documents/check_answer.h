@@ -17,4 +17,10 @@ void write_decision(Writer& w, const planner::DriveDecision& decision);
 // "outcomes": stops and embeddings by rule, ground and stretch.
 void write_outcomes(Writer& w, const sim::DrivePrediction& prediction, const Provenance& provenance);
 
+// "position_uncertainty": how far behind its path a rover is, at the end of each stretch, that is commanded
+// by the way its wheels roll (see sim::ShortfallFollower), and how much of that comes between two checks of
+// the slip.
+void write_position_uncertainty(Writer& w, const sim::DrivePrediction& prediction,
+                                const sim::SlipChecks& checks);
+
 }  // namespace slipway::api::json

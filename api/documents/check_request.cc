@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "api/documents/drive_assumptions.h"
+#include "api/documents/zones.h"
 #include "api/json/faults.h"
 #include "api/json/parse.h"
 
@@ -105,6 +106,7 @@ Result<Reading<CheckRequest>> read_check_request(std::string_view bytes,
       reader.fault("rules", unknown_name("set of rules", request.rules, names));
     }
   }
+  read_zones(reader, request.keep_out, request.keep_in, reading.faults);
   read_drive_assumptions(reader, request.drive);
   reader.refuse_unknown();
   return reading;
@@ -126,6 +128,8 @@ std::string write_check_request(const CheckRequest& request) {
   }
   w.boolean("backwards", request.manner.backwards).angle_deg("crab_deg", request.manner.crab_rad);
   if (!request.rules.empty()) w.text("rules", request.rules);
+  if (!request.keep_out.empty() || !request.keep_in.empty())
+    write_zones(w, request.keep_out, request.keep_in);
   write_drive_assumptions(w, request.drive);
   w.end_object();
   return w.take();

@@ -45,6 +45,8 @@ constexpr std::array kColumns{
     Column{"sinkage_m_p95", [](const StationPrediction& s) { return s.sinkage_m_p95; }, true},
     Column{"power_w", [](const StationPrediction& s) { return s.state.electric_power_w; }, true},
     Column{"risk", [](const StationPrediction& s) { return s.risk; }},
+    Column{"expected_stops", [](const StationPrediction& s) { return s.stops; }},
+    Column{"embedding", [](const StationPrediction& s) { return s.embedding; }},
     Column{"elapsed_s", [](const StationPrediction& s) { return s.elapsed_s; }},
 };
 

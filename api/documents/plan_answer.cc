@@ -1,6 +1,7 @@
 #include "api/documents/plan_answer.h"
 
 #include "api/documents/check_answer.h"
+#include "api/documents/drive_routes.h"
 #include "api/documents/drive_series.h"
 #include "api/documents/dynamic_series.h"
 #include "api/documents/plan_request.h"
@@ -12,10 +13,10 @@ namespace {
 
 // What a route is called, how it is judged and its figures: the row of the summary and the feature's
 // properties.
-void write_route(Writer& w, const planner::Route& route) {
+void write_judged_route(Writer& w, const planner::Route& route) {
   w.whole("rank", route.rank).text("planner", route.planner).text("profile", route.profile);
   w.text("verdict", planner::describe(route.verdict)).texts("reasons", route.reasons);
-  w.significant("cost", route.cost);
+  w.boolean("pareto", route.pareto).significant("cost", route.cost);
   w.key("cost_shares").begin_array();
   for (const planner::CostShare& share : route.shares) {
     w.begin_object().text("name", share.name).significant("value", share.value).text("unit", share.unit);
@@ -37,31 +38,25 @@ std::string write_plan_answer(const PlanAnswer& answer) {
   w.key("summary").begin_array();
   for (const planner::Route& route : answer.plan.routes) {
     w.begin_object();
-    write_route(w, route);
+    write_judged_route(w, route);
     if (route.dynamic) write_dynamic_figures(w, *route.dynamic);
     w.end_object();
   }
   w.end_array();
-  // Map metres, not degrees of the Earth: RFC 7946 section 4 asks for a prior arrangement, and crs_name says
-  // it.
-  w.key("routes")
-      .begin_object()
-      .text("type", "FeatureCollection")
-      .text("crs_name", answer.provenance.crs_name);
-  w.text("coordinates", "x_m, y_m, height_m in the terrain's projected system");
-  w.key("features").begin_array();
+  std::vector<RouteFeature> features;
   for (const planner::Route& route : answer.plan.routes) {
-    w.begin_object().text("type", "Feature").whole("id", route.rank);
-    write_line(w, route.prediction);
-    w.key("properties").begin_object();
-    write_route(w, route);
-    write_decision(w, route.decision);
-    write_outcomes(w, route.prediction, answer.provenance);
-    write_stations(w, route.prediction, answer.provenance);
-    if (route.dynamic) write_dynamic_drive(w, *route.dynamic);
-    w.end_object().end_object();
+    const auto properties = [&](Writer& of) {
+      write_judged_route(of, route);
+      write_decision(of, route.decision);
+      write_outcomes(of, route.prediction, answer.provenance);
+      write_position_uncertainty(of, route.prediction, answer.request.drive.checks);
+      write_stations(of, route.prediction, answer.provenance);
+      if (route.dynamic) write_dynamic_drive(of, *route.dynamic);
+    };
+    features.push_back({.id = route.rank, .prediction = route.prediction, .properties = properties});
   }
-  w.end_array().end_object().end_object();
+  write_routes(w, features, answer.provenance);
+  w.end_object();
   return w.take();
 }
 

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <vector>
 
+#include "api/documents/route_pairs.h"
+#include "api/json/lookup.h"
 #include "api/json/parse.h"
 #include "api/json/writer.h"
 
@@ -18,13 +19,6 @@ namespace {
 constexpr double kMoved_m = 1.0;   // further apart on average: another line
 constexpr double kChanged = 0.05;  // of a figure, as a share
 constexpr double kChangedRisk = 0.05;
-
-const JsonValue kNothing;
-
-const JsonValue& at(const JsonValue& value, std::string_view key) {
-  const JsonValue* const found = value.find(key);
-  return found != nullptr ? *found : kNothing;
-}
 
 // A figure of a route, by its key: a number, or an object with the number as its value.
 struct Figure {
@@ -42,70 +36,11 @@ std::optional<double> figure(const JsonValue& route, const char* key) {
   return value.is(JsonValue::Kind::kObject) ? at(value, "value").number : value.number;
 }
 
-struct Route {
-  const JsonValue* figures = nullptr;  // its row of the summary
-  std::vector<std::array<double, 2>> line;
-};
-
-std::vector<Route> routes_of(const JsonValue& plan) {
-  std::vector<Route> routes;
-  const std::vector<JsonValue>& features = at(at(plan, "routes"), "features").elements;
-  for (const JsonValue& row : at(plan, "summary").elements) {
-    Route route{&row, {}};
-    if (routes.size() < features.size())
-      for (const JsonValue& point : at(at(features[routes.size()], "geometry"), "coordinates").elements)
-        route.line.push_back({point.elements[0].number, point.elements[1].number});
-    routes.push_back(std::move(route));
-  }
-  return routes;
-}
-
-// Mean over one line's points of the distance to the other's nearest point.
-double mean_distance_m(const Route& from, const Route& to) {
-  if (from.line.empty() || to.line.empty()) return std::numeric_limits<double>::max();
-  double sum = 0.0;
-  for (const auto& a : from.line) {
-    double nearest = std::numeric_limits<double>::max();
-    for (const auto& b : to.line) nearest = std::min(nearest, std::hypot(a[0] - b[0], a[1] - b[1]));
-    sum += nearest;
-  }
-  return sum / static_cast<double>(from.line.size());
-}
-
-struct Pair {
-  const Route* nominal = nullptr;
-  const Route* corrected = nullptr;
-  double apart_m = 0.0;
-};
-
-// The two that are nearest first, and so on; then those that are left.
-std::vector<Pair> pairs_of(const std::vector<Route>& nominal, const std::vector<Route>& corrected) {
-  std::vector<Pair> all, pairs;
-  for (const Route& a : nominal)
-    for (const Route& b : corrected)
-      all.push_back({&a, &b, std::max(mean_distance_m(a, b), mean_distance_m(b, a))});
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Pair& a, const Pair& b) { return a.apart_m < b.apart_m; });
-  const auto taken = [&](const Route* route) {
-    return std::any_of(pairs.begin(), pairs.end(),
-                       [&](const Pair& p) { return p.nominal == route || p.corrected == route; });
-  };
-  for (const Pair& pair : all)
-    if (!taken(pair.nominal) && !taken(pair.corrected)) pairs.push_back(pair);
-  std::stable_sort(pairs.begin(), pairs.end(),
-                   [](const Pair& a, const Pair& b) { return a.nominal < b.nominal; });
-  for (const Route& route : nominal)
-    if (!taken(&route)) pairs.push_back({&route, nullptr, 0.0});
-  for (const Route& route : corrected)
-    if (!taken(&route)) pairs.push_back({nullptr, &route, 0.0});
-  return pairs;
-}
-
-std::vector<std::string> changes_of(const Pair& pair) {
-  if (pair.corrected == nullptr) return {"no longer among the routes"};
-  if (pair.nominal == nullptr) return {"a new route"};
+std::vector<std::string> changes_of(const RoutePair& pair) {
+  if (pair.b == nullptr) return {"no longer among the routes"};
+  if (pair.a == nullptr) return {"a new route"};
   std::vector<std::string> changes;
-  const JsonValue &before = *pair.nominal->figures, &after = *pair.corrected->figures;
+  const JsonValue &before = *pair.a->figures, &after = *pair.b->figures;
   if (at(before, "verdict").text != at(after, "verdict").text)
     changes.push_back(
         fmt::format("verdict {}, was {}", at(after, "verdict").text, at(before, "verdict").text));
@@ -123,7 +58,7 @@ std::vector<std::string> changes_of(const Pair& pair) {
   return changes;
 }
 
-void write_side(Writer& w, std::string_view side, const Route* route) {
+void write_side(Writer& w, std::string_view side, const AnsweredRoute* route) {
   w.key(side);
   if (route == nullptr) {
     w.null();
@@ -151,15 +86,15 @@ Result<std::string> compare_plans(std::string_view nominal, std::string_view cor
     if (!*plan) return fail(plan->error());
     if (at(**plan, "format").text != "plan/1") return fail(ErrorCode::kInternal, "the answer is not a plan");
   }
-  const std::vector<Route> old_routes = routes_of(*before), new_routes = routes_of(*after);
+  const std::vector<AnsweredRoute> old_routes = routes_of(*before), new_routes = routes_of(*after);
   Writer w;
   w.begin_object().text("format", "plan-comparison/1").key("routes").begin_array();
-  for (const Pair& pair : pairs_of(old_routes, new_routes)) {
+  for (const RoutePair& pair : pairs_of(old_routes, new_routes)) {
     w.begin_object();
-    write_side(w, "nominal", pair.nominal);
-    write_side(w, "corrected", pair.corrected);
+    write_side(w, "nominal", pair.a);
+    write_side(w, "corrected", pair.b);
     w.key("apart_m");
-    if (pair.nominal != nullptr && pair.corrected != nullptr)
+    if (pair.a != nullptr && pair.b != nullptr)
       w.metres(pair.apart_m);
     else
       w.null();

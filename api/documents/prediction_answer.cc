@@ -1,6 +1,7 @@
 #include "api/documents/prediction_answer.h"
 
 #include "api/documents/check_answer.h"
+#include "api/documents/drive_routes.h"
 #include "api/documents/drive_series.h"
 #include "api/documents/dynamic_series.h"
 #include "api/documents/prediction_request.h"
@@ -20,18 +21,9 @@ std::string write_prediction_answer(const PredictionAnswer& answer) {
   w.end_object();
   write_decision(w, answer.decision);
   write_outcomes(w, answer.prediction, answer.provenance);
-  w.key("routes")
-      .begin_object()
-      .text("type", "FeatureCollection")
-      .text("crs_name", answer.provenance.crs_name);
-  w.text("coordinates", "x_m, y_m, height_m in the terrain's projected system");
-  w.key("features").begin_array().begin_object().text("type", "Feature").whole("id", 1);
-  write_line(w, answer.prediction);
-  w.key("properties").begin_object();
-  write_drive_figures(w, answer.prediction);
-  write_stations(w, answer.prediction, answer.provenance);
-  if (answer.dynamic) write_dynamic_drive(w, *answer.dynamic);
-  w.end_object().end_object().end_array().end_object().end_object();
+  write_position_uncertainty(w, answer.prediction, answer.request.drive.checks);
+  write_route(w, answer.prediction, answer.provenance, answer.dynamic ? &*answer.dynamic : nullptr);
+  w.end_object();
   return w.take();
 }
 

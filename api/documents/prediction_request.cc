@@ -1,6 +1,7 @@
 #include "api/documents/prediction_request.h"
 
 #include "api/documents/drive_assumptions.h"
+#include "api/documents/zones.h"
 #include "api/json/parse.h"
 
 namespace slipway::api::json {
@@ -26,6 +27,7 @@ Result<Reading<PredictionRequest>> read_prediction_request(std::string_view byte
   reader.angle_deg("crab_deg", kOptional, {"deg", -90.0, 90.0}, request.manner.crab_rad);
   std::size_t level = 0;
   if (reader.choice("rung", kOptional, kLevels, level)) request.level = static_cast<FidelityLevel>(level);
+  read_zones(reader, request.keep_out, request.keep_in, reading.faults);
   read_drive_assumptions(reader, request.drive);
   reader.refuse_unknown();
   return reading;
@@ -40,6 +42,8 @@ std::string write_prediction_request(const PredictionRequest& request) {
   w.end_array();
   w.boolean("backwards", request.manner.backwards).angle_deg("crab_deg", request.manner.crab_rad);
   w.text("rung", kLevels[static_cast<std::size_t>(request.level)]);
+  if (!request.keep_out.empty() || !request.keep_in.empty())
+    write_zones(w, request.keep_out, request.keep_in);
   write_drive_assumptions(w, request.drive);
   w.end_object();
   return w.take();

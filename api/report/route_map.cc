@@ -6,9 +6,11 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "api/chart/base64.h"
+#include "api/json/lookup.h"
 #include "api/json/parse.h"
 #include "core/angle.h"
 #include "dem/hillshade.h"
@@ -17,6 +19,7 @@ namespace slipway::api {
 namespace {
 
 using json::JsonValue;
+using json::numbers;
 
 constexpr double kMapWidth_px = 900.0;
 constexpr double kLegendWidth_px = 290.0;
@@ -25,38 +28,37 @@ constexpr double kSunAzimuth_rad = rad_from_deg(315.0);
 constexpr double kSunElevation_rad = rad_from_deg(40.0);
 constexpr double kExaggeration = 1.5;
 
-struct SlipColour {
+struct ValueColour {
   double below;
   const char* colour;
   const char* words;
 };
 // Green to dark red, apart from each other for colour-blind eyes by lightness as well.
 constexpr std::array kSlipColours{
-    SlipColour{0.1, "#1a9850", "slip below 0.1"}, SlipColour{0.2, "#a6d96a", "0.1 to 0.2"},
-    SlipColour{0.4, "#fdae61", "0.2 to 0.4"}, SlipColour{0.6, "#d7191c", "0.4 to 0.6"},
-    SlipColour{10.0, "#67001f", "above 0.6"}};
+    ValueColour{0.1, "#1a9850", "slip below 0.1"}, ValueColour{0.2, "#a6d96a", "0.1 to 0.2"},
+    ValueColour{0.4, "#fdae61", "0.2 to 0.4"}, ValueColour{0.6, "#d7191c", "0.4 to 0.6"},
+    ValueColour{10.0, "#67001f", "above 0.6"}};
+// Of the stops and embeddings that are expected on a stretch.
+constexpr std::array kOutcomeColours{
+    ValueColour{0.001, "#1a9850", "stops or embeddings below 0.001"},
+    ValueColour{0.01, "#a6d96a", "0.001 to 0.01"}, ValueColour{0.1, "#fdae61", "0.01 to 0.1"},
+    ValueColour{0.5, "#d7191c", "0.1 to 0.5"}, ValueColour{1e9, "#67001f", "above 0.5"}};
 constexpr std::array kSoilColours{"#377eb8", "#984ea3", "#a65628", "#f781bf",
                                   "#66c2a5", "#e5c494", "#8da0cb", "#ffd92f"};
 
-std::size_t slip_class(double slip) {
+std::size_t class_of(std::span<const ValueColour> colours, double value) {
   std::size_t k = 0;
-  while (k + 1 < kSlipColours.size() && std::abs(slip) >= kSlipColours[k].below) ++k;
+  while (k + 1 < colours.size() && std::abs(value) >= colours[k].below) ++k;
   return k;
 }
 
 // One route as the document has it.
 struct DrawnRoute {
   std::string rank, verdict;
-  std::vector<double> x_m, y_m, slip;
+  std::vector<double> distance_m, x_m, y_m, slip;
+  std::vector<double> value;  // that its line's colour shows
   std::vector<bool> unknown;
 };
-
-std::vector<double> numbers(const JsonValue& object, std::string_view key) {
-  std::vector<double> values;
-  if (const JsonValue* list = object.find(key))
-    for (const JsonValue& value : list->elements) values.push_back(value.number);
-  return values;
-}
 
 std::vector<DrawnRoute> routes_of(const JsonValue& document) {
   std::vector<DrawnRoute> routes;
@@ -74,11 +76,13 @@ std::vector<DrawnRoute> routes_of(const JsonValue& document) {
     route.verdict = verdict ? verdict->text : "";
     route.x_m = numbers(*stations, "x_m");
     route.y_m = numbers(*stations, "y_m");
+    route.distance_m = numbers(*stations, "distance_m");
     route.slip = numbers(*stations, "slip");
+    route.value = route.slip;
     if (const JsonValue* unknown = stations->find("on_unknown_ground"))
       for (const JsonValue& value : unknown->elements) route.unknown.push_back(value.boolean);
-    const std::size_t n =
-        std::min({route.x_m.size(), route.y_m.size(), route.slip.size(), route.unknown.size()});
+    const std::size_t n = std::min({route.distance_m.size(), route.x_m.size(), route.y_m.size(),
+                                    route.slip.size(), route.unknown.size()});
     if (n >= 2) routes.push_back(std::move(route));
   }
   return routes;
@@ -97,7 +101,9 @@ dem::Extent extent_of(const std::vector<DrawnRoute>& routes) {
 
 class Picture {
  public:
-  Picture(const GroundWindow& ground) : ground_(ground), extent_(ground.terrain->geometry().extent()) {
+  // The routes' lines have the colours of their values.
+  Picture(const GroundWindow& ground, std::span<const ValueColour> colours)
+      : ground_(ground), colours_(colours), extent_(ground.terrain->geometry().extent()) {
     scale_ = kMapWidth_px / (extent_.east_m - extent_.west_m);
     height_px_ = scale_ * (extent_.north_m - extent_.south_m);
     out_ = fmt::format(
@@ -150,27 +156,55 @@ class Picture {
     }
   }
 
+  // The request's keep-outs, and the edges of its keep-ins.
+  void draw_zones(const JsonValue& request) {
+    const auto draw = [&](std::string_view key, const char* look) {
+      for (const JsonValue& ring : json::at(request, key).elements) {
+        out_ += fmt::format("<polygon {} points=\"", look);
+        for (const JsonValue& corner : ring.elements)
+          out_ += fmt::format("{:.1f},{:.1f} ", x(corner.elements[0].number), y(corner.elements[1].number));
+        out_ += "\"/>\n";
+      }
+    };
+    has_keep_out_ = !json::at(request, "keep_out").elements.empty();
+    has_keep_in_ = !json::at(request, "keep_in").elements.empty();
+    if (!has_keep_out_ && !has_keep_in_) return;
+    // What leaves the map is cut off at its edges.
+    out_ += fmt::format(
+        "<clipPath id=\"map\"><rect width=\"{:.1f}\" height=\"{:.1f}\"/></clipPath>\n<g "
+        "clip-path=\"url(#map)\">\n",
+        kMapWidth_px, height_px_);
+    draw("keep_out", "fill=\"#d7191c\" fill-opacity=\"0.35\" stroke=\"#67001f\"");
+    draw("keep_in", "fill=\"none\" stroke=\"#0050a0\" stroke-width=\"2\" stroke-dasharray=\"10 5\"");
+    out_ += "</g>\n";
+  }
+
   void draw_route(const DrawnRoute& route) {
     line(route, 0, route.x_m.size() - 1, "white", 7.0, false);
     for (std::size_t begin = 0; begin + 1 < route.x_m.size();) {
       std::size_t end = begin + 1;
       while (end + 1 < route.x_m.size() &&
-             slip_class(route.slip[end + 1]) == slip_class(route.slip[begin + 1]) &&
+             class_of(colours_, route.value[end + 1]) == class_of(colours_, route.value[begin + 1]) &&
              route.unknown[end + 1] == route.unknown[begin + 1])
         ++end;
-      line(route, begin, end, kSlipColours[slip_class(route.slip[begin + 1])].colour, 4.0,
+      line(route, begin, end, colours_[class_of(colours_, route.value[begin + 1])].colour, 4.0,
            route.unknown[begin + 1]);
       begin = end;
     }
   }
 
-  // The number stands where the routes are apart; a ring marks the largest slip.
+  // The number stands where the routes are apart.
   void label_route(const DrawnRoute& route, std::size_t place, std::size_t of) {
     const std::size_t at = route.x_m.size() * (place + 1) / (of + 1);
     out_ += fmt::format(
         "<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"11\" fill=\"white\" stroke=\"black\"/>"
         "<text x=\"{0:.1f}\" y=\"{2:.1f}\" text-anchor=\"middle\" font-weight=\"bold\">{3}</text>\n",
         x(route.x_m[at]), y(route.y_m[at]), y(route.y_m[at]) + 5.0, route.rank);
+    mark_worst(route);
+  }
+
+  // A ring around the largest slip.
+  void mark_worst(const DrawnRoute& route) {
     const auto worst = static_cast<std::size_t>(
         std::max_element(route.slip.begin(), route.slip.end(),
                          [](double a, double b) { return std::abs(a) < std::abs(b); }) -
@@ -178,6 +212,20 @@ class Picture {
     out_ += fmt::format(
         "<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"8\" fill=\"none\" stroke=\"black\" stroke-width=\"2\"/>\n",
         x(route.x_m[worst]), y(route.y_m[worst]));
+  }
+
+  // Where a check of the slip belongs.
+  void mark_checks(const DrawnRoute& route, const std::vector<double>& before_m) {
+    for (const double at_m : before_m) {
+      const auto k =
+          static_cast<std::size_t>(std::lower_bound(route.distance_m.begin(), route.distance_m.end(), at_m) -
+                                   route.distance_m.begin());
+      if (k >= route.x_m.size()) continue;  // beyond the way on the mean soils
+      checks_ = true;
+      out_ += fmt::format(
+          "<path d=\"M{:.1f} {:.1f}l6 6l-6 6l-6 -6z\" fill=\"white\" stroke=\"black\" stroke-width=\"2\"/>\n",
+          x(route.x_m[k]), y(route.y_m[k]) - 6.0);
+    }
   }
 
   void mark_ends(const DrawnRoute& route) {
@@ -241,12 +289,20 @@ class Picture {
     };
     out_ += fmt::format("<text x=\"{:.0f}\" y=\"{:.0f}\" font-weight=\"bold\">{}</text>\n", left, at, title);
     at += 26.0;
-    for (const SlipColour& c : kSlipColours)
+    for (const ValueColour& c : colours_)
       row(fmt::format("<path d=\"M0 0h28\" stroke=\"{}\" stroke-width=\"5\"/>", c.colour), c.words);
     row("<path d=\"M0 0h28\" stroke=\"black\" stroke-width=\"4\" stroke-dasharray=\"7 4\"/>",
         "on unknown ground");
     row("<circle cx=\"14\" cy=\"0\" r=\"8\" fill=\"none\" stroke=\"black\" stroke-width=\"2\"/>",
         "largest slip of a route");
+    if (has_keep_out_)
+      row("<rect y=\"-8\" width=\"28\" height=\"16\" fill=\"#d7191c\" fill-opacity=\"0.5\"/>", "keep-out");
+    if (has_keep_in_)
+      row("<path d=\"M0 0h28\" stroke=\"#0050a0\" stroke-width=\"2\" stroke-dasharray=\"10 5\"/>",
+          "edge of a keep-in");
+    if (checks_)
+      row("<path d=\"M14 -8l8 8l-8 8l-8 -8z\" fill=\"white\" stroke=\"black\" stroke-width=\"2\"/>",
+          "check the slip before going on");
     for (const LegendRow& l : legend_)
       row(fmt::format("<rect y=\"-8\" width=\"28\" height=\"16\" fill=\"{}\" fill-opacity=\"{}\"/>", l.colour,
                       l.opacity),
@@ -255,33 +311,89 @@ class Picture {
   }
 
   const GroundWindow& ground_;
+  std::span<const ValueColour> colours_;
   dem::Extent extent_;
+  bool checks_ = false, has_keep_out_ = false, has_keep_in_ = false;
   double scale_ = 1.0, height_px_ = 0.0;
   std::string out_;
   std::vector<LegendRow> legend_;
 };
+
+// Wider where it would be tall, so that a map goes on a page with words.
+dem::Extent broad(dem::Extent e) {
+  constexpr double kMaxHeightToWidth = 0.55;
+  const double width_m = std::max(e.east_m - e.west_m, (e.north_m - e.south_m) / kMaxHeightToWidth);
+  const double middle_m = 0.5 * (e.west_m + e.east_m);
+  return {middle_m - 0.5 * width_m, e.south_m, middle_m + 0.5 * width_m, e.north_m};
+}
+
+struct Drawn {
+  const TerrainSite* site;
+  std::vector<DrawnRoute> routes;
+  GroundWindow ground;
+};
+
+Result<Drawn> read_drawn(const Catalogue& catalogue, const JsonValue& document, bool is_broad) {
+  const auto site = catalogue.terrains.find(json::text(document, "terrain"));
+  if (site == catalogue.terrains.end())
+    return fail(ErrorCode::kInternal, "the answer names no terrain of this service");
+  std::vector<DrawnRoute> routes = routes_of(document);
+  if (routes.empty()) return fail(ErrorCode::kNoData, "the answer has no route to draw");
+  const dem::Extent extent = extent_of(routes);
+  auto ground = site->second->read(is_broad ? broad(extent) : extent);
+  if (!ground) return fail(ground.error());
+  return Drawn{site->second.get(), std::move(routes), *std::move(ground)};
+}
+
+// What happens on the stretch that a station lies on, for each station.
+std::vector<double> outcomes_along(const std::vector<double>& distance_m, const JsonValue& stretches) {
+  std::vector<double> values;
+  std::size_t k = 0;
+  for (const double at_m : distance_m) {
+    while (k + 1 < stretches.elements.size() && at_m > json::number(stretches.elements[k], "to_m") + 1e-6)
+      ++k;
+    values.push_back(stretches.elements.empty() ? 0.0
+                                                : json::number(stretches.elements[k], "expected_stops") +
+                                                      json::number(stretches.elements[k], "embedding"));
+  }
+  return values;
+}
 
 }  // namespace
 
 Result<std::string> draw_route_map(const Catalogue& catalogue, std::string_view answer) {
   const auto document = json::parse(answer, {.bytes = answer.size(), .values = answer.size()});
   if (!document) return fail(document.error());
-  const JsonValue* terrain = document->find("terrain");
-  const auto site = terrain ? catalogue.terrains.find(terrain->text) : catalogue.terrains.end();
-  if (site == catalogue.terrains.end())
-    return fail(ErrorCode::kInternal, "the answer names no terrain of this service");
-  const std::vector<DrawnRoute> routes = routes_of(*document);
-  if (routes.empty()) return fail(ErrorCode::kNoData, "the answer has no route to draw");
-  const auto ground = site->second->read(extent_of(routes));
-  if (!ground) return fail(ground.error());
-  Picture picture(*ground);
-  if (const auto drawn = picture.draw_ground(); !drawn) return fail(drawn.error());
+  const auto drawn = read_drawn(catalogue, *document, false);
+  if (!drawn) return fail(drawn.error());
+  const std::vector<DrawnRoute>& routes = drawn->routes;
+  Picture picture(drawn->ground, kSlipColours);
+  if (const auto ground = picture.draw_ground(); !ground) return fail(ground.error());
   picture.draw_soils();
+  picture.draw_zones(json::at(*document, "request"));
   // The best route last, so that it lies on top.
   for (auto route = routes.rbegin(); route != routes.rend(); ++route) picture.draw_route(*route);
   for (std::size_t k = 0; k < routes.size(); ++k) picture.label_route(routes[k], k, routes.size());
   picture.mark_ends(routes.front());
-  return picture.finish(site->second->description().title);
+  return picture.finish(drawn->site->description().title);
+}
+
+Result<std::string> draw_outcome_map(const Catalogue& catalogue, const JsonValue& check) {
+  auto drawn = read_drawn(catalogue, check, true);
+  if (!drawn) return fail(drawn.error());
+  DrawnRoute& route = drawn->routes.front();
+  route.verdict = json::text(check, "verdict");
+  const JsonValue& outcomes = json::at(check, "outcomes");
+  route.value = outcomes_along(route.distance_m, json::at(outcomes, "stretches"));
+  Picture picture(drawn->ground, kOutcomeColours);
+  if (const auto ground = picture.draw_ground(); !ground) return fail(ground.error());
+  picture.draw_soils();
+  picture.draw_zones(json::at(check, "request"));
+  picture.draw_route(route);
+  picture.mark_worst(route);
+  picture.mark_checks(route, numbers(json::at(outcomes, "recommended"), "slip_checks_before_m"));
+  picture.mark_ends(route);
+  return picture.finish(drawn->site->description().title);
 }
 
 }  // namespace slipway::api

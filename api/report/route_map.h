@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "api/files/catalogue.h"
+#include "api/json/json_value.h"
 #include "core/result.h"
 
 namespace slipway::api {
@@ -13,5 +14,9 @@ namespace slipway::api {
 // numbered by rank, the largest slip of each marked, with scale bar and legend. Errors: those of reading the
 // terrain; internal where the document is no answer.
 Result<std::string> draw_route_map(const Catalogue& catalogue, std::string_view answer);
+
+// The path of a "check/1" document on the same ground, coloured by the stops and embeddings that are expected
+// on each stretch of it, with a sign where a check of the slip belongs. Errors as above.
+Result<std::string> draw_outcome_map(const Catalogue& catalogue, const json::JsonValue& check);
 
 }  // namespace slipway::api

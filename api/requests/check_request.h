@@ -17,6 +17,8 @@ struct CheckRequest {
   std::vector<planner::DriveStep> commands;
   std::string rules;  // name of a file of rules; empty: none
   planner::Manner manner;
+  std::vector<planner::Polygon> keep_out;  // a drive that enters one is a NO-GO
+  std::vector<planner::Polygon> keep_in;   // as is one that leaves one of these
   DriveAssumptions drive;
 };
 

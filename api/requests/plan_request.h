@@ -46,6 +46,7 @@ struct PlanRequest {
   planner::Waypoint start, goal;
   std::vector<planner::Waypoint> waypoints;  // visited in order
   std::vector<planner::Polygon> keep_out;
+  std::vector<planner::Polygon> keep_in;  // each an area that the rover's body must not leave
   planner::Weights weights;
   int routes = planner::PlanProblem{}.routes;
   std::vector<std::string> planners;           // the catalogue's default set where it is empty

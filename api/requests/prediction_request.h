@@ -19,6 +19,8 @@ struct PredictionRequest {
   std::string rover;
   std::vector<planner::Waypoint> path;  // corners, joined by turns in place and straight drives
   planner::Manner manner;
+  std::vector<planner::Polygon> keep_out;  // a drive that enters one is a NO-GO
+  std::vector<planner::Polygon> keep_in;   // as is one that leaves one of these
   FidelityLevel level = FidelityLevel::kQuasiStatic;
   DriveAssumptions drive;
 };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/angle.h"
@@ -166,6 +167,31 @@ bool ranks_before(const Route& a, const Route& b) {
   if (group(a) != group(b)) return group(a) < group(b);
   if (group(a) == 2) return a.prediction.length_m > b.prediction.length_m;
   return a.cost < b.cost;
+}
+
+bool dominates(const Route& a, const Route& b) {
+  if (a.prediction.immobilised) return false;
+  if (b.prediction.immobilised) return true;
+  // Part of the energy is not known where the ground is known by a slip curve alone.
+  const bool energy_known = !a.prediction.by_slip_curve && !b.prediction.by_slip_curve;
+  const auto figures = [energy_known](const Route& route) {
+    const sim::DrivePrediction& p = route.prediction;
+    return std::array{p.duration_s, energy_known ? p.energy_j : 0.0, p.outcomes.expected_stops,
+                      p.outcomes.embedding.share};
+  };
+  const auto of_a = figures(a), of_b = figures(b);
+  bool better = false;
+  for (std::size_t k = 0; k < of_a.size(); ++k) {
+    if (of_a[k] > of_b[k]) return false;
+    better |= of_a[k] < of_b[k];
+  }
+  return better;
+}
+
+void mark_pareto_front(std::vector<Route>& routes) {
+  for (Route& route : routes)
+    route.pareto = std::none_of(routes.begin(), routes.end(),
+                                [&](const Route& other) { return dominates(other, route); });
 }
 
 void explain(std::vector<Route>& routes) {

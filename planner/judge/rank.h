@@ -13,6 +13,14 @@ void judge(const PlanProblem& problem, Route& route);
 // a before b: routes without a broken limit first, then by cost.
 bool ranks_before(const Route& a, const Route& b);
 
+// Whether a is better than b in duration, energy (on the mean soils), expected stops or probability of
+// embedding, and worse in none of them. An immobilised route dominates none and is dominated by each that is
+// not.
+bool dominates(const Route& a, const Route& b);
+
+// Marks the routes that no other dominates.
+void mark_pareto_front(std::vector<Route>& routes);
+
 // Numbers the routes, which are in their order, and says of each why it stands there and why it is judged so.
 void explain(std::vector<Route>& routes);
 

@@ -65,16 +65,6 @@ class BodyFrame {
   double c_, s_;
 };
 
-// Whether the polygon meets the rectangle of these half sides about the pose.
-bool meets_rectangle(const Polygon& polygon, const Pose2& pose, const Eigen::Vector2d& half) {
-  if (inside(polygon, {pose.x_m, pose.y_m})) return true;
-  const BodyFrame in_body(pose);
-  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    if (meets_box(in_body(polygon[j]), in_body(polygon[i]), half)) return true;
-  }
-  return false;
-}
-
 // Whether a point that is turned about the origin by `turn_rad`, starting at `from`, crosses the segment.
 bool arc_meets_segment(const Eigen::Vector2d& from, double turn_rad, const Eigen::Vector2d& a,
                        const Eigen::Vector2d& b) {
@@ -98,23 +88,42 @@ bool arc_meets_segment(const Eigen::Vector2d& from, double turn_rad, const Eigen
 
 }  // namespace
 
-KeepOut::KeepOut(std::span<const Polygon> polygons, const sim::RoverModel& rover)
+KeepOut::KeepOut(std::span<const Polygon> polygons, const sim::RoverModel& rover,
+                 std::span<const Polygon> keep_in)
     : half_(0.5 * rover.body_length_m, 0.5 * rover.body_width_m),
       inscribed_m_(half_.minCoeff()),
       circumscribed_m_(half_.norm()) {
-  for (const Polygon& polygon : polygons) {
-    if (polygon.empty()) continue;
-    Zone zone{polygon, polygon.front(), polygon.front()};
-    for (const Eigen::Vector2d& corner : polygon) {
-      zone.low = zone.low.cwiseMin(corner);
-      zone.high = zone.high.cwiseMax(corner);
-    }
-    zones_.push_back(std::move(zone));
+  for (const Polygon& polygon : polygons) add(polygon, false);
+  for (const Polygon& polygon : keep_in) add(polygon, true);
+}
+
+void KeepOut::add(const Polygon& polygon, bool closes_outside) {
+  if (polygon.empty()) return;
+  Zone zone{polygon, polygon.front(), polygon.front(), closes_outside};
+  for (const Eigen::Vector2d& corner : polygon) {
+    zone.low = zone.low.cwiseMin(corner);
+    zone.high = zone.high.cwiseMax(corner);
   }
+  zones_.push_back(std::move(zone));
 }
 
 bool KeepOut::Zone::box_within(const Eigen::Vector2d& point, double distance_m) const {
+  if (closes_outside) return true;
   return (low - point).cwiseMax(point - high).cwiseMax(0.0).squaredNorm() <= distance_m * distance_m;
+}
+
+bool KeepOut::Zone::holds(const Eigen::Vector2d& point) const {
+  return inside(polygon, point) != closes_outside;
+}
+
+// A rectangle that meets no edge is wholly on the side where its middle is.
+bool KeepOut::Zone::meets_rectangle(const Pose2& pose, const Eigen::Vector2d& half) const {
+  if (holds({pose.x_m, pose.y_m})) return true;
+  const BodyFrame in_body(pose);
+  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+    if (meets_box(in_body(polygon[j]), in_body(polygon[i]), half)) return true;
+  }
+  return false;
 }
 
 bool KeepOut::within(double x_m, double y_m, double distance_m) const {
@@ -122,7 +131,7 @@ bool KeepOut::within(double x_m, double y_m, double distance_m) const {
   return std::any_of(zones_.begin(), zones_.end(), [&](const Zone& zone) {
     if (!zone.box_within(p, distance_m)) return false;
     const Polygon& polygon = zone.polygon;
-    if (inside(polygon, p)) return true;
+    if (zone.holds(p)) return true;
     for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
       if (distance_to_segment_m(p, polygon[j], polygon[i]) <= distance_m) return true;
     }
@@ -132,18 +141,17 @@ bool KeepOut::within(double x_m, double y_m, double distance_m) const {
 
 bool KeepOut::hits(const Pose2& pose) const {
   return std::any_of(zones_.begin(), zones_.end(), [&](const Zone& zone) {
-    return zone.box_within({pose.x_m, pose.y_m}, circumscribed_m_) &&
-           meets_rectangle(zone.polygon, pose, half_);
+    return zone.box_within({pose.x_m, pose.y_m}, circumscribed_m_) && zone.meets_rectangle(pose, half_);
   });
 }
 
-// A body that is clear at the turn's beginning and meets the polygon later does so first where a corner of
+// A body that is clear at the turn's beginning and meets the zone later does so first where a corner of
 // the one lies on an edge of the other. Corners of the body circle the centre; seen from the body, those of
 // the polygon circle it the other way round.
 bool KeepOut::turning_hits(const Zone& zone, const Pose2& from, const Eigen::Vector2d& centre_in_body,
                            double turn_rad) const {
   const Polygon& polygon = zone.polygon;
-  if (meets_rectangle(polygon, from, half_)) return true;
+  if (zone.meets_rectangle(from, half_)) return true;
   if (std::abs(turn_rad) < kNoTurn_rad) return false;
   const BodyFrame in_body(from);
   std::array<Eigen::Vector2d, 4> body{{half_, {-half_.x(), half_.y()}, -half_, {half_.x(), -half_.y()}}};
@@ -165,10 +173,9 @@ bool KeepOut::driving_hits(const Zone& zone, const Motion& motion) const {
     return turning_hits(zone, departure, {0.0, 1.0 / motion.curvature_1_m},
                         motion.curvature_1_m * motion.length_m);
   const double half_way = 0.5 * motion.length_m;
-  return meets_rectangle(zone.polygon,
-                         {departure.x_m + half_way * std::cos(departure.yaw_rad),
-                          departure.y_m + half_way * std::sin(departure.yaw_rad), departure.yaw_rad},
-                         half_ + Eigen::Vector2d(half_way, 0.0));
+  return zone.meets_rectangle({departure.x_m + half_way * std::cos(departure.yaw_rad),
+                               departure.y_m + half_way * std::sin(departure.yaw_rad), departure.yaw_rad},
+                              half_ + Eigen::Vector2d(half_way, 0.0));
 }
 
 bool KeepOut::hits_along(const Motion& motion) const {
@@ -208,6 +215,11 @@ std::optional<Pose2> KeepOut::first_hit(const Motion& motion, double step_m) con
   const Pose2 arrival{motion.to.x_m, motion.to.y_m, motion.to.yaw_rad - motion.last_turn_rad};
   if (auto pose = turn(arrival, motion.last_turn_rad)) return pose;
   return motion.to;
+}
+
+std::string_view trespass_in_words(const PlanProblem& problem) {
+  if (problem.keep_in.empty()) return "enter a keep-out";
+  return problem.keep_out.empty() ? "leave a keep-in" : "enter a keep-out or leave a keep-in";
 }
 
 std::optional<Pose2> first_hit(const KeepOut& keep_out, std::span<const Motion> motions) {

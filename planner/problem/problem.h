@@ -45,6 +45,7 @@ struct PlanProblem {
   Waypoint start, goal;
   std::vector<Waypoint> waypoints;  // visited in order
   std::vector<Polygon> keep_out;
+  std::vector<Polygon> keep_in;  // each an area that the rover's body must not leave
   sim::DriveLimits limits;
   sim::DriveConditions conditions;
   Weights weights;  // with the terms of the cost that they are of

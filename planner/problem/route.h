@@ -40,6 +40,7 @@ struct Route {
   std::vector<CostShare> shares;  // add up to cost
   Verdict verdict = Verdict::kGo;
   DriveDecision decision;            // by the draws of the ground
+  bool pareto = false;               // no other route of the plan dominates it, see dominates()
   std::vector<std::string> reasons;  // why it is ranked so and judged so, in words and numbers
 };
 

@@ -118,10 +118,28 @@ void add(std::string& words, std::string more) {
   words += (words.empty() ? "" : " and ") + std::move(more);
 }
 
+// Adds the zone's number where it bars the place to some heading.
+void note_in_the_way(const KeepOut& zone, const Eigen::Vector2d& place, std::size_t number,
+                     std::vector<std::size_t>& numbers) {
+  if (!zone.clear_at_any_heading(place.x(), place.y()) &&
+      std::find(numbers.begin(), numbers.end(), number) == numbers.end())
+    numbers.push_back(number);
+}
+
+// Takes these polygons out, the last first, and says so.
+void drop(std::string_view key, std::vector<std::size_t>& numbers, std::vector<Polygon>& polygons,
+          std::string& words) {
+  std::sort(numbers.rbegin(), numbers.rend());
+  for (const std::size_t z : numbers) {
+    polygons.erase(polygons.begin() + static_cast<std::ptrdiff_t>(z));
+    add(words, fmt::format("no {}/{}", key, z));
+  }
+}
+
 Relaxed relax(const PlanProblem& problem, const TraverseMap& map, const std::vector<Crossing>& way) {
   Relaxed out{.problem = problem, .words = {}};
   double tilt = 0.0, rise = 0.0;
-  std::vector<std::size_t> zones;
+  std::vector<std::size_t> outs, ins;
   for (const Crossing& crossing : way) {
     if (crossing.breach <= 0.0) continue;
     const GroundCell& cell = map.cell(crossing.cell);
@@ -130,12 +148,10 @@ Relaxed relax(const PlanProblem& problem, const TraverseMap& map, const std::vec
     rise = std::max<double>(rise, cell.rise_m);
     const Eigen::Vector2d place = map.centre_m(crossing.cell);
     if (crossing.breach < kInKeepOut) continue;
-    for (std::size_t z = 0; z < problem.keep_out.size(); ++z) {
-      const KeepOut zone(std::span(problem.keep_out).subspan(z, 1), *problem.rover);
-      if (!zone.clear_at_any_heading(place.x(), place.y()) &&
-          std::find(zones.begin(), zones.end(), z) == zones.end())
-        zones.push_back(z);
-    }
+    for (std::size_t z = 0; z < problem.keep_out.size(); ++z)
+      note_in_the_way(KeepOut(std::span(problem.keep_out).subspan(z, 1), *problem.rover), place, z, outs);
+    for (std::size_t z = 0; z < problem.keep_in.size(); ++z)
+      note_in_the_way(KeepOut({}, *problem.rover, std::span(problem.keep_in).subspan(z, 1)), place, z, ins);
   }
   if (tilt > problem.rover->max_tilt_rad || rise > problem.rover->belly_clearance_m) out.possible = false;
   if (tilt > problem.limits.max_tilt_rad) {
@@ -149,18 +165,18 @@ Relaxed relax(const PlanProblem& problem, const TraverseMap& map, const std::vec
     out.possible &= out.problem.limits.min_clearance_m >= 0.0;
     add(out.words, fmt::format("min_clearance_m = {:.3f}", out.problem.limits.min_clearance_m));
   }
-  std::sort(zones.rbegin(), zones.rend());
-  for (const std::size_t z : zones) {
-    out.problem.keep_out.erase(out.problem.keep_out.begin() + static_cast<std::ptrdiff_t>(z));
-    add(out.words, fmt::format("no keep_out/{}", z));
-  }
+  drop("keep_out", outs, out.problem.keep_out, out.words);
+  drop("keep_in", ins, out.problem.keep_in, out.words);
   return out;
 }
 
 // What a cell asks for that the limits don't allow.
 std::string breach_in_words(const PlanProblem& problem, const GroundCell& cell, bool keep_out) {
   if (cell.passage == Passage::kNoData) return "where elevation is missing, or the map ends, near by";
-  if (keep_out) return "in or too near to a keep-out";
+  if (keep_out && problem.keep_in.empty()) return "in or too near to a keep-out";
+  if (keep_out)
+    return problem.keep_out.empty() ? "outside a keep-in or too near to its edge"
+                                    : "in or too near to a keep-out, or outside a keep-in";
   std::string words;
   if (cell.tilt_rad > tilt_limit_rad(problem))
     add(words, fmt::format("{:.1f} deg of tilt where {:.1f} is {}", deg_from_rad(cell.tilt_rad),
@@ -178,7 +194,7 @@ std::string breach_in_words(const PlanProblem& problem, const GroundCell& cell, 
 }
 
 bool has_way(const PlanProblem& problem, const TraverseMap& like, const Waypoint& from, const Waypoint& to) {
-  const KeepOut keep_out(problem.keep_out, *problem.rover);
+  const KeepOut keep_out(problem.keep_out, *problem.rover, problem.keep_in);
   // A little less, so that the window has the same cells whatever the rounding.
   const dem::Extent window = like.geometry().extent();
   const double little = 0.25 * like.cell_m();
@@ -228,7 +244,8 @@ std::optional<std::string> first_closed(const PlanProblem& problem, const Motion
           breach_in_words(problem, map.cell(index), breach >= kInKeepOut && breach < kNoElevation));
     }
     if (const auto pose = map.keep_out().first_hit(motion))
-      return fmt::format("({:.1f}, {:.1f}): the rover's body would enter a keep-out", pose->x_m, pose->y_m);
+      return fmt::format("({:.1f}, {:.1f}): the rover's body would {}", pose->x_m, pose->y_m,
+                         trespass_in_words(problem));
   }
   return std::nullopt;
 }

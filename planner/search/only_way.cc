@@ -113,7 +113,7 @@ std::string_view words(Passage passage) {
     case Passage::kRough:
       return "too rough for the belly";
     case Passage::kKeepOut:
-      return "in a keep-out";
+      return "in a keep-out or outside a keep-in";
     case Passage::kFree:
     case Passage::kNearKeepOut:
       break;

@@ -22,6 +22,20 @@ std::string names_of(std::span<const PlannerRow> planners) {
   return names;
 }
 
+void check_polygons(std::string_view pointer, const std::vector<Polygon>& polygons,
+                    std::vector<Fault>& faults) {
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    const Polygon& polygon = polygons[i];
+    if (polygon.size() < 3) {
+      faults.push_back({fmt::format("{}/{}", pointer, i),
+                        fmt::format("a polygon of {} corners, must have at least 3", polygon.size())});
+    } else if (std::any_of(polygon.begin(), polygon.end(),
+                           [](const Eigen::Vector2d& p) { return !p.allFinite(); })) {
+      faults.push_back({fmt::format("{}/{}", pointer, i), "a corner is not finite"});
+    }
+  }
+}
+
 void check_settings(const PlanProblem& problem, std::span<const PlannerRow> planners,
                     std::vector<Fault>& faults) {
   if (problem.routes < 1 || problem.routes > kMaxRoutes)
@@ -52,16 +66,8 @@ void check_settings(const PlanProblem& problem, std::span<const PlannerRow> plan
         {fmt::format("/weights/{}", field.name),
          fmt::format("{} = {:g}, must be in [{:g}, {:g}]", field.name, weight, field.lowest, field.highest)});
   }
-  for (std::size_t i = 0; i < problem.keep_out.size(); ++i) {
-    const Polygon& polygon = problem.keep_out[i];
-    if (polygon.size() < 3) {
-      faults.push_back({fmt::format("/keep_out/{}", i),
-                        fmt::format("a polygon of {} corners, must have at least 3", polygon.size())});
-    } else if (std::any_of(polygon.begin(), polygon.end(),
-                           [](const Eigen::Vector2d& p) { return !p.allFinite(); })) {
-      faults.push_back({fmt::format("/keep_out/{}", i), "a corner is not finite"});
-    }
-  }
+  check_polygons("/keep_out", problem.keep_out, faults);
+  check_polygons("/keep_in", problem.keep_in, faults);
 }
 
 // Headings at which the rover would stand there: the one that is given, or enough to find one that is
@@ -85,8 +91,11 @@ void check_standing(const PlanProblem& problem, const KeepOut& keep_out, const s
     if (stance) least_tilt = std::min(least_tilt, stance->attitude.tilt_rad());
   }
   if (!outside) {
-    faults.push_back({pointer, fmt::format("the rover's body at ({:.2f}, {:.2f}) is inside a keep-out",
-                                           place.x_m, place.y_m)});
+    faults.push_back({pointer, fmt::format("the rover's body at ({:.2f}, {:.2f}) is {}", place.x_m, place.y_m,
+                                           problem.keep_in.empty() ? "inside a keep-out"
+                                           : problem.keep_out.empty()
+                                               ? "not wholly inside a keep-in"
+                                               : "inside a keep-out or not wholly inside a keep-in")});
   }
   if (!std::isfinite(least_tilt)) {
     faults.push_back(

@@ -27,10 +27,10 @@ void write_command(Writer& w, const std::string& command) {
   w.end_object();
 }
 
-std::string check_request(const CheckOptions& options) {
+Result<std::string> check_request(const CheckOptions& options) {
   Writer w;
   w.begin_object();
-  write_drive(w, options.drive);
+  if (auto written = write_drive(w, options.drive); !written) return fail(written.error());
   if (!options.path.empty()) {
     w.key("path").begin_array();
     for (const PlaceOption& place : options.path) write_place(w, place);
@@ -56,10 +56,10 @@ int check(const CheckOptions& given) {
   if (!rover) return refuse(rover.error());
   CheckOptions options = given;
   options.drive.rover = *rover;
-  return ask_and_print(
-      options.ask, {.map = options.drive.map, .history = {}},
-      options.request.empty() ? Result<std::string>(check_request(options)) : read_request(options.request),
-      &Inquiry::check, &check_table, &check_status);
+  return ask_and_print(options.ask,
+                       {.map = options.drive.map, .report = options.report, .csv = options.drive.csv},
+                       options.request.empty() ? check_request(options) : read_request(options.request),
+                       &Inquiry::check, &check_table, &check_status);
 }
 
 }  // namespace slipway::server

@@ -23,6 +23,7 @@ struct CheckOptions {
   std::string rules;
   bool backwards = false;
   std::optional<double> crab_deg;
+  std::string report;   // file for the page; empty: none
   std::string request;  // file with the whole request
 };
 

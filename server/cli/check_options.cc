@@ -9,6 +9,7 @@ namespace {
 constexpr const char* kCheckExample =
     "Example: may this drive be commanded?\n"
     "  slipway check --path 8142579.7,-276648.7 8142578,-276680 --rules every_5_m\n"
+    "  slipway check --path 8142579.7,-276648.7 8142578,-276680 --report check.html --csv stations.csv\n"
     "  slipway check --start 8142579.7,-276648.7,-90 --command drive=10 turn=30 arc=6,8\n"
     "Exit status: 0 GO, 3 NO-GO, 4 UNKNOWN; 1 no answer, 2 a request that can't be used, with every fault.";
 
@@ -39,6 +40,7 @@ void add_check_command(CLI::App& app, std::function<int()>& run) {
   command->add_flag("--backwards", options->backwards, "drive backwards");
   command->add_option("--crab-deg", options->crab_deg,
                       "direction of travel from the body's axis, positive to the left");
+  command->add_option("--report", options->report, "write one page for a meeting (HTML) to this file");
   command->add_option("--request", options->request,
                       "file with a whole request, - for standard input; other options are not used");
   command->footer(kCheckExample);

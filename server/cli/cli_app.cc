@@ -8,6 +8,7 @@
 #include "server/cli/campaign_command.h"
 #include "server/cli/catalogue_command.h"
 #include "server/cli/check_command.h"
+#include "server/cli/compare_answers_command.h"
 #include "server/cli/current_command.h"
 #include "server/cli/diagnose_command.h"
 #include "server/cli/estimate_command.h"
@@ -56,6 +57,7 @@ int run_command_line(int argc, char** argv) {
   add_tune_command(app, run);
   add_diagnose_command(app, run);
   add_check_command(app, run);
+  add_compare_answers_command(app, run);
   add_test_model_command(app, run);
   add_estimate_command(app, run);
   add_gap_benchmark_command(app, run);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "api/chart/drive_history.h"
+#include "api/documents/station_csv.h"
 #include "api/files/model_folder.h"
 #include "api/json/parse.h"
 #include "server/cli/command_parts.h"
@@ -34,19 +35,19 @@ int ask_and_print(const AskOptions& ask, const Pictures& pictures, const Result<
   const auto printed = ask.json ? answer : table(*answer);
   if (!printed) return refuse(printed.error());
   std::vector<OutputFile> files;
-  std::optional<Error> undrawn;
-  if (!pictures.map.empty()) {
-    auto map = (*service)->map();
-    if (!map) undrawn = map.error();
-    if (map) files.push_back({pictures.map, *std::move(map)});
-  }
-  if (!pictures.history.empty()) {
-    auto history = api::draw_drive_history(*answer);
-    if (!history) undrawn = history.error();
-    if (history) files.push_back({pictures.history, *std::move(history)});
-  }
+  std::optional<Error> unmade;
+  const auto add = [&](const std::string& path, Result<std::string> made) {
+    if (made)
+      files.push_back({path, *std::move(made)});
+    else
+      unmade = made.error();
+  };
+  if (!pictures.map.empty()) add(pictures.map, (*service)->map());
+  if (!pictures.history.empty()) add(pictures.history, api::draw_drive_history(*answer));
+  if (!pictures.report.empty()) add(pictures.report, (*service)->report());
+  if (!pictures.csv.empty()) add(pictures.csv, api::json::station_csv(*answer));
   const int status = deliver(files, *printed + (ask.json ? "\n" : ""));
-  if (undrawn) return refuse(*undrawn);
+  if (unmade) return refuse(*unmade);
   return status == kDone ? verdict(*answer) : status;
 }
 

@@ -12,9 +12,11 @@
 // What the answers to plans and predictions have in common.
 namespace slipway::server {
 
-// Files for what is drawn of an answer; empty: not wanted.
+// Files for what is made of an answer; empty: not wanted.
 struct Pictures {
-  std::string map, history;
+  std::string map = {}, history = {};
+  std::string report = {};  // HTML, of a check
+  std::string csv = {};     // of the stations
 };
 
 // Asks, draws what is wanted, then prints the document or its table. The exit status: that of the document's

@@ -62,9 +62,24 @@ void add_drive(CLI::App& command, DriveOptions& drive) {
   command.add_option("--rover", drive.rover, "name of the rover")->capture_default_str();
   command.add_option("--max-slip", drive.max_slip, "limit of slip, 0 to 1");
   command.add_option("--max-tilt-deg", drive.max_tilt_deg, "limit of tilt");
+  command.add_option("--max-current-a", drive.max_current_a, "limit of any motor's current");
+  command.add_option("--max-sinkage-m", drive.max_sinkage_m, "limit of any wheel's sinkage");
+  command.add_option("--min-clearance-m", drive.min_clearance_m, "least clearance of the belly");
+  command.add_option(
+      "--keep-out", drive.keep_out,
+      "an area that the rover's body must not enter: \"x,y x,y x,y\", or a GeoJSON file of polygons in map "
+      "metres; may be repeated");
+  command.add_option("--keep-in", drive.keep_in,
+                     "an area that the rover's body must not leave, as --keep-out");
   command.add_option("--speed-m-s", drive.speed_m_s, "commanded speed");
   command.add_option("--slip-check-every-m", drive.slip_check_every_m,
                      "way that the wheels roll between two checks of the slip");
+  command.add_option("--embedding-slip", drive.embedding_slip,
+                     "slip over which the wheels dig rather than drive");
+  command.add_option("--embedding-turns", drive.embedding_turns,
+                     "turns at such a slip without a check that embed the rover");
+  command.add_option("--embedding-sinkage-share", drive.embedding_sinkage_share,
+                     "share of a wheel's radius, deeper than which the rover is embedded");
   command.add_option("--max-embedding", drive.max_embedding, "bar of a GO: probability of embedding");
   command.add_option("--max-expected-stops", drive.max_expected_stops, "bar of a GO: stops to be expected");
   command.add_option("--as-of-sol", drive.as_of_sol,
@@ -80,6 +95,7 @@ void add_drive(CLI::App& command, DriveOptions& drive) {
                      fmt::format("a wheel whose drive has failed, WHEEL={}",
                                  fmt::join(sim::wheel_failure_names(), " or WHEEL=")));
   command.add_option("--motor-temp-c", drive.motor_temp_c, "temperature of the drive motors");
+  command.add_option("--csv", drive.csv, "write the stations, one row each (CSV), to this file");
   command.add_option("--map", drive.map, "write a picture of the routes (SVG) to this file");
 }
 

@@ -20,15 +20,19 @@ struct DriveOptions {
   std::string terrain = "gale";
   std::string rover = "msl-class";
   std::optional<double> max_slip, max_tilt_deg, speed_m_s;
-  std::optional<double> slip_check_every_m, max_embedding, max_expected_stops;
+  std::optional<double> max_current_a, max_sinkage_m, min_clearance_m;
+  std::optional<double> slip_check_every_m, embedding_slip, embedding_turns, embedding_sinkage_share;
+  std::optional<double> max_embedding, max_expected_stops;
   std::optional<int> as_of_sol;
   std::string legend;
   std::optional<int> draws;
   std::optional<long long> seed;
   std::optional<double> motor_temp_c;
-  std::vector<std::string> failed;   // "rf=locked"
-  std::vector<std::string> effects;  // "slip_sinkage", "slip_sinkage:n1=0.2" or "slip_sinkage:off"
-  std::string map;                   // file for the picture; empty: none
+  std::vector<std::string> keep_out, keep_in;  // "x,y x,y x,y" or a GeoJSON file
+  std::vector<std::string> failed;             // "rf=locked"
+  std::vector<std::string> effects;            // "slip_sinkage", "slip_sinkage:n1=0.2" or "slip_sinkage:off"
+  std::string map;                             // file for the picture; empty: none
+  std::string csv;                             // file for the stations; empty: none
 };
 
 // What plans and predictions have in common: --terrain, --rover, limits, effects and more.

@@ -5,12 +5,17 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <initializer_list>
+#include <optional>
 #include <system_error>
+#include <utility>
 
 #include "api/requests/plan_request.h"
 #include "server/cli/command_parts.h"
+#include "server/cli/inquiry/zone_option.h"
 #include "server/cli/terminal/interruption.h"
 
 namespace slipway::server {
@@ -35,6 +40,17 @@ class Input {
   int descriptor_;
 };
 
+// An object of the numbers that were given; none where none was.
+void write_given(Writer& w, std::string_view key,
+                 std::initializer_list<std::pair<std::string_view, std::optional<double>>> numbers) {
+  const auto given = [](const auto& number) { return number.second.has_value(); };
+  if (std::none_of(numbers.begin(), numbers.end(), given)) return;
+  w.key(key).begin_object();
+  for (const auto& [name, number] : numbers)
+    if (number) w.exact(name, *number);
+  w.end_object();
+}
+
 }  // namespace
 
 void write_place(Writer& w, const PlaceOption& place) {
@@ -43,22 +59,21 @@ void write_place(Writer& w, const PlaceOption& place) {
   w.end_object();
 }
 
-void write_drive(Writer& w, const DriveOptions& drive) {
+Result<void> write_drive(Writer& w, const DriveOptions& drive) {
   w.text("terrain", drive.terrain).text("rover", drive.rover);
-  if (drive.max_slip || drive.max_tilt_deg) {
-    w.key("limits").begin_object();
-    if (drive.max_slip) w.exact("max_slip", *drive.max_slip);
-    if (drive.max_tilt_deg) w.exact("max_tilt_deg", *drive.max_tilt_deg);
-    w.end_object();
-  }
-  if (drive.slip_check_every_m)
-    w.key("checks").begin_object().exact("slip_check_every_m", *drive.slip_check_every_m).end_object();
-  if (drive.max_embedding || drive.max_expected_stops) {
-    w.key("bars").begin_object();
-    if (drive.max_embedding) w.exact("max_embedding", *drive.max_embedding);
-    if (drive.max_expected_stops) w.exact("max_expected_stops", *drive.max_expected_stops);
-    w.end_object();
-  }
+  write_given(w, "limits",
+              {{"max_slip", drive.max_slip},
+               {"max_tilt_deg", drive.max_tilt_deg},
+               {"max_current_a", drive.max_current_a},
+               {"max_sinkage_m", drive.max_sinkage_m},
+               {"min_clearance_m", drive.min_clearance_m}});
+  write_given(w, "checks",
+              {{"slip_check_every_m", drive.slip_check_every_m},
+               {"embedding_slip", drive.embedding_slip},
+               {"embedding_turns", drive.embedding_turns},
+               {"embedding_sinkage_share", drive.embedding_sinkage_share}});
+  write_given(w, "bars",
+              {{"max_embedding", drive.max_embedding}, {"max_expected_stops", drive.max_expected_stops}});
   if (!drive.effects.empty()) {
     w.key("effects").begin_array();
     for (const std::string& effect : drive.effects) write_effect(w, effect);
@@ -75,6 +90,8 @@ void write_drive(Writer& w, const DriveOptions& drive) {
   if (drive.seed) w.whole("seed", *drive.seed);
   if (drive.speed_m_s) w.exact("speed_m_s", *drive.speed_m_s);
   if (drive.motor_temp_c) w.exact("motor_temp_c", *drive.motor_temp_c);
+  if (auto written = write_zone_options(w, "keep_out", drive.keep_out); !written) return written;
+  return write_zone_options(w, "keep_in", drive.keep_in);
 }
 
 Result<std::string> read_request(const std::string& path) {

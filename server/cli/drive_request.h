@@ -10,8 +10,9 @@ namespace slipway::server {
 
 void write_place(api::json::Writer& w, const PlaceOption& place);
 
-// The members that plans and predictions have in common, of the object that is being written.
-void write_drive(api::json::Writer& w, const DriveOptions& drive);
+// The members that plans, predictions and checks have in common, of the object that is being written. Errors:
+// those of write_zone_options().
+Result<void> write_drive(api::json::Writer& w, const DriveOptions& drive);
 
 // A whole request from a file, or from standard input where the path is "-"; an interruption ends the
 // reading. Errors: unreadable_data; payload_too_large beyond what the service takes, of which no more is

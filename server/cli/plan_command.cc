@@ -13,16 +13,21 @@ namespace {
 
 using api::json::Writer;
 
-std::string plan_request(const PlanOptions& options) {
+Result<std::string> plan_request(const PlanOptions& options) {
   Writer w;
   w.begin_object();
-  write_drive(w, options.drive);
+  if (auto written = write_drive(w, options.drive); !written) return fail(written.error());
   if (options.start) write_place(w.key("start"), *options.start);
   if (options.goal) write_place(w.key("goal"), *options.goal);
   if (!options.via.empty()) {
     w.key("waypoints").begin_array();
     for (const PlaceOption& place : options.via) write_place(w, place);
     w.end_array();
+  }
+  if (!options.weights.empty()) {
+    w.key("weights").begin_object();
+    for (const std::string& weight : options.weights) write_setting(w, weight);
+    w.end_object();
   }
   if (options.routes) w.whole("routes", *options.routes);
   if (options.verify) w.whole("verify", *options.verify);
@@ -63,14 +68,14 @@ int plan(const PlanOptions& given) {
   PlanOptions options = given;
   options.drive.rover = *rover;
   const auto request_of = [](const PlanOptions& o) {
-    return o.request.empty() ? Result<std::string>(plan_request(o)) : read_request(o.request);
+    return o.request.empty() ? plan_request(o) : read_request(o.request);
   };
   const auto request = request_of(options);
   // A file's request is asked of both as it is, and standard input is read once.
   if (given.compare)
     return compare_plans(given, given.request.empty() ? request_of(given) : request, options, request);
-  return ask_and_print(options.ask, {.map = options.drive.map, .history = {}}, request, &Inquiry::plan,
-                       &plan_table, &plan_status);
+  return ask_and_print(options.ask, {.map = options.drive.map, .csv = options.drive.csv}, request,
+                       &Inquiry::plan, &plan_table, &plan_status);
 }
 
 }  // namespace slipway::server

@@ -29,6 +29,8 @@ void add_plan_command(CLI::App& app, std::function<int()>& run) {
   add_places(*command, "--via", options->via, "waypoints in order");
   command->add_option("--routes", options->routes, "how many routes that differ");
   command->add_option("--verify", options->verify, "how many of the best routes to verify by dynamics");
+  command->add_option("--weight", options->weights,
+                      "weight of a term of the cost, NAME=VALUE; see GET /v1/planners");
   command->add_option("--planner", options->planners, "planners to use, see GET /v1/planners");
   command->add_option("--request", options->request,
                       "file with a whole request, - for standard input; other options are not used");

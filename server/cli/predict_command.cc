@@ -11,10 +11,10 @@ namespace {
 
 using api::json::Writer;
 
-std::string prediction_request(const PredictOptions& options) {
+Result<std::string> prediction_request(const PredictOptions& options) {
   Writer w;
   w.begin_object();
-  write_drive(w, options.drive);
+  if (auto written = write_drive(w, options.drive); !written) return fail(written.error());
   w.key("path").begin_array();
   for (const PlaceOption& place : options.path) write_place(w, place);
   w.end_array();
@@ -37,9 +37,9 @@ int predict(const PredictOptions& given) {
     return refuse({ErrorCode::kInvalidRequest,
                    "there is no such plot",
                    {{"/plot", "only a prediction at the dynamic level has a time history: --rung dynamic"}}});
-  return ask_and_print(options.ask, {.map = options.drive.map, .history = options.plot},
-                       options.request.empty() ? Result<std::string>(prediction_request(options))
-                                               : read_request(options.request),
+  return ask_and_print(options.ask,
+                       {.map = options.drive.map, .history = options.plot, .csv = options.drive.csv},
+                       options.request.empty() ? prediction_request(options) : read_request(options.request),
                        &Inquiry::predict, &prediction_table, &prediction_status);
 }
 

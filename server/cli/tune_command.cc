@@ -20,8 +20,8 @@
 #include "campaign/tune.h"
 #include "core/angle.h"
 #include "server/cli/command_parts.h"
-#include "server/cli/drive_choice.h"
 #include "server/cli/inquiry/data_folder.h"
+#include "server/cli/inquiry/drive_choice.h"
 #include "server/cli/terminal/terminal_progress.h"
 #include "server/cli/terminal/text_table.h"
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sim/prediction/drawn_ground.h"
+#include "sim/prediction/odometry_shortfall.h"
 
 namespace slipway::sim {
 namespace {
@@ -38,7 +39,9 @@ DrawnDriver::DrawnDriver(const RoverModel& rover, double gravity_m_s2, const Soi
       drive_(drive),
       limits_(limits),
       checks_(checks),
-      level_(settle(rover, LevelGround(), {})) {}
+      level_(settle(rover, LevelGround(), {})) {
+  if (!drive.stations.empty()) stretch_ends_m_ = stretch_ends_m(drive.stations);
+}
 
 DrawnDrive DrawnDriver::run(std::uint64_t key, const DrawnRun& how, const Progress& progress) const {
   DrawnDrive drawn;
@@ -47,6 +50,7 @@ DrawnDrive DrawnDriver::run(std::uint64_t key, const DrawnRun& how, const Progre
   if (how.met) ground.note(*how.met);
   QuasiStaticSolver solver(rover_, gravity_m_s2_, Precision::kDraws);
   OutcomeFollower follower(rover_, limits_, checks_);
+  ShortfallFollower shortfall(stretch_ends_m_);
   PerWheel<Soil> under(rover_.wheels.size());
   bool embedded = false;
   for (std::size_t s = 0; s < drive_.stations.size() && !(embedded && drawn.immobilised); ++s) {
@@ -58,9 +62,12 @@ DrawnDrive DrawnDriver::run(std::uint64_t key, const DrawnRun& how, const Progre
     scale_slip(slip_scale(ground, station), state);
     if (!embedded) embedded = !follower.add(station, s, state);
     if (how.to_first_stop && (embedded || follower.stops() > 0)) break;
-    if (!drawn.immobilised) add(station, state, how.keep_states, drawn);
+    if (drawn.immobilised) continue;
+    add(station, state, how.keep_states, drawn);
+    if (state.moving()) shortfall.add(station.drive_m, state.slip_ratio);
   }
   drawn.outcome = follower.finish();
+  drawn.shortfall_m = shortfall.finish(drawn.immobilised || drive_.without_stance);
   if (drive_.without_stance) {
     // The wheels meet ground that the suspension cannot follow: no draw of the soil passes there.
     drawn.any_bad = drawn.immobilised = true;

@@ -19,6 +19,7 @@ struct DrawnDrive {
   bool immobilised = false;
   double duration_s = 0.0, energy_j = 0.0;
   DriveOutcome outcome;
+  std::vector<float> shortfall_m;  // at the end of each stretch, see ShortfallFollower
 };
 
 // How a draw is driven.
@@ -51,6 +52,7 @@ class DrawnDriver {
   const DriveLimits& limits_;
   const SlipChecks& checks_;
   std::optional<Stance> level_;
+  std::vector<double> stretch_ends_m_;
 };
 
 }  // namespace slipway::sim

@@ -131,13 +131,14 @@ std::optional<std::size_t> ground_of(const PreparedStation& station) {
 // Stops and embeddings by ground and by stretch.
 void locate(const std::vector<DrawnDrive>& drives, const std::vector<PreparedStation>& stations,
             DriveOutcomes& out) {
-  constexpr double kMinStretch_m = 10.0;
-  constexpr double kMaxStretches = 100.0;
   if (stations.empty()) return;
   const double length = stations.back().distance_m;
-  const double pieces = std::clamp(std::ceil(length / kMinStretch_m - 1e-9), 1.0, kMaxStretches);
-  for (int k = 0; k < static_cast<int>(pieces); ++k)
-    out.stretches.push_back({length * k / pieces, length * (k + 1) / pieces, 0.0, 0.0});
+  double from_m = 0.0;
+  for (const double to_m : stretch_ends_m(stations)) {
+    out.stretches.push_back({from_m, to_m, 0.0, 0.0});
+    from_m = to_m;
+  }
+  const auto pieces = static_cast<double>(out.stretches.size());
   std::map<std::optional<std::size_t>, GroundRisk> grounds;
   for (const PreparedStation& station : stations) {
     GroundRisk& ground = grounds[ground_of(station)];
@@ -184,12 +185,39 @@ DriveOutcomes outcomes_of(const std::vector<DrawnDrive>& drives, const Weighted&
   out.embedding_on_known = weighted.share([&](const DrawnDrive& d) { return on_known(d, true); });
   out.expected_stops_on_known = weighted.mean([&](const DrawnDrive& d) { return on_known(d, false); });
   locate(drives, stations, out);
+  for (std::size_t k = 0; k < out.stretches.size(); ++k) {
+    const auto behind_m = [k](const DrawnDrive& d) { return static_cast<double>(d.shortfall_m[k]); };
+    out.stretches[k].shortfall_m = {weighted.quantile(behind_m, 0.05), weighted.quantile(behind_m, 0.50),
+                                    weighted.quantile(behind_m, 0.95)};
+  }
   for (std::size_t rule = 0; rule < kRules; ++rule)
     out.rules.push_back(rule_risk(static_cast<Rule>(rule), drives, weighted, limits));
   return out;
 }
 
 }  // namespace
+
+std::vector<double> stretch_ends_m(const std::vector<PreparedStation>& stations) {
+  constexpr double kMinStretch_m = 10.0;
+  constexpr double kMaxStretches = 100.0;
+  const double length = stations.back().distance_m;
+  const double pieces = std::clamp(std::ceil(length / kMinStretch_m - 1e-9), 1.0, kMaxStretches);
+  std::vector<double> ends;
+  for (int k = 0; k < static_cast<int>(pieces); ++k) ends.push_back(length * (k + 1) / pieces);
+  return ends;
+}
+
+void fill_events(const std::vector<DrawnDrive>& drives, std::vector<StationPrediction>& stations) {
+  double sum = 0.0;
+  for (const DrawnDrive& drive : drives) sum += drive.weight;
+  for (const DrawnDrive& drive : drives) {
+    for (const OutcomeEvent& event : drive.outcome.events) {
+      if (event.station >= stations.size()) continue;  // beyond the prediction on the mean soils
+      StationPrediction& at = stations[event.station];
+      (event.rule == Rule::kEmbedding ? at.embedding : at.stops) += drive.weight / sum;
+    }
+  }
+}
 
 void fill_station(const std::vector<DrawnDrive>& drives, std::size_t s, StationPrediction& station) {
   std::vector<std::pair<double, double>> slip, current, sinkage;

@@ -14,4 +14,7 @@ void summarise(const std::vector<DrawnDrive>& drives, const std::vector<Prepared
 // Fills the percentiles and the risk of station `s` from the draws that reached it.
 void fill_station(const std::vector<DrawnDrive>& drives, std::size_t s, StationPrediction& station);
 
+// Fills the expected stops and the share of embeddings of every station.
+void fill_events(const std::vector<DrawnDrive>& drives, std::vector<StationPrediction>& stations);
+
 }  // namespace slipway::sim

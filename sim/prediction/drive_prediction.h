@@ -53,6 +53,8 @@ struct StationPrediction {
   double current_a_p95 = 0.0;  // of the worst wheel
   double sinkage_m_p95 = 0.0;  // of the worst wheel
   double risk = 0.0;           // share of draws that break a limit or are immobilised here
+  double stops = 0.0;          // expected stops here, see OutcomeFollower
+  double embedding = 0.0;      // share of draws that are embedded here
 };
 
 struct Immobilisation {
@@ -87,11 +89,17 @@ struct GroundRisk {
   double embedding = 0.0;
 };
 
+// Percentiles over the draws.
+struct DrawnSpread {
+  double p05 = 0.0, p50 = 0.0, p95 = 0.0;
+};
+
 // The same of one stretch of the way.
 struct StretchRisk {
   double from_m = 0.0, to_m = 0.0;
   double expected_stops = 0.0;
   double embedding = 0.0;
+  DrawnSpread shortfall_m = {};  // behind to_m when the wheels have rolled that far, see ShortfallFollower
 };
 
 // Stops, which cost a sol each, and embeddings, which may cost the rover; see OutcomeFollower.

@@ -96,6 +96,7 @@ bool assess_risk(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs
   } while (drives.size() < most && !options.bars.are_kept(prediction.outcomes) &&
            !options.bars.are_passed(prediction.outcomes));
 
+  fill_events(drives, prediction.stations);
   for (std::size_t k = 0; k < prediction.stations.size(); ++k) {
     StationPrediction& station = prediction.stations[k];
     fill_station(drives, k, station);

@@ -42,6 +42,9 @@ struct PreparedDrive {
   bool without_stance = false;            // the path goes on where no stance is possible
 };
 
+// The ends of the drive's stretches: of equal length, 10 m or more, at most 100. There must be a station.
+std::vector<double> stretch_ends_m(const std::vector<PreparedStation>& stations);
+
 // Fills the prediction's fields over soil draws (risk, outcomes, intervals, quantiles per station). Returns
 // false where it was cancelled.
 bool assess_risk(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs& beliefs,

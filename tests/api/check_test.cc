@@ -77,6 +77,29 @@ TEST(Check, AnArcEndsWhereItsRadiusLeads) {
   EXPECT_NEAR(line.back().elements[1].number, 33.0, 0.01);
 }
 
+TEST(Check, ADriveThroughAKeepOutOrOutOfAKeepInIsANoGoWithThePlace) {
+  const std::string lenient = R"(,"bars":{"max_embedding":1,"max_expected_stops":1000})";
+  const auto with = [&](const std::string& zones) { return checked(kPath + lenient + zones); };
+  const auto free = with("");
+  ASSERT_TRUE(free) << free.error().detail;
+  ASSERT_EQ(free->find("verdict")->text, "go");
+  const auto clear =
+      with(R"(,"keep_out":[[[21,40],[22,40],[22,41]]],"keep_in":[[[10,20],[40,20],[40,40],[10,40]]])");
+  ASSERT_TRUE(clear) << clear.error().detail;
+  EXPECT_EQ(clear->find("verdict")->text, "go");
+  EXPECT_EQ(clear->find("request")->find("keep_in")->elements.size(), 1U);
+  const auto enters = with(R"(,"keep_out":[[[23,30.5],[23.2,30.5],[23.2,30.7]]])");
+  ASSERT_TRUE(enters);
+  EXPECT_EQ(enters->find("verdict")->text, "no_go");
+  EXPECT_NE(enters->find("reasons")->elements[0].text.find("would enter a keep-out at ("), std::string::npos);
+  const auto leaves = with(R"(,"keep_in":[[[10,20],[23,20],[23,40],[10,40]]])");
+  ASSERT_TRUE(leaves);
+  EXPECT_EQ(leaves->find("verdict")->text, "no_go");
+  EXPECT_NE(leaves->find("reasons")->elements[0].text.find("would leave a keep-in at ("), std::string::npos);
+  EXPECT_EQ(faults_of(std::string(kPath) + R"(,"keep_in":[[[0,0],[1,1]]],"keep_out":3)"),
+            (std::vector<std::string>{"/keep_out", "/keep_in/0"}));
+}
+
 TEST(Check, TheSameRequestGivesTheSameBytes) {
   const auto read = testing::small_world().read_check(request_with(kPath));
   ASSERT_TRUE(read);

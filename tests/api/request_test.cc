@@ -40,6 +40,7 @@ TEST(PlanRequest, EveryKeyIsReadInItsUnit) {
   EXPECT_DOUBLE_EQ(request->drive.limits.max_tilt_rad, rad_from_deg(20.0));
   EXPECT_EQ(request->waypoints.size(), 1U);
   EXPECT_EQ(request->keep_out.at(0).at(2), Eigen::Vector2d(28.0, 35.0));
+  EXPECT_EQ(request->keep_in.at(0).size(), 4U);
   EXPECT_EQ(request->weights.of("duration"), 2.0);
   EXPECT_EQ(request->planners, std::vector<std::string>{"rrt_star"});
   EXPECT_EQ(request->drive.effects.at(0).parameters.at("n1"), 0.3);
@@ -96,6 +97,8 @@ TEST(PlanRequest, EachBadMemberIsRefusedAtItsPlace) {
       {R"(,"waypoints":[{"x_m":1}])", "/waypoints/0/y_m"},
       {R"(,"waypoints":{"x_m":1})", "/waypoints"},
       {R"(,"waypoints":[{"x_m":30,"y_m":30},{"x_m":130,"y_m":30}])", "/waypoints/1"},
+      {R"(,"keep_in":[[[0,0],[1,1]]])", "/keep_in/0"},
+      {R"(,"keep_in":[[[0,0],[1,"1"],[2,0]]])", "/keep_in/0/1/1"},
       {R"(,"keep_out":[[[0,0],[1,1]]])", "/keep_out/0"},
       {R"(,"keep_out":[[[0,0],[1,1],[2,2]]])", "/keep_out/0"},
       {R"(,"keep_out":[[[0,0],[1,1,1],[2,0]]])", "/keep_out/0/1"},

@@ -293,6 +293,36 @@ class Contract(unittest.TestCase):
         problem = self.server.ask("GET", "/v1/diagnoses/" + "0" * 32 + "/report")
         self.assertEqual((problem[0], problem[1]["Content-Type"]), (404, "application/problem+json"))
 
+    def test_a_check_is_a_page_and_its_stations_a_table_here_and_on_the_command_line(self):
+        request = {"terrain": "gale", "rover": "msl-class", "path": [STOP_967, STOP_997], "draws": 4}
+        status, headers, body = self.server.ask("POST", "/v1/checks", request, {"Prefer": "wait=30"})
+        self.assertEqual(status, 200, body[:500])
+        check = json.loads(body)
+        result = headers["Content-Location"]
+        report = result.replace("/jobs/", "/checks/").replace("/result", "/report")
+        status, headers, page = self.server.ask("GET", report)
+        self.assertEqual((status, headers["Content-Type"]), (200, "text/html; charset=utf-8"))
+        self.assertIn("default-src 'none'", headers["Content-Security-Policy"])
+        self.assertEqual(self.server.ask("GET", report, headers={"If-None-Match": headers["ETag"]})[0], 304)
+        text = page.decode()
+        for words in ('class="banner', "What would change it", "data:image/png;base64,", "The rules"):
+            self.assertIn(words, text)
+        for outside in ("<script", "src=", "<link", 'href="http', "@import"):
+            self.assertNotIn(outside, text)
+        status, headers, table = self.server.ask("GET", result, headers={"Accept": "text/csv"})
+        self.assertEqual((status, headers["Content-Type"]), (200, "text/csv"))
+        rows = table.decode().splitlines()
+        self.assertEqual(len(rows), 1 + check["routes"]["features"][0]["properties"]["stations"]["count"])
+        with tempfile.TemporaryDirectory() as folder:
+            html, csv = pathlib.Path(folder) / "check.html", pathlib.Path(folder) / "check.csv"
+            answered([SLIPWAY, "check", "--data", DATA, "--request", "-", "--report", str(html), "--csv", str(csv)],
+                     input=json.dumps(request).encode())
+            self.assertEqual(html.read_bytes(), page)
+            self.assertEqual(csv.read_bytes(), table)
+        # What has no report, and an answer that is no drive: asked for as CSV it stays JSON.
+        status, headers, _ = self.server.ask("POST", "/v1/predictions", request, {"Prefer": "wait=30"})
+        self.assertEqual(self.server.ask("GET", headers["Content-Location"].replace("/result", "/report"))[0], 404)
+
     def plans_with(self, diagnosis, model):
         """A diagnosis named in requests is the model that it offers."""
         path = {"terrain": "gale", "rover": "mer-class", "path": [STOP_967, STOP_997], "draws": 2}

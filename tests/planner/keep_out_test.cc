@@ -102,6 +102,56 @@ TEST(KeepOut, ATurnInPlaceSweepsItsCornersThroughWhatIsClearBeforeAndAfter) {
   EXPECT_FALSE(keep_out.hits_along(away));
 }
 
+TEST(KeepIn, IsLeftByTheBodysCornerAndByABodyBeyondItButNotWithin) {
+  const KeepOut keep_in({}, *test_rover(), kSquare);  // body 2.0 by 1.45 m
+  EXPECT_FALSE(keep_in.empty());
+  EXPECT_FALSE(keep_in.hits({15.0, 15.0, 0.3}));
+  EXPECT_FALSE(keep_in.hits({11.01, 15.0, 0.0}));
+  EXPECT_TRUE(keep_in.hits({10.99, 15.0, 0.0}));
+  EXPECT_FALSE(keep_in.hits({10.99, 15.0, 0.5 * std::numbers::pi}));
+  EXPECT_TRUE(keep_in.hits({5.0, 15.0, 0.0}));
+  EXPECT_TRUE(keep_in.hits_at_any_heading(5.0, 15.0));
+  EXPECT_TRUE(keep_in.hits_at_any_heading(10.5, 15.0));
+  EXPECT_TRUE(keep_in.clear_at_any_heading(15.0, 15.0, 3.0));
+  EXPECT_FALSE(keep_in.clear_at_any_heading(15.0, 15.0, 4.0));
+}
+
+TEST(KeepIn, NoneOfSeveralMayBeLeft) {
+  const KeepOut keep_in(
+      {}, *test_rover(),
+      std::vector<Polygon>{kSquare.front(), {{14.0, 10.0}, {30.0, 10.0}, {30.0, 20.0}, {14.0, 20.0}}});
+  EXPECT_FALSE(keep_in.hits({17.0, 15.0, 0.0}));
+  EXPECT_TRUE(keep_in.hits({12.0, 15.0, 0.0}));
+  EXPECT_TRUE(keep_in.hits({25.0, 15.0, 0.0}));
+}
+
+TEST(KeepIn, AMotionLeavesWhereAnyOfItsPosesDoesAndNowhereElse) {
+  auto larger = std::make_shared<sim::RoverModel>(*test_rover());
+  larger->body_length_m += 0.002;
+  larger->body_width_m += 0.002;
+  int left = 0, within = 0;
+  for (std::uint64_t n = 0; n < 150; ++n) {
+    const double size = 8.0 + 10.0 * random_uniform(n, 14), x = -0.25 * size, y = -0.25 * size;
+    const std::vector<Polygon> polygons{{{x, y},
+                                         {x + 1.4 * size, y + 0.1 * size},
+                                         {x + 1.2 * size, y + size},
+                                         {x + 0.1 * size, y + 1.3 * size}}};
+    const KeepOut keep_in({}, *test_rover(), polygons), nearly({}, *larger, polygons);
+    const Motion motion = some_motion(n);
+    const std::vector<Pose2> poses = poses_along(motion);
+    const auto any = [&](const KeepOut& zones) {
+      return std::any_of(poses.begin(), poses.end(), [&](const Pose2& pose) { return zones.hits(pose); });
+    };
+    const bool along = keep_in.hits_along(motion);
+    (along ? left : within) += 1;
+    EXPECT_TRUE(along || !any(keep_in)) << n;
+    EXPECT_TRUE(!along || any(nearly)) << n;
+    EXPECT_EQ(keep_in.first_hit(motion).has_value(), along) << n;
+  }
+  EXPECT_GT(left, 30);
+  EXPECT_GT(within, 30);
+}
+
 TEST(KeepOut, ClearWithinAReachHoldsForEveryPlaceInIt) {
   const KeepOut keep_out(kSquare, *test_rover());
   EXPECT_TRUE(keep_out.clear_at_any_heading(8.0, 15.0));

@@ -113,6 +113,29 @@ TEST(NoWay, NamesTheKeepOutThatClosesTheWay) {
       << why;
 }
 
+TEST(NoWay, NamesTheKeepInThatClosesTheWay) {
+  PlanProblem problem = ridge(0.0, 0.0);
+  problem.keep_in = {{{-1.0, -1.0}, {90.0, -1.0}, {90.0, 70.0}, {-1.0, 70.0}},
+                     {{2.0, 2.0},
+                      {38.0, 2.0},
+                      {38.0, 6.0},
+                      {42.0, 6.0},
+                      {42.0, 2.0},
+                      {78.0, 2.0},
+                      {78.0, 58.0},
+                      {41.0, 58.0},
+                      {41.0, 7.0},
+                      {39.0, 7.0},
+                      {39.0, 58.0},
+                      {2.0, 58.0}}};
+  const Plan plan = plan_on(problem);
+  ASSERT_TRUE(plan.routes.empty());
+  const std::string& why = plan.fewer_because.front();
+  EXPECT_NE(why.find("outside a keep-in or too near to its edge; with no keep_in/1 there is a way"),
+            std::string::npos)
+      << why;
+}
+
 TEST(NoWay, SaysThatNoLimitOpensAWayOverMissingElevation) {
   PlanProblem problem = problem_on(
       60, 80, 1.0, 1.0, [](double x, double) { return std::abs(x - 40.0) < 1.0 ? kNothing : 0.0; });

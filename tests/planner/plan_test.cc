@@ -7,6 +7,7 @@
 
 #include "core/angle.h"
 #include "dem/synthetic_terrain.h"
+#include "planner/judge/rank.h"
 #include "planner/make_plan.h"
 #include "planner/problem/keep_out.h"
 #include "planner/search/select_routes.h"
@@ -171,6 +172,69 @@ TEST(Plan, DrivesRoundAKeepOutWithItsWholeBody) {
   const KeepOut keep_out(problem.keep_out, *problem.rover);
   for (const Route& route : plan.routes)
     EXPECT_FALSE(ever(route, [&](const auto& s) { return keep_out.hits(s.station.pose); }));
+}
+
+TEST(Plan, StaysInAKeepInWithItsWholeBody) {
+  PlanProblem problem = problem_of(kOpen);
+  const Plan free = plan_of(problem);
+  ASSERT_FALSE(free.routes.empty());
+  // A bend from start to goal that the straight way leaves.
+  const Eigen::Vector2d a(problem.start.x_m, problem.start.y_m), b(problem.goal.x_m, problem.goal.y_m);
+  problem.keep_in = {{{a.x() - 3.0, 1.0},
+                      {b.x() + 3.0, 1.0},
+                      {b.x() + 3.0, b.y() + 3.0},
+                      {b.x() - 3.0, b.y() + 3.0},
+                      {b.x() - 3.0, 4.5},
+                      {a.x() + 3.0, 4.5},
+                      {a.x() + 3.0, a.y() + 3.0},
+                      {a.x() - 3.0, a.y() + 3.0}}};
+  const KeepOut keep_in({}, *problem.rover, problem.keep_in);
+  EXPECT_TRUE(ever(free.routes.front(), [&](const auto& s) { return keep_in.hits(s.station.pose); }));
+  const Plan plan = plan_of(problem);
+  ASSERT_FALSE(plan.routes.empty()) << plan.fewer_because.front();
+  for (const Route& route : plan.routes)
+    EXPECT_FALSE(ever(route, [&](const auto& s) { return keep_in.hits(s.station.pose); }));
+}
+
+TEST(Plan, RefusesAStartOutsideAKeepIn) {
+  PlanProblem problem = problem_of(kOpen);
+  problem.keep_in = {{{problem.goal.x_m - 3.0, problem.goal.y_m - 3.0},
+                      {problem.goal.x_m + 3.0, problem.goal.y_m - 3.0},
+                      {problem.goal.x_m + 3.0, problem.goal.y_m + 3.0},
+                      {problem.goal.x_m - 3.0, problem.goal.y_m + 3.0}},
+                     {{0.0, 0.0}, {1.0, 1.0}}};
+  NoProgress progress;
+  const Result<Plan> plan = make_plan(problem, progress);
+  ASSERT_FALSE(plan.has_value());
+  std::vector<std::string> pointers;
+  for (const Fault& fault : plan.error().faults) pointers.push_back(fault.pointer);
+  EXPECT_EQ(pointers.front(), "/keep_in/1");
+  EXPECT_NE(std::find(pointers.begin(), pointers.end(), "/start"), pointers.end());
+}
+
+Route figures(double duration_s, double energy_j, double stops, double embedding) {
+  Route route;
+  route.prediction.duration_s = duration_s;
+  route.prediction.energy_j = energy_j;
+  route.prediction.outcomes.expected_stops = stops;
+  route.prediction.outcomes.embedding.share = embedding;
+  return route;
+}
+
+TEST(Pareto, MarksTheRoutesThatNoOtherDominates) {
+  std::vector<Route> routes{figures(10, 5, 0.1, 0.01), figures(9, 6, 0.1, 0.01), figures(10, 6, 0.1, 0.01),
+                            figures(10, 5, 0.1, 0.01), figures(1, 1, 0.0, 0.0)};
+  routes[4].prediction.immobilised.emplace();
+  mark_pareto_front(routes);
+  EXPECT_TRUE(routes[0].pareto);
+  EXPECT_TRUE(routes[1].pareto) << "faster than the first";
+  EXPECT_FALSE(routes[2].pareto) << "the first needs less energy and nothing more";
+  EXPECT_TRUE(routes[3].pareto) << "equal to the first, so that neither dominates";
+  EXPECT_FALSE(routes[4].pareto) << "cheap because it ends early";
+  // Where energy is not known, it does not tell routes apart.
+  for (Route& route : routes) route.prediction.by_slip_curve = true;
+  mark_pareto_front(routes);
+  EXPECT_FALSE(routes[0].pareto);
 }
 
 constexpr std::string_view kOneGap = R"(

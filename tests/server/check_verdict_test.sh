@@ -34,6 +34,55 @@ grep -q '/start' "$folder/err"
 expect 2 "$slipway" check some_campaign --model some_model
 grep -q 'slipway test-model' "$folder/err" "$folder/out"
 
+# The page for a meeting, the stations as CSV, and areas by corners and by a file.
+expect verdict "$slipway" check --data "$data" $level --draws 40 --report "$folder/check.html" --csv "$folder/check.csv"
+grep -q 'class="banner ' "$folder/check.html"
+grep -q 'What would change it' "$folder/out"
+grep -q 'Commanded by the way its wheels roll' "$folder/out"
+head -1 "$folder/check.csv" | grep -q '^distance_m,x_m,y_m,height_m,yaw_deg,.*,slip_p95,.*,energy_wh$' || { head -1 "$folder/check.csv"; exit 1; }
+[ "$(wc -l < "$folder/check.csv")" -gt 4 ]
+expect verdict "$slipway" predict --data "$data" $level --draws 2 --csv "$folder/predict.csv"
+[ "$(head -1 "$folder/predict.csv")" = "$(head -1 "$folder/check.csv")" ]
+expect 3 "$slipway" check --data "$data" $level --max-embedding 1 --max-expected-stops 1000 --draws 2 --keep-out "8142638.5,-276641 8142639,-276641 8142639,-276639"
+grep -q 'would enter a keep-out at' "$folder/out"
+cat > "$folder/area.geojson" <<'END'
+{"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {}, "geometry": {"type": "Polygon",
+  "coordinates": [[[8142639.5, -276630], [8142650, -276630], [8142650, -276650], [8142639.5, -276650], [8142639.5, -276630]]]}}]}
+END
+expect 3 "$slipway" check --data "$data" $level --max-embedding 1 --max-expected-stops 1000 --draws 2 --keep-in "$folder/area.geojson"
+grep -q 'would leave a keep-in at' "$folder/out"
+expect 2 "$slipway" check --data "$data" $level --keep-out "$folder/no_such.geojson"
+grep -q '/keep_out/0' "$folder/err"
+expect 3 "$slipway" predict --data "$data" $level --draws 2 --keep-out "8142638.5,-276641 8142639,-276641 8142639,-276639"
+
+# Every limit, check and bar has an option, and a plan its weights: the answer has the request as it was understood.
+expect verdict "$slipway" check --data "$data" $level --draws 2 --max-current-a 4 --max-sinkage-m 0.05 --min-clearance-m 0.1 \
+  --embedding-slip 0.8 --embedding-turns 5 --embedding-sinkage-share 0.5 --json
+for member in '"max_current_a":4' '"max_sinkage_m":0.05' '"min_clearance_m":0.1' '"embedding_slip":0.8' '"embedding_turns":5' \
+  '"embedding_sinkage_share":0.5'; do
+  grep -q "$member" "$folder/out" || { echo "no $member"; exit 1; }
+done
+expect verdict "$slipway" plan --data "$data" --start 8142640,-276640 --goal 8142630,-276641 --draws 2 --routes 1 --weight slip=8 \
+  --keep-in "8142600,-276600 8142700,-276600 8142700,-276700 8142600,-276700" --json
+grep -q '"slip":8' "$folder/out"
+grep -q '"keep_in":\[\[\[8142600,-276600\]' "$folder/out"
+cp "$folder/out" "$folder/a.json"
+expect 2 "$slipway" plan --data "$data" --start 8142640,-276640 --goal 8142630,-276641 --weight no_such=8
+grep -q '/weights/no_such' "$folder/err"
+
+# Two answers, and two routes, side by side.
+expect verdict "$slipway" plan --data "$data" --start 8142640,-276640 --goal 8142630,-276641 --draws 2 --routes 1 --weight slip=4 --json
+cp "$folder/out" "$folder/b.json"
+expect 0 "$slipway" compare-plans "$folder/a.json" "$folder/b.json"
+grep -q 'Request /weights/slip: a 8, b 4' "$folder/out"
+grep -q 'Request /keep_in: a ' "$folder/out"
+grep -q '^embedding ' "$folder/out"
+expect 0 "$slipway" compare-plans "$folder/a.json" "$folder/a.json" --routes 1 1 --json
+grep -q '"changed_in_request":\[\]' "$folder/out"
+expect 2 "$slipway" compare-plans "$folder/a.json" "$folder/area.geojson"
+grep -q '/b' "$folder/err"
+expect 2 "$slipway" compare-plans "$folder/a.json" "$folder/no_such.json"
+
 # With drives of the past as evidence the same drive has other odds, and the answer says how many drives count.
 expect verdict "$slipway" check --data "$data" $level --as-of-sol 978 --draws 64 --json
 grep -q '"past_drives":6' "$folder/out"

@@ -11,6 +11,7 @@
 #include "api/job_kinds.h"
 #include "api/json/parse.h"
 #include "api/json/problem_document.h"
+#include "api/report/check_report.h"
 #include "api/report/route_map.h"
 #include "api/service.h"
 #include "api/wheel_sweep.h"
@@ -59,6 +60,8 @@ class LocalInquiry final : public Inquiry {
 
   Result<std::string> map() override { return api::draw_route_map(service_->catalogue(), last_); }
 
+  Result<std::string> report() override { return api::check_report(service_->catalogue(), last_); }
+
   Result<std::string> health() override { return api::json::write_health(); }
 
  private:
@@ -94,6 +97,7 @@ class RemoteInquiry final : public Inquiry {
     return get(fmt::format("/v1/terrains/{}/point?x_m={}&y_m={}", terrain, x_m, y_m));
   }
   Result<std::string> map() override { return get(location_ + "/map"); }
+  Result<std::string> report() override { return get(location_ + "/report"); }
   Result<std::string> health() override { return get("/healthz"); }
 
  private:

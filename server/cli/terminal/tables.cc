@@ -6,27 +6,18 @@
 #include <cmath>
 #include <vector>
 
+#include "api/json/lookup.h"
 #include "api/json/parse.h"
+#include "api/report/check_advice.h"
 #include "server/cli/terminal/text_table.h"
 
 namespace slipway::server {
 namespace {
 
+using api::json::at;
 using api::json::JsonValue;
-
-const JsonValue kNothing;
-
-const JsonValue& at(const JsonValue& value, std::string_view key) {
-  const JsonValue* found = value.find(key);
-  return found ? *found : kNothing;
-}
-
-double number(const JsonValue& value, std::string_view key) {
-  return at(value, key).number;
-}
-const std::string& text(const JsonValue& value, std::string_view key) {
-  return at(value, key).text;
-}
+using api::json::number;
+using api::json::text;
 
 std::string duration(double seconds) {
   const long minutes = std::lround(seconds / 60.0);
@@ -133,6 +124,8 @@ Result<std::string> plan_table(std::string_view answer) {
                        text(route, "verdict"), number(route, "cost"), text(route, "planner"),
                        text(route, "profile"));
     out += lines(at(route, "reasons"), "  - ");
+    if (at(route, "pareto").boolean && summary.elements.size() > 1)
+      out += "  - no other route is at least as good in duration, energy, expected stops and embedding\n";
   }
   for (const JsonValue& route : summary.elements) {
     const std::string shown =
@@ -217,7 +210,17 @@ Result<std::string> check_table(std::string_view answer) {
   out += fmt::format("\n{:.1f} m, {}, {:.2f} sols expected, {:.0f} draws of the ground\n\n",
                      number(figures, "length_m"), duration(number(figures, "duration_s")),
                      number(outcomes, "expected_sols"), number(outcomes, "draws"));
-  return out + rules_table(outcomes);
+  out += rules_table(outcomes);
+  const JsonValue& uncertainty = at(*document, "position_uncertainty");
+  const JsonValue& behind = at(uncertainty, "shortfall_m");
+  out += fmt::format(
+      "\nCommanded by the way its wheels roll, the rover ends {:.2f} m behind the end of {:.1f} m (90 % "
+      "interval {:.2f} to "
+      "{:.2f})\n\nWhat would change it:\n",
+      number(behind, "p50"), number(uncertainty, "commanded_m"), number(behind, "p05"),
+      number(behind, "p95"));
+  for (const std::string& advice : api::check_advice(*document)) out += fmt::format("  - {}\n", advice);
+  return out;
 }
 
 Result<std::string> prediction_table(std::string_view answer) {

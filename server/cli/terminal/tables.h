@@ -11,6 +11,7 @@ namespace slipway::server {
 // Errors: internal, where the document is not of that kind.
 Result<std::string> plan_table(std::string_view answer);
 Result<std::string> comparison_table(std::string_view comparison);
+Result<std::string> answer_comparison_table(std::string_view comparison);
 Result<std::string> prediction_table(std::string_view answer);
 Result<std::string> check_table(std::string_view answer);
 Result<std::string> wheel_table(std::string_view answer);

@@ -1,4 +1,4 @@
-#include "server/cli/drive_choice.h"
+#include "server/cli/inquiry/drive_choice.h"
 
 #include <fmt/format.h>
 #include <fnmatch.h>

@@ -1,0 +1,190 @@
+#include "api/report/check_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "api/chart/report_page.h"
+#include "api/json/lookup.h"
+#include "api/json/parse.h"
+#include "api/json/writer.h"
+#include "api/report/check_advice.h"
+#include "api/report/check_charts.h"
+#include "api/report/route_map.h"
+
+namespace slipway::api {
+namespace {
+
+using json::at;
+using json::has;
+using json::JsonValue;
+using json::number;
+using json::text;
+
+std::string percent(double share) {
+  return fmt::format("{:.1f} %", 100.0 * share);
+}
+std::string share_words(const JsonValue& share) {
+  return fmt::format("{} ({} to {})", percent(number(share, "value")), percent(number(share, "low")),
+                     percent(number(share, "high")));
+}
+std::string spread_words(const JsonValue& spread) {
+  return fmt::format("{:.2f} m ({:.2f} to {:.2f} m)", number(spread, "p50"), number(spread, "p05"),
+                     number(spread, "p95"));
+}
+std::string with_unit(double value, const JsonValue& rule) {
+  const std::string& unit = text(rule, "unit");
+  return fmt::format("{:.3g}{}", value, unit == "1" ? "" : " " + unit);
+}
+
+void add_verdict(ReportPage& page, const JsonValue& check) {
+  const std::string& verdict = text(check, "verdict");
+  if (verdict == "go")
+    page.banner("GO", ReportPage::Tone::kGood);
+  else if (verdict == "no_go")
+    page.banner("NO-GO", ReportPage::Tone::kBad);
+  else
+    page.banner("UNKNOWN", ReportPage::Tone::kOpen);
+  const JsonValue &figures = at(check, "summary"), &outcomes = at(check, "outcomes");
+  const JsonValue& stops = at(outcomes, "expected_stops");
+  const long minutes = std::lround(number(figures, "duration_s") / 60.0);
+  page.paragraph(
+      fmt::format("{:.1f} m in {}:{:02d} h of driving, {:.2f} sols expected. Embedding {}, expected stops "
+                  "{:.2f} ({:.2f} to "
+                  "{:.2f}), with 90 % intervals from {:.0f} draws of the ground.",
+                  number(figures, "length_m"), minutes / 60, minutes % 60, number(outcomes, "expected_sols"),
+                  share_words(at(outcomes, "embedding")), number(stops, "value"), number(stops, "low"),
+                  number(stops, "high"), number(outcomes, "draws")));
+  for (const JsonValue& reason : at(check, "reasons").elements) page.item(reason.text);
+  page.section("What would change it");
+  for (std::string& advice : check_advice(check)) page.item(std::move(advice));
+}
+
+void add_rules(ReportPage& page, const JsonValue& outcomes) {
+  page.section("The rules");
+  page.table({"rule", "limit", "value, median", "5 to 95 %", "margin", "trips (90 % interval)", "from - to",
+              "wheel", "cause"});
+  for (const JsonValue& rule : at(outcomes, "rules").elements) {
+    const JsonValue& value = at(rule, "value");
+    page.row(
+        {text(rule, "rule"), with_unit(number(rule, "limit"), rule), with_unit(number(value, "p50"), rule),
+         fmt::format("{:.3g} to {:.3g}", number(value, "p05"), number(value, "p95")),
+         with_unit(number(rule, "margin"), rule), share_words(at(rule, "trips")),
+         has(rule, "from_m") ? fmt::format("{:.1f} - {:.1f} m", number(rule, "from_m"), number(rule, "to_m"))
+                             : "-",
+         has(rule, "wheel") ? text(rule, "wheel") : "-", text(rule, "cause")});
+  }
+}
+
+std::string joined_metres(const JsonValue& places) {
+  std::string words;
+  for (const JsonValue& place : places.elements)
+    words += fmt::format("{}{:.0f}", words.empty() ? "" : ", ", place.number);
+  return words;
+}
+
+// The worst stretches in their order, and what the others have together.
+void add_stretches(ReportPage& page, const JsonValue& check) {
+  constexpr std::size_t kMostShown = 8;
+  const auto wrong = [](const JsonValue& s) { return number(s, "expected_stops") + number(s, "embedding"); };
+  const JsonValue& stretches = at(at(check, "outcomes"), "stretches");
+  const JsonValue& behind = at(at(check, "position_uncertainty"), "stretches");
+  std::vector<std::size_t> order;
+  for (std::size_t k = 0; k < std::min(stretches.elements.size(), behind.elements.size()); ++k)
+    order.push_back(k);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return wrong(stretches.elements[a]) > wrong(stretches.elements[b]);
+  });
+  const std::size_t shown = std::min(kMostShown, order.size());
+  std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(shown));
+  page.section("Stretches");
+  page.table({"from - to", "expected stops", "embedding",
+              "behind the commanded way at its end, median (90 % interval)"});
+  for (std::size_t k = 0; k < shown; ++k) {
+    const JsonValue& stretch = stretches.elements[order[k]];
+    page.row({fmt::format("{:.1f} - {:.1f} m", number(stretch, "from_m"), number(stretch, "to_m")),
+              fmt::format("{:.3f}", number(stretch, "expected_stops")), percent(number(stretch, "embedding")),
+              spread_words(at(behind.elements[order[k]], "shortfall_m"))});
+  }
+  if (shown < order.size()) {
+    double rest = 0.0;
+    for (std::size_t k = shown; k < order.size(); ++k) rest += wrong(stretches.elements[order[k]]);
+    page.paragraph(fmt::format("The other {} stretches have {:.3f} stops and embeddings together.",
+                               order.size() - shown, rest));
+  }
+}
+
+void add_commands(ReportPage& page, const JsonValue& check) {
+  const JsonValue& recommended = at(at(check, "outcomes"), "recommended");
+  const JsonValue& uncertainty = at(check, "position_uncertainty");
+  page.section("To be commanded");
+  const std::string places = joined_metres(at(recommended, "slip_checks_before_m"));
+  page.item(places.empty() ? "No stretch needs a check of the slip beyond the usual ones"
+                           : fmt::format("Check the slip before the stretches that begin at {} m", places));
+  if (has(recommended, "max_tilt_deg"))
+    page.item(fmt::format("Limit of tilt that the drive keeps with 2 deg of margin: {:.1f} deg",
+                          number(recommended, "max_tilt_deg")));
+  page.item(
+      fmt::format("Commanded by the way its wheels roll and without a look at where it is, the rover ends {} "
+                  "behind the end of its "
+                  "{:.1f} m; at most {} of that come between two checks of the slip. Median and 90 % "
+                  "interval; heading errors are not in it",
+                  spread_words(at(uncertainty, "shortfall_m")), number(uncertainty, "commanded_m"),
+                  spread_words(at(uncertainty, "between_checks_m"))));
+}
+
+// The value as JSON on one line, cut where it is long.
+std::string shortened(const JsonValue& value) {
+  constexpr std::size_t kMost = 900;
+  json::Writer w;
+  json::write_value(w, value);
+  std::string words = w.take();
+  if (words.size() > kMost) words = words.substr(0, kMost) + " ... (whole in the JSON answer)";
+  return words;
+}
+
+void add_provenance(ReportPage& page, const JsonValue& check) {
+  const JsonValue& from = at(check, "provenance");
+  page.section("Request and provenance");
+  page.paragraph(ReportText({{shortened(at(check, "request")), ReportText::Style::kCode}}));
+  std::string soils;
+  for (const JsonValue& soil : at(from, "soils").elements) soils += (soils.empty() ? "" : ", ") + soil.text;
+  page.paragraph(fmt::format(
+      "Slipway {}; terrain {} ({}), fingerprint {}; gravity {:g} m/s2; soils {}; where no map names one: {}; "
+      "seed {:.0f}{}.",
+      text(from, "slipway"), text(from, "terrain_title"), text(from, "crs_name"),
+      text(from, "terrain_fingerprint"), number(from, "gravity_m_s2"), soils.empty() ? "none" : soils,
+      text(from, "unknown_soil"), number(from, "seed"),
+      has(from, "past_drives")
+          ? fmt::format("; {:.0f} drives of the past weigh the draws", number(from, "past_drives"))
+          : ""));
+  if (has(from, "soil_assumption")) page.paragraph(text(from, "soil_assumption"));
+}
+
+}  // namespace
+
+Result<std::string> check_report(const Catalogue& catalogue, std::string_view answer) {
+  const auto check = json::parse(answer, {.bytes = answer.size(), .values = answer.size()});
+  if (!check) return fail(check.error());
+  if (text(*check, "format") != "check/1") return fail(ErrorCode::kInternal, "the answer is not a check");
+  ReportPage page(
+      fmt::format("May this drive be commanded? {} on {}", text(*check, "rover"), text(*check, "terrain")));
+  add_verdict(page, *check);
+  add_rules(page, at(*check, "outcomes"));
+  // A rover that is stuck where it stands has no line to draw.
+  auto map = draw_outcome_map(catalogue, *check);
+  if (!map && map.error().code != ErrorCode::kNoData) return fail(map.error());
+  if (map)
+    page.picture({"map", *std::move(map)},
+                 "The path by the stops and embeddings that are expected on each stretch");
+  add_commands(page, *check);
+  add_stretches(page, *check);
+  page.picture(draw_check(*check),
+               "Against the limits of the request; stops, embeddings and the error of the position");
+  add_provenance(page, *check);
+  return page.html();
+}
+
+}  // namespace slipway::api

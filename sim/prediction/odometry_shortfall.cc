@@ -1,0 +1,30 @@
+#include "sim/prediction/odometry_shortfall.h"
+
+#include <algorithm>
+
+namespace slipway::sim {
+
+void ShortfallFollower::add(double way_m, double slip_ratio) {
+  if (way_m <= 0.0) return;  // a turn in place
+  constexpr double kMaxSlip = 0.999;
+  roll_per_way_ = 1.0 / (1.0 - std::min(slip_ratio, kMaxSlip));
+  const double rolled_m = rolled_m_ + way_m * roll_per_way_;
+  while (shortfall_m_.size() < wanted_m_.size() && wanted_m_[shortfall_m_.size()] <= rolled_m) {
+    const double wanted_m = wanted_m_[shortfall_m_.size()];
+    const double come_m = come_m_ + (wanted_m - rolled_m_) / roll_per_way_;
+    shortfall_m_.push_back(static_cast<float>(wanted_m - come_m));
+  }
+  rolled_m_ = rolled_m;
+  come_m_ += way_m;
+}
+
+std::vector<float> ShortfallFollower::finish(bool stuck) {
+  while (shortfall_m_.size() < wanted_m_.size()) {
+    const double wanted_m = wanted_m_[shortfall_m_.size()];
+    const double come_m = stuck ? come_m_ : come_m_ + (wanted_m - rolled_m_) / roll_per_way_;
+    shortfall_m_.push_back(static_cast<float>(wanted_m - come_m));
+  }
+  return shortfall_m_;
+}
+
+}  // namespace slipway::sim

@@ -1,0 +1,54 @@
+// How far behind a rover is that is commanded by the way its wheels roll, by hand.
+#include "sim/prediction/odometry_shortfall.h"
+
+#include <gtest/gtest.h>
+
+namespace slipway::sim {
+namespace {
+
+struct Piece {
+  double way_m = 0.0, slip_ratio = 0.0;
+};
+
+std::vector<float> shortfall(const std::vector<double>& rolled_m, const std::vector<Piece>& pieces,
+                             bool stuck = false) {
+  ShortfallFollower follower(rolled_m);
+  for (const Piece& piece : pieces)
+    for (int k = 0; k < 100; ++k) follower.add(piece.way_m / 100.0, piece.slip_ratio);
+  return follower.finish(stuck);
+}
+
+TEST(ShortfallFollower, ASteadySlipIsThatShareOfTheRolledWay) {
+  const auto behind = shortfall({10.0, 20.0}, {{20.0, 0.25}});
+  EXPECT_NEAR(behind[0], 2.5, 1e-5);
+  EXPECT_NEAR(behind[1], 5.0, 1e-5);
+}
+
+TEST(ShortfallFollower, TheSlipIsThatOfThePlaceWhereTheRoverIsAndNotWhereItShouldBe) {
+  // 5 m without slip, then half: of 10 m rolled the second 5 m bring it 2.5 m further.
+  EXPECT_NEAR(shortfall({10.0}, {{5.0, 0.0}, {5.0, 0.5}})[0], 2.5, 1e-5);
+  // 5 m at half slip take 10 m to roll: what lies behind them is never met.
+  EXPECT_NEAR(shortfall({10.0}, {{5.0, 0.5}, {5.0, -1.0}})[0], 5.0, 1e-5);
+}
+
+TEST(ShortfallFollower, ARoverThatSkidsIsAheadAndGoesOnAtItsLastSlip) {
+  EXPECT_NEAR(shortfall({10.0}, {{10.0, -0.25}})[0], -2.5, 1e-5);
+}
+
+TEST(ShortfallFollower, AStuckRoverStaysWhereItIsWhileItsWheelsRollOn) {
+  const auto behind = shortfall({5.0, 10.0, 20.0}, {{8.0, 0.2}}, true);
+  EXPECT_NEAR(behind[0], 1.0, 1e-5);
+  EXPECT_NEAR(behind[1], 2.0, 1e-5);
+  EXPECT_NEAR(behind[2], 12.0, 1e-5);
+}
+
+TEST(ShortfallFollower, TurnsInPlaceBringNoWay) {
+  const std::vector<double> rolled_m{4.0};
+  ShortfallFollower follower(rolled_m);
+  follower.add(0.0, 0.9);
+  follower.add(4.0, 0.0);
+  EXPECT_NEAR(follower.finish(false)[0], 0.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace slipway::sim
