@@ -228,6 +228,7 @@ Result<PlanAnswer> Service::plan(const PlanRequest& request, Progress& progress)
   problem.waypoints = request.waypoints;
   problem.keep_out = request.keep_out;
   problem.weights = request.weights;
+  problem.ranking = request.ranking;
   problem.routes = request.routes;
   problem.verify = request.verify;
   problem.planners = request.planners;

@@ -46,6 +46,7 @@ struct PlanRequest {
   std::vector<planner::Waypoint> waypoints;  // visited in order
   std::vector<planner::Polygon> keep_out;
   planner::Weights weights;
+  planner::Ranking ranking;
   int routes = planner::PlanProblem{}.routes;
   std::vector<std::string> planners;           // the catalogue's default set where it is empty
   int verify = planner::PlanProblem{}.verify;  // number of the best routes to simulate at the dynamic level

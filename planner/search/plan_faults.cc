@@ -52,6 +52,9 @@ void check_settings(const PlanProblem& problem, std::span<const PlannerRow> plan
         {fmt::format("/weights/{}", field.name),
          fmt::format("{} = {:g}, must be in [{:g}, {:g}]", field.name, weight, field.lowest, field.highest)});
   }
+  if (!(problem.ranking.tail > 0.0 && problem.ranking.tail <= 1.0))
+    faults.push_back(
+        {"/ranking/tail", fmt::format("tail = {:g}, must be over 0 and at most 1", problem.ranking.tail)});
   for (std::size_t i = 0; i < problem.keep_out.size(); ++i) {
     const Polygon& polygon = problem.keep_out[i];
     if (polygon.size() < 3) {

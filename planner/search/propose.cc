@@ -85,7 +85,8 @@ class Proposer {
         tables_(tables),
         progress_(progress),
         places_(places_of(problem)),
-        asked_cost_(problem, map, tables, problem.weights),
+        tail_(problem.ranking.by == RankBy::kCvar ? std::optional(problem.ranking.tail) : std::nullopt),
+        asked_cost_(problem, map, tables, problem.weights, tail_),
         proposal_{.candidates = {}, .differences = Differences(problem.rover->body_width_m)} {
     for (const std::string& name : problem.planners) add_planner(*planner_named(name, planners));
     if (!planners_.empty()) return;
@@ -95,9 +96,10 @@ class Proposer {
 
   Proposal run() {
     std::vector<Guide> guides;
-    for (const Profile& profile : profiles()) {
+    for (const Profile& profile : profiles(problem_.ranking)) {
+      const std::optional<double> tail = profile.by_mean ? std::nullopt : tail_;
       guides.push_back({std::string(profile.name),
-                        MotionCost(problem_, map_, tables_, profile.weights(problem_.weights)),
+                        MotionCost(problem_, map_, tables_, profile.weights(problem_.weights), tail),
                         std::nullopt});
     }
     search(guides, 0);
@@ -247,6 +249,7 @@ class Proposer {
   const GroundTables& tables_;
   Progress& progress_;
   std::vector<Waypoint> places_;
+  std::optional<double> tail_;
   MotionCost asked_cost_;
   std::vector<NamedPlanner> planners_;
   Proposal proposal_;

@@ -23,6 +23,8 @@ struct PlanOptions {
   std::vector<PlaceOption> via;
   std::optional<int> routes, verify;
   std::vector<std::string> planners;
+  std::optional<std::string> rank_by;
+  std::optional<double> tail;
   bool compare = false;  // with the plan of the model that was corrected
 };
 

@@ -46,8 +46,10 @@ std::uint64_t unit_at(std::uint64_t key, double x_m, double y_m) {
   return unit;
 }
 
-const SoilDistribution& chosen(const std::vector<SoilAlternative>& alternatives,
-                               double SoilAlternative::*weight, double uniform) {
+}  // namespace
+
+const SoilDistribution& chosen_alternative(const std::vector<SoilAlternative>& alternatives,
+                                           double SoilAlternative::*weight, double uniform) {
   double sum = 0.0;
   for (const SoilAlternative& each : alternatives) sum += each.*weight;
   double left = uniform * sum;
@@ -58,9 +60,7 @@ const SoilDistribution& chosen(const std::vector<SoilAlternative>& alternatives,
   return *alternatives.back().soil;
 }
 
-// The strength of one soil with the pressure of another. A soil that is known by its slip curve alone has
-// neither.
-Soil joined(const SoilDistribution& strength, const SoilDistribution& pressure, const SoilNormals& z) {
+Soil joined_soil(const SoilDistribution& strength, const SoilDistribution& pressure, const SoilNormals& z) {
   Soil soil = draw_soil(strength, z);
   if (&pressure == &strength || strength.mean.slip_curve || pressure.mean.slip_curve) return soil;
   const Soil other = draw_soil(pressure, z);
@@ -69,7 +69,12 @@ Soil joined(const SoilDistribution& strength, const SoilDistribution& pressure, 
   return soil;
 }
 
-}  // namespace
+SoilNormals weak_unit(const SoilDistribution& belief, const SoilNormals& everywhere) {
+  // Units and patches differ from what all ground of the soil shares: most are not weaker than this.
+  constexpr double kDeviations = 1.5;
+  return std::sqrt(belief.shares.everywhere) * everywhere +
+         kDeviations * std::sqrt(belief.shares.unit + belief.shares.patch) * towards_weakness();
+}
 
 DrawnGround::DrawnGround(const SoilBeliefs& beliefs, std::uint64_t key, DrivesLevel drives_level)
     : beliefs_(beliefs),
@@ -123,17 +128,14 @@ SoilNormals DrawnGround::blended(Corners& corners, std::uint64_t key, double len
 void DrawnGround::choose(Belief& belief, std::uint64_t unit) const {
   constexpr std::uint64_t kMaxTries = 50;
   const SoilDistribution& of = *belief.distribution;
-  // Units and patches differ from what all ground of the soil shares: most are not weaker than this.
-  constexpr double kDeviations = 1.5;
-  const SoilNormals weak = std::sqrt(of.shares.everywhere) * belief.everywhere +
-                           kDeviations * std::sqrt(of.shares.unit + of.shares.patch) * towards_weakness();
+  const SoilNormals weak = weak_unit(of, belief.everywhere);
   for (std::uint64_t tried = 0; tried < kMaxTries; ++tried) {
     const std::uint64_t choice = random_key(unit, tried);
-    belief.strength =
-        &chosen(of.alternatives, &SoilAlternative::strength_weight, random_uniform(choice, kStrengthChoice));
-    belief.pressure =
-        &chosen(of.alternatives, &SoilAlternative::pressure_weight, random_uniform(choice, kPressureChoice));
-    if (!drives_level_ || drives_level_(joined(*belief.strength, *belief.pressure, weak)) ||
+    belief.strength = &chosen_alternative(of.alternatives, &SoilAlternative::strength_weight,
+                                          random_uniform(choice, kStrengthChoice));
+    belief.pressure = &chosen_alternative(of.alternatives, &SoilAlternative::pressure_weight,
+                                          random_uniform(choice, kPressureChoice));
+    if (!drives_level_ || drives_level_(joined_soil(*belief.strength, *belief.pressure, weak)) ||
         random_uniform(choice, kWeak) < kWeakShare)
       return;
   }
@@ -153,7 +155,7 @@ Soil DrawnGround::draw(Belief& belief, double x_m, double y_m) const {
     choose(belief, choice);
     belief.chosen_for = choice;
   }
-  return joined(*belief.strength, *belief.pressure, unit + patch);
+  return joined_soil(*belief.strength, *belief.pressure, unit + patch);
 }
 
 }  // namespace slipway::sim

@@ -15,14 +15,6 @@ namespace {
 constexpr std::size_t kMaxStates = 4'000'000;
 constexpr int kMinProfileDraws = 24;
 
-// Both bars have their interval on one side, or one of them is passed for sure.
-bool decided(const DriveOutcomes& outcomes, const OutcomeBars& bars) {
-  if (outcomes.embedding.low > bars.max_embedding || outcomes.expected_stops_low > bars.max_expected_stops)
-    return true;
-  return outcomes.embedding.high < bars.max_embedding &&
-         outcomes.expected_stops_high < bars.max_expected_stops;
-}
-
 // The number of draws after each look at them.
 std::size_t next_batch(std::size_t drawn, const RiskOptions& options) {
   const auto first = static_cast<std::size_t>(options.draws);
@@ -50,6 +42,13 @@ bool draw_more(const DrawnDriver& driver, std::size_t count, std::size_t station
 }
 
 }  // namespace
+
+bool decided(const DriveOutcomes& outcomes, const OutcomeBars& bars) {
+  if (outcomes.embedding.low > bars.max_embedding || outcomes.expected_stops_low > bars.max_expected_stops)
+    return true;
+  return outcomes.embedding.high < bars.max_embedding &&
+         outcomes.expected_stops_high < bars.max_expected_stops;
+}
 
 double largest_current_a(const StationState& state) {
   double largest = 0.0;

@@ -36,6 +36,9 @@ struct Effort {
 };
 Effort effort_of(const PreparedStation& station, const StationState& state);
 
+// Both bars have their interval on one side, or one of them is passed for sure.
+bool decided(const DriveOutcomes& outcomes, const OutcomeBars& bars);
+
 // The whole path as the draws drive it.
 struct PreparedDrive {
   std::vector<PreparedStation> stations;  // to the path's end, or to where the rover has no stance
