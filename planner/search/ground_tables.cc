@@ -13,9 +13,9 @@ namespace {
 // deg apart).
 constexpr double kNodesToLimit = 8.0;
 
-// With fewer the mean of a tail of 10 % hangs on two or three soils. Their tables have columns twice as far
-// apart.
-constexpr std::size_t kLikelySoils = 40;
+// Soils that a kind of ground may have: enough for a mean over ten alternatives, and for one over a tail of
+// 10 %. Their tables have columns twice as far apart.
+constexpr std::size_t kLikelySoils = 20, kLikelySoilsOfTail = 40;
 constexpr double kLikelyNodesToLimit = 4.0;
 
 // The soils that lie anywhere on the map: a legend may name many more, and a table costs hundreds of
@@ -34,7 +34,8 @@ std::vector<bool> soils_in_use(const PlanProblem& problem) {
   return used;
 }
 
-// The tables of the soils that each kind of ground in use may have; parallel over all of them.
+// The tables of the soils that each kind of ground in use may have, see GroundTable; parallel over all of
+// them.
 std::vector<std::vector<LikelyTable>> likely_tables(const PlanProblem& problem,
                                                     const std::vector<const sim::SoilDistribution*>& beliefs,
                                                     const std::vector<bool>& used, double limit_rad) {
@@ -42,11 +43,13 @@ std::vector<std::vector<LikelyTable>> likely_tables(const PlanProblem& problem,
     std::size_t kind = 0;
     sim::LikelySoil soil;
   };
+  const bool by_tail = problem.ranking.by == RankBy::kCvar;
   const sim::LevelGroundTest drives_level(*problem.rover, problem.gravity_m_s2);
   std::vector<Job> jobs;
   for (std::size_t kind = 0; kind < beliefs.size(); ++kind) {
-    if (!used[kind]) continue;
-    for (sim::LikelySoil& soil : sim::likely_soils(*beliefs[kind], kLikelySoils, drives_level))
+    if (!used[kind] || (!by_tail && beliefs[kind]->alternatives.empty())) continue;
+    for (sim::LikelySoil& soil :
+         sim::likely_soils(*beliefs[kind], by_tail ? kLikelySoilsOfTail : kLikelySoils, drives_level))
       jobs.push_back({kind, std::move(soil)});
   }
   std::vector<std::optional<sim::SlipTable>> tables(jobs.size());
@@ -82,8 +85,7 @@ GroundTables build_ground_tables(const PlanProblem& problem) {
     tables[i].emplace(*problem.rover, problem.gravity_m_s2, soil, limit, limit / kNodesToLimit,
                       problem.conditions);
   });
-  std::vector<std::vector<LikelyTable>> likely(kinds);
-  if (problem.ranking.by == RankBy::kCvar) likely = likely_tables(problem, beliefs, used, limit);
+  std::vector<std::vector<LikelyTable>> likely = likely_tables(problem, beliefs, used, limit);
   GroundTables all;
   for (std::size_t kind = 0; kind < kinds; ++kind) {
     if (!used[kind]) {

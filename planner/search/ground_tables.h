@@ -19,7 +19,9 @@ struct GroundTable {
   sim::SlipTable mean;
   sim::SlipTable weak;
   double correlation_length_m = 5.0;
-  std::vector<LikelyTable> likely = {};  // see sim::likely_soils; only where routes are ranked by CVaR
+  // The soils that it may have, see sim::likely_soils: of ground with alternatives, and of all ground where
+  // routes are ranked by CVaR. Empty elsewhere: mean and weak then say enough of a mean.
+  std::vector<LikelyTable> likely = {};
 };
 
 // Tables per soil of the beliefs, and for unknown ground. Built once per problem, in parallel.

@@ -84,6 +84,7 @@ std::optional<Metre> expected_metre(const PlanProblem& problem, const GroundTabl
 double tail_cost_of_metre(const PlanProblem& problem, const GroundTable& table, bool unknown,
                           double pitch_rad, double roll_rad, const Weights& weights, double tail) {
   std::vector<WeightedCost> costs;
+  const sim::TableEntry mean = *table.mean.at(pitch_rad, roll_rad);
   for (const LikelyTable& likely : table.likely) {
     const sim::TableEntry entry = *likely.slip.at(pitch_rad, roll_rad);
     const double slip = entry.immobile ? 1.0 : entry.slip_ratio;
@@ -92,7 +93,8 @@ double tail_cost_of_metre(const PlanProblem& problem, const GroundTable& table, 
                           .immobile = is(entry.immobile),
                           .digging = is(slip > problem.risk.checks.embedding_slip_ratio),
                           .too_deep = is(entry.sinkage_m > embedding_sinkage_m(problem))};
-    costs.push_back({weights.cost(figures_with(problem, table, unknown, entry, mishaps)), likely.weight});
+    const sim::TableEntry& driven = entry.immobile ? mean : entry;
+    costs.push_back({weights.cost(figures_with(problem, table, unknown, driven, mishaps)), likely.weight});
   }
   return conditional_value_at_risk(costs, tail);
 }

@@ -34,7 +34,8 @@ std::optional<Metre> expected_metre(const PlanProblem& problem, const GroundTabl
                                     double pitch_rad, double roll_rad);
 
 // What a metre costs in the mean of the dearest `tail` share of the soils that the ground may have
-// (GroundTable::likely, which must not be empty).
+// (GroundTable::likely, which must not be empty). Where one of them holds the rover, the metre is not driven
+// and counts as on the mean soil, as in figures_of() of a draw.
 double tail_cost_of_metre(const PlanProblem& problem, const GroundTable& table, bool unknown,
                           double pitch_rad, double roll_rad, const Weights& weights, double tail);
 

@@ -72,8 +72,9 @@ void MotionCost::tabulate(const PlanProblem& problem, const GroundTable& table, 
       const std::optional<Metre> metre = expected_metre(problem, table, unknown, pitch, roll);
       double cost = kInfinity;
       if (metre) {
-        cost = tail_ ? tail_cost_of_metre(problem, table, unknown, pitch, roll, weights, *tail_)
-                     : weights.cost(metre->figures);
+        cost = tail_ && !table.likely.empty()
+                   ? tail_cost_of_metre(problem, table, unknown, pitch, roll, weights, *tail_)
+                   : weights.cost(metre->figures);
         cost *= steepness(metre->share_of_limits);
       }
       per_slope_.push_back(static_cast<float>(cost));

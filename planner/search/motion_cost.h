@@ -11,10 +11,11 @@
 namespace slipway::planner {
 
 // What the search minimises: the cost catalogue's sum, for one set of weights, with the figures of each metre
-// taken from the slip tables (see Metre) at a pose's pitch and roll on the cell's plane. With a `tail` a
-// metre costs what it does in the mean of the dearest `tail` share of the soils that its ground may have.
-// Summed along a way this is an upper bound of the route's own CVaR, which it equals where all cells turn out
-// weak together: CVaR is subadditive [Rockafellar & Uryasev 2000].
+// taken from the slip tables at a pose's pitch and roll on the cell's plane (see Metre). With a `tail` a
+// metre costs what it does in the mean of the dearest `tail` share of the soils that its ground may have,
+// with 1 in the mean of all of them; without one, and where the tables have no such soils, what
+// expected_metre() says. A CVaR that is summed along a way is an upper bound of the route's own, which it
+// reaches where all cells turn out weak together: CVaR is subadditive [Rockafellar & Uryasev 2000].
 //
 // The sum rises steeply from 3/4 of a limit (slip, current, sinkage, tilt) on. Off the map, near missing
 // elevation, beyond the tilt limit, with too little clearance, in a keep-out and where the mean soil's rover

@@ -85,8 +85,7 @@ class Proposer {
         tables_(tables),
         progress_(progress),
         places_(places_of(problem)),
-        tail_(problem.ranking.by == RankBy::kCvar ? std::optional(problem.ranking.tail) : std::nullopt),
-        asked_cost_(problem, map, tables, problem.weights, tail_),
+        asked_cost_(problem, map, tables, problem.weights, problem.ranking.ranked_tail()),
         proposal_{.candidates = {}, .differences = Differences(problem.rover->body_width_m)} {
     for (const std::string& name : problem.planners) add_planner(*planner_named(name, planners));
     if (!planners_.empty()) return;
@@ -97,7 +96,7 @@ class Proposer {
   Proposal run() {
     std::vector<Guide> guides;
     for (const Profile& profile : profiles(problem_.ranking)) {
-      const std::optional<double> tail = profile.by_mean ? std::nullopt : tail_;
+      const double tail = profile.by_mean ? 1.0 : problem_.ranking.ranked_tail();
       guides.push_back({std::string(profile.name),
                         MotionCost(problem_, map_, tables_, profile.weights(problem_.weights), tail),
                         std::nullopt});
@@ -249,7 +248,6 @@ class Proposer {
   const GroundTables& tables_;
   Progress& progress_;
   std::vector<Waypoint> places_;
-  std::optional<double> tail_;
   MotionCost asked_cost_;
   std::vector<NamedPlanner> planners_;
   Proposal proposal_;
