@@ -95,7 +95,7 @@ TEST(RiskAwareScene, TheWeakCrustHoldsTheRoverAndTheStrongOneDoesNot) {
 }
 
 TEST(RiskAwareScene, TheMeanCrossesTheCrustAndTheTailGoesRound) {
-  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+  for (const std::uint64_t seed : {1U, 2U}) {
     PlanProblem by_mean = scene(12.0, kPatch, kByMean), by_tail = scene(12.0, kPatch, kByTail);
     by_mean.seed = by_mean.risk.seed = by_tail.seed = by_tail.risk.seed = seed;
     const Plan crosses = plan_on(by_mean), round = plan_on(by_tail);
