@@ -257,6 +257,7 @@ Result<PlanAnswer> Service::plan(const PlanRequest& request, Progress& progress)
   problem.keep_out = request.keep_out;
   problem.keep_in = request.keep_in;
   problem.weights = request.weights;
+  problem.ranking = request.ranking;
   problem.routes = request.routes;
   problem.verify = request.verify;
   problem.planners = request.planners;

@@ -21,6 +21,7 @@
 #include "planner/search/propose.h"
 #include "planner/search/search_window.h"
 #include "planner/search/stage_progress.h"
+#include "sim/prediction/drive_risk.h"
 
 namespace slipway::planner {
 namespace {
@@ -115,7 +116,7 @@ class Planning {
     if (!verified) return fail(verified.error());
     progress_.report("ranking", 0.98);
     mark_pareto_front(plan.routes);
-    explain(plan.routes);
+    explain(plan.routes, problem_.ranking);
     progress_.report("ranking", 1.0);
     return plan;
   }
@@ -187,14 +188,12 @@ class Planning {
       StageProgress stage(progress_, fmt::format("simulating route {} of {}", k + 1, list.size()),
                           kSimulating + share * static_cast<double>(k),
                           kSimulating + share * static_cast<double>(k + 1));
-      const auto stations = route_stations(candidate.motions, sim::max_station_spacing_m(*problem_.rover));
+      const auto stations = stations_of(candidate);
       if (const auto pose = inside_keep_out(candidate.motions, stations)) {
         in_keep_out.push_back(*pose);
         continue;
       }
-      Result<sim::DrivePrediction> drive =
-          sim::predict_drive(*problem_.rover, problem_.gravity_m_s2, ground_, problem_.beliefs, stations,
-                             problem_.limits, problem_.risk, problem_.threads, stage, problem_.conditions);
+      Result<sim::DrivePrediction> drive = predict(stations, problem_.risk.draws, stage);
       if (progress_.cancelled()) return cancelled();
       if (!drive) {
         // Mostly a wheel that the body's circle does not cover met a missing cell.
@@ -210,6 +209,7 @@ class Planning {
       routes.push_back(std::move(route));
       candidate_of.push_back(list[k]);
     }
+    if (auto drawn = draw_contenders(proposal, candidate_of, routes); !drawn) return drawn;
     choose(std::move(routes), candidate_of, differences, plan);
     if (auto drawn = draw_until_decided(proposal, plan); !drawn) return drawn;
     if (plan.routes.size() < static_cast<std::size_t>(problem_.routes))
@@ -217,26 +217,61 @@ class Planning {
     return {};
   }
 
-  // The candidates are compared by the first draws; those that are given out get as many as their verdicts
-  // need.
+  std::vector<sim::PathStation> stations_of(const Candidate& candidate) const {
+    return route_stations(candidate.motions, sim::max_station_spacing_m(*problem_.rover));
+  }
+
+  Result<sim::DrivePrediction> predict(const std::vector<sim::PathStation>& stations, int draws,
+                                       Progress& progress) const {
+    sim::RiskOptions risk = problem_.risk;
+    risk.draws = draws;
+    return sim::predict_drive(*problem_.rover, problem_.gravity_m_s2, ground_, problem_.beliefs, stations,
+                              problem_.limits, risk, problem_.threads, progress, problem_.conditions);
+  }
+
+  // The first draws rank the candidates. Those that they do not tell from the best one get as many as a route
+  // that is given out may have: the first are the same ground again, for all of them.
+  Result<void> draw_contenders(const Proposal& proposal, const std::vector<std::size_t>& candidate_of,
+                               std::vector<Route>& routes) {
+    if (problem_.deciding_draws <= problem_.risk.draws || routes.size() < 2) return {};
+    const auto best = std::min_element(routes.begin(), routes.end(), ranks_before);
+    std::vector<std::size_t> contenders;
+    for (std::size_t i = 0; i < routes.size(); ++i)
+      if (&routes[i] != &*best && !clearly_apart(*best, routes[i], problem_.ranking)) contenders.push_back(i);
+    if (contenders.empty()) return {};
+    contenders.push_back(static_cast<std::size_t>(best - routes.begin()));
+    for (const std::size_t i : contenders)
+      if (auto drawn = draw_more(proposal.candidates[candidate_of[i]], routes[i]); !drawn) return drawn;
+    return {};
+  }
+
+  // The routes that are given out all get that many draws where the verdict on one of them, or the order of
+  // two neighbours, hangs on more.
   Result<void> draw_until_decided(const Proposal& proposal, Plan& plan) {
     if (problem_.deciding_draws <= problem_.risk.draws) return {};
-    sim::RiskOptions risk = problem_.risk;
-    risk.max_draws = problem_.deciding_draws;
+    bool settled = true;
     for (std::size_t i = 0; i < plan.routes.size(); ++i) {
-      StageProgress stage(progress_, fmt::format("deciding route {} of {}", i + 1, plan.routes.size()),
-                          kSimulated, kSimulated);
-      const auto stations = route_stations(proposal.candidates[chosen_[i]].motions,
-                                           sim::max_station_spacing_m(*problem_.rover));
-      Result<sim::DrivePrediction> drive =
-          sim::predict_drive(*problem_.rover, problem_.gravity_m_s2, ground_, problem_.beliefs, stations,
-                             problem_.limits, risk, problem_.threads, stage, problem_.conditions);
-      if (progress_.cancelled()) return cancelled();
-      if (!drive) return fail(drive.error());
-      plan.routes[i].prediction = std::move(*drive);
-      judge(problem_, plan.routes[i]);
+      const Route& route = plan.routes[i];
+      settled &= problem_.risk.bars.decide(route.prediction.outcomes);
+      if (i == 0) continue;
+      settled &= clearly_apart(plan.routes[i - 1], route, problem_.ranking);
+      settled &= route.prediction.draws == plan.routes[i - 1].prediction.draws;
     }
+    if (settled) return {};
+    for (std::size_t i = 0; i < plan.routes.size(); ++i)
+      if (auto drawn = draw_more(proposal.candidates[chosen_[i]], plan.routes[i]); !drawn) return drawn;
     rank(plan);
+    return {};
+  }
+
+  Result<void> draw_more(const Candidate& candidate, Route& route) {
+    if (route.prediction.draws >= problem_.deciding_draws) return {};
+    StageProgress stage(progress_, "comparing routes", kSimulated, kSimulated);
+    Result<sim::DrivePrediction> drive = predict(stations_of(candidate), problem_.deciding_draws, stage);
+    if (progress_.cancelled()) return cancelled();
+    if (!drive) return fail(drive.error());
+    route.prediction = std::move(*drive);
+    judge(problem_, route);
     return {};
   }
 

@@ -23,6 +23,7 @@ void write_judged_route(Writer& w, const planner::Route& route) {
     w.significant("weight", share.weight).significant("cost", share.cost).end_object();
   }
   w.end_array();
+  w.significant("expected_cost", route.expected_cost).significant("cvar_cost", route.cvar_cost);
   write_drive_figures(w, route.prediction);
 }
 

@@ -20,6 +20,19 @@ void read_weights(ObjectReader& reader, planner::Weights& weights) {
   object->refuse_unknown();
 }
 
+constexpr planner::RankBy kRankBy[] = {planner::RankBy::kExpected, planner::RankBy::kCvar};
+
+void read_ranking(ObjectReader& reader, planner::Ranking& ranking) {
+  auto object = reader.object("ranking", kOptional);
+  if (!object) return;
+  std::size_t by = 0;
+  if (object->choice("by", kOptional, {planner::describe(kRankBy[0]), planner::describe(kRankBy[1])}, by))
+    ranking.by = kRankBy[by];
+  object->number("tail", kOptional, {.unit = "1", .lowest = 0.0, .highest = 1.0, .above_lowest = true},
+                 ranking.tail);
+  object->refuse_unknown();
+}
+
 }  // namespace
 
 Result<Reading<PlanRequest>> read_plan_request(std::string_view bytes,
@@ -41,6 +54,7 @@ Result<Reading<PlanRequest>> read_plan_request(std::string_view bytes,
   }
   read_zones(reader, request.keep_out, request.keep_in, reading.faults);
   read_weights(reader, request.weights);
+  read_ranking(reader, request.ranking);
   reader.whole("routes", kOptional, 1, RequestLimits::kRoutes, request.routes);
   reader.whole("verify", kOptional, 0, planner::kMaxVerified, request.verify);
   reader.texts("planners", kOptional, {0, 20}, {.most = 64}, request.planners);
@@ -65,6 +79,8 @@ std::string write_plan_request(const PlanRequest& request) {
   for (std::size_t row = 0; row < request.weights.terms().size(); ++row)
     w.exact(request.weights.terms()[row].weight.name, request.weights[row]);
   w.end_object();
+  w.key("ranking").begin_object().text("by", planner::describe(request.ranking.by));
+  w.exact("tail", request.ranking.tail).end_object();
   w.whole("routes", request.routes).whole("verify", request.verify);
   w.texts("planners", request.planners);
   write_drive_assumptions(w, request.drive);

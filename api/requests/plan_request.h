@@ -48,6 +48,7 @@ struct PlanRequest {
   std::vector<planner::Polygon> keep_out;
   std::vector<planner::Polygon> keep_in;  // each an area that the rover's body must not leave
   planner::Weights weights;
+  planner::Ranking ranking;
   int routes = planner::PlanProblem{}.routes;
   std::vector<std::string> planners;           // the catalogue's default set where it is empty
   int verify = planner::PlanProblem{}.verify;  // number of the best routes to simulate at the dynamic level

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/angle.h"
+#include "planner/judge/drawn_cost.h"
 #include "planner/judge/drive_decision.h"
 #include "planner/problem/weights.h"
 
@@ -82,6 +83,32 @@ std::string confirmation(const Route& route) {
       route.prediction.duration_s);
 }
 
+// 1 in the draws that break a limit.
+std::vector<WeightedCost> broken_limits(const Route& route) {
+  std::vector<WeightedCost> broken;
+  for (const sim::DrawFigures& draw : route.prediction.drawn)
+    broken.push_back({draw.breaks_a_limit ? 1.0 : 0.0, draw.weight});
+  return broken;
+}
+
+// Of the route with the least risk: whether the draws tell its risk from the next one's. Else nothing.
+std::string against_the_next_safest(const Route& route, const std::vector<Route>& routes) {
+  const Route* next = nullptr;
+  for (const Route& other : routes) {
+    if (&other == &route || other.prediction.immobilised) continue;
+    if (!next || other.prediction.risk < next->prediction.risk) next = &other;
+  }
+  if (!next || route.prediction.risk >= next->prediction.risk) return {};
+  const CostDifference less = difference_of(broken_limits(*next), broken_limits(route), 1.0);
+  const std::string risks =
+      fmt::format("risk {:.0f} % against {:.0f} % of route {}", 100.0 * route.prediction.risk,
+                  100.0 * next->prediction.risk, next->rank);
+  if (!less.decided())
+    return fmt::format("alike in risk: {}, which {} draws do not tell apart", risks, less.draws);
+  return fmt::format("safest: {}, 90 % interval of the difference {:.0f} to {:.0f} %", risks,
+                     100.0 * less.low, 100.0 * less.high);
+}
+
 // What this route has that no other has; nothing where it stands alone.
 std::vector<std::string> superlatives(const Route& route, const std::vector<Route>& routes) {
   std::vector<std::string> words;
@@ -96,9 +123,8 @@ std::vector<std::string> superlatives(const Route& route, const std::vector<Rout
           fmt::format("{}: {} against {} of route {}", name, text(route), text(*next), next->rank));
   };
   if (route.prediction.immobilised) return words;
-  compare(
-      "safest", [](const Route& r) { return std::round(100.0 * r.prediction.risk); },
-      [](const Route& r) { return fmt::format("risk {:.0f} %", 100.0 * r.prediction.risk); });
+  if (std::string safety = against_the_next_safest(route, routes); !safety.empty())
+    words.push_back(std::move(safety));
   compare(
       "least slip", [](const Route& r) { return std::round(1000.0 * r.prediction.mean_slip_ratio); },
       [](const Route& r) { return fmt::format("mean {:.3f}", r.prediction.mean_slip_ratio); });
@@ -116,17 +142,39 @@ std::vector<std::string> superlatives(const Route& route, const std::vector<Rout
 
 // Why it does not stand one place higher: the terms in which it is dearer and those that make up for some of
 // it.
-std::string against_the_one_before(const Route& route, const Route& before) {
+std::string against_the_one_before(const Route& route, const Route& before, const Ranking& ranking) {
   if ((route.verdict == Verdict::kNoGo) != (before.verdict == Verdict::kNoGo))
     return fmt::format("behind route {} because a limit is broken", before.rank);
   std::string terms;
   for (std::size_t k = 0; k < route.shares.size(); ++k) {
-    const double more = route.shares[k].cost - before.shares[k].cost;
+    const double more = route.shares[k].ranked_cost - before.shares[k].ranked_cost;
     if (std::abs(more) >= 0.005)
       terms += fmt::format("{}{} {:+.2f}", terms.empty() ? "" : ", ", route.shares[k].name, more);
   }
-  return fmt::format("behind route {}: cost {:.2f} against {:.2f}{}", before.rank, route.cost, before.cost,
+  const bool told = ranked_difference(route, before, ranking).decided() || route.drawn_costs.empty();
+  return fmt::format("behind route {}{}: cost {:.2f} against {:.2f}{}{}", before.rank,
+                     told ? "" : ", but alike", route.ranked_cost, before.ranked_cost,
+                     route.drawn_costs.empty() ? "" : " " + ranking.in_words(route.prediction.draws),
                      terms.empty() ? std::string() : " (" + terms + ")");
+}
+
+// Why the first route leads.
+std::string against_the_second(const Route& route, const Route& next, const Ranking& ranking) {
+  if ((route.verdict == Verdict::kNoGo) != (next.verdict == Verdict::kNoGo))
+    return "best: in route 2 a limit is broken";
+  const CostDifference less = ranked_difference(next, route, ranking);
+  if (less.draws == 0)
+    return fmt::format("best: cost {:.2f} against {:.2f} of route 2", route.ranked_cost, next.ranked_cost);
+  const std::string interval =
+      fmt::format("{}, 90 % interval {:.2f} to {:.2f}", ranking.in_words(less.draws), less.low, less.high);
+  if (less.decided()) return fmt::format("best: costs {:.2f} less than route 2 {}", less.value, interval);
+  return fmt::format("first, but alike with route 2: costs {:.2f} less {}", less.value, interval);
+}
+
+// An immobilised drive is cheap because it ends early: it comes last, the furthest first.
+int group_of(const Route& route) {
+  if (route.prediction.immobilised) return 2;
+  return route.verdict == Verdict::kNoGo ? 1 : 0;
 }
 
 }  // namespace
@@ -146,6 +194,7 @@ void judge(const PlanProblem& problem, Route& route) {
     route.cost += share.cost;
     route.shares.push_back(std::move(share));
   }
+  cost_draws(problem, route);
   route.decision = decide(problem, drive);
   const bool refuted = route.dynamic && route.dynamic->refutes();
   const bool unanswered = route.dynamic && !route.dynamic->end;
@@ -159,14 +208,9 @@ void judge(const PlanProblem& problem, Route& route) {
 }
 
 bool ranks_before(const Route& a, const Route& b) {
-  // An immobilised drive is cheap because it ends early: it comes last, the furthest first.
-  const auto group = [](const Route& r) {
-    if (r.prediction.immobilised) return 2;
-    return r.verdict == Verdict::kNoGo ? 1 : 0;
-  };
-  if (group(a) != group(b)) return group(a) < group(b);
-  if (group(a) == 2) return a.prediction.length_m > b.prediction.length_m;
-  return a.cost < b.cost;
+  if (group_of(a) != group_of(b)) return group_of(a) < group_of(b);
+  if (a.prediction.immobilised) return a.prediction.length_m > b.prediction.length_m;
+  return a.ranked_cost < b.ranked_cost;
 }
 
 bool dominates(const Route& a, const Route& b) {
@@ -194,7 +238,16 @@ void mark_pareto_front(std::vector<Route>& routes) {
                                 [&](const Route& other) { return dominates(other, route); });
 }
 
-void explain(std::vector<Route>& routes) {
+CostDifference ranked_difference(const Route& a, const Route& b, const Ranking& ranking) {
+  return difference_of(a.drawn_costs, b.drawn_costs, ranking.ranked_tail());
+}
+
+bool clearly_apart(const Route& a, const Route& b, const Ranking& ranking) {
+  if (group_of(a) != group_of(b) || a.prediction.immobilised || a.drawn_costs.empty()) return true;
+  return ranked_difference(a, b, ranking).decided();
+}
+
+void explain(std::vector<Route>& routes, const Ranking& ranking) {
   double shortest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < routes.size(); ++i) {
     routes[i].rank = static_cast<int>(i) + 1;
@@ -203,11 +256,8 @@ void explain(std::vector<Route>& routes) {
   for (std::size_t i = 0; i < routes.size(); ++i) {
     Route& route = routes[i];
     route.reasons = {verdict_reason(route)};
-    if (i > 0) route.reasons.push_back(against_the_one_before(route, routes[i - 1]));
-    if (i == 0 && routes.size() > 1) {
-      route.reasons.push_back(
-          fmt::format("best: cost {:.2f} against {:.2f} of route 2", route.cost, routes[1].cost));
-    }
+    if (i > 0) route.reasons.push_back(against_the_one_before(route, routes[i - 1], ranking));
+    if (i == 0 && routes.size() > 1) route.reasons.push_back(against_the_second(route, routes[1], ranking));
     if (route.dynamic && route.dynamic->end && !route.dynamic->refutes())
       route.reasons.push_back(confirmation(route));
     for (std::string& words : superlatives(route, routes)) route.reasons.push_back(std::move(words));

@@ -18,12 +18,18 @@ struct DriveFigures {
   double energy_j = 0.0;          // of the drive motors
   double slip_length_m = 0.0;     // the slip ratio summed over the length
   double unknown_length_m = 0.0;  // driven with any wheel on unknown ground
-  // Of a whole drive the probability that a limit is broken; of a stretch what it adds to that (to first
-  // order).
+  double expected_stops = 0.0;    // for a sol each
+  // Of a whole drive the probability that it ends embedded, and that a limit is broken; of a stretch what it
+  // adds to that (to first order); of one draw 0 or 1.
+  double embedding = 0.0;
   double risk = 0.0;
 };
 
+// On the mean soils, with what the draws say of stops, embeddings and limits.
 DriveFigures figures_of(const sim::DrivePrediction& prediction);
+// In one draw. The part of the way that it does not come to counts as on the mean soils, so that no drive is
+// cheap because it ended early.
+DriveFigures figures_of(const sim::DrivePrediction& prediction, const sim::DrawFigures& draw);
 
 // A term of a route's cost. Routes are searched and ranked by the sum over rows of weight times value.
 struct CostTerm {

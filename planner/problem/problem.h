@@ -9,6 +9,7 @@
 
 #include "dem/soil_map.h"
 #include "dem/terrain.h"
+#include "planner/problem/ranking.h"
 #include "planner/problem/weights.h"
 #include "sim/prediction/drive_prediction.h"
 #include "sim/rover/rover_model.h"
@@ -49,12 +50,15 @@ struct PlanProblem {
   sim::DriveLimits limits;
   sim::DriveConditions conditions;
   Weights weights;  // with the terms of the cost that they are of
+  Ranking ranking;
   int routes = 3;
   int verify = 0;                     // how many of the best-ranked are driven in the dynamic simulation too
   std::vector<std::string> planners;  // names of the catalogue; empty: its default set
   std::uint64_t seed = 1;
   sim::RiskOptions risk;
-  int deciding_draws = 0;   // of a plan's routes, as risk.max_draws; the candidates have risk.draws
+  // The candidates have risk.draws. Where this is more, those whose order or verdict hangs on more draws get
+  // as many.
+  int deciding_draws = 0;
   std::size_t threads = 0;  // 0: as many as the machine has
 };
 

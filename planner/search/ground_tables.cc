@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/parallel_for.h"
+#include "sim/prediction/likely_soils.h"
 
 namespace slipway::planner {
 namespace {
@@ -11,6 +12,11 @@ namespace {
 // stays mostly below a hundredth up to the traction limit (measured in docs/validation.md, with columns 2.5
 // deg apart).
 constexpr double kNodesToLimit = 8.0;
+
+// Soils that a kind of ground may have: enough for a mean over ten alternatives, and for one over a tail of
+// 10 %. Their tables have columns twice as far apart.
+constexpr std::size_t kLikelySoils = 20, kLikelySoilsOfTail = 40;
+constexpr double kLikelyNodesToLimit = 4.0;
 
 // The soils that lie anywhere on the map: a legend may name many more, and a table costs hundreds of
 // balances.
@@ -28,6 +34,35 @@ std::vector<bool> soils_in_use(const PlanProblem& problem) {
   return used;
 }
 
+// The tables of the soils that each kind of ground in use may have, see GroundTable; parallel over all of
+// them.
+std::vector<std::vector<LikelyTable>> likely_tables(const PlanProblem& problem,
+                                                    const std::vector<const sim::SoilDistribution*>& beliefs,
+                                                    const std::vector<bool>& used, double limit_rad) {
+  struct Job {
+    std::size_t kind = 0;
+    sim::LikelySoil soil;
+  };
+  const bool by_tail = problem.ranking.by == RankBy::kCvar;
+  const sim::LevelGroundTest drives_level(*problem.rover, problem.gravity_m_s2);
+  std::vector<Job> jobs;
+  for (std::size_t kind = 0; kind < beliefs.size(); ++kind) {
+    if (!used[kind] || (!by_tail && beliefs[kind]->alternatives.empty())) continue;
+    for (sim::LikelySoil& soil :
+         sim::likely_soils(*beliefs[kind], by_tail ? kLikelySoilsOfTail : kLikelySoils, drives_level))
+      jobs.push_back({kind, std::move(soil)});
+  }
+  std::vector<std::optional<sim::SlipTable>> tables(jobs.size());
+  parallel_for(jobs.size(), problem.threads, [&](std::size_t i) {
+    tables[i].emplace(*problem.rover, problem.gravity_m_s2, jobs[i].soil.soil, limit_rad,
+                      limit_rad / kLikelyNodesToLimit, problem.conditions);
+  });
+  std::vector<std::vector<LikelyTable>> likely(beliefs.size());
+  for (std::size_t i = 0; i < jobs.size(); ++i)
+    likely[jobs[i].kind].push_back({std::move(*tables[i]), jobs[i].soil.weight});
+  return likely;
+}
+
 }  // namespace
 
 sim::Soil weak_soil(const sim::SoilDistribution& belief) {
@@ -38,18 +73,19 @@ GroundTables build_ground_tables(const PlanProblem& problem) {
   const std::size_t kinds = problem.beliefs.known.size() + 1;
   const double limit = std::min(problem.limits.max_tilt_rad, problem.rover->max_tilt_rad);
   std::vector<std::optional<sim::SlipTable>> tables(2 * kinds);
-  const auto belief = [&](std::size_t kind) -> const sim::SoilDistribution& {
-    return kind + 1 < kinds ? problem.beliefs.known[kind] : problem.beliefs.unknown;
-  };
+  std::vector<const sim::SoilDistribution*> beliefs;
+  for (const sim::SoilDistribution& known : problem.beliefs.known) beliefs.push_back(&known);
+  beliefs.push_back(&problem.beliefs.unknown);
   std::vector<bool> used = soils_in_use(problem);
   used.push_back(true);  // unknown ground
   parallel_for(tables.size(), problem.threads, [&](std::size_t i) {
     if (!used[i / 2]) return;
-    const sim::SoilDistribution& of = belief(i / 2);
+    const sim::SoilDistribution& of = *beliefs[i / 2];
     const sim::Soil soil = i % 2 == 0 ? of.mean : weak_soil(of);
     tables[i].emplace(*problem.rover, problem.gravity_m_s2, soil, limit, limit / kNodesToLimit,
                       problem.conditions);
   });
+  std::vector<std::vector<LikelyTable>> likely = likely_tables(problem, beliefs, used, limit);
   GroundTables all;
   for (std::size_t kind = 0; kind < kinds; ++kind) {
     if (!used[kind]) {
@@ -57,7 +93,7 @@ GroundTables build_ground_tables(const PlanProblem& problem) {
       continue;
     }
     GroundTable table{std::move(*tables[2 * kind]), std::move(*tables[2 * kind + 1]),
-                      belief(kind).correlation_length_m};
+                      beliefs[kind]->correlation_length_m, std::move(likely[kind])};
     if (kind + 1 < kinds) {
       all.known.emplace_back(std::move(table));
     } else {

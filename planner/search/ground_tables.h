@@ -8,11 +8,20 @@
 
 namespace slipway::planner {
 
+// The slip table of one of the soils that a kind of ground may have.
+struct LikelyTable {
+  sim::SlipTable slip;
+  double weight = 1.0;
+};
+
 // Slip tables of one kind of ground: for the mean soil, and for one that is one standard deviation weaker.
 struct GroundTable {
   sim::SlipTable mean;
   sim::SlipTable weak;
   double correlation_length_m = 5.0;
+  // The soils that it may have, see sim::likely_soils: of ground with alternatives, and of all ground where
+  // routes are ranked by CVaR. Empty elsewhere: mean and weak then say enough of a mean.
+  std::vector<LikelyTable> likely = {};
 };
 
 // Tables per soil of the beliefs, and for unknown ground. Built once per problem, in parallel.

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/angle.h"
+#include "planner/search/metre.h"
 
 namespace slipway::planner {
 namespace {
@@ -13,23 +14,10 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kSlopeStep = 0.0175;  // a degree
 constexpr double kSteepFrom = 0.75;    // of a limit
-constexpr double kMaxSlip = 0.95;      // of the duration's 1 / (1 - slip)
 // A turn in place is not only its turning: the wheels are steered first and straightened after.
 constexpr double kSteeringPause_s = 20.0;
 constexpr double kFullPause_rad = rad_from_deg(30.0);
 constexpr double kNoTurn_rad = rad_from_deg(0.5);
-
-double normal_tail(double z) {
-  return 0.5 * std::erfc(z / std::sqrt(2.0));
-}
-
-// The probability that slip is over its limit.
-double probability_over(double limit, double mean_slip, double weak_slip) {
-  const double slip = std::max(mean_slip, 1e-3);
-  const double spread = std::log(std::max(weak_slip, slip) / slip);
-  if (spread < 1e-6) return slip > limit ? 1.0 : 0.0;
-  return normal_tail(std::log(limit / slip) / spread);
-}
 
 // 1 up to 3/4 of the limit, 11 at it, on with the parabola.
 double steepness(double share_of_limit) {
@@ -37,42 +25,11 @@ double steepness(double share_of_limit) {
   return 1.0 + 10.0 * over * over;
 }
 
-double share_of_limits(const sim::DriveLimits& limits, const sim::TableEntry& entry, double tilt_rad) {
-  return std::max({std::abs(entry.slip_ratio) / limits.max_slip_ratio, entry.current_a / limits.max_current_a,
-                   entry.sinkage_m / limits.max_sinkage_m, tilt_rad / limits.max_tilt_rad});
-}
-
-// A metre driven on a slope, and how near it comes to the limits.
-struct Metre {
-  DriveFigures figures;
-  double share_of_limits = 0.0;
-};
-
-// Nothing where the mean soil's rover does not move.
-std::optional<Metre> metre_on(const PlanProblem& problem, const GroundTable& table, bool unknown,
-                              double pitch_rad, double roll_rad) {
-  const sim::TableEntry mean = *table.mean.at(pitch_rad, roll_rad);
-  const sim::TableEntry weak = *table.weak.at(pitch_rad, roll_rad);
-  if (mean.immobile) return std::nullopt;
-  const sim::TableEntry& entry = unknown && !weak.immobile ? weak : mean;
-  const double slip = std::clamp(entry.slip_ratio, 0.0, kMaxSlip);
-  const double over =
-      probability_over(problem.limits.max_slip_ratio, mean.slip_ratio, weak.immobile ? 1.0 : weak.slip_ratio);
-  const double tilt = Attitude{.roll_rad = roll_rad, .pitch_rad = pitch_rad, .yaw_rad = 0.0}.tilt_rad();
-  return Metre{{.length_m = 1.0,
-                .duration_s = 1.0 / (problem.rover->cruise_speed_m_s * (1.0 - slip)),
-                .energy_j = entry.energy_j_m,
-                .slip_length_m = slip,
-                .unknown_length_m = unknown ? 1.0 : 0.0,
-                .risk = over / std::max(table.correlation_length_m, 1.0)},
-               share_of_limits(problem.limits, entry, tilt)};
-}
-
 }  // namespace
 
 MotionCost::MotionCost(const PlanProblem& problem, const TraverseMap& map, const GroundTables& tables,
-                       const Weights& weights)
-    : map_(&map), limits_(motion_limits(*problem.rover)) {
+                       const Weights& weights, std::optional<double> tail)
+    : map_(&map), tail_(tail), limits_(motion_limits(*problem.rover)) {
   limit_ = std::tan(tables.unknown->mean.limit_rad());
   nodes_ = 2 * static_cast<int>(std::ceil(limit_ / kSlopeStep)) + 1;
   nodes_per_unit_ = (nodes_ - 1) / (2.0 * limit_);
@@ -112,9 +69,14 @@ void MotionCost::tabulate(const PlanProblem& problem, const GroundTable& table, 
       const double roll =
           std::clamp(std::asin(leftward / std::sqrt(1.0 + uphill * uphill + leftward * leftward)), -limit_rad,
                      limit_rad);
-      const std::optional<Metre> metre = metre_on(problem, table, unknown, pitch, roll);
-      const double cost =
-          metre ? weights.cost(metre->figures) * steepness(metre->share_of_limits) : kInfinity;
+      const std::optional<Metre> metre = expected_metre(problem, table, unknown, pitch, roll);
+      double cost = kInfinity;
+      if (metre) {
+        cost = tail_ && !table.likely.empty()
+                   ? tail_cost_of_metre(problem, table, unknown, pitch, roll, weights, *tail_)
+                   : weights.cost(metre->figures);
+        cost *= steepness(metre->share_of_limits);
+      }
       per_slope_.push_back(static_cast<float>(cost));
     }
   }

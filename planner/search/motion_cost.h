@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "planner/problem/motion.h"
@@ -10,22 +11,19 @@
 namespace slipway::planner {
 
 // What the search minimises: the cost catalogue's sum, for one set of weights, with the figures of each metre
-// taken from the slip tables.
+// taken from the slip tables at a pose's pitch and roll on the cell's plane (see Metre). With a `tail` a
+// metre costs what it does in the mean of the dearest `tail` share of the soils that its ground may have,
+// with 1 in the mean of all of them; without one, and where the tables have no such soils, what
+// expected_metre() says. A CVaR that is summed along a way is an upper bound of the route's own, which it
+// reaches where all cells turn out weak together: CVaR is subadditive [Rockafellar & Uryasev 2000].
 //
-// The figures of a metre at a pose, from pitch and roll on the cell's plane:
-//   duration  1 / (cruise speed (1 - slip))
-//   energy    of the table
-//   slip      slip ratio
-//   unknown   1 on unknown ground; unknown ground's numbers are those of its weak soil
-//   risk      P(slip over its limit) once per correlation length, the logarithm of slip taken as normal with
-//             the spread between the mean and the weak soil's slip
-// and the sum rises steeply from 3/4 of a limit (slip, current, sinkage, tilt) on. Off the map, near
-// missing elevation, beyond the tilt limit, with too little clearance, in a keep-out and where the mean
-// soil's rover is immobilised no motion is valid, and its cost is infinite.
+// The sum rises steeply from 3/4 of a limit (slip, current, sinkage, tilt) on. Off the map, near missing
+// elevation, beyond the tilt limit, with too little clearance, in a keep-out and where the mean soil's rover
+// is immobilised no motion is valid, and its cost is infinite.
 class MotionCost {
  public:
   MotionCost(const PlanProblem& problem, const TraverseMap& map, const GroundTables& tables,
-             const Weights& weights);
+             const Weights& weights, std::optional<double> tail = std::nullopt);
 
   const TraverseMap& map() const { return *map_; }
   const MotionLimits& limits() const { return limits_; }
@@ -54,6 +52,7 @@ class MotionCost {
   void set_turn_cost(const GroundTables& tables, const Weights& weights);
 
   const TraverseMap* map_;
+  std::optional<double> tail_;
   MotionLimits limits_;
   double turn_cost_per_rad_, turn_cost_each_;
   // Over rise per metre ahead and to the left, not over angles: a look-up then needs no trigonometry.

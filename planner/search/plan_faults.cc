@@ -66,6 +66,9 @@ void check_settings(const PlanProblem& problem, std::span<const PlannerRow> plan
         {fmt::format("/weights/{}", field.name),
          fmt::format("{} = {:g}, must be in [{:g}, {:g}]", field.name, weight, field.lowest, field.highest)});
   }
+  if (!(problem.ranking.tail > 0.0 && problem.ranking.tail <= 1.0))
+    faults.push_back(
+        {"/ranking/tail", fmt::format("tail = {:g}, must be over 0 and at most 1", problem.ranking.tail)});
   check_polygons("/keep_out", problem.keep_out, faults);
   check_polygons("/keep_in", problem.keep_in, faults);
 }

@@ -3,6 +3,7 @@
 #include <span>
 #include <string_view>
 
+#include "planner/problem/ranking.h"
 #include "planner/problem/weights.h"
 
 namespace slipway::planner {
@@ -22,10 +23,14 @@ struct Profile {
   std::string_view name;
   std::string_view summary;
   std::span<const ProfileWeight> changed;
+  // What a metre costs is its mean, whatever routes are ranked by.
+  bool by_mean = false;
 
   Weights weights(const Weights& asked) const;
 };
 
-std::span<const Profile> profiles();
+// Those that are searched under a ranking. Ranked by CVaR, the request's own objective is the CVaR of every
+// metre, and there is one row more, which proposes what a ranking by the mean would.
+std::span<const Profile> profiles(const Ranking& ranking = {});
 
 }  // namespace slipway::planner

@@ -85,7 +85,7 @@ class Proposer {
         tables_(tables),
         progress_(progress),
         places_(places_of(problem)),
-        asked_cost_(problem, map, tables, problem.weights),
+        asked_cost_(problem, map, tables, problem.weights, problem.ranking.ranked_tail()),
         proposal_{.candidates = {}, .differences = Differences(problem.rover->body_width_m)} {
     for (const std::string& name : problem.planners) add_planner(*planner_named(name, planners));
     if (!planners_.empty()) return;
@@ -95,9 +95,10 @@ class Proposer {
 
   Proposal run() {
     std::vector<Guide> guides;
-    for (const Profile& profile : profiles()) {
+    for (const Profile& profile : profiles(problem_.ranking)) {
+      const double tail = profile.by_mean ? 1.0 : problem_.ranking.ranked_tail();
       guides.push_back({std::string(profile.name),
-                        MotionCost(problem_, map_, tables_, profile.weights(problem_.weights)),
+                        MotionCost(problem_, map_, tables_, profile.weights(problem_.weights), tail),
                         std::nullopt});
     }
     search(guides, 0);

@@ -19,7 +19,7 @@ struct Candidate {
   std::vector<Motion> motions;
   std::string planner;
   std::string profile;
-  double cost = 0.0;  // under the request's weights, by the slip tables
+  double cost = 0.0;  // under the request's weights and ranking, by the slip tables
 };
 
 struct Proposal {

@@ -31,6 +31,12 @@ Result<std::string> plan_request(const PlanOptions& options) {
   }
   if (options.routes) w.whole("routes", *options.routes);
   if (options.verify) w.whole("verify", *options.verify);
+  if (options.rank_by || options.tail) {
+    w.key("ranking").begin_object();
+    if (options.rank_by) w.text("by", *options.rank_by);
+    if (options.tail) w.exact("tail", *options.tail);
+    w.end_object();
+  }
   if (!options.planners.empty()) w.texts("planners", options.planners);
   w.end_object();
   return w.take();

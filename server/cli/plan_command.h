@@ -24,7 +24,9 @@ struct PlanOptions {
   std::optional<int> routes, verify;
   std::vector<std::string> planners;
   std::vector<std::string> weights;  // "slip=8"
-  bool compare = false;              // with the plan of the model that was corrected
+  std::optional<std::string> rank_by;
+  std::optional<double> tail;
+  bool compare = false;  // with the plan of the model that was corrected
 };
 
 // The exit status: 0 an answer (also "no safe route"), 1 no answer, 2 a question that can't be asked. The

@@ -32,6 +32,12 @@ void add_plan_command(CLI::App& app, std::function<int()>& run) {
   command->add_option("--weight", options->weights,
                       "weight of a term of the cost, NAME=VALUE; see GET /v1/planners");
   command->add_option("--planner", options->planners, "planners to use, see GET /v1/planners");
+  command->add_option(
+      "--rank-by", options->rank_by,
+      "what ranks the routes: expected, the mean cost over the draws, or cvar, the mean of the "
+      "dearest of them");
+  command->add_option("--tail", options->tail,
+                      "share of the draws of which cvar is the mean; 0.1 where not given");
   command->add_option("--request", options->request,
                       "file with a whole request, - for standard input; other options are not used");
   command->footer(kPlanExample);

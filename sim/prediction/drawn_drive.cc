@@ -1,18 +1,13 @@
 #include "sim/prediction/drawn_drive.h"
 
 #include <cmath>
+#include <functional>
 
 #include "sim/prediction/drawn_ground.h"
 #include "sim/prediction/odometry_shortfall.h"
 
 namespace slipway::sim {
 namespace {
-
-class LevelGround final : public Ground {
- public:
-  std::optional<GroundPoint> at(double /*x_m*/, double /*y_m*/) const override { return GroundPoint{}; }
-  std::optional<std::size_t> soil_at(double /*x_m*/, double /*y_m*/) const override { return std::nullopt; }
-};
 
 // Over the wheels in the mean of the logarithm.
 double slip_scale(const DrawnGround& ground, const PreparedStation& station) {
@@ -39,14 +34,13 @@ DrawnDriver::DrawnDriver(const RoverModel& rover, double gravity_m_s2, const Soi
       drive_(drive),
       limits_(limits),
       checks_(checks),
-      level_(settle(rover, LevelGround(), {})) {
+      drives_level_(rover, gravity_m_s2) {
   if (!drive.stations.empty()) stretch_ends_m_ = stretch_ends_m(drive.stations);
 }
 
 DrawnDrive DrawnDriver::run(std::uint64_t key, const DrawnRun& how, const Progress& progress) const {
   DrawnDrive drawn;
-  DrawnGround ground(
-      beliefs_, key, [this](const Soil& soil) { return drives_level(soil); }, how.redrawn);
+  DrawnGround ground(beliefs_, key, std::cref(drives_level_), how.redrawn);
   if (how.met) ground.note(*how.met);
   QuasiStaticSolver solver(rover_, gravity_m_s2_, Precision::kDraws);
   OutcomeFollower follower(rover_, limits_, checks_);
@@ -62,45 +56,44 @@ DrawnDrive DrawnDriver::run(std::uint64_t key, const DrawnRun& how, const Progre
     scale_slip(slip_scale(ground, station), state);
     if (!embedded) embedded = !follower.add(station, s, state);
     if (how.to_first_stop && (embedded || follower.stops() > 0)) break;
-    if (drawn.immobilised) continue;
-    add(station, state, how.keep_states, drawn);
-    if (state.moving()) shortfall.add(station.drive_m, state.slip_ratio);
+    const bool was_held = drawn.immobilised;
+    if (!was_held) add(station, state, how.keep_states, drawn);
+    if (!state.moving()) continue;
+    drive(station, state, drawn);
+    if (!was_held) shortfall.add(station.drive_m, state.slip_ratio);
   }
   drawn.outcome = follower.finish();
   drawn.shortfall_m = shortfall.finish(drawn.immobilised || drive_.without_stance);
   if (drive_.without_stance) {
     // The wheels meet ground that the suspension cannot follow: no draw of the soil passes there.
-    drawn.any_bad = drawn.immobilised = true;
+    drawn.breaks_a_limit = drawn.immobilised = true;
     drawn.outcome.embedded = true;
     drawn.outcome.rules[static_cast<std::size_t>(Rule::kEmbedding)].tripped = true;
   }
+  drawn.stops = drawn.outcome.stops;
+  drawn.embedded = drawn.outcome.embedded;
   return drawn;
 }
 
-bool DrawnDriver::drives_level(const Soil& soil) const {
-  if (!level_) return true;
-  QuasiStaticSolver solver(rover_, gravity_m_s2_, Precision::kDraws);
-  const StationState state = solver.solve(*level_, soil, {.speed_m_s = rover_.cruise_speed_m_s});
-  return state.moving() && state.slip_ratio < kMaxLevelSlip;
+void DrawnDriver::drive(const PreparedStation& station, const StationState& state, DrawFigures& figures) {
+  const Effort effort = effort_of(station, state);
+  figures.driven_m += station.drive_m;
+  figures.duration_s += effort.duration_s;
+  figures.energy_j += effort.energy_j;
+  figures.slip_length_m += std::abs(state.slip_ratio) * station.drive_m;
 }
 
 void DrawnDriver::add(const PreparedStation& station, const StationState& state, bool keep_states,
                       DrawnDrive& drawn) const {
   const bool bad = !state.moving() || breaks(limits_, state) || breaks(limits_, station.stance);
-  drawn.any_bad |= bad;
+  drawn.breaks_a_limit |= bad;
   drawn.bad.push_back(bad);
   if (keep_states) {
     drawn.slip.push_back(static_cast<float>(state.slip_ratio));
     drawn.current_a.push_back(static_cast<float>(largest_current_a(state)));
     drawn.sinkage_m.push_back(static_cast<float>(deepest_sinkage_m(state)));
   }
-  if (!state.moving()) {
-    drawn.immobilised = true;
-    return;
-  }
-  const Effort effort = effort_of(station, state);
-  drawn.duration_s += effort.duration_s;
-  drawn.energy_j += effort.energy_j;
+  drawn.immobilised = !state.moving();
 }
 
 }  // namespace slipway::sim

@@ -7,17 +7,15 @@
 #include "core/progress.h"
 #include "sim/prediction/drive_outcome.h"
 #include "sim/prediction/drive_risk.h"
+#include "sim/prediction/likely_soils.h"
 
 namespace slipway::sim {
 
 // The results of one draw along a drive.
-struct DrawnDrive {
-  double weight = 1.0;
+struct DrawnDrive : DrawFigures {
   std::vector<float> slip, current_a, sinkage_m;  // per station that was reached, where they are kept
   std::vector<bool> bad;  // per station: a limit is broken or the rover is immobilised
-  bool any_bad = false;
   bool immobilised = false;
-  double duration_s = 0.0, energy_j = 0.0;
   DriveOutcome outcome;
   std::vector<float> shortfall_m;  // at the end of each stretch, see ShortfallFollower
 };
@@ -41,7 +39,7 @@ class DrawnDriver {
   DrawnDrive run(std::uint64_t key, const DrawnRun& how, const Progress& progress) const;
 
  private:
-  bool drives_level(const Soil& soil) const;
+  static void drive(const PreparedStation& station, const StationState& state, DrawFigures& figures);
   void add(const PreparedStation& station, const StationState& state, bool keep_states,
            DrawnDrive& drawn) const;
 
@@ -51,7 +49,7 @@ class DrawnDriver {
   const PreparedDrive& drive_;
   const DriveLimits& limits_;
   const SlipChecks& checks_;
-  std::optional<Stance> level_;
+  LevelGroundTest drives_level_;
   std::vector<double> stretch_ends_m_;
 };
 

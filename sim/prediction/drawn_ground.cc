@@ -30,22 +30,25 @@ std::uint64_t name_key(std::uint64_t key, const std::string& name) {
   return random_key(key, hash);
 }
 
-const SoilDistribution& chosen(const std::vector<SoilAlternative>& alternatives,
-                               double SoilAlternative::*weight, const std::vector<double>& commonness,
-                               double uniform) {
+}  // namespace
+
+const SoilDistribution& chosen_alternative(const std::vector<SoilAlternative>& alternatives,
+                                           double SoilAlternative::*weight, double uniform,
+                                           const std::vector<double>& commonness) {
+  const auto weight_of = [&](std::size_t k) {
+    return alternatives[k].*weight * (commonness.empty() ? 1.0 : commonness[k]);
+  };
   double sum = 0.0;
-  for (std::size_t k = 0; k < alternatives.size(); ++k) sum += alternatives[k].*weight * commonness[k];
+  for (std::size_t k = 0; k < alternatives.size(); ++k) sum += weight_of(k);
   double left = uniform * sum;
   for (std::size_t k = 0; k < alternatives.size(); ++k) {
-    left -= alternatives[k].*weight * commonness[k];
+    left -= weight_of(k);
     if (left < 0.0) return *alternatives[k].soil;
   }
   return *alternatives.back().soil;
 }
 
-// The strength of one soil with the pressure of another. A soil that is known by its slip curve alone has
-// neither.
-Soil joined(const SoilDistribution& strength, const SoilDistribution& pressure, const SoilNormals& z) {
+Soil joined_soil(const SoilDistribution& strength, const SoilDistribution& pressure, const SoilNormals& z) {
   Soil soil = draw_soil(strength, z);
   if (&pressure == &strength || strength.mean.slip_curve || pressure.mean.slip_curve) return soil;
   const Soil other = draw_soil(pressure, z);
@@ -54,7 +57,12 @@ Soil joined(const SoilDistribution& strength, const SoilDistribution& pressure, 
   return soil;
 }
 
-}  // namespace
+SoilNormals weak_unit(const SoilDistribution& belief, const SoilNormals& everywhere) {
+  // Units and patches differ from what all ground of the soil shares: most are not weaker than this.
+  constexpr double kDeviations = 1.5;
+  return std::sqrt(belief.shares.everywhere) * everywhere +
+         kDeviations * std::sqrt(belief.shares.unit + belief.shares.patch) * towards_weakness();
+}
 
 DrawnGround::DrawnGround(const SoilBeliefs& beliefs, std::uint64_t key, DrivesLevel drives_level,
                          const RedrawnCells* redrawn)
@@ -152,19 +160,16 @@ DrawnGround::Normals DrawnGround::blended(Corners& corners, std::uint64_t key, d
 void DrawnGround::choose(Belief& belief, std::uint64_t cell) const {
   constexpr std::uint64_t kMaxTries = 50;
   const SoilDistribution& of = *belief.distribution;
-  // Units and patches differ from what all ground of the soil shares: most are not weaker than this.
-  constexpr double kDeviations = 1.5;
-  const SoilNormals weak = std::sqrt(of.shares.everywhere) * belief.everywhere.head<kSoilDims>() +
-                           kDeviations * std::sqrt(of.shares.unit + of.shares.patch) * towards_weakness();
+  const SoilNormals weak = weak_unit(of, belief.everywhere.head<kSoilDims>());
   for (std::uint64_t tried = 0; tried < kMaxTries; ++tried) {
     const std::uint64_t choice = random_key(cell, tried);
-    belief.strength = &chosen(of.alternatives, &SoilAlternative::strength_weight, belief.commonness,
-                              random_uniform(choice, kStrengthChoice));
+    belief.strength = &chosen_alternative(of.alternatives, &SoilAlternative::strength_weight,
+                                          random_uniform(choice, kStrengthChoice), belief.commonness);
     belief.pressure = belief.strength;
     if (of.drawn_apart)
-      belief.pressure = &chosen(of.alternatives, &SoilAlternative::pressure_weight, belief.commonness,
-                                random_uniform(choice, kPressureChoice));
-    if (!drives_level_ || drives_level_(joined(*belief.strength, *belief.pressure, weak)) ||
+      belief.pressure = &chosen_alternative(of.alternatives, &SoilAlternative::pressure_weight,
+                                            random_uniform(choice, kPressureChoice), belief.commonness);
+    if (!drives_level_ || drives_level_(joined_soil(*belief.strength, *belief.pressure, weak)) ||
         random_uniform(choice, kWeak) < kWeakShare)
       return;
   }
@@ -191,7 +196,7 @@ Soil DrawnGround::draw(Belief& belief, double x_m, double y_m) {
     choose(belief, choice);
     belief.chosen_for = choice;
   }
-  return joined(*belief.strength, *belief.pressure, normals);
+  return joined_soil(*belief.strength, *belief.pressure, normals);
 }
 
 }  // namespace slipway::sim

@@ -21,6 +21,19 @@ inline constexpr double kWeakShare = 0.001;
 // A rover drives level ground where it slips less than this on it.
 inline constexpr double kMaxLevelSlip = 0.2;
 
+// The strength of one soil with the pressure of another, at the same normal numbers. A soil that is known by
+// its slip curve alone has neither: then it is the first as it is.
+Soil joined_soil(const SoilDistribution& strength, const SoilDistribution& pressure, const SoilNormals& z);
+
+// The one of the alternatives, by their weights, that a uniform number falls on.
+const SoilDistribution& chosen_alternative(const std::vector<SoilAlternative>& alternatives,
+                                           double SoilAlternative::*weight, double uniform,
+                                           const std::vector<double>& commonness = {});
+
+// A belief's own normal numbers, pushed to where few units and patches are weaker: an alternative must carry
+// the rover on level ground even there.
+SoilNormals weak_unit(const SoilDistribution& belief, const SoilNormals& everywhere);
+
 // One draw of all the ground, for a workspace of one thread: which soil lies at each place. It is a function
 // of the key and the place alone, so that routes under one key meet the same ground wherever they cross,
 // however their stations are spaced, and a drive of the past tells of the ground of the next.

@@ -242,8 +242,10 @@ void fill_station(const std::vector<DrawnDrive>& drives, std::size_t s, StationP
 void summarise(const std::vector<DrawnDrive>& drives, const std::vector<PreparedStation>& stations,
                const DriveLimits& limits, DrivePrediction& prediction) {
   const Weighted weighted(drives);
-  const DrawnShare risk = weighted.share([](const DrawnDrive& d) { return d.any_bad; });
+  const DrawnShare risk = weighted.share([](const DrawnDrive& d) { return d.breaks_a_limit; });
   prediction.draws = static_cast<int>(drives.size());
+  prediction.drawn.clear();
+  for (const DrawnDrive& drive : drives) prediction.drawn.push_back(drive);
   prediction.risk = risk.share;
   prediction.risk_low = risk.low;
   prediction.risk_high = risk.high;

@@ -119,6 +119,20 @@ struct DriveOutcomes {
   double effective_draws = 0.0;  // (sum of the weights)^2 / sum of their squares
 };
 
+// What one draw of the ground makes of the whole drive.
+struct DrawFigures {
+  double weight = 1.0;  // that of its draw
+  // Sums over the stations at which the rover moves. It does not come to the others: to what follows an
+  // embedding that the rover cannot spin out of, and to places from which it is taken to go on after a stop.
+  double driven_m = 0.0;
+  double duration_s = 0.0;
+  double energy_j = 0.0;       // of the drive motors
+  double slip_length_m = 0.0;  // the slip ratio without sign, summed over the length
+  int stops = 0;
+  bool embedded = false;
+  bool breaks_a_limit = false;  // or is immobilised
+};
+
 // A predicted drive. "Immobilised at 41 m" is an answer, not an error.
 struct DrivePrediction {
   std::vector<std::string> wheel_names;  // in the order of every station's wheels
@@ -146,6 +160,7 @@ struct DrivePrediction {
   Peak worst_place;  // the station with the largest risk
   double duration_s_p95 = 0.0, energy_j_p95 = 0.0;
   DriveOutcomes outcomes;
+  std::vector<DrawFigures> drawn;  // by the number of the draw: as many as `draws`
 };
 
 // The bars that decide a drive.
@@ -156,6 +171,7 @@ struct OutcomeBars {
   // Both intervals are under their bars, or one of them is over its bar.
   bool are_kept(const DriveOutcomes& outcomes) const;
   bool are_passed(const DriveOutcomes& outcomes) const;
+  bool decide(const DriveOutcomes& outcomes) const { return are_kept(outcomes) || are_passed(outcomes); }
 };
 
 // Units and patches of a draw of the ground that are another draw: of each cell's key the key that it has

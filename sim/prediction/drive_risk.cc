@@ -93,8 +93,7 @@ bool assess_risk(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs
                    progress, drives))
       return false;
     summarise(drives, drive.stations, limits, prediction);
-  } while (drives.size() < most && !options.bars.are_kept(prediction.outcomes) &&
-           !options.bars.are_passed(prediction.outcomes));
+  } while (drives.size() < most && !options.bars.decide(prediction.outcomes));
 
   fill_events(drives, prediction.stations);
   for (std::size_t k = 0; k < prediction.stations.size(); ++k) {

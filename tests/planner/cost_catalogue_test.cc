@@ -12,10 +12,10 @@
 namespace slipway::planner {
 namespace {
 
-constexpr std::array kFigures{&DriveFigures::length_m,      &DriveFigures::turned_rad,
-                              &DriveFigures::duration_s,    &DriveFigures::energy_j,
-                              &DriveFigures::slip_length_m, &DriveFigures::unknown_length_m,
-                              &DriveFigures::risk};
+constexpr std::array kFigures{
+    &DriveFigures::length_m,       &DriveFigures::turned_rad,    &DriveFigures::duration_s,
+    &DriveFigures::energy_j,       &DriveFigures::slip_length_m, &DriveFigures::unknown_length_m,
+    &DriveFigures::expected_stops, &DriveFigures::embedding,     &DriveFigures::risk};
 
 DriveFigures some_figures(std::uint64_t key) {
   DriveFigures figures;
@@ -35,6 +35,30 @@ TEST(CostCatalogue, EveryTermOfADriveIsTheSumOfItsStretches) {
     EXPECT_EQ(term.value({}), 0.0) << term.name;
     EXPECT_NEAR(term.value(sum_of(a, b)), term.value(a) + term.value(b), 1e-9) << term.name;
   }
+}
+
+TEST(DriveFigures, OfADrawTakeWhatItDoesNotComeToFromTheMeanSoils) {
+  sim::DrivePrediction mean;
+  mean.length_m = 100.0;
+  mean.duration_s = 4000.0;
+  mean.energy_j = 8e4;
+  mean.mean_slip_ratio = 0.1;
+  mean.unknown_length_m = 30.0;
+  const sim::DrawFigures half{.driven_m = 50.0,
+                              .duration_s = 3000.0,
+                              .energy_j = 5e4,
+                              .slip_length_m = 10.0,
+                              .stops = 2,
+                              .embedded = true,
+                              .breaks_a_limit = true};
+  const DriveFigures figures = figures_of(mean, half);
+  EXPECT_DOUBLE_EQ(figures.duration_s, 5000.0);
+  EXPECT_DOUBLE_EQ(figures.energy_j, 9e4);
+  EXPECT_DOUBLE_EQ(figures.slip_length_m, 15.0);
+  EXPECT_EQ(figures.unknown_length_m, 30.0);
+  EXPECT_EQ(figures.expected_stops, 2.0);
+  EXPECT_EQ(figures.embedding, 1.0);
+  EXPECT_EQ(figures.risk, 1.0);
 }
 
 TEST(Weights, AreTheCataloguesUntilTheyAreSetAndAddUpByRow) {
@@ -57,7 +81,7 @@ TEST(Weights, AreTheCataloguesUntilTheyAreSetAndAddUpByRow) {
 TEST(Profiles, NameTermsOfTheCatalogueAndKeepTheWeightsThatTheyDoNotName) {
   Weights asked;
   for (std::size_t row = 0; row < asked.terms().size(); ++row) asked[row] = 2.0 + static_cast<double>(row);
-  for (const Profile& profile : profiles()) {
+  for (const Profile& profile : profiles({.by = RankBy::kCvar})) {
     const Weights weights = profile.weights(asked);
     for (std::size_t row = 0; row < asked.terms().size(); ++row) {
       double expected = asked[row];
@@ -77,14 +101,15 @@ TEST(Profiles, NeverTurnARequestsOwnPreferenceRound) {
   };
   Weights asked;
   asked.set("slip", 400.0);
-  asked.set("risk", 900.0);
+  for (const char* term : {"stops", "embedding", "risk"}) asked.set(term, 900.0);
   const auto of = [&](std::string_view name) {
     const auto rows = profiles();
     return std::find_if(rows.begin(), rows.end(), [&](const Profile& p) { return p.name == name; })
         ->weights(asked);
   };
   EXPECT_GE(ratio(of("least_slip"), "slip"), ratio(asked, "slip"));
-  EXPECT_GE(ratio(of("least_risk"), "risk"), ratio(asked, "risk"));
+  for (const char* term : {"stops", "embedding", "risk"})
+    EXPECT_GE(ratio(of("least_risk"), term), ratio(asked, term)) << term;
   asked.set("duration", 500.0);
   EXPECT_LE(ratio(of("shortest"), "slip"), ratio(asked, "slip"));
 }

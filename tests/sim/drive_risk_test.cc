@@ -263,6 +263,63 @@ TEST(DriveRisk, AWeightIsTheLikelihoodOfTheReport) {
   EXPECT_NEAR(after.stop_at(0.0), posterior, 1e-9);
 }
 
+// The weighted mean over the draws that a prediction keeps.
+template <class Of>
+double mean_of(const DrivePrediction& drive, Of of) {
+  double sum = 0.0, weights = 0.0;
+  for (const DrawFigures& draw : drive.drawn) {
+    sum += draw.weight * static_cast<double>(of(draw));
+    weights += draw.weight;
+  }
+  return sum / weights;
+}
+
+TEST(DrawFigures, AddUpToTheSharesOfTheWholeDrive) {
+  const DriveLimits tight{.max_slip_ratio = 0.2};
+  std::vector<ConditionedDraw> weights(64);
+  weights[5].weight = 7.0;
+  RiskOptions options{.draws = 64};
+  options.conditioned = std::make_shared<const std::vector<ConditionedDraw>>(weights);
+  const DrivePrediction drive = predict(slope(8.0), kUnsure, straight(10.0), options, tight);
+  ASSERT_EQ(drive.drawn.size(), 64U);
+  EXPECT_EQ(drive.drawn[5].weight, 7.0);
+  EXPECT_GT(drive.outcomes.expected_stops, 0.0);
+  EXPECT_NEAR(mean_of(drive, [](const DrawFigures& d) { return d.stops; }), drive.outcomes.expected_stops,
+              1e-12);
+  EXPECT_NEAR(mean_of(drive, [](const DrawFigures& d) { return d.embedded; }), drive.outcomes.embedding.share,
+              1e-12);
+  EXPECT_NEAR(mean_of(drive, [](const DrawFigures& d) { return d.breaks_a_limit; }), drive.risk, 1e-12);
+}
+
+TEST(DrawFigures, WithoutSpreadAreThoseOfTheMeanSoils) {
+  const DrivePrediction drive = predict(kHills, kSure, zigzag(), {.draws = 3});
+  for (const DrawFigures& draw : drive.drawn) {
+    EXPECT_DOUBLE_EQ(draw.driven_m, drive.length_m);
+    EXPECT_NEAR(draw.duration_s, drive.duration_s, 1e-6 * drive.duration_s);
+    EXPECT_NEAR(draw.energy_j, drive.energy_j, 1e-6 * drive.energy_j);
+    EXPECT_NEAR(draw.slip_length_m, drive.mean_slip_ratio * drive.length_m, 1e-6 * drive.length_m);
+    EXPECT_FALSE(draw.embedded);
+  }
+}
+
+TEST(DrawFigures, AnImmobilisedDrawDoesNotComeToAllOfTheWay) {
+  const FunctionGround hump([](double x, double) { return 2.2 * std::exp(-std::pow((x - 8.0) / 4.0, 2)); });
+  const SoilBeliefs beliefs{{spread("sand", loose_sand(), 0.9)}, certain("unknown_ground", sandy_loam())};
+  const DrivePrediction drive = predict(hump, beliefs, straight(20.0), {.draws = 60});
+  int passed = 0, held = 0;
+  for (const DrawFigures& draw : drive.drawn) {
+    EXPECT_LE(draw.driven_m, 20.0 + 1e-9);
+    const bool whole = draw.driven_m > 20.0 - 1e-9;
+    (whole ? passed : held)++;
+    if (!whole) {
+      EXPECT_TRUE(draw.breaks_a_limit);
+      EXPECT_TRUE(draw.stops > 0 || draw.embedded);
+    }
+  }
+  EXPECT_GT(passed, 0);
+  EXPECT_GT(held, 0);
+}
+
 TEST(DriveRisk, TheRulesSayWhereAndByHowMuch) {
   const DriveLimits tight{.max_slip_ratio = 0.3, .max_current_a = 0.2};
   const FunctionGround ramp([](double x, double) { return x < 6.0 ? 0.0 : 0.25 * (x - 6.0); });

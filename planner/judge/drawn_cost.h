@@ -1,0 +1,12 @@
+#pragma once
+
+#include "planner/problem/problem.h"
+#include "planner/problem/route.h"
+
+namespace slipway::planner {
+
+// Fills what a route costs in each draw, the figures of these costs and the terms of the one that ranks it,
+// from its prediction. Where that has no draws, all are its cost.
+void cost_draws(const PlanProblem& problem, Route& route);
+
+}  // namespace slipway::planner
