@@ -1,5 +1,7 @@
 #include "sim/prediction/drawn_drive.h"
 
+#include <cmath>
+
 #include "sim/prediction/drawn_ground.h"
 
 namespace slipway::sim {
@@ -73,6 +75,8 @@ void DrawnDriver::add(const PreparedStation& station, const StationState& state,
   const Effort effort = effort_of(station, state);
   drawn.duration_s += effort.duration_s;
   drawn.energy_j += effort.energy_j;
+  drawn.length_m += station.drive_m;
+  drawn.slip_length_m += std::abs(state.slip_ratio) * station.drive_m;
 }
 
 }  // namespace slipway::sim

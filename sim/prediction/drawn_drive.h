@@ -18,7 +18,10 @@ struct DrawnDrive {
   bool any_bad = false;
   bool immobilised = false;
   double duration_s = 0.0, energy_j = 0.0;
+  double length_m = 0.0, slip_length_m = 0.0;  // driven, and the slip's magnitude summed over it
   DriveOutcome outcome;
+
+  double mean_slip_ratio() const { return length_m > 0.0 ? slip_length_m / length_m : 0.0; }
 };
 
 // Drives a prepared drive on draws of the ground. What it is given must outlive it; used from several

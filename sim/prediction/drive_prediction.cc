@@ -101,6 +101,7 @@ class Predictor {
   DrivePrediction finish() {
     DrivePrediction& p = prediction_;
     p.mean_slip_ratio = p.length_m > 0.0 ? slip_length_ / p.length_m : p.max_slip_ratio.value;
+    p.mean_slip_ratio_p05 = p.mean_slip_ratio_p50 = p.mean_slip_ratio_p95 = p.mean_slip_ratio;
     p.broken_limits = broken_limits(
         {p.max_slip_ratio, p.max_tilt_rad, p.max_current_a, p.max_sinkage_m, least_clearance_}, limits_);
     return std::move(prediction_);

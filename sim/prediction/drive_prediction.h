@@ -133,6 +133,9 @@ struct DrivePrediction {
   double risk_immobilised = 0.0;
   Peak worst_place;  // the station with the largest risk
   double duration_s_p95 = 0.0, energy_j_p95 = 0.0;
+  // Of each draw's slip over its length, to where it is immobilised; of draws that come no way at all there
+  // is none. Equal to mean_slip_ratio where no draw has one.
+  double mean_slip_ratio_p05 = 0.0, mean_slip_ratio_p50 = 0.0, mean_slip_ratio_p95 = 0.0;
   DriveOutcomes outcomes;
 };
 
@@ -162,6 +165,11 @@ struct RiskOptions {
 struct DrawnOutcome {
   bool stopped = false;
   bool embedded = false;
+  int stops = 0;
+  bool immobilised = false;      // somewhere; what follows is of the way to there
+  double length_m = 0.0;         // driven
+  double duration_s = 0.0;       // under way, without the sols that stops cost
+  double mean_slip_ratio = 0.0;  // over length_m; 0 where that is 0
 };
 Result<std::vector<DrawnOutcome>> drawn_outcomes(const RoverModel& rover, double gravity_m_s2,
                                                  const Ground& ground, const SoilBeliefs& beliefs,

@@ -96,7 +96,13 @@ std::vector<DrawnOutcome> outcomes_of_draws(const RoverModel& rover, double grav
   std::vector<DrawnOutcome> outcomes(static_cast<std::size_t>(options.draws));
   parallel_for(outcomes.size(), threads, [&](std::size_t draw) {
     const DrawnDrive drawn = driver.run(random_key(options.seed, draw), false, progress);
-    outcomes[draw] = {drawn.outcome.stops > 0, drawn.outcome.embedded};
+    outcomes[draw] = {.stopped = drawn.outcome.stops > 0,
+                      .embedded = drawn.outcome.embedded,
+                      .stops = drawn.outcome.stops,
+                      .immobilised = drawn.immobilised,
+                      .length_m = drawn.length_m,
+                      .duration_s = drawn.duration_s,
+                      .mean_slip_ratio = drawn.mean_slip_ratio()};
   });
   if (progress.cancelled()) outcomes.clear();
   return outcomes;
