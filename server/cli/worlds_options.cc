@@ -23,13 +23,13 @@ void add_worlds_command(CLI::App& app, std::function<int()>& run) {
       command->add_option("--seed", study.seed, "of the first world; the others have the numbers after it")
           ->capture_default_str()
           ->check(CLI::Range(std::uint64_t{0}, kMaxExactWhole / 2));
-  CLI::Option* const worlds = add_number("--worlds", study.worlds, 1, 100'000, "number of worlds");
+  CLI::Option* const count = add_number("--worlds", study.worlds, 1, 100'000, "number of worlds");
   CLI::Option* const drives =
       add_number("--drives", study.drives, 1, 10'000, "executions of each route on each kind of truth");
   add_number("--threads", options->threads, 0, 1024, "worlds at once; 0: as many as the machine has");
   CLI::Option* const scores = command->add_option(
       "--scores", options->scores, "count the scores of this file, which --csv wrote, in place of a study");
-  for (CLI::Option* const other : {seed, worlds, drives}) scores->excludes(other);
+  for (CLI::Option* const other : {seed, count, drives}) scores->excludes(other);
   command->add_option("--csv", options->csv, "file for the scores, one line a route and kind of truth");
   command->add_option("--plots", options->plots, "folder for the reliability diagrams");
   CLI::Option* const check = command->add_option("--check", options->check,

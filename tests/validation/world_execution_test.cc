@@ -41,7 +41,8 @@ std::vector<sim::DrawnOutcome> executed(const SeededWorld& world,
 
 // Without spread and without hidden ground there is but one ground, that of the prediction.
 TEST(WorldExecution, WithoutSpreadItIsThePrediction) {
-  const SeededWorld world = make_world({.seed = 2, .hidden_share = 0.0});
+  const SeededWorld world =
+      make_world({.seed = 2, .rms_height_m = 0.1, .max_craters = 0, .hidden_share = 0.0});
   planner::PlanProblem problem = problem_of(world, rover());
   for (int k = 0; k < kWorldSoils; ++k)
     problem.beliefs.known[static_cast<std::size_t>(k)] = soil_of_class(k, 0.0);
@@ -82,7 +83,8 @@ TEST(WorldExecution, HiddenPatchesAreOtherSoilsFromDriveToDriveAndVisibleOnesAre
   const auto distinct = [&](double hidden) {
     std::set<double> slips;
     for (const sim::DrawnOutcome& each :
-         executed(make_world({.seed = 2, .hidden_share = hidden}), soils, kWay, 5))
+         executed(make_world({.seed = 2, .rms_height_m = 0.1, .max_craters = 0, .hidden_share = hidden}),
+                  soils, kWay, 5))
       slips.insert(each.mean_slip_ratio);
     return slips.size();
   };

@@ -50,7 +50,7 @@ bool has_room(const Crater& crater, const std::vector<Crater>& others) {
 }
 
 std::vector<Crater> make_craters(const WorldOptions& options) {
-  constexpr double kMinRadius_m = 5.0, kMaxRadius_m = 12.0;
+  constexpr double kMinRadius_m = 4.0, kMaxRadius_m = 9.0;
   constexpr std::uint64_t kTries = 400;
   const std::uint64_t key = random_key(options.seed, kCraters);
   std::vector<Crater> craters;

@@ -15,9 +15,11 @@ namespace slipway::validation {
 struct WorldOptions {
   std::uint64_t seed = 1;
   double cell_m = 1.0;  // of the elevation; the ground itself is the same for every cell size
-  double hurst = 0.8;   // exponent of the fractal ground: heights at a distance d differ by about d^hurst
-  double rms_height_m = 0.35;  // of the fractal ground
-  int max_craters = 8;         // fewer where there is no room without overlap
+  // Exponent of the fractal ground: from wavelengths of 3 to 96 m the variance of waves grows with their
+  // length to the power 2 hurst.
+  double hurst = 0.8;
+  double rms_height_m = 0.2;  // of the fractal ground
+  int max_craters = 5;        // fewer where there is no room without overlap
   double min_wall_rad = rad_from_deg(10.0), max_wall_rad = rad_from_deg(20.0);
   double patch_m = 16.0;            // mean width of a patch of one soil
   double hidden_share = 1.0 / 3.0;  // of the area, on which the map names no soil

@@ -21,10 +21,10 @@ sim::SoilDistribution soil_of_class(double soil_class, double spread) {
   soil.summary = "A class of soil of a seeded world";
   soil.source = "made up, within the range of the soils in data/soils";
   sim::Soil& mean = soil.mean;
-  mean.pressure = {.k_c = 1400.0, .k_phi = 250e3 * std::pow(10.0, firm), .n = 1.0};
-  mean.cohesion_pa = 300.0 * std::pow(10.0, firm);
-  mean.friction_angle_rad = rad_from_deg(22.0 + 14.0 * firm);
-  mean.shear_modulus_x_m = mean.shear_modulus_y_m = 0.025 * std::pow(0.5, firm);
+  mean.pressure = {.k_c = 1400.0, .k_phi = 500e3 * std::pow(5.0, firm), .n = 1.0};
+  mean.cohesion_pa = 500.0 * std::pow(6.0, firm);
+  mean.friction_angle_rad = rad_from_deg(30.0 + 7.0 * firm);
+  mean.shear_modulus_x_m = mean.shear_modulus_y_m = 0.018 * std::pow(0.55, firm);
   mean.c1 = 0.285 + 0.145 * firm;
   mean.c2 = 0.32;
   soil.std = {.stiffness_ratio = 0.25 * spread,
@@ -41,10 +41,10 @@ sim::SoilBeliefs world_beliefs() {
   // The mean is that of the middle, with the spread of the ten about it.
   beliefs.unknown = soil_of_class(0.5 * (kWorldSoils - 1));
   beliefs.unknown.name = "unknown_ground";
-  beliefs.unknown.std = {.stiffness_ratio = 0.9,
+  beliefs.unknown.std = {.stiffness_ratio = 0.6,
                          .n = 0.05,
-                         .cohesion_pa = 0.9 * beliefs.unknown.mean.cohesion_pa,
-                         .friction_angle_rad = rad_from_deg(4.5),
+                         .cohesion_pa = 0.6 * beliefs.unknown.mean.cohesion_pa,
+                         .friction_angle_rad = rad_from_deg(3.0),
                          .shear_modulus_ratio = 0.3};
   for (const sim::SoilDistribution& soil : beliefs.known)
     beliefs.unknown.alternatives.push_back(
