@@ -6,6 +6,7 @@
 #include "validation/laboratory/comparisons.h"
 #include "validation/mars/comparisons.h"
 #include "validation/simulators/comparisons.h"
+#include "validation/worlds/comparisons.h"
 
 namespace slipway::validation {
 
@@ -38,6 +39,9 @@ std::span<const Comparison> comparison_catalogue() {
                  "University of Malaga", &cuadriga_drives},
       Comparison{"cuadriga_campaign", "that rover's logs predicted by a model re-tuned on the others",
                  "University of Malaga", &cuadriga_campaign},
+      Comparison{"cuadriga_intervals",
+                 "whether 90 % intervals of its slip and charge hold on days not fitted, and when corrected",
+                 "University of Malaga", &cuadriga_intervals},
       Comparison{"independent_simulator", "the quasi-static rover against another rover simulator",
                  "practice campaign p01", &independent_simulator},
       Comparison{"curiosity_attitude", "a rover set down on the map against Curiosity's measured attitude",
@@ -51,6 +55,12 @@ std::span<const Comparison> comparison_catalogue() {
                  "ROAMS paper", &roams_table_1},
       Comparison{"sealed_campaigns", "how often the diagnosis of the gap is right, by fidelity and method",
                  "two other simulators", &sealed_campaigns},
+      Comparison{"worlds", "planners in worlds whose truth is known: embeddings, stops, length",
+                 "this project's seeded worlds", &worlds},
+      Comparison{"worlds_slip", "whether the 90 % interval of a route's mean slip holds it there",
+                 "this project's seeded worlds", &worlds_slip},
+      Comparison{"worlds_reliability", "predicted and executed shares of stops and embeddings there",
+                 "this project's seeded worlds", &worlds_reliability},
       Comparison{"artemis_cases", "Opportunity across a ripple, Spirit with a dead wheel, in motion",
                  "ARTEMIS paper", &artemis_cases},
       Comparison{"rungs", "the table level against the quasi-static level", "this project", &table_level},

@@ -107,7 +107,8 @@ void write_drive_figures(Writer& w, const sim::DrivePrediction& p) {
   const bool known = !p.by_slip_curve;
   write_figure(w.key("energy_wh"), p.energy_j / kJoulesPerWattHour, known);
   write_figure(w.key("energy_p95_wh"), p.energy_j_p95 / kJoulesPerWattHour, known);
-  w.significant("mean_slip", p.mean_slip_ratio);
+  w.significant("mean_slip", p.mean_slip_ratio).significant("mean_slip_p05", p.mean_slip_ratio_p05);
+  w.significant("mean_slip_p50", p.mean_slip_ratio_p50).significant("mean_slip_p95", p.mean_slip_ratio_p95);
   write_peak(w, "max_slip", p.max_slip_ratio);
   write_peak(w, "max_tilt_deg", p.max_tilt_rad, deg_from_rad(1.0));
   for (const auto& [name, peak] :

@@ -22,6 +22,7 @@
 #include "server/cli/tune_command.h"
 #include "server/cli/validate_command.h"
 #include "server/cli/wheel_command.h"
+#include "server/cli/worlds_command.h"
 
 namespace slipway::server {
 namespace {
@@ -63,6 +64,7 @@ int run_command_line(int argc, char** argv) {
   add_gap_benchmark_command(app, run);
   add_terrain_command(app, run);
   add_validate_command(app, run);
+  add_worlds_command(app, run);
   add_catalogue_commands(app, run);
   app.footer(app.get_subcommand("plan")->get_footer());
   refuse_what_is_not_finite(app);

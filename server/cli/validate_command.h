@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/result.h"
+
 namespace CLI {
 class App;
 }
@@ -23,6 +25,11 @@ struct ValidateOptions {
 // The exit status: 0 every stated band holds (and the page is as it should be), 1 one does not, 2 unknown
 // comparisons.
 int validate(const ValidateOptions& options);
+
+// Puts what was printed into the page `write`, where there is one; otherwise whether the page `check`, where
+// there is one, holds it, and says on standard error by which command it would.
+Result<bool> settle_page(const std::string& write, const std::string& check, const std::string& printed,
+                         const std::string& command);
 
 // Adds the subcommand; `run` then runs it where it is given.
 void add_validate_command(CLI::App& app, std::function<int()>& run);

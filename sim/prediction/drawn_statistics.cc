@@ -259,6 +259,13 @@ void summarise(const std::vector<DrawnDrive>& drives, const std::vector<Prepared
   }
   prediction.duration_s_p95 = duration.empty() ? prediction.duration_s : weighted_quantile(duration, 0.95);
   prediction.energy_j_p95 = energy.empty() ? prediction.energy_j : weighted_quantile(energy, 0.95);
+  std::vector<std::pair<double, double>> slip;
+  for (const DrawnDrive& drive : drives)
+    if (drive.driven_m > 0.0 && drive.weight > 0.0) slip.emplace_back(drive.mean_slip_ratio(), drive.weight);
+  if (slip.empty()) return;
+  prediction.mean_slip_ratio_p05 = weighted_quantile(slip, 0.05);
+  prediction.mean_slip_ratio_p50 = weighted_quantile(slip, 0.50);
+  prediction.mean_slip_ratio_p95 = weighted_quantile(slip, 0.95);
 }
 
 }  // namespace slipway::sim

@@ -105,6 +105,7 @@ class Predictor {
   DrivePrediction finish() {
     DrivePrediction& p = prediction_;
     p.mean_slip_ratio = p.length_m > 0.0 ? slip_length_ / p.length_m : p.max_slip_ratio.value;
+    p.mean_slip_ratio_p05 = p.mean_slip_ratio_p50 = p.mean_slip_ratio_p95 = p.mean_slip_ratio;
     p.broken_limits = broken_limits(
         {p.max_slip_ratio, p.max_tilt_rad, p.max_current_a, p.max_sinkage_m, least_clearance_}, limits_);
     return std::move(prediction_);
@@ -199,6 +200,20 @@ std::optional<Error> ground_faults(const RoverModel& rover, const Ground& ground
   return Error{ErrorCode::kNoData, "the path leaves the ground that is known", std::move(faults)};
 }
 
+// For the draws alone, without a prediction on the mean soils.
+Result<PreparedDrive> prepare(const RoverModel& rover, double gravity_m_s2, const Ground& ground,
+                              const SoilBeliefs& beliefs, std::span<const PathStation> path,
+                              const DriveLimits& limits, const Progress& progress,
+                              const DriveConditions& conditions) {
+  if (path.empty()) throw std::invalid_argument("a path needs a station");
+  if (auto error = ground_faults(rover, ground, path, progress)) return fail(std::move(*error));
+  Predictor predictor(rover, gravity_m_s2, ground, beliefs, limits, conditions);
+  predictor.draws_alone();
+  for (const PathStation& station : path)
+    if (!predictor.add(station)) break;
+  return predictor.prepared();
+}
+
 }  // namespace
 
 bool OutcomeBars::are_kept(const DriveOutcomes& outcomes) const {
@@ -232,18 +247,26 @@ Result<DrivePrediction> predict_drive(const RoverModel& rover, double gravity_m_
   return prediction;
 }
 
+Result<std::vector<DrawnOutcome>> drawn_outcomes(const RoverModel& rover, double gravity_m_s2,
+                                                 const Ground& ground, const SoilBeliefs& beliefs,
+                                                 std::span<const PathStation> path, const DriveLimits& limits,
+                                                 const RiskOptions& risk, std::size_t threads,
+                                                 Progress& progress, const DriveConditions& conditions) {
+  const auto drive = prepare(rover, gravity_m_s2, ground, beliefs, path, limits, progress, conditions);
+  if (!drive) return fail(drive.error());
+  auto outcomes = outcomes_of_draws(rover, gravity_m_s2, beliefs, *drive, limits, risk, threads, progress);
+  if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the prediction was dismissed");
+  return outcomes;
+}
+
 Result<void> condition_draws(const RoverModel& rover, double gravity_m_s2, const Ground& ground,
                              const SoilBeliefs& beliefs, std::span<const PathStation> path,
                              const DriveLimits& limits, const RiskOptions& risk,
                              const PastDriveReport& report, std::size_t threads, Progress& progress,
                              std::vector<ConditionedDraw>& draws, const DriveConditions& conditions) {
-  if (path.empty()) throw std::invalid_argument("condition_draws: a path needs a station");
-  if (auto error = ground_faults(rover, ground, path, progress)) return fail(std::move(*error));
-  Predictor predictor(rover, gravity_m_s2, ground, beliefs, limits, conditions);
-  predictor.draws_alone();
-  for (const PathStation& station : path)
-    if (!predictor.add(station)) break;
-  const DrawnDriver driver(rover, gravity_m_s2, beliefs, predictor.prepared(), limits, risk.checks);
+  const auto drive = prepare(rover, gravity_m_s2, ground, beliefs, path, limits, progress, conditions);
+  if (!drive) return fail(drive.error());
+  const DrawnDriver driver(rover, gravity_m_s2, beliefs, *drive, limits, risk.checks);
   parallel_for(draws.size(), threads, [&](std::size_t d) {
     condition(driver, random_key(risk.seed, d), report, progress, draws[d]);
   });

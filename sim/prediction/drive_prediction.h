@@ -131,6 +131,8 @@ struct DrawFigures {
   int stops = 0;
   bool embedded = false;
   bool breaks_a_limit = false;  // or is immobilised
+
+  double mean_slip_ratio() const { return driven_m > 0.0 ? slip_length_m / driven_m : 0.0; }
 };
 
 // A predicted drive. "Immobilised at 41 m" is an answer, not an error.
@@ -159,6 +161,9 @@ struct DrivePrediction {
   double risk_immobilised = 0.0;
   Peak worst_place;  // the station with the largest risk
   double duration_s_p95 = 0.0, energy_j_p95 = 0.0;
+  // Of each draw's slip over the way that it drives (see DrawFigures); of draws that come no way at all there
+  // is none. Equal to mean_slip_ratio where no draw has one.
+  double mean_slip_ratio_p05 = 0.0, mean_slip_ratio_p50 = 0.0, mean_slip_ratio_p95 = 0.0;
   DriveOutcomes outcomes;
   std::vector<DrawFigures> drawn;  // by the number of the draw: as many as `draws`
 };
@@ -199,6 +204,17 @@ struct RiskOptions {
   // the same, as they were drawn.
   std::shared_ptr<const std::vector<ConditionedDraw>> conditioned = {};
 };
+
+// Balances the rover on the draws of the ground along the path, without a prediction on the mean soils: how
+// each of risk.draws draws goes. Errors as predict_drive().
+struct DrawnOutcome : DrawFigures {
+  bool immobilised = false;  // somewhere
+};
+Result<std::vector<DrawnOutcome>> drawn_outcomes(const RoverModel& rover, double gravity_m_s2,
+                                                 const Ground& ground, const SoilBeliefs& beliefs,
+                                                 std::span<const PathStation> path, const DriveLimits& limits,
+                                                 const RiskOptions& risk, std::size_t threads,
+                                                 Progress& progress, const DriveConditions& conditions = {});
 
 // How a drive of the past went, for the draws that are conditioned on it.
 struct PastDriveReport {

@@ -82,6 +82,20 @@ Effort effort_of(const PreparedStation& station, const StationState& state) {
   return effort;
 }
 
+std::vector<DrawnOutcome> outcomes_of_draws(const RoverModel& rover, double gravity_m_s2,
+                                            const SoilBeliefs& beliefs, const PreparedDrive& drive,
+                                            const DriveLimits& limits, const RiskOptions& options,
+                                            std::size_t threads, Progress& progress) {
+  const DrawnDriver driver(rover, gravity_m_s2, beliefs, drive, limits, options.checks);
+  std::vector<DrawnOutcome> outcomes(static_cast<std::size_t>(options.draws));
+  parallel_for(outcomes.size(), threads, [&](std::size_t draw) {
+    const DrawnDrive drawn = driver.run(random_key(options.seed, draw), {}, progress);
+    outcomes[draw] = {drawn, drawn.immobilised};
+  });
+  if (progress.cancelled()) outcomes.clear();
+  return outcomes;
+}
+
 bool assess_risk(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs& beliefs,
                  const PreparedDrive& drive, const DriveLimits& limits, const RiskOptions& options,
                  std::size_t threads, Progress& progress, DrivePrediction& prediction) {

@@ -45,6 +45,12 @@ struct PreparedDrive {
 // The ends of the drive's stretches: of equal length, 10 m or more, at most 100. There must be a station.
 std::vector<double> stretch_ends_m(const std::vector<PreparedStation>& stations);
 
+// Each draw of the ground along the drive; empty where it was cancelled.
+std::vector<DrawnOutcome> outcomes_of_draws(const RoverModel& rover, double gravity_m_s2,
+                                            const SoilBeliefs& beliefs, const PreparedDrive& drive,
+                                            const DriveLimits& limits, const RiskOptions& options,
+                                            std::size_t threads, Progress& progress);
+
 // Fills the prediction's fields over soil draws (risk, outcomes, intervals, quantiles per station). Returns
 // false where it was cancelled.
 bool assess_risk(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs& beliefs,

@@ -29,8 +29,8 @@ FOLDERS = {
     "gap": ["estimate", "diagnosis/model", "diagnosis/search", "diagnosis/result", {"diagnosis/held_out", "diagnosis/describe"}, "diagnosis"],
     "api": ["json", "chart", "files", "files/campaign", "files/drive_table", "files/sealed_set", "requests", "jobs",
             "documents", "report", "."],
-    "validation": ["report", "laboratory", {"cuadriga", "mars", "simulators"}, "."],
-    "server": ["http", "cli/terminal", "cli/inquiry", "cli", "."],
+    "validation": ["report", "laboratory", {"cuadriga", "mars", "simulators", "worlds"}, "."],
+    "server": ["http", "cli/terminal", "cli/inquiry", "cli", "cli/study", "."],
 }
 MOST_SOURCES = 40  # .cc files in one folder
 

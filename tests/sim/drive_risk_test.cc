@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/angle.h"
@@ -72,6 +73,9 @@ TEST(DriveRisk, WithoutSpreadEveryPercentileIsTheMeanAlsoWhereTheRoverTurns) {
   const DrivePrediction drive = predict(kHills, kSure, zigzag(), {.draws = 5});
   EXPECT_NEAR(drive.duration_s_p95, drive.duration_s, 1e-6 * drive.duration_s);
   EXPECT_NEAR(drive.energy_j_p95, drive.energy_j, 1e-6 * drive.energy_j);
+  EXPECT_NEAR(drive.mean_slip_ratio_p05, drive.mean_slip_ratio, 1e-6);
+  EXPECT_NEAR(drive.mean_slip_ratio_p50, drive.mean_slip_ratio, 1e-6);
+  EXPECT_NEAR(drive.mean_slip_ratio_p95, drive.mean_slip_ratio, 1e-6);
   for (const StationPrediction& s : drive.stations) {
     EXPECT_NEAR(s.slip_ratio_p05, s.state.slip_ratio, 1e-5);
     EXPECT_NEAR(s.slip_ratio_p50, s.state.slip_ratio, 1e-5);
@@ -79,6 +83,29 @@ TEST(DriveRisk, WithoutSpreadEveryPercentileIsTheMeanAlsoWhereTheRoverTurns) {
     EXPECT_NEAR(s.current_a_p95, largest_current_a(s.state), 1e-5);
     EXPECT_NEAR(s.sinkage_m_p95, deepest_sinkage_m(s.state), 1e-5);
   }
+}
+
+// The quantiles of the mean slip are those of the draws' own means, which drawn_outcomes() gives one by one.
+TEST(DriveRisk, QuantilesOfTheMeanSlipAreOfTheDrawsMeans) {
+  const RiskOptions risk{.draws = 21, .seed = 5};
+  const DrivePrediction drive = predict(kHills, kUnsure, zigzag(), risk);
+  NoProgress progress;
+  const auto drawn = drawn_outcomes(kRover, 3.71, kHills, kUnsure, zigzag(), {}, risk, 0, progress);
+  ASSERT_TRUE(drawn);
+  std::vector<double> slips;
+  for (const DrawnOutcome& each : *drawn) {
+    if (each.immobilised) {
+      EXPECT_LT(each.driven_m, drive.length_m);
+    } else {
+      EXPECT_NEAR(each.driven_m, drive.length_m, 1e-9);
+    }
+    slips.push_back(each.mean_slip_ratio());
+  }
+  std::sort(slips.begin(), slips.end());
+  EXPECT_NEAR(drive.mean_slip_ratio_p05, slips[1], 1e-12);
+  EXPECT_NEAR(drive.mean_slip_ratio_p50, slips[10], 1e-12);
+  EXPECT_NEAR(drive.mean_slip_ratio_p95, slips[19], 1e-12);
+  EXPECT_LT(drive.mean_slip_ratio_p05, drive.mean_slip_ratio_p95);
 }
 
 TEST(DriveRisk, AP95OfAZigzagIsNotBelowItsMedian) {

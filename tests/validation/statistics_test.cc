@@ -48,5 +48,41 @@ TEST(MedianIntervalByGroup, GroupsThatDifferMakeItWiderThanTheirSamplesWould) {
   EXPECT_EQ(median_interval_by_group(drives, 0.95, 1000, 7).low, by_drive.low);
 }
 
+// Of two values a resample has the mean 0, 1/2 or 1 with probabilities 1/4, 1/2 and 1/4.
+TEST(MeanInterval, OfTwoValuesIsAsByHand) {
+  const std::vector<double> differences{0.0, 1.0};
+  const Interval wide = mean_interval(differences, 0.9, 4000, 1),
+                 narrow = mean_interval(differences, 0.4, 4000, 1);
+  EXPECT_EQ(wide.low, 0.0);
+  EXPECT_EQ(wide.high, 1.0);
+  EXPECT_EQ(narrow.low, 0.5);
+  EXPECT_EQ(narrow.high, 0.5);
+}
+
+// Pairs that differ by the same leave nothing open, however far the pairs are from each other.
+TEST(MeanInterval, OfPairsThatDifferByTheSameHasNoWidth) {
+  const std::vector<double> first{3.0, 100.0, -7.0}, other{5.0, 102.0, -5.0};
+  std::vector<double> differences;
+  for (std::size_t k = 0; k < first.size(); ++k) differences.push_back(other[k] - first[k]);
+  const Interval interval = mean_interval(differences, 0.9, 100, 1);
+  EXPECT_EQ(interval.low, 2.0);
+  EXPECT_EQ(interval.high, 2.0);
+}
+
+TEST(BootstrapInterval, OfARatioOfSumsResamplesPairs) {
+  const std::vector<double> first{1.0, 2.0, 10.0}, other{2.0, 4.0, 20.0};
+  const auto ratio = [&](std::span<const std::size_t> drawn) {
+    double a = 0.0, b = 0.0;
+    for (const std::size_t k : drawn) {
+      a += first[k];
+      b += other[k];
+    }
+    return b / a;
+  };
+  const Interval interval = bootstrap_interval(first.size(), ratio, 0.9, 200, 2);
+  EXPECT_EQ(interval.low, 2.0);
+  EXPECT_EQ(interval.high, 2.0);
+}
+
 }  // namespace
 }  // namespace slipway::validation

@@ -45,4 +45,28 @@ Interval median_interval_by_group(const std::vector<std::vector<double>>& groups
   return {quantile(medians, 0.5 - 0.5 * level), quantile(medians, 0.5 + 0.5 * level)};
 }
 
+Interval bootstrap_interval(std::size_t count,
+                            const std::function<double(std::span<const std::size_t>)>& statistic,
+                            double level, int draws, std::uint64_t seed) {
+  std::vector<double> values;
+  std::vector<std::size_t> drawn(count);
+  for (int draw = 0; draw < draws; ++draw) {
+    const std::uint64_t key = random_key(seed, static_cast<std::uint64_t>(draw));
+    for (std::size_t k = 0; k < count; ++k)
+      drawn[k] =
+          std::min(static_cast<std::size_t>(random_uniform(key, k) * static_cast<double>(count)), count - 1);
+    values.push_back(statistic(drawn));
+  }
+  return {quantile(values, 0.5 - 0.5 * level), quantile(values, 0.5 + 0.5 * level)};
+}
+
+Interval mean_interval(std::span<const double> values, double level, int draws, std::uint64_t seed) {
+  const auto mean = [&](std::span<const std::size_t> drawn) {
+    double sum = 0.0;
+    for (const std::size_t k : drawn) sum += values[k];
+    return sum / static_cast<double>(drawn.size());
+  };
+  return bootstrap_interval(values.size(), mean, level, draws, seed);
+}
+
 }  // namespace slipway::validation

@@ -31,4 +31,13 @@ struct Interval {
 Interval median_interval_by_group(const std::vector<std::vector<double>>& groups, double level, int draws,
                                   std::uint64_t seed);
 
+// Percentile bootstrap of a statistic of `count` things, resampled with replacement: it is given the numbers
+// of those that were drawn. Things that were compared in pairs are one thing each. count is at least 1.
+Interval bootstrap_interval(std::size_t count,
+                            const std::function<double(std::span<const std::size_t>)>& statistic,
+                            double level, int draws, std::uint64_t seed);
+
+// The same of the mean of values, which are for example differences between pairs.
+Interval mean_interval(std::span<const double> values, double level, int draws, std::uint64_t seed);
+
 }  // namespace slipway::validation

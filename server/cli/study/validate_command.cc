@@ -53,20 +53,19 @@ Result<void> write_plot(const std::filesystem::path& folder, const Outcome& outc
   return api::write_whole_file(folder / fmt::format("{}.svg", outcome.comparison->name), outcome.report.plot);
 }
 
-// Whether the page is, or now is, what was printed.
-Result<bool> settle_page(const ValidateOptions& options, const std::string& printed) {
-  if (!options.write.empty()) return validation::write_page(options.write, printed).map([] { return true; });
-  if (options.check.empty()) return true;
-  const auto holds = validation::page_holds(options.check, printed);
+}  // namespace
+
+Result<bool> settle_page(const std::string& write, const std::string& check, const std::string& printed,
+                         const std::string& command) {
+  if (!write.empty()) return validation::write_page(write, printed).map([] { return true; });
+  if (check.empty()) return true;
+  const auto holds = validation::page_holds(check, printed);
   if (holds && !*holds)
     std::cerr << fmt::format(
-        "{0} does not hold what was just measured; look at the difference, then: slipway validate --write "
-        "{0}\n",
-        options.check);
+        "{0} does not hold what was just measured; look at the difference, then: {1} --write {0}\n", check,
+        command);
   return holds;
 }
-
-}  // namespace
 
 int validate(const ValidateOptions& options) {
   if (options.list) return print_list();
@@ -94,7 +93,7 @@ int validate(const ValidateOptions& options) {
     if (const auto written = write_plot(options.plots, outcomes.back()); !written)
       return refuse(written.error());
   }
-  const auto page = settle_page(options, printed);
+  const auto page = settle_page(options.write, options.check, printed, "slipway validate");
   deliver({}, options.json ? validation::document_of(outcomes) + "\n" : printed);
   if (!page) return refuse(page.error());
   return holds && *page ? 0 : 1;
