@@ -83,6 +83,10 @@ void RequestCheck::place(const planner::Waypoint& place, const std::string& poin
 }
 
 void RequestCheck::drive(const DriveAssumptions& drive) {
+  if (!drive.unknown_soil.empty() && !already_faulty("/unknown_soil") &&
+      !catalogue_.soils.contains(drive.unknown_soil))
+    add(ErrorCode::kInvalidRequest, "/unknown_soil",
+        unknown_name("soil", drive.unknown_soil, names_of(catalogue_.soils)));
   if (site_ != nullptr && !already_faulty("/legend") &&
       site_->description().legend(drive.legend) == nullptr) {
     std::vector<std::string> known;

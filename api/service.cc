@@ -204,8 +204,11 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
   RegionalSoils soils = soils_in_regions(ground->soil_map, sim::effect_regions(effects));
   problem.soil_map = soils.map;
   for (const RegionalSoil& soil : soils.soils)
-    problem.beliefs.known.push_back(believed(*catalogue, soil, legend.confidence, effects));
-  problem.beliefs.unknown = believed(*catalogue, {std::string(kUnknownGround), {}}, 1.0, effects);
+    problem.beliefs.known.push_back(
+        believed(*catalogue, soil, drive.confidence.value_or(legend.confidence), effects));
+  problem.beliefs.unknown = believed(
+      *catalogue, {drive.unknown_soil.empty() ? std::string(kUnknownGround) : drive.unknown_soil, {}}, 1.0,
+      effects);
   problem.conditions = drive.conditions;
   problem.rover = std::make_shared<const sim::RoverModel>(std::move(driven));
   problem.gravity_m_s2 = site.description().gravity_m_s2;

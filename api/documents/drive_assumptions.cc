@@ -20,6 +20,8 @@ void read_drive_assumptions(ObjectReader& reader, DriveAssumptions& drive) {
   if (reader.whole("draws", kOptional, 1, RequestLimits::kDraws, draws)) drive.draws = draws;
   int sol = 0;
   if (reader.whole("as_of_sol", kOptional, 0, RequestLimits::kMaxSol, sol)) drive.as_of_sol = sol;
+  reader.text("unknown_soil", kOptional, {.most = 64, .is_name = true}, drive.unknown_soil);
+  reader.number("confidence", kOptional, {"1", 0.0, 1.0, true}, drive.confidence);
   reader.text("legend", kOptional, {.most = 64, .is_name = true}, drive.legend);
   reader.whole("seed", kOptional, std::uint64_t{0}, kMaxExactWhole, drive.seed);
   reader.number("speed_m_s", kOptional, {"m/s", RequestLimits::kMinSpeed_m_s, 10.0}, drive.speed_m_s);
@@ -37,6 +39,8 @@ void write_drive_assumptions(Writer& w, const DriveAssumptions& drive) {
   }
   if (drive.draws) w.whole("draws", *drive.draws);
   if (drive.as_of_sol) w.whole("as_of_sol", *drive.as_of_sol);
+  if (!drive.unknown_soil.empty()) w.text("unknown_soil", drive.unknown_soil);
+  if (drive.confidence) w.exact("confidence", *drive.confidence);
   if (!drive.legend.empty()) w.text("legend", drive.legend);
   w.whole("seed", static_cast<std::int64_t>(drive.seed));
   if (drive.speed_m_s) w.exact("speed_m_s", *drive.speed_m_s);

@@ -34,6 +34,8 @@ struct DriveAssumptions : DriveRules {
   std::uint64_t seed = 1;
   // Drives of the terrain's table before this sol count as evidence of the ground; none do where it is empty.
   std::optional<int> as_of_sol;
+  std::string unknown_soil;  // of the catalogue; what is believed of all unmapped ground where it is empty
+  std::optional<double> confidence;     // in the legend; the legend's own where it is empty
   std::string legend;                   // of the terrain's legends; the first where it is empty
   std::optional<double> speed_m_s;      // the rover's cruise speed where it is empty
   std::optional<RequestedModel> model;  // where it is empty, rover and soils are the catalogue's

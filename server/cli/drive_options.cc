@@ -84,6 +84,9 @@ void add_drive(CLI::App& command, DriveOptions& drive) {
   command.add_option("--max-expected-stops", drive.max_expected_stops, "bar of a GO: stops to be expected");
   command.add_option("--as-of-sol", drive.as_of_sol,
                      "drives of the terrain's table before this sol count as evidence of the ground");
+  command.add_option("--unknown-soil", drive.unknown_soil, "what unmapped ground is believed to be");
+  command.add_option("--confidence", drive.confidence,
+                     "that a mapped class is the soil that the legend gives");
   command.add_option("--legend", drive.legend, "which of the terrain's legends says what its classes are");
   command.add_option("--draws", drive.draws,
                      "draws of the ground for the risk; as many as the verdict needs where it is not given");

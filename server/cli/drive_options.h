@@ -24,7 +24,8 @@ struct DriveOptions {
   std::optional<double> slip_check_every_m, embedding_slip, embedding_turns, embedding_sinkage_share;
   std::optional<double> max_embedding, max_expected_stops;
   std::optional<int> as_of_sol;
-  std::string legend;
+  std::string legend, unknown_soil;
+  std::optional<double> confidence;
   std::optional<int> draws;
   std::optional<long long> seed;
   std::optional<double> motor_temp_c;

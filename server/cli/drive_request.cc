@@ -84,6 +84,8 @@ Result<void> write_drive(Writer& w, const DriveOptions& drive) {
     for (const std::string& failed : drive.failed) write_setting(w, failed);
     w.end_object();
   }
+  if (!drive.unknown_soil.empty()) w.text("unknown_soil", drive.unknown_soil);
+  if (drive.confidence) w.exact("confidence", *drive.confidence);
   if (!drive.legend.empty()) w.text("legend", drive.legend);
   if (drive.as_of_sol) w.whole("as_of_sol", *drive.as_of_sol);
   if (drive.draws) w.whole("draws", *drive.draws);

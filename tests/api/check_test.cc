@@ -67,6 +67,30 @@ TEST(Check, ACommandSequenceDrivesAsThePathThatItMakes) {
             commands->find("outcomes")->find("stop")->find("value")->number);
 }
 
+TEST(Check, ARequestMaySayWhatItBelievesOfTheGround) {
+  EXPECT_EQ(faults_of(std::string(kPath) + R"(,"legend":"none","unknown_soil":"cheese","confidence":0)"),
+            (std::vector<std::string>{"/confidence", "/unknown_soil", "/legend"}));
+  const auto usual = checked(kPath);
+  const auto sand = checked(std::string(kPath) + R"(,"unknown_soil":"jlu_mars_1_loose","legend":"default")");
+  ASSERT_TRUE(usual && sand);
+  EXPECT_EQ(usual->find("provenance")->find("legend")->text, "default");
+  EXPECT_EQ(usual->find("provenance")->find("unknown_soil")->text, "unknown_ground");
+  EXPECT_EQ(sand->find("provenance")->find("unknown_soil")->text, "jlu_mars_1_loose");
+}
+
+// A legend that is half believed has another soil in some units: a drive's slip then spreads more.
+TEST(Check, LessConfidenceInTheLegendWidensTheSlip) {
+  const auto spread = [](const char* confidence) {
+    const auto answer =
+        checked(std::string(R"("path":[{"x_m":20,"y_m":30},{"x_m":24,"y_m":30}],"draws":60,"confidence":)") +
+                confidence);
+    EXPECT_TRUE(answer);
+    const auto* slip = answer->find("outcomes")->find("rules")->elements[0].find("value");
+    return slip->find("p95")->number - slip->find("p05")->number;
+  };
+  EXPECT_GT(spread("0.3"), 1.2 * spread("1"));
+}
+
 TEST(Check, AnArcEndsWhereItsRadiusLeads) {
   const auto answer = checked(
       R"("start":{"x_m":20,"y_m":30,"yaw_deg":0},"commands":[{"arc_m":4.712389,"radius_m":3}],"draws":1)");
