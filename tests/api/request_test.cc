@@ -42,12 +42,24 @@ TEST(PlanRequest, EveryKeyIsReadInItsUnit) {
   EXPECT_EQ(request->keep_out.at(0).at(2), Eigen::Vector2d(28.0, 35.0));
   EXPECT_EQ(request->keep_in.at(0).size(), 4U);
   EXPECT_EQ(request->weights.of("duration"), 2.0);
+  EXPECT_EQ(request->ranking.by, planner::RankBy::kExpected);
+  EXPECT_EQ(request->ranking.tail, 0.25);
   EXPECT_EQ(request->planners, std::vector<std::string>{"rrt_star"});
   EXPECT_EQ(request->drive.effects.at(0).parameters.at("n1"), 0.3);
   EXPECT_EQ(request->drive.seed, 7U);
   EXPECT_EQ(request->verify, 1);
   EXPECT_EQ(request->drive.failed_wheels.at("rm"), sim::WheelFailure::kFree);
   EXPECT_EQ(request->drive.speed_m_s, 0.03);
+}
+
+TEST(PlanRequest, RanksByTheMeanUnlessTheCvarIsAskedFor) {
+  const auto plain = small_world().read_plan(plan_with(""));
+  ASSERT_TRUE(plain) << plain.error().detail;
+  EXPECT_EQ(plain->ranking.by, planner::RankBy::kExpected);
+  const auto tail = small_world().read_plan(plan_with(R"(,"ranking":{"by":"cvar"})"));
+  ASSERT_TRUE(tail) << tail.error().detail;
+  EXPECT_EQ(tail->ranking.by, planner::RankBy::kCvar);
+  EXPECT_EQ(tail->ranking.tail, 0.1);
 }
 
 TEST(PlanRequest, WhatIsEchoedReadsBackAsTheSameRequest) {
