@@ -229,17 +229,23 @@ class Planning {
                               problem_.limits, risk, problem_.threads, progress, problem_.conditions);
   }
 
-  // The first draws rank the candidates. Those that they do not tell from the best one get as many as a route
-  // that is given out may have: the first are the same ground again, for all of them.
+  // The first draws rank the candidates. The best one, and the next of those that they do not tell from it,
+  // as many as routes are asked for, get as many as a route that is given out may have: the first are the
+  // same ground again, for all of them.
   Result<void> draw_contenders(const Proposal& proposal, const std::vector<std::size_t>& candidate_of,
                                std::vector<Route>& routes) {
     if (problem_.deciding_draws <= problem_.risk.draws || routes.size() < 2) return {};
-    const auto best = std::min_element(routes.begin(), routes.end(), ranks_before);
-    std::vector<std::size_t> contenders;
-    for (std::size_t i = 0; i < routes.size(); ++i)
-      if (&routes[i] != &*best && !clearly_apart(*best, routes[i], problem_.ranking)) contenders.push_back(i);
-    if (contenders.empty()) return {};
-    contenders.push_back(static_cast<std::size_t>(best - routes.begin()));
+    std::vector<std::size_t> contenders(routes.size());
+    std::iota(contenders.begin(), contenders.end(), std::size_t{0});
+    std::stable_sort(contenders.begin(), contenders.end(),
+                     [&](std::size_t a, std::size_t b) { return ranks_before(routes[a], routes[b]); });
+    const Route& best = routes[contenders.front()];
+    contenders.erase(
+        std::remove_if(contenders.begin() + 1, contenders.end(),
+                       [&](std::size_t i) { return clearly_apart(best, routes[i], problem_.ranking); }),
+        contenders.end());
+    if (contenders.size() < 2) return {};
+    contenders.resize(std::min(contenders.size(), 1 + static_cast<std::size_t>(problem_.routes)));
     for (const std::size_t i : contenders)
       if (auto drawn = draw_more(proposal.candidates[candidate_of[i]], routes[i]); !drawn) return drawn;
     return {};

@@ -107,7 +107,13 @@ bool OutcomeFollower::add(const PreparedStation& station, std::size_t index, con
   note(Rule::kClearance, station.stance.belly_clearance_m,
        station.stance.belly_clearance_m < limits_.min_clearance_m);
   watch(Rule::kTilt, station.stance.attitude.tilt_rad(), limits_.max_tilt_rad);
-  if (!state.moving()) return spin_on_the_spot() || embed();
+  if (!state.moving()) {
+    // Ground that holds the rover over a stretch stops it once for each way between two checks.
+    const bool held_before = held_from_m_ && distance_m_ - *held_from_m_ < checks_.slip_check_every_m;
+    if (held_before) return true;
+    held_from_m_ = distance_m_;
+    return spin_on_the_spot() || embed();
+  }
   if (!watch_wheels(state)) return embed();
   if (station.command.turn_in_place || station.drive_m <= 0.0) return true;
   const double rolled = station.drive_m / (1.0 - std::clamp(state.slip_ratio, 0.0, 0.999));

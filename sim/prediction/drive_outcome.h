@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "sim/prediction/drive_limits.h"
@@ -27,7 +28,8 @@ struct OutcomeEvent {
 // How one drive went, with the slip checked on the way.
 struct DriveOutcome {
   // Times that the rover halts itself by the check of its slip, its tilt or its current and waits for the
-  // next sol. The drive is taken to go on from there, so that a bad stretch costs as many as it is long.
+  // next sol. The drive is taken to go on from there, so that a bad stretch costs as many as it is long; one
+  // that holds the rover altogether, one for each way between two checks.
   int stops = 0;
   bool embedded = false;
   std::vector<OutcomeEvent> events;  // the stops, and the embedding last
@@ -73,6 +75,7 @@ class OutcomeFollower {
   std::size_t index_ = 0;
   double distance_m_ = 0.0;
   double rolled_m_ = 0.0, come_m_ = 0.0, spun_m_ = 0.0;  // since the last check
+  std::optional<double> held_from_m_;                    // where the ground last held it
   bool clearance_seen_ = false;
   std::array<bool, kRules> over_{};  // at the last station
 };

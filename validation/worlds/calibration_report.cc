@@ -123,6 +123,16 @@ std::string score_words(const Event& event, const char* truth, const Calibration
       event.name, truth, 100.0 * c.share, c.brier, c.constant_brier, c.expected_error);
 }
 
+// The bins of which more came about than the highest probability in them.
+std::string bin_misses(const Event& event, const Calibration& c) {
+  std::string misses;
+  for (const ReliabilityBin& bin : c.bins)
+    if (bin.came_about > bin.highest)
+      misses += fmt::format("{}{:.1f} % where {:g} to {:g} % was said", misses.empty() ? "" : ", ",
+                            100.0 * bin.came_about, 100.0 * bin.lowest, 100.0 * bin.highest);
+  return fmt::format("Misses on the world's patches, {}: {}.", event.name, misses.empty() ? "none" : misses);
+}
+
 }  // namespace
 
 Report slip_report(const std::vector<WorldScore>& scores) {
@@ -141,9 +151,9 @@ Report slip_report(const std::vector<WorldScore>& scores) {
       "drive that is immobilised over the way to there. Drives of one world share its ground and its routes "
       "share places, so that worlds are resampled and not drives.");
   report.notes.emplace_back(
-      "On the world's patches the classes of hidden ground change every 16 m, which averages out along a "
-      "route, while the belief takes one soil for a unit of some 100 m: its intervals are too wide there, or "
-      "too narrow where an alternative is left out on which the rover slips on the level.");
+      "On the world's patches hidden ground changes every 16 m, while the belief takes one soil for a unit "
+      "of "
+      "some 100 m, so that a drive meets more of the ten classes than its draws do.");
   report.bands = {{"coverage on draws of the belief, %", covered["belief"], 80.0, 97.0}};
   return report;
 }
@@ -169,6 +179,7 @@ Report reliability_report(const std::vector<WorldScore>& scores) {
     add_bins(event, on_belief, on_worlds, report);
     report.notes.push_back(score_words(event, "draws of the belief", on_belief));
     report.notes.push_back(score_words(event, "the world's patches", on_worlds));
+    report.notes.push_back(bin_misses(event, on_worlds));
     report.bands.push_back(
         {fmt::format("expected calibration error of {} on draws of the belief", event.name),
          on_belief.expected_error, 0.0, 0.1});

@@ -49,7 +49,7 @@ sim::SoilBeliefs world_beliefs() {
   for (const sim::SoilDistribution& soil : beliefs.known)
     beliefs.unknown.alternatives.push_back(
         {soil.name, std::make_shared<const sim::SoilDistribution>(soil), 1.0, 1.0});
-  beliefs.unknown.alternatives_by_unit = true;
+  beliefs.unknown.alternatives_by = sim::AlternativesBy::kUnit;
   return beliefs;
 }
 
