@@ -73,7 +73,7 @@ constexpr int kFirstDraws = 32, kMaxDecidingDraws = 1000;
 // Of each route of a plan: 272 without an embedding are the fewest that make a GO.
 constexpr int kMaxPlanDraws = 272;
 // Draws that are conditioned on drives of the past, of which some weigh little.
-constexpr int kWeighedDraws = 300;
+constexpr int kWeighedDraws = 200;
 
 }  // namespace
 

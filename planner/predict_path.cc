@@ -142,9 +142,9 @@ Result<void> condition_draws(const PlanProblem& problem, const std::vector<Waypo
                              const sim::PastDriveReport& report, Progress& progress,
                              std::vector<sim::ConditionedDraw>& draws) {
   const TerrainGround ground(problem.terrain, problem.soil_map);
-  // Slip checks average over metres: every second station does.
+  // Slip checks average over metres: every third station does.
   const auto stations =
-      route_stations(join(corners, {}).motions, 2.0 * sim::max_station_spacing_m(*problem.rover));
+      route_stations(join(corners, {}).motions, 3.0 * sim::max_station_spacing_m(*problem.rover));
   return sim::condition_draws(*problem.rover, problem.gravity_m_s2, ground, problem.beliefs, stations,
                               problem.limits, problem.risk, report, problem.threads, progress, draws,
                               problem.conditions);
