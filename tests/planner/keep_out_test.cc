@@ -131,7 +131,7 @@ TEST(KeepIn, AMotionLeavesWhereAnyOfItsPosesDoesAndNowhereElse) {
   larger->body_width_m += 0.002;
   int left = 0, within = 0;
   for (std::uint64_t n = 0; n < 150; ++n) {
-    const double size = 8.0 + 10.0 * random_uniform(n, 14), x = -0.25 * size, y = -0.25 * size;
+    const double size = 5.0 + 7.0 * random_uniform(n, 14), x = -0.2 * size, y = -0.2 * size;
     const std::vector<Polygon> polygons{{{x, y},
                                          {x + 1.4 * size, y + 0.1 * size},
                                          {x + 1.2 * size, y + size},
