@@ -100,7 +100,7 @@ class Planning {
     progress_.report("reading the ground", 0.0);
     if (std::optional<Error> error = faults_of(problem_, planners_, keep_out_, ground_))
       return fail(std::move(*error));
-    const GroundTables tables = build_ground_tables(problem_);
+    const GroundTables tables = build_ground_tables(problem_, progress_);
     if (progress_.cancelled()) return cancelled();
     open_window(tables);
     if (progress_.cancelled()) return cancelled();

@@ -38,7 +38,8 @@ std::vector<bool> soils_in_use(const PlanProblem& problem) {
 // them.
 std::vector<std::vector<LikelyTable>> likely_tables(const PlanProblem& problem,
                                                     const std::vector<const sim::SoilDistribution*>& beliefs,
-                                                    const std::vector<bool>& used, double limit_rad) {
+                                                    const std::vector<bool>& used, double limit_rad,
+                                                    const Progress& progress) {
   struct Job {
     std::size_t kind = 0;
     sim::LikelySoil soil;
@@ -54,10 +55,12 @@ std::vector<std::vector<LikelyTable>> likely_tables(const PlanProblem& problem,
   }
   std::vector<std::optional<sim::SlipTable>> tables(jobs.size());
   parallel_for(jobs.size(), problem.threads, [&](std::size_t i) {
+    if (progress.cancelled()) return;
     tables[i].emplace(*problem.rover, problem.gravity_m_s2, jobs[i].soil.soil, limit_rad,
                       limit_rad / kLikelyNodesToLimit, problem.conditions);
   });
   std::vector<std::vector<LikelyTable>> likely(beliefs.size());
+  if (progress.cancelled()) return likely;
   for (std::size_t i = 0; i < jobs.size(); ++i)
     likely[jobs[i].kind].push_back({std::move(*tables[i]), jobs[i].soil.weight});
   return likely;
@@ -69,7 +72,7 @@ sim::Soil weak_soil(const sim::SoilDistribution& belief) {
   return sim::draw_soil(belief, sim::towards_weakness());
 }
 
-GroundTables build_ground_tables(const PlanProblem& problem) {
+GroundTables build_ground_tables(const PlanProblem& problem, const Progress& progress) {
   const std::size_t kinds = problem.beliefs.known.size() + 1;
   const double limit = std::min(problem.limits.max_tilt_rad, problem.rover->max_tilt_rad);
   std::vector<std::optional<sim::SlipTable>> tables(2 * kinds);
@@ -79,14 +82,15 @@ GroundTables build_ground_tables(const PlanProblem& problem) {
   std::vector<bool> used = soils_in_use(problem);
   used.push_back(true);  // unknown ground
   parallel_for(tables.size(), problem.threads, [&](std::size_t i) {
-    if (!used[i / 2]) return;
+    if (!used[i / 2] || progress.cancelled()) return;
     const sim::SoilDistribution& of = *beliefs[i / 2];
     const sim::Soil soil = i % 2 == 0 ? of.mean : weak_soil(of);
     tables[i].emplace(*problem.rover, problem.gravity_m_s2, soil, limit, limit / kNodesToLimit,
                       problem.conditions);
   });
-  std::vector<std::vector<LikelyTable>> likely = likely_tables(problem, beliefs, used, limit);
+  std::vector<std::vector<LikelyTable>> likely = likely_tables(problem, beliefs, used, limit, progress);
   GroundTables all;
+  if (progress.cancelled()) return all;
   for (std::size_t kind = 0; kind < kinds; ++kind) {
     if (!used[kind]) {
       all.known.emplace_back();

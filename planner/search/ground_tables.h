@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/progress.h"
 #include "planner/problem/problem.h"
 #include "sim/quasi_static/slip_table.h"
 
@@ -24,14 +25,15 @@ struct GroundTable {
   std::vector<LikelyTable> likely = {};
 };
 
-// Tables per soil of the beliefs, and for unknown ground. Built once per problem, in parallel.
+// Tables per soil of the beliefs, and for unknown ground. Built once per problem, in parallel; of no use
+// where it was cancelled.
 struct GroundTables {
   std::vector<std::optional<GroundTable>>
       known;  // in the beliefs' order; nothing for a soil that lies nowhere
   std::optional<GroundTable> unknown;
 };
 
-GroundTables build_ground_tables(const PlanProblem& problem);
+GroundTables build_ground_tables(const PlanProblem& problem, const Progress& progress = NoProgress{});
 
 // One standard deviation from the mean towards weakness, in equal parts less stiffness, cohesion and friction
 // and more shear before the thrust is there.

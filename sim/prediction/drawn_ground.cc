@@ -169,7 +169,8 @@ void DrawnGround::choose(Belief& belief, std::uint64_t cell) const {
     if (of.drawn_apart)
       belief.pressure = &chosen_alternative(of.alternatives, &SoilAlternative::pressure_weight,
                                             random_uniform(choice, kPressureChoice), belief.commonness);
-    if (!drives_level_ || drives_level_(joined_soil(*belief.strength, *belief.pressure, weak)) ||
+    if (!of.drawn_apart || !drives_level_ ||
+        drives_level_(joined_soil(*belief.strength, *belief.pressure, weak)) ||
         random_uniform(choice, kWeak) < kWeakShare)
       return;
   }

@@ -44,9 +44,10 @@ SoilNormals weak_unit(const SoilDistribution& belief, const SoilNormals& everywh
 // variance of one everywhere. Of alternatives one is chosen for all ground of the soil, or one for each unit:
 // the cell of the nearest of the jittered centres of a lattice.
 //
-// Alternatives on which the rover would slip by 20 % or more on level ground are drawn again, but for a share
-// of kWeakShare: their numbers come from tests of a few wheels and trenches, while rovers have driven such
-// ground for some 100 km and were embedded with their slip checked every few metres once (Spirit at Troy).
+// Alternatives that are drawn apart and on which the rover would slip by 20 % or more on level ground are
+// drawn again, but for a share of kWeakShare: their numbers come from tests of a few wheels and trenches,
+// while rovers have driven such ground for some 100 km and were embedded with their slip checked every few
+// metres once (Spirit at Troy).
 class DrawnGround {
  public:
   // Whether the rover drives level ground of a soil; where it is empty, all soils are drawn as they come.

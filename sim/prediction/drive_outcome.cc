@@ -108,8 +108,10 @@ bool OutcomeFollower::add(const PreparedStation& station, std::size_t index, con
        station.stance.belly_clearance_m < limits_.min_clearance_m);
   watch(Rule::kTilt, station.stance.attitude.tilt_rad(), limits_.max_tilt_rad);
   if (!state.moving()) {
-    // Ground that holds the rover over a stretch stops it once for each way between two checks.
-    const bool held_before = held_from_m_ && distance_m_ - *held_from_m_ < checks_.slip_check_every_m;
+    // A rover that the ground holds comes some half a metre a sol: Opportunity took 38 sols over a few metres
+    // of ripple [Purgatory, sols 446 to 484].
+    constexpr double kWayOfASol_m = 0.5;
+    const bool held_before = held_from_m_ && distance_m_ - *held_from_m_ < kWayOfASol_m;
     if (held_before) return true;
     held_from_m_ = distance_m_;
     return spin_on_the_spot() || embed();

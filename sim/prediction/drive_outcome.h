@@ -29,7 +29,7 @@ struct OutcomeEvent {
 struct DriveOutcome {
   // Times that the rover halts itself by the check of its slip, its tilt or its current and waits for the
   // next sol. The drive is taken to go on from there, so that a bad stretch costs as many as it is long; one
-  // that holds the rover altogether, one for each way between two checks.
+  // that holds the rover altogether, one for each half a metre.
   int stops = 0;
   bool embedded = false;
   std::vector<OutcomeEvent> events;  // the stops, and the embedding last

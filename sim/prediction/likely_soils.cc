@@ -56,8 +56,8 @@ std::vector<LikelySoil> likely_soils(const SoilDistribution& belief, std::size_t
         belief.drawn_apart ? chosen_alternative(belief.alternatives, &SoilAlternative::pressure_weight,
                                                 columns[kPressure][row])
                            : strength;
-    const bool drawn_again =
-        drives_level && !drives_level(joined_soil(strength, pressure, weak_unit(belief, z)));
+    const bool drawn_again = belief.drawn_apart && drives_level &&
+                             !drives_level(joined_soil(strength, pressure, weak_unit(belief, z)));
     soils.push_back({joined_soil(strength, pressure, z), drawn_again ? kWeakShare : 1.0});
   }
   return soils;

@@ -26,7 +26,7 @@ const sim::SoilDistribution& soil(const char* name) {
 
 struct Drive {
   sim::RoverModel rover = *shipped().rovers.at("mer-class");
-  sim::SoilBeliefs beliefs{{soil("mer_b_sandy_loam")}, soil("unknown_ground")};
+  sim::SoilBeliefs beliefs{{soil("jlu_mars_2_medium")}, soil("unknown_ground")};
   sim::PathStation start;
   double length_m = 12.0;
 
