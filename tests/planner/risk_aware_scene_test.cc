@@ -58,7 +58,7 @@ PlanProblem scene(double slope_deg, const Patch& patch, const Ranking& ranking) 
   problem.ranking = ranking;
   // The detour takes some two minutes: crossing pays where these are dear enough against a stop.
   problem.weights.set("duration", 100.0);
-  problem.weights.set("stops", 0.25);
+  problem.weights.set("stops", 0.4);
   problem.weights.set("embedding", 10.0);
   return problem;
 }
