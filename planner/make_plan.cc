@@ -21,7 +21,6 @@
 #include "planner/search/propose.h"
 #include "planner/search/search_window.h"
 #include "planner/search/stage_progress.h"
-#include "sim/prediction/drive_risk.h"
 
 namespace slipway::planner {
 namespace {
@@ -29,10 +28,10 @@ namespace {
 constexpr std::size_t kMaxSimulated = 6;  // unless more routes are asked for
 // Where in the whole work the candidates' simulation begins and ends, and where it ends when routes are
 // verified after it.
-// Of routes that compete for the first place: three times the first draws halve the interval nearly.
-constexpr int kContenderDraws = 96;
 constexpr double kSimulating = 0.5, kSimulated = 0.98, kSimulatedUnverified = 0.7;
 constexpr double kLineSpacing_m = 0.25;
+// Of routes that compete for the first place: three times the first draws halve the interval nearly.
+constexpr int kContenderDraws = 96;
 // A candidate that shares more of its length than this with one that is simulated anyway adds nothing.
 constexpr double kSameRoute = 0.9;
 
@@ -85,6 +84,15 @@ std::vector<std::string> unpredicted_in_words(const std::vector<Error>& errors, 
     if (std::find(words.begin(), words.end(), line) == words.end()) words.push_back(std::move(line));
   }
   return words;
+}
+
+// The places of routes in the order in which they are ranked.
+std::vector<std::size_t> ranked_order(const std::vector<Route>& routes) {
+  std::vector<std::size_t> order(routes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return ranks_before(routes[a], routes[b]); });
+  return order;
 }
 
 class Planning {
@@ -237,10 +245,7 @@ class Planning {
   Result<void> draw_contenders(const Proposal& proposal, const std::vector<std::size_t>& candidate_of,
                                std::vector<Route>& routes) {
     if (problem_.deciding_draws <= problem_.risk.draws || routes.size() < 2) return {};
-    std::vector<std::size_t> contenders(routes.size());
-    std::iota(contenders.begin(), contenders.end(), std::size_t{0});
-    std::stable_sort(contenders.begin(), contenders.end(),
-                     [&](std::size_t a, std::size_t b) { return ranks_before(routes[a], routes[b]); });
+    std::vector<std::size_t> contenders = ranked_order(routes);
     const Route& best = routes[contenders.front()];
     contenders.erase(
         std::remove_if(contenders.begin() + 1, contenders.end(),
@@ -292,10 +297,7 @@ class Planning {
 
   void choose(std::vector<Route> routes, const std::vector<std::size_t>& candidate_of,
               const Differences& differences, Plan& plan) {
-    std::vector<std::size_t> order(routes.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return ranks_before(routes[a], routes[b]); });
+    const std::vector<std::size_t> order = ranked_order(routes);
     for (const std::size_t i : select_routes(differences, order, static_cast<std::size_t>(problem_.routes))) {
       plan.routes.push_back(std::move(routes[i]));
       chosen_.push_back(candidate_of[i]);
@@ -335,11 +337,7 @@ class Planning {
 
   // Orders the routes, and the candidates behind them with them.
   void rank(Plan& plan) {
-    std::vector<std::size_t> order(plan.routes.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      return ranks_before(plan.routes[a], plan.routes[b]);
-    });
+    const std::vector<std::size_t> order = ranked_order(plan.routes);
     std::vector<Route> routes;
     std::vector<std::size_t> chosen;
     for (const std::size_t i : order) {

@@ -37,12 +37,12 @@ void condition(const DrawnDriver& driver, std::uint64_t key, const PastDriveRepo
   int tries = 1;
   if (!is_all_known(draw, met)) {
     RedrawnCells kept = draw.redrawn;
+    const std::uint64_t coin = random_key(key, met.size() + draw.met.size());
     for (; tries < report.tries && !progress.cancelled(); ++tries) {
       RedrawnCells tried = redraw(draw, met, tries);
       const double here = likelihood(tried, nullptr);
       sum += here;
       // Each try is kept with its share of the likelihood so far, so that in the end each had its own.
-      const std::uint64_t coin = random_key(key, met.size() + draw.met.size());
       if (random_uniform(coin, static_cast<std::uint64_t>(tries)) < here / sum) kept = std::move(tried);
     }
     draw.redrawn = std::move(kept);
