@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "server/http/http_cross_origin.h"
+#include "server/http/http_head.h"
 
 namespace slipway::server {
 namespace {
@@ -44,19 +45,22 @@ HttpEngine::Outgoing Answers::to_request(HttpEngine& engine, HttpEngine::Exchang
     return engine.respond(std::move(exchange), [this](HttpRequest& request) { return routed(request); });
   } catch (...) {
     log(fmt::format("a request could not be answered: {}", text_of(std::current_exception())));
-    return {to_refused(engine, head.substr(0, head.find(' ')),
+    return {to_refused(engine, {head.substr(0, head.find(' ')), origin_in(head)},
                        {ErrorCode::kInternal, "the request could not be answered", {}}),
             {}};
   }
 }
 
-std::string Answers::to_refused(HttpEngine& engine, std::string_view method, const Error& error) const {
+std::string Answers::to_refused(HttpEngine& engine, const Refused& refused, const Error& error) const {
   try {
     HttpResponse response = problem(error, nullptr);
     // What stands in the way here is slow or many clients, and both pass soon.
     if (response.status == 503 && !response.header("Retry-After"))
       response.headers.emplace_back("Retry-After", "1");
-    HttpEngine::Outgoing out = engine.respond_without_request(method, std::move(response));
+    HttpRequest asked;
+    if (refused.origin) asked.headers.emplace_back("Origin", *refused.origin);
+    share_across_origins(options_.cross_origin, asked, response);
+    HttpEngine::Outgoing out = engine.respond_without_request(refused.method, std::move(response));
     return out.front + out.body;
   } catch (...) {
     log(fmt::format("a refusal could not be written: {}", text_of(std::current_exception())));

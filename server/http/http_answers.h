@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -18,8 +19,13 @@ class Answers {
 
   // Never throws.
   HttpEngine::Outgoing to_request(HttpEngine& engine, HttpEngine::Exchange exchange) const;
+  // What is known of a request that is refused before it is whole.
+  struct Refused {
+    std::string_view method;
+    std::optional<std::string> origin;  // of the web page that asks
+  };
   // In one piece: it is sent from a buffer of the loop.
-  std::string to_refused(HttpEngine& engine, std::string_view method, const Error& error) const;
+  std::string to_refused(HttpEngine& engine, const Refused& refused, const Error& error) const;
 
   void log(std::string_view line) const;
 

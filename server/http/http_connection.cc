@@ -101,7 +101,8 @@ void HttpLoop::dispatch(Connection& connection, HttpWorkers& workers) {
 
 void HttpLoop::refuse(Connection& connection, const Error& error) {
   counters_.requests_refused.fetch_add(1, std::memory_order_relaxed);
-  connection.unsent = answers_.to_refused(engine_, connection.gatherer.head().method, error);
+  connection.unsent =
+      answers_.to_refused(engine_, {connection.gatherer.head().method, connection.gatherer.origin()}, error);
   connection.gatherer.refuse(error);  // and what it holds is free for others
   connection.sent = 0;
   connection.phase = Phase::kSending;

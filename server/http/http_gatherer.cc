@@ -47,6 +47,7 @@ RequestGatherer::Gathered RequestGatherer::take() {
   Gathered out{std::move(head_), std::move(body_)};
   head_ = {};
   body_ = {};
+  origin_.reset();
   chunked_.reset();
   state_ = State::kIdle;
   if (input_.capacity() > kKeptCapacity) input_.shrink_to_fit();
@@ -83,7 +84,9 @@ void RequestGatherer::advance_head() {
   }
   if (!whole) return;
 
-  auto head = read_head(std::string_view(input_).substr(0, scan.size), *options_);
+  const std::string_view text = std::string_view(input_).substr(0, scan.size);
+  origin_ = origin_in(text);
+  auto head = read_head(text, *options_);
   if (!head) return refuse(std::move(head.error()));
   head_ = std::move(*head);
   input_.erase(0, scan.size);

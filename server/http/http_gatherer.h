@@ -41,6 +41,8 @@ class RequestGatherer {
   const Error& refusal() const { return refusal_; }
   // With kBody and kReady, and with what is refused after its head.
   const RequestHead& head() const { return head_; }
+  // Of the web page that asks, once the head is whole, even where it is refused.
+  const std::optional<std::string>& origin() const { return origin_; }
 
   struct Gathered {
     RequestHead head;
@@ -59,6 +61,7 @@ class RequestGatherer {
   std::string input_;        // not understood yet
   std::size_t scanned_ = 0;  // of input_, in search of the head's end
   RequestHead head_;
+  std::optional<std::string> origin_;
   std::string body_;
   std::optional<ChunkedBody> chunked_;
   bool continue_due_ = false;

@@ -213,6 +213,18 @@ Result<RequestHead> read_head(std::string_view head, const HttpOptions& options)
   return HeadReader(options).read(head);
 }
 
+std::optional<std::string> origin_in(std::string_view head) {
+  while (!head.empty()) {
+    const std::size_t end = std::min(head.find("\r\n"), head.size());
+    const std::string_view line = head.substr(0, end);
+    head.remove_prefix(std::min(end + 2, head.size()));
+    const std::size_t colon = line.find(':');
+    if (colon == std::string_view::npos || !equal_ignoring_case(line.substr(0, colon), "Origin")) continue;
+    return std::string(trimmed(line.substr(colon + 1)));
+  }
+  return std::nullopt;
+}
+
 HeadScan scan_head(std::string_view bytes, std::size_t resume_at) {
   // Something that is not HTTP at all, TLS above all, would otherwise sit there until its deadline.
   if (resume_at == 0 && !bytes.empty() && !is_token(bytes.substr(0, 1)))

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -25,6 +26,10 @@ struct RequestHead {
 // Checks a whole head (up to and including its empty line) against RFC 9112, refusing whatever two parsers
 // could read in two ways: such differences are how one request is smuggled inside another.
 Result<RequestHead> read_head(std::string_view head, const HttpOptions& options);
+
+// The value of the Origin header in a whole head, sound or not, so that a refusal can be read by the page
+// that asked; nothing where the head has none.
+std::optional<std::string> origin_in(std::string_view head);
 
 // What is known of a head of which only the beginning is there.
 struct HeadScan {

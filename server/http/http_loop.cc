@@ -34,7 +34,7 @@ HttpLoop::HttpLoop(const HttpOptions& options, const Answers& answers, LiveCount
       wake_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)),
       next_sweep_(Clock::now()) {
   full_ = answers_.to_refused(
-      engine_, "GET",
+      engine_, {"GET", std::nullopt},
       {ErrorCode::kTooManyJobs, "there are too many connections; try again when some have ended", {}});
   epoll_event event{};
   event.events = EPOLLIN;

@@ -1,114 +1,21 @@
 #!/usr/bin/env python3
-"""What the running program promises over HTTP and on the command line, checked from outside with nothing of its code.
+"""What the running program promises over HTTP, checked from outside with nothing of its code.
 
 usage: contract.py SLIPWAY SOURCE_DIR
 """
-import http.client
 import json
 import os
 import pathlib
-import re
-import signal
 import socket
-import subprocess
 import sys
 import tempfile
 import time
 import unittest
-import xml.dom.minidom
 
-SLIPWAY, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
-DATA = str(SOURCE / "data")
-STOP_967 = {"x_m": 8142579.733, "y_m": -276648.736}
-STOP_997 = {"x_m": 8142566.402, "y_m": -276711.667}
-JSON = {"Content-Type": "application/json"}
+from running_service import DATA, SLIPWAY, SOURCE, STOP_967, STOP_997, WithServer, answered, plan
 
 
-def plan(**changes):
-    return {"terrain": "gale", "rover": "msl-class", "start": STOP_967, "goal": STOP_997, **changes}
-
-
-VERDICTS = (0, 3, 4)  # GO, NO-GO or no route, UNKNOWN or caution: the question was answered
-
-
-def answered(command, **options):
-    """Runs a command that must answer, whatever the verdict."""
-    done = subprocess.run(command, capture_output=True, **options)
-    if done.returncode not in VERDICTS:
-        raise subprocess.CalledProcessError(done.returncode, command, done.stdout, done.stderr)
-    return done
-
-
-class Server:
-    """`slipway serve` on a free port, in a folder of its own."""
-
-    def __init__(self, folder, *options):
-        self.folder = folder
-        self.process = subprocess.Popen(
-            [SLIPWAY, "serve", "--data", DATA, "--port", "0", "--jobs", str(folder / "jobs.sqlite"), *options],
-            stdout=subprocess.PIPE, text=True)
-        line = self.process.stdout.readline()
-        match = re.search(r"http://127\.0\.0\.1:(\d+)", line)
-        if not match:
-            raise RuntimeError(f"the server said: {line!r}")
-        self.port = int(match.group(1))
-        self.url = f"http://127.0.0.1:{self.port}"
-
-    def ask(self, method, path, body=None, headers=None, timeout=120):
-        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=timeout)
-        if body is not None and not isinstance(body, (bytes, str)):
-            body = json.dumps(body)
-        connection.request(method, path, body, {**(JSON if body is not None else {}), **(headers or {})})
-        response = connection.getresponse()
-        data = response.read()
-        connection.close()
-        return response.status, dict(response.getheaders()), data
-
-    def end_of(self, location, seconds=120):
-        deadline = time.time() + seconds
-        while time.time() < deadline:
-            status, headers, body = self.ask("GET", location)
-            job = json.loads(body)
-            if job["state"] not in ("accepted", "running"):
-                return job
-            time.sleep(0.05)
-        raise TimeoutError(location)
-
-    def answer(self, path, request):
-        status, headers, body = self.ask("POST", path, request, {"Prefer": "respond-async"})
-        assert status == 201, (status, body[:2000])
-        job = self.end_of(headers["Location"])
-        assert job["state"] == "successful", job
-        return self.ask("GET", headers["Location"] + "/result")[2]
-
-    def rss_mb(self, key):
-        text = pathlib.Path(f"/proc/{self.process.pid}/status").read_text()
-        return int(re.search(key + r":\s+(\d+) kB", text).group(1)) / 1024
-
-    def kill(self):
-        self.process.send_signal(signal.SIGKILL)
-        self.process.wait()
-        self.process.stdout.close()
-
-    def stop(self):
-        self.process.terminate()
-        status = self.process.wait(timeout=20)
-        self.process.stdout.close()
-        return status
-
-
-class Contract(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.server = Server(pathlib.Path(cls.folder.name))
-
-    @classmethod
-    def tearDownClass(cls):
-        status = cls.server.stop()
-        cls.folder.cleanup()
-        assert status == 0, f"the server ended with {status}"
-
+class Contract(WithServer):
     def refused(self, path, body, status, *pointers, headers=None):
         got, head, data = self.server.ask("POST", path, body, headers)
         self.assertEqual(got, status, data[:500])
@@ -166,19 +73,6 @@ class Contract(unittest.TestCase):
                              self.server.ask("POST", "/v1/wheel-sweeps", request, {"Accept": "text/csv"})[2])
             self.assertTrue(pathlib.Path(plot).read_text().startswith("<svg"))
         self.refused("/v1/wheel-sweeps", {"rover": "mer-class", "soil": "sand", "slip": 2}, 422, "/soil", "/slip")
-
-    def test_a_current_is_mapped_and_inverted_on_the_command_line(self):
-        run = lambda *words: subprocess.run([SLIPWAY, "current", *words, "--data", DATA], capture_output=True, text=True)
-        for figure in ("9", "10", "11"):
-            done = run("map", "--figure", figure)
-            self.assertIn(done.returncode, VERDICTS, done.stderr)
-            self.assertTrue(done.stdout.startswith("panel,soil,model,"))
-            self.assertEqual(done.stdout, run("map", "--figure", figure).stdout)
-        done = run("invert", "--current", "0.7", "--gravity", "9.81", "--json")
-        self.assertEqual(json.loads(done.stdout)["verdict"], "go", done.stdout)
-        self.assertEqual(run("map", "--figure", "7").returncode, 2)
-        self.assertEqual(run("map", "--x", "k_s=1:2").returncode, 2)
-        self.assertIn("/soil", run("invert", "--current", "1", "--soil", "sand").stderr)
 
     def test_a_plan_has_three_routes_that_differ_and_the_safest_is_ranked_with_reasons(self):
         answer = json.loads(self.server.answer("/v1/plans", plan()))
@@ -375,127 +269,6 @@ class Contract(unittest.TestCase):
             self.assertIn(b" 413 ", s.recv(4096))
         self.assertLess(self.server.rss_mb("VmRSS") - before, 20)
         self.assertEqual(self.server.ask("GET", "/healthz")[0], 200)
-
-    def test_a_job_that_was_accepted_survives_a_kill(self):
-        with tempfile.TemporaryDirectory() as folder:
-            server = Server(pathlib.Path(folder))
-            jobs = []
-            for seed in range(3):
-                status, headers, _ = server.ask("POST", "/v1/plans", plan(seed=seed, routes=2, draws=8), {"Prefer": "respond-async"})
-                self.assertEqual(status, 201)
-                jobs.append(headers["Location"])
-            time.sleep(0.3)
-            server.kill()
-            again = Server(pathlib.Path(folder))
-            try:
-                for location in jobs:
-                    self.assertEqual(again.end_of(location)["state"], "successful")
-            finally:
-                again.stop()
-
-    def test_a_start_that_fails_takes_no_job_from_the_service_that_runs(self):
-        with tempfile.TemporaryDirectory() as folder:
-            server = Server(pathlib.Path(folder))
-            try:
-                _, headers, _ = server.ask("POST", "/v1/plans", plan(draws=400, routes=3), {"Prefer": "respond-async"})
-                location = headers["Location"]
-                deadline = time.time() + 60
-                while json.loads(server.ask("GET", location)[2])["state"] == "accepted" and time.time() < deadline:
-                    time.sleep(0.02)
-                command = [SLIPWAY, "serve", "--data", DATA, "--jobs", str(server.folder / "jobs.sqlite"), "--port", str(server.port)]
-                for _ in range(6):
-                    failed = subprocess.run(command, capture_output=True, text=True, timeout=60)
-                    self.assertEqual(failed.returncode, 1)
-                    self.assertIn("can't listen", failed.stderr)
-                # One that does start, on another port, leaves the running job to whom it belongs.
-                other = Server(server.folder)
-                job = json.loads(other.ask("GET", location)[2])
-                self.assertEqual((job["state"], job["attempt"]), ("running", 1))
-                self.assertEqual(other.stop(), 0)
-                job = server.end_of(location)
-                self.assertEqual((job["state"], job["attempt"]), ("successful", 1), job)
-            finally:
-                server.stop()
-            nowhere = pathlib.Path(folder) / "elsewhere" / "jobs.sqlite"
-            with socket.socket() as taken:
-                taken.bind(("127.0.0.1", 0))
-                taken.listen()
-                failed = subprocess.run([SLIPWAY, "serve", "--data", DATA, "--port", str(taken.getsockname()[1]), "--jobs", str(nowhere)], capture_output=True)
-            self.assertEqual(failed.returncode, 1)
-            self.assertFalse(nowhere.parent.exists(), "a failed start makes no store")
-
-    def test_web_pages_of_the_listed_origins_may_read(self):
-        page = {"Origin": "http://localhost:5173"}
-        self.assertNotIn("Access-Control-Allow-Origin", self.server.ask("GET", "/v1/rovers", headers=page)[1])
-        with tempfile.TemporaryDirectory() as folder:
-            server = Server(pathlib.Path(folder), "--allow-origin", page["Origin"], "--allow-origin", "https://ops.example.org")
-            try:
-                for origin, allowed in ((page["Origin"], True), ("https://ops.example.org", True), ("https://evil.example.org", False)):
-                    status, headers, _ = server.ask("GET", "/v1/rovers", headers={"Origin": origin})
-                    self.assertEqual((status, headers.get("Access-Control-Allow-Origin")), (200, origin if allowed else None))
-                    self.assertIn("Origin", headers["Vary"])
-                status, headers, _ = server.ask("OPTIONS", "/v1/plans", headers={
-                    **page, "Access-Control-Request-Method": "POST", "Access-Control-Request-Headers": "content-type,prefer"})
-                self.assertEqual((status, headers["Access-Control-Allow-Origin"]), (204, page["Origin"]))
-                self.assertIn("POST", headers["Access-Control-Allow-Methods"])
-                for name in ("Content-Type", "Prefer", "If-None-Match"):
-                    self.assertIn(name, headers["Access-Control-Allow-Headers"])
-                status, headers, _ = server.ask("POST", "/v1/plans", {}, page)
-                self.assertEqual((status, headers["Access-Control-Allow-Origin"]), (422, page["Origin"]))
-                status, headers, _ = server.ask("POST", "/v1/plans", plan(routes=1, draws=1), page)
-                self.assertIn("Location", headers["Access-Control-Expose-Headers"])
-            finally:
-                server.stop()
-        for origin in ("*", "ops.example.org", "https://ops.example.org/"):
-            refused = subprocess.run([SLIPWAY, "serve", "--data", DATA, "--port", "0", "--jobs", "", "--allow-origin", origin], capture_output=True, text=True, timeout=20)
-            self.assertEqual(refused.returncode, 2)
-            self.assertIn("/allow-origin", refused.stderr)
-
-    def test_the_command_line_asks_a_server_and_prints_a_table(self):
-        with tempfile.TemporaryDirectory() as folder:
-            picture = os.path.join(folder, "routes.svg")
-            at = lambda p: f"{p['x_m']},{p['y_m']}"
-            done = subprocess.run([SLIPWAY, "plan", "--url", self.server.url, "--start", at(STOP_967), "--goal", at(STOP_997), "--map", picture],
-                                  capture_output=True, text=True)
-            self.assertIn(done.returncode, VERDICTS, done.stderr)
-            self.assertRegex(done.stdout, r"(?m)^1 .* m ")
-            self.assertIn("Route 1: ", done.stdout)
-            text = pathlib.Path(picture).read_text()
-            self.assertTrue(text.startswith("<svg") and "data:image/png;base64," in text)
-        wrong = subprocess.run([SLIPWAY, "plan", "--data", DATA, "--start", "0,0", "--goal", at(STOP_997)], capture_output=True, text=True)
-        self.assertNotEqual(wrong.returncode, 0)
-        self.assertIn("/start", wrong.stderr)
-        for command in ("terrain", "rovers", "soils"):
-            self.assertEqual(subprocess.run([SLIPWAY, command, "--data", DATA], capture_output=True).returncode, 0)
-        for command in ("serve", "plan", "predict", "wheel", "current", "current map", "current invert", "diagnose", "check", "estimate", "estimate wheel", "terrain", "rovers", "soils"):
-            shown = subprocess.run([SLIPWAY, *command.split(), "--help"], capture_output=True, text=True)
-            self.assertEqual(shown.returncode, 0)
-            self.assertIn("Example:", shown.stdout)
-
-    def test_a_path_is_driven_at_the_dynamic_level_with_a_dead_wheel(self):
-        path = [f"{p['x_m']},{p['y_m']}" for p in (STOP_967, {"x_m": STOP_967["x_m"] - 3.0, "y_m": STOP_967["y_m"]})]
-        options = ["--data", DATA, "--path", *path, "--rung", "dynamic", "--failed", "rf=off", "--draws", "4"]
-        shown = answered([SLIPWAY, "predict", *options], text=True).stdout
-        self.assertIn("Verified by dynamics", shown)
-        self.assertIn("Dynamic less balance", shown)
-        document = json.loads(answered([SLIPWAY, "predict", *options, "--json"]).stdout)
-        self.assertEqual(document["summary"]["dynamic"]["fidelity"], "dynamic")
-        self.assertEqual(document["request"]["failed_wheels"], {"rf": "off"})
-        with tempfile.TemporaryDirectory() as folder:
-            plots = [str(pathlib.Path(folder) / name) for name in ("here.svg", "there.svg")]
-            for plot, where in zip(plots, ([], ["--url", self.server.url])):
-                answered([SLIPWAY, "predict", *options, *where, "--plot", plot])
-            here, there = (pathlib.Path(plot).read_text() for plot in plots)
-            self.assertEqual(here, there)
-            xml.dom.minidom.parseString(here)
-            for words in (" of 3.00 m", "torque, N m", "motor current, A", "sinkage, mm"):
-                self.assertTrue(words in here, words)
-            refused = subprocess.run([SLIPWAY, "predict", "--data", DATA, "--path", *path, "--plot", plots[0]], capture_output=True, text=True)
-            self.assertEqual(refused.returncode, 2)
-            self.assertIn("/plot", refused.stderr)
-        unknown = subprocess.run([SLIPWAY, "predict", "--data", DATA, "--path", *path, "--failed", "fr=off"], capture_output=True, text=True)
-        self.assertEqual(unknown.returncode, 2)
-        self.assertIn("/failed_wheels/fr", unknown.stderr)
 
     def test_memory_stays_below_300_mb(self):
         self.server.answer("/v1/plans", plan())

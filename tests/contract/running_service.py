@@ -1,0 +1,108 @@
+"""A running `slipway serve` and requests to it, for the tests that look from outside with nothing of its code.
+
+Every script here is called with: SLIPWAY SOURCE_DIR
+"""
+import http.client
+import json
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+SLIPWAY, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
+DATA = str(SOURCE / "data")
+STOP_967 = {"x_m": 8142579.733, "y_m": -276648.736}
+STOP_997 = {"x_m": 8142566.402, "y_m": -276711.667}
+JSON = {"Content-Type": "application/json"}
+
+
+def plan(**changes):
+    return {"terrain": "gale", "rover": "msl-class", "start": STOP_967, "goal": STOP_997, **changes}
+
+
+VERDICTS = (0, 3, 4)  # GO, NO-GO or no route, UNKNOWN or caution: the question was answered
+
+
+def answered(command, **options):
+    """Runs a command that must answer, whatever the verdict."""
+    done = subprocess.run(command, capture_output=True, **options)
+    if done.returncode not in VERDICTS:
+        raise subprocess.CalledProcessError(done.returncode, command, done.stdout, done.stderr)
+    return done
+
+
+class Server:
+    """`slipway serve` on a free port, in a folder of its own."""
+
+    def __init__(self, folder, *options):
+        self.folder = folder
+        self.process = subprocess.Popen(
+            [SLIPWAY, "serve", "--data", DATA, "--port", "0", "--jobs", str(folder / "jobs.sqlite"), *options],
+            stdout=subprocess.PIPE, text=True)
+        line = self.process.stdout.readline()
+        match = re.search(r"http://127\.0\.0\.1:(\d+)", line)
+        if not match:
+            raise RuntimeError(f"the server said: {line!r}")
+        self.port = int(match.group(1))
+        self.url = f"http://127.0.0.1:{self.port}"
+
+    def ask(self, method, path, body=None, headers=None, timeout=120):
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=timeout)
+        if body is not None and not isinstance(body, (bytes, str)):
+            body = json.dumps(body)
+        connection.request(method, path, body, {**(JSON if body is not None else {}), **(headers or {})})
+        response = connection.getresponse()
+        data = response.read()
+        connection.close()
+        return response.status, dict(response.getheaders()), data
+
+    def end_of(self, location, seconds=120):
+        deadline = time.time() + seconds
+        while time.time() < deadline:
+            status, headers, body = self.ask("GET", location)
+            job = json.loads(body)
+            if job["state"] not in ("accepted", "running"):
+                return job
+            time.sleep(0.05)
+        raise TimeoutError(location)
+
+    def answer(self, path, request):
+        status, headers, body = self.ask("POST", path, request, {"Prefer": "respond-async"})
+        assert status == 201, (status, body[:2000])
+        job = self.end_of(headers["Location"])
+        assert job["state"] == "successful", job
+        return self.ask("GET", headers["Location"] + "/result")[2]
+
+    def rss_mb(self, key):
+        text = pathlib.Path(f"/proc/{self.process.pid}/status").read_text()
+        return int(re.search(key + r":\s+(\d+) kB", text).group(1)) / 1024
+
+    def kill(self):
+        self.process.send_signal(signal.SIGKILL)
+        self.process.wait()
+        self.process.stdout.close()
+
+    def stop(self):
+        self.process.terminate()
+        status = self.process.wait(timeout=20)
+        self.process.stdout.close()
+        return status
+
+
+class WithServer(unittest.TestCase):
+    """Tests that share one server."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.server = Server(pathlib.Path(cls.folder.name))
+
+    @classmethod
+    def tearDownClass(cls):
+        status = cls.server.stop()
+        cls.folder.cleanup()
+        assert status == 0, f"the server ended with {status}"
