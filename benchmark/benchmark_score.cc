@@ -136,6 +136,59 @@ void count(Rate& rate, bool hit) {
   rate.hits += hit ? 1 : 0;
 }
 
+// Whether the verdict is of the right kind, and exact: it names what is hidden and nothing else.
+void score_verdict(CaseScore& score, const Diagnosis& d, const Names& truth, const Names& found) {
+  switch (score.truth_kind) {
+    case TruthKind::kNothing:
+    case TruthKind::kParameters:
+      // A small shift of parameters leaves no gap, and a large one is reported as parameters. Neither is an
+      // alarm.
+      score.verdict_right = names_nothing(d.verdict);
+      score.exact = score.verdict_right;
+      break;
+    case TruthKind::kEffects:
+      score.verdict_right = names_effects(d.verdict);
+      score.exact = score.verdict_right && found == truth;
+      break;
+    case TruthKind::kOutsideLibrary:
+      score.verdict_right = d.verdict == Verdict::kUnknown;
+      score.exact = score.verdict_right && found == truth;
+      break;
+  }
+  score.false_alarm = truth.empty() && (names_effects(d.verdict) || d.verdict == Verdict::kUnknown);
+}
+
+// What the diagnosis holds beside what it names: the other sets of causes, and how sure it is.
+void score_probabilities(CaseScore& score, const Diagnosis& d, const Names& truth, const Names& found) {
+  const auto sets = merged_sets(d);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < sets.size() && i < kMaxHeld && sum < kHeld; ++i) {
+    sum += sets[i].second;
+    score.held = score.held || sets[i].first == truth;
+  }
+  const bool second = sets.size() > 1 && sets[1].first == truth;
+  score.alike = score.exact || (d.verdict == Verdict::kEffectSet && score.held) ||
+                (names_effects(d.verdict) && second && exchanged(d, found, truth));
+  for (const FoundEffect& effect : d.effects)
+    score.confident_wrong =
+        score.confident_wrong || (effect.probability > kConfident && !truth.contains(effect.name));
+  for (const auto& [names, probability] : sets)
+    if (names.contains(kUnknownName)) score.unknown_probability += probability;
+  score.stated = stated_by(d, sets, found);
+}
+
+// Which part of the hidden disc the places of the gap cover, where an effect that acts in a region is named.
+double place_overlap(const HiddenAnswer::Place& place, const Diagnosis& d, const Names& found) {
+  const bool named = std::any_of(found.begin(), found.end(), [](const std::string& name) {
+    const sim::Effect* const effect = sim::find_effect(name);
+    return effect != nullptr && effect->region != nullptr;
+  });
+  double overlap = 0.0;
+  for (const GapPlace& gap : d.places)
+    if (named) overlap = std::max(overlap, disc_overlap(place, {gap.x_m, gap.y_m, gap.radius_m}));
+  return overlap;
+}
+
 }  // namespace
 
 CaseScore score_case(const HiddenAnswer& answer, const Diagnosis& d, const std::set<std::string>& library,
@@ -160,39 +213,8 @@ CaseScore score_case(const HiddenAnswer& answer, const Diagnosis& d, const std::
                 : d.verdict == Verdict::kParameters ? "parameters"
                                                     : words(found);
 
-  switch (score.truth_kind) {
-    case TruthKind::kNothing:
-    case TruthKind::kParameters:
-      // A small shift of parameters leaves no gap, and a large one is reported as parameters. Neither is an
-      // alarm.
-      score.verdict_right = names_nothing(d.verdict);
-      score.exact = score.verdict_right;
-      break;
-    case TruthKind::kEffects:
-      score.verdict_right = names_effects(d.verdict);
-      score.exact = score.verdict_right && found == truth;
-      break;
-    case TruthKind::kOutsideLibrary:
-      score.verdict_right = d.verdict == Verdict::kUnknown;
-      score.exact = score.verdict_right && found == truth;
-      break;
-  }
-  const auto sets = merged_sets(d);
-  double sum = 0.0;
-  for (std::size_t i = 0; i < sets.size() && i < kMaxHeld && sum < kHeld; ++i) {
-    sum += sets[i].second;
-    score.held = score.held || sets[i].first == truth;
-  }
-  const bool second = sets.size() > 1 && sets[1].first == truth;
-  score.alike = score.exact || (d.verdict == Verdict::kEffectSet && score.held) ||
-                (names_effects(d.verdict) && second && exchanged(d, found, truth));
-  score.false_alarm = truth.empty() && (names_effects(d.verdict) || d.verdict == Verdict::kUnknown);
-  for (const FoundEffect& effect : d.effects)
-    score.confident_wrong =
-        score.confident_wrong || (effect.probability > kConfident && !truth.contains(effect.name));
-  for (const auto& [names, probability] : sets)
-    if (names.contains(kUnknownName)) score.unknown_probability += probability;
-  score.stated = stated_by(d, sets, found);
+  score_verdict(score, d, truth, found);
+  score_probabilities(score, d, truth, found);
   if (d.closed_fraction) score.closed_fraction = d.closed_fraction->value;
   score.wheel_right = wheel_right(answer, d);
   if (score.truth_kind == TruthKind::kEffects && names_effects(d.verdict)) {
@@ -202,17 +224,7 @@ CaseScore score_case(const HiddenAnswer& answer, const Diagnosis& d, const std::
       score.slice_attainable = overlap->attainable;
     }
   }
-  if (answer.place) {
-    score.place_overlap = 0.0;
-    const bool named = std::any_of(found.begin(), found.end(), [](const std::string& name) {
-      const sim::Effect* const effect = sim::find_effect(name);
-      return effect != nullptr && effect->region != nullptr;
-    });
-    for (const GapPlace& place : d.places)
-      if (named)
-        score.place_overlap = std::max(*score.place_overlap,
-                                       disc_overlap(*answer.place, {place.x_m, place.y_m, place.radius_m}));
-  }
+  if (answer.place) score.place_overlap = place_overlap(*answer.place, d, found);
   return score;
 }
 
