@@ -79,7 +79,7 @@ TEST(Places, AreFoundWhereDrivesCrossOneSpot) {
   ChannelSquares of{Channel::kSinkage, {}};
   for (const PlacedWindow& w : windows)
     of.squares.push_back(w.x_m == kSpotX_m && w.y_m == kSpotY_m ? 60.0 : 1.0);
-  const std::vector<FoundPlace> places = places_in(windows, of, {}, never);
+  const std::vector<FoundPlace> places = places_in(windows, std::vector{of}, {}, never);
   ASSERT_FALSE(places.empty());
   for (const FoundPlace& place : places) {
     EXPECT_LE(std::hypot(place.x_m - kSpotX_m, place.y_m - kSpotY_m), place.radius_m) << "the spot is in it";
@@ -101,13 +101,52 @@ TEST(Places, AreNotSeenInScatterNorInOneDriveAlone) {
     scatter.squares.push_back(3.0 * random_uniform(4, w));
     one_drive.squares.push_back(windows[w].drive == 5 && windows[w].x_m == 6.0 ? 500.0 : 1.0);
   }
-  EXPECT_TRUE(places_in(windows, scatter, {}, never).empty());
+  EXPECT_TRUE(places_in(windows, std::vector{scatter}, {}, never).empty());
   DiagnosisOptions near;
   near.location.place_radii_m = {0.5, 0.5};
-  EXPECT_TRUE(places_in(windows, one_drive, near, never).empty()) << "no other drive met it";
+  EXPECT_TRUE(places_in(windows, std::vector{one_drive}, near, never).empty()) << "no other drive met it";
   ChannelSquares below{Channel::kSlip, std::vector<double>(windows.size(), 0.5)};
   below.squares[3] = 5.0;
-  EXPECT_TRUE(places_in(windows, below, {}, never).empty()) << "less than the noise on the whole";
+  EXPECT_TRUE(places_in(windows, std::vector{below}, {}, never).empty())
+      << "less than the noise on the whole";
+}
+
+// Noise alone, on a map where drives cross each other: what is found is a false alarm.
+double exponential(std::uint64_t key, std::uint64_t n) {
+  return -std::log(1.0 - random_uniform(key, n));
+}
+
+TEST(Places, AreFoundInPureNoiseNoMoreOftenThanSaid) {
+  const std::vector<PlacedWindow> windows = star();
+  int alarms = 0;
+  constexpr int kTrials = 60;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    std::vector<ChannelSquares> channels;
+    for (std::uint64_t c = 0; c < 4; ++c) {
+      channels.push_back({static_cast<Channel>(c), {}});
+      const std::uint64_t key = random_key(31 + c, static_cast<std::uint64_t>(trial));
+      for (std::size_t w = 0; w < windows.size(); ++w) {
+        const bool recorded = c == 0 || windows[w].drive % 2 == 0;
+        channels.back().squares.push_back(recorded ? 1.2 * exponential(key, w) : std::nan(""));
+      }
+    }
+    DiagnosisOptions options;
+    options.seed = static_cast<std::uint64_t>(trial);
+    alarms += places_in(windows, channels, options, never).empty() ? 0 : 1;
+  }
+  // 5 % are allowed: 3 in 60; 8 and more have a probability of 0.7 %.
+  EXPECT_LE(alarms, 7);
+}
+
+// By hand, two groups of four permutations. What is observed is one of five draws: 5 is the largest of its
+// group, as 40 is of the other.
+TEST(JointSignificance, CountsThePermutationsThatAreAsRareInAnyGroup) {
+  const std::vector<double> rising{1.0, 2.0, 3.0, 4.0};
+  const JointSignificance p({{5.0, rising}, {5.0, {40.0, 30.0, 20.0, 10.0}}});
+  EXPECT_DOUBLE_EQ(p(0, 5.0), 2.0 / 5.0);
+  EXPECT_DOUBLE_EQ(p(0, 3.5), 4.0 / 5.0) << "second of its group: 4, 40 and 30 are as rare";
+  const JointSignificance one({{3.5, rising}});
+  for (const double own : {0.5, 2.0, 3.5}) EXPECT_DOUBLE_EQ(one(0, own), p_of_permutations(own, rising));
 }
 
 // Of the windows' mean m and variance v, n drawn of N without putting back scatter by v / n (N - n) / (N -

@@ -130,5 +130,37 @@ TEST(Regimes, AreNotSeenInScatter) {
   EXPECT_TRUE(located(squares, LookedAt::kGap).empty());
 }
 
+// Noise alone: a channel that half of the drives record, and seven that are looked at together.
+int alarms_of(std::size_t channels, std::size_t recorded_one_in) {
+  const std::vector<WindowVariables> windows = made_windows();
+  const std::vector<Slice> slices = slices_of(windows);
+  const std::vector<std::size_t> drives = made_drives();
+  int alarms = 0;
+  for (std::uint64_t trial = 0; trial < 40; ++trial) {
+    std::vector<ChannelSquares> noise;
+    for (std::size_t c = 0; c < channels; ++c) {
+      noise.push_back({static_cast<Channel>(c), {}});
+      for (std::size_t w = 0; w < kWindows; ++w) {
+        const double uniform = random_uniform(random_key(70 + c, trial), w);
+        // The drives of steep ground have it, so that "recorded" is a slice of its own.
+        const bool recorded = recorded_one_in == 1 || windows[w].slope_deg > 10.0;
+        noise.back().squares.push_back(recorded ? -1.2 * std::log(1.0 - uniform) : std::nan(""));
+      }
+    }
+    DiagnosisOptions options;
+    options.seed = trial;
+    alarms +=
+        regimes_in(slices, noise, drives, LookedAt::kGap, options, [] { return false; }).empty() ? 0 : 1;
+  }
+  return alarms;
+}
+
+// A tenth is allowed: 4 in 40; 9 and more have a probability of 1.6 %.
+TEST(Regimes, AreSeenInPureNoiseNoMoreOftenThanSaid) {
+  EXPECT_LE(alarms_of(1, 1), 8) << "one channel";
+  EXPECT_LE(alarms_of(1, 2), 8) << "a channel that half of the windows have";
+  EXPECT_LE(alarms_of(7, 1), 8) << "seven channels";
+}
+
 }  // namespace
 }  // namespace slipway::gap

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -21,7 +22,7 @@ std::array<double, kBiasFunctions> functions_of(const WindowVariables& v, const 
           v.speed_m_s < 0.0 ? -1.0 : 1.0, v.temperature_c / options.temperature_scale_c};
 }
 
-// Of each window and channel: the mean square of residuals in deviations.
+// Of each window: the mean square of a channel's residuals in deviations; NaN where it has no reading.
 std::vector<double> squares_of(const PreparedCampaign& prepared, const Eigen::VectorXd& residuals,
                                Channel channel) {
   std::vector<double> squares(prepared.windows.size(), 0.0);
@@ -35,7 +36,7 @@ std::vector<double> squares_of(const PreparedCampaign& prepared, const Eigen::Ve
       squares[w] += std::pow(residuals[row] / deviation, 2);
       ++count;
     }
-    if (count > 0) squares[w] /= count;
+    squares[w] = count > 0 ? squares[w] / count : std::numeric_limits<double>::quiet_NaN();
   }
   return squares;
 }
@@ -107,10 +108,10 @@ struct FilledDisc {
 
 // Nothing where the disc is no place: too few windows or drives, or where most windows are.
 std::optional<FilledDisc> filled(std::span<const PlacedWindow> windows, const PlacedWindow& centre,
-                                 double radius_m, const ChannelSquares& of, double sum,
+                                 double radius_m, Channel channel, std::span<const double> squares,
                                  const LocationOptions& options) {
   FilledDisc disc;
-  disc.place = {centre.terrain, centre.x_m, centre.y_m, radius_m, 0.0, 0.0, of.channel};
+  disc.place = {centre.terrain, centre.x_m, centre.y_m, radius_m, 0.0, 0.0, channel};
   std::set<std::size_t> drives;
   for (std::size_t v = 0; v < windows.size(); ++v) {
     const PlacedWindow& at = windows[v];
@@ -118,7 +119,7 @@ std::optional<FilledDisc> filled(std::span<const PlacedWindow> windows, const Pl
       continue;
     disc.slice.windows.push_back(v);
     drives.insert(at.drive);
-    disc.place.share += of.squares[v] / sum;
+    disc.place.share += squares[v];
   }
   const std::size_t count = disc.slice.windows.size();
   if (count < static_cast<std::size_t>(options.min_place_windows) ||
@@ -126,6 +127,45 @@ std::optional<FilledDisc> filled(std::span<const PlacedWindow> windows, const Pl
       static_cast<std::size_t>(options.max_place_one_in) * count > windows.size())
     return std::nullopt;
   return disc;
+}
+
+// The discs of one channel, in the windows that have a reading of it, and what chance has of the largest.
+struct ChannelPlaces {
+  std::vector<FilledDisc> discs;
+  LargestScores largest;
+};
+
+ChannelPlaces channel_places(std::span<const PlacedWindow> all, const ChannelSquares& of,
+                             const DiagnosisOptions& options, const std::function<bool()>& cancelled) {
+  const RecordedWindows recorded(of.squares);
+  const std::vector<double>& squares = recorded.squares();
+  const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
+  const Excess excess(squares);
+  ChannelPlaces places;
+  if (excess.variance() <= 0.0 || excess.mean() < 1.0) return places;
+  const std::vector<PlacedWindow> windows = recorded.of(all);
+  std::vector<std::size_t> drive_of;
+  for (const PlacedWindow& window : windows) {
+    drive_of.push_back(window.drive);
+    if (!window.used) continue;
+    for (const double radius_m : options.location.place_radii_m)
+      if (auto disc = filled(windows, window, radius_m, of.channel, squares, options.location)) {
+        disc->place.share /= sum;
+        disc->place.excess = excess(squares, disc->slice);
+        places.largest.observed = std::max(places.largest.observed, disc->place.excess);
+        places.discs.push_back(std::move(*disc));
+      }
+  }
+  std::vector<double>& by_chance = places.largest.by_chance;
+  by_chance.assign(permutation_count(options), 0.0);
+  for (std::size_t b = 0; b < by_chance.size() && !cancelled(); ++b) {
+    std::vector<double> permuted;
+    for (const std::size_t w : reordered(drive_of, random_key(options.seed, 9000 + b)))
+      permuted.push_back(squares[w]);
+    for (const FilledDisc& disc : places.discs)
+      by_chance[b] = std::max(by_chance[b], excess(permuted, disc.slice));
+  }
+  return places;
 }
 
 }  // namespace
@@ -212,34 +252,23 @@ std::vector<ChannelShare> channel_shares(const PreparedCampaign& prepared, const
   return shares_of(channel_squares(prepared, residuals), options);
 }
 
-std::vector<FoundPlace> places_in(std::span<const PlacedWindow> windows, const ChannelSquares& of,
-                                  const DiagnosisOptions& options, const std::function<bool()>& cancelled) {
-  const double sum = std::accumulate(of.squares.begin(), of.squares.end(), 0.0);
-  const Excess excess(of.squares);
-  if (excess.variance() <= 0.0 || excess.mean() < 1.0) return {};
-  std::vector<FilledDisc> discs;
-  std::vector<std::size_t> drive_of;
-  for (const PlacedWindow& window : windows) {
-    drive_of.push_back(window.drive);
-    if (!window.used) continue;
-    for (const double radius_m : options.location.place_radii_m)
-      if (auto disc = filled(windows, window, radius_m, of, sum, options.location)) {
-        disc->place.excess = excess(of.squares, disc->slice);
-        discs.push_back(std::move(*disc));
-      }
-  }
-  std::vector<double> by_chance(permutation_count(options), 0.0);
-  for (std::size_t b = 0; b < by_chance.size(); ++b) {
+std::vector<FoundPlace> places_in(std::span<const PlacedWindow> windows,
+                                  std::span<const ChannelSquares> channels, const DiagnosisOptions& options,
+                                  const std::function<bool()>& cancelled) {
+  std::vector<std::vector<FilledDisc>> discs;
+  std::vector<LargestScores> largest;
+  for (const ChannelSquares& of : channels) {
+    ChannelPlaces places = channel_places(windows, of, options, cancelled);
     if (cancelled()) return {};
-    std::vector<double> permuted;
-    for (const std::size_t w : reordered(drive_of, random_key(options.seed, 9000 + b)))
-      permuted.push_back(of.squares[w]);
-    for (const FilledDisc& disc : discs) by_chance[b] = std::max(by_chance[b], excess(permuted, disc.slice));
+    if (places.discs.empty()) continue;
+    discs.push_back(std::move(places.discs));
+    largest.push_back(std::move(places.largest));
   }
+  const JointSignificance p(std::move(largest));
   std::vector<FoundPlace> found;
-  for (const FilledDisc& disc : discs)
-    if (p_of_permutations(disc.place.excess, by_chance) < options.location.max_place_significance)
-      found.push_back(disc.place);
+  for (std::size_t c = 0; c < discs.size(); ++c)
+    for (const FilledDisc& disc : discs[c])
+      if (p(c, disc.place.excess) < options.location.max_place_significance) found.push_back(disc.place);
   return found;
 }
 
@@ -253,14 +282,12 @@ std::vector<GapPlace> gap_places(const PreparedCampaign& prepared, const DriveCa
                        prepared.model->used(w)});
   }
   const auto cancelled = [&] { return prepared.model->cancelled(); };
-  std::vector<FoundPlace> found;
+  std::vector<ChannelSquares> channels;
   for (std::size_t c = 0; c < channel_count(); ++c) {
-    if (cancelled()) return {};
     const auto channel = static_cast<Channel>(c);
-    if (!row_of(channel).located) continue;
-    const ChannelSquares of{channel, squares_of(prepared, residuals, channel)};
-    for (const FoundPlace& place : places_in(windows, of, options, cancelled)) found.push_back(place);
+    if (row_of(channel).located) channels.push_back({channel, squares_of(prepared, residuals, channel)});
   }
+  std::vector<FoundPlace> found = places_in(windows, channels, options, cancelled);
   std::stable_sort(found.begin(), found.end(),
                    [](const FoundPlace& a, const FoundPlace& b) { return a.excess > b.excess; });
   std::vector<GapPlace> places;

@@ -58,13 +58,14 @@ struct PlacedWindow {
   bool used = true;             // as a disc's centre
 };
 // Discs around windows that hold more of a channel's squares than as many windows drawn at random do, by
-// permuting drives; in the order of the windows.
+// permuting drives, all channels looked at together; by channel, in the order of the windows.
 struct FoundPlace {
   std::size_t terrain = 0;
   double x_m = 0.0, y_m = 0.0, radius_m = 0.0, share = 0.0, excess = 0.0;
   Channel channel = Channel::kSlip;
 };
-std::vector<FoundPlace> places_in(std::span<const PlacedWindow> windows, const ChannelSquares& of,
-                                  const DiagnosisOptions& options, const std::function<bool()>& cancelled);
+std::vector<FoundPlace> places_in(std::span<const PlacedWindow> windows,
+                                  std::span<const ChannelSquares> channels, const DiagnosisOptions& options,
+                                  const std::function<bool()>& cancelled);
 
 }  // namespace slipway::gap

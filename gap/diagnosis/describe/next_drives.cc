@@ -12,10 +12,10 @@
 namespace slipway::gap {
 namespace {
 
-// What a drive would show, each channel over the error that one drive would leave.
-std::vector<double> outcome(const DriveCampaign& campaign, const ModelState& state,
-                            const NoiseScales& scatter, const NextDrive& drive,
-                            const NextDriveOptions& options) {
+// What a drive would show, with the error that one drive would leave of each channel.
+std::vector<ExpectedReading> outcome(const DriveCampaign& campaign, const ModelState& state,
+                                     const NoiseScales& scatter, const NextDrive& drive,
+                                     const NextDriveOptions& options) {
   const double tilt = rad_from_deg(drive.tilt_deg), heading = rad_from_deg(drive.heading_deg);
   // Straight uphill the nose is up: negative pitch. Across, headed left of uphill, the right side is up.
   const Attitude attitude{.roll_rad = std::asin(-std::sin(tilt) * std::sin(heading)),
@@ -27,20 +27,24 @@ std::vector<double> outcome(const DriveCampaign& campaign, const ModelState& sta
                                              .curvature_1_m = drive.curvature_1_m,
                                              .motor_temp_c = drive.motor_temp_c});
   const double speed = std::abs(drive.speed_m_s);
-  std::vector<double> values{(at.moving() ? at.slip_ratio : 1.0) /
-                             std::max(options.min_slip_error, scatter.slip)};
-  if (!at.moving()) {
-    values.resize(3 + 2 * state.rover.wheels.size(), 0.0);
-    return values;
+  const bool moves = at.moving();
+  std::vector<ExpectedReading> readings{
+      {moves ? at.slip_ratio : 1.0, std::max(options.min_slip_error, scatter.slip)},
+      {moves ? at.leftward_m_s / speed : 0.0, std::max(options.min_side_slip_error, scatter.side_slip)},
+      {moves ? at.yaw_rate_rad_s : 0.0, std::max(options.min_yaw_rate_error_rad_s, scatter.yaw_rate_rad_s)}};
+  for (std::size_t w = 0; w < state.rover.wheels.size(); ++w) {
+    const sim::WheelState wheel = moves ? at.wheels[w] : sim::WheelState{};
+    readings.push_back({wheel.current_a, std::max(options.min_current_error_a,
+                                                  scatter.current_share * std::abs(wheel.current_a))});
+    readings.push_back({wheel.sinkage_m, std::max(options.min_sinkage_error_m, scatter.sinkage_m)});
   }
-  values.push_back(at.leftward_m_s / speed / std::max(options.min_side_slip_error, scatter.side_slip));
-  values.push_back(at.yaw_rate_rad_s / std::max(options.min_yaw_rate_error_rad_s, scatter.yaw_rate_rad_s));
-  for (const sim::WheelState& wheel : at.wheels) {
-    values.push_back(wheel.current_a / std::max(options.min_current_error_a,
-                                                scatter.current_share * std::abs(wheel.current_a)));
-    values.push_back(wheel.sinkage_m / std::max(options.min_sinkage_error_m, scatter.sinkage_m));
-  }
-  return values;
+  return readings;
+}
+
+// Bhattacharyya's distance of two normals.
+double distance(const ExpectedReading& a, const ExpectedReading& b) {
+  const double variance = 0.5 * (a.error * a.error + b.error * b.error);
+  return std::pow(a.value - b.value, 2) / (8.0 * variance) + 0.5 * std::log(variance / (a.error * b.error));
 }
 
 // Every drive on planes that is compared, without its information.
@@ -59,17 +63,16 @@ std::vector<NextDrive> drives_to_compare(double cruise_speed_m_s, const NextDriv
 
 }  // namespace
 
-double information_bits(std::span<const std::vector<double>> outcomes,
+double information_bits(std::span<const std::vector<ExpectedReading>> outcomes,
                         std::span<const double> probabilities) {
   const double all = std::accumulate(probabilities.begin(), probabilities.end(), 0.0);
   double bits = 0.0;
   for (std::size_t a = 0; a < outcomes.size(); ++a) {
     double alike = 0.0;
     for (std::size_t b = 0; b < outcomes.size(); ++b) {
-      double square = 0.0;
-      for (std::size_t i = 0; i < outcomes[a].size(); ++i)
-        square += std::pow(outcomes[a][i] - outcomes[b][i], 2);
-      alike += probabilities[b] / all * std::exp(-square / 8.0);
+      double apart = 0.0;
+      for (std::size_t i = 0; i < outcomes[a].size(); ++i) apart += distance(outcomes[a][i], outcomes[b][i]);
+      alike += probabilities[b] / all * std::exp(-apart);
     }
     bits -= probabilities[a] * std::log2(alike);
   }
@@ -104,7 +107,7 @@ std::vector<NextDrive> next_drives(const DriveCampaign& campaign, const NoiseSca
   std::vector<NextDrive> drives = drives_to_compare(campaign.rover->cruise_speed_m_s, options);
   for (NextDrive& drive : drives) {
     if (progress.cancelled()) return {};
-    std::vector<std::vector<double>> outcomes;
+    std::vector<std::vector<ExpectedReading>> outcomes;
     outcomes.reserve(states.size());
     for (const ModelState& state : states)
       outcomes.push_back(outcome(campaign, state, scatter, drive, options));

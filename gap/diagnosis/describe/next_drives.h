@@ -16,11 +16,18 @@ std::vector<NextDrive> next_drives(const DriveCampaign& campaign, const NoiseSca
                                    std::span<const double> probabilities, const NextDriveOptions& options,
                                    const Progress& progress);
 
-// What an outcome is expected to say of which of the explanations is true, each a normal of deviation 1 in
-// every direction around what it predicts: a lower bound, never more than their entropy, nothing where none
-// of them is [Kolchinsky & Tracey 2017, Entropy 19, section 3, by Bhattacharyya distances]. `probabilities`
-// may add up to less than 1: what is missing is an explanation of which nothing is known.
-double information_bits(std::span<const std::vector<double>> outcomes, std::span<const double> probabilities);
+// What an explanation expects of one channel, and the standard error with which one drive would measure it:
+// an error may be a share of the value, so that each explanation has its own.
+struct ExpectedReading {
+  double value = 0.0, error = 1.0;
+};
+
+// What an outcome is expected to say of which of the explanations is true, each an independent normal in
+// every channel: a lower bound, never more than their entropy, nothing where none of them is [Kolchinsky &
+// Tracey 2017, Entropy 19, section 3, by Bhattacharyya distances]. `probabilities` may add up to less than 1:
+// what is missing is an explanation of which nothing is known.
+double information_bits(std::span<const std::vector<ExpectedReading>> outcomes,
+                        std::span<const double> probabilities);
 
 // The drives of most information, neighbours that say as much left out.
 std::vector<NextDrive> one_of_a_kind(std::vector<NextDrive> drives, const NextDriveOptions& options);

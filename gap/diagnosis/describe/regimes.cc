@@ -59,19 +59,28 @@ bool much_the_same(const Scored& a, const Scored& b) {
   return 2 * shared.size() > std::min(a.slice->windows.size(), b.slice->windows.size());
 }
 
-// The slices of one channel that stand out, by the figure that they are ranked by: the same figure of all
-// slices in permuted windows is what chance does.
+// The slices of one channel, by the figure that they are ranked by: the same figure of all slices in permuted
+// windows is what chance does.
 class ChannelRegimes {
  public:
-  ChannelRegimes(const ChannelSquares& of, double share, LookedAt looked_at, const DiagnosisOptions& options)
+  ChannelRegimes(const ChannelSquares& of, std::span<const Slice> slices, double share, LookedAt looked_at,
+                 const DiagnosisOptions& options)
       : channel_(of.channel),
         share_(share),
         trace_(looked_at == LookedAt::kTrace),
         options_(options.location),
-        weights_(trace_ ? limited(of.squares, options) : of.squares),
+        recorded_(of.squares),
+        weights_(trace_ ? limited(recorded_.squares(), options) : recorded_.squares()),
         excess_(weights_) {
     for (const double w : weights_) marks_.push_back(w > excess_.mean() ? 1.0 : 0.0);
     marked_ = std::accumulate(marks_.begin(), marks_.end(), 0.0);
+    const std::size_t least = least_of_slice(weights_.size(), options.slices);
+    const double most = options.slices.max_share * static_cast<double>(weights_.size());
+    for (const Slice& slice : slices) {
+      Slice here = recorded_.of(slice);
+      if (here.windows.size() >= least && static_cast<double>(here.windows.size()) <= most)
+        slices_.push_back({&slice, std::move(here)});
+    }
   }
 
   // Whether there is something to look for: more than noise or, of a trace, a good share of it.
@@ -80,32 +89,49 @@ class ChannelRegimes {
            (excess_.mean() >= 1.0 || (trace_ && share_ >= options_.min_trace_share));
   }
 
-  // Nothing where it was cancelled.
-  std::optional<std::vector<Scored>> significant(std::span<const Slice> slices,
-                                                 std::span<const std::vector<std::size_t>> orders,
-                                                 const std::function<bool()>& cancelled) const {
-    const std::vector<double>& looked = trace_ ? marks_ : weights_;
-    std::vector<double> by_chance(orders.size(), 0.0);
-    for (std::size_t b = 0; b < orders.size(); ++b) {
+  // The largest score of a slice, and in each of so many permutations of drives. Nothing where it was
+  // cancelled.
+  std::optional<LargestScores> largest(std::span<const std::size_t> drive_of, std::uint64_t seed,
+                                       std::size_t permutations,
+                                       const std::function<bool()>& cancelled) const {
+    const std::vector<std::size_t> drives = recorded_.of(drive_of);
+    const auto largest_of = [this](std::span<const double> values) {
+      double largest = 0.0;
+      for (const Recorded& slice : slices_) largest = std::max(largest, score(values, slice.here));
+      return largest;
+    };
+    LargestScores scores{largest_of(looked()), {}};
+    for (std::size_t b = 0; b < permutations; ++b) {
       if (cancelled()) return std::nullopt;
-      const std::vector<double> permuted = in_order(looked, orders[b]);
-      for (const Slice& slice : slices) by_chance[b] = std::max(by_chance[b], score(permuted, slice));
+      scores.by_chance.push_back(
+          largest_of(in_order(looked(), reordered(drives, random_key(seed, 5000 + b)))));
     }
+    return scores;
+  }
+
+  // Those whose p is small enough.
+  std::vector<Scored> significant(const std::function<double(double own)>& p_of) const {
     const double sum = std::accumulate(weights_.begin(), weights_.end(), 0.0);
     std::vector<Scored> scored;
-    for (const Slice& slice : slices) {
-      const double own = score(looked, slice);
-      const double p = p_of_permutations(own, by_chance);
+    for (const auto& [slice, here] : slices_) {
+      const double own = score(looked(), here);
+      const double p = p_of(own);
       if (p > options_.max_significance) continue;
-      const double data = static_cast<double>(slice.windows.size()) / static_cast<double>(weights_.size());
-      scored.push_back({{slice.conditions, channel_, sum_in(weights_, slice) / sum, data, p},
+      const double data = static_cast<double>(here.windows.size()) / static_cast<double>(weights_.size());
+      scored.push_back({{slice->conditions, channel_, sum_in(weights_, here) / sum, data, p},
                         trace_ ? share_ * own : own,
-                        &slice});
+                        slice});
     }
     return scored;
   }
 
  private:
+  struct Recorded {
+    const Slice* slice;
+    Slice here;  // by the numbers of the recorded windows
+  };
+
+  const std::vector<double>& looked() const { return trace_ ? marks_ : weights_; }
   double score(std::span<const double> values, const Slice& slice) const {
     return trace_ ? overlap(values, marked_, slice) : excess_(values, slice);
   }
@@ -114,8 +140,10 @@ class ChannelRegimes {
   double share_;
   bool trace_;
   const LocationOptions& options_;
+  RecordedWindows recorded_;
   std::vector<double> weights_;
   Excess excess_;
+  std::vector<Recorded> slices_;
   std::vector<double> marks_;
   double marked_ = 0.0;
 };
@@ -138,7 +166,53 @@ std::vector<Regime> best_apart(std::vector<Scored> scored, std::size_t most) {
 
 }  // namespace
 
+RecordedWindows::RecordedWindows(std::span<const double> squares) : number_(squares.size()) {
+  for (std::size_t w = 0; w < squares.size(); ++w) {
+    if (std::isnan(squares[w])) continue;
+    number_[w] = windows_.size();
+    windows_.push_back(w);
+    squares_.push_back(squares[w]);
+  }
+}
+
+Slice RecordedWindows::of(const Slice& slice) const {
+  Slice here{slice.conditions, {}};
+  for (const std::size_t w : slice.windows)
+    if (number_[w]) here.windows.push_back(*number_[w]);
+  return here;
+}
+
+JointSignificance::JointSignificance(std::vector<LargestScores> groups) {
+  if (groups.empty()) return;
+  for (const LargestScores& group : groups) {
+    sorted_.push_back(group.by_chance);
+    std::sort(sorted_.back().begin(), sorted_.back().end());
+  }
+  const std::size_t permutations = groups.front().by_chance.size();
+  rarest_.assign(permutations, permutations + 1);
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (std::size_t b = 0; b < permutations; ++b) {
+      // What was observed is one of the draws.
+      const double drawn = groups[g].by_chance[b];
+      const std::size_t rank = as_large(g, drawn) + (groups[g].observed >= drawn ? 1 : 0);
+      rarest_[b] = std::min(rarest_[b], rank);
+    }
+}
+
+std::size_t JointSignificance::as_large(std::size_t group, double score) const {
+  const std::vector<double>& scores = sorted_[group];
+  return static_cast<std::size_t>(scores.end() - std::lower_bound(scores.begin(), scores.end(), score));
+}
+
+double JointSignificance::operator()(std::size_t group, double own) const {
+  const std::size_t rank = as_large(group, own) + 1;
+  const auto as_rare =
+      std::count_if(rarest_.begin(), rarest_.end(), [rank](std::size_t r) { return r <= rank; });
+  return (1.0 + static_cast<double>(as_rare)) / (1.0 + static_cast<double>(rarest_.size()));
+}
+
 Excess::Excess(std::span<const double> values) {
+  if (values.empty()) return;
   const auto n = static_cast<double>(values.size());
   mean_ = std::accumulate(values.begin(), values.end(), 0.0) / n;
   for (const double v : values) variance_ += (v - mean_) * (v - mean_) / n;
@@ -174,7 +248,7 @@ std::vector<ChannelShare> shares_of(std::span<const ChannelSquares> channels,
   std::vector<ChannelShare> shares;
   double total = 0.0;
   for (const ChannelSquares& of : channels) {
-    const std::vector<double> weights = limited(of.squares, options);
+    const std::vector<double> weights = limited(RecordedWindows(of.squares).squares(), options);
     const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
     if (sum > 0.0) shares.push_back({of.channel, sum});
     total += sum;
@@ -199,20 +273,25 @@ std::size_t permutation_count(const DiagnosisOptions& options) {
 std::vector<Regime> regimes_in(std::span<const Slice> slices, std::span<const ChannelSquares> channels,
                                std::span<const std::size_t> drive_of, LookedAt looked_at,
                                const DiagnosisOptions& options, const std::function<bool()>& cancelled) {
-  std::vector<std::vector<std::size_t>> orders(permutation_count(options));
-  for (std::size_t b = 0; b < orders.size(); ++b)
-    orders[b] = reordered(drive_of, random_key(options.seed, 5000 + b));
   const std::vector<ChannelShare> shares = shares_of(channels, options);
-  std::vector<Scored> scored;
+  std::vector<ChannelRegimes> looked_at_channels;
+  std::vector<LargestScores> scores;
   for (const ChannelSquares& of : channels) {
     double share = 0.0;
     for (const ChannelShare& s : shares)
       if (s.channel == of.channel) share = s.share;
-    const ChannelRegimes regimes(of, share, looked_at, options);
+    ChannelRegimes regimes(of, slices, share, looked_at, options);
     if (!regimes.worth_a_slice()) continue;
-    auto found = regimes.significant(slices, orders, cancelled);
-    if (!found) return {};
-    std::move(found->begin(), found->end(), std::back_inserter(scored));
+    auto largest = regimes.largest(drive_of, options.seed, permutation_count(options), cancelled);
+    if (!largest) return {};
+    scores.push_back(std::move(*largest));
+    looked_at_channels.push_back(std::move(regimes));
+  }
+  const JointSignificance p(std::move(scores));
+  std::vector<Scored> scored;
+  for (std::size_t c = 0; c < looked_at_channels.size(); ++c) {
+    std::vector<Scored> found = looked_at_channels[c].significant([&p, c](double own) { return p(c, own); });
+    std::move(found.begin(), found.end(), std::back_inserter(scored));
   }
   return best_apart(std::move(scored), static_cast<std::size_t>(options.location.max_regimes));
 }

@@ -93,7 +93,7 @@ class FoldedErrors {
     if (groups == 0.0) return std::move(closure_);
     const Bootstrapped sums = bootstrap_errors(errors_, choice_.of_resample, drives_.resamples);
     closure_.channels = channels_of(sums);
-    closure_.closed_fraction = sums.interval([](const HeldOutErrors& e) { return closed(e).value_or(0.0); });
+    closure_.closed_fraction = sums.closed_interval([](const HeldOutErrors& e) { return closed(e); });
     closure_.log_density_gain = sums.all.log_gain / groups;
     return std::move(closure_);
   }
