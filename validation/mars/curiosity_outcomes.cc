@@ -22,6 +22,9 @@ struct Scored {
   bool stopped = false;
   double length_m = 0.0, mean_slip = 0.0;
   double as_of = 0.0, without = 0.0, with_all = 0.0, embedding = 0.0;  // probabilities of not being completed
+  // As of its sol along the planned ground: the driven line, and of a stopped drive the ground beyond it.
+  double planned = 0.0, planned_m = 0.0;
+  bool assumed_length = false;
 };
 
 // A way to ask: which of the terrain's legends, and the commanded limit of slip.
@@ -87,6 +90,29 @@ Result<sim::DrivePrediction> checked(const api::Service& service, const std::vec
   return std::move(answer->prediction);
 }
 
+double length_of(const std::vector<planner::Waypoint>& path) {
+  double length_m = 0.0;
+  for (std::size_t k = 1; k < path.size(); ++k)
+    length_m += std::hypot(path[k].x_m - path[k - 1].x_m, path[k].y_m - path[k - 1].y_m);
+  return length_m;
+}
+
+// A stopped drive did not come as far as was planned: it goes on straight, in the direction from its first
+// place to its last.
+std::vector<planner::Waypoint> extended(std::vector<planner::Waypoint> path, double by_m) {
+  const planner::Waypoint &first = path.front(), &last = path.back();
+  const double across_m = std::hypot(last.x_m - first.x_m, last.y_m - first.y_m);
+  const planner::Waypoint end{last.x_m + by_m * (last.x_m - first.x_m) / across_m,
+                              last.y_m + by_m * (last.y_m - first.y_m) / across_m,
+                              {}};
+  path.push_back(end);
+  return path;
+}
+
+// Of the stopped drives a report gives the planned length of one alone, sol 978: 19 m. The others are taken to
+// have had as much ground before them when they were stopped.
+constexpr double kAssumedBeyond_m = 17.3;
+
 std::string percent(double share) {
   return fmt::format("{:.0f} %", 100.0 * share);
 }
@@ -119,8 +145,27 @@ Result<std::vector<Scored>> score_drives(const api::Service& service, const Aske
     paths.push_back(on_the_map(past, site.info().geometry.extent()));
   }
   using Sol = std::optional<int>;
+  const auto score_planned = [&]() -> Result<void> {
+    std::size_t row = 0;
+    for (const api::PastDrive& past : site.outcomes().drives) {
+      if (past.outcome != api::PastOutcome::kCompleted && past.outcome != api::PastOutcome::kSlipStop) continue;
+      Scored& drive = drives[row];
+      const std::vector<planner::Waypoint>& path = paths[row++];
+      drive.planned = drive.as_of;
+      drive.planned_m = length_of(path);
+      if (!drive.stopped) continue;
+      drive.assumed_length = !past.planned_m;
+      const double beyond_m = past.planned_m ? *past.planned_m - drive.planned_m : kAssumedBeyond_m;
+      drive.planned_m += beyond_m;
+      const auto answer = checked(service, extended(path, beyond_m), asked, drive.sol);
+      if (!answer) return fail(answer.error());
+      drive.planned = 1.0 - answer->outcomes.completed.share;
+    }
+    return {};
+  };
   if (auto done = ask(&Scored::as_of, [](const Scored& drive) { return Sol(drive.sol); }); !done)
     return fail(done.error());
+  if (auto done = score_planned(); !done) return fail(done.error());
   if (as_of_alone) return drives;
   if (auto done = ask(&Scored::without, [](const Scored&) { return Sol(); }); !done)
     return fail(done.error());
@@ -151,6 +196,8 @@ void add_scores(const std::string& how, const std::vector<Scored>& drives, bool 
         ranks_of_stops(drives, probability)));
   };
   add("its own outcome and later ones withheld", "as of each sol", &Scored::as_of);
+  add("its own outcome and later ones withheld", "as of each sol, planned ground beyond a stop included",
+      &Scored::planned);
   if (as_of_alone) return;
   add("nothing of them used", "without drives of the past", &Scored::without);
   add("fitted: each drive's own outcome is in it", "with all drives", &Scored::with_all);
@@ -168,7 +215,10 @@ void add_notes(const std::vector<Scored>& drives, Report& report) {
       "alternative soil must carry the rover on the level, ten turns for an embedding and the pressure of "
       "msl_bedrock were chosen with these drives in view.");
   report.notes.push_back(
-      "A stopped leg ends where the rover stopped, so that the ground beyond it is not scored. With three "
+      "A stopped leg ends where the rover stopped, and the column of the sol scores that line alone. Planned ground "
+      "goes on straight from there: on sol 978 to the 19 m that were planned, on sols 983 and 984, whose planned "
+      "lengths no report gives, for as many metres more (17.3, assumed). Which drives are lengthened is known from "
+      "their outcomes alone: an operator would ask for the whole planned drive of each. With three "
       "stops each pair moves an AUC by 0.03: differences under 0.2 mean little. The commanded slip limit is "
       "unknown; a check every 5 m is assumed.");
   double largest = 0.0;
@@ -193,7 +243,7 @@ Result<Report> curiosity_outcomes(const std::filesystem::path& data) {
       "is "
       "not completed";
   report.columns = {"sol",           "outcome",        "length m",   "mean slip",
-                    "as of the sol", "no past drives", "all drives", "embedding"};
+                    "as of the sol", "planned ground", "no past drives", "all drives", "embedding"};
   std::optional<std::vector<Scored>> shown;
   for (const api::Legend& legend : (*service)->catalogue().terrains.at("gale")->description().legends) {
     for (const double max_slip : {0.4, 0.6, 0.7}) {
@@ -208,7 +258,7 @@ Result<Report> curiosity_outcomes(const std::filesystem::path& data) {
   for (const Scored& drive : *shown) {
     report.rows.push_back({fmt::format("{}", drive.sol), drive.stopped ? "slip stop" : "completed",
                            fmt::format("{:.1f}", drive.length_m), fmt::format("{:.2f}", drive.mean_slip),
-                           percent(drive.as_of), percent(drive.without), percent(drive.with_all),
+                           percent(drive.as_of), percent(drive.planned), percent(drive.without), percent(drive.with_all),
                            percent(drive.embedding)});
     report.cases.push_back(
         {fmt::format("sol {}", drive.sol), "stop", "1", drive.stopped ? 1.0 : 0.0, drive.as_of});
