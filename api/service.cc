@@ -107,8 +107,7 @@ std::shared_ptr<const Catalogue> Service::catalogue_for(const DriveAssumptions& 
 }
 
 std::shared_ptr<const Catalogue> Service::catalogue_of(const std::optional<RequestedModel>& model,
-                                                       std::string& rover,
-                                                       std::vector<Fault>& faults) const {
+                                                       std::string& rover, std::vector<Fault>& faults) const {
   if (!model) return catalogue_;
   auto with = with_model(*catalogue_, *model->corrected, model->ground);
   if (!with) {
@@ -272,7 +271,8 @@ Result<void> Service::learn(const DriveAssumptions& drive, Progress& progress, S
   if (problem.risk.conditioned)
     draws = *problem.risk.conditioned;
   else
-    draws.resize(static_cast<std::size_t>(drive.draws.value_or(planner::draws_for(problem, *drive.drive_so_far))));
+    draws.resize(
+        static_cast<std::size_t>(drive.draws.value_or(planner::draws_for(problem, *drive.drive_so_far))));
   auto stretches = planner::condition_on_drive(problem, *drive.drive_so_far, progress, draws);
   if (!stretches) return fail(stretches.error());
   flatten(draws);

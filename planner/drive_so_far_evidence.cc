@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 #include "core/angle.h"
+#include "core/random.h"
 #include "planner/problem/terrain_ground.h"
 
 namespace slipway::planner {
@@ -48,10 +50,9 @@ std::vector<sim::PathStation> stations_of(const PlanProblem& problem, const Driv
     const int pieces = std::max(1, static_cast<int>(std::ceil(length_m / spacing_m(problem))));
     for (int i = k == 1 ? 0 : 1; i <= pieces; ++i) {
       const double share = static_cast<double>(i) / pieces;
-      stations.push_back(
-          {.pose = {a.x_m + share * (b.x_m - a.x_m), a.y_m + share * (b.y_m - a.y_m), yaw_rad},
-           .distance_m = driven_m + share * length_m,
-           .backwards = stretch.backwards});
+      stations.push_back({.pose = {a.x_m + share * (b.x_m - a.x_m), a.y_m + share * (b.y_m - a.y_m), yaw_rad},
+                          .distance_m = driven_m + share * length_m,
+                          .backwards = stretch.backwards});
     }
     driven_m += length_m;
   }
@@ -78,11 +79,45 @@ void drop_lightest(std::vector<sim::ConditionedDraw>& draws) {
               draws.end());
 }
 
+// The weight c with which sum of min(weight / c, 1) is `count`; fewer draws than that have a weight.
+double equal_weight(const std::vector<sim::ConditionedDraw>& draws, std::size_t count) {
+  std::vector<double> weights;
+  for (const sim::ConditionedDraw& draw : draws) weights.push_back(draw.weight);
+  std::sort(weights.begin(), weights.end(), std::greater<>());
+  double rest = std::accumulate(weights.begin(), weights.end(), 0.0);
+  for (std::size_t heavy = 0; heavy < count; ++heavy) {
+    const double c = rest / static_cast<double>(count - heavy);
+    if (weights[heavy] <= c) return c;
+    rest -= weights[heavy];
+  }
+  return weights[count - 1];
+}
+
+// Leaves `count` draws: those that weigh more than others share keep their weights, of the others each stays
+// with a probability that goes with its weight, and then weighs as much as the next [Fearnhead & Clifford
+// 2003].
+void thin(std::vector<sim::ConditionedDraw>& draws, std::size_t count, std::uint64_t key) {
+  if (draws.size() <= count) return;
+  const double c = equal_weight(draws, count);
+  double passed = random_uniform(key, 0);
+  std::vector<sim::ConditionedDraw> left;
+  for (sim::ConditionedDraw& draw : draws) {
+    if (draw.weight < c) {
+      passed += draw.weight / c;
+      if (passed < 1.0) continue;
+      passed -= 1.0;
+      draw.weight = c;
+    }
+    left.push_back(std::move(draw));
+  }
+  draws = std::move(left);
+}
+
 }  // namespace
 
 int draws_for(const PlanProblem& problem, const DriveSoFar& drive) {
   constexpr double kMaxBalances = 300'000.0;
-  constexpr double kMinDraws = 300.0, kMaxDraws = 1500.0;
+  constexpr double kMinDraws = 300.0, kMaxDraws = 5000.0;
   double stations = 0.0;
   for (const TelemetryStretch& stretch : stretches_of(drive, wheel_names(problem)))
     stations += 2.0 + stretch.measured.come_m / spacing_m(problem);
@@ -109,7 +144,7 @@ Result<std::vector<LearntStretch>> condition_on_drive(const PlanProblem& problem
     drop_lightest(draws);
     learnt.push_back({std::move(stretch), *forecast});
   }
-  if (draws.size() > kMaxLearntDraws) draws.resize(kMaxLearntDraws);
+  thin(draws, kMaxLearntDraws, random_key(problem.seed, kMaxLearntDraws));
   return learnt;
 }
 

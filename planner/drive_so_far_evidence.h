@@ -21,8 +21,8 @@ int draws_for(const PlanProblem& problem, const DriveSoFar& drive);
 
 // Conditions draws of the ground on a drive under way, stretch by stretch in its order (see
 // sim::condition_on_stretch()); the problem's rover has driven it. Draws that together have less than a
-// thousandth of the weight are left out on the way, and more than kMaxLearntDraws at its end; `number` tells
-// which are left. Errors as predict_path(), with the stretch's row ("/drive_so_far/rows/3").
+// thousandth of the weight are left out on the way; at its end kMaxLearntDraws stay, by their weights.
+// `number` tells which are left. Errors as predict_path(), with the stretch's row ("/drive_so_far/rows/3").
 Result<std::vector<LearntStretch>> condition_on_drive(const PlanProblem& problem, const DriveSoFar& drive,
                                                       Progress& progress,
                                                       std::vector<sim::ConditionedDraw>& draws);

@@ -82,8 +82,9 @@ void begin_where_it_is(ObjectReader& reader, CheckRequest& request, std::vector<
   } else if (request.path.empty() && !has_fault_under(faults, "/start")) {
     request.path.push_back(*place);
     if (!place->yaw_rad)
-      reader.fault("start", "start is missing: commands begin with the rover's heading, and the last row of "
-                            "drive_so_far has no yaw_deg");
+      reader.fault("start",
+                   "start is missing: commands begin with the rover's heading, and the last row of "
+                   "drive_so_far has no yaw_deg");
   }
 }
 

@@ -177,11 +177,12 @@ Result<Catalogue> with_soils(Catalogue catalogue, const std::vector<sim::SoilDis
     // "soils#NAME/alternatives/..."
     const std::size_t begin = fault.pointer.find('#') + 1, end = fault.pointer.find('/');
     const auto own = given.find(fault.pointer.substr(begin, end - begin));
-    faults.push_back({own != given.end() ? fmt::format("/beliefs/{}{}", own->second, fault.pointer.substr(end))
-                                         : std::string("/beliefs"),
+    faults.push_back({own != given.end()
+                          ? fmt::format("/beliefs/{}{}", own->second, fault.pointer.substr(end))
+                          : std::string("/beliefs"),
                       std::move(fault.message)});
   }
-  if (!faults.empty()) return fail(ErrorCode::kInvalidRequest, summary_of(faults), std::move(faults));
+  if (!faults.empty()) return fail(ErrorCode::kInvalidRequest, summary_of(faults), faults);
   return catalogue;
 }
 

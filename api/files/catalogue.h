@@ -32,8 +32,8 @@ struct Catalogue {
 Result<Catalogue> load_catalogue(const std::filesystem::path& data,
                                  const sim::SoilFormat& format = sim::soil_format());
 
-// The catalogue with soils that stand in for those of the same names, or beside them. Errors: invalid_request,
-// places under "/beliefs".
+// The catalogue with soils that stand in for those of the same names, or beside them. Errors:
+// invalid_request, places under "/beliefs".
 Result<Catalogue> with_soils(Catalogue catalogue, const std::vector<sim::SoilDistribution>& soils);
 
 template <class Map>

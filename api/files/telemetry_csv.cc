@@ -90,7 +90,8 @@ class Reader {
     if (!value)
       fault(where, fmt::format("{} is no number", in_quotes(cell)));
     else if (*value < column.lowest || *value > column.highest)
-      fault(where, fmt::format("{} = {:g}, must be in [{:g}, {:g}]", name, *value, column.lowest, column.highest));
+      fault(where,
+            fmt::format("{} = {:g}, must be in [{:g}, {:g}]", name, *value, column.lowest, column.highest));
     return value;
   }
 
@@ -98,7 +99,9 @@ class Reader {
     const std::vector<std::string_view> cells = csv_cells(line.text);
     if (cells.size() != header_.width)
       fault(line_of(line), fmt::format("{} cells, must be {} as in the header", cells.size(), header_.width));
-    const auto value = [&](Place place) { return number(line, cells, place, kKnown[place].name, kKnown[place]); };
+    const auto value = [&](Place place) {
+      return number(line, cells, place, kKnown[place].name, kKnown[place]);
+    };
     planner::TelemetryRow& row = drive_.rows.emplace_back();
     row.driven_m = value(kDriven).value_or(0.0);
     row.x_m = value(kX).value_or(0.0);

@@ -129,7 +129,8 @@ std::string scout_words(const JsonValue& outcomes) {
   const JsonValue& scout = at(outcomes, "scout");
   const JsonValue &then = at(scout, "verdict_afterwards"), &slip = at(scout, "slip");
   return fmt::format(
-      "A scout drive from {:.1f} to {:.1f} m, at ({:.1f}, {:.1f}) onto {}, would measure a slip of {:.2f} ({:.2f} "
+      "A scout drive from {:.1f} to {:.1f} m, at ({:.1f}, {:.1f}) onto {}, would measure a slip of {:.2f} "
+      "({:.2f} "
       "to {:.2f}): then the draws say GO with {:.0f} %, NO-GO with {:.0f} %, and it is worth {:.2f} sols; it "
       "has {:.2f} expected stops itself and embeds the rover in {:.1f} % of the draws",
       number(scout, "from_m"), number(scout, "to_m"), number(scout, "x_m"), number(scout, "y_m"),

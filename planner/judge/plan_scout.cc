@@ -36,7 +36,8 @@ std::optional<PlanScout> scout_of(const std::vector<Route>& routes) {
   after.fill(before);
   for (std::size_t d = 0; d < draws; ++d) {
     const double weight = choice.front()->drawn_costs[d].weight;
-    const auto shares = sim::measured_shares(scout.drawn_slip[d], scout.slip_error, scout.to_m - scout.from_m);
+    const auto shares =
+        sim::measured_shares(scout.drawn_slip[d], scout.slip_error, scout.to_m - scout.from_m);
     before.weight += weight;
     for (std::size_t r = 0; r < choice.size(); ++r) {
       const double cost = weight * choice[r]->drawn_costs[d].cost;

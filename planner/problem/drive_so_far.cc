@@ -50,8 +50,10 @@ TelemetryStretch stretch(const DriveSoFar& drive, const std::vector<std::string>
     out.measured.come_m += distance_m(rows[out.rows[k - 1]], rows[out.rows[k]]);
   const TelemetryRow &begin = rows[first], &end = rows[last];
   if (const auto yaw_rad = end.yaw_rad ? end.yaw_rad : begin.yaw_rad)
-    out.backwards = std::cos(*yaw_rad) * (end.x_m - begin.x_m) + std::sin(*yaw_rad) * (end.y_m - begin.y_m) < 0.0;
-  out.measured.current_a = mean_over(rows, first, last, [](const TelemetryRow& row) { return row.current_a; });
+    out.backwards =
+        std::cos(*yaw_rad) * (end.x_m - begin.x_m) + std::sin(*yaw_rad) * (end.y_m - begin.y_m) < 0.0;
+  out.measured.current_a =
+      mean_over(rows, first, last, [](const TelemetryRow& row) { return row.current_a; });
   for (const std::string& wheel : wheels)
     out.measured.wheel_currents_a.push_back(
         mean_over(rows, first, last, [&](const TelemetryRow& row) -> std::optional<double> {
@@ -78,10 +80,11 @@ std::vector<Fault> faults_of(const DriveSoFar& drive) {
                         *before.time_s));
     const double rolled_m = row.driven_m - before.driven_m;
     if (rolled_m < 0.0) {
-      fault(k, "/driven_m",
-            fmt::format("driven_m = {:g} m, must be at least the {:g} m of the row before: odometry counts all "
-                        "rolling, backwards too",
-                        row.driven_m, before.driven_m));
+      fault(
+          k, "/driven_m",
+          fmt::format("driven_m = {:g} m, must be at least the {:g} m of the row before: odometry counts all "
+                      "rolling, backwards too",
+                      row.driven_m, before.driven_m));
       continue;
     }
     const double come_m = distance_m(before, row);
@@ -106,7 +109,8 @@ std::vector<TelemetryStretch> stretches_of(const DriveSoFar& drive, const std::v
     if (rows[k].driven_m - rows[ends.back()].driven_m >= length_m) ends.push_back(k);
   // A rest that is too short belongs to the stretch before it.
   if (ends.back() + 1 < rows.size() && rows.back().driven_m > rows[ends.back()].driven_m) {
-    if (ends.size() > 1 && rows.back().driven_m - rows[ends.back()].driven_m < 0.5 * length_m) ends.pop_back();
+    if (ends.size() > 1 && rows.back().driven_m - rows[ends.back()].driven_m < 0.5 * length_m)
+      ends.pop_back();
     ends.push_back(rows.size() - 1);
   }
   std::vector<TelemetryStretch> stretches;

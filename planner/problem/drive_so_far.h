@@ -15,8 +15,8 @@ struct TelemetryRow {
   std::optional<double> time_s;
   double driven_m = 0.0;  // by odometry: the way that the wheels have rolled since the drive's start
   double x_m = 0.0, y_m = 0.0;
-  std::optional<double> yaw_rad;                     // of the body
-  std::optional<double> current_a;                   // sum over the drive motors, mean since the row before
+  std::optional<double> yaw_rad;    // of the body
+  std::optional<double> current_a;  // sum over the drive motors, mean since the row before
   std::map<std::string, double, std::less<>> currents_a;  // the same by wheel
 };
 
@@ -34,7 +34,7 @@ std::vector<Fault> faults_of(const DriveSoFar& drive);
 // A stretch of it over which slip and currents are measured, along the positions.
 struct TelemetryStretch {
   double from_m = 0.0, to_m = 0.0;  // by odometry
-  std::vector<std::size_t> rows;    // its positions: the first and the last, and those between that tell a bend
+  std::vector<std::size_t> rows;  // its positions: the first and the last, and those between that tell a bend
   bool backwards = false;
   sim::MeasuredStretch measured;
 };

@@ -58,7 +58,7 @@ struct PlanScout {
 };
 
 struct Plan {
-  std::vector<Route> routes;               // by rank
+  std::vector<Route> routes;  // by rank
   std::optional<PlanScout> scout;
   std::vector<std::string> fewer_because;  // why there are fewer than asked for; empty otherwise
   int candidates = 0;                      // proposed by the planners before selection

@@ -56,22 +56,26 @@ void write_given(Writer& w, std::string_view key,
 
 // Of what a request has as a whole in files of their own.
 Result<void> write_files(Writer& w, const DriveOptions& drive) {
+  const auto unusable = [](Error error) {
+    if (error.code != ErrorCode::kCancelled) error.code = ErrorCode::kInvalidRequest;
+    return fail(std::move(error));
+  };
   if (!drive.drive_so_far.empty()) {
     const auto bytes = read_request(drive.drive_so_far);
-    if (!bytes) return fail(bytes.error());
+    if (!bytes) return unusable(bytes.error());
     const auto so_far = api::read_telemetry_csv(*bytes, drive.drive_so_far);
-    if (!so_far) return fail(so_far.error());
+    if (!so_far) return unusable(so_far.error());
     api::json::write_drive_so_far(w, *so_far);
   }
   if (drive.beliefs.empty()) return {};
   const auto bytes = read_request(drive.beliefs);
-  if (!bytes) return fail(bytes.error());
+  if (!bytes) return unusable(bytes.error());
   const auto soils = api::json::read_soil_file(*bytes);
   if (!soils) {
     Error error = soils.error();
     error.detail = fmt::format("{}: {}", drive.beliefs, error.detail);
     for (Fault& fault : error.faults) fault.pointer = fmt::format("{}#{}", drive.beliefs, fault.pointer);
-    return fail(std::move(error));
+    return unusable(std::move(error));
   }
   w.key("beliefs").begin_array();
   for (const sim::SoilDistribution& soil : *soils) api::json::write_soil(w, soil);

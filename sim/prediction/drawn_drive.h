@@ -29,8 +29,8 @@ struct DrawnRun {
   std::unordered_set<std::uint64_t>* met = nullptr;  // notes the cells that are met
 };
 
-// The ratio of ln(1 - slip), on the real ground over the model's, under a station's wheels: in the mean of the
-// logarithm, at the place of the ground's last calls.
+// The ratio of ln(1 - slip), on the real ground over the model's, under a station's wheels: in the mean of
+// the logarithm, at the place of the ground's last calls.
 double slip_scale(const DrawnGround& ground, const PreparedStation& station);
 
 // The rover comes less far for the same turning of its wheels, or further; its wheels' forces are left.

@@ -276,8 +276,9 @@ Result<void> condition_draws(const RoverModel& rover, double gravity_m_s2, const
   return {};
 }
 
-Result<StretchForecast> condition_on_stretch(const RoverModel& rover, double gravity_m_s2, const Ground& ground,
-                                             const SoilBeliefs& beliefs, std::span<const PathStation> path,
+Result<StretchForecast> condition_on_stretch(const RoverModel& rover, double gravity_m_s2,
+                                             const Ground& ground, const SoilBeliefs& beliefs,
+                                             std::span<const PathStation> path,
                                              const MeasuredStretch& measured, const TelemetryErrors& errors,
                                              const RiskOptions& risk, int tries, std::size_t threads,
                                              Progress& progress, std::vector<ConditionedDraw>& draws,

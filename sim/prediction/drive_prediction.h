@@ -119,19 +119,19 @@ struct DriveOutcomes {
   double effective_draws = 0.0;  // (sum of the weights)^2 / sum of their squares
 };
 
-// A short drive onto the ground that decides, on the way itself, of which the slip would be measured; and what
-// that would be worth (see scout_drive()).
+// A short drive onto the ground that decides, on the way itself, of which the slip would be measured; and
+// what that would be worth (see scout_drive()).
 struct ScoutDrive {
   std::optional<std::size_t> soil;  // the ground on which most goes wrong; empty: unknown ground
   double from_m = 0.0, to_m = 0.0;  // along the way
   Pose2 from;
-  DrawnSpread slip_ratio;             // that it would measure
-  double expected_stops = 0.0;        // on the scout drive itself
-  double embedding = 0.0;             // the same, share of draws
-  double go = 0.0, no_go = 0.0;       // probabilities that the bars are kept, or passed, once it is measured
-  double worth_sols = 0.0;            // expected value of the measurement
-  std::vector<float> drawn_slip;      // there, by the number of the draw; those beyond the last are not known
-  double slip_error = 0.0;            // of the ground, see slip_deviation()
+  DrawnSpread slip_ratio;         // that it would measure
+  double expected_stops = 0.0;    // on the scout drive itself
+  double embedding = 0.0;         // the same, share of draws
+  double go = 0.0, no_go = 0.0;   // probabilities that the bars are kept, or passed, once it is measured
+  double worth_sols = 0.0;        // expected value of the measurement
+  std::vector<float> drawn_slip;  // there, by the number of the draw; those beyond the last are not known
+  double slip_error = 0.0;        // of the ground, see slip_deviation()
 };
 
 // What one draw of the ground makes of the whole drive.
@@ -180,7 +180,7 @@ struct DrivePrediction {
   // is none. Equal to mean_slip_ratio where no draw has one.
   double mean_slip_ratio_p05 = 0.0, mean_slip_ratio_p50 = 0.0, mean_slip_ratio_p95 = 0.0;
   DriveOutcomes outcomes;
-  std::vector<DrawFigures> drawn;  // by the number of the draw: as many as `draws`
+  std::vector<DrawFigures> drawn;   // by the number of the draw: as many as `draws`
   std::optional<ScoutDrive> scout;  // nothing where nothing goes wrong in any draw, or no ground decides
 };
 

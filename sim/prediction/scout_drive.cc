@@ -81,7 +81,8 @@ class ScoutSearch {
 
   std::size_t end_of_scout(std::size_t first, std::size_t end) const {
     std::size_t last = first;
-    while (last + 1 < end && stations_[last].distance_m - stations_[first].distance_m < kScoutLength_m) ++last;
+    while (last + 1 < end && stations_[last].distance_m - stations_[first].distance_m < kScoutLength_m)
+      ++last;
     return last + 1;
   }
 
@@ -203,8 +204,9 @@ class ScoutSearch {
 }  // namespace
 
 std::optional<ScoutDrive> scout_drive(const std::vector<DrawnDrive>& drives,
-                                      const std::vector<PreparedStation>& stations, const SoilBeliefs& beliefs,
-                                      const DriveOutcomes& outcomes, const OutcomeBars& bars) {
+                                      const std::vector<PreparedStation>& stations,
+                                      const SoilBeliefs& beliefs, const DriveOutcomes& outcomes,
+                                      const OutcomeBars& bars) {
   const GroundRisk* const ground = deciding_ground(outcomes);
   if (ground == nullptr) return std::nullopt;
   return ScoutSearch(drives, stations, beliefs, bars, ground->soil).best();

@@ -21,13 +21,15 @@ inline constexpr double kScoutLength_m = 5.0;
 // two as things are, less what is expected of the better of the two when the slip is known. It is never
 // below 0. What the scout drive itself risks is not taken off; it is given beside it.
 //
-// The verdicts after it are at as many draws as a check takes at most. Nothing where nothing goes wrong in any
-// draw.
+// The verdicts after it are at as many draws as a check takes at most. Nothing where nothing goes wrong in
+// any draw.
 std::optional<ScoutDrive> scout_drive(const std::vector<DrawnDrive>& drives,
-                                      const std::vector<PreparedStation>& stations, const SoilBeliefs& beliefs,
-                                      const DriveOutcomes& outcomes, const OutcomeBars& bars);
+                                      const std::vector<PreparedStation>& stations,
+                                      const SoilBeliefs& beliefs, const DriveOutcomes& outcomes,
+                                      const OutcomeBars& bars);
 
-// What a scout drive may measure: slips in so many bins, and the probability of each on a draw with that slip.
+// What a scout drive may measure: slips in so many bins, and the probability of each on a draw with that
+// slip.
 inline constexpr std::size_t kSlipBins = 64;
 std::array<double, kSlipBins> measured_shares(double drawn_slip, double slip_error, double length_m);
 

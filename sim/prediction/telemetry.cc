@@ -45,7 +45,8 @@ double unresolved_slip_error(const SoilDistribution& belief) {
 
 double likelihood(const MeasuredStretch& measured, const DrawnStretch& drawn, const TelemetryErrors& errors) {
   const double sd = slip_deviation(drawn.slip_ratio, drawn.slip_error, measured.rolled_m, errors.position_m);
-  double all = with_model_error(normal_density(measured.slip_ratio() - drawn.slip_ratio, sd), errors.model_error);
+  double all =
+      with_model_error(normal_density(measured.slip_ratio() - drawn.slip_ratio, sd), errors.model_error);
   if (drawn.currents_a.empty()) return all;
   if (measured.current_a) {
     double sum = 0.0;

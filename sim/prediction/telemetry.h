@@ -21,9 +21,9 @@ struct TelemetryErrors {
 
 // One stretch of a drive under way, between two positions.
 struct MeasuredStretch {
-  double rolled_m = 0.0;  // by odometry: the way that the wheels have turned; more than 0
-  double come_m = 0.0;    // between the positions
-  std::optional<double> current_a;                      // mean over the stretch of the sum over the motors
+  double rolled_m = 0.0;            // by odometry: the way that the wheels have turned; more than 0
+  double come_m = 0.0;              // between the positions
+  std::optional<double> current_a;  // mean over the stretch of the sum over the motors
   std::vector<std::optional<double>> wheel_currents_a;  // the same of each wheel; empty where none is known
 
   double slip_ratio() const { return 1.0 - come_m / rolled_m; }
@@ -64,8 +64,9 @@ struct StretchForecast {
 // units and patches on which no drive has been are drawn `tries` times, one of the tries is kept with a
 // probability that goes with its likelihood, and the draw's weight is multiplied by their mean likelihood.
 // Errors as predict_drive().
-Result<StretchForecast> condition_on_stretch(const RoverModel& rover, double gravity_m_s2, const Ground& ground,
-                                             const SoilBeliefs& beliefs, std::span<const PathStation> path,
+Result<StretchForecast> condition_on_stretch(const RoverModel& rover, double gravity_m_s2,
+                                             const Ground& ground, const SoilBeliefs& beliefs,
+                                             std::span<const PathStation> path,
                                              const MeasuredStretch& measured, const TelemetryErrors& errors,
                                              const RiskOptions& risk, int tries, std::size_t threads,
                                              Progress& progress, std::vector<ConditionedDraw>& draws,

@@ -131,8 +131,8 @@ struct SoilAlternative {
 
 // What is believed of a soil: a mean, its spread and how far along the ground one draw holds. The five
 // uncertain quantities are log-normal with these means and standard deviations (so every draw is a soil), and
-// their logarithms have the given correlation; c1 and c2 are log-normal on their own. The slip of a slip curve
-// is normal about it.
+// their logarithms have the given correlation; c1 and c2 are log-normal on their own. The slip of a slip
+// curve is normal about it.
 struct SoilDistribution {
   std::string name;                  // "mpf_drift"
   std::string summary;               // one line for people

@@ -1,7 +1,6 @@
 // The telemetry of a drive under way: from its rows to another verdict ahead.
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include "api/documents/check_answer.h"
 #include "api/documents/plan_answer.h"
@@ -54,7 +53,11 @@ constexpr const char* kFirm = R"("beliefs":[{"name":"mer_b_sandy_loam","summary"
   {"name":"soup","summary":"loose","source":"made up for this test","assumed":[],"k_c":2000.0,"k_phi":60000.0,
   "n":1.0,"cohesion_pa":100.0,"friction_angle_deg":16.0,"shear_modulus_x_m":0.03,"density_kg_m3":1500.0,
   "c1":0.18,"c2":0.32,"std":{"stiffness_ratio":0.25,"n":0.05,"cohesion_pa":30.0,"friction_angle_deg":2.0,
-  "shear_modulus_ratio":0.25},"correlation_length_m":20.0}])";
+  "shear_modulus_ratio":0.25},"correlation_length_m":20.0},
+  {"name":"unknown_ground","summary":"firm","source":"made up for this test","assumed":[],"k_c":58375.0,
+  "k_phi":10276770.0,"n":1.067,"cohesion_pa":541.0,"friction_angle_deg":30.6,"shear_modulus_x_m":0.0138,
+  "density_kg_m3":1500.0,"c1":0.18,"c2":0.32,"std":{"stiffness_ratio":0.25,"n":0.05,"cohesion_pa":162.3,
+  "friction_angle_deg":2.0,"shear_modulus_ratio":0.25},"correlation_length_m":20.0}])";
 constexpr const char* kAhead = R"("path":[{"x_m":16,"y_m":30},{"x_m":40,"y_m":30}])";
 
 double stops_of(const JsonValue& check) {
@@ -85,10 +88,12 @@ TEST(DriveSoFar, TheRestBeginsWhereTheRoverIs) {
   const auto to_corner = checked(R"("path":[{"x_m":24,"y_m":30}],"draws":8,)" + drive_with_slip(0.1));
   ASSERT_TRUE(to_corner) << to_corner.error().detail;
   EXPECT_NEAR(to_corner->find("summary")->find("length_m")->number, 8.0, 0.01);
-  const auto given = checked(R"("path":[{"x_m":20,"y_m":30},{"x_m":24,"y_m":30}],"draws":8,)" + drive_with_slip(0.1));
+  const auto given =
+      checked(R"("path":[{"x_m":20,"y_m":30},{"x_m":24,"y_m":30}],"draws":8,)" + drive_with_slip(0.1));
   ASSERT_TRUE(given);
   EXPECT_NEAR(given->find("summary")->find("length_m")->number, 4.0, 0.01);
-  EXPECT_EQ(faults_of(R"("commands":[{"drive_m":2}],)" + drive_with_slip(0.1)), std::vector<std::string>{"/start"});
+  EXPECT_EQ(faults_of(R"("commands":[{"drive_m":2}],)" + drive_with_slip(0.1)),
+            std::vector<std::string>{"/start"});
   const auto plan = testing::small_world().read_plan(
       request_with(R"("goal":{"x_m":24,"y_m":30},"draws":8,"routes":1,)" + drive_with_slip(0.1)));
   ASSERT_TRUE(plan) << plan.error().detail;
@@ -106,23 +111,28 @@ TEST(DriveSoFar, EveryFaultOfTheRowsIsNamedWithItsPlace) {
   const auto rows = [](const std::string& list) {
     return R"("path":[{"x_m":20,"y_m":30},{"x_m":24,"y_m":30}],"drive_so_far":{"rows":[)" + list + "]}";
   };
-  EXPECT_EQ(faults_of(rows(R"({"driven_m":0,"x_m":10,"y_m":30})")), std::vector<std::string>{"/drive_so_far/rows"});
+  EXPECT_EQ(faults_of(rows(R"({"driven_m":0,"x_m":10,"y_m":30})")),
+            std::vector<std::string>{"/drive_so_far/rows"});
   EXPECT_EQ(faults_of(rows(R"({"driven_m":-1,"x_m":10},{"driven_m":2,"x_m":12,"y_m":30,"current_a":1,
                               "currents_a":{"lf":1},"sinkage_m":0})")),
             (std::vector<std::string>{"/drive_so_far/rows/0/driven_m", "/drive_so_far/rows/0/y_m",
                                       "/drive_so_far/rows/1/currents_a", "/drive_so_far/rows/1/sinkage_m"}));
-  EXPECT_EQ(faults_of(rows(R"({"time_s":9,"driven_m":3,"x_m":10,"y_m":30},{"time_s":8,"driven_m":2,"x_m":12,"y_m":30},
-                              {"driven_m":3,"x_m":16,"y_m":30})")),
+  EXPECT_EQ(faults_of(rows(
+                R"({"time_s":9,"driven_m":3,"x_m":10,"y_m":30},{"time_s":8,"driven_m":2,"x_m":12,"y_m":30},
+                              {"driven_m":4,"x_m":16,"y_m":30})")),
             (std::vector<std::string>{"/drive_so_far/rows/1/time_s", "/drive_so_far/rows/1/driven_m",
                                       "/drive_so_far/rows/2"}));
   EXPECT_EQ(faults_of(rows(R"({"driven_m":3,"x_m":10,"y_m":30},{"driven_m":3,"x_m":10,"y_m":30})")),
             std::vector<std::string>{"/drive_so_far/rows"});
-  EXPECT_EQ(faults_of(rows(R"({"driven_m":0,"x_m":118,"y_m":30},{"driven_m":3,"x_m":121,"y_m":30,"currents_a":{"zz":1}})")),
-            (std::vector<std::string>{"/drive_so_far/rows/1", "/drive_so_far/rows/1/currents_a/zz"}));
+  EXPECT_EQ(
+      faults_of(rows(
+          R"({"driven_m":0,"x_m":118,"y_m":30},{"driven_m":3,"x_m":121,"y_m":30,"currents_a":{"zz":1}})")),
+      (std::vector<std::string>{"/drive_so_far/rows/1", "/drive_so_far/rows/1/currents_a/zz"}));
 }
 
 TEST(DriveSoFar, ATableIsReadAndItsFaultsHaveTheirLines) {
-  const auto good = read_telemetry_csv("driven_m,x_m,y_m,time_s,yaw_deg,lf_current_a\n0,10,30,0,90,\n2,12,30,60,,1.5\n", "t.csv");
+  const auto good = read_telemetry_csv(
+      "driven_m,x_m,y_m,time_s,yaw_deg,lf_current_a\n0,10,30,0,90,\n2,12,30,60,,1.5\n", "t.csv");
   ASSERT_TRUE(good) << good.error().detail;
   ASSERT_EQ(good->rows.size(), 2U);
   EXPECT_EQ(good->rows[1].currents_a.at("lf"), 1.5);

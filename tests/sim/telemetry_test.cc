@@ -37,10 +37,10 @@ FunctionGround slope(double deg, double toward_rad = 0.0) {
 // Ground that is loam everywhere or sand everywhere.
 SoilBeliefs either(double sand_weight) {
   SoilDistribution ground = certain("either", sandy_loam());
-  ground.alternatives = {{"loam", std::make_shared<SoilDistribution>(certain("loam", sandy_loam())),
-                          1.0 - sand_weight, 1.0 - sand_weight},
-                         {"sand", std::make_shared<SoilDistribution>(certain("sand", loose_sand())), sand_weight,
-                          sand_weight}};
+  ground.alternatives = {
+      {"loam", std::make_shared<SoilDistribution>(certain("loam", sandy_loam())), 1.0 - sand_weight,
+       1.0 - sand_weight},
+      {"sand", std::make_shared<SoilDistribution>(certain("sand", loose_sand())), sand_weight, sand_weight}};
   ground.drawn_apart = false;
   return {{ground}, certain("unknown_ground", sandy_loam())};
 }
@@ -86,7 +86,8 @@ TEST(Telemetry, TwoSoilsAreWeighedByBayesRuleByHand) {
   ASSERT_GT(sand, loam + 0.1);
   const MeasuredStretch stretch = measured(loam + 0.5 * (sand - loam) - 0.02, 4.0);
   const auto by_hand = [&](double slip) {
-    // Two positions of 5 cm over the way that the wheels roll, and 2 % of slip that no model knows; no slip_error.
+    // Two positions of 5 cm over the way that the wheels roll, and 2 % of slip that no model knows; no
+    // slip_error.
     const double sd = std::sqrt(2.0 * std::pow(0.05 / stretch.rolled_m, 2) + 0.02 * 0.02);
     return 0.95 * normal_density(stretch.slip_ratio() - slip, sd) + 0.05;
   };
@@ -102,8 +103,7 @@ TEST(Telemetry, TwoSoilsAreWeighedByBayesRuleByHand) {
   }
   EXPECT_NEAR(sandy / 300.0, 0.3, 0.08);
   const double prior = sandy / 300.0;
-  const double posterior =
-      prior * by_hand(sand) / (prior * by_hand(sand) + (1.0 - prior) * by_hand(loam));
+  const double posterior = prior * by_hand(sand) / (prior * by_hand(sand) + (1.0 - prior) * by_hand(loam));
   EXPECT_NEAR(of_sand / all, posterior, 0.01);
 }
 
@@ -185,8 +185,8 @@ TEST(Telemetry, TriesFindAPatchThatFitsWhatIsMeasured) {
       squares += draw.weight * draw.weight;
     }
     risk.conditioned = std::make_shared<const std::vector<ConditionedDraw>>(std::move(draws));
-    const auto drive = predict_drive(kRover, 3.71, ground, beliefs, straight(4.0), {.max_slip_ratio = 0.3}, risk,
-                                     0, progress);
+    const auto drive = predict_drive(kRover, 3.71, ground, beliefs, straight(4.0), {.max_slip_ratio = 0.3},
+                                     risk, 0, progress);
     return std::pair(drive->outcomes.stop.share, sum * sum / squares);
   };
   const auto [once, effective_once] = stop_again(1);

@@ -37,7 +37,9 @@ std::vector<Hop> hops_of(const api::TerrainSite& site) {
   std::vector<Hop> hops;
   const std::vector<api::Stop>& stops = site.stops();
   for (std::size_t k = 1; k < stops.size(); ++k) {
-    Hop hop{sol_of(stops[k]), false, {{stops[k - 1].x_m, stops[k - 1].y_m, {}}, {stops[k].x_m, stops[k].y_m, {}}}};
+    Hop hop{sol_of(stops[k]),
+            false,
+            {{stops[k - 1].x_m, stops[k - 1].y_m, {}}, {stops[k].x_m, stops[k].y_m, {}}}};
     constexpr double kSamePlace_m = 2.0;
     for (const api::PastDrive& drive : site.outcomes().drives) {
       const auto apart_m = [](const planner::Waypoint& a, const planner::Waypoint& b) {
@@ -81,9 +83,14 @@ Result<Report> curiosity_hops(const std::filesystem::path& data) {
   Report report;
   report.title = "Curiosity between its 32 stops, never embedded";
   report.source =
-      "the 32 stops of Curiosity at Marias Pass, sols 960 to 1073: each hop to the next stop checked as a drive, along "
+      "the 32 stops of Curiosity at Marias Pass, sols 960 to 1073: each hop to the next stop checked as a "
+      "drive, along "
       "the driven line where the table of drives has it, straight where not; the rover was embedded on none";
-  report.columns = {"sol", "line", "length m", "embedding, as of the sol", "embedding, no past drives",
+  report.columns = {"sol",
+                    "line",
+                    "length m",
+                    "embedding, as of the sol",
+                    "embedding, no past drives",
                     "stop, no past drives"};
   double never_as_of = 1.0, stops = 0.0, length_m = 0.0, worst = 0.0;
   std::vector<bool> embedded(kDraws, false);
@@ -108,14 +115,17 @@ Result<Report> curiosity_hops(const std::filesystem::path& data) {
   const auto lost = static_cast<double>(std::count(embedded.begin(), embedded.end(), true));
   const double never = 1.0 - lost / kDraws;
   report.notes.push_back(fmt::format(
-      "Probability that the rover is embedded on none of {} hops over {:.0f} m: {} by the draws of {} grounds, each of "
+      "Probability that the rover is embedded on none of {} hops over {:.0f} m: {} by the draws of {} "
+      "grounds, each of "
       "which all hops drive (blind to all drives); {} as the product over the hops, each as of its sol.",
       hops.size(), length_m, percent(never), kDraws, percent(never_as_of)));
-  report.notes.push_back(fmt::format("Largest probability on one hop as of its sol: {}; expected number of hops with a "
-                                     "stop without past drives: {:.1f}. In truth three drives were stopped.",
-                                     percent(worst), stops));
   report.notes.push_back(
-      "A straight line between two stops is not where the rover drove: the drivers went round what they saw. Legend and "
+      fmt::format("Largest probability on one hop as of its sol: {}; expected number of hops with a "
+                  "stop without past drives: {:.1f}. In truth three drives were stopped.",
+                  percent(worst), stops));
+  report.notes.push_back(
+      "A straight line between two stops is not where the rover drove: the drivers went round what they saw. "
+      "Legend and "
       "soils were chosen with the outcomes of sols 960 to 997 in view.");
   report.bands = {{"hops", static_cast<double>(hops.size()), 31, 31},
                   {"P(never embedded), no past drives", never, 0.8, 1.0},

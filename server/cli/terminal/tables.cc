@@ -129,10 +129,11 @@ std::string scout_lines(const JsonValue& plan) {
   const JsonValue& scout = at(plan, "scout");
   if (!scout.is(JsonValue::Kind::kObject)) return {};
   const JsonValue& best = at(at(plan, "routes"), "features").elements.front();
-  return fmt::format("{}. Of route {:.0f}; it would lower the expected cost by {:.2f}, and another route is then "
-                     "the cheapest with {:.0f} %\n",
-                     api::scout_words(at(at(best, "properties"), "outcomes")), number(scout, "route"),
-                     number(scout, "worth"), 100.0 * number(scout, "other_route"));
+  return fmt::format(
+      "{}. Of route {:.0f}; it would lower the expected cost by {:.2f}, and another route is then "
+      "the cheapest with {:.0f} %\n",
+      api::scout_words(at(at(best, "properties"), "outcomes")), number(scout, "route"),
+      number(scout, "worth"), 100.0 * number(scout, "other_route"));
 }
 
 }  // namespace
