@@ -117,7 +117,8 @@ Result<Report> curiosity_hops(const std::filesystem::path& data) {
   report.notes.push_back(fmt::format(
       "Probability that the rover is embedded on none of {} hops over {:.0f} m: {} by the draws of {} "
       "grounds, each of "
-      "which all hops drive (blind to all drives); {} as the product over the hops, each as of its sol.",
+      "which all hops drive (no drive counts as evidence); {} as the product over the hops, each as of its "
+      "sol.",
       hops.size(), length_m, percent(never), kDraws, percent(never_as_of)));
   report.notes.push_back(
       fmt::format("Largest probability on one hop as of its sol: {}; expected number of hops with a "
