@@ -30,7 +30,9 @@ bool counts(const PastDrive& drive, int as_of_sol) {
   return drive.sol < as_of_sol && drive.outcome != PastOutcome::kNoReport;
 }
 
-double effective(const std::vector<sim::ConditionedDraw>& draws, double power) {
+}  // namespace
+
+double effective_draws(const std::vector<sim::ConditionedDraw>& draws, double power) {
   double sum = 0.0, squares = 0.0;
   for (const sim::ConditionedDraw& draw : draws) {
     sum += std::pow(draw.weight, power);
@@ -39,17 +41,15 @@ double effective(const std::vector<sim::ConditionedDraw>& draws, double power) {
   return sum * sum / squares;
 }
 
-// Raises the weights to the largest power up to 1 that leaves kMinEffective of the draws effective, and
-// scales them to a mean of 1.
 void flatten(std::vector<sim::ConditionedDraw>& draws) {
   const double wanted = kMinEffective * static_cast<double>(draws.size());
   double low = 0.0, high = 1.0;
   double power = 1.0;
-  if (effective(draws, 1.0) < wanted) {
+  if (effective_draws(draws, 1.0) < wanted) {
     constexpr int kHalvings = 40;
     for (int k = 0; k < kHalvings; ++k) {
       power = 0.5 * (low + high);
-      (effective(draws, power) < wanted ? high : low) = power;
+      (effective_draws(draws, power) < wanted ? high : low) = power;
     }
     power = low;
   }
@@ -57,8 +57,6 @@ void flatten(std::vector<sim::ConditionedDraw>& draws) {
   for (sim::ConditionedDraw& draw : draws) sum += draw.weight = std::pow(draw.weight, power);
   for (sim::ConditionedDraw& draw : draws) draw.weight *= static_cast<double>(draws.size()) / sum;
 }
-
-}  // namespace
 
 std::vector<planner::Waypoint> places_of(const DriveOutcomeTable& table, int as_of_sol) {
   std::vector<planner::Waypoint> places;

@@ -48,6 +48,12 @@ struct ConditionedGround {
 Result<void> condition_draws(const planner::PlanProblem& problem, const DriveOutcomeTable& table,
                              int as_of_sol, Progress& progress, ConditionedGround& ground);
 
+// Raises the weights to the largest power up to 1 that leaves kMinEffective of the draws effective, and
+// scales them to a mean of 1.
+void flatten(std::vector<sim::ConditionedDraw>& draws);
+// (sum of the weights)^2 / sum of their squares.
+double effective_draws(const std::vector<sim::ConditionedDraw>& draws, double power = 1.0);
+
 // With flattened weights.
 GroundEvidence evidence_of(ConditionedGround ground);
 

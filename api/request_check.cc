@@ -113,6 +113,7 @@ void RequestCheck::drive(const DriveAssumptions& drive) {
       add(ErrorCode::kInvalidRequest, fault->pointer, fault->message);
   }
   if (rover_ != nullptr) failed_wheels(drive);
+  drive_so_far(drive);
   if (rover_ == nullptr || !drive.speed_m_s || already_faulty("/speed_m_s")) return;
   const double fastest = rover_->drive.max_wheel_rate_rad_s * rover_->smallest_wheel_radius_m();
   if (*drive.speed_m_s > fastest) {
@@ -129,6 +130,24 @@ void RequestCheck::failed_wheels(const DriveAssumptions& drive) {
     if (std::find(known.begin(), known.end(), name) == known.end())
       add(ErrorCode::kInvalidRequest, json::child_pointer("/failed_wheels", name),
           unknown_name("wheel", name, known));
+}
+
+// The rows' places and wheels.
+void RequestCheck::drive_so_far(const DriveAssumptions& drive) {
+  if (!drive.drive_so_far || already_faulty("/drive_so_far")) return;
+  std::vector<std::string> known;
+  if (rover_ != nullptr)
+    for (const sim::WheelModel& wheel : rover_->wheels) known.push_back(wheel.name);
+  for (std::size_t k = 0; k < drive.drive_so_far->rows.size(); ++k) {
+    const planner::TelemetryRow& row = drive.drive_so_far->rows[k];
+    const std::string pointer = fmt::format("/drive_so_far/rows/{}", k);
+    place({row.x_m, row.y_m, {}}, pointer);
+    if (rover_ == nullptr) continue;
+    for (const auto& [wheel, current_a] : row.currents_a)
+      if (std::find(known.begin(), known.end(), wheel) == known.end())
+        add(ErrorCode::kInvalidRequest, json::child_pointer(pointer + "/currents_a", wheel),
+            unknown_name("wheel", wheel, known));
+  }
 }
 
 void RequestCheck::crab(double crab_rad, bool among_zones) {

@@ -51,6 +51,7 @@ std::string conditions_of(const std::string& terrain, const std::string& rover, 
                           int draws) {
   if (drive.model) return {};
   drive.as_of_sol.reset();
+  drive.drive_so_far.reset();
   drive.draws = draws;
   json::Writer w;
   w.begin_object().text("terrain", terrain).text("rover", rover);
@@ -93,9 +94,20 @@ Result<std::unique_ptr<Service>> Service::open(ServiceOptions options) {
   return service;
 }
 
-std::shared_ptr<const Catalogue> Service::catalogue_for(const std::optional<RequestedModel>& model,
-                                                        std::string& rover,
+std::shared_ptr<const Catalogue> Service::catalogue_for(const DriveAssumptions& drive, std::string& rover,
                                                         std::vector<Fault>& faults) const {
+  std::shared_ptr<const Catalogue> catalogue = catalogue_of(drive.model, rover, faults);
+  if (drive.beliefs.empty() || has_fault_under(faults, "/beliefs")) return catalogue;
+  auto with = with_soils(*catalogue, drive.beliefs);
+  if (!with) {
+    for (const Fault& fault : with.error().faults) faults.push_back(fault);
+    return catalogue;
+  }
+  return std::make_shared<const Catalogue>(*std::move(with));
+}
+
+std::shared_ptr<const Catalogue> Service::catalogue_of(const std::optional<RequestedModel>& model,
+                                                       std::string& rover, std::vector<Fault>& faults) const {
   if (!model) return catalogue_;
   auto with = with_model(*catalogue_, *model->corrected, model->ground);
   if (!with) {
@@ -114,7 +126,7 @@ Result<Request> Service::checked(Result<Reading<Request>> reading, const Rest& r
   if (!reading) return fail(reading.error());
   Request& request = reading->request;
   const std::shared_ptr<const Catalogue> catalogue =
-      catalogue_for(request.drive.model, request.rover, reading->faults);
+      catalogue_for(request.drive, request.rover, reading->faults);
   RequestCheck check(*catalogue, std::move(reading->faults));
   check.names(request.terrain, request.rover);
   check.ground(request.drive.model, options_.ground);
@@ -178,7 +190,7 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
                                          const DriveAssumptions& drive, Progress& progress) const {
   std::vector<Fault> faults;
   std::string driven_name = rover;
-  const std::shared_ptr<const Catalogue> catalogue = catalogue_for(drive.model, driven_name, faults);
+  const std::shared_ptr<const Catalogue> catalogue = catalogue_for(drive, driven_name, faults);
   RequestCheck check(*catalogue, std::move(faults));
   check.names(terrain, driven_name);
   check.drive(drive);
@@ -194,6 +206,9 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
     const std::vector<planner::Waypoint> past = places_of(site.outcomes(), *drive.as_of_sol);
     to_read.insert(to_read.end(), past.begin(), past.end());
   }
+  if (drive.drive_so_far)
+    for (const planner::TelemetryRow& row : drive.drive_so_far->rows)
+      to_read.push_back({row.x_m, row.y_m, {}});
   const Legend& legend = *site.description().legend(drive.legend);
   auto ground = site.read(window_around(to_read, site.info().geometry), legend);
   if (!ground) return fail(ground.error());
@@ -244,7 +259,29 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
     problem.risk.conditioned = evidence->draws;
     setting.provenance.past_drives = evidence->drives;
   }
+  if (drive.drive_so_far)
+    if (auto learnt = learn(drive, progress, setting); !learnt) return fail(learnt.error());
   return setting;
+}
+
+Result<void> Service::learn(const DriveAssumptions& drive, Progress& progress, Setting& setting) {
+  progress.report("conditioning the ground on the drive so far", 0.0);
+  planner::PlanProblem& problem = setting.problem;
+  std::vector<sim::ConditionedDraw> draws;
+  if (problem.risk.conditioned)
+    draws = *problem.risk.conditioned;
+  else
+    draws.resize(
+        static_cast<std::size_t>(drive.draws.value_or(planner::draws_for(problem, *drive.drive_so_far))));
+  auto stretches = planner::condition_on_drive(problem, *drive.drive_so_far, progress, draws);
+  if (!stretches) return fail(stretches.error());
+  flatten(draws);
+  const double effective = effective_draws(draws);
+  problem.risk.draws = static_cast<int>(draws.size());
+  problem.risk.max_draws = 0;
+  setting.provenance.learnt = LearntDrive{std::move(*stretches), problem.risk.draws, effective};
+  problem.risk.conditioned = std::make_shared<const std::vector<sim::ConditionedDraw>>(std::move(draws));
+  return {};
 }
 
 Result<PlanAnswer> Service::plan(const PlanRequest& request, Progress& progress) const {
@@ -265,6 +302,9 @@ Result<PlanAnswer> Service::plan(const PlanRequest& request, Progress& progress)
   problem.verify = request.verify;
   problem.planners = request.planners;
   problem.deciding_draws = std::exchange(problem.risk.max_draws, 0) > 0 ? kMaxPlanDraws : 0;
+  // Of many draws that a drive so far has left the first rank the candidates.
+  if (problem.risk.draws > kWeighedDraws && request.drive.drive_so_far)
+    problem.deciding_draws = std::exchange(problem.risk.draws, kWeighedDraws);
   auto plan = planner::make_plan(problem, progress, options_.planners);
   if (!plan) return fail(plan.error());
   return PlanAnswer{request, std::move(setting->provenance), std::move(*plan)};

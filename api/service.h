@@ -74,10 +74,15 @@ class Service {
   Result<Setting> set_up(const std::string& terrain, const std::string& rover,
                          const std::vector<planner::Waypoint>& places, const DriveAssumptions& drive,
                          Progress& progress) const;
-  // The service's own, or a copy with the request's model in it where it has one; its rover takes the place
-  // of the one it was made of. What can't be taken is added to the faults.
-  std::shared_ptr<const Catalogue> catalogue_for(const std::optional<RequestedModel>& model,
-                                                 std::string& rover, std::vector<Fault>& faults) const;
+  // The service's own, or a copy with the request's model and soils in it where it has some; the model's
+  // rover takes the place of the one it was made of. What can't be taken is added to the faults.
+  std::shared_ptr<const Catalogue> catalogue_for(const DriveAssumptions& drive, std::string& rover,
+                                                 std::vector<Fault>& faults) const;
+  // Conditions the setting's draws on the drive under way.
+  static Result<void> learn(const DriveAssumptions& drive, Progress& progress, Setting& setting);
+  // The same with the request's model alone.
+  std::shared_ptr<const Catalogue> catalogue_of(const std::optional<RequestedModel>& model,
+                                                std::string& rover, std::vector<Fault>& faults) const;
 
   // A request that was read, where neither its reader, nor `rest(request, check)`, nor what is checked of all
   // drives finds a fault.

@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "planner/judge/plan_scout.h"
 #include "planner/judge/rank.h"
 #include "planner/judge/route_stations.h"
 #include "planner/judge/verify_route.h"
@@ -127,6 +128,7 @@ class Planning {
     progress_.report("ranking", 0.98);
     mark_pareto_front(plan.routes);
     explain(plan.routes, problem_.ranking);
+    plan.scout = scout_of(plan.routes);
     progress_.report("ranking", 1.0);
     return plan;
   }

@@ -49,6 +49,8 @@ std::span<const Comparison> comparison_catalogue() {
       Comparison{"curiosity_outcomes",
                  "which of Curiosity's drives were stopped by slip, and how probable that was",
                  "published mission updates", &curiosity_outcomes},
+      Comparison{"curiosity_hops", "whether Curiosity is embedded between its 32 stops, where it never was",
+                 "NASA/JPL", &curiosity_hops},
       Comparison{"fido_table_1", "slip of FIDO's 2 m drives on four tilts; one soil calibrated on them",
                  "ROAMS paper", &fido_table_1},
       Comparison{"roams_table_1", "where ROAMS and FIDO part, and which effects have that signature",

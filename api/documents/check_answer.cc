@@ -6,6 +6,7 @@
 #include "api/documents/check_request.h"
 #include "api/documents/drive_routes.h"
 #include "api/documents/drive_series.h"
+#include "api/documents/drive_so_far.h"
 #include "core/angle.h"
 
 namespace slipway::api::json {
@@ -134,6 +135,30 @@ void write_position_uncertainty(Writer& w, const sim::DrivePrediction& predictio
   w.end_array().end_object();
 }
 
+namespace {
+
+void write_scout(Writer& w, const std::optional<sim::ScoutDrive>& scout, const Provenance& provenance) {
+  w.key("scout");
+  if (!scout) {
+    w.null();
+    return;
+  }
+  w.begin_object().key("soil");
+  if (scout->soil)
+    w.text(provenance.soils[*scout->soil]);
+  else
+    w.null();
+  w.metres("from_m", scout->from_m).metres("to_m", scout->to_m);
+  w.metres("x_m", scout->from.x_m).metres("y_m", scout->from.y_m).angle_deg("yaw_deg", scout->from.yaw_rad);
+  write_spread(w, "slip", scout->slip_ratio);
+  w.significant("expected_stops", scout->expected_stops).significant("embedding", scout->embedding);
+  w.key("verdict_afterwards").begin_object().significant("go", scout->go).significant("no_go", scout->no_go);
+  w.significant("unknown", std::max(0.0, 1.0 - scout->go - scout->no_go)).end_object();
+  w.significant("worth_sols", scout->worth_sols).end_object();
+}
+
+}  // namespace
+
 void write_outcomes(Writer& w, const sim::DrivePrediction& prediction, const Provenance& provenance) {
   const sim::DriveOutcomes& outcomes = prediction.outcomes;
   w.key("outcomes").begin_object();
@@ -168,6 +193,7 @@ void write_outcomes(Writer& w, const sim::DrivePrediction& prediction, const Pro
   }
   w.end_array();
   write_recommended(w, outcomes);
+  write_scout(w, prediction.scout, provenance);
   w.end_object();
 }
 
@@ -177,6 +203,7 @@ std::string write_check_answer(const CheckAnswer& answer) {
   w.text("terrain", answer.request.terrain).text("rover", answer.request.rover);
   w.text("verdict", planner::describe(answer.decision.decision)).texts("reasons", answer.decision.reasons);
   write_provenance(w, answer.provenance);
+  write_learnt_drive(w, answer.provenance.learnt, answer.request.drive);
   w.key("request").raw(write_check_request(answer.request));
   write_outcomes(w, answer.prediction, answer.provenance);
   write_position_uncertainty(w, answer.prediction, answer.request.drive.checks);

@@ -49,26 +49,43 @@ void read_command(const Element& element, CheckRequest& request, std::vector<Fau
   request.commands.insert(request.commands.end(), static_cast<std::size_t>(repeats), step);
 }
 
-void read_way(ObjectReader& reader, CheckRequest& request, std::vector<Fault>& faults) {
+// `under_way`: the request has a drive so far, from whose last place the way may begin.
+void read_way(ObjectReader& reader, bool under_way, CheckRequest& request, std::vector<Fault>& faults) {
   const JsonValue* const start = reader.member("start", kOptional);
   const JsonValue* const commands = reader.member("commands", kOptional);
   if (start == nullptr && commands == nullptr) {
-    for (const Element& element : reader.list("path", kRequired, {2, RequestLimits::kPathCorners}))
+    const std::size_t least = under_way ? 1 : 2;
+    for (const Element& element : reader.list("path", kRequired, {least, RequestLimits::kPathCorners}))
       read_waypoint(*element.value, element.pointer, request.path.emplace_back(), faults);
     return;
   }
   if (reader.member("path", kOptional) != nullptr)
     reader.fault("path", "path and commands exclude each other");
-  if (start == nullptr) {
+  if (start == nullptr && !under_way) {
     reader.fault("start",
                  "start is missing: commands begin where the rover stands, with x_m, y_m and yaw_deg");
-  } else {
+  } else if (start != nullptr) {
     read_waypoint(*start, "/start", request.path.emplace_back(), faults);
     if (!request.path.back().yaw_rad && !has_fault_under(faults, "/start"))
       reader.fault("start", "start must have yaw_deg: commands begin with the rover's heading");
   }
   for (const Element& element : reader.list("commands", kRequired, {1, kMaxCommands}))
     read_command(element, request, faults);
+}
+
+// The rest of a drive under way: a path of one corner leads there from where it is, and commands begin there.
+void begin_where_it_is(ObjectReader& reader, CheckRequest& request, std::vector<Fault>& faults) {
+  const auto place = place_reached(request.drive);
+  if (!place || has_fault_under(faults, "/drive_so_far")) return;
+  if (request.commands.empty()) {
+    go_on_from_place_reached(request.drive, request.path);
+  } else if (request.path.empty() && !has_fault_under(faults, "/start")) {
+    request.path.push_back(*place);
+    if (!place->yaw_rad)
+      reader.fault("start",
+                   "start is missing: commands begin with the rover's heading, and the last row of "
+                   "drive_so_far has no yaw_deg");
+  }
 }
 
 void write_command(Writer& w, const planner::DriveStep& step) {
@@ -93,7 +110,7 @@ Result<Reading<CheckRequest>> read_check_request(std::string_view bytes,
   ObjectReader reader(*document, "", reading.faults);
   if (!reader.is_object()) return reading;
   read_names(reader, request.terrain, request.rover);
-  read_way(reader, request, reading.faults);
+  read_way(reader, document->find("drive_so_far") != nullptr, request, reading.faults);
   reader.boolean("backwards", kOptional, request.manner.backwards);
   reader.angle_deg("crab_deg", kOptional, {"deg", -90.0, 90.0}, request.manner.crab_rad);
   if (reader.text("rules", kOptional, {.most = 64, .is_name = true}, request.rules)) {
@@ -108,6 +125,7 @@ Result<Reading<CheckRequest>> read_check_request(std::string_view bytes,
   }
   read_zones(reader, request.keep_out, request.keep_in, reading.faults);
   read_drive_assumptions(reader, request.drive);
+  begin_where_it_is(reader, request, reading.faults);
   reader.refuse_unknown();
   return reading;
 }

@@ -1,8 +1,10 @@
 #include "api/documents/drive_assumptions.h"
 
+#include "api/documents/drive_so_far.h"
 #include "api/documents/model_object.h"
 #include "api/files/effect_settings.h"
 #include "api/files/failed_wheels.h"
+#include "api/files/soil_file.h"
 
 namespace slipway::api::json {
 namespace {
@@ -20,6 +22,8 @@ void read_drive_assumptions(ObjectReader& reader, DriveAssumptions& drive) {
   if (reader.whole("draws", kOptional, 1, RequestLimits::kDraws, draws)) drive.draws = draws;
   int sol = 0;
   if (reader.whole("as_of_sol", kOptional, 0, RequestLimits::kMaxSol, sol)) drive.as_of_sol = sol;
+  read_drive_so_far(reader, drive.drive_so_far);
+  drive.beliefs = read_soils(reader, "beliefs", kOptional);
   reader.text("unknown_soil", kOptional, {.most = 64, .is_name = true}, drive.unknown_soil);
   reader.number("confidence", kOptional, {"1", 0.0, 1.0, true}, drive.confidence);
   reader.text("legend", kOptional, {.most = 64, .is_name = true}, drive.legend);
@@ -39,6 +43,12 @@ void write_drive_assumptions(Writer& w, const DriveAssumptions& drive) {
   }
   if (drive.draws) w.whole("draws", *drive.draws);
   if (drive.as_of_sol) w.whole("as_of_sol", *drive.as_of_sol);
+  if (drive.drive_so_far) write_drive_so_far(w, *drive.drive_so_far);
+  if (!drive.beliefs.empty()) {
+    w.key("beliefs").begin_array();
+    for (const sim::SoilDistribution& soil : drive.beliefs) write_soil(w, soil);
+    w.end_array();
+  }
   if (!drive.unknown_soil.empty()) w.text("unknown_soil", drive.unknown_soil);
   if (drive.confidence) w.exact("confidence", *drive.confidence);
   if (!drive.legend.empty()) w.text("legend", drive.legend);
@@ -61,6 +71,17 @@ void write_waypoint(Writer& w, const planner::Waypoint& waypoint) {
   w.begin_object().exact("x_m", waypoint.x_m).exact("y_m", waypoint.y_m);
   if (waypoint.yaw_rad) w.angle_deg("yaw_deg", *waypoint.yaw_rad);
   w.end_object();
+}
+
+std::optional<planner::Waypoint> place_reached(const DriveAssumptions& drive) {
+  if (!drive.drive_so_far || drive.drive_so_far->rows.empty()) return std::nullopt;
+  const planner::TelemetryRow& last = drive.drive_so_far->rows.back();
+  return planner::Waypoint{last.x_m, last.y_m, last.yaw_rad};
+}
+
+void go_on_from_place_reached(const DriveAssumptions& drive, std::vector<planner::Waypoint>& path) {
+  const auto place = place_reached(drive);
+  if (place && path.size() == 1) path.insert(path.begin(), *place);
 }
 
 void read_names(ObjectReader& reader, std::string& terrain, std::string& rover) {

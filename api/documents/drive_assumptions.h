@@ -17,6 +17,12 @@ void read_waypoint(const JsonValue& value, const std::string& pointer, planner::
                    std::vector<Fault>& faults);
 void write_waypoint(Writer& w, const planner::Waypoint& waypoint);
 
+// The place where a drive under way is now, with its heading where that is known; nothing without one.
+std::optional<planner::Waypoint> place_reached(const DriveAssumptions& drive);
+
+// A path of one corner leads there from where a drive under way is.
+void go_on_from_place_reached(const DriveAssumptions& drive, std::vector<planner::Waypoint>& path);
+
 // "terrain" and "rover": names that the service resolves.
 void read_names(ObjectReader& reader, std::string& terrain, std::string& rover);
 

@@ -3,6 +3,7 @@
 #include "api/documents/check_answer.h"
 #include "api/documents/drive_routes.h"
 #include "api/documents/drive_series.h"
+#include "api/documents/drive_so_far.h"
 #include "api/documents/dynamic_series.h"
 #include "api/documents/plan_request.h"
 #include "api/json/parse.h"
@@ -34,6 +35,7 @@ std::string write_plan_answer(const PlanAnswer& answer) {
   w.begin_object().text("format", "plan/1");
   w.text("terrain", answer.request.terrain).text("rover", answer.request.rover);
   write_provenance(w, answer.provenance);
+  write_learnt_drive(w, answer.provenance.learnt, answer.request.drive);
   w.key("request").raw(write_plan_request(answer.request));
   w.whole("candidates", answer.plan.candidates).texts("fewer_because", answer.plan.fewer_because);
   w.key("summary").begin_array();
@@ -44,6 +46,13 @@ std::string write_plan_answer(const PlanAnswer& answer) {
     w.end_object();
   }
   w.end_array();
+  w.key("scout");
+  if (const auto& scout = answer.plan.scout) {
+    w.begin_object().whole("route", scout->route).significant("worth", scout->worth);
+    w.significant("other_route", scout->other_route).end_object();
+  } else {
+    w.null();
+  }
   std::vector<RouteFeature> features;
   for (const planner::Route& route : answer.plan.routes) {
     const auto properties = [&](Writer& of) {

@@ -45,8 +45,13 @@ Result<Reading<PlanRequest>> read_plan_request(std::string_view bytes,
   ObjectReader reader(*document, "", reading.faults);
   if (!reader.is_object()) return reading;
   read_names(reader, request.terrain, request.rover);
+  // A drive under way goes on from where it is.
+  const Presence needs_start = document->find("drive_so_far") != nullptr ? kOptional : kRequired;
+  bool has_start = false;
   for (const auto& [key, target] : {std::pair{"start", &request.start}, std::pair{"goal", &request.goal}}) {
-    const JsonValue* const value = reader.member(key, kRequired);
+    const bool is_start = target == &request.start;
+    const JsonValue* const value = reader.member(key, is_start ? needs_start : kRequired);
+    if (is_start) has_start = value != nullptr;
     if (value != nullptr) read_waypoint(*value, child_pointer("", key), *target, reading.faults);
   }
   for (const Element& element : reader.list("waypoints", kOptional, {0, RequestLimits::kWaypoints})) {
@@ -59,6 +64,7 @@ Result<Reading<PlanRequest>> read_plan_request(std::string_view bytes,
   reader.whole("verify", kOptional, 0, planner::kMaxVerified, request.verify);
   reader.texts("planners", kOptional, {0, 20}, {.most = 64}, request.planners);
   read_drive_assumptions(reader, request.drive);
+  if (!has_start) request.start = place_reached(request.drive).value_or(request.start);
   reader.refuse_unknown();
   return reading;
 }

@@ -3,6 +3,7 @@
 #include "api/documents/check_answer.h"
 #include "api/documents/drive_routes.h"
 #include "api/documents/drive_series.h"
+#include "api/documents/drive_so_far.h"
 #include "api/documents/dynamic_series.h"
 #include "api/documents/prediction_request.h"
 #include "api/json/writer.h"
@@ -14,6 +15,7 @@ std::string write_prediction_answer(const PredictionAnswer& answer) {
   w.begin_object().text("format", "prediction/1");
   w.text("terrain", answer.request.terrain).text("rover", answer.request.rover);
   write_provenance(w, answer.provenance);
+  write_learnt_drive(w, answer.provenance.learnt, answer.request.drive);
   w.key("request").raw(write_prediction_request(answer.request));
   w.key("summary").begin_object();
   write_drive_figures(w, answer.prediction);

@@ -20,7 +20,8 @@ Result<Reading<PredictionRequest>> read_prediction_request(std::string_view byte
   ObjectReader reader(*document, "", reading.faults);
   if (!reader.is_object()) return reading;
   read_names(reader, request.terrain, request.rover);
-  for (const Element& element : reader.list("path", kRequired, {2, RequestLimits::kPathCorners})) {
+  const std::size_t least = document->find("drive_so_far") != nullptr ? 1 : 2;
+  for (const Element& element : reader.list("path", kRequired, {least, RequestLimits::kPathCorners})) {
     read_waypoint(*element.value, element.pointer, request.path.emplace_back(), reading.faults);
   }
   reader.boolean("backwards", kOptional, request.manner.backwards);
@@ -29,6 +30,7 @@ Result<Reading<PredictionRequest>> read_prediction_request(std::string_view byte
   if (reader.choice("rung", kOptional, kLevels, level)) request.level = static_cast<FidelityLevel>(level);
   read_zones(reader, request.keep_out, request.keep_in, reading.faults);
   read_drive_assumptions(reader, request.drive);
+  go_on_from_place_reached(request.drive, request.path);
   reader.refuse_unknown();
   return reading;
 }

@@ -162,4 +162,28 @@ Result<Catalogue> load_catalogue(const fs::path& data, const sim::SoilFormat& fo
   return catalogue;
 }
 
+Result<Catalogue> with_soils(Catalogue catalogue, const std::vector<sim::SoilDistribution>& soils) {
+  std::vector<Fault> faults;
+  std::map<std::string, std::size_t> given;
+  for (std::size_t k = 0; k < soils.size(); ++k) {
+    if (!given.emplace(soils[k].name, k).second)
+      faults.push_back(
+          {fmt::format("/beliefs/{}/name", k), fmt::format("soil {} is given twice", soils[k].name)});
+    catalogue.soils[soils[k].name] = soils[k];
+  }
+  std::vector<Fault> unjoined;
+  join_alternatives(catalogue, unjoined);
+  for (Fault& fault : unjoined) {
+    // "soils#NAME/alternatives/..."
+    const std::size_t begin = fault.pointer.find('#') + 1, end = fault.pointer.find('/');
+    const auto own = given.find(fault.pointer.substr(begin, end - begin));
+    faults.push_back({own != given.end()
+                          ? fmt::format("/beliefs/{}{}", own->second, fault.pointer.substr(end))
+                          : std::string("/beliefs"),
+                      std::move(fault.message)});
+  }
+  if (!faults.empty()) return fail(ErrorCode::kInvalidRequest, summary_of(faults), faults);
+  return catalogue;
+}
+
 }  // namespace slipway::api

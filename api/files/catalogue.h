@@ -32,6 +32,10 @@ struct Catalogue {
 Result<Catalogue> load_catalogue(const std::filesystem::path& data,
                                  const sim::SoilFormat& format = sim::soil_format());
 
+// The catalogue with soils that stand in for those of the same names, or beside them. Errors:
+// invalid_request, places under "/beliefs".
+Result<Catalogue> with_soils(Catalogue catalogue, const std::vector<sim::SoilDistribution>& soils);
+
 template <class Map>
 std::vector<std::string> names_of(const Map& map) {
   std::vector<std::string> names;

@@ -42,8 +42,7 @@ void read_drive(const Element& element, DriveOutcomeTable& table, std::vector<Fa
   row.choice("confidence", kOptional, {"confirmed", "inferred", "none"}, confidence);
   for (const std::string_view key : {"note", "source", "fault"})
     row.text(key, kOptional, {.most = 1000, .may_be_empty = true}, words);
-  double planned_m = 0.0;
-  row.number("planned_m", kOptional, {"m", 0.0, 1e5}, planned_m);
+  row.number("planned_m", kOptional, {"m", 0.0, 1e5}, drive.planned_m);
   row.refuse_unknown();
 }
 

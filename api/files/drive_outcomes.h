@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,7 +21,8 @@ enum class PastOutcome {
 struct PastDrive {
   int sol = 0;
   PastOutcome outcome = PastOutcome::kNoReport;
-  std::vector<planner::Waypoint> path;  // as far as it was driven
+  std::vector<planner::Waypoint> path;   // as far as it was driven
+  std::optional<double> planned_m = {};  // length that was planned, where a report gives it
 };
 
 // A table of drives on a terrain (drive-outcomes/1): what was driven is evidence of the ground.

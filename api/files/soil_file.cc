@@ -34,6 +34,17 @@ constexpr std::array kSpread{
         .field = {"shear_modulus_ratio", "1", "of both shear moduli, over their mean", 0.0, 2.0},
         .number = [](sim::SoilStd& s) -> double& { return s.shear_modulus_ratio; }},
 };
+// Of what is drawn on its own, where a file gives it.
+constexpr std::array kClosureSpread{
+    ModelField<sim::SoilStd>{.field = {"c1", "1", "of c1", 0.0, 1.0},
+                             .number = [](sim::SoilStd& s) -> double& { return s.c1; },
+                             .presence = FieldPresence::kOptional,
+                             .writing = FieldWriting::kUnlessInitial},
+    ModelField<sim::SoilStd>{.field = {"c2", "1", "of c2", 0.0, 1.0},
+                             .number = [](sim::SoilStd& s) -> double& { return s.c2; },
+                             .presence = FieldPresence::kOptional,
+                             .writing = FieldWriting::kUnlessInitial},
+};
 constexpr std::array kSlipSpread{
     ModelField<sim::SoilStd>{.field = {"slip_ratio", "1", "of the slip at every slope", 0.0, 1.0},
                              .number = [](sim::SoilStd& s) -> double& { return s.slip_ratio; }},
@@ -51,6 +62,8 @@ void read_std(ObjectReader& reader, const sim::Soil& mean, sim::SoilStd& std) {
   auto object = reader.object("std", kRequired);
   if (!object) return;
   read_fields(*object, spread_of(mean), kRequired, std);
+  if (mean.slip_curve == nullptr)
+    read_fields(*object, std::span<const ModelField<sim::SoilStd>>(kClosureSpread), kOptional, std);
   object->refuse_unknown();
 }
 
@@ -92,6 +105,8 @@ void check_soil(ObjectReader& reader, const sim::SoilDistribution& soil) {
   if (soil.mean.cohesion_pa == 0.0 && soil.std.cohesion_pa > 0.0) {
     reader.fault("std", "cohesion_pa = 0 Pa can't have a spread: draws are log-normal");
   }
+  if ((soil.mean.c1 <= 0.0 && soil.std.c1 > 0.0) || (soil.mean.c2 <= 0.0 && soil.std.c2 > 0.0))
+    reader.fault("std", "c1 and c2 have a spread only where they are above 0: draws are log-normal");
   if (Eigen::LLT<sim::SoilCorrelation>(soil.correlation).info() != Eigen::Success) {
     reader.fault("correlation",
                  "the correlations contradict each other: their matrix is not positive definite");
@@ -321,6 +336,8 @@ void write_soil(Writer& w, const sim::SoilDistribution& soil, const sim::SoilFor
       if (mean.pressure_law.row == nullptr || !is_bekker_modulus(row)) write_field(w, row, mean);
   }
   write_fields(w.key("std").begin_object(), spread_of(mean), soil.std);
+  if (mean.slip_curve == nullptr)
+    write_fields(w, std::span<const ModelField<sim::SoilStd>>(kClosureSpread), soil.std);
   w.end_object();
   if (mean.slip_curve == nullptr) write_correlation(w, soil.correlation);
   w.exact("correlation_length_m", soil.correlation_length_m);

@@ -124,6 +124,22 @@ std::string nearest_limit(const JsonValue& outcomes) {
 
 }  // namespace
 
+std::string scout_words(const JsonValue& outcomes) {
+  if (!json::has(outcomes, "scout")) return {};
+  const JsonValue& scout = at(outcomes, "scout");
+  const JsonValue &then = at(scout, "verdict_afterwards"), &slip = at(scout, "slip");
+  return fmt::format(
+      "A scout drive from {:.1f} to {:.1f} m, at ({:.1f}, {:.1f}) onto {}, would measure a slip of {:.2f} "
+      "({:.2f} "
+      "to {:.2f}): then the draws say GO with {:.0f} %, NO-GO with {:.0f} %, and it is worth {:.2f} sols; it "
+      "has {:.2f} expected stops itself and embeds the rover in {:.1f} % of the draws",
+      number(scout, "from_m"), number(scout, "to_m"), number(scout, "x_m"), number(scout, "y_m"),
+      json::has(scout, "soil") ? "soil " + text(scout, "soil") : std::string("ground that no map names"),
+      number(slip, "p50"), number(slip, "p05"), number(slip, "p95"), 100.0 * number(then, "go"),
+      100.0 * number(then, "no_go"), number(scout, "worth_sols"), number(scout, "expected_stops"),
+      100.0 * number(scout, "embedding"));
+}
+
 std::vector<std::string> check_advice(const JsonValue& check) {
   const JsonValue& outcomes = at(check, "outcomes");
   const std::string& verdict = text(check, "verdict");
@@ -134,6 +150,7 @@ std::vector<std::string> check_advice(const JsonValue& check) {
   advise_on_rule(outcomes, advice);
   advise_on_ground(outcomes, advice);
   if (verdict == "unknown") advise_on_draws(check, advice);
+  if (std::string scout = scout_words(outcomes); !scout.empty()) advice.push_back(std::move(scout));
   if (advice.empty()) advice.emplace_back("Nothing that the draws show; see the reasons");
   return advice;
 }

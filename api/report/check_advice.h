@@ -13,4 +13,8 @@ namespace slipway::api {
 // another check can tell.
 std::vector<std::string> check_advice(const json::JsonValue& check);
 
+// What a scout drive onto the ground that decides would be worth, in words: of the "outcomes" of a check or
+// of a plan's route. Empty where no ground decides.
+std::string scout_words(const json::JsonValue& outcomes);
+
 }  // namespace slipway::api

@@ -11,11 +11,19 @@
 #include "dem/elevation_source.h"
 #include "gap/diagnosis/diagnosis.h"
 #include "gap/diagnosis/model/drive_campaign.h"
+#include "planner/drive_so_far_evidence.h"
 #include "planner/problem/decision.h"
 #include "planner/problem/dynamic_verification.h"
 #include "planner/problem/route.h"
 
 namespace slipway::api {
+
+// What a drive under way taught of the ground.
+struct LearntDrive {
+  std::vector<planner::LearntStretch> stretches;
+  int draws = 0;  // that are left
+  double effective_draws = 0.0;
+};
 
 // The inputs of an answer, so that it can be repeated and checked. They do not depend on time or machine.
 struct Provenance {
@@ -31,6 +39,7 @@ struct Provenance {
   std::uint64_t seed = 1;
   // Where drives of the past weigh the draws: how many, and what is left of the draws.
   std::optional<int> past_drives = {};
+  std::optional<LearntDrive> learnt = {};
 };
 
 struct PlanAnswer {

@@ -8,6 +8,7 @@
 
 #include "api/files/drive_rules.h"
 #include "core/result.h"
+#include "planner/problem/drive_so_far.h"
 #include "planner/problem/problem.h"
 #include "sim/effects/effect_catalogue.h"
 #include "sim/prediction/drive_prediction.h"
@@ -34,6 +35,8 @@ struct DriveAssumptions : DriveRules {
   std::uint64_t seed = 1;
   // Drives of the terrain's table before this sol count as evidence of the ground; none do where it is empty.
   std::optional<int> as_of_sol;
+  std::optional<planner::DriveSoFar> drive_so_far;  // a drive under way counts as evidence of the ground too
+  std::vector<sim::SoilDistribution> beliefs;  // stand in for the catalogue's soils of these names, or beside
   std::string unknown_soil;  // of the catalogue; what is believed of all unmapped ground where it is empty
   std::optional<double> confidence;     // in the legend; the legend's own where it is empty
   std::string legend;                   // of the terrain's legends; the first where it is empty

@@ -50,8 +50,16 @@ struct Route {
   std::vector<std::string> reasons;  // why it is ranked so and judged so, in words and numbers
 };
 
+// What a scout drive onto the ground that decides the best route is worth to the choice between the routes.
+struct PlanScout {
+  int route = 0;             // whose scout drive it is, by rank
+  double worth = 0.0;        // expected drop of the cost of the route that is taken
+  double other_route = 0.0;  // probability that another route is then the cheapest
+};
+
 struct Plan {
-  std::vector<Route> routes;               // by rank
+  std::vector<Route> routes;  // by rank
+  std::optional<PlanScout> scout;
   std::vector<std::string> fewer_because;  // why there are fewer than asked for; empty otherwise
   int candidates = 0;                      // proposed by the planners before selection
 };

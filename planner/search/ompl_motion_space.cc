@@ -11,7 +11,7 @@ namespace ob = ompl::base;
 namespace {
 
 constexpr double kMetresPerRadian = 1.0;
-constexpr double kSamePlace_m = 1e-6;
+constexpr double kSameState_m = 1e-6;
 
 class GuidedSampler final : public ob::StateSampler {
  public:
@@ -111,7 +111,7 @@ ob::Cost MotionCostObjective::motionCost(const ob::State* from, const ob::State*
 
 PlaceGoal::PlaceGoal(const ob::SpaceInformationPtr& space, const LegSearch& search)
     : GoalSampleableRegion(space), search_(search) {
-  setThreshold(kSamePlace_m);
+  setThreshold(kSameState_m);
 }
 
 void PlaceGoal::sampleGoal(ob::State* state) const {

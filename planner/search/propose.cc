@@ -66,10 +66,10 @@ int iterations_for(double length_m) {
 
 // Poses that begin and end where the leg does: others would make a route with a leap in it.
 bool joins(const std::vector<Pose2>& poses, const LegSearch& leg) {
-  constexpr double kSamePlace_m = 1e-6;
+  constexpr double kSameEnd_m = 1e-6;
   return poses.size() >= 2 &&
-         std::hypot(poses.front().x_m - leg.from.x_m, poses.front().y_m - leg.from.y_m) < kSamePlace_m &&
-         std::hypot(poses.back().x_m - leg.to_x_m, poses.back().y_m - leg.to_y_m) < kSamePlace_m;
+         std::hypot(poses.front().x_m - leg.from.x_m, poses.front().y_m - leg.from.y_m) < kSameEnd_m &&
+         std::hypot(poses.back().x_m - leg.to_x_m, poses.back().y_m - leg.to_y_m) < kSameEnd_m;
 }
 
 double range_for(double length_m) {

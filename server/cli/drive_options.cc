@@ -84,6 +84,11 @@ void add_drive(CLI::App& command, DriveOptions& drive) {
   command.add_option("--max-expected-stops", drive.max_expected_stops, "bar of a GO: stops to be expected");
   command.add_option("--as-of-sol", drive.as_of_sol,
                      "drives of the terrain's table before this sol count as evidence of the ground");
+  command.add_option("--drive-so-far", drive.drive_so_far,
+                     "telemetry of a drive under way (CSV: driven_m,x_m,y_m and where known time_s, yaw_deg, "
+                     "current_a): evidence of the ground, and the start is its last row unless one is given");
+  command.add_option("--beliefs", drive.beliefs,
+                     "file of soils (soils/1) that stand in for those of the same names, or beside them");
   command.add_option("--unknown-soil", drive.unknown_soil, "what unmapped ground is believed to be");
   command.add_option("--confidence", drive.confidence,
                      "that a mapped class is the soil that the legend gives");

@@ -24,6 +24,8 @@ struct DriveOptions {
   std::optional<double> slip_check_every_m, embedding_slip, embedding_turns, embedding_sinkage_share;
   std::optional<double> max_embedding, max_expected_stops;
   std::optional<int> as_of_sol;
+  std::string drive_so_far;  // file with the telemetry of a drive under way; empty: none
+  std::string beliefs;       // file with soils that stand in for the catalogue's; empty: none
   std::string legend, unknown_soil;
   std::optional<double> confidence;
   std::optional<int> draws;

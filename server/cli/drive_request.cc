@@ -13,6 +13,9 @@
 #include <system_error>
 #include <utility>
 
+#include "api/documents/drive_so_far.h"
+#include "api/files/soil_file.h"
+#include "api/files/telemetry_csv.h"
 #include "api/requests/plan_request.h"
 #include "server/cli/command_parts.h"
 #include "server/cli/inquiry/zone_option.h"
@@ -51,6 +54,35 @@ void write_given(Writer& w, std::string_view key,
   w.end_object();
 }
 
+// Of what a request has as a whole in files of their own.
+Result<void> write_files(Writer& w, const DriveOptions& drive) {
+  const auto unusable = [](Error error) {
+    if (error.code != ErrorCode::kCancelled) error.code = ErrorCode::kInvalidRequest;
+    return fail(std::move(error));
+  };
+  if (!drive.drive_so_far.empty()) {
+    const auto bytes = read_request(drive.drive_so_far);
+    if (!bytes) return unusable(bytes.error());
+    const auto so_far = api::read_telemetry_csv(*bytes, drive.drive_so_far);
+    if (!so_far) return unusable(so_far.error());
+    api::json::write_drive_so_far(w, *so_far);
+  }
+  if (drive.beliefs.empty()) return {};
+  const auto bytes = read_request(drive.beliefs);
+  if (!bytes) return unusable(bytes.error());
+  const auto soils = api::json::read_soil_file(*bytes);
+  if (!soils) {
+    Error error = soils.error();
+    error.detail = fmt::format("{}: {}", drive.beliefs, error.detail);
+    for (Fault& fault : error.faults) fault.pointer = fmt::format("{}#{}", drive.beliefs, fault.pointer);
+    return unusable(std::move(error));
+  }
+  w.key("beliefs").begin_array();
+  for (const sim::SoilDistribution& soil : *soils) api::json::write_soil(w, soil);
+  w.end_array();
+  return {};
+}
+
 }  // namespace
 
 void write_place(Writer& w, const PlaceOption& place) {
@@ -84,6 +116,7 @@ Result<void> write_drive(Writer& w, const DriveOptions& drive) {
     for (const std::string& failed : drive.failed) write_setting(w, failed);
     w.end_object();
   }
+  if (auto written = write_files(w, drive); !written) return written;
   if (!drive.unknown_soil.empty()) w.text("unknown_soil", drive.unknown_soil);
   if (drive.confidence) w.exact("confidence", *drive.confidence);
   if (!drive.legend.empty()) w.text("legend", drive.legend);

@@ -1,5 +1,8 @@
 #include "sim/prediction/conditioned_draw.h"
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -22,23 +25,18 @@ bool is_all_known(const ConditionedDraw& draw, const std::unordered_set<std::uin
   return true;
 }
 
-}  // namespace
-
-void condition(const DrawnDriver& driver, std::uint64_t key, const PastDriveReport& report,
-               const Progress& progress, ConditionedDraw& draw) {
+// likelihood(redrawn, noted): how likely the draw with these cells redrawn makes what was reported; `noted`
+// gets the cells that it meets, where it is no null pointer.
+template <class Likelihood>
+void resample(std::uint64_t key, int most_tries, const Progress& progress, ConditionedDraw& draw,
+              const Likelihood& likelihood) {
   std::unordered_set<std::uint64_t> met;
-  const auto likelihood = [&](const RedrawnCells& redrawn, std::unordered_set<std::uint64_t>* noted) {
-    const DrawnRun how{.to_first_stop = true, .redrawn = &redrawn, .met = noted};
-    const DriveOutcome outcome = driver.run(key, how, progress).outcome;
-    const bool stops = outcome.stops > 0 || outcome.embedded;
-    return stops == report.stopped ? 1.0 - report.model_error : report.model_error;
-  };
   double sum = likelihood(draw.redrawn, &met);
   int tries = 1;
   if (!is_all_known(draw, met)) {
     RedrawnCells kept = draw.redrawn;
     const std::uint64_t coin = random_key(key, met.size() + draw.met.size());
-    for (; tries < report.tries && !progress.cancelled(); ++tries) {
+    for (; tries < most_tries && !progress.cancelled(); ++tries) {
       RedrawnCells tried = redraw(draw, met, tries);
       const double here = likelihood(tried, nullptr);
       sum += here;
@@ -49,6 +47,72 @@ void condition(const DrawnDriver& driver, std::uint64_t key, const PastDriveRepo
   }
   draw.weight *= sum / tries;
   draw.met.merge(met);
+}
+
+}  // namespace
+
+void condition(const DrawnDriver& driver, std::uint64_t key, const PastDriveReport& report,
+               const Progress& progress, ConditionedDraw& draw) {
+  resample(key, report.tries, progress, draw,
+           [&](const RedrawnCells& redrawn, std::unordered_set<std::uint64_t>* noted) {
+             const DrawnRun how{.to_first_stop = true, .redrawn = &redrawn, .met = noted};
+             const DriveOutcome outcome = driver.run(key, how, progress).outcome;
+             const bool stops = outcome.stops > 0 || outcome.embedded;
+             return stops == report.stopped ? 1.0 - report.model_error : report.model_error;
+           });
+}
+
+StretchDriver::StretchDriver(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs& beliefs,
+                             const PreparedDrive& drive)
+    : rover_(rover),
+      gravity_m_s2_(gravity_m_s2),
+      beliefs_(beliefs),
+      drive_(drive),
+      drives_level_(rover, gravity_m_s2) {}
+
+DrawnStretch StretchDriver::run(std::uint64_t key, const RedrawnCells& redrawn,
+                                std::unordered_set<std::uint64_t>* met) const {
+  DrawnGround ground(beliefs_, key, std::cref(drives_level_), &redrawn);
+  if (met) ground.note(*met);
+  QuasiStaticSolver solver(rover_, gravity_m_s2_, Precision::kDraws);
+  PerWheel<Soil> under(rover_.wheels.size());
+  DrawnStretch out;
+  std::vector<double> currents(rover_.wheels.size(), 0.0);
+  double rolled_m = 0.0, come_m = 0.0, last_slip = 0.0;
+  int with_current = 0;
+  for (const PreparedStation& station : drive_.stations) {
+    for (std::size_t k = 0; k < under.size(); ++k) {
+      under[k] = ground.at(station.soil[k], station.pose.x_m, station.pose.y_m);
+      out.slip_error += unresolved_slip_error(beliefs_.of(station.soil[k])) /
+                        static_cast<double>(under.size() * drive_.stations.size());
+    }
+    StationState state = solver.solve(station.stance, under, station.command);
+    scale_slip(slip_scale(ground, station), state);
+    last_slip = state.moving() ? std::min(state.slip_ratio, 1.0) : 1.0;
+    constexpr double kMaxSlip = 0.999;
+    come_m += station.drive_m;
+    rolled_m += station.drive_m / (1.0 - std::min(last_slip, kMaxSlip));
+    if (state.by_slip_curve) continue;
+    ++with_current;
+    for (std::size_t k = 0; k < currents.size(); ++k) currents[k] += std::abs(state.wheels[k].current_a);
+  }
+  out.slip_ratio = rolled_m > 0.0 ? 1.0 - come_m / rolled_m : last_slip;
+  if (with_current == 0) return out;
+  for (double& current : currents) current /= with_current;
+  out.currents_a = std::move(currents);
+  return out;
+}
+
+double condition(const StretchDriver& driver, std::uint64_t key, const MeasuredStretch& measured,
+                 const TelemetryErrors& errors, int tries, const Progress& progress, ConditionedDraw& draw) {
+  std::optional<double> before;
+  resample(key, tries, progress, draw,
+           [&](const RedrawnCells& redrawn, std::unordered_set<std::uint64_t>* noted) {
+             const DrawnStretch drawn = driver.run(key, redrawn, noted);
+             if (!before) before = drawn.slip_ratio;
+             return likelihood(measured, drawn, errors);
+           });
+  return *before;
 }
 
 }  // namespace slipway::sim

@@ -7,24 +7,19 @@
 #include "sim/prediction/odometry_shortfall.h"
 
 namespace slipway::sim {
-namespace {
 
-// Over the wheels in the mean of the logarithm.
 double slip_scale(const DrawnGround& ground, const PreparedStation& station) {
   double sum = 0.0;
   for (std::size_t k = 0; k < station.soil.size(); ++k) sum += std::log(ground.slip_scale(station.soil[k]));
   return std::exp(sum / static_cast<double>(station.soil.size()));
 }
 
-// The rover comes less far for the same turning of its wheels, or further; its wheels' forces are left.
 void scale_slip(double scale, StationState& state) {
   if (!state.moving() || state.slip_ratio >= 1.0 || scale == 1.0) return;
   const double travel = std::pow(1.0 - state.slip_ratio, scale);
   state.along_m_s *= travel / (1.0 - state.slip_ratio);
   state.slip_ratio = 1.0 - travel;
 }
-
-}  // namespace
 
 DrawnDriver::DrawnDriver(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs& beliefs,
                          const PreparedDrive& drive, const DriveLimits& limits, const SlipChecks& checks)

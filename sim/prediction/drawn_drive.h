@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/progress.h"
+#include "sim/prediction/drawn_ground.h"
 #include "sim/prediction/drive_outcome.h"
 #include "sim/prediction/drive_risk.h"
 #include "sim/prediction/likely_soils.h"
@@ -27,6 +28,13 @@ struct DrawnRun {
   const RedrawnCells* redrawn = nullptr;
   std::unordered_set<std::uint64_t>* met = nullptr;  // notes the cells that are met
 };
+
+// The ratio of ln(1 - slip), on the real ground over the model's, under a station's wheels: in the mean of
+// the logarithm, at the place of the ground's last calls.
+double slip_scale(const DrawnGround& ground, const PreparedStation& station);
+
+// The rover comes less far for the same turning of its wheels, or further; its wheels' forces are left.
+void scale_slip(double scale, StationState& state);
 
 // Drives a prepared drive on draws of the ground. What it is given must outlive it; used from several
 // threads.

@@ -30,6 +30,12 @@ std::uint64_t name_key(std::uint64_t key, const std::string& name) {
   return random_key(key, hash);
 }
 
+bool has_closure_spread(const SoilDistribution& of) {
+  bool has = of.std.c1 > 0.0 || of.std.c2 > 0.0;
+  for (const SoilAlternative& each : of.alternatives) has = has || has_closure_spread(*each.soil);
+  return has;
+}
+
 }  // namespace
 
 const SoilDistribution& chosen_alternative(const std::vector<SoilAlternative>& alternatives,
@@ -48,8 +54,9 @@ const SoilDistribution& chosen_alternative(const std::vector<SoilAlternative>& a
   return *alternatives.back().soil;
 }
 
-Soil joined_soil(const SoilDistribution& strength, const SoilDistribution& pressure, const SoilNormals& z) {
-  Soil soil = draw_soil(strength, z);
+Soil joined_soil(const SoilDistribution& strength, const SoilDistribution& pressure, const SoilNormals& z,
+                 const ClosureNormals& closures) {
+  Soil soil = draw_soil(strength, z, closures);
   if (&pressure == &strength || strength.mean.slip_curve || pressure.mean.slip_curve) return soil;
   const Soil other = draw_soil(pressure, z);
   soil.pressure = other.pressure;
@@ -72,9 +79,10 @@ DrawnGround::DrawnGround(const SoilBeliefs& beliefs, std::uint64_t key, DrivesLe
       redrawn_(redrawn),
       drawn_(beliefs.known.size() + 1) {}
 
-DrawnGround::Normals DrawnGround::normals_of(std::uint64_t key) {
-  Normals z;
-  for (int k = 0; k <= kSoilDims; ++k) z[k] = random_normal(key, static_cast<std::uint64_t>(k));
+DrawnGround::Normals DrawnGround::normals_of(std::uint64_t key, bool with_closures) {
+  Normals z = Normals::Zero();
+  const int count = kSoilDims + 1 + (with_closures ? kClosureDims : 0);
+  for (int k = 0; k < count; ++k) z[k] = random_normal(key, static_cast<std::uint64_t>(k));
   return z;
 }
 
@@ -89,7 +97,9 @@ const Soil& DrawnGround::at(std::optional<std::size_t> soil, double x_m, double 
     place.emplace();
     place->distribution = &beliefs_.of(soil);
     place->key = name_key(key_, place->distribution->name);
-    place->everywhere = normals_of(random_key(place->key, kEverywhere));
+    place->with_closures = has_closure_spread(*place->distribution);
+    place->unit.with_closures = place->patch.with_closures = place->with_closures;
+    place->everywhere = normals_of(random_key(place->key, kEverywhere), place->with_closures);
     const std::uint64_t commonness = random_key(place->key, kCommonness);
     for (std::size_t k = 0; k < place->distribution->alternatives.size(); ++k)
       place->commonness.push_back(
@@ -140,7 +150,7 @@ DrawnGround::Normals DrawnGround::blended(Corners& corners, std::uint64_t key, d
   if (!corners.filled || corners.column != column || corners.row != row) {
     for (int k = 0; k < 4; ++k)
       corners.normals[static_cast<std::size_t>(k)] =
-          normals_of(redrawn(cell_key(key, column + k % 2, row + k / 2)));
+          normals_of(redrawn(cell_key(key, column + k % 2, row + k / 2)), corners.with_closures);
     corners.filled = true;
     corners.column = column;
     corners.row = row;
@@ -187,7 +197,8 @@ Soil DrawnGround::draw(Belief& belief, double x_m, double y_m) {
   const Normals all = unit + patch;
   belief.slip_scale = std::exp(of.slip_error * all[kSoilDims]);
   const SoilNormals normals = all.head<kSoilDims>();
-  if (of.alternatives.empty()) return draw_soil(of, normals);
+  const ClosureNormals closures = all.tail<kClosureDims>();
+  if (of.alternatives.empty()) return draw_soil(of, normals, closures);
   std::uint64_t choice = key;
   if (of.alternatives_by == AlternativesBy::kUnit)
     choice = cell_at(random_key(key, kJitter), kUnitLength_m, x_m, y_m);
@@ -197,7 +208,7 @@ Soil DrawnGround::draw(Belief& belief, double x_m, double y_m) {
     choose(belief, choice);
     belief.chosen_for = choice;
   }
-  return joined_soil(*belief.strength, *belief.pressure, normals);
+  return joined_soil(*belief.strength, *belief.pressure, normals, closures);
 }
 
 }  // namespace slipway::sim

@@ -23,7 +23,8 @@ inline constexpr double kMaxLevelSlip = 0.2;
 
 // The strength of one soil with the pressure of another, at the same normal numbers. A soil that is known by
 // its slip curve alone has neither: then it is the first as it is.
-Soil joined_soil(const SoilDistribution& strength, const SoilDistribution& pressure, const SoilNormals& z);
+Soil joined_soil(const SoilDistribution& strength, const SoilDistribution& pressure, const SoilNormals& z,
+                 const ClosureNormals& closures = ClosureNormals::Zero());
 
 // The one of the alternatives, by their weights, that a uniform number falls on.
 const SoilDistribution& chosen_alternative(const std::vector<SoilAlternative>& alternatives,
@@ -68,17 +69,19 @@ class DrawnGround {
   void note(std::unordered_set<std::uint64_t>& met) { met_ = &met; }
 
  private:
-  // Those of a soil, and one for the error of slip.
-  using Normals = Eigen::Matrix<double, kSoilDims + 1, 1>;
+  // Those of a soil, one for the error of slip, and those of c1 and c2 where these have a spread.
+  using Normals = Eigen::Matrix<double, kSoilDims + 1 + kClosureDims, 1>;
   // Normal numbers at the corners of one cell of a lattice.
   struct Corners {
     bool filled = false;
+    bool with_closures = false;
     long long column = 0, row = 0;
     std::array<Normals, 4> normals;
   };
   struct Belief {
     const SoilDistribution* distribution = nullptr;
     std::uint64_t key = 0;
+    bool with_closures = false;  // c1 or c2 has a spread
     Normals everywhere;
     std::vector<double> commonness;  // factor of each alternative's weight in this draw
     Corners unit, patch;
@@ -92,7 +95,7 @@ class DrawnGround {
     bool drawn = false;
   };
 
-  static Normals normals_of(std::uint64_t key);
+  static Normals normals_of(std::uint64_t key, bool with_closures);
   // The key of a unit or patch of this draw.
   std::uint64_t redrawn(std::uint64_t cell);
   std::uint64_t cell_at(std::uint64_t key, double length_m, double x_m, double y_m);

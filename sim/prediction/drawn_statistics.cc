@@ -50,14 +50,9 @@ class Weighted {
     return total / sum_;
   }
 
-  // Wilson's interval for a share of n, at 90 % [Wilson 1927].
   template <class Of>
   DrawnShare share(Of of) const {
-    constexpr double z = kReach90;
-    const double n = effective_, p = std::clamp(mean(of), 0.0, 1.0);
-    const double centre = (p + z * z / (2.0 * n)) / (1.0 + z * z / n);
-    const double half = z / (1.0 + z * z / n) * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n));
-    return {p, std::max(0.0, centre - half), std::min(1.0, centre + half)};
+    return share_of_draws(mean(of), effective_);
   }
 
   template <class Of>
@@ -120,14 +115,6 @@ RuleRisk rule_risk(Rule rule, const std::vector<DrawnDrive>& drives, const Weigh
   return risk;
 }
 
-// The ground that a station stands for: unknown where any wheel is on unknown ground.
-std::optional<std::size_t> ground_of(const PreparedStation& station) {
-  std::optional<std::size_t> soil = station.soil[0];
-  for (std::size_t k = 0; k < station.soil.size(); ++k)
-    if (!station.soil[k]) soil.reset();
-  return soil;
-}
-
 // Stops and embeddings by ground and by stretch.
 void locate(const std::vector<DrawnDrive>& drives, const std::vector<PreparedStation>& stations,
             DriveOutcomes& out) {
@@ -171,11 +158,7 @@ DriveOutcomes outcomes_of(const std::vector<DrawnDrive>& drives, const Weighted&
       weighted.share([](const DrawnDrive& d) { return d.outcome.stops == 0 && !d.outcome.embedded; });
   const double mean = weighted.mean([](const DrawnDrive& d) { return d.outcome.stops; });
   const double square = weighted.mean([](const DrawnDrive& d) { return d.outcome.stops * d.outcome.stops; });
-  const double error = std::sqrt(std::max(0.0, square - mean * mean) / weighted.effective());
-  // Where hardly any draw stops, their scatter says little: the share of draws with a stop bounds the mean.
-  out.expected_stops = mean;
-  out.expected_stops_low = std::max({0.0, mean - kReach90 * error, std::min(mean, out.stop.low)});
-  out.expected_stops_high = std::max(mean + kReach90 * error, mean > 0.0 ? mean : out.stop.high);
+  fill_expected_stops(mean, square, weighted.effective(), out);
   const auto on_known = [&](const DrawnDrive& d, bool embeddings) {
     return static_cast<double>(
         std::count_if(d.outcome.events.begin(), d.outcome.events.end(), [&](const OutcomeEvent& event) {
@@ -196,6 +179,33 @@ DriveOutcomes outcomes_of(const std::vector<DrawnDrive>& drives, const Weighted&
 }
 
 }  // namespace
+
+DrawnShare share_of_draws(double share, double n) {
+  constexpr double z = kReach90;
+  const double p = std::clamp(share, 0.0, 1.0);
+  const double centre = (p + z * z / (2.0 * n)) / (1.0 + z * z / n);
+  const double half = z / (1.0 + z * z / n) * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n));
+  return {p, std::max(0.0, centre - half), std::min(1.0, centre + half)};
+}
+
+void fill_expected_stops(double mean, double square, double n, DriveOutcomes& out) {
+  const double error = std::sqrt(std::max(0.0, square - mean * mean) / n);
+  // Where hardly any draw stops, their scatter says little: the share of draws with a stop bounds the mean.
+  out.expected_stops = mean;
+  out.expected_stops_low = std::max({0.0, mean - kReach90 * error, std::min(mean, out.stop.low)});
+  out.expected_stops_high = std::max(mean + kReach90 * error, mean > 0.0 ? mean : out.stop.high);
+}
+
+DrawnSpread spread_of(const std::vector<std::pair<double, double>>& values) {
+  return {weighted_quantile(values, 0.05), weighted_quantile(values, 0.50), weighted_quantile(values, 0.95)};
+}
+
+std::optional<std::size_t> ground_of(const PreparedStation& station) {
+  std::optional<std::size_t> soil = station.soil[0];
+  for (std::size_t k = 0; k < station.soil.size(); ++k)
+    if (!station.soil[k]) soil.reset();
+  return soil;
+}
 
 std::vector<double> stretch_ends_m(const std::vector<PreparedStation>& stations) {
   constexpr double kMinStretch_m = 10.0;

@@ -10,7 +10,9 @@
 #include "core/random.h"
 #include "sim/prediction/conditioned_draw.h"
 #include "sim/prediction/drawn_drive.h"
+#include "sim/prediction/drawn_statistics.h"
 #include "sim/prediction/drive_risk.h"
+#include "sim/prediction/telemetry.h"
 
 namespace slipway::sim {
 namespace {
@@ -268,10 +270,39 @@ Result<void> condition_draws(const RoverModel& rover, double gravity_m_s2, const
   if (!drive) return fail(drive.error());
   const DrawnDriver driver(rover, gravity_m_s2, beliefs, *drive, limits, risk.checks);
   parallel_for(draws.size(), threads, [&](std::size_t d) {
-    condition(driver, random_key(risk.seed, d), report, progress, draws[d]);
+    condition(driver, random_key(risk.seed, draws[d].number.value_or(d)), report, progress, draws[d]);
   });
   if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the prediction was dismissed");
   return {};
+}
+
+Result<StretchForecast> condition_on_stretch(const RoverModel& rover, double gravity_m_s2,
+                                             const Ground& ground, const SoilBeliefs& beliefs,
+                                             std::span<const PathStation> path,
+                                             const MeasuredStretch& measured, const TelemetryErrors& errors,
+                                             const RiskOptions& risk, int tries, std::size_t threads,
+                                             Progress& progress, std::vector<ConditionedDraw>& draws,
+                                             const DriveConditions& conditions) {
+  const auto drive = prepare(rover, gravity_m_s2, ground, beliefs, path, {}, progress, conditions);
+  if (!drive) return fail(drive.error());
+  StretchForecast forecast;
+  if (drive->stations.empty()) return forecast;  // no stance: nothing of the soil is learnt there
+  const StretchDriver driver(rover, gravity_m_s2, beliefs, *drive);
+  std::vector<std::pair<double, double>> slips(draws.size());
+  parallel_for(draws.size(), threads, [&](std::size_t d) {
+    slips[d].second = draws[d].weight;
+    slips[d].first = condition(driver, random_key(risk.seed, draws[d].number.value_or(d)), measured, errors,
+                               tries, progress, draws[d]);
+  });
+  if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the prediction was dismissed");
+  forecast.slip_ratio = spread_of(slips);
+  double sum = 0.0, squares = 0.0;
+  for (const ConditionedDraw& draw : draws) {
+    sum += draw.weight;
+    squares += draw.weight * draw.weight;
+  }
+  forecast.effective_draws = sum * sum / squares;
+  return forecast;
 }
 
 }  // namespace slipway::sim

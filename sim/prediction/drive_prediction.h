@@ -119,6 +119,21 @@ struct DriveOutcomes {
   double effective_draws = 0.0;  // (sum of the weights)^2 / sum of their squares
 };
 
+// A short drive onto the ground that decides, on the way itself, of which the slip would be measured; and
+// what that would be worth (see scout_drive()).
+struct ScoutDrive {
+  std::optional<std::size_t> soil;  // the ground on which most goes wrong; empty: unknown ground
+  double from_m = 0.0, to_m = 0.0;  // along the way
+  Pose2 from;
+  DrawnSpread slip_ratio;         // that it would measure
+  double expected_stops = 0.0;    // on the scout drive itself
+  double embedding = 0.0;         // the same, share of draws
+  double go = 0.0, no_go = 0.0;   // probabilities that the bars are kept, or passed, once it is measured
+  double worth_sols = 0.0;        // expected value of the measurement
+  std::vector<float> drawn_slip;  // there, by the number of the draw; those beyond the last are not known
+  double slip_error = 0.0;        // of the ground, see slip_deviation()
+};
+
 // What one draw of the ground makes of the whole drive.
 struct DrawFigures {
   double weight = 1.0;  // that of its draw
@@ -165,7 +180,8 @@ struct DrivePrediction {
   // is none. Equal to mean_slip_ratio where no draw has one.
   double mean_slip_ratio_p05 = 0.0, mean_slip_ratio_p50 = 0.0, mean_slip_ratio_p95 = 0.0;
   DriveOutcomes outcomes;
-  std::vector<DrawFigures> drawn;  // by the number of the draw: as many as `draws`
+  std::vector<DrawFigures> drawn;   // by the number of the draw: as many as `draws`
+  std::optional<ScoutDrive> scout;  // nothing where nothing goes wrong in any draw, or no ground decides
 };
 
 // The bars that decide a drive.
@@ -185,6 +201,7 @@ using RedrawnCells = std::unordered_map<std::uint64_t, std::uint64_t>;
 
 // What drives of the past make of one draw of the ground (see condition_draws()).
 struct ConditionedDraw {
+  std::optional<std::size_t> number = {};  // of the draw; its place in the list where it is empty
   double weight = 1.0;
   RedrawnCells redrawn;
   std::unordered_set<std::uint64_t> met;  // cells on which a drive of the past was

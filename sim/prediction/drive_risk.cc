@@ -7,6 +7,7 @@
 #include "core/random.h"
 #include "sim/prediction/drawn_drive.h"
 #include "sim/prediction/drawn_statistics.h"
+#include "sim/prediction/scout_drive.h"
 
 namespace slipway::sim {
 namespace {
@@ -37,7 +38,8 @@ bool draw_more(const DrawnDriver& driver, std::size_t count, std::size_t station
     const ConditionedDraw* conditioned =
         options.conditioned && draw < options.conditioned->size() ? &(*options.conditioned)[draw] : nullptr;
     const DrawnRun how{.keep_states = draw < kept, .redrawn = conditioned ? &conditioned->redrawn : nullptr};
-    drives[draw] = driver.run(random_key(options.seed, draw), how, progress);
+    const std::size_t number = conditioned ? conditioned->number.value_or(draw) : draw;
+    drives[draw] = driver.run(random_key(options.seed, number), how, progress);
     if (options.conditioned) drives[draw].weight = conditioned ? conditioned->weight : 0.0;
   });
   return !progress.cancelled();
@@ -109,6 +111,7 @@ bool assess_risk(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs
     summarise(drives, drive.stations, limits, prediction);
   } while (drives.size() < most && !options.bars.decide(prediction.outcomes));
 
+  prediction.scout = scout_drive(drives, drive.stations, beliefs, prediction.outcomes, options.bars);
   fill_events(drives, prediction.stations);
   for (std::size_t k = 0; k < prediction.stations.size(); ++k) {
     StationPrediction& station = prediction.stations[k];

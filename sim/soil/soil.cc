@@ -32,7 +32,8 @@ SoilNormals towards_weakness() {
   return normals;
 }
 
-Soil draw_soil(const SoilDistribution& distribution, const SoilNormals& normals) {
+Soil draw_soil(const SoilDistribution& distribution, const SoilNormals& normals,
+               const ClosureNormals& closures) {
   SoilNormals z = normals;
   if (!distribution.correlation.isIdentity(0.0)) {
     z = Eigen::LLT<SoilCorrelation>(distribution.correlation).matrixL() * normals;
@@ -57,6 +58,8 @@ Soil draw_soil(const SoilDistribution& distribution, const SoilNormals& normals)
   const double shear = log_normal(1.0, std.shear_modulus_ratio, z[4]);
   soil.shear_modulus_x_m = mean.shear_modulus_x_m * shear;
   soil.shear_modulus_y_m = mean.shear_modulus_y_m * shear;
+  soil.c1 = log_normal(mean.c1, std.c1, closures[0]);
+  soil.c2 = log_normal(mean.c2, std.c2, closures[1]);
   return soil;
 }
 

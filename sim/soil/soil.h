@@ -95,6 +95,7 @@ struct SoilStd {
   double cohesion_pa = 0.0;
   double friction_angle_rad = 0.0;
   double shear_modulus_ratio = 0.0;
+  double c1 = 0.0, c2 = 0.0;  // of the angle of greatest normal stress
   double slip_ratio =
       0.0;  // of ground that is known by a slip curve: of the slip at every slope, in place of the others
 };
@@ -102,6 +103,8 @@ struct SoilStd {
 constexpr int kSoilDims = 5;  // stiffness, n, cohesion, tan(friction angle), shear modulus
 using SoilNormals = Eigen::Matrix<double, kSoilDims, 1>;
 using SoilCorrelation = Eigen::Matrix<double, kSoilDims, kSoilDims>;
+constexpr int kClosureDims = 2;  // c1 and c2, which are drawn on their own
+using ClosureNormals = Eigen::Matrix<double, kClosureDims, 1>;
 
 // How the spread about the mean is shared out among the levels of the ground, as shares of the variance that
 // add up to 1. What is shared everywhere is one number for all ground of this soil; the rest changes from
@@ -128,7 +131,8 @@ struct SoilAlternative {
 
 // What is believed of a soil: a mean, its spread and how far along the ground one draw holds. The five
 // uncertain quantities are log-normal with these means and standard deviations (so every draw is a soil), and
-// their logarithms have the given correlation. The slip of a slip curve is normal about it.
+// their logarithms have the given correlation; c1 and c2 are log-normal on their own. The slip of a slip
+// curve is normal about it.
 struct SoilDistribution {
   std::string name;                  // "mpf_drift"
   std::string summary;               // one line for people
@@ -157,8 +161,10 @@ struct SoilDistribution {
 };
 
 // Turns standard normal numbers into one soil of the distribution. `normals` are independent; the correlation
-// is applied here. A zero standard deviation leaves the mean exactly.
-Soil draw_soil(const SoilDistribution& distribution, const SoilNormals& normals);
+// is applied here. A zero standard deviation leaves the mean exactly. `closures` are those of c1 and c2; at
+// nought these are their medians.
+Soil draw_soil(const SoilDistribution& distribution, const SoilNormals& normals,
+               const ClosureNormals& closures = ClosureNormals::Zero());
 
 // The direction of weakness, of length one: in equal parts less stiffness, cohesion and friction and more
 // shear before the thrust is there. One standard deviation that way gives the planner's weak soil, and more

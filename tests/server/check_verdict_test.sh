@@ -86,4 +86,30 @@ expect 2 "$slipway" compare-plans "$folder/a.json" "$folder/no_such.json"
 # With drives of the past as evidence the same drive has other odds, and the answer says how many drives count.
 expect verdict "$slipway" check --data "$data" $level --as-of-sol 978 --draws 64 --json
 grep -q '"past_drives":6' "$folder/out"
+
+# A drive under way: its telemetry tells of the ground ahead, the rest begins where it is, and bad rows have their lines.
+printf 'driven_m,x_m,y_m,current_a\n0,8142640,-276640,\n2.4,8142638,-276640.3,6.1\n5.0,8142636,-276640.5,6.8\n' > "$folder/so_far.csv"
+expect verdict "$slipway" check --data "$data" --path 8142632,-276640.5 --drive-so-far "$folder/so_far.csv"
+grep -q 'driven so far' "$folder/out"
+grep -q '^4.0 m, ' "$folder/out" || { echo "the rest is not 4 m"; cat "$folder/out"; exit 1; }
+expect verdict "$slipway" plan --data "$data" --goal 8142630,-276641 --drive-so-far "$folder/so_far.csv" --draws 20 --routes 1 --json
+grep -q '"start":{"x_m":8142636,"y_m":-276640.5}' "$folder/out"
+printf 'driven_m,x_m\n0,8142640\nfar,8142638\n' > "$folder/bad.csv"
+expect 2 "$slipway" check --data "$data" $level --drive-so-far "$folder/bad.csv"
+grep -q 'there is no column y_m' "$folder/err"
+grep -q 'line 3, column 1 (driven_m)' "$folder/err"
+expect 2 "$slipway" check --data "$data" $level --drive-so-far "$folder/no_such.csv"
+
+# Whole soils of a file stand in for those of the data folder, for one question.
+python3 - "$data/soils/mars_sites.json" "$folder/beliefs.json" <<'END'
+import json, sys
+soils = json.load(open(sys.argv[1]))
+soils["soils"] = [{**soils["soils"][0], "name": "unknown_ground"}]
+json.dump(soils, open(sys.argv[2], "w"))
+END
+expect verdict "$slipway" check --data "$data" $level --draws 2 --beliefs "$folder/beliefs.json" --json
+grep -q '"beliefs":\[{"name":"unknown_ground"' "$folder/out"
+# What a scout drive would be worth, where anything goes wrong at all.
+expect 3 "$slipway" check --data "$data" $level --max-slip 0.001 --max-expected-stops 0.001
+grep -q 'A scout drive from ' "$folder/out"
 echo "verdicts and exit statuses agree"

@@ -75,6 +75,30 @@ TEST(DrawnGround, SharesItsSpreadBetweenAllGroundUnitsAndPatches) {
   EXPECT_NEAR(covariance(patchy, 1000.0), 0.0, 0.05);
 }
 
+// c1 and c2 vary from draw to draw and from place to place where they have a spread, and change nothing else.
+TEST(DrawnGround, ClosuresHaveASpreadOfTheirOwn) {
+  SoilDistribution with = loam();
+  with.std.c1 = 0.1;
+  with.std.c2 = 0.05;
+  const SoilBeliefs plain{{loam()}, loam()}, closures{{with}, with};
+  double sum = 0.0, squares = 0.0;
+  constexpr int kDraws = 3000;
+  for (int d = 0; d < kDraws; ++d) {
+    const std::uint64_t key = random_key(9, static_cast<std::uint64_t>(d));
+    DrawnGround ground(closures, key);
+    const Soil soil = ground.at(0, 17.0, 4.0);
+    EXPECT_EQ(log_k(soil), log_k(DrawnGround(plain, key).at(0, 17.0, 4.0)));
+    EXPECT_EQ(DrawnGround(plain, key).at(0, 17.0, 4.0).c1, with.mean.c1);
+    sum += soil.c1 / kDraws;
+    squares += soil.c1 * soil.c1 / kDraws;
+    if (d == 0) {
+      EXPECT_NE(soil.c1, ground.at(0, 400.0, 4.0).c1);
+    }
+  }
+  EXPECT_NEAR(sum, with.mean.c1, 0.01);
+  EXPECT_NEAR(std::sqrt(squares - sum * sum), 0.1, 0.01);
+}
+
 TEST(DrawnGround, WithoutSpreadEveryDrawIsTheMean) {
   const SoilBeliefs beliefs{{certain("loam", sandy_loam())}, certain("sand", loose_sand())};
   DrawnGround ground(beliefs, 99);

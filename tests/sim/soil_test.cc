@@ -49,6 +49,32 @@ TEST(SoilDraw, ManyDrawsHaveTheStatedMeansAndSpreads) {
   EXPECT_NEAR(std(phi, phi2), rad_from_deg(3.0), rad_from_deg(0.2));
 }
 
+TEST(SoilDraw, ClosuresAreDrawnOnTheirOwnWithTheStatedMeansAndSpreads) {
+  SoilDistribution belief = certain("drift", sandy_loam());
+  belief.std = {0.3, 0.1, 500.0, rad_from_deg(3.0), 0.25};
+  const Soil without = draw_soil(belief, normals(5), {1.0, -1.0});
+  EXPECT_EQ(without.c1, belief.mean.c1);
+  EXPECT_EQ(without.c2, belief.mean.c2);
+  belief.std.c1 = 0.1;
+  belief.std.c2 = 0.05;
+  EXPECT_EQ(draw_soil(belief, normals(5), {1.0, -1.0}).cohesion_pa, without.cohesion_pa);
+  const int n = 50'000;
+  double c1 = 0, c1_squares = 0, c2 = 0, c2_squares = 0;
+  for (int d = 0; d < n; ++d) {
+    const auto key = static_cast<std::uint64_t>(d);
+    const Soil soil =
+        draw_soil(belief, SoilNormals::Zero(), {random_normal(5, 2 * key), random_normal(5, 2 * key + 1)});
+    c1 += soil.c1 / n;
+    c1_squares += soil.c1 * soil.c1 / n;
+    c2 += soil.c2 / n;
+    c2_squares += soil.c2 * soil.c2 / n;
+  }
+  EXPECT_NEAR(c1, belief.mean.c1, 0.002);
+  EXPECT_NEAR(std::sqrt(c1_squares - c1 * c1), 0.1, 0.003);
+  EXPECT_NEAR(c2, belief.mean.c2, 0.001);
+  EXPECT_NEAR(std::sqrt(c2_squares - c2 * c2), 0.05, 0.002);
+}
+
 TEST(SoilDraw, EveryDrawIsASoilHoweverWideTheBelief) {
   SoilDistribution belief = certain("anything", loose_sand());
   belief.std = {3.0, 0.8, 5000.0, rad_from_deg(30.0), 3.0};

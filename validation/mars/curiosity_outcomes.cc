@@ -22,6 +22,9 @@ struct Scored {
   bool stopped = false;
   double length_m = 0.0, mean_slip = 0.0;
   double as_of = 0.0, without = 0.0, with_all = 0.0, embedding = 0.0;  // probabilities of not being completed
+  // As of its sol along the planned ground: the driven line, and of a stopped drive the ground beyond it.
+  double planned = 0.0;
+  double all_longer = 0.0;  // the same with every drive as much longer, stopped or not
 };
 
 // A way to ask: which of the terrain's legends, and the commanded limit of slip.
@@ -87,6 +90,22 @@ Result<sim::DrivePrediction> checked(const api::Service& service, const std::vec
   return std::move(answer->prediction);
 }
 
+// A stopped drive did not come as far as was planned: it goes on straight, in the direction from its first
+// place to its last.
+std::vector<planner::Waypoint> extended(std::vector<planner::Waypoint> path, double by_m) {
+  const planner::Waypoint &first = path.front(), &last = path.back();
+  const double across_m = std::hypot(last.x_m - first.x_m, last.y_m - first.y_m);
+  const planner::Waypoint end{last.x_m + by_m * (last.x_m - first.x_m) / across_m,
+                              last.y_m + by_m * (last.y_m - first.y_m) / across_m,
+                              {}};
+  path.push_back(end);
+  return path;
+}
+
+// Of the stopped drives a report gives the planned length of one alone: 19 m on sol 978, of which 1.7 were
+// driven. The others are taken to have had as much ground before them when they were stopped.
+constexpr double kBeyond_m = 17.3;
+
 std::string percent(double share) {
   return fmt::format("{:.0f} %", 100.0 * share);
 }
@@ -102,12 +121,26 @@ Result<std::vector<Scored>> score_drives(const api::Service& service, const Aske
       if (const Result<void> done = fill(drives[k], paths[k]); !done) return done;
     return {};
   };
+  // Beyond the end of a drive: what was planned of it, or as much as was planned on sol 978.
+  const auto score_longer = [&](Scored& drive, const std::vector<planner::Waypoint>& path) -> Result<void> {
+    drive.planned = drive.all_longer = drive.as_of;
+    if (!drive.stopped && as_of_alone) return {};
+    const auto answer = checked(service, extended(path, kBeyond_m), asked, drive.sol);
+    if (!answer && !drive.stopped) return {};  // it leaves the map
+    if (!answer) return fail(answer.error());
+    drive.all_longer = 1.0 - answer->outcomes.completed.share;
+    if (drive.stopped) drive.planned = drive.all_longer;
+    return {};
+  };
   const auto ask = [&](double Scored::*probability, auto&& as_of_sol) {
     return each([&](Scored& drive, const std::vector<planner::Waypoint>& path) -> Result<void> {
       const auto answer = checked(service, path, asked, as_of_sol(drive));
       if (!answer) return fail(answer.error());
       drive.*probability = 1.0 - answer->outcomes.completed.share;
-      if (probability == &Scored::as_of) drive.embedding = answer->outcomes.embedding.share;
+      if (probability == &Scored::as_of) {
+        drive.embedding = answer->outcomes.embedding.share;
+        if (auto done = score_longer(drive, path); !done) return done;
+      }
       drive.length_m = answer->length_m;
       drive.mean_slip = answer->mean_slip_ratio;
       return {};
@@ -151,13 +184,17 @@ void add_scores(const std::string& how, const std::vector<Scored>& drives, bool 
         ranks_of_stops(drives, probability)));
   };
   add("its own outcome and later ones withheld", "as of each sol", &Scored::as_of);
+  add("outcomes withheld, but that the stopped drives alone are lengthened",
+      "as of each sol, planned ground beyond a stop included", &Scored::planned);
   if (as_of_alone) return;
+  add("to compare with the line before: how much of it comes of lengthening stopped drives alone",
+      "as of each sol, every drive lengthened by 17.3 m", &Scored::all_longer);
   add("nothing of them used", "without drives of the past", &Scored::without);
   add("fitted: each drive's own outcome is in it", "with all drives", &Scored::with_all);
 }
 
 void add_notes(const std::vector<Scored>& drives, Report& report) {
-  const Score as_of = score(drives, &Scored::as_of);
+  const Score as_of = score(drives, &Scored::as_of), planned = score(drives, &Scored::planned);
   const double rate = 3.0 / static_cast<double>(drives.size());
   report.notes.push_back(fmt::format(
       "Baselines: the constant rate has AUC 0.50, Brier {:.3f} and log score 0.48; predicted mean slip alone "
@@ -168,16 +205,25 @@ void add_notes(const std::vector<Scored>& drives, Report& report) {
       "alternative soil must carry the rover on the level, ten turns for an embedding and the pressure of "
       "msl_bedrock were chosen with these drives in view.");
   report.notes.push_back(
-      "A stopped leg ends where the rover stopped, so that the ground beyond it is not scored. With three "
+      "A stopped leg ends where the rover stopped, and the column of the sol scores that line alone. Planned "
+      "ground "
+      "goes on straight from there: on sol 978 to the 19 m that were planned, on sols 983 and 984, whose "
+      "planned "
+      "lengths no report gives, for as many metres more (17.3, assumed). Which drives are lengthened is "
+      "known from "
+      "their outcomes alone: an operator would ask for the whole planned drive of each. With three "
       "stops each pair moves an AUC by 0.03: differences under 0.2 mean little. The commanded slip limit is "
       "unknown; a check every 5 m is assumed.");
   double largest = 0.0;
   for (const Scored& drive : drives) largest = std::max(largest, drive.embedding);
   report.notes.push_back(fmt::format(
       "No drive was embedded; the largest probability of embedding as of its sol is {}.", percent(largest)));
-  report.bands = {{"drives scored", static_cast<double>(drives.size()), 16, 16},
-                  {"Brier score as of each sol", as_of.brier, 0.0, 0.25},
-                  {"AUC as of each sol", as_of.auc, 0.3, 1.0}};
+  report.bands = {
+      {"drives scored", static_cast<double>(drives.size()), 16, 16},
+      {"Brier score as of each sol", as_of.brier, 0.0, 0.25},
+      {"AUC as of each sol", as_of.auc, 0.3, 1.0},
+      {"Brier score, planned ground beyond a stop included", planned.brier, 0.0, rate * (1.0 - rate)},
+      {"AUC, planned ground beyond a stop included", planned.auc, 0.8, 1.0}};
 }
 
 }  // namespace
@@ -192,8 +238,9 @@ Result<Report> curiosity_outcomes(const std::filesystem::path& data) {
       "published mission updates; each drive checked on the 1 m DEM, and scored by the probability that it "
       "is "
       "not completed";
-  report.columns = {"sol",           "outcome",        "length m",   "mean slip",
-                    "as of the sol", "no past drives", "all drives", "embedding"};
+  report.columns = {"sol",           "outcome",        "length m",       "mean slip",
+                    "as of the sol", "planned ground", "no past drives", "all drives",
+                    "embedding"};
   std::optional<std::vector<Scored>> shown;
   for (const api::Legend& legend : (*service)->catalogue().terrains.at("gale")->description().legends) {
     for (const double max_slip : {0.4, 0.6, 0.7}) {
@@ -208,8 +255,8 @@ Result<Report> curiosity_outcomes(const std::filesystem::path& data) {
   for (const Scored& drive : *shown) {
     report.rows.push_back({fmt::format("{}", drive.sol), drive.stopped ? "slip stop" : "completed",
                            fmt::format("{:.1f}", drive.length_m), fmt::format("{:.2f}", drive.mean_slip),
-                           percent(drive.as_of), percent(drive.without), percent(drive.with_all),
-                           percent(drive.embedding)});
+                           percent(drive.as_of), percent(drive.planned), percent(drive.without),
+                           percent(drive.with_all), percent(drive.embedding)});
     report.cases.push_back(
         {fmt::format("sol {}", drive.sol), "stop", "1", drive.stopped ? 1.0 : 0.0, drive.as_of});
   }

@@ -106,6 +106,36 @@ Result<std::string> catalogue_table(std::string_view document, std::string_view 
   return table.print();
 }
 
+// Of a drive under way: each stretch's slip against what was predicted of it.
+std::string learnt_lines(const JsonValue& document) {
+  const JsonValue& learnt = at(document, "drive_so_far");
+  if (!learnt.is(JsonValue::Kind::kObject)) return {};
+  TextTable table({"driven so far", "at", "slip", "predicted before 5, 50, 95 %"});
+  for (const JsonValue& stretch : at(learnt, "stretches").elements) {
+    const JsonValue& predicted = at(stretch, "predicted_slip");
+    table.add({fmt::format("{:.1f} - {:.1f} m", number(stretch, "from_m"), number(stretch, "to_m")),
+               fmt::format("{:.1f}, {:.1f}", number(stretch, "x_m"), number(stretch, "y_m")),
+               fmt::format("{:.2f}", number(stretch, "slip")),
+               fmt::format("{:.2f}, {:.2f}, {:.2f}", number(predicted, "p05"), number(predicted, "p50"),
+                           number(predicted, "p95"))});
+  }
+  return "\n" + table.print() +
+         fmt::format("{:.0f} of {:.0f} draws of the ground are left in effect\n",
+                     number(learnt, "effective_draws"), number(learnt, "draws"));
+}
+
+// What a scout drive onto the ground that decides the best route would be worth.
+std::string scout_lines(const JsonValue& plan) {
+  const JsonValue& scout = at(plan, "scout");
+  if (!scout.is(JsonValue::Kind::kObject)) return {};
+  const JsonValue& best = at(at(plan, "routes"), "features").elements.front();
+  return fmt::format(
+      "{}. Of route {:.0f}; it would lower the expected cost by {:.2f}, and another route is then "
+      "the cheapest with {:.0f} %\n",
+      api::scout_words(at(at(best, "properties"), "outcomes")), number(scout, "route"),
+      number(scout, "worth"), 100.0 * number(scout, "other_route"));
+}
+
 }  // namespace
 
 Result<std::string> plan_table(std::string_view answer) {
@@ -127,6 +157,7 @@ Result<std::string> plan_table(std::string_view answer) {
     if (at(route, "pareto").boolean && summary.elements.size() > 1)
       out += "  - no other route is at least as good in duration, energy, expected stops and embedding\n";
   }
+  out += scout_lines(*document) + learnt_lines(*document);
   for (const JsonValue& route : summary.elements) {
     const std::string shown =
         dynamic_lines(route, fmt::format("Route {:.0f} verified by dynamics", number(route, "rank")));
@@ -211,6 +242,7 @@ Result<std::string> check_table(std::string_view answer) {
                      number(figures, "length_m"), duration(number(figures, "duration_s")),
                      number(outcomes, "expected_sols"), number(outcomes, "draws"));
   out += rules_table(outcomes);
+  out += learnt_lines(*document);
   const JsonValue& uncertainty = at(*document, "position_uncertainty");
   const JsonValue& behind = at(uncertainty, "shortfall_m");
   out += fmt::format(
