@@ -125,6 +125,7 @@ void RoverDynamics::halt(const PerWheel<double>& steered_rad) {
 void RoverDynamics::follow(const LegDriver* driver, const Pose2& leg_start) {
   driver_ = driver;
   leg_start_ = leg_start;
+  stall_.reset();
   const PerWheel<WheelCommand> plain = wheel_commands(rover_, driver->leg().command);
   for (std::size_t k = 0; k < plain.size(); ++k)
     contacts_.set_commanded_direction(k, plain[k].rate_rad_s < 0.0 ? -1.0 : 1.0);
@@ -197,10 +198,22 @@ RoverDynamics::WheelDriveState RoverDynamics::drive_of(std::size_t k, const doub
   const WheelModel& wheel = rover_.wheels[k];
   const double rate = rates_[bodies_.wheel[k]];
   WheelDriveState out;
-  if (wheel.drive == WheelDrive::kDriven)
+  double driving = 0.0;
+  if (wheel.drive == WheelDrive::kDriven && braked_) {
+    driving = drive_control_.brake_torque_nm(rate, y[integrals_at_ + k]);
+  } else if (wheel.drive == WheelDrive::kDriven) {
     out.motor = drive_control_.keep_rate(commanded_[k].rate_rad_s, rate, y[integrals_at_ + k]);
-  out.torque_nm = out.motor.torque_nm - wheel.drag_nm * std::tanh(rate / standstill_rad_s_);
+    driving = out.motor.torque_nm;
+  }
+  out.torque_nm = driving - wheel.drag_nm * std::tanh(rate / standstill_rad_s_);
   return out;
+}
+
+double RoverDynamics::integral_rate_v_s(std::size_t k) const {
+  if (rover_.wheels[k].drive != WheelDrive::kDriven) return 0.0;
+  const double rate = rates_[bodies_.wheel[k]];
+  if (braked_) return drive_control_.brake_integral_rate_v_s(rate);
+  return drive_control_.integral_rate_v_s(drive_[k].motor, commanded_[k].rate_rad_s, rate);
 }
 
 // As at the quasi-static level, the true attitude is the one that the ground gives plus the rover's attitude
@@ -215,6 +228,7 @@ Vector3d RoverDynamics::gravity_M() const {
 }
 
 void RoverDynamics::set_commanded(double t, const double* y) {
+  braked_ = !driver_ || driver_->halts(t);
   if (driver_) {
     commanded_ = driver_->commanded(t, driver_->uses_pose() ? place(y) : LegPlace{});
   } else {
@@ -242,10 +256,7 @@ bool RoverDynamics::derivative(double t, const double* y, double* rate) {
     dynamics_.add_torque(joint, drive_[k].torque_nm);
     rate[slips_at_ + 2 * k] = contact.slip_x_rate;
     rate[slips_at_ + 2 * k + 1] = contact.slip_y_rate;
-    rate[integrals_at_ + k] =
-        rover_.wheels[k].drive == WheelDrive::kDriven
-            ? drive_control_.integral_rate_v_s(drive_[k].motor, commanded_[k].rate_rad_s, rates_[joint])
-            : 0.0;
+    rate[integrals_at_ + k] = integral_rate_v_s(k);
   }
   dynamics_.accelerations(gravity_M(), base_rate_, accelerations_.data());
 
@@ -316,12 +327,14 @@ void RoverDynamics::after_step(double t, const double* y) {
       contacts_.set_soil(k, here, rim);
     has_soil_[k] = true;
     soil_[k] = soil;
-    const MotorDrive motor = drive_of(k, y).motor;
+    drive_[k] = drive_of(k, y);
+    const MotorDrive& motor = drive_[k].motor;
     power += motor.electric_power_w;
     figures_.current_a = std::max(figures_.current_a, std::abs(motor.current_a));
     if (stepped_) turned_rad_[k] += 0.5 * (at.rate_rad_s + last_rate_rad_s_[k]) * (t - last_t_);
     last_rate_rad_s_[k] = at.rate_rad_s;
   }
+  note_stall(t);
   if (stepped_) energy_j_ += 0.5 * (power + last_power_w_) * (t - last_t_);
   last_power_w_ = power;
   last_t_ = t;
@@ -336,6 +349,18 @@ void RoverDynamics::after_step(double t, const double* y) {
                        wheel.radius_m + 2.0 * ruts_.cell_m(), ruts_);
   }
   if (!options_.keep_ruts) ruts_.forget_beyond(p_MB_.head<2>(), kForgotten_lengths * rover_.body_length_m);
+}
+
+// During the ramps a wheel may be slow without being stalled.
+void RoverDynamics::note_stall(double t) {
+  if (!driver_ || driver_->rate_share(t) < 1.0) return;
+  stall_.reset();
+  for (std::size_t k = 0; k < kinematics_.size() && !stall_; ++k) {
+    const MotorDrive& motor = drive_[k].motor;
+    const double share = kinematics_[k].rate_rad_s / commanded_[k].rate_rad_s;
+    if (motor.limit != MotorLimit::kNone && !(share >= kStallShare))
+      stall_ = {k, motor.limit, motor.current_a};
+  }
 }
 
 void RoverDynamics::reset_counts() {

@@ -32,6 +32,7 @@ namespace slipway::sim {
 // k d^(3/2) (1 + 3/2 c d'), where d is the angle beyond the stop.
 //
 // The drive motors are under rate control and the steering motors under angle control, see motor_control.h.
+// Brakes hold the wheels while the rover is halted: before and after the drive, and while it steers.
 // The soil does not resist steering, since a contact point on the steering axis has no lever arm.
 //
 // The model leaves out the forces on a body that touches the ground (see belly()), the motors' inductance, and the
@@ -52,7 +53,7 @@ class RoverDynamics {
   // The state at rest in this stance, with the wheels sunk under equal loads.
   std::vector<double> at_rest(const Stance& stance);
 
-  // From now on the commanded wheel rates are 0 and the commanded steering angles are these.
+  // From now on brakes hold the wheels, and the commanded steering angles are these.
   void halt(const PerWheel<double>& steered_rad);
   // From now on the wheels follow the commands of this driver, which must outlive the leg.
   void follow(const LegDriver* driver, const Pose2& leg_start);
@@ -81,6 +82,14 @@ class RoverDynamics {
     std::optional<double> slip_ratio = {};
   };
   const Figures& figures() const { return figures_; }
+  // A motor that its limit kept far below its commanded rate in the last step with full commands of the
+  // present leg: what stops a rover whose wheels hardly turn.
+  struct Stall {
+    std::size_t wheel = 0;
+    MotorLimit limit = MotorLimit::kNone;
+    double current_a = 0.0;
+  };
+  const std::optional<Stall>& stall() const { return stall_; }
 
   // The whole sample at a state, by a new evaluation of the equations.
   DriveSample sample(double t, const double* y);
@@ -113,6 +122,8 @@ class RoverDynamics {
   std::optional<double> slip_ratio(double t, const double* y) const;
   void add_suspension_torques();
   WheelDriveState drive_of(std::size_t wheel, const double* y) const;
+  double integral_rate_v_s(std::size_t wheel) const;
+  void note_stall(double t);
   Eigen::Vector3d gravity_M() const;
   // The inverse of rotation_MB().
   static Attitude attitude_of(const Eigen::Matrix3d& R_MB);
@@ -139,6 +150,7 @@ class RoverDynamics {
   Pose2 leg_start_;
   PerWheel<double> halted_rad_;
   PerWheel<WheelCommand> commanded_;
+  bool braked_ = true;
 
   // The starting position, from which the state's position counts: map coordinates are thousands of
   // kilometres and would leave too few digits for the millimetres of a drive.
@@ -158,6 +170,7 @@ class RoverDynamics {
   double yaw_rad_ = 0.0, last_t_ = 0.0, last_power_w_ = 0.0, energy_j_ = 0.0;
   bool stepped_ = false;
   Figures figures_;
+  std::optional<Stall> stall_;
   PerWheel<std::optional<std::size_t>> soil_;
   PerWheel<bool> has_soil_;
   PerWheel<double> turned_rad_, last_rate_rad_s_;

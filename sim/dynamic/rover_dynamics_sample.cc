@@ -93,7 +93,7 @@ DriveSample RoverDynamics::sample(double t, const double* y) {
     wheel.slip_angle_rad = std::atan2(contact.motion.leftward, contact.motion.forward);
     if (bodies_.steering[k] >= 0) out.steer_rad[k] = angles_[bodies_.steering[k]];
     if (rover_.wheels[k].drive == WheelDrive::kDriven) out.commanded_rate_rad_s[k] = commanded_[k].rate_rad_s;
-    out.voltage_v[k] = drive_[k].motor.voltage_v;
+    out.voltage_v[k] = drive_[k].motor.terminal_v;
     out.turned_rad[k] += 0.5 * (wheel.rate_rad_s + last_rate_rad_s_[k]) * (t - last_t_);
   }
   if (const std::optional<double> slip = slip_ratio(t, y)) {
