@@ -201,7 +201,10 @@ Result<void> DriveSimulation::drive_piece(const DriveLeg& leg, const Pose2& leg_
 // The event of a leg's end is a change of sign: a leg that begins behind that place would never end.
 void DriveSimulation::stop_where_done(LegDriver& driver) {
   if (options_.feedback != Feedback::kPose || std::isfinite(driver.cruised_s())) return;
-  if (dynamics_.place(state()).share >= 1.0 - driver.stopping_share()) driver.stop(now_s_);
+  if (dynamics_.place(state()).share >= 1.0 - driver.stopping_share()) {
+    driver.stop(now_s_);
+    integrator_.end_at_event();
+  }
 }
 
 // Only while the rover gets on: one that spins on the spot learns nothing about its side slip.

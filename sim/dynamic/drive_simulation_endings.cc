@@ -40,7 +40,10 @@ void DriveSimulation::watch_belly() {
 
 void DriveSimulation::take_events() {
   const std::span<const int> direction = integrator_.event_directions();
-  if (direction[0] < 0 && driver_) driver_->stop(now_s_);
+  if (direction[0] < 0 && driver_) {
+    driver_->stop(now_s_);
+    integrator_.end_at_event();
+  }
   if (direction[1] < 0)
     end(DriveEnd::kTipped,
         fmt::format("tips over: tilt {:.0f} deg", deg_from_rad(dynamics_.tilt_rad(state()))));

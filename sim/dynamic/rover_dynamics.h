@@ -118,6 +118,7 @@ class RoverDynamics {
   void lay_out();
   void unpack(const double* y);
   bool find_contacts(const double* y);
+  bool look_at_grounds(const double* y);
   void find_kinematics(const double* y);
   std::optional<double> slip_ratio(double t, const double* y) const;
   void add_suspension_torques();
@@ -125,8 +126,6 @@ class RoverDynamics {
   double integral_rate_v_s(std::size_t wheel) const;
   void note_stall(double t);
   Eigen::Vector3d gravity_M() const;
-  // The inverse of rotation_MB().
-  static Attitude attitude_of(const Eigen::Matrix3d& R_MB);
   void set_commanded(double t, const double* y);
   double gripping_load_kg_m2() const;
   MotorControl control_of(const DriveMotor& motor, double load_kg_m2) const;
@@ -151,6 +150,9 @@ class RoverDynamics {
   PerWheel<double> halted_rad_;
   PerWheel<WheelCommand> commanded_;
   bool braked_ = true;
+  // Of the commands above: most of a Jacobian's evaluations change neither.
+  double commanded_t_ = -1.0;
+  LegPlace commanded_at_;
 
   // The starting position, from which the state's position counts: map coordinates are thousands of
   // kilometres and would leave too few digits for the millimetres of a drive.
@@ -162,6 +164,9 @@ class RoverDynamics {
   std::vector<double> angles_, rates_, accelerations_;
   PerWheel<WheelKinematics> kinematics_;
   PerWheel<ContactState> contact_;
+  // The grounds at the state that events() saw last: most steps end there.
+  std::vector<double> looked_at_;
+  PerWheel<ContactState> looked_;
   PerWheel<WheelDriveState> drive_;
   SpatialVector base_rate_ = SpatialVector::Zero();
   std::optional<Eigen::Vector2d> lost_ground_;

@@ -18,12 +18,6 @@ double yaw_of(const Eigen::Matrix3d& R) {
 
 }  // namespace
 
-Attitude RoverDynamics::attitude_of(const Eigen::Matrix3d& R) {
-  return {.roll_rad = std::atan2(R(2, 1), R(2, 2)),
-          .pitch_rad = std::asin(std::clamp(-R(2, 0), -1.0, 1.0)),
-          .yaw_rad = yaw_of(R)};
-}
-
 Pose2 RoverDynamics::pose(const double* y) const {
   const Eigen::Matrix3d R = Eigen::Quaterniond(y[3], y[4], y[5], y[6]).normalized().toRotationMatrix();
   return {origin_M_.x() + y[0], origin_M_.y() + y[1], yaw_rad_ + wrapped_rad(yaw_of(R) - yaw_rad_)};
