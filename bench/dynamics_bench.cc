@@ -140,6 +140,8 @@ void BM_Drive(benchmark::State& state) {
   state.counters["real_time_factor"] = simulated_s / spent_s;
   state.counters["us_per_m"] = 1e6 * spent_s / (20.0 * static_cast<double>(state.iterations()));
   state.counters["evaluations_per_m"] = static_cast<double>(drive.work.evaluations) / 20.0;
+  state.counters["steps_per_m"] = static_cast<double>(drive.work.steps) / 20.0;
+  state.counters["jacobians_per_m"] = static_cast<double>(drive.work.jacobians) / 20.0;
   state.counters["us_per_evaluation"] = 1e6 * spent_s / static_cast<double>(evaluations);
   state.counters["law_share"] = law_s() * static_cast<double>(evaluations) / spent_s;
   state.counters["end_error_mm"] =

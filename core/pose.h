@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 
 namespace slipway {
 
@@ -29,6 +31,13 @@ inline Eigen::Matrix3d rotation_MB(const Attitude& a) {
           Eigen::AngleAxisd(a.pitch_rad, Eigen::Vector3d::UnitY()) *
           Eigen::AngleAxisd(a.roll_rad, Eigen::Vector3d::UnitX()))
       .toRotationMatrix();
+}
+
+// The inverse of rotation_MB(), for pitch angles within a quarter turn.
+inline Attitude attitude_of(const Eigen::Matrix3d& R_MB) {
+  return {.roll_rad = std::atan2(R_MB(2, 1), R_MB(2, 2)),
+          .pitch_rad = std::asin(std::clamp(-R_MB(2, 0), -1.0, 1.0)),
+          .yaw_rad = std::atan2(R_MB(1, 0), R_MB(0, 0))};
 }
 
 }  // namespace slipway

@@ -79,6 +79,7 @@ Terrain::Terrain(GridGeometry geometry, std::vector<float> heights_m, std::vecto
     if (valid_[i] != 0 && !std::isfinite(heights_m_[i])) {
       throw std::invalid_argument("a cell that is not masked has a height that is not finite");
     }
+    whole_ = whole_ && valid_[i] != 0;
   }
 }
 
@@ -137,7 +138,35 @@ std::optional<SurfacePoint> Terrain::surface(const Cell& cell) const {
   return surface_point(heights_m_[index_of(cell)], *gradient);
 }
 
+// The same numbers as below, to the last bit, where no neighbour of the four centres is masked or outside.
+SurfacePoint Terrain::surface_inside(int row, int column, double down, double right) const {
+  const std::array<double, 4> weights{(1.0 - down) * (1.0 - right), (1.0 - down) * right,
+                                      down * (1.0 - right), down * right};
+  const std::ptrdiff_t columns = geometry_.columns;
+  const float* here = &heights_m_[index_of({row, column})];
+  double height = 0.0, weight = 0.0;
+  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
+  for (int k = 0; k < 4; ++k) {
+    const float* corner = here + (k & 1) + (k >> 1) * columns;
+    const Eigen::Vector2d slope(
+        (static_cast<double>(corner[1]) - static_cast<double>(corner[-1])) / (2.0 * geometry_.cell_x_m),
+        (static_cast<double>(corner[-columns]) - static_cast<double>(corner[columns])) /
+            (2.0 * geometry_.cell_y_m));
+    height += weights[k] * corner[0];
+    gradient += weights[k] * slope;
+    weight += weights[k];
+  }
+  return surface_point(height / weight, gradient / weight);
+}
+
 std::optional<SurfacePoint> Terrain::surface(double x_m, double y_m) const {
+  if (whole_) {
+    const Eigen::Vector2d index = geometry_.fractional_index(x_m, y_m);
+    const double row = std::floor(index[0]), column = std::floor(index[1]);
+    if (row >= 1.0 && column >= 1.0 && row <= geometry_.rows - 3.0 && column <= geometry_.columns - 3.0)
+      return surface_inside(static_cast<int>(row), static_cast<int>(column), index[0] - row,
+                            index[1] - column);
+  }
   const std::optional<Blend> blend = blend_at(geometry_, x_m, y_m);
   if (!blend) return std::nullopt;
   double height = 0.0;

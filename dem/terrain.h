@@ -54,10 +54,12 @@ class Terrain {
  private:
   std::size_t index_of(const Cell& cell) const;
   std::optional<Eigen::Vector2d> gradient_at(const Cell& cell) const;
+  SurfacePoint surface_inside(int row, int column, double down, double right) const;
 
   GridGeometry geometry_;
   std::vector<float> heights_m_;
   std::vector<std::uint8_t> valid_;
+  bool whole_ = true;  // no cell is masked
 };
 
 }  // namespace slipway::dem

@@ -212,7 +212,8 @@ Result<ModelCheck> check_model(const DriveCampaign& campaign, const CorrectedBel
   const auto cancelled = [] { return fail(ErrorCode::kCancelled, "the check was cancelled"); };
   progress.report("predicting with the nominal model", 0.1);
   const std::vector<DriveWindow> windows = cut_windows(campaign, options.windows);
-  const std::unique_ptr<WindowModel> model = window_model_of(campaign, windows, options.preparation);
+  const std::unique_ptr<WindowModel> model =
+      window_model_of(campaign, windows, options.preparation, options.threads);
   model->watch(progress);
   const Hypothesis nominal_model(campaign, {});
   const std::vector<double> nominal =

@@ -185,6 +185,12 @@ void CvodeIntegrator::begin_anew() {
   require(CVodeReInit(s.cvode, s.t, s.y), "restart");
 }
 
+void CvodeIntegrator::end_at_event() {
+  double reached = solver_->t;
+  require(CVodeGetCurrentTime(solver_->cvode, &reached), "current time");
+  if (reached > solver_->t) begin_anew();
+}
+
 Result<CvodeIntegrator::Step> CvodeIntegrator::step(double t_stop) {
   Solver& s = *solver_;
   // The last step may have gone beyond t_stop, where an event within it made the caller set an earlier stop.

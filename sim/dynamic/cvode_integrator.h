@@ -39,6 +39,10 @@ class CvodeIntegrator {
   // Starts again from here at order one, as is needed after a jump in y or f.
   void restart(double t, std::span<const double> y);
 
+  // Takes back what the last step went beyond its end, where that was an event: for a caller that changes f
+  // there.
+  void end_at_event();
+
   struct Step {
     double t = 0.0;
     bool event = false;  // the step ended at an event, see event_directions()

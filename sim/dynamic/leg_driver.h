@@ -44,6 +44,8 @@ class LegDriver {
   // The share of the leg that is still driven while the rates fall.
   double stopping_share() const { return stopping_share_; }
 
+  // Whether the wheels are halted at t, before the rates rise and after they fell.
+  bool halts(double t) const { return t <= steered_s_ || t >= end_s_; }
   // The commanded rates at t as a share of those at cruise, in [0, 1].
   double rate_share(double t) const;
   // The commanded angle and rate of each wheel. The wheel's true motion also has its offsets, its share of

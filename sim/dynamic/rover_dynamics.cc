@@ -14,6 +14,7 @@ using Eigen::Vector3d;
 
 constexpr double kStandstillShare = 0.01;  // of the wheels' cruise rate; slower wheels count as passing rest
 constexpr double kStallShare = 0.2;        // of the commanded rate; a slower wheel counts as stalled
+constexpr double kCoarseSpeeds = 30.0;  // cruise speeds that the tolerance of speeds and rates is relative to
 constexpr double kStop_nm_rad = 2e4, kStopDamping_s_rad = 1.0;
 constexpr double kSunkenAxle_radii = 0.929;  // 1 - cos of the laws' maximum entry angle
 constexpr double kForgotten_lengths = 8.0;   // body lengths; the wheels cannot return to ruts farther away
@@ -48,6 +49,7 @@ RoverDynamics::RoverDynamics(const RoverModel& rover, double gravity_m_s2, const
       accelerations_(bodies_.tree.joint_count()),
       kinematics_(rover.wheels.size()),
       contact_(rover.wheels.size()),
+      looked_(rover.wheels.size()),
       drive_(rover.wheels.size()),
       soil_(rover.wheels.size()),
       has_soil_(rover.wheels.size(), false),
@@ -86,9 +88,12 @@ MotorControl RoverDynamics::control_of(const DriveMotor& motor, double load_kg_m
 }
 
 std::vector<double> RoverDynamics::tolerances(double relative) const {
-  // Relative to the scales that matter to a drive: 0.1 m, 0.1 rad, cruise speed, a slip of 0.1, and 10 V.
+  // Relative to the scales that matter to a drive: 0.1 m, 0.1 rad, a slip of 0.1, and 10 V. Speeds and rates
+  // have a coarser one than the cruise speed, since they settle on the soil within a wheel's contact length:
+  // what an error of theirs does to a drive is held by the tolerances of places, angles and slips.
   std::vector<double> absolute(size_, relative * 0.1);
-  for (int i = twist_at_; i < slips_at_; ++i) absolute[i] = relative * rover_.cruise_speed_m_s;
+  for (int i = twist_at_; i < slips_at_; ++i)
+    absolute[i] = relative * kCoarseSpeeds * rover_.cruise_speed_m_s;
   for (int i = integrals_at_; i < size_; ++i) absolute[i] = relative * 10.0;
   return absolute;
 }
@@ -119,12 +124,15 @@ std::vector<double> RoverDynamics::at_rest(const Stance& stance) {
 
 void RoverDynamics::halt(const PerWheel<double>& steered_rad) {
   driver_ = nullptr;
+  commanded_t_ = -1.0;
   halted_rad_ = steered_rad;
 }
 
 void RoverDynamics::follow(const LegDriver* driver, const Pose2& leg_start) {
   driver_ = driver;
   leg_start_ = leg_start;
+  stall_.reset();
+  commanded_t_ = -1.0;
   const PerWheel<WheelCommand> plain = wheel_commands(rover_, driver->leg().command);
   for (std::size_t k = 0; k < plain.size(); ++k)
     contacts_.set_commanded_direction(k, plain[k].rate_rad_s < 0.0 ? -1.0 : 1.0);
@@ -197,10 +205,22 @@ RoverDynamics::WheelDriveState RoverDynamics::drive_of(std::size_t k, const doub
   const WheelModel& wheel = rover_.wheels[k];
   const double rate = rates_[bodies_.wheel[k]];
   WheelDriveState out;
-  if (wheel.drive == WheelDrive::kDriven)
+  double driving = 0.0;
+  if (wheel.drive == WheelDrive::kDriven && braked_) {
+    driving = drive_control_.brake_torque_nm(rate, y[integrals_at_ + k]);
+  } else if (wheel.drive == WheelDrive::kDriven) {
     out.motor = drive_control_.keep_rate(commanded_[k].rate_rad_s, rate, y[integrals_at_ + k]);
-  out.torque_nm = out.motor.torque_nm - wheel.drag_nm * std::tanh(rate / standstill_rad_s_);
+    driving = out.motor.torque_nm;
+  }
+  out.torque_nm = driving - wheel.drag_nm * std::tanh(rate / standstill_rad_s_);
   return out;
+}
+
+double RoverDynamics::integral_rate_v_s(std::size_t k) const {
+  if (rover_.wheels[k].drive != WheelDrive::kDriven) return 0.0;
+  const double rate = rates_[bodies_.wheel[k]];
+  if (braked_) return drive_control_.brake_integral_rate_v_s(rate);
+  return drive_control_.integral_rate_v_s(drive_[k].motor, commanded_[k].rate_rad_s, rate);
 }
 
 // As at the quasi-static level, the true attitude is the one that the ground gives plus the rover's attitude
@@ -215,13 +235,34 @@ Vector3d RoverDynamics::gravity_M() const {
 }
 
 void RoverDynamics::set_commanded(double t, const double* y) {
+  braked_ = !driver_ || driver_->halts(t);
   if (driver_) {
-    commanded_ = driver_->commanded(t, driver_->uses_pose() ? place(y) : LegPlace{});
+    const LegPlace at = driver_->uses_pose() ? place(y) : LegPlace{};
+    if (t == commanded_t_ && at.across_m == commanded_at_.across_m &&
+        at.heading_rad == commanded_at_.heading_rad)
+      return;
+    commanded_ = driver_->commanded(t, at);
+    commanded_t_ = t;
+    commanded_at_ = at;
   } else {
     for (std::size_t k = 0; k < commanded_.size(); ++k) commanded_[k] = {halted_rad_[k], 0.0};
   }
   for (std::size_t k = 0; k < commanded_.size(); ++k)
     commanded_[k] = true_motion(rover_.wheels[k], commanded_[k]);
+}
+
+// Needs find_kinematics().
+bool RoverDynamics::look_at_grounds(const double* y) {
+  if (std::equal(looked_at_.begin(), looked_at_.end(), y, y + size_)) return true;
+  looked_at_.clear();
+  for (std::size_t k = 0; k < kinematics_.size(); ++k) {
+    looked_[k] = {};
+    if (contacts_.find_ground(ground_, ruts_, k, kinematics_[k], looked_[k])) continue;
+    lost_ground_ = kinematics_[k].centre.head<2>();
+    return false;
+  }
+  looked_at_.assign(y, y + size_);
+  return true;
 }
 
 bool RoverDynamics::derivative(double t, const double* y, double* rate) {
@@ -242,10 +283,7 @@ bool RoverDynamics::derivative(double t, const double* y, double* rate) {
     dynamics_.add_torque(joint, drive_[k].torque_nm);
     rate[slips_at_ + 2 * k] = contact.slip_x_rate;
     rate[slips_at_ + 2 * k + 1] = contact.slip_y_rate;
-    rate[integrals_at_ + k] =
-        rover_.wheels[k].drive == WheelDrive::kDriven
-            ? drive_control_.integral_rate_v_s(drive_[k].motor, commanded_[k].rate_rad_s, rates_[joint])
-            : 0.0;
+    rate[integrals_at_ + k] = integral_rate_v_s(k);
   }
   dynamics_.accelerations(gravity_M(), base_rate_, accelerations_.data());
 
@@ -271,17 +309,13 @@ bool RoverDynamics::events(double t, const double* y, double* value) {
   if (!std::all_of(y, y + size_, [](double v) { return std::isfinite(v); })) return false;
   unpack(y);
   find_kinematics(y);
+  if (!look_at_grounds(y)) return false;
   set_commanded(t, y);
   const bool seeks = driver_ && options_.feedback == Feedback::kPose && t < driver_->cruised_s();
   *value++ = seeks ? 1.0 - driver_->stopping_share() - place(y).share : 1.0;
   *value++ = kTippedRad - tilt_rad(y);
   for (std::size_t k = 0; k < kinematics_.size(); ++k) {
-    ContactState contact;
-    if (!contacts_.find_ground(ground_, ruts_, k, kinematics_[k], contact)) {
-      lost_ground_ = kinematics_[k].centre.head<2>();
-      return false;
-    }
-    const double depth = contact.depth_m / rover_.wheels[k].radius_m;
+    const double depth = looked_[k].depth_m / rover_.wheels[k].radius_m;
     *value++ = kSunkenAxle_radii - depth;
     *value++ = depth;
     // During the ramps a wheel may be slow without being stalled.
@@ -316,26 +350,43 @@ void RoverDynamics::after_step(double t, const double* y) {
       contacts_.set_soil(k, here, rim);
     has_soil_[k] = true;
     soil_[k] = soil;
-    const MotorDrive motor = drive_of(k, y).motor;
+    drive_[k] = drive_of(k, y);
+    const MotorDrive& motor = drive_[k].motor;
     power += motor.electric_power_w;
     figures_.current_a = std::max(figures_.current_a, std::abs(motor.current_a));
     if (stepped_) turned_rad_[k] += 0.5 * (at.rate_rad_s + last_rate_rad_s_[k]) * (t - last_t_);
     last_rate_rad_s_[k] = at.rate_rad_s;
   }
+  note_stall(t);
   if (stepped_) energy_j_ += 0.5 * (power + last_power_w_) * (t - last_t_);
   last_power_w_ = power;
   last_t_ = t;
   stepped_ = true;
-  for (std::size_t k = 0; k < kinematics_.size(); ++k) {
-    ContactState contact;
-    if (!contacts_.find_ground(ground_, ruts_, k, kinematics_[k], contact) || contact.depth_m <= 0.0)
-      continue;
+  const bool has_grounds = look_at_grounds(y);
+  for (std::size_t k = 0; has_grounds && k < kinematics_.size(); ++k) {
+    const ContactState& contact = looked_[k];
+    if (contact.depth_m <= 0.0) continue;
     figures_.sinkage_m = std::max(figures_.sinkage_m, contact.depth_m + contact.rut_m);
     const WheelModel& wheel = rover_.wheels[k];
     trails_[k].move_to(kinematics_[k].centre.head<2>(), contact.depth_m + contact.rut_m, wheel.width_m,
                        wheel.radius_m + 2.0 * ruts_.cell_m(), ruts_);
   }
+  // The ruts have changed, and the driver's trim may change now.
+  looked_at_.clear();
+  commanded_t_ = -1.0;
   if (!options_.keep_ruts) ruts_.forget_beyond(p_MB_.head<2>(), kForgotten_lengths * rover_.body_length_m);
+}
+
+// During the ramps a wheel may be slow without being stalled.
+void RoverDynamics::note_stall(double t) {
+  if (!driver_ || driver_->rate_share(t) < 1.0) return;
+  stall_.reset();
+  for (std::size_t k = 0; k < kinematics_.size() && !stall_; ++k) {
+    const MotorDrive& motor = drive_[k].motor;
+    const double share = kinematics_[k].rate_rad_s / commanded_[k].rate_rad_s;
+    if (motor.limit != MotorLimit::kNone && !(share >= kStallShare))
+      stall_ = {k, motor.limit, motor.current_a};
+  }
 }
 
 void RoverDynamics::reset_counts() {

@@ -32,6 +32,7 @@ namespace slipway::sim {
 // k d^(3/2) (1 + 3/2 c d'), where d is the angle beyond the stop.
 //
 // The drive motors are under rate control and the steering motors under angle control, see motor_control.h.
+// Brakes hold the wheels while the rover is halted: before and after the drive, and while it steers.
 // The soil does not resist steering, since a contact point on the steering axis has no lever arm.
 //
 // The model leaves out the forces on a body that touches the ground (see belly()), the motors' inductance, and the
@@ -52,7 +53,7 @@ class RoverDynamics {
   // The state at rest in this stance, with the wheels sunk under equal loads.
   std::vector<double> at_rest(const Stance& stance);
 
-  // From now on the commanded wheel rates are 0 and the commanded steering angles are these.
+  // From now on brakes hold the wheels, and the commanded steering angles are these.
   void halt(const PerWheel<double>& steered_rad);
   // From now on the wheels follow the commands of this driver, which must outlive the leg.
   void follow(const LegDriver* driver, const Pose2& leg_start);
@@ -81,6 +82,14 @@ class RoverDynamics {
     std::optional<double> slip_ratio = {};
   };
   const Figures& figures() const { return figures_; }
+  // A motor that its limit kept far below its commanded rate in the last step with full commands of the
+  // present leg: what stops a rover whose wheels hardly turn.
+  struct Stall {
+    std::size_t wheel = 0;
+    MotorLimit limit = MotorLimit::kNone;
+    double current_a = 0.0;
+  };
+  const std::optional<Stall>& stall() const { return stall_; }
 
   // The whole sample at a state, by a new evaluation of the equations.
   DriveSample sample(double t, const double* y);
@@ -109,13 +118,14 @@ class RoverDynamics {
   void lay_out();
   void unpack(const double* y);
   bool find_contacts(const double* y);
+  bool look_at_grounds(const double* y);
   void find_kinematics(const double* y);
   std::optional<double> slip_ratio(double t, const double* y) const;
   void add_suspension_torques();
   WheelDriveState drive_of(std::size_t wheel, const double* y) const;
+  double integral_rate_v_s(std::size_t wheel) const;
+  void note_stall(double t);
   Eigen::Vector3d gravity_M() const;
-  // The inverse of rotation_MB().
-  static Attitude attitude_of(const Eigen::Matrix3d& R_MB);
   void set_commanded(double t, const double* y);
   double gripping_load_kg_m2() const;
   MotorControl control_of(const DriveMotor& motor, double load_kg_m2) const;
@@ -139,6 +149,10 @@ class RoverDynamics {
   Pose2 leg_start_;
   PerWheel<double> halted_rad_;
   PerWheel<WheelCommand> commanded_;
+  bool braked_ = true;
+  // Of the commands above: most of a Jacobian's evaluations change neither.
+  double commanded_t_ = -1.0;
+  LegPlace commanded_at_;
 
   // The starting position, from which the state's position counts: map coordinates are thousands of
   // kilometres and would leave too few digits for the millimetres of a drive.
@@ -150,6 +164,9 @@ class RoverDynamics {
   std::vector<double> angles_, rates_, accelerations_;
   PerWheel<WheelKinematics> kinematics_;
   PerWheel<ContactState> contact_;
+  // The grounds at the state that events() saw last: most steps end there.
+  std::vector<double> looked_at_;
+  PerWheel<ContactState> looked_;
   PerWheel<WheelDriveState> drive_;
   SpatialVector base_rate_ = SpatialVector::Zero();
   std::optional<Eigen::Vector2d> lost_ground_;
@@ -158,6 +175,7 @@ class RoverDynamics {
   double yaw_rad_ = 0.0, last_t_ = 0.0, last_power_w_ = 0.0, energy_j_ = 0.0;
   bool stepped_ = false;
   Figures figures_;
+  std::optional<Stall> stall_;
   PerWheel<std::optional<std::size_t>> soil_;
   PerWheel<bool> has_soil_;
   PerWheel<double> turned_rad_, last_rate_rad_s_;

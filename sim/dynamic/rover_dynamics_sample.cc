@@ -18,12 +18,6 @@ double yaw_of(const Eigen::Matrix3d& R) {
 
 }  // namespace
 
-Attitude RoverDynamics::attitude_of(const Eigen::Matrix3d& R) {
-  return {.roll_rad = std::atan2(R(2, 1), R(2, 2)),
-          .pitch_rad = std::asin(std::clamp(-R(2, 0), -1.0, 1.0)),
-          .yaw_rad = yaw_of(R)};
-}
-
 Pose2 RoverDynamics::pose(const double* y) const {
   const Eigen::Matrix3d R = Eigen::Quaterniond(y[3], y[4], y[5], y[6]).normalized().toRotationMatrix();
   return {origin_M_.x() + y[0], origin_M_.y() + y[1], yaw_rad_ + wrapped_rad(yaw_of(R) - yaw_rad_)};
@@ -93,7 +87,7 @@ DriveSample RoverDynamics::sample(double t, const double* y) {
     wheel.slip_angle_rad = std::atan2(contact.motion.leftward, contact.motion.forward);
     if (bodies_.steering[k] >= 0) out.steer_rad[k] = angles_[bodies_.steering[k]];
     if (rover_.wheels[k].drive == WheelDrive::kDriven) out.commanded_rate_rad_s[k] = commanded_[k].rate_rad_s;
-    out.voltage_v[k] = drive_[k].motor.voltage_v;
+    out.voltage_v[k] = drive_[k].motor.terminal_v;
     out.turned_rad[k] += 0.5 * (wheel.rate_rad_s + last_rate_rad_s_[k]) * (t - last_t_);
   }
   if (const std::optional<double> slip = slip_ratio(t, y)) {

@@ -106,7 +106,7 @@ bool OutcomeFollower::add(const PreparedStation& station, std::size_t index, con
   distance_m_ = station.distance_m;
   note(Rule::kClearance, station.stance.belly_clearance_m,
        station.stance.belly_clearance_m < limits_.min_clearance_m);
-  watch(Rule::kTilt, station.stance.attitude.tilt_rad(), limits_.max_tilt_rad);
+  watch(Rule::kTilt, state.attitude.tilt_rad(), limits_.max_tilt_rad);
   if (!state.moving()) {
     // A rover that the ground holds comes some half a metre a sol: Opportunity took 38 sols over a few metres
     // of ripple [Purgatory, sols 446 to 484].

@@ -145,10 +145,11 @@ class Predictor {
     PerWheel<Soil> soils(ready.soil.size());
     for (std::size_t k = 0; k < soils.size(); ++k) soils[k] = beliefs_.of(ready.soil[k]).mean;
     const StationState& state = predicted.state = solver_.solve(ready.stance, soils, ready.command);
+    predicted.attitude = state.attitude;
     const double s = ready.distance_m;
     DrivePrediction& p = prediction_;
     p.by_slip_curve |= state.by_slip_curve;
-    p.max_tilt_rad.raise(ready.stance.attitude.tilt_rad(), s);
+    p.max_tilt_rad.raise(state.attitude.tilt_rad(), s);
     p.max_slip_ratio.raise(std::abs(state.slip_ratio), s);
     p.max_current_a.raise(largest_current_a(state), s);
     p.max_sinkage_m.raise(deepest_sinkage_m(state), s);

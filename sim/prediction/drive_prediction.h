@@ -42,7 +42,7 @@ struct SoilBeliefs {
 struct StationPrediction {
   PathStation station;
   double height_m = 0.0;
-  Attitude attitude;
+  Attitude attitude;  // as in StationState
   double clearance_m = 0.0;
   std::optional<std::size_t> soil;  // under B's origin; empty on unknown ground
   bool on_unknown_ground = false;   // true where any wheel is on unknown ground

@@ -61,12 +61,12 @@ double deepest_sinkage_m(const StationState& state) {
 
 bool breaks(const DriveLimits& limits, const StationState& state) {
   return std::abs(state.slip_ratio) > limits.max_slip_ratio ||
-         largest_current_a(state) > limits.max_current_a || deepest_sinkage_m(state) > limits.max_sinkage_m;
+         largest_current_a(state) > limits.max_current_a || deepest_sinkage_m(state) > limits.max_sinkage_m ||
+         state.attitude.tilt_rad() > limits.max_tilt_rad;
 }
 
 bool breaks(const DriveLimits& limits, const Stance& stance) {
-  return stance.attitude.tilt_rad() > limits.max_tilt_rad ||
-         stance.belly_clearance_m < limits.min_clearance_m;
+  return stance.belly_clearance_m < limits.min_clearance_m;
 }
 
 Effort effort_of(const PreparedStation& station, const StationState& state) {

@@ -24,9 +24,9 @@ struct PreparedStation {
 double largest_current_a(const StationState& state);
 double deepest_sinkage_m(const StationState& state);
 
-// Whether the motion at a station breaks a limit that depends on the soil.
+// Whether the motion at a station breaks a limit that depends on the soil, that of tilt among them.
 bool breaks(const DriveLimits& limits, const StationState& state);
-// Whether the ground's shape alone breaks one.
+// Whether the clearance over the ground, before the wheels sink, breaks its limit.
 bool breaks(const DriveLimits& limits, const Stance& stance);
 
 // Time for the station's part of the drive and energy spent in it, at the station's balance.

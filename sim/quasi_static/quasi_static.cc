@@ -84,12 +84,21 @@ void set_motors(const RoverModel& rover, const RoverBalance& balance, const Driv
   }
 }
 
-StationState state_of(const RoverModel& rover, RoverBalance& balance, const Vector& x,
+Attitude leant(const Stance& stance, const RoverBalance::Lean& lean) {
+  const Eigen::Matrix3d turned =
+      rotation_MB({.roll_rad = lean.roll_rad, .pitch_rad = lean.pitch_rad, .yaw_rad = 0.0});
+  Attitude attitude = attitude_of(stance.R_MB * turned);
+  attitude.yaw_rad = stance.attitude.yaw_rad;
+  return attitude;
+}
+
+StationState state_of(const RoverModel& rover, const Stance& stance, RoverBalance& balance, const Vector& x,
                       const DriveCommand& command, const Attempt& attempt) {
   StationState state;
   state.outcome = attempt.outcome;
   state.wheel = attempt.wheel;
   balance.residual(x);
+  state.attitude = attempt.outcome == Outcome::kMoving ? leant(stance, balance.lean(x)) : stance.attitude;
   const double v = balance.speed_scale_m_s();
   const double along = x[0] * v, across = x[1] * v;
   const Eigen::Vector2d d = travel_direction(command);
@@ -154,6 +163,7 @@ StationState QuasiStaticSolver::solve_with_slip_curves(const Stance& stance, con
   StationState other = solve(stance, replaced, command, nullptr, thoroughness);
   if (other.moving() && std::abs(other.slip_ratio) <= std::abs(state.slip_ratio)) return state;
   other.by_slip_curve = true;
+  other.attitude = stance.attitude;
   other.wheels = state.wheels;
   other.wheel = -1;
   other.electric_power_w = other.left_rut_depth_m = other.right_rut_depth_m = 0.0;
@@ -182,7 +192,7 @@ StationState QuasiStaticSolver::solve(const Stance& stance, const PerWheel<Soil>
   const Attempt attempt = find_balance(balance, primary, warm_, last_, &memory, thoroughness);
   last_inverse_ = std::move(memory.inverse);
   warm_ = attempt.outcome == Outcome::kMoving;
-  return state_of(rover_, balance, last_, command, attempt);
+  return state_of(rover_, stance, balance, last_, command, attempt);
 }
 
 std::optional<QuasiStaticSolver::Start> QuasiStaticSolver::start_of_last(const Stance& stance,

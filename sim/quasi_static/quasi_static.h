@@ -52,6 +52,9 @@ struct StationState {
   // Slip of the rover, 1 - along / commanded speed; when turning in place, of the yaw rate.
   double slip_ratio = 0.0;
   double side_slip_rad = 0.0;  // direction of B's velocity to the commanded direction, positive to the left
+  // Of the body on its sunk wheels: the stance's, leant by what the wheels' unequal sinkages turn body and
+  // joints. The stance's own where the sinkages are not known: without a balance, and on slip curves.
+  Attitude attitude;
   double electric_power_w = 0.0;  // of the drive motors
   // Depth of the track behind each side's last wheel, as a camera that looks back would measure it.
   double left_rut_depth_m = 0.0, right_rut_depth_m = 0.0;

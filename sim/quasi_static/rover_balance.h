@@ -88,6 +88,13 @@ class RoverBalance {
   Loads resting_loads_n();
   // Depths of the wheels below the undisturbed surface.
   PerWheel<double> total_sinkages_m(const Vector& unknowns) const;
+  // What the depths of the wheels in contact turn the body by against the stance, about its x and y axes
+  // [rad]. To first order: the joints, the heave and the wheels' forces are those of the stance, which is
+  // turned by a degree at most where wheels sink as the laws know them.
+  struct Lean {
+    double roll_rad = 0.0, pitch_rad = 0.0;
+  };
+  Lean lean(const Vector& unknowns);
   // The height of a wheel in the air over the ground under it; negative where it cuts into the ground.
   double height_in_air_m(int wheel, const Vector& unknowns) const;
 

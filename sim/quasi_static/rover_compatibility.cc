@@ -127,6 +127,18 @@ PerWheel<double> RoverBalance::total_sinkages_m(const Vector& unknowns) const {
   return sim::total_sinkages_m(leaders_, rut_shares_, own);
 }
 
+// Where every load is determined the suspension closed the stance's gaps, as far as the ground's kinks let
+// it.
+RoverBalance::Lean RoverBalance::lean(const Vector& unknowns) {
+  if (undetermined_ == 0) set_gap_gradient();
+  const PerWheel<double> depth = total_sinkages_m(unknowns);
+  Loads height(wheel_count());
+  for (int k = 0; k < wheel_count(); ++k)
+    height[k] = -depth[k] - (undetermined_ > 0 ? gap_[k] : -places_[k].highest_m);
+  const Freedoms q = body_motion(height, Freedoms::Zero(3 + joints_));
+  return {q[1] / length_, q[2] / length_};
+}
+
 double RoverBalance::height_in_air_m(int wheel, const Vector& unknowns) const {
   const PerWheel<double> depth = total_sinkages_m(unknowns);
   Loads height(wheel_count());

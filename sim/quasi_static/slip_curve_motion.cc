@@ -51,6 +51,7 @@ StationState motion_on_slip_curves(const RoverModel& rover, const Stance& stance
   const SlipOnCurve slip = most_slip(soils, travel_slopes(stance.R_MB, command), command.turn_in_place);
   StationState state;
   state.by_slip_curve = true;
+  state.attitude = stance.attitude;
   state.wheels = PerWheel<WheelState>(rover.wheels.size());
   state.slip_ratio = slip.slip_ratio;
   const double ratio = speed_ratio_from_slip(std::max(slip.slip_ratio, -0.99));

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "core/angle.h"
+#include "sim/quasi_static/quasi_static.h"
+#include "sim/rover/stance.h"
 #include "tests/sim/dynamic_drives.h"
 
 namespace slipway::sim {
@@ -19,6 +21,63 @@ TEST(DriveEndings, AWeakMotorStallsAndTheReasonNamesIt) {
   EXPECT_TRUE(stalls || driven.drive.end == DriveEnd::kImmobilised || driven.drive.end == DriveEnd::kSlid);
   for (const DriveSample& sample : driven.samples)
     for (const WheelState& wheel : sample.wheels) EXPECT_LE(std::abs(wheel.current_a), 0.12 + 1e-6);
+  ASSERT_EQ(driven.drive.end, DriveEnd::kImmobilised);
+  EXPECT_NE(driven.drive.reason.find("stalls at its current limit of 0.12 A"), std::string::npos)
+      << driven.drive.reason;
+}
+
+TEST(DriveEndings, AStallForWantOfVoltageIsCalledSo) {
+  RoverModel rover = six_wheeler();
+  rover.drive.resistance_ohm = 400.0;
+  const Driven driven = drive(rover, plane(rad_from_deg(14.0)), sandy_loam(), 0.0, {straight(1.0)});
+  ASSERT_EQ(driven.drive.end, DriveEnd::kImmobilised);
+  EXPECT_NE(driven.drive.reason.find("stalls at the bus voltage of 28.0 V"), std::string::npos)
+      << driven.drive.reason;
+}
+
+// A motor whose resistance is not given has no limit of its torque at any level of fidelity.
+TEST(DriveEndings, AStandInForTheResistanceStopsNoDrive) {
+  RoverModel rover = six_wheeler();
+  rover.drive.gear_ratio = 20.0;
+  QuasiStaticSolver solver(rover, kMars);
+  const StationState balance = solver.solve(stance_on_plane(rover, {.pitch_rad = -rad_from_deg(14.0)}),
+                                            sandy_loam(), {.speed_m_s = 0.04});
+  ASSERT_TRUE(balance.moving());
+  EXPECT_GT(balance.wheels[2].current_a, 10.0);  // more than the stand-in lets through
+  const Driven driven = drive(rover, plane(rad_from_deg(14.0)), sandy_loam(), 0.0, {straight(1.0)});
+  ASSERT_EQ(driven.drive.end, DriveEnd::kFinished) << driven.drive.reason;
+  EXPECT_NEAR(driven.cruising().slip_ratio, balance.slip_ratio, 0.01);
+}
+
+// Rovers at rest are held by brakes: without friction in its motors a rover stands as still as with it, its
+// motors take no current, and it starts from where it stood.
+TEST(DriveEndings, BrakesHoldARoverAtRest) {
+  RoverModel rover = six_wheeler();
+  rover.drive.no_load_current_a = 0.0;
+  rover.drive.gear_efficiency = 1.0;
+  rover.drive.gear_ratio = 80.0;
+  DynamicOptions options{.relative_tolerance = 1e-6, .feedback = Feedback::kNone, .sample_interval_s = 0.1};
+  const Driven driven = drive(rover, plane(rad_from_deg(15.0)), sandy_loam(), 0.0, {straight(0.5)}, options);
+  ASSERT_EQ(driven.drive.end, DriveEnd::kFinished) << driven.drive.reason;
+  EXPECT_NEAR(driven.drive.start.x_m, 0.0, 0.005);
+  for (const WheelState& wheel : driven.samples.front().wheels) {
+    EXPECT_EQ(wheel.current_a, 0.0);
+    EXPECT_NEAR(wheel.rate_rad_s, 0.0, 1e-5);
+  }
+  double least_m = 0.0;
+  for (const DriveSample& sample : driven.samples) least_m = std::min(least_m, sample.progress_m);
+  EXPECT_GT(least_m, -0.002);
+}
+
+// Half a metre of progress before the wheels dig themselves in does not make the whole leg driven.
+TEST(DriveEndings, ARoverThatDugItselfInOnTheWayHasNotArrived) {
+  const FunctionGround ramp(
+      [](double x, double) { return x < 1.4 ? 0.0 : std::tan(rad_from_deg(24.0)) * (x - 1.4); });
+  const Driven driven = drive(six_wheeler(), ramp, loose_sand(), 0.0, {straight(4.0)}, {.give_up_s = 600.0});
+  EXPECT_GT(driven.drive.progress_m, 0.4);
+  ASSERT_EQ(driven.drive.end, DriveEnd::kImmobilised);
+  EXPECT_TRUE(driven.drive.reason.starts_with("no progress on the second half of leg 1 of 1 after "))
+      << driven.drive.reason;
 }
 
 TEST(DriveEndings, GivesUpWhereItMakesNoProgress) {

@@ -37,6 +37,7 @@ DriveOutcome drive(const std::vector<Piece>& pieces, const SlipChecks& checks = 
       station.stance.attitude.roll_rad = rad_from_deg(piece.tilt_deg);
       station.stance.belly_clearance_m = 0.3;
       StationState state;
+      state.attitude = station.stance.attitude;
       state.outcome = piece.moving ? Outcome::kMoving : Outcome::kNoTraction;
       state.slip_ratio = piece.slip_ratio;
       state.wheels = PerWheel<WheelState>(kRover.wheels.size());

@@ -33,10 +33,44 @@ TEST(MotorControl, KeepsItsRateUnderLoad) {
 
 TEST(MotorControl, StaysWithinTheBusVoltage) {
   DriveMotor motor;
+  motor.resistance_ohm = 2.0;
   const MotorDrive drive = MotorControl(motor, 1.0, 0.003).keep_rate(100.0, 0.0, 0.0);
   EXPECT_EQ(drive.voltage_v, motor.bus_voltage_v);
   EXPECT_GT(drive.unclipped_v, drive.voltage_v);
   EXPECT_NEAR(drive.current_a, motor.bus_voltage_v / winding_resistance_ohm(motor), 1e-12);
+}
+
+// A resistance that no file gives sets the gains and limits nothing.
+TEST(MotorControl, AStandInForTheResistanceLimitsNoTorque) {
+  DriveMotor motor;
+  const MotorControl control(motor, 1.0, 0.003);
+  const double strong_nm = 10.0 * motor.bus_voltage_v / winding_resistance_ohm(motor) *
+                           motor.torque_constant_nm_per_a * motor.gear_ratio * motor.gear_efficiency;
+  EXPECT_NEAR(rate_after(motor, 0.2, strong_nm, 2.0, 8.0), 0.2, 1e-3);
+  const MotorDrive strong = control.keep_rate(0.2, 0.0, 20.0 * motor.bus_voltage_v);
+  EXPECT_GT(strong.torque_nm, strong_nm);
+  EXPECT_EQ(strong.limit, MotorLimit::kNone);
+  EXPECT_EQ(strong.terminal_v, 0.0);
+  // The bus voltage limits its rate all the same.
+  const double fastest = motor.bus_voltage_v / (motor.torque_constant_nm_per_a * motor.gear_ratio);
+  EXPECT_NEAR(rate_after(motor, 5.0 * fastest, 0.0, 2.0, 8.0), fastest, 1e-3 * fastest);
+}
+
+// Whatever presses on a braked wheel, it turns by the brake's elasticity and stays there.
+TEST(MotorControl, ABrakeHoldsAndHandsItsTorqueToTheMotor) {
+  const DriveMotor motor;
+  constexpr double kInertia = 2.0, kLoad_nm = 300.0, kStep_s = 1e-4;
+  const MotorControl control(motor, kInertia, 0.003);
+  double rate = 0.0, angle = 0.0, integral = 0.0;
+  for (double t = 0.0; t < 3.0; t += kStep_s) {
+    const double torque = control.brake_torque_nm(rate, integral);
+    integral += kStep_s * control.brake_integral_rate_v_s(rate);
+    rate += kStep_s * (torque - kLoad_nm) / kInertia;
+    angle += kStep_s * rate;
+  }
+  EXPECT_NEAR(rate, 0.0, 1e-9);
+  EXPECT_NEAR(angle, -kLoad_nm / (kInertia * std::pow(MotorControl::kBrake_rad_s, 2)), 1e-4);
+  EXPECT_NEAR(control.keep_rate(0.0, 0.0, integral).torque_nm, kLoad_nm, 1e-6);
 }
 
 TEST(MotorControl, StaysWithinTheCurrentLimit) {

@@ -101,7 +101,7 @@ constexpr ChannelRow kRollChannel{
     .chart_unit = "deg",
     .chart_scale = kDegPerRad,
     .observe = &motion<&WindowReadings::Motion::roll>,
-    .predict = [](const StationPrediction& at, std::size_t) { return at.stance.attitude.roll_rad; },
+    .predict = [](const StationPrediction& at, std::size_t) { return at.attitude().roll_rad; },
     .predicted_when_stuck = true,
     .left_over = [](const NoiseScales& scales, double) { return scales.attitude_rad; },
     .of_the_stance = true};
@@ -113,7 +113,7 @@ constexpr ChannelRow kPitchChannel{
     .chart_unit = "deg",
     .chart_scale = kDegPerRad,
     .observe = &motion<&WindowReadings::Motion::pitch>,
-    .predict = [](const StationPrediction& at, std::size_t) { return at.stance.attitude.pitch_rad; },
+    .predict = [](const StationPrediction& at, std::size_t) { return at.attitude().pitch_rad; },
     .predicted_when_stuck = true,
     .left_over = [](const NoiseScales& scales, double) { return scales.attitude_rad; },
     .of_the_stance = true};

@@ -14,6 +14,10 @@ struct StationPrediction {
   const sim::DriveCommand& command;
   const sim::RoverModel& rover;
   double track_left_out = 0.0;  // see kTrackLeftOut
+  bool leans = true;            // see Footing
+
+  // That the rover's attitude sensor would show.
+  const Attitude& attitude() const { return leans && state != nullptr ? state->attitude : stance.attitude; }
 };
 
 }  // namespace slipway::gap

@@ -92,6 +92,26 @@ WindowModel::WindowModel(const DriveCampaign& campaign, std::span<const DriveWin
   }
 }
 
+double WindowModel::attitude_scatter_rad(std::span<const double> predicted) const {
+  double squares = 0.0, all = 0.0;
+  for (const Channel channel : {Channel::kRoll, Channel::kPitch}) {
+    double sum = 0.0, sum_of_squares = 0.0, count = 0.0;
+    for (std::size_t w = 0; w < windows_.size(); ++w) {
+      for (std::size_t i = 0; used(w) && i < windows_[w].observations.size(); ++i) {
+        const Observation& o = windows_[w].observations[i];
+        if (o.channel != channel) continue;
+        const double difference = o.value - predicted[offsets_[w] + i];
+        sum += difference;
+        sum_of_squares += difference * difference;
+        count += 1.0;
+      }
+    }
+    if (count > 0.0) squares += std::max(0.0, sum_of_squares - sum * sum / count);
+    all += count;
+  }
+  return std::sqrt(squares / all);
+}
+
 double WindowModel::attitude_misfit_rad() const {
   double squares = 0.0;
   std::size_t count = 0;
@@ -203,7 +223,8 @@ void WindowModel::predict_window(std::size_t w, const ModelState& state, std::sp
         moving = false;
         solver.reset();
       }
-      last.predict({moves ? &at : nullptr, place.stance, window.command, state.rover, state.track_left_out});
+      last.predict({moves ? &at : nullptr, place.stance, window.command, state.rover, state.track_left_out,
+                    footing_ == Footing::kSuspension});
     }
     before = &place;
     mean.add(share, last);

@@ -23,11 +23,12 @@ struct ModelState {
   double track_left_out = 0.0;              // see kTrackLeftOut
 };
 
-// How the rover stands where it was: as its suspension does on the map, or on the plane under its wheels.
-// Which of them a recording's attitudes show is for the recording to say. On planes, a window in which no
+// How the rover stands where it was: as its suspension does on the map, leant by its wheels' unequal
+// sinkages; the same before its wheels sink; or on the plane under its wheels. Which of them a recording's
+// attitudes show is for the recording to say. On planes, a window in which no
 // attitude was recorded is one station on the mean of its planes: they differ by the map's detail, which
 // nothing confirms.
-enum class Footing { kSuspension, kPlane };
+enum class Footing { kSuspension, kUndisturbed, kPlane };
 
 // Predicts every observation of a campaign's windows at the quasi-static fidelity level: the rover stands
 // at the window's measured stations on the map and is commanded what the drive was.
@@ -68,9 +69,12 @@ class WindowModel {
     bool turning = false;
   };
   const Conditions& conditions(std::size_t window) const { return conditions_[window]; }
-  // Root mean square of measured less predicted roll and pitch of the nominal rover, rad; NaN where none was
-  // measured.
+  // Root mean square of measured less predicted roll and pitch of the nominal rover before its wheels sink,
+  // rad; NaN where none was measured.
   double attitude_misfit_rad() const;
+  // Root mean square of measured less these predicted roll and pitch, each about its mean over the campaign:
+  // a constant difference is a biased sensor's. NaN as above.
+  double attitude_scatter_rad(std::span<const double> predicted) const;
   Footing footing() const { return footing_; }
   bool used(std::size_t window) const { return !stances_[window].empty(); }
   std::size_t observation_count() const { return offsets_.back(); }

@@ -13,17 +13,30 @@ bool stands_on_plane(const DriveCampaign& campaign, const WindowModel& model) {
          std::isnan(model.attitude_misfit_rad());
 }
 
+// Some recordings, of simulators above all, show the attitude that the rover has before its wheels sink.
+bool shows_undisturbed(const DriveCampaign& campaign, const WindowModel& leant,
+                       const WindowModel& undisturbed, std::size_t threads) {
+  if (std::isnan(leant.attitude_misfit_rad())) return false;
+  const Hypothesis hypothesis(campaign, {});
+  const std::vector<double> neutral = hypothesis.neutral();
+  return undisturbed.attitude_scatter_rad(hypothesis.predict(undisturbed, neutral, threads)) <
+         leant.attitude_scatter_rad(hypothesis.predict(leant, neutral, threads));
+}
+
 }  // namespace
 
 std::unique_ptr<WindowModel> window_model_of(const DriveCampaign& campaign,
                                              std::span<const DriveWindow> windows,
-                                             const PreparationOptions& options) {
+                                             const PreparationOptions& options, std::size_t threads) {
   auto suspension = std::make_unique<WindowModel>(campaign, windows);
   auto plane = std::make_unique<WindowModel>(campaign, windows, Footing::kPlane);
   const bool nearer = plane->attitude_misfit_rad() <
                           options.plane_is_nearer * suspension->attitude_misfit_rad() ||  // false for NaN
                       stands_on_plane(campaign, *suspension);
-  return nearer ? std::move(plane) : std::move(suspension);
+  if (nearer) return plane;
+  auto undisturbed = std::make_unique<WindowModel>(campaign, windows, Footing::kUndisturbed);
+  return shows_undisturbed(campaign, *suspension, *undisturbed, threads) ? std::move(undisturbed)
+                                                                         : std::move(suspension);
 }
 
 Eigen::MatrixXd scatter_response(const Hypothesis& hypothesis, const Eigen::MatrixXd& jacobian,
@@ -70,7 +83,7 @@ Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const DiagnosisO
   PreparedCampaign made;
   progress.report("cutting drives into windows", 0.0);
   made.windows = cut_windows(campaign, options.windows);
-  made.model = window_model_of(campaign, made.windows, options.preparation);
+  made.model = window_model_of(campaign, made.windows, options.preparation, threads);
   made.model->watch(progress);
   const WindowModel& model = *made.model;
   std::vector<bool> used(model.observation_count(), false);

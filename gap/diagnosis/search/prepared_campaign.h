@@ -14,11 +14,11 @@
 
 namespace slipway::gap {
 
-// The rover stands as its suspension does on the map, or on the plane under its wheels, whichever the
-// recorded attitudes show. Campaign and windows must outlive the model.
+// The rover stands as its suspension does on the map, with its wheels sunk or before they sink, or on the
+// plane under its wheels, whichever the recorded attitudes show. Campaign and windows must outlive the model.
 std::unique_ptr<WindowModel> window_model_of(const DriveCampaign& campaign,
                                              std::span<const DriveWindow> windows,
-                                             const PreparationOptions& options);
+                                             const PreparationOptions& options, std::size_t threads);
 
 // What a noise model asks for: derivatives of every observation by the logarithms of all soils' stiffness,
 // tan(friction) and shear modulus, of a hypothesis' scaled jacobian, and by the levers of the map's detail.
