@@ -36,6 +36,9 @@ DrawnDriver::DrawnDriver(const RoverModel& rover, double gravity_m_s2, const Soi
       checks_(checks),
       drives_level_(rover, gravity_m_s2) {
   if (!drive.stations.empty()) stretch_ends_m_ = stretch_ends_m(drive.stations);
+  geometries_.reserve(drive.stations.size());
+  for (const PreparedStation& station : drive.stations)
+    geometries_.emplace_back(rover, gravity_m_s2, station.stance, station.command);
 }
 
 DrawnDrive DrawnDriver::run(std::uint64_t key, const DrawnRun& how, const Progress& progress) const {
@@ -52,7 +55,7 @@ DrawnDrive DrawnDriver::run(std::uint64_t key, const DrawnRun& how, const Progre
     const PreparedStation& station = drive_.stations[s];
     for (std::size_t k = 0; k < under.size(); ++k)
       under[k] = ground.at(station.soil[k], station.pose.x_m, station.pose.y_m);
-    StationState state = solver.solve(station.stance, under, station.command);
+    StationState state = solver.solve(geometries_[s], under);
     scale_slip(slip_scale(ground, station), state);
     if (!embedded) embedded = !follower.add(station, s, state);
     if (how.to_first_stop && (embedded || follower.stops() > 0)) break;

@@ -51,6 +51,7 @@ class DrawnDriver {
   const SlipChecks& checks_;
   LevelGroundTest drives_level_;
   std::vector<double> stretch_ends_m_;
+  std::vector<BalanceGeometry> geometries_;  // of the stations
 };
 
 }  // namespace slipway::sim
