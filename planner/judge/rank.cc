@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "core/angle.h"
 #include "planner/judge/drawn_cost.h"
@@ -140,6 +141,13 @@ std::vector<std::string> superlatives(const Route& route, const std::vector<Rout
   return words;
 }
 
+// What orders routes that the draws do not tell apart.
+std::string by_tables(const Route& first, const Route& second) {
+  if (!(first.searched_cost < second.searched_cost)) return {};
+  return fmt::format("; by the slip tables, without draws, {:.2f} against {:.2f}", first.searched_cost,
+                     second.searched_cost);
+}
+
 // Why it does not stand one place higher: the terms in which it is dearer and those that make up for some of
 // it.
 std::string against_the_one_before(const Route& route, const Route& before, const Ranking& ranking) {
@@ -152,10 +160,11 @@ std::string against_the_one_before(const Route& route, const Route& before, cons
       terms += fmt::format("{}{} {:+.2f}", terms.empty() ? "" : ", ", route.shares[k].name, more);
   }
   const bool told = ranked_difference(route, before, ranking).decided() || route.drawn_costs.empty();
-  return fmt::format("behind route {}{}: cost {:.2f} against {:.2f}{}{}", before.rank,
+  return fmt::format("behind route {}{}: cost {:.2f} against {:.2f}{}{}{}", before.rank,
                      told ? "" : ", but alike", route.ranked_cost, before.ranked_cost,
                      route.drawn_costs.empty() ? "" : " " + ranking.in_words(route.prediction.draws),
-                     terms.empty() ? std::string() : " (" + terms + ")");
+                     terms.empty() ? std::string() : " (" + terms + ")",
+                     told ? std::string() : by_tables(before, route));
 }
 
 // Why the first route leads.
@@ -165,10 +174,12 @@ std::string against_the_second(const Route& route, const Route& next, const Rank
   const CostDifference less = ranked_difference(next, route, ranking);
   if (less.draws == 0)
     return fmt::format("best: cost {:.2f} against {:.2f} of route 2", route.ranked_cost, next.ranked_cost);
-  const std::string interval =
-      fmt::format("{}, 90 % interval {:.2f} to {:.2f}", ranking.in_words(less.draws), less.low, less.high);
+  const bool dearer = less.value < 0.0;
+  const std::string interval = fmt::format("{}, 90 % interval {:.2f} to {:.2f}", ranking.in_words(less.draws),
+                                           dearer ? -less.high : less.low, dearer ? -less.low : less.high);
   if (less.decided()) return fmt::format("best: costs {:.2f} less than route 2 {}", less.value, interval);
-  return fmt::format("first, but alike with route 2: costs {:.2f} less {}", less.value, interval);
+  return fmt::format("first, but alike with route 2: costs {:.2f} {} {}{}", std::abs(less.value),
+                     dearer ? "more" : "less", interval, by_tables(route, next));
 }
 
 // An immobilised drive is cheap because it ends early: it comes last, the furthest first.
@@ -211,6 +222,23 @@ bool ranks_before(const Route& a, const Route& b) {
   if (group_of(a) != group_of(b)) return group_of(a) < group_of(b);
   if (a.prediction.immobilised) return a.prediction.length_m > b.prediction.length_m;
   return a.ranked_cost < b.ranked_cost;
+}
+
+std::vector<std::size_t> ranked_order(const std::vector<Route>& routes, const Ranking& ranking) {
+  std::vector<std::size_t> order(routes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return ranks_before(routes[a], routes[b]); });
+  for (auto place = order.begin(); place != order.end(); ++place) {
+    const Route& leader = routes[*place];
+    auto first = place;
+    for (auto other = place + 1; other != order.end(); ++other)
+      if (routes[*other].searched_cost < routes[*first].searched_cost &&
+          !clearly_apart(leader, routes[*other], ranking))
+        first = other;
+    std::rotate(place, first, first + 1);
+  }
+  return order;
 }
 
 bool dominates(const Route& a, const Route& b) {

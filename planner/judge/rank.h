@@ -10,8 +10,14 @@ namespace slipway::planner {
 // Cost, shares, costs of the draws and verdict from a prediction, rows of the cost catalogue.
 void judge(const PlanProblem& problem, Route& route);
 
-// a before b: routes without a broken limit first, then by the cost that ranks them.
+// a before b by their figures: routes without a broken limit first, then by the cost that ranks them.
 bool ranks_before(const Route& a, const Route& b);
+
+// The places of routes in the order in which they are given out. First is the best by ranks_before() or, of
+// those that the draws do not tell from it, the one whose searched cost is the least: more draws or another
+// seed change the costs of these within their intervals, and would change their order with them. Then the
+// same of the others.
+std::vector<std::size_t> ranked_order(const std::vector<Route>& routes, const Ranking& ranking);
 
 // Whether a is better than b in duration, energy (on the mean soils), expected stops or probability of
 // embedding, and worse in none of them. An immobilised route dominates none and is dominated by each that is

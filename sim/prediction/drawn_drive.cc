@@ -49,12 +49,17 @@ DrawnDrive DrawnDriver::run(std::uint64_t key, const DrawnRun& how, const Progre
   OutcomeFollower follower(rover_, limits_, checks_);
   ShortfallFollower shortfall(stretch_ends_m_);
   PerWheel<Soil> under(rover_.wheels.size());
+  const RoverBalance::Vector* last_on_means = nullptr;
   bool embedded = false;
   for (std::size_t s = 0; s < drive_.stations.size() && !(embedded && drawn.immobilised); ++s) {
     if (progress.cancelled()) break;
     const PreparedStation& station = drive_.stations[s];
     for (std::size_t k = 0; k < under.size(); ++k)
       under[k] = ground.at(station.soil[k], station.pose.x_m, station.pose.y_m);
+    if (station.on_means) {
+      solver.follow(last_on_means ? *last_on_means : *station.on_means, *station.on_means);
+      last_on_means = &*station.on_means;
+    }
     StationState state = solver.solve(geometries_[s], under);
     scale_slip(slip_scale(ground, station), state);
     if (!embedded) embedded = !follower.add(station, s, state);

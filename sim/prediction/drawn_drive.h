@@ -20,6 +20,11 @@ struct DrawnDrive : DrawFigures {
   std::vector<float> shortfall_m;  // at the end of each stretch, see ShortfallFollower
 };
 
+// By the number of the draw.
+struct DrawnDrives {
+  std::vector<DrawnDrive> all;
+};
+
 // How a draw is driven.
 struct DrawnRun {
   bool keep_states = false;    // of every station

@@ -30,16 +30,16 @@ struct Wrench {
 
 }  // namespace
 
-BalanceGeometry::BalanceGeometry(const RoverModel& rover_model, double gravity, const Stance& at,
+BalanceGeometry::BalanceGeometry(const RoverModel& rover_model, double g_m_s2, const Stance& at,
                                  const DriveCommand& commanded)
     : rover(&rover_model),
       stance(&at),
       command(commanded),
-      gravity_m_s2(gravity),
+      gravity_m_s2(g_m_s2),
       joints(joint_count(rover_model.suspension.type)),
       undetermined(undetermined_loads(rover_model)),
       travel(travel_direction(commanded)),
-      weight_n(rover_model.mass_kg * gravity),
+      weight_n(rover_model.mass_kg * g_m_s2),
       half_wheelbase_m(half_wheelbase(rover_model)),
       attainable_share(sim::attainable_share(rover_model, commanded)),
       drive(at_temperature(rover_model.drive,
@@ -123,10 +123,9 @@ void BalanceGeometry::place_wheel(std::size_t k, const WheelCommand& commanded) 
 
   // On sloping ground under one wheel the rim travels along its tangent while the body keeps its own speed.
   // A free wheel's motion is given per speed scale at first; its rim speed is found together with its forces.
-  const double rim_speed =
-      place.is_free
-          ? speed_scale_m_s
-          : std::max(std::abs(place.motion.rate_rad_s) * wheel.radius_m, kMinRateRatio * speed_scale_m_s);
+  const double rim_speed = place.is_free ? speed_scale_m_s
+                                         : std::max(std::abs(place.motion.rate_rad_s) * wheel.radius_m,
+                                                    kMinRateRatio * speed_scale_m_s);
   const double along = place.direction * speed_scale_m_s / (rim_speed * std::max(0.2, x.dot(heading)));
   const double across = speed_scale_m_s / (rim_speed * std::max(0.2, y.dot(axle)));
   const Eigen::Vector3d d(travel.x(), travel.y(), 0.0), e(-travel.y(), travel.x(), 0.0);

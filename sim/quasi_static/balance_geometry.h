@@ -12,8 +12,8 @@
 
 namespace slipway::sim {
 
-// What the equations of RoverBalance need of a rover on a stance under a command, whatever the soil: made once
-// for a station, it serves all draws of the soil there, on any thread.
+// What the equations of RoverBalance need of a rover on a stance under a command, whatever the soil: made
+// once for a station, it serves all draws of the soil there, on any thread.
 struct BalanceGeometry {
   static constexpr int kMaxEquilibrium = 6 + kMaxJoints;
   // One row more than can be needed, so that columns fill whole packs; unused rows are 0.

@@ -214,6 +214,7 @@ Primary primary_of(const DriveCommand& command) {
 
 Attempt find_balance(RoverBalance& balance, const Primary& primary, bool warm, Vector& x,
                      NewtonMemory* memory, Thoroughness thoroughness) {
+  const bool few = memory != nullptr && memory->max_iterations > 0;
   if (!balance.any_driven()) {
     x = cold_start(balance, primary, 0.0);
     return {Outcome::kNoTraction, -1};
@@ -223,7 +224,8 @@ Attempt find_balance(RoverBalance& balance, const Primary& primary, bool warm, V
       balance.resting_loads_n();  // for the wheels that hang
       x = with_contacts(balance, x);
     }
-    if (find_in_contact(balance, 20, x, memory)) return judged(balance, primary, x);
+    if (find_in_contact(balance, few ? memory->max_iterations : 20, x, memory))
+      return judged(balance, primary, x);
   }
   // The soil forces on a failed wheel change sign within a thousandth of the speed. There the first start
   // often fails where another finds the balance.
@@ -231,7 +233,8 @@ Attempt find_balance(RoverBalance& balance, const Primary& primary, bool warm, V
   const std::span<const double> starts(kColdStartSpeedRatios.data(), balance.all_driven() ? 1 : 3);
   for (const double share : starts) {
     x = cold_start(balance, primary, share);
-    if (find_in_contact(balance, memory != nullptr ? memory->max_cold_iterations : 40, x, memory)) return judged(balance, primary, x);
+    if (find_in_contact(balance, few ? memory->max_iterations : 40, x, memory))
+      return judged(balance, primary, x);
   }
   if (thoroughness == Thoroughness::kQuick) return {Outcome::kNotConverged, -1};
   x = cold_start(balance, primary, kColdStartSpeedRatios[0]);

@@ -27,8 +27,7 @@ Vector limited_step(const Vector& x, const Vector& full) {
 
 // Halves a step that has not brought the residual down far enough.
 template <class Residual>
-void backtrack(const Vector& x, Vector step, double before, Residual residual, Vector& next,
-               Vector& next_r) {
+void backtrack(const Vector& x, Vector step, double before, Residual residual, Vector& next, Vector& next_r) {
   for (int halving = 0; halving < 6 && next_r.norm() > (1.0 - 1e-4) * before; ++halving) {
     step *= 0.5;
     next = x + step;
@@ -72,7 +71,8 @@ class NewtonSearch {
           }
           continue;
         }
-        backtrack(x, step, r.norm(), [&](const Vector& at) { return residual(at); }, next, next_r);
+        backtrack(
+            x, step, r.norm(), [&](const Vector& at) { return residual(at); }, next, next_r);
       } else {
         update(next - x, next_r - r);
       }
@@ -130,14 +130,24 @@ class WheelSlopeSearch {
     Vector r = balance_.residual(x);
     bool fresh = !slopes_;
     slopes_ = slopes_ ? balance_.carried_over(*slopes_, x) : balance_.slopes(x);
+    double last_size = 0.0;  // of the residual, one step ago
     for (int iteration = 0; iteration < max_iterations; ++iteration) {
-      if (r.cwiseAbs().maxCoeff() < tolerance_) return true;
+      const double size = r.cwiseAbs().maxCoeff();
+      if (size < tolerance_) return true;
       const Vector full = small_solve(balance_.jacobian(x, *slopes_), Vector(-r));
       if (!full.allFinite()) return false;
       const Vector step = limited_step(x, full);
       const PerWheel<RoverBalance::WheelPoint> before = balance_.points(x);
       Vector next = x + step;
       keep_in_range(next);
+      if (size * size < tolerance_ * last_size) {
+        // A step that brings the residual down as far as the last one did ends within the tolerance: it is
+        // taken along the slopes, without the soil's forces at its end.
+        balance_.move_along(*slopes_, next);
+        x = next;
+        return true;
+      }
+      last_size = size;
       Vector next_r = balance_.residual(next);
       const bool is_poor = next_r.norm() > 0.5 * r.norm();
       if (is_poor && !fresh) {  // the slopes are out of date: try again with new ones from the better point
@@ -149,10 +159,12 @@ class WheelSlopeSearch {
         }
         slopes_ = balance_.slopes(x);
         fresh = true;
+        last_size = 0.0;
         continue;
       }
       if (is_poor)
-        backtrack(x, step, r.norm(), [&](const Vector& at) { return balance_.residual(at); }, next, next_r);
+        backtrack(
+            x, step, r.norm(), [&](const Vector& at) { return balance_.residual(at); }, next, next_r);
       balance_.correct(before, next, *slopes_);
       fresh = false;
       x = next;

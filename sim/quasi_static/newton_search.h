@@ -30,7 +30,7 @@ struct NewtonMemory {
   bool by_wheel = false;
   std::optional<RoverBalance::WheelSlopes> slopes = {};
   double tolerance = kBalanceTolerance;
-  int max_cold_iterations = 40;  // from a cold start
+  int max_iterations = 0;  // of each search; 0: as many as may help
 };
 
 // Newton's search, from `x`, for the unknowns at which the balance holds. It does not change which wheels are

@@ -15,6 +15,10 @@ namespace {
 
 using Vector = RoverBalance::Vector;
 
+constexpr double kTableTolerance = 1e-7, kDrawTolerance = 1e-4;
+// Where a draw takes more, the rover mostly has no traction, which the bracketing finds sooner.
+constexpr int kMaxDrawIterations = 8;
+
 // Slip of the rim against the ground; a locked wheel's is exactly -1.
 double slip_of(const RoverBalance::WheelContact& contact) {
   const double forward = contact.motion.forward;
@@ -187,19 +191,33 @@ StationState QuasiStaticSolver::solve(RoverBalance& balance, const DriveCommand&
   // The answer of another kind of motion is a worse start than a cold one.
   if (warm_ && last_[primary.motion] * primary.sign <= 0.0) warm_ = false;
   NewtonMemory memory;
-  if (precision_ == Precision::kDraws) {
-    constexpr double kTolerance = 1e-4;
-    constexpr int kMaxColdIterations = 20;
+  if (precision_ != Precision::kExact) {
     memory.by_wheel = true;
     if (warm_) memory.slopes = std::move(last_slopes_);
-    memory.tolerance = kTolerance;
-    memory.max_cold_iterations = kMaxColdIterations;
+    memory.tolerance = kTableTolerance;
+  }
+  if (precision_ == Precision::kDraws) {
+    memory.tolerance = kDrawTolerance;
+    memory.max_iterations = kMaxDrawIterations;
   }
   if (start != nullptr) memory.inverse = start->inverse_jacobian;
   const Attempt attempt = find_balance(balance, primary, warm_, last_, &memory, thoroughness);
   last_slopes_ = std::move(memory.slopes);
   warm_ = attempt.outcome == Outcome::kMoving;
   return state_of(rover_, balance, last_, command, attempt);
+}
+
+void QuasiStaticSolver::follow(const RoverBalance::Vector& from, const RoverBalance::Vector& to) {
+  if (!warm_) {
+    warm_ = true;
+    last_ = to;
+    last_slopes_.reset();
+    return;
+  }
+  constexpr int kMotions = RoverBalance::kMotions;
+  last_.head<kMotions>() += to.head<kMotions>() - from.head<kMotions>();
+  for (int k = kMotions; k < last_.size(); ++k) last_[k] *= to[k] / from[k];
+  keep_in_range(last_);
 }
 
 std::optional<QuasiStaticSolver::Start> QuasiStaticSolver::start_of_last(const Stance& stance,

@@ -244,6 +244,22 @@ void RoverBalance::correct(const PerWheel<WheelPoint>& before, const Vector& unk
   }
 }
 
+void RoverBalance::move_along(const WheelSlopes& slopes, const Vector& unknowns) {
+  for (int k = 0; k < wheel_count(); ++k) {
+    WheelContact& contact = contacts_[k];
+    const WheelMotion from = motion_of(k, at_), motion = motion_of(k, unknowns);
+    const Eigen::Vector3d step(unknowns[kMotions + k] - at_[kMotions + k], motion.forward - from.forward,
+                               motion.leftward - from.leftward);
+    const WheelLoads loads = loads_of(contact) + slopes.of[k] * step;
+    contact.forces = {
+        .drawbar_pull_n = loads[0], .lateral_n = loads[1], .vertical_n = loads[2], .torque_nm = loads[3]};
+    contact.overturning_nm = loads[4];
+    if (!place(k).is_free) contact.motion = motion;
+  }
+  at_ = unknowns;
+  residual_at_.setZero();
+}
+
 RoverBalance::Matrix RoverBalance::jacobian(const Vector& unknowns, const WheelSlopes& slopes) const {
   const int top = equilibrium_count(), size = kMotions + wheel_count();
   Matrix jacobian = Matrix::Zero(size, size);

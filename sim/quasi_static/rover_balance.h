@@ -62,8 +62,8 @@ class RoverBalance {
 
   const Vector& residual(const Vector& unknowns);
 
-  using WheelLoads = Eigen::Matrix<double, 5, 1>;   // pull, lateral, vertical, torque, overturning moment
-  using WheelSlope = Eigen::Matrix<double, 5, 3>;   // of the loads by entry angle, motion along and across
+  using WheelLoads = Eigen::Matrix<double, 5, 1>;  // pull, lateral, vertical, torque, overturning moment
+  using WheelSlope = Eigen::Matrix<double, 5, 3>;  // of the loads by entry angle, motion along and across
   // A wheel's loads and what they depend on.
   struct WheelPoint {
     WheelLoads loads = WheelLoads::Zero();
@@ -84,6 +84,9 @@ class RoverBalance {
   // Corrects each wheel's slope by what its loads have changed since `before`, which was one step ago
   // [Broyden 1965, for each wheel by itself].
   void correct(const PerWheel<WheelPoint>& before, const Vector& unknowns, WheelSlopes& slopes) const;
+  // Goes to unknowns near those of the last residual: the wheels' loads change by their slopes, and the
+  // balance is taken to hold there.
+  void move_along(const WheelSlopes& slopes, const Vector& unknowns);
   // The Jacobian at the unknowns of the last residual, with such slopes.
   Matrix jacobian(const Vector& unknowns, const WheelSlopes& slopes) const;
   Matrix jacobian(const Vector& unknowns) const { return jacobian(unknowns, slopes(unknowns)); }

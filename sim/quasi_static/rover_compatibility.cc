@@ -30,12 +30,14 @@ void RoverBalance::set_gap_gradient() {
     gap_gradient_(k, 1) = normal.dot(Eigen::Vector3d::UnitX().cross(p)) / geometry_.half_wheelbase_m;
     gap_gradient_(k, 2) = normal.dot(Eigen::Vector3d::UnitY().cross(p)) / geometry_.half_wheelbase_m;
     for (int j = 0; j < geometry_.joints; ++j)
-      gap_gradient_(k, 3 + j) = normal.dot(joint_motion(rover(), stance(), k, j).shift) / geometry_.half_wheelbase_m;
+      gap_gradient_(k, 3 + j) =
+          normal.dot(joint_motion(rover(), stance(), k, j).shift) / geometry_.half_wheelbase_m;
     if (geometry_.undetermined == 0) continue;
     sinkage += bekker_sinkage_m(place(k).geometry, soils_[k], geometry_.weight_n / n) / n;
     radius += place(k).geometry.radius_m / n;
   }
-  if (geometry_.undetermined > 0) sinkage_scale_m_ = std::max(kMinSinkageRatio * radius, std::min(radius, sinkage));
+  if (geometry_.undetermined > 0)
+    sinkage_scale_m_ = std::max(kMinSinkageRatio * radius, std::min(radius, sinkage));
 }
 
 void RoverBalance::set_compatibility() {
