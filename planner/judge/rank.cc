@@ -141,13 +141,6 @@ std::vector<std::string> superlatives(const Route& route, const std::vector<Rout
   return words;
 }
 
-// What orders routes that the draws do not tell apart.
-std::string by_tables(const Route& first, const Route& second) {
-  if (!(first.searched_cost < second.searched_cost)) return {};
-  return fmt::format("; by the slip tables, without draws, {:.2f} against {:.2f}", first.searched_cost,
-                     second.searched_cost);
-}
-
 // Why it does not stand one place higher: the terms in which it is dearer and those that make up for some of
 // it.
 std::string against_the_one_before(const Route& route, const Route& before, const Ranking& ranking) {
@@ -159,12 +152,11 @@ std::string against_the_one_before(const Route& route, const Route& before, cons
     if (std::abs(more) >= 0.005)
       terms += fmt::format("{}{} {:+.2f}", terms.empty() ? "" : ", ", route.shares[k].name, more);
   }
-  const bool told = ranked_difference(route, before, ranking).decided() || route.drawn_costs.empty();
-  return fmt::format("behind route {}{}: cost {:.2f} against {:.2f}{}{}{}", before.rank,
+  const bool told = clearly_apart(route, before, ranking);
+  return fmt::format("behind route {}{}: cost {:.2f} against {:.2f}{}{}", before.rank,
                      told ? "" : ", but alike", route.ranked_cost, before.ranked_cost,
                      route.drawn_costs.empty() ? "" : " " + ranking.in_words(route.prediction.draws),
-                     terms.empty() ? std::string() : " (" + terms + ")",
-                     told ? std::string() : by_tables(before, route));
+                     terms.empty() ? std::string() : " (" + terms + ")");
 }
 
 // Why the first route leads.
@@ -177,9 +169,11 @@ std::string against_the_second(const Route& route, const Route& next, const Rank
   const bool dearer = less.value < 0.0;
   const std::string interval = fmt::format("{}, 90 % interval {:.2f} to {:.2f}", ranking.in_words(less.draws),
                                            dearer ? -less.high : less.low, dearer ? -less.low : less.high);
-  if (less.decided()) return fmt::format("best: costs {:.2f} less than route 2 {}", less.value, interval);
+  if (!less.nought_in_99 && !dearer)
+    return fmt::format("best: costs {:.2f} less than route 2 {}", less.value, interval);
   return fmt::format("first, but alike with route 2: costs {:.2f} {} {}{}", std::abs(less.value),
-                     dearer ? "more" : "less", interval, by_tables(route, next));
+                     dearer ? "more" : "less", interval,
+                     route.prediction.length_m < next.prediction.length_m ? "; the shorter is first" : "");
 }
 
 // An immobilised drive is cheap because it ends early: it comes last, the furthest first.
@@ -233,7 +227,7 @@ std::vector<std::size_t> ranked_order(const std::vector<Route>& routes, const Ra
     const Route& leader = routes[*place];
     auto first = place;
     for (auto other = place + 1; other != order.end(); ++other)
-      if (routes[*other].searched_cost < routes[*first].searched_cost &&
+      if (routes[*other].prediction.length_m < routes[*first].prediction.length_m &&
           !clearly_apart(leader, routes[*other], ranking))
         first = other;
     std::rotate(place, first, first + 1);
@@ -272,7 +266,7 @@ CostDifference ranked_difference(const Route& a, const Route& b, const Ranking& 
 
 bool clearly_apart(const Route& a, const Route& b, const Ranking& ranking) {
   if (group_of(a) != group_of(b) || a.prediction.immobilised || a.drawn_costs.empty()) return true;
-  return ranked_difference(a, b, ranking).decided();
+  return !ranked_difference(a, b, ranking).nought_in_99;
 }
 
 void explain(std::vector<Route>& routes, const Ranking& ranking) {

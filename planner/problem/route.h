@@ -38,8 +38,6 @@ struct Route {
   std::string profile;  // what the search was asked to minimise ("balanced", "shortest", ...)
   sim::DrivePrediction prediction;
   std::optional<DynamicVerification> dynamic;  // where it was verified
-  // By the slip tables, as the search has it: no draw is in it, so that it is the same under each seed.
-  double searched_cost = 0.0;
   double cost = 0.0;              // on the mean soils, with the draws' stops, embeddings and broken limits
   std::vector<CostShare> shares;  // add up to cost
   std::vector<WeightedCost> drawn_costs;  // by the number of the draw

@@ -190,7 +190,7 @@ TEST(Pareto, MarksTheRoutesThatNoOtherDominates) {
 }
 
 // Under another seed the costs of two routes that are alike change places, and the routes do not.
-TEST(RankedOrder, RoutesThatTheDrawsDoNotTellApartStandByTheirSearchedCost) {
+TEST(RankedOrder, OfRoutesThatTheDrawsDoNotTellApartTheShortestIsFirst) {
   std::vector<WeightedCost> one, other, worse;
   for (std::size_t k = 0; k < 64; ++k) {
     one.push_back({5.0 + random_normal(1, k)});
@@ -204,9 +204,9 @@ TEST(RankedOrder, RoutesThatTheDrawsDoNotTellApartStandByTheirSearchedCost) {
     last.ranked_cost = conditional_value_at_risk(worse, 1.0);
     routes.push_back(last);
     ASSERT_FALSE(clearly_apart(routes[0], routes[1], {}));
-    routes[0].searched_cost = 3.0;
-    routes[1].searched_cost = 2.0;
-    routes[2].searched_cost = 1.0;  // does not help it: the draws tell it from the others
+    routes[0].prediction.length_m = 30.0;
+    routes[1].prediction.length_m = 20.0;
+    routes[2].prediction.length_m = 10.0;  // does not help it: the draws tell it from the others
     EXPECT_EQ(ranked_order(routes, {}), (std::vector<std::size_t>{1, 0, 2}));
   }
 }
