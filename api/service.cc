@@ -228,7 +228,7 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
   problem.rover = std::make_shared<const sim::RoverModel>(std::move(driven));
   problem.gravity_m_s2 = site.description().gravity_m_s2;
   problem.limits = drive.limits;
-  problem.seed = drive.seed;
+  // The seed is that of the draws alone: the routes that are compared are the same under each.
   problem.risk.seed = drive.seed;
   problem.risk.draws = drive.draws.value_or(kFirstDraws);
   problem.risk.max_draws = drive.draws ? 0 : kMaxDecidingDraws;

@@ -11,14 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "api/files/catalogue.h"
-#include "api/soil_beliefs.h"
+#include "bench/gale_site.h"
 #include "planner/judge/rank.h"
 #include "planner/judge/route_stations.h"
 #include "planner/problem/terrain_ground.h"
 #include "planner/search/propose.h"
 #include "planner/search/search_window.h"
-#include "sim/effects/effect_catalogue.h"
 
 namespace {
 
@@ -28,35 +26,6 @@ using namespace slipway::planner;  // NOLINT
 constexpr int kFew = 24, kFirst = 32, kMany = 300;  // draws; the service's first are kFirst
 constexpr std::size_t kCandidates = 6;
 constexpr double kMinApart_m = 40.0, kMaxApart_m = 110.0;
-
-struct Site {
-  PlanProblem problem;
-  std::vector<api::Stop> stops;
-};
-
-// The bundled terrain with the service's beliefs, for the rover that the command line plans for.
-Site gale() {
-  const auto catalogue = api::load_catalogue(SLIPWAY_SOURCE_DIR "/data").value();
-  const api::TerrainSite& site = *catalogue.terrains.at("gale");
-  const sim::RoverModel& rover = *catalogue.rovers.at("msl-class");
-  const auto ground = site.read(site.info().geometry.extent()).value();
-  const std::vector<sim::EffectSetting> effects = sim::in_force(rover.effects, {});
-  Site out;
-  PlanProblem& problem = out.problem;
-  auto driven = std::make_shared<sim::RoverModel>(rover);
-  sim::apply_effects(effects, *driven);
-  problem.rover = driven;
-  problem.terrain = ground.terrain;
-  const api::RegionalSoils soils = api::soils_in_regions(ground.soil_map, sim::effect_regions(effects));
-  problem.soil_map = soils.map;
-  for (const api::RegionalSoil& soil : soils.soils)
-    problem.beliefs.known.push_back(
-        api::believed(catalogue, soil, site.description().legends.front().confidence, effects));
-  problem.beliefs.unknown = api::believed(catalogue, {std::string(api::kUnknownGround), {}}, 1.0, effects);
-  problem.gravity_m_s2 = site.description().gravity_m_s2;
-  out.stops = site.stops();
-  return out;
-}
 
 // The candidates that differ, with all draws under each seed.
 struct Candidates {
@@ -163,7 +132,7 @@ void print(const char* name, const Tally& t) {
 int main(int argc, char** argv) {
   const std::size_t wanted = argc > 1 ? static_cast<std::size_t>(std::atoi(argv[1])) : 24;
   const int seeds = argc > 2 ? std::atoi(argv[2]) : 5;
-  Site site = gale();
+  bench::Site site = bench::gale();
   Tally by_mean, by_tail;
   std::vector<double> shares(cost_catalogue().size(), 0.0);
   std::size_t pairs = 0;

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -31,8 +31,8 @@ constexpr std::size_t kMaxSimulated = 6;  // unless more routes are asked for
 // verified after it.
 constexpr double kSimulating = 0.5, kSimulated = 0.98, kSimulatedUnverified = 0.7;
 constexpr double kLineSpacing_m = 0.25;
-// Of routes that compete for the first place: three times the first draws halve the interval nearly.
-constexpr int kContenderDraws = 96;
+// Of routes that compete for the first place.
+constexpr int kContenderDraws = 272;
 // A candidate that shares more of its length than this with one that is simulated anyway adds nothing.
 constexpr double kSameRoute = 0.9;
 
@@ -85,15 +85,6 @@ std::vector<std::string> unpredicted_in_words(const std::vector<Error>& errors, 
     if (std::find(words.begin(), words.end(), line) == words.end()) words.push_back(std::move(line));
   }
   return words;
-}
-
-// The places of routes in the order in which they are ranked.
-std::vector<std::size_t> ranked_order(const std::vector<Route>& routes) {
-  std::vector<std::size_t> order(routes.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return ranks_before(routes[a], routes[b]); });
-  return order;
 }
 
 class Planning {
@@ -172,17 +163,15 @@ class Planning {
       return;
     }
     const MotionCost cost(problem_, *map_, tables, problem_.weights);
-    Waypoint from = problem_.start;
-    std::vector<Waypoint> places = problem_.waypoints;
-    places.push_back(problem_.goal);
+    const std::vector<Waypoint> places = problem_.places();
     const GridSearch grid(cost);
-    for (const Waypoint& to : places) {
+    for (std::size_t leg = 0; leg + 1 < places.size(); ++leg) {
+      const Waypoint &from = places[leg], &to = places[leg + 1];
       if (grid.way(grid.cost_to_go(to.x_m, to.y_m), from.x_m, from.y_m).empty()) {
         std::string why = no_way(*map_, from.x_m, from.y_m, to.x_m, to.y_m);
         if (const auto narrowest = bottleneck(problem_, cost, from, to)) why += "; " + *narrowest;
         plan.fewer_because.push_back(std::move(why));
       }
-      from = to;
     }
   }
 
@@ -205,7 +194,7 @@ class Planning {
         in_keep_out.push_back(*pose);
         continue;
       }
-      Result<sim::DrivePrediction> drive = predict(stations, problem_.risk.draws, stage);
+      Result<sim::DrivePrediction> drive = predict(list[k], stations, problem_.risk.draws, stage);
       if (progress_.cancelled()) return cancelled();
       if (!drive) {
         // Mostly a wheel that the body's circle does not cover met a missing cell.
@@ -233,12 +222,14 @@ class Planning {
     return route_stations(candidate.motions, sim::max_station_spacing_m(*problem_.rover));
   }
 
-  Result<sim::DrivePrediction> predict(const std::vector<sim::PathStation>& stations, int draws,
-                                       Progress& progress) const {
+  // Goes on from the candidate's draws so far.
+  Result<sim::DrivePrediction> predict(std::size_t candidate, const std::vector<sim::PathStation>& stations,
+                                       int draws, Progress& progress) {
     sim::RiskOptions risk = problem_.risk;
     risk.draws = draws;
     return sim::predict_drive(*problem_.rover, problem_.gravity_m_s2, ground_, problem_.beliefs, stations,
-                              problem_.limits, risk, problem_.threads, progress, problem_.conditions);
+                              problem_.limits, risk, problem_.threads, progress, problem_.conditions,
+                              &drawn_[candidate]);
   }
 
   // The first draws rank the candidates. The best one, and the next of those that they do not tell from it,
@@ -247,7 +238,7 @@ class Planning {
   Result<void> draw_contenders(const Proposal& proposal, const std::vector<std::size_t>& candidate_of,
                                std::vector<Route>& routes) {
     if (problem_.deciding_draws <= problem_.risk.draws || routes.size() < 2) return {};
-    std::vector<std::size_t> contenders = ranked_order(routes);
+    std::vector<std::size_t> contenders = ranked_order(routes, problem_.ranking);
     const Route& best = routes[contenders.front()];
     contenders.erase(
         std::remove_if(contenders.begin() + 1, contenders.end(),
@@ -256,7 +247,7 @@ class Planning {
     if (contenders.size() < 2) return {};
     contenders.resize(std::min(contenders.size(), 1 + static_cast<std::size_t>(problem_.routes)));
     for (const std::size_t i : contenders)
-      if (auto drawn = draw_more(proposal.candidates[candidate_of[i]],
+      if (auto drawn = draw_more(proposal, candidate_of[i],
                                  std::min(kContenderDraws, problem_.deciding_draws), routes[i]);
           !drawn)
         return drawn;
@@ -268,18 +259,18 @@ class Planning {
     if (problem_.deciding_draws <= problem_.risk.draws) return {};
     for (std::size_t i = 0; i < plan.routes.size(); ++i) {
       if (problem_.risk.bars.decide(plan.routes[i].prediction.outcomes)) continue;
-      if (auto drawn = draw_more(proposal.candidates[chosen_[i]], problem_.deciding_draws, plan.routes[i]);
-          !drawn)
+      if (auto drawn = draw_more(proposal, chosen_[i], problem_.deciding_draws, plan.routes[i]); !drawn)
         return drawn;
     }
     rank(plan);
     return {};
   }
 
-  Result<void> draw_more(const Candidate& candidate, int draws, Route& route) {
+  Result<void> draw_more(const Proposal& proposal, std::size_t candidate, int draws, Route& route) {
     if (route.prediction.draws >= draws) return {};
     StageProgress stage(progress_, "comparing routes", kSimulated, kSimulated);
-    Result<sim::DrivePrediction> drive = predict(stations_of(candidate), draws, stage);
+    Result<sim::DrivePrediction> drive =
+        predict(candidate, stations_of(proposal.candidates[candidate]), draws, stage);
     if (progress_.cancelled()) return cancelled();
     if (!drive) return fail(drive.error());
     route.prediction = std::move(*drive);
@@ -299,7 +290,7 @@ class Planning {
 
   void choose(std::vector<Route> routes, const std::vector<std::size_t>& candidate_of,
               const Differences& differences, Plan& plan) {
-    const std::vector<std::size_t> order = ranked_order(routes);
+    const std::vector<std::size_t> order = ranked_order(routes, problem_.ranking);
     for (const std::size_t i : select_routes(differences, order, static_cast<std::size_t>(problem_.routes))) {
       plan.routes.push_back(std::move(routes[i]));
       chosen_.push_back(candidate_of[i]);
@@ -339,7 +330,7 @@ class Planning {
 
   // Orders the routes, and the candidates behind them with them.
   void rank(Plan& plan) {
-    const std::vector<std::size_t> order = ranked_order(plan.routes);
+    const std::vector<std::size_t> order = ranked_order(plan.routes, problem_.ranking);
     std::vector<Route> routes;
     std::vector<std::size_t> chosen;
     for (const std::size_t i : order) {
@@ -372,6 +363,7 @@ class Planning {
   TerrainGround ground_;
   KeepOut keep_out_;
   std::unique_ptr<TraverseMap> map_;
+  std::map<std::size_t, sim::DrawsSoFar> drawn_;  // by candidate
   std::vector<std::size_t> chosen_;  // the candidate behind each of the plan's routes, in their order
 };
 

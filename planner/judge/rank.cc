@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "core/angle.h"
 #include "planner/judge/drawn_cost.h"
@@ -151,7 +152,7 @@ std::string against_the_one_before(const Route& route, const Route& before, cons
     if (std::abs(more) >= 0.005)
       terms += fmt::format("{}{} {:+.2f}", terms.empty() ? "" : ", ", route.shares[k].name, more);
   }
-  const bool told = ranked_difference(route, before, ranking).decided() || route.drawn_costs.empty();
+  const bool told = clearly_apart(route, before, ranking);
   return fmt::format("behind route {}{}: cost {:.2f} against {:.2f}{}{}", before.rank,
                      told ? "" : ", but alike", route.ranked_cost, before.ranked_cost,
                      route.drawn_costs.empty() ? "" : " " + ranking.in_words(route.prediction.draws),
@@ -165,10 +166,14 @@ std::string against_the_second(const Route& route, const Route& next, const Rank
   const CostDifference less = ranked_difference(next, route, ranking);
   if (less.draws == 0)
     return fmt::format("best: cost {:.2f} against {:.2f} of route 2", route.ranked_cost, next.ranked_cost);
-  const std::string interval =
-      fmt::format("{}, 90 % interval {:.2f} to {:.2f}", ranking.in_words(less.draws), less.low, less.high);
-  if (less.decided()) return fmt::format("best: costs {:.2f} less than route 2 {}", less.value, interval);
-  return fmt::format("first, but alike with route 2: costs {:.2f} less {}", less.value, interval);
+  const bool dearer = less.value < 0.0;
+  const std::string interval = fmt::format("{}, 90 % interval {:.2f} to {:.2f}", ranking.in_words(less.draws),
+                                           dearer ? -less.high : less.low, dearer ? -less.low : less.high);
+  if (!less.nought_in_99 && !dearer)
+    return fmt::format("best: costs {:.2f} less than route 2 {}", less.value, interval);
+  return fmt::format("first, but alike with route 2: costs {:.2f} {} {}{}", std::abs(less.value),
+                     dearer ? "more" : "less", interval,
+                     route.prediction.length_m < next.prediction.length_m ? "; the shorter is first" : "");
 }
 
 // An immobilised drive is cheap because it ends early: it comes last, the furthest first.
@@ -213,6 +218,23 @@ bool ranks_before(const Route& a, const Route& b) {
   return a.ranked_cost < b.ranked_cost;
 }
 
+std::vector<std::size_t> ranked_order(const std::vector<Route>& routes, const Ranking& ranking) {
+  std::vector<std::size_t> order(routes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return ranks_before(routes[a], routes[b]); });
+  for (auto place = order.begin(); place != order.end(); ++place) {
+    const Route& leader = routes[*place];
+    auto first = place;
+    for (auto other = place + 1; other != order.end(); ++other)
+      if (routes[*other].prediction.length_m < routes[*first].prediction.length_m &&
+          !clearly_apart(leader, routes[*other], ranking))
+        first = other;
+    std::rotate(place, first, first + 1);
+  }
+  return order;
+}
+
 bool dominates(const Route& a, const Route& b) {
   if (a.prediction.immobilised) return false;
   if (b.prediction.immobilised) return true;
@@ -244,7 +266,7 @@ CostDifference ranked_difference(const Route& a, const Route& b, const Ranking& 
 
 bool clearly_apart(const Route& a, const Route& b, const Ranking& ranking) {
   if (group_of(a) != group_of(b) || a.prediction.immobilised || a.drawn_costs.empty()) return true;
-  return ranked_difference(a, b, ranking).decided();
+  return !ranked_difference(a, b, ranking).nought_in_99;
 }
 
 void explain(std::vector<Route>& routes, const Ranking& ranking) {

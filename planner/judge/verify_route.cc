@@ -8,6 +8,7 @@
 
 #include "core/angle.h"
 #include "planner/judge/drive_legs.h"
+#include "planner/problem/keep_out.h"
 #include "planner/problem/terrain_ground.h"
 #include "planner/search/overlap.h"
 #include "sim/dynamic/dynamic_drive.h"
@@ -159,13 +160,8 @@ class RouteLine {
 
   double distance_m(const Eigen::Vector2d& place) const {
     double least = (place - line_.front()).norm();
-    for (std::size_t i = 1; i < line_.size(); ++i) {
-      const Eigen::Vector2d along = line_[i] - line_[i - 1];
-      const double squared = along.squaredNorm();
-      const double t =
-          squared > 0.0 ? std::clamp((place - line_[i - 1]).dot(along) / squared, 0.0, 1.0) : 0.0;
-      least = std::min(least, (place - line_[i - 1] - t * along).norm());
-    }
+    for (std::size_t i = 1; i < line_.size(); ++i)
+      least = std::min(least, distance_to_segment_m(place, line_[i - 1], line_[i]));
     return least;
   }
 

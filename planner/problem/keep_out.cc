@@ -25,13 +25,6 @@ bool inside(const Polygon& polygon, const Eigen::Vector2d& p) {
   return odd;
 }
 
-double distance_to_segment_m(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  const Eigen::Vector2d along = b - a;
-  const double squared = along.squaredNorm();
-  const double t = squared > 0.0 ? std::clamp((p - a).dot(along) / squared, 0.0, 1.0) : 0.0;
-  return (p - a - t * along).norm();
-}
-
 // Liang-Barsky: does the segment meet the box |x| <= half.x, |y| <= half.y?
 bool meets_box(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& half) {
   double enter = 0.0;
@@ -87,6 +80,13 @@ bool arc_meets_segment(const Eigen::Vector2d& from, double turn_rad, const Eigen
 }
 
 }  // namespace
+
+double distance_to_segment_m(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  const Eigen::Vector2d along = b - a;
+  const double squared = along.squaredNorm();
+  const double t = squared > 0.0 ? std::clamp((p - a).dot(along) / squared, 0.0, 1.0) : 0.0;
+  return (p - a - t * along).norm();
+}
 
 KeepOut::KeepOut(std::span<const Polygon> polygons, const sim::RoverModel& rover,
                  std::span<const Polygon> keep_in)

@@ -12,6 +12,9 @@
 
 namespace slipway::planner {
 
+// From p to the nearest point of the segment from a to b.
+double distance_to_segment_m(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b);
+
 // The polygons that the rover's body, a rectangle about its pose, must stay out of, and those that it must
 // stay in: of each of these it must stay out of all that is outside. Polygons and body are closed: to touch
 // an edge is to hit. A polygon that crosses itself encloses what an odd number of its edges surrounds.

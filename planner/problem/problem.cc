@@ -1,5 +1,6 @@
 #include "planner/problem/problem.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/angle.h"
@@ -8,6 +9,17 @@ namespace slipway::planner {
 
 double Manner::body_yaw(double travel_rad) const {
   return wrapped_rad(travel_rad - crab_rad + (backwards ? M_PI : 0.0));
+}
+
+std::vector<Waypoint> PlanProblem::places() const {
+  std::vector<Waypoint> all{start};
+  all.insert(all.end(), waypoints.begin(), waypoints.end());
+  all.push_back(goal);
+  return all;
+}
+
+double PlanProblem::max_tilt_rad() const {
+  return std::min(limits.max_tilt_rad, rover->max_tilt_rad);
 }
 
 double Manner::travel(double body_yaw_rad) const {

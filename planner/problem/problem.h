@@ -60,6 +60,11 @@ struct PlanProblem {
   // as many.
   int deciding_draws = 0;
   std::size_t threads = 0;  // 0: as many as the machine has
+
+  // Start, waypoints in their order, goal.
+  std::vector<Waypoint> places() const;
+  // The lower of the request's and the rover's limits.
+  double max_tilt_rad() const;
 };
 
 constexpr int kMaxVerified = 3;  // routes of a plan that are driven in the dynamic simulation

@@ -18,10 +18,10 @@ double sum_of_weights(const std::vector<WeightedCost>& costs) {
   return sum;
 }
 
-// Half the width of Student's central 90 % interval in standard errors, from the normal's [Abramowitz &
-// Stegun 26.7.5].
-double student_reach90(double freedom) {
-  const double z = kReach90, v = std::max(freedom, 1.0);
+// Half the width of Student's central interval in standard errors, from the normal's [Abramowitz & Stegun
+// 26.7.5].
+double student_reach(double z, double freedom) {
+  const double v = std::max(freedom, 1.0);
   return z + (z * z * z + z) / (4.0 * v) +
          (5.0 * std::pow(z, 5) + 16.0 * z * z * z + 3.0 * z) / (96.0 * v * v);
 }
@@ -89,8 +89,11 @@ CostDifference difference_of(const std::vector<WeightedCost>& a, const std::vect
   }
   const double effective = 1.0 / squares;
   const double few = effective > 1.0 ? effective / (effective - 1.0) : 1.0;
-  const double reach = student_reach90(tail * effective - 1.0) * std::sqrt(few * spread);
-  return {mean, mean - reach, mean + reach, static_cast<int>(common)};
+  constexpr double kReach99 = 2.5758293035489004;
+  const double error = std::sqrt(few * spread), freedom = tail * effective - 1.0;
+  const double reach = student_reach(kReach90, freedom) * error;
+  return {mean, mean - reach, mean + reach, static_cast<int>(common),
+          std::abs(mean) <= student_reach(kReach99, freedom) * error};
 }
 
 }  // namespace slipway::planner

@@ -19,15 +19,11 @@ constexpr double kNoElevation = 100.0, kInKeepOut = 10.0;  // above any ratio to
 constexpr double kMaxHoldless = 0.99;                      // a slope within the tilt limit is no breach of it
 constexpr double kOneDecimal = 10.0;
 
-double tilt_limit_rad(const PlanProblem& problem) {
-  return std::min(problem.limits.max_tilt_rad, problem.rover->max_tilt_rad);
-}
-
 // How far a cell, driven in a direction, is from what the limits allow: 0 where it is allowed.
 double breach_of(const PlanProblem& problem, const MotionCost& cost, std::size_t index, double heading_rad) {
   const GroundCell& cell = cost.map().cell(index);
   const Eigen::Vector2d place = cost.map().centre_m(index);
-  const double tilt = cell.tilt_rad / tilt_limit_rad(problem);
+  const double tilt = cell.tilt_rad / problem.max_tilt_rad();
   switch (cell.passage) {
     case Passage::kNoData:
       return kNoElevation;
@@ -178,9 +174,9 @@ std::string breach_in_words(const PlanProblem& problem, const GroundCell& cell, 
     return problem.keep_out.empty() ? "outside a keep-in or too near to its edge"
                                     : "in or too near to a keep-out, or outside a keep-in";
   std::string words;
-  if (cell.tilt_rad > tilt_limit_rad(problem))
+  if (cell.tilt_rad > problem.max_tilt_rad())
     add(words, fmt::format("{:.1f} deg of tilt where {:.1f} is {}", deg_from_rad(cell.tilt_rad),
-                           deg_from_rad(tilt_limit_rad(problem)),
+                           deg_from_rad(problem.max_tilt_rad()),
                            problem.limits.max_tilt_rad > problem.rover->max_tilt_rad ? "the rover's own limit"
                                                                                      : "the limit"));
   const double clearance = problem.rover->belly_clearance_m - cell.rise_m;

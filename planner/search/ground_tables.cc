@@ -74,7 +74,7 @@ sim::Soil weak_soil(const sim::SoilDistribution& belief) {
 
 GroundTables build_ground_tables(const PlanProblem& problem, const Progress& progress) {
   const std::size_t kinds = problem.beliefs.known.size() + 1;
-  const double limit = std::min(problem.limits.max_tilt_rad, problem.rover->max_tilt_rad);
+  const double limit = problem.max_tilt_rad();
   std::vector<std::optional<sim::SlipTable>> tables(2 * kinds);
   std::vector<const sim::SoilDistribution*> beliefs;
   for (const sim::SoilDistribution& known : problem.beliefs.known) beliefs.push_back(&known);

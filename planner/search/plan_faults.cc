@@ -84,7 +84,7 @@ std::vector<double> headings_of(const Waypoint& place) {
 
 void check_standing(const PlanProblem& problem, const KeepOut& keep_out, const sim::Ground& ground,
                     const Waypoint& place, const std::string& pointer, std::vector<Fault>& faults) {
-  const double limit = std::min(problem.limits.max_tilt_rad, problem.rover->max_tilt_rad);
+  const double limit = problem.max_tilt_rad();
   double least_tilt = std::numeric_limits<double>::infinity();
   bool outside = false;
   for (const double heading : headings_of(place)) {

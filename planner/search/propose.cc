@@ -52,13 +52,6 @@ struct Draft {
   bool found = true;
 };
 
-std::vector<Waypoint> places_of(const PlanProblem& problem) {
-  std::vector<Waypoint> places{problem.start};
-  places.insert(places.end(), problem.waypoints.begin(), problem.waypoints.end());
-  places.push_back(problem.goal);
-  return places;
-}
-
 // Three times as many gain some 0.3 % of the cost on a 300 m leg (bench/plan_bench).
 int iterations_for(double length_m) {
   return static_cast<int>(std::clamp(800.0 + 4.0 * length_m, 1000.0, 4000.0));
@@ -84,7 +77,7 @@ class Proposer {
         map_(map),
         tables_(tables),
         progress_(progress),
-        places_(places_of(problem)),
+        places_(problem.places()),
         asked_cost_(problem, map, tables, problem.weights, problem.ranking.ranked_tail()),
         proposal_{.candidates = {}, .differences = Differences(problem.rover->body_width_m)} {
     for (const std::string& name : problem.planners) add_planner(*planner_named(name, planners));

@@ -40,15 +40,13 @@ WindowFit window_fit(const PlanProblem& problem, const TraverseMap& map, const G
   const MotionCost cost(problem, map, tables, problem.weights);
   const GridSearch grid(cost);
   const std::array<bool, 4> open = open_edges(map, *problem.terrain);
-  std::vector<Waypoint> places = problem.waypoints;
-  places.push_back(problem.goal);
-  Waypoint from = problem.start;
+  const std::vector<Waypoint> places = problem.places();
   bool edge = false;
-  for (const Waypoint& to : places) {
+  for (std::size_t leg = 0; leg + 1 < places.size(); ++leg) {
+    const Waypoint &from = places[leg], &to = places[leg + 1];
     const std::vector<std::size_t> way = grid.way(grid.cost_to_go(to.x_m, to.y_m), from.x_m, from.y_m);
     if (way.empty()) return WindowFit::kNoWay;
     edge |= at_edge(map, open, way);
-    from = to;
   }
   return edge ? WindowFit::kAtEdge : WindowFit::kInside;
 }

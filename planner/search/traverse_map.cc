@@ -187,7 +187,7 @@ void TraverseMap::judge_ground(const PlanProblem& problem, const std::vector<Eig
       cell.gradient_y = static_cast<float>(plane.gradient_y);
     }
     const double tilt = std::atan(std::hypot(plane.gradient_x, plane.gradient_y));
-    if (tilt > std::min(problem.limits.max_tilt_rad, rover.max_tilt_rad)) cell.passage = Passage::kSteep;
+    if (tilt > problem.max_tilt_rad()) cell.passage = Passage::kSteep;
     cell.tilt_rad = std::max(cell.tilt_rad, static_cast<float>(tilt));
     cell.rise_m = std::max(cell.rise_m, static_cast<float>(plane.rise_m));
     if (plane.rise_m + problem.limits.min_clearance_m > rover.belly_clearance_m)

@@ -31,6 +31,9 @@ DrawnDriver::DrawnDriver(const RoverModel& rover, double gravity_m_s2, const Soi
       checks_(checks),
       drives_level_(rover, gravity_m_s2) {
   if (!drive.stations.empty()) stretch_ends_m_ = stretch_ends_m(drive.stations);
+  geometries_.reserve(drive.stations.size());
+  for (const PreparedStation& station : drive.stations)
+    geometries_.emplace_back(rover, gravity_m_s2, station.stance, station.command);
 }
 
 DrawnDrive DrawnDriver::run(std::uint64_t key, const DrawnRun& how, const Progress& progress) const {
@@ -41,13 +44,18 @@ DrawnDrive DrawnDriver::run(std::uint64_t key, const DrawnRun& how, const Progre
   OutcomeFollower follower(rover_, limits_, checks_);
   ShortfallFollower shortfall(stretch_ends_m_);
   PerWheel<Soil> under(rover_.wheels.size());
+  const RoverBalance::Vector* last_on_means = nullptr;
   bool embedded = false;
   for (std::size_t s = 0; s < drive_.stations.size() && !(embedded && drawn.immobilised); ++s) {
     if (progress.cancelled()) break;
     const PreparedStation& station = drive_.stations[s];
     for (std::size_t k = 0; k < under.size(); ++k)
       under[k] = ground.at(station.soil[k], station.pose.x_m, station.pose.y_m);
-    StationState state = solver.solve(station.stance, under, station.command);
+    if (station.on_means) {
+      solver.follow(last_on_means ? *last_on_means : *station.on_means, *station.on_means);
+      last_on_means = &*station.on_means;
+    }
+    StationState state = solver.solve(geometries_[s], under);
     scale_slip(slip_scale(ground, station), state);
     if (!embedded) embedded = !follower.add(station, s, state);
     if (how.to_first_stop && (embedded || follower.stops() > 0)) break;

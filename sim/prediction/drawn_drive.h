@@ -21,6 +21,11 @@ struct DrawnDrive : DrawFigures {
   std::vector<float> shortfall_m;  // at the end of each stretch, see ShortfallFollower
 };
 
+// By the number of the draw.
+struct DrawnDrives {
+  std::vector<DrawnDrive> all;
+};
+
 // How a draw is driven.
 struct DrawnRun {
   bool keep_states = false;    // of every station
@@ -59,6 +64,7 @@ class DrawnDriver {
   const SlipChecks& checks_;
   LevelGroundTest drives_level_;
   std::vector<double> stretch_ends_m_;
+  std::vector<BalanceGeometry> geometries_;  // of the stations
 };
 
 }  // namespace slipway::sim

@@ -76,7 +76,7 @@ class Predictor {
     for (const WheelModel& wheel : rover.wheels) prediction_.wheel_names.push_back(wheel.name);
   }
 
-  // Without balances on the mean soils: for what is asked of the draws alone.
+  // Without the stations of the prediction on the mean soils: for what is asked of the draws alone.
   void draws_alone() { draws_alone_ = true; }
 
   // Returns false where the rover has no stance, so that no draw of the soil takes it further. Where the mean
@@ -94,9 +94,10 @@ class Predictor {
     ready.turn_rad = std::abs(station.turned_rad);
     if (station.turning_in_place && station.turned_rad == 0.0) ready.command.turn_in_place = false;
     StationPrediction predicted = stand(station, ready);
-    if (!prediction_.immobilised && !draws_alone_) {
+    if (!prediction_.immobilised) {
+      predicted.state = drive_on_means(ready);
       predict(ready, predicted);
-      prediction_.stations.push_back(predicted);
+      if (!draws_alone_) prediction_.stations.push_back(predicted);
     }
     prepared_.stations.push_back(std::move(ready));
     return true;
@@ -141,10 +142,16 @@ class Predictor {
     return predicted;
   }
 
-  void predict(const PreparedStation& ready, StationPrediction& predicted) {
+  StationState drive_on_means(PreparedStation& ready) {
     PerWheel<Soil> soils(ready.soil.size());
     for (std::size_t k = 0; k < soils.size(); ++k) soils[k] = beliefs_.of(ready.soil[k]).mean;
-    const StationState& state = predicted.state = solver_.solve(ready.stance, soils, ready.command);
+    StationState state = solver_.solve(ready.stance, soils, ready.command);
+    if (!state.by_slip_curve) ready.on_means = solver_.unknowns_of_last();
+    return state;
+  }
+
+  void predict(const PreparedStation& ready, StationPrediction& predicted) {
+    const StationState& state = predicted.state;
     predicted.attitude = state.attitude;
     const double s = ready.distance_m;
     DrivePrediction& p = prediction_;
@@ -234,7 +241,8 @@ double max_station_spacing_m(const RoverModel& rover) {
 Result<DrivePrediction> predict_drive(const RoverModel& rover, double gravity_m_s2, const Ground& ground,
                                       const SoilBeliefs& beliefs, std::span<const PathStation> path,
                                       const DriveLimits& limits, const RiskOptions& risk, std::size_t threads,
-                                      Progress& progress, const DriveConditions& conditions) {
+                                      Progress& progress, const DriveConditions& conditions,
+                                      DrawsSoFar* so_far) {
   if (path.empty()) throw std::invalid_argument("predict_drive: a path needs a station");
   if (auto error = ground_faults(rover, ground, path, progress)) return fail(std::move(*error));
   Predictor predictor(rover, gravity_m_s2, ground, beliefs, limits, conditions);
@@ -245,7 +253,7 @@ Result<DrivePrediction> predict_drive(const RoverModel& rover, double gravity_m_
   }
   DrivePrediction prediction = predictor.finish();
   if (risk.draws > 0 && !assess_risk(rover, gravity_m_s2, beliefs, predictor.prepared(), limits, risk,
-                                     threads, progress, prediction))
+                                     threads, progress, prediction, so_far))
     return fail(ErrorCode::kCancelled, "the prediction was dismissed");
   return prediction;
 }

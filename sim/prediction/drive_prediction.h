@@ -255,12 +255,18 @@ Result<void> condition_draws(const RoverModel& rover, double gravity_m_s2, const
 // The maximum spacing of stations at which no obstacle that a wheel would meet is missed.
 double max_station_spacing_m(const RoverModel& rover);
 
+// The draws of one drive so far, from which more of them go on. Filled by predict_drive(); to be given to
+// calls that differ in the number of draws and in nothing else.
+struct DrawnDrives;
+using DrawsSoFar = std::shared_ptr<DrawnDrives>;
+
 // Balances the rover at every station on the mean soils, then on the draws, on `threads` threads (0 takes all
 // that the machine has). Errors: off_map or no_data where a station has no ground under a wheel (the fault
 // names the station, "/stations/12"), cancelled. The path must not be empty.
 Result<DrivePrediction> predict_drive(const RoverModel& rover, double gravity_m_s2, const Ground& ground,
                                       const SoilBeliefs& beliefs, std::span<const PathStation> path,
                                       const DriveLimits& limits, const RiskOptions& risk, std::size_t threads,
-                                      Progress& progress, const DriveConditions& conditions = {});
+                                      Progress& progress, const DriveConditions& conditions = {},
+                                      DrawsSoFar* so_far = nullptr);
 
 }  // namespace slipway::sim

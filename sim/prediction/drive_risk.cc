@@ -19,7 +19,7 @@ constexpr int kMinProfileDraws = 24;
 // The number of draws after each look at them.
 std::size_t next_batch(std::size_t drawn, const RiskOptions& options) {
   const auto first = static_cast<std::size_t>(options.draws);
-  if (drawn == 0) return first;
+  if (drawn < first) return first;
   // 272 without an embedding are the fewest that show less than 1 %.
   constexpr std::size_t kClean = 272;
   const std::size_t next = drawn < kClean ? std::min(2 * drawn, kClean) : 2 * drawn;
@@ -100,14 +100,18 @@ std::vector<DrawnOutcome> outcomes_of_draws(const RoverModel& rover, double grav
 
 bool assess_risk(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs& beliefs,
                  const PreparedDrive& drive, const DriveLimits& limits, const RiskOptions& options,
-                 std::size_t threads, Progress& progress, DrivePrediction& prediction) {
+                 std::size_t threads, Progress& progress, DrivePrediction& prediction, DrawsSoFar* so_far) {
   const DrawnDriver driver(rover, gravity_m_s2, beliefs, drive, limits, options.checks);
-  std::vector<DrawnDrive> drives;
+  const DrawsSoFar kept = so_far && *so_far ? *so_far : std::make_shared<DrawnDrives>();
+  if (so_far) *so_far = kept;
+  std::vector<DrawnDrive>& drives = kept->all;
   const auto most = static_cast<std::size_t>(std::max(options.draws, options.max_draws));
   do {
     if (!draw_more(driver, next_batch(drives.size(), options), drive.stations.size(), options, threads,
-                   progress, drives))
+                   progress, drives)) {
+      drives.clear();  // some were cut short
       return false;
+    }
     summarise(drives, drive.stations, limits, prediction);
   } while (drives.size() < most && !options.bars.decide(prediction.outcomes));
 

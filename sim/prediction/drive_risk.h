@@ -18,6 +18,9 @@ struct PreparedStation {
   double distance_m = 0.0;
   double drive_m = 0.0;   // since the last station
   double turn_rad = 0.0;  // turned in place since the last station, without sign
+  // The unknowns of the balance on the mean soils, where the rover moves on them: how they change on the way
+  // tells each draw where to look for its own.
+  std::optional<RoverBalance::Vector> on_means;
 };
 
 // The maximum current and sinkage over the wheels of a state.
@@ -52,9 +55,11 @@ std::vector<DrawnOutcome> outcomes_of_draws(const RoverModel& rover, double grav
                                             std::size_t threads, Progress& progress);
 
 // Fills the prediction's fields over soil draws (risk, outcomes, intervals, quantiles per station). Returns
-// false where it was cancelled.
+// false where it was cancelled. Goes on from the draws so far, where they are given, and adds its own to
+// them.
 bool assess_risk(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs& beliefs,
                  const PreparedDrive& drive, const DriveLimits& limits, const RiskOptions& options,
-                 std::size_t threads, Progress& progress, DrivePrediction& prediction);
+                 std::size_t threads, Progress& progress, DrivePrediction& prediction,
+                 DrawsSoFar* so_far = nullptr);
 
 }  // namespace slipway::sim

@@ -28,7 +28,7 @@ Vector cold_start(RoverBalance& balance, const Primary& primary, double share) {
   const RoverBalance::Loads loads = balance.resting_loads_n();
   for (int k = 0; k < balance.wheel_count(); ++k) {
     if (balance.in_air(k)) continue;
-    const WheelGeometry& wheel = balance.geometry(k);
+    const WheelGeometry& wheel = balance.wheel_geometry(k);
     const double load = std::max(loads[k], 0.02 * balance.weight_n());
     x[kMotions + k] = entry_angle_rad(wheel.radius_m, bekker_sinkage_m(wheel, balance.soil(k), load));
   }
@@ -167,6 +167,11 @@ Vector with_contacts(const RoverBalance& balance, Vector x) {
   return x;
 }
 
+void forget(NewtonMemory& memory) {
+  memory.inverse.reset();
+  memory.slopes.reset();
+}
+
 // Newton's search, repeated with other sets of wheels in contact until every wheel in contact pushes on the
 // ground and every other is clear of it. Returns false where that ends without a balance. `memory` is for
 // all wheels in contact.
@@ -175,7 +180,7 @@ bool find_in_contact(RoverBalance& balance, int max_iterations, Vector& x, Newto
   for (int round = 0; round <= 2 * balance.wheel_count(); ++round) {
     const bool all = balance.all_in_contact();
     const bool solved = newton(balance, x, nullptr, max_iterations, all ? memory : nullptr);
-    if (!all && memory != nullptr) memory->inverse.reset();
+    if (!all && memory != nullptr) forget(*memory);
     const std::optional<ContactChange> change = contact_change(balance, x, solved);
     if (!change) return solved;
     balance.set_in_air(change->wheel, change->into_air);
@@ -209,6 +214,7 @@ Primary primary_of(const DriveCommand& command) {
 
 Attempt find_balance(RoverBalance& balance, const Primary& primary, bool warm, Vector& x,
                      NewtonMemory* memory, Thoroughness thoroughness) {
+  const bool few = memory != nullptr && memory->max_iterations > 0;
   if (!balance.any_driven()) {
     x = cold_start(balance, primary, 0.0);
     return {Outcome::kNoTraction, -1};
@@ -218,15 +224,17 @@ Attempt find_balance(RoverBalance& balance, const Primary& primary, bool warm, V
       balance.resting_loads_n();  // for the wheels that hang
       x = with_contacts(balance, x);
     }
-    if (find_in_contact(balance, 20, x, memory)) return judged(balance, primary, x);
+    if (find_in_contact(balance, few ? memory->max_iterations : 20, x, memory))
+      return judged(balance, primary, x);
   }
   // The soil forces on a failed wheel change sign within a thousandth of the speed. There the first start
   // often fails where another finds the balance.
-  if (memory != nullptr) memory->inverse.reset();
+  if (memory != nullptr) forget(*memory);
   const std::span<const double> starts(kColdStartSpeedRatios.data(), balance.all_driven() ? 1 : 3);
   for (const double share : starts) {
     x = cold_start(balance, primary, share);
-    if (find_in_contact(balance, 40, x, memory)) return judged(balance, primary, x);
+    if (find_in_contact(balance, few ? memory->max_iterations : 40, x, memory))
+      return judged(balance, primary, x);
   }
   if (thoroughness == Thoroughness::kQuick) return {Outcome::kNotConverged, -1};
   x = cold_start(balance, primary, kColdStartSpeedRatios[0]);

@@ -22,11 +22,15 @@ void keep_in_range(RoverBalance::Vector& unknowns);
 
 // What a search is given of the one before it, and leaves to the one after.
 struct NewtonMemory {
-  // The inverse Jacobian at a point nearby: no Jacobian is needed where it serves well. A search that ends
-  // with every wheel in contact leaves its own, where `keep` asks for it.
-  std::optional<RoverBalance::Matrix> inverse;
-  bool keep = false;
+  // The inverse Jacobian at a point nearby: no Jacobian is needed where it serves well. Used up.
+  std::optional<RoverBalance::Matrix> inverse = {};
+  // Whether the search is made with a slope of each wheel's loads, which each step corrects, in place of an
+  // inverse Jacobian that it corrects as a whole: half the evaluations. It starts with `slopes`, where there
+  // are some, and leaves its own where it ends with every wheel in contact.
+  bool by_wheel = false;
+  std::optional<RoverBalance::WheelSlopes> slopes = {};
   double tolerance = kBalanceTolerance;
+  int max_iterations = 0;  // of each search; 0: as many as may help
 };
 
 // Newton's search, from `x`, for the unknowns at which the balance holds. It does not change which wheels are

@@ -15,6 +15,10 @@ namespace {
 
 using Vector = RoverBalance::Vector;
 
+constexpr double kTableTolerance = 1e-7, kDrawTolerance = 1e-4;
+// Where a draw takes more, the rover mostly has no traction, which the bracketing finds sooner.
+constexpr int kMaxDrawIterations = 8;
+
 // Slip of the rim against the ground; a locked wheel's is exactly -1.
 double slip_of(const RoverBalance::WheelContact& contact) {
   const double forward = contact.motion.forward;
@@ -46,7 +50,7 @@ WheelState wheel_state(const RoverBalance& balance, const Vector& x, int k) {
 void set_depths(const RoverModel& rover, const RoverBalance& balance, const Vector& x,
                 const DriveCommand& command, StationState& state) {
   const PerWheel<double> depth = balance.total_sinkages_m(x);
-  const Eigen::Vector2d travel = (command.speed_m_s < 0.0 ? -1.0 : 1.0) * travel_direction(command);
+  const Eigen::Vector2d travel = (command.speed_m_s < 0.0 ? -1.0 : 1.0) * balance.geometry().travel;
   for (const Side side : {Side::kLeft, Side::kRight}) {
     double last = std::numeric_limits<double>::infinity();
     double& rut = side == Side::kLeft ? state.left_rut_depth_m : state.right_rut_depth_m;
@@ -65,10 +69,8 @@ void set_depths(const RoverModel& rover, const RoverBalance& balance, const Vect
 
 // Sets the currents and the power of the driven wheels. The first wheel that exceeds its motor's limits
 // stalls the rover.
-void set_motors(const RoverModel& rover, const RoverBalance& balance, const DriveCommand& command,
-                StationState& state) {
-  const DriveMotor drive =
-      at_temperature(rover.drive, command.motor_temp_c.value_or(rover.drive.reference_temp_c));
+void set_motors(const RoverModel& rover, const RoverBalance& balance, StationState& state) {
+  const DriveMotor& drive = balance.geometry().drive;
   for (std::size_t k = 0; k < state.wheels.size(); ++k) {
     const WheelModel& wheel = rover.wheels[k];
     if (wheel.drive != WheelDrive::kDriven) continue;
@@ -92,21 +94,26 @@ Attitude leant(const Stance& stance, const RoverBalance::Lean& lean) {
   return attitude;
 }
 
-StationState state_of(const RoverModel& rover, const Stance& stance, RoverBalance& balance, const Vector& x,
+bool any_slip_curve(const PerWheel<Soil>& soils) {
+  return std::any_of(soils.begin(), soils.end(), [](const Soil& soil) { return soil.slip_curve != nullptr; });
+}
+
+StationState state_of(const RoverModel& rover, RoverBalance& balance, const Vector& x,
                       const DriveCommand& command, const Attempt& attempt) {
   StationState state;
   state.outcome = attempt.outcome;
   state.wheel = attempt.wheel;
   balance.residual(x);
+  const Stance& stance = *balance.geometry().stance;
   state.attitude = attempt.outcome == Outcome::kMoving ? leant(stance, balance.lean(x)) : stance.attitude;
   const double v = balance.speed_scale_m_s();
   const double along = x[0] * v, across = x[1] * v;
-  const Eigen::Vector2d d = travel_direction(command);
+  const Eigen::Vector2d d = balance.geometry().travel;
   state.along_m_s = along;
   state.forward_m_s = along * d.x() - across * d.y();
   state.leftward_m_s = along * d.y() + across * d.x();
   state.yaw_rate_rad_s = x[2] * v / balance.half_wheelbase_m();
-  const double commanded = attainable_share(rover, command) *
+  const double commanded = balance.geometry().attainable_share *
                            (command.turn_in_place ? command.turn_rate_rad_s : command.speed_m_s);
   const double done = command.turn_in_place ? state.yaw_rate_rad_s : along;
   state.slip_ratio =
@@ -115,7 +122,7 @@ StationState state_of(const RoverModel& rover, const Stance& stance, RoverBalanc
   state.wheels = PerWheel<WheelState>(rover.wheels.size());
   for (int k = 0; k < balance.wheel_count(); ++k) state.wheels[k] = wheel_state(balance, x, k);
   set_depths(rover, balance, x, command, state);
-  set_motors(rover, balance, command, state);
+  set_motors(rover, balance, state);
   return state;
 }
 
@@ -173,9 +180,20 @@ StationState QuasiStaticSolver::solve_with_slip_curves(const Stance& stance, con
 StationState QuasiStaticSolver::solve(const Stance& stance, const PerWheel<Soil>& soils,
                                       const DriveCommand& command, const Start* start,
                                       Thoroughness thoroughness) {
-  if (std::any_of(soils.begin(), soils.end(), [](const Soil& soil) { return soil.slip_curve != nullptr; }))
-    return solve_with_slip_curves(stance, soils, command, thoroughness);
+  if (any_slip_curve(soils)) return solve_with_slip_curves(stance, soils, command, thoroughness);
   RoverBalance balance(rover_, gravity_m_s2_, stance, soils, command);
+  return solve(balance, command, start, thoroughness);
+}
+
+StationState QuasiStaticSolver::solve(const BalanceGeometry& geometry, const PerWheel<Soil>& soils) {
+  if (any_slip_curve(soils))
+    return solve_with_slip_curves(*geometry.stance, soils, geometry.command, Thoroughness::kSure);
+  RoverBalance balance(geometry, soils);
+  return solve(balance, geometry.command, nullptr, Thoroughness::kSure);
+}
+
+StationState QuasiStaticSolver::solve(RoverBalance& balance, const DriveCommand& command, const Start* start,
+                                      Thoroughness thoroughness) {
   const Primary primary = primary_of(command);
   if (start != nullptr) {
     warm_ = true;
@@ -184,15 +202,33 @@ StationState QuasiStaticSolver::solve(const Stance& stance, const PerWheel<Soil>
   // The answer of another kind of motion is a worse start than a cold one.
   if (warm_ && last_[primary.motion] * primary.sign <= 0.0) warm_ = false;
   NewtonMemory memory;
+  if (precision_ != Precision::kExact) {
+    memory.by_wheel = true;
+    if (warm_) memory.slopes = std::move(last_slopes_);
+    memory.tolerance = kTableTolerance;
+  }
   if (precision_ == Precision::kDraws) {
-    constexpr double kTolerance = 1e-6;
-    memory = {.inverse = warm_ ? last_inverse_ : std::nullopt, .keep = true, .tolerance = kTolerance};
+    memory.tolerance = kDrawTolerance;
+    memory.max_iterations = kMaxDrawIterations;
   }
   if (start != nullptr) memory.inverse = start->inverse_jacobian;
   const Attempt attempt = find_balance(balance, primary, warm_, last_, &memory, thoroughness);
-  last_inverse_ = std::move(memory.inverse);
+  last_slopes_ = std::move(memory.slopes);
   warm_ = attempt.outcome == Outcome::kMoving;
-  return state_of(rover_, stance, balance, last_, command, attempt);
+  return state_of(rover_, balance, last_, command, attempt);
+}
+
+void QuasiStaticSolver::follow(const RoverBalance::Vector& from, const RoverBalance::Vector& to) {
+  if (!warm_) {
+    warm_ = true;
+    last_ = to;
+    last_slopes_.reset();
+    return;
+  }
+  constexpr int kMotions = RoverBalance::kMotions;
+  last_.head<kMotions>() += to.head<kMotions>() - from.head<kMotions>();
+  for (int k = kMotions; k < last_.size(); ++k) last_[k] *= to[k] / from[k];
+  keep_in_range(last_);
 }
 
 std::optional<QuasiStaticSolver::Start> QuasiStaticSolver::start_of_last(const Stance& stance,

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string_view>
 
+#include "sim/quasi_static/rover_balance.h"
 #include "sim/rover/drive_command.h"
 #include "sim/rover/rover_model.h"
 #include "sim/rover/stance.h"
@@ -75,8 +76,10 @@ enum class Thoroughness {
 // How exactly a balance is solved.
 enum class Precision {
   kExact,  // to 1e-9 of the weight
-  // To 1e-6 of the weight, with the Jacobian of the solve before where it serves: for draws of the ground,
-  // whose scatter is a hundred times that and more. Half the time.
+  // To 1e-7 of the weight, with the slopes of the wheels' loads from the solve before: for tables.
+  kTables,
+  // To 1e-4 of the weight, in the same way: for draws of the ground. Slip is then within 0.001 of the exact
+  // one, where draws scatter by a hundredth and more.
   kDraws,
 };
 
@@ -104,6 +107,16 @@ class QuasiStaticSolver {
   StationState solve(const Stance& stance, const PerWheel<Soil>& soils, const DriveCommand& command,
                      const Start* start = nullptr, Thoroughness thoroughness = Thoroughness::kSure);
   StationState solve(const Stance& stance, const Soil& soil, const DriveCommand& command);
+  // On a geometry that was made of this solver's rover and gravity, for a station that is solved often.
+  StationState solve(const BalanceGeometry& geometry, const PerWheel<Soil>& soils);
+  // The unknowns of the last solve (see RoverBalance); empty where the rover did not move.
+  std::optional<RoverBalance::Vector> unknowns_of_last() const {
+    return warm_ ? std::optional(last_) : std::nullopt;
+  }
+  // Moves the start of the next solve by as much as another rover's unknowns have changed, which came the
+  // same way on other soil: speeds by the difference, entry angles by the ratio. Where this one did not move,
+  // the next solve starts as the other's.
+  void follow(const RoverBalance::Vector& from, const RoverBalance::Vector& to);
   // The balance of the last solve as a starting point for others; the arguments must be those of that solve.
   // Empty where the rover did not move on all of its wheels.
   std::optional<Start> start_of_last(const Stance& stance, const PerWheel<Soil>& soils,
@@ -111,19 +124,21 @@ class QuasiStaticSolver {
   // Forgets the last answer, so that the next solve is a cold start.
   void reset() {
     warm_ = false;
-    last_inverse_.reset();
+    last_slopes_.reset();
   }
 
  private:
   StationState solve_with_slip_curves(const Stance& stance, const PerWheel<Soil>& soils,
                                       const DriveCommand& command, Thoroughness thoroughness);
+  StationState solve(RoverBalance& balance, const DriveCommand& command, const Start* start,
+                     Thoroughness thoroughness);
 
   const RoverModel& rover_;
   double gravity_m_s2_;
   Precision precision_;
   bool warm_ = false;
   decltype(Start::unknowns) last_;
-  std::optional<decltype(Start::inverse_jacobian)> last_inverse_;  // of draws
+  std::optional<RoverBalance::WheelSlopes> last_slopes_;  // of draws
 };
 
 }  // namespace slipway::sim

@@ -1,12 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 
-#include "sim/rover/drive_command.h"
-#include "sim/rover/rover_model.h"
-#include "sim/rover/stance.h"
-#include "sim/rover/suspension.h"
+#include "sim/quasi_static/balance_geometry.h"
 #include "sim/soil/soil.h"
 #include "sim/wheel/wheel_kernel.h"
 
@@ -57,30 +55,61 @@ class RoverBalance {
   // Rover and stance must outlive the balance.
   RoverBalance(const RoverModel& rover, double gravity_m_s2, const Stance& stance,
                const PerWheel<Soil>& soils, const DriveCommand& command);
+  // On a geometry that others may share; it must outlive the balance.
+  RoverBalance(const BalanceGeometry& geometry, const PerWheel<Soil>& soils);
+  RoverBalance(const RoverBalance&) = delete;
+  RoverBalance& operator=(const RoverBalance&) = delete;
 
   const Vector& residual(const Vector& unknowns);
-  // The Jacobian at the unknowns of the last residual, by one-sided differences of each wheel's five loads
-  // over its three arguments.
-  Matrix jacobian(const Vector& unknowns) const;
 
-  int wheel_count() const { return static_cast<int>(places_.size()); }
+  using WheelLoads = Eigen::Matrix<double, 5, 1>;  // pull, lateral, vertical, torque, overturning moment
+  using WheelSlope = Eigen::Matrix<double, 5, 3>;  // of the loads by entry angle, motion along and across
+  // A wheel's loads and what they depend on.
+  struct WheelPoint {
+    WheelLoads loads = WheelLoads::Zero();
+    Eigen::Vector3d arguments = Eigen::Vector3d::Zero();  // entry angle, motion along and across
+  };
+  // The slope of each wheel's loads, with the vertical load and the entry angle at which it was taken.
+  struct WheelSlopes {
+    PerWheel<WheelSlope> of;
+    PerWheel<double> vertical_n, entry_angle_rad;
+  };
+  // Of every wheel at the unknowns of the last residual.
+  PerWheel<WheelPoint> points(const Vector& unknowns) const;
+  // At the unknowns of the last residual, by one-sided differences.
+  WheelSlopes slopes(const Vector& unknowns) const;
+  // The same from slopes that were taken at another place on much the same soil: a wheel's loads are taken to
+  // grow by equal shares with its load and its entry angle.
+  WheelSlopes carried_over(const WheelSlopes& from, const Vector& unknowns) const;
+  // Corrects each wheel's slope by what its loads have changed since `before`, which was one step ago
+  // [Broyden 1965, for each wheel by itself].
+  void correct(const PerWheel<WheelPoint>& before, const Vector& unknowns, WheelSlopes& slopes) const;
+  // Goes to unknowns near those of the last residual: the wheels' loads change by their slopes, and the
+  // balance is taken to hold there.
+  void move_along(const WheelSlopes& slopes, const Vector& unknowns);
+  // The Jacobian at the unknowns of the last residual, with such slopes.
+  Matrix jacobian(const Vector& unknowns, const WheelSlopes& slopes) const;
+  Matrix jacobian(const Vector& unknowns) const { return jacobian(unknowns, slopes(unknowns)); }
+
+  const BalanceGeometry& geometry() const { return geometry_; }
+  int wheel_count() const { return static_cast<int>(soils_.size()); }
   // The contact at the last residual; a wheel in the air has a rate and no forces.
   const WheelContact& contact(int wheel) const { return contacts_[wheel]; }
   // The commanded direction of rolling, 1 or -1; forward where the commanded rate is 0.
-  double direction(int wheel) const { return places_[wheel].direction; }
-  const WheelGeometry& geometry(int wheel) const { return places_[wheel].geometry; }
+  double direction(int wheel) const { return place(wheel).direction; }
+  const WheelGeometry& wheel_geometry(int wheel) const { return place(wheel).geometry; }
   const Soil& soil(int wheel) const { return soils_[wheel]; }
   // Whether any wheel, or every wheel, has a motor that turns it.
   bool any_driven() const;
   bool all_driven() const;
-  double speed_scale_m_s() const { return speed_scale_; }
-  double half_wheelbase_m() const { return length_; }
-  double weight_n() const { return weight_; }
+  double speed_scale_m_s() const { return geometry_.speed_scale_m_s; }
+  double half_wheelbase_m() const { return geometry_.half_wheelbase_m; }
+  double weight_n() const { return geometry_.weight_n; }
 
   // At first all wheels are in contact. Only a statically undetermined vehicle can have wheels in the air.
   bool in_air(int wheel) const { return in_air_[wheel]; }
   bool all_in_contact() const { return in_contact_ == wheel_count(); }
-  bool can_spare_a_wheel() const { return in_contact_ > wheel_count() - undetermined_; }
+  bool can_spare_a_wheel() const { return in_contact_ > wheel_count() - geometry_.undetermined; }
   void set_in_air(int wheel, bool in_air);
   // Wheel loads without forces along the ground, on springs that sink z_ref under the mean load; a solve
   // starts from them. For a statically determined vehicle the springs do not matter. Sets the wheels in the
@@ -99,29 +128,14 @@ class RoverBalance {
   double height_in_air_m(int wheel, const Vector& unknowns) const;
 
  private:
-  static constexpr int kMaxEquilibrium = 6 + kMaxJoints;
   static constexpr int kMaxFreedoms = 3 + kMaxJoints;
   using GapGradient = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxWheels, kMaxFreedoms>;
   using Freedoms = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxFreedoms, 1>;
 
-  struct WheelPlace {
-    WheelGeometry geometry;
-    WheelNumbers numbers;    // of wheel and soil; angle and motion are filled in where they are known
-    WheelCommand motion;     // true steering and rate
-    double direction = 1.0;  // of rolling
-    // Coefficients of (pull, lateral, vertical, torque, overturning moment) in the equations of equilibrium.
-    Eigen::Matrix<double, Eigen::Dynamic, 5, 0, kMaxEquilibrium, 5> effect;
-    // For a sliced wheel, the ground under each slice relative to the highest. The wheel's entry angle is
-    // that of the slice on the highest ground, so that the wheel touches the ground at any entry angle.
-    SliceHeights slice_height_m{};
-    double highest_m = 0.0;  // height of that ground over the wheel's contact plane
-    Eigen::RowVector3d forward_ratio,
-        leftward_ratio;  // derivatives of u and v_y / (r |w|) by the three motions
-  };
-
-  void place_wheel(int wheel, const WheelCommand& commanded);
-  void set_soils(double gravity_m_s2, const DriveCommand& command, const PerWheel<WheelCommand>& commanded);
-  void set_gravity();
+  const BalanceGeometry::Wheel& place(int wheel) const {
+    return geometry_.wheels[static_cast<std::size_t>(wheel)];
+  }
+  void set_soils(const PerWheel<Soil>& soils);
   void set_gap_gradient();
   void set_compatibility();
   // A wheel at an entry angle and in a motion at which its contact is to be evaluated.
@@ -134,30 +148,28 @@ class RoverBalance {
   // Evaluates all trials at once, which costs about half of one by one.
   void contacts_of(std::span<const Trial> trials, std::span<WheelContact> contacts) const;
   void find_contacts(const Vector& unknowns);
+  void find_contacts_in_kernel(const Vector& unknowns);
   WheelContact free_contact(const Trial& trial) const;
-  bool is_sliced(int wheel) const;
+  bool all_in_kernel() const;
   WheelContact sliced_contact(const Trial& trial) const;
-  void place_slices(int wheel);
   WheelMotion motion_of(int wheel, const Vector& unknowns) const;
   // The motion q of heave, roll, pitch and joints that lifts the wheels in contact by these heights, by least
   // squares with `push` = 0 (for another use see resting_loads_n).
   Freedoms body_motion(const Loads& height_m, const Freedoms& push) const;
-  int equilibrium_count() const { return 6 + joints_; }
+  int equilibrium_count() const { return geometry_.equilibrium_count(); }
+  const RoverModel& rover() const { return *geometry_.rover; }
+  const Stance& stance() const { return *geometry_.stance; }
 
-  const RoverModel& rover_;
-  const Stance& stance_;
+  std::optional<const BalanceGeometry> own_geometry_;  // where it is not another's
+  const BalanceGeometry& geometry_;
   PerWheel<Soil> soils_;
-  PerWheel<WheelPlace> places_;
+  PerWheel<WheelNumbers> numbers_;  // of wheel and soil; angle and motion are those of the last residual
   PerWheel<WheelContact> contacts_;
   PerWheel<bool> in_air_;
-  PerWheel<int> leaders_;
   PerWheel<double> rut_shares_;
-  int joints_, undetermined_, in_contact_;
-  Eigen::Vector2d travel_;
-  double weight_, length_, speed_scale_;
+  int in_contact_;
   double sinkage_scale_m_ = 1.0;  // z_ref; without meaning where all loads are determined
   Vector at_, residual_at_;       // unknowns and values of the last residual; empty once the contacts change
-  Vector gravity_;                // its part in the equations of equilibrium
   GapGradient gap_gradient_;      // by heave, roll, pitch (times half the wheelbase) and joints
   Loads gap_;
   // The compatibility equations as rows over the wheels' own sinkages.

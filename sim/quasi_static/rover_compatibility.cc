@@ -19,31 +19,33 @@ constexpr double kMinSinkageRatio = 0.01;
 
 void RoverBalance::set_gap_gradient() {
   const int n = wheel_count();
-  gap_gradient_.resize(n, 3 + joints_);
+  gap_gradient_.resize(n, 3 + geometry_.joints);
   gap_.resize(n);
   double sinkage = 0.0, radius = 0.0;
   for (int k = 0; k < n; ++k) {
-    const Eigen::Vector3d& normal = stance_.normal_B[k];
-    const Eigen::Vector3d& p = stance_.p_B_wheel[k];
-    gap_[k] = stance_.gap_m[k] - places_[k].highest_m;
+    const Eigen::Vector3d& normal = stance().normal_B[k];
+    const Eigen::Vector3d& p = stance().p_B_wheel[k];
+    gap_[k] = stance().gap_m[k] - place(k).highest_m;
     gap_gradient_(k, 0) = normal.z();
-    gap_gradient_(k, 1) = normal.dot(Eigen::Vector3d::UnitX().cross(p)) / length_;
-    gap_gradient_(k, 2) = normal.dot(Eigen::Vector3d::UnitY().cross(p)) / length_;
-    for (int j = 0; j < joints_; ++j)
-      gap_gradient_(k, 3 + j) = normal.dot(joint_motion(rover_, stance_, k, j).shift) / length_;
-    if (undetermined_ == 0) continue;
-    sinkage += bekker_sinkage_m(places_[k].geometry, soils_[k], weight_ / n) / n;
-    radius += places_[k].geometry.radius_m / n;
+    gap_gradient_(k, 1) = normal.dot(Eigen::Vector3d::UnitX().cross(p)) / geometry_.half_wheelbase_m;
+    gap_gradient_(k, 2) = normal.dot(Eigen::Vector3d::UnitY().cross(p)) / geometry_.half_wheelbase_m;
+    for (int j = 0; j < geometry_.joints; ++j)
+      gap_gradient_(k, 3 + j) =
+          normal.dot(joint_motion(rover(), stance(), k, j).shift) / geometry_.half_wheelbase_m;
+    if (geometry_.undetermined == 0) continue;
+    sinkage += bekker_sinkage_m(place(k).geometry, soils_[k], geometry_.weight_n / n) / n;
+    radius += place(k).geometry.radius_m / n;
   }
-  if (undetermined_ > 0) sinkage_scale_m_ = std::max(kMinSinkageRatio * radius, std::min(radius, sinkage));
+  if (geometry_.undetermined > 0)
+    sinkage_scale_m_ = std::max(kMinSinkageRatio * radius, std::min(radius, sinkage));
 }
 
 void RoverBalance::set_compatibility() {
-  const int spare = in_contact_ - (3 + joints_);
+  const int spare = in_contact_ - (3 + geometry_.joints);
   compatibility_of_gap_.resize(spare);
   compatibility_.setZero(spare, wheel_count());
   if (spare == 0) return;
-  GapGradient a(in_contact_, 3 + joints_);
+  GapGradient a(in_contact_, 3 + geometry_.joints);
   Loads gap(in_contact_);
   PerWheel<int> wheel(in_contact_);
   for (int k = 0, row = 0; k < wheel_count(); ++k) {
@@ -63,7 +65,7 @@ void RoverBalance::set_compatibility() {
     if (in_air_[k]) continue;
     PerWheel<double> unit(wheel_count());
     unit[k] = 1.0;
-    const PerWheel<double> depth = sim::total_sinkages_m(leaders_, rut_shares_, unit);
+    const PerWheel<double> depth = sim::total_sinkages_m(geometry_.leaders, rut_shares_, unit);
     for (int row = 0; row < in_contact_; ++row) compatibility_.col(k) += z.col(row) * depth[wheel[row]];
   }
 }
@@ -92,12 +94,12 @@ RoverBalance::Freedoms RoverBalance::body_motion(const Loads& height_m, const Fr
 // A spring's load is -stiffness (gap + A q), and A^T load + gravity = 0.
 RoverBalance::Loads RoverBalance::resting_loads_n() {
   // Where every load is determined, only this function needs the gradient.
-  if (undetermined_ == 0) set_gap_gradient();
+  if (geometry_.undetermined == 0) set_gap_gradient();
   const int n = wheel_count();
   const double stiffness = 1.0 / (n * sinkage_scale_m_);  // per unit of weight
-  Freedoms pull(3 + joints_);
-  pull.head<3>() = gravity_.segment<3>(2);
-  pull.tail(joints_) = gravity_.tail(joints_);
+  Freedoms pull(3 + geometry_.joints);
+  pull.head<3>() = geometry_.gravity.segment<3>(2);
+  pull.tail(geometry_.joints) = geometry_.gravity.segment(6, geometry_.joints);
   Loads load = Loads::Zero(n);
   for (int round = 0; round < 2 * n; ++round) {
     const Freedoms q = body_motion(-gap_, pull / stiffness);
@@ -117,14 +119,14 @@ RoverBalance::Loads RoverBalance::resting_loads_n() {
   }
   for (int k = 0; k < n; ++k)
     if (in_air_[k]) load[k] = 0.0;
-  return load * weight_;
+  return load * geometry_.weight_n;
 }
 
 PerWheel<double> RoverBalance::total_sinkages_m(const Vector& unknowns) const {
   PerWheel<double> own(wheel_count());
   for (int k = 0; k < wheel_count(); ++k)
-    own[k] = in_air_[k] ? 0.0 : sinkage_m(places_[k].geometry.radius_m, unknowns[kMotions + k]);
-  return sim::total_sinkages_m(leaders_, rut_shares_, own);
+    own[k] = in_air_[k] ? 0.0 : sinkage_m(place(k).geometry.radius_m, unknowns[kMotions + k]);
+  return sim::total_sinkages_m(geometry_.leaders, rut_shares_, own);
 }
 
 // Where every load is determined the suspension closed the stance's gaps, as far as the ground's kinks let
@@ -143,7 +145,7 @@ double RoverBalance::height_in_air_m(int wheel, const Vector& unknowns) const {
   const PerWheel<double> depth = total_sinkages_m(unknowns);
   Loads height(wheel_count());
   for (int k = 0; k < wheel_count(); ++k) height[k] = -(gap_[k] + depth[k]);
-  const Freedoms q = body_motion(height, Freedoms::Zero(3 + joints_));
+  const Freedoms q = body_motion(height, Freedoms::Zero(3 + geometry_.joints));
   return gap_gradient_.row(wheel).dot(q) - height[wheel];
 }
 

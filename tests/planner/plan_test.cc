@@ -1,43 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
-#include <chrono>
-#include <functional>
 
 #include "core/angle.h"
-#include "dem/synthetic_terrain.h"
-#include "planner/judge/rank.h"
-#include "planner/make_plan.h"
 #include "planner/problem/keep_out.h"
 #include "planner/search/select_routes.h"
-#include "tests/planner/plan_fixture.h"
+#include "tests/planner/open_ground.h"
 
 namespace slipway::planner {
 namespace {
-
-constexpr std::string_view kOpen = R"(
-. . . . . . . . . . . . . . . . . . . . . .
-. . . . . . . . . . . . . . . . . . . . . .
-. . . . . . . . . . . . . . . . . . . . . .
-. . . . . . . . . . . . . . . . . . . . . .
-. . . S . . . . . . . . . . . . . . . G . .
-. . . . . . . . . . . . . . . . . . . . . .
-. . . . . . . . . . . . . . . . . . . . . .
-. . . . . . . . . . . . . . . . . . . . . .
-. . . . . . . . . . . . . . . . . . . . . .
-)";
-
-Plan plan_of(const PlanProblem& problem) {
-  NoProgress progress;
-  Result<Plan> plan = make_plan(problem, progress);
-  EXPECT_TRUE(plan.has_value()) << plan.error().detail;
-  return plan.value_or(Plan{});
-}
-
-bool ever(const Route& route, const std::function<bool(const sim::StationPrediction&)>& is) {
-  return std::any_of(route.prediction.stations.begin(), route.prediction.stations.end(), is);
-}
 
 // Everything that a client sees, bit by bit.
 std::vector<double> numbers_of(const Plan& plan) {
@@ -196,59 +167,6 @@ TEST(Plan, StaysInAKeepInWithItsWholeBody) {
     EXPECT_FALSE(ever(route, [&](const auto& s) { return keep_in.hits(s.station.pose); }));
 }
 
-TEST(Plan, RefusesAStartOutsideAKeepIn) {
-  PlanProblem problem = problem_of(kOpen);
-  problem.keep_in = {{{problem.goal.x_m - 3.0, problem.goal.y_m - 3.0},
-                      {problem.goal.x_m + 3.0, problem.goal.y_m - 3.0},
-                      {problem.goal.x_m + 3.0, problem.goal.y_m + 3.0},
-                      {problem.goal.x_m - 3.0, problem.goal.y_m + 3.0}},
-                     {{0.0, 0.0}, {1.0, 1.0}}};
-  NoProgress progress;
-  const Result<Plan> plan = make_plan(problem, progress);
-  ASSERT_FALSE(plan.has_value());
-  std::vector<std::string> pointers;
-  for (const Fault& fault : plan.error().faults) pointers.push_back(fault.pointer);
-  EXPECT_EQ(pointers.front(), "/keep_in/1");
-  EXPECT_NE(std::find(pointers.begin(), pointers.end(), "/start"), pointers.end());
-}
-
-Route figures(double duration_s, double energy_j, double stops, double embedding) {
-  Route route;
-  route.prediction.duration_s = duration_s;
-  route.prediction.energy_j = energy_j;
-  route.prediction.outcomes.expected_stops = stops;
-  route.prediction.outcomes.embedding.share = embedding;
-  return route;
-}
-
-TEST(Pareto, MarksTheRoutesThatNoOtherDominates) {
-  std::vector<Route> routes{figures(10, 5, 0.1, 0.01), figures(9, 6, 0.1, 0.01), figures(10, 6, 0.1, 0.01),
-                            figures(10, 5, 0.1, 0.01), figures(1, 1, 0.0, 0.0)};
-  routes[4].prediction.immobilised.emplace();
-  mark_pareto_front(routes);
-  EXPECT_TRUE(routes[0].pareto);
-  EXPECT_TRUE(routes[1].pareto) << "faster than the first";
-  EXPECT_FALSE(routes[2].pareto) << "the first needs less energy and nothing more";
-  EXPECT_TRUE(routes[3].pareto) << "equal to the first, so that neither dominates";
-  EXPECT_FALSE(routes[4].pareto) << "cheap because it ends early";
-  // Where energy is not known, it does not tell routes apart.
-  for (Route& route : routes) route.prediction.by_slip_curve = true;
-  mark_pareto_front(routes);
-  EXPECT_FALSE(routes[0].pareto);
-}
-
-constexpr std::string_view kOneGap = R"(
-. . . . . . . . . . # . . . . . . . . . . .
-. . . . . . . . . . # . . . . . . . . . . .
-. . . . . . . . . . # . . . . . . . . . . .
-. . . . . . . . . . # . . . . . . . . . . .
-. . . S . . . . . . . . . . . . . . . G . .
-. . . . . . . . . . . . . . . . . . . . . .
-. . . . . . . . . . . . . . . . . . . . . .
-. . . . . . . . . . # . . . . . . . . . . .
-. . . . . . . . . . # . . . . . . . . . . .
-)";
-
 TEST(Plan, WithOneNarrowCorridorSaysWhyThereAreFewerRoutes) {
   const Plan plan = plan_of(problem_of(R"(
 # # # # # # # # # # # # # # # # # # # # # #
@@ -341,85 +259,6 @@ TEST(Plan, VisitsWaypointsInOrderAndKeepsTheGoalsHeading) {
     }
     EXPECT_NEAR(wrapped_rad(route.prediction.stations.back().station.pose.yaw_rad - 1.0), 0.0, 1e-9);
   }
-}
-
-TEST(Plan, ReportsAllFaultsTogether) {
-  PlanProblem problem = problem_of(kOpen);
-  problem.start.x_m = -5.0;
-  problem.goal.x_m = 43.9;
-  problem.waypoints = {{22.0, 9.0, std::nullopt}};
-  problem.keep_out = {{{20.0, 5.0}, {24.0, 5.0}, {24.0, 13.0}, {20.0, 13.0}}, {{0.0, 0.0}, {1.0, 1.0}}};
-  problem.planners = {"rrt_star", "a_star"};
-  problem.routes = 0;
-  NoProgress progress;
-  const Result<Plan> plan = make_plan(problem, progress);
-  ASSERT_FALSE(plan.has_value());
-  EXPECT_EQ(plan.error().code, ErrorCode::kOffMap);
-  std::vector<std::string> pointers;
-  for (const Fault& fault : plan.error().faults) pointers.push_back(fault.pointer);
-  EXPECT_EQ(pointers, (std::vector<std::string>{"/routes", "/planners/1", "/keep_out/1", "/start", "/goal",
-                                                "/waypoints/0"}));
-}
-
-TEST(Plan, RefusesAStartSteeperThanTheLimits) {
-  PlanProblem problem = problem_of(kOpen);
-  problem.terrain = dem::make_ramp({.size_m = 60.0, .cell_m = 1.0}, rad_from_deg(28.0), 0.3);
-  problem.soil_map = nullptr;
-  problem.start = {0.0, 0.0, std::nullopt};
-  problem.goal = {10.0, 0.0, std::nullopt};
-  NoProgress progress;
-  const Result<Plan> plan = make_plan(problem, progress);
-  ASSERT_FALSE(plan.has_value());
-  EXPECT_EQ(plan.error().code, ErrorCode::kInvalidRequest);
-  EXPECT_NE(plan.error().faults.at(0).message.find("must be at most 25.0 deg"), std::string::npos);
-}
-
-class CancelledAt final : public Progress {
- public:
-  explicit CancelledAt(double fraction) : fraction_(fraction) {}
-  void report(std::string_view /*stage*/, double fraction) override {
-    if (fraction >= fraction_ && !cancelled_.exchange(true)) at_ = std::chrono::steady_clock::now();
-  }
-  bool cancelled() const override { return cancelled_; }
-  double seconds_since() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - at_).count();
-  }
-
- private:
-  double fraction_;
-  std::atomic<bool> cancelled_{false};
-  std::chrono::steady_clock::time_point at_;
-};
-
-TEST(Plan, StopsWithinTwoSecondsWhenCancelledAtAnyStage) {
-  for (const double fraction : {0.0, 0.1, 0.5, 0.7}) {
-    CancelledAt progress(fraction);
-    const Result<Plan> plan = make_plan(problem_of(kOpen), progress);
-    ASSERT_FALSE(plan.has_value()) << fraction;
-    EXPECT_EQ(plan.error().code, ErrorCode::kCancelled);
-    EXPECT_LT(progress.seconds_since(), 2.0) << fraction;
-  }
-}
-
-TEST(PredictPath, JoinsCornersByTurnsAndStraights) {
-  const PlanProblem problem = problem_of(kOpen);
-  NoProgress progress;
-  const auto drive = predict_path(
-      problem, {{5.0, 5.0, std::nullopt}, {15.0, 5.0, std::nullopt}, {15.0, 12.0, 0.0}}, progress);
-  ASSERT_TRUE(drive.has_value());
-  EXPECT_NEAR(drive->length_m, 17.0, 1e-6);
-  EXPECT_NEAR(drive->turned_rad, std::numbers::pi, 1e-6);
-}
-
-TEST(PredictPath, NamesTheCornerBehindMissingElevation) {
-  NoProgress progress;
-  const auto drive = predict_path(
-      problem_of(kOneGap),
-      {{5.0, 15.0, std::nullopt}, {15.0, 15.0, std::nullopt}, {30.0, 15.0, std::nullopt}}, progress);
-  ASSERT_FALSE(drive.has_value());
-  EXPECT_EQ(drive.error().code, ErrorCode::kNoData);
-  ASSERT_FALSE(drive.error().faults.empty());
-  EXPECT_EQ(drive.error().faults[0].pointer, "/path/2");
 }
 
 }  // namespace

@@ -164,6 +164,53 @@ TEST(Explain, SaysByHowMuchTheBestLeadsAndSafestOnlyWhereTheDrawsTellIt) {
   EXPECT_TRUE(says(told[0], "in the mean of the worst 25 % of 64 draws")) << told[0].reasons[1];
 }
 
+Route figures(double duration_s, double energy_j, double stops, double embedding) {
+  Route route;
+  route.prediction.duration_s = duration_s;
+  route.prediction.energy_j = energy_j;
+  route.prediction.outcomes.expected_stops = stops;
+  route.prediction.outcomes.embedding.share = embedding;
+  return route;
+}
+
+TEST(Pareto, MarksTheRoutesThatNoOtherDominates) {
+  std::vector<Route> routes{figures(10, 5, 0.1, 0.01), figures(9, 6, 0.1, 0.01), figures(10, 6, 0.1, 0.01),
+                            figures(10, 5, 0.1, 0.01), figures(1, 1, 0.0, 0.0)};
+  routes[4].prediction.immobilised.emplace();
+  mark_pareto_front(routes);
+  EXPECT_TRUE(routes[0].pareto);
+  EXPECT_TRUE(routes[1].pareto) << "faster than the first";
+  EXPECT_FALSE(routes[2].pareto) << "the first needs less energy and nothing more";
+  EXPECT_TRUE(routes[3].pareto) << "equal to the first, so that neither dominates";
+  EXPECT_FALSE(routes[4].pareto) << "cheap because it ends early";
+  // Where energy is not known, it does not tell routes apart.
+  for (Route& route : routes) route.prediction.by_slip_curve = true;
+  mark_pareto_front(routes);
+  EXPECT_FALSE(routes[0].pareto);
+}
+
+// Under another seed the costs of two routes that are alike change places, and the routes do not.
+TEST(RankedOrder, OfRoutesThatTheDrawsDoNotTellApartTheShortestIsFirst) {
+  std::vector<WeightedCost> one, other, worse;
+  for (std::size_t k = 0; k < 64; ++k) {
+    one.push_back({5.0 + random_normal(1, k)});
+    other.push_back({5.0 + random_normal(2, k)});
+    worse.push_back({9.0 + random_normal(3, k)});
+  }
+  for (const bool swapped : {false, true}) {
+    std::vector<Route> routes = swapped ? routes_of(other, one) : routes_of(one, other);
+    Route last;
+    last.drawn_costs = worse;
+    last.ranked_cost = conditional_value_at_risk(worse, 1.0);
+    routes.push_back(last);
+    ASSERT_FALSE(clearly_apart(routes[0], routes[1], {}));
+    routes[0].prediction.length_m = 30.0;
+    routes[1].prediction.length_m = 20.0;
+    routes[2].prediction.length_m = 10.0;  // does not help it: the draws tell it from the others
+    EXPECT_EQ(ranked_order(routes, {}), (std::vector<std::size_t>{1, 0, 2}));
+  }
+}
+
 sim::SoilDistribution without_spread(sim::SoilDistribution soil) {
   soil.std = {};
   return soil;
