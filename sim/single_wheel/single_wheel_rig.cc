@@ -32,6 +32,7 @@ void split_pull(const WheelRigConditions& test, const Soil& met, const WheelMoti
   };
   Soil soil = met;
   soil.bulldozing = soil.side_bulldozing = 0.0;
+  soil.ploughing = {};
   result.bulldozing_resistance_n = pull(test.wheel, soil) - result.forces.drawbar_pull_n;
   soil.cohesion_pa = soil.friction_angle_rad = 0.0;
   WheelGeometry smooth = test.wheel;

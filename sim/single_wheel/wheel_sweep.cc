@@ -79,7 +79,7 @@ std::optional<Fault> impossible(const WheelSweep& sweep, const WheelRigCondition
     return Fault{pointer_to(sweep, "slip_angle_deg"),
                  "slip_angle_deg = 90 deg, must be below 90 where slip is by the forward speed, which is 0 "
                  "there; slip_definition \"travel\" knows a slip at 90 deg"};
-  const double deepest = sinkage_m(test.wheel.radius_m, kMaxEntryAngleRad);
+  const double deepest = sinkage_m(test.wheel.radius_m, max_entry_angle_rad(test.soil));
   if (test.sinkage_m && *test.sinkage_m > deepest)
     return Fault{
         pointer_to(sweep, "sinkage_m"),

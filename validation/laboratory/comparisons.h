@@ -16,5 +16,6 @@ Result<Report> virtual_bevameter(const std::filesystem::path& data);
 Result<Report> plate_tests(const std::filesystem::path& data);
 Result<Report> pavlov_tests(const std::filesystem::path& data);
 Result<Report> pavlov_wheel(const std::filesystem::path& data);
+Result<Report> grousered_wheel(const std::filesystem::path& data);
 
 }  // namespace slipway::validation
