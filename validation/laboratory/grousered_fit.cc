@@ -28,30 +28,30 @@ Row row(const char* name, double start, double lowest, double highest,
 // Starts are the numbers of the shipped soil, so that a fit to the same tests ends where it starts.
 std::span<const Row> rows() {
   static const std::vector<Row> kRows{
-      row("k MPa/m^n", 3.4, 0.1, 100.0, [](double v, SandboxModel& m) { m.sand.pressure.k_phi = 1e6 * v; }),
-      row("cohesion Pa", 100.0, 1.0, 1500.0, [](double v, SandboxModel& m) { m.sand.cohesion_pa = v; }),
-      row("K_x mm", 13.0, 0.5, 60.0, [](double v, SandboxModel& m) { m.sand.shear_modulus_x_m = 1e-3 * v; }),
-      row("K_y mm", 4.0, 0.5, 60.0, [](double v, SandboxModel& m) { m.sand.shear_modulus_y_m = 1e-3 * v; }),
-      row("c1", 0.35, 0.0, 0.9, [](double v, SandboxModel& m) { m.sand.c1 = v; }),
-      row("exit angle ratio", 0.7, 0.0, 0.95, [](double v, SandboxModel& m) { m.sand.exit_angle_ratio = v; }),
-      row("rim friction", 0.88, 0.3, 1.0, [](double v, SandboxModel& m) { m.rim_friction = v; }),
-      row("softening", 2.0, 0.0, 6.0, [](double v, SandboxModel& m) { m.sand.inclined_softening = v; }),
-      row("dig rim share", 0.165, 0.0, 1.0, [](double v, SandboxModel& m) { m.sand.digging.rim_share = v; }),
-      row("dig rim slip", 0.65, 0.05, 10.0, [](double v, SandboxModel& m) { m.sand.digging.rim_slip = v; }),
-      row("dig cleat share", 0.53, 0.0, 3.0,
+      row("k MPa/m^n", 2.988, 0.1, 100.0, [](double v, SandboxModel& m) { m.sand.pressure.k_phi = 1e6 * v; }),
+      row("K_x mm", 17.5, 0.5, 60.0, [](double v, SandboxModel& m) { m.sand.shear_modulus_x_m = 1e-3 * v; }),
+      row("K_y mm", 6.413, 0.5, 60.0, [](double v, SandboxModel& m) { m.sand.shear_modulus_y_m = 1e-3 * v; }),
+      row("exit angle ratio", 0.4347, 0.0, 0.95,
+          [](double v, SandboxModel& m) { m.sand.exit_angle_ratio = v; }),
+      row("rim friction", 0.8959, 0.3, 1.0, [](double v, SandboxModel& m) { m.rim_friction = v; }),
+      row("softening", 2.126, 0.0, 6.0, [](double v, SandboxModel& m) { m.sand.inclined_softening = v; }),
+      row("dig rim share", 0.1674, 0.0, 1.0, [](double v, SandboxModel& m) { m.sand.digging.rim_share = v; }),
+      row("dig rim slip", 0.5891, 0.05, 10.0, [](double v, SandboxModel& m) { m.sand.digging.rim_slip = v; }),
+      row("dig cleat share", 0.5377, 0.0, 3.0,
           [](double v, SandboxModel& m) { m.sand.digging.cleat_share = v; }),
-      row("dig cleat limit", 4.8, 0.5, 100.0,
+      row("dig cleat limit", 5.201, 0.5, 100.0,
           [](double v, SandboxModel& m) { m.sand.digging.cleat_limit = v; }),
-      row("dig sideways", 1.6, 0.0, 10.0, [](double v, SandboxModel& m) { m.sand.digging.sideways = v; }),
-      row("plough front", 8.5, 0.0, 60.0, [](double v, SandboxModel& m) { m.sand.ploughing.front = v; }),
-      row("plough wall", 12.1, 0.0, 60.0, [](double v, SandboxModel& m) { m.sand.ploughing.wall = v; }),
-      row("plough heap", 1.73, 0.0, 10.0, [](double v, SandboxModel& m) { m.sand.ploughing.heap = v; }),
-      row("plough heap slip", 1.78, 0.1, 20.0,
+      row("dig sideways", 1.532, 0.0, 10.0, [](double v, SandboxModel& m) { m.sand.digging.sideways = v; }),
+      row("plough front", 8.017, 0.0, 60.0, [](double v, SandboxModel& m) { m.sand.ploughing.front = v; }),
+      row("plough wall", 12.05, 0.0, 60.0, [](double v, SandboxModel& m) { m.sand.ploughing.wall = v; }),
+      row("plough heap", 1.662, 0.0, 10.0, [](double v, SandboxModel& m) { m.sand.ploughing.heap = v; }),
+      row("plough heap slip", 1.827, 0.1, 20.0,
           [](double v, SandboxModel& m) { m.sand.ploughing.heap_slip = v; }),
-      row("wall friction", 0.43, 0.0, 1.0,
+      row("wall friction", 0.3879, 0.0, 1.0,
           [](double v, SandboxModel& m) { m.sand.ploughing.wall_friction = v; }),
-      row("wall turn", 0.15, 0.0, 1.0, [](double v, SandboxModel& m) { m.sand.ploughing.wall_turn = v; }),
-      row("wall yield", 1.12, 0.0, 10.0, [](double v, SandboxModel& m) { m.sand.ploughing.wall_yield = v; })};
+      row("wall turn", 0.1139, 0.0, 1.0, [](double v, SandboxModel& m) { m.sand.ploughing.wall_turn = v; }),
+      row("wall yield", 0.837, 0.0, 10.0,
+          [](double v, SandboxModel& m) { m.sand.ploughing.wall_yield = v; })};
   return kRows;
 }
 
@@ -96,7 +96,7 @@ std::vector<gap::Unknown> sandbox_unknowns() {
 
 Result<gap::LeastSquaresFit> fit_sandbox(
     const std::vector<SandboxWheelTests>& tests, std::span<const gap::Unknown> unknowns,
-    const std::function<bool(bool grousered, const WheelCondition&)>& used) {
+    const std::function<bool(bool grousered, const WheelCondition&)>& used, bool covariance) {
   struct Place {
     bool grousered;
     const WheelCondition* condition;
@@ -121,10 +121,11 @@ Result<gap::LeastSquaresFit> fit_sandbox(
   NoProgress progress;
   return gap::fit_least_squares(unknowns, 3 * places.size(), residuals,
                                 {.loss = gap::RobustLoss::kHuber,
-                                 .max_iterations = 60,
-                                 .tolerance = 1e-6,
+                                 .max_iterations = covariance ? 60 : 12,
+                                 .tolerance = covariance ? 1e-6 : 1e-4,
                                  .relative_step = 1e-4,
-                                 .residual_std_known = false},
+                                 .residual_std_known = false,
+                                 .covariance = covariance},
                                 progress);
 }
 

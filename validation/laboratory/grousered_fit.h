@@ -20,8 +20,9 @@ struct SandboxWheelTests {
 // The smooth wheel's tests, and the half of the grousered wheel's that is here. Errors: unreadable_data.
 Result<std::vector<SandboxWheelTests>> load_sandbox_wheels(const std::filesystem::path& data);
 
-// The soil and the smooth rim that both wheels share, from the fitted numbers. c1 stands alone (c2 = 0), n is
-// that of the plate tests, friction angle and density are upstream's, and the shear law is the hyperbola.
+// The soil and the smooth rim that both wheels share, from the fitted numbers. c1 and c2
+// are 0 and so is the cohesion (fits ended there), n is that of the plate tests, friction angle and density
+// are upstream's, and the shear law is the hyperbola.
 struct SandboxModel {
   sim::Soil sand;
   double rim_friction = 1.0;
@@ -35,6 +36,6 @@ std::vector<gap::Unknown> sandbox_unknowns();
 // 90 deg. Errors: those of the search.
 Result<gap::LeastSquaresFit> fit_sandbox(
     const std::vector<SandboxWheelTests>& tests, std::span<const gap::Unknown> unknowns,
-    const std::function<bool(bool grousered, const WheelCondition&)>& used);
+    const std::function<bool(bool grousered, const WheelCondition&)>& used, bool covariance);
 
 }  // namespace slipway::validation

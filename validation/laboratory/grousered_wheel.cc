@@ -35,9 +35,10 @@ Result<HeldOut> held_out(const std::vector<SandboxWheelTests>& tests, std::vecto
     for (const WheelCondition& c : wheel.conditions) speeds.insert(c.commanded_rim_speed_m_s);
   HeldOut errors;
   for (const double speed : speeds) {
-    const auto fitted = fit_sandbox(tests, unknowns, [&](bool /*grousered*/, const WheelCondition& c) {
-      return c.commanded_rim_speed_m_s != speed;
-    });
+    const auto fitted = fit_sandbox(
+        tests, unknowns,
+        [&](bool /*grousered*/, const WheelCondition& c) { return c.commanded_rim_speed_m_s != speed; },
+        false);
     if (!fitted) return fail(fitted.error());
     const SandboxModel model = sandbox_model(fitted->estimate);
     for (const SandboxWheelTests& wheel : tests)
@@ -99,8 +100,8 @@ Result<Report> grousered_wheel(const std::filesystem::path& data) {
   const auto tests = load_sandbox_wheels(data);
   if (!tests) return fail(tests.error());
   std::vector<gap::Unknown> unknowns = sandbox_unknowns();
-  const auto fitted =
-      fit_sandbox(*tests, unknowns, [](bool /*grousered*/, const WheelCondition& /*c*/) { return true; });
+  const auto fitted = fit_sandbox(
+      *tests, unknowns, [](bool /*grousered*/, const WheelCondition& /*c*/) { return true; }, true);
   if (!fitted) return fail(fitted.error());
   for (std::size_t k = 0; k < unknowns.size(); ++k) unknowns[k].start = fitted->estimate[k];
   const auto held = held_out(*tests, unknowns);
