@@ -31,9 +31,10 @@ namespace slipway::sim {
 // stands in this file, so that a test can link a catalogue of its own.
 std::span<const Effect> effect_catalogue() {
   static const std::array kRows{
-      kSlipSinkage,      kMultipass,       kGrousers,       kBulldozing,    kSideBulldozing, kComOffset,
-      kMotorTemperature, kGearboxFriction, kWheelRadius,    kDraggingWheel, kRateShear,      kDuricrust,
-      kHardpan,          kSoftPatch,       kSteeringOffset, kAttitudeBias,  kSoilGravity,    kSmoothRim};
+      kSlipSinkage,      kMultipass,         kGrousers,       kBulldozing,    kSideBulldozing, kComOffset,
+      kMotorTemperature, kGearboxFriction,   kWheelRadius,    kDraggingWheel, kRateShear,      kDuricrust,
+      kHardpan,          kSoftPatch,         kSteeringOffset, kAttitudeBias,  kSoilGravity,    kSmoothRim,
+      kCleatShearRadius, kSlipDirectedShear, kInclinedLoad,   kDigging,       kPloughing};
   return kRows;
 }
 

@@ -24,6 +24,7 @@ class ChosenLawsInLanes {
       hump[k] = laws.shear_form.hump;
       hyperbola[k] = laws.shear_form.hyperbola;
       any_hyperbola_ |= hyperbola[k] != 0.0;
+      all_hyperbola_ &= hyperbola[k] == 1.0 && !has_own_shear(laws);
       own_pressure_ |= has_own_pressure(laws);
       own_shear_ |= has_own_shear(laws);
     }
@@ -50,6 +51,7 @@ class ChosenLawsInLanes {
   }
 
   V mobilised(const V& displacement_over_modulus) const {
+    if (all_hyperbola_) return hyperbolic_mobilised(displacement_over_modulus);
     const V left = exp(-displacement_over_modulus);
     V form = (end_ + hump_ * left) * (V(1.0) - left);
     if (any_hyperbola_) form += hyperbola_ * (hyperbolic_mobilised(displacement_over_modulus) - form);
@@ -74,7 +76,7 @@ class ChosenLawsInLanes {
 
   std::array<const WheelNumbers*, kLanes> wheels_;
   V per_depth_, end_, hump_, hyperbola_;
-  bool any_hyperbola_ = false;
+  bool any_hyperbola_ = false, all_hyperbola_ = true;
   bool own_pressure_ = false, own_shear_ = false;
 };
 

@@ -18,6 +18,7 @@ struct ClosedContact {
   // bottom of what was dug, and the stiffness that inclined load leaves.
   WheelValues<V> in;
   V theta_e, sin_e, cos_e;  // where the ground's surface meets the wheel
+  V sin_f, cos_f;           // of the entry angle in `in`
   V depth_m, dug_m;
   V speed;  // |v| over the shearing radius' speed
 };
@@ -36,7 +37,9 @@ ClosedContact<V> closed_contact(const WheelValues<V>& in, const ClosureValues<V>
   out.theta_e = acos(out.cos_e);
   out.sin_e = sqrt(max(V(0.0), V(1.0) - out.cos_e * out.cos_e));
   out.depth_m = in.radius * (V(1.0) - out.cos_e);
-  out.in.theta_f = acos(min(V(1.0), out.cos_e + out.dug_m / in.radius));
+  out.cos_f = min(V(1.0), out.cos_e + out.dug_m / in.radius);
+  out.sin_f = sqrt(max(V(0.0), V(1.0) - out.cos_f * out.cos_f));
+  out.in.theta_f = acos(out.cos_f);
   out.in.stiffness = in.stiffness * inclined_load_share(by.softening, out.in.forward, out.speed);
   return out;
 }

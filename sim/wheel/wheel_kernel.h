@@ -106,6 +106,8 @@ struct LawParts {
   // Any wheel's soil has other laws than Bekker's and Janosi and Hanamoto's.
   bool chosen_laws = false;
   bool closures = false;
+  // With closures: in any wheel the shear's direction is not the sliding's alone.
+  bool undirected = false;
 
   void include(const WheelNumbers& in);
 };

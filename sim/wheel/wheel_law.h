@@ -48,8 +48,9 @@ V slip_of(const V& speed_ratio) {
   return select(speed_ratio <= V(1.0), V(1.0) - speed_ratio, V(1.0) / max(speed_ratio, V(1.0)) - V(1.0));
 }
 
+// `sin_f` and `cos_f` are of the entry angle.
 template <class V>
-ContactAngles<V> contact_angles(const WheelValues<V>& in) {
+ContactAngles<V> contact_angles(const WheelValues<V>& in, const V& sin_f, const V& cos_f) {
   const V slip = min(V(1.0), abs(slip_of(in.forward)));
   const V share = max(-in.exit_ratio, min(V(0.99), in.c1 + in.c2 * slip));
   // How the wheel digs itself in: by its slip over the ground in whatever direction it moves, more in skid
@@ -58,8 +59,12 @@ ContactAngles<V> contact_angles(const WheelValues<V>& in) {
   const V sliding = slip_of(sqrt(square));
   const V sin2_beta = in.leftward * in.leftward / (square + V(1e-12));
   const V n = in.n + in.n1 * abs(sliding) + in.n1_skid * max(V(0.0), -sliding) + in.n1_lateral * sin2_beta;
-  return {share * in.theta_f, -in.exit_ratio * in.theta_f, n, sin(in.theta_f), cos(in.theta_f), tan(in.phi),
-          in.theta_f};
+  return {share * in.theta_f, -in.exit_ratio * in.theta_f, n, sin_f, cos_f, tan(in.phi), in.theta_f};
+}
+
+template <class V>
+ContactAngles<V> contact_angles(const WheelValues<V>& in) {
+  return contact_angles(in, V(sin(in.theta_f)), V(cos(in.theta_f)));
 }
 
 // Integrals over the contact, per b r: of the shear and normal stress and of the mobilised share m.
@@ -132,15 +137,17 @@ void add_nodes(const Laws& laws, const WheelValues<V>& in, const ContactAngles<V
   const V to_entry = in.theta_f - theta;
   const V j_x = in.radius * (to_entry - in.forward * (at.sin_f - sine));
   V m_x = V(0.0), m_y = V(0.0);
-  if (parts.lateral) {
-    const V j_y = in.radius * in.leftward * to_entry;
-    if (parts.independent) {
+  if (!parts.closures || parts.undirected) {
+    if (parts.lateral) {
+      const V j_y = in.radius * in.leftward * to_entry;
+      if (parts.independent) {
+        m_x = mobilised(laws, j_x, in.per_shear_x);
+        m_y = mobilised(laws, j_y, in.per_shear_y);
+      }
+      if (parts.coupled) couple(laws, in, j_x, j_y, m_x, m_y);
+    } else {
       m_x = mobilised(laws, j_x, in.per_shear_x);
-      m_y = mobilised(laws, j_y, in.per_shear_y);
     }
-    if (parts.coupled) couple(laws, in, j_x, j_y, m_x, m_y);
-  } else {
-    m_x = mobilised(laws, j_x, in.per_shear_x);
   }
   if (parts.closures) direct_by_slip(laws, in, at, j_x, to_entry, cosine, m_x, m_y);
   const V strength = weight * in.rim_friction * (in.cohesion + sigma * at.tan_phi);

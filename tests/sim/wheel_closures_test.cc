@@ -132,7 +132,7 @@ TEST(ShearRadius, AWheelOfTheShearingRadiusHasTheSameForcesAtTheSameSlipByItsOwn
 }
 
 TEST(Cleats, TheirThrustNeedNotBrakeInSkid) {
-  WheelGeometry bare{0.125, 0.16}, cleats{0.125, 0.16, {0.01, 24.0}};
+  WheelGeometry cleats{0.125, 0.16, {0.01, 24.0}};
   const WheelMotion skid{speed_ratio_from_slip(-0.5), 0.0}, slip{0.6, 0.0};
   const double theta = 0.6;
   const auto pull = [&](const WheelMotion& motion, double braking) {
@@ -186,6 +186,7 @@ TEST(SlipDirectedShear, KeepsTheResultantWithinTheStrengthAndPointsAgainstTheSli
   sand.digging = {};
   sand.ploughing = {};
   sand.inclined_softening = 0.0;
+  sand.cohesion_pa = 0.0;
   sand.shear_modulus_x_m = sand.shear_modulus_y_m = 1e-5;  // fully mobilised everywhere
   // A wheel so large that its contact is nearly flat: it slides back at 0.6 and to the left at 0.8.
   const WheelForces f = wheel_forces({20.0, 0.16}, sand, 0.004, {0.4, 0.8});
