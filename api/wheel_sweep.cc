@@ -35,6 +35,23 @@ void check_effects(const std::vector<sim::EffectSetting>& effects, Check& check)
   }
 }
 
+// The effect grousers stands for all the cleats of a wheel: it would take the place of those that are given.
+void check_one_set_of_grousers(const WheelSweepRequest& request, Check& check) {
+  constexpr std::string_view kEffect = "grousers", kParameter = "effects.grousers.";
+  if (!request.grousers_given) return;
+  const auto say = [&](const std::string& pointer) {
+    check.add(pointer,
+              "grousers are given twice, as the wheel's own and by the effect grousers, which would take "
+              "their place");
+  };
+  for (std::size_t i = 0; i < request.effects.size(); ++i)
+    if (request.effects[i].name == kEffect && request.effects[i].on) say(fmt::format("/effects/{}/name", i));
+  for (const sim::SweepSetting& setting : request.set)
+    if (setting.parameter.starts_with(kParameter)) say("/set/" + setting.parameter);
+  for (std::size_t a = 0; a < request.sweep.size(); ++a)
+    if (request.sweep[a].parameter.starts_with(kParameter)) say(fmt::format("/sweep/{}/parameter", a));
+}
+
 // Puts the wheel's own numbers where the request has none, and the request's on the wheel.
 void settle_wheel(WheelSweepRequest& request, sim::WheelModel& wheel) {
   wheel.radius_m = request.radius_m.value_or(wheel.radius_m);
@@ -43,6 +60,7 @@ void settle_wheel(WheelSweepRequest& request, sim::WheelModel& wheel) {
   request.wheel = wheel.name;
   request.radius_m = wheel.radius_m;
   request.width_m = wheel.width_m;
+  request.grousers_given = request.grousers.has_value();
   request.grousers = wheel.grousers;
 }
 
@@ -89,6 +107,8 @@ Result<WheelSweepAnswer> read_wheel_sweep(const Catalogue& catalogue, std::strin
   answer.sweep.rig.soil_format = catalogue.soil_format;
   answer.sweep.set = answer.request.set;
   answer.sweep.axes = answer.request.sweep;
+  answer.sweep.paired = answer.request.paired;
+  check_one_set_of_grousers(answer.request, check);
   for (Fault& fault : sim::parameter_faults(answer.sweep)) check.add(fault.pointer, std::move(fault.message));
   if (answer.request.motor_temp_c && rover != catalogue.rovers.end()) {
     if (const auto fault = temperature_without_effect(*rover->second, answer.request.effects))

@@ -24,7 +24,7 @@ using Value = std::optional<double>;
 
 constexpr std::array kColumns{
     Column{"slip", "1", "of the wheel, by the request's slip_definition",
-           [](const Row& r) -> Value { return r.point.test.slip; }},
+           [](const Row& r) -> Value { return r.result.slip; }},
     Column{"slip_angle_deg", "deg", "from the wheel's plane to its travel, positive to the left",
            [](const Row& r) -> Value { return deg_from_rad(r.point.test.slip_angle_rad); }},
     Column{"load_n", "N", "that the wheel must carry; none where it is held at a depth",
@@ -74,7 +74,8 @@ void write_columns(Writer& w, const sim::WheelSweep& sweep) {
     write_column(w, axis.parameter, field ? field->unit : "", field ? field->summary : "");
   }
   for (const Column& column : kColumns) write_column(w, column.name, column.unit, column.summary);
-  write_column(w, "outcome", "", "balanced, held (at the given depth), sunk_to_axle or not_balanced");
+  write_column(w, "outcome", "",
+               "balanced, held (at the given depth), sunk_to_axle, immobilised (on a slope) or not_balanced");
   write_column(w, "reason", "", "why there are no forces");
   w.end_array();
 }

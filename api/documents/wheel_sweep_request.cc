@@ -14,6 +14,7 @@ namespace slipway::api::json {
 namespace {
 
 const std::vector<std::string_view> kSlipDefinitions{"forward", "travel"};
+const std::vector<std::string_view> kSlipRadii{"rim", "shear", "tip"};
 const std::vector<std::string_view> kHeldSpeeds{"rim", "travel"};
 
 // The range that a sweep over the same number has.
@@ -40,10 +41,19 @@ void read_test(ObjectReader& reader, WheelSweepRequest& request) {
   if (request.load_n && test.sinkage_m)
     reader.fault("sinkage_m", "sinkage_m and load_n: a wheel is held at a depth or carries a load, not both");
   reader.number("slip", kOptional, rule_of("slip"), test.slip);
+  double slope_rad = 0.0;
+  if (reader.member("slope_deg", kOptional) != nullptr &&
+      reader.angle_deg("slope_deg", kOptional, rule_of("slope_deg"), slope_rad)) {
+    test.slope_rad = slope_rad;
+    if (reader.member("slip", kOptional) != nullptr)
+      reader.fault("slip", "slip and slope_deg: on a slope the slip follows from the pull");
+  }
   reader.angle_deg("slip_angle_deg", kOptional, rule_of("slip_angle_deg"), test.slip_angle_rad);
   std::size_t choice = 0;
   if (reader.choice("slip_definition", kOptional, kSlipDefinitions, choice))
     test.slip_definition = choice == 0 ? sim::SlipDefinition::kForward : sim::SlipDefinition::kTravel;
+  if (reader.choice("slip_radius", kOptional, kSlipRadii, choice))
+    test.slip_radius = static_cast<sim::SlipRadius>(choice);
   reader.number("speed_m_s", kOptional, rule_of("speed_m_s"), request.speed_m_s);
   if (reader.choice("speed_of", kOptional, kHeldSpeeds, choice)) test.speed_is_of_travel = choice == 1;
   reader.number("motor_temp_c", kOptional, rule_of("motor_temp_c"), request.motor_temp_c);
@@ -103,7 +113,9 @@ Result<Reading<WheelSweepRequest>> read_wheel_sweep_request(std::string_view byt
   read_test(reader, request);
   read_effects(reader, request.effects);
   read_settings(reader, request.set);
-  for (const Element& element : reader.list("sweep", kOptional, {0, sim::kMaxSweepAxes}))
+  reader.boolean("paired", kOptional, request.paired);
+  for (const Element& element :
+       reader.list("sweep", kOptional, {0, request.paired ? sim::kMaxPairedAxes : sim::kMaxSweepAxes}))
     read_axis(element, request.sweep.emplace_back(), reading.faults);
   reader.refuse_unknown();
   return reading;
@@ -126,8 +138,14 @@ std::string write_wheel_sweep_request(const WheelSweepRequest& request) {
   w.exact("gravity_m_s2", test.gravity_m_s2);
   if (request.load_n) w.exact("load_n", *request.load_n);
   if (test.sinkage_m) w.exact("sinkage_m", *test.sinkage_m);
-  w.exact("slip", test.slip).angle_deg("slip_angle_deg", test.slip_angle_rad);
+  if (test.slope_rad)
+    w.angle_deg("slope_deg", *test.slope_rad);
+  else
+    w.exact("slip", test.slip);
+  w.angle_deg("slip_angle_deg", test.slip_angle_rad);
   w.text("slip_definition", kSlipDefinitions[test.slip_definition == sim::SlipDefinition::kTravel ? 1 : 0]);
+  if (test.slip_radius != sim::SlipRadius::kRim)
+    w.text("slip_radius", kSlipRadii[static_cast<std::size_t>(test.slip_radius)]);
   if (request.speed_m_s) w.exact("speed_m_s", *request.speed_m_s);
   w.text("speed_of", kHeldSpeeds[test.speed_is_of_travel ? 1 : 0]);
   if (request.motor_temp_c) w.exact("motor_temp_c", *request.motor_temp_c);
@@ -136,6 +154,7 @@ std::string write_wheel_sweep_request(const WheelSweepRequest& request) {
   w.key("set").begin_object();
   for (const sim::SweepSetting& setting : request.set) w.exact(setting.parameter, setting.value);
   w.end_object();
+  if (request.paired) w.boolean("paired", true);
   w.key("sweep").begin_array();
   for (const sim::SweepAxis& axis : request.sweep) {
     w.begin_object().text("parameter", axis.parameter).key("values").begin_array();

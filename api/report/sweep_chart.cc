@@ -180,9 +180,9 @@ Result<std::string> draw_wheel_sweep(std::string_view document) {
     axes.push_back({axis.find("parameter")->text, {}});
     for (const JsonValue& value : axis.find("values")->elements) axes.back().values.push_back(value.number);
   }
-  if (axes.empty())
+  if (axes.empty() || request->find("paired") != nullptr)
     return fail(ErrorCode::kInvalidRequest, "there is nothing to draw",
-                {{"/sweep", "a picture needs a sweep"}});
+                {{"/sweep", "a picture needs a sweep; rows with their own parameters are none"}});
   const std::vector<SweptQuantity> quantities = quantities_of(*rows);
   if (quantities.empty())
     return fail(ErrorCode::kInvalidRequest, "there is nothing to draw",

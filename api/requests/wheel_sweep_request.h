@@ -17,12 +17,14 @@ struct WheelSweepRequest {
   std::string soil;
   std::optional<double> radius_m, width_m;
   std::optional<sim::Grousers> grousers;
+  bool grousers_given = false;         // in the request; otherwise they are the rover's
   std::optional<double> load_n;        // an equal share of the rover's weight where it is empty
   std::optional<double> speed_m_s;     // the rover's cruise speed where it is empty
   std::optional<double> motor_temp_c;  // the motor's reference temperature where it is empty
   sim::WheelRigConditions test;        // the other conditions
   std::vector<sim::EffectSetting> effects;
   std::vector<sim::SweepSetting> set;
+  bool paired = false;  // row i of the sweep stands at every axis' value i
   std::vector<sim::SweepAxis> sweep;
 };
 

@@ -11,6 +11,7 @@ enum ExitStatus : int {
   kBadInput = 2,   // a command or an input that can't be used, with every fault
   kNoGo = 3,       // the drive is NO-GO, or there is no route, or none without a broken limit
   kUndecided = 4,  // the drive is UNKNOWN, or the best route is one to be cautious of
+  kSunk = 5,       // of a single wheel: in some row it sank to its axle or no slip climbs the slope
 };
 
 // Of a verdict: "go", "caution", "no_go", "unknown".

@@ -1,11 +1,18 @@
 #include "server/cli/wheel_command.h"
 
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <sstream>
 #include <vector>
 
 #include "api/documents/wheel_sweep_answer.h"
+#include "api/files/terrain_site.h"
 #include "api/json/writer.h"
 #include "api/report/sweep_chart.h"
 #include "server/cli/command_parts.h"
+#include "server/cli/exit_status.h"
 #include "server/cli/terminal/tables.h"
 
 namespace slipway::server {
@@ -20,7 +27,7 @@ void write_if(Writer& w, std::string_view key, const std::string& value) {
   if (!value.empty()) w.text(key, value);
 }
 
-std::string request_of(const WheelOptions& options) {
+std::string request_of(const WheelOptions& options, const std::vector<sim::SweepAxis>& rows) {
   Writer w;
   w.begin_object().text("rover", options.rover).text("soil", options.soil);
   write_if(w, "wheel", options.wheel);
@@ -31,8 +38,10 @@ std::string request_of(const WheelOptions& options) {
   write_if(w, "load_n", options.load_n);
   write_if(w, "sinkage_m", options.sinkage_m);
   write_if(w, "slip", options.slip);
+  write_if(w, "slope_deg", options.slope_deg);
   write_if(w, "slip_angle_deg", options.slip_angle_deg);
   write_if(w, "slip_definition", options.slip_definition);
+  write_if(w, "slip_radius", options.slip_radius);
   write_if(w, "speed_m_s", options.speed_m_s);
   write_if(w, "speed_of", options.speed_of);
   write_if(w, "motor_temp_c", options.motor_temp_c);
@@ -41,18 +50,74 @@ std::string request_of(const WheelOptions& options) {
   for (const std::string& effect : options.effects) write_effect(w, effect);
   w.end_array().key("set").begin_object();
   for (const std::string& setting : options.set) write_setting(w, setting);
-  w.end_object().key("sweep").begin_array();
+  w.end_object();
+  if (!rows.empty()) w.boolean("paired", true);
+  w.key("sweep").begin_array();
   for (const std::string& sweep : options.sweeps) write_sweep_axis(w, sweep);
+  for (const sim::SweepAxis& axis : rows) {
+    w.begin_object().text("parameter", axis.parameter).key("values").begin_array();
+    for (const double value : axis.values) w.exact(value);
+    w.end_array().end_object();
+  }
   w.end_array().end_object();
   return w.take();
+}
+
+// The columns of a CSV file of rows, each a parameter with one value a row. Errors: unreadable_data with
+// every fault.
+Result<std::vector<sim::SweepAxis>> read_rows(const std::string& path) {
+  const auto bytes = api::read_data_file(path);
+  if (!bytes) return fail(bytes.error());
+  std::istringstream lines(*bytes);
+  std::string line, cell;
+  std::vector<sim::SweepAxis> axes;
+  std::vector<Fault> faults;
+  for (std::size_t number = 1; std::getline(lines, line); ++number) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (line.empty()) continue;
+    std::istringstream cells(line);
+    std::size_t column = 0;
+    for (; std::getline(cells, cell, ','); ++column) {
+      if (number == 1) {
+        axes.push_back({cell, {}});
+        continue;
+      }
+      double value = 0.0;
+      const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+      if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
+        faults.push_back(
+            {fmt::format("/{}/{}", number, column + 1), fmt::format("\"{:.40}\" is no number", cell)});
+      if (column < axes.size()) axes[column].values.push_back(value);
+    }
+    if (column != axes.size())
+      faults.push_back(
+          {fmt::format("/{}", number), fmt::format("{} cells, the first line has {}", column, axes.size())});
+  }
+  if (axes.empty() || axes.front().values.empty())
+    faults.push_back({"/1", "no rows: the first line names parameters, each other line has a value of each"});
+  if (!faults.empty())
+    return fail(ErrorCode::kUnreadableData, "rows that can't be read: " + path, std::move(faults));
+  return axes;
+}
+
+// Whether the wheel has no place to stand in some row of the answer.
+bool sunk_somewhere(std::string_view answer) {
+  return answer.find("\"outcome\":\"sunk_to_axle\"") != std::string_view::npos ||
+         answer.find("\"outcome\":\"immobilised\"") != std::string_view::npos;
 }
 
 }  // namespace
 
 int wheel(const WheelOptions& options) {
+  std::vector<sim::SweepAxis> rows;
+  if (!options.rows.empty()) {
+    auto read = read_rows(options.rows);
+    if (!read) return refuse_unreadable(read.error());
+    rows = std::move(*read);
+  }
   const auto service = inquiry(options.ask);
   if (!service) return refuse(service.error());
-  const auto answer = (*service)->wheel_sweep(request_of(options));
+  const auto answer = (*service)->wheel_sweep(request_of(options, rows));
   if (!answer) return refuse(answer.error());
   const auto printed = options.ask.json ? answer : wheel_table(*answer);
   if (!printed) return refuse(printed.error());
@@ -67,7 +132,8 @@ int wheel(const WheelOptions& options) {
     if (!picture) return refuse(picture.error());
     files.push_back({options.plot, *picture});
   }
-  return deliver(files, *printed + (options.ask.json ? "\n" : ""));
+  const int delivered = deliver(files, *printed + (options.ask.json ? "\n" : ""));
+  return delivered == kDone && sunk_somewhere(*answer) ? kSunk : delivered;
 }
 
 }  // namespace slipway::server

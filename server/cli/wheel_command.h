@@ -21,7 +21,10 @@ struct WheelOptions {
   std::vector<std::string> set;     // "soil.n=1.1"
   std::optional<double> load_n, sinkage_m, slip, slip_angle_deg, gravity_m_s2, radius_m, width_m, speed_m_s;
   std::string slip_definition, speed_of;  // empty: the request's default
-  std::string grousers;                   // "height_m,count"
+  std::optional<double> slope_deg;
+  std::string slip_radius;  // rim, shear or tip
+  std::string rows;         // CSV of rows with their own parameters
+  std::string grousers;     // "height_m,count"
   std::optional<double> motor_temp_c;
   bool in_a_track = false;
   std::vector<std::string> effects;

@@ -10,6 +10,9 @@ constexpr const char* kWheelExample =
     "Example: pull, sinkage and current over slip at three slip angles, as table, CSV and picture\n"
     "  slipway wheel --rover mer-class --soil jlu_mars_2_dense --sweep slip=0:0.9:0.1 --sweep "
     "slip_angle_deg=0,15,30 --csv wheel.csv --plot wheel.svg\n"
+    "Exit status: 0 a table, 2 input that can't be used, 5 a table in which the wheel sank to its axle or no "
+    "slip "
+    "climbs the slope in some row.\n"
     "What can be swept besides the conditions: soil.n, wheel.width_m, effects.grousers.height_m and more; an "
     "unknown name lists them.";
 
@@ -23,13 +26,29 @@ void add_wheel_command(CLI::App& app, std::function<int()>& run) {
   command->add_option("--rover", options->rover, "whose wheel and motor it is")->capture_default_str();
   command->add_option("--wheel", options->wheel, "of the rover; otherwise its first");
   command->add_option("--soil", options->soil, "name of the soil")->capture_default_str();
-  command->add_option("--sweep", options->sweeps, "NAME=from:to:step or NAME=a,b,c; at most two");
+  CLI::Option* const sweep =
+      command->add_option("--sweep", options->sweeps, "NAME=from:to:step or NAME=a,b,c; at most two");
+  command
+      ->add_option(
+          "--rows", options->rows,
+          "CSV whose first line names parameters that can be swept and whose other lines are one row "
+          "of the table each, in the place of --sweep")
+      ->excludes(sweep);
   command->add_option("--set", options->set,
                       "NAME=value: anything that can be swept, throughout; a soil that no file has, say");
   command->add_option("--load,--load-n", options->load_n,
                       "on the wheel; otherwise an equal share of the weight");
   command->add_option("--sinkage-m", options->sinkage_m, "hold the wheel at this depth instead");
-  command->add_option("--slip", options->slip, "-1 locked to 1 spinning on the spot");
+  CLI::Option* const slip =
+      command->add_option("--slip", options->slip, "-1 locked to 1 spinning on the spot");
+  command
+      ->add_option("--slope", options->slope_deg,
+                   "deg: the slip at which the wheel's pull is its load's part along this slope")
+      ->excludes(slip);
+  command->add_option(
+      "--slip-radius", options->slip_radius,
+      "where the rim's speed in a slip is taken: rim, shear (where the soil is sheared) or tip "
+      "(of the cleats)");
   command->add_option("--slip-angle-deg", options->slip_angle_deg, "from the wheel's plane to its travel");
   command->add_option("--slip-definition", options->slip_definition,
                       "what slip compares the rim's speed with: forward (along the wheel's plane) or travel");

@@ -47,6 +47,25 @@ constexpr std::array kGrousers{
         .number = [](Grousers& g) -> double& { return g.height_m; }},
     ModelField<Grousers>{.field = {"count", "1", "around the rim", 0.0, 500.0, 0.0},
                          .number = [](Grousers& g) -> double& { return g.count; }},
+    ModelField<Grousers>{.field = {"thrust", "1", "share of their passive thrust", 0.0, 1.0, 1.0},
+                         .number = [](Grousers& g) -> double& { return g.thrust; },
+                         .presence = kOptional,
+                         .writing = FieldWriting::kUnlessInitial},
+    ModelField<Grousers>{.field = {"braking", "1", "share of their thrust that brakes", 0.0, 1.0, 1.0},
+                         .number = [](Grousers& g) -> double& { return g.braking; },
+                         .presence = kOptional,
+                         .writing = FieldWriting::kUnlessInitial},
+    ModelField<Grousers>{.field = {"shear_share", "1",
+                                   "where the soil is sheared: 0 at the rim, 1 at the tips", 0.0, 1.0, 0.0},
+                         .number = [](Grousers& g) -> double& { return g.shear_share; },
+                         .presence = kOptional,
+                         .writing = FieldWriting::kUnlessInitial},
+    ModelField<Grousers>{
+        .field = {"shear_by_spacing", "1", "how much of what height and spacing give is added to that share",
+                  0.0, 1.0, 0.0},
+        .number = [](Grousers& g) -> double& { return g.shear_by_spacing; },
+        .presence = kOptional,
+        .writing = FieldWriting::kUnlessInitial},
 };
 
 constexpr std::array kDifferential{

@@ -16,6 +16,13 @@ enum class SlipDefinition {
   kTravel,   // the speed |v| of travel, in whatever direction: as many test rigs report it
 };
 
+// Which radius the rim's speed in a slip is taken at. Wheels with cleats are reported by their tips too.
+enum class SlipRadius {
+  kRim,
+  kShear,  // where the soil is sheared (shear_radius_m)
+  kTip,    // of the cleats
+};
+
 // The motion at a slip of 1 and below -1 is a limit: a locked wheel has r w = 0. The law is the same to nine
 // digits at this many times the rim's speed as at infinity.
 constexpr double kLockedSpeedRatio = 1e9;
@@ -43,6 +50,10 @@ struct WheelRigConditions {
   double slip = 0.0;
   double slip_angle_rad = 0.0;
   SlipDefinition slip_definition = SlipDefinition::kForward;
+  SlipRadius slip_radius = SlipRadius::kRim;
+  // Given: the wheel climbs a slope of this angle under the weight load_n, straight on, at the slip at which
+  // its pull is the weight's part along the slope; `slip` is then not read.
+  std::optional<double> slope_rad;
   // One of the two speeds is held. A locked wheel's is the travel's, a wheel's that spins on the spot the
   // rim's.
   double speed_m_s = 0.04;
@@ -55,17 +66,19 @@ enum class RigOutcome {
   kBalanced,     // the soil carries the load
   kHeld,         // at the given depth
   kSunkToAxle,   // no depth up to the axle carries the load
+  kImmobilised,  // on a slope: no slip pulls the weight's part along it
   kNotBalanced,  // the solver found no depth that carries it to 1e-6: soil far harder than any, at a tiny
                  // load
 };
 
-// "balanced", "held", "sunk_to_axle", "not_balanced".
+// "balanced", "held", "sunk_to_axle", "immobilised", "not_balanced".
 std::string_view describe(RigOutcome outcome);
 
 // What a rig reports. Where the wheel does not stand nothing but slip, angle and reason is said.
 struct WheelRigResult {
   RigOutcome outcome = RigOutcome::kBalanced;
   std::string reason;  // of an outcome that is no balance
+  double slip = 0.0;   // of the test, or what a slope asks for
   double entry_angle_rad = 0.0;
   double exit_angle_rad = 0.0;  // theta_r, negative behind the lowest point
   double sinkage_m = 0.0;       // of the lowest point of the rim
@@ -80,6 +93,9 @@ struct WheelRigResult {
 
   bool stands() const { return outcome == RigOutcome::kBalanced || outcome == RigOutcome::kHeld; }
 };
+
+// The motion of a test at its own slip.
+WheelMotion motion_of(const WheelRigConditions& test);
 
 // The rates are those of the test: r w of the rim, 0 for a locked wheel.
 double rim_speed_m_s(const WheelRigConditions& test);

@@ -29,6 +29,8 @@ constexpr std::array kConditions{
               [](double v, WheelRig& rig) { rig.test.slip = v; }},
     Condition{{"slip_angle_deg", "deg", "from the wheel's plane to its travel", -90.0, 90.0, 0.0},
               [](double v, WheelRig& rig) { rig.test.slip_angle_rad = rad_from_deg(v); }},
+    Condition{{"slope_deg", "deg", "that the wheel climbs, at the slip that follows", -45.0, 45.0, 10.0},
+              [](double v, WheelRig& rig) { rig.test.slope_rad = rad_from_deg(v); }},
     Condition{{"load_n", "N", "on the wheel", 0.1, 1e5, 100.0},
               [](double v, WheelRig& rig) { rig.test.load_n = v; }},
     Condition{{"sinkage_m", "m", "held", 1e-5, 1.0, 0.01},
@@ -116,9 +118,10 @@ bool acts_on_single_wheel(std::string_view effect) {
   const Effect* row = find_effect(effect);
   if (row == nullptr || row->region != nullptr) return false;
   if (row->on_soil != nullptr) return true;
-  // A rover effect acts where a wheel or the motor comes out different.
+  // A rover effect acts where a wheel, with grousers, or the motor comes out different.
   RoverModel before;
   before.wheels.resize(1);
+  before.wheels[0].grousers = Grousers{.height_m = 0.003, .count = 7.0};
   RoverModel after = before;
   EffectSetting setting{.name = std::string(effect), .parameters = {}};
   apply_effects(std::span(&setting, 1), after);
@@ -128,7 +131,8 @@ bool acts_on_single_wheel(std::string_view effect) {
   };
   return a.radius_m != b.radius_m || a.width_m != b.width_m || a.rim_friction != b.rim_friction ||
          a.grousers.height_m != b.grousers.height_m || a.grousers.count != b.grousers.count ||
-         currents(before) != currents(after);
+         a.grousers.shear_share != b.grousers.shear_share ||
+         a.grousers.shear_by_spacing != b.grousers.shear_by_spacing || currents(before) != currents(after);
 }
 
 std::optional<Field> sweep_field(std::string_view name, const SoilFormat& format) {

@@ -13,6 +13,7 @@ namespace slipway::sim {
 namespace {
 
 std::size_t rows_of(const WheelSweep& sweep) {
+  if (sweep.paired) return sweep.axes.empty() ? 0 : sweep.axes.front().values.size();
   std::size_t rows = 1;
   for (const SweepAxis& axis : sweep.axes) rows *= axis.values.size();
   return rows;
@@ -25,7 +26,7 @@ WheelRig rig_of(const WheelSweep& sweep, std::size_t row, std::vector<double>& a
   for (std::size_t a = sweep.axes.size(); a-- > 0;) {
     const SweepAxis& axis = sweep.axes[a];
     at[a] = axis.values[row % axis.values.size()];
-    row /= axis.values.size();
+    if (!sweep.paired) row /= axis.values.size();
   }
   for (const SweepSetting& setting : sweep.set) set_sweep_parameter(setting.parameter, setting.value, rig);
   for (std::size_t a = 0; a < sweep.axes.size(); ++a)
@@ -79,7 +80,12 @@ std::optional<Fault> impossible(const WheelSweep& sweep, const WheelRigCondition
     return Fault{pointer_to(sweep, "slip_angle_deg"),
                  "slip_angle_deg = 90 deg, must be below 90 where slip is by the forward speed, which is 0 "
                  "there; slip_definition \"travel\" knows a slip at 90 deg"};
-  const double deepest = sinkage_m(test.wheel.radius_m, kMaxEntryAngleRad);
+  if (test.slope_rad && test.sinkage_m)
+    return Fault{pointer_to(sweep, "slope_deg"),
+                 "slope_deg and sinkage_m: a wheel that climbs carries its load, at no depth that is held"};
+  if (test.slope_rad && test.slip_angle_rad != 0.0)
+    return Fault{pointer_to(sweep, "slope_deg"), "slope_deg and slip_angle_deg: a wheel climbs straight on"};
+  const double deepest = sinkage_m(test.wheel.radius_m, max_entry_angle_rad(test.soil));
   if (test.sinkage_m && *test.sinkage_m > deepest)
     return Fault{
         pointer_to(sweep, "sinkage_m"),
@@ -121,11 +127,24 @@ std::vector<Fault> parameter_faults(const WheelSweep& sweep) {
 
 std::vector<Fault> faults_of(const WheelSweep& sweep) {
   std::vector<Fault> faults = parameter_faults(sweep);
-  if (sweep.axes.size() > kMaxSweepAxes)
+  const std::size_t most = sweep.paired ? kMaxPairedAxes : kMaxSweepAxes;
+  if (sweep.axes.size() > most)
     faults.push_back(
-        {"/sweep", fmt::format("sweep has {} axes, must have at most {}", sweep.axes.size(), kMaxSweepAxes)});
-  if (sweep.axes.size() == 2 && sweep.axes[0].parameter == sweep.axes[1].parameter)
-    faults.push_back({"/sweep/1/parameter", fmt::format("{} is swept twice", sweep.axes[1].parameter)});
+        {"/sweep", fmt::format("sweep has {} axes, must have at most {}", sweep.axes.size(), most)});
+  for (std::size_t a = 0; a < sweep.axes.size(); ++a) {
+    const SweepAxis& axis = sweep.axes[a];
+    for (std::size_t before = 0; before < a; ++before)
+      if (sweep.axes[before].parameter == axis.parameter)
+        faults.push_back(
+            {fmt::format("/sweep/{}/parameter", a), fmt::format("{} is swept twice", axis.parameter)});
+    if (sweep.paired && axis.values.size() != sweep.axes.front().values.size())
+      faults.push_back(
+          {fmt::format("/sweep/{}/values", a),
+           fmt::format("{} values, must be as many as the first axis has, {}: the sweep is paired",
+                       axis.values.size(), sweep.axes.front().values.size())});
+  }
+  if (sweep.paired && sweep.axes.empty()) faults.push_back({"/sweep", "sweep is paired and has no axes"});
+  if (!faults.empty()) return faults;
   if (rows_of(sweep) > kMaxSweepRows)
     faults.push_back(
         {"/sweep", fmt::format("sweep has {} rows, must have at most {}", rows_of(sweep), kMaxSweepRows)});

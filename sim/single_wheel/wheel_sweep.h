@@ -23,6 +23,7 @@ double rounded_to_twelve(double value);
 std::vector<double> stepped(double lowest, double highest, double step);
 
 constexpr std::size_t kMaxSweepAxes = 2;
+constexpr std::size_t kMaxPairedAxes = 12;
 constexpr std::size_t kMaxSweepRows = 5000;
 
 // One parameter that stands at another value throughout.
@@ -35,6 +36,8 @@ struct SweepSetting {
 struct WheelSweep {
   WheelRig rig;
   std::vector<SweepAxis> axes = {};
+  // The axes have one value for each row, all as many: row i stands at every axis' value i.
+  bool paired = false;
   std::vector<SweepSetting> set = {};  // on the rig before it is swept; a soil that no file has, say
 };
 

@@ -33,6 +33,25 @@ struct Hardpan {
   double depth_m = 0.1;
 };
 
+// Soil that a turning rim and its cleats carry out from under a wheel (effect digging, digging_law.h).
+struct Digging {
+  double rim_share = 0.0;    // depth that a fast rim digs, over the radius
+  double rim_slip = 0.65;     // slip travel at which half of it is dug
+  double cleat_share = 0.0;  // what cleats dig per slip travel, over their height
+  double cleat_limit = 4.8;  // slip travel that they never dig beyond
+  double sideways = 0.0;     // how much more is dug by a wheel that moves straight sideways
+};
+
+// Soil that a wheel pushes before its front and its wall (effect ploughing, ploughing_law.h).
+struct Ploughing {
+  double front = 0.0, wall = 0.0;  // factors of passive earth pressure
+  double heap = 0.0;               // what soil heaped up by a locked wheel adds, as a share
+  double heap_slip = 1.8;          // rim's way over the wheel's at which the heap is down to 1 / e
+  double wall_friction = 0.0;      // of soil on the wall
+  double wall_turn = 0.15;         // speed of the wall along its plane, over the rim's
+  double wall_yield = 1.1;         // sideways speed that turns the wall's friction away from its plane
+};
+
 // What the constitutive laws need of a soil.
 struct Soil {
   // Bekker's law and, where `pressure_law` chooses another, its exponent n alone.
@@ -55,6 +74,9 @@ struct Soil {
   // 0: longitudinal and lateral shear each mobilise the whole strength [ARTEMIS eq. 3, 6]; 1: their resultant
   // does [Mohr-Coulomb]; between, a blend.
   double shear_coupling = 0.0;
+  // 0: the shear stress acts against the shear displacement; 1: against the rim's sliding over the soil, by
+  // the resultant of the displacements (effect slip_directed_shear); between, a blend.
+  double slip_directed = 0.0;
 
   // Effects; all off at these values. See the catalogue of effects.
   double bulldozing = 0.0;           // share of Rankine's passive pressure on the front
@@ -63,6 +85,10 @@ struct Soil {
   double rate_shear_exponent = 0.0;  // K ~ (rim speed / rate_shear_speed_m_s)^exponent
   double rate_shear_speed_m_s = 0.04;
   double multipass_stiffening = 0.0;  // a track is 1 + this times as stiff as fresh soil
+  // What inclined load takes from the pressure: p ~ exp(-softening (1 - progress)), inclined_load_law.h.
+  double inclined_softening = 0.0;
+  Digging digging;
+  Ploughing ploughing;
   Duricrust crust;
   Hardpan hardpan;
   double gravity_exponent = 0.0;  // k_c and k_phi ~ (g / measured_gravity_m_s2)^exponent
@@ -83,6 +109,11 @@ struct Soil {
     pressure.k_c *= ratio;
     pressure.k_phi *= ratio;
     pressure_law.stiffening *= ratio;
+  }
+  // Whether any of the closures of a digging, ploughing or inclined wheel is at work.
+  bool has_closures() const {
+    return slip_directed != 0.0 || inclined_softening != 0.0 || digging.rim_share != 0.0 ||
+           digging.cleat_share != 0.0 || ploughing.front != 0.0 || ploughing.wall != 0.0;
   }
   bool has_bekker_law() const { return slip_curve == nullptr && pressure_law.row == nullptr; }
 };

@@ -54,12 +54,13 @@ struct PressureSinkageLaw {
 
 // Share of the shear strength that is mobilised, in the form that the wheel's kernel computes in packs:
 //
-//   m(x) = (end + hump exp(-x)) (1 - exp(-x)),    x = j / K
+//   m(x) = (1 - a) (end + hump exp(-x)) (1 - exp(-x)) + a x / (1 + x),    x = j / K,  a = hyperbola
 //
 // Janosi and Hanamoto's law has end = 1 and hump = 0.
 struct ShearForm {
   double end;
   double hump;
+  double hyperbola = 0.0;
 };
 
 // One row: a law for the share of the soil's shear strength that is mobilised at a displacement x of shear

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "sim/soil/hyperbolic_shear.h"
 #include "sim/soil/reece_pressure.h"
 #include "sim/soil/soil.h"
 #include "sim/soil/wong_shear.h"
@@ -10,7 +11,7 @@ namespace slipway::sim {
 namespace {
 
 constexpr std::array kPressure{&kBekkerPressure, &kReecePressure};
-constexpr std::array kShear{&kJanosiHanamotoShear, &kWongShear};
+constexpr std::array kShear{&kJanosiHanamotoShear, &kWongShear, &kHyperbolicShear};
 
 }  // namespace
 

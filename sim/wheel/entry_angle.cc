@@ -36,8 +36,8 @@ Result<Bracket> first_bearing(const WheelGeometry& wheel, const Soil& soil, doub
   constexpr std::size_t kAngles = 64;
   std::array<WheelNumbers, kAngles> numbers;
   std::array<WheelForces, kAngles> forces;
-  const auto angle = [](std::size_t k) {
-    return kMaxEntryAngleRad * static_cast<double>(k + 1) / static_cast<double>(kAngles);
+  const auto angle = [deepest = max_entry_angle_rad(soil)](std::size_t k) {
+    return deepest * static_cast<double>(k + 1) / static_cast<double>(kAngles);
   };
   for (std::size_t k = 0; k < kAngles; ++k) numbers[k] = numbers_of(wheel, soil, angle(k), motion);
   wheel_forces(numbers, forces);
@@ -60,12 +60,13 @@ Result<double> balanced_entry_angle_rad(const WheelGeometry& wheel, const Soil& 
   const auto surplus = [&](double theta) {
     return wheel_forces(wheel, soil, theta, motion).vertical_n - load_n;
   };
-  Bracket bracket;
+  Bracket bracket{.high = max_entry_angle_rad(soil)};
   double theta =
       std::clamp(entry_angle_rad(wheel.radius_m, bekker_sinkage_m(wheel, soil, load_n)), 0.02, 1.2);
   // A crust, and a braked wheel whose rim is drawn down by the soil's grip, carry most somewhere above the
   // axle.
-  if (soil.crust.strength_pa > 0.0 || surplus(bracket.high) < 0.0) {
+  // The same holds for wheels that dig or plough.
+  if (soil.crust.strength_pa > 0.0 || soil.has_closures() || surplus(bracket.high) < 0.0) {
     const Result<Bracket> found = first_bearing(wheel, soil, load_n, motion);
     if (!found) return fail(found.error());
     bracket = *found;

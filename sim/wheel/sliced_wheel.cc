@@ -30,7 +30,7 @@ SlicedWheelForces sliced_wheel_forces(const WheelGeometry& wheel, const Soil& so
     if (depth <= 0.0) continue;
     slice.theta_f = std::min(entry_angle_rad(wheel.radius_m, depth), kMaxEntryAngleRad);
     numbers[count] = slice;
-    if (s != leading) numbers[count].side_bulldozing = 0.0;
+    if (s != leading) numbers[count].side_bulldozing = numbers[count].closures.plough_wall = 0.0;
     out.slices[s].entry_angle_rad = slice.theta_f;
     out.slices[s].exit_angle_rad = -soil.exit_angle_ratio * slice.theta_f;
     of[count++] = s;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "sim/soil/grouser_law.h"
 #include "sim/wheel/wheel_kernel.h"
 
 namespace slipway::sim {
@@ -33,13 +34,52 @@ void choose_laws(const WheelGeometry& wheel, const Soil& soil, WheelNumbers& num
 
 }  // namespace
 
+namespace {
+
+ClosureValues<double> closures_of(const WheelGeometry& wheel, const Soil& soil, double shear_radius) {
+  const Digging& digging = soil.digging;
+  const Ploughing& ploughing = soil.ploughing;
+  return {.radius_ratio = wheel.radius_m / shear_radius,
+          .cleat_braking = wheel.grousers.braking,
+          .slip_directed = soil.slip_directed,
+          .softening = soil.inclined_softening,
+          .rim_dug = digging.rim_share * wheel.radius_m,
+          .rim_slip = digging.rim_slip,
+          .cleat_dug = digging.cleat_share * wheel.grousers.height_m,
+          .per_cleat_limit = 1.0 / digging.cleat_limit,
+          .dug_sideways = digging.sideways,
+          .plough_front = ploughing.front,
+          .plough_wall = ploughing.wall,
+          .heap = ploughing.heap,
+          .per_heap_slip = 1.0 / ploughing.heap_slip,
+          .wall_friction = ploughing.wall_friction,
+          .wall_turn = ploughing.wall_turn,
+          .wall_yield = ploughing.wall_yield};
+}
+
+}  // namespace
+
+double shear_radius_m(const WheelGeometry& wheel, const Soil& soil) {
+  const Grousers& cleats = wheel.grousers;
+  double share = cleats.shear_share;
+  if (cleats.shear_by_spacing > 0.0 && cleats.height_m > 0.0)
+    share += cleats.shear_by_spacing * shear_share_by_spacing(wheel.radius_m, cleats.height_m, cleats.count,
+                                                              std::tan(soil.friction_angle_rad));
+  return wheel.radius_m + std::min(1.0, share) * cleats.height_m;
+}
+
+double max_entry_angle_rad(const Soil& soil) {
+  return soil.ploughing.wall > 0.0 ? kMaxPloughingAngleRad : kMaxEntryAngleRad;
+}
+
 WheelNumbers numbers_of(const WheelGeometry& wheel, const Soil& soil, double entry_angle_rad,
                         const WheelMotion& motion) {
-  WheelNumbers numbers{{.radius = wheel.radius_m,
+  const double radius = shear_radius_m(wheel, soil);
+  WheelNumbers numbers{{.radius = radius,
                         .width = wheel.width_m,
                         .rim_friction = wheel.rim_friction,
                         .grouser_height = wheel.grousers.height_m,
-                        .grouser_count = wheel.grousers.count,
+                        .grouser_count = wheel.grousers.count * wheel.grousers.thrust,
                         .per_cleat_shear = 1.0 / (wheel.grousers.mobilisation * soil.shear_modulus_x_m),
                         .cleat_by_slip = wheel.grousers.by_slip,
                         .stiffness = soil.pressure.stiffness(wheel.width_m),
@@ -70,7 +110,9 @@ WheelNumbers numbers_of(const WheelGeometry& wheel, const Soil& soil, double ent
                         .per_depth = 1.0,
                         .pressure_numbers = {},
                         .shear_form = {1.0, 0.0},
-                        .shear_parameters = {}}};
+                        .shear_parameters = {}},
+                       closures_of(wheel, soil, radius),
+                       soil.has_closures() || radius != wheel.radius_m || wheel.grousers.braking != 1.0};
   if (soil.pressure_law.row != nullptr || soil.shear_law.row != nullptr) choose_laws(wheel, soil, numbers);
   return numbers;
 }

@@ -15,6 +15,12 @@ struct Grousers {
   // Share of that displacement that is made by slip alone, r s (theta_f - theta): 1 leaves out the way that
   // the rim's own path into the ground makes, so that cleats brake as they drive.
   double by_slip = 0.0;
+  double thrust = 1.0;   // share of the passive thrust that cleats have besides the shear at their radius
+  double braking = 1.0;  // share of that thrust that brakes where the shear brakes
+  // Where soil stands between the cleats and turns with them it is sheared at r + share h: the share as it is
+  // given, and by_spacing times what the spacing makes of it (grouser_law.h).
+  double shear_share = 0.0;
+  double shear_by_spacing = 0.0;
 };
 
 // What the laws need of a wheel.
@@ -85,6 +91,12 @@ void wheel_forces(const WheelGeometry& wheel, std::span<const Soil> soils,
 
 // The laws' own limit: beyond it a wheel counts as sunk to its axle.
 constexpr double kMaxEntryAngleRad = 1.5;
+// Of soil that a wheel may plough deeper than its axle (Soil::ploughing): 1.7 radii deep.
+constexpr double kMaxPloughingAngleRad = 2.35;
+double max_entry_angle_rad(const Soil& soil);
+
+// The radius at which the soil is sheared: between the rim and the tips of its cleats (grouser_law.h).
+double shear_radius_m(const WheelGeometry& wheel, const Soil& soil);
 
 // z = r (1 - cos theta_f)
 double sinkage_m(double radius_m, double entry_angle_rad);

@@ -13,6 +13,8 @@ void LawParts::include(const WheelNumbers& in) {
   side_bulldozing |= in.leftward != 0.0 && in.side_bulldozing != 0.0;
   crust |= in.crust_strength != 0.0;
   hardpan |= in.hardpan_modulus != 0.0;
+  closures |= in.closed;
+  undirected |= in.closures.slip_directed != 1.0;
   chosen_laws |= in.laws.pressure != nullptr || in.laws.shear != nullptr;
 }
 

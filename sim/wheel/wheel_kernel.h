@@ -21,6 +21,29 @@ struct WheelValues {
   V theta_f, forward, leftward;
 };
 
+// The numbers of the closures for wheels that dig, plough and skid: wheel_closures.h.
+template <class V>
+struct ClosureValues {
+  V radius_ratio;  // of the rim over the shearing radius, which WheelValues::radius is
+  V cleat_braking;
+  V slip_directed, softening;
+  V rim_dug, rim_slip, cleat_dug, per_cleat_limit, dug_sideways;
+  // Factors of gamma z^2 b / 2 and of gamma / 2 times the wall's integral of depth squared.
+  V plough_front, plough_wall;
+  V heap, per_heap_slip, wall_friction, wall_turn, wall_yield;
+};
+
+template <class V>
+inline constexpr std::array kClosureMembers{
+    &ClosureValues<V>::radius_ratio,  &ClosureValues<V>::cleat_braking,   &ClosureValues<V>::slip_directed,
+    &ClosureValues<V>::softening,     &ClosureValues<V>::rim_dug,         &ClosureValues<V>::rim_slip,
+    &ClosureValues<V>::cleat_dug,     &ClosureValues<V>::per_cleat_limit, &ClosureValues<V>::dug_sideways,
+    &ClosureValues<V>::plough_front,  &ClosureValues<V>::plough_wall,     &ClosureValues<V>::heap,
+    &ClosureValues<V>::per_heap_slip, &ClosureValues<V>::wall_friction,   &ClosureValues<V>::wall_turn,
+    &ClosureValues<V>::wall_yield};
+static_assert(sizeof(ClosureValues<double>) == kClosureMembers<double>.size() * sizeof(double),
+              "a number of the closures is missing in the list that spreads them");
+
 // Every one of them, so that they can be spread over packs.
 template <class V>
 inline constexpr std::array kWheelMembers{&WheelValues<V>::radius,
@@ -69,6 +92,8 @@ struct ChosenLaws {
 // Without initial values, as arrays of them are filled one by one in the solvers' loops.
 struct WheelNumbers : WheelValues<double> {
   ChosenLaws laws;
+  ClosureValues<double> closures;
+  bool closed;  // any closure is at work; otherwise they are at their neutral values
 };
 
 WheelNumbers numbers_of(const WheelGeometry& wheel, const Soil& soil, double entry_angle_rad,
@@ -80,6 +105,9 @@ struct LawParts {
        side_bulldozing = false, crust = false, hardpan = false;
   // Any wheel's soil has other laws than Bekker's and Janosi and Hanamoto's.
   bool chosen_laws = false;
+  bool closures = false;
+  // With closures: in any wheel the shear's direction is not the sliding's alone.
+  bool undirected = false;
 
   void include(const WheelNumbers& in);
 };

@@ -2,10 +2,12 @@
 
 // Compiled once for each instruction set, each in a file of its own with its own flags. Every function
 // template here carries the set in its type, so that the linker can't mix them up.
+#include <type_traits>
 #include <utility>
 
 #include "sim/wheel/arc_quadrature.h"
 #include "sim/wheel/chosen_laws.h"
+#include "sim/wheel/wheel_closures.h"
 #include "sim/wheel/wheel_kernel.h"
 #include "sim/wheel/wheel_law.h"
 
@@ -14,67 +16,126 @@ namespace {
 
 using Pack = xsimd::batch<double, SLIPWAY_KERNEL_ARCH>;
 constexpr std::size_t kLanes = Pack::size;
-constexpr std::size_t kValues = kWheelMembers<double>.size();
 
-// One wheel in every lane.
-WheelValues<Pack> in_every_lane(const WheelValues<double>& wheel) {
-  WheelValues<Pack> packed;
+template <template <class> class Values, class V>
+constexpr auto& members() {
+  if constexpr (std::is_same_v<Values<V>, WheelValues<V>>)
+    return kWheelMembers<V>;
+  else
+    return kClosureMembers<V>;
+}
+
+// The values of one wheel in every lane.
+template <template <class> class Values>
+Values<Pack> in_every_lane(const Values<double>& wheel) {
+  Values<Pack> packed;
   [&]<std::size_t... k>(std::index_sequence<k...>) {
-    ((packed.*kWheelMembers<Pack>[k] = Pack(wheel.*kWheelMembers<double>[k])), ...);
+    ((packed.*members<Values, Pack>()[k] = Pack(wheel.*members<Values, double>()[k])), ...);
+  }
+  (std::make_index_sequence<members<Values, double>().size()>{});
+  return packed;
+}
+
+const WheelValues<double>& values_in(const WheelNumbers& wheel, const WheelValues<Pack>* /*kind*/) {
+  return wheel;
+}
+const ClosureValues<double>& values_in(const WheelNumbers& wheel, const ClosureValues<Pack>* /*kind*/) {
+  return wheel.closures;
+}
+
+// The values of a wheel in each lane.
+template <template <class> class Values>
+Values<Pack> in_lanes(const std::array<const WheelNumbers*, kLanes>& wheels) {
+  constexpr std::size_t kValues = members<Values, double>().size();
+  alignas(64) double columns[kValues][kLanes];
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    const Values<double>& wheel = values_in(*wheels[lane], static_cast<const Values<Pack>*>(nullptr));
+    [&]<std::size_t... k>(std::index_sequence<k...>) {
+      ((columns[k][lane] = wheel.*members<Values, double>()[k]), ...);
+    }
+    (std::make_index_sequence<kValues>{});
+  }
+  Values<Pack> packed;
+  [&]<std::size_t... k>(std::index_sequence<k...>) {
+    ((packed.*members<Values, Pack>()[k] = Pack::load_aligned(columns[k])), ...);
   }
   (std::make_index_sequence<kValues>{});
   return packed;
 }
 
-// A wheel in each lane.
-WheelValues<Pack> in_lanes(const std::array<const WheelNumbers*, kLanes>& wheels) {
-  alignas(64) double columns[kValues][kLanes];
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    const WheelValues<double>& wheel = *wheels[lane];
-    [&]<std::size_t... k>(std::index_sequence<k...>) {
-      ((columns[k][lane] = wheel.*kWheelMembers<double>[k]), ...);
-    }
-    (std::make_index_sequence<kValues>{});
-  }
-  WheelValues<Pack> packed;
-  [&]<std::size_t... k>(std::index_sequence<k...>) {
-    ((packed.*kWheelMembers<Pack>[k] = Pack::load_aligned(columns[k])), ...);
-  }
-  (std::make_index_sequence<kValues>{});
-  return packed;
+// The sums over the lanes in every lane.
+void sum_lanes(ContactIntegrals<Pack>& sum) {
+  for (Pack* part : {&sum.tau, &sum.tau_cos, &sum.tau_sin, &sum.tau_y, &sum.sigma_cos, &sum.sigma_sin, &sum.m,
+                     &sum.m_cos, &sum.m_sin})
+    *part = Pack(hadd(*part));
 }
 
 // The nodes of one wheel's arcs in packs.
 template <class Laws>
-void one_wheel_by(const Laws& laws, const WheelNumbers& numbers, const LawParts& parts, WheelForces& out) {
-  const WheelValues<Pack> in = in_every_lane(numbers);
-  const ContactAngles<Pack> at = contact_angles(in);
+LaneForces<Pack> one_wheel_by(const Laws& laws, const WheelValues<Pack>& in, const ContactAngles<Pack>& at,
+                              const LawParts& parts) {
   ContactIntegrals<Pack> sum;
   for (std::size_t k = 0; k < kArcNodes; k += kLanes)
     add_both_arcs(laws, in, at, parts, Pack::load_aligned(&kArcQuadrature.node[k]),
                   Pack::load_aligned(&kArcQuadrature.weight[k]), sum);
-  for (Pack* part : {&sum.tau, &sum.tau_cos, &sum.tau_sin, &sum.tau_y, &sum.sigma_cos, &sum.sigma_sin, &sum.m,
-                     &sum.m_cos, &sum.m_sin})
-    *part = Pack(hadd(*part));
-  const LaneForces<Pack> f = total_forces(in, at, parts, sum);
-  out = {f.pull.get(0), f.lateral.get(0), f.vertical.get(0), f.torque.get(0)};
+  sum_lanes(sum);
+  return total_forces(in, at, parts, sum);
 }
 
 // The same node of several wheels in a pack.
 template <class Laws>
-LaneForces<Pack> lanes_by(const Laws& laws, const WheelValues<Pack>& in, const LawParts& parts) {
-  const ContactAngles<Pack> at = contact_angles(in);
+LaneForces<Pack> lanes_by(const Laws& laws, const WheelValues<Pack>& in, const ContactAngles<Pack>& at,
+                          const LawParts& parts) {
   ContactIntegrals<Pack> sum;
   for (std::size_t k = 0; k < kArcNodes; ++k)
     add_both_arcs(laws, in, at, parts, Pack(kArcQuadrature.node[k]), Pack(kArcQuadrature.weight[k]), sum);
   return total_forces(in, at, parts, sum);
 }
 
+// Computes with the closures, where any is at work, or without. `forces` takes the values and the contact.
+template <class Forces>
+LaneForces<Pack> with_closures(const WheelValues<Pack>& in, const ClosureValues<Pack>& by,
+                               const Forces& forces) {
+  const ClosedContact<Pack> closed = closed_contact(in, by);
+  ContactAngles<Pack> at = contact_angles(closed.in, closed.sin_f, closed.cos_f);
+  close_angles(by, closed, at);
+  LaneForces<Pack> f = forces(closed.in, at);
+  add_ploughing(closed, by, f);
+  return f;
+}
+
+template <class Laws>
+LaneForces<Pack> one_wheel_closed_or_not(const Laws& laws, const WheelNumbers& numbers,
+                                         const LawParts& parts) {
+  const WheelValues<Pack> in = in_every_lane<WheelValues>(numbers);
+  const auto forces = [&](const WheelValues<Pack>& met, const ContactAngles<Pack>& at) {
+    return one_wheel_by(laws, met, at, parts);
+  };
+  if (!parts.closures) return forces(in, contact_angles(in));
+  return with_closures(in, in_every_lane<ClosureValues>(numbers.closures), forces);
+}
+
+template <class Laws>
+LaneForces<Pack> lanes_closed_or_not(const Laws& laws, const std::array<const WheelNumbers*, kLanes>& wheels,
+                                     const LawParts& parts) {
+  const WheelValues<Pack> in = in_lanes<WheelValues>(wheels);
+  const auto forces = [&](const WheelValues<Pack>& met, const ContactAngles<Pack>& at) {
+    return lanes_by(laws, met, at, parts);
+  };
+  if (!parts.closures) return forces(in, contact_angles(in));
+  return with_closures(in, in_lanes<ClosureValues>(wheels), forces);
+}
+
 void one_wheel(const WheelNumbers& numbers, const LawParts& parts, WheelForces& out) {
-  if (!parts.chosen_laws) return one_wheel_by(DefaultLaws{}, numbers, parts, out);
-  std::array<const WheelNumbers*, kLanes> lanes;
-  lanes.fill(&numbers);
-  one_wheel_by(ChosenLawsInLanes<Pack, kLanes>(lanes), numbers, parts, out);
+  LaneForces<Pack> f;
+  if (parts.chosen_laws) {
+    std::array<const WheelNumbers*, kLanes> lanes;
+    lanes.fill(&numbers);
+    f = one_wheel_closed_or_not(ChosenLawsInLanes<Pack, kLanes>(lanes), numbers, parts);
+  } else {
+    f = one_wheel_closed_or_not(DefaultLaws{}, numbers, parts);
+  }
+  out = {f.pull.get(0), f.lateral.get(0), f.vertical.get(0), f.torque.get(0)};
 }
 
 void many_wheels(const WheelNumbers* wheels, const LawParts& parts, WheelForces* out, std::size_t count) {
@@ -82,9 +143,9 @@ void many_wheels(const WheelNumbers* wheels, const LawParts& parts, WheelForces*
     const std::size_t here = count - first < kLanes ? count - first : kLanes;
     std::array<const WheelNumbers*, kLanes> lanes;
     for (std::size_t lane = 0; lane < kLanes; ++lane) lanes[lane] = &wheels[first + (lane < here ? lane : 0)];
-    const WheelValues<Pack> in = in_lanes(lanes);
-    const LaneForces<Pack> f = parts.chosen_laws ? lanes_by(ChosenLawsInLanes<Pack, kLanes>(lanes), in, parts)
-                                                 : lanes_by(DefaultLaws{}, in, parts);
+    const LaneForces<Pack> f = parts.chosen_laws
+                                   ? lanes_closed_or_not(ChosenLawsInLanes<Pack, kLanes>(lanes), lanes, parts)
+                                   : lanes_closed_or_not(DefaultLaws{}, lanes, parts);
     alignas(64) double pull[kLanes], lateral[kLanes], vertical[kLanes], torque[kLanes];
     f.pull.store_aligned(pull);
     f.lateral.store_aligned(lateral);

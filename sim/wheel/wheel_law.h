@@ -38,6 +38,9 @@ struct ContactAngles {
   V theta_m, theta_r, n;
   V sin_f, cos_f;
   V tan_phi;
+  V top;  // where the contact ends in front: the entry angle, or where the rim is upright
+  // Of the closures (wheel_closures.h); read where LawParts says that any is at work.
+  V slip_directed = V(0.0), cleat_braking = V(1.0);
 };
 
 template <class V>
@@ -45,8 +48,9 @@ V slip_of(const V& speed_ratio) {
   return select(speed_ratio <= V(1.0), V(1.0) - speed_ratio, V(1.0) / max(speed_ratio, V(1.0)) - V(1.0));
 }
 
+// `sin_f` and `cos_f` are of the entry angle.
 template <class V>
-ContactAngles<V> contact_angles(const WheelValues<V>& in) {
+ContactAngles<V> contact_angles(const WheelValues<V>& in, const V& sin_f, const V& cos_f) {
   const V slip = min(V(1.0), abs(slip_of(in.forward)));
   const V share = max(-in.exit_ratio, min(V(0.99), in.c1 + in.c2 * slip));
   // How the wheel digs itself in: by its slip over the ground in whatever direction it moves, more in skid
@@ -55,7 +59,12 @@ ContactAngles<V> contact_angles(const WheelValues<V>& in) {
   const V sliding = slip_of(sqrt(square));
   const V sin2_beta = in.leftward * in.leftward / (square + V(1e-12));
   const V n = in.n + in.n1 * abs(sliding) + in.n1_skid * max(V(0.0), -sliding) + in.n1_lateral * sin2_beta;
-  return {share * in.theta_f, -in.exit_ratio * in.theta_f, n, sin(in.theta_f), cos(in.theta_f), tan(in.phi)};
+  return {share * in.theta_f, -in.exit_ratio * in.theta_f, n, sin_f, cos_f, tan(in.phi), in.theta_f};
+}
+
+template <class V>
+ContactAngles<V> contact_angles(const WheelValues<V>& in) {
+  return contact_angles(in, V(sin(in.theta_f)), V(cos(in.theta_f)));
 }
 
 // Integrals over the contact, per b r: of the shear and normal stress and of the mobilised share m.
@@ -80,6 +89,24 @@ void couple(const Laws& laws, const WheelValues<V>& in, const V& j_x, const V& j
   const V per_j = laws.mobilised(j) / j;
   m_x += in.coupling * (per_j * a - m_x);
   m_y += in.coupling * (per_j * b - m_y);
+}
+
+// Where it is at work (Soil::slip_directed), turns the stress against the sliding of the rim over the soil:
+// its size is that of the displacements' resultant, its direction that of the sliding velocity
+//
+//   v_x = r w (1 - u cos(theta)),   v_y
+//
+// as plastic flow has it [Schwanghart 1968 for wheels that slip and slide sideways]. Soil takes some way to
+// turn its stress: within kTurning of the rim's speed the sliding is too slow to direct it.
+template <class Laws, class V>
+void direct_by_slip(const Laws& laws, const WheelValues<V>& in, const ContactAngles<V>& at, const V& j_x,
+                    const V& to_entry, const V& cosine, V& m_x, V& m_y) {
+  constexpr double kTurning = 0.1;
+  const V a = j_x * in.per_shear_x, b = in.radius * in.leftward * to_entry * in.per_shear_y;
+  const V v_x = V(1.0) - in.forward * cosine, v_y = in.leftward;
+  const V m = laws.mobilised(sqrt(a * a + b * b)) / sqrt(v_x * v_x + v_y * v_y + V(kTurning * kTurning));
+  m_x += at.slip_directed * (m * v_x - m_x);
+  m_y += at.slip_directed * (m * v_y - m_y);
 }
 
 // sin and cos for |theta| <= pi/2, where a wheel's angles lie: the Taylor series of sin(theta / 2), error
@@ -110,16 +137,19 @@ void add_nodes(const Laws& laws, const WheelValues<V>& in, const ContactAngles<V
   const V to_entry = in.theta_f - theta;
   const V j_x = in.radius * (to_entry - in.forward * (at.sin_f - sine));
   V m_x = V(0.0), m_y = V(0.0);
-  if (parts.lateral) {
-    const V j_y = in.radius * in.leftward * to_entry;
-    if (parts.independent) {
+  if (!parts.closures || parts.undirected) {
+    if (parts.lateral) {
+      const V j_y = in.radius * in.leftward * to_entry;
+      if (parts.independent) {
+        m_x = mobilised(laws, j_x, in.per_shear_x);
+        m_y = mobilised(laws, j_y, in.per_shear_y);
+      }
+      if (parts.coupled) couple(laws, in, j_x, j_y, m_x, m_y);
+    } else {
       m_x = mobilised(laws, j_x, in.per_shear_x);
-      m_y = mobilised(laws, j_y, in.per_shear_y);
     }
-    if (parts.coupled) couple(laws, in, j_x, j_y, m_x, m_y);
-  } else {
-    m_x = mobilised(laws, j_x, in.per_shear_x);
   }
+  if (parts.closures) direct_by_slip(laws, in, at, j_x, to_entry, cosine, m_x, m_y);
   const V strength = weight * in.rim_friction * (in.cohesion + sigma * at.tan_phi);
   const V tau = strength * m_x;
   sum.tau += tau;
@@ -131,8 +161,9 @@ void add_nodes(const Laws& laws, const WheelValues<V>& in, const ContactAngles<V
   if (parts.grousers) {
     const V j_slip = in.radius * to_entry * (V(1.0) - in.forward);
     const V j_cleat = j_x + in.cleat_by_slip * (j_slip - j_x);
-    const V m = weight * select(in.per_cleat_shear == in.per_shear_x && in.cleat_by_slip == V(0.0), m_x,
-                                mobilised(laws, j_cleat, in.per_cleat_shear));
+    V m = weight * select(in.per_cleat_shear == in.per_shear_x && in.cleat_by_slip == V(0.0), m_x,
+                          mobilised(laws, j_cleat, in.per_cleat_shear));
+    if (parts.closures) m = select(m < V(0.0), at.cleat_braking * m, m);
     sum.m += m;
     sum.m_cos += m * cosine;
     sum.m_sin += m * sine;
@@ -154,8 +185,8 @@ V pressure_under_rim(const Laws& laws, const WheelValues<V>& in, const ContactAn
 template <class Laws, class V>
 void add_both_arcs(const Laws& laws, const WheelValues<V>& in, const ContactAngles<V>& at,
                    const LawParts& parts, const V& t, const V& weight, ContactIntegrals<V>& sum) {
-  const V front_length = in.theta_f - at.theta_m, rear_length = at.theta_m - at.theta_r;
-  const V front = in.theta_f - t * front_length;
+  const V front_length = at.top - at.theta_m, rear_length = at.theta_m - at.theta_r;
+  const V front = at.top - t * front_length;
   V sine, cosine;
   rim_sincos(front, sine, cosine);
   const V sigma = pressure_under_rim(laws, in, at, parts, in.radius * (cosine - at.cos_f));

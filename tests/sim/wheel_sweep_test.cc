@@ -185,6 +185,61 @@ TEST(WheelRigConditions, TheHeldSpeedSetsTheRimSpeed) {
   EXPECT_DOUBLE_EQ(rim_speed_m_s(test), 0.02);
 }
 
+// A wheel under the weight W on a slope alpha carries W cos(alpha) and pulls W sin(alpha), at the smallest
+// slip that does.
+TEST(WheelRigConditions, OnASlopeTheSlipIsWhereThePullIsTheWeightsPartAlongIt) {
+  WheelRigConditions test = test_on(sandy_loam());
+  double last = -1.0;
+  for (const double slope_deg : {-10.0, 0.0, 8.0, 14.0}) {
+    test.slope_rad = rad_from_deg(slope_deg);
+    const WheelRigResult result = run_wheel_rig(test);
+    ASSERT_EQ(result.outcome, RigOutcome::kBalanced) << slope_deg;
+    EXPECT_NEAR(result.forces.drawbar_pull_n, test.load_n * std::sin(*test.slope_rad), 1e-6 * test.load_n);
+    EXPECT_NEAR(result.forces.vertical_n, test.load_n * std::cos(*test.slope_rad), 1e-5 * test.load_n);
+    EXPECT_GT(result.slip, last);
+    last = result.slip;
+  }
+  test.slope_rad = rad_from_deg(45.0);
+  const WheelRigResult stuck = run_wheel_rig(test);
+  EXPECT_EQ(stuck.outcome, RigOutcome::kImmobilised);
+  EXPECT_FALSE(stuck.stands());
+  EXPECT_NE(stuck.reason.find("at most"), std::string::npos);
+}
+
+TEST(WheelRigConditions, SlipByTheTipsIsLessTravelPerTurnOfTheRim) {
+  WheelRigConditions test = test_on(sandy_loam());
+  test.wheel.grousers = {.height_m = 0.01, .count = 24.0, .shear_share = 0.5};
+  test.slip = 0.2;
+  EXPECT_NEAR(motion_of(test).forward, 0.8, 1e-12);
+  test.slip_radius = SlipRadius::kTip;
+  EXPECT_NEAR(motion_of(test).forward, 0.8 * 0.135 / 0.125, 1e-12);
+  test.slip_radius = SlipRadius::kShear;
+  EXPECT_NEAR(motion_of(test).forward, 0.8 * 0.130 / 0.125, 1e-12);
+}
+
+TEST(WheelSweep, PairedRowsStandAtTheirOwnConditions) {
+  WheelSweep sweep = sweep_of(
+      {{"slip", {0.1, 0.4, 0.2}}, {"slip_angle_deg", {0.0, 10.0, 20.0}}, {"load_n", {80.0, 100.0, 120.0}}});
+  EXPECT_FALSE(faults_of(sweep).empty());  // three axes are too many where every combination is made
+  sweep.paired = true;
+  ASSERT_TRUE(faults_of(sweep).empty());
+  const std::vector<SweepRow> rows = run_wheel_sweep(sweep);
+  ASSERT_EQ(rows.size(), 3U);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    EXPECT_EQ(rows[k].point.test.slip, sweep.axes[0].values[k]);
+    EXPECT_EQ(rows[k].point.test.load_n, sweep.axes[2].values[k]);
+    WheelSweep one = sweep_of({{"slip", {sweep.axes[0].values[k]}}});
+    for (const std::size_t axis : {1U, 2U})
+      one.set.push_back({sweep.axes[axis].parameter, sweep.axes[axis].values[k]});
+    EXPECT_EQ(run_wheel_sweep(one).front().result.forces.drawbar_pull_n,
+              rows[k].result.forces.drawbar_pull_n);
+  }
+  sweep.axes[1].values.pop_back();
+  const std::vector<Fault> faults = faults_of(sweep);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].pointer, "/sweep/1/values");
+}
+
 TEST(Stepped, ReachesBothEndsWithoutRoundingErrors) {
   EXPECT_EQ(stepped(-0.2, 0.3, 0.1), (std::vector<double>{-0.2, -0.1, 0.0, 0.1, 0.2, 0.3}));
   EXPECT_EQ(stepped(0.7, 1.4, 0.1).size(), 8U);
@@ -278,7 +333,8 @@ TEST(WheelSweep, AnyCombinationGivesFiniteNumbersOrAReason) {
       continue;
     }
     ++stood;
-    EXPECT_NEAR(r.forces.vertical_n, test.load_n, 1e-6 * test.load_n);
+    const double load = test.load_n * std::cos(test.slope_rad.value_or(0.0));
+    EXPECT_NEAR(r.forces.vertical_n, load, 1e-6 * load);
     for (const double value : {r.forces.drawbar_pull_n, r.forces.lateral_n, r.forces.torque_nm, r.thrust_n,
                                r.compaction_resistance_n, r.bulldozing_resistance_n, r.sinkage_m,
                                r.current_a.value_or(0.0), r.tractive_efficiency.value_or(0.0)})

@@ -12,9 +12,11 @@ namespace slipway::validation {
 // unreadable_data, where a file is missing or is not as expected.
 Result<Report> ding_2011(const std::filesystem::path& data);
 Result<Report> ding_2011_fitted(const std::filesystem::path& data);
+Result<Report> ding_2011_closures(const std::filesystem::path& data);
 Result<Report> virtual_bevameter(const std::filesystem::path& data);
 Result<Report> plate_tests(const std::filesystem::path& data);
 Result<Report> pavlov_tests(const std::filesystem::path& data);
 Result<Report> pavlov_wheel(const std::filesystem::path& data);
+Result<Report> grousered_wheel(const std::filesystem::path& data);
 
 }  // namespace slipway::validation

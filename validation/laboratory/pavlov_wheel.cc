@@ -6,34 +6,16 @@
 #include "api/chart/chart.h"
 #include "core/angle.h"
 #include "gap/estimate/least_squares.h"
-#include "sim/wheel/entry_angle.h"
 #include "validation/laboratory/comparisons.h"
 #include "validation/laboratory/fit_words.h"
 #include "validation/laboratory/laboratory_soil.h"
+#include "validation/laboratory/pavlov_rig.h"
 #include "validation/laboratory/sandbox_plates.h"
 #include "validation/laboratory/wheel_tests.h"
 #include "validation/report/statistics.h"
 
 namespace slipway::validation {
 namespace {
-
-struct Reading {
-  double pull_n = 0.0, side_n = 0.0, sinkage_m = 0.0;
-  bool sunk = false;  // to the axle; the forces are then those at the law's maximum entry angle
-};
-
-// The readings of a wheel that moves at the rig's speed along the travel direction while its rim turns at its
-// own speed. The side force is positive against the side motion, as on the rig. A locked rim is modelled as
-// turning at a thousandth of the travel speed.
-Reading read_rig(const sim::Soil& sand, const WheelCondition& c) {
-  const double rim = std::max(c.mean(&WheelTest::rim_speed_m_s), 1e-3 * kPavlovTravel_m_s);
-  const sim::WheelMotion motion{kPavlovTravel_m_s * std::cos(c.slip_angle_rad) / rim,
-                                kPavlovTravel_m_s * std::sin(c.slip_angle_rad) / rim};
-  const auto balanced = sim::balanced_entry_angle_rad(kPavlovWheel, sand, c.mean(&WheelTest::load_n), motion);
-  const double theta = balanced ? *balanced : sim::kMaxEntryAngleRad;
-  const sim::WheelForces f = sim::wheel_forces(kPavlovWheel, sand, theta, motion);
-  return {f.drawbar_pull_n, -f.lateral_n, sim::sinkage_m(kPavlovWheel.radius_m, theta), !balanced};
-}
 
 // The nine numbers that are fitted on the wheel tests. The moduli come from the plate tests; c = 1.0 kPa, phi
 // = 29 deg and the density are upstream's; the shear resultant stays within the strength (coupling 1).
@@ -89,7 +71,7 @@ Result<gap::LeastSquaresFit> fit(const std::vector<WheelCondition>& conditions,
     const sim::Soil sand = sand_of(moduli, x);
     for (std::size_t k = 0; k < used.size(); ++k) {
       const WheelCondition& c = *used[k];
-      const Reading predicted = read_rig(sand, c);
+      const PavlovReading predicted = read_pavlov_rig(kPavlovWheel, sand, c);
       const double unit = 0.15 * c.mean(&WheelTest::load_n);
       r[3 * k] = (predicted.pull_n - c.mean(&WheelTest::drawbar_pull_n)) / unit;
       r[3 * k + 1] = (predicted.side_n - c.mean(&WheelTest::side_force_n)) / unit;
@@ -104,35 +86,8 @@ Result<gap::LeastSquaresFit> fit(const std::vector<WheelCondition>& conditions,
       progress);
 }
 
-struct Errors {
-  std::vector<double> pull, side, sinkage_mm;  // forces over the load
-
-  void add(const Reading& predicted, const WheelCondition& c) {
-    const double load = c.mean(&WheelTest::load_n);
-    pull.push_back((predicted.pull_n - c.mean(&WheelTest::drawbar_pull_n)) / load);
-    side.push_back((predicted.side_n - c.mean(&WheelTest::side_force_n)) / load);
-    sinkage_mm.push_back(1e3 * (predicted.sinkage_m - c.mean(&WheelTest::sinkage_m)));
-  }
-  static double rms(const std::vector<double>& values) {
-    double sum = 0.0;
-    for (const double v : values) sum += v * v;
-    return values.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(values.size()));
-  }
-  std::string words() const {
-    std::vector<double> all = pull;
-    all.insert(all.end(), side.begin(), side.end());
-    const auto close = std::count_if(all.begin(), all.end(), [](double e) { return std::abs(e) <= 0.15; });
-    return fmt::format(
-        "pull rms {:.1f} %, median {:.1f} %; side force rms {:.1f} %, median {:.1f} % of the load; {:.0f} % "
-        "of both "
-        "within 15 %; sinkage rms {:.1f} mm ({} conditions)",
-        100.0 * rms(pull), 100.0 * median_abs(pull), 100.0 * rms(side), 100.0 * median_abs(side),
-        100.0 * static_cast<double>(close) / static_cast<double>(all.size()), rms(sinkage_mm), pull.size());
-  }
-};
-
 api::Chart panel(const char* title, const std::vector<WheelCondition>& conditions, const sim::Soil& sand,
-                 double WheelTest::*measured, double Reading::*predicted, double scale) {
+                 double WheelTest::*measured, double PavlovReading::*predicted, double scale) {
   api::Chart chart;
   chart.title = title;
   chart.x.title = "slip";
@@ -146,7 +101,7 @@ api::Chart panel(const char* title, const std::vector<WheelCondition>& condition
       if (std::lround(deg_from_rad(c.slip_angle_rad)) != angle) continue;
       for (api::ChartSeries* series : {&points, &line}) series->x.push_back(c.mean(&WheelTest::slip_ratio));
       points.y.push_back(scale * c.mean(measured));
-      line.y.push_back(scale * (read_rig(sand, c).*predicted));
+      line.y.push_back(scale * (read_pavlov_rig(kPavlovWheel, sand, c).*predicted));
     }
     chart.series.push_back(points);
     chart.series.push_back(line);
@@ -155,7 +110,7 @@ api::Chart panel(const char* title, const std::vector<WheelCondition>& condition
   return chart;
 }
 
-void add_row(const WheelCondition& c, const Reading& predicted, Report& report) {
+void add_row(const WheelCondition& c, const PavlovReading& predicted, Report& report) {
   const auto pair = [](double measured, double value) {
     return fmt::format("{:.1f} / {:.1f}", measured, value);
   };
@@ -207,9 +162,9 @@ Result<Report> pavlov_wheel(const std::filesystem::path& data) {
                     "side force N, measured / predicted",
                     "error / load",
                     "sinkage mm, measured / predicted"};
-  Errors seen, held_out, beyond;
+  PavlovErrors seen, held_out, beyond;
   for (const WheelCondition& c : *conditions) {
-    const Reading predicted = read_rig(sand, c);
+    const PavlovReading predicted = read_pavlov_rig(kPavlovWheel, sand, c);
     add_row(c, predicted, report);
     (!within_the_law(c) ? beyond : c.half == Half::kFit ? seen : held_out).add(predicted, c);
   }
@@ -226,12 +181,12 @@ Result<Report> pavlov_wheel(const std::filesystem::path& data) {
                   "forms were found on these tests: both halves were seen while the form was "
                   "chosen, and the numbers are fitted on one half."};
   report.bands = {
-      {"held-out pull, rms over the load, %", 100.0 * Errors::rms(held_out.pull), 0.0, 15.0},
-      {"held-out side force, rms over the load, %", 100.0 * Errors::rms(held_out.side), 0.0, 15.0}};
+      {"held-out pull, rms over the load, %", 100.0 * PavlovErrors::rms(held_out.pull), 0.0, 15.0},
+      {"held-out side force, rms over the load, %", 100.0 * PavlovErrors::rms(held_out.side), 0.0, 15.0}};
   const api::Chart panels[] = {
-      panel("drawbar pull, N", *conditions, sand, &WheelTest::drawbar_pull_n, &Reading::pull_n, 1.0),
-      panel("side force, N", *conditions, sand, &WheelTest::side_force_n, &Reading::side_n, 1.0),
-      panel("sinkage, mm", *conditions, sand, &WheelTest::sinkage_m, &Reading::sinkage_m, 1e3)};
+      panel("drawbar pull, N", *conditions, sand, &WheelTest::drawbar_pull_n, &PavlovReading::pull_n, 1.0),
+      panel("side force, N", *conditions, sand, &WheelTest::side_force_n, &PavlovReading::side_n, 1.0),
+      panel("sinkage, mm", *conditions, sand, &WheelTest::sinkage_m, &PavlovReading::sinkage_m, 1e3)};
   report.plot = api::draw_charts(report.title, panels);
   return report;
 }

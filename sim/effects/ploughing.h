@@ -1,0 +1,9 @@
+#pragma once
+
+#include "sim/effects/effect.h"
+
+namespace slipway::sim {
+
+extern const Effect kPloughing;
+
+}  // namespace slipway::sim

@@ -1,0 +1,277 @@
+#include "sim/wheel/wheel_closures.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "sim/effects/effect_catalogue.h"
+#include "sim/soil/grouser_law.h"
+#include "sim/soil/hyperbolic_shear.h"
+#include "sim/wheel/entry_angle.h"
+#include "sim/wheel/slip_ratio.h"
+#include "sim/wheel/wheel_kernel.h"
+#include "tests/sim/reference_models.h"
+
+namespace slipway::sim {
+namespace {
+
+constexpr WheelGeometry kWheel{.radius_m = 0.058, .width_m = 0.05};
+
+// Sand near that of the sandbox of [Pavlov & Johnson 2022].
+Soil closed_sand() {
+  Soil sand;
+  sand.pressure = {0.0, 3e6, 1.338};
+  sand.cohesion_pa = 10.0;
+  sand.friction_angle_rad = 0.506;
+  sand.shear_modulus_x_m = 0.0175;
+  sand.shear_modulus_y_m = 0.0064;
+  sand.density_kg_m3 = 1330.0;
+  sand.gravity_m_s2 = 9.81;
+  sand.c1 = sand.c2 = 0.0;
+  sand.exit_angle_ratio = 0.43;
+  sand.shear_law.row = &kHyperbolicShear;
+  sand.slip_directed = 1.0;
+  sand.inclined_softening = 2.1;
+  sand.digging = {
+      .rim_share = 0.17, .rim_slip = 0.6, .cleat_share = 0.5, .cleat_limit = 5.0, .sideways = 1.5};
+  sand.ploughing = {.front = 8.0,
+                    .wall = 12.0,
+                    .heap = 1.7,
+                    .heap_slip = 1.8,
+                    .wall_friction = 0.4,
+                    .wall_turn = 0.11,
+                    .wall_yield = 0.84};
+  return sand;
+}
+
+WheelGeometry cleated() {
+  WheelGeometry wheel = kWheel;
+  wheel.grousers = {.height_m = 0.005, .count = 24.0, .thrust = 0.0, .braking = 0.0, .shear_by_spacing = 1.0};
+  return wheel;
+}
+
+WheelForces balanced(const WheelGeometry& wheel, const Soil& sand, double load_n, const WheelMotion& motion,
+                     double* depth_m = nullptr) {
+  const auto theta = balanced_entry_angle_rad(wheel, sand, load_n, motion);
+  EXPECT_TRUE(theta.has_value());
+  if (depth_m != nullptr) *depth_m = sinkage_m(wheel.radius_m, *theta);
+  return wheel_forces(wheel, sand, *theta, motion);
+}
+
+TEST(WheelClosures, EveryKernelAndEveryLaneHasTheSameForces) {
+  const WheelKernel* kernels[3] = {};
+  const int count = wheel_kernels(kernels, 3);
+  std::vector<WheelNumbers> wheels;
+  for (const double theta : {0.3, 0.9, 1.4, 1.9, 2.3})
+    for (const double u : {0.1, 0.8, 1.6, 20.0})
+      for (const double across : {0.0, -0.3, 1.2})
+        wheels.push_back(numbers_of(cleated(), closed_sand(), theta, {u, across}));
+  wheels.push_back(numbers_of(kWheel, sandy_loam(), 0.6, {0.7, 0.1}));  // one without closures in a pack
+  LawParts parts;
+  for (const WheelNumbers& wheel : wheels) parts.include(wheel);
+  std::vector<WheelForces> first(wheels.size()), many(wheels.size());
+  for (std::size_t k = 0; k < wheels.size(); ++k) kernels[0]->one(wheels[k], parts, first[k]);
+  for (int i = 0; i < count; ++i) {
+    kernels[i]->many(wheels.data(), parts, many.data(), wheels.size());
+    for (std::size_t k = 0; k < wheels.size(); ++k) {
+      const double unit = 1e-10 * (std::abs(first[k].vertical_n) + std::abs(first[k].lateral_n) + 1.0);
+      EXPECT_NEAR(first[k].drawbar_pull_n, many[k].drawbar_pull_n, unit) << kernels[i]->instruction_set << k;
+      EXPECT_NEAR(first[k].lateral_n, many[k].lateral_n, unit) << kernels[i]->instruction_set << k;
+      EXPECT_NEAR(first[k].vertical_n, many[k].vertical_n, unit) << kernels[i]->instruction_set << k;
+      EXPECT_NEAR(first[k].torque_nm, many[k].torque_nm, unit) << kernels[i]->instruction_set << k;
+    }
+  }
+}
+
+// In a pack with wheels that have closures, one without has the forces that it has alone.
+TEST(WheelClosures, AtTheirNeutralValuesTheForcesAreThoseWithout) {
+  const WheelNumbers numbers = numbers_of({0.125, 0.16, {0.01, 24.0}, 0.9}, sandy_loam(), 0.6, {0.7, 0.1});
+  LawParts without, with;
+  without.include(numbers);
+  ASSERT_FALSE(without.closures);
+  with = without;
+  with.closures = true;
+  WheelForces a, b;
+  wheel_kernel().one(numbers, without, a);
+  wheel_kernel().one(numbers, with, b);
+  EXPECT_NEAR(a.drawbar_pull_n, b.drawbar_pull_n, 1e-10 * a.vertical_n);
+  EXPECT_NEAR(a.lateral_n, b.lateral_n, 1e-10 * a.vertical_n);
+  EXPECT_NEAR(a.vertical_n, b.vertical_n, 1e-10 * a.vertical_n);
+  EXPECT_NEAR(a.torque_nm, b.torque_nm, 1e-10 * a.vertical_n);
+}
+
+TEST(ShearRadius, RisesWithHeightAndCountFromTheRimToTheTips) {
+  const double tan_phi = std::tan(0.506);
+  EXPECT_EQ(shear_share_by_spacing(0.058, 0.005, 0.0, tan_phi), 0.0);
+  double last = 0.0;
+  for (const double count : {6.0, 12.0, 24.0, 40.0}) {
+    const double share = shear_share_by_spacing(0.058, 0.005, count, tan_phi);
+    EXPECT_GT(share, last);
+    last = share;
+  }
+  EXPECT_EQ(shear_share_by_spacing(0.058, 0.005, 400.0, tan_phi), 1.0);
+  EXPECT_NEAR(shear_share_by_spacing(0.15735, 0.01, 30.0, std::tan(0.5568)), 0.51, 0.01);  // Ding's wheel
+}
+
+// By its rim, a cleated wheel that is sheared at the tips slips more where it pulls as much.
+TEST(ShearRadius, AWheelOfTheShearingRadiusHasTheSameForcesAtTheSameSlipByItsOwnRim) {
+  Soil sand = closed_sand();
+  sand.digging = {};
+  WheelGeometry wheel = kWheel, larger = kWheel;
+  wheel.grousers = {.height_m = 0.005, .count = 24.0, .thrust = 0.0, .braking = 0.0, .shear_share = 1.0};
+  larger.radius_m = 0.063;
+  const double u = 0.9;  // of the tips' speed
+  double depth = 0.0, larger_depth = 0.0;
+  const WheelForces a = balanced(wheel, sand, 20.0, {u * 0.063 / 0.058, 0.0}, &depth);
+  const WheelForces b = balanced(larger, sand, 20.0, {u, 0.0}, &larger_depth);
+  EXPECT_NEAR(a.drawbar_pull_n, b.drawbar_pull_n, 1e-6);
+  EXPECT_NEAR(a.torque_nm, b.torque_nm, 1e-6);
+  EXPECT_NEAR(depth, larger_depth, 1e-8);
+}
+
+TEST(Cleats, TheirThrustNeedNotBrakeInSkid) {
+  WheelGeometry cleats{0.125, 0.16, {0.01, 24.0}};
+  const WheelMotion skid{speed_ratio_from_slip(-0.5), 0.0}, slip{0.6, 0.0};
+  const double theta = 0.6;
+  const auto pull = [&](const WheelMotion& motion, double braking) {
+    cleats.grousers.braking = braking;
+    return wheel_forces(cleats, sandy_loam(), theta, motion).drawbar_pull_n;
+  };
+  EXPECT_LT(pull(skid, 1.0), pull(skid, 0.0));
+  EXPECT_NEAR(pull(slip, 1.0), pull(slip, 0.0), 1e-9);
+}
+
+TEST(DugDepth, IsNothingWithoutSlipRisesWithSlipAndCleatsAndIsBounded) {
+  const auto depth = [](double u, double cleat_dug) {
+    return dug_depth_m(0.01, 0.6, cleat_dug, 0.2, 0.0, u, u);
+  };
+  EXPECT_EQ(depth(1.0, 0.003), 0.0);
+  EXPECT_EQ(depth(3.0, 0.003), 0.0);
+  double last = 0.0;
+  for (const double slip : {0.1, 0.3, 0.6, 0.9, 0.99, 1.0}) {
+    EXPECT_GT(depth(1.0 - slip, 0.003), last);
+    last = depth(1.0 - slip, 0.003);
+    EXPECT_GT(last, depth(1.0 - slip, 0.001));
+  }
+  EXPECT_LE(last, 0.01 + 0.003 * 5.0 + 1e-9);
+  EXPECT_NEAR(depth(0.5, 0.003) - depth(0.5, 0.0), 0.003 / 1.2, 1e-9);  // h i / (1 - i), with its limit
+}
+
+TEST(Digging, LowersTheWheelAndNeverRaisesItsPull) {
+  Soil flat = closed_sand();
+  flat.digging = {};
+  for (const double slip : {0.1, 0.3, 0.6, 0.9}) {
+    const WheelMotion motion{1.0 - slip, 0.0};
+    double dug = 0.0, undug = 0.0;
+    const WheelForces deep = balanced(cleated(), closed_sand(), 20.0, motion, &dug);
+    const WheelForces shallow = balanced(cleated(), flat, 20.0, motion, &undug);
+    EXPECT_GT(dug, undug + 0.001) << slip;
+    EXPECT_LE(deep.drawbar_pull_n, shallow.drawbar_pull_n + 1e-6) << slip;
+  }
+}
+
+TEST(InclinedLoad, TakesNothingFromAWheelThatDrivesAndMostFromALockedOne) {
+  EXPECT_EQ(inclined_load_share(2.0, 1.0, 1.0), 1.0);
+  EXPECT_EQ(inclined_load_share(2.0, 0.2, 0.2), 1.0);
+  EXPECT_NEAR(inclined_load_share(2.0, 2.0, 2.0), std::exp(-1.0), 1e-12);  // skid 0.5
+  EXPECT_NEAR(inclined_load_share(2.0, 1e9, 1e9), std::exp(-2.0), 1e-6);
+  EXPECT_NEAR(inclined_load_share(2.0, 0.0, 0.5), std::exp(-2.0), 1e-12);  // straight sideways
+  EXPECT_EQ(inclined_load_share(0.0, 5.0, 7.0), 1.0);
+}
+
+TEST(SlipDirectedShear, KeepsTheResultantWithinTheStrengthAndPointsAgainstTheSliding) {
+  Soil sand = closed_sand();
+  sand.digging = {};
+  sand.ploughing = {};
+  sand.inclined_softening = 0.0;
+  sand.cohesion_pa = 0.0;
+  sand.shear_modulus_x_m = sand.shear_modulus_y_m = 1e-5;  // fully mobilised everywhere
+  // A wheel so large that its contact is nearly flat: it slides back at 0.6 and to the left at 0.8.
+  const WheelForces f = wheel_forces({20.0, 0.16}, sand, 0.004, {0.4, 0.8});
+  const double shear = std::hypot(f.torque_nm / 20.0, f.lateral_n);
+  EXPECT_LT(shear, f.vertical_n * std::tan(sand.friction_angle_rad) * 1.02);
+  EXPECT_NEAR(-f.lateral_n / (f.torque_nm / 20.0), 0.8 / 0.6, 0.02);
+}
+
+TEST(WallDepthSquare, IsTheIntegralOverTheBuriedWallAlsoBelowTheAxle) {
+  for (const double theta : {0.4, 1.2, 1.5707963, 1.9, 2.4}) {
+    const double r = 0.058, h = r * std::cos(theta);
+    double sum = 0.0;  // twice the moment of the buried wall's depth, row by row
+    constexpr int kRows = 20000;
+    for (int i = 0; i < kRows; ++i) {
+      const double y = -r + (r - h) * (i + 0.5) / kRows;  // from the axle, up; the surface is at -h
+      sum += 2.0 * (-h - y) * 2.0 * std::sqrt(r * r - y * y) * (r - h) / kRows;
+    }
+    EXPECT_NEAR(wall_depth_square_m3(r, theta, std::sin(theta), std::cos(theta)), sum, 1e-5 * sum) << theta;
+  }
+}
+
+TEST(Ploughing, AWheelMovedSidewaysStandsDeeperThanItsAxleAndIsHeldAtTwiceItsLoad) {
+  const Soil sand = closed_sand();
+  const WheelMotion sideways{0.0, 0.1};  // the rim at ten times the travel's speed
+  double depth = 0.0;
+  const WheelForces f = balanced(cleated(), sand, 15.0, sideways, &depth);
+  EXPECT_GT(depth, cleated().radius_m);
+  EXPECT_GT(-f.lateral_n, 2.0 * 15.0);
+  EXPECT_NEAR(f.vertical_n, 15.0, 1e-6);
+  const WheelForces mirrored = balanced(cleated(), sand, 15.0, {0.0, -0.1});
+  EXPECT_NEAR(mirrored.lateral_n, -f.lateral_n, 1e-9);
+  EXPECT_NEAR(mirrored.drawbar_pull_n, f.drawbar_pull_n, 1e-9);
+  EXPECT_EQ(max_entry_angle_rad(sandy_loam()), kMaxEntryAngleRad);
+}
+
+TEST(Ploughing, ALockedWheelPushesItsHeapAndATurningOneCarriesItAway) {
+  double last = 1e9;
+  for (const double speed : {1000.0, 2.0, 1.0, 0.5, 0.1}) {
+    const double heap = heap_factor(1.7, 1.0 / 1.8, speed);
+    EXPECT_LT(heap, last);
+    last = heap;
+  }
+  EXPECT_NEAR(heap_factor(1.7, 1.0 / 1.8, 1e9), 2.7, 1e-6);
+  EXPECT_NEAR(heap_factor(1.7, 1.0 / 1.8, 1e-4), 1.0, 1e-6);
+}
+
+TEST(HyperbolicShear, HasHalfOfTheStrengthAtItsModulusAndNineTenthsAtNine) {
+  EXPECT_EQ(hyperbolic_mobilised(0.0), 0.0);
+  EXPECT_EQ(hyperbolic_mobilised(1.0), 0.5);
+  EXPECT_EQ(hyperbolic_mobilised(9.0), 0.9);
+}
+
+// Much of the pull is there at slip 0.1, and it still rises at slip 0.5, where an exponential's has ended.
+TEST(HyperbolicShear, IsThereEarlierAndEndsLaterThanAnExponential) {
+  Soil exponential = sandy_loam(), hyperbola = sandy_loam();
+  exponential.shear_modulus_x_m = 0.004;
+  hyperbola.shear_modulus_x_m = 0.002;
+  hyperbola.shear_law.row = &kHyperbolicShear;
+  const auto torque = [](const Soil& soil, double slip) {
+    return wheel_forces({0.125, 0.16}, soil, 0.5, {1.0 - slip, 0.0}).torque_nm;
+  };
+  EXPECT_GT(torque(hyperbola, 0.05), torque(exponential, 0.05));
+  EXPECT_LT(torque(hyperbola, 0.6), torque(exponential, 0.6));
+  EXPECT_GT(torque(hyperbola, 0.6) / torque(hyperbola, 0.3),
+            torque(exponential, 0.6) / torque(exponential, 0.3));
+}
+
+TEST(ClosureEffects, AddToWhatASoilAndItsWheelHaveAlready) {
+  Soil sand = closed_sand();
+  const std::vector<EffectSetting> settings{{.name = "digging", .parameters = {{"rim_share", 0.1}}},
+                                            {.name = "ploughing", .parameters = {{"wall", 3.0}}},
+                                            {.name = "inclined_load", .parameters = {{"softening", 0.5}}}};
+  apply_effects(settings, sand);
+  EXPECT_NEAR(sand.digging.rim_share, 0.27, 1e-12);
+  EXPECT_NEAR(sand.ploughing.wall, 15.0, 1e-12);
+  EXPECT_NEAR(sand.inclined_softening, 2.6, 1e-12);
+  RoverModel rover = six_wheeler();
+  const EffectSetting cleats{.name = "cleat_shear_radius", .parameters = {}};
+  apply_effects(std::span(&cleats, 1), rover);
+  EXPECT_FALSE(rover.wheels[0].grousers.has_value());  // no cleats to hold soil
+  rover.wheels[0].grousers = Grousers{.height_m = 0.01, .count = 24.0};
+  apply_effects(std::span(&cleats, 1), rover);
+  EXPECT_EQ(rover.wheels[0].grousers->shear_by_spacing, 1.0);
+  EXPECT_EQ(rover.wheels[0].grousers->thrust, 0.0);
+}
+
+}  // namespace
+}  // namespace slipway::sim
