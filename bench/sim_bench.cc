@@ -53,9 +53,16 @@ Soil every_effect() {
   soil.bulldozing = soil.side_bulldozing = 0.7;
   soil.crust = {2000.0, 0.005};
   soil.hardpan = {1e6, 0.02};
+  soil.slip_directed = 1.0;
+  soil.inclined_softening = 2.0;
+  soil.digging = {.rim_share = 0.16, .cleat_share = 0.5, .sideways = 1.6};
+  soil.ploughing = {.front = 8.0, .wall = 12.0, .heap = 1.7, .wall_friction = 0.4};
   return soil;
 }
-constexpr WheelGeometry kGrouserWheel{0.125, 0.16, {0.01, 24.0}, 0.9};
+constexpr WheelGeometry kGrouserWheel{.radius_m = 0.125,
+                                      .width_m = 0.16,
+                                      .grousers = {.height_m = 0.01, .count = 24.0, .shear_by_spacing = 1.0},
+                                      .rim_friction = 0.9};
 
 // Three forces and the torque with every effect of the wheel on.
 void BM_WheelForcesAllEffects(benchmark::State& state) {

@@ -30,11 +30,12 @@ namespace slipway::sim {
 // The effects in the order in which they are applied: the list that a new row is added to. Nothing else
 // stands in this file, so that a test can link a catalogue of its own.
 std::span<const Effect> effect_catalogue() {
-  static const std::array kRows{
-      kSlipSinkage,      kMultipass,         kGrousers,       kBulldozing,    kSideBulldozing, kComOffset,
-      kMotorTemperature, kGearboxFriction,   kWheelRadius,    kDraggingWheel, kRateShear,      kDuricrust,
-      kHardpan,          kSoftPatch,         kSteeringOffset, kAttitudeBias,  kSoilGravity,    kSmoothRim,
-      kCleatShearRadius, kSlipDirectedShear, kInclinedLoad,   kDigging,       kPloughing};
+  static const std::array kRows{kSlipSinkage,    kMultipass,        kGrousers,          kBulldozing,
+                                kSideBulldozing, kComOffset,        kMotorTemperature,  kGearboxFriction,
+                                kWheelRadius,    kDraggingWheel,    kRateShear,         kDuricrust,
+                                kHardpan,        kSoftPatch,        kSteeringOffset,    kAttitudeBias,
+                                kSoilGravity,    kCleatShearRadius, kSlipDirectedShear, kInclinedLoad,
+                                kDigging,        kPloughing,        kSmoothRim};
   return kRows;
 }
 

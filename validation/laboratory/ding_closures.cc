@@ -154,7 +154,12 @@ Result<Report> ding_2011_closures(const std::filesystem::path& data) {
           ". The hyperbola was chosen by these.",
       "The lugged wheel's resistance at slip 0 is missed: by its rim the wheel that is sheared at half of "
       "its "
-      "lugs' height slips there already, and pulls."};
+      "lugs' height slips there already, and pulls.",
+      "The fitted soil ships as ding_2011_closures. A row is repeated by: slipway wheel --soil "
+      "ding_2011_closures --radius 0.15735 --width 0.165 --gravity 9.81 --load 80 --slip 0.1, with "
+      "--grousers "
+      "0.01,30 --effect cleat_shear_radius for the lugged wheel and --effect smooth_rim:friction_share=0.834 "
+      "for the smooth one."};
   report.bands = {
       {"cross-validated: median error of pull, %", 100.0 * median_abs(hyperbola->pull), 0.0, 15.0},
       {"cross-validated: larger error of pull at slip 0.1, %", 100.0 * hyperbola->pull_at_a_tenth, 0.0,
