@@ -31,7 +31,7 @@ Climb climb(const sim::RoverModel& rover, double gravity_m_s2, const sim::Soil& 
   leg.command.speed_m_s = rover.cruise_speed_m_s;
   leg.length_m = 90.0 * rover.cruise_speed_m_s;
   NoProgress progress;
-  const sim::DynamicOptions options{.give_up_s = 30.0};
+  const sim::DynamicOptions options{.feedback = sim::Feedback::kHeading, .give_up_s = 30.0};
   auto drive = sim::simulate_drive(rover, gravity_m_s2, ground, {{soil}, soil}, {}, std::vector{leg}, options,
                                    nullptr, progress);
   EXPECT_TRUE(drive) << rover.name << " " << slope_deg << ": " << drive.error().detail;
