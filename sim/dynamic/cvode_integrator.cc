@@ -178,6 +178,10 @@ void CvodeIntegrator::restart(double t, std::span<const double> y) {
   begin_anew();
 }
 
+void CvodeIntegrator::set_tolerances(std::span<const double> absolute) {
+  std::copy(absolute.begin(), absolute.end(), NV_DATA_S(solver_->absolute));
+}
+
 // Restarts CVODE at its present time and state.
 void CvodeIntegrator::begin_anew() {
   Solver& s = *solver_;

@@ -38,6 +38,8 @@ class CvodeIntegrator {
   void start(double t, std::span<const double> y);
   // Starts again from here at order one, as is needed after a jump in y or f.
   void restart(double t, std::span<const double> y);
+  // From the next step on these are the absolute tolerances, one for each state.
+  void set_tolerances(std::span<const double> absolute);
 
   // Takes back what the last step went beyond its end, where that was an event: for a caller that changes f
   // there.

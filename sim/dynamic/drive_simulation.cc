@@ -42,7 +42,7 @@ DriveSimulation::DriveSimulation(const RoverModel& rover, double gravity_m_s2, c
                    .event_count = dynamics_.event_count(),
                    .events = [this](double t, const double* y,
                                     double* value) { return dynamics_.events(t, y, value); }},
-                  options.relative_tolerance, dynamics_.tolerances(options.relative_tolerance),
+                  options.relative_tolerance, dynamics_.tolerances(options.relative_tolerance, false),
                   kMaxTravel_radii * rover.smallest_wheel_radius_m() / rover.cruise_speed_m_s),
       between_(dynamics_.size()) {
   for (const DriveLeg& leg : legs) {
@@ -169,6 +169,7 @@ Result<void> DriveSimulation::drive_piece(const DriveLeg& leg, const Pose2& leg_
   driver.trim(trim_rad_);
   trimmed_share_.reset();
   dynamics_.follow(&driver, leg_start);
+  integrator_.set_tolerances(dynamics_.tolerances(options_.relative_tolerance, true));
   driver_ = &driver;
   before_leg_m_ = out_.progress_m;
   checked_s_ = now_s_;
@@ -195,6 +196,7 @@ Result<void> DriveSimulation::drive_piece(const DriveLeg& leg, const Pose2& leg_
   add_progress(leg);
   driver_ = nullptr;
   dynamics_.halt(steered);
+  integrator_.set_tolerances(dynamics_.tolerances(options_.relative_tolerance, false));
   return {};
 }
 

@@ -87,14 +87,17 @@ MotorControl RoverDynamics::control_of(const DriveMotor& motor, double load_kg_m
   return {motor, rotor + wheel.mass.inertia_kg_m2(1, 1) + load_kg_m2, standstill_rad_s_};
 }
 
-std::vector<double> RoverDynamics::tolerances(double relative) const {
-  // Relative to the scales that matter to a drive: 0.1 m, 0.1 rad, a slip of 0.1, and 10 V. Speeds and rates
-  // have a coarser one than the cruise speed, since they settle on the soil within a wheel's contact length:
-  // what an error of theirs does to a drive is held by the tolerances of places, angles and slips.
+std::vector<double> RoverDynamics::tolerances(double relative, bool drives) const {
+  // Relative to the scales that matter to a drive: 0.1 m, 0.1 rad, cruise speed, a slip of 0.1, and 10 V.
   std::vector<double> absolute(size_, relative * 0.1);
-  for (int i = twist_at_; i < slips_at_; ++i)
-    absolute[i] = relative * kCoarseSpeeds * rover_.cruise_speed_m_s;
+  for (int i = twist_at_; i < slips_at_; ++i) absolute[i] = relative * rover_.cruise_speed_m_s;
   for (int i = integrals_at_; i < size_; ++i) absolute[i] = relative * 10.0;
+  if (!drives) return absolute;
+  // On the way, the speeds of the body and of its suspension settle on the soil within a wheel's contact
+  // length: what their errors do to a drive is held by the tolerances of places, angles and slips.
+  for (int i = twist_at_; i < rates_at_; ++i) absolute[i] *= kCoarseSpeeds;
+  for (int j = 0; j < joints(); ++j)
+    if (angle_state_[j] >= 0) absolute[rates_at_ + j] *= kCoarseSpeeds;
   return absolute;
 }
 

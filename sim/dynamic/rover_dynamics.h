@@ -48,8 +48,8 @@ class RoverDynamics {
   // The number of states of position and attitude, which come first. Their error must not be scaled by their
   // values, since the map's origin and its east direction are arbitrary.
   int pose_size() const { return angles_at_; }
-  // The absolute tolerance of each state that belongs to this relative tolerance.
-  std::vector<double> tolerances(double relative) const;
+  // The absolute tolerance of each state that belongs to this relative tolerance, at rest or on the way.
+  std::vector<double> tolerances(double relative, bool drives) const;
   // The state at rest in this stance, with the wheels sunk under equal loads.
   std::vector<double> at_rest(const Stance& stance);
 
