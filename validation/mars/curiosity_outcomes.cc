@@ -194,7 +194,7 @@ void add_scores(const std::string& how, const std::vector<Scored>& drives, bool 
 }
 
 void add_notes(const std::vector<Scored>& drives, Report& report) {
-  const Score as_of = score(drives, &Scored::as_of), planned = score(drives, &Scored::planned);
+  const Score as_of = score(drives, &Scored::as_of);
   const double rate = 3.0 / static_cast<double>(drives.size());
   report.notes.push_back(fmt::format(
       "Baselines: the constant rate has AUC 0.50, Brier {:.3f} and log score 0.48; predicted mean slip alone "
@@ -218,12 +218,9 @@ void add_notes(const std::vector<Scored>& drives, Report& report) {
   for (const Scored& drive : drives) largest = std::max(largest, drive.embedding);
   report.notes.push_back(fmt::format(
       "No drive was embedded; the largest probability of embedding as of its sol is {}.", percent(largest)));
-  report.bands = {
-      {"drives scored", static_cast<double>(drives.size()), 16, 16},
-      {"Brier score as of each sol", as_of.brier, 0.0, 0.25},
-      {"AUC as of each sol", as_of.auc, 0.3, 1.0},
-      {"Brier score, planned ground beyond a stop included", planned.brier, 0.0, rate * (1.0 - rate)},
-      {"AUC, planned ground beyond a stop included", planned.auc, 0.8, 1.0}};
+  report.bands = {{"drives scored", static_cast<double>(drives.size()), 16, 16},
+                  {"Brier score as of each sol", as_of.brier, 0.0, 0.25},
+                  {"AUC as of each sol", as_of.auc, 0.3, 1.0}};
 }
 
 }  // namespace
