@@ -28,12 +28,6 @@ bool same(const sim::WheelGeometry& a, const sim::WheelGeometry& b) {
          a.grousers.count == b.grousers.count && a.rim_friction == b.rim_friction;
 }
 
-sim::WheelMotion motion_of(const sim::WheelRigConditions& test) {
-  return test.slip_definition == sim::SlipDefinition::kForward
-             ? sim::forward_motion(test.slip, test.slip_angle_rad)
-             : sim::rig_motion(test.slip, test.slip_angle_rad);
-}
-
 constexpr double kMinAngle = 1e-4;
 constexpr double kOfLoad = 1e-10;  // how far off the load a wheel may be left, well below a step's change
 
@@ -83,7 +77,7 @@ void SoilObservations::add_wheel(std::size_t test) {
   }
   place_.emplace_back(static_cast<std::size_t>(group - groups_.begin()), group->tests.size());
   group->tests.push_back(test);
-  group->motions.push_back(motion_of(observation.test));
+  group->motions.push_back(sim::motion_of(observation.test));
   group->loads_n.push_back(observation.test.load_n);
   group->rim_speeds_m_s.push_back(sim::rim_speed_m_s(observation.test));
   group->held.push_back(observation.test.sinkage_m.has_value());
