@@ -34,7 +34,7 @@ TEST(MotorControl, KeepsItsRateUnderLoad) {
 TEST(MotorControl, StaysWithinTheBusVoltage) {
   DriveMotor motor;
   motor.resistance_ohm = 2.0;
-  const MotorDrive drive = MotorControl(motor, 1.0, 0.003).keep_rate(100.0, 0.0, 0.0);
+  const MotorDrive drive = MotorControl(motor, 1.0, 0.003).keep_rate(100.0, 0.0, 5.0);
   EXPECT_EQ(drive.voltage_v, motor.bus_voltage_v);
   EXPECT_GT(drive.unclipped_v, drive.voltage_v);
   EXPECT_NEAR(drive.current_a, motor.bus_voltage_v / winding_resistance_ohm(motor), 1e-12);
@@ -46,7 +46,7 @@ TEST(MotorControl, AStandInForTheResistanceLimitsNoTorque) {
   const MotorControl control(motor, 1.0, 0.003);
   const double strong_nm = 10.0 * motor.bus_voltage_v / winding_resistance_ohm(motor) *
                            motor.torque_constant_nm_per_a * motor.gear_ratio * motor.gear_efficiency;
-  EXPECT_NEAR(rate_after(motor, 0.2, strong_nm, 2.0, 8.0), 0.2, 1e-3);
+  EXPECT_NEAR(rate_after(motor, 0.2, strong_nm, 2.0, 120.0), 0.2, 1e-3);
   const MotorDrive strong = control.keep_rate(0.2, 0.0, 20.0 * motor.bus_voltage_v);
   EXPECT_GT(strong.torque_nm, strong_nm);
   EXPECT_EQ(strong.limit, MotorLimit::kNone);
