@@ -15,7 +15,7 @@ namespace {
 
 using Vector = RoverBalance::Vector;
 
-constexpr double kTableTolerance = 1e-7, kDrawTolerance = 1e-4;
+constexpr double kTableTolerance = 1e-7, kDrawTolerance = 1e-5;
 // Where a draw takes more, the rover mostly has no traction, which the bracketing finds sooner.
 constexpr int kMaxDrawIterations = 8;
 
