@@ -227,8 +227,9 @@ std::vector<std::size_t> ranked_order(const std::vector<Route>& routes, const Ra
     const Route& leader = routes[*place];
     auto first = place;
     for (auto other = place + 1; other != order.end(); ++other)
+      // A verdict is not given up for a shorter way.
       if (routes[*other].prediction.length_m < routes[*first].prediction.length_m &&
-          !clearly_apart(leader, routes[*other], ranking))
+          routes[*other].verdict <= leader.verdict && !clearly_apart(leader, routes[*other], ranking))
         first = other;
     std::rotate(place, first, first + 1);
   }

@@ -132,13 +132,13 @@ PerWheel<double> RoverBalance::total_sinkages_m(const Vector& unknowns) const {
 // Where every load is determined the suspension closed the stance's gaps, as far as the ground's kinks let
 // it.
 RoverBalance::Lean RoverBalance::lean(const Vector& unknowns) {
-  if (undetermined_ == 0) set_gap_gradient();
+  if (geometry_.undetermined == 0) set_gap_gradient();
   const PerWheel<double> depth = total_sinkages_m(unknowns);
   Loads height(wheel_count());
   for (int k = 0; k < wheel_count(); ++k)
-    height[k] = -depth[k] - (undetermined_ > 0 ? gap_[k] : -places_[k].highest_m);
-  const Freedoms q = body_motion(height, Freedoms::Zero(3 + joints_));
-  return {q[1] / length_, q[2] / length_};
+    height[k] = -depth[k] - (geometry_.undetermined > 0 ? gap_[k] : -place(k).highest_m);
+  const Freedoms q = body_motion(height, Freedoms::Zero(3 + geometry_.joints));
+  return {q[1] / geometry_.half_wheelbase_m, q[2] / geometry_.half_wheelbase_m};
 }
 
 double RoverBalance::height_in_air_m(int wheel, const Vector& unknowns) const {

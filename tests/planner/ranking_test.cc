@@ -208,6 +208,11 @@ TEST(RankedOrder, OfRoutesThatTheDrawsDoNotTellApartTheShortestIsFirst) {
     routes[1].prediction.length_m = 20.0;
     routes[2].prediction.length_m = 10.0;  // does not help it: the draws tell it from the others
     EXPECT_EQ(ranked_order(routes, {}), (std::vector<std::size_t>{1, 0, 2}));
+    // A caution does not come before a go for being shorter: here the cheaper of the two decides.
+    routes[0].verdict = Verdict::kGo;
+    routes[1].verdict = Verdict::kCaution;
+    routes[0].ranked_cost = std::min(routes[0].ranked_cost, routes[1].ranked_cost) - 0.01;
+    EXPECT_EQ(ranked_order(routes, {}), (std::vector<std::size_t>{0, 1, 2}));
   }
 }
 
