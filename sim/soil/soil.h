@@ -36,7 +36,7 @@ struct Hardpan {
 // Soil that a turning rim and its cleats carry out from under a wheel (effect digging, digging_law.h).
 struct Digging {
   double rim_share = 0.0;    // depth that a fast rim digs, over the radius
-  double rim_slip = 0.65;     // slip travel at which half of it is dug
+  double rim_slip = 0.65;    // slip travel at which half of it is dug
   double cleat_share = 0.0;  // what cleats dig per slip travel, over their height
   double cleat_limit = 4.8;  // slip travel that they never dig beyond
   double sideways = 0.0;     // how much more is dug by a wheel that moves straight sideways
