@@ -15,7 +15,7 @@ namespace {
 
 using Vector = RoverBalance::Vector;
 
-constexpr double kTableTolerance = 1e-7, kDrawTolerance = 1e-5;
+constexpr double kDrawTolerance = 1e-5;
 // Where a draw takes more, the rover mostly has no traction, which the bracketing finds sooner.
 constexpr int kMaxDrawIterations = 8;
 
@@ -202,12 +202,9 @@ StationState QuasiStaticSolver::solve(RoverBalance& balance, const DriveCommand&
   // The answer of another kind of motion is a worse start than a cold one.
   if (warm_ && last_[primary.motion] * primary.sign <= 0.0) warm_ = false;
   NewtonMemory memory;
-  if (precision_ != Precision::kExact) {
+  if (precision_ == Precision::kDraws) {
     memory.by_wheel = true;
     if (warm_) memory.slopes = std::move(last_slopes_);
-    memory.tolerance = kTableTolerance;
-  }
-  if (precision_ == Precision::kDraws) {
     memory.tolerance = kDrawTolerance;
     memory.max_iterations = kMaxDrawIterations;
   }

@@ -76,9 +76,8 @@ enum class Thoroughness {
 // How exactly a balance is solved.
 enum class Precision {
   kExact,  // to 1e-9 of the weight
-  // To 1e-7 of the weight, with the slopes of the wheels' loads from the solve before: for tables.
-  kTables,
-  // To 1e-5 of the weight, in the same way: for draws of the ground. Slip is then within 0.001 of the exact
+  // To 1e-5 of the weight, with the slopes of the wheels' loads from the solve before: for draws of the
+  // ground. Slip is then within 0.001 of the exact
   // one, where draws scatter by a hundredth and more.
   kDraws,
 };

@@ -61,7 +61,7 @@ SlipTable::SlipTable(const RoverModel& rover, double gravity_m_s2, const Soil& s
   const DriveCommand command{.speed_m_s = rover.cruise_speed_m_s, .motor_temp_c = conditions.motor_temp_c};
   speed_m_s_ = command.speed_m_s * attainable_share(rover, command);
   find_limits(rover, gravity_m_s2, soil, command);
-  QuasiStaticSolver solver(rover, gravity_m_s2, Precision::kTables);
+  QuasiStaticSolver solver(rover, gravity_m_s2);
   const int columns = static_cast<int>(columns_.size());
   for (int c = 0; c < columns; ++c) {
     Column& column = columns_[c];

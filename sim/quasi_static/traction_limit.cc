@@ -26,7 +26,7 @@ TractionLimitSearch::TractionLimitSearch(const RoverModel& rover, double gravity
       command_(command),
       min_pitch_rad_(steepest_climb_rad),
       max_pitch_rad_(steepest_descent_rad),
-      solver_(rover, gravity_m_s2, Precision::kTables) {}
+      solver_(rover, gravity_m_s2) {}
 
 double TractionLimitSearch::surplus(double roll_rad, double pitch_rad) {
   const StationState state =
