@@ -133,7 +133,8 @@ std::string answer_to(std::string_view kind, const std::string& request) {
 }
 
 TEST(Validator, FindsWhatIsWrong) {
-  EXPECT_EQ(complaints_about("PlanRequest", R"({"terrain":3,"more":1})").size(), 5U);
+  // Two that are wrong, and the rover and the goal that are missing; telemetry may stand in for a start.
+  EXPECT_EQ(complaints_about("PlanRequest", R"({"terrain":3,"more":1})").size(), 4U);
 }
 
 TEST(Contract, ExamplesOfRequestsFitTheDescription) {
