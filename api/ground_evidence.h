@@ -26,6 +26,9 @@ inline constexpr double kModelError = 0.05;
 // the answer then leans less on them than it might, and never on a handful of draws.
 inline constexpr double kMinEffective = 0.1;
 
+// Draws that are conditioned where a request says no number: some of them weigh little.
+inline constexpr int kWeighedDraws = 200;
+
 // Draws of the ground under a completed drive and under one that stopped: a stop is the rarer, and drives
 // that stopped are short.
 inline constexpr int kTriesOfCompleted = 2, kTriesOfStopped = 16;

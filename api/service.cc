@@ -13,11 +13,8 @@
 #include "api/documents/soil_estimate_request.h"
 #include "api/files/campaign/drive_campaign_source.h"
 #include "api/files/model_folder.h"
-#include "api/ground_evidence.h"
 #include "api/json/faults.h"
 #include "api/request_check.h"
-#include "api/requests/soil_regions.h"
-#include "api/soil_beliefs.h"
 #include "planner/judge/drive_decision.h"
 #include "planner/judge/trespass.h"
 #include "planner/make_plan.h"
@@ -26,39 +23,6 @@
 
 namespace slipway::api {
 namespace {
-
-// Enough for a search to go around what lies between the places.
-dem::Extent window_around(const std::vector<planner::Waypoint>& places, const dem::GridGeometry& geometry) {
-  dem::Extent box{places.front().x_m, places.front().y_m, places.front().x_m, places.front().y_m};
-  for (const planner::Waypoint& place : places) {
-    box.west_m = std::min(box.west_m, place.x_m);
-    box.east_m = std::max(box.east_m, place.x_m);
-    box.south_m = std::min(box.south_m, place.y_m);
-    box.north_m = std::max(box.north_m, place.y_m);
-  }
-  constexpr double kMinMargin_m = 60.0;
-  constexpr double kMarginRatio = 0.4;
-  constexpr double kMinMarginCells = 8.0;
-  const double size = std::max(box.east_m - box.west_m, box.north_m - box.south_m);
-  const double margin = std::max(
-      {kMinMargin_m, kMarginRatio * size, kMinMarginCells * std::max(geometry.cell_x_m, geometry.cell_y_m)});
-  return {box.west_m - margin, box.south_m - margin, box.east_m + margin, box.north_m + margin};
-}
-
-// All that the ground under drives of the past depends on but the sol. Empty where a request brings a model
-// of its own, whose numbers its name does not tell.
-std::string conditions_of(const std::string& terrain, const std::string& rover, DriveAssumptions drive,
-                          int draws) {
-  if (drive.model) return {};
-  drive.as_of_sol.reset();
-  drive.drive_so_far.reset();
-  drive.draws = draws;
-  json::Writer w;
-  w.begin_object().text("terrain", terrain).text("rover", rover);
-  json::write_drive_assumptions(w, drive);
-  w.end_object();
-  return w.take();
-}
 
 // The corners, or the start of a command sequence alone.
 template <class Request>
@@ -69,13 +33,8 @@ void check_path(const Request& request, RequestCheck& check, bool is_start = fal
   check.crab(request.manner.crab_rad, !request.keep_out.empty() || !request.keep_in.empty());
 }
 
-// Draws of a decision: the fewest that say something, and the most that are taken.
-constexpr int kFirstDraws = 32, kMaxDecidingDraws = 1000;
 // Of each route of a plan: 272 without an embedding are the fewest that make a GO.
 constexpr int kMaxPlanDraws = 272;
-// Draws that are conditioned on drives of the past, of which some weigh little.
-constexpr int kWeighedDraws = 200;
-
 }  // namespace
 
 Result<std::unique_ptr<Service>> Service::open(ServiceOptions options) {
@@ -183,105 +142,6 @@ Result<SoilEstimateRequest> Service::read_soil_estimate(std::string_view json) c
     faults.push_back({"/campaign", unknown_name("campaign", request.campaign, campaigns_)});
   if (!faults.empty()) return fail(ErrorCode::kInvalidRequest, summary_of(faults), faults);
   return std::move(reading->request);
-}
-
-Result<Service::Setting> Service::set_up(const std::string& terrain, const std::string& rover,
-                                         const std::vector<planner::Waypoint>& places,
-                                         const DriveAssumptions& drive, Progress& progress) const {
-  std::vector<Fault> faults;
-  std::string driven_name = rover;
-  const std::shared_ptr<const Catalogue> catalogue = catalogue_for(drive, driven_name, faults);
-  RequestCheck check(*catalogue, std::move(faults));
-  check.names(terrain, driven_name);
-  check.drive(drive);
-  if (!check.passed()) return fail(check.error());
-  const TerrainSite& site = *catalogue->terrains.find(terrain)->second;
-  sim::RoverModel driven = *catalogue->rovers.find(driven_name)->second;
-  const std::vector<sim::EffectSetting> effects = sim::in_force(driven.effects, drive.effects);
-  sim::apply_effects(effects, driven);
-  sim::fail_wheels(driven, drive.failed_wheels, drive.conditions);
-  if (drive.speed_m_s) driven.cruise_speed_m_s = *drive.speed_m_s;
-  std::vector<planner::Waypoint> to_read = places;
-  if (drive.as_of_sol) {
-    const std::vector<planner::Waypoint> past = places_of(site.outcomes(), *drive.as_of_sol);
-    to_read.insert(to_read.end(), past.begin(), past.end());
-  }
-  if (drive.drive_so_far)
-    for (const planner::TelemetryRow& row : drive.drive_so_far->rows)
-      to_read.push_back({row.x_m, row.y_m, {}});
-  const Legend& legend = *site.description().legend(drive.legend);
-  auto ground = site.read(window_around(to_read, site.info().geometry), legend);
-  if (!ground) return fail(ground.error());
-
-  Setting setting;
-  planner::PlanProblem& problem = setting.problem;
-  problem.terrain = ground->terrain;
-  RegionalSoils soils = soils_in_regions(ground->soil_map, sim::effect_regions(effects));
-  problem.soil_map = soils.map;
-  for (const RegionalSoil& soil : soils.soils)
-    problem.beliefs.known.push_back(
-        believed(*catalogue, soil, drive.confidence.value_or(legend.confidence), effects));
-  problem.beliefs.unknown = believed(
-      *catalogue, {drive.unknown_soil.empty() ? std::string(kUnknownGround) : drive.unknown_soil, {}}, 1.0,
-      effects);
-  problem.conditions = drive.conditions;
-  problem.rover = std::make_shared<const sim::RoverModel>(std::move(driven));
-  problem.gravity_m_s2 = site.description().gravity_m_s2;
-  problem.limits = drive.limits;
-  // The seed is that of the draws alone: the routes that are compared are the same under each.
-  problem.risk.seed = drive.seed;
-  problem.risk.draws = drive.draws.value_or(kFirstDraws);
-  problem.risk.max_draws = drive.draws ? 0 : kMaxDecidingDraws;
-  problem.risk.checks = drive.checks;
-  problem.risk.bars = drive.bars;
-  problem.threads = options_.threads;
-
-  setting.provenance = {.terrain_title = site.description().title,
-                        .terrain_fingerprint = ground->terrain->fingerprint(),
-                        .crs_name = site.info().crs_name,
-                        .body = site.info().body,
-                        .gravity_m_s2 = site.description().gravity_m_s2,
-                        .legend = legend.name,
-                        .soil_assumption = legend.assumption,
-                        .soils = {},
-                        .unknown_soil = problem.beliefs.unknown.name,
-                        .seed = drive.seed};
-  // By what is believed of them: a corrected soil's name is another than the map's.
-  for (const sim::SoilDistribution& belief : problem.beliefs.known)
-    setting.provenance.soils.push_back(belief.name);
-  if (drive.as_of_sol) {
-    progress.report("conditioning the ground on drives of the past", 0.0);
-    problem.risk.draws = drive.draws.value_or(kWeighedDraws);
-    problem.risk.max_draws = 0;
-    auto evidence = conditioned_ground_.get(conditions_of(terrain, driven_name, drive, problem.risk.draws),
-                                            problem, site.outcomes(), *drive.as_of_sol, progress);
-    if (!evidence) return fail(evidence.error());
-    problem.risk.conditioned = evidence->draws;
-    setting.provenance.past_drives = evidence->drives;
-  }
-  if (drive.drive_so_far)
-    if (auto learnt = learn(drive, progress, setting); !learnt) return fail(learnt.error());
-  return setting;
-}
-
-Result<void> Service::learn(const DriveAssumptions& drive, Progress& progress, Setting& setting) {
-  progress.report("conditioning the ground on the drive so far", 0.0);
-  planner::PlanProblem& problem = setting.problem;
-  std::vector<sim::ConditionedDraw> draws;
-  if (problem.risk.conditioned)
-    draws = *problem.risk.conditioned;
-  else
-    draws.resize(
-        static_cast<std::size_t>(drive.draws.value_or(planner::draws_for(problem, *drive.drive_so_far))));
-  auto stretches = planner::condition_on_drive(problem, *drive.drive_so_far, progress, draws);
-  if (!stretches) return fail(stretches.error());
-  flatten(draws);
-  const double effective = effective_draws(draws);
-  problem.risk.draws = static_cast<int>(draws.size());
-  problem.risk.max_draws = 0;
-  setting.provenance.learnt = LearntDrive{std::move(*stretches), problem.risk.draws, effective};
-  problem.risk.conditioned = std::make_shared<const std::vector<sim::ConditionedDraw>>(std::move(draws));
-  return {};
 }
 
 Result<PlanAnswer> Service::plan(const PlanRequest& request, Progress& progress) const {

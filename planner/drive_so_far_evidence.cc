@@ -144,7 +144,7 @@ Result<std::vector<LearntStretch>> condition_on_drive(const PlanProblem& problem
     drop_lightest(draws);
     learnt.push_back({std::move(stretch), *forecast});
   }
-  thin(draws, kMaxLearntDraws, random_key(problem.seed, kMaxLearntDraws));
+  thin(draws, kMaxLearntDraws, random_key(problem.risk.seed, kMaxLearntDraws));
   return learnt;
 }
 

@@ -52,10 +52,8 @@ void write_rule(Writer& w, const sim::RuleRisk& rule, const sim::DrivePrediction
       rule.rule == sim::Rule::kClearance ? rule.value_p05 - rule.limit : rule.limit - rule.value_p95;
   w.begin_object().text("rule", sim::describe(rule.rule)).text("unit", unit.unit);
   w.significant("limit", unit.factor * rule.limit);
-  w.key("value").begin_object().significant("p05", unit.factor * rule.value_p05);
-  w.significant("p50", unit.factor * rule.value_p50)
-      .significant("p95", unit.factor * rule.value_p95)
-      .end_object();
+  write_spread(w, "value",
+               {unit.factor * rule.value_p05, unit.factor * rule.value_p50, unit.factor * rule.value_p95});
   w.significant("margin", unit.factor * to_limit);
   write_share(w, "trips", rule.trips);
   if (rule.trips.share > 0.0) {
@@ -101,11 +99,6 @@ void write_decision(Writer& w, const planner::DriveDecision& decision) {
 }
 
 namespace {
-
-void write_spread(Writer& w, std::string_view name, const sim::DrawnSpread& spread) {
-  w.key(name).begin_object().significant("p05", spread.p05).significant("p50", spread.p50);
-  w.significant("p95", spread.p95).end_object();
-}
 
 // The largest part of the way that is lost unseen between two checks: the slip over an interval times its
 // length.

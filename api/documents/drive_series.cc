@@ -142,6 +142,11 @@ void write_share(Writer& w, std::string_view name, const sim::DrawnShare& share)
   w.significant("high", share.high).end_object();
 }
 
+void write_spread(Writer& w, std::string_view name, const sim::DrawnSpread& spread) {
+  w.key(name).begin_object().significant("p05", spread.p05).significant("p50", spread.p50);
+  w.significant("p95", spread.p95).end_object();
+}
+
 void write_stations(Writer& w, const sim::DrivePrediction& prediction, const Provenance& provenance) {
   const std::vector<StationPrediction>& stations = prediction.stations;
   w.key("stations").begin_object().whole("count", static_cast<std::int64_t>(stations.size()));

@@ -23,4 +23,7 @@ void write_provenance(Writer& w, const Provenance& provenance);
 // A share of the draws with its interval.
 void write_share(Writer& w, std::string_view name, const sim::DrawnShare& share);
 
+// {"p05": 0.1, "p50": 0.2, "p95": 0.4}: percentiles over the draws.
+void write_spread(Writer& w, std::string_view name, const sim::DrawnSpread& spread);
+
 }  // namespace slipway::api::json

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "api/documents/drive_series.h"
 #include "api/json/faults.h"
 #include "core/angle.h"
 
@@ -88,9 +89,8 @@ void write_learnt_drive(Writer& w, const std::optional<LearntDrive>& learnt, con
     w.metres("x_m", end.x_m).metres("y_m", end.y_m);
     w.metres("come_m", each.stretch.measured.come_m);
     w.significant("slip", each.stretch.measured.slip_ratio());
-    w.key("predicted_slip").begin_object().significant("p05", each.forecast.slip_ratio.p05);
-    w.significant("p50", each.forecast.slip_ratio.p50).significant("p95", each.forecast.slip_ratio.p95);
-    w.end_object().end_object();
+    write_spread(w, "predicted_slip", each.forecast.slip_ratio);
+    w.end_object();
   }
   w.end_array().end_object();
 }
