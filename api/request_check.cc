@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "api/files/relief_values.h"
 #include "api/json/faults.h"
 #include "api/json/json_value.h"
 #include "sim/effects/effect_catalogue.h"
@@ -34,8 +35,7 @@ void RequestCheck::names(const std::string& terrain, const std::string& rover) {
     if (found != catalogue_.terrains.end()) {
       site_ = found->second.get();
     } else {
-      add(ErrorCode::kInvalidRequest, "/terrain",
-          unknown_name("terrain", terrain, names_of(catalogue_.terrains)));
+      add(ErrorCode::kInvalidRequest, "/terrain", unknown_terrain(catalogue_, terrain));
     }
   }
   if (!already_faulty("/rover")) {
@@ -43,7 +43,7 @@ void RequestCheck::names(const std::string& terrain, const std::string& rover) {
     if (found != catalogue_.rovers.end()) {
       rover_ = found->second.get();
     } else {
-      add(ErrorCode::kInvalidRequest, "/rover", unknown_name("rover", rover, names_of(catalogue_.rovers)));
+      add(ErrorCode::kInvalidRequest, "/rover", unknown_rover(catalogue_, rover));
     }
   }
 }
@@ -85,8 +85,7 @@ void RequestCheck::place(const planner::Waypoint& place, const std::string& poin
 void RequestCheck::drive(const DriveAssumptions& drive) {
   if (!drive.unknown_soil.empty() && !already_faulty("/unknown_soil") &&
       !catalogue_.soils.contains(drive.unknown_soil))
-    add(ErrorCode::kInvalidRequest, "/unknown_soil",
-        unknown_name("soil", drive.unknown_soil, names_of(catalogue_.soils)));
+    add(ErrorCode::kInvalidRequest, "/unknown_soil", unknown_soil(catalogue_, drive.unknown_soil));
   if (site_ != nullptr && !already_faulty("/legend") &&
       site_->description().legend(drive.legend) == nullptr) {
     std::vector<std::string> known;
@@ -112,6 +111,7 @@ void RequestCheck::drive(const DriveAssumptions& drive) {
     if (const auto fault = temperature_without_effect(*rover_, drive.effects))
       add(ErrorCode::kInvalidRequest, fault->pointer, fault->message);
   }
+  relief(drive);
   if (rover_ != nullptr) failed_wheels(drive);
   drive_so_far(drive);
   if (rover_ == nullptr || !drive.speed_m_s || already_faulty("/speed_m_s")) return;
@@ -133,6 +133,22 @@ void RequestCheck::failed_wheels(const DriveAssumptions& drive) {
 }
 
 // The rows' places and wheels.
+void RequestCheck::relief(const DriveAssumptions& drive) {
+  const Legend* const legend = site_ != nullptr ? site_->description().legend(drive.legend) : nullptr;
+  if (!drive.relief || legend == nullptr || already_faulty("/relief")) return;
+  const auto drawn = relief_spread(site_->description().relief, *drive.relief, *legend, nullptr);
+  if (!drawn)
+    add(ErrorCode::kInvalidRequest, "/relief",
+        fmt::format(
+            "has nothing to draw: the terrain {} states no relief; give elevation_error_m, roughness_m or "
+            "rock_share",
+            site_->description().name));
+  else if (drawn->rock_share > 0.0 && drawn->max_rock_m <= drawn->min_rock_m)
+    add(ErrorCode::kInvalidRequest, "/relief/max_rock_m",
+        fmt::format("max_rock_m = {} m, must be more than min_rock_m = {} m", drawn->max_rock_m,
+                    drawn->min_rock_m));
+}
+
 void RequestCheck::drive_so_far(const DriveAssumptions& drive) {
   if (!drive.drive_so_far || already_faulty("/drive_so_far")) return;
   std::vector<std::string> known;

@@ -254,7 +254,7 @@ Result<SoilEstimateAnswer> Service::estimate_soil(const SoilEstimateRequest& req
 Result<GroundAt> Service::ground_at(std::string_view terrain, double x_m, double y_m) const {
   const auto found = catalogue_->terrains.find(terrain);
   if (found == catalogue_->terrains.end()) {
-    return fail(ErrorCode::kNotFound, unknown_name("terrain", terrain, names_of(catalogue_->terrains)));
+    return fail(ErrorCode::kNotFound, unknown_terrain(*catalogue_, terrain));
   }
   const TerrainSite& site = *found->second;
   RequestCheck check(*catalogue_, {});

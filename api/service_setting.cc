@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "api/documents/drive_assumptions.h"
+#include "api/files/relief_values.h"
 #include "api/ground_evidence.h"
 #include "api/request_check.h"
 #include "api/requests/soil_regions.h"
@@ -129,9 +130,12 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
   problem.risk.max_draws = drive.draws ? 0 : kMaxDecidingDraws;
   problem.risk.checks = drive.checks;
   problem.risk.bars = drive.bars;
+  if (drive.relief)
+    problem.risk.relief = relief_spread(site.description().relief, *drive.relief, legend, ground->soil_map);
   problem.threads = options_.threads;
 
   setting.provenance = provenance_of(site, legend, problem, drive.seed);
+  setting.provenance.relief = problem.risk.relief;
   if (drive.as_of_sol) {
     progress.report("conditioning the ground on drives of the past", 0.0);
     problem.risk.draws = drive.draws.value_or(kWeighedDraws);

@@ -94,13 +94,13 @@ Result<WheelSweepAnswer> read_wheel_sweep(const Catalogue& catalogue, std::strin
   check_effects(answer.request.effects, check);
   const auto rover = catalogue.rovers.find(answer.request.rover);
   if (rover == catalogue.rovers.end()) {
-    check.add("/rover", unknown_name("rover", answer.request.rover, names_of(catalogue.rovers)));
+    check.add("/rover", unknown_rover(catalogue, answer.request.rover));
   } else {
     find_wheel(*rover->second, answer.request, answer.sweep.rig, check);
   }
   const auto soil = catalogue.soils.find(answer.request.soil);
   if (soil == catalogue.soils.end()) {
-    check.add("/soil", unknown_name("soil", answer.request.soil, names_of(catalogue.soils)));
+    check.add("/soil", unknown_soil(catalogue, answer.request.soil));
   } else {
     answer.sweep.rig.soil = soil->second.mean;
   }

@@ -3,11 +3,16 @@
 #include <cpl_conv.h>
 #include <fmt/format.h>
 
+#include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string_view>
+
+#include "core/angle.h"
 
 namespace slipway::dem {
 namespace {
@@ -48,6 +53,65 @@ std::string local_projection(const OGRSpatialReference& crs, double longitude_de
   return fmt::format("+proj=tmerc +lat_0={} +lon_0={} +k=1 +x_0=0 +y_0=0 {} +units=m +no_defs", lat, lon,
                      ellipsoid);
 }
+
+// A conformal projection around a place in degrees, on a sphere and on an ellipsoid, at the poles too.
+std::string conformal_projection(const OGRSpatialReference& crs, double longitude_deg, double latitude_deg) {
+  return fmt::format("+proj=stere +lat_0={} +lon_0={} +k=1 +x_0=0 +y_0=0 {} +units=m +no_defs",
+                     std::round(latitude_deg * 1e4) / 1e4, std::round(longitude_deg * 1e4) / 1e4,
+                     proj_ellipsoid(crs));
+}
+
+// How many metres of the ground a metre of the map is: the least and the most over all directions.
+struct LocalScale {
+  double least = 1.0, most = 1.0;
+  double error() const { return std::max(1.0 - least, most - 1.0); }
+};
+
+// The scale of a projected system from place to place. Nothing where the projection does not reach.
+class GroundScale {
+ public:
+  explicit GroundScale(const OGRSpatialReference& crs) : map_(crs), degrees_(crs.CloneGeogCS()) {
+    map_.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    if (!degrees_) return;
+    degrees_->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    to_degrees_.reset(OGRCreateCoordinateTransformation(&map_, degrees_.get()));
+  }
+
+  // Longitude and latitude.
+  std::optional<RasterCentre> degrees_of(RasterCentre at) const {
+    if (!to_degrees_ || to_degrees_->Transform(1, &at.x, &at.y) == FALSE) return std::nullopt;
+    return at;
+  }
+
+  std::optional<LocalScale> at(const RasterCentre& place) const {
+    constexpr double kStep_m = 50.0;
+    const auto west = on_body({place.x - kStep_m, place.y}), east = on_body({place.x + kStep_m, place.y});
+    const auto south = on_body({place.x, place.y - kStep_m}), north = on_body({place.x, place.y + kStep_m});
+    if (!west || !east || !south || !north) return std::nullopt;
+    const Eigen::Vector3d by_x = (*east - *west) / (2.0 * kStep_m),
+                          by_y = (*north - *south) / (2.0 * kStep_m);
+    // The singular values of the two columns.
+    const double xx = by_x.squaredNorm(), yy = by_y.squaredNorm(), xy = by_x.dot(by_y);
+    const double root = std::hypot(0.5 * (xx - yy), xy), mean = 0.5 * (xx + yy);
+    if (!std::isfinite(mean)) return std::nullopt;
+    return LocalScale{std::sqrt(std::max(0.0, mean - root)), std::sqrt(mean + root)};
+  }
+
+ private:
+  // In the body's own Cartesian axes, so that the poles are places like any other.
+  std::optional<Eigen::Vector3d> on_body(const RasterCentre& place) const {
+    const auto degrees = degrees_of(place);
+    if (!degrees) return std::nullopt;
+    const double a = map_.GetSemiMajor(), b = map_.GetSemiMinor(), e2 = 1.0 - b * b / (a * a);
+    const double lon = rad_from_deg(degrees->x), lat = rad_from_deg(degrees->y);
+    const double s = std::sin(lat), c = std::cos(lat), n = a / std::sqrt(1.0 - e2 * s * s);
+    return Eigen::Vector3d(n * c * std::cos(lon), n * c * std::sin(lon), n * (1.0 - e2) * s);
+  }
+
+  OGRSpatialReference map_;
+  std::unique_ptr<OGRSpatialReference> degrees_;
+  std::unique_ptr<OGRCoordinateTransformation> to_degrees_;
+};
 
 tl::unexpected<Error> refuse(const std::string& reason, const std::string& remedy) {
   const std::string sentence = fmt::format("{} Convert it with: {}", reason, remedy);
@@ -152,6 +216,31 @@ Result<void> check_metric_projection(const OGRSpatialReference* crs, const Raste
                   warp_command(fmt::format("-t_srs {}", shell_word(metre_version(*crs))), file));
   }
   return {};
+}
+
+Result<void> check_true_lengths(const OGRSpatialReference& crs, const Extent& extent,
+                                const std::string& file) {
+  const GroundScale scales(crs);
+  const RasterCentre centre{0.5 * (extent.west_m + extent.east_m), 0.5 * (extent.south_m + extent.north_m)};
+  LocalScale worst;
+  RasterCentre place;
+  for (const double x : {extent.west_m, centre.x, extent.east_m}) {
+    for (const double y : {extent.south_m, centre.y, extent.north_m}) {
+      const auto scale = scales.at({x, y});
+      if (!scale || scale->error() <= worst.error()) continue;
+      worst = *scale;
+      place = {x, y};
+    }
+  }
+  if (worst.error() <= kMaxScaleError) return {};
+  const RasterCentre degrees = scales.degrees_of(centre).value_or(RasterCentre{});
+  return refuse(
+      fmt::format(
+          "{} is in \"{}\", in which a metre of the map is {:.3f} to {:.3f} m of the ground at ({:.0f}, "
+          "{:.0f}): slopes and lengths would be wrong.",
+          file, crs.GetName(), worst.least, worst.most, place.x, place.y),
+      warp_command(fmt::format("-t_srs {}", shell_word(conformal_projection(crs, degrees.x, degrees.y))),
+                   file));
 }
 
 bool is_local_frame(const OGRSpatialReference* crs) {

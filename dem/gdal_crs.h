@@ -20,6 +20,13 @@ struct RasterCentre {
 Result<void> check_metric_projection(const OGRSpatialReference* crs, const RasterCentre& centre,
                                      const std::string& file);
 
+// Checks that lengths on the map are those of the ground, within kMaxScaleError, at the corners, the middles
+// of the edges and the centre of an extent. The error has the worst place and the command that would convert
+// `file`.
+constexpr double kMaxScaleError = 0.02;
+Result<void> check_true_lengths(const OGRSpatialReference& crs, const Extent& extent,
+                                const std::string& file);
+
 // Whether a raster has no coordinate reference system, or a local one in metres.
 bool is_local_frame(const OGRSpatialReference* crs);
 

@@ -26,6 +26,7 @@ struct Encoding {
   double wide_nodata = 0.0;  // the same before rounding to float
   bool is_float32 = false;
   bool has_mask = false;
+  bool is_sparse = false;  // the file does not hold all of its blocks
 
   bool is_height(double stored) const {
     if (!std::isfinite(stored)) return false;
@@ -39,6 +40,14 @@ struct Encoding {
   }
 };
 
+// Whether the file lacks a block of the window.
+bool is_missing(GDALRasterBand& band, const CellWindow& window) {
+  const int coverage = band.GetDataCoverageStatus(window.column, window.row, window.columns, window.rows,
+                                                  GDAL_DATA_COVERAGE_STATUS_EMPTY, nullptr);
+  return (coverage & GDAL_DATA_COVERAGE_STATUS_UNIMPLEMENTED) == 0 &&
+         (coverage & GDAL_DATA_COVERAGE_STATUS_EMPTY) != 0;
+}
+
 Encoding encoding_of(GDALRasterBand& band) {
   Encoding encoding;
   int given = 0;
@@ -48,6 +57,7 @@ Encoding encoding_of(GDALRasterBand& band) {
   encoding.has_nodata = given != 0;
   encoding.nodata = static_cast<float>(encoding.wide_nodata);
   encoding.is_float32 = band.GetRasterDataType() == GDT_Float32;
+  encoding.is_sparse = is_missing(band, {0, 0, band.GetYSize(), band.GetXSize()});
   encoding.has_mask = (band.GetMaskFlags() & GMF_PER_DATASET) != 0;
   return encoding;
 }
@@ -121,6 +131,11 @@ class GdalElevation final : public ElevationSource {
           fmt::format("The extent takes {} cells of the terrain, must be at most {}; choose a smaller one.",
                       cells, kMaxWindowCells));
     }
+    if (const OGRSpatialReference* const crs = info_.crs_wkt.empty() ? nullptr : dataset_->GetSpatialRef()) {
+      const auto lengths =
+          check_true_lengths(*crs, info_.geometry.sub(*met).extent(), path_.filename().string());
+      if (!lengths) return fail(lengths.error());
+    }
     return read(window);
   }
 
@@ -169,12 +184,32 @@ class GdalElevation final : public ElevationSource {
                                       stripe.columns, stripe.rows, GDT_Byte, 0, 0, nullptr) != CE_None) {
       return false;
     }
+    if (encoding_.is_sparse) mask_missing_blocks(stripe, valid);
     for (std::size_t i = 0; i < cells; ++i) {
       const auto height = static_cast<float>(encoding_.scale * stored[i] + encoding_.offset_m);
       valid[i] = valid[i] != 0 && encoding_.is_height(stored[i]) && std::isfinite(height) ? 1 : 0;
       heights[i] = valid[i] != 0 ? height : 0.0F;
     }
     return true;
+  }
+
+  // GDAL gives a block that the file does not hold as zeros.
+  void mask_missing_blocks(const CellWindow& stripe, std::uint8_t* valid) const {
+    int width = 0, height = 0;
+    band_.GetBlockSize(&width, &height);
+    const int last_row = stripe.row + stripe.rows, last_column = stripe.column + stripe.columns;
+    for (int row = stripe.row / height * height; row < last_row; row += height) {
+      for (int column = stripe.column / width * width; column < last_column; column += width) {
+        const int top = std::max(row, stripe.row), bottom = std::min(row + height, last_row);
+        const int left = std::max(column, stripe.column), right = std::min(column + width, last_column);
+        if (!is_missing(band_, {top, left, bottom - top, right - left})) continue;
+        for (int r = top; r < bottom; ++r)
+          std::fill_n(
+              valid + static_cast<std::size_t>(r - stripe.row) * static_cast<std::size_t>(stripe.columns) +
+                  (left - stripe.column),
+              right - left, std::uint8_t{0});
+      }
+    }
   }
 
   std::filesystem::path path_;

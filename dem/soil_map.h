@@ -16,9 +16,10 @@ namespace slipway::dem {
 // One row of a legend: the label of a mapped class, and the soil that it is assumed to be. A class without a
 // soil is unknown ground.
 struct SoilClass {
-  int value = 0;                    // the raster's value; for polygons the row's own number
-  std::string label;                // "SMR": for polygons, the value of the legend's property
-  std::optional<std::string> soil;  // the name of a soil distribution
+  int value = 0;                          // the raster's value; for polygons the row's own number
+  std::string label;                      // "SMR": for polygons, the value of the legend's property
+  std::optional<std::string> soil;        // the name of a soil distribution
+  std::optional<double> rock_share = {};  // of its ground that rocks cover, where it is stated
 };
 
 // The assumed soil at each place: immutable, shared by pointer. A cell without a class, a class that the

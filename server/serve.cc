@@ -104,6 +104,7 @@ int serve(const ServeOptions& options) {
   if (!listener) return refuse(listener.error());
   const auto service = api::Service::open({.data = *data});
   if (!service) return refuse(service.error());
+  std::cerr << left_out_text((*service)->catalogue());
   const auto jobs = open_jobs(options.jobs);
   if (!jobs) return refuse(jobs.error());
   api::JobRunner runner(jobs->store, api::service_work(**service), jobs->runner);

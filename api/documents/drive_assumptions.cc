@@ -4,6 +4,7 @@
 #include "api/documents/model_object.h"
 #include "api/files/effect_settings.h"
 #include "api/files/failed_wheels.h"
+#include "api/files/relief_values.h"
 #include "api/files/soil_file.h"
 
 namespace slipway::api::json {
@@ -24,6 +25,7 @@ void read_drive_assumptions(ObjectReader& reader, DriveAssumptions& drive) {
   if (reader.whole("as_of_sol", kOptional, 0, RequestLimits::kMaxSol, sol)) drive.as_of_sol = sol;
   read_drive_so_far(reader, drive.drive_so_far);
   drive.beliefs = read_soils(reader, "beliefs", kOptional);
+  read_relief(reader, drive.relief);
   reader.text("unknown_soil", kOptional, {.most = 64, .is_name = true}, drive.unknown_soil);
   reader.number("confidence", kOptional, {"1", 0.0, 1.0, true}, drive.confidence);
   reader.text("legend", kOptional, {.most = 64, .is_name = true}, drive.legend);
@@ -49,6 +51,7 @@ void write_drive_assumptions(Writer& w, const DriveAssumptions& drive) {
     for (const sim::SoilDistribution& soil : drive.beliefs) write_soil(w, soil);
     w.end_array();
   }
+  if (drive.relief) write_relief(w, *drive.relief);
   if (!drive.unknown_soil.empty()) w.text("unknown_soil", drive.unknown_soil);
   if (drive.confidence) w.exact("confidence", *drive.confidence);
   if (!drive.legend.empty()) w.text("legend", drive.legend);

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "api/files/relief_values.h"
 #include "core/angle.h"
 #include "core/version.h"
 
@@ -31,7 +32,11 @@ constexpr std::array kColumns{
     Column{"roll_deg", [](const StationPrediction& s) { return deg_from_rad(s.attitude.roll_rad); }},
     Column{"pitch_deg", [](const StationPrediction& s) { return deg_from_rad(s.attitude.pitch_rad); }},
     Column{"tilt_deg", [](const StationPrediction& s) { return deg_from_rad(s.attitude.tilt_rad()); }},
+    Column{"tilt_deg_p05", [](const StationPrediction& s) { return deg_from_rad(s.tilt_rad_p05); }},
+    Column{"tilt_deg_p95", [](const StationPrediction& s) { return deg_from_rad(s.tilt_rad_p95); }},
     Column{"clearance_m", [](const StationPrediction& s) { return s.clearance_m; }},
+    Column{"clearance_m_p05", [](const StationPrediction& s) { return s.clearance_m_p05; }},
+    Column{"clearance_m_p95", [](const StationPrediction& s) { return s.clearance_m_p95; }},
     Column{"turned_deg", [](const StationPrediction& s) { return deg_from_rad(s.station.turned_rad); }},
     Column{"slip", [](const StationPrediction& s) { return s.state.slip_ratio; }},
     Column{"slip_p05", [](const StationPrediction& s) { return s.slip_ratio_p05; }},
@@ -197,6 +202,7 @@ void write_provenance(Writer& w, const Provenance& p) {
   w.texts("soils", p.soils).text("unknown_soil", p.unknown_soil).text("legend", p.legend);
   w.text("soil_assumption", p.soil_assumption);
   if (p.past_drives) w.whole("past_drives", *p.past_drives);
+  if (p.relief) write_relief(w, *p.relief);
   w.whole("seed", static_cast<std::int64_t>(p.seed)).end_object();
 }
 

@@ -15,11 +15,32 @@ namespace slipway::api::json {
 namespace {
 
 // Columns that stand in the document as they are.
-constexpr std::array<std::string_view, 22> kColumns{
-    "distance_m", "x_m",      "y_m",         "height_m",      "yaw_deg",           "pitch_deg",
-    "roll_deg",   "tilt_deg", "clearance_m", "soil",          "on_unknown_ground", "slip",
-    "slip_p05",   "slip_p50", "slip_p95",    "sinkage_m_p95", "current_a_p95",     "expected_stops",
-    "embedding",  "risk",     "elapsed_s",   "power_w"};
+constexpr std::array<std::string_view, 26> kColumns{"distance_m",
+                                                    "x_m",
+                                                    "y_m",
+                                                    "height_m",
+                                                    "yaw_deg",
+                                                    "pitch_deg",
+                                                    "roll_deg",
+                                                    "tilt_deg",
+                                                    "clearance_m",
+                                                    "soil",
+                                                    "on_unknown_ground",
+                                                    "slip",
+                                                    "slip_p05",
+                                                    "slip_p50",
+                                                    "slip_p95",
+                                                    "sinkage_m_p95",
+                                                    "current_a_p95",
+                                                    "expected_stops",
+                                                    "embedding",
+                                                    "risk",
+                                                    "elapsed_s",
+                                                    "power_w",
+                                                    "tilt_deg_p05",
+                                                    "tilt_deg_p95",
+                                                    "clearance_m_p05",
+                                                    "clearance_m_p95"};
 // What is made of others: of the deepest and the hottest wheel on the mean soils, and the energy up to there.
 constexpr std::array<std::string_view, 3> kMade{"sinkage_m", "current_a", "energy_wh"};
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -26,43 +27,64 @@ std::vector<fs::path> entries_of(const fs::path& folder) {
   return entries;
 }
 
-void add_faults(const std::string& file, const Error& error, std::vector<Fault>& faults) {
-  if (error.faults.empty()) faults.push_back({file + "#", error.detail});
-  const auto moved = moved_under(file + "#", error.faults);
-  faults.insert(faults.end(), moved.begin(), moved.end());
-}
+// The faults of one file, which is left out where it has any.
+class FileFaults {
+ public:
+  FileFaults(std::string kind, std::string name, std::string file, Catalogue& catalogue)
+      : left_out_{std::move(kind), std::move(name), {}}, file_(std::move(file)), catalogue_(catalogue) {}
+  ~FileFaults() {
+    if (any()) catalogue_.left_out.push_back(std::move(left_out_));
+  }
+  FileFaults(const FileFaults&) = delete;
+  FileFaults& operator=(const FileFaults&) = delete;
 
-void load_rovers(const fs::path& data, Catalogue& catalogue, std::vector<Fault>& faults) {
+  bool any() const { return !left_out_.faults.empty(); }
+  void add(const std::string& pointer, std::string message) {
+    left_out_.faults.push_back({file_ + "#" + pointer, std::move(message)});
+  }
+  void add(const Error& error) {
+    if (error.faults.empty()) add("", error.detail);
+    for (const Fault& fault : error.faults) add(fault.pointer, fault.message);
+  }
+
+ private:
+  LeftOutFile left_out_;
+  std::string file_;
+  Catalogue& catalogue_;
+};
+
+void load_rovers(const fs::path& data, Catalogue& catalogue) {
   for (const fs::path& path : entries_of(data / "rovers")) {
     if (path.extension() != ".json") continue;
-    const std::string file = "rovers/" + path.filename().string();
+    FileFaults faults("rover", path.stem().string(), "rovers/" + path.filename().string(), catalogue);
     const auto bytes = read_data_file(path);
     auto rover = bytes ? json::read_rover_file(*bytes) : Result<sim::RoverModel>(fail(bytes.error()));
     if (!rover) {
-      add_faults(file, rover.error(), faults);
+      faults.add(rover.error());
     } else if (rover->name != path.stem().string()) {
-      faults.push_back(
-          {file + "#/name", fmt::format("name = {}, must be the file's name", in_quotes(rover->name))});
+      faults.add("/name", fmt::format("name = {}, must be the file's name", in_quotes(rover->name)));
     } else {
       const std::string name =
           rover->name;  // of its own: the rover is moved from before the key is looked up
       catalogue.rovers[name] = std::make_shared<const sim::RoverModel>(std::move(*rover));
     }
   }
-  if (catalogue.rovers.empty() && faults.empty()) faults.push_back({"rovers#", "there is no rover"});
 }
 
-// Joins the names of alternatives with the soils that they name.
-void join_alternatives(Catalogue& catalogue, std::vector<Fault>& faults) {
+// Joins the names of alternatives with the soils that they name. The faults by soil; their pointers begin
+// with
+// "/alternatives".
+std::map<std::string, std::vector<Fault>> join_alternatives(Catalogue& catalogue) {
+  std::map<std::string, std::vector<Fault>> faults;
   for (auto& [name, soil] : catalogue.soils) {
     for (std::size_t i = 0; i < soil.alternatives.size(); ++i) {
       sim::SoilAlternative& alternative = soil.alternatives[i];
-      const std::string pointer = fmt::format("soils#{}/alternatives/{}/soil", name, i);
+      const std::string pointer = fmt::format("/alternatives/{}/soil", i);
       const auto found = catalogue.soils.find(alternative.name);
       if (found == catalogue.soils.end()) {
-        faults.push_back({pointer, unknown_name("soil", alternative.name, names_of(catalogue.soils))});
+        faults[name].push_back({pointer, unknown_soil(catalogue, alternative.name)});
       } else if (!found->second.alternatives.empty()) {
-        faults.push_back(
+        faults[name].push_back(
             {pointer, fmt::format("soil {} can't be an alternative: it has alternatives of its own",
                                   alternative.name)});
       } else {
@@ -70,79 +92,89 @@ void join_alternatives(Catalogue& catalogue, std::vector<Fault>& faults) {
       }
     }
   }
+  return faults;
 }
 
-void load_soils(const fs::path& data, Catalogue& catalogue, std::vector<Fault>& faults) {
+void load_soils(const fs::path& data, Catalogue& catalogue) {
   for (const fs::path& path : entries_of(data / "soils")) {
     if (path.extension() != ".json") continue;
-    const std::string file = "soils/" + path.filename().string();
+    FileFaults faults("soil", path.stem().string(), "soils/" + path.filename().string(), catalogue);
     const auto bytes = read_data_file(path);
     auto soils = bytes ? json::read_soil_file(*bytes, *catalogue.soil_format)
                        : Result<std::vector<sim::SoilDistribution>>(fail(bytes.error()));
     if (!soils) {
-      add_faults(file, soils.error(), faults);
+      faults.add(soils.error());
       continue;
     }
-    for (std::size_t i = 0; i < soils->size(); ++i) {
-      const std::string name = (*soils)[i].name;
-      if (!catalogue.soils.emplace(name, std::move((*soils)[i])).second) {
-        faults.push_back(
-            {fmt::format("{}#/soils/{}/name", file, i), fmt::format("soil {} is given twice", name)});
-      }
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < soils->size(); ++i)
+      if (const std::string& name = (*soils)[i].name;
+          catalogue.soils.contains(name) || !names.insert(name).second)
+        faults.add(fmt::format("/soils/{}/name", i), fmt::format("soil {} is given twice", name));
+    if (faults.any()) continue;
+    for (sim::SoilDistribution& soil : *soils) {
+      const std::string name = soil.name;
+      catalogue.soils.emplace(name, std::move(soil));
     }
   }
-  if (faults.empty()) join_alternatives(catalogue, faults);
-  if (faults.empty() && !catalogue.soils.contains(kUnknownGround)) {
-    faults.push_back({"soils#", fmt::format("there is no soil {}", kUnknownGround)});
+  for (const auto& [name, unjoined] : join_alternatives(catalogue)) {
+    FileFaults faults("soil", name, "soils", catalogue);
+    for (const Fault& fault : unjoined) faults.add(name + fault.pointer, fault.message);
+    catalogue.soils.erase(name);
   }
 }
 
-void load_rules(const fs::path& data, Catalogue& catalogue, std::vector<Fault>& faults) {
+void load_rules(const fs::path& data, Catalogue& catalogue) {
   std::error_code error;
   if (!fs::exists(data / "rules", error)) return;
   for (const fs::path& path : entries_of(data / "rules")) {
+    FileFaults faults("rules", path.stem().string(), "rules/" + path.filename().string(), catalogue);
     const auto bytes = read_data_file(path);
-    const std::string file = "rules/" + path.filename().string();
     auto rules = bytes ? json::read_rules_file(*bytes) : Result<RuleSet>(fail(bytes.error()));
     if (!rules) {
-      add_faults(file, rules.error(), faults);
+      faults.add(rules.error());
     } else if (rules->name != path.stem().string()) {
-      faults.push_back(
-          {file + "#/name", fmt::format("name = {}, must be the name of its file", rules->name)});
+      faults.add("/name", fmt::format("name = {}, must be the name of its file", rules->name));
     } else {
       catalogue.rules[rules->name] = std::move(*rules);
     }
   }
 }
 
-void check_legend(const std::string& file, const TerrainDescription& terrain, const Catalogue& catalogue,
-                  std::vector<Fault>& faults) {
+void check_legends(const TerrainDescription& terrain, const Catalogue& catalogue, FileFaults& faults) {
   for (std::size_t l = 0; l < terrain.legends.size(); ++l) {
     const std::vector<dem::SoilClass>& classes = terrain.legends[l].classes;
     const std::string place = l == 0 ? "/soil" : fmt::format("/soil/other_legends/{}", l - 1);
-    for (std::size_t i = 0; i < classes.size(); ++i) {
-      const auto& soil = classes[i].soil;
-      if (!soil || catalogue.soils.contains(*soil)) continue;
-      faults.push_back({fmt::format("{}#{}/legend/{}/soil", file, place, i),
-                        unknown_name("soil", *soil, names_of(catalogue.soils))});
-    }
+    for (std::size_t i = 0; i < classes.size(); ++i)
+      if (const auto& soil = classes[i].soil; soil && !catalogue.soils.contains(*soil))
+        faults.add(fmt::format("{}/legend/{}/soil", place, i), unknown_soil(catalogue, *soil));
   }
 }
 
-void load_terrains(const fs::path& data, Catalogue& catalogue, std::vector<Fault>& faults) {
-  const bool soils_are_good = faults.empty();
+void load_terrains(const fs::path& data, Catalogue& catalogue) {
   for (const fs::path& folder : entries_of(data / "terrains")) {
     std::error_code error;
     if (!fs::exists(folder / "terrain.json", error)) continue;
-    const std::string file = fmt::format("terrains/{}/terrain.json", folder.filename().string());
+    const std::string name = folder.filename().string();
+    FileFaults faults("terrain", name, fmt::format("terrains/{}/terrain.json", name), catalogue);
     const auto site = TerrainSite::open(folder);
     if (!site) {
-      add_faults(file, site.error(), faults);
+      faults.add(site.error());
       continue;
     }
-    if (soils_are_good) check_legend(file, (*site)->description(), catalogue, faults);
-    catalogue.terrains[(*site)->description().name] = *site;
+    check_legends((*site)->description(), catalogue, faults);
+    if (!faults.any()) catalogue.terrains[(*site)->description().name] = *site;
   }
+}
+
+std::string unknown_in(const Catalogue& catalogue, std::string_view kind, std::string_view name,
+                       const std::vector<std::string>& known) {
+  std::string words = unknown_name(kind, name, known);
+  for (const LeftOutFile& file : catalogue.left_out)
+    if (file.kind == kind && (file.name == name || kind == "soil"))
+      words += fmt::format("; {} is left out, since it has faults",
+                           file.faults.front().pointer.substr(0, file.faults.front().pointer.find('#')));
+  return words;
 }
 
 }  // namespace
@@ -150,16 +182,31 @@ void load_terrains(const fs::path& data, Catalogue& catalogue, std::vector<Fault
 Result<Catalogue> load_catalogue(const fs::path& data, const sim::SoilFormat& format) {
   Catalogue catalogue;
   catalogue.soil_format = &format;
-  std::vector<Fault> faults;
-  load_rovers(data, catalogue, faults);
-  load_soils(data, catalogue, faults);
-  load_rules(data, catalogue, faults);
-  load_terrains(data, catalogue, faults);
-  if (!faults.empty()) {
-    return fail(ErrorCode::kUnreadableData,
-                fmt::format("the data folder {}: {}", data.string(), summary_of(faults)), faults);
-  }
-  return catalogue;
+  load_rovers(data, catalogue);
+  load_soils(data, catalogue);
+  load_rules(data, catalogue);
+  load_terrains(data, catalogue);
+  std::vector<Fault> missing;
+  if (catalogue.rovers.empty()) missing.push_back({"rovers#", "there is no rover"});
+  if (!catalogue.soils.contains(kUnknownGround))
+    missing.push_back({"soils#", fmt::format("there is no soil {}", kUnknownGround)});
+  if (missing.empty()) return catalogue;
+  for (const LeftOutFile& file : catalogue.left_out)
+    missing.insert(missing.end(), file.faults.begin(), file.faults.end());
+  return fail(ErrorCode::kUnreadableData,
+              fmt::format("the data folder {}: {}", data.string(), summary_of(missing)), missing);
+}
+
+std::string unknown_rover(const Catalogue& catalogue, std::string_view name) {
+  return unknown_in(catalogue, "rover", name, names_of(catalogue.rovers));
+}
+
+std::string unknown_soil(const Catalogue& catalogue, std::string_view name) {
+  return unknown_in(catalogue, "soil", name, names_of(catalogue.soils));
+}
+
+std::string unknown_terrain(const Catalogue& catalogue, std::string_view name) {
+  return unknown_in(catalogue, "terrain", name, names_of(catalogue.terrains));
 }
 
 Result<Catalogue> with_soils(Catalogue catalogue, const std::vector<sim::SoilDistribution>& soils) {
@@ -171,16 +218,12 @@ Result<Catalogue> with_soils(Catalogue catalogue, const std::vector<sim::SoilDis
           {fmt::format("/beliefs/{}/name", k), fmt::format("soil {} is given twice", soils[k].name)});
     catalogue.soils[soils[k].name] = soils[k];
   }
-  std::vector<Fault> unjoined;
-  join_alternatives(catalogue, unjoined);
-  for (Fault& fault : unjoined) {
-    // "soils#NAME/alternatives/..."
-    const std::size_t begin = fault.pointer.find('#') + 1, end = fault.pointer.find('/');
-    const auto own = given.find(fault.pointer.substr(begin, end - begin));
-    faults.push_back({own != given.end()
-                          ? fmt::format("/beliefs/{}{}", own->second, fault.pointer.substr(end))
-                          : std::string("/beliefs"),
-                      std::move(fault.message)});
+  for (const auto& [name, unjoined] : join_alternatives(catalogue)) {
+    const auto own = given.find(name);
+    for (const Fault& fault : unjoined)
+      faults.push_back({own != given.end() ? fmt::format("/beliefs/{}{}", own->second, fault.pointer)
+                                           : std::string("/beliefs"),
+                        fault.message});
   }
   if (!faults.empty()) return fail(ErrorCode::kInvalidRequest, summary_of(faults), faults);
   return catalogue;

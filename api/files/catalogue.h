@@ -18,23 +18,39 @@ namespace slipway::api {
 // The belief about ground that no map names.
 inline constexpr std::string_view kUnknownGround = "unknown_ground";
 
+// A file of the data folder that is not used, since it has faults. Their pointers begin with the file,
+// "rovers/mer-class.json#/mass_kg".
+struct LeftOutFile {
+  std::string kind;  // "rover", "soil", "rules" or "terrain"
+  std::string name;  // of what it describes; of a file of soils, the file's
+  std::vector<Fault> faults;
+};
+
 // What the service ships, by name: immutable once loaded.
 struct Catalogue {
   std::map<std::string, std::shared_ptr<const sim::RoverModel>, std::less<>> rovers;
   std::map<std::string, sim::SoilDistribution, std::less<>> soils;
   std::map<std::string, std::shared_ptr<const TerrainSite>, std::less<>> terrains;
   std::map<std::string, RuleSet, std::less<>> rules;
+  std::vector<LeftOutFile> left_out;
   const sim::SoilFormat* soil_format = &sim::soil_format();  // that the soils were read by
 };
 
-// Loads rovers/*.json, soils/*.json, rules/*.json and terrains/*/terrain.json under the folder. The faults of
-// all files are reported together; pointers begin with the file, "rovers/mer-class.json#/mass_kg".
+// Loads rovers/*.json, soils/*.json, rules/*.json and terrains/*/terrain.json under the folder. Files with
+// faults are left out, and so is what needs them. Errors: unreadable_data where no rover is left or no soil
+// of the name kUnknownGround, with the faults of all files.
 Result<Catalogue> load_catalogue(const std::filesystem::path& data,
                                  const sim::SoilFormat& format = sim::soil_format());
 
 // The catalogue with soils that stand in for those of the same names, or beside them. Errors:
 // invalid_request, places under "/beliefs".
 Result<Catalogue> with_soils(Catalogue catalogue, const std::vector<sim::SoilDistribution>& soils);
+
+// What to say of a name that the catalogue does not have: the nearest of those that it has, and whether a
+// file that was left out may have had it.
+std::string unknown_rover(const Catalogue& catalogue, std::string_view name);
+std::string unknown_soil(const Catalogue& catalogue, std::string_view name);
+std::string unknown_terrain(const Catalogue& catalogue, std::string_view name);
 
 template <class Map>
 std::vector<std::string> names_of(const Map& map) {

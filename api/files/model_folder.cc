@@ -185,7 +185,7 @@ Result<Catalogue> with_model(Catalogue catalogue, const ModelFolder& folder,
   for (std::size_t i = 0; i < ground.size(); ++i) {
     const std::string pointer = fmt::format("/ground/{}", i);
     if (!catalogue.soils.contains(ground[i]))
-      faults.push_back({pointer, unknown_name("soil", ground[i], names_of(catalogue.soils))});
+      faults.push_back({pointer, unknown_soil(catalogue, ground[i])});
     else if (model.soils.size() > 1)
       faults.push_back({pointer, fmt::format("the model has {} soils: which of them {} is can't be told",
                                              model.soils.size(), in_quotes(ground[i]))});

@@ -14,6 +14,14 @@ enum class SoilSource {
   kPolygons,  // a GeoJSON file of units
 };
 
+// How far the ground may be from the map, as a terrain or a request states it: see sim::ReliefSpread, whose
+// values stand where these are empty.
+struct ReliefValues {
+  std::optional<double> elevation_error_m = {}, error_length_m = {};
+  std::optional<double> roughness_m = {}, roughness_length_m = {};
+  std::optional<double> rock_share = {}, min_rock_m = {}, max_rock_m = {};
+};
+
 // One reading of a map's classes: which soil each is believed to be, and why.
 struct Legend {
   std::string name = "default";
@@ -33,6 +41,7 @@ struct TerrainDescription {
   std::string soil_property;  // of the polygons: which property is the label
   dem::PolygonCoordinates soil_coordinates = dem::PolygonCoordinates::kMap;
   std::vector<Legend> legends = {Legend{}};  // the first is used where a request names none
+  ReliefValues relief;                       // drawn where a request asks for it
   std::optional<std::string> stops_file;
   std::optional<std::string> outcomes_file;  // how drives on this ground ended
   std::optional<std::string> provenance_file;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "api/files/relief_values.h"
 #include "api/json/faults.h"
 #include "api/json/parse.h"
 #include "api/json/strict_reader.h"
@@ -44,6 +45,7 @@ void read_legend(ObjectReader& soil, SoilSource source, Legend& legend) {
         entry.soil = text;
       }
     }
+    reader.number("rock_share", kOptional, kRockShareRule, entry.rock_share);
     reader.refuse_unknown();
   }
   soil.text("assumption", kRequired, {.most = 2000}, legend.assumption);
@@ -100,6 +102,9 @@ Result<TerrainDescription> read_terrain_file(std::string_view bytes) {
   read_file_name(reader, "elevation", kRequired, terrain.elevation_file);
   reader.number("gravity_m_s2", kRequired, {"m/s^2", 0.0, 30.0, true}, terrain.gravity_m_s2);
   if (auto soil = reader.object("soil", kOptional)) read_soil(*soil, terrain);
+  std::optional<ReliefValues> relief;
+  read_relief(reader, relief);
+  terrain.relief = relief.value_or(ReliefValues{});
   std::string file;
   read_file_name(reader, "stops", kOptional, file);
   if (!file.empty()) terrain.stops_file = file;

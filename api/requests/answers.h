@@ -40,6 +40,7 @@ struct Provenance {
   // Where drives of the past weigh the draws: how many, and what is left of the draws.
   std::optional<int> past_drives = {};
   std::optional<LearntDrive> learnt = {};
+  std::shared_ptr<const sim::ReliefSpread> relief = {};  // that the draws have; empty: the map's own
 };
 
 struct PlanAnswer {

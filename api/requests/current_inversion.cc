@@ -71,11 +71,11 @@ Result<CurrentInversion> invert_current(const Catalogue& catalogue, const Curren
   if (const auto rover = catalogue.rovers.find(request.rover); rover != catalogue.rovers.end()) {
     settle(*rover->second, inversion.request, rig, faults);
   } else {
-    faults.push_back({"/rover", unknown_name("rover", request.rover, names_of(catalogue.rovers))});
+    faults.push_back({"/rover", unknown_rover(catalogue, request.rover)});
   }
   const auto soil = catalogue.soils.find(request.soil);
   if (soil == catalogue.soils.end())
-    faults.push_back({"/soil", unknown_name("soil", request.soil, names_of(catalogue.soils))});
+    faults.push_back({"/soil", unknown_soil(catalogue, request.soil)});
   else if (soil->second.mean.slip_curve != nullptr)
     faults.push_back(
         {"/soil", fmt::format("{} is known by a slip curve alone, which says nothing of a wheel's current",

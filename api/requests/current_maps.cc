@@ -22,7 +22,7 @@ Result<sim::WheelRig> rig_of(const Catalogue& catalogue, CurrentMapOptions& opti
   sim::WheelRig rig;
   const auto rover = catalogue.rovers.find(options.rover);
   if (rover == catalogue.rovers.end()) {
-    faults.push_back({"/rover", unknown_name("rover", options.rover, names_of(catalogue.rovers))});
+    faults.push_back({"/rover", unknown_rover(catalogue, options.rover)});
   } else {
     rig.rover = *rover->second;
     if (!options.load_n)
@@ -33,7 +33,7 @@ Result<sim::WheelRig> rig_of(const Catalogue& catalogue, CurrentMapOptions& opti
   }
   const auto found = catalogue.soils.find(soil);
   if (found == catalogue.soils.end()) {
-    faults.push_back({"/soil", unknown_name("soil", soil, names_of(catalogue.soils))});
+    faults.push_back({"/soil", unknown_soil(catalogue, soil)});
   } else {
     rig.soil = found->second.mean;
     rig.soil_format = catalogue.soil_format;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "api/files/drive_rules.h"
+#include "api/files/terrain_description.h"
 #include "core/result.h"
 #include "planner/problem/drive_so_far.h"
 #include "planner/problem/problem.h"
@@ -40,6 +41,7 @@ struct DriveAssumptions : DriveRules {
   std::string unknown_soil;  // of the catalogue; what is believed of all unmapped ground where it is empty
   std::optional<double> confidence;     // in the legend; the legend's own where it is empty
   std::string legend;                   // of the terrain's legends; the first where it is empty
+  std::optional<ReliefValues> relief;   // the relief is drawn too, with these over the terrain's own values
   std::optional<double> speed_m_s;      // the rover's cruise speed where it is empty
   std::optional<RequestedModel> model;  // where it is empty, rover and soils are the catalogue's
 };

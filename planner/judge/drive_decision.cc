@@ -1,6 +1,7 @@
 #include "planner/judge/drive_decision.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -69,9 +70,36 @@ void add_rules(const sim::DrivePrediction& drive, std::vector<std::string>& reas
   }
 }
 
+// The labels of the map's classes under the stations on a ground, in their order; none of ground that no map
+// names and of soils that stand on the map under their own name.
+std::vector<std::string> classes_under(const PlanProblem& problem, const sim::DrivePrediction& drive,
+                                       std::optional<std::size_t> soil) {
+  std::vector<std::string> labels;
+  if (!problem.soil_map) return labels;
+  for (const sim::StationPrediction& station : drive.stations) {
+    if ((station.on_unknown_ground ? std::nullopt : station.soil) != soil) continue;
+    const auto value = problem.soil_map->class_at(station.station.pose.x_m, station.station.pose.y_m);
+    for (const dem::SoilClass& row : problem.soil_map->legend())
+      if (value == row.value && row.label != row.soil &&
+          std::find(labels.begin(), labels.end(), row.label) == labels.end())
+        labels.push_back(row.label);
+  }
+  return labels;
+}
+
+std::string ground_words(const PlanProblem& problem, const sim::DrivePrediction& drive,
+                         std::optional<std::size_t> soil) {
+  const std::vector<std::string> classes = classes_under(problem, drive, soil);
+  const std::string name =
+      soil ? fmt::format("ground of soil {}", problem.beliefs.known[*soil].name) : "ground of unknown soil";
+  return classes.empty() ? (soil ? name : "unmapped ground")
+                         : fmt::format("{} (class {} of the map)", name, fmt::join(classes, ", "));
+}
+
 // The ground on which most goes wrong.
-void add_ground(const PlanProblem& problem, const sim::DriveOutcomes& outcomes,
+void add_ground(const PlanProblem& problem, const sim::DrivePrediction& drive,
                 std::vector<std::string>& reasons) {
+  const sim::DriveOutcomes& outcomes = drive.outcomes;
   const sim::GroundRisk* worst = nullptr;
   double all = 0.0;
   for (const sim::GroundRisk& ground : outcomes.grounds) {
@@ -80,11 +108,9 @@ void add_ground(const PlanProblem& problem, const sim::DriveOutcomes& outcomes,
       worst = &ground;
   }
   if (all <= 0.0) return;
-  reasons.push_back(
-      fmt::format("{} decides: {} of what goes wrong happens on its {:.0f} m",
-                  worst->soil ? fmt::format("ground of soil {}", problem.beliefs.known[*worst->soil].name)
-                              : "unmapped ground",
-                  percent((worst->expected_stops + worst->embedding) / all), worst->length_m));
+  reasons.push_back(fmt::format("{} decides: {} of what goes wrong happens on its {:.0f} m",
+                                ground_words(problem, drive, worst->soil),
+                                percent((worst->expected_stops + worst->embedding) / all), worst->length_m));
 }
 
 }  // namespace
@@ -135,7 +161,7 @@ DriveDecision decide(const PlanProblem& problem, const sim::DrivePrediction& dri
   out.reasons.push_back(embedding);
   out.reasons.push_back(stops);
   add_rules(drive, out.reasons);
-  add_ground(problem, outcomes, out.reasons);
+  add_ground(problem, drive, out.reasons);
   return out;
 }
 

@@ -107,6 +107,7 @@ int campaign(const CampaignCommand& options) {
   if (!data) return refuse(data.error());
   const auto catalogue = api::load_catalogue(*data);
   if (!catalogue) return refuse(catalogue.error());
+  std::cerr << left_out_text(*catalogue);
   if (options.table == "list") return print_list(*data, *catalogue);
   const auto loaded = api::load_campaign_table(options.table, *data, *catalogue);
   if (!loaded) return refuse(loaded.error());

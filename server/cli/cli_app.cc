@@ -10,6 +10,7 @@
 #include "server/cli/check_command.h"
 #include "server/cli/compare_answers_command.h"
 #include "server/cli/current_command.h"
+#include "server/cli/data_check_command.h"
 #include "server/cli/diagnose_command.h"
 #include "server/cli/estimate_command.h"
 #include "server/cli/gap_benchmark_command.h"
@@ -63,6 +64,7 @@ int run_command_line(int argc, char** argv) {
   add_estimate_command(app, run);
   add_gap_benchmark_command(app, run);
   add_terrain_command(app, run);
+  add_data_command(app, run);
   add_validate_command(app, run);
   add_worlds_command(app, run);
   add_catalogue_commands(app, run);

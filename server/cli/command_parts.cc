@@ -61,7 +61,9 @@ int refuse_unreadable(const Error& error) {
 Result<api::Catalogue> open_catalogue(const std::string& data_option) {
   const auto data = data_folder(data_option);
   if (!data) return fail(data.error());
-  return api::load_catalogue(*data);
+  auto catalogue = api::load_catalogue(*data);
+  if (catalogue) std::cerr << left_out_text(*catalogue);
+  return catalogue;
 }
 
 Result<std::unique_ptr<Inquiry>> inquiry(const AskOptions& options) {

@@ -70,11 +70,9 @@ std::string words_of(const api::CurrentInversion& inversion) {
 }  // namespace
 
 int current_map(const CurrentMapCommand& options) {
-  const auto data = data_folder(options.ask.data);
-  if (!data) return refuse(data.error());
-  const auto service = api::Service::open({.data = *data});
-  if (!service) return refuse(service.error());
-  const auto maps = maps_of((*service)->catalogue(), options);
+  const auto catalogue = open_catalogue(options.ask.data);
+  if (!catalogue) return refuse(catalogue.error());
+  const auto maps = maps_of(*catalogue, options);
   if (!maps) return refuse(maps.error());
   const std::string csv = api::current_maps_csv(*maps);
   std::vector<OutputFile> files;

@@ -93,6 +93,15 @@ void add_drive(CLI::App& command, DriveOptions& drive) {
   command.add_option("--confidence", drive.confidence,
                      "that a mapped class is the soil that the legend gives");
   command.add_option("--legend", drive.legend, "which of the terrain's legends says what its classes are");
+  command.add_flag("--relief", drive.relief,
+                   "draw the relief too: the map's error, roughness and rocks, as the terrain states them");
+  command.add_option(
+      "--elevation-error-m", drive.elevation_error_m,
+      "standard deviation of the map's heights in place of the terrain's value; draws the relief");
+  command.add_option("--roughness-m", drive.roughness_m,
+                     "the same of heights about the map's surface; draws the relief");
+  command.add_option("--rock-share", drive.rock_share,
+                     "share of the ground that rocks cover; draws the relief");
   command.add_option("--draws", drive.draws,
                      "draws of the ground for the risk; as many as the verdict needs where it is not given");
   command.add_option("--seed", drive.seed, "the same seed gives the same answer");

@@ -28,6 +28,8 @@ struct DriveOptions {
   std::string beliefs;       // file with soils that stand in for the catalogue's; empty: none
   std::string legend, unknown_soil;
   std::optional<double> confidence;
+  bool relief = false;
+  std::optional<double> elevation_error_m, roughness_m, rock_share;
   std::optional<int> draws;
   std::optional<long long> seed;
   std::optional<double> motor_temp_c;

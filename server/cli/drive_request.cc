@@ -43,11 +43,12 @@ class Input {
   int descriptor_;
 };
 
-// An object of the numbers that were given; none where none was.
+// An object of the numbers that were given; none where none was, unless it is wanted in any case.
 void write_given(Writer& w, std::string_view key,
-                 std::initializer_list<std::pair<std::string_view, std::optional<double>>> numbers) {
+                 std::initializer_list<std::pair<std::string_view, std::optional<double>>> numbers,
+                 bool in_any_case = false) {
   const auto given = [](const auto& number) { return number.second.has_value(); };
-  if (std::none_of(numbers.begin(), numbers.end(), given)) return;
+  if (!in_any_case && std::none_of(numbers.begin(), numbers.end(), given)) return;
   w.key(key).begin_object();
   for (const auto& [name, number] : numbers)
     if (number) w.exact(name, *number);
@@ -117,6 +118,11 @@ Result<void> write_drive(Writer& w, const DriveOptions& drive) {
     w.end_object();
   }
   if (auto written = write_files(w, drive); !written) return written;
+  write_given(w, "relief",
+              {{"elevation_error_m", drive.elevation_error_m},
+               {"roughness_m", drive.roughness_m},
+               {"rock_share", drive.rock_share}},
+              drive.relief);
   if (!drive.unknown_soil.empty()) w.text("unknown_soil", drive.unknown_soil);
   if (drive.confidence) w.exact("confidence", *drive.confidence);
   if (!drive.legend.empty()) w.text("legend", drive.legend);

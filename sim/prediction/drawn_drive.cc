@@ -3,10 +3,18 @@
 #include <cmath>
 #include <functional>
 
+#include "core/random.h"
 #include "sim/prediction/drawn_ground.h"
+#include "sim/prediction/drawn_relief.h"
 #include "sim/prediction/odometry_shortfall.h"
 
 namespace slipway::sim {
+namespace {
+
+// Beside the keys of the soils, which come from their names.
+constexpr std::uint64_t kReliefStream = 0x72656c696566ULL;
+
+}  // namespace
 
 double slip_scale(const DrawnGround& ground, const PreparedStation& station) {
   double sum = 0.0;
@@ -22,13 +30,15 @@ void scale_slip(double scale, StationState& state) {
 }
 
 DrawnDriver::DrawnDriver(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs& beliefs,
-                         const PreparedDrive& drive, const DriveLimits& limits, const SlipChecks& checks)
+                         const PreparedDrive& drive, const DriveLimits& limits, const SlipChecks& checks,
+                         const ReliefSpread* relief)
     : rover_(rover),
       gravity_m_s2_(gravity_m_s2),
       beliefs_(beliefs),
       drive_(drive),
       limits_(limits),
       checks_(checks),
+      relief_(relief),
       drives_level_(rover, gravity_m_s2) {
   if (!drive.stations.empty()) stretch_ends_m_ = stretch_ends_m(drive.stations);
   geometries_.reserve(drive.stations.size());
@@ -44,18 +54,33 @@ DrawnDrive DrawnDriver::run(std::uint64_t key, const DrawnRun& how, const Progre
   OutcomeFollower follower(rover_, limits_, checks_);
   ShortfallFollower shortfall(stretch_ends_m_);
   PerWheel<Soil> under(rover_.wheels.size());
+  std::optional<DrawnRelief> relief;
+  if (relief_) relief.emplace(*drive_.ground, *relief_, random_key(key, kReliefStream));
+  bool without_stance = drive_.without_stance;
   const RoverBalance::Vector* last_on_means = nullptr;
   bool embedded = false;
   for (std::size_t s = 0; s < drive_.stations.size() && !(embedded && drawn.immobilised); ++s) {
     if (progress.cancelled()) break;
-    const PreparedStation& station = drive_.stations[s];
+    PreparedStation on_relief;
+    std::optional<BalanceGeometry> geometry_on_relief;
+    if (relief) {
+      const std::optional<Stance> stance = settle(rover_, *relief, drive_.stations[s].pose);
+      if (!stance) {
+        without_stance = true;
+        break;
+      }
+      on_relief = drive_.stations[s];
+      on_relief.stance = *stance;
+      geometry_on_relief.emplace(rover_, gravity_m_s2_, on_relief.stance, on_relief.command);
+    }
+    const PreparedStation& station = relief ? on_relief : drive_.stations[s];
     for (std::size_t k = 0; k < under.size(); ++k)
       under[k] = ground.at(station.soil[k], station.pose.x_m, station.pose.y_m);
     if (station.on_means) {
       solver.follow(last_on_means ? *last_on_means : *station.on_means, *station.on_means);
       last_on_means = &*station.on_means;
     }
-    StationState state = solver.solve(geometries_[s], under);
+    StationState state = solver.solve(relief ? *geometry_on_relief : geometries_[s], under);
     scale_slip(slip_scale(ground, station), state);
     if (!embedded) embedded = !follower.add(station, s, state);
     if (how.to_first_stop && (embedded || follower.stops() > 0)) break;
@@ -66,9 +91,9 @@ DrawnDrive DrawnDriver::run(std::uint64_t key, const DrawnRun& how, const Progre
     if (!was_held) shortfall.add(station.drive_m, state.slip_ratio);
   }
   drawn.outcome = follower.finish();
-  drawn.shortfall_m = shortfall.finish(drawn.immobilised || drive_.without_stance);
-  if (drive_.without_stance) {
-    // The wheels meet ground that the suspension cannot follow: no draw of the soil passes there.
+  drawn.shortfall_m = shortfall.finish(drawn.immobilised || without_stance);
+  if (without_stance) {
+    // The wheels meet ground that the suspension cannot follow.
     drawn.breaks_a_limit = drawn.immobilised = true;
     drawn.outcome.embedded = true;
     drawn.outcome.rules[static_cast<std::size_t>(Rule::kEmbedding)].tripped = true;
@@ -95,6 +120,8 @@ void DrawnDriver::add(const PreparedStation& station, const StationState& state,
     drawn.slip.push_back(static_cast<float>(state.slip_ratio));
     drawn.current_a.push_back(static_cast<float>(largest_current_a(state)));
     drawn.sinkage_m.push_back(static_cast<float>(deepest_sinkage_m(state)));
+    drawn.tilt_rad.push_back(static_cast<float>(state.attitude.tilt_rad()));
+    drawn.clearance_m.push_back(static_cast<float>(station.stance.belly_clearance_m));
   }
   drawn.immobilised = !state.moving();
 }

@@ -14,7 +14,8 @@ namespace slipway::sim {
 
 // The results of one draw along a drive.
 struct DrawnDrive : DrawFigures {
-  std::vector<float> slip, current_a, sinkage_m;  // per station that was reached, where they are kept
+  // Per station that was reached, where they are kept.
+  std::vector<float> slip, current_a, sinkage_m, tilt_rad, clearance_m;
   std::vector<bool> bad;  // per station: a limit is broken or the rover is immobilised
   bool immobilised = false;
   DriveOutcome outcome;
@@ -45,8 +46,10 @@ void scale_slip(double scale, StationState& state);
 // threads.
 class DrawnDriver {
  public:
+  // `relief` is drawn where it is given.
   DrawnDriver(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs& beliefs,
-              const PreparedDrive& drive, const DriveLimits& limits, const SlipChecks& checks);
+              const PreparedDrive& drive, const DriveLimits& limits, const SlipChecks& checks,
+              const ReliefSpread* relief = nullptr);
 
   // On the draw of a key.
   DrawnDrive run(std::uint64_t key, const DrawnRun& how, const Progress& progress) const;
@@ -62,6 +65,7 @@ class DrawnDriver {
   const PreparedDrive& drive_;
   const DriveLimits& limits_;
   const SlipChecks& checks_;
+  const ReliefSpread* relief_;
   LevelGroundTest drives_level_;
   std::vector<double> stretch_ends_m_;
   std::vector<BalanceGeometry> geometries_;  // of the stations

@@ -10,7 +10,7 @@
 namespace slipway::sim {
 namespace {
 
-enum Stream : std::uint64_t { kError, kRoughness, kRocks };
+enum Stream : std::uint64_t { kError, kRoughness, kRocks, kThinning };
 
 constexpr int kSteps = 400;  // of the integral over widths; its error is below 1e-4 of it
 
@@ -19,9 +19,9 @@ std::uint64_t cell_key(std::uint64_t key, double column, double row) {
                     static_cast<std::uint64_t>(static_cast<long long>(row)));
 }
 
-// Rocks on a square metre by metre of their width.
-double per_width(const ReliefSpread& spread, double width_m) {
-  const double k = spread.rock_share, q = 1.79 + 0.152 / k;
+// Rocks on a square metre by metre of their width, where they cover the share k.
+double per_width(double k, double width_m) {
+  const double q = 1.79 + 0.152 / k;
   return k * q * std::exp(-q * width_m) / (std::numbers::pi * width_m * width_m / 4.0);
 }
 
@@ -31,7 +31,7 @@ double rocks_per_m2(const ReliefSpread& spread, double min_width_m) {
   if (spread.rock_share <= 0.0 || spread.max_rock_m <= min_width_m) return 0.0;
   const double step = (spread.max_rock_m - min_width_m) / kSteps;
   double sum = 0.0;
-  for (int i = 0; i < kSteps; ++i) sum += per_width(spread, min_width_m + (i + 0.5) * step) * step;
+  for (int i = 0; i < kSteps; ++i) sum += per_width(spread.rock_share, min_width_m + (i + 0.5) * step) * step;
   return sum;
 }
 
@@ -45,11 +45,11 @@ DrawnRelief::DrawnRelief(const Ground& ground, const ReliefSpread& spread, std::
   widths_m_.push_back(width);
   for (int i = 1; i < kQuantiles; ++i) {
     const double wanted = rocks_per_m2_ * i / kQuantiles;
-    double here = per_width(spread, width - 0.5 * step) * step;
+    double here = per_width(spread.rock_share, width - 0.5 * step) * step;
     while (wider + here < wanted && width - step > spread.min_rock_m) {
       wider += here;
       width -= step;
-      here = per_width(spread, width - 0.5 * step) * step;
+      here = per_width(spread.rock_share, width - 0.5 * step) * step;
     }
     widths_m_.push_back(width - step * std::clamp((wanted - wider) / here, 0.0, 1.0));
   }
@@ -84,6 +84,13 @@ DrawnRelief::Rise DrawnRelief::noise(std::uint64_t key, double deviation_m, doub
   return {scale * sum, scale * (sum_x - sum * turn_x) / length_m, scale * (sum_y - sum * turn_y) / length_m};
 }
 
+// Rocks are drawn as where they are most common, and thinned elsewhere.
+bool DrawnRelief::is_there(double width_m, double x_m, double y_m, double uniform) const {
+  if (!spread_.rock_share_at) return true;
+  const double share = spread_.rock_share_at(x_m, y_m);
+  return share > 0.0 && uniform < per_width(share, width_m) / per_width(spread_.rock_share, width_m);
+}
+
 // The highest of the rocks over a place. A rock is h (1 - (r / R)^2)^2 high: half as high as wide, without an
 // edge that a wheel's contact would jump over.
 DrawnRelief::Rise DrawnRelief::rocks(double x_m, double y_m) const {
@@ -107,6 +114,7 @@ DrawnRelief::Rise DrawnRelief::rocks(double x_m, double y_m) const {
         const double radius = 0.5 * width, left = 1.0 - (dx * dx + dy * dy) / (radius * radius);
         const double height = 0.5 * width * left * left;
         if (left <= 0.0 || height <= highest.height_m) continue;
+        if (!is_there(width, x_m - dx, y_m - dy, random_uniform(random_key(cell, kThinning), n))) continue;
         const double slope = -2.0 * width * left / (radius * radius);
         highest = {height, slope * dx, slope * dy};
       }

@@ -230,7 +230,7 @@ void fill_events(const std::vector<DrawnDrive>& drives, std::vector<StationPredi
 }
 
 void fill_station(const std::vector<DrawnDrive>& drives, std::size_t s, StationPrediction& station) {
-  std::vector<std::pair<double, double>> slip, current, sinkage;
+  std::vector<std::pair<double, double>> slip, current, sinkage, tilt, clearance;
   double bad = 0.0, all = 0.0;
   for (const DrawnDrive& drive : drives) {
     all += drive.weight;
@@ -239,6 +239,8 @@ void fill_station(const std::vector<DrawnDrive>& drives, std::size_t s, StationP
     slip.emplace_back(drive.slip[s], drive.weight);
     current.emplace_back(drive.current_a[s], drive.weight);
     sinkage.emplace_back(drive.sinkage_m[s], drive.weight);
+    tilt.emplace_back(drive.tilt_rad[s], drive.weight);
+    clearance.emplace_back(drive.clearance_m[s], drive.weight);
   }
   station.risk = bad / all;
   if (slip.empty()) return;  // no draw came this far, so that the values on the mean soils remain
@@ -247,6 +249,10 @@ void fill_station(const std::vector<DrawnDrive>& drives, std::size_t s, StationP
   station.slip_ratio_p95 = weighted_quantile(slip, 0.95);
   station.current_a_p95 = weighted_quantile(current, 0.95);
   station.sinkage_m_p95 = weighted_quantile(sinkage, 0.95);
+  station.tilt_rad_p05 = weighted_quantile(tilt, 0.05);
+  station.tilt_rad_p95 = weighted_quantile(tilt, 0.95);
+  station.clearance_m_p05 = weighted_quantile(clearance, 0.05);
+  station.clearance_m_p95 = weighted_quantile(clearance, 0.95);
 }
 
 void summarise(const std::vector<DrawnDrive>& drives, const std::vector<PreparedStation>& stations,

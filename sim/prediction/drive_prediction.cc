@@ -74,6 +74,7 @@ class Predictor {
         conditions_(conditions),
         solver_(rover, gravity_m_s2) {
     for (const WheelModel& wheel : rover.wheels) prediction_.wheel_names.push_back(wheel.name);
+    prepared_.ground = &ground;
   }
 
   // Without the stations of the prediction on the mean soils: for what is asked of the draws alone.
@@ -165,6 +166,8 @@ class Predictor {
     predicted.slip_ratio_p05 = predicted.slip_ratio_p50 = predicted.slip_ratio_p95 = state.slip_ratio;
     predicted.current_a_p95 = largest_current_a(state);
     predicted.sinkage_m_p95 = deepest_sinkage_m(state);
+    predicted.tilt_rad_p05 = predicted.tilt_rad_p95 = state.attitude.tilt_rad();
+    predicted.clearance_m_p05 = predicted.clearance_m_p95 = predicted.clearance_m;
     if (!state.moving()) {
       predicted.elapsed_s = p.duration_s;
       p.immobilised = {s, predicted.station.pose, reason_text(rover_, beliefs_, predicted)};

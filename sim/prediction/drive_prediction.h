@@ -13,6 +13,7 @@
 #include "core/progress.h"
 #include "core/result.h"
 #include "sim/prediction/drive_limits.h"
+#include "sim/prediction/relief_spread.h"
 #include "sim/quasi_static/quasi_static.h"
 #include "sim/rover/ground.h"
 #include "sim/rover/rover_model.h"
@@ -52,9 +53,11 @@ struct StationPrediction {
   double slip_ratio_p05 = 0.0, slip_ratio_p50 = 0.0, slip_ratio_p95 = 0.0;
   double current_a_p95 = 0.0;  // of the worst wheel
   double sinkage_m_p95 = 0.0;  // of the worst wheel
-  double risk = 0.0;           // share of draws that break a limit or are immobilised here
-  double stops = 0.0;          // expected stops here, see OutcomeFollower
-  double embedding = 0.0;      // share of draws that are embedded here
+  double tilt_rad_p05 = 0.0, tilt_rad_p95 = 0.0;
+  double clearance_m_p05 = 0.0, clearance_m_p95 = 0.0;
+  double risk = 0.0;       // share of draws that break a limit or are immobilised here
+  double stops = 0.0;      // expected stops here, see OutcomeFollower
+  double embedding = 0.0;  // share of draws that are embedded here
 };
 
 struct Immobilisation {
@@ -220,6 +223,9 @@ struct RiskOptions {
   // What earlier drives make of the draws; those beyond the last have no weight. Where it is empty all weigh
   // the same, as they were drawn.
   std::shared_ptr<const std::vector<ConditionedDraw>> conditioned = {};
+  // The relief is drawn with the soil, and the rover set down on each draw of it; empty: the map is the
+  // ground.
+  std::shared_ptr<const ReliefSpread> relief = {};
 };
 
 // Balances the rover on the draws of the ground along the path, without a prediction on the mean soils: how
@@ -244,7 +250,8 @@ struct PastDriveReport {
 // Conditions draws of the ground on a drive along a path: each draw's ground where no earlier drive has been
 // is drawn `tries` times, one of these is kept with a probability that goes with how likely it makes the
 // report, and the draw's weight is multiplied by their mean likelihood [sequential importance resampling
-// within each draw; Doucet & Johansen 2009]. Draws under risk.seed; risk.conditioned is not used. Errors as
+// within each draw; Doucet & Johansen 2009]. Draws under risk.seed, on the map's relief; risk.conditioned
+// and risk.relief are not used. Errors as
 // predict_drive().
 Result<void> condition_draws(const RoverModel& rover, double gravity_m_s2, const Ground& ground,
                              const SoilBeliefs& beliefs, std::span<const PathStation> path,

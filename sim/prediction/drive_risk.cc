@@ -88,7 +88,7 @@ std::vector<DrawnOutcome> outcomes_of_draws(const RoverModel& rover, double grav
                                             const SoilBeliefs& beliefs, const PreparedDrive& drive,
                                             const DriveLimits& limits, const RiskOptions& options,
                                             std::size_t threads, Progress& progress) {
-  const DrawnDriver driver(rover, gravity_m_s2, beliefs, drive, limits, options.checks);
+  const DrawnDriver driver(rover, gravity_m_s2, beliefs, drive, limits, options.checks, options.relief.get());
   std::vector<DrawnOutcome> outcomes(static_cast<std::size_t>(options.draws));
   parallel_for(outcomes.size(), threads, [&](std::size_t draw) {
     const DrawnDrive drawn = driver.run(random_key(options.seed, draw), {}, progress);
@@ -101,7 +101,7 @@ std::vector<DrawnOutcome> outcomes_of_draws(const RoverModel& rover, double grav
 bool assess_risk(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs& beliefs,
                  const PreparedDrive& drive, const DriveLimits& limits, const RiskOptions& options,
                  std::size_t threads, Progress& progress, DrivePrediction& prediction, DrawsSoFar* so_far) {
-  const DrawnDriver driver(rover, gravity_m_s2, beliefs, drive, limits, options.checks);
+  const DrawnDriver driver(rover, gravity_m_s2, beliefs, drive, limits, options.checks, options.relief.get());
   const DrawsSoFar kept = so_far && *so_far ? *so_far : std::make_shared<DrawnDrives>();
   if (so_far) *so_far = kept;
   std::vector<DrawnDrive>& drives = kept->all;

@@ -42,6 +42,7 @@ Effort effort_of(const PreparedStation& station, const StationState& state);
 // The whole path as the draws drive it.
 struct PreparedDrive {
   std::vector<PreparedStation> stations;  // to the path's end, or to where the rover has no stance
+  const Ground* ground = nullptr;         // under the stations
   bool without_stance = false;            // the path goes on where no stance is possible
 };
 

@@ -290,43 +290,79 @@ TEST(ShippedSoils, AreServedAsTheFilesThatTheyCameFrom) {
   }
 }
 
-TEST(Catalogue, ReportsTheFaultsOfAllFilesTogether) {
+std::set<std::string> pointers_of(const std::vector<LeftOutFile>& files) {
+  std::set<std::string> pointers;
+  for (const LeftOutFile& file : files)
+    for (const Fault& fault : file.faults) pointers.insert(fault.pointer);
+  return pointers;
+}
+
+void name_a_soil_wrongly(const std::filesystem::path& terrain) {
+  std::string text = file_bytes(terrain);
+  text.replace(text.find("mpf_drift"), 9, "mpf_drfit");
+  write_file(terrain, text);
+}
+
+TEST(Catalogue, LeavesOutFilesWithFaultsAndUsesTheOthers) {
   const ScratchFolder folder;
   copy_small_world(folder.path());
+  const auto all = load_catalogue(folder.path());
+  ASSERT_TRUE(all);
+  EXPECT_TRUE(all->left_out.empty());
   write_file(folder.path() / "rovers" / "broken.json", R"({"format":"rover/1","mass_kg":-3})");
   write_file(folder.path() / "soils" / "broken.json", "{");
-  const auto yard = folder.path() / "terrains" / "yard" / "terrain.json";
-  std::string text = file_bytes(yard);
-  text.replace(text.find("mpf_drift"), 9, "mpf_drfit");
-  write_file(yard, text);
+  std::filesystem::create_directories(folder.path() / "rules");
+  write_file(folder.path() / "rules" / "broken.json", "[]");
   const auto moon = folder.path() / "terrains" / "moon";
   std::filesystem::create_directories(moon);
   write_file(
       moon / "terrain.json",
       R"({"format":"terrain/1","name":"moon","title":"t","elevation":"../yard/elevation.tif","gravity_m_s2":1.6})");
   const auto catalogue = load_catalogue(folder.path());
-  ASSERT_FALSE(catalogue);
-  EXPECT_EQ(catalogue.error().code, ErrorCode::kUnreadableData);
-  std::set<std::string> pointers;
-  for (const Fault& fault : catalogue.error().faults) pointers.insert(fault.pointer);
-  for (const char* expected : {"rovers/broken.json#/mass_kg", "rovers/broken.json#/wheels",
-                               "soils/broken.json#", "terrains/moon/terrain.json#/elevation"}) {
+  ASSERT_TRUE(catalogue) << catalogue.error().detail;
+  EXPECT_EQ(names_of(catalogue->rovers), names_of(all->rovers));
+  EXPECT_EQ(names_of(catalogue->soils), names_of(all->soils));
+  EXPECT_EQ(names_of(catalogue->rules), names_of(all->rules));
+  EXPECT_EQ(names_of(catalogue->terrains), names_of(all->terrains));
+  EXPECT_EQ(catalogue->left_out.size(), 4u);
+  const std::set<std::string> pointers = pointers_of(catalogue->left_out);
+  for (const char* expected :
+       {"rovers/broken.json#/mass_kg", "rovers/broken.json#/wheels", "soils/broken.json#",
+        "rules/broken.json#", "terrains/moon/terrain.json#/elevation"}) {
     EXPECT_TRUE(pointers.contains(expected)) << expected;
   }
+  EXPECT_TRUE(
+      unknown_rover(*catalogue, "broken").ends_with("rovers/broken.json is left out, since it has faults"))
+      << unknown_rover(*catalogue, "broken");
 }
 
 TEST(Catalogue, ALegendNamesSoilsThatExist) {
   const ScratchFolder folder;
   copy_small_world(folder.path());
-  const auto yard = folder.path() / "terrains" / "yard" / "terrain.json";
-  std::string text = file_bytes(yard);
-  text.replace(text.find("mpf_drift"), 9, "mpf_drfit");
-  write_file(yard, text);
+  name_a_soil_wrongly(folder.path() / "terrains" / "yard" / "terrain.json");
+  const auto catalogue = load_catalogue(folder.path());
+  ASSERT_TRUE(catalogue);
+  EXPECT_FALSE(catalogue->terrains.contains("yard"));
+  ASSERT_EQ(catalogue->left_out.size(), 1u);
+  const Fault& fault = catalogue->left_out.front().faults.front();
+  EXPECT_EQ(fault.pointer, "terrains/yard/terrain.json#/soil/legend/1/soil");
+  EXPECT_TRUE(fault.message.starts_with("unknown soil \"mpf_drfit\"; did you mean \"mpf_drift\"?"));
+}
+
+TEST(Catalogue, WithoutARoverOrTheSoilOfUnknownGroundThereIsNone) {
+  const ScratchFolder folder;
+  copy_small_world(folder.path());
+  std::filesystem::remove_all(folder.path() / "rovers");
+  std::filesystem::create_directories(folder.path() / "rovers");
+  write_file(folder.path() / "rovers" / "broken.json", "{");
+  write_file(folder.path() / "soils" / "unknown_ground.json", "{");
   const auto catalogue = load_catalogue(folder.path());
   ASSERT_FALSE(catalogue);
-  EXPECT_EQ(catalogue.error().faults.front().pointer, "terrains/yard/terrain.json#/soil/legend/1/soil");
-  EXPECT_TRUE(catalogue.error().faults.front().message.starts_with(
-      "unknown soil \"mpf_drfit\"; did you mean \"mpf_drift\"?"));
+  EXPECT_EQ(catalogue.error().code, ErrorCode::kUnreadableData);
+  std::set<std::string> pointers;
+  for (const Fault& fault : catalogue.error().faults) pointers.insert(fault.pointer);
+  for (const char* expected : {"rovers#", "soils#", "rovers/broken.json#", "soils/unknown_ground.json#"})
+    EXPECT_TRUE(pointers.contains(expected)) << expected;
 }
 
 TEST(Catalogue, ATerrainsFilesAreBesideItAndNoLinks) {

@@ -10,38 +10,19 @@
 #include "api/json/parse.h"
 #include "planner/judge/drive_decision.h"
 #include "small_world.h"
+#include "yard_requests.h"
 
 namespace slipway::api {
 namespace {
 
 using json::JsonValue;
 
-std::string request_with(const std::string& members) {
-  return R"({"terrain":"yard","rover":"mer-class",)" + members + "}";
-}
-
-Result<JsonValue> checked(const std::string& members) {
-  const Service& service = testing::small_world();
-  const auto read = service.read_check(request_with(members));
-  if (!read) return fail(read.error());
-  NoProgress progress;
-  const auto answer = service.check(*read, progress);
-  if (!answer) return fail(answer.error());
-  return json::parse(json::write_check_answer(*answer));
-}
-
-std::vector<std::string> faults_of(const std::string& members) {
-  const auto read = testing::small_world().read_check(request_with(members));
-  std::vector<std::string> pointers;
-  if (!read)
-    for (const Fault& fault : read.error().faults) pointers.push_back(fault.pointer);
-  return pointers;
-}
+const testing::YardRequests kMer("mer-class");
 
 constexpr const char* kPath = R"("path":[{"x_m":20,"y_m":30},{"x_m":24,"y_m":30}],"draws":8)";
 
 TEST(Check, AnswersWithVerdictRulesGroundsAndStretches) {
-  const auto answer = checked(kPath);
+  const auto answer = kMer.checked(kPath);
   ASSERT_TRUE(answer) << answer.error().detail;
   EXPECT_EQ(answer->find("format")->text, "check/1");
   const std::string& verdict = answer->find("verdict")->text;
@@ -57,9 +38,9 @@ TEST(Check, AnswersWithVerdictRulesGroundsAndStretches) {
 }
 
 TEST(Check, ACommandSequenceDrivesAsThePathThatItMakes) {
-  const auto path = checked(kPath);
-  const auto commands =
-      checked(R"("start":{"x_m":20,"y_m":30,"yaw_deg":0},"commands":[{"drive_m":2,"repeat":2}],"draws":8)");
+  const auto path = kMer.checked(kPath);
+  const auto commands = kMer.checked(
+      R"("start":{"x_m":20,"y_m":30,"yaw_deg":0},"commands":[{"drive_m":2,"repeat":2}],"draws":8)");
   ASSERT_TRUE(path && commands);
   EXPECT_EQ(path->find("summary")->find("mean_slip")->number,
             commands->find("summary")->find("mean_slip")->number);
@@ -68,10 +49,11 @@ TEST(Check, ACommandSequenceDrivesAsThePathThatItMakes) {
 }
 
 TEST(Check, ARequestMaySayWhatItBelievesOfTheGround) {
-  EXPECT_EQ(faults_of(std::string(kPath) + R"(,"legend":"none","unknown_soil":"cheese","confidence":0)"),
+  EXPECT_EQ(kMer.faults_of(std::string(kPath) + R"(,"legend":"none","unknown_soil":"cheese","confidence":0)"),
             (std::vector<std::string>{"/confidence", "/unknown_soil", "/legend"}));
-  const auto usual = checked(kPath);
-  const auto sand = checked(std::string(kPath) + R"(,"unknown_soil":"jlu_mars_1_loose","legend":"default")");
+  const auto usual = kMer.checked(kPath);
+  const auto sand =
+      kMer.checked(std::string(kPath) + R"(,"unknown_soil":"jlu_mars_1_loose","legend":"default")");
   ASSERT_TRUE(usual && sand);
   EXPECT_EQ(usual->find("provenance")->find("legend")->text, "default");
   EXPECT_EQ(usual->find("provenance")->find("unknown_soil")->text, "unknown_ground");
@@ -81,9 +63,9 @@ TEST(Check, ARequestMaySayWhatItBelievesOfTheGround) {
 // The legend's soil of the path is weaker than most others.
 TEST(Check, LessConfidenceInTheLegendMakesOtherSoilsLikely) {
   const auto slip = [](const char* confidence) {
-    const auto answer =
-        checked(std::string(R"("path":[{"x_m":20,"y_m":30},{"x_m":24,"y_m":30}],"draws":60,"confidence":)") +
-                confidence);
+    const auto answer = kMer.checked(
+        std::string(R"("path":[{"x_m":20,"y_m":30},{"x_m":24,"y_m":30}],"draws":60,"confidence":)") +
+        confidence);
     EXPECT_TRUE(answer);
     return answer->find("outcomes")->find("rules")->elements[0].find("value")->find("p50")->number;
   };
@@ -91,7 +73,7 @@ TEST(Check, LessConfidenceInTheLegendMakesOtherSoilsLikely) {
 }
 
 TEST(Check, AnArcEndsWhereItsRadiusLeads) {
-  const auto answer = checked(
+  const auto answer = kMer.checked(
       R"("start":{"x_m":20,"y_m":30,"yaw_deg":0},"commands":[{"arc_m":4.712389,"radius_m":3}],"draws":1)");
   ASSERT_TRUE(answer) << answer.error().detail;
   const auto& line =
@@ -102,7 +84,7 @@ TEST(Check, AnArcEndsWhereItsRadiusLeads) {
 
 TEST(Check, ADriveThroughAKeepOutOrOutOfAKeepInIsANoGoWithThePlace) {
   const std::string lenient = R"(,"bars":{"max_embedding":1,"max_expected_stops":1000})";
-  const auto with = [&](const std::string& zones) { return checked(kPath + lenient + zones); };
+  const auto with = [&](const std::string& zones) { return kMer.checked(kPath + lenient + zones); };
   const auto free = with("");
   ASSERT_TRUE(free) << free.error().detail;
   ASSERT_EQ(free->find("verdict")->text, "go");
@@ -119,12 +101,12 @@ TEST(Check, ADriveThroughAKeepOutOrOutOfAKeepInIsANoGoWithThePlace) {
   ASSERT_TRUE(leaves);
   EXPECT_EQ(leaves->find("verdict")->text, "no_go");
   EXPECT_NE(leaves->find("reasons")->elements[0].text.find("would leave a keep-in at ("), std::string::npos);
-  EXPECT_EQ(faults_of(std::string(kPath) + R"(,"keep_in":[[[0,0],[1,1]]],"keep_out":3)"),
+  EXPECT_EQ(kMer.faults_of(std::string(kPath) + R"(,"keep_in":[[[0,0],[1,1]]],"keep_out":3)"),
             (std::vector<std::string>{"/keep_out", "/keep_in/0"}));
 }
 
 TEST(Check, TheSameRequestGivesTheSameBytes) {
-  const auto read = testing::small_world().read_check(request_with(kPath));
+  const auto read = testing::small_world().read_check(kMer.with(kPath));
   ASSERT_TRUE(read);
   NoProgress progress;
   EXPECT_EQ(json::write_check_answer(testing::small_world().check(*read, progress).value()),
@@ -132,18 +114,21 @@ TEST(Check, TheSameRequestGivesTheSameBytes) {
 }
 
 TEST(Check, EveryFaultIsNamed) {
-  EXPECT_EQ(faults_of(R"("commands":[{"drive_m":2}])"), std::vector<std::string>{"/start"});
-  EXPECT_EQ(faults_of(R"("start":{"x_m":20,"y_m":30},"commands":[{"drive_m":2}])"),
+  EXPECT_EQ(kMer.faults_of(R"("commands":[{"drive_m":2}])"), std::vector<std::string>{"/start"});
+  EXPECT_EQ(kMer.faults_of(R"("start":{"x_m":20,"y_m":30},"commands":[{"drive_m":2}])"),
             std::vector<std::string>{"/start"});
-  EXPECT_EQ(faults_of(R"("start":{"x_m":20,"y_m":30,"yaw_deg":0},"commands":[{"drive_m":2,"turn_deg":5}])"),
-            std::vector<std::string>{"/commands/0"});
-  EXPECT_EQ(faults_of(R"("start":{"x_m":20,"y_m":30,"yaw_deg":0},"commands":[{"arc_m":2,"radius_m":0}])"),
-            std::vector<std::string>{"/commands/0/radius_m"});
-  EXPECT_EQ(faults_of(std::string(kPath) + R"(,"rules":"no_such")"), std::vector<std::string>{"/rules"});
   EXPECT_EQ(
-      faults_of(std::string(kPath) + R"(,"checks":{"slip_check_every_m":0},"bars":{"max_embedding":2})"),
+      kMer.faults_of(R"("start":{"x_m":20,"y_m":30,"yaw_deg":0},"commands":[{"drive_m":2,"turn_deg":5}])"),
+      std::vector<std::string>{"/commands/0"});
+  EXPECT_EQ(
+      kMer.faults_of(R"("start":{"x_m":20,"y_m":30,"yaw_deg":0},"commands":[{"arc_m":2,"radius_m":0}])"),
+      std::vector<std::string>{"/commands/0/radius_m"});
+  EXPECT_EQ(kMer.faults_of(std::string(kPath) + R"(,"rules":"no_such")"), std::vector<std::string>{"/rules"});
+  EXPECT_EQ(
+      kMer.faults_of(std::string(kPath) + R"(,"checks":{"slip_check_every_m":0},"bars":{"max_embedding":2})"),
       (std::vector<std::string>{"/checks/slip_check_every_m", "/bars/max_embedding"}));
-  EXPECT_EQ(faults_of(std::string(kPath) + R"(,"start":{"x_m":1,"y_m":1,"yaw_deg":0})").front(), "/path");
+  EXPECT_EQ(kMer.faults_of(std::string(kPath) + R"(,"start":{"x_m":1,"y_m":1,"yaw_deg":0})").front(),
+            "/path");
 }
 
 sim::DrivePrediction prediction_with(sim::DrawnShare embedding, double stops, double low, double high) {

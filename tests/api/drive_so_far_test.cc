@@ -7,32 +7,14 @@
 #include "api/files/telemetry_csv.h"
 #include "api/json/parse.h"
 #include "small_world.h"
+#include "yard_requests.h"
 
 namespace slipway::api {
 namespace {
 
 using json::JsonValue;
 
-std::string request_with(const std::string& members) {
-  return R"({"terrain":"yard","rover":"msl-class",)" + members + "}";
-}
-
-Result<JsonValue> checked(const std::string& members) {
-  const auto read = testing::small_world().read_check(request_with(members));
-  if (!read) return fail(read.error());
-  NoProgress progress;
-  const auto answer = testing::small_world().check(*read, progress);
-  if (!answer) return fail(answer.error());
-  return json::parse(json::write_check_answer(*answer));
-}
-
-std::vector<std::string> faults_of(const std::string& members) {
-  const auto read = testing::small_world().read_check(request_with(members));
-  std::vector<std::string> pointers;
-  if (!read)
-    for (const Fault& fault : read.error().faults) pointers.push_back(fault.pointer);
-  return pointers;
-}
+const testing::YardRequests kMsl("msl-class");
 
 // Six metres east on the level line y = 30 m, with one slip all the way.
 std::string drive_with_slip(double slip) {
@@ -66,11 +48,11 @@ double stops_of(const JsonValue& check) {
 
 TEST(DriveSoFar, MuchSlipOnGroundThatWasBelievedFirmTurnsAGoIntoANoGoAndLittleSlipLowersTheRisk) {
   const std::string ask = std::string(kAhead) + "," + kFirm;
-  const auto before = checked(ask);
+  const auto before = kMsl.checked(ask);
   ASSERT_TRUE(before) << before.error().detail;
   EXPECT_EQ(before->find("verdict")->text, "go") << before->find("reasons")->elements[0].text;
   EXPECT_EQ(before->find("drive_so_far"), nullptr);
-  const auto slipped = checked(ask + "," + drive_with_slip(0.5));
+  const auto slipped = kMsl.checked(ask + "," + drive_with_slip(0.5));
   ASSERT_TRUE(slipped) << slipped.error().detail;
   EXPECT_EQ(slipped->find("verdict")->text, "no_go") << slipped->find("reasons")->elements[0].text;
   const JsonValue& learnt = *slipped->find("drive_so_far");
@@ -78,24 +60,24 @@ TEST(DriveSoFar, MuchSlipOnGroundThatWasBelievedFirmTurnsAGoIntoANoGoAndLittleSl
   const JsonValue& first = learnt.find("stretches")->elements.front();
   EXPECT_NEAR(first.find("slip")->number, 0.5, 1e-3);
   EXPECT_LT(first.find("predicted_slip")->find("p95")->number, 0.4);
-  const auto held = checked(ask + "," + drive_with_slip(0.05));
+  const auto held = kMsl.checked(ask + "," + drive_with_slip(0.05));
   ASSERT_TRUE(held);
   EXPECT_LE(stops_of(*held), stops_of(*before));
   EXPECT_GT(stops_of(*slipped), 1.0);
 }
 
 TEST(DriveSoFar, TheRestBeginsWhereTheRoverIs) {
-  const auto to_corner = checked(R"("path":[{"x_m":24,"y_m":30}],"draws":8,)" + drive_with_slip(0.1));
+  const auto to_corner = kMsl.checked(R"("path":[{"x_m":24,"y_m":30}],"draws":8,)" + drive_with_slip(0.1));
   ASSERT_TRUE(to_corner) << to_corner.error().detail;
   EXPECT_NEAR(to_corner->find("summary")->find("length_m")->number, 8.0, 0.01);
   const auto given =
-      checked(R"("path":[{"x_m":20,"y_m":30},{"x_m":24,"y_m":30}],"draws":8,)" + drive_with_slip(0.1));
+      kMsl.checked(R"("path":[{"x_m":20,"y_m":30},{"x_m":24,"y_m":30}],"draws":8,)" + drive_with_slip(0.1));
   ASSERT_TRUE(given);
   EXPECT_NEAR(given->find("summary")->find("length_m")->number, 4.0, 0.01);
-  EXPECT_EQ(faults_of(R"("commands":[{"drive_m":2}],)" + drive_with_slip(0.1)),
+  EXPECT_EQ(kMsl.faults_of(R"("commands":[{"drive_m":2}],)" + drive_with_slip(0.1)),
             std::vector<std::string>{"/start"});
   const auto plan = testing::small_world().read_plan(
-      request_with(R"("goal":{"x_m":24,"y_m":30},"draws":8,"routes":1,)" + drive_with_slip(0.1)));
+      kMsl.with(R"("goal":{"x_m":24,"y_m":30},"draws":8,"routes":1,)" + drive_with_slip(0.1)));
   ASSERT_TRUE(plan) << plan.error().detail;
   EXPECT_EQ(plan->start.x_m, 16.0);
   NoProgress progress;
@@ -111,21 +93,21 @@ TEST(DriveSoFar, EveryFaultOfTheRowsIsNamedWithItsPlace) {
   const auto rows = [](const std::string& list) {
     return R"("path":[{"x_m":20,"y_m":30},{"x_m":24,"y_m":30}],"drive_so_far":{"rows":[)" + list + "]}";
   };
-  EXPECT_EQ(faults_of(rows(R"({"driven_m":0,"x_m":10,"y_m":30})")),
+  EXPECT_EQ(kMsl.faults_of(rows(R"({"driven_m":0,"x_m":10,"y_m":30})")),
             std::vector<std::string>{"/drive_so_far/rows"});
-  EXPECT_EQ(faults_of(rows(R"({"driven_m":-1,"x_m":10},{"driven_m":2,"x_m":12,"y_m":30,"current_a":1,
+  EXPECT_EQ(kMsl.faults_of(rows(R"({"driven_m":-1,"x_m":10},{"driven_m":2,"x_m":12,"y_m":30,"current_a":1,
                               "currents_a":{"lf":1},"sinkage_m":0})")),
             (std::vector<std::string>{"/drive_so_far/rows/0/driven_m", "/drive_so_far/rows/0/y_m",
                                       "/drive_so_far/rows/1/currents_a", "/drive_so_far/rows/1/sinkage_m"}));
-  EXPECT_EQ(faults_of(rows(
+  EXPECT_EQ(kMsl.faults_of(rows(
                 R"({"time_s":9,"driven_m":3,"x_m":10,"y_m":30},{"time_s":8,"driven_m":2,"x_m":12,"y_m":30},
                               {"driven_m":4,"x_m":16,"y_m":30})")),
             (std::vector<std::string>{"/drive_so_far/rows/1/time_s", "/drive_so_far/rows/1/driven_m",
                                       "/drive_so_far/rows/2"}));
-  EXPECT_EQ(faults_of(rows(R"({"driven_m":3,"x_m":10,"y_m":30},{"driven_m":3,"x_m":10,"y_m":30})")),
+  EXPECT_EQ(kMsl.faults_of(rows(R"({"driven_m":3,"x_m":10,"y_m":30},{"driven_m":3,"x_m":10,"y_m":30})")),
             std::vector<std::string>{"/drive_so_far/rows"});
   EXPECT_EQ(
-      faults_of(rows(
+      kMsl.faults_of(rows(
           R"({"driven_m":0,"x_m":118,"y_m":30},{"driven_m":3,"x_m":121,"y_m":30,"currents_a":{"zz":1}})")),
       (std::vector<std::string>{"/drive_so_far/rows/1", "/drive_so_far/rows/1/currents_a/zz"}));
 }
@@ -153,20 +135,21 @@ TEST(Beliefs, WholeSoilsStandInForThoseOfTheCatalogue) {
     "k_c":2000.0,"k_phi":60000.0,"n":1.0,"cohesion_pa":100.0,"friction_angle_deg":20.0,"shear_modulus_x_m":0.03,
     "density_kg_m3":1500.0,"c1":0.18,"c2":0.32,"std":{"stiffness_ratio":0.2,"n":0.05,"cohesion_pa":30.0,
     "friction_angle_deg":2.0,"shear_modulus_ratio":0.25,"c1":0.05,"c2":0.1},"correlation_length_m":5.0}])";
-  const auto answer = checked(R"("path":[{"x_m":20,"y_m":30},{"x_m":24,"y_m":30}],"draws":4,)" + loose);
+  const auto answer = kMsl.checked(R"("path":[{"x_m":20,"y_m":30},{"x_m":24,"y_m":30}],"draws":4,)" + loose);
   ASSERT_TRUE(answer) << answer.error().detail;
   const JsonValue& soil = answer->find("request")->find("beliefs")->elements.front();
   EXPECT_EQ(soil.find("std")->find("c1")->number, 0.05);
   // A soil that is no soil, one that is given twice, and an alternative that nobody knows.
   std::string twice = loose.substr(0, loose.size() - 1) + "," + loose.substr(loose.find('{'));
-  EXPECT_EQ(faults_of(std::string(R"("path":[{"x_m":20,"y_m":30},{"x_m":24,"y_m":30}],)") + twice),
+  EXPECT_EQ(kMsl.faults_of(std::string(R"("path":[{"x_m":20,"y_m":30},{"x_m":24,"y_m":30}],)") + twice),
             std::vector<std::string>{"/beliefs/1/name"});
   std::string unknown = loose;
   unknown.insert(unknown.size() - 2, R"(,"alternatives":[{"soil":"cheese","weight":1}])");
-  EXPECT_EQ(faults_of(std::string(R"("path":[{"x_m":20,"y_m":30},{"x_m":24,"y_m":30}],)") + unknown),
+  EXPECT_EQ(kMsl.faults_of(std::string(R"("path":[{"x_m":20,"y_m":30},{"x_m":24,"y_m":30}],)") + unknown),
             std::vector<std::string>{"/beliefs/0/alternatives/0/soil"});
-  EXPECT_EQ(faults_of(R"("path":[{"x_m":20,"y_m":30},{"x_m":24,"y_m":30}],"beliefs":[{"name":"a"}])").front(),
-            "/beliefs/0/summary");
+  EXPECT_EQ(
+      kMsl.faults_of(R"("path":[{"x_m":20,"y_m":30},{"x_m":24,"y_m":30}],"beliefs":[{"name":"a"}])").front(),
+      "/beliefs/0/summary");
 }
 
 }  // namespace

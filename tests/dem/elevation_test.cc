@@ -204,6 +204,53 @@ class LargeElevation : public testing::Test {
   TemporaryFolder folder_;
 };
 
+// A raster in two by two tiles, of which one was written; it declares no value for missing cells.
+TEST(Elevation, BlocksThatASparseFileDoesNotHoldAreUnknown) {
+  const TemporaryFolder folder;
+  RasterOptions options{.rows = 64, .columns = 64, .transform = {0.0, 1.0, 0.0, 64.0, 0.0, -1.0}};
+  options.creation = {"SPARSE_OK=YES", "TILED=YES", "BLOCKXSIZE=32", "BLOCKYSIZE=32"};
+  options.also = [](GDALDataset& raster) {
+    std::vector<float> heights(32 * 32, 7.0F);
+    ASSERT_EQ(raster.GetRasterBand(1)->RasterIO(GF_Write, 32, 32, 32, 32, heights.data(), 32, 32, GDT_Float32,
+                                                0, 0, nullptr),
+              CE_None);
+  };
+  write_geotiff(folder / "sparse.tif", options);
+  const auto terrain = open_elevation(folder / "sparse.tif").value()->read({0.0, 0.0, 64.0, 64.0}).value();
+  EXPECT_FALSE(terrain->height_m(Cell{10, 10}));
+  EXPECT_FALSE(terrain->height_m(Cell{31, 32}));
+  EXPECT_FALSE(terrain->height_m(Cell{32, 31}));
+  EXPECT_EQ(terrain->height_m(Cell{32, 32}), 7.0);
+  EXPECT_EQ(terrain->height_m(Cell{63, 63}), 7.0);
+}
+
+// Of a raster of 100 m cells about a place in a projection.
+Result<std::shared_ptr<const Terrain>> read_about(const TemporaryFolder& folder, const std::string& crs,
+                                                  double x, double y) {
+  write_geotiff(folder / "far.tif", {.transform = {x - 250.0, 100.0, 0.0, y + 200.0, 0.0, -100.0},
+                                     .crs = crs,
+                                     .cells = std::vector<float>(20, 1.0F)});
+  return open_elevation(folder / "far.tif").value()->read({x - 200.0, y - 100.0, x + 200.0, y + 100.0});
+}
+
+TEST(Elevation, WhereAMapsLengthsAreNotTheGroundsItIsRefusedWithTheCommand) {
+  const TemporaryFolder folder;
+  constexpr double kMetresPerDegree = 59274.697;  // of the Mars sphere
+  const auto far = read_about(folder, test::kMarsSphere, 0.0, 60.0 * kMetresPerDegree);
+  ASSERT_FALSE(far);
+  EXPECT_EQ(far.error().code, ErrorCode::kUnsupportedCrs);
+  for (const char* part :
+       {"0.500 to 1.000 m of the ground", "gdalwarp -t_srs '+proj=stere +lat_0=60 +lon_0=0"})
+    EXPECT_NE(far.error().detail.find(part), std::string::npos) << far.error().detail;
+  EXPECT_TRUE(read_about(folder, test::kMarsSphere, 0.0, -4.6 * kMetresPerDegree));
+  EXPECT_TRUE(read_about(folder, "+proj=eqc +lat_ts=60 +lat_0=0 +lon_0=0 +R=3396190 +units=m", 0.0,
+                         60.0 * kMetresPerDegree));
+  const std::string polar_moon = "+proj=stere +lat_0=-90 +lat_ts=-90 +lon_0=0 +R=1737400 +units=m";
+  EXPECT_TRUE(read_about(folder, polar_moon, 0.0, 0.0)) << "the pole itself";
+  EXPECT_TRUE(read_about(folder, polar_moon, 100000.0, -100000.0));
+  EXPECT_FALSE(read_about(folder, polar_moon, 700000.0, -700000.0)) << "57 degrees south";
+}
+
 TEST_F(LargeElevation, AWindowReadsJustTheWindow) {
   const auto peak_mb = [] {
     rusage usage{};

@@ -26,7 +26,7 @@ $swept --csv "$folder/closed.csv" >&- 2>"$folder/err" || status=$?
 [ "$status" = 1 ] || { echo "exit status $status with standard output closed"; exit 1; }
 for made in full closed; do cmp "$folder/whole.csv" "$folder/$made.csv"; done
 cmp "$folder/whole.svg" "$folder/full.svg"
-for question in soils rovers effects "terrain" "campaign list" "validate --list" "current map --figure 10" "--help"; do
+for question in soils rovers effects "terrain" "data check" "campaign list" "validate --list" "current map --figure 10" "--help"; do
   status=0
   case "$question" in --help) ;; effects | "validate --list") ;; *) question="$question --data $data" ;; esac
   "$slipway" $question >/dev/full 2>/dev/null || status=$?
@@ -44,6 +44,24 @@ expect 0 $swept --csv "$folder/link.csv"
 [ -L "$folder/link.csv" ] && cmp "$folder/whole.csv" "$folder/target.csv"
 expect 0 $swept --csv /dev/null
 [ -c /dev/null ] || { echo "/dev/null was replaced by a file"; exit 1; }
+
+# A file with faults is told and left out; what does not need it works.
+cp -r "$data" "$folder/data"
+expect 0 "$slipway" data check --data "$folder/data"
+holds 'can be used' "$folder/out"
+echo '{"format":"rover/1","mass_kg":-3}' >"$folder/data/rovers/broken.json"
+expect 2 "$slipway" data check --data "$folder/data"
+holds 'rovers/broken.json#/mass_kg' "$folder/out"
+expect 0 "$slipway" rovers --data "$folder/data"
+holds 'rover broken is left out' "$folder/err"
+expect 2 "$slipway" wheel --data "$folder/data" --rover broken --soil jlu_mars_2_dense --load 100
+holds 'rovers/broken.json is left out' "$folder/err"
+rm "$folder/data/rovers/broken.json"
+echo 'II*' >"$folder/data/terrains/gale/elevation.tif"
+expect 2 "$slipway" data check --data "$folder/data" --json
+holds '"terrains":\[\]' "$folder/out"
+expect 0 "$slipway" rovers --data "$folder/data"
+rm -r "$folder/data"
 
 # An option that would be ignored is refused, with its name.
 ignored() {

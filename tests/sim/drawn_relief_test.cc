@@ -70,6 +70,23 @@ TEST(DrawnRelief, RocksCoverTheAreaThatTheModelGives) {
   EXPECT_EQ(rocks_per_m2({}, 0.1), 0.0);
 }
 
+TEST(DrawnRelief, RocksLieAsCloseAsTheirPlaceSays) {
+  const auto covered = [](const DrawnRelief& drawn, double from_x) {
+    int count = 0;
+    for (double x = from_x; x < from_x + 40.0; x += 0.1)
+      for (double y = 0.0; y < 40.0; y += 0.1) count += drawn.at(x, y)->height_m > 0.0 ? 1 : 0;
+    return count / 160000.0;
+  };
+  ReliefSpread spread{.rock_share = 0.2};
+  spread.rock_share_at = [](double x, double) { return x < 0.0 ? 0.0 : x < 100.0 ? 0.05 : 0.2; };
+  const DrawnRelief drawn(kLevel, spread, 5);
+  const DrawnRelief everywhere(kLevel, {.rock_share = 0.05}, 6);
+  EXPECT_EQ(covered(drawn, -60.0), 0.0);
+  const double alone = covered(everywhere, 20.0);
+  EXPECT_NEAR(covered(drawn, 20.0), alone, 0.15 * alone);
+  EXPECT_GT(covered(drawn, 120.0), 2.0 * alone);
+}
+
 TEST(DrawnRelief, MoreSpreadTiltsARoverOnLevelGroundMore) {
   const RoverModel rover = six_wheeler();
   const auto rms_tilt = [&](const ReliefSpread& spread) {

@@ -117,6 +117,43 @@ TEST(DriveRisk, AP95OfAZigzagIsNotBelowItsMedian) {
   }
 }
 
+// A map that may be wrong: the tilt of a level drive has an interval, and trips its rule in some draws.
+TEST(DriveRisk, ADrawnReliefGivesTiltAndClearanceAnInterval) {
+  const FunctionGround level([](double, double) { return 0.0; });
+  const DriveLimits tight{.max_tilt_rad = rad_from_deg(4.0)};
+  RiskOptions risk{.draws = 60};
+  const DrivePrediction as_mapped = predict(level, kSure, straight(6.0), risk, tight);
+  risk.relief =
+      std::make_shared<const ReliefSpread>(ReliefSpread{.elevation_error_m = 0.1, .error_length_m = 3.0});
+  const DrivePrediction drawn = predict(level, kSure, straight(6.0), risk, tight);
+  const auto tilt_of = [](const DrivePrediction& drive) {
+    return drive.outcomes.rules[static_cast<std::size_t>(Rule::kTilt)];
+  };
+  EXPECT_EQ(tilt_of(as_mapped).trips.share, 0.0);
+  EXPECT_GT(tilt_of(drawn).trips.share, 0.2);
+  EXPECT_LT(tilt_of(drawn).trips.share, 1.0);
+  ASSERT_EQ(drawn.stations.size(), as_mapped.stations.size());
+  for (std::size_t k = 0; k < drawn.stations.size(); ++k) {
+    const StationPrediction& sure = as_mapped.stations[k];
+    EXPECT_NEAR(sure.tilt_rad_p95, sure.tilt_rad_p05, 1e-6);
+    EXPECT_EQ(sure.clearance_m_p05, sure.clearance_m_p95);
+    EXPECT_GT(drawn.stations[k].tilt_rad_p95 - drawn.stations[k].tilt_rad_p05, rad_from_deg(1.0)) << k;
+    EXPECT_GT(drawn.stations[k].clearance_m_p95 - drawn.stations[k].clearance_m_p05, 0.001) << k;
+    EXPECT_EQ(drawn.stations[k].state.slip_ratio, sure.state.slip_ratio) << "the mean drive is the map's";
+  }
+}
+
+// The linkage can't follow what a map of such error would be: every draw ends there.
+TEST(DriveRisk, ADrawWithoutAStanceIsEmbedded) {
+  const FunctionGround level([](double, double) { return 0.0; });
+  RiskOptions risk{.draws = 8};
+  risk.relief =
+      std::make_shared<const ReliefSpread>(ReliefSpread{.elevation_error_m = 40.0, .error_length_m = 1.0});
+  const DrivePrediction drawn = predict(level, kSure, straight(2.0), risk);
+  EXPECT_EQ(drawn.outcomes.embedding.share, 1.0);
+  EXPECT_EQ(drawn.risk, 1.0);
+}
+
 TEST(DriveRisk, ALimitThatTheGroundBreaksIsCertainAtWhateverLength) {
   // A step up at 13.9 m tilts the rover beyond 14 deg over the last quarter of a metre only.
   const FunctionGround ends_steep([](double x, double) { return x < 14.4 ? 0.0 : 0.6 * (x - 14.4); });

@@ -25,12 +25,8 @@ holds 'kernel_cross_check' "$folder/err"
 expect 2 "$slipway" validate --data "$data" --only ding_2011 --check "$page"
 expect 1 "$slipway" validate --data "$folder" --only plate_tests
 
-# A page that says something else, and a band that the model leaves.
-sed 's/^| smooth | 0.1 | 11 |/| smooth | 0.1 | 12 |/' "$page" >"$folder/page.md"
-cmp -s "$page" "$folder/page.md" && { echo "the page was not altered"; exit 1; }
-expect 1 "$slipway" validate --data "$data" --check "$folder/page.md"
-expect 0 "$slipway" validate --data "$data" --write "$folder/page.md"
-cmp "$page" "$folder/page.md"
+# A band that the model leaves. A page that says something else is noticed by the code that worlds_command_test.sh runs;
+# all comparisons against the page that ships are a test of their own.
 cp -r "$data" "$folder/data"
 sed -i 's/^0.2,26,29,/0.2,26,26.5,/' "$folder/data/validation/roverdevkit_bands.csv"
 expect 1 "$slipway" validate --data "$folder/data" --only kernel_cross_check

@@ -120,6 +120,7 @@ TEST(WorldStudy, ScoresDoNotDependOnThreadsAndComeBackFromTheirFile) {
   ASSERT_TRUE(one && two);
   EXPECT_EQ(csv_of(*one), csv_of(*two));
   ASSERT_EQ(one->size() % 3, 0U);
+  EXPECT_NE(one->front().length_m, one->back().length_m) << "two seeds gave one world";
   for (const WorldScore& score : *one) {
     EXPECT_EQ(score.drives, 3);
     EXPECT_GT(score.length_m, 113.0);

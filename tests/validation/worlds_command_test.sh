@@ -1,6 +1,6 @@
 #!/bin/sh
-# slipway worlds: the same seed gives the same scores, which are counted again from their file; a page that says
-# something else is noticed.
+# slipway worlds: its scores are counted again from their file, and a page that says something else is noticed. That
+# a seed gives the same scores on any number of threads is a test of the library.
 #   worlds_command_test.sh SLIPWAY DATA_FOLDER DOCS_PAGE
 set -eu
 slipway="$1"
@@ -11,13 +11,9 @@ trap 'rm -rf "$folder"' EXIT
 
 . "$(dirname "$0")/../command_expectations.sh"
 
-expect 0 "$slipway" worlds --data "$data" --seed 31 --worlds 1 --drives 4 --csv "$folder/one.csv" --threads 1
+expect 0 "$slipway" worlds --data "$data" --seed 31 --worlds 1 --drives 4 --csv "$folder/one.csv"
 holds '^### Planners in worlds whose truth is known' "$folder/out"
 cp "$folder/out" "$folder/printed"
-expect 0 "$slipway" worlds --data "$data" --seed 31 --worlds 1 --drives 4 --csv "$folder/two.csv" --threads 2
-cmp "$folder/one.csv" "$folder/two.csv"
-expect 0 "$slipway" worlds --data "$data" --seed 32 --worlds 1 --drives 4 --csv "$folder/other.csv"
-cmp -s "$folder/one.csv" "$folder/other.csv" && { echo "another seed gave the same world"; exit 1; }
 expect 0 "$slipway" worlds --scores "$folder/one.csv" --plots "$folder/plots"
 cmp "$folder/out" "$folder/printed"
 holds 'svg' "$folder/plots/worlds_reliability.svg"

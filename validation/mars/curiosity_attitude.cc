@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "api/files/catalogue.h"
+#include "api/files/relief_values.h"
 #include "core/angle.h"
 #include "core/random.h"
 #include "dem/elevation_source.h"
@@ -61,21 +62,19 @@ Report curiosity_attitude_report() {
   return report;
 }
 
-// What the map may not show. All numbers were chosen before they were compared with the stops: an error of a
-// HiRISE stereo map of 0.2 m over 5 m [precision of 0.1 to 0.3 m, Kirk et al. 2008], 2 cm of roughness, and
-// rocks on 5 % of the ground [what was expected for Gale, Golombek et al. 2012].
-constexpr double kMapError_m = 0.2, kRoughness_m = 0.02, kRockShare = 0.05;
-
 struct NamedSpread {
   const char* name;
   sim::ReliefSpread spread;
 };
-constexpr std::array<NamedSpread, 4> kSpreads{{
-    {"the map's error", {.elevation_error_m = kMapError_m}},
-    {"roughness", {.roughness_m = kRoughness_m}},
-    {"rocks", {.rock_share = kRockShare}},
-    {"all three", {.elevation_error_m = kMapError_m, .roughness_m = kRoughness_m, .rock_share = kRockShare}},
-}};
+
+// What the terrain says that its map may not show, each part alone and all together.
+std::array<NamedSpread, 4> parts_of(const sim::ReliefSpread& all) {
+  sim::ReliefSpread error = all, roughness = all, rocks = all;
+  error.roughness_m = error.rock_share = 0.0;
+  roughness.elevation_error_m = roughness.rock_share = 0.0;
+  rocks.elevation_error_m = rocks.roughness_m = 0.0;
+  return {{{"the map's error", error}, {"roughness", roughness}, {"rocks", rocks}, {"all three", all}}};
+}
 
 // How often the 90 % interval over draws of the relief holds what the rover measured.
 class Coverage {
@@ -105,11 +104,11 @@ struct MeasuredStop {
 };
 
 // A note for each spread; returns the share of pitches and rolls that the last one holds.
-double add_coverage(const sim::RoverModel& rover, const sim::Ground& ground,
+double add_coverage(const sim::RoverModel& rover, const sim::Ground& ground, const sim::ReliefSpread& relief,
                     const std::vector<MeasuredStop>& stops, Report& report) {
   constexpr std::uint64_t kDraws = 400;
   double share = 0.0;
-  for (const NamedSpread& each : kSpreads) {
+  for (const NamedSpread& each : parts_of(relief)) {
     Coverage tilt, pitch, roll;
     for (const MeasuredStop& stop : stops) {
       std::vector<double> tilts, pitches, rolls;
@@ -193,7 +192,10 @@ Result<Report> curiosity_attitude(const std::filesystem::path& data) {
       "The DEM's cells are 1 m wide and its heights are smoother than the ground under a wheel. "
       "The residual is due to what the map does not show, and a plan's tilt is uncertain by as "
       "much.");
-  const double held = add_coverage(rover, ground, measured, report);
+  const auto relief =
+      api::relief_spread(catalogue->terrains.at("gale")->description().relief, {}, {}, nullptr);
+  if (!relief) return fail(ErrorCode::kUnreadableData, "the terrain gale states no relief");
+  const double held = add_coverage(rover, ground, *relief, measured, report);
   report.bands = {{"stops", static_cast<double>(stops->rows()), 32, 32},
                   {"rms of tilt, deg", tilt.rms, 0.0, 4.5},
                   {"share of pitches and rolls in their 90 % intervals, all three drawn", held, 0.8, 0.97}};

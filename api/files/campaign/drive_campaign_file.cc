@@ -35,7 +35,7 @@ void read_rover(ObjectReader& reader, const Catalogue& catalogue, DriveCampaignF
   if (value->is(JsonValue::Kind::kString)) {
     const auto shipped = catalogue.rovers.find(value->text);
     if (shipped == catalogue.rovers.end())
-      reader.fault("rover", unknown_name("rover", value->text, names_of(catalogue.rovers)));
+      reader.fault("rover", unknown_rover(catalogue, value->text));
     else
       file.rover = shipped->second;
     return;

@@ -19,7 +19,7 @@ void read_rover_name(ObjectReader& reader, const Catalogue& catalogue, campaign:
   if (!reader.text("rover", kRequired, {.most = 64}, name)) return;
   const auto found = catalogue.rovers.find(name);
   if (found == catalogue.rovers.end()) {
-    reader.fault("rover", unknown_name("rover", name, names_of(catalogue.rovers)));
+    reader.fault("rover", unknown_rover(catalogue, name));
   } else {
     table.rover = found->second;
   }

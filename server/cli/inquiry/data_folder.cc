@@ -69,6 +69,17 @@ Result<std::string> data_folder(const std::string& option) {
   return std::move(found->path);
 }
 
+std::string left_out_text(const api::Catalogue& catalogue) {
+  std::string text;
+  for (const api::LeftOutFile& file : catalogue.left_out) {
+    const Fault& first = file.faults.front();
+    text += fmt::format("{} {} is left out: {}: {}", file.kind, file.name, first.pointer, first.message);
+    if (file.faults.size() > 1) text += fmt::format(", and {} more faults", file.faults.size() - 1);
+    text += "; \"slipway data check\" lists them\n";
+  }
+  return text;
+}
+
 std::string version_text() {
   const auto found = find_data_folder(data_places(""));
   if (found) return fmt::format("{}\ndata: {} (found by {})", version(), found->path, found->found_by);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "api/files/catalogue.h"
 #include "core/result.h"
 
 // The folder of rovers, soils, terrains and campaigns that the command line works with.
@@ -31,6 +32,9 @@ DataPlaces data_places(const std::string& option);
 
 // The folder to work with, `option` being what --data gave. Errors as above.
 Result<std::string> data_folder(const std::string& option);
+
+// A line for each file of the folder that is left out, for standard error.
+std::string left_out_text(const api::Catalogue& catalogue);
 
 // What --version prints: the program's version, then the data folder and how it was found, or where it was
 // looked for.

@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <chrono>
+#include <iostream>
 #include <thread>
 
 #include "api/documents/catalogue_documents.h"
@@ -15,6 +16,7 @@
 #include "api/report/route_map.h"
 #include "api/service.h"
 #include "api/wheel_sweep.h"
+#include "server/cli/inquiry/data_folder.h"
 #include "server/http/http_client.h"
 
 namespace slipway::server {
@@ -149,6 +151,7 @@ class RemoteInquiry final : public Inquiry {
 Result<std::unique_ptr<Inquiry>> local_inquiry(api::ServiceOptions options) {
   auto service = api::Service::open(std::move(options));
   if (!service) return fail(service.error());
+  std::cerr << left_out_text((*service)->catalogue());
   return std::make_unique<LocalInquiry>(std::move(*service));
 }
 

@@ -204,6 +204,7 @@ int tune(const TuneCommand& options) {
   if (!data) return refuse(data.error());
   const auto catalogue = api::load_catalogue(*data);
   if (!catalogue) return refuse(catalogue.error());
+  std::cerr << left_out_text(*catalogue);
   const auto loaded = api::load_campaign_table(options.table, *data, *catalogue);
   if (!loaded) return refuse(loaded.error());
   const auto drives = chosen_drives(slipway::campaign::expand(loaded->table), options.drives, "/drives");
