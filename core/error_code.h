@@ -18,6 +18,7 @@ enum class ErrorCode {
   kPayloadTooLarge,
   kUnsupportedMediaType,
   kRangeNotSatisfiable,
+  kForeignHost,
   kHeaderTooLarge,
   kTooManyJobs,
   kUnreadableRaster,
@@ -28,6 +29,8 @@ enum class ErrorCode {
   kNotConverged,
   kCancelled,
   kStorage,
+  kStorageFull,
+  kDamagedStore,
   kUnwritableFile,
   kInternal,
 };

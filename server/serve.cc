@@ -34,8 +34,13 @@ struct Jobs {
   std::optional<api::FileLock> lock;
 };
 
-Result<Jobs> open_jobs(const std::string& path) {
+Result<Jobs> open_jobs(const ServeOptions& options) {
+  const std::string& path = options.jobs;
   Jobs jobs;
+  constexpr double kMsPerDay = 24.0 * 3600.0 * 1000.0, kBytesPerMb = 1e6;
+  jobs.runner.kept = {.most = static_cast<std::size_t>(options.keep_jobs),
+                      .most_age_ms = static_cast<std::int64_t>(options.keep_days * kMsPerDay),
+                      .most_bytes = static_cast<std::int64_t>(options.keep_mb * kBytesPerMb)};
   jobs.runner.workers = api::worker_kinds();
   if (path.empty()) {
     jobs.store = api::make_memory_job_store();
@@ -84,6 +89,11 @@ HttpOptions http_options(const ServeOptions& options) {
   http.address = options.address;
   http.port = options.port;
   http.problem = problem_response;
+  http.host_names = options.allowed_hosts;
+  http.max_connections = static_cast<std::size_t>(options.max_connections);
+  http.max_connections_per_address = options.max_connections_per_address > 0
+                                         ? static_cast<std::size_t>(options.max_connections_per_address)
+                                         : http.max_connections;
   http.cross_origin.origins = options.allowed_origins;
   http.cross_origin.request_headers = {"Content-Type", "If-None-Match", "Prefer"};
   http.cross_origin.response_headers = {"Allow",    "Content-Location",   "ETag",
@@ -105,7 +115,7 @@ int serve(const ServeOptions& options) {
   const auto service = api::Service::open({.data = *data});
   if (!service) return refuse(service.error());
   std::cerr << left_out_text((*service)->catalogue());
-  const auto jobs = open_jobs(options.jobs);
+  const auto jobs = open_jobs(options);
   if (!jobs) return refuse(jobs.error());
   api::JobRunner runner(jobs->store, api::service_work(**service), jobs->runner);
   if (const auto started = runner.start(); !started) return refuse(started.error());

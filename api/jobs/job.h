@@ -25,6 +25,7 @@ struct Job {
   double progress = 0.0;        // of the whole, in [0, 1]
   std::int64_t version = 1;     // grows with every change: the ETag
   int attempt = 0;              // how often it was claimed
+  int deaths = 0;               // how often a worker left it without handing it back
   std::int64_t created_ms = 0;  // since 1970, as the times below
   std::optional<std::int64_t> started_ms;
   std::optional<std::int64_t> ended_ms;

@@ -63,8 +63,9 @@ JobRunner::~JobRunner() {
 }
 
 Result<void> JobRunner::start() {
-  const auto released = store_->release(options_.worker);
+  const auto released = store_->release(options_.worker, HandBack::kDied);
   if (!released) return fail(released.error());
+  static_cast<void>(store_->forget_ended(options_.kept, now_ms()));
   for (const std::vector<std::string>& kinds : options_.workers) {
     threads_.emplace_back([this, &kinds] { serve(kinds); });
   }
@@ -79,7 +80,8 @@ void JobRunner::stop() {
     ended_.notify_all();
   }
   for (std::thread& thread : threads_) thread.join();
-  if (!threads_.empty()) static_cast<void>(store_->release(options_.worker));  // else the next start does it
+  if (!threads_.empty())
+    static_cast<void>(store_->release(options_.worker, HandBack::kStopped));  // else the next start does it
   threads_.clear();
 }
 
@@ -140,9 +142,13 @@ void JobRunner::run(const ClaimedJob& claimed) {
   // A dismissal between the claim and the line above reached the store but not us: the first report tells.
   progress.report("starting", 0.0);
   Result<std::string> answer = fail(ErrorCode::kInternal, "");
-  if (claimed.job.attempt > options_.most_attempts) {
+  const bool gives_up = claimed.damaged || claimed.job.deaths >= options_.most_deaths;
+  if (claimed.damaged) {
+    answer =
+        fail(ErrorCode::kDamagedStore, "what is stored of the request is not what was accepted: ask again");
+  } else if (gives_up) {
     answer = fail(ErrorCode::kInternal,
-                  fmt::format("the work was begun {} times and never ended", options_.most_attempts));
+                  fmt::format("the process ended {} times while it was at this work", claimed.job.deaths));
   } else if (!progress.cancelled()) {
     try {
       answer = work_(claimed.job.kind, claimed.request, progress);
@@ -154,7 +160,7 @@ void JobRunner::run(const ClaimedJob& claimed) {
     const std::scoped_lock lock(mutex_);
     active_.erase(claimed.job.id);
   }
-  const bool wanted = !progress.cancelled() || claimed.job.attempt > options_.most_attempts;
+  const bool wanted = !progress.cancelled() || gives_up;
   if (wanted || answer) conclude(claimed, answer);
   const std::scoped_lock lock(mutex_);
   --running_;
@@ -166,7 +172,7 @@ void JobRunner::conclude(const ClaimedJob& claimed, const Result<std::string>& a
   const std::string outcome = answer ? *answer : json::write_problem(answer.error());
   // The store refuses it when the job was dismissed meanwhile: then nobody ever sees this outcome.
   static_cast<void>(store_->finish(claimed.lease(), state, outcome, now_ms()));
-  static_cast<void>(store_->forget_ended(options_.most_kept));
+  static_cast<void>(store_->forget_ended(options_.kept, now_ms()));
 }
 
 }  // namespace slipway::api

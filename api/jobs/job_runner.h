@@ -26,8 +26,8 @@ struct JobRunnerOptions {
   // Short work has a worker of its own, so that it does not wait behind long work: see worker_kinds().
   std::vector<std::vector<std::string>> workers{{}};
   std::size_t most_unfinished = 64;  // accepted and running jobs; more are refused
-  std::size_t most_kept = 1000;      // ended jobs
-  int most_attempts = 5;             // a job that ends the process so often has failed
+  Retention kept = {};               // of ended jobs
+  int most_deaths = 5;               // a job during which the process ended so often has failed
   std::string worker = "slipway";  // the name under which jobs are claimed; a restart gives back what it held
   std::chrono::milliseconds lease{30'000};
   std::chrono::milliseconds progress_interval{200};

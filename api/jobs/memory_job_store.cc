@@ -44,6 +44,7 @@ class MemoryJobStore final : public JobStore {
       const bool of_kind =
           kinds.empty() || std::find(kinds.begin(), kinds.end(), entry.job.kind) != kinds.end();
       if (!free || !of_kind) continue;
+      if (entry.job.state == JobState::kRunning) ++entry.job.deaths;
       entry.job.state = JobState::kRunning;
       entry.job.started_ms = now;
       ++entry.job.attempt;
@@ -78,12 +79,13 @@ class MemoryJobStore final : public JobStore {
     return true;
   }
 
-  Result<int> release(std::string_view worker) override {
+  Result<int> release(std::string_view worker, HandBack why) override {
     const std::scoped_lock lock(mutex_);
     int released = 0;
     for (Entry& entry : entries_) {
       if (entry.job.state != JobState::kRunning || entry.worker != worker) continue;
       entry.job.state = JobState::kAccepted;
+      if (why == HandBack::kDied) ++entry.job.deaths;
       ++entry.job.version;
       ++released;
     }
@@ -122,17 +124,21 @@ class MemoryJobStore final : public JobStore {
     return jobs;
   }
 
-  Result<int> forget_ended(std::size_t most_kept) override {
+  Result<int> forget_ended(const Retention& kept, std::int64_t now) override {
     const std::scoped_lock lock(mutex_);
-    const auto ended = static_cast<std::size_t>(std::count_if(
-        entries_.begin(), entries_.end(), [](const Entry& e) { return has_ended(e.job.state); }));
-    std::size_t surplus = ended > most_kept ? ended - most_kept : 0;
+    std::size_t ended = 0;
+    std::int64_t bytes = 0;
     const std::size_t before = entries_.size();
-    std::erase_if(entries_, [&surplus](const Entry& e) {
-      if (surplus == 0 || !has_ended(e.job.state)) return false;
-      --surplus;
-      return true;
-    });
+    std::deque<Entry> left;
+    for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry) {
+      if (has_ended(entry->job.state)) {
+        bytes += static_cast<std::int64_t>(entry->request.size() + entry->outcome.size());
+        const bool old = now - entry->job.ended_ms.value_or(now) > kept.most_age_ms;
+        if (++ended > kept.most || bytes > kept.most_bytes || old) continue;
+      }
+      left.push_front(std::move(*entry));
+    }
+    entries_ = std::move(left);
     return static_cast<int>(before - entries_.size());
   }
 

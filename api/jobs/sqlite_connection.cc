@@ -4,6 +4,26 @@
 #include <sqlite3.h>
 
 namespace slipway::api {
+namespace {
+
+[[noreturn]] void throw_failure(int code, const std::string& words) {
+  constexpr int kPrimaryCode = 0xff;  // the other bits tell kinds of it apart
+  switch (code & kPrimaryCode) {
+    case SQLITE_FULL:
+      throw SqliteFull(words);
+    case SQLITE_CORRUPT:
+    case SQLITE_NOTADB:
+      throw SqliteDamage(words);
+    default:
+      throw SqliteFailure(words);
+  }
+}
+
+[[noreturn]] void throw_last_failure(sqlite3* database) {
+  throw_failure(sqlite3_errcode(database), fmt::format("SQLite: {}", sqlite3_errmsg(database)));
+}
+
+}  // namespace
 
 SqliteStatement::SqliteStatement(sqlite3* database, std::string_view sql) : database_(database) {
   sqlite3_stmt* statement = nullptr;
@@ -18,7 +38,7 @@ void SqliteStatement::Finaliser::operator()(sqlite3_stmt* statement) const {
 }
 
 void SqliteStatement::check(int code) const {
-  if (code != SQLITE_OK) throw SqliteFailure(fmt::format("SQLite: {}", sqlite3_errmsg(database_)));
+  if (code != SQLITE_OK) throw_last_failure(database_);
 }
 
 SqliteStatement& SqliteStatement::bind(std::string_view text) {
@@ -42,7 +62,7 @@ bool SqliteStatement::step() {
   const int code = sqlite3_step(statement_.get());
   if (code == SQLITE_ROW) return true;
   if (code == SQLITE_DONE) return false;
-  throw SqliteFailure(fmt::format("SQLite: {}", sqlite3_errmsg(database_)));
+  throw_last_failure(database_);
 }
 
 std::string SqliteStatement::text(int column) const {
@@ -75,6 +95,7 @@ SqliteConnection::SqliteConnection(const std::filesystem::path& path, CommitKind
   }
   constexpr int kBusy_ms = 5000;
   sqlite3_busy_timeout(database, kBusy_ms);
+  execute("PRAGMA auto_vacuum=INCREMENTAL");  // first of all: it is fixed with the file's first page
   execute("PRAGMA journal_mode=WAL");
   execute(kind == CommitKind::kDurable ? "PRAGMA synchronous=FULL" : "PRAGMA synchronous=NORMAL");
 }
@@ -85,7 +106,7 @@ void SqliteConnection::Closer::operator()(sqlite3* database) const {
 
 void SqliteConnection::execute(const char* sql) {
   if (sqlite3_exec(database_.get(), sql, nullptr, nullptr, nullptr) != SQLITE_OK) {
-    throw SqliteFailure(fmt::format("SQLite: {}", sqlite3_errmsg(database_.get())));
+    throw_last_failure(database_.get());
   }
 }
 

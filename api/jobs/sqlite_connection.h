@@ -19,6 +19,18 @@ class SqliteFailure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// The disk is full.
+class SqliteFull : public SqliteFailure {
+ public:
+  using SqliteFailure::SqliteFailure;
+};
+
+// The file is no database, or a damaged one.
+class SqliteDamage : public SqliteFailure {
+ public:
+  using SqliteFailure::SqliteFailure;
+};
+
 // What a commit survives: kQuick the death of the process, kDurable a loss of power too (it waits for the
 // disk).
 enum class CommitKind { kQuick, kDurable };
@@ -51,7 +63,8 @@ class SqliteStatement {
   int bound_ = 0;
 };
 
-// A connection to a database in WAL mode. Used by one thread at a time.
+// A connection to a database in WAL mode, whose deleted pages can be given back to the disk (PRAGMA
+// incremental_vacuum). Used by one thread at a time.
 class SqliteConnection {
  public:
   SqliteConnection(const std::filesystem::path& path, CommitKind kind);

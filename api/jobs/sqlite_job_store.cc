@@ -7,35 +7,13 @@
 #include <utility>
 
 #include "api/jobs/sqlite_connection.h"
+#include "api/jobs/sqlite_job_schema.h"
 
 namespace slipway::api {
 namespace {
 
-constexpr std::int64_t kSchemaVersion = 1;
-constexpr const char* kSchema = R"(
-CREATE TABLE jobs (
-  sequence INTEGER PRIMARY KEY AUTOINCREMENT,
-  id TEXT NOT NULL UNIQUE,
-  kind TEXT NOT NULL,
-  state TEXT NOT NULL,
-  stage TEXT NOT NULL DEFAULT '',
-  progress REAL NOT NULL DEFAULT 0,
-  version INTEGER NOT NULL DEFAULT 1,
-  attempt INTEGER NOT NULL DEFAULT 0,
-  created_ms INTEGER NOT NULL,
-  started_ms INTEGER,
-  ended_ms INTEGER,
-  worker TEXT,
-  lease_until_ms INTEGER,
-  request BLOB NOT NULL,
-  outcome BLOB
-);
-CREATE INDEX jobs_unfinished ON jobs (sequence) WHERE state IN ('accepted', 'running');
-CREATE INDEX jobs_ended ON jobs (sequence) WHERE state NOT IN ('accepted', 'running');
-PRAGMA user_version = 1;
-)";
 constexpr std::string_view kJobColumns =
-    "id, kind, state, stage, progress, version, attempt, created_ms, started_ms, ended_ms";
+    "id, kind, state, stage, progress, version, attempt, created_ms, started_ms, ended_ms, deaths";
 constexpr std::string_view kHeld = "id = ? AND attempt = ? AND state = 'running'";
 
 Job job_of(const SqliteStatement& row) {
@@ -52,6 +30,7 @@ Job job_of(const SqliteStatement& row) {
   job.created_ms = row.number(7);
   job.started_ms = row.optional_number(8);
   job.ended_ms = row.optional_number(9);
+  job.deaths = static_cast<int>(row.number(10));
   return job;
 }
 
@@ -67,6 +46,10 @@ auto guarded(std::mutex& mutex, const Work& work) -> Result<decltype(work())> {
   const std::scoped_lock lock(mutex);
   try {
     return work();
+  } catch (const SqliteFull& failure) {
+    return fail(ErrorCode::kStorageFull, failure.what());
+  } catch (const SqliteDamage& failure) {
+    return fail(ErrorCode::kDamagedStore, failure.what());
   } catch (const SqliteFailure& failure) {
     return fail(ErrorCode::kStorage, failure.what());
   }
@@ -78,19 +61,7 @@ class SqliteJobStore final : public JobStore {
       : durable_(path, CommitKind::kDurable),
         quick_(path, CommitKind::kQuick),
         reader_(path, CommitKind::kQuick) {
-    SqliteTransaction transaction(durable_);
-    auto row = durable_.prepare("PRAGMA user_version");
-    row.step();
-    const std::int64_t found = row.number(0);
-    if (found == 0) {
-      durable_.execute(kSchema);
-    } else if (found != kSchemaVersion) {
-      throw SqliteFailure(
-          fmt::format("the job store has version {}, this program reads {}", found, kSchemaVersion));
-    }
-    while (row.step()) {
-    }
-    transaction.commit();
+    settle_schema(durable_, path);
   }
 
   // The first of those that wait commits for all of them: a disk does few commits a second, however large.
@@ -122,21 +93,25 @@ class SqliteJobStore final : public JobStore {
       for (std::size_t i = 0; i < kinds.size(); ++i) places += i == 0 ? "?" : ", ?";
       const std::string of_kind = kinds.empty() ? "" : fmt::format("AND kind IN ({}) ", places);
       SqliteTransaction transaction(quick_);
-      auto next = quick_.prepare(
-          fmt::format("SELECT id, request FROM jobs WHERE state IN ('accepted', 'running') AND "
-                      "(state = 'accepted' OR lease_until_ms < ?) {}ORDER BY sequence LIMIT 1",
-                      of_kind));
+      auto next = quick_.prepare(fmt::format(
+          "SELECT id, request, request_sha256, kind FROM jobs WHERE state IN ('accepted', 'running') AND "
+          "(state = 'accepted' OR lease_until_ms < ?) {}ORDER BY sequence LIMIT 1",
+          of_kind));
       next.bind(now);
       for (const std::string& kind : kinds) next.bind(kind);
       if (!next.step()) return std::nullopt;
       ClaimedJob claimed;
       const std::string id = next.text(0);
       claimed.request = next.text(1);
+      claimed.damaged = next.text(2) != request_digest(id, next.text(3), claimed.request);
       auto update = quick_.prepare(
-          "UPDATE jobs SET state = 'running', started_ms = ?, attempt = attempt + 1, version = version + 1, "
+          "UPDATE jobs SET deaths = deaths + (state = 'running'), state = 'running', started_ms = ?, "
+          "attempt = attempt + 1, version = version + 1, "
           "worker = ?, lease_until_ms = ? WHERE id = ?");
       update.bind(now).bind(worker).bind(lease_until).bind(id).step();
-      claimed.job = get_from(quick_, id).value();
+      const std::optional<Job> job = get_from(quick_, id);
+      if (!job) throw SqliteDamage("a job is not found under its id");
+      claimed.job = *job;
       transaction.commit();
       return claimed;
     });
@@ -158,22 +133,23 @@ class SqliteJobStore final : public JobStore {
   Result<bool> finish(const Lease& lease, JobState state, std::string_view outcome,
                       std::int64_t now) override {
     return guarded(write_mutex_, [&] {
-      auto update = durable_.prepare(
-          fmt::format("UPDATE jobs SET state = ?, outcome = ?, ended_ms = ?, version = version + 1, "
-                      "progress = CASE WHEN ? THEN 1.0 ELSE progress END, worker = NULL WHERE {}",
-                      kHeld));
-      update.bind(describe(state)).bind(outcome).bind(now).bind(std::int64_t{state == JobState::kSuccessful});
+      auto update = durable_.prepare(fmt::format(
+          "UPDATE jobs SET state = ?, outcome = ?, outcome_sha256 = ?, ended_ms = ?, version = version + 1, "
+          "progress = CASE WHEN ? THEN 1.0 ELSE progress END, worker = NULL WHERE {}",
+          kHeld));
+      update.bind(describe(state)).bind(outcome).bind(outcome_digest(lease.id, describe(state), outcome));
+      update.bind(now).bind(std::int64_t{state == JobState::kSuccessful});
       update.bind(lease.id).bind(std::int64_t{lease.attempt}).step();
       return durable_.changes() == 1;
     });
   }
 
-  Result<int> release(std::string_view worker) override {
+  Result<int> release(std::string_view worker, HandBack why) override {
     return guarded(write_mutex_, [&] {
       auto update = quick_.prepare(
-          "UPDATE jobs SET state = 'accepted', version = version + 1, worker = NULL "
+          "UPDATE jobs SET state = 'accepted', deaths = deaths + ?, version = version + 1, worker = NULL "
           "WHERE state = 'running' AND worker = ?");
-      update.bind(worker).step();
+      update.bind(std::int64_t{why == HandBack::kDied}).bind(worker).step();
       return quick_.changes();
     });
   }
@@ -194,10 +170,16 @@ class SqliteJobStore final : public JobStore {
 
   Result<std::optional<std::string>> outcome(std::string_view id) override {
     return guarded(read_mutex_, [&]() -> std::optional<std::string> {
-      auto row =
-          reader_.prepare("SELECT outcome FROM jobs WHERE id = ? AND state IN ('successful', 'failed')");
+      auto row = reader_.prepare(
+          "SELECT outcome, outcome_sha256, state FROM jobs WHERE id = ? AND state IN ('successful', "
+          "'failed')");
       row.bind(id);
-      return row.step() ? std::optional(row.text(0)) : std::nullopt;
+      if (!row.step()) return std::nullopt;
+      std::string bytes = row.text(0);
+      if (row.text(1) != outcome_digest(id, row.text(2), bytes))
+        throw SqliteDamage(
+            fmt::format("what is stored of job {} is not what it answered: ask for it again", id));
+      return bytes;
     });
   }
 
@@ -212,14 +194,19 @@ class SqliteJobStore final : public JobStore {
     });
   }
 
-  Result<int> forget_ended(std::size_t most_kept) override {
+  Result<int> forget_ended(const Retention& kept, std::int64_t now) override {
     return guarded(write_mutex_, [&] {
       auto erase = quick_.prepare(
-          "DELETE FROM jobs WHERE state NOT IN ('accepted', 'running') AND sequence <= "
-          "(SELECT sequence FROM jobs WHERE state NOT IN ('accepted', 'running') "
-          "ORDER BY sequence DESC LIMIT 1 OFFSET ?)");
-      erase.bind(static_cast<std::int64_t>(most_kept)).step();
-      return quick_.changes();
+          "DELETE FROM jobs WHERE sequence IN (SELECT sequence FROM ("
+          "SELECT sequence, ended_ms, row_number() OVER newest AS number, "
+          "sum(length(request) + coalesce(length(outcome), 0)) OVER newest AS bytes "
+          "FROM jobs WHERE state NOT IN ('accepted', 'running') WINDOW newest AS (ORDER BY sequence DESC)) "
+          "WHERE number > ? OR bytes > ? OR ? - ended_ms > ?)");
+      erase.bind(static_cast<std::int64_t>(kept.most)).bind(kept.most_bytes).bind(now).bind(kept.most_age_ms);
+      erase.step();
+      const int forgotten = quick_.changes();
+      if (forgotten > 0) quick_.execute("PRAGMA incremental_vacuum");
+      return forgotten;
     });
   }
 
@@ -245,11 +232,13 @@ class SqliteJobStore final : public JobStore {
           continue;
         }
         auto insert = durable_.prepare(
-            "INSERT INTO jobs (id, kind, state, created_ms, request) VALUES (?, ?, 'accepted', ?, ?)");
+            "INSERT INTO jobs (id, kind, state, created_ms, request, request_sha256) "
+            "VALUES (?, ?, 'accepted', ?, ?, ?)");
         insert.bind(pending->job.id)
             .bind(pending->job.kind)
             .bind(pending->now)
             .bind(pending->job.request)
+            .bind(request_digest(pending->job.id, pending->job.kind, pending->job.request))
             .step();
         Job job;
         job.id = pending->job.id;
@@ -282,9 +271,15 @@ class SqliteJobStore final : public JobStore {
 
 Result<std::unique_ptr<JobStore>> open_sqlite_job_store(const std::filesystem::path& path) {
   try {
+    check_marker(path);
     return std::make_unique<SqliteJobStore>(path);
+  } catch (const SqliteFull& failure) {
+    return fail(ErrorCode::kStorageFull, fmt::format("the job store {}: {}", path.string(), failure.what()));
   } catch (const SqliteFailure& failure) {
-    return fail(ErrorCode::kStorage, failure.what());
+    const std::string words = failure.what();
+    const bool names_it = words.find(path.string()) != std::string::npos;
+    return fail(ErrorCode::kStorage,
+                names_it ? words : fmt::format("the job store {}: {}", path.string(), words));
   }
 }
 

@@ -14,7 +14,14 @@ struct ServeOptions {
   std::string data;
   std::string address = "127.0.0.1";
   int port = 8080;
-  std::string jobs = "var/jobs.sqlite";      // empty: in memory, lost with the process
+  std::string jobs = "var/jobs.sqlite";  // empty: in memory, lost with the process
+  std::vector<std::string>
+      allowed_hosts;  // names under which requests may come, beside localhost and addresses
+  int max_connections = 4096,
+      max_connections_per_address = 2048;    // the latter 0: as many as there are in all
+  int keep_jobs = 1000;                      // ended jobs that are kept at most, ...
+  double keep_days = 90.0;                   // ... and for how long
+  double keep_mb = 4096.0;                   // ... and with how many megabytes of requests and answers
   std::vector<std::string> allowed_origins;  // of web pages that may read the answers, "https://HOST:PORT"
 };
 

@@ -16,6 +16,28 @@ void add_serve_command(CLI::App& app, std::function<int()>& run) {
       ->check(CLI::Range(0, 65535));
   command->add_option("--jobs", options->jobs, "SQLite file of the jobs; \"\" keeps them in memory")
       ->capture_default_str();
+  command->add_option("--keep-jobs", options->keep_jobs, "ended jobs that are kept at most")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 10'000'000));
+  command->add_option("--keep-days", options->keep_days, "days for which ended jobs are kept at most")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 36500.0));
+  command
+      ->add_option("--keep-mb", options->keep_mb, "megabytes of requests and answers of ended jobs at most")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1e7));
+  command->add_option("--max-connections", options->max_connections, "connections at once")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1'000'000));
+  command
+      ->add_option("--max-connections-per-address", options->max_connections_per_address,
+                   "connections of one address at once; 0: no limit, for a server behind a reverse proxy")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1'000'000));
+  command
+      ->add_option("--allow-host", options->allowed_hosts,
+                   "answer under this name too, beside localhost and addresses as numbers; may be repeated")
+      ->allow_extra_args(false);
   command
       ->add_option("--allow-origin", options->allowed_origins,
                    "let web pages of this origin, https://HOST[:PORT], read the answers; may be repeated")

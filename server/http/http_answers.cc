@@ -8,6 +8,7 @@
 
 #include "server/http/http_cross_origin.h"
 #include "server/http/http_head.h"
+#include "server/http/http_host.h"
 
 namespace slipway::server {
 namespace {
@@ -77,6 +78,14 @@ HttpResponse Answers::routed(HttpRequest& request) const {
 HttpResponse Answers::answered(HttpRequest& request) const {
   const auto as_problem = [this](const Error& error, const HttpRequest* r) { return problem(error, r); };
   try {
+    if (const auto host = request.header("Host");
+        options_.host_names && host && !names_this_server(*host, *options_.host_names))
+      return problem(
+          {ErrorCode::kForeignHost,
+           fmt::format("this server is not called {}; the operator may allow it the name with --allow-host",
+                       *host),
+           {}},
+          &request);
     return routes_.answer(request, as_problem);
   } catch (...) {
     // Its text may hold what is nobody's business, so only the operator sees it.

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -65,15 +66,19 @@ struct HttpOptions {
   // How long stop() waits for requests that have begun.
   std::chrono::milliseconds drain_deadline{5'000};
 
-  // Below the usual limit of 1,024 descriptors, with room for files.
-  std::size_t max_connections = 512;
+  // Each costs a descriptor: start() asks the system for as many.
+  std::size_t max_connections = 4096;
   // So that one address can't take them all. Behind a reverse proxy every client has the proxy's address:
   // raise it.
-  std::size_t max_connections_per_address = 128;
+  std::size_t max_connections_per_address = 2048;
   // Connections that the kernel has established and we have not accepted yet; cpp-httplib asks for 5.
   int listen_backlog = 256;
   // A connection is closed after so many, which lets a load balancer spread its clients anew.
   std::size_t max_requests_per_connection = 1'000;
+
+  // Names under which requests may come, beside localhost and addresses as numbers, see names_this_server();
+  // empty: any.
+  std::optional<std::vector<std::string>> host_names;
 
   // Which web pages of other origins may read the answers (CORS).
   CrossOrigin cross_origin;

@@ -1,6 +1,7 @@
 #include "server/http/http_server.h"
 
 #include <pthread.h>
+#include <sys/resource.h>
 
 #include <csignal>
 #include <optional>
@@ -14,6 +15,18 @@
 
 namespace slipway::server {
 namespace {
+
+// Most systems give 1,024 descriptors to who does not ask for more. Where fewer are allowed, connections
+// beyond them wait in the backlog.
+void ask_for_descriptors(const HttpOptions& options) {
+  constexpr rlim_t kForFiles = 256;
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+  const rlim_t wanted = std::min<rlim_t>(options.max_connections + kForFiles, limit.rlim_max);
+  if (limit.rlim_cur >= wanted) return;
+  limit.rlim_cur = wanted;
+  static_cast<void>(setrlimit(RLIMIT_NOFILE, &limit));
+}
 
 // Threads made while this lives leave signals to the program's own threads.
 class SignalsBlocked {
@@ -47,6 +60,7 @@ class HttpServer::Running {
 
   Result<int> start(Listener listener) {
     if (loop_) return fail(ErrorCode::kConflict, "the server is running");
+    ask_for_descriptors(options_);
     const int port = listener.port;
     loop_.emplace(options_, answers_, counters_, std::move(listener));
     if (!loop_->fault().empty()) {

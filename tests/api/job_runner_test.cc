@@ -171,9 +171,9 @@ TEST(JobRunner, AJobThatEndsTheProcessAgainAndAgainFails) {
   const std::shared_ptr<JobStore> store = make_memory_job_store();
   const std::string id = store->append({new_job_id(), "plan", "{}"}, now_ms(), 10)->id;
   JobRunnerOptions options;
-  for (int i = 0; i < options.most_attempts; ++i) {
+  for (int i = 0; i < options.most_deaths; ++i) {
     ASSERT_TRUE(store->claim("slipway", {"plan"}, now_ms(), now_ms() + 1000).value());
-    ASSERT_EQ(store->release("slipway").value(), 1);
+    ASSERT_EQ(store->release("slipway", HandBack::kDied).value(), 1);
   }
   std::atomic<int> worked{0};
   JobRunner runner(store, [&](const std::string&, const std::string&, Progress&) {
@@ -183,6 +183,22 @@ TEST(JobRunner, AJobThatEndsTheProcessAgainAndAgainFails) {
   ASSERT_TRUE(runner.start());
   EXPECT_EQ(runner.wait(id, seconds(5)).value()->state, JobState::kFailed);
   EXPECT_EQ(worked, 0);
+}
+
+TEST(JobRunner, AJobIsNotBlamedForStopsOfTheService) {
+  const std::shared_ptr<JobStore> store = make_memory_job_store();
+  const std::string id = store->append({new_job_id(), "plan", "{}"}, now_ms(), 10)->id;
+  Endless endless;
+  for (int k = 1; k <= 2 * JobRunnerOptions{}.most_deaths; ++k) {
+    JobRunner runner(store, std::ref(endless));
+    ASSERT_TRUE(runner.start());
+    while (endless.begun < k) std::this_thread::sleep_for(milliseconds(1));
+    runner.stop();
+    ASSERT_EQ(store->get(id).value()->state, JobState::kAccepted) << "after stop " << k;
+  }
+  JobRunner runner(store, echo);
+  ASSERT_TRUE(runner.start());
+  EXPECT_EQ(runner.wait(id, seconds(5)).value()->state, JobState::kSuccessful);
 }
 
 TEST(JobRunner, WorkThatAsksKeepsItsLease) {

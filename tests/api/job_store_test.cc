@@ -121,11 +121,16 @@ TEST_P(JobStores, AnExpiredLeaseIsClaimedAgainAndTheOldOneIsFencedOff) {
 TEST_P(JobStores, ReleaseGivesBackWhatAWorkerHeld) {
   const std::string id = accept();
   const Lease lease = claim().lease();
-  EXPECT_EQ(store_->release("b").value(), 0);
-  EXPECT_EQ(store_->release("a").value(), 1);
+  EXPECT_EQ(store_->release("b", HandBack::kStopped).value(), 0);
+  EXPECT_EQ(store_->release("a", HandBack::kStopped).value(), 1);
   EXPECT_EQ(get(id).state, JobState::kAccepted);
   EXPECT_FALSE(store_->finish(lease, JobState::kSuccessful, "late", now_).value());
   EXPECT_EQ(claim().job.attempt, 2);
+  EXPECT_EQ(get(id).deaths, 0) << "an orderly stop is none";
+  EXPECT_EQ(store_->release("a", HandBack::kDied).value(), 1);
+  EXPECT_EQ(claim(10).job.deaths, 1);
+  now_ += 11;
+  EXPECT_EQ(claim().job.deaths, 2) << "nor does who lets a lease end live";
 }
 
 TEST_P(JobStores, ADismissedJobStaysDismissedAndShowsNothing) {
@@ -167,12 +172,28 @@ TEST_P(JobStores, ListsNewestFirstAndForgetsTheOldestEnded) {
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(store_->dismiss(ids[i], now_));
   ASSERT_EQ(store_->list(2).value().size(), 2U);
   EXPECT_EQ(store_->list(2).value()[0].id, ids[3]);
-  EXPECT_EQ(store_->forget_ended(1).value(), 2);
+  EXPECT_EQ(store_->forget_ended({.most = 1}, now_).value(), 2);
   EXPECT_EQ(store_->get(ids[0]).value(), std::nullopt);
   EXPECT_EQ(store_->get(ids[1]).value(), std::nullopt);
   EXPECT_TRUE(store_->get(ids[2]).value().has_value());
   EXPECT_EQ(get(ids[3]).state, JobState::kAccepted) << "what has not ended is never forgotten";
-  EXPECT_EQ(store_->forget_ended(1).value(), 0);
+  EXPECT_EQ(store_->forget_ended({.most = 1}, now_).value(), 0);
+}
+
+TEST_P(JobStores, ForgetsWhatIsTooOldOrTooLarge) {
+  std::vector<std::string> ids;
+  for (int i = 0; i < 4; ++i) {
+    ids.push_back(accept());
+    now_ += 1000;
+    ASSERT_TRUE(store_->finish(claim().lease(), JobState::kSuccessful, std::string(100, 'x'), now_).value());
+  }
+  EXPECT_EQ(store_->forget_ended({}, now_).value(), 0);
+  EXPECT_EQ(store_->forget_ended({.most_age_ms = 2500}, now_).value(), 1)
+      << "the oldest ended 3 s before the newest";
+  EXPECT_EQ(store_->get(ids[0]).value(), std::nullopt);
+  EXPECT_EQ(store_->forget_ended({.most_bytes = 250}, now_).value(), 1) << "102 bytes each";
+  EXPECT_EQ(store_->get(ids[1]).value(), std::nullopt);
+  EXPECT_TRUE(store_->get(ids[2]).value().has_value());
 }
 
 TEST_P(JobStores, ManyThreadsClaimEveryJobExactlyOnce) {

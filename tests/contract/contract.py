@@ -265,7 +265,7 @@ class Contract(WithServer):
     def test_a_gigabyte_is_refused_before_it_is_read(self):
         before = self.server.rss_mb("VmRSS")
         with socket.create_connection(("127.0.0.1", self.server.port), timeout=10) as s:
-            s.sendall(b"POST /v1/plans HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\nContent-Length: 1000000000\r\n\r\n")
+            s.sendall(b"POST /v1/plans HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 1000000000\r\n\r\n")
             self.assertIn(b" 413 ", s.recv(4096))
         self.assertLess(self.server.rss_mb("VmRSS") - before, 20)
         self.assertEqual(self.server.ask("GET", "/healthz")[0], 200)

@@ -64,6 +64,21 @@ class ServiceContract(WithServer):
             self.assertEqual(failed.returncode, 1)
             self.assertFalse(nowhere.parent.exists(), "a failed start makes no store")
 
+    def test_a_name_that_is_not_the_servers_is_refused(self):
+        for host, expected in (("evil.example.org", 421), (f"evil.example.org:{self.server.port}", 421), ("localhost", 200),
+                               (f"LOCALHOST:{self.server.port}", 200), ("10.1.2.3", 200), ("[::1]:80", 200), ("10.1.2.3.evil.example.org", 421)):
+            status, _, body = self.server.ask("GET", "/v1/rovers", headers={"Host": host})
+            self.assertEqual(status, expected, host)
+            if expected == 421:
+                self.assertIn(b"foreign_host", body)
+        with tempfile.TemporaryDirectory() as folder:
+            server = Server(pathlib.Path(folder), "--allow-host", "rover-desk")
+            try:
+                self.assertEqual(server.ask("GET", "/v1/rovers", headers={"Host": "rover-desk:80"})[0], 200)
+                self.assertEqual(server.ask("GET", "/v1/rovers", headers={"Host": "rover"})[0], 421)
+            finally:
+                server.stop()
+
     def test_web_pages_of_the_listed_origins_may_read(self):
         page = {"Origin": "http://localhost:5173"}
         self.assertNotIn("Access-Control-Allow-Origin", self.server.ask("GET", "/v1/rovers", headers=page)[1])

@@ -45,6 +45,7 @@ FENCES = [
     (r"ceres/.*", r"gap/estimate/ceres_\w+\.cc"),
     (r"nlohmann/.*", r"api/json/\w+\.cc"),
     (r"sqlite3\.h", r"api/jobs/sqlite_\w+\.cc"),
+    (r"openssl/.*", r"api/files/openssl_\w+\.cc"),
     (r"httplib\.h", r"server/http/\w+\.cc"),
     (r"CLI/.*", r"server/cli/\w+\.cc"),
     (r"(Simbody|SimTK\w*)\.h|simbody/.*", r"(?!)"),  # a judge in tests alone

@@ -1,0 +1,171 @@
+#include "api/jobs/sqlite_job_schema.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "api/files/sha256.h"
+#include "api/files/whole_file.h"
+#include "api/jobs/job.h"
+
+namespace slipway::api {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t kSchemaVersion = 2;
+
+constexpr const char* kSchema = R"(
+CREATE TABLE jobs (
+  sequence INTEGER PRIMARY KEY AUTOINCREMENT,
+  id TEXT NOT NULL UNIQUE,
+  kind TEXT NOT NULL,
+  state TEXT NOT NULL,
+  stage TEXT NOT NULL DEFAULT '',
+  progress REAL NOT NULL DEFAULT 0,
+  version INTEGER NOT NULL DEFAULT 1,
+  attempt INTEGER NOT NULL DEFAULT 0,
+  created_ms INTEGER NOT NULL,
+  started_ms INTEGER,
+  ended_ms INTEGER,
+  worker TEXT,
+  lease_until_ms INTEGER,
+  request BLOB NOT NULL,
+  outcome BLOB,
+  deaths INTEGER NOT NULL DEFAULT 0,
+  request_sha256 TEXT NOT NULL DEFAULT '',
+  outcome_sha256 TEXT
+);
+CREATE INDEX jobs_unfinished ON jobs (sequence) WHERE state IN ('accepted', 'running');
+CREATE INDEX jobs_ended ON jobs (sequence) WHERE state NOT IN ('accepted', 'running');
+PRAGMA user_version = 2;
+)";
+const std::vector<std::string> kColumns{
+    "sequence",       "id",      "kind",       "state",      "stage",          "progress",
+    "version",        "attempt", "created_ms", "started_ms", "ended_ms",       "worker",
+    "lease_until_ms", "request", "outcome",    "deaths",     "request_sha256", "outcome_sha256"};
+
+constexpr std::string_view kMoveAway = "move it away to begin an empty store, or name another with --jobs";
+
+[[noreturn]] void refuse(const fs::path& store, const std::string& why, std::string_view remedy) {
+  throw SqliteFailure(fmt::format("the job store {} {}; {}", store.string(), why, remedy));
+}
+
+fs::path marker_of(const fs::path& store) {
+  return store.string() + ".marker";
+}
+
+std::string first_text(SqliteConnection& connection, std::string_view sql) {
+  auto row = connection.prepare(sql);
+  return row.step() ? row.text(0) : std::string();
+}
+
+std::int64_t number_of(SqliteConnection& connection, std::string_view sql) {
+  auto row = connection.prepare(sql);
+  row.step();
+  return row.number(0);
+}
+
+// Under one lock: another process may be at it too.
+void make_tables_where_empty(SqliteConnection& connection) {
+  SqliteTransaction transaction(connection);
+  if (number_of(connection, "PRAGMA user_version") == 0 &&
+      number_of(connection, "SELECT count(*) FROM sqlite_schema") == 0)
+    connection.execute(kSchema);
+  transaction.commit();
+}
+
+void check_columns(SqliteConnection& connection, const fs::path& store) {
+  std::vector<std::string> found;
+  auto row = connection.prepare("SELECT name FROM pragma_table_info('jobs') ORDER BY cid");
+  while (row.step()) found.push_back(row.text(0));
+  if (found != kColumns)
+    refuse(store, fmt::format("has a table of jobs with other columns ({})", fmt::join(found, ", ")),
+           kMoveAway);
+}
+
+// Version 1 had no digests: those of what is there are taken as it is found.
+void bring_up_from_1(SqliteConnection& connection, const fs::path& store) {
+  fs::path copy = store.string() + ".version-1";
+  std::error_code ignored;
+  if (fs::exists(copy, ignored)) copy = fmt::format("{}.version-1.{}", store.string(), now_ms());
+  connection.prepare("VACUUM INTO ?").bind(copy.string()).step();
+  connection.execute(
+      "VACUUM");  // takes on the mode in which deleted pages can be given back, see SqliteConnection
+  SqliteTransaction transaction(connection);
+  connection.execute("ALTER TABLE jobs ADD COLUMN deaths INTEGER NOT NULL DEFAULT 0");
+  connection.execute("ALTER TABLE jobs ADD COLUMN request_sha256 TEXT NOT NULL DEFAULT ''");
+  connection.execute("ALTER TABLE jobs ADD COLUMN outcome_sha256 TEXT");
+  auto row = connection.prepare("SELECT id, kind, state, request, outcome FROM jobs");
+  std::vector<std::array<std::string, 3>> digests;
+  while (row.step())
+    digests.push_back({row.text(0), request_digest(row.text(0), row.text(1), row.text(3)),
+                       outcome_digest(row.text(0), row.text(2), row.text(4))});
+  for (const auto& [id, request, outcome] : digests)
+    connection
+        .prepare(
+            "UPDATE jobs SET request_sha256 = ?, outcome_sha256 = CASE WHEN outcome IS NULL THEN NULL ELSE ? "
+            "END "
+            "WHERE id = ?")
+        .bind(request)
+        .bind(outcome)
+        .bind(id)
+        .step();
+  connection.execute("PRAGMA user_version = 2");
+  transaction.commit();
+}
+
+}  // namespace
+
+std::string request_digest(std::string_view id, std::string_view kind, std::string_view request) {
+  return sha256_of({id, kind, request});
+}
+
+std::string outcome_digest(std::string_view id, std::string_view state, std::string_view outcome) {
+  return sha256_of({id, state, outcome});
+}
+
+void check_marker(const fs::path& store) {
+  std::error_code ignored;
+  const fs::path marker = marker_of(store);
+  if (!fs::exists(marker, ignored)) return;
+  if (fs::exists(store, ignored) && fs::file_size(store, ignored) > 0) return;
+  refuse(store, "is missing or empty, but its marker shows that there was one",
+         fmt::format("put the store back, or remove {} to begin an empty one", marker.string()));
+}
+
+void settle_schema(SqliteConnection& connection, const fs::path& store) {
+  try {
+    const std::string check = first_text(connection, "PRAGMA integrity_check(1)");
+    if (check != "ok") refuse(store, fmt::format("is damaged ({})", check), kMoveAway);
+    make_tables_where_empty(connection);
+    const std::int64_t version = number_of(connection, "PRAGMA user_version");
+    if (version == 0) {
+      refuse(store, "holds other tables than those of jobs", "name another with --jobs");
+    } else if (version > kSchemaVersion) {
+      refuse(store,
+             fmt::format("was written by a newer program (version {}, this one reads {})", version,
+                         kSchemaVersion),
+             "use that program, or name another store with --jobs");
+    } else if (version < kSchemaVersion) {
+      bring_up_from_1(connection, store);
+    }
+    check_columns(connection, store);
+  } catch (const SqliteFull&) {
+    throw;
+  } catch (const SqliteDamage& damage) {
+    refuse(store, fmt::format("can't be read ({})", damage.what()), kMoveAway);
+  }
+  if (std::error_code ignored; fs::exists(marker_of(store), ignored)) return;
+  const std::string words = fmt::format(
+      "Beside this file stands a job store, {}. Without it the store would be taken for a new one.\n",
+      store.filename().string());
+  if (const auto written = write_whole_file(marker_of(store).string(), words); !written)
+    throw SqliteFailure(written.error().detail);
+}
+
+}  // namespace slipway::api

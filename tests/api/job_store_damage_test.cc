@@ -1,0 +1,191 @@
+// A store that was damaged, lost, replaced or left by another program: never a changed answer, and a refusal
+// that says what to do.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "api/jobs/sqlite_connection.h"
+#include "api/jobs/sqlite_job_store.h"
+#include "core/random.h"
+#include "small_world.h"
+
+namespace slipway::api {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::file_bytes;
+using testing::ScratchFolder;
+using testing::write_file;
+
+const std::vector<std::string> kPlans{"plan"};
+
+std::string answer_of(int k) {
+  std::string answer;
+  for (std::uint64_t i = 0; i < 900; ++i)
+    answer += static_cast<char>('a' + random_key(static_cast<std::uint64_t>(k), i) % 26);
+  return answer;
+}
+
+// A store with twelve jobs: eight successful, four waiting. Their ids.
+std::vector<std::string> fill(const fs::path& path) {
+  const auto store = open_sqlite_job_store(path);
+  EXPECT_TRUE(store) << store.error().detail;
+  std::vector<std::string> ids;
+  for (int k = 0; k < 12; ++k) {
+    ids.push_back(new_job_id());
+    EXPECT_TRUE((*store)->append({ids.back(), "plan", answer_of(100 + k)}, 1 + k, 100));
+    if (k >= 8) continue;
+    const auto claimed = (*store)->claim("a", kPlans, 2, 3);
+    EXPECT_TRUE((*store)->finish(claimed.value()->lease(), JobState::kSuccessful, answer_of(k), 4).value());
+  }
+  return ids;
+}
+
+void expect_refusal(const fs::path& path, const std::vector<std::string>& parts) {
+  const auto store = open_sqlite_job_store(path);
+  ASSERT_FALSE(store);
+  for (const std::string& part : parts)
+    EXPECT_NE(store.error().detail.find(part), std::string::npos)
+        << store.error().detail << " lacks " << part;
+}
+
+TEST(JobStoreDamage, AnAlteredAnswerIsAnErrorAndAnAlteredRequestIsNotRun) {
+  const ScratchFolder folder;
+  const fs::path path = folder.path() / "jobs.sqlite";
+  const std::vector<std::string> ids = fill(path);
+  {
+    SqliteConnection connection(path, CommitKind::kQuick);
+    connection.prepare("UPDATE jobs SET outcome = replace(outcome, 'a', 'b') WHERE id = ?")
+        .bind(ids[0])
+        .step();
+    connection.prepare("UPDATE jobs SET outcome = (SELECT outcome FROM jobs WHERE id = ?) WHERE id = ?")
+        .bind(ids[2])
+        .bind(ids[1])
+        .step();
+    connection.prepare("UPDATE jobs SET state = 'failed' WHERE id = ?").bind(ids[3]).step();
+    connection.prepare("UPDATE jobs SET kind = 'diagnosis' WHERE id = ?").bind(ids[8]).step();
+  }
+  const auto store = open_sqlite_job_store(path).value();
+  for (const int k : {0, 1, 3}) {
+    const auto outcome = store->outcome(ids[static_cast<std::size_t>(k)]);
+    ASSERT_FALSE(outcome) << k;
+    EXPECT_EQ(outcome.error().code, ErrorCode::kDamagedStore);
+  }
+  EXPECT_EQ(store->outcome(ids[2]).value(), answer_of(2));
+  EXPECT_TRUE(store->claim("a", {}, 5, 6).value()->damaged);
+  EXPECT_FALSE(store->claim("a", {}, 5, 6).value()->damaged);
+}
+
+TEST(JobStoreDamage, NoRandomDamageChangesAnAnswer) {
+  const ScratchFolder folder;
+  const fs::path path = folder.path() / "jobs.sqlite";
+  const std::vector<std::string> ids = fill(path);
+  const std::string whole = file_bytes(path);
+  ASSERT_GT(whole.size(), 20'000u);
+  int refused = 0, unread = 0, good = 0;
+  for (std::uint64_t trial = 0; trial < 120; ++trial) {
+    std::string bytes = whole;
+    if (trial % 10 == 9) {
+      bytes.resize(random_key(trial, 0) % whole.size());
+    } else {
+      for (std::uint64_t k = 0; k < 1 + trial % 8; ++k)
+        bytes[random_key(trial, 2 * k) % bytes.size()] =
+            static_cast<char>(random_key(trial, 2 * k + 1) & 0xff);
+    }
+    const fs::path copy = folder.path() / ("copy" + std::to_string(trial) + ".sqlite");
+    write_file(copy, bytes);
+    write_file(copy.string() + ".marker", "here was a store");
+    const auto store = open_sqlite_job_store(copy);
+    if (!store) {
+      ++refused;
+      EXPECT_NE(store.error().detail.find(copy.string()), std::string::npos) << store.error().detail;
+      continue;
+    }
+    for (int k = 0; k < 8; ++k) {
+      const auto outcome = (*store)->outcome(ids[static_cast<std::size_t>(k)]);
+      if (!outcome || !*outcome) {
+        ++unread;
+        continue;
+      }
+      ++good;
+      ASSERT_EQ(**outcome, answer_of(k)) << "trial " << trial;
+    }
+    for (int k = 0; k < 4; ++k) {
+      const auto claimed = (*store)->claim("a", {}, 5, 6);
+      if (!claimed || !*claimed || (*claimed)->damaged) continue;
+      bool known = false;
+      for (int job = 0; job < 12; ++job) known = known || (*claimed)->request == answer_of(100 + job);
+      ASSERT_TRUE(known) << "trial " << trial;
+    }
+  }
+  EXPECT_GT(refused, 10);
+  EXPECT_GT(unread, 10) << "some damage must have been met when it was read";
+  EXPECT_GT(good, 200);
+}
+
+TEST(JobStoreDamage, AStoreThatVanishedOrWasEmptiedIsNotTakenForANewOne) {
+  const ScratchFolder folder;
+  const fs::path path = folder.path() / "jobs.sqlite";
+  fill(path);
+  write_file(path, "");
+  expect_refusal(path, {"is missing or empty", path.string() + ".marker", "put the store back"});
+  fs::remove(path);
+  expect_refusal(path, {"is missing or empty"});
+  fs::remove(path.string() + ".marker");
+  EXPECT_TRUE(open_sqlite_job_store(path)) << "as the refusal says";
+}
+
+TEST(JobStoreDamage, WhatIsNoStoreOfThisProgramIsRefusedWithWhatToDo) {
+  const ScratchFolder folder;
+  const fs::path foreign = folder.path() / "foreign.sqlite", newer = folder.path() / "newer.sqlite",
+                 altered = folder.path() / "altered.sqlite";
+  SqliteConnection(foreign, CommitKind::kQuick).execute("CREATE TABLE notes (text TEXT)");
+  expect_refusal(foreign, {foreign.string(), "holds other tables", "name another with --jobs"});
+  fill(newer);
+  SqliteConnection(newer, CommitKind::kQuick).execute("PRAGMA user_version = 77");
+  expect_refusal(newer, {newer.string(), "written by a newer program (version 77"});
+  fill(altered);
+  SqliteConnection(altered, CommitKind::kQuick).execute("ALTER TABLE jobs DROP COLUMN stage");
+  expect_refusal(altered, {altered.string(), "other columns", "move it away"});
+}
+
+TEST(JobStoreDamage, AStoreOfVersionOneIsCopiedAndGoesOn) {
+  const ScratchFolder folder;
+  const fs::path path = folder.path() / "jobs.sqlite";
+  const std::vector<std::string> ids = fill(path);
+  {
+    SqliteConnection connection(path, CommitKind::kQuick);
+    for (const char* column : {"deaths", "request_sha256", "outcome_sha256"})
+      connection.execute((std::string("ALTER TABLE jobs DROP COLUMN ") + column).c_str());
+    connection.execute("PRAGMA user_version = 1");
+  }
+  fs::remove(path.string() + ".marker");
+  const auto store = open_sqlite_job_store(path);
+  ASSERT_TRUE(store) << store.error().detail;
+  for (int k = 0; k < 8; ++k)
+    EXPECT_EQ((*store)->outcome(ids[static_cast<std::size_t>(k)]).value(), answer_of(k));
+  EXPECT_EQ((*store)->claim("a", {}, 5, 6).value()->request, answer_of(108));
+  EXPECT_TRUE(fs::exists(path.string() + ".version-1"));
+  EXPECT_TRUE(fs::exists(path.string() + ".marker"));
+}
+
+TEST(JobStoreDamage, TheFileShrinksWhenJobsAreForgotten) {
+  const ScratchFolder folder;
+  const fs::path path = folder.path() / "jobs.sqlite";
+  {
+    const auto store = open_sqlite_job_store(path).value();
+    for (int k = 0; k < 10; ++k) {
+      ASSERT_TRUE(store->append({new_job_id(), "plan", "{}"}, 1, 100));
+      const auto claimed = store->claim("a", kPlans, 2, 3);
+      ASSERT_TRUE(store->finish(claimed.value()->lease(), JobState::kSuccessful, std::string(100'000, 'x'), 4)
+                      .value());
+    }
+  }
+  const auto before = fs::file_size(path);
+  EXPECT_GT(before, 1'000'000u);
+  EXPECT_EQ(open_sqlite_job_store(path).value()->forget_ended({.most = 1}, 5).value(), 9);
+  EXPECT_LT(fs::file_size(path), before / 5);
+}
+
+}  // namespace
+}  // namespace slipway::api
