@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -9,11 +11,13 @@
 
 #include "api/documents/wheel_sweep_answer.h"
 #include "api/files/terrain_site.h"
+#include "api/json/faults.h"
 #include "api/json/writer.h"
 #include "api/report/sweep_chart.h"
 #include "server/cli/command_parts.h"
 #include "server/cli/exit_status.h"
 #include "server/cli/terminal/tables.h"
+#include "server/cli/wheel_faults.h"
 
 namespace slipway::server {
 namespace {
@@ -46,6 +50,7 @@ std::string request_of(const WheelOptions& options, const std::vector<sim::Sweep
   write_if(w, "speed_of", options.speed_of);
   write_if(w, "motor_temp_c", options.motor_temp_c);
   if (options.in_a_track) w.boolean("in_a_track", true);
+  if (options.whole_rover) w.boolean("whole_rover", true);
   w.key("effects").begin_array();
   for (const std::string& effect : options.effects) write_effect(w, effect);
   w.end_array().key("set").begin_object();
@@ -100,10 +105,12 @@ Result<std::vector<sim::SweepAxis>> read_rows(const std::string& path) {
   return axes;
 }
 
-// Whether the wheel has no place to stand in some row of the answer.
+// Whether the wheel has no place to stand in some row of the answer, or the rover does not climb.
 bool sunk_somewhere(std::string_view answer) {
-  return answer.find("\"outcome\":\"sunk_to_axle\"") != std::string_view::npos ||
-         answer.find("\"outcome\":\"immobilised\"") != std::string_view::npos;
+  constexpr std::array<std::string_view, 4> kStuck{"sunk_to_axle", "immobilised", "stalled", "wheel_lifted"};
+  return std::any_of(kStuck.begin(), kStuck.end(), [&](std::string_view outcome) {
+    return answer.find(fmt::format("\"outcome\":\"{}\"", outcome)) != std::string_view::npos;
+  });
 }
 
 }  // namespace
@@ -115,6 +122,8 @@ int wheel(const WheelOptions& options) {
     if (!read) return refuse_unreadable(read.error());
     rows = std::move(*read);
   }
+  if (std::vector<Fault> faults = dropped_flags(options, rows); !faults.empty())
+    return refuse({ErrorCode::kInvalidRequest, api::summary_of(faults), faults});
   const auto service = inquiry(options.ask);
   if (!service) return refuse(service.error());
   const auto answer = (*service)->wheel_sweep(request_of(options, rows));
