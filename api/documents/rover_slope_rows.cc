@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "core/angle.h"
@@ -12,6 +13,8 @@ namespace slipway::api::json {
 namespace {
 
 using MaybeNumber = std::optional<double>;
+
+constexpr double kTolerance = 1e-8;  // of the weight, to which the balance is solved; less is nothing
 
 template <class Function>
 double sum_over_wheels(const RoverOnSlope& row, Function of_wheel) {
@@ -39,7 +42,8 @@ constexpr std::array kRoverColumns{
                 }},
     RoverColumn{"drawbar_pull_n", "N", "of all wheels",
                 [](const RoverOnSlope& r) -> MaybeNumber {
-                  return sum_over_wheels(r, [](const auto& w) { return w.drawbar_pull_n; });
+                  const double pull = sum_over_wheels(r, [](const auto& w) { return w.drawbar_pull_n; });
+                  return std::abs(pull) > kTolerance * r.weight_n ? pull : 0.0;
                 }},
     RoverColumn{"torque_nm", "N m", "of all wheels",
                 [](const RoverOnSlope& r) -> MaybeNumber {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/random.h"
@@ -54,8 +55,11 @@ std::string words_of(const EstimatedParameter& p, const DeterminationGrounds& gr
   const std::string name = p.parameter.shown();
   const ParameterRange data{p.low, p.high, p.low_open, p.high_open};
   if (p.determination == Determination::kDetermined)
-    return fmt::format("{}: {}, determined ({} to {} at 90 %)", name, shown(p.value), shown.bare(p.low),
-                       shown.bare(p.high));
+    return fmt::format("{}: {}, determined ({} to {} at 90 %{})", name, shown(p.value), shown.bare(p.low),
+                       shown.bare(p.high),
+                       p.with_assumed ? fmt::format("; {} with {} uncertain", shown.range(*p.with_assumed),
+                                                    fmt::join(p.assumed, ", "))
+                                      : "");
   if (p.determination == Determination::kOneSided)
     return one_sided_words(p, p.with_assumed.value_or(data), shown);
   if (!grounds.model_holds)
@@ -110,7 +114,8 @@ Determination said_by(const ParameterRange& range, double value, const Determina
   const double size = grounds.scale.value_or(std::abs(value));
   const bool enough = !grounds.spare_readings || *grounds.spare_readings >= options.min_spare_readings;
   if (!grounds.says_more || !grounds.model_holds || !enough) return Determination::kUndetermined;
-  if (!range.low_open && !range.high_open && range.high - range.low <= 2.0 * options.max_half_width * size)
+  const double farther = std::max(value - range.low, range.high - value);
+  if (!range.low_open && !range.high_open && farther <= options.max_half_width * size)
     return Determination::kDetermined;
   return range.low_open != range.high_open ? Determination::kOneSided : Determination::kUndetermined;
 }

@@ -46,7 +46,8 @@ struct EstimatedParameter {
 // When data are said to determine a parameter.
 struct DeterminationOptions {
   double max_of_prior = 0.7;  // posterior over prior deviation: the data halved the variance
-  // Half of the 90 % interval over the value, which a traverse planner can still work with.
+  // How far the ends of the 90 % interval are from the value, over it: what a traverse planner can still
+  // work with.
   double max_half_width = 0.25;
   // The model holds where chi-square of the readings is no greater than what so many of a thousand sets of
   // readings with the stated noise exceed, given the model.
