@@ -95,8 +95,13 @@ std::shared_ptr<EstimateCommand> add(CLI::App& parent, const char* name, const c
   const auto options = std::make_shared<EstimateCommand>();
   options->from = from;
   command = parent.add_subcommand(name, about);
-  CLI::Option* const files = command->add_option("input", options->files, input)->required();
-  if (from == From::kDrives) files->expected(1);
+  if (from == From::kDrives)
+    command
+        ->add_option_function<std::string>(
+            "input", [options](const std::string& folder) { options->files = {folder}; }, input)
+        ->required();
+  else
+    command->add_option("input", options->files, input)->required();
   add_data_option(*command, options->ask.data, "rovers and soils");
   command->add_flag("--json", options->ask.json, "print the whole document, for machines");
   command->add_option("--channels", options->channels, "what is read of what was measured; otherwise all")
