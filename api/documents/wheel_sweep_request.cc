@@ -114,7 +114,7 @@ Result<Reading<WheelSweepRequest>> read_wheel_sweep_request(std::string_view byt
   read_effects(reader, request.effects);
   read_settings(reader, request.set);
   reader.boolean("whole_rover", kOptional, request.whole_rover);
-  if (request.whole_rover && reader.member("slip", kOptional) != nullptr)
+  if (request.whole_rover && !request.test.slope_rad && reader.member("slip", kOptional) != nullptr)
     reader.fault("slip", "slip and whole_rover: the slip of a whole rover follows from the slope");
   reader.boolean("paired", kOptional, request.paired);
   for (const Element& element :

@@ -68,6 +68,13 @@ void name_posterior(sim::SoilDistribution& soil, const std::vector<gap::Estimate
   soil.name = fmt::format("{}-{}", file_name_of(label.empty() ? nominal : label), version);
 }
 
+// The soil that the search of a labelled soil starts from.
+std::string start_of(const SoilEstimateRequest& request, const std::string& label) {
+  for (const TestedSoil& soil : request.soils)
+    if (soil.name == label) return soil.soil;
+  return request.soil;
+}
+
 std::string tests_words(const gap::SoilData& data) {
   if (data.wheels.empty()) return fmt::format("{} plate tests", data.plates.size());
   if (data.plates.empty()) return fmt::format("{} wheel tests", data.wheels.size());
@@ -135,7 +142,7 @@ Result<SoilEstimateAnswer> estimate_soil(const Catalogue& catalogue, const SoilE
   const std::string words = tests_words(request.data);
   for (std::size_t s = 0; s < rigs.nominals.size(); ++s)
     name_posterior(s == 0 ? estimate->soil : estimate->further_soils[s - 1], estimate->parameters,
-                   rigs.data.soil_label(s), rigs.nominals[s].name, words);
+                   rigs.data.soil_label(s), start_of(request, rigs.data.soil_label(s)), words);
   return SoilEstimateAnswer{request, request.soil, {std::move(*estimate)}, {}, 0};
 }
 

@@ -230,7 +230,7 @@ TEST(SoilTestRigs, WhatWouldBeDroppedIsRefused) {
   EXPECT_EQ(refused(request), "");
   request = two_wheels();
   request.data.wheels[0].wheel.clear();
-  EXPECT_EQ(refused(request), "/wheel_tests ");
+  EXPECT_EQ(refused(request), "/wheel_tests /effects/0/name /set/smooth_rim.friction_share@smooth ");
 }
 
 TEST(SoilEstimate, WhatIsNotKnownIsRefusedTogether) {
