@@ -90,7 +90,7 @@ whole="$slipway wheel --data $data --rover mer-class --soil jlu_mars_2_dense --w
 ignored '/load_n' $whole --slope 5 --load 100
 ignored '/slip_angle_deg' $whole --slope 5 --slip-angle-deg 10
 ignored '/slope_deg' $whole
-ignored '--whole-rover excludes --slip' $whole --slope 5 --slip 0.2
+ignored 'excludes' $whole --slope 5 --slip 0.2
 expect 0 $whole --sweep slope_deg=0:8:4
 expect 5 $whole --slope 40
 ignored '/effects/0/name' $estimate $sizes --grousers 0.01,24 --effect grousers
