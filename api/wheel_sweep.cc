@@ -6,6 +6,7 @@
 
 #include "api/documents/wheel_sweep_request.h"
 #include "api/json/faults.h"
+#include "api/rover_on_slope.h"
 #include "sim/effects/effect_catalogue.h"
 
 namespace slipway::api {
@@ -25,9 +26,10 @@ class Check {
   std::vector<Fault> faults_;
 };
 
-void check_effects(const std::vector<sim::EffectSetting>& effects, Check& check) {
+void check_effects(const std::vector<sim::EffectSetting>& effects, bool whole_rover, Check& check) {
   for (Fault& fault : moved_under("/effects", sim::faults_of(effects)))
     check.add(fault.pointer, std::move(fault.message));
+  if (whole_rover) return;
   for (std::size_t i = 0; i < effects.size(); ++i) {
     if (sim::acts_on_single_wheel(effects[i].name)) continue;
     check.add(fmt::format("/effects/{}/name", i),
@@ -52,6 +54,30 @@ void check_one_set_of_grousers(const WheelSweepRequest& request, Check& check) {
     if (request.sweep[a].parameter.starts_with(kParameter)) say(fmt::format("/sweep/{}/parameter", a));
 }
 
+// What is asked for and could change nothing in any row: cleats' effects without cleats, and a track that no
+// effect knows or that no wheel runs in.
+void check_without_effect(const WheelSweepRequest& request, const sim::WheelSweep& sweep, Check& check) {
+  if (request.whole_rover) return;
+  bool cleats = false, tracks = false;
+  for (const sim::SweepPoint& point : sim::points_of(sweep)) {
+    cleats = cleats || point.test.wheel.grousers.height_m > 0.0;
+    tracks = tracks || point.test.soil.multipass_stiffening != 0.0 || point.test.soil.bulldozing != 0.0;
+  }
+  if (!cleats && request.test.slip_radius != sim::SlipRadius::kRim)
+    check.add("/slip_radius", "slip_radius: the wheel has no grousers, its rim is all there is");
+  if (!tracks && request.test.in_a_track)
+    check.add("/in_a_track",
+              "in_a_track: a track is another soil only where the effect multipass or bulldozing is on");
+  for (std::size_t i = 0; i < request.effects.size(); ++i) {
+    const sim::EffectSetting& effect = request.effects[i];
+    const std::string pointer = fmt::format("/effects/{}/name", i);
+    if (effect.on && effect.name == "cleat_shear_radius" && !cleats)
+      check.add(pointer, "cleat_shear_radius: the wheel has no grousers, by its file, grousers or height_m");
+    if (effect.on && effect.name == "multipass" && !request.test.in_a_track)
+      check.add(pointer, "multipass acts on a wheel in a track, and in_a_track is not asked for");
+  }
+}
+
 // Puts the wheel's own numbers where the request has none, and the request's on the wheel.
 void settle_wheel(WheelSweepRequest& request, sim::WheelModel& wheel) {
   wheel.radius_m = request.radius_m.value_or(wheel.radius_m);
@@ -72,8 +98,8 @@ void find_wheel(const sim::RoverModel& rover, WheelSweepRequest& request, sim::W
       request.wheel.empty() ? names.begin() : std::find(names.begin(), names.end(), request.wheel);
   if (found == names.end()) return check.add("/wheel", unknown_name("wheel", request.wheel, names));
   rig.wheel = static_cast<std::size_t>(found - names.begin());
-  settle_wheel(request, rig.rover.wheels[rig.wheel]);
-  if (!request.load_n && !request.test.sinkage_m)
+  if (!request.whole_rover) settle_wheel(request, rig.rover.wheels[rig.wheel]);
+  if (!request.whole_rover && !request.load_n && !request.test.sinkage_m)
     request.load_n = rover.mass_kg * request.test.gravity_m_s2 / static_cast<double>(rover.wheels.size());
   if (!request.speed_m_s) request.speed_m_s = rover.cruise_speed_m_s;
   rig.test = request.test;
@@ -91,7 +117,10 @@ Result<WheelSweepAnswer> read_wheel_sweep(const Catalogue& catalogue, std::strin
   WheelSweepAnswer answer;
   answer.request = std::move(reading->request);
   Check check(std::move(reading->faults));
-  check_effects(answer.request.effects, check);
+  check_effects(answer.request.effects, answer.request.whole_rover, check);
+  if (answer.request.whole_rover)
+    for (Fault& fault : whole_rover_faults(answer.request))
+      check.add(fault.pointer, std::move(fault.message));
   const auto rover = catalogue.rovers.find(answer.request.rover);
   if (rover == catalogue.rovers.end()) {
     check.add("/rover", unknown_rover(catalogue, answer.request.rover));
@@ -117,12 +146,17 @@ Result<WheelSweepAnswer> read_wheel_sweep(const Catalogue& catalogue, std::strin
   if (!check.passed()) return fail(check.error());
   for (Fault& fault : sim::faults_of(answer.sweep)) check.add(fault.pointer, std::move(fault.message));
   if (!check.passed()) return fail(check.error());
+  check_without_effect(answer.request, answer.sweep, check);
+  if (!check.passed()) return fail(check.error());
   return answer;
 }
 
 Result<WheelSweepAnswer> run_wheel_sweep(const Catalogue& catalogue, std::string_view json) {
   auto answer = read_wheel_sweep(catalogue, json);
-  if (answer) answer->rows = sim::run_wheel_sweep(answer->sweep);
+  if (answer && answer->request.whole_rover)
+    answer->rover_rows = rovers_on_slopes(answer->sweep);
+  else if (answer)
+    answer->rows = sim::run_wheel_sweep(answer->sweep);
   return answer;
 }
 

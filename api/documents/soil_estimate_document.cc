@@ -10,19 +10,29 @@ namespace {
 using gap::EstimatedParameter;
 
 void write_parameter(Writer& w, const EstimatedParameter& p) {
-  const gap::SoilParameterRow& row = gap::row_of(p.parameter);
   const auto boundary = [&](std::string_view key, double value) {
-    w.significant(key, row.boundary_unit * value);
+    w.significant(key, p.parameter.boundary_unit() * value);
   };
-  w.begin_object().text("name", row.name).text("unit", row.unit);
+  const auto range = [&](const gap::ParameterRange& r) {
+    boundary("low", r.low);
+    boundary("high", r.high);
+    w.boolean("low_open", r.low_open).boolean("high_open", r.high_open);
+  };
+  w.begin_object().text("name", p.parameter.name);
+  if (!p.parameter.of.empty()) w.text("of", p.parameter.of);
+  w.text("unit", p.parameter.unit());
   boundary("start", p.start);
   boundary("value", p.value);
   if (p.std) boundary("std", *p.std);
   if (p.prior_std) boundary("prior_std", *p.prior_std);
   w.key("interval").begin_object();
-  boundary("low", p.low);
-  boundary("high", p.high);
-  w.boolean("low_open", p.low_open).boolean("high_open", p.high_open).end_object();
+  range({p.low, p.high, p.low_open, p.high_open});
+  w.end_object();
+  if (p.with_assumed) {
+    w.key("interval_with_assumed").begin_object();
+    range(*p.with_assumed);
+    w.texts("assumed", p.assumed).end_object();
+  }
   w.text("determination", gap::name_of(p.determination)).boolean("on_bound", p.on_bound);
   w.text("words", p.words).end_object();
 }
@@ -33,8 +43,8 @@ void write_estimate(Writer& w, const gap::SoilEstimate& e) {
   w.end_array().key("correlations").begin_array();
   for (std::size_t a = 0; a < e.parameters.size(); ++a)
     for (std::size_t b = a + 1; b < e.parameters.size(); ++b) {
-      w.begin_object().text("first", gap::row_of(e.parameters[a].parameter).name);
-      w.text("second", gap::row_of(e.parameters[b].parameter).name);
+      w.begin_object().text("first", e.parameters[a].parameter.shown());
+      w.text("second", e.parameters[b].parameter.shown());
       w.significant("value", e.correlation(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)));
       w.end_object();
     }
@@ -44,6 +54,7 @@ void write_estimate(Writer& w, const gap::SoilEstimate& e) {
   w.end_array().significant("width_m", e.width_m).boolean("converged", e.converged);
   if (!e.data.empty()) {
     w.significant("residual_variance", e.residual_variance);
+    w.significant("max_residual_variance", e.max_residual_variance).boolean("model_holds", e.model_holds);
     w.whole("evaluations", static_cast<std::int64_t>(e.evaluations));
     w.whole("sunk", static_cast<std::int64_t>(e.sunk));
     w.key("channels").begin_array();
@@ -65,6 +76,11 @@ void write_estimate(Writer& w, const gap::SoilEstimate& e) {
   }
   w.texts("notes", e.notes);
   write_soil(w.key("soil"), e.soil);
+  if (!e.further_soils.empty()) {
+    w.key("further_soils").begin_array();
+    for (const sim::SoilDistribution& soil : e.further_soils) write_soil(w, soil);
+    w.end_array();
+  }
   w.end_object();
 }
 
@@ -99,7 +115,10 @@ std::string soil_estimate_document(const SoilEstimateAnswer& answer) {
 std::string estimated_soils_document(const SoilEstimateAnswer& answer) {
   Writer w;
   w.begin_object().text("format", "soils/1").key("soils").begin_array();
-  for (const gap::SoilEstimate& e : answer.estimates) write_soil(w, e.soil);
+  for (const gap::SoilEstimate& e : answer.estimates) {
+    write_soil(w, e.soil);
+    for (const sim::SoilDistribution& soil : e.further_soils) write_soil(w, soil);
+  }
   w.end_array().end_object();
   return w.take();
 }

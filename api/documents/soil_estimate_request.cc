@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "api/files/effect_settings.h"
 #include "api/files/soil_tests_csv.h"
 #include "api/json/faults.h"
 #include "api/json/parse.h"
@@ -14,7 +15,16 @@ namespace slipway::api::json {
 namespace {
 
 constexpr std::uint64_t kMaxExactWhole = 9'007'199'254'740'991;  // 2^53 - 1
-constexpr std::size_t kMaxTests = 2000, kMaxPlates = 100, kMaxSamples = 2000;
+constexpr std::size_t kMaxTests = 2000, kMaxPlates = 100, kMaxSamples = 2000, kMaxNamed = 50, kMaxFree = 60;
+
+void read_grousers(ObjectReader& reader, TestedWheel& wheel) {
+  auto object = reader.object("grousers", kOptional);
+  if (!object) return;
+  wheel.grousers.emplace();
+  object->number("height_m", kRequired, {"m", 0.0, 0.2}, wheel.grousers->height_m);
+  object->number("count", kRequired, {"1", 0.0, 200.0}, wheel.grousers->count);
+  object->refuse_unknown();
+}
 
 void read_wheel(ObjectReader& reader, TestedWheel& wheel) {
   reader.text("rover", kOptional, {.most = 64, .is_name = true}, wheel.rover);
@@ -22,15 +32,48 @@ void read_wheel(ObjectReader& reader, TestedWheel& wheel) {
   reader.number("radius_m", kOptional, {"m", 0.01, 2.0}, wheel.radius_m);
   reader.number("width_m", kOptional, {"m", 0.005, 2.0}, wheel.width_m);
   reader.number("motor_temp_c", kOptional, {"C", -150.0, 150.0}, wheel.motor_temp_c);
-  if (auto object = reader.object("grousers", kOptional)) {
-    wheel.grousers.emplace();
-    object->number("height_m", kRequired, {"m", 0.0, 0.2}, wheel.grousers->height_m);
-    object->number("count", kRequired, {"1", 0.0, 200.0}, wheel.grousers->count);
-    object->refuse_unknown();
+  read_grousers(reader, wheel);
+}
+
+// The wheels and soils that tests name.
+void read_named(ObjectReader& reader, SoilEstimateRequest& request) {
+  const TextRule name{.most = 64, .is_name = true};
+  for (const Element& element : reader.list("wheels", kOptional, {0, kMaxNamed})) {
+    ObjectReader object = reader.object(element);
+    NamedWheel& wheel = request.wheels.emplace_back();
+    if (!object.is_object()) continue;
+    object.text("name", kRequired, name, wheel.name);
+    object.number("radius_m", kOptional, {"m", 0.01, 2.0}, wheel.wheel.radius_m);
+    object.number("width_m", kOptional, {"m", 0.005, 2.0}, wheel.wheel.width_m);
+    read_grousers(object, wheel.wheel);
+    object.refuse_unknown();
+  }
+  for (const Element& element : reader.list("soils", kOptional, {0, kMaxNamed})) {
+    ObjectReader object = reader.object(element);
+    TestedSoil& soil = request.soils.emplace_back();
+    if (!object.is_object()) continue;
+    object.text("name", kRequired, name, soil.name);
+    object.text("soil", kRequired, name, soil.soil);
+    object.refuse_unknown();
   }
 }
 
-void read_wheel_tests(ObjectReader& reader, sim::SlipDefinition definition, SoilEstimateRequest& request) {
+// "set": {"c1": 0.4, "n@wet": 1.1}; which names there are and their ranges is the request's to say.
+void read_settings(ObjectReader& reader, std::vector<sim::SweepSetting>& set) {
+  const JsonValue* const settings = reader.member("set", kOptional);
+  if (settings == nullptr) return;
+  if (!settings->is(JsonValue::Kind::kObject))
+    return reader.fault("set", "set = " + describe(*settings) + ", must be an object");
+  for (std::size_t i = 0; i < settings->keys.size(); ++i) {
+    const std::string& key = settings->keys[i];
+    double value = 0.0;
+    if (read_number(settings->elements[i], child_pointer("/set", key), key, {}, value, reader.faults()))
+      set.push_back({key, value});
+  }
+}
+
+void read_wheel_tests(ObjectReader& reader, sim::SlipDefinition definition, sim::SlipRadius radius,
+                      SoilEstimateRequest& request) {
   for (const Element& element : reader.list("wheel_tests", kOptional, {1, kMaxTests})) {
     const std::size_t before = reader.faults().size();
     ObjectReader test = reader.object(element);
@@ -41,10 +84,17 @@ void read_wheel_tests(ObjectReader& reader, sim::SlipDefinition definition, Soil
       test.number(column.name, column.required ? kRequired : kOptional,
                   {"", column.lowest, column.highest, column.above_lowest}, value);
     }
+    const TextRule name{.most = 64, .is_name = true};
+    std::string wheel, soil;
+    test.text("wheel", kOptional, name, wheel);
+    test.text("soil", kOptional, name, soil);
     test.refuse_unknown();
     std::vector<std::string> faults;
-    request.data.wheels.push_back(wheel_observation(values, faults));
-    request.data.wheels.back().test.slip_definition = definition;
+    gap::WheelObservation& observation = request.data.wheels.emplace_back(wheel_observation(values, faults));
+    observation.test.slip_definition = definition;
+    observation.test.slip_radius = radius;
+    observation.wheel = wheel;
+    observation.soil = soil;
     for (std::size_t i = 0; reader.faults().size() == before && i < faults.size(); ++i)
       reader.faults().push_back({element.pointer, faults[i]});
   }
@@ -67,35 +117,34 @@ void read_plate_tests(ObjectReader& reader, SoilEstimateRequest& request) {
   }
 }
 
-std::vector<std::string_view> parameter_names() {
-  std::vector<std::string_view> names;
-  for (const gap::SoilParameterRow& row : gap::soil_parameter_rows()) names.push_back(row.name);
-  return names;
+// Nothing, and a fault at the pointer, where there is no such number.
+std::optional<gap::FreeParameter> parameter_of(const std::string& text, const std::string& pointer,
+                                               std::vector<Fault>& faults) {
+  auto parameter = gap::free_parameter(text);
+  if (!parameter) faults.push_back({pointer, unknown_name("parameter", text, gap::free_parameter_names())});
+  return parameter;
 }
 
 void read_free(ObjectReader& reader, gap::SoilEstimationOptions& options) {
   std::vector<std::string> free;
-  reader.texts("free", kOptional, {1, gap::kSoilParameters}, {.most = 64, .is_name = true}, free);
-  const auto known = parameter_names();
-  for (std::size_t i = 0; i < free.size(); ++i) {
-    if (const auto parameter = gap::soil_parameter(free[i]))
-      options.free.push_back(*parameter);
-    else
-      reader.faults().push_back(
-          {child_pointer("/free", i), unknown_name("parameter", free[i], {known.begin(), known.end()})});
-  }
-  for (const Element& element : reader.list("bounds", kOptional, {0, gap::kSoilParameters})) {
+  reader.texts("free", kOptional, {1, kMaxFree}, {.most = 128}, free);
+  for (std::size_t i = 0; i < free.size(); ++i)
+    if (auto parameter = parameter_of(free[i], child_pointer("/free", i), reader.faults()))
+      options.free.push_back(std::move(*parameter));
+  for (const Element& element : reader.list("bounds", kOptional, {0, kMaxFree})) {
     ObjectReader object = reader.object(element);
     if (!object.is_object()) continue;
-    std::size_t parameter = 0;
+    std::string name;
     double lowest = 0.0, highest = 0.0;
-    const bool good = object.choice("parameter", kRequired, known, parameter) &
+    const bool good = object.text("parameter", kRequired, {.most = 128}, name) &
                       object.number("lowest", kRequired, {}, lowest) &
                       object.number("highest", kRequired, {}, highest);
     object.refuse_unknown();
     if (!good) continue;
-    const gap::SoilParameterRow& row = gap::soil_parameter_rows()[parameter];
-    options.bounds.push_back({row.parameter, lowest / row.boundary_unit, highest / row.boundary_unit});
+    const auto parameter = parameter_of(name, element.pointer + "/parameter", reader.faults());
+    if (!parameter) continue;
+    const double unit = parameter->boundary_unit();
+    options.bounds.push_back({*parameter, lowest / unit, highest / unit});
   }
 }
 
@@ -126,11 +175,16 @@ Result<Reading<SoilEstimateRequest>> read_soil_estimate_request(std::string_view
   reader.text("campaign", kOptional, {.most = 64, .is_name = true}, request.campaign);
   reader.text("soil", kOptional, {.most = 64, .is_name = true}, request.soil);
   read_wheel(reader, request.wheel);
+  read_named(reader, request);
+  read_effects(reader, request.effects);
+  read_settings(reader, request.set);
   reader.number("gravity_m_s2", kOptional, {"m/s^2", 0.1, 30.0}, request.gravity_m_s2);
   reader.number("speed_m_s", kOptional, {"m/s", 1e-4, 5.0}, request.speed_m_s);
-  std::size_t definition = 0;
+  std::size_t definition = 0, radius = 0;
   reader.choice("slip_definition", kOptional, {"forward", "travel"}, definition);
-  read_wheel_tests(reader, static_cast<sim::SlipDefinition>(definition), request);
+  reader.choice("slip_radius", kOptional, {"rim", "shear", "tip"}, radius);
+  read_wheel_tests(reader, static_cast<sim::SlipDefinition>(definition), static_cast<sim::SlipRadius>(radius),
+                   request);
   read_plate_tests(reader, request);
   std::vector<std::string> channels;
   reader.texts("channels", kOptional, {1, 10}, {.most = 64, .is_name = true}, channels);

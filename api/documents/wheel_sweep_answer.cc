@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "api/documents/rover_slope_rows.h"
 #include "api/documents/wheel_sweep_request.h"
 #include "api/json/parse.h"
 #include "api/json/writer.h"
@@ -100,10 +101,16 @@ std::string write_wheel_sweep_answer(const WheelSweepAnswer& answer) {
   Writer w;
   w.begin_object().text("format", "wheel_sweep/1");
   w.key("request").raw(write_wheel_sweep_request(answer.request));
-  write_columns(w, answer.sweep);
-  w.key("rows").begin_array();
-  for (const Row& row : answer.rows) write_row(w, answer.sweep, row);
-  w.end_array().end_object();
+  if (answer.request.whole_rover) {
+    write_rover_columns(w, answer);
+    write_rover_rows(w, answer);
+  } else {
+    write_columns(w, answer.sweep);
+    w.key("rows").begin_array();
+    for (const Row& row : answer.rows) write_row(w, answer.sweep, row);
+    w.end_array();
+  }
+  w.end_object();
   return w.take();
 }
 

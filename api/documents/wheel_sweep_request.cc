@@ -113,6 +113,9 @@ Result<Reading<WheelSweepRequest>> read_wheel_sweep_request(std::string_view byt
   read_test(reader, request);
   read_effects(reader, request.effects);
   read_settings(reader, request.set);
+  reader.boolean("whole_rover", kOptional, request.whole_rover);
+  if (request.whole_rover && !request.test.slope_rad && reader.member("slip", kOptional) != nullptr)
+    reader.fault("slip", "slip and whole_rover: the slip of a whole rover follows from the slope");
   reader.boolean("paired", kOptional, request.paired);
   for (const Element& element :
        reader.list("sweep", kOptional, {0, request.paired ? sim::kMaxPairedAxes : sim::kMaxSweepAxes}))
@@ -140,7 +143,7 @@ std::string write_wheel_sweep_request(const WheelSweepRequest& request) {
   if (test.sinkage_m) w.exact("sinkage_m", *test.sinkage_m);
   if (test.slope_rad)
     w.angle_deg("slope_deg", *test.slope_rad);
-  else
+  else if (!request.whole_rover)
     w.exact("slip", test.slip);
   w.angle_deg("slip_angle_deg", test.slip_angle_rad);
   w.text("slip_definition", kSlipDefinitions[test.slip_definition == sim::SlipDefinition::kTravel ? 1 : 0]);
@@ -154,6 +157,7 @@ std::string write_wheel_sweep_request(const WheelSweepRequest& request) {
   w.key("set").begin_object();
   for (const sim::SweepSetting& setting : request.set) w.exact(setting.parameter, setting.value);
   w.end_object();
+  if (request.whole_rover) w.boolean("whole_rover", true);
   if (request.paired) w.boolean("paired", true);
   w.key("sweep").begin_array();
   for (const sim::SweepAxis& axis : request.sweep) {

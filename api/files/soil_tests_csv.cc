@@ -18,20 +18,31 @@ constexpr std::size_t kMaxRows = 20'000;
 
 using Column = TestColumn;
 
-constexpr std::array<Column, 13> kWheelColumns{{{"load_n", 0.0, 1e6, true, true},
+constexpr std::array<Column, 15> kWheelColumns{{{"load_n", 0.0, 1e6, true, true},
                                                 {"slip_ratio", -1.0, 1.0, true},
-                                                {"slip_angle_deg", -85.0, 85.0},
+                                                {"slip_angle_deg", -90.0, 90.0},
                                                 {"torque_nm", -1e5, 1e5},
                                                 {"drawbar_pull_n", -1e6, 1e6},
                                                 {"thrust_n", -1e6, 1e6},
                                                 {"sinkage_m", 0.0, 2.0},
                                                 {"current_a", -1e3, 1e3},
+                                                {"lateral_force_n", -1e6, 1e6},
                                                 {"torque_std_nm", 0.0, 1e5, false, true},
                                                 {"drawbar_pull_std_n", 0.0, 1e6, false, true},
                                                 {"thrust_std_n", 0.0, 1e6, false, true},
                                                 {"sinkage_std_m", 0.0, 2.0, false, true},
-                                                {"current_std_a", 0.0, 1e3, false, true}}};
-constexpr std::size_t kFirstReading = 3, kFirstStd = 8;
+                                                {"current_std_a", 0.0, 1e3, false, true},
+                                                {"lateral_force_std_n", 0.0, 1e6, false, true}}};
+constexpr std::size_t kFirstReading = 3, kFirstStd = kFirstReading + gap::kWheelChannels;
+static_assert(kWheelColumns.size() == kFirstStd + gap::kWheelChannels);
+
+// What a row names.
+constexpr std::array<std::string_view, 2> kWheelNames{"wheel", "soil"};
+constexpr std::size_t kMaxName = 64;
+bool is_name(std::string_view text) {
+  return !text.empty() && text.size() <= kMaxName &&
+         text.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_-") == std::string_view::npos;
+}
 
 constexpr std::array<Column, 5> kPlateColumns{{{"plate_radius_m", 0.001, 5.0, true},
                                                {"sinkage_m", -1.0, 5.0, true},
@@ -39,15 +50,18 @@ constexpr std::array<Column, 5> kPlateColumns{{{"plate_radius_m", 0.001, 5.0, tr
                                                {"force_n", -1e9, 1e9},
                                                {"test", 0.0, 1e9}}};
 
-// Rows of numbers under known columns; what is wrong is written down with its place.
+// Rows of numbers, and of names, under known columns; what is wrong is written down with its place.
 template <std::size_t Count>
 class Table {
  public:
-  Table(std::string_view file, const std::array<Column, Count>& columns) : file_(file), columns_(columns) {}
+  Table(std::string_view file, const std::array<Column, Count>& columns,
+        std::span<const std::string_view> names = {})
+      : file_(file), columns_(columns), names_(names) {}
 
   struct Row {
     std::size_t line = 0;
     std::array<std::optional<double>, Count> values;
+    std::vector<std::string> names;  // empty where there is no such column
   };
 
   std::vector<Row> read(std::string_view text) {
@@ -78,6 +92,7 @@ class Table {
   void read_header(const CsvLine& line) {
     std::vector<std::string> known;
     for (const Column& column : columns_) known.emplace_back(column.name);
+    for (const std::string_view name : names_) known.emplace_back(name);
     header_ = read_csv_header(line, file_, known, faults_);
     for (std::size_t k = 0; k < Count; ++k)
       if (columns_[k].required && !header_.places[k])
@@ -86,7 +101,7 @@ class Table {
   }
 
   Row read_row(const CsvLine& line) {
-    Row row{line.number, {}};
+    Row row{line.number, {}, std::vector<std::string>(names_.size())};
     const std::vector<std::string_view> cells = csv_cells(line.text);
     if (cells.size() != header_.width)
       fault(line.number, fmt::format("{} cells, must be {} as in the header", cells.size(), header_.width));
@@ -111,12 +126,22 @@ class Table {
       else
         row.values[k] = value;
     }
+    for (std::size_t k = 0; k < names_.size(); ++k) {
+      const auto place = header_.places[Count + k];
+      if (!place || *place >= cells.size()) continue;
+      row.names[k] = std::string(cells[*place]);
+      if (!is_name(row.names[k]))
+        faults_.push_back(
+            {fmt::format("{}, line {}, column {} ({})", file_, line.number, *place + 1, names_[k]),
+             fmt::format("{} is no name of small letters, digits, - and _", in_quotes(row.names[k]))});
+    }
     return row;
   }
 
   std::string_view file_;
   const std::array<Column, Count>& columns_;
-  CsvHeader header_{std::vector<std::optional<std::size_t>>(Count), 0};
+  std::span<const std::string_view> names_;
+  CsvHeader header_{std::vector<std::optional<std::size_t>>(Count + names_.size()), 0};
   std::vector<Fault> faults_;
 };
 
@@ -158,13 +183,15 @@ gap::WheelObservation wheel_observation(std::span<const std::optional<double>> v
 
 Result<std::vector<gap::WheelObservation>> read_wheel_tests_csv(std::string_view file,
                                                                 std::string_view text) {
-  Table table(file, kWheelColumns);
+  Table table(file, kWheelColumns, kWheelNames);
   const auto rows = table.read(text);
   std::vector<gap::WheelObservation> observations;
   const bool sound = table.faults().empty();
   for (const auto& row : rows) {
     std::vector<std::string> faults;
     observations.push_back(wheel_observation(row.values, faults));
+    observations.back().wheel = row.names[0];
+    observations.back().soil = row.names[1];
     for (std::size_t i = 0; sound && i < faults.size(); ++i) table.fault(row.line, faults[i]);
   }
   if (!table.faults().empty()) return unreadable(file, std::move(table.faults()));

@@ -29,11 +29,12 @@ gap::WheelObservation wheel_observation(std::span<const std::optional<double>> v
 //   load_n, slip_ratio                      must be there, in every row
 //   slip_angle_deg                          from the wheel's plane to its travel; 0 where absent
 //   torque_nm, drawbar_pull_n, thrust_n,    what was measured; a column may be absent and a cell empty, but
-//   sinkage_m, current_a                    one must be there in every row
+//   sinkage_m, current_a, lateral_force_n   one must be there in every row
 //   torque_std_nm, drawbar_pull_std_n, ...  their standard deviations
+//   wheel, soil                             names of what was tested, where there are several
 //
-// Slip is compared with the speed along the wheel's plane. All faults together, each with its file, line and
-// column: "tests.csv, line 5, column 3 (torque_nm)". Errors: unreadable_data.
+// A lateral force is of the soil on the wheel, positive to the left, as a slip angle is. All faults together,
+// each with its file, line and column: "tests.csv, line 5, column 3 (torque_nm)". Errors: unreadable_data.
 Result<std::vector<gap::WheelObservation>> read_wheel_tests_csv(std::string_view file, std::string_view text);
 
 // Plate tests, a sample each: plate_radius_m, sinkage_m, and pressure_pa or force_n over the plate's area.

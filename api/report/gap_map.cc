@@ -21,7 +21,7 @@ using gap::WindowGap;
 constexpr std::size_t kMaxTerrains = 6;
 constexpr double kMap_px = 392.0, kMapHeight_px = 300.0, kGap_px = 14.0;
 constexpr double kLeft_px = 14.0, kTitle_px = 44.0, kRowTitle_px = 24.0, kLegend_px = 66.0;
-constexpr int kShadeColumns = 98, kShadeRows = 75;  // of the hillshade
+constexpr int kHillshadeColumns = 98, kHillshadeRows = 75;  // of the hillshade
 constexpr double kMargin = 1.12, kMin_m = 2.0;
 constexpr double kExaggeration = 1.5, kDarkest = 120.0, kBrightest = 250.0;
 
@@ -76,10 +76,11 @@ struct Frame {
 std::string hillshade_in(const sim::Ground& ground, const Frame& frame) {
   const Eigen::Vector3d sun = Eigen::Vector3d(-1.0, 1.0, 1.2).normalized();
   std::vector<std::uint8_t> grey;
-  for (int row = 0; row < kShadeRows; ++row)
-    for (int column = 0; column < kShadeColumns; ++column) {
-      const auto point = ground.at(frame.west_m + (column + 0.5) * kMap_px / kShadeColumns / frame.px_per_m,
-                                   frame.north_m - (row + 0.5) * kMapHeight_px / kShadeRows / frame.px_per_m);
+  for (int row = 0; row < kHillshadeRows; ++row)
+    for (int column = 0; column < kHillshadeColumns; ++column) {
+      const auto point =
+          ground.at(frame.west_m + (column + 0.5) * kMap_px / kHillshadeColumns / frame.px_per_m,
+                    frame.north_m - (row + 0.5) * kMapHeight_px / kHillshadeRows / frame.px_per_m);
       double light = kBrightest + 5.0;
       if (point) {
         Eigen::Vector3d normal = point->normal;
@@ -88,7 +89,7 @@ std::string hillshade_in(const sim::Ground& ground, const Frame& frame) {
       }
       grey.push_back(static_cast<std::uint8_t>(std::lround(light)));
     }
-  const auto png = dem::encode_png(grey, kShadeRows, kShadeColumns);
+  const auto png = dem::encode_png(grey, kHillshadeRows, kHillshadeColumns);
   if (!png) return {};
   return fmt::format(
       "<image width=\"{:.0f}\" height=\"{:.0f}\" preserveAspectRatio=\"none\" "

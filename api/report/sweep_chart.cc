@@ -104,6 +104,7 @@ struct Panel {
   std::string_view key, title;
   double scale;
 };
+constexpr Panel kSlip{"slip", "slip", 1.0};  // of a wheel, or a rover, on a slope
 constexpr std::array kPanels{Panel{"drawbar_pull_n", "drawbar pull, N", 1.0},
                              Panel{"lateral_force_n", "lateral force, N", 1.0},
                              Panel{"sinkage_m", "sinkage, mm", 1e3},
@@ -111,9 +112,11 @@ constexpr std::array kPanels{Panel{"drawbar_pull_n", "drawbar pull, N", 1.0},
                              Panel{"current_a", "motor current, A", 1.0},
                              Panel{"tractive_efficiency", "tractive efficiency", 1.0}};
 
-std::vector<SweptQuantity> quantities_of(const JsonValue& rows) {
+std::vector<SweptQuantity> quantities_of(const JsonValue& rows, bool on_slopes) {
   std::vector<SweptQuantity> quantities;
-  for (const Panel& panel : kPanels) {
+  std::vector<Panel> panels(kPanels.begin(), kPanels.end());
+  if (on_slopes) panels.insert(panels.begin(), kSlip);
+  for (const Panel& panel : panels) {
     SweptQuantity quantity{std::string(panel.title), {}};
     bool any = false;
     for (const JsonValue& row : rows.elements) {
@@ -183,7 +186,10 @@ Result<std::string> draw_wheel_sweep(std::string_view document) {
   if (axes.empty() || request->find("paired") != nullptr)
     return fail(ErrorCode::kInvalidRequest, "there is nothing to draw",
                 {{"/sweep", "a picture needs a sweep; rows with their own parameters are none"}});
-  const std::vector<SweptQuantity> quantities = quantities_of(*rows);
+  const bool on_slopes = request->find("slope_deg") != nullptr ||
+                         std::any_of(axes.begin(), axes.end(),
+                                     [](const sim::SweepAxis& a) { return a.parameter == "slope_deg"; });
+  const std::vector<SweptQuantity> quantities = quantities_of(*rows, on_slopes);
   if (quantities.empty())
     return fail(ErrorCode::kInvalidRequest, "there is nothing to draw",
                 {{"/sweep", "the wheel is sunk to its axle in every row"}});
@@ -192,7 +198,8 @@ Result<std::string> draw_wheel_sweep(std::string_view document) {
   const JsonValue* const load_n = request->find("load_n");
   const std::string load = load_n && !load_is_swept ? fmt::format(", {:.4g} N", load_n->number) : "";
   return draw_sweep(
-      fmt::format("One wheel of {} on {}{}", request->find("rover")->text, request->find("soil")->text, load),
+      fmt::format("{} {} on {}{}", request->find("whole_rover") != nullptr ? "The whole of" : "One wheel of",
+                  request->find("rover")->text, request->find("soil")->text, load),
       axes, quantities);
 }
 

@@ -4,19 +4,20 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "api/files/soil_file.h"
 #include "api/json/faults.h"
 #include "api/json/writer.h"
+#include "api/requests/soil_test_rigs.h"
 #include "campaign/digest.h"
-#include "sim/effects/effect_catalogue.h"
-#include "sim/rover/rover_model.h"
-#include "sim/single_wheel/sweep_parameter.h"
+#include "core/angle.h"
 
 namespace slipway::api {
 namespace {
 
 constexpr std::size_t kMaxName = 40, kMaxText = 480;
+constexpr double kMaxForwardSlipAngle_deg = 85.0;
 
 // At most so many bytes, without a character of UTF-8 that is cut in its middle.
 std::string shortened(const std::string& text, std::size_t most) {
@@ -47,30 +48,15 @@ void check(std::string_view name, const std::optional<double>& value, double low
                                                           *value, unit, lowest, highest)});
 }
 
-const sim::WheelModel* wheel_of(const sim::RoverModel& rover, const std::string& name,
-                                std::vector<Fault>& faults) {
-  std::vector<std::string> names;
-  for (const sim::WheelModel& wheel : rover.wheels) {
-    names.push_back(wheel.name);
-    if (name.empty() || wheel.name == name) return &wheel;
-  }
-  faults.push_back({"/wheel", unknown_name("wheel", name, names)});
-  return nullptr;
-}
-
-bool measures_current(const gap::SoilData& data) {
-  return std::any_of(data.wheels.begin(), data.wheels.end(), [](const gap::WheelObservation& o) {
-    return o[gap::SoilChannel::kCurrent].value.has_value();
-  });
-}
-
 // The estimated soil gets a name of its own for its numbers, "dry_sand-3f9a2c". Its summary states what the
 // data do not determine, since the soil may be used for planning without the rest of the estimate.
-void name_posterior(gap::SoilEstimate& estimate, const std::string& nominal, const std::string& what) {
+void name_posterior(sim::SoilDistribution& soil, const std::vector<gap::EstimatedParameter>& parameters,
+                    const std::string& label, const std::string& nominal, const std::string& what) {
   std::vector<std::string_view> open;
-  for (const gap::EstimatedParameter& p : estimate.parameters)
-    if (p.determination != gap::Determination::kDetermined) open.push_back(gap::row_of(p.parameter).name);
-  sim::SoilDistribution& soil = estimate.soil;
+  for (const gap::EstimatedParameter& p : parameters)
+    if (p.determination != gap::Determination::kDetermined && p.parameter.is_of_soil() &&
+        (p.parameter.of.empty() || p.parameter.of == label))
+      open.push_back(p.parameter.name);
   json::Writer w;
   json::write_soil(w, soil);
   const std::string version = fmt::format("{:016x}", campaign::digest_of(w.take())).substr(0, 6);
@@ -79,7 +65,14 @@ void name_posterior(gap::SoilEstimate& estimate, const std::string& nominal, con
                            kMaxText);
   soil.source = shortened(
       fmt::format("estimated by slipway estimate from {}, starting from {}", what, nominal), kMaxText);
-  soil.name = fmt::format("{}-{}", file_name_of(nominal), version);
+  soil.name = fmt::format("{}-{}", file_name_of(label.empty() ? nominal : label), version);
+}
+
+// The soil that the search of a labelled soil starts from.
+std::string start_of(const SoilEstimateRequest& request, const std::string& label) {
+  for (const TestedSoil& soil : request.soils)
+    if (soil.name == label) return soil.soil;
+  return request.soil;
 }
 
 std::string tests_words(const gap::SoilData& data) {
@@ -115,78 +108,42 @@ std::vector<Fault> choose_channels(const std::vector<std::string>& names, SoilEs
 
 std::vector<Fault> faults_of(const Catalogue& catalogue, const SoilEstimateRequest& request) {
   std::vector<Fault> faults;
-  if (!catalogue.soils.contains(request.soil))
-    faults.push_back({"/soil", unknown_name("soil", request.soil, names_of(catalogue.soils))});
-  else if (const sim::Soil& start = catalogue.soils.find(request.soil)->second.mean;
-           !start.has_bekker_law() || start.shear_law.row != nullptr)
-    faults.push_back(
-        {"/soil", fmt::format("{} has other laws than Bekker's and Janosi and Hanamoto's, whose parameters "
-                              "are what is estimated",
-                              in_quotes(request.soil))});
-  const TestedWheel& tested = request.wheel;
-  const auto rover = catalogue.rovers.find(tested.rover);
-  if (!tested.rover.empty() && rover == catalogue.rovers.end())
-    faults.push_back({"/rover", unknown_name("rover", tested.rover, names_of(catalogue.rovers))});
-  if (tested.rover.empty() && !tested.wheel.empty())
-    faults.push_back({"/wheel", "a wheel is named of a rover, and there is none"});
-  if (tested.rover.empty() && tested.motor_temp_c)
-    faults.push_back({"/motor_temp_c", "a temperature needs the motor of a rover, and there is none"});
-  if (rover != catalogue.rovers.end()) wheel_of(*rover->second, tested.wheel, faults);
-  check("radius_m", tested.radius_m, 0.01, 2.0, "m", faults);
-  check("width_m", tested.width_m, 0.005, 2.0, "m", faults);
-  if (!request.data.wheels.empty() && tested.rover.empty()) {
-    for (const auto& [name, value] : {std::pair{"radius_m", tested.radius_m}, {"width_m", tested.width_m}})
-      if (!value)
-        faults.push_back(
-            {fmt::format("/{}", name), fmt::format("{} is missing, or a rover with wheels", name)});
-    if (measures_current(request.data))
-      faults.push_back({"/rover", "a measured current needs the motor of a rover"});
-  }
+  check("radius_m", request.wheel.radius_m, 0.01, 2.0, "m", faults);
+  check("width_m", request.wheel.width_m, 0.005, 2.0, "m", faults);
   check("gravity_m_s2", request.gravity_m_s2, 0.1, 30.0, "m/s^2", faults);
   check("speed_m_s", request.speed_m_s, 1e-4, 5.0, "m/s", faults);
+  for (std::size_t i = 0; i < request.wheels.size(); ++i) {
+    check(fmt::format("wheels/{}/radius_m", i), request.wheels[i].wheel.radius_m, 0.01, 2.0, "m", faults);
+    check(fmt::format("wheels/{}/width_m", i), request.wheels[i].wheel.width_m, 0.005, 2.0, "m", faults);
+  }
+  for (std::size_t i = 0; i < request.data.wheels.size(); ++i)
+    if (const sim::WheelRigConditions& test = request.data.wheels[i].test;
+        test.slip_definition == sim::SlipDefinition::kForward &&
+        std::abs(test.slip_angle_rad) > rad_from_deg(kMaxForwardSlipAngle_deg))
+      faults.push_back(
+          {fmt::format("/wheel_tests/{}/slip_angle_deg", i),
+           fmt::format("slip_angle_deg = {:g} deg, must be in [-{:g}, {:g}] where slip is by the "
+                       "forward speed",
+                       deg_from_rad(test.slip_angle_rad), kMaxForwardSlipAngle_deg,
+                       kMaxForwardSlipAngle_deg)});
+  (void)soil_test_rigs(catalogue, request, faults);
   return faults;
 }
 
 Result<SoilEstimateAnswer> estimate_soil(const Catalogue& catalogue, const SoilEstimateRequest& request,
                                          Progress& progress) {
-  if (auto faults = faults_of(catalogue, request); !faults.empty())
-    return fail(ErrorCode::kInvalidRequest, summary_of(faults), faults);
-  SoilEstimateAnswer answer{request, request.soil, {}, {}, 0};
-  sim::SoilDistribution nominal = catalogue.soils.find(request.soil)->second;
-  TestedWheel& tested = answer.request.wheel;
-  sim::WheelGeometry wheel;
-  std::optional<sim::DriveMotor> drive;
-  if (const auto found = catalogue.rovers.find(tested.rover); found != catalogue.rovers.end()) {
-    sim::RoverModel rover = *found->second;
-    // The rover's own effects act on wheel, motor and soil.
-    sim::apply_effects(rover.effects, rover);
-    sim::apply_effects(rover.effects, nominal.mean);
-    std::vector<Fault> none;
-    const sim::WheelModel& model = *wheel_of(rover, tested.wheel, none);
-    tested.wheel = model.name;
-    wheel = model.geometry();
-    drive = rover.drive;
-    if (tested.motor_temp_c) drive = sim::at_temperature(*drive, *tested.motor_temp_c);
-  }
-  wheel.radius_m = tested.radius_m.value_or(wheel.radius_m);
-  wheel.width_m = tested.width_m.value_or(wheel.width_m);
-  wheel.grousers = tested.grousers.value_or(wheel.grousers);
-  if (!request.data.wheels.empty()) {
-    tested.radius_m = wheel.radius_m;
-    tested.width_m = wheel.width_m;
-    tested.grousers = wheel.grousers;
-  }
-  for (gap::WheelObservation& observation : answer.request.data.wheels) {
-    observation.test.wheel = wheel;
-    observation.test.drive = drive;
-    observation.test.gravity_m_s2 = request.gravity_m_s2;
-    observation.test.speed_m_s = request.speed_m_s;
-  }
-  const auto estimate = gap::estimate_soil(nominal, answer.request.data, request.options, progress);
+  std::vector<Fault> faults = faults_of(catalogue, request);
+  if (!faults.empty()) return fail(ErrorCode::kInvalidRequest, summary_of(faults), faults);
+  const SoilTestRigs rigs = soil_test_rigs(catalogue, request, faults);
+  gap::SoilEstimationOptions options = request.options;
+  options.stated = rigs.stated;
+  auto estimate = gap::estimate_soils(rigs.nominals, rigs.data, options, progress);
   if (!estimate) return fail(estimate.error());
-  answer.estimates.push_back(*estimate);
-  name_posterior(answer.estimates.front(), request.soil, tests_words(request.data));
-  return answer;
+  const std::string words = tests_words(request.data);
+  for (std::size_t s = 0; s < rigs.nominals.size(); ++s)
+    name_posterior(s == 0 ? estimate->soil : estimate->further_soils[s - 1], estimate->parameters,
+                   rigs.data.soil_label(s), start_of(request, rigs.data.soil_label(s)), words);
+  return SoilEstimateAnswer{request, request.soil, {std::move(*estimate)}, {}, 0};
 }
 
 Result<SoilEstimateAnswer> estimate_soil(const gap::DriveCampaign& campaign,
@@ -197,7 +154,7 @@ Result<SoilEstimateAnswer> estimate_soil(const gap::DriveCampaign& campaign,
   SoilEstimateAnswer answer{request, campaign.name, std::move(estimated->soils),
                             std::move(estimated->channels), estimated->windows};
   for (std::size_t s = 0; s < answer.estimates.size(); ++s)
-    name_posterior(answer.estimates[s], campaign.soils[s].name,
+    name_posterior(answer.estimates[s].soil, answer.estimates[s].parameters, "", campaign.soils[s].name,
                    fmt::format("the drives of campaign {}", campaign.name));
   return answer;
 }

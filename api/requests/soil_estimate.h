@@ -11,6 +11,7 @@
 #include "gap/diagnosis/drive_soil_estimation.h"
 #include "gap/diagnosis/model/drive_campaign.h"
 #include "gap/estimate/soil_estimation.h"
+#include "sim/single_wheel/wheel_sweep.h"
 
 namespace slipway::api {
 
@@ -23,14 +24,30 @@ struct TestedWheel {
   std::optional<double> motor_temp_c;
 };
 
+// A wheel that tests name, and what it has that differs from the others'; radius, width and grousers alone.
+struct NamedWheel {
+  std::string name;
+  TestedWheel wheel;
+};
+// A soil that tests name, and the soil of the catalogue that its search starts from.
+struct TestedSoil {
+  std::string name, soil;
+};
+
 // POST /v1/soil-estimates asks which soil these tests, or these drives, show.
 struct SoilEstimateRequest {
   std::string soil = "unknown_ground";  // the start of the search and the mean of the priors
+  std::vector<TestedSoil> soils;        // of those that start elsewhere
   TestedWheel wheel;
-  double gravity_m_s2 = 3.71;          // where the wheels were tested; only effects use it
-  double speed_m_s = 0.04;             // of the rim; used by the motor and the effect rate_shear
-  gap::SoilData data;                  // tests; wheel tests have only loads, motions and readings
-  std::string campaign;                // of drives; there are no tests then
+  std::vector<NamedWheel> wheels;
+  // What is at work and what stands at another value: a name, and with "@LABEL" of one wheel or soil of the
+  // tests alone. Names of `set` are gap::free_parameter's. A parameter that is set and free starts there.
+  std::vector<sim::EffectSetting> effects;
+  std::vector<sim::SweepSetting> set;
+  double gravity_m_s2 = 3.71;  // where the wheels were tested; only effects use it
+  double speed_m_s = 0.04;     // of the rim; used by the motor and the effect rate_shear
+  gap::SoilData data;    // tests; wheel tests have only loads, motions and readings, and there are no rigs
+  std::string campaign;  // of drives; there are no tests then
   gap::SoilEstimationOptions options;  // of tests
   std::vector<bool> looked_at;         // channels of drives; empty: all
 };

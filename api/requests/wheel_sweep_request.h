@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/quasi_static/quasi_static.h"
 #include "sim/rover/effect_setting.h"
 #include "sim/single_wheel/wheel_sweep.h"
 
@@ -24,15 +25,27 @@ struct WheelSweepRequest {
   sim::WheelRigConditions test;        // the other conditions
   std::vector<sim::EffectSetting> effects;
   std::vector<sim::SweepSetting> set;
-  bool paired = false;  // row i of the sweep stands at every axis' value i
+  bool whole_rover = false;  // on the slope, in the place of one wheel
+  bool paired = false;       // row i of the sweep stands at every axis' value i
   std::vector<sim::SweepAxis> sweep;
 };
 
-// The request with every default filled in, the sweep that follows from it, and its rows.
+// A whole rover on one slope.
+struct RoverOnSlope {
+  std::vector<double> at;  // the value of each axis
+  double slope_rad = 0.0;
+  double weight_n = 0.0;
+  sim::StationState state;
+  std::vector<std::string> wheels;  // names, in the order of the state's wheels
+};
+
+// The request with every default filled in, the sweep that follows from it, and its rows: of the wheel or of
+// the whole rover.
 struct WheelSweepAnswer {
   WheelSweepRequest request;
   sim::WheelSweep sweep;
   std::vector<sim::SweepRow> rows;
+  std::vector<RoverOnSlope> rover_rows;
 };
 
 }  // namespace slipway::api

@@ -67,7 +67,7 @@ class SoilOfDrives {
       sim::Soil soil = nominal_.soil;
       for (const Nuisance& row : nuisance_catalogue())
         if (row.name == kSoilNuisances[quantity]) row.on_soil(logarithm, soil);
-      return value_of(p.parameter, soil, estimate_.width_m);
+      return value_of(kSearched[quantity], soil, estimate_.width_m);
     };
     const auto slope_at = [&](double logarithm) {
       constexpr double kStep = 1e-4;

@@ -3,8 +3,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "gap/estimate/soil_parameter.h"
+#include "gap/estimate/free_parameter.h"
 
 namespace slipway::gap {
 
@@ -16,9 +17,15 @@ enum class Determination {
 };
 std::string_view name_of(Determination determination);  // "determined", "one_sided", "undetermined"
 
-// In SI and radians.
+// An end that is open is the bound.
+struct ParameterRange {
+  double low = 0.0, high = 0.0;
+  bool low_open = false, high_open = false;
+};
+
+// In SI and radians, or in the boundary's unit of what is none of the seven.
 struct EstimatedParameter {
-  SoilParameter parameter = SoilParameter::kN;
+  FreeParameter parameter = SoilParameter::kN;
   double start = 0.0;
   double value = 0.0;
   std::optional<double> std;  // posterior; nothing where neither data nor prior say anything
@@ -27,6 +34,10 @@ struct EstimatedParameter {
   // with every other parameter refitted; an open end is the bound.
   double low = 0.0, high = 0.0;
   bool low_open = false, high_open = false;
+  // The same where what is neither free nor stated varies too, as far as it is uncertain, and what that is;
+  // only of what would be determined otherwise.
+  std::optional<ParameterRange> with_assumed;
+  std::vector<std::string> assumed;
   Determination determination = Determination::kUndetermined;
   bool on_bound = false;
   std::string words;  // one sentence
@@ -35,22 +46,34 @@ struct EstimatedParameter {
 // When data are said to determine a parameter.
 struct DeterminationOptions {
   double max_of_prior = 0.7;  // posterior over prior deviation: the data halved the variance
-  // Half of the 90 % interval over the value, which a traverse planner can still work with.
+  // How far the ends of the 90 % interval are from the value, over it: what a traverse planner can still
+  // work with.
   double max_half_width = 0.25;
-  // Of residuals in deviations: five times what the readings scatter, the model does not hold.
-  double max_residual_variance = 25.0;
+  // The model holds where chi-square of the readings is no greater than what so many of a thousand sets of
+  // readings with the stated noise exceed, given the model.
+  double false_alarms_in_1000 = 1.0;
+  // Readings beside those that the free parameters take up: with fewer nothing says whether the model holds.
+  std::size_t min_spare_readings = 3;
 };
 
-// How a parameter is judged besides its interval.
+// How a parameter is judged besides its interval and what it would be if the assumptions varied.
 struct DeterminationGrounds {
   bool says_more = true;  // the posterior is far narrower than the prior, where there is one
-  // Of residuals in deviations, see SoilEstimate. Where the model misses the readings by far more than they
-  // scatter, no interval around its best miss says what the soil is.
-  double residual_variance = 1.0;
-  std::optional<double> scale = {};  // what the half width is compared with; nothing: the value
+  // Whether the residuals are as the readings' noise says. Where they are not, no interval around the least
+  // miss says what the soil is.
+  bool model_holds = true;
+  std::optional<std::size_t> spare_readings = {};  // nothing: enough
+  std::optional<double> scale = {};                // what the half width is compared with; nothing: the value
 };
 
-// Fills determination and words from value and interval.
+// The greatest variance of residuals, in deviations, at which the model is said to hold with so many degrees
+// of freedom: a quantile of chi-square over them [Wilson & Hilferty 1931].
+double max_residual_variance(std::size_t degrees_of_freedom, const DeterminationOptions& options = {});
+
+// Whether value and interval alone would be called determined, or one-sided.
+Determination said_by(const ParameterRange& range, double value, const DeterminationGrounds& grounds,
+                      const DeterminationOptions& options = {});
+// Fills determination and words.
 void judge(EstimatedParameter& parameter, const DeterminationGrounds& grounds,
            const DeterminationOptions& options = {});
 

@@ -7,46 +7,39 @@
 #include <cmath>
 
 #include "core/normal_interval.h"
-#include "core/random.h"
 #include "gap/estimate/jacobian_svd.h"
 #include "gap/estimate/soil_posterior.h"
 #include "gap/estimate/soil_profile.h"
+#include "gap/estimate/soil_search.h"
 
 namespace slipway::gap {
 namespace {
 
-// Searches within a search: heard when it is given up, but not reported.
-class Within final : public Progress {
- public:
-  explicit Within(const Progress& outer) : outer_(outer) {}
-  void report(std::string_view /*stage*/, double /*fraction*/) override {}
-  bool cancelled() const override { return outer_.cancelled(); }
-
- private:
-  const Progress& outer_;
-};
-
 // What is searched for the free parameters: k_phi follows from k and k_c.
-std::vector<SoilParameter> axes_of(const std::vector<SoilParameter>& free) {
-  std::vector<SoilParameter> axes;
-  if (holds(free, SoilParameter::kKphi)) axes.push_back(SoilParameter::kBekker);
-  for (const SoilParameter parameter : free)
-    if (parameter != SoilParameter::kKphi) axes.push_back(parameter);
+std::vector<FreeParameter> axes_of(const std::vector<FreeParameter>& free) {
+  std::vector<FreeParameter> axes;
+  for (const FreeParameter& parameter : free)
+    if (parameter.soil == SoilParameter::kKphi) {
+      axes.emplace_back(SoilParameter::kBekker);
+      axes.back().of = parameter.of;
+    }
+  for (const FreeParameter& parameter : free)
+    if (parameter.soil != SoilParameter::kKphi) axes.push_back(parameter);
   return axes;
 }
 
 class Estimation {
  public:
-  Estimation(const sim::SoilDistribution& nominal, const SoilData& data, std::vector<SoilParameter> free,
-             const SoilEstimationOptions& options, Progress& progress)
-      : nominal_(nominal),
+  Estimation(std::span<const sim::SoilDistribution> nominals, const SoilData& data,
+             std::vector<FreeParameter> free, const SoilEstimationOptions& options, Progress& progress)
+      : nominals_(nominals),
+        data_(data),
         free_(std::move(free)),
         options_(options),
         progress_(progress),
         within_(progress),
         observations_(data, options.noise, options.channels),
-        axes_(nominal.mean, observations_.width_m(), axes_of(free_)) {
-    for (const SoilParameter axis : axes_.axes()) unknowns_.push_back(unknown_of(axis));
+        search_(data, nominals, axes_of(free_), options, observations_) {
     fit_options_.loss = options.loss;
     fit_options_.loss_scale = options.loss_scale.value_or(usual_loss_scale(options.loss));
     fit_options_.widen = true;
@@ -59,10 +52,11 @@ class Estimation {
 
   Result<SoilEstimate> run() {
     progress_.report("fitting the soil", 0.0);
-    auto fit = search();
+    auto fit = search_.fit(fit_options_, progress_);
     if (!fit) return fail(fit.error());
     fit_ = std::move(*fit);
     describe_fit();
+    describe_soils();
     describe_open_directions();
     if (const auto described = describe_parameters(); !described) return fail(described.error());
     estimate_.evaluations = observations_.evaluations();
@@ -70,95 +64,13 @@ class Estimation {
   }
 
  private:
-  Unknown unknown_of(SoilParameter axis) const {
-    const SoilParameterRow& row = row_of(axis);
-    const double scale = axes_.scale(axis);
-    Unknown u;
-    u.name = row.name;
-    u.step_scale = scale;
-    u.start = axes_.coordinate(axis, nominal_.mean);
-    double lowest = row.lowest, highest = row.highest;
-    if (axis == SoilParameter::kBekker) {
-      lowest *= axes_.base().pressure.stiffness(axes_.width_m());
-      highest *= axes_.base().pressure.stiffness(axes_.width_m());
-    } else if (axis == SoilParameter::kKc || axis == SoilParameter::kKphi) {
-      lowest *= scale;
-      highest *= scale;
-    }
-    for (const SoilBound& bound : options_.bounds)
-      if (bound.parameter == axis) {
-        lowest = bound.lowest;
-        highest = bound.highest;
-      }
-    u.lowest = axes_.coordinate_of_value(axis, lowest);
-    u.highest = axes_.coordinate_of_value(axis, highest);
-    u.start = std::clamp(u.start, u.lowest, u.highest);
-    if (const auto std = prior_std(axis)) u.prior = Prior{u.start, *std};
-    return u;
-  }
-
-  // Of a coordinate.
-  double wide_std(SoilParameter axis) const {
-    const bool modulus = axis == SoilParameter::kKc || axis == SoilParameter::kKphi;
-    return row_of(axis).wide_std * (modulus ? axes_.scale(axis) : 1.0);
-  }
-  std::optional<double> prior_std(SoilParameter axis) const {
-    if (options_.priors == SoilPriors::kNone) return std::nullopt;
-    const double own = options_.priors == SoilPriors::kSoil ? coordinate_std(nominal_, axis, axes_) : 0.0;
-    return own > 0.0 ? own : wide_std(axis);
-  }
-
-  ResidualFunction residuals_of(const SoilAxes& axes) {
-    return [this, axes](std::span<const double> x, std::span<double> r) {
-      if (!observations_.predict(axes.soil_at(x), r)) return false;
-      const auto data = observations_.data();
-      for (std::size_t i = 0; i < data.size(); ++i) r[i] = (r[i] - data[i].measured) / data[i].std;
-      return true;
-    };
-  }
-
-  // From elsewhere: what soils of all kinds differ by, half of it, and where n is another, k so that the
-  // pressure at a usual depth is the same.
-  std::vector<Unknown> drawn_start(int start) const {
-    std::vector<Unknown> moved = unknowns_;
-    double exponent_change = 0.0;
-    for (std::size_t k = 0; k < moved.size(); ++k) {
-      const SoilParameter axis = axes_.axes()[k];
-      const double change = options_.start_share * wide_std(axis) *
-                            random_normal(random_key(options_.seed, static_cast<std::uint64_t>(start)), k);
-      if (axis == SoilParameter::kN)
-        exponent_change = nominal_.mean.pressure.n * (std::exp(moved[k].start + change) - 1.0);
-      moved[k].start += change;
-    }
-    for (std::size_t k = 0; k < moved.size(); ++k) {
-      if (axes_.axes()[k] == SoilParameter::kBekker)
-        moved[k].start -= exponent_change * std::log(options_.usual_depth_m);
-      moved[k].start = std::clamp(moved[k].start, moved[k].lowest, moved[k].highest);
-    }
-    return moved;
-  }
-
-  Result<LeastSquaresFit> search() {
-    const ResidualFunction residuals = residuals_of(axes_);
-    auto best = fit_least_squares(unknowns_, readings(), residuals, fit_options_, within_);
-    const auto is_poor = [&](const Result<LeastSquaresFit>& fit) {
-      return !fit || !fit->converged || fit->residual_variance > options_.poor_variance;
-    };
-    for (int start = 1; start <= options_.further_starts && is_poor(best); ++start) {
-      if (progress_.cancelled()) break;
-      const std::vector<Unknown> moved = drawn_start(start);
-      auto fit = fit_least_squares(moved, readings(), residuals, fit_options_, within_);
-      if (fit && (!best || fit->cost < best->cost)) best = std::move(fit);
-    }
-    return best;
-  }
+  const TestedRigs& rigs() const { return search_.rigs(); }
 
   void describe_fit() {
     SoilEstimate& e = estimate_;
     const auto data = observations_.data();
     std::vector<double> fitted(data.size());
-    const sim::Soil soil = axes_.soil_at(fit_.estimate);
-    observations_.predict(soil, fitted);
+    search_.predict(fit_.estimate, fitted);
     std::array<double, kSoilChannels> squares{}, deviations{}, counts{};
     for (std::size_t i = 0; i < data.size(); ++i) {
       const auto c = static_cast<std::size_t>(data[i].channel);
@@ -176,13 +88,21 @@ class Estimation {
                               std::sqrt(squares[c] / counts[c]), std::sqrt(deviations[c] / counts[c])});
     e.width_m = observations_.width_m();
     e.residual_variance = fit_.residual_variance;
+    const std::size_t known = data.size() + search_.priors(), searched = search_.unknowns().size();
+    e.max_residual_variance =
+        max_residual_variance(known > searched ? known - searched : 0, options_.determination);
+    e.model_holds = e.residual_variance <= e.max_residual_variance;
     e.converged = fit_.converged;
     e.sunk = observations_.sunk();
-    e.soil = posterior_soil(nominal_, axes_, fit_);
+    note_fit();
+  }
+
+  void note_fit() {
+    SoilEstimate& e = estimate_;
     if (e.sunk > 0)
       e.notes.push_back(fmt::format("{} of the wheels would sink to the axle in this soil", e.sunk));
     if (!e.converged) e.notes.push_back("the search did not converge: " + fit_.message);
-    if (e.residual_variance > 2.0)
+    if (!e.model_holds || e.residual_variance > 2.0)
       e.notes.push_back(fmt::format(
           "the readings scatter {:.1f} times as much as their deviations say: the model does not hold there, "
           "or the noise is greater; deviations and intervals are widened by as much",
@@ -193,19 +113,34 @@ class Estimation {
           "k_phi apart; k_bekker in their place is better");
   }
 
+  void describe_soils() {
+    for (std::size_t s = 0; s < nominals_.size(); ++s) {
+      sim::SoilDistribution soil = posterior_soil(nominals_[s], rigs().soil_at(s, fit_.estimate),
+                                                  rigs().soil_axes(s), rigs().places(s), fit_);
+      for (std::size_t k = 0; k < rigs().axes().size(); ++k) {
+        const auto error = fit_.standard_error(k);
+        if (!error || !rigs().applies_to_soil(k, s)) continue;
+        // Draws of c1 and c2 are log-normal, in [0, 1].
+        if (rigs().axes()[k].name == "c1" && soil.mean.c1 > 0.0) soil.std.c1 = std::min(*error, 1.0);
+        if (rigs().axes()[k].name == "c2" && soil.mean.c2 > 0.0) soil.std.c2 = std::min(*error, 1.0);
+      }
+      (s == 0 ? estimate_.soil : estimate_.further_soils.emplace_back()) = std::move(soil);
+    }
+  }
+
   // Of the data alone, columns counted in what soils of all kinds differ by.
   void describe_open_directions() {
-    const ResidualFunction residuals = residuals_of(axes_);
+    const ResidualFunction residuals = search_.residuals();
     const auto rows = static_cast<Eigen::Index>(readings());
-    const auto n = static_cast<Eigen::Index>(unknowns_.size());
+    const auto n = static_cast<Eigen::Index>(search_.unknowns().size());
     Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(rows, n);
     Eigen::VectorXd scale(n);
     std::vector<double> up(readings()), down(readings());
     std::vector<std::string> names;
     for (Eigen::Index k = 0; k < n; ++k) {
       const auto axis = static_cast<std::size_t>(k);
-      scale[k] = wide_std(axes_.axes()[axis]);
-      const Unknown& u = unknowns_[axis];
+      scale[k] = rigs().wide_std(axis);
+      const Unknown& u = search_.unknowns()[axis];
       names.push_back(u.name);
       constexpr double kStep = 1e-4;
       std::vector<double> x = fit_.estimate;
@@ -228,21 +163,27 @@ class Estimation {
       estimate_.open.push_back({open.words, open.singular_value * largest});
   }
 
-  Result<bool> describe_parameters() {
+  // Of the free parameters' coordinates by the axes': k_phi = k - k_c / b.
+  Eigen::MatrixXd free_by_axes() const {
     const auto n = static_cast<Eigen::Index>(free_.size());
-    const auto size = static_cast<Eigen::Index>(unknowns_.size());
-    // Of the free parameters' coordinates by the axes': k_phi = k - k_c / b.
+    const auto size = static_cast<Eigen::Index>(search_.unknowns().size());
     Eigen::MatrixXd by_axes = Eigen::MatrixXd::Zero(n, size);
     for (Eigen::Index i = 0; i < n; ++i)
       for (Eigen::Index k = 0; k < size; ++k) {
-        const SoilParameter free = free_[static_cast<std::size_t>(i)];
-        const SoilParameter axis = axes_.axes()[static_cast<std::size_t>(k)];
+        const FreeParameter& free = free_[static_cast<std::size_t>(i)];
+        const FreeParameter& axis = rigs().axes()[static_cast<std::size_t>(k)];
         if (free == axis) by_axes(i, k) = 1.0;
-        if (free != SoilParameter::kKphi) continue;
-        if (axis == SoilParameter::kBekker)
-          by_axes(i, k) = estimate_.soil.mean.pressure.stiffness(axes_.width_m());
-        if (axis == SoilParameter::kKc) by_axes(i, k) = -1.0 / axes_.width_m();
+        if (free.soil != SoilParameter::kKphi || free.of != axis.of) continue;
+        if (axis.soil == SoilParameter::kBekker)
+          by_axes(i, k) = rigs().value_at(static_cast<std::size_t>(k), fit_.estimate);
+        if (axis.soil == SoilParameter::kKc) by_axes(i, k) = -1.0 / observations_.width_m();
       }
+    return by_axes;
+  }
+
+  Result<bool> describe_parameters() {
+    const auto n = static_cast<Eigen::Index>(free_.size());
+    const Eigen::MatrixXd by_axes = free_by_axes();
     const Eigen::MatrixXd covariance = by_axes * fit_.covariance * by_axes.transpose();
     const Eigen::VectorXd deviation = covariance.diagonal().cwiseMax(1e-300).cwiseSqrt();
     estimate_.correlation =
@@ -266,41 +207,78 @@ class Estimation {
   }
 
   // `deviation`: posterior, of the coordinate.
-  Result<EstimatedParameter> describe(SoilParameter parameter, std::optional<double> deviation) {
+  Result<EstimatedParameter> describe(const FreeParameter& parameter, std::optional<double> deviation) {
     EstimatedParameter p;
     p.parameter = parameter;
-    const sim::Soil& soil = estimate_.soil.mean;
-    p.start = value_of(parameter, nominal_.mean, axes_.width_m());
-    p.value = value_of(parameter, soil, axes_.width_m());
-    if (deviation) p.std = axes_.value_std(parameter, soil, *deviation);
-    std::optional<double> prior = prior_std(parameter);
-    if (prior) p.prior_std = axes_.value_std(parameter, nominal_.mean, *prior);
     // k_phi in the place of k_c.
-    std::vector<SoilParameter> axes(axes_.axes().begin(), axes_.axes().end());
-    std::vector<Unknown> unknowns = unknowns_;
-    std::vector<double> around = fit_.estimate;
-    std::size_t at = static_cast<std::size_t>(std::find(axes.begin(), axes.end(), parameter) - axes.begin());
-    if (parameter == SoilParameter::kKphi) {
-      at = static_cast<std::size_t>(std::find(axes.begin(), axes.end(), SoilParameter::kKc) - axes.begin());
-      axes[at] = parameter;
-      unknowns[at] = unknown_of(parameter);
-      around[at] = soil.pressure.k_phi;
+    std::vector<FreeParameter> axes(rigs().axes().begin(), rigs().axes().end());
+    FreeParameter place = parameter;
+    if (parameter.soil == SoilParameter::kKphi) {
+      place = SoilParameter::kKc;
+      place.of = parameter.of;
     }
-    const SoilAxes searched(nominal_.mean, axes_.width_m(), axes);
-    p.on_bound = around[at] <= unknowns[at].lowest || around[at] >= unknowns[at].highest;
+    const auto at = static_cast<std::size_t>(std::find(axes.begin(), axes.end(), place) - axes.begin());
+    axes[at] = parameter;
+    const SoilSearch search(data_, nominals_, axes, options_, observations_);
+    std::vector<double> around = fit_.estimate, start;
+    for (const Unknown& u : search.unknowns()) start.push_back(u.start);
+    if (!(place == parameter)) {
+      const double width_m = observations_.width_m();
+      const sim::Soil soil = rigs().soil_at(*rigs().soil_of(at), fit_.estimate);
+      around[at] = value_of(SoilParameter::kKphi, soil, width_m);
+    }
+    p.start = search.rigs().value_at(at, start);
+    p.value = search.rigs().value_at(at, around);
+    if (deviation) p.std = search.rigs().value_std(at, around, *deviation);
+    const std::optional<double> prior = search.prior_std(at);
+    if (prior) p.prior_std = search.rigs().value_std(at, start, *prior);
+    const Unknown& unknown = search.unknowns()[at];
+    p.on_bound = around[at] <= unknown.lowest || around[at] >= unknown.highest;
     // What the data alone say, where the prior has a part in the posterior.
-    double alone = deviation.value_or(unknowns[at].step_scale);
+    double alone = deviation.value_or(unknown.step_scale);
     if (prior && alone < *prior) alone /= std::sqrt(std::max(1.0 - std::pow(alone / *prior, 2), 0.01));
+    const auto range = range_of(search, at, around, alone);
+    if (!range) return fail(range.error());
+    p.low = range->low;
+    p.high = range->high;
+    p.low_open = range->low_open;
+    p.high_open = range->high_open;
+    const DeterminationGrounds grounds{
+        .says_more = deviation && (!prior || *deviation < options_.determination.max_of_prior * *prior),
+        .model_holds = estimate_.model_holds,
+        .spare_readings = readings() > free_.size() ? readings() - free_.size() : 0,
+        .scale = compared_with(search.rigs(), at, p.value)};
+    if (options_.profile &&
+        said_by(*range, p.value, grounds, options_.determination) != Determination::kUndetermined)
+      if (const auto done = let_assumptions_vary(axes, at, around, alone, p); !done)
+        return fail(done.error());
+    judge(p, grounds, options_.determination);
+    return p;
+  }
+
+  // What the width of an interval is compared with. A modulus that may be negative is measured by the
+  // stiffness, a number with 0 in its range by what it differs by among soils, at least.
+  static std::optional<double> compared_with(const TestedRigs& rigs, std::size_t axis, double value) {
+    const FreeParameter& parameter = rigs.axes()[axis];
+    if (parameter.soil == SoilParameter::kKc || parameter.soil == SoilParameter::kKphi)
+      return rigs.scale(axis);
+    if (parameter.soil || parameter.field.lowest > 0.0) return std::nullopt;
+    return std::max(std::abs(value), rigs.wide_std(axis));
+  }
+
+  // `alone`: a guess of the coordinate's deviation.
+  Result<ParameterRange> range_of(const SoilSearch& search, std::size_t at, const std::vector<double>& around,
+                                  double alone) {
+    const std::span<const Unknown> unknowns = search.unknowns();
     ProfileInterval interval;
     if (options_.profile) {
-      const ResidualFunction residuals = residuals_of(searched);
       ProfileOptions profile{.fit = fit_options_};
       profile.rise *= std::max(1.0, fit_.residual_variance);
       profile.fit.tolerance = 1e-5;
       profile.fit.max_iterations = 15;
       profile.fit.covariance = false;
       const auto found =
-          profile_interval(unknowns, at, readings(), residuals, around, alone, profile, within_);
+          profile_interval(unknowns, at, readings(), search.residuals(), around, alone, profile, within_);
       if (!found) return fail(found.error());
       interval = *found;
     } else {
@@ -312,30 +290,40 @@ class Estimation {
     const auto value_at = [&](double coordinate) {
       std::vector<double> x = around;
       x[at] = coordinate;
-      return value_of(parameter, searched.soil_at(x), axes_.width_m());
+      return search.rigs().value_at(at, x);
     };
-    p.low = value_at(interval.low);
-    p.high = value_at(interval.high);
-    p.low_open = interval.low_open;
-    p.high_open = interval.high_open;
-    // A modulus that may be negative is measured by the stiffness.
-    const bool modulus = parameter == SoilParameter::kKc || parameter == SoilParameter::kKphi;
-    judge(p,
-          {.says_more = deviation && (!prior || *deviation < options_.determination.max_of_prior * *prior),
-           .residual_variance = fit_.residual_variance,
-           .scale = modulus ? std::optional(axes_.scale(parameter)) : std::nullopt},
-          options_.determination);
-    return p;
+    return ParameterRange{value_at(interval.low), value_at(interval.high), interval.low_open,
+                          interval.high_open};
   }
 
-  const sim::SoilDistribution& nominal_;
-  std::vector<SoilParameter> free_;
+  // The range once more with what is neither free nor stated free too, within its uncertainty.
+  Result<bool> let_assumptions_vary(std::vector<FreeParameter> axes, std::size_t at,
+                                    std::vector<double> around, double alone, EstimatedParameter& p) {
+    const std::vector<Assumed> assumed =
+        assumed_of(data_, nominals_, observations_.width_m(), free_, options_);
+    if (assumed.empty()) return true;
+    for (const Assumed& one : assumed) axes.push_back(one.parameter);
+    // Priors are of what is assumed alone, each with its own deviation.
+    std::vector<double> deviations(around.size(), 0.0);
+    for (const Assumed& one : assumed) deviations.push_back(one.std);
+    const SoilSearch search(data_, nominals_, std::move(axes), options_, observations_, deviations);
+    for (std::size_t k = around.size(); k < search.unknowns().size(); ++k)
+      around.push_back(search.unknowns()[k].start);
+    const auto range = range_of(search, at, around, alone);
+    if (!range) return fail(range.error());
+    p.with_assumed = *range;
+    for (const Assumed& one : assumed) p.assumed.push_back(one.parameter.shown());
+    return true;
+  }
+
+  std::span<const sim::SoilDistribution> nominals_;
+  const SoilData& data_;
+  std::vector<FreeParameter> free_;
   const SoilEstimationOptions& options_;
   Progress& progress_;
   Within within_;
   SoilObservations observations_;
-  SoilAxes axes_;
-  std::vector<Unknown> unknowns_;
+  SoilSearch search_;
   LeastSquaresOptions fit_options_;
   LeastSquaresFit fit_;
   SoilEstimate estimate_;
@@ -343,21 +331,23 @@ class Estimation {
 
 }  // namespace
 
-Result<SoilEstimate> estimate_soil(const sim::SoilDistribution& nominal, const SoilData& data,
-                                   const SoilEstimationOptions& options, Progress& progress) {
+Result<SoilEstimate> estimate_soils(std::span<const sim::SoilDistribution> nominals, const SoilData& data,
+                                    const SoilEstimationOptions& options, Progress& progress) {
   if (data.wheels.empty() && data.plates.empty())
     return fail(ErrorCode::kNoData, "there are no tests to estimate a soil from");
-  const std::vector<SoilParameter> free = options.free.empty() ? usual_free_parameters(data) : options.free;
-  if (auto faults = faults_of(free, options); !faults.empty())
+  const std::vector<FreeParameter> free = options.free.empty() ? usual_free_parameters(data) : options.free;
+  if (auto faults = faults_of(free, data, options); !faults.empty())
     return fail(ErrorCode::kInvalidRequest, "the soil can't be estimated so", std::move(faults));
-  for (std::size_t i = 0; i < data.wheels.size(); ++i)
-    if (data.wheels[i][SoilChannel::kCurrent].value && !data.wheels[i].test.drive)
-      return fail(ErrorCode::kInvalidRequest, "a measured current needs the motor that it was measured at");
-  Estimation estimation(nominal, data, free, options, progress);
+  Estimation estimation(nominals, data, free, options, progress);
   if (estimation.readings() < options.min_readings)
     return fail(ErrorCode::kNoData,
                 fmt::format("{} readings are too few to estimate a soil from", estimation.readings()));
   return estimation.run();
+}
+
+Result<SoilEstimate> estimate_soil(const sim::SoilDistribution& nominal, const SoilData& data,
+                                   const SoilEstimationOptions& options, Progress& progress) {
+  return estimate_soils(std::span(&nominal, 1), data, options, progress);
 }
 
 }  // namespace slipway::gap

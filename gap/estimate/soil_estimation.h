@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,7 @@ struct OpenDirection {
 
 struct SoilEstimate {
   sim::SoilDistribution soil;  // posterior: mean, spread, correlation; its name and source are the nominal's
+  std::vector<sim::SoilDistribution> further_soils;  // of tests in several soils: all but the first
   std::vector<EstimatedParameter> parameters;
   Eigen::MatrixXd correlation;  // of them, of what is searched (SoilAxes), in the order of `parameters`
   std::vector<OpenDirection> open;
@@ -45,6 +47,8 @@ struct SoilEstimate {
   // Of residuals in deviations, 1 where the readings scatter as their deviations say; where more, deviations
   // and intervals of the estimate are widened by its square root.
   double residual_variance = 0.0;
+  double max_residual_variance = 0.0;  // beyond which the model does not hold (see DeterminationOptions)
+  bool model_holds = true;
   std::size_t evaluations = 0;  // of the model for all data
   std::size_t sunk = 0;         // wheels that the estimated soil doesn't carry, held at the axle
   bool converged = false;
@@ -52,10 +56,14 @@ struct SoilEstimate {
 };
 
 // The ARTEMIS paper's problem (section 3): the parameters of the soil at which the library's own laws meet
-// what was measured, by Levenberg-Marquardt (least_squares.h) over SoilAxes from the nominal soil on.
+// what was measured, by Levenberg-Marquardt (least_squares.h) over TestedRigs from the nominal soils on, one
+// for each of the data's.
 //
 // Errors: invalid_request with the faults of the options ("/free/1", "/bounds/0"); no_data with fewer
 // readings than two; those of fit_least_squares.
+Result<SoilEstimate> estimate_soils(std::span<const sim::SoilDistribution> nominals, const SoilData& data,
+                                    const SoilEstimationOptions& options, Progress& progress);
+// Of tests in one soil.
 Result<SoilEstimate> estimate_soil(const sim::SoilDistribution& nominal, const SoilData& data,
                                    const SoilEstimationOptions& options, Progress& progress);
 

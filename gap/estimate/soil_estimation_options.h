@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "gap/estimate/free_parameter.h"
 #include "gap/estimate/least_squares.h"
 #include "gap/estimate/soil_determination.h"
 #include "gap/estimate/soil_observation.h"
@@ -23,17 +24,21 @@ enum class SoilPriors {
 };
 std::optional<SoilPriors> soil_priors(std::string_view name);  // "none", "wide", "soil"
 
-// A bound that is not the row's own, in SI and radians.
+// A bound that is not the row's own, in SI and radians, or in the boundary's unit of what is none of the
+// seven.
 struct SoilBound {
-  SoilParameter parameter = SoilParameter::kN;
+  FreeParameter parameter = SoilParameter::kN;
   double lowest = 0.0, highest = 0.0;
 };
 
 struct SoilEstimationOptions {
-  std::vector<SoilParameter> free = {};  // empty: usual_free_parameters
+  std::vector<FreeParameter> free = {};  // empty: usual_free_parameters
+  // What is not free and yet known, as it was given for these tests; all else is assumed as far as a verdict
+  // goes (see DeterminationGrounds).
+  std::vector<FreeParameter> stated = {};
   SoilPriors priors = SoilPriors::kWide;
   std::vector<SoilBound> bounds = {};
-  std::array<bool, kSoilChannels> channels{true, true, true, true, true, true};
+  std::array<bool, kSoilChannels> channels{true, true, true, true, true, true, true};
   ReadingNoise noise = {};
   RobustLoss loss = RobustLoss::kNone;
   std::optional<double> loss_scale = {};  // in deviations; nothing: usual_loss_scale()
@@ -54,11 +59,13 @@ struct SoilEstimationOptions {
 
 // Those that such data can say: k_bekker, or k_c and k_phi where widths differ, and n; with wheels cohesion,
 // friction angle and shear modulus too.
-std::vector<SoilParameter> usual_free_parameters(const SoilData& data);
+std::vector<FreeParameter> usual_free_parameters(const SoilData& data);
 
-bool holds(std::span<const SoilParameter> list, SoilParameter parameter);
+bool holds(std::span<const FreeParameter> list, const FreeParameter& parameter);
 
-// What is wrong with the options for these free parameters: "/free/1", "/bounds/0", "/noise", "/loss_scale".
-std::vector<Fault> faults_of(std::span<const SoilParameter> free, const SoilEstimationOptions& options);
+// What is wrong with the options for these free parameters of such data: "/free/1", "/bounds/0", "/noise",
+// "/loss_scale".
+std::vector<Fault> faults_of(std::span<const FreeParameter> free, const SoilData& data,
+                             const SoilEstimationOptions& options);
 
 }  // namespace slipway::gap

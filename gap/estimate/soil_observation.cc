@@ -21,12 +21,8 @@ constexpr std::array<ChannelRow, kSoilChannels> kRows{{{SoilChannel::kTorque, "t
                                                        {SoilChannel::kThrust, "thrust", "N"},
                                                        {SoilChannel::kSinkage, "sinkage", "m"},
                                                        {SoilChannel::kCurrent, "current", "A"},
+                                                       {SoilChannel::kLateralForce, "lateral_force", "N"},
                                                        {SoilChannel::kPressure, "pressure", "Pa"}}};
-
-bool same(const sim::WheelGeometry& a, const sim::WheelGeometry& b) {
-  return a.radius_m == b.radius_m && a.width_m == b.width_m && a.grousers.height_m == b.grousers.height_m &&
-         a.grousers.count == b.grousers.count && a.rim_friction == b.rim_friction;
-}
 
 constexpr double kMinAngle = 1e-4;
 constexpr double kOfLoad = 1e-10;  // how far off the load a wheel may be left, well below a step's change
@@ -45,54 +41,57 @@ std::optional<SoilChannel> soil_channel(std::string_view name) {
   return std::nullopt;
 }
 
+TestRig rig_of_wheel(const sim::WheelGeometry& wheel, const std::optional<sim::DriveMotor>& drive) {
+  TestRig rig;
+  sim::WheelModel& model = rig.rig.rover.wheels.emplace_back();
+  model.radius_m = wheel.radius_m;
+  model.width_m = wheel.width_m;
+  model.grousers = wheel.grousers;
+  model.rim_friction = wheel.rim_friction;
+  if (drive) rig.rig.rover.drive = *drive;
+  return rig;
+}
+
 SoilObservations::SoilObservations(const SoilData& data, const ReadingNoise& noise,
                                    const std::array<bool, kSoilChannels>& used)
     : data_(data) {
-  for (std::size_t i = 0; i < data.wheels.size(); ++i) add_wheel(i);
+  groups_.resize(data.rigs.size());
   double narrowest = std::numeric_limits<double>::infinity(), widest = 0.0;
-  for (const Group& group : groups_) {
-    narrowest = std::min(narrowest, group.wheel.width_m);
-    widest = std::max(widest, group.wheel.width_m);
+  for (const TestRig& rig : data.rigs) {
+    const double width = rig.rig.rover.wheels[rig.rig.wheel].width_m;
+    narrowest = std::min(narrowest, width);
+    widest = std::max(widest, width);
   }
+  width_m_ = narrowest;
   for (const PlateRecord& plate : data.plates) {
     narrowest = std::min(narrowest, plate.radius_m);
     widest = std::max(widest, plate.radius_m);
   }
-  width_m_ = narrowest;
-  if (!groups_.empty()) {
-    width_m_ = groups_.front().wheel.width_m;
-    for (const Group& group : groups_) width_m_ = std::min(width_m_, group.wheel.width_m);
-  }
+  if (data.rigs.empty()) width_m_ = narrowest;
   one_width_ = !(widest > narrowest);
+  for (std::size_t i = 0; i < data.wheels.size(); ++i) add_test(i);
   list_readings(noise, used);
 }
 
-void SoilObservations::add_wheel(std::size_t test) {
+void SoilObservations::add_test(std::size_t test) {
   const WheelObservation& observation = data_.wheels[test];
-  auto group = std::find_if(groups_.begin(), groups_.end(),
-                            [&](const Group& g) { return same(g.wheel, observation.test.wheel); });
-  if (group == groups_.end()) {
-    group = groups_.emplace(groups_.end());
-    group->wheel = observation.test.wheel;
-  }
-  place_.emplace_back(static_cast<std::size_t>(group - groups_.begin()), group->tests.size());
-  group->tests.push_back(test);
-  group->motions.push_back(sim::motion_of(observation.test));
-  group->loads_n.push_back(observation.test.load_n);
-  group->rim_speeds_m_s.push_back(sim::rim_speed_m_s(observation.test));
-  group->held.push_back(observation.test.sinkage_m.has_value());
-  group->sunk.push_back(false);
-  group->angles.push_back(observation.test.sinkage_m ? sim::entry_angle_rad(observation.test.wheel.radius_m,
-                                                                            *observation.test.sinkage_m)
-                                                     : 0.3);
-  group->any_thrust = group->any_thrust || observation[SoilChannel::kThrust].value.has_value();
-  const std::size_t count = group->tests.size();
-  group->slopes.resize(count);
-  group->soils.resize(count);
-  group->forces.resize(count);
-  group->before.resize(count);
-  group->tried.resize(count);
-  group->thrusts.resize(count);
+  Group& group = groups_[observation.rig];
+  place_.push_back(group.tests.size());
+  group.tests.push_back(test);
+  group.loads_n.push_back(observation.test.load_n);
+  group.held.push_back(observation.test.sinkage_m.has_value());
+  group.sunk.push_back(false);
+  group.angles.push_back(0.3);
+  group.any_thrust = group.any_thrust || observation[SoilChannel::kThrust].value.has_value();
+  const std::size_t count = group.tests.size();
+  group.motions.resize(count);
+  group.rim_speeds_m_s.resize(count);
+  group.slopes.resize(count);
+  group.soils.resize(count);
+  group.forces.resize(count);
+  group.before.resize(count);
+  group.tried.resize(count);
+  group.thrusts.resize(count);
 }
 
 void SoilObservations::list_readings(const ReadingNoise& noise, const std::array<bool, kSoilChannels>& used) {
@@ -142,7 +141,7 @@ void SoilObservations::balance(Group& g) {
   const auto solve_alone = [&](std::size_t i) {
     const auto angle = sim::balanced_entry_angle_rad(g.wheel, g.soils[i], g.loads_n[i], g.motions[i]);
     g.sunk[i] = !angle.has_value();
-    g.angles[i] = angle.value_or(sim::kMaxEntryAngleRad);
+    g.angles[i] = angle.value_or(sim::max_entry_angle_rad(g.soils[i]));
   };
   for (std::size_t i = 0; i < count; ++i)
     if (!g.held[i] && (!g.warm || g.sunk[i])) solve_alone(i);
@@ -174,7 +173,7 @@ void SoilObservations::balance(Group& g) {
       const double next = g.angles[i] - surplus / g.slopes[i];
       g.tried[i] = g.angles[i];
       if (step == kMaxSteps || !(g.slopes[i] > 0.0) || !(next > kMinAngle) ||
-          !(next < sim::kMaxEntryAngleRad)) {
+          !(next < sim::max_entry_angle_rad(g.soils[i]))) {
         solve_alone(i);
         alone = true;
       } else {
@@ -191,7 +190,10 @@ void SoilObservations::balance(Group& g) {
 // As sim::run_wheel_rig splits the pull: thrust is what strength and grousers add to it.
 void SoilObservations::find_thrust(Group& g) {
   std::vector<sim::Soil> soils = g.soils;
-  for (sim::Soil& soil : soils) soil.bulldozing = soil.side_bulldozing = 0.0;
+  for (sim::Soil& soil : soils) {
+    soil.bulldozing = soil.side_bulldozing = 0.0;
+    soil.ploughing = {};
+  }
   sim::wheel_forces(g.wheel, soils, g.angles, g.motions, g.before);
   for (std::size_t i = 0; i < soils.size(); ++i) {
     g.thrusts[i] = g.before[i].drawbar_pull_n;
@@ -203,49 +205,77 @@ void SoilObservations::find_thrust(Group& g) {
   for (std::size_t i = 0; i < soils.size(); ++i) g.thrusts[i] -= g.before[i].drawbar_pull_n;
 }
 
+// The tests of a rig with what stands on it now.
+void SoilObservations::put_on(const RigAt& rig, Group& g) {
+  g.wheel = rig.wheel;
+  g.drive = rig.drive;
+  for (std::size_t i = 0; i < g.tests.size(); ++i) {
+    sim::WheelRigConditions test = data_.wheels[g.tests[i]].test;
+    test.wheel = rig.wheel;
+    if (test.slip_radius == sim::SlipRadius::kShear) test.soil = rig.soil;
+    g.motions[i] = sim::motion_of(test);
+    g.rim_speeds_m_s[i] = sim::rim_speed_m_s(test);
+    g.soils[i] = sim::soil_in_force(rig.soil, test.gravity_m_s2, g.rim_speeds_m_s[i], test.in_a_track);
+    if (test.sinkage_m) g.angles[i] = sim::entry_angle_rad(rig.wheel.radius_m, *test.sinkage_m);
+  }
+}
+
 bool SoilObservations::predict(const sim::Soil& soil, std::span<double> values) {
+  std::vector<RigAt> rigs;
+  for (const TestRig& on : data_.rigs) {
+    sim::WheelRig rig = on.rig;
+    rig.soil = soil;
+    const sim::WheelRigConditions test = sim::conditions_of(rig);
+    rigs.push_back({test.wheel, test.soil, test.drive});
+  }
+  return predict(rigs, soil, values);
+}
+
+bool SoilObservations::predict(std::span<const RigAt> rigs, const sim::Soil& of_plates,
+                               std::span<double> values) {
   ++evaluations_;
-  for (Group& g : groups_) {
-    if (!(soil.pressure.stiffness(g.wheel.width_m) > 0.0)) return false;
-    for (std::size_t i = 0; i < g.tests.size(); ++i) {
-      const sim::WheelRigConditions& test = data_.wheels[g.tests[i]].test;
-      g.soils[i] = sim::soil_in_force(soil, test.gravity_m_s2, g.rim_speeds_m_s[i], test.in_a_track);
-    }
+  for (std::size_t r = 0; r < groups_.size(); ++r) {
+    if (!(rigs[r].soil.pressure.stiffness(rigs[r].wheel.width_m) > 0.0)) return false;
+    Group& g = groups_[r];
+    put_on(rigs[r], g);
     balance(g);
     if (g.any_thrust) find_thrust(g);
   }
+  for (const PlateRecord& plate : data_.plates)
+    if (!(of_plates.pressure.stiffness(plate.radius_m) > 0.0)) return false;
   for (std::size_t k = 0; k < list_.size(); ++k) {
     const SoilDatum& datum = list_[k];
-    if (datum.channel == SoilChannel::kPressure) {
-      const PlateRecord& plate = data_.plates[datum.test];
-      const double stiffness = soil.pressure.stiffness(plate.radius_m);
-      if (!(stiffness > 0.0)) return false;
-      values[k] = sim::bekker_pressure_pa(stiffness, soil.pressure.n, plate.sinkage_m[datum.sample]);
+    if (datum.channel != SoilChannel::kPressure) {
+      values[k] = value_of(datum);
       continue;
     }
-    const auto [group, i] = place_[datum.test];
-    const Group& g = groups_[group];
-    const sim::WheelForces& forces = g.forces[i];
-    switch (datum.channel) {
-      case SoilChannel::kTorque:
-        values[k] = forces.torque_nm;
-        break;
-      case SoilChannel::kDrawbarPull:
-        values[k] = forces.drawbar_pull_n;
-        break;
-      case SoilChannel::kThrust:
-        values[k] = g.thrusts[i];
-        break;
-      case SoilChannel::kSinkage:
-        values[k] = sim::sinkage_m(g.wheel.radius_m, g.angles[i]);
-        break;
-      default:
-        values[k] = sim::motor_state(*data_.wheels[datum.test].test.drive, forces.torque_nm,
-                                     g.rim_speeds_m_s[i] / g.wheel.radius_m)
-                        .current_a;
-    }
+    const PlateRecord& plate = data_.plates[datum.test];
+    values[k] = sim::bekker_pressure_pa(of_plates.pressure.stiffness(plate.radius_m), of_plates.pressure.n,
+                                        plate.sinkage_m[datum.sample]);
   }
   return true;
+}
+
+// Of a wheel, as its rig stands.
+double SoilObservations::value_of(const SoilDatum& datum) const {
+  const Group& g = groups_[data_.wheels[datum.test].rig];
+  const std::size_t i = place_[datum.test];
+  const sim::WheelForces& forces = g.forces[i];
+  switch (datum.channel) {
+    case SoilChannel::kTorque:
+      return forces.torque_nm;
+    case SoilChannel::kDrawbarPull:
+      return forces.drawbar_pull_n;
+    case SoilChannel::kThrust:
+      return g.thrusts[i];
+    case SoilChannel::kSinkage:
+      return sim::sinkage_m(g.wheel.radius_m, g.angles[i]);
+    case SoilChannel::kLateralForce:
+      return forces.lateral_n;
+    default:
+      break;
+  }
+  return sim::motor_state(*g.drive, forces.torque_nm, g.rim_speeds_m_s[i] / g.wheel.radius_m).current_a;
 }
 
 }  // namespace slipway::gap

@@ -5,18 +5,20 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "gap/estimate/plate_sinkage.h"
 #include "sim/single_wheel/single_wheel_rig.h"
+#include "sim/single_wheel/sweep_parameter.h"
 #include "sim/soil/soil.h"
 
 namespace slipway::gap {
 
 // What a test of the soil measures.
-enum class SoilChannel { kTorque, kDrawbarPull, kThrust, kSinkage, kCurrent, kPressure };
-constexpr int kSoilChannels = 6, kWheelChannels = 5;  // all but the plate's pressure are a wheel's
+enum class SoilChannel { kTorque, kDrawbarPull, kThrust, kSinkage, kCurrent, kLateralForce, kPressure };
+constexpr int kSoilChannels = 7, kWheelChannels = 6;  // all but the plate's pressure are a wheel's
 
 std::string_view name_of(SoilChannel channel);  // "torque", "drawbar_pull", ...
 std::string_view unit_of(SoilChannel channel);  // "N m", ...; the boundary's are SI's
@@ -28,11 +30,12 @@ struct SoilReading {
   std::optional<double> std;
 };
 
-// One steady test of a wheel: how it was held (the soil in it is not read), and what was measured. A current
-// needs the test's motor.
+// One steady test of a wheel: how it was held (wheel, soil and motor are its rig's), and what was measured.
 struct WheelObservation {
   sim::WheelRigConditions test;
   std::array<SoilReading, kWheelChannels> readings;
+  std::string wheel = {}, soil = {};  // as the test names them; empty where there is one
+  std::size_t rig = 0;                // of SoilData::rigs, which are made of these
 
   SoilReading& operator[](SoilChannel channel) { return readings[static_cast<std::size_t>(channel)]; }
   const SoilReading& operator[](SoilChannel channel) const {
@@ -40,9 +43,30 @@ struct WheelObservation {
   }
 };
 
+// A wheel on a rig over one of the soils: what is free of it is set by sim::set_sweep_parameter. The soil and
+// the test in it are not read.
+struct TestRig {
+  sim::WheelRig rig;
+  std::string wheel = {};  // as tests name it; empty where there is one
+  std::size_t soil = 0;    // of SoilData::soils
+};
+// A rig of a bare wheel.
+TestRig rig_of_wheel(const sim::WheelGeometry& wheel, const std::optional<sim::DriveMotor>& drive = {});
+
 struct SoilData {
-  std::vector<WheelObservation> wheels;
-  std::vector<PlateRecord> plates;
+  std::vector<WheelObservation> wheels = {};
+  std::vector<PlateRecord> plates = {};  // in the first soil
+  std::vector<TestRig> rigs = {};
+  std::vector<std::string> soils = {};  // as tests name them; empty: there is one, without a name
+
+  std::string soil_label(std::size_t soil) const { return soils.empty() ? std::string() : soils[soil]; }
+};
+
+// What stands on a rig at some soil, with its effects.
+struct RigAt {
+  sim::WheelGeometry wheel;
+  sim::Soil soil;
+  std::optional<sim::DriveMotor> drive;  // a measured current needs it
 };
 
 // The standard deviation of a reading that has none of its own: a share of it in quadrature with a share of
@@ -62,9 +86,9 @@ struct SoilDatum {
 };
 
 // What tests measure on a soil, by the library's own laws: sim::wheel_forces where the soil carries the load,
-// and the plate's p = (k_c / b + k_phi) z^n. All wheels of one geometry are evaluated at once, each from
-// where it stood before, which makes one soil after another cheap. A wheel that no depth up to the axle
-// carries is held at the axle, so that a search finds its way back; sunk() counts these.
+// and the plate's p = (k_c / b + k_phi) z^n. All tests of one rig are evaluated at once, each wheel from
+// where it stood before, which makes one soil after another cheap. A wheel that no depth up to the law's end
+// carries is held there, so that a search finds its way back; sunk() counts these.
 class SoilObservations {
  public:
   // Readings of channels that are not `used` are left out. The data must outlive it.
@@ -72,7 +96,10 @@ class SoilObservations {
                    const std::array<bool, kSoilChannels>& used);
 
   std::span<const SoilDatum> data() const { return list_; }
-  // One number for each datum; false where the soil has no stiffness under some width.
+  // One number for each datum, of these rigs (one for each of the data's) and of plates in this soil; false
+  // where a soil has no stiffness under some width.
+  bool predict(std::span<const RigAt> rigs, const sim::Soil& of_plates, std::span<double> values);
+  // All rigs as they are, in one soil.
   bool predict(const sim::Soil& soil, std::span<double> values);
   // Wheels held at the axle when last asked.
   std::size_t sunk() const;
@@ -82,9 +109,10 @@ class SoilObservations {
   bool one_width() const { return one_width_; }
 
  private:
-  // Wheels of one geometry.
+  // The tests of one rig.
   struct Group {
     sim::WheelGeometry wheel;
+    std::optional<sim::DriveMotor> drive;
     std::vector<std::size_t> tests;
     std::vector<sim::WheelMotion> motions;
     std::vector<double> loads_n, rim_speeds_m_s, angles, slopes;
@@ -95,14 +123,16 @@ class SoilObservations {
     std::vector<double> tried, thrusts;
     bool warm = false;
   };
-  void add_wheel(std::size_t test);
+  void add_test(std::size_t test);
+  void put_on(const RigAt& rig, Group& group);
+  double value_of(const SoilDatum& datum) const;
   void list_readings(const ReadingNoise& noise, const std::array<bool, kSoilChannels>& used);
   void balance(Group& group);
   void find_thrust(Group& group);
 
   const SoilData& data_;
   std::vector<Group> groups_;
-  std::vector<std::pair<std::size_t, std::size_t>> place_;  // of each wheel: group, index there
+  std::vector<std::size_t> place_;  // of each wheel test in its group
   std::vector<SoilDatum> list_;
   double width_m_ = 0.0;
   bool one_width_ = true;

@@ -81,15 +81,15 @@ double value_of(SoilParameter parameter, const sim::Soil& soil, double width_m) 
 SoilAxes::SoilAxes(const sim::Soil& base, double width_m, std::vector<SoilParameter> axes)
     : base_(base), width_m_(width_m), axes_(std::move(axes)) {}
 
-sim::Soil SoilAxes::soil_at(std::span<const double> x) const {
-  sim::Soil soil = base_;
-  const double base_stiffness = base_.pressure.stiffness(width_m_);
-  double stiffness = base_stiffness;
+sim::Soil SoilAxes::soil_at(std::span<const double> x, const sim::Soil& onto) const {
+  sim::Soil soil = onto;
+  const double own_stiffness = onto.pressure.stiffness(width_m_);
+  double stiffness = own_stiffness;
   std::optional<double> k_c, k_phi;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     switch (axes_[i]) {
       case SoilParameter::kBekker:
-        stiffness = base_stiffness * std::exp(x[i]);
+        stiffness = base_.pressure.stiffness(width_m_) * std::exp(x[i]);
         break;
       case SoilParameter::kKc:
         k_c = x[i];
@@ -108,14 +108,15 @@ sim::Soil SoilAxes::soil_at(std::span<const double> x) const {
         break;
       case SoilParameter::kShearModulus:
         soil.shear_modulus_x_m = base_.shear_modulus_x_m * std::exp(x[i]);
-        soil.shear_modulus_y_m = base_.shear_modulus_y_m * std::exp(x[i]);
+        // Both scale together.
+        soil.shear_modulus_y_m = soil.shear_modulus_x_m * (onto.shear_modulus_y_m / onto.shear_modulus_x_m);
         break;
     }
   }
   if (k_phi) k_c = (stiffness - *k_phi) * width_m_;
-  soil.pressure.k_c = k_c.value_or(base_.pressure.k_c * (stiffness / base_stiffness));
+  soil.pressure.k_c = k_c.value_or(onto.pressure.k_c * (stiffness / own_stiffness));
   soil.pressure.k_phi =
-      k_c ? stiffness - soil.pressure.k_c / width_m_ : base_.pressure.k_phi * (stiffness / base_stiffness);
+      k_c ? stiffness - soil.pressure.k_c / width_m_ : onto.pressure.k_phi * (stiffness / own_stiffness);
   return soil;
 }
 

@@ -54,7 +54,9 @@ class SoilAxes {
   std::span<const SoilParameter> axes() const { return axes_; }
   const sim::Soil& base() const { return base_; }
   double width_m() const { return width_m_; }
-  sim::Soil soil_at(std::span<const double> x) const;
+  // `onto`: a soil whose other numbers, and shares of the moduli, are kept; otherwise the base's.
+  sim::Soil soil_at(std::span<const double> x) const { return soil_at(x, base_); }
+  sim::Soil soil_at(std::span<const double> x, const sim::Soil& onto) const;
   double coordinate(SoilParameter axis, const sim::Soil& soil) const;
   // The coordinate at which the parameter has this value.
   double coordinate_of_value(SoilParameter axis, double value) const;

@@ -48,10 +48,11 @@ double coordinate_std(const sim::SoilDistribution& soil, SoilParameter axis, con
   return 0.0;
 }
 
-sim::SoilDistribution posterior_soil(const sim::SoilDistribution& nominal, const SoilAxes& axes,
+sim::SoilDistribution posterior_soil(const sim::SoilDistribution& nominal, const sim::Soil& fitted,
+                                     const SoilAxes& axes, std::span<const std::size_t> places,
                                      const LeastSquaresFit& fit) {
   sim::SoilDistribution soil = nominal;
-  soil.mean = axes.soil_at(fit.estimate);
+  soil.mean = fitted;
   // A bound's end may be passed by rounding, which the reader of soil files would not take.
   for (const sim::SoilField& row : sim::soil_fields()) {
     double& kept = row.number(soil.mean);
@@ -64,7 +65,7 @@ sim::SoilDistribution posterior_soil(const sim::SoilDistribution& nominal, const
   const auto fields = fields_of(soil.std);
   for (std::size_t q = 0; q < kQuantities.size(); ++q) {
     for (std::size_t k = 0; k < axes.axes().size(); ++k)
-      if (axes.axes()[k] == kQuantities[q] && fit.standard_error(k)) place[q] = k;
+      if (axes.axes()[k] == kQuantities[q] && fit.standard_error(places[k])) place[q] = places[k];
     if (!place[q]) continue;
     const double std = *fit.standard_error(*place[q]);
     double& field = *fields[q];

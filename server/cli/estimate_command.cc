@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -35,22 +36,16 @@ std::optional<double> number(std::string_view text) {
   return value;
 }
 
-std::vector<std::string> parameter_names() {
-  std::vector<std::string> names;
-  for (const gap::SoilParameterRow& row : gap::soil_parameter_rows()) names.emplace_back(row.name);
-  return names;
-}
-
 // "n=0.5:1.5", at the boundary's units.
 std::optional<gap::SoilBound> bound_of(std::string_view text) {
   const std::size_t equals = text.find('='), colon = text.find(':');
   if (equals == std::string_view::npos || colon == std::string_view::npos || colon < equals)
     return std::nullopt;
-  const auto parameter = gap::soil_parameter(text.substr(0, equals));
+  const auto parameter = gap::free_parameter(text.substr(0, equals));
   const auto lowest = number(text.substr(equals + 1, colon - equals - 1)),
              highest = number(text.substr(colon + 1));
   if (!parameter || !lowest || !highest) return std::nullopt;
-  const double unit = gap::row_of(*parameter).boundary_unit;
+  const double unit = parameter->boundary_unit();
   return gap::SoilBound{*parameter, *lowest / unit, *highest / unit};
 }
 
@@ -58,20 +53,25 @@ void read_free(const EstimateCommand& options, gap::SoilEstimationOptions& estim
                std::vector<Fault>& faults) {
   using gap::SoilParameter;
   for (std::size_t i = 0; i < options.free.size(); ++i) {
-    const auto parameter = gap::soil_parameter(options.free[i]);
+    const auto parameter = gap::free_parameter(options.free[i]);
     if (!parameter)
-      faults.push_back(
-          {fmt::format("/free/{}", i), api::unknown_name("parameter", options.free[i], parameter_names())});
+      faults.push_back({fmt::format("/free/{}", i),
+                        api::unknown_name("parameter", options.free[i], gap::free_parameter_names())});
     else if (options.merge_stiffness &&
-             (*parameter == SoilParameter::kKc || *parameter == SoilParameter::kKphi)) {
-      if (estimation.free.empty() || estimation.free.front() != SoilParameter::kBekker)
-        estimation.free.insert(estimation.free.begin(), SoilParameter::kBekker);
+             (parameter->soil == SoilParameter::kKc || parameter->soil == SoilParameter::kKphi)) {
+      gap::FreeParameter merged = SoilParameter::kBekker;
+      merged.of = parameter->of;
+      if (!gap::holds(estimation.free, merged)) estimation.free.insert(estimation.free.begin(), merged);
     } else {
       estimation.free.push_back(*parameter);
     }
   }
+  if (options.merge_stiffness && !options.free.empty() &&
+      std::none_of(estimation.free.begin(), estimation.free.end(),
+                   [](const gap::FreeParameter& p) { return p.soil == SoilParameter::kBekker; }))
+    faults.push_back({"/merge-stiffness", "merge-stiffness merges k_c and k_phi, and neither is free"});
   if (options.merge_stiffness && options.free.empty()) {
-    estimation.free = {SoilParameter::kBekker, SoilParameter::kN};
+    estimation.free.assign({SoilParameter::kBekker, SoilParameter::kN});
     if (options.from == From::kWheel)
       estimation.free.insert(estimation.free.end(), {SoilParameter::kCohesion, SoilParameter::kFrictionAngle,
                                                      SoilParameter::kShearModulus});
@@ -79,25 +79,95 @@ void read_free(const EstimateCommand& options, gap::SoilEstimationOptions& estim
 }
 
 // "0.01,24".
-std::optional<sim::Grousers> grousers_of(const std::string& text) {
+std::optional<sim::Grousers> grousers_of(std::string_view text) {
   const std::size_t comma = text.find(',');
-  if (comma == std::string::npos) return std::nullopt;
-  const auto height = number(std::string_view(text).substr(0, comma)),
-             count = number(std::string_view(text).substr(comma + 1));
+  if (comma == std::string_view::npos) return std::nullopt;
+  const auto height = number(text.substr(0, comma)), count = number(text.substr(comma + 1));
   if (!height || !count || !(*height >= 0.0 && *height <= 0.2) || !(*count >= 0.0 && *count <= 200.0))
     return std::nullopt;
   return sim::Grousers{*height, *count};
 }
 
+// Where "0.058" goes, and "0.058@LABEL": to all wheels, or to one that tests name.
+api::TestedWheel& wheel_of(std::string_view text, api::SoilEstimateRequest& request) {
+  const std::size_t at = text.find('@');
+  if (at == std::string_view::npos) return request.wheel;
+  const std::string_view label = text.substr(at + 1);
+  for (api::NamedWheel& wheel : request.wheels)
+    if (wheel.name == label) return wheel.wheel;
+  return request.wheels.emplace_back(api::NamedWheel{std::string(label), {}}).wheel;
+}
+
+// The wheels' numbers. A number that is given twice of one wheel is a fault, none is left out.
+void read_wheels(const EstimateCommand& options, api::SoilEstimateRequest& request,
+                 std::vector<Fault>& faults) {
+  const auto read = [&](const std::vector<std::string>& texts, const char* flag, const char* meaning,
+                        const auto& parse, auto member) {
+    for (const std::string& text : texts) {
+      auto& place = wheel_of(text, request).*member;
+      const auto value = parse(std::string_view(text).substr(0, text.find('@')));
+      if (!value)
+        faults.push_back({flag, fmt::format("{} is not {}", api::in_quotes(text), meaning)});
+      else if (place)
+        faults.push_back({flag, fmt::format("{}: this is given more than once", api::in_quotes(text))});
+      else
+        place = *value;
+    }
+  };
+  read(options.radii, "/wheel-radius", "a number of metres, as 0.125 is", number,
+       &api::TestedWheel::radius_m);
+  read(options.widths, "/wheel-width", "a number of metres, as 0.16 is", number, &api::TestedWheel::width_m);
+  read(options.grousers, "/grousers", "height in m and count, as 0.01,24 is", grousers_of,
+       &api::TestedWheel::grousers);
+}
+
+void read_soils(const EstimateCommand& options, api::SoilEstimateRequest& request,
+                std::vector<Fault>& faults) {
+  bool given = false;
+  for (const std::string& text : options.soils) {
+    const std::size_t equals = text.find('=');
+    if (equals != std::string::npos) {
+      request.soils.push_back({text.substr(0, equals), text.substr(equals + 1)});
+      continue;
+    }
+    if (given) faults.push_back({"/soil", "soil is given twice; LABEL=NAME is of one that tests name"});
+    given = true;
+    request.soil = text;
+  }
+}
+
+// What is at work and what is set.
+void read_changes(const EstimateCommand& options, api::SoilEstimateRequest& request,
+                  std::vector<Fault>& faults) {
+  for (const std::string& text : options.effects) {
+    const auto effect = effect_of(text);
+    if (effect)
+      request.effects.push_back(*effect);
+    else
+      faults.insert(faults.end(), effect.error().faults.begin(), effect.error().faults.end());
+  }
+  for (const std::string& text : options.set) {
+    const std::size_t equals = text.find('=');
+    const auto value =
+        equals == std::string::npos ? std::nullopt : number(std::string_view(text).substr(equals + 1));
+    if (value)
+      request.set.push_back({text.substr(0, equals), *value});
+    else
+      faults.push_back({"/set", fmt::format("{} is no setting NAME=value", api::in_quotes(text))});
+  }
+}
+
 Result<api::SoilEstimateRequest> request_of(const EstimateCommand& options) {
   api::SoilEstimateRequest request;
-  request.soil = options.soil;
-  request.wheel = {options.rover, options.wheel, options.radius_m, options.width_m, {}, options.motor_temp_c};
+  request.wheel = {options.rover, options.wheel, {}, {}, {}, options.motor_temp_c};
   request.gravity_m_s2 = options.gravity_m_s2;
   request.speed_m_s = options.speed_m_s;
-  if (options.from == From::kDrives) request.campaign = options.file;
+  if (options.from == From::kDrives) request.campaign = options.files.front();
   std::vector<Fault> faults = api::choose_channels(options.channels, request);
   gap::SoilEstimationOptions& estimation = request.options;
+  read_soils(options, request, faults);
+  read_wheels(options, request, faults);
+  read_changes(options, request, faults);
   read_free(options, estimation, faults);
   for (const std::string& text : options.bounds) {
     if (const auto bound = bound_of(text))
@@ -105,12 +175,6 @@ Result<api::SoilEstimateRequest> request_of(const EstimateCommand& options) {
     else
       faults.push_back(
           {"/bound", fmt::format("{} is no bound NAME=lowest:highest of a parameter", api::in_quotes(text))});
-  }
-  if (!options.grousers.empty()) {
-    request.wheel.grousers = grousers_of(options.grousers);
-    if (!request.wheel.grousers)
-      faults.push_back({"/grousers", fmt::format("{} is not height in m and count, as 0.01,24 is",
-                                                 api::in_quotes(options.grousers))});
   }
   if (options.loss_scale && options.loss == "none")
     faults.push_back(
@@ -122,37 +186,51 @@ Result<api::SoilEstimateRequest> request_of(const EstimateCommand& options) {
   estimation.noise.share = options.noise;
   estimation.noise.share_of_rms = 0.25 * options.noise;
   estimation.seed = options.seed;
+  estimation.profile = !options.no_profile;
   if (!faults.empty()) return fail(ErrorCode::kInvalidRequest, api::summary_of(faults), faults);
   return request;
 }
 
+// Every file's tests; of several files, what names no wheel is of the wheel that its file is named after.
 Result<bool> read_tests(const EstimateCommand& options, api::SoilEstimateRequest& request) {
-  const auto bytes = api::read_data_file(options.file);
-  if (!bytes) return fail(bytes.error());
-  const std::string file = std::filesystem::path(options.file).filename().string();
-  if (options.from == From::kPlates) {
-    auto plates = api::read_plate_tests_csv(file, *bytes);
-    if (!plates) return fail(plates.error());
-    request.data.plates = std::move(*plates);
-    return true;
+  for (const std::string& path : options.files) {
+    const auto bytes = api::read_data_file(path);
+    if (!bytes) return fail(bytes.error());
+    const std::filesystem::path file(path);
+    if (options.from == From::kPlates) {
+      auto plates = api::read_plate_tests_csv(file.filename().string(), *bytes);
+      if (!plates) return fail(plates.error());
+      request.data.plates.insert(request.data.plates.end(), plates->begin(), plates->end());
+      continue;
+    }
+    auto wheels = api::read_wheel_tests_csv(file.filename().string(), *bytes);
+    if (!wheels) return fail(wheels.error());
+    for (gap::WheelObservation& observation : *wheels) {
+      if (options.slip_definition == "travel")
+        observation.test.slip_definition = sim::SlipDefinition::kTravel;
+      observation.test.slip_radius = options.slip_radius == "tip"     ? sim::SlipRadius::kTip
+                                     : options.slip_radius == "shear" ? sim::SlipRadius::kShear
+                                                                      : sim::SlipRadius::kRim;
+      if (options.files.size() > 1 && observation.wheel.empty()) observation.wheel = file.stem().string();
+      request.data.wheels.push_back(std::move(observation));
+    }
   }
-  auto wheels = api::read_wheel_tests_csv(file, *bytes);
-  if (!wheels) return fail(wheels.error());
-  request.data.wheels = std::move(*wheels);
-  for (gap::WheelObservation& observation : request.data.wheels)
-    if (options.slip_definition == "travel") observation.test.slip_definition = sim::SlipDefinition::kTravel;
   return true;
 }
 
 std::string words_of(const gap::SoilEstimate& e) {
-  std::string out = fmt::format("{}: {}\n\n", e.soil.name, e.soil.summary);
+  std::string out = fmt::format("{}: {}\n", e.soil.name, e.soil.summary);
+  for (const sim::SoilDistribution& soil : e.further_soils)
+    out += fmt::format("{}: {}\n", soil.name, soil.summary);
+  out += "\n";
   TextTable table({"parameter", "start", "estimate", "std", "90 % from", "to", "determined", "unit"});
   for (const EstimatedParameter& p : e.parameters) {
-    const gap::SoilParameterRow& row = gap::row_of(p.parameter);
-    const auto shown = [&](double value) { return fmt::format("{:.4g}", row.boundary_unit * value); };
-    table.add({std::string(row.name), shown(p.start), shown(p.value), p.std ? shown(*p.std) : "-",
+    const auto shown = [&](double value) {
+      return fmt::format("{:.4g}", p.parameter.boundary_unit() * value);
+    };
+    table.add({p.parameter.shown(), shown(p.start), shown(p.value), p.std ? shown(*p.std) : "-",
                (p.low_open ? "<= " : "") + shown(p.low), (p.high_open ? ">= " : "") + shown(p.high),
-               std::string(gap::name_of(p.determination)), std::string(row.unit)});
+               std::string(gap::name_of(p.determination)), std::string(p.parameter.unit())});
   }
   out += table.print() + "\n";
   for (const EstimatedParameter& p : e.parameters) out += "  " + p.words + "\n";
@@ -192,7 +270,7 @@ int estimate(const EstimateCommand& options) {
   if (!catalogue) return refuse_unreadable(catalogue.error());
   std::optional<Result<api::SoilEstimateAnswer>> answer;
   if (options.from == From::kDrives) {
-    const auto campaign = api::load_drive_campaign(options.file, *catalogue);
+    const auto campaign = api::load_drive_campaign(options.files.front(), *catalogue);
     if (!campaign) return refuse_unreadable(campaign.error());
     request->campaign = campaign->name;
     TerminalProgress progress;

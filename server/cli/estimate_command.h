@@ -19,14 +19,19 @@ struct EstimateCommand {
   enum class From { kWheel, kPlates, kDrives };
   AskOptions ask;
   From from = From::kWheel;
-  std::string file;  // a CSV, or the folder of a "drive-campaign/1"
-  std::string soil = "unknown_ground", rover, wheel;
-  std::optional<double> radius_m, width_m, motor_temp_c;
-  std::string grousers;  // "height_m,count"
+  std::vector<std::string> files;  // CSVs, or the folder of a "drive-campaign/1"
+  std::string rover, wheel;
+  // "unknown_ground", and "LABEL=unknown_ground" of a soil that tests name.
+  std::vector<std::string> soils;
+  // "0.058" of all wheels, "0.058@LABEL" of one that tests name; of grousers "height_m,count".
+  std::vector<std::string> radii, widths, grousers;
+  std::optional<double> motor_temp_c;
+  std::vector<std::string> effects, set;  // "smooth_rim@LABEL:friction_share=0.9", "c1@LABEL=0.4"
+  std::string slip_radius = "rim";
   double gravity_m_s2 = 3.71, speed_m_s = 0.04;
   std::string slip_definition = "forward";
   std::vector<std::string> free, channels, bounds;  // bounds: "n=0.5:1.5"
-  bool merge_stiffness = false;
+  bool merge_stiffness = false, no_profile = false;
   std::string priors = "wide", loss = "none";
   std::optional<double> loss_scale;
   double noise = 0.02;  // share of a reading

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -9,6 +11,7 @@
 
 #include "api/documents/wheel_sweep_answer.h"
 #include "api/files/terrain_site.h"
+#include "api/json/faults.h"
 #include "api/json/writer.h"
 #include "api/report/sweep_chart.h"
 #include "server/cli/command_parts.h"
@@ -46,6 +49,7 @@ std::string request_of(const WheelOptions& options, const std::vector<sim::Sweep
   write_if(w, "speed_of", options.speed_of);
   write_if(w, "motor_temp_c", options.motor_temp_c);
   if (options.in_a_track) w.boolean("in_a_track", true);
+  if (options.whole_rover) w.boolean("whole_rover", true);
   w.key("effects").begin_array();
   for (const std::string& effect : options.effects) write_effect(w, effect);
   w.end_array().key("set").begin_object();
@@ -100,10 +104,89 @@ Result<std::vector<sim::SweepAxis>> read_rows(const std::string& path) {
   return axes;
 }
 
-// Whether the wheel has no place to stand in some row of the answer.
+// A number that is stated, and by which flag.
+struct Stated {
+  std::string parameter, flag;
+};
+
+std::string before_equals(const std::string& text) {
+  return text.substr(0, text.find('='));
+}
+
+void add_conditions(const WheelOptions& options, std::vector<Stated>& stated) {
+  const auto add = [&](bool given, const char* parameter, const char* flag) {
+    if (given) stated.push_back({parameter, flag});
+  };
+  add(options.slip.has_value(), "slip", "/slip");
+  add(options.slip_angle_deg.has_value(), "slip_angle_deg", "/slip-angle-deg");
+  add(options.slope_deg.has_value(), "slope_deg", "/slope");
+  add(options.load_n.has_value(), "load_n", "/load");
+  add(options.sinkage_m.has_value(), "sinkage_m", "/sinkage-m");
+  add(options.speed_m_s.has_value(), "speed_m_s", "/speed-m-s");
+  add(options.gravity_m_s2.has_value(), "gravity_m_s2", "/gravity");
+  add(options.motor_temp_c.has_value(), "motor_temp_c", "/motor-temp-c");
+  add(options.radius_m.has_value(), "wheel.radius_m", "/radius");
+  add(options.width_m.has_value(), "wheel.width_m", "/width");
+}
+
+// "grousers:height_m=0.01,count=24" states effects.grousers.height_m and effects.grousers.count.
+void add_effect(const std::string& text, std::vector<Stated>& stated) {
+  const std::size_t colon = text.find(':');
+  const std::string name = text.substr(0, colon);
+  stated.push_back({"effects." + name, "/effect"});
+  if (colon == std::string::npos) return;
+  std::string_view rest = std::string_view(text).substr(colon + 1);
+  while (!rest.empty()) {
+    const std::size_t comma = std::min(rest.find(','), rest.size());
+    const std::string_view entry = rest.substr(0, comma);
+    if (const std::size_t equals = entry.find('='); equals != std::string_view::npos)
+      stated.push_back({fmt::format("effects.{}.{}", name, entry.substr(0, equals)), "/effect"});
+    rest.remove_prefix(std::min(comma + 1, rest.size()));
+  }
+}
+
+// Flags of which one would take another's place without a word: a number that is given by its own flag, by
+// --set, by --sweep or --rows, or by an effect more than once, and a slip beside a slope. `rows` are the
+// columns of --rows. Pointers are the flags: "/slip", "/set/soil.n", "/effect".
+std::vector<Fault> dropped_flags(const WheelOptions& options, const std::vector<sim::SweepAxis>& rows) {
+  std::vector<Stated> stated;
+  add_conditions(options, stated);
+  for (const std::string& effect : options.effects) add_effect(effect, stated);
+  for (const std::string& setting : options.set) {
+    const std::string name = before_equals(setting);
+    stated.push_back({name, "/set/" + name});
+  }
+  for (const std::string& sweep : options.sweeps) stated.push_back({before_equals(sweep), "/sweep"});
+  for (const sim::SweepAxis& axis : rows) stated.push_back({axis.parameter, "/rows"});
+  std::vector<Fault> faults;
+  for (std::size_t i = 0; i < stated.size(); ++i)
+    for (std::size_t k = i + 1; k < stated.size(); ++k)
+      // Two axes of one name are the sweep's own fault.
+      if (stated[i].parameter == stated[k].parameter && stated[i].flag != "/sweep" &&
+          stated[i].flag != "/rows")
+        faults.push_back({stated[i].flag, fmt::format("{} is given by {} too, which would take its place",
+                                                      stated[i].parameter, stated[k].flag)});
+  const auto find = [&](std::string_view parameter) {
+    return std::find_if(stated.begin(), stated.end(),
+                        [&](const Stated& s) { return s.parameter == parameter; });
+  };
+  const auto end = stated.end();
+  if (const auto slip = find("slip"); slip != end && find("slope_deg") != end)
+    faults.push_back({slip->flag, "slip and slope_deg: on a slope the slip follows from the pull"});
+  if (const auto load = find("load_n"); load != end && find("sinkage_m") != end)
+    faults.push_back(
+        {load->flag, "load_n and sinkage_m: a wheel that is held at a depth carries no given load"});
+  if (options.whole_rover && !options.rows.empty() && find("slope_deg") == end)
+    faults.push_back({"/whole-rover", "the rows have no slope_deg"});
+  return faults;
+}
+
+// Whether the wheel has no place to stand in some row of the answer, or the rover does not climb.
 bool sunk_somewhere(std::string_view answer) {
-  return answer.find("\"outcome\":\"sunk_to_axle\"") != std::string_view::npos ||
-         answer.find("\"outcome\":\"immobilised\"") != std::string_view::npos;
+  constexpr std::array<std::string_view, 4> kStuck{"sunk_to_axle", "immobilised", "stalled", "wheel_lifted"};
+  return std::any_of(kStuck.begin(), kStuck.end(), [&](std::string_view outcome) {
+    return answer.find(fmt::format("\"outcome\":\"{}\"", outcome)) != std::string_view::npos;
+  });
 }
 
 }  // namespace
@@ -115,6 +198,8 @@ int wheel(const WheelOptions& options) {
     if (!read) return refuse_unreadable(read.error());
     rows = std::move(*read);
   }
+  if (std::vector<Fault> faults = dropped_flags(options, rows); !faults.empty())
+    return refuse({ErrorCode::kInvalidRequest, api::summary_of(faults), faults});
   const auto service = inquiry(options.ask);
   if (!service) return refuse(service.error());
   const auto answer = (*service)->wheel_sweep(request_of(options, rows));

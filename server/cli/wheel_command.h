@@ -26,7 +26,7 @@ struct WheelOptions {
   std::string rows;         // CSV of rows with their own parameters
   std::string grousers;     // "height_m,count"
   std::optional<double> motor_temp_c;
-  bool in_a_track = false;
+  bool in_a_track = false, whole_rover = false;
   std::vector<std::string> effects;
   std::string csv, plot;  // files; empty: none
 };

@@ -7,12 +7,15 @@ namespace slipway::server {
 namespace {
 
 constexpr const char* kWheelExample =
-    "Example: pull, sinkage and current over slip at three slip angles, as table, CSV and picture\n"
+    "Example: pull, sinkage and current over slip at three slip angles, as table, CSV and picture; the slip "
+    "of "
+    "a whole rover over slopes\n"
     "  slipway wheel --rover mer-class --soil jlu_mars_2_dense --sweep slip=0:0.9:0.1 --sweep "
     "slip_angle_deg=0,15,30 --csv wheel.csv --plot wheel.svg\n"
-    "Exit status: 0 a table, 2 input that can't be used, 5 a table in which the wheel sank to its axle or no "
-    "slip "
-    "climbs the slope in some row.\n"
+    "  slipway wheel --rover mer-class --soil jlu_mars_2_dense --whole-rover --sweep slope_deg=0:20:2\n"
+    "Exit status: 0 a table, 2 input that can't be used, 5 a table in which in some row the wheel sank to "
+    "its "
+    "axle, no slip climbs the slope or the rover does not get up it.\n"
     "What can be swept besides the conditions: soil.n, wheel.width_m, effects.grousers.height_m and more; an "
     "unknown name lists them.";
 
@@ -44,6 +47,10 @@ void add_wheel_command(CLI::App& app, std::function<int()>& run) {
   command
       ->add_option("--slope", options->slope_deg,
                    "deg: the slip at which the wheel's pull is its load's part along this slope")
+      ->excludes(slip);
+  command
+      ->add_flag("--whole-rover", options->whole_rover,
+                 "the whole rover on the slope, each wheel under the load that its lean gives it")
       ->excludes(slip);
   command->add_option(
       "--slip-radius", options->slip_radius,

@@ -224,4 +224,29 @@ void set_sweep_parameter(std::string_view name, double value, WheelRig& rig) {
   setting->parameters[parts->second] = value;
 }
 
+std::optional<double> sweep_parameter_value(std::string_view name, const WheelRig& rig) {
+  if (const auto* row = find_wheel_field(name)) {
+    WheelModel wheel = rig.rover.wheels[rig.wheel];
+    return row->to_boundary(row->number(wheel));
+  }
+  if (const SoilField* row = field_of_soil(name, *rig.soil_format)) {
+    Soil soil = rig.soil;
+    return row->to_boundary(row->number(soil));
+  }
+  if (const auto pressure = law_parameter(name, rig.soil_format->laws.pressure); pressure.law != nullptr)
+    return rig.soil.pressure_law.parameters[pressure.place];
+  if (const auto shear = law_parameter(name, rig.soil_format->laws.shear); shear.law != nullptr)
+    return rig.soil.shear_law.parameters[shear.place];
+  const auto parts = effect_and_field(name);
+  if (!parts || find_effect(parts->first) == nullptr) return std::nullopt;
+  EffectSetting setting{.name = parts->first, .parameters = {}};
+  for (const EffectSetting& on : in_force(rig.rover.effects, rig.effects))
+    if (on.name == parts->first) setting = on;
+  const Effect& effect = *find_effect(parts->first);
+  const std::vector<double> values = values_of(effect, setting);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (effect.fields[i].name == parts->second) return values[i];
+  return std::nullopt;
+}
+
 }  // namespace slipway::sim

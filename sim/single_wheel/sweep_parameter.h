@@ -37,6 +37,9 @@ std::optional<Field> sweep_field(std::string_view name, const SoilFormat& format
 std::vector<std::string> sweep_field_names(const SoilFormat& format = soil_format());
 // `name` is one that sweep_field knows with the rig's format. An effect that is off is switched on.
 void set_sweep_parameter(std::string_view name, double value, WheelRig& rig);
+// The value at which the rig has what set_sweep_parameter sets, in the unit of the boundary; of an effect
+// that is off what it would be switched on with. Nothing for a condition of the test and for soil.k_s.
+std::optional<double> sweep_parameter_value(std::string_view name, const WheelRig& rig);
 // Why this rig's soil has no such parameter: moduli of Bekker's law on a soil with another law, or the
 // parameters of a law that it did not choose.
 std::optional<std::string> not_of_this_soil(std::string_view name, const Soil& soil);

@@ -10,8 +10,6 @@
 #include "sim/rover/rover_field.h"
 
 namespace slipway::sim {
-namespace {
-
 std::size_t rows_of(const WheelSweep& sweep) {
   if (sweep.paired) return sweep.axes.empty() ? 0 : sweep.axes.front().values.size();
   std::size_t rows = 1;
@@ -19,7 +17,6 @@ std::size_t rows_of(const WheelSweep& sweep) {
   return rows;
 }
 
-// The rig of one row, and the values it stands at.
 WheelRig rig_of(const WheelSweep& sweep, std::size_t row, std::vector<double>& at) {
   WheelRig rig = sweep.rig;
   at.resize(sweep.axes.size());
@@ -33,6 +30,8 @@ WheelRig rig_of(const WheelSweep& sweep, std::size_t row, std::vector<double>& a
     set_sweep_parameter(sweep.axes[a].parameter, at[a], rig);
   return rig;
 }
+
+namespace {
 
 std::string unknown_parameter(const std::string& parameter, const SoilFormat& format) {
   std::string known;

@@ -59,6 +59,10 @@ std::vector<Fault> faults_of(const WheelSweep& sweep);
 // Of these, the names and values of what is set and swept, which can be asked of any rig.
 std::vector<Fault> parameter_faults(const WheelSweep& sweep);
 
+// How many rows a sweep has, and the rig of one of them with the value of each axis there.
+std::size_t rows_of(const WheelSweep& sweep);
+WheelRig rig_of(const WheelSweep& sweep, std::size_t row, std::vector<double>& at);
+
 // The places of a sweep, and the rows of one without faults.
 std::vector<SweepPoint> points_of(const WheelSweep& sweep);
 std::vector<SweepRow> run_wheel_sweep(const WheelSweep& sweep);

@@ -74,6 +74,15 @@ struct ContactIntegrals {
   V m = V(0.0), m_cos = V(0.0), m_sin = V(0.0);
 };
 
+// Whether a condition holds in all lanes of a pack.
+constexpr bool holds_in_all_lanes(bool condition) {
+  return condition;
+}
+template <class T, class Arch>
+bool holds_in_all_lanes(const xsimd::batch_bool<T, Arch>& condition) {
+  return xsimd::all(condition);
+}
+
 // The mobilised share of the strength, with the sign of the displacement.
 template <class Laws, class V>
 V mobilised(const Laws& laws, const V& displacement, const V& per_modulus) {
@@ -149,7 +158,8 @@ void add_nodes(const Laws& laws, const WheelValues<V>& in, const ContactAngles<V
       m_x = mobilised(laws, j_x, in.per_shear_x);
     }
   }
-  if (parts.closures) direct_by_slip(laws, in, at, j_x, to_entry, cosine, m_x, m_y);
+  if (parts.closures && !holds_in_all_lanes(at.slip_directed == V(0.0)))
+    direct_by_slip(laws, in, at, j_x, to_entry, cosine, m_x, m_y);
   const V strength = weight * in.rim_friction * (in.cohesion + sigma * at.tan_phi);
   const V tau = strength * m_x;
   sum.tau += tau;
@@ -159,10 +169,15 @@ void add_nodes(const Laws& laws, const WheelValues<V>& in, const ContactAngles<V
   sum.sigma_sin += weight * sigma * sine;
   if (parts.lateral) sum.tau_y -= strength * m_y;
   if (parts.grousers) {
-    const V j_slip = in.radius * to_entry * (V(1.0) - in.forward);
-    const V j_cleat = j_x + in.cleat_by_slip * (j_slip - j_x);
-    V m = weight * select(in.per_cleat_shear == in.per_shear_x && in.cleat_by_slip == V(0.0), m_x,
-                          mobilised(laws, j_cleat, in.per_cleat_shear));
+    // Cleats that mobilise the soil as the rim does need no exponential of their own.
+    const auto as_rim = in.per_cleat_shear == in.per_shear_x && in.cleat_by_slip == V(0.0);
+    V share = m_x;
+    if (!holds_in_all_lanes(as_rim)) {
+      const V j_slip = in.radius * to_entry * (V(1.0) - in.forward);
+      const V j_cleat = j_x + in.cleat_by_slip * (j_slip - j_x);
+      share = select(as_rim, m_x, mobilised(laws, j_cleat, in.per_cleat_shear));
+    }
+    V m = weight * share;
     if (parts.closures) m = select(m < V(0.0), at.cleat_braking * m, m);
     sum.m += m;
     sum.m_cos += m * cosine;

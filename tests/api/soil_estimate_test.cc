@@ -8,6 +8,7 @@
 #include "api/files/soil_file.h"
 #include "api/files/soil_tests_csv.h"
 #include "api/report/soil_estimate_chart.h"
+#include "api/requests/soil_test_rigs.h"
 #include "small_world.h"
 
 namespace slipway::api {
@@ -53,6 +54,21 @@ TEST(WheelTestsCsv, EveryFaultIsNamedWithItsPlace) {
   EXPECT_EQ(many.error().faults.back().message, "14900 faults more like these");
   EXPECT_FALSE(read_wheel_tests_csv("b.csv", ""));
   EXPECT_FALSE(read_wheel_tests_csv("b.csv", "load_n,slip_ratio\n60,0.1\n"));
+}
+
+TEST(WheelTestsCsv, RowsNameTheirWheelAndSoil) {
+  const auto tests = read_wheel_tests_csv("a.csv",
+                                          "wheel,load_n,slip_ratio,lateral_force_n,soil\n"
+                                          "smooth,60,0.1,-3,dry\nlugged,60,0.1,-4,dry\n");
+  ASSERT_TRUE(tests) << tests.error().detail;
+  EXPECT_EQ((*tests)[1].wheel, "lugged");
+  EXPECT_EQ((*tests)[1].soil, "dry");
+  EXPECT_EQ((*tests)[1][SoilChannel::kLateralForce].value, -4.0);
+  const auto unnamed =
+      read_wheel_tests_csv("a.csv", "wheel,load_n,slip_ratio,torque_nm\n,60,0.1,1\nA b,60,0.1,1\n");
+  ASSERT_FALSE(unnamed);
+  ASSERT_EQ(unnamed.error().faults.size(), 2U);
+  EXPECT_EQ(unnamed.error().faults[0].pointer, "a.csv, line 2, column 1 (wheel)");
 }
 
 TEST(PlateTestsCsv, ForcesAreTakenOverThePlatesArea) {
@@ -143,6 +159,78 @@ TEST(SoilEstimate, TheSameRequestGivesTheSameBytes) {
   const auto b = estimate_soil(small_world().catalogue(), plates(), progress);
   ASSERT_TRUE(a && b);
   EXPECT_EQ(json::soil_estimate_document(*a), json::soil_estimate_document(*b));
+}
+
+// Two wheels over one soil, with what each has of its own.
+SoilEstimateRequest two_wheels() {
+  SoilEstimateRequest request;
+  request.soil = "jlu_mars_2_dense";
+  request.wheel.radius_m = 0.15;
+  request.wheel.width_m = 0.16;
+  request.wheels = {{"lugged",
+                     {.rover = "",
+                      .wheel = "",
+                      .radius_m = {},
+                      .width_m = 0.12,
+                      .grousers = sim::Grousers{0.01, 24.0},
+                      .motor_temp_c = {}}}};
+  request.effects = {{.name = "smooth_rim@smooth", .parameters = {{"friction_share", 0.7}}}};
+  request.set = {{"c1", 0.3}, {"smooth_rim.friction_share@smooth", 0.8}};
+  for (const char* wheel : {"smooth", "lugged"}) {
+    gap::WheelObservation o;
+    o.wheel = wheel;
+    o.test.load_n = 60.0;
+    o[SoilChannel::kTorque].value = 1.0;
+    request.data.wheels.push_back(o);
+  }
+  return request;
+}
+
+TEST(SoilTestRigs, EachWheelHasItsOwnNumbersAndEffects) {
+  std::vector<Fault> faults;
+  const SoilTestRigs rigs = soil_test_rigs(small_world().catalogue(), two_wheels(), faults);
+  ASSERT_EQ(faults, std::vector<Fault>{});
+  ASSERT_EQ(rigs.data.rigs.size(), 2U);
+  const auto on = [&](std::size_t rig) { return sim::conditions_of(rigs.data.rigs[rig].rig).wheel; };
+  EXPECT_EQ(on(0).width_m, 0.16);
+  EXPECT_EQ(on(0).rim_friction, 0.8);
+  EXPECT_EQ(on(0).grousers.height_m, 0.0);
+  EXPECT_EQ(on(1).width_m, 0.12);
+  EXPECT_EQ(on(1).rim_friction, 1.0);
+  EXPECT_EQ(on(1).grousers.height_m, 0.01);
+  EXPECT_EQ(rigs.nominals[0].mean.c1, 0.3);
+  EXPECT_EQ(rigs.stated.size(), 2U);
+  EXPECT_EQ(rigs.data.wheels[1].rig, 1U);
+}
+
+TEST(SoilTestRigs, WhatWouldBeDroppedIsRefused) {
+  const auto refused = [](const SoilEstimateRequest& request) {
+    std::string pointers;
+    for (const Fault& fault : faults_of(small_world().catalogue(), request)) pointers += fault.pointer + " ";
+    return pointers;
+  };
+  SoilEstimateRequest request = two_wheels();
+  request.effects.push_back({.name = "grousers", .parameters = {}});
+  EXPECT_EQ(refused(request), "/effects/1/name ");  // the lugged wheel's own would be lost
+  request.effects.back().name = "grousers@smooth";
+  EXPECT_EQ(refused(request), "");
+  request.effects.back().name = "digging@rough";
+  request.set.push_back({"c3", 1.0});
+  request.set.push_back({"c2@lugged", 0.1});
+  request.set.push_back({"n", 9.0});
+  request.wheels.push_back({"toothed", {}});
+  EXPECT_EQ(refused(request), "/effects/1/name /wheels/1/name /set/c3 /set/n /set/c2@lugged ");
+  request = two_wheels();
+  request.wheel.radius_m.reset();
+  EXPECT_EQ(refused(request), "/radius_m /radius_m ");
+  request = two_wheels();
+  request.data.wheels[0].test.slip_angle_rad = 1.55;
+  EXPECT_EQ(refused(request), "/wheel_tests/0/slip_angle_deg ");
+  request.data.wheels[0].test.slip_definition = sim::SlipDefinition::kTravel;
+  EXPECT_EQ(refused(request), "");
+  request = two_wheels();
+  request.data.wheels[0].wheel.clear();
+  EXPECT_EQ(refused(request), "/wheel_tests /effects/0/name /set/smooth_rim.friction_share@smooth ");
 }
 
 TEST(SoilEstimate, WhatIsNotKnownIsRefusedTogether) {

@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "api/documents/wheel_sweep_answer.h"
 #include "api/documents/wheel_sweep_request.h"
 #include "api/json/parse.h"
 #include "api/report/sweep_chart.h"
+#include "sim/rover/stance.h"
 #include "small_world.h"
 
 namespace slipway::api {
@@ -109,6 +111,73 @@ TEST(WheelSweepRequest, AnUnknownParameterIsRefusedWithTheKnown) {
   EXPECT_NE(message.find("slip_angle_deg"), std::string::npos);
   EXPECT_NE(message.find("effects.grousers.height_m"), std::string::npos);
   EXPECT_EQ(message.find("com_offset"), std::string::npos);
+}
+
+TEST(WheelSweepRequest, WhatCouldChangeNothingIsRefused) {
+  const auto tips = R"(,"slip_radius":"tip")";
+  EXPECT_EQ(pointers_of(sweep_with(tips)), std::vector<std::string>{"/slip_radius"});
+  EXPECT_EQ(pointers_of(sweep_with(R"(,"slip_radius":"tip","grousers":{"height_m":0.01,"count":24})")),
+            std::vector<std::string>{});
+  EXPECT_EQ(pointers_of(sweep_with(R"(,"effects":[{"name":"cleat_shear_radius"}])")),
+            std::vector<std::string>{"/effects/0/name"});
+  EXPECT_EQ(
+      pointers_of(sweep_with(R"(,"effects":[{"name":"cleat_shear_radius","parameters":{"height_m":0.01}}])")),
+      std::vector<std::string>{});
+  EXPECT_EQ(pointers_of(sweep_with(R"(,"in_a_track":true)")), std::vector<std::string>{"/in_a_track"});
+  EXPECT_EQ(pointers_of(sweep_with(R"(,"effects":[{"name":"multipass"}])")),
+            std::vector<std::string>{"/effects/0/name"});
+  EXPECT_EQ(pointers_of(sweep_with(R"(,"in_a_track":true,"effects":[{"name":"multipass"}])")),
+            std::vector<std::string>{});
+}
+
+double number_in(const json::JsonValue& row, std::string_view key) {
+  const json::JsonValue* const value = row.find(key);
+  EXPECT_NE(value, nullptr) << key;
+  return value == nullptr ? 0.0 : value->number;
+}
+
+TEST(WholeRover, OnASlopeItsPullCarriesItsWeightAlongItAndItsWheelsLoadsDiffer) {
+  const std::string document = answer_to(
+      sweep_with(R"(,"whole_rover":true,"sweep":[{"parameter":"slope_deg","values":[-10,0,10,45]}])"));
+  const auto parsed = json::parse(document, {.bytes = document.size(), .values = document.size()});
+  ASSERT_TRUE(parsed);
+  const auto& rows = parsed->find("rows")->elements;
+  ASSERT_EQ(rows.size(), 4U);
+  const double weight = 174.0 * 3.71;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double slope = (static_cast<double>(i) - 1.0) * 10.0 * M_PI / 180.0;
+    EXPECT_NEAR(number_in(rows[i], "drawbar_pull_n"), weight * std::sin(slope), 1e-3 * weight);
+    EXPECT_NEAR(number_in(rows[i], "load_n"), weight * std::cos(slope), 1e-3 * weight);
+  }
+  EXPECT_LT(number_in(rows[0], "slip"), number_in(rows[1], "slip"));
+  EXPECT_LT(number_in(rows[1], "slip"), number_in(rows[2], "slip"));
+  // Climbing, the rear wheels carry more than on level ground; the answer is that of the balance itself.
+  EXPECT_GT(number_in(rows[2], "lr_load_n"), number_in(rows[1], "lr_load_n") + 1.0);
+  const sim::RoverModel& rover = *catalogue().rovers.at("mer-class");
+  sim::QuasiStaticSolver solver(rover, 3.71);
+  const sim::StationState state =
+      solver.solve(sim::stance_on_plane(rover, {.pitch_rad = -10.0 * M_PI / 180.0}),
+                   catalogue().soils.at("jlu_mars_2_dense").mean, {.speed_m_s = rover.cruise_speed_m_s});
+  EXPECT_NEAR(number_in(rows[2], "slip"), state.slip_ratio, 1e-6);
+  EXPECT_NE(rows[3].find("outcome")->text, "balanced");
+  EXPECT_EQ(rows[3].find("slip"), nullptr);
+  EXPECT_TRUE(
+      lines_of(json::wheel_sweep_csv(document).value())[0].starts_with("slope_deg,slip,slip_angle_deg,"));
+  EXPECT_NE(draw_wheel_sweep(document).value().find("The whole of mer-class"), std::string::npos);
+}
+
+TEST(WholeRover, WhatIsOfASingleWheelIsRefused) {
+  EXPECT_EQ(pointers_of(sweep_with(R"(,"whole_rover":true)")), std::vector<std::string>{"/slope_deg"});
+  EXPECT_EQ(
+      pointers_of(sweep_with(
+          R"(,"whole_rover":true,"slope_deg":5,"slip":0.1,"load_n":9,"wheel":"lf","radius_m":0.1,"in_a_track":true)")),
+      (std::vector<std::string>{"/slip", "/load_n", "/in_a_track", "/wheel", "/radius_m"}));
+  EXPECT_EQ(pointers_of(sweep_with(
+                R"(,"whole_rover":true,"slope_deg":5,"sweep":[{"parameter":"load_n","values":[10]}])")),
+            std::vector<std::string>{"/sweep/0/parameter"});
+  EXPECT_EQ(pointers_of(sweep_with(
+                R"(,"whole_rover":true,"slope_deg":5,"effects":[{"name":"com_offset"}],"set":{"soil.n":1})")),
+            std::vector<std::string>{});
 }
 
 TEST(WheelSweepCsv, HasTheStatedColumnsAndARowATest) {

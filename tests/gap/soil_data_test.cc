@@ -7,7 +7,7 @@
 namespace slipway::gap {
 namespace {
 
-constexpr std::array<bool, kSoilChannels> kAll{true, true, true, true, true, true};
+constexpr std::array<bool, kSoilChannels> kAll{true, true, true, true, true, true, true};
 
 // Plates of these radii in a soil with these moduli.
 SoilData made_plates(const sim::BekkerModuli& moduli, const std::vector<double>& radii, double noise) {
@@ -100,7 +100,7 @@ TEST(EstimateSoil, CurrentsAloneTellTheStrengthButNotEverything) {
   const auto e = estimate(start_49_percent_off(truth), data, {.noise = {.share = 0.01}});
   ASSERT_TRUE(e) << e.error().detail;
   for (const EstimatedParameter& p : e->parameters) {
-    const double value = value_of(p.parameter, truth, e->width_m);
+    const double value = value_of(*p.parameter.soil, truth, e->width_m);
     // 90 % intervals of one seed: a tenth of room besides.
     EXPECT_GE(value, p.low - 0.1 * std::abs(value)) << p.words;
     EXPECT_LE(value, p.high + 0.1 * std::abs(value)) << p.words;

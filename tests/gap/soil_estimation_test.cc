@@ -14,7 +14,7 @@ void print(const char* title, const SoilEstimate& e, const sim::Soil& truth) {
   fmt::print("{}: {} evaluations, variance {:.3g}, {}\n", title, e.evaluations, e.residual_variance,
              e.converged ? "converged" : "not converged");
   for (const EstimatedParameter& p : e.parameters)
-    fmt::print("  {:+.2f} %  {}\n", 100.0 * off(e, p.parameter, truth), p.words);
+    fmt::print("  {:+.2f} %  {}\n", 100.0 * off(e, *p.parameter.soil, truth), p.words);
   for (const OpenDirection& open : e.open) fmt::print("  open: {} ({:.2f})\n", open.words, open.share);
 }
 
@@ -46,7 +46,7 @@ TEST(EstimateSoil, WithTwoPercentNoiseItStaysWithinTenPercentAndSaysThatDrySandH
       EXPECT_LT(std::abs(off(*e, p, truth)), 0.10) << row_of(p).name << ", seed " << seed;
     EXPECT_NE(of(*e, SoilParameter::kCohesion).determination, Determination::kDetermined) << seed;
     for (const EstimatedParameter& p : e->parameters) {
-      const double value = value_of(p.parameter, truth, e->width_m);
+      const double value = value_of(*p.parameter.soil, truth, e->width_m);
       ++intervals;
       covered += value >= p.low && value <= p.high ? 1 : 0;
     }

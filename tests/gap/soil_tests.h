@@ -64,9 +64,11 @@ struct MadeWheelTests {
 // What a rig with a wheel of 0.125 m would report on a soil, over loads and slips.
 inline SoilData made_wheel_tests(const sim::Soil& soil, const MadeWheelTests& made) {
   SoilData data;
+  const sim::WheelGeometry wheel{.radius_m = 0.125, .width_m = 0.16};
+  data.rigs = {rig_of_wheel(wheel, sim::DriveMotor{})};
   for (int i = 0; i < made.count; ++i) {
     WheelObservation o;
-    o.test.wheel = {.radius_m = 0.125, .width_m = 0.16};
+    o.test.wheel = wheel;
     o.test.load_n = 20.0 + 70.0 * (i % 5);
     const int slip_step = i / 5;
     o.test.slip = 0.03 + 0.75 * slip_step / std::max(1.0, made.count / 5.0 - 1.0);

@@ -86,6 +86,38 @@ ignored '--x' "$slipway" current map --data "$data" --figure 10 --x slip
 ignored '/grousers/count' $wheel --grousers 0.01,24,7
 ignored '/motor_temp_c' "$slipway" current invert --data "$data" --current 0.7 --gravity 9.81 --motor-temp-c -40
 ignored '/motor_temp_c' $wheel --motor-temp-c -40
+# Of two flags that say the same number one would be dropped.
+ignored '/grousers' $wheel --grousers 0.01,24 --effect grousers
+ignored '/slip' $wheel --slip 0.2 --sweep slip=0:0.4:0.1
+ignored '/slip' $wheel --slip 0.2 --sweep slope_deg=0:4:1
+ignored '/load' $wheel --sweep load_n=10,20
+ignored '/load' $wheel --sweep sinkage_m=0.01,0.02
+ignored '/gravity' $wheel --gravity 9.81 --set gravity_m_s2=3.71
+ignored '/radius' $wheel --radius 0.1 --set wheel.radius_m=0.2
+ignored '/set/soil.n' $wheel --set soil.n=1 --sweep soil.n=0.9,1
+ignored '/set/soil.n' $wheel --set soil.n=1 --set soil.n=0.9
+ignored '/effect' $wheel --effect digging:rim_share=0.1 --set effects.digging.rim_share=0.2
+ignored '/effect' $wheel --effect digging --effect digging
+printf 'slip,load_n\n0.1,50\n' >"$folder/rows.csv"
+ignored '/load' $wheel --rows "$folder/rows.csv"
+ignored 'cleat_shear_radius' $wheel --effect cleat_shear_radius
+ignored '/slip_radius' $wheel --slip-radius tip
+ignored '/in_a_track' $wheel --in-a-track
+ignored 'multipass' $wheel --effect multipass
+whole="$slipway wheel --data $data --rover mer-class --soil jlu_mars_2_dense --whole-rover"
+ignored '/load_n' $whole --slope 5 --load 100
+ignored '/slip_angle_deg' $whole --slope 5 --slip-angle-deg 10
+ignored '/slope_deg' $whole
+ignored 'excludes' $whole --slope 5 --slip 0.2
+expect 0 $whole --sweep slope_deg=0:8:4
+expect 5 $whole --slope 40
+ignored '/effects/0/name' $estimate $sizes --grousers 0.01,24 --effect grousers
+ignored '/wheel-radius' $estimate $sizes --wheel-radius 0.13
+ignored '/wheels/0/name' $estimate $sizes --wheel-radius 0.13@rough
+ignored '/set/c1@wet' $estimate $sizes --set c1@wet=0.3
+ignored '/soils/0/name' $estimate $sizes --soil wet=ding_2011
+ignored '/free/0' $estimate $sizes --free c9
+ignored '/merge-stiffness' $estimate $sizes --merge-stiffness --free n
 ignored '/url' "$slipway" health
 ignored '/url' "$slipway" health --data "$data"
 

@@ -25,6 +25,10 @@ inline Soil make_soil(BekkerModuli moduli, double cohesion_pa, double friction_d
   return soil;
 }
 
+inline Soil ding_like() {
+  return make_soil({15600.0, 2407400.0, 1.1}, 250.0, 31.9, 0.011, 0.18, 0.32);
+}
+
 inline Soil sandy_loam() {
   return make_soil({20000.0, 1.2e6, 0.95}, 1500.0, 36.0, 0.01, 0.18, 0.32);
 }

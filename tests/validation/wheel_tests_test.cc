@@ -3,10 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <set>
 
+#include "api/files/soil_tests_csv.h"
 #include "core/angle.h"
 #include "validation/cuadriga/cuadriga_windows.h"
+#include "validation/laboratory/ding_tests.h"
+#include "validation/laboratory/grousered_fit.h"
 
 namespace slipway::validation {
 namespace {
@@ -87,6 +92,55 @@ TEST(CuadrigaWindows, AJumpOfThePositionsIsDetected) {
   window.charge_per_metre_as = 1.0;  // the same four seconds
   EXPECT_DOUBLE_EQ(window.duration_s(), 4.0);
   EXPECT_TRUE(window.position_jumped());
+}
+
+std::vector<gap::WheelObservation> shipped_tests(const char* name) {
+  std::ifstream file(kData / name);
+  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  const auto tests = api::read_wheel_tests_csv(name, text);
+  EXPECT_TRUE(tests) << tests.error().faults.front().message;
+  return tests.value_or(std::vector<gap::WheelObservation>{});
+}
+
+// What `slipway estimate wheel` repeats the fits from are the tests that the comparisons are fitted to.
+TEST(ShippedWheelTests, OfTheSandboxAreTheMeansOfItsConditions) {
+  const auto tests = shipped_tests("sandbox_wheel_tests.csv");
+  const auto wheels = load_sandbox_wheels(kData.parent_path());
+  ASSERT_TRUE(wheels);
+  std::size_t at = 0;
+  for (const bool grousered : {true, false})
+    for (const SandboxWheelTests& wheel : *wheels)
+      for (const WheelCondition& c : wheel.conditions) {
+        if (wheel.grousered != grousered) continue;
+        ASSERT_LT(at, tests.size());
+        const gap::WheelObservation& test = tests[at++];
+        EXPECT_EQ(test.wheel, grousered ? "grousered" : "smooth");
+        const double rim = c.mean(&WheelTest::rim_speed_m_s);
+        EXPECT_NEAR(test.test.slip, travel_slip(rim, kPavlovTravel_m_s), 1e-5);
+        EXPECT_NEAR(test.test.slip_angle_rad, c.slip_angle_rad, 1e-9);
+        EXPECT_NEAR(test.test.load_n, c.mean(&WheelTest::load_n), 1e-3);
+        const auto read = [&](gap::SoilChannel channel) { return test[channel].value.value_or(1e9); };
+        EXPECT_NEAR(read(gap::SoilChannel::kDrawbarPull), c.mean(&WheelTest::drawbar_pull_n), 1e-3);
+        EXPECT_NEAR(read(gap::SoilChannel::kLateralForce), -c.mean(&WheelTest::side_force_n), 1e-3);
+        EXPECT_NEAR(read(gap::SoilChannel::kSinkage), c.mean(&WheelTest::sinkage_m), 1e-6);
+      }
+  EXPECT_EQ(at, tests.size());
+}
+
+TEST(ShippedWheelTests, OfDingAreThoseOfHisFigures) {
+  const auto tests = shipped_tests("ding_2011_wheel_tests.csv");
+  const auto figures = load_ding_tests(kData / "ding_2011.csv");
+  ASSERT_TRUE(figures);
+  ASSERT_EQ(tests.size(), figures->size());
+  for (std::size_t i = 0; i < tests.size(); ++i) {
+    const DingTest& of = (*figures)[i];
+    EXPECT_EQ(tests[i].wheel, of.wheel());
+    EXPECT_EQ(tests[i].test.slip, of.slip);
+    EXPECT_EQ(tests[i].test.load_n, 80.0);
+    EXPECT_EQ(tests[i][gap::SoilChannel::kDrawbarPull].value, of.measured.pull_n);
+    EXPECT_NEAR(*tests[i][gap::SoilChannel::kSinkage].value, 1e-3 * of.measured.sinkage_mm, 1e-9);
+    EXPECT_EQ(tests[i][gap::SoilChannel::kTorque].value, of.measured.torque_nm);
+  }
 }
 
 }  // namespace

@@ -159,7 +159,13 @@ Result<Report> ding_2011_closures(const std::filesystem::path& data) {
       "ding_2011_closures --radius 0.15735 --width 0.165 --gravity 9.81 --load 80 --slip 0.1, with "
       "--grousers "
       "0.01,30 --effect cleat_shear_radius for the lugged wheel and --effect smooth_rim:friction_share=0.834 "
-      "for the smooth one."};
+      "for the smooth one.",
+      "The fit itself is repeated by: slipway estimate wheel data/validation/ding_2011_wheel_tests.csv "
+      "--soil ding_2011_closures --wheel-radius 0.15735 --wheel-width 0.165 --gravity 9.81 --grousers "
+      "0.01,30@lugged --effect cleat_shear_radius@lugged --effect "
+      "smooth_rim@smooth:friction_share=0.834 --free "
+      "n,shear_modulus,smooth_rim.friction_share,c1,c2,dig_rim_share,dig_cleat_share --bound c1=0:0.9 "
+      "--prior none --loss cauchy --loss-scale 1 --no-profile."};
   report.bands = {
       {"cross-validated: median error of pull, %", 100.0 * median_abs(hyperbola->pull), 0.0, 15.0},
       {"cross-validated: larger error of pull at slip 0.1, %", 100.0 * hyperbola->pull_at_a_tenth, 0.0,

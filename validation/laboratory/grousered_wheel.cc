@@ -149,7 +149,15 @@ Result<Report> grousered_wheel(const std::filesystem::path& data) {
       "sandbox_dry_sand "
       "--radius 0.058 --width 0.05 --gravity 9.81 --slip-definition travel --load 20.5 --slip -0.7 "
       "--slip-angle-deg 15, with --grousers 0.005,24 --effect cleat_shear_radius for the grousered wheel and "
-      "--effect smooth_rim:friction_share=0.896 for the smooth one; all rows at once by --rows."};
+      "--effect smooth_rim:friction_share=0.896 for the smooth one; all rows at once by --rows.",
+      "The fit itself is repeated by: slipway estimate wheel data/validation/sandbox_wheel_tests.csv "
+      "--soil sandbox_dry_sand --wheel-radius 0.058 --wheel-width 0.05 --gravity 9.81 "
+      "--slip-definition travel --grousers 0.005,24@grousered --effect cleat_shear_radius@grousered "
+      "--effect smooth_rim@smooth:friction_share=0.896 --free "
+      "k_bekker,shear_modulus_x_m,shear_modulus_y_m,exit_angle_ratio,smooth_rim.friction_share,inclined"
+      "_softening,dig_rim_share,dig_rim_slip,dig_cleat_share,dig_cleat_limit,dig_sideways,plough_front,"
+      "plough_wall,plough_heap,plough_heap_slip,plough_wall_friction,plough_wall_turn,plough_wall_yield"
+      " --prior none --loss huber --loss-scale 1 --no-profile."};
   add_bands(*held, report);
   return report;
 }

@@ -290,21 +290,30 @@ Result<std::string> wheel_table(std::string_view answer) {
                               {"thrust_n", "thrust N", "{:.1f}", 1.0},
                               {"compaction_resistance_n", "compaction N", "{:.1f}", 1.0},
                               {"tractive_efficiency", "efficiency", "{:.3f}", 1.0}};
+  constexpr Shown kOfRover[] = {
+      {"slope_deg", "slope deg", "{:.1f}", 1.0},   {"slip", "slip", "{:.3f}", 1.0},
+      {"sinkage_m", "deepest mm", "{:.1f}", 1e3},  {"load_n", "loads N", "{:.1f}", 1.0},
+      {"drawbar_pull_n", "pull N", "{:.1f}", 1.0}, {"torque_nm", "torque N m", "{:.3f}", 1.0},
+      {"current_a", "current A", "{:.3f}", 1.0},   {"power_w", "power W", "{:.2f}", 1.0},
+      {"lean_deg", "lean deg", "{:.2f}", 1.0}};
+  const bool whole_rover = at(*document, "request").find("whole_rover") != nullptr;
+  const std::span<const Shown> columns =
+      whole_rover ? std::span<const Shown>(kOfRover) : std::span<const Shown>(kShown);
   // Swept parameters that are none of the columns stand before them.
   std::vector<std::string> header, extra;
   for (const JsonValue& axis : at(at(*document, "request"), "sweep").elements) {
     const std::string& name = text(axis, "parameter");
     const auto is_this = [&](const Shown& shown) { return name == shown.key; };
-    if (std::none_of(std::begin(kShown), std::end(kShown), is_this)) extra.push_back(name);
+    if (std::none_of(columns.begin(), columns.end(), is_this)) extra.push_back(name);
   }
   header = extra;
-  for (const Shown& shown : kShown) header.emplace_back(shown.title);
+  for (const Shown& shown : columns) header.emplace_back(shown.title);
   header.emplace_back("outcome");
   TextTable table(header);
   for (const JsonValue& row : at(*document, "rows").elements) {
     std::vector<std::string> cells;
     for (const std::string& name : extra) cells.push_back(fmt::format("{:g}", number(row, name)));
-    for (const Shown& shown : kShown) {
+    for (const Shown& shown : columns) {
       const bool there = row.find(shown.key) != nullptr;
       cells.push_back(there ? fmt::format(fmt::runtime(shown.format), shown.scale * number(row, shown.key))
                             : "-");
