@@ -36,7 +36,8 @@ ScreenedEffect screened(std::size_t variant, const Hypothesis& with, const Windo
                         const NoiseModel& noise, const FittedExplanation& fit, const Known& known) {
   ScreenedEffect effect;
   effect.variant = variant;
-  const Eigen::MatrixXd columns = added_columns(with, model, noise, fit, effect.start);
+  effect.columns = added_derivatives(with, model, fit, effect.start);
+  const Eigen::MatrixXd columns = fit.row_weights.asDiagonal() * noise.whiten(effect.columns);
   const auto added = with.parameters().subspan(fit.x.size());
   const LinearGain found = linear_gain(fit.white_linear, known.columns, columns, added);
   effect.gain = found.gain;
@@ -106,7 +107,7 @@ std::vector<ScreenedEffect> screen_effects(const DriveCampaign& campaign, const 
     std::vector<EffectVariant> effects(fit.hypothesis.effects().begin(), fit.hypothesis.effects().end());
     if (std::any_of(effects.begin(), effects.end(),
                     [&](const EffectVariant& there) { return there.effect == variants[v].effect; })) {
-      all[v] = {v, kInTheFit, {}, {}, 0.0, 0.0};
+      all[v] = {v, kInTheFit, {}, {}, 0.0, 0.0, {}};
       return;
     }
     effects.push_back(variants[v]);

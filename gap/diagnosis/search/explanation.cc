@@ -47,8 +47,8 @@ std::vector<double> extended(const Hypothesis& hypothesis, std::span<const doubl
 
 }  // namespace
 
-Eigen::MatrixXd added_columns(const Hypothesis& hypothesis, const WindowModel& model, const NoiseModel& noise,
-                              const FittedExplanation& fit, std::vector<double>& start) {
+Eigen::MatrixXd added_derivatives(const Hypothesis& hypothesis, const WindowModel& model,
+                                  const FittedExplanation& fit, std::vector<double>& start) {
   start = extended(hypothesis, fit.x);
   const auto parameters = hypothesis.parameters();
   const std::size_t from = fit.x.size();
@@ -67,7 +67,12 @@ Eigen::MatrixXd added_columns(const Hypothesis& hypothesis, const WindowModel& m
       columns(i, static_cast<Eigen::Index>(p - from)) = std::isfinite(slope) ? slope : 0.0;
     }
   }
-  return fit.row_weights.asDiagonal() * noise.whiten(columns);
+  return columns;
+}
+
+Eigen::MatrixXd added_columns(const Hypothesis& hypothesis, const WindowModel& model, const NoiseModel& noise,
+                              const FittedExplanation& fit, std::vector<double>& start) {
+  return fit.row_weights.asDiagonal() * noise.whiten(added_derivatives(hypothesis, model, fit, start));
 }
 
 double size_of(const FittedExplanation& fit, std::string_view effect) {
