@@ -136,7 +136,7 @@ class Diagnoser {
   void name_and_judge(const DriveResampling& drives) {
     progress_.report("weighing single effects", 0.79);
     const LinearHeldOut held_out(prepared_, drives.groups, options_.folds);
-    const ClosedShares shares(held_out, search_);
+    const ClosedShares shares(std::cref(held_out), search_);
     d_.marginals = effect_marginals(d_.library, search_, shares);
     chosen_ = best_;
     naming_ = name_effects(search_, chosen_, d_.marginals, options_.verdict);

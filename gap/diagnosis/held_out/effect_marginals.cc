@@ -26,49 +26,30 @@ Eigen::MatrixXd beside(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
 
 }  // namespace
 
-LinearHeldOut::LinearHeldOut(const PreparedCampaign& prepared, std::span<const std::size_t> groups, int folds)
-    : prepared_(prepared),
-      fold_of_row_(prepared.model->observation_count(), -1),
-      compared_(prepared.model->observation_count(), false),
-      folds_(folds) {
-  for (std::size_t w = 0; w < prepared.windows.size(); ++w) {
-    const DriveWindow& window = prepared.windows[w];
-    for (std::size_t i = 0; i < window.observations.size(); ++i) {
-      const std::size_t row = prepared.model->offset(w) + i;
-      const auto r = static_cast<Eigen::Index>(row);
-      fold_of_row_[row] = static_cast<int>(groups[window.drive] % static_cast<std::size_t>(folds));
-      compared_[row] = prepared.model->used(w) && prepared.noise->deviation()[r] > 0.0 &&
-                       std::isfinite(prepared.nominal_residuals[r]) &&
-                       !(window.censored && window.observations[i].channel == Channel::kSlip);
-    }
-  }
-}
-
-double LinearHeldOut::rms(const FittedExplanation& fit, const Eigen::MatrixXd& more) const {
+double linear_held_out_rms(const PosteriorMode& fit, std::span<const Parameter> parameters,
+                           const Eigen::MatrixXd& more, const Eigen::MatrixXd& white_more,
+                           const FoldedRows& rows, int folds) {
   const Eigen::MatrixXd slopes = beside(fit.jacobian, more);
-  const Eigen::MatrixXd columns =
-      more.cols() == 0
-          ? fit.white_jacobian
-          : beside(fit.white_jacobian, fit.row_weights.asDiagonal() * prepared_.noise->whiten(more));
+  const Eigen::MatrixXd columns = beside(fit.white_jacobian, white_more);
   Eigen::VectorXd found = Eigen::VectorXd::Zero(columns.cols());
-  found.head(fit.jacobian.cols()) = in_prior_units(fit.hypothesis.parameters(), fit.x);
+  found.head(fit.jacobian.cols()) = in_prior_units(parameters, fit.x);
   double squares = 0.0, count = 0.0;
-  for (int f = 0; f < folds_; ++f) {
+  for (int f = 0; f < folds; ++f) {
     std::vector<Eigen::Index> learnt, asked;
-    for (std::size_t row = 0; row < fold_of_row_.size(); ++row) {
-      if (fold_of_row_[row] != f) learnt.push_back(static_cast<Eigen::Index>(row));
-      if (fold_of_row_[row] == f && compared_[row]) asked.push_back(static_cast<Eigen::Index>(row));
+    for (std::size_t row = 0; row < rows.fold.size(); ++row) {
+      if (rows.fold[row] != f) learnt.push_back(static_cast<Eigen::Index>(row));
+      if (rows.fold[row] == f && rows.compared[row]) asked.push_back(static_cast<Eigen::Index>(row));
     }
     if (asked.empty() || learnt.empty()) continue;
     const Eigen::MatrixXd of_learnt = columns(learnt, Eigen::all);
     Eigen::MatrixXd hessian = of_learnt.transpose() * of_learnt;
     hessian.diagonal().array() += 1.0;
     Eigen::VectorXd u = hessian.llt().solve(of_learnt.transpose() * fit.white_linear(learnt));
-    hold_within_bounds(fit.hypothesis.parameters(), u);
+    hold_within_bounds(parameters, u);
     const Eigen::VectorXd moved = slopes(asked, Eigen::all) * (found - u);
     for (std::size_t i = 0; i < asked.size(); ++i) {
-      const double r = (fit.residuals[asked[i]] + moved[static_cast<Eigen::Index>(i)]) /
-                       prepared_.noise->deviation()[asked[i]];
+      const double r =
+          (fit.residuals[asked[i]] + moved[static_cast<Eigen::Index>(i)]) / rows.deviation[asked[i]];
       squares += r * r;
       count += 1.0;
     }
@@ -76,20 +57,46 @@ double LinearHeldOut::rms(const FittedExplanation& fit, const Eigen::MatrixXd& m
   return count > 0.0 ? std::sqrt(squares / count) : 0.0;
 }
 
-ClosedShares::ClosedShares(const LinearHeldOut& held_out, const ExplanationSearch& search)
-    : held_out_(held_out), search_(search), nothing_(held_out.rms(search.fits[0])) {
+LinearHeldOut::LinearHeldOut(const PreparedCampaign& prepared, std::span<const std::size_t> groups, int folds)
+    : prepared_(prepared), folds_(folds) {
+  const WindowModel& model = *prepared.model;
+  rows_.fold.assign(model.observation_count(), -1);
+  rows_.compared.assign(model.observation_count(), false);
+  rows_.deviation = prepared.noise->deviation();
+  for (std::size_t w = 0; w < prepared.windows.size(); ++w) {
+    const DriveWindow& window = prepared.windows[w];
+    for (std::size_t i = 0; i < window.observations.size(); ++i) {
+      const std::size_t row = model.offset(w) + i;
+      const auto r = static_cast<Eigen::Index>(row);
+      rows_.fold[row] = static_cast<int>(groups[window.drive] % static_cast<std::size_t>(folds));
+      rows_.compared[row] = model.used(w) && rows_.deviation[r] > 0.0 &&
+                            std::isfinite(prepared.nominal_residuals[r]) &&
+                            !(window.censored && window.observations[i].channel == Channel::kSlip);
+    }
+  }
+}
+
+double LinearHeldOut::operator()(const FittedExplanation& fit, const Eigen::MatrixXd& more) const {
+  const Eigen::MatrixXd white_more =
+      more.cols() == 0 ? Eigen::MatrixXd{}
+                       : Eigen::MatrixXd(fit.row_weights.asDiagonal() * prepared_.noise->whiten(more));
+  return linear_held_out_rms(fit, fit.hypothesis.parameters(), more, white_more, rows_, folds_);
+}
+
+ClosedShares::ClosedShares(Rms rms, const ExplanationSearch& search)
+    : rms_(std::move(rms)), search_(search), nothing_(rms_(search.fits[0], {})) {
   double least = nothing_;
   for (const Candidate& c : search.candidates) {
-    const auto [place, is_new] = rms_.try_emplace(Names(c.effects.begin(), c.effects.end()), 0.0);
-    if (is_new) place->second = held_out.rms(search.fits[c.fit]);
+    const auto [place, is_new] = rms_with_.try_emplace(Names(c.effects.begin(), c.effects.end()), 0.0);
+    if (is_new) place->second = rms_(search.fits[c.fit], {});
     least = std::min(least, place->second);
   }
   gap_ = nothing_ - std::min(1.0, least);
 }
 
 double ClosedShares::rms_of(const Names& names) const {
-  const auto known = rms_.find(names);
-  return known == rms_.end() ? nothing_ : known->second;
+  const auto known = rms_with_.find(names);
+  return known == rms_with_.end() ? nothing_ : known->second;
 }
 
 double ClosedShares::of(const std::string& cause) const {
@@ -108,7 +115,7 @@ double ClosedShares::of(const std::string& cause) const {
     const auto screened = std::find_if(search_.screened.begin(), search_.screened.end(),
                                        [&](const ScreenedVariant& s) { return s.variant.effect == cause; });
     if (screened == search_.screened.end() || screened->columns.cols() == 0) return 0.0;
-    closed = nothing_ - held_out_.rms(search_.fits[0], screened->columns);
+    closed = nothing_ - rms_(search_.fits[0], screened->columns);
   }
   return std::clamp(closed / gap_, 0.0, 1.0);
 }
