@@ -119,6 +119,12 @@ void write_candidates(Writer& w, const Diagnosis& d) {
   w.end_array().key("confusable").begin_array();
   for (const gap::ConfusablePair& pair : d.confusable)
     w.begin_object().texts("effects", {pair.a, pair.b}).significant("angle_deg", pair.angle_deg).end_object();
+  w.end_array().key("look_alikes").begin_array();
+  for (const gap::LookAlike& alike : d.look_alikes) {
+    w.begin_object().text("effect", alike.effect).text("like", alike.like);
+    if (!alike.which.empty()) w.texts("parameters", alike.which);
+    w.significant("angle_deg", alike.angle_deg).end_object();
+  }
   w.end_array();
 }
 

@@ -7,10 +7,10 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include "core/angle.h"
 #include "gap/diagnosis/describe/localise.h"
+#include "gap/diagnosis/describe/look_alikes.h"
 #include "gap/diagnosis/describe/next_drives.h"
 #include "gap/diagnosis/describe/unexplained.h"
 #include "gap/diagnosis/held_out/effect_marginals.h"
@@ -172,23 +172,8 @@ class Diagnoser {
   }
 
   void compare_look_alikes() {
-    std::vector<const ScreenedVariant*> first;
-    for (const ScreenedVariant& s : search_.screened)
-      if (s.signature.size() > 0 && s.signature.norm() > options_.verdict.min_signature &&
-          std::none_of(first.begin(), first.end(),
-                       [&](const auto* f) { return f->variant.effect == s.variant.effect; }))
-        first.push_back(&s);
-    for (std::size_t a = 0; a < first.size(); ++a)
-      for (std::size_t b = a + 1; b < first.size(); ++b) {
-        const double cosine = std::abs(first[a]->signature.dot(first[b]->signature)) /
-                              (first[a]->signature.norm() * first[b]->signature.norm());
-        const double angle = std::acos(std::min(1.0, cosine)) * 180.0 / std::numbers::pi;
-        if (angle < options_.verdict.max_angle_deg)
-          d_.confusable.push_back({first[a]->variant.effect, first[b]->variant.effect, angle});
-      }
-    std::stable_sort(
-        d_.confusable.begin(), d_.confusable.end(),
-        [](const ConfusablePair& a, const ConfusablePair& b) { return a.angle_deg < b.angle_deg; });
+    d_.confusable = confusable_pairs(search_, options_.verdict);
+    d_.look_alikes = look_alikes(search_, options_.verdict);
   }
 
   void localise() {

@@ -53,7 +53,12 @@ TEST(WrenchOf, APullAgainstTheTravelHoldsBackEitherWay) {
   EXPECT_NEAR((forward.force_n - Eigen::Vector3d(-25.0, 0.0, 0.0)).norm(), 0.0, 1e-12);
   EXPECT_NEAR((backward.force_n - Eigen::Vector3d(25.0, 0.0, 0.0)).norm(), 0.0, 1e-12);
   EXPECT_NEAR((forward.moment_nm - rover.com_m.cross(forward.force_n)).norm(), 0.0, 1e-12);
-  EXPECT_EQ(wrench_of(forces, rover, level(0.0), {.turn_in_place = true}).force_n.norm(), 0.0);
+  EXPECT_NEAR(wrench_of(forces, rover, level(0.0), {.turn_in_place = true}).force_n.x(), -25.0, 1e-12)
+      << "as a cable behind the rover";
+  forces.height_m = 0.2;
+  EXPECT_NEAR(wrench_of(forces, rover, level(0.3), {.speed_m_s = 0.04}).moment_nm.y() - forward.moment_nm.y(),
+              -5.0, 1e-12)
+      << "nose up";
   forces = {};
   forces.along_by_speed_n = -10.0;
   EXPECT_NEAR(wrench_of(forces, rover, level(0.0), {.speed_m_s = 2.0 * rover.cruise_speed_m_s}).force_n.x(),
@@ -89,12 +94,12 @@ TEST(Hypothesis, FitsACauseFromOutsideAsItFitsAnEffect) {
   const Hypothesis hypothesis(campaign, {variant});
   std::vector<double> x = hypothesis.neutral();
   EXPECT_FALSE(hypothesis.state(x).outside.any()) << "neutral: nothing acts";
-  x.back() = -25.0;
+  x[x.size() - 2] = -25.0;
   const ModelState state = hypothesis.state(x);
   EXPECT_EQ(state.outside.along_n, -25.0);
   EXPECT_TRUE(state.effects.empty());
   EXPECT_TRUE(hypothesis.settings(x).empty()) << "none of the library's";
-  EXPECT_EQ(hypothesis.parameters().back().name, "pull_along_travel.force_n");
+  EXPECT_EQ(hypothesis.parameters().back().name, "pull_along_travel.height_m");
   EXPECT_EQ(pull.words(hypothesis.outside_values(pull.name, x), campaign),
             "a steady pull of 25 N against the travel, at the body");
 }

@@ -43,11 +43,15 @@ sim::EffectVariant way(std::vector<Free> free, std::string label = {},
   return variant;
 }
 
-// One way, with these fields free, each of one deviation: a share of the weight.
+// Where on the body a force acts: at the ground or well above the deck.
+constexpr const char* kHeight = "height_m";
+
+// One way, with these fields free, each of one deviation: a share of the weight; and the height.
 template <const auto& Fields>
 std::vector<sim::EffectVariant> forces(const DriveCampaign& campaign) {
   std::vector<Free> free;
   for (const char* field : Fields) free.push_back(free_of(field, kForceShare * weight_n(campaign)));
+  free.push_back({.field = kHeight, .std = 0.15, .lowest = -0.6, .highest = 0.6});
   return {way(std::move(free))};
 }
 constexpr std::array kForce{"force_n"};
@@ -305,7 +309,11 @@ constexpr std::array kRows{
                  .depends = "direction",
                  .unit = "N",
                  .variants = &forces<kForce>,
-                 .act = [](const Values& v, OutsideForces& f) { f.along_n += v.at("force_n"); },
+                 .act =
+                     [](const Values& v, OutsideForces& f) {
+                       f.along_n += v.at("force_n");
+                       f.height_m = v.at(kHeight);
+                     },
                  .words = &pull_words},
     OutsideCause{.name = "push_on_map",
                  .form = "force_on_body",
@@ -313,27 +321,36 @@ constexpr std::array kRows{
                  .depends = "heading",
                  .unit = "N",
                  .variants = &forces<kMapXY>,
-                 .act = [](const Values& v,
-                           OutsideForces& f) { f.on_map_n += Eigen::Vector2d(v.at("x_n"), v.at("y_n")); },
+                 .act =
+                     [](const Values& v, OutsideForces& f) {
+                       f.on_map_n += Eigen::Vector2d(v.at("x_n"), v.at("y_n"));
+                       f.height_m = v.at(kHeight);
+                     },
                  .words = &push_words},
-    OutsideCause{
-        .name = "push_in_body",
-        .form = "force_on_body",
-        .entry = "lateral_force",
-        .depends = "constant",
-        .unit = "N",
-        .variants = &forces<kForwardLeft>,
-        .act = [](const Values& v,
-                  OutsideForces& f) { f.in_body_n += Eigen::Vector2d(v.at("forward_n"), v.at("left_n")); },
-        .words = &body_words,
-        .twin_of_an_effect = true},
+    OutsideCause{.name = "push_in_body",
+                 .form = "force_on_body",
+                 .entry = "lateral_force",
+                 .depends = "constant",
+                 .unit = "N",
+                 .variants = &forces<kForwardLeft>,
+                 .act =
+                     [](const Values& v, OutsideForces& f) {
+                       f.in_body_n += Eigen::Vector2d(v.at("forward_n"), v.at("left_n"));
+                       f.height_m = v.at(kHeight);
+                     },
+                 .words = &body_words,
+                 .twin_of_an_effect = true},
     OutsideCause{.name = "pull_with_speed",
                  .form = "force_on_body",
                  .entry = "tangential_force",
                  .depends = "speed",
                  .unit = "N",
                  .variants = &forces<kForce>,
-                 .act = [](const Values& v, OutsideForces& f) { f.along_by_speed_n += v.at("force_n"); },
+                 .act =
+                     [](const Values& v, OutsideForces& f) {
+                       f.along_by_speed_n += v.at("force_n");
+                       f.height_m = v.at(kHeight);
+                     },
                  .words = &speed_words},
     OutsideCause{.name = "pull_with_slope",
                  .form = "force_on_body",
@@ -341,7 +358,11 @@ constexpr std::array kRows{
                  .depends = "pitch",
                  .unit = "N",
                  .variants = &forces<kForce>,
-                 .act = [](const Values& v, OutsideForces& f) { f.along_by_slope_n += v.at("force_n"); },
+                 .act =
+                     [](const Values& v, OutsideForces& f) {
+                       f.along_by_slope_n += v.at("force_n");
+                       f.height_m = v.at(kHeight);
+                     },
                  .words = &slope_words},
     OutsideCause{.name = "load",
                  .form = "force_on_body",
@@ -437,15 +458,17 @@ sim::OutsideWrench wrench_of(const OutsideForces& forces, const sim::RoverModel&
   const double sense = command.turn_in_place ? 0.0 : command.speed_m_s < 0.0 ? -1.0 : 1.0;
   const Eigen::Vector2d direction = sim::travel_direction(command);
   const Eigen::Vector3d travel(sense * direction.x(), sense * direction.y(), 0.0);
+  const Eigen::Vector3d pulled = command.turn_in_place ? Eigen::Vector3d(Eigen::Vector3d::UnitX()) : travel;
   const double speed =
       rover.cruise_speed_m_s > 0.0 ? std::abs(command.speed_m_s) / rover.cruise_speed_m_s : 1.0;
   const double climb = stance.R_MB(2, 0) / kSlopeOfForce;  // of the body's front, 1 at 10 deg
   sim::OutsideWrench wrench;
   wrench.force_n =
-      (forces.along_n + forces.along_by_speed_n * speed) * travel +
+      forces.along_n * pulled + forces.along_by_speed_n * speed * travel +
       Eigen::Vector3d(forces.in_body_n.x() + forces.along_by_slope_n * climb, forces.in_body_n.y(), 0.0) +
       stance.R_MB.transpose() * Eigen::Vector3d(forces.on_map_n.x(), forces.on_map_n.y(), -forces.load_n);
-  wrench.moment_nm = rover.com_m.cross(wrench.force_n) + forces.turning_nm * Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d at = rover.com_m + forces.height_m * Eigen::Vector3d::UnitZ();
+  wrench.moment_nm = at.cross(wrench.force_n) + forces.turning_nm * Eigen::Vector3d::UnitZ();
   if (forces.along_at_wheel_n.empty()) return wrench;
   wrench.at_wheel_n = sim::PerWheel<Eigen::Vector3d>(rover.wheels.size(), Eigen::Vector3d::Zero());
   for (const auto& [wheel, force_n] : forces.along_at_wheel_n) wrench.at_wheel_n[wheel] = force_n * travel;

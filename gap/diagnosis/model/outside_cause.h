@@ -18,21 +18,24 @@ class WindowModel;
 
 // What an unmodelled world does to a vehicle, all at once; every window makes it a wrench of its own. N and
 // N m. "Along" is the direction of travel, so that a force along of less than 0 holds the rover back either
-// way; no force along acts while the rover turns in place.
+// way.
 struct OutsideForces {
+  // While the rover turns in place as when it drives forward: a cable behind it does not go slack. The other
+  // forces along act on a rover under way only.
   double along_n = 0.0;
   double along_by_speed_n = 0.0;  // at the rover's cruise speed, in proportion to the commanded speed
   double along_by_slope_n = 0.0;  // to the body's front, in proportion to the sine of the climb, at 10 deg
   Eigen::Vector2d in_body_n = Eigen::Vector2d::Zero();  // forward and to the left
   Eigen::Vector2d on_map_n = Eigen::Vector2d::Zero();   // towards the map's x and y
   double load_n = 0.0;                                  // downward
-  double turning_nm = 0.0;                              // about the body's z axis
-  std::map<std::size_t, double> along_at_wheel_n;       // by the wheel's index
+  double height_m = 0.0;    // above the centre of mass, of the point where these act on the body
+  double turning_nm = 0.0;  // about the body's z axis
+  std::map<std::size_t, double> along_at_wheel_n;  // by the wheel's index
 
   bool any() const;
 };
 
-// Forces on the body act at its centre of mass, those at wheels at the axles.
+// Forces on the body act in its vertical through the centre of mass, those at wheels at the axles.
 sim::OutsideWrench wrench_of(const OutsideForces& forces, const sim::RoverModel& rover,
                              const sim::Stance& stance, const sim::DriveCommand& command);
 

@@ -63,6 +63,15 @@ struct ConfusablePair {
   double angle_deg = 0.0;  // between their signatures, nuisances projected out
 };
 
+// What an effect can't be told from on these drives: effects and causes from outside whose traces are nearly
+// parallel, and the re-tuned parameters where they take most of its trace.
+struct LookAlike {
+  std::string effect;
+  std::string like;                // an effect, a cause from outside, or "parameters"
+  std::vector<std::string> which;  // of the parameters, those that take most of it
+  double angle_deg = 0.0;  // between the traces, re-tuning projected out of both; to all that re-tuning does
+};
+
 // A channel (of a wheel) before any re-tuning.
 struct ChannelGap {
   Channel channel = Channel::kSlip;
@@ -200,6 +209,7 @@ struct Diagnosis {
   std::vector<EffectMarginal> marginals;  // of all of the library, the most probable first
   std::vector<ComparedSet> candidates;
   std::vector<ConfusablePair> confusable;
+  std::vector<LookAlike> look_alikes;  // the nearest first
   std::vector<ChannelGap> channels;
   std::vector<Regime> regimes, regimes_retuned, regimes_of_effect;
   std::vector<ChannelShare> channels_of_effects;  // of what the named effects do; the largest first

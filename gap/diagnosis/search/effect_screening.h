@@ -22,6 +22,9 @@ struct ScreenedEffect {
   double kept_share = 0.0;    // of the response's length that is left then
   double visibility = 0.0;    // length of what its first field's prior deviation does, likewise
   Eigen::MatrixXd columns;    // derivatives of every observation, by prior deviations
+  // Of the fit's parameters, those whose own responses make up most of what the fit takes of the response,
+  // the largest first.
+  std::vector<std::size_t> taken_by;
 };
 
 // Every variant beside the fit, best first.

@@ -48,13 +48,15 @@ std::vector<double> extended(const Hypothesis& hypothesis, std::span<const doubl
 }  // namespace
 
 Eigen::MatrixXd added_derivatives(const Hypothesis& hypothesis, const WindowModel& model,
-                                  const FittedExplanation& fit, std::vector<double>& start) {
+                                  const FittedExplanation& fit, std::vector<double>& start,
+                                  std::span<const double> predicted) {
   start = extended(hypothesis, fit.x);
   const auto parameters = hypothesis.parameters();
   const std::size_t from = fit.x.size();
   const auto rows = static_cast<Eigen::Index>(model.observation_count());
   Eigen::MatrixXd columns(rows, static_cast<Eigen::Index>(parameters.size() - from));
-  const std::vector<double> at = hypothesis.predict(model, start);
+  const std::vector<double> at = predicted.empty() ? hypothesis.predict(model, start)
+                                                   : std::vector<double>(predicted.begin(), predicted.end());
   for (std::size_t p = from; p < parameters.size(); ++p) {
     const Parameter& parameter = parameters[p];
     std::vector<double> x = start;

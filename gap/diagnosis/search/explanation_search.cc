@@ -122,13 +122,14 @@ class Searcher {
 
   // They grow from the best single effects, by seconds that promise a gain of so much at least.
   void fit_pairs(double min_gain) {
+    const std::vector<std::size_t> seconds = possible_seconds();
     for (std::size_t s = 0; s < singles_.size() && s < static_cast<std::size_t>(options_.search.max_paired);
          ++s) {
       const std::size_t base = singles_[s].second;
       const bool base_outside = is_outside(singles_[s].first);
       int fitted = 0, outside = 0;
       std::set<std::string> done;
-      for (const ScreenedEffect& second : screened_beside(search_.fits[base])) {
+      for (const ScreenedEffect& second : screened_beside(search_.fits[base], &seconds)) {
         if (progress_.cancelled()) return;
         if (second.start.empty() || second.gain < min_gain) break;
         const EffectVariant& v = variants_[second.variant];
@@ -191,14 +192,38 @@ class Searcher {
                        [](const ScreenedEffect& a, const ScreenedEffect& b) { return a.gain > b.gain; });
     }
     for (const ScreenedEffect& s : screened_)
-      if (!is_outside(variants_[s.variant].effect))
-        search_.screened.push_back(
-            {variants_[s.variant], s.gain, s.signature, s.kept_share, s.visibility, s.columns});
+      (is_outside(variants_[s.variant].effect) ? search_.screened_outside : search_.screened)
+          .push_back(
+              {variants_[s.variant], s.gain, s.signature, s.kept_share, s.visibility, s.columns, s.taken_by});
   }
 
-  std::vector<ScreenedEffect> screened_beside(const FittedExplanation& fit) const {
-    return screen_effects(campaign_, model_, noise_, fit, discrepancy_, variants_, options_.discrepancy,
-                          options_.search.threads);
+  // Variants that pairs are looked for among: all of the library, and of the causes from outside the best of
+  // those that were fitted alone.
+  std::vector<std::size_t> possible_seconds() const {
+    std::vector<std::size_t> seconds;
+    std::set<std::string> outside;
+    for (const ScreenedEffect& s : screened_) {
+      const std::string& name = variants_[s.variant].effect;
+      if (!is_outside(name) || (best_fit_.contains(name) && outside.insert(name).second))
+        seconds.push_back(s.variant);
+    }
+    std::sort(seconds.begin(), seconds.end());
+    return seconds;
+  }
+
+  // Of all variants, or of these alone.
+  std::vector<ScreenedEffect> screened_beside(const FittedExplanation& fit,
+                                              const std::vector<std::size_t>* among = nullptr) const {
+    const auto screened = [&](std::span<const EffectVariant> variants) {
+      return screen_effects(campaign_, model_, noise_, fit, discrepancy_, variants, options_.discrepancy,
+                            options_.search.threads);
+    };
+    if (among == nullptr) return screened(variants_);
+    std::vector<EffectVariant> some;
+    for (const std::size_t v : *among) some.push_back(variants_[v]);
+    std::vector<ScreenedEffect> found = screened(some);
+    for (ScreenedEffect& s : found) s.variant = (*among)[s.variant];
+    return found;
   }
   FittedExplanation fitted(const Hypothesis& hypothesis, std::span<const double> start) const {
     return fit_explanation(hypothesis, model_, noise_, start, options_.fit, options_.search.threads);

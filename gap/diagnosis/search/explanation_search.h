@@ -38,12 +38,14 @@ struct ScreenedVariant {
   double kept_share = 0.0;    // of the signature's length that nuisances don't take
   double visibility = 0.0;  // length of what its first field's prior deviation does, nuisances projected out
   Eigen::MatrixXd columns;  // derivatives of every observation at the null, by prior deviations
+  std::vector<std::size_t> taken_by;  // see ScreenedEffect
 };
 
 struct ExplanationSearch {
   std::vector<FittedExplanation> fits;    // [0] is the null
   std::vector<Candidate> candidates;      // most probable first
   std::vector<ScreenedVariant> screened;  // of the library, best first
+  std::vector<ScreenedVariant> screened_outside;
 };
 
 // Screens every variant at the null by its projected signature, fits the best in full, alone and in pairs,
