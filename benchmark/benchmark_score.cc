@@ -79,6 +79,15 @@ bool exchanged(const Diagnosis& d, const Names& a, const Names& b) {
   return only_a.size() == 1 && only_b.size() == 1 && confusable(d, *only_a.begin(), *only_b.begin());
 }
 
+// Whether a diagnosis says of every one of these effects that re-tuned parameters look like it.
+bool all_like_parameters(const Diagnosis& d, const Names& effects) {
+  return !effects.empty() && std::all_of(effects.begin(), effects.end(), [&](const std::string& effect) {
+    return std::any_of(d.look_alikes.begin(), d.look_alikes.end(), [&](const LookAlike& alike) {
+      return alike.effect == effect && alike.like == "parameters";
+    });
+  });
+}
+
 std::optional<double> median_of(std::vector<double> values) {
   if (values.empty()) return std::nullopt;
   return median(std::move(values));
@@ -176,7 +185,8 @@ void score_probabilities(CaseScore& score, const Diagnosis& d, const Names& trut
   }
   const bool second = sets.size() > 1 && sets[1].first == truth;
   score.alike = score.exact || (d.verdict == Verdict::kEffectSet && score.held) ||
-                (names_effects(d.verdict) && second && exchanged(d, found, truth));
+                (names_effects(d.verdict) && second && exchanged(d, found, truth)) ||
+                (names_nothing(d.verdict) && all_like_parameters(d, truth));
   for (const FoundEffect& effect : d.effects)
     score.confident_wrong =
         score.confident_wrong || (effect.probability > kConfident && !truth.contains(effect.name));
@@ -248,6 +258,7 @@ WithheldScore score_withheld(const HiddenAnswer& answer, const std::string& with
   score.unknown = d.verdict == Verdict::kUnknown;
   score.absorbed = names_nothing(d.verdict);
   score.look_alike = names_effects(d.verdict) && exchanged(open, found, answer.effects);
+  score.declared = score.absorbed && all_like_parameters(open, {withheld});
   return score;
 }
 

@@ -42,8 +42,9 @@ struct CaseScore {
   std::string campaign, truth, verdict, found, fidelity, kind;
   double size = 1.0;
   TruthKind truth_kind = TruthKind::kNothing;
-  bool exact = false;            // exactly the hidden set, under a verdict of its class
-  bool alike = false;            // exact, or a look-alike that the diagnosis declares as one
+  bool exact = false;  // exactly the hidden set, under a verdict of its class
+  // Exact, or a look-alike that the diagnosis declares as one: another effect, or re-tuned parameters alone.
+  bool alike = false;
   bool verdict_right = false;    // the right class: no effect, effects, or unknown
   bool held = false;             // the truth is among the at most three sets that hold 0.95
   bool false_alarm = false;      // an effect or "unknown" where nothing is missing
@@ -76,7 +77,10 @@ struct WithheldScore {
   std::string campaign, withheld, verdict, found, fidelity;
   bool unknown = false, look_alike = false,
        absorbed = false;  // absorbed: "parameters", "no_gap", "not_detected"
-  bool right() const { return unknown || look_alike; }
+  // Absorbed by parameters of which the diagnosis with the whole library says that these drives do not tell
+  // them from the effect.
+  bool declared = false;
+  bool right() const { return unknown || look_alike || declared; }
 };
 
 // `open` is the diagnosis with the whole library; its confusable pairs define the look-alikes.

@@ -110,7 +110,7 @@ std::string benchmark_document(const gap::Benchmark& benchmark) {
   for (const gap::WithheldScore& s : benchmark.withheld) {
     w.begin_object().text("campaign", s.campaign).text("effect", s.withheld).text("verdict", s.verdict);
     w.text("found", s.found).boolean("unknown", s.unknown).boolean("look_alike", s.look_alike);
-    w.boolean("absorbed", s.absorbed).end_object();
+    w.boolean("absorbed", s.absorbed).boolean("declared", s.declared).end_object();
   }
   return w.end_array().end_object().take() + "\n";
 }

@@ -98,11 +98,12 @@ void write_confusion(std::string& out, std::span<const CaseScore> cases) {
 }
 
 void write_withheld(std::string& out, std::span<const gap::WithheldScore> withheld) {
-  Rate right, unknown, alike, absorbed;
+  Rate right, unknown, alike, declared, absorbed;
   for (const gap::WithheldScore& w : withheld) {
     for (const auto& [rate, hit] : {std::pair{&right, w.right()},
                                     {&unknown, w.unknown},
                                     {&alike, w.look_alike},
+                                    {&declared, w.declared},
                                     {&absorbed, w.absorbed}}) {
       ++rate->of;
       rate->hits += hit ? 1 : 0;
@@ -111,8 +112,11 @@ void write_withheld(std::string& out, std::span<const gap::WithheldScore> withhe
   out +=
       "\n### With the hidden effect withheld from the library\n\n| figure | value (90 % interval) |\n| --- | "
       "--- |\n";
-  out += fmt::format("| unknown or a look-alike | {} |\n| unknown | {} |\n| a look-alike | {} |\n",
-                     rate_words(right), rate_words(unknown), rate_words(alike));
+  out += fmt::format(
+      "| unknown or a look-alike | {} |\n| unknown | {} |\n| another effect that looks alike | {} |\n| "
+      "parameters "
+      "that are declared to look alike | {} |\n",
+      rate_words(right), rate_words(unknown), rate_words(alike), rate_words(declared));
   out += fmt::format("| no effect, or parameters alone | {} |\n", rate_words(absorbed));
   out += "\n| campaign | withheld | verdict | found | right |\n| --- | --- | --- | --- | --- |\n";
   for (const gap::WithheldScore& w : withheld)
