@@ -55,9 +55,14 @@ Naming name_effects(const ExplanationSearch& search, std::size_t chosen,
                     std::span<const EffectMarginal> marginals, const VerdictOptions& options) {
   if (!options.name_by_marginals) return as_chosen(search, chosen);
   if (!search.candidates[chosen].unknown()) return of_weight(search, chosen, marginals, options);
+  const Candidate& first = search.candidates[chosen];
+  const bool known_form = first.outside && !first.with_unknown;
   Names names;
   for (const EffectMarginal& m : marginals)
-    if (stands_beside_unknown(m, options)) names.insert(m.name);
+    if (stands_beside_unknown(m, options) ||
+        (known_form && m.probability >= options.min_probability_beside_form &&
+         m.closed_share >= options.min_share_beside_form))
+      names.insert(m.name);
   if (names.empty()) return as_chosen(search, chosen);
   const auto any = candidate_with(search, names, [](const Candidate& c) { return c.unknown(); });
   const auto alone = candidate_with(search, names, [](const Candidate& c) { return !c.outside; });

@@ -78,6 +78,16 @@ TEST(Naming, TakesTheParametersFromTheExplanationWithTheForceAndCorrectsByTheEff
   EXPECT_EQ(naming.correction, 1U);
 }
 
+TEST(Naming, AsksLessBesideACauseOfKnownForm) {
+  const std::vector<EffectMarginal> marginals{{"wheel_radius", 0.76, 0.21}};
+  const ExplanationSearch known = search_of({candidate({"push_on_map", "wheel_radius"}, 0.76, false, true),
+                                             candidate({"push_on_map"}, 0.24, false, true)});
+  EXPECT_EQ(named(known, marginals).effects, std::vector<std::string>{"wheel_radius"});
+  const ExplanationSearch unknown =
+      search_of({candidate({"wheel_radius"}, 0.76, true), candidate({}, 0.24, true)});
+  EXPECT_TRUE(named(unknown, marginals).effects.empty());
+}
+
 TEST(Naming, OfACauseFromOutsideAloneIsNone) {
   const ExplanationSearch search = search_of(
       {candidate({"pull_along_travel"}, 0.7, false, true), candidate({"com_offset", "grousers"}, 0.3)});

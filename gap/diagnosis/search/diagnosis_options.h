@@ -174,6 +174,9 @@ struct VerdictOptions {
   // Beside something unknown an effect is named from this marginal probability and this share on.
   double min_partial_probability = 0.9;
   double min_partial_share = 0.5;
+  // The same where what is beside it has a known form, which leaves less to be mistaken for the effect.
+  double min_probability_beside_form = 0.7;
+  double min_share_beside_form = 0.1;
 };
 
 // Predictions of drives that a fit has not seen: see gap_closure.h.
