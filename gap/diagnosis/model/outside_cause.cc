@@ -458,13 +458,12 @@ sim::OutsideWrench wrench_of(const OutsideForces& forces, const sim::RoverModel&
   const double sense = command.turn_in_place ? 0.0 : command.speed_m_s < 0.0 ? -1.0 : 1.0;
   const Eigen::Vector2d direction = sim::travel_direction(command);
   const Eigen::Vector3d travel(sense * direction.x(), sense * direction.y(), 0.0);
-  const Eigen::Vector3d pulled = command.turn_in_place ? Eigen::Vector3d(Eigen::Vector3d::UnitX()) : travel;
   const double speed =
       rover.cruise_speed_m_s > 0.0 ? std::abs(command.speed_m_s) / rover.cruise_speed_m_s : 1.0;
   const double climb = stance.R_MB(2, 0) / kSlopeOfForce;  // of the body's front, 1 at 10 deg
   sim::OutsideWrench wrench;
   wrench.force_n =
-      forces.along_n * pulled + forces.along_by_speed_n * speed * travel +
+      (forces.along_n + forces.along_by_speed_n * speed) * travel +
       Eigen::Vector3d(forces.in_body_n.x() + forces.along_by_slope_n * climb, forces.in_body_n.y(), 0.0) +
       stance.R_MB.transpose() * Eigen::Vector3d(forces.on_map_n.x(), forces.on_map_n.y(), -forces.load_n);
   const Eigen::Vector3d at = rover.com_m + forces.height_m * Eigen::Vector3d::UnitZ();
