@@ -18,10 +18,8 @@ class WindowModel;
 
 // What an unmodelled world does to a vehicle, all at once; every window makes it a wrench of its own. N and
 // N m. "Along" is the direction of travel, so that a force along of less than 0 holds the rover back either
-// way.
+// way; none acts while the rover turns in place.
 struct OutsideForces {
-  // While the rover turns in place as when it drives forward: a cable behind it does not go slack. The other
-  // forces along act on a rover under way only.
   double along_n = 0.0;
   double along_by_speed_n = 0.0;  // at the rover's cruise speed, in proportion to the commanded speed
   double along_by_slope_n = 0.0;  // to the body's front, in proportion to the sine of the climb, at 10 deg
