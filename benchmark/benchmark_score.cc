@@ -49,7 +49,7 @@ std::vector<std::pair<Names, double>> merged_sets(const Diagnosis& d) {
 Names found_in(const Diagnosis& d) {
   Names found;
   for (const FoundEffect& effect : d.effects) found.insert(effect.name);
-  if (d.verdict == Verdict::kUnknown) found.insert(kUnknownName);
+  if (d.verdict == Verdict::kUnknown || d.partial) found.insert(kUnknownName);
   return found;
 }
 
@@ -77,6 +77,15 @@ bool exchanged(const Diagnosis& d, const Names& a, const Names& b) {
   std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::inserter(only_a, only_a.end()));
   std::set_difference(b.begin(), b.end(), a.begin(), a.end(), std::inserter(only_b, only_b.end()));
   return only_a.size() == 1 && only_b.size() == 1 && confusable(d, *only_a.begin(), *only_b.begin());
+}
+
+// Whether a diagnosis says of every one of these effects that re-tuned parameters look like it.
+bool all_like_parameters(const Diagnosis& d, const Names& effects) {
+  return !effects.empty() && std::all_of(effects.begin(), effects.end(), [&](const std::string& effect) {
+    return std::any_of(d.look_alikes.begin(), d.look_alikes.end(), [&](const LookAlike& alike) {
+      return alike.effect == effect && alike.like == "parameters";
+    });
+  });
 }
 
 std::optional<double> median_of(std::vector<double> values) {
@@ -151,10 +160,18 @@ void score_verdict(CaseScore& score, const Diagnosis& d, const Names& truth, con
       score.exact = score.verdict_right && found == truth;
       break;
     case TruthKind::kOutsideLibrary:
-      score.verdict_right = d.verdict == Verdict::kUnknown;
+      score.verdict_right = d.verdict == Verdict::kUnknown || (d.partial && found == truth);
       score.exact = score.verdict_right && found == truth;
       break;
   }
+  Names named = found, of_library = truth;
+  named.erase(kUnknownName);
+  of_library.erase(kUnknownName);
+  score.partial = d.partial;
+  score.names_right = named == of_library;
+  score.wrong_name = !std::includes(of_library.begin(), of_library.end(), named.begin(), named.end());
+  for (const EffectMarginal& m : d.marginals)
+    score.marginals.push_back({m.probability, of_library.contains(m.name)});
   score.false_alarm = truth.empty() && (names_effects(d.verdict) || d.verdict == Verdict::kUnknown);
 }
 
@@ -168,7 +185,8 @@ void score_probabilities(CaseScore& score, const Diagnosis& d, const Names& trut
   }
   const bool second = sets.size() > 1 && sets[1].first == truth;
   score.alike = score.exact || (d.verdict == Verdict::kEffectSet && score.held) ||
-                (names_effects(d.verdict) && second && exchanged(d, found, truth));
+                (names_effects(d.verdict) && second && exchanged(d, found, truth)) ||
+                (names_nothing(d.verdict) && all_like_parameters(d, truth));
   for (const FoundEffect& effect : d.effects)
     score.confident_wrong =
         score.confident_wrong || (effect.probability > kConfident && !truth.contains(effect.name));
@@ -240,6 +258,7 @@ WithheldScore score_withheld(const HiddenAnswer& answer, const std::string& with
   score.unknown = d.verdict == Verdict::kUnknown;
   score.absorbed = names_nothing(d.verdict);
   score.look_alike = names_effects(d.verdict) && exchanged(open, found, answer.effects);
+  score.declared = score.absorbed && all_like_parameters(open, {withheld});
   return score;
 }
 
@@ -273,6 +292,24 @@ std::optional<double> calibration_error(std::span<const Statement> statements) {
   return sum / static_cast<double>(statements.size());
 }
 
+std::vector<ReliabilityBin> reliability_of(std::span<const Statement> statements) {
+  constexpr std::size_t kBins = 10;
+  std::vector<ReliabilityBin> bins(kBins);
+  for (std::size_t b = 0; b < kBins; ++b) {
+    bins[b].from = static_cast<double>(b) / kBins;
+    bins[b].to = static_cast<double>(b + 1) / kBins;
+  }
+  for (const Statement& s : statements) {
+    const double place = std::clamp(s.probability * kBins, 0.0, kBins - 1.0);
+    ReliabilityBin& bin = bins[static_cast<std::size_t>(place)];
+    bin.mean_probability += s.probability;
+    count(bin.right, s.right);
+  }
+  for (ReliabilityBin& bin : bins)
+    if (bin.right.of > 0) bin.mean_probability /= static_cast<double>(bin.right.of);
+  return bins;
+}
+
 std::optional<double> brier_score(std::span<const Statement> statements) {
   if (statements.empty()) return std::nullopt;
   double sum = 0.0;
@@ -301,13 +338,16 @@ BenchmarkFigures figures_of(std::span<const CaseScore> cases) {
   BenchmarkFigures f;
   f.cases = cases.size();
   std::vector<double> outside, inside, closed, closed_of_oracle, overlap, slices, of_attainable, seconds;
-  std::vector<Statement> statements;
+  std::vector<Statement> statements, marginals;
   for (const CaseScore& c : cases) {
     count(f.verdict_right, c.verdict_right);
     count(f.confident_wrong, c.confident_wrong);
+    count(f.wrong_name, c.wrong_name);
+    marginals.insert(marginals.end(), c.marginals.begin(), c.marginals.end());
     count(f.held, c.held);
     if (c.truth_kind == TruthKind::kEffects) {
       count(f.exact, c.exact);
+      count(f.names_right, c.names_right);
       count(f.alike, c.alike);
       if (c.size >= 1.0) {
         count(f.exact_sized, c.exact);
@@ -320,7 +360,10 @@ BenchmarkFigures figures_of(std::span<const CaseScore> cases) {
     if (c.wheel_right) count(f.wheel_right, *c.wheel_right);
     if (c.truth_kind == TruthKind::kNothing) count(f.alarm_nothing, c.false_alarm);
     if (c.truth_kind == TruthKind::kParameters) count(f.alarm_parameters, c.false_alarm);
-    if (c.truth_kind == TruthKind::kOutsideLibrary) count(f.unknown_reported, c.verdict_right);
+    if (c.truth_kind == TruthKind::kOutsideLibrary) {
+      count(f.unknown_reported, c.verdict_right);
+      count(f.outside_unnamed, !c.wrong_name);
+    }
     (c.truth_kind == TruthKind::kOutsideLibrary ? outside : inside).push_back(c.unknown_probability);
     statements.push_back({c.stated, c.exact});
     if (c.place_overlap) {
@@ -339,6 +382,7 @@ BenchmarkFigures figures_of(std::span<const CaseScore> cases) {
   f.unknown_auroc = area_under_roc(outside, inside);
   f.calibration = calibration_error(statements);
   f.brier = brier_score(statements);
+  f.reliability = reliability_of(marginals);
   f.closed_fraction = median_of(closed);
   f.closed_of_oracle = median_of(closed_of_oracle);
   f.place_overlap = median_of(overlap);

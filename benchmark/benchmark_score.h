@@ -30,6 +30,11 @@ struct HiddenAnswer {
   std::vector<HiddenTrace> traces;  // where the effects act; empty where the key does not state it
 };
 
+struct Statement {
+  double probability = 0.0;
+  bool right = false;
+};
+
 enum class TruthKind { kNothing, kParameters, kEffects, kOutsideLibrary };
 
 // The score of one diagnosis against its key.
@@ -37,12 +42,19 @@ struct CaseScore {
   std::string campaign, truth, verdict, found, fidelity, kind;
   double size = 1.0;
   TruthKind truth_kind = TruthKind::kNothing;
-  bool exact = false;            // exactly the hidden set, under a verdict of its class
-  bool alike = false;            // exact, or a look-alike that the diagnosis declares as one
+  bool exact = false;  // exactly the hidden set, under a verdict of its class
+  // Exact, or a look-alike that the diagnosis declares as one: another effect, or re-tuned parameters alone.
+  bool alike = false;
   bool verdict_right = false;    // the right class: no effect, effects, or unknown
   bool held = false;             // the truth is among the at most three sets that hold 0.95
   bool false_alarm = false;      // an effect or "unknown" where nothing is missing
   bool confident_wrong = false;  // a name that is not in the truth has more than 0.9
+  bool partial = false;          // effects are named, and something unexplained beside them
+  // Names of effects are exactly the hidden ones of the library, with or without something unexplained; none
+  // of them is hidden where the cause is outside it.
+  bool names_right = false;
+  bool wrong_name = false;           // an effect is named that is not hidden
+  std::vector<Statement> marginals;  // of every effect of the library: whether it is hidden
   double unknown_probability = 0.0;
   double stated = 0.0;              // the probability that the answer states for itself
   std::optional<bool> wheel_right;  // whether a found effect was found at the wheel where it was hidden
@@ -65,7 +77,10 @@ struct WithheldScore {
   std::string campaign, withheld, verdict, found, fidelity;
   bool unknown = false, look_alike = false,
        absorbed = false;  // absorbed: "parameters", "no_gap", "not_detected"
-  bool right() const { return unknown || look_alike; }
+  // Absorbed by parameters of which the diagnosis with the whole library says that these drives do not tell
+  // them from the effect.
+  bool declared = false;
+  bool right() const { return unknown || look_alike || declared; }
 };
 
 // `open` is the diagnosis with the whole library; its confusable pairs define the look-alikes.
@@ -86,14 +101,17 @@ RateInterval binomial_interval(const Rate& rate, double confidence = 0.9);
 // either list is empty.
 std::optional<double> area_under_roc(std::span<const double> of_these, std::span<const double> of_those);
 
-struct Statement {
-  double probability = 0.0;
-  bool right = false;
-};
 // The mean distance of stated probability and frequency over ten bins of equal width, weighted by their
 // counts.
 std::optional<double> calibration_error(std::span<const Statement> statements);
 std::optional<double> brier_score(std::span<const Statement> statements);
+
+// A bin of a reliability curve: how probable its statements were on average, and how many were right.
+struct ReliabilityBin {
+  double from = 0.0, to = 0.0, mean_probability = 0.0;
+  Rate right;
+};
+std::vector<ReliabilityBin> reliability_of(std::span<const Statement> statements);
 
 // Intersection over union of two discs.
 double disc_overlap(const HiddenAnswer::Place& a, const HiddenAnswer::Place& b);
@@ -106,6 +124,9 @@ struct BenchmarkFigures {
   Rate alarm_nothing, alarm_parameters;
   Rate unknown_reported;  // verdict "unknown" where the cause is outside the library
   Rate confident_wrong;
+  // Of campaigns with effects: exactly, or partially with exactly the right names; of all campaigns: a name
+  // that is not hidden; of causes outside the library alone: no effect of the library named.
+  Rate names_right, wrong_name, outside_unnamed;
   Rate wheel_right;
   Rate overlap;  // soft patches whose disc overlaps by half or more
   Rate channel_right;
@@ -116,6 +137,7 @@ struct BenchmarkFigures {
   std::optional<double>
       closed_of_oracle;  // median share of what an oracle closes; 0 where no effect is named
   std::size_t cases = 0;
+  std::vector<ReliabilityBin> reliability;  // of the marginal probabilities, by tenths; empty bins too
 };
 BenchmarkFigures figures_of(std::span<const CaseScore> cases);
 

@@ -30,7 +30,7 @@ void write_optional(Writer& w, std::string_view name, const std::optional<double
 
 void write_figures(Writer& w, const BenchmarkFigures& f) {
   w.whole("campaigns", static_cast<std::int64_t>(f.cases));
-  const std::array<std::pair<std::string_view, const Rate*>, 14> rates{
+  const std::array<std::pair<std::string_view, const Rate*>, 17> rates{
       {{"exact", &f.exact},
        {"alike", &f.alike},
        {"exact_size_1", &f.exact_sized},
@@ -41,6 +41,9 @@ void write_figures(Writer& w, const BenchmarkFigures& f) {
        {"false_alarm_parameters", &f.alarm_parameters},
        {"unknown_told", &f.unknown_reported},
        {"confident_wrong", &f.confident_wrong},
+       {"names_right", &f.names_right},
+       {"wrong_name", &f.wrong_name},
+       {"outside_without_name", &f.outside_unnamed},
        {"wheel_right", &f.wheel_right},
        {"place_overlap_half", &f.overlap},
        {"channel_right", &f.channel_right},
@@ -55,6 +58,14 @@ void write_figures(Writer& w, const BenchmarkFigures& f) {
   write_optional(w, "slice_overlap_median", f.slice_overlap);
   write_optional(w, "slice_overlap_of_attainable_median", f.slice_of_attainable);
   write_optional(w, "seconds_median", f.seconds);
+  w.key("marginals_reliability").begin_array();
+  for (const gap::ReliabilityBin& bin : f.reliability) {
+    w.begin_object().significant("from", bin.from).significant("to", bin.to);
+    if (bin.right.of > 0) w.significant("mean_probability", bin.mean_probability);
+    write_rate(w, "right", bin.right);
+    w.end_object();
+  }
+  w.end_array();
 }
 
 void write_case(Writer& w, const CaseScore& c) {
@@ -62,7 +73,8 @@ void write_case(Writer& w, const CaseScore& c) {
   w.text("kind", c.kind).text("fidelity", c.fidelity).text("verdict", c.verdict).text("found", c.found);
   w.boolean("exact", c.exact).boolean("alike", c.alike).boolean("verdict_right", c.verdict_right);
   w.boolean("set_holds_truth", c.held).boolean("false_alarm", c.false_alarm);
-  w.boolean("confident_wrong", c.confident_wrong);
+  w.boolean("confident_wrong", c.confident_wrong).boolean("partial", c.partial);
+  w.boolean("names_right", c.names_right).boolean("wrong_name", c.wrong_name);
   w.significant("stated", c.stated);
   w.significant("unknown_probability", c.unknown_probability);
   if (c.wheel_right) w.boolean("wheel_right", *c.wheel_right);
@@ -98,7 +110,7 @@ std::string benchmark_document(const gap::Benchmark& benchmark) {
   for (const gap::WithheldScore& s : benchmark.withheld) {
     w.begin_object().text("campaign", s.campaign).text("effect", s.withheld).text("verdict", s.verdict);
     w.text("found", s.found).boolean("unknown", s.unknown).boolean("look_alike", s.look_alike);
-    w.boolean("absorbed", s.absorbed).end_object();
+    w.boolean("absorbed", s.absorbed).boolean("declared", s.declared).end_object();
   }
   return w.end_array().end_object().take() + "\n";
 }

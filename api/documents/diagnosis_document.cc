@@ -97,6 +97,17 @@ void write_effects_found(Writer& w, const Diagnosis& d) {
   w.end_array();
 }
 
+void write_marginals(Writer& w, const Diagnosis& d) {
+  w.key("marginals").begin_array();
+  for (const gap::EffectMarginal& m : d.marginals)
+    w.begin_object()
+        .text("name", m.name)
+        .exact("probability", m.probability)
+        .significant("closed_share", m.closed_share)
+        .end_object();
+  w.end_array();
+}
+
 void write_candidates(Writer& w, const Diagnosis& d) {
   w.key("candidates").begin_array();
   for (const gap::ComparedSet& set : compared_sets(d)) {
@@ -108,6 +119,12 @@ void write_candidates(Writer& w, const Diagnosis& d) {
   w.end_array().key("confusable").begin_array();
   for (const gap::ConfusablePair& pair : d.confusable)
     w.begin_object().texts("effects", {pair.a, pair.b}).significant("angle_deg", pair.angle_deg).end_object();
+  w.end_array().key("look_alikes").begin_array();
+  for (const gap::LookAlike& alike : d.look_alikes) {
+    w.begin_object().text("effect", alike.effect).text("like", alike.like);
+    if (!alike.which.empty()) w.texts("parameters", alike.which);
+    w.significant("angle_deg", alike.angle_deg).end_object();
+  }
   w.end_array();
 }
 
@@ -241,8 +258,19 @@ void write_gap(Writer& w, const Diagnosis& d) {
 void write_residual(Writer& w, const Diagnosis& d) {
   w.key("residual").begin_array();
   for (const gap::ResidualShape& shape : d.residual) {
-    w.begin_object().text("entry", shape.entry).text("variable", shape.variable);
+    w.begin_object().text("form", shape.form);
+    if (!shape.words.empty()) w.text("text", shape.words);
+    w.text("entry", shape.entry).text("variable", shape.variable);
     write_finite(w, "share", shape.share);
+    if (shape.probability) w.exact("probability", *shape.probability);
+    if (shape.closed_share) w.significant("closed_share", *shape.closed_share);
+    if (!shape.parameters.empty()) {
+      w.key("parameters").begin_object();
+      for (const gap::FoundParameter& parameter : shape.parameters)
+        write_interval(w, parameter.name, parameter.value);
+      w.end_object();
+    }
+    if (!shape.unit.empty()) w.text("unit", shape.unit);
     w.key("shape").begin_array();
     for (const auto& [at, value] : shape.shape) {
       if (!std::isfinite(at) || !std::isfinite(value.value)) continue;
@@ -358,6 +386,7 @@ std::string diagnosis_document(const gap::DriveCampaign& campaign, const Diagnos
   w.text("verdict", gap::name_of(d.verdict)).text("reason", d.reason);
   w.text("overturned_by", d.overturned_by);
   write_effects_found(w, d);
+  write_marginals(w, d);
   write_candidates(w, d);
   w.key("where").begin_object();
   write_channels(w, d);

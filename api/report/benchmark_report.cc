@@ -40,6 +40,11 @@ void write_figures(std::string& out, const std::string& title, std::span<const C
   row(out, "false alarm where only parameters are off", "0.05", rate_words(f.alarm_parameters));
   row(out, "unknown causes reported as unknown", "", rate_words(f.unknown_reported));
   row(out, "unknown distinguished from known (area under ROC)", "0.85", number_words(f.unknown_auroc));
+  row(out, "exactly the right names, alone or beside something unexplained", "0.92",
+      rate_words(f.names_right));
+  row(out, "a name that is not hidden", "0.04", rate_words(f.wrong_name));
+  row(out, "a cause outside the library without the name of an effect", "0.80",
+      rate_words(f.outside_unnamed));
   row(out, "a wrong name with more than 0.9", "0.05", rate_words(f.confident_wrong));
   row(out, "calibration error", "0.05", number_words(f.calibration));
   row(out, "Brier score", "0.15", number_words(f.brier));
@@ -54,19 +59,31 @@ void write_figures(std::string& out, const std::string& title, std::span<const C
   row(out, "median seconds a campaign", "", f.seconds ? fmt::format("{:.1f}", *f.seconds) : "-");
 }
 
+void write_reliability(std::string& out, std::span<const CaseScore> cases) {
+  out +=
+      "\n### Marginal probabilities of single effects\n\n| stated | mean | hidden (90 % interval) |\n| --- | "
+      "--- | "
+      "--- |\n";
+  for (const gap::ReliabilityBin& bin : gap::figures_of(cases).reliability)
+    if (bin.right.of > 0)
+      out += fmt::format("| {:.1f} to {:.1f} | {:.3f} | {} |\n", bin.from, bin.to, bin.mean_probability,
+                         rate_words(bin.right));
+}
+
 const char* mark(bool yes) {
   return yes ? "yes" : "";
 }
 
 void write_cases(std::string& out, std::span<const CaseScore> cases) {
   out +=
-      "\n### Campaigns\n\n| campaign | hidden | size | kind | fidelity | verdict | found | exact | alike | "
+      "\n### Campaigns\n\n| campaign | hidden | size | kind | fidelity | verdict | found | exact | names | "
+      "alike | "
       "stated | "
-      "P(unknown) | s |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+      "P(unknown) | s |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
   for (const CaseScore& c : cases)
-    out += fmt::format("| {} | {} | {:g} | {} | {} | {} | {} | {} | {} | {:.2f} | {:.2f} | {:.1f} |\n",
+    out += fmt::format("| {} | {} | {:g} | {} | {} | {} | {} | {} | {} | {} | {:.2f} | {:.2f} | {:.1f} |\n",
                        c.campaign, c.truth, c.size, c.kind, c.fidelity, c.verdict, c.found, mark(c.exact),
-                       mark(c.alike), c.stated, c.unknown_probability, c.seconds);
+                       mark(c.names_right), mark(c.alike), c.stated, c.unknown_probability, c.seconds);
 }
 
 void write_confusion(std::string& out, std::span<const CaseScore> cases) {
@@ -81,11 +98,12 @@ void write_confusion(std::string& out, std::span<const CaseScore> cases) {
 }
 
 void write_withheld(std::string& out, std::span<const gap::WithheldScore> withheld) {
-  Rate right, unknown, alike, absorbed;
+  Rate right, unknown, alike, declared, absorbed;
   for (const gap::WithheldScore& w : withheld) {
     for (const auto& [rate, hit] : {std::pair{&right, w.right()},
                                     {&unknown, w.unknown},
                                     {&alike, w.look_alike},
+                                    {&declared, w.declared},
                                     {&absorbed, w.absorbed}}) {
       ++rate->of;
       rate->hits += hit ? 1 : 0;
@@ -94,8 +112,11 @@ void write_withheld(std::string& out, std::span<const gap::WithheldScore> withhe
   out +=
       "\n### With the hidden effect withheld from the library\n\n| figure | value (90 % interval) |\n| --- | "
       "--- |\n";
-  out += fmt::format("| unknown or a look-alike | {} |\n| unknown | {} |\n| a look-alike | {} |\n",
-                     rate_words(right), rate_words(unknown), rate_words(alike));
+  out += fmt::format(
+      "| unknown or a look-alike | {} |\n| unknown | {} |\n| another effect that looks alike | {} |\n| "
+      "parameters "
+      "that are declared to look alike | {} |\n",
+      rate_words(right), rate_words(unknown), rate_words(alike), rate_words(declared));
   out += fmt::format("| no effect, or parameters alone | {} |\n", rate_words(absorbed));
   out += "\n| campaign | withheld | verdict | found | right |\n| --- | --- | --- | --- | --- |\n";
   for (const gap::WithheldScore& w : withheld)
@@ -108,6 +129,7 @@ void write_withheld(std::string& out, std::span<const gap::WithheldScore> withhe
 std::string benchmark_report(const gap::Benchmark& benchmark) {
   std::string out = fmt::format("## Diagnosis, variant {}\n", benchmark.variant);
   for (const auto& [name, cases] : benchmark_groups(benchmark)) write_figures(out, name, cases);
+  write_reliability(out, benchmark.cases);
   write_cases(out, benchmark.cases);
   write_confusion(out, benchmark.cases);
   if (!benchmark.withheld.empty()) write_withheld(out, benchmark.withheld);
@@ -120,7 +142,7 @@ std::string benchmark_csv(const gap::Benchmark& benchmark, const std::string& se
       "held,"
       "false_alarm,confident_wrong,unknown_probability,stated,wheel_right,closed_fraction,"
       "oracle_closed_fraction,place_overlap,"
-      "seconds,channel_right,slice_overlap,slice_attainable\n";
+      "seconds,channel_right,slice_overlap,slice_attainable,partial,names_right,wrong_name\n";
   const auto yes = [](const std::optional<bool>& value) { return value ? (*value ? "1" : "0") : ""; };
   const auto number = [](const std::optional<double>& value) {
     return value ? fmt::format("{:.4g}", *value) : std::string();
@@ -128,13 +150,13 @@ std::string benchmark_csv(const gap::Benchmark& benchmark, const std::string& se
   for (const CaseScore& c : benchmark.cases)
     out += fmt::format(
         "{},{},{},{},{},{:g},{},{},{},{},{:d},{:d},{:d},{:d},{:d},{:d},{:.4g},{:.4g},{},{},{},{},{:.1f},{},{}"
-        ",{}"
+        ",{},{:d},{:d},{:d}"
         "\n",
         set, benchmark.variant, c.campaign, c.truth, static_cast<int>(c.truth_kind), c.size, c.kind,
         c.fidelity, c.verdict, c.found, c.exact, c.alike, c.verdict_right, c.held, c.false_alarm,
         c.confident_wrong, c.unknown_probability, c.stated, yes(c.wheel_right), number(c.closed_fraction),
         number(c.oracle_closed_fraction), number(c.place_overlap), c.seconds, yes(c.channel_right),
-        number(c.slice_overlap), number(c.slice_attainable));
+        number(c.slice_overlap), number(c.slice_attainable), c.partial, c.names_right, c.wrong_name);
   return out;
 }
 

@@ -23,6 +23,7 @@ using Spans = std::vector<ReportText::Span>;
 using Style = ReportText::Style;
 
 constexpr std::size_t kMaxCandidates = 10;
+constexpr double kMinMarginal = 0.01;  // of effects with a row of their own
 
 // What the verdict means, for someone who has not read the manual.
 std::string_view meaning(Verdict verdict) {
@@ -44,6 +45,11 @@ std::string_view meaning(Verdict verdict) {
   }
   return "";
 }
+
+constexpr std::string_view kPartial =
+    "The simulator lacked the effects below. They explain a part: something unexplained remains beside them, "
+    "and "
+    "what is known of it is below too.";
 
 std::string interval_words(const Interval& x, double unit = 1.0) {
   if (!std::isfinite(x.value)) return "none";
@@ -99,7 +105,7 @@ class Report {
 
   void write_verdict() {
     page_.paragraph(Spans{{std::string(gap::name_of(d_.verdict)), Style::kStrong},
-                          {fmt::format(": {}", meaning(d_.verdict))}});
+                          {fmt::format(": {}", d_.partial ? kPartial : meaning(d_.verdict))}});
     page_.paragraph(fmt::format("{}.", d_.reason));
     if (!d_.overturned_by.empty())
       page_.paragraph(fmt::format("What would overturn it: {}.", d_.overturned_by));
@@ -136,11 +142,27 @@ class Report {
         "had not seen. Last column: how often its evidence would have chosen the set, drives with their "
         "repeats drawn with replacement.");
     picture("explanations", "Probability of each explanation");
+    write_marginals();
     if (d_.confusable.empty()) return;
     page_.paragraph("Pairs that these drives hardly tell apart:");
     page_.table({"one", "other", "angle between their signatures, deg"});
     for (const gap::ConfusablePair& pair : d_.confusable)
       page_.row({pair.a, pair.b, fmt::format("{:.0f}", pair.angle_deg)});
+  }
+
+  void write_marginals() {
+    if (d_.marginals.empty()) return;
+    page_.paragraph(
+        "Each effect of the library over all explanations, with and without something unknown beside it, and "
+        "what goes with it of the gap that re-tuning leaves on drives held out of the fit. Effects are named "
+        "by "
+        "both: one that closes next to nothing is not named, one that closes most is not withheld because "
+        "something else is left.");
+    page_.table({"effect", "probability", "closes"});
+    for (const gap::EffectMarginal& m : d_.marginals)
+      if (m.probability >= kMinMarginal)
+        page_.row(
+            {m.name, probability_words(m.probability), fmt::format("{:.0f} %", 100.0 * m.closed_share)});
   }
 
   void write_planners_view() {
@@ -266,6 +288,16 @@ class Report {
   void write_unknown() {
     if (!d_.residual.empty()) {
       page_.section("What nobody has named");
+      const gap::ResidualShape& first = d_.residual.front();
+      if (!first.words.empty()) {
+        std::vector<std::string> sizes;
+        for (const gap::FoundParameter& p : first.parameters)
+          sizes.push_back(fmt::format("{} = {}", p.name, interval_words(p.value)));
+        page_.paragraph(fmt::format(
+            "It looks most like {} ({}): probability {}, {:.0f} % of the gap goes with it.", first.words,
+            fmt::join(sizes, ", "), probability_words(first.probability.value_or(0.0)),
+            100.0 * first.closed_share.value_or(0.0)));
+      }
       page_.paragraph(
           "Where what remains enters, on what it depends, and how it changes from the lowest (-1) to the "
           "highest (1) value of the variable that was driven. It is described, not to be extrapolated.");

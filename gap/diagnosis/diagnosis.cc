@@ -7,14 +7,17 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include "core/angle.h"
 #include "gap/diagnosis/describe/localise.h"
+#include "gap/diagnosis/describe/look_alikes.h"
 #include "gap/diagnosis/describe/next_drives.h"
 #include "gap/diagnosis/describe/unexplained.h"
+#include "gap/diagnosis/held_out/effect_marginals.h"
 #include "gap/diagnosis/held_out/extrapolation.h"
 #include "gap/diagnosis/held_out/gap_closure.h"
+#include "gap/diagnosis/model/outside_cause.h"
+#include "gap/diagnosis/naming.h"
 #include "gap/diagnosis/search/effect_trace.h"
 #include "gap/diagnosis/search/prepared_campaign.h"
 #include "gap/diagnosis/search/selection.h"
@@ -40,9 +43,10 @@ class Diagnoser {
     if (too_few()) return std::move(d_);
     if (auto searched = search(options_); !searched) return fail(searched.error());
     if (auto searched = search_again(); !searched) return fail(searched.error());
-    judge(campaign_, prepared_, search_, best_, options_, d_);
+    const DriveResampling drives = resample_drives(campaign_, options_.resamples, options_.seed);
+    name_and_judge(drives);
     compare_look_alikes();
-    if (auto closed = close_gap(); !closed) return fail(closed.error());
+    if (auto closed = close_gap(drives); !closed) return fail(closed.error());
     describe_parameters();
     localise();
     propose_drives();
@@ -129,6 +133,18 @@ class Diagnoser {
     return search(again, most_probable_fits(search_, static_cast<std::size_t>(second.max_kept)));
   }
 
+  void name_and_judge(const DriveResampling& drives) {
+    progress_.report("weighing single effects", 0.79);
+    const LinearHeldOut held_out(prepared_, drives.groups, options_.folds);
+    const ClosedShares shares(std::cref(held_out), search_);
+    d_.marginals = effect_marginals(d_.library, search_, shares);
+    chosen_ = best_;
+    naming_ = name_effects(search_, chosen_, d_.marginals, options_.verdict);
+    best_ = naming_.correction;
+    judge(campaign_, prepared_, search_, chosen_, naming_, options_, d_);
+    if (d_.outside) d_.outside->closed_share = shares.of(d_.outside->cause);
+  }
+
   bool is_withheld(std::string_view effect) const {
     const auto& withheld = options_.search.withheld;
     return std::find(withheld.begin(), withheld.end(), effect) != withheld.end();
@@ -137,8 +153,10 @@ class Diagnoser {
   const Candidate& best() const { return search_.candidates[best_]; }
   const FittedExplanation& best_fit() const { return search_.fits[best().fit]; }
   // What the verdict says: a fit whose effects are all named, or the re-tuned one.
-  const FittedExplanation& reported_fit() const {
-    return d_.effects.size() == best().effects.size() ? best_fit() : search_.fits[0];
+  const FittedExplanation& reported_fit() const { return explains() ? best_fit() : search_.fits[0]; }
+  // Beside which something is left: with a cause from outside where one was found.
+  const FittedExplanation& fit_beside_rest() const {
+    return d_.outside ? search_.fits[search_.candidates[chosen_].fit] : reported_fit();
   }
   bool explains() const { return d_.verdict == Verdict::kEffects || d_.verdict == Verdict::kEffectSet; }
 
@@ -154,23 +172,8 @@ class Diagnoser {
   }
 
   void compare_look_alikes() {
-    std::vector<const ScreenedVariant*> first;
-    for (const ScreenedVariant& s : search_.screened)
-      if (s.signature.size() > 0 && s.signature.norm() > options_.verdict.min_signature &&
-          std::none_of(first.begin(), first.end(),
-                       [&](const auto* f) { return f->variant.effect == s.variant.effect; }))
-        first.push_back(&s);
-    for (std::size_t a = 0; a < first.size(); ++a)
-      for (std::size_t b = a + 1; b < first.size(); ++b) {
-        const double cosine = std::abs(first[a]->signature.dot(first[b]->signature)) /
-                              (first[a]->signature.norm() * first[b]->signature.norm());
-        const double angle = std::acos(std::min(1.0, cosine)) * 180.0 / std::numbers::pi;
-        if (angle < options_.verdict.max_angle_deg)
-          d_.confusable.push_back({first[a]->variant.effect, first[b]->variant.effect, angle});
-      }
-    std::stable_sort(
-        d_.confusable.begin(), d_.confusable.end(),
-        [](const ConfusablePair& a, const ConfusablePair& b) { return a.angle_deg < b.angle_deg; });
+    d_.confusable = confusable_pairs(search_, options_.verdict);
+    d_.look_alikes = look_alikes(search_, options_.verdict);
   }
 
   void localise() {
@@ -178,8 +181,8 @@ class Diagnoser {
     d_.regimes = regimes_of(prepared_, campaign_, prepared_.nominal_residuals, LookedAt::kGap, options_);
     d_.regimes_retuned =
         regimes_of(prepared_, campaign_, search_.fits[0].residuals, LookedAt::kGap, options_);
-    if (d_.verdict == Verdict::kUnknown) {
-      d_.residual = describe_unexplained(prepared_, reported_fit(), options_);
+    if (d_.verdict == Verdict::kUnknown || d_.partial) {
+      d_.residual = describe_unexplained(prepared_, fit_beside_rest(), d_.outside, options_);
       d_.places = gap_places(prepared_, campaign_, search_.fits[0].residuals, options_);
     }
     if (!explains()) return;
@@ -207,12 +210,13 @@ class Diagnoser {
     };
     const auto corrects = [&](std::size_t candidate) {
       const Candidate& c = search_.candidates[candidate];
-      return !c.with_unknown && !c.effects.empty();
+      return !c.unknown() && !c.effects.empty();
     };
     const SelectionBootstrap selection = resample_selection(search_, prepared_, campaign_, options_, drives);
     for (std::size_t c = 0; c < selection.share.size(); ++c)
       d_.candidates[c].chosen_share = selection.share[c];
     if (!explains()) return {{uncorrected()}, {}};
+    if (d_.partial) return {{refit(best_)}, {}};
     CorrectionChoice choice{{refit(best_)}, {}};
     std::map<std::size_t, std::size_t> correction_of{{best_, 0}};
     for (std::size_t c = 0; c < selection.share.size(); ++c) {
@@ -228,8 +232,7 @@ class Diagnoser {
     return choice;
   }
 
-  Result<void> close_gap() {
-    const DriveResampling drives = resample_drives(campaign_, options_.resamples, options_.seed);
+  Result<void> close_gap(const DriveResampling& drives) {
     const CorrectionChoice choice = choose_corrections(drives);
     auto closure = close_gap_on_held_out(prepared_, campaign_, choice, drives, options_, progress_);
     if (!closure) return fail(closure.error());
@@ -289,7 +292,8 @@ class Diagnoser {
     std::vector<const FittedExplanation*> fits;
     std::vector<double> probabilities;
     for (const Candidate& c : search_.candidates) {
-      if (c.with_unknown || fits.size() >= static_cast<std::size_t>(options_.next_drives.max_explanations))
+      if (c.with_unknown || reads_wrongly(c) ||
+          fits.size() >= static_cast<std::size_t>(options_.next_drives.max_explanations))
         continue;
       fits.push_back(&search_.fits[c.fit]);
       probabilities.push_back(c.probability);
@@ -298,12 +302,22 @@ class Diagnoser {
                                  options_.next_drives, progress_);
   }
 
+  // Whether a cause from outside is a sensor's: what that does to one drive alone nobody can say.
+  static bool reads_wrongly(const Candidate& c) {
+    return std::any_of(c.effects.begin(), c.effects.end(), [](const std::string& name) {
+      const OutsideCause* const cause = find_outside(name);
+      return cause != nullptr && cause->show != nullptr;
+    });
+  }
+
   const DriveCampaign& campaign_;
   const DiagnosisOptions& options_;
   Progress& progress_;
   PreparedCampaign prepared_;
   ExplanationSearch search_;
-  std::size_t best_ = 0;  // of its candidates
+  std::size_t best_ = 0;    // of its candidates: what is reported
+  std::size_t chosen_ = 0;  // what selection chose
+  Naming naming_;
   Diagnosis d_;
 };
 

@@ -12,6 +12,8 @@
 #include <string_view>
 #include <vector>
 
+#include "gap/diagnosis/held_out/effect_marginals.h"
+#include "gap/diagnosis/model/outside_cause.h"
 #include "gap/diagnosis/search/selection.h"
 
 namespace slipway::gap {
@@ -44,8 +46,9 @@ double gain_of_parameters(const PreparedCampaign& prepared, const DriveCampaign&
 
 ComparedSet compared(const Candidate& c) {
   ComparedSet set;
-  set.effects = c.effects;
-  set.with_unknown = c.with_unknown;
+  set.effects = library_effects_of(c);
+  set.with_unknown = c.unknown();
+  if (c.outside) set.outside = outside_causes_of(c).front();
   return set;
 }
 
@@ -53,7 +56,7 @@ ComparedSet compared(const Candidate& c) {
 const Candidate* rival_of(const ExplanationSearch& search, const Candidate& chosen) {
   const auto rival =
       std::find_if(search.candidates.begin(), search.candidates.end(), [&](const Candidate& c) {
-        return c.effects != chosen.effects || c.with_unknown != chosen.with_unknown;
+        return library_effects_of(c) != library_effects_of(chosen) || c.unknown() != chosen.unknown();
       });
   return rival == search.candidates.end() ? nullptr : &*rival;
 }
@@ -67,13 +70,14 @@ std::string next_best(const Candidate& rival) {
 
 // Nearly as probable, and no unknown cause.
 bool alike(const Candidate* rival, double probability, const VerdictOptions& options) {
-  return rival != nullptr && !rival->with_unknown && rival->probability > options.rival_share * probability;
+  return rival != nullptr && !rival->unknown() && rival->probability > options.rival_share * probability;
 }
 
 // Which probabilities belong to the same set, whatever the order of its effects.
 using SetKey = std::pair<std::set<std::string>, bool>;
 SetKey key_of(const Candidate& c) {
-  return {{c.effects.begin(), c.effects.end()}, c.with_unknown};
+  const std::vector<std::string> effects = library_effects_of(c);
+  return {{effects.begin(), effects.end()}, c.unknown()};
 }
 
 // The least size of each effect that these drives would surely have shown, of its first variant's first
@@ -181,22 +185,100 @@ void withdraw_effects(Diagnosis& d) {
   d.planners_view.with_effects = d.planners_view.retuned;
 }
 
-// The effects of the chosen explanation, with their parameters.
-std::vector<FoundEffect> found_effects(const Candidate& chosen, const FittedExplanation& fit,
+// The parameters of one of a fit's causes: what was estimated, and what was held.
+std::vector<FoundParameter> parameters_of(const FittedExplanation& fit, std::size_t which, bool with_held) {
+  const EffectVariant& variant = fit.hypothesis.effects()[which];
+  const auto parameters = fit.hypothesis.parameters();
+  std::vector<FoundParameter> found;
+  for (std::size_t p = fit.hypothesis.nuisance_count(); p < parameters.size(); ++p)
+    if (parameters[p].effect == variant.effect)
+      found.push_back({parameters[p].name.substr(variant.effect.size() + 1), parameter_interval(fit, p)});
+  if (with_held)
+    for (const auto& [field, value] : variant.fixed) found.push_back({field, {value, value, value}});
+  return found;
+}
+
+// The library's effects of the chosen explanation, with their parameters.
+std::vector<FoundEffect> found_effects(const FittedExplanation& fit,
                                        const std::map<std::string, double>& probability_of) {
   std::vector<FoundEffect> all;
-  const auto parameters = fit.hypothesis.parameters();
-  for (std::size_t e = 0; e < chosen.effects.size(); ++e) {
-    const std::string& name = chosen.effects[e];
-    FoundEffect found{name, fit.hypothesis.effects()[e].label, probability_of.at(name), {}};
-    for (std::size_t p = fit.hypothesis.nuisance_count(); p < parameters.size(); ++p)
-      if (parameters[p].effect == name)
-        found.parameters.push_back({parameters[p].name.substr(name.size() + 1), parameter_interval(fit, p)});
-    for (const auto& [field, value] : fit.hypothesis.effects()[e].fixed)
-      found.parameters.push_back({field, {value, value, value}});
-    all.push_back(std::move(found));
-  }
+  const auto effects = fit.hypothesis.effects();
+  for (std::size_t e = 0; e < effects.size(); ++e)
+    if (find_outside(effects[e].effect) == nullptr)
+      all.push_back({effects[e].effect, effects[e].label, probability_of.at(effects[e].effect),
+                     parameters_of(fit, e, true)});
   return all;
+}
+
+// "dragging_wheel (0.999) closes 93 % of the gap"
+std::string closing_words(const Diagnosis& d, std::span<const std::string> effects) {
+  std::vector<std::string> each;
+  for (const std::string& effect : effects)
+    for (const EffectMarginal& m : d.marginals)
+      if (m.name == effect)
+        each.push_back(fmt::format("{} (probability {:.3f}) closes {:.0f} % of the gap", effect,
+                                   m.probability, 100.0 * m.closed_share));
+  return fmt::format("{}", fmt::join(each, ", "));
+}
+
+std::string remaining_words(const Diagnosis& d) {
+  return d.outside ? fmt::format("{} (probability {:.2f})", d.outside->words, d.outside->probability)
+                   : "something of no known form";
+}
+
+void judge_effects(const ExplanationSearch& search, const Naming& naming, double probability,
+                   const DiagnosisOptions& options, Diagnosis& d) {
+  const Candidate& chosen = search.candidates[naming.candidate];
+  const Candidate* const rival = rival_of(search, chosen);
+  if (naming.partial) {
+    d.partial = true;
+    d.verdict = Verdict::kEffects;
+    d.reason = fmt::format("{}, and beside it remains unexplained: {}", closing_words(d, naming.effects),
+                           remaining_words(d));
+    d.overturned_by = kSameLook;
+    return;
+  }
+  const bool certain =
+      probability >= options.selection.certain && !alike(rival, probability, options.verdict);
+  d.verdict = certain ? Verdict::kEffects : Verdict::kEffectSet;
+  d.reason =
+      fmt::format("{} explain{} what re-tuned parameters leave over (probability {:.2f})",
+                  fmt::join(chosen.effects, " and "), chosen.effects.size() == 1 ? "s" : "", probability);
+  if (rival != nullptr) d.overturned_by = next_best(*rival);
+}
+
+void judge_unknown(const ExplanationSearch& search, std::size_t best, double unknown, Diagnosis& d) {
+  d.verdict = Verdict::kUnknown;
+  d.reason =
+      d.outside
+          ? fmt::format("no effect of the library: {} (probability {:.2f}; something unknown {:.2f})",
+                        d.outside->words, d.outside->probability, unknown)
+          : fmt::format("a gap remains that no effect of the library explains (probability {:.2f})", unknown);
+  d.overturned_by = kSameLook;
+  const std::vector<std::string> beside = library_effects_of(search.candidates[best]);
+  if (!beside.empty())
+    d.notes.push_back(
+        fmt::format("{} would fit beside what is unexplained, and may be its shadow: nothing is named",
+                    fmt::join(beside, " and ")));
+}
+
+// Marginal probabilities after those of the sets have changed.
+void take_marginals_anew(Diagnosis& d) {
+  for (EffectMarginal& m : d.marginals) m.probability = marginal_probability(d.candidates, m.name);
+  std::stable_sort(
+      d.marginals.begin(), d.marginals.end(),
+      [](const EffectMarginal& a, const EffectMarginal& b) { return a.probability > b.probability; });
+  for (FoundEffect& effect : d.effects) effect.probability = marginal_probability(d.candidates, effect.name);
+}
+
+// Whether each named effect may stand beside something unknown.
+bool all_stand(const Diagnosis& d, const VerdictOptions& options) {
+  return options.name_by_marginals && !d.effects.empty() &&
+         std::all_of(d.effects.begin(), d.effects.end(), [&](const FoundEffect& effect) {
+           return std::any_of(d.marginals.begin(), d.marginals.end(), [&](const EffectMarginal& m) {
+             return m.name == effect.name && stands_beside_unknown(m, options);
+           });
+         });
 }
 
 }  // namespace
@@ -215,45 +297,50 @@ double hidden_share(std::span<const ScreenedVariant> screened, const VerdictOpti
   return static_cast<double>(hidden) / static_cast<double>(screened.size());
 }
 
+std::optional<OutsideFinding> outside_finding(const ExplanationSearch& search, std::size_t candidate,
+                                              const DriveCampaign& campaign) {
+  const FittedExplanation& fit = search.fits[search.candidates[candidate].fit];
+  const auto effects = fit.hypothesis.effects();
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    const OutsideCause* const cause = find_outside(effects[e].effect);
+    if (cause == nullptr) continue;
+    OutsideFinding found;
+    found.cause = cause->name;
+    found.words = cause->words(fit.hypothesis.outside_values(cause->name, fit.x), campaign);
+    for (const Candidate& c : search.candidates)
+      if (std::find(c.effects.begin(), c.effects.end(), found.cause) != c.effects.end())
+        found.probability += c.probability;
+    found.parameters = parameters_of(fit, e, false);
+    return found;
+  }
+  return std::nullopt;
+}
+
 void judge(const DriveCampaign& campaign, const PreparedCampaign& prepared, const ExplanationSearch& search,
-           std::size_t best, const DiagnosisOptions& options, Diagnosis& d) {
-  const Candidate& chosen = search.candidates[best];
+           std::size_t best, const Naming& naming, const DiagnosisOptions& options, Diagnosis& d) {
+  const Candidate& chosen = search.candidates[naming.candidate];
   std::map<SetKey, double> sets;
   std::map<std::string, double> single;
   double unknown = 0.0;
   for (const Candidate& c : search.candidates) {
     sets[key_of(c)] += c.probability;
     for (const std::string& name : c.effects) single[name] += c.probability;
-    if (c.with_unknown) unknown += c.probability;
+    if (c.unknown()) unknown += c.probability;
     ComparedSet set = compared(c);
     set.probability = c.probability;
     set.complexity = static_cast<int>(search.fits[c.fit].x.size() - search.fits[0].x.size());
     d.candidates.push_back(std::move(set));
   }
   const double probability = sets[key_of(chosen)];
-  if (chosen.with_unknown) {
-    d.verdict = Verdict::kUnknown;
-    d.reason =
-        fmt::format("a gap remains that no effect of the library explains (probability {:.2f})", unknown);
-    d.overturned_by = kSameLook;
-  } else if (chosen.effects.empty()) {
+  if (search.candidates[best].unknown()) d.outside = outside_finding(search, best, campaign);
+  if (chosen.unknown() && !naming.partial) {
+    judge_unknown(search, best, unknown, d);
+  } else if (naming.effects.empty()) {
     judge_without_effects(campaign, prepared, search, chosen, probability, options, d);
   } else {
-    const Candidate* const rival = rival_of(search, chosen);
-    const bool certain =
-        probability >= options.selection.certain && !alike(rival, probability, options.verdict);
-    d.verdict = certain ? Verdict::kEffects : Verdict::kEffectSet;
-    d.reason =
-        fmt::format("{} explain{} what re-tuned parameters leave over (probability {:.2f})",
-                    fmt::join(chosen.effects, " and "), chosen.effects.size() == 1 ? "s" : "", probability);
-    if (rival != nullptr) d.overturned_by = next_best(*rival);
+    judge_effects(search, naming, probability, options, d);
+    d.effects = found_effects(search.fits[chosen.fit], single);
   }
-  if (d.verdict == Verdict::kUnknown && !chosen.effects.empty())
-    d.notes.push_back(
-        fmt::format("{} would fit beside what is unexplained, and may be its shadow: nothing is named",
-                    fmt::join(chosen.effects, " and ")));
-  if (d.verdict == Verdict::kEffects || d.verdict == Verdict::kEffectSet)
-    d.effects = found_effects(chosen, search.fits[chosen.fit], single);
 }
 
 void doubt_what_does_not_extrapolate(const VerdictOptions& options, Diagnosis& d) {
@@ -271,7 +358,8 @@ void doubt_what_does_not_extrapolate(const VerdictOptions& options, Diagnosis& d
 
 void doubt_what_leaves_a_gap(const FittedExplanation& reported, const VerdictOptions& options, Diagnosis& d) {
   const double unknown = unknown_probability(d);
-  if (d.verdict == Verdict::kUnknown || d.verdict == Verdict::kInsufficient || unknown <= 0.0) return;
+  if (d.verdict == Verdict::kUnknown || d.verdict == Verdict::kInsufficient || d.partial || unknown <= 0.0)
+    return;
   std::optional<std::string> why = gap_left(d, options);
   if (!why) why = parameter_at_its_end(reported);
   if (!why) return;
@@ -281,6 +369,17 @@ void doubt_what_leaves_a_gap(const FittedExplanation& reported, const VerdictOpt
       c.probability *= c.with_unknown ? doubt / unknown : (1.0 - doubt) / (1.0 - unknown);
   std::stable_sort(d.candidates.begin(), d.candidates.end(),
                    [](const ComparedSet& a, const ComparedSet& b) { return a.probability > b.probability; });
+  take_marginals_anew(d);
+  if (all_stand(d, options)) {
+    std::vector<std::string> names;
+    for (const FoundEffect& effect : d.effects) names.push_back(effect.name);
+    d.partial = true;
+    d.verdict = Verdict::kEffects;
+    d.reason =
+        fmt::format("{}, and something unexplained remains beside it: {}", closing_words(d, names), *why);
+    d.overturned_by = kSameLook;
+    return;
+  }
   withdraw_effects(d);
   d.least_detectable.clear();
   d.verdict = Verdict::kUnknown;

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 
 #include "gap/diagnosis/diagnosis.h"
+#include "gap/diagnosis/naming.h"
 #include "gap/diagnosis/search/explanation_search.h"
 #include "gap/diagnosis/search/prepared_campaign.h"
 
@@ -16,17 +18,22 @@ Interval parameter_interval(const FittedExplanation& fit, std::size_t parameter)
 // of their usual size; 1 where none was screened.
 double hidden_share(std::span<const ScreenedVariant> screened, const VerdictOptions& options);
 
-// What the candidate chosen means: the verdict, its reason and what would overturn it, the effects found, or
-// how small ones could have hidden.
+// What the candidate chosen and the effects named mean: the verdict, its reason and what would overturn it,
+// the effects found, or how small ones could have hidden. d has its `marginals`.
 void judge(const DriveCampaign& campaign, const PreparedCampaign& prepared, const ExplanationSearch& search,
-           std::size_t chosen, const DiagnosisOptions& options, Diagnosis& d);
+           std::size_t chosen, const Naming& naming, const DiagnosisOptions& options, Diagnosis& d);
+
+// The cause from outside that a candidate has, with its parameters; nothing, where it has none.
+std::optional<OutsideFinding> outside_finding(const ExplanationSearch& search, std::size_t candidate,
+                                              const DriveCampaign& campaign);
 
 // Not certain of effects that predicted harsh drives worse than re-tuned parameters did, by more than chance.
 void doubt_what_does_not_extrapolate(const VerdictOptions& options, Diagnosis& d);
 
 // An answer that leaves far more than the floor on drives held out of the fit, or that needs a parameter at
-// the end of what it may be, is none: the cause is unknown. `reported`: the fit that the answer stands for; d
-// has its `gap`.
+// the end of what it may be, is none: the cause is unknown, and nothing is named unless it may stand beside
+// something unknown (see naming.h); then the answer is a partial one. `reported`: the fit that the answer
+// stands for; d has its `gap`.
 void doubt_what_leaves_a_gap(const FittedExplanation& reported, const VerdictOptions& options, Diagnosis& d);
 
 }  // namespace slipway::gap

@@ -30,6 +30,7 @@ namespace {
 using gap::Diagnosis;
 using gap::Interval;
 
+constexpr double kMinMarginal = 0.05;
 constexpr std::size_t kMaxCandidates = 6, kMaxChannels = 8, kMaxRegimes = 3, kMaxLeast = 6;
 
 std::string names_words(const std::vector<std::string>& names) {
@@ -62,6 +63,26 @@ std::string candidates_words(const Diagnosis& d) {
                fmt::format("{}", set.complexity)});
   }
   return table.print();
+}
+
+// Of the effects that are not next to impossible.
+std::string marginals_words(const Diagnosis& d) {
+  std::string out;
+  for (const gap::EffectMarginal& m : d.marginals)
+    if (m.probability >= kMinMarginal)
+      out += fmt::format("  {}: probability {:.3f} over all explanations, closes {:.0f} % of the gap\n",
+                         m.name, m.probability, 100.0 * m.closed_share);
+  return out.empty() ? out : "effects one by one:\n" + out;
+}
+
+std::string residual_words(const Diagnosis& d) {
+  std::string out;
+  for (const gap::ResidualShape& shape : d.residual)
+    out += shape.words.empty()
+               ? fmt::format("unexplained: {:.0f} % at {}, by {}\n", 100.0 * shape.share, shape.entry,
+                             shape.variable)
+               : fmt::format("unexplained: {:.0f} % is {}\n", 100.0 * shape.share, shape.words);
+  return out;
 }
 
 std::string channels_words(const Diagnosis& d) {
@@ -122,6 +143,7 @@ std::string answer_words(const Diagnosis& d) {
   out += fmt::format("\n{} drives, {} windows, {} observations; explanations compared:\n", d.drives,
                      d.windows, d.observations);
   out += candidates_words(d);
+  out += marginals_words(d);
   for (const gap::ConfusablePair& pair : d.confusable)
     out +=
         fmt::format("alike on these drives: {} and {} ({:.0f} deg apart)\n", pair.a, pair.b, pair.angle_deg);
@@ -133,9 +155,7 @@ std::string answer_words(const Diagnosis& d) {
     out += "\nhow far, rms on drives held out of the fit (90 % intervals):\n" + ladder_words(d);
   if (d.closed_fraction)
     out += fmt::format("of the gap that re-tuning leaves, closed: {}\n", interval_words(*d.closed_fraction));
-  for (const gap::ResidualShape& shape : d.residual)
-    out +=
-        fmt::format("unexplained: {:.0f} % at {}, by {}\n", 100.0 * shape.share, shape.entry, shape.variable);
+  out += residual_words(d);
   if (!d.least_detectable.empty()) out += "\nsmallest effects that would have been seen:\n";
   for (std::size_t i = 0; i < std::min(d.least_detectable.size(), kMaxLeast); ++i)
     out += fmt::format("  {} {} = {:.3g}\n", d.least_detectable[i].effect, d.least_detectable[i].parameter,

@@ -32,6 +32,7 @@ void add_gap_benchmark_command(CLI::App& app, std::function<int()>& run) {
       command
           ->add_option("--variant", options->variant,
                        "of the diagnosis, to compare with: as-is, no-retuning, no-closures, no-unknown, "
+                       "no-wrench, old-naming, "
                        "nearest-signature, evidence-without-retuning, sample-level-folds, sparse-regression, "
                        "gaussian-process")
           ->capture_default_str();

@@ -81,6 +81,23 @@ void BalanceGeometry::set_gravity() {
       gravity[6 + j] += own * g.dot(joint_motion(*rover, *stance, k, j).shift) / half_wheelbase_m;
 }
 
+void BalanceGeometry::add(const OutsideWrench& wrench) {
+  const auto add_force = [&](const Eigen::Vector3d& force_n, const Eigen::Vector3d& moment_nm) {
+    gravity[0] += (travel.x() * force_n.x() + travel.y() * force_n.y()) / weight_n;
+    gravity[1] += (travel.x() * force_n.y() - travel.y() * force_n.x()) / weight_n;
+    gravity[2] += force_n.z() / weight_n;
+    gravity.segment<3>(3) += moment_nm / (half_wheelbase_m * weight_n);
+  };
+  add_force(wrench.force_n, wrench.moment_nm);
+  for (std::size_t k = 0; k < wrench.at_wheel_n.size(); ++k) {
+    const Eigen::Vector3d& force_n = wrench.at_wheel_n[k];
+    add_force(force_n, stance->p_B_wheel[k].cross(force_n));
+    for (int j = 0; j < joints; ++j)
+      gravity[6 + j] +=
+          force_n.dot(joint_motion(*rover, *stance, k, j).shift) / (half_wheelbase_m * weight_n);
+  }
+}
+
 void BalanceGeometry::place_wheel(std::size_t k, const WheelCommand& commanded) {
   const WheelModel& wheel = rover->wheels[k];
   const Eigen::Vector3d& normal = stance->normal_B[k];

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "sim/quasi_static/outside_wrench.h"
 #include "sim/rover/drive_command.h"
 #include "sim/rover/motor.h"
 #include "sim/rover/rover_model.h"
@@ -43,6 +44,10 @@ struct BalanceGeometry {
   BalanceGeometry(const RoverModel& rover, double gravity_m_s2, const Stance& stance,
                   const DriveCommand& command);
 
+  // Adds what acts from outside to the weight. A force on the body does not turn the joints, as its weight
+  // does not; one at a wheel does.
+  void add(const OutsideWrench& wrench);
+
   int equilibrium_count() const { return 6 + joints; }
 
   const RoverModel* rover;
@@ -58,7 +63,8 @@ struct BalanceGeometry {
   DriveMotor drive;         // at its temperature
   PerWheel<int> leaders;
   std::vector<Wheel> wheels;
-  Equilibrium gravity = Equilibrium::Zero();  // its part in the equations of equilibrium
+  Equilibrium gravity =
+      Equilibrium::Zero();  // its part in the equations of equilibrium, with all that is added
 
  private:
   void place_wheel(std::size_t wheel, const WheelCommand& commanded);

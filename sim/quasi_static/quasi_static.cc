@@ -181,7 +181,7 @@ StationState QuasiStaticSolver::solve(const Stance& stance, const PerWheel<Soil>
                                       const DriveCommand& command, const Start* start,
                                       Thoroughness thoroughness) {
   if (any_slip_curve(soils)) return solve_with_slip_curves(stance, soils, command, thoroughness);
-  RoverBalance balance(rover_, gravity_m_s2_, stance, soils, command);
+  RoverBalance balance(rover_, gravity_m_s2_, stance, soils, command, outside_ ? &*outside_ : nullptr);
   return solve(balance, command, start, thoroughness);
 }
 
@@ -232,7 +232,7 @@ std::optional<QuasiStaticSolver::Start> QuasiStaticSolver::start_of_last(const S
                                                                          const PerWheel<Soil>& soils,
                                                                          const DriveCommand& command) const {
   if (!warm_) return std::nullopt;
-  RoverBalance balance(rover_, gravity_m_s2_, stance, soils, command);
+  RoverBalance balance(rover_, gravity_m_s2_, stance, soils, command, outside_ ? &*outside_ : nullptr);
   if (balance.can_spare_a_wheel()) balance.resting_loads_n();  // for the wheels that hang
   if (!balance.all_in_contact()) return std::nullopt;
   balance.residual(last_);

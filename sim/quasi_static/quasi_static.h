@@ -120,6 +120,8 @@ class QuasiStaticSolver {
   // Empty where the rover did not move on all of its wheels.
   std::optional<Start> start_of_last(const Stance& stance, const PerWheel<Soil>& soils,
                                      const DriveCommand& command) const;
+  // What acts besides weight and ground in the solves that follow; nothing, unless it is set.
+  void set_outside(const std::optional<OutsideWrench>& wrench) { outside_ = wrench; }
   // Forgets the last answer, so that the next solve is a cold start.
   void reset() {
     warm_ = false;
@@ -135,6 +137,7 @@ class QuasiStaticSolver {
   const RoverModel& rover_;
   double gravity_m_s2_;
   Precision precision_;
+  std::optional<OutsideWrench> outside_;
   bool warm_ = false;
   decltype(Start::unknowns) last_;
   std::optional<RoverBalance::WheelSlopes> last_slopes_;  // of draws

@@ -24,8 +24,10 @@ RoverBalance::WheelLoads loads_of(const RoverBalance::WheelContact& contact) {
 }  // namespace
 
 RoverBalance::RoverBalance(const RoverModel& rover, double gravity_m_s2, const Stance& stance,
-                           const PerWheel<Soil>& soils, const DriveCommand& command)
+                           const PerWheel<Soil>& soils, const DriveCommand& command,
+                           const OutsideWrench* outside)
     : own_geometry_(std::in_place, rover, gravity_m_s2, stance, command), geometry_(*own_geometry_) {
+  if (outside != nullptr) own_geometry_->add(*outside);
   set_soils(soils);
 }
 

@@ -52,9 +52,10 @@ class RoverBalance {
   static constexpr double kMinEntryAngleRad = 1e-3;
 
   // `soils` has the undisturbed soil at each wheel's place; the balance turns it into the soil in force.
-  // Rover and stance must outlive the balance.
+  // Rover and stance must outlive the balance. `outside`: what acts besides weight and ground, if anything.
   RoverBalance(const RoverModel& rover, double gravity_m_s2, const Stance& stance,
-               const PerWheel<Soil>& soils, const DriveCommand& command);
+               const PerWheel<Soil>& soils, const DriveCommand& command,
+               const OutsideWrench* outside = nullptr);
   // On a geometry that others may share; it must outlive the balance.
   RoverBalance(const BalanceGeometry& geometry, const PerWheel<Soil>& soils);
   RoverBalance(const RoverBalance&) = delete;
@@ -160,7 +161,7 @@ class RoverBalance {
   const RoverModel& rover() const { return *geometry_.rover; }
   const Stance& stance() const { return *geometry_.stance; }
 
-  std::optional<const BalanceGeometry> own_geometry_;  // where it is not another's
+  std::optional<BalanceGeometry> own_geometry_;  // where it is not another's
   const BalanceGeometry& geometry_;
   PerWheel<Soil> soils_;
   PerWheel<WheelNumbers> numbers_;  // of wheel and soil; angle and motion are those of the last residual

@@ -46,8 +46,8 @@ class ADiagnosis : public ::testing::Test {
 TEST_F(ADiagnosis, HasEveryKeyOfItsContract) {
   const JsonValue d = document(diagnosis());
   for (const char* key :
-       {"format", "campaign", "provenance", "verdict", "effects", "candidates", "confusable", "where", "gap",
-        "residual", "next_drives", "model", "notes", "least_detectable"})
+       {"format", "campaign", "provenance", "verdict", "effects", "marginals", "candidates", "confusable",
+        "look_alikes", "where", "gap", "residual", "next_drives", "model", "notes", "least_detectable"})
     EXPECT_NE(d.find(key), nullptr) << key;
   for (const char* key : {"channels", "regimes", "places", "windows"})
     EXPECT_NE(d.find("where")->find(key), nullptr) << key;
@@ -88,6 +88,22 @@ TEST_F(ADiagnosis, GivesEverySetOnceWithProbabilitiesThatAddUpToOne) {
     EXPECT_TRUE(sets.contains({"unknown"}));
     EXPECT_EQ(sets.size(), empty ? 2U : 5U);
   }
+}
+
+TEST_F(ADiagnosis, TellsTheFormOfWhatIsLeftAndEachEffectsMarginal) {
+  const JsonValue d = document(diagnosis());
+  const JsonValue& grousers = d.find("marginals")->elements.at(0);
+  EXPECT_EQ(grousers.find("name")->text, "grousers");
+  EXPECT_EQ(grousers.find("probability")->number, 0.97);
+  EXPECT_EQ(grousers.find("closed_share")->number, 0.8);
+  EXPECT_EQ(d.find("residual")->elements.at(0).find("form")->text, "smooth_function");
+  const JsonValue& pull = d.find("residual")->elements.at(1);
+  EXPECT_EQ(pull.find("form")->text, "force_on_body");
+  EXPECT_EQ(pull.find("text")->text, "a steady pull of 25 N against the travel, at the body");
+  EXPECT_EQ(pull.find("parameters")->find("force_n")->find("interval_90")->elements.at(1).number, -23.0);
+  EXPECT_EQ(d.find("look_alikes")->elements.at(0).find("like")->text, "parameters");
+  const std::string report = diagnosis_report(campaign(), diagnosis(), {}).markdown();
+  EXPECT_NE(report.find("| grousers | 0.970 | 80 % |"), std::string::npos) << "its marginal";
 }
 
 TEST_F(ADiagnosis, IsInTheUnitsOfTheBoundary) {

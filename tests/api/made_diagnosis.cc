@@ -35,7 +35,9 @@ gap::Diagnosis full_diagnosis(const gap::DriveCampaign& campaign) {
                   {{"grousers"}, 0.2, kNan, 1},
                   {{"motor_temperature"}, 0.1, std::nullopt, 2},
                   {{"grousers"}, 0.1, std::nullopt, 1, 0.0, true}};
+  d.marginals = {{"grousers", 0.97, 0.8}, {"bulldozing", 0.2, 0.0}};
   d.confusable = {{"bulldozing", "grousers", 12.0}};
+  d.look_alikes = {{"bulldozing", "parameters", {"exit_angle"}, 4.0}, {"bulldozing", "grousers", {}, 12.0}};
   d.channels = {{gap::Channel::kYawRate, std::nullopt, 0.01, 0.005, -0.001, 0.01},
                 {gap::Channel::kCurrent, "lf", 0.04, kNan, 0.03, 0.002}};
   d.regimes = {{{{gap::WindowVariable::kSlope, 5.0, kInfinite}}, gap::Channel::kSlip, 0.7, 0.2, 0.01}};
@@ -53,6 +55,16 @@ gap::Diagnosis full_diagnosis(const gap::DriveCampaign& campaign) {
   d.window_gaps = {{0, 0, 2.0, {{3.0, -2.0, 0.0}, {3.5, -2.0, 0.0}}, 4.5, 2.0, kNan}};
   d.residual = {{"wheel_load", "temperature", 0.6, {{-1.0, {0.2, 0.1, 0.3}}, {1.0, {kNan, 0.0, 0.0}}}}};
   d.next_drives = {{15.0, 90.0, 0.04, 0.3, -20.0, 1.2}};
+  gap::ResidualShape& pull = d.residual.emplace_back();
+  pull.entry = "tangential_force";
+  pull.variable = "direction";
+  pull.form = "force_on_body";
+  pull.words = "a steady pull of 25 N against the travel, at the body";
+  pull.unit = "N";
+  pull.probability = 0.9;
+  pull.closed_share = 0.4;
+  pull.parameters = {{"force_n", {-25.0, -27.0, -23.0}}};
+  pull.shape = {{-1.0, {25.0, 23.0, 27.0}}, {1.0, {-25.0, -27.0, -23.0}}};
   d.least_detectable = {{"grousers", "height_m", 0.01}, {"bulldozing", "share", kInfinite}};
   d.notes = {"a | note\nof two lines"};
   d.drives = 44;

@@ -72,6 +72,47 @@ TEST(BenchmarkScore, ACauseThatNoLibraryHasIsRightAsUnknown) {
   EXPECT_TRUE(!wrong.exact && wrong.confident_wrong);
 }
 
+TEST(BenchmarkScore, APartialAnswerHasTheRightNamesAndIsExactWhereSomethingIsBeside) {
+  Diagnosis d = found(Verdict::kEffects, {"hardpan"}, 0.95);
+  d.partial = true;
+  d.candidates[0].with_unknown = true;
+  const CaseScore alone = score_case(hidden({"hardpan"}), d, kLibrary, 1.0);
+  EXPECT_TRUE(alone.partial && alone.names_right && !alone.exact && !alone.wrong_name);
+  const CaseScore beside = score_case(hidden({"hardpan", "tether"}), d, kLibrary, 1.0);
+  EXPECT_TRUE(beside.exact && beside.names_right && beside.verdict_right);
+  const CaseScore shadow = score_case(hidden({"tether"}), d, kLibrary, 1.0);
+  EXPECT_TRUE(shadow.wrong_name && !shadow.names_right && !shadow.verdict_right);
+  const BenchmarkFigures f = figures_of(std::vector{alone, beside, shadow});
+  EXPECT_EQ(f.wrong_name.hits, 1U);
+  EXPECT_EQ(f.wrong_name.of, 3U);
+  EXPECT_EQ(f.names_right.hits, 1U) << "of campaigns with effects of the library alone";
+  EXPECT_EQ(f.outside_unnamed.hits, 1U);
+  EXPECT_EQ(f.outside_unnamed.of, 2U);
+}
+
+TEST(BenchmarkScore, MarginalsAreRightWhereTheEffectIsHidden) {
+  Diagnosis d = found(Verdict::kEffects, {"hardpan"}, 0.95);
+  d.marginals = {{"hardpan", 0.95, 0.8}, {"bulldozing", 0.92, 0.1}, {"soft_patch", 0.0, 0.0}};
+  const std::vector<ReliabilityBin> bins =
+      figures_of(std::vector{score_case(hidden({"hardpan"}), d, kLibrary, 1.0)}).reliability;
+  ASSERT_EQ(bins.size(), 10U);
+  EXPECT_EQ(bins[9].right.of, 2U);
+  EXPECT_EQ(bins[9].right.hits, 1U);
+  EXPECT_NEAR(bins[9].mean_probability, 0.935, 1e-12);
+  EXPECT_EQ(bins[0].right.of, 1U);
+  EXPECT_EQ(bins[0].right.hits, 0U);
+}
+
+TEST(BenchmarkScore, ParametersAreALookAlikeWhereTheDiagnosisSaysSo) {
+  Diagnosis d = found(Verdict::kParameters, {}, 0.9);
+  EXPECT_FALSE(score_case(hidden({"hardpan"}), d, kLibrary, 1.0).alike);
+  d.look_alikes.push_back({"hardpan", "parameters", {"stiffness"}, 4.0});
+  EXPECT_TRUE(score_case(hidden({"hardpan"}), d, kLibrary, 1.0).alike);
+  EXPECT_FALSE(score_case(hidden({"hardpan", "bulldozing"}), d, kLibrary, 1.0).alike) << "not the second";
+  EXPECT_TRUE(
+      score_withheld(hidden({"hardpan"}), "hardpan", d, found(Verdict::kParameters, {}, 0.9)).right());
+}
+
 TEST(BenchmarkScore, AnEffectOfOneWheelIsFoundAtThatWheelOrNot) {
   HiddenAnswer answer = hidden({"hardpan"});
   Diagnosis d = found(Verdict::kEffects, {"hardpan"}, 0.9);

@@ -29,11 +29,15 @@ EffectVariant variant(const std::string& effect, const std::string& field, doubl
 
 TEST(Priors, AddUpToOneOverAllSetsThatStandAlone) {
   const PriorOptions options;
+  constexpr double kOutside = 5.0;
   for (const double effects : {2.0, 7.0, 16.0}) {
     const double pairs = 0.5 * effects * (effects - 1.0);
     const LogPrior nothing = log_prior_of_nothing(options), one = log_prior_of_one(options, effects),
                    two = log_prior_of_two(options, effects);
+    const LogPrior outside = log_prior_of_outside(options, kOutside),
+                   both = log_prior_of_one_and_outside(options, effects, kOutside);
     EXPECT_NEAR(std::exp(nothing.alone) + std::exp(nothing.with_something_else) +
+                    kOutside * std::exp(outside.alone) + effects * kOutside * std::exp(both.alone) +
                     effects * (std::exp(one.alone) + std::exp(one.with_something_else)) +
                     pairs * std::exp(two.alone),
                 1.0, 1e-12)

@@ -2,7 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "gap/diagnosis/model/outside_cause.h"
+#include "tests/sim/reference_models.h"
 
 namespace slipway::gap {
 namespace {
@@ -75,6 +81,49 @@ TEST(OneOfAKind, LeavesOutNeighboursAndWhatSaysNothing) {
   EXPECT_EQ(chosen[2].heading_deg, 90.0);
   options.max_drives = 9;
   EXPECT_EQ(one_of_a_kind({with(10.0, 0.0, 0.9), with(15.0, 180.0, 1e-4)}, options).size(), 1U);
+}
+
+FittedExplanation explanation(const DriveCampaign& campaign, EffectVariant variant, std::string_view field,
+                              double value) {
+  FittedExplanation fit{{}, Hypothesis(campaign, {std::move(variant)})};
+  fit.x = fit.hypothesis.neutral();
+  const auto parameters = fit.hypothesis.parameters();
+  for (std::size_t p = 0; p < fit.x.size(); ++p)
+    if (parameters[p].name == field) fit.x[p] = value;
+  return fit;
+}
+
+// A pull against the travel is a tilt of the map as long as the rover only drives forward.
+TEST(NextDrives, BackTheRoverWhereThatTellsAPullFromATilt) {
+  DriveCampaign campaign;
+  campaign.rover = std::make_shared<sim::RoverModel>(sim::six_wheeler());
+  campaign.gravity_m_s2 = 3.71;
+  campaign.soils.resize(1);
+  campaign.soils[0].soil = sim::sandy_loam();
+  const double weight_n = campaign.rover->mass_kg * campaign.gravity_m_s2;
+  const std::vector<EffectVariant> effects = effect_variants(*campaign.rover, {});
+  const auto tilt = std::find_if(effects.begin(), effects.end(), [](const EffectVariant& v) {
+    return v.effect == "attitude_bias" && v.label == "map and inclinometer";
+  });
+  ASSERT_NE(tilt, effects.end());
+  const std::vector<EffectVariant> outside = outside_variants(campaign);
+  ASSERT_EQ(outside.front().effect, "pull_along_travel");
+  const FittedExplanation tilted = explanation(campaign, *tilt, "attitude_bias.pitch_deg", -2.0);
+  const FittedExplanation pulled = explanation(campaign, outside.front(), "pull_along_travel.force_n",
+                                               -weight_n * std::sin(2.0 * std::numbers::pi / 180.0));
+  const std::vector<const FittedExplanation*> both{&tilted, &pulled};
+  NextDriveOptions options;
+  const std::vector<NextDrive> drives =
+      next_drives(campaign, {}, both, std::vector{0.5, 0.5}, options, NoProgress{});
+  ASSERT_FALSE(drives.empty());
+  EXPECT_LT(drives.front().speed_m_s, 0.0);
+  EXPECT_GT(drives.front().information_bits, 0.9);
+  options.speed_shares = {1.0, 0.5, 0.5};
+  const std::vector<NextDrive> forward =
+      next_drives(campaign, {}, both, std::vector{0.5, 0.5}, options, NoProgress{});
+  if (!forward.empty()) {
+    EXPECT_LT(forward.front().information_bits, 0.3 * drives.front().information_bits);
+  }
 }
 
 }  // namespace

@@ -96,6 +96,10 @@ TEST(PracticeCampaigns, APullThatNoEffectKnowsIsUnknown) {
   ASSERT_FALSE(diagnosis.residual.empty());
   EXPECT_EQ(diagnosis.residual.front().entry, "tangential_force");
   EXPECT_EQ(diagnosis.residual.front().variable, "direction");
+  EXPECT_EQ(diagnosis.residual.front().form, "force_on_body");
+  EXPECT_NE(diagnosis.residual.front().words.find("against the travel, at the body"), std::string::npos)
+      << diagnosis.residual.front().words;
+  EXPECT_NEAR(diagnosis.residual.front().parameters.front().value.value, -25.0, 5.0);
 }
 
 }  // namespace

@@ -137,6 +137,18 @@ std::vector<CampaignCase> other_physics(CaseList list) {
   return list.take();
 }
 
+// Forces of the world and sensors that read wrongly, each alone, and four beside an effect of the library.
+std::vector<CampaignCase> outside(CaseList list) {
+  for (const char* cause : {"tether", "side_wind", "odometry_yaw_scale", "current_gain_drift"})
+    list.add({cause}, 1.0);
+  for (const std::string_view cause : world_causes()) list.add({std::string(cause)}, 1.0);
+  for (const auto& [effect, cause] :
+       {Pair{"motor_temperature", "tether"}, Pair{"wheel_radius", "side_wind"},
+        Pair{"slip_sinkage", "current_gain_drift"}, Pair{"gearbox_friction", "wheel_snag"}})
+    list.add({effect, cause}, 1.0);
+  return list.take();
+}
+
 }  // namespace
 
 std::string name_of(Fidelity fidelity) {
@@ -163,6 +175,7 @@ std::optional<std::vector<CampaignCase>> cases_of(const std::string& set, std::o
   if (set == "smoke") cases = smoke(list);
   if (set == "nothing") cases = nothing(list);
   if (set == "other_physics") cases = other_physics(list);
+  if (set == "outside") cases = outside(list);
   if (cases) {
     for (CampaignCase& made_of : *cases) made_of.seed = random.seed();
     shuffle(*cases, random);

@@ -36,7 +36,7 @@ struct CampaignCase {
 
 // The cases of a set: "blind" (26, as an independent judge might choose them), "full" (every effect at three
 // sizes and much more), "each" (every cause once), "smoke" (two small ones), "nothing" (p01 again),
-// "other_physics" (ten, always of L3).
+// "other_physics" (ten, always of L3), "outside" (14: causes from outside alone, and beside an effect).
 std::optional<std::vector<CampaignCase>> cases_of(const std::string& set, std::optional<Fidelity> fidelity,
                                                   RandomStream& random);
 

@@ -150,6 +150,7 @@ class Drive {
                                                                           std::sin(hidden_.wind_rad), 0.0));
       task.pull_at_m = Eigen::Vector3d(0.0, 0.0, 0.6);
     }
+    add_body_forces(turn, task);
     const Tracks tracks = tracks_of(world_.rover, state_);
     const double slope_x = -std::tan(attitude.pitch),
                  slope_y = std::tan(attitude.roll) / std::cos(attitude.pitch);
@@ -167,6 +168,8 @@ class Drive {
       place.grade_x *= c * c;
       place.grade_y *= c * c;
       place.rate_rad_s = true_rate(k);
+      if (hidden_.dragged_axle == k % 3) place.pull_n -= travel_sense() * hidden_.axle_drag_n;
+      if (hidden_.snagged_wheel == k) place.pull_n -= travel_sense() * hidden_.wheel_drag_n;
       place.steer_rad = told_[k].steer_rad;
       const bool steers = k % 3 != 1;
       if (steers && (hidden_.steered < 0 || hidden_.steered == k)) place.steer_rad += hidden_.steering_rad;
@@ -177,6 +180,21 @@ class Drive {
     if (!balance_rover(world_.rover, task, *law_, world_.closure, hidden_, state_)) return false;
     for (int k = 0; k < kWheels; ++k) ruts_[k] = law_->rut(state_.depth_m[k], task.wheels[k].soil);
     return true;
+  }
+
+  // 1 forward, -1 backward, 0 in place.
+  double travel_sense() const { return order_.turn_in_place ? 0.0 : order_.speed_m_s < 0.0 ? -1.0 : 1.0; }
+
+  // Of the causes that are no more than a force with a point where it acts; `turn` is from body to map.
+  void add_body_forces(const Eigen::Matrix3d& turn, BalanceTask& task) const {
+    constexpr double kReferenceClimb = 0.17364817766693033;  // sine of 10 deg
+    const Eigen::Vector3d push(hidden_.push_forward_n, hidden_.push_left_n, 0.0);
+    const double drag =
+        travel_sense() * hidden_.speed_drag_n * std::abs(order_.speed_m_s) / kReferenceSpeed_m_s +
+        hidden_.slope_drag_n * turn(2, 0) / kReferenceClimb;
+    if (push.isZero() && drag == 0.0) return;
+    task.pull_n += push - Eigen::Vector3d(drag, 0.0, 0.0);
+    task.pull_at_m = Eigen::Vector3d(0.1, 0.0, 0.35);
   }
 
   double true_rate(int k) const {
@@ -321,7 +339,8 @@ class Drive {
       WheelRow& wheel = row.wheels[static_cast<std::size_t>(k)];
       wheel = told_[k];
       if (hidden_.dragging == k) wheel.rate_rad_s *= hidden_.dragging_rate_share;
-      wheel.current_a = current(k) * (1.0 + hidden_.current_gain_drift * order_.share_of_day);
+      wheel.current_a = current(k) * (1.0 + hidden_.current_gain_drift * order_.share_of_day) *
+                        (hidden_.gained_wheel == k ? 1.0 + hidden_.wheel_current_gain : 1.0);
       wheel.sinkage_m = state_.depth_m[k] + rut_under(k) - met_level_m_[k];
     }
     return row;

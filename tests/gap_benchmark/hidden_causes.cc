@@ -129,9 +129,40 @@ constexpr std::array kRows{
         [](double size, RandomStream&, HiddenTruth& t, Answer& a) {
           a["share_at_noon"] = t.solar_softening = std::min(0.12 * size, 0.2);
         }},
+    Row{"body_push", false,
+        [](double size, RandomStream& random, HiddenTruth& t, Answer& a) {
+          a["forward_n"] = t.push_forward_n = 10.0 * size * sign_of(random);
+          a["left_n"] = t.push_left_n = 25.0 * size * sign_of(random);
+        }},
+    Row{"speed_drag", false,
+        [](double size, RandomStream&, HiddenTruth& t, Answer& a) {
+          a["force_n_at_0.04_m_s"] = t.speed_drag_n = 30.0 * size;
+        }},
+    Row{"slope_drag", false,
+        [](double size, RandomStream&, HiddenTruth& t, Answer& a) {
+          a["force_n_at_10_deg"] = t.slope_drag_n = 25.0 * size;
+        }},
+    Row{"axle_drag", false,
+        [](double size, RandomStream& random, HiddenTruth& t, Answer& a) {
+          t.dragged_axle = static_cast<int>(random.below(3));
+          a["axle"] = t.dragged_axle;
+          a["force_n"] = t.axle_drag_n = 15.0 * size;
+        }},
+    Row{"wheel_snag", false,
+        [](double size, RandomStream& random, HiddenTruth& t, Answer& a) {
+          t.snagged_wheel = static_cast<int>(random.below(6));
+          a["wheel"] = t.snagged_wheel;
+          a["force_n"] = t.wheel_drag_n = 25.0 * size;
+        }},
+    Row{"wheel_current_gain", false,
+        [](double size, RandomStream& random, HiddenTruth& t, Answer& a) {
+          t.gained_wheel = static_cast<int>(random.below(6));
+          a["wheel"] = t.gained_wheel;
+          a["gain"] = t.wheel_current_gain = sign_of(random) * 0.12 * size;
+        }},
 };
 
-constexpr std::size_t kInLibrary = 16;
+constexpr std::size_t kInLibrary = 16, kForeignRows = 6;
 
 template <std::size_t From, std::size_t Count>
 constexpr std::array<std::string_view, Count> names() {
@@ -140,7 +171,8 @@ constexpr std::array<std::string_view, Count> names() {
   return out;
 }
 constexpr auto kLibrary = names<0, kInLibrary>();
-constexpr auto kForeign = names<kInLibrary, kRows.size() - kInLibrary>();
+constexpr auto kForeign = names<kInLibrary, kForeignRows>();
+constexpr auto kWorld = names<kInLibrary + kForeignRows, kRows.size() - kInLibrary - kForeignRows>();
 
 }  // namespace
 
@@ -150,6 +182,10 @@ std::span<const std::string_view> library_effects() {
 
 std::span<const std::string_view> foreign_causes() {
   return kForeign;
+}
+
+std::span<const std::string_view> world_causes() {
+  return kWorld;
 }
 
 bool is_known_cause(std::string_view name) {

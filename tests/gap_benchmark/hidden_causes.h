@@ -11,8 +11,10 @@ namespace slipway::gap_benchmark {
 
 // The library's sixteen effects by the names of its catalogue.
 std::span<const std::string_view> library_effects();
-// Causes that are outside every library.
+// Causes that are outside every library: those that sets of causes draw from, and what the world does to a
+// vehicle, which the set "outside" has besides.
 std::span<const std::string_view> foreign_causes();
+std::span<const std::string_view> world_causes();
 bool is_known_cause(std::string_view name);
 // Causes that are terms of the contact arc's stresses, which other wheel laws do not have.
 bool is_of_arc_law(std::string_view name);

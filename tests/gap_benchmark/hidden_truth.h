@@ -58,6 +58,16 @@ struct HiddenTruth {
   int slipping_hub = -1;
   double hub_share = 0.0;        // maximum share of the rim's speed that is lost, once a turn
   double solar_softening = 0.0;  // share of friction and cohesion lost at noon
+  // What the world does to the vehicle. Forces are in newtons; those of drags are against the travel.
+  double push_forward_n = 0.0, push_left_n = 0.0;  // in the body's own frame, at its bumper
+  double speed_drag_n = 0.0;                       // at 0.04 m/s, in proportion to the speed
+  double slope_drag_n = 0.0;                       // downhill, at 10 deg, with the sine of the climb
+  int dragged_axle = -1;                           // 0 front, 1 middle, 2 rear
+  double axle_drag_n = 0.0;                        // at each of its two wheels
+  int snagged_wheel = -1;
+  double wheel_drag_n = 0.0;
+  int gained_wheel = -1;
+  double wheel_current_gain = 0.0;
 };
 
 // The names of the effects with their parameters in the units of the keys, as in answers.json.

@@ -88,7 +88,8 @@ class Balance {
     const Eigen::Vector3d along(c, s, c * place.grade_x + s * place.grade_y);
     const Eigen::Vector3d across(-s, c, -s * place.grade_x + c * place.grade_y);
     const Eigen::Vector3d up(-place.grade_x, -place.grade_y, 1.0);
-    const Eigen::Vector3d force = loads.normal_n * up + loads.pull_n * along + loads.side_n * across;
+    const Eigen::Vector3d force = loads.normal_n * up + loads.pull_n * along + loads.side_n * across +
+                                  place.pull_n * Eigen::Vector3d::UnitX();
     const Eigen::Vector2d& at = rover_.wheel_m[static_cast<std::size_t>(k)];
     const Eigen::Vector3d axle(at.x(), at.y(), place.height_m + radius_);
     // Pull and side force act on the ground and have a moment about the axle; of the pull perhaps only a

@@ -27,6 +27,7 @@ struct WheelPlace {
   double height_m = 0.0;                // of the ground above the body's ground plane
   double grade_x = 0.0, grade_y = 0.0;  // of the ground, in the body's frame
   double rate_rad_s = 0.0, steer_rad = 0.0;
+  double pull_n = 0.0;  // along the body, at the axle, from outside
   ContactSoil soil;
 };
 

@@ -1,5 +1,5 @@
-// sealed_campaigns OUT [--seed N] [--set blind|full|each|smoke|nothing|other_physics] [--only CAUSE,...]
-// [--fidelity L1|L2|L2c|L3] [--size X]
+// sealed_campaigns OUT [--seed N] [--set blind|full|each|smoke|nothing|other_physics|outside]
+// [--only CAUSE,...] [--fidelity L1|L2|L2c|L3] [--size X]
 //
 // Makes campaigns of drives with hidden effects in most of them, and writes answers.json and traces.csv
 // (where the effects act) beside them. It shares no code with the library that is judged on them.
@@ -24,7 +24,7 @@ namespace {
 using namespace slipway::gap_benchmark;
 
 constexpr const char* kUsage =
-    "usage: sealed_campaigns OUT [--seed N] [--set blind|full|each|smoke|nothing|other_physics]\n"
+    "usage: sealed_campaigns OUT [--seed N] [--set blind|full|each|smoke|nothing|other_physics|outside]\n"
     "                        [--only CAUSE,...] [--fidelity L1|L2|L2c|L3] [--size X]\n";
 
 struct Wish {
@@ -69,6 +69,7 @@ std::optional<Wish> wish_of(int count, char** words) {
           std::cerr << name << " is no cause; known are";
           for (const std::string_view known : library_effects()) std::cerr << ' ' << known;
           for (const std::string_view known : foreign_causes()) std::cerr << ' ' << known;
+          for (const std::string_view known : world_causes()) std::cerr << ' ' << known;
           std::cerr << '\n';
           return std::nullopt;
         }

@@ -102,6 +102,63 @@ TEST(QuasiStatic, EachWheelHasItsOwnLoadSinkageAndCurrent) {
     }
 }
 
+// A steady force at the centre of mass is what gravity would be in another direction.
+TEST(QuasiStatic, APullFromOutsideIsCarriedByTheWheels) {
+  const RoverModel rover = six_wheeler();
+  const Stance stance = stance_on_plane(rover, sloping(0, 0));
+  OutsideWrench wrench;
+  wrench.force_n = {-60.0, 25.0, -10.0};
+  wrench.moment_nm = rover.com_m.cross(wrench.force_n);
+  QuasiStaticSolver solver(rover, kMars);
+  solver.set_outside(wrench);
+  const StationState pulled = solver.solve(stance, sandy_loam(), {.speed_m_s = 0.04});
+  ASSERT_TRUE(pulled.moving());
+  EXPECT_NEAR(total(pulled, &WheelState::drawbar_pull_n), 60.0, 1e-5);
+  EXPECT_NEAR(total(pulled, &WheelState::lateral_force_n), -25.0, 1e-5);
+  EXPECT_NEAR(total(pulled, &WheelState::load_n), 174.0 * kMars + 10.0, 1e-5);
+
+  // A slope of that tangent with the same load across it moves the rover as the level pull does.
+  const double weight = 174.0 * kMars;
+  wrench.force_n = {-weight * std::tan(rad_from_deg(5.0)), 0.0, 0.0};
+  wrench.moment_nm = rover.com_m.cross(wrench.force_n);
+  solver.set_outside(wrench);
+  const StationState level = solver.solve(stance, sandy_loam(), {.speed_m_s = 0.04});
+  RoverModel heavier = rover;
+  heavier.mass_kg /= std::cos(rad_from_deg(5.0));
+  const StationState climbing = straight(heavier, sandy_loam(), sloping(-5.0, 0.0));
+  EXPECT_NEAR(level.slip_ratio, climbing.slip_ratio, 1e-6);
+  for (std::size_t k = 0; k < rover.wheels.size(); ++k)
+    EXPECT_NEAR(level.wheels[k].load_n, climbing.wheels[k].load_n, 1e-4) << k;
+
+  solver.set_outside(std::nullopt);
+  EXPECT_NEAR(solver.solve(stance, sandy_loam(), {.speed_m_s = 0.04}).slip_ratio,
+              QuasiStaticSolver(rover, kMars).solve(stance, sandy_loam(), {.speed_m_s = 0.04}).slip_ratio,
+              1e-8)
+      << "nothing acts any more";
+}
+
+// The same pull at the body and at the axles: the wheels share it, but only the second turns the bogies.
+TEST(QuasiStatic, APullAtAWheelTurnsTheSuspensionsJoints) {
+  const RoverModel rover = six_wheeler();
+  const Stance stance = stance_on_plane(rover, sloping(0, 0));
+  OutsideWrench at_rear;
+  at_rear.at_wheel_n = PerWheel<Eigen::Vector3d>(6, Eigen::Vector3d::Zero());
+  for (std::size_t k = 0; k < 6; ++k)
+    if (rover.wheels[k].position_m.x() < -0.5) at_rear.at_wheel_n[k] = {-20.0, 0.0, 0.0};
+  OutsideWrench at_body;
+  at_body.force_n = {-40.0, 0.0, 0.0};
+  for (std::size_t k = 0; k < 6; ++k) at_body.moment_nm += stance.p_B_wheel[k].cross(at_rear.at_wheel_n[k]);
+  QuasiStaticSolver solver(rover, kMars);
+  solver.set_outside(at_rear);
+  const StationState wheels = solver.solve(stance, sandy_loam(), {.speed_m_s = 0.04});
+  solver.set_outside(at_body);
+  const StationState body = solver.solve(stance, sandy_loam(), {.speed_m_s = 0.04});
+  ASSERT_TRUE(wheels.moving() && body.moving());
+  EXPECT_NEAR(total(wheels, &WheelState::drawbar_pull_n), 40.0, 1e-5);
+  EXPECT_NEAR(total(body, &WheelState::drawbar_pull_n), 40.0, 1e-5);
+  EXPECT_GT(std::abs(wheels.wheels[2].load_n - body.wheels[2].load_n), 1.0) << "the bogie turns";
+}
+
 TEST(QuasiStatic, SlipRisesWithTheClimbUntilTheSoilGivesNoMore) {
   double slip = -1.0;
   bool stuck = false;

@@ -21,11 +21,12 @@ std::vector<ExpectedReading> outcome(const DriveCampaign& campaign, const ModelS
   const Attitude attitude{.roll_rad = std::asin(-std::sin(tilt) * std::sin(heading)),
                           .pitch_rad = -std::atan(std::tan(tilt) * std::cos(heading)),
                           .yaw_rad = 0.0};
+  const sim::DriveCommand command{
+      .speed_m_s = drive.speed_m_s, .curvature_1_m = drive.curvature_1_m, .motor_temp_c = drive.motor_temp_c};
+  const sim::Stance stance = sim::stance_on_plane(state.rover, attitude);
   sim::QuasiStaticSolver solver(state.rover, campaign.gravity_m_s2);
-  const sim::StationState at = solver.solve(sim::stance_on_plane(state.rover, attitude), state.soils.front(),
-                                            {.speed_m_s = drive.speed_m_s,
-                                             .curvature_1_m = drive.curvature_1_m,
-                                             .motor_temp_c = drive.motor_temp_c});
+  if (state.outside.any()) solver.set_outside(wrench_of(state.outside, state.rover, stance, command));
+  const sim::StationState at = solver.solve(stance, state.soils.front(), command);
   const double speed = std::abs(drive.speed_m_s);
   const bool moves = at.moving();
   std::vector<ExpectedReading> readings{

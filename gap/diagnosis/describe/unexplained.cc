@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "core/normal_interval.h"
+#include "gap/diagnosis/model/outside_cause.h"
+#include "gap/diagnosis/search/effect_trace.h"
 
 namespace slipway::gap {
 namespace {
@@ -13,6 +15,29 @@ std::string entry_name(const DiscrepancyTerm::Column& column, const sim::RoverMo
   std::string name(name_of(column.entry));
   if (column.wheel >= 0) name += "_" + rover.wheels[static_cast<std::size_t>(column.wheel)].name;
   return name;
+}
+
+// A cause from outside as a shape: its first field over what it depends on.
+ResidualShape shape_of(const OutsideFinding& outside, double share) {
+  const OutsideCause& cause = *find_outside(outside.cause);
+  ResidualShape shape;
+  shape.entry = cause.entry;
+  shape.variable = cause.depends;
+  shape.share = share;
+  shape.form = cause.form;
+  shape.words = outside.words;
+  shape.unit = cause.unit;
+  shape.probability = outside.probability;
+  shape.closed_share = outside.closed_share;
+  shape.parameters = outside.parameters;
+  const Interval& size = outside.parameters.front().value;
+  for (const double at : {-1.0, 0.0, 1.0}) {
+    const double times = cause.depends == "constant" ? 1.0 : at;
+    shape.shape.push_back({at,
+                           {times * size.value, std::min(times * size.low, times * size.high),
+                            std::max(times * size.low, times * size.high)}});
+  }
+  return shape;
 }
 
 }  // namespace
@@ -29,6 +54,7 @@ std::vector<std::pair<double, Interval>> shape_of(Circumstance circumstance, dou
 
 std::vector<ResidualShape> describe_unexplained(const PreparedCampaign& prepared,
                                                 const FittedExplanation& fit,
+                                                const std::optional<OutsideFinding>& outside,
                                                 const DiagnosisOptions& options) {
   const DiscrepancyTerm& term = prepared.discrepancy;
   const DiscrepancyEstimate found =
@@ -36,7 +62,12 @@ std::vector<ResidualShape> describe_unexplained(const PreparedCampaign& prepared
                            [&] { return prepared.model->cancelled(); });
   const Eigen::VectorXd squares =
       (prepared.noise->whiten(term.values) * found.mean.asDiagonal()).colwise().squaredNorm();
-  const double all = squares.sum();
+  const double of_outside =
+      outside
+          ? prepared.noise->whiten(effect_trace(fit, *prepared.model, outside->cause, options.search.threads))
+                .squaredNorm()
+          : 0.0;
+  const double all = squares.sum() + of_outside;
   if (!(all > 0.0)) return {};
   std::vector<Eigen::Index> order(static_cast<std::size_t>(squares.size()));
   for (std::size_t c = 0; c < order.size(); ++c) order[c] = static_cast<Eigen::Index>(c);
@@ -44,11 +75,14 @@ std::vector<ResidualShape> describe_unexplained(const PreparedCampaign& prepared
                    [&](Eigen::Index a, Eigen::Index b) { return squares[a] > squares[b]; });
   order.resize(std::min(order.size(), static_cast<std::size_t>(options.verdict.max_unexplained_shapes)));
   std::vector<ResidualShape> shapes;
+  if (outside) shapes.push_back(shape_of(*outside, of_outside / all));
   for (const Eigen::Index c : order) {
     const DiscrepancyTerm::Column& column = term.columns[static_cast<std::size_t>(c)];
-    shapes.push_back({entry_name(column, *prepared.model->campaign().rover),
-                      std::string(name_of(column.circumstance)), squares[c] / all,
-                      shape_of(column.circumstance, found.mean[c], found.error[c])});
+    ResidualShape& shape = shapes.emplace_back();
+    shape.entry = entry_name(column, *prepared.model->campaign().rover);
+    shape.variable = name_of(column.circumstance);
+    shape.share = squares[c] / all;
+    shape.shape = shape_of(column.circumstance, found.mean[c], found.error[c]);
   }
   return shapes;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -8,9 +9,11 @@
 
 namespace slipway::gap {
 
-// What remains beside a fit, by where it enters and what it depends on, the largest shares first.
+// What remains beside a fit, by where it enters and what it depends on, the largest shares first; before
+// them the cause from outside that is in the fit, if there is one.
 std::vector<ResidualShape> describe_unexplained(const PreparedCampaign& prepared,
                                                 const FittedExplanation& fit,
+                                                const std::optional<OutsideFinding>& outside,
                                                 const DiagnosisOptions& options);
 
 // A column's effect at the lowest (-1), middle (0) and highest (1) value of its circumstance, of its

@@ -114,11 +114,14 @@ Hypothesis::Hypothesis(const DriveCampaign& campaign, std::vector<EffectVariant>
   }
   nuisances_ = parameters_.size();
   for (const EffectVariant& v : effects_)
-    for (const Free& free : v.free)
-      for (const Field& field : sim::find_effect(v.effect)->fields)
-        if (field.name == free.field)
-          parameters_.push_back({v.effect + "." + free.field, v.effect, neutral_of(v, field), free.std,
-                                 free.lowest, free.highest});
+    for (const Free& free : v.free) {
+      double neutral = 0.0;  // of a cause from outside
+      if (const sim::Effect* const effect = sim::find_effect(v.effect))
+        for (const Field& field : effect->fields)
+          if (field.name == free.field) neutral = neutral_of(v, field);
+      parameters_.push_back(
+          {v.effect + "." + free.field, v.effect, neutral, free.std, free.lowest, free.highest});
+    }
 }
 
 double Hypothesis::neutral_of(const EffectVariant& variant, const Field& field) const {
@@ -138,6 +141,18 @@ std::vector<double> Hypothesis::neutral() const {
 }
 
 std::vector<sim::EffectSetting> Hypothesis::settings(std::span<const double> x) const {
+  std::vector<sim::EffectSetting> settings = all_settings(x);
+  std::erase_if(settings, [](const sim::EffectSetting& s) { return sim::find_effect(s.name) == nullptr; });
+  return settings;
+}
+
+OutsideValues Hypothesis::outside_values(std::string_view cause, std::span<const double> x) const {
+  for (sim::EffectSetting& setting : all_settings(x))
+    if (setting.name == cause) return {setting.parameters.begin(), setting.parameters.end()};
+  return {};
+}
+
+std::vector<sim::EffectSetting> Hypothesis::all_settings(std::span<const double> x) const {
   std::vector<sim::EffectSetting> settings;
   std::size_t at = nuisances_;
   for (const EffectVariant& v : effects_) {
@@ -145,7 +160,8 @@ std::vector<sim::EffectSetting> Hypothesis::settings(std::span<const double> x) 
     for (const auto& [field, value] : v.fixed) setting.parameters[field] = value;
     for (const Free& free : v.free) setting.parameters[free.field] = x[at++];
     // Fields that are neither take their neutral value, so that nothing else is at work.
-    for (const Field& f : sim::find_effect(v.effect)->fields)
+    const sim::Effect* const effect = sim::find_effect(v.effect);
+    for (const Field& f : effect != nullptr ? effect->fields : std::span<const Field>{})
       if (f.neutral && std::find(v.at_initial.begin(), v.at_initial.end(), f.name) == v.at_initial.end())
         setting.parameters.try_emplace(std::string(f.name), neutral_of(v, f));
     settings.push_back(std::move(setting));
@@ -165,13 +181,18 @@ ModelState Hypothesis::state(std::span<const double> x) const {
     for (std::size_t s = 0; s < state.soils.size(); ++s)
       if (soil < 0 || static_cast<std::size_t>(soil) == s) row->on_soil(x[i], state.soils[s]);
   }
-  state.effects = settings(x);
+  state.effects = all_settings(x);
   for (std::size_t e = 0, at = nuisances_; e < effects_.size(); ++e)
     for (const Free& free : effects_[e].free) {
       double& value = state.effects[e].parameters[free.field];
       const double neutral = parameters_[at++].neutral;
       if (effects_[e].acting != 1.0) value = neutral + effects_[e].acting * (value - neutral);
     }
+  for (const sim::EffectSetting& setting : state.effects)
+    if (const OutsideCause* const cause = find_outside(setting.name); cause != nullptr && cause->act)
+      cause->act({setting.parameters.begin(), setting.parameters.end()}, state.outside);
+  std::erase_if(state.effects,
+                [](const sim::EffectSetting& s) { return sim::find_effect(s.name) == nullptr; });
   // The rover file's own effects stay at work beside them.
   state.effects = sim::in_force(campaign_->rover->effects, state.effects);
   sim::apply_effects(state.effects, state.rover);
@@ -188,8 +209,12 @@ std::vector<double> Hypothesis::as_shown(const WindowModel& model, std::span<con
                                          std::vector<double> predicted) const {
   for (std::size_t p = 0; p < nuisances_; ++p)
     if (parameters_[p].name == kPoseLag && x[p] != 0.0) turn_by_lag(model, x[p], predicted);
-  const std::vector<sim::EffectSetting> at_x = settings(x);
+  const std::vector<sim::EffectSetting> at_x = all_settings(x);
   for (std::size_t e = 0; e < effects_.size(); ++e) {
+    if (const OutsideCause* const cause = find_outside(effects_[e].effect); cause != nullptr) {
+      if (cause->show) cause->show({at_x[e].parameters.begin(), at_x[e].parameters.end()}, model, predicted);
+      continue;
+    }
     const sim::Effect& effect = *sim::find_effect(effects_[e].effect);
     if (effect.shown_tilt == nullptr || effects_[e].shown == 0.0) continue;
     const sim::TiltError error = effect.shown_tilt(sim::values_of(effect, at_x[e]));

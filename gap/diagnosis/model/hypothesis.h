@@ -40,10 +40,10 @@ struct Parameter {
 // Which nuisances are free. kClosures: soils and motors are held at their nominal values.
 enum class FreeNuisances { kAll, kClosures };
 
-// A set of effects with the nuisances: parameters, and the model at their values. At the neutral values the
-// model is the nominal rover on the nominal soils with all that these have already: a soil's own slip
-// sinkage, a rover's own grousers and effects. Predictions are continuous there, so that their derivatives
-// are those by the effects.
+// A set of effects (and causes from outside, see outside_cause.h, which have variants as effects do) with the
+// nuisances: parameters, and the model at their values. At the neutral values the model is the nominal rover
+// on the nominal soils with all that these have already: a soil's own slip sinkage, a rover's own grousers
+// and effects. Predictions are continuous there, so that their derivatives are those by the effects.
 class Hypothesis {
  public:
   Hypothesis(const DriveCampaign& campaign, std::vector<EffectVariant> effects,
@@ -53,7 +53,10 @@ class Hypothesis {
   std::span<const EffectVariant> effects() const { return effects_; }
   std::size_t nuisance_count() const { return nuisances_; }
   std::vector<double> neutral() const;
+  // Of the library's effects; causes from outside have none.
   std::vector<sim::EffectSetting> settings(std::span<const double> x) const;
+  // The values of all fields of a cause from outside that is among the effects.
+  OutsideValues outside_values(std::string_view cause, std::span<const double> x) const;
   ModelState state(std::span<const double> x) const;
   // What the model at x predicts for every observation.
   std::vector<double> predict(const WindowModel& model, std::span<const double> x,
@@ -70,6 +73,8 @@ class Hypothesis {
   // What the sensors would show of the predictions: late headings, biased attitudes.
   std::vector<double> as_shown(const WindowModel& model, std::span<const double> x,
                                std::vector<double> predicted) const;
+  // One for each of effects(), in their order.
+  std::vector<sim::EffectSetting> all_settings(std::span<const double> x) const;
   // Where an effect changes nothing: at the rover's own value, the variant's, or the field's.
   double neutral_of(const EffectVariant& variant, const Field& field) const;
 

@@ -59,6 +59,12 @@ bool gets_on(const sim::StationState& at) {
   return at.moving() || at.outcome == sim::Outcome::kStalled;
 }
 
+// What acts from outside at a station.
+void set_outside(sim::QuasiStaticSolver& solver, const ModelState& state, const sim::Stance& stance,
+                 const sim::DriveCommand& command) {
+  if (state.outside.any()) solver.set_outside(wrench_of(state.outside, state.rover, stance, command));
+}
+
 bool attitude_recorded(const DriveWindow& window) {
   return std::any_of(window.observations.begin(), window.observations.end(), [](const Observation& o) {
     return o.channel == Channel::kRoll || o.channel == Channel::kPitch;
@@ -202,7 +208,8 @@ void WindowModel::predict_window(std::size_t w, const ModelState& state, std::sp
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Place& place = places[i];
     const bool as_before =
-        before != nullptr && !regions && before->soil.size() == place.soil.size() &&
+        before != nullptr && !regions && state.outside.on_map_n.isZero(0.0) &&
+        before->soil.size() == place.soil.size() &&
         std::equal(before->soil.begin(), before->soil.end(), place.soil.begin()) &&
         std::abs(before->stance.attitude.pitch_rad - place.stance.attitude.pitch_rad) < kSameAttitude_rad &&
         std::abs(before->stance.attitude.roll_rad - place.stance.attitude.roll_rad) < kSameAttitude_rad &&
@@ -213,6 +220,7 @@ void WindowModel::predict_window(std::size_t w, const ModelState& state, std::sp
       const StationStart* start = from.starts[w].empty() ? nullptr : &from.starts[w][i];
       const bool stuck = from.near && start != nullptr && !start->moving;
       sim::StationState at;
+      set_outside(solver, state, place.stance, window.command);
       if (!stuck)
         at = solver.solve(
             place.stance, soils_at(place, state), window.command,
@@ -245,6 +253,7 @@ WindowModel::Starts WindowModel::starts_at(const ModelState& state, std::size_t 
     starts[w].resize(places.size());
     for (std::size_t i = 0; i < places.size() && !cancelled(); ++i) {
       const sim::PerWheel<sim::Soil> soils = soils_at(places[i], state);
+      set_outside(solver, state, places[i].stance, windows_[w].command);
       const bool known = !starts_[w].empty() && starts_[w][i].balance;
       starts[w][i].moving = gets_on(solver.solve(places[i].stance, soils, windows_[w].command,
                                                  known ? &*starts_[w][i].balance : nullptr));

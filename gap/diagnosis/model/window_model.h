@@ -7,6 +7,7 @@
 
 #include "core/progress.h"
 #include "gap/diagnosis/model/drive_window.h"
+#include "gap/diagnosis/model/outside_cause.h"
 #include "sim/quasi_static/quasi_static.h"
 #include "sim/rover/effect_setting.h"
 #include "sim/rover/rover_model.h"
@@ -21,6 +22,7 @@ struct ModelState {
   std::vector<sim::Soil> soils;             // as DriveCampaign::soils
   std::vector<sim::EffectSetting> effects;  // that are at work on both already; kept for their regions
   double track_left_out = 0.0;              // see kTrackLeftOut
+  OutsideForces outside = {};
 };
 
 // How the rover stands where it was: as its suspension does on the map, leant by its wheels' unequal

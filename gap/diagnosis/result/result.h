@@ -42,6 +42,7 @@ struct ComparedSet {
   int complexity = 0;                    // estimated parameters besides the nuisances
   double chosen_share = 0.0;             // of resamples of the drives, those that would have led to this set
   bool with_unknown = false;             // something besides them that the library has no name for
+  std::string outside = {};  // that something's form, a row of outside_catalogue; empty: of no known form
 };
 // Its effects, and "unknown" behind them where something else is: for documents and people.
 std::vector<std::string> names_of(const ComparedSet& set);
@@ -60,6 +61,15 @@ struct Extrapolation {
 struct ConfusablePair {
   std::string a, b;
   double angle_deg = 0.0;  // between their signatures, nuisances projected out
+};
+
+// What an effect can't be told from on these drives: effects and causes from outside whose traces are nearly
+// parallel, and the re-tuned parameters where they take most of its trace.
+struct LookAlike {
+  std::string effect;
+  std::string like;                // an effect, a cause from outside, or "parameters"
+  std::vector<std::string> which;  // of the parameters, those that take most of it
+  double angle_deg = 0.0;  // between the traces, re-tuning projected out of both; to all that re-tuning does
 };
 
 // A channel (of a wheel) before any re-tuning.
@@ -139,14 +149,38 @@ struct HeldOutPoint {
 // What is left over that nobody has named: where it enters, what it depends on, its shape.
 struct ResidualShape {
   std::string entry, variable;
-  double share = 0.0;                              // of what the discrepancy term explains
+  double share = 0.0;                              // of all that is described, in squared deviations
   std::vector<std::pair<double, Interval>> shape;  // over the variable: at, effect on the entry's channel
+  std::string form = "smooth_function";            // or that of a cause from outside: "force_on_body", ...
+  std::string words = {};                          // of a cause from outside: "a steady pull of 25 N ..."
+  std::string unit = {};                           // of its shape
+  std::optional<double> probability = {};          // of its being at work, over all explanations
+  std::optional<double> closed_share = {};         // of the held-out gap that goes with it, as of an effect
+  std::vector<FoundParameter> parameters = {};
 };
 
 struct NextDrive {
   double tilt_deg = 0.0, heading_deg = 0.0, speed_m_s = 0.0, curvature_1_m = 0.0;
   double motor_temp_c = 20.0;
   double information_bits = 0.0;
+};
+
+// An effect of the library over all explanations, with and without something unknown beside it.
+struct EffectMarginal {
+  std::string name;
+  double probability = 0.0;  // of being present
+  // Of the gap that re-tuning leaves on drives held out of the fit, what goes with it, within 0 and 1; see
+  // effect_marginals.h.
+  double closed_share = 0.0;
+};
+
+// Something unknown of a known form: a force from outside, or a sensor that reads wrongly.
+struct OutsideFinding {
+  std::string cause;          // row of outside_catalogue
+  std::string words;          // "a steady pull of 25 N against the travel, at the body"
+  double probability = 0.0;   // of being at work, over all explanations
+  double closed_share = 0.0;  // as of an effect
+  std::vector<FoundParameter> parameters;
 };
 
 // The least size of an effect that the drives would surely have shown.
@@ -168,11 +202,14 @@ struct Diagnosis {
   std::vector<ListedOption> options;
   std::vector<std::string> library;  // effects that were looked for
   Verdict verdict = Verdict::kInsufficient;
+  bool partial = false;       // effects are named, and something unexplained remains beside them
   std::string reason;         // one sentence
   std::string overturned_by;  // what would
   std::vector<FoundEffect> effects;
+  std::vector<EffectMarginal> marginals;  // of all of the library, the most probable first
   std::vector<ComparedSet> candidates;
   std::vector<ConfusablePair> confusable;
+  std::vector<LookAlike> look_alikes;  // the nearest first
   std::vector<ChannelGap> channels;
   std::vector<Regime> regimes, regimes_retuned, regimes_of_effect;
   std::vector<ChannelShare> channels_of_effects;  // of what the named effects do; the largest first
@@ -183,6 +220,9 @@ struct Diagnosis {
   std::vector<WindowGap> window_gaps;  // of drives held out of the fit, for maps
   std::optional<Interval> closed_fraction;
   std::vector<Extrapolation> extrapolations;
+  // For `unknown` and beside effects that do not explain all: what is left. `residual` has what is of a known
+  // form first.
+  std::optional<OutsideFinding> outside;
   std::vector<ResidualShape> residual;
   std::vector<NextDrive> next_drives;
   std::vector<LeastDetectable> least_detectable;

@@ -120,7 +120,7 @@ void list_soft_patch(const SoftPatchOptions& options, Lister& list) {
 void list_search(const SearchOptions& options, Lister& list) {
   list.step("search");
   const auto& [withheld, max_refitted, max_variants, max_paired, max_seconds, min_pair_gain, max_linear_shift,
-               min_named_size, something_else, threads] = options;
+               min_named_size, something_else, outside, max_outside, max_outside_seconds, threads] = options;
   static_cast<void>(withheld);
   static_cast<void>(threads);
   SLIPWAY_FIELD(max_refitted);
@@ -131,6 +131,9 @@ void list_search(const SearchOptions& options, Lister& list) {
   SLIPWAY_FIELD(max_linear_shift);
   SLIPWAY_FIELD(min_named_size);
   SLIPWAY_FIELD(something_else);
+  SLIPWAY_FIELD(outside);
+  SLIPWAY_FIELD(max_outside);
+  SLIPWAY_FIELD(max_outside_seconds);
 }
 
 void list_second_search(const SecondSearchOptions& options, Lister& list) {
@@ -144,13 +147,16 @@ void list_second_search(const SecondSearchOptions& options, Lister& list) {
 
 void list_priors(const PriorOptions& options, Lister& list) {
   list.step("priors");
-  const auto& [nothing, one_effect, two_effects, something_else, one_and_something_else,
-               pair_beside_something_else_log] = options;
+  const auto& [nothing, one_effect, two_effects, something_else, one_outside, one_and_something_else,
+               one_and_one_outside, twin_share, pair_beside_something_else_log] = options;
   SLIPWAY_FIELD(nothing);
   SLIPWAY_FIELD(one_effect);
   SLIPWAY_FIELD(two_effects);
   SLIPWAY_FIELD(something_else);
+  SLIPWAY_FIELD(one_outside);
   SLIPWAY_FIELD(one_and_something_else);
+  SLIPWAY_FIELD(one_and_one_outside);
+  SLIPWAY_FIELD(twin_share);
   SLIPWAY_FIELD(pair_beside_something_else_log);
 }
 
@@ -181,7 +187,9 @@ void list_verdict(const VerdictOptions& options, Lister& list) {
   list.step("verdict");
   const auto& [min_drives, min_windows, min_parameters_gain, surely_seen, small_effect, max_hidden_share,
                beyond_chance, max_left_of_nothing, max_left_beside_effects, forgiven_closure, rival_share,
-               min_doubt, determined_share, max_angle_deg, min_signature, max_unexplained_shapes] = options;
+               min_doubt, determined_share, max_angle_deg, min_signature, max_unexplained_shapes,
+               name_by_marginals, min_closed_share, min_partial_probability, min_partial_share,
+               min_probability_beside_form, min_share_beside_form] = options;
   SLIPWAY_FIELD(min_drives);
   SLIPWAY_FIELD(min_windows);
   SLIPWAY_FIELD(min_parameters_gain);
@@ -198,6 +206,12 @@ void list_verdict(const VerdictOptions& options, Lister& list) {
   SLIPWAY_FIELD(max_angle_deg);
   SLIPWAY_FIELD(min_signature);
   SLIPWAY_FIELD(max_unexplained_shapes);
+  SLIPWAY_FIELD(name_by_marginals);
+  SLIPWAY_FIELD(min_closed_share);
+  SLIPWAY_FIELD(min_partial_probability);
+  SLIPWAY_FIELD(min_partial_share);
+  SLIPWAY_FIELD(min_probability_beside_form);
+  SLIPWAY_FIELD(min_share_beside_form);
 }
 
 void list_held_out(const HeldOutOptions& options, Lister& list) {

@@ -94,7 +94,10 @@ struct SearchOptions {
   // An effect smaller than this share of its usual size (the deviation of its prior) is not worth a name: it
   // is how one simulator's numerics differ from another's.
   double min_named_size = 0.3;
-  bool something_else = true;  // the discrepancy term competes; without it for ablations
+  bool something_else = true;   // the discrepancy term competes; without it for ablations
+  bool outside = true;          // causes from outside compete (outside_cause.h); without them for ablations
+  int max_outside = 4;          // causes from outside that are fitted in full
+  int max_outside_seconds = 1;  // of them, beside each effect whose pairs are looked for
   std::size_t threads = 0;
 };
 
@@ -108,14 +111,19 @@ struct SecondSearchOptions {
 };
 
 // What is believed before the drives: that nothing is missing, that one effect is, two are, or something that
-// the library does not have. A diagnosis is asked for where something seems to be wrong. They add up to 1 but
-// for pairs beside something else.
+// the library does not have, of a known form or of none. A diagnosis is asked for where something seems to be
+// wrong. They add up to 1 but for pairs beside something else.
 struct PriorOptions {
   double nothing = 0.25;
   double one_effect = 0.375;   // shared by the effects of the library
   double two_effects = 0.125;  // shared by their pairs
-  double something_else = 0.175;
-  double one_and_something_else = 0.075;
+  double something_else = 0.0875;
+  double one_outside = 0.0875;  // shared by the causes from outside
+  double one_and_something_else = 0.0375;
+  double one_and_one_outside = 0.0375;
+  // Of a cause from outside that no drive tells from an effect of the library: its part of what the others
+  // have.
+  double twin_share = 0.1;
   double pair_beside_something_else_log = -2.0;  // logarithm of its prior over that of the pair alone
 };
 
@@ -161,6 +169,14 @@ struct VerdictOptions {
   double max_angle_deg = 30.0;    // between signatures of effects that are hard to tell apart
   double min_signature = 1.0;     // deviations, of signatures that are compared
   int max_unexplained_shapes = 5;  // parts of what is unexplained that are described
+  bool name_by_marginals = true;   // see naming.h; without it an unknown cause hides all names
+  double min_closed_share = 0.05;  // of the held-out gap: an effect with less is not named
+  // Beside something unknown an effect is named from this marginal probability and this share on.
+  double min_partial_probability = 0.9;
+  double min_partial_share = 0.5;
+  // The same where what is beside it has a known form, which leaves less to be mistaken for the effect.
+  double min_probability_beside_form = 0.7;
+  double min_share_beside_form = 0.1;
 };
 
 // Predictions of drives that a fit has not seen: see gap_closure.h.

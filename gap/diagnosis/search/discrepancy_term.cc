@@ -306,7 +306,8 @@ Eigen::MatrixXd form_columns(const DriveCampaign& campaign, const WindowModel& m
   const std::vector<int> axle_of = axles(*campaign.rover);
   std::vector<Eigen::VectorXd> columns;
   for (const EffectVariant& effect : fit.hypothesis.effects()) {
-    if (!sim::find_effect(effect.effect)->has_many_forms) continue;
+    const sim::Effect* const row = sim::find_effect(effect.effect);
+    if (row == nullptr || !row->has_many_forms) continue;
     const Eigen::VectorXd trace = options.form_imprecision * effect_trace(fit, model, effect.effect, threads);
     const auto add = [&](const auto& share) {
       Eigen::VectorXd column = trace;

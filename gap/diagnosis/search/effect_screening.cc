@@ -29,14 +29,36 @@ Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns) {
 // re-tuning takes.
 struct Known {
   Eigen::MatrixXd columns, basis;
+  std::vector<double> predicted;
 };
+
+// Of the columns by which a direction is explained best, those with the largest parts: every one with half of
+// the largest at least, three at most.
+std::vector<std::size_t> largest_parts(const Eigen::MatrixXd& columns, const Eigen::VectorXd& direction) {
+  Eigen::MatrixXd hessian = columns.transpose() * columns;
+  hessian.diagonal().array() += 1.0;  // parameters that nothing shows take nothing
+  const Eigen::VectorXd parts = (hessian.llt().solve(columns.transpose() * direction).array().abs() *
+                                 columns.colwise().norm().transpose().array())
+                                    .matrix();
+  std::vector<std::size_t> order(static_cast<std::size_t>(parts.size()));
+  for (std::size_t p = 0; p < order.size(); ++p) order[p] = p;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return parts[static_cast<Eigen::Index>(a)] > parts[static_cast<Eigen::Index>(b)];
+  });
+  constexpr std::size_t kMaxParts = 3;
+  if (order.size() > kMaxParts) order.resize(kMaxParts);
+  const double least = order.empty() ? 0.0 : 0.5 * parts[static_cast<Eigen::Index>(order.front())];
+  std::erase_if(order, [&](std::size_t p) { return parts[static_cast<Eigen::Index>(p)] < least; });
+  return order;
+}
 
 // A variant that is not in the fit.
 ScreenedEffect screened(std::size_t variant, const Hypothesis& with, const WindowModel& model,
                         const NoiseModel& noise, const FittedExplanation& fit, const Known& known) {
   ScreenedEffect effect;
   effect.variant = variant;
-  const Eigen::MatrixXd columns = added_columns(with, model, noise, fit, effect.start);
+  effect.columns = added_derivatives(with, model, fit, effect.start, known.predicted);
+  const Eigen::MatrixXd columns = fit.row_weights.asDiagonal() * noise.whiten(effect.columns);
   const auto added = with.parameters().subspan(fit.x.size());
   const LinearGain found = linear_gain(fit.white_linear, known.columns, columns, added);
   effect.gain = found.gain;
@@ -49,6 +71,7 @@ ScreenedEffect screened(std::size_t variant, const Hypothesis& with, const Windo
   if (found.estimate.squaredNorm() == 0.0) direction = columns.col(0);
   effect.signature = direction - known.basis * (known.basis.transpose() * direction);
   const double length = direction.norm();
+  effect.taken_by = largest_parts(fit.white_jacobian, direction);
   effect.kept_share = length > 0.0 ? effect.signature.norm() / length : 0.0;
   const Eigen::VectorXd first = columns.col(0) - known.basis * (known.basis.transpose() * columns.col(0));
   effect.visibility = first.norm();
@@ -99,6 +122,7 @@ std::vector<ScreenedEffect> screen_effects(const DriveCampaign& campaign, const 
   Known known;
   known.basis = orthonormal_basis(fit.white_jacobian);
   known.columns.resize(fit.white_jacobian.rows(), fit.white_jacobian.cols() + discrepancy.values.cols());
+  known.predicted = fit.hypothesis.predict(model, fit.x, threads);
   known.columns << fit.white_jacobian, options.imprecision * whitened(fit, noise, discrepancy);
   std::vector<ScreenedEffect> all(variants.size());
   parallel_for(variants.size(), threads, [&](std::size_t v) {
@@ -106,7 +130,7 @@ std::vector<ScreenedEffect> screen_effects(const DriveCampaign& campaign, const 
     std::vector<EffectVariant> effects(fit.hypothesis.effects().begin(), fit.hypothesis.effects().end());
     if (std::any_of(effects.begin(), effects.end(),
                     [&](const EffectVariant& there) { return there.effect == variants[v].effect; })) {
-      all[v] = {v, kInTheFit, {}, {}, 0.0, 0.0};
+      all[v] = {v, kInTheFit, {}, {}, 0.0, 0.0, {}, {}};
       return;
     }
     effects.push_back(variants[v]);

@@ -47,14 +47,16 @@ std::vector<double> extended(const Hypothesis& hypothesis, std::span<const doubl
 
 }  // namespace
 
-Eigen::MatrixXd added_columns(const Hypothesis& hypothesis, const WindowModel& model, const NoiseModel& noise,
-                              const FittedExplanation& fit, std::vector<double>& start) {
+Eigen::MatrixXd added_derivatives(const Hypothesis& hypothesis, const WindowModel& model,
+                                  const FittedExplanation& fit, std::vector<double>& start,
+                                  std::span<const double> predicted) {
   start = extended(hypothesis, fit.x);
   const auto parameters = hypothesis.parameters();
   const std::size_t from = fit.x.size();
   const auto rows = static_cast<Eigen::Index>(model.observation_count());
   Eigen::MatrixXd columns(rows, static_cast<Eigen::Index>(parameters.size() - from));
-  const std::vector<double> at = hypothesis.predict(model, start);
+  const std::vector<double> at = predicted.empty() ? hypothesis.predict(model, start)
+                                                   : std::vector<double>(predicted.begin(), predicted.end());
   for (std::size_t p = from; p < parameters.size(); ++p) {
     const Parameter& parameter = parameters[p];
     std::vector<double> x = start;
@@ -67,7 +69,12 @@ Eigen::MatrixXd added_columns(const Hypothesis& hypothesis, const WindowModel& m
       columns(i, static_cast<Eigen::Index>(p - from)) = std::isfinite(slope) ? slope : 0.0;
     }
   }
-  return fit.row_weights.asDiagonal() * noise.whiten(columns);
+  return columns;
+}
+
+Eigen::MatrixXd added_columns(const Hypothesis& hypothesis, const WindowModel& model, const NoiseModel& noise,
+                              const FittedExplanation& fit, std::vector<double>& start) {
+  return fit.row_weights.asDiagonal() * noise.whiten(added_derivatives(hypothesis, model, fit, start));
 }
 
 double size_of(const FittedExplanation& fit, std::string_view effect) {

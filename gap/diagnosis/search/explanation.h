@@ -25,8 +25,13 @@ FittedExplanation fit_explanation(const Hypothesis& hypothesis, const WindowMode
                                   const FitOptions& options, std::size_t threads,
                                   const std::vector<bool>& fitted_rows = {});
 
-// The whitened columns, by prior deviations, of the effects that a hypothesis has more than a fit, at the
-// fit's parameters, which `start` becomes with the added effects' neutral ones behind.
+// Derivatives of every observation, by prior deviations, of the effects that a hypothesis has more than a
+// fit, at the fit's parameters, which `start` becomes with the added effects' neutral ones behind. The second
+// are whitened, rows weighed as in the fit. `predicted`: what the fit predicts, of which the neutral effects
+// change nothing; empty: not known yet.
+Eigen::MatrixXd added_derivatives(const Hypothesis& hypothesis, const WindowModel& model,
+                                  const FittedExplanation& fit, std::vector<double>& start,
+                                  std::span<const double> predicted = {});
 Eigen::MatrixXd added_columns(const Hypothesis& hypothesis, const WindowModel& model, const NoiseModel& noise,
                               const FittedExplanation& fit, std::vector<double>& start);
 

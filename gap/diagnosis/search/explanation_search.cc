@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "gap/diagnosis/model/outside_cause.h"
 #include "gap/diagnosis/search/effect_screening.h"
 #include "gap/diagnosis/search/soft_patch_search.h"
 #include "sim/effects/effect_catalogue.h"
@@ -23,6 +24,10 @@ FittedExplanation at_nominal(const FittedExplanation& null, const WindowModel& m
   untouched.max_iterations = 0;
   return fit_explanation(null.hypothesis, model, noise, null.hypothesis.neutral(), untouched,
                          options.search.threads);
+}
+
+bool is_outside(const std::string& cause) {
+  return find_outside(cause) != nullptr;
 }
 
 double log_sum_exp(const std::vector<double>& values) {
@@ -45,6 +50,10 @@ class Searcher {
         options_(options),
         progress_(progress),
         variants_(effect_variants(*campaign.rover, options.search.withheld)) {
+    if (options.search.outside) {
+      const std::vector<EffectVariant> outside = outside_variants(campaign);
+      variants_.insert(variants_.end(), outside.begin(), outside.end());
+    }
     for (const EffectVariant& v : variants_) ++variants_of_[v.effect];
     for (const sim::Effect& effect : sim::effect_catalogue()) {
       const auto& withheld = options.search.withheld;
@@ -84,8 +93,10 @@ class Searcher {
     for (const ScreenedEffect& s : screened_) {
       if (progress_.cancelled()) return;
       const EffectVariant& v = variants_[s.variant];
-      const bool known = tried_.contains(v.effect);
-      if (!known && static_cast<int>(tried_.size()) >= options_.search.max_refitted) continue;
+      const bool known = tried_.contains(v.effect), outside = is_outside(v.effect);
+      const auto alike = std::count_if(tried_.begin(), tried_.end(),
+                                       [&](const auto& t) { return is_outside(t.first) == outside; });
+      if (!known && alike >= (outside ? options_.search.max_outside : options_.search.max_refitted)) continue;
       if (tried_[v.effect] >= options_.search.max_variants) continue;
       ++tried_[v.effect];
       progress_.report("fitting effects", 0.25 + 0.3 * static_cast<double>(search_.fits.size()) /
@@ -111,15 +122,20 @@ class Searcher {
 
   // They grow from the best single effects, by seconds that promise a gain of so much at least.
   void fit_pairs(double min_gain) {
+    const std::vector<std::size_t> seconds = possible_seconds();
     for (std::size_t s = 0; s < singles_.size() && s < static_cast<std::size_t>(options_.search.max_paired);
          ++s) {
       const std::size_t base = singles_[s].second;
-      int fitted = 0;
+      const bool base_outside = is_outside(singles_[s].first);
+      int fitted = 0, outside = 0;
       std::set<std::string> done;
-      for (const ScreenedEffect& second : screened_beside(search_.fits[base])) {
+      for (const ScreenedEffect& second : screened_beside(search_.fits[base], &seconds)) {
         if (progress_.cancelled()) return;
-        if (fitted >= options_.search.max_seconds || second.start.empty() || second.gain < min_gain) break;
+        if (second.start.empty() || second.gain < min_gain) break;
         const EffectVariant& v = variants_[second.variant];
+        const bool from_outside = is_outside(v.effect);
+        if (from_outside && (base_outside || outside >= options_.search.max_outside_seconds)) continue;
+        if (!from_outside && fitted >= options_.search.max_seconds) continue;
         const std::set<std::string> names{singles_[s].first, v.effect};
         if (pairs_.contains(names) || !done.insert(v.effect).second) continue;
         progress_.report("fitting pairs of effects", 0.55 + 0.08 * static_cast<double>(s));
@@ -127,21 +143,26 @@ class Searcher {
                                            search_.fits[base].hypothesis.effects().end());
         effects.push_back(v);
         pairs_[names] = add_fit(Hypothesis(campaign_, effects), second.start);
-        ++fitted;
+        ++(from_outside ? outside : fitted);
       }
     }
   }
 
   // All that was fitted and is worth a name against each other, nothing, and something else.
   Result<ExplanationSearch> compete() && {
-    const auto effects = static_cast<double>(variants_of_.size());
+    const auto outside = static_cast<double>(std::count_if(
+        variants_of_.begin(), variants_of_.end(), [](const auto& v) { return is_outside(v.first); }));
+    const double effects = static_cast<double>(variants_of_.size()) - outside;
     add_candidates(0, log_prior_of_nothing(options_.priors));
     for (const auto& [effect, fit] : singles_)
       if (worth_naming(search_.fits[fit], options_.search.min_named_size))
-        add_candidates(fit, log_prior_of_one(options_.priors, effects));
+        add_candidates(fit, is_outside(effect) ? log_prior_of_outside(options_.priors, outside)
+                                               : log_prior_of_one(options_.priors, effects));
     for (const auto& [names, fit] : pairs_)
       if (worth_naming(search_.fits[fit], options_.search.min_named_size))
-        add_candidates(fit, log_prior_of_two(options_.priors, effects));
+        add_candidates(fit, std::any_of(names.begin(), names.end(), is_outside)
+                                ? log_prior_of_one_and_outside(options_.priors, effects, outside)
+                                : log_prior_of_two(options_.priors, effects));
     return std::move(*this).weighed();
   }
 
@@ -171,12 +192,38 @@ class Searcher {
                        [](const ScreenedEffect& a, const ScreenedEffect& b) { return a.gain > b.gain; });
     }
     for (const ScreenedEffect& s : screened_)
-      search_.screened.push_back({variants_[s.variant], s.gain, s.signature, s.kept_share, s.visibility});
+      (is_outside(variants_[s.variant].effect) ? search_.screened_outside : search_.screened)
+          .push_back(
+              {variants_[s.variant], s.gain, s.signature, s.kept_share, s.visibility, s.columns, s.taken_by});
   }
 
-  std::vector<ScreenedEffect> screened_beside(const FittedExplanation& fit) const {
-    return screen_effects(campaign_, model_, noise_, fit, discrepancy_, variants_, options_.discrepancy,
-                          options_.search.threads);
+  // Variants that pairs are looked for among: all of the library, and of the causes from outside the best of
+  // those that were fitted alone.
+  std::vector<std::size_t> possible_seconds() const {
+    std::vector<std::size_t> seconds;
+    std::set<std::string> outside;
+    for (const ScreenedEffect& s : screened_) {
+      const std::string& name = variants_[s.variant].effect;
+      if (!is_outside(name) || (best_fit_.contains(name) && outside.insert(name).second))
+        seconds.push_back(s.variant);
+    }
+    std::sort(seconds.begin(), seconds.end());
+    return seconds;
+  }
+
+  // Of all variants, or of these alone.
+  std::vector<ScreenedEffect> screened_beside(const FittedExplanation& fit,
+                                              const std::vector<std::size_t>* among = nullptr) const {
+    const auto screened = [&](std::span<const EffectVariant> variants) {
+      return screen_effects(campaign_, model_, noise_, fit, discrepancy_, variants, options_.discrepancy,
+                            options_.search.threads);
+    };
+    if (among == nullptr) return screened(variants_);
+    std::vector<EffectVariant> some;
+    for (const std::size_t v : *among) some.push_back(variants_[v]);
+    std::vector<ScreenedEffect> found = screened(some);
+    for (ScreenedEffect& s : found) s.variant = (*among)[s.variant];
+    return found;
   }
   FittedExplanation fitted(const Hypothesis& hypothesis, std::span<const double> start) const {
     return fit_explanation(hypothesis, model_, noise_, start, options_.fit, options_.search.threads);
@@ -195,6 +242,11 @@ class Searcher {
       c.effects.push_back(v.effect);
       prior.alone -= std::log(variants_of_[v.effect]);
       prior.with_something_else -= std::log(variants_of_[v.effect]);
+      const OutsideCause* const cause = find_outside(v.effect);
+      c.outside = c.outside || cause != nullptr;
+      if (cause == nullptr || !cause->twin_of_an_effect) continue;
+      prior.alone += std::log(options_.priors.twin_share);
+      prior.with_something_else += std::log(options_.priors.twin_share);
     }
     c.fit = index;
     const DiscrepancyGain gain = discrepancy_gain(
@@ -255,11 +307,26 @@ Result<ExplanationSearch> fit_given_explanation(const DriveCampaign& campaign, c
                                                 const DiscrepancyTerm& discrepancy,
                                                 const DiagnosisOptions& options, Progress& progress,
                                                 std::span<const FittedExplanation> found_before) {
-  Searcher searcher(campaign, model, noise, std::move(null), discrepancy, options, progress);
+  DiagnosisOptions library_alone = options;
+  library_alone.search.outside = false;
+  Searcher searcher(campaign, model, noise, std::move(null), discrepancy, library_alone, progress);
   searcher.fit_again(found_before);
   searcher.fit_singles();
   searcher.fit_pairs(-std::numeric_limits<double>::infinity());
   return std::move(searcher).given();
+}
+
+std::vector<std::string> library_effects_of(const Candidate& candidate) {
+  std::vector<std::string> names;
+  std::copy_if(candidate.effects.begin(), candidate.effects.end(), std::back_inserter(names),
+               [](const std::string& name) { return !is_outside(name); });
+  return names;
+}
+
+std::vector<std::string> outside_causes_of(const Candidate& candidate) {
+  std::vector<std::string> names;
+  std::copy_if(candidate.effects.begin(), candidate.effects.end(), std::back_inserter(names), is_outside);
+  return names;
 }
 
 bool went_far(const FittedExplanation& null, double max_shift) {
@@ -286,6 +353,16 @@ LogPrior log_prior_of_one(const PriorOptions& options, double effects) {
 LogPrior log_prior_of_two(const PriorOptions& options, double effects) {
   const double pairs = std::max(1.0, 0.5 * effects * (effects - 1.0));
   const double alone = std::log(options.two_effects / pairs);
+  return {alone, alone + options.pair_beside_something_else_log};
+}
+
+LogPrior log_prior_of_outside(const PriorOptions& options, double causes) {
+  const double alone = std::log(options.one_outside / causes);
+  return {alone, alone + options.pair_beside_something_else_log};
+}
+
+LogPrior log_prior_of_one_and_outside(const PriorOptions& options, double effects, double causes) {
+  const double alone = std::log(options.one_and_one_outside / (effects * causes));
   return {alone, alone + options.pair_beside_something_else_log};
 }
 

@@ -14,13 +14,21 @@ namespace slipway::gap {
 
 // A set of effects that was compared. Its fit is one of ExplanationSearch::fits.
 struct Candidate {
-  std::vector<std::string> effects;  // in the order of its hypothesis; empty: none
-  bool with_unknown = false;         // something else besides
+  // In the order of its hypothesis; empty: none. A cause from outside is among them.
+  std::vector<std::string> effects;
+  bool with_unknown = false;  // something else besides
+  bool outside = false;       // a cause from outside is among the effects
   std::size_t fit = 0;
   double log_evidence = 0.0;  // the discrepancy term's part among it
   double log_prior = 0.0;
   double probability = 0.0;
+
+  // Whether it says that something is at work that the library has no name for.
+  bool unknown() const { return with_unknown || outside; }
 };
+// Its effects that are of the library, and its causes from outside.
+std::vector<std::string> library_effects_of(const Candidate& candidate);
+std::vector<std::string> outside_causes_of(const Candidate& candidate);
 
 // An effect's linear score at the null: how much the logarithm of the evidence would rise, by variant.
 struct ScreenedVariant {
@@ -29,12 +37,15 @@ struct ScreenedVariant {
   Eigen::VectorXd signature;  // whitened response of its strongest field, nuisances projected out
   double kept_share = 0.0;    // of the signature's length that nuisances don't take
   double visibility = 0.0;  // length of what its first field's prior deviation does, nuisances projected out
+  Eigen::MatrixXd columns;  // derivatives of every observation at the null, by prior deviations
+  std::vector<std::size_t> taken_by;  // see ScreenedEffect
 };
 
 struct ExplanationSearch {
   std::vector<FittedExplanation> fits;    // [0] is the null
   std::vector<Candidate> candidates;      // most probable first
-  std::vector<ScreenedVariant> screened;  // best first
+  std::vector<ScreenedVariant> screened;  // of the library, best first
+  std::vector<ScreenedVariant> screened_outside;
 };
 
 // Screens every variant at the null by its projected signature, fits the best in full, alone and in pairs,
@@ -66,6 +77,9 @@ struct LogPrior {
 LogPrior log_prior_of_nothing(const PriorOptions& options);
 LogPrior log_prior_of_one(const PriorOptions& options, double effects);
 LogPrior log_prior_of_two(const PriorOptions& options, double effects);
+// One of so many causes from outside; the same beside an effect of the library.
+LogPrior log_prior_of_outside(const PriorOptions& options, double causes);
+LogPrior log_prior_of_one_and_outside(const PriorOptions& options, double effects, double causes);
 
 // Whether each effect of a fit is at work by a good part of its usual size.
 bool worth_naming(const FittedExplanation& fit, double min_size);

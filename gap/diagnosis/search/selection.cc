@@ -66,10 +66,10 @@ Running running_of(const ExplanationSearch& search, const PreparedCampaign& prep
 
 std::size_t chosen_among(std::span<const Candidate> candidates, const SelectionOptions& options) {
   double unknown = 0.0;
-  for (const Candidate& c : candidates) unknown += c.with_unknown ? c.probability : 0.0;
+  for (const Candidate& c : candidates) unknown += c.unknown() ? c.probability : 0.0;
   if (unknown <= options.unknown_majority) return simplest_of_the_best(candidates, options);
   const auto first =
-      std::find_if(candidates.begin(), candidates.end(), [](const Candidate& c) { return c.with_unknown; });
+      std::find_if(candidates.begin(), candidates.end(), [](const Candidate& c) { return c.unknown(); });
   return static_cast<std::size_t>(first - candidates.begin());
 }
 

@@ -11,9 +11,9 @@
 
 namespace slipway::gap {
 
-// Which of the candidates, most probable first, the answer is: the most probable one with something unknown
-// where these have the majority; else the most probable one, or, where none is certain, one with fewer
-// effects of the same that is not much less probable. What adds little is not worth a name.
+// Which of the candidates, most probable first, the answer is: the most probable one with something unknown,
+// of whatever form, where these have the majority; else the most probable one, or, where none is certain, one
+// with fewer effects of the same that is not much less probable. What adds little is not worth a name.
 std::size_t chosen_among(std::span<const Candidate> candidates, const SelectionOptions& options = {});
 
 // The evidence of a linearised explanation, made of its parts by groups of drives: whitened residuals and

@@ -52,6 +52,8 @@ struct Variant {
   bool something_else = true;
   bool single = false;          // the effect with the best trace alone, no second, no pair
   bool whole_evidence = false;  // not tempered
+  bool outside = true;          // causes from outside compete
+  bool by_marginals = true;     // effects are named by their marginal probabilities
   Result<gap::Diagnosis> (*method)(const gap::DriveCampaign&, const gap::DiagnosisOptions&,
                                    Progress&) = &gap::diagnose;
 };
@@ -68,6 +70,8 @@ constexpr std::array kVariants{
             .retuning = gap::Retuning::kNone,
             .something_else = false,
             .whole_evidence = true},
+    Variant{.name = "no-wrench", .outside = false},
+    Variant{.name = "old-naming", .by_marginals = false},
     Variant{.name = "sample-level-folds", .method = &gap::diagnose_sample_by_sample},
     Variant{.name = "sparse-regression", .method = &gap::diagnose_by_sparse_regression},
     Variant{.name = "gaussian-process", .method = &gap::diagnose_by_gaussian_process},
@@ -151,6 +155,8 @@ Result<Timed> diagnosed(const GapBenchmarkCommand& options, const api::Catalogue
     how.search.max_paired = 0;
   }
   how.evidence.whole = variant.whole_evidence;
+  how.search.outside = variant.outside;
+  how.verdict.name_by_marginals = variant.by_marginals;
   Interruptible patience;
   auto diagnosis = variant.method(*campaign, how, patience);
   if (!diagnosis) return fail(diagnosis.error());

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gap/diagnosis/model/drive_campaign.h"
+#include "sim/effects/effect.h"
+#include "sim/quasi_static/outside_wrench.h"
+#include "sim/rover/stance.h"
+
+namespace slipway::gap {
+
+class WindowModel;
+
+// What an unmodelled world does to a vehicle, all at once; every window makes it a wrench of its own. N and
+// N m. "Along" is the direction of travel, so that a force along of less than 0 holds the rover back either
+// way; none acts while the rover turns in place.
+struct OutsideForces {
+  double along_n = 0.0;
+  double along_by_speed_n = 0.0;  // at the rover's cruise speed, in proportion to the commanded speed
+  double along_by_slope_n = 0.0;  // to the body's front, in proportion to the sine of the climb, at 10 deg
+  Eigen::Vector2d in_body_n = Eigen::Vector2d::Zero();  // forward and to the left
+  Eigen::Vector2d on_map_n = Eigen::Vector2d::Zero();   // towards the map's x and y
+  double load_n = 0.0;                                  // downward
+  double height_m = 0.0;    // above the centre of mass, of the point where these act on the body
+  double turning_nm = 0.0;  // about the body's z axis
+  std::map<std::size_t, double> along_at_wheel_n;  // by the wheel's index
+
+  bool any() const;
+};
+
+// Forces on the body act in its vertical through the centre of mass, those at wheels at the axles.
+sim::OutsideWrench wrench_of(const OutsideForces& forces, const sim::RoverModel& rover,
+                             const sim::Stance& stance, const sim::DriveCommand& command);
+
+using OutsideValues = std::map<std::string, double>;  // of a cause's fields, by name
+
+// A cause outside the simulator and its library: a force that the world puts on the vehicle, or a sensor that
+// reads in another scale or from another zero. In a diagnosis it competes as the library's effects do, with
+// parameters of its own that are fitted in full, and is told as the form of something unknown.
+struct OutsideCause {
+  std::string_view name;     // "pull_along_travel"
+  std::string_view form;     // "force_on_body", "moment_on_body", "force_at_wheel", "sensor"
+  std::string_view entry;    // where it enters, as the discrepancy term's entries are called
+  std::string_view depends;  // on which circumstance
+  std::string_view unit;     // of its fields
+  // The ways in which it could be at work. Their prior deviations are shares of the rover's weight.
+  std::vector<sim::EffectVariant> (*variants)(const DriveCampaign& campaign);
+  // Exactly one of these two.
+  void (*act)(const OutsideValues& values, OutsideForces& forces) = nullptr;
+  // Turns predictions into what the wrong sensor would show.
+  void (*show)(const OutsideValues& values, const WindowModel& model,
+               std::vector<double>& predicted) = nullptr;
+  // "a steady pull of 25 N against the travel, at the body"
+  std::string (*words)(const OutsideValues& values, const DriveCampaign& campaign);
+  // Whether the library holds an effect that is the same in every drive, so that this one gets a small part
+  // of the prior only.
+  bool twin_of_an_effect = false;
+};
+
+std::span<const OutsideCause> outside_catalogue();
+const OutsideCause* find_outside(std::string_view name);  // null where there is none of this name
+
+// All variants of all causes on a campaign's rover.
+std::vector<sim::EffectVariant> outside_variants(const DriveCampaign& campaign);
+
+}  // namespace slipway::gap

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gap/diagnosis/result/result.h"
+#include "gap/diagnosis/search/diagnosis_options.h"
+#include "gap/diagnosis/search/explanation_search.h"
+
+namespace slipway::gap {
+
+// Which effects an answer names.
+struct Naming {
+  std::vector<std::string> effects;
+  // Something unexplained stays beside them: a partial answer.
+  bool partial = false;
+  // The candidate whose fit has the effects' parameters, and the one of these effects alone, by which the
+  // drives are corrected; the same unless a cause from outside stands beside them. Without effects: what was
+  // chosen, or the candidate in which nothing is missing where all that was chosen closes too little.
+  std::size_t candidate = 0, correction = 0;
+};
+
+// Names by the marginal probabilities and the shares of the gap that go with the effects. Where nothing
+// unknown was chosen, the effects that were chosen are named as far as they close
+// VerdictOptions::min_closed_share. Where something unknown was, an effect is named all the same whose
+// marginal probability and share reach min_partial_probability and min_partial_share; of several these must
+// stand together in an explanation that was compared. Where what was chosen is a cause from outside, so that
+// the unknown has a known form, the lower min_probability_beside_form and min_share_beside_form do.
+Naming name_effects(const ExplanationSearch& search, std::size_t chosen,
+                    std::span<const EffectMarginal> marginals, const VerdictOptions& options);
+
+// Whether an effect may be named beside something unknown.
+bool stands_beside_unknown(const EffectMarginal& marginal, const VerdictOptions& options);
+
+}  // namespace slipway::gap

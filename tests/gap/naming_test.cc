@@ -1,0 +1,100 @@
+#include "gap/diagnosis/naming.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "gap/diagnosis/search/selection.h"
+
+namespace slipway::gap {
+namespace {
+
+Candidate candidate(std::vector<std::string> effects, double probability, bool with_unknown = false,
+                    bool outside = false) {
+  Candidate c;
+  c.effects = std::move(effects);
+  c.probability = probability;
+  c.with_unknown = with_unknown;
+  c.outside = outside;
+  return c;
+}
+
+ExplanationSearch search_of(std::vector<Candidate> candidates) {
+  ExplanationSearch search;
+  search.candidates = std::move(candidates);
+  return search;
+}
+
+Naming named(const ExplanationSearch& search, const std::vector<EffectMarginal>& marginals,
+             const VerdictOptions& options = {}) {
+  return name_effects(search, chosen_among(search.candidates), marginals, options);
+}
+
+const std::vector<std::string> kDrag{"dragging_wheel"};
+
+// Hundreds of deviations large and in every explanation, with something else left over beside it.
+TEST(Naming, DoesNotWithholdWhatIsInEveryExplanationAndClosesMost) {
+  const ExplanationSearch search = search_of({candidate({"dragging_wheel"}, 0.5, true),
+                                              candidate({"dragging_wheel", "hardpan"}, 0.3, true),
+                                              candidate({"dragging_wheel"}, 0.199), candidate({}, 0.001)});
+  const std::vector<EffectMarginal> marginals{{"dragging_wheel", 0.999, 0.93}, {"hardpan", 0.3, 0.02}};
+  const Naming naming = named(search, marginals);
+  EXPECT_EQ(naming.effects, kDrag);
+  EXPECT_TRUE(naming.partial);
+  EXPECT_EQ(naming.candidate, 0U);
+  VerdictOptions old;
+  old.name_by_marginals = false;
+  EXPECT_TRUE(named(search, marginals, old).effects.empty()) << "an unknown cause hid all names";
+}
+
+TEST(Naming, NamesNothingBesideAnUnknownCauseThatIsUncertainOrClosesLittle) {
+  const ExplanationSearch search =
+      search_of({candidate({"dragging_wheel"}, 0.6, true), candidate({}, 0.3, true), candidate({}, 0.1)});
+  EXPECT_TRUE(named(search, {{"dragging_wheel", 0.6, 0.9}}).effects.empty()) << "a shadow, perhaps";
+  EXPECT_TRUE(named(search, {{"dragging_wheel", 0.99, 0.2}}).effects.empty()) << "most is something else";
+  EXPECT_FALSE(named(search, {{"dragging_wheel", 0.99, 0.2}}).partial);
+}
+
+TEST(Naming, LeavesOutWhatClosesNextToNothing) {
+  const ExplanationSearch search = search_of(
+      {candidate({"grousers", "hardpan"}, 0.8), candidate({"grousers"}, 0.15), candidate({}, 0.05)});
+  const Naming naming = named(search, {{"grousers", 0.95, 0.9}, {"hardpan", 0.8, 0.02}});
+  EXPECT_EQ(naming.effects, std::vector<std::string>{"grousers"});
+  EXPECT_FALSE(naming.partial);
+  EXPECT_EQ(naming.candidate, 1U) << "fitted without it";
+  const Naming none = named(search, {{"grousers", 0.95, 0.01}, {"hardpan", 0.8, 0.02}});
+  EXPECT_TRUE(none.effects.empty());
+  EXPECT_EQ(none.candidate, 2U) << "the explanation in which nothing is missing";
+}
+
+TEST(Naming, TakesTheParametersFromTheExplanationWithTheForceAndCorrectsByTheEffectAlone) {
+  const ExplanationSearch search = search_of(
+      {candidate({"pull_along_travel", "motor_temperature"}, 0.9, false, true),
+       candidate({"motor_temperature"}, 0.06), candidate({"pull_along_travel"}, 0.04, false, true)});
+  const Naming naming = named(search, {{"motor_temperature", 0.96, 0.7}});
+  EXPECT_EQ(naming.effects, std::vector<std::string>{"motor_temperature"});
+  EXPECT_TRUE(naming.partial);
+  EXPECT_EQ(naming.candidate, 0U);
+  EXPECT_EQ(naming.correction, 1U);
+}
+
+TEST(Naming, AsksLessBesideACauseOfKnownForm) {
+  const std::vector<EffectMarginal> marginals{{"wheel_radius", 0.76, 0.21}};
+  const ExplanationSearch known = search_of({candidate({"push_on_map", "wheel_radius"}, 0.76, false, true),
+                                             candidate({"push_on_map"}, 0.24, false, true)});
+  EXPECT_EQ(named(known, marginals).effects, std::vector<std::string>{"wheel_radius"});
+  const ExplanationSearch unknown =
+      search_of({candidate({"wheel_radius"}, 0.76, true), candidate({}, 0.24, true)});
+  EXPECT_TRUE(named(unknown, marginals).effects.empty());
+}
+
+TEST(Naming, OfACauseFromOutsideAloneIsNone) {
+  const ExplanationSearch search = search_of(
+      {candidate({"pull_along_travel"}, 0.7, false, true), candidate({"com_offset", "grousers"}, 0.3)});
+  EXPECT_EQ(library_effects_of(search.candidates[0]), std::vector<std::string>{});
+  EXPECT_EQ(outside_causes_of(search.candidates[0]), std::vector<std::string>{"pull_along_travel"});
+  EXPECT_TRUE(named(search, {{"com_offset", 0.3, 0.6}, {"grousers", 0.3, 0.3}}).effects.empty());
+}
+
+}  // namespace
+}  // namespace slipway::gap
