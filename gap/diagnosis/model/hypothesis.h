@@ -53,6 +53,9 @@ class Hypothesis {
   std::span<const EffectVariant> effects() const { return effects_; }
   std::size_t nuisance_count() const { return nuisances_; }
   std::vector<double> neutral() const;
+  // The prior's precision in deviations from the neutral values; empty: all parameters are independent, of
+  // deviation 1. It is not where reference drives have told of the nuisances.
+  const Eigen::MatrixXd& prior_precision() const { return prior_precision_; }
   std::vector<sim::EffectSetting> settings(std::span<const double> x) const;
   ModelState state(std::span<const double> x) const;
   // What the model at x predicts for every observation.
@@ -70,6 +73,10 @@ class Hypothesis {
   // What the sensors would show of the predictions: late headings, biased attitudes.
   std::vector<double> as_shown(const WindowModel& model, std::span<const double> x,
                                std::vector<double> predicted) const;
+  // Takes what reference drives told of the nuisances, which are all parameters by then.
+  void believe_reference();
+  void add_learnt(const LearntDifference& learnt, std::span<const double> x,
+                  std::vector<double>& predicted) const;
   // Where an effect changes nothing: at the rover's own value, the variant's, or the field's.
   double neutral_of(const EffectVariant& variant, const Field& field) const;
 
@@ -82,6 +89,7 @@ class Hypothesis {
   };
   std::vector<NuisancePlace> places_;
   std::size_t nuisances_ = 0;
+  Eigen::MatrixXd prior_precision_;  // or none
 };
 
 }  // namespace slipway::gap
