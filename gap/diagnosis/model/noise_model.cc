@@ -102,9 +102,10 @@ Eigen::MatrixXd NoiseModel::whiten(const Eigen::MatrixXd& columns) const {
 }
 
 double log_marginal(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& columns) {
-  Eigen::MatrixXd inner = columns.transpose() * columns;
-  inner.diagonal().array() += 1.0;
-  const Eigen::LLT<Eigen::MatrixXd> llt(inner);
+  // One half of the symmetric product does.
+  Eigen::MatrixXd inner = Eigen::MatrixXd::Identity(columns.cols(), columns.cols());
+  inner.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
+  const Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> llt(inner);
   const Eigen::VectorXd projected = columns.transpose() * residuals;
   const double explained = projected.dot(llt.solve(projected));
   const double log_det = 2.0 * llt.matrixLLT().diagonal().array().log().sum();
