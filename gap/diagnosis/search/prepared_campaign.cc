@@ -35,6 +35,8 @@ bool shows_undisturbed(const DriveCampaign& campaign, const WindowModel& leant,
 Eigen::MatrixXd main_directions(const Eigen::MatrixXd& left, const WindowModel& model,
                                 std::span<const double> expected, const NoiseScales& noise,
                                 const ReferenceOptions& options) {
+  // Where the model leaves nothing over, nothing is open.
+  if (left.cols() == 0) return left;
   Eigen::MatrixXd scaled = left;
   Eigen::Index row = 0;
   for (const DriveWindow& window : model.windows())
