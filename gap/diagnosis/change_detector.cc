@@ -92,6 +92,7 @@ double ChangeDetector::add(const Eigen::VectorXd& residuals, const Eigen::Matrix
   std::vector<double> all{std::log(std::max(std::numeric_limits<double>::min(), 1.0 - begun))};
   for (const auto& [c, log] : of_start) all.push_back(log);
   log_evidence_ = log_of_sum(all);
+  above_ = log_evidence_ >= -log_alpha_ ? above_ + 1 : 0;
   for (const auto& [c, log] : of_start)
     if (c + options_.kept < drives && log < log_evidence_ + std::log(options_.forgotten))
       drives_[c].followed = false;

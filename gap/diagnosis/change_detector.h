@@ -20,6 +20,9 @@ namespace slipway::gap {
 // reaches 1 / alpha with a probability of alpha at most [Ville 1939; Shafer et al. 2011, Statistical Science
 // 26]. w_c falls as 1 / (c log^2 c), the slowest that adds up.
 struct ChangeOptions {
+  // Drives running at which the evidence stands at 1 / alpha before an alarm: one odd drive is no change. (An
+  // alarm is then rarer still than alpha.)
+  int confirmed_by = 2;
   double alpha = 0.01;  // chance of an alarm while nothing changes, however long one watches
   double share = 0.5;   // of the log likelihood ratios that is believed: drives scatter more than is modelled
   std::vector<double> sizes{0.3, 1.0, 3.0};  // of a change, in what its columns are
@@ -40,7 +43,7 @@ class ChangeDetector {
   // One more drive, whitened: residuals, what may be re-tuned, and the kinds' columns. Returns log M.
   double add(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& known, const Eigen::MatrixXd& changes);
 
-  bool alarmed() const { return log_evidence_ >= -log_alpha_; }
+  bool alarmed() const { return above_ >= options_.confirmed_by; }
   double log_evidence() const { return log_evidence_; }
   // Of M at the last drive: the first drive that differs, from 0, and the kinds' shares, which add up to 1
   // with what has not changed left out.
@@ -63,6 +66,7 @@ class ChangeDetector {
   Eigen::MatrixXd known_squares_;  // 1 + sum X^T X
   Eigen::VectorXd known_product_;  // sum X^T r
   double log_evidence_ = 0.0;
+  int above_ = 0;  // drives running, up to the last, at which the evidence stands at 1 / alpha
   std::size_t start_ = 0;
   std::vector<double> kind_shares_;
 };

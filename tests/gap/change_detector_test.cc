@@ -90,7 +90,7 @@ TEST(ChangeDetector, IsTheMixtureOfLikelihoodRatios) {
 // Ville: in 400 sequences of 60 drives in which nothing changes alarms are no more than alpha allows (20
 // expected at most; 31 is the binomial's 99 % quantile).
 TEST(ChangeDetector, RaisesNoMoreAlarmsThanItStates) {
-  const ChangeOptions options{.alpha = 0.05, .share = 1.0};
+  const ChangeOptions options{.confirmed_by = 1, .alpha = 0.05, .share = 1.0};
   int alarms = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed)
     alarms += first_alarm(1000 + seed, 60, 60, 0.0, options) >= 0 ? 1 : 0;
@@ -107,10 +107,19 @@ TEST(ChangeDetector, FindsAChangeSoonAndSaysSinceWhenAndWhich) {
     detector.add(made.residuals, made.known, made.changes);
     ++at;
   }
-  EXPECT_GE(at, 21);
-  EXPECT_LE(at, 24);
+  EXPECT_GE(at, 22);
+  EXPECT_LE(at, 26);
   EXPECT_NEAR(static_cast<double>(detector.most_probable_start()), 20.0, 1.0);
   EXPECT_GT(detector.kind_shares()[0], 0.8);
+}
+
+// One odd drive is no change: the alarm waits until the evidence stands at as many drives running as asked
+// for.
+TEST(ChangeDetector, WaitsUntilAChangeIsConfirmed) {
+  const int first = first_alarm(8, 40, 12, 3.0, {.confirmed_by = 1, .alpha = 0.01, .share = 1.0});
+  const int second = first_alarm(8, 40, 12, 3.0, {.confirmed_by = 2, .alpha = 0.01, .share = 1.0});
+  EXPECT_GE(first, 12);
+  EXPECT_EQ(second, first + 1);
 }
 
 }  // namespace

@@ -33,8 +33,8 @@ std::string watch_words(const gap::DriveWatch& watch) {
   std::string out = fmt::format("{}: {} drives were taken as healthy ({}), {} watched\n", watch.campaign,
                                 watch.learnt_drives, watch.reference, watch.drives.size());
   out += fmt::format(
-      "an alarm is raised where the evidence of a change reaches {:g} to 1: while nothing changes that ever "
-      "happens with a probability of at most {:g}\n",
+      "an alarm is raised where the evidence of a change stands at {:g} to 1 at two drives running: while "
+      "nothing changes that ever happens with a probability of at most {:g}\n",
       1.0 / watch.alpha, watch.alpha);
   TextTable table({"drive", "log10 evidence", ""});
   for (std::size_t d = 0; d < watch.drives.size(); ++d) {
