@@ -15,6 +15,7 @@
 #include "api/files/model_folder.h"
 #include "api/json/faults.h"
 #include "api/request_check.h"
+#include "gap/diagnosis/reference_diagnosis.h"
 #include "planner/judge/drive_decision.h"
 #include "planner/judge/trespass.h"
 #include "planner/make_plan.h"
@@ -126,6 +127,10 @@ Result<DiagnosisRequest> Service::read_diagnosis(std::string_view json) const {
   if (!has_fault_under(faults, "/campaign") &&
       std::find(campaigns_.begin(), campaigns_.end(), campaign) == campaigns_.end())
     faults.push_back({"/campaign", unknown_name("campaign", campaign, campaigns_)});
+  const std::string& reference = reading->request.reference;
+  if (!reference.empty() && !has_fault_under(faults, "/reference") &&
+      std::find(campaigns_.begin(), campaigns_.end(), reference) == campaigns_.end())
+    faults.push_back({"/reference", unknown_name("campaign", reference, campaigns_)});
   if (!faults.empty()) return fail(ErrorCode::kInvalidRequest, summary_of(faults), faults);
   return std::move(reading->request);
 }
@@ -237,6 +242,13 @@ Result<DiagnosisAnswer> Service::diagnose(const DiagnosisRequest& request, Progr
   options.search.withheld = request.without;
   options.search.threads = options_.threads;
   options.seed = request.seed;
+  if (!request.reference.empty()) {
+    const auto reference = shipped_drives(request.reference);
+    if (!reference) return fail(reference.error());
+    auto since = gap::diagnose_since(*reference, *campaign, options, progress);
+    if (!since) return fail(since.error());
+    return DiagnosisAnswer{request, std::move(*campaign), std::move(*since)};
+  }
   auto diagnosis = gap::diagnose(*campaign, options, progress);
   if (!diagnosis) return fail(diagnosis.error());
   return DiagnosisAnswer{request, std::move(*campaign), std::move(*diagnosis)};

@@ -255,6 +255,25 @@ void write_gap(Writer& w, const Diagnosis& d) {
   w.end_object();
 }
 
+void write_reference(Writer& w, const Diagnosis& d) {
+  if (!d.reference) return;
+  const gap::ReferenceSummary& reference = *d.reference;
+  w.key("reference").begin_object().text("campaign", reference.campaign);
+  w.text("hash", reference.fingerprint);
+  w.whole("drives", static_cast<std::int64_t>(reference.drives));
+  w.whole("windows", static_cast<std::int64_t>(reference.windows));
+  w.key("discrepancy").begin_array();
+  for (const gap::ReferenceSummary::LearntChannel& channel : reference.channels) {
+    const double unit = gap::boundary_unit(channel.channel);
+    w.begin_object().text("channel", gap::name_of(channel.channel));
+    w.text("unit", gap::unit_of(channel.channel));
+    write_finite(w, "learnt", unit * channel.learnt);
+    write_finite(w, "open", unit * channel.open);
+    w.end_object();
+  }
+  w.end_array().end_object();
+}
+
 void write_residual(Writer& w, const Diagnosis& d) {
   w.key("residual").begin_array();
   for (const gap::ResidualShape& shape : d.residual) {
@@ -387,6 +406,7 @@ std::string diagnosis_document(const gap::DriveCampaign& campaign, const Diagnos
   w.text("overturned_by", d.overturned_by);
   write_effects_found(w, d);
   write_marginals(w, d);
+  write_reference(w, d);
   write_candidates(w, d);
   w.key("where").begin_object();
   write_channels(w, d);

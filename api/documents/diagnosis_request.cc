@@ -21,9 +21,12 @@ Result<Reading<DiagnosisRequest>> read_diagnosis_request(std::string_view bytes)
   ObjectReader reader(*document, "", reading.faults);
   if (!reader.is_object()) return reading;
   reader.text("campaign", kRequired, {.most = 64, .is_name = true}, request.campaign);
+  reader.text("reference", kOptional, {.most = 64, .is_name = true}, request.reference);
   reader.texts("without", kOptional, {0, kMaxWithheld}, {.most = 64, .is_name = true}, request.without);
   reader.whole("seed", kOptional, std::uint64_t{0}, kMaxExactWhole, request.seed);
   reader.refuse_unknown();
+  if (!request.reference.empty() && request.reference == request.campaign)
+    reading.faults.push_back({"/reference", "must be other drives than those that are diagnosed"});
   std::vector<std::string> known;
   for (const sim::Effect& effect : sim::effect_catalogue()) known.emplace_back(effect.name);
   for (std::size_t i = 0; i < request.without.size(); ++i)

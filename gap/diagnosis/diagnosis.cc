@@ -12,6 +12,7 @@
 #include "gap/diagnosis/describe/localise.h"
 #include "gap/diagnosis/describe/look_alikes.h"
 #include "gap/diagnosis/describe/next_drives.h"
+#include "gap/diagnosis/describe/reference_summary.h"
 #include "gap/diagnosis/describe/unexplained.h"
 #include "gap/diagnosis/held_out/effect_marginals.h"
 #include "gap/diagnosis/held_out/extrapolation.h"
@@ -86,8 +87,9 @@ class Diagnoser {
           "the attitudes recorded are those of the plane under the wheels (within {:.2f} deg), not of the "
           "suspension on the map: the rover is predicted on that plane",
           deg_from_rad(prepared_.model->attitude_misfit_rad())));
-    if (std::none_of(campaign_.drives.begin(), campaign_.drives.end(),
-                     [](const auto& drive) { return drive.repeat_of.has_value(); }))
+    if (campaign_.reference) d_.reference = reference_summary(prepared_, campaign_);
+    if (!campaign_.reference && std::none_of(campaign_.drives.begin(), campaign_.drives.end(),
+                                             [](const auto& drive) { return drive.repeat_of.has_value(); }))
       d_.notes.push_back(
           "no drive is said to be a repeat: the drives' own scatter is estimated from drives of different "
           "kinds");
@@ -95,17 +97,18 @@ class Diagnoser {
 
   // Whether nothing can be said; the verdict says so.
   bool too_few() {
-    const VerdictOptions& limits = options_.verdict;
-    if (d_.drives >= static_cast<std::size_t>(limits.min_drives) &&
-        d_.windows >= static_cast<std::size_t>(limits.min_windows))
+    const bool since = campaign_.reference != nullptr;
+    const int min_drives = since ? options_.reference.min_drives : options_.verdict.min_drives;
+    const int min_windows = since ? options_.reference.min_windows : options_.verdict.min_windows;
+    if (d_.drives >= static_cast<std::size_t>(min_drives) &&
+        d_.windows >= static_cast<std::size_t>(min_windows))
       return false;
     d_.verdict = Verdict::kInsufficient;
     d_.reason = fmt::format(
         "{} drives with {} windows of use (positions and attitudes in two rows at least) are too few to "
         "tell causes apart",
         d_.drives, d_.windows);
-    d_.overturned_by =
-        fmt::format("{} drives and {} windows at least", limits.min_drives, limits.min_windows);
+    d_.overturned_by = fmt::format("{} drives and {} windows at least", min_drives, min_windows);
     return true;
   }
 

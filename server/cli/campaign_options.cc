@@ -3,6 +3,7 @@
 
 #include "server/cli/campaign_command.h"
 #include "server/cli/data_option.h"
+#include "server/cli/import_command.h"
 
 namespace slipway::server {
 
@@ -27,6 +28,24 @@ void add_campaign_command(CLI::App& app, std::function<int()>& run) {
       "Exit status: 0 every drive has an answer (getting stuck is one), 1 one has none, 2 the table has "
       "faults.");
   command->callback([options, &run] { run = [options] { return campaign(*options); }; });
+}
+
+void add_import_command(CLI::App& app, std::function<int()>& run) {
+  const auto options = std::make_shared<ImportCommand>();
+  CLI::App* command = app.add_subcommand(
+      "import",
+      "make a drive campaign of a team's own CSV files, by a mapping of names, units, axes and clocks");
+  command->add_option("mapping", options->mapping, "file of a mapping (TOML, \"drive-import/1\")")
+      ->required();
+  add_data_option(*command, options->data, "rovers and soils");
+  command->add_option("--out", options->out,
+                      "folder of the campaign; without it only what was understood is said");
+  command->add_option("--plot", options->plot, "file for a picture of what was read (SVG)");
+  command->footer(
+      "Example: what would be read of these files?\n"
+      "  slipway import yard.toml --plot yard.svg\n"
+      "Exit status: 0 a campaign, 1 it could not be written, 2 faults, all of them at once.");
+  command->callback([options, &run] { run = [options] { return import(*options); }; });
 }
 
 }  // namespace slipway::server

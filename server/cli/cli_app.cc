@@ -14,6 +14,7 @@
 #include "server/cli/diagnose_command.h"
 #include "server/cli/estimate_command.h"
 #include "server/cli/gap_benchmark_command.h"
+#include "server/cli/import_command.h"
 #include "server/cli/inquiry/data_folder.h"
 #include "server/cli/plan_command.h"
 #include "server/cli/predict_command.h"
@@ -22,6 +23,7 @@
 #include "server/cli/test_model_command.h"
 #include "server/cli/tune_command.h"
 #include "server/cli/validate_command.h"
+#include "server/cli/watch_command.h"
 #include "server/cli/wheel_command.h"
 #include "server/cli/worlds_command.h"
 
@@ -56,8 +58,10 @@ int run_command_line(int argc, char** argv) {
   add_wheel_command(app, run);
   add_current_command(app, run);
   add_campaign_command(app, run);
+  add_import_command(app, run);
   add_tune_command(app, run);
   add_diagnose_command(app, run);
+  add_watch_command(app, run);
   add_check_command(app, run);
   add_compare_answers_command(app, run);
   add_test_model_command(app, run);

@@ -9,6 +9,7 @@
 #include <iostream>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "api/documents/diagnosis_document.h"
@@ -20,6 +21,7 @@
 #include "api/report/diagnosis_charts.h"
 #include "api/report/diagnosis_report.h"
 #include "gap/diagnosis/diagnosis.h"
+#include "gap/diagnosis/reference_diagnosis.h"
 #include "server/cli/command_parts.h"
 #include "server/cli/terminal/terminal_progress.h"
 #include "server/cli/terminal/text_table.h"
@@ -136,8 +138,21 @@ std::string channels_of_effects_words(const Diagnosis& d) {
                      fmt::join(channels, ", "));
 }
 
+std::string reference_words(const gap::ReferenceSummary& reference) {
+  std::vector<std::string> channels;
+  for (const gap::ReferenceSummary::LearntChannel& c : reference.channels) {
+    const double unit = gap::boundary_unit(c.channel);
+    channels.push_back(fmt::format("{} {:.2g} (open {:.2g}) {}", gap::name_of(c.channel), unit * c.learnt,
+                                   unit * c.open, gap::unit_of(c.channel)));
+  }
+  return fmt::format(
+      "what has changed since {} drives of {}, from which the model's difference was learnt (rms): {}\n",
+      reference.drives, reference.campaign, fmt::join(channels, ", "));
+}
+
 std::string answer_words(const Diagnosis& d) {
   std::string out = fmt::format("{}: {}\n{}\n", d.campaign, gap::name_of(d.verdict), d.reason);
+  if (d.reference) out += reference_words(*d.reference);
   if (!d.overturned_by.empty()) out += fmt::format("would overturn it: {}\n", d.overturned_by);
   out += effects_words(d);
   out += fmt::format("\n{} drives, {} windows, {} observations; explanations compared:\n", d.drives,
@@ -220,6 +235,12 @@ int diagnose(const DiagnoseCommand& options) {
   if (!catalogue) return refuse_unreadable(catalogue.error());
   const auto campaign = api::load_drive_campaign(options.campaign, *catalogue);
   if (!campaign) return refuse_unreadable(campaign.error());
+  std::optional<gap::DriveCampaign> reference;
+  if (!options.reference.empty()) {
+    auto read = api::load_drive_campaign(options.reference, *catalogue);
+    if (!read) return refuse_unreadable(read.error());
+    reference = std::move(*read);
+  }
   gap::DiagnosisOptions diagnosis;
   diagnosis.search.withheld = options.without;
   diagnosis.search.threads = static_cast<std::size_t>(options.threads);
@@ -227,7 +248,8 @@ int diagnose(const DiagnoseCommand& options) {
   std::optional<Result<Diagnosis>> result;
   {
     TerminalProgress progress;
-    result = gap::diagnose(*campaign, diagnosis, progress);
+    result = reference ? gap::diagnose_since(*reference, *campaign, diagnosis, progress)
+                       : gap::diagnose(*campaign, diagnosis, progress);
   }
   if (!*result) return refuse(result->error());
   const Diagnosis& d = **result;

@@ -14,6 +14,7 @@ namespace slipway::server {
 struct DiagnoseCommand {
   std::string data;
   std::string campaign;              // folder of a "drive-campaign/1"
+  std::string reference;             // folder of another, of the same rover, taken as healthy; empty: none
   std::vector<std::string> without;  // effects that are not looked for
   std::uint64_t seed = 1;
   int threads = 0;            // 0: as many as the machine has

@@ -5,6 +5,7 @@
 #include "server/cli/data_option.h"
 #include "server/cli/diagnose_command.h"
 #include "server/cli/largest_exact_whole.h"
+#include "server/cli/watch_command.h"
 
 namespace slipway::server {
 
@@ -15,6 +16,10 @@ void add_diagnose_command(CLI::App& app, std::function<int()>& run) {
       "where prediction and recorded drives part, which effect is missing, how far the gap closes");
   command->add_option("campaign", options->campaign, "folder of a drive campaign")->required();
   add_data_option(*command, options->data, "rovers and soils");
+  command->add_option(
+      "--reference", options->reference,
+      "folder of drives of the same rover that are taken as healthy: the question is then what "
+      "has changed since");
   command->add_option("--without", options->without, "an effect that is not looked for, see slipway effects");
   command->add_option("--seed", options->seed, "the same seed gives the same answer")
       ->capture_default_str()
@@ -32,9 +37,48 @@ void add_diagnose_command(CLI::App& app, std::function<int()>& run) {
   command->footer(
       "Example: what do these drives show that the simulator lacks?\n"
       "  slipway diagnose data/gap-practice/p05 --report p05\n"
+      "Example: what has changed since these drives were made?\n"
+      "  slipway diagnose sols-20-30 --reference sols-1-19\n"
       "Exit status: 0 a diagnosis, whatever its verdict, 1 none, 2 input that can't be read, with every "
       "fault.");
   command->callback([options, &run] { run = [options] { return diagnose(*options); }; });
+}
+
+void add_watch_command(CLI::App& app, std::function<int()>& run) {
+  const auto options = std::make_shared<WatchCommand>();
+  CLI::App* command = app.add_subcommand(
+      "watch",
+      "whether drives, in their order, still are what healthy ones were: since when, and what changed");
+  command->add_option("campaign", options->campaign, "folder of a drive campaign, its drives in their order")
+      ->required();
+  add_data_option(*command, options->data, "rovers and soils");
+  CLI::Option* const reference = command->add_option(
+      "--reference", options->reference, "folder of drives of the same rover that are taken as healthy");
+  command
+      ->add_option("--learn", options->learn,
+                   "without a reference: so many of the campaign's first drives are taken as healthy")
+      ->capture_default_str()
+      ->check(CLI::Range(3, 10'000))
+      ->excludes(reference);
+  command
+      ->add_option("--alpha", options->alpha,
+                   "chance of an alarm while nothing changes, however long one watches")
+      ->capture_default_str()
+      ->check(CLI::Range(1e-9, 0.5));
+  command->add_option("--without", options->without, "an effect that is not looked for, see slipway effects");
+  command->add_flag("!--no-diagnosis", options->diagnose, "after an alarm, do not diagnose what has changed");
+  command->add_option("--seed", options->seed, "the same seed gives the same answer")
+      ->capture_default_str()
+      ->check(CLI::Range(std::uint64_t{0}, kMaxExactWhole));
+  command->add_option("--threads", options->threads, "at once; 0: as many as the machine has")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1024));
+  command->add_flag("--json", options->json, "print the document, for machines");
+  command->footer(
+      "Example: is the rover still what it was in its first twelve drives?\n"
+      "  slipway watch data/gap-practice/p01\n"
+      "Exit status: 0 nothing has changed, 6 something has, 1 no answer, 2 input that can't be read.");
+  command->callback([options, &run] { run = [options] { return watch(*options); }; });
 }
 
 }  // namespace slipway::server

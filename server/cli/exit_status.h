@@ -12,6 +12,7 @@ enum ExitStatus : int {
   kNoGo = 3,       // the drive is NO-GO, or there is no route, or none without a broken limit
   kUndecided = 4,  // the drive is UNKNOWN, or the best route is one to be cautious of
   kSunk = 5,       // of a single wheel: in some row it sank to its axle or no slip climbs the slope
+  kChanged = 6,    // of a watch: something has changed
 };
 
 // Of a verdict: "go", "caution", "no_go", "unknown".

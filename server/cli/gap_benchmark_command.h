@@ -23,6 +23,7 @@ struct GapBenchmarkCommand {
   std::string withheld_csv;       // file for one line an effect withheld; empty: none
   std::string variant = "as-is";  // of the diagnosis: ablations and baselines
   bool without_each = false, oracle = false, json = false;
+  bool references = false;     // with the drives in references/NAME taken as healthy
   bool drives_needed = false;  // instead: how many drives a right answer takes
   int random_repeats = 3;      // of that with random drives
 };

@@ -44,6 +44,9 @@ void add_gap_benchmark_command(CLI::App& app, std::function<int()>& run) {
   CLI::Option* const oracle = command->add_flag(
       "--oracle", options->oracle,
       "diagnose again with the hidden effects given: how much of the gap could have been closed?");
+  command->add_flag("--references", options->references,
+                    "with the drives in the folder's references/NAME taken as healthy, where there are some: "
+                    "what has changed since?");
   CLI::Option* const needed =
       command->add_flag("--drives-needed", options->drives_needed,
                         "instead: how many drives a right answer takes where next drives are those that "

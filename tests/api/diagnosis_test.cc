@@ -318,5 +318,19 @@ TEST(DiagnosisRequest, IsOfDrivesThatShip) {
     EXPECT_FALSE((*service)->read_diagnosis("{\"campaign\":\"" + std::string(campaign) + "\"}")) << campaign;
 }
 
+TEST(DiagnosisRequest, MayNameOtherDrivesAsItsReference) {
+  const auto service = Service::open({.data = SLIPWAY_DATA_FOLDER});
+  ASSERT_TRUE(service);
+  const auto request = (*service)->read_diagnosis(R"({"campaign":"p05","reference":"p01"})");
+  ASSERT_TRUE(request);
+  EXPECT_EQ(request->reference, "p01");
+  for (const char* reference : {"p99", "p05", "../p01"}) {
+    const auto refused =
+        (*service)->read_diagnosis(R"({"campaign":"p05","reference":")" + std::string(reference) + "\"}");
+    ASSERT_FALSE(refused) << reference;
+    EXPECT_EQ(refused.error().faults.at(0).pointer, "/reference") << reference;
+  }
+}
+
 }  // namespace
 }  // namespace slipway::api

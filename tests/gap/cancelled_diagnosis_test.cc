@@ -95,5 +95,16 @@ TEST(ACancelledDiagnosis, StopsWithinATenthOfASecondInEveryStage) {
   }
 }
 
+TEST(ADiagnosis, RefusesMoreThanItCanHoldAndSaysHowToThin) {
+  DiagnosisOptions options;
+  options.preparation.max_observations = 100;
+  NoProgress progress;
+  const auto refused = diagnose(some_drives(3), options, progress);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kPayloadTooLarge);
+  EXPECT_EQ(refused.error().faults.at(0).pointer, "/drives");
+  EXPECT_NE(refused.error().detail.find("leave out rows until they are"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace slipway::gap

@@ -4,8 +4,11 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include "core/random.h"
+#include "gap/diagnosis/model/block_cholesky.h"
 
 namespace slipway::gap {
 namespace {
@@ -24,6 +27,62 @@ TEST(LogMarginal, IsTheDensityUnderTheWholeCovariance) {
   const Eigen::LLT<Eigen::MatrixXd> llt(v);
   const double expected = -0.5 * r.dot(llt.solve(r)) - llt.matrixLLT().diagonal().array().log().sum();
   EXPECT_NEAR(log_marginal(r, a), expected, 1e-10);
+}
+
+constexpr Eigen::Index kSharedCauses = 3;
+
+Eigen::MatrixXd drawn_matrix(Eigen::Index rows, Eigen::Index columns, std::uint64_t key) {
+  Eigen::MatrixXd m(rows, columns);
+  for (Eigen::Index i = 0; i < m.size(); ++i) m(i) = random_normal(key, static_cast<std::uint64_t>(i));
+  return m;
+}
+
+// A drive of windows with 4 to 8 rows each, with the same covariance written out.
+struct WindowedDrive {
+  BlockCholesky factor;
+  Eigen::MatrixXd dense;
+};
+
+WindowedDrive windowed_drive(int windows, bool with_dense) {
+  WindowedDrive made;
+  std::vector<Eigen::MatrixXd> own, shared;
+  Eigen::Index rows = 0;
+  for (int w = 0; w < windows; ++w) {
+    const auto n = static_cast<Eigen::Index>(4 + w % 5);
+    const Eigen::MatrixXd root = drawn_matrix(n, n, 10 + static_cast<std::uint64_t>(w));
+    own.push_back(root * root.transpose() + 0.1 * Eigen::MatrixXd::Identity(n, n));
+    shared.push_back(drawn_matrix(n, kSharedCauses, 1000 + static_cast<std::uint64_t>(w)));
+    made.factor.add(own.back(), shared.back());
+    rows += n;
+  }
+  if (!with_dense) return made;
+  Eigen::MatrixXd u(rows, kSharedCauses);
+  made.dense = Eigen::MatrixXd::Zero(rows, rows);
+  Eigen::Index row = 0;
+  for (std::size_t w = 0; w < own.size(); ++w) {
+    made.dense.block(row, row, own[w].rows(), own[w].rows()) = own[w];
+    u.middleRows(row, shared[w].rows()) = shared[w];
+    row += own[w].rows();
+  }
+  made.dense += u * u.transpose();
+  return made;
+}
+
+TEST(BlockCholesky, IsTheFactorOfTheWholeCovariance) {
+  const WindowedDrive made = windowed_drive(40, true);
+  const Eigen::MatrixXd columns = drawn_matrix(made.dense.rows(), 5, 7);
+  const Eigen::LLT<Eigen::MatrixXd> llt(made.dense);
+  const Eigen::MatrixXd expected = llt.matrixL().solve(columns);
+  EXPECT_LT((made.factor.solve(columns) - expected).cwiseAbs().maxCoeff(),
+            1e-9 * expected.cwiseAbs().maxCoeff());
+  EXPECT_NEAR(made.factor.log_determinant(), 2.0 * llt.matrixLLT().diagonal().array().log().sum(), 1e-8);
+}
+
+// A dense factor of 16 times as many windows would take 256 times as much.
+TEST(BlockCholesky, GrowsWithTheNumberOfWindows) {
+  const BlockCholesky small = windowed_drive(50, false).factor, large = windowed_drive(800, false).factor;
+  EXPECT_EQ(large.rows(), 16 * small.rows());
+  EXPECT_LE(large.bytes(), 16 * small.bytes());
 }
 
 }  // namespace

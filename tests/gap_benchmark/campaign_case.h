@@ -31,6 +31,8 @@ struct CampaignCase {
   std::size_t max_drives = 0;       // 0 for all drives
   bool sinkage = true, temperature = true;
   std::uint64_t seed = 0;  // of everything drawn in it
+  // Above 0: so many drives are healthy before the cause sets in, and drives are in an order that is drawn.
+  std::size_t since_drive = 0;
   bool even_soil = false;  // no scatter and no sensor noise, for comparisons
 };
 

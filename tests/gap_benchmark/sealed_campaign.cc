@@ -156,11 +156,17 @@ void place_patch(const std::vector<MadeDrive>& drives, RandomStream& random, Hid
   }
 }
 
-std::vector<MadeDrive> drive_all(const World& world, const std::vector<NamedTerrain>& terrains,
-                                 const std::vector<DriveOrder>& orders, std::uint64_t seed) {
+// With `since` the drives before it meet nothing hidden.
+std::vector<MadeDrive> drive_all(const World& changed, const std::vector<NamedTerrain>& terrains,
+                                 const std::vector<DriveOrder>& orders, std::uint64_t seed,
+                                 std::size_t since = 0) {
+  World healthy = changed;
+  healthy.hidden = {};
+  healthy.hidden.other_equations = changed.hidden.other_equations;
   std::vector<MadeDrive> drives;
   for (std::size_t i = 0; i < orders.size(); ++i)
     for (const NamedTerrain& terrain : terrains) {
+      const World& world = i < since ? healthy : changed;
       if (terrain.name != orders[i].terrain) continue;
       RandomStream random(seed + i);
       std::vector<DriveRow> rows = simulate_drive(world, terrain.grid, orders[i], random).rows;
@@ -184,6 +190,22 @@ std::vector<DriveOrder> hills_orders(const World& world, const TerrainGrid& grou
     orders.push_back(order);
   }
   return orders;
+}
+
+// Names, and hours of the day: the order in which drives were made is not that of their numbers on tilt
+// tables.
+void number(const CampaignCase& made_of, const World& world, RandomStream& random,
+            std::vector<DriveOrder>& orders) {
+  std::vector<std::size_t> turn(orders.size());
+  for (std::size_t i = 0; i < turn.size(); ++i) turn[i] = i;
+  if (!made_of.on_hills)
+    for (std::size_t i = turn.size(); i > 1; --i) std::swap(turn[i - 1], turn[random.below(i)]);
+  const bool by_number = world.hidden.solar_softening != 0.0 || world.hidden.current_gain_drift != 0.0;
+  for (std::size_t i = 0; i < orders.size(); ++i) {
+    orders[i].id = drive_name(i);
+    orders[i].share_of_day = static_cast<double>(by_number ? i : turn[i]) /
+                             std::max<double>(1.0, static_cast<double>(orders.size()) - 1.0);
+  }
 }
 
 }  // namespace
@@ -223,17 +245,9 @@ SealedCampaign make_campaign(const CampaignCase& made_of, RandomStream& random) 
       kept.push_back(orders[i * orders.size() / made_of.max_drives]);
     orders = std::move(kept);
   }
-  // Hours of the day: the order in which drives were made is not that of their numbers on tilt tables.
-  std::vector<std::size_t> turn(orders.size());
-  for (std::size_t i = 0; i < turn.size(); ++i) turn[i] = i;
-  if (!made_of.on_hills)
-    for (std::size_t i = turn.size(); i > 1; --i) std::swap(turn[i - 1], turn[random.below(i)]);
-  const bool by_number = world.hidden.solar_softening != 0.0 || world.hidden.current_gain_drift != 0.0;
-  for (std::size_t i = 0; i < orders.size(); ++i) {
-    orders[i].id = drive_name(i);
-    orders[i].share_of_day = static_cast<double>(by_number ? i : turn[i]) /
-                             std::max<double>(1.0, static_cast<double>(orders.size()) - 1.0);
-  }
+  if (made_of.since_drive > 0)
+    for (std::size_t i = orders.size(); i > 1; --i) std::swap(orders[i - 1], orders[random.below(i)]);
+  number(made_of, world, random, orders);
   const std::uint64_t seed = random.seed();
   if (world.hidden.patch_weakening > 0.0) {
     World bare = world;
@@ -242,7 +256,25 @@ SealedCampaign make_campaign(const CampaignCase& made_of, RandomStream& random) 
     made.effects["soft_patch"]["x_m"] = world.hidden.patch_x_m;
     made.effects["soft_patch"]["y_m"] = world.hidden.patch_y_m;
   }
-  made.drives = drive_all(world, made.terrains, orders, seed);
+  made.drives = drive_all(world, made.terrains, orders, seed, made_of.since_drive);
+  made.noise_seed = random.seed();
+  return made;
+}
+
+SealedCampaign healthy_reference(const SealedCampaign& campaign, RandomStream& random) {
+  SealedCampaign made;
+  made.made_of = campaign.made_of;
+  made.made_of.causes.clear();
+  made.world = campaign.world;
+  made.world.hidden = {};
+  made.world.hidden.other_equations = campaign.world.hidden.other_equations;
+  made.nominal = campaign.nominal;
+  made.terrains = campaign.terrains;
+  std::vector<DriveOrder> orders = made.made_of.on_hills
+                                       ? hills_orders(made.world, made.terrains.front().grid, random)
+                                       : tilt_orders(random);
+  number(made.made_of, made.world, random, orders);
+  made.drives = drive_all(made.world, made.terrains, orders, random.seed());
   made.noise_seed = random.seed();
   return made;
 }

@@ -35,6 +35,10 @@ struct SealedCampaign {
 
 SealedCampaign make_campaign(const CampaignCase& made_of, RandomStream& random);
 
+// Drives of the same rover on the same ground and soil before anything was hidden in it: other drives, with
+// scatter and noise of their own.
+SealedCampaign healthy_reference(const SealedCampaign& campaign, RandomStream& random);
+
 // Writes campaign.json, the drives and the terrains. Returns an error message, or nothing.
 std::string write_campaign(const SealedCampaign& campaign, const std::string& name,
                            const std::filesystem::path& folder);

@@ -1,6 +1,8 @@
-// sealed_campaigns OUT [--seed N] [--set blind|full|each|smoke|nothing|other_physics|outside]
-// [--only CAUSE,...] [--fidelity L1|L2|L2c|L3] [--size X]
+// sealed_campaigns OUT [--seed N] [--set blind|full|each|smoke|nothing|other_physics|outside] [--only CAUSE,...]
+// [--fidelity L1|L2|L2c|L3] [--size X] [--references yes|no] [--since DRIVE]
 //
+// Since a drive: so many drives are healthy before the cause sets in, and their order is drawn.
+// With references OUT/references/NAME holds drives of the same rover on the same ground without the cause.
 // Makes campaigns of drives with hidden effects in most of them, and writes answers.json and traces.csv
 // (where the effects act) beside them. It shares no code with the library that is judged on them.
 
@@ -25,7 +27,10 @@ using namespace slipway::gap_benchmark;
 
 constexpr const char* kUsage =
     "usage: sealed_campaigns OUT [--seed N] [--set blind|full|each|smoke|nothing|other_physics|outside]\n"
-    "                        [--only CAUSE,...] [--fidelity L1|L2|L2c|L3] [--size X]\n";
+    "                        [--only CAUSE,...] [--fidelity L1|L2|L2c|L3] [--size X]\n"
+    "                        [--references yes|no] [--since DRIVE]\n";
+
+constexpr std::uint64_t kReferenceSeed = 0x5eed;  // of a reference, over its campaign's
 
 struct Wish {
   std::string out, set = "blind";
@@ -33,6 +38,8 @@ struct Wish {
   std::vector<std::string> only;
   std::optional<Fidelity> fidelity;
   std::optional<double> size;
+  bool references = false;
+  std::size_t since = 0;
 };
 
 std::optional<Fidelity> fidelity_named(const std::string& name) {
@@ -59,6 +66,10 @@ std::optional<Wish> wish_of(int count, char** words) {
       wish.set = value;
     else if (word == "--size")
       wish.size = std::strtod(value.c_str(), nullptr);
+    else if (word == "--since")
+      wish.since = static_cast<std::size_t>(std::strtoull(value.c_str(), nullptr, 10));
+    else if (word == "--references")
+      wish.references = value == "yes";
     else if (word == "--fidelity") {
       wish.fidelity = fidelity_named(value);
       if (!wish.fidelity) return std::nullopt;
@@ -105,6 +116,7 @@ int main(int count, char** words) {
     });
   if (wish->size)
     for (CampaignCase& made_of : *cases) made_of.size = *wish->size;
+  for (CampaignCase& made_of : *cases) made_of.since_drive = wish->since;
   for (const CampaignCase& made_of : *cases)
     if (const std::optional<std::string> cause = impossible_cause(made_of)) {
       std::cerr << *cause << " is a term of the wheel law of L1 and L2; " << name_of(made_of.fidelity)
@@ -126,6 +138,15 @@ int main(int count, char** words) {
     if (!fault.empty()) {
       std::cerr << fault << '\n';
       return 1;
+    }
+    if (wish->references) {
+      RandomStream before((*cases)[i].seed + kReferenceSeed);
+      const std::filesystem::path beside = std::filesystem::path(wish->out) / "references" / name;
+      const std::string wrong = write_campaign(healthy_reference(campaign, before), name, beside);
+      if (!wrong.empty()) {
+        std::cerr << wrong << '\n';
+        return 1;
+      }
     }
     answers += (answers.empty() ? " \"" : ",\n \"") + std::string(name) + "\": " + answer_of(campaign);
     traces += traces_rows(name, effect_traces(campaign));

@@ -44,6 +44,7 @@ FENCES = [
     (r"boost/.*", r"sim/quasi_static/traction_limit\.cc"),
     (r"ceres/.*", r"gap/estimate/ceres_\w+\.cc"),
     (r"nlohmann/.*", r"api/json/\w+\.cc"),
+    (r"toml\.hpp", r"api/json/toml_\w+\.cc"),
     (r"sqlite3\.h", r"api/jobs/sqlite_\w+\.cc"),
     (r"openssl/.*", r"api/files/openssl_\w+\.cc"),
     (r"httplib\.h", r"server/http/\w+\.cc"),

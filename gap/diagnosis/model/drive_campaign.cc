@@ -69,6 +69,7 @@ DriveCampaign subset_of(const DriveCampaign& campaign, std::span<const std::size
   subset.notes = campaign.notes;
   subset.fingerprint = campaign.fingerprint;
   subset.retuning = campaign.retuning;
+  subset.reference = campaign.reference;
   std::set<std::string> kept;
   for (const std::size_t d : drives) kept.insert(campaign.drives[d].id);
   std::map<std::string, std::string> instead_of;  // of an original that is left out: its first repeat

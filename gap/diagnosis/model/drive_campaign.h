@@ -69,6 +69,8 @@ struct MeasurementStd {
   double sinkage_m = 0.0;
 };
 
+struct ReferenceBelief;
+
 // How much of soil, closures and motors a diagnosis may re-tune. Less than all is for ablations: what it
 // holds at nominal is believed to be exact.
 enum class Retuning { kAll, kNoClosures, kNone };
@@ -86,6 +88,9 @@ struct DriveCampaign {
   std::vector<std::string> notes;  // columns that were not read, repairs: for people
   std::string fingerprint;         // of every byte that was read
   Retuning retuning = Retuning::kAll;
+  // What drives of the same rover that are taken as healthy have told before: the question is then what has
+  // changed since. None: nothing was known but the nominal model.
+  std::shared_ptr<const ReferenceBelief> reference;
 };
 
 // Wheels that were measured to turn faster than the rover's greatest rate raise it, with a note: the drives

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/parallel_for.h"
+#include "gap/diagnosis/model/reference_belief.h"
 
 namespace slipway::gap {
 namespace {
@@ -113,6 +114,7 @@ Hypothesis::Hypothesis(const DriveCampaign& campaign, std::vector<EffectVariant>
     }
   }
   nuisances_ = parameters_.size();
+  believe_reference();
   for (const EffectVariant& v : effects_)
     for (const Free& free : v.free) {
       double neutral = 0.0;  // of a cause from outside
@@ -122,6 +124,22 @@ Hypothesis::Hypothesis(const DriveCampaign& campaign, std::vector<EffectVariant>
       parameters_.push_back(
           {v.effect + "." + free.field, v.effect, neutral, free.std, free.lowest, free.highest});
     }
+  if (prior_precision_.size() == 0) return;
+  const Eigen::MatrixXd of_nuisances = std::move(prior_precision_);
+  const auto all = static_cast<Eigen::Index>(parameters_.size());
+  prior_precision_ = Eigen::MatrixXd::Identity(all, all);
+  prior_precision_.topLeftCorner(of_nuisances.rows(), of_nuisances.cols()) = of_nuisances;
+}
+
+void Hypothesis::believe_reference() {
+  if (!campaign_->reference) return;
+  const ReferenceBelief& belief = *campaign_->reference;
+  std::vector<Eigen::Index> of;
+  for (Parameter& parameter : parameters_) {
+    of.push_back(static_cast<Eigen::Index>(place_in(belief.names, parameter.name)));
+    parameter.neutral = belief.mean[of.back()];
+  }
+  prior_precision_ = belief.precision(of, of);
 }
 
 double Hypothesis::neutral_of(const EffectVariant& variant, const Field& field) const {
@@ -209,6 +227,7 @@ std::vector<double> Hypothesis::as_shown(const WindowModel& model, std::span<con
                                          std::vector<double> predicted) const {
   for (std::size_t p = 0; p < nuisances_; ++p)
     if (parameters_[p].name == kPoseLag && x[p] != 0.0) turn_by_lag(model, x[p], predicted);
+  if (const LearntDifference* const learnt = model.learnt()) add_learnt(*learnt, x, predicted);
   const std::vector<sim::EffectSetting> at_x = all_settings(x);
   for (std::size_t e = 0; e < effects_.size(); ++e) {
     if (const OutsideCause* const cause = find_outside(effects_[e].effect); cause != nullptr) {
@@ -227,6 +246,19 @@ std::vector<double> Hypothesis::as_shown(const WindowModel& model, std::span<con
       }
   }
   return predicted;
+}
+
+void Hypothesis::add_learnt(const LearntDifference& learnt, std::span<const double> x,
+                            std::vector<double>& predicted) const {
+  Eigen::VectorXd from_centre = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(learnt.centre.size()));
+  // Of closures alone soils and motors are where the reference has them.
+  for (std::size_t p = 0; p < nuisances_; ++p) {
+    const std::size_t at =
+        campaign_->reference ? place_in(campaign_->reference->names, parameters_[p].name) : p;
+    from_centre[static_cast<Eigen::Index>(at)] = x[p] - learnt.centre[at];
+  }
+  const Eigen::VectorXd difference = learnt.offset + learnt.slope * from_centre;
+  for (std::size_t i = 0; i < predicted.size(); ++i) predicted[i] += difference[static_cast<Eigen::Index>(i)];
 }
 
 double Hypothesis::step(std::size_t parameter) const {

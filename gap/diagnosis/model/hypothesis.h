@@ -54,6 +54,9 @@ class Hypothesis {
   std::size_t nuisance_count() const { return nuisances_; }
   std::vector<double> neutral() const;
   // Of the library's effects; causes from outside have none.
+  // The prior's precision in deviations from the neutral values; empty: all parameters are independent, of
+  // deviation 1. It is not where reference drives have told of the nuisances.
+  const Eigen::MatrixXd& prior_precision() const { return prior_precision_; }
   std::vector<sim::EffectSetting> settings(std::span<const double> x) const;
   // The values of all fields of a cause from outside that is among the effects.
   OutsideValues outside_values(std::string_view cause, std::span<const double> x) const;
@@ -75,6 +78,10 @@ class Hypothesis {
                                std::vector<double> predicted) const;
   // One for each of effects(), in their order.
   std::vector<sim::EffectSetting> all_settings(std::span<const double> x) const;
+  // Takes what reference drives told of the nuisances, which are all parameters by then.
+  void believe_reference();
+  void add_learnt(const LearntDifference& learnt, std::span<const double> x,
+                  std::vector<double>& predicted) const;
   // Where an effect changes nothing: at the rover's own value, the variant's, or the field's.
   double neutral_of(const EffectVariant& variant, const Field& field) const;
 
@@ -87,6 +94,7 @@ class Hypothesis {
   };
   std::vector<NuisancePlace> places_;
   std::size_t nuisances_ = 0;
+  Eigen::MatrixXd prior_precision_;  // or none
 };
 
 }  // namespace slipway::gap

@@ -30,9 +30,10 @@ NoiseModel::NoiseModel(const WindowModel& model, Eigen::MatrixXd response, std::
       const std::size_t row = model.offset(w) + i;
       if (!used_[row]) continue;
       if (blocks_.empty() || blocks_.back().drive != windows[w].drive)
-        blocks_.push_back({windows[w].drive, {}, {}, {}});
-      blocks_.back().rows.push_back(static_cast<Eigen::Index>(row));
-      blocks_.back().window.push_back(w);
+        blocks_.push_back({windows[w].drive, {}, {}});
+      std::vector<WindowRows>& parts = blocks_.back().windows;
+      if (parts.empty() || parts.back().window != w) parts.push_back({w, {}});
+      parts.back().rows.push_back(static_cast<Eigen::Index>(row));
     }
   }
   set(scales_);
@@ -44,54 +45,67 @@ std::size_t NoiseModel::used_count() const {
 
 void NoiseModel::set(const NoiseScales& scales) {
   scales_ = scales;
-  const Eigen::Vector3d variances(scales.stiffness * scales.stiffness, scales.friction * scales.friction,
-                                  scales.shear_modulus * scales.shear_modulus);
+  const Eigen::Vector3d deviations(scales.stiffness, scales.friction, scales.shear_modulus);
   const double lean = scales.lean_rad * scales.lean_rad, shift = scales.load_shift_m * scales.load_shift_m;
   const Eigen::Vector4d of_the_map(lean, lean, shift, shift);
   const double within = scales.within_drives * scales.within_drives;
   log_determinant_ = 0.0;
   deviation_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(used_.size()));
-  const auto windows = model_.windows();
   for (Block& block : blocks_) {
-    const auto n = static_cast<Eigen::Index>(block.rows.size());
-    const Eigen::MatrixXd g = response_(block.rows, Eigen::all);
-    const Eigen::MatrixXd soil = g.leftCols(3) * variances.asDiagonal() * g.leftCols(3).transpose();
-    const Eigen::MatrixXd map = g.rightCols(4) * of_the_map.asDiagonal() * g.rightCols(4).transpose();
-    Eigen::MatrixXd v = soil;
-    for (Eigen::Index a = 0; a < n; ++a)
-      for (Eigen::Index b = 0; b < n; ++b)
-        if (block.window[static_cast<std::size_t>(a)] == block.window[static_cast<std::size_t>(b)])
-          v(a, b) += within * soil(a, b) + map(a, b);
-    for (Eigen::Index a = 0; a < n; ++a) {
-      const auto row = static_cast<std::size_t>(block.rows[static_cast<std::size_t>(a)]);
-      const std::size_t w = block.window[static_cast<std::size_t>(a)];
-      const Observation& o = windows[w].observations[row - model_.offset(w)];
-      const double over = row_of(o.channel).left_over(scales, expected_[row]);
-      v(a, a) += o.sensor_std * o.sensor_std + over * over;
-      if (windows[w].censored && o.channel == Channel::kSlip)
-        v(a, a) += options_.censored_slip_std * options_.censored_slip_std;
-      deviation_[static_cast<Eigen::Index>(row)] = std::sqrt(v(a, a));
+    block.factor = {};
+    for (const WindowRows& part : block.windows) {
+      const Eigen::MatrixXd g = response_(part.rows, Eigen::all);
+      const Eigen::MatrixXd shared = g.leftCols(3) * deviations.asDiagonal();
+      Eigen::MatrixXd own = within * shared * shared.transpose();
+      own += g.rightCols(4) * of_the_map.asDiagonal() * g.rightCols(4).transpose();
+      own.diagonal() += variances_of(part, scales);
+      for (std::size_t i = 0; i < part.rows.size(); ++i) {
+        const auto at = static_cast<Eigen::Index>(i);
+        deviation_[part.rows[i]] = std::sqrt(own(at, at) + shared.row(at).squaredNorm());
+      }
+      block.factor.add(std::move(own), shared);
     }
-    block.factor = v.llt().matrixL();
-    log_determinant_ += 2.0 * block.factor.diagonal().array().log().sum();
+    log_determinant_ += block.factor.log_determinant();
   }
+}
+
+Eigen::VectorXd NoiseModel::variances_of(const WindowRows& part, const NoiseScales& scales) const {
+  const DriveWindow& window = model_.windows()[part.window];
+  Eigen::VectorXd variances(static_cast<Eigen::Index>(part.rows.size()));
+  for (std::size_t i = 0; i < part.rows.size(); ++i) {
+    const auto row = static_cast<std::size_t>(part.rows[i]);
+    const Observation& o = window.observations[row - model_.offset(part.window)];
+    const double over = row_of(o.channel).left_over(scales, expected_[row]);
+    double& variance = variances[static_cast<Eigen::Index>(i)];
+    variance = o.sensor_std * o.sensor_std + over * over;
+    if (window.censored && o.channel == Channel::kSlip)
+      variance += options_.censored_slip_std * options_.censored_slip_std;
+  }
+  return variances;
+}
+
+std::size_t NoiseModel::factor_bytes() const {
+  std::size_t bytes = 0;
+  for (const Block& block : blocks_) bytes += block.factor.bytes();
+  return bytes;
 }
 
 Eigen::MatrixXd NoiseModel::whiten(const Eigen::MatrixXd& columns) const {
   Eigen::MatrixXd white = Eigen::MatrixXd::Zero(columns.rows(), columns.cols());
+  std::vector<Eigen::Index> rows;
   for (const Block& block : blocks_) {
-    const Eigen::MatrixXd part = columns(block.rows, Eigen::all);
-    const Eigen::MatrixXd solved = block.factor.triangularView<Eigen::Lower>().solve(part);
-    for (std::size_t i = 0; i < block.rows.size(); ++i)
-      white.row(block.rows[i]) = solved.row(static_cast<Eigen::Index>(i));
+    rows.clear();
+    for (const WindowRows& part : block.windows) rows.insert(rows.end(), part.rows.begin(), part.rows.end());
+    white(rows, Eigen::all) = block.factor.solve(columns(rows, Eigen::all));
   }
   return white;
 }
 
 double log_marginal(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& columns) {
-  Eigen::MatrixXd inner = columns.transpose() * columns;
-  inner.diagonal().array() += 1.0;
-  const Eigen::LLT<Eigen::MatrixXd> llt(inner);
+  // One half of the symmetric product does.
+  Eigen::MatrixXd inner = Eigen::MatrixXd::Identity(columns.cols(), columns.cols());
+  inner.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
+  const Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> llt(inner);
   const Eigen::VectorXd projected = columns.transpose() * residuals;
   const double explained = projected.dot(llt.solve(projected));
   const double log_det = 2.0 * llt.matrixLLT().diagonal().array().log().sum();

@@ -7,6 +7,7 @@
 
 #include "core/progress.h"
 #include "core/result.h"
+#include "gap/diagnosis/model/block_cholesky.h"
 #include "gap/diagnosis/model/window_model.h"
 
 namespace slipway::gap {
@@ -54,6 +55,9 @@ class NoiseModel {
   // L^-1 r with V = L L^T. Rows not used are 0.
   Eigen::MatrixXd whiten(const Eigen::MatrixXd& columns) const;
   double log_determinant() const { return log_determinant_; }
+  // What L takes: it grows with the drives' lengths and not with their squares, since the windows of a drive
+  // share three numbers only.
+  std::size_t factor_bytes() const;
   // Square root of V's diagonal; 0 where not used.
   const Eigen::VectorXd& deviation() const { return deviation_; }
   const std::vector<bool>& used() const { return used_; }
@@ -61,12 +65,17 @@ class NoiseModel {
   bool cancelled() const { return model_.cancelled(); }
 
  private:
+  struct WindowRows {
+    std::size_t window = 0;
+    std::vector<Eigen::Index> rows;
+  };
   struct Block {
     std::size_t drive = 0;
-    std::vector<Eigen::Index> rows;
-    std::vector<std::size_t> window;  // of each row
-    Eigen::MatrixXd factor;           // L
+    std::vector<WindowRows> windows;  // in their order
+    BlockCholesky factor;             // L
   };
+  // Of sensors and of what is left over.
+  Eigen::VectorXd variances_of(const WindowRows& part, const NoiseScales& scales) const;
 
   const WindowModel& model_;
   Eigen::MatrixXd response_;

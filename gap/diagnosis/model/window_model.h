@@ -1,8 +1,10 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/progress.h"
@@ -32,6 +34,16 @@ struct ModelState {
 // nothing confirms.
 enum class Footing { kSuspension, kUndisturbed, kPlane };
 
+// What was learnt of the difference between model and drives before these were made, as a function of the
+// nuisances x (Hypothesis' parameters, effects left out): offset + slope (x - centre), with what is still
+// unknown of it.
+struct LearntDifference {
+  Eigen::VectorXd offset;      // of every observation
+  Eigen::MatrixXd slope;       // observations x nuisances
+  std::vector<double> centre;  // x
+  Eigen::MatrixXd left;        // observations x causes, each of prior deviation 1
+};
+
 // Predicts every observation of a campaign's windows at the quasi-static fidelity level: the rover stands
 // at the window's measured stations on the map and is commanded what the drive was.
 class WindowModel {
@@ -57,6 +69,10 @@ class WindowModel {
   // Of a state so near that of the starts that the rover moves where it moved there, and only there: for
   // derivatives.
   std::vector<double> predict_near(const Starts& starts, const ModelState& state) const;
+
+  // Predictions of hypotheses have the difference added: see Hypothesis::predict.
+  void learn(LearntDifference difference) { learnt_ = std::move(difference); }
+  const LearntDifference* learnt() const { return learnt_ ? &*learnt_ : nullptr; }
 
   // Whose work this is, until the model ends: once it is cancelled, predictions stop and are NaN, and all
   // that is made of this model asks cancelled() and ends early with numbers that nobody looks at.
@@ -114,6 +130,7 @@ class WindowModel {
   Starts starts_;  // of stances_; or none
   std::vector<Conditions> conditions_;
   std::vector<std::size_t> offsets_;
+  std::optional<LearntDifference> learnt_;
   const Progress* progress_ = nullptr;
 };
 

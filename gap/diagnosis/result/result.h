@@ -196,7 +196,21 @@ struct RetunedParameter {
   bool determined = true;  // the drives say more than the prior
 };
 
+// The drives that were taken as healthy, and the difference between model and drives that they taught, in the
+// windows of those that follow: its root mean square, and that of what is still open of it, in the channel's
+// unit.
+struct ReferenceSummary {
+  struct LearntChannel {
+    Channel channel = Channel::kSlip;
+    double learnt = 0.0, open = 0.0;
+  };
+  std::string campaign, fingerprint;
+  std::size_t drives = 0, windows = 0;
+  std::vector<LearntChannel> channels;
+};
+
 struct Diagnosis {
+  std::optional<ReferenceSummary> reference;
   std::string campaign, campaign_fingerprint;
   std::uint64_t seed = 1;
   std::vector<ListedOption> options;

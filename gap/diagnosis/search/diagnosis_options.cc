@@ -68,9 +68,10 @@ void list_noise(const NoiseOptions& options, Lister& list) {
 
 void list_preparation(const PreparationOptions& options, Lister& list) {
   list.step("preparation");
-  const auto& [plane_is_nearer, scatter_rounds] = options;
+  const auto& [plane_is_nearer, scatter_rounds, max_observations] = options;
   SLIPWAY_FIELD(plane_is_nearer);
   SLIPWAY_FIELD(scatter_rounds);
+  SLIPWAY_FIELD(max_observations);
 }
 
 void list_fit(const FitOptions& options, Lister& list) {
@@ -286,14 +287,27 @@ void list_next_drives(const NextDriveOptions& options, Lister& list) {
   SLIPWAY_FIELD(min_tilt_apart_deg);
 }
 
+void list_reference(const ReferenceOptions& options, Lister& list) {
+  list.step("reference");
+  const auto& [sizes, drift, noise_std, min_drives, min_windows, rounds, max_open, min_open] = options;
+  SLIPWAY_FIELD(sizes);
+  SLIPWAY_FIELD(drift);
+  SLIPWAY_FIELD(noise_std);
+  SLIPWAY_FIELD(min_drives);
+  SLIPWAY_FIELD(min_windows);
+  SLIPWAY_FIELD(rounds);
+  SLIPWAY_FIELD(max_open);
+  SLIPWAY_FIELD(min_open);
+}
+
 #undef SLIPWAY_FIELD
 
 }  // namespace
 
 std::vector<ListedOption> listed_options(const DiagnosisOptions& options) {
   const auto& [windows, noise, preparation, fit, discrepancy, soft_patch, search, second_search, priors,
-               evidence, selection, verdict, held_out, extrapolation, slices, location, next_drives, seed,
-               given, folds, resamples] = options;
+               evidence, selection, verdict, held_out, extrapolation, slices, location, next_drives,
+               reference, seed, given, folds, resamples] = options;
   static_cast<void>(seed);
   Lister list;
   list_windows(windows, list);
@@ -313,6 +327,7 @@ std::vector<ListedOption> listed_options(const DiagnosisOptions& options) {
   list_slices(slices, list);
   list_location(location, list);
   list_next_drives(next_drives, list);
+  list_reference(reference, list);
   list.step("run");
   list.field("given", given);
   list.field("folds", folds);

@@ -39,7 +39,8 @@ struct PreparationOptions {
   // The suspension's own stance is believed unless the recorded attitudes lie nearer to the plane under the
   // wheels, their root mean square being less than this share of the suspension's.
   double plane_is_nearer = 0.8;
-  int scatter_rounds = 2;  // the scatter and the re-tuned parameters need each other
+  int scatter_rounds = 2;          // the scatter and the re-tuned parameters need each other
+  int max_observations = 120'000;  // about 1 GB of columns; more are refused, with how to thin them
 };
 
 // The discrepancy term: what could be missing that the library has no name for. See discrepancy_term.h.
@@ -247,6 +248,24 @@ struct NextDriveOptions {
   double min_tilt_apart_deg = 6.0;  // between proposed drives that are otherwise alike
 };
 
+// What drives that are taken as healthy teach of those that follow: see reference_learning.h.
+struct ReferenceOptions {
+  // Deviations that a coefficient of the smooth difference may have, in its channel's unit; the most probable
+  // is taken, by channel.
+  std::array<double, 5> sizes{0.03, 0.1, 0.3, 1.0, 3.0};
+  // Prior deviations by which soils, closures and motors may have drifted since: ground is not the same
+  // twice.
+  double drift = 0.2;
+  // Of the logarithms of the drives' scatter: by a third it may be another one now.
+  double noise_std = 0.3;
+  int min_drives =
+      1;  // of those that follow; fewer than without, since the reference told what they scatter by
+  int min_windows = 2;
+  int rounds = 2;          // parameters and difference need each other
+  int max_open = 80;       // directions in which the difference is left open: those of most effect
+  double min_open = 0.01;  // squared deviations in all, below which a direction is none
+};
+
 struct DiagnosisOptions {
   WindowOptions windows;
   NoiseOptions noise;
@@ -265,6 +284,7 @@ struct DiagnosisOptions {
   SliceOptions slices;
   LocationOptions location;
   NextDriveOptions next_drives;
+  ReferenceOptions reference;
   std::uint64_t seed = 1;
   // An oracle's: what is not withheld is at work, all of it (see fit_given_explanation).
   bool given = false;

@@ -1,5 +1,6 @@
 #include "gap/diagnosis/search/effect_screening.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -30,6 +31,18 @@ Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns) {
 struct Known {
   Eigen::MatrixXd columns, basis;
   std::vector<double> predicted;
+  // With a reference, which told how far each direction can be re-tuned: the fit's columns, and the factor of
+  // their squares with the prior.
+  Eigen::MatrixXd believed;
+  Eigen::LLT<Eigen::MatrixXd> factor;
+
+  // Length of what is left of a response when what re-tuning takes is taken out; in every direction wholly
+  // where nobody told how far it may go.
+  double visibility(const Eigen::VectorXd& response) const {
+    if (believed.size() == 0) return (response - basis * (basis.transpose() * response)).norm();
+    const Eigen::VectorXd crossed = believed.transpose() * response;
+    return std::sqrt(std::max(0.0, response.squaredNorm() - crossed.dot(factor.solve(crossed))));
+  }
 };
 
 // Of the columns by which a direction is explained best, those with the largest parts: every one with half of
@@ -71,10 +84,10 @@ ScreenedEffect screened(std::size_t variant, const Hypothesis& with, const Windo
   if (found.estimate.squaredNorm() == 0.0) direction = columns.col(0);
   effect.signature = direction - known.basis * (known.basis.transpose() * direction);
   const double length = direction.norm();
-  effect.taken_by = largest_parts(fit.white_jacobian, direction);
+  effect.taken_by =
+      largest_parts(fit.white_jacobian.leftCols(static_cast<Eigen::Index>(fit.x.size())), direction);
   effect.kept_share = length > 0.0 ? effect.signature.norm() / length : 0.0;
-  const Eigen::VectorXd first = columns.col(0) - known.basis * (known.basis.transpose() * columns.col(0));
-  effect.visibility = first.norm();
+  effect.visibility = known.visibility(columns.col(0));
   return effect;
 }
 
@@ -120,7 +133,13 @@ std::vector<ScreenedEffect> screen_effects(const DriveCampaign& campaign, const 
                                            std::span<const EffectVariant> variants,
                                            const DiscrepancyOptions& options, std::size_t threads) {
   Known known;
-  known.basis = orthonormal_basis(fit.white_jacobian);
+  known.basis = orthonormal_basis(fit.white_jacobian.leftCols(static_cast<Eigen::Index>(fit.x.size())));
+  if (fit.hypothesis.prior_precision().size() > 0) {
+    known.believed = fit.white_jacobian;
+    Eigen::MatrixXd squares = known.believed.transpose() * known.believed;
+    squares.diagonal().array() += 1.0;
+    known.factor.compute(squares);
+  }
   known.columns.resize(fit.white_jacobian.rows(), fit.white_jacobian.cols() + discrepancy.values.cols());
   known.predicted = fit.hypothesis.predict(model, fit.x, threads);
   known.columns << fit.white_jacobian, options.imprecision * whitened(fit, noise, discrepancy);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace slipway::gap {
 namespace {
@@ -29,6 +30,7 @@ class SimulatedDrives : public FittedModel {
   Eigen::MatrixXd whiten(const Eigen::MatrixXd& columns) const override { return noise_.whiten(columns); }
   const Eigen::VectorXd& deviation() const override { return noise_.deviation(); }
   bool cancelled() const override { return model_.cancelled(); }
+  Eigen::MatrixXd prior_precision() const override { return hypothesis_.prior_precision(); }
 
  private:
   const Hypothesis& hypothesis_;
@@ -43,6 +45,17 @@ std::vector<double> extended(const Hypothesis& hypothesis, std::span<const doubl
   std::vector<double> start = hypothesis.neutral();
   std::copy(x.begin(), x.end(), start.begin());
   return start;
+}
+
+// What reference drives left open of the difference stands beside every explanation.
+void leave_open(const WindowModel& model, const NoiseModel& noise, FittedExplanation& fit) {
+  const LearntDifference* const learnt = model.learnt();
+  if (learnt == nullptr || learnt->left.cols() == 0) return;
+  Eigen::MatrixXd columns(fit.white_jacobian.rows(), fit.white_jacobian.cols() + learnt->left.cols());
+  columns << fit.white_jacobian, fit.row_weights.asDiagonal() * noise.whiten(learnt->left);
+  fit.log_evidence +=
+      log_marginal(fit.white_linear, columns) - log_marginal(fit.white_linear, fit.white_jacobian);
+  fit.white_jacobian = std::move(columns);
 }
 
 }  // namespace
@@ -98,8 +111,10 @@ FittedExplanation fit_explanation(const Hypothesis& hypothesis, const WindowMode
                                   const NoiseModel& noise, std::span<const double> start,
                                   const FitOptions& options, std::size_t threads,
                                   const std::vector<bool>& fitted_rows) {
-  return {find_mode(SimulatedDrives(hypothesis, model, noise, threads), start, options, fitted_rows),
-          hypothesis};
+  FittedExplanation fit{
+      find_mode(SimulatedDrives(hypothesis, model, noise, threads), start, options, fitted_rows), hypothesis};
+  leave_open(model, noise, fit);
+  return fit;
 }
 
 }  // namespace slipway::gap

@@ -27,7 +27,11 @@ struct Trial {
 class ModeSearch {
  public:
   ModeSearch(const FittedModel& model, const FitOptions& options, const std::vector<bool>& fitted_rows)
-      : model_(model), options_(options), fitted_rows_(fitted_rows), loss_{options.huber} {}
+      : model_(model),
+        options_(options),
+        fitted_rows_(fitted_rows),
+        loss_{options.huber},
+        precision_(model.prior_precision()) {}
 
   PosteriorMode run(std::span<const double> start) {
     at_ = trial_at({start.begin(), start.end()});
@@ -35,7 +39,7 @@ class ModeSearch {
       const bool last = converged_ || iteration >= options_.max_iterations || model_.cancelled();
       linearise(last);
       weights_ = loss_weights(at_.white, loss_, fitted_rows_);
-      NormalEquations equations = normal_equations(columns_, weights_);
+      NormalEquations equations = normal_equations(columns_, weights_, precision_);
       covariance_ = std::move(equations.covariance);
       if (last || !improve(equations)) break;
     }
@@ -55,7 +59,7 @@ class ModeSearch {
     }
     trial.white = model_.whiten(trial.residuals);
     trial.u = in_prior_units(model_.parameters(), trial.x);
-    trial.cost = negative_log_posterior(trial.white, trial.u, loss_, fitted_rows_);
+    trial.cost = negative_log_posterior(trial.white, trial.u, loss_, fitted_rows_, precision_);
     return trial;
   }
 
@@ -74,7 +78,11 @@ class ModeSearch {
     const auto parameters = model_.parameters();
     const auto count = static_cast<Eigen::Index>(parameters.size());
     // r(x + J du) = r - J du.
-    const Eigen::VectorXd gradient = equations.weighted.transpose() * at_.white - at_.u;
+    Eigen::VectorXd gradient = equations.weighted.transpose() * at_.white;
+    if (precision_.size() == 0)
+      gradient -= at_.u;
+    else
+      gradient -= precision_ * at_.u;
     Eigen::VectorXd low(count), high(count);
     for (Eigen::Index p = 0; p < count; ++p) {
       const Parameter& parameter = parameters[static_cast<std::size_t>(p)];
@@ -114,7 +122,8 @@ class ModeSearch {
     mode.row_weights = weights_.cwiseSqrt();
     mode.white_jacobian = mode.row_weights.asDiagonal() * columns_;
     mode.white_linear = mode.row_weights.asDiagonal() * (at_.white + columns_ * at_.u);
-    mode.log_evidence = laplace_log_evidence(at_.cost, covariance_, model_.parameters());
+    if (precision_.size() > 0) mode.white_jacobian *= prior_root(precision_);
+    mode.log_evidence = laplace_log_evidence(at_.cost, covariance_, model_.parameters(), precision_);
     mode.x = std::move(at_.x);
     mode.residuals = std::move(at_.residuals);
     mode.jacobian = std::move(jacobian_);
@@ -127,6 +136,7 @@ class ModeSearch {
   const FitOptions& options_;
   const std::vector<bool>& fitted_rows_;
   HuberLoss loss_;
+  Eigen::MatrixXd precision_;  // of the prior; empty: 1
   Trial at_;
   Eigen::MatrixXd jacobian_, columns_;  // columns_: whitened
   Eigen::VectorXd weights_;
@@ -154,21 +164,30 @@ Eigen::VectorXd loss_weights(const Eigen::VectorXd& white, const HuberLoss& loss
 }
 
 double negative_log_posterior(const Eigen::VectorXd& white, const Eigen::VectorXd& u, const HuberLoss& loss,
-                              const std::vector<bool>& fitted_rows) {
-  double cost = 0.5 * u.squaredNorm();
+                              const std::vector<bool>& fitted_rows, const Eigen::MatrixXd& precision) {
+  double cost = 0.5 * (precision.size() == 0 ? u.squaredNorm() : u.dot(precision * u));
   for (Eigen::Index i = 0; i < white.size(); ++i)
     if (is_fitted(fitted_rows, i)) cost += loss(white[i]);
   return cost;
 }
 
-NormalEquations normal_equations(const Eigen::MatrixXd& columns, const Eigen::VectorXd& weights) {
+NormalEquations normal_equations(const Eigen::MatrixXd& columns, const Eigen::VectorXd& weights,
+                                 const Eigen::MatrixXd& precision) {
   NormalEquations equations;
   equations.weighted = weights.asDiagonal() * columns;
   equations.hessian = equations.weighted.transpose() * columns;
-  equations.hessian.diagonal().array() += 1.0;
+  if (precision.size() == 0)
+    equations.hessian.diagonal().array() += 1.0;
+  else
+    equations.hessian += precision;
   const Eigen::LLT<Eigen::MatrixXd> llt(equations.hessian);
   equations.covariance = llt.solve(Eigen::MatrixXd::Identity(columns.cols(), columns.cols()));
   return equations;
+}
+
+Eigen::MatrixXd prior_root(const Eigen::MatrixXd& precision) {
+  const Eigen::LLT<Eigen::MatrixXd> llt(precision);
+  return llt.matrixU().solve(Eigen::MatrixXd::Identity(precision.rows(), precision.cols()));
 }
 
 Eigen::VectorXd bounded_step(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& gradient,
@@ -201,9 +220,11 @@ Eigen::VectorXd bounded_step(const Eigen::MatrixXd& hessian, const Eigen::Vector
 }
 
 double laplace_log_evidence(double cost, const Eigen::MatrixXd& covariance,
-                            std::span<const Parameter> parameters) {
+                            std::span<const Parameter> parameters, const Eigen::MatrixXd& precision) {
   const Eigen::LLT<Eigen::MatrixXd> llt(covariance);
   double log_evidence = -cost + llt.matrixLLT().diagonal().array().log().sum();
+  if (precision.size() > 0)
+    log_evidence += Eigen::LLT<Eigen::MatrixXd>(precision).matrixLLT().diagonal().array().log().sum();
   for (const Parameter& parameter : parameters)
     if (!parameter.effect.empty() &&
         (parameter.lowest == parameter.neutral || parameter.highest == parameter.neutral))

@@ -36,13 +36,15 @@ class FittedModel {
   virtual Eigen::MatrixXd whiten(const Eigen::MatrixXd& columns) const = 0;  // L^-1 columns
   virtual const Eigen::VectorXd& deviation() const = 0;                      // of each observation's noise
   virtual bool cancelled() const = 0;
+  // Of the prior of u; empty: the unit matrix.
+  virtual Eigen::MatrixXd prior_precision() const { return {}; }
 };
 
 struct PosteriorMode {
   std::vector<double> x;
   Eigen::VectorXd residuals;  // measured less predicted at x; where there is no answer, FitOptions::no_answer
-  // Whitened, rows of outliers weighed down: residuals with what the parameters explain put back, and
-  // columns.
+  // Whitened, rows of outliers weighed down: residuals with what the parameters explain put back, and columns
+  // of prior deviation 1; behind them those of what reference drives left open.
   Eigen::VectorXd white_linear;
   Eigen::MatrixXd white_jacobian;
   Eigen::VectorXd row_weights;  // square roots of the loss's weights
@@ -65,16 +67,21 @@ Eigen::VectorXd in_prior_units(std::span<const Parameter> parameters, std::span<
 Eigen::VectorXd loss_weights(const Eigen::VectorXd& white, const HuberLoss& loss,
                              const std::vector<bool>& fitted_rows);
 
-// J(u).
+// J(u), with u^T P u / 2 where the prior has a precision P.
 double negative_log_posterior(const Eigen::VectorXd& white, const Eigen::VectorXd& u, const HuberLoss& loss,
-                              const std::vector<bool>& fitted_rows);
+                              const std::vector<bool>& fitted_rows, const Eigen::MatrixXd& precision = {});
 
-// The normal equations of whitened columns A with row weights W: H = A^T W A + 1, C = H^-1.
+// The normal equations of whitened columns A with row weights W: H = A^T W A + P, C = H^-1; P = 1 where it is
+// not given.
 struct NormalEquations {
   Eigen::MatrixXd weighted;  // W A
   Eigen::MatrixXd hessian, covariance;
 };
-NormalEquations normal_equations(const Eigen::MatrixXd& columns, const Eigen::VectorXd& weights);
+NormalEquations normal_equations(const Eigen::MatrixXd& columns, const Eigen::VectorXd& weights,
+                                 const Eigen::MatrixXd& precision = {});
+
+// R with R R^T = P^-1, so that u = R v and v is of deviation 1 in every direction. P must not be empty.
+Eigen::MatrixXd prior_root(const Eigen::MatrixXd& precision);
 
 // The step s that minimises s^T H s / 2 - g^T s with what would cross a bound held there: the active set
 // grows by what crosses, in a few passes. `low` and `high`: of the step.
@@ -91,9 +98,9 @@ std::optional<double> shortened_step(double cost, const CostAt& cost_at, const C
 }
 
 // Laplace's approximation: the logarithm of the integral of exp(-J) over u with the prior's constant, by the
-// curvature at the mode, -J + log |C| / 2. A prior of an effect that is cut at its neutral value is twice as
-// dense on its one side.
+// curvature at the mode, -J + log |C| / 2 + log |P| / 2. A prior of an effect that is cut at its neutral
+// value is twice as dense on its one side.
 double laplace_log_evidence(double cost, const Eigen::MatrixXd& covariance,
-                            std::span<const Parameter> parameters);
+                            std::span<const Parameter> parameters, const Eigen::MatrixXd& precision = {});
 
 }  // namespace slipway::gap

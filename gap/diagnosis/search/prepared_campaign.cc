@@ -1,7 +1,15 @@
 #include "gap/diagnosis/search/prepared_campaign.h"
 
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string_view>
+
+#include "gap/diagnosis/model/reference_belief.h"
+#include "gap/diagnosis/model/smooth_difference.h"
 
 namespace slipway::gap {
 namespace {
@@ -21,6 +29,65 @@ bool shows_undisturbed(const DriveCampaign& campaign, const WindowModel& leant,
   const std::vector<double> neutral = hypothesis.neutral();
   return undisturbed.attitude_scatter_rad(hypothesis.predict(undisturbed, neutral, threads)) <
          leant.attitude_scatter_rad(hypothesis.predict(leant, neutral, threads));
+}
+
+// What is left open, in the directions that show most beside the noise: few say nearly all.
+Eigen::MatrixXd main_directions(const Eigen::MatrixXd& left, const WindowModel& model,
+                                std::span<const double> expected, const NoiseScales& noise,
+                                const ReferenceOptions& options) {
+  // Where the model leaves nothing over, nothing is open.
+  if (left.cols() == 0) return left;
+  Eigen::MatrixXd scaled = left;
+  Eigen::Index row = 0;
+  for (const DriveWindow& window : model.windows())
+    for (const Observation& o : window.observations) {
+      const double value = expected[static_cast<std::size_t>(row)];
+      scaled.row(row++) /=
+          std::hypot(o.sensor_std, row_of(o.channel).left_over(noise, std::isfinite(value) ? value : 0.0));
+    }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled.transpose() * scaled);
+  const Eigen::Index n = left.cols();
+  Eigen::Index kept = 0;
+  while (kept < std::min<Eigen::Index>(n, options.max_open) &&
+         solver.eigenvalues()[n - 1 - kept] > options.min_open)
+    ++kept;
+  return left * solver.eigenvectors().rightCols(kept);
+}
+
+// The difference that a reference told of, in the windows of a campaign; `expected` is predicted without it.
+LearntDifference difference_of(const ReferenceBelief& belief, const Hypothesis& hypothesis,
+                               const WindowModel& model, std::span<const double> expected,
+                               const ReferenceOptions& options) {
+  const Eigen::MatrixXd columns = smooth_columns(model, expected, belief.scale);
+  LearntDifference learnt{columns * belief.coefficients, columns * belief.slope, hypothesis.neutral(),
+                          main_directions(columns * belief.root, model, expected, belief.noise, options)};
+  for (Eigen::Index p = 0; p < learnt.slope.cols(); ++p)
+    learnt.slope.col(p) /= hypothesis.parameters()[static_cast<std::size_t>(p)].std;
+  return learnt;
+}
+
+// Why the drives are more than can be held. Windows are as long as three rows, so that fewer rows make fewer
+// of them.
+std::optional<Fault> too_many(std::span<const DriveWindow> windows, const DiagnosisOptions& options) {
+  std::size_t observations = 0;
+  for (const DriveWindow& window : windows) observations += window.observations.size();
+  const auto most = static_cast<std::size_t>(options.preparation.max_observations);
+  if (observations <= most) return std::nullopt;
+  const double times = static_cast<double>(observations) / static_cast<double>(most);
+  return Fault{
+      "/drives",
+      fmt::format("the drives give {} observations in {} windows, and {} can be held: leave out drives "
+                  "(of each kind all but a few), or leave out rows until they are {:.2f} m of "
+                  "commanded way apart, so that windows grow {:.1f} times as long",
+                  observations, windows.size(), most, 0.5 * times * options.windows.length_m, times)};
+}
+
+NoiseOptions noise_options_of(const DriveCampaign& campaign, const DiagnosisOptions& options) {
+  NoiseOptions noise = options.noise;
+  if (!campaign.reference) return noise;
+  noise.initial = campaign.reference->noise;
+  noise.prior_std = options.reference.noise_std;
+  return noise;
 }
 
 }  // namespace
@@ -66,9 +133,14 @@ void prepare_around(PreparedCampaign& prepared, const DriveCampaign& campaign, c
   prepared.model->start_from(found.hypothesis.state(found.x), threads);
   prepared.discrepancy =
       make_discrepancy_term(campaign, *prepared.model, found, options.discrepancy, threads);
-  Eigen::MatrixXd systematic(found.jacobian.rows(),
-                             found.jacobian.cols() + prepared.discrepancy.values.cols());
-  systematic << found.jacobian, prepared.discrepancy.values;
+  const Eigen::MatrixXd& precision = found.hypothesis.prior_precision();
+  const Eigen::MatrixXd retuned =
+      precision.size() > 0 ? Eigen::MatrixXd(found.jacobian * prior_root(precision)) : found.jacobian;
+  const LearntDifference* const learnt = prepared.model->learnt();
+  const Eigen::MatrixXd left = learnt != nullptr ? learnt->left : Eigen::MatrixXd(found.jacobian.rows(), 0);
+  Eigen::MatrixXd systematic(retuned.rows(),
+                             retuned.cols() + left.cols() + prepared.discrepancy.values.cols());
+  systematic << retuned, left, prepared.discrepancy.values;
   prepared.noise->estimate(
       found.residuals + found.jacobian * in_prior_units(found.hypothesis.parameters(), found.x), systematic);
   const std::vector<double> start = prepared.null->x;
@@ -77,13 +149,17 @@ void prepare_around(PreparedCampaign& prepared, const DriveCampaign& campaign, c
   prepared.model->start_from(prepared.null->hypothesis.state(prepared.null->x), threads);
 }
 
-Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const DiagnosisOptions& options,
-                                 Progress& progress, const std::vector<bool>& looked_at) {
+Result<PreparedCampaign> prepare_as_believed(const DriveCampaign& campaign, const DiagnosisOptions& options,
+                                             Progress& progress, const std::vector<bool>& looked_at) {
   const std::size_t threads = options.search.threads;
   PreparedCampaign made;
   progress.report("cutting drives into windows", 0.0);
   made.windows = cut_windows(campaign, options.windows);
-  made.model = window_model_of(campaign, made.windows, options.preparation, threads);
+  if (auto fault = too_many(made.windows, options))
+    return fail(ErrorCode::kPayloadTooLarge, fault->message, {*fault});
+  made.model = campaign.reference
+                   ? std::make_unique<WindowModel>(campaign, made.windows, campaign.reference->footing)
+                   : window_model_of(campaign, made.windows, options.preparation, threads);
   made.model->watch(progress);
   const WindowModel& model = *made.model;
   std::vector<bool> used(model.observation_count(), false);
@@ -94,6 +170,9 @@ Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const DiagnosisO
   const Hypothesis hypothesis(campaign, {});
   const std::vector<double> neutral = hypothesis.neutral();
   made.model->start_from(hypothesis.state(neutral), threads);
+  if (campaign.reference)
+    made.model->learn(difference_of(*campaign.reference, hypothesis, model,
+                                    hypothesis.predict(model, neutral, threads), options.reference));
   std::vector<double> expected = hypothesis.predict(model, neutral, threads);
   made.nominal_residuals = measured(model);
   for (std::size_t i = 0; i < expected.size(); ++i)
@@ -107,8 +186,19 @@ Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const DiagnosisO
       model,
       scatter_response(hypothesis, jacobian,
                        lever_responses(campaign, model, neutral, options.discrepancy, threads)),
-      expected, used, options.noise);
-  made.null = fit_explanation(hypothesis, model, *made.noise, neutral, options.fit, threads);
+      expected, used, noise_options_of(campaign, options));
+  return made;
+}
+
+Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const DiagnosisOptions& options,
+                                 Progress& progress, const std::vector<bool>& looked_at) {
+  auto believed = prepare_as_believed(campaign, options, progress, looked_at);
+  if (!believed) return fail(believed.error());
+  PreparedCampaign made = std::move(*believed);
+  if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
+  const Hypothesis hypothesis(campaign, {});
+  made.null = fit_explanation(hypothesis, *made.model, *made.noise, hypothesis.neutral(), options.fit,
+                              options.search.threads);
   for (int round = 0; round < options.preparation.scatter_rounds; ++round) {
     if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
     progress.report("estimating the drives' own scatter", 0.06 + 0.05 * round);

@@ -43,9 +43,15 @@ struct PreparedCampaign {
 void prepare_around(PreparedCampaign& prepared, const DriveCampaign& campaign, const FittedExplanation& found,
                     const DiagnosisOptions& options);
 
+// As much as needs no look at how prediction and drives differ: windows, the model as it was believed before
+// (by a reference, where there is one) and the scatter likewise. No null, no discrepancy term. Work that is
+// cancelled ends early with numbers that nobody looks at. Errors: payload_too_large beyond
+// PreparationOptions::max_observations, with how to thin the drives.
+Result<PreparedCampaign> prepare_as_believed(const DriveCampaign& campaign, const DiagnosisOptions& options,
+                                             Progress& progress, const std::vector<bool>& looked_at = {});
+
 // The campaign must outlive what is made of it. Channels that are not `looked_at` (empty: all are) are
-// not used. Errors:
-// cancelled.
+// not used. Errors: payload_too_large as above; cancelled.
 Result<PreparedCampaign> prepare(const DriveCampaign& campaign, const DiagnosisOptions& options,
                                  Progress& progress, const std::vector<bool>& looked_at = {});
 

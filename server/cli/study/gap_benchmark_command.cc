@@ -34,6 +34,7 @@
 #include "benchmark/benchmark_score.h"
 #include "benchmark/sealed_campaigns.h"
 #include "gap/diagnosis/diagnosis.h"
+#include "gap/diagnosis/reference_diagnosis.h"
 #include "server/cli/command_parts.h"
 #include "server/cli/drives_needed_command.h"
 #include "sim/effects/effect_catalogue.h"
@@ -137,6 +138,20 @@ struct Given {
   bool oracle = false;  // all that is not withheld is at work
 };
 
+// The campaign becomes one that asks what has changed since its reference, where it has one.
+Result<void> told_by_reference(const GapBenchmarkCommand& options, const api::Catalogue& catalogue,
+                               const std::string& name, const gap::DiagnosisOptions& how, Progress& progress,
+                               gap::DriveCampaign& campaign) {
+  const fs::path folder = fs::path(options.folder) / "references" / name;
+  if (std::error_code error; !options.references || !fs::exists(folder, error)) return {};
+  const auto reference = api::load_drive_campaign(folder, catalogue);
+  if (!reference) return fail(reference.error());
+  auto since = gap::since_reference(*reference, campaign, how, progress);
+  if (!since) return fail(since.error());
+  campaign = std::move(*since);
+  return {};
+}
+
 Result<Timed> diagnosed(const GapBenchmarkCommand& options, const api::Catalogue& catalogue,
                         const std::string& name, const Given& given) {
   const auto start = std::chrono::steady_clock::now();
@@ -158,7 +173,9 @@ Result<Timed> diagnosed(const GapBenchmarkCommand& options, const api::Catalogue
   how.search.outside = variant.outside;
   how.verdict.name_by_marginals = variant.by_marginals;
   Interruptible patience;
-  auto diagnosis = variant.method(*campaign, how, patience);
+  auto diagnosis = told_by_reference(options, catalogue, name, how, patience, *campaign).and_then([&] {
+    return variant.method(*campaign, how, patience);
+  });
   if (!diagnosis) return fail(diagnosis.error());
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   if (!options.keep.empty()) {

@@ -1,0 +1,39 @@
+#include "api/documents/watch_document.h"
+
+#include <cmath>
+
+#include "api/documents/diagnosis_document.h"
+#include "api/json/writer.h"
+#include "core/version.h"
+
+namespace slipway::api::json {
+
+std::string watch_document(const gap::DriveWatch& watch) {
+  Writer w;
+  w.begin_object().text("format", "watch/1").text("campaign", watch.campaign);
+  w.text("version", version()).text("hash", watch.campaign_fingerprint);
+  w.key("reference").begin_object().text("campaign", watch.reference);
+  w.text("hash", watch.reference_fingerprint);
+  w.whole("drives", static_cast<std::int64_t>(watch.learnt_drives)).end_object();
+  w.significant("alpha", watch.alpha).boolean("changed", watch.alarm.has_value());
+  if (watch.alarm) {
+    w.key("alarm").begin_object().text("drive", watch.drives[*watch.alarm].id);
+    w.text("since", watch.drives[watch.since].id);
+    w.whole("delay_drives", static_cast<std::int64_t>(*watch.alarm - watch.since + 1)).end_object();
+  }
+  w.key("drives").begin_array();
+  for (const gap::WatchedDrive& drive : watch.drives) {
+    w.begin_object().text("id", drive.id);
+    if (std::isfinite(drive.log10_evidence)) w.significant("log10_evidence", drive.log10_evidence);
+    w.boolean("alarm", drive.alarm).end_object();
+  }
+  w.end_array().key("causes").begin_array();
+  for (const gap::ChangeShare& cause : watch.causes)
+    w.begin_object().text("name", cause.name).significant("share", cause.share).end_object();
+  w.end_array();
+  if (watch.diagnosis) w.key("diagnosis").raw(diagnosis_document(*watch.diagnosed, *watch.diagnosis));
+  w.end_object();
+  return w.take();
+}
+
+}  // namespace slipway::api::json

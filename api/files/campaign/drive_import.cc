@@ -1,0 +1,381 @@
+#include "api/files/campaign/drive_import.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <set>
+#include <system_error>
+
+#include "api/files/csv_cells.h"
+#include "api/json/faults.h"
+#include "api/json/parse.h"
+#include "api/json/writer.h"
+
+namespace slipway::api {
+namespace {
+
+namespace fs = std::filesystem;
+using json::JsonValue;
+
+constexpr std::uintmax_t kMaxFileBytes = 512U << 20U;
+constexpr std::size_t kMaxFaultsOfFile = 20;
+constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+
+std::optional<std::string> bytes_of(const fs::path& path) {
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(path, error);
+  if (error || size > kMaxFileBytes) return std::nullopt;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) return std::nullopt;
+  return std::string{std::istreambuf_iterator<char>(stream), {}};
+}
+
+// A recorded file: its columns' names and numbers.
+struct RecordedTable {
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> rows;  // NaN where a cell is empty
+};
+
+class TableReader {
+ public:
+  TableReader(std::string file, char separator, std::vector<Fault>& faults)
+      : file_(std::move(file)), separator_(separator), faults_(faults) {}
+
+  // Only cells of the columns that are asked for must be numbers.
+  RecordedTable read(std::string bytes, const std::set<std::string>& asked) {
+    // The campaign's own reader of cells knows commas.
+    if (separator_ != ',') std::replace(bytes.begin(), bytes.end(), separator_, ',');
+    const std::vector<CsvLine> lines = csv_lines(bytes);
+    RecordedTable table;
+    if (lines.size() < 3) {
+      fault("",
+            fmt::format("{} has {} lines, must have a header and two rows at least", file_, lines.size()));
+      return table;
+    }
+    for (const std::string_view name : csv_cells(lines[0].text)) table.names.emplace_back(unquoted(name));
+    for (std::size_t i = 1; i < lines.size(); ++i) read_row(lines[i], asked, table);
+    if (count_ > kMaxFaultsOfFile)
+      faults_.push_back(
+          {file_ + "#", fmt::format("{}: {} faults more like these", file_, count_ - kMaxFaultsOfFile)});
+    return table;
+  }
+
+ private:
+  static std::string_view unquoted(std::string_view name) {
+    if (name.size() >= 2 && name.front() == '"' && name.back() == '"') return name.substr(1, name.size() - 2);
+    return name;
+  }
+
+  void fault(const std::string& place, const std::string& message) {
+    if (++count_ <= kMaxFaultsOfFile) faults_.push_back({file_ + "#" + place, message});
+  }
+
+  void read_row(const CsvLine& line, const std::set<std::string>& asked, RecordedTable& table) {
+    const std::vector<std::string_view> cells = csv_cells(line.text);
+    if (cells.size() != table.names.size())
+      return fault(fmt::format("/{}", line.number),
+                   fmt::format("{}, line {}: {} cells, must have {} as the header", file_, line.number,
+                               cells.size(), table.names.size()));
+    std::vector<double>& row = table.rows.emplace_back();
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      row.push_back(kMissing);
+      if (!asked.contains(table.names[c]) || is_missing(cells[c])) continue;
+      if (const auto number = csv_number(cells[c]))
+        row.back() = *number;
+      else
+        fault(fmt::format("/{}/{}", line.number, table.names[c]),
+              fmt::format("{}, line {} ({}): {} is no finite number", file_, line.number, table.names[c],
+                          in_quotes(cells[c])));
+    }
+  }
+
+  static bool is_missing(std::string_view cell) {
+    return cell.empty() || cell == "nan" || cell == "NaN" || cell == "NA" || cell == "null";
+  }
+
+  std::string file_;
+  char separator_;
+  std::vector<Fault>& faults_;
+  std::size_t count_ = 0;
+};
+
+double seconds_of(const std::string& unit) {
+  if (unit == "ms") return 1e-3;
+  if (unit == "us") return 1e-6;
+  return unit == "ns" ? 1e-9 : 1.0;
+}
+
+// The value `delay_s` later, between rows by a line; nothing beyond the ends or beside a missing one.
+double delayed(const std::vector<double>& time_s, const std::vector<double>& values, std::size_t row,
+               double delay_s) {
+  if (delay_s == 0.0) return values[row];
+  const double at = time_s[row] + delay_s;
+  const auto next = std::lower_bound(time_s.begin(), time_s.end(), at);
+  if (next == time_s.end() || (next == time_s.begin() && *next > at)) return kMissing;
+  const auto j = static_cast<std::size_t>(next - time_s.begin());
+  if (*next == at) return values[j];
+  const double share = (at - time_s[j - 1]) / (time_s[j] - time_s[j - 1]);
+  return values[j - 1] + share * (values[j] - values[j - 1]);
+}
+
+class Importer {
+ public:
+  Importer(ImportMapping mapping, fs::path folder)
+      : mapping_(std::move(mapping)), folder_(std::move(folder)) {}
+
+  Result<ImportedCampaign> run() {
+    made_.name = mapping_.name;
+    for (const ImportColumn& column : mapping_.columns) {
+      asked_.insert(column.from);
+      made_.columns.push_back({column.to, column.from, column.unit, column.sign * column.factor,
+                               column.offset, column.delay_s, std::numeric_limits<double>::infinity(),
+                               -std::numeric_limits<double>::infinity(), 0, 0});
+    }
+    asked_.insert(mapping_.clock_column);
+    for (const ImportDrive& drive : mapping_.drives) read_drive(drive);
+    const JsonValue known = read_known();
+    if (!faults_.empty()) {
+      const std::string summary = summary_of(faults_);
+      return fail(ErrorCode::kUnreadableData, summary, std::move(faults_));
+    }
+    made_.files.insert(made_.files.begin(), {"campaign.json", campaign_document(known)});
+    made_.passed_over.assign(passed_over_.begin(), passed_over_.end());
+    return std::move(made_);
+  }
+
+ private:
+  JsonValue read_known() {
+    const auto bytes = bytes_of(folder_ / mapping_.known);
+    if (!bytes) {
+      faults_.push_back(
+          {"known", fmt::format("{} can't be read beside the mapping", in_quotes(mapping_.known))});
+      return {};
+    }
+    auto known = json::parse(*bytes);
+    if (!known) {
+      for (Fault& fault : moved_under(mapping_.known + "#", known.error().faults))
+        faults_.push_back(std::move(fault));
+      if (known.error().faults.empty())
+        faults_.push_back({mapping_.known + "#", mapping_.known + ": " + known.error().detail});
+      return {};
+    }
+    const JsonValue* const terrains = known->find("terrains");
+    if (terrains == nullptr || !terrains->is(JsonValue::Kind::kObject))
+      faults_.push_back({mapping_.known + "#/terrains", mapping_.known + " names no terrains"});
+    else
+      for (const JsonValue& terrain : terrains->elements) copy_rasters(terrain);
+    return std::move(*known);
+  }
+
+  void copy_rasters(const JsonValue& terrain) {
+    const auto copy = [&](const JsonValue* name) {
+      if (name == nullptr || !name->is(JsonValue::Kind::kString)) return;
+      const fs::path path = folder_ / name->text;
+      std::error_code error;
+      if (!fs::is_regular_file(path, error))
+        faults_.push_back(
+            {mapping_.known + "#/terrains", in_quotes(name->text) + " is no file beside the mapping"});
+      else
+        made_.copied.push_back(name->text);
+    };
+    copy(terrain.find("dem"));
+    if (const JsonValue* const soil = terrain.find("soil")) copy(soil->find("raster"));
+  }
+
+  void read_drive(const ImportDrive& drive) {
+    const auto bytes = bytes_of(folder_ / drive.file);
+    if (!bytes) {
+      faults_.push_back(
+          {drive.file + "#", fmt::format("{} can't be read beside the mapping, or has more than {} MB",
+                                         in_quotes(drive.file), kMaxFileBytes >> 20U)});
+      return;
+    }
+    const std::size_t before = faults_.size();
+    const RecordedTable table = TableReader(drive.file, mapping_.separator, faults_).read(*bytes, asked_);
+    if (faults_.size() > before) return;
+    for (const std::string& name : table.names)
+      if (!asked_.contains(name)) passed_over_.insert(name);
+    const auto place_of = [&](const std::string& name) -> std::optional<std::size_t> {
+      const auto at = std::find(table.names.begin(), table.names.end(), name);
+      if (at != table.names.end()) return static_cast<std::size_t>(at - table.names.begin());
+      faults_.push_back(
+          {drive.file + "#/1", fmt::format("{}: {}", drive.file, unknown_name("column", name, table.names))});
+      return std::nullopt;
+    };
+    const auto clock = place_of(mapping_.clock_column);
+    std::vector<std::size_t> places;
+    for (const ImportColumn& column : mapping_.columns)
+      if (const auto place = place_of(column.from)) places.push_back(*place);
+    if (faults_.size() > before) return;
+    convert(drive, table, *clock, places);
+  }
+
+  // All faults of one file's clock are one: the first.
+  bool read_clock(const ImportDrive& drive, const RecordedTable& table, std::size_t clock,
+                  std::vector<double>& time_s) {
+    const double unit = seconds_of(mapping_.clock_unit);
+    const double zero = mapping_.clock_from_first_row ? table.rows.front()[clock] : 0.0;
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+      time_s.push_back(unit * (table.rows[i][clock] - zero));
+      if (std::isfinite(time_s.back()) && (i == 0 || time_s[i] > time_s[i - 1])) continue;
+      faults_.push_back({fmt::format("{}#/{}/{}", drive.file, i + 2, mapping_.clock_column),
+                         fmt::format("{}, line {} ({}): the clock must be there and go on from row to row",
+                                     drive.file, i + 2, mapping_.clock_column)});
+      return false;
+    }
+    return true;
+  }
+
+  void convert(const ImportDrive& drive, const RecordedTable& table, std::size_t clock,
+               const std::vector<std::size_t>& places) {
+    std::vector<double> time_s;
+    if (!read_clock(drive, table, clock, time_s)) return;
+    ImportedDrive made;
+    made.id = drive.id;
+    made.file = drive.id + ".csv";
+    made.values.resize(mapping_.columns.size());
+    std::vector<std::vector<double>> recorded(places.size());
+    for (std::size_t c = 0; c < places.size(); ++c)
+      for (const std::vector<double>& row : table.rows) recorded[c].push_back(row[places[c]]);
+    for (std::size_t i = 0; i < time_s.size(); ++i) {
+      if ((drive.from_s && time_s[i] < *drive.from_s) || (drive.to_s && time_s[i] > *drive.to_s)) continue;
+      made.time_s.push_back(time_s[i]);
+      for (std::size_t c = 0; c < places.size(); ++c) {
+        const ImportedColumn& column = made_.columns[c];
+        made.values[c].push_back(column.factor * delayed(time_s, recorded[c], i, column.delay_s) +
+                                 column.offset);
+      }
+    }
+    if (made.time_s.size() < 2) {
+      faults_.push_back(
+          {drive.file + "#", fmt::format("{}: drive {} has {} rows from from_s to to_s, must have 2",
+                                         drive.file, drive.id, made.time_s.size())});
+      return;
+    }
+    if (mapping_.clock_from_first_row) {
+      const double first_s = made.time_s.front();
+      for (double& t : made.time_s) t -= first_s;
+    }
+    into_map_frame(made);
+    describe(drive, made);
+    made_.files.emplace_back(made.file, drive_text(made));
+    made_.drives.push_back(std::move(made));
+  }
+
+  std::vector<double>* values_of(ImportedDrive& drive, std::string_view column) const {
+    for (std::size_t c = 0; c < mapping_.columns.size(); ++c)
+      if (mapping_.columns[c].to == column) return &drive.values[c];
+    return nullptr;
+  }
+
+  // To the campaign's map: x east, y north, z up; yaw from east to north, positive pitch nose down.
+  void into_map_frame(ImportedDrive& drive) const {
+    std::vector<double>* const x = values_of(drive, "x_m");
+    std::vector<double>* const y = values_of(drive, "y_m");
+    std::vector<double>* const z = values_of(drive, "z_m");
+    const auto shift = [](std::vector<double>* values, double by) {
+      if (values != nullptr)
+        for (double& v : *values) v -= by;
+    };
+    shift(x, mapping_.origin_m[0]);
+    shift(y, mapping_.origin_m[1]);
+    shift(z, mapping_.origin_m[2]);
+    if (mapping_.axes != ImportAxes::kNed) return;
+    if (x != nullptr && y != nullptr) std::swap(*x, *y);
+    const auto turned = [&](std::string_view column, double from) {
+      if (std::vector<double>* const values = values_of(drive, column))
+        for (double& v : *values) v = from - v;
+    };
+    turned("z_m", 0.0);
+    turned("yaw_deg", 90.0);
+    turned("pitch_deg", 0.0);
+  }
+
+  void describe(const ImportDrive& drive, ImportedDrive& made) {
+    made.rows = made.time_s.size();
+    made.duration_s = made.time_s.back() - made.time_s.front();
+    std::vector<double> intervals;
+    for (std::size_t i = 1; i < made.rows; ++i) intervals.push_back(made.time_s[i] - made.time_s[i - 1]);
+    std::nth_element(intervals.begin(), intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2),
+                     intervals.end());
+    made.interval_s = intervals[intervals.size() / 2];
+    made.commanded_m = drive.turn_in_place ? 0.0 : std::abs(drive.speed_m_s) * made.duration_s;
+    const std::vector<double>* const x = values_of(made, "x_m");
+    const std::vector<double>* const y = values_of(made, "y_m");
+    if (x != nullptr && y != nullptr)
+      made.travelled_m = std::hypot(x->back() - x->front(), y->back() - y->front());
+    for (std::size_t c = 0; c < made.values.size(); ++c)
+      for (const double value : made.values[c]) {
+        ImportedColumn& column = made_.columns[c];
+        ++(std::isfinite(value) ? column.values : column.missing);
+        if (!std::isfinite(value)) continue;
+        column.lowest = std::min(column.lowest, value);
+        column.highest = std::max(column.highest, value);
+      }
+  }
+
+  std::string drive_text(const ImportedDrive& drive) const {
+    std::string text = "t_s";
+    for (const ImportColumn& column : mapping_.columns) text += "," + column.to;
+    text += '\n';
+    for (std::size_t i = 0; i < drive.rows; ++i) {
+      text += fmt::format("{:.9g}", drive.time_s[i]);
+      for (const std::vector<double>& values : drive.values)
+        text += std::isfinite(values[i]) ? fmt::format(",{:.9g}", values[i]) : ",";
+      text += '\n';
+    }
+    return text;
+  }
+
+  // What was known, with name and drives of the mapping.
+  std::string campaign_document(const JsonValue& known) const {
+    json::Writer w;
+    w.begin_object().text("format", "drive-campaign/1").text("name", mapping_.name);
+    for (std::size_t k = 0; k < known.keys.size(); ++k) {
+      const std::string& key = known.keys[k];
+      if (key == "format" || key == "name" || key == "drives") continue;
+      w.key(key);
+      json::write_value(w, known.elements[k]);
+    }
+    w.key("drives").begin_array();
+    for (std::size_t d = 0; d < mapping_.drives.size(); ++d) {
+      const ImportDrive& drive = mapping_.drives[d];
+      w.begin_object().text("id", drive.id).text("file", made_.drives[d].file).text("terrain", drive.terrain);
+      if (!drive.repeat_of.empty()) w.text("repeat_of", drive.repeat_of);
+      w.key("commanded").begin_object();
+      w.exact("speed_m_s", drive.speed_m_s).exact("curvature_1_m", drive.curvature_1_m);
+      if (drive.turn_in_place) w.exact("turn_rate_deg_s", drive.turn_rate_deg_s);
+      w.boolean("turn_in_place", drive.turn_in_place).exact("duration_s", made_.drives[d].duration_s);
+      w.end_object().end_object();
+    }
+    w.end_array().end_object();
+    return w.take();
+  }
+
+  ImportMapping mapping_;
+  fs::path folder_;
+  ImportedCampaign made_;
+  std::set<std::string> asked_, passed_over_;
+  std::vector<Fault> faults_;
+};
+
+}  // namespace
+
+Result<ImportedCampaign> import_drives(const fs::path& mapping) {
+  const auto bytes = bytes_of(mapping);
+  if (!bytes)
+    return fail(ErrorCode::kUnreadableData, in_quotes(mapping.string()) + " can't be read",
+                {{"", in_quotes(mapping.string()) + " can't be read"}});
+  auto read = read_import_mapping(*bytes, mapping.filename().string());
+  if (!read) return fail(read.error());
+  return Importer(std::move(*read), mapping.parent_path().empty() ? fs::path(".") : mapping.parent_path())
+      .run();
+}
+
+}  // namespace slipway::api

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+#include "core/result.h"
+#include "gap/diagnosis/change_detector.h"
+#include "gap/diagnosis/diagnosis.h"
+#include "gap/diagnosis/model/drive_campaign.h"
+
+namespace slipway::gap {
+
+// Whether drives, in their order, still are what healthy ones taught: see change_detector.h. All that the
+// evidence of a drive rests on was known before it was made.
+struct WatchOptions {
+  ChangeOptions change;
+  int learn = 12;  // first drives of the campaign that are taken as healthy, where no reference is given
+  bool diagnose = true;  // what has changed, after an alarm
+};
+
+struct WatchedDrive {
+  std::string id;
+  double log10_evidence = 0.0;  // up to this drive
+  bool alarm = false;           // at this drive or before
+};
+
+// What could have changed, and its share of the evidence at the alarm (without one: at the last drive);
+// shares add up to 1. "unknown": nothing of the library.
+struct ChangeShare {
+  std::string name;
+  double share = 0.0;
+};
+
+struct DriveWatch {
+  std::string campaign, campaign_fingerprint;
+  std::string reference, reference_fingerprint;  // the campaign's own name where its first drives were learnt
+  std::size_t learnt_drives = 0;
+  double alpha = 0.0;
+  std::vector<WatchedDrive> drives;
+  std::optional<std::size_t> alarm;    // index into `drives`
+  std::size_t since = 0;               // with an alarm: the most probable first drive that differs
+  std::vector<ChangeShare> causes;     // most probable first
+  std::optional<Diagnosis> diagnosis;  // of the drives since then
+  // The campaign that was diagnosed, for documents.
+  std::optional<DriveCampaign> diagnosed;
+};
+
+// `reference`: null for the campaign's own first drives. Errors: invalid_request where the reference is
+// another rover's, or no drive is left to watch; cancelled.
+Result<DriveWatch> watch_drives(const DriveCampaign& campaign, const DriveCampaign* reference,
+                                const WatchOptions& watch, const DiagnosisOptions& options,
+                                Progress& progress);
+
+}  // namespace slipway::gap

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gap/diagnosis/model/channel.h"
+#include "gap/diagnosis/model/noise_model.h"
+#include "gap/diagnosis/model/smooth_difference.h"
+
+namespace slipway::gap {
+
+// What reference drives told, for a campaign that asks what has changed since: a normal belief of its
+// nuisances, of what the model leaves over beside them, and of the drives' scatter. Of the difference's
+// coefficients b given nuisances x, b = coefficients + slope (x - mean) / deviation + root z with z normal of
+// deviation 1: what re-tuning would explain, the difference need not.
+struct ReferenceBelief {
+  std::string campaign, fingerprint;
+  std::size_t drives = 0, windows = 0;
+
+  std::vector<std::string> names;  // of all nuisances of the campaign that asks, in Hypothesis' order
+  Eigen::VectorXd mean;            // x
+  Eigen::MatrixXd precision;       // of (x - mean) over the nuisances' deviations
+
+  SmoothScale scale;
+  Eigen::VectorXd coefficients;
+  Eigen::MatrixXd slope;  // coefficients x nuisances
+  Eigen::MatrixXd root;   // coefficients x causes
+  NoiseScales noise;
+  Footing footing = Footing::kSuspension;  // that the reference's attitudes have shown
+};
+
+// Index of a name that is there.
+std::size_t place_in(std::span<const std::string> names, const std::string& name);
+
+}  // namespace slipway::gap

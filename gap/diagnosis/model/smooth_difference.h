@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "gap/diagnosis/model/window_model.h"
+
+namespace slipway::gap {
+
+// A smooth difference between model and drives, per channel (and wheel): a sum of functions of what a window
+// met - slope along and across, by which loads shift between the wheels, predicted slip, speed and direction,
+// curvature, turning, temperature - each with a coefficient.
+
+// One unit of a coefficient, by channel, in the channel's unit; the same for all campaigns of a comparison.
+struct SmoothScale {
+  std::vector<double> unit;  // by channel
+};
+
+// By the size of what the campaign predicts: a share of a current, a fixed part of the other channels.
+SmoothScale smooth_scale(const WindowModel& model, std::span<const double> expected);
+
+// Observations x coefficients; `expected`: predicted of every observation. The number and the meaning of the
+// columns depend on the rover's wheels alone.
+Eigen::MatrixXd smooth_columns(const WindowModel& model, std::span<const double> expected,
+                               const SmoothScale& scale);
+
+// The channel of each column.
+std::vector<Channel> smooth_channels(const sim::RoverModel& rover);
+
+}  // namespace slipway::gap

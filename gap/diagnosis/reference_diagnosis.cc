@@ -1,0 +1,74 @@
+#include "gap/diagnosis/reference_diagnosis.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace slipway::gap {
+namespace {
+
+// Why the drives are not those of one rover on one body.
+std::vector<Fault> mismatches(const DriveCampaign& reference, const DriveCampaign& campaign) {
+  constexpr double kSameGravity = 1e-6;
+  std::vector<Fault> faults;
+  if (reference.rover->name != campaign.rover->name ||
+      reference.rover->wheels.size() != campaign.rover->wheels.size())
+    faults.push_back(
+        {"/reference", fmt::format("the reference is of rover \"{}\" with {} wheels, the campaign "
+                                   "of \"{}\" with {}: must be the same",
+                                   reference.rover->name, reference.rover->wheels.size(),
+                                   campaign.rover->name, campaign.rover->wheels.size())});
+  if (std::abs(reference.gravity_m_s2 - campaign.gravity_m_s2) > kSameGravity * campaign.gravity_m_s2)
+    faults.push_back(
+        {"/reference", fmt::format("the reference's gravity is {} m/s2, the campaign's {}: must be the same",
+                                   reference.gravity_m_s2, campaign.gravity_m_s2)});
+  return faults;
+}
+
+// As the reference has rover and soils, which what was learnt is relative to.
+void adopt_nominal(const DriveCampaign& reference, DriveCampaign& campaign) {
+  auto rover = std::make_shared<sim::RoverModel>(*reference.rover);
+  rover->drive.max_wheel_rate_rad_s =
+      std::max(rover->drive.max_wheel_rate_rad_s, campaign.rover->drive.max_wheel_rate_rad_s);
+  campaign.rover = std::move(rover);
+  for (NominalSoil& soil : campaign.soils)
+    for (const NominalSoil& known : reference.soils)
+      if (known.name == soil.name) soil.soil = known.soil;
+}
+
+}  // namespace
+
+Result<DriveCampaign> since_reference(const LearntReference& learnt, const DriveCampaign& campaign,
+                                      const DiagnosisOptions& options) {
+  const DriveCampaign& reference = learnt.prepared.model->campaign();
+  if (auto faults = mismatches(reference, campaign); !faults.empty()) {
+    const std::string message = faults.front().message;
+    return fail(ErrorCode::kInvalidRequest, message, std::move(faults));
+  }
+  DriveCampaign since = campaign;
+  adopt_nominal(reference, since);
+  since.reference = belief_for(learnt, since, options.reference);
+  return since;
+}
+
+Result<DriveCampaign> since_reference(const DriveCampaign& reference, const DriveCampaign& campaign,
+                                      const DiagnosisOptions& options, Progress& progress) {
+  // Before the work of learning.
+  if (auto faults = mismatches(reference, campaign); !faults.empty()) {
+    const std::string message = faults.front().message;
+    return fail(ErrorCode::kInvalidRequest, message, std::move(faults));
+  }
+  const auto learnt = learn_reference(reference, options, progress);
+  if (!learnt) return fail(learnt.error());
+  return since_reference(*learnt, campaign, options);
+}
+
+Result<Diagnosis> diagnose_since(const DriveCampaign& reference, const DriveCampaign& campaign,
+                                 const DiagnosisOptions& options, Progress& progress) {
+  const auto since = since_reference(reference, campaign, options, progress);
+  if (!since) return fail(since.error());
+  return diagnose(*since, options, progress);
+}
+
+}  // namespace slipway::gap

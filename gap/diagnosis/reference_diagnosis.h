@@ -1,0 +1,24 @@
+#pragma once
+
+#include "core/progress.h"
+#include "core/result.h"
+#include "gap/diagnosis/diagnosis.h"
+#include "gap/diagnosis/model/drive_campaign.h"
+#include "gap/diagnosis/search/reference_learning.h"
+
+namespace slipway::gap {
+
+// The campaign as one that asks what has changed since the reference drives, with what they told. Rover and
+// soils of the same names are the reference's nominal ones: they are one rover on one ground. Errors:
+// invalid_request at /reference where it is another rover's or another gravity's; cancelled.
+Result<DriveCampaign> since_reference(const DriveCampaign& reference, const DriveCampaign& campaign,
+                                      const DiagnosisOptions& options, Progress& progress);
+// The same of what was learnt before. Errors: invalid_request.
+Result<DriveCampaign> since_reference(const LearntReference& learnt, const DriveCampaign& campaign,
+                                      const DiagnosisOptions& options);
+
+// What has changed since. Errors: of both.
+Result<Diagnosis> diagnose_since(const DriveCampaign& reference, const DriveCampaign& campaign,
+                                 const DiagnosisOptions& options, Progress& progress);
+
+}  // namespace slipway::gap

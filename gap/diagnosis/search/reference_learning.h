@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/progress.h"
+#include "core/result.h"
+#include "gap/diagnosis/model/reference_belief.h"
+#include "gap/diagnosis/search/prepared_campaign.h"
+
+namespace slipway::gap {
+
+// What healthy drives teach: parameters and difference together, as one normal belief. The difference between
+// model and drives is a smooth one (smooth_difference.h) whose coefficients b are believed to be 0 with a
+// deviation a channel, the most probable of ReferenceOptions::sizes. Beside the null's columns A in prior
+// deviations and B those of the coefficients, both whitened, the belief of (u, b) given the drives is normal
+// with precision [A B]^T [A B] + 1.
+struct LearntReference {
+  PreparedCampaign prepared;        // of the reference drives; refers to the campaign that was learnt from
+  std::vector<std::string> names;   // of its nuisances; a soil's has the soil's name behind
+  Eigen::VectorXd mean, deviation;  // x, and the catalogue's prior deviations
+  Eigen::VectorXd coefficients;
+  Eigen::MatrixXd covariance;  // of (u, b)
+  SmoothScale scale;
+};
+
+// The campaign must outlive what is learnt. Errors: cancelled.
+Result<LearntReference> learn_reference(const DriveCampaign& reference, const DiagnosisOptions& options,
+                                        Progress& progress);
+
+// The belief for a campaign that asks what has changed since. Soils are matched by name; one that the
+// reference did not have is believed as if nothing had been told.
+std::shared_ptr<const ReferenceBelief> belief_for(const LearntReference& learnt,
+                                                  const DriveCampaign& campaign,
+                                                  const ReferenceOptions& options);
+
+// Deviations of the coefficients of each channel that make whitened residuals r most likely beside known
+// columns, all of prior deviation 1: the coordinates are raised and lowered over `sizes` (and 0) in turn.
+std::vector<double> most_probable_sizes(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& known,
+                                        const Eigen::MatrixXd& columns, std::span<const Channel> channels,
+                                        std::span<const double> sizes);
+
+}  // namespace slipway::gap

@@ -1,0 +1,89 @@
+#!/bin/sh
+# A practice campaign as a team would have it - other names, units, axes and clocks - comes back as it was.
+#   import_command_test.sh SLIPWAY SOURCE_FOLDER
+set -eu
+slipway="$1"
+data="$2/data"
+folder="$(mktemp -d)"
+trap 'rm -rf "$folder"' EXIT
+
+python3 - "$data/gap-practice/p01" "$folder/team" <<'MAKE'
+import csv, json, math, pathlib, shutil, sys
+source, team = map(pathlib.Path, sys.argv[1:])
+team.mkdir()
+campaign = json.loads((source / "campaign.json").read_text())
+drives = campaign["drives"][:3]
+known = {key: value for key, value in campaign.items() if key not in ("format", "name", "drives")}
+used = {drive["terrain"] for drive in drives}
+known["terrains"] = {name: terrain for name, terrain in known["terrains"].items() if name in used}
+for terrain in known["terrains"].values():
+    shutil.copy(source / terrain["dem"], team / terrain["dem"])
+(team / "known.json").write_text(json.dumps(known))
+wheels = {"lf": "FL", "lm": "ML", "lr": "RL", "rf": "FR", "rm": "MR", "rr": "RR"}
+for drive in drives:
+    rows = list(csv.DictReader((source / drive["file"]).open()))
+    with (team / (drive["id"] + "-log.csv")).open("w") as out:
+        names = ["stamp_ms", "north", "east", "down", "roll_rad", "pitch_up_rad", "heading", "spare"]
+        names += [f"{channel}_{w}" for w in wheels.values() for channel in ("spin", "mA", "T_K")]
+        print(";".join(names), file=out)
+        for row in rows:
+            v = {key: float(value) for key, value in row.items() if value != ""}
+            cells = [f"{1000.0 * v['t_s'] + 1.7e12:.3f}", f"{v['y_m'] + 200:.9f}", f"{v['x_m'] + 100:.9f}",
+                     f"{-v['z_m']:.9f}", f"{math.radians(v['roll_deg']):.12f}", f"{-math.radians(v['pitch_deg']):.12f}",
+                     f"{90.0 - v['yaw_deg']:.9f}", "7"]
+            for w in wheels:
+                cells += [f"{-math.radians(v[w + '_rate_deg_s']):.12f}", f"{1000.0 * v[w + '_current_a']:.9f}",
+                          f"{v[w + '_motor_temp_c'] + 273.15:.9f}"]
+            print(";".join(cells), file=out)
+mapping = ['format = "drive-import/1"', 'name = "yard"', 'known = "known.json"', 'separator = ";"',
+           "[frame]", 'axes = "ned"', "origin_m = [200.0, 100.0, 0.0]",
+           "[clock]", 'from = "stamp_ms"', 'unit = "ms"', "[wheels]"]
+mapping += [f'{own} = "{theirs}"' for own, theirs in wheels.items()]
+mapping += ["[columns]", 'x_m = {from = "north"}', 'y_m = {from = "east"}', 'z_m = {from = "down"}',
+            'roll_deg = {from = "roll_rad", unit = "rad"}', 'pitch_deg = {from = "pitch_up_rad", unit = "rad"}',
+            'yaw_deg = {from = "heading"}',
+            '"{w}_rate_deg_s" = {from = "spin_{w}", unit = "rad/s", sign = -1}',
+            '"{w}_current_a" = {from = "mA_{w}", unit = "mA"}', '"{w}_motor_temp_c" = {from = "T_K_{w}", unit = "K"}']
+for drive in drives:
+    commanded = drive["commanded"]
+    mapping += ["[[drives]]", f'id = "{drive["id"]}"', f'file = "{drive["id"]}-log.csv"',
+                f'terrain = "{drive["terrain"]}"', f'speed_m_s = {commanded["speed_m_s"]}',
+                f'curvature_1_m = {commanded["curvature_1_m"]}']
+(team / "yard.toml").write_text("\n".join(mapping) + "\n")
+MAKE
+
+"$slipway" import "$folder/team/yard.toml" --data "$data" --out "$folder/yard" --plot "$folder/yard.svg" >"$folder/words"
+grep -q 'lf_current_a *mA_FL *mA *0.001' "$folder/words"
+grep -q 'not asked for: spare' "$folder/words"
+grep -q '<svg' "$folder/yard.svg"
+python3 - "$data/gap-practice/p01" "$folder/yard" <<'CHECK'
+import csv, json, pathlib, sys
+source, made = map(pathlib.Path, sys.argv[1:])
+campaign = json.loads((made / "campaign.json").read_text())
+assert campaign["format"] == "drive-campaign/1" and campaign["name"] == "yard"
+truth = {drive["id"]: drive for drive in json.loads((source / "campaign.json").read_text())["drives"]}
+columns = "t_s x_m y_m z_m roll_deg pitch_deg yaw_deg lf_rate_deg_s rr_current_a lm_motor_temp_c".split()
+for drive in campaign["drives"]:
+    rows = list(csv.DictReader((made / drive["file"]).open()))
+    expected = list(csv.DictReader((source / truth[drive["id"]]["file"]).open()))
+    assert len(rows) == len(expected)
+    for row, other in zip(rows, expected):
+        for name in columns:
+            assert abs(float(row[name]) - float(other[name])) < 2e-6 * (1 + abs(float(other[name]))), (name, row[name], other[name])
+CHECK
+
+# Every fault at once, and nothing is left behind.
+sed -e 's/unit = "mA"/unit = "knots"/; s/from = "heading"/from = "headnig"/; s/\[clock\]/[clock]\nzone = "UTC"/' \
+  "$folder/team/yard.toml" >"$folder/team/wrong.toml"
+status=0
+"$slipway" import "$folder/team/wrong.toml" --data "$data" --out "$folder/wrong" >/dev/null 2>"$folder/err" || status=$?
+[ "$status" = 2 ] && grep -q knots "$folder/err" && grep -q zone "$folder/err" && [ ! -e "$folder/wrong" ]
+sed -e 's/from = "heading"/from = "headnig"/; s/from = "mA_{w}"/from = "amps_{w}"/' "$folder/team/yard.toml" >"$folder/team/wrong.toml"
+status=0
+"$slipway" import "$folder/team/wrong.toml" --data "$data" --out "$folder/wrong" >/dev/null 2>"$folder/err" || status=$?
+[ "$status" = 2 ] && grep -q 'headnig.*heading' "$folder/err" && grep -q amps_RR "$folder/err" && [ ! -e "$folder/wrong" ]
+echo 'name = [' >"$folder/team/wrong.toml"
+status=0
+"$slipway" import "$folder/team/wrong.toml" --data "$data" >/dev/null 2>"$folder/err" || status=$?
+[ "$status" = 2 ] && grep -q 'wrong.toml, line' "$folder/err"
+echo "as expected"

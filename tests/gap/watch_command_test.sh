@@ -1,0 +1,46 @@
+#!/bin/sh
+# Drives with a reference: what has changed since, and a watch over drives in which a cause sets in.
+#   watch_command_test.sh SEALED_CAMPAIGNS SLIPWAY SOURCE_FOLDER
+set -eu
+sealed_campaigns="$1"
+slipway="$2"
+data="$3/data"
+folder="$(mktemp -d)"
+trap 'rm -rf "$folder"' EXIT
+
+# A gearbox that begins to drag after ten healthy drives, by another simulator with another wheel law.
+"$sealed_campaigns" "$folder/set" --set each --only gearbox_friction --fidelity L2c --size 1 --seed 11 \
+  --since 10 --references yes
+status=0
+"$slipway" watch "$folder/set/s01" --reference "$folder/set/references/s01" --data "$data" --json >"$folder/watch.json" || status=$?
+[ "$status" = 6 ]
+"$slipway" watch "$folder/set/references/s01" --learn 20 --data "$data" --no-diagnosis >"$folder/words"
+grep -q 'nothing has changed' "$folder/words"
+"$slipway" diagnose "$folder/set/s01" --reference "$folder/set/references/s01" --data "$data" --json >"$folder/since.json"
+python3 - "$folder" <<'CHECK'
+import json, pathlib, sys
+folder = pathlib.Path(sys.argv[1])
+watch = json.loads((folder / "watch.json").read_text())
+assert watch["format"] == "watch/1" and watch["changed"] is True
+ids = [drive["id"] for drive in watch["drives"]]
+assert 10 <= ids.index(watch["alarm"]["drive"]) <= 13, watch["alarm"]
+assert abs(ids.index(watch["alarm"]["since"]) - 10) <= 1, watch["alarm"]
+assert abs(sum(cause["share"] for cause in watch["causes"]) - 1) < 1e-3
+diagnosis = watch["diagnosis"]
+assert diagnosis["format"] == "diagnosis/1" and diagnosis["reference"]["drives"] > 30
+assert [effect["name"] for effect in diagnosis["effects"]] == ["gearbox_friction"], diagnosis["verdict"]
+since = json.loads((folder / "since.json").read_text())
+assert {c["channel"] for c in since["reference"]["discrepancy"]} >= {"slip", "current"}
+CHECK
+# Drives of another rover are no reference.
+python3 - "$folder/set/references/s01/campaign.json" <<'OTHER'
+import json, pathlib, sys
+path = pathlib.Path(sys.argv[1])
+campaign = json.loads(path.read_text())
+campaign["rover"]["name"] = "other"
+path.write_text(json.dumps(campaign))
+OTHER
+status=0
+"$slipway" diagnose "$folder/set/s01" --reference "$folder/set/references/s01" --data "$data" >/dev/null 2>"$folder/err" || status=$?
+[ "$status" = 2 ] && grep -q 'must be the same' "$folder/err"
+echo "as expected"
