@@ -62,6 +62,8 @@ void add_terrain_command(CLI::App& app, std::function<int()>& run) {
       command->add_option("--name", options->name, "name of the terrain, with --at")->capture_default_str();
   add_place(*command, "--at", options->at, "x,y in map metres");
   name->needs("--at");
+  command->add_flag("--lonlat", options->lonlat, "the point is longitude,latitude in degrees of the body")
+      ->needs("--at");
   command->footer("Example:\n  slipway terrain --name gale --at 8142579.7,-276648.7");
   command->require_subcommand(0, 1);
   add_import(*command, run);
