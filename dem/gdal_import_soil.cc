@@ -153,17 +153,21 @@ Result<ImportedSoil> import_classes(const SoilImport& order, const ElevationInfo
   return imported;
 }
 
+Result<std::vector<LabelledPolygon>> read_units(const SoilImport& order, const GdalSession& session) {
+  auto polygons = read_geojson_polygons(order.source, order.property, order.coordinates, session);
+  if (polygons) return polygons;
+  Error error = polygons.error();
+  for (Fault& fault : error.faults) fault.pointer = "soil#" + fault.pointer;
+  return fail(std::move(error));
+}
+
 Result<ImportedSoil> import_polygons(const SoilImport& order, const ElevationInfo& ground,
                                      const fs::path& out) {
   ImportedSoil imported{"GeoJSON", {}, {}};
   {
     const GdalSession session(order.source);
-    const auto polygons = read_geojson_polygons(order.source, order.property, order.coordinates, session);
-    if (!polygons) {
-      Error error = polygons.error();
-      for (Fault& fault : error.faults) fault.pointer = "soil#" + fault.pointer;
-      return fail(std::move(error));
-    }
+    const auto polygons = read_units(order, session);
+    if (!polygons) return fail(polygons.error());
     std::set<std::string> labels;
     for (const LabelledPolygon& polygon : *polygons) labels.insert(polygon.label);
     if (order.legend.empty()) return no_legend({labels.begin(), labels.end()});
@@ -185,6 +189,22 @@ Result<ImportedSoil> import_polygons(const SoilImport& order, const ElevationInf
 }
 
 }  // namespace
+
+Result<void> examine_soil(const SoilImport& order) {
+  const GdalSession session(order.source);
+  if (order.polygons) {
+    const auto polygons = read_units(order, session);
+    if (!polygons) return fail(polygons.error());
+    return {};
+  }
+  const auto dataset = open_raster(order.source, session);
+  if (!dataset) return fail(dataset.error());
+  const auto faults = faults_of(**dataset, (*dataset)->GetSpatialRef(), order.source.filename().string(),
+                                PlacelessRaster::kRefused);
+  for (const RasterFault& fault : faults)
+    if (!(order.fix && fault.mendable)) return fail(import_error(faults, "soil"));
+  return {};
+}
 
 Result<ImportedSoil> import_soil(const SoilImport& order, const ElevationInfo& ground, const fs::path& out,
                                  Progress& progress) {

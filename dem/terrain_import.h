@@ -53,6 +53,9 @@ struct ImportedSoil {
   std::vector<std::string> unlisted;  // classes or labels that the legend does not have: unknown ground
 };
 
+// What keeps a soil map from being used on any elevation, where the elevation itself can't be.
+Result<void> examine_soil(const SoilImport& order);
+
 // Writes the soil map beside the elevation: a class raster as a tiled, compressed GeoTIFF, polygons as they
 // are. Errors as above; an empty legend is refused with the classes that there are.
 Result<ImportedSoil> import_soil(const SoilImport& order, const ElevationInfo& ground,

@@ -142,17 +142,20 @@ Error joined(Error error, const Error& other) {
   return error;
 }
 
+dem::SoilImport soil_order(const TerrainImport& order, const std::vector<dem::SoilClass>& legend) {
+  return {.source = *order.soil,
+          .polygons = are_polygons(*order.soil),
+          .property = order.property,
+          .coordinates = order.coordinates,
+          .legend = legend,
+          .fix = order.fix};
+}
+
 Result<void> import_soil(const TerrainImport& order, const fs::path& folder, ImportedTerrain& made,
                          Progress& progress) {
-  const bool polygons = are_polygons(*order.soil);
-  made.soil_file = polygons ? "soil_units.geojson" : "terrain_class.tif";
-  auto soil = dem::import_soil({.source = *order.soil,
-                                .polygons = polygons,
-                                .property = order.property,
-                                .coordinates = order.coordinates,
-                                .legend = made.legend,
-                                .fix = order.fix},
-                               made.elevation.info, folder / made.soil_file, progress);
+  made.soil_file = are_polygons(*order.soil) ? "soil_units.geojson" : "terrain_class.tif";
+  auto soil = dem::import_soil(soil_order(order, made.legend), made.elevation.info, folder / made.soil_file,
+                               progress);
   if (!soil) return fail(soil.error());
   const auto hash = sha256_of(*order.soil);
   if (!hash) return fail(hash.error());
@@ -167,12 +170,8 @@ Result<void> import_maps(const TerrainImport& order, const fs::path& folder, Imp
                                          folder / "elevation.tif", progress);
   if (!elevation) {
     if (!order.soil) return fail(elevation.error());
-    // The soil map's own faults are told with the others, where they can be seen without the elevation.
-    if (std::error_code missing; !fs::exists(*order.soil, missing))
-      return fail(
-          joined(elevation.error(),
-                 {ErrorCode::kUnreadableRaster, order.soil->filename().string() + " does not exist.", {}}));
-    return fail(elevation.error());
+    const auto soil = dem::examine_soil(soil_order(order, made.legend));
+    return fail(soil ? elevation.error() : joined(elevation.error(), soil.error()));
   }
   made.elevation = *std::move(elevation);
   const auto source = sha256_of(order.elevation), written = sha256_of(folder / "elevation.tif");

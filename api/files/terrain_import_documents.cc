@@ -113,7 +113,8 @@ Result<std::vector<dem::SoilClass>> read_legend_csv(std::string_view text, std::
     dem::SoilClass& entry = legend.emplace_back();
     const auto value =
         polygons ? std::optional(static_cast<double>(i - 1)) : row.number(0, -32768, 32767, "value");
-    if (!value || *value != std::floor(*value)) row.fault("value must be a whole number");
+    if (value && *value != std::floor(*value)) row.fault("value must be a whole number");
+    if (!polygons && row.text(0).empty()) row.fault("value is empty");
     entry.value = static_cast<int>(value.value_or(0.0));
     entry.label = row.text(1);
     if (entry.label.empty()) row.fault("label is empty");

@@ -53,6 +53,12 @@ expect 2 $import "$folder/Site 1.asc" --crs "$mars" --name "No/Name" --gravity 9
 holds '--name' "$folder/err"
 holds '--gravity' "$folder/err"
 
+# What is wrong with both maps is told together.
+echo 'no raster' >"$folder/classes.tif"
+expect 2 $import "$folder/Site 1.asc" --name both --soil "$folder/classes.tif"
+holds 'no coordinate reference system' "$folder/err"
+holds 'classes.tif is not a readable raster' "$folder/err"
+
 # Degrees are refused with the remedy, and mended by --fix.
 grid "$folder/deg.asc" 80 137 -4 0.00002
 expect 2 $import "$folder/deg.asc" --crs "$degrees"
