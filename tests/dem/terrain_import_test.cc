@@ -127,14 +127,12 @@ TEST_F(TerrainImport, FeetOfTheGridAndOfTheHeightsBecomeMetres) {
               1e-5);
 }
 
-// A hill around a place: what is at that place's longitude and latitude afterwards is its top.
-RasterOptions hill(const std::array<double, 6>& transform, const std::string& crs, int side, int row,
-                   int column) {
-  RasterOptions options{.rows = side, .columns = side, .transform = transform, .crs = crs};
-  for (int r = 0; r < side; ++r)
-    for (int c = 0; c < side; ++c)
-      options.cells.push_back(
-          static_cast<float>(100.0 * std::exp(-0.01 * (std::pow(r - row, 2) + std::pow(c - column, 2)))));
+// A slope in rows and columns: a height tells the place to a tenth of a cell.
+RasterOptions slope(const std::array<double, 6>& transform, const std::string& crs) {
+  RasterOptions options{.rows = 200, .columns = 200, .transform = transform, .crs = crs};
+  for (int row = 0; row < 200; ++row)
+    for (int column = 0; column < 200; ++column)
+      options.cells.push_back(static_cast<float>(row + 0.5 * column));
   return options;
 }
 
@@ -157,11 +155,11 @@ Place on_map(const ElevationInfo& info, double longitude_deg, double latitude_de
 
 TEST_F(TerrainImport, DegreesBecomeAConformalMapOfTheGround) {
   // 0.001 deg of latitude on this sphere is 59.27 m, of longitude at 60 deg north half of that.
-  const auto made = imported(
-      hill({10.0, 0.002, 0.0, 60.1, 0.0, -0.001}, "+proj=longlat +R=3396190 +no_defs", 200, 100, 60), true);
+  const auto made =
+      imported(slope({10.0, 0.002, 0.0, 60.1, 0.0, -0.001}, "+proj=longlat +R=3396190 +no_defs"), true);
   ASSERT_TRUE(made) << told(made);
-  const Place top = on_map(made->info, 10.0 + 60.5 * 0.002, 60.1 - 100.5 * 0.001);
-  EXPECT_NEAR(height_at(top.x, top.y), 100.0, 1.0);
+  const Place there = on_map(made->info, 10.0 + 60.5 * 0.002, 60.1 - 100.5 * 0.001);
+  EXPECT_NEAR(height_at(there.x, there.y), 130.0, 0.1);
   const Extent extent = made->info.geometry.extent();
   EXPECT_NEAR(extent.north_m - extent.south_m, 0.2 * M_PI / 180.0 * 3396190.0, 200.0);
   EXPECT_NEAR(extent.east_m - extent.west_m, 0.4 * M_PI / 180.0 * 3396190.0 * 0.5, 200.0);
@@ -169,32 +167,31 @@ TEST_F(TerrainImport, DegreesBecomeAConformalMapOfTheGround) {
 
 TEST_F(TerrainImport, LengthsThatAreNotTheGroundsAreMended) {
   // 3,556,521 m north of the equator of this map is 60 deg: a metre of it eastwards is half a metre there.
-  const RasterOptions options =
-      hill({1000000.0, 2.0, 0.0, 3556521.0, 0.0, -1.0}, test::kMarsSphere, 200, 100, 100);
+  const RasterOptions options = slope({1000000.0, 2.0, 0.0, 3556521.0, 0.0, -1.0}, test::kMarsSphere);
   expect_parts(told(imported(options, false)), {"a metre of the map is", "--fix mends it"});
   const auto made = imported(options, true);
   ASSERT_TRUE(made) << told(made);
   const Extent extent = made->info.geometry.extent();
   EXPECT_NEAR(extent.east_m - extent.west_m, 200.0, 4.0);
   EXPECT_NEAR(extent.north_m - extent.south_m, 200.0, 4.0);
-  EXPECT_NEAR(height_at(0.5 * (extent.west_m + extent.east_m), 0.5 * (extent.south_m + extent.north_m)),
-              100.0, 1.0);
+  constexpr double kDegree_m = 3396190.0 * M_PI / 180.0;
+  const Place middle = on_map(made->info, 1000200.0 / kDegree_m, 3556421.0 / kDegree_m);
+  EXPECT_NEAR(height_at(middle.x, middle.y), 99.5 + 0.5 * 99.5, 0.1);
 }
 
 TEST_F(TerrainImport, WestPositiveDegreesAreTurnedTowardsTheEast) {
   // Longitude 223 W to 222.8 W from left to right: 137 E to 137.2 E.
-  const auto made =
-      imported(hill({223.0, -0.001, 0.0, -4.0, 0.0, -0.001}, "IAU_2015:49901", 200, 100, 60), true);
+  const auto made = imported(slope({223.0, -0.001, 0.0, -4.0, 0.0, -0.001}, "IAU_2015:49901"), true);
   ASSERT_TRUE(made) << told(made);
-  const Place top = on_map(made->info, 137.0 + 60.5 * 0.001, -4.0 - 100.5 * 0.001);
-  EXPECT_NEAR(height_at(top.x, top.y), 100.0, 1.0);
+  const Place there = on_map(made->info, 137.0 + 60.5 * 0.001, -4.0 - 100.5 * 0.001);
+  EXPECT_NEAR(height_at(there.x, there.y), 130.0, 0.1);
 }
 
 TEST_F(TerrainImport, ARotatedMapComesToStand) {
-  const auto made = imported(hill({0.0, 0.8, 0.6, 0.0, 0.6, -0.8}, kMoonPole, 200, 100, 60), true);
+  const auto made = imported(slope({0.0, 0.8, 0.6, 0.0, 0.6, -0.8}, kMoonPole), true);
   ASSERT_TRUE(made) << told(made);
   EXPECT_GT(made->unknown_share, 0.2);  // the corners that the turned map does not reach
-  EXPECT_NEAR(made->highest_m, 100.0, 1.0);
+  EXPECT_NEAR(made->highest_m, 298.5, 1.5);
 }
 
 TEST_F(TerrainImport, BlocksThatASparseMapLacksStayUnknownWhenItIsReprojected) {
@@ -210,7 +207,7 @@ TEST_F(TerrainImport, BlocksThatASparseMapLacksStayUnknownWhenItIsReprojected) {
   const auto made = imported(options, true);
   ASSERT_TRUE(made) << told(made);
   EXPECT_NEAR(made->unknown_share, 0.5, 0.02);
-  EXPECT_EQ(made->lowest_m, 500.0);
+  EXPECT_NEAR(made->lowest_m, 500.0, 1e-3);
 }
 
 TEST_F(TerrainImport, AMapWithoutASystemNeedsOneThatIsStated) {
