@@ -281,7 +281,8 @@ Result<void> reproject(const fs::path& arranged, const fs::path& out, Arrangemen
   const GDALDatasetUniquePtr source(GDALDataset::Open(arranged.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY,
                                                       allowed_raster_drivers(), nullptr, nullptr));
   if (!source) return fail(ErrorCode::kUnwritableFile, "The arranged map is lost: " + session.complaints());
-  std::vector<std::string> options{"-of", "GTiff", "-t_srs", system, "-r", "bilinear", "-wm", "128"};
+  std::vector<std::string> options{"-of",      "GTiff", "-t_srs", system, "-r",
+                                   "bilinear", "-wm",   "128",    "-et",  "0.01"};
   for (const std::string& option : tiled_creation(true)) {
     options.emplace_back("-co");
     options.push_back(option);
