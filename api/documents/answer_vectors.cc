@@ -25,7 +25,7 @@ using dem::VectorField;
 using dem::VectorLayer;
 using dem::VectorValue;
 
-Result<JsonValue> read(std::string_view document) {
+Result<JsonValue> read_answer_document(std::string_view document) {
   return parse(document, {.bytes = document.size(), .values = document.size()});
 }
 
@@ -65,7 +65,7 @@ std::string verdict_of(const JsonValue& document, const JsonValue& feature) {
   return text(at(document, "decision"), "verdict");
 }
 
-VectorLayer routes_of(const JsonValue& document) {
+VectorLayer route_layer(const JsonValue& document) {
   VectorLayer layer{.name = "routes", .lines = true, .fields = {}, .features = {}};
   for (const JsonValue& feature : at(at(document, "routes"), "features").elements) {
     VectorFeature& made = layer.features.emplace_back();
@@ -83,7 +83,7 @@ VectorLayer routes_of(const JsonValue& document) {
 }
 
 // From the table of stations, whose columns have their units in their names.
-VectorLayer stations_of(std::string_view csv) {
+VectorLayer station_layer(std::string_view csv) {
   VectorLayer layer{.name = "stations", .lines = false, .fields = {}, .features = {}};
   const std::vector<CsvLine> lines = csv_lines(csv);
   const auto names = csv_cells(lines.front().text);
@@ -107,11 +107,11 @@ VectorLayer stations_of(std::string_view csv) {
 }
 
 Result<std::vector<VectorLayer>> layers_of(std::string_view answer) {
-  const auto document = read(answer);
+  const auto document = read_answer_document(answer);
   if (!document) return fail(document.error());
   const auto csv = station_csv(answer);
   if (!csv) return fail(csv.error());
-  return std::vector<VectorLayer>{routes_of(*document), stations_of(*csv)};
+  return std::vector<VectorLayer>{route_layer(*document), station_layer(*csv)};
 }
 
 // Turns every point to degrees. Errors: unsupported_crs.
@@ -190,7 +190,7 @@ void write_features(Writer& w, const VectorLayer& layer, VectorCoordinates coord
 }  // namespace
 
 Result<AnswerMap> map_of_terrain(std::string_view terrains, std::string_view terrain) {
-  const auto document = read(terrains);
+  const auto document = read_answer_document(terrains);
   if (!document) return fail(document.error());
   for (const JsonValue& site : at(*document, "terrains").elements)
     if (text(site, "name") == terrain)
@@ -200,7 +200,7 @@ Result<AnswerMap> map_of_terrain(std::string_view terrains, std::string_view ter
 }
 
 std::string terrain_of_answer(std::string_view answer) {
-  const auto document = read(answer);
+  const auto document = read_answer_document(answer);
   return document ? text(*document, "terrain") : std::string();
 }
 
