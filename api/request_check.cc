@@ -5,15 +5,43 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "api/files/relief_values.h"
 #include "api/json/faults.h"
 #include "api/json/json_value.h"
+#include "dem/body_degrees.h"
 #include "sim/effects/effect_catalogue.h"
 #include "sim/rover/drive_command.h"
 
 namespace slipway::api {
+namespace {
+
+// What was probably meant by a place off the map; empty where nothing is likely.
+std::string likely_mistake(const dem::ElevationInfo& info, double x, double y) {
+  const dem::Extent map = info.geometry.extent();
+  if (map.contains(y, x)) return fmt::format("; x and y are swapped: the map has a place ({}, {}) m", y, x);
+  const dem::BodyDegrees degrees(info.crs_wkt, info.body);
+  const auto on_map = [&](double longitude, double latitude) -> std::optional<dem::MapPlace> {
+    if (std::abs(longitude) > 360.0 || std::abs(latitude) > 90.0) return std::nullopt;
+    const auto place = degrees.to_map({longitude, latitude});
+    return place && map.contains(place->x, place->y) ? place : std::nullopt;
+  };
+  constexpr const char* kAdvice =
+      "the map's place is ({:.3f}, {:.3f}) m, and the command line takes degrees with --lonlat";
+  if (const auto place = on_map(x, y))
+    return fmt::format(fmt::runtime(std::string("; these are longitude and latitude in degrees: ") + kAdvice),
+                       place->x, place->y);
+  if (const auto place = on_map(y, x))
+    return fmt::format(
+        fmt::runtime(std::string("; these are latitude and longitude in degrees, in this order: ") + kAdvice),
+        place->x, place->y);
+  return {};
+}
+
+}  // namespace
 
 RequestCheck::RequestCheck(const Catalogue& catalogue, std::vector<Fault> reader_faults)
     : catalogue_(catalogue) {
@@ -69,8 +97,9 @@ void RequestCheck::place(const planner::Waypoint& place, const std::string& poin
   const dem::Extent map = site_->info().geometry.extent();
   if (!map.contains(place.x_m, place.y_m)) {
     add(ErrorCode::kOffMap, pointer,
-        fmt::format("({}, {}) m is off the map, must be in x [{}, {}] m and y [{}, {}] m", place.x_m,
-                    place.y_m, map.west_m, map.east_m, map.south_m, map.north_m));
+        fmt::format("({}, {}) m is off the map, must be in x [{}, {}] m and y [{}, {}] m{}", place.x_m,
+                    place.y_m, map.west_m, map.east_m, map.south_m, map.north_m,
+                    likely_mistake(site_->info(), place.x_m, place.y_m)));
     return;
   }
   const auto ground = site_->read_around(place.x_m, place.y_m, 0.0);

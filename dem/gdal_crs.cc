@@ -54,13 +54,6 @@ std::string local_projection(const OGRSpatialReference& crs, double longitude_de
                      ellipsoid);
 }
 
-// A conformal projection around a place in degrees, on a sphere and on an ellipsoid, at the poles too.
-std::string conformal_projection(const OGRSpatialReference& crs, double longitude_deg, double latitude_deg) {
-  return fmt::format("+proj=stere +lat_0={} +lon_0={} +k=1 +x_0=0 +y_0=0 {} +units=m +no_defs",
-                     std::round(latitude_deg * 1e4) / 1e4, std::round(longitude_deg * 1e4) / 1e4,
-                     proj_ellipsoid(crs));
-}
-
 // How many metres of the ground a metre of the map is: the least and the most over all directions.
 struct LocalScale {
   double least = 1.0, most = 1.0;
@@ -170,6 +163,25 @@ std::string metre_version(const OGRSpatialReference& crs) {
 
 }  // namespace
 
+std::string conformal_projection(const OGRSpatialReference& crs, double longitude_deg, double latitude_deg) {
+  return fmt::format("+proj=stere +lat_0={} +lon_0={} +k=1 +x_0=0 +y_0=0 {} +units=m +no_defs",
+                     std::round(latitude_deg * 1e4) / 1e4, std::round(longitude_deg * 1e4) / 1e4,
+                     proj_ellipsoid(crs));
+}
+
+bool is_west_positive(const OGRSpatialReference& crs) {
+  return has_west_axis(crs) || named_planetographic(crs);
+}
+
+bool can_be_reprojected(const OGRSpatialReference* crs) {
+  if (crs == nullptr || crs->IsEmpty()) return false;
+  return crs->IsGeographic() != 0 || (crs->IsProjected() != 0 && !is_west_positive(*crs));
+}
+
+std::optional<RasterCentre> degrees_at(const OGRSpatialReference& crs, const RasterCentre& place) {
+  return GroundScale(crs).degrees_of(place);
+}
+
 std::string shell_word(const std::string& text) {
   constexpr std::string_view kPlain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-";
   if (!text.empty() && text.front() != '-' && text.find_first_not_of(kPlain) == std::string::npos)
@@ -198,7 +210,7 @@ Result<void> check_metric_projection(const OGRSpatialReference* crs, const Raste
             "with the projection it was made in (this one is an example, on the Mars sphere)",
             shell_word(file), shell_word(converted_name(file))));
   }
-  if (has_west_axis(*crs) || named_planetographic(*crs)) return refuse_west_positive(*crs, centre, file);
+  if (is_west_positive(*crs)) return refuse_west_positive(*crs, centre, file);
   if (crs->IsGeographic()) {
     return refuse(
         fmt::format("{} has pixels in degrees (\"{}\"); slopes need metres.", file, crs->GetName()),

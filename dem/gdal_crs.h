@@ -2,6 +2,7 @@
 
 #include <ogr_spatialref.h>
 
+#include <optional>
 #include <string>
 
 #include "core/result.h"
@@ -26,6 +27,16 @@ Result<void> check_metric_projection(const OGRSpatialReference* crs, const Raste
 constexpr double kMaxScaleError = 0.02;
 Result<void> check_true_lengths(const OGRSpatialReference& crs, const Extent& extent,
                                 const std::string& file);
+
+// Whether places in this system can be brought into another one of the same body without a guess: false of no
+// system, of one that is neither in degrees nor projected, and of a projected one with a west-positive axis.
+bool can_be_reprojected(const OGRSpatialReference* crs);
+// Whether x counts towards the west, by its axes or by its name.
+bool is_west_positive(const OGRSpatialReference& crs);
+// A conformal system in metres around a place of the body in degrees, as PROJ writes it.
+std::string conformal_projection(const OGRSpatialReference& crs, double longitude_deg, double latitude_deg);
+// Longitude and latitude in degrees of a place in a projected system; nothing where it has none.
+std::optional<RasterCentre> degrees_at(const OGRSpatialReference& crs, const RasterCentre& place);
 
 // Whether a raster has no coordinate reference system, or a local one in metres.
 bool is_local_frame(const OGRSpatialReference* crs);

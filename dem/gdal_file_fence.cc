@@ -17,16 +17,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The canonical folder to which this thread is admitted; empty for none.
+// The canonical folders that this thread may read and may write; empty for none.
 thread_local fs::path admitted_folder;
+thread_local fs::path writable_folder;
 
-bool admitted(const char* name) {
-  if (admitted_folder.empty()) return false;
+bool is_within(const fs::path& folder, const char* name) {
+  if (folder.empty()) return false;
   std::error_code ignored;
   const fs::path path = fs::weakly_canonical(name, ignored);
   if (ignored) return false;
-  const auto parted = std::mismatch(admitted_folder.begin(), admitted_folder.end(), path.begin(), path.end());
-  return parted.first == admitted_folder.end();
+  const auto parted = std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
+  return parted.first == folder.end();
+}
+
+bool writable(const char* name) {
+  return is_within(writable_folder, name);
+}
+
+bool admitted(const char* name) {
+  return is_within(admitted_folder, name) || writable(name);
 }
 
 class RefusingFiles : public VSIFilesystemHandler {
@@ -47,7 +56,8 @@ class RefusingFiles : public VSIFilesystemHandler {
   }
 };
 
-// Plain files. Whatever is not overridden here (writing, removing, listing) is refused by the base class.
+// Plain files. Whatever is not overridden here (listing, making folders, renaming) is refused by the base
+// class.
 class AdmittedFiles final : public RefusingFiles {
  public:
   explicit AdmittedFiles(VSIFilesystemHandler& plain) : plain_(plain) {}
@@ -57,12 +67,13 @@ class AdmittedFiles final : public RefusingFiles {
                          CSLConstList options) override {
     const std::string_view mode(access);
     const bool reads = mode.find_first_of("wa+") == std::string_view::npos;
-    if (reads && admitted(name)) return plain_.Open(name, access, set_error, options);
+    if (reads ? admitted(name) : writable(name)) return plain_.Open(name, access, set_error, options);
     return RefusingFiles::Open(name, access, set_error, options);
   }
   int Stat(const char* name, VSIStatBufL* status, int flags) override {
     return admitted(name) ? plain_.Stat(name, status, flags) : RefusingFiles::Stat(name, status, flags);
   }
+  int Unlink(const char* name) override { return writable(name) ? plain_.Unlink(name) : -1; }
 
  private:
   VSIFilesystemHandler& plain_;
@@ -114,6 +125,15 @@ FolderAdmission::FolderAdmission(const fs::path& file) {
 
 FolderAdmission::~FolderAdmission() {
   admitted_folder.clear();
+}
+
+WritingAdmission::WritingAdmission(const fs::path& folder) {
+  std::error_code ignored;
+  writable_folder = fs::weakly_canonical(folder, ignored);
+}
+
+WritingAdmission::~WritingAdmission() {
+  writable_folder.clear();
 }
 
 }  // namespace slipway::dem

@@ -16,24 +16,17 @@ namespace fs = std::filesystem;
 
 using GeoTransform = std::array<double, 6>;
 
-// Collects reasons, so that one attempt reports everything that must be mended.
+// Reasons found so far, so that one attempt reports everything that must be mended.
 class Refusals {
  public:
-  void add(const Error& error) {
-    if (!first_) first_ = error.code;
-    detail_ += (detail_.empty() ? "" : " ") + error.detail;
-    faults_.insert(faults_.end(), error.faults.begin(), error.faults.end());
+  void add(const Error& error, bool mendable) { found_.push_back({error.code, error.detail, mendable}); }
+  void add(const std::string& sentence, bool mendable = false) {
+    found_.push_back({ErrorCode::kUnreadableRaster, sentence, mendable});
   }
-  void add(const std::string& sentence) {
-    add(Error{ErrorCode::kUnreadableRaster, sentence, {{"", sentence}}});
-  }
-  bool empty() const { return !first_; }
-  tl::unexpected<Error> error() && { return fail(*first_, std::move(detail_), std::move(faults_)); }
+  std::vector<RasterFault> take() { return std::move(found_); }
 
  private:
-  std::optional<ErrorCode> first_;
-  std::string detail_;
-  std::vector<Fault> faults_;
+  std::vector<RasterFault> found_;
 };
 
 // Only a plain file's name goes on to GDAL, and as an absolute path, which no driver takes for anything else.
@@ -56,7 +49,8 @@ void check_band(GDALDataset& dataset, const std::string& file, Refusals& refusal
   const int bands = dataset.GetRasterCount();
   if (bands != 1) {
     refusals.add(fmt::format("{} has {} bands, must be 1. Convert it with: gdal_translate -b 1 {} {}", file,
-                             bands, shell_word(file), shell_word(converted_name(file))));
+                             bands, shell_word(file), shell_word(converted_name(file))),
+                 bands > 1);
   }
   if (dataset.GetRasterXSize() < 2 || dataset.GetRasterYSize() < 2) {
     refusals.add(fmt::format("{} has {} rows and {} columns, must be at least 2 of each.", file,
@@ -101,11 +95,14 @@ std::optional<GeoTransform> check_grid(GDALDataset& dataset, const std::string& 
   }
   if (g[2] != 0.0 || g[4] != 0.0) {
     refusals.add(fmt::format("{} has a grid that is rotated against the map axes. Convert it with: {}", file,
-                             warp_command("", file)));
+                             warp_command("", file)),
+                 true);
   } else if (g[1] <= 0.0 || g[5] >= 0.0) {
-    refusals.add(fmt::format(
-        "{} has its first cell in the {}{}, must be north-up and west-left. Convert it with: {}", file,
-        g[5] >= 0.0 ? "south" : "north", g[1] <= 0.0 ? "-east" : "-west", warp_command("", file)));
+    refusals.add(
+        fmt::format("{} has its first cell in the {}{}, must be north-up and west-left. Convert it with: {}",
+                    file, g[5] >= 0.0 ? "south" : "north", g[1] <= 0.0 ? "-east" : "-west",
+                    warp_command("", file)),
+        g[1] != 0.0 && g[5] != 0.0);
   }
   return g;
 }
@@ -132,38 +129,56 @@ std::string describe(const CellWindow& window) {
                      window.column, window.column + window.columns - 1);
 }
 
-Result<CheckedRaster> open_checked_raster(const fs::path& path, const GdalSession& session,
-                                          PlacelessRaster placeless) {
-  const std::string file = path.filename().string();
+Result<GDALDatasetUniquePtr> open_raster(const fs::path& path, const GdalSession& session) {
   const Result<fs::path> absolute = regular_file(path);
   if (!absolute) return fail(absolute.error());
-  CheckedRaster raster;
-  raster.dataset.reset(GDALDataset::Open(absolute->c_str(),
-                                         GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
-                                         allowed_raster_drivers(), nullptr, nullptr));
-  if (!raster.dataset) {
-    return fail(
-        ErrorCode::kUnreadableRaster,
-        fmt::format(
-            "{} is not a readable raster of a supported format (GeoTIFF, ASCII grid, PDS, PDS4, ISIS, "
-            "ENVI, EHdr): {}",
-            file, session.complaints()));
-  }
-  Refusals refusals;
-  check_band(*raster.dataset, file, refusals);
-  const std::optional<GeoTransform> grid = check_grid(*raster.dataset, file, refusals);
-  const OGRSpatialReference* crs = raster.dataset->GetSpatialRef();
-  const bool is_local = placeless == PlacelessRaster::kLocalFrame && is_local_frame(crs);
-  const Result<void> metric =
-      is_local
-          ? Result<void>()
-          : check_metric_projection(crs, grid ? centre_of(*raster.dataset, *grid) : RasterCentre{}, file);
-  if (!metric) refusals.add(metric.error());
-  if (!refusals.empty()) return std::move(refusals).error();
+  GDALDatasetUniquePtr dataset(GDALDataset::Open(absolute->c_str(),
+                                                 GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
+                                                 allowed_raster_drivers(), nullptr, nullptr));
+  if (dataset) return dataset;
+  return fail(
+      ErrorCode::kUnreadableRaster,
+      fmt::format("{} is not a readable raster of a supported format (GeoTIFF, ASCII grid, PDS, PDS4, "
+                  "ISIS, ENVI, EHdr): {}",
+                  path.filename().string(), session.complaints()));
+}
 
-  raster.info.geometry = grid_geometry(*raster.dataset, *grid);
+std::vector<RasterFault> faults_of(GDALDataset& dataset, const OGRSpatialReference* crs,
+                                   const std::string& file, PlacelessRaster placeless) {
+  Refusals refusals;
+  check_band(dataset, file, refusals);
+  const std::optional<GeoTransform> grid = check_grid(dataset, file, refusals);
+  if (placeless == PlacelessRaster::kLocalFrame && is_local_frame(crs)) return refusals.take();
+  const Result<void> metric =
+      check_metric_projection(crs, grid ? centre_of(dataset, *grid) : RasterCentre{}, file);
+  if (!metric) refusals.add(metric.error(), can_be_reprojected(crs));
+  return refusals.take();
+}
+
+Error error_of(const std::vector<RasterFault>& faults) {
+  Error error{faults.front().code, "", {}};
+  for (const RasterFault& fault : faults) {
+    error.detail += (error.detail.empty() ? "" : " ") + fault.sentence;
+    error.faults.push_back({"", fault.sentence});
+  }
+  return error;
+}
+
+Result<CheckedRaster> open_checked_raster(const fs::path& path, const GdalSession& session,
+                                          PlacelessRaster placeless) {
+  auto opened = open_raster(path, session);
+  if (!opened) return fail(opened.error());
+  CheckedRaster raster;
+  raster.dataset = std::move(*opened);
+  const OGRSpatialReference* const crs = raster.dataset->GetSpatialRef();
+  const auto faults = faults_of(*raster.dataset, crs, path.filename().string(), placeless);
+  if (!faults.empty()) return fail(error_of(faults));
+
+  GeoTransform grid{};
+  raster.dataset->GetGeoTransform(grid.data());
+  raster.info.geometry = grid_geometry(*raster.dataset, grid);
   raster.info.data_type = GDALGetDataTypeName(raster.dataset->GetRasterBand(1)->GetRasterDataType());
-  if (is_local) {
+  if (placeless == PlacelessRaster::kLocalFrame && is_local_frame(crs)) {
     raster.info.crs_name = "local frame";
     raster.info.body = "other";
   } else {

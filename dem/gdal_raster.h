@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/result.h"
 #include "dem/elevation_source.h"
@@ -16,6 +17,22 @@ struct CheckedRaster {
   GDALDatasetUniquePtr dataset;
   ElevationInfo info;
 };
+
+// A reason why a raster can't be used as it is.
+struct RasterFault {
+  ErrorCode code = ErrorCode::kUnreadableRaster;
+  std::string sentence;   // with the command that mends it
+  bool mendable = false;  // an import can mend it
+};
+
+// Opens a regular file with an allowed driver, read-only. Errors: unreadable_raster.
+Result<GDALDatasetUniquePtr> open_raster(const std::filesystem::path& path, const GdalSession& session);
+
+// All that is wrong with a raster in this coordinate reference system, as far as no cell needs to be read.
+std::vector<RasterFault> faults_of(GDALDataset& dataset, const OGRSpatialReference* crs,
+                                   const std::string& file, PlacelessRaster placeless);
+// The faults, of which there is at least one, as one error.
+Error error_of(const std::vector<RasterFault>& faults);
 
 // Opens a regular file with an allowed driver, read-only, and refuses what can't be used: more or fewer than
 // one band, complex numbers, a grid that is rotated, south-up or without a place, another CRS than a metric

@@ -1,15 +1,13 @@
 #include <fmt/format.h>
 #include <gdal_alg.h>
 #include <gdal_priv.h>
-#include <ogr_spatialref.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <memory>
-#include <numbers>
 #include <utility>
 
+#include "dem/body_degrees.h"
 #include "dem/gdal_geojson_polygons.h"
 #include "dem/soil_legend.h"
 #include "dem/soil_map.h"
@@ -17,55 +15,24 @@
 namespace slipway::dem {
 namespace {
 
-// Longitude and latitude on the elevation's own datum -> its map. Latitudes on other worlds are
-// planetocentric, as their maps are; on an ellipsoid PROJ wants them planetographic: tan(graphic) =
-// tan(centric) / (1 - e^2). On the Earth GeoJSON means geodetic latitude already [RFC 7946], and on a sphere
-// both are the same.
-class ToMap {
- public:
-  explicit ToMap(const ElevationInfo& ground) {
-    OGRSpatialReference map;
-    if (map.importFromWkt(ground.crs_wkt.c_str()) != OGRERR_NONE) return;
-    map.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-    OGRSpatialReference degrees;
-    const double flattening = map.GetInvFlattening();
-    degrees.SetGeogCS("longitude and latitude", "the elevation's datum", "its ellipsoid", map.GetSemiMajor(),
-                      flattening, nullptr, map.GetPrimeMeridian());
-    degrees.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-    OGRCoordinateTransformationOptions options;
-    options.SetBallparkAllowed(true);
-    transformation_.reset(OGRCreateCoordinateTransformation(&degrees, &map, options));
-    const double axis_ratio = map.GetSemiMinor() / map.GetSemiMajor();
-    if (ground.body != "Earth") graphic_per_centric_ = 1.0 / (axis_ratio * axis_ratio);
-  }
-
-  bool usable() const { return transformation_ != nullptr; }
-
-  bool apply(OGRGeometry& geometry) const {
-    if (graphic_per_centric_ != 1.0) {
-      if (geometry.getGeometryType() == wkbPolygon)
-        make_graphic(*geometry.toPolygon());
-      else
-        for (OGRPolygon* polygon : *geometry.toMultiPolygon()) make_graphic(*polygon);
-    }
-    return geometry.transform(transformation_.get()) == OGRERR_NONE;
-  }
-
- private:
-  void make_graphic(OGRPolygon& polygon) const {
-    for (OGRLinearRing* ring : polygon) {
-      for (int i = 0; i < ring->getNumPoints(); ++i) {
-        constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-        const double centric = ring->getY(i) * kRadPerDeg;
-        const double graphic = std::atan2(graphic_per_centric_ * std::sin(centric), std::cos(centric));
-        ring->setPoint(i, ring->getX(i), graphic / kRadPerDeg);
-      }
+// Brings every point of a polygon from longitude and latitude to the map. False where the map does not reach.
+bool move_to_map(OGRPolygon& polygon, const BodyDegrees& degrees) {
+  for (OGRLinearRing* ring : polygon) {
+    for (int i = 0; i < ring->getNumPoints(); ++i) {
+      const auto place = degrees.to_map({ring->getX(i), ring->getY(i)});
+      if (!place) return false;
+      ring->setPoint(i, place->x, place->y);
     }
   }
+  return true;
+}
 
-  std::unique_ptr<OGRCoordinateTransformation> transformation_;
-  double graphic_per_centric_ = 1.0;
-};
+bool move_to_map(OGRGeometry& geometry, const BodyDegrees& degrees) {
+  if (geometry.getGeometryType() == wkbPolygon) return move_to_map(*geometry.toPolygon(), degrees);
+  for (OGRPolygon* polygon : *geometry.toMultiPolygon())
+    if (!move_to_map(*polygon, degrees)) return false;
+  return true;
+}
 
 // Cell values while burning: 0 where no polygon is, the legend's row + 1, or this for a label that it doesn't
 // have, which still covers the polygons before it.
@@ -107,10 +74,10 @@ std::optional<std::vector<std::int16_t>> burned(const GridGeometry& grid,
   return cells;
 }
 
-std::vector<Fault> move_to_map(std::vector<LabelledPolygon>& polygons, const ToMap& to_map) {
+std::vector<Fault> move_to_map(std::vector<LabelledPolygon>& polygons, const BodyDegrees& degrees) {
   std::vector<Fault> faults;
   for (std::size_t i = 0; i < polygons.size(); ++i) {
-    if (to_map.apply(*polygons[i].geometry)) continue;
+    if (move_to_map(*polygons[i].geometry, degrees)) continue;
     faults.push_back(
         {fmt::format("/features/{}/geometry", i), "has a place that the elevation's map can't show"});
   }
@@ -157,13 +124,13 @@ Result<std::shared_ptr<const SoilMap>> read_soil_polygons(const std::filesystem:
   Result<std::vector<LabelledPolygon>> polygons = read_geojson_polygons(path, property, coordinates, session);
   if (!polygons) return fail(std::move(polygons.error()));
   if (coordinates == PolygonCoordinates::kLongitudeLatitude) {
-    const ToMap to_map(ground);
-    if (!to_map.usable()) {
+    const BodyDegrees degrees(ground.crs_wkt, ground.body);
+    if (!degrees.usable()) {
       return fail(ErrorCode::kUnsupportedCrs,
                   fmt::format("Longitude and latitude can't be brought into \"{}\": {}", ground.crs_name,
                               session.complaints()));
     }
-    std::vector<Fault> faults = move_to_map(*polygons, to_map);
+    std::vector<Fault> faults = move_to_map(*polygons, degrees);
     if (!faults.empty()) {
       return fail(ErrorCode::kUnreadableData,
                   fmt::format("{} has places that are not on the map.", path.filename().string()),

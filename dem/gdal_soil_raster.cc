@@ -1,3 +1,5 @@
+#include "dem/gdal_soil_raster.h"
+
 #include <fmt/format.h>
 #include <ogr_spatialref.h>
 
@@ -44,6 +46,39 @@ bool same_place(const OGRSpatialReference& crs, const ElevationInfo& ground, con
   return true;
 }
 
+// The classes of the window, and which cells have one; nothing where the file is damaged.
+struct Classes {
+  std::vector<std::int32_t> values;
+  std::vector<std::uint8_t> known;
+};
+
+std::optional<Classes> read_classes(GDALRasterBand& band, const CellWindow& window) {
+  const std::size_t cells = static_cast<std::size_t>(window.rows) * static_cast<std::size_t>(window.columns);
+  Classes classes{std::vector<std::int32_t>(cells), std::vector<std::uint8_t>(cells, 1)};
+  if (band.RasterIO(GF_Read, window.column, window.row, window.columns, window.rows, classes.values.data(),
+                    window.columns, window.rows, GDT_Int32, 0, 0, nullptr) != CE_None) {
+    return std::nullopt;
+  }
+  if ((band.GetMaskFlags() & GMF_PER_DATASET) != 0 &&
+      band.GetMaskBand()->RasterIO(GF_Read, window.column, window.row, window.columns, window.rows,
+                                   classes.known.data(), window.columns, window.rows, GDT_Byte, 0, 0,
+                                   nullptr) != CE_None) {
+    return std::nullopt;
+  }
+  int has_nodata = 0;
+  const double nodata = band.GetNoDataValue(&has_nodata);
+  for (std::size_t i = 0; i < cells; ++i) {
+    if (has_nodata != 0 && classes.values[i] == nodata) classes.known[i] = 0;
+  }
+  return classes;
+}
+
+}  // namespace
+
+bool holds_classes(GDALRasterBand& band) {
+  return is_integer(band.GetRasterDataType());
+}
+
 Result<void> check_class_raster(const CheckedRaster& raster, const ElevationInfo& ground,
                                 const std::string& file) {
   GDALRasterBand& band = *raster.dataset->GetRasterBand(1);
@@ -75,35 +110,6 @@ Result<void> check_class_raster(const CheckedRaster& raster, const ElevationInfo
   }
   return {};
 }
-
-// The classes of the window, and which cells have one; nothing where the file is damaged.
-struct Classes {
-  std::vector<std::int32_t> values;
-  std::vector<std::uint8_t> known;
-};
-
-std::optional<Classes> read_classes(GDALRasterBand& band, const CellWindow& window) {
-  const std::size_t cells = static_cast<std::size_t>(window.rows) * static_cast<std::size_t>(window.columns);
-  Classes classes{std::vector<std::int32_t>(cells), std::vector<std::uint8_t>(cells, 1)};
-  if (band.RasterIO(GF_Read, window.column, window.row, window.columns, window.rows, classes.values.data(),
-                    window.columns, window.rows, GDT_Int32, 0, 0, nullptr) != CE_None) {
-    return std::nullopt;
-  }
-  if ((band.GetMaskFlags() & GMF_PER_DATASET) != 0 &&
-      band.GetMaskBand()->RasterIO(GF_Read, window.column, window.row, window.columns, window.rows,
-                                   classes.known.data(), window.columns, window.rows, GDT_Byte, 0, 0,
-                                   nullptr) != CE_None) {
-    return std::nullopt;
-  }
-  int has_nodata = 0;
-  const double nodata = band.GetNoDataValue(&has_nodata);
-  for (std::size_t i = 0; i < cells; ++i) {
-    if (has_nodata != 0 && classes.values[i] == nodata) classes.known[i] = 0;
-  }
-  return classes;
-}
-
-}  // namespace
 
 Result<std::shared_ptr<const SoilMap>> read_soil_raster(const std::filesystem::path& path,
                                                         const ElevationInfo& ground, const Extent& extent,

@@ -9,6 +9,7 @@
 
 #include "api/files/rover_file.h"
 #include "api/files/soil_file.h"
+#include "api/files/whole_file.h"
 #include "api/json/faults.h"
 
 namespace slipway::api {
@@ -154,6 +155,7 @@ void check_legends(const TerrainDescription& terrain, const Catalogue& catalogue
 void load_terrains(const fs::path& data, Catalogue& catalogue) {
   for (const fs::path& folder : entries_of(data / "terrains")) {
     std::error_code error;
+    if (is_unfinished(folder)) continue;  // an import under way, or killed
     if (!fs::exists(folder / "terrain.json", error)) continue;
     const std::string name = folder.filename().string();
     FileFaults faults("terrain", name, fmt::format("terrains/{}/terrain.json", name), catalogue);

@@ -80,6 +80,8 @@ void read_soil(ObjectReader& soil, TerrainDescription& terrain) {
     terrain.soil_coordinates =
         choice == 0 ? dem::PolygonCoordinates::kLongitudeLatitude : dem::PolygonCoordinates::kMap;
   }
+  if (terrain.soil_source == SoilSource::kNone)
+    soil.fault("raster", "raster or polygons must say where the classes are");
   Legend& first = terrain.legends.front();
   soil.text("legend_name", kOptional, {.most = 64, .is_name = true}, first.name);
   read_legend(soil, terrain.soil_source, first);

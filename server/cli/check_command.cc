@@ -1,5 +1,7 @@
 #include "server/cli/check_command.h"
 
+#include <vector>
+
 #include "api/json/writer.h"
 #include "server/cli/command_parts.h"
 #include "server/cli/drive_answer.h"
@@ -56,8 +58,16 @@ int check(const CheckOptions& given) {
   if (!rover) return refuse(rover.error());
   CheckOptions options = given;
   options.drive.rover = *rover;
-  return ask_and_print(options.ask,
-                       {.map = options.drive.map, .report = options.report, .csv = options.drive.csv},
+  if (options.drive.lonlat && options.request.empty()) {
+    std::vector<PlaceOption*> places;
+    if (options.start) places.push_back(&*options.start);
+    for (PlaceOption& place : options.path) places.push_back(&place);
+    if (const auto brought = bring_to_map(options.ask, options.drive.terrain, places); !brought)
+      return refuse(brought.error());
+  }
+  Pictures pictures = pictures_of(options.drive);
+  pictures.report = options.report;
+  return ask_and_print(options.ask, pictures,
                        options.request.empty() ? check_request(options) : read_request(options.request),
                        &Inquiry::check, &check_table, &check_status);
 }

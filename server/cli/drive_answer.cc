@@ -1,12 +1,17 @@
 #include "server/cli/drive_answer.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <optional>
 #include <vector>
 
 #include "api/chart/drive_history.h"
+#include "api/documents/answer_vectors.h"
 #include "api/documents/station_csv.h"
 #include "api/files/model_folder.h"
 #include "api/json/parse.h"
+#include "dem/body_degrees.h"
 #include "server/cli/command_parts.h"
 #include "server/cli/terminal/terminal_progress.h"
 
@@ -18,7 +23,56 @@ api::json::JsonValue read_answer(std::string_view answer) {
   return api::json::parse(answer, {.bytes = answer.size(), .values = answer.size()}).value();
 }
 
+// The map of the answer's terrain, by whoever answered.
+Result<api::json::AnswerMap> map_of(Inquiry& service, const std::string& terrain) {
+  const auto terrains = service.catalogue("terrains");
+  if (!terrains) return fail(terrains.error());
+  return api::json::map_of_terrain(*terrains, terrain);
+}
+
+Result<std::string> vectors_of(Inquiry& service, const std::string& answer, bool geopackage, bool lonlat) {
+  const auto map = map_of(service, api::json::terrain_of_answer(answer));
+  if (!map) return fail(map.error());
+  if (geopackage) return api::json::answer_geopackage(answer, *map);
+  using api::json::VectorCoordinates;
+  return api::json::answer_geojson(answer, *map,
+                                   lonlat ? VectorCoordinates::kLongitudeLatitude : VectorCoordinates::kMap);
+}
+
 }  // namespace
+
+Pictures pictures_of(const DriveOptions& drive) {
+  return {.map = drive.map,
+          .csv = drive.csv,
+          .gpkg = drive.gpkg,
+          .geojson = drive.geojson,
+          .lonlat = drive.lonlat};
+}
+
+Result<void> bring_to_map(const AskOptions& ask, const std::string& terrain,
+                          const std::vector<PlaceOption*>& places) {
+  const auto service = inquiry(ask);
+  if (!service) return fail(service.error());
+  const auto map = map_of(**service, terrain);
+  if (!map) return fail(map.error());
+  const dem::BodyDegrees degrees(map->crs_wkt, map->body);
+  std::vector<Fault> faults;
+  for (PlaceOption* const place : places) {
+    const bool possible = std::abs(place->x_m) <= 360.0 && std::abs(place->y_m) <= 90.0;
+    const auto found = possible ? degrees.to_map({place->x_m, place->y_m}) : std::nullopt;
+    if (found) {
+      place->x_m = found->x;
+      place->y_m = found->y;
+    } else {
+      faults.push_back(
+          {"--lonlat", fmt::format("{},{} is no longitude,latitude in degrees on this map{}", place->x_m,
+                                   place->y_m, possible ? "" : ": these are map metres")});
+    }
+  }
+  if (!faults.empty())
+    return fail(ErrorCode::kInvalidRequest, "Places can't be brought to the map.", std::move(faults));
+  return {};
+}
 
 int ask_and_print(const AskOptions& ask, const Pictures& pictures, const Result<std::string>& request,
                   Result<std::string> (Inquiry::*question)(const std::string&, Progress&),
@@ -46,6 +100,9 @@ int ask_and_print(const AskOptions& ask, const Pictures& pictures, const Result<
   if (!pictures.history.empty()) add(pictures.history, api::draw_drive_history(*answer));
   if (!pictures.report.empty()) add(pictures.report, (*service)->report());
   if (!pictures.csv.empty()) add(pictures.csv, api::json::station_csv(*answer));
+  if (!pictures.gpkg.empty()) add(pictures.gpkg, vectors_of(**service, *answer, true, false));
+  if (!pictures.geojson.empty())
+    add(pictures.geojson, vectors_of(**service, *answer, false, pictures.lonlat));
   const int status = deliver(files, *printed + (ask.json ? "\n" : ""));
   if (unmade) return refuse(*unmade);
   return status == kDone ? verdict(*answer) : status;

@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/result.h"
 #include "server/cli/ask_options.h"
@@ -15,9 +16,19 @@ namespace slipway::server {
 // Files for what is made of an answer; empty: not wanted.
 struct Pictures {
   std::string map = {}, history = {};
-  std::string report = {};  // HTML, of a check
-  std::string csv = {};     // of the stations
+  std::string report = {};              // HTML, of a check
+  std::string csv = {};                 // of the stations
+  std::string gpkg = {}, geojson = {};  // of routes and stations
+  bool lonlat = false;                  // the GeoJSON in degrees
 };
+
+// Those that a drive's options name.
+Pictures pictures_of(const DriveOptions& drive);
+
+// Where places are in degrees, brings them to the terrain's map. Errors: those of inquiry(); not_found;
+// off_map with every place that the map does not reach.
+Result<void> bring_to_map(const AskOptions& ask, const std::string& terrain,
+                          const std::vector<PlaceOption*>& places);
 
 // Asks, draws what is wanted, then prints the document or its table. The exit status: that of the document's
 // verdict, where all went well.

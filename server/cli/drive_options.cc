@@ -113,6 +113,16 @@ void add_drive(CLI::App& command, DriveOptions& drive) {
                                  fmt::join(sim::wheel_failure_names(), " or WHEEL=")));
   command.add_option("--motor-temp-c", drive.motor_temp_c, "temperature of the drive motors");
   command.add_option("--csv", drive.csv, "write the stations, one row each (CSV), to this file");
+  command.add_option("--gpkg", drive.gpkg,
+                     "write routes and stations in map metres (GeoPackage) to this file");
+  command.add_option(
+      "--geojson", drive.geojson,
+      "write routes and stations (GeoJSON) to this file: map metres with their system, or degrees of the "
+      "body with --lonlat");
+  command.add_flag(
+      "--lonlat", drive.lonlat,
+      "places are given as longitude,latitude in degrees of the body (to the east; planetocentric but on "
+      "the Earth), and the GeoJSON is in degrees; yaw and areas stay those of the map");
   command.add_option("--map", drive.map, "write a picture of the routes (SVG) to this file");
 }
 

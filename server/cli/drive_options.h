@@ -38,6 +38,8 @@ struct DriveOptions {
   std::vector<std::string> effects;            // "slip_sinkage", "slip_sinkage:n1=0.2" or "slip_sinkage:off"
   std::string map;                             // file for the picture; empty: none
   std::string csv;                             // file for the stations; empty: none
+  std::string gpkg, geojson;                   // files for routes and stations; empty: none
+  bool lonlat = false;                         // places in, and the GeoJSON out, are in degrees
 };
 
 // What plans and predictions have in common: --terrain, --rover, limits, effects and more.

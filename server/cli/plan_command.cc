@@ -1,5 +1,7 @@
 #include "server/cli/plan_command.h"
 
+#include <vector>
+
 #include "api/documents/plan_comparison.h"
 #include "api/json/writer.h"
 #include "server/cli/command_parts.h"
@@ -73,15 +75,26 @@ int plan(const PlanOptions& given) {
   if (!rover) return refuse(rover.error());
   PlanOptions options = given;
   options.drive.rover = *rover;
+  if (options.drive.lonlat && options.request.empty()) {
+    std::vector<PlaceOption*> places;
+    for (auto* const end : {&options.start, &options.goal})
+      if (*end) places.push_back(&**end);
+    for (PlaceOption& place : options.via) places.push_back(&place);
+    if (const auto brought = bring_to_map(options.ask, options.drive.terrain, places); !brought)
+      return refuse(brought.error());
+  }
   const auto request_of = [](const PlanOptions& o) {
     return o.request.empty() ? plan_request(o) : read_request(o.request);
   };
   const auto request = request_of(options);
   // A file's request is asked of both as it is, and standard input is read once.
-  if (given.compare)
-    return compare_plans(given, given.request.empty() ? request_of(given) : request, options, request);
-  return ask_and_print(options.ask, {.map = options.drive.map, .csv = options.drive.csv}, request,
-                       &Inquiry::plan, &plan_table, &plan_status);
+  if (given.compare) {
+    PlanOptions nominal = options;
+    nominal.drive.rover = given.drive.rover;
+    return compare_plans(nominal, given.request.empty() ? request_of(nominal) : request, options, request);
+  }
+  return ask_and_print(options.ask, pictures_of(options.drive), request, &Inquiry::plan, &plan_table,
+                       &plan_status);
 }
 
 }  // namespace slipway::server

@@ -1,5 +1,7 @@
 #include "server/cli/predict_command.h"
 
+#include <vector>
+
 #include "api/json/writer.h"
 #include "server/cli/command_parts.h"
 #include "server/cli/drive_answer.h"
@@ -37,8 +39,15 @@ int predict(const PredictOptions& given) {
     return refuse({ErrorCode::kInvalidRequest,
                    "there is no such plot",
                    {{"/plot", "only a prediction at the dynamic level has a time history: --rung dynamic"}}});
-  return ask_and_print(options.ask,
-                       {.map = options.drive.map, .history = options.plot, .csv = options.drive.csv},
+  if (options.drive.lonlat && options.request.empty()) {
+    std::vector<PlaceOption*> places;
+    for (PlaceOption& place : options.path) places.push_back(&place);
+    if (const auto brought = bring_to_map(options.ask, options.drive.terrain, places); !brought)
+      return refuse(brought.error());
+  }
+  Pictures pictures = pictures_of(options.drive);
+  pictures.history = options.plot;
+  return ask_and_print(options.ask, pictures,
                        options.request.empty() ? prediction_request(options) : read_request(options.request),
                        &Inquiry::predict, &prediction_table, &prediction_status);
 }

@@ -17,6 +17,7 @@ struct TerrainOptions {
   AskOptions ask;
   std::string name = "gale";
   std::optional<PlaceOption> at;
+  bool lonlat = false;  // `at` is longitude, latitude
 };
 
 // The exit status: 0 an answer (also "no safe route"), 1 no answer, 2 a question that can't be asked. The

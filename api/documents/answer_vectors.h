@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/result.h"
+
+// Routes and stations of an answer as vectors for GIS tools.
+namespace slipway::api::json {
+
+// The map that an answer's coordinates are on.
+struct AnswerMap {
+  std::string crs_name, crs_wkt;  // crs_wkt is empty in a local frame
+  std::string body;
+  double semi_major_axis_m = 0.0;
+};
+
+// The map of a terrain, from the document that GET /v1/terrains answers. Errors: not_found.
+Result<AnswerMap> map_of_terrain(std::string_view terrains, std::string_view terrain);
+// The terrain that a "check/1", "prediction/1" or "plan/1" document is about.
+std::string terrain_of_answer(std::string_view answer);
+
+enum class VectorCoordinates {
+  kMap,                // metres of the map, with its system in the member crs
+  kLongitudeLatitude,  // degrees of the body, east-positive; planetocentric but on the Earth
+};
+
+// A FeatureCollection: a line for each route and a point for each station, which the property layer tells
+// apart. The member "coordinates" says in words what the numbers are; "crs" names the system where it has a
+// name that tools know. Errors: no_data where the answer has no stations; unsupported_crs for degrees of a
+// map that lies on no body.
+Result<std::string> answer_geojson(std::string_view answer, const AnswerMap& map,
+                                   VectorCoordinates coordinates);
+// A GeoPackage with the layers routes and stations, in map metres. Errors: no_data; internal.
+Result<std::string> answer_geopackage(std::string_view answer, const AnswerMap& map);
+
+}  // namespace slipway::api::json

@@ -1,0 +1,129 @@
+#include "dem/gdal_heights.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "dem/gdal_crs.h"
+
+namespace slipway::dem {
+namespace {
+
+// Whether the file lacks a block of the window.
+bool is_missing(GDALRasterBand& band, const CellWindow& window) {
+  const int coverage = band.GetDataCoverageStatus(window.column, window.row, window.columns, window.rows,
+                                                  GDAL_DATA_COVERAGE_STATUS_EMPTY, nullptr);
+  return (coverage & GDAL_DATA_COVERAGE_STATUS_UNIMPLEMENTED) == 0 &&
+         (coverage & GDAL_DATA_COVERAGE_STATUS_EMPTY) != 0;
+}
+
+// GDAL gives a block that the file does not hold as zeros.
+void mask_missing_blocks(GDALRasterBand& band, const CellWindow& window, std::uint8_t* valid) {
+  int width = 0, height = 0;
+  band.GetBlockSize(&width, &height);
+  const int last_row = window.row + window.rows, last_column = window.column + window.columns;
+  for (int row = window.row / height * height; row < last_row; row += height) {
+    for (int column = window.column / width * width; column < last_column; column += width) {
+      const int top = std::max(row, window.row), bottom = std::min(row + height, last_row);
+      const int left = std::max(column, window.column), right = std::min(column + width, last_column);
+      if (!is_missing(band, {top, left, bottom - top, right - left})) continue;
+      for (int r = top; r < bottom; ++r)
+        std::fill_n(valid +
+                        static_cast<std::size_t>(r - window.row) * static_cast<std::size_t>(window.columns) +
+                        (left - window.column),
+                    right - left, std::uint8_t{0});
+    }
+  }
+}
+
+}  // namespace
+
+HeightEncoding encoding_of(GDALRasterBand& band) {
+  HeightEncoding encoding;
+  int given = 0;
+  encoding.scale = band.GetScale(&given);
+  encoding.offset_m = band.GetOffset(&given);
+  encoding.wide_nodata = band.GetNoDataValue(&given);
+  encoding.has_nodata = given != 0;
+  encoding.nodata = static_cast<float>(encoding.wide_nodata);
+  encoding.is_float32 = band.GetRasterDataType() == GDT_Float32;
+  encoding.is_sparse = is_missing(band, {0, 0, band.GetYSize(), band.GetXSize()});
+  encoding.has_mask = (band.GetMaskFlags() & GMF_PER_DATASET) != 0;
+  return encoding;
+}
+
+std::optional<double> metres_of_unit(std::string unit) {
+  std::transform(unit.begin(), unit.end(), unit.begin(), [](unsigned char c) { return std::tolower(c); });
+  constexpr std::pair<std::string_view, double> kUnits[] = {{"", 1.0},
+                                                            {"m", 1.0},
+                                                            {"metre", 1.0},
+                                                            {"metres", 1.0},
+                                                            {"meter", 1.0},
+                                                            {"meters", 1.0},
+                                                            {"ft", 0.3048},
+                                                            {"foot", 0.3048},
+                                                            {"feet", 0.3048},
+                                                            {"us-ft", 1200.0 / 3937.0},
+                                                            {"us survey foot", 1200.0 / 3937.0},
+                                                            {"ftus", 1200.0 / 3937.0},
+                                                            {"km", 1000.0},
+                                                            {"kilometre", 1000.0},
+                                                            {"kilometer", 1000.0},
+                                                            {"kilometres", 1000.0},
+                                                            {"kilometers", 1000.0},
+                                                            {"dm", 0.1},
+                                                            {"cm", 0.01},
+                                                            {"mm", 0.001}};
+  for (const auto& [name, metres] : kUnits)
+    if (unit == name) return metres;
+  return std::nullopt;
+}
+
+Result<void> check_height_unit(GDALRasterBand& band, const HeightEncoding& encoding,
+                               const std::string& file) {
+  const std::optional<double> metres = metres_of_unit(band.GetUnitType());
+  if (metres == 1.0) {
+    if (std::isfinite(encoding.scale) && encoding.scale != 0.0 && std::isfinite(encoding.offset_m)) return {};
+    return fail(
+        ErrorCode::kUnreadableRaster,
+        fmt::format("{} has heights of {} * stored + {}, which are none. Convert it with: gdal_translate "
+                    "-a_scale 1 -a_offset 0 {} {}, with the true scale and offset.",
+                    file, encoding.scale, encoding.offset_m, shell_word(file),
+                    shell_word(converted_name(file))));
+  }
+  return fail(ErrorCode::kUnreadableRaster,
+              fmt::format("{} has heights in \"{}\", must be metres. Convert it with: gdal_calc.py -A {} "
+                          "--calc='A*{}' --type=Float32 --outfile={}{}.",
+                          file, band.GetUnitType(), shell_word(file), metres.value_or(0.3048),
+                          shell_word(converted_name(file)),
+                          metres ? "" : ", with the factor of that unit (0.3048 for feet)"));
+}
+
+bool read_heights(GDALRasterBand& band, const HeightEncoding& encoding, const CellWindow& window,
+                  float* heights, std::uint8_t* valid) {
+  const std::size_t cells = static_cast<std::size_t>(window.rows) * static_cast<std::size_t>(window.columns);
+  std::vector<double> stored(cells);
+  if (band.RasterIO(GF_Read, window.column, window.row, window.columns, window.rows, stored.data(),
+                    window.columns, window.rows, GDT_Float64, 0, 0, nullptr) != CE_None) {
+    return false;
+  }
+  std::fill_n(valid, cells, std::uint8_t{1});
+  if (encoding.has_mask &&
+      band.GetMaskBand()->RasterIO(GF_Read, window.column, window.row, window.columns, window.rows, valid,
+                                   window.columns, window.rows, GDT_Byte, 0, 0, nullptr) != CE_None) {
+    return false;
+  }
+  if (encoding.is_sparse) mask_missing_blocks(band, window, valid);
+  for (std::size_t i = 0; i < cells; ++i) {
+    const auto height = static_cast<float>(encoding.scale * stored[i] + encoding.offset_m);
+    valid[i] = valid[i] != 0 && encoding.is_height(stored[i]) && std::isfinite(height) ? 1 : 0;
+    heights[i] = valid[i] != 0 ? height : 0.0F;
+  }
+  return true;
+}
+
+}  // namespace slipway::dem

@@ -1,0 +1,96 @@
+#include <cpl_conv.h>
+#include <fmt/format.h>
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
+
+#include <memory>
+#include <mutex>
+
+#include "dem/gdal_memory_file.h"
+#include "dem/gdal_session.h"
+#include "dem/vector_file.h"
+
+namespace slipway::dem {
+namespace {
+
+// GeoPackages carry the time of their last change, which would make the bytes of every answer its own.
+class FixedDate {
+ public:
+  FixedDate() { CPLSetThreadLocalConfigOption("OGR_CURRENT_DATE", "2000-01-01T00:00:00.000Z"); }
+  ~FixedDate() { CPLSetThreadLocalConfigOption("OGR_CURRENT_DATE", nullptr); }
+  FixedDate(const FixedDate&) = delete;
+  FixedDate& operator=(const FixedDate&) = delete;
+};
+
+std::unique_ptr<OGRGeometry> geometry_of(const VectorLayer& layer, const VectorFeature& feature) {
+  if (!layer.lines) {
+    const auto& [x, y, z] = feature.points.at(0);
+    return std::make_unique<OGRPoint>(x, y, z);
+  }
+  if (feature.points.size() < 2) return nullptr;
+  auto line = std::make_unique<OGRLineString>();
+  for (const auto& [x, y, z] : feature.points) line->addPoint(x, y, z);
+  return line;
+}
+
+bool write_feature(OGRLayer& out, const VectorLayer& layer, const VectorFeature& feature) {
+  OGRFeature made(out.GetLayerDefn());
+  for (std::size_t i = 0; i < layer.fields.size(); ++i) {
+    const VectorValue& value = feature.values.at(i);
+    const int field = static_cast<int>(i);
+    if (const auto* const number = std::get_if<double>(&value)) made.SetField(field, *number);
+    if (const auto* const text = std::get_if<std::string>(&value)) made.SetField(field, text->c_str());
+    if (std::holds_alternative<std::monostate>(value)) made.SetFieldNull(field);
+  }
+  if (auto geometry = geometry_of(layer, feature)) made.SetGeometryDirectly(geometry.release());
+  return out.CreateFeature(&made) == OGRERR_NONE;
+}
+
+bool write_layer(GDALDataset& file, const VectorLayer& layer, OGRSpatialReference* crs) {
+  OGRLayer* const out =
+      file.CreateLayer(layer.name.c_str(), crs, layer.lines ? wkbLineString25D : wkbPoint25D, nullptr);
+  if (out == nullptr) return false;
+  for (const VectorField& field : layer.fields) {
+    OGRFieldDefn definition(field.name.c_str(), field.is_text ? OFTString : OFTReal);
+    if (out->CreateField(&definition) != OGRERR_NONE) return false;
+  }
+  for (const VectorFeature& feature : layer.features)
+    if (!write_feature(*out, layer, feature)) return false;
+  return true;
+}
+
+bool write_layers(GDALDataset& file, const std::vector<VectorLayer>& layers, OGRSpatialReference* crs) {
+  if (file.StartTransaction() != OGRERR_NONE) return false;
+  for (const VectorLayer& layer : layers)
+    if (!write_layer(file, layer, crs)) return false;
+  return file.CommitTransaction() == OGRERR_NONE;
+}
+
+void register_geopackage() {
+  static std::once_flag once;
+  std::call_once(once, &RegisterOGRGeoPackage);
+}
+
+}  // namespace
+
+Result<std::string> encode_geopackage(const std::vector<VectorLayer>& layers, const std::string& crs_wkt) {
+  const GdalSession session;
+  register_geopackage();
+  const FixedDate date;
+  std::unique_ptr<OGRSpatialReference> crs;
+  if (!crs_wkt.empty()) {
+    crs = std::make_unique<OGRSpatialReference>();
+    if (crs->importFromWkt(crs_wkt.c_str()) != OGRERR_NONE) crs.reset();
+  }
+  GdalMemoryFile memory(".gpkg");
+  GDALDatasetUniquePtr file(GetGDALDriverManager()->GetDriverByName("GPKG")->Create(
+      memory.name().c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+  const bool complete = file && write_layers(*file, layers, crs.get());
+  file.reset();  // closing writes what is left
+  auto bytes = memory.take();
+  if (complete && bytes) return *std::move(bytes);
+  return fail(ErrorCode::kInternal,
+              fmt::format("The GeoPackage could not be encoded: {}", session.complaints()));
+}
+
+}  // namespace slipway::dem

@@ -1,0 +1,114 @@
+#!/bin/sh
+# From an elevation map to a plan with the command line alone, and what a bad map, an interruption and a name that is
+# taken leave behind: nothing.
+#   terrain_import_test.sh SLIPWAY DATA_FOLDER
+set -eu
+slipway="$1"
+data="$2"
+folder="$(mktemp -d)"
+trap 'rm -rf "$folder"' EXIT
+
+. "$(dirname "$0")/../command_expectations.sh"
+
+mars="+proj=eqc +lat_ts=0 +lon_0=0 +R=3396190 +units=m +no_defs"
+degrees="+proj=longlat +R=3396190 +no_defs"
+
+# grid FILE SIDE WEST SOUTH CELL: a slope towards the south of one in twenty cells, in an ASCII grid.
+grid() {
+  awk -v n="$2" -v x="$3" -v y="$4" -v c="$5" 'BEGIN {
+    printf "ncols %d\nnrows %d\nxllcorner %s\nyllcorner %s\ncellsize %s\n", n, n, x, y, c
+    for (r = 0; r < n; ++r) { for (k = 0; k < n; ++k) printf "%.3f ", (n - r) / 20; printf "\n" } }' >"$1"
+}
+# The data folder holds what it held: no part of an import stays.
+nothing_left() { [ "$(ls -A "$folder/data/terrains")" = "$1" ] || { echo "left behind:"; ls -A "$folder/data/terrains"; exit 1; }; }
+
+mkdir "$folder/data"
+cp -r "$data/rovers" "$data/soils" "$folder/data/"
+import="$slipway terrain import --data $folder/data"
+grid "$folder/Site 1.asc" 80 0 0 1
+
+# Without a system the map is refused with the command that states one; with it, it is a terrain.
+expect 2 $import "$folder/Site 1.asc"
+holds 'no coordinate reference system' "$folder/err"
+holds 'gdal_translate -a_srs' "$folder/err"
+nothing_left ""
+expect 0 $import "$folder/Site 1.asc" --crs "$mars" --licence CC0-1.0 --json
+holds '"name":"site_1"' "$folder/out"
+holds '"rows":80' "$folder/out"
+nothing_left "site_1"
+holds 'Licence: CC0-1.0' "$folder/data/terrains/site_1/PROVENANCE.md"
+holds "$(sha256sum "$folder/Site 1.asc" | cut -d' ' -f1)" "$folder/data/terrains/site_1/PROVENANCE.md"
+holds "$(sha256sum "$folder/data/terrains/site_1/elevation.tif" | cut -d' ' -f1)" "$folder/out"
+expect 0 "$slipway" data check --data "$folder/data"
+expect 0 "$slipway" terrain --data "$folder/data" --name site_1 --at 40,40
+holds '"slope_deg":2.86' "$folder/out"
+
+# The name is taken: refused, and replaced only where that is asked for.
+expect 2 $import "$folder/Site 1.asc" --crs "$mars"
+holds 'there is a terrain' "$folder/err"
+expect 0 $import "$folder/Site 1.asc" --crs "$mars" --replace --title "The yard"
+holds '"title":"The yard"' "$folder/data/terrains/site_1/terrain.json"
+nothing_left "site_1"
+expect 2 $import "$folder/Site 1.asc" --crs "$mars" --name "No/Name" --gravity 99
+holds '--name' "$folder/err"
+holds '--gravity' "$folder/err"
+
+# What is wrong with both maps is told together.
+echo 'no raster' >"$folder/classes.tif"
+expect 2 $import "$folder/Site 1.asc" --name both --soil "$folder/classes.tif"
+holds 'no coordinate reference system' "$folder/err"
+holds 'classes.tif is not a readable raster' "$folder/err"
+
+# Degrees are refused with the remedy, and mended by --fix.
+grid "$folder/deg.asc" 80 137 -4 0.00002
+expect 2 $import "$folder/deg.asc" --crs "$degrees"
+holds 'pixels in degrees' "$folder/err"
+holds '--fix mends' "$folder/err"
+expect 0 $import "$folder/deg.asc" --crs "$degrees" --fix
+holds 'reprojected' "$folder/out"
+
+# A soil map: its classes are told where there is no legend, and a legend's faults all at once.
+awk 'BEGIN { print "ncols 80\nnrows 80\nxllcorner 0\nyllcorner 0\ncellsize 1"
+  for (r = 0; r < 80; ++r) { for (k = 0; k < 80; ++k) printf "%d ", k < 40 ? 1 : 2; printf "\n" } }' >"$folder/classes.asc"
+cat >"$folder/classes.prj" <<EOF
+PROJCS["eqc",GEOGCS["mars",DATUM["mars",SPHEROID["mars",3396190,0]],PRIMEM["Reference meridian",0],UNIT["degree",0.0174532925199433]],PROJECTION["Equirectangular"],PARAMETER["standard_parallel_1",0],PARAMETER["central_meridian",0],PARAMETER["false_easting",0],PARAMETER["false_northing",0],UNIT["metre",1]]
+EOF
+expect 2 "$slipway" terrain import --data "$folder/data" "$folder/Site 1.asc" --crs "$mars" --soil "$folder/classes.asc" --name soils
+holds 'the map holds 1, 2' "$folder/err"
+printf 'value,label,soil\n1,smooth,jlu_mars_2_densely\nx,rough,\n' >"$folder/bad.csv"
+expect 2 "$slipway" terrain import --data "$folder/data" "$folder/Site 1.asc" --crs "$mars" --soil "$folder/classes.asc" --name soils --legend "$folder/bad.csv"
+holds 'bad.csv, line 3' "$folder/err"
+printf 'value,label,soil\n1,smooth,jlu_mars_2_densely\n2,rough,\n' >"$folder/bad.csv"
+expect 2 "$slipway" terrain import --data "$folder/data" "$folder/Site 1.asc" --crs "$mars" --soil "$folder/classes.asc" --name soils --legend "$folder/bad.csv"
+holds 'did you mean "jlu_mars_2_dense"' "$folder/err"
+printf 'value,label,soil\n1,smooth,jlu_mars_2_dense\n2,rough,jlu_mars_1_dense\n' >"$folder/legend.csv"
+expect 0 "$slipway" terrain import --data "$folder/data" "$folder/Site 1.asc" --crs "$mars" --soil "$folder/classes.asc" --name soils --legend "$folder/legend.csv" --assumption "as the survey says"
+expect 0 "$slipway" data check --data "$folder/data"
+expect 0 "$slipway" terrain --data "$folder/data" --name soils --at 20,40
+holds 'jlu_mars_2_dense' "$folder/out"
+
+# And a plan on it.
+expect verdict "$slipway" plan --data "$folder/data" --terrain soils --start 15,15 --goal 30,35 --routes 1 --draws 32 --json
+holds '"terrain":"soils"' "$folder/out"
+
+# Interrupted, by Ctrl-C and by the system: nothing is left, and the name is free.
+grid "$folder/large.asc" 1500 0 0 1
+for signal in INT TERM; do
+  "$slipway" terrain import --data "$folder/data" "$folder/large.asc" --crs "$mars" --name large 2>"$folder/err" >/dev/null &
+  process=$!
+  tries=0
+  until ls -A "$folder/data/terrains" | grep -q large || [ $tries -ge 200 ]; do tries=$((tries + 1)); sleep 0.02; done
+  # A shell without job control starts what is in the background deaf to INT: the program listens all the same.
+  kill -$signal $process
+  status=0
+  wait $process || status=$?
+  [ "$status" = 1 ] || { echo "exit status $status of an import that SIG$signal ended"; cat "$folder/err"; exit 1; }
+  nothing_left "$(printf 'deg\nsite_1\nsoils')"
+done
+# Killed outright: what it left is no terrain, and the next import of the name removes it.
+mkdir "$folder/data/terrains/.large.999999999-0.slipway-part"
+echo '{' >"$folder/data/terrains/.large.999999999-0.slipway-part/terrain.json"
+expect 0 "$slipway" data check --data "$folder/data"
+expect 0 $import "$folder/large.asc" --crs "$mars"
+nothing_left "$(printf 'deg\nlarge\nsite_1\nsoils')"
+echo "every import did what it owes"
