@@ -150,11 +150,14 @@ std::optional<std::string> gap_left(const Diagnosis& d, const VerdictOptions& op
   return words;
 }
 
-// A parameter that the answer needs at one of its two ends.
+// A parameter that the answer needs at one of its two ends. An end near what was believed says nothing: with
+// a reference it may lie there.
 std::optional<std::string> parameter_at_its_end(const FittedExplanation& reported) {
   for (std::size_t p = 0; p < reported.hypothesis.nuisance_count(); ++p) {
     const Parameter& parameter = reported.hypothesis.parameters()[p];
-    const bool two_sided = parameter.lowest < parameter.neutral && parameter.neutral < parameter.highest;
+    constexpr double kFarEnd = 2.0;  // deviations
+    const bool two_sided = parameter.lowest < parameter.neutral - kFarEnd * parameter.std &&
+                           parameter.neutral + kFarEnd * parameter.std < parameter.highest;
     if (two_sided && (reported.x[p] <= parameter.lowest || reported.x[p] >= parameter.highest))
       return fmt::format(
           "{} would have to be further from what was believed than it may be ({:.1f} deviations)",
