@@ -3,18 +3,24 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace slipway::gap {
 namespace {
 
-// Held within what the parameters may be, in prior deviations.
-void hold_within_bounds(std::span<const Parameter> parameters, Eigen::VectorXd& u) {
+// The ends of what the parameters may be, in prior deviations; columns behind them have none.
+struct Bounds {
+  Eigen::VectorXd low, high;
+};
+Bounds bounds_of(std::span<const Parameter> parameters, Eigen::Index columns) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  Bounds bounds{Eigen::VectorXd::Constant(columns, -kNone), Eigen::VectorXd::Constant(columns, kNone)};
   for (std::size_t p = 0; p < parameters.size(); ++p) {
     const Parameter& parameter = parameters[p];
-    double& value = u[static_cast<Eigen::Index>(p)];
-    value = std::clamp(value, (parameter.lowest - parameter.neutral) / parameter.std,
-                       (parameter.highest - parameter.neutral) / parameter.std);
+    bounds.low[static_cast<Eigen::Index>(p)] = (parameter.lowest - parameter.neutral) / parameter.std;
+    bounds.high[static_cast<Eigen::Index>(p)] = (parameter.highest - parameter.neutral) / parameter.std;
   }
+  return bounds;
 }
 
 Eigen::MatrixXd beside(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
@@ -33,6 +39,7 @@ double linear_held_out_rms(const PosteriorMode& fit, std::span<const Parameter> 
   const Eigen::MatrixXd columns = beside(fit.white_jacobian, white_more);
   Eigen::VectorXd found = Eigen::VectorXd::Zero(columns.cols());
   found.head(fit.jacobian.cols()) = in_prior_units(parameters, fit.x);
+  const Bounds bounds = bounds_of(parameters, columns.cols());
   double squares = 0.0, count = 0.0;
   for (int f = 0; f < folds; ++f) {
     std::vector<Eigen::Index> learnt, asked;
@@ -44,8 +51,8 @@ double linear_held_out_rms(const PosteriorMode& fit, std::span<const Parameter> 
     const Eigen::MatrixXd of_learnt = columns(learnt, Eigen::all);
     Eigen::MatrixXd hessian = of_learnt.transpose() * of_learnt;
     hessian.diagonal().array() += 1.0;
-    Eigen::VectorXd u = hessian.llt().solve(of_learnt.transpose() * fit.white_linear(learnt));
-    hold_within_bounds(parameters, u);
+    const Eigen::VectorXd u =
+        bounded_step(hessian, of_learnt.transpose() * fit.white_linear(learnt), bounds.low, bounds.high);
     const Eigen::VectorXd moved = slopes(asked, Eigen::all) * (found - u);
     for (std::size_t i = 0; i < asked.size(); ++i) {
       const double r =
@@ -109,8 +116,8 @@ double ClosedShares::of(const std::string& cause) const {
     const Names all(in->effects.begin(), in->effects.end());
     Names others = all;
     others.erase(cause);
-    closed = rms_of(others) - rms_of(all);
-    if (!others.empty()) closed = 0.5 * (closed + nothing_ - rms_of({cause}));
+    closed = std::max(0.0, rms_of(others) - rms_of(all));
+    if (!others.empty()) closed = 0.5 * (closed + std::max(0.0, nothing_ - rms_of({cause})));
   } else {
     const auto screened = std::find_if(search_.screened.begin(), search_.screened.end(),
                                        [&](const ScreenedVariant& s) { return s.variant.effect == cause; });
