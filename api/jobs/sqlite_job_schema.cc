@@ -8,9 +8,9 @@
 #include <system_error>
 #include <vector>
 
-#include "api/files/sha256.h"
 #include "api/files/whole_file.h"
 #include "api/jobs/job.h"
+#include "core/sha256.h"
 
 namespace slipway::api {
 namespace {
@@ -79,6 +79,16 @@ void make_tables_where_empty(SqliteConnection& connection) {
   transaction.commit();
 }
 
+// With the length of each part before it, so that only the same parts have the same digest.
+std::string digest_of(std::initializer_list<std::string_view> parts) {
+  Sha256 hash;
+  for (const std::string_view part : parts) {
+    hash.add(fmt::format("{}:", part.size()));
+    hash.add(part);
+  }
+  return hash.digest();
+}
+
 void check_columns(SqliteConnection& connection, const fs::path& store) {
   std::vector<std::string> found;
   auto row = connection.prepare("SELECT name FROM pragma_table_info('jobs') ORDER BY cid");
@@ -122,11 +132,11 @@ void bring_up_from_1(SqliteConnection& connection, const fs::path& store) {
 }  // namespace
 
 std::string request_digest(std::string_view id, std::string_view kind, std::string_view request) {
-  return sha256_of({id, kind, request});
+  return digest_of({id, kind, request});
 }
 
 std::string outcome_digest(std::string_view id, std::string_view state, std::string_view outcome) {
-  return sha256_of({id, state, outcome});
+  return digest_of({id, state, outcome});
 }
 
 void check_marker(const fs::path& store) {

@@ -46,7 +46,7 @@ FENCES = [
     (r"nlohmann/.*", r"api/json/\w+\.cc"),
     (r"toml\.hpp", r"api/json/toml_\w+\.cc"),
     (r"sqlite3\.h", r"api/jobs/sqlite_\w+\.cc"),
-    (r"openssl/.*", r"api/files/openssl_\w+\.cc"),
+    (r"openssl/.*", r"core/openssl_\w+\.cc"),
     (r"httplib\.h", r"server/http/\w+\.cc"),
     (r"CLI/.*", r"server/cli/\w+\.cc"),
     (r"(Simbody|SimTK\w*)\.h|simbody/.*", r"(?!)"),  # a judge in tests alone
