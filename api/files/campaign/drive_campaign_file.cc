@@ -287,9 +287,9 @@ void note_passed_over(const std::vector<std::string>& passed_over, std::vector<s
   std::set<std::string> keys;
   for (const std::string& pointer : passed_over) keys.insert(without_indices(pointer));
   if (keys.empty()) return;
-  constexpr std::size_t kMaxNamed = 30;
+  constexpr std::size_t kMostNamed = 30;
   std::vector<std::string> named(keys.begin(), keys.end());
-  const std::size_t more = named.size() > kMaxNamed ? named.size() - kMaxNamed : 0;
+  const std::size_t more = named.size() > kMostNamed ? named.size() - kMostNamed : 0;
   named.resize(named.size() - more);
   notes.push_back(fmt::format("campaign.json: keys that the format does not have were passed over: {}{}",
                               fmt::join(named, ", "), more > 0 ? fmt::format(" and {} more", more) : ""));
