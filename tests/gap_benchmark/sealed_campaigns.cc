@@ -1,4 +1,5 @@
-// sealed_campaigns OUT [--seed N] [--set blind|full|each|smoke|nothing|other_physics|outside] [--only CAUSE,...]
+// sealed_campaigns OUT [--seed N] [--set blind|full|each|smoke|nothing|other_physics|outside] [--only
+// CAUSE,...]
 // [--fidelity L1|L2|L2c|L3] [--size X] [--references yes|no] [--since DRIVE]
 //
 // Since a drive: so many drives are healthy before the cause sets in, and their order is drawn.
