@@ -87,7 +87,7 @@ ignored '/grousers/count' $wheel --grousers 0.01,24,7
 ignored '/motor_temp_c' "$slipway" current invert --data "$data" --current 0.7 --gravity 9.81 --motor-temp-c -40
 ignored '/motor_temp_c' $wheel --motor-temp-c -40
 # Of two flags that say the same number one would be dropped.
-ignored '/grousers' $wheel --grousers 0.01,24 --effect grousers
+ignored '/effects/0/name' $wheel --grousers 0.01,24 --effect grousers
 ignored '/slip' $wheel --slip 0.2 --sweep slip=0:0.4:0.1
 ignored '/slip' $wheel --slip 0.2 --sweep slope_deg=0:4:1
 ignored '/load' $wheel --sweep load_n=10,20
