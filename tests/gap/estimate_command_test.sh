@@ -25,7 +25,9 @@ d = json.loads((folder / "first.json").read_text(), parse_constant=refuse)
 [estimate] = d["estimates"]
 p = {p["name"]: p for p in estimate["parameters"]}
 assert set(p) == {"k_c", "k_phi", "n"}, p
-assert abs(p["n"]["value"] - 1.34) < 0.03 and p["n"]["determination"] == "determined", p["n"]
+# The samples differ by more than their stated errors, so that the model does not hold and no number is called determined.
+assert abs(p["n"]["value"] - 1.34) < 0.03 and p["n"]["determination"] == "undetermined", p["n"]
+assert "the model does not hold" in p["n"]["words"], p["n"]
 soils = json.loads((folder / "soil.json").read_text())
 assert soils["format"] == "soils/1" and soils["soils"] == [estimate["soil"]]
 xml.dom.minidom.parse(str(folder / "plates.svg"))
