@@ -25,6 +25,7 @@ Bounds bounds_of(std::span<const Parameter> parameters, Eigen::Index columns) {
 
 Eigen::MatrixXd beside(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   if (b.cols() == 0) return a;
+  if (a.cols() == 0) return b;
   Eigen::MatrixXd both(a.rows(), a.cols() + b.cols());
   both << a, b;
   return both;
@@ -34,12 +35,25 @@ Eigen::MatrixXd beside(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
 
 double linear_held_out_rms(const PosteriorMode& fit, std::span<const Parameter> parameters,
                            const Eigen::MatrixXd& more, const Eigen::MatrixXd& white_more,
-                           const FoldedRows& rows, int folds) {
-  const Eigen::MatrixXd slopes = beside(fit.jacobian, more);
+                           const FoldedRows& rows, int folds, const Eigen::MatrixXd& precision) {
   const Eigen::MatrixXd columns = beside(fit.white_jacobian, white_more);
   Eigen::VectorXd found = Eigen::VectorXd::Zero(columns.cols());
   found.head(fit.jacobian.cols()) = in_prior_units(parameters, fit.x);
-  const Bounds bounds = bounds_of(parameters, columns.cols());
+  Bounds bounds = bounds_of(parameters, columns.cols());
+  Eigen::MatrixXd slopes = beside(fit.jacobian, more);
+  if (precision.size() > 0) {
+    // As the white columns: in directions of deviation 1, which mix what is re-tuned and so have no bounds of
+    // their own.
+    const Eigen::Index count = fit.jacobian.cols();
+    const Eigen::MatrixXd root = prior_root(precision);
+    slopes.leftCols(count) = fit.jacobian * root;
+    found.head(count) = root.triangularView<Eigen::Upper>().solve(found.head(count));
+    for (std::size_t p = 0; p < parameters.size(); ++p)
+      if (parameters[p].effect.empty()) {
+        bounds.low[static_cast<Eigen::Index>(p)] = -std::numeric_limits<double>::infinity();
+        bounds.high[static_cast<Eigen::Index>(p)] = std::numeric_limits<double>::infinity();
+      }
+  }
   double squares = 0.0, count = 0.0;
   for (int f = 0; f < folds; ++f) {
     std::vector<Eigen::Index> learnt, asked;
@@ -87,7 +101,10 @@ double LinearHeldOut::operator()(const FittedExplanation& fit, const Eigen::Matr
   const Eigen::MatrixXd white_more =
       more.cols() == 0 ? Eigen::MatrixXd{}
                        : Eigen::MatrixXd(fit.row_weights.asDiagonal() * prepared_.noise->whiten(more));
-  return linear_held_out_rms(fit, fit.hypothesis.parameters(), more, white_more, rows_, folds_);
+  // What a reference left open stands beside the fit's white columns already.
+  const LearntDifference* const learnt = prepared_.model->learnt();
+  return linear_held_out_rms(fit, fit.hypothesis.parameters(), learnt ? beside(learnt->left, more) : more,
+                             white_more, rows_, folds_, fit.hypothesis.prior_precision());
 }
 
 ClosedShares::ClosedShares(Rms rms, const ExplanationSearch& search)

@@ -27,9 +27,11 @@ struct FoldedRows {
 // other folds' rows (whitened, with a prior of deviation 1 and held within their bounds), and predictions
 // move along the derivatives. `more` has columns behind the fit's own (observations x columns, by prior
 // deviations), and `white_more` the same whitened, rows weighed as in the fit; both may be empty.
+// `precision`: of the prior where reference drives told of it, see Hypothesis::prior_precision(); `more` then
+// begins with what they left open, which is behind the fit's white columns already.
 double linear_held_out_rms(const PosteriorMode& fit, std::span<const Parameter> parameters,
                            const Eigen::MatrixXd& more, const Eigen::MatrixXd& white_more,
-                           const FoldedRows& rows, int folds);
+                           const FoldedRows& rows, int folds, const Eigen::MatrixXd& precision = {});
 
 // The same of a campaign's explanations. It costs no prediction, so that every explanation can be asked.
 class LinearHeldOut {
