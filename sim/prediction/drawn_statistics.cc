@@ -11,8 +11,7 @@ namespace slipway::sim {
 namespace {
 
 // Type 7 of Hyndman and Fan where all weigh the same. There must be a value.
-double weighted_quantile(std::vector<std::pair<double, double>> values, double share) {
-  std::sort(values.begin(), values.end());
+double quantile_of_sorted(const std::vector<std::pair<double, double>>& values, double share) {
   double sum = 0.0;
   for (const auto& [value, weight] : values) sum += weight;
   const double span = sum - values.back().second;
@@ -27,6 +26,11 @@ double weighted_quantile(std::vector<std::pair<double, double>> values, double s
     before += values[k].second;
   }
   return values.back().first;
+}
+
+double weighted_quantile(std::vector<std::pair<double, double>> values, double share) {
+  std::sort(values.begin(), values.end());
+  return quantile_of_sorted(values, share);
 }
 
 // Sums over weighted draws.
@@ -196,8 +200,10 @@ void fill_expected_stops(double mean, double square, double n, DriveOutcomes& ou
   out.expected_stops_high = std::max(mean + kReach90 * error, mean > 0.0 ? mean : out.stop.high);
 }
 
-DrawnSpread spread_of(const std::vector<std::pair<double, double>>& values) {
-  return {weighted_quantile(values, 0.05), weighted_quantile(values, 0.50), weighted_quantile(values, 0.95)};
+DrawnSpread spread_of(std::vector<std::pair<double, double>> values) {
+  std::sort(values.begin(), values.end());
+  return {quantile_of_sorted(values, 0.05), quantile_of_sorted(values, 0.50),
+          quantile_of_sorted(values, 0.95)};
 }
 
 std::optional<std::size_t> ground_of(const PreparedStation& station) {
@@ -244,15 +250,18 @@ void fill_station(const std::vector<DrawnDrive>& drives, std::size_t s, StationP
   }
   station.risk = bad / all;
   if (slip.empty()) return;  // no draw came this far, so that the values on the mean soils remain
-  station.slip_ratio_p05 = weighted_quantile(slip, 0.05);
-  station.slip_ratio_p50 = weighted_quantile(slip, 0.50);
-  station.slip_ratio_p95 = weighted_quantile(slip, 0.95);
+  std::sort(slip.begin(), slip.end());
+  station.slip_ratio_p05 = quantile_of_sorted(slip, 0.05);
+  station.slip_ratio_p50 = quantile_of_sorted(slip, 0.50);
+  station.slip_ratio_p95 = quantile_of_sorted(slip, 0.95);
   station.current_a_p95 = weighted_quantile(current, 0.95);
   station.sinkage_m_p95 = weighted_quantile(sinkage, 0.95);
-  station.tilt_rad_p05 = weighted_quantile(tilt, 0.05);
-  station.tilt_rad_p95 = weighted_quantile(tilt, 0.95);
-  station.clearance_m_p05 = weighted_quantile(clearance, 0.05);
-  station.clearance_m_p95 = weighted_quantile(clearance, 0.95);
+  std::sort(tilt.begin(), tilt.end());
+  station.tilt_rad_p05 = quantile_of_sorted(tilt, 0.05);
+  station.tilt_rad_p95 = quantile_of_sorted(tilt, 0.95);
+  std::sort(clearance.begin(), clearance.end());
+  station.clearance_m_p05 = quantile_of_sorted(clearance, 0.05);
+  station.clearance_m_p95 = quantile_of_sorted(clearance, 0.95);
 }
 
 void summarise(const std::vector<DrawnDrive>& drives, const std::vector<PreparedStation>& stations,

@@ -16,7 +16,7 @@ DrawnShare share_of_draws(double share, double n);
 void fill_expected_stops(double mean, double square, double n, DriveOutcomes& out);
 
 // The 5th, 50th and 95th percentile of values with weights; there must be a weight.
-DrawnSpread spread_of(const std::vector<std::pair<double, double>>& values);
+DrawnSpread spread_of(std::vector<std::pair<double, double>> values);
 
 // The ground that a station stands for: unknown where any wheel is on unknown ground.
 std::optional<std::size_t> ground_of(const PreparedStation& station);
