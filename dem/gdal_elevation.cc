@@ -39,7 +39,10 @@ class GdalElevation final : public ElevationSource {
         dataset_(std::move(raster.dataset)),
         band_(*dataset_->GetRasterBand(1)),
         info_(std::move(raster.info)),
-        encoding_(encoding) {}
+        encoding_(encoding),
+        lengths_are_true_(info_.crs_wkt.empty() ||
+                          check_true_lengths(*dataset_->GetSpatialRef(), info_.geometry.extent(),
+                                             path_.filename().string())) {}
 
   const ElevationInfo& info() const override { return info_; }
 
@@ -63,15 +66,19 @@ class GdalElevation final : public ElevationSource {
           fmt::format("The extent takes {} cells of the terrain, must be at most {}; choose a smaller one.",
                       cells, kMaxWindowCells));
     }
-    if (const OGRSpatialReference* const crs = info_.crs_wkt.empty() ? nullptr : dataset_->GetSpatialRef()) {
-      const auto lengths =
-          check_true_lengths(*crs, info_.geometry.sub(*met).extent(), path_.filename().string());
-      if (!lengths) return fail(lengths.error());
-    }
+    if (const auto lengths = check_lengths(info_.geometry.sub(*met).extent()); !lengths)
+      return fail(lengths.error());
     return read(window);
   }
 
  private:
+  // Where they are true over the whole map, no window is looked at.
+  Result<void> check_lengths(const Extent& extent) const {
+    if (lengths_are_true_) return {};
+    const std::lock_guard lock(mutex_);
+    return check_true_lengths(*dataset_->GetSpatialRef(), extent, path_.filename().string());
+  }
+
   Result<std::shared_ptr<const Terrain>> read(const CellWindow& window) const {
     const std::lock_guard lock(mutex_);
     const GdalSession session(path_);
@@ -107,6 +114,7 @@ class GdalElevation final : public ElevationSource {
   GDALRasterBand& band_;  // of dataset_
   ElevationInfo info_;
   HeightEncoding encoding_;
+  bool lengths_are_true_;     // over the whole map; a map without a system is taken at its word
   mutable std::mutex mutex_;  // a GDAL dataset is for one thread at a time
 };
 
