@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "api/documents/sweep_settings.h"
 #include "api/files/effect_settings.h"
 #include "api/files/soil_tests_csv.h"
 #include "api/json/faults.h"
@@ -55,20 +56,6 @@ void read_named(ObjectReader& reader, SoilEstimateRequest& request) {
     object.text("name", kRequired, name, soil.name);
     object.text("soil", kRequired, name, soil.soil);
     object.refuse_unknown();
-  }
-}
-
-// "set": {"c1": 0.4, "n@wet": 1.1}; which names there are and their ranges is the request's to say.
-void read_settings(ObjectReader& reader, std::vector<sim::SweepSetting>& set) {
-  const JsonValue* const settings = reader.member("set", kOptional);
-  if (settings == nullptr) return;
-  if (!settings->is(JsonValue::Kind::kObject))
-    return reader.fault("set", "set = " + describe(*settings) + ", must be an object");
-  for (std::size_t i = 0; i < settings->keys.size(); ++i) {
-    const std::string& key = settings->keys[i];
-    double value = 0.0;
-    if (read_number(settings->elements[i], child_pointer("/set", key), key, {}, value, reader.faults()))
-      set.push_back({key, value});
   }
 }
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "api/documents/drive_assumptions.h"
+#include "api/documents/sweep_settings.h"
 #include "api/files/effect_settings.h"
 #include "api/json/parse.h"
 #include "api/json/strict_reader.h"
@@ -78,20 +79,6 @@ void read_axis(const Element& element, sim::SweepAxis& axis, std::vector<Fault>&
   if (!good) return;
   if (to < from) return reader.fault("to", fmt::format("to = {:g}, must be at least from = {:g}", to, from));
   axis.values = sim::stepped(from, to, step);
-}
-
-// "set": {"soil.n": 1.1}; which names there are and their ranges is the sweep's to say.
-void read_settings(ObjectReader& reader, std::vector<sim::SweepSetting>& set) {
-  const JsonValue* const settings = reader.member("set", kOptional);
-  if (settings == nullptr) return;
-  if (!settings->is(JsonValue::Kind::kObject))
-    return reader.fault("set", "set = " + describe(*settings) + ", must be an object");
-  for (std::size_t i = 0; i < settings->keys.size(); ++i) {
-    const std::string& key = settings->keys[i];
-    double value = 0.0;
-    if (read_number(settings->elements[i], child_pointer("/set", key), key, {}, value, reader.faults()))
-      set.push_back({key, value});
-  }
 }
 
 }  // namespace

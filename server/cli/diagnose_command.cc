@@ -235,12 +235,8 @@ int diagnose(const DiagnoseCommand& options) {
   if (!catalogue) return refuse_unreadable(catalogue.error());
   const auto campaign = api::load_drive_campaign(options.campaign, *catalogue);
   if (!campaign) return refuse_unreadable(campaign.error());
-  std::optional<gap::DriveCampaign> reference;
-  if (!options.reference.empty()) {
-    auto read = api::load_drive_campaign(options.reference, *catalogue);
-    if (!read) return refuse_unreadable(read.error());
-    reference = std::move(*read);
-  }
+  const auto reference = api::load_reference_drives(options.reference, *catalogue);
+  if (!reference) return refuse_unreadable(reference.error());
   gap::DiagnosisOptions diagnosis;
   diagnosis.search.withheld = options.without;
   diagnosis.search.threads = static_cast<std::size_t>(options.threads);
@@ -248,8 +244,8 @@ int diagnose(const DiagnoseCommand& options) {
   std::optional<Result<Diagnosis>> result;
   {
     TerminalProgress progress;
-    result = reference ? gap::diagnose_since(*reference, *campaign, diagnosis, progress)
-                       : gap::diagnose(*campaign, diagnosis, progress);
+    result = *reference ? gap::diagnose_since(**reference, *campaign, diagnosis, progress)
+                        : gap::diagnose(*campaign, diagnosis, progress);
   }
   if (!*result) return refuse(result->error());
   const Diagnosis& d = **result;

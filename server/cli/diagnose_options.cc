@@ -9,6 +9,22 @@
 
 namespace slipway::server {
 
+namespace {
+
+// What both have: how the search is run, and how its answer is printed.
+template <class Command>
+void add_search(CLI::App& command, Command& options) {
+  command.add_option("--seed", options.seed, "the same seed gives the same answer")
+      ->capture_default_str()
+      ->check(CLI::Range(std::uint64_t{0}, kMaxExactWhole));
+  command.add_option("--threads", options.threads, "at once; 0: as many as the machine has")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1024));
+  command.add_flag("--json", options.json, "print the document, for machines");
+}
+
+}  // namespace
+
 void add_diagnose_command(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<DiagnoseCommand>();
   CLI::App* command = app.add_subcommand(
@@ -21,13 +37,7 @@ void add_diagnose_command(CLI::App& app, std::function<int()>& run) {
       "folder of drives of the same rover that are taken as healthy: the question is then what "
       "has changed since");
   command->add_option("--without", options->without, "an effect that is not looked for, see slipway effects");
-  command->add_option("--seed", options->seed, "the same seed gives the same answer")
-      ->capture_default_str()
-      ->check(CLI::Range(std::uint64_t{0}, kMaxExactWhole));
-  command->add_option("--threads", options->threads, "at once; 0: as many as the machine has")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 1024));
-  command->add_flag("--json", options->json, "print the document, for machines");
+  add_search(*command, *options);
   command->add_option("--report", options->report,
                       "folder for report.md, its pictures and diagnosis.json; made if need be");
   command->add_option(
@@ -67,13 +77,7 @@ void add_watch_command(CLI::App& app, std::function<int()>& run) {
       ->check(CLI::Range(1e-9, 0.5));
   command->add_option("--without", options->without, "an effect that is not looked for, see slipway effects");
   command->add_flag("!--no-diagnosis", options->diagnose, "after an alarm, do not diagnose what has changed");
-  command->add_option("--seed", options->seed, "the same seed gives the same answer")
-      ->capture_default_str()
-      ->check(CLI::Range(std::uint64_t{0}, kMaxExactWhole));
-  command->add_option("--threads", options->threads, "at once; 0: as many as the machine has")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 1024));
-  command->add_flag("--json", options->json, "print the document, for machines");
+  add_search(*command, *options);
   command->footer(
       "Example: is the rover still what it was in its first twelve drives?\n"
       "  slipway watch data/gap-practice/p01\n"

@@ -272,4 +272,12 @@ Result<gap::DriveCampaign> load_drive_campaign(const fs::path& folder, const Cat
   return campaign;
 }
 
+Result<std::optional<gap::DriveCampaign>> load_reference_drives(const fs::path& folder,
+                                                                const Catalogue& catalogue) {
+  if (folder.empty()) return std::nullopt;
+  auto drives = load_drive_campaign(folder, catalogue);
+  if (!drives) return fail(drives.error());
+  return std::optional<gap::DriveCampaign>(std::move(*drives));
+}
+
 }  // namespace slipway::api

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "api/files/catalogue.h"
 #include "core/result.h"
@@ -14,5 +15,9 @@ namespace slipway::api {
 // the file, "campaign.json#/drives/3/terrain" or "D001.csv#/12/x_m". Errors: unreadable_data.
 Result<gap::DriveCampaign> load_drive_campaign(const std::filesystem::path& folder,
                                                const Catalogue& catalogue);
+
+// The same of drives that are taken as healthy; nothing where no folder is named.
+Result<std::optional<gap::DriveCampaign>> load_reference_drives(const std::filesystem::path& folder,
+                                                                const Catalogue& catalogue);
 
 }  // namespace slipway::api

@@ -63,12 +63,8 @@ int watch(const WatchCommand& options) {
   if (!catalogue) return refuse_unreadable(catalogue.error());
   const auto campaign = api::load_drive_campaign(options.campaign, *catalogue);
   if (!campaign) return refuse_unreadable(campaign.error());
-  std::optional<gap::DriveCampaign> reference;
-  if (!options.reference.empty()) {
-    auto read = api::load_drive_campaign(options.reference, *catalogue);
-    if (!read) return refuse_unreadable(read.error());
-    reference = std::move(*read);
-  }
+  const auto reference = api::load_reference_drives(options.reference, *catalogue);
+  if (!reference) return refuse_unreadable(reference.error());
   gap::WatchOptions watch;
   watch.learn = options.learn;
   watch.change.alpha = options.alpha;
@@ -80,7 +76,7 @@ int watch(const WatchCommand& options) {
   std::optional<Result<gap::DriveWatch>> result;
   {
     TerminalProgress progress;
-    result = gap::watch_drives(*campaign, reference ? &*reference : nullptr, watch, diagnosis, progress);
+    result = gap::watch_drives(*campaign, *reference ? &**reference : nullptr, watch, diagnosis, progress);
   }
   if (!*result) return refuse((*result).error());
   const gap::DriveWatch& found = **result;
