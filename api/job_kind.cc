@@ -1,7 +1,9 @@
 #include "api/job_kind.h"
 
+#include <algorithm>
 #include <stdexcept>
 
+#include "api/documents/station_csv.h"
 #include "api/model_reference.h"
 
 namespace slipway::api {
@@ -22,6 +24,24 @@ std::string kept_answer(const std::string& document, const std::string& page) {
   if (document.find(kBetweenParts) != std::string::npos)
     throw std::logic_error("a job's document must be one line");
   return document + kBetweenParts + page;
+}
+
+bool is_thinned(std::string_view document) {
+  return json::is_thinned(document);
+}
+
+Result<std::vector<std::string>> series_of(std::string_view whole) {
+  const auto csv = json::station_csv(whole);
+  if (!csv) return fail(csv.error());
+  constexpr std::size_t kPageBytes = 1'000'000;
+  std::vector<std::string> pages;
+  for (std::size_t begin = 0; begin < csv->size();) {
+    const std::size_t line = csv->find('\n', std::min(begin + kPageBytes, csv->size()) - 1);
+    const std::size_t end = line == std::string::npos ? csv->size() : line + 1;
+    pages.push_back(csv->substr(begin, end - begin));
+    begin = end;
+  }
+  return pages;
 }
 
 Result<std::string> recorded_request(std::string_view body, JobStore& store, bool may_name_model,

@@ -23,6 +23,14 @@ KeptAnswer parts_of(std::string_view kept);
 // The document, which must be one line, and the page in the form that parts_of() takes apart.
 std::string kept_answer(const std::string& document, const std::string& page);
 
+// How long jobs of a kind usually take: seconds, a minute, many. None waits behind those of a longer lane.
+enum class Lane { kShort, kUsual, kLong };
+
+// Whether a document leaves out stations, and the table of all that the whole one has, as CSV in pages of a
+// megabyte or so: put together they are one table.
+bool is_thinned(std::string_view document);
+Result<std::vector<std::string>> series_of(std::string_view whole);
+
 // One kind of job as a row of the catalogue: what a client posts, what is done with it, and what can be seen
 // of the answer. Routes, runner and command line work from these rows alone. Thread-safe.
 template <class Request, class Answer>
@@ -34,8 +42,11 @@ struct JobKindRow {
   std::function<Result<Request>(const Service&, std::string_view body)> read;
   // The answer. It asks progress.cancelled() at least every 100 ms.
   std::function<Result<Answer>(const Service&, const Request&, Progress&)> run;
-  // The answer as a JSON document on one line.
+  // The answer as a JSON document on one line; of a long drive with some of its stations.
   std::function<std::string(const Answer&)> write;
+  // The same with all stations, whose table is kept in pages where `write` has left some out; empty: it
+  // leaves out nothing.
+  std::function<std::string(const Answer&)> write_whole = nullptr;
   // A picture (SVG) of an answer's document, drawn when it is asked for; empty: this kind has no map.
   std::function<Result<std::string>(const Catalogue&, std::string_view document)> map = nullptr;
   // An HTML page of an answer's document, made when it is asked for; empty: there is none, or `report` has
@@ -45,7 +56,7 @@ struct JobKindRow {
   std::function<std::string(const Answer&)> report = nullptr;
   std::chrono::seconds usual_wait{
       0};                       // how long the client's POST waits for the answer unless it says otherwise
-  bool is_short = false;        // runs on the worker for short work too, and so not behind long work
+  Lane lane = Lane::kUsual;     // see worker_kinds()
   bool may_name_model = false;  // the request may name a diagnosis whose model it is answered with
 };
 
@@ -57,13 +68,13 @@ struct JobKind {
   // Errors: those of the row's `read`; with a model also invalid_request at /model and storage.
   std::function<Result<std::string>(const Service&, JobStore&, std::string_view body)> accept;
   // What is to be kept of the answer to a recorded request.
-  std::function<Result<std::string>(const Service&, std::string_view recorded, Progress&)> work;
+  std::function<Result<JobAnswer>(const Service&, std::string_view recorded, Progress&)> work;
   std::function<Result<std::string>(const Catalogue&, std::string_view document)> map;  // may be empty
   std::function<Result<std::string>(const Catalogue&, std::string_view document)> page =
       nullptr;              // may be empty
   bool has_report = false;  // made when it is asked for, where there is `page`, or else kept with the answer
   std::chrono::seconds usual_wait{0};
-  bool is_short = false;
+  Lane lane = Lane::kUsual;
 };
 
 // The recorded form of a request that `fault_of` finds no fault in; see JobKind::accept.
@@ -77,7 +88,7 @@ JobKind job_kind(JobKindRow<Request, Answer> of) {
   kind.page = row->page;
   kind.has_report = row->report != nullptr || row->page != nullptr;
   kind.usual_wait = row->usual_wait;
-  kind.is_short = row->is_short;
+  kind.lane = row->lane;
   kind.accept = [row](const Service& service, JobStore& store, std::string_view body) {
     return recorded_request(body, store, row->may_name_model,
                             [&](std::string_view request) -> std::optional<Error> {
@@ -86,13 +97,18 @@ JobKind job_kind(JobKindRow<Request, Answer> of) {
                             });
   };
   kind.work = [row](const Service& service, std::string_view recorded,
-                    Progress& progress) -> Result<std::string> {
+                    Progress& progress) -> Result<JobAnswer> {
     // Read again from the bytes that were accepted: after a restart there is nothing else.
     const auto request = row->read(service, recorded);
     if (!request) return fail(request.error());
     const auto answer = row->run(service, *request, progress);
     if (!answer) return fail(answer.error());
-    return row->report ? kept_answer(row->write(*answer), row->report(*answer)) : row->write(*answer);
+    std::string document = row->write(*answer);
+    if (row->report) return JobAnswer(kept_answer(document, row->report(*answer)));
+    if (!row->write_whole || !is_thinned(document)) return JobAnswer(std::move(document));
+    auto series = series_of(row->write_whole(*answer));
+    if (!series) return fail(series.error());
+    return JobAnswer(std::move(document), *std::move(series));
   };
   return kind;
 }

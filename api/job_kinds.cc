@@ -23,34 +23,50 @@ std::string diagnosis_page(const DiagnosisAnswer& answer) {
       .html();
 }
 
+template <class Answer, std::string (*Write)(const Answer&, json::StationDetail)>
+std::string thinned(const Answer& answer) {
+  return Write(answer, json::StationDetail::kThinned);
+}
+
+template <class Answer, std::string (*Write)(const Answer&, json::StationDetail)>
+std::string whole(const Answer& answer) {
+  return Write(answer, json::StationDetail::kWhole);
+}
+
 std::vector<JobKind> all_kinds() {
   return {
-      job_kind(JobKindRow<PlanRequest, PlanAnswer>{.name = std::string(kPlanKind),
-                                                   .path = "/v1/plans",
-                                                   .read = &Service::read_plan,
-                                                   .run = &Service::plan,
-                                                   .write = &json::write_plan_answer,
-                                                   .map = &draw_route_map,
-                                                   .may_name_model = true}),
-      job_kind(JobKindRow<PredictionRequest, PredictionAnswer>{.name = std::string(kPredictionKind),
-                                                               .path = "/v1/predictions",
-                                                               .read = &Service::read_prediction,
-                                                               .run = &Service::predict,
-                                                               .write = &json::write_prediction_answer,
-                                                               .map = &draw_route_map,
-                                                               .usual_wait = std::chrono::seconds(10),
-                                                               .is_short = true,
-                                                               .may_name_model = true}),
-      job_kind(JobKindRow<CheckRequest, CheckAnswer>{.name = std::string(kCheckKind),
-                                                     .path = "/v1/checks",
-                                                     .read = &Service::read_check,
-                                                     .run = &Service::check,
-                                                     .write = &json::write_check_answer,
-                                                     .map = &draw_route_map,
-                                                     .page = &check_report,
-                                                     .usual_wait = std::chrono::seconds(10),
-                                                     .is_short = true,
-                                                     .may_name_model = true}),
+      job_kind(
+          JobKindRow<PlanRequest, PlanAnswer>{.name = std::string(kPlanKind),
+                                              .path = "/v1/plans",
+                                              .read = &Service::read_plan,
+                                              .run = &Service::plan,
+                                              .write = &thinned<PlanAnswer, &json::write_plan_answer>,
+                                              .write_whole = &whole<PlanAnswer, &json::write_plan_answer>,
+                                              .map = &draw_route_map,
+                                              .may_name_model = true}),
+      job_kind(JobKindRow<PredictionRequest, PredictionAnswer>{
+          .name = std::string(kPredictionKind),
+          .path = "/v1/predictions",
+          .read = &Service::read_prediction,
+          .run = &Service::predict,
+          .write = &thinned<PredictionAnswer, &json::write_prediction_answer>,
+          .write_whole = &whole<PredictionAnswer, &json::write_prediction_answer>,
+          .map = &draw_route_map,
+          .usual_wait = std::chrono::seconds(10),
+          .lane = Lane::kShort,
+          .may_name_model = true}),
+      job_kind(
+          JobKindRow<CheckRequest, CheckAnswer>{.name = std::string(kCheckKind),
+                                                .path = "/v1/checks",
+                                                .read = &Service::read_check,
+                                                .run = &Service::check,
+                                                .write = &thinned<CheckAnswer, &json::write_check_answer>,
+                                                .write_whole = &whole<CheckAnswer, &json::write_check_answer>,
+                                                .map = &draw_route_map,
+                                                .page = &check_report,
+                                                .usual_wait = std::chrono::seconds(10),
+                                                .lane = Lane::kShort,
+                                                .may_name_model = true}),
       job_kind(JobKindRow<DiagnosisRequest, DiagnosisAnswer>{.name = std::string(kDiagnosisKind),
                                                              .path = "/v1/diagnoses",
                                                              .read = &Service::read_diagnosis,
@@ -60,13 +76,14 @@ std::vector<JobKind> all_kinds() {
                                                                    return json::diagnosis_document(
                                                                        answer.campaign, answer.diagnosis);
                                                                  },
-                                                             .report = &diagnosis_page}),
+                                                             .report = &diagnosis_page,
+                                                             .lane = Lane::kLong}),
       job_kind(JobKindRow<SoilEstimateRequest, SoilEstimateAnswer>{.name = "soil_estimate",
                                                                    .path = "/v1/soil-estimates",
                                                                    .read = &Service::read_soil_estimate,
                                                                    .run = &Service::estimate_soil,
                                                                    .write = &json::soil_estimate_document,
-                                                                   .is_short = true}),
+                                                                   .lane = Lane::kShort}),
   };
 }
 
@@ -85,7 +102,7 @@ const JobKind* find_kind(const std::vector<JobKind>& kinds, std::string_view nam
 
 JobWork service_work(const Service& service, const std::vector<JobKind>& kinds) {
   return [&service, &kinds](const std::string& kind, const std::string& request,
-                            Progress& progress) -> Result<std::string> {
+                            Progress& progress) -> Result<JobAnswer> {
     const JobKind* const known = find_kind(kinds, kind);
     if (known == nullptr)
       return fail(ErrorCode::kInternal, fmt::format("no work is known for jobs of kind {}", kind));
@@ -94,12 +111,13 @@ JobWork service_work(const Service& service, const std::vector<JobKind>& kinds) 
 }
 
 std::vector<std::vector<std::string>> worker_kinds(const std::vector<JobKind>& kinds) {
-  std::vector<std::vector<std::string>> workers(2);
-  for (const JobKind& kind : kinds) {
-    workers[0].push_back(kind.name);
-    if (kind.is_short) workers[1].push_back(kind.name);
+  std::vector<std::vector<std::string>> workers;
+  for (const Lane longest : {Lane::kLong, Lane::kUsual, Lane::kShort}) {
+    std::vector<std::string> names;
+    for (const JobKind& kind : kinds)
+      if (kind.lane <= longest) names.push_back(kind.name);
+    if (!names.empty() && (workers.empty() || names != workers.back())) workers.push_back(std::move(names));
   }
-  if (workers[1].empty()) workers.pop_back();
   return workers;
 }
 

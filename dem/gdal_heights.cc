@@ -25,11 +25,14 @@ bool is_missing(GDALRasterBand& band, const CellWindow& window) {
 void mask_missing_blocks(GDALRasterBand& band, const CellWindow& window, std::uint8_t* valid) {
   int width = 0, height = 0;
   band.GetBlockSize(&width, &height);
-  const int last_row = window.row + window.rows, last_column = window.column + window.columns;
-  for (int row = window.row / height * height; row < last_row; row += height) {
-    for (int column = window.column / width * width; column < last_column; column += width) {
-      const int top = std::max(row, window.row), bottom = std::min(row + height, last_row);
-      const int left = std::max(column, window.column), right = std::min(column + width, last_column);
+  // A file may state blocks that end beyond what an int counts.
+  const std::int64_t last_row = window.row + window.rows, last_column = window.column + window.columns;
+  for (std::int64_t row = window.row / height * height; row < last_row; row += height) {
+    for (std::int64_t column = window.column / width * width; column < last_column; column += width) {
+      const int top = static_cast<int>(std::max<std::int64_t>(row, window.row)),
+                bottom = static_cast<int>(std::min(row + height, last_row)),
+                left = static_cast<int>(std::max<std::int64_t>(column, window.column)),
+                right = static_cast<int>(std::min(column + width, last_column));
       if (!is_missing(band, {top, left, bottom - top, right - left})) continue;
       for (int r = top; r < bottom; ++r)
         std::fill_n(valid +

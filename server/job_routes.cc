@@ -15,6 +15,7 @@
 #include "api/documents/station_csv.h"
 #include "api/job_kinds.h"
 #include "api/json/problem_document.h"
+#include "server/drawn_cache.h"
 #include "server/query.h"
 #include "server/request_headers.h"
 #include "server/responses.h"
@@ -29,6 +30,8 @@ constexpr std::string_view kGeoJson = "application/geo+json";
 constexpr std::string_view kHtml = "text/html; charset=utf-8";
 constexpr std::string_view kSvg = "image/svg+xml";
 constexpr int kPollSeconds = 1;
+constexpr std::size_t kDrawnBytes = 16'000'000;  // of pictures and pages that are kept in memory
+constexpr bool kHeavy = true;                    // of a Route
 
 class JobRoutes {
  public:
@@ -38,10 +41,12 @@ class JobRoutes {
 
   // Records a request without faults, and waits for its end where the client wants that.
   HttpResponse submit(const api::JobKind& kind, const HttpRequest& request) {
+    const auto submission = submission_of(request);
+    if (!submission) return problem_response(submission.error(), &request);
     auto recorded = kind.accept(service_, runner_.store(), request.body);
     if (!recorded) return problem_response(recorded.error(), &request);
     const Preferences preferences = preferences_of(request);
-    const auto job = runner_.submit(kind.name, *std::move(recorded));
+    const auto job = runner_.submit(kind.name, *std::move(recorded), *submission);
     if (!job) return problem_response(job.error(), &request);
     seconds wait = preferences.wait.value_or(preferences.respond_async ? seconds(0) : kind.usual_wait);
     wait = std::min(wait, options_.longest_wait);
@@ -75,6 +80,26 @@ class JobRoutes {
     return outcome_response(*job, request);
   }
 
+  // All stations of an answer as CSV, page by page.
+  HttpResponse stations(const HttpRequest& request) {
+    Query query(request, {"page"});
+    constexpr std::size_t kMostPages = 1'000'000;
+    const auto page = static_cast<std::int64_t>(query.count("page", 1, kMostPages));
+    if (const auto error = query.error()) return problem_response(*error, &request);
+    const auto job = find(request);
+    if (!job) return problem_response(job.error(), &request);
+    if (job->state != api::JobState::kSuccessful) return outcome_response(*job, request);
+    auto table = page_of_stations(*job, page);
+    if (!table) return problem_response(table.error(), &request);
+    HttpResponse response = document(std::move(table->bytes));
+    response.content_type = kCsv;
+    if (table->more)
+      response.headers.emplace_back(
+          "Link", fmt::format("</v1/jobs/{}/stations?page={}>; rel=\"next\"", job->id, page + 1));
+    const std::string tag = tag_of(response.body);
+    return tagged(std::move(response), tag, request);
+  }
+
   // The picture of a successful job's answer.
   HttpResponse map(const HttpRequest& request) {
     const auto job = find(request);
@@ -83,13 +108,16 @@ class JobRoutes {
     if (kind == nullptr || !kind->map)
       return problem(ErrorCode::kNotFound, fmt::format("jobs of kind {} have no map", job->kind), request);
     if (job->state != api::JobState::kSuccessful) return outcome_response(*job, request);
-    const auto kept = kept_outcome(*job);
-    if (!kept) return problem_response(kept.error(), &request);
-    const auto svg = kind->map(service_.catalogue(), api::parts_of(*kept).document);
+    const auto svg = drawn_.get(job->id + "/map", [&]() -> Result<std::string> {
+      const auto kept = kept_outcome(*job);
+      if (!kept) return fail(kept.error());
+      return kind->map(service_.catalogue(), api::parts_of(*kept).document);
+    });
     if (!svg) return problem_response(svg.error(), &request);
-    HttpResponse response = document(*svg);
+    HttpResponse response = document(**svg);
     response.content_type = kSvg;
-    return response;
+    const std::string tag = tag_of(response.body);
+    return tagged(std::move(response), tag, request);
   }
 
   // The report of a successful job, as a page.
@@ -100,14 +128,16 @@ class JobRoutes {
     if (kind == nullptr || !kind->has_report)
       return problem(ErrorCode::kNotFound, fmt::format("jobs of kind {} have no report", job->kind), request);
     if (job->state != api::JobState::kSuccessful) return outcome_response(*job, request);
-    const auto kept = kept_outcome(*job);
-    if (!kept) return problem_response(kept.error(), &request);
-    const api::KeptAnswer parts = api::parts_of(*kept);
-    const Result<std::string> page = kind->page ? kind->page(service_.catalogue(), parts.document)
-                                                : Result<std::string>(std::string(parts.page));
+    const auto page = drawn_.get(job->id + "/report", [&]() -> Result<std::string> {
+      const auto kept = kept_outcome(*job);
+      if (!kept) return fail(kept.error());
+      const api::KeptAnswer parts = api::parts_of(*kept);
+      if (kind->page) return kind->page(service_.catalogue(), parts.document);
+      if (parts.page.empty()) return fail(ErrorCode::kNotFound, "the job's report is not kept");
+      return std::string(parts.page);
+    });
     if (!page) return problem_response(page.error(), &request);
-    if (page->empty()) return problem(ErrorCode::kNotFound, "the job's report is not kept", request);
-    HttpResponse response = document(*page);
+    HttpResponse response = document(**page);
     response.content_type = kHtml;
     response.headers.emplace_back("Content-Security-Policy",
                                   fmt::format("{}; frame-ancestors 'self'", api::kReportPolicy));
@@ -117,6 +147,12 @@ class JobRoutes {
   }
 
   HttpResponse dismiss(const HttpRequest& request) {
+    const auto known = find(request);
+    if (!known) return problem_response(known.error(), &request);
+    // What an older program accepted has no owner and is anybody's.
+    if (!request.principal.empty() && !known->owner.empty() && !request.is_admin &&
+        known->owner != request.principal)
+      return problem(ErrorCode::kForbidden, "the job was asked for by somebody else", request);
     const auto job = runner_.dismiss(request.parameter("id"));
     if (!job) return problem_response(job.error(), &request);
     if (!*job) return problem(ErrorCode::kNotFound, "there is no job of this id", request);
@@ -124,10 +160,31 @@ class JobRoutes {
       return problem(ErrorCode::kConflict, fmt::format("the job is {} already", api::describe((*job)->state)),
                      request);
     }
-    return document(api::json::write_job(**job, std::nullopt));
+    return document(api::json::write_job(**job, std::nullopt, std::nullopt));
   }
 
  private:
+  struct Page {
+    std::string bytes;
+    bool more = false;
+  };
+
+  // A page of what is kept apart; of an answer that has all its stations, what it has.
+  Result<Page> page_of_stations(const api::Job& job, std::int64_t page) {
+    auto kept = runner_.store().series(job.id, page);
+    if (!kept) return fail(kept.error());
+    if (*kept) {
+      const auto next = runner_.store().series(job.id, page + 1);
+      return Page{**std::move(kept), next && *next};
+    }
+    if (page > 1) return fail(ErrorCode::kNotFound, fmt::format("the job's stations have no page {}", page));
+    const auto answer = kept_outcome(job);
+    if (!answer) return fail(answer.error());
+    auto csv = api::json::station_csv(api::parts_of(*answer).document);
+    if (!csv) return fail(csv.error());
+    return Page{*std::move(csv)};
+  }
+
   Result<api::Job> find(const HttpRequest& request) {
     const auto job = runner_.store().get(request.parameter("id"));
     if (!job) return fail(job.error());
@@ -144,7 +201,7 @@ class JobRoutes {
   }
 
   HttpResponse created(const api::Job& job) {
-    HttpResponse response = document(api::json::write_job(job, std::nullopt), 201);
+    HttpResponse response = document(api::json::write_job(job, std::nullopt, queue_of(job)), 201);
     response.headers.emplace_back("Location", "/v1/jobs/" + job.id);
     if (!api::has_ended(job.state))
       response.headers.emplace_back("Retry-After", std::to_string(kPollSeconds));
@@ -170,10 +227,19 @@ class JobRoutes {
   HttpResponse job_response(const api::Job& job, const HttpRequest& request) {
     std::optional<std::string> failure;
     if (job.state == api::JobState::kFailed) failure = runner_.store().outcome(job.id).value_or(std::nullopt);
-    HttpResponse response = document(api::json::write_job(job, failure));
+    const std::optional<api::QueueEstimate> queue = queue_of(job);
+    HttpResponse response = document(api::json::write_job(job, failure, queue));
     if (!api::has_ended(job.state))
       response.headers.emplace_back("Retry-After", std::to_string(kPollSeconds));
-    return tagged(std::move(response), fmt::format("\"{}-{}\"", job.id, job.version), request);
+    // What is before it changes without the job.
+    const std::string place = queue ? fmt::format("-{}", queue->ahead) : "";
+    return tagged(std::move(response), fmt::format("\"{}-{}{}\"", job.id, job.version, place), request);
+  }
+
+  // Of a job that waits; nothing where it does not, or the store can't say.
+  std::optional<api::QueueEstimate> queue_of(const api::Job& job) {
+    if (job.state != api::JobState::kAccepted) return std::nullopt;
+    return runner_.queue_estimate(job).value_or(std::nullopt);
   }
 
   // The answer of a successful job, the problem of a failed one, the reason why there is neither.
@@ -219,6 +285,7 @@ class JobRoutes {
   RouteOptions options_;
   const std::vector<api::JobKind>& kinds_;
   std::atomic<int> waiting_{0};
+  DrawnCache drawn_{kDrawnBytes};
 };
 
 }  // namespace
@@ -229,17 +296,18 @@ std::vector<Route> job_routes(const api::Service& service, api::JobRunner& runne
   std::vector<Route> routes{
       {"GET", "/v1/jobs", [jobs](const HttpRequest& r) { return jobs->list(r); }},
       {"GET", "/v1/jobs/{id}", [jobs](const HttpRequest& r) { return jobs->get(r); }},
-      {"GET", "/v1/jobs/{id}/result", [jobs](const HttpRequest& r) { return jobs->result(r); }},
-      {"GET", "/v1/jobs/{id}/map", [jobs](const HttpRequest& r) { return jobs->map(r); }},
-      {"GET", "/v1/jobs/{id}/report", [jobs](const HttpRequest& r) { return jobs->report(r); }},
+      {"GET", "/v1/jobs/{id}/result", [jobs](const HttpRequest& r) { return jobs->result(r); }, kHeavy},
+      {"GET", "/v1/jobs/{id}/stations", [jobs](const HttpRequest& r) { return jobs->stations(r); }, kHeavy},
+      {"GET", "/v1/jobs/{id}/map", [jobs](const HttpRequest& r) { return jobs->map(r); }, kHeavy},
+      {"GET", "/v1/jobs/{id}/report", [jobs](const HttpRequest& r) { return jobs->report(r); }, kHeavy},
       {"DELETE", "/v1/jobs/{id}", [jobs](const HttpRequest& r) { return jobs->dismiss(r); }},
   };
   for (const api::JobKind& kind : kinds) {
     routes.push_back(
         {"POST", kind.path, [jobs, &kind](const HttpRequest& r) { return jobs->submit(kind, r); }});
     if (kind.has_report)
-      routes.push_back(
-          {"GET", kind.path + "/{id}/report", [jobs](const HttpRequest& r) { return jobs->report(r); }});
+      routes.push_back({"GET", kind.path + "/{id}/report",
+                        [jobs](const HttpRequest& r) { return jobs->report(r); }, kHeavy});
   }
   return routes;
 }

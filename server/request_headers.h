@@ -4,6 +4,8 @@
 #include <optional>
 #include <string_view>
 
+#include "api/jobs/job_runner.h"
+#include "core/result.h"
 #include "server/http/http_message.h"
 
 // What the headers of a request ask for.
@@ -21,5 +23,11 @@ struct Preferences {
   bool respond_async = false;
 };
 Preferences preferences_of(const HttpRequest& request);
+
+// How a job is asked for: Idempotency-Key [draft-ietf-httpapi-idempotency-key-header] and the urgency of
+// Priority [RFC 9218]; an urgency that is malformed is the usual one, as the RFC says. The owner is who
+// asks. Errors: invalid_request at /Idempotency-Key where that is empty, longer
+// than 255 bytes or not of visible characters.
+Result<api::Submission> submission_of(const HttpRequest& request);
 
 }  // namespace slipway::server

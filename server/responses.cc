@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "api/json/problem_document.h"
+#include "server/query.h"
 #include "server/request_headers.h"
 
 namespace slipway::server {
@@ -27,10 +28,12 @@ HttpResponse problem_response(const Error& error, const HttpRequest* /*request*/
   response.content_type = "application/problem+json";
   response.body = api::json::write_problem(error);
   response.headers.emplace_back("Cache-Control", "no-store");
-  constexpr int kUnavailable = 503;
+  constexpr int kTooMany = 429, kUnavailable = 503;
   constexpr int kRetrySeconds = 5;
-  if (row.http_status == kUnavailable)
+  if (row.http_status == kUnavailable || row.http_status == kTooMany)
     response.headers.emplace_back("Retry-After", std::to_string(kRetrySeconds));
+  if (error.code == ErrorCode::kUnauthorized)
+    response.headers.emplace_back("WWW-Authenticate", "Bearer realm=\"slipway\"");
   return response;
 }
 
@@ -58,8 +61,10 @@ HttpResponse tagged(HttpResponse response, const std::string& tag, const HttpReq
 Route fixed(std::string pattern, std::string body) {
   auto shared = std::make_shared<const std::string>(std::move(body));
   const std::string tag = tag_of(*shared);
-  return {"GET", std::move(pattern),
-          [shared, tag](const HttpRequest& request) { return tagged(document(*shared), tag, request); }};
+  return {"GET", std::move(pattern), [shared, tag](const HttpRequest& request) {
+            if (const auto error = Query(request, {}).error()) return problem_response(*error, &request);
+            return tagged(document(*shared), tag, request);
+          }};
 }
 
 }  // namespace slipway::server

@@ -60,7 +60,8 @@ std::vector<Route> api_routes(const api::Service& service, api::JobRunner& runne
       fixed("/v1/drive-campaigns", api::json::write_drive_campaigns(service.campaigns())),
       {"GET", "/v1/terrains/{name}/point",
        [&service](const HttpRequest& r) { return ground_at(service, r); }},
-      {"POST", "/v1/wheel-sweeps", [&service](const HttpRequest& r) { return wheel_sweep(service, r); }},
+      {"POST", "/v1/wheel-sweeps", [&service](const HttpRequest& r) { return wheel_sweep(service, r); },
+       /*heavy=*/true},
   };
   std::vector<Route> of_jobs = job_routes(service, runner, options, kinds);
   std::move(of_jobs.begin(), of_jobs.end(), std::back_inserter(routes));

@@ -14,6 +14,8 @@
 #include "api/jobs/sqlite_job_store.h"
 #include "api/service.h"
 #include "core/version.h"
+#include "server/access.h"
+#include "server/audit_log.h"
 #include "server/cli/command_parts.h"
 #include "server/cli/inquiry/data_folder.h"
 #include "server/cli/serve_command.h"
@@ -21,27 +23,51 @@
 #include "server/http/http_cross_origin.h"
 #include "server/http/http_listener.h"
 #include "server/http/http_server.h"
+#include "server/log.h"
+#include "server/metrics.h"
+#include "server/operator_routes.h"
 #include "server/responses.h"
 #include "server/routes.h"
+#include "server/signals.h"
+#include "server/worker_processes.h"
 
 namespace slipway::server {
 namespace {
 
-// The jobs' store, and the name under which this process works on them.
+// The jobs' store, and the name under which this process and its workers work on them.
 struct Jobs {
   std::shared_ptr<api::JobStore> store;
   api::JobRunnerOptions runner;
   std::optional<api::FileLock> lock;
 };
 
+// One worker process for each list of kinds.
+WorkerProcessOptions worker_processes(const ServeOptions& options, const std::string& data,
+                                      const api::JobRunnerOptions& runner) {
+  WorkerProcessOptions workers{.commands = {}, .family = runner.worker};
+  for (const std::vector<std::string>& kinds : runner.workers) {
+    std::vector<std::string> command{"/proc/self/exe", "worker",     "--bell", "--data", data,
+                                     "--jobs",         options.jobs, "--name", "{name}"};
+    for (const std::string& kind : kinds) command.insert(command.end(), {"--kind", kind});
+    command.insert(command.end(), {"--job-memory-mb", fmt::format("{}", options.job_memory_mb),
+                                   "--job-minutes", fmt::format("{}", options.job_minutes)});
+    workers.commands.push_back(std::move(command));
+  }
+  return workers;
+}
+
 Result<Jobs> open_jobs(const ServeOptions& options) {
   const std::string& path = options.jobs;
   Jobs jobs;
   constexpr double kMsPerDay = 24.0 * 3600.0 * 1000.0, kBytesPerMb = 1e6;
-  jobs.runner.kept = {.most = static_cast<std::size_t>(options.keep_jobs),
-                      .most_age_ms = static_cast<std::int64_t>(options.keep_days * kMsPerDay),
-                      .most_bytes = static_cast<std::int64_t>(options.keep_mb * kBytesPerMb)};
+  jobs.runner.kept = api::Retention{.most = static_cast<std::size_t>(options.keep_jobs),
+                                    .most_age_ms = static_cast<std::int64_t>(options.keep_days * kMsPerDay),
+                                    .most_bytes = static_cast<std::int64_t>(options.keep_mb * kBytesPerMb)};
   jobs.runner.workers = api::worker_kinds();
+  jobs.runner.admission = {.most_unfinished = static_cast<std::size_t>(options.most_jobs),
+                           .most_of_owner = static_cast<std::size_t>(options.most_jobs_per_address)};
+  jobs.runner.max_time = milliseconds_of(options.job_minutes);
+  jobs.runner.works_here = path.empty();  // what is in this process's memory only its threads can work on
   if (path.empty()) {
     jobs.store = api::make_memory_job_store();
     return jobs;
@@ -63,16 +89,8 @@ Result<Jobs> open_jobs(const ServeOptions& options) {
   return jobs;
 }
 
-// Blocks the signals that end the program, so that every thread started later leaves them to
-// sigwait().
-sigset_t block_ending_signals() {
-  sigset_t signals;
-  sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
-  sigaddset(&signals, SIGTERM);
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  std::signal(SIGPIPE, SIG_IGN);
-  return signals;
+bool is_loopback(std::string_view address) {
+  return address.starts_with("127.") || address == "::1" || address == "localhost";
 }
 
 std::optional<Error> fault_of(const ServeOptions& options) {
@@ -80,6 +98,11 @@ std::optional<Error> fault_of(const ServeOptions& options) {
   for (const std::string& origin : options.allowed_origins)
     if (const auto fault = fault_of_origin(origin))
       faults.push_back({"/allow-origin", fmt::format("\"{}\" is no origin: {}", origin, *fault)});
+  if (options.tokens.empty() && !options.no_tokens && !is_loopback(options.address))
+    faults.push_back(
+        {"/address", fmt::format("{} can be reached from other machines: give --tokens FILE, or --no-tokens "
+                                 "where a proxy before it knows who asks",
+                                 options.address)});
   if (faults.empty()) return std::nullopt;
   return Error{ErrorCode::kInvalidRequest, "the service can't be started so", std::move(faults)};
 }
@@ -89,26 +112,72 @@ HttpOptions http_options(const ServeOptions& options) {
   http.address = options.address;
   http.port = options.port;
   http.problem = problem_response;
+  http.log = [](std::string_view line) {
+    log_event(LogLevel::kWarning, "http", {{"what", std::string(line)}});
+  };
   http.host_names = options.allowed_hosts;
   http.max_connections = static_cast<std::size_t>(options.max_connections);
   http.max_connections_per_address = options.max_connections_per_address > 0
                                          ? static_cast<std::size_t>(options.max_connections_per_address)
                                          : http.max_connections;
   http.cross_origin.origins = options.allowed_origins;
-  http.cross_origin.request_headers = {"Content-Type", "If-None-Match", "Prefer"};
+  http.cross_origin.request_headers = {"Authorization", "Content-Type", "Idempotency-Key",
+                                       "If-None-Match", "Prefer",       "Priority"};
   http.cross_origin.response_headers = {"Allow",    "Content-Location",   "ETag",
                                         "Location", "Preference-Applied", "Retry-After"};
   return http;
+}
+
+// What becomes of jobs whose worker died, and of the words about it.
+void on_death(api::JobStore& store, ServiceMetrics& metrics, const std::string& worker,
+              const std::string& reason) {
+  const auto released = store.release(worker, api::HandBack::kDied, reason);
+  metrics.count_worker_death();
+  log_event(LogLevel::kWarning, "worker_died",
+            {{"worker", worker}, {"reason", reason}, {"jobs", static_cast<double>(released.value_or(0))}});
+}
+
+void log_answer(const AnsweredRequest& answered) {
+  const HttpRequest& request = answered.request;
+  log_event(LogLevel::kInfo, "request",
+            {{"id", request.id},
+             {"trace", trace_id_of(request.header("traceparent").value_or("")).value_or("")},
+             {"address", request.remote_address},
+             {"method", request.method},
+             {"path", request.path},
+             {"status", static_cast<double>(answered.response.status)},
+             {"bytes", static_cast<double>(answered.response.body.size())},
+             {"seconds", answered.seconds}});
 }
 
 }  // namespace
 
 int serve(const ServeOptions& options) {
   const sigset_t signals = block_ending_signals();
+  set_log(options.log_json ? LogForm::kJson : LogForm::kText, LogLevel::kInfo);
   if (const auto fault = fault_of(options)) return refuse(*fault);
   const auto data = data_folder(options.data);
   if (!data) return refuse(data.error());
-  const HttpOptions http = http_options(options);
+  ServiceMetrics metrics;
+  HttpOptions http = http_options(options);
+  const auto access = Access::open({.tokens = options.tokens, .max_requests_per_s = options.requests_per_s});
+  if (!access) return refuse(access.error());
+  http.admit = [&access](HttpRequest& request) -> std::optional<HttpResponse> {
+    const auto admitted = (*access)->admit(request);
+    if (admitted) return std::nullopt;
+    return problem_response(admitted.error(), &request);
+  };
+  std::optional<AuditLog> audit;
+  if (!options.audit.empty()) {
+    auto opened = AuditLog::open(options.audit);
+    if (!opened) return refuse(opened.error());
+    audit = *std::move(opened);
+  }
+  http.answered = [&, every = options.access_log](const AnsweredRequest& answered) {
+    metrics.count_answer(answered);
+    if (audit) audit->record(answered);
+    if (every) log_answer(answered);
+  };
   // First of all: a start that fails for want of the port has touched neither the store nor its jobs.
   auto listener = listen_at(http);
   if (!listener) return refuse(listener.error());
@@ -118,9 +187,33 @@ int serve(const ServeOptions& options) {
   const auto jobs = open_jobs(options);
   if (!jobs) return refuse(jobs.error());
   api::JobRunner runner(jobs->store, api::service_work(**service), jobs->runner);
+  std::optional<WorkerProcesses> workers;
+  if (!jobs->runner.works_here) {
+    workers.emplace(
+        worker_processes(options, *data, jobs->runner),
+        [&] {
+          runner.ring();
+          runner.trim();
+        },
+        [&](const std::string& name, const std::string& reason) {
+          on_death(*jobs->store, metrics, name, reason);
+          workers->ring();
+        });
+    runner.on_change([&] { workers->ring(); });
+  }
   if (const auto started = runner.start(); !started) return refuse(started.error());
-  HttpServer server(http, api_routes(**service, runner));
-  const auto port = server.start(*std::move(listener));
+  if (workers)
+    if (const auto started = workers->start(); !started) return refuse(started.error());
+  std::optional<HttpServer> server;
+  std::vector<Route> routes = api_routes(**service, runner);
+  const Operation operation{
+      .metrics = metrics,
+      .store = *jobs->store,
+      .http = [&] { return server->counters(); },
+      .missing_workers = [&] { return workers ? workers->wanted() - workers->running() : 0; }};
+  for (Route& route : operator_routes(operation)) routes.push_back(std::move(route));
+  server.emplace(http, std::move(routes));
+  const auto port = server->start(*std::move(listener));
   if (!port) return refuse(port.error());
   std::cout << fmt::format("slipway {} serves {} on http://{}:{}, jobs in {}\n", version(), *data,
                            options.address, *port, options.jobs.empty() ? "memory" : options.jobs)
@@ -128,8 +221,23 @@ int serve(const ServeOptions& options) {
   int signal = 0;
   sigwait(&signals, &signal);
   std::cout << "stopping: running jobs go back to the store\n" << std::flush;
+  if (workers) workers->stop();
   runner.stop();
-  server.stop();
+  server->stop();
+  return 0;
+}
+
+int print_new_token(const std::string& name, const std::string& role) {
+  const auto known = role_of(role);
+  std::vector<Fault> faults;
+  if (!known) faults.push_back({"/role", fmt::format("\"{}\" is no role: viewer, operator or admin", role)});
+  if (name.empty() || name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_-") != std::string::npos)
+    faults.push_back({"/name", "must be of lower-case letters, digits, \"_\" and \"-\""});
+  if (!faults.empty())
+    return refuse({ErrorCode::kInvalidRequest, "the token can't be made so", std::move(faults)});
+  const NewToken made = new_token(name, *known);
+  std::cerr << "The token, which is not kept anywhere; give it to its holder:\n" << made.token << "\n";
+  std::cout << made.entry << std::flush;
   return 0;
 }
 

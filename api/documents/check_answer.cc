@@ -190,7 +190,7 @@ void write_outcomes(Writer& w, const sim::DrivePrediction& prediction, const Pro
   w.end_object();
 }
 
-std::string write_check_answer(const CheckAnswer& answer) {
+std::string write_check_answer(const CheckAnswer& answer, StationDetail detail) {
   Writer w;
   w.begin_object().text("format", "check/1");
   w.text("terrain", answer.request.terrain).text("rover", answer.request.rover);
@@ -203,7 +203,7 @@ std::string write_check_answer(const CheckAnswer& answer) {
   w.key("summary").begin_object();
   write_drive_figures(w, answer.prediction);
   w.end_object();
-  write_route(w, answer.prediction, answer.provenance);
+  write_route(w, answer.prediction, answer.provenance, detail);
   w.end_object();
   return w.take();
 }

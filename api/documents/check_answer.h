@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "api/documents/drive_series.h"
 #include "api/json/writer.h"
 #include "api/requests/answers.h"
 
@@ -9,7 +10,7 @@ namespace slipway::api::json {
 
 // "check/1": verdict and reasons, the rules one by one, grounds and stretches, and the path as GeoJSON with
 // its series. The same answer gives the same bytes. Throws std::domain_error where a number is not finite.
-std::string write_check_answer(const CheckAnswer& answer);
+std::string write_check_answer(const CheckAnswer& answer, StationDetail detail = StationDetail::kThinned);
 
 // "decision": the verdict with its reasons.
 void write_decision(Writer& w, const planner::DriveDecision& decision);

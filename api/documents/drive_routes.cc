@@ -13,7 +13,7 @@ void write_routes(Writer& w, const std::vector<RouteFeature>& routes, const Prov
   w.key("features").begin_array();
   for (const RouteFeature& route : routes) {
     w.begin_object().text("type", "Feature").whole("id", route.id);
-    write_line(w, route.prediction);
+    write_line(w, route.prediction, route.shown);
     w.key("properties").begin_object();
     route.properties(w);
     w.end_object().end_object();
@@ -22,13 +22,21 @@ void write_routes(Writer& w, const std::vector<RouteFeature>& routes, const Prov
 }
 
 void write_route(Writer& w, const sim::DrivePrediction& prediction, const Provenance& provenance,
-                 const planner::DynamicVerification* dynamic) {
+                 StationDetail detail, const planner::DynamicVerification* dynamic) {
+  const std::vector<std::size_t> shown = stations_in(detail, prediction, 1);
   const auto properties = [&](Writer& of) {
     write_drive_figures(of, prediction);
-    write_stations(of, prediction, provenance);
+    write_stations(of, prediction, provenance, shown);
     if (dynamic != nullptr) write_dynamic_drive(of, *dynamic);
   };
-  write_routes(w, {{.id = 1, .prediction = prediction, .properties = properties}}, provenance);
+  write_routes(w, {{.id = 1, .prediction = prediction, .shown = shown, .properties = properties}},
+               provenance);
+}
+
+std::vector<std::size_t> stations_in(StationDetail detail, const sim::DrivePrediction& prediction,
+                                     std::size_t drives) {
+  const bool whole = detail == StationDetail::kWhole;
+  return shown_stations(prediction, whole ? prediction.stations.size() : max_stations_shown(drives));
 }
 
 }  // namespace slipway::api::json

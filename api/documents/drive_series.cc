@@ -1,6 +1,8 @@
 #include "api/documents/drive_series.h"
 
+#include <algorithm>
 #include <array>
+#include <numeric>
 
 #include "api/files/relief_values.h"
 #include "core/angle.h"
@@ -76,22 +78,29 @@ void write_figure(Writer& w, double value, bool known) {
     w.null();
 }
 
-void write_words(Writer& w, const std::vector<StationPrediction>& stations, const Provenance& provenance) {
-  w.key("outcome").begin_array();
-  for (const StationPrediction& s : stations) w.text(sim::describe(s.state.outcome));
-  w.end_array().key("turning_in_place").begin_array();
-  for (const StationPrediction& s : stations) w.boolean(s.station.turning_in_place);
-  w.end_array().key("soil").begin_array();
-  for (const StationPrediction& s : stations) {
-    if (s.soil) {
-      w.text(provenance.soils.at(*s.soil));
-    } else {
-      w.null();
-    }
-  }
-  w.end_array().key("on_unknown_ground").begin_array();
-  for (const StationPrediction& s : stations) w.boolean(s.on_unknown_ground);
+// An array under this key, with what `element(station)` writes of each station shown.
+template <class Element>
+void write_column(Writer& w, std::string_view key, const sim::DrivePrediction& prediction,
+                  const std::vector<std::size_t>& shown, const Element& element) {
+  w.key(key).begin_array();
+  for (const std::size_t k : shown) element(prediction.stations[k]);
   w.end_array();
+}
+
+void write_words(Writer& w, const sim::DrivePrediction& prediction, const Provenance& provenance,
+                 const std::vector<std::size_t>& shown) {
+  const auto column = [&](std::string_view key, const auto& element) {
+    write_column(w, key, prediction, shown, element);
+  };
+  column("outcome", [&](const StationPrediction& s) { w.text(sim::describe(s.state.outcome)); });
+  column("turning_in_place", [&](const StationPrediction& s) { w.boolean(s.station.turning_in_place); });
+  column("soil", [&](const StationPrediction& s) {
+    if (s.soil)
+      w.text(provenance.soils.at(*s.soil));
+    else
+      w.null();
+  });
+  column("on_unknown_ground", [&](const StationPrediction& s) { w.boolean(s.on_unknown_ground); });
 }
 
 }  // namespace
@@ -152,36 +161,66 @@ void write_spread(Writer& w, std::string_view name, const sim::DrawnSpread& spre
   w.significant("p95", spread.p95).end_object();
 }
 
-void write_stations(Writer& w, const sim::DrivePrediction& prediction, const Provenance& provenance) {
+std::size_t max_stations_shown(std::size_t drives) {
+  constexpr std::size_t kOfAll = 6000, kOfEach = 500;
+  return std::max(kOfEach, kOfAll / std::max<std::size_t>(drives, 1));
+}
+
+std::vector<std::size_t> shown_stations(const sim::DrivePrediction& prediction, std::size_t most) {
   const std::vector<StationPrediction>& stations = prediction.stations;
-  w.key("stations").begin_object().whole("count", static_cast<std::int64_t>(stations.size()));
-  for (const Column& column : kPlaceColumns) {
-    w.key(column.name).begin_array();
-    for (const StationPrediction& s : stations) w.metres(column.value(s));
-    w.end_array();
+  std::vector<std::size_t> shown;
+  if (stations.size() <= most) {
+    shown.resize(stations.size());
+    std::iota(shown.begin(), shown.end(), std::size_t{0});
+    return shown;
   }
-  for (const Column& column : kColumns) {
-    w.key(column.name).begin_array();
-    for (const StationPrediction& s : stations)
+  using Quantity = double (*)(const StationPrediction&);
+  constexpr std::array<Quantity, 3> kPeaks{[](const StationPrediction& s) { return s.slip_ratio_p95; },
+                                           [](const StationPrediction& s) { return s.attitude.tilt_rad(); },
+                                           [](const StationPrediction& s) { return s.current_a_p95; }};
+  const std::size_t parts = std::max<std::size_t>(1, (most - 1) / (1 + kPeaks.size()));
+  for (std::size_t part = 0; part < parts; ++part) {
+    const std::size_t begin = part * stations.size() / parts, end = (part + 1) * stations.size() / parts;
+    shown.push_back(begin);
+    for (const Quantity quantity : kPeaks) {
+      std::size_t peak = begin;
+      for (std::size_t k = begin; k < end; ++k)
+        if (quantity(stations[k]) > quantity(stations[peak])) peak = k;
+      shown.push_back(peak);
+    }
+  }
+  shown.push_back(stations.size() - 1);
+  std::sort(shown.begin(), shown.end());
+  shown.erase(std::unique(shown.begin(), shown.end()), shown.end());
+  return shown;
+}
+
+void write_stations(Writer& w, const sim::DrivePrediction& prediction, const Provenance& provenance,
+                    const std::vector<std::size_t>& shown) {
+  w.key("stations").begin_object().whole("count", static_cast<std::int64_t>(shown.size()));
+  if (shown.size() < prediction.stations.size())
+    w.whole("thinned_from", static_cast<std::int64_t>(prediction.stations.size()));
+  for (const Column& column : kPlaceColumns)
+    write_column(w, column.name, prediction, shown,
+                 [&](const StationPrediction& s) { w.metres(column.value(s)); });
+  for (const Column& column : kColumns)
+    write_column(w, column.name, prediction, shown, [&](const StationPrediction& s) {
       write_figure(w, column.value(s), !(column.of_wheels && s.state.by_slip_curve));
-    w.end_array();
-  }
-  write_words(w, stations, provenance);
+    });
+  write_words(w, prediction, provenance, shown);
   w.key("wheels").begin_object();
   for (std::size_t wheel = 0; wheel < prediction.wheel_names.size(); ++wheel) {
     w.key(prediction.wheel_names[wheel]).begin_object();
-    for (const WheelColumn& column : kWheelColumns) {
-      w.key(column.name).begin_array();
-      for (const StationPrediction& s : stations)
+    for (const WheelColumn& column : kWheelColumns)
+      write_column(w, column.name, prediction, shown, [&](const StationPrediction& s) {
         write_figure(w, column.value(s.state.wheels[wheel]), !s.state.by_slip_curve);
-      w.end_array();
-    }
+      });
     w.end_object();
   }
   w.end_object().end_object();
 }
 
-void write_line(Writer& w, const sim::DrivePrediction& prediction) {
+void write_line(Writer& w, const sim::DrivePrediction& prediction, const std::vector<std::size_t>& shown) {
   w.key("geometry");
   // A LineString has two positions at least (RFC 7946): a rover that is stuck where it stands has none.
   if (prediction.stations.size() < 2) {
@@ -189,7 +228,8 @@ void write_line(Writer& w, const sim::DrivePrediction& prediction) {
     return;
   }
   w.begin_object().text("type", "LineString").key("coordinates").begin_array();
-  for (const StationPrediction& s : prediction.stations) {
+  for (const std::size_t k : shown) {
+    const StationPrediction& s = prediction.stations[k];
     w.begin_array().metres(s.station.pose.x_m).metres(s.station.pose.y_m).metres(s.height_m).end_array();
   }
   w.end_array().end_object();

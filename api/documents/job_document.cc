@@ -21,6 +21,8 @@ void write_members(Writer& w, const Job& job) {
   w.text("id", job.id).text("kind", job.kind).text("state", describe(job.state));
   w.text("stage", job.stage).significant("progress", job.progress).whole("attempt", job.attempt);
   w.text("created", utc(job.created_ms));
+  w.whole("urgency", job.urgency);
+  if (!job.last_death.empty()) w.text("interrupted", job.last_death);
   if (job.started_ms) w.text("started", utc(*job.started_ms));
   if (job.ended_ms) w.text("ended", utc(*job.ended_ms));
   w.key("links").begin_object().text("self", "/v1/jobs/" + job.id);
@@ -30,10 +32,16 @@ void write_members(Writer& w, const Job& job) {
 
 }  // namespace
 
-std::string write_job(const Job& job, const std::optional<std::string>& problem) {
+std::string write_job(const Job& job, const std::optional<std::string>& problem,
+                      const std::optional<QueueEstimate>& queue) {
   Writer w;
   w.begin_object();
   write_members(w, job);
+  if (queue) {
+    w.key("queue").begin_object().whole("ahead", queue->ahead);
+    if (queue->wait_s) w.significant("estimated_wait_s", *queue->wait_s);
+    w.end_object();
+  }
   if (job.state == JobState::kFailed && problem) w.key("problem").raw(*problem);
   w.end_object();
   return w.take();

@@ -30,7 +30,7 @@ void write_judged_route(Writer& w, const planner::Route& route) {
 
 }  // namespace
 
-std::string write_plan_answer(const PlanAnswer& answer) {
+std::string write_plan_answer(const PlanAnswer& answer, StationDetail detail) {
   Writer w;
   w.begin_object().text("format", "plan/1");
   w.text("terrain", answer.request.terrain).text("rover", answer.request.rover);
@@ -55,15 +55,17 @@ std::string write_plan_answer(const PlanAnswer& answer) {
   }
   std::vector<RouteFeature> features;
   for (const planner::Route& route : answer.plan.routes) {
-    const auto properties = [&](Writer& of) {
+    const std::vector<std::size_t> shown = stations_in(detail, route.prediction, answer.plan.routes.size());
+    const auto properties = [&answer, &route, shown](Writer& of) {
       write_judged_route(of, route);
       write_decision(of, route.decision);
       write_outcomes(of, route.prediction, answer.provenance);
       write_position_uncertainty(of, route.prediction, answer.request.drive.checks);
-      write_stations(of, route.prediction, answer.provenance);
+      write_stations(of, route.prediction, answer.provenance, shown);
       if (route.dynamic) write_dynamic_drive(of, *route.dynamic);
     };
-    features.push_back({.id = route.rank, .prediction = route.prediction, .properties = properties});
+    features.push_back(
+        {.id = route.rank, .prediction = route.prediction, .shown = shown, .properties = properties});
   }
   write_routes(w, features, answer.provenance);
   w.end_object();

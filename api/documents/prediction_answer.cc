@@ -10,7 +10,7 @@
 
 namespace slipway::api::json {
 
-std::string write_prediction_answer(const PredictionAnswer& answer) {
+std::string write_prediction_answer(const PredictionAnswer& answer, StationDetail detail) {
   Writer w;
   w.begin_object().text("format", "prediction/1");
   w.text("terrain", answer.request.terrain).text("rover", answer.request.rover);
@@ -24,7 +24,7 @@ std::string write_prediction_answer(const PredictionAnswer& answer) {
   write_decision(w, answer.decision);
   write_outcomes(w, answer.prediction, answer.provenance);
   write_position_uncertainty(w, answer.prediction, answer.request.drive.checks);
-  write_route(w, answer.prediction, answer.provenance, answer.dynamic ? &*answer.dynamic : nullptr);
+  write_route(w, answer.prediction, answer.provenance, detail, answer.dynamic ? &*answer.dynamic : nullptr);
   w.end_object();
   return w.take();
 }

@@ -150,6 +150,14 @@ void read_options(ObjectReader& reader, gap::SoilEstimationOptions& options) {
   reader.whole("seed", kOptional, std::uint64_t{0}, kMaxExactWhole, options.seed);
 }
 
+// Drives bring their rover, their soils and what is asked of them: all else would be dropped in silence.
+void refuse_beside_campaign(const JsonValue& document, std::vector<Fault>& faults) {
+  for (const std::string& key : document.keys)
+    if (key != "campaign" && key != "channels" && key != "wheel_tests" && key != "plate_tests")
+      faults.push_back(
+          {"/" + key, fmt::format("{} is not used where the drives of a campaign are asked", key)});
+}
+
 }  // namespace
 
 Result<Reading<SoilEstimateRequest>> read_soil_estimate_request(std::string_view bytes) {
@@ -177,6 +185,7 @@ Result<Reading<SoilEstimateRequest>> read_soil_estimate_request(std::string_view
   reader.texts("channels", kOptional, {1, 10}, {.most = 64, .is_name = true}, channels);
   read_options(reader, request.options);
   reader.refuse_unknown();
+  if (!request.campaign.empty()) refuse_beside_campaign(*document, reading.faults);
   for (Fault& fault : choose_channels(channels, request)) reading.faults.push_back(std::move(fault));
   const bool tests = !request.data.wheels.empty() || !request.data.plates.empty();
   if (reading.faults.empty() && tests == !request.campaign.empty())

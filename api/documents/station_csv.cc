@@ -70,7 +70,9 @@ std::optional<double> largest_of(const JsonValue& wheels, std::string_view key, 
 
 class Rows {
  public:
-  explicit Rows(const JsonValue& stations) : stations_(stations) {}
+  // The energy is a sum over all stations.
+  explicit Rows(const JsonValue& stations)
+      : stations_(stations), known_(stations.find("thinned_from") == nullptr) {}
 
   std::string row(std::size_t k) {
     std::string line;
@@ -97,7 +99,7 @@ class Rows {
 
   const JsonValue& stations_;
   double energy_wh_ = 0.0, before_s_ = 0.0;
-  bool known_ = true;
+  bool known_;
 };
 
 }  // namespace
@@ -122,6 +124,10 @@ Result<std::string> station_csv(std::string_view document) {
   }
   if (written == 0) return fail(ErrorCode::kNoData, "the answer has no stations");
   return csv;
+}
+
+bool is_thinned(std::string_view document) {
+  return has_stations(document) && document.find(R"(,"thinned_from":)") != std::string_view::npos;
 }
 
 bool has_stations(std::string_view document) {

@@ -16,6 +16,10 @@ std::string_view describe(JobState state);
 std::optional<JobState> job_state(std::string_view name);
 bool has_ended(JobState state);
 
+// Urgencies go from 0, which begins first, to 7 [RFC 9218, 4.1].
+inline constexpr int kUsualUrgency = 3;
+inline constexpr int kLeastUrgency = 7;
+
 // What is known of a job, without the bytes of its request and outcome.
 struct Job {
   std::string id;    // 32 hexadecimal digits: 128 random bits, so that nobody guesses another's job
@@ -26,6 +30,9 @@ struct Job {
   std::int64_t version = 1;     // grows with every change: the ETag
   int attempt = 0;              // how often it was claimed
   int deaths = 0;               // how often a worker left it without handing it back
+  std::string last_death = {};  // why the last of them did, in words for a person; empty: none has
+  std::string owner = {};       // who asked for it
+  int urgency = kUsualUrgency;  // which of those that wait begins first
   std::int64_t created_ms = 0;  // since 1970, as the times below
   std::optional<std::int64_t> started_ms;
   std::optional<std::int64_t> ended_ms;

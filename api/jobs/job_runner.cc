@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
+#include <new>
+#include <ratio>
 #include <utility>
 
 #include "api/json/problem_document.h"
@@ -14,9 +17,15 @@ namespace slipway::api {
 class JobRunner::JobProgress final : public Progress {
  public:
   JobProgress(JobRunner& runner, Lease lease)
-      : runner_(runner), lease_(std::move(lease)), written_(Clock::now()) {}
+      : runner_(runner),
+        lease_(std::move(lease)),
+        begun_(Clock::now()),
+        written_(begun_),
+        rings_(runner.rings_),
+        heard_(begun_.time_since_epoch()) {}
 
   void report(std::string_view stage, double fraction) override {
+    heard_ = Clock::now().time_since_epoch();
     const std::scoped_lock lock(mutex_);
     const bool is_new_stage = stage != stage_;
     stage_ = stage;
@@ -25,21 +34,36 @@ class JobRunner::JobProgress final : public Progress {
   }
 
   bool cancelled() const override {
-    if (cancelled_ || runner_.stopping_) return true;
+    const Clock::time_point now = Clock::now();
+    heard_ = now.time_since_epoch();
+    if (cancelled_ || runner_.stopping_ || is_over_time()) return true;
     const std::unique_lock lock(mutex_, std::try_to_lock);
-    // Work that asks but has nothing to report is alive too.
+    // Work that asks but has nothing to report is alive too, and may be wanted no more.
     constexpr int kRenewalsPerLease = 3;
-    if (lock && Clock::now() - written_ >= runner_.options_.lease / kRenewalsPerLease) write();
+    const auto renewal = std::min(runner_.options_.renewal, runner_.options_.lease / kRenewalsPerLease);
+    constexpr std::chrono::milliseconds kBetweenLooks{20};  // others' jobs ring too
+    const bool rung = rings_ != runner_.rings_ && now - written_ >= kBetweenLooks;
+    if (lock && (rung || now - written_ >= renewal)) write();
     return cancelled_;
   }
 
   void cancel() { cancelled_ = true; }
+
+  bool is_over_time() const {
+    return runner_.options_.max_time && Clock::now() - begun_ > *runner_.options_.max_time;
+  }
+
+  std::chrono::milliseconds silence() const {
+    return std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now().time_since_epoch() -
+                                                                 heard_.load());
+  }
 
  private:
   using Clock = std::chrono::steady_clock;
 
   void write() const {
     written_ = Clock::now();
+    rings_ = runner_.rings_;
     const auto held =
         runner_.store_->report(lease_, stage_, fraction_, now_ms() + runner_.options_.lease.count());
     // A store that can't be written for a moment is no reason to throw the work away.
@@ -48,8 +72,11 @@ class JobRunner::JobProgress final : public Progress {
 
   JobRunner& runner_;
   const Lease lease_;
+  const Clock::time_point begun_;
   mutable std::mutex mutex_;
   mutable Clock::time_point written_;
+  mutable int rings_;  // of the runner, as of the last writing
+  mutable std::atomic<Clock::duration> heard_;
   mutable std::atomic<bool> cancelled_{false};
   std::string stage_;
   double fraction_ = 0.0;
@@ -63,9 +90,13 @@ JobRunner::~JobRunner() {
 }
 
 Result<void> JobRunner::start() {
-  const auto released = store_->release(options_.worker, HandBack::kDied);
+  // Where the workers are processes of their own, who counts their deaths is who sees them die.
+  const auto released = options_.works_here ? store_->release(options_.worker, HandBack::kDied,
+                                                              "the process ended while it was at this work")
+                                            : store_->release(options_.worker, HandBack::kStopped);
   if (!released) return fail(released.error());
-  static_cast<void>(store_->forget_ended(options_.kept, now_ms()));
+  trim();
+  if (!options_.works_here) return {};
   for (const std::vector<std::string>& kinds : options_.workers) {
     threads_.emplace_back([this, &kinds] { serve(kinds); });
   }
@@ -85,24 +116,69 @@ void JobRunner::stop() {
   threads_.clear();
 }
 
-Result<Job> JobRunner::submit(const std::string& kind, std::string request) {
-  auto job = store_->append({new_job_id(), kind, std::move(request)}, now_ms(), options_.most_unfinished);
+Result<Job> JobRunner::submit(const std::string& kind, std::string request, Submission submission) {
+  auto job = store_->append({.id = new_job_id(),
+                             .kind = kind,
+                             .request = std::move(request),
+                             .owner = std::move(submission.owner),
+                             .key = std::move(submission.key),
+                             .urgency = submission.urgency},
+                            now_ms(), options_.admission);
   if (job) {
-    const std::scoped_lock lock(mutex_);
-    ++submissions_;
-    submitted_.notify_all();  // not every worker takes every kind
+    ring();
+    if (on_change_) on_change_();
   }
   return job;
 }
 
+void JobRunner::trim() {
+  if (options_.kept) static_cast<void>(store_->forget_ended(*options_.kept, now_ms()));
+}
+
+void JobRunner::ring() {
+  const std::scoped_lock lock(mutex_);
+  ++rings_;
+  submitted_.notify_all();  // not every worker takes every kind
+  ended_.notify_all();
+}
+
+std::chrono::milliseconds JobRunner::longest_silence() const {
+  const std::scoped_lock lock(mutex_);
+  std::chrono::milliseconds longest{0};
+  for (const auto& [id, progress] : active_) longest = std::max(longest, progress->silence());
+  return longest;
+}
+
+Result<std::optional<QueueEstimate>> JobRunner::queue_estimate(const Job& job) {
+  // Those that the job waits behind are what the worker with the fewest kinds that takes it does.
+  const std::vector<std::string>* fewest = nullptr;
+  int takers = 0;
+  for (const std::vector<std::string>& kinds : options_.workers) {
+    if (!kinds.empty() && std::find(kinds.begin(), kinds.end(), job.kind) == kinds.end()) continue;
+    ++takers;
+    if (fewest == nullptr || fewest->empty() || (!kinds.empty() && kinds.size() < fewest->size()))
+      fewest = &kinds;
+  }
+  if (fewest == nullptr) return std::nullopt;
+  const auto place = store_->place_in_queue(job.id, *fewest);
+  if (!place) return fail(place.error());
+  if (!*place) return std::nullopt;
+  QueueEstimate estimate{.ahead = (*place)->ahead, .wait_s = (*place)->work_ahead_s};
+  if (estimate.wait_s) *estimate.wait_s /= takers;
+  return estimate;
+}
+
 Result<std::optional<Job>> JobRunner::dismiss(std::string_view id) {
   auto job = store_->dismiss(id, now_ms());
-  const std::scoped_lock lock(mutex_);
-  if (job && *job && (*job)->state == JobState::kDismissed) {
-    const auto active = active_.find(id);
-    if (active != active_.end()) active->second->cancel();
+  {
+    const std::scoped_lock lock(mutex_);
+    if (job && *job && (*job)->state == JobState::kDismissed) {
+      const auto active = active_.find(id);
+      if (active != active_.end()) active->second->cancel();
+    }
   }
   ended_.notify_all();
+  if (on_change_) on_change_();
   return job;
 }
 
@@ -114,13 +190,14 @@ Result<std::optional<Job>> JobRunner::wait(std::string_view id, std::chrono::mil
     auto job = store_->get(id);
     const bool over = !job || !*job || has_ended((*job)->state) || stopping_;
     if (over || std::chrono::steady_clock::now() >= until) return job;
-    ended_.wait_until(lock, until);
+    // Whether it ended in another process is asked for, should that not have rung.
+    ended_.wait_until(lock, std::min(until, std::chrono::steady_clock::now() + options_.idle_poll));
   }
 }
 
 void JobRunner::serve(const std::vector<std::string>& kinds) {
   while (!stopping_) {
-    const int seen = submissions_;
+    const int seen = rings_;
     const std::int64_t now = now_ms();
     const auto claimed = store_->claim(options_.worker, kinds, now, now + options_.lease.count());
     if (claimed && *claimed) {
@@ -128,7 +205,7 @@ void JobRunner::serve(const std::vector<std::string>& kinds) {
       continue;
     }
     std::unique_lock lock(mutex_);
-    submitted_.wait_for(lock, options_.idle_poll, [&] { return stopping_ || submissions_ != seen; });
+    submitted_.wait_for(lock, options_.idle_poll, [&] { return stopping_ || rings_ != seen; });
   }
 }
 
@@ -141,38 +218,52 @@ void JobRunner::run(const ClaimedJob& claimed) {
   }
   // A dismissal between the claim and the line above reached the store but not us: the first report tells.
   progress.report("starting", 0.0);
-  Result<std::string> answer = fail(ErrorCode::kInternal, "");
   const bool gives_up = claimed.damaged || claimed.job.deaths >= options_.most_deaths;
-  if (claimed.damaged) {
-    answer =
-        fail(ErrorCode::kDamagedStore, "what is stored of the request is not what was accepted: ask again");
-  } else if (gives_up) {
-    answer = fail(ErrorCode::kInternal,
-                  fmt::format("the process ended {} times while it was at this work", claimed.job.deaths));
-  } else if (!progress.cancelled()) {
-    try {
-      answer = work_(claimed.job.kind, claimed.request, progress);
-    } catch (const std::exception& broken) {
-      answer = fail(ErrorCode::kInternal, broken.what());
-    }
-  }
+  Result<JobAnswer> answer = answer_of(claimed, progress);
+  const bool over_time = !answer && !stopping_ && progress.is_over_time();
+  if (over_time)
+    answer = fail(ErrorCode::kJobTooLarge,
+                  fmt::format("the work took longer than the {:g} minutes that one job may take",
+                              std::chrono::duration<double, std::ratio<60>>(*options_.max_time).count()));
+  const bool wanted = gives_up || over_time || !progress.cancelled();
   {
     const std::scoped_lock lock(mutex_);
     active_.erase(claimed.job.id);
   }
-  const bool wanted = !progress.cancelled() || gives_up;
   if (wanted || answer) conclude(claimed, answer);
-  const std::scoped_lock lock(mutex_);
-  --running_;
-  ended_.notify_all();
+  {
+    const std::scoped_lock lock(mutex_);
+    --running_;
+    ended_.notify_all();
+  }
+  if (on_change_) on_change_();
 }
 
-void JobRunner::conclude(const ClaimedJob& claimed, const Result<std::string>& answer) {
+Result<JobAnswer> JobRunner::answer_of(const ClaimedJob& claimed, JobProgress& progress) {
+  if (claimed.damaged)
+    return fail(ErrorCode::kDamagedStore,
+                "what is stored of the request is not what was accepted: ask again");
+  if (claimed.job.deaths >= options_.most_deaths)
+    return fail(
+        ErrorCode::kInternal,
+        fmt::format("the worker died {} times while it was at this work{}{}", claimed.job.deaths,
+                    claimed.job.last_death.empty() ? "" : "; the last time: ", claimed.job.last_death));
+  if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the work was dismissed before it began");
+  try {
+    return work_(claimed.job.kind, claimed.request, progress);
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::kJobTooLarge, "the work needs more memory than one job may use");
+  } catch (const std::exception& broken) {
+    return fail(ErrorCode::kInternal, broken.what());
+  }
+}
+
+void JobRunner::conclude(const ClaimedJob& claimed, const Result<JobAnswer>& answer) {
   const JobState state = answer ? JobState::kSuccessful : JobState::kFailed;
-  const std::string outcome = answer ? *answer : json::write_problem(answer.error());
+  const JobAnswer outcome = answer ? *answer : JobAnswer(json::write_problem(answer.error()));
   // The store refuses it when the job was dismissed meanwhile: then nobody ever sees this outcome.
   static_cast<void>(store_->finish(claimed.lease(), state, outcome, now_ms()));
-  static_cast<void>(store_->forget_ended(options_.kept, now_ms()));
+  trim();
 }
 
 }  // namespace slipway::api

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -19,19 +20,37 @@ namespace slipway::api {
 // What a job of some kind does with its request: the answer's bytes. It asks progress.cancelled() at least
 // every 100 ms.
 using JobWork =
-    std::function<Result<std::string>(const std::string& kind, const std::string& request, Progress&)>;
+    std::function<Result<JobAnswer>(const std::string& kind, const std::string& request, Progress&)>;
 
 struct JobRunnerOptions {
-  // One list of kinds per worker thread: that worker claims only these; an empty list claims every kind.
-  // Short work has a worker of its own, so that it does not wait behind long work: see worker_kinds().
+  // One list of kinds per worker: that worker claims only these; an empty list claims every kind. Short work
+  // has a worker of its own, so that it does not wait behind long work: see worker_kinds().
   std::vector<std::vector<std::string>> workers{{}};
-  std::size_t most_unfinished = 64;  // accepted and running jobs; more are refused
-  Retention kept = {};               // of ended jobs
-  int most_deaths = 5;               // a job during which the process ended so often has failed
+  bool works_here = true;    // the workers are threads of this process; otherwise other processes work
+  Admission admission = {};  // more jobs are refused  std::optional<Retention> kept = Retention{};  // of
+                             // ended jobs; nothing: another process sees to that
+  int most_deaths = 5;       // a job during which its worker died so often has failed
   std::string worker = "slipway";  // the name under which jobs are claimed; a restart gives back what it held
   std::chrono::milliseconds lease{30'000};
   std::chrono::milliseconds progress_interval{200};
-  std::chrono::milliseconds idle_poll{1000};  // how often an idle worker looks for jobs that others left
+  // How often work that has nothing to report renews its lease, and learns that nobody wants it any more.
+  std::chrono::milliseconds renewal{1000};
+  // How often an idle worker looks for jobs that others left, and who waits for an end whether it has come.
+  std::chrono::milliseconds idle_poll{1000};
+  std::optional<std::chrono::milliseconds> max_time;  // of one attempt
+};
+
+// Who asks for a job, and how.
+struct Submission {
+  std::string owner = {};
+  std::optional<std::string> key = {};
+  int urgency = kUsualUrgency;
+};
+
+// When a job that waits is likely to begin.
+struct QueueEstimate {
+  int ahead = 0;                 // how many of those that wait begin before it
+  std::optional<double> wait_s;  // by what the last jobs took; nothing where that is not known
 };
 
 // Claims jobs from a store and runs them on its own threads. Jobs that were accepted or running when the
@@ -51,30 +70,47 @@ class JobRunner {
   JobStore& store() { return *store_; }
 
   // Errors: too_many_jobs, storage; then nothing was accepted.
-  Result<Job> submit(const std::string& kind, std::string request);
+  // over_quota; invalid_request where the submission's key names another request.
+  Result<Job> submit(const std::string& kind, std::string request, Submission submission = {});
   // Dismisses and stops the work. The job afterwards; nothing where the id is unknown.
   Result<std::optional<Job>> dismiss(std::string_view id);
   // The job as soon as it has ended, or as it is after the time.
   Result<std::optional<Job>> wait(std::string_view id, std::chrono::milliseconds longest);
+  // Of a job that waits; nothing where it does not.
+  Result<std::optional<QueueEstimate>> queue_estimate(const Job& job);
+  // Looks at once whether there is new work, an end that somebody waits for, or a dismissal: another process
+  // has said so.
+  void ring();
+  // Forgets the ended jobs that are not to be kept; called here after each job that this process has worked
+  // on.
+  void trim();
+  // Called after each acceptance, dismissal and end, from the thread that brought it about; to be set before
+  // start().
+  void on_change(std::function<void()> call) { on_change_ = std::move(call); }
   // Jobs being worked on by this process now.
   int running() const { return running_; }
+  // How long the work of this process has neither reported anything nor asked whether it is wanted; the
+  // longest of all jobs under way.
+  std::chrono::milliseconds longest_silence() const;
 
  private:
   class JobProgress;
 
   void serve(const std::vector<std::string>& kinds);
   void run(const ClaimedJob& claimed);
-  void conclude(const ClaimedJob& claimed, const Result<std::string>& answer);
+  Result<JobAnswer> answer_of(const ClaimedJob& claimed, JobProgress& progress);
+  void conclude(const ClaimedJob& claimed, const Result<JobAnswer>& answer);
 
   std::shared_ptr<JobStore> store_;
   JobWork work_;
   JobRunnerOptions options_;
 
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable submitted_;
   std::condition_variable ended_;
   std::map<std::string, JobProgress*, std::less<>> active_;  // by job id
-  std::atomic<int> submissions_{0};  // so that none is missed between a claim and the wait for the next
+  std::function<void()> on_change_;
+  std::atomic<int> rings_{0};  // so that none is missed between a claim and the wait for the next
   std::atomic<bool> stopping_{false};
   std::atomic<int> running_{0};
   std::vector<std::thread> threads_;

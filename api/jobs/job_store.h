@@ -2,9 +2,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "api/jobs/job.h"
@@ -15,7 +17,33 @@ namespace slipway::api {
 struct NewJob {
   std::string id;
   std::string kind;
-  std::string request;  // its bytes, as they are to be run
+  std::string request;     // its bytes, as they are to be run
+  std::string owner = {};  // who asks: bounds and keys hold for each owner alone
+  // The client's name for this request. A second request of the owner under it is answered with the job of
+  // the first, for as long as that is kept.
+  std::optional<std::string> key = {};
+  int urgency = kUsualUrgency;
+};
+
+// How many jobs may be waiting or running when another is to be accepted.
+struct Admission {
+  std::size_t most_unfinished = 64;
+  std::size_t most_of_owner = std::numeric_limits<std::size_t>::max();
+};
+
+// How many jobs of a kind are in a state.
+struct JobCount {
+  std::string kind;
+  JobState state = JobState::kAccepted;
+  std::int64_t count = 0;
+};
+
+// What is before a job that waits, of certain kinds.
+struct QueuePlace {
+  int ahead = 0;  // how many of those that wait begin before it
+  // How long the work takes that these and those under way still have, by what the last jobs of their kinds
+  // took. Nothing where a kind has none that ended well.
+  std::optional<double> work_ahead_s;
 };
 
 // The right to work on a job until the lease ends or is renewed. The attempt is the fence: a worker that was
@@ -30,6 +58,15 @@ struct ClaimedJob {
   std::string request;
   bool damaged = false;  // the stored request is not what was accepted, and must not be run
   Lease lease() const { return {job.id, job.attempt}; }
+};
+
+// What is kept of a job that ended well.
+struct JobAnswer {
+  JobAnswer(std::string the_bytes, std::vector<std::string> the_series = {})
+      : bytes(std::move(the_bytes)), series(std::move(the_series)) {}
+
+  std::string bytes;
+  std::vector<std::string> series;  // a long table in pages, which are kept and read one by one
 };
 
 // Why a worker gives back what it holds.
@@ -57,12 +94,13 @@ class JobStore {
   virtual ~JobStore() = default;
 
   // Once this returns, the job survives the process, and whatever else the implementation promises to
-  // survive. too_many_jobs when `most_unfinished` jobs are accepted or running already.
-  virtual Result<Job> append(const NewJob& job, std::int64_t now, std::size_t most_unfinished) = 0;
+  // survive. Errors: too_many_jobs, over_quota (the owner's) where as many are accepted or running already;
+  // invalid_request at /Idempotency-Key where the key names another request.
+  virtual Result<Job> append(const NewJob& job, std::int64_t now, const Admission& admission) = 0;
 
-  // The oldest job of these kinds (of any kind where none is named) that is accepted, or running under a
-  // lease that has ended, which is a death. It is running afterwards, its attempt one higher. Nothing where
-  // there is none.
+  // The most urgent, and of these the oldest, job of these kinds (of any kind where none is named) that is
+  // accepted, or running under a lease that has ended, which is a death. It is running afterwards, its
+  // attempt one higher. Nothing where there is none.
   virtual Result<std::optional<ClaimedJob>> claim(std::string_view worker,
                                                   const std::vector<std::string>& kinds, std::int64_t now,
                                                   std::int64_t lease_until) = 0;
@@ -72,10 +110,11 @@ class JobStore {
                               std::int64_t lease_until) = 0;
   // successful with its answer, or failed with its problem document. False: the lease is lost, nothing was
   // kept.
-  virtual Result<bool> finish(const Lease& lease, JobState state, std::string_view outcome,
+  virtual Result<bool> finish(const Lease& lease, JobState state, const JobAnswer& outcome,
                               std::int64_t now) = 0;
-  // Gives back what `worker` holds, as accepted; a death is counted.
-  virtual Result<int> release(std::string_view worker, HandBack why) = 0;
+  // Gives back what `worker`, or one named after it ("worker/..."), holds, as accepted. A death is counted,
+  // and its reason kept with the job.
+  virtual Result<int> release(std::string_view worker, HandBack why, std::string_view reason = {}) = 0;
 
   // The job afterwards: dismissed, or as it had ended before. Nothing where the id is unknown.
   virtual Result<std::optional<Job>> dismiss(std::string_view id, std::int64_t now) = 0;
@@ -83,6 +122,14 @@ class JobStore {
   // The answer or the problem document of a job that ended so; nothing otherwise. An error where it is not
   // what was kept.
   virtual Result<std::optional<std::string>> outcome(std::string_view id) = 0;
+  // A page of a successful job's series, from 1 on; nothing where there is no such page. An error where it is
+  // not what was kept.
+  virtual Result<std::optional<std::string>> series(std::string_view id, std::int64_t page) = 0;
+  // Of a job that waits, among jobs of these kinds. Nothing where it does not wait.
+  virtual Result<std::optional<QueuePlace>> place_in_queue(std::string_view id,
+                                                           const std::vector<std::string>& kinds) = 0;
+  // Of those that are kept, by kind and state.
+  virtual Result<std::vector<JobCount>> counts() = 0;
   // Newest first.
   virtual Result<std::vector<Job>> list(std::size_t most) = 0;
   // Forgets the ended jobs that are not to be kept, and gives their place back. Returns how many.

@@ -1,59 +1,70 @@
 #include "api/jobs/memory_job_store.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <deque>
+#include <map>
 #include <mutex>
+#include <utility>
+
+#include "api/jobs/job_admission.h"
 
 namespace slipway::api {
 namespace {
 
 struct Entry {
   Job job;
-  std::string request;
+  NewJob asked;
   std::string outcome;
+  std::vector<std::string> series = {};
   std::string worker;
   std::int64_t lease_until = 0;
 };
 
 class MemoryJobStore final : public JobStore {
  public:
-  Result<Job> append(const NewJob& job, std::int64_t now, std::size_t most_unfinished) override {
+  Result<Job> append(const NewJob& job, std::int64_t now, const Admission& admission) override {
     const std::scoped_lock lock(mutex_);
-    const auto unfinished = static_cast<std::size_t>(std::count_if(
-        entries_.begin(), entries_.end(), [](const Entry& e) { return !has_ended(e.job.state); }));
-    if (unfinished >= most_unfinished) {
-      return fail(ErrorCode::kTooManyJobs, fmt::format("{} jobs are waiting or running already", unfinished));
+    std::int64_t unfinished = 0, of_owner = 0;
+    for (const Entry& entry : entries_) {
+      const bool same_owner = entry.asked.owner == job.owner;
+      if (job.key && same_owner && entry.asked.key == job.key) {
+        if (entry.asked.kind != job.kind || entry.asked.request != job.request)
+          return fail(another_request());
+        return entry.job;
+      }
+      if (has_ended(entry.job.state)) continue;
+      ++unfinished;
+      of_owner += same_owner ? 1 : 0;
     }
+    if (auto refusal = refused_by(admission, unfinished, of_owner)) return fail(*std::move(refusal));
     if (find(job.id) != nullptr) return fail(ErrorCode::kStorage, "the job's id is taken");
-    Entry& entry = entries_.emplace_back();
-    entry.job.id = job.id;
-    entry.job.kind = job.kind;
-    entry.job.created_ms = now;
-    entry.request = job.request;
-    return entry.job;
+    entries_.push_back({.job = accepted_job(job, now), .asked = job});
+    return entries_.back().job;
   }
 
   Result<std::optional<ClaimedJob>> claim(std::string_view worker, const std::vector<std::string>& kinds,
                                           std::int64_t now, std::int64_t lease_until) override {
     const std::scoped_lock lock(mutex_);
+    Entry* next = nullptr;
     for (Entry& entry : entries_) {
       const bool free = entry.job.state == JobState::kAccepted ||
                         (entry.job.state == JobState::kRunning && entry.lease_until < now);
-      const bool of_kind =
-          kinds.empty() || std::find(kinds.begin(), kinds.end(), entry.job.kind) != kinds.end();
-      if (!free || !of_kind) continue;
-      if (entry.job.state == JobState::kRunning) ++entry.job.deaths;
-      entry.job.state = JobState::kRunning;
-      entry.job.started_ms = now;
-      ++entry.job.attempt;
-      ++entry.job.version;
-      entry.worker = worker;
-      entry.lease_until = lease_until;
-      return ClaimedJob{entry.job, entry.request};
+      if (free && is_among(kinds, entry) && (next == nullptr || entry.job.urgency < next->job.urgency))
+        next = &entry;
     }
-    return std::nullopt;
+    if (next == nullptr) return std::nullopt;
+    Job& job = next->job;
+    if (job.state == JobState::kRunning) {
+      ++job.deaths;
+      job.last_death = kLeaseEnded;
+    }
+    job.state = JobState::kRunning;
+    job.started_ms = now;
+    ++job.attempt;
+    ++job.version;
+    next->worker = worker;
+    next->lease_until = lease_until;
+    return ClaimedJob{job, next->asked.request};
   }
 
   Result<bool> report(const Lease& lease, std::string_view stage, double progress,
@@ -69,23 +80,29 @@ class MemoryJobStore final : public JobStore {
     return true;
   }
 
-  Result<bool> finish(const Lease& lease, JobState state, std::string_view outcome,
+  Result<bool> finish(const Lease& lease, JobState state, const JobAnswer& outcome,
                       std::int64_t now) override {
     const std::scoped_lock lock(mutex_);
     Entry* const entry = held(lease);
     if (entry == nullptr) return false;
     end(*entry, state, now);
-    entry->outcome = outcome;
+    entry->outcome = outcome.bytes;
+    entry->series = outcome.series;
     return true;
   }
 
-  Result<int> release(std::string_view worker, HandBack why) override {
+  Result<int> release(std::string_view worker, HandBack why, std::string_view reason) override {
     const std::scoped_lock lock(mutex_);
+    const std::string family = std::string(worker) + "/";
     int released = 0;
     for (Entry& entry : entries_) {
-      if (entry.job.state != JobState::kRunning || entry.worker != worker) continue;
+      const bool holds = entry.worker == worker || entry.worker.starts_with(family);
+      if (entry.job.state != JobState::kRunning || !holds) continue;
       entry.job.state = JobState::kAccepted;
-      if (why == HandBack::kDied) ++entry.job.deaths;
+      if (why == HandBack::kDied) {
+        ++entry.job.deaths;
+        entry.job.last_death = reason;
+      }
       ++entry.job.version;
       ++released;
     }
@@ -115,6 +132,52 @@ class MemoryJobStore final : public JobStore {
     return entry->outcome;
   }
 
+  Result<std::optional<std::string>> series(std::string_view id, std::int64_t page) override {
+    const std::scoped_lock lock(mutex_);
+    const Entry* const entry = find(id);
+    if (entry == nullptr || entry->job.state != JobState::kSuccessful || page < 1 ||
+        page > static_cast<std::int64_t>(entry->series.size()))
+      return std::nullopt;
+    return entry->series[static_cast<std::size_t>(page - 1)];
+  }
+
+  Result<std::optional<QueuePlace>> place_in_queue(std::string_view id,
+                                                   const std::vector<std::string>& kinds) override {
+    const std::scoped_lock lock(mutex_);
+    const Entry* const own = find(id);
+    if (own == nullptr || own->job.state != JobState::kAccepted) return std::nullopt;
+    std::map<std::string, std::pair<double, int>, std::less<>> took;  // by kind: their sum [s], and how many
+    for (const Entry& entry : entries_) {
+      if (entry.job.state != JobState::kSuccessful) continue;
+      auto& [sum_s, count] = took[entry.job.kind];
+      sum_s += 1e-3 * static_cast<double>(*entry.job.ended_ms - *entry.job.started_ms);
+      ++count;
+    }
+    QueueSum sum;
+    bool before = true;
+    for (const Entry& entry : entries_) {
+      if (&entry == own) before = false;
+      const bool running = entry.job.state == JobState::kRunning;
+      const bool waits =
+          entry.job.state == JobState::kAccepted && &entry != own &&
+          (entry.job.urgency < own->job.urgency || (entry.job.urgency == own->job.urgency && before));
+      if (!(running || waits) || !is_among(kinds, entry)) continue;
+      const auto usual = took.find(entry.job.kind);
+      sum.add(running, 1,
+              usual == took.end() ? std::nullopt : std::optional(usual->second.first / usual->second.second));
+    }
+    return sum.place();
+  }
+
+  Result<std::vector<JobCount>> counts() override {
+    const std::scoped_lock lock(mutex_);
+    std::map<std::pair<std::string, JobState>, std::int64_t> counts;
+    for (const Entry& entry : entries_) ++counts[{entry.job.kind, entry.job.state}];
+    std::vector<JobCount> all;
+    for (const auto& [of, count] : counts) all.push_back({of.first, of.second, count});
+    return all;
+  }
+
   Result<std::vector<Job>> list(std::size_t most) override {
     const std::scoped_lock lock(mutex_);
     std::vector<Job> jobs;
@@ -132,7 +195,8 @@ class MemoryJobStore final : public JobStore {
     std::deque<Entry> left;
     for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry) {
       if (has_ended(entry->job.state)) {
-        bytes += static_cast<std::int64_t>(entry->request.size() + entry->outcome.size());
+        bytes += static_cast<std::int64_t>(entry->asked.request.size() + entry->outcome.size());
+        for (const std::string& page : entry->series) bytes += static_cast<std::int64_t>(page.size());
         const bool old = now - entry->job.ended_ms.value_or(now) > kept.most_age_ms;
         if (++ended > kept.most || bytes > kept.most_bytes || old) continue;
       }
@@ -143,6 +207,10 @@ class MemoryJobStore final : public JobStore {
   }
 
  private:
+  static bool is_among(const std::vector<std::string>& kinds, const Entry& entry) {
+    return kinds.empty() || std::find(kinds.begin(), kinds.end(), entry.job.kind) != kinds.end();
+  }
+
   Entry* find(std::string_view id) {
     const auto found =
         std::find_if(entries_.begin(), entries_.end(), [id](const Entry& e) { return e.job.id == id; });

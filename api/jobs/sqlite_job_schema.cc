@@ -17,7 +17,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kSchemaVersion = 2;
+constexpr std::int64_t kSchemaVersion = 3;
+
+// What is too long for an answer, in pages, and goes with its job.
+constexpr const char* kSeries = R"(
+CREATE TABLE series (
+  job_id TEXT NOT NULL,
+  page INTEGER NOT NULL,
+  bytes BLOB NOT NULL,
+  sha256 TEXT NOT NULL,
+  PRIMARY KEY (job_id, page)
+);
+CREATE TRIGGER series_go AFTER DELETE ON jobs BEGIN DELETE FROM series WHERE job_id = OLD.id; END;
+)";
 
 constexpr const char* kSchema = R"(
 CREATE TABLE jobs (
@@ -38,16 +50,39 @@ CREATE TABLE jobs (
   outcome BLOB,
   deaths INTEGER NOT NULL DEFAULT 0,
   request_sha256 TEXT NOT NULL DEFAULT '',
-  outcome_sha256 TEXT
+  outcome_sha256 TEXT,
+  last_death TEXT NOT NULL DEFAULT '',
+  owner TEXT NOT NULL DEFAULT '',
+  idempotency_key TEXT,
+  urgency INTEGER NOT NULL DEFAULT 3
 );
+CREATE UNIQUE INDEX jobs_keys ON jobs (owner, idempotency_key) WHERE idempotency_key IS NOT NULL;
 CREATE INDEX jobs_unfinished ON jobs (sequence) WHERE state IN ('accepted', 'running');
 CREATE INDEX jobs_ended ON jobs (sequence) WHERE state NOT IN ('accepted', 'running');
-PRAGMA user_version = 2;
+PRAGMA user_version = 3;
 )";
-const std::vector<std::string> kColumns{
-    "sequence",       "id",      "kind",       "state",      "stage",          "progress",
-    "version",        "attempt", "created_ms", "started_ms", "ended_ms",       "worker",
-    "lease_until_ms", "request", "outcome",    "deaths",     "request_sha256", "outcome_sha256"};
+const std::vector<std::string> kColumns{"sequence",
+                                        "id",
+                                        "kind",
+                                        "state",
+                                        "stage",
+                                        "progress",
+                                        "version",
+                                        "attempt",
+                                        "created_ms",
+                                        "started_ms",
+                                        "ended_ms",
+                                        "worker",
+                                        "lease_until_ms",
+                                        "request",
+                                        "outcome",
+                                        "deaths",
+                                        "request_sha256",
+                                        "outcome_sha256",
+                                        "last_death",
+                                        "owner",
+                                        "idempotency_key",
+                                        "urgency"};
 
 constexpr std::string_view kMoveAway = "move it away to begin an empty store, or name another with --jobs";
 
@@ -74,8 +109,10 @@ std::int64_t number_of(SqliteConnection& connection, std::string_view sql) {
 void make_tables_where_empty(SqliteConnection& connection) {
   SqliteTransaction transaction(connection);
   if (number_of(connection, "PRAGMA user_version") == 0 &&
-      number_of(connection, "SELECT count(*) FROM sqlite_schema") == 0)
+      number_of(connection, "SELECT count(*) FROM sqlite_schema") == 0) {
     connection.execute(kSchema);
+    connection.execute(kSeries);
+  }
   transaction.commit();
 }
 
@@ -98,12 +135,16 @@ void check_columns(SqliteConnection& connection, const fs::path& store) {
            kMoveAway);
 }
 
-// Version 1 had no digests: those of what is there are taken as it is found.
-void bring_up_from_1(SqliteConnection& connection, const fs::path& store) {
-  fs::path copy = store.string() + ".version-1";
+// A copy beside the store, "jobs.sqlite.version-1", before it is brought up.
+void copy_of_version(SqliteConnection& connection, const fs::path& store, std::int64_t version) {
+  fs::path copy = fmt::format("{}.version-{}", store.string(), version);
   std::error_code ignored;
-  if (fs::exists(copy, ignored)) copy = fmt::format("{}.version-1.{}", store.string(), now_ms());
+  if (fs::exists(copy, ignored)) copy += fmt::format(".{}", now_ms());
   connection.prepare("VACUUM INTO ?").bind(copy.string()).step();
+}
+
+// Version 1 had no digests: those of what is there are taken as it is found.
+void bring_up_from_1(SqliteConnection& connection) {
   connection.execute(
       "VACUUM");  // takes on the mode in which deleted pages can be given back, see SqliteConnection
   SqliteTransaction transaction(connection);
@@ -129,6 +170,20 @@ void bring_up_from_1(SqliteConnection& connection, const fs::path& store) {
   transaction.commit();
 }
 
+// Version 2 knew neither owners nor keys, urgencies, reasons of deaths and series.
+void bring_up_from_2(SqliteConnection& connection) {
+  SqliteTransaction transaction(connection);
+  connection.execute("ALTER TABLE jobs ADD COLUMN last_death TEXT NOT NULL DEFAULT ''");
+  connection.execute("ALTER TABLE jobs ADD COLUMN owner TEXT NOT NULL DEFAULT ''");
+  connection.execute("ALTER TABLE jobs ADD COLUMN idempotency_key TEXT");
+  connection.execute("ALTER TABLE jobs ADD COLUMN urgency INTEGER NOT NULL DEFAULT 3");
+  connection.execute(
+      "CREATE UNIQUE INDEX jobs_keys ON jobs (owner, idempotency_key) WHERE idempotency_key IS NOT NULL");
+  connection.execute(kSeries);
+  connection.execute("PRAGMA user_version = 3");
+  transaction.commit();
+}
+
 }  // namespace
 
 std::string request_digest(std::string_view id, std::string_view kind, std::string_view request) {
@@ -137,6 +192,10 @@ std::string request_digest(std::string_view id, std::string_view kind, std::stri
 
 std::string outcome_digest(std::string_view id, std::string_view state, std::string_view outcome) {
   return digest_of({id, state, outcome});
+}
+
+std::string series_digest(std::string_view id, std::int64_t page, std::string_view bytes) {
+  return digest_of({id, fmt::format("series {}", page), bytes});
 }
 
 void check_marker(const fs::path& store) {
@@ -148,10 +207,12 @@ void check_marker(const fs::path& store) {
          fmt::format("put the store back, or remove {} to begin an empty one", marker.string()));
 }
 
-void settle_schema(SqliteConnection& connection, const fs::path& store) {
+void settle_schema(SqliteConnection& connection, const fs::path& store, StoreCheck how_far) {
   try {
-    const std::string check = first_text(connection, "PRAGMA integrity_check(1)");
-    if (check != "ok") refuse(store, fmt::format("is damaged ({})", check), kMoveAway);
+    if (how_far == StoreCheck::kWhole) {
+      const std::string check = first_text(connection, "PRAGMA integrity_check(1)");
+      if (check != "ok") refuse(store, fmt::format("is damaged ({})", check), kMoveAway);
+    }
     make_tables_where_empty(connection);
     const std::int64_t version = number_of(connection, "PRAGMA user_version");
     if (version == 0) {
@@ -162,7 +223,9 @@ void settle_schema(SqliteConnection& connection, const fs::path& store) {
                          kSchemaVersion),
              "use that program, or name another store with --jobs");
     } else if (version < kSchemaVersion) {
-      bring_up_from_1(connection, store);
+      copy_of_version(connection, store, version);
+      if (version < 2) bring_up_from_1(connection);
+      bring_up_from_2(connection);
     }
     check_columns(connection, store);
   } catch (const SqliteFull&) {

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <utility>
 
+#include "api/jobs/job_admission.h"
 #include "api/jobs/sqlite_connection.h"
 #include "api/jobs/sqlite_job_schema.h"
 
@@ -13,7 +14,9 @@ namespace slipway::api {
 namespace {
 
 constexpr std::string_view kJobColumns =
-    "id, kind, state, stage, progress, version, attempt, created_ms, started_ms, ended_ms, deaths";
+    "id, kind, state, stage, progress, version, attempt, created_ms, started_ms, ended_ms, deaths, "
+    "last_death, "
+    "urgency, owner";
 constexpr std::string_view kHeld = "id = ? AND attempt = ? AND state = 'running'";
 
 Job job_of(const SqliteStatement& row) {
@@ -31,6 +34,9 @@ Job job_of(const SqliteStatement& row) {
   job.started_ms = row.optional_number(8);
   job.ended_ms = row.optional_number(9);
   job.deaths = static_cast<int>(row.number(10));
+  job.last_death = row.text(11);
+  job.urgency = static_cast<int>(row.number(12));
+  job.owner = row.text(13);
   return job;
 }
 
@@ -38,6 +44,13 @@ std::optional<Job> get_from(SqliteConnection& connection, std::string_view id) {
   auto row = connection.prepare(fmt::format("SELECT {} FROM jobs WHERE id = ?", kJobColumns));
   row.bind(id);
   return row.step() ? std::optional(job_of(row)) : std::nullopt;
+}
+
+// "AND kind IN (?, ?)"; nothing where any kind will do.
+std::string among(const std::vector<std::string>& kinds) {
+  std::string places;
+  for (std::size_t i = 0; i < kinds.size(); ++i) places += i == 0 ? "?" : ", ?";
+  return kinds.empty() ? "" : fmt::format("AND kind IN ({})", places);
 }
 
 // Runs `work` on a connection that only one thread at a time may use.
@@ -57,16 +70,16 @@ auto guarded(std::mutex& mutex, const Work& work) -> Result<decltype(work())> {
 
 class SqliteJobStore final : public JobStore {
  public:
-  explicit SqliteJobStore(const std::filesystem::path& path)
+  SqliteJobStore(const std::filesystem::path& path, StoreCheck how_far)
       : durable_(path, CommitKind::kDurable),
         quick_(path, CommitKind::kQuick),
         reader_(path, CommitKind::kQuick) {
-    settle_schema(durable_, path);
+    settle_schema(durable_, path, how_far);
   }
 
   // The first of those that wait commits for all of them: a disk does few commits a second, however large.
-  Result<Job> append(const NewJob& job, std::int64_t now, std::size_t most_unfinished) override {
-    PendingAppend mine{job, now, most_unfinished, std::nullopt};
+  Result<Job> append(const NewJob& job, std::int64_t now, const Admission& admission) override {
+    PendingAppend mine{job, now, admission, std::nullopt};
     std::unique_lock lock(append_mutex_);
     pending_.push_back(&mine);
     while (!mine.answer) {
@@ -88,15 +101,22 @@ class SqliteJobStore final : public JobStore {
 
   Result<std::optional<ClaimedJob>> claim(std::string_view worker, const std::vector<std::string>& kinds,
                                           std::int64_t now, std::int64_t lease_until) override {
+    const std::string free = fmt::format(
+        "FROM jobs WHERE state IN ('accepted', 'running') AND (state = 'accepted' OR lease_until_ms < ?) {} "
+        "ORDER BY urgency, sequence LIMIT 1",
+        among(kinds));
+    // Idle workers of several processes ask all the time: who finds nothing has locked nothing.
+    const auto any = guarded(read_mutex_, [&] {
+      auto row = reader_.prepare("SELECT 1 " + free);
+      row.bind(now);
+      for (const std::string& kind : kinds) row.bind(kind);
+      return row.step();
+    });
+    if (!any) return fail(any.error());
+    if (!*any) return std::nullopt;
     return guarded(write_mutex_, [&]() -> std::optional<ClaimedJob> {
-      std::string places;
-      for (std::size_t i = 0; i < kinds.size(); ++i) places += i == 0 ? "?" : ", ?";
-      const std::string of_kind = kinds.empty() ? "" : fmt::format("AND kind IN ({}) ", places);
       SqliteTransaction transaction(quick_);
-      auto next = quick_.prepare(fmt::format(
-          "SELECT id, request, request_sha256, kind FROM jobs WHERE state IN ('accepted', 'running') AND "
-          "(state = 'accepted' OR lease_until_ms < ?) {}ORDER BY sequence LIMIT 1",
-          of_kind));
+      auto next = quick_.prepare("SELECT id, request, request_sha256, kind " + free);
       next.bind(now);
       for (const std::string& kind : kinds) next.bind(kind);
       if (!next.step()) return std::nullopt;
@@ -105,10 +125,13 @@ class SqliteJobStore final : public JobStore {
       claimed.request = next.text(1);
       claimed.damaged = next.text(2) != request_digest(id, next.text(3), claimed.request);
       auto update = quick_.prepare(
-          "UPDATE jobs SET deaths = deaths + (state = 'running'), state = 'running', started_ms = ?, "
+          "UPDATE jobs SET deaths = deaths + (state = 'running'), "
+          "last_death = CASE WHEN state = 'running' THEN ? ELSE last_death END, state = 'running', "
+          "started_ms = "
+          "?, "
           "attempt = attempt + 1, version = version + 1, "
           "worker = ?, lease_until_ms = ? WHERE id = ?");
-      update.bind(now).bind(worker).bind(lease_until).bind(id).step();
+      update.bind(kLeaseEnded).bind(now).bind(worker).bind(lease_until).bind(id).step();
       const std::optional<Job> job = get_from(quick_, id);
       if (!job) throw SqliteDamage("a job is not found under its id");
       claimed.job = *job;
@@ -130,26 +153,41 @@ class SqliteJobStore final : public JobStore {
     });
   }
 
-  Result<bool> finish(const Lease& lease, JobState state, std::string_view outcome,
+  Result<bool> finish(const Lease& lease, JobState state, const JobAnswer& outcome,
                       std::int64_t now) override {
     return guarded(write_mutex_, [&] {
+      SqliteTransaction transaction(durable_);
       auto update = durable_.prepare(fmt::format(
           "UPDATE jobs SET state = ?, outcome = ?, outcome_sha256 = ?, ended_ms = ?, version = version + 1, "
           "progress = CASE WHEN ? THEN 1.0 ELSE progress END, worker = NULL WHERE {}",
           kHeld));
-      update.bind(describe(state)).bind(outcome).bind(outcome_digest(lease.id, describe(state), outcome));
+      update.bind(describe(state)).bind(outcome.bytes);
+      update.bind(outcome_digest(lease.id, describe(state), outcome.bytes));
       update.bind(now).bind(std::int64_t{state == JobState::kSuccessful});
       update.bind(lease.id).bind(std::int64_t{lease.attempt}).step();
-      return durable_.changes() == 1;
+      const bool held = durable_.changes() == 1;
+      for (std::size_t k = 0; held && k < outcome.series.size(); ++k) {
+        const std::string& bytes = outcome.series[k];
+        auto insert =
+            durable_.prepare("INSERT INTO series (job_id, page, bytes, sha256) VALUES (?, ?, ?, ?)");
+        insert.bind(lease.id).bind(static_cast<std::int64_t>(k + 1)).bind(bytes);
+        insert.bind(series_digest(lease.id, static_cast<std::int64_t>(k + 1), bytes)).step();
+      }
+      transaction.commit();
+      return held;
     });
   }
 
-  Result<int> release(std::string_view worker, HandBack why) override {
+  Result<int> release(std::string_view worker, HandBack why, std::string_view reason) override {
     return guarded(write_mutex_, [&] {
       auto update = quick_.prepare(
-          "UPDATE jobs SET state = 'accepted', deaths = deaths + ?, version = version + 1, worker = NULL "
-          "WHERE state = 'running' AND worker = ?");
-      update.bind(std::int64_t{why == HandBack::kDied}).bind(worker).step();
+          "UPDATE jobs SET state = 'accepted', deaths = deaths + ?, "
+          "last_death = CASE WHEN ? THEN ? ELSE last_death END, version = version + 1, worker = NULL "
+          "WHERE state = 'running' AND (worker = ? OR substr(worker, 1, ?) = ?)");
+      const std::string family = std::string(worker) + "/";
+      const std::int64_t died = why == HandBack::kDied;
+      update.bind(died).bind(died).bind(reason).bind(worker);
+      update.bind(static_cast<std::int64_t>(family.size())).bind(family).step();
       return quick_.changes();
     });
   }
@@ -183,6 +221,55 @@ class SqliteJobStore final : public JobStore {
     });
   }
 
+  Result<std::optional<std::string>> series(std::string_view id, std::int64_t page) override {
+    return guarded(read_mutex_, [&]() -> std::optional<std::string> {
+      auto row = reader_.prepare("SELECT bytes, sha256 FROM series WHERE job_id = ? AND page = ?");
+      row.bind(id).bind(page);
+      if (!row.step()) return std::nullopt;
+      std::string bytes = row.text(0);
+      if (row.text(1) != series_digest(id, page, bytes))
+        throw SqliteDamage(
+            fmt::format("what is stored of job {} is not what it answered: ask for it again", id));
+      return bytes;
+    });
+  }
+
+  Result<std::optional<QueuePlace>> place_in_queue(std::string_view id,
+                                                   const std::vector<std::string>& kinds) override {
+    return guarded(read_mutex_, [&]() -> std::optional<QueuePlace> {
+      auto own = reader_.prepare("SELECT urgency, sequence FROM jobs WHERE id = ? AND state = 'accepted'");
+      own.bind(id);
+      if (!own.step()) return std::nullopt;
+      const std::int64_t urgency = own.number(0), sequence = own.number(1);
+      auto before = reader_.prepare(fmt::format(
+          "SELECT kind, state, count(*), (SELECT avg(took) FROM (SELECT kind AS its_kind, state AS its_end, "
+          "ended_ms - started_ms AS took FROM jobs WHERE state NOT IN ('accepted', 'running') "
+          "ORDER BY sequence DESC LIMIT 200) WHERE its_kind = jobs.kind AND its_end = 'successful') "
+          "FROM jobs WHERE state IN ('accepted', 'running') {} AND "
+          "(state = 'running' OR urgency < ? OR (urgency = ? AND sequence < ?)) GROUP BY kind, state",
+          among(kinds)));
+      for (const std::string& kind : kinds) before.bind(kind);
+      before.bind(urgency).bind(urgency).bind(sequence);
+      QueueSum sum;
+      while (before.step()) {
+        const auto took_ms = before.optional_number(3);
+        sum.add(before.text(1) == "running", static_cast<int>(before.number(2)),
+                took_ms ? std::optional(1e-3 * static_cast<double>(*took_ms)) : std::nullopt);
+      }
+      return sum.place();
+    });
+  }
+
+  Result<std::vector<JobCount>> counts() override {
+    return guarded(read_mutex_, [&] {
+      std::vector<JobCount> all;
+      auto row = reader_.prepare("SELECT kind, state, count(*) FROM jobs GROUP BY kind, state");
+      while (row.step())
+        if (const auto state = job_state(row.text(1))) all.push_back({row.text(0), *state, row.number(2)});
+      return all;
+    });
+  }
+
   Result<std::vector<Job>> list(std::size_t most) override {
     return guarded(read_mutex_, [&] {
       std::vector<Job> jobs;
@@ -199,7 +286,9 @@ class SqliteJobStore final : public JobStore {
       auto erase = quick_.prepare(
           "DELETE FROM jobs WHERE sequence IN (SELECT sequence FROM ("
           "SELECT sequence, ended_ms, row_number() OVER newest AS number, "
-          "sum(length(request) + coalesce(length(outcome), 0)) OVER newest AS bytes "
+          "sum(length(request) + coalesce(length(outcome), 0) + coalesce((SELECT sum(length(bytes)) FROM "
+          "series "
+          "WHERE job_id = jobs.id), 0)) OVER newest AS bytes "
           "FROM jobs WHERE state NOT IN ('accepted', 'running') WINDOW newest AS (ORDER BY sequence DESC)) "
           "WHERE number > ? OR bytes > ? OR ? - ended_ms > ?)");
       erase.bind(static_cast<std::int64_t>(kept.most)).bind(kept.most_bytes).bind(now).bind(kept.most_age_ms);
@@ -214,7 +303,7 @@ class SqliteJobStore final : public JobStore {
   struct PendingAppend {
     const NewJob& job;
     std::int64_t now;
-    std::size_t most_unfinished;
+    const Admission& admission;
     std::optional<Result<Job>> answer;
   };
 
@@ -222,37 +311,44 @@ class SqliteJobStore final : public JobStore {
     auto answers = guarded(write_mutex_, [&] {
       std::vector<Result<Job>> all;
       SqliteTransaction transaction(durable_);
-      auto count = durable_.prepare("SELECT count(*) FROM jobs WHERE state IN ('accepted', 'running')");
-      count.step();
-      auto unfinished = static_cast<std::size_t>(count.number(0));
-      for (const PendingAppend* pending : batch) {
-        if (unfinished >= pending->most_unfinished) {
-          all.push_back(fail(ErrorCode::kTooManyJobs,
-                             fmt::format("{} jobs are waiting or running already", unfinished)));
-          continue;
-        }
-        auto insert = durable_.prepare(
-            "INSERT INTO jobs (id, kind, state, created_ms, request, request_sha256) "
-            "VALUES (?, ?, 'accepted', ?, ?, ?)");
-        insert.bind(pending->job.id)
-            .bind(pending->job.kind)
-            .bind(pending->now)
-            .bind(pending->job.request)
-            .bind(request_digest(pending->job.id, pending->job.kind, pending->job.request))
-            .step();
-        Job job;
-        job.id = pending->job.id;
-        job.kind = pending->job.kind;
-        job.created_ms = pending->now;
-        all.push_back(std::move(job));
-        ++unfinished;
-      }
+      for (const PendingAppend* pending : batch) all.push_back(append_one(*pending));
       transaction.commit();
       return all;
     });
     if (answers) return std::move(*answers);
     // One id that is taken undoes the batch: with 128 random bits that is a caller's mistake, not luck.
     return {batch.size(), Result<Job>(fail(answers.error()))};
+  }
+
+  // Within a transaction of durable_.
+  Result<Job> append_one(const PendingAppend& pending) {
+    const NewJob& wanted = pending.job;
+    if (wanted.key) {
+      auto before = durable_.prepare(
+          "SELECT id, kind = ? AND request = ? FROM jobs WHERE owner = ? AND idempotency_key = ?");
+      before.bind(wanted.kind).bind(wanted.request).bind(wanted.owner).bind(*wanted.key);
+      if (before.step()) {
+        if (before.number(1) == 0) return fail(another_request());
+        const std::optional<Job> job = get_from(durable_, before.text(0));
+        if (!job) throw SqliteDamage("a job is not found under its id");
+        return *job;
+      }
+    }
+    auto count = durable_.prepare(
+        "SELECT count(*), coalesce(sum(owner = ?), 0) FROM jobs WHERE state IN ('accepted', 'running')");
+    count.bind(wanted.owner).step();
+    if (auto refusal = refused_by(pending.admission, count.number(0), count.number(1)))
+      return fail(*std::move(refusal));
+    auto insert = durable_.prepare(fmt::format(
+        "INSERT INTO jobs (id, kind, state, created_ms, request, request_sha256, owner, urgency{}) "
+        "VALUES (?, ?, 'accepted', ?, ?, ?, ?, ?{})",
+        wanted.key ? ", idempotency_key" : "", wanted.key ? ", ?" : ""));
+    insert.bind(wanted.id).bind(wanted.kind).bind(pending.now).bind(wanted.request);
+    insert.bind(request_digest(wanted.id, wanted.kind, wanted.request)).bind(wanted.owner);
+    insert.bind(std::int64_t{wanted.urgency});
+    if (wanted.key) insert.bind(*wanted.key);
+    insert.step();
+    return accepted_job(wanted, pending.now);
   }
 
   std::mutex write_mutex_;  // durable_, quick_: SQLite has one writer at a time anyway
@@ -269,10 +365,11 @@ class SqliteJobStore final : public JobStore {
 
 }  // namespace
 
-Result<std::unique_ptr<JobStore>> open_sqlite_job_store(const std::filesystem::path& path) {
+Result<std::unique_ptr<JobStore>> open_sqlite_job_store(const std::filesystem::path& path,
+                                                        StoreCheck how_far) {
   try {
     check_marker(path);
-    return std::make_unique<SqliteJobStore>(path);
+    return std::make_unique<SqliteJobStore>(path, how_far);
   } catch (const SqliteFull& failure) {
     return fail(ErrorCode::kStorageFull, fmt::format("the job store {}: {}", path.string(), failure.what()));
   } catch (const SqliteFailure& failure) {

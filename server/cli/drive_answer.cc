@@ -8,7 +8,6 @@
 
 #include "api/chart/drive_history.h"
 #include "api/documents/answer_vectors.h"
-#include "api/documents/station_csv.h"
 #include "api/files/model_folder.h"
 #include "api/json/parse.h"
 #include "dem/body_degrees.h"
@@ -99,7 +98,7 @@ int ask_and_print(const AskOptions& ask, const Pictures& pictures, const Result<
   if (!pictures.map.empty()) add(pictures.map, (*service)->map());
   if (!pictures.history.empty()) add(pictures.history, api::draw_drive_history(*answer));
   if (!pictures.report.empty()) add(pictures.report, (*service)->report());
-  if (!pictures.csv.empty()) add(pictures.csv, api::json::station_csv(*answer));
+  if (!pictures.csv.empty()) add(pictures.csv, (*service)->stations());
   if (!pictures.gpkg.empty()) add(pictures.gpkg, vectors_of(**service, *answer, true, false));
   if (!pictures.geojson.empty())
     add(pictures.geojson, vectors_of(**service, *answer, false, pictures.lonlat));

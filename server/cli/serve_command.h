@@ -23,12 +23,40 @@ struct ServeOptions {
   double keep_days = 90.0;                   // ... and for how long
   double keep_mb = 4096.0;                   // ... and with how many megabytes of requests and answers
   std::vector<std::string> allowed_origins;  // of web pages that may read the answers, "https://HOST:PORT"
+  int most_jobs = 64;                        // that wait or run at once, ...
+  int most_jobs_per_address = 32;            // ... and of one address
+  double job_memory_mb = 4096.0;             // of one worker process; 0: no limit
+  double job_minutes = 240.0;                // of one attempt at a job
+  std::string tokens;                        // TOML file of who may ask; empty: who reaches the service
+  bool no_tokens = false;                    // who reaches an address beyond loopback may ask without a token
+  std::string audit;                         // file to which requests that change something are appended
+  double requests_per_s = 0.0;               // of one token or address; 0: any number
+  bool log_json = false;                     // events as JSON, one a line
+  bool access_log = false;                   // every request is an event
+};
+
+// A process that works on the jobs of a store, which services on this machine fill.
+struct WorkerOptions {
+  std::string data;
+  std::string jobs = "var/jobs.sqlite";
+  std::vector<std::string> kinds;  // of jobs; empty: all
+  std::string name;                // under which jobs are claimed; empty: one that no other worker has
+  double job_memory_mb = 4096.0;   // 0: no limit
+  double job_minutes = 240.0;
+  bool bell = false;  // bytes at the standard input mean that there may be work; its end ends the worker
 };
 
 // Serves until a signal ends it. The exit status: 0 ended by a signal, 1 not started, 2 options with faults.
 int serve(const ServeOptions& options);
 
-// Adds the subcommand; `run` then runs it where it is given.
+// Works until a signal ends it, or the bell's end. The exit status: 0 ended so, 1 not started, or its
+// work gave no sign of life any more, 2 options with faults.
+int work(const WorkerOptions& options);
+
+// Prints a new token and what stands in the file of tokens for it. The exit status: 0, 2 options with faults.
+int print_new_token(const std::string& name, const std::string& role);
+
+// Adds the subcommands serve, worker and token; `run` then runs it where it is given.
 void add_serve_command(CLI::App& app, std::function<int()>& run);
 
 }  // namespace slipway::server

@@ -6,6 +6,53 @@
 
 namespace slipway::server {
 
+namespace {
+
+void add_job_limits(CLI::App& command, double& memory_mb, double& minutes) {
+  command.add_option("--job-memory-mb", memory_mb, "memory of one worker process in MB; 0: no limit")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1e9));
+  command.add_option("--job-minutes", minutes, "minutes that one attempt at a job may take")
+      ->capture_default_str()
+      ->check(CLI::Range(0.01, 1e6));
+}
+
+void add_worker_command(CLI::App& app, std::function<int()>& run) {
+  const auto options = std::make_shared<WorkerOptions>();
+  CLI::App* command = app.add_subcommand("worker", "work on the jobs of a store until interrupted");
+  add_data_option(*command, options->data, "rovers, soils and terrains");
+  command->add_option("--jobs", options->jobs, "SQLite file of the jobs")->capture_default_str();
+  command->add_option("--kind", options->kinds, "work on jobs of this kind only; may be repeated")
+      ->allow_extra_args(false);
+  command->add_option("--name", options->name,
+                      "name under which jobs are claimed; no two workers may share one");
+  add_job_limits(*command, options->job_memory_mb, options->job_minutes);
+  command->add_flag(
+      "--bell", options->bell,
+      "the standard input rings for new work, the standard output after each job; the worker ends "
+      "with the former");
+  command->footer(
+      "\"slipway serve\" starts workers of its own. Example of one more beside them:\n"
+      "  slipway worker --jobs var/jobs.sqlite --kind plan");
+  command->callback([options, &run] { run = [options] { return work(*options); }; });
+}
+
+void add_token_command(CLI::App& app, std::function<int()>& run) {
+  struct Wanted {
+    std::string name, role = "operator";
+  };
+  const auto wanted = std::make_shared<Wanted>();
+  CLI::App* command =
+      app.add_subcommand("token", "make a token, and what stands for it in the service's file");
+  command->add_option("name", wanted->name, "who is to hold it")->required();
+  command->add_option("--role", wanted->role, "viewer, operator or admin")->capture_default_str();
+  command->footer("Example:\n  slipway token dashboard --role viewer");
+  command->callback(
+      [wanted, &run] { run = [wanted] { return print_new_token(wanted->name, wanted->role); }; });
+}
+
+}  // namespace
+
 void add_serve_command(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<ServeOptions>();
   CLI::App* command = app.add_subcommand("serve", "answer over HTTP until interrupted");
@@ -42,8 +89,35 @@ void add_serve_command(CLI::App& app, std::function<int()>& run) {
       ->add_option("--allow-origin", options->allowed_origins,
                    "let web pages of this origin, https://HOST[:PORT], read the answers; may be repeated")
       ->allow_extra_args(false);
+  command->add_option("--most-jobs", options->most_jobs, "jobs that wait or run at once")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1'000'000));
+  command->add_option("--most-jobs-per-address", options->most_jobs_per_address, "of one client's address")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1'000'000));
+  add_job_limits(*command, options->job_memory_mb, options->job_minutes);
+  command->add_option("--tokens", options->tokens,
+                      "TOML file of the tokens that may ask, see \"slipway token\"");
+  command->add_flag(
+      "--no-tokens", options->no_tokens,
+      "let who reaches an address beyond loopback ask without a token, behind a proxy that knows them");
+  command->add_option("--audit", options->audit,
+                      "append every request that changes something to this file, as JSON");
+  command
+      ->add_option("--requests-per-s", options->requests_per_s,
+                   "requests of one token, or of one address without tokens, in a second; 0: any number")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1e6));
+  command->add_flag("--log-json", options->log_json,
+                    "write events to standard error as JSON, an object a line");
+  command->add_flag("--access-log", options->access_log, "write every request as an event");
+  command->set_config("--config", "",
+                      "TOML file with any of these options by name, as in port = 8080; flags go before it");
+  command->allow_config_extras(CLI::config_extras_mode::error);
   command->footer("Example:\n  slipway serve --port 8080\n  curl http://127.0.0.1:8080/v1/terrains");
   command->callback([options, &run] { run = [options] { return serve(*options); }; });
+  add_worker_command(app, run);
+  add_token_command(app, run);
 }
 
 }  // namespace slipway::server

@@ -2,8 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
+#include <random>
 #include <utility>
 
 #include "server/http/http_cross_origin.h"
@@ -34,6 +39,18 @@ std::string text_of(const std::exception_ptr& thrown) {
   }
 }
 
+// The client's, or the next of this process: its own random number with a count behind.
+std::string id_of(const HttpRequest& request) {
+  constexpr std::size_t kLongest = 128;
+  const auto visible = [](char c) { return c > ' ' && c <= '~'; };
+  auto id = request.header("X-Request-Id");
+  if (id && !id->empty() && id->size() <= kLongest && std::all_of(id->begin(), id->end(), visible))
+    return *std::move(id);
+  static const std::uint32_t process = std::random_device{}();
+  static std::atomic<std::uint64_t> count{0};
+  return fmt::format("{:08x}-{}", process, ++count);
+}
+
 // Last resort, when even cpp-httplib threw: out of memory, most likely.
 constexpr std::string_view kNothingWorks =
     "HTTP/1.1 500 Internal Server Error\r\nConnection: close\r\nContent-Length: 0\r\n\r\n";
@@ -50,6 +67,10 @@ HttpEngine::Outgoing Answers::to_request(HttpEngine& engine, HttpEngine::Exchang
                        {ErrorCode::kInternal, "the request could not be answered", {}}),
             {}};
   }
+}
+
+bool Answers::is_heavy(const RequestHead& head) const {
+  return routes_.is_heavy(head.method, head.path);
 }
 
 std::string Answers::to_refused(HttpEngine& engine, const Refused& refused, const Error& error) const {
@@ -70,8 +91,15 @@ std::string Answers::to_refused(HttpEngine& engine, const Refused& refused, cons
 }
 
 HttpResponse Answers::routed(HttpRequest& request) const {
+  const auto begun = std::chrono::steady_clock::now();
+  request.id = id_of(request);
   HttpResponse response = answered(request);
   share_across_origins(options_.cross_origin, request, response);
+  response.headers.emplace_back("X-Request-Id", request.id);
+  if (options_.answered) {
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
+    options_.answered({request, response, took.count()});
+  }
   return response;
 }
 
@@ -86,6 +114,8 @@ HttpResponse Answers::answered(HttpRequest& request) const {
                        *host),
            {}},
           &request);
+    if (options_.admit)
+      if (auto refusal = options_.admit(request)) return *std::move(refusal);
     return routes_.answer(request, as_problem);
   } catch (...) {
     // Its text may hold what is nobody's business, so only the operator sees it.

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "server/http/http_engine.h"
+#include "server/http/http_head.h"
 #include "server/http/http_message.h"
 #include "server/http/http_options.h"
 #include "server/http/http_routes.h"
@@ -19,6 +20,7 @@ class Answers {
 
   // Never throws.
   HttpEngine::Outgoing to_request(HttpEngine& engine, HttpEngine::Exchange exchange) const;
+  bool is_heavy(const RequestHead& head) const;
   // What is known of a request that is refused before it is whole.
   struct Refused {
     std::string_view method;

@@ -161,6 +161,15 @@ void HttpLoop::recount(Connection& connection) {
   connection.counted = now;
 }
 
+void HttpLoop::wait_for_what_comes(Connection& connection) {
+  const std::size_t held = connection.gatherer.held();
+  if (held <= connection.waited_for) return;
+  connection.deadline += std::chrono::duration_cast<Clock::duration>(
+      std::chrono::duration<double>(static_cast<double>(held - connection.waited_for) /
+                                    static_cast<double>(options_.min_body_bytes_per_s)));
+  connection.waited_for = held;
+}
+
 void HttpLoop::retime(Connection& connection) {
   using State = RequestGatherer::State;
   Timing timing = Timing::kNone;
@@ -174,7 +183,11 @@ void HttpLoop::retime(Connection& connection) {
                                         : Timing::kIdle;
   }
   // A deadline runs from the beginning of what it is for, so that dripping bytes do not extend it.
-  if (timing == connection.timing) return;
+  if (timing == connection.timing) {
+    if (timing == Timing::kBody) wait_for_what_comes(connection);
+    return;
+  }
+  connection.waited_for = 0;
   connection.timing = timing;
   const auto allowed = [&]() -> std::chrono::milliseconds {
     switch (timing) {

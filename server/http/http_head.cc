@@ -102,6 +102,7 @@ class HeadReader {
     if (!target) return bad("the request's target is not a path and query in percent-encoded UTF-8");
     out_.method = method;
     one_point_one_ = version == "HTTP/1.1";
+    out_.path = target->substr(0, target->find('?'));
     out_.forwarded = fmt::format("{} {} {}\r\n", method, *target, version);
     return std::nullopt;
   }

@@ -16,6 +16,7 @@ enum class BodyFraming { kNone, kLength, kChunked };
 // What the head of a request says about how to read on, and the head as it is passed on.
 struct RequestHead {
   std::string method;
+  std::string path;  // as sent, without the query
   BodyFraming framing = BodyFraming::kNone;
   std::size_t content_length = 0;  // with kLength
   bool keep_alive = true;          // what the client wants

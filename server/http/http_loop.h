@@ -58,6 +58,7 @@ class HttpLoop {
     Phase phase = Phase::kReceiving;
     Timing timing = Timing::kNone;
     Clock::time_point deadline = Clock::time_point::max();
+    std::size_t waited_for = 0;  // of the body: bytes for which the deadline was put off
     bool admitted = true;      // counted in the caps; false for one that only gets to hear why it was refused
     bool readable = false;     // edge-triggered: true until recv() says that there is nothing
     bool hung_up = false;      // the peer will send no more than what is there
@@ -91,6 +92,7 @@ class HttpLoop {
   bool keep_to_budget(Connection& connection);
   void recount(Connection& connection);
   void retime(Connection& connection);
+  void wait_for_what_comes(Connection& connection);
   void close(Connection& connection);
 
   const HttpOptions& options_;

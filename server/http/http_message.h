@@ -21,6 +21,12 @@ struct HttpRequest {
   NamedValues parameters;  // what the route's "{name}" segments matched, percent-decoded
   std::string body;        // without chunk framing
   std::string remote_address;  // the socket's peer; no header can change it
+  // The header X-Request-Id where that is 1 to 128 visible ASCII characters, otherwise one that is made here.
+  // The answer bears it too.
+  std::string id;
+  std::string principal;  // who asks, as HttpOptions::admit knows it
+  bool is_admin = false;  // may change what is others', by the same
+  std::string route;  // the pattern of the route that answers; empty: none does
 
   // The header's first value. Names are compared without regard to case.
   std::optional<std::string> header(std::string_view name) const;

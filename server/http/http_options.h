@@ -24,6 +24,13 @@ struct CrossOrigin {
   std::chrono::seconds preflight_kept{600};  // how long a browser need not ask again
 };
 
+// An answer that is about to be sent.
+struct AnsweredRequest {
+  const HttpRequest& request;
+  const HttpResponse& response;
+  double seconds = 0.0;  // that the handler took
+};
+
 // Every limit exists because a client without one could take the server from the others. The defaults suit
 // one machine that serves a team; a public address belongs behind a reverse proxy.
 struct HttpOptions {
@@ -35,6 +42,8 @@ struct HttpOptions {
   // Handlers run here and nothing else does: no socket that is slow ever holds one of these. Handlers are
   // short (long work is a job), so a few more than there are cores hide their waits on storage.
   std::size_t worker_threads = 8;
+  // As many heavy routes are answered at once, see Route: pictures, reports, long tables.
+  std::size_t heavy_threads = 2;
 
   // The largest request is a drive's telemetry as JSON; a day of one rover at 1 Hz is below 4 MiB.
   std::size_t max_body_bytes = std::size_t{4} << 20;
@@ -53,8 +62,10 @@ struct HttpOptions {
 
   // From the first byte of a head to its end. A head is one packet or a few.
   std::chrono::milliseconds header_deadline{5'000};
-  // From the end of the head to the end of the body, however steadily it drips: 4 MiB at 280 kB/s.
-  std::chrono::milliseconds body_deadline{15'000};
+  // From the end of the head to the end of the body. Every second's worth of `min_body_bytes_per_s` that has
+  // come puts it off by a second: what comes steadily is waited for, what drips is not.
+  std::chrono::milliseconds body_deadline{5'000};
+  std::size_t min_body_bytes_per_s = 64'000;
   // From the answer to its last byte taken: 16 MB at 560 kB/s. A client that does not read holds memory.
   std::chrono::milliseconds write_deadline{30'000};
   // Between two requests. Idle connections cost a descriptor and no thread, so this can be generous.
@@ -86,6 +97,10 @@ struct HttpOptions {
   // Turns an error into the response to send, a problem document (RFC 9457). The request is null when its
   // head could not be read. Called from several threads at once.
   std::function<HttpResponse(const Error&, const HttpRequest*)> problem;
+  // Asked before the routes are; what it gives is the answer, nothing lets the request through. Empty: all may.
+  std::function<std::optional<HttpResponse>(HttpRequest&)> admit;
+  // Told of every answer to a whole request, from the thread that made it. Empty: nobody is.
+  std::function<void(const AnsweredRequest&)> answered;
   // One line for the operator, already free of control characters. Empty: stderr.
   std::function<void(std::string_view)> log;
 };

@@ -90,6 +90,13 @@ std::string RouteTable::allowed(const std::vector<const Entry*>& entries) const 
   return fmt::format("{}", fmt::join(methods, ", "));
 }
 
+bool RouteTable::is_heavy(std::string_view method, std::string_view raw_path) const {
+  const std::vector<std::string> path = segments_of(raw_path);
+  return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& entry) {
+    return entry.route.heavy && entry.route.method == method && matches(entry.segments, path);
+  });
+}
+
 HttpResponse RouteTable::answer(
     HttpRequest& request,
     const std::function<HttpResponse(const Error&, const HttpRequest*)>& problem) const {
@@ -114,6 +121,7 @@ HttpResponse RouteTable::answer(
       if (!is_parameter(segments[i])) continue;
       request.parameters.emplace_back(segments[i].substr(1, segments[i].size() - 2), path[i]);
     }
+    request.route = (*found)->route.pattern;
     return (*found)->route.handle(request);
   }
   HttpResponse response;

@@ -10,8 +10,12 @@ namespace slipway::server {
 HttpWorkers::HttpWorkers(const HttpOptions& options, const Answers& answers, LiveCounters& counters,
                          std::function<void(WorkDone)> done)
     : options_(options), answers_(answers), counters_(counters), done_(std::move(done)) {
-  const std::size_t count = std::max<std::size_t>(1, options.worker_threads);
-  for (std::size_t i = 0; i < count; ++i) threads_.emplace_back([this] { run(); });
+  const auto begin = [this](std::size_t count, Queue& queue) {
+    for (std::size_t i = 0; i < std::max<std::size_t>(1, count); ++i)
+      threads_.emplace_back([this, &queue] { run(queue); });
+  };
+  begin(options.worker_threads, light_);
+  begin(options.heavy_threads, heavy_);
 }
 
 HttpWorkers::~HttpWorkers() {
@@ -19,11 +23,12 @@ HttpWorkers::~HttpWorkers() {
 }
 
 void HttpWorkers::submit(Work work) {
+  Queue& queue = answers_.is_heavy(work.gathered.head) ? heavy_ : light_;
   {
     const std::lock_guard lock(mutex_);
-    waiting_.push_back(std::move(work));
+    queue.waiting.push_back(std::move(work));
   }
-  condition_.notify_one();
+  queue.condition.notify_one();
 }
 
 void HttpWorkers::stop() {
@@ -31,22 +36,22 @@ void HttpWorkers::stop() {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
   }
-  condition_.notify_all();
+  for (Queue* queue : {&light_, &heavy_}) queue->condition.notify_all();
   for (std::thread& thread : threads_) {
     if (thread.joinable()) thread.join();
   }
 }
 
-void HttpWorkers::run() {
+void HttpWorkers::run(Queue& queue) {
   HttpEngine engine(options_);
   for (;;) {
     Work work;
     {
       std::unique_lock lock(mutex_);
-      condition_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
+      queue.condition.wait(lock, [&] { return stopping_ || !queue.waiting.empty(); });
       if (stopping_) return;
-      work = std::move(waiting_.front());
-      waiting_.pop_front();
+      work = std::move(queue.waiting.front());
+      queue.waiting.pop_front();
     }
     answer(engine, std::move(work));
   }

@@ -43,7 +43,8 @@ struct WorkDone {
   bool broken = false;  // the client has gone
 };
 
-// The threads in which handlers run. They never wait for a client: what a socket does not take is given back.
+// The threads in which handlers run, those of heavy routes in threads of their own. They never wait for a
+// client: what a socket does not take is given back.
 class HttpWorkers {
  public:
   // `answers` and `counters` outlive this; `done` is called from the threads.
@@ -59,7 +60,13 @@ class HttpWorkers {
   void stop();
 
  private:
-  void run();
+  // Work that waits for threads of one sort.
+  struct Queue {
+    std::condition_variable condition;
+    std::deque<Work> waiting;
+  };
+
+  void run(Queue& queue);
   void answer(HttpEngine& engine, Work work);
   void keep(WorkDone& done, std::string unsent, std::size_t sent);
 
@@ -68,8 +75,7 @@ class HttpWorkers {
   LiveCounters& counters_;
   std::function<void(WorkDone)> done_;
   std::mutex mutex_;
-  std::condition_variable condition_;
-  std::deque<Work> waiting_;
+  Queue light_, heavy_;
   bool stopping_ = false;
   std::vector<std::thread> threads_;
 };

@@ -129,7 +129,7 @@ std::string answer_to(std::string_view kind, const std::string& request) {
   NoProgress progress;
   const auto answer = service_work(small_world())(std::string(kind), request, progress);
   EXPECT_TRUE(answer) << answer.error().detail;
-  return answer.value_or("");
+  return answer ? answer->bytes : "";
 }
 
 TEST(Validator, FindsWhatIsWrong) {

@@ -170,19 +170,20 @@ TEST(DummyJobKind, ItsMapAndReportAreServed) {
 TEST(DummyJobKind, ItsUsualWaitIsTheClients) {
   HeavyRow row = bare_row();
   row.usual_wait = std::chrono::seconds(10);
-  row.is_short = true;
+  row.lane = Lane::kShort;
   const WithDummyKind service(row);
   const HttpResponse answer = service.ask("POST", "/v1/heavy-rovers", R"({"mass_kg":500})");
   EXPECT_EQ(answer.status, 200);
   EXPECT_EQ(answer.header("Preference-Applied"), "wait=10");
 }
 
-TEST(JobKinds, ShortWorkHasAWorkerOfItsOwn) {
+TEST(JobKinds, NoneWaitsBehindLongerWork) {
   const auto workers = api::worker_kinds();
-  ASSERT_EQ(workers.size(), 2U);
+  ASSERT_EQ(workers.size(), 3U);
   EXPECT_EQ(workers[0],
             (std::vector<std::string>{"plan", "prediction", "check", "diagnosis", "soil_estimate"}));
-  EXPECT_EQ(workers[1], (std::vector<std::string>{"prediction", "check", "soil_estimate"}));
+  EXPECT_EQ(workers[1], (std::vector<std::string>{"plan", "prediction", "check", "soil_estimate"}));
+  EXPECT_EQ(workers[2], (std::vector<std::string>{"prediction", "check", "soil_estimate"}));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <future>
+#include <new>
 
 #include "api/jobs/memory_job_store.h"
 #include "api/jobs/sqlite_job_store.h"
@@ -131,7 +132,7 @@ TEST(JobRunner, ShortWorkDoesNotWaitBehindLongWork) {
 TEST(JobRunner, RefusesJobsWhenTheQueueIsFull) {
   Endless endless;
   JobRunnerOptions options;
-  options.most_unfinished = 2;
+  options.admission.most_unfinished = 2;
   JobRunner runner(make_memory_job_store(), std::ref(endless), options);
   ASSERT_TRUE(runner.start());
   ASSERT_TRUE(runner.submit("plan", "{}"));
@@ -160,7 +161,7 @@ TEST(JobRunner, WhatWasAcceptedOrRunningRunsAfterARestart) {
 
 TEST(JobRunner, AJobOfADeadProcessIsTakenUpThoughItsLeaseStillRuns) {
   const std::shared_ptr<JobStore> store = make_memory_job_store();
-  ASSERT_TRUE(store->append({new_job_id(), "plan", "{}"}, now_ms(), 10));
+  ASSERT_TRUE(store->append({new_job_id(), "plan", "{}"}, now_ms(), {10}));
   const std::string id = store->claim("slipway", {"plan"}, now_ms(), now_ms() + 3'600'000).value()->job.id;
   JobRunner runner(store, echo);
   ASSERT_TRUE(runner.start());
@@ -169,7 +170,7 @@ TEST(JobRunner, AJobOfADeadProcessIsTakenUpThoughItsLeaseStillRuns) {
 
 TEST(JobRunner, AJobThatEndsTheProcessAgainAndAgainFails) {
   const std::shared_ptr<JobStore> store = make_memory_job_store();
-  const std::string id = store->append({new_job_id(), "plan", "{}"}, now_ms(), 10)->id;
+  const std::string id = store->append({new_job_id(), "plan", "{}"}, now_ms(), {10})->id;
   JobRunnerOptions options;
   for (int i = 0; i < options.most_deaths; ++i) {
     ASSERT_TRUE(store->claim("slipway", {"plan"}, now_ms(), now_ms() + 1000).value());
@@ -187,7 +188,7 @@ TEST(JobRunner, AJobThatEndsTheProcessAgainAndAgainFails) {
 
 TEST(JobRunner, AJobIsNotBlamedForStopsOfTheService) {
   const std::shared_ptr<JobStore> store = make_memory_job_store();
-  const std::string id = store->append({new_job_id(), "plan", "{}"}, now_ms(), 10)->id;
+  const std::string id = store->append({new_job_id(), "plan", "{}"}, now_ms(), {10})->id;
   Endless endless;
   for (int k = 1; k <= 2 * JobRunnerOptions{}.most_deaths; ++k) {
     JobRunner runner(store, std::ref(endless));
@@ -213,6 +214,99 @@ TEST(JobRunner, WorkThatAsksKeepsItsLease) {
   std::this_thread::sleep_for(milliseconds(1000));
   EXPECT_EQ(endless.begun, 1) << "the other worker must not have taken it";
   EXPECT_EQ(runner.store().get(id).value()->attempt, 1);
+}
+
+TEST(JobRunner, WorkThatTakesTooLongOrTooMuchFailsWithTheReason) {
+  Endless endless;
+  JobRunnerOptions options;
+  options.max_time = milliseconds(50);
+  const auto problem_of = [](JobRunner& runner) {
+    EXPECT_TRUE(runner.start());
+    const std::string id = runner.submit("plan", "{}")->id;
+    EXPECT_EQ(runner.wait(id, seconds(5)).value()->state, JobState::kFailed);
+    return json::read_problem(*runner.store().outcome(id).value());
+  };
+  JobRunner slow(make_memory_job_store(), std::ref(endless), options);
+  EXPECT_EQ(problem_of(slow).code, ErrorCode::kJobTooLarge);
+  JobRunner large(make_memory_job_store(),
+                  [](const std::string&, const std::string&, Progress&) -> Result<std::string> {
+                    throw std::bad_alloc();
+                  });
+  EXPECT_EQ(problem_of(large).code, ErrorCode::kJobTooLarge);
+}
+
+TEST(JobRunner, SilentWorkIsSeen) {
+  std::atomic<bool> enough{false};
+  JobRunner runner(make_memory_job_store(), [&](const std::string&, const std::string&, Progress&) {
+    while (!enough) std::this_thread::sleep_for(milliseconds(5));
+    return Result<std::string>("answer");
+  });
+  ASSERT_TRUE(runner.start());
+  EXPECT_EQ(runner.longest_silence(), milliseconds(0));
+  const std::string id = runner.submit("plan", "{}")->id;
+  wait_until([&] { return runner.longest_silence() > milliseconds(200); });
+  enough = true;
+  EXPECT_EQ(runner.wait(id, seconds(5)).value()->state, JobState::kSuccessful);
+}
+
+// Two runners on one store, as a service and its worker process are.
+struct ServiceAndWorker {
+  explicit ServiceAndWorker(JobWork work)
+      : store(make_memory_job_store()),
+        service(store, nullptr, not_here()),
+        worker(store, std::move(work), named()) {}
+
+  static JobRunnerOptions not_here() {
+    JobRunnerOptions options;
+    options.works_here = false;
+    return options;
+  }
+  static JobRunnerOptions named() {
+    JobRunnerOptions options;
+    options.worker = "slipway/1";
+    return options;
+  }
+
+  std::shared_ptr<JobStore> store;
+  JobRunner service, worker;
+};
+
+TEST(JobRunner, OfAnotherProcessIsWokenByItsBell) {
+  ServiceAndWorker both(echo);
+  both.service.on_change([&] { both.worker.ring(); });
+  both.worker.on_change([&] { both.service.ring(); });
+  ASSERT_TRUE(both.service.start() && both.worker.start());
+  const auto begun = std::chrono::steady_clock::now();
+  for (int i = 0; i < 5; ++i) {
+    const std::string id = both.service.submit("plan", "{}")->id;
+    EXPECT_EQ(both.service.wait(id, seconds(5)).value()->state, JobState::kSuccessful);
+  }
+  EXPECT_LT(std::chrono::steady_clock::now() - begun, seconds(4)) << "five polls of a second each";
+  both.worker.stop();
+}
+
+TEST(JobRunner, OfAnotherProcessNeedsNoBell) {
+  Endless endless;
+  ServiceAndWorker both(std::ref(endless));
+  ASSERT_TRUE(both.service.start() && both.worker.start());
+  const std::string id = both.service.submit("plan", "{}")->id;
+  wait_until([&] { return endless.begun == 1; });
+  ASSERT_TRUE(both.service.dismiss(id));
+  wait_until([&] { return endless.ended == 1; });
+  EXPECT_EQ(both.service.wait(id, seconds(5)).value()->state, JobState::kDismissed);
+  both.worker.stop();
+}
+
+TEST(JobRunner, AServiceWithWorkersBlamesNoJobForItsOwnDeath) {
+  const std::shared_ptr<JobStore> store = make_memory_job_store();
+  const std::string id = store->append({new_job_id(), "plan", "{}"}, now_ms(), {10})->id;
+  for (int k = 0; k < 2 * JobRunnerOptions{}.most_deaths; ++k) {
+    ASSERT_TRUE(store->claim("slipway/" + std::to_string(k), {}, now_ms(), now_ms() + 60'000).value());
+    JobRunner service(store, nullptr, ServiceAndWorker::not_here());
+    ASSERT_TRUE(service.start());
+    EXPECT_EQ(store->get(id).value()->state, JobState::kAccepted);
+  }
+  EXPECT_EQ(store->get(id).value()->deaths, 0);
 }
 
 }  // namespace

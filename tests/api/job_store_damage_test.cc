@@ -33,7 +33,7 @@ std::vector<std::string> fill(const fs::path& path) {
   std::vector<std::string> ids;
   for (int k = 0; k < 12; ++k) {
     ids.push_back(new_job_id());
-    EXPECT_TRUE((*store)->append({ids.back(), "plan", answer_of(100 + k)}, 1 + k, 100));
+    EXPECT_TRUE((*store)->append({ids.back(), "plan", answer_of(100 + k)}, 1 + k, {100}));
     if (k >= 8) continue;
     const auto claimed = (*store)->claim("a", kPlans, 2, 3);
     EXPECT_TRUE((*store)->finish(claimed.value()->lease(), JobState::kSuccessful, answer_of(k), 4).value());
@@ -149,14 +149,41 @@ TEST(JobStoreDamage, WhatIsNoStoreOfThisProgramIsRefusedWithWhatToDo) {
   expect_refusal(altered, {altered.string(), "other columns", "move it away"});
 }
 
+const std::vector<std::string> kOfVersion3{"last_death", "owner", "idempotency_key", "urgency"};
+
+void drop_columns(SqliteConnection& connection, const std::vector<std::string>& columns) {
+  connection.execute("DROP INDEX IF EXISTS jobs_keys");
+  connection.execute("DROP TRIGGER IF EXISTS series_go");
+  connection.execute("DROP TABLE IF EXISTS series");
+  for (const std::string& column : columns)
+    connection.execute(("ALTER TABLE jobs DROP COLUMN " + column).c_str());
+}
+
+TEST(JobStoreDamage, AStoreOfVersionTwoIsCopiedAndGoesOn) {
+  const ScratchFolder folder;
+  const fs::path path = folder.path() / "jobs.sqlite";
+  const std::vector<std::string> ids = fill(path);
+  {
+    SqliteConnection connection(path, CommitKind::kQuick);
+    drop_columns(connection, kOfVersion3);
+    connection.execute("PRAGMA user_version = 2");
+  }
+  const auto store = open_sqlite_job_store(path);
+  ASSERT_TRUE(store) << store.error().detail;
+  for (int k = 0; k < 8; ++k)
+    EXPECT_EQ((*store)->outcome(ids[static_cast<std::size_t>(k)]).value(), answer_of(k));
+  EXPECT_EQ((*store)->claim("a", {}, 5, 6).value()->job.urgency, kUsualUrgency);
+  EXPECT_TRUE(fs::exists(path.string() + ".version-2"));
+}
+
 TEST(JobStoreDamage, AStoreOfVersionOneIsCopiedAndGoesOn) {
   const ScratchFolder folder;
   const fs::path path = folder.path() / "jobs.sqlite";
   const std::vector<std::string> ids = fill(path);
   {
     SqliteConnection connection(path, CommitKind::kQuick);
-    for (const char* column : {"deaths", "request_sha256", "outcome_sha256"})
-      connection.execute((std::string("ALTER TABLE jobs DROP COLUMN ") + column).c_str());
+    drop_columns(connection, kOfVersion3);
+    drop_columns(connection, {"deaths", "request_sha256", "outcome_sha256"});
     connection.execute("PRAGMA user_version = 1");
   }
   fs::remove(path.string() + ".marker");
@@ -175,7 +202,7 @@ TEST(JobStoreDamage, TheFileShrinksWhenJobsAreForgotten) {
   {
     const auto store = open_sqlite_job_store(path).value();
     for (int k = 0; k < 10; ++k) {
-      ASSERT_TRUE(store->append({new_job_id(), "plan", "{}"}, 1, 100));
+      ASSERT_TRUE(store->append({new_job_id(), "plan", "{}"}, 1, {100}));
       const auto claimed = store->claim("a", kPlans, 2, 3);
       ASSERT_TRUE(store->finish(claimed.value()->lease(), JobState::kSuccessful, std::string(100'000, 'x'), 4)
                       .value());

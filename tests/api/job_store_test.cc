@@ -37,7 +37,7 @@ class JobStores : public ::testing::TestWithParam<std::string> {
   }
 
   std::string accept(const std::string& kind = "plan", const std::string& request = "{}") {
-    const auto job = store_->append({new_job_id(), kind, request}, ++now_, kMany);
+    const auto job = store_->append({new_job_id(), kind, request}, ++now_, {kMany});
     EXPECT_TRUE(job);
     return job->id;
   }
@@ -69,7 +69,8 @@ TEST_P(JobStores, AJobGoesFromAcceptedOverRunningToSuccessful) {
   EXPECT_EQ(get(id).stage, "proposing routes");
   EXPECT_EQ(get(id).progress, 0.25);
   EXPECT_EQ(store_->outcome(id).value(), std::nullopt);
-  EXPECT_TRUE(store_->finish(claimed.lease(), JobState::kSuccessful, "answer", now_ + 5).value());
+  EXPECT_TRUE(
+      store_->finish(claimed.lease(), JobState::kSuccessful, std::string("answer"), now_ + 5).value());
   EXPECT_EQ(get(id).state, JobState::kSuccessful);
   EXPECT_EQ(get(id).progress, 1.0);
   EXPECT_EQ(get(id).ended_ms, now_ + 5);
@@ -88,7 +89,7 @@ TEST_P(JobStores, TheVersionGrowsWithEveryChangeAndOnlyThen) {
   last = get(id).version;
   ASSERT_TRUE(store_->report(lease, "s", 0.5, now_ + 2).value());
   EXPECT_EQ(get(id).version, last) << "a lease renewed is nothing to poll for";
-  ASSERT_TRUE(store_->finish(lease, JobState::kFailed, "p", now_).value());
+  ASSERT_TRUE(store_->finish(lease, JobState::kFailed, std::string("p"), now_).value());
   EXPECT_GT(get(id).version, last);
 }
 
@@ -112,9 +113,9 @@ TEST_P(JobStores, AnExpiredLeaseIsClaimedAgainAndTheOldOneIsFencedOff) {
   const Lease taken = claim(1000).lease();
   EXPECT_EQ(taken.attempt, 2);
   EXPECT_FALSE(store_->report(old, "late", 0.9, now_).value());
-  EXPECT_FALSE(store_->finish(old, JobState::kSuccessful, "late", now_).value());
+  EXPECT_FALSE(store_->finish(old, JobState::kSuccessful, std::string("late"), now_).value());
   EXPECT_EQ(get(id).state, JobState::kRunning);
-  EXPECT_TRUE(store_->finish(taken, JobState::kSuccessful, "good", now_).value());
+  EXPECT_TRUE(store_->finish(taken, JobState::kSuccessful, std::string("good"), now_).value());
   EXPECT_EQ(store_->outcome(id).value(), "good");
 }
 
@@ -124,7 +125,7 @@ TEST_P(JobStores, ReleaseGivesBackWhatAWorkerHeld) {
   EXPECT_EQ(store_->release("b", HandBack::kStopped).value(), 0);
   EXPECT_EQ(store_->release("a", HandBack::kStopped).value(), 1);
   EXPECT_EQ(get(id).state, JobState::kAccepted);
-  EXPECT_FALSE(store_->finish(lease, JobState::kSuccessful, "late", now_).value());
+  EXPECT_FALSE(store_->finish(lease, JobState::kSuccessful, std::string("late"), now_).value());
   EXPECT_EQ(claim().job.attempt, 2);
   EXPECT_EQ(get(id).deaths, 0) << "an orderly stop is none";
   EXPECT_EQ(store_->release("a", HandBack::kDied).value(), 1);
@@ -141,7 +142,7 @@ TEST_P(JobStores, ADismissedJobStaysDismissedAndShowsNothing) {
   EXPECT_EQ(lease.id, working) << "what is dismissed is not claimed";
   EXPECT_EQ(store_->dismiss(working, now_).value()->state, JobState::kDismissed);
   EXPECT_FALSE(store_->report(lease, "s", 0.5, now_).value());
-  EXPECT_FALSE(store_->finish(lease, JobState::kSuccessful, "late", now_).value());
+  EXPECT_FALSE(store_->finish(lease, JobState::kSuccessful, std::string("late"), now_).value());
   EXPECT_EQ(get(working).state, JobState::kDismissed);
   EXPECT_EQ(store_->outcome(working).value(), std::nullopt);
   EXPECT_EQ(store_->dismiss(working, now_ + 9).value()->ended_ms, now_) << "again changes nothing";
@@ -149,7 +150,7 @@ TEST_P(JobStores, ADismissedJobStaysDismissedAndShowsNothing) {
 
 TEST_P(JobStores, WhatHasEndedIsNotDismissed) {
   const std::string id = accept();
-  ASSERT_TRUE(store_->finish(claim().lease(), JobState::kSuccessful, "answer", now_).value());
+  ASSERT_TRUE(store_->finish(claim().lease(), JobState::kSuccessful, std::string("answer"), now_).value());
   EXPECT_EQ(store_->dismiss(id, now_).value()->state, JobState::kSuccessful);
   EXPECT_EQ(store_->outcome(id).value(), "answer");
   EXPECT_EQ(store_->dismiss(new_job_id(), now_).value(), std::nullopt);
@@ -158,11 +159,88 @@ TEST_P(JobStores, WhatHasEndedIsNotDismissed) {
 TEST_P(JobStores, RefusesJobsBeyondTheBoundAndAcceptsAgainAfterwards) {
   const std::string first = accept();
   accept();
-  const auto refused = store_->append({new_job_id(), "plan", "{}"}, now_, 2);
+  const auto refused = store_->append({new_job_id(), "plan", "{}"}, now_, {2});
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::kTooManyJobs);
   ASSERT_TRUE(store_->dismiss(first, now_));
-  EXPECT_TRUE(store_->append({new_job_id(), "plan", "{}"}, now_, 2));
+  EXPECT_TRUE(store_->append({new_job_id(), "plan", "{}"}, now_, {2}));
+}
+
+TEST_P(JobStores, AnOwnersJobsAreBoundedWithoutShuttingOthersOut) {
+  const Admission one_each{.most_unfinished = 10, .most_of_owner = 1};
+  ASSERT_TRUE(
+      store_->append({.id = new_job_id(), .kind = "plan", .request = "{}", .owner = "a"}, now_, one_each));
+  const auto refused =
+      store_->append({.id = new_job_id(), .kind = "plan", .request = "{}", .owner = "a"}, now_, one_each);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kOverQuota);
+  EXPECT_TRUE(
+      store_->append({.id = new_job_id(), .kind = "plan", .request = "{}", .owner = "b"}, now_, one_each));
+}
+
+TEST_P(JobStores, AKeyNamesOneRequestOfItsOwner) {
+  const Admission bounds{.most_unfinished = 3};
+  const auto ask = [&](const char* owner, const char* request) {
+    return store_->append(
+        {.id = new_job_id(), .kind = "plan", .request = request, .owner = owner, .key = "k"}, now_, bounds);
+  };
+  const auto first = ask("a", "{}");
+  ASSERT_TRUE(first);
+  ASSERT_TRUE(store_->finish(claim().lease(), JobState::kSuccessful, std::string("answer"), now_).value());
+  const auto again = ask("a", "{}");
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->id, first->id);
+  EXPECT_EQ(again->state, JobState::kSuccessful) << "as it is now";
+  const auto other = ask("a", "{} ");
+  ASSERT_FALSE(other);
+  EXPECT_EQ(other.error().code, ErrorCode::kInvalidRequest);
+  EXPECT_EQ(other.error().faults.front().pointer, "/Idempotency-Key");
+  EXPECT_NE(ask("b", "{}")->id, first->id);
+  EXPECT_EQ(store_->list(10).value().size(), 2u);
+}
+
+TEST_P(JobStores, TheMostUrgentIsClaimedFirst) {
+  const auto ask = [&](int urgency) {
+    return store_->append({.id = new_job_id(), .kind = "plan", .request = "{}", .urgency = urgency}, now_, {})
+        ->id;
+  };
+  const std::string usual = ask(3), last = ask(7), first = ask(0), also_usual = ask(3);
+  for (const std::string& id : {first, usual, also_usual, last}) EXPECT_EQ(claim().job.id, id);
+}
+
+TEST_P(JobStores, APlaceInTheQueueCountsWhatBeginsBefore) {
+  const std::string ended = accept();
+  claim();
+  ASSERT_TRUE(store_->finish({ended, 1}, JobState::kSuccessful, std::string("answer"), now_ + 4000).value());
+  accept();
+  claim();
+  accept("prediction");
+  accept();
+  const std::string mine = accept();
+  store_->append({.id = new_job_id(), .kind = "plan", .request = "{}", .urgency = 0}, ++now_, {}).value();
+  accept();
+  const auto among_plans = store_->place_in_queue(mine, {"plan"}).value();
+  ASSERT_TRUE(among_plans);
+  EXPECT_EQ(among_plans->ahead, 2) << "an older one and an urgent one";
+  ASSERT_TRUE(among_plans->work_ahead_s);
+  EXPECT_NEAR(*among_plans->work_ahead_s, 4.0 * (0.5 + 2.0), 1e-9);
+  const auto among_all = store_->place_in_queue(mine, kBoth).value();
+  EXPECT_EQ(among_all->ahead, 3);
+  EXPECT_FALSE(among_all->work_ahead_s) << "no prediction has ended yet";
+  EXPECT_EQ(store_->place_in_queue(ended, kBoth).value(), std::nullopt);
+}
+
+TEST_P(JobStores, ADeathIsKeptWithItsReasonAndHolderOfTheFamilysName) {
+  const std::string id = accept();
+  ASSERT_TRUE(store_->claim("family/1", kBoth, now_, now_ + 1000).value());
+  EXPECT_EQ(store_->release("fam", HandBack::kDied, "no").value(), 0);
+  EXPECT_EQ(store_->release("family/1", HandBack::kDied, "signal 9").value(), 1);
+  EXPECT_EQ(get(id).deaths, 1);
+  EXPECT_EQ(get(id).last_death, "signal 9");
+  ASSERT_TRUE(store_->claim("family/2", kBoth, now_, now_ + 1000).value());
+  EXPECT_EQ(store_->release("family", HandBack::kStopped).value(), 1);
+  EXPECT_EQ(get(id).deaths, 1);
+  EXPECT_EQ(get(id).last_death, "signal 9");
 }
 
 TEST_P(JobStores, ListsNewestFirstAndForgetsTheOldestEnded) {
@@ -196,6 +274,27 @@ TEST_P(JobStores, ForgetsWhatIsTooOldOrTooLarge) {
   EXPECT_TRUE(store_->get(ids[2]).value().has_value());
 }
 
+TEST_P(JobStores, ASeriesIsReadPageByPageAndGoesWithItsJob) {
+  const std::string id = accept();
+  const std::vector<std::string> pages{"a,b\n1,2\n", "3,4\n"};
+  ASSERT_TRUE(store_->finish(claim().lease(), JobState::kSuccessful, {"answer", pages}, now_).value());
+  EXPECT_EQ(store_->outcome(id).value(), "answer");
+  EXPECT_EQ(store_->series(id, 1).value(), pages[0]);
+  EXPECT_EQ(store_->series(id, 2).value(), pages[1]);
+  for (const std::int64_t page : {-1, 0, 3}) EXPECT_EQ(store_->series(id, page).value(), std::nullopt);
+  EXPECT_EQ(store_->forget_ended({.most_bytes = 15}, now_).value(), 1) << "its pages count";
+  EXPECT_EQ(store_->series(id, 1).value(), std::nullopt);
+}
+
+TEST_P(JobStores, NoSeriesOfALostLeaseIsKept) {
+  const std::string id = accept();
+  const Lease old = claim(10).lease();
+  now_ += 11;
+  claim();
+  EXPECT_FALSE(store_->finish(old, JobState::kSuccessful, {"late", {"page"}}, now_).value());
+  EXPECT_EQ(store_->series(id, 1).value(), std::nullopt);
+}
+
 TEST_P(JobStores, ManyThreadsClaimEveryJobExactlyOnce) {
   constexpr int kThreads = 4;
   constexpr int kEach = 25;
@@ -203,7 +302,7 @@ TEST_P(JobStores, ManyThreadsClaimEveryJobExactlyOnce) {
   threads.reserve(kThreads);
   for (int t = 0; t < kThreads; ++t) {
     threads.emplace_back([this] {
-      for (int i = 0; i < kEach; ++i) EXPECT_TRUE(store_->append({new_job_id(), "plan", "{}"}, 1, kMany));
+      for (int i = 0; i < kEach; ++i) EXPECT_TRUE(store_->append({new_job_id(), "plan", "{}"}, 1, {kMany}));
     });
   }
   for (std::thread& thread : threads) thread.join();
@@ -237,7 +336,7 @@ TEST(SqliteJobStore, AKilledProcessLosesNoAcknowledgedJob) {
     if (!store) ::_exit(1);
     for (;;) {
       const std::string id = new_job_id();
-      if (!(*store)->append({id, "plan", "{}"}, 1, 1'000'000)) ::_exit(1);
+      if (!(*store)->append({id, "plan", "{}"}, 1, {1'000'000})) ::_exit(1);
       if (::write(ends[1], id.data(), id.size()) != static_cast<ssize_t>(id.size())) ::_exit(1);
     }
   }
@@ -267,9 +366,10 @@ TEST(SqliteJobStore, KeepsEverythingThroughAReopening) {
   {
     const auto store = open_sqlite_job_store(path);
     ASSERT_TRUE(store);
-    ASSERT_TRUE((*store)->append({id, "plan", "request"}, 1, 10));
+    ASSERT_TRUE((*store)->append({id, "plan", "request"}, 1, {10}));
     const auto claimed = (*store)->claim("a", kBoth, 2, 3);
-    ASSERT_TRUE((*store)->finish(claimed.value()->lease(), JobState::kFailed, "problem", 4).value());
+    ASSERT_TRUE(
+        (*store)->finish(claimed.value()->lease(), JobState::kFailed, std::string("problem"), 4).value());
   }
   const auto store = open_sqlite_job_store(path);
   ASSERT_TRUE(store);
@@ -305,7 +405,7 @@ TEST(SqliteJobStore, ThreadsThatAcceptTogetherShareCommits) {
     for (int t = 0; t < threads; ++t) {
       all.emplace_back([&] {
         for (int i = 0; i < each; ++i)
-          EXPECT_TRUE((*store)->append({new_job_id(), "plan", "{}"}, 1, 1'000'000));
+          EXPECT_TRUE((*store)->append({new_job_id(), "plan", "{}"}, 1, {1'000'000}));
       });
     }
     for (std::thread& thread : all) thread.join();

@@ -39,7 +39,7 @@ class ANamedModel : public ::testing::Test {
  protected:
   // A job of this kind that has ended with this, or that waits.
   void add(const std::string& id, std::string_view kind, const std::optional<std::string>& outcome) {
-    ASSERT_TRUE(store_->append({id, std::string(kind), "{}"}, 0, 10));
+    ASSERT_TRUE(store_->append({id, std::string(kind), "{}"}, 0, {10}));
     if (!outcome) return;
     const auto claimed = store_->claim("test", {std::string(kind)}, 0, 1000);
     ASSERT_TRUE(claimed && *claimed);

@@ -292,7 +292,7 @@ TEST_F(Routes, ARefusalIsAProblemWithAllFaultsAndNothingIsRecorded) {
 
 TEST_F(Routes, AFullQueueSaysWhenToComeBack) {
   api::JobRunnerOptions options;
-  options.most_unfinished = 1;
+  options.admission.most_unfinished = 1;
   run(endless, {}, options);
   submit();
   const HttpResponse refused = ask("POST", "/v1/plans", {}, example("plan_shortest.json"));

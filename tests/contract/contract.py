@@ -34,9 +34,10 @@ class Contract(WithServer):
         description = json.loads(served)
         for path, methods in description["paths"].items():
             if "get" in methods and "{" not in path:
-                status, _, body = self.server.ask("GET", path)
+                status, headers, body = self.server.ask("GET", path)
                 self.assertEqual(status, 200, path)
-                json.loads(body)
+                if headers["Content-Type"] == "application/json":
+                    json.loads(body)
 
     def test_the_examples_of_the_description_are_answered(self):
         description = json.loads(self.server.ask("GET", "/openapi.json")[2])
@@ -126,41 +127,36 @@ class Contract(WithServer):
         begun = time.time()
         self.assertEqual(self.server.ask("DELETE", location)[0], 200)
         self.assertEqual(json.loads(self.server.ask("GET", location)[2])["state"], "dismissed")
-        # Really stopped: the process's processor time stands still.
-        ticks = lambda: sum(map(int, pathlib.Path(f"/proc/{self.server.process.pid}/stat").read_text().rsplit(")", 1)[1].split()[11:13]))
+        # Really stopped: the processor time stands still.
         while time.time() - begun < 2.0:
-            before = ticks()
+            before = self.server.processor_s()
             time.sleep(0.2)
-            if ticks() - before <= 4:
+            if self.server.processor_s() - before <= 0.04:
                 break
         else:
             self.fail("the work went on for two seconds")
         self.assertEqual(self.server.ask("GET", location + "/result")[0], 409)
 
-    def processor_s(self):
-        stat = pathlib.Path(f"/proc/{self.server.process.pid}/stat").read_text()
-        return sum(map(int, stat.rsplit(")", 1)[1].split()[11:13])) / os.sysconf("SC_CLK_TCK")
-
     def test_a_dismissed_diagnosis_stops_within_a_tenth_of_a_second_of_each_core(self):
-        for stage in ("estimating the drives' own scatter", "fitting effects"):
-            status, headers, _ = self.server.ask("POST", "/v1/diagnoses", {"campaign": "p05"}, {"Prefer": "respond-async"})
-            self.assertEqual(status, 201)
-            location = headers["Location"]
-            deadline = time.time() + 100
-            while time.time() < deadline:
-                job = json.loads(self.server.ask("GET", location)[2])
-                if job["state"] == "running" and job.get("stage") == stage:
-                    break
-                time.sleep(0.05)
-            else:
-                self.fail(f"it was never {stage}")
-            self.assertEqual(self.server.ask("GET", location + "/report")[0], 409)
-            before = self.processor_s()
-            self.assertEqual(self.server.ask("DELETE", location)[0], 200)
-            # All the processor time that the work still takes; asking takes some of it.
-            time.sleep(1.0)
-            self.assertLess(self.processor_s() - before, 0.1 * (os.cpu_count() or 1) + 0.05, stage)
-            self.assertEqual(self.server.ask("GET", location + "/report")[0], 409)
+        stage = "estimating the drives' own scatter"  # the others are asked of the library itself
+        status, headers, _ = self.server.ask("POST", "/v1/diagnoses", {"campaign": "p05"}, {"Prefer": "respond-async"})
+        self.assertEqual(status, 201)
+        location = headers["Location"]
+        deadline = time.time() + 100
+        while time.time() < deadline:
+            job = json.loads(self.server.ask("GET", location)[2])
+            if job["state"] == "running" and job.get("stage") == stage:
+                break
+            time.sleep(0.05)
+        else:
+            self.fail(f"it was never {stage}")
+        self.assertEqual(self.server.ask("GET", location + "/report")[0], 409)
+        before = self.server.processor_s()
+        self.assertEqual(self.server.ask("DELETE", location)[0], 200)
+        # All the processor time that the work still takes; asking takes some of it.
+        time.sleep(1.0)
+        self.assertLess(self.server.processor_s() - before, 0.1 * (os.cpu_count() or 1) + 0.05, stage)
+        self.assertEqual(self.server.ask("GET", location + "/report")[0], 409)
 
     def test_the_campaigns_that_ship_are_listed_and_a_diagnosis_of_one_is_a_page(self):
         campaigns = json.loads(self.server.ask("GET", "/v1/drive-campaigns")[2])["campaigns"]

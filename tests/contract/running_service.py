@@ -4,6 +4,7 @@ Every script here is called with: SLIPWAY SOURCE_DIR
 """
 import http.client
 import json
+import os
 import pathlib
 import re
 import signal
@@ -33,6 +34,10 @@ def answered(command, **options):
     if done.returncode not in VERDICTS:
         raise subprocess.CalledProcessError(done.returncode, command, done.stdout, done.stderr)
     return done
+
+
+def command_line(pid):
+    return pathlib.Path(f"/proc/{pid}/cmdline").read_bytes().split(b"\0")
 
 
 class Server:
@@ -76,6 +81,26 @@ class Server:
         job = self.end_of(headers["Location"])
         assert job["state"] == "successful", job
         return self.ask("GET", headers["Location"] + "/result")[2]
+
+    def worker_pids(self):
+        """Of the processes that do the service's work."""
+        found = []
+        for entry in pathlib.Path("/proc").iterdir():
+            try:
+                parent = int((entry / "stat").read_text().rsplit(")", 1)[1].split()[1])
+                if parent == self.process.pid and b"worker" in command_line(entry.name):
+                    found.append(int(entry.name))
+            except (OSError, ValueError, IndexError):
+                continue
+        return found
+
+    def processor_s(self):
+        """Processor time that the service and its workers have used."""
+        ticks = 0
+        for pid in (self.process.pid, *self.worker_pids()):
+            stat = pathlib.Path(f"/proc/{pid}/stat").read_text()
+            ticks += sum(map(int, stat.rsplit(")", 1)[1].split()[11:13]))
+        return ticks / os.sysconf("SC_CLK_TCK")
 
     def rss_mb(self, key):
         text = pathlib.Path(f"/proc/{self.process.pid}/status").read_text()

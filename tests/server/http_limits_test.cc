@@ -108,6 +108,30 @@ TEST(HttpLimits, ABodyThatIsNotThereInTimeGets408) {
   EXPECT_TRUE(client.closed_within(milliseconds(1'000)));
 }
 
+TEST(HttpLimits, ABodyThatComesSteadilyIsWaitedForAndOneThatDripsIsNot) {
+  HttpOptions options = quick();
+  options.min_body_bytes_per_s = 10'000;
+  const TestServer s(options);
+  RawClient steady(s.port);
+  const std::string body = '"' + std::string(9'998, 'x') + '"';
+  steady.send(std::string(kJsonHead) + "Content-Length: 10000\r\n\r\n");
+  for (std::size_t sent = 0; sent < body.size(); sent += 1'000) {
+    steady.send(body.substr(sent, 1'000));
+    std::this_thread::sleep_for(milliseconds(50));  // 0.5 s in all
+  }
+  EXPECT_EQ(steady.read_answer().status, 200);
+  RawClient dripping(s.port);
+  dripping.send(std::string(kJsonHead) + "Content-Length: 10000\r\n\r\n");
+  const auto begun = Clock::now();
+  bool open = true;
+  while (open && Clock::now() - begun < milliseconds(5'000)) {
+    dripping.send("x");
+    open = dripping.read_answer(false, milliseconds(20)).status != 408;
+  }
+  EXPECT_FALSE(open);
+  EXPECT_LT(Clock::now() - begun, milliseconds(1'000));
+}
+
 TEST(HttpLimits, ConnectionsThatSayNothingAreClosedWithoutAWord) {
   const TestServer s(quick());
   RawClient silent(s.port);

@@ -278,6 +278,38 @@ TEST(HttpServer, CountersCountWhatHappened) {
   EXPECT_GE(counters.open_connections, 1U);
 }
 
+TEST(HttpServer, HeavyRoutesAreAnsweredAFewAtATimeAndNobodyWaitsBehindThem) {
+  std::atomic<int> now{0}, most{0};
+  std::atomic<bool> held{true};
+  HttpOptions options;
+  options.worker_threads = 2;
+  options.heavy_threads = 2;
+  HttpServer server(options, {{"GET", "/light",
+                               [](const HttpRequest&) {
+                                 return HttpResponse{204, "", "", {}};
+                               }},
+                              {"GET", "/heavy/{k}",
+                               [&](const HttpRequest&) {
+                                 most = std::max(most.load(), ++now);
+                                 while (held) std::this_thread::sleep_for(milliseconds(1));
+                                 --now;
+                                 return HttpResponse{204, "", "", {}};
+                               },
+                               true}});
+  const auto port = server.start();
+  ASSERT_TRUE(port);
+  std::vector<std::unique_ptr<RawClient>> clients;
+  for (int k = 0; k < 8; ++k) {
+    clients.push_back(std::make_unique<RawClient>(*port));
+    clients.back()->send(get("/heavy/1?k=2"));
+  }
+  while (now < 2) std::this_thread::sleep_for(milliseconds(1));
+  for (int k = 0; k < 20; ++k) EXPECT_EQ(ask_once(*port, get("/light")).status, 204);
+  held = false;
+  for (const auto& client : clients) EXPECT_EQ(client->read_answer().status, 204);
+  EXPECT_EQ(most, 2);
+}
+
 TEST(HttpServer, RoutesThatCannotBeToldApartAreRefusedAtOnce) {
   const auto handle = [](const HttpRequest&) { return HttpResponse{}; };
   EXPECT_THROW(HttpServer({}, {{"GET", "/a/{x}", handle}, {"GET", "/a/{y}", handle}}), std::invalid_argument);

@@ -199,6 +199,9 @@ void read_command(ObjectReader& drive, const sim::RoverModel* rover, gap::Measur
   if (!command.turn_in_place) {
     if (has_speed && speed_m_s == 0.0)
       object->fault("speed_m_s", "speed_m_s = 0 m/s, must be another where the rover does not turn in place");
+    if (turn_rate_rad_s)
+      object->fault("turn_rate_deg_s",
+                    "turn_rate_deg_s is of a rover that turns in place, and this one does not");
     command.speed_m_s = speed_m_s;
     return;
   }

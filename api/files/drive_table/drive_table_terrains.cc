@@ -40,7 +40,7 @@ void read_rocks(ObjectReader& terrain, double cell_m, dem::Relief& relief) {
   auto object = terrain.object("rocks", kOptional);
   if (!object) return;
   dem::RockField& rocks = relief.rocks.emplace();
-  object->number("cover_share", kRequired, {"1", 0.0, 0.5, true}, rocks.cover_share);
+  object->number("cover_share", kRequired, {"1", 1e-6, 0.5}, rocks.cover_share);
   const bool smallest = object->number("smallest_m", kRequired, {"m", 0.01, 10.0}, rocks.smallest_m);
   const bool largest = object->number("largest_m", kRequired, {"m", 0.01, 10.0}, rocks.largest_m);
   object->number("height_share", kOptional, {"1", 0.0, 1.0, true}, rocks.height_share);

@@ -1,6 +1,7 @@
 #include "server/cli/inquiry/inquiry.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <charconv>
 #include <chrono>
@@ -8,6 +9,7 @@
 #include <thread>
 
 #include "api/documents/catalogue_documents.h"
+#include "api/documents/station_csv.h"
 #include "api/documents/wheel_sweep_answer.h"
 #include "api/job_kinds.h"
 #include "api/json/parse.h"
@@ -62,6 +64,11 @@ class LocalInquiry final : public Inquiry {
 
   Result<std::string> map() override { return api::draw_route_map(service_->catalogue(), last_); }
 
+  Result<std::string> stations() override {
+    if (series_.empty()) return api::json::station_csv(last_);
+    return fmt::format("{}", fmt::join(series_, ""));
+  }
+
   Result<std::string> report() override { return api::check_report(service_->catalogue(), last_); }
 
   Result<std::string> health() override { return api::json::write_health(); }
@@ -69,13 +76,16 @@ class LocalInquiry final : public Inquiry {
  private:
   Result<std::string> ask(std::string_view kind, const std::string& request, Progress& progress) {
     auto answer = work_(std::string(kind), request, progress);
-    if (answer) last_ = *answer;
-    return answer;
+    if (!answer) return fail(answer.error());
+    last_ = std::move(answer->bytes);
+    series_ = std::move(answer->series);
+    return last_;
   }
 
   std::unique_ptr<api::Service> service_;
   api::JobWork work_;
   std::string last_;
+  std::vector<std::string> series_;  // of it
 };
 
 class RemoteInquiry final : public Inquiry {
@@ -99,6 +109,15 @@ class RemoteInquiry final : public Inquiry {
     return get(fmt::format("/v1/terrains/{}/point?x_m={}&y_m={}", terrain, x_m, y_m));
   }
   Result<std::string> map() override { return get(location_ + "/map"); }
+  Result<std::string> stations() override {
+    std::string all;
+    for (int page = 1;; ++page) {
+      auto next = get(fmt::format("{}/stations?page={}", location_, page));
+      if (!next && next.error().code == ErrorCode::kNotFound && page > 1) return all;
+      if (!next) return next;
+      all += *next;
+    }
+  }
   Result<std::string> report() override { return get(location_ + "/report"); }
   Result<std::string> health() override { return get("/healthz"); }
 

@@ -24,6 +24,8 @@ class Inquiry {
   virtual Result<std::string> ground_at(std::string_view terrain, double x_m, double y_m) = 0;
   // The picture of the last plan or prediction that was answered, as SVG.
   virtual Result<std::string> map() = 0;
+  // All stations of the last answer as CSV, those too that its document leaves out.
+  virtual Result<std::string> stations() = 0;
   // The report of the last check that was answered, as an HTML page.
   virtual Result<std::string> report() = 0;
   // Whether there is anybody.

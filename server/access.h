@@ -1,0 +1,66 @@
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/result.h"
+#include "server/http/http_message.h"
+
+// Who may do what.
+namespace slipway::server {
+
+// A viewer reads; an operator also asks for work and dismisses what was asked for under the same token; an
+// administrator dismisses anybody's.
+enum class Role { kViewer, kOperator, kAdmin };
+std::string_view describe(Role role);
+std::optional<Role> role_of(std::string_view name);
+
+struct AccessOptions {
+  std::string tokens;               // a TOML file, see Access::open; empty: without tokens
+  double max_requests_per_s = 0.0;  // of one token, or of one address where there are none; 0: any number
+};
+
+// A new token, 64 hexadecimal digits of the machine's entropy, and what stands in the file for it.
+struct NewToken {
+  std::string token, entry;
+};
+NewToken new_token(std::string_view name, Role role);
+
+// The tokens that are known, as hashes. Thread-safe.
+class Access {
+ public:
+  // The file has a table a token: [[tokens]] with name, role ("viewer", "operator", "admin") and sha256, the
+  // hash of the token in hexadecimal digits. Errors: unreadable_data with every fault of the file.
+  static Result<std::unique_ptr<Access>> open(const AccessOptions& options);
+
+  // Whether the request may be answered; it then knows who asks. Errors: unauthorized (no token, or one that
+  // is not known), forbidden (the role does not allow it), too_many_requests.
+  Result<void> admit(HttpRequest& request);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Holder {
+    std::string name;
+    Role role = Role::kViewer;
+  };
+  // So many requests may come at once as come in a second; each second lets in as many.
+  struct Bucket {
+    double left = 0.0;
+    Clock::time_point filled;
+  };
+
+  explicit Access(AccessOptions options) : options_(std::move(options)) {}
+  bool is_within_rate(const std::string& who);
+
+  AccessOptions options_;
+  std::map<std::string, Holder, std::less<>> holders_;  // by the token's hash
+  std::mutex mutex_;
+  std::map<std::string, Bucket, std::less<>> buckets_;
+};
+
+}  // namespace slipway::server

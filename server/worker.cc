@@ -1,0 +1,107 @@
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/resource.h>
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <iostream>
+#include <utility>
+
+#include "api/job_kinds.h"
+#include "api/jobs/job_runner.h"
+#include "api/jobs/sqlite_job_store.h"
+#include "api/service.h"
+#include "core/file_descriptor.h"
+#include "server/cli/command_parts.h"
+#include "server/cli/exit_status.h"
+#include "server/cli/inquiry/data_folder.h"
+#include "server/cli/serve_command.h"
+#include "server/signals.h"
+
+namespace slipway::server {
+namespace {
+
+using std::chrono::milliseconds;
+
+std::optional<Error> fault_of(const WorkerOptions& options) {
+  std::vector<Fault> faults;
+  for (const std::string& kind : options.kinds)
+    if (api::find_kind(api::job_kinds(), kind) == nullptr)
+      faults.push_back({"/kind", fmt::format("\"{}\" is no kind of job", kind)});
+  if (options.jobs.empty())
+    faults.push_back({"/jobs", "a worker needs a store on disk that it shares with a service"});
+  if (faults.empty()) return std::nullopt;
+  return Error{ErrorCode::kInvalidRequest, "the worker can't be started so", std::move(faults)};
+}
+
+// What is asked for beyond it is refused to the work, which fails with a reason.
+void limit_memory(double mb) {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // whose shadow takes all addresses
+  if (mb <= 0.0) return;
+  const auto bytes = static_cast<rlim_t>(1e6 * mb);
+  const rlimit limits{bytes, bytes};
+  ::setrlimit(RLIMIT_AS, &limits);
+#else
+  static_cast<void>(mb);
+#endif
+  const rlimit no_core{0, 0};
+  ::setrlimit(RLIMIT_CORE, &no_core);
+}
+
+void ring_at_the_output() {
+  static_cast<void>(::write(STDOUT_FILENO, "\n", 1));  // full: it rings already
+}
+
+// Until a signal, or with a bell the end of the standard input, says that it is enough. False: the work has
+// given no sign of life for so long that it never will.
+bool wait_for_the_end(api::JobRunner& runner, const FileDescriptor& signals, bool bell,
+                      milliseconds patience) {
+  for (;;) {
+    std::array<pollfd, 2> polled{{{signals.fd(), POLLIN, 0}, {bell ? STDIN_FILENO : -1, POLLIN, 0}}};
+    constexpr int kLook_ms = 1000;
+    ::poll(polled.data(), polled.size(), kLook_ms);
+    if (polled[0].revents != 0) return true;
+    if (polled[1].revents != 0) {
+      std::array<char, 256> rings{};
+      if (::read(STDIN_FILENO, rings.data(), rings.size()) <= 0) return true;
+      runner.ring();
+    }
+    if (runner.longest_silence() > patience) return false;
+  }
+}
+
+}  // namespace
+
+int work(const WorkerOptions& options) {
+  const sigset_t ending = block_ending_signals();
+  const FileDescriptor signals(::signalfd(-1, &ending, SFD_CLOEXEC));
+  if (const auto fault = fault_of(options)) return refuse(*fault);
+  const auto data = data_folder(options.data);
+  if (!data) return refuse(data.error());
+  limit_memory(options.job_memory_mb);
+  const auto service = api::Service::open({.data = *data});
+  if (!service) return refuse(service.error());
+  auto store = api::open_sqlite_job_store(options.jobs, api::StoreCheck::kSchema);
+  if (!store) return refuse(store.error());
+  api::JobRunnerOptions how;
+  how.workers = {options.kinds};
+  how.worker = options.name.empty() ? "worker " + api::new_job_id() : options.name;
+  how.max_time = milliseconds_of(options.job_minutes);
+  how.kept = std::nullopt;
+  const milliseconds lease = how.lease;
+  api::JobRunner runner(std::move(*store), api::service_work(**service), how);
+  if (options.bell) runner.on_change(ring_at_the_output);
+  if (const auto started = runner.start(); !started) return refuse(started.error());
+  if (!wait_for_the_end(runner, signals, options.bell, lease)) {
+    // Its thread can't be stopped, but its process can: the lease ends, and another attempt is made.
+    std::cerr << fmt::format("the work gave no sign of life for {} s: this worker ends\n",
+                             lease.count() / 1000);
+    ::_exit(kFailed);
+  }
+  runner.stop();
+  return kDone;
+}
+
+}  // namespace slipway::server
