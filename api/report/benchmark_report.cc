@@ -4,6 +4,8 @@
 
 #include <set>
 
+#include "benchmark/benchmark_figures.h"
+
 namespace slipway::api {
 namespace {
 

@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "benchmark/benchmark_score.h"
+#include "benchmark/benchmark_figures.h"
 #include "validation/report/csv_table.h"
 #include "validation/simulators/comparisons.h"
 

@@ -362,11 +362,11 @@ Eigen::MatrixXd columns_beside(const PosteriorMode& fit, const Eigen::MatrixXd& 
   return best;
 }
 
-DiscrepancyEstimate estimate_discrepancy(const PosteriorMode& fit, const Eigen::MatrixXd& term,
-                                         const DiscrepancyOptions& options, const Cancelled& cancelled) {
+double most_probable_size(const PosteriorMode& fit, const Eigen::MatrixXd& term,
+                          std::span<const double> sizes, const Cancelled& cancelled) {
   double best = -std::numeric_limits<double>::infinity();
-  double size = options.sizes[0];
-  for (const double s : options.sizes) {
+  double size = sizes.front();
+  for (const double s : sizes) {
     if (cancelled()) break;
     const double value = log_marginal(fit.white_linear, both(fit.white_jacobian, term, s));
     if (value > best) {
@@ -374,6 +374,12 @@ DiscrepancyEstimate estimate_discrepancy(const PosteriorMode& fit, const Eigen::
       size = s;
     }
   }
+  return size;
+}
+
+DiscrepancyEstimate estimate_discrepancy(const PosteriorMode& fit, const Eigen::MatrixXd& term,
+                                         const DiscrepancyOptions& options, const Cancelled& cancelled) {
+  const double size = most_probable_size(fit, term, options.sizes, cancelled);
   const Eigen::MatrixXd columns = both(fit.white_jacobian, term, size);
   Eigen::MatrixXd hessian = columns.transpose() * columns;
   hessian.diagonal().array() += 1.0;
