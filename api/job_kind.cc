@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "api/continued_request.h"
 #include "api/model_reference.h"
 
 namespace slipway::api {
@@ -24,9 +25,11 @@ std::string kept_answer(const std::string& document, const std::string& page) {
   return document + kBetweenParts + page;
 }
 
-Result<std::string> recorded_request(std::string_view body, JobStore& store, bool may_name_model,
+Result<std::string> recorded_request(std::string_view body, std::string_view kind, JobStore& store,
+                                     NamesJob names,
                                      const std::function<std::optional<Error>(std::string_view)>& fault_of) {
-  if (may_name_model) return recordable_request(body, store, fault_of);
+  if (names == NamesJob::kModel) return recordable_request(body, store, fault_of);
+  if (names == NamesJob::kContinued) return continued_request(body, kind, store, fault_of);
   if (auto fault = fault_of(body)) return fail(*std::move(fault));
   return std::string(body);
 }

@@ -135,7 +135,8 @@ TEST_F(ADiagnosis, TellsWhatTheReferenceTaught) {
   gap::Diagnosis alone = diagnosis();
   alone.reference.reset();
   EXPECT_EQ(document(alone).find("reference"), nullptr);
-  EXPECT_EQ(diagnosis_report(campaign(), alone, {}).markdown().find("since the reference"), std::string::npos);
+  EXPECT_EQ(diagnosis_report(campaign(), alone, {}).markdown().find("since the reference"),
+            std::string::npos);
 }
 
 TEST_F(ADiagnosis, IsInTheUnitsOfTheBoundary) {

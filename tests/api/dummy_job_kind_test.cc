@@ -181,7 +181,7 @@ TEST(JobKinds, ShortWorkHasAWorkerOfItsOwn) {
   const auto workers = api::worker_kinds();
   ASSERT_EQ(workers.size(), 2U);
   EXPECT_EQ(workers[0],
-            (std::vector<std::string>{"plan", "prediction", "check", "diagnosis", "soil_estimate"}));
+            (std::vector<std::string>{"plan", "prediction", "check", "diagnosis", "watch", "soil_estimate"}));
   EXPECT_EQ(workers[1], (std::vector<std::string>{"prediction", "check", "soil_estimate"}));
 }
 
