@@ -96,7 +96,8 @@ Eigen::MatrixXd NoiseModel::whiten(const Eigen::MatrixXd& columns) const {
   for (const Block& block : blocks_) {
     rows.clear();
     for (const WindowRows& part : block.windows) rows.insert(rows.end(), part.rows.begin(), part.rows.end());
-    white(rows, Eigen::all) = block.factor.solve(columns(rows, Eigen::all));
+    const Eigen::MatrixXd own = columns(rows, Eigen::all);
+    if (!own.isZero(0.0)) white(rows, Eigen::all) = block.factor.solve(own);
   }
   return white;
 }
