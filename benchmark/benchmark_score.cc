@@ -136,7 +136,7 @@ void score_verdict(CaseScore& score, const Diagnosis& d, const Names& truth, con
   score.names_right = named == of_library;
   score.wrong_name = !std::includes(of_library.begin(), of_library.end(), named.begin(), named.end());
   for (const EffectMarginal& m : d.marginals)
-    score.marginals.push_back({m.probability, of_library.contains(m.name)});
+    score.marginals.push_back({{m.probability, of_library.contains(m.name)}, m.name, m.closed_share});
   score.false_alarm = truth.empty() && (names_effects(d.verdict) || d.verdict == Verdict::kUnknown);
 }
 

@@ -33,6 +33,11 @@ struct Statement {
   bool right = false;
 };
 
+struct MarginalStatement : Statement {
+  std::string effect;
+  double closed_share = 0.0;
+};
+
 enum class TruthKind { kNothing, kParameters, kEffects, kOutsideLibrary };
 
 // The score of one diagnosis against its key.
@@ -51,8 +56,8 @@ struct CaseScore {
   // Names of effects are exactly the hidden ones of the library, with or without something unexplained; none
   // of them is hidden where the cause is outside it.
   bool names_right = false;
-  bool wrong_name = false;           // an effect is named that is not hidden
-  std::vector<Statement> marginals;  // of every effect of the library: whether it is hidden
+  bool wrong_name = false;                   // an effect is named that is not hidden
+  std::vector<MarginalStatement> marginals;  // of every effect of the library: whether it is hidden
   double unknown_probability = 0.0;
   double stated = 0.0;              // the probability that the answer states for itself
   std::optional<bool> wheel_right;  // whether a found effect was found at the wheel where it was hidden

@@ -33,12 +33,8 @@ class SizedMarginal {
     Eigen::VectorXd size = Eigen::VectorXd::Constant(squares_.cols(), term_size);
     size.head(known_).setOnes();
     size.segment(known_, form_).setConstant(form_size);
-    Eigen::MatrixXd inner = size.asDiagonal() * squares_ * size.asDiagonal();
-    inner.diagonal().array() += 1.0;
-    const Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> llt(inner);
-    const Eigen::VectorXd projected = size.cwiseProduct(products_);
-    return -0.5 * (residual_square_ - projected.dot(llt.solve(projected))) -
-           llt.matrixLLT().diagonal().array().log().sum();
+    return log_marginal(residual_square_, size.cwiseProduct(products_),
+                        size.asDiagonal() * squares_ * size.asDiagonal());
   }
 
  private:

@@ -35,12 +35,8 @@ class SizeEvidence {
     }
     const auto size =
         Eigen::Map<const Eigen::VectorXd>(sizes.data(), static_cast<Eigen::Index>(sizes.size()));
-    Eigen::MatrixXd inner = size.asDiagonal() * squares_(there, there) * size.asDiagonal();
-    inner.diagonal().array() += 1.0;
-    const Eigen::LLT<Eigen::MatrixXd> llt(inner);
-    const Eigen::VectorXd projected = size.cwiseProduct(products_(there));
-    return -0.5 * (residual_square_ - projected.dot(llt.solve(projected))) -
-           llt.matrixLLT().diagonal().array().log().sum();
+    return log_marginal(residual_square_, size.cwiseProduct(products_(there)),
+                        size.asDiagonal() * squares_(there, there) * size.asDiagonal());
   }
 
  private:
