@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "api/continued_request.h"
 #include "api/documents/station_csv.h"
 #include "api/model_reference.h"
 
@@ -44,9 +45,11 @@ Result<std::vector<std::string>> series_of(std::string_view whole) {
   return pages;
 }
 
-Result<std::string> recorded_request(std::string_view body, JobStore& store, bool may_name_model,
+Result<std::string> recorded_request(std::string_view body, std::string_view kind, JobStore& store,
+                                     NamesJob names,
                                      const std::function<std::optional<Error>(std::string_view)>& fault_of) {
-  if (may_name_model) return recordable_request(body, store, fault_of);
+  if (names == NamesJob::kModel) return recordable_request(body, store, fault_of);
+  if (names == NamesJob::kContinued) return continued_request(body, kind, store, fault_of);
   if (auto fault = fault_of(body)) return fail(*std::move(fault));
   return std::string(body);
 }

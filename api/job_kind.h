@@ -58,14 +58,16 @@ struct JobKindRow {
       0};                       // how long the client's POST waits for the answer unless it says otherwise
   Lane lane = Lane::kUsual;     // see worker_kinds()
   bool may_name_model = false;  // the request may name a diagnosis whose model it is answered with
+  bool may_continue = false;    // the request may continue an earlier one: see continued_request.h
 };
 
 // A row whose types of request and answer are hidden in its functions.
 struct JobKind {
   std::string name;
   std::string path;
-  // The request's bytes as they are to be recorded: the body, with the model in it where it names one.
-  // Errors: those of the row's `read`; with a model also invalid_request at /model and storage.
+  // The request's bytes as they are to be recorded: the body, with the model in it where it names one, or
+  // what it continues. Errors: those of the row's `read`; with a model also invalid_request at /model, with
+  // what it continues at /continues; and storage.
   std::function<Result<std::string>(const Service&, JobStore&, std::string_view body)> accept;
   // What is to be kept of the answer to a recorded request.
   std::function<Result<JobAnswer>(const Service&, std::string_view recorded, Progress&)> work;
@@ -78,7 +80,9 @@ struct JobKind {
 };
 
 // The recorded form of a request that `fault_of` finds no fault in; see JobKind::accept.
-Result<std::string> recorded_request(std::string_view body, JobStore& store, bool may_name_model,
+enum class NamesJob { kNone, kModel, kContinued };
+Result<std::string> recorded_request(std::string_view body, std::string_view kind, JobStore& store,
+                                     NamesJob names,
                                      const std::function<std::optional<Error>(std::string_view)>& fault_of);
 
 template <class Request, class Answer>
@@ -90,7 +94,10 @@ JobKind job_kind(JobKindRow<Request, Answer> of) {
   kind.usual_wait = row->usual_wait;
   kind.lane = row->lane;
   kind.accept = [row](const Service& service, JobStore& store, std::string_view body) {
-    return recorded_request(body, store, row->may_name_model,
+    const NamesJob names = row->may_name_model ? NamesJob::kModel
+                           : row->may_continue ? NamesJob::kContinued
+                                               : NamesJob::kNone;
+    return recorded_request(body, row->name, store, names,
                             [&](std::string_view request) -> std::optional<Error> {
                               const auto read = row->read(service, request);
                               return read ? std::nullopt : std::optional<Error>(read.error());

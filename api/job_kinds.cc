@@ -9,6 +9,7 @@
 #include "api/documents/plan_answer.h"
 #include "api/documents/prediction_answer.h"
 #include "api/documents/soil_estimate_document.h"
+#include "api/documents/watch_document.h"
 #include "api/report/check_report.h"
 #include "api/report/diagnosis_charts.h"
 #include "api/report/diagnosis_report.h"
@@ -78,6 +79,14 @@ std::vector<JobKind> all_kinds() {
                                                                  },
                                                              .report = &diagnosis_page,
                                                              .lane = Lane::kLong}),
+      job_kind(JobKindRow<WatchRequest, WatchAnswer>{
+          .name = "watch",
+          .path = "/v1/watches",
+          .read = &Service::read_watch,
+          .run = &Service::watch,
+          .write = [](const WatchAnswer& answer) { return json::watch_document(answer.watch); },
+          .usual_wait = std::chrono::seconds(10),
+          .may_continue = true}),
       job_kind(JobKindRow<SoilEstimateRequest, SoilEstimateAnswer>{.name = "soil_estimate",
                                                                    .path = "/v1/soil-estimates",
                                                                    .read = &Service::read_soil_estimate,

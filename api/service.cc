@@ -11,6 +11,7 @@
 #include "api/documents/plan_request.h"
 #include "api/documents/prediction_request.h"
 #include "api/documents/soil_estimate_request.h"
+#include "api/documents/watch_request.h"
 #include "api/files/campaign/drive_campaign_source.h"
 #include "api/files/model_folder.h"
 #include "api/json/faults.h"
@@ -135,6 +136,15 @@ Result<DiagnosisRequest> Service::read_diagnosis(std::string_view json) const {
   return std::move(reading->request);
 }
 
+Result<WatchRequest> Service::read_watch(std::string_view json) const {
+  auto reading =
+      json::read_watch_request(json, [this](const std::string& name) { return shipped_drives(name); });
+  if (!reading) return fail(reading.error());
+  if (!reading->faults.empty())
+    return fail(ErrorCode::kInvalidRequest, summary_of(reading->faults), reading->faults);
+  return std::move(reading->request);
+}
+
 Result<SoilEstimateRequest> Service::read_soil_estimate(std::string_view json) const {
   auto reading = json::read_soil_estimate_request(json);
   if (!reading) return fail(reading.error());
@@ -252,6 +262,19 @@ Result<DiagnosisAnswer> Service::diagnose(const DiagnosisRequest& request, Progr
   auto diagnosis = gap::diagnose(*campaign, options, progress);
   if (!diagnosis) return fail(diagnosis.error());
   return DiagnosisAnswer{request, std::move(*campaign), std::move(*diagnosis)};
+}
+
+Result<WatchAnswer> Service::watch(const WatchRequest& request, Progress& progress) const {
+  gap::WatchOptions watch;
+  watch.change.alpha = request.alpha;
+  watch.diagnose = request.diagnose;
+  gap::DiagnosisOptions options;
+  options.search.withheld = request.without;
+  options.search.threads = options_.threads;
+  options.seed = request.seed;
+  auto watched = gap::watch_drives(request.watched, request.healthy.get(), watch, options, progress);
+  if (!watched) return fail(watched.error());
+  return WatchAnswer{*std::move(watched)};
 }
 
 Result<SoilEstimateAnswer> Service::estimate_soil(const SoilEstimateRequest& request,

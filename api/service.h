@@ -51,6 +51,7 @@ class Service {
   Result<PredictionRequest> read_prediction(std::string_view json) const;
   Result<CheckRequest> read_check(std::string_view json) const;
   Result<DiagnosisRequest> read_diagnosis(std::string_view json) const;
+  Result<WatchRequest> read_watch(std::string_view json) const;
   Result<SoilEstimateRequest> read_soil_estimate(std::string_view json) const;
 
   // The same request gives the same answer, on any number of threads.
@@ -58,6 +59,7 @@ class Service {
   Result<PredictionAnswer> predict(const PredictionRequest& request, Progress& progress) const;
   Result<CheckAnswer> check(const CheckRequest& request, Progress& progress) const;
   Result<DiagnosisAnswer> diagnose(const DiagnosisRequest& request, Progress& progress) const;
+  Result<WatchAnswer> watch(const WatchRequest& request, Progress& progress) const;
   Result<SoilEstimateAnswer> estimate_soil(const SoilEstimateRequest& request, Progress& progress) const;
 
   // Errors: not_found (unknown terrain), off_map, no_data.

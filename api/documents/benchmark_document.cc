@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "api/json/writer.h"
+#include "benchmark/benchmark_figures.h"
 
 namespace slipway::api::json {
 namespace {

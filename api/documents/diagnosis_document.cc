@@ -1,19 +1,18 @@
 #include "api/documents/diagnosis_document.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
 #include <set>
 #include <span>
 #include <string_view>
 
+#include "api/documents/diagnosis_where.h"
+#include "api/documents/interval_keys.h"
 #include "api/files/effect_settings.h"
 #include "api/files/noise_scales.h"
 #include "api/files/rover_file.h"
 #include "api/files/soil_file.h"
 #include "api/json/writer.h"
-#include "core/angle.h"
 #include "core/version.h"
 #include "sim/effects/effect_catalogue.h"
 
@@ -21,32 +20,6 @@ namespace slipway::api::json {
 namespace {
 
 using gap::Diagnosis;
-using gap::Interval;
-
-constexpr int kDiscCorners = 32;
-
-// value and interval_90 of the object that is being written. What no number was found for is not there, nor
-// an interval that does not hold its value.
-void write_interval_keys(Writer& w, const Interval& interval, double unit = 1.0) {
-  if (std::isfinite(interval.value)) w.significant("value", unit * interval.value);
-  if (std::isfinite(interval.low) && std::isfinite(interval.high) && interval.low <= interval.value &&
-      interval.value <= interval.high)
-    w.key("interval_90")
-        .begin_array()
-        .significant(unit * interval.low)
-        .significant(unit * interval.high)
-        .end_array();
-}
-
-void write_interval(Writer& w, std::string_view key, const Interval& interval, double unit = 1.0) {
-  w.key(key).begin_object();
-  write_interval_keys(w, interval, unit);
-  w.end_object();
-}
-
-void write_finite(Writer& w, std::string_view key, double value) {
-  if (std::isfinite(value)) w.significant(key, value);
-}
 
 // The numbers that the answer depends on, by the step that uses them.
 void write_options(Writer& w, std::span<const gap::ListedOption> options) {
@@ -128,84 +101,6 @@ void write_candidates(Writer& w, const Diagnosis& d) {
   w.end_array();
 }
 
-void write_channels(Writer& w, const Diagnosis& d) {
-  w.key("channels").begin_array();
-  for (const gap::ChannelGap& channel : d.channels) {
-    const double unit = gap::boundary_unit(channel.channel);
-    w.begin_object().text("channel", gap::name_of(channel.channel));
-    if (channel.wheel) w.text("wheel", *channel.wheel);
-    w.text("unit", gap::unit_of(channel.channel));
-    write_finite(w, "gap", unit * channel.gap);
-    write_finite(w, "noise", unit * channel.noise);
-    write_finite(w, "bias", unit * channel.bias);
-    write_finite(w, "significance", channel.significance);
-    w.end_object();
-  }
-  w.end_array();
-}
-
-void write_regimes(Writer& w, std::string_view key, std::span<const gap::Regime> regimes) {
-  w.key(key).begin_array();
-  for (const gap::Regime& regime : regimes) {
-    w.begin_object().key("condition").begin_array();
-    for (const gap::Condition& condition : regime.conditions) {
-      w.begin_object().text("variable", gap::name_of(condition.variable));
-      // An open end is not there.
-      write_finite(w, "from", condition.from);
-      write_finite(w, "to", condition.to);
-      w.end_object();
-    }
-    w.end_array().text("channel", gap::name_of(regime.channel));
-    w.significant("share_of_gap", regime.share_of_gap).significant("share_of_data", regime.share_of_data);
-    w.significant("significance", regime.significance).end_object();
-  }
-  w.end_array();
-}
-
-void write_channels_of_effects(Writer& w, const Diagnosis& d) {
-  w.key("channels_of_effects").begin_array();
-  for (const gap::ChannelShare& share : d.channels_of_effects) {
-    w.begin_object().text("channel", gap::name_of(share.channel));
-    w.significant("share", share.share).end_object();
-  }
-  w.end_array();
-}
-
-void write_places(Writer& w, const Diagnosis& d) {
-  w.key("places").begin_object().text("type", "FeatureCollection").key("features").begin_array();
-  for (const gap::GapPlace& place : d.places) {
-    w.begin_object().text("type", "Feature").key("geometry").begin_object().text("type", "Polygon");
-    w.key("coordinates").begin_array().begin_array();
-    for (int k = 0; k <= kDiscCorners; ++k) {
-      const double angle = 2.0 * std::numbers::pi * (k % kDiscCorners) / kDiscCorners;
-      w.begin_array().metres(place.x_m + place.radius_m * std::cos(angle));
-      w.metres(place.y_m + place.radius_m * std::sin(angle)).end_array();
-    }
-    w.end_array().end_array().end_object();
-    w.key("properties").begin_object().text("terrain", place.terrain);
-    w.text("channel", gap::name_of(place.channel)).metres("x_m", place.x_m).metres("y_m", place.y_m);
-    w.metres("radius_m", place.radius_m).significant("share_of_gap", place.share_of_gap);
-    w.end_object().end_object();
-  }
-  w.end_array().end_object();
-}
-
-void write_windows(Writer& w, const gap::DriveCampaign& campaign, const Diagnosis& d) {
-  w.key("windows").begin_array();
-  for (const gap::WindowGap& window : d.window_gaps) {
-    if (window.stations.empty()) continue;
-    const Pose2& middle = window.stations[window.stations.size() / 2];
-    w.begin_object().text("terrain", campaign.terrains[window.terrain].name);
-    w.text("drive", campaign.drives[window.drive].id).significant("start_s", window.start_s);
-    w.metres("x_m", middle.x_m).metres("y_m", middle.y_m);
-    write_finite(w, "nominal", window.nominal);
-    write_finite(w, "retuned", window.retuned);
-    write_finite(w, "with_effects", window.with_effects);
-    w.end_object();
-  }
-  w.end_array();
-}
-
 void write_planners_view(Writer& w, const Diagnosis& d) {
   const gap::PlannersView& view = d.planners_view;
   const auto count = [&](std::string_view key, std::size_t n) { w.whole(key, static_cast<std::int64_t>(n)); };
@@ -246,6 +141,7 @@ void write_gap(Writer& w, const Diagnosis& d) {
     write_interval(w, "nominal", channel.nominal, unit);
     write_interval(w, "retuned", channel.retuned, unit);
     write_interval(w, "with_effects", channel.with_effects, unit);
+    if (channel.with_discrepancy) write_interval(w, "with_discrepancy", *channel.with_discrepancy, unit);
     write_interval(w, "noise_floor", channel.noise_floor, unit);
     if (channel.closed_fraction) write_interval(w, "closed_fraction", *channel.closed_fraction);
     w.end_object();
@@ -408,15 +304,7 @@ std::string diagnosis_document(const gap::DriveCampaign& campaign, const Diagnos
   write_marginals(w, d);
   write_reference(w, d);
   write_candidates(w, d);
-  w.key("where").begin_object();
-  write_channels(w, d);
-  write_regimes(w, "regimes", d.regimes);
-  write_regimes(w, "regimes_retuned", d.regimes_retuned);
-  write_regimes(w, "regimes_of_effect", d.regimes_of_effect);
-  write_channels_of_effects(w, d);
-  write_places(w, d);
-  write_windows(w, campaign, d);
-  w.end_object();
+  write_where(w, campaign, d);
   write_gap(w, d);
   write_planners_view(w, d);
   write_extrapolations(w, d);

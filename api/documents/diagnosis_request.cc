@@ -13,6 +13,16 @@ constexpr std::size_t kMaxWithheld = 100;
 
 }  // namespace
 
+void read_search_keys(ObjectReader& reader, std::vector<std::string>& without, std::uint64_t& seed) {
+  reader.texts("without", kOptional, {0, kMaxWithheld}, {.most = 64, .is_name = true}, without);
+  reader.whole("seed", kOptional, std::uint64_t{0}, kMaxExactWhole, seed);
+  std::vector<std::string> known;
+  for (const sim::Effect& effect : sim::effect_catalogue()) known.emplace_back(effect.name);
+  for (std::size_t i = 0; i < without.size(); ++i)
+    if (sim::find_effect(without[i]) == nullptr)
+      reader.faults().push_back({child_pointer("/without", i), unknown_name("effect", without[i], known)});
+}
+
 Result<Reading<DiagnosisRequest>> read_diagnosis_request(std::string_view bytes) {
   const auto document = parse(bytes, {.bytes = RequestLimits::kBodyBytes});
   if (!document) return fail(document.error());
@@ -22,17 +32,10 @@ Result<Reading<DiagnosisRequest>> read_diagnosis_request(std::string_view bytes)
   if (!reader.is_object()) return reading;
   reader.text("campaign", kRequired, {.most = 64, .is_name = true}, request.campaign);
   reader.text("reference", kOptional, {.most = 64, .is_name = true}, request.reference);
-  reader.texts("without", kOptional, {0, kMaxWithheld}, {.most = 64, .is_name = true}, request.without);
-  reader.whole("seed", kOptional, std::uint64_t{0}, kMaxExactWhole, request.seed);
+  read_search_keys(reader, request.without, request.seed);
   reader.refuse_unknown();
   if (!request.reference.empty() && request.reference == request.campaign)
     reading.faults.push_back({"/reference", "must be other drives than those that are diagnosed"});
-  std::vector<std::string> known;
-  for (const sim::Effect& effect : sim::effect_catalogue()) known.emplace_back(effect.name);
-  for (std::size_t i = 0; i < request.without.size(); ++i)
-    if (sim::find_effect(request.without[i]) == nullptr)
-      reading.faults.push_back(
-          {child_pointer("/without", i), unknown_name("effect", request.without[i], known)});
   return reading;
 }
 

@@ -119,6 +119,9 @@ class JobStore {
   // The job afterwards: dismissed, or as it had ended before. Nothing where the id is unknown.
   virtual Result<std::optional<Job>> dismiss(std::string_view id, std::int64_t now) = 0;
   virtual Result<std::optional<Job>> get(std::string_view id) = 0;
+  // The request of a job, of whatever state, as it was accepted; nothing where the id is unknown. An error
+  // where it is not what was accepted.
+  virtual Result<std::optional<std::string>> request(std::string_view id) = 0;
   // The answer or the problem document of a job that ended so; nothing otherwise. An error where it is not
   // what was kept.
   virtual Result<std::optional<std::string>> outcome(std::string_view id) = 0;

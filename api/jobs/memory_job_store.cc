@@ -123,6 +123,12 @@ class MemoryJobStore final : public JobStore {
     return entry == nullptr ? std::nullopt : std::optional(entry->job);
   }
 
+  Result<std::optional<std::string>> request(std::string_view id) override {
+    const std::scoped_lock lock(mutex_);
+    const Entry* const entry = find(id);
+    return entry == nullptr ? std::nullopt : std::optional(entry->asked.request);
+  }
+
   Result<std::optional<std::string>> outcome(std::string_view id) override {
     const std::scoped_lock lock(mutex_);
     const Entry* const entry = find(id);

@@ -206,6 +206,18 @@ class SqliteJobStore final : public JobStore {
     return guarded(read_mutex_, [&] { return get_from(reader_, id); });
   }
 
+  Result<std::optional<std::string>> request(std::string_view id) override {
+    return guarded(read_mutex_, [&]() -> std::optional<std::string> {
+      auto row = reader_.prepare("SELECT request, request_sha256, kind FROM jobs WHERE id = ?");
+      row.bind(id);
+      if (!row.step()) return std::nullopt;
+      std::string bytes = row.text(0);
+      if (row.text(1) != request_digest(id, row.text(2), bytes))
+        throw SqliteDamage(fmt::format("what is stored of job {} is not what was asked: ask again", id));
+      return bytes;
+    });
+  }
+
   Result<std::optional<std::string>> outcome(std::string_view id) override {
     return guarded(read_mutex_, [&]() -> std::optional<std::string> {
       auto row = reader_.prepare(

@@ -4,6 +4,8 @@
 
 #include <set>
 
+#include "benchmark/benchmark_figures.h"
+
 namespace slipway::api {
 namespace {
 
@@ -160,11 +162,22 @@ std::string benchmark_csv(const gap::Benchmark& benchmark, const std::string& se
   return out;
 }
 
+std::string marginals_csv(const gap::Benchmark& benchmark, const std::string& set) {
+  std::string out = "set,variant,campaign,fidelity,effect,probability,closed_share,hidden\n";
+  for (const CaseScore& c : benchmark.cases)
+    for (const gap::MarginalStatement& m : c.marginals)
+      out += fmt::format("{},{},{},{},{},{:.4g},{:.4g},{:d}\n", set, benchmark.variant, c.campaign,
+                         c.fidelity, m.effect, m.probability, m.closed_share, m.right);
+  return out;
+}
+
 std::string withheld_csv(const gap::Benchmark& benchmark, const std::string& set) {
-  std::string out = "set,variant,campaign,withheld,fidelity,verdict,found,unknown,look_alike,absorbed\n";
+  std::string out =
+      "set,variant,campaign,withheld,fidelity,verdict,found,unknown,look_alike,absorbed,declared\n";
   for (const gap::WithheldScore& w : benchmark.withheld)
-    out += fmt::format("{},{},{},{},{},{},{},{:d},{:d},{:d}\n", set, benchmark.variant, w.campaign,
-                       w.withheld, w.fidelity, w.verdict, w.found, w.unknown, w.look_alike, w.absorbed);
+    out += fmt::format("{},{},{},{},{},{},{},{:d},{:d},{:d},{:d}\n", set, benchmark.variant, w.campaign,
+                       w.withheld, w.fidelity, w.verdict, w.found, w.unknown, w.look_alike, w.absorbed,
+                       w.declared);
   return out;
 }
 

@@ -15,6 +15,9 @@ std::string benchmark_report(const gap::Benchmark& benchmark);
 // `set` of campaigns and the variant.
 std::string benchmark_csv(const gap::Benchmark& benchmark, const std::string& set);
 
+// The same of the marginal probabilities, one line for each case and effect of the library.
+std::string marginals_csv(const gap::Benchmark& benchmark, const std::string& set);
+
 // The same of the diagnoses with an effect withheld.
 std::string withheld_csv(const gap::Benchmark& benchmark, const std::string& set);
 

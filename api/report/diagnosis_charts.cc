@@ -123,10 +123,15 @@ std::string draw_ladder(const Diagnosis& d) {
     chart.title = words_of(channel.channel);
     chart.y.title = with_unit(channel.channel) + ", rms";
     chart.y.lowest = 0.0;
-    chart.x.categories = {"nominal", "re-tuned", "with effects", "floor"};
+    chart.x.categories = {"nominal", "re-tuned", "with effects"};
+    std::vector<Interval> levels{channel.nominal, channel.retuned, channel.with_effects};
+    if (channel.with_discrepancy) {
+      chart.x.categories.emplace_back("with discrepancy");
+      levels.push_back(*channel.with_discrepancy);
+    }
+    chart.x.categories.emplace_back("floor");
+    levels.push_back(channel.noise_floor);
     ChartSeries values = series_of("held-out drives", ChartMark::kLine, 1);
-    const std::array<Interval, 4> levels{channel.nominal, channel.retuned, channel.with_effects,
-                                         channel.noise_floor};
     for (std::size_t k = 0; k < levels.size(); ++k) {
       const auto at = static_cast<double>(k);
       if (!std::isfinite(levels[k].value)) continue;

@@ -10,6 +10,8 @@
 
 #include "api/documents/diagnosis_document.h"
 #include "api/files/corrected_model.h"
+#include "api/report/gap_report.h"
+#include "api/report/report_words.h"
 #include "core/angle.h"
 #include "core/version.h"
 
@@ -17,7 +19,6 @@ namespace slipway::api {
 namespace {
 
 using gap::Diagnosis;
-using gap::Interval;
 using gap::Verdict;
 using Spans = std::vector<ReportText::Span>;
 using Style = ReportText::Style;
@@ -51,28 +52,6 @@ constexpr std::string_view kPartial =
     "and "
     "what is known of it is below too.";
 
-std::string interval_words(const Interval& x, double unit = 1.0) {
-  if (!std::isfinite(x.value)) return "none";
-  if (!(x.low < x.high) || !std::isfinite(x.low) || !std::isfinite(x.high))
-    return fmt::format("{:.3g}", unit * x.value);
-  return fmt::format("{:.3g} ({:.3g} to {:.3g})", unit * x.value, unit * x.low, unit * x.high);
-}
-
-// With a format of one number; nothing where there is none.
-std::string number_words(fmt::format_string<double> format, double value) {
-  return std::isfinite(value) ? fmt::format(format, double(value)) : "none";
-}
-
-std::string p_words(double p) {
-  return p < 0.001 ? "below 0.001" : fmt::format("{:.3f}", p);
-}
-
-std::string probability_words(double p) {
-  return p > 0.0 && p < 0.001   ? "below 0.001"
-         : p < 1.0 && p > 0.999 ? "above 0.999"
-                                : fmt::format("{:.3f}", p);
-}
-
 std::string set_words(const std::vector<std::string>& names) {
   return names.empty() ? "nothing missing" : fmt::format("{}", fmt::join(names, " + "));
 }
@@ -84,9 +63,11 @@ class Report {
 
   ReportPage write() {
     write_verdict();
+    write_how_to_read();
+    write_reference(page_, d_);
     write_explanations();
-    write_ladder();
-    write_where();
+    write_ladder(page_, d_, charts_);
+    write_where(page_, d_, charts_);
     write_unknown();
     write_parameters();
     write_next();
@@ -97,12 +78,6 @@ class Report {
   }
 
  private:
-  void picture(std::string_view name, std::string_view words) {
-    const auto chart =
-        std::find_if(charts_.begin(), charts_.end(), [&](const NamedChart& c) { return c.name == name; });
-    if (chart != charts_.end()) page_.picture(*chart, std::string(words));
-  }
-
   void write_verdict() {
     page_.paragraph(Spans{{std::string(gap::name_of(d_.verdict)), Style::kStrong},
                           {fmt::format(": {}", d_.partial ? kPartial : meaning(d_.verdict))}});
@@ -123,6 +98,23 @@ class Report {
                                 d_.drives, d_.windows, d_.observations, d_.library.size()));
   }
 
+  // The words that the sections below use.
+  void write_how_to_read() {
+    if (d_.verdict == Verdict::kInsufficient) return;
+    page_.section("How to read this page");
+    page_.item(
+        "Drives are cut into windows of about a metre and a half. In each the simulator predicts, from the "
+        "commands and the ground alone, what was measured: the channels (slip, motor currents, sinkage, "
+        "...). "
+        "The gap is what it is off by beyond what sensors and the drives' own scatter explain.");
+    page_.item(
+        "An explanation is a set of effects that the simulator lacks, or that nothing is missing, or "
+        "something unknown. All of them may re-tune soils and motors, and compete. Probabilities add up to 1 "
+        "over the explanations.");
+    page_.item(
+        "Figures of how well a model predicts are of drives held out: those from which it had not learnt.");
+  }
+
   void write_explanations() {
     if (d_.candidates.empty()) return;
     page_.section("Explanations compared");
@@ -141,7 +133,7 @@ class Report {
         "The score is the gain of log density a drive over re-tuned parameters alone, on drives that the fit "
         "had not seen. Last column: how often its evidence would have chosen the set, drives with their "
         "repeats drawn with replacement.");
-    picture("explanations", "Probability of each explanation");
+    add_picture(page_, charts_, "explanations", "Probability of each explanation");
     write_marginals();
     if (d_.confusable.empty()) return;
     page_.paragraph("Pairs that these drives hardly tell apart:");
@@ -163,126 +155,6 @@ class Report {
       if (m.probability >= kMinMarginal)
         page_.row(
             {m.name, probability_words(m.probability), fmt::format("{:.0f} %", 100.0 * m.closed_share)});
-  }
-
-  void write_planners_view() {
-    const gap::PlannersView& view = d_.planners_view;
-    if (view.observations == 0) return;
-    page_.paragraph(
-        fmt::format("What planning with each model would have predicted of these drives: {} observations, "
-                    "{} windows of which {} "
-                    "slipped by more than {:g}, {} pairs of drives of which one clearly slipped more.",
-                    view.observations, view.windows, view.immobilised, gap::kCensoredSlip, view.pairs));
-    page_.table(
-        {"model", "within its 90 % interval", "immobilisation called", "called wrongly", "pairs in order"});
-    for (const auto& [name, figures] : {std::pair{"nominal", &view.nominal},
-                                        {"re-tuned", &view.retuned},
-                                        {"with effects", &view.with_effects}})
-      page_.row({name, fmt::format("{:.0f} %", 100.0 * figures->within_90),
-                 fmt::format("{} of {}", figures->called, view.immobilised),
-                 fmt::format("{}", figures->false_calls),
-                 view.pairs > 0 ? fmt::format("{:.0f} %", 100.0 * figures->in_order) : std::string()});
-  }
-
-  void write_ladder() {
-    if (d_.gap.empty()) return;
-    page_.section("How far the gap closes");
-    page_.paragraph(
-        "Root mean square of prediction less measurement on drives held out of the fit, 90 % intervals. The "
-        "floor is what sensors and the drives' own scatter make it. Closed: of what re-tuning leaves above "
-        "the floor.");
-    const bool closed = std::any_of(d_.gap.begin(), d_.gap.end(), [](const gap::ChannelClosure& c) {
-      return c.closed_fraction.has_value();
-    });
-    std::vector<std::string> heads{"channel", "unit", "nominal", "re-tuned", "with effects", "floor"};
-    if (closed) heads.emplace_back("closed");
-    page_.table(std::move(heads));
-    for (const gap::ChannelClosure& c : d_.gap) {
-      const double unit = gap::boundary_unit(c.channel);
-      std::vector<ReportText> cells{gap::name_of(c.channel),
-                                    gap::unit_of(c.channel),
-                                    interval_words(c.nominal, unit),
-                                    interval_words(c.retuned, unit),
-                                    interval_words(c.with_effects, unit),
-                                    interval_words(c.noise_floor, unit)};
-      if (closed) cells.emplace_back(c.closed_fraction ? interval_words(*c.closed_fraction) : "");
-      page_.row(std::move(cells));
-    }
-    if (d_.closed_fraction)
-      page_.paragraph(Spans{{"Of the gap that re-tuning leaves, closed: "},
-                            {interval_words(*d_.closed_fraction), Style::kStrong},
-                            {", all channels in their deviations."}});
-    write_planners_view();
-    if (!d_.extrapolations.empty()) {
-      page_.paragraph(
-          "Learnt from the gentle drives and used to predict the harshest third: gain of log density a drive "
-          "over re-tuned parameters alone.");
-      page_.table({"predicted", "drives", "gain", "standard error"});
-      for (const gap::Extrapolation& e : d_.extrapolations)
-        page_.row({fmt::format("{} {} {:.3g}", e.variable, e.above ? "above" : "below", e.limit),
-                   fmt::format("{}", e.groups), number_words("{:+.2f}", e.log_density_gain),
-                   number_words("{:.2f}", e.error)});
-    }
-    picture("ladder", "Nominal, re-tuned, with the effects, floor, by channel");
-    picture("windows", "Predicted over measured, by channel");
-  }
-
-  void write_regimes(std::string_view title, const std::vector<gap::Regime>& regimes) {
-    page_.paragraph(title);
-    if (regimes.empty()) return page_.paragraph("No slice holds more than its share.");
-    page_.table({"slice", "channel", "where", "share of the gap", "share of the data", "p"});
-    std::size_t number = 0;
-    for (const gap::Regime& regime : regimes) {
-      std::vector<std::string> conditions;
-      for (const gap::Condition& c : regime.conditions)
-        conditions.push_back(fmt::format("{} {:.3g} to {:.3g}", gap::name_of(c.variable), c.from, c.to));
-      page_.row({fmt::format("{}", ++number), std::string(gap::name_of(regime.channel)),
-                 fmt::format("{}", fmt::join(conditions, " and ")),
-                 fmt::format("{:.0f} %", 100.0 * regime.share_of_gap),
-                 fmt::format("{:.0f} %", 100.0 * regime.share_of_data), p_words(regime.significance)});
-    }
-  }
-
-  void write_where() {
-    page_.section("Where");
-    page_.paragraph(
-        "Before any re-tuning, measured less predicted; p corrected for the number of channels looked at.");
-    page_.table({"channel", "wheel", "unit", "gap, rms", "scatter", "mean", "p"});
-    for (const gap::ChannelGap& c : d_.channels) {
-      const double unit = gap::boundary_unit(c.channel);
-      page_.row({std::string(gap::name_of(c.channel)), c.wheel.value_or("all"),
-                 std::string(gap::unit_of(c.channel)), number_words("{:.3g}", unit * c.gap),
-                 number_words("{:.3g}", unit * c.noise), number_words("{:+.3g}", unit * c.bias),
-                 p_words(c.significance)});
-    }
-    picture("channels", "The gap over its scatter, by channel and wheel");
-    if (d_.verdict == Verdict::kInsufficient) return;
-    write_regimes("Before re-tuning, the gap is larger than elsewhere in", d_.regimes);
-    write_regimes("After re-tuning, in", d_.regimes_retuned);
-    if (!d_.channels_of_effects.empty()) {
-      std::vector<std::string> channels;
-      for (const gap::ChannelShare& c : d_.channels_of_effects)
-        channels.push_back(fmt::format("{} {:.0f} %", gap::name_of(c.channel), 100.0 * c.share));
-      page_.paragraph(fmt::format("What the effects do, in squared deviations of the noise, is {}.",
-                                  fmt::join(channels, ", ")));
-    }
-    if (!d_.effects.empty() && d_.verdict != Verdict::kUnknown)
-      write_regimes("What the effects themselves do (only this tells where the cause is), in",
-                    d_.regimes_of_effect);
-    picture("regimes", "Slices of the drives: what they hold of the gap beside what they hold of the data");
-    write_map();
-  }
-
-  void write_map() {
-    picture("map",
-            "The map of the gap: windows of drives held out of the fit, coloured by how far they are off");
-    if (d_.places.empty()) return;
-    page_.paragraph("Places on the map where the gap sits:");
-    page_.table({"terrain", "x, m", "y, m", "radius, m", "channel", "share of the gap"});
-    for (const gap::GapPlace& p : d_.places)
-      page_.row({p.terrain, fmt::format("{:.1f}", p.x_m), fmt::format("{:.1f}", p.y_m),
-                 fmt::format("{:.1f}", p.radius_m), std::string(gap::name_of(p.channel)),
-                 fmt::format("{:.0f} %", 100.0 * p.share_of_gap)});
   }
 
   void write_unknown() {
@@ -325,7 +197,7 @@ class Report {
     for (const gap::RetunedParameter& p : d_.retuned)
       page_.row(
           {p.name, interval_words(p.value), fmt::format("{:.3g}", p.prior_std), p.determined ? "yes" : "no"});
-    picture("parameters", "Re-tuned parameters in deviations of their priors");
+    add_picture(page_, charts_, "parameters", "Re-tuned parameters in deviations of their priors");
   }
 
   void write_next() {

@@ -8,8 +8,10 @@
 #include "api/requests/diagnosis_request.h"
 #include "api/requests/plan_request.h"
 #include "api/requests/prediction_request.h"
+#include "api/requests/watch_request.h"
 #include "dem/elevation_source.h"
 #include "gap/diagnosis/diagnosis.h"
+#include "gap/diagnosis/drive_watch.h"
 #include "gap/diagnosis/model/drive_campaign.h"
 #include "planner/drive_so_far_evidence.h"
 #include "planner/problem/decision.h"
@@ -68,6 +70,10 @@ struct DiagnosisAnswer {
   DiagnosisRequest request;
   gap::DriveCampaign campaign;
   gap::Diagnosis diagnosis;
+};
+
+struct WatchAnswer {
+  gap::DriveWatch watch;
 };
 
 // The ground at one point.

@@ -17,6 +17,7 @@
 #include "gap/diagnosis/held_out/effect_marginals.h"
 #include "gap/diagnosis/held_out/extrapolation.h"
 #include "gap/diagnosis/held_out/gap_closure.h"
+#include "gap/diagnosis/held_out/ladder_rung.h"
 #include "gap/diagnosis/model/outside_cause.h"
 #include "gap/diagnosis/naming.h"
 #include "gap/diagnosis/search/effect_trace.h"
@@ -256,6 +257,8 @@ class Diagnoser {
     for (ChannelClosure& channel : d_.gap)
       if (!explains()) channel.closed_fraction.reset();
     offer_model(closure->log_density_gain);
+    add_discrepancy_rung(prepared_, LinearHeldOut(prepared_, drives.groups, options_.folds),
+                         fit_beside_rest(), drives, options_.discrepancy, d_.gap);
     return {};
   }
 

@@ -106,11 +106,12 @@ std::string channels_words(const Diagnosis& d) {
 }
 
 std::string ladder_words(const Diagnosis& d) {
-  TextTable table({"channel", "nominal", "re-tuned", "with effects", "floor", "unit"});
+  TextTable table({"channel", "nominal", "re-tuned", "with effects", "with discrepancy", "floor", "unit"});
   for (const gap::ChannelClosure& c : d.gap) {
     const double unit = gap::boundary_unit(c.channel);
     table.add({std::string(gap::name_of(c.channel)), interval_words(c.nominal, unit),
                interval_words(c.retuned, unit), interval_words(c.with_effects, unit),
+               c.with_discrepancy ? interval_words(*c.with_discrepancy, unit) : std::string(),
                interval_words(c.noise_floor, unit), std::string(gap::unit_of(c.channel))});
   }
   return table.print();

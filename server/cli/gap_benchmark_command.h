@@ -20,6 +20,7 @@ struct GapBenchmarkCommand {
   int threads = 0;                // 0: as many as the machine has
   std::string keep;               // folder for each diagnosis.json; empty: none
   std::string csv;                // file for one line a campaign; empty: none
+  std::string marginals_csv;      // file for one line a campaign and effect; empty: none
   std::string withheld_csv;       // file for one line an effect withheld; empty: none
   std::string variant = "as-is";  // of the diagnosis: ablations and baselines
   bool without_each = false, oracle = false, json = false;

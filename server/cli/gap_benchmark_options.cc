@@ -28,11 +28,13 @@ void add_gap_benchmark_command(CLI::App& app, std::function<int()>& run) {
       ->check(CLI::Range(0, 1024));
   command->add_option("--keep", options->keep, "folder for each campaign's diagnosis, NAME.json");
   command->add_option("--csv", options->csv, "file for the scores, one line a campaign");
+  command->add_option("--marginals-csv", options->marginals_csv,
+                      "file for the marginal probabilities, one line a campaign and effect");
   CLI::Option* const variant =
       command
           ->add_option("--variant", options->variant,
                        "of the diagnosis, to compare with: as-is, no-retuning, no-closures, no-unknown, "
-                       "no-wrench, old-naming, "
+                       "no-wrench, old-naming, no-wrench-old-naming, "
                        "nearest-signature, evidence-without-retuning, sample-level-folds, sparse-regression, "
                        "gaussian-process")
           ->capture_default_str();

@@ -48,5 +48,21 @@ TEST(BenchmarkDocument, IsOneDocumentWithFiguresForEachFidelity) {
   EXPECT_NE(benchmark_report(benchmark).find("| hardpan | hardpan |"), std::string::npos);
 }
 
+TEST(BenchmarkCsv, HasALineForEachMarginalAndForEachEffectWithheld) {
+  gap::Benchmark benchmark{.variant = "as-is", .cases = {{}}, .withheld = {{}}};
+  gap::CaseScore& score = benchmark.cases.front();
+  score.campaign = "s01";
+  score.fidelity = "L2";
+  score.marginals = {{{0.97, true}, "hardpan", 0.8}, {{0.1, false}, "multipass", 0.0}};
+  EXPECT_EQ(marginals_csv(benchmark, "blind-1"),
+            "set,variant,campaign,fidelity,effect,probability,closed_share,hidden\n"
+            "blind-1,as-is,s01,L2,hardpan,0.97,0.8,1\nblind-1,as-is,s01,L2,multipass,0.1,0,0\n");
+  gap::WithheldScore& withheld = benchmark.withheld.front();
+  withheld.campaign = "s01";
+  withheld.withheld = "hardpan";
+  withheld.absorbed = withheld.declared = true;
+  EXPECT_TRUE(withheld_csv(benchmark, "blind-1").ends_with("blind-1,as-is,s01,hardpan,,,,0,0,1,1\n"));
+}
+
 }  // namespace
 }  // namespace slipway::api

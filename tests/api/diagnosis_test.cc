@@ -106,6 +106,39 @@ TEST_F(ADiagnosis, TellsTheFormOfWhatIsLeftAndEachEffectsMarginal) {
   EXPECT_NE(report.find("| grousers | 0.970 | 80 % |"), std::string::npos) << "its marginal";
 }
 
+// Nominal, re-tuned, with effects, with what nobody has named described, floor: in degrees.
+TEST_F(ADiagnosis, ShowsEveryRungOfTheLadder) {
+  const JsonValue d = document(diagnosis());
+  const JsonValue& pitch = d.find("gap")->find("channels")->elements[0];
+  EXPECT_NEAR(pitch.find("with_discrepancy")->find("value")->number, 0.544310, 1e-5);
+  const std::string report = diagnosis_report(campaign(), diagnosis(), {}).markdown();
+  EXPECT_NE(report.find("| channel | unit | nominal | re-tuned | with effects | with discrepancy | floor |"),
+            std::string::npos);
+  EXPECT_NE(report.find("0.573 (0 to 1.15) | 0.544 (0 to 0.859) | 0.573 |"), std::string::npos) << report;
+  gap::Diagnosis earlier = diagnosis();
+  earlier.gap.front().with_discrepancy.reset();
+  EXPECT_EQ(document(earlier).find("gap")->find("channels")->elements[0].find("with_discrepancy"), nullptr);
+  EXPECT_EQ(diagnosis_report(campaign(), earlier, {}).markdown().find("| with discrepancy |"),
+            std::string::npos);
+}
+
+TEST_F(ADiagnosis, TellsWhatTheReferenceTaught) {
+  const JsonValue d = document(diagnosis());
+  const JsonValue& reference = *d.find("reference");
+  EXPECT_EQ(reference.find("campaign")->text, "last_year");
+  EXPECT_EQ(reference.find("drives")->number, 20.0);
+  EXPECT_NEAR(reference.find("discrepancy")->elements.at(0).find("learnt")->number, 0.687549, 1e-5);
+  const std::string report = diagnosis_report(campaign(), diagnosis(), {}).markdown();
+  EXPECT_NE(report.find("## What has changed since the reference"), std::string::npos);
+  EXPECT_NE(report.find("20 drives of last_year (80 windows) were taken as healthy"), std::string::npos);
+  EXPECT_NE(report.find("| pitch | deg | 0.688 | 0.115 |"), std::string::npos) << report;
+  gap::Diagnosis alone = diagnosis();
+  alone.reference.reset();
+  EXPECT_EQ(document(alone).find("reference"), nullptr);
+  EXPECT_EQ(diagnosis_report(campaign(), alone, {}).markdown().find("since the reference"),
+            std::string::npos);
+}
+
 TEST_F(ADiagnosis, IsInTheUnitsOfTheBoundary) {
   const JsonValue d = document(diagnosis());
   const JsonValue& pitch = d.find("gap")->find("channels")->elements[0];

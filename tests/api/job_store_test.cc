@@ -148,6 +148,17 @@ TEST_P(JobStores, ADismissedJobStaysDismissedAndShowsNothing) {
   EXPECT_EQ(store_->dismiss(working, now_ + 9).value()->ended_ms, now_) << "again changes nothing";
 }
 
+TEST_P(JobStores, AJobsRequestIsKeptAsLongAsTheJob) {
+  const NewJob job{new_job_id(), "watch", R"({"drives":[1]})"};
+  ASSERT_TRUE(store_->append(job, now_, 10));
+  EXPECT_EQ(store_->request(job.id).value(), job.request) << "accepted";
+  ASSERT_TRUE(store_->finish(claim().lease(), JobState::kSuccessful, std::string("answer"), now_).value());
+  EXPECT_EQ(store_->request(job.id).value(), job.request) << "ended";
+  EXPECT_EQ(store_->request(new_job_id()).value(), std::nullopt);
+  EXPECT_EQ(store_->forget_ended({.most = 0}, now_).value(), 1);
+  EXPECT_EQ(store_->request(job.id).value(), std::nullopt);
+}
+
 TEST_P(JobStores, WhatHasEndedIsNotDismissed) {
   const std::string id = accept();
   ASSERT_TRUE(store_->finish(claim().lease(), JobState::kSuccessful, std::string("answer"), now_).value());

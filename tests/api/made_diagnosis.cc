@@ -49,7 +49,9 @@ gap::Diagnosis full_diagnosis(const gap::DriveCampaign& campaign) {
             {0.02, 0.01, 0.03},
             {0.01, 0.0, 0.02},
             {0.01, 0.01, 0.01},
-            gap::Interval{0.8, 0.6, 1.0}}};
+            gap::Interval{0.8, 0.6, 1.0},
+            gap::Interval{0.0095, 0.0, 0.015}}};
+  d.reference = gap::ReferenceSummary{"last_year", "0a1b", 20, 80, {{gap::Channel::kPitch, 0.012, 0.002}}};
   d.closed_fraction = gap::Interval{0.9, 0.7, 1.1};
   d.held_out = {{gap::Channel::kSlip, -1, 0, 0.0, 0.1, 0.2, 0.15, kNan}};
   d.window_gaps = {{0, 0, 2.0, {{3.0, -2.0, 0.0}, {3.5, -2.0, 0.0}}, 4.5, 2.0, kNan}};

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "benchmark/benchmark_figures.h"
+
 namespace slipway::gap {
 namespace {
 
@@ -146,6 +148,19 @@ TEST(BenchmarkScore, WithheldEffectsBecomeUnknownOrALookAlike) {
   EXPECT_FALSE(
       score_withheld(answer, "hardpan", open, found(Verdict::kEffects, {"soft_patch"}, 0.9)).right());
   EXPECT_TRUE(score_withheld(answer, "hardpan", open, found(Verdict::kParameters, {}, 0.9)).absorbed);
+}
+
+// Of a pair of which one is withheld, the other is still to be named.
+TEST(BenchmarkScore, APartialAnswerBesideAWithheldEffectNamesTheOther) {
+  const Diagnosis open = found(Verdict::kEffects, {"hardpan", "bulldozing"}, 0.9);
+  const HiddenAnswer pair = hidden({"hardpan", "bulldozing"});
+  Diagnosis other = found(Verdict::kEffects, {"bulldozing"}, 0.95), wrong = other;
+  EXPECT_FALSE(score_withheld(pair, "hardpan", open, other).unknown) << "as if nothing else were there";
+  other.partial = true;
+  EXPECT_TRUE(score_withheld(pair, "hardpan", open, other).unknown);
+  wrong.effects.front().name = "soft_patch";
+  wrong.partial = true;
+  EXPECT_FALSE(score_withheld(pair, "hardpan", open, wrong).right());
 }
 
 // Against the tables of Clopper and Pearson: a tail of 5 % on either side.

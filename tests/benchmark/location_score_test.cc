@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "benchmark/benchmark_score.h"
+#include "benchmark/benchmark_figures.h"
 
 namespace slipway::gap {
 namespace {

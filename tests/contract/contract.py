@@ -183,6 +183,51 @@ class Contract(WithServer):
         problem = self.server.ask("GET", "/v1/diagnoses/" + "0" * 32 + "/report")
         self.assertEqual((problem[0], problem[1]["Content-Type"]), (404, "application/problem+json"))
 
+    def drives_of(self, campaign, ids):
+        """Drives of a practice campaign as a request has them."""
+        folder = pathlib.Path(DATA) / "gap-practice" / campaign
+        described = {d["id"]: d for d in json.loads((folder / "campaign.json").read_text())["drives"]}
+        return [{**{k: v for k, v in described[i].items() if k != "file"}, "csv": (folder / described[i]["file"]).read_text()}
+                for i in ids]
+
+    def test_drives_appended_to_a_watch_raise_an_alarm_once_something_has_changed(self):
+        wait = {"Prefer": "wait=30"}
+        healthy, changed = self.drives_of("p02", ["D001", "D013", "D033"]), self.drives_of("p03", ["D041", "D042", "D043", "D044"])
+        for number, drive in enumerate(healthy + changed):
+            drive["id"] = f"sol_{number}"
+            drive.pop("repeat_of", None)
+        status, headers, body = self.server.ask("POST", "/v1/watches", {"reference": "p01", "diagnose": False, "drives": healthy[:2]}, wait)
+        self.assertEqual(status, 200, body[:500])
+        first = json.loads(body)
+        self.assertEqual((first["format"], first["reference"]["campaign"], first["changed"]), ("watch/1", "p01", False))
+        self.assertEqual([d["id"] for d in first["drives"]], ["sol_0", "sol_1"])
+        job = headers["Content-Location"].split("/")[3]
+        status, headers, body = self.server.ask("POST", "/v1/watches", {"continues": job, "drives": healthy[2:] + changed}, wait)
+        self.assertEqual(status, 200, body[:500])
+        second = json.loads(body)
+        self.assertEqual([d["id"] for d in second["drives"]], [f"sol_{n}" for n in range(7)])
+        for before, now in zip(first["drives"], second["drives"]):
+            self.assertAlmostEqual(before["log10_evidence"], now["log10_evidence"], delta=0.05, msg="what was said before stands")
+        self.assertTrue(second["changed"], second)
+        self.assertIn(second["alarm"]["since"], [d["id"] for d in changed])
+        at_once = self.server.ask("POST", "/v1/watches", {"reference": "p01", "diagnose": False, "drives": healthy + changed}, wait)[2]
+        self.assertEqual(at_once, body, "however the drives were dealt into requests")
+        # Faults count drives as they were sent; what is not there is not continued.
+        bad = {**changed[0], "csv": "t_s,x_m,y_m,z_m\n0,0,0,deep\n"}
+        last = headers["Content-Location"].split("/")[3]
+        self.refused("/v1/watches", {"continues": last, "drives": [{**changed[0], "id": "sol_9"}, bad]}, 422, "/drives/1/id", "/drives/1/csv")
+        self.refused("/v1/watches", {"continues": "0" * 32, "drives": changed}, 422, "/continues")
+        self.refused("/v1/watches", {"reference": "../p01", "drives": changed}, 422, "/reference")
+
+    def test_a_diagnosis_with_a_reference_says_what_has_changed_since(self):
+        self.refused("/v1/diagnoses", {"campaign": "p03", "reference": "p03"}, 422, "/reference")
+        self.refused("/v1/diagnoses", {"campaign": "p03", "reference": "p99"}, 422, "/reference")
+        document = json.loads(self.server.answer("/v1/diagnoses", {"campaign": "p03", "reference": "p01"}))
+        self.assertEqual((document["reference"]["campaign"], document["reference"]["drives"]), ("p01", 44))
+        self.assertTrue(document["reference"]["discrepancy"])
+        self.assertEqual([e["name"] for e in document["effects"]], ["slip_sinkage"])
+        self.assertNotIn("reference", json.loads(self.server.answer("/v1/diagnoses", {"campaign": "p05"})))
+
     def test_a_check_is_a_page_and_its_stations_a_table_here_and_on_the_command_line(self):
         request = {"terrain": "gale", "rover": "msl-class", "path": [STOP_967, STOP_997], "draws": 4}
         status, headers, body = self.server.ask("POST", "/v1/checks", request, {"Prefer": "wait=30"})

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "gap/diagnosis/held_out/linear_held_out.h"
 #include "tests/gap/linear_model.h"
 #include "tests/sim/reference_models.h"
 

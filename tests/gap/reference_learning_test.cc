@@ -64,18 +64,30 @@ TEST(PriorPrecision, CarriesWhatAFirstHalfToldToTheSecond) {
 }
 
 // Slip is left over by three units of its columns, the currents by none.
-TEST(MostProbableSizes, GiveADifferenceWhereThereIsOne) {
+TEST(BelievedSizes, GiveADifferenceWhereThereIsOne) {
   const Eigen::MatrixXd columns = random_matrix(200, 12, 41);
-  std::vector<Channel> channels(6, Channel::kSlip);
-  channels.insert(channels.end(), 6, Channel::kCurrent);
+  std::vector<std::size_t> groups(6, 0);
+  groups.insert(groups.end(), 6, 1);
   const Eigen::MatrixXd known = random_matrix(200, 2, 51);
   Eigen::VectorXd coefficients = Eigen::VectorXd::Zero(12);
   coefficients.head(6) = 3.0 * random_matrix(6, 1, 61);
   const Eigen::VectorXd residuals = random_matrix(200, 1, 71) + columns * coefficients;
   const std::vector<double> sizes =
-      most_probable_sizes(residuals, known, columns, channels, std::vector{0.03, 0.1, 0.3, 1.0, 3.0});
-  EXPECT_GE(sizes[static_cast<std::size_t>(Channel::kSlip)], 1.0);
-  EXPECT_LE(sizes[static_cast<std::size_t>(Channel::kCurrent)], 0.1);
+      believed_sizes(residuals, known, columns, groups, std::vector{0.03, 0.1, 0.3, 1.0, 3.0});
+  EXPECT_GE(sizes[0], 1.0);
+  EXPECT_LE(sizes[1], 0.15);
+}
+
+// Rows in which the columns are next to nothing say nothing of their size: the difference stays open there.
+TEST(BelievedSizes, StayOpenWhereTheDrivesCouldNotHaveShownADifference) {
+  const std::vector<double> sizes{0.03, 0.1, 0.3, 1.0, 3.0};
+  const std::vector<std::size_t> groups(4, 0);
+  const Eigen::MatrixXd known = random_matrix(200, 2, 52), columns = random_matrix(200, 4, 42);
+  const Eigen::VectorXd residuals = random_matrix(200, 1, 72);
+  const double shown = believed_sizes(residuals, known, columns, groups, sizes)[0];
+  const double hidden = believed_sizes(residuals, known, 1e-4 * columns, groups, sizes)[0];
+  EXPECT_LT(shown, 0.15);
+  EXPECT_NEAR(hidden, std::sqrt((0.0009 + 0.01 + 0.09 + 1.0 + 9.0) / 6.0), 0.01) << "all alike";
 }
 
 }  // namespace

@@ -20,6 +20,18 @@ grep -q '"fidelity":"L3"' "$folder/other/answers.json"
 status=0
 "$sealed_campaigns" "$folder/none" --set each --only multipass --fidelity L3 2>"$folder/err" || status=$?
 [ "$status" = 2 ] && grep -q '^multipass .* L3 has another law' "$folder/err" && [ ! -e "$folder/none" ]
+# Drives that a diagnosis asks for are made and added; the others stay as they are.
+printf 's01,15,90,0.05,0.3,-40\ns01,5,0,-0.025,0,20\n' >"$folder/asked.csv"
+printf 'none,0,0,0.05,0,20\n' >"$folder/none.csv"
+for more in none asked; do
+  "$sealed_campaigns" "$folder/$more-more" --set each --only gearbox_friction --seed 7 --drives 5 --more "$folder/$more.csv"
+done
+for file in "$folder"/none-more/s01/D*.csv; do cmp "$file" "$folder/asked-more/s01/$(basename "$file")"; done
+[ "$(ls "$folder"/none-more/s01/D*.csv | wc -l)" = 5 ] && [ "$(ls "$folder"/asked-more/s01/D*.csv | wc -l)" = 7 ]
+grep -q '"tilt_15"' "$folder/asked-more/s01/campaign.json"
+status=0
+"$sealed_campaigns" "$folder/bad-more" --set each --more "$folder/asked-more/answers.json" 2>"$folder/err" || status=$?
+[ "$status" = 2 ] && grep -q 'is no file of drives' "$folder/err"
 "$slipway" gap-benchmark "$folder/first" --data "$data" --json --keep "$folder/kept" >"$folder/scores.json"
 python3 - "$folder" <<'CHECK'
 import csv, json, pathlib, sys

@@ -261,6 +261,15 @@ SealedCampaign make_campaign(const CampaignCase& made_of, RandomStream& random) 
   return made;
 }
 
+void add_drives(SealedCampaign& campaign, std::vector<DriveOrder> orders, RandomStream& random) {
+  for (std::size_t i = 0; i < orders.size(); ++i) {
+    orders[i].id = drive_name(campaign.drives.size() + i);
+    orders[i].share_of_day = 1.0;
+  }
+  for (MadeDrive& drive : drive_all(campaign.world, campaign.terrains, orders, random.seed()))
+    campaign.drives.push_back(std::move(drive));
+}
+
 SealedCampaign healthy_reference(const SealedCampaign& campaign, RandomStream& random) {
   SealedCampaign made;
   made.made_of = campaign.made_of;

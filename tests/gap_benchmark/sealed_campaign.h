@@ -35,6 +35,10 @@ struct SealedCampaign {
 
 SealedCampaign make_campaign(const CampaignCase& made_of, RandomStream& random);
 
+// Drives made after the others, of the same rover on the same ground with the same cause: numbers and hours
+// go on, the others stay as they are. Only on tables.
+void add_drives(SealedCampaign& campaign, std::vector<DriveOrder> orders, RandomStream& random);
+
 // Drives of the same rover on the same ground and soil before anything was hidden in it: other drives, with
 // scatter and noise of their own.
 SealedCampaign healthy_reference(const SealedCampaign& campaign, RandomStream& random);

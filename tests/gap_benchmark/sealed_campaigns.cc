@@ -1,18 +1,24 @@
 // sealed_campaigns OUT [--seed N] [--set blind|full|each|smoke|nothing|other_physics|outside] [--only
 // CAUSE,...]
-// [--fidelity L1|L2|L2c|L3] [--size X] [--references yes|no] [--since DRIVE]
+// [--fidelity L1|L2|L2c|L3] [--size X] [--references yes|no] [--since DRIVE] [--drives N] [--more FILE]
 //
-// Since a drive: so many drives are healthy before the cause sets in, and their order is drawn.
-// With references OUT/references/NAME holds drives of the same rover on the same ground without the cause.
-// Makes campaigns of drives with hidden effects in most of them, and writes answers.json and traces.csv
-// (where the effects act) beside them. It shares no code with the library that is judged on them.
+// With --drives only so many of a campaign's drives are made, of all kinds; --more adds those of a file,
+// whose lines are campaign,tilt_deg,heading_deg,speed_m_s,curvature_1_m,motor_temp_c (of tables alone; the
+// heading from straight uphill, positive to the left). The others stay as they are. Since a drive: so many
+// drives are healthy before the cause sets in, and their order is drawn. With references OUT/references/NAME
+// holds drives of the same rover on the same ground without the cause. Makes campaigns of drives with hidden
+// effects in most of them, and writes answers.json and traces.csv (where the effects act) beside them. It
+// shares no code with the library that is judged on them.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <map>
+#include <numbers>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -29,9 +35,10 @@ using namespace slipway::gap_benchmark;
 constexpr const char* kUsage =
     "usage: sealed_campaigns OUT [--seed N] [--set blind|full|each|smoke|nothing|other_physics|outside]\n"
     "                        [--only CAUSE,...] [--fidelity L1|L2|L2c|L3] [--size X]\n"
-    "                        [--references yes|no] [--since DRIVE]\n";
+    "                        [--references yes|no] [--since DRIVE] [--drives N] [--more FILE]\n";
 
 constexpr std::uint64_t kReferenceSeed = 0x5eed;  // of a reference, over its campaign's
+constexpr std::uint64_t kMoreSeed = 0xadd;        // of drives that are added
 
 struct Wish {
   std::string out, set = "blind";
@@ -40,8 +47,33 @@ struct Wish {
   std::optional<Fidelity> fidelity;
   std::optional<double> size;
   bool references = false;
-  std::size_t since = 0;
+  std::size_t since = 0, drives = 0;
+  std::map<std::string, std::vector<DriveOrder>> more;  // by campaign
 };
+
+// Drives to be added; nothing where the file can't be read or says something else.
+std::optional<std::map<std::string, std::vector<DriveOrder>>> more_drives(const std::string& file) {
+  std::ifstream in(file);
+  std::map<std::string, std::vector<DriveOrder>> more;
+  bool good = in.is_open();
+  for (std::string line; good && std::getline(in, line);) {
+    std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream fields(line);
+    std::string campaign;
+    double tilt_deg = 0.0, heading_deg = 0.0;
+    DriveOrder order;
+    good = static_cast<bool>(fields >> campaign >> tilt_deg >> heading_deg >> order.speed_m_s >>
+                             order.curvature_1_m >> order.motor_temp_c);
+    char terrain[16];
+    std::snprintf(terrain, sizeof terrain, "tilt_%02d", static_cast<int>(std::lround(tilt_deg)));
+    order.terrain = terrain;
+    order.start_yaw_rad = heading_deg * std::numbers::pi / 180.0;
+    more[campaign].push_back(order);
+  }
+  if (good) return more;
+  std::cerr << file << " is no file of drives\n";
+  return std::nullopt;
+}
 
 std::optional<Fidelity> fidelity_named(const std::string& name) {
   for (const Fidelity fidelity :
@@ -69,7 +101,13 @@ std::optional<Wish> wish_of(int count, char** words) {
       wish.size = std::strtod(value.c_str(), nullptr);
     else if (word == "--since")
       wish.since = static_cast<std::size_t>(std::strtoull(value.c_str(), nullptr, 10));
-    else if (word == "--references")
+    else if (word == "--drives")
+      wish.drives = static_cast<std::size_t>(std::strtoull(value.c_str(), nullptr, 10));
+    else if (word == "--more") {
+      const auto more = more_drives(value);
+      if (!more) return std::nullopt;
+      wish.more = *more;
+    } else if (word == "--references")
       wish.references = value == "yes";
     else if (word == "--fidelity") {
       wish.fidelity = fidelity_named(value);
@@ -117,7 +155,11 @@ int main(int count, char** words) {
     });
   if (wish->size)
     for (CampaignCase& made_of : *cases) made_of.size = *wish->size;
-  for (CampaignCase& made_of : *cases) made_of.since_drive = wish->since;
+  for (CampaignCase& made_of : *cases) {
+    made_of.since_drive = wish->since;
+    if (wish->drives > 0) made_of.max_drives = wish->drives;
+    if (!wish->more.empty()) made_of.on_hills = false;
+  }
   for (const CampaignCase& made_of : *cases)
     if (const std::optional<std::string> cause = impossible_cause(made_of)) {
       std::cerr << *cause << " is a term of the wheel law of L1 and L2; " << name_of(made_of.fidelity)
@@ -134,7 +176,11 @@ int main(int count, char** words) {
       return 1;
     }
     RandomStream own((*cases)[i].seed);
-    const SealedCampaign campaign = make_campaign((*cases)[i], own);
+    SealedCampaign campaign = make_campaign((*cases)[i], own);
+    if (const auto more = wish->more.find(name); more != wish->more.end()) {
+      RandomStream later((*cases)[i].seed + kMoreSeed);
+      add_drives(campaign, more->second, later);
+    }
     const std::string fault = write_campaign(campaign, name, std::filesystem::path(wish->out) / name);
     if (!fault.empty()) {
       std::cerr << fault << '\n';

@@ -15,5 +15,8 @@ Result<Report> independent_simulator(const std::filesystem::path& data);
 Result<Report> table_level(const std::filesystem::path& data);
 Result<Report> dynamic_level(const std::filesystem::path& data);
 Result<Report> sealed_campaigns(const std::filesystem::path& data);
+Result<Report> sealed_levels(const std::filesystem::path& data);
+Result<Report> sealed_marginals(const std::filesystem::path& data);
+Result<Report> sealed_withheld(const std::filesystem::path& data);
 
 }  // namespace slipway::validation

@@ -4,9 +4,9 @@
 #include <map>
 #include <set>
 
-#include "benchmark/benchmark_score.h"
 #include "validation/report/csv_table.h"
 #include "validation/simulators/comparisons.h"
+#include "validation/simulators/sealed_scores.h"
 
 namespace slipway::validation {
 namespace {
@@ -16,53 +16,6 @@ using gap::CaseScore;
 using gap::Rate;
 
 const std::string kAsIs = "as-is";
-
-struct Scored {
-  std::string set, variant;
-  CaseScore score;
-};
-
-std::optional<double> optional_number(const CsvTable& table, std::size_t row, const char* column) {
-  if (!table.has(column) || table.empty(row, column)) return std::nullopt;
-  return table.number(row, column);
-}
-
-Scored scored(const CsvTable& table, std::size_t row) {
-  const auto yes = [&](const char* column) { return table.number(row, column) != 0.0; };
-  Scored s{table.text(row, "set"), table.text(row, "variant"), {}};
-  CaseScore& c = s.score;
-  c.campaign = table.text(row, "campaign");
-  c.truth = table.text(row, "hidden");
-  c.truth_kind = static_cast<gap::TruthKind>(static_cast<int>(table.number(row, "hidden_kind")));
-  c.size = table.number(row, "size");
-  c.kind = table.text(row, "kind");
-  c.fidelity = table.text(row, "fidelity");
-  c.verdict = table.text(row, "verdict");
-  c.found = table.text(row, "found");
-  c.exact = yes("exact");
-  c.alike = yes("alike");
-  c.verdict_right = yes("verdict_right");
-  c.held = yes("held");
-  c.false_alarm = yes("false_alarm");
-  c.confident_wrong = yes("confident_wrong");
-  c.unknown_probability = table.number(row, "unknown_probability");
-  c.stated = table.number(row, "stated");
-  if (!table.empty(row, "wheel_right")) c.wheel_right = yes("wheel_right");
-  c.closed_fraction = optional_number(table, row, "closed_fraction");
-  c.oracle_closed_fraction = optional_number(table, row, "oracle_closed_fraction");
-  c.place_overlap = optional_number(table, row, "place_overlap");
-  c.seconds = table.number(row, "seconds");
-  if (const auto right = optional_number(table, row, "channel_right")) c.channel_right = *right != 0.0;
-  c.slice_overlap = optional_number(table, row, "slice_overlap");
-  c.slice_attainable = optional_number(table, row, "slice_attainable");
-  return s;
-}
-
-std::string words(const Rate& rate) {
-  if (rate.of == 0) return "-";
-  const gap::RateInterval interval = gap::binomial_interval(rate);
-  return fmt::format("{} of {} ({:.2f} to {:.2f})", rate.hits, rate.of, interval.low, interval.high);
-}
 
 std::string words(const std::optional<double>& value) {
   return value ? fmt::format("{:.2f}", *value) : "-";
@@ -82,13 +35,13 @@ std::vector<std::string> row_of(const std::string& set, const std::string& varia
   return {set,
           variant,
           fidelity,
-          words(right),
-          words(f.exact_sized),
-          words(f.alike_sized),
-          words(alarms),
-          words(f.unknown_reported),
+          rate_words(right),
+          rate_words(f.exact_sized),
+          rate_words(f.alike_sized),
+          rate_words(alarms),
+          rate_words(f.unknown_reported),
           words(f.unknown_auroc),
-          words(f.confident_wrong),
+          rate_words(f.confident_wrong),
           words(f.calibration),
           words(f.brier),
           words(f.closed_fraction),
@@ -175,18 +128,11 @@ void explain_columns(Report& report) {
 }  // namespace
 
 Result<Report> sealed_campaigns(const std::filesystem::path& data) {
-  const auto table = CsvTable::read(
-      data / "validation" / "sealed_campaigns_scores.csv",
-      {.numbers = {"hidden_kind", "size", "exact", "alike", "verdict_right", "held", "false_alarm",
-                   "confident_wrong", "unknown_probability", "stated", "seconds"},
-       .numbers_or_empty = {"wheel_right", "closed_fraction", "oracle_closed_fraction", "place_overlap"},
-       .texts = {"set", "variant", "campaign", "hidden", "verdict", "found"},
-       .numbers_if_there = {"channel_right", "slice_overlap", "slice_attainable"}});
-  if (!table) return fail(table.error());
+  auto scores = read_sealed_scores(data / "validation" / "sealed_campaigns_scores.csv");
+  if (!scores) return fail(scores.error());
   std::vector<std::pair<std::string, std::string>> order;  // set and variant, as they come
   std::map<std::pair<std::string, std::string>, std::vector<CaseScore>> groups;
-  for (std::size_t row = 0; row < table->rows(); ++row) {
-    Scored s = scored(*table, row);
+  for (SealedScore& s : *scores) {
     const std::pair key{s.set, s.variant};
     if (!groups.contains(key)) order.push_back(key);
     groups[key].push_back(std::move(s.score));
@@ -221,7 +167,7 @@ Result<Report> sealed_campaigns(const std::filesystem::path& data) {
           "Where the effects act, of {} ({}), for campaigns with effects hidden and named: the "
           "channel in which they act most is right in {}; the median overlap of the first slice is "
           "{}, by half or more {} (targets 0.95 and 0.6).",
-          set, variant, words(f.channel_right), words(f.slice_overlap), words(f.slice_half)));
+          set, variant, rate_words(f.channel_right), words(f.slice_overlap), rate_words(f.slice_half)));
   const auto withheld = withheld_notes(data);
   if (!withheld) return fail(withheld.error());
   report.notes.insert(report.notes.end(), withheld->begin(), withheld->end());

@@ -215,15 +215,12 @@ void read_command(ObjectReader& drive, const sim::RoverModel* rover, gap::Measur
 }
 
 // Index into the terrains; 0 with a fault where there is none of the name.
-std::size_t terrain_index(ObjectReader& drive, const DriveCampaignFile& file) {
+std::size_t terrain_index(ObjectReader& drive, const std::vector<std::string>& terrains) {
   std::string name;
-  if (!drive.text("terrain", kRequired, {}, name) || file.terrains.empty()) return 0;  // which was reported
-  std::vector<std::string> known;
-  for (std::size_t t = 0; t < file.terrains.size(); ++t) {
-    if (file.terrains[t].name == name) return t;
-    known.push_back(file.terrains[t].name);
-  }
-  drive.fault("terrain", unknown_name("terrain", name, known));
+  if (!drive.text("terrain", kRequired, {}, name) || terrains.empty()) return 0;  // which was reported
+  const auto at = std::find(terrains.begin(), terrains.end(), name);
+  if (at != terrains.end()) return static_cast<std::size_t>(at - terrains.begin());
+  drive.fault("terrain", unknown_name("terrain", name, terrains));
   return 0;
 }
 
@@ -244,6 +241,8 @@ void check_repeats(const std::map<std::string, std::size_t>& ids, bool all_read,
 
 void read_drives(ObjectReader& reader, DriveCampaignFile& file) {
   std::map<std::string, std::size_t> first_with, first_of_file;
+  std::vector<std::string> terrains;
+  for (const CampaignTerrainEntry& terrain : file.terrains) terrains.push_back(terrain.name);
   bool all_ids = true;
   for (const Element& element : reader.list("drives", kRequired, {1, kMaxDrives})) {
     ObjectReader object = reader.object(element);
@@ -264,10 +263,7 @@ void read_drives(ObjectReader& reader, DriveCampaignFile& file) {
                                          file.drives[first->second].pointer));
         entry.file.clear();  // its faults are reported once
       }
-    drive.terrain = terrain_index(object, file);
-    read_command(object, file.rover.get(), drive);
-    if (std::string other; object.text("repeat_of", kOptional, {}, other)) drive.repeat_of = other;
-    object.boolean("final_only", kOptional, drive.final_only);
+    read_drive_facts(object, file.rover.get(), terrains, drive);
     object.refuse_unknown();
   }
   check_repeats(first_with, all_ids, file);
@@ -299,6 +295,14 @@ void note_passed_over(const std::vector<std::string>& passed_over, std::vector<s
 }
 
 }  // namespace
+
+void read_drive_facts(ObjectReader& object, const sim::RoverModel* rover,
+                      const std::vector<std::string>& terrains, gap::MeasuredDriveSeries& drive) {
+  drive.terrain = terrain_index(object, terrains);
+  read_command(object, rover, drive);
+  if (std::string other; object.text("repeat_of", kOptional, {}, other)) drive.repeat_of = other;
+  object.boolean("final_only", kOptional, drive.final_only);
+}
 
 Result<DriveCampaignFile> read_drive_campaign_file(std::string_view bytes, const Catalogue& catalogue) {
   const auto document = parse(bytes, kLimits);

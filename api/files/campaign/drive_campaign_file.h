@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "api/files/catalogue.h"
+#include "api/json/strict_reader.h"
 #include "dem/soil_map.h"
 #include "gap/diagnosis/model/drive_campaign.h"
 
@@ -41,6 +42,11 @@ struct DriveCampaignFile {
   std::vector<std::string> notes;  // keys that were passed over, what was taken for granted
   std::vector<Fault> faults;
 };
+
+// What a drive of the format says besides its id and its rows: terrain (one of these, by its index in
+// `drive`), commanded, repeat_of, final_only. `rover` may be null.
+void read_drive_facts(ObjectReader& object, const sim::RoverModel* rover,
+                      const std::vector<std::string>& terrains, gap::MeasuredDriveSeries& drive);
 
 // Reads keys that the format has not over, and says so in the notes: whoever measured may say more. Faults
 // are in the answer, so that those of the files beside it can join them. Errors: malformed_json,

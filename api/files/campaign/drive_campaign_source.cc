@@ -183,13 +183,7 @@ class Loader {
     faults_.insert(faults_.end(), series.faults.begin(), series.faults.end());
     passed_over_.merge(series.passed_over);
     drive.samples = std::move(series.samples);
-    if (drive.final_only && drive.samples.size() > 2) {
-      campaign_.notes.push_back(
-          fmt::format("drive {} is final_only and its file has {} rows: the first and the "
-                      "last were taken",
-                      drive.id, drive.samples.size()));
-      drive.samples.erase(drive.samples.begin() + 1, drive.samples.end() - 1);
-    }
+    take_ends_of_final_only(campaign_, drive);
   }
 
   void note_columns() {
@@ -263,13 +257,25 @@ Result<gap::DriveCampaign> load_drive_campaign(const fs::path& folder, const Cat
   if (!file) return fail(refused_document(*bytes, file.error()));
   auto campaign = Loader(folder, *bytes, std::move(*file)).load();
   if (!campaign) return campaign;
-  gap::adopt_measured_rates(*campaign);
-  gap::note_turned_against_command(*campaign);
-  if (gap::currents_split_evenly(*campaign))
-    campaign->notes.emplace_back(
+  take_as_recorded(*campaign);
+  return campaign;
+}
+
+void take_ends_of_final_only(gap::DriveCampaign& campaign, gap::MeasuredDriveSeries& drive) {
+  if (!drive.final_only || drive.samples.size() <= 2) return;
+  campaign.notes.push_back(
+      fmt::format("drive {} is final_only and its file has {} rows: the first and the last were taken",
+                  drive.id, drive.samples.size()));
+  drive.samples.erase(drive.samples.begin() + 1, drive.samples.end() - 1);
+}
+
+void take_as_recorded(gap::DriveCampaign& campaign) {
+  gap::adopt_measured_rates(campaign);
+  gap::note_turned_against_command(campaign);
+  if (gap::currents_split_evenly(campaign))
+    campaign.notes.emplace_back(
         "all wheels have the same current in every row: it is taken for a total that was divided evenly, and "
         "compared as the wheels' mean");
-  return campaign;
 }
 
 Result<std::optional<gap::DriveCampaign>> load_reference_drives(const fs::path& folder,

@@ -16,6 +16,12 @@ namespace slipway::api {
 Result<gap::DriveCampaign> load_drive_campaign(const std::filesystem::path& folder,
                                                const Catalogue& catalogue);
 
+// Of a drive of which only the end was recorded the first and the last row are taken; a note says so.
+void take_ends_of_final_only(gap::DriveCampaign& campaign, gap::MeasuredDriveSeries& drive);
+// What the drives' rows say of how they were recorded: rates that differ from the commanded ones, currents
+// that were divided evenly. Notes say so.
+void take_as_recorded(gap::DriveCampaign& campaign);
+
 // The same of drives that are taken as healthy; nothing where no folder is named.
 Result<std::optional<gap::DriveCampaign>> load_reference_drives(const std::filesystem::path& folder,
                                                                 const Catalogue& catalogue);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <functional>
 #include <map>
 #include <set>
@@ -10,42 +9,8 @@
 
 #include "gap/diagnosis/result/result.h"
 #include "gap/diagnosis/search/explanation_search.h"
-#include "gap/diagnosis/search/prepared_campaign.h"
 
 namespace slipway::gap {
-
-// Rows of observations by the fold of their drive, whether they are compared, and the deviation of their
-// noise.
-struct FoldedRows {
-  std::vector<int> fold;
-  std::vector<bool> compared;
-  Eigen::VectorXd deviation;
-};
-
-// Root mean square of prediction less measurement, in deviations of the noise, on drives that an explanation
-// has not seen, its derivatives being taken for constant: each fold's parameters are solved for from the
-// other folds' rows (whitened, with a prior of deviation 1 and held within their bounds), and predictions
-// move along the derivatives. `more` has columns behind the fit's own (observations x columns, by prior
-// deviations), and `white_more` the same whitened, rows weighed as in the fit; both may be empty.
-// `precision`: of the prior where reference drives told of it, see Hypothesis::prior_precision(); `more` then
-// begins with what they left open, which is behind the fit's white columns already.
-double linear_held_out_rms(const PosteriorMode& fit, std::span<const Parameter> parameters,
-                           const Eigen::MatrixXd& more, const Eigen::MatrixXd& white_more,
-                           const FoldedRows& rows, int folds, const Eigen::MatrixXd& precision = {});
-
-// The same of a campaign's explanations. It costs no prediction, so that every explanation can be asked.
-class LinearHeldOut {
- public:
-  // `groups`: of each drive, see learnt_from_in. What is given must outlive it.
-  LinearHeldOut(const PreparedCampaign& prepared, std::span<const std::size_t> groups, int folds);
-
-  double operator()(const FittedExplanation& fit, const Eigen::MatrixXd& more = {}) const;
-
- private:
-  const PreparedCampaign& prepared_;
-  FoldedRows rows_;
-  int folds_;
-};
 
 // The shares of the held-out gap that go with single causes. The gap is what re-tuning leaves above the
 // floor, r(nothing) - 1, or what the best explanation closes, if that is more. A cause alone closes

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/parallel_for.h"
+
 namespace slipway::gap {
 namespace {
 
@@ -43,30 +45,39 @@ std::size_t NoiseModel::used_count() const {
   return static_cast<std::size_t>(std::count(used_.begin(), used_.end(), true));
 }
 
-void NoiseModel::set(const NoiseScales& scales) {
+void NoiseModel::set(const NoiseScales& scales, std::size_t threads) {
   scales_ = scales;
-  const Eigen::Vector3d deviations(scales.stiffness, scales.friction, scales.shear_modulus);
-  const double lean = scales.lean_rad * scales.lean_rad, shift = scales.load_shift_m * scales.load_shift_m;
-  const Eigen::Vector4d of_the_map(lean, lean, shift, shift);
-  const double within = scales.within_drives * scales.within_drives;
-  log_determinant_ = 0.0;
   deviation_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(used_.size()));
-  for (Block& block : blocks_) {
-    block.factor = {};
-    for (const WindowRows& part : block.windows) {
-      const Eigen::MatrixXd g = response_(part.rows, Eigen::all);
-      const Eigen::MatrixXd shared = g.leftCols(3) * deviations.asDiagonal();
-      Eigen::MatrixXd own = within * shared * shared.transpose();
-      own += g.rightCols(4) * of_the_map.asDiagonal() * g.rightCols(4).transpose();
-      own.diagonal() += variances_of(part, scales);
-      for (std::size_t i = 0; i < part.rows.size(); ++i) {
-        const auto at = static_cast<Eigen::Index>(i);
-        deviation_[part.rows[i]] = std::sqrt(own(at, at) + shared.row(at).squaredNorm());
-      }
-      block.factor.add(std::move(own), shared);
+  parallel_for(blocks_.size(), threads, [&](std::size_t b) { factor(blocks_[b]); });
+  log_determinant_ = 0.0;
+  for (const Block& block : blocks_) log_determinant_ += block.factor.log_determinant();
+}
+
+void NoiseModel::factor(Block& block) {
+  const Eigen::Vector3d deviations(scales_.stiffness, scales_.friction, scales_.shear_modulus);
+  const double lean = scales_.lean_rad * scales_.lean_rad;
+  const double shift = scales_.load_shift_m * scales_.load_shift_m;
+  const Eigen::Vector4d of_the_map(lean, lean, shift, shift);
+  const double within = scales_.within_drives * scales_.within_drives;
+  block.factor = {};
+  for (const WindowRows& part : block.windows) {
+    const Eigen::MatrixXd g = response_(part.rows, Eigen::all);
+    const Eigen::MatrixXd shared = g.leftCols(3) * deviations.asDiagonal();
+    Eigen::MatrixXd own = within * shared * shared.transpose();
+    own += g.rightCols(4) * of_the_map.asDiagonal() * g.rightCols(4).transpose();
+    own.diagonal() += variances_of(part, scales_);
+    for (std::size_t i = 0; i < part.rows.size(); ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      deviation_[part.rows[i]] = std::sqrt(own(at, at) + shared.row(at).squaredNorm());
     }
-    log_determinant_ += block.factor.log_determinant();
+    block.factor.add(std::move(own), shared);
   }
+}
+
+std::vector<Eigen::Index> NoiseModel::rows_of(const Block& block) {
+  std::vector<Eigen::Index> rows;
+  for (const WindowRows& part : block.windows) rows.insert(rows.end(), part.rows.begin(), part.rows.end());
+  return rows;
 }
 
 Eigen::VectorXd NoiseModel::variances_of(const WindowRows& part, const NoiseScales& scales) const {
@@ -92,42 +103,62 @@ std::size_t NoiseModel::factor_bytes() const {
 
 Eigen::MatrixXd NoiseModel::whiten(const Eigen::MatrixXd& columns) const {
   Eigen::MatrixXd white = Eigen::MatrixXd::Zero(columns.rows(), columns.cols());
-  std::vector<Eigen::Index> rows;
   for (const Block& block : blocks_) {
-    rows.clear();
-    for (const WindowRows& part : block.windows) rows.insert(rows.end(), part.rows.begin(), part.rows.end());
-    white(rows, Eigen::all) = block.factor.solve(columns(rows, Eigen::all));
+    const std::vector<Eigen::Index> rows = rows_of(block);
+    const Eigen::MatrixXd own = columns(rows, Eigen::all);
+    if (!own.isZero(0.0)) white(rows, Eigen::all) = block.factor.solve(own);
   }
   return white;
 }
 
 double log_marginal(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& columns) {
   // One half of the symmetric product does.
-  Eigen::MatrixXd inner = Eigen::MatrixXd::Identity(columns.cols(), columns.cols());
-  inner.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
-  const Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> llt(inner);
-  const Eigen::VectorXd projected = columns.transpose() * residuals;
-  const double explained = projected.dot(llt.solve(projected));
-  const double log_det = 2.0 * llt.matrixLLT().diagonal().array().log().sum();
-  return -0.5 * (residuals.squaredNorm() - explained) - 0.5 * log_det;
+  Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
+  squares.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
+  return log_marginal(residuals.squaredNorm(), columns.transpose() * residuals, std::move(squares));
 }
 
-void NoiseModel::estimate(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& systematic) {
+double log_marginal(double residual_square, const Eigen::VectorXd& products, Eigen::MatrixXd squares) {
+  squares.diagonal().array() += 1.0;
+  const Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> llt(squares);
+  const double explained = products.dot(llt.solve(products));
+  return -0.5 * (residual_square - explained) - llt.matrixLLT().diagonal().array().log().sum();
+}
+
+double NoiseModel::log_marginal_of(std::span<const Eigen::MatrixXd> own, std::size_t threads) const {
+  std::vector<Eigen::MatrixXd> squares(own.size());
+  parallel_for(own.size(), threads, [&](std::size_t b) {
+    const Eigen::MatrixXd white = blocks_[b].factor.solve(own[b]);
+    squares[b] = Eigen::MatrixXd::Zero(white.cols(), white.cols());
+    squares[b].selfadjointView<Eigen::Lower>().rankUpdate(white.transpose());
+  });
+  // In the blocks' order, whatever the number of threads.
+  Eigen::MatrixXd sum = squares.front();
+  for (std::size_t b = 1; b < squares.size(); ++b) sum += squares[b];
+  const Eigen::Index columns = sum.cols() - 1;
+  return log_marginal(sum(0, 0), sum.col(0).tail(columns), sum.bottomRightCorner(columns, columns));
+}
+
+void NoiseModel::estimate(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& systematic,
+                          std::size_t threads) {
+  if (blocks_.empty()) return;
   NoiseScales initial = options_.initial;
   const Scales believed = numbers_of(initial);
   NoiseScales best = scales_;
-  Eigen::MatrixXd both(residuals.size(), systematic.cols() + 1);
-  both << residuals, systematic;
+  std::vector<Eigen::MatrixXd> own;
+  for (const Block& block : blocks_) {
+    const std::vector<Eigen::Index> rows = rows_of(block);
+    own.emplace_back(static_cast<Eigen::Index>(rows.size()), systematic.cols() + 1);
+    own.back() << residuals(rows), systematic(rows, Eigen::all);
+  }
   const auto score = [&](const NoiseScales& scales) {
-    set(scales);
-    const Eigen::MatrixXd white = whiten(both);
+    set(scales, threads);
     NoiseScales copy = scales;
     const Scales numbers = numbers_of(copy);
     double prior = 0.0;
     for (int k = 0; k < kNoiseScales; ++k)
       prior += std::pow(std::log(*numbers[k] / *believed[k]) / options_.prior_std, 2);
-    return log_marginal(white.col(0), white.rightCols(systematic.cols())) - 0.5 * log_determinant_ -
-           0.5 * prior;
+    return log_marginal_of(own, threads) - 0.5 * log_determinant_ - 0.5 * prior;
   };
   double value = score(best);
   for (const double step : {1.0, 0.5, 0.25}) {
@@ -149,7 +180,7 @@ void NoiseModel::estimate(const Eigen::VectorXd& residuals, const Eigen::MatrixX
       if (!better) break;
     }
   }
-  set(best);
+  set(best, threads);
 }
 
 }  // namespace slipway::gap

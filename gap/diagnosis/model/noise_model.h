@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "core/progress.h"
@@ -45,12 +46,12 @@ class NoiseModel {
   NoiseModel(const WindowModel& model, Eigen::MatrixXd response, std::vector<double> expected,
              std::vector<bool> used, const NoiseOptions& options = {});
 
-  void set(const NoiseScales& scales);
+  void set(const NoiseScales& scales, std::size_t threads = 1);
   const NoiseScales& scales() const { return scales_; }
   // Finds the scales that make the residuals most likely, everything that `systematic` columns (prior
   // deviation 1 each) could explain taken out: what is left is the drives' own scatter. Weak priors around
   // the scales above.
-  void estimate(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& systematic);
+  void estimate(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& systematic, std::size_t threads = 1);
 
   // L^-1 r with V = L L^T. Rows not used are 0.
   Eigen::MatrixXd whiten(const Eigen::MatrixXd& columns) const;
@@ -74,6 +75,10 @@ class NoiseModel {
     std::vector<WindowRows> windows;  // in their order
     BlockCholesky factor;             // L
   };
+  static std::vector<Eigen::Index> rows_of(const Block& block);
+  void factor(Block& block);  // by the scales
+  // log_marginal of residuals (the first column) beside the other columns, of each block's rows.
+  double log_marginal_of(std::span<const Eigen::MatrixXd> own, std::size_t threads) const;
   // Of sensors and of what is left over.
   Eigen::VectorXd variances_of(const WindowRows& part, const NoiseScales& scales) const;
 
@@ -91,5 +96,7 @@ class NoiseModel {
 // log N(r; 0, V + A A^T) for whitened residuals r and whitened columns A of prior deviation 1, without the
 // constant n/2 log(2 pi) and without 1/2 log |V|.
 double log_marginal(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& columns);
+// The same of r^T r, A^T r and the lower half of A^T A.
+double log_marginal(double residual_square, const Eigen::VectorXd& products, Eigen::MatrixXd squares);
 
 }  // namespace slipway::gap

@@ -13,6 +13,10 @@ namespace {
 
 constexpr std::size_t kFunctions = 20;
 using Functions = std::array<double, kFunctions>;
+// Of smooth_functions: those that are next to nothing on gentle ground.
+constexpr std::array<bool, kFunctions> kIsHarsh{false, false, true,  true,  false, true, false,
+                                                true,  false, true,  true,  false, true, false,
+                                                false, false, false, false, false, false};
 
 // What a circumstance is divided by, so that it is about 1 where drives are harsh.
 constexpr double kSlope_deg = 10.0, kSlipScale = 0.2, kCurvature_1_m = 0.4, kTemperature_c = 30.0;
@@ -98,12 +102,13 @@ Eigen::MatrixXd smooth_columns(const WindowModel& model, std::span<const double>
   return columns;
 }
 
-std::vector<Channel> smooth_channels(const sim::RoverModel& rover) {
-  std::vector<Channel> channels;
+std::vector<std::size_t> smooth_groups(const sim::RoverModel& rover) {
+  std::vector<std::size_t> groups;
   for (std::size_t c = 0; c < channel_count(); ++c)
-    channels.insert(channels.end(), kFunctions * copies_of(channel_catalogue()[c], rover),
-                    static_cast<Channel>(c));
-  return channels;
+    for (std::size_t copy = 0; copy < copies_of(channel_catalogue()[c], rover); ++copy)
+      for (std::size_t k = 0; k < kFunctions; ++k)
+        groups.push_back(kSmoothGroups * c + (kIsHarsh[k] ? 1 : 0));
+  return groups;
 }
 
 std::size_t place_in(std::span<const std::string> names, const std::string& name) {

@@ -25,7 +25,10 @@ SmoothScale smooth_scale(const WindowModel& model, std::span<const double> expec
 Eigen::MatrixXd smooth_columns(const WindowModel& model, std::span<const double> expected,
                                const SmoothScale& scale);
 
-// The channel of each column.
-std::vector<Channel> smooth_channels(const sim::RoverModel& rover);
+// The group of each column, below kSmoothGroups times the number of channels: columns of one group are
+// believed to be of one size. Those of a channel are in two: what gentle drives show, and what grows faster
+// than slope and slip (their squares, cubes and products), of whose size gentle drives say next to nothing.
+constexpr std::size_t kSmoothGroups = 2;
+std::vector<std::size_t> smooth_groups(const sim::RoverModel& rover);
 
 }  // namespace slipway::gap

@@ -113,6 +113,8 @@ struct ChannelClosure {
   Interval nominal, retuned, with_effects, noise_floor;
   // (retuned - with_effects) / (retuned - noise_floor), within 0 and 1; nothing where re-tuning left no gap.
   std::optional<Interval> closed_fraction = {};
+  // With what nobody has named described beside the effects, as far as it repeats from drive to drive.
+  std::optional<Interval> with_discrepancy = {};
 };
 
 // What planning with a model would have predicted of drives held out of the fit.

@@ -250,8 +250,8 @@ struct NextDriveOptions {
 
 // What drives that are taken as healthy teach of those that follow: see reference_learning.h.
 struct ReferenceOptions {
-  // Deviations that a coefficient of the smooth difference may have, in its channel's unit; the most probable
-  // is taken, by channel.
+  // Deviations that a coefficient of the smooth difference may have, in its channel's unit, and 0: see
+  // believed_sizes.
   std::array<double, 5> sizes{0.03, 0.1, 0.3, 1.0, 3.0};
   // Prior deviations by which soils, closures and motors may have drifted since: ground is not the same
   // twice.

@@ -1,9 +1,7 @@
 #include "gap/diagnosis/search/discrepancy_term.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/angle.h"
 #include "gap/diagnosis/search/effect_trace.h"
@@ -96,27 +94,6 @@ Circumstances circumstances_of(const WindowModel& model, std::size_t w, double s
           last_drive > 0.0 ? 2.0 * static_cast<double>(window.drive) / last_drive - 1.0 : 0.0};
 }
 
-Eigen::MatrixXd both(const Eigen::MatrixXd& known, const Eigen::MatrixXd& white, double size) {
-  Eigen::MatrixXd columns(known.rows(), known.cols() + white.cols());
-  columns << known, size * white;
-  return columns;
-}
-
-// The columns of a fit with others of every size beside; `take` gets whether the size is that of something
-// else, and says whether to go on.
-void for_sizes(const PosteriorMode& fit, const Eigen::MatrixXd& term, const Eigen::MatrixXd& form,
-               const DiscrepancyOptions& options,
-               const std::function<bool(bool, const Eigen::MatrixXd&)>& take) {
-  for (const double exact : options.form_sizes) {
-    if (exact > 0.0 && form.cols() == 0) continue;
-    const Eigen::MatrixXd known = both(fit.white_jacobian, form, exact);
-    for (const double share : options.imprecision_shares)
-      if (!take(false, both(known, term, share * options.imprecision))) return;
-    for (const double size : options.sizes)
-      if (!take(true, both(known, term, size))) return;
-  }
-}
-
 // Which axle each wheel is on, from the front.
 std::vector<int> axles(const sim::RoverModel& rover) {
   std::vector<int> of;
@@ -130,14 +107,6 @@ std::vector<int> axles(const sim::RoverModel& rover) {
     of.push_back(ahead);
   }
   return of;
-}
-
-// log of the mean of exp(values).
-double log_mean_exp(const std::vector<double>& values) {
-  const double most = *std::max_element(values.begin(), values.end());
-  double sum = 0.0;
-  for (const double v : values) sum += std::exp(v - most);
-  return most + std::log(sum / static_cast<double>(values.size()));
 }
 
 // What an entry point does to every observation.
@@ -329,58 +298,6 @@ Eigen::MatrixXd form_columns(const DriveCampaign& campaign, const WindowModel& m
   }
   return fit.row_weights.asDiagonal() *
          noise.whiten(side_by_side(static_cast<Eigen::Index>(with.size()), columns));
-}
-
-DiscrepancyGain discrepancy_gain(const PosteriorMode& fit, const Eigen::MatrixXd& term,
-                                 const Eigen::MatrixXd& form, const DiscrepancyOptions& options,
-                                 const Cancelled& cancelled) {
-  const double without = log_marginal(fit.white_linear, fit.white_jacobian);
-  std::vector<double> imprecise, other;
-  for_sizes(fit, term, form, options, [&](bool something_else, const Eigen::MatrixXd& columns) {
-    if (cancelled()) return false;
-    (something_else ? other : imprecise).push_back(log_marginal(fit.white_linear, columns));
-    return true;
-  });
-  if (cancelled()) return {};
-  return {log_mean_exp(imprecise) - without, log_mean_exp(other) - without};
-}
-
-Eigen::MatrixXd columns_beside(const PosteriorMode& fit, const Eigen::MatrixXd& term,
-                               const Eigen::MatrixXd& form, bool something_else,
-                               const DiscrepancyOptions& options, const Cancelled& cancelled) {
-  Eigen::MatrixXd best = fit.white_jacobian;
-  double most = -std::numeric_limits<double>::infinity();
-  for_sizes(fit, term, form, options, [&](bool else_too, const Eigen::MatrixXd& columns) {
-    if (cancelled()) return false;
-    if (else_too != something_else) return true;
-    if (const double value = log_marginal(fit.white_linear, columns); value > most) {
-      most = value;
-      best = columns;
-    }
-    return true;
-  });
-  return best;
-}
-
-DiscrepancyEstimate estimate_discrepancy(const PosteriorMode& fit, const Eigen::MatrixXd& term,
-                                         const DiscrepancyOptions& options, const Cancelled& cancelled) {
-  double best = -std::numeric_limits<double>::infinity();
-  double size = options.sizes[0];
-  for (const double s : options.sizes) {
-    if (cancelled()) break;
-    const double value = log_marginal(fit.white_linear, both(fit.white_jacobian, term, s));
-    if (value > best) {
-      best = value;
-      size = s;
-    }
-  }
-  const Eigen::MatrixXd columns = both(fit.white_jacobian, term, size);
-  Eigen::MatrixXd hessian = columns.transpose() * columns;
-  hessian.diagonal().array() += 1.0;
-  const Eigen::LLT<Eigen::MatrixXd> factor(hessian);
-  const Eigen::VectorXd all = factor.solve(columns.transpose() * fit.white_linear);
-  const Eigen::MatrixXd covariance = factor.solve(Eigen::MatrixXd::Identity(columns.cols(), columns.cols()));
-  return {size * all.tail(term.cols()), size * covariance.diagonal().tail(term.cols()).cwiseSqrt()};
 }
 
 }  // namespace slipway::gap

@@ -114,6 +114,10 @@ Eigen::MatrixXd columns_beside(const PosteriorMode& fit, const Eigen::MatrixXd& 
                                const Eigen::MatrixXd& form, bool something_else,
                                const DiscrepancyOptions& options, const Cancelled& cancelled);
 
+// The one of these sizes (at least one) of the term beside a fit that has the most evidence.
+double most_probable_size(const PosteriorMode& fit, const Eigen::MatrixXd& term,
+                          std::span<const double> sizes, const Cancelled& cancelled);
+
 // The coefficients' means and standard errors, in units of the columns, at the most probable size.
 struct DiscrepancyEstimate {
   Eigen::VectorXd mean, error;

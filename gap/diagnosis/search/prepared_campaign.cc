@@ -142,7 +142,8 @@ void prepare_around(PreparedCampaign& prepared, const DriveCampaign& campaign, c
                              retuned.cols() + left.cols() + prepared.discrepancy.values.cols());
   systematic << retuned, left, prepared.discrepancy.values;
   prepared.noise->estimate(
-      found.residuals + found.jacobian * in_prior_units(found.hypothesis.parameters(), found.x), systematic);
+      found.residuals + found.jacobian * in_prior_units(found.hypothesis.parameters(), found.x), systematic,
+      threads);
   const std::vector<double> start = prepared.null->x;
   prepared.null = fit_explanation(prepared.null->hypothesis, *prepared.model, *prepared.noise, start,
                                   options.fit, threads);

@@ -11,15 +11,62 @@ namespace {
 
 constexpr int kMaxSweeps = 3;
 
-// log_marginal of residuals beside columns of which squares, products with the residuals and sizes are known.
-double marginal_of(const Eigen::MatrixXd& squares, const Eigen::VectorXd& products, double residual_square,
-                   const Eigen::VectorXd& sizes) {
-  Eigen::MatrixXd inner = sizes.asDiagonal() * squares * sizes.asDiagonal();
-  inner.diagonal().array() += 1.0;
-  const Eigen::LLT<Eigen::MatrixXd> llt(inner);
-  const Eigen::VectorXd projected = sizes.cwiseProduct(products);
-  return -0.5 * (residual_square - projected.dot(llt.solve(projected))) -
-         llt.matrixLLT().diagonal().array().log().sum();
+// log_marginal of residuals beside known columns and those of the difference, by the sizes of its groups.
+class SizeEvidence {
+ public:
+  SizeEvidence(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& known, const Eigen::MatrixXd& columns,
+               std::span<const std::size_t> groups)
+      : groups_(groups), known_(known.cols()), residual_square_(residuals.squaredNorm()) {
+    Eigen::MatrixXd all(columns.rows(), known.cols() + columns.cols());
+    all << known, columns;
+    squares_ = all.transpose() * all;
+    products_ = all.transpose() * residuals;
+  }
+
+  double operator()(const std::vector<double>& of_group) const {
+    // Columns of no size change nothing.
+    std::vector<Eigen::Index> there;
+    std::vector<double> sizes;
+    for (Eigen::Index k = 0; k < squares_.cols(); ++k) {
+      const double size = k < known_ ? 1.0 : of_group[groups_[static_cast<std::size_t>(k - known_)]];
+      if (size == 0.0) continue;
+      there.push_back(k);
+      sizes.push_back(size);
+    }
+    const auto size =
+        Eigen::Map<const Eigen::VectorXd>(sizes.data(), static_cast<Eigen::Index>(sizes.size()));
+    return log_marginal(residual_square_, size.cwiseProduct(products_(there)),
+                        size.asDiagonal() * squares_(there, there) * size.asDiagonal());
+  }
+
+ private:
+  std::span<const std::size_t> groups_;
+  Eigen::Index known_;
+  double residual_square_;
+  Eigen::MatrixXd squares_;
+  Eigen::VectorXd products_;
+};
+
+// The sizes are raised and lowered in turn, a group at a time, from nothing.
+std::vector<double> most_probable_sizes(const SizeEvidence& evidence, std::size_t groups,
+                                        std::span<const double> candidates) {
+  std::vector<double> best(groups, 0.0);
+  double value = evidence(best);
+  for (int sweep = 0; sweep < kMaxSweeps; ++sweep) {
+    bool better = false;
+    for (std::size_t group = 0; group < groups; ++group)
+      for (const double size : candidates) {
+        std::vector<double> trial = best;
+        if (std::exchange(trial[group], size) == size) continue;
+        if (const double v = evidence(trial); v > value) {
+          value = v;
+          best = std::move(trial);
+          better = true;
+        }
+      }
+    if (!better) break;
+  }
+  return best;
 }
 
 // "friction/drift" whatever the number of soils.
@@ -62,12 +109,11 @@ class Learner {
     // With what the difference explains put back, as the parameters' part is.
     Eigen::VectorXd residuals = fit.white_linear;
     if (offset_.size() > 0) residuals += fit.row_weights.asDiagonal() * prepared.noise->whiten(offset_);
-    const std::vector<Channel> channels = smooth_channels(*campaign_.rover);
+    const std::vector<std::size_t> groups = smooth_groups(*campaign_.rover);
     const std::vector<double> sizes =
-        most_probable_sizes(residuals, fit.white_jacobian, white, channels, options_.reference.sizes);
+        believed_sizes(residuals, fit.white_jacobian, white, groups, options_.reference.sizes);
     Eigen::VectorXd size(white.cols());
-    for (Eigen::Index c = 0; c < size.size(); ++c)
-      size[c] = sizes[static_cast<std::size_t>(channels[static_cast<std::size_t>(c)])];
+    for (Eigen::Index c = 0; c < size.size(); ++c) size[c] = sizes[groups[static_cast<std::size_t>(c)]];
     Eigen::MatrixXd all(white.rows(), nuisances + white.cols());
     all << fit.white_jacobian, white * size.asDiagonal();
     Eigen::MatrixXd precision = all.transpose() * all;
@@ -131,38 +177,28 @@ class Learner {
 
 }  // namespace
 
-std::vector<double> most_probable_sizes(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& known,
-                                        const Eigen::MatrixXd& columns, std::span<const Channel> channels,
-                                        std::span<const double> sizes) {
-  Eigen::MatrixXd all(columns.rows(), known.cols() + columns.cols());
-  all << known, columns;
-  const Eigen::MatrixXd squares = all.transpose() * all;
-  const Eigen::VectorXd products = all.transpose() * residuals;
-  std::vector<double> best(channel_count(), 0.0);
-  const auto score = [&](const std::vector<double>& trial) {
-    Eigen::VectorXd scaled = Eigen::VectorXd::Ones(all.cols());
-    for (std::size_t c = 0; c < channels.size(); ++c)
-      scaled[known.cols() + static_cast<Eigen::Index>(c)] = trial[static_cast<std::size_t>(channels[c])];
-    return marginal_of(squares, products, residuals.squaredNorm(), scaled);
-  };
+std::vector<double> believed_sizes(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& known,
+                                   const Eigen::MatrixXd& columns, std::span<const std::size_t> groups,
+                                   std::span<const double> sizes) {
+  const SizeEvidence evidence(residuals, known, columns, groups);
+  const std::size_t count = groups.empty() ? 0 : *std::max_element(groups.begin(), groups.end()) + 1;
   std::vector<double> candidates(sizes.begin(), sizes.end());
   candidates.push_back(0.0);
-  double value = score(best);
-  for (int sweep = 0; sweep < kMaxSweeps; ++sweep) {
-    bool better = false;
-    for (std::size_t channel = 0; channel < best.size(); ++channel)
-      for (const double size : candidates) {
-        std::vector<double> trial = best;
-        if (std::exchange(trial[channel], size) == size) continue;
-        if (const double v = score(trial); v > value) {
-          value = v;
-          best = std::move(trial);
-          better = true;
-        }
-      }
-    if (!better) break;
+  const std::vector<double> best = most_probable_sizes(evidence, count, candidates);
+  const double most = evidence(best);
+  std::vector<double> believed = best;
+  for (std::size_t group = 0; group < count; ++group) {
+    double weights = 0.0, squares = 0.0;
+    for (const double size : candidates) {
+      std::vector<double> trial = best;
+      trial[group] = size;
+      const double weight = std::exp(evidence(trial) - most);
+      weights += weight;
+      squares += weight * size * size;
+    }
+    believed[group] = std::sqrt(squares / weights);
   }
-  return best;
+  return believed;
 }
 
 Result<LearntReference> learn_reference(const DriveCampaign& reference, const DiagnosisOptions& options,

@@ -14,7 +14,7 @@ namespace slipway::gap {
 
 // What healthy drives teach: parameters and difference together, as one normal belief. The difference between
 // model and drives is a smooth one (smooth_difference.h) whose coefficients b are believed to be 0 with a
-// deviation a channel, the most probable of ReferenceOptions::sizes. Beside the null's columns A in prior
+// deviation a group (two of each channel), of ReferenceOptions::sizes. Beside the null's columns A in prior
 // deviations and B those of the coefficients, both whitened, the belief of (u, b) given the drives is normal
 // with precision [A B]^T [A B] + 1.
 struct LearntReference {
@@ -36,10 +36,12 @@ std::shared_ptr<const ReferenceBelief> belief_for(const LearntReference& learnt,
                                                   const DriveCampaign& campaign,
                                                   const ReferenceOptions& options);
 
-// Deviations of the coefficients of each channel that make whitened residuals r most likely beside known
-// columns, all of prior deviation 1: the coordinates are raised and lowered over `sizes` (and 0) in turn.
-std::vector<double> most_probable_sizes(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& known,
-                                        const Eigen::MatrixXd& columns, std::span<const Channel> channels,
-                                        std::span<const double> sizes);
+// Deviations of the coefficients of each group of columns, as whitened residuals tell of them beside known
+// columns of prior deviation 1: the root mean square of `sizes` and 0, each weighed by its probability beside
+// the other groups' most probable ones (found by raising and lowering them in turn). Where the drives could
+// not have shown a difference, the larger sizes are left in, so that what lies beyond them is open.
+std::vector<double> believed_sizes(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& known,
+                                   const Eigen::MatrixXd& columns, std::span<const std::size_t> groups,
+                                   std::span<const double> sizes);
 
 }  // namespace slipway::gap

@@ -87,9 +87,14 @@ ColumnBeside::ColumnBeside(const Eigen::VectorXd& residuals, const Eigen::Matrix
 }
 
 std::optional<double> ColumnBeside::gain(const Eigen::VectorXd& column) const {
-  const Eigen::VectorXd crossed = known_.transpose() * column;
-  const double information = column.squaredNorm() - crossed.dot(factor_.solve(crossed));
-  const double score = column.dot(left_);
+  // A disc is met by a few drives: all other rows are 0.
+  Eigen::Index first = 0, end = column.size();
+  while (first < end && column[first] == 0.0) ++first;
+  while (end > first && column[end - 1] == 0.0) --end;
+  const auto own = column.segment(first, end - first);
+  const Eigen::VectorXd crossed = known_.middleRows(first, own.size()).transpose() * own;
+  const double information = own.squaredNorm() - crossed.dot(factor_.solve(crossed));
+  const double score = own.dot(left_.segment(first, own.size()));
   if (score <= 0.0) return std::nullopt;
   return 0.5 * score * score / (1.0 + information) - 0.5 * std::log1p(information);
 }

@@ -73,6 +73,7 @@ constexpr std::array kVariants{
             .whole_evidence = true},
     Variant{.name = "no-wrench", .outside = false},
     Variant{.name = "old-naming", .by_marginals = false},
+    Variant{.name = "no-wrench-old-naming", .outside = false, .by_marginals = false},
     Variant{.name = "sample-level-folds", .method = &gap::diagnose_sample_by_sample},
     Variant{.name = "sparse-regression", .method = &gap::diagnose_by_sparse_regression},
     Variant{.name = "gaussian-process", .method = &gap::diagnose_by_gaussian_process},
@@ -311,7 +312,8 @@ Result<void> score_withheld(const Scoring& scoring, std::size_t i, const gap::Hi
 Result<gap::Benchmark> score(const Scoring& scoring, const std::vector<Timed>& open, std::size_t& unscored) {
   const auto answers = answers_of(scoring.options.folder);
   if (!answers) return fail(answers.error());
-  gap::Benchmark benchmark{.variant = scoring.options.variant, .cases = {}, .withheld = {}};
+  const std::string variant = scoring.options.variant + (scoring.options.references ? "+reference" : "");
+  gap::Benchmark benchmark{.variant = variant, .cases = {}, .withheld = {}};
   for (std::size_t i = 0; i < open.size(); ++i) {
     const auto answer = answers->find(scoring.names[i]);
     if (answer == answers->end()) {
@@ -337,6 +339,8 @@ int score_and_print(const Scoring& scoring, const std::vector<Timed>& open) {
   const std::string set = fs::path(options.folder).lexically_normal().filename().string();
   std::vector<OutputFile> files;
   if (!options.csv.empty()) files.push_back({options.csv, api::benchmark_csv(*benchmark, set)});
+  if (!options.marginals_csv.empty())
+    files.push_back({options.marginals_csv, api::marginals_csv(*benchmark, set)});
   if (!options.withheld_csv.empty())
     files.push_back({options.withheld_csv, api::withheld_csv(*benchmark, set)});
   const int status = deliver(

@@ -1,0 +1,236 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "core/angle.h"
+#include "gap/diagnosis/model/outside_cause_rows.h"
+
+namespace slipway::gap {
+namespace {
+
+using Free = sim::EffectVariant::Free;
+using Values = OutsideValues;
+
+// Prior deviation of a force, of the rover's weight: what a slope of 1.7 deg does.
+constexpr double kForceShare = 0.03;
+constexpr double kWheelForceShare = 0.015;
+constexpr double kLoadShare = 0.05;
+
+double weight_n(const DriveCampaign& campaign) {
+  return campaign.rover->mass_kg * campaign.gravity_m_s2;
+}
+
+// Where on the body a force acts: at the ground or well above the deck.
+constexpr const char* kHeight = "height_m";
+
+// One way, with these fields free, each of one deviation: a share of the weight; and the height.
+template <const auto& Fields>
+std::vector<sim::EffectVariant> forces(const DriveCampaign& campaign) {
+  std::vector<Free> free;
+  for (const char* field : Fields) free.push_back(outside_number(field, kForceShare * weight_n(campaign)));
+  free.push_back({.field = kHeight, .std = 0.15, .lowest = -0.6, .highest = 0.6});
+  return {outside_variant(std::move(free))};
+}
+constexpr std::array kForce{"force_n"};
+constexpr std::array kForwardLeft{"forward_n", "left_n"};
+constexpr std::array kMapXY{"x_n", "y_n"};
+
+std::vector<sim::EffectVariant> load(const DriveCampaign& campaign) {
+  return {outside_variant({outside_number("force_n", kLoadShare * weight_n(campaign))})};
+}
+
+std::vector<sim::EffectVariant> turning(const DriveCampaign& campaign) {
+  return {outside_variant(
+      {outside_number("moment_nm", kForceShare * weight_n(campaign) * 0.5 * campaign.rover->track_m())})};
+}
+
+// Which wheels are on which axle, from the front.
+std::vector<std::vector<std::size_t>> axles_of(const sim::RoverModel& rover) {
+  std::map<int, std::vector<std::size_t>, std::greater<>> by_place;
+  for (std::size_t k = 0; k < rover.wheels.size(); ++k)
+    by_place[static_cast<int>(std::lround(rover.wheels[k].position_m.x() / 0.05))].push_back(k);
+  std::vector<std::vector<std::size_t>> axles;
+  for (auto& [place, wheels] : by_place) axles.push_back(std::move(wheels));
+  return axles;
+}
+
+// Each axle as a whole: its wheels are fixed, the force is that of each of them.
+std::vector<sim::EffectVariant> axle_forces(const DriveCampaign& campaign) {
+  std::vector<sim::EffectVariant> all;
+  for (const std::vector<std::size_t>& wheels : axles_of(*campaign.rover)) {
+    if (wheels.size() < 2) continue;
+    std::vector<std::pair<std::string, double>> fixed;
+    for (const std::size_t k : wheels) fixed.emplace_back(wheel_field(k), 1.0);
+    all.push_back(outside_variant({outside_number("force_n", kWheelForceShare * weight_n(campaign))},
+                                  names_of_wheels(*campaign.rover, wheels), std::move(fixed)));
+  }
+  return all;
+}
+
+std::vector<sim::EffectVariant> wheel_forces(const DriveCampaign& campaign) {
+  std::vector<sim::EffectVariant> all;
+  for (std::size_t k = 0; k < campaign.rover->wheels.size(); ++k)
+    all.push_back(outside_variant({outside_number("force_n", kForceShare * weight_n(campaign))},
+                                  campaign.rover->wheels[k].name, {{wheel_field(k), 1.0}}));
+  return all;
+}
+
+void pull_at_wheels(const Values& values, OutsideForces& forces) {
+  for (const std::size_t k : wheels_in(values)) forces.along_at_wheel_n[k] += values.at("force_n");
+}
+
+std::string along_words(double force_n) {
+  return force_n < 0.0 ? "against the travel" : "with the travel";
+}
+
+std::string pull_words(const Values& v, const DriveCampaign& /*campaign*/) {
+  return fmt::format("a steady pull of {:.3g} N {}, at the body", std::abs(v.at("force_n")),
+                     along_words(v.at("force_n")));
+}
+
+std::string push_words(const Values& v, const DriveCampaign& /*campaign*/) {
+  const double x = v.at("x_n"), y = v.at("y_n");
+  return fmt::format("a steady push of {:.3g} N towards {:.0f} deg on the map (0 is its x axis), at the body",
+                     std::hypot(x, y), deg_from_rad(std::atan2(y, x)));
+}
+
+std::string body_words(const Values& v, const DriveCampaign& /*campaign*/) {
+  const double x = v.at("forward_n"), y = v.at("left_n");
+  return fmt::format("a steady push of {:.3g} N in the body's own frame, {:.0f} deg to the left of its front",
+                     std::hypot(x, y), deg_from_rad(std::atan2(y, x)));
+}
+
+std::string speed_words(const Values& v, const DriveCampaign& /*campaign*/) {
+  return fmt::format("a pull that grows with speed, {:.3g} N {} at cruise speed, at the body",
+                     std::abs(v.at("force_n")), along_words(v.at("force_n")));
+}
+
+std::string slope_words(const Values& v, const DriveCampaign& /*campaign*/) {
+  return fmt::format("a pull that grows with the slope, {:.3g} N {} at 10 deg, at the body",
+                     std::abs(v.at("force_n")), v.at("force_n") < 0.0 ? "downhill" : "uphill");
+}
+
+std::string load_words(const Values& v, const DriveCampaign& campaign) {
+  return fmt::format("{:.3g} N {} on the wheels than the rover's weight ({:.1f} %), at the body",
+                     std::abs(v.at("force_n")), v.at("force_n") < 0.0 ? "less" : "more",
+                     100.0 * std::abs(v.at("force_n")) / weight_n(campaign));
+}
+
+std::string turning_words(const Values& v, const DriveCampaign& /*campaign*/) {
+  return fmt::format("a steady moment of {:.3g} N m to the {}, on the body", std::abs(v.at("moment_nm")),
+                     v.at("moment_nm") < 0.0 ? "right" : "left");
+}
+
+std::string wheel_words(const Values& v, const DriveCampaign& campaign) {
+  const std::vector<std::size_t> wheels = wheels_in(v);
+  return fmt::format("a steady pull of {:.3g} N {}, at {} {}", std::abs(v.at("force_n")),
+                     along_words(v.at("force_n")), wheels.size() > 1 ? "each of the axles of" : "the axle of",
+                     names_of_wheels(*campaign.rover, wheels));
+}
+
+constexpr std::array kForceRows{
+    OutsideCause{.name = "pull_along_travel",
+                 .form = "force_on_body",
+                 .entry = "tangential_force",
+                 .depends = "direction",
+                 .unit = "N",
+                 .variants = &forces<kForce>,
+                 .act =
+                     [](const Values& v, OutsideForces& f) {
+                       f.along_n += v.at("force_n");
+                       f.height_m = v.at(kHeight);
+                     },
+                 .words = &pull_words},
+    OutsideCause{.name = "push_on_map",
+                 .form = "force_on_body",
+                 .entry = "tangential_force",
+                 .depends = "heading",
+                 .unit = "N",
+                 .variants = &forces<kMapXY>,
+                 .act =
+                     [](const Values& v, OutsideForces& f) {
+                       f.on_map_n += Eigen::Vector2d(v.at("x_n"), v.at("y_n"));
+                       f.height_m = v.at(kHeight);
+                     },
+                 .words = &push_words},
+    OutsideCause{.name = "push_in_body",
+                 .form = "force_on_body",
+                 .entry = "lateral_force",
+                 .depends = "constant",
+                 .unit = "N",
+                 .variants = &forces<kForwardLeft>,
+                 .act =
+                     [](const Values& v, OutsideForces& f) {
+                       f.in_body_n += Eigen::Vector2d(v.at("forward_n"), v.at("left_n"));
+                       f.height_m = v.at(kHeight);
+                     },
+                 .words = &body_words,
+                 .twin_of_an_effect = true},
+    OutsideCause{.name = "pull_with_speed",
+                 .form = "force_on_body",
+                 .entry = "tangential_force",
+                 .depends = "speed",
+                 .unit = "N",
+                 .variants = &forces<kForce>,
+                 .act =
+                     [](const Values& v, OutsideForces& f) {
+                       f.along_by_speed_n += v.at("force_n");
+                       f.height_m = v.at(kHeight);
+                     },
+                 .words = &speed_words},
+    OutsideCause{.name = "pull_with_slope",
+                 .form = "force_on_body",
+                 .entry = "tangential_force",
+                 .depends = "pitch",
+                 .unit = "N",
+                 .variants = &forces<kForce>,
+                 .act =
+                     [](const Values& v, OutsideForces& f) {
+                       f.along_by_slope_n += v.at("force_n");
+                       f.height_m = v.at(kHeight);
+                     },
+                 .words = &slope_words},
+    OutsideCause{.name = "load",
+                 .form = "force_on_body",
+                 .entry = "wheel_load",
+                 .depends = "constant",
+                 .unit = "N",
+                 .variants = &load,
+                 .act = [](const Values& v, OutsideForces& f) { f.load_n += v.at("force_n"); },
+                 .words = &load_words},
+    OutsideCause{.name = "turning_moment",
+                 .form = "moment_on_body",
+                 .entry = "yaw",
+                 .depends = "constant",
+                 .unit = "N m",
+                 .variants = &turning,
+                 .act = [](const Values& v, OutsideForces& f) { f.turning_nm += v.at("moment_nm"); },
+                 .words = &turning_words},
+    OutsideCause{.name = "pull_at_axle",
+                 .form = "force_at_axle",
+                 .entry = "tangential_force",
+                 .depends = "direction",
+                 .unit = "N",
+                 .variants = &axle_forces,
+                 .act = &pull_at_wheels,
+                 .words = &wheel_words},
+    OutsideCause{.name = "pull_at_wheel",
+                 .form = "force_at_wheel",
+                 .entry = "tangential_force",
+                 .depends = "direction",
+                 .unit = "N",
+                 .variants = &wheel_forces,
+                 .act = &pull_at_wheels,
+                 .words = &wheel_words},
+};
+
+}  // namespace
+
+std::span<const OutsideCause> outside_force_rows() {
+  return kForceRows;
+}
+
+}  // namespace slipway::gap
