@@ -27,9 +27,9 @@ struct JobRunnerOptions {
   // has a worker of its own, so that it does not wait behind long work: see worker_kinds().
   std::vector<std::vector<std::string>> workers{{}};
   bool works_here = true;    // the workers are threads of this process; otherwise other processes work
-  Admission admission = {};  // more jobs are refused  std::optional<Retention> kept = Retention{};  // of
-                             // ended jobs; nothing: another process sees to that
-  int most_deaths = 5;       // a job during which its worker died so often has failed
+  Admission admission = {};  // more jobs are refused
+  std::optional<Retention> kept = Retention{};  // of ended jobs; nothing: another process sees to that
+  int most_deaths = 5;                          // a job during which its worker died so often has failed
   std::string worker = "slipway";  // the name under which jobs are claimed; a restart gives back what it held
   std::chrono::milliseconds lease{30'000};
   std::chrono::milliseconds progress_interval{200};
