@@ -10,7 +10,7 @@ packages="g++ cmake ninja-build pkg-config ccache
   libcpp-httplib-dev nlohmann-json3-dev libsqlite3-dev libssl-dev libcli11-dev libtoml11-dev
   prometheus-cpp-dev libspdlog-dev"
 if [ "${1:-}" = "--test" ]; then
-  packages="$packages libgtest-dev libbenchmark-dev libsimbody-dev clang-format curl python3 python3-jsonschema"
+  packages="$packages libgtest-dev libbenchmark-dev libsimbody-dev clang-format curl python3 python3-jsonschema nginx-light openssl"
 fi
 
 missing=""
