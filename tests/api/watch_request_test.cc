@@ -21,7 +21,7 @@ std::string drive(const std::string& id, const std::string& more = "") {
 
 class AWatchRequest : public testing::DriveCampaignFolder {
  protected:
-  Result<json::Reading<WatchRequest>> read(const std::string& body) const {
+  Result<Reading<WatchRequest>> read(const std::string& body) const {
     return json::read_watch_request(body, [this](const std::string& name) -> Result<gap::DriveCampaign> {
       if (name != "small") return fail(ErrorCode::kInvalidRequest, "there is no such campaign");
       return load();
