@@ -117,7 +117,7 @@ void make_tables_where_empty(SqliteConnection& connection) {
 }
 
 // With the length of each part before it, so that only the same parts have the same digest.
-std::string digest_of(std::initializer_list<std::string_view> parts) {
+std::string digest_of_parts(std::initializer_list<std::string_view> parts) {
   Sha256 hash;
   for (const std::string_view part : parts) {
     hash.add(fmt::format("{}:", part.size()));
@@ -187,11 +187,11 @@ void bring_up_from_2(SqliteConnection& connection) {
 }  // namespace
 
 std::string request_digest(std::string_view id, std::string_view kind, std::string_view request) {
-  return digest_of({id, kind, request});
+  return digest_of_parts({id, kind, request});
 }
 
 std::string outcome_digest(std::string_view id, std::string_view state, std::string_view outcome) {
-  return digest_of({id, state, outcome});
+  return digest_of_parts({id, state, outcome});
 }
 
 std::string series_digest(std::string_view id, std::int64_t page, std::string_view bytes) {

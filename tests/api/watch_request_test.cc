@@ -21,7 +21,7 @@ std::string drive(const std::string& id, const std::string& more = "") {
 
 class AWatchRequest : public testing::DriveCampaignFolder {
  protected:
-  Result<json::Reading<WatchRequest>> read(const std::string& body) const {
+  Result<Reading<WatchRequest>> read(const std::string& body) const {
     return json::read_watch_request(body, [this](const std::string& name) -> Result<gap::DriveCampaign> {
       if (name != "small") return fail(ErrorCode::kInvalidRequest, "there is no such campaign");
       return load();
@@ -60,12 +60,12 @@ TEST_F(AWatchRequest, TellsEveryFaultAtItsPlace) {
   EXPECT_EQ(faults(R"({"reference":"large","drives":[],"continues":"x"})"),
             (std::vector<std::string>{"/continues", "/reference"}));
   EXPECT_EQ(faults(R"({"reference":"small","drives":[]})"), std::vector<std::string>{"/drives"});
-  EXPECT_EQ(
-      faults(R"({"reference":"small","alpha":2,"without":["tether"],"drives":[)" + drive("a") + "," +
-             drive("a", R"(,"file":"../secret.csv","repeat_of":"b")") +
-             R"(,{"id":"c","terrain":"moon","csv":"t_s\nx"}]})"),
-      (std::vector<std::string>{"/alpha", "/without/0", "/drives/1/id", "/drives/1/file", "/drives/2/terrain",
-                                "/drives/2/commanded", "/drives/2/csv", "/drives/1/repeat_of"}))
+  EXPECT_EQ(faults(R"({"reference":"small","alpha":2,"without":["tether"],"drives":[)" + drive("a") + "," +
+                   drive("a", R"(,"file":"../secret.csv","repeat_of":"b")") +
+                   R"(,{"id":"c","terrain":"moon","csv":"t_s\nx"}]})"),
+            (std::vector<std::string>{"/alpha", "/without/0", "/drives/1/id", "/drives/1/file",
+                                      "/drives/2/terrain", "/drives/2/commanded", "/drives/2/csv",
+                                      "/drives/2/csv", "/drives/1/repeat_of"}))
       << "a path of the service's files is no key";
 }
 

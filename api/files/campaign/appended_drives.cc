@@ -37,7 +37,7 @@ class AppendedReader {
           other && (!first_with_.contains(*other) || *other == campaign_.drives[d].id))
         reader.faults().push_back(
             {fmt::format("/drives/{}/repeat_of", d),
-             fmt::format("repeat_of = {}, there is no other drive of this id", json::in_quotes(*other))});
+             fmt::format("repeat_of = {}, there is no other drive of this id", in_quotes(*other))});
     if (!passed_over_.empty())
       campaign_.notes.push_back(fmt::format("columns that the format does not have were passed over: {}",
                                             fmt::join(passed_over_, ", ")));
@@ -53,8 +53,8 @@ class AppendedReader {
     const std::size_t index = campaign_.drives.size() - 1;
     if (object.text("id", json::kRequired, {}, drive.id))
       if (const auto [first, is_new] = first_with_.emplace(drive.id, index); !is_new)
-        object.fault("id", fmt::format("id = {} is that of /drives/{} as well", json::in_quotes(drive.id),
-                                       first->second));
+        object.fault(
+            "id", fmt::format("id = {} is that of /drives/{} as well", in_quotes(drive.id), first->second));
     json::read_drive_facts(object, campaign_.rover.get(), terrains_, drive);
     std::string csv;
     if (object.text("csv", json::kRequired, {.most = kMaxCsvBytes}, csv)) read_rows(object, csv, drive);
