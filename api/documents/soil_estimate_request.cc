@@ -116,7 +116,7 @@ void read_free(ObjectReader& reader, gap::SoilEstimationOptions& options) {
   std::vector<std::string> free;
   reader.texts("free", kOptional, {1, kMaxFree}, {.most = 128}, free);
   for (std::size_t i = 0; i < free.size(); ++i)
-    if (auto parameter = parameter_of(free[i], child_pointer("/free", i), reader.faults()))
+    if (auto parameter = parameter_of(free[i], child_pointer(reader.pointer() + "/free", i), reader.faults()))
       options.free.push_back(std::move(*parameter));
   for (const Element& element : reader.list("bounds", kOptional, {0, kMaxFree})) {
     ObjectReader object = reader.object(element);
@@ -160,13 +160,7 @@ void refuse_beside_campaign(const JsonValue& document, std::vector<Fault>& fault
 
 }  // namespace
 
-Result<Reading<SoilEstimateRequest>> read_soil_estimate_request(std::string_view bytes) {
-  const auto document = parse(bytes, {.bytes = RequestLimits::kBodyBytes});
-  if (!document) return fail(document.error());
-  Reading<SoilEstimateRequest> reading;
-  SoilEstimateRequest& request = reading.request;
-  ObjectReader reader(*document, "", reading.faults);
-  if (!reader.is_object()) return reading;
+SlipOfTests read_soil_estimate(ObjectReader& reader, SoilEstimateRequest& request) {
   reader.text("campaign", kOptional, {.most = 64, .is_name = true}, request.campaign);
   reader.text("soil", kOptional, {.most = 64, .is_name = true}, request.soil);
   read_wheel(reader, request.wheel);
@@ -178,15 +172,27 @@ Result<Reading<SoilEstimateRequest>> read_soil_estimate_request(std::string_view
   std::size_t definition = 0, radius = 0;
   reader.choice("slip_definition", kOptional, {"forward", "travel"}, definition);
   reader.choice("slip_radius", kOptional, {"rim", "shear", "tip"}, radius);
-  read_wheel_tests(reader, static_cast<sim::SlipDefinition>(definition), static_cast<sim::SlipRadius>(radius),
-                   request);
+  const SlipOfTests slip{static_cast<sim::SlipDefinition>(definition), static_cast<sim::SlipRadius>(radius)};
+  read_wheel_tests(reader, slip.definition, slip.radius, request);
   read_plate_tests(reader, request);
   std::vector<std::string> channels;
   reader.texts("channels", kOptional, {1, 10}, {.most = 64, .is_name = true}, channels);
   read_options(reader, request.options);
   reader.refuse_unknown();
+  for (Fault& fault : choose_channels(channels, request))
+    reader.faults().push_back({reader.pointer() + fault.pointer, std::move(fault.message)});
+  return slip;
+}
+
+Result<Reading<SoilEstimateRequest>> read_soil_estimate_request(std::string_view bytes) {
+  const auto document = parse(bytes, {.bytes = RequestLimits::kBodyBytes});
+  if (!document) return fail(document.error());
+  Reading<SoilEstimateRequest> reading;
+  SoilEstimateRequest& request = reading.request;
+  ObjectReader reader(*document, "", reading.faults);
+  if (!reader.is_object()) return reading;
+  read_soil_estimate(reader, request);
   if (!request.campaign.empty()) refuse_beside_campaign(*document, reading.faults);
-  for (Fault& fault : choose_channels(channels, request)) reading.faults.push_back(std::move(fault));
   const bool tests = !request.data.wheels.empty() || !request.data.plates.empty();
   if (reading.faults.empty() && tests == !request.campaign.empty())
     reading.faults.push_back({"", tests ? "there are tests and a campaign: one of them is enough"

@@ -67,9 +67,10 @@ void read_std(ObjectReader& reader, const sim::Soil& mean, sim::SoilStd& std) {
   object->refuse_unknown();
 }
 
-void read_correlation(ObjectReader& reader, sim::SoilCorrelation& correlation) {
-  const std::vector<std::string_view> names(kQuantities.begin(), kQuantities.end());
-  for (const Element& element : reader.list("correlation", kOptional, {0, 10})) {
+void read_correlation(ObjectReader& reader, sim::SoilDistribution& soil) {
+  std::vector<std::string_view> names(kQuantities.begin(), kQuantities.end());
+  names.insert(names.end(), {"c1", "c2"});
+  for (const Element& element : reader.list("correlation", kOptional, {0, 11})) {
     ObjectReader pair(*element.value, element.pointer, reader.faults());
     std::size_t first = 0;
     std::size_t second = 0;
@@ -83,8 +84,17 @@ void read_correlation(ObjectReader& reader, sim::SoilCorrelation& correlation) {
       pair.fault("second", "second must be another quantity than first");
       continue;
     }
-    correlation(static_cast<int>(first), static_cast<int>(second)) = value;
-    correlation(static_cast<int>(second), static_cast<int>(first)) = value;
+    const bool closures = first >= kQuantities.size() && second >= kQuantities.size();
+    if (closures && std::abs(value) < 1.0) {
+      soil.closure_correlation = value;
+    } else if (closures) {
+      pair.fault("value", "value must be within (-1, 1): c1 and c2 do not follow from each other");
+    } else if (first >= kQuantities.size() || second >= kQuantities.size()) {
+      pair.fault("second", "c1 and c2 are correlated with each other alone");
+    } else {
+      soil.correlation(static_cast<int>(first), static_cast<int>(second)) = value;
+      soil.correlation(static_cast<int>(second), static_cast<int>(first)) = value;
+    }
   }
 }
 
@@ -238,7 +248,7 @@ void read_soil(const Element& element, const sim::SoilFormat& format, sim::SoilD
     read_slip_curve(reader, soil.mean);
   } else {
     read_soil_parameters(reader, format, kRequired, true, soil.mean);
-    read_correlation(reader, soil.correlation);
+    read_correlation(reader, soil);
   }
   read_std(reader, soil.mean, soil.std);
   reader.number("correlation_length_m", kRequired, {"m", 0.0, 1e4, true}, soil.correlation_length_m);
@@ -275,7 +285,8 @@ void write_slip_curve(Writer& w, const sim::SlipCurve& curve) {
   w.end_object();
 }
 
-void write_correlation(Writer& w, const sim::SoilCorrelation& correlation) {
+void write_correlation(Writer& w, const sim::SoilDistribution& soil) {
+  const sim::SoilCorrelation& correlation = soil.correlation;
   w.key("correlation").begin_array();
   for (int i = 0; i < sim::kSoilDims; ++i) {
     for (int j = i + 1; j < sim::kSoilDims; ++j) {
@@ -285,6 +296,10 @@ void write_correlation(Writer& w, const sim::SoilCorrelation& correlation) {
           .exact("value", correlation(i, j))
           .end_object();
     }
+  }
+  if (soil.closure_correlation != 0.0) {
+    w.begin_object().text("first", "c1").text("second", "c2");
+    w.exact("value", soil.closure_correlation).end_object();
   }
   w.end_array();
 }
@@ -339,7 +354,7 @@ void write_soil(Writer& w, const sim::SoilDistribution& soil, const sim::SoilFor
   if (mean.slip_curve == nullptr)
     write_fields(w, std::span<const ModelField<sim::SoilStd>>(kClosureSpread), soil.std);
   w.end_object();
-  if (mean.slip_curve == nullptr) write_correlation(w, soil.correlation);
+  if (mean.slip_curve == nullptr) write_correlation(w, soil);
   w.exact("correlation_length_m", soil.correlation_length_m);
   if (const sim::SpreadShares usual; soil.shares.everywhere != usual.everywhere ||
                                      soil.shares.unit != usual.unit || soil.shares.patch != usual.patch) {

@@ -113,6 +113,26 @@ void add_ground(const PlanProblem& problem, const sim::DrivePrediction& drive,
                                 percent((worst->expected_stops + worst->embedding) / all), worst->length_m));
 }
 
+std::string closure_end_words(const sim::ClosureEnd& end) {
+  const std::string pair = fmt::format("c1 {:.2f} and c2 {:.2f}", end.c1, end.c2);
+  if (end.immobilised_at_m)
+    return fmt::format("with {} it is immobilised at {:.1f} m", pair, *end.immobilised_at_m);
+  return fmt::format("with {} it {} (slip {:.2f})", pair,
+                     end.breaks_a_limit ? "breaks a limit" : "keeps all limits", end.max_slip_ratio);
+}
+
+// c1 and c2, where the drive on the mean soils hangs on them.
+void add_closures(const PlanProblem& problem, const sim::DrivePrediction& drive,
+                  std::vector<std::string>& reasons) {
+  if (!drive.closures || !drive.closures->decides()) return;
+  const sim::ClosureEnd &least = drive.closures->least, &greatest = drive.closures->greatest;
+  reasons.push_back(fmt::format(
+      "c1 and c2 of {} decide, which place the greatest stress under the rim: on soils that are the mean in "
+      "all else, {}, {}; one soil in twenty lies beyond either",
+      ground_words(problem, drive, (least.fails() ? least : greatest).soil), closure_end_words(least),
+      closure_end_words(greatest)));
+}
+
 }  // namespace
 
 std::string_view describe(Decision decision) {
@@ -162,6 +182,7 @@ DriveDecision decide(const PlanProblem& problem, const sim::DrivePrediction& dri
   out.reasons.push_back(stops);
   add_rules(drive, out.reasons);
   add_ground(problem, drive, out.reasons);
+  add_closures(problem, drive, out.reasons);
   return out;
 }
 

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "server/cli/belief_command.h"
 #include "server/cli/data_option.h"
 #include "server/cli/estimate_command.h"
 #include "server/cli/largest_exact_whole.h"
@@ -16,6 +17,7 @@ constexpr const char* kExample =
     "0.01,30@lugged --free n,c1,c2,smooth_rim.friction_share@bare\n"
     "  slipway estimate plates plates.csv --free k_c,k_phi,n --soil-out soils/found.json\n"
     "  slipway estimate drives data/gap-practice/p01 --channels current\n"
+    "  slipway estimate belief data/beliefs/wheel_tests_plain.json\n"
     "Exit status: 0 an estimate, whatever it determines, 1 none, 2 input that can't be read, with every "
     "fault.";
 
@@ -113,6 +115,20 @@ std::shared_ptr<EstimateCommand> add(CLI::App& parent, const char* name, const c
   return options;
 }
 
+void add_belief(CLI::App& parent, std::function<int()>& run) {
+  const auto options = std::make_shared<BeliefCommand>();
+  CLI::App* command =
+      parent.add_subcommand("belief", "what differs between soils, from the wheel tests of several");
+  command
+      ->add_option("input", options->file,
+                   "file \"soil-belief/1\": the soils' tests, what is free in each, and what is between them")
+      ->required();
+  add_data_option(*command, options->ask.data, "soils and tables of tests");
+  command->add_flag("--json", options->ask.json, "print the whole document, for machines");
+  command->footer(kExample);
+  command->callback([options, &run] { run = [options] { return believe(*options); }; });
+}
+
 }  // namespace
 
 void add_estimate_command(CLI::App& app, std::function<int()>& run) {
@@ -136,6 +152,7 @@ void add_estimate_command(CLI::App& app, std::function<int()>& run) {
   command->add_option("--threads", options->threads, "at once; 0: as many as the machine has")
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));
+  add_belief(*parent, run);
 }
 
 }  // namespace slipway::server

@@ -8,6 +8,7 @@
 #include "core/angle.h"
 #include "core/parallel_for.h"
 #include "core/random.h"
+#include "sim/prediction/closure_reach.h"
 #include "sim/prediction/conditioned_draw.h"
 #include "sim/prediction/drawn_drive.h"
 #include "sim/prediction/drawn_statistics.h"
@@ -258,6 +259,8 @@ Result<DrivePrediction> predict_drive(const RoverModel& rover, double gravity_m_
   if (risk.draws > 0 && !assess_risk(rover, gravity_m_s2, beliefs, predictor.prepared(), limits, risk,
                                      threads, progress, prediction, so_far))
     return fail(ErrorCode::kCancelled, "the prediction was dismissed");
+  if (risk.draws > 0)
+    prediction.closures = closure_reach(rover, gravity_m_s2, beliefs, predictor.prepared(), limits, threads);
   return prediction;
 }
 

@@ -122,6 +122,25 @@ struct DriveOutcomes {
   double effective_draws = 0.0;  // (sum of the weights)^2 / sum of their squares
 };
 
+// The drive on the mean soils at one end of what is believed of c1 and c2.
+struct ClosureEnd {
+  double max_slip_ratio = 0.0;
+  std::optional<std::size_t> soil;  // the ground of that slip; empty: unknown ground
+  double c1 = 0.0, c2 = 0.0;        // there
+  bool breaks_a_limit = false;      // that depends on the soil
+  std::optional<double> immobilised_at_m;
+
+  bool fails() const { return breaks_a_limit || immobilised_at_m.has_value(); }
+};
+
+// Both ends, see closure_reach().
+struct ClosureReach {
+  ClosureEnd least, greatest;
+
+  // Whether the drive on the mean soils keeps its limits hangs on them.
+  bool decides() const { return least.fails() != greatest.fails(); }
+};
+
 // A short drive onto the ground that decides, on the way itself, of which the slip would be measured; and
 // what that would be worth (see scout_drive()).
 struct ScoutDrive {
@@ -183,8 +202,9 @@ struct DrivePrediction {
   // is none. Equal to mean_slip_ratio where no draw has one.
   double mean_slip_ratio_p05 = 0.0, mean_slip_ratio_p50 = 0.0, mean_slip_ratio_p95 = 0.0;
   DriveOutcomes outcomes;
-  std::vector<DrawFigures> drawn;   // by the number of the draw: as many as `draws`
-  std::optional<ScoutDrive> scout;  // nothing where nothing goes wrong in any draw, or no ground decides
+  std::vector<DrawFigures> drawn;        // by the number of the draw: as many as `draws`
+  std::optional<ClosureReach> closures;  // nothing without draws, or where no soil has a spread of c1 or c2
+  std::optional<ScoutDrive> scout;       // nothing where nothing goes wrong in any draw, or no ground decides
 };
 
 // The bars that decide a drive.

@@ -39,15 +39,17 @@ bool LevelGroundTest::operator()(const Soil& soil) const {
 std::vector<LikelySoil> likely_soils(const SoilDistribution& belief, std::size_t count,
                                      const DrawnGround::DrivesLevel& drives_level) {
   constexpr std::uint64_t kKey = 1979;  // any: the rows are as good under another
-  constexpr std::size_t kStrength = kSoilDims, kPressure = kSoilDims + 1;
-  std::array<std::vector<double>, kSoilDims + 2> columns;
+  constexpr std::size_t kStrength = kSoilDims, kPressure = kSoilDims + 1, kClosures = kSoilDims + 2;
+  std::array<std::vector<double>, kClosures + kClosureDims> columns;
   for (std::size_t k = 0; k < columns.size(); ++k) columns[k] = shuffled_middles(count, random_key(kKey, k));
   std::vector<LikelySoil> soils;
   for (std::size_t row = 0; row < count; ++row) {
     SoilNormals z;
     for (int k = 0; k < kSoilDims; ++k) z[k] = normal_quantile(columns[static_cast<std::size_t>(k)][row]);
+    const ClosureNormals closures(normal_quantile(columns[kClosures][row]),
+                                  normal_quantile(columns[kClosures + 1][row]));
     if (belief.alternatives.empty()) {
-      soils.push_back({draw_soil(belief, z)});
+      soils.push_back({draw_soil(belief, z, closures)});
       continue;
     }
     const SoilDistribution& strength =
@@ -58,7 +60,7 @@ std::vector<LikelySoil> likely_soils(const SoilDistribution& belief, std::size_t
                            : strength;
     const bool drawn_again = belief.drawn_apart && drives_level &&
                              !drives_level(joined_soil(strength, pressure, weak_unit(belief, z)));
-    soils.push_back({joined_soil(strength, pressure, z), drawn_again ? kWeakShare : 1.0});
+    soils.push_back({joined_soil(strength, pressure, z, closures), drawn_again ? kWeakShare : 1.0});
   }
   return soils;
 }

@@ -28,7 +28,7 @@ struct LikelySoil {
 };
 
 // The soils that one place may have, by what DrawnGround draws there: a Latin hypercube [McKay, Beckman &
-// Conover 1979] of `count` rows over the alternatives of strength and pressure and the normal numbers, so
+// Conover 1979] of `count` rows over the alternatives of strength and pressure and all normal numbers, so
 // that an alternative with a probability of 15 % has 15 % of the rows, to one row. A row that DrawnGround
 // would draw again weighs kWeakShare of the others. The same belief gives the same soils.
 std::vector<LikelySoil> likely_soils(const SoilDistribution& belief, std::size_t count,

@@ -58,8 +58,9 @@ Soil draw_soil(const SoilDistribution& distribution, const SoilNormals& normals,
   const double shear = log_normal(1.0, std.shear_modulus_ratio, z[4]);
   soil.shear_modulus_x_m = mean.shear_modulus_x_m * shear;
   soil.shear_modulus_y_m = mean.shear_modulus_y_m * shear;
+  const double rho = distribution.closure_correlation;
   soil.c1 = log_normal(mean.c1, std.c1, closures[0]);
-  soil.c2 = log_normal(mean.c2, std.c2, closures[1]);
+  soil.c2 = log_normal(mean.c2, std.c2, rho * closures[0] + std::sqrt(1.0 - rho * rho) * closures[1]);
   return soil;
 }
 

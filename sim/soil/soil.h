@@ -134,7 +134,7 @@ struct SoilStd {
 constexpr int kSoilDims = 5;  // stiffness, n, cohesion, tan(friction angle), shear modulus
 using SoilNormals = Eigen::Matrix<double, kSoilDims, 1>;
 using SoilCorrelation = Eigen::Matrix<double, kSoilDims, kSoilDims>;
-constexpr int kClosureDims = 2;  // c1 and c2, which are drawn on their own
+constexpr int kClosureDims = 2;  // c1 and c2, which are drawn as a pair of their own
 using ClosureNormals = Eigen::Matrix<double, kClosureDims, 1>;
 
 // How the spread about the mean is shared out among the levels of the ground, as shares of the variance that
@@ -162,8 +162,8 @@ struct SoilAlternative {
 
 // What is believed of a soil: a mean, its spread and how far along the ground one draw holds. The five
 // uncertain quantities are log-normal with these means and standard deviations (so every draw is a soil), and
-// their logarithms have the given correlation; c1 and c2 are log-normal on their own. The slip of a slip
-// curve is normal about it.
+// their logarithms have the given correlation; c1 and c2 are a log-normal pair with a correlation of its own.
+// The slip of a slip curve is normal about it.
 struct SoilDistribution {
   std::string name;                  // "mpf_drift"
   std::string summary;               // one line for people
@@ -172,6 +172,7 @@ struct SoilDistribution {
   Soil mean;
   SoilStd std;
   SoilCorrelation correlation = SoilCorrelation::Identity();
+  double closure_correlation = 0.0;   // of the logarithms of c1 and c2, within (-1, 1)
   double correlation_length_m = 5.0;  // of a patch
   SpreadShares shares;
   // How far the slip on real ground of this kind is from the model's though the soil is right: ripples and

@@ -2,6 +2,8 @@
 
 // Compiled once for each instruction set, each in a file of its own with its own flags. Every function
 // template here carries the set in its type, so that the linker can't mix them up.
+#include <cstddef>
+#include <cstring>
 #include <type_traits>
 #include <utility>
 
@@ -43,23 +45,52 @@ const ClosureValues<double>& values_in(const WheelNumbers& wheel, const ClosureV
   return wheel.closures;
 }
 
-// The values of a wheel in each lane.
+// A register as the compiler's own vector, which can be shuffled.
+typedef double Register __attribute__((vector_size(kLanes * sizeof(double))));
+
+// One from each in turn: a0 b0 a1 b1 ..., of the lower or the upper halves.
+template <std::size_t... k>
+Register interleaved_low(Register a, Register b, std::index_sequence<k...> /*lanes*/) {
+  return __builtin_shufflevector(a, b, (k / 2 + (k % 2) * kLanes)...);
+}
+template <std::size_t... k>
+Register interleaved_high(Register a, Register b, std::index_sequence<k...> /*lanes*/) {
+  return __builtin_shufflevector(a, b, (kLanes / 2 + k / 2 + (k % 2) * kLanes)...);
+}
+
+// Rows of so many numbers become columns: each pass of interleaving the first half of the rows with the
+// second moves one bit of a number's row into its column.
+void transpose(std::array<Register, kLanes>& rows) {
+  constexpr auto kAll = std::make_index_sequence<kLanes>{};
+  for (std::size_t pass = 1; pass < kLanes; pass *= 2) {
+    const std::array<Register, kLanes> before = rows;
+    for (std::size_t k = 0; k < kLanes / 2; ++k) {
+      rows[2 * k] = interleaved_low(before[k], before[k + kLanes / 2], kAll);
+      rows[2 * k + 1] = interleaved_high(before[k], before[k + kLanes / 2], kAll);
+    }
+  }
+}
+
+// The values of a wheel in each lane. They lie one after another, without gaps (wheel_kernel.h asserts it),
+// in the wheels as in the pack, and are turned block by block in registers: to store them one by one and to
+// load them across would wait for every store.
 template <template <class> class Values>
 Values<Pack> in_lanes(const std::array<const WheelNumbers*, kLanes>& wheels) {
   constexpr std::size_t kValues = members<Values, double>().size();
-  alignas(64) double columns[kValues][kLanes];
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    const Values<double>& wheel = values_in(*wheels[lane], static_cast<const Values<Pack>*>(nullptr));
-    [&]<std::size_t... k>(std::index_sequence<k...>) {
-      ((columns[k][lane] = wheel.*members<Values, double>()[k]), ...);
-    }
-    (std::make_index_sequence<kValues>{});
-  }
+  static_assert(kValues >= kLanes && sizeof(Values<Pack>) == kValues * sizeof(Register));
   Values<Pack> packed;
-  [&]<std::size_t... k>(std::index_sequence<k...>) {
-    ((packed.*members<Values, Pack>()[k] = Pack::load_aligned(columns[k])), ...);
+  for (std::size_t block = 0; block < kValues; block += kLanes) {
+    // The last block begins early enough to end with the values.
+    const std::size_t first = block + kLanes <= kValues ? block : kValues - kLanes;
+    std::array<Register, kLanes> rows;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const Values<double>& wheel = values_in(*wheels[lane], static_cast<const Values<Pack>*>(nullptr));
+      std::memcpy(&rows[lane], reinterpret_cast<const std::byte*>(&wheel) + first * sizeof(double),
+                  sizeof(Register));
+    }
+    transpose(rows);
+    std::memcpy(reinterpret_cast<std::byte*>(&packed) + first * sizeof(Register), rows.data(), sizeof(rows));
   }
-  (std::make_index_sequence<kValues>{});
   return packed;
 }
 

@@ -223,6 +223,32 @@ TEST(SoilFile, ChecksWhatHoldsBetweenTheNumbers) {
   EXPECT_EQ(with("2300000", "2495", triangle).error().faults.front().pointer, "/soils/0/correlation");
 }
 
+TEST(SoilFile, TheClosuresHaveACorrelationOfTheirOwnThatIsWrittenAgain) {
+  const auto with = [](const std::string& pair) {
+    return json::read_soil_file(
+        R"({"format":"soils/1","soils":[{"name":"s","summary":"s","source":"s","assumed":[],"k_c":0,"k_phi":1e6,)"
+        R"("n":1,"cohesion_pa":500,"friction_angle_deg":24,"shear_modulus_x_m":0.01,"density_kg_m3":1500,)"
+        R"("c1":0.4,"c2":0.2,"std":{"stiffness_ratio":0,"n":0,"cohesion_pa":0,"friction_angle_deg":0,)"
+        R"("shear_modulus_ratio":0,"c1":0.1,"c2":0.1},"correlation":[{)" +
+        pair + R"(}],"correlation_length_m":5}]})");
+  };
+  const auto soils = with(R"("first":"c1","second":"c2","value":-0.4)");
+  ASSERT_TRUE(soils);
+  EXPECT_EQ(soils->front().closure_correlation, -0.4);
+  EXPECT_TRUE(soils->front().correlation.isIdentity());
+  json::Writer w;
+  w.begin_object().text("format", "soils/1").key("soils").begin_array();
+  json::write_soil(w, soils->front());
+  w.end_array().end_object();
+  const auto again = json::read_soil_file(w.take());
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->front().closure_correlation, -0.4);
+  EXPECT_EQ(with(R"("first":"c1","second":"c2","value":1)").error().faults.front().pointer,
+            "/soils/0/correlation/0/value");
+  EXPECT_EQ(with(R"("first":"n","second":"c2","value":0.1)").error().faults.front().pointer,
+            "/soils/0/correlation/0/second");
+}
+
 TEST(Stops, NameRowAndColumnOfEachFault) {
   const auto stops = read_stops("sol,x_m,y_m\n1,2.5,3\n2,x,nan\n3,1\n");
   ASSERT_FALSE(stops);

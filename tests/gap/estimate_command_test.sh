@@ -50,6 +50,50 @@ expect 0 "$slipway" estimate wheel "$folder/tests.csv" --data "$data" --rover me
 expect 0 "$slipway" estimate drives "$data/gap-practice/p01" --data "$data" --channels current
 holds 'current ' "$folder/out"
 
+# A belief about soils from the tests of two: the same bytes twice, and what is free in one alone is refused.
+"$slipway" wheel --data "$data" --rover mer-class --soil mpf_cloddy --sweep slip=0.05:0.65:0.1 --sweep load_n=40,100,180,260 --json >"$folder/sweep.json"
+python3 - "$folder" <<'MAKE'
+import json, pathlib, sys
+folder = pathlib.Path(sys.argv[1])
+rows = json.loads((folder / "sweep.json").read_text())["rows"]
+with open(folder / "firm.csv", "w") as out:
+    print("load_n,slip_ratio,torque_nm,drawbar_pull_n,sinkage_m", file=out)
+    for r in rows:
+        print(*(r[key] for key in ("load_n", "slip", "torque_nm", "drawbar_pull_n", "sinkage_m")), sep=",", file=out)
+few = {"walkers": 16, "burn_in": 50, "steps": 100, "every": 5}
+def soil(name, start, table):
+    return {"name": name, "tests": [str(folder / table)], "max_slip_angle_deg": 0,
+            "estimate": {"soil": start, "rover": "mer-class", "free": ["n", "c1", "c2"], "prior": "soil",
+                         "channels": ["torque", "drawbar_pull", "sinkage"],
+                         "bounds": [{"parameter": p, "lowest": 0, "highest": 0.9} for p in ("c1", "c2")]}}
+belief = {"format": "soil-belief/1", "summary": "two made soils", "between": ["c1", "c2"], "usual_spread": [0.25, 0.25],
+          "of_soil": few, "of_hierarchy": few, "seed": 3,
+          "soils": [soil("loose", "dry_sand", "tests.csv"), soil("firm", "mpf_cloddy", "firm.csv")]}
+(folder / "belief.json").write_text(json.dumps(belief))
+belief["between"] = ["c1", "c3"]
+belief["soils"][1]["estimate"]["free"] = ["n"]
+(folder / "wrong.json").write_text(json.dumps(belief))
+MAKE
+expect 0 "$slipway" estimate belief "$folder/belief.json" --data "$data" --json
+cp "$folder/out" "$folder/once"
+expect 0 "$slipway" estimate belief "$folder/belief.json" --data "$data" --json
+cmp "$folder/once" "$folder/out"
+python3 - "$folder/out" <<'CHECK'
+import json, sys
+d = json.load(open(sys.argv[1]))
+# c1 of the made soils is 0.18 and 0.43.
+loose, firm = d["soils"]
+for soil, c1 in ((loose, 0.18), (firm, 0.43)):
+    assert abs(soil["alone"]["mean"][0] - c1) < 0.02 + 3 * soil["alone"]["std"][0], soil
+assert 0.05 < d["next_soil"]["std"][0] < 0.4, d["next_soil"]
+assert [b["name"] for b in d["between"]] == ["c1", "c2"], d["between"]
+CHECK
+expect 0 "$slipway" estimate belief "$folder/belief.json" --data "$data"
+holds 'one not tested' "$folder/out"
+expect 2 "$slipway" estimate belief "$folder/wrong.json" --data "$data"
+holds '/between/1' "$folder/err"
+holds 'unknown parameter "c3"' "$folder/err"
+
 # Faults, each with its place.
 sed '3s/^[^,]*/heavy/; 5s/,[^,]*/,7/' "$folder/tests.csv" >"$folder/broken.csv"
 expect 2 "$slipway" estimate wheel "$folder/broken.csv" --data "$data" --rover mer-class

@@ -47,6 +47,34 @@ TEST(DrivePrediction, OnThePlaneTheTotalsFollowFromOneStation) {
   EXPECT_FALSE(drive->immobilised);
 }
 
+// Up the same slope the rover gets or does not, as c1 and c2 are; where they have no spread nothing is said.
+TEST(DrivePrediction, SaysWhereC1AndC2DecideWhetherItsLimitsAreKept) {
+  SoilDistribution loam = certain("loam", sandy_loam());
+  loam.std.c1 = 0.25;
+  loam.std.c2 = 0.1;
+  const auto on = [&](double slope_deg, const SoilDistribution& soil) {
+    const FunctionGround plane([&](double x, double) { return std::tan(rad_from_deg(slope_deg)) * x; });
+    return *predict(plane, {{soil}, soil}, eastward(4.0), {.draws = 2});
+  };
+  EXPECT_FALSE(on(5.0, certain("loam", sandy_loam())).closures);
+  EXPECT_FALSE(
+      predict(FunctionGround([](double, double) { return 0.0; }), {{loam}, loam}, eastward(4.0), {.draws = 0})
+          ->closures);
+  int decided = 0;
+  for (double slope_deg = 0.0; slope_deg <= 24.0; slope_deg += 2.0) {
+    const auto closures = on(slope_deg, loam).closures;
+    ASSERT_TRUE(closures);
+    EXPECT_LT(closures->least.c1 + 0.5 * closures->least.c2, loam.mean.c1 + 0.5 * loam.mean.c2);
+    EXPECT_GT(closures->greatest.c1 + 0.5 * closures->greatest.c2, loam.mean.c1 + 0.5 * loam.mean.c2);
+    decided += closures->decides() ? 1 : 0;
+    if (slope_deg == 0.0) {
+      EXPECT_FALSE(closures->decides());
+    }
+  }
+  EXPECT_GE(decided, 1);
+  EXPECT_LE(decided, 8);
+}
+
 TEST(DrivePrediction, NamesItsWheelsAndGivesEachStationAsMany) {
   const RoverModel rover = four_wheeler(SuspensionType::kRigid);
   const FunctionGround level([](double, double) { return 0.0; });

@@ -53,6 +53,20 @@ TEST(LikelySoils, HaveTheSpreadThatIsBelieved) {
     EXPECT_EQ(each.soil.pressure.k_phi, 1.2e6);
 }
 
+TEST(LikelySoils, HaveTheSpreadOfTheClosuresToo) {
+  SoilDistribution belief = certain("loam", sandy_loam());
+  belief.std.c1 = 0.1;
+  const auto soils = likely_soils(belief, 60, {});
+  double sum = 0.0, square = 0.0;
+  for (const LikelySoil& each : soils) {
+    sum += each.soil.c1 / 60.0;
+    square += each.soil.c1 * each.soil.c1 / 60.0;
+    EXPECT_EQ(each.soil.c2, belief.mean.c2);
+  }
+  EXPECT_NEAR(sum, belief.mean.c1, 0.005);
+  EXPECT_NEAR(std::sqrt(square - sum * sum), 0.1, 0.01);
+}
+
 // As DrawnGround, whose draws are compared: ground that does not carry the rover on the level is rare.
 TEST(LikelySoils, GroundThatDoesNotCarryTheRoverOnTheLevelIsAsRareAsInTheDraws) {
   const RoverModel rover = six_wheeler();

@@ -75,6 +75,27 @@ TEST(SoilDraw, ClosuresAreDrawnOnTheirOwnWithTheStatedMeansAndSpreads) {
   EXPECT_NEAR(std::sqrt(c2_squares - c2 * c2), 0.05, 0.002);
 }
 
+TEST(SoilDraw, ClosuresAreDrawnAsAPair) {
+  SoilDistribution belief = certain("drift", sandy_loam());
+  belief.std.c1 = 0.1;
+  belief.std.c2 = 0.1;
+  belief.closure_correlation = -0.7;
+  const int n = 50'000;
+  double a = 0, b = 0, aa = 0, bb = 0, ab = 0;
+  for (int d = 0; d < n; ++d) {
+    const auto key = static_cast<std::uint64_t>(d);
+    const Soil soil =
+        draw_soil(belief, SoilNormals::Zero(), {random_normal(6, 2 * key), random_normal(6, 2 * key + 1)});
+    const double x = std::log(soil.c1), y = std::log(soil.c2);
+    a += x / n;
+    b += y / n;
+    aa += x * x / n;
+    bb += y * y / n;
+    ab += x * y / n;
+  }
+  EXPECT_NEAR((ab - a * b) / std::sqrt((aa - a * a) * (bb - b * b)), -0.7, 0.01);
+}
+
 TEST(SoilDraw, EveryDrawIsASoilHoweverWideTheBelief) {
   SoilDistribution belief = certain("anything", loose_sand());
   belief.std = {3.0, 0.8, 5000.0, rad_from_deg(30.0), 3.0};

@@ -1,0 +1,96 @@
+#include "sim/prediction/closure_reach.h"
+
+#include <array>
+#include <cmath>
+
+#include "core/normal_interval.h"
+#include "core/parallel_for.h"
+
+namespace slipway::sim {
+namespace {
+
+bool has_closure_spread(const SoilDistribution& soil) {
+  return soil.mean.slip_curve == nullptr && (soil.std.c1 > 0.0 || soil.std.c2 > 0.0);
+}
+
+// The mean soil with the c1 and c2 that lie `deviations` along the direction in which c1 + c2 / 2 grows most.
+Soil at_end(const SoilDistribution& belief, double deviations) {
+  Soil soil = belief.mean;
+  if (!has_closure_spread(belief)) return soil;
+  constexpr double kStep = 1e-3, kSlip = 0.5;
+  const auto share = [&](const ClosureNormals& z) {
+    const Soil drawn = draw_soil(belief, SoilNormals::Zero(), z);
+    return drawn.c1 + kSlip * drawn.c2;
+  };
+  ClosureNormals direction;
+  for (int k = 0; k < kClosureDims; ++k)
+    direction[k] = share(kStep * ClosureNormals::Unit(k)) - share(-kStep * ClosureNormals::Unit(k));
+  if (!(direction.norm() > 0.0)) return soil;
+  const Soil drawn = draw_soil(belief, SoilNormals::Zero(), deviations * direction.normalized());
+  soil.c1 = drawn.c1;
+  soil.c2 = drawn.c2;
+  return soil;
+}
+
+// The soils of all ground at one end.
+struct EndSoils {
+  std::vector<Soil> known;
+  Soil unknown;
+
+  EndSoils(const SoilBeliefs& beliefs, double deviations) : unknown(at_end(beliefs.unknown, deviations)) {
+    for (const SoilDistribution& belief : beliefs.known) known.push_back(at_end(belief, deviations));
+  }
+  const Soil& of(std::optional<std::size_t> soil) const { return soil ? known[*soil] : unknown; }
+};
+
+// Unknown ground where any wheel is on it.
+std::optional<std::size_t> ground_under(const PreparedStation& station) {
+  for (std::size_t k = 0; k < station.soil.size(); ++k)
+    if (!station.soil[k]) return std::nullopt;
+  return station.soil[0];
+}
+
+ClosureEnd drive_on(const EndSoils& soils, const RoverModel& rover, double gravity_m_s2,
+                    const PreparedDrive& drive, const DriveLimits& limits) {
+  ClosureEnd end;
+  QuasiStaticSolver solver(rover, gravity_m_s2, Precision::kDraws);
+  PerWheel<Soil> under(rover.wheels.size());
+  for (const PreparedStation& station : drive.stations) {
+    for (std::size_t k = 0; k < under.size(); ++k) under[k] = soils.of(station.soil[k]);
+    const StationState state = solver.solve(station.stance, under, station.command);
+    const auto ground = ground_under(station);
+    if (std::abs(state.slip_ratio) > end.max_slip_ratio || !state.moving()) {
+      end.max_slip_ratio = std::abs(state.slip_ratio);
+      end.soil = ground;
+      end.c1 = soils.of(ground).c1;
+      end.c2 = soils.of(ground).c2;
+    }
+    end.breaks_a_limit = end.breaks_a_limit || breaks(limits, state);
+    if (state.moving()) continue;
+    end.immobilised_at_m = station.distance_m;
+    break;
+  }
+  return end;
+}
+
+}  // namespace
+
+std::optional<ClosureReach> closure_reach(const RoverModel& rover, double gravity_m_s2,
+                                          const SoilBeliefs& beliefs, const PreparedDrive& drive,
+                                          const DriveLimits& limits, std::size_t threads) {
+  bool any = false;
+  for (const PreparedStation& station : drive.stations) {
+    for (std::size_t k = 0; k < station.soil.size() && !any; ++k)
+      any = has_closure_spread(beliefs.of(station.soil[k]));
+    if (any) break;
+  }
+  if (!any) return std::nullopt;
+  std::array<ClosureEnd, 2> ends;
+  parallel_for(ends.size(), threads, [&](std::size_t k) {
+    const EndSoils soils(beliefs, k == 0 ? -kReach90 : kReach90);
+    ends[k] = drive_on(soils, rover, gravity_m_s2, drive, limits);
+  });
+  return ClosureReach{ends[0], ends[1]};
+}
+
+}  // namespace slipway::sim
