@@ -184,6 +184,11 @@ TEST_F(DriveCampaignFolder, NothingOutsideTheFolderIsRead) {
   EXPECT_TRUE(load());
 }
 
+TEST_F(DriveCampaignFolder, ARasterWithAHoleOfAnySizeIsNotReadToItsEnd) {
+  fs::resize_file(path() / "level.tif", std::uintmax_t{1} << 40U);  // takes no place on the disk
+  expect_fault("campaign.json#/terrains/level/dem", "1099511627776 bytes");
+}
+
 TEST_F(DriveCampaignFolder, ClassesNameTheSoilsOfTheirCells) {
   // West of x = 0 class 3, east of it class 7, and a column without a class.
   const dem::GridGeometry grid{

@@ -31,6 +31,8 @@ namespace fs = std::filesystem;
 constexpr std::string_view kDocument = "campaign.json";
 // What a campaign may cost in memory: 180 MB of terrain, and about half a gigabyte of samples.
 constexpr long long kMaxCells = dem::kMaxWindowCells;
+// A file is read to its end for its digest, and one may have holes of any size.
+constexpr std::uintmax_t kMaxRasterBytes = std::uintmax_t{4} << 30U;
 constexpr std::size_t kMaxRows = 1'000'000;
 
 // The file's true place, or why it is not to be read.
@@ -120,6 +122,11 @@ class Loader {
     const auto path = place_in(folder_, name);
     if (!path) return fail(path.error());
     if (const auto known = elevations_.find(*path); known != elevations_.end()) return &known->second;
+    std::error_code unknown;
+    if (const auto bytes = fs::file_size(*path, unknown); unknown || bytes > kMaxRasterBytes)
+      return fail(ErrorCode::kUnreadableData,
+                  fmt::format("{} has {} bytes, must have {} at most: cut it to where the drives are",
+                              in_quotes(name), bytes, kMaxRasterBytes));
     const auto source = dem::open_elevation(*path, dem::PlacelessRaster::kLocalFrame);
     if (!source) return fail(source.error());
     const dem::GridGeometry& geometry = (*source)->info().geometry;
