@@ -36,7 +36,7 @@ spdlog::logger& logger() {
 std::string as_json(LogLevel level, std::string_view event, std::initializer_list<LogField> fields) {
   api::json::Writer w;
   w.begin_object()
-      .text("time", now())
+      .text("time", utc_now())
       .text("level", kNames[static_cast<std::size_t>(level)])
       .text("event", event);
   for (const LogField& field : fields) {

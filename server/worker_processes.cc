@@ -31,17 +31,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-struct Worker {
-  std::vector<std::string> command;
-  std::string name;
-  pid_t pid = 0;         // 0: does not run
-  FileDescriptor bell;   // its standard input
-  FileDescriptor heard;  // its standard output
-  Clock::time_point begun;
-  Clock::time_point starts_again;  // where it does not run
-  milliseconds pause{0};           // before the next start
-};
-
 struct Pipe {
   FileDescriptor out, in;
 };
@@ -143,6 +132,17 @@ class WorkerProcesses::Supervisor {
   int wanted() const { return static_cast<int>(workers_.size()); }
 
  private:
+  struct Worker {
+    std::vector<std::string> command;
+    std::string name;
+    pid_t pid = 0;         // 0: does not run
+    FileDescriptor bell;   // its standard input
+    FileDescriptor heard;  // its standard output
+    Clock::time_point begun;
+    Clock::time_point starts_again;  // where it does not run
+    milliseconds pause{0};           // before the next start
+  };
+
   void wake() const {
     const std::uint64_t one = 1;
     static_cast<void>(::write(wake_.fd(), &one, sizeof one));

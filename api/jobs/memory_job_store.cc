@@ -38,8 +38,10 @@ class MemoryJobStore final : public JobStore {
     }
     if (auto refusal = refused_by(admission, unfinished, of_owner)) return fail(*std::move(refusal));
     if (find(job.id) != nullptr) return fail(ErrorCode::kStorage, "the job's id is taken");
-    entries_.push_back({.job = accepted_job(job, now), .asked = job});
-    return entries_.back().job;
+    Entry& entry = entries_.emplace_back();
+    entry.job = accepted_job(job, now);
+    entry.asked = job;
+    return entry.job;
   }
 
   Result<std::optional<ClaimedJob>> claim(std::string_view worker, const std::vector<std::string>& kinds,

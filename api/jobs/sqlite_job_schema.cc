@@ -195,7 +195,7 @@ std::string outcome_digest(std::string_view id, std::string_view state, std::str
 }
 
 std::string series_digest(std::string_view id, std::int64_t page, std::string_view bytes) {
-  return digest_of({id, fmt::format("series {}", page), bytes});
+  return digest_of_parts({id, fmt::format("series {}", page), bytes});
 }
 
 void check_marker(const fs::path& store) {

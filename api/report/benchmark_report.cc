@@ -20,7 +20,7 @@ std::string rate_words(const Rate& rate) {
                      rate.hits, rate.of);
 }
 
-std::string number_words(const std::optional<double>& value) {
+std::string score_or_dash(const std::optional<double>& value) {
   return value ? fmt::format("{:.2f}", *value) : "-";
 }
 
@@ -41,23 +41,23 @@ void write_figures(std::string& out, const std::string& title, std::span<const C
   row(out, "false alarm where nothing is missing", "0.03", rate_words(f.alarm_nothing));
   row(out, "false alarm where only parameters are off", "0.05", rate_words(f.alarm_parameters));
   row(out, "unknown causes reported as unknown", "", rate_words(f.unknown_reported));
-  row(out, "unknown distinguished from known (area under ROC)", "0.85", number_words(f.unknown_auroc));
+  row(out, "unknown distinguished from known (area under ROC)", "0.85", score_or_dash(f.unknown_auroc));
   row(out, "exactly the right names, alone or beside something unexplained", "0.92",
       rate_words(f.names_right));
   row(out, "a name that is not hidden", "0.04", rate_words(f.wrong_name));
   row(out, "a cause outside the library without the name of an effect", "0.80",
       rate_words(f.outside_unnamed));
   row(out, "a wrong name with more than 0.9", "0.05", rate_words(f.confident_wrong));
-  row(out, "calibration error", "0.05", number_words(f.calibration));
-  row(out, "Brier score", "0.15", number_words(f.brier));
-  row(out, "median share of the gap closed", "0.90", number_words(f.closed_fraction));
-  row(out, "median share of what an oracle closes", "0.90", number_words(f.closed_of_oracle));
+  row(out, "calibration error", "0.05", score_or_dash(f.calibration));
+  row(out, "Brier score", "0.15", score_or_dash(f.brier));
+  row(out, "median share of the gap closed", "0.90", score_or_dash(f.closed_fraction));
+  row(out, "median share of what an oracle closes", "0.90", score_or_dash(f.closed_of_oracle));
   row(out, "the wheel of a found effect", "0.95", rate_words(f.wheel_right));
   row(out, "the channel in which the found effects act most", "0.95", rate_words(f.channel_right));
-  row(out, "median overlap of the first slice", "0.6", number_words(f.slice_overlap));
-  row(out, "the same, of what the best slice has", "", number_words(f.slice_of_attainable));
+  row(out, "median overlap of the first slice", "0.6", score_or_dash(f.slice_overlap));
+  row(out, "the same, of what the best slice has", "", score_or_dash(f.slice_of_attainable));
   row(out, "first slices that overlap by half or more", "", rate_words(f.slice_half));
-  row(out, "median overlap of the soft patch's disc", "0.5", number_words(f.place_overlap));
+  row(out, "median overlap of the soft patch's disc", "0.5", score_or_dash(f.place_overlap));
   row(out, "median seconds a campaign", "", f.seconds ? fmt::format("{:.1f}", *f.seconds) : "-");
 }
 
