@@ -21,7 +21,7 @@ std::string_view describe(Role role);
 std::optional<Role> role_of(std::string_view name);
 
 struct AccessOptions {
-  std::string tokens;               // a TOML file, see Access::open; empty: without tokens
+  std::string tokens = {};          // a TOML file, see Access::open; empty: without tokens
   double max_requests_per_s = 0.0;  // of one token, or of one address where there are none; 0: any number
 };
 

@@ -37,7 +37,7 @@ struct JobRunnerOptions {
   std::chrono::milliseconds renewal{1000};
   // How often an idle worker looks for jobs that others left, and who waits for an end whether it has come.
   std::chrono::milliseconds idle_poll{1000};
-  std::optional<std::chrono::milliseconds> max_time;  // of one attempt
+  std::optional<std::chrono::milliseconds> max_time = {};  // of one attempt
 };
 
 // Who asks for a job, and how.

@@ -62,6 +62,7 @@ struct ClaimedJob {
 
 // What is kept of a job that ended well.
 struct JobAnswer {
+  JobAnswer() = default;
   JobAnswer(std::string the_bytes, std::vector<std::string> the_series = {})
       : bytes(std::move(the_bytes)), series(std::move(the_series)) {}
 

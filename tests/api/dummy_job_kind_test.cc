@@ -170,7 +170,7 @@ TEST(DummyJobKind, ItsMapAndReportAreServed) {
 TEST(DummyJobKind, ItsUsualWaitIsTheClients) {
   HeavyRow row = bare_row();
   row.usual_wait = std::chrono::seconds(10);
-  row.lane = Lane::kShort;
+  row.lane = api::Lane::kShort;
   const WithDummyKind service(row);
   const HttpResponse answer = service.ask("POST", "/v1/heavy-rovers", R"({"mass_kg":500})");
   EXPECT_EQ(answer.status, 200);

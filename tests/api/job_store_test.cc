@@ -150,7 +150,7 @@ TEST_P(JobStores, ADismissedJobStaysDismissedAndShowsNothing) {
 
 TEST_P(JobStores, AJobsRequestIsKeptAsLongAsTheJob) {
   const NewJob job{new_job_id(), "plan", R"({"drives":[1]})"};
-  ASSERT_TRUE(store_->append(job, now_, 10));
+  ASSERT_TRUE(store_->append(job, now_, {10}));
   EXPECT_EQ(store_->request(job.id).value(), job.request) << "accepted";
   ASSERT_TRUE(store_->finish(claim().lease(), JobState::kSuccessful, std::string("answer"), now_).value());
   EXPECT_EQ(store_->request(job.id).value(), job.request) << "ended";
