@@ -26,7 +26,7 @@ Preferences preferences_of(const HttpRequest& request);
 
 // How a job is asked for: Idempotency-Key [draft-ietf-httpapi-idempotency-key-header] and the urgency of
 // Priority [RFC 9218]; an urgency that is malformed is the usual one, as the RFC says. The owner is who
-// asks. Errors: invalid_request at /Idempotency-Key where that is empty, longer
+// asks. Errors: invalid_request at /Idempotency-Key where that is longer
 // than 255 bytes or not of visible characters.
 Result<api::Submission> submission_of(const HttpRequest& request);
 
