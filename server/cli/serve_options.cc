@@ -1,12 +1,20 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "api/files/terrain_site.h"
+#include "api/json/toml_parse.h"
 #include "server/cli/data_option.h"
 #include "server/cli/serve_command.h"
 
 namespace slipway::server {
-
 namespace {
+
+using api::json::JsonValue;
 
 void add_job_limits(CLI::App& command, double& memory_mb, double& minutes) {
   command.add_option("--job-memory-mb", memory_mb, "memory of one worker process in MB; 0: no limit")
@@ -49,6 +57,49 @@ void add_token_command(CLI::App& app, std::function<int()>& run) {
   command->footer("Example:\n  slipway token dashboard --role viewer");
   command->callback(
       [wanted, &run] { run = [wanted] { return print_new_token(wanted->name, wanted->role); }; });
+}
+
+// A value of the file in the words of a flag.
+std::vector<std::string> words_of(const JsonValue& value) {
+  if (value.is(JsonValue::Kind::kString)) return {value.text};
+  if (value.is(JsonValue::Kind::kBoolean)) return {value.boolean ? "true" : "false"};
+  if (value.is(JsonValue::Kind::kNumber)) return {fmt::format("{}", value.number)};
+  std::vector<std::string> words;
+  for (const JsonValue& element : value.elements)
+    for (std::string& word : words_of(element)) words.push_back(std::move(word));
+  return words;
+}
+
+std::string in_one_line(const Error& error) {
+  std::string line = error.detail;
+  for (const Fault& fault : error.faults) line += fmt::format("; {} {}", fault.pointer, fault.message);
+  return line;
+}
+
+// Sets the options that the command line does not give. Throws CLI::ValidationError with every fault.
+void take_settings(CLI::App& command, const std::string& path) {
+  const auto bytes = api::read_data_file(path);
+  if (!bytes) throw CLI::ValidationError("--config", in_one_line(bytes.error()));
+  const auto document = api::json::parse_toml(*bytes, path);
+  if (!document) throw CLI::ValidationError("--config", in_one_line(document.error()));
+  std::string faults;
+  const auto fault = [&](const std::string& what) { faults += (faults.empty() ? "" : "; ") + what; };
+  for (std::size_t k = 0; k < document->keys.size(); ++k) {
+    const std::string& name = document->keys[k];
+    CLI::Option* const option = command.get_option_no_throw("--" + name);
+    if (option == nullptr || name == "config" || name == "help") {
+      fault(fmt::format("{} has {}, which is no option of serve", path, name));
+      continue;
+    }
+    if (option->count() > 0) continue;
+    try {
+      option->add_result(words_of(document->elements[k]));
+      option->run_callback();
+    } catch (const CLI::Error& wrong) {
+      fault(fmt::format("{}: {}", path, wrong.what()));
+    }
+  }
+  if (!faults.empty()) throw CLI::ValidationError("--config", faults);
 }
 
 }  // namespace
@@ -111,11 +162,14 @@ void add_serve_command(CLI::App& app, std::function<int()>& run) {
   command->add_flag("--log-json", options->log_json,
                     "write events to standard error as JSON, an object a line");
   command->add_flag("--access-log", options->access_log, "write every request as an event");
-  command->set_config("--config", "",
+  const auto settings = std::make_shared<std::string>();
+  command->add_option("--config", *settings,
                       "TOML file with any of these options by name, as in port = 8080; flags go before it");
-  command->allow_config_extras(CLI::config_extras_mode::error);
   command->footer("Example:\n  slipway serve --port 8080\n  curl http://127.0.0.1:8080/v1/terrains");
-  command->callback([options, &run] { run = [options] { return serve(*options); }; });
+  command->callback([options, settings, command, &run] {
+    if (!settings->empty()) take_settings(*command, *settings);
+    run = [options] { return serve(*options); };
+  });
   add_worker_command(app, run);
   add_token_command(app, run);
 }
