@@ -26,7 +26,7 @@ struct HttpRequest {
   std::string id;
   std::string principal;  // who asks, as HttpOptions::admit knows it
   bool is_admin = false;  // may change what is others', by the same
-  std::string route;  // the pattern of the route that answers; empty: none does
+  std::string route;      // the pattern of the route that answers; empty: none does
 
   // The header's first value. Names are compared without regard to case.
   std::optional<std::string> header(std::string_view name) const;

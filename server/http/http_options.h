@@ -97,7 +97,8 @@ struct HttpOptions {
   // Turns an error into the response to send, a problem document (RFC 9457). The request is null when its
   // head could not be read. Called from several threads at once.
   std::function<HttpResponse(const Error&, const HttpRequest*)> problem;
-  // Asked before the routes are; what it gives is the answer, nothing lets the request through. Empty: all may.
+  // Asked before the routes are; what it gives is the answer, nothing lets the request through. Empty: all
+  // may.
   std::function<std::optional<HttpResponse>(HttpRequest&)> admit;
   // Told of every answer to a whole request, from the thread that made it. Empty: nobody is.
   std::function<void(const AnsweredRequest&)> answered;
