@@ -14,8 +14,8 @@ namespace slipway::server {
 struct Operation {
   ServiceMetrics& metrics;
   api::JobStore& store;
-  std::function<HttpCounters()> http;
-  std::function<int()> missing_workers;  // of the worker processes
+  std::function<HttpCounters()> http = {};
+  std::function<int()> missing_workers = {};  // of the worker processes
 };
 
 // /metrics for Prometheus, and /readyz: whether the store answers and every worker runs.

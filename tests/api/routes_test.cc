@@ -11,6 +11,7 @@
 #include "api/json/parse.h"
 #include "api/openapi.h"
 #include "core/version.h"
+#include "server/operator_routes.h"
 #include "server/responses.h"
 #include "small_world.h"
 
@@ -339,7 +340,10 @@ TEST_F(Routes, TheDescriptionHasEveryRouteAndNoOther) {
     for (const std::string& method : paths.elements[i].keys) described.insert(method + " " + paths.keys[i]);
   }
   std::set<std::string> served;
-  for (const Route& route : api_routes(small_world(), *runner_)) {
+  ServiceMetrics metrics;
+  std::vector<Route> routes = operator_routes({.metrics = metrics, .store = runner_->store()});
+  for (Route& route : api_routes(small_world(), *runner_)) routes.push_back(std::move(route));
+  for (const Route& route : routes) {
     std::string method = route.method;
     for (char& c : method) c = static_cast<char>(std::tolower(c));
     served.insert(method + " " + route.pattern);

@@ -137,6 +137,8 @@ class Lint:
     def parameters(self, path, parameters, at):
         seen = set()
         for parameter in parameters:
+            if set(parameter) == {"$ref"}:
+                parameter = self.resolver.resolve(parameter["$ref"])[1]
             if not self.fields("parameter", parameter, at, ("name", "in", "schema")):
                 continue
             key = (parameter.get("in"), parameter.get("name"))
@@ -231,6 +233,7 @@ def breakages(document):
         (lambda d: body(d)["schema"].update({"$ref": "plan.json"}), "leads out of the document"),
         (lambda d: example(d)["value"].update(routes="three"), "is not of type"),
         (lambda d: example(d)["value"].update(gaol=1), "gaol"),
+        (lambda d: d["components"]["parameters"]["Priority"].update({"in": "body"}), "is no place"),
         (rename, "is that of"),
         (twin, "can't be told from"),
         (lambda d: job(d).update(parameters=[]), "declared or used, not both"),
