@@ -253,8 +253,8 @@ struct ReferenceOptions {
   // Deviations that a coefficient of the smooth difference may have, in its channel's unit, and 0: see
   // believed_sizes.
   std::array<double, 5> sizes{0.03, 0.1, 0.3, 1.0, 3.0};
-  // In the same units, what the difference may be beyond what the reference met, for each 10 deg of slope or
-  // 0.2 of slip: there it was not learnt.
+  // Beyond what the reference met, where nothing was learnt: the deviation of the difference for each 10 deg
+  // of slope or 0.2 of slip, of what another simulator may be off by (half of a current, 0.2 of slip).
   double beyond = 1.0;
   // Prior deviations by which soils, closures and motors may have drifted since: ground is not the same
   // twice.
