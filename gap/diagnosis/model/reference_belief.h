@@ -25,6 +25,7 @@ struct ReferenceBelief {
   Eigen::MatrixXd precision;       // of (x - mean) over the nuisances' deviations
 
   SmoothScale scale;
+  SmoothRange range;  // that the reference met: what lies beyond it, it can't have told
   Eigen::VectorXd coefficients;
   Eigen::MatrixXd slope;  // coefficients x nuisances
   Eigen::MatrixXd root;   // coefficients x causes

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -24,6 +25,20 @@ SmoothScale smooth_scale(const WindowModel& model, std::span<const double> expec
 // columns depend on the rover's wheels alone.
 Eigen::MatrixXd smooth_columns(const WindowModel& model, std::span<const double> expected,
                                const SmoothScale& scale);
+
+// The least and the greatest of what the windows of a campaign met, by circumstance: slopes along and across
+// and slip of drives forward and of drives backward, the motors' temperature, slopes of turns in place.
+constexpr std::size_t kRanged = 10;
+struct SmoothRange {
+  std::array<double, kRanged> lowest{}, highest{};
+};
+SmoothRange smooth_range(const WindowModel& model, std::span<const double> expected);
+
+// What a reference of this range can't have told: columns that are 0 for every window within it and grow
+// beyond either end of each circumstance, in pieces, for each channel and wheel; only those that are not 0
+// everywhere. Their coefficients are believed to be 0 with a deviation of 1.
+Eigen::MatrixXd columns_beyond(const WindowModel& model, std::span<const double> expected,
+                               const SmoothScale& scale, const SmoothRange& range);
 
 // The group of each column, below kSmoothGroups times the number of channels: columns of one group are
 // believed to be of one size. Those of a channel are in two: what gentle drives show, and what grows faster

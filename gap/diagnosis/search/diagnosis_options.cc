@@ -289,8 +289,10 @@ void list_next_drives(const NextDriveOptions& options, Lister& list) {
 
 void list_reference(const ReferenceOptions& options, Lister& list) {
   list.step("reference");
-  const auto& [sizes, drift, noise_std, min_drives, min_windows, rounds, max_open, min_open] = options;
+  const auto& [sizes, beyond, drift, noise_std, min_drives, min_windows, rounds, max_open, min_open] =
+      options;
   SLIPWAY_FIELD(sizes);
+  SLIPWAY_FIELD(beyond);
   SLIPWAY_FIELD(drift);
   SLIPWAY_FIELD(noise_std);
   SLIPWAY_FIELD(min_drives);

@@ -253,6 +253,9 @@ struct ReferenceOptions {
   // Deviations that a coefficient of the smooth difference may have, in its channel's unit, and 0: see
   // believed_sizes.
   std::array<double, 5> sizes{0.03, 0.1, 0.3, 1.0, 3.0};
+  // Beyond what the reference met, where nothing was learnt: the deviation of the difference for each 10 deg
+  // of slope or 0.2 of slip, of what another simulator may be off by (half of a current, 0.2 of slip).
+  double beyond = 1.0;
   // Prior deviations by which soils, closures and motors may have drifted since: ground is not the same
   // twice.
   double drift = 0.2;
@@ -262,7 +265,7 @@ struct ReferenceOptions {
       1;  // of those that follow; fewer than without, since the reference told what they scatter by
   int min_windows = 2;
   int rounds = 2;          // parameters and difference need each other
-  int max_open = 80;       // directions in which the difference is left open: those of most effect
+  int max_open = 120;      // directions in which the difference is left open: those of most effect
   double min_open = 0.01;  // squared deviations in all, below which a direction is none
 };
 

@@ -31,10 +31,10 @@ bool shows_undisturbed(const DriveCampaign& campaign, const WindowModel& leant,
          leant.attitude_scatter_rad(hypothesis.predict(leant, neutral, threads));
 }
 
-// What is left open, in the directions that show most beside the noise: few say nearly all.
+// What is left open, in the directions that show most beside the noise, `most` of them: few say nearly all.
 Eigen::MatrixXd main_directions(const Eigen::MatrixXd& left, const WindowModel& model,
                                 std::span<const double> expected, const NoiseScales& noise,
-                                const ReferenceOptions& options) {
+                                const ReferenceOptions& options, Eigen::Index most) {
   // Where the model leaves nothing over, nothing is open.
   if (left.cols() == 0) return left;
   Eigen::MatrixXd scaled = left;
@@ -48,9 +48,7 @@ Eigen::MatrixXd main_directions(const Eigen::MatrixXd& left, const WindowModel& 
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled.transpose() * scaled);
   const Eigen::Index n = left.cols();
   Eigen::Index kept = 0;
-  while (kept < std::min<Eigen::Index>(n, options.max_open) &&
-         solver.eigenvalues()[n - 1 - kept] > options.min_open)
-    ++kept;
+  while (kept < std::min(n, most) && solver.eigenvalues()[n - 1 - kept] > options.min_open) ++kept;
   return left * solver.eigenvectors().rightCols(kept);
 }
 
@@ -59,8 +57,15 @@ LearntDifference difference_of(const ReferenceBelief& belief, const Hypothesis& 
                                const WindowModel& model, std::span<const double> expected,
                                const ReferenceOptions& options) {
   const Eigen::MatrixXd columns = smooth_columns(model, expected, belief.scale);
-  LearntDifference learnt{columns * belief.coefficients, columns * belief.slope, hypothesis.neutral(),
-                          main_directions(columns * belief.root, model, expected, belief.noise, options)};
+  const Eigen::MatrixXd beyond = columns_beyond(model, expected, belief.scale, belief.range);
+  // Beyond what was learnt every direction is open: one that is left out would be taken for known.
+  const Eigen::MatrixXd learnt_open =
+      main_directions(columns * belief.root, model, expected, belief.noise, options, options.max_open);
+  const Eigen::MatrixXd beyond_open =
+      main_directions(options.beyond * beyond, model, expected, belief.noise, options, beyond.cols());
+  Eigen::MatrixXd open(columns.rows(), learnt_open.cols() + beyond_open.cols());
+  open << learnt_open, beyond_open;
+  LearntDifference learnt{columns * belief.coefficients, columns * belief.slope, hypothesis.neutral(), open};
   for (Eigen::Index p = 0; p < learnt.slope.cols(); ++p)
     learnt.slope.col(p) /= hypothesis.parameters()[static_cast<std::size_t>(p)].std;
   return learnt;

@@ -144,6 +144,7 @@ class Learner {
     std::vector<double> expected =
         learnt_.prepared.null->hypothesis.predict(model, x, options_.search.threads);
     if (learnt_.scale.unit.empty()) learnt_.scale = smooth_scale(model, expected);
+    learnt_.range = smooth_range(model, expected);
     return smooth_columns(model, expected, learnt_.scale);
   }
 
@@ -259,6 +260,7 @@ std::shared_ptr<const ReferenceBelief> belief_for(const LearntReference& learnt,
   const Eigen::LLT<Eigen::MatrixXd> llt(own);
   belief->precision = llt.solve(Eigen::MatrixXd::Identity(count, count));
   belief->scale = learnt.scale;
+  belief->range = learnt.range;
   belief->coefficients = learnt.coefficients;
   belief->slope = crossed * belief->precision;
   const Eigen::MatrixXd left =

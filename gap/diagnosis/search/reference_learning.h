@@ -24,6 +24,7 @@ struct LearntReference {
   Eigen::VectorXd coefficients;
   Eigen::MatrixXd covariance;  // of (u, b)
   SmoothScale scale;
+  SmoothRange range;
 };
 
 // The campaign must outlive what is learnt. Errors: cancelled.
