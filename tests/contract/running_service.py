@@ -65,7 +65,7 @@ class Server:
         connection.close()
         return response.status, dict(response.getheaders()), data
 
-    def end_of(self, location, seconds=120):
+    def end_of(self, location, seconds=300):
         deadline = time.time() + seconds
         while time.time() < deadline:
             status, headers, body = self.ask("GET", location)
