@@ -69,8 +69,6 @@ std::span<const Comparison> comparison_catalogue() {
                  "two other simulators", &sealed_levels},
       Comparison{"sealed_marginals", "whether an effect of so much probability is hidden so often",
                  "two other simulators", &sealed_marginals},
-      Comparison{"sealed_withheld", "what the diagnosis says of effects that its library lacks",
-                 "two other simulators", &sealed_withheld},
       Comparison{"worlds", "planners in worlds whose truth is known: embeddings, stops, length",
                  "this project's seeded worlds", &worlds},
       Comparison{"worlds_slip", "whether the 90 % interval of a route's mean slip holds it there",

@@ -17,6 +17,5 @@ Result<Report> dynamic_level(const std::filesystem::path& data);
 Result<Report> sealed_campaigns(const std::filesystem::path& data);
 Result<Report> sealed_levels(const std::filesystem::path& data);
 Result<Report> sealed_marginals(const std::filesystem::path& data);
-Result<Report> sealed_withheld(const std::filesystem::path& data);
 
 }  // namespace slipway::validation

@@ -136,47 +136,4 @@ Result<Report> sealed_marginals(const std::filesystem::path& data) {
   return report;
 }
 
-Result<Report> sealed_withheld(const std::filesystem::path& data) {
-  const auto table =
-      CsvTable::read(data / "validation" / "sealed_levels_withheld.csv",
-                     {.numbers = {"unknown", "look_alike", "absorbed", "declared"},
-                      .numbers_or_empty = {},
-                      .texts = {"set", "variant", "campaign", "withheld", "fidelity", "verdict", "found"}});
-  if (!table) return fail(table.error());
-  struct Tally {
-    Rate right, unknown, look_alike, declared;
-    std::vector<std::string> misses;
-  };
-  std::map<std::string, Tally> sets;
-  for (std::size_t row = 0; row < table->rows(); ++row) {
-    const auto yes = [&](const char* column) { return table->number(row, column) != 0.0; };
-    Tally& tally = sets[table->text(row, "set")];
-    const bool right = yes("unknown") || yes("look_alike") || yes("declared");
-    count(tally.right, right);
-    count(tally.unknown, yes("unknown"));
-    count(tally.look_alike, yes("look_alike"));
-    count(tally.declared, yes("declared"));
-    if (!right)
-      tally.misses.push_back(fmt::format("{} ({}) as {}", table->text(row, "withheld"),
-                                         table->text(row, "campaign"), table->text(row, "found")));
-  }
-  Report report;
-  report.title = "The diagnosis with the hidden effect withheld from its library";
-  report.source = "tests/gap_benchmark; 90 % intervals";
-  report.columns = {"set", "right", "unknown", "another that looks alike",
-                    "parameters declared to look alike"};
-  for (const auto& [set, tally] : sets) {
-    report.rows.push_back({set, rate_words(tally.right), rate_words(tally.unknown),
-                           rate_words(tally.look_alike), rate_words(tally.declared)});
-    report.notes.push_back(fmt::format("Misses of {}: {}.", set, joined(tally.misses)));
-  }
-  report.notes.emplace_back(
-      "Right is the verdict unknown, a partial answer without a wrong name, a look-alike by the diagnosis' "
-      "own angles, or "
-      "parameters of which it declares that they look like the effect (target 32 of 44). Written by slipway "
-      "gap-benchmark "
-      "--without-each --withheld-csv.");
-  return report;
-}
-
 }  // namespace slipway::validation
