@@ -39,8 +39,6 @@ std::span<const Comparison> comparison_catalogue() {
       Comparison{"grousered_wheel",
                  "a smooth and a grousered wheel on one sand, skid, slip and sideways; cross-validated",
                  "Pavlov and Johnson 2022", &grousered_wheel},
-      Comparison{"soil_belief", "what c1 and c2 differ by between soils, each soil predicted by the others",
-                 "the wheel tests above", &soil_belief},
       Comparison{"cuadriga_data", "a real rover's slip and charge per metre by slope, and their scatter",
                  "University of Malaga", &cuadriga_data},
       Comparison{"cuadriga_drives", "that rover's slip and charge per metre predicted on logs not fitted",

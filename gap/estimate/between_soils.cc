@@ -18,10 +18,11 @@ struct Population {
   Eigen::VectorXd mean, std;
   Eigen::MatrixXd factor;
 
-  // The logarithm of the density of a soil's numbers, without its factor of 2 pi.
-  double log_density(const Eigen::RowVectorXd& values) const {
-    const Eigen::VectorXd z = factor.triangularView<Eigen::Lower>().solve(values.transpose() - mean);
-    return -0.5 * z.squaredNorm() - factor.diagonal().array().log().sum();
+  // The logarithms of the densities of numbers of soils, a column each, without the factor of 2 pi.
+  Eigen::ArrayXd log_densities(const Eigen::MatrixXd& columns) const {
+    Eigen::MatrixXd z = columns.colwise() - mean;
+    factor.triangularView<Eigen::Lower>().solveInPlace(z);
+    return -0.5 * z.colwise().squaredNorm().transpose().array() - factor.diagonal().array().log().sum();
   }
   double correlation() const { return factor.rows() < 2 ? 0.0 : factor(1, 0) / factor.row(1).norm(); }
 };
@@ -35,12 +36,13 @@ class Hierarchy {
     for (const SoilSamples& soil : soils) {
       const Eigen::Index step = std::max<Eigen::Index>(1, soil.values.rows() / kMaxSamples);
       const Eigen::Index count = soil.values.rows() / step;
-      Eigen::MatrixXd& kept = soils_.emplace_back(count, dims_);
-      for (Eigen::Index k = 0; k < count; ++k) kept.row(k) = soil.values.row(k * step);
+      Eigen::MatrixXd& kept = soils_.emplace_back(dims_, count);
+      for (Eigen::Index k = 0; k < count; ++k) kept.col(k) = soil.values.row(k * step).transpose();
     }
   }
 
   Eigen::Index dims() const { return 2 * dims_ + dims_ * (dims_ - 1) / 2; }
+  // The samples of each soil that are looked at, a column each.
   const std::vector<Eigen::MatrixXd>& soils() const { return soils_; }
 
   Population population(std::span<const double> x) const {
@@ -92,7 +94,7 @@ class Hierarchy {
  private:
   double mean_of_soils(Eigen::Index number) const {
     double sum = 0.0;
-    for (const Eigen::MatrixXd& soil : soils_) sum += soil.col(number).mean();
+    for (const Eigen::MatrixXd& soil : soils_) sum += soil.row(number).mean();
     return sum / static_cast<double>(soils_.size());
   }
 
@@ -115,10 +117,9 @@ class Hierarchy {
   }
 
   static double log_mean_density(const Population& p, const Eigen::MatrixXd& soil) {
-    Eigen::VectorXd logs(soil.rows());
-    for (Eigen::Index k = 0; k < soil.rows(); ++k) logs[k] = p.log_density(soil.row(k));
+    const Eigen::ArrayXd logs = p.log_densities(soil);
     const double most = logs.maxCoeff();
-    return most + std::log((logs.array() - most).exp().mean());
+    return most + std::log((logs - most).exp().mean());
   }
 
   std::span<const BetweenNumber> numbers_;
@@ -163,14 +164,13 @@ void fill_next(const std::vector<Population>& populations, std::span<const Betwe
 
 // A soil's samples weighted by how likely each is among the soils, in the mean over the populations.
 NumbersOfSoil among_soils(const std::vector<Population>& populations, const Eigen::MatrixXd& soil) {
-  Eigen::VectorXd weights = Eigen::VectorXd::Zero(soil.rows());
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(soil.cols());
   for (const Population& p : populations) {
-    Eigen::ArrayXd logs(soil.rows());
-    for (Eigen::Index k = 0; k < soil.rows(); ++k) logs[k] = p.log_density(soil.row(k));
+    const Eigen::ArrayXd logs = p.log_densities(soil);
     const Eigen::ArrayXd likely = (logs - logs.maxCoeff()).exp();
     weights += (likely / likely.sum()).matrix();
   }
-  return numbers_of(soil, weights / static_cast<double>(populations.size()));
+  return numbers_of(soil.transpose(), weights / static_cast<double>(populations.size()));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // A check from its request to its answer: paths, command sequences, rules, and every branch of the verdict.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "api/documents/check_answer.h"
@@ -170,6 +171,33 @@ TEST(Decision, HasEveryBranch) {
   sim::DrivePrediction scrapes = prediction_with(never, 0.0, 0.0, 0.0);
   scrapes.outcomes.rules.push_back({.rule = sim::Rule::kClearance, .trips = {1.0, 0.9, 1.0}});
   EXPECT_EQ(decided(scrapes), planner::Decision::kNoGo);
+}
+
+// Where the drive on the mean soils hangs on c1 and c2, the reasons say so with both pairs.
+TEST(Decision, NamesC1AndC2WhereTheyDecide) {
+  const auto named = [](const sim::ClosureReach& closures) {
+    sim::DrivePrediction drive;
+    drive.closures = closures;
+    const auto reasons = planner::decide(planner::PlanProblem{}, drive).reasons;
+    return std::find_if(reasons.begin(), reasons.end(), [](const std::string& reason) {
+             return reason.starts_with("c1 and c2 of unmapped ground decide") &&
+                    reason.find("with c1 0.10 and c2 0.20 it keeps all limits (slip 0.12)") !=
+                        std::string::npos &&
+                    reason.find("with c1 0.70 and c2 0.50 it is immobilised at 41.0 m") != std::string::npos;
+           }) != reasons.end();
+  };
+  sim::ClosureReach closures;
+  closures.least = {.max_slip_ratio = 0.12, .soil = {}, .c1 = 0.1, .c2 = 0.2, .immobilised_at_m = {}};
+  closures.greatest = {.max_slip_ratio = 0.9,
+                       .soil = {},
+                       .c1 = 0.7,
+                       .c2 = 0.5,
+                       .breaks_a_limit = true,
+                       .immobilised_at_m = 41.0};
+  EXPECT_TRUE(named(closures));
+  closures.greatest.breaks_a_limit = false;
+  closures.greatest.immobilised_at_m.reset();
+  EXPECT_FALSE(named(closures));
 }
 
 TEST(DriveOutcomeTable, ReadsDrivesBySolAndNamesEveryFault) {

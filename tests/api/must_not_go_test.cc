@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include "api/service.h"
@@ -24,13 +25,37 @@ const sim::SoilDistribution& soil(const char* name) {
   return shipped().soils.at(name);
 }
 
+// The same soil with c1 and c2 drawn too, as data/beliefs/closures_drawn.json has them.
+void draw_closures(sim::SoilDistribution& of) {
+  of.std.c1 = 0.22;
+  of.std.c2 = 0.20;
+  of.closure_correlation = 0.15;
+  for (sim::SoilAlternative& each : of.alternatives) {
+    sim::SoilDistribution drawn = *each.soil;
+    draw_closures(drawn);
+    each.soil = std::make_shared<const sim::SoilDistribution>(std::move(drawn));
+  }
+}
+
 struct Drive {
   sim::RoverModel rover = *shipped().rovers.at("mer-class");
   sim::SoilBeliefs beliefs{{soil("jlu_mars_2_medium")}, soil("unknown_ground")};
   sim::PathStation start;
   double length_m = 12.0;
 
+  // Whatever the answer is on the soils as they are, c1 and c2 that are drawn too make no GO of it.
   Decision decided(const sim::Ground& ground) const {
+    Drive drawn = *this;
+    for (sim::SoilDistribution& known : drawn.beliefs.known) draw_closures(known);
+    draw_closures(drawn.beliefs.unknown);
+    const Decision as_shipped = decided_by_soils(ground);
+    if (as_shipped != Decision::kGo) {
+      EXPECT_NE(drawn.decided_by_soils(ground), Decision::kGo) << "with c1 and c2 drawn";
+    }
+    return as_shipped;
+  }
+
+  Decision decided_by_soils(const sim::Ground& ground) const {
     std::vector<sim::PathStation> path;
     const double travel = start.pose.yaw_rad + (start.backwards ? std::numbers::pi : 0.0);
     for (int k = 0; k * 0.2 <= length_m; ++k) {
@@ -58,6 +83,20 @@ FunctionGround slope(double deg) {
 
 TEST(MustNotGo, ButLevelFirmGroundIsAGo) {
   EXPECT_EQ(Drive().decided(slope(0.0)), Decision::kGo);
+}
+
+// Ground that no map names, 300 m of it and level, with checks of the slip every 5 m.
+TEST(MustNotGo, ButLevelUnknownGroundHardlyEverEmbeds) {
+  const sim::SoilBeliefs beliefs{{}, soil("unknown_ground")};
+  std::vector<sim::PathStation> path;
+  for (int k = 0; k <= 1200; ++k) path.push_back({.pose = {0.25 * k, 0.0, 0.0}, .distance_m = 0.25 * k});
+  const FunctionGround level([](double, double) { return 0.0; }, 1e6,
+                             [](double, double) { return std::optional<std::size_t>(); });
+  NoProgress progress;
+  const auto drive = sim::predict_drive(*shipped().rovers.at("mer-class"), 3.71, level, beliefs, path,
+                                        sim::DriveLimits{}, {.draws = 272}, 0, progress);
+  ASSERT_TRUE(drive);
+  EXPECT_LT(drive->outcomes.embedding.share, 0.01);
 }
 
 // The drive of sol 2143, as data/campaigns/opportunity_sol_2143.json has it: backwards over a ripple 5 m wide

@@ -50,6 +50,20 @@ expect 0 "$slipway" estimate wheel "$folder/tests.csv" --data "$data" --rover me
 expect 0 "$slipway" estimate drives "$data/gap-practice/p01" --data "$data" --channels current
 holds 'current ' "$folder/out"
 
+# The soils whose c1 and c2 are drawn are the shipped ones in all else.
+python3 - "$data" <<'CHECK'
+import json, pathlib, sys
+data = pathlib.Path(sys.argv[1])
+shipped = {s["name"]: s for f in (data / "soils").glob("*.json") for s in json.loads(f.read_text())["soils"]}
+for soil in json.loads((data / "beliefs" / "closures_drawn.json").read_text())["soils"]:
+    assert soil["std"].pop("c1") > 0 and soil["std"].pop("c2") > 0, soil["name"]
+    nominal = dict(shipped[soil["name"]])
+    for s in (soil, nominal):
+        s["correlation"] = [c for c in s.get("correlation", []) if c["first"] != "c1"]
+        del s["assumed"]
+    assert soil == nominal, soil["name"]
+CHECK
+
 # A belief about soils from the tests of two: the same bytes twice, and what is free in one alone is refused.
 "$slipway" wheel --data "$data" --rover mer-class --soil mpf_cloddy --sweep slip=0.05:0.65:0.1 --sweep load_n=40,100,180,260 --json >"$folder/sweep.json"
 python3 - "$folder" <<'MAKE'

@@ -19,7 +19,7 @@ TEST(Ensemble, FindsMeanSpreadAndCorrelationWhateverTheScales) {
   Eigen::MatrixXd starts(32, 2);
   for (int k = 0; k < 32; ++k)
     starts.row(k) << 0.04 + 0.02 * random_uniform(7, 2 * k), 2500.0 + 1000.0 * random_uniform(7, 2 * k + 1);
-  const EnsembleOptions options{.walkers = 32, .burn_in = 200, .steps = 2000, .every = 5};
+  const EnsembleOptions options{.walkers = 32, .burn_in = 200, .steps = 1000, .every = 5};
   NoProgress progress;
   const auto ensemble = sample_ensemble(starts, density, options, progress);
   ASSERT_TRUE(ensemble);
@@ -51,8 +51,8 @@ std::vector<SoilSamples> made_soils(int count, double noise, std::uint64_t key) 
     const double a = random_normal(of, 0), b = 0.6 * a + 0.8 * random_normal(of, 1);
     const double c1 = 0.4 + 0.12 * a + noise * random_normal(of, 2),
                  c2 = 0.3 + 0.08 * b + noise * random_normal(of, 3);
-    SoilSamples soil{std::to_string(s), Eigen::MatrixXd(200, 2)};
-    for (int k = 0; k < 200; ++k)
+    SoilSamples soil{std::to_string(s), Eigen::MatrixXd(60, 2)};
+    for (int k = 0; k < 60; ++k)
       soil.values.row(k) << c1 + noise * random_normal(of, 10 + 2 * static_cast<std::uint64_t>(k)),
           c2 + noise * random_normal(of, 11 + 2 * static_cast<std::uint64_t>(k));
     soils.push_back(std::move(soil));
@@ -61,7 +61,7 @@ std::vector<SoilSamples> made_soils(int count, double noise, std::uint64_t key) 
 }
 
 constexpr std::array kNumbers{BetweenNumber{-2.0, 2.0, 0.25}, BetweenNumber{-2.0, 2.0, 0.25}};
-constexpr EnsembleOptions kHierarchy{.walkers = 32, .burn_in = 200, .steps = 500, .every = 10};
+constexpr EnsembleOptions kHierarchy{.walkers = 32, .burn_in = 150, .steps = 300, .every = 10};
 
 TEST(BetweenSoils, FindsTheSpreadBetweenSoilsBesideTheNoiseOfEach) {
   const auto soils = made_soils(30, 0.08, 3);

@@ -18,6 +18,5 @@ Result<Report> plate_tests(const std::filesystem::path& data);
 Result<Report> pavlov_tests(const std::filesystem::path& data);
 Result<Report> pavlov_wheel(const std::filesystem::path& data);
 Result<Report> grousered_wheel(const std::filesystem::path& data);
-Result<Report> soil_belief(const std::filesystem::path& data);
 
 }  // namespace slipway::validation
