@@ -9,24 +9,41 @@
 namespace slipway::sim {
 namespace {
 
-bool has_closure_spread(const SoilDistribution& soil) {
-  return soil.mean.slip_curve == nullptr && (soil.std.c1 > 0.0 || soil.std.c2 > 0.0);
+// What c1 and c2 differ by between soils, as wheel tests of four have it: slipway estimate belief
+// data/beliefs/wheel_tests_closures.json, "one not tested".
+constexpr double kC1BetweenSoils = 0.22, kC2BetweenSoils = 0.20, kCorrelationBetweenSoils = 0.15;
+
+bool has_closures(const SoilDistribution& soil) {
+  return soil.mean.slip_curve == nullptr && (soil.mean.c1 > 0.0 || soil.mean.c2 > 0.0);
+}
+
+// c1 and c2 alone with their spread: the soil's own or, where its file gives none, that between soils.
+SoilDistribution closures_of(const SoilDistribution& belief) {
+  SoilDistribution closures;
+  closures.mean.c1 = belief.mean.c1;
+  closures.mean.c2 = belief.mean.c2;
+  const bool own = belief.std.c1 > 0.0 || belief.std.c2 > 0.0;
+  closures.std.c1 = own ? belief.std.c1 : kC1BetweenSoils;
+  closures.std.c2 = own ? belief.std.c2 : kC2BetweenSoils;
+  closures.closure_correlation = own ? belief.closure_correlation : kCorrelationBetweenSoils;
+  return closures;
 }
 
 // The mean soil with the c1 and c2 that lie `deviations` along the direction in which c1 + c2 / 2 grows most.
 Soil at_end(const SoilDistribution& belief, double deviations) {
   Soil soil = belief.mean;
-  if (!has_closure_spread(belief)) return soil;
+  if (!has_closures(belief)) return soil;
   constexpr double kStep = 1e-3, kSlip = 0.5;
+  const SoilDistribution closures = closures_of(belief);
   const auto share = [&](const ClosureNormals& z) {
-    const Soil drawn = draw_soil(belief, SoilNormals::Zero(), z);
+    const Soil drawn = draw_soil(closures, SoilNormals::Zero(), z);
     return drawn.c1 + kSlip * drawn.c2;
   };
   ClosureNormals direction;
   for (int k = 0; k < kClosureDims; ++k)
     direction[k] = share(kStep * ClosureNormals::Unit(k)) - share(-kStep * ClosureNormals::Unit(k));
   if (!(direction.norm() > 0.0)) return soil;
-  const Soil drawn = draw_soil(belief, SoilNormals::Zero(), deviations * direction.normalized());
+  const Soil drawn = draw_soil(closures, SoilNormals::Zero(), deviations * direction.normalized());
   soil.c1 = drawn.c1;
   soil.c2 = drawn.c2;
   return soil;
@@ -81,7 +98,7 @@ std::optional<ClosureReach> closure_reach(const RoverModel& rover, double gravit
   bool any = false;
   for (const PreparedStation& station : drive.stations) {
     for (std::size_t k = 0; k < station.soil.size() && !any; ++k)
-      any = has_closure_spread(beliefs.of(station.soil[k]));
+      any = has_closures(beliefs.of(station.soil[k]));
     if (any) break;
   }
   if (!any) return std::nullopt;

@@ -203,7 +203,7 @@ struct DrivePrediction {
   double mean_slip_ratio_p05 = 0.0, mean_slip_ratio_p50 = 0.0, mean_slip_ratio_p95 = 0.0;
   DriveOutcomes outcomes;
   std::vector<DrawFigures> drawn;        // by the number of the draw: as many as `draws`
-  std::optional<ClosureReach> closures;  // nothing without draws, or where no soil has a spread of c1 or c2
+  std::optional<ClosureReach> closures;  // nothing without draws, or on slip curves alone
   std::optional<ScoutDrive> scout;       // nothing where nothing goes wrong in any draw, or no ground decides
 };
 
