@@ -4,6 +4,7 @@
 usage: python_client_test.py SLIPWAY SOURCE_DIR
 """
 import json
+import os
 import pathlib
 import socket
 import subprocess
@@ -156,6 +157,12 @@ class WithTokens(unittest.TestCase):
         self.assertIn(("root", "DELETE", 200), asked)
         self.assertEqual(next(line["location"] for line in lines if line["who"] == "ann"), job.location)
         self.assertNotIn(self.tokens["ann"], self.audit.read_text())
+
+    def test_commands_send_the_token_of_their_environment(self):
+        command = [SLIPWAY, "rovers", "--url", self.server.url]
+        self.assertIn("token", subprocess.run(command, capture_output=True, text=True).stderr)
+        allowed = subprocess.run(command, capture_output=True, text=True, env={**os.environ, "SLIPWAY_TOKEN": self.tokens["wall"]})
+        self.assertEqual(allowed.returncode, 0, allowed.stderr)
 
 
 class Start(unittest.TestCase):

@@ -5,6 +5,7 @@
 
 #include <charconv>
 #include <chrono>
+#include <cstdlib>
 #include <iostream>
 #include <thread>
 
@@ -88,6 +89,14 @@ class LocalInquiry final : public Inquiry {
   std::vector<std::string> series_;  // of it
 };
 
+// The token that a service may ask for, from the environment: a command line is seen by everybody.
+NamedValues with_token(NamedValues headers) {
+  const char* const token = std::getenv("SLIPWAY_TOKEN");
+  if (token != nullptr && *token != '\0')
+    headers.emplace_back("Authorization", fmt::format("Bearer {}", token));
+  return headers;
+}
+
 class RemoteInquiry final : public Inquiry {
  public:
   RemoteInquiry(std::string host, int port) : host_(std::move(host)), port_(port) {}
@@ -128,7 +137,7 @@ class RemoteInquiry final : public Inquiry {
                                         .host = host_,
                                         .port = port_,
                                         .path = path,
-                                        .headers = std::move(headers),
+                                        .headers = with_token(std::move(headers)),
                                         .body = body});
     if (!response) return fail(response.error());
     if (response->status >= 400) return fail(api::json::read_problem(response->body));
