@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "api/continued_request.h"
-#include "api/documents/station_csv.h"
 #include "api/model_reference.h"
 
 namespace slipway::api {
@@ -25,10 +24,6 @@ std::string kept_answer(const std::string& document, const std::string& page) {
   if (document.find(kBetweenParts) != std::string::npos)
     throw std::logic_error("a job's document must be one line");
   return document + kBetweenParts + page;
-}
-
-bool is_thinned(std::string_view document) {
-  return json::is_thinned(document);
 }
 
 Result<std::vector<std::string>> series_of(std::string_view whole) {

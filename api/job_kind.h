@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "api/documents/station_csv.h"
 #include "api/jobs/job_runner.h"
 #include "api/service.h"
 
@@ -26,9 +27,8 @@ std::string kept_answer(const std::string& document, const std::string& page);
 // How long jobs of a kind usually take: seconds, a minute, many. None waits behind those of a longer lane.
 enum class Lane { kShort, kUsual, kLong };
 
-// Whether a document leaves out stations, and the table of all that the whole one has, as CSV in pages of a
-// megabyte or so: put together they are one table.
-bool is_thinned(std::string_view document);
+// The table of all stations that a whole document has, as CSV in pages of a megabyte or so: put together they
+// are one table.
 Result<std::vector<std::string>> series_of(std::string_view whole);
 
 // One kind of job as a row of the catalogue: what a client posts, what is done with it, and what can be seen
@@ -112,7 +112,7 @@ JobKind job_kind(JobKindRow<Request, Answer> of) {
     if (!answer) return fail(answer.error());
     std::string document = row->write(*answer);
     if (row->report) return JobAnswer(kept_answer(document, row->report(*answer)));
-    if (!row->write_whole || !is_thinned(document)) return JobAnswer(std::move(document));
+    if (!row->write_whole || !json::is_thinned(document)) return JobAnswer(std::move(document));
     auto series = series_of(row->write_whole(*answer));
     if (!series) return fail(series.error());
     return JobAnswer(std::move(document), *std::move(series));

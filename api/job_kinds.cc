@@ -18,56 +18,53 @@
 namespace slipway::api {
 namespace {
 
+using json::StationDetail;
+
 std::string diagnosis_page(const DiagnosisAnswer& answer) {
   return diagnosis_report(answer.campaign, answer.diagnosis,
                           draw_diagnosis(answer.campaign, answer.diagnosis))
       .html();
 }
 
-template <class Answer, std::string (*Write)(const Answer&, json::StationDetail)>
-std::string thinned(const Answer& answer) {
-  return Write(answer, json::StationDetail::kThinned);
-}
-
-template <class Answer, std::string (*Write)(const Answer&, json::StationDetail)>
-std::string whole(const Answer& answer) {
-  return Write(answer, json::StationDetail::kWhole);
+template <class Answer, std::string (*Write)(const Answer&, json::StationDetail), json::StationDetail Detail>
+std::string written(const Answer& answer) {
+  return Write(answer, Detail);
 }
 
 std::vector<JobKind> all_kinds() {
   return {
-      job_kind(
-          JobKindRow<PlanRequest, PlanAnswer>{.name = std::string(kPlanKind),
-                                              .path = "/v1/plans",
-                                              .read = &Service::read_plan,
-                                              .run = &Service::plan,
-                                              .write = &thinned<PlanAnswer, &json::write_plan_answer>,
-                                              .write_whole = &whole<PlanAnswer, &json::write_plan_answer>,
-                                              .map = &draw_route_map,
-                                              .may_name_model = true}),
+      job_kind(JobKindRow<PlanRequest, PlanAnswer>{
+          .name = std::string(kPlanKind),
+          .path = "/v1/plans",
+          .read = &Service::read_plan,
+          .run = &Service::plan,
+          .write = &written<PlanAnswer, &json::write_plan_answer, StationDetail::kThinned>,
+          .write_whole = &written<PlanAnswer, &json::write_plan_answer, StationDetail::kWhole>,
+          .map = &draw_route_map,
+          .may_name_model = true}),
       job_kind(JobKindRow<PredictionRequest, PredictionAnswer>{
           .name = std::string(kPredictionKind),
           .path = "/v1/predictions",
           .read = &Service::read_prediction,
           .run = &Service::predict,
-          .write = &thinned<PredictionAnswer, &json::write_prediction_answer>,
-          .write_whole = &whole<PredictionAnswer, &json::write_prediction_answer>,
+          .write = &written<PredictionAnswer, &json::write_prediction_answer, StationDetail::kThinned>,
+          .write_whole = &written<PredictionAnswer, &json::write_prediction_answer, StationDetail::kWhole>,
           .map = &draw_route_map,
           .usual_wait = std::chrono::seconds(10),
           .lane = Lane::kShort,
           .may_name_model = true}),
-      job_kind(
-          JobKindRow<CheckRequest, CheckAnswer>{.name = std::string(kCheckKind),
-                                                .path = "/v1/checks",
-                                                .read = &Service::read_check,
-                                                .run = &Service::check,
-                                                .write = &thinned<CheckAnswer, &json::write_check_answer>,
-                                                .write_whole = &whole<CheckAnswer, &json::write_check_answer>,
-                                                .map = &draw_route_map,
-                                                .page = &check_report,
-                                                .usual_wait = std::chrono::seconds(10),
-                                                .lane = Lane::kShort,
-                                                .may_name_model = true}),
+      job_kind(JobKindRow<CheckRequest, CheckAnswer>{
+          .name = std::string(kCheckKind),
+          .path = "/v1/checks",
+          .read = &Service::read_check,
+          .run = &Service::check,
+          .write = &written<CheckAnswer, &json::write_check_answer, StationDetail::kThinned>,
+          .write_whole = &written<CheckAnswer, &json::write_check_answer, StationDetail::kWhole>,
+          .map = &draw_route_map,
+          .page = &check_report,
+          .usual_wait = std::chrono::seconds(10),
+          .lane = Lane::kShort,
+          .may_name_model = true}),
       job_kind(JobKindRow<DiagnosisRequest, DiagnosisAnswer>{.name = std::string(kDiagnosisKind),
                                                              .path = "/v1/diagnoses",
                                                              .read = &Service::read_diagnosis,

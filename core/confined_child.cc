@@ -21,6 +21,8 @@
 #include <string_view>
 #include <utility>
 
+#include "core/process_limits.h"
+
 namespace slipway {
 namespace {
 
@@ -119,22 +121,16 @@ class ToldProgress final : public Progress {
   std::string stage_;
 };
 
-void limit(decltype(RLIMIT_AS) what, double value) {
-  const auto most = static_cast<rlim_t>(value);
-  const rlimit limits{most, most};
-  ::setrlimit(what, &limits);
-}
-
 void confine(const ChildLimits& limits) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   std::signal(SIGINT, SIG_IGN);  // the parent hears it and kills
   std::signal(SIGTERM, SIG_DFL);
   std::signal(SIGPIPE, SIG_IGN);
-  limit(RLIMIT_CORE, 0.0);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // whose shadow takes all addresses
-  limit(RLIMIT_AS, static_cast<double>(limits.max_memory_bytes));
-#endif
-  limit(RLIMIT_CPU, std::ceil(limits.max_time_s));
+  leave_no_core();
+  limit_memory(static_cast<double>(limits.max_memory_bytes));
+  const auto seconds = static_cast<rlim_t>(std::ceil(limits.max_time_s));
+  const rlimit of_processor{seconds, seconds};
+  ::setrlimit(RLIMIT_CPU, &of_processor);
   // With the right to make a network namespace no user namespace is needed, in which files of others are
   // out of reach. Where neither is allowed, the fence around the libraries holds alone.
   if (::unshare(CLONE_NEWNET) != 0) static_cast<void>(::unshare(CLONE_NEWUSER | CLONE_NEWNET));

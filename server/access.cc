@@ -33,10 +33,6 @@ std::string hash_of(std::string_view token) {
   return hash.digest();
 }
 
-bool only_reads(std::string_view method) {
-  return method == "GET" || method == "HEAD" || method == "OPTIONS";
-}
-
 // "Bearer TOKEN" [RFC 6750, 2.1].
 std::optional<std::string> token_in(const HttpRequest& request) {
   const auto header = request.header("Authorization");
@@ -52,6 +48,10 @@ bool is_hash(std::string_view text) {
 }
 
 }  // namespace
+
+bool is_loopback(std::string_view address) {
+  return address.starts_with("127.") || address == "::1" || address == "localhost";
+}
 
 std::string_view describe(Role role) {
   return kRoles.at(static_cast<std::size_t>(role));
@@ -107,8 +107,7 @@ Result<std::unique_ptr<Access>> Access::open(const AccessOptions& options) {
 
 Result<void> Access::admit(HttpRequest& request) {
   const bool open = std::find(kOpen.begin(), kOpen.end(), request.path) != kOpen.end();
-  const bool is_here = request.remote_address.starts_with("127.") || request.remote_address == "::1";
-  request.principal = is_here ? "loopback" : request.remote_address;
+  request.principal = is_loopback(request.remote_address) ? "loopback" : request.remote_address;
   if (!options_.tokens.empty() && !open && request.method != "OPTIONS") {
     const auto token = token_in(request);
     const auto holder = token ? holders_.find(hash_of(*token)) : holders_.end();

@@ -14,6 +14,9 @@
 // Who may do what.
 namespace slipway::server {
 
+// Whether only this machine reaches the address, or has it.
+bool is_loopback(std::string_view address);
+
 // A viewer reads; an operator also asks for work and dismisses what was asked for under the same token; an
 // administrator dismisses anybody's.
 enum class Role { kViewer, kOperator, kAdmin };

@@ -8,8 +8,10 @@
 #include <cstring>
 #include <string_view>
 
+#include "api/jobs/job.h"
 #include "api/json/writer.h"
 #include "core/sha256.h"
+#include "core/utc.h"
 #include "server/log.h"
 
 namespace slipway::server {
@@ -25,12 +27,12 @@ Result<AuditLog> AuditLog::open(const std::string& path) {
 
 void AuditLog::record(const AnsweredRequest& answered) {
   const HttpRequest& request = answered.request;
-  if (request.method == "GET" || request.method == "HEAD" || request.method == "OPTIONS") return;
+  if (only_reads(request.method)) return;
   Sha256 body;
   body.add(request.body);
   api::json::Writer w;
   w.begin_object()
-      .text("time", utc_now())
+      .text("time", utc_text(api::now_ms()))
       .text("who", request.principal)
       .text("address", request.remote_address);
   w.text("method", request.method).text("path", request.path).text("body_sha256", body.digest());

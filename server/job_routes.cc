@@ -164,25 +164,17 @@ class JobRoutes {
   }
 
  private:
-  struct Page {
-    std::string bytes;
-    bool more = false;
-  };
-
   // A page of what is kept apart; of an answer that has all its stations, what it has.
-  Result<Page> page_of_stations(const api::Job& job, std::int64_t page) {
+  Result<api::SeriesPage> page_of_stations(const api::Job& job, std::int64_t page) {
     auto kept = runner_.store().series(job.id, page);
     if (!kept) return fail(kept.error());
-    if (*kept) {
-      const auto next = runner_.store().series(job.id, page + 1);
-      return Page{**std::move(kept), next && *next};
-    }
+    if (*kept) return **std::move(kept);
     if (page > 1) return fail(ErrorCode::kNotFound, fmt::format("the job's stations have no page {}", page));
     const auto answer = kept_outcome(job);
     if (!answer) return fail(answer.error());
     auto csv = api::json::station_csv(api::parts_of(*answer).document);
     if (!csv) return fail(csv.error());
-    return Page{*std::move(csv)};
+    return api::SeriesPage{.bytes = *std::move(csv)};
   }
 
   Result<api::Job> find(const HttpRequest& request) {

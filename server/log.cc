@@ -1,6 +1,5 @@
 #include "server/log.h"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
@@ -8,10 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <memory>
 
+#include "api/jobs/job.h"
 #include "api/json/writer.h"
+#include "core/utc.h"
 
 namespace slipway::server {
 namespace {
@@ -36,7 +36,7 @@ spdlog::logger& logger() {
 std::string as_json(LogLevel level, std::string_view event, std::initializer_list<LogField> fields) {
   api::json::Writer w;
   w.begin_object()
-      .text("time", utc_now())
+      .text("time", utc_text(api::now_ms()))
       .text("level", kNames[static_cast<std::size_t>(level)])
       .text("event", event);
   for (const LogField& field : fields) {
@@ -57,7 +57,8 @@ std::string quoted(const std::string& text) {
 }
 
 std::string as_text(LogLevel level, std::string_view event, std::initializer_list<LogField> fields) {
-  std::string line = fmt::format("{} {} {}", utc_now(), kNames[static_cast<std::size_t>(level)], event);
+  std::string line =
+      fmt::format("{} {} {}", utc_text(api::now_ms()), kNames[static_cast<std::size_t>(level)], event);
   for (const LogField& field : fields) {
     if (const auto* const number = std::get_if<double>(&field.value))
       line += fmt::format(" {}={:g}", field.name, *number);
@@ -68,13 +69,6 @@ std::string as_text(LogLevel level, std::string_view event, std::initializer_lis
 }
 
 }  // namespace
-
-std::string utc_now() {
-  const auto time = std::chrono::system_clock::now();
-  const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(time.time_since_epoch()).count();
-  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(std::chrono::system_clock::to_time_t(time)),
-                     ms % 1000);
-}
 
 void set_log(LogForm wanted, LogLevel from) {
   form = wanted;

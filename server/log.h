@@ -26,9 +26,6 @@ void set_log(LogForm form, LogLevel from);
 // escaped.
 void log_event(LogLevel level, std::string_view event, std::initializer_list<LogField> fields = {});
 
-// The time in UTC as RFC 3339 has it, with milliseconds.
-std::string utc_now();
-
 // The trace id of a traceparent header [W3C Trace Context]; nothing where it is malformed.
 std::optional<std::string> trace_id_of(std::string_view traceparent);
 

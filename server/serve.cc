@@ -49,8 +49,8 @@ WorkerProcessOptions worker_processes(const ServeOptions& options, const std::st
     std::vector<std::string> command{"/proc/self/exe", "worker",     "--bell", "--data", data,
                                      "--jobs",         options.jobs, "--name", "{name}"};
     for (const std::string& kind : kinds) command.insert(command.end(), {"--kind", kind});
-    command.insert(command.end(), {"--job-memory-mb", fmt::format("{}", options.job_memory_mb),
-                                   "--job-minutes", fmt::format("{}", options.job_minutes)});
+    command.insert(command.end(), {"--job-memory-mb", fmt::format("{}", options.of_job.memory_mb),
+                                   "--job-minutes", fmt::format("{}", options.of_job.minutes)});
     workers.commands.push_back(std::move(command));
   }
   return workers;
@@ -66,7 +66,7 @@ Result<Jobs> open_jobs(const ServeOptions& options) {
   jobs.runner.workers = api::worker_kinds();
   jobs.runner.admission = {.most_unfinished = static_cast<std::size_t>(options.most_jobs),
                            .most_of_owner = static_cast<std::size_t>(options.most_jobs_per_address)};
-  jobs.runner.max_time = milliseconds_of(options.job_minutes);
+  jobs.runner.max_time = options.of_job.max_time();
   jobs.runner.works_here = path.empty();  // what is in this process's memory only its threads can work on
   if (path.empty()) {
     jobs.store = api::make_memory_job_store();
@@ -87,10 +87,6 @@ Result<Jobs> open_jobs(const ServeOptions& options) {
     jobs.runner.worker = fmt::format("{} {}", jobs.runner.worker, api::new_job_id());
   }
   return jobs;
-}
-
-bool is_loopback(std::string_view address) {
-  return address.starts_with("127.") || address == "::1" || address == "localhost";
 }
 
 std::optional<Error> fault_of(const ServeOptions& options) {

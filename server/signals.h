@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <csignal>
 
 namespace slipway::server {
@@ -15,12 +14,6 @@ inline sigset_t block_ending_signals() {
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
   return signals;
-}
-
-// An option in minutes as what a clock counts.
-inline std::chrono::milliseconds milliseconds_of(double minutes) {
-  return std::chrono::duration_cast<std::chrono::milliseconds>(
-      std::chrono::duration<double, std::ratio<60>>(minutes));
 }
 
 }  // namespace slipway::server

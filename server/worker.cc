@@ -14,6 +14,7 @@
 #include "api/jobs/sqlite_job_store.h"
 #include "api/service.h"
 #include "core/file_descriptor.h"
+#include "core/process_limits.h"
 #include "server/cli/command_parts.h"
 #include "server/cli/exit_status.h"
 #include "server/cli/inquiry/data_folder.h"
@@ -34,20 +35,6 @@ std::optional<Error> fault_of(const WorkerOptions& options) {
     faults.push_back({"/jobs", "a worker needs a store on disk that it shares with a service"});
   if (faults.empty()) return std::nullopt;
   return Error{ErrorCode::kInvalidRequest, "the worker can't be started so", std::move(faults)};
-}
-
-// What is asked for beyond it is refused to the work, which fails with a reason.
-void limit_memory(double mb) {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // whose shadow takes all addresses
-  if (mb <= 0.0) return;
-  const auto bytes = static_cast<rlim_t>(1e6 * mb);
-  const rlimit limits{bytes, bytes};
-  ::setrlimit(RLIMIT_AS, &limits);
-#else
-  static_cast<void>(mb);
-#endif
-  const rlimit no_core{0, 0};
-  ::setrlimit(RLIMIT_CORE, &no_core);
 }
 
 // Who polls is answered first, however many jobs run.
@@ -86,7 +73,9 @@ int work(const WorkerOptions& options) {
   if (const auto fault = fault_of(options)) return refuse(*fault);
   const auto data = data_folder(options.data);
   if (!data) return refuse(data.error());
-  limit_memory(options.job_memory_mb);
+  // What is asked for beyond it is refused to the work, which fails with a reason.
+  if (options.of_job.memory_mb > 0.0) limit_memory(1e6 * options.of_job.memory_mb);
+  leave_no_core();
   step_back();
   const auto service = api::Service::open({.data = *data});
   if (!service) return refuse(service.error());
@@ -95,7 +84,7 @@ int work(const WorkerOptions& options) {
   api::JobRunnerOptions how;
   how.workers = {options.kinds};
   how.worker = options.name.empty() ? "worker " + api::new_job_id() : options.name;
-  how.max_time = milliseconds_of(options.job_minutes);
+  how.max_time = options.of_job.max_time();
   how.kept = std::nullopt;
   const milliseconds lease = how.lease;
   api::JobRunner runner(std::move(*store), api::service_work(**service), how);

@@ -3,12 +3,12 @@
 #include "api/json/faults.h"
 #include "api/json/parse.h"
 #include "api/json/strict_reader.h"
+#include "core/largest_exact_whole.h"
 #include "sim/effects/effect_catalogue.h"
 
 namespace slipway::api::json {
 namespace {
 
-constexpr std::uint64_t kMaxExactWhole = 9'007'199'254'740'991;  // 2^53 - 1
 constexpr std::size_t kMaxWithheld = 100;
 
 }  // namespace

@@ -6,12 +6,12 @@
 #include "api/files/failed_wheels.h"
 #include "api/files/relief_values.h"
 #include "api/files/soil_file.h"
+#include "core/largest_exact_whole.h"
 
 namespace slipway::api::json {
 namespace {
 
 constexpr NumberRule kMapMetres{"m", -1e8, 1e8};
-constexpr std::uint64_t kMaxExactWhole = 9'007'199'254'740'991;  // 2^53 - 1
 
 }  // namespace
 

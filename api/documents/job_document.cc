@@ -1,30 +1,19 @@
 #include "api/documents/job_document.h"
 
-#include <fmt/chrono.h>
-#include <fmt/format.h>
-
-#include <chrono>
-
 #include "api/json/writer.h"
+#include "core/utc.h"
 
 namespace slipway::api::json {
 namespace {
 
-// RFC 3339 in UTC, "2026-07-01T12:00:00.123Z".
-std::string utc(std::int64_t ms) {
-  constexpr std::int64_t kPerSecond = 1000;
-  const auto seconds = static_cast<std::time_t>(ms / kPerSecond);
-  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(seconds), ms % kPerSecond);
-}
-
 void write_members(Writer& w, const Job& job) {
   w.text("id", job.id).text("kind", job.kind).text("state", describe(job.state));
   w.text("stage", job.stage).significant("progress", job.progress).whole("attempt", job.attempt);
-  w.text("created", utc(job.created_ms));
+  w.text("created", utc_text(job.created_ms));
   w.whole("urgency", job.urgency);
   if (!job.last_death.empty()) w.text("interrupted", job.last_death);
-  if (job.started_ms) w.text("started", utc(*job.started_ms));
-  if (job.ended_ms) w.text("ended", utc(*job.ended_ms));
+  if (job.started_ms) w.text("started", utc_text(*job.started_ms));
+  if (job.ended_ms) w.text("ended", utc_text(*job.ended_ms));
   w.key("links").begin_object().text("self", "/v1/jobs/" + job.id);
   if (job.state == JobState::kSuccessful) w.text("result", "/v1/jobs/" + job.id + "/result");
   w.end_object();

@@ -11,13 +11,13 @@
 #include "api/json/strict_reader.h"
 #include "api/json/writer.h"
 #include "core/angle.h"
+#include "core/largest_exact_whole.h"
 #include "core/version.h"
 
 namespace slipway::api::json {
 namespace {
 
 constexpr std::size_t kMaxSoils = 50, kMaxTables = 10;
-constexpr std::uint64_t kMaxExactWhole = 9'007'199'254'740'991;  // 2^53 - 1
 
 // One of the file's soils before its tables were read.
 struct ReadSoil {

@@ -11,11 +11,11 @@
 #include "api/json/faults.h"
 #include "api/json/parse.h"
 #include "api/json/strict_reader.h"
+#include "core/largest_exact_whole.h"
 
 namespace slipway::api::json {
 namespace {
 
-constexpr std::uint64_t kMaxExactWhole = 9'007'199'254'740'991;  // 2^53 - 1
 constexpr std::size_t kMaxTests = 2000, kMaxPlates = 100, kMaxSamples = 2000, kMaxNamed = 50, kMaxFree = 60;
 
 void read_grousers(ObjectReader& reader, TestedWheel& wheel) {

@@ -70,6 +70,12 @@ struct JobAnswer {
   std::vector<std::string> series;  // a long table in pages, which are kept and read one by one
 };
 
+// A page of such a table.
+struct SeriesPage {
+  std::string bytes;
+  bool more = false;  // another follows
+};
+
 // Why a worker gives back what it holds.
 enum class HandBack {
   kStopped,  // it stops in an orderly way
@@ -128,7 +134,7 @@ class JobStore {
   virtual Result<std::optional<std::string>> outcome(std::string_view id) = 0;
   // A page of a successful job's series, from 1 on; nothing where there is no such page. An error where it is
   // not what was kept.
-  virtual Result<std::optional<std::string>> series(std::string_view id, std::int64_t page) = 0;
+  virtual Result<std::optional<SeriesPage>> series(std::string_view id, std::int64_t page) = 0;
   // Of a job that waits, among jobs of these kinds. Nothing where it does not wait.
   virtual Result<std::optional<QueuePlace>> place_in_queue(std::string_view id,
                                                            const std::vector<std::string>& kinds) = 0;

@@ -140,13 +140,14 @@ class MemoryJobStore final : public JobStore {
     return entry->outcome;
   }
 
-  Result<std::optional<std::string>> series(std::string_view id, std::int64_t page) override {
+  Result<std::optional<SeriesPage>> series(std::string_view id, std::int64_t page) override {
     const std::scoped_lock lock(mutex_);
     const Entry* const entry = find(id);
     if (entry == nullptr || entry->job.state != JobState::kSuccessful || page < 1 ||
         page > static_cast<std::int64_t>(entry->series.size()))
       return std::nullopt;
-    return entry->series[static_cast<std::size_t>(page - 1)];
+    return SeriesPage{.bytes = entry->series[static_cast<std::size_t>(page - 1)],
+                      .more = page < static_cast<std::int64_t>(entry->series.size())};
   }
 
   Result<std::optional<QueuePlace>> place_in_queue(std::string_view id,

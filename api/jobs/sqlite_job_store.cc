@@ -233,16 +233,18 @@ class SqliteJobStore final : public JobStore {
     });
   }
 
-  Result<std::optional<std::string>> series(std::string_view id, std::int64_t page) override {
-    return guarded(read_mutex_, [&]() -> std::optional<std::string> {
-      auto row = reader_.prepare("SELECT bytes, sha256 FROM series WHERE job_id = ? AND page = ?");
-      row.bind(id).bind(page);
+  Result<std::optional<SeriesPage>> series(std::string_view id, std::int64_t page) override {
+    return guarded(read_mutex_, [&]() -> std::optional<SeriesPage> {
+      auto row = reader_.prepare(
+          "SELECT bytes, sha256, EXISTS (SELECT 1 FROM series WHERE job_id = ? AND page = ?) FROM series "
+          "WHERE job_id = ? AND page = ?");
+      row.bind(id).bind(page + 1).bind(id).bind(page);
       if (!row.step()) return std::nullopt;
       std::string bytes = row.text(0);
       if (row.text(1) != series_digest(id, page, bytes))
         throw SqliteDamage(
             fmt::format("what is stored of job {} is not what it answered: ask for it again", id));
-      return bytes;
+      return SeriesPage{.bytes = std::move(bytes), .more = row.number(2) != 0};
     });
   }
 

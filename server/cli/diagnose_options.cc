@@ -2,9 +2,9 @@
 #include <cstdint>
 #include <memory>
 
+#include "core/largest_exact_whole.h"
 #include "server/cli/data_option.h"
 #include "server/cli/diagnose_command.h"
-#include "server/cli/largest_exact_whole.h"
 #include "server/cli/watch_command.h"
 
 namespace slipway::server {

@@ -2,10 +2,10 @@
 #include <cstdint>
 #include <memory>
 
+#include "core/largest_exact_whole.h"
 #include "server/cli/belief_command.h"
 #include "server/cli/data_option.h"
 #include "server/cli/estimate_command.h"
-#include "server/cli/largest_exact_whole.h"
 
 namespace slipway::server {
 namespace {

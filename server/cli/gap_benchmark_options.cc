@@ -2,9 +2,9 @@
 #include <cstdint>
 #include <memory>
 
+#include "core/largest_exact_whole.h"
 #include "server/cli/data_option.h"
 #include "server/cli/gap_benchmark_command.h"
-#include "server/cli/largest_exact_whole.h"
 
 namespace slipway::server {
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <chrono>
 #include <functional>
+#include <ratio>
 #include <string>
 #include <vector>
 
@@ -9,6 +11,17 @@ class App;
 }
 
 namespace slipway::server {
+
+// What one job may use.
+struct JobLimits {
+  double memory_mb = 4096.0;  // of its worker process; 0: no limit
+  double minutes = 240.0;     // of one attempt
+
+  std::chrono::milliseconds max_time() const {
+    return std::chrono::duration_cast<std::chrono::milliseconds>(
+        std::chrono::duration<double, std::ratio<60>>(minutes));
+  }
+};
 
 struct ServeOptions {
   std::string data;
@@ -25,14 +38,13 @@ struct ServeOptions {
   std::vector<std::string> allowed_origins;  // of web pages that may read the answers, "https://HOST:PORT"
   int most_jobs = 64;                        // that wait or run at once, ...
   int most_jobs_per_address = 32;            // ... and of one address
-  double job_memory_mb = 4096.0;             // of one worker process; 0: no limit
-  double job_minutes = 240.0;                // of one attempt at a job
-  std::string tokens;                        // TOML file of who may ask; empty: who reaches the service
-  bool no_tokens = false;                    // who reaches an address beyond loopback may ask without a token
-  std::string audit;                         // file to which requests that change something are appended
-  double requests_per_s = 0.0;               // of one token or address; 0: any number
-  bool log_json = false;                     // events as JSON, one a line
-  bool access_log = false;                   // every request is an event
+  JobLimits of_job = {};
+  std::string tokens;           // TOML file of who may ask; empty: who reaches the service
+  bool no_tokens = false;       // who reaches an address beyond loopback may ask without a token
+  std::string audit;            // file to which requests that change something are appended
+  double requests_per_s = 0.0;  // of one token or address; 0: any number
+  bool log_json = false;        // events as JSON, one a line
+  bool access_log = false;      // every request is an event
 };
 
 // A process that works on the jobs of a store, which services on this machine fill.
@@ -41,8 +53,7 @@ struct WorkerOptions {
   std::string jobs = "var/jobs.sqlite";
   std::vector<std::string> kinds;  // of jobs; empty: all
   std::string name;                // under which jobs are claimed; empty: one that no other worker has
-  double job_memory_mb = 4096.0;   // 0: no limit
-  double job_minutes = 240.0;
+  JobLimits of_job = {};
   bool bell = false;  // bytes at the standard input mean that there may be work; its end ends the worker
 };
 

@@ -16,11 +16,11 @@ namespace {
 
 using api::json::JsonValue;
 
-void add_job_limits(CLI::App& command, double& memory_mb, double& minutes) {
-  command.add_option("--job-memory-mb", memory_mb, "memory of one worker process in MB; 0: no limit")
+void add_job_limits(CLI::App& command, JobLimits& limits) {
+  command.add_option("--job-memory-mb", limits.memory_mb, "memory of one worker process in MB; 0: no limit")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1e9));
-  command.add_option("--job-minutes", minutes, "minutes that one attempt at a job may take")
+  command.add_option("--job-minutes", limits.minutes, "minutes that one attempt at a job may take")
       ->capture_default_str()
       ->check(CLI::Range(0.01, 1e6));
 }
@@ -34,7 +34,7 @@ void add_worker_command(CLI::App& app, std::function<int()>& run) {
       ->allow_extra_args(false);
   command->add_option("--name", options->name,
                       "name under which jobs are claimed; no two workers may share one");
-  add_job_limits(*command, options->job_memory_mb, options->job_minutes);
+  add_job_limits(*command, options->of_job);
   command->add_flag(
       "--bell", options->bell,
       "the standard input rings for new work, the standard output after each job; the worker ends "
@@ -146,7 +146,7 @@ void add_serve_command(CLI::App& app, std::function<int()>& run) {
   command->add_option("--most-jobs-per-address", options->most_jobs_per_address, "of one client's address")
       ->capture_default_str()
       ->check(CLI::Range(1, 1'000'000));
-  add_job_limits(*command, options->job_memory_mb, options->job_minutes);
+  add_job_limits(*command, options->of_job);
   command->add_option("--tokens", options->tokens,
                       "TOML file of the tokens that may ask, see \"slipway token\"");
   command->add_flag(

@@ -2,8 +2,8 @@
 #include <cstdint>
 #include <memory>
 
+#include "core/largest_exact_whole.h"
 #include "server/cli/data_option.h"
-#include "server/cli/largest_exact_whole.h"
 #include "server/cli/worlds_command.h"
 
 namespace slipway::server {

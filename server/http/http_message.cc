@@ -23,6 +23,10 @@ bool equal_ignoring_case(std::string_view a, std::string_view b) {
                     [](char x, char y) { return lower(x) == lower(y); });
 }
 
+bool only_reads(std::string_view method) {
+  return method == "GET" || method == "HEAD" || method == "OPTIONS";
+}
+
 std::optional<std::string> HttpRequest::header(std::string_view name) const {
   return first_header(headers, name);
 }

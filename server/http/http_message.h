@@ -47,6 +47,9 @@ struct HttpResponse {
   std::optional<std::string> header(std::string_view name) const;
 };
 
+// Whether requests of this method change nothing [RFC 9110, 9.2.1].
+bool only_reads(std::string_view method);
+
 // ASCII only, as header names and media types are.
 bool equal_ignoring_case(std::string_view a, std::string_view b);
 

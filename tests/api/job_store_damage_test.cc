@@ -159,6 +159,16 @@ void drop_columns(SqliteConnection& connection, const std::vector<std::string>& 
     connection.execute(("ALTER TABLE jobs DROP COLUMN " + column).c_str());
 }
 
+// The store of an older version as it is opened now, with the answers that it had.
+std::unique_ptr<JobStore> brought_up(const fs::path& path, const std::vector<std::string>& ids) {
+  auto store = open_sqlite_job_store(path);
+  EXPECT_TRUE(store) << store.error().detail;
+  if (!store) return nullptr;
+  for (int k = 0; k < 8; ++k)
+    EXPECT_EQ((*store)->outcome(ids[static_cast<std::size_t>(k)]).value(), answer_of(k));
+  return std::move(*store);
+}
+
 TEST(JobStoreDamage, AStoreOfVersionTwoIsCopiedAndGoesOn) {
   const ScratchFolder folder;
   const fs::path path = folder.path() / "jobs.sqlite";
@@ -168,11 +178,9 @@ TEST(JobStoreDamage, AStoreOfVersionTwoIsCopiedAndGoesOn) {
     drop_columns(connection, kOfVersion3);
     connection.execute("PRAGMA user_version = 2");
   }
-  const auto store = open_sqlite_job_store(path);
-  ASSERT_TRUE(store) << store.error().detail;
-  for (int k = 0; k < 8; ++k)
-    EXPECT_EQ((*store)->outcome(ids[static_cast<std::size_t>(k)]).value(), answer_of(k));
-  EXPECT_EQ((*store)->claim("a", {}, 5, 6).value()->job.urgency, kUsualUrgency);
+  const std::unique_ptr<JobStore> store = brought_up(path, ids);
+  ASSERT_TRUE(store);
+  EXPECT_EQ(store->claim("a", {}, 5, 6).value()->job.urgency, kUsualUrgency);
   EXPECT_TRUE(fs::exists(path.string() + ".version-2"));
 }
 
@@ -187,11 +195,9 @@ TEST(JobStoreDamage, AStoreOfVersionOneIsCopiedAndGoesOn) {
     connection.execute("PRAGMA user_version = 1");
   }
   fs::remove(path.string() + ".marker");
-  const auto store = open_sqlite_job_store(path);
-  ASSERT_TRUE(store) << store.error().detail;
-  for (int k = 0; k < 8; ++k)
-    EXPECT_EQ((*store)->outcome(ids[static_cast<std::size_t>(k)]).value(), answer_of(k));
-  EXPECT_EQ((*store)->claim("a", {}, 5, 6).value()->request, answer_of(108));
+  const std::unique_ptr<JobStore> store = brought_up(path, ids);
+  ASSERT_TRUE(store);
+  EXPECT_EQ(store->claim("a", {}, 5, 6).value()->request, answer_of(108));
   EXPECT_TRUE(fs::exists(path.string() + ".version-1"));
   EXPECT_TRUE(fs::exists(path.string() + ".marker"));
 }

@@ -33,17 +33,23 @@ assert soils["format"] == "soils/1" and soils["soils"] == [estimate["soil"]]
 xml.dom.minidom.parse(str(folder / "plates.svg"))
 CHECK
 
-# A wheel that slipway wheel reports on, from another soil.
-"$slipway" wheel --data "$data" --rover mer-class --soil dry_sand --sweep slip=0.05:0.65:0.1 --sweep load_n=40,100,180,260 --json >"$folder/sweep.json"
-python3 - "$folder" <<'MAKE'
+# wheel_tests SOIL FILE COLUMN...: what slipway wheel reports on a soil, as a table of tests.
+wheel_tests() {
+  "$slipway" wheel --data "$data" --rover mer-class --soil "$1" --sweep slip=0.05:0.65:0.1 --sweep load_n=40,100,180,260 --json >"$folder/sweep.json"
+  shift
+  python3 - "$folder" "$@" <<'MAKE'
 import json, pathlib, sys
-folder = pathlib.Path(sys.argv[1])
+folder, file, *columns = pathlib.Path(sys.argv[1]), *sys.argv[2:]
 rows = json.loads((folder / "sweep.json").read_text())["rows"]
-with open(folder / "tests.csv", "w") as out:
-    print("load_n,slip_ratio,torque_nm,drawbar_pull_n,sinkage_m,current_a", file=out)
+with open(folder / file, "w") as out:
+    print(*columns, sep=",", file=out)
     for r in rows:
-        print(*(r[key] for key in ("load_n", "slip", "torque_nm", "drawbar_pull_n", "sinkage_m", "current_a")), sep=",", file=out)
+        print(*(r["slip" if column == "slip_ratio" else column] for column in columns), sep=",", file=out)
 MAKE
+}
+
+# A wheel that slipway wheel reports on, from another soil.
+wheel_tests dry_sand tests.csv load_n slip_ratio torque_nm drawbar_pull_n sinkage_m current_a
 expect 0 "$slipway" estimate wheel "$folder/tests.csv" --data "$data" --rover mer-class --soil unknown_ground
 holds 'friction_angle: .* determined' "$folder/out"
 expect 0 "$slipway" estimate wheel "$folder/tests.csv" --data "$data" --rover mer-class --channels current --json
@@ -65,15 +71,10 @@ for soil in json.loads((data / "beliefs" / "closures_drawn.json").read_text())["
 CHECK
 
 # A belief about soils from the tests of two: the same bytes twice, and what is free in one alone is refused.
-"$slipway" wheel --data "$data" --rover mer-class --soil mpf_cloddy --sweep slip=0.05:0.65:0.1 --sweep load_n=40,100,180,260 --json >"$folder/sweep.json"
+wheel_tests mpf_cloddy firm.csv load_n slip_ratio torque_nm drawbar_pull_n sinkage_m
 python3 - "$folder" <<'MAKE'
 import json, pathlib, sys
 folder = pathlib.Path(sys.argv[1])
-rows = json.loads((folder / "sweep.json").read_text())["rows"]
-with open(folder / "firm.csv", "w") as out:
-    print("load_n,slip_ratio,torque_nm,drawbar_pull_n,sinkage_m", file=out)
-    for r in rows:
-        print(*(r[key] for key in ("load_n", "slip", "torque_nm", "drawbar_pull_n", "sinkage_m")), sep=",", file=out)
 few = {"walkers": 16, "burn_in": 50, "steps": 100, "every": 5}
 def soil(name, start, table):
     return {"name": name, "tests": [str(folder / table)], "max_slip_angle_deg": 0,
