@@ -13,6 +13,7 @@
 #include "server/query.h"
 #include "server/request_headers.h"
 #include "server/responses.h"
+#include "server/upload_routes.h"
 
 namespace slipway::server {
 namespace {
@@ -21,7 +22,7 @@ constexpr std::string_view kCsv = "text/csv";
 
 // Answered at once: the rows are few enough.
 HttpResponse wheel_sweep(const api::Service& service, const HttpRequest& request) {
-  const auto answer = api::run_wheel_sweep(service.catalogue(), request.body);
+  const auto answer = api::run_wheel_sweep(*service.catalogue(), request.body);
   if (!answer) return problem_response(answer.error(), &request);
   HttpResponse response = document(api::json::write_wheel_sweep_answer(*answer));
   if (accepts(request, kCsv)) {
@@ -47,24 +48,23 @@ HttpResponse ground_at(const api::Service& service, const HttpRequest& request) 
 
 std::vector<Route> api_routes(const api::Service& service, api::JobRunner& runner,
                               const RouteOptions& options, const std::vector<api::JobKind>& kinds) {
-  const api::Catalogue& catalogue = service.catalogue();
+  const std::shared_ptr<const api::Catalogue> shipped = service.catalogue();
+  const api::Catalogue& catalogue = *shipped;  // of what nobody sends
   std::vector<Route> routes{
       fixed("/healthz", api::json::write_health()),
       fixed("/openapi.json", std::string(api::openapi_document())),
       fixed("/errors", api::json::write_errors()),
-      fixed("/v1/terrains", api::json::write_terrains(catalogue)),
       fixed("/v1/rovers", api::json::write_rovers(catalogue)),
       fixed("/v1/soils", api::json::write_soils(catalogue)),
       fixed("/v1/effects", api::json::write_effects()),
       fixed("/v1/planners", api::json::write_planners(service.planners(), service.costs())),
-      fixed("/v1/drive-campaigns", api::json::write_drive_campaigns(service.campaigns())),
       {"GET", "/v1/terrains/{name}/point",
        [&service](const HttpRequest& r) { return ground_at(service, r); }},
       {"POST", "/v1/wheel-sweeps", [&service](const HttpRequest& r) { return wheel_sweep(service, r); },
        /*heavy=*/true},
   };
-  std::vector<Route> of_jobs = job_routes(service, runner, options, kinds);
-  std::move(of_jobs.begin(), of_jobs.end(), std::back_inserter(routes));
+  for (std::vector<Route> more : {job_routes(service, runner, options, kinds), upload_routes(service)})
+    std::move(more.begin(), more.end(), std::back_inserter(routes));
   return routes;
 }
 
