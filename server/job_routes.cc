@@ -16,6 +16,7 @@
 #include "api/job_kinds.h"
 #include "api/json/problem_document.h"
 #include "server/drawn_cache.h"
+#include "server/job_events.h"
 #include "server/query.h"
 #include "server/request_headers.h"
 #include "server/responses.h"
@@ -37,7 +38,11 @@ class JobRoutes {
  public:
   JobRoutes(const api::Service& service, api::JobRunner& runner, const RouteOptions& options,
             const std::vector<api::JobKind>& kinds)
-      : service_(service), runner_(runner), options_(options), kinds_(kinds) {}
+      : service_(service),
+        runner_(runner),
+        options_(options),
+        kinds_(kinds),
+        events_(runner.store(), [this](const api::Job& job) { return status_of(job); }) {}
 
   // Records a request without faults, and waits for its end where the client wants that.
   HttpResponse submit(const api::JobKind& kind, const HttpRequest& request) {
@@ -60,6 +65,14 @@ class JobRoutes {
   HttpResponse get(const HttpRequest& request) {
     const auto job = find(request);
     return job ? job_response(*job, request) : problem_response(job.error(), &request);
+  }
+
+  // The same whenever it changes, until the job has ended.
+  HttpResponse events(const HttpRequest& request) {
+    const auto job = find(request);
+    if (!job) return problem_response(job.error(), &request);
+    auto stream = events_.open(*job, request);
+    return stream ? *std::move(stream) : problem_response(stream.error(), &request);
   }
 
   HttpResponse list(const HttpRequest& request) {
@@ -217,15 +230,20 @@ class JobRoutes {
   }
 
   HttpResponse job_response(const api::Job& job, const HttpRequest& request) {
-    std::optional<std::string> failure;
-    if (job.state == api::JobState::kFailed) failure = runner_.store().outcome(job.id).value_or(std::nullopt);
     const std::optional<api::QueueEstimate> queue = queue_of(job);
-    HttpResponse response = document(api::json::write_job(job, failure, queue));
+    HttpResponse response = document(status_of(job, queue));
     if (!api::has_ended(job.state))
       response.headers.emplace_back("Retry-After", std::to_string(kPollSeconds));
     // What is before it changes without the job.
     const std::string place = queue ? fmt::format("-{}", queue->ahead) : "";
     return tagged(std::move(response), fmt::format("\"{}-{}{}\"", job.id, job.version, place), request);
+  }
+
+  std::string status_of(const api::Job& job) { return status_of(job, queue_of(job)); }
+  std::string status_of(const api::Job& job, const std::optional<api::QueueEstimate>& queue) {
+    std::optional<std::string> failure;
+    if (job.state == api::JobState::kFailed) failure = runner_.store().outcome(job.id).value_or(std::nullopt);
+    return api::json::write_job(job, failure, queue);
   }
 
   // Of a job that waits; nothing where it does not, or the store can't say.
@@ -278,6 +296,7 @@ class JobRoutes {
   const std::vector<api::JobKind>& kinds_;
   std::atomic<int> waiting_{0};
   DrawnCache drawn_{kDrawnBytes};
+  JobEvents events_;
 };
 
 }  // namespace
@@ -288,6 +307,7 @@ std::vector<Route> job_routes(const api::Service& service, api::JobRunner& runne
   std::vector<Route> routes{
       {"GET", "/v1/jobs", [jobs](const HttpRequest& r) { return jobs->list(r); }},
       {"GET", "/v1/jobs/{id}", [jobs](const HttpRequest& r) { return jobs->get(r); }},
+      {"GET", "/v1/jobs/{id}/events", [jobs](const HttpRequest& r) { return jobs->events(r); }},
       {"GET", "/v1/jobs/{id}/result", [jobs](const HttpRequest& r) { return jobs->result(r); }, kHeavy},
       {"GET", "/v1/jobs/{id}/stations", [jobs](const HttpRequest& r) { return jobs->stations(r); }, kHeavy},
       {"GET", "/v1/jobs/{id}/map", [jobs](const HttpRequest& r) { return jobs->map(r); }, kHeavy},

@@ -34,6 +34,9 @@ bool HttpLoop::proceed(Connection& connection, HttpWorkers& workers) {
       case Phase::kSending:
         if (!send_rest(connection, blocked)) return false;
         break;
+      case Phase::kStreaming:
+        if (!watch_streaming(connection, blocked)) return false;
+        break;
       case Phase::kLingering:
         if (!linger(connection, blocked)) return false;
         break;
@@ -122,11 +125,23 @@ bool HttpLoop::send_rest(Connection& connection, bool& blocked) {
   connection.unsent = {};
   connection.sent = 0;
   if (!connection.close_after) {
-    connection.phase = Phase::kReceiving;
+    connection.phase = connection.stream ? Phase::kStreaming : Phase::kReceiving;
     return true;
   }
   connection.phase = Phase::kLingering;
   return ::shutdown(connection.socket.fd(), SHUT_WR) == 0;
+}
+
+// What a client says while it listens is nothing to us, but its end is.
+bool HttpLoop::watch_streaming(Connection& connection, bool& blocked) {
+  if (connection.hung_up) return false;
+  blocked = !connection.readable;
+  if (blocked) return true;
+  const Transfer received = receive_some(connection.socket.fd(), piece_.data(), piece_.size(), piece_read_);
+  if (received == Transfer::kSome) return true;
+  connection.readable = false;
+  blocked = true;
+  return received == Transfer::kBlocked;
 }
 
 bool HttpLoop::linger(Connection& connection, bool& blocked) {

@@ -96,7 +96,8 @@ void fill(httplib::Response& out, HttpResponse in) {
   for (const auto& [name, value] : in.headers) {
     if (!is_among(kFramingNames, name)) out.set_header(name, value);
   }
-  if (!in.body.empty() && !in.content_type.empty()) out.set_header("Content-Type", in.content_type);
+  if ((!in.body.empty() || in.stream) && !in.content_type.empty())
+    out.set_header("Content-Type", in.content_type);
   out.body = std::move(in.body);
   // "Sun, 06 Nov 1994 08:49:37 GMT" [RFC 9110, 5.6.7]; in the program's locale, which nobody sets.
   out.set_header("Date", fmt::format("{:%a, %d %b %Y %H:%M:%S} GMT", fmt::gmtime(std::time(nullptr))));
@@ -114,7 +115,9 @@ class HttpEngine::Adapter final : public httplib::Server {
     set_pre_routing_handler([this](const httplib::Request& in, httplib::Response& out) {
       reached_ = true;
       HttpRequest request = request_from(in, *exchange_);
-      fill(out, (*answer_)(request));
+      HttpResponse response = (*answer_)(request);
+      stream_ = in.method == "HEAD" ? nullptr : std::move(response.stream);
+      fill(out, std::move(response));
       return HandlerResponse::Handled;
     });
     set_post_routing_handler([this](const httplib::Request& in, httplib::Response& out) {
@@ -123,7 +126,11 @@ class HttpEngine::Adapter final : public httplib::Server {
       out.body.clear();
       // cpp-httplib offers ranges with every HEAD, and a length where there must be none [RFC 9110, 8.6].
       out.headers.erase("Accept-Ranges");
-      if (out.status == 204 || out.status < 200) out.headers.erase("Content-Length");
+      if (out.status == 204 || out.status < 200 || stream_) out.headers.erase("Content-Length");
+      if (!stream_) return;
+      out.headers.erase("Keep-Alive");
+      out.headers.erase("Connection");
+      out.set_header("Connection", "close");
     });
     // Without one, cpp-httplib sends an exception's text in a header.
     set_exception_handler([this](const httplib::Request&, httplib::Response&, std::exception_ptr thrown) {
@@ -142,7 +149,7 @@ class HttpEngine::Adapter final : public httplib::Server {
     if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
     // The head was checked by stricter rules than cpp-httplib's.
     if (!reached_) throw std::logic_error("cpp-httplib refused a head that was found to be sound");
-    Outgoing out{stream.take(), std::exchange(body_, {})};
+    Outgoing out{stream.take(), std::exchange(body_, {}), std::exchange(stream_, {})};
     if (out.body.size() <= kJoinedBody) out.front += std::exchange(out.body, {});
     return out;
   }
@@ -152,6 +159,7 @@ class HttpEngine::Adapter final : public httplib::Server {
   const std::function<HttpResponse(HttpRequest&)>* answer_ = nullptr;
   bool reached_ = false;
   std::string body_;
+  std::function<void(std::shared_ptr<AnswerStream>)> stream_;
   std::exception_ptr thrown_;
 };
 

@@ -36,6 +36,7 @@ class HttpEngine {
   struct Outgoing {
     std::string front;  // the head, and a small body
     std::string body;
+    std::function<void(std::shared_ptr<AnswerStream>)> stream = {};
   };
 
   // `answer` may throw: it is not caught here.

@@ -62,7 +62,11 @@ void HttpLoop::done(WorkDone work) {
     first = done_.empty();
     done_.push_back(std::move(work));
   }
-  if (first) eventfd_write(wake_.fd(), 1);
+  if (first) wake();
+}
+
+void HttpLoop::wake() {
+  eventfd_write(wake_.fd(), 1);
 }
 
 void HttpLoop::turn(HttpWorkers& workers) {
@@ -82,6 +86,7 @@ void HttpLoop::turn(HttpWorkers& workers) {
     }
   }
   take_back(workers);
+  take_from_streams(workers);
   for (const std::uint64_t id : std::exchange(again_, {})) on_event(id, 0, workers);
   if (stop_asked_ && !draining_) begin_drain();
   if (Clock::now() >= next_sweep_) sweep();
@@ -179,9 +184,46 @@ void HttpLoop::take_back(HttpWorkers& workers) {
     connection.counted += work.counted;
     if (work.broken) {
       close(connection);
-    } else {
-      go_on(connection, workers);
+      continue;
     }
+    if (work.stream) open_stream(connection, work.stream);
+    go_on(connection, workers);
+  }
+}
+
+void HttpLoop::open_stream(Connection& connection,
+                           const std::function<void(std::shared_ptr<AnswerStream>)>& open) {
+  connection.stream = std::make_shared<AnswerStream>([this, id = connection.id] {
+    const std::lock_guard lock(done_mutex_);
+    fed_.push_back(id);
+    wake();
+  });
+  connection.close_after = draining_;
+  open(connection.stream);
+}
+
+void HttpLoop::take_from_streams(HttpWorkers& workers) {
+  // A client that reads so little is let go: it will come again, and hear what is then.
+  constexpr std::size_t kMaxBehind = std::size_t{256} << 10;
+  std::vector<std::uint64_t> fed;
+  {
+    const std::lock_guard lock(done_mutex_);
+    fed.swap(fed_);
+  }
+  for (const std::uint64_t id : fed) {
+    const auto found = connections_.find(id);
+    if (found == connections_.end() || !found->second->stream) continue;
+    Connection& connection = *found->second;
+    AnswerStream::Taken taken = connection.stream->take();
+    connection.unsent.erase(0, std::exchange(connection.sent, 0));
+    connection.unsent += taken.bytes;
+    if (connection.unsent.size() > kMaxBehind) {
+      close(connection);
+      continue;
+    }
+    connection.close_after = connection.close_after || taken.ended;
+    if (connection.phase == Phase::kStreaming) connection.phase = Phase::kSending;
+    go_on(connection, workers);
   }
 }
 
@@ -223,7 +265,8 @@ void HttpLoop::begin_drain() {
     const bool nothing_begun = connection->phase == Phase::kReceiving &&
                                connection->gatherer.state() == RequestGatherer::State::kIdle &&
                                !connection->readable;
-    if (nothing_begun || connection->phase == Phase::kLingering) idle.push_back(connection.get());
+    if (nothing_begun || connection->phase == Phase::kLingering || connection->phase == Phase::kStreaming)
+      idle.push_back(connection.get());
   }
   for (Connection* connection : idle) close(*connection);
 }

@@ -24,7 +24,8 @@ namespace slipway::server {
 // clients, a thousand slow ones cost memory (bounded) and no thread.
 //
 // A connection goes round: kReceiving, kWorking (the socket is a worker's), kSending if need be, kReceiving
-// again; and in the end kSending, kLingering, closed.
+// again; and in the end kSending, kLingering, closed. An answer that goes on is kStreaming between what is
+// sent.
 class HttpLoop {
  public:
   HttpLoop(const HttpOptions& options, const Answers& answers, LiveCounters& counters, Listener listener);
@@ -41,7 +42,7 @@ class HttpLoop {
 
  private:
   using Clock = std::chrono::steady_clock;
-  enum class Phase { kReceiving, kWorking, kSending, kLingering };
+  enum class Phase { kReceiving, kWorking, kSending, kStreaming, kLingering };
   enum class Timing { kNone, kFresh, kIdle, kHead, kBody, kSending, kLingering };
 
   struct Connection {
@@ -50,6 +51,11 @@ class HttpLoop {
           socket(std::move(accepted.socket)),
           address(std::move(accepted.address)),
           gatherer(options) {}
+    ~Connection() {
+      if (stream) stream->shut();
+    }
+    Connection(const Connection&) = delete;
+    Connection& operator=(const Connection&) = delete;
 
     std::uint64_t id;
     Socket socket;
@@ -64,10 +70,11 @@ class HttpLoop {
     bool hung_up = false;      // the peer will send no more than what is there
     bool close_after = false;  // the answer that is being sent is the last one
     std::string unsent;
-    std::size_t sent = 0;       // of unsent
-    std::size_t requests = 0;   // handed to workers
-    std::size_t counted = 0;    // its share of buffered_bytes
-    std::size_t discarded = 0;  // while lingering
+    std::size_t sent = 0;                  // of unsent
+    std::size_t requests = 0;              // handed to workers
+    std::size_t counted = 0;               // its share of buffered_bytes
+    std::size_t discarded = 0;             // while lingering
+    std::shared_ptr<AnswerStream> stream;  // of an answer that goes on
   };
 
   void turn(HttpWorkers& workers);
@@ -78,6 +85,10 @@ class HttpLoop {
   bool watch(const Connection& connection);
   void on_event(std::uint64_t id, std::uint32_t events, HttpWorkers& workers);
   void take_back(HttpWorkers& workers);
+  void open_stream(Connection& connection, const std::function<void(std::shared_ptr<AnswerStream>)>& open);
+  void take_from_streams(HttpWorkers& workers);
+  bool watch_streaming(Connection& connection, bool& blocked);
+  void wake();
   void sweep();
   void begin_drain();
 
@@ -122,6 +133,7 @@ class HttpLoop {
   std::atomic<bool> stop_asked_ = false;
   std::mutex done_mutex_;
   std::vector<WorkDone> done_;
+  std::vector<std::uint64_t> fed_;  // connections whose streams have something to take
 };
 
 }  // namespace slipway::server

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "server/http/http_body_file.h"
+#include "server/http/http_stream.h"
 
 namespace slipway::server {
 
@@ -47,6 +49,9 @@ struct HttpResponse {
   // Framing (Content-Length, Transfer-Encoding, Connection) is the server's: such names are left out of what
   // is sent.
   NamedValues headers;
+  // An answer without a body that goes on: it ends with the connection. Called once with what to write into
+  // when the head is on its way; not for HEAD.
+  std::function<void(std::shared_ptr<AnswerStream>)> stream = {};
 
   std::optional<std::string> header(std::string_view name) const;
 };

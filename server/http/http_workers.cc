@@ -58,7 +58,7 @@ void HttpWorkers::run(Queue& queue) {
 }
 
 void HttpWorkers::answer(HttpEngine& engine, Work work) {
-  WorkDone done{work.connection, {}, 0, 0, work.close, false};
+  WorkDone done{.connection = work.connection, .unsent = {}, .close = work.close};
   HttpEngine::Outgoing out =
       answers_.to_request(engine, {work.gathered.head.forwarded, std::move(work.gathered.body),
                                    std::move(work.gathered.body_file), work.remote_address, work.close});
@@ -75,6 +75,7 @@ void HttpWorkers::answer(HttpEngine& engine, Work work) {
     keep(done, std::string(front) + out.body, 0);
   }
   done.broken = done.broken || outcome == Transfer::kBroken;
+  done.stream = std::move(out.stream);
   out = {};  // before the loop hears of it and there is more work
   done_(std::move(done));
 }

@@ -41,6 +41,7 @@ struct WorkDone {
   std::size_t counted = 0;  // of `unsent`, in the budget of buffered bytes already
   bool close = false;
   bool broken = false;  // the client has gone
+  std::function<void(std::shared_ptr<AnswerStream>)> stream = {};
 };
 
 // The threads in which handlers run, those of heavy routes in threads of their own. They never wait for a
