@@ -116,7 +116,7 @@ class HttpEngine::Adapter final : public httplib::Server {
       reached_ = true;
       HttpRequest request = request_from(in, *exchange_);
       HttpResponse response = (*answer_)(request);
-      stream_ = in.method == "HEAD" ? nullptr : std::move(response.stream);
+      stream_ = in.method == "HEAD" ? nullptr : response.stream;
       fill(out, std::move(response));
       return HandlerResponse::Handled;
     });
