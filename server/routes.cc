@@ -1,6 +1,5 @@
 #include "server/routes.h"
 
-#include <iterator>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "server/query.h"
 #include "server/request_headers.h"
 #include "server/responses.h"
+#include "server/terrain_routes.h"
 
 namespace slipway::server {
 namespace {
@@ -55,6 +55,7 @@ std::vector<Route> api_routes(const api::Service& service, api::JobRunner& runne
       fixed("/v1/terrains", api::json::write_terrains(catalogue)),
       fixed("/v1/rovers", api::json::write_rovers(catalogue)),
       fixed("/v1/soils", api::json::write_soils(catalogue)),
+      fixed("/v1/rules", api::json::write_rules(catalogue)),
       fixed("/v1/effects", api::json::write_effects()),
       fixed("/v1/planners", api::json::write_planners(service.planners(), service.costs())),
       fixed("/v1/drive-campaigns", api::json::write_drive_campaigns(service.campaigns())),
@@ -63,8 +64,8 @@ std::vector<Route> api_routes(const api::Service& service, api::JobRunner& runne
       {"POST", "/v1/wheel-sweeps", [&service](const HttpRequest& r) { return wheel_sweep(service, r); },
        /*heavy=*/true},
   };
-  std::vector<Route> of_jobs = job_routes(service, runner, options, kinds);
-  std::move(of_jobs.begin(), of_jobs.end(), std::back_inserter(routes));
+  for (auto& more : {job_routes(service, runner, options, kinds), terrain_routes(service)})
+    routes.insert(routes.end(), more.begin(), more.end());
   return routes;
 }
 

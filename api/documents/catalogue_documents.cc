@@ -67,6 +67,8 @@ void write_soil_source(Writer& w, const TerrainDescription& terrain) {
   w.end_array().end_object();
 }
 
+}  // namespace
+
 void write_terrain(Writer& w, const TerrainSite& site) {
   const TerrainDescription& terrain = site.description();
   const dem::ElevationInfo& info = site.info();
@@ -89,8 +91,6 @@ void write_terrain(Writer& w, const TerrainSite& site) {
   w.end_array().end_object();
 }
 
-}  // namespace
-
 std::string write_terrains(const Catalogue& catalogue) {
   Writer w;
   w.begin_object().key("terrains").begin_array();
@@ -103,6 +103,18 @@ std::string write_rovers(const Catalogue& catalogue) {
   Writer w;
   w.begin_object().key("rovers").begin_array();
   for (const auto& [name, rover] : catalogue.rovers) write_rover(w, *rover);
+  w.end_array().end_object();
+  return w.take();
+}
+
+std::string write_rules(const Catalogue& catalogue) {
+  Writer w;
+  w.begin_object().key("rules").begin_array();
+  for (const auto& [name, set] : catalogue.rules) {
+    w.begin_object().text("name", name).text("summary", set.summary).text("source", set.source);
+    write_drive_rules(w, set.rules);
+    w.end_object();
+  }
   w.end_array().end_object();
   return w.take();
 }

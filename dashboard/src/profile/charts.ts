@@ -1,0 +1,230 @@
+// Series against metres driven, under each other with one cursor, which is also a place on the map.
+import uPlot from "uplot";
+import { fill, h } from "../dom";
+import { number } from "../format";
+import { empty } from "../problem";
+import type { Route, Stations } from "../result";
+import { store, type State } from "../state";
+
+type Values = (number | null)[];
+interface Chart {
+  key: string;
+  title: string;
+  line: (s: Stations) => Values;
+  low?: (s: Stations) => Values;
+  high?: (s: Stations) => Values;
+  second?: { title: string; line: (s: Stations) => Values };
+  limit?: string; // key in the request's limits
+  logarithmic?: boolean;
+}
+
+// On a logarithmic axis nothing is drawn below this, so that "none of the draws" has a place.
+const least = 1e-4;
+const floored = (values: Values): Values => values.map((v) => (v === null ? null : Math.max(v, least)));
+
+export const charts: Chart[] = [
+  { key: "height", title: "Elevation, m", line: (s) => s.height_m },
+  { key: "slip", title: "Slip, 1 (band: 5 to 95 % of the draws)", line: (s) => s.slip_p50, low: (s) => s.slip_p05, high: (s) => s.slip_p95, limit: "max_slip" },
+  { key: "risk", title: "Stops (solid) and embedding (dashed) expected at a place, 1", line: (s) => floored(s.expected_stops), second: { title: "embedding", line: (s) => floored(s.embedding) }, logarithmic: true },
+  { key: "sinkage", title: "Sinkage, deepest wheel, 95 % of the draws are below, m", line: (s) => s.sinkage_m_p95, limit: "max_sinkage_m" },
+  { key: "current", title: "Current, hottest motor, 95 % of the draws are below, A", line: (s) => s.current_a_p95, limit: "max_current_a" },
+  { key: "tilt", title: "Tilt, deg (band: 5 to 95 % of the draws)", line: (s) => s.tilt_deg, low: (s) => s.tilt_deg_p05, high: (s) => s.tilt_deg_p95, limit: "max_tilt_deg" },
+  { key: "attitude", title: "Pitch (solid) and roll (dashed), deg", line: (s) => s.pitch_deg, second: { title: "roll", line: (s) => s.roll_deg } },
+  { key: "power", title: "Power of the drive motors, W", line: (s) => s.power_w },
+];
+const usuallyShown = ["height", "slip", "risk", "sinkage", "current"];
+
+const token = (name: string): string => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+/** Values of another route at the distances of the first, so that both are on one axis. */
+export function resampled(values: Values, from: number[], at: number[]): Values {
+  let k = 0;
+  return at.map((d) => {
+    if (from.length === 0 || d > from.at(-1)! || d < from[0]!) return null;
+    while (k + 2 < from.length && from[k + 1]! < d) ++k;
+    const [a, b] = [values[k] ?? null, values[k + 1] ?? null];
+    if (a === null || b === null) return null;
+    const span = from[k + 1]! - from[k]!;
+    return span > 0 ? a + ((b - a) * Math.max(0, d - from[k]!)) / span : b;
+  });
+}
+
+/** Shades what lies on unknown ground, and draws the limit. */
+function paint(u: uPlot, stations: Stations, limit: number | undefined): void {
+  const { ctx } = u;
+  const { left, top, width, height } = u.bbox;
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(left, top, width, height);
+  ctx.clip();
+  ctx.fillStyle = token("--unknown");
+  const unknown = stations.on_unknown_ground;
+  for (let i = 0; i < unknown.length; ++i) {
+    if (!unknown[i]) continue;
+    let end = i;
+    while (end + 1 < unknown.length && unknown[end + 1]) ++end;
+    const from = u.valToPos(stations.distance_m[i]!, "x", true);
+    const to = u.valToPos(stations.distance_m[Math.min(end + 1, unknown.length - 1)]!, "x", true);
+    ctx.fillRect(from, top, Math.max(to - from, 1), height);
+    i = end;
+  }
+  if (limit !== undefined) {
+    const y = u.valToPos(limit, "y", true);
+    ctx.strokeStyle = token("--limit");
+    ctx.lineWidth = 2 * devicePixelRatio;
+    ctx.setLineDash([8 * devicePixelRatio, 5 * devicePixelRatio]);
+    ctx.beginPath();
+    ctx.moveTo(left, y);
+    ctx.lineTo(left + width, y);
+    ctx.stroke();
+  }
+  ctx.restore();
+}
+
+export class ProfileCharts {
+  private plots: { plot: uPlot; chart: Chart; readout: HTMLElement; values: (Values | null)[] }[] = [];
+  private shown = new Set(usuallyShown);
+  private readonly list = h("div", { class: "charts", tabindex: 0, role: "region", "aria-label": "Charts along the route" });
+  private drawnRoute: Route | null = null;
+  private setting = false; // the cursor is being set from the state
+
+  constructor(private readonly target: HTMLElement) {
+    new ResizeObserver(() => this.resize()).observe(this.list);
+    store.on(["result", "route", "compared", "other"], (s) => this.draw(s));
+    store.on(["hover_m"], (s) => this.point(s));
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw(store.state));
+  }
+
+  draw(state: State): void {
+    for (const { plot } of this.plots) plot.destroy();
+    this.plots = [];
+    const route = state.result?.routes[state.route] ?? null;
+    this.drawnRoute = route;
+    if (!route) {
+      fill(this.target, empty(state.result ? "There is no route to draw." : "Plan a drive or check one: its profile appears here, with every limit."));
+      return;
+    }
+    const second = state.compared !== null ? state.result?.routes[state.compared] : state.other?.routes[0];
+    fill(this.target, this.choice(), this.list);
+    this.list.replaceChildren();
+    for (const chart of charts) if (this.shown.has(chart.key)) this.add(chart, route, second ?? null, state.result!.limits);
+    this.point(state);
+  }
+
+  private choice(): HTMLElement {
+    return h(
+      "div",
+      { class: "chips", role: "group", "aria-label": "Which series are shown" },
+      charts.map((chart) => {
+        const pressed = this.shown.has(chart.key);
+        return h("button", { type: "button", class: "chip", "aria-pressed": String(pressed), onclick: () => {
+          if (pressed) this.shown.delete(chart.key);
+          else this.shown.add(chart.key);
+          this.draw(store.state);
+        } }, chart.title.split(",")[0]!.replace(/ \(.*/, ""));
+      }),
+      h("span", { class: "key" }, h("span", { class: "swatch shaded" }), "unknown ground", h("span", { class: "swatch limit" }), "limit"),
+    );
+  }
+
+  private add(chart: Chart, route: Route, second: Route | null, limits: Record<string, number>): void {
+    const s = route.stations;
+    const limit = chart.limit ? limits[chart.limit] : undefined;
+    const columns: (Values | null)[] = [chart.line(s), chart.low?.(s) ?? null, chart.high?.(s) ?? null, chart.second?.line(s) ?? null];
+    columns.push(second ? resampled(chart.line(second.stations), second.stations.distance_m, s.distance_m) : null);
+    const given = columns.map((c) => c ?? s.distance_m.map(() => null));
+    const readout = h("span", { class: "readout" });
+    const box = h("div", { class: "chart" });
+    this.list.append(h("section", { class: "chart-box", "aria-label": chart.title }, h("div", { class: "chart-head" }, h("h3", {}, chart.title), readout), box));
+    const ink = token("--ink");
+    const axis = { stroke: ink, grid: { stroke: token("--line"), width: 1 }, ticks: { stroke: token("--line"), width: 1 }, font: "11px system-ui, sans-serif" };
+    const plot = new uPlot(
+      {
+        width: Math.max(box.clientWidth, 200),
+        height: 112,
+        legend: { show: false },
+        cursor: { y: false, sync: { key: "route" }, drag: { x: true, y: false } },
+        scales: {
+          x: { time: false },
+          y: chart.logarithmic
+            ? { distr: 3, range: (_u, _min, max) => [least, Math.max(1, max)] }
+            : { range: (_u, min, max) => uPlot.rangeNum(Math.min(min, limit ?? min), Math.max(max, limit ?? max), 0.08, true) },
+        },
+        axes: [{ ...axis, size: 26, values: (_u, ticks) => ticks.map((t) => `${t} m`) }, { ...axis, size: 58, values: (_u, ticks) => ticks.map((t) => (t === null ? "" : number(t))) }],
+        bands: chart.low ? [{ series: [3, 2], fill: token("--band") }] : [],
+        series: [
+          {},
+          { stroke: token("--series"), width: 2 },
+          { stroke: chart.low ? token("--series") : "transparent", width: chart.low ? 0.5 : 0, show: !!chart.low },
+          { stroke: chart.high ? token("--series") : "transparent", width: chart.high ? 0.5 : 0, show: !!chart.high },
+          { stroke: token("--series"), width: 2, dash: [6, 4], show: !!chart.second },
+          { stroke: token("--other"), width: 2, dash: [3, 3], show: !!second },
+        ],
+        hooks: {
+          drawClear: [(u) => paint(u, s, limit)],
+          setCursor: [(u) => this.moved(u)],
+        },
+      },
+      [s.distance_m, ...given] as uPlot.AlignedData,
+      box,
+    );
+    this.plots.push({ plot, chart, readout, values: columns });
+  }
+
+  /** The cursor of a chart was moved by hand. */
+  private moved(u: uPlot): void {
+    if (this.setting || !this.drawnRoute) return;
+    const { idx, left } = u.cursor;
+    const at = left === undefined || left < 0 || idx === null || idx === undefined ? null : this.drawnRoute.stations.distance_m[idx]!;
+    this.setting = true;
+    store.set({ hover_m: at });
+    this.setting = false;
+    this.read(at === null ? null : idx!);
+  }
+
+  /** The place that the map points at. */
+  private point(state: State): void {
+    if (this.setting || !this.drawnRoute) return;
+    this.setting = true;
+    for (const { plot } of this.plots) {
+      const left = state.hover_m === null ? -10 : plot.valToPos(state.hover_m, "x");
+      plot.setCursor({ left, top: left < 0 ? -10 : 10 });
+    }
+    this.setting = false;
+    const d = this.drawnRoute.stations.distance_m;
+    this.read(state.hover_m === null ? null : d.findIndex((v) => v >= state.hover_m! - 1e-9));
+  }
+
+  private read(i: number | null): void {
+    for (const { chart, readout, values } of this.plots) {
+      if (i === null || i < 0) {
+        readout.textContent = "";
+        continue;
+      }
+      const [line, low, high, second, other] = values.map((v) => v?.[i]);
+      const small = (v: number | null | undefined) => (chart.logarithmic && v === least ? `≤ ${least}` : number(v));
+      const parts = [small(line)];
+      if (low !== undefined) parts.push(`(${number(low)} to ${number(high)})`);
+      if (second !== undefined) parts.push(`/ ${small(second)}`);
+      if (other !== undefined) parts.push(`· compared ${small(other)}`);
+      readout.textContent = `${parts.join(" ")} at ${this.drawnRoute!.stations.distance_m[i]!.toFixed(1)} m`;
+    }
+  }
+
+  private resize(): void {
+    for (const { plot } of this.plots) {
+      const width = plot.root.parentElement!.clientWidth;
+      if (width > 0 && Math.abs(width - plot.width) > 1) plot.setSize({ width, height: plot.height });
+    }
+  }
+
+  /** Moves the cursor by so many stations: for the keyboard. */
+  step(stations: number): void {
+    const route = this.drawnRoute;
+    if (!route) return;
+    const d = route.stations.distance_m;
+    const now = store.state.hover_m === null ? -1 : d.findIndex((v) => v >= store.state.hover_m! - 1e-9);
+    const next = Math.min(Math.max(now + stations, 0), d.length - 1);
+    store.set({ hover_m: d[next]! });
+  }
+}
