@@ -70,6 +70,17 @@ export interface Route {
   notes: string[]; // what made a plan rank it as it did
 }
 
+export interface DrivenStretch {
+  from_m: number;
+  to_m: number;
+  x_m: number;
+  y_m: number;
+  slip: number;
+  predicted_slip: { p05: number; p50: number; p95: number };
+}
+/** Measured where 90 % of the draws do not have it. */
+export const surprises = (s: DrivenStretch): boolean => s.slip < s.predicted_slip.p05 || s.slip > s.predicted_slip.p95;
+
 export interface Result {
   job: string;
   kind: string;
@@ -80,6 +91,7 @@ export interface Result {
   limits: Record<string, number>;
   provenance: { soil_assumption?: string; legend?: string; slipway?: string; terrain_fingerprint?: string; seed?: number };
   fewer: string[];
+  driven: DrivenStretch[]; // of a drive under way: what was measured against what had been predicted
   routes: Route[];
 }
 
@@ -111,9 +123,10 @@ export async function readResult(job: Job): Promise<Result> {
     rover: document.rover?.name ?? document.request?.rover ?? "",
     terrain: document.terrain?.name ?? document.request?.terrain ?? "",
     request: document.request ?? {},
-    limits: document.request?.limits ?? {},
+    limits: { ...document.request?.limits, ...document.request?.bars },
     provenance: document.provenance ?? {},
     fewer: document.fewer_because ?? [],
+    driven: document.drive_so_far?.stretches ?? [],
     routes: features.map((feature) =>
       routeOf(feature.properties, document, feature.properties.rank ? `Route ${feature.properties.rank}` : "Path"),
     ),

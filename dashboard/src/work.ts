@@ -1,7 +1,18 @@
 // One piece of work at a time: asked for, followed, shown.
 import { ask, follow, get, hasEnded, ServiceError, submit, type Job } from "./api/client";
-import { isAboutRoutes, readResult } from "./result";
-import { store } from "./state";
+import { isAboutRoutes, readResult, type Result } from "./result";
+import { store, type Place, type Ring } from "./state";
+
+/** What was asked for becomes what is drawn. */
+function takeRequest({ request, rover }: Result): void {
+  const asked = request as { start?: Place; goal?: Place; waypoints?: Place[]; path?: Place[]; keep_out?: Ring[]; keep_in?: Ring[] };
+  const place = (p: Place | undefined): Place | null => (p ? { x_m: p.x_m, y_m: p.y_m } : null);
+  const { drawn, options } = store.state;
+  store.set({
+    drawn: { ...drawn, start: place(asked.start) ?? drawn.start, goal: place(asked.goal) ?? drawn.goal, waypoints: asked.waypoints ?? drawn.waypoints, path: asked.path ?? drawn.path, keep_out: asked.keep_out ?? [], keep_in: asked.keep_in ?? [] },
+    options: { ...options, rover: rover || options.rover },
+  });
+}
 
 let following: AbortController | null = null;
 
@@ -36,9 +47,14 @@ export async function watch(job: Job): Promise<void> {
   }
 }
 
+/** Shows a job's answer again, with what was asked for in the form. */
 export async function reopen(id: string): Promise<void> {
   try {
-    await watch(await get<Job>(`v1/jobs/${id}`));
+    const job = await get<Job>(`v1/jobs/${id}`);
+    if (isAboutRoutes(job.kind ?? "")) store.set({ tab: job.kind === "plan" ? "plan" : "check" });
+    await watch(job);
+    const result = store.state.result;
+    if (result?.job === id) takeRequest(result);
   } catch (error) {
     report(error);
   }

@@ -102,7 +102,8 @@ export async function follow(id: string, seen: (job: Job) => void, signal: Abort
   for (;;) {
     try {
       const response = await ask(`v1/jobs/${id}`, { signal, headers: tag ? { "If-None-Match": tag } : {} });
-      if (response.status !== 304) {
+      if (response.status === 304) await response.arrayBuffer();
+      else {
         tag = response.headers.get("ETag") ?? "";
         job = (await response.json()) as Job;
         seen(job);

@@ -32,6 +32,7 @@ export class DrawnLayer {
   private readonly source = new VectorSource();
   readonly layer = new VectorLayer({ source: this.source, zIndex: 30 });
   private drawing: Draw | null = null;
+  private corners: number[][] = []; // that the keyboard has placed
 
   constructor(private readonly map: OlMap) {
     const modify = new Modify({ source: this.source, insertVertexCondition: (event) => event.originalEvent.shiftKey });
@@ -50,7 +51,8 @@ export class DrawnLayer {
     drawn.keep_out.forEach((r, i) => add("keep_out", i, new Polygon([[...r, r[0]!]]), styles.keep_out));
     drawn.keep_in.forEach((r, i) => add("keep_in", i, new Polygon([[...r, r[0]!]]), styles.keep_in));
     if (state.tab === "check") {
-      if (drawn.path.length > 1) add("path", 0, new LineString(drawn.path.map(xy)), new Style({ stroke: new Stroke({ color: "#111", width: 2, lineDash: [4, 4] }) }));
+      // The answer lies where the path does.
+      if (drawn.path.length > 1 && state.result?.kind !== "check") add("path", 0, new LineString(drawn.path.map(xy)), new Style({ stroke: new Stroke({ color: "#111", width: 2, lineDash: [4, 4] }) }));
       drawn.path.forEach((p, i) => add("corner", i, new Point(xy(p)), styles.corner));
     } else {
       if (drawn.start) add("start", 0, new Point(xy(drawn.start)), mark("S", "#1a7f37"));
@@ -84,6 +86,7 @@ export class DrawnLayer {
   use(tool: Tool): void {
     if (this.drawing) this.map.removeInteraction(this.drawing);
     this.drawing = null;
+    this.corners = [];
     if (tool !== "keep_out" && tool !== "keep_in") return;
     this.drawing = new Draw({ type: "Polygon", source: new VectorSource(), style: styles[tool] });
     this.drawing.on("drawend", (event) => {
@@ -96,6 +99,22 @@ export class DrawnLayer {
 
   stopDrawing(): void {
     this.drawing?.abortDrawing();
+  }
+
+  /** A corner of the zone that is being drawn; one where the first is ends it. */
+  corner(at: number[]): boolean {
+    if (!this.drawing) return false;
+    const first = this.corners[0];
+    const closes = first !== undefined && this.corners.length >= 3 && Math.hypot(first[0]! - at[0]!, first[1]! - at[1]!) < 1e-6;
+    if (closes) {
+      const tool = store.state.tool as "keep_out" | "keep_in";
+      store.draw({ [tool]: [...store.state.drawn[tool], this.corners.map((c): [number, number] => [place(c).x_m, place(c).y_m])] });
+      store.set({ tool: "look" });
+    } else {
+      this.corners.push([at[0]!, at[1]!]);
+      this.drawing.appendCoordinates([at as [number, number]]);
+    }
+    return true;
   }
 }
 

@@ -4,8 +4,8 @@ import LineString from "ol/geom/LineString.js";
 import Point from "ol/geom/Point.js";
 import VectorLayer from "ol/layer/Vector.js";
 import VectorSource from "ol/source/Vector.js";
-import { Circle, Fill, Stroke, Style, Text } from "ol/style.js";
-import { classesOf, stationAt, type Route } from "../result";
+import { Circle, Fill, RegularShape, Stroke, Style, Text } from "ol/style.js";
+import { classesOf, stationAt, surprises, type DrivenStretch, type Route } from "../result";
 import type { State } from "../state";
 
 export class RoutesLayer {
@@ -30,6 +30,7 @@ export class RoutesLayer {
       if (routes.length > 1) this.source.addFeature(label(route, index, routes.length, chosen));
     });
     state.other?.routes.slice(0, 1).forEach((route) => this.source.addFeatures(plain(route, "#cc79a7", 3, [2, 6])));
+    for (const stretch of state.result?.driven ?? []) this.source.addFeature(residual(stretch));
     this.point(state);
   }
 
@@ -79,6 +80,15 @@ function lines(route: Route, state: State, strong: boolean): Feature[] {
     from = to;
   }
   return features;
+}
+
+/** Where a stretch of the drive so far ended: a circle where the prediction held, a square where it did not. */
+function residual(stretch: DrivenStretch): Feature {
+  const feature = new Feature(new Point([stretch.x_m, stretch.y_m]));
+  const fill = new Fill({ color: surprises(stretch) ? "#d7191c" : "#2c7bb6" });
+  const border = new Stroke({ color: "#fff", width: 2 });
+  feature.setStyle(new Style({ image: surprises(stretch) ? new RegularShape({ points: 4, radius: 8, angle: Math.PI / 4, fill, stroke: border }) : new Circle({ radius: 6, fill, stroke: border }), zIndex: 15 }));
+  return feature;
 }
 
 /** The number stands where the routes are apart. */

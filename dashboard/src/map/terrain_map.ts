@@ -55,7 +55,7 @@ export class TerrainMap {
     store.on(["swipe"], () => this.map.render());
     store.on(["result", "other", "route", "compared", "routeColour", "palette"], (s) => this.routes.draw(s));
     store.on(["hover_m"], (s) => this.routes.point(s));
-    store.on(["drawn", "tab"], (s) => this.drawn.draw(s));
+    store.on(["drawn", "tab", "result"], (s) => this.drawn.draw(s));
     store.on(["tool"], (s) => {
       this.drawn.use(s.tool);
       target.classList.toggle("aiming", s.tool !== "look");
@@ -109,7 +109,7 @@ export class TerrainMap {
     }
     if (moved) {
       this.map.setView(new View({ projection: body.projection, extent: grown(extent), constrainOnlyCenter: true, showFullExtent: true, maxResolution: (tiles.metres_per_px![0] ?? 1) * 2, minResolution: 0.01 }));
-      this.map.getView().fit(extent, { padding: [20, 20, 20, 20] });
+      this.map.getView().fit(extent, { padding: this.margins(20) });
     }
     this.blend(store.state);
   }
@@ -161,8 +161,19 @@ export class TerrainMap {
     store.set({ hover_m: nearest < 0 ? null : distance_m[nearest]! });
   }
 
+  /** Room around what is brought into sight; at the right lie the layers. */
+  private margins(px: number): number[] {
+    const wide = (this.map.getSize()?.[0] ?? 0) > 700;
+    return [px, wide ? px + 270 : px, px, px];
+  }
+
   centre(): number[] | null {
     return this.map.getView().getCenter() ?? null;
+  }
+
+  /** A corner of the zone that is being drawn. */
+  corner(at: number[]): boolean {
+    return this.drawn.corner(at);
   }
 
   stopDrawing(): void {
@@ -177,12 +188,12 @@ export class TerrainMap {
     const last = Math.max(stationAt(route.stations, to_m), first);
     const xs = route.stations.x_m.slice(first, last + 1);
     const ys = route.stations.y_m.slice(first, last + 1);
-    this.map.getView().fit([Math.min(...xs) - 8, Math.min(...ys) - 8, Math.max(...xs) + 8, Math.max(...ys) + 8], { padding: [40, 40, 40, 40], duration: 200 });
+    this.map.getView().fit([Math.min(...xs) - 8, Math.min(...ys) - 8, Math.max(...xs) + 8, Math.max(...ys) + 8], { padding: this.margins(40), duration: 200 });
   }
 
   showRoutes(): void {
     const extent = this.routes.source.getExtent();
-    if (extent && extent.every(Number.isFinite)) this.map.getView().fit(extent, { padding: [50, 50, 50, 50] });
+    if (extent && extent.every(Number.isFinite)) this.map.getView().fit(extent, { padding: this.margins(50) });
   }
 }
 

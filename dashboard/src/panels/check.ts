@@ -7,7 +7,7 @@ import { problemView } from "../problem";
 import { store } from "../state";
 import { start } from "../work";
 import { options } from "./options";
-import { readPathText } from "./path_text";
+import { readPathText, readTelemetry } from "./path_text";
 import { toolBar, zones } from "./plan";
 import { checkRequest, type Command } from "./request";
 
@@ -20,8 +20,11 @@ export function checkPanel(target: HTMLElement, map: TerrainMap): void {
   const place = h("input", { placeholder: "x, y in metres", autocomplete: "off", id: "check-start" });
   const heading = h("input", { type: "number", step: "any", value: 0, id: "check-yaw" });
   const startFields = h("div", { class: "columns" }, field("Start of the commands", place), field("Heading, deg (left of east)", heading));
+  const telemetry = h("textarea", { rows: 5, spellcheck: "false", placeholder: "driven_m,x_m,y_m,current_a\n0,8142640,-276640,\n2.4,8142638,-276640.3,6.1" });
+  const telemetryFile = h("input", { type: "file", accept: ".csv", onchange: () => void telemetryFile.files?.[0]?.text().then((t) => (telemetry.value = t.slice(0, 1_000_000))) });
   const curl = h("details");
   let commands: Command[] | null = null;
+  let soFar: Record<string, unknown>[] = [];
 
   async function take(): Promise<void> {
     const chosen = file.files?.[0];
@@ -47,7 +50,8 @@ export function checkPanel(target: HTMLElement, map: TerrainMap): void {
 
   function request(): Record<string, unknown> {
     const from = readPlace(place.value) ?? store.state.drawn.start;
-    return checkRequest(commands ? { start: { ...(from ?? { x_m: NaN, y_m: NaN }), yaw_deg: Number(heading.value) || 0 }, list: commands } : null);
+    const start = from ? { start: { ...from, yaw_deg: Number(heading.value) || 0 } } : {};
+    return checkRequest({ commands: commands ? { ...start, list: commands } : null, soFar });
   }
 
   function show(): void {
@@ -59,12 +63,18 @@ export function checkPanel(target: HTMLElement, map: TerrainMap): void {
 
   function check(): void {
     if (text.value.trim() !== "" && !read()) return;
-    if (commands && !(readPlace(place.value) ?? store.state.drawn.start)) {
+    try {
+      soFar = telemetry.value.trim() === "" ? [] : readTelemetry(telemetry.value);
+    } catch (error) {
+      fill(fault, problemView((error as Error).message));
+      return;
+    }
+    if (commands && soFar.length === 0 && !(readPlace(place.value) ?? store.state.drawn.start)) {
       fill(fault, problemView("Commands need a start: type it, or set it on the map under Plan."));
       place.focus();
       return;
     }
-    if (!commands && store.state.drawn.path.length < 2) {
+    if (!commands && store.state.drawn.path.length < (soFar.length > 0 ? 1 : 2)) {
       fill(fault, problemView("A path has two corners or more: click them on the map, or paste them."));
       return;
     }
@@ -90,6 +100,9 @@ export function checkPanel(target: HTMLElement, map: TerrainMap): void {
     field("Corners as CSV or GeoJSON, or commands", text, "A CSV has columns x_m and y_m. Commands are drive=METRES, turn=DEGREES, arc=METRES,RADIUS; left is positive."),
     field("or a file", file),
     startFields,
+    h("details", {}, h("summary", {}, "A drive under way"),
+      field("Telemetry so far as CSV", telemetry, "What the drive has met tells of the ground ahead: the check then begins where the rover is now, and shows what was measured against what had been predicted."),
+      field("or its file", telemetryFile)),
     h("h2", {}, "Zones"),
     toolBar(["keep_out", "keep_in"]),
     zones(),

@@ -1,7 +1,7 @@
 // Campaigns of drives and what they show that the simulator lacks.
 import { get, token, address, type Campaign, type Job } from "../api/client";
 import { button, field, fill, h, select } from "../dom";
-import { metres, number, words } from "../format";
+import { number, words } from "../format";
 import { empty, loading, problemView } from "../problem";
 import { store } from "../state";
 import { keep, start } from "../work";
@@ -40,8 +40,8 @@ export function drivesPanel(target: HTMLElement): void {
         about,
         h("p", {}, `${words(campaign.rover ?? "")}, ${drives.length} drives, ${number(campaign.gravity_m_s2)} m/s²; believed soil: ${(campaign.soils ?? []).map(words).join(", ")}.`),
         h("div", { class: "wide short", tabindex: 0, role: "region", "aria-label": "Drives" },
-          h("table", {}, h("thead", {}, h("tr", {}, ["Drive", "Time, s", "Speed, m/s", "About"].map((t) => h("th", { scope: "col" }, t)))),
-            h("tbody", {}, drives.map((d) => h("tr", {}, h("th", { scope: "row" }, d.id), h("td", {}, number(d.duration_s)), h("td", {}, number(d.speed_m_s)), h("td", {}, metres((d.duration_s ?? 0) * (d.speed_m_s ?? 0)))))))),
+          h("table", {}, h("thead", {}, h("tr", {}, ["Drive", "Time, s", "Speed, m/s"].map((t) => h("th", { scope: "col" }, t)))),
+            h("tbody", {}, drives.map((d) => h("tr", {}, h("th", { scope: "row" }, d.id), h("td", {}, number(d.duration_s)), h("td", {}, number(d.speed_m_s))))))),
         button("Diagnose these drives", () => void start("v1/diagnoses", { campaign: name }), { class: "primary", "data-do": "diagnose" }),
         h("p", { class: "hint" }, "A diagnosis asks which effects the simulator lacks. It takes minutes; other work goes on beside it."),
       );

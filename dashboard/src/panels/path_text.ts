@@ -44,6 +44,25 @@ function readCsv(text: string): Place[] {
   });
 }
 
+/** Telemetry so far, by the columns of `slipway check --drive-so-far`: WHEEL_current_a is the current of that wheel. */
+export function readTelemetry(text: string): Record<string, unknown>[] {
+  const lines = text.trim().split(/\r?\n/).filter((line) => line.trim() !== "" && !line.startsWith("#"));
+  const head = (lines[0] ?? "").split(",").map((cell) => cell.trim());
+  for (const needed of ["driven_m", "x_m", "y_m"]) if (!head.includes(needed)) throw new Error(`The first line of the telemetry names no column ${needed}.`);
+  return lines.slice(1).map((line, i) => {
+    const row: Record<string, unknown> = {};
+    const wheels: Record<string, number> = {};
+    line.split(",").forEach((cell, k) => {
+      if (cell.trim() === "") return;
+      const [name, value] = [head[k] ?? "", Number(cell)];
+      if (!Number.isFinite(value)) throw new Error(`Line ${i + 2} of the telemetry: ${name || "a cell too many"} = "${cell.trim()}" is no number.`);
+      if (name !== "current_a" && name.endsWith("_current_a")) wheels[name.slice(0, -"_current_a".length)] = value;
+      else row[name] = value;
+    });
+    return Object.keys(wheels).length > 0 ? { ...row, currents_a: wheels } : row;
+  });
+}
+
 /* eslint-disable @typescript-eslint/no-explicit-any */
 function readJson(text: string, body: Body | null): ReadPath {
   let document: any;

@@ -34,10 +34,16 @@ export function planRequest(state: State = store.state): Record<string, unknown>
 
 export type Command = Record<string, number>;
 
-export function checkRequest(commands: { start: { x_m: number; y_m: number; yaw_deg: number }; list: Command[] } | null, state: State = store.state): Record<string, unknown> {
+interface CheckParts {
+  commands: { start?: { x_m: number; y_m: number; yaw_deg: number }; list: Command[] } | null;
+  soFar: Record<string, unknown>[];
+}
+
+export function checkRequest({ commands, soFar }: CheckParts, state: State = store.state): Record<string, unknown> {
   return {
     ...shared(state),
-    ...(commands ? { start: commands.start, commands: commands.list } : { path: state.drawn.path }),
+    ...(soFar.length > 0 ? { drive_so_far: { rows: soFar } } : {}),
+    ...(commands ? { ...(commands.start ? { start: commands.start } : {}), commands: commands.list } : { path: state.drawn.path }),
     ...(state.options.rules ? { rules: state.options.rules } : {}),
   };
 }

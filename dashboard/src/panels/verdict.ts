@@ -2,7 +2,7 @@
 import { button, fill, h } from "../dom";
 import { duration, metres, number, share, words } from "../format";
 import type { TerrainMap } from "../map/terrain_map";
-import { verdictWords, type Result, type Route, type Rule } from "../result";
+import { surprises, verdictWords, type Result, type Route, type Rule } from "../result";
 import { store } from "../state";
 import { keep } from "../work";
 import { token, address } from "../api/client";
@@ -106,6 +106,22 @@ function comparison(result: Result, other: Result | null): HTMLElement {
   return h("div", { class: "wide", tabindex: 0, role: "region", "aria-label": "Routes beside each other" }, h("table", { class: "compare-table" }, h("thead", {}, h("tr", {}, h("td", {}), head)), h("tbody", {}, body)));
 }
 
+/** What the drive has met so far against what had been predicted before it was measured. */
+function driven(result: Result): HTMLElement {
+  const wrong = result.driven.filter(surprises).length;
+  return h(
+    "div",
+    { class: "driven" },
+    h("h3", {}, "Driven so far: slip measured against predicted"),
+    h("p", {}, wrong === 0 ? "All stretches lie in what 90 % of the draws had predicted." : `${wrong} of ${result.driven.length} stretches lie outside what 90 % of the draws had predicted.`),
+    h("div", { class: "wide short", tabindex: 0, role: "region", "aria-label": "Stretches driven" },
+      h("table", {}, h("thead", {}, h("tr", {}, ["By odometry", "Measured", "Predicted: median (5 to 95 %)"].map((t) => h("th", { scope: "col" }, t)))),
+        h("tbody", {}, result.driven.map((s) =>
+          h("tr", { class: surprises(s) ? "trips" : "" }, h("th", { scope: "row" }, `${number(s.from_m)} to ${number(s.to_m)} m`), h("td", {}, number(s.slip), surprises(s) ? " outside" : ""),
+            h("td", {}, `${number(s.predicted_slip.p50)} (${number(s.predicted_slip.p05)} to ${number(s.predicted_slip.p95)})`)))))),
+  );
+}
+
 function exports(result: Result): HTMLElement {
   const at = `v1/jobs/${result.job}/result`;
   const report = `v1/jobs/${result.job}/report`;
@@ -123,8 +139,9 @@ function exports(result: Result): HTMLElement {
 }
 
 export function verdictPanel(target: HTMLElement, map: TerrainMap): void {
-  store.on(["result", "route", "compared", "other"], ({ result, other }) => {
-    if (!result) {
+  store.on(["result", "route", "compared", "other", "tab"], ({ result, other, tab }) => {
+    // A plan's verdict does not stand beside the form of a check.
+    if (!result || tab === "drives" || (tab === "plan" && result.kind !== "plan") || (tab === "check" && result.kind === "plan")) {
       fill(target);
       return;
     }
@@ -139,6 +156,7 @@ export function verdictPanel(target: HTMLElement, map: TerrainMap): void {
         h("ul", { class: "reasons" }, route.reasons.map((reason) => h("li", {}, reason))),
         h("h3", {}, "What would change it"),
         h("ul", {}, change(route).map((line) => h("li", {}, line))),
+        result.driven.length > 0 && driven(result),
         comparison(result, other),
         h("h3", {}, "Rules"),
         route.rules.length > 0 ? rulesTable(route, map) : h("p", {}, "There were no draws of the ground to judge by."),

@@ -15,24 +15,25 @@ interface Chart {
   high?: (s: Stations) => Values;
   second?: { title: string; line: (s: Stations) => Values };
   limit?: string; // key in the request's limits
-  logarithmic?: boolean;
 }
 
-// On a logarithmic axis nothing is drawn below this, so that "none of the draws" has a place.
-const least = 1e-4;
-const floored = (values: Values): Values => values.map((v) => (v === null ? null : Math.max(v, least)));
+function summed(values: Values): Values {
+  let sum = 0;
+  return values.map((v) => (sum += v ?? 0));
+}
 
 export const charts: Chart[] = [
   { key: "height", title: "Elevation, m", line: (s) => s.height_m },
   { key: "slip", title: "Slip, 1 (band: 5 to 95 % of the draws)", line: (s) => s.slip_p50, low: (s) => s.slip_p05, high: (s) => s.slip_p95, limit: "max_slip" },
-  { key: "risk", title: "Stops (solid) and embedding (dashed) expected at a place, 1", line: (s) => floored(s.expected_stops), second: { title: "embedding", line: (s) => floored(s.embedding) }, logarithmic: true },
+  { key: "stops", title: "Stops expected up to here, 1", line: (s) => summed(s.expected_stops), limit: "max_expected_stops" },
+  { key: "embedding", title: "Embedded up to here, share of the draws", line: (s) => summed(s.embedding), limit: "max_embedding" },
   { key: "sinkage", title: "Sinkage, deepest wheel, 95 % of the draws are below, m", line: (s) => s.sinkage_m_p95, limit: "max_sinkage_m" },
   { key: "current", title: "Current, hottest motor, 95 % of the draws are below, A", line: (s) => s.current_a_p95, limit: "max_current_a" },
   { key: "tilt", title: "Tilt, deg (band: 5 to 95 % of the draws)", line: (s) => s.tilt_deg, low: (s) => s.tilt_deg_p05, high: (s) => s.tilt_deg_p95, limit: "max_tilt_deg" },
   { key: "attitude", title: "Pitch (solid) and roll (dashed), deg", line: (s) => s.pitch_deg, second: { title: "roll", line: (s) => s.roll_deg } },
   { key: "power", title: "Power of the drive motors, W", line: (s) => s.power_w },
 ];
-const usuallyShown = ["height", "slip", "risk", "sinkage", "current"];
+const usuallyShown = ["height", "slip", "stops", "embedding", "sinkage", "current"];
 
 const token = (name: string): string => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
@@ -82,7 +83,7 @@ function paint(u: uPlot, stations: Stations, limit: number | undefined): void {
 }
 
 export class ProfileCharts {
-  private plots: { plot: uPlot; chart: Chart; readout: HTMLElement; values: (Values | null)[] }[] = [];
+  private plots: { plot: uPlot; readout: HTMLElement; values: (Values | null)[] }[] = [];
   private shown = new Set(usuallyShown);
   private readonly list = h("div", { class: "charts", tabindex: 0, role: "region", "aria-label": "Charts along the route" });
   private drawnRoute: Route | null = null;
@@ -146,9 +147,7 @@ export class ProfileCharts {
         cursor: { y: false, sync: { key: "route" }, drag: { x: true, y: false } },
         scales: {
           x: { time: false },
-          y: chart.logarithmic
-            ? { distr: 3, range: (_u, _min, max) => [least, Math.max(1, max)] }
-            : { range: (_u, min, max) => uPlot.rangeNum(Math.min(min, limit ?? min), Math.max(max, limit ?? max), 0.08, true) },
+          y: { range: (_u, min, max) => uPlot.rangeNum(Math.min(min, limit ?? min), Math.max(max, limit ?? max), 0.08, true) },
         },
         axes: [{ ...axis, size: 26, values: (_u, ticks) => ticks.map((t) => `${t} m`) }, { ...axis, size: 58, values: (_u, ticks) => ticks.map((t) => (t === null ? "" : number(t))) }],
         bands: chart.low ? [{ series: [3, 2], fill: token("--band") }] : [],
@@ -168,7 +167,7 @@ export class ProfileCharts {
       [s.distance_m, ...given] as uPlot.AlignedData,
       box,
     );
-    this.plots.push({ plot, chart, readout, values: columns });
+    this.plots.push({ plot, readout, values: columns });
   }
 
   /** The cursor of a chart was moved by hand. */
@@ -196,16 +195,15 @@ export class ProfileCharts {
   }
 
   private read(i: number | null): void {
-    for (const { chart, readout, values } of this.plots) {
+    for (const { readout, values } of this.plots) {
       if (i === null || i < 0) {
         readout.textContent = "";
         continue;
       }
       const [line, low, high, second, other] = values.map((v) => v?.[i]);
-      const small = (v: number | null | undefined) => (chart.logarithmic && v === least ? `≤ ${least}` : number(v));
-      const parts = [small(line)];
+      const parts = [number(line)];
       if (low !== undefined) parts.push(`(${number(low)} to ${number(high)})`);
-      if (second !== undefined) parts.push(`/ ${small(second)}`);
+      if (second !== undefined) parts.push(`/ ${number(second)}`);
       if (other !== undefined) parts.push(`· compared ${small(other)}`);
       readout.textContent = `${parts.join(" ")} at ${this.drawnRoute!.stations.distance_m[i]!.toFixed(1)} m`;
     }
