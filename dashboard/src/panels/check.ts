@@ -15,7 +15,7 @@ export function checkPanel(target: HTMLElement, map: TerrainMap): void {
   const common = h("div");
   options(common);
   const fault = h("div");
-  const text = h("textarea", { rows: 6, spellcheck: "false", placeholder: "8142579.7, -276648.7\n8142578, -276680\n\nor: drive=10 turn=30 arc=6,8" });
+  const text = h("textarea", { rows: 6, oninput: () => peek(), onchange: () => void (text.value.trim() !== "" && read()), spellcheck: "false", placeholder: "8142579.7, -276648.7\n8142578, -276680\n\nor: drive=10 turn=30 arc=6,8" });
   const file = h("input", { type: "file", accept: ".csv,.json,.geojson,.txt", onchange: () => void take() });
   const place = h("input", { placeholder: "x, y in metres", autocomplete: "off", id: "check-start" });
   const heading = h("input", { type: "number", step: "any", value: 0, id: "check-yaw" });
@@ -31,6 +31,18 @@ export function checkPanel(target: HTMLElement, map: TerrainMap): void {
     if (!chosen) return;
     text.value = (await chosen.text()).slice(0, 1_000_000);
     read();
+  }
+
+  /** Whether commands are being typed, which need a start. */
+  function peek(): void {
+    fill(fault);
+    commands = null;
+    try {
+      commands = readPathText(text.value, map.body).commands ?? null;
+    } catch {
+      // It is not whole yet.
+    }
+    startFields.hidden = commands === null;
   }
 
   /** What is in the field becomes the path on the map, or the commands. */

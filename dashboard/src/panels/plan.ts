@@ -31,10 +31,15 @@ export function toolBar(shown: Tool[]): HTMLElement {
   return bar;
 }
 
-function placeField(label: string, id: string, value: Place | null, change: (place: Place | null) => void): HTMLElement {
+interface PlaceField {
+  element: HTMLElement;
+  show: (place: Place | null) => void;
+}
+
+/** Stays while others change: what is being typed into it is not lost. */
+function placeField(label: string, id: string, change: (place: Place | null) => void): PlaceField {
   const input = h("input", {
     id,
-    value: writePlace(value),
     placeholder: "x, y in metres of the map",
     inputmode: "text",
     autocomplete: "off",
@@ -45,7 +50,14 @@ function placeField(label: string, id: string, value: Place | null, change: (pla
       if (input.reportValidity()) change(place);
     },
   });
-  return field(label, input);
+  return {
+    element: field(label, input),
+    show: (place) => {
+      const text = writePlace(place);
+      if (input.value !== text && document.activeElement !== input) input.value = text;
+      else if (readPlace(input.value) === null && place) input.value = text;
+    },
+  };
 }
 
 export function zones(): HTMLElement {
@@ -63,7 +75,10 @@ export function zones(): HTMLElement {
 
 export function planPanel(target: HTMLElement): void {
   const common = h("div");
-  const places = h("div");
+  const from = placeField("Start", "plan-start", (place) => store.draw({ start: place }));
+  const goal = placeField("Goal", "plan-goal", (place) => store.draw({ goal: place }));
+  const via = h("div");
+  let waypoints: PlaceField[] = [];
   const weights = h("details", { class: "weights" });
   const curl = h("details");
   const go = button("Plan the drive", () => void start("v1/plans", planRequest()), { class: "primary", "data-do": "plan" });
@@ -71,17 +86,14 @@ export function planPanel(target: HTMLElement): void {
   go.setAttribute("aria-describedby", "plan-hint");
   options(common);
   store.on(["drawn"], ({ drawn }) => {
-    const active = document.activeElement?.id;
-    fill(
-      places,
-      placeField("Start", "plan-start", drawn.start, (start) => store.draw({ start })),
-      drawn.waypoints.map((waypoint, i) =>
-        h("div", { class: "with-button" }, placeField(`Way point ${i + 1}`, `plan-via-${i}`, waypoint, (place) => store.draw({ waypoints: drawn.waypoints.flatMap((w, k) => (k === i ? (place ? [place] : []) : [w])) })),
-          button("Remove", () => store.draw({ waypoints: drawn.waypoints.filter((_, k) => k !== i) }), { class: "quiet", "aria-label": `Remove way point ${i + 1}` })),
-      ),
-      placeField("Goal", "plan-goal", drawn.goal, (goal) => store.draw({ goal })),
-    );
-    if (active?.startsWith("plan-")) document.getElementById(active)?.focus();
+    from.show(drawn.start);
+    goal.show(drawn.goal);
+    if (waypoints.length !== drawn.waypoints.length) {
+      const change = (i: number, place: Place | null) => store.draw({ waypoints: store.state.drawn.waypoints.flatMap((w, k) => (k === i ? (place ? [place] : []) : [w])) });
+      waypoints = drawn.waypoints.map((_, i) => placeField(`Way point ${i + 1}`, `plan-via-${i}`, (place) => change(i, place)));
+      fill(via, waypoints.map((waypoint, i) => h("div", { class: "with-button" }, waypoint.element, button("Remove", () => change(i, null), { class: "quiet", "aria-label": `Remove way point ${i + 1}` }))));
+    }
+    waypoints.forEach((waypoint, i) => waypoint.show(drawn.waypoints[i]!));
     const missing = [!drawn.start && "a start", !drawn.goal && "a goal"].filter(Boolean).join(" and ");
     go.disabled = missing !== "";
     hint.textContent = missing ? `Click ${missing} on the map, or type ${drawn.start || drawn.goal ? "it" : "them"}.` : "Ctrl+Enter plans, Ctrl+Z takes back what was drawn.";
@@ -112,5 +124,5 @@ export function planPanel(target: HTMLElement): void {
     fill(curl, h("summary", {}, "The request as a command"), h("pre", { tabindex: 0, "data-curl": true }, asCurl("v1/plans", planRequest(state))));
     curl.open = open;
   });
-  fill(target, common, h("h2", {}, "Places"), toolBar(tools.map((t) => t.tool)), places, zones(), weights, go, hint, curl);
+  fill(target, common, h("h2", {}, "Places"), toolBar(tools.map((t) => t.tool)), from.element, via, goal.element, zones(), weights, go, hint, curl);
 }

@@ -3,7 +3,7 @@ import uPlot from "uplot";
 import { fill, h } from "../dom";
 import { number } from "../format";
 import { empty } from "../problem";
-import type { Route, Stations } from "../result";
+import type { DrivenStretch, Route, Stations } from "../result";
 import { store, type State } from "../state";
 
 type Values = (number | null)[];
@@ -86,6 +86,7 @@ export class ProfileCharts {
   private plots: { plot: uPlot; readout: HTMLElement; values: (Values | null)[] }[] = [];
   private shown = new Set(usuallyShown);
   private readonly list = h("div", { class: "charts", tabindex: 0, role: "region", "aria-label": "Charts along the route" });
+  private measured: uPlot | null = null; // of a drive so far
   private drawnRoute: Route | null = null;
   private setting = false; // the cursor is being set from the state
 
@@ -99,6 +100,8 @@ export class ProfileCharts {
   draw(state: State): void {
     for (const { plot } of this.plots) plot.destroy();
     this.plots = [];
+    this.measured?.destroy();
+    this.measured = null;
     const route = state.result?.routes[state.route] ?? null;
     this.drawnRoute = route;
     if (!route) {
@@ -108,6 +111,7 @@ export class ProfileCharts {
     const second = state.compared !== null ? state.result?.routes[state.compared] : state.other?.routes[0];
     fill(this.target, this.choice(), this.list);
     this.list.replaceChildren();
+    if (state.result!.driven.length > 0) this.addDriven(state.result!.driven);
     for (const chart of charts) if (this.shown.has(chart.key)) this.add(chart, route, second ?? null, state.result!.limits);
     this.point(state);
   }
@@ -170,6 +174,37 @@ export class ProfileCharts {
     this.plots.push({ plot, readout, values: columns });
   }
 
+  /** What was measured so far and what had been predicted, on one axis: the way by odometry, apart from the route ahead. */
+  private addDriven(driven: DrivenStretch[]): void {
+    const box = h("div", { class: "chart" });
+    const title = "Slip driven so far: measured (dashed) against predicted (band: 5 to 95 %)";
+    this.list.append(h("section", { class: "chart-box", "aria-label": title }, h("div", { class: "chart-head" }, h("h3", {}, title)), box));
+    const of = (value: (s: DrivenStretch) => number): Values => [value(driven[0]!), ...driven.map(value)];
+    const axis = { stroke: token("--ink"), grid: { stroke: token("--line"), width: 1 }, font: "11px system-ui, sans-serif" };
+    const step = uPlot.paths.stepped!({ align: -1 });
+    const plot = new uPlot(
+      {
+        width: Math.max(box.clientWidth, 200),
+        height: 112,
+        legend: { show: false },
+        cursor: { y: false },
+        scales: { x: { time: false } },
+        axes: [{ ...axis, size: 26, values: (_u, ticks) => ticks.map((t) => `${t} m`) }, { ...axis, size: 58 }],
+        bands: [{ series: [4, 3], fill: token("--band") }],
+        series: [
+          {},
+          { stroke: token("--limit"), width: 2, dash: [6, 4], paths: step },
+          { stroke: token("--series"), width: 2, paths: step },
+          { stroke: token("--series"), width: 0.5, paths: step },
+          { stroke: token("--series"), width: 0.5, paths: step },
+        ],
+      },
+      [[driven[0]!.from_m, ...driven.map((s) => s.to_m)], of((s) => s.slip), of((s) => s.predicted_slip.p50), of((s) => s.predicted_slip.p05), of((s) => s.predicted_slip.p95)] as uPlot.AlignedData,
+      box,
+    );
+    this.measured = plot;
+  }
+
   /** The cursor of a chart was moved by hand. */
   private moved(u: uPlot): void {
     if (this.setting || !this.drawnRoute) return;
@@ -204,13 +239,13 @@ export class ProfileCharts {
       const parts = [number(line)];
       if (low !== undefined) parts.push(`(${number(low)} to ${number(high)})`);
       if (second !== undefined) parts.push(`/ ${number(second)}`);
-      if (other !== undefined) parts.push(`· compared ${small(other)}`);
+      if (other !== undefined) parts.push(`· compared ${number(other)}`);
       readout.textContent = `${parts.join(" ")} at ${this.drawnRoute!.stations.distance_m[i]!.toFixed(1)} m`;
     }
   }
 
   private resize(): void {
-    for (const { plot } of this.plots) {
+    for (const plot of [...this.plots.map((p) => p.plot), ...(this.measured ? [this.measured] : [])]) {
       const width = plot.root.parentElement!.clientWidth;
       if (width > 0 && Math.abs(width - plot.width) > 1) plot.setSize({ width, height: plot.height });
     }
