@@ -163,11 +163,18 @@ test("a path is checked and found NO-GO, with the rules and where", async () => 
   await p.accessible("check, dark");
   await p.click('header button:text-is("Light")');
 
+  // Another way is a GO.
+  await p.fill("#panel-check textarea >> nth=0", "8142579.7,-276648.7\n8142585,-276646");
+  await p.click('[data-do="check"]');
+  await p.waitForSelector('[data-verdict="go"]');
+  await pause(400);
+  await p.look("14_go");
+
   // Commands, and a drive under way.
   await p.fill("#panel-check textarea >> nth=0", "drive=4 turn=30 drive=3");
   await p.fill("#check-start", "8142579.7,-276648.7");
   await p.click('[data-do="check"]');
-  await p.until(() => document.querySelector("[data-curl], #panel-check pre")?.textContent.includes('"turn_deg":30'));
+  await p.until(() => document.querySelector("#panel-check pre")?.textContent.includes('"turn_deg":30'));
   await p.waitForSelector(".work .job", { state: "detached" });
   await p.click("text=A drive under way");
   await p.fill("#panel-check textarea >> nth=0", "8142600,-276645");

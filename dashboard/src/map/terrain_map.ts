@@ -46,6 +46,7 @@ export class TerrainMap {
     target.addEventListener("pointerleave", () => {
       this.pointer = null;
       this.told(null);
+      store.set({ hover_m: null });
     });
     store.on(["terrain"], (s) => this.show(s.terrain));
     store.on(["options"], (s) => {

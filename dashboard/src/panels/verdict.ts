@@ -42,7 +42,7 @@ function rulesTable(route: Route, map: TerrainMap): HTMLElement {
     h(
       "table",
       {},
-      h("thead", {}, h("tr", {}, ["Rule", "Limit", "Value nearest to it: median (5 to 95 %)", "Trips in", "Where", "Cause"].map((t) => h("th", { scope: "col" }, t)))),
+      h("thead", {}, h("tr", {}, ["Rule", "Limit", "Nearest value", "Trips in", "Where", "Cause"].map((t) => h("th", { scope: "col" }, t)))),
       h("tbody", {}, route.rules.map(row)),
     ),
   );
@@ -159,6 +159,7 @@ export function verdictPanel(target: HTMLElement, map: TerrainMap): void {
         result.driven.length > 0 && driven(result),
         comparison(result, other),
         h("h3", {}, "Rules"),
+        h("p", { class: "hint" }, "The value that comes nearest to the limit: median of the draws of the ground (5 to 95 %)."),
         route.rules.length > 0 ? rulesTable(route, map) : h("p", {}, "There were no draws of the ground to judge by."),
         route.notes.length > 0 && h("details", {}, h("summary", {}, "How the plan ranked it"), h("ul", {}, route.notes.map((note) => h("li", {}, note)))),
         exports(result),

@@ -11,6 +11,7 @@ interface Chart {
   key: string;
   title: string;
   line: (s: Stations) => Values;
+  digits?: number;
   low?: (s: Stations) => Values;
   high?: (s: Stations) => Values;
   second?: { title: string; line: (s: Stations) => Values };
@@ -23,7 +24,7 @@ function summed(values: Values): Values {
 }
 
 export const charts: Chart[] = [
-  { key: "height", title: "Elevation, m", line: (s) => s.height_m },
+  { key: "height", title: "Elevation, m", line: (s) => s.height_m, digits: 6 },
   { key: "slip", title: "Slip, 1 (band: 5 to 95 % of the draws)", line: (s) => s.slip_p50, low: (s) => s.slip_p05, high: (s) => s.slip_p95, limit: "max_slip" },
   { key: "stops", title: "Stops expected up to here, 1", line: (s) => summed(s.expected_stops), limit: "max_expected_stops" },
   { key: "embedding", title: "Embedded up to here, share of the draws", line: (s) => summed(s.embedding), limit: "max_embedding" },
@@ -83,7 +84,7 @@ function paint(u: uPlot, stations: Stations, limit: number | undefined): void {
 }
 
 export class ProfileCharts {
-  private plots: { plot: uPlot; readout: HTMLElement; values: (Values | null)[] }[] = [];
+  private plots: { plot: uPlot; digits: number; readout: HTMLElement; values: (Values | null)[] }[] = [];
   private shown = new Set(usuallyShown);
   private readonly list = h("div", { class: "charts", tabindex: 0, role: "region", "aria-label": "Charts along the route" });
   private measured: uPlot | null = null; // of a drive so far
@@ -153,7 +154,7 @@ export class ProfileCharts {
           x: { time: false },
           y: { range: (_u, min, max) => uPlot.rangeNum(Math.min(min, limit ?? min), Math.max(max, limit ?? max), 0.08, true) },
         },
-        axes: [{ ...axis, size: 26, values: (_u, ticks) => ticks.map((t) => `${t} m`) }, { ...axis, size: 58, values: (_u, ticks) => ticks.map((t) => (t === null ? "" : number(t))) }],
+        axes: [{ ...axis, size: 26, values: (_u, ticks) => ticks.map((t) => `${t} m`) }, { ...axis, size: 58, values: (_u, ticks) => ticks.map((t) => (t === null ? "" : number(t, 6))) }],
         bands: chart.low ? [{ series: [3, 2], fill: token("--band") }] : [],
         series: [
           {},
@@ -171,7 +172,7 @@ export class ProfileCharts {
       [s.distance_m, ...given] as uPlot.AlignedData,
       box,
     );
-    this.plots.push({ plot, readout, values: columns });
+    this.plots.push({ plot, digits: chart.digits ?? 3, readout, values: columns });
   }
 
   /** What was measured so far and what had been predicted, on one axis: the way by odometry, apart from the route ahead. */
@@ -230,16 +231,16 @@ export class ProfileCharts {
   }
 
   private read(i: number | null): void {
-    for (const { readout, values } of this.plots) {
+    for (const { digits, readout, values } of this.plots) {
       if (i === null || i < 0) {
         readout.textContent = "";
         continue;
       }
       const [line, low, high, second, other] = values.map((v) => v?.[i]);
-      const parts = [number(line)];
+      const parts = [number(line, digits)];
       if (low !== undefined) parts.push(`(${number(low)} to ${number(high)})`);
       if (second !== undefined) parts.push(`/ ${number(second)}`);
-      if (other !== undefined) parts.push(`· compared ${number(other)}`);
+      if (other !== undefined) parts.push(`· compared ${number(other, digits)}`);
       readout.textContent = `${parts.join(" ")} at ${this.drawnRoute!.stations.distance_m[i]!.toFixed(1)} m`;
     }
   }
