@@ -32,7 +32,7 @@ function rulesTable(route: Route, map: TerrainMap): HTMLElement {
       h("td", {}, `${number(rule.limit)}${unit(rule.unit)}`),
       h("td", {}, rule.value ? `${number(rule.value.p50)} (${number(rule.value.p05)} to ${number(rule.value.p95)})` : "–"),
       h("td", {}, share(trips)),
-      h("td", {}, rule.from_m === null || trips === 0 ? "–" : button(`${number(rule.from_m, 4)} to ${number(rule.to_m, 4)} m`, show, { class: "link", title: "Show on the map" })),
+      h("td", {}, rule.from_m === null || trips === 0 ? "–" : button(`${rule.from_m.toFixed(1)} to ${rule.to_m?.toFixed(1)} m`, show, { class: "link", title: "Show on the map" })),
       h("td", {}, [rule.cause && words(rule.cause), rule.wheel && `wheel ${rule.wheel}`].filter(Boolean).join(", ") || "–"),
     );
   };
@@ -54,13 +54,13 @@ function change(route: Route): string[] {
   const advice: string[] = [];
   const worst = [...route.stretches].sort((a, b) => b.expected_stops + b.embedding - a.expected_stops - a.embedding)[0];
   if (worst && worst.expected_stops + worst.embedding > 0)
-    advice.push(`Most is expected to go wrong from ${number(worst.from_m, 4)} to ${number(worst.to_m, 4)} m: a keep-out there, or another way, changes most.`);
+    advice.push(`Most is expected to go wrong from ${worst.from_m.toFixed(1)} to ${worst.to_m.toFixed(1)} m: a keep-out there, or another way, changes most.`);
   const tripping = route.rules.filter((r) => r.trips?.value > 0.05).sort((a, b) => b.trips.value - a.trips.value)[0];
   if (tripping) advice.push(`The rule that trips most is ${ruleWords[tripping.rule] ?? words(tripping.rule)}, in ${share(tripping.trips.value)} of the draws.`);
   const { unknown_length_m } = route.figures;
   if ((unknown_length_m ?? 0) > 0) advice.push(`${metres(unknown_length_m)} lie on ground that no map names: nothing there can be called safe before it has been seen.`);
   const checks = route.outcomes.recommended?.slip_checks_before_m ?? [];
-  if (checks.length > 0) advice.push(`Checks of the slip belong before ${checks.slice(0, 6).map((m) => number(m, 4)).join(", ")}${checks.length > 6 ? " …" : ""} m.`);
+  if (checks.length > 0) advice.push(`Checks of the slip belong before ${checks.slice(0, 6).map((m) => m.toFixed(1)).join(", ")}${checks.length > 6 ? " …" : ""} m.`);
   return advice;
 }
 
@@ -113,7 +113,7 @@ function driven(result: Result): HTMLElement {
     "div",
     { class: "driven" },
     h("h3", {}, "Driven so far: slip measured against predicted"),
-    h("p", {}, wrong === 0 ? "All stretches lie in what 90 % of the draws had predicted." : `${wrong} of ${result.driven.length} stretches lie outside what 90 % of the draws had predicted.`),
+    h("p", {}, wrong === 0 ? "All stretches lie in what 90 % of the draws had predicted." : `${wrong} of ${result.driven.length} stretches lie outside what 90 % of the draws had predicted: squares on the map.`),
     h("div", { class: "wide short", tabindex: 0, role: "region", "aria-label": "Stretches driven" },
       h("table", {}, h("thead", {}, h("tr", {}, ["By odometry", "Measured", "Predicted: median (5 to 95 %)"].map((t) => h("th", { scope: "col" }, t)))),
         h("tbody", {}, result.driven.map((s) =>
