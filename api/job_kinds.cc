@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "api/documents/catalogue_documents.h"
 #include "api/documents/check_answer.h"
 #include "api/documents/diagnosis_document.h"
 #include "api/documents/plan_answer.h"
@@ -90,6 +91,21 @@ std::vector<JobKind> all_kinds() {
                                                                    .run = &Service::estimate_soil,
                                                                    .write = &json::soil_estimate_document,
                                                                    .lane = Lane::kShort}),
+      job_kind(JobKindRow<CampaignOrder, CampaignTaken>{.name = "drive_campaign",
+                                                        .path = "/v1/drive-campaigns",
+                                                        .read = &Service::read_campaign,
+                                                        .run = &Service::take_campaign,
+                                                        .write = &json::write_campaign_taken,
+                                                        .usual_wait = std::chrono::seconds(20),
+                                                        .lane = Lane::kShort}),
+      job_kind(JobKindRow<TerrainOrder, TerrainImportReport>{
+          .name = "terrain",
+          .path = "/v1/terrains",
+          .read = &Service::read_terrain,
+          .run = &Service::take_terrain,
+          .write =
+              [](const TerrainImportReport& report) { return report.json.substr(0, report.json.find('\n')); },
+          .usual_wait = std::chrono::seconds(20)}),
   };
 }
 

@@ -69,11 +69,12 @@ std::shared_ptr<const Catalogue> Service::catalogue_for(const DriveAssumptions& 
 
 std::shared_ptr<const Catalogue> Service::catalogue_of(const std::optional<RequestedModel>& model,
                                                        std::string& rover, std::vector<Fault>& faults) const {
-  if (!model) return catalogue_;
-  auto with = with_model(*catalogue_, *model->corrected, model->ground);
+  std::shared_ptr<const Catalogue> all = catalogue();
+  if (!model) return all;
+  auto with = with_model(*all, *model->corrected, model->ground);
   if (!with) {
     for (Fault& fault : moved_under("/model", with.error().faults)) faults.push_back(std::move(fault));
-    return catalogue_;
+    return all;
   }
   if (rover == model->corrected->nominal_rover) rover = model->corrected->model.rover.name;
   if (rover != model->corrected->model.rover.name)
@@ -123,22 +124,15 @@ Result<CheckRequest> Service::read_check(std::string_view json) const {
 Result<DiagnosisRequest> Service::read_diagnosis(std::string_view json) const {
   auto reading = json::read_diagnosis_request(json);
   if (!reading) return fail(reading.error());
-  const std::string& campaign = reading->request.campaign;
   std::vector<Fault>& faults = reading->faults;
-  if (!has_fault_under(faults, "/campaign") &&
-      std::find(campaigns_.begin(), campaigns_.end(), campaign) == campaigns_.end())
-    faults.push_back({"/campaign", unknown_name("campaign", campaign, campaigns_)});
-  const std::string& reference = reading->request.reference;
-  if (!reference.empty() && !has_fault_under(faults, "/reference") &&
-      std::find(campaigns_.begin(), campaigns_.end(), reference) == campaigns_.end())
-    faults.push_back({"/reference", unknown_name("campaign", reference, campaigns_)});
+  check_campaign(reading->request.campaign, "/campaign", faults);
+  if (!reading->request.reference.empty()) check_campaign(reading->request.reference, "/reference", faults);
   if (!faults.empty()) return fail(ErrorCode::kInvalidRequest, summary_of(faults), faults);
   return std::move(reading->request);
 }
 
 Result<WatchRequest> Service::read_watch(std::string_view json) const {
-  auto reading =
-      json::read_watch_request(json, [this](const std::string& name) { return shipped_drives(name); });
+  auto reading = json::read_watch_request(json, [this](const std::string& name) { return drives_of(name); });
   if (!reading) return fail(reading.error());
   if (!reading->faults.empty())
     return fail(ErrorCode::kInvalidRequest, summary_of(reading->faults), reading->faults);
@@ -150,11 +144,9 @@ Result<SoilEstimateRequest> Service::read_soil_estimate(std::string_view json) c
   if (!reading) return fail(reading.error());
   const SoilEstimateRequest& request = reading->request;
   std::vector<Fault>& faults = reading->faults;
-  for (Fault& fault : faults_of(*catalogue_, request))
+  for (Fault& fault : faults_of(*catalogue(), request))
     if (!has_fault_under(faults, fault.pointer)) faults.push_back(std::move(fault));
-  if (!request.campaign.empty() && !has_fault_under(faults, "/campaign") &&
-      std::find(campaigns_.begin(), campaigns_.end(), request.campaign) == campaigns_.end())
-    faults.push_back({"/campaign", unknown_name("campaign", request.campaign, campaigns_)});
+  if (!request.campaign.empty()) check_campaign(request.campaign, "/campaign", faults);
   if (!faults.empty()) return fail(ErrorCode::kInvalidRequest, summary_of(faults), faults);
   return std::move(reading->request);
 }
@@ -237,23 +229,16 @@ Result<CheckAnswer> Service::check(const CheckRequest& request, Progress& progre
   return CheckAnswer{request, std::move(setting->provenance), std::move(*prediction), std::move(decision)};
 }
 
-Result<gap::DriveCampaign> Service::shipped_drives(const std::string& name) const {
-  for (const ShippedCampaign& campaign : shipped_)
-    if (campaign.name == name) return load_drive_campaign(campaign.folder, *catalogue_);
-  return fail(ErrorCode::kInvalidRequest, unknown_name("campaign", name, campaigns_),
-              {{"/campaign", unknown_name("campaign", name, campaigns_)}});
-}
-
 Result<DiagnosisAnswer> Service::diagnose(const DiagnosisRequest& request, Progress& progress) const {
   progress.report("reading the drives", 0.0);
-  auto campaign = shipped_drives(request.campaign);
+  auto campaign = drives_of(request.campaign);
   if (!campaign) return fail(campaign.error());
   gap::DiagnosisOptions options;
   options.search.withheld = request.without;
   options.search.threads = options_.threads;
   options.seed = request.seed;
   if (!request.reference.empty()) {
-    const auto reference = shipped_drives(request.reference);
+    const auto reference = drives_of(request.reference);
     if (!reference) return fail(reference.error());
     auto since = gap::diagnose_since(*reference, *campaign, options, progress);
     if (!since) return fail(since.error());
@@ -279,21 +264,20 @@ Result<WatchAnswer> Service::watch(const WatchRequest& request, Progress& progre
 
 Result<SoilEstimateAnswer> Service::estimate_soil(const SoilEstimateRequest& request,
                                                   Progress& progress) const {
-  if (request.campaign.empty()) return api::estimate_soil(*catalogue_, request, progress);
+  if (request.campaign.empty()) return api::estimate_soil(*catalogue(), request, progress);
   progress.report("reading the drives", 0.0);
-  const auto campaign = shipped_drives(request.campaign);
+  const auto campaign = drives_of(request.campaign);
   if (!campaign) return fail(campaign.error());
   return api::estimate_soil(*campaign, request, options_.threads, progress);
 }
 
 Result<GroundAt> Service::ground_at(std::string_view terrain, double x_m, double y_m) const {
-  const auto found = catalogue_->terrains.find(terrain);
-  if (found == catalogue_->terrains.end()) {
-    return fail(ErrorCode::kNotFound, unknown_terrain(*catalogue_, terrain));
-  }
+  const std::shared_ptr<const Catalogue> all = catalogue();
+  const auto found = all->terrains.find(terrain);
+  if (found == all->terrains.end()) return fail(ErrorCode::kNotFound, unknown_terrain(*all, terrain));
   const TerrainSite& site = *found->second;
-  RequestCheck check(*catalogue_, {});
-  check.names(std::string(terrain), names_of(catalogue_->rovers).front());
+  RequestCheck check(*all, {});
+  check.names(std::string(terrain), names_of(all->rovers).front());
   check.place({x_m, y_m, std::nullopt}, "");
   if (!check.passed()) return fail(check.error());
   const dem::GridGeometry& geometry = site.info().geometry;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,6 +13,9 @@
 #include "api/ground_evidence.h"
 #include "api/requests/answers.h"
 #include "api/requests/soil_estimate.h"
+#include "api/uploads/upload_folder.h"
+#include "api/uploads/uploaded_campaigns.h"
+#include "api/uploads/uploaded_terrains.h"
 #include "core/progress.h"
 #include "core/result.h"
 #include "planner/problem/cost_catalogue.h"
@@ -28,20 +32,29 @@ struct ServiceOptions {
   std::span<const planner::CostTerm> costs = planner::cost_catalogue();
   std::span<const planner::PlannerRow> planners = planner::planner_catalogue();
   const sim::SoilFormat* soil_format =
-      &sim::soil_format();  // what its soil files may hold; outlives the service
+      &sim::soil_format();                          // what its soil files may hold; outlives the service
+  std::shared_ptr<UploadFolder> uploads = nullptr;  // what clients send; empty: nothing
 };
 
-// What the server and the command line both ask: immutable once opened, thread-safe.
+// What the server and the command line both ask. Immutable once opened but for what clients send;
+// thread-safe.
 class Service {
  public:
   // Errors: unreadable_data with the faults of all files.
   static Result<std::unique_ptr<Service>> open(ServiceOptions options);
 
-  const Catalogue& catalogue() const { return *catalogue_; }
+  // With the terrains that clients have sent so far.
+  std::shared_ptr<const Catalogue> catalogue() const;
+  // Whether a terrain of this name is there that does not ship.
+  bool was_sent(const std::string& terrain) const {
+    return !catalogue_->terrains.contains(terrain) && catalogue()->terrains.contains(terrain);
+  }
+  // Where clients' files are; nullptr where none are taken.
+  UploadFolder* uploads() const { return options_.uploads.get(); }
   std::span<const planner::CostTerm> costs() const { return options_.costs; }
   std::span<const planner::PlannerRow> planners() const { return options_.planners; }
-  // The drives that ship. A name among them is all that a request says of where drives are: it opens no
-  // other.
+  // The drives that ship. A name among them, or of drives that were sent, is all that a request says of where
+  // drives are: it opens no other.
   const std::vector<ShippedCampaign>& campaigns() const { return shipped_; }
 
   // Reads a request and checks all that can be checked without planning: syntax, values, names, whether every
@@ -53,6 +66,9 @@ class Service {
   Result<DiagnosisRequest> read_diagnosis(std::string_view json) const;
   Result<WatchRequest> read_watch(std::string_view json) const;
   Result<SoilEstimateRequest> read_soil_estimate(std::string_view json) const;
+  // These need uploads(). Errors also: invalid_request where there are none.
+  Result<CampaignOrder> read_campaign(std::string_view json) const;
+  Result<TerrainOrder> read_terrain(std::string_view json) const;
 
   // The same request gives the same answer, on any number of threads.
   Result<PlanAnswer> plan(const PlanRequest& request, Progress& progress) const;
@@ -61,6 +77,8 @@ class Service {
   Result<DiagnosisAnswer> diagnose(const DiagnosisRequest& request, Progress& progress) const;
   Result<WatchAnswer> watch(const WatchRequest& request, Progress& progress) const;
   Result<SoilEstimateAnswer> estimate_soil(const SoilEstimateRequest& request, Progress& progress) const;
+  Result<CampaignTaken> take_campaign(const CampaignOrder& order, Progress& progress) const;
+  Result<TerrainImportReport> take_terrain(const TerrainOrder& order, Progress& progress) const;
 
   // Errors: not_found (unknown terrain), off_map, no_data.
   Result<GroundAt> ground_at(std::string_view terrain, double x_m, double y_m) const;
@@ -91,11 +109,19 @@ class Service {
   template <class Request, class Rest>
   Result<Request> checked(Result<Reading<Request>> reading, const Rest& rest) const;
 
-  // Errors: invalid_request at /campaign, and those of load_drive_campaign.
-  Result<gap::DriveCampaign> shipped_drives(const std::string& name) const;
+  // A campaign of this name ships or was sent.
+  bool has_campaign(const std::string& name) const;
+  // Its drives. Errors: invalid_request at /campaign, and those of load_drive_campaign and of
+  // load_uploaded_campaign.
+  Result<gap::DriveCampaign> drives_of(const std::string& name) const;
+  void check_campaign(const std::string& name, const std::string& pointer, std::vector<Fault>& faults) const;
 
   ServiceOptions options_;
-  std::shared_ptr<const Catalogue> catalogue_;
+  std::shared_ptr<const Catalogue> catalogue_;  // what ships
+  // The same with what was sent, and which folders were there when it was read.
+  mutable std::mutex sent_mutex_;
+  mutable std::string sent_terrains_;
+  mutable std::shared_ptr<const Catalogue> with_sent_;
   std::vector<ShippedCampaign> shipped_;
   std::vector<std::string> campaigns_;  // their names
   mutable ConditionedGroundCache conditioned_ground_;

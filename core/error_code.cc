@@ -28,7 +28,7 @@ constexpr std::array kRows{
              "What is there already does not allow this; the detail says what."},
     ErrorRow{ErrorCode::kPayloadTooLarge, "payload_too_large", 413, "Send a body below the limit named."},
     ErrorRow{ErrorCode::kUnsupportedMediaType, "unsupported_media_type", 415,
-             "Send Content-Type: application/json without Content-Encoding."},
+             "Send a Content-Type that the detail names, without Content-Encoding."},
     ErrorRow{ErrorCode::kRangeNotSatisfiable, "range_not_satisfiable", 416, "Send at most one range."},
     ErrorRow{ErrorCode::kForeignHost, "foreign_host", 421,
              "Ask under an address as numbers, localhost, or a name that the operator allows."},

@@ -111,7 +111,7 @@ class JobRoutes {
     const auto svg = drawn_.get(job->id + "/map", [&]() -> Result<std::string> {
       const auto kept = kept_outcome(*job);
       if (!kept) return fail(kept.error());
-      return kind->map(service_.catalogue(), api::parts_of(*kept).document);
+      return kind->map(*service_.catalogue(), api::parts_of(*kept).document);
     });
     if (!svg) return problem_response(svg.error(), &request);
     HttpResponse response = document(**svg);
@@ -132,7 +132,7 @@ class JobRoutes {
       const auto kept = kept_outcome(*job);
       if (!kept) return fail(kept.error());
       const api::KeptAnswer parts = api::parts_of(*kept);
-      if (kind->page) return kind->page(service_.catalogue(), parts.document);
+      if (kind->page) return kind->page(*service_.catalogue(), parts.document);
       if (parts.page.empty()) return fail(ErrorCode::kNotFound, "the job's report is not kept");
       return std::string(parts.page);
     });

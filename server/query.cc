@@ -32,6 +32,12 @@ Query::Query(const HttpRequest& request, std::vector<std::string> known) : reque
   }
 }
 
+std::string Query::required_text(const std::string& name) {
+  auto text = request_.query_value(name);
+  if (!text || text->empty()) faults_.push_back({"/" + name, fmt::format("{} is missing", name)});
+  return std::move(text).value_or("");
+}
+
 double Query::required_number(const std::string& name) {
   const auto text = request_.query_value(name);
   double value = 0.0;

@@ -16,6 +16,8 @@ class Query {
  public:
   Query(const HttpRequest& request, std::vector<std::string> known);
 
+  // Empty with a fault where there is none.
+  std::string required_text(const std::string& name);
   // A finite number; 0 with a fault where there is none.
   double required_number(const std::string& name);
   // Its text; empty where it is not given.

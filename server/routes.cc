@@ -1,5 +1,6 @@
 #include "server/routes.h"
 
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "server/request_headers.h"
 #include "server/responses.h"
 #include "server/terrain_routes.h"
+#include "server/upload_routes.h"
 
 namespace slipway::server {
 namespace {
@@ -21,7 +23,7 @@ constexpr std::string_view kCsv = "text/csv";
 
 // Answered at once: the rows are few enough.
 HttpResponse wheel_sweep(const api::Service& service, const HttpRequest& request) {
-  const auto answer = api::run_wheel_sweep(service.catalogue(), request.body);
+  const auto answer = api::run_wheel_sweep(*service.catalogue(), request.body);
   if (!answer) return problem_response(answer.error(), &request);
   HttpResponse response = document(api::json::write_wheel_sweep_answer(*answer));
   if (accepts(request, kCsv)) {
@@ -47,25 +49,25 @@ HttpResponse ground_at(const api::Service& service, const HttpRequest& request) 
 
 std::vector<Route> api_routes(const api::Service& service, api::JobRunner& runner,
                               const RouteOptions& options, const std::vector<api::JobKind>& kinds) {
-  const api::Catalogue& catalogue = service.catalogue();
+  const std::shared_ptr<const api::Catalogue> shipped = service.catalogue();
+  const api::Catalogue& catalogue = *shipped;  // of what nobody sends
   std::vector<Route> routes{
       fixed("/healthz", api::json::write_health()),
       fixed("/openapi.json", std::string(api::openapi_document())),
       fixed("/errors", api::json::write_errors()),
-      fixed("/v1/terrains", api::json::write_terrains(catalogue)),
       fixed("/v1/rovers", api::json::write_rovers(catalogue)),
       fixed("/v1/soils", api::json::write_soils(catalogue)),
       fixed("/v1/rules", api::json::write_rules(catalogue)),
       fixed("/v1/effects", api::json::write_effects()),
       fixed("/v1/planners", api::json::write_planners(service.planners(), service.costs())),
-      fixed("/v1/drive-campaigns", api::json::write_drive_campaigns(service.campaigns())),
       {"GET", "/v1/terrains/{name}/point",
        [&service](const HttpRequest& r) { return ground_at(service, r); }},
       {"POST", "/v1/wheel-sweeps", [&service](const HttpRequest& r) { return wheel_sweep(service, r); },
        /*heavy=*/true},
   };
-  for (auto& more : {job_routes(service, runner, options, kinds), terrain_routes(service)})
-    routes.insert(routes.end(), more.begin(), more.end());
+  for (std::vector<Route> more :
+       {job_routes(service, runner, options, kinds), upload_routes(service), terrain_routes(service)})
+    std::move(more.begin(), more.end(), std::back_inserter(routes));
   return routes;
 }
 

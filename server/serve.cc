@@ -30,6 +30,7 @@
 #include "server/responses.h"
 #include "server/routes.h"
 #include "server/signals.h"
+#include "server/upload_routes.h"
 #include "server/worker_processes.h"
 
 namespace slipway::server {
@@ -49,6 +50,8 @@ WorkerProcessOptions worker_processes(const ServeOptions& options, const std::st
   for (const std::vector<std::string>& kinds : runner.workers) {
     std::vector<std::string> command{"/proc/self/exe", "worker",     "--bell", "--data", data,
                                      "--jobs",         options.jobs, "--name", "{name}"};
+    command.insert(command.end(), {"--uploads", options.uploads.folder(options.jobs), "--keep-uploads-mb",
+                                   fmt::format("{}", options.uploads.keep_mb)});
     for (const std::string& kind : kinds) command.insert(command.end(), {"--kind", kind});
     command.insert(command.end(), {"--job-memory-mb", fmt::format("{}", options.of_job.memory_mb),
                                    "--job-minutes", fmt::format("{}", options.of_job.minutes)});
@@ -102,6 +105,26 @@ std::optional<Error> fault_of(const ServeOptions& options) {
                                  options.address)});
   if (faults.empty()) return std::nullopt;
   return Error{ErrorCode::kInvalidRequest, "the service can't be started so", std::move(faults)};
+}
+
+// Where what clients send goes; nothing where none is taken.
+Result<std::shared_ptr<api::UploadFolder>> open_uploads(const ServeOptions& options, HttpOptions& http) {
+  const std::string folder = options.uploads.folder(options.jobs);
+  if (folder.empty()) return nullptr;
+  auto uploads = api::UploadFolder::open(folder, {.max_total_bytes = options.uploads.max_bytes()});
+  if (!uploads) return fail(uploads.error());
+  LargeBodies& large = http.large_bodies;
+  large.folder = (*uploads)->files();
+  large.paths = {std::string(kUploadsPath)};
+  constexpr double kBytesPerMb = 1e6;
+  large.max_bytes = static_cast<std::int64_t>(options.upload_mb * kBytesPerMb);
+  large.max_total_bytes = 2 * large.max_bytes;
+  if (const auto file = BodyFile::make(large.folder, large.under_way); !file)
+    return fail(ErrorCode::kUnwritableFile,
+                fmt::format("the folder of --uploads, {}, can't be used: {}; its file system must have files "
+                            "without a name (O_TMPFILE); --uploads \"\" takes none",
+                            folder, file.error().detail));
+  return uploads;
 }
 
 HttpOptions http_options(const ServeOptions& options) {
@@ -178,9 +201,11 @@ int serve(const ServeOptions& options) {
   // First of all: a start that fails for want of the port has touched neither the store nor its jobs.
   auto listener = listen_at(http);
   if (!listener) return refuse(listener.error());
-  const auto service = api::Service::open({.data = *data});
+  const auto uploads = open_uploads(options, http);
+  if (!uploads) return refuse(uploads.error());
+  const auto service = api::Service::open({.data = *data, .uploads = *uploads});
   if (!service) return refuse(service.error());
-  std::cerr << left_out_text((*service)->catalogue());
+  std::cerr << left_out_text(*(*service)->catalogue());
   const auto jobs = open_jobs(options);
   if (!jobs) return refuse(jobs.error());
   api::JobRunner runner(jobs->store, api::service_work(**service), jobs->runner);

@@ -130,11 +130,10 @@ class TerrainRoutes {
   }
 
   Result<Site> site_of(const HttpRequest& request) const {
-    const auto& terrains = service_.catalogue().terrains;
-    const auto found = terrains.find(request.parameter("name"));
-    if (found == terrains.end())
-      return fail(ErrorCode::kNotFound,
-                  api::unknown_terrain(service_.catalogue(), request.parameter("name")));
+    const std::shared_ptr<const api::Catalogue> catalogue = service_.catalogue();
+    const auto found = catalogue->terrains.find(request.parameter("name"));
+    if (found == catalogue->terrains.end())
+      return fail(ErrorCode::kNotFound, api::unknown_terrain(*catalogue, request.parameter("name")));
     return found->second;
   }
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <chrono>
 #include <iostream>
+#include <memory>
 #include <utility>
 
 #include "api/job_kinds.h"
@@ -77,7 +78,13 @@ int work(const WorkerOptions& options) {
   if (options.of_job.memory_mb > 0.0) limit_memory(1e6 * options.of_job.memory_mb);
   leave_no_core();
   step_back();
-  const auto service = api::Service::open({.data = *data});
+  std::shared_ptr<api::UploadFolder> uploads;
+  if (const std::string folder = options.uploads.folder(options.jobs); !folder.empty()) {
+    auto opened = api::UploadFolder::open(folder, {.max_total_bytes = options.uploads.max_bytes()});
+    if (!opened) return refuse(opened.error());
+    uploads = *std::move(opened);
+  }
+  const auto service = api::Service::open({.data = *data, .uploads = uploads});
   if (!service) return refuse(service.error());
   auto store = api::open_sqlite_job_store(options.jobs, api::StoreCheck::kSchema);
   if (!store) return refuse(store.error());

@@ -8,6 +8,7 @@
 #include "api/json/writer.h"
 #include "core/angle.h"
 #include "core/error_code.h"
+#include "core/utc.h"
 #include "core/version.h"
 #include "sim/effects/effect_catalogue.h"
 
@@ -65,6 +66,26 @@ void write_soil_source(Writer& w, const TerrainDescription& terrain) {
     w.end_object();
   }
   w.end_array().end_object();
+}
+
+void write_campaign(Writer& w, const ShippedCampaign& campaign) {
+  w.text("name", campaign.name).text("rover", campaign.rover);
+  w.exact("gravity_m_s2", campaign.gravity_m_s2);
+  w.texts("soils", campaign.soils).texts("terrains", campaign.terrains);
+  w.key("drives").begin_array();
+  for (const gap::MeasuredDriveSeries& drive : campaign.drives) {
+    w.begin_object().text("id", drive.id).text("terrain", campaign.terrains.at(drive.terrain));
+    w.exact("duration_s", drive.duration_s).exact("speed_m_s", drive.command.speed_m_s);
+    if (drive.repeat_of) w.text("repeat_of", *drive.repeat_of);
+    w.end_object();
+  }
+  w.end_array();
+}
+
+void write_origin(Writer& w, const UploadOrigin& origin) {
+  w.text("sent_at", utc_text(origin.at_ms));
+  if (!origin.from.empty()) w.text("upload", origin.from);
+  if (!origin.follows.empty()) w.text("follows", origin.follows);
 }
 
 }  // namespace
@@ -165,24 +186,33 @@ std::string write_planners(std::span<const planner::PlannerRow> planners,
   return w.take();
 }
 
-std::string write_drive_campaigns(const std::vector<ShippedCampaign>& campaigns) {
+std::string write_drive_campaigns(const std::vector<ShippedCampaign>& campaigns,
+                                  const std::vector<UploadedCampaign>& sent) {
   Writer w;
   w.begin_object().key("campaigns").begin_array();
   for (const ShippedCampaign& campaign : campaigns) {
     if (campaign.rover.empty()) continue;  // at fault: it cannot be diagnosed
-    w.begin_object().text("name", campaign.name).text("rover", campaign.rover);
-    w.exact("gravity_m_s2", campaign.gravity_m_s2);
-    w.texts("soils", campaign.soils).texts("terrains", campaign.terrains);
-    w.key("drives").begin_array();
-    for (const gap::MeasuredDriveSeries& drive : campaign.drives) {
-      w.begin_object().text("id", drive.id).text("terrain", campaign.terrains.at(drive.terrain));
-      w.exact("duration_s", drive.duration_s).exact("speed_m_s", drive.command.speed_m_s);
-      if (drive.repeat_of) w.text("repeat_of", *drive.repeat_of);
-      w.end_object();
-    }
-    w.end_array().end_object();
+    w.begin_object();
+    write_campaign(w, campaign);
+    w.end_object();
+  }
+  for (const UploadedCampaign& one : sent) {
+    if (one.campaign.rover.empty()) continue;
+    w.begin_object();
+    write_campaign(w, one.campaign);
+    write_origin(w, one.origin);
+    w.end_object();
   }
   w.end_array().end_object();
+  return w.take();
+}
+
+std::string write_campaign_taken(const CampaignTaken& taken) {
+  Writer w;
+  w.begin_object();
+  write_campaign(w, taken.campaign);
+  write_origin(w, taken.origin);
+  w.texts("notes", taken.notes).end_object();
   return w.take();
 }
 

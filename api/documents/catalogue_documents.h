@@ -7,6 +7,7 @@
 #include "api/files/catalogue.h"
 #include "api/json/writer.h"
 #include "api/requests/answers.h"
+#include "api/uploads/uploaded_campaigns.h"
 #include "planner/problem/cost_catalogue.h"
 #include "planner/search/planner_catalogue.h"
 
@@ -19,7 +20,11 @@ std::string write_rovers(const Catalogue& catalogue);
 std::string write_rules(const Catalogue& catalogue);
 std::string write_soils(const Catalogue& catalogue);
 std::string write_effects();
-std::string write_drive_campaigns(const std::vector<ShippedCampaign>& campaigns);
+// Those that ship, and those that were sent.
+std::string write_drive_campaigns(const std::vector<ShippedCampaign>& campaigns,
+                                  const std::vector<UploadedCampaign>& sent = {});
+// One that was sent.
+std::string write_campaign_taken(const CampaignTaken& taken);
 // The planners, with the cost terms that routes are searched and ranked by.
 std::string write_planners(std::span<const planner::PlannerRow> planners = planner::planner_catalogue(),
                            std::span<const planner::CostTerm> costs = planner::cost_catalogue());

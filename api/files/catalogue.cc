@@ -165,7 +165,7 @@ void load_terrains(const fs::path& data, Catalogue& catalogue) {
       continue;
     }
     check_legends((*site)->description(), catalogue, faults);
-    if (!faults.any()) catalogue.terrains[(*site)->description().name] = *site;
+    if (!faults.any()) catalogue.terrains.emplace((*site)->description().name, *site);
   }
 }
 
@@ -180,6 +180,11 @@ std::string unknown_in(const Catalogue& catalogue, std::string_view kind, std::s
 }
 
 }  // namespace
+
+Catalogue with_terrains(Catalogue catalogue, const fs::path& folder) {
+  load_terrains(folder, catalogue);
+  return catalogue;
+}
 
 Result<Catalogue> load_catalogue(const fs::path& data, const sim::SoilFormat& format) {
   Catalogue catalogue;

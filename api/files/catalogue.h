@@ -42,6 +42,10 @@ struct Catalogue {
 Result<Catalogue> load_catalogue(const std::filesystem::path& data,
                                  const sim::SoilFormat& format = sim::soil_format());
 
+// The catalogue with the terrains terrains/*/terrain.json under another folder beside its own, which keep
+// their names. Those with faults are left out.
+Catalogue with_terrains(Catalogue catalogue, const std::filesystem::path& folder);
+
 // The catalogue with soils that stand in for those of the same names, or beside them. Errors:
 // invalid_request, places under "/beliefs".
 Result<Catalogue> with_soils(Catalogue catalogue, const std::vector<sim::SoilDistribution>& soils);

@@ -199,6 +199,9 @@ Result<std::string> make_folder_of(const TerrainImport& order, ImportedTerrain m
   for (const auto& [file, text] :
        {std::pair{"terrain.json", document}, {"PROVENANCE.md", provenance_text(order, made)}})
     if (const auto written = write_whole_file(folder / file, text); !written) return fail(written.error());
+  if (!order.origin.empty())
+    if (const auto written = write_whole_file(folder / "upload.json", order.origin); !written)
+      return fail(written.error());
   return import_text(made) + '\0' + import_document(made);
 }
 

@@ -28,6 +28,7 @@ struct TerrainImport {
   bool fix = false;                    // mends what can be mended
   bool replace = false;                // of a terrain of this name
   ChildLimits limits = {};
+  std::string origin = {};  // bytes of upload.json in the terrain's folder; empty: there is no such file
 };
 
 // What was made, for a person to read and for a script.

@@ -14,7 +14,7 @@ import json
 import time
 import urllib.parse
 import uuid
-from typing import Any, Callable, Dict, Iterator, List, Optional, Tuple, TypedDict
+from typing import Any, Callable, Dict, Iterator, List, Optional, Tuple, TypedDict, Union
 
 Document = Dict[str, Any]
 OnProgress = Callable[["JobStatus"], None]
@@ -134,13 +134,14 @@ class Slipway:
         self._host, self._port, self._prefix = parts.hostname, parts.port, parts.path.rstrip("/")
         self._token, self._timeout_s, self._patience_s = token, timeout_s, patience_s
 
-    def request(self, method: str, path: str, body: Optional[Document] = None,
+    def request(self, method: str, path: str, body: Union[None, Document, bytes] = None,
                 headers: Optional[Dict[str, str]] = None) -> Tuple[int, Dict[str, str], bytes]:
-        """Status, headers by lower-case name, and body; SlipwayError for a refusal."""
-        data = None if body is None else json.dumps(body).encode()
+        """Status, headers by lower-case name, and body; SlipwayError for a refusal. Bytes are sent as they are,
+        with a Content-Type among the headers."""
+        data = body if body is None or isinstance(body, bytes) else json.dumps(body).encode()
         sent = dict(headers or {})
         if data is not None:
-            sent["Content-Type"] = "application/json"
+            sent.setdefault("Content-Type", "application/json")
         if self._token:
             sent["Authorization"] = f"Bearer {self._token}"
         deadline = time.monotonic() + self._patience_s
@@ -186,6 +187,23 @@ class Slipway:
         job = self.submit(path, request)
         job.wait(on_progress)
         return job.result()
+
+    def send_file(self, content: bytes, name: str) -> str:
+        """Sends a file's bytes; the id that requests name it by."""
+        path = "/v1/uploads?name=" + urllib.parse.quote(name, safe="")
+        return json.loads(self.request("POST", path, content, {"Content-Type": "application/octet-stream"})[2])["id"]
+
+    def take_drive_campaign(self, upload: str, on_progress: Optional[OnProgress] = None) -> Document:
+        """A drive campaign of an archive (tar, tar.gz or zip) that was sent."""
+        return self._answer("/v1/drive-campaigns", {"upload": upload}, on_progress)
+
+    def append_drives(self, campaign: str, drives: List[Document], on_progress: Optional[OnProgress] = None) -> Document:
+        """The campaign with further drives, under a name of its own."""
+        return self._answer("/v1/drive-campaigns", {"follows": campaign, "drives": drives}, on_progress)
+
+    def import_terrain(self, request: Document, on_progress: Optional[OnProgress] = None) -> Document:
+        """A terrain of maps that were sent; see schema TerrainRequest."""
+        return self._answer("/v1/terrains", request, on_progress)
 
     def plan(self, request: Document, on_progress: Optional[OnProgress] = None) -> Document:
         return self._answer("/v1/plans", request, on_progress)

@@ -12,6 +12,7 @@ import { jobView } from "./panels/job_view";
 import { jobsPanel } from "./panels/jobs";
 import { layersPanel } from "./panels/layers";
 import { planPanel } from "./panels/plan";
+import { takesUploads, terrainUpload } from "./panels/uploads";
 import { verdictPanel } from "./panels/verdict";
 import { readLink, writeLink, type Link } from "./permalink";
 import { loading, problemView } from "./problem";
@@ -25,6 +26,7 @@ const link: Link = readLink(location.hash);
 const tabs: [Tab, string][] = [["plan", "Plan"], ["check", "Check"], ["jobs", "Jobs"], ["drives", "Drives"]];
 
 const terrainChoice = h("span", { class: "terrain" });
+const terrainMore = h("span");
 const tabList = h("div", { role: "tablist", "aria-label": "What to do" });
 const note = h("div", { class: "note" });
 const mapElement = h("div", { class: "map", tabindex: 0, role: "application", "aria-label": "Map of the terrain; arrows move it, plus and minus zoom" });
@@ -35,11 +37,15 @@ const panels = Object.fromEntries(tabs.map(([tab]) => [tab, h("div", { class: "p
 const work = h("div", { class: "work" });
 const verdict = h("div", { class: "verdict" });
 
+const ownTerrain = terrainUpload((name) => {
+  link.terrain = name;
+  void load();
+});
 const redraw = () => charts.draw(store.state);
 const session = signIn(() => void load());
 const keyHelp = help();
 document.body.append(
-  h("header", {}, h("h1", {}, "Slipway"), tabList, terrainChoice, h("span", { class: "spring" }), session.button, theme(redraw), keyHelp.button),
+  h("header", {}, h("h1", {}, "Slipway"), tabList, terrainChoice, terrainMore, h("span", { class: "spring" }), session.button, theme(redraw), keyHelp.button),
   h("main", {}, h("div", { class: "side" }, note, ...Object.values(panels), work, verdict), h("div", { class: "stage" }, h("div", { class: "map-box" }, mapElement, layerBox, readoutLine), profile)),
 );
 
@@ -117,8 +123,9 @@ async function load(): Promise<void> {
     const rover = rovers.find((r) => r.name === store.state.options.rover)?.name ?? rovers.find((r) => r.name === "msl-class")?.name ?? rovers[0]?.name ?? "";
     store.set({ terrains, rovers, rules, costTerms: cost_terms, options: { ...store.state.options, rover } });
     fill(note);
+    if (terrainMore.childElementCount === 0 && (await takesUploads())) fill(terrainMore, button("Add a terrain", ownTerrain.open, { class: "quiet", "data-do": "add-terrain" }));
     if (terrains.length === 0) {
-      fill(note, h("p", { class: "empty" }, "The service has no terrain yet. Import one with slipway terrain import, or over the API."));
+      fill(note, h("p", { class: "empty" }, "The service has no terrain yet. Add one, or import it with slipway terrain import."));
       return;
     }
     const wanted = terrains.find((t) => t.name === link.terrain)?.name ?? terrains[0]!.name!;
@@ -127,6 +134,7 @@ async function load(): Promise<void> {
     if (link.job) await reopen(link.job);
     if (link.job && link.view) map.view = link.view;
     link.job = "";
+    link.view = null;
   } catch (error) {
     fill(note, problemView(error, () => void load()));
     if (error instanceof ServiceError && error.status === 401) session.open();

@@ -1,11 +1,15 @@
 // What an operator does, in a real browser against a running service.
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { launch, open, until } from "./page.mjs";
 import { proxy, serve, tokens } from "./service.mjs";
 
 const start = { x_m: 8142579.73, y_m: -276648.74 };
-const goal = { x_m: 8142566.4, y_m: -276711.67 };
+const goal = { x_m: 8142573.0, y_m: -276680.0 };
 const at = (place) => `${place.x_m},${place.y_m}`;
 const planned = `start=${at(start)}&goal=${at(goal)}&routes=2`;
 const slopes = "8142579.7,-276648.7\n8142578,-276680";
@@ -206,6 +210,38 @@ test("work is cancelled, listed and opened again", async () => {
   await p.accessible("drives");
   await p.click('[data-do="cancel"]');
   await p.waitForSelector(".work .job.dismissed");
+  await p.done();
+});
+
+test("drives and a map of one's own are sent", async (t) => {
+  const folder = mkdtempSync(join(tmpdir(), "slipway-sent-"));
+  t.after(() => rmSync(folder, { recursive: true, force: true }));
+  const data = `${process.env.SLIPWAY_SOURCE}/data`;
+  execFileSync("tar", ["-czf", join(folder, "drives.tgz"), "-C", `${data}/gap-practice`, "p02"]);
+  writeFileSync(join(folder, "no map.tif"), "this is no map");
+  const p = await page("tab=drives");
+  await p.click("text=Send drives of your own");
+  await p.setInputFiles('[data-upload="campaign"]', join(folder, "drives.tgz"));
+  await p.click("text=Send the drives");
+  await p.until(() => document.querySelector("#panel-drives select")?.value.startsWith("dc-"));
+  await p.click('[data-do="diagnose"]');
+  await p.waitForSelector('.work:has-text("diagnosis") progress');
+  await p.look("15_drives_sent");
+  await p.click('[data-do="cancel"]');
+  await p.waitForSelector(".work .job.dismissed");
+
+  await p.click('[data-do="add-terrain"]');
+  await p.fill('[data-upload="name"]', "own");
+  await p.setInputFiles('[data-upload="elevation"]', join(folder, "no map.tif"));
+  await p.accessible("a terrain of one's own");
+  await p.click('dialog[open] button:text-is("Send")');
+  await p.waitForSelector(".work .problem");
+  await p.look("16_no_map");
+  await p.click('[data-do="add-terrain"]');
+  await p.setInputFiles('[data-upload="elevation"]', `${data}/terrains/gale/elevation.tif`);
+  await p.click('dialog[open] button:text-is("Send")');
+  await p.until(() => document.querySelector(".terrain select").value === "own");
+  await p.until(() => location.hash.includes("terrain=own"));
   await p.done();
 });
 

@@ -109,7 +109,7 @@ int current_invert(const CurrentInvertCommand& options) {
   request.options.max_slip = options.max_slip;
   request.options.draws = options.draws;
   request.options.seed = options.seed;
-  const auto inversion = api::invert_current((*service)->catalogue(), request);
+  const auto inversion = api::invert_current(*(*service)->catalogue(), request);
   if (!inversion) return refuse(inversion.error());
   return deliver(
       {}, options.ask.json ? api::json::write_current_inversion(*inversion) + "\n" : words_of(*inversion));

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
+#include <filesystem>
 #include <functional>
+#include <optional>
 #include <ratio>
 #include <string>
 #include <vector>
@@ -23,6 +26,19 @@ struct JobLimits {
   }
 };
 
+// Where clients' files are.
+struct UploadPlace {
+  std::optional<std::string> given;  // nothing: beside the jobs; empty: nowhere
+  double keep_mb = 65536.0;          // megabytes of it at most
+
+  // Empty where no files are taken.
+  std::string folder(const std::string& jobs) const {
+    if (jobs.empty()) return {};
+    return given.value_or((std::filesystem::path(jobs).parent_path() / "uploads").string());
+  }
+  std::int64_t max_bytes() const { return static_cast<std::int64_t>(1e6 * keep_mb); }
+};
+
 struct ServeOptions {
   std::string data;
   std::string address = "127.0.0.1";
@@ -31,7 +47,9 @@ struct ServeOptions {
   std::vector<std::string>
       allowed_hosts;  // names under which requests may come, beside localhost and addresses
   int max_connections = 4096,
-      max_connections_per_address = 2048;    // the latter 0: as many as there are in all
+      max_connections_per_address = 2048;  // the latter 0: as many as there are in all
+  UploadPlace uploads = {};
+  double upload_mb = 4096.0;                 // ... and of one file
   int keep_jobs = 1000;                      // ended jobs that are kept at most, ...
   double keep_days = 90.0;                   // ... and for how long
   double keep_mb = 4096.0;                   // ... and with how many megabytes of requests and answers
@@ -51,6 +69,7 @@ struct ServeOptions {
 struct WorkerOptions {
   std::string data;
   std::string jobs = "var/jobs.sqlite";
+  UploadPlace uploads = {};
   std::vector<std::string> kinds;  // of jobs; empty: all
   std::string name;                // under which jobs are claimed; empty: one that no other worker has
   JobLimits of_job = {};

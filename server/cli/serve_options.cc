@@ -25,11 +25,22 @@ void add_job_limits(CLI::App& command, JobLimits& limits) {
       ->check(CLI::Range(0.01, 1e6));
 }
 
+void add_upload_place(CLI::App& command, UploadPlace& place) {
+  command.add_option(
+      "--uploads", place.given,
+      "folder of maps and drives that clients send, else the folder uploads beside the jobs; \"\" "
+      "takes none, nor does a service with its jobs in memory");
+  command.add_option("--keep-uploads-mb", place.keep_mb, "megabytes of that folder at most")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1e9));
+}
+
 void add_worker_command(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<WorkerOptions>();
   CLI::App* command = app.add_subcommand("worker", "work on the jobs of a store until interrupted");
   add_data_option(*command, options->data, "rovers, soils and terrains");
   command->add_option("--jobs", options->jobs, "SQLite file of the jobs")->capture_default_str();
+  add_upload_place(*command, options->uploads);
   command->add_option("--kind", options->kinds, "work on jobs of this kind only; may be repeated")
       ->allow_extra_args(false);
   command->add_option("--name", options->name,
@@ -114,6 +125,10 @@ void add_serve_command(CLI::App& app, std::function<int()>& run) {
       ->check(CLI::Range(0, 65535));
   command->add_option("--jobs", options->jobs, "SQLite file of the jobs; \"\" keeps them in memory")
       ->capture_default_str();
+  add_upload_place(*command, options->uploads);
+  command->add_option("--upload-mb", options->upload_mb, "megabytes of one file that is sent")
+      ->capture_default_str()
+      ->check(CLI::Range(0.001, 1e6));
   command->add_option("--keep-jobs", options->keep_jobs, "ended jobs that are kept at most")
       ->capture_default_str()
       ->check(CLI::Range(0, 10'000'000));

@@ -162,12 +162,12 @@ void HttpLoop::recount(Connection& connection) {
 }
 
 void HttpLoop::wait_for_what_comes(Connection& connection) {
-  const std::size_t held = connection.gatherer.held();
-  if (held <= connection.waited_for) return;
+  const std::size_t received = connection.gatherer.received();
+  if (received <= connection.waited_for) return;
   connection.deadline += std::chrono::duration_cast<Clock::duration>(
-      std::chrono::duration<double>(static_cast<double>(held - connection.waited_for) /
+      std::chrono::duration<double>(static_cast<double>(received - connection.waited_for) /
                                     static_cast<double>(options_.min_body_bytes_per_s)));
-  connection.waited_for = held;
+  connection.waited_for = received;
 }
 
 void HttpLoop::retime(Connection& connection) {

@@ -90,6 +90,7 @@ HttpRequest request_from(const httplib::Request& in, HttpEngine::Exchange& excha
     out.headers.emplace_back(withheld ? "Accept-Encoding" : name, value);
   }
   out.body = std::move(exchange.body);
+  out.body_file = std::move(exchange.body_file);
   out.remote_address = std::move(exchange.remote_address);
   return out;
 }
@@ -169,7 +170,7 @@ HttpEngine::Outgoing HttpEngine::respond(Exchange exchange,
 
 HttpEngine::Outgoing HttpEngine::respond_without_request(std::string_view method, HttpResponse response) {
   const std::string head = method == "HEAD" ? "HEAD / HTTP/1.1\r\n\r\n" : "GET / HTTP/1.1\r\n\r\n";
-  return adapter_->respond({head, {}, {}, true},
+  return adapter_->respond({head, {}, {}, {}, true},
                            [&](HttpRequest&) -> HttpResponse { return std::move(response); });
 }
 

@@ -27,6 +27,7 @@ class HttpEngine {
   struct Exchange {
     std::string_view head;  // RequestHead::forwarded
     std::string body;
+    std::shared_ptr<const BodyFile> body_file;
     std::string remote_address;
     bool close = false;  // the answer says that the connection ends with it
   };

@@ -30,7 +30,8 @@ std::size_t RequestGatherer::appetite() const {
       return options_->max_header_bytes + 1 - std::min(options_->max_header_bytes, input_.size());
     case State::kBody:
       return head_.framing == BodyFraming::kLength
-                 ? std::min(kBodyPiece, head_.content_length - std::min(head_.content_length, body_.size()))
+                 ? std::min(kBodyPiece,
+                            head_.content_length - std::min(head_.content_length, body_.size() + in_file()))
                  : kBodyPiece;
     case State::kReady:
     case State::kRefused:
@@ -44,9 +45,10 @@ bool RequestGatherer::take_continue() {
 }
 
 RequestGatherer::Gathered RequestGatherer::take() {
-  Gathered out{std::move(head_), std::move(body_)};
+  Gathered out{std::move(head_), std::move(body_), std::move(body_file_)};
   head_ = {};
   body_ = {};
+  body_file_.reset();
   origin_.reset();
   chunked_.reset();
   state_ = State::kIdle;
@@ -91,30 +93,48 @@ void RequestGatherer::advance_head() {
   head_ = std::move(*head);
   input_.erase(0, scan.size);
   state_ = head_.framing == BodyFraming::kNone ? State::kReady : State::kBody;
-  if (head_.framing == BodyFraming::kChunked) chunked_.emplace(options_->max_body_bytes);
+  if (head_.framing == BodyFraming::kChunked) chunked_.emplace(max_body_bytes(head_, *options_));
+  if (head_.large && state_ == State::kBody) open_body_file();
+  if (state_ == State::kRefused) return;
   // A client that has begun with the body waits for nothing.
   continue_due_ = head_.expects_continue && input_.empty();
 }
 
 void RequestGatherer::advance_body() {
   if (head_.framing == BodyFraming::kLength) {
-    const std::size_t n = std::min(head_.content_length - body_.size(), input_.size());
+    const std::size_t n = std::min(head_.content_length - body_.size() - in_file(), input_.size());
     body_.append(input_, 0, n);
     input_.erase(0, n);
-    if (body_.size() == head_.content_length) state_ = State::kReady;
+    spool();
+    if (state_ == State::kBody && body_.size() + in_file() == head_.content_length) state_ = State::kReady;
     return;
   }
   std::string_view bytes = input_;
   const ChunkedBody::State chunked = chunked_->feed(bytes, body_);
   input_.erase(0, input_.size() - bytes.size());
+  spool();
+  if (state_ == State::kRefused) return;
   if (chunked == ChunkedBody::State::kDone) state_ = State::kReady;
   if (chunked == ChunkedBody::State::kMalformed)
     refuse({ErrorCode::kMalformedHttp, "the body's chunks are malformed", {}});
-  if (chunked == ChunkedBody::State::kTooLarge) {
-    refuse({ErrorCode::kPayloadTooLarge,
-            fmt::format("the body has more than the {} bytes that are read", options_->max_body_bytes),
-            {}});
-  }
+  if (chunked == ChunkedBody::State::kTooLarge) refuse(body_too_large(max_body_bytes(head_, *options_)));
+}
+
+void RequestGatherer::open_body_file() {
+  auto file = BodyFile::make(options_->large_bodies.folder, options_->large_bodies.under_way);
+  if (!file) return refuse(std::move(file.error()));
+  body_file_ = *std::move(file);
+}
+
+void RequestGatherer::spool() {
+  if (!body_file_ || body_.empty()) return;
+  const LargeBodies& large = options_->large_bodies;
+  const std::uint64_t most = max_body_bytes(head_, *options_);
+  if (in_file() + body_.size() > most) return refuse(body_too_large(most));
+  if (*large.under_way + static_cast<std::int64_t>(body_.size()) > large.max_total_bytes)
+    return refuse({ErrorCode::kTooManyJobs, "too many large requests are under way; try again later", {}});
+  if (auto written = body_file_->append(body_); !written) return refuse(std::move(written.error()));
+  body_.clear();
 }
 
 void RequestGatherer::refuse(Error error) {
@@ -123,6 +143,7 @@ void RequestGatherer::refuse(Error error) {
   // Nothing of it is used any more, and the connection may linger.
   input_ = {};
   body_ = {};
+  body_file_.reset();
 }
 
 }  // namespace slipway::server

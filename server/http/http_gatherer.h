@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -33,6 +34,8 @@ class RequestGatherer {
   std::size_t appetite() const;
   // The bytes held, for the budget over all connections.
   std::size_t held() const { return input_.size() + body_.size(); }
+  // The bytes of a request under way that have come, wherever they are.
+  std::size_t received() const { return held() + in_file(); }
   // The connection's owner gives up on the request, for a reason of its own.
   void refuse(Error error);
   // Once true after a head that expects it: "100 Continue" is to be sent.
@@ -47,6 +50,7 @@ class RequestGatherer {
   struct Gathered {
     RequestHead head;
     std::string body;
+    std::shared_ptr<const BodyFile> body_file;
   };
   // In kReady. The next request, if it has come already, is seen by the feed() that has to follow.
   Gathered take();
@@ -55,6 +59,10 @@ class RequestGatherer {
   void advance();
   void advance_head();
   void advance_body();
+  // Moves what has come of a large body into its file; refuses it where that fails.
+  void spool();
+  void open_body_file();
+  std::size_t in_file() const { return body_file_ ? static_cast<std::size_t>(body_file_->bytes()) : 0; }
 
   const HttpOptions* options_;
   State state_ = State::kIdle;
@@ -63,6 +71,7 @@ class RequestGatherer {
   RequestHead head_;
   std::optional<std::string> origin_;
   std::string body_;
+  std::shared_ptr<BodyFile> body_file_;  // of a large body, which passes through body_
   std::optional<ChunkedBody> chunked_;
   bool continue_due_ = false;
   Error refusal_;

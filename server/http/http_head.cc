@@ -103,6 +103,7 @@ class HeadReader {
     out_.method = method;
     one_point_one_ = version == "HTTP/1.1";
     out_.path = target->substr(0, target->find('?'));
+    out_.large = options_.large_bodies.take(method, out_.path);
     out_.forwarded = fmt::format("{} {} {}\r\n", method, *target, version);
     return std::nullopt;
   }
@@ -159,11 +160,8 @@ class HeadReader {
     const auto [end, fault] = std::from_chars(value.data(), value.data() + value.size(), length);
     const bool digits_only = !value.empty() && end == value.data() + value.size() && value.front() != '-';
     if (fault == std::errc::invalid_argument || !digits_only) return bad("Content-Length is not a number");
-    if (fault == std::errc::result_out_of_range || length > options_.max_body_bytes) {
-      return Error{ErrorCode::kPayloadTooLarge,
-                   fmt::format("the body has more than the {} bytes that are read", options_.max_body_bytes),
-                   {}};
-    }
+    const std::uint64_t most = max_body_bytes(out_, options_);
+    if (fault == std::errc::result_out_of_range || length > most) return body_too_large(most);
     out_.framing = BodyFraming::kLength;
     out_.content_length = static_cast<std::size_t>(length);
     return std::nullopt;
@@ -193,13 +191,13 @@ class HeadReader {
     const std::string_view whole = content_type_ ? std::string_view(*content_type_) : std::string_view();
     const std::size_t semicolon = std::min(whole.find(';'), whole.size());
     const std::string_view type = trimmed(whole.substr(0, semicolon));
-    for (const std::string& known : options_.body_media_types) {
-      if (equal_ignoring_case(type, known)) return std::nullopt;
-    }
-    return Error{
-        ErrorCode::kUnsupportedMediaType,
-        fmt::format("a body needs a Content-Type, one of: {}", fmt::join(options_.body_media_types, ", ")),
-        {}};
+    const std::vector<std::string>& known =
+        out_.large ? options_.large_bodies.media_types : options_.body_media_types;
+    for (const std::string& one : known)
+      if (equal_ignoring_case(type, one)) return std::nullopt;
+    return Error{ErrorCode::kUnsupportedMediaType,
+                 fmt::format("a body needs a Content-Type, one of: {}", fmt::join(known, ", ")),
+                 {}};
   }
 
   const HttpOptions& options_;
@@ -211,6 +209,16 @@ class HeadReader {
 };
 
 }  // namespace
+
+std::uint64_t max_body_bytes(const RequestHead& head, const HttpOptions& options) {
+  return head.large ? static_cast<std::uint64_t>(options.large_bodies.max_bytes) : options.max_body_bytes;
+}
+
+Error body_too_large(std::uint64_t max_bytes) {
+  return {ErrorCode::kPayloadTooLarge,
+          fmt::format("the body has more than the {} bytes that are read", max_bytes),
+          {}};
+}
 
 Result<RequestHead> read_head(std::string_view head, const HttpOptions& options) {
   return HeadReader(options).read(head);

@@ -22,6 +22,7 @@ struct RequestHead {
   std::string path;  // as sent, without the query
   BodyFraming framing = BodyFraming::kNone;
   std::size_t content_length = 0;  // with kLength
+  bool large = false;              // the body goes into a file, see LargeBodies
   bool keep_alive = true;          // what the client wants
   bool expects_continue = false;   // it waits for "100 Continue" before it sends the body
   std::string forwarded;           // the head for cpp-httplib, without the headers it must not act on
@@ -30,6 +31,10 @@ struct RequestHead {
 // Checks a whole head (up to and including its empty line) against RFC 9112, refusing whatever two parsers
 // could read in two ways: such differences are how one request is smuggled inside another.
 Result<RequestHead> read_head(std::string_view head, const HttpOptions& options);
+
+// Of the body that follows a head, and the refusal of what is longer.
+std::uint64_t max_body_bytes(const RequestHead& head, const HttpOptions& options);
+Error body_too_large(std::uint64_t max_bytes);
 
 // The value of the Origin header in a whole head, sound or not, so that a refusal can be read by the page
 // that asked; nothing where the head has none.

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "server/http/http_body_file.h"
 
 namespace slipway::server {
 
@@ -19,8 +22,9 @@ struct HttpRequest {
   NamedValues query;       // percent-decoded; a name given twice is here twice
   NamedValues headers;     // as sent; read them with header()
   NamedValues parameters;  // what the route's "{name}" segments matched, percent-decoded
-  std::string body;        // without chunk framing
-  std::string remote_address;  // the socket's peer; no header can change it
+  std::string body;        // without chunk framing; empty where it is in the file
+  std::shared_ptr<const BodyFile> body_file;  // see LargeBodies
+  std::string remote_address;                 // the socket's peer; no header can change it
   // The header X-Request-Id where that is 1 to 128 visible ASCII characters, otherwise one that is made here.
   // The answer bears it too.
   std::string id;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "server/http/http_body_file.h"
 #include "server/http/http_message.h"
 
 namespace slipway::server {
@@ -59,6 +60,9 @@ struct HttpOptions {
   // What a body may be. JSON alone: a web page of another origin can't send that without asking first,
   // whereas forms and bodies without a type it can.
   std::vector<std::string> body_media_types = {"application/json"};
+
+  // What may be larger than that, and goes into files.
+  LargeBodies large_bodies = {};
 
   // From the first byte of a head to its end. A head is one packet or a few.
   std::chrono::milliseconds header_deadline{5'000};

@@ -59,8 +59,9 @@ void HttpWorkers::run(Queue& queue) {
 
 void HttpWorkers::answer(HttpEngine& engine, Work work) {
   WorkDone done{work.connection, {}, 0, 0, work.close, false};
-  HttpEngine::Outgoing out = answers_.to_request(
-      engine, {work.gathered.head.forwarded, std::move(work.gathered.body), work.remote_address, work.close});
+  HttpEngine::Outgoing out =
+      answers_.to_request(engine, {work.gathered.head.forwarded, std::move(work.gathered.body),
+                                   std::move(work.gathered.body_file), work.remote_address, work.close});
   counters_.requests_served.fetch_add(1, std::memory_order_relaxed);
   // Sent from here rather than from the loop: one hop less before the client has its answer.
   std::string_view front = out.front;

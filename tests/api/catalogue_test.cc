@@ -24,7 +24,7 @@ using testing::small_world;
 using testing::write_file;
 
 TEST(ShippedSoils, HaveEveryRowOfThePapers) {
-  const auto& soils = small_world().catalogue().soils;
+  const auto& soils = small_world().catalogue()->soils;
   for (const char* name :
        {"jlu_mars_1_loose", "jlu_mars_1_medium", "jlu_mars_1_dense",  "jlu_mars_2_loose", "jlu_mars_2_medium",
         "jlu_mars_2_dense", "jlu_mars_3_loose",  "jlu_mars_3_medium", "jlu_mars_3_dense", "vl1_drift",
@@ -43,7 +43,7 @@ TEST(ShippedSoils, HaveEveryRowOfThePapers) {
 }
 
 TEST(ShippedSoils, CarryLoadAtEveryDepthAndDraw) {
-  for (const auto& [name, soil] : small_world().catalogue().soils) {
+  for (const auto& [name, soil] : small_world().catalogue()->soils) {
     SCOPED_TRACE(name);
     for (std::uint64_t draw = 0; draw < 50; ++draw) {
       sim::SoilNormals normals;
@@ -66,14 +66,14 @@ TEST(ShippedSoils, CarryLoadAtEveryDepthAndDraw) {
 }
 
 TEST(ShippedSoils, SayWhereTheyComeFromAndWhatIsAssumed) {
-  for (const auto& [name, soil] : small_world().catalogue().soils) {
+  for (const auto& [name, soil] : small_world().catalogue()->soils) {
     EXPECT_FALSE(soil.source.empty()) << name;
     EXPECT_FALSE(soil.assumed.empty()) << name;
   }
 }
 
 TEST(ShippedRovers, SatisfyTheSimulator) {
-  const auto& rovers = small_world().catalogue().rovers;
+  const auto& rovers = small_world().catalogue()->rovers;
   EXPECT_EQ(names_of(rovers),
             (std::vector<std::string>{"cuadriga", "fido-class", "mer-class", "msl-class", "zhurong-class"}));
   for (const auto& [name, rover] : rovers) {
@@ -88,7 +88,7 @@ TEST(ShippedRovers, SatisfyTheSimulator) {
 }
 
 TEST(ShippedRovers, AreServedAsTheFilesThatTheyCameFrom) {
-  for (const auto& [name, rover] : small_world().catalogue().rovers) {
+  for (const auto& [name, rover] : small_world().catalogue()->rovers) {
     json::Writer w;
     json::write_rover(w, *rover);
     const std::string served = w.take();
@@ -101,7 +101,7 @@ TEST(ShippedRovers, AreServedAsTheFilesThatTheyCameFrom) {
 }
 
 TEST(ShippedSoils, AreServedAsTheFilesThatTheyCameFrom) {
-  for (const auto& [name, soil] : small_world().catalogue().soils) {
+  for (const auto& [name, soil] : small_world().catalogue()->soils) {
     json::Writer w;
     json::write_soil(w, soil);
     const std::string served = w.take();

@@ -34,7 +34,7 @@ const std::string kPath = R"("path":[{"x_m":20,"y_m":30},{"x_m":44,"y_m":30}],"d
 
 TEST(CheckReport, HoldsTheVerdictTheRulesTheMapAndTheChartsAndLoadsNothing) {
   const std::string answer = answered(kPath);
-  const auto page = check_report(testing::small_world().catalogue(), answer);
+  const auto page = check_report(*testing::small_world().catalogue(), answer);
   ASSERT_TRUE(page) << page.error().detail;
   const auto check = json::parse(answer);
   const std::string& verdict = json::text(*check, "verdict");
@@ -48,12 +48,12 @@ TEST(CheckReport, HoldsTheVerdictTheRulesTheMapAndTheChartsAndLoadsNothing) {
     EXPECT_NE(page->find(xml_text(reason.text)), std::string::npos) << reason.text;
   for (const char* const outside : {"<script", "src=", "<link", "href=\"http", "@import"})
     EXPECT_EQ(page->find(outside), std::string::npos) << outside;
-  EXPECT_EQ(*page, *check_report(testing::small_world().catalogue(), answer)) << "the same bytes";
-  EXPECT_FALSE(check_report(testing::small_world().catalogue(), R"({"format":"plan/1"})"));
+  EXPECT_EQ(*page, *check_report(*testing::small_world().catalogue(), answer)) << "the same bytes";
+  EXPECT_FALSE(check_report(*testing::small_world().catalogue(), R"({"format":"plan/1"})"));
 }
 
 TEST(CheckReport, DrawsTheAreasOfTheRequestWithinTheMap) {
-  const Catalogue& catalogue = testing::small_world().catalogue();
+  const Catalogue& catalogue = *testing::small_world().catalogue();
   const std::string zones =
       R"(,"keep_out":[[[30,32],[34,32],[32,36]]],"keep_in":[[[0,20],[900,20],[900,40],[0,40]]])";
   const std::string with = *check_report(catalogue, answered(kPath + zones));

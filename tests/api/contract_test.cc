@@ -178,7 +178,7 @@ TEST(Contract, ADiagnosisFitsTheDescriptionWhateverIsInIt) {
 }
 
 TEST(Contract, AWheelSweepsAnswerFitsTheDescription) {
-  const auto answer = run_wheel_sweep(small_world().catalogue(), example("wheel_sweep_every_key.json"));
+  const auto answer = run_wheel_sweep(*small_world().catalogue(), example("wheel_sweep_every_key.json"));
   ASSERT_TRUE(answer) << answer.error().detail;
   const std::string document = json::write_wheel_sweep_answer(*answer);
   EXPECT_EQ(complaints_about("WheelSweep", document), std::vector<std::string>{});

@@ -16,7 +16,7 @@ namespace {
 using testing::small_world;
 
 const Catalogue& catalogue() {
-  return small_world().catalogue();
+  return *small_world().catalogue();
 }
 
 std::vector<std::string> pointers_of(const Error& error) {

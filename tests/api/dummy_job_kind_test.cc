@@ -45,7 +45,7 @@ Result<HeavyRequest> read_heavy(const api::Service& /*service*/, std::string_vie
 Result<HeavyAnswer> run_heavy(const api::Service& service, const HeavyRequest& request, Progress& progress) {
   progress.report("weighing", 0.5);
   HeavyAnswer answer{request.mass_kg, {}};
-  for (const auto& [name, rover] : service.catalogue().rovers)
+  for (const auto& [name, rover] : service.catalogue()->rovers)
     if (rover->mass_kg > request.mass_kg) answer.rovers.push_back(name);
   return answer;
 }

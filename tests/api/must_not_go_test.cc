@@ -18,7 +18,7 @@ using sim::FunctionGround;
 
 const Catalogue& shipped() {
   static const auto service = Service::open({.data = SLIPWAY_DATA_FOLDER});
-  return (*service)->catalogue();
+  return *(*service)->catalogue();
 }
 
 const sim::SoilDistribution& soil(const char* name) {

@@ -19,7 +19,7 @@ using testing::small_world;
 // The files' own form for what a rover may have besides.
 TEST(RoverFile, ReadsOtherVehiclesAndGivesThemBackAsTheyWere) {
   json::Writer w;
-  json::write_rover(w, *small_world().catalogue().rovers.at("cuadriga"));
+  json::write_rover(w, *small_world().catalogue()->rovers.at("cuadriga"));
   const std::string rigid = w.take();
   const auto changed = [&](std::string_view what, std::string_view by) {
     std::string text = rigid;
@@ -51,7 +51,7 @@ TEST(RoverFile, ReadsOtherVehiclesAndGivesThemBackAsTheyWere) {
 
 TEST(RoverFile, GrousersOfTheRoverAreOnEveryWheelWithoutItsOwn) {
   json::Writer w;
-  json::write_rover(w, *small_world().catalogue().rovers.at("cuadriga"));
+  json::write_rover(w, *small_world().catalogue()->rovers.at("cuadriga"));
   std::string text = w.take();
   text.replace(text.find(R"("wheels":)"), 9, R"("grousers":{"height_m":0.02,"count":24},"wheels":)");
   const auto rover = json::read_rover_file(text);
@@ -63,7 +63,7 @@ TEST(RoverFile, GrousersOfTheRoverAreOnEveryWheelWithoutItsOwn) {
 std::string rover_with(const char* name,
                        const std::vector<std::pair<std::string_view, std::string_view>>& changes) {
   json::Writer w;
-  json::write_rover(w, *small_world().catalogue().rovers.at(name));
+  json::write_rover(w, *small_world().catalogue()->rovers.at(name));
   std::string text = w.take();
   for (const auto& [what, by] : changes) {
     const std::size_t at = text.find(what);
@@ -130,7 +130,7 @@ TEST(RoverFile, WhatTheDynamicRungReadsIsReadStrictly) {
 
 TEST(RoverFile, FaultsOfTheNewKeysAreAllNamed) {
   json::Writer w;
-  json::write_rover(w, *small_world().catalogue().rovers.at("cuadriga"));
+  json::write_rover(w, *small_world().catalogue()->rovers.at("cuadriga"));
   std::string text = w.take();
   const auto change = [&](std::string_view what, std::string_view by) {
     text.replace(text.find(what), what.size(), by);

@@ -95,7 +95,7 @@ SoilEstimateRequest plates() {
 
 TEST(SoilEstimate, TheSoilIsAFileOfItsOwnThatIsReadAgain) {
   NoProgress progress;
-  const auto answer = estimate_soil(small_world().catalogue(), plates(), progress);
+  const auto answer = estimate_soil(*small_world().catalogue(), plates(), progress);
   ASSERT_TRUE(answer) << answer.error().detail;
   const auto soils = json::read_soil_file(json::estimated_soils_document(*answer));
   ASSERT_TRUE(soils) << soils.error().detail;
@@ -115,7 +115,7 @@ TEST(SoilEstimate, ASoilFoundAtABoundIsReadAgain) {
       request.data.plates[0].pressure_pa[i] = 8e5 * std::pow(request.data.plates[0].sinkage_m[i], n);
     request.options.priors = gap::SoilPriors::kNone;
     request.options.bounds = {{gap::SoilParameter::kN, bound < 1.0 ? 0.05 : 0.5, bound < 1.0 ? 2.0 : 3.0}};
-    const auto answer = estimate_soil(small_world().catalogue(), request, progress);
+    const auto answer = estimate_soil(*small_world().catalogue(), request, progress);
     ASSERT_TRUE(answer) << answer.error().detail;
     const auto soils = json::read_soil_file(json::estimated_soils_document(*answer));
     ASSERT_TRUE(soils) << soils.error().faults.front().message;
@@ -127,7 +127,7 @@ TEST(SoilEstimate, ABoundThatNoSoilFileHoldsIsRefused) {
   NoProgress progress;
   SoilEstimateRequest request = plates();
   request.options.bounds = {{gap::SoilParameter::kN, 0.001, 4.0}};
-  const auto answer = estimate_soil(small_world().catalogue(), request, progress);
+  const auto answer = estimate_soil(*small_world().catalogue(), request, progress);
   ASSERT_FALSE(answer);
   ASSERT_EQ(answer.error().faults.size(), 2U);
   EXPECT_EQ(answer.error().faults[0].message, "n = 0.001, must be in [0.01, 3], which a soil's file holds");
@@ -137,7 +137,7 @@ TEST(SoilEstimate, ANameThatNoSoilFileTakesIsWrittenAsOneThatItTakes) {
   NoProgress progress;
   const std::string umlaut = "\xC3\xBC";
   const std::string name = "Lockere D" + umlaut + "nen, sehr tief";
-  Catalogue catalogue = small_world().catalogue();
+  Catalogue catalogue = *small_world().catalogue();
   SoilEstimateRequest request = plates();
   // Summary and source end in the middle of an umlaut for one length or another.
   for (int lengthened = 0; lengthened < 3; ++lengthened) {
@@ -155,8 +155,8 @@ TEST(SoilEstimate, ANameThatNoSoilFileTakesIsWrittenAsOneThatItTakes) {
 
 TEST(SoilEstimate, TheSameRequestGivesTheSameBytes) {
   NoProgress progress;
-  const auto a = estimate_soil(small_world().catalogue(), plates(), progress);
-  const auto b = estimate_soil(small_world().catalogue(), plates(), progress);
+  const auto a = estimate_soil(*small_world().catalogue(), plates(), progress);
+  const auto b = estimate_soil(*small_world().catalogue(), plates(), progress);
   ASSERT_TRUE(a && b);
   EXPECT_EQ(json::soil_estimate_document(*a), json::soil_estimate_document(*b));
 }
@@ -188,7 +188,7 @@ SoilEstimateRequest two_wheels() {
 
 TEST(SoilTestRigs, EachWheelHasItsOwnNumbersAndEffects) {
   std::vector<Fault> faults;
-  const SoilTestRigs rigs = soil_test_rigs(small_world().catalogue(), two_wheels(), faults);
+  const SoilTestRigs rigs = soil_test_rigs(*small_world().catalogue(), two_wheels(), faults);
   ASSERT_EQ(faults, std::vector<Fault>{});
   ASSERT_EQ(rigs.data.rigs.size(), 2U);
   const auto on = [&](std::size_t rig) { return sim::conditions_of(rigs.data.rigs[rig].rig).wheel; };
@@ -206,7 +206,7 @@ TEST(SoilTestRigs, EachWheelHasItsOwnNumbersAndEffects) {
 TEST(SoilTestRigs, WhatWouldBeDroppedIsRefused) {
   const auto refused = [](const SoilEstimateRequest& request) {
     std::string pointers;
-    for (const Fault& fault : faults_of(small_world().catalogue(), request)) pointers += fault.pointer + " ";
+    for (const Fault& fault : faults_of(*small_world().catalogue(), request)) pointers += fault.pointer + " ";
     return pointers;
   };
   SoilEstimateRequest request = two_wheels();
@@ -238,7 +238,7 @@ TEST(SoilEstimate, WhatIsNotKnownIsRefusedTogether) {
   request.soil = "chalk";
   request.wheel.rover = "tank";
   request.wheel.radius_m = 5.0;
-  EXPECT_EQ(faults_of(small_world().catalogue(), request).size(), 3U);
+  EXPECT_EQ(faults_of(*small_world().catalogue(), request).size(), 3U);
   EXPECT_EQ(choose_channels({"torque", "smell"}, request).size(), 1U);
 }
 

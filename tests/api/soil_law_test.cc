@@ -52,7 +52,7 @@ class WorldWithSoil {
 // The shipped sandy loam with members of its own in place of k_c and k_phi, or beside them.
 std::string sandy_loam(const std::string& members, bool with_bekker) {
   json::Writer w;
-  json::write_soil(w, small_world().catalogue().soils.at("mer_b_sandy_loam"));
+  json::write_soil(w, small_world().catalogue()->soils.at("mer_b_sandy_loam"));
   std::string text = w.take();
   if (!with_bekker) {
     const std::size_t from = text.find("\"k_c\""), to = text.find("\"n\"");
@@ -65,7 +65,7 @@ const std::string kReece = R"("pressure_law":{"name":"reece","k_c":40,"k_phi":20
 
 std::string sweep(const Service& service, const std::string& members) {
   const auto answer = run_wheel_sweep(
-      service.catalogue(), R"({"rover":"mer-class","soil":"mer_b_sandy_loam","slip":0.3)" + members + "}");
+      *service.catalogue(), R"({"rover":"mer-class","soil":"mer_b_sandy_loam","slip":0.3)" + members + "}");
   EXPECT_TRUE(answer) << (answer ? "" : answer.error().faults.front().message);
   return answer ? json::write_wheel_sweep_answer(*answer) : "";
 }
@@ -100,7 +100,7 @@ TEST(SoilLaw, ReecesLawInASoilFileChangesTheWheelAndThePrediction) {
   const WorldWithSoil reece(sandy_loam(kReece, false));
   EXPECT_NE(pull_of(reece.service()), pull_of(small_world()));
   EXPECT_NE(mean_slip(reece.service()), mean_slip(small_world()));
-  const std::string served = json::write_soils(reece.service().catalogue());
+  const std::string served = json::write_soils(*reece.service().catalogue());
   EXPECT_NE(served.find(kReece), std::string::npos);
   EXPECT_GT(sinkage_of(reece.service(), R"(,"set":{"soil.reece.k_phi":20})"), sinkage_of(reece.service()));
 }
@@ -114,7 +114,7 @@ TEST(SoilLaw, TheDefaultLawsByNameLeaveTheSoilAsItWas) {
   const WorldWithSoil named(
       sandy_loam(R"("pressure_law":{"name":"bekker"},"shear_law":{"name":"janosi_hanamoto"})", true));
   EXPECT_EQ(sweep(named.service(), ""), sweep(small_world(), ""));
-  EXPECT_EQ(json::write_soils(named.service().catalogue()), json::write_soils(small_world().catalogue()));
+  EXPECT_EQ(json::write_soils(*named.service().catalogue()), json::write_soils(*small_world().catalogue()));
 }
 
 std::vector<std::string> faults_of_soil(const std::string& soil,
@@ -141,8 +141,8 @@ TEST(SoilLaw, WhatASoilHasNotIsNotSwept) {
   const WorldWithSoil reece(sandy_loam(kReece, false));
   const auto fault = [](const Service& service, const std::string& parameter) {
     const auto answer = read_wheel_sweep(
-        service.catalogue(), R"({"rover":"mer-class","soil":"mer_b_sandy_loam","sweep":[{"parameter":")" +
-                                 parameter + R"(","values":[0.5]}]})");
+        *service.catalogue(), R"({"rover":"mer-class","soil":"mer_b_sandy_loam","sweep":[{"parameter":")" +
+                                  parameter + R"(","values":[0.5]}]})");
     return answer ? "" : answer.error().faults.front().pointer;
   };
   EXPECT_EQ(fault(reece.service(), "soil.k_c"), "/sweep/0/parameter");
@@ -182,7 +182,7 @@ TEST(SoilLaw, ALawOfATestsOwnActsFromTheSoilFileToTheWheelAndThePrediction) {
   EXPECT_NE(mean_slip(on_soft.service()), mean_slip(on_firm.service()));
   EXPECT_NEAR(pull_of(on_soft.service(), R"(,"set":{"soil.saturating.greatest_pa":200000})"),
               pull_of(on_firm.service()), 1e-9);
-  EXPECT_NE(json::write_soils(on_soft.service().catalogue()).find(soft), std::string::npos);
+  EXPECT_NE(json::write_soils(*on_soft.service().catalogue()).find(soft), std::string::npos);
   EXPECT_EQ(faults_of_soil(sandy_loam(soft, false)), (std::vector<std::string>{"/soils/0/pressure_law/name"}))
       << "without its row it is unknown";
 }
@@ -199,7 +199,7 @@ TEST(SoilField, AFieldOfATestsOwnIsReadSweptAndWrittenBack) {
   EXPECT_LT(pull_of(pushed.service()), pull_of(small_world()));
   EXPECT_NEAR(pull_of(pushed.service(), R"(,"set":{"soil.front_bulldozing":0})"), pull_of(small_world()),
               1e-9);
-  EXPECT_NE(json::write_soils(pushed.service().catalogue()).find(R"("front_bulldozing":1.5)"),
+  EXPECT_NE(json::write_soils(*pushed.service().catalogue()).find(R"("front_bulldozing":1.5)"),
             std::string::npos);
   EXPECT_EQ(faults_of_soil(sandy_loam(R"("front_bulldozing":3)", true), format),
             (std::vector<std::string>{"/soils/0/front_bulldozing"}));
@@ -266,7 +266,7 @@ TEST(SlipCurveSoil, APlanDrivesOverItAndItsSlipCounts) {
 TEST(SlipCurveSoil, WhatNeedsForcesIsRefusedWithAReason) {
   const WorldWithSoil curve(tabulated(0.25));
   const auto wheel =
-      read_wheel_sweep(curve.service().catalogue(), R"({"rover":"mer-class","soil":"mer_b_sandy_loam"})");
+      read_wheel_sweep(*curve.service().catalogue(), R"({"rover":"mer-class","soil":"mer_b_sandy_loam"})");
   ASSERT_FALSE(wheel);
   EXPECT_EQ(wheel.error().faults.front().pointer, "/soil");
   EXPECT_NE(wheel.error().faults.front().message.find("slip curve"), std::string::npos);

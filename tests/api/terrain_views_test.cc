@@ -19,7 +19,7 @@ using json::JsonValue;
 using testing::small_world;
 
 const TerrainSite& yard() {
-  return *small_world().catalogue().terrains.at("yard");
+  return *small_world().catalogue()->terrains.at("yard");
 }
 
 TerrainPicture of(TerrainLayer layer, const dem::Extent& extent, int width, int height) {

@@ -20,7 +20,7 @@ using testing::example;
 using testing::small_world;
 
 const Catalogue& catalogue() {
-  return small_world().catalogue();
+  return *small_world().catalogue();
 }
 
 std::string sweep_with(const std::string& members) {

@@ -1,6 +1,7 @@
 #include "server/http/http_gatherer.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <vector>
 
@@ -107,6 +108,63 @@ TEST(RequestGatherer, WhatItHoldsIsBoundedByTheLimits) {
   EXPECT_EQ(gatherer.state(), State::kRefused);
   EXPECT_EQ(gatherer.refusal().code, ErrorCode::kPayloadTooLarge);
   EXPECT_EQ(gatherer.held(), 0U);
+}
+
+// Options under which POST /large goes into files of the tests' own folder.
+HttpOptions with_large_bodies() {
+  HttpOptions options = small_options();
+  options.large_bodies.folder = ::testing::TempDir();
+  options.large_bodies.paths = {"/large"};
+  options.large_bodies.max_bytes = 5'000;
+  options.large_bodies.max_total_bytes = 6'000;
+  return options;
+}
+
+std::string large_request(const std::string& body, const std::string& path = "/large") {
+  return "POST " + path + "?name=a HTTP/1.1\r\nHost: t\r\nContent-Type: text/csv\r\nContent-Length: " +
+         std::to_string(body.size()) + "\r\n\r\n" + body;
+}
+
+// The gatherer after all bytes that it wants.
+RequestGatherer::State give(RequestGatherer& gatherer, std::string_view bytes, std::size_t piece) {
+  while (!bytes.empty() && gatherer.appetite() > 0) {
+    const std::size_t n = std::min({bytes.size(), piece, gatherer.appetite()});
+    gatherer.feed(bytes.substr(0, n));
+    bytes.remove_prefix(n);
+  }
+  return gatherer.state();
+}
+
+TEST(RequestGatherer, ALargeBodyIsInItsFileAndNotInMemory) {
+  const HttpOptions options = with_large_bodies();
+  std::string body;
+  for (int k = 0; k < 4'000; ++k) body += static_cast<char>('a' + k % 26);
+  for (const std::size_t piece : {1U, 33U, 5'000U}) {
+    RequestGatherer gatherer(options);
+    ASSERT_EQ(give(gatherer, large_request(body), piece), State::kReady) << piece;
+    EXPECT_EQ(gatherer.held(), 0U);
+    EXPECT_EQ(*options.large_bodies.under_way, 4'000);
+    const auto taken = gatherer.take();
+    EXPECT_TRUE(taken.body.empty());
+    ASSERT_NE(taken.body_file, nullptr);
+    std::string read(body.size() + 1, '\0');
+    read.resize(static_cast<std::size_t>(::pread(taken.body_file->fd(), read.data(), read.size(), 0)));
+    EXPECT_EQ(read, body);
+  }
+  EXPECT_EQ(*options.large_bodies.under_way, 0) << "the files are gone with their requests";
+}
+
+TEST(RequestGatherer, LargeBodiesHaveBoundsOfTheirOwn) {
+  const HttpOptions options = with_large_bodies();
+  RequestGatherer one(options), other(options), third(options), elsewhere(options);
+  EXPECT_EQ(give(one, large_request(std::string(5'000, 'x')), 1'000), State::kReady);
+  EXPECT_EQ(give(other, large_request(std::string(5'001, 'x')), 1'000), State::kRefused);
+  EXPECT_EQ(other.refusal().code, ErrorCode::kPayloadTooLarge);
+  EXPECT_EQ(give(third, large_request(std::string(2'000, 'x')), 500), State::kRefused) << "7,000 in all";
+  EXPECT_EQ(third.refusal().code, ErrorCode::kTooManyJobs);
+  EXPECT_EQ(*options.large_bodies.under_way, 5'000);
+  EXPECT_EQ(give(elsewhere, large_request("x", "/larger"), 100), State::kRefused);
+  EXPECT_EQ(elsewhere.refusal().code, ErrorCode::kUnsupportedMediaType) << "CSV is taken there alone";
 }
 
 TEST(RequestGatherer, MutatedRequestsAreReadTheSameInAnyPieces) {

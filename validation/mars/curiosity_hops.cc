@@ -94,7 +94,7 @@ Result<Report> curiosity_hops(const std::filesystem::path& data) {
                     "stop, no past drives"};
   double never_as_of = 1.0, stops = 0.0, length_m = 0.0, worst = 0.0;
   std::vector<bool> embedded(kDraws, false);
-  const std::vector<Hop> hops = hops_of(*(*service)->catalogue().terrains.at("gale"));
+  const std::vector<Hop> hops = hops_of(*(*service)->catalogue()->terrains.at("gale"));
   for (const Hop& hop : hops) {
     const auto as_of = predicted(**service, hop, hop.sol);
     if (!as_of) return fail(as_of.error());

@@ -113,7 +113,7 @@ std::string percent(double share) {
 // All drives of the table, in the order of their sols; what each prediction knows is cut before the drive's
 // sol, left out, or all of the table.
 Result<std::vector<Scored>> score_drives(const api::Service& service, const Asked& asked, bool as_of_alone) {
-  const api::TerrainSite& site = *service.catalogue().terrains.at("gale");
+  const api::TerrainSite& site = *service.catalogue()->terrains.at("gale");
   std::vector<Scored> drives;
   std::vector<std::vector<planner::Waypoint>> paths;
   const auto each = [&](auto&& fill) -> Result<void> {
@@ -239,7 +239,7 @@ Result<Report> curiosity_outcomes(const std::filesystem::path& data) {
                     "as of the sol", "planned ground", "no past drives", "all drives",
                     "embedding"};
   std::optional<std::vector<Scored>> shown;
-  for (const api::Legend& legend : (*service)->catalogue().terrains.at("gale")->description().legends) {
+  for (const api::Legend& legend : (*service)->catalogue()->terrains.at("gale")->description().legends) {
     for (const double max_slip : {0.4, 0.6, 0.7}) {
       const bool as_of_alone = max_slip > 0.4;
       const auto drives = score_drives(**service, {legend.name, max_slip}, as_of_alone);

@@ -9,11 +9,11 @@
 #include "api/files/campaign/drive_campaign_file.h"
 
 namespace slipway::api {
-namespace {
 
-ShippedCampaign described(const std::filesystem::path& folder, const Catalogue& catalogue) {
+ShippedCampaign described_campaign(const std::filesystem::path& folder, const std::string& name,
+                                   const Catalogue& catalogue) {
   ShippedCampaign campaign;
-  campaign.name = folder.filename().string();
+  campaign.name = name;
   campaign.folder = folder;
   std::ifstream in(folder / "campaign.json", std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
@@ -27,8 +27,6 @@ ShippedCampaign described(const std::filesystem::path& folder, const Catalogue& 
   return campaign;
 }
 
-}  // namespace
-
 std::vector<ShippedCampaign> shipped_campaigns(const std::filesystem::path& data,
                                                const Catalogue& catalogue) {
   std::vector<ShippedCampaign> campaigns;
@@ -36,7 +34,7 @@ std::vector<ShippedCampaign> shipped_campaigns(const std::filesystem::path& data
   for (const char* const folder : {"gap-practice", "drive-campaigns"})
     for (const auto& entry : std::filesystem::directory_iterator(data / folder, error))
       if (std::filesystem::is_regular_file(entry.path() / "campaign.json", error))
-        campaigns.push_back(described(entry.path(), catalogue));
+        campaigns.push_back(described_campaign(entry.path(), entry.path().filename().string(), catalogue));
   std::sort(campaigns.begin(), campaigns.end(),
             [](const ShippedCampaign& a, const ShippedCampaign& b) { return a.name < b.name; });
   return campaigns;

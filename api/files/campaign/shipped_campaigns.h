@@ -19,6 +19,10 @@ struct ShippedCampaign {
   std::vector<gap::MeasuredDriveSeries> drives;  // without samples; terrains are indices into those above
 };
 
+// Of one campaign's folder; the name alone where its campaign.json is at fault.
+ShippedCampaign described_campaign(const std::filesystem::path& folder, const std::string& name,
+                                   const Catalogue& catalogue);
+
 // Sorted by name. Names alone of those whose campaign.json is at fault: whoever asks for one gets the reason.
 std::vector<ShippedCampaign> shipped_campaigns(const std::filesystem::path& data, const Catalogue& catalogue);
 

@@ -102,7 +102,11 @@ export interface paths {
         /** The terrains */
         get: operations["terrains"];
         put?: never;
-        post?: never;
+        /**
+         * Make a terrain of maps that were sent
+         * @description A job of seconds to minutes: what slipway terrain import does. All that is wrong with the maps is told at once; "fix" mends what can be mended without a guess. The terrain is there for requests when the job has ended.
+         */
+        post: operations["import_terrain"];
         delete?: never;
         options?: never;
         head?: never;
@@ -120,7 +124,8 @@ export interface paths {
         get: operations["terrain"];
         put?: never;
         post?: never;
-        delete?: never;
+        /** Delete a terrain that was sent */
+        delete: operations["remove_terrain"];
         options?: never;
         head?: never;
         patch?: never;
@@ -292,11 +297,71 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** Recorded drives that the service ships and can diagnose: what to ask POST /v1/diagnoses and POST /v1/soil-estimates for */
+        /** Recorded drives that ship with the service or were sent to it: what to ask POST /v1/diagnoses, POST /v1/watches and POST /v1/soil-estimates for */
         get: operations["drive_campaigns"];
         put?: never;
-        post?: never;
+        /**
+         * Make a drive campaign of an archive that was sent, or append drives to one
+         * @description A job of seconds. The archive (tar, tar.gz or zip) holds a "drive-campaign/1": campaign.json at its top or in its only folder, and the files that it names. Every file is read in a process without network; all faults of all files are told at once. A campaign that was sent never changes: appended drives make another one, which says which it follows. Diagnoses, watches and soil estimates take its name.
+         */
+        post: operations["take_drive_campaign"];
         delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/drive-campaigns/{name}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /** Delete a drive campaign that was sent */
+        delete: operations["remove_drive_campaign"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/uploads": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The files that were sent */
+        get: operations["uploads"];
+        put?: never;
+        /**
+         * Send a file: an elevation map, a soil map, a legend, an archive of drives
+         * @description The body is the file's bytes, streamed to disk. What is made of it is asked for afterwards: POST /v1/terrains or POST /v1/drive-campaigns with the id. The same bytes a second time are the same upload. Files go after seven days; what was made of them stays.
+         */
+        post: operations["send_file"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/uploads/{id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** A file that was sent */
+        get: operations["upload"];
+        put?: never;
+        post?: never;
+        /** Delete a file that was sent; what was made of it stays */
+        delete: operations["remove_upload"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1019,7 +1084,7 @@ export interface components {
         Job: {
             id: string;
             /** @enum {unknown} */
-            kind: "plan" | "prediction" | "check" | "diagnosis" | "watch" | "soil_estimate";
+            kind: "plan" | "prediction" | "check" | "diagnosis" | "watch" | "soil_estimate" | "drive_campaign" | "terrain";
             /** @enum {unknown} */
             state: "accepted" | "running" | "successful" | "failed" | "dismissed";
             /** @description What the work is at */
@@ -1774,6 +1839,15 @@ export interface components {
                     /** @description The drive that it repeats */
                     repeat_of?: string;
                 }[];
+                /**
+                 * Format: date-time
+                 * @description Only of one that was sent
+                 */
+                sent_at?: string;
+                /** @description The archive that it was made of */
+                upload?: string;
+                /** @description The campaign that its last drives were appended to */
+                follows?: string;
             }[];
         };
         Errors: {
@@ -3204,55 +3278,115 @@ export interface components {
                 };
             }[];
         };
-        Terrain: {
-            name?: string;
-            title?: string;
-            extent?: {
-                west_m?: number;
-                south_m?: number;
-                east_m?: number;
-                north_m?: number;
-            };
-            cell_x_m?: number;
-            cell_y_m?: number;
-            rows?: number;
-            columns?: number;
-            crs_name?: string;
-            crs_wkt?: string;
-            body?: string;
-            semi_major_axis_m?: number;
-            gravity_m_s2?: number;
-            soil?: {
-                /** @enum {unknown} */
-                source?: "none" | "raster" | "polygons";
-                assumption?: string;
-                unknown_soil?: string;
-                legend?: {
-                    value?: number;
-                    label?: string;
-                    soil?: string | null;
-                }[];
-                legend_name?: string;
-                confidence?: number;
-                /** @description Other readings of the same classes, which a request may name */
-                other_legends?: {
-                    name?: string;
-                    assumption?: string;
-                    confidence?: number;
-                    legend?: {
-                        value?: number;
-                        label?: string;
-                        soil?: string | null;
-                    }[];
-                }[];
-            };
-            stops?: {
-                x_m?: number;
-                y_m?: number;
-                columns?: {
-                    [key: string]: number | string;
-                };
+        DriveCampaignTaken: {
+            /** @description As POST /v1/diagnoses takes it */
+            name: string;
+            /** @description Name of the rover that was driven */
+            rover: string;
+            gravity_m_s2: number;
+            soils: string[];
+            terrains: string[];
+            drives: {
+                id: string;
+                terrain: string;
+                /** @description Commanded */
+                duration_s: number;
+                /** @description Commanded, negative backwards */
+                speed_m_s: number;
+                /** @description The drive that it repeats */
+                repeat_of?: string;
             }[];
+            /**
+             * Format: date-time
+             * @description Only of one that was sent
+             */
+            sent_at: string;
+            /** @description The archive that it was made of */
+            upload?: string;
+            /** @description The campaign that its last drives were appended to */
+            follows?: string;
+            /** @description What was passed over, or taken for granted */
+            notes: string[];
+        };
+        Upload: {
+            /** @description SHA-256 of the bytes */
+            id: string;
+            name: string;
+            bytes: number;
+            /** Format: date-time */
+            sent_at: string;
+        };
+        Uploads: {
+            uploads: components["schemas"]["Upload"][];
+        };
+        DriveCampaignRequest: {
+            /** @description Id of the archive */
+            upload?: string;
+            /** @description Name of a campaign that was sent, to which the drives are appended */
+            follows?: string;
+            /** @description With "follows": drives as campaign.json has them, with the rows as "csv" in the place of "file" */
+            drives?: Record<string, never>[];
+        } & (unknown | unknown);
+        TerrainRequest: {
+            /** @description That requests will ask for */
+            name: string;
+            /** @description Id of the elevation map */
+            elevation: string;
+            /** @description Id of a map of soil classes: a raster, or polygons (GeoJSON) */
+            soil?: string;
+            /** @description Id of a CSV: value,label,soil and where known rock_share */
+            legend?: string;
+            /** @description Stands for the map's own system: a PROJ string, WKT, or a code */
+            crs?: string;
+            /**
+             * @description Of the polygons: which property is the label
+             * @default unit
+             */
+            property: string;
+            /**
+             * @description What the polygons' coordinates are
+             * @default lonlat
+             * @enum {string}
+             */
+            soil_coordinates: "lonlat" | "map";
+            /** @description Why these classes are believed to be these soils */
+            assumption?: string;
+            title?: string;
+            licence?: string;
+            source?: string;
+            /** @description Else that of Mars, the Moon or the Earth */
+            gravity_m_s2?: number;
+            /**
+             * @description Mend what can be mended without a guess
+             * @default false
+             */
+            fix: boolean;
+        };
+        TerrainImport: {
+            /** @constant */
+            format: "terrain-import/1";
+            name: string;
+            body: string;
+            crs: string;
+            rows: number;
+            columns: number;
+            cell_x_m: number;
+            cell_y_m: number;
+            extent: {
+                west_m: number;
+                south_m: number;
+                east_m: number;
+                north_m: number;
+            };
+            lowest_m: number;
+            highest_m: number;
+            unknown_share: number;
+            source_sha256: string;
+            elevation_sha256: string;
+            /** @description What was mended */
+            changes: string[];
+            /** @description Classes of the soil map that the legend does not name */
+            unlisted_classes: string[];
         };
         TerrainDocument: {
             terrain?: components["schemas"]["Terrain"];
@@ -3384,6 +3518,56 @@ export interface components {
                      * @default 0.5
                      */
                     max_expected_stops: number;
+                };
+            }[];
+        };
+        Terrain: {
+            name?: string;
+            title?: string;
+            extent?: {
+                west_m?: number;
+                south_m?: number;
+                east_m?: number;
+                north_m?: number;
+            };
+            cell_x_m?: number;
+            cell_y_m?: number;
+            rows?: number;
+            columns?: number;
+            crs_name?: string;
+            crs_wkt?: string;
+            body?: string;
+            semi_major_axis_m?: number;
+            gravity_m_s2?: number;
+            soil?: {
+                /** @enum {unknown} */
+                source?: "none" | "raster" | "polygons";
+                assumption?: string;
+                unknown_soil?: string;
+                legend?: {
+                    value?: number;
+                    label?: string;
+                    soil?: string | null;
+                }[];
+                legend_name?: string;
+                confidence?: number;
+                /** @description Other readings of the same classes, which a request may name */
+                other_legends?: {
+                    name?: string;
+                    assumption?: string;
+                    confidence?: number;
+                    legend?: {
+                        value?: number;
+                        label?: string;
+                        soil?: string | null;
+                    }[];
+                }[];
+            };
+            stops?: {
+                x_m?: number;
+                y_m?: number;
+                columns?: {
+                    [key: string]: number | string;
                 };
             }[];
         };
@@ -3623,6 +3807,133 @@ export interface operations {
             };
         };
     };
+    import_terrain: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description The client's own name for this request: sent again under it, the same request is answered with the job of the first time, for as long as that is kept. Another request under it is refused */
+                "Idempotency-Key"?: components["parameters"]["IdempotencyKey"];
+                /** @description u=N: of the jobs that wait those of the lowest N, 0 to 7, begin first; 3 where nothing is said (RFC 9218) */
+                Priority?: components["parameters"]["Priority"];
+                /** @description wait=N: the answer itself if it comes within N seconds (at most 30); respond-async: do not wait (RFC 7240) */
+                Prefer?: string;
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["TerrainRequest"];
+            };
+        };
+        responses: {
+            /** @description The answer: it came within the time that was waited */
+            200: {
+                headers: {
+                    "Preference-Applied"?: string;
+                    "Content-Location"?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TerrainImport"];
+                };
+            };
+            /** @description Recorded: the job survives whatever happens to the service */
+            201: {
+                headers: {
+                    /** @description The job */
+                    Location?: string;
+                    "Retry-After"?: number;
+                    "Preference-Applied"?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Job"];
+                };
+            };
+            /** @description No JSON document: malformed_json */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Dismissed while waiting: cancelled */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description payload_too_large: above 1 MiB */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description unsupported_media_type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Read but refused, with every fault: invalid_request */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description over_quota: as many of this address's jobs wait or run as one may have; see Retry-After */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description too_many_jobs or storage: nothing was accepted; see Retry-After */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description storage_full: the disk of the job store is full, nothing was accepted */
+            507: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Any other refusal: see /errors */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     terrain: {
         parameters: {
             query?: never;
@@ -3653,6 +3964,53 @@ export interface operations {
                 content?: never;
             };
             /** @description not_found: no such terrain */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Any other refusal: see /errors */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    remove_terrain: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                name: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Gone */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description forbidden: it ships with the service, or was sent by somebody else */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description not_found */
             404: {
                 headers: {
                     [name: string]: unknown;
@@ -4144,6 +4502,417 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description Any other refusal: see /errors */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    take_drive_campaign: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description The client's own name for this request: sent again under it, the same request is answered with the job of the first time, for as long as that is kept. Another request under it is refused */
+                "Idempotency-Key"?: components["parameters"]["IdempotencyKey"];
+                /** @description u=N: of the jobs that wait those of the lowest N, 0 to 7, begin first; 3 where nothing is said (RFC 9218) */
+                Priority?: components["parameters"]["Priority"];
+                /** @description wait=N: the answer itself if it comes within N seconds (at most 30); respond-async: do not wait (RFC 7240) */
+                Prefer?: string;
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["DriveCampaignRequest"];
+            };
+        };
+        responses: {
+            /** @description The answer: it came within the time that was waited */
+            200: {
+                headers: {
+                    "Preference-Applied"?: string;
+                    "Content-Location"?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DriveCampaignTaken"];
+                };
+            };
+            /** @description Recorded: the job survives whatever happens to the service */
+            201: {
+                headers: {
+                    /** @description The job */
+                    Location?: string;
+                    "Retry-After"?: number;
+                    "Preference-Applied"?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Job"];
+                };
+            };
+            /** @description No JSON document: malformed_json */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Dismissed while waiting: cancelled */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description payload_too_large: above 1 MiB */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description unsupported_media_type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Read but refused, with every fault: invalid_request */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description over_quota: as many of this address's jobs wait or run as one may have; see Retry-After */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description too_many_jobs or storage: nothing was accepted; see Retry-After */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description storage_full: the disk of the job store is full, nothing was accepted */
+            507: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Any other refusal: see /errors */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    remove_drive_campaign: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                name: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Gone */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description forbidden: it ships with the service, or was sent by somebody else */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description not_found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Any other refusal: see /errors */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    uploads: {
+        parameters: {
+            query?: never;
+            header?: {
+                "If-None-Match"?: string;
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The files, by id */
+            200: {
+                headers: {
+                    /** @description Send it back in If-None-Match: 304 where nothing has changed */
+                    ETag?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Uploads"];
+                };
+            };
+            /** @description Not changed */
+            304: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Any other refusal: see /errors */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    send_file: {
+        parameters: {
+            query: {
+                /** @description The file's name; maps are told apart by its ending */
+                name: string;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/octet-stream": string;
+                "application/gzip": string;
+                "application/json": string;
+                "application/geo+json": string;
+                "application/x-tar": string;
+                "application/zip": string;
+                "image/tiff": string;
+                "text/csv": string;
+            };
+        };
+        responses: {
+            /** @description Kept */
+            201: {
+                headers: {
+                    /** @description The upload */
+                    Location?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Upload"];
+                };
+            };
+            /** @description request_timeout: less than 64 kB came in a second */
+            408: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description payload_too_large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description unsupported_media_type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description invalid_request, at /name */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description too_many_jobs: too many large bodies are under way */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description storage_full: the disk, or what is allowed for uploads */
+            507: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Any other refusal: see /errors */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    upload: {
+        parameters: {
+            query?: never;
+            header?: {
+                "If-None-Match"?: string;
+            };
+            path: {
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The file's name and size */
+            200: {
+                headers: {
+                    /** @description Send it back in If-None-Match: 304 where nothing has changed */
+                    ETag?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Upload"];
+                };
+            };
+            /** @description Not changed */
+            304: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description not_found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Any other refusal: see /errors */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    remove_upload: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Gone */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description forbidden: it was sent by somebody else */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description not_found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
             };
             /** @description Any other refusal: see /errors */
             default: {

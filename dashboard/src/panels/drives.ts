@@ -5,6 +5,7 @@ import { number, words } from "../format";
 import { empty, loading, problemView } from "../problem";
 import { store } from "../state";
 import { keep, start } from "../work";
+import { campaignUpload, takesUploads } from "./uploads";
 
 interface DiagnosisAnswer {
   campaign?: string | { name?: string };
@@ -16,22 +17,24 @@ interface DiagnosisAnswer {
 export function drivesPanel(target: HTMLElement): void {
   const list = h("div");
   const answer = h("div");
-  async function load(): Promise<void> {
+  const sending = h("div");
+  async function load(chosen?: string): Promise<void> {
     fill(list, loading("Asking for the campaigns"));
     try {
       const { campaigns } = await get<{ campaigns: Campaign[] }>("v1/drive-campaigns");
       store.set({ campaigns });
-      show(campaigns);
+      show(campaigns, chosen);
+      if (sending.childElementCount === 0 && (await takesUploads())) campaignUpload(sending, (name) => void load(name));
     } catch (error) {
       fill(list, problemView(error, () => void load()));
     }
   }
-  function show(campaigns: Campaign[]): void {
+  function show(campaigns: Campaign[], chosen?: string): void {
     if (campaigns.length === 0) {
-      fill(list, empty("The service has no drives of its own. They can be uploaded over the API."));
+      fill(list, empty("The service has no drives yet."));
       return;
     }
-    let name = campaigns[0]!.name!;
+    let name = campaigns.find((c) => c.name === chosen)?.name ?? campaigns[0]!.name!;
     const about = h("div");
     const describe = () => {
       const campaign = campaigns.find((c) => c.name === name)!;
@@ -55,7 +58,7 @@ export function drivesPanel(target: HTMLElement): void {
   store.on(["job"], ({ job }) => {
     if (job?.kind === "diagnosis" && job.state === "successful") void showAnswer(job, answer);
   });
-  fill(target, h("h2", {}, "Drives"), list, answer);
+  fill(target, h("h2", {}, "Drives"), list, sending, answer);
 }
 
 async function showAnswer(job: Job, target: HTMLElement): Promise<void> {

@@ -1,6 +1,6 @@
 // Series against metres driven, under each other with one cursor, which is also a place on the map.
 import uPlot from "uplot";
-import { fill, h } from "../dom";
+import { fill, h, swatch } from "../dom";
 import { number } from "../format";
 import { empty } from "../problem";
 import type { DrivenStretch, Route, Stations } from "../result";
@@ -23,6 +23,11 @@ function summed(values: Values): Values {
   return values.map((v) => (sum += v ?? 0));
 }
 
+function energy(s: Stations): Values {
+  let sum = 0;
+  return s.power_w.map((power, i) => (sum += i === 0 || power === null ? 0 : (power * (s.elapsed_s[i]! - s.elapsed_s[i - 1]!)) / 3600));
+}
+
 export const charts: Chart[] = [
   { key: "height", title: "Elevation, m", line: (s) => s.height_m, digits: 6 },
   { key: "slip", title: "Slip, 1 (band: 5 to 95 % of the draws)", line: (s) => s.slip_p50, low: (s) => s.slip_p05, high: (s) => s.slip_p95, limit: "max_slip" },
@@ -32,8 +37,18 @@ export const charts: Chart[] = [
   { key: "current", title: "Current, hottest motor, 95 % of the draws are below, A", line: (s) => s.current_a_p95, limit: "max_current_a" },
   { key: "tilt", title: "Tilt, deg (band: 5 to 95 % of the draws)", line: (s) => s.tilt_deg, low: (s) => s.tilt_deg_p05, high: (s) => s.tilt_deg_p95, limit: "max_tilt_deg" },
   { key: "attitude", title: "Pitch (solid) and roll (dashed), deg", line: (s) => s.pitch_deg, second: { title: "roll", line: (s) => s.roll_deg } },
+  { key: "energy", title: "Energy up to here, Wh", line: energy },
   { key: "power", title: "Power of the drive motors, W", line: (s) => s.power_w },
 ];
+/** Each wheel's own, with the mean soils. */
+const wheelCharts = [
+  { key: "slip", title: "Wheels: slip, 1" },
+  { key: "sinkage_m", title: "Wheels: sinkage, m" },
+  { key: "current_a", title: "Wheels: current, A" },
+];
+/** Apart for colour-blind eyes [Okabe and Ito 2008]. */
+const wheelColours = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#56b4e9"];
+
 const usuallyShown = ["height", "slip", "stops", "embedding", "sinkage", "current"];
 
 const token = (name: string): string => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
@@ -112,6 +127,7 @@ export class ProfileCharts {
     const second = state.compared !== null ? state.result?.routes[state.compared] : state.other?.routes[0];
     fill(this.target, this.choice(), this.list);
     this.list.replaceChildren();
+    for (const { key, title } of wheelCharts) if (this.shown.has(title)) this.addWheels(key, title, route.stations);
     if (state.result!.driven.length > 0) this.addDriven(state.result!.driven);
     for (const chart of charts) if (this.shown.has(chart.key)) this.add(chart, route, second ?? null, state.result!.limits);
     this.point(state);
@@ -121,13 +137,13 @@ export class ProfileCharts {
     return h(
       "div",
       { class: "chips", role: "group", "aria-label": "Which series are shown" },
-      charts.map((chart) => {
-        const pressed = this.shown.has(chart.key);
+      [...charts, ...wheelCharts.map(({ title }) => ({ key: title, title }))].map(({ key, title }) => {
+        const pressed = this.shown.has(key);
         return h("button", { type: "button", class: "chip", "aria-pressed": String(pressed), onclick: () => {
-          if (pressed) this.shown.delete(chart.key);
-          else this.shown.add(chart.key);
+          if (pressed) this.shown.delete(key);
+          else this.shown.add(key);
           this.draw(store.state);
-        } }, chart.title.split(",")[0]!.replace(/ \(.*/, ""));
+        } }, title.split(",")[0]!.replace(/ \(.*/, ""));
       }),
       h("span", { class: "key" }, h("span", { class: "swatch shaded" }), "unknown ground", h("span", { class: "swatch limit" }), "limit"),
     );
@@ -173,6 +189,31 @@ export class ProfileCharts {
       box,
     );
     this.plots.push({ plot, digits: chart.digits ?? 3, readout, values: columns });
+  }
+
+  private addWheels(key: string, title: string, s: Stations): void {
+    const wheels = Object.entries(s.wheels ?? {}).filter(([, columns]) => columns[key]);
+    if (wheels.length === 0) return;
+    const box = h("div", { class: "chart" });
+    const names = wheels.map(([name], k) => [swatch(wheelColours[k % wheelColours.length]!), name, " "]);
+    const readout = h("span", { class: "readout" });
+    this.list.append(h("section", { class: "chart-box", "aria-label": title }, h("div", { class: "chart-head" }, h("h3", {}, title), h("span", { class: "wheel-names" }, names.flat())), box));
+    const axis = { stroke: token("--ink"), grid: { stroke: token("--line"), width: 1 }, font: "11px system-ui, sans-serif" };
+    const plot = new uPlot(
+      {
+        width: Math.max(box.clientWidth, 200),
+        height: 112,
+        legend: { show: false },
+        cursor: { y: false, sync: { key: "route" } },
+        scales: { x: { time: false } },
+        axes: [{ ...axis, size: 26, values: (_u, ticks) => ticks.map((t) => `${t} m`) }, { ...axis, size: 58 }],
+        series: [{}, ...wheels.map((_, k) => ({ stroke: wheelColours[k % wheelColours.length]!, width: 1.5 }))],
+        hooks: { drawClear: [(u) => paint(u, s, undefined)], setCursor: [(u) => this.moved(u)] },
+      },
+      [s.distance_m, ...wheels.map(([, columns]) => columns[key]!)] as uPlot.AlignedData,
+      box,
+    );
+    this.plots.push({ plot, digits: 3, readout, values: [] });
   }
 
   /** What was measured so far and what had been predicted, on one axis: the way by odometry, apart from the route ahead. */

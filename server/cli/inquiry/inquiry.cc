@@ -43,13 +43,14 @@ class LocalInquiry final : public Inquiry {
   }
 
   Result<std::string> wheel_sweep(const std::string& request) override {
-    const auto answer = api::run_wheel_sweep(service_->catalogue(), request);
+    const auto answer = api::run_wheel_sweep(*service_->catalogue(), request);
     if (!answer) return fail(answer.error());
     return api::json::write_wheel_sweep_answer(*answer);
   }
 
   Result<std::string> catalogue(std::string_view kind) override {
-    const api::Catalogue& all = service_->catalogue();
+    const std::shared_ptr<const api::Catalogue> catalogue = service_->catalogue();
+    const api::Catalogue& all = *catalogue;
     if (kind == "terrains") return api::json::write_terrains(all);
     if (kind == "rovers") return api::json::write_rovers(all);
     if (kind == "soils") return api::json::write_soils(all);
@@ -63,14 +64,14 @@ class LocalInquiry final : public Inquiry {
     return api::json::write_ground_at(*at);
   }
 
-  Result<std::string> map() override { return api::draw_route_map(service_->catalogue(), last_); }
+  Result<std::string> map() override { return api::draw_route_map(*service_->catalogue(), last_); }
 
   Result<std::string> stations() override {
     if (series_.empty()) return api::json::station_csv(last_);
     return fmt::format("{}", fmt::join(series_, ""));
   }
 
-  Result<std::string> report() override { return api::check_report(service_->catalogue(), last_); }
+  Result<std::string> report() override { return api::check_report(*service_->catalogue(), last_); }
 
   Result<std::string> health() override { return api::json::write_health(); }
 
@@ -179,7 +180,7 @@ class RemoteInquiry final : public Inquiry {
 Result<std::unique_ptr<Inquiry>> local_inquiry(api::ServiceOptions options) {
   auto service = api::Service::open(std::move(options));
   if (!service) return fail(service.error());
-  std::cerr << left_out_text((*service)->catalogue());
+  std::cerr << left_out_text(*(*service)->catalogue());
   return std::make_unique<LocalInquiry>(std::move(*service));
 }
 

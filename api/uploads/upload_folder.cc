@@ -1,0 +1,246 @@
+#include "api/uploads/upload_folder.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+#include "api/files/whole_file.h"
+#include "api/json/parse.h"
+#include "api/json/strict_reader.h"
+#include "api/json/writer.h"
+#include "core/file_descriptor.h"
+#include "core/largest_exact_whole.h"
+#include "core/sha256.h"
+
+namespace slipway::api {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxName = 100;
+constexpr std::size_t kIdDigits = 64;
+
+tl::unexpected<Error> unstored(int error, std::string_view what) {
+  const bool full = error == ENOSPC || error == EDQUOT;
+  return fail(full ? ErrorCode::kStorageFull : ErrorCode::kStorage,
+              fmt::format("{}: {}", what, std::strerror(error)));
+}
+
+bool is_file_name(const std::string& name) {
+  return !name.empty() && name.size() <= kMaxName && name.front() != '.' && name != kOriginFile &&
+         std::all_of(name.begin(), name.end(), [](char c) {
+           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
+                  c == '_' || c == '-';
+         });
+}
+
+bool is_id(std::string_view id) {
+  return id.size() == kIdDigits && id.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
+Result<std::string> sha256_of_descriptor(int fd) {
+  Sha256 hash;
+  std::vector<char> piece(1U << 20U);
+  for (std::int64_t at = 0;;) {
+    const ssize_t read = ::pread(fd, piece.data(), piece.size(), at);
+    if (read < 0 && errno == EINTR) continue;
+    if (read < 0) return unstored(errno, "what was sent can't be read");
+    if (read == 0) return hash.digest();
+    hash.add({piece.data(), static_cast<std::size_t>(read)});
+    at += read;
+  }
+}
+
+std::optional<Upload> upload_in(const fs::path& folder) {
+  Upload upload;
+  upload.id = folder.filename().string();
+  if (!is_id(upload.id)) return std::nullopt;
+  auto origin = read_origin(folder, &upload.name);
+  if (!origin || !is_file_name(upload.name)) return std::nullopt;
+  upload.origin = *std::move(origin);
+  std::error_code error;
+  upload.bytes = static_cast<std::int64_t>(fs::file_size(folder / upload.name, error));
+  if (error) return std::nullopt;
+  return upload;
+}
+
+void sync(const fs::path& path) {
+  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (file.is_open()) static_cast<void>(::fsync(file.fd()));
+}
+
+}  // namespace
+
+Result<std::string> sha256_of_file(const fs::path& path) {
+  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!file.is_open())
+    return fail(ErrorCode::kUnreadableData, fmt::format("{} can't be read", path.filename().string()));
+  return sha256_of_descriptor(file.fd());
+}
+
+std::string origin_document(const UploadOrigin& origin, std::string_view name) {
+  json::Writer w;
+  w.begin_object().text("name", name).text("owner", origin.owner).whole("at_ms", origin.at_ms);
+  w.text("from", origin.from).text("follows", origin.follows).end_object();
+  return w.take() + "\n";
+}
+
+Result<void> write_origin(const fs::path& folder, const UploadOrigin& origin, std::string_view name) {
+  return write_whole_file(folder / kOriginFile, origin_document(origin, name));
+}
+
+std::optional<UploadOrigin> read_origin(const fs::path& folder, std::string* name) {
+  std::ifstream in(folder / kOriginFile, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const auto document = json::parse(bytes);
+  if (!document) return std::nullopt;
+  std::vector<Fault> faults;
+  json::ObjectReader reader(*document, "", faults);
+  if (!reader.is_object()) return std::nullopt;
+  UploadOrigin origin;
+  std::string named;
+  const json::TextRule any{.most = 1000, .may_be_empty = true};
+  reader.text("name", json::kRequired, any, named);
+  reader.text("owner", json::kRequired, any, origin.owner);
+  reader.whole("at_ms", json::kRequired, std::int64_t{0}, static_cast<std::int64_t>(kMaxExactWhole),
+               origin.at_ms);
+  reader.text("from", json::kRequired, any, origin.from);
+  reader.text("follows", json::kRequired, any, origin.follows);
+  if (!faults.empty()) return std::nullopt;
+  if (name != nullptr) *name = named;
+  return origin;
+}
+
+fs::path working_name(const fs::path& place) {
+  static std::atomic<unsigned> calls{0};
+  return place.parent_path() /
+         fmt::format(".{}.{}-u{}.slipway-part", place.filename().string(), ::getpid(), ++calls);
+}
+
+Result<bool> put_in_place(const fs::path& finished, const fs::path& place) {
+  for (const auto& entry : fs::recursive_directory_iterator(finished)) sync(entry.path());
+  sync(finished);
+  // Fails where the name is that of a folder with something in it.
+  if (::rename(finished.c_str(), place.c_str()) != 0) {
+    if (errno == ENOTEMPTY || errno == EEXIST) return false;
+    return unstored(errno, "what was sent could not be kept");
+  }
+  sync(place.parent_path());
+  return true;
+}
+
+Result<bool> take_away(const fs::path& place) {
+  const fs::path gone = working_name(place);
+  if (::rename(place.c_str(), gone.c_str()) != 0) {
+    if (errno == ENOENT) return false;
+    return unstored(errno, "it could not be removed");
+  }
+  sync(place.parent_path());
+  std::error_code error;
+  fs::remove_all(gone, error);
+  return true;
+}
+
+Result<std::shared_ptr<UploadFolder>> UploadFolder::open(const fs::path& root, UploadLimits limits) {
+  std::shared_ptr<UploadFolder> folder(new UploadFolder(root, limits));
+  for (const fs::path& path : {folder->files(), folder->campaigns(), folder->terrains()})
+    if (const auto made = make_folder(path); !made) return fail(made.error());
+  return folder;
+}
+
+Result<Upload> UploadFolder::keep(int fd, const std::string& name, const UploadOrigin& origin) {
+  if (!is_file_name(name))
+    return fail(
+        ErrorCode::kInvalidRequest, "the file's name can't be used",
+        {{"/name", fmt::format("must be 1 to {} letters, digits, \".\", \"_\" or \"-\", and not begin "
+                               "with \".\"",
+                               kMaxName)}});
+  remove_old(origin.at_ms);
+  struct ::stat status {};
+  if (::fstat(fd, &status) != 0) return unstored(errno, "what was sent can't be read");
+  if (const auto room = check_room(status.st_size); !room) return fail(room.error());
+  auto id = sha256_of_descriptor(fd);
+  if (!id) return fail(id.error());
+  if (auto known = find(*id)) return *known;
+  const fs::path place = files() / *id;
+  const fs::path working = working_name(place);
+  if (const auto made = make_folder(working); !made) return fail(ErrorCode::kStorage, made.error().detail);
+  const std::string open_file = fmt::format("/proc/self/fd/{}", fd);
+  std::error_code ignored;
+  if (::linkat(AT_FDCWD, open_file.c_str(), AT_FDCWD, (working / name).c_str(), AT_SYMLINK_FOLLOW) != 0) {
+    const int error = errno;
+    fs::remove_all(working, ignored);
+    return unstored(error, "what was sent could not be kept");
+  }
+  const auto written = write_origin(working, origin, name);
+  auto placed = written ? put_in_place(working, place) : Result<bool>(fail(written.error()));
+  if (!placed || !*placed) fs::remove_all(working, ignored);
+  if (!placed) return fail(ErrorCode::kStorage, placed.error().detail);
+  if (auto kept = find(*id)) return *kept;
+  return fail(ErrorCode::kStorage, "what was sent is not there any more");
+}
+
+std::vector<Upload> UploadFolder::list() const {
+  std::vector<Upload> uploads;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(files(), error))
+    if (auto upload = upload_in(entry.path())) uploads.push_back(*std::move(upload));
+  std::sort(uploads.begin(), uploads.end(), [](const Upload& a, const Upload& b) { return a.id < b.id; });
+  return uploads;
+}
+
+std::optional<Upload> UploadFolder::find(std::string_view id) const {
+  if (!is_id(id)) return std::nullopt;
+  return upload_in(files() / id);
+}
+
+Result<fs::path> UploadFolder::verified(const std::string& id) const {
+  const auto upload = find(id);
+  if (!upload) return fail(ErrorCode::kNotFound, fmt::format("there is no upload {}", id));
+  const fs::path path = files() / id / upload->name;
+  const auto hash = sha256_of_file(path);
+  if (!hash || *hash != id)
+    return fail(ErrorCode::kDamagedStore, fmt::format("the upload {} is not what was sent any more", id));
+  return path;
+}
+
+Result<bool> UploadFolder::remove(const std::string& id) {
+  if (!is_id(id)) return false;
+  return take_away(files() / id);
+}
+
+std::int64_t UploadFolder::bytes() const {
+  std::int64_t sum = 0;
+  std::error_code error, gone;
+  for (fs::recursive_directory_iterator it(root_, error), end; !error && it != end; it.increment(error))
+    if (it->is_regular_file(gone) && !gone) {
+      const auto size = it->file_size(gone);
+      if (!gone) sum += static_cast<std::int64_t>(size);
+    }
+  return sum;
+}
+
+Result<void> UploadFolder::check_room(std::int64_t more) const {
+  if (const std::int64_t now = bytes(); now + more > limits_.max_total_bytes)
+    return fail(ErrorCode::kStorageFull,
+                fmt::format("{} bytes more would make {} of uploads, and {} are allowed: delete some", more,
+                            now + more, limits_.max_total_bytes));
+  return {};
+}
+
+void UploadFolder::remove_old(std::int64_t now_ms) {
+  for (const Upload& upload : list())
+    if (now_ms - upload.origin.at_ms > limits_.max_age_ms) static_cast<void>(remove(upload.id));
+}
+
+}  // namespace slipway::api

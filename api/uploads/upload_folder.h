@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/result.h"
+
+// What clients send: files, and the drive campaigns and terrains that are made of them.
+namespace slipway::api {
+
+// Who put something there, and when.
+struct UploadOrigin {
+  std::string owner = {};    // empty: anybody's
+  std::int64_t at_ms = 0;    // since 1970
+  std::string from = {};     // of a campaign or terrain: the upload that it is made of
+  std::string follows = {};  // of a campaign: the one that drives were appended to
+};
+
+// A file that a client sent.
+struct Upload {
+  std::string id;    // SHA-256 of its bytes, 64 hexadecimal digits
+  std::string name;  // as the client calls it: letters, digits, ".", "_", "-"
+  std::int64_t bytes = 0;
+  UploadOrigin origin;
+};
+
+struct UploadLimits {
+  std::int64_t max_total_bytes = std::int64_t{64} << 30;         // of the whole folder
+  std::int64_t max_age_ms = std::int64_t{7} * 24 * 3600 * 1000;  // of files: what is made of them stays
+};
+
+// A folder of uploads: files/ID, drive-campaigns/ID, terrains/NAME. Everything in it is under its name only
+// when it is whole. Several processes may use it at once. Thread-safe.
+class UploadFolder {
+ public:
+  // Makes the folder where there is none. Errors: unwritable_file.
+  static Result<std::shared_ptr<UploadFolder>> open(const std::filesystem::path& root,
+                                                    UploadLimits limits = {});
+
+  const std::filesystem::path& root() const { return root_; }
+  std::filesystem::path files() const { return root_ / "files"; }
+  std::filesystem::path campaigns() const { return root_ / "drive-campaigns"; }
+  std::filesystem::path terrains() const { return root_ / "terrains"; }
+
+  // Keeps the bytes of an open file that has no name yet (O_TMPFILE) in this folder's file system. The same
+  // bytes a second time are the upload of the first. Files that are too old go. Errors: invalid_request at
+  // /name; storage, storage_full.
+  Result<Upload> keep(int fd, const std::string& name, const UploadOrigin& origin);
+  // Sorted by id. What can't be read is left out.
+  std::vector<Upload> list() const;
+  std::optional<Upload> find(std::string_view id) const;
+  // The file's place, where its bytes still are what was sent. Errors: not_found, damaged_store.
+  Result<std::filesystem::path> verified(const std::string& id) const;
+  // Whether it was there. Errors: storage.
+  Result<bool> remove(const std::string& id);
+
+  // Bytes of all that is in the folder.
+  std::int64_t bytes() const;
+  // Errors: storage_full where so many more are not allowed.
+  Result<void> check_room(std::int64_t more) const;
+
+ private:
+  UploadFolder(std::filesystem::path root, UploadLimits limits) : root_(std::move(root)), limits_(limits) {}
+  void remove_old(std::int64_t now_ms);
+
+  std::filesystem::path root_;
+  UploadLimits limits_;
+};
+
+// The file that says where a folder of the uploads comes from. Nothing where there is none.
+inline constexpr std::string_view kOriginFile = "upload.json";
+std::string origin_document(const UploadOrigin& origin, std::string_view name);
+Result<void> write_origin(const std::filesystem::path& folder, const UploadOrigin& origin,
+                          std::string_view name);
+std::optional<UploadOrigin> read_origin(const std::filesystem::path& folder, std::string* name = nullptr);
+
+// Puts a finished folder under its name, so that it is there after a failure of power too. False: the name is
+// taken. Errors: storage.
+Result<bool> put_in_place(const std::filesystem::path& finished, const std::filesystem::path& place);
+// Takes a folder away: it is gone under its name at once, then its bytes are. False: there was none.
+Result<bool> take_away(const std::filesystem::path& place);
+
+// A name beside `place` that no reader takes for a finished one, see is_unfinished().
+std::filesystem::path working_name(const std::filesystem::path& place);
+
+// SHA-256 of a file's bytes. Errors: unreadable_data.
+Result<std::string> sha256_of_file(const std::filesystem::path& path);
+
+}  // namespace slipway::api

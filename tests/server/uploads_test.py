@@ -1,0 +1,247 @@
+#!/usr/bin/env python3
+"""Files, drive campaigns and terrains that clients send to a running service.
+
+usage: uploads_test.py SLIPWAY SOURCE_DIR
+"""
+import hashlib
+import http.client
+import io
+import json
+import os
+import pathlib
+import socket
+import sys
+import tarfile
+import tempfile
+import time
+import unittest
+import zipfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "contract"))
+from running_service import SLIPWAY, SOURCE, Server  # noqa: E402
+import subprocess  # noqa: E402
+
+PRACTICE = SOURCE / "data" / "gap-practice" / "p04"
+ELEVATION = SOURCE / "data" / "terrains" / "gale" / "elevation.tif"
+
+
+def tar_of(files, mode="w:gz", links=()):
+    """An archive of {name: bytes}, with symbolic links {name: target}."""
+    out = io.BytesIO()
+    with tarfile.open(fileobj=out, mode=mode) as archive:
+        for name, content in files.items():
+            entry = tarfile.TarInfo(name)
+            entry.size = len(content)
+            archive.addfile(entry, io.BytesIO(content))
+        for name, target in links:
+            entry = tarfile.TarInfo(name)
+            entry.type, entry.linkname = tarfile.SYMTYPE, target
+            archive.addfile(entry)
+    return out.getvalue()
+
+
+def campaign_files():
+    return {path.name: path.read_bytes() for path in PRACTICE.iterdir() if path.is_file()}
+
+
+def appended_drive(name):
+    """A drive of the practice campaign as a request has it, under another id."""
+    drive = json.loads((PRACTICE / "campaign.json").read_text())["drives"][0]
+    csv = (PRACTICE / drive.pop("file")).read_text()
+    drive.pop("repeat_of", None)
+    return {**drive, "id": name, "csv": csv}
+
+
+class Uploads(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.path = pathlib.Path(self.folder.name)
+        self.server = Server(self.path, "--upload-mb", "2")
+
+    def tearDown(self):
+        self.server.stop()
+        self.folder.cleanup()
+
+    def send(self, content, name, kind="application/octet-stream", **headers):
+        return self.server.ask("POST", f"/v1/uploads?name={name}", content, {"Content-Type": kind, **headers})
+
+    def sent(self, content, name):
+        status, headers, body = self.send(content, name)
+        self.assertEqual(status, 201, body)
+        upload = json.loads(body)
+        self.assertEqual(headers["Location"], "/v1/uploads/" + upload["id"])
+        return upload["id"]
+
+    def ask(self, path, request, status=200):
+        got, headers, body = self.server.ask("POST", path, request, {"Prefer": "wait=30"})
+        self.assertEqual(got, status, body[:2000])
+        return json.loads(body)
+
+    def names(self, what):
+        key = {"terrains": "terrains", "drive-campaigns": "campaigns"}[what]
+        return [one["name"] for one in json.loads(self.server.ask("GET", "/v1/" + what)[2])[key]]
+
+    def faults(self, path, request):
+        return [(f["pointer"], f["message"]) for f in self.ask(path, request, 422)["faults"]]
+
+    def test_a_file_is_kept_once_by_its_hash(self):
+        content = b"value,label,soil\n" * 3
+        first = self.sent(content, "legend.csv")
+        self.assertEqual(first, hashlib.sha256(content).hexdigest())
+        self.assertEqual(self.sent(content, "other.csv"), first)
+        listed = json.loads(self.server.ask("GET", "/v1/uploads")[2])["uploads"]
+        self.assertEqual([(u["id"], u["name"], u["bytes"]) for u in listed], [(first, "legend.csv", len(content))])
+        self.assertEqual(self.server.ask("DELETE", "/v1/uploads/" + first)[0], 204)
+        self.assertEqual(self.server.ask("GET", "/v1/uploads/" + first)[0], 404)
+        self.assertEqual(self.server.ask("DELETE", "/v1/uploads/" + first)[0], 404)
+
+    def test_what_can_not_be_kept_is_refused(self):
+        self.assertEqual(self.send(b"x" * 2_000_001, "a.bin")[0], 413)
+        self.assertEqual(self.send(b"x", "a.bin", "text/plain")[0], 415)
+        for name in ("", "../a", ".hidden", "a%2Fb", "a" * 101, "upload.json"):
+            self.assertEqual(self.send(b"x", name)[0], 422, name)
+        self.assertEqual(self.send(b"", "empty.bin")[0], 422)
+        self.assertEqual(self.server.ask("POST", "/v1/uploads", b"x", {"Content-Type": "text/csv"})[0], 422)
+        self.assertEqual(json.loads(self.server.ask("GET", "/v1/uploads")[2])["uploads"], [])
+
+    def test_a_body_in_chunks_and_one_that_is_given_up(self):
+        connection = http.client.HTTPConnection("127.0.0.1", self.server.port, timeout=30)
+        pieces = [b"a" * 100_000, b"b" * 300_000]
+        connection.request("POST", "/v1/uploads?name=c.bin", iter(pieces), {"Content-Type": "application/zip"},
+                           encode_chunked=True)
+        upload = json.loads(connection.getresponse().read())
+        self.assertEqual(upload["id"], hashlib.sha256(b"".join(pieces)).hexdigest())
+        connection.close()
+        connection = http.client.HTTPConnection("127.0.0.1", self.server.port, timeout=30)
+        connection.request("POST", "/v1/uploads?name=c.bin", iter([b"a" * 500_000] * 5),
+                           {"Content-Type": "application/zip"}, encode_chunked=True)
+        self.assertEqual(connection.getresponse().status, 413)
+        connection.close()
+        with socket.create_connection(("127.0.0.1", self.server.port)) as client:
+            client.sendall(b"POST /v1/uploads?name=d.bin HTTP/1.1\r\nHost: localhost\r\nContent-Type: text/csv\r\n"
+                           b"Content-Length: 1000000\r\n\r\n" + b"x" * 500_000)
+            time.sleep(0.2)
+        time.sleep(0.3)
+        self.assertEqual([u["name"] for u in json.loads(self.server.ask("GET", "/v1/uploads")[2])["uploads"]],
+                         ["c.bin"])
+        self.assertEqual(self.server.ask("GET", "/healthz")[0], 200)
+        # A file without a name is gone with its connection.
+        held = [os.readlink(f) for f in pathlib.Path(f"/proc/{self.server.process.pid}/fd").iterdir() if f.exists()]
+        self.assertEqual([path for path in held if "uploads" in path], [])
+
+    def test_a_campaign_is_sent_appended_to_and_used(self):
+        taken = self.ask("/v1/drive-campaigns", {"upload": self.sent(tar_of(campaign_files()), "p04.tar.gz")})
+        self.assertTrue(taken["name"].startswith("dc-"))
+        self.assertEqual(len(taken["drives"]), 16)
+        self.assertIn(taken["name"], self.names("drive-campaigns"))
+        # The same files in another archive, in a folder of their own, are the same campaign.
+        files = {"p04/" + name: content for name, content in campaign_files().items()}
+        packed = io.BytesIO()
+        with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
+            for name, content in files.items():
+                archive.writestr(name, content)
+        again = self.ask("/v1/drive-campaigns", {"upload": self.sent(packed.getvalue(), "p04.zip")})
+        self.assertEqual(again["name"], taken["name"])
+
+        more = self.ask("/v1/drive-campaigns", {"follows": taken["name"], "drives": [appended_drive("D900")]})
+        self.assertEqual(more["follows"], taken["name"])
+        self.assertEqual([d["id"] for d in more["drives"]][-2:], [taken["drives"][-1]["id"], "D900"])
+        self.assertNotEqual(more["name"], taken["name"])
+
+        for path, request in (("/v1/watches", {"reference": more["name"], "drives": [appended_drive("N1")]}),
+                              ("/v1/soil-estimates", {"campaign": more["name"]}),
+                              ("/v1/diagnoses", {"campaign": more["name"], "reference": taken["name"]})):
+            status, headers, body = self.server.ask("POST", path, request, {"Prefer": "respond-async"})
+            self.assertEqual(status, 201, body)
+            self.server.ask("DELETE", headers["Location"])
+
+        self.server.stop()
+        self.server = Server(self.path)
+        self.assertIn(more["name"], self.names("drive-campaigns"))
+        self.assertEqual(self.server.ask("DELETE", "/v1/drive-campaigns/" + taken["name"])[0], 204)
+        self.assertNotIn(taken["name"], self.names("drive-campaigns"))
+        self.assertIn(more["name"], self.names("drive-campaigns"), "what follows it has files of its own")
+        self.assertEqual(self.server.ask("DELETE", "/v1/drive-campaigns/p04")[0], 403)
+        self.assertEqual(self.server.ask("DELETE", "/v1/drive-campaigns/..%2F..")[0], 404)
+
+    def test_every_fault_of_a_campaign_is_told(self):
+        hostile = tar_of({"../evil": b"x", "/abs": b"x", "twice": b"1", "campaign.json": b"{}"}, "w",
+                         [("link", "/etc/passwd")])
+        found = self.faults("/v1/drive-campaigns", {"upload": self.sent(hostile, "bad.tar")})
+        for words in ("../evil", "/abs", "link"):
+            self.assertTrue(any(words in message for _, message in found), found)
+        self.assertFalse((self.path / "uploads" / "evil").exists())
+        files = campaign_files()
+        document = json.loads(files["campaign.json"])
+        document["gravity_m_s2"] = -1
+        document["drives"][0]["file"] = "nowhere.csv"
+        files["campaign.json"] = json.dumps(document).encode()
+        files[document["drives"][1]["file"]] = b"t_s,x_m\n0,zero\n"
+        found = self.faults("/v1/drive-campaigns", {"upload": self.sent(tar_of(files), "faulty.tgz")})
+        for words in ("gravity_m_s2", "nowhere.csv", "zero"):
+            self.assertTrue(any(words in message for _, message in found), (words, found))
+        self.assertEqual([p for p, _ in self.faults("/v1/drive-campaigns", {"upload": "0" * 64, "drives": []})],
+                         ["/drives", "/upload"])
+        self.assertEqual([p for p, _ in self.faults("/v1/drive-campaigns", {})], ["/upload"])
+        self.assertEqual([p for p, _ in self.faults("/v1/drive-campaigns", {"upload": self.sent(b"no", "no.tar")})],
+                         ["/upload"])
+        self.assertEqual(sorted(p.name for p in (self.path / "uploads" / "drive-campaigns").iterdir()), [])
+
+    def test_a_campaign_whose_files_were_altered_is_not_used(self):
+        name = self.ask("/v1/drive-campaigns", {"upload": self.sent(tar_of(campaign_files()), "p04.tgz")})["name"]
+        file = next((self.path / "uploads" / "drive-campaigns" / name / "campaign").glob("D*.csv"))
+        file.write_text(file.read_text().replace("1", "2"))
+        status, headers, body = self.server.ask("POST", "/v1/watches",
+                                                {"reference": name, "drives": [appended_drive("N1")]})
+        self.assertEqual((status, json.loads(body)["type"]), (500, "/errors#damaged_store"), body)
+
+    def test_a_terrain_is_sent_used_and_removed(self):
+        elevation = self.sent(ELEVATION.read_bytes(), "dem.tif")
+        made = self.ask("/v1/terrains", {"name": "site", "elevation": elevation, "licence": "CC0-1.0",
+                                         "source": "a test"})
+        self.assertEqual((made["name"], made["body"], made["source_sha256"]), ("site", "Mars", elevation))
+        self.assertIn("site", self.names("terrains"))
+        extent = made["extent"]
+        x, y = 0.5 * (extent["west_m"] + extent["east_m"]), 0.5 * (extent["south_m"] + extent["north_m"])
+        request = {"terrain": "site", "rover": "mer-class", "path": [{"x_m": x, "y_m": y}, {"x_m": x + 5, "y_m": y}]}
+        self.ask("/v1/predictions", request)
+        self.assertEqual(self.server.ask("GET", f"/v1/terrains/site/point?x_m={x}&y_m={y}")[0], 200)
+        self.assertEqual(self.faults("/v1/terrains", {"name": "gale", "elevation": elevation})[0][0], "/name")
+        legend = self.sent(b"label,soil\nx,no_such_soil\n", "legend.csv")
+        found = self.faults("/v1/terrains", {"name": "Site 2", "elevation": "f" * 64, "legend": legend,
+                                             "gravity_m_s2": 0, "colour": 1})
+        self.assertEqual(sorted(p for p, _ in found), ["/colour", "/elevation", "/gravity_m_s2", "/legend", "/name"])
+        self.ask("/v1/terrains", {"name": "no_map", "elevation": legend}, 422)
+        self.assertEqual(self.server.ask("DELETE", "/v1/terrains/site")[0], 204)
+        self.assertNotIn("site", self.names("terrains"))
+        self.assertEqual(self.ask("/v1/predictions", request, 422)["faults"][0]["pointer"], "/terrain")
+        self.assertEqual(self.server.ask("DELETE", "/v1/terrains/gale")[0], 403)
+
+    def test_what_somebody_else_sent_stays(self):
+        self.server.stop()
+        entries, tokens = "", {}
+        for name, role in (("ann", "operator"), ("bob", "operator"), ("eve", "viewer"), ("root", "admin")):
+            done = subprocess.run([SLIPWAY, "token", name, "--role", role], capture_output=True, text=True, check=True)
+            tokens[name] = {"Authorization": "Bearer " + done.stderr.strip().splitlines()[-1]}
+            entries += done.stdout
+        (self.path / "tokens.toml").write_text(entries)
+        self.server = Server(self.path, "--tokens", str(self.path / "tokens.toml"))
+        self.assertEqual(self.send(b"x", "a.csv", "text/csv")[0], 401)
+        self.assertEqual(self.send(b"x", "a.csv", "text/csv", **tokens["eve"])[0], 403)
+        status, headers, body = self.send(b"x", "a.csv", "text/csv", **tokens["ann"])
+        self.assertEqual(status, 201, body)
+        self.assertEqual(self.server.ask("DELETE", headers["Location"], headers=tokens["bob"])[0], 403)
+        self.assertEqual(self.server.ask("DELETE", headers["Location"], headers=tokens["root"])[0], 204)
+
+    def test_uploads_can_be_switched_off_and_bounded(self):
+        self.server.stop()
+        self.server = Server(self.path, "--uploads", "")
+        self.assertEqual(self.send(b"{}", "a.json", "application/json")[0], 404)
+        self.assertEqual(self.ask("/v1/terrains", {"name": "a", "elevation": "f" * 64}, 422)["faults"], [])
+        self.server.stop()
+        self.server = Server(self.path, "--keep-uploads-mb", "0.001")
+        self.assertEqual(self.send(b"x" * 2000, "a.csv", "text/csv")[0], 507)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
