@@ -31,6 +31,9 @@ class ElevationSource {
   // normals inside the extent are those of the whole raster. Errors: off_map where they don't meet,
   // invalid_request above kMaxWindowCells, unreadable_raster where the file is damaged (names the window).
   virtual Result<std::shared_ptr<const Terrain>> read(const Extent& extent) const = 0;
+  // For pictures of wide ground: of every step-th row and column one sample, as a terrain with cells so many
+  // times as large, with two of them around the extent. Lengths need not be true. step >= 1. Errors as read.
+  virtual Result<std::shared_ptr<const Terrain>> read_samples(const Extent& extent, int step) const = 0;
 };
 
 // How to treat a raster that names no coordinate reference system, or a local (engineering) system in metres.

@@ -19,17 +19,40 @@ namespace {
 constexpr int kMargin = 2;  // cells around a window that the normals at its edge need
 
 // In 64 bits: a raster may have as many rows as an int can count.
-int end_with_margin(int first, int count, int cells) {
-  return static_cast<int>(std::min<long long>(static_cast<long long>(first) + count + kMargin, cells));
+int end_with_margin(int first, int count, int cells, long long margin) {
+  return static_cast<int>(std::min<long long>(static_cast<long long>(first) + count + margin, cells));
 }
 
-CellWindow with_margin(const CellWindow& window, const GridGeometry& geometry) {
-  const int row = std::max(window.row - kMargin, 0);
-  const int column = std::max(window.column - kMargin, 0);
+// With kMargin cells around, where one counts `step` cells of the raster.
+CellWindow with_margin(const CellWindow& window, const GridGeometry& geometry, int step = 1) {
+  const long long margin = static_cast<long long>(kMargin) * step;
+  const int row = static_cast<int>(std::max<long long>(window.row - margin, 0));
+  const int column = static_cast<int>(std::max<long long>(window.column - margin, 0));
   return {.row = row,
           .column = column,
-          .rows = end_with_margin(window.row, window.rows, geometry.rows) - row,
-          .columns = end_with_margin(window.column, window.columns, geometry.columns) - column};
+          .rows = end_with_margin(window.row, window.rows, geometry.rows, margin) - row,
+          .columns = end_with_margin(window.column, window.columns, geometry.columns, margin) - column};
+}
+
+// The window grown to whole steps from the raster's corner: every window then has the same samples, so that
+// neighbouring pictures fit together.
+CellWindow whole_steps(CellWindow window, const GridGeometry& geometry, int step) {
+  const auto end = [&](int first, int count, int cells) {
+    const long long steps = (static_cast<long long>(first) + count + step - 1) / step;
+    return static_cast<int>(std::min<long long>(steps * step, cells));
+  };
+  const int last_row = end(window.row, window.rows, geometry.rows);
+  const int last_column = end(window.column, window.columns, geometry.columns);
+  window.row -= window.row % step;
+  window.column -= window.column % step;
+  window.rows = last_row - window.row;
+  window.columns = last_column - window.column;
+  return window;
+}
+
+// The middle of the k-th stretch of so many cells, the last stretch may be shorter.
+int middle_of(int k, int step, int cells) {
+  return static_cast<int>(std::min<long long>(static_cast<long long>(k) * step + step / 2, cells - 1));
 }
 
 class GdalElevation final : public ElevationSource {
@@ -47,31 +70,75 @@ class GdalElevation final : public ElevationSource {
   const ElevationInfo& info() const override { return info_; }
 
   Result<std::shared_ptr<const Terrain>> read(const Extent& extent) const override {
-    const std::optional<CellWindow> met = info_.geometry.window(extent);
-    if (!met) {
-      const Extent map = info_.geometry.extent();
-      return fail(
-          ErrorCode::kOffMap,
-          fmt::format(
-              "The extent west {} south {} east {} north {} m does not meet the terrain, which is west "
-              "{} south {} east {} north {} m.",
-              extent.west_m, extent.south_m, extent.east_m, extent.north_m, map.west_m, map.south_m,
-              map.east_m, map.north_m));
-    }
+    const auto met = window_of(extent);
+    if (!met) return fail(met.error());
     const CellWindow window = with_margin(*met, info_.geometry);
-    const long long cells = static_cast<long long>(window.rows) * window.columns;
-    if (cells > kMaxWindowCells) {
-      return fail(
-          ErrorCode::kInvalidRequest,
-          fmt::format("The extent takes {} cells of the terrain, must be at most {}; choose a smaller one.",
-                      cells, kMaxWindowCells));
-    }
+    if (const auto few = check_cells(window.rows, window.columns); !few) return fail(few.error());
     if (const auto lengths = check_lengths(info_.geometry.sub(*met).extent()); !lengths)
       return fail(lengths.error());
     return read(window);
   }
 
+  Result<std::shared_ptr<const Terrain>> read_samples(const Extent& extent, int step) const override {
+    const auto met = window_of(extent);
+    if (!met) return fail(met.error());
+    const CellWindow window = whole_steps(with_margin(*met, info_.geometry, step), info_.geometry, step);
+    GridGeometry coarse = info_.geometry.sub(window);
+    coarse.rows = (window.rows - 1) / step + 1;
+    coarse.columns = (window.columns - 1) / step + 1;
+    coarse.cell_x_m *= step;
+    coarse.cell_y_m *= step;
+    if (const auto few = check_cells(coarse.rows, coarse.columns); !few) return fail(few.error());
+    return read_rows(window, step, coarse);
+  }
+
  private:
+  Result<CellWindow> window_of(const Extent& extent) const {
+    if (const std::optional<CellWindow> met = info_.geometry.window(extent)) return *met;
+    const Extent map = info_.geometry.extent();
+    return fail(ErrorCode::kOffMap,
+                fmt::format("The extent west {} south {} east {} north {} m does not meet the terrain, which "
+                            "is west {} south {} east {} north {} m.",
+                            extent.west_m, extent.south_m, extent.east_m, extent.north_m, map.west_m,
+                            map.south_m, map.east_m, map.north_m));
+  }
+
+  static Result<void> check_cells(int rows, int columns) {
+    const long long cells = static_cast<long long>(rows) * columns;
+    if (cells <= kMaxWindowCells) return {};
+    return fail(
+        ErrorCode::kInvalidRequest,
+        fmt::format("The extent takes {} cells of the terrain, must be at most {}; choose a smaller one.",
+                    cells, kMaxWindowCells));
+  }
+
+  // One row of the window after the other, of which the samples are kept.
+  Result<std::shared_ptr<const Terrain>> read_rows(const CellWindow& window, int step,
+                                                   const GridGeometry& coarse) const {
+    const std::lock_guard lock(mutex_);
+    const GdalSession session(path_);
+    std::vector<float> row(static_cast<std::size_t>(window.columns)), heights;
+    std::vector<std::uint8_t> row_valid(row.size()), valid;
+    heights.reserve(static_cast<std::size_t>(coarse.rows) * static_cast<std::size_t>(coarse.columns));
+    valid.reserve(heights.capacity());
+    for (int r = 0; r < coarse.rows; ++r) {
+      const CellWindow line{window.row + middle_of(r, step, window.rows), window.column, 1, window.columns};
+      if (!read_heights(band_, encoding_, line, row.data(), row_valid.data())) return damaged(line, session);
+      for (int c = 0; c < coarse.columns; ++c) {
+        const auto sample = static_cast<std::size_t>(middle_of(c, step, window.columns));
+        heights.push_back(row[sample]);
+        valid.push_back(row_valid[sample]);
+      }
+    }
+    return std::make_shared<const Terrain>(coarse, std::move(heights), std::move(valid));
+  }
+
+  tl::unexpected<Error> damaged(const CellWindow& window, const GdalSession& session) const {
+    return fail(ErrorCode::kUnreadableRaster,
+                fmt::format("{} is damaged: {} could not be read ({}).", path_.filename().string(),
+                            describe(window), session.complaints()));
+  }
+
   // Where they are true over the whole map, no window is looked at.
   Result<void> check_lengths(const Extent& extent) const {
     if (lengths_are_true_) return {};
@@ -99,11 +166,8 @@ class GdalElevation final : public ElevationSource {
       const CellWindow stripe{row, window.column, end - row, window.columns};
       const std::size_t first =
           static_cast<std::size_t>(row - window.row) * static_cast<std::size_t>(window.columns);
-      if (!read_heights(band_, encoding_, stripe, heights.data() + first, valid.data() + first)) {
-        return fail(ErrorCode::kUnreadableRaster,
-                    fmt::format("{} is damaged: {} could not be read ({}).", path_.filename().string(),
-                                describe(stripe), session.complaints()));
-      }
+      if (!read_heights(band_, encoding_, stripe, heights.data() + first, valid.data() + first))
+        return damaged(stripe, session);
       row = end;
     }
     return std::make_shared<const Terrain>(info_.geometry.sub(window), std::move(heights), std::move(valid));

@@ -4,23 +4,22 @@
 #include "dem/gdal_memory_file.h"
 #include "dem/gdal_session.h"
 #include "dem/hillshade.h"
+#include "dem/rgba_image.h"
 
 namespace slipway::dem {
+namespace {
 
-Result<std::string> encode_png(const std::vector<std::uint8_t>& grey, int rows, int columns) {
-  if (rows < 1 || columns < 1 ||
-      grey.size() != static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns)) {
-    return fail(ErrorCode::kInvalidRequest,
-                fmt::format("An image of {} x {} pixels was given {} values.", rows, columns, grey.size()));
-  }
+// Pixels of so many bytes each, one band a byte.
+Result<std::string> encode(const std::uint8_t* bytes, int rows, int columns, int bands) {
   const GdalSession session;
   GDALDriverManager& drivers = *GetGDALDriverManager();
   const GDALDatasetUniquePtr image(
-      drivers.GetDriverByName("MEM")->Create("", columns, rows, 1, GDT_Byte, nullptr));
+      drivers.GetDriverByName("MEM")->Create("", columns, rows, bands, GDT_Byte, nullptr));
   // GDAL takes what it writes from as a pointer to non-const; GF_Write reads it only.
-  auto* pixels = const_cast<std::uint8_t*>(grey.data());
-  if (!image || image->GetRasterBand(1)->RasterIO(GF_Write, 0, 0, columns, rows, pixels, columns, rows,
-                                                  GDT_Byte, 0, 0, nullptr) != CE_None) {
+  auto* pixels = const_cast<std::uint8_t*>(bytes);
+  if (!image ||
+      image->RasterIO(GF_Write, 0, 0, columns, rows, pixels, columns, rows, GDT_Byte, bands, nullptr, bands,
+                      static_cast<GSpacing>(bands) * columns, 1, nullptr) != CE_None) {
     return fail(ErrorCode::kInternal, fmt::format("The image could not be held: {}", session.complaints()));
   }
   GdalMemoryFile file(".png");
@@ -28,12 +27,29 @@ Result<std::string> encode_png(const std::vector<std::uint8_t>& grey, int rows, 
                                                                           TRUE, nullptr, nullptr, nullptr));
   const bool complete = written != nullptr;
   written.reset();  // closing writes the end of the file
-  auto bytes = file.take();
-  if (!complete || !bytes) {
+  auto png = file.take();
+  if (!complete || !png) {
     return fail(ErrorCode::kInternal,
                 fmt::format("The image could not be encoded: {}", session.complaints()));
   }
-  return *std::move(bytes);
+  return *std::move(png);
+}
+
+}  // namespace
+
+Result<std::string> encode_png(const std::vector<std::uint8_t>& grey, int rows, int columns) {
+  if (rows < 1 || columns < 1 ||
+      grey.size() != static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns)) {
+    return fail(ErrorCode::kInvalidRequest,
+                fmt::format("An image of {} x {} pixels was given {} values.", rows, columns, grey.size()));
+  }
+  return encode(grey.data(), rows, columns, 1);
+}
+
+Result<std::string> encode_png(const RgbaImage& image) {
+  if (image.pixels.empty()) return fail(ErrorCode::kInvalidRequest, "An image needs pixels.");
+  constexpr int kBands = 4;
+  return encode(image.pixels.front().data(), image.rows, image.columns, kBands);
 }
 
 }  // namespace slipway::dem

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -13,6 +14,10 @@ namespace slipway::dem {
 // sun_azimuth_rad clockwise from north, sun_elevation_rad above the horizon.
 std::vector<std::uint8_t> hillshade(const Terrain& terrain, double sun_azimuth_rad, double sun_elevation_rad,
                                     double vertical_exaggeration);
+
+// The unit vector towards a sun, and the light on a surface with this normal, in [0, 1].
+Eigen::Vector3d towards_sun(double azimuth_rad, double elevation_rad);
+double light_on(const Eigen::Vector3d& normal, const Eigen::Vector3d& sun, double vertical_exaggeration);
 
 // An 8-bit grey image as a PNG file in memory. pixels: rows * columns values.
 Result<std::string> encode_png(const std::vector<std::uint8_t>& grey, int rows, int columns);

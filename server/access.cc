@@ -25,7 +25,9 @@ constexpr std::size_t kMostTokens = 1000;
 constexpr std::size_t kHashDigits = 64;
 
 // What anybody may ask: whether there is somebody, and how to ask.
-constexpr std::array<std::string_view, 4> kOpen{"/healthz", "/readyz", "/openapi.json", "/errors"};
+constexpr std::array<std::string_view, 6> kOpen{"/healthz", "/readyz", "/openapi.json",
+                                                "/errors",  "/",       "/dashboard"};
+constexpr std::string_view kOpenFolder = "/dashboard/";  // a page that asks for a token itself
 
 std::string hash_of(std::string_view token) {
   Sha256 hash;
@@ -106,7 +108,8 @@ Result<std::unique_ptr<Access>> Access::open(const AccessOptions& options) {
 }
 
 Result<void> Access::admit(HttpRequest& request) {
-  const bool open = std::find(kOpen.begin(), kOpen.end(), request.path) != kOpen.end();
+  const bool open = request.path.starts_with(kOpenFolder) ||
+                    std::find(kOpen.begin(), kOpen.end(), request.path) != kOpen.end();
   request.principal = is_loopback(request.remote_address) ? "loopback" : request.remote_address;
   if (!options_.tokens.empty() && !open && request.method != "OPTIONS") {
     const auto token = token_in(request);

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <system_error>
+#include <utility>
 
 #include "api/json/faults.h"
 
@@ -46,6 +47,35 @@ double Query::required_number(const std::string& name) {
     faults_.push_back({"/" + name, fmt::format("{} = {}, must be a number", name, api::in_quotes(*text))});
   }
   return value;
+}
+
+std::string Query::text(const std::string& name) const {
+  return request_.query_value(name).value_or("");
+}
+
+std::vector<double> Query::required_numbers(const std::string& name) {
+  const auto text = request_.query_value(name);
+  if (!text) {
+    fault(name, fmt::format("{} is missing", name));
+    return {};
+  }
+  std::vector<double> values;
+  for (std::size_t from = 0; from <= text->size();) {
+    const std::size_t end = std::min(text->find(',', from), text->size());
+    double value = 0.0;
+    if (!read(text->substr(from, end - from), value) || !std::isfinite(value)) {
+      fault(name, fmt::format("value {} of {} is {}, must be a number", values.size() + 1, name,
+                              api::in_quotes(text->substr(from, end - from))));
+      return {};
+    }
+    values.push_back(value);
+    from = end + 1;
+  }
+  return values;
+}
+
+void Query::fault(const std::string& name, std::string message) {
+  faults_.push_back({"/" + name, std::move(message)});
 }
 
 std::size_t Query::count(const std::string& name, std::size_t initial, std::size_t most) {

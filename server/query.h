@@ -20,6 +20,11 @@ class Query {
   std::string required_text(const std::string& name);
   // A finite number; 0 with a fault where there is none.
   double required_number(const std::string& name);
+  // Its text; empty where it is not given.
+  std::string text(const std::string& name) const;
+  // Numbers with commas between; empty with a fault where that is not what there is, or no number is finite.
+  std::vector<double> required_numbers(const std::string& name);
+  void fault(const std::string& name, std::string message);
   // A whole number in [1, most]; `initial` where the parameter is not given.
   std::size_t count(const std::string& name, std::size_t initial, std::size_t most);
 

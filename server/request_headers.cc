@@ -43,16 +43,25 @@ bool has_weight_zero(std::string_view parameters) {
   return false;
 }
 
-}  // namespace
-
-bool accepts(const HttpRequest& request, std::string_view type) {
+// Whether the header's list names it, not with a weight of zero.
+bool names(const HttpRequest& request, std::string_view header, std::string_view wanted_name) {
   bool wanted = false;
-  for_each_item(request, "Accept", [&](std::string_view item) {
+  for_each_item(request, header, [&](std::string_view item) {
     const std::string_view name = trimmed(item.substr(0, item.find(';')));
-    if (equal_ignoring_case(name, type))
+    if (equal_ignoring_case(name, wanted_name))
       wanted = !has_weight_zero(item.substr(std::min(item.find(';'), item.size())));
   });
   return wanted;
+}
+
+}  // namespace
+
+bool accepts(const HttpRequest& request, std::string_view type) {
+  return names(request, "Accept", type);
+}
+
+bool accepts_encoding(const HttpRequest& request, std::string_view coding) {
+  return names(request, "Accept-Encoding", coding);
 }
 
 bool is_known_to_client(const HttpRequest& request, std::string_view tag) {

@@ -14,6 +14,9 @@ namespace slipway::server {
 // Whether the client names this media type in Accept.
 bool accepts(const HttpRequest& request, std::string_view type);
 
+// Whether the client takes answers in this coding (gzip).
+bool accepts_encoding(const HttpRequest& request, std::string_view coding);
+
 // Whether the client has the version with this tag already [RFC 9110, 13.1.2].
 bool is_known_to_client(const HttpRequest& request, std::string_view tag);
 

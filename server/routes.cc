@@ -13,6 +13,7 @@
 #include "server/query.h"
 #include "server/request_headers.h"
 #include "server/responses.h"
+#include "server/terrain_routes.h"
 #include "server/upload_routes.h"
 
 namespace slipway::server {
@@ -56,6 +57,7 @@ std::vector<Route> api_routes(const api::Service& service, api::JobRunner& runne
       fixed("/errors", api::json::write_errors()),
       fixed("/v1/rovers", api::json::write_rovers(catalogue)),
       fixed("/v1/soils", api::json::write_soils(catalogue)),
+      fixed("/v1/rules", api::json::write_rules(catalogue)),
       fixed("/v1/effects", api::json::write_effects()),
       fixed("/v1/planners", api::json::write_planners(service.planners(), service.costs())),
       {"GET", "/v1/terrains/{name}/point",
@@ -63,7 +65,8 @@ std::vector<Route> api_routes(const api::Service& service, api::JobRunner& runne
       {"POST", "/v1/wheel-sweeps", [&service](const HttpRequest& r) { return wheel_sweep(service, r); },
        /*heavy=*/true},
   };
-  for (std::vector<Route> more : {job_routes(service, runner, options, kinds), upload_routes(service)})
+  for (std::vector<Route> more :
+       {job_routes(service, runner, options, kinds), upload_routes(service), terrain_routes(service)})
     std::move(more.begin(), more.end(), std::back_inserter(routes));
   return routes;
 }

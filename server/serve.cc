@@ -20,6 +20,7 @@
 #include "server/cli/inquiry/data_folder.h"
 #include "server/cli/serve_command.h"
 #include "server/cli/terminal/tables.h"
+#include "server/dashboard_routes.h"
 #include "server/http/http_cross_origin.h"
 #include "server/http/http_listener.h"
 #include "server/http/http_server.h"
@@ -233,6 +234,7 @@ int serve(const ServeOptions& options) {
       .http = [&] { return server->counters(); },
       .missing_workers = [&] { return workers ? workers->wanted() - workers->running() : 0; }};
   for (Route& route : operator_routes(operation)) routes.push_back(std::move(route));
+  for (Route& route : dashboard_routes()) routes.push_back(std::move(route));
   server.emplace(http, std::move(routes));
   const auto port = server->start(*std::move(listener));
   if (!port) return refuse(port.error());

@@ -68,28 +68,6 @@ void write_soil_source(Writer& w, const TerrainDescription& terrain) {
   w.end_array().end_object();
 }
 
-void write_terrain(Writer& w, const TerrainSite& site) {
-  const TerrainDescription& terrain = site.description();
-  const dem::ElevationInfo& info = site.info();
-  w.begin_object().text("name", terrain.name).text("title", terrain.title);
-  write_extent(w, info.geometry.extent());
-  w.exact("cell_x_m", info.geometry.cell_x_m).exact("cell_y_m", info.geometry.cell_y_m);
-  w.whole("rows", info.geometry.rows).whole("columns", info.geometry.columns);
-  w.text("crs_name", info.crs_name).text("crs_wkt", info.crs_wkt).text("body", info.body);
-  w.exact("semi_major_axis_m", info.semi_major_axis_m).exact("gravity_m_s2", terrain.gravity_m_s2);
-  write_soil_source(w, terrain);
-  w.key("stops").begin_array();
-  for (const Stop& stop : site.stops()) {
-    w.begin_object().exact("x_m", stop.x_m).exact("y_m", stop.y_m).key("columns").begin_object();
-    for (const auto& [name, cell] : stop.columns) {
-      w.key(name);
-      write_cell(w, cell);
-    }
-    w.end_object().end_object();
-  }
-  w.end_array().end_object();
-}
-
 void write_campaign(Writer& w, const ShippedCampaign& campaign) {
   w.text("name", campaign.name).text("rover", campaign.rover);
   w.exact("gravity_m_s2", campaign.gravity_m_s2);
@@ -112,6 +90,28 @@ void write_origin(Writer& w, const UploadOrigin& origin) {
 
 }  // namespace
 
+void write_terrain(Writer& w, const TerrainSite& site) {
+  const TerrainDescription& terrain = site.description();
+  const dem::ElevationInfo& info = site.info();
+  w.begin_object().text("name", terrain.name).text("title", terrain.title);
+  write_extent(w, info.geometry.extent());
+  w.exact("cell_x_m", info.geometry.cell_x_m).exact("cell_y_m", info.geometry.cell_y_m);
+  w.whole("rows", info.geometry.rows).whole("columns", info.geometry.columns);
+  w.text("crs_name", info.crs_name).text("crs_wkt", info.crs_wkt).text("body", info.body);
+  w.exact("semi_major_axis_m", info.semi_major_axis_m).exact("gravity_m_s2", terrain.gravity_m_s2);
+  write_soil_source(w, terrain);
+  w.key("stops").begin_array();
+  for (const Stop& stop : site.stops()) {
+    w.begin_object().exact("x_m", stop.x_m).exact("y_m", stop.y_m).key("columns").begin_object();
+    for (const auto& [name, cell] : stop.columns) {
+      w.key(name);
+      write_cell(w, cell);
+    }
+    w.end_object().end_object();
+  }
+  w.end_array().end_object();
+}
+
 std::string write_terrains(const Catalogue& catalogue) {
   Writer w;
   w.begin_object().key("terrains").begin_array();
@@ -124,6 +124,18 @@ std::string write_rovers(const Catalogue& catalogue) {
   Writer w;
   w.begin_object().key("rovers").begin_array();
   for (const auto& [name, rover] : catalogue.rovers) write_rover(w, *rover);
+  w.end_array().end_object();
+  return w.take();
+}
+
+std::string write_rules(const Catalogue& catalogue) {
+  Writer w;
+  w.begin_object().key("rules").begin_array();
+  for (const auto& [name, set] : catalogue.rules) {
+    w.begin_object().text("name", name).text("summary", set.summary).text("source", set.source);
+    write_drive_rules(w, set.rules);
+    w.end_object();
+  }
   w.end_array().end_object();
   return w.take();
 }

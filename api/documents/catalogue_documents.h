@@ -5,6 +5,7 @@
 
 #include "api/files/campaign/shipped_campaigns.h"
 #include "api/files/catalogue.h"
+#include "api/json/writer.h"
 #include "api/requests/answers.h"
 #include "api/uploads/uploaded_campaigns.h"
 #include "planner/problem/cost_catalogue.h"
@@ -14,7 +15,9 @@ namespace slipway::api::json {
 
 // What there is to ask for, each as {"<kind>": [...]}, sorted by name or in the catalogue's own order.
 std::string write_terrains(const Catalogue& catalogue);
+void write_terrain(Writer& w, const TerrainSite& site);  // one of them
 std::string write_rovers(const Catalogue& catalogue);
+std::string write_rules(const Catalogue& catalogue);
 std::string write_soils(const Catalogue& catalogue);
 std::string write_effects();
 // Those that ship, and those that were sent.

@@ -6,11 +6,13 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "api/files/terrain_file.h"
 #include "api/json/faults.h"
+#include "core/sha256.h"
 
 namespace slipway::api {
 namespace {
@@ -41,6 +43,24 @@ void check_files(const std::filesystem::path& folder, const TerrainDescription& 
   if (terrain.stops_file) check("/stops", *terrain.stops_file);
   if (terrain.outcomes_file) check("/drive_outcomes", *terrain.outcomes_file);
   if (terrain.provenance_file) check("/provenance", *terrain.provenance_file);
+}
+
+// Piece by piece: an elevation may be larger than the memory.
+Result<TerrainFile> read_through(const std::filesystem::path& path) {
+  TerrainFile file;
+  file.name = path.filename().string();
+  std::ifstream stream(path, std::ios::binary);
+  Sha256 hash;
+  std::string piece(std::size_t{1} << 20U, '\0');
+  while (stream) {
+    stream.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+    const auto got = static_cast<std::size_t>(stream.gcount());
+    hash.add(std::string_view(piece).substr(0, got));
+    file.bytes += got;
+  }
+  if (!stream.eof()) return fail(ErrorCode::kUnreadableData, fmt::format("{} can't be read", file.name));
+  file.sha256 = hash.digest();
+  return file;
 }
 
 }  // namespace
@@ -133,6 +153,33 @@ Result<GroundWindow> TerrainSite::read(const dem::Extent& extent, const Legend& 
   }
   if (!soil_map) return fail(soil_map.error());
   return GroundWindow{*terrain, *soil_map};
+}
+
+Result<std::shared_ptr<const dem::Terrain>> TerrainSite::read_samples(const dem::Extent& extent,
+                                                                      int step) const {
+  return elevation_->read_samples(clipped(extent, info().geometry.extent()), step);
+}
+
+Result<std::optional<std::string>> TerrainSite::text_of(const std::optional<std::string>& file) const {
+  if (!file || !is_plain_file(folder_ / *file)) return std::nullopt;
+  auto text = read_data_file(folder_ / *file);
+  if (!text) return fail(text.error());
+  return *std::move(text);
+}
+
+Result<std::vector<TerrainFile>> TerrainSite::files() const {
+  std::vector<std::string> names{"terrain.json", description_.elevation_file};
+  if (description_.soil_source != SoilSource::kNone) names.push_back(description_.soil_file);
+  for (const auto& file : {description_.stops_file, description_.outcomes_file, description_.provenance_file})
+    if (file) names.push_back(*file);
+  if (is_plain_file(folder_ / kLicenceFile)) names.emplace_back(kLicenceFile);
+  std::vector<TerrainFile> files;
+  for (const std::string& name : names) {
+    auto file = read_through(folder_ / name);
+    if (!file) return fail(file.error());
+    files.push_back(*std::move(file));
+  }
+  return files;
 }
 
 Result<std::shared_ptr<const dem::Terrain>> TerrainSite::read_around(double x_m, double y_m,

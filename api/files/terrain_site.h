@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -22,6 +23,13 @@ struct GroundWindow {
   std::shared_ptr<const dem::SoilMap> soil_map;
 };
 
+// A file of a terrain's folder, as it is now.
+struct TerrainFile {
+  std::string name;
+  std::uintmax_t bytes = 0;
+  std::string sha256;  // 64 hexadecimal digits
+};
+
 // A terrain that the service ships: described, opened, read by windows. Thread-safe.
 class TerrainSite {
  public:
@@ -41,6 +49,12 @@ class TerrainSite {
   Result<GroundWindow> read(const dem::Extent& extent) const {
     return read(extent, description_.legends.front());
   }
+  // Elevation only, thinned for pictures: see dem::ElevationSource::read_samples.
+  Result<std::shared_ptr<const dem::Terrain>> read_samples(const dem::Extent& extent, int step) const;
+  // The files that terrain.json names, with itself first, and LICENSE where there is one. Reads them through.
+  Result<std::vector<TerrainFile>> files() const;
+  // The text of a file beside terrain.json; nothing where there is none.
+  Result<std::optional<std::string>> text_of(const std::optional<std::string>& file) const;
   // Elevation only, of a few cells around a point that lies on the map.
   Result<std::shared_ptr<const dem::Terrain>> read_around(double x_m, double y_m, double radius_m) const;
 
@@ -53,6 +67,8 @@ class TerrainSite {
   std::vector<Stop> stops_;
   DriveOutcomeTable outcomes_;
 };
+
+inline constexpr const char* kLicenceFile = "LICENSE";
 
 // A file of the service's own data, whole. Errors: unreadable_data where it can't be read or is no regular
 // file.

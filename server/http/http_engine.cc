@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "server/http/http_head.h"
+
 namespace slipway::server {
 namespace {
 
@@ -83,7 +85,9 @@ HttpRequest request_from(const httplib::Request& in, HttpEngine::Exchange& excha
   if (question < in.target.size())
     out.query = decoded_query(std::string_view(in.target).substr(question + 1));
   for (const auto& [name, value] : in.headers) {
-    if (!is_among(kAddressNames, name)) out.headers.emplace_back(name, value);
+    if (is_among(kAddressNames, name)) continue;
+    const bool withheld = equal_ignoring_case(name, kWithheldAcceptEncoding);
+    out.headers.emplace_back(withheld ? "Accept-Encoding" : name, value);
   }
   out.body = std::move(exchange.body);
   out.body_file = std::move(exchange.body_file);

@@ -122,6 +122,8 @@ class HeadReader {
         std::none_of(kNotForwarded.begin(), kNotForwarded.end(),
                      [&](std::string_view other) { return equal_ignoring_case(name, other); });
     if (forwarded) fmt::format_to(std::back_inserter(out_.forwarded), "{}: {}\r\n", name, value);
+    if (equal_ignoring_case(name, "accept-encoding"))
+      fmt::format_to(std::back_inserter(out_.forwarded), "{}: {}\r\n", kWithheldAcceptEncoding, value);
     return std::nullopt;
   }
 

@@ -11,6 +11,9 @@
 
 namespace slipway::server {
 
+// Under this name Accept-Encoding passes cpp-httplib, which would compress whole answers in memory.
+inline constexpr std::string_view kWithheldAcceptEncoding = "Withheld-Accept-Encoding";
+
 enum class BodyFraming { kNone, kLength, kChunked };
 
 // What the head of a request says about how to read on, and the head as it is passed on.

@@ -54,6 +54,40 @@ TEST(Elevation, EveryCellLiesWhereGdalItselfFindsIt) {
   }
 }
 
+// Cells of three by three: each has the height of the raster's cell in its middle, whatever the window.
+TEST(Elevation, SamplesAreTheSameWhateverTheWindowAndTheMissingStayMissing) {
+  const TemporaryFolder folder;
+  RasterOptions options{.rows = 20, .columns = 25};
+  options.cells = ramp_cells(options);
+  // Of row 1, column 4, which is a sample, and of row 0, column 14, which is none.
+  options.also = [](GDALDataset& raster) { raster.GetRasterBand(1)->SetNoDataValue(14.0); };
+  write_geotiff(folder / "grid.tif", options);
+  const auto source = open_elevation(folder / "grid.tif").value();
+  const GridGeometry& whole = source->info().geometry;
+  const auto fine = source->read(whole.extent()).value();
+  const auto samples = source->read_samples(whole.extent(), 3).value();
+  EXPECT_EQ(samples->geometry().rows, 7);
+  EXPECT_EQ(samples->geometry().columns, 9);
+  int missing = 0;
+  for (int row = 0; row < 7; ++row) {
+    for (int column = 0; column < 9; ++column) {
+      const Cell middle{std::min(3 * row + 1, 19), std::min(3 * column + 1, 24)};
+      ASSERT_EQ(samples->height_m({row, column}), fine->height_m(middle)) << row << " " << column;
+      missing += fine->height_m(middle) ? 0 : 1;
+      if (middle == Cell{3 * row + 1, 3 * column + 1}) {
+        EXPECT_EQ(samples->geometry().centre_m({row, column}), whole.centre_m(middle));
+      }
+    }
+  }
+  EXPECT_EQ(missing, 1);
+  const Eigen::Vector2d place = whole.centre_m({10, 13});
+  const auto window =
+      source->read_samples({place.x(), place.y(), place.x() + 1.0, place.y() + 1.0}, 3).value();
+  EXPECT_LT(window->geometry().columns, 9);
+  EXPECT_EQ(window->height_m(place.x(), place.y()), samples->height_m(place.x(), place.y()));
+  EXPECT_EQ(source->read_samples({0.0, 0.0, 1.0, 1.0}, 3).error().code, ErrorCode::kOffMap);
+}
+
 TEST(Elevation, ItsInfoNamesTheSystemTheBodyAndTheType) {
   const TemporaryFolder folder;
   write_geotiff(folder / "mars.tif", {});

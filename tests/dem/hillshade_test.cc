@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/angle.h"
+#include "dem/rgba_image.h"
 #include "dem/synthetic_terrain.h"
 #include "raster_fixture.h"
 
@@ -49,6 +50,32 @@ TEST(EncodePng, TheImageComesBackAsItWas) {
                 grey[static_cast<std::size_t>(7 * row + column)]);
     }
   }
+}
+
+TEST(EncodePng, ColoursAndOpacityComeBackAsTheyWere) {
+  RgbaImage image(3, 4);
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 4; ++column)
+      image.at(row, column) = {static_cast<std::uint8_t>(80 * row), static_cast<std::uint8_t>(60 * column), 7,
+                               static_cast<std::uint8_t>(255 - 20 * row)};
+  const auto png = encode_png(image);
+  ASSERT_TRUE(png);
+  const test::TemporaryFolder folder;
+  test::with_gdal(folder.write("image.png", *png), [&](GDALDataset& raster) {
+    ASSERT_EQ(raster.GetRasterCount(), 4);
+    for (int band = 0; band < 4; ++band) {
+      for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 4; ++column) {
+          std::uint8_t value = 0;
+          ASSERT_EQ(raster.GetRasterBand(band + 1)->RasterIO(GF_Read, column, row, 1, 1, &value, 1, 1,
+                                                             GDT_Byte, 0, 0, nullptr),
+                    CE_None);
+          EXPECT_EQ(value, image.at(row, column)[static_cast<std::size_t>(band)]);
+        }
+      }
+    }
+  });
+  EXPECT_FALSE(encode_png(RgbaImage(0, 4)));
 }
 
 TEST(EncodePng, AnotherNumberOfPixelsIsRefused) {

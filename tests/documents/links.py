@@ -7,7 +7,7 @@ import re
 import sys
 
 root = pathlib.Path(sys.argv[1]).resolve()
-SKIPPED = {".git", "build", "var"}
+SKIPPED = {".git", "build", "var", "node_modules"}
 
 
 def without_code(text):

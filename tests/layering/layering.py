@@ -28,7 +28,7 @@ FOLDERS = {
     "planner": ["problem", "search", "judge", "."],
     "gap": ["estimate", "diagnosis/model", "diagnosis/search", "diagnosis/result", {"diagnosis/held_out", "diagnosis/describe"}, "diagnosis"],
     "api": ["json", "chart", "files", "files/campaign", "files/drive_table", "files/sealed_set", "uploads", "requests", "jobs",
-            "documents", "report", "."],
+            "documents", "terrain_views", "report", "."],
     "validation": ["report", "laboratory", {"cuadriga", "mars", "simulators", "worlds"}, "."],
     "server": ["http", "cli/terminal", "cli/inquiry", "cli", "cli/study", "."],
 }

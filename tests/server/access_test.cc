@@ -58,6 +58,9 @@ TEST(Access, RolesMayDoWhatTheyMay) {
   HttpRequest health = asked("GET", "", "/healthz"), preflight = asked("OPTIONS", "");
   EXPECT_TRUE((*access)->admit(health)) << "whether there is anybody is no secret";
   EXPECT_TRUE((*access)->admit(preflight)) << "browsers send no token with it";
+  HttpRequest page = asked("GET", "", "/dashboard/");
+  EXPECT_TRUE((*access)->admit(page)) << "it asks for the token itself";
+  EXPECT_EQ(refusal_of(**access, asked("GET", "", "/dashboards")), ErrorCode::kUnauthorized);
 }
 
 TEST(Access, NoTokenIsInTheFile) {

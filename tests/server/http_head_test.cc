@@ -146,7 +146,8 @@ TEST(RequestHead, HeadersThatMustNotBeActedOnAreNotPassedOn) {
       "GET / HTTP/1.1\r\nHost: t\r\nRange: bytes=0-1,2-3\r\nAccept-Encoding: gzip\r\nREMOTE_ADDR: 1.1.1.1\r\n"
       "Connection: close\r\nKeep: 1\r\n\r\n");
   ASSERT_TRUE(head);
-  EXPECT_EQ(head->forwarded, "GET / HTTP/1.1\r\nHost: t\r\nKeep: 1\r\n\r\n");
+  EXPECT_EQ(head->forwarded,
+            "GET / HTTP/1.1\r\nHost: t\r\nWithheld-Accept-Encoding: gzip\r\nKeep: 1\r\n\r\n");
   EXPECT_FALSE(head->keep_alive);
 }
 

@@ -1,0 +1,135 @@
+// The one way to the service: its public API, under the path that the page came from.
+import type { components } from "./types";
+
+type Schemas = components["schemas"];
+export type Terrain = NonNullable<Schemas["Terrains"]["terrains"]>[number];
+export type TerrainDocument = Schemas["TerrainDocument"];
+export type Rover = NonNullable<Schemas["Rovers"]["rovers"]>[number];
+export type RuleSet = NonNullable<Schemas["Rules"]["rules"]>[number];
+export type CostTerm = NonNullable<Schemas["Planners"]["cost_terms"]>[number];
+export type Campaign = NonNullable<Schemas["DriveCampaigns"]["campaigns"]>[number];
+export type Job = Schemas["Job"];
+export type Problem = Schemas["Problem"];
+export type Ground = Schemas["Ground"];
+
+/** What the service refused, as it said it; status 0: it was not reached. */
+export class ServiceError extends Error {
+  constructor(
+    readonly status: number,
+    readonly problem: Problem,
+    readonly retryAfter_s: number | null = null,
+  ) {
+    super(problem.detail ?? problem.title ?? "refused");
+  }
+}
+
+// The page lies at PREFIX/dashboard/, the API at PREFIX/.
+const base = new URL("../", document.baseURI);
+const tokenKey = "slipway-token";
+const listeners = new Set<() => void>();
+
+/** Addresses in the service's documents begin with a slash; behind a proxy they lie under its path. */
+export function address(path: string): string {
+  return new URL(path.replace(/^\//, ""), base).toString();
+}
+
+export function token(): string {
+  return sessionStorage.getItem(tokenKey) ?? "";
+}
+
+export function setToken(value: string): void {
+  if (value) sessionStorage.setItem(tokenKey, value);
+  else sessionStorage.removeItem(tokenKey);
+}
+
+/** Called where the service wants a token, or another one. */
+export function onUnauthorized(listener: () => void): void {
+  listeners.add(listener);
+}
+
+export async function ask(path: string, init: RequestInit = {}): Promise<Response> {
+  const headers = new Headers(init.headers);
+  if (token()) headers.set("Authorization", `Bearer ${token()}`);
+  let response: Response;
+  try {
+    response = await fetch(address(path), { ...init, headers });
+  } catch (error) {
+    if (error instanceof DOMException && error.name === "AbortError") throw error;
+    throw new ServiceError(0, { title: "not reached", status: 0, detail: "The service can't be reached. It may be restarting." } as Problem);
+  }
+  if (response.ok || response.status === 304) return response;
+  const retry = Number(response.headers.get("Retry-After") ?? NaN);
+  const problem = await problemOf(response);
+  if (response.status === 401) for (const listener of listeners) listener();
+  throw new ServiceError(response.status, problem, Number.isFinite(retry) ? retry : null);
+}
+
+async function problemOf(response: Response): Promise<Problem> {
+  try {
+    return (await response.json()) as Problem;
+  } catch {
+    return { title: response.statusText, status: response.status, detail: `The answer was ${response.status} without a reason.` } as Problem;
+  }
+}
+
+export async function get<T>(path: string, signal?: AbortSignal): Promise<T> {
+  return (await (await ask(path, signal ? { signal } : {})).json()) as T;
+}
+
+export interface Submitted {
+  id: string;
+  job: Job;
+}
+
+/** Asks for work; the answer is the job. */
+export async function submit(path: string, request: unknown): Promise<Submitted> {
+  const response = await ask(path, {
+    method: "POST",
+    headers: { "Content-Type": "application/json", Prefer: "respond-async", "Idempotency-Key": crypto.randomUUID?.() ?? String(Math.random()) },
+    body: JSON.stringify(request),
+  });
+  const job = (await response.json()) as Job;
+  return { id: job.id, job };
+}
+
+const ended = ["successful", "failed", "dismissed"];
+export const hasEnded = (job: Job): boolean => ended.includes(job.state);
+
+/** Follows a job to its end, a request a second, most of them answered by "not changed". */
+export async function follow(id: string, seen: (job: Job) => void, signal: AbortSignal): Promise<Job> {
+  let tag = "";
+  let job: Job | null = null;
+  for (;;) {
+    try {
+      const response = await ask(`v1/jobs/${id}`, { signal, headers: tag ? { "If-None-Match": tag } : {} });
+      if (response.status === 304) await response.arrayBuffer();
+      else {
+        tag = response.headers.get("ETag") ?? "";
+        job = (await response.json()) as Job;
+        seen(job);
+        if (hasEnded(job)) return job;
+      }
+    } catch (error) {
+      // A restart of the service loses no job.
+      if (!(error instanceof ServiceError) || (error.status !== 0 && error.status < 500)) throw error;
+    }
+    await pause(document.hidden ? 3000 : 1000, signal);
+  }
+}
+
+function pause(ms: number, signal: AbortSignal): Promise<void> {
+  return new Promise((resolve, reject) => {
+    const timer = setTimeout(resolve, ms);
+    signal.addEventListener("abort", () => {
+      clearTimeout(timer);
+      reject(new DOMException("stopped", "AbortError"));
+    });
+  });
+}
+
+/** The request as a command that gives the same job. */
+export function asCurl(path: string, request: unknown): string {
+  const json = JSON.stringify(request).replaceAll("'", "'\\''");
+  const header = token() ? ` -H "Authorization: Bearer $SLIPWAY_TOKEN"` : "";
+  return `curl -s ${address(path)}${header} -H 'Content-Type: application/json' -H 'Prefer: wait=30' -d '${json}'`;
+}

@@ -1,0 +1,34 @@
+// What lies under the pointer: place, height, slope, soil, as the service says.
+import { get, type Ground } from "../api/client";
+import { number, words } from "../format";
+import { store } from "../state";
+import type { TerrainMap } from "./terrain_map";
+
+let timer = 0;
+let asked: AbortController | null = null;
+
+/** The place at once; the ground when the pointer has rested. */
+export function readout(target: HTMLElement, map: TerrainMap, at: number[] | null): void {
+  clearTimeout(timer);
+  asked?.abort();
+  if (!at) {
+    target.textContent = "";
+    return;
+  }
+  const [x, y] = at as [number, number];
+  const degrees = map.body?.degrees(x, y);
+  const place = `x ${x.toFixed(1)} m, y ${y.toFixed(1)} m${degrees ? ` · ${degrees[0].toFixed(5)}° E, ${degrees[1].toFixed(5)}° N` : ""}`;
+  target.textContent = place;
+  const name = store.state.terrain?.terrain?.name;
+  if (!name || document.hidden) return;
+  timer = window.setTimeout(() => {
+    asked = new AbortController();
+    get<Ground>(`v1/terrains/${name}/point?x_m=${x}&y_m=${y}`, asked.signal)
+      .then((g) => {
+        target.textContent = `${place} · height ${number(g.height_m, 6)} m · slope ${number(g.slope_deg)}° · ${g.soil ? words(g.soil) : "unknown ground"}${g.label ? ` (${g.label})` : ""}`;
+      })
+      .catch(() => {
+        // Off the map, or no elevation there: the place alone is shown.
+      });
+  }, 250);
+}

@@ -1,0 +1,221 @@
+// The map of one terrain: its layers as tiles in its own grid, with what is drawn and the routes above.
+import OlMap from "ol/Map.js";
+import View from "ol/View.js";
+import ScaleLine from "ol/control/ScaleLine.js";
+import { defaults as defaultControls } from "ol/control/defaults.js";
+import TileLayer from "ol/layer/Tile.js";
+import { getRenderPixel } from "ol/render.js";
+import TileImage from "ol/source/TileImage.js";
+import TileGrid from "ol/tilegrid/TileGrid.js";
+import type ImageTile from "ol/ImageTile.js";
+import type RenderEvent from "ol/render/Event.js";
+import { address, ask, token, type TerrainDocument } from "../api/client";
+import { stationAt } from "../result";
+import { store, type LayerName, type State } from "../state";
+import { bodyOf, type Body } from "./body";
+import { DrawnLayer, putAt } from "./drawn_layer";
+import { RoutesLayer } from "./routes_layer";
+
+const overlays: LayerName[] = ["slope", "soil", "unknown"];
+const reach_px = 14; // of the pointer to a route
+
+export class TerrainMap {
+  readonly map: OlMap;
+  private readonly routes = new RoutesLayer();
+  private readonly drawn: DrawnLayer;
+  private layers = new Map<string, TileLayer<TileImage>>();
+  private shown: TerrainDocument | null = null;
+  private legend = "";
+  body: Body | null = null;
+  pointer: number[] | null = null;
+
+  constructor(target: HTMLElement, private readonly told: (coordinate: number[] | null) => void) {
+    this.map = new OlMap({
+      target,
+      controls: defaultControls({ attribution: false, rotate: false }).extend([new ScaleLine({ units: "metric", minWidth: 90 })]),
+      layers: [this.routes.layer, this.routes.markerLayer],
+    });
+    this.drawn = new DrawnLayer(this.map);
+    this.map.addLayer(this.drawn.layer);
+    this.map.on("singleclick", (event) => this.clicked(event.coordinate, event.pixel));
+    this.map.on("pointermove", (event) => {
+      this.pointer = event.coordinate;
+      this.told(event.coordinate);
+      if (!event.dragging) this.hover(event.coordinate);
+    });
+    target.addEventListener("pointerleave", () => {
+      this.pointer = null;
+      this.told(null);
+      store.set({ hover_m: null });
+    });
+    store.on(["terrain"], (s) => this.show(s.terrain));
+    store.on(["options"], (s) => {
+      if (this.shown && s.options.legend !== this.legend) this.show(s.terrain, true);
+    });
+    store.on(["layers"], (s) => this.blend(s));
+    store.on(["swipe"], () => this.map.render());
+    store.on(["result", "other", "route", "compared", "routeColour", "palette"], (s) => this.routes.draw(s));
+    store.on(["hover_m"], (s) => this.routes.point(s));
+    store.on(["drawn", "tab", "result"], (s) => this.drawn.draw(s));
+    store.on(["tool"], (s) => {
+      this.drawn.use(s.tool);
+      target.classList.toggle("aiming", s.tool !== "look");
+    });
+  }
+
+  get view(): [number, number, number] | null {
+    const centre = this.map.getView().getCenter();
+    const resolution = this.map.getView().getResolution();
+    return centre && resolution && this.shown ? [centre[0]!, centre[1]!, resolution] : null;
+  }
+  set view(view: [number, number, number]) {
+    this.map.getView().setCenter([view[0], view[1]]);
+    this.map.getView().setResolution(view[2]);
+  }
+
+  private show(document: TerrainDocument | null, anew = false): void {
+    if (!document?.terrain || (document === this.shown && !anew)) return;
+    const moved = document !== this.shown;
+    this.shown = document;
+    this.legend = store.state.options.legend;
+    for (const layer of this.layers.values()) this.map.removeLayer(layer);
+    this.layers.clear();
+    const body = (this.body = bodyOf(document.terrain));
+    const tiles = document.tiles!;
+    const extent = body.projection.getExtent()!;
+    for (const layer of document.layers ?? []) {
+      const first = layer.min_z ?? 0;
+      const grid = new TileGrid({
+        origin: [tiles.west_m!, tiles.north_m!],
+        resolutions: tiles.metres_per_px!,
+        tileSize: tiles.tile_px!,
+        minZoom: first,
+        extent,
+      });
+      const ofSoil = layer.name === "soil" || layer.name === "unknown";
+      const query = ofSoil && this.legend ? `&legend=${encodeURIComponent(this.legend)}` : "";
+      const source = new TileImage({
+        projection: body.projection,
+        tileGrid: grid,
+        transition: 0,
+        interpolate: layer.name === "hillshade",
+        tileUrlFunction: ([z, x, y]) =>
+          address(tiles.address!.replace("{layer}", layer.name!).replace("{z}", String(z)).replace("{x}", String(x)).replace("{y}", String(y)) + query),
+        tileLoadFunction: (tile, src) => loadTile(tile as ImageTile, src),
+      });
+      const tileLayer = new TileLayer({ source, zIndex: 1 + this.layers.size, extent });
+      if (layer.name !== "hillshade") this.swipeable(tileLayer);
+      this.layers.set(layer.name!, tileLayer);
+      this.map.addLayer(tileLayer);
+    }
+    if (moved) {
+      this.map.setView(new View({ projection: body.projection, extent: grown(extent), constrainOnlyCenter: true, showFullExtent: true, maxResolution: (tiles.metres_per_px![0] ?? 1) * 2, minResolution: 0.01 }));
+      this.map.getView().fit(extent, { padding: this.margins(20) });
+    }
+    this.blend(store.state);
+  }
+
+  private blend(state: State): void {
+    for (const name of overlays) {
+      const layer = this.layers.get(name);
+      layer?.setVisible(state.layers[name] > 0);
+      layer?.setOpacity(state.layers[name]);
+    }
+  }
+
+  /** Shows a layer to the left of the swipe alone. */
+  private swipeable(layer: TileLayer<TileImage>): void {
+    layer.on("prerender", (event: RenderEvent) => {
+      const context = event.context as CanvasRenderingContext2D;
+      const { swipe } = store.state;
+      context.save();
+      if (swipe === null) return;
+      const [width, height] = this.map.getSize() ?? [0, 0];
+      const corners = [[0, 0], [width! * swipe, 0], [width! * swipe, height!], [0, height!]].map((corner) => getRenderPixel(event, corner));
+      context.beginPath();
+      corners.forEach(([x, y], i) => (i === 0 ? context.moveTo(x!, y!) : context.lineTo(x!, y!)));
+      context.closePath();
+      context.clip();
+    });
+    layer.on("postrender", (event: RenderEvent) => (event.context as CanvasRenderingContext2D).restore());
+  }
+
+  private clicked(coordinate: number[], pixel: number[]): void {
+    if (putAt(store.state.tool, coordinate)) return;
+    if (store.state.tool !== "look") return;
+    const route = this.map.forEachFeatureAtPixel(pixel, (feature) => feature.get("route") as number | undefined, { hitTolerance: 6, layerFilter: (l) => l === this.routes.layer });
+    if (route !== undefined) store.set({ route });
+  }
+
+  /** The place along the chosen route that the pointer is at. */
+  private hover(coordinate: number[]): void {
+    const route = store.state.result?.routes[store.state.route];
+    if (!route || store.state.tool !== "look") return;
+    const { x_m, y_m, distance_m } = route.stations;
+    const reach = reach_px * (this.map.getView().getResolution() ?? 1);
+    let nearest = -1;
+    let least = reach * reach;
+    for (let i = 0; i < x_m.length; ++i) {
+      const d = (x_m[i]! - coordinate[0]!) ** 2 + (y_m[i]! - coordinate[1]!) ** 2;
+      if (d < least) [nearest, least] = [i, d];
+    }
+    store.set({ hover_m: nearest < 0 ? null : distance_m[nearest]! });
+  }
+
+  /** Room around what is brought into sight; at the right lie the layers. */
+  private margins(px: number): number[] {
+    const wide = (this.map.getSize()?.[0] ?? 0) > 700;
+    return [px, wide ? px + 270 : px, px, px];
+  }
+
+  centre(): number[] | null {
+    return this.map.getView().getCenter() ?? null;
+  }
+
+  /** A corner of the zone that is being drawn. */
+  corner(at: number[]): boolean {
+    return this.drawn.corner(at);
+  }
+
+  stopDrawing(): void {
+    this.drawn.stopDrawing();
+  }
+
+  /** Brings a stretch of the chosen route into sight. */
+  showStretch(from_m: number, to_m: number): void {
+    const route = store.state.result?.routes[store.state.route];
+    if (!route) return;
+    const first = stationAt(route.stations, from_m);
+    const last = Math.max(stationAt(route.stations, to_m), first);
+    const xs = route.stations.x_m.slice(first, last + 1);
+    const ys = route.stations.y_m.slice(first, last + 1);
+    this.map.getView().fit([Math.min(...xs) - 8, Math.min(...ys) - 8, Math.max(...xs) + 8, Math.max(...ys) + 8], { padding: this.margins(40), duration: 200 });
+  }
+
+  showRoutes(): void {
+    const extent = this.routes.source.getExtent();
+    if (extent && extent.every(Number.isFinite)) this.map.getView().fit(extent, { padding: this.margins(50) });
+  }
+}
+
+const grown = ([w, s, e, n]: number[]): [number, number, number, number] => {
+  const margin = Math.max(e! - w!, n! - s!) / 2;
+  return [w! - margin, s! - margin, e! + margin, n! + margin];
+};
+
+/** A token can't go with the address of a picture, so it is fetched. */
+function loadTile(tile: ImageTile, src: string): void {
+  const image = tile.getImage() as HTMLImageElement;
+  if (!token()) {
+    image.src = src;
+    return;
+  }
+  ask(src.slice(address("").length))
+    .then((response) => response.blob())
+    .then((blob) => {
+      const url = URL.createObjectURL(blob);
+      image.addEventListener("load", () => URL.revokeObjectURL(url), { once: true });
+      image.src = url;
+    })
+    .catch(() => tile.setState(3));
+}

@@ -1,0 +1,90 @@
+// What is shown, in the address: a link to it shows it again, and a reload loses nothing.
+import { nothingDrawn, store, type Drawn, type Options, type Place, type Ring, type RouteColour, type State, type Tab } from "./state";
+
+export interface Link {
+  terrain: string;
+  job: string;
+  view: [number, number, number] | null; // centre and metres per pixel
+}
+
+const places = (list: Place[]): string => list.map((p) => `${p.x_m.toFixed(2)},${p.y_m.toFixed(2)}`).join(";");
+const rings = (list: Ring[]): string => list.map((ring) => ring.map(([x, y]) => `${x.toFixed(2)},${y.toFixed(2)}`).join(";")).join("|");
+
+function readPlaces(text: string | null): Place[] {
+  return (text ?? "")
+    .split(";")
+    .map((pair) => pair.split(",").map(Number))
+    .filter((pair) => pair.length === 2 && pair.every(Number.isFinite))
+    .map(([x_m, y_m]) => ({ x_m: x_m!, y_m: y_m! }));
+}
+const readRings = (text: string | null): Ring[] =>
+  (text ?? "")
+    .split("|")
+    .map((ring) => readPlaces(ring).map((p): [number, number] => [p.x_m, p.y_m]))
+    .filter((ring) => ring.length >= 3);
+
+export function writeLink(state: State, view: Link["view"]): string {
+  const q = new URLSearchParams();
+  const put = (key: string, value: string | number | null | undefined) => {
+    if (value !== null && value !== undefined && value !== "") q.set(key, String(value));
+  };
+  const { drawn, options } = state;
+  put("tab", state.tab === "plan" ? "" : state.tab);
+  put("terrain", state.terrain?.terrain?.name);
+  put("rover", options.rover);
+  put("rules", options.rules);
+  put("legend", options.legend);
+  put("start", drawn.start && places([drawn.start]));
+  put("goal", drawn.goal && places([drawn.goal]));
+  put("via", places(drawn.waypoints));
+  put("path", places(drawn.path));
+  put("out", rings(drawn.keep_out));
+  put("in", rings(drawn.keep_in));
+  put("weights", Object.entries(options.weights).map(([k, v]) => `${k}:${v}`).join(","));
+  put("routes", options.routes === 3 ? "" : options.routes);
+  put("seed", options.seed === 1 ? "" : options.seed);
+  put("layers", Object.entries(state.layers).map(([k, v]) => `${k}:${v}`).join(","));
+  put("colour", state.routeColour === "risk" ? "" : state.routeColour);
+  put("job", state.result?.job ?? state.job?.id);
+  put("route", state.route || "");
+  put("view", view && view.map((v) => Number(v.toFixed(3))).join(","));
+  return q.toString();
+}
+
+const pairs = (text: string | null): [string, number][] =>
+  (text ?? "")
+    .split(",")
+    .map((pair) => pair.split(":"))
+    .filter((pair) => pair.length === 2 && Number.isFinite(Number(pair[1])))
+    .map(([k, v]) => [k!, Number(v)]);
+
+export function readLink(hash: string): Link {
+  const q = new URLSearchParams(hash.replace(/^#/, ""));
+  const drawn: Drawn = {
+    ...nothingDrawn,
+    start: readPlaces(q.get("start"))[0] ?? null,
+    goal: readPlaces(q.get("goal"))[0] ?? null,
+    waypoints: readPlaces(q.get("via")),
+    path: readPlaces(q.get("path")),
+    keep_out: readRings(q.get("out")),
+    keep_in: readRings(q.get("in")),
+  };
+  const options: Options = {
+    rover: q.get("rover") ?? "",
+    rules: q.get("rules") ?? "",
+    legend: q.get("legend") ?? "",
+    weights: Object.fromEntries(pairs(q.get("weights"))),
+    routes: Number(q.get("routes")) || 3,
+    seed: Number(q.get("seed")) || 1,
+  };
+  const tab = (["plan", "check", "jobs", "drives"] as Tab[]).find((t) => t === q.get("tab")) ?? "plan";
+  const colour = (["risk", "slip", "plain"] as RouteColour[]).find((c) => c === q.get("colour")) ?? "risk";
+  const layers = { ...store.state.layers, ...Object.fromEntries(pairs(q.get("layers")).filter(([k]) => k in store.state.layers)) };
+  store.set({ drawn, options, tab, layers, routeColour: colour, route: Number(q.get("route")) || 0 });
+  const view = (q.get("view") ?? "").split(",").map(Number);
+  return {
+    terrain: q.get("terrain") ?? "",
+    job: /^[0-9a-f]{32}$/.test(q.get("job") ?? "") ? q.get("job")! : "",
+    view: view.length === 3 && view.every(Number.isFinite) ? (view as [number, number, number]) : null,
+  };
+}

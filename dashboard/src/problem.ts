@@ -1,0 +1,22 @@
+// What went wrong, as the service said it: every fault with its place in the request.
+import { ServiceError } from "./api/client";
+import { button, h } from "./dom";
+
+export function problemView(error: unknown, again?: () => void): HTMLElement {
+  const service = error instanceof ServiceError ? error : null;
+  const problem = service?.problem;
+  const title = service ? (service.status === 0 ? "The service can't be reached" : `${problem?.title ?? "Refused"} (${service.status})`) : typeof error === "string" ? "This can't be done so" : "Something went wrong in this page";
+  const faults = problem?.faults ?? [];
+  return h(
+    "div",
+    { class: "problem", role: "alert" },
+    h("strong", {}, title),
+    h("p", {}, service ? (problem?.detail ?? "") : String(error)),
+    faults.length > 0 && h("ul", {}, faults.map((fault) => h("li", {}, h("code", {}, fault.pointer || "the request"), " ", fault.message))),
+    service?.retryAfter_s ? h("p", {}, `It asks to wait ${service.retryAfter_s} s.`) : null,
+    again && button("Try again", again),
+  );
+}
+
+export const loading = (what: string): HTMLElement => h("p", { class: "loading", role: "status" }, `${what} …`);
+export const empty = (text: string): HTMLElement => h("p", { class: "empty" }, text);

@@ -1,0 +1,305 @@
+// Series against metres driven, under each other with one cursor, which is also a place on the map.
+import uPlot from "uplot";
+import { fill, h, swatch } from "../dom";
+import { number } from "../format";
+import { empty } from "../problem";
+import type { DrivenStretch, Route, Stations } from "../result";
+import { store, type State } from "../state";
+
+type Values = (number | null)[];
+interface Chart {
+  key: string;
+  title: string;
+  line: (s: Stations) => Values;
+  digits?: number;
+  low?: (s: Stations) => Values;
+  high?: (s: Stations) => Values;
+  second?: { title: string; line: (s: Stations) => Values };
+  limit?: string; // key in the request's limits
+}
+
+function summed(values: Values): Values {
+  let sum = 0;
+  return values.map((v) => (sum += v ?? 0));
+}
+
+function energy(s: Stations): Values {
+  let sum = 0;
+  return s.power_w.map((power, i) => (sum += i === 0 || power === null ? 0 : (power * (s.elapsed_s[i]! - s.elapsed_s[i - 1]!)) / 3600));
+}
+
+export const charts: Chart[] = [
+  { key: "height", title: "Elevation, m", line: (s) => s.height_m, digits: 6 },
+  { key: "slip", title: "Slip, 1 (band: 5 to 95 % of the draws)", line: (s) => s.slip_p50, low: (s) => s.slip_p05, high: (s) => s.slip_p95, limit: "max_slip" },
+  { key: "stops", title: "Stops expected up to here, 1", line: (s) => summed(s.expected_stops), limit: "max_expected_stops" },
+  { key: "embedding", title: "Embedded up to here, share of the draws", line: (s) => summed(s.embedding), limit: "max_embedding" },
+  { key: "sinkage", title: "Sinkage, deepest wheel, 95 % of the draws are below, m", line: (s) => s.sinkage_m_p95, limit: "max_sinkage_m" },
+  { key: "current", title: "Current, hottest motor, 95 % of the draws are below, A", line: (s) => s.current_a_p95, limit: "max_current_a" },
+  { key: "tilt", title: "Tilt, deg (band: 5 to 95 % of the draws)", line: (s) => s.tilt_deg, low: (s) => s.tilt_deg_p05, high: (s) => s.tilt_deg_p95, limit: "max_tilt_deg" },
+  { key: "attitude", title: "Pitch (solid) and roll (dashed), deg", line: (s) => s.pitch_deg, second: { title: "roll", line: (s) => s.roll_deg } },
+  { key: "energy", title: "Energy up to here, Wh", line: energy },
+  { key: "power", title: "Power of the drive motors, W", line: (s) => s.power_w },
+];
+/** Each wheel's own, with the mean soils. */
+const wheelCharts = [
+  { key: "slip", title: "Wheels: slip, 1" },
+  { key: "sinkage_m", title: "Wheels: sinkage, m" },
+  { key: "current_a", title: "Wheels: current, A" },
+];
+/** Apart for colour-blind eyes [Okabe and Ito 2008]. */
+const wheelColours = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#56b4e9"];
+
+const usuallyShown = ["height", "slip", "stops", "embedding", "sinkage", "current"];
+
+const token = (name: string): string => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+/** Values of another route at the distances of the first, so that both are on one axis. */
+export function resampled(values: Values, from: number[], at: number[]): Values {
+  let k = 0;
+  return at.map((d) => {
+    if (from.length === 0 || d > from.at(-1)! || d < from[0]!) return null;
+    while (k + 2 < from.length && from[k + 1]! < d) ++k;
+    const [a, b] = [values[k] ?? null, values[k + 1] ?? null];
+    if (a === null || b === null) return null;
+    const span = from[k + 1]! - from[k]!;
+    return span > 0 ? a + ((b - a) * Math.max(0, d - from[k]!)) / span : b;
+  });
+}
+
+/** Shades what lies on unknown ground, and draws the limit. */
+function paint(u: uPlot, stations: Stations, limit: number | undefined): void {
+  const { ctx } = u;
+  const { left, top, width, height } = u.bbox;
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(left, top, width, height);
+  ctx.clip();
+  ctx.fillStyle = token("--unknown");
+  const unknown = stations.on_unknown_ground;
+  for (let i = 0; i < unknown.length; ++i) {
+    if (!unknown[i]) continue;
+    let end = i;
+    while (end + 1 < unknown.length && unknown[end + 1]) ++end;
+    const from = u.valToPos(stations.distance_m[i]!, "x", true);
+    const to = u.valToPos(stations.distance_m[Math.min(end + 1, unknown.length - 1)]!, "x", true);
+    ctx.fillRect(from, top, Math.max(to - from, 1), height);
+    i = end;
+  }
+  if (limit !== undefined) {
+    const y = u.valToPos(limit, "y", true);
+    ctx.strokeStyle = token("--limit");
+    ctx.lineWidth = 2 * devicePixelRatio;
+    ctx.setLineDash([8 * devicePixelRatio, 5 * devicePixelRatio]);
+    ctx.beginPath();
+    ctx.moveTo(left, y);
+    ctx.lineTo(left + width, y);
+    ctx.stroke();
+  }
+  ctx.restore();
+}
+
+export class ProfileCharts {
+  private plots: { plot: uPlot; digits: number; readout: HTMLElement; values: (Values | null)[] }[] = [];
+  private shown = new Set(usuallyShown);
+  private readonly list = h("div", { class: "charts", tabindex: 0, role: "region", "aria-label": "Charts along the route" });
+  private measured: uPlot | null = null; // of a drive so far
+  private drawnRoute: Route | null = null;
+  private setting = false; // the cursor is being set from the state
+
+  constructor(private readonly target: HTMLElement) {
+    new ResizeObserver(() => this.resize()).observe(this.list);
+    store.on(["result", "route", "compared", "other"], (s) => this.draw(s));
+    store.on(["hover_m"], (s) => this.point(s));
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw(store.state));
+  }
+
+  draw(state: State): void {
+    for (const { plot } of this.plots) plot.destroy();
+    this.plots = [];
+    this.measured?.destroy();
+    this.measured = null;
+    const route = state.result?.routes[state.route] ?? null;
+    this.drawnRoute = route;
+    if (!route) {
+      fill(this.target, empty(state.result ? "There is no route to draw." : "Plan a drive or check one: its profile appears here, with every limit."));
+      return;
+    }
+    const second = state.compared !== null ? state.result?.routes[state.compared] : state.other?.routes[0];
+    fill(this.target, this.choice(), this.list);
+    this.list.replaceChildren();
+    for (const { key, title } of wheelCharts) if (this.shown.has(title)) this.addWheels(key, title, route.stations);
+    if (state.result!.driven.length > 0) this.addDriven(state.result!.driven);
+    for (const chart of charts) if (this.shown.has(chart.key)) this.add(chart, route, second ?? null, state.result!.limits);
+    this.point(state);
+  }
+
+  private choice(): HTMLElement {
+    return h(
+      "div",
+      { class: "chips", role: "group", "aria-label": "Which series are shown" },
+      [...charts, ...wheelCharts.map(({ title }) => ({ key: title, title }))].map(({ key, title }) => {
+        const pressed = this.shown.has(key);
+        return h("button", { type: "button", class: "chip", "aria-pressed": String(pressed), onclick: () => {
+          if (pressed) this.shown.delete(key);
+          else this.shown.add(key);
+          this.draw(store.state);
+        } }, title.split(",")[0]!.replace(/ \(.*/, ""));
+      }),
+      h("span", { class: "key" }, h("span", { class: "swatch shaded" }), "unknown ground", h("span", { class: "swatch limit" }), "limit"),
+    );
+  }
+
+  private add(chart: Chart, route: Route, second: Route | null, limits: Record<string, number>): void {
+    const s = route.stations;
+    const limit = chart.limit ? limits[chart.limit] : undefined;
+    const columns: (Values | null)[] = [chart.line(s), chart.low?.(s) ?? null, chart.high?.(s) ?? null, chart.second?.line(s) ?? null];
+    columns.push(second ? resampled(chart.line(second.stations), second.stations.distance_m, s.distance_m) : null);
+    const given = columns.map((c) => c ?? s.distance_m.map(() => null));
+    const readout = h("span", { class: "readout" });
+    const box = h("div", { class: "chart" });
+    this.list.append(h("section", { class: "chart-box", "aria-label": chart.title }, h("div", { class: "chart-head" }, h("h3", {}, chart.title), readout), box));
+    const ink = token("--ink");
+    const axis = { stroke: ink, grid: { stroke: token("--line"), width: 1 }, ticks: { stroke: token("--line"), width: 1 }, font: "11px system-ui, sans-serif" };
+    const plot = new uPlot(
+      {
+        width: Math.max(box.clientWidth, 200),
+        height: 112,
+        legend: { show: false },
+        cursor: { y: false, sync: { key: "route" }, drag: { x: true, y: false } },
+        scales: {
+          x: { time: false },
+          y: { range: (_u, min, max) => uPlot.rangeNum(Math.min(min, limit ?? min), Math.max(max, limit ?? max), 0.08, true) },
+        },
+        axes: [{ ...axis, size: 26, values: (_u, ticks) => ticks.map((t) => `${t} m`) }, { ...axis, size: 58, values: (_u, ticks) => ticks.map((t) => (t === null ? "" : number(t, 6))) }],
+        bands: chart.low ? [{ series: [3, 2], fill: token("--band") }] : [],
+        series: [
+          {},
+          { stroke: token("--series"), width: 2 },
+          { stroke: chart.low ? token("--series") : "transparent", width: chart.low ? 0.5 : 0, show: !!chart.low },
+          { stroke: chart.high ? token("--series") : "transparent", width: chart.high ? 0.5 : 0, show: !!chart.high },
+          { stroke: token("--series"), width: 2, dash: [6, 4], show: !!chart.second },
+          { stroke: token("--other"), width: 2, dash: [3, 3], show: !!second },
+        ],
+        hooks: {
+          drawClear: [(u) => paint(u, s, limit)],
+          setCursor: [(u) => this.moved(u)],
+        },
+      },
+      [s.distance_m, ...given] as uPlot.AlignedData,
+      box,
+    );
+    this.plots.push({ plot, digits: chart.digits ?? 3, readout, values: columns });
+  }
+
+  private addWheels(key: string, title: string, s: Stations): void {
+    const wheels = Object.entries(s.wheels ?? {}).filter(([, columns]) => columns[key]);
+    if (wheels.length === 0) return;
+    const box = h("div", { class: "chart" });
+    const names = wheels.map(([name], k) => [swatch(wheelColours[k % wheelColours.length]!), name, " "]);
+    const readout = h("span", { class: "readout" });
+    this.list.append(h("section", { class: "chart-box", "aria-label": title }, h("div", { class: "chart-head" }, h("h3", {}, title), h("span", { class: "wheel-names" }, names.flat())), box));
+    const axis = { stroke: token("--ink"), grid: { stroke: token("--line"), width: 1 }, font: "11px system-ui, sans-serif" };
+    const plot = new uPlot(
+      {
+        width: Math.max(box.clientWidth, 200),
+        height: 112,
+        legend: { show: false },
+        cursor: { y: false, sync: { key: "route" } },
+        scales: { x: { time: false } },
+        axes: [{ ...axis, size: 26, values: (_u, ticks) => ticks.map((t) => `${t} m`) }, { ...axis, size: 58 }],
+        series: [{}, ...wheels.map((_, k) => ({ stroke: wheelColours[k % wheelColours.length]!, width: 1.5 }))],
+        hooks: { drawClear: [(u) => paint(u, s, undefined)], setCursor: [(u) => this.moved(u)] },
+      },
+      [s.distance_m, ...wheels.map(([, columns]) => columns[key]!)] as uPlot.AlignedData,
+      box,
+    );
+    this.plots.push({ plot, digits: 3, readout, values: [] });
+  }
+
+  /** What was measured so far and what had been predicted, on one axis: the way by odometry, apart from the route ahead. */
+  private addDriven(driven: DrivenStretch[]): void {
+    const box = h("div", { class: "chart" });
+    const title = "Slip driven so far: measured (dashed) against predicted (band: 5 to 95 %)";
+    this.list.append(h("section", { class: "chart-box", "aria-label": title }, h("div", { class: "chart-head" }, h("h3", {}, title)), box));
+    const of = (value: (s: DrivenStretch) => number): Values => [value(driven[0]!), ...driven.map(value)];
+    const axis = { stroke: token("--ink"), grid: { stroke: token("--line"), width: 1 }, font: "11px system-ui, sans-serif" };
+    const step = uPlot.paths.stepped!({ align: -1 });
+    const plot = new uPlot(
+      {
+        width: Math.max(box.clientWidth, 200),
+        height: 112,
+        legend: { show: false },
+        cursor: { y: false },
+        scales: { x: { time: false } },
+        axes: [{ ...axis, size: 26, values: (_u, ticks) => ticks.map((t) => `${t} m`) }, { ...axis, size: 58 }],
+        bands: [{ series: [4, 3], fill: token("--band") }],
+        series: [
+          {},
+          { stroke: token("--limit"), width: 2, dash: [6, 4], paths: step },
+          { stroke: token("--series"), width: 2, paths: step },
+          { stroke: token("--series"), width: 0.5, paths: step },
+          { stroke: token("--series"), width: 0.5, paths: step },
+        ],
+      },
+      [[driven[0]!.from_m, ...driven.map((s) => s.to_m)], of((s) => s.slip), of((s) => s.predicted_slip.p50), of((s) => s.predicted_slip.p05), of((s) => s.predicted_slip.p95)] as uPlot.AlignedData,
+      box,
+    );
+    this.measured = plot;
+  }
+
+  /** The cursor of a chart was moved by hand. */
+  private moved(u: uPlot): void {
+    if (this.setting || !this.drawnRoute) return;
+    const { idx, left } = u.cursor;
+    const at = left === undefined || left < 0 || idx === null || idx === undefined ? null : this.drawnRoute.stations.distance_m[idx]!;
+    this.setting = true;
+    store.set({ hover_m: at });
+    this.setting = false;
+    this.read(at === null ? null : idx!);
+  }
+
+  /** The place that the map points at. */
+  private point(state: State): void {
+    if (this.setting || !this.drawnRoute) return;
+    this.setting = true;
+    for (const { plot } of this.plots) {
+      const left = state.hover_m === null ? -10 : plot.valToPos(state.hover_m, "x");
+      plot.setCursor({ left, top: left < 0 ? -10 : 10 });
+    }
+    this.setting = false;
+    const d = this.drawnRoute.stations.distance_m;
+    this.read(state.hover_m === null ? null : d.findIndex((v) => v >= state.hover_m! - 1e-9));
+  }
+
+  private read(i: number | null): void {
+    for (const { digits, readout, values } of this.plots) {
+      if (i === null || i < 0) {
+        readout.textContent = "";
+        continue;
+      }
+      const [line, low, high, second, other] = values.map((v) => v?.[i]);
+      const parts = [number(line, digits)];
+      if (low !== undefined) parts.push(`(${number(low)} to ${number(high)})`);
+      if (second !== undefined) parts.push(`/ ${number(second)}`);
+      if (other !== undefined) parts.push(`· compared ${number(other, digits)}`);
+      readout.textContent = `${parts.join(" ")} at ${this.drawnRoute!.stations.distance_m[i]!.toFixed(1)} m`;
+    }
+  }
+
+  private resize(): void {
+    for (const plot of [...this.plots.map((p) => p.plot), ...(this.measured ? [this.measured] : [])]) {
+      const width = plot.root.parentElement!.clientWidth;
+      if (width > 0 && Math.abs(width - plot.width) > 1) plot.setSize({ width, height: plot.height });
+    }
+  }
+
+  /** Moves the cursor by so many stations: for the keyboard. */
+  step(stations: number): void {
+    const route = this.drawnRoute;
+    if (!route) return;
+    const d = route.stations.distance_m;
+    const now = store.state.hover_m === null ? -1 : d.findIndex((v) => v >= store.state.hover_m! - 1e-9);
+    const next = Math.min(Math.max(now + stations, 0), d.length - 1);
+    store.set({ hover_m: d[next]! });
+  }
+}

@@ -1,0 +1,178 @@
+// The answers of plans, predictions and checks, as the same thing: routes with a verdict, rules and stations.
+import { get, type Job } from "./api/client";
+import type { components } from "./api/types";
+
+type Schemas = components["schemas"];
+type Column = (number | null)[];
+
+export interface Stations {
+  count: number;
+  distance_m: number[];
+  x_m: number[];
+  y_m: number[];
+  height_m: number[];
+  pitch_deg: Column;
+  roll_deg: Column;
+  tilt_deg: Column;
+  tilt_deg_p05: Column;
+  tilt_deg_p95: Column;
+  slip: Column;
+  slip_p05: Column;
+  slip_p50: Column;
+  slip_p95: Column;
+  sinkage_m_p95: Column;
+  current_a_p95: Column;
+  power_w: Column;
+  risk: Column;
+  expected_stops: Column;
+  embedding: Column;
+  elapsed_s: number[];
+  soil: (string | null)[];
+  on_unknown_ground: boolean[];
+  wheels: Record<string, Record<string, Column>>;
+}
+
+export type Rule = {
+  rule: string;
+  unit: string;
+  limit: number;
+  value: { p05: number; p50: number; p95: number } | null;
+  margin: number | null;
+  trips: { value: number; low: number; high: number };
+  from_m: number | null;
+  to_m: number | null;
+  wheel: string | null;
+  cause: string | null;
+};
+export interface Stretch {
+  from_m: number;
+  to_m: number;
+  expected_stops: number;
+  embedding: number;
+}
+export interface Share {
+  value: number;
+  low: number;
+  high: number;
+}
+
+export type Verdict = "go" | "no_go" | "unknown";
+
+export interface Route {
+  title: string;
+  verdict: Verdict;
+  reasons: string[];
+  figures: Schemas["DriveFigures"];
+  stations: Stations;
+  rules: Rule[];
+  stretches: Stretch[];
+  outcomes: { stop?: Share; embedding?: Share; expected_stops?: Share; completed?: Share; draws?: number; recommended?: { max_tilt_deg?: number | null; slip_checks_before_m?: number[] } };
+  notes: string[]; // what made a plan rank it as it did
+}
+
+export interface DrivenStretch {
+  from_m: number;
+  to_m: number;
+  x_m: number;
+  y_m: number;
+  slip: number;
+  predicted_slip: { p05: number; p50: number; p95: number };
+}
+/** Measured where 90 % of the draws do not have it. */
+export const surprises = (s: DrivenStretch): boolean => s.slip < s.predicted_slip.p05 || s.slip > s.predicted_slip.p95;
+
+export interface Result {
+  job: string;
+  kind: string;
+  created: string;
+  rover: string;
+  terrain: string;
+  request: Record<string, unknown>;
+  limits: Record<string, number>;
+  provenance: { soil_assumption?: string; legend?: string; slipway?: string; terrain_fingerprint?: string; seed?: number };
+  fewer: string[];
+  driven: DrivenStretch[]; // of a drive under way: what was measured against what had been predicted
+  routes: Route[];
+}
+
+/* eslint-disable @typescript-eslint/no-explicit-any -- the documents' parts have no schemas of their own */
+function routeOf(properties: any, document: any, title: string): Route {
+  const decision = properties.decision ?? document.decision ?? { verdict: document.verdict, reasons: document.reasons };
+  const outcomes = properties.outcomes ?? document.outcomes ?? {};
+  return {
+    title,
+    verdict: decision.verdict ?? "unknown",
+    reasons: decision.reasons ?? [],
+    figures: properties.rank !== undefined ? properties : document.summary,
+    stations: properties.stations,
+    rules: outcomes.rules ?? [],
+    stretches: outcomes.stretches ?? [],
+    outcomes,
+    notes: properties.rank !== undefined ? (properties.reasons ?? []) : [],
+  };
+}
+
+/** What a finished job answered, if it is about routes. */
+export async function readResult(job: Job): Promise<Result> {
+  const document: any = await get(`v1/jobs/${job.id}/result`);
+  const features: any[] = document.routes?.features ?? [];
+  return {
+    job: job.id,
+    kind: job.kind,
+    created: job.created,
+    rover: document.rover?.name ?? document.request?.rover ?? "",
+    terrain: document.terrain?.name ?? document.request?.terrain ?? "",
+    request: document.request ?? {},
+    limits: { ...document.request?.limits, ...document.request?.bars },
+    provenance: document.provenance ?? {},
+    fewer: document.fewer_because ?? [],
+    driven: document.drive_so_far?.stretches ?? [],
+    routes: features.map((feature) =>
+      routeOf(feature.properties, document, feature.properties.rank ? `Route ${feature.properties.rank}` : "Path"),
+    ),
+  };
+}
+/* eslint-enable */
+
+export const isAboutRoutes = (kind: string): boolean => ["plan", "prediction", "check"].includes(kind);
+
+/** The station nearest to a place along the route. */
+export function stationAt(stations: Stations, at_m: number): number {
+  const d = stations.distance_m;
+  let low = 0;
+  let high = d.length - 1;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (d[middle]! <= at_m) low = middle;
+    else high = middle;
+  }
+  return at_m - d[low]! <= d[high]! - at_m ? low : high;
+}
+
+/** The class of each station, 0 to 4, by what is expected to go wrong on its stretch or by slip; null: unknown ground. */
+export function classesOf(route: Route, by: "risk" | "slip"): (number | null)[] {
+  const { stations, stretches } = route;
+  const bounds = classBounds[by];
+  const classOf = (value: number) => bounds.filter((bound) => value >= bound).length;
+  let k = 0;
+  return stations.distance_m.map((at, i) => {
+    if (stations.on_unknown_ground[i]) return null;
+    if (by === "slip") return classOf(Math.abs(stations.slip_p95[i] ?? stations.slip[i] ?? 1));
+    while (k + 1 < stretches.length && at > stretches[k]!.to_m) ++k;
+    const stretch = stretches[k];
+    return stretch ? classOf(stretch.expected_stops + stretch.embedding) : classOf(stations.risk[i] ?? 1);
+  });
+}
+
+export const classBounds = { risk: [0.001, 0.01, 0.1, 0.5], slip: [0.1, 0.2, 0.4, 0.6] };
+export const classTitles = {
+  risk: "Stops and embeddings expected on a stretch",
+  slip: "Slip (95 % of the draws are below)",
+};
+
+export function classLabels(by: "risk" | "slip"): string[] {
+  const bounds = classBounds[by];
+  return [`below ${bounds[0]}`, ...bounds.slice(1).map((b, i) => `${bounds[i]} to ${b}`), `above ${bounds.at(-1)}`];
+}
+
+export const verdictWords: Record<Verdict, string> = { go: "GO", no_go: "NO-GO", unknown: "UNKNOWN" };

@@ -1,0 +1,124 @@
+// What the page shows, in one place; parts of the page listen to the keys that they draw.
+import type { CostTerm, Campaign, Job, Rover, RuleSet, Terrain, TerrainDocument } from "./api/client";
+import type { Result } from "./result";
+
+export interface Place {
+  x_m: number;
+  y_m: number;
+}
+export type Ring = [number, number][];
+
+export type Tab = "plan" | "check" | "jobs" | "drives";
+export type Tool = "look" | "start" | "goal" | "waypoint" | "keep_out" | "keep_in" | "corner";
+export type RouteColour = "risk" | "slip" | "plain";
+export type LayerName = "slope" | "soil" | "unknown";
+
+/** What is drawn on the map and asked for: what undo takes back. */
+export interface Drawn {
+  start: Place | null;
+  goal: Place | null;
+  waypoints: Place[];
+  keep_out: Ring[];
+  keep_in: Ring[];
+  path: Place[]; // of a check
+}
+
+export interface Options {
+  rover: string;
+  rules: string; // "": the service's own limits
+  legend: string; // "": the terrain's first
+  weights: Record<string, number>; // those that differ from the service's
+  routes: number;
+  seed: number;
+}
+
+export interface State {
+  tab: Tab;
+  terrains: Terrain[];
+  rovers: Rover[];
+  rules: RuleSet[];
+  costTerms: CostTerm[];
+  campaigns: Campaign[];
+  terrain: TerrainDocument | null;
+  drawn: Drawn;
+  options: Options;
+  tool: Tool;
+  layers: Record<LayerName, number>; // opacity; 0: not shown
+  swipe: number | null; // share of the map's width up to which the layers are shown
+  routeColour: RouteColour;
+  palette: string[]; // of the classes of risk and slip
+  jobs: Job[] | null;
+  job: Job | null; // that is followed
+  result: Result | null;
+  other: Result | null; // kept beside it, for comparison
+  route: number; // index of the chosen route of the result
+  compared: number | null; // index of a second route of it
+  hover_m: number | null; // place along the chosen route
+  error: unknown;
+}
+
+export const nothingDrawn: Drawn = { start: null, goal: null, waypoints: [], keep_out: [], keep_in: [], path: [] };
+/** Blue to dark red: apart by lightness and hue for colour-blind eyes too [ColorBrewer RdYlBu]. */
+export const usualPalette = ["#2c7bb6", "#abd9e9", "#fdae61", "#d7191c", "#67001f"];
+
+type Listener = (state: State) => void;
+
+class Store {
+  private listeners: { keys: (keyof State)[]; run: Listener }[] = [];
+  private past: Drawn[] = [];
+  state: State = {
+    tab: "plan",
+    terrains: [],
+    rovers: [],
+    rules: [],
+    costTerms: [],
+    campaigns: [],
+    terrain: null,
+    drawn: nothingDrawn,
+    options: { rover: "", rules: "", legend: "", weights: {}, routes: 3, seed: 1 },
+    tool: "look",
+    layers: { slope: 0, soil: 0, unknown: 0.6 },
+    swipe: null,
+    routeColour: "risk",
+    palette: usualPalette,
+    jobs: null,
+    job: null,
+    result: null,
+    other: null,
+    route: 0,
+    compared: null,
+    hover_m: null,
+    error: null,
+  };
+
+  set(change: Partial<State>): void {
+    const changed = (Object.keys(change) as (keyof State)[]).filter((key) => this.state[key] !== change[key]);
+    if (changed.length === 0) return;
+    this.state = { ...this.state, ...change };
+    for (const listener of this.listeners) if (listener.keys.some((key) => changed.includes(key))) listener.run(this.state);
+  }
+
+  /** Runs now and whenever one of the keys has changed. */
+  on(keys: (keyof State)[], run: Listener): void {
+    this.listeners.push({ keys, run });
+    run(this.state);
+  }
+
+  draw(change: Partial<Drawn>): void {
+    this.past.push(this.state.drawn);
+    if (this.past.length > 200) this.past.shift();
+    this.set({ drawn: { ...this.state.drawn, ...change } });
+  }
+
+  undo(): boolean {
+    const before = this.past.pop();
+    if (before) this.set({ drawn: before });
+    return before !== undefined;
+  }
+
+  option(change: Partial<Options>): void {
+    this.set({ options: { ...this.state.options, ...change } });
+  }
+}
+
+export const store = new Store();
