@@ -172,11 +172,16 @@ void write_geometry(Writer& w, const VectorLayer& layer, const VectorFeature& fe
   w.end_object();
 }
 
+// What one feature of a layer is called: "route" of "routes".
+std::string feature_name(const VectorLayer& layer) {
+  return layer.name.ends_with('s') ? layer.name.substr(0, layer.name.size() - 1) : layer.name;
+}
+
 void write_features(Writer& w, const VectorLayer& layer, VectorCoordinates coordinates) {
   for (const VectorFeature& feature : layer.features) {
     w.begin_object().text("type", "Feature");
     write_geometry(w, layer, feature, coordinates);
-    w.key("properties").begin_object().text("layer", layer.lines ? "route" : "station");
+    w.key("properties").begin_object().text("layer", feature_name(layer));
     for (std::size_t i = 0; i < layer.fields.size(); ++i) {
       if (const auto* const number = std::get_if<double>(&feature.values[i]))
         w.exact(layer.fields[i].name, *number);
@@ -208,9 +213,14 @@ Result<std::string> answer_geojson(std::string_view answer, const AnswerMap& map
                                    VectorCoordinates coordinates) {
   auto layers = layers_of(answer);
   if (!layers) return fail(layers.error());
+  return layers_geojson(*std::move(layers), map, coordinates);
+}
+
+Result<std::string> layers_geojson(std::vector<VectorLayer> layers, const AnswerMap& map,
+                                   VectorCoordinates coordinates) {
   const bool degrees = coordinates == VectorCoordinates::kLongitudeLatitude;
   if (degrees)
-    if (const auto turned = turn_to_degrees(*layers, map); !turned) return fail(turned.error());
+    if (const auto turned = turn_to_degrees(layers, map); !turned) return fail(turned.error());
   Writer w;
   w.begin_object().text("type", "FeatureCollection").text("coordinates", in_words(map, coordinates));
   w.text("body", map.body);
@@ -219,7 +229,7 @@ Result<std::string> answer_geojson(std::string_view answer, const AnswerMap& map
     w.key("properties").begin_object().text("name", name).end_object().end_object();
   }
   w.key("features").begin_array();
-  for (const VectorLayer& layer : *layers) write_features(w, layer, coordinates);
+  for (const VectorLayer& layer : layers) write_features(w, layer, coordinates);
   w.end_array().end_object();
   return w.take() + "\n";
 }

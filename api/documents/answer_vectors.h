@@ -2,8 +2,10 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/result.h"
+#include "dem/vector_file.h"
 
 // Routes and stations of an answer as vectors for GIS tools.
 namespace slipway::api::json {
@@ -30,6 +32,9 @@ enum class VectorCoordinates {
 // name that tools know. Errors: no_data where the answer has no stations; unsupported_crs for degrees of a
 // map that lies on no body.
 Result<std::string> answer_geojson(std::string_view answer, const AnswerMap& map,
+                                   VectorCoordinates coordinates);
+// The same of any layers in map metres; each feature's property layer is its layer's name in the singular.
+Result<std::string> layers_geojson(std::vector<dem::VectorLayer> layers, const AnswerMap& map,
                                    VectorCoordinates coordinates);
 // A GeoPackage with the layers routes and stations, in map metres. Errors: no_data; internal.
 Result<std::string> answer_geopackage(std::string_view answer, const AnswerMap& map);
