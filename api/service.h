@@ -68,6 +68,8 @@ class Service {
   // A map of the ground, written to the target. The same request gives the same bytes. Memory is bounded
   // whatever its size, but of maps of ways (see kMaxServedMapCells). Errors: those of reading the terrain;
   // payload_too_large above the target's limit; unwritable_file; cancelled.
+  // Errors: off_map, payload_too_large at /extent (0 cells: no limit).
+  Result<void> check_map_size(const MapRequest& request, long long max_cells) const;
   Result<MapAnswer> map(const MapRequest& request, const MapTarget& target, Progress& progress) const;
 
   // Errors: not_found (unknown terrain), off_map, no_data.

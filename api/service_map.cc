@@ -63,7 +63,7 @@ Result<dem::CellWindow> map_window_of(const MapRequest& request, const dem::Grid
                                        map.south_m, map.east_m, map.north_m)}});
 }
 
-Result<void> check_map_size(const dem::GridGeometry& geometry, long long max_cells) {
+Result<void> check_cells(const dem::GridGeometry& geometry, long long max_cells) {
   const long long cells = static_cast<long long>(geometry.rows) * geometry.columns;
   if (max_cells == 0 || cells <= max_cells) return {};
   return fail(ErrorCode::kPayloadTooLarge, "The map has too many cells.",
@@ -108,6 +108,16 @@ Result<void> finish_map(const MapTarget& target, dem::TileStore& store, std::siz
 
 }  // namespace
 
+Result<void> Service::check_map_size(const MapRequest& request, long long max_cells) const {
+  const auto found = catalogue_->terrains.find(request.terrain);
+  if (found == catalogue_->terrains.end())
+    return fail(ErrorCode::kNotFound, unknown_terrain(*catalogue_, request.terrain));
+  const dem::GridGeometry& geometry = found->second->info().geometry;
+  const auto window = map_window_of(request, geometry);
+  if (!window) return fail(window.error());
+  return check_cells(geometry.sub(*window), max_cells);
+}
+
 Result<MapAnswer> Service::map(const MapRequest& request, const MapTarget& target, Progress& progress) const {
   progress.report("reading the terrain", 0.0);
   const auto found = catalogue_->terrains.find(request.terrain);
@@ -117,7 +127,7 @@ Result<MapAnswer> Service::map(const MapRequest& request, const MapTarget& targe
   const auto window = map_window_of(request, site.info().geometry);
   if (!window) return fail(window.error());
   const dem::GridGeometry geometry = site.info().geometry.sub(*window);
-  if (const auto size = check_map_size(geometry, target.max_cells); !size) return fail(size.error());
+  if (const auto size = check_cells(geometry, target.max_cells); !size) return fail(size.error());
   const bool by_search = planner::row_of(request.kind).by_search;
   // Cells by themselves are read piece by piece.
   const dem::GridGeometry first = by_search ? geometry : geometry.sub({0, 0, 1, 1});

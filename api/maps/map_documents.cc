@@ -7,6 +7,7 @@
 #include "api/documents/zones.h"
 #include "api/json/faults.h"
 #include "api/json/parse.h"
+#include "api/maps/map_layer.h"
 
 namespace slipway::api::json {
 namespace {
@@ -188,6 +189,7 @@ std::string write_map_answer(const MapAnswer& answer) {
   w.key("metadata").begin_object();
   for (const auto& [name, value] : layer.metadata) w.text(name, value);
   w.end_object();
+  w.text("style_qml", map_style(layer, answer.statistics));
   w.key("request").raw(write_map_request(answer.request)).end_object();
   return w.take();
 }
