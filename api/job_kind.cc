@@ -26,6 +26,13 @@ std::string kept_answer(const std::string& document, const std::string& page) {
   return document + kBetweenParts + page;
 }
 
+std::vector<std::string> in_pieces(std::string_view file) {
+  constexpr std::size_t kPiece = std::size_t{1} << 20U;
+  std::vector<std::string> pieces;
+  for (std::size_t at = 0; at < file.size(); at += kPiece) pieces.emplace_back(file.substr(at, kPiece));
+  return pieces;
+}
+
 Result<std::vector<std::string>> series_of(std::string_view whole) {
   const auto csv = json::station_csv(whole);
   if (!csv) return fail(csv.error());

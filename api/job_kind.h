@@ -31,6 +31,9 @@ enum class Lane { kShort, kUsual, kLong };
 // are one table.
 Result<std::vector<std::string>> series_of(std::string_view whole);
 
+// A file in pieces of a megabyte or so: put together they are the file.
+std::vector<std::string> in_pieces(std::string_view file);
+
 // One kind of job as a row of the catalogue: what a client posts, what is done with it, and what can be seen
 // of the answer. Routes, runner and command line work from these rows alone. Thread-safe.
 template <class Request, class Answer>
@@ -54,6 +57,9 @@ struct JobKindRow {
   std::function<Result<std::string>(const Catalogue&, std::string_view document)> page = nullptr;
   // An HTML page, written with the answer and kept beside it; empty: this kind has no report.
   std::function<std::string(const Answer&)> report = nullptr;
+  // The bytes of a file that belongs to the answer, kept beside it in pieces: a raster (GeoTIFF). Empty:
+  // there is none.
+  std::function<std::string(const Answer&)> raster = nullptr;
   std::chrono::seconds usual_wait{
       0};                       // how long the client's POST waits for the answer unless it says otherwise
   Lane lane = Lane::kUsual;     // see worker_kinds()
@@ -75,6 +81,7 @@ struct JobKind {
   std::function<Result<std::string>(const Catalogue&, std::string_view document)> page =
       nullptr;              // may be empty
   bool has_report = false;  // made when it is asked for, where there is `page`, or else kept with the answer
+  bool has_raster = false;  // its pieces are the job's series
   std::chrono::seconds usual_wait{0};
   Lane lane = Lane::kUsual;
 };
@@ -91,6 +98,7 @@ JobKind job_kind(JobKindRow<Request, Answer> of) {
   JobKind kind{.name = row->name, .path = row->path, .accept = {}, .work = {}, .map = row->map};
   kind.page = row->page;
   kind.has_report = row->report != nullptr || row->page != nullptr;
+  kind.has_raster = row->raster != nullptr;
   kind.usual_wait = row->usual_wait;
   kind.lane = row->lane;
   kind.accept = [row](const Service& service, JobStore& store, std::string_view body) {
@@ -111,6 +119,7 @@ JobKind job_kind(JobKindRow<Request, Answer> of) {
     const auto answer = row->run(service, *request, progress);
     if (!answer) return fail(answer.error());
     std::string document = row->write(*answer);
+    if (row->raster) return JobAnswer(std::move(document), in_pieces(row->raster(*answer)));
     if (row->report) return JobAnswer(kept_answer(document, row->report(*answer)));
     if (!row->write_whole || !json::is_thinned(document)) return JobAnswer(std::move(document));
     auto series = series_of(row->write_whole(*answer));

@@ -11,6 +11,7 @@
 #include "api/documents/prediction_answer.h"
 #include "api/documents/soil_estimate_document.h"
 #include "api/documents/watch_document.h"
+#include "api/maps/map_documents.h"
 #include "api/report/check_report.h"
 #include "api/report/diagnosis_charts.h"
 #include "api/report/diagnosis_report.h"
@@ -25,6 +26,20 @@ std::string diagnosis_page(const DiagnosisAnswer& answer) {
   return diagnosis_report(answer.campaign, answer.diagnosis,
                           draw_diagnosis(answer.campaign, answer.diagnosis))
       .html();
+}
+
+MapTarget served_map() {
+  MapTarget target;
+  target.max_cells = kMaxServedMapCells;
+  return target;
+}
+
+// A map that is too large is refused before it is a job.
+Result<MapRequest> read_served_map(const Service& service, std::string_view body) {
+  auto request = service.read_map(body);
+  if (!request) return request;
+  if (auto size = service.check_map_size(*request, kMaxServedMapCells); !size) return fail(size.error());
+  return request;
 }
 
 template <class Answer, std::string (*Write)(const Answer&, json::StationDetail), json::StationDetail Detail>
@@ -106,6 +121,14 @@ std::vector<JobKind> all_kinds() {
           .write =
               [](const TerrainImportReport& report) { return report.json.substr(0, report.json.find('\n')); },
           .usual_wait = std::chrono::seconds(20)}),
+      job_kind(JobKindRow<MapRequest, MapAnswer>{
+          .name = "map",
+          .path = "/v1/maps",
+          .read = &read_served_map,
+          .run = [](const Service& service, const MapRequest& request,
+                    Progress& progress) { return service.map(request, served_map(), progress); },
+          .write = &json::write_map_answer,
+          .raster = [](const MapAnswer& answer) { return answer.cog; }}),
   };
 }
 

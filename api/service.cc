@@ -15,6 +15,7 @@
 #include "api/files/campaign/drive_campaign_source.h"
 #include "api/files/model_folder.h"
 #include "api/json/faults.h"
+#include "api/maps/map_documents.h"
 #include "api/request_check.h"
 #include "gap/diagnosis/reference_diagnosis.h"
 #include "planner/judge/drive_decision.h"
@@ -149,6 +150,14 @@ Result<SoilEstimateRequest> Service::read_soil_estimate(std::string_view json) c
   if (!request.campaign.empty()) check_campaign(request.campaign, "/campaign", faults);
   if (!faults.empty()) return fail(ErrorCode::kInvalidRequest, summary_of(faults), faults);
   return std::move(reading->request);
+}
+
+Result<MapRequest> Service::read_map(std::string_view json) const {
+  return checked(
+      json::read_map_request(json, options_.costs), [](const MapRequest& request, RequestCheck& check) {
+        if (request.place)
+          check.place(*request.place, request.kind == planner::MapKind::kCostToGo ? "/to" : "/from");
+      });
 }
 
 Result<PlanAnswer> Service::plan(const PlanRequest& request, Progress& progress) const {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,6 +13,7 @@
 #include "api/files/catalogue.h"
 #include "api/ground_evidence.h"
 #include "api/requests/answers.h"
+#include "api/requests/map_request.h"
 #include "api/requests/soil_estimate.h"
 #include "api/uploads/upload_folder.h"
 #include "api/uploads/uploaded_campaigns.h"
@@ -69,6 +71,7 @@ class Service {
   // These need uploads(). Errors also: invalid_request where there are none.
   Result<CampaignOrder> read_campaign(std::string_view json) const;
   Result<TerrainOrder> read_terrain(std::string_view json) const;
+  Result<MapRequest> read_map(std::string_view json) const;
 
   // The same request gives the same answer, on any number of threads.
   Result<PlanAnswer> plan(const PlanRequest& request, Progress& progress) const;
@@ -80,20 +83,28 @@ class Service {
   Result<CampaignTaken> take_campaign(const CampaignOrder& order, Progress& progress) const;
   Result<TerrainImportReport> take_terrain(const TerrainOrder& order, Progress& progress) const;
 
+  // A map of the ground, written to the target. The same request gives the same bytes. Memory is bounded
+  // whatever its size, but of maps of ways (see kMaxServedMapCells). Errors: those of reading the terrain;
+  // payload_too_large above the target's limit; unwritable_file; cancelled.
+  // Errors: off_map, payload_too_large at /extent (0 cells: no limit).
+  Result<void> check_map_size(const MapRequest& request, long long max_cells) const;
+  Result<MapAnswer> map(const MapRequest& request, const MapTarget& target, Progress& progress) const;
+
   // Errors: not_found (unknown terrain), off_map, no_data.
   Result<GroundAt> ground_at(std::string_view terrain, double x_m, double y_m) const;
 
  private:
   explicit Service(ServiceOptions options) : options_(std::move(options)) {}
 
-  // A problem without places, and the window's soils: what plan and prediction have in common.
+  // A problem without places, and the window's soils: what plan and prediction have in common. The ground is
+  // that of `window`, or lies around the places where that is not given.
   struct Setting {
     planner::PlanProblem problem;
     Provenance provenance;
   };
   Result<Setting> set_up(const std::string& terrain, const std::string& rover,
                          const std::vector<planner::Waypoint>& places, const DriveAssumptions& drive,
-                         Progress& progress) const;
+                         Progress& progress, const std::optional<dem::Extent>& window = std::nullopt) const;
   // The service's own, or a copy with the request's model and soils in it where it has some; the model's
   // rover takes the place of the one it was made of. What can't be taken is added to the faults.
   std::shared_ptr<const Catalogue> catalogue_for(const DriveAssumptions& drive, std::string& rover,

@@ -96,7 +96,8 @@ constexpr int kFirstDraws = 32, kMaxDecidingDraws = 1000;
 
 Result<Service::Setting> Service::set_up(const std::string& terrain, const std::string& rover,
                                          const std::vector<planner::Waypoint>& places,
-                                         const DriveAssumptions& drive, Progress& progress) const {
+                                         const DriveAssumptions& drive, Progress& progress,
+                                         const std::optional<dem::Extent>& window) const {
   std::vector<Fault> faults;
   std::string driven_name = rover;
   const std::shared_ptr<const Catalogue> catalogue = catalogue_for(drive, driven_name, faults);
@@ -111,7 +112,8 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
   sim::fail_wheels(driven, drive.failed_wheels, drive.conditions);
   if (drive.speed_m_s) driven.cruise_speed_m_s = *drive.speed_m_s;
   const Legend& legend = *site.description().legend(drive.legend);
-  auto ground = site.read(window_around(places_to_read(site, drive, places), site.info().geometry), legend);
+  auto ground = site.read(
+      window ? *window : window_around(places_to_read(site, drive, places), site.info().geometry), legend);
   if (!ground) return fail(ground.error());
 
   Setting setting;

@@ -175,7 +175,24 @@ bool is_west_positive(const OGRSpatialReference& crs) {
 
 bool can_be_reprojected(const OGRSpatialReference* crs) {
   if (crs == nullptr || crs->IsEmpty()) return false;
-  return crs->IsGeographic() != 0 || (crs->IsProjected() != 0 && !is_west_positive(*crs));
+  return crs->IsGeographic() != 0 ||
+         (crs->IsProjected() != 0 && (!is_west_positive(*crs) || eastward_projection(*crs) != nullptr));
+}
+
+std::unique_ptr<OGRSpatialReference> eastward_projection(const OGRSpatialReference& crs) {
+  // Whether its central meridian counts to the west too, nobody says; of these it does not matter.
+  const double meridian = std::abs(crs.GetProjParm(SRS_PP_CENTRAL_MERIDIAN, 0.0));
+  if (meridian != 0.0 && meridian != 180.0) return nullptr;
+  char* text = nullptr;
+  if (crs.exportToProj4(&text) != OGRERR_NONE) return nullptr;
+  const std::string words = text;
+  CPLFree(text);
+  if (words.find("+axis=ws") != std::string::npos) return nullptr;  // y counts to the south as well
+  auto east = std::make_unique<OGRSpatialReference>();
+  if (east->importFromProj4(without_axes(words).c_str()) != OGRERR_NONE || east->IsProjected() == 0)
+    return nullptr;
+  east->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  return east;
 }
 
 std::optional<RasterCentre> degrees_at(const OGRSpatialReference& crs, const RasterCentre& place) {

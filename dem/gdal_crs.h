@@ -2,6 +2,7 @@
 
 #include <ogr_spatialref.h>
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -31,6 +32,9 @@ Result<void> check_true_lengths(const OGRSpatialReference& crs, const Extent& ex
 // Whether places in this system can be brought into another one of the same body without a guess: false of no
 // system, of one that is neither in degrees nor projected, and of a projected one with a west-positive axis.
 bool can_be_reprojected(const OGRSpatialReference* crs);
+// The projected system whose x is the negative of this one's, which counts towards the west; nothing where
+// its central meridian is another than 0 or 180.
+std::unique_ptr<OGRSpatialReference> eastward_projection(const OGRSpatialReference& crs);
 // Whether x counts towards the west, by its axes or by its name.
 bool is_west_positive(const OGRSpatialReference& crs);
 // A conformal system in metres around a place of the body in degrees, as PROJ writes it.

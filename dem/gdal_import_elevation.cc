@@ -59,6 +59,13 @@ void count_eastwards(Arrangement& a) {
   a.changes.emplace_back("longitudes that counted to the west now count to the east");
 }
 
+// The same of map coordinates.
+void count_eastings(Arrangement& a) {
+  a.crs = eastward_projection(*a.crs);
+  for (int i : {0, 1, 2}) a.grid[static_cast<std::size_t>(i)] = -a.grid[static_cast<std::size_t>(i)];
+  a.changes.emplace_back("map coordinates that counted to the west now count to the east");
+}
+
 void turn_north_up(Arrangement& a, int rows, int columns) {
   if (a.grid[2] != 0.0 || a.grid[4] != 0.0) {
     a.reprojects = true;
@@ -92,7 +99,7 @@ Arrangement arrange(GDALDataset& dataset, const OGRSpatialReference& crs) {
   a.crs.reset(crs.Clone());
   a.crs->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   dataset.GetGeoTransform(a.grid.data());
-  if (a.crs->IsGeographic() != 0 && is_west_positive(*a.crs)) count_eastwards(a);
+  if (is_west_positive(*a.crs)) a.crs->IsGeographic() != 0 ? count_eastwards(a) : count_eastings(a);
   measure_in_metres(a);
   turn_north_up(a, dataset.GetRasterYSize(), dataset.GetRasterXSize());
   a.reprojects = a.reprojects || a.crs->IsGeographic() != 0;

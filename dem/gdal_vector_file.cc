@@ -3,6 +3,7 @@
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
+#include <algorithm>
 #include <memory>
 #include <mutex>
 
@@ -59,10 +60,51 @@ bool write_layer(GDALDataset& file, const VectorLayer& layer, OGRSpatialReferenc
   return true;
 }
 
+// The table from which QGIS takes styles. Its columns are QGIS's own.
+bool write_styles(GDALDataset& file, const std::vector<VectorLayer>& layers) {
+  OGRLayer* const table = file.CreateLayer("layer_styles", nullptr, wkbNone, nullptr);
+  if (table == nullptr) return false;
+  constexpr const char* kTexts[] = {"f_table_catalog", "f_table_schema", "f_table_name", "f_geometry_column",
+                                    "styleName",       "styleQML",       "styleSLD"};
+  for (const char* const name : kTexts) {
+    OGRFieldDefn field(name, OFTString);
+    if (table->CreateField(&field) != OGRERR_NONE) return false;
+  }
+  OGRFieldDefn used("useAsDefault", OFTInteger);
+  used.SetSubType(OFSTBoolean);
+  if (table->CreateField(&used) != OGRERR_NONE) return false;
+  for (const char* const name : {"description", "owner", "ui"}) {
+    OGRFieldDefn field(name, OFTString);
+    if (table->CreateField(&field) != OGRERR_NONE) return false;
+  }
+  OGRFieldDefn time("update_time", OFTDateTime);
+  if (table->CreateField(&time) != OGRERR_NONE) return false;
+  for (const VectorLayer& layer : layers) {
+    if (layer.style_qml.empty()) continue;
+    OGRFeature row(table->GetLayerDefn());
+    row.SetField("f_table_catalog", "");
+    row.SetField("f_table_schema", "");
+    row.SetField("f_table_name", layer.name.c_str());
+    row.SetField("f_geometry_column", "geom");
+    row.SetField("styleName", layer.name.c_str());
+    row.SetField("styleQML", layer.style_qml.c_str());
+    row.SetField("styleSLD", "");
+    row.SetField("useAsDefault", 1);
+    row.SetField("description", "slipway");
+    row.SetField("owner", "");
+    row.SetField("update_time", 2000, 1, 1, 0, 0, 0.0F, 100);
+    if (table->CreateFeature(&row) != OGRERR_NONE) return false;
+  }
+  return true;
+}
+
 bool write_layers(GDALDataset& file, const std::vector<VectorLayer>& layers, OGRSpatialReference* crs) {
   if (file.StartTransaction() != OGRERR_NONE) return false;
   for (const VectorLayer& layer : layers)
     if (!write_layer(file, layer, crs)) return false;
+  const bool styled = std::any_of(layers.begin(), layers.end(),
+                                  [](const VectorLayer& layer) { return !layer.style_qml.empty(); });
+  if (styled && !write_styles(file, layers)) return false;
   return file.CommitTransaction() == OGRERR_NONE;
 }
 

@@ -28,6 +28,7 @@ struct VectorLayer {
   bool lines = false;
   std::vector<VectorField> fields;
   std::vector<VectorFeature> features;
+  std::string style_qml = {};  // as QGIS takes it from a GeoPackage by itself; empty: none
 };
 
 // A GeoPackage's bytes. crs_wkt: of the map; empty: a local frame. The same layers give the same bytes.

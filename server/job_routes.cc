@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "api/chart/report_page.h"
+#include "api/documents/answer_vectors.h"
 #include "api/documents/job_document.h"
 #include "api/documents/plan_answer.h"
 #include "api/documents/station_csv.h"
@@ -28,6 +29,8 @@ using std::chrono::seconds;
 
 constexpr std::string_view kCsv = "text/csv";
 constexpr std::string_view kGeoJson = "application/geo+json";
+constexpr std::string_view kGeoPackage = "application/geopackage+sqlite3";
+constexpr std::string_view kCloudOptimised = "image/tiff; application=geotiff; profile=cloud-optimized";
 constexpr std::string_view kHtml = "text/html; charset=utf-8";
 constexpr std::string_view kSvg = "image/svg+xml";
 constexpr int kPollSeconds = 1;
@@ -101,6 +104,9 @@ class JobRoutes {
     if (const auto error = query.error()) return problem_response(*error, &request);
     const auto job = find(request);
     if (!job) return problem_response(job.error(), &request);
+    if (has_raster(*job))
+      return problem(ErrorCode::kNotFound, fmt::format("jobs of kind {} have no stations", job->kind),
+                     request);
     if (job->state != api::JobState::kSuccessful) return outcome_response(*job, request);
     auto table = page_of_stations(*job, page);
     if (!table) return problem_response(table.error(), &request);
@@ -109,6 +115,44 @@ class JobRoutes {
     if (table->more)
       response.headers.emplace_back(
           "Link", fmt::format("</v1/jobs/{}/stations?page={}>; rel=\"next\"", job->id, page + 1));
+    const std::string tag = tag_of(response.body);
+    return tagged(std::move(response), tag, request);
+  }
+
+  // The raster of a successful job, whole.
+  HttpResponse raster(const HttpRequest& request) {
+    const auto job = find(request);
+    if (!job) return problem_response(job.error(), &request);
+    if (!has_raster(*job))
+      return problem(ErrorCode::kNotFound, fmt::format("jobs of kind {} have no raster", job->kind), request);
+    if (job->state != api::JobState::kSuccessful) return outcome_response(*job, request);
+    auto bytes = whole_series(*job);
+    if (!bytes) return problem_response(bytes.error(), &request);
+    HttpResponse response = document(*std::move(bytes));
+    response.content_type = kCloudOptimised;
+    response.headers.emplace_back("Content-Disposition",
+                                  fmt::format("attachment; filename=\"{}.tif\"", job->id));
+    return tagged(std::move(response), fmt::format("\"{}\"", job->id), request);
+  }
+
+  // Routes, stations, rules and checks of a successful job for GIS tools.
+  HttpResponse vectors(const HttpRequest& request, bool geopackage) {
+    Query query(request, {"coordinates"});
+    const std::string coordinates = request.query_value("coordinates").value_or("map");
+    if (const auto error = query.error()) return problem_response(*error, &request);
+    if (coordinates != "map" && (geopackage || coordinates != "lonlat"))
+      return problem_response(
+          {ErrorCode::kInvalidRequest,
+           "The coordinates can't be had.",
+           {{"/coordinates", geopackage ? "of a GeoPackage must be map" : "must be map or lonlat"}}},
+          &request);
+    const auto job = find(request);
+    if (!job) return problem_response(job.error(), &request);
+    if (job->state != api::JobState::kSuccessful) return outcome_response(*job, request);
+    auto bytes = vectors_of(*job, geopackage, coordinates == "lonlat");
+    if (!bytes) return problem_response(bytes.error(), &request);
+    HttpResponse response = document(*std::move(bytes));
+    response.content_type = geopackage ? kGeoPackage : kGeoJson;
     const std::string tag = tag_of(response.body);
     return tagged(std::move(response), tag, request);
   }
@@ -177,6 +221,49 @@ class JobRoutes {
   }
 
  private:
+  bool has_raster(const api::Job& job) const {
+    const api::JobKind* const kind = api::find_kind(kinds_, job.kind);
+    return kind != nullptr && kind->has_raster;
+  }
+
+  // All pages of what is kept apart, put together.
+  Result<std::string> whole_series(const api::Job& job) {
+    std::string all;
+    bool more = true;
+    for (std::int64_t page = 1; more; ++page) {
+      const auto kept = runner_.store().series(job.id, page);
+      if (!kept) return fail(kept.error());
+      if (!*kept) return fail(ErrorCode::kNotFound, "the job's result is no longer kept");
+      all += (*kept)->bytes;
+      more = (*kept)->more;
+    }
+    return all;
+  }
+
+  Result<std::string> vectors_of(const api::Job& job, bool geopackage, bool lonlat) {
+    const auto kept = kept_outcome(job);
+    if (!kept) return fail(kept.error());
+    const std::string answer(api::parts_of(*kept).document);
+    if (!api::json::has_stations(answer))
+      return fail(ErrorCode::kNotFound, fmt::format("jobs of kind {} have no routes", job.kind));
+    const auto& terrains = service_.catalogue().terrains;
+    const auto site = terrains.find(api::json::terrain_of_answer(answer));
+    if (site == terrains.end())
+      return fail(ErrorCode::kNotFound, "the terrain of the job is no longer among the service's");
+    const dem::ElevationInfo& info = site->second->info();
+    const api::json::AnswerMap map{info.crs_name, info.crs_wkt, info.body, info.semi_major_axis_m};
+    std::string stations;
+    if (api::json::is_thinned(answer)) {
+      auto all = whole_series(job);
+      if (!all) return fail(all.error());
+      stations = *std::move(all);
+    }
+    using api::json::VectorCoordinates;
+    if (geopackage) return api::json::answer_geopackage(answer, map, stations);
+    return api::json::answer_geojson(
+        answer, map, lonlat ? VectorCoordinates::kLongitudeLatitude : VectorCoordinates::kMap, stations);
+  }
+
   // A page of what is kept apart; of an answer that has all its stations, what it has.
   Result<api::SeriesPage> page_of_stations(const api::Job& job, std::int64_t page) {
     auto kept = runner_.store().series(job.id, page);
@@ -311,6 +398,11 @@ std::vector<Route> job_routes(const api::Service& service, api::JobRunner& runne
       {"GET", "/v1/jobs/{id}/result", [jobs](const HttpRequest& r) { return jobs->result(r); }, kHeavy},
       {"GET", "/v1/jobs/{id}/stations", [jobs](const HttpRequest& r) { return jobs->stations(r); }, kHeavy},
       {"GET", "/v1/jobs/{id}/map", [jobs](const HttpRequest& r) { return jobs->map(r); }, kHeavy},
+      {"GET", "/v1/jobs/{id}/map.tif", [jobs](const HttpRequest& r) { return jobs->raster(r); }, kHeavy},
+      {"GET", "/v1/jobs/{id}/vectors.gpkg", [jobs](const HttpRequest& r) { return jobs->vectors(r, true); },
+       kHeavy},
+      {"GET", "/v1/jobs/{id}/vectors.geojson",
+       [jobs](const HttpRequest& r) { return jobs->vectors(r, false); }, kHeavy},
       {"GET", "/v1/jobs/{id}/report", [jobs](const HttpRequest& r) { return jobs->report(r); }, kHeavy},
       {"DELETE", "/v1/jobs/{id}", [jobs](const HttpRequest& r) { return jobs->dismiss(r); }},
   };

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <variant>
 #include <vector>
 
+#include "api/chart/vector_styles.h"
 #include "api/documents/station_csv.h"
 #include "api/files/csv_cells.h"
 #include "api/json/faults.h"
@@ -106,12 +108,100 @@ VectorLayer station_layer(std::string_view csv) {
   return layer;
 }
 
-Result<std::vector<VectorLayer>> layers_of(std::string_view answer) {
+// Places along a route by the distance driven, linear between its stations.
+class AlongRoute {
+ public:
+  explicit AlongRoute(const JsonValue& stations) {
+    const JsonValue &distance = at(stations, "distance_m"), &x = at(stations, "x_m"),
+                    &y = at(stations, "y_m"), &height = at(stations, "height_m");
+    for (std::size_t i = 0; i < distance.elements.size(); ++i) {
+      distances_.push_back(distance.elements[i].number);
+      points_.push_back({x.elements.at(i).number, y.elements.at(i).number, height.elements.at(i).number});
+    }
+  }
+
+  double length_m() const { return distances_.empty() ? 0.0 : distances_.back(); }
+  std::array<double, 3> at_m(double distance_m) const {
+    const auto after = std::lower_bound(distances_.begin(), distances_.end(), distance_m);
+    if (after == distances_.begin()) return points_.front();
+    if (after == distances_.end()) return points_.back();
+    const auto i = static_cast<std::size_t>(after - distances_.begin());
+    const double step = distances_[i] - distances_[i - 1];
+    const double t = step > 0.0 ? (distance_m - distances_[i - 1]) / step : 0.0;
+    std::array<double, 3> place{};
+    for (std::size_t k = 0; k < 3; ++k)
+      place[k] = points_[i - 1][k] + t * (points_[i][k] - points_[i - 1][k]);
+    return place;
+  }
+  std::vector<std::array<double, 3>> between(double from_m, double to_m) const {
+    std::vector<std::array<double, 3>> line{at_m(from_m)};
+    for (std::size_t i = 0; i < distances_.size(); ++i)
+      if (distances_[i] > from_m && distances_[i] < to_m) line.push_back(points_[i]);
+    line.push_back(at_m(std::max(to_m, from_m)));
+    return line;
+  }
+
+ private:
+  std::vector<double> distances_;
+  std::vector<std::array<double, 3>> points_;
+};
+
+// Each rule, on the stretch where it trips.
+VectorLayer rule_layer(const JsonValue& rules, const AlongRoute& along) {
+  VectorLayer layer{.name = "rules", .lines = true, .fields = {}, .features = {}};
+  for (const JsonValue& rule : rules.elements) {
+    VectorFeature& made = layer.features.emplace_back();
+    if (has(rule, "from_m") && at(rule, "from_m").is(JsonValue::Kind::kNumber))
+      made.points = along.between(number(rule, "from_m"), number(rule, "to_m"));
+    set_scalars(layer, made, rule);
+    const JsonValue& value = at(rule, "value");
+    for (const char* const quantile : {"p05", "p50", "p95"})
+      if (has(value, quantile)) set(layer, made, fmt::format("value_{}", quantile), number(value, quantile));
+    const JsonValue& trips = at(rule, "trips");
+    set(layer, made, "trips_low", number(trips, "low"));
+    set(layer, made, "trips_high", number(trips, "high"));
+  }
+  for (VectorFeature& made : layer.features) made.values.resize(layer.fields.size());
+  return layer;
+}
+
+// Where the slip is checked on the way, and where a check is recommended.
+VectorLayer check_layer(const JsonValue& document, const AlongRoute& along) {
+  VectorLayer layer{.name = "checks", .lines = false, .fields = {}, .features = {}};
+  const auto add = [&](double distance_m, const char* why) {
+    VectorFeature& made = layer.features.emplace_back();
+    made.points.push_back(along.at_m(distance_m));
+    set(layer, made, "distance_m", distance_m);
+    set(layer, made, "why", std::string(why));
+  };
+  const JsonValue& checks = at(at(document, "request"), "checks");
+  const double every_m = has(checks, "slip_check_every_m") ? number(checks, "slip_check_every_m") : 0.0;
+  constexpr double kMostChecks = 100'000.0;
+  if (every_m > 0.0 && along.length_m() / every_m < kMostChecks)
+    for (int i = 1; i * every_m <= along.length_m(); ++i) add(i * every_m, "interval");
+  const JsonValue& recommended = at(at(document, "outcomes"), "recommended");
+  if (has(recommended, "slip_checks_before_m"))
+    for (const JsonValue& place : at(recommended, "slip_checks_before_m").elements)
+      add(place.number, "recommended");
+  return layer;
+}
+
+Result<std::vector<VectorLayer>> layers_of(std::string_view answer, std::string_view stations) {
   const auto document = read_answer_document(answer);
   if (!document) return fail(document.error());
-  const auto csv = station_csv(answer);
+  auto csv = stations.empty() ? station_csv(answer) : Result<std::string>(stations);
   if (!csv) return fail(csv.error());
-  return std::vector<VectorLayer>{route_layer(*document), station_layer(*csv)};
+  std::vector<VectorLayer> layers{route_layer(*document), station_layer(*csv)};
+  layers[0].style_qml = route_style();
+  layers[1].style_qml = station_style();
+  const auto& routes = at(at(*document, "routes"), "features").elements;
+  if (!has(*document, "outcomes") || routes.empty()) return layers;
+  const AlongRoute along(at(at(routes.front(), "properties"), "stations"));
+  if (along.length_m() <= 0.0) return layers;
+  layers.push_back(rule_layer(at(at(*document, "outcomes"), "rules"), along));
+  layers.back().style_qml = rule_style();
+  layers.push_back(check_layer(*document, along));
+  return layers;
 }
 
 // Turns every point to degrees. Errors: unsupported_crs.
@@ -172,11 +262,17 @@ void write_geometry(Writer& w, const VectorLayer& layer, const VectorFeature& fe
   w.end_object();
 }
 
+// What one feature of a layer is called: "route" of "routes".
+std::string feature_name(const VectorLayer& layer) {
+  return layer.name.ends_with('s') ? layer.name.substr(0, layer.name.size() - 1) : layer.name;
+}
+
 void write_features(Writer& w, const VectorLayer& layer, VectorCoordinates coordinates) {
   for (const VectorFeature& feature : layer.features) {
+    if (feature.points.empty() && layer.name == "rules") continue;  // trips nowhere
     w.begin_object().text("type", "Feature");
     write_geometry(w, layer, feature, coordinates);
-    w.key("properties").begin_object().text("layer", layer.lines ? "route" : "station");
+    w.key("properties").begin_object().text("layer", feature_name(layer));
     for (std::size_t i = 0; i < layer.fields.size(); ++i) {
       if (const auto* const number = std::get_if<double>(&feature.values[i]))
         w.exact(layer.fields[i].name, *number);
@@ -205,12 +301,17 @@ std::string terrain_of_answer(std::string_view answer) {
 }
 
 Result<std::string> answer_geojson(std::string_view answer, const AnswerMap& map,
-                                   VectorCoordinates coordinates) {
-  auto layers = layers_of(answer);
+                                   VectorCoordinates coordinates, std::string_view stations) {
+  auto layers = layers_of(answer, stations);
   if (!layers) return fail(layers.error());
+  return layers_geojson(*std::move(layers), map, coordinates);
+}
+
+Result<std::string> layers_geojson(std::vector<VectorLayer> layers, const AnswerMap& map,
+                                   VectorCoordinates coordinates) {
   const bool degrees = coordinates == VectorCoordinates::kLongitudeLatitude;
   if (degrees)
-    if (const auto turned = turn_to_degrees(*layers, map); !turned) return fail(turned.error());
+    if (const auto turned = turn_to_degrees(layers, map); !turned) return fail(turned.error());
   Writer w;
   w.begin_object().text("type", "FeatureCollection").text("coordinates", in_words(map, coordinates));
   w.text("body", map.body);
@@ -219,13 +320,14 @@ Result<std::string> answer_geojson(std::string_view answer, const AnswerMap& map
     w.key("properties").begin_object().text("name", name).end_object().end_object();
   }
   w.key("features").begin_array();
-  for (const VectorLayer& layer : *layers) write_features(w, layer, coordinates);
+  for (const VectorLayer& layer : layers) write_features(w, layer, coordinates);
   w.end_array().end_object();
   return w.take() + "\n";
 }
 
-Result<std::string> answer_geopackage(std::string_view answer, const AnswerMap& map) {
-  const auto layers = layers_of(answer);
+Result<std::string> answer_geopackage(std::string_view answer, const AnswerMap& map,
+                                      std::string_view stations) {
+  const auto layers = layers_of(answer, stations);
   if (!layers) return fail(layers.error());
   return dem::encode_geopackage(*layers, map.crs_wkt);
 }

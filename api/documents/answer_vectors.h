@@ -2,8 +2,10 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/result.h"
+#include "dem/vector_file.h"
 
 // Routes and stations of an answer as vectors for GIS tools.
 namespace slipway::api::json {
@@ -26,12 +28,19 @@ enum class VectorCoordinates {
 };
 
 // A FeatureCollection: a line for each route and a point for each station, which the property layer tells
-// apart. The member "coordinates" says in words what the numbers are; "crs" names the system where it has a
+// apart; of checks and predictions also the stretches where rules trip and the places where slip is checked.
+// `stations` is the table of all stations where the answer has but some of them; empty: the answer's own. The
+// member "coordinates" says in words what the numbers are; "crs" names the system where it has a
 // name that tools know. Errors: no_data where the answer has no stations; unsupported_crs for degrees of a
 // map that lies on no body.
 Result<std::string> answer_geojson(std::string_view answer, const AnswerMap& map,
+                                   VectorCoordinates coordinates, std::string_view stations = {});
+// The same of any layers in map metres; each feature's property layer is its layer's name in the singular.
+Result<std::string> layers_geojson(std::vector<dem::VectorLayer> layers, const AnswerMap& map,
                                    VectorCoordinates coordinates);
-// A GeoPackage with the layers routes and stations, in map metres. Errors: no_data; internal.
-Result<std::string> answer_geopackage(std::string_view answer, const AnswerMap& map);
+// A GeoPackage with the layers routes, stations, rules and checks, in map metres, with styles for QGIS.
+// Errors: no_data; internal.
+Result<std::string> answer_geopackage(std::string_view answer, const AnswerMap& map,
+                                      std::string_view stations = {});
 
 }  // namespace slipway::api::json

@@ -1,14 +1,11 @@
 #include "api/files/terrain_import.h"
 
 #include <fmt/format.h>
-#include <signal.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cstdlib>
-#include <fstream>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -18,7 +15,6 @@
 #include "api/files/terrain_site.h"
 #include "api/files/whole_file.h"
 #include "api/json/faults.h"
-#include "core/sha256.h"
 
 namespace slipway::api {
 namespace {
@@ -42,20 +38,6 @@ class WorkingFolder {
   fs::path path_;
 };
 
-// What a killed import of this name left behind: its process is no more.
-void remove_abandoned(const fs::path& terrains, const std::string& name) {
-  std::error_code error;
-  std::vector<fs::path> abandoned;
-  const std::string start = "." + name + ".";
-  for (fs::directory_iterator it(terrains, error), end; !error && it != end; it.increment(error)) {
-    const std::string file = it->path().filename().string();
-    if (!is_unfinished(it->path()) || !file.starts_with(start)) continue;
-    const int process = std::atoi(file.c_str() + start.size());
-    if (process > 0 && ::kill(process, 0) != 0 && errno == ESRCH) abandoned.push_back(it->path());
-  }
-  for (const fs::path& folder : abandoned) fs::remove_all(folder, error);
-}
-
 std::string name_of_file(const fs::path& path) {
   std::string name;
   for (const char c : path.stem().string()) {
@@ -74,19 +56,6 @@ bool is_name(const std::string& name) {
 
 bool are_polygons(const fs::path& path) {
   return path.extension() == ".geojson" || path.extension() == ".json";
-}
-
-Result<std::string> sha256_of(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  Sha256 hash;
-  std::vector<char> piece(1U << 20U);
-  while (stream) {
-    stream.read(piece.data(), static_cast<std::streamsize>(piece.size()));
-    hash.add({piece.data(), static_cast<std::size_t>(stream.gcount())});
-  }
-  if (!stream.eof())
-    return fail(ErrorCode::kUnreadableData, fmt::format("{} can't be read", path.filename().string()));
-  return hash.digest();
 }
 
 std::optional<double> gravity_of(const std::string& body) {
@@ -157,7 +126,7 @@ Result<void> import_soil(const TerrainImport& order, const fs::path& folder, Imp
   auto soil = dem::import_soil(soil_order(order, made.legend), made.elevation.info, folder / made.soil_file,
                                progress);
   if (!soil) return fail(soil.error());
-  const auto hash = sha256_of(*order.soil);
+  const auto hash = sha256_of_file(*order.soil);
   if (!hash) return fail(hash.error());
   made.soil = *std::move(soil);
   made.soil_source = {order.soil->filename().string(), *hash, made.soil->source_format};
@@ -174,7 +143,7 @@ Result<void> import_maps(const TerrainImport& order, const fs::path& folder, Imp
     return fail(soil ? elevation.error() : joined(elevation.error(), soil.error()));
   }
   made.elevation = *std::move(elevation);
-  const auto source = sha256_of(order.elevation), written = sha256_of(folder / "elevation.tif");
+  const auto source = sha256_of_file(order.elevation), written = sha256_of_file(folder / "elevation.tif");
   if (!source) return fail(source.error());
   if (!written) return fail(written.error());
   made.elevation_source = {order.elevation.filename().string(), *source, made.elevation.source_format};

@@ -182,12 +182,15 @@ Result<std::vector<TerrainFile>> TerrainSite::files() const {
   return files;
 }
 
+Result<std::shared_ptr<const dem::Terrain>> TerrainSite::read_elevation(const dem::Extent& extent) const {
+  return elevation_->read(clipped(extent, info().geometry.extent()));
+}
+
 Result<std::shared_ptr<const dem::Terrain>> TerrainSite::read_around(double x_m, double y_m,
                                                                      double radius_m) const {
   const dem::GridGeometry& geometry = info().geometry;
   const double margin = std::max(radius_m, 2.0 * std::max(geometry.cell_x_m, geometry.cell_y_m));
-  return elevation_->read(
-      clipped({x_m - margin, y_m - margin, x_m + margin, y_m + margin}, geometry.extent()));
+  return read_elevation({x_m - margin, y_m - margin, x_m + margin, y_m + margin});
 }
 
 }  // namespace slipway::api

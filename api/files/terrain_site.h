@@ -37,6 +37,7 @@ class TerrainSite {
   // unreadable_data.
   static Result<std::shared_ptr<const TerrainSite>> open(const std::filesystem::path& folder);
 
+  const std::filesystem::path& folder() const { return folder_; }
   const TerrainDescription& description() const { return description_; }
   const dem::ElevationInfo& info() const { return elevation_->info(); }
   const std::vector<Stop>& stops() const { return stops_; }
@@ -55,7 +56,9 @@ class TerrainSite {
   Result<std::vector<TerrainFile>> files() const;
   // The text of a file beside terrain.json; nothing where there is none.
   Result<std::optional<std::string>> text_of(const std::optional<std::string>& file) const;
-  // Elevation only, of a few cells around a point that lies on the map.
+  // Elevation only.
+  Result<std::shared_ptr<const dem::Terrain>> read_elevation(const dem::Extent& extent) const;
+  // The same of a few cells around a point that lies on the map.
   Result<std::shared_ptr<const dem::Terrain>> read_around(double x_m, double y_m, double radius_m) const;
 
  private:

@@ -1,12 +1,18 @@
 #include "api/files/whole_file.h"
 
 #include <fmt/format.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
+#include <cstdlib>
 #include <fstream>
 #include <string_view>
 #include <system_error>
+#include <vector>
+
+#include "core/sha256.h"
 
 namespace slipway::api {
 namespace {
@@ -26,13 +32,6 @@ bool written(const fs::path& path, const std::string& bytes) {
   stream << bytes << std::flush;
   stream.close();
   return !stream.fail();
-}
-
-// Beside the file, so that it can be renamed to it, and of this process and call alone.
-fs::path unfinished_name(const fs::path& path) {
-  static std::atomic<unsigned> calls{0};
-  return path.parent_path() /
-         fmt::format(".{}.{}-{}{}", path.filename().string(), ::getpid(), ++calls, kUnfinished);
 }
 
 }  // namespace
@@ -63,6 +62,38 @@ Result<void> write_whole_file(const fs::path& given, const std::string& bytes) {
 bool is_unfinished(const fs::path& path) {
   const std::string name = path.filename().string();
   return name.starts_with('.') && name.ends_with(kUnfinished);
+}
+
+fs::path unfinished_name(const fs::path& path) {
+  static std::atomic<unsigned> calls{0};
+  return path.parent_path() /
+         fmt::format(".{}.{}-{}{}", path.filename().string(), ::getpid(), ++calls, kUnfinished);
+}
+
+void remove_abandoned(const fs::path& folder, const std::string& name) {
+  std::error_code error;
+  std::vector<fs::path> abandoned;
+  const std::string start = "." + name + ".";
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    const std::string file = it->path().filename().string();
+    if (!is_unfinished(it->path()) || !file.starts_with(start)) continue;
+    const int process = std::atoi(file.c_str() + start.size());
+    if (process > 0 && ::kill(process, 0) != 0 && errno == ESRCH) abandoned.push_back(it->path());
+  }
+  for (const fs::path& path : abandoned) fs::remove_all(path, error);
+}
+
+Result<std::string> sha256_of_file(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  Sha256 hash;
+  std::vector<char> piece(1U << 20U);
+  while (stream) {
+    stream.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+    hash.add({piece.data(), static_cast<std::size_t>(stream.gcount())});
+  }
+  if (!stream.eof())
+    return fail(ErrorCode::kUnreadableData, fmt::format("{} can't be read", path.filename().string()));
+  return hash.digest();
 }
 
 Result<void> make_folder(const fs::path& path) {

@@ -15,6 +15,15 @@ Result<void> write_whole_file(const std::filesystem::path& path, const std::stri
 // Whether a file of this name can only be the unfinished part of one that write_whole_file() was killed in.
 bool is_unfinished(const std::filesystem::path& path);
 
+// A name for an unfinished file or folder beside the one that it is to become: is_unfinished(), and of this
+// process and call alone.
+std::filesystem::path unfinished_name(const std::filesystem::path& path);
+// Removes what processes that are no more left unfinished of this name.
+void remove_abandoned(const std::filesystem::path& folder, const std::string& name);
+
+// The SHA-256 of a file's bytes, which are read piece by piece. Errors: unreadable_data.
+Result<std::string> sha256_of_file(const std::filesystem::path& path);
+
 // Makes a folder, and those above it, where there is none. Errors: unwritable_file.
 Result<void> make_folder(const std::filesystem::path& path);
 

@@ -16,6 +16,7 @@
 #include "server/cli/gap_benchmark_command.h"
 #include "server/cli/import_command.h"
 #include "server/cli/inquiry/data_folder.h"
+#include "server/cli/map_command.h"
 #include "server/cli/plan_command.h"
 #include "server/cli/predict_command.h"
 #include "server/cli/serve_command.h"
@@ -68,6 +69,7 @@ int run_command_line(int argc, char** argv) {
   add_estimate_command(app, run);
   add_gap_benchmark_command(app, run);
   add_terrain_command(app, run);
+  add_map_command(app, run);
   add_data_command(app, run);
   add_validate_command(app, run);
   add_worlds_command(app, run);

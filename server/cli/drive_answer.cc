@@ -8,6 +8,7 @@
 
 #include "api/chart/drive_history.h"
 #include "api/documents/answer_vectors.h"
+#include "api/documents/station_csv.h"
 #include "api/files/model_folder.h"
 #include "api/json/parse.h"
 #include "dem/body_degrees.h"
@@ -32,10 +33,16 @@ Result<api::json::AnswerMap> map_of(Inquiry& service, const std::string& terrain
 Result<std::string> vectors_of(Inquiry& service, const std::string& answer, bool geopackage, bool lonlat) {
   const auto map = map_of(service, api::json::terrain_of_answer(answer));
   if (!map) return fail(map.error());
-  if (geopackage) return api::json::answer_geopackage(answer, *map);
+  std::string stations;
+  if (api::json::is_thinned(answer)) {
+    auto all = service.stations();
+    if (!all) return fail(all.error());
+    stations = *std::move(all);
+  }
+  if (geopackage) return api::json::answer_geopackage(answer, *map, stations);
   using api::json::VectorCoordinates;
-  return api::json::answer_geojson(answer, *map,
-                                   lonlat ? VectorCoordinates::kLongitudeLatitude : VectorCoordinates::kMap);
+  return api::json::answer_geojson(
+      answer, *map, lonlat ? VectorCoordinates::kLongitudeLatitude : VectorCoordinates::kMap, stations);
 }
 
 }  // namespace

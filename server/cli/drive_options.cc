@@ -57,7 +57,7 @@ void add_places(CLI::App& command, const std::string& name, std::vector<PlaceOpt
       help);
 }
 
-void add_drive(CLI::App& command, DriveOptions& drive) {
+void add_assumptions(CLI::App& command, DriveOptions& drive) {
   command.add_option("--terrain", drive.terrain, "name of the terrain")->capture_default_str();
   command.add_option("--rover", drive.rover, "name of the rover")->capture_default_str();
   command.add_option("--max-slip", drive.max_slip, "limit of slip, 0 to 1");
@@ -82,17 +82,28 @@ void add_drive(CLI::App& command, DriveOptions& drive) {
                      "share of a wheel's radius, deeper than which the rover is embedded");
   command.add_option("--max-embedding", drive.max_embedding, "bar of a GO: probability of embedding");
   command.add_option("--max-expected-stops", drive.max_expected_stops, "bar of a GO: stops to be expected");
-  command.add_option("--as-of-sol", drive.as_of_sol,
-                     "drives of the terrain's table before this sol count as evidence of the ground");
-  command.add_option("--drive-so-far", drive.drive_so_far,
-                     "telemetry of a drive under way (CSV: driven_m,x_m,y_m and where known time_s, yaw_deg, "
-                     "current_a): evidence of the ground, and the start is its last row unless one is given");
   command.add_option("--beliefs", drive.beliefs,
                      "file of soils (soils/1) that stand in for those of the same names, or beside them");
   command.add_option("--unknown-soil", drive.unknown_soil, "what unmapped ground is believed to be");
   command.add_option("--confidence", drive.confidence,
                      "that a mapped class is the soil that the legend gives");
   command.add_option("--legend", drive.legend, "which of the terrain's legends says what its classes are");
+  command.add_option(
+      "--effect", drive.effects,
+      "switch an effect on, NAME or NAME:parameter=value,..., or off, NAME:off; see slipway effects");
+  command.add_option("--failed", drive.failed,
+                     fmt::format("a wheel whose drive has failed, WHEEL={}",
+                                 fmt::join(sim::wheel_failure_names(), " or WHEEL=")));
+  command.add_option("--motor-temp-c", drive.motor_temp_c, "temperature of the drive motors");
+}
+
+void add_drive(CLI::App& command, DriveOptions& drive) {
+  add_assumptions(command, drive);
+  command.add_option("--as-of-sol", drive.as_of_sol,
+                     "drives of the terrain's table before this sol count as evidence of the ground");
+  command.add_option("--drive-so-far", drive.drive_so_far,
+                     "telemetry of a drive under way (CSV: driven_m,x_m,y_m and where known time_s, yaw_deg, "
+                     "current_a): evidence of the ground, and the start is its last row unless one is given");
   command.add_flag("--relief", drive.relief,
                    "draw the relief too: the map's error, roughness and rocks, as the terrain states them");
   command.add_option(
@@ -105,13 +116,6 @@ void add_drive(CLI::App& command, DriveOptions& drive) {
   command.add_option("--draws", drive.draws,
                      "draws of the ground for the risk; as many as the verdict needs where it is not given");
   command.add_option("--seed", drive.seed, "the same seed gives the same answer");
-  command.add_option(
-      "--effect", drive.effects,
-      "switch an effect on, NAME or NAME:parameter=value,..., or off, NAME:off; see slipway effects");
-  command.add_option("--failed", drive.failed,
-                     fmt::format("a wheel whose drive has failed, WHEEL={}",
-                                 fmt::join(sim::wheel_failure_names(), " or WHEEL=")));
-  command.add_option("--motor-temp-c", drive.motor_temp_c, "temperature of the drive motors");
   command.add_option("--csv", drive.csv, "write the stations, one row each (CSV), to this file");
   command.add_option("--gpkg", drive.gpkg,
                      "write routes and stations in map metres (GeoPackage) to this file");

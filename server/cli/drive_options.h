@@ -42,7 +42,9 @@ struct DriveOptions {
   bool lonlat = false;                         // places in, and the GeoJSON out, are in degrees
 };
 
-// What plans and predictions have in common: --terrain, --rover, limits, effects and more.
+// What plans, predictions and maps have in common: --terrain, --rover, limits, soils, effects, areas.
+void add_assumptions(CLI::App& command, DriveOptions& drive);
+// What plans and predictions have in common: the same, --draws, and files for what is made of the answer.
 void add_drive(CLI::App& command, DriveOptions& drive);
 // An option whose value is "x,y" or "x,y,yaw_deg".
 void add_place(CLI::App& command, const std::string& name, std::optional<PlaceOption>& place,

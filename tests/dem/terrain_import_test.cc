@@ -113,6 +113,20 @@ TEST_F(TerrainImport, ASouthUpMapIsTurnedWithoutANewCell) {
   EXPECT_EQ(gdal_value_at(out(), 105.0, 210.5), 32.0);
 }
 
+TEST_F(TerrainImport, MapCoordinatesThatCountToTheWestAreCountedToTheEast) {
+  // Planetographic equirectangular of Mars around the meridian 0: x grows to the west.
+  RasterOptions options{.crs = "IAU_2015:49911", .cells = numbered(4, 5)};
+  ASSERT_FALSE(imported(options, false));
+  const auto made = imported(options, true);
+  ASSERT_TRUE(made) << told(made);
+  EXPECT_EQ(made->info.geometry, (GridGeometry{4, 5, -110.0, 200.0, 2.0, 3.0}));
+  EXPECT_EQ(gdal_value_at(out(), -101.0, 198.5), 0.0);  // the first column is the easternmost
+  EXPECT_EQ(gdal_value_at(out(), -109.0, 189.5), 34.0);
+  // Around another meridian nobody says which way that one counts.
+  options.crs = "EPSG:2046";
+  EXPECT_FALSE(imported(options, true));
+}
+
 TEST_F(TerrainImport, FeetOfTheGridAndOfTheHeightsBecomeMetres) {
   RasterOptions options{.transform = {6000000.0, 10.0, 0.0, 2100000.0, 0.0, -10.0}, .crs = "EPSG:2227"};
   options.cells = numbered(4, 5);

@@ -59,7 +59,7 @@ holds 'rovers/broken.json is left out' "$folder/err"
 rm "$folder/data/rovers/broken.json"
 echo 'II*' >"$folder/data/terrains/gale/elevation.tif"
 expect 2 "$slipway" data check --data "$folder/data" --json
-holds '"terrains":\[\]' "$folder/out"
+holds '"terrains":\["ames_yard","lunar' "$folder/out"  # and not gale
 expect 0 "$slipway" rovers --data "$folder/data"
 rm -r "$folder/data"
 

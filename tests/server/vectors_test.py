@@ -52,7 +52,13 @@ class VectorsOut(unittest.TestCase):
     def test_a_geopackage_has_both_layers_in_the_bodys_system(self):
         with sqlite3.connect(self.names["a.gpkg"]) as file:
             layers = dict(file.execute("select table_name, srs_id from gpkg_contents where data_type = 'features'").fetchall())
-            self.assertEqual(set(layers), {"routes", "stations"})
+            self.assertEqual(set(layers), {"routes", "stations", "rules", "checks"})
+            styles = dict(file.execute("select f_table_name, styleQML from layer_styles where useAsDefault").fetchall())
+            self.assertEqual(set(styles), {"routes", "stations", "rules"})
+            limits = dict(file.execute("select rule, \"limit\" from rules").fetchall())
+            self.assertEqual(limits["slip_check"], self.answer["request"]["limits"]["max_slip"])
+            places = [row[0] for row in file.execute("select distance_m from checks where why = 'interval'")]
+            self.assertEqual(places, [5.0 * i for i in range(1, 7)])  # of 30.15 m
             (definition,) = file.execute("select definition from gpkg_spatial_ref_sys where srs_id = ?", (layers["routes"],)).fetchone()
             self.assertIn("3396190", definition)
             self.assertEqual(file.execute("select count(*) from stations").fetchone()[0], self.rows)

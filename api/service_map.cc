@@ -1,0 +1,179 @@
+// Maps of the ground as rasters.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "api/documents/catalogue_documents.h"
+#include "api/files/whole_file.h"
+#include "api/json/faults.h"
+#include "api/maps/map_documents.h"
+#include "api/maps/map_layer.h"
+#include "api/maps/map_tiles.h"
+#include "api/service.h"
+#include "core/sha256.h"
+#include "core/version.h"
+#include "dem/cog.h"
+#include "dem/tile_file.h"
+#include "planner/maps/cell_map.h"
+#include "planner/maps/way_map.h"
+#include "planner/search/stage_progress.h"
+
+namespace slipway::api {
+namespace {
+
+using planner::MapKind;
+
+constexpr double kTilesComputed = 0.75;  // share of the work when all tiles are there
+
+Result<MapSources> map_sources_of(const TerrainSite& site) {
+  MapSources sources;
+  const TerrainDescription& terrain = site.description();
+  auto elevation = sha256_of_file(site.folder() / terrain.elevation_file);
+  if (!elevation) return fail(elevation.error());
+  sources.elevation_sha256 = *std::move(elevation);
+  if (terrain.soil_source == SoilSource::kNone) return sources;
+  auto soil = sha256_of_file(site.folder() / terrain.soil_file);
+  if (!soil) return fail(soil.error());
+  sources.soil_sha256 = *std::move(soil);
+  return sources;
+}
+
+// All that the tiles of a map depend on.
+std::string map_key_of(const MapRequest& request, const MapSources& sources, const Catalogue& catalogue) {
+  Sha256 hash;
+  for (const std::string& part :
+       {std::string(version()), json::write_map_request(request), sources.elevation_sha256,
+        sources.soil_sha256, json::write_rovers(catalogue), json::write_soils(catalogue)})
+    hash.add(part + "\n");
+  return hash.digest();
+}
+
+// Cells of the terrain that meet the extent; all where none is given.
+Result<dem::CellWindow> map_window_of(const MapRequest& request, const dem::GridGeometry& geometry) {
+  if (!request.extent) return dem::CellWindow{0, 0, geometry.rows, geometry.columns};
+  const auto window = geometry.window(*request.extent);
+  if (window) return *window;
+  const dem::Extent map = geometry.extent();
+  return fail(ErrorCode::kOffMap, "The extent does not meet the terrain.",
+              {{"/extent", fmt::format("the terrain is west {} south {} east {} north {} m", map.west_m,
+                                       map.south_m, map.east_m, map.north_m)}});
+}
+
+Result<void> check_cells(const dem::GridGeometry& geometry, long long max_cells) {
+  const long long cells = static_cast<long long>(geometry.rows) * geometry.columns;
+  if (max_cells == 0 || cells <= max_cells) return {};
+  return fail(ErrorCode::kPayloadTooLarge, "The map has too many cells.",
+              {{"/extent", fmt::format("takes {} cells of the terrain, must be at most {}; choose a smaller "
+                                       "one, or make the map with the command slipway map",
+                                       cells, max_cells)}});
+}
+
+// Effects in places make soils of their own there, which the map's pieces do not know of.
+std::optional<Error> fault_of_places(const MapRequest& request, const planner::PlanProblem& problem) {
+  if (sim::effect_regions(sim::in_force(problem.rover->effects, request.drive.effects)).empty())
+    return std::nullopt;
+  return Error{ErrorCode::kInvalidRequest,
+               "A map is made without effects that hold in a place alone.",
+               {{"/effects", "has effects with a place"}}};
+}
+
+Result<planner::WayMap> ways_of(const MapRequest& request, const planner::PlanProblem& problem,
+                                Progress& progress) {
+  if (request.kind == MapKind::kCostToGo)
+    return planner::cost_to_go_map(problem, *request.place, "/to", progress);
+  return planner::reachable_map(problem, *request.place,
+                                {request.budget_j, request.budget_sols, request.driving_hours_per_sol},
+                                "/from", progress);
+}
+
+// Coarser levels, figures and the file.
+Result<void> finish_map(const MapTarget& target, dem::TileStore& store, std::size_t threads,
+                        Progress& progress, MapAnswer& answer) {
+  if (auto coarser = fill_coarser_levels(answer.layer, store, threads, progress); !coarser) return coarser;
+  auto statistics = statistics_of(answer.layer, store);
+  if (!statistics) return fail(statistics.error());
+  answer.statistics = *std::move(statistics);
+  add_statistics(answer.statistics, answer.layer);
+  planner::StageProgress stage(progress, "writing the map", kTilesComputed, 1.0);
+  if (!target.out.empty()) return dem::write_cog(target.out, answer.layer, store, threads, stage);
+  auto bytes = dem::encode_cog(answer.layer, store, threads, stage);
+  if (!bytes) return fail(bytes.error());
+  answer.cog = *std::move(bytes);
+  return {};
+}
+
+}  // namespace
+
+Result<void> Service::check_map_size(const MapRequest& request, long long max_cells) const {
+  const std::shared_ptr<const Catalogue> all = catalogue();
+  const auto found = all->terrains.find(request.terrain);
+  if (found == all->terrains.end()) return fail(ErrorCode::kNotFound, unknown_terrain(*all, request.terrain));
+  const dem::GridGeometry& geometry = found->second->info().geometry;
+  const auto window = map_window_of(request, geometry);
+  if (!window) return fail(window.error());
+  return check_cells(geometry.sub(*window), max_cells);
+}
+
+Result<MapAnswer> Service::map(const MapRequest& request, const MapTarget& target, Progress& progress) const {
+  progress.report("reading the terrain", 0.0);
+  const std::shared_ptr<const Catalogue> all = catalogue();
+  const auto found = all->terrains.find(request.terrain);
+  if (found == all->terrains.end()) return fail(ErrorCode::kNotFound, unknown_terrain(*all, request.terrain));
+  const TerrainSite& site = *found->second;
+  const auto window = map_window_of(request, site.info().geometry);
+  if (!window) return fail(window.error());
+  const dem::GridGeometry geometry = site.info().geometry.sub(*window);
+  if (const auto size = check_cells(geometry, target.max_cells); !size) return fail(size.error());
+  const bool by_search = planner::row_of(request.kind).by_search;
+  // Cells by themselves are read piece by piece.
+  const dem::GridGeometry first = by_search ? geometry : geometry.sub({0, 0, 1, 1});
+  auto setting = set_up(request.terrain, request.rover, {}, request.drive, progress, first.extent());
+  if (!setting) return fail(setting.error());
+  planner::PlanProblem& problem = setting->problem;
+  problem.weights = request.weights;
+  problem.keep_out = request.keep_out;
+  problem.keep_in = request.keep_in;
+  if (const auto fault = fault_of_places(request, problem)) return fail(*fault);
+  const auto sources = map_sources_of(site);
+  if (!sources) return fail(sources.error());
+  MapAnswer answer{request, setting->provenance, {}, {}, 0, {}};
+  const std::string& wkt = site.info().crs_wkt;
+  dem::MemoryTiles in_memory;
+  if (by_search) {
+    const auto ways = ways_of(request, problem, progress);
+    if (!ways) return fail(ways.error());
+    answer.layer = map_layer(request, answer.provenance, problem, *sources, ways->geometry, wkt);
+    if (auto filled = fill_tiles(ways->values, answer.layer, in_memory); !filled) return fail(filled.error());
+    if (auto done = finish_map(target, in_memory, options_.threads, progress, answer); !done)
+      return fail(done.error());
+    return answer;
+  }
+  answer.layer = map_layer(request, answer.provenance, problem, *sources, geometry, wkt);
+  std::unique_ptr<dem::TileFile> file;
+  if (!target.part.empty()) {
+    const std::size_t bytes = answer.layer.cell_bytes() * dem::kTileSide * dem::kTileSide;
+    auto opened = dem::TileFile::open(target.part, map_key_of(request, *sources, *all), bytes);
+    if (!opened) return fail(opened.error());
+    file = *std::move(opened);
+    answer.tiles_kept = file->tiles();
+  }
+  dem::TileStore& store = file ? static_cast<dem::TileStore&>(*file) : in_memory;
+  const planner::CellMap cells({.drive = problem,
+                                .kind = request.kind,
+                                .heading_rad = request.heading_rad,
+                                .distance_m = request.distance_m,
+                                .price_unknown = request.price_unknown});
+  planner::StageProgress stage(progress, "computing tiles", 0.0, kTilesComputed);
+  const Legend& legend = *site.description().legend(request.drive.legend);
+  if (auto filled = fill_tiles(cells, site, legend, answer.layer, store, options_.threads, stage); !filled)
+    return fail(filled.error());
+  if (auto done = finish_map(target, store, options_.threads, progress, answer); !done)
+    return fail(done.error());
+  return answer;
+}
+
+}  // namespace slipway::api
