@@ -16,8 +16,7 @@ enum Stream : std::uint64_t {
   kStrengthChoice,
   kJitter,
   kWeak,
-  kCommonness,
-  kUnitWidth
+  kCommonness
 };
 
 std::uint64_t cell_key(std::uint64_t key, long long column, long long row) {
@@ -99,9 +98,6 @@ const Soil& DrawnGround::at(std::optional<std::size_t> soil, double x_m, double 
     place->distribution = &beliefs_.of(soil);
     place->key = name_key(key_, place->distribution->name);
     place->with_closures = has_closure_spread(*place->distribution);
-    if (!soil)
-      place->unit_m = kMinUnknownUnit_m * std::pow(kMaxUnknownUnit_m / kMinUnknownUnit_m,
-                                                   random_uniform(random_key(place->key, kUnitWidth), 0));
     place->unit.with_closures = place->patch.with_closures = place->with_closures;
     place->everywhere = normals_of(random_key(place->key, kEverywhere), place->with_closures);
     const std::uint64_t commonness = random_key(place->key, kCommonness);
@@ -185,7 +181,7 @@ void DrawnGround::choose(Belief& belief, std::uint64_t cell) const {
                                             random_uniform(choice, kPressureChoice), belief.commonness);
     if (!of.drawn_apart || !drives_level_ ||
         drives_level_(joined_soil(*belief.strength, *belief.pressure, weak)) ||
-        random_uniform(choice, kWeak) < kWeakShare * belief.unit_m / kUnitLength_m)
+        random_uniform(choice, kWeak) < kWeakShare)
       return;
   }
 }
@@ -197,7 +193,7 @@ Soil DrawnGround::draw(Belief& belief, double x_m, double y_m) {
                         blended(belief.patch, random_key(key, kPatch), of.correlation_length_m, x_m, y_m);
   const Normals unit =
       std::sqrt(of.shares.everywhere) * belief.everywhere +
-      std::sqrt(of.shares.unit) * blended(belief.unit, random_key(key, kUnit), belief.unit_m, x_m, y_m);
+      std::sqrt(of.shares.unit) * blended(belief.unit, random_key(key, kUnit), kUnitLength_m, x_m, y_m);
   const Normals all = unit + patch;
   belief.slip_scale = std::exp(of.slip_error * all[kSoilDims]);
   const SoilNormals normals = all.head<kSoilDims>();
@@ -205,7 +201,7 @@ Soil DrawnGround::draw(Belief& belief, double x_m, double y_m) {
   if (of.alternatives.empty()) return draw_soil(of, normals, closures);
   std::uint64_t choice = key;
   if (of.alternatives_by == AlternativesBy::kUnit)
-    choice = cell_at(random_key(key, kJitter), belief.unit_m, x_m, y_m);
+    choice = cell_at(random_key(key, kJitter), kUnitLength_m, x_m, y_m);
   else if (of.alternatives_by == AlternativesBy::kPatch)
     choice = cell_at(random_key(key, kJitter), of.correlation_length_m, x_m, y_m);
   if (belief.chosen_for != choice) {

@@ -15,12 +15,7 @@ namespace slipway::sim {
 // are 50 to 200 m wide.
 inline constexpr double kUnitLength_m = 100.0;
 
-// Of ground that no map names, how wide its units are is not known either: each draw takes one width between
-// a field of ripples and a mapped unit, all ratios alike.
-inline constexpr double kMinUnknownUnit_m = 10.0, kMaxUnknownUnit_m = 160.0;
-
-// The share of units in which the rover can't drive even on the level: one in some 1,000 units of
-// kUnitLength_m, and of wider or narrower ones as many to the metre.
+// The share of units in which the rover can't drive even on the level: one in some 1,000 units of 100 m.
 inline constexpr double kWeakShare = 0.001;
 
 // A rover drives level ground where it slips less than this on it.
@@ -46,10 +41,9 @@ SoilNormals weak_unit(const SoilDistribution& belief, const SoilNormals& everywh
 //
 // The normal numbers of a soil are the sum of one for all ground of that soil, one that changes over
 // kUnitLength_m and one that changes over the soil's correlation length, weighted by the shares of the
-// variance; units of unknown ground have the draw's width in its place. Those that change are normal numbers
-// at the corners of a lattice, blended between them with a variance of one everywhere. Of alternatives one is
-// chosen for all ground of the soil, or one for each unit: the cell of the nearest of the jittered centres of
-// a lattice.
+// variance. Those that change are normal numbers at the corners of a lattice, blended between them with a
+// variance of one everywhere. Of alternatives one is chosen for all ground of the soil, or one for each unit:
+// the cell of the nearest of the jittered centres of a lattice.
 //
 // Alternatives that are drawn apart and on which the rover would slip by 20 % or more on level ground are
 // drawn again, but for a share of kWeakShare: their numbers come from tests of a few wheels and trenches,
@@ -88,7 +82,6 @@ class DrawnGround {
     const SoilDistribution* distribution = nullptr;
     std::uint64_t key = 0;
     bool with_closures = false;  // c1 or c2 has a spread
-    double unit_m = kUnitLength_m;
     Normals everywhere;
     std::vector<double> commonness;  // factor of each alternative's weight in this draw
     Corners unit, patch;
