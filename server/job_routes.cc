@@ -246,9 +246,9 @@ class JobRoutes {
     const std::string answer(api::parts_of(*kept).document);
     if (!api::json::has_stations(answer))
       return fail(ErrorCode::kNotFound, fmt::format("jobs of kind {} have no routes", job.kind));
-    const std::shared_ptr<const api::Catalogue> all = service_.catalogue();
-    const auto site = all->terrains.find(api::json::terrain_of_answer(answer));
-    if (site == all->terrains.end())
+    const std::shared_ptr<const api::Catalogue> catalogue = service_.catalogue();
+    const auto site = catalogue->terrains.find(api::json::terrain_of_answer(answer));
+    if (site == catalogue->terrains.end())
       return fail(ErrorCode::kNotFound, "the terrain of the job is no longer among the service's");
     const dem::ElevationInfo& info = site->second->info();
     const api::json::AnswerMap map{info.crs_name, info.crs_wkt, info.body, info.semi_major_axis_m};
