@@ -24,7 +24,7 @@ after(async () => {
   await service?.stop();
 });
 
-const page = (hash = "", options = {}) => open(browser, `${service.url}/dashboard/${hash && `#${hash}`}`, options);
+const page = (hash = "", options = {}) => open(browser, `${service.url}/dashboard/#terrain=gale&${hash}`, options);
 const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 /** Pictures of the map differ where something was drawn on it. */
 const mapPicture = async (p) => (await p.locator(".map").screenshot()).toString("base64");
@@ -248,7 +248,7 @@ test("drives and a map of one's own are sent", async (t) => {
 test("what the service refuses is shown with every fault, and a service that is gone is said so", async (t) => {
   const own = await serve();
   t.after(() => own.stop());
-  const p = await open(browser, `${own.url}/dashboard/#start=1,2&goal=3,4`, { expected: /Failed to load resource|ERR_/ });
+  const p = await open(browser, `${own.url}/dashboard/#terrain=gale&start=1,2&goal=3,4`, { expected: /Failed to load resource|ERR_/ });
   await p.until(() => document.querySelector(".terrain select"));
   await p.click('[data-do="plan"]');
   await p.waitForSelector(".work .problem");
@@ -270,7 +270,7 @@ test("a service with tokens is signed in to, under a proxy's path", async (t) =>
   t.after(() => own.stop());
   const before = await proxy(own.port, "/rover/slipway");
   t.after(() => before.stop());
-  const p = await open(browser, `${before.url}/dashboard/`, { expected: /401/ });
+  const p = await open(browser, `${before.url}/dashboard/#terrain=gale`, { expected: /401/ });
   await p.waitForSelector("dialog[open]");
   await p.look("12_sign_in");
   await p.accessible("sign in");
@@ -297,7 +297,7 @@ for (const [body, radius_m] of [["Mars", 3396190], ["Moon", 1737400]]) {
       const answer = await route.fetch();
       await route.fulfill({ response: answer, body: (await answer.text()).replaceAll("3396190", String(radius_m)).replaceAll('"body":"Mars"', `"body":"${body}"`) });
     });
-    await p.goto(`${service.url}/dashboard/`);
+    await p.goto(`${service.url}/dashboard/#terrain=gale`);
     await until(p, () => location.hash.includes("view=") && document.querySelector(".ol-scale-line-inner")?.textContent);
     const [, y, resolution] = new URLSearchParams(p.url().split("#")[1]).get("view").split(",").map(Number);
     const bar = p.locator(".ol-scale-line-inner");
