@@ -18,6 +18,10 @@ using planner::MapKindRow;
 constexpr NumberRule kExtentMetres{"m", -1e8, 1e8};
 constexpr double kMaxDistance_m = 10'000.0;
 
+bool is_of_distance(MapKind kind) {
+  return kind == MapKind::kStopRisk || kind == MapKind::kEmbeddingRisk || kind == MapKind::kVerdict;
+}
+
 void read_extent(ObjectReader& reader, std::optional<dem::Extent>& extent) {
   auto object = reader.object("extent", kOptional);
   if (!object) return;
@@ -113,16 +117,25 @@ Result<Reading<MapRequest>> read_map_request(std::string_view bytes,
                        request.heading_rad) &&
       !row.takes_heading)
     reader.fault("heading_deg", fmt::format("a map of {} is not of one heading", row.name));
-  reader.number("distance_m", kOptional, {"m", 0.0, kMaxDistance_m, true}, request.distance_m);
+  if (reader.number("distance_m", kOptional, {"m", 0.0, kMaxDistance_m, true}, request.distance_m) &&
+      !is_of_distance(request.kind))
+    reader.fault("distance_m", "is for risks and verdicts alone");
   read_extent(reader, request.extent);
   std::size_t unknown = 0;
-  if (reader.choice("unknown_ground", kOptional, {"nodata", "belief"}, unknown))
+  if (reader.choice("unknown_ground", kOptional, {"nodata", "belief"}, unknown)) {
     request.price_unknown = unknown == 1;
+    if (row.of_classes || row.by_search) reader.fault("unknown_ground", "is for slip and risks alone");
+  }
   read_way_place(reader, "to", request.kind == MapKind::kCostToGo, request.place);
   read_way_place(reader, "from", request.kind == MapKind::kReachable, request.place);
   read_budget(reader, request);
-  reader.number("driving_hours_per_sol", kOptional, {"h", 0.0, 24.0, true}, request.driving_hours_per_sol);
+  if (reader.number("driving_hours_per_sol", kOptional, {"h", 0.0, 24.0, true},
+                    request.driving_hours_per_sol) &&
+      !request.budget_sols)
+    reader.fault("driving_hours_per_sol", "is for a budget of sols alone");
   read_map_weights(reader, request.weights);
+  if (request.kind != MapKind::kCostToGo && document->find("weights") != nullptr)
+    reader.fault("weights", "are for the map of cost to go alone");
   read_zones(reader, request.keep_out, request.keep_in, reading.faults);
   if (!row.by_search && !(request.keep_out.empty() && request.keep_in.empty()))
     reader.fault(request.keep_out.empty() ? "keep_in" : "keep_out", "is for maps of ways alone");
@@ -137,13 +150,15 @@ std::string write_map_request(const MapRequest& request) {
   w.begin_object().text("terrain", request.terrain).text("rover", request.rover);
   w.text("kind", planner::row_of(request.kind).name);
   if (request.heading_rad) w.angle_deg("heading_deg", *request.heading_rad);
-  w.exact("distance_m", request.distance_m);
+  if (is_of_distance(request.kind)) w.exact("distance_m", request.distance_m);
   if (request.extent) {
     w.key("extent").begin_object().exact("west_m", request.extent->west_m);
     w.exact("south_m", request.extent->south_m).exact("east_m", request.extent->east_m);
     w.exact("north_m", request.extent->north_m).end_object();
   }
-  w.text("unknown_ground", request.price_unknown ? "belief" : "nodata");
+  const MapKindRow& kind = planner::row_of(request.kind);
+  if (!kind.of_classes && !kind.by_search)
+    w.text("unknown_ground", request.price_unknown ? "belief" : "nodata");
   if (request.place)
     write_waypoint(w.key(request.kind == MapKind::kCostToGo ? "to" : "from"), *request.place);
   if (request.budget_j || request.budget_sols) {
@@ -152,12 +167,14 @@ std::string write_map_request(const MapRequest& request) {
     if (request.budget_sols) w.exact("sols", *request.budget_sols);
     w.end_object();
   }
-  w.exact("driving_hours_per_sol", request.driving_hours_per_sol);
-  w.key("weights").begin_object();
-  for (std::size_t row = 0; row < request.weights.terms().size(); ++row)
-    w.exact(request.weights.terms()[row].weight.name, request.weights[row]);
-  w.end_object();
-  write_zones(w, request.keep_out, request.keep_in);
+  if (request.budget_sols) w.exact("driving_hours_per_sol", request.driving_hours_per_sol);
+  if (request.kind == MapKind::kCostToGo) {
+    w.key("weights").begin_object();
+    for (std::size_t row = 0; row < request.weights.terms().size(); ++row)
+      w.exact(request.weights.terms()[row].weight.name, request.weights[row]);
+    w.end_object();
+  }
+  if (kind.by_search) write_zones(w, request.keep_out, request.keep_in);
   write_drive_assumptions(w, request.drive);
   w.end_object();
   return w.take();

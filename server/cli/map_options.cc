@@ -44,6 +44,25 @@ void add_ways(CLI::App& command, MapOptions& options) {
                      "weight of a term of the cost, NAME=VALUE; see GET /v1/planners");
 }
 
+// An option that would be ignored is refused. What a request refuses by itself is not looked at here.
+void refuse_ignored(const CLI::App& command, const std::string& kind) {
+  const bool contours = kind == "contours";
+  for (const CLI::Option* const option : command.get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() == 0 || name == "KIND") continue;
+    const bool of_contours = name == "--every" || name == "--base";
+    const bool of_both = name == "--data" || name == "--json" || name == "--terrain" || name == "--rover" ||
+                         name == "--out" || name == "--extent" || name == "--threads";
+    const bool of_places = name == "--lonlat";
+    const bool fits = of_both || (contours ? of_contours || of_places : !of_contours);
+    const bool placed = contours || kind == "cost_to_go" || kind == "reachable";
+    if (!fits || (of_places && !placed))
+      throw CLI::ValidationError(name, "has no effect on a map of " + kind);
+    if (name == "--resume" && placed)
+      throw CLI::ValidationError(name, "has no effect on a map of " + kind + ": it has no tiles to keep");
+  }
+}
+
 }  // namespace
 
 void add_map_command(CLI::App& app, std::function<int()>& run) {
@@ -88,7 +107,10 @@ void add_map_command(CLI::App& app, std::function<int()>& run) {
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));
   command->footer(kMapExamples);
-  command->callback([options, &run] { run = [options] { return map(*options); }; });
+  command->callback([command, options, &run] {
+    refuse_ignored(*command, options->kind);
+    run = [options] { return map(*options); };
+  });
 }
 
 }  // namespace slipway::server

@@ -59,6 +59,16 @@ class Maps(unittest.TestCase):
         self.assertIn(b"KNOWN_INCOMPATIBLE_EDITION=NO", head)
         self.assertIn("singlebandpseudocolor", (self.here / "slip.qml").read_text())
 
+    @unittest.skipUnless(shutil.which("gdalinfo") and shutil.which("ogrinfo"), "GDAL's tools are not installed")
+    def test_gdals_own_tools_read_what_was_meant(self):
+        self.made("verdict", "verdict.tif", "--distance", "20")
+        told = subprocess.run(["gdalinfo", str(self.here / "verdict.tif")], capture_output=True, text=True).stdout
+        for words in ("LAYOUT=COG", "Block=512x512", "Color Table", "NoData Value=0", "SLIPWAY_DISTANCE_M=20", "NO-GO"):
+            self.assertIn(words, told)
+        self.assertEqual(run("map", "contours", *GALE, "--out", str(self.here / "c.gpkg")).returncode, 0)
+        told = subprocess.run(["ogrinfo", "-so", str(self.here / "c.gpkg"), "contours"], capture_output=True, text=True).stdout
+        self.assertIn("height_m: Real", told)
+
     def test_unknown_ground_has_a_value_only_where_its_belief_is_asked_for(self):
         nothing = self.made("stop_risk", "a.tif", "--extent", "8142480,-276700,8142520,-276660")
         believed = self.made("stop_risk", "b.tif", "--extent", "8142480,-276700,8142520,-276660", "--on-unknown", "belief")
@@ -120,6 +130,12 @@ class Maps(unittest.TestCase):
             (["cost_to_go", "--to", ",".join(reversed(AT.split(","))), "--out", "a.tif"], "swapped"),
             (["cost_to_go", "--to", f"{8142579.73 / DEGREE_M},{-276648.74 / DEGREE_M}", "--out", "a.tif"], "degrees"),
             (["belief", "--extent", "0,0,10,10", "--out", "a.tif"], "/extent"),
+            (["slip_worst", "--distance", "3", "--out", "a.tif"], "distance_m"),
+            (["slip_worst", "--every", "3", "--out", "a.tif"], "--every"),
+            (["contours", "--heading", "3", "--out", "a.gpkg"], "--heading"),
+            (["cost_to_go", "--to", AT, "--resume", "--out", "a.tif"], "--resume"),
+            (["reachable", "--from", AT, "--budget-j", "9", "--weight", "slip=1", "--out", "a.tif"], "weights"),
+            (["verdict", "--on-unknown", "belief", "--out", "a.tif"], "unknown_ground"),
             (["slip_worst", "--keep-out", "0,0 1,0 1,1", "--out", "a.tif"], "keep_out"),
         ]:
             words = [str(self.here / word) if word.startswith("a.") else word for word in words]

@@ -14,6 +14,7 @@
 #include "api/maps/map_documents.h"
 #include "api/maps/map_layer.h"
 #include "api/service.h"
+#include "planner/maps/map_kind.h"
 #include "server/cli/command_parts.h"
 #include "server/cli/drive_answer.h"
 #include "server/cli/drive_request.h"
@@ -56,8 +57,12 @@ Result<std::string> request_of(const MapOptions& options) {
     w.exact("south_m", options.extent->south_m).exact("east_m", options.extent->east_m);
     w.exact("north_m", options.extent->north_m).end_object();
   }
-  const bool believes = !options.drive.unknown_soil.empty();
-  w.text("unknown_ground", !options.unknown.empty() ? options.unknown : (believes ? "belief" : "nodata"));
+  const planner::MapKindRow* kind = nullptr;
+  for (const planner::MapKindRow& row : planner::map_kinds())
+    if (row.name == options.kind) kind = &row;
+  const bool believes = !options.drive.unknown_soil.empty() && kind && !kind->of_classes && !kind->by_search;
+  if (!options.unknown.empty() || believes)
+    w.text("unknown_ground", options.unknown.empty() ? "belief" : options.unknown);
   if (options.to) write_place(w.key("to"), *options.to);
   if (options.from) write_place(w.key("from"), *options.from);
   if (options.budget_j || options.budget_sols) {
