@@ -163,7 +163,16 @@ Result<PlanAnswer> Service::plan(const PlanRequest& request, Progress& progress)
   progress.report("reading the terrain", 0.0);
   std::vector<planner::Waypoint> places{request.start, request.goal};
   places.insert(places.end(), request.waypoints.begin(), request.waypoints.end());
-  auto setting = set_up(request.terrain, request.rover, places, request.drive, progress);
+  auto planned = plan_within(Window::kAroundPlaces, request, places, progress);
+  if (planned && planned->plan.needs_wider_terrain)
+    planned = plan_within(Window::kWholeMap, request, places, progress);
+  return planned;
+}
+
+Result<PlanAnswer> Service::plan_within(Window window, const PlanRequest& request,
+                                        const std::vector<planner::Waypoint>& places,
+                                        Progress& progress) const {
+  auto setting = set_up(request.terrain, request.rover, places, request.drive, progress, window);
   if (!setting) return fail(setting.error());
   planner::PlanProblem& problem = setting->problem;
   problem.start = request.start;
@@ -182,6 +191,10 @@ Result<PlanAnswer> Service::plan(const PlanRequest& request, Progress& progress)
     problem.deciding_draws = std::exchange(problem.risk.draws, kWeighedDraws);
   auto plan = planner::make_plan(problem, progress, options_.planners);
   if (!plan) return fail(plan.error());
+  if (const auto damage = problem.terrain->damage()) return fail(*damage);
+  // Only now it is known which of its tiles were looked at.
+  if (problem.terrain->is_read_by_tiles())
+    setting->provenance.terrain_fingerprint = problem.terrain->fingerprint();
   return PlanAnswer{request, std::move(setting->provenance), std::move(*plan)};
 }
 

@@ -68,6 +68,8 @@ class Service {
  private:
   explicit Service(ServiceOptions options) : options_(std::move(options)) {}
 
+  // How much of the map a problem's terrain is.
+  enum class Window { kAroundPlaces, kWholeMap };
   // A problem without places, and the window's soils: what plan and prediction have in common.
   struct Setting {
     planner::PlanProblem problem;
@@ -75,7 +77,9 @@ class Service {
   };
   Result<Setting> set_up(const std::string& terrain, const std::string& rover,
                          const std::vector<planner::Waypoint>& places, const DriveAssumptions& drive,
-                         Progress& progress) const;
+                         Progress& progress, Window window = Window::kAroundPlaces) const;
+  Result<PlanAnswer> plan_within(Window window, const PlanRequest& request,
+                                 const std::vector<planner::Waypoint>& places, Progress& progress) const;
   // The service's own, or a copy with the request's model and soils in it where it has some; the model's
   // rover takes the place of the one it was made of. What can't be taken is added to the faults.
   std::shared_ptr<const Catalogue> catalogue_for(const DriveAssumptions& drive, std::string& rover,

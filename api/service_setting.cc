@@ -96,7 +96,8 @@ constexpr int kFirstDraws = 32, kMaxDecidingDraws = 1000;
 
 Result<Service::Setting> Service::set_up(const std::string& terrain, const std::string& rover,
                                          const std::vector<planner::Waypoint>& places,
-                                         const DriveAssumptions& drive, Progress& progress) const {
+                                         const DriveAssumptions& drive, Progress& progress,
+                                         Window window) const {
   std::vector<Fault> faults;
   std::string driven_name = rover;
   const std::shared_ptr<const Catalogue> catalogue = catalogue_for(drive, driven_name, faults);
@@ -111,12 +112,16 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
   sim::fail_wheels(driven, drive.failed_wheels, drive.conditions);
   if (drive.speed_m_s) driven.cruise_speed_m_s = *drive.speed_m_s;
   const Legend& legend = *site.description().legend(drive.legend);
-  auto ground = site.read(window_around(places_to_read(site, drive, places), site.info().geometry), legend);
+  const dem::GridGeometry& map = site.info().geometry;
+  auto ground = site.read(
+      window == Window::kWholeMap ? map.extent() : window_around(places_to_read(site, drive, places), map),
+      legend);
   if (!ground) return fail(ground.error());
 
   Setting setting;
   planner::PlanProblem& problem = setting.problem;
   problem.terrain = ground->terrain;
+  problem.terrain_is_whole_map = problem.terrain->geometry() == map;
   RegionalSoils soils = soils_in_regions(ground->soil_map, sim::effect_regions(effects));
   problem.soil_map = soils.map;
   problem.beliefs = beliefs_of(*catalogue, drive, soils.soils, legend.confidence, effects);
@@ -129,6 +134,7 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
   problem.risk.draws = drive.draws.value_or(kFirstDraws);
   problem.risk.max_draws = drive.draws ? 0 : kMaxDecidingDraws;
   problem.risk.checks = drive.checks;
+  problem.risk.segment_m = drive.segment_m.value_or(0.0);
   problem.risk.bars = drive.bars;
   if (drive.relief)
     problem.risk.relief = relief_spread(site.description().relief, *drive.relief, legend, ground->soil_map);
