@@ -37,6 +37,14 @@ void check_path(const Request& request, RequestCheck& check, bool is_start = fal
 
 // Of each route of a plan: 272 without an embedding are the fewest that make a GO.
 constexpr int kMaxPlanDraws = 272;
+
+// After the work it is known which tiles of a large terrain were looked at, and whether all could be read.
+Result<void> account_for_tiles(const dem::Terrain& terrain, Provenance& provenance) {
+  if (const auto damage = terrain.damage()) return fail(*damage);
+  if (terrain.is_read_by_tiles()) provenance.terrain_fingerprint = terrain.fingerprint();
+  return {};
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Service>> Service::open(ServiceOptions options) {
@@ -191,10 +199,8 @@ Result<PlanAnswer> Service::plan_within(Window window, const PlanRequest& reques
     problem.deciding_draws = std::exchange(problem.risk.draws, kWeighedDraws);
   auto plan = planner::make_plan(problem, progress, options_.planners);
   if (!plan) return fail(plan.error());
-  if (const auto damage = problem.terrain->damage()) return fail(*damage);
-  // Only now it is known which of its tiles were looked at.
-  if (problem.terrain->is_read_by_tiles())
-    setting->provenance.terrain_fingerprint = problem.terrain->fingerprint();
+  if (auto whole = account_for_tiles(*problem.terrain, setting->provenance); !whole)
+    return fail(whole.error());
   return PlanAnswer{request, std::move(setting->provenance), std::move(*plan)};
 }
 
@@ -215,6 +221,8 @@ Result<PredictionAnswer> Service::predict(const PredictionRequest& request, Prog
   problem.keep_out = request.keep_out;
   problem.keep_in = request.keep_in;
   planner::forbid_trespass(problem, planner::path_motions(request.path, request.manner), decision);
+  if (auto whole = account_for_tiles(*problem.terrain, setting->provenance); !whole)
+    return fail(whole.error());
   PredictionAnswer answer{request, std::move(setting->provenance), std::move(*prediction), std::nullopt,
                           std::move(decision)};
   if (request.level == FidelityLevel::kDynamic) {
@@ -247,6 +255,8 @@ Result<CheckAnswer> Service::check(const CheckRequest& request, Progress& progre
   setting->problem.keep_out = request.keep_out;
   setting->problem.keep_in = request.keep_in;
   planner::forbid_trespass(setting->problem, motions, decision);
+  if (auto whole = account_for_tiles(*setting->problem.terrain, setting->provenance); !whole)
+    return fail(whole.error());
   return CheckAnswer{request, std::move(setting->provenance), std::move(*prediction), std::move(decision)};
 }
 

@@ -2,8 +2,8 @@
 // kilometres. Usage: fractal_map OUT.tif [side=16384] [cell_m=1] [seed=1] [slope_deg=8] [wall]
 // "wall": a wall from edge to edge in the middle, whose only gap of 6 cells is at 95 % of its length.
 //
-// Heights are the sum of octaves of gradient noise whose slopes fall slowly with wavelength (a Hurst exponent of
-// 0.85), scaled to this slope as the root mean square.
+// Heights are the sum of octaves of gradient noise whose slopes fall slowly with wavelength (a Hurst exponent
+// of 0.85), scaled to this slope as the root mean square.
 
 #include <array>
 #include <cmath>
@@ -27,7 +27,8 @@ double noise(std::uint64_t key, double x, double y) {
   const double u = x - fx, v = y - fy;
   const auto corner = [&](int dx, int dy) {
     const std::uint64_t bits = slipway::random_bits(
-        key, static_cast<std::uint64_t>(static_cast<std::uint32_t>(static_cast<std::int64_t>(fx) + dx)) << 32U |
+        key, static_cast<std::uint64_t>(static_cast<std::uint32_t>(static_cast<std::int64_t>(fx) + dx))
+                     << 32U |
                  static_cast<std::uint32_t>(static_cast<std::int64_t>(fy) + dy));
     const double gx = static_cast<double>(bits >> 40U) / (1 << 23) - 1.0;
     const double gy = static_cast<double>((bits >> 16U) & 0xffffffU) / (1 << 23) - 1.0;
@@ -50,7 +51,8 @@ struct Fractal {
     for (double wave = 4096.0; wave >= 8.0; wave *= 0.5, ++octave) {
       const double rough = std::pow(wave / 4096.0, -0.15);  // slope of the octave
       squares += rough * rough;
-      sum += rough * wave * noise(slipway::random_key(seed, static_cast<std::uint64_t>(octave)), x / wave, y / wave);
+      sum += rough * wave *
+             noise(slipway::random_key(seed, static_cast<std::uint64_t>(octave)), x / wave, y / wave);
     }
     return 1.35 * slope * sum / std::sqrt(squares);
   }
@@ -84,19 +86,31 @@ int main(int argc, char** argv) {
   // UTM 31 N, about its central meridian.
   const std::array<double, 6> tie{0, 0, 0, 500000.0 - 0.5 * side * cell, 4000000.0, 0};
   const std::array<std::uint16_t, 16> keys{1, 1, 0, 3, 1024, 0, 1, 1, 1025, 0, 1, 1, 3072, 0, 1, 32631};
-  const std::uint32_t scale_at = data, tie_at = scale_at + 24, keys_at = tie_at + 48, offsets_at = keys_at + 32;
-  const std::uint32_t counts_at = offsets_at + 4 * count, first = (counts_at + 4 * count + 4095) / 4096 * 4096;
+  const std::uint32_t scale_at = data, tie_at = scale_at + 24, keys_at = tie_at + 48,
+                      offsets_at = keys_at + 32;
+  const std::uint32_t counts_at = offsets_at + 4 * count,
+                      first = (counts_at + 4 * count + 4095) / 4096 * 4096;
   const std::uint32_t tile_bytes = kTile * kTile * 4;
   std::vector<char> head;
   put<std::uint16_t>(head, 0x4949);
   put<std::uint16_t>(head, 42);
   put<std::uint32_t>(head, 8);
   const auto width = static_cast<std::uint32_t>(side);
-  const std::vector<Tag> tags{{256, 4, 1, width},         {257, 4, 1, width},    {258, 3, 1, 32},
-                              {259, 3, 1, 1},             {262, 3, 1, 1},        {277, 3, 1, 1},
-                              {284, 3, 1, 1},             {322, 3, 1, kTile},    {323, 3, 1, kTile},
-                              {324, 4, count, offsets_at}, {325, 4, count, counts_at}, {339, 3, 1, 3},
-                              {33550, 12, 3, scale_at},   {33922, 12, 6, tie_at}, {34735, 3, 16, keys_at}};
+  const std::vector<Tag> tags{{256, 4, 1, width},
+                              {257, 4, 1, width},
+                              {258, 3, 1, 32},
+                              {259, 3, 1, 1},
+                              {262, 3, 1, 1},
+                              {277, 3, 1, 1},
+                              {284, 3, 1, 1},
+                              {322, 3, 1, kTile},
+                              {323, 3, 1, kTile},
+                              {324, 4, count, offsets_at},
+                              {325, 4, count, counts_at},
+                              {339, 3, 1, 3},
+                              {33550, 12, 3, scale_at},
+                              {33922, 12, 6, tie_at},
+                              {34735, 3, 16, keys_at}};
   put<std::uint16_t>(head, static_cast<std::uint16_t>(tags.size()));
   for (const Tag& tag : tags) {
     put(head, tag.tag);

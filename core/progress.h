@@ -9,9 +9,9 @@ namespace slipway {
 
 // The best route that a search has found so far.
 struct RouteSoFar {
-  double cost = 0.0;      // by which it is the best: the search's own, or of the simulation once it has a verdict
+  double cost = 0.0;  // by which it is the best: the search's own, or of the simulation once it has a verdict
   double length_m = 0.0;
-  std::string verdict;    // "go", "caution", "no_go"; empty before it was simulated
+  std::string verdict;                        // "go", "caution", "no_go"; empty before it was simulated
   std::vector<std::array<double, 2>> line_m;  // x, y; a few hundred places at the most
 };
 

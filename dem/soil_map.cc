@@ -28,7 +28,8 @@ SoilMap::SoilMap(GridGeometry geometry, std::vector<std::int16_t> classes, std::
   }
   soil_of_class_.assign(std::size_t{1} << 16U, -1);
   for (const auto& [value, soil] : index_of_value)
-    if (value >= std::numeric_limits<std::int16_t>::min() && value <= std::numeric_limits<std::int16_t>::max())
+    if (value >= std::numeric_limits<std::int16_t>::min() &&
+        value <= std::numeric_limits<std::int16_t>::max())
       soil_of_class_[static_cast<std::uint16_t>(value)] = soil;
 }
 

@@ -72,10 +72,10 @@ enum class PolygonCoordinates {
   kMap,                // metres in the elevation's CRS
 };
 
-// Burns polygons of a GeoJSON file onto a grid like the elevation's over the extent, or one of whole numbers of
-// its cells that has at most kMaxWindowCells; a cell takes the class
-// of the last polygon that holds its centre. property names the label that the legend is matched by. A label
-// that the legend does not have is unknown ground. Faults name the feature: "/features/12/geometry".
+// Burns polygons of a GeoJSON file onto a grid like the elevation's over the extent, or one of whole numbers
+// of its cells that has at most kMaxWindowCells; a cell takes the class of the last polygon that holds its
+// centre. property names the label that the legend is matched by. A label that the legend does not have is
+// unknown ground. Faults name the feature: "/features/12/geometry".
 Result<std::shared_ptr<const SoilMap>> read_soil_polygons(const std::filesystem::path& path,
                                                           const ElevationInfo& ground, const Extent& extent,
                                                           const std::string& property,

@@ -27,8 +27,8 @@ struct SurfacePoint {
 class CellReader {
  public:
   virtual ~CellReader() = default;
-  // The heights (m) of the window of the terrain's own cells and which of them have one, rows * columns values
-  // each. Error: unreadable_raster.
+  // The heights (m) of the window of the terrain's own cells and which of them have one, rows * columns
+  // values each. Error: unreadable_raster.
   virtual Result<void> read(const CellWindow& window, float* heights_m, std::uint8_t* valid) const = 0;
 };
 
@@ -42,8 +42,8 @@ class Terrain {
   // cell, whose height is never read. Throws std::invalid_argument where the sizes do not agree or a valid
   // cell has no finite height.
   Terrain(GridGeometry geometry, std::vector<float> heights_m, std::vector<std::uint8_t> valid);
-  // Of any size: its cells are read by tiles when they are first looked at, and memory is that of these tiles.
-  // What a caller sees is the same as if all had been read. A tile that can't be read has no data, see
+  // Of any size: its cells are read by tiles when they are first looked at, and memory is that of these
+  // tiles. What a caller sees is the same as if all had been read. A tile that can't be read has no data, see
   // damage().
   Terrain(GridGeometry geometry, std::shared_ptr<const CellReader> cells);
   ~Terrain();

@@ -35,9 +35,11 @@ constexpr double kSimulating = 0.5, kSimulated = 0.98, kSimulatedUnverified = 0.
 constexpr double kLineSpacing_m = 0.25;
 // Of routes that compete for the first place: three times the first draws halve the interval nearly.
 constexpr int kContenderDraws = 96;
-// Stations times draws of one route beyond the first draws: a drive of 5 km gets 60 draws, one of 12 km the
+// Stations times draws of one route beyond the first draws: a drive of 5 km gets 30 draws, one of 12 km the
 // first alone. What these don't decide they leave open.
-constexpr double kMaxStationDraws = 600'000.0;
+constexpr double kMaxStationDraws = 300'000.0;
+// First draws of a route over a kilometre and more.
+constexpr int kFirstLongDraws = 16;
 // A candidate that shares more of its length than this with one that is simulated anyway adds nothing.
 constexpr double kSameRoute = 0.9;
 
@@ -46,10 +48,11 @@ tl::unexpected<Error> cancelled() {
 }
 
 // The candidates to simulate: those that differ, then the cheapest others that are no copies of these.
-std::vector<std::size_t> shortlist(const Proposal& proposal, std::size_t wanted) {
+std::vector<std::size_t> shortlist(const Proposal& proposal, std::size_t wanted, bool with_spare) {
   const std::vector<std::size_t> order = proposal.by_cost();
   std::vector<std::size_t> list = select_routes(proposal.differences, order, wanted);
   const std::size_t most = std::max(kMaxSimulated, wanted);
+  if (!with_spare && list.size() == wanted) return list;
   const std::size_t spare = wanted > list.size() ? most : std::min(most, list.size() + 1);
   for (const std::size_t i : order) {
     const bool copy = std::any_of(list.begin(), list.end(), [&](std::size_t other) {
@@ -197,7 +200,8 @@ class Planning {
   }
 
   Result<void> simulate(const Proposal& proposal, Plan& plan) {
-    const std::vector<std::size_t> list = shortlist(proposal, static_cast<std::size_t>(problem_.routes));
+    const std::vector<std::size_t> list =
+        shortlist(proposal, static_cast<std::size_t>(problem_.routes), !is_long());
     std::vector<Route> routes;
     std::vector<std::size_t> candidate_of;
     Differences differences(problem_.rover->body_width_m);
@@ -215,7 +219,7 @@ class Planning {
         in_keep_out.push_back(*pose);
         continue;
       }
-      Result<sim::DrivePrediction> drive = predict(list[k], stations, problem_.risk.draws, stage);
+      Result<sim::DrivePrediction> drive = predict(list[k], stations, first_draws(), stage);
       if (progress_.cancelled()) return cancelled();
       if (!drive) {
         // Mostly a wheel that the body's circle does not cover met a missing cell.
@@ -252,6 +256,12 @@ class Planning {
     for (std::size_t i = 1; i < places.size(); ++i)
       length += std::hypot(places[i].x_m - places[i - 1].x_m, places[i].y_m - places[i - 1].y_m);
     return length >= kLongDrive_m;
+  }
+
+  // As many as are asked for; of a long drive that may have more later, fewer.
+  int first_draws() const {
+    const bool may_have_more = problem_.deciding_draws > problem_.risk.draws;
+    return may_have_more && is_long() ? std::min(kFirstLongDraws, problem_.risk.draws) : problem_.risk.draws;
   }
 
   // Goes on from the candidate's draws so far.
@@ -402,7 +412,7 @@ class Planning {
   std::unique_ptr<TraverseMap> map_;
   bool is_far_ = false;  // the map is of the cells about the candidates alone
   bool needs_wider_terrain_ = false;
-  std::vector<std::string> no_way_;  // of a far search
+  std::vector<std::string> no_way_;               // of a far search
   std::map<std::size_t, sim::DrawsSoFar> drawn_;  // by candidate
   std::vector<std::size_t> chosen_;  // the candidate behind each of the plan's routes, in their order
 };

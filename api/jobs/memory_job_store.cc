@@ -70,8 +70,8 @@ class MemoryJobStore final : public JobStore {
     return ClaimedJob{job, next->asked.request};
   }
 
-  Result<bool> report(const Lease& lease, std::string_view stage, double progress,
-                      std::int64_t lease_until, std::string_view best_so_far) override {
+  Result<bool> report(const Lease& lease, std::string_view stage, double progress, std::int64_t lease_until,
+                      std::string_view best_so_far) override {
     const std::scoped_lock lock(mutex_);
     Entry* const entry = held(lease);
     if (entry == nullptr) return false;

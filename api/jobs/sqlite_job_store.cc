@@ -141,8 +141,8 @@ class SqliteJobStore final : public JobStore {
     });
   }
 
-  Result<bool> report(const Lease& lease, std::string_view stage, double progress,
-                      std::int64_t lease_until, std::string_view best_so_far) override {
+  Result<bool> report(const Lease& lease, std::string_view stage, double progress, std::int64_t lease_until,
+                      std::string_view best_so_far) override {
     return guarded(write_mutex_, [&] {
       SqliteTransaction transaction(quick_);
       auto update = quick_.prepare(fmt::format(

@@ -133,7 +133,8 @@ void add_closures(const PlanProblem& problem, const sim::DrivePrediction& drive,
       closure_end_words(greatest)));
 }
 
-// A drive over kilometres: how many of its segments are how, its stops and sols in all, and the worst segment.
+// A drive over kilometres: how many of its segments are how, its stops and sols in all, and the worst
+// segment.
 void add_segments(const sim::DriveOutcomes& outcomes, const sim::OutcomeBars& bars,
                   std::vector<std::string>& reasons) {
   int go = 0, no_go = 0;
@@ -149,15 +150,17 @@ void add_segments(const sim::DriveOutcomes& outcomes, const sim::OutcomeBars& ba
   const auto count = static_cast<int>(outcomes.segments.size());
   reasons.push_back(fmt::format("{} segments: {} go, {} no go, {} that the draws do not decide", count, go,
                                 no_go, count - go - no_go));
-  reasons.push_back(fmt::format(
-      "{:.1f} expected stops (90 % interval {:.1f} to {:.1f}): {:.0f} sols, {} of driving and one for each stop",
-      outcomes.expected_stops, outcomes.expected_stops_low, outcomes.expected_stops_high,
-      count + outcomes.expected_stops, count));
-  reasons.push_back(fmt::format(
-      "the worst segment is from {:.0f} to {:.0f} m: {:.2f} expected stops, bar {:g}, and embedding in {} of the "
-      "draws that come there, bar {}",
-      worst->from_m, worst->to_m, worst->expected_stops, bars.max_expected_stops,
-      percent(worst->embedding.share), percent(bars.max_embedding)));
+  reasons.push_back(
+      fmt::format("{:.1f} expected stops (90 % interval {:.1f} to {:.1f}): {:.0f} sols, {} of driving and "
+                  "one for each stop",
+                  outcomes.expected_stops, outcomes.expected_stops_low, outcomes.expected_stops_high,
+                  count + outcomes.expected_stops, count));
+  reasons.push_back(
+      fmt::format("the worst segment is from {:.0f} to {:.0f} m: {:.2f} expected stops, bar {:g}, and "
+                  "embedding in {} of the "
+                  "draws that come there, bar {}",
+                  worst->from_m, worst->to_m, worst->expected_stops, bars.max_expected_stops,
+                  percent(worst->embedding.share), percent(bars.max_embedding)));
 }
 
 }  // namespace

@@ -70,8 +70,8 @@ void BlockMap::read_stripe(const PlanProblem& problem, const GroundJudge& judge,
     Block& block = blocks_[static_cast<std::size_t>(b)];
     const dem::CellWindow window = block_window(geometry_, static_cast<std::uint32_t>(b));
     judge.cells(*part, {first, 0}, window, cells.data(), kBlockCells);
-    block.parts = static_cast<std::uint8_t>(
-        label(cells.data(), window, parts, sizes_[static_cast<std::size_t>(b)]));
+    block.parts =
+        static_cast<std::uint8_t>(label(cells.data(), window, parts, sizes_[static_cast<std::size_t>(b)]));
     for (int k = 0; k < kBlockCells; ++k) {
       block.edges[kNorth][static_cast<std::size_t>(k)] = parts[k];
       block.edges[kSouth][static_cast<std::size_t>(k)] = parts[(kBlockCells - 1) * kBlockCells + k];
@@ -148,16 +148,16 @@ void BlockMap::number_nodes() {
 void BlockMap::touching(std::size_t node, int side, std::vector<std::uint32_t>& to) const {
   to.clear();
   const std::uint32_t block = block_of_[node];
-  const Towards& towards = *std::find_if(kSides.begin(), kSides.end(), [&](const Towards& t) {
-    return t.side == side;
-  });
+  const Towards& towards =
+      *std::find_if(kSides.begin(), kSides.end(), [&](const Towards& t) { return t.side == side; });
   const long long row = block / block_columns_ + towards.rows;
   const long long column = block % block_columns_ + towards.columns;
   if (row < 0 || column < 0 || row >= block_rows_ || column >= block_columns_) return;
   const auto beside = static_cast<std::uint32_t>(row * block_columns_ + column);
   constexpr std::array<int, 4> kOther{kSouth, kNorth, kEast, kWest};
   const auto& ours = blocks_[block].edges[static_cast<std::size_t>(side)];
-  const auto& theirs = blocks_[beside].edges[static_cast<std::size_t>(kOther[static_cast<std::size_t>(side)])];
+  const auto& theirs =
+      blocks_[beside].edges[static_cast<std::size_t>(kOther[static_cast<std::size_t>(side)])];
   const std::size_t part = node - first_node_[block] + 1;
   std::uint8_t last = 0;
   for (int k = 0; k < kBlockCells; ++k) {
@@ -252,7 +252,8 @@ std::optional<std::uint32_t> BlockMap::node_at(double x_m, double y_m) const {
   Parts parts{};
   std::vector<std::uint16_t> sizes;
   label(cells.data(), window, parts, sizes);
-  const std::uint8_t part = parts[static_cast<std::size_t>(row % kBlockCells * kBlockCells + column % kBlockCells)];
+  const std::uint8_t part =
+      parts[static_cast<std::size_t>(row % kBlockCells * kBlockCells + column % kBlockCells)];
   if (part == 0 || part > blocks_[block].parts) return std::nullopt;
   return node_of(block, part);
 }
@@ -284,8 +285,8 @@ std::vector<std::array<float, 8>> BlockMap::costs(const MotionCost& cost, std::s
             sum += metre;
             ++driven;
           }
-          const auto level = static_cast<float>(
-              cost.per_metre_on(sampled > 0 ? soil : kUnknownSoil, {0.0, 0.0}, direction[k].x(), direction[k].y()));
+          const auto level = static_cast<float>(cost.per_metre_on(
+              sampled > 0 ? soil : kUnknownSoil, {0.0, 0.0}, direction[k].x(), direction[k].y()));
           float metre = level * (sampled > 0 ? kClosedFactor : kUnknownFactor);
           if (driven > 0) {
             const float held = 1.0F - static_cast<float>(driven) / static_cast<float>(sampled);

@@ -14,9 +14,9 @@
 namespace slipway::planner {
 
 // The whole terrain in blocks of kBlockCells x kBlockCells of a search's finest cells. The cells of a block
-// that the rover may stand in fall into parts that hang together, over edges or corners; a part is a node, and
-// two nodes are joined where cells of theirs touch. So the blocks know every wall and every gap that the cells
-// have, a gap of one cell too; what they know roughly is cost, from a sample of 16 cells of each block.
+// that the rover may stand in fall into parts that hang together, over edges or corners; a part is a node,
+// and two nodes are joined where cells of theirs touch. So the blocks know every wall and every gap that the
+// cells have, a gap of one cell too; what they know roughly is cost, from a sample of 16 cells of each block.
 //
 // Built in one pass over the terrain, which keeps none of its cells: some 250 bytes a block, 1 byte a cell.
 class BlockMap {
@@ -31,6 +31,8 @@ class BlockMap {
   Eigen::Vector2d centre_m(std::uint32_t block) const;
   // The node of the cell that holds the place; nothing where the rover may not stand there.
   std::optional<std::uint32_t> node_at(double x_m, double y_m) const;
+  // The nodes of a block follow one another.
+  std::uint32_t first_node(std::uint32_t block) const { return first_node_[block]; }
   bool has_nodes(std::uint32_t block) const { return first_node_[block + 1] > first_node_[block]; }
   // Cells of a node.
   int cells(std::size_t node) const { return cells_[node]; }
@@ -44,8 +46,8 @@ class BlockMap {
   const Edge* begin(std::size_t node) const { return edges_.data() + first_edge_[node]; }
   const Edge* end(std::size_t node) const { return edges_.data() + first_edge_[node + 1]; }
 
-  // What a metre costs in each node, driven in eight directions counter-clockwise from east: the mean over its
-  // sample, more where a share of it can't be driven so. Nowhere infinite.
+  // What a metre costs in each node, driven in eight directions counter-clockwise from east: the mean over
+  // its sample, more where a share of it can't be driven so. Nowhere infinite.
   std::vector<std::array<float, 8>> costs(const MotionCost& cost, std::size_t threads) const;
 
  private:
@@ -58,8 +60,8 @@ class BlockMap {
   };
   struct Block {
     std::array<Sample, kSamples> samples;
-    // The parts of the cells at its edges: north from the west, south from the west, west from the north, east
-    // from the north.
+    // The parts of the cells at its edges: north from the west, south from the west, west from the north,
+    // east from the north.
     std::array<std::array<std::uint8_t, kBlockCells>, 4> edges{};
     std::uint8_t parts = 0;
   };
@@ -73,7 +75,9 @@ class BlockMap {
   void number_nodes();
   void join(std::size_t threads, const Progress& progress);
   void touching(std::size_t node, int side, std::vector<std::uint32_t>& to) const;
-  std::uint32_t node_of(std::uint32_t block, std::uint8_t part) const { return first_node_[block] + part - 1; }
+  std::uint32_t node_of(std::uint32_t block, std::uint8_t part) const {
+    return first_node_[block] + part - 1;
+  }
 
   dem::GridGeometry geometry_;
   const PlanProblem& problem_;

@@ -38,15 +38,15 @@ Corridor::Corridor(const BlockMap& blocks, const std::vector<std::array<float, 8
   const std::vector<float> to_go = spread(to, from, true);
   leads_ = to_go[from] < kInfinity;
   if (!leads_ || cancelled_()) return;
-  const std::vector<float> to_come = spread(from, to, false);
+  to_come_ = spread(from, to, false);
+  whole_ = to_go[from];
   std::vector<float> sum(blocks.nodes());
   for (std::uint32_t node = 0; node < sum.size(); ++node) {
-    sum[node] = to_come[node] + to_go[node];
+    sum[node] = to_come_[node] + to_go[node];
     if (sum[node] <= kWorst * to_go[from]) order_.push_back(node);
   }
-  std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return sum[a] < sum[b] || (sum[a] == sum[b] && a < b);
-  });
+  std::sort(order_.begin(), order_.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return sum[a] < sum[b] || (sum[a] == sum[b] && a < b); });
 }
 
 std::vector<float> Corridor::spread(std::uint32_t origin, std::uint32_t end, bool to_go) const {
@@ -90,7 +90,8 @@ std::vector<std::uint32_t> Corridor::blocks(std::size_t least) const {
   std::vector<std::uint32_t> held;
   for (std::size_t k = 0; k < std::min(least, order_.size()); ++k) {
     const long long block = blocks_.block_of(order_[k]);
-    for (long long row = std::max(0LL, block / columns - 1); row <= std::min(rows - 1, block / columns + 1); ++row)
+    for (long long row = std::max(0LL, block / columns - 1); row <= std::min(rows - 1, block / columns + 1);
+         ++row)
       for (long long column = std::max(0LL, block % columns - 1);
            column <= std::min(columns - 1, block % columns + 1); ++column)
         held.push_back(static_cast<std::uint32_t>(row * columns + column));
@@ -98,6 +99,18 @@ std::vector<std::uint32_t> Corridor::blocks(std::size_t least) const {
   std::sort(held.begin(), held.end());
   held.erase(std::unique(held.begin(), held.end()), held.end());
   return held;
+}
+
+std::vector<float> Corridor::cost_to_come(const std::vector<std::uint32_t>& blocks) const {
+  std::vector<float> costs;
+  costs.reserve(blocks.size());
+  for (const std::uint32_t block : blocks) {
+    float least = whole_;
+    for (std::uint32_t node = blocks_.first_node(block); node < blocks_.first_node(block + 1); ++node)
+      least = std::min(least, to_come_[node]);
+    costs.push_back(least);
+  }
+  return costs;
 }
 
 Reach reach_of(const BlockMap& blocks, std::uint32_t from, std::uint32_t to) {

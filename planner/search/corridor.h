@@ -24,6 +24,9 @@ class Corridor {
   // The blocks of the cheapest ways, at least `least` of them where ways worth looking at pass so many, with
   // the ring of blocks around them; in the order of their numbers.
   std::vector<std::uint32_t> blocks(std::size_t least) const;
+  // What the cheapest way from the beginning to each of these blocks costs, by the least of its nodes; as
+  // much as the whole way where none leads there.
+  std::vector<float> cost_to_come(const std::vector<std::uint32_t>& blocks) const;
   // So many that no more are worth looking at.
   std::size_t most() const { return order_.size(); }
 
@@ -35,13 +38,15 @@ class Corridor {
   const std::vector<float>& penalty_;
   const std::function<bool()>& cancelled_;
   bool leads_ = false;
+  std::vector<float> to_come_;  // of each node
+  float whole_ = 0.0F;
   std::vector<std::uint32_t> order_;  // nodes, those of the cheapest ways first
 };
 
 // How much of the ground can be reached from a node, and how near it comes to another.
 struct Reach {
   double area_m2 = 0.0;
-  double gap_m = 0.0;        // between the nearest two blocks
+  double gap_m = 0.0;           // between the nearest two blocks
   Eigen::Vector2d here, there;  // their middles
 };
 Reach reach_of(const BlockMap& blocks, std::uint32_t from, std::uint32_t to);

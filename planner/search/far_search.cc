@@ -33,10 +33,17 @@ constexpr std::size_t kBlockArea = static_cast<std::size_t>(kBlockCells) * kBloc
 // and of the others.
 constexpr double kOwnWidth = 40.0, kOtherWidth = 14.0;
 constexpr std::size_t kFewestBlocks = 400;
+// How often a corridor that has a way becomes twice as wide because the way comes to its edge.
+constexpr int kOwnWidenings = 3;
 // Half width of the band around a route: of the leg, at least so many blocks.
 constexpr double kBandOfLeg = 0.01, kMinBand_blocks = 2.0;
 constexpr double kBandFactor = 0.5;  // the first round's extra cost in the band; doubles each round
 constexpr double kLineSpacing_m = 0.25;
+// What a metre beside closed ground costs more.
+constexpr float kBesideClosed = 0.3F;
+// How far the cells' search trusts what the blocks say of the way on (A*): not at all for the request's own
+// objective, whose optimum is stated. The blocks' means are far above what the best cells of them cost.
+constexpr float kOwnGreed = 0.0F, kOtherGreed = 0.35F;
 // Planners that sample go so far at once, and see so many blocks to each side of the way.
 constexpr double kPiece_m = 200.0;
 constexpr int kPieceReach = 3;
@@ -47,6 +54,8 @@ struct Guide {
   std::vector<std::array<float, 8>> costs = {};  // of the nodes
   std::vector<float> penalty = {};               // of the blocks
   double width = kOtherWidth;
+  float greed = kOtherGreed;
+  int widenings = 1;  // of a corridor that has a way
 };
 
 // One route in the making.
@@ -60,8 +69,8 @@ struct Draft {
 };
 
 // The blocks within so many of any of these places, in their order.
-std::vector<std::uint32_t> blocks_around(const dem::GridGeometry& g, const std::vector<Eigen::Vector2d>& places,
-                                         int reach) {
+std::vector<std::uint32_t> blocks_around(const dem::GridGeometry& g,
+                                         const std::vector<Eigen::Vector2d>& places, int reach) {
   const long long columns = block_columns(g), rows = (g.rows + kBlockCells - 1) / kBlockCells;
   std::vector<std::uint32_t> blocks;
   long long last = -1;
@@ -109,11 +118,14 @@ class FarProposer {
                         MotionCost(problem_, nowhere_, tables_, profile.weights(problem_.weights), tail)});
     }
     guides.front().width = kOwnWidth;
+    guides.front().greed = kOwnGreed;
+    guides.front().widenings = kOwnWidenings;
     const MotionCost asked(problem_, nowhere_, tables_, problem_.weights, problem_.ranking.ranked_tail());
     work_ = static_cast<int>(guides.size()) + kMaxRounds;
     search(guides, true);
     judge(asked);
-    for (int round = 1; round <= kMaxRounds && !found_.empty() && !enough() && !progress_.cancelled(); ++round) {
+    for (int round = 1; round <= kMaxRounds && !found_.empty() && !enough() && !progress_.cancelled();
+         ++round) {
       guides.clear();
       guides.push_back({"apart_from_the_others", asked});
       guides.front().penalty = bands(kBandFactor * std::pow(2.0, round - 1));
@@ -183,21 +195,24 @@ class FarProposer {
     if (!corridor.leads() || progress_.cancelled()) return fail();
     const dem::GridGeometry& g = blocks_.geometry();
     const double across = std::hypot((to.x_m - from.x_m) / g.cell_x_m, (to.y_m - from.y_m) / g.cell_y_m);
-    std::size_t least =
-        std::max(kFewestBlocks, static_cast<std::size_t>(guide.width * across / kBlockCells));
-    for (;;) {
+    std::size_t least = std::max(kFewestBlocks, static_cast<std::size_t>(guide.width * across / kBlockCells));
+    for (int widened = 0;;) {
       least = std::min(least, kMaxCorridorCells / kBlockArea);
-      const TraverseMap map(problem_, keep_out_, corridor.blocks(least), progress_);
+      const std::vector<std::uint32_t> held = corridor.blocks(least);
+      const TraverseMap map(problem_, keep_out_, held, progress_);
       MotionCost cost = guide.cost.on(map);
-      if (!guide.penalty.empty()) cost.penalise(of_cells(map, guide.penalty));
+      cost.penalise(of_cells(map, guide.penalty));
       const GridSearch grid(cost);
+      std::vector<float> ahead = corridor.cost_to_come(held);
+      for (float& rest : ahead) rest *= guide.greed;
       const CostField to_go =
-          grid.cost_to_go(to.x_m, to.y_m, {map.index_at(from.x_m, from.y_m), cancelled_});
+          grid.cost_to_go(to.x_m, to.y_m, {map.index_at(from.x_m, from.y_m), cancelled_, std::move(ahead)});
       const PoseSampler sampler(grid, map, to_go, from.x_m, from.y_m);
       if (progress_.cancelled()) return fail();
       const bool is_last = least >= corridor.most() || least >= kMaxCorridorCells / kBlockArea;
-      if (!is_last && (sampler.way().empty() || at_edge(map, sampler.way()))) {
+      if (!is_last && (sampler.way().empty() || (widened < guide.widenings && at_edge(map, sampler.way())))) {
         least *= 2;
+        ++widened;
         continue;
       }
       if (sampler.way().empty()) return fail();
@@ -216,7 +231,8 @@ class FarProposer {
     }
   }
 
-  void pull_straight(const MotionCost& cost, const PoseSampler& sampler, std::size_t leg, Draft& draft) const {
+  void pull_straight(const MotionCost& cost, const PoseSampler& sampler, std::size_t leg,
+                     Draft& draft) const {
     draft.planner = "grid";
     if (!draft.found) return;
     const Waypoint &from = places_[leg], &to = places_[leg + 1];
@@ -253,14 +269,16 @@ class FarProposer {
       if (end + 1 == way.size()) to = last;
       const std::vector<Eigen::Vector2d> part(way.begin() + static_cast<std::ptrdiff_t>(begin),
                                               way.begin() + static_cast<std::ptrdiff_t>(end) + 1);
-      const TraverseMap map(problem_, keep_out_, blocks_around(blocks_.geometry(), part, kPieceReach), progress_);
+      const TraverseMap map(problem_, keep_out_, blocks_around(blocks_.geometry(), part, kPieceReach),
+                            progress_);
       MotionCost cost = guide.cost.on(map);
-      if (!guide.penalty.empty()) cost.penalise(of_cells(map, guide.penalty));
+      cost.penalise(of_cells(map, guide.penalty));
       const GridSearch grid(cost);
       const PoseSampler sampler(grid, map, grid.cost_to_come(from.x_m, from.y_m, {-1, cancelled_}),
                                 grid.cost_to_go(to.x_m, to.y_m, {-1, cancelled_}), from.x_m, from.y_m);
       const std::uint64_t key = random_key(random_key(problem_.seed, leg), piece);
-      LegSearch search = leg_between(cost, sampler, at, from, to, random_key(random_key(key, number), planner));
+      LegSearch search =
+          leg_between(cost, sampler, at, from, to, random_key(random_key(key, number), planner));
       search.cancelled = cancelled_;
       const std::vector<Pose2> found = others_[planner].second->search(search);
       draft.found = joins(found, search);
@@ -289,13 +307,32 @@ class FarProposer {
     return false;
   }
 
+  // The factors of the blocks, and of cells beside closed ones: a way through a gap keeps to its middle.
   static std::vector<float> of_cells(const TraverseMap& map, const std::vector<float>& of_blocks) {
-    std::vector<float> factors(map.cells());
+    std::vector<float> factors(map.cells(), 0.0F);
     const long long columns = block_columns(map.geometry());
+    const auto is_closed = [&](std::size_t cell) {
+      const Passage passage = map.cell(cell).passage;
+      return passage != Passage::kFree && passage != Passage::kNearKeepOut;
+    };
     for (std::size_t first = 0; first < factors.size(); first += kBlockArea) {
-      const dem::Cell at = map.place_of(first);
-      std::fill_n(factors.begin() + static_cast<std::ptrdiff_t>(first), kBlockArea,
-                  of_blocks[static_cast<std::size_t>(at.row / kBlockCells * columns + at.column / kBlockCells)]);
+      if (!of_blocks.empty()) {
+        const dem::Cell at = map.place_of(first);
+        std::fill_n(
+            factors.begin() + static_cast<std::ptrdiff_t>(first), kBlockArea,
+            of_blocks[static_cast<std::size_t>(at.row / kBlockCells * columns + at.column / kBlockCells)]);
+      }
+    }
+    for (std::size_t cell = 0; cell < factors.size(); ++cell) {
+      if (!is_closed(cell)) continue;
+      const dem::Cell at = map.place_of(cell);
+      for (int row = at.row - 1; row <= at.row + 1; ++row) {
+        for (int column = at.column - 1; column <= at.column + 1; ++column) {
+          const long long beside = map.index_of(row, column);
+          if (beside >= 0 && factors[static_cast<std::size_t>(beside)] < kBesideClosed)
+            factors[static_cast<std::size_t>(beside)] = kBesideClosed;
+        }
+      }
     }
     return factors;
   }
@@ -306,7 +343,8 @@ class FarProposer {
     std::vector<float> penalty(blocks_.blocks(), 0.0F);
     double longest = 0.0;
     for (std::size_t i = 1; i < places_.size(); ++i)
-      longest = std::max(longest, std::hypot(places_[i].x_m - places_[i - 1].x_m, places_[i].y_m - places_[i - 1].y_m));
+      longest = std::max(
+          longest, std::hypot(places_[i].x_m - places_[i - 1].x_m, places_[i].y_m - places_[i - 1].y_m));
     const double block = kBlockCells * std::max(g.cell_x_m, g.cell_y_m);
     const double reach = std::max(kMinBand_blocks * block, kBandOfLeg * longest);
     const Proposal& p = out_.proposal;
@@ -337,7 +375,8 @@ class FarProposer {
     out_.proposal.grid_ways.clear();
     for (const std::vector<Eigen::Vector2d>& way : ways_) {
       std::vector<std::size_t>& cells = out_.proposal.grid_ways.emplace_back();
-      for (const Eigen::Vector2d& p : way) cells.push_back(static_cast<std::size_t>(out_.map->index_at(p.x(), p.y())));
+      for (const Eigen::Vector2d& p : way)
+        cells.push_back(static_cast<std::size_t>(out_.map->index_at(p.x(), p.y())));
     }
   }
 
@@ -368,12 +407,14 @@ class FarProposer {
     for (std::size_t leg = 0; leg + 1 < places_.size(); ++leg) {
       const Waypoint &from = places_[leg], &to = places_[leg + 1];
       const Reach reach = reach_of(blocks_, nodes_[leg], nodes_[leg + 1]);
-      std::string words = fmt::format("from ({:.1f}, {:.1f}) to ({:.1f}, {:.1f})", from.x_m, from.y_m, to.x_m, to.y_m);
+      std::string words =
+          fmt::format("from ({:.1f}, {:.1f}) to ({:.1f}, {:.1f})", from.x_m, from.y_m, to.x_m, to.y_m);
       if (reach.gap_m > 0.0)
         out_.no_way.push_back(fmt::format(
             "no way {} on the whole map: from the start {:.0f} m2 can be reached, and the ground from which "
             "the goal can be is nearest {:.0f} m away, between ({:.1f}, {:.1f}) and ({:.1f}, {:.1f})",
-            words, reach.area_m2, reach.gap_m, reach.here.x(), reach.here.y(), reach.there.x(), reach.there.y()));
+            words, reach.area_m2, reach.gap_m, reach.here.x(), reach.here.y(), reach.there.x(),
+            reach.there.y()));
       else if (!(out_.proposal.grid_optimum < kInfinity))
         out_.no_way.push_back(fmt::format(
             "no drivable way {}: no cell closes it, but the slopes between them immobilise the rover on the "

@@ -16,35 +16,49 @@ int opposite(int step) {
 }
 
 struct Reached {
-  float cost;
+  float key;  // cost, and what lies ahead
   std::uint32_t cell;
   // Ties by cell, so that the order is one order.
   bool operator>(const Reached& other) const {
-    return cost > other.cost || (cost == other.cost && cell > other.cell);
+    return key > other.key || (key == other.key && cell > other.cell);
   }
 };
 
 }  // namespace
 
 double GridSearch::heading_rad(int step) {
-  return std::atan2(kGridDirections[static_cast<std::size_t>(step)].up, kGridDirections[static_cast<std::size_t>(step)].right);
+  return std::atan2(kGridDirections[static_cast<std::size_t>(step)].up,
+                    kGridDirections[static_cast<std::size_t>(step)].right);
 }
 
-GridSearch::GridSearch(const MotionCost& cost) : map_(cost.map()), per_metre_(map_.cells() * kGridSteps) {
-  std::array<Eigen::Vector2d, kGridSteps> direction;
-  for (int k = 0; k < kGridSteps; ++k) direction[k] = {std::cos(heading_rad(k)), std::sin(heading_rad(k))};
-  for (std::size_t i = 0; i < map_.cells(); ++i) {
-    const Passage passage = map_.cell(i).passage;
-    const Eigen::Vector2d centre = map_.centre_m(i);
-    for (int k = 0; k < kGridSteps; ++k) {
-      const bool open =
-          passage == Passage::kFree ||
-          (passage == Passage::kNearKeepOut && map_.may_stand({centre.x(), centre.y(), heading_rad(k)}));
-      per_metre_[i * kGridSteps + k] =
-          open ? static_cast<float>(cost.per_metre_in_cell(i, direction[k].x(), direction[k].y()))
-               : kInfinity;
-    }
+GridSearch::GridSearch(const MotionCost& cost)
+    : map_(cost.map()), per_metre_(new float[map_.cells() * static_cast<std::size_t>(kGridSteps)]) {
+  if (map_.holds_blocks()) {
+    cost_ = &cost;
+    filled_.assign(map_.cells(), 0);
+    return;
   }
+  for (std::size_t i = 0; i < map_.cells(); ++i) fill(cost, i);
+}
+
+void GridSearch::fill(const MotionCost& cost, std::size_t cell) const {
+  static const std::array<Eigen::Vector2d, kGridSteps> direction = [] {
+    std::array<Eigen::Vector2d, kGridSteps> all;
+    for (int k = 0; k < kGridSteps; ++k) all[k] = {std::cos(heading_rad(k)), std::sin(heading_rad(k))};
+    return all;
+  }();
+  const Passage passage = map_.cell(cell).passage;
+  float* const to = per_metre_.get() + cell * static_cast<std::size_t>(kGridSteps);
+  for (int k = 0; k < kGridSteps; ++k) {
+    bool open = passage == Passage::kFree;
+    if (passage == Passage::kNearKeepOut) {
+      const Eigen::Vector2d centre = map_.centre_m(cell);
+      open = map_.may_stand({centre.x(), centre.y(), heading_rad(k)});
+    }
+    to[k] = open ? static_cast<float>(cost.per_metre_in_cell(cell, direction[k].x(), direction[k].y()))
+                 : kInfinity;
+  }
+  if (cost_) filled_[cell] = 1;
 }
 
 bool GridSearch::passes_corners(const dem::Cell& from, int step, int driven) const {
@@ -54,11 +68,9 @@ bool GridSearch::passes_corners(const dem::Cell& from, int step, int driven) con
   const int half_right = s.right / 2;
   const int half_up = s.up / 2;
   const long long first = map_.index_of(from.row - half_up, from.column + half_right);
-  const long long second =
-      map_.index_of(from.row - (s.up - half_up), from.column + (s.right - half_right));
-  return first >= 0 && second >= 0 &&
-         per_metre_[static_cast<std::size_t>(first) * kGridSteps + driven] < kInfinity &&
-         per_metre_[static_cast<std::size_t>(second) * kGridSteps + driven] < kInfinity;
+  const long long second = map_.index_of(from.row - (s.up - half_up), from.column + (s.right - half_right));
+  return first >= 0 && second >= 0 && per_metre(static_cast<std::size_t>(first))[driven] < kInfinity &&
+         per_metre(static_cast<std::size_t>(second))[driven] < kInfinity;
 }
 
 bool GridSearch::clear_of_keep_outs(const dem::Cell& from, int step) const {
@@ -87,34 +99,42 @@ CostField GridSearch::spread(double x_m, double y_m, bool to_go, const SpreadEnd
   const dem::GridGeometry& g = map_.geometry();
   std::array<float, kGridSteps> half_length;
   for (int k = 0; k < kGridSteps; ++k) {
-    half_length[k] =
-        0.5F * static_cast<float>(std::hypot(kGridDirections[k].right * g.cell_x_m, kGridDirections[k].up * g.cell_y_m));
+    half_length[k] = 0.5F * static_cast<float>(std::hypot(kGridDirections[k].right * g.cell_x_m,
+                                                          kGridDirections[k].up * g.cell_y_m));
   }
   std::priority_queue<Reached, std::vector<Reached>, std::greater<>> open;
   field.cost[static_cast<std::size_t>(origin)] = 0.0F;
   open.push({0.0F, static_cast<std::uint32_t>(origin)});
+  const auto ahead = [&](std::size_t cell) {
+    return end.ahead.empty() ? 0.0F : end.ahead[cell / (kBlockCells * kBlockCells)];
+  };
   std::size_t looked_at = 0;
   while (!open.empty()) {
     const Reached here = open.top();
     open.pop();
-    if (here.cost > field.cost[here.cell]) continue;
+    const float cost_here = field.cost[here.cell];
+    if (here.key > cost_here + ahead(here.cell)) continue;
     if (static_cast<long long>(here.cell) == end.at_cell) break;
     if (++looked_at % kBetweenAsking == 0 && end.cancelled && end.cancelled()) break;
     const dem::Cell from = map_.place_of(here.cell);
+    const float* const metre_here = per_metre(here.cell);
     for (int k = 0; k < kGridSteps; ++k) {
       // k is the direction away from the origin; the rover drives it, or its opposite on the way to a goal.
       const int driven = to_go ? opposite(k) : k;
-      const float half = per_metre_[here.cell * kGridSteps + driven];
+      const float half = metre_here[driven];
       if (!(half < kInfinity)) continue;
-      const long long beside = map_.index_of(from.row - kGridDirections[k].up, from.column + kGridDirections[k].right);
+      const long long beside =
+          map_.index_of(from.row - kGridDirections[k].up, from.column + kGridDirections[k].right);
       if (beside < 0) continue;
       const auto next = static_cast<std::size_t>(beside);
-      const float cost = here.cost + half_length[k] * (half + per_metre_[next * kGridSteps + driven]);
+      // Cheaper than this it can't be: most are known at less.
+      if (!(cost_here + half_length[k] * half < field.cost[next])) continue;
+      const float cost = cost_here + half_length[k] * (half + per_metre(next)[driven]);
       if (!(cost < field.cost[next]) || !passes_corners(from, k, driven) || !clear_of_keep_outs(from, k))
         continue;
       field.cost[next] = cost;
       field.step[next] = static_cast<std::int16_t>(driven);
-      open.push({cost, static_cast<std::uint32_t>(next)});
+      open.push({cost + ahead(next), static_cast<std::uint32_t>(next)});
     }
   }
   return field;

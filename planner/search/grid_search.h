@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "planner/search/motion_cost.h"
@@ -43,6 +44,9 @@ struct CostField {
 struct SpreadEnd {
   long long at_cell = -1;           // where its cost is known; -1: nowhere
   std::function<bool()> cancelled;  // then the field is of no use
+  // Of a map of blocks: what the way on from each of them costs about, which the search goes for first (A*).
+  // Where it is more than a way costs the field may miss the cheapest by as much; empty: all count alike.
+  std::vector<float> ahead = {};
 };
 
 // Dijkstra over the map's cells and 16 directions (eight neighbours and eight knight's moves), each edge
@@ -51,6 +55,7 @@ struct SpreadEnd {
 // planners find, and its fields show their samplers where good routes run.
 class GridSearch {
  public:
+  // On a map of blocks it keeps `cost`, and is for one thread.
   explicit GridSearch(const MotionCost& cost);
 
   // Driving to the place from every cell.
@@ -72,8 +77,17 @@ class GridSearch {
   // Of the body driven straight from the cell's centre by the step, or back: it covers the same ground.
   bool clear_of_keep_outs(const dem::Cell& from, int step) const;
 
+  void fill(const MotionCost& cost, std::size_t cell) const;
+  // Per direction. Of a map of blocks a cell is filled when it is first looked at.
+  const float* per_metre(std::size_t cell) const {
+    if (cost_ && filled_[cell] == 0) fill(*cost_, cell);
+    return per_metre_.get() + cell * static_cast<std::size_t>(kGridSteps);
+  }
+
   const TraverseMap& map_;
-  std::vector<float> per_metre_;  // per cell and direction
+  const MotionCost* cost_ = nullptr;  // of a map of blocks
+  std::unique_ptr<float[]> per_metre_;
+  mutable std::vector<std::uint8_t> filled_;
 };
 
 }  // namespace slipway::planner

@@ -3,9 +3,14 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace slipway::planner {
 namespace {
+
+// Cells from this size on [m] say nothing of what rises under a rover: between their heights the ground is a
+// plane.
+constexpr double kNoRiseFrom_m = 10.0;
 
 // The plane under a square of terrain cells, and how far the ground rises above it.
 struct Footprint {
@@ -115,6 +120,11 @@ GroundJudge::GroundJudge(const PlanProblem& problem, const KeepOut& keep_out,
       geometry_(geometry),
       circumscribed_m_(0.5 * std::hypot(problem.rover->body_length_m, problem.rover->body_width_m)),
       max_tilt_rad_(problem.max_tilt_rad()),
+      steepest_squared_(std::pow(std::tan(max_tilt_rad_), 2)),
+      most_rise_m_(std::max(problem.terrain->geometry().cell_x_m, problem.terrain->geometry().cell_y_m) <
+                           kNoRiseFrom_m
+                       ? problem.rover->belly_clearance_m - problem.limits.min_clearance_m
+                       : std::numeric_limits<double>::infinity()),
       reach_x_(footprint_reach(*problem.rover, problem.terrain->geometry().cell_x_m)),
       reach_y_(footprint_reach(*problem.rover, problem.terrain->geometry().cell_y_m)) {
   const dem::GridGeometry& terrain = problem.terrain->geometry();
@@ -123,10 +133,20 @@ GroundJudge::GroundJudge(const PlanProblem& problem, const KeepOut& keep_out,
   as_the_terrain_ = geometry.cell_x_m == terrain.cell_x_m && geometry.cell_y_m == terrain.cell_y_m;
 }
 
+// The same as judge_figures() up to rounding, for very many cells.
+void GroundJudge::judge_quickly(double gradient_x, double gradient_y, double rise_m, GroundCell& cell) const {
+  const double squared = gradient_x * gradient_x + gradient_y * gradient_y;
+  if (squared > steepest_squared_) cell.passage = Passage::kSteep;
+  cell.tilt_rad = std::atan(static_cast<float>(std::sqrt(squared)));
+  cell.rise_m = std::isinf(most_rise_m_) ? 0.0F : static_cast<float>(rise_m);
+  if (rise_m > most_rise_m_) cell.passage = Passage::kRough;
+}
+
 void GroundJudge::judge_figures(double gradient_x, double gradient_y, double rise_m, GroundCell& cell) const {
   const double tilt = std::atan(std::hypot(gradient_x, gradient_y));
   if (tilt > max_tilt_rad_) cell.passage = Passage::kSteep;
   cell.tilt_rad = std::max(cell.tilt_rad, static_cast<float>(tilt));
+  if (std::isinf(most_rise_m_)) return;
   cell.rise_m = std::max(cell.rise_m, static_cast<float>(rise_m));
   if (rise_m + problem_.limits.min_clearance_m > problem_.rover->belly_clearance_m)
     cell.passage = Passage::kRough;
@@ -203,7 +223,7 @@ void GroundJudge::judge_plane(const float* height, std::ptrdiff_t stride, Ground
   }
   cell.gradient_x = static_cast<float>(step_x / g.cell_x_m);
   cell.gradient_y = static_cast<float>(step_y / g.cell_y_m);
-  judge_figures(step_x / g.cell_x_m, step_y / g.cell_y_m, rise, cell);
+  judge_quickly(step_x / g.cell_x_m, step_y / g.cell_y_m, rise, cell);
 }
 
 void GroundJudge::cells(const dem::Terrain& terrain, const dem::Cell& first, const dem::CellWindow& window,
@@ -218,6 +238,13 @@ void GroundJudge::cells(const dem::Terrain& terrain, const dem::Cell& first, con
       0.5 * std::hypot(window.rows * geometry_.cell_y_m, window.columns * geometry_.cell_x_m);
   const bool clear = keep_out_.empty() || keep_out_.clear_at_any_heading(middle.x(), middle.y(), reach);
   const std::ptrdiff_t columns = terrain.geometry().columns;
+  // Of a soil map of one cell.
+  const bool one_soil = !problem_.soil_map || (problem_.soil_map->geometry().rows == 1 &&
+                                               problem_.soil_map->geometry().columns == 1);
+  std::uint8_t soil = kUnknownSoil;
+  if (problem_.soil_map)
+    if (const auto there = problem_.soil_map->soil_at(middle.x(), middle.y()))
+      soil = static_cast<std::uint8_t>(*there);
   for (int row = 0; row < window.rows; ++row) {
     for (int column = 0; column < window.columns; ++column) {
       GroundCell& to = out[static_cast<std::size_t>(row) * stride + static_cast<std::size_t>(column)];
@@ -226,10 +253,10 @@ void GroundJudge::cells(const dem::Terrain& terrain, const dem::Cell& first, con
         to = cell(terrain, centre);
         continue;
       }
-      to = GroundCell{.soil = kUnknownSoil};
-      if (problem_.soil_map)
-        if (const auto soil = problem_.soil_map->soil_at(centre.x(), centre.y()))
-          to.soil = static_cast<std::uint8_t>(*soil);
+      to = GroundCell{.soil = one_soil ? soil : kUnknownSoil};
+      if (!one_soil)
+        if (const auto there = problem_.soil_map->soil_at(centre.x(), centre.y()))
+          to.soil = static_cast<std::uint8_t>(*there);
       judge_plane(heights + (row + margin_) * columns + column + margin_, columns, to);
     }
   }

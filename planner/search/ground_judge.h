@@ -70,13 +70,14 @@ class GroundJudge {
   std::vector<Eigen::Vector2d> judged_places(const Eigen::Vector2d& centre) const;
   // Of a cell with elevation all around, whose height is given; rows are `stride` heights apart.
   void judge_plane(const float* height, std::ptrdiff_t stride, GroundCell& cell) const;
+  void judge_quickly(double gradient_x, double gradient_y, double rise_m, GroundCell& cell) const;
   void judge_figures(double gradient_x, double gradient_y, double rise_m, GroundCell& cell) const;
 
   const PlanProblem& problem_;
   const KeepOut& keep_out_;
   dem::GridGeometry geometry_;
   double circumscribed_m_;  // of the body
-  double max_tilt_rad_;
+  double max_tilt_rad_, steepest_squared_, most_rise_m_;
   int reach_x_, reach_y_;  // of a footprint to each side, in the terrain's cells
   int margin_;
   bool as_the_terrain_;  // the search's cells are the terrain's

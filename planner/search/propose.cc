@@ -28,8 +28,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMaxRounds = 4;
-constexpr double kBandWidths = 2.0;   // half width of the band around a route, in rover widths
-constexpr double kBandFactor = 1.0;   // the first round's extra cost in the band; doubles each round
+constexpr double kBandWidths = 2.0;  // half width of the band around a route, in rover widths
+constexpr double kBandFactor = 1.0;  // the first round's extra cost in the band; doubles each round
 constexpr double kLineSpacing_m = 0.25;
 
 // One objective with what guides the searches under it.
@@ -178,7 +178,8 @@ class Proposer {
         for (int dr = -rows; dr <= rows; ++dr) {
           for (int dc = -columns; dc <= columns; ++dc) {
             const long long i = map_.index_at(place.x() + dc * g.cell_x_m, place.y() + dr * g.cell_y_m);
-            if (i >= 0 && std::hypot(dc * g.cell_x_m, dr * g.cell_y_m) <= reach && !is_near_place(places_, place, reach))
+            if (i >= 0 && std::hypot(dc * g.cell_x_m, dr * g.cell_y_m) <= reach &&
+                !is_near_place(places_, place, reach))
               penalty[static_cast<std::size_t>(i)] = static_cast<float>(factor);
           }
         }

@@ -105,8 +105,8 @@ struct StretchRisk {
   DrawnSpread shortfall_m = {};  // behind to_m when the wheels have rolled that far, see ShortfallFollower
 };
 
-// A part of a long drive that is decided by itself: a sol's drive. Stops and embeddings on it, of the draws in
-// which the rover comes to it.
+// A part of a long drive that is decided by itself: a sol's drive. Stops and embeddings on it, of the draws
+// in which the rover comes to it.
 struct SegmentRisk {
   double from_m = 0.0, to_m = 0.0;
   DrawnShare stop;       // draws with at least one stop on it

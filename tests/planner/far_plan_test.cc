@@ -111,9 +111,8 @@ TEST(FarPlan, FindsTheOnlyGapFarAside) {
 }
 
 TEST(FarPlan, SaysHowNearTheReachableGroundComesWhereThereIsNoWay) {
-  PlanProblem problem = problem_on(800, 900, 1.0, 1.0, [](double x, double) {
-    return std::abs(x - 500.5) < 6.0 ? kNothing : 0.0;
-  });
+  PlanProblem problem = problem_on(
+      800, 900, 1.0, 1.0, [](double x, double) { return std::abs(x - 500.5) < 6.0 ? kNothing : 0.0; });
   problem.start = {60.5, 100.5, std::nullopt};
   problem.goal = {840.5, 700.5, std::nullopt};
   const Plan plan = plan_on(problem);
