@@ -35,7 +35,7 @@ double on_all_cells(const PlanProblem& problem, const KeepOut& none, const Groun
   const MotionCost cost(problem, map, tables, problem.weights, problem.ranking.ranked_tail());
   const GridSearch grid(cost);
   const long long start = map.index_at(problem.start.x_m, problem.start.y_m);
-  const CostField to_go = grid.cost_to_go(problem.goal.x_m, problem.goal.y_m, {start, {}, {}});
+  const CostField to_go = grid.cost_to_go(problem.goal.x_m, problem.goal.y_m, {start, {}});
   return to_go.cost[static_cast<std::size_t>(start)];
 }
 

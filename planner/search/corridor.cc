@@ -38,11 +38,10 @@ Corridor::Corridor(const BlockMap& blocks, const std::vector<std::array<float, 8
   const std::vector<float> to_go = spread(to, from, true);
   leads_ = to_go[from] < kInfinity;
   if (!leads_ || cancelled_()) return;
-  to_come_ = spread(from, to, false);
-  whole_ = to_go[from];
+  const std::vector<float> to_come = spread(from, to, false);
   std::vector<float> sum(blocks.nodes());
   for (std::uint32_t node = 0; node < sum.size(); ++node) {
-    sum[node] = to_come_[node] + to_go[node];
+    sum[node] = to_come[node] + to_go[node];
     if (sum[node] <= kWorst * to_go[from]) order_.push_back(node);
   }
   std::sort(order_.begin(), order_.end(),
@@ -99,18 +98,6 @@ std::vector<std::uint32_t> Corridor::blocks(std::size_t least) const {
   std::sort(held.begin(), held.end());
   held.erase(std::unique(held.begin(), held.end()), held.end());
   return held;
-}
-
-std::vector<float> Corridor::cost_to_come(const std::vector<std::uint32_t>& blocks) const {
-  std::vector<float> costs;
-  costs.reserve(blocks.size());
-  for (const std::uint32_t block : blocks) {
-    float least = whole_;
-    for (std::uint32_t node = blocks_.first_node(block); node < blocks_.first_node(block + 1); ++node)
-      least = std::min(least, to_come_[node]);
-    costs.push_back(least);
-  }
-  return costs;
 }
 
 Reach reach_of(const BlockMap& blocks, std::uint32_t from, std::uint32_t to) {

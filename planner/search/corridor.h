@@ -24,9 +24,6 @@ class Corridor {
   // The blocks of the cheapest ways, at least `least` of them where ways worth looking at pass so many, with
   // the ring of blocks around them; in the order of their numbers.
   std::vector<std::uint32_t> blocks(std::size_t least) const;
-  // What the cheapest way from the beginning to each of these blocks costs, by the least of its nodes; as
-  // much as the whole way where none leads there.
-  std::vector<float> cost_to_come(const std::vector<std::uint32_t>& blocks) const;
   // So many that no more are worth looking at.
   std::size_t most() const { return order_.size(); }
 
@@ -38,8 +35,6 @@ class Corridor {
   const std::vector<float>& penalty_;
   const std::function<bool()>& cancelled_;
   bool leads_ = false;
-  std::vector<float> to_come_;  // of each node
-  float whole_ = 0.0F;
   std::vector<std::uint32_t> order_;  // nodes, those of the cheapest ways first
 };
 

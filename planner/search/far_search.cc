@@ -31,19 +31,16 @@ constexpr int kMaxRounds = 4;
 constexpr std::size_t kBlockArea = static_cast<std::size_t>(kBlockCells) * kBlockCells;
 // How wide the first corridor is, in blocks: of the request's own objective, on which the optimum is stated,
 // and of the others.
-constexpr double kOwnWidth = 40.0, kOtherWidth = 14.0;
+constexpr double kOwnWidth = 24.0, kOtherWidth = 10.0;
 constexpr std::size_t kFewestBlocks = 400;
 // How often a corridor that has a way becomes twice as wide because the way comes to its edge.
-constexpr int kOwnWidenings = 3;
+constexpr int kOwnWidenings = 2;
 // Half width of the band around a route: of the leg, at least so many blocks.
 constexpr double kBandOfLeg = 0.01, kMinBand_blocks = 2.0;
 constexpr double kBandFactor = 0.5;  // the first round's extra cost in the band; doubles each round
 constexpr double kLineSpacing_m = 0.25;
 // What a metre beside closed ground costs more.
 constexpr float kBesideClosed = 0.3F;
-// How far the cells' search trusts what the blocks say of the way on (A*): not at all for the request's own
-// objective, whose optimum is stated. The blocks' means are far above what the best cells of them cost.
-constexpr float kOwnGreed = 0.0F, kOtherGreed = 0.35F;
 // Planners that sample go so far at once, and see so many blocks to each side of the way.
 constexpr double kPiece_m = 200.0;
 constexpr int kPieceReach = 3;
@@ -54,8 +51,7 @@ struct Guide {
   std::vector<std::array<float, 8>> costs = {};  // of the nodes
   std::vector<float> penalty = {};               // of the blocks
   double width = kOtherWidth;
-  float greed = kOtherGreed;
-  int widenings = 1;  // of a corridor that has a way
+  int widenings = 0;  // of a corridor that has a way
 };
 
 // One route in the making.
@@ -118,7 +114,6 @@ class FarProposer {
                         MotionCost(problem_, nowhere_, tables_, profile.weights(problem_.weights), tail)});
     }
     guides.front().width = kOwnWidth;
-    guides.front().greed = kOwnGreed;
     guides.front().widenings = kOwnWidenings;
     const MotionCost asked(problem_, nowhere_, tables_, problem_.weights, problem_.ranking.ranked_tail());
     work_ = static_cast<int>(guides.size()) + kMaxRounds;
@@ -198,15 +193,11 @@ class FarProposer {
     std::size_t least = std::max(kFewestBlocks, static_cast<std::size_t>(guide.width * across / kBlockCells));
     for (int widened = 0;;) {
       least = std::min(least, kMaxCorridorCells / kBlockArea);
-      const std::vector<std::uint32_t> held = corridor.blocks(least);
-      const TraverseMap map(problem_, keep_out_, held, progress_);
+      const TraverseMap map(problem_, keep_out_, corridor.blocks(least), progress_);
       MotionCost cost = guide.cost.on(map);
       cost.penalise(of_cells(map, guide.penalty));
       const GridSearch grid(cost);
-      std::vector<float> ahead = corridor.cost_to_come(held);
-      for (float& rest : ahead) rest *= guide.greed;
-      const CostField to_go =
-          grid.cost_to_go(to.x_m, to.y_m, {map.index_at(from.x_m, from.y_m), cancelled_, std::move(ahead)});
+      const CostField to_go = grid.cost_to_go(to.x_m, to.y_m, {map.index_at(from.x_m, from.y_m), cancelled_});
       const PoseSampler sampler(grid, map, to_go, from.x_m, from.y_m);
       if (progress_.cancelled()) return fail();
       const bool is_last = least >= corridor.most() || least >= kMaxCorridorCells / kBlockArea;

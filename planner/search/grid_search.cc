@@ -16,11 +16,11 @@ int opposite(int step) {
 }
 
 struct Reached {
-  float key;  // cost, and what lies ahead
+  float cost;
   std::uint32_t cell;
   // Ties by cell, so that the order is one order.
   bool operator>(const Reached& other) const {
-    return key > other.key || (key == other.key && cell > other.cell);
+    return cost > other.cost || (cost == other.cost && cell > other.cell);
   }
 };
 
@@ -105,15 +105,12 @@ CostField GridSearch::spread(double x_m, double y_m, bool to_go, const SpreadEnd
   std::priority_queue<Reached, std::vector<Reached>, std::greater<>> open;
   field.cost[static_cast<std::size_t>(origin)] = 0.0F;
   open.push({0.0F, static_cast<std::uint32_t>(origin)});
-  const auto ahead = [&](std::size_t cell) {
-    return end.ahead.empty() ? 0.0F : end.ahead[cell / (kBlockCells * kBlockCells)];
-  };
   std::size_t looked_at = 0;
   while (!open.empty()) {
     const Reached here = open.top();
     open.pop();
-    const float cost_here = field.cost[here.cell];
-    if (here.key > cost_here + ahead(here.cell)) continue;
+    if (here.cost > field.cost[here.cell]) continue;
+    const float cost_here = here.cost;
     if (static_cast<long long>(here.cell) == end.at_cell) break;
     if (++looked_at % kBetweenAsking == 0 && end.cancelled && end.cancelled()) break;
     const dem::Cell from = map_.place_of(here.cell);
@@ -134,7 +131,7 @@ CostField GridSearch::spread(double x_m, double y_m, bool to_go, const SpreadEnd
         continue;
       field.cost[next] = cost;
       field.step[next] = static_cast<std::int16_t>(driven);
-      open.push({cost + ahead(next), static_cast<std::uint32_t>(next)});
+      open.push({cost, static_cast<std::uint32_t>(next)});
     }
   }
   return field;

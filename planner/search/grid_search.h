@@ -44,9 +44,6 @@ struct CostField {
 struct SpreadEnd {
   long long at_cell = -1;           // where its cost is known; -1: nowhere
   std::function<bool()> cancelled;  // then the field is of no use
-  // Of a map of blocks: what the way on from each of them costs about, which the search goes for first (A*).
-  // Where it is more than a way costs the field may miss the cheapest by as much; empty: all count alike.
-  std::vector<float> ahead = {};
 };
 
 // Dijkstra over the map's cells and 16 directions (eight neighbours and eight knight's moves), each edge

@@ -238,7 +238,9 @@ TEST(TerrainReadByTiles, IsTheSameAsOneThatIsHeldAndReadsWhatIsLookedAt) {
       EXPECT_EQ(tiles.height_m(x, y), held.height_m(x, y));
       const auto a = tiles.surface(x, y), b = held.surface(x, y);
       ASSERT_EQ(a.has_value(), b.has_value());
-      if (a) EXPECT_EQ(a->normal, b->normal);
+      if (a) {
+        EXPECT_EQ(a->normal, b->normal);
+      }
       EXPECT_EQ(tiles.roughness_m(x, y, 3.0), held.roughness_m(x, y, 3.0));
       ++compared;
     }

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <mutex>
 #include <numeric>
 
 #include "planner/search/block_map.h"
@@ -160,7 +162,9 @@ TEST(FarPlan, HasSegmentsWithVerdictsOfTheirOwn) {
   EXPECT_NEAR(segments.back().to_m, drive.length_m, 1.0);
   double stops = 0.0;
   for (std::size_t k = 0; k < segments.size(); ++k) {
-    if (k > 0) EXPECT_EQ(segments[k].from_m, segments[k - 1].to_m);
+    if (k > 0) {
+      EXPECT_EQ(segments[k].from_m, segments[k - 1].to_m);
+    }
     stops += segments[k].expected_stops * segments[k].reached;
   }
   EXPECT_NEAR(stops, drive.outcomes.expected_stops, 1e-9 + 0.02 * stops);
