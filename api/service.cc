@@ -38,6 +38,14 @@ void check_path(const Request& request, RequestCheck& check, bool is_start = fal
 
 // Of each route of a plan: 272 without an embedding are the fewest that make a GO.
 constexpr int kMaxPlanDraws = 272;
+
+// After the work it is known which tiles of a large terrain were looked at, and whether all could be read.
+Result<void> account_for_tiles(const dem::Terrain& terrain, Provenance& provenance) {
+  if (const auto damage = terrain.damage()) return fail(*damage);
+  if (terrain.is_read_by_tiles()) provenance.terrain_fingerprint = terrain.fingerprint();
+  return {};
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Service>> Service::open(ServiceOptions options) {
@@ -164,7 +172,17 @@ Result<PlanAnswer> Service::plan(const PlanRequest& request, Progress& progress)
   progress.report("reading the terrain", 0.0);
   std::vector<planner::Waypoint> places{request.start, request.goal};
   places.insert(places.end(), request.waypoints.begin(), request.waypoints.end());
-  auto setting = set_up(request.terrain, request.rover, places, request.drive, progress);
+  auto planned = plan_within(std::nullopt, request, places, progress);
+  if (planned && planned->plan.needs_wider_terrain)
+    planned = plan_within(catalogue()->terrains.at(request.terrain)->info().geometry.extent(), request,
+                          places, progress);
+  return planned;
+}
+
+Result<PlanAnswer> Service::plan_within(const std::optional<dem::Extent>& window, const PlanRequest& request,
+                                        const std::vector<planner::Waypoint>& places,
+                                        Progress& progress) const {
+  auto setting = set_up(request.terrain, request.rover, places, request.drive, progress, window);
   if (!setting) return fail(setting.error());
   planner::PlanProblem& problem = setting->problem;
   problem.start = request.start;
@@ -183,6 +201,8 @@ Result<PlanAnswer> Service::plan(const PlanRequest& request, Progress& progress)
     problem.deciding_draws = std::exchange(problem.risk.draws, kWeighedDraws);
   auto plan = planner::make_plan(problem, progress, options_.planners);
   if (!plan) return fail(plan.error());
+  if (auto whole = account_for_tiles(*problem.terrain, setting->provenance); !whole)
+    return fail(whole.error());
   return PlanAnswer{request, std::move(setting->provenance), std::move(*plan)};
 }
 
@@ -203,6 +223,8 @@ Result<PredictionAnswer> Service::predict(const PredictionRequest& request, Prog
   problem.keep_out = request.keep_out;
   problem.keep_in = request.keep_in;
   planner::forbid_trespass(problem, planner::path_motions(request.path, request.manner), decision);
+  if (auto whole = account_for_tiles(*problem.terrain, setting->provenance); !whole)
+    return fail(whole.error());
   PredictionAnswer answer{request, std::move(setting->provenance), std::move(*prediction), std::nullopt,
                           std::move(decision)};
   if (request.level == FidelityLevel::kDynamic) {
@@ -235,6 +257,8 @@ Result<CheckAnswer> Service::check(const CheckRequest& request, Progress& progre
   setting->problem.keep_out = request.keep_out;
   setting->problem.keep_in = request.keep_in;
   planner::forbid_trespass(setting->problem, motions, decision);
+  if (auto whole = account_for_tiles(*setting->problem.terrain, setting->provenance); !whole)
+    return fail(whole.error());
   return CheckAnswer{request, std::move(setting->provenance), std::move(*prediction), std::move(decision)};
 }
 

@@ -105,6 +105,8 @@ class Service {
   Result<Setting> set_up(const std::string& terrain, const std::string& rover,
                          const std::vector<planner::Waypoint>& places, const DriveAssumptions& drive,
                          Progress& progress, const std::optional<dem::Extent>& window = std::nullopt) const;
+  Result<PlanAnswer> plan_within(const std::optional<dem::Extent>& window, const PlanRequest& request,
+                                 const std::vector<planner::Waypoint>& places, Progress& progress) const;
   // The service's own, or a copy with the request's model and soils in it where it has some; the model's
   // rover takes the place of the one it was made of. What can't be taken is added to the faults.
   std::shared_ptr<const Catalogue> catalogue_for(const DriveAssumptions& drive, std::string& rover,

@@ -1,4 +1,6 @@
 // What plans, predictions and checks share: from a request's assumptions to a problem on the terrain.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -12,6 +14,9 @@
 
 namespace slipway::api {
 namespace {
+
+// Cells from this size on don't show what lies under a rover.
+constexpr double kLargeCell_m = 10.0;
 
 // Enough for a search to go around what lies between the places.
 dem::Extent window_around(const std::vector<planner::Waypoint>& places, const dem::GridGeometry& geometry) {
@@ -71,6 +76,13 @@ Provenance provenance_of(const TerrainSite& site, const Legend& legend, const pl
                         .soils = {},
                         .unknown_soil = problem.beliefs.unknown.name,
                         .seed = seed};
+  const dem::GridGeometry& cells = problem.terrain->geometry();
+  if (const double cell_m = std::max(cells.cell_x_m, cells.cell_y_m); cell_m >= kLargeCell_m)
+    provenance.unseen_relief = fmt::format(
+        "between heights {:g} m apart the ground is taken as a plane: rocks, ripples, steps and slopes "
+        "shorter "
+        "than {:g} m are not in the map, and no limit of tilt, clearance or slip is held against them",
+        cell_m, 3.0 * cell_m);
   // By what is believed of them: a corrected soil's name is another than the map's.
   for (const sim::SoilDistribution& belief : problem.beliefs.known) provenance.soils.push_back(belief.name);
   return provenance;
@@ -119,6 +131,7 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
   Setting setting;
   planner::PlanProblem& problem = setting.problem;
   problem.terrain = ground->terrain;
+  problem.terrain_is_whole_map = problem.terrain->geometry() == map;
   RegionalSoils soils = soils_in_regions(ground->soil_map, sim::effect_regions(effects));
   problem.soil_map = soils.map;
   problem.beliefs = beliefs_of(*catalogue, drive, soils.soils, legend.confidence, effects);
@@ -131,6 +144,7 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
   problem.risk.draws = drive.draws.value_or(kFirstDraws);
   problem.risk.max_draws = drive.draws ? 0 : kMaxDecidingDraws;
   problem.risk.checks = drive.checks;
+  problem.risk.segment_m = drive.segment_m.value_or(0.0);
   problem.risk.bars = drive.bars;
   if (drive.relief)
     problem.risk.relief = relief_spread(site.description().relief, *drive.relief, legend, ground->soil_map);

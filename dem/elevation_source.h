@@ -28,8 +28,9 @@ class ElevationSource {
   virtual ~ElevationSource() = default;
   virtual const ElevationInfo& info() const = 0;
   // The cells that meet the extent, plus two cells around them where the raster has them, so that heights and
-  // normals inside the extent are those of the whole raster. Errors: off_map where they don't meet,
-  // invalid_request above kMaxWindowCells, unreadable_raster where the file is damaged (names the window).
+  // normals inside the extent are those of the whole raster. Of more than kMaxWindowCells they are read by
+  // tiles when they are looked at (see Terrain). Errors: off_map where they don't meet, unreadable_raster
+  // where the file is damaged (names the window).
   virtual Result<std::shared_ptr<const Terrain>> read(const Extent& extent) const = 0;
   // For pictures of wide ground: of every step-th row and column one sample, as a terrain with cells so many
   // times as large, with two of them around the extent. Lengths need not be true. step >= 1. Errors as read.
@@ -43,7 +44,7 @@ enum class PlacelessRaster {
                 // elsewhere
 };
 
-constexpr long long kMaxWindowCells = 36'000'000;  // 6,000 x 6,000 cells, 180 MB in memory
+constexpr long long kMaxWindowCells = 36'000'000;  // that are read at once: 6,000 x 6,000, 180 MB in memory
 
 // Opens a raster of an allowed driver as elevation: one band, float or scaled integer, square to the map
 // axes, in a metric projected system. Refused with the reason, and the command that would convert it: degree

@@ -55,7 +55,7 @@ int middle_of(int k, int step, int cells) {
   return static_cast<int>(std::min<long long>(static_cast<long long>(k) * step + step / 2, cells - 1));
 }
 
-class GdalElevation final : public ElevationSource {
+class GdalElevation final : public ElevationSource, public std::enable_shared_from_this<GdalElevation> {
  public:
   GdalElevation(std::filesystem::path path, CheckedRaster raster, const HeightEncoding& encoding)
       : path_(std::move(path)),
@@ -73,10 +73,18 @@ class GdalElevation final : public ElevationSource {
     const auto met = window_of(extent);
     if (!met) return fail(met.error());
     const CellWindow window = with_margin(*met, info_.geometry);
-    if (const auto few = check_cells(window.rows, window.columns); !few) return fail(few.error());
     if (const auto lengths = check_lengths(info_.geometry.sub(*met).extent()); !lengths)
       return fail(lengths.error());
-    return read(window);
+    if (static_cast<long long>(window.rows) * window.columns > kMaxWindowCells)
+      return std::make_shared<const Terrain>(info_.geometry.sub(window),
+                                             std::make_shared<const Cells>(shared_from_this(), window));
+    const std::size_t cells =
+        static_cast<std::size_t>(window.rows) * static_cast<std::size_t>(window.columns);
+    std::vector<float> heights(cells);
+    std::vector<std::uint8_t> valid(cells);
+    if (const Result<void> whole = read(window, heights.data(), valid.data()); !whole)
+      return fail(whole.error());
+    return std::make_shared<const Terrain>(info_.geometry.sub(window), std::move(heights), std::move(valid));
   }
 
   Result<std::shared_ptr<const Terrain>> read_samples(const Extent& extent, int step) const override {
@@ -139,6 +147,21 @@ class GdalElevation final : public ElevationSource {
                             describe(window), session.complaints()));
   }
 
+  // Of a window that is read by tiles.
+  class Cells final : public CellReader {
+   public:
+    Cells(std::shared_ptr<const GdalElevation> source, const CellWindow& window)
+        : source_(std::move(source)), window_(window) {}
+    Result<void> read(const CellWindow& w, float* heights_m, std::uint8_t* valid) const override {
+      return source_->read({window_.row + w.row, window_.column + w.column, w.rows, w.columns}, heights_m,
+                           valid);
+    }
+
+   private:
+    std::shared_ptr<const GdalElevation> source_;
+    CellWindow window_;
+  };
+
   // Where they are true over the whole map, no window is looked at.
   Result<void> check_lengths(const Extent& extent) const {
     if (lengths_are_true_) return {};
@@ -146,13 +169,9 @@ class GdalElevation final : public ElevationSource {
     return check_true_lengths(*dataset_->GetSpatialRef(), extent, path_.filename().string());
   }
 
-  Result<std::shared_ptr<const Terrain>> read(const CellWindow& window) const {
+  Result<void> read(const CellWindow& window, float* heights, std::uint8_t* valid) const {
     const std::lock_guard lock(mutex_);
     const GdalSession session(path_);
-    const std::size_t cells =
-        static_cast<std::size_t>(window.rows) * static_cast<std::size_t>(window.columns);
-    std::vector<float> heights(cells);
-    std::vector<std::uint8_t> valid(cells);
     int block_columns = 0;
     int block_rows = 0;
     band_.GetBlockSize(&block_columns, &block_rows);
@@ -166,11 +185,11 @@ class GdalElevation final : public ElevationSource {
       const CellWindow stripe{row, window.column, end - row, window.columns};
       const std::size_t first =
           static_cast<std::size_t>(row - window.row) * static_cast<std::size_t>(window.columns);
-      if (!read_heights(band_, encoding_, stripe, heights.data() + first, valid.data() + first))
+      if (!read_heights(band_, encoding_, stripe, heights + first, valid + first))
         return damaged(stripe, session);
       row = end;
     }
-    return std::make_shared<const Terrain>(info_.geometry.sub(window), std::move(heights), std::move(valid));
+    return {};
   }
 
   std::filesystem::path path_;

@@ -87,11 +87,16 @@ std::vector<Fault> move_to_map(std::vector<LabelledPolygon>& polygons, const Bod
 Result<GridGeometry> grid_over(const ElevationInfo& ground, const Extent& extent) {
   const std::optional<CellWindow> window = ground.geometry.window(extent);
   if (!window) return fail(ErrorCode::kOffMap, "The extent does not meet the elevation's.");
-  if (static_cast<long long>(window->rows) * window->columns > kMaxWindowCells) {
-    return fail(ErrorCode::kInvalidRequest,
-                fmt::format("The extent takes more than {} cells; choose a smaller one.", kMaxWindowCells));
-  }
-  return ground.geometry.sub(*window);
+  // A large window has larger cells, in whole numbers of the elevation's.
+  GridGeometry grid = ground.geometry.sub(*window);
+  int step = 1;
+  const auto across = [&](int cells) { return (cells + step - 1) / step; };
+  while (static_cast<long long>(across(window->rows)) * across(window->columns) > kMaxWindowCells) ++step;
+  grid.rows = across(window->rows);
+  grid.columns = across(window->columns);
+  grid.cell_x_m *= step;
+  grid.cell_y_m *= step;
+  return grid;
 }
 
 // A class row by row of the legend from the burned values.

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <ogr_spatialref.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <utility>
 
@@ -46,29 +46,40 @@ bool same_place(const OGRSpatialReference& crs, const ElevationInfo& ground, con
   return true;
 }
 
-// The classes of the window, and which cells have one; nothing where the file is damaged.
+// The classes of the window, and which cells have one.
 struct Classes {
-  std::vector<std::int32_t> values;
+  std::vector<std::int16_t> values;
   std::vector<std::uint8_t> known;
+  std::optional<std::int32_t> beyond;  // a class that is no 16-bit number
 };
 
+// By stripes, so that a large window costs its three bytes a cell. Nothing where the file is damaged.
 std::optional<Classes> read_classes(GDALRasterBand& band, const CellWindow& window) {
-  const std::size_t cells = static_cast<std::size_t>(window.rows) * static_cast<std::size_t>(window.columns);
-  Classes classes{std::vector<std::int32_t>(cells), std::vector<std::uint8_t>(cells, 1)};
-  if (band.RasterIO(GF_Read, window.column, window.row, window.columns, window.rows, classes.values.data(),
-                    window.columns, window.rows, GDT_Int32, 0, 0, nullptr) != CE_None) {
-    return std::nullopt;
-  }
-  if ((band.GetMaskFlags() & GMF_PER_DATASET) != 0 &&
-      band.GetMaskBand()->RasterIO(GF_Read, window.column, window.row, window.columns, window.rows,
-                                   classes.known.data(), window.columns, window.rows, GDT_Byte, 0, 0,
-                                   nullptr) != CE_None) {
-    return std::nullopt;
-  }
+  const auto columns = static_cast<std::size_t>(window.columns);
+  const std::size_t cells = static_cast<std::size_t>(window.rows) * columns;
+  Classes classes{std::vector<std::int16_t>(cells), std::vector<std::uint8_t>(cells, 1), std::nullopt};
+  const bool has_mask = (band.GetMaskFlags() & GMF_PER_DATASET) != 0;
   int has_nodata = 0;
   const double nodata = band.GetNoDataValue(&has_nodata);
-  for (std::size_t i = 0; i < cells; ++i) {
-    if (has_nodata != 0 && classes.values[i] == nodata) classes.known[i] = 0;
+  const int stripe = std::clamp(4'000'000 / window.columns, 1, window.rows);
+  std::vector<std::int32_t> values;
+  for (int row = 0; row < window.rows; row += stripe) {
+    const int rows = std::min(stripe, window.rows - row);
+    const std::size_t first = static_cast<std::size_t>(row) * columns;
+    values.resize(static_cast<std::size_t>(rows) * columns);
+    if (band.RasterIO(GF_Read, window.column, window.row + row, window.columns, rows, values.data(),
+                      window.columns, rows, GDT_Int32, 0, 0, nullptr) != CE_None ||
+        (has_mask && band.GetMaskBand()->RasterIO(GF_Read, window.column, window.row + row, window.columns,
+                                                  rows, classes.known.data() + first, window.columns, rows,
+                                                  GDT_Byte, 0, 0, nullptr) != CE_None))
+      return std::nullopt;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      std::uint8_t& known = classes.known[first + i];
+      if (has_nodata != 0 && values[i] == nodata) known = 0;
+      if (known == 0) continue;
+      classes.values[first + i] = static_cast<std::int16_t>(values[i]);
+      if (classes.values[first + i] != values[i] && !classes.beyond) classes.beyond = values[i];
+    }
   }
   return classes;
 }
@@ -126,28 +137,15 @@ Result<std::shared_ptr<const SoilMap>> read_soil_raster(const std::filesystem::p
   if (!usable) return fail(usable.error());
   const std::optional<CellWindow> window = raster->info.geometry.window(extent);
   if (!window) return fail(ErrorCode::kOffMap, fmt::format("{} does not meet the extent asked for.", file));
-  if (static_cast<long long>(window->rows) * window->columns > kMaxWindowCells) {
-    return fail(ErrorCode::kInvalidRequest,
-                fmt::format("The extent takes more than {} cells of {}; choose a smaller one.",
-                            kMaxWindowCells, file));
-  }
   std::optional<Classes> read = read_classes(*raster->dataset->GetRasterBand(1), *window);
   if (!read) {
     return fail(ErrorCode::kUnreadableRaster, fmt::format("{} is damaged: {} could not be read ({}).", file,
                                                           describe(*window), session.complaints()));
   }
-  std::vector<std::int16_t> classes(read->values.size());
-  for (std::size_t i = 0; i < classes.size(); ++i) {
-    const std::int32_t value = read->values[i];
-    if (read->known[i] == 0) continue;
-    if (value < std::numeric_limits<std::int16_t>::min() ||
-        value > std::numeric_limits<std::int16_t>::max()) {
-      return fail(ErrorCode::kUnreadableRaster,
-                  fmt::format("{} holds class = {}, must be in [-32768, 32767].", file, value));
-    }
-    classes[i] = static_cast<std::int16_t>(value);
-  }
-  return std::make_shared<const SoilMap>(raster->info.geometry.sub(*window), std::move(classes),
+  if (read->beyond)
+    return fail(ErrorCode::kUnreadableRaster,
+                fmt::format("{} holds class = {}, must be in [-32768, 32767].", file, *read->beyond));
+  return std::make_shared<const SoilMap>(raster->info.geometry.sub(*window), std::move(read->values),
                                          std::move(read->known), std::move(legend));
 }
 

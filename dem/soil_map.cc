@@ -1,6 +1,7 @@
 #include "dem/soil_map.h"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 #include <unordered_map>
 #include <utility>
@@ -25,12 +26,11 @@ SoilMap::SoilMap(GridGeometry geometry, std::vector<std::int16_t> classes, std::
     index_of_value.emplace(row.value, static_cast<std::int16_t>(at - soils_.begin()));
     if (at == soils_.end()) soils_.push_back(*row.soil);
   }
-  soil_index_.assign(cells, -1);
-  for (std::size_t i = 0; i < cells; ++i) {
-    if (known_[i] == 0) continue;
-    const auto found = index_of_value.find(classes_[i]);
-    if (found != index_of_value.end()) soil_index_[i] = found->second;
-  }
+  soil_of_class_.assign(std::size_t{1} << 16U, -1);
+  for (const auto& [value, soil] : index_of_value)
+    if (value >= std::numeric_limits<std::int16_t>::min() &&
+        value <= std::numeric_limits<std::int16_t>::max())
+      soil_of_class_[static_cast<std::uint16_t>(value)] = soil;
 }
 
 std::optional<std::size_t> SoilMap::index_at(double x_m, double y_m) const {
@@ -48,13 +48,14 @@ std::optional<int> SoilMap::class_at(double x_m, double y_m) const {
 
 std::optional<std::size_t> SoilMap::soil_at(double x_m, double y_m) const {
   const std::optional<std::size_t> i = index_at(x_m, y_m);
-  if (!i || soil_index_[*i] < 0) return std::nullopt;
-  return static_cast<std::size_t>(soil_index_[*i]);
+  if (!i || soil_of(*i) < 0) return std::nullopt;
+  return static_cast<std::size_t>(soil_of(*i));
 }
 
 double SoilMap::unknown_fraction() const {
-  const auto unknown = std::count(soil_index_.begin(), soil_index_.end(), std::int16_t{-1});
-  return static_cast<double>(unknown) / static_cast<double>(soil_index_.size());
+  std::size_t unknown = 0;
+  for (std::size_t i = 0; i < known_.size(); ++i) unknown += soil_of(i) < 0 ? 1 : 0;
+  return static_cast<double>(unknown) / static_cast<double>(known_.size());
 }
 
 }  // namespace slipway::dem

@@ -47,8 +47,12 @@ class SoilMap {
  private:
   std::optional<std::size_t> index_at(double x_m, double y_m) const;
 
+  std::int16_t soil_of(std::size_t cell) const {
+    return known_[cell] == 0 ? std::int16_t{-1} : soil_of_class_[static_cast<std::uint16_t>(classes_[cell])];
+  }
+
   GridGeometry geometry_;
-  std::vector<std::int16_t> soil_index_;  // of each cell; -1 on unknown ground
+  std::vector<std::int16_t> soil_of_class_;  // index into soils(); -1 for unknown ground
   std::vector<std::int16_t> classes_;
   std::vector<std::uint8_t> known_;
   std::vector<SoilClass> legend_;
@@ -68,9 +72,10 @@ enum class PolygonCoordinates {
   kMap,                // metres in the elevation's CRS
 };
 
-// Burns polygons of a GeoJSON file onto a grid like the elevation's over the extent; a cell takes the class
-// of the last polygon that holds its centre. property names the label that the legend is matched by. A label
-// that the legend does not have is unknown ground. Faults name the feature: "/features/12/geometry".
+// Burns polygons of a GeoJSON file onto a grid like the elevation's over the extent, or one of whole numbers
+// of its cells that has at most kMaxWindowCells; a cell takes the class of the last polygon that holds its
+// centre. property names the label that the legend is matched by. A label that the legend does not have is
+// unknown ground. Faults name the feature: "/features/12/geometry".
 Result<std::shared_ptr<const SoilMap>> read_soil_polygons(const std::filesystem::path& path,
                                                           const ElevationInfo& ground, const Extent& extent,
                                                           const std::string& property,

@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "dem/terrain_tiles.h"
+
 namespace slipway::dem {
 namespace {
 
@@ -43,6 +45,11 @@ SurfacePoint surface_point(double height_m, const Eigen::Vector2d& gradient) {
   return {height_m, Eigen::Vector3d(-gradient.x(), -gradient.y(), 1.0).normalized()};
 }
 
+void check_cells(const GridGeometry& geometry) {
+  if (geometry.rows < 1 || geometry.columns < 1 || !(geometry.cell_x_m > 0.0) || !(geometry.cell_y_m > 0.0))
+    throw std::invalid_argument("a terrain has at least one cell, and cells have a positive size");
+}
+
 std::uint64_t hashed(std::uint64_t hash, std::uint64_t word) {
   hash = (hash ^ word) * 0x9e3779b97f4a7c15ULL;
   return hash ^ (hash >> 29);
@@ -63,18 +70,17 @@ double SurfacePoint::aspect_rad() const {
 }
 
 Terrain::Terrain(GridGeometry geometry, std::vector<float> heights_m, std::vector<std::uint8_t> valid)
-    : geometry_(geometry), heights_m_(std::move(heights_m)), valid_(std::move(valid)) {
-  if (geometry_.rows < 1 || geometry_.columns < 1 || !(geometry_.cell_x_m > 0.0) ||
-      !(geometry_.cell_y_m > 0.0)) {
-    throw std::invalid_argument("a terrain has at least one cell, and cells have a positive size");
-  }
+    : geometry_(geometry), held_heights_m_(std::move(heights_m)), held_valid_(std::move(valid)) {
+  check_cells(geometry_);
   const std::size_t cells =
       static_cast<std::size_t>(geometry_.rows) * static_cast<std::size_t>(geometry_.columns);
-  if (heights_m_.size() != cells || valid_.size() != cells) {
+  if (held_heights_m_.size() != cells || held_valid_.size() != cells) {
     throw std::invalid_argument(
         fmt::format("a terrain of {} x {} cells was given {} heights and {} mask values", geometry_.rows,
-                    geometry_.columns, heights_m_.size(), valid_.size()));
+                    geometry_.columns, held_heights_m_.size(), held_valid_.size()));
   }
+  heights_m_ = held_heights_m_.data();
+  valid_ = held_valid_.data();
   for (std::size_t i = 0; i < cells; ++i) {
     if (valid_[i] != 0 && !std::isfinite(heights_m_[i])) {
       throw std::invalid_argument("a cell that is not masked has a height that is not finite");
@@ -83,9 +89,63 @@ Terrain::Terrain(GridGeometry geometry, std::vector<float> heights_m, std::vecto
   }
 }
 
+Terrain::Terrain(GridGeometry geometry, std::shared_ptr<const CellReader> cells) : geometry_(geometry) {
+  check_cells(geometry_);
+  tiles_ = std::make_unique<TerrainTiles>(geometry_, std::move(cells));
+  heights_m_ = tiles_->heights_m();
+  valid_ = tiles_->valid();
+  whole_ = false;  // nobody knows
+}
+
+Terrain::~Terrain() = default;
+
+std::optional<Error> Terrain::damage() const {
+  return tiles_ ? tiles_->damage() : std::nullopt;
+}
+
+std::shared_ptr<const Terrain> Terrain::part(const CellWindow& window) const {
+  const auto cells = static_cast<std::size_t>(window.rows) * static_cast<std::size_t>(window.columns);
+  std::vector<float> heights(cells);
+  std::vector<std::uint8_t> valid(cells);
+  if (tiles_) {
+    if (!tiles_->cells().read(window, heights.data(), valid.data())) return nullptr;
+  } else {
+    for (int row = 0; row < window.rows; ++row) {
+      const std::size_t from = index_of({window.row + row, window.column});
+      const std::size_t to = static_cast<std::size_t>(row) * static_cast<std::size_t>(window.columns);
+      std::copy_n(heights_m_ + from, window.columns, heights.data() + to);
+      std::copy_n(valid_ + from, window.columns, valid.data() + to);
+    }
+  }
+  return std::make_shared<const Terrain>(geometry_.sub(window), std::move(heights), std::move(valid));
+}
+
+const float* Terrain::heights_in(const CellWindow& window) const {
+  const int last_row = window.row + window.rows - 1, last_column = window.column + window.columns - 1;
+  if (window.row < 0 || window.column < 0 || last_row >= geometry_.rows || last_column >= geometry_.columns)
+    return nullptr;
+  const float* const first = heights_m_ + index_of({window.row, window.column});
+  if (whole_ || (tiles_ && tiles_->need(window.row, window.column, last_row, last_column))) return first;
+  for (int row = window.row; row <= last_row; ++row) {
+    const std::uint8_t* const valid = valid_ + index_of({row, window.column});
+    if (std::find(valid, valid + window.columns, std::uint8_t{0}) != valid + window.columns) return nullptr;
+  }
+  return first;
+}
+
+void Terrain::need(int row, int column) const {
+  if (tiles_) tiles_->need(row, column, row, column);
+}
+
+bool Terrain::whole_around(int row, int column) const {
+  return whole_ || (tiles_ && tiles_->need(row - 1, column - 1, row + 2, column + 2));
+}
+
 bool Terrain::has_data(const Cell& cell) const {
-  return cell.row >= 0 && cell.row < geometry_.rows && cell.column >= 0 && cell.column < geometry_.columns &&
-         valid_[index_of(cell)] != 0;
+  if (cell.row < 0 || cell.row >= geometry_.rows || cell.column < 0 || cell.column >= geometry_.columns)
+    return false;
+  need(cell.row, cell.column);
+  return valid_[index_of(cell)] != 0;
 }
 
 std::size_t Terrain::index_of(const Cell& cell) const {
@@ -104,6 +164,7 @@ std::optional<double> Terrain::height_m(double x_m, double y_m) const {
   double sum = 0.0;
   double weight = 0.0;
   for (std::size_t k = 0; k < 4; ++k) {
+    need(blend->cells[k].row, blend->cells[k].column);
     const std::size_t i = index_of(blend->cells[k]);
     if (valid_[i] != 0) {
       sum += blend->weights[k] * heights_m_[i];
@@ -160,10 +221,11 @@ SurfacePoint Terrain::surface_inside(int row, int column, double down, double ri
 }
 
 std::optional<SurfacePoint> Terrain::surface(double x_m, double y_m) const {
-  if (whole_) {
+  if (whole_ || tiles_) {
     const Eigen::Vector2d index = geometry_.fractional_index(x_m, y_m);
     const double row = std::floor(index[0]), column = std::floor(index[1]);
-    if (row >= 1.0 && column >= 1.0 && row <= geometry_.rows - 3.0 && column <= geometry_.columns - 3.0)
+    if (row >= 1.0 && column >= 1.0 && row <= geometry_.rows - 3.0 && column <= geometry_.columns - 3.0 &&
+        whole_around(static_cast<int>(row), static_cast<int>(column)))
       return surface_inside(static_cast<int>(row), static_cast<int>(column), index[0] - row,
                             index[1] - column);
   }
@@ -230,8 +292,15 @@ std::string Terrain::fingerprint() const {
     hash = hashed(hash, std::bit_cast<std::uint64_t>(edge));
   }
   constexpr std::uint64_t kMasked = 1ULL << 32;  // no float's bits
-  for (std::size_t i = 0; i < heights_m_.size(); ++i) {
-    hash = hashed(hash, valid_[i] != 0 ? std::bit_cast<std::uint32_t>(heights_m_[i]) : kMasked);
+  const std::vector<CellWindow> windows =
+      tiles_ ? tiles_->read_tiles() : std::vector<CellWindow>{{0, 0, geometry_.rows, geometry_.columns}};
+  for (const CellWindow& window : windows) {
+    if (tiles_) hash = hashed(hash, index_of({window.row, window.column}));
+    for (int row = window.row; row < window.row + window.rows; ++row) {
+      const std::size_t first = index_of({row, window.column});
+      for (std::size_t i = first; i < first + static_cast<std::size_t>(window.columns); ++i)
+        hash = hashed(hash, valid_[i] != 0 ? std::bit_cast<std::uint32_t>(heights_m_[i]) : kMasked);
+    }
   }
   return fmt::format("{:016x}", hash);
 }

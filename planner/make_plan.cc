@@ -15,6 +15,7 @@
 #include "planner/judge/verify_route.h"
 #include "planner/problem/terrain_ground.h"
 #include "planner/search/bottleneck.h"
+#include "planner/search/far_search.h"
 #include "planner/search/grid_search.h"
 #include "planner/search/only_way.h"
 #include "planner/search/overlap.h"
@@ -22,6 +23,7 @@
 #include "planner/search/propose.h"
 #include "planner/search/search_window.h"
 #include "planner/search/stage_progress.h"
+#include "planner/search/tell_found.h"
 
 namespace slipway::planner {
 namespace {
@@ -33,6 +35,11 @@ constexpr double kSimulating = 0.5, kSimulated = 0.98, kSimulatedUnverified = 0.
 constexpr double kLineSpacing_m = 0.25;
 // Of routes that compete for the first place: three times the first draws halve the interval nearly.
 constexpr int kContenderDraws = 96;
+// Stations times draws of one route beyond the first draws: a drive of 5 km gets 30 draws, one of 12 km the
+// first alone. What these don't decide they leave open.
+constexpr double kMaxStationDraws = 300'000.0;
+// First draws of a route over a kilometre and more.
+constexpr int kFirstLongDraws = 16;
 // A candidate that shares more of its length than this with one that is simulated anyway adds nothing.
 constexpr double kSameRoute = 0.9;
 
@@ -41,10 +48,11 @@ tl::unexpected<Error> cancelled() {
 }
 
 // The candidates to simulate: those that differ, then the cheapest others that are no copies of these.
-std::vector<std::size_t> shortlist(const Proposal& proposal, std::size_t wanted) {
+std::vector<std::size_t> shortlist(const Proposal& proposal, std::size_t wanted, bool with_spare) {
   const std::vector<std::size_t> order = proposal.by_cost();
   std::vector<std::size_t> list = select_routes(proposal.differences, order, wanted);
   const std::size_t most = std::max(kMaxSimulated, wanted);
+  if (!with_spare && list.size() == wanted) return list;
   const std::size_t spare = wanted > list.size() ? most : std::min(most, list.size() + 1);
   for (const std::size_t i : order) {
     const bool copy = std::any_of(list.begin(), list.end(), [&](std::size_t other) {
@@ -104,9 +112,13 @@ class Planning {
     if (progress_.cancelled()) return cancelled();
     open_window(tables);
     if (progress_.cancelled()) return cancelled();
+    Plan plan;
+    if (needs_wider_terrain_) {
+      plan.needs_wider_terrain = true;
+      return plan;
+    }
     std::optional<Proposal> proposal = propose(tables);
     if (progress_.cancelled()) return cancelled();
-    Plan plan;
     plan.candidates = static_cast<int>(proposal->candidates.size());
     if (proposal->candidates.empty()) {
       say_why_none(*proposal, tables, plan);
@@ -126,27 +138,35 @@ class Planning {
 
  private:
   // Doubles the room around the places until the grid's best ways keep clear of the window's edge or the
-  // window is the whole map. A larger window may have larger cells, and none of the narrow ways that smaller
-  // cells had: then the smaller one stays.
+  // window is the whole map. Where a window would need larger cells than the finest, the search is one over
+  // any distance, in the finest cells of a corridor.
   void open_window(const GroundTables& tables) {
-    double rooms = 1.0;
-    map_ = std::make_unique<TraverseMap>(problem_, keep_out_, search_extent(problem_, rooms));
-    WindowFit fit = WindowFit::kInside;
-    while (!covers(*map_, *problem_.terrain) && !progress_.cancelled()) {
-      fit = window_fit(problem_, *map_, tables);
-      if (fit == WindowFit::kInside) return;
-      rooms *= 2.0;
-      auto wider = std::make_unique<TraverseMap>(problem_, keep_out_, search_extent(problem_, rooms));
-      if (fit == WindowFit::kAtEdge && wider->cell_m() > map_->cell_m() &&
-          window_fit(problem_, *wider, tables) == WindowFit::kNoWay)
+    for (double rooms = 1.0; !progress_.cancelled(); rooms *= 2.0) {
+      const dem::Extent extent = search_extent(problem_, rooms);
+      if (!in_finest_cells(problem_.terrain->geometry(), extent)) {
+        is_far_ = true;
         return;
-      map_ = std::move(wider);
+      }
+      map_ = std::make_unique<TraverseMap>(problem_, keep_out_, extent);
+      const bool is_whole = covers(*map_, *problem_.terrain);
+      // Of the whole terrain it matters only where the map goes on beyond it.
+      if (is_whole && problem_.terrain_is_whole_map) return;
+      const WindowFit fit = window_fit(problem_, *map_, tables);
+      if (fit == WindowFit::kInside) return;
+      if (is_whole) {
+        needs_wider_terrain_ = true;
+        return;
+      }
     }
   }
 
   Proposal propose(const GroundTables& tables) {
     StageProgress stage(progress_, "proposing routes", 0.1, 0.5);
-    return propose_routes(problem_, planners_, *map_, tables, stage);
+    if (!is_far_) return propose_routes(problem_, planners_, *map_, tables, stage);
+    FarProposal far = propose_far_routes(problem_, planners_, keep_out_, tables, stage);
+    map_ = std::move(far.map);
+    no_way_ = std::move(far.no_way);
+    return std::move(far.proposal);
   }
 
   void say_why_none(const Proposal& proposal, const GroundTables& tables, Plan& plan) const {
@@ -160,6 +180,10 @@ class Planning {
                                                  proposal.closed.size(), proposal.closed.front()));
       for (const std::vector<std::size_t>& way : proposal.grid_ways)
         plan.fewer_because.push_back(hardest_place(*map_, way));
+      return;
+    }
+    if (is_far_) {
+      plan.fewer_because = no_way_;
       return;
     }
     const MotionCost cost(problem_, *map_, tables, problem_.weights);
@@ -176,7 +200,8 @@ class Planning {
   }
 
   Result<void> simulate(const Proposal& proposal, Plan& plan) {
-    const std::vector<std::size_t> list = shortlist(proposal, static_cast<std::size_t>(problem_.routes));
+    const std::vector<std::size_t> list =
+        shortlist(proposal, static_cast<std::size_t>(problem_.routes), !is_long());
     std::vector<Route> routes;
     std::vector<std::size_t> candidate_of;
     Differences differences(problem_.rover->body_width_m);
@@ -194,7 +219,7 @@ class Planning {
         in_keep_out.push_back(*pose);
         continue;
       }
-      Result<sim::DrivePrediction> drive = predict(list[k], stations, problem_.risk.draws, stage);
+      Result<sim::DrivePrediction> drive = predict(list[k], stations, first_draws(), stage);
       if (progress_.cancelled()) return cancelled();
       if (!drive) {
         // Mostly a wheel that the body's circle does not cover met a missing cell.
@@ -207,6 +232,9 @@ class Planning {
       route.prediction = std::move(*drive);
       judge(problem_, route);
       differences.add(centreline(candidate.motions, kLineSpacing_m));
+      if (std::none_of(routes.begin(), routes.end(),
+                       [&](const Route& other) { return ranks_before(other, route); }))
+        tell_found(progress_, candidate.motions, route.ranked_cost, describe(route.verdict));
       routes.push_back(std::move(route));
       candidate_of.push_back(list[k]);
     }
@@ -222,11 +250,26 @@ class Planning {
     return route_stations(candidate.motions, sim::max_station_spacing_m(*problem_.rover));
   }
 
+  bool is_long() const {
+    const std::vector<Waypoint> places = problem_.places();
+    double length = 0.0;
+    for (std::size_t i = 1; i < places.size(); ++i)
+      length += std::hypot(places[i].x_m - places[i - 1].x_m, places[i].y_m - places[i - 1].y_m);
+    return length >= kLongDrive_m;
+  }
+
+  // As many as are asked for; of a long drive that may have more later, fewer.
+  int first_draws() const {
+    const bool may_have_more = problem_.deciding_draws > problem_.risk.draws;
+    return may_have_more && is_long() ? std::min(kFirstLongDraws, problem_.risk.draws) : problem_.risk.draws;
+  }
+
   // Goes on from the candidate's draws so far.
   Result<sim::DrivePrediction> predict(std::size_t candidate, const std::vector<sim::PathStation>& stations,
                                        int draws, Progress& progress) {
     sim::RiskOptions risk = problem_.risk;
     risk.draws = draws;
+    if (risk.segment_m <= 0.0 && is_long()) risk.segment_m = kSegment_m;
     return sim::predict_drive(*problem_.rover, problem_.gravity_m_s2, ground_, problem_.beliefs, stations,
                               problem_.limits, risk, problem_.threads, progress, problem_.conditions,
                               &drawn_[candidate]);
@@ -267,6 +310,9 @@ class Planning {
   }
 
   Result<void> draw_more(const Proposal& proposal, std::size_t candidate, int draws, Route& route) {
+    if (is_long())
+      draws = std::min(draws, static_cast<int>(kMaxStationDraws /
+                                               static_cast<double>(route.prediction.stations.size() + 1)));
     if (route.prediction.draws >= draws) return {};
     StageProgress stage(progress_, "comparing routes", kSimulated, kSimulated);
     Result<sim::DrivePrediction> drive =
@@ -350,7 +396,8 @@ class Planning {
     if (!in_keep_out.empty()) plan.fewer_because.push_back(dropped_for_keep_outs(problem_, in_keep_out));
     for (std::string& words : unpredicted_in_words(unpredicted, all))
       plan.fewer_because.push_back(std::move(words));
-    if (const auto gap = only_way(*map_, proposal.candidates[best].motions))
+    // A corridor knows of no ways beside it.
+    if (const auto gap = is_far_ ? std::nullopt : only_way(*map_, proposal.candidates[best].motions))
       plan.fewer_because.push_back(*gap);
     if (plan.fewer_because.empty()) {
       plan.fewer_because.push_back(fmt::format("only {} of the searches found a route", all));
@@ -363,6 +410,9 @@ class Planning {
   TerrainGround ground_;
   KeepOut keep_out_;
   std::unique_ptr<TraverseMap> map_;
+  bool is_far_ = false;  // the map is of the cells about the candidates alone
+  bool needs_wider_terrain_ = false;
+  std::vector<std::string> no_way_;               // of a far search
   std::map<std::size_t, sim::DrawsSoFar> drawn_;  // by candidate
   std::vector<std::size_t> chosen_;  // the candidate behind each of the plan's routes, in their order
 };

@@ -8,6 +8,7 @@
 #include "api/documents/drive_series.h"
 #include "api/documents/drive_so_far.h"
 #include "core/angle.h"
+#include "planner/judge/drive_decision.h"
 
 namespace slipway::api::json {
 namespace {
@@ -152,7 +153,29 @@ void write_scout(Writer& w, const std::optional<sim::ScoutDrive>& scout, const P
 
 }  // namespace
 
-void write_outcomes(Writer& w, const sim::DrivePrediction& prediction, const Provenance& provenance) {
+namespace {
+
+// Each with a verdict of its own.
+void write_segments(Writer& w, const sim::DriveOutcomes& outcomes, const sim::OutcomeBars& bars) {
+  w.key("segments").begin_array();
+  for (const sim::SegmentRisk& segment : outcomes.segments) {
+    w.begin_object().metres("from_m", segment.from_m).metres("to_m", segment.to_m);
+    w.text("verdict", planner::describe(planner::decide(bars, segment)));
+    w.key("expected_stops").begin_object().significant("value", segment.expected_stops);
+    w.significant("low", segment.expected_stops_low);
+    if (std::isfinite(segment.expected_stops_high)) w.significant("high", segment.expected_stops_high);
+    w.end_object();
+    write_share(w, "stop", segment.stop);
+    write_share(w, "embedding", segment.embedding);
+    w.significant("reached", segment.reached).end_object();
+  }
+  w.end_array();
+}
+
+}  // namespace
+
+void write_outcomes(Writer& w, const sim::DrivePrediction& prediction, const Provenance& provenance,
+                    const sim::OutcomeBars& bars) {
   const sim::DriveOutcomes& outcomes = prediction.outcomes;
   w.key("outcomes").begin_object();
   write_share(w, "stop", outcomes.stop);
@@ -162,7 +185,9 @@ void write_outcomes(Writer& w, const sim::DrivePrediction& prediction, const Pro
   w.significant("low", outcomes.expected_stops_low)
       .significant("high", outcomes.expected_stops_high)
       .end_object();
-  w.significant("expected_sols", 1.0 + outcomes.expected_stops);
+  // A sol for each segment, and one more for each stop.
+  const double driven = std::max<double>(1.0, static_cast<double>(outcomes.segments.size()));
+  w.significant("expected_sols", driven + outcomes.expected_stops);
   w.whole("draws", prediction.draws).significant("effective_draws", outcomes.effective_draws);
   w.key("rules").begin_array();
   for (const sim::RuleRisk& rule : outcomes.rules) write_rule(w, rule, prediction);
@@ -185,6 +210,7 @@ void write_outcomes(Writer& w, const sim::DrivePrediction& prediction, const Pro
     w.end_object();
   }
   w.end_array();
+  if (!outcomes.segments.empty()) write_segments(w, outcomes, bars);
   write_recommended(w, outcomes);
   write_scout(w, prediction.scout, provenance);
   w.end_object();
@@ -198,7 +224,7 @@ std::string write_check_answer(const CheckAnswer& answer, StationDetail detail) 
   write_provenance(w, answer.provenance);
   write_learnt_drive(w, answer.provenance.learnt, answer.request.drive);
   w.key("request").raw(write_check_request(answer.request));
-  write_outcomes(w, answer.prediction, answer.provenance);
+  write_outcomes(w, answer.prediction, answer.provenance, answer.request.drive.bars);
   write_position_uncertainty(w, answer.prediction, answer.request.drive.checks);
   w.key("summary").begin_object();
   write_drive_figures(w, answer.prediction);

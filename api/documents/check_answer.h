@@ -16,7 +16,8 @@ std::string write_check_answer(const CheckAnswer& answer, StationDetail detail =
 void write_decision(Writer& w, const planner::DriveDecision& decision);
 
 // "outcomes": stops and embeddings by rule, ground and stretch.
-void write_outcomes(Writer& w, const sim::DrivePrediction& prediction, const Provenance& provenance);
+void write_outcomes(Writer& w, const sim::DrivePrediction& prediction, const Provenance& provenance,
+                    const sim::OutcomeBars& bars);
 
 // "position_uncertainty": how far behind its path a rover is, at the end of each stretch, that is commanded
 // by the way its wheels roll (see sim::ShortfallFollower), and how much of that comes between two checks of

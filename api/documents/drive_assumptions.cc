@@ -31,6 +31,8 @@ void read_drive_assumptions(ObjectReader& reader, DriveAssumptions& drive) {
   reader.text("legend", kOptional, {.most = 64, .is_name = true}, drive.legend);
   reader.whole("seed", kOptional, std::uint64_t{0}, kMaxExactWhole, drive.seed);
   reader.number("speed_m_s", kOptional, {"m/s", RequestLimits::kMinSpeed_m_s, 10.0}, drive.speed_m_s);
+  reader.number("segment_m", kOptional, {"m", RequestLimits::kMinSegment_m, RequestLimits::kPathLength_m},
+                drive.segment_m);
   reader.number("motor_temp_c", kOptional, {"degC", -150.0, 150.0}, drive.conditions.motor_temp_c);
   read_whole_model(reader, drive.model);
 }
@@ -57,6 +59,7 @@ void write_drive_assumptions(Writer& w, const DriveAssumptions& drive) {
   if (!drive.legend.empty()) w.text("legend", drive.legend);
   w.whole("seed", static_cast<std::int64_t>(drive.seed));
   if (drive.speed_m_s) w.exact("speed_m_s", *drive.speed_m_s);
+  if (drive.segment_m) w.exact("segment_m", *drive.segment_m);
   if (drive.conditions.motor_temp_c) w.exact("motor_temp_c", *drive.conditions.motor_temp_c);
   if (drive.model) write_model_reference(w.key("model"), *drive.model);
 }

@@ -11,6 +11,7 @@ void write_members(Writer& w, const Job& job) {
   w.text("stage", job.stage).significant("progress", job.progress).whole("attempt", job.attempt);
   w.text("created", utc_text(job.created_ms));
   w.whole("urgency", job.urgency);
+  if (job.state == JobState::kRunning && !job.best_so_far.empty()) w.key("best_so_far").raw(job.best_so_far);
   if (!job.last_death.empty()) w.text("interrupted", job.last_death);
   if (job.started_ms) w.text("started", utc_text(*job.started_ms));
   if (job.ended_ms) w.text("ended", utc_text(*job.ended_ms));

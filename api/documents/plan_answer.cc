@@ -59,7 +59,7 @@ std::string write_plan_answer(const PlanAnswer& answer, StationDetail detail) {
     const auto properties = [&answer, &route, shown](Writer& of) {
       write_judged_route(of, route);
       write_decision(of, route.decision);
-      write_outcomes(of, route.prediction, answer.provenance);
+      write_outcomes(of, route.prediction, answer.provenance, answer.request.drive.bars);
       write_position_uncertainty(of, route.prediction, answer.request.drive.checks);
       write_stations(of, route.prediction, answer.provenance, shown);
       if (route.dynamic) write_dynamic_drive(of, *route.dynamic);

@@ -22,7 +22,7 @@ std::string write_prediction_answer(const PredictionAnswer& answer, StationDetai
   if (answer.dynamic) write_dynamic_figures(w, *answer.dynamic);
   w.end_object();
   write_decision(w, answer.decision);
-  write_outcomes(w, answer.prediction, answer.provenance);
+  write_outcomes(w, answer.prediction, answer.provenance, answer.request.drive.bars);
   write_position_uncertainty(w, answer.prediction, answer.request.drive.checks);
   write_route(w, answer.prediction, answer.provenance, detail, answer.dynamic ? &*answer.dynamic : nullptr);
   w.end_object();

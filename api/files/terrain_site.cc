@@ -144,8 +144,15 @@ Result<GroundWindow> TerrainSite::read(const dem::Extent& extent, const Legend& 
                                   description_.soil_property, description_.soil_coordinates, legend.classes);
       break;
     case SoilSource::kNone: {
-      const auto cells = static_cast<std::size_t>(geometry.rows) * static_cast<std::size_t>(geometry.columns);
-      soil_map = std::make_shared<const dem::SoilMap>(geometry, std::vector<std::int16_t>(cells, 0),
+      // One cell says as much as all.
+      dem::GridGeometry one = geometry;
+      if ((*terrain)->is_read_by_tiles()) {
+        one.cell_x_m *= one.columns;
+        one.cell_y_m *= one.rows;
+        one.rows = one.columns = 1;
+      }
+      const auto cells = static_cast<std::size_t>(one.rows) * static_cast<std::size_t>(one.columns);
+      soil_map = std::make_shared<const dem::SoilMap>(one, std::vector<std::int16_t>(cells, 0),
                                                       std::vector<std::uint8_t>(cells, 0),
                                                       std::vector<dem::SoilClass>{});
       break;

@@ -32,6 +32,7 @@ struct Job {
   int deaths = 0;               // how often a worker left it without handing it back
   std::string last_death = {};  // why the last of them did, in words for a person; empty: none has
   std::string owner = {};       // who asked for it
+  std::string best_so_far = {};  // what this attempt has found until now, a JSON object; empty: nothing
   int urgency = kUsualUrgency;  // which of those that wait begins first
   std::int64_t created_ms = 0;  // since 1970, as the times below
   std::optional<std::int64_t> started_ms;

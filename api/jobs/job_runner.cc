@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "api/json/problem_document.h"
+#include "api/json/writer.h"
 
 namespace slipway::api {
 
@@ -47,6 +48,21 @@ class JobRunner::JobProgress final : public Progress {
     return cancelled_;
   }
 
+  void found(const RouteSoFar& route) override {
+    json::Writer w;
+    w.begin_object().significant("cost", route.cost).metres("length_m", route.length_m);
+    if (!route.verdict.empty()) w.text("verdict", route.verdict);
+    w.key("line").begin_array();
+    for (const auto& [x_m, y_m] : route.line_m) {
+      w.begin_array().metres(x_m).metres(y_m);
+      w.end_array();
+    }
+    w.end_array().end_object();
+    const std::scoped_lock lock(mutex_);
+    best_so_far_ = w.take();
+    write();
+  }
+
   void cancel() { cancelled_ = true; }
 
   bool is_over_time() const {
@@ -65,7 +81,8 @@ class JobRunner::JobProgress final : public Progress {
     written_ = Clock::now();
     rings_ = runner_.rings_;
     const auto held =
-        runner_.store_->report(lease_, stage_, fraction_, now_ms() + runner_.options_.lease.count());
+        runner_.store_->report(lease_, stage_, fraction_, now_ms() + runner_.options_.lease.count(),
+                               std::exchange(best_so_far_, {}));
     // A store that can't be written for a moment is no reason to throw the work away.
     if (held && !*held) cancelled_ = true;
   }
@@ -80,6 +97,7 @@ class JobRunner::JobProgress final : public Progress {
   mutable std::atomic<bool> cancelled_{false};
   std::string stage_;
   double fraction_ = 0.0;
+  mutable std::string best_so_far_;  // that is not written yet
 };
 
 JobRunner::JobRunner(std::shared_ptr<JobStore> store, JobWork work, JobRunnerOptions options)

@@ -61,6 +61,7 @@ class MemoryJobStore final : public JobStore {
       job.last_death = kLeaseEnded;
     }
     job.state = JobState::kRunning;
+    job.best_so_far.clear();
     job.started_ms = now;
     ++job.attempt;
     ++job.version;
@@ -69,13 +70,14 @@ class MemoryJobStore final : public JobStore {
     return ClaimedJob{job, next->asked.request};
   }
 
-  Result<bool> report(const Lease& lease, std::string_view stage, double progress,
-                      std::int64_t lease_until) override {
+  Result<bool> report(const Lease& lease, std::string_view stage, double progress, std::int64_t lease_until,
+                      std::string_view best_so_far) override {
     const std::scoped_lock lock(mutex_);
     Entry* const entry = held(lease);
     if (entry == nullptr) return false;
     entry->lease_until = lease_until;
-    if (entry->job.stage == stage && entry->job.progress == progress) return true;
+    if (!best_so_far.empty()) entry->job.best_so_far = best_so_far;
+    if (best_so_far.empty() && entry->job.stage == stage && entry->job.progress == progress) return true;
     entry->job.stage = stage;
     entry->job.progress = progress;
     ++entry->job.version;

@@ -61,6 +61,18 @@ CREATE INDEX jobs_unfinished ON jobs (sequence) WHERE state IN ('accepted', 'run
 CREATE INDEX jobs_ended ON jobs (sequence) WHERE state NOT IN ('accepted', 'running');
 PRAGMA user_version = 3;
 )";
+// What running jobs have found until now, beside the versions: a program that does not know it does without.
+constexpr const char* kBestSoFar = R"(
+CREATE TABLE IF NOT EXISTS best_so_far (
+  job_id TEXT PRIMARY KEY,
+  attempt INTEGER NOT NULL,
+  document TEXT NOT NULL
+);
+CREATE TRIGGER IF NOT EXISTS best_so_far_goes AFTER DELETE ON jobs BEGIN
+  DELETE FROM best_so_far WHERE job_id = OLD.id;
+END;
+)";
+
 const std::vector<std::string> kColumns{"sequence",
                                         "id",
                                         "kind",
@@ -228,6 +240,7 @@ void settle_schema(SqliteConnection& connection, const fs::path& store, StoreChe
       bring_up_from_2(connection);
     }
     check_columns(connection, store);
+    connection.execute(kBestSoFar);
   } catch (const SqliteFull&) {
     throw;
   } catch (const SqliteDamage& damage) {

@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view kJobColumns =
     "id, kind, state, stage, progress, version, attempt, created_ms, started_ms, ended_ms, deaths, "
     "last_death, "
-    "urgency, owner";
+    "urgency, owner, (SELECT document FROM best_so_far WHERE job_id = jobs.id AND attempt = jobs.attempt)";
 constexpr std::string_view kHeld = "id = ? AND attempt = ? AND state = 'running'";
 
 Job job_of(const SqliteStatement& row) {
@@ -37,6 +37,7 @@ Job job_of(const SqliteStatement& row) {
   job.last_death = row.text(11);
   job.urgency = static_cast<int>(row.number(12));
   job.owner = row.text(13);
+  job.best_so_far = row.text(14);
   return job;
 }
 
@@ -140,16 +141,25 @@ class SqliteJobStore final : public JobStore {
     });
   }
 
-  Result<bool> report(const Lease& lease, std::string_view stage, double progress,
-                      std::int64_t lease_until) override {
+  Result<bool> report(const Lease& lease, std::string_view stage, double progress, std::int64_t lease_until,
+                      std::string_view best_so_far) override {
     return guarded(write_mutex_, [&] {
+      SqliteTransaction transaction(quick_);
       auto update = quick_.prepare(fmt::format(
-          "UPDATE jobs SET version = version + (stage <> ? OR progress <> ?), stage = ?, progress = ?, "
+          "UPDATE jobs SET version = version + (stage <> ? OR progress <> ? OR ?), stage = ?, progress = ?, "
           "lease_until_ms = ? WHERE {}",
           kHeld));
-      update.bind(stage).bind(progress).bind(stage).bind(progress).bind(lease_until);
+      update.bind(stage).bind(progress).bind(std::int64_t{!best_so_far.empty()});
+      update.bind(stage).bind(progress).bind(lease_until);
       update.bind(lease.id).bind(std::int64_t{lease.attempt}).step();
-      return quick_.changes() == 1;
+      const bool held = quick_.changes() == 1;
+      if (held && !best_so_far.empty()) {
+        auto found =
+            quick_.prepare("INSERT OR REPLACE INTO best_so_far (job_id, attempt, document) VALUES (?, ?, ?)");
+        found.bind(lease.id).bind(std::int64_t{lease.attempt}).bind(best_so_far).step();
+      }
+      transaction.commit();
+      return held;
     });
   }
 

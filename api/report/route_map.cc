@@ -12,6 +12,7 @@
 #include "api/chart/base64.h"
 #include "api/json/lookup.h"
 #include "api/json/parse.h"
+#include "api/report/thinned_ground.h"
 #include "core/angle.h"
 #include "dem/hillshade.h"
 
@@ -341,6 +342,7 @@ Result<Drawn> read_drawn(const Catalogue& catalogue, const JsonValue& document, 
   if (routes.empty()) return fail(ErrorCode::kNoData, "the answer has no route to draw");
   const dem::Extent extent = extent_of(routes);
   auto ground = site->second->read(is_broad ? broad(extent) : extent);
+  if (ground) ground = thinned_for_picture(*ground);
   if (!ground) return fail(ground.error());
   return Drawn{site->second.get(), std::move(routes), *std::move(ground)};
 }

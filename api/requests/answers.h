@@ -39,6 +39,7 @@ struct Provenance {
   std::vector<std::string> soils;  // by the index in the stations
   std::string unknown_soil;        // assumed where no map names a soil
   std::uint64_t seed = 1;
+  std::string unseen_relief = {};  // what cells of the map's size can't show; empty: of small ones
   // Where drives of the past weigh the draws: how many, and what is left of the draws.
   std::optional<int> past_drives = {};
   std::optional<LearntDrive> learnt = {};

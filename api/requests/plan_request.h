@@ -39,9 +39,12 @@ struct DriveAssumptions : DriveRules {
   std::optional<planner::DriveSoFar> drive_so_far;  // a drive under way counts as evidence of the ground too
   std::vector<sim::SoilDistribution> beliefs;  // stand in for the catalogue's soils of these names, or beside
   std::string unknown_soil;  // of the catalogue; what is believed of all unmapped ground where it is empty
-  std::optional<double> confidence;     // in the legend; the legend's own where it is empty
-  std::string legend;                   // of the terrain's legends; the first where it is empty
-  std::optional<ReliefValues> relief;   // the relief is drawn too, with these over the terrain's own values
+  std::optional<double> confidence;    // in the legend; the legend's own where it is empty
+  std::string legend;                  // of the terrain's legends; the first where it is empty
+  std::optional<ReliefValues> relief;  // the relief is drawn too, with these over the terrain's own values
+  // Length of the segments by which a drive is decided; where it is empty, a plan over a kilometre and more
+  // has segments of kSegment_m, and no other drive has any.
+  std::optional<double> segment_m;
   std::optional<double> speed_m_s;      // the rover's cruise speed where it is empty
   std::optional<RequestedModel> model;  // where it is empty, rover and soils are the catalogue's
 };
@@ -79,6 +82,7 @@ struct RequestLimits {
   static constexpr std::size_t kPathCorners = 2000;
   static constexpr double kPathLength_m = 20'000.0;
   static constexpr double kMinSpeed_m_s = 1e-4;  // slower drives take longer than any mission
+  static constexpr double kMinSegment_m = 10.0;
   static constexpr int kRoutes = 8;
   static constexpr int kDraws = 2000;
   static constexpr int kMaxSol = 1'000'000;

@@ -81,13 +81,6 @@ void sync(const fs::path& path) {
 
 }  // namespace
 
-Result<std::string> sha256_of_file(const fs::path& path) {
-  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (!file.is_open())
-    return fail(ErrorCode::kUnreadableData, fmt::format("{} can't be read", path.filename().string()));
-  return sha256_of_descriptor(file.fd());
-}
-
 std::string origin_document(const UploadOrigin& origin, std::string_view name) {
   json::Writer w;
   w.begin_object().text("name", name).text("owner", origin.owner).whole("at_ms", origin.at_ms);

@@ -88,7 +88,4 @@ Result<bool> take_away(const std::filesystem::path& place);
 // A name beside `place` that no reader takes for a finished one, see is_unfinished().
 std::filesystem::path working_name(const std::filesystem::path& place);
 
-// SHA-256 of a file's bytes. Errors: unreadable_data.
-Result<std::string> sha256_of_file(const std::filesystem::path& path);
-
 }  // namespace slipway::api

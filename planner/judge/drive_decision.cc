@@ -133,6 +133,36 @@ void add_closures(const PlanProblem& problem, const sim::DrivePrediction& drive,
       closure_end_words(greatest)));
 }
 
+// A drive over kilometres: how many of its segments are how, its stops and sols in all, and the worst
+// segment.
+void add_segments(const sim::DriveOutcomes& outcomes, const sim::OutcomeBars& bars,
+                  std::vector<std::string>& reasons) {
+  int go = 0, no_go = 0;
+  const sim::SegmentRisk* worst = &outcomes.segments.front();
+  const auto badness = [&](const sim::SegmentRisk& s) {
+    return s.expected_stops / bars.max_expected_stops + s.embedding.share / bars.max_embedding;
+  };
+  for (const sim::SegmentRisk& segment : outcomes.segments) {
+    if (bars.are_passed(segment)) ++no_go;
+    if (bars.are_kept(segment)) ++go;
+    if (badness(segment) > badness(*worst)) worst = &segment;
+  }
+  const auto count = static_cast<int>(outcomes.segments.size());
+  reasons.push_back(fmt::format("{} segments: {} go, {} no go, {} that the draws do not decide", count, go,
+                                no_go, count - go - no_go));
+  reasons.push_back(
+      fmt::format("{:.1f} expected stops (90 % interval {:.1f} to {:.1f}): {:.0f} sols, {} of driving and "
+                  "one for each stop",
+                  outcomes.expected_stops, outcomes.expected_stops_low, outcomes.expected_stops_high,
+                  count + outcomes.expected_stops, count));
+  reasons.push_back(
+      fmt::format("the worst segment is from {:.0f} to {:.0f} m: {:.2f} expected stops, bar {:g}, and "
+                  "embedding in {} of the "
+                  "draws that come there, bar {}",
+                  worst->from_m, worst->to_m, worst->expected_stops, bars.max_expected_stops,
+                  percent(worst->embedding.share), percent(bars.max_embedding)));
+}
+
 }  // namespace
 
 std::string_view describe(Decision decision) {
@@ -145,6 +175,11 @@ std::string_view describe(Decision decision) {
       break;
   }
   return "unknown";
+}
+
+Decision decide(const sim::OutcomeBars& bars, const sim::SegmentRisk& segment) {
+  if (bars.are_passed(segment)) return Decision::kNoGo;
+  return bars.are_kept(segment) ? Decision::kGo : Decision::kUnknown;
 }
 
 DriveDecision decide(const PlanProblem& problem, const sim::DrivePrediction& drive) {
@@ -178,8 +213,12 @@ DriveDecision decide(const PlanProblem& problem, const sim::DrivePrediction& dri
   } else {
     out.reasons.push_back(fmt::format("{} draws of the ground do not decide", drive.draws));
   }
-  out.reasons.push_back(embedding);
-  out.reasons.push_back(stops);
+  if (outcomes.segments.empty()) {
+    out.reasons.push_back(embedding);
+    out.reasons.push_back(stops);
+  } else {
+    add_segments(outcomes, bars, out.reasons);
+  }
   add_rules(drive, out.reasons);
   add_ground(problem, drive, out.reasons);
   add_closures(problem, drive, out.reasons);

@@ -14,6 +14,9 @@ namespace slipway::planner {
 //   UNKNOWN  otherwise, and where a NO-GO hangs on ground that no map names: without what goes wrong there,
 //   both
 //            are under their bars.
+// Of one segment of a drive by the bars alone.
+Decision decide(const sim::OutcomeBars& bars, const sim::SegmentRisk& segment);
+
 DriveDecision decide(const PlanProblem& problem, const sim::DrivePrediction& drive);
 
 }  // namespace slipway::planner

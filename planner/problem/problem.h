@@ -39,6 +39,7 @@ struct Waypoint {
 // Everything a plan depends on. Built by the service from a request; nothing is read from outside.
 struct PlanProblem {
   std::shared_ptr<const dem::Terrain> terrain;
+  bool terrain_is_whole_map = true;  // otherwise a plan may ask for a wider one
   std::shared_ptr<const dem::SoilMap> soil_map;
   sim::SoilBeliefs beliefs;  // known: in the order of soil_map->soils()
   std::shared_ptr<const sim::RoverModel> rover;

@@ -62,6 +62,9 @@ struct Plan {
   std::optional<PlanScout> scout;
   std::vector<std::string> fewer_because;  // why there are fewer than asked for; empty otherwise
   int candidates = 0;                      // proposed by the planners before selection
+  // Nothing was planned: the terrain is a part of a larger map, and no way is within it, or the best one
+  // keeps to its edge.
+  bool needs_wider_terrain = false;
 };
 
 }  // namespace slipway::planner

@@ -35,43 +35,48 @@ void take_if_cheaper(const MotionCost& cost, const std::vector<Arrival>& reached
   if (sum < at.cost) at = {sum, motion.to, from};
 }
 
+std::vector<Pose2> poses_to(const std::vector<Arrival>& reached) {
+  if (!(reached.back().cost < kInfinity)) return {};
+  std::vector<Pose2> poses;
+  for (std::size_t k = reached.size() - 1; k > 0; k = reached[k].before) poses.push_back(reached[k].pose);
+  poses.push_back(reached.front().pose);
+  std::reverse(poses.begin(), poses.end());
+  return poses;
+}
+
 class GridPlanner final : public LegPlanner {
  public:
   std::vector<Pose2> search(const LegSearch& leg) const override {
-    const std::vector<Eigen::Vector2d> places = places_along(leg);
-    if (places.empty()) return {};
-    std::vector<Arrival> reached(places.size());
-    reached.front() = {0.0, leg.from, 0};
-    for (std::size_t to = 1; to < places.size(); ++to) {
-      if (leg.cancelled && leg.cancelled()) return {};
-      for (std::size_t from = to - std::min(to, kFurthest); from < to; ++from) {
-        if (!(reached[from].cost < kInfinity)) continue;
-        const Pose2& start = reached[from].pose;
-        if (to + 1 < places.size()) {
-          take_if_cheaper(*leg.cost, reached, from, straight(start, places[to].x(), places[to].y()),
-                          reached[to]);
-          continue;
-        }
-        for (const double heading : leg.arrival_rad)
-          take_if_cheaper(*leg.cost, reached, from,
-                          connect(start, {leg.to_x_m, leg.to_y_m, heading}, leg.cost->limits()), reached[to]);
-      }
-    }
-    return poses_to(reached);
-  }
-
- private:
-  static std::vector<Pose2> poses_to(const std::vector<Arrival>& reached) {
-    if (!(reached.back().cost < kInfinity)) return {};
-    std::vector<Pose2> poses;
-    for (std::size_t k = reached.size() - 1; k > 0; k = reached[k].before) poses.push_back(reached[k].pose);
-    poses.push_back(reached.front().pose);
-    std::reverse(poses.begin(), poses.end());
-    return poses;
+    return pull_straight(*leg.cost, leg.from, places_along(leg), leg.arrival_rad, leg.cancelled);
   }
 };
 
 }  // namespace
+
+std::vector<Pose2> pull_straight(const MotionCost& cost, const Pose2& from,
+                                 const std::vector<Eigen::Vector2d>& places,
+                                 const std::vector<double>& arrival_rad,
+                                 const std::function<bool()>& cancelled) {
+  if (places.empty()) return {};
+  std::vector<Arrival> reached(places.size());
+  reached.front() = {0.0, from, 0};
+  for (std::size_t to = 1; to < places.size(); ++to) {
+    if (cancelled && cancelled()) return {};
+    for (std::size_t before = to - std::min(to, kFurthest); before < to; ++before) {
+      if (!(reached[before].cost < kInfinity)) continue;
+      const Pose2& start = reached[before].pose;
+      if (to + 1 < places.size()) {
+        take_if_cheaper(cost, reached, before, straight(start, places[to].x(), places[to].y()), reached[to]);
+        continue;
+      }
+      for (const double heading : arrival_rad)
+        take_if_cheaper(cost, reached, before,
+                        connect(start, {places[to].x(), places[to].y(), heading}, cost.limits()),
+                        reached[to]);
+    }
+  }
+  return poses_to(reached);
+}
 
 std::unique_ptr<LegPlanner> make_grid_planner() {
   return std::make_unique<GridPlanner>();

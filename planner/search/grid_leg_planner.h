@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <vector>
 
 #include "planner/search/leg_search.h"
 
@@ -10,5 +12,12 @@ namespace slipway::planner {
 // which straights and turns in place cost least, and the last motion may be an arc into the heading of
 // arrival. Without random numbers, so that it finds the same for every seed.
 std::unique_ptr<LegPlanner> make_grid_planner();
+
+// What it does with the places of a way, the leg's own ends included. Empty where nothing can be driven, or
+// where it was cancelled.
+std::vector<Pose2> pull_straight(const MotionCost& cost, const Pose2& from,
+                                 const std::vector<Eigen::Vector2d>& places,
+                                 const std::vector<double>& arrival_rad,
+                                 const std::function<bool()>& cancelled);
 
 }  // namespace slipway::planner

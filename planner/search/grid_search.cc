@@ -9,28 +9,7 @@ namespace slipway::planner {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-struct Step {
-  int right, up;
-};
-
-// Counter-clockwise from east; the opposite of step k is k + 8.
-constexpr std::array<Step, kGridSteps> kSteps{{{1, 0},
-                                               {2, 1},
-                                               {1, 1},
-                                               {1, 2},
-                                               {0, 1},
-                                               {-1, 2},
-                                               {-1, 1},
-                                               {-2, 1},
-                                               {-1, 0},
-                                               {-2, -1},
-                                               {-1, -1},
-                                               {-1, -2},
-                                               {0, -1},
-                                               {1, -2},
-                                               {1, -1},
-                                               {2, -1}}};
+constexpr std::size_t kBetweenAsking = 1U << 15U;  // cells, whether it was cancelled
 
 int opposite(int step) {
   return (step + kGridSteps / 2) % kGridSteps;
@@ -48,88 +27,107 @@ struct Reached {
 }  // namespace
 
 double GridSearch::heading_rad(int step) {
-  return std::atan2(kSteps[static_cast<std::size_t>(step)].up, kSteps[static_cast<std::size_t>(step)].right);
+  return std::atan2(kGridDirections[static_cast<std::size_t>(step)].up,
+                    kGridDirections[static_cast<std::size_t>(step)].right);
 }
 
-GridSearch::GridSearch(const MotionCost& cost) : map_(cost.map()), per_metre_(map_.cells() * kGridSteps) {
-  std::array<Eigen::Vector2d, kGridSteps> direction;
-  for (int k = 0; k < kGridSteps; ++k) direction[k] = {std::cos(heading_rad(k)), std::sin(heading_rad(k))};
-  for (std::size_t i = 0; i < map_.cells(); ++i) {
-    const Passage passage = map_.cell(i).passage;
-    const Eigen::Vector2d centre = map_.centre_m(i);
-    for (int k = 0; k < kGridSteps; ++k) {
-      const bool open =
-          passage == Passage::kFree ||
-          (passage == Passage::kNearKeepOut && map_.may_stand({centre.x(), centre.y(), heading_rad(k)}));
-      per_metre_[i * kGridSteps + k] =
-          open ? static_cast<float>(cost.per_metre_in_cell(i, direction[k].x(), direction[k].y()))
-               : kInfinity;
-    }
+GridSearch::GridSearch(const MotionCost& cost)
+    : map_(cost.map()), per_metre_(new float[map_.cells() * static_cast<std::size_t>(kGridSteps)]) {
+  if (map_.holds_blocks()) {
+    cost_ = &cost;
+    filled_.assign(map_.cells(), 0);
+    return;
   }
+  for (std::size_t i = 0; i < map_.cells(); ++i) fill(cost, i);
 }
 
-bool GridSearch::passes_corners(std::size_t row, std::size_t column, int step, int driven) const {
+void GridSearch::fill(const MotionCost& cost, std::size_t cell) const {
+  static const std::array<Eigen::Vector2d, kGridSteps> direction = [] {
+    std::array<Eigen::Vector2d, kGridSteps> all;
+    for (int k = 0; k < kGridSteps; ++k) all[k] = {std::cos(heading_rad(k)), std::sin(heading_rad(k))};
+    return all;
+  }();
+  const Passage passage = map_.cell(cell).passage;
+  float* const to = per_metre_.get() + cell * static_cast<std::size_t>(kGridSteps);
+  for (int k = 0; k < kGridSteps; ++k) {
+    bool open = passage == Passage::kFree;
+    if (passage == Passage::kNearKeepOut) {
+      const Eigen::Vector2d centre = map_.centre_m(cell);
+      open = map_.may_stand({centre.x(), centre.y(), heading_rad(k)});
+    }
+    to[k] = open ? static_cast<float>(cost.per_metre_in_cell(cell, direction[k].x(), direction[k].y()))
+                 : kInfinity;
+  }
+  if (cost_) filled_[cell] = 1;
+}
+
+bool GridSearch::passes_corners(const dem::Cell& from, int step, int driven) const {
   // A knight's move runs between two cells: both must be open in the direction that is driven.
-  const Step& s = kSteps[static_cast<std::size_t>(step)];
+  const GridStep& s = kGridDirections[static_cast<std::size_t>(step)];
   if (std::abs(s.right) + std::abs(s.up) != 3) return true;
-  const auto columns = static_cast<std::size_t>(map_.geometry().columns);
   const int half_right = s.right / 2;
   const int half_up = s.up / 2;
-  const std::size_t first = (row - half_up) * columns + (column + half_right);
-  const std::size_t second = (row - (s.up - half_up)) * columns + (column + (s.right - half_right));
-  return per_metre_[first * kGridSteps + driven] < kInfinity &&
-         per_metre_[second * kGridSteps + driven] < kInfinity;
+  const long long first = map_.index_of(from.row - half_up, from.column + half_right);
+  const long long second = map_.index_of(from.row - (s.up - half_up), from.column + (s.right - half_right));
+  return first >= 0 && second >= 0 && per_metre(static_cast<std::size_t>(first))[driven] < kInfinity &&
+         per_metre(static_cast<std::size_t>(second))[driven] < kInfinity;
 }
 
-bool GridSearch::clear_of_keep_outs(std::size_t row, std::size_t column, int step) const {
-  const Step& s = kSteps[static_cast<std::size_t>(step)];
-  const auto columns = static_cast<std::size_t>(map_.geometry().columns);
+bool GridSearch::clear_of_keep_outs(const dem::Cell& from, int step) const {
+  if (map_.keep_out().empty()) return true;
+  const GridStep& s = kGridDirections[static_cast<std::size_t>(step)];
   // A step runs within the rectangle of cells between its ends; free ones are clear wherever the body stands.
   bool near = false;
-  for (int up = std::min(0, s.up); up <= std::max(0, s.up); ++up)
-    for (int right = std::min(0, s.right); right <= std::max(0, s.right); ++right)
-      near |= map_.cell((row - up) * columns + (column + right)).passage != Passage::kFree;
+  for (int up = std::min(0, s.up); up <= std::max(0, s.up); ++up) {
+    for (int right = std::min(0, s.right); right <= std::max(0, s.right); ++right) {
+      const long long i = map_.index_of(from.row - up, from.column + right);
+      near |= i < 0 || map_.cell(static_cast<std::size_t>(i)).passage != Passage::kFree;
+    }
+  }
   if (!near) return true;
-  const Eigen::Vector2d from = map_.centre_m(row * columns + column);
-  const Eigen::Vector2d to = map_.centre_m((row - s.up) * columns + (column + s.right));
-  const double bearing = std::atan2(to.y() - from.y(), to.x() - from.x());
-  return !map_.keep_out().hits_along(straight({from.x(), from.y(), bearing}, to.x(), to.y()));
+  const Eigen::Vector2d begin = map_.geometry().centre_m(from);
+  const Eigen::Vector2d end = map_.geometry().centre_m({from.row - s.up, from.column + s.right});
+  const double bearing = std::atan2(end.y() - begin.y(), end.x() - begin.x());
+  return !map_.keep_out().hits_along(straight({begin.x(), begin.y(), bearing}, end.x(), end.y()));
 }
 
-CostField GridSearch::spread(double x_m, double y_m, bool to_go) const {
+CostField GridSearch::spread(double x_m, double y_m, bool to_go, const SpreadEnd& end) const {
   CostField field{.cost = std::vector<float>(map_.cells(), kInfinity),
                   .step = std::vector<std::int16_t>(map_.cells(), -1)};
   const long long origin = map_.index_at(x_m, y_m);
   if (origin < 0) return field;
   const dem::GridGeometry& g = map_.geometry();
-  const auto columns = static_cast<std::size_t>(g.columns);
   std::array<float, kGridSteps> half_length;
   for (int k = 0; k < kGridSteps; ++k) {
-    half_length[k] =
-        0.5F * static_cast<float>(std::hypot(kSteps[k].right * g.cell_x_m, kSteps[k].up * g.cell_y_m));
+    half_length[k] = 0.5F * static_cast<float>(std::hypot(kGridDirections[k].right * g.cell_x_m,
+                                                          kGridDirections[k].up * g.cell_y_m));
   }
   std::priority_queue<Reached, std::vector<Reached>, std::greater<>> open;
   field.cost[static_cast<std::size_t>(origin)] = 0.0F;
   open.push({0.0F, static_cast<std::uint32_t>(origin)});
+  std::size_t looked_at = 0;
   while (!open.empty()) {
     const Reached here = open.top();
     open.pop();
     if (here.cost > field.cost[here.cell]) continue;
-    const std::size_t row = here.cell / columns;
-    const std::size_t column = here.cell % columns;
+    const float cost_here = here.cost;
+    if (static_cast<long long>(here.cell) == end.at_cell) break;
+    if (++looked_at % kBetweenAsking == 0 && end.cancelled && end.cancelled()) break;
+    const dem::Cell from = map_.place_of(here.cell);
+    const float* const metre_here = per_metre(here.cell);
     for (int k = 0; k < kGridSteps; ++k) {
       // k is the direction away from the origin; the rover drives it, or its opposite on the way to a goal.
       const int driven = to_go ? opposite(k) : k;
-      const float half = per_metre_[here.cell * kGridSteps + driven];
-      const long long next_row = static_cast<long long>(row) - kSteps[k].up;
-      const long long next_column = static_cast<long long>(column) + kSteps[k].right;
-      if (!(half < kInfinity) || next_row < 0 || next_column < 0 || next_row >= g.rows ||
-          next_column >= g.columns)
-        continue;
-      const auto next = static_cast<std::size_t>(next_row) * columns + static_cast<std::size_t>(next_column);
-      const float cost = here.cost + half_length[k] * (half + per_metre_[next * kGridSteps + driven]);
-      if (!(cost < field.cost[next]) || !passes_corners(row, column, k, driven) ||
-          !clear_of_keep_outs(row, column, k))
+      const float half = metre_here[driven];
+      if (!(half < kInfinity)) continue;
+      const long long beside =
+          map_.index_of(from.row - kGridDirections[k].up, from.column + kGridDirections[k].right);
+      if (beside < 0) continue;
+      const auto next = static_cast<std::size_t>(beside);
+      // Cheaper than this it can't be: most are known at less.
+      if (!(cost_here + half_length[k] * half < field.cost[next])) continue;
+      const float cost = cost_here + half_length[k] * (half + per_metre(next)[driven]);
+      if (!(cost < field.cost[next]) || !passes_corners(from, k, driven) || !clear_of_keep_outs(from, k))
         continue;
       field.cost[next] = cost;
       field.step[next] = static_cast<std::int16_t>(driven);
@@ -143,14 +141,13 @@ std::vector<std::size_t> GridSearch::way(const CostField& to_go, double x_m, dou
   std::vector<std::size_t> cells;
   const long long start = map_.index_at(x_m, y_m);
   if (start < 0 || !(to_go.cost[static_cast<std::size_t>(start)] < kInfinity)) return cells;
-  const long long columns = map_.geometry().columns;
-  long long cell = start;
-  cells.push_back(static_cast<std::size_t>(cell));
-  for (int step = to_go.step[static_cast<std::size_t>(cell)]; step >= 0;
-       step = to_go.step[static_cast<std::size_t>(cell)]) {
-    const Step& s = kSteps[static_cast<std::size_t>(step)];
-    cell += s.right - s.up * columns;
-    cells.push_back(static_cast<std::size_t>(cell));
+  auto cell = static_cast<std::size_t>(start);
+  cells.push_back(cell);
+  for (int step = to_go.step[cell]; step >= 0; step = to_go.step[cell]) {
+    const GridStep& s = kGridDirections[static_cast<std::size_t>(step)];
+    const dem::Cell from = map_.place_of(cell);
+    cell = static_cast<std::size_t>(map_.index_of(from.row - s.up, from.column + s.right));
+    cells.push_back(cell);
   }
   return cells;
 }

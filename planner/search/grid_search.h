@@ -1,16 +1,49 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <vector>
 
 #include "planner/search/motion_cost.h"
 
 namespace slipway::planner {
 
+// A step of the grid in cells.
+struct GridStep {
+  int right, up;
+};
+
+constexpr int kGridSteps = 16;
+// Counter-clockwise from east; the opposite of step k is k + 8.
+constexpr std::array<GridStep, kGridSteps> kGridDirections{{{1, 0},
+                                                            {2, 1},
+                                                            {1, 1},
+                                                            {1, 2},
+                                                            {0, 1},
+                                                            {-1, 2},
+                                                            {-1, 1},
+                                                            {-2, 1},
+                                                            {-1, 0},
+                                                            {-2, -1},
+                                                            {-1, -1},
+                                                            {-1, -2},
+                                                            {0, -1},
+                                                            {1, -2},
+                                                            {1, -1},
+                                                            {2, -1}}};
+
 // Cost of the cheapest way on the grid between one place and every cell, and the way itself.
 struct CostField {
   std::vector<float> cost;         // infinite where there is no way
   std::vector<std::int16_t> step;  // towards the next cell on the way to (from) the place; -1 there
+};
+
+// When a field needs to go no further.
+struct SpreadEnd {
+  long long at_cell = -1;           // where its cost is known; -1: nowhere
+  std::function<bool()> cancelled;  // then the field is of no use
 };
 
 // Dijkstra over the map's cells and 16 directions (eight neighbours and eight knight's moves), each edge
@@ -19,27 +52,39 @@ struct CostField {
 // planners find, and its fields show their samplers where good routes run.
 class GridSearch {
  public:
+  // On a map of blocks it keeps `cost`, and is for one thread.
   explicit GridSearch(const MotionCost& cost);
 
   // Driving to the place from every cell.
-  CostField cost_to_go(double x_m, double y_m) const { return spread(x_m, y_m, true); }
+  CostField cost_to_go(double x_m, double y_m, const SpreadEnd& end = {}) const {
+    return spread(x_m, y_m, true, end);
+  }
   // Driving from the place to every cell.
-  CostField cost_to_come(double x_m, double y_m) const { return spread(x_m, y_m, false); }
+  CostField cost_to_come(double x_m, double y_m, const SpreadEnd& end = {}) const {
+    return spread(x_m, y_m, false, end);
+  }
   // The cells from the one at (x, y) to the place that a cost-to-go belongs to. Empty where there is no way.
   std::vector<std::size_t> way(const CostField& to_go, double x_m, double y_m) const;
   // The heading of a step.
   static double heading_rad(int step);
 
  private:
-  CostField spread(double x_m, double y_m, bool to_go) const;
-  bool passes_corners(std::size_t row, std::size_t column, int step, int driven) const;
+  CostField spread(double x_m, double y_m, bool to_go, const SpreadEnd& end) const;
+  bool passes_corners(const dem::Cell& from, int step, int driven) const;
   // Of the body driven straight from the cell's centre by the step, or back: it covers the same ground.
-  bool clear_of_keep_outs(std::size_t row, std::size_t column, int step) const;
+  bool clear_of_keep_outs(const dem::Cell& from, int step) const;
+
+  void fill(const MotionCost& cost, std::size_t cell) const;
+  // Per direction. Of a map of blocks a cell is filled when it is first looked at.
+  const float* per_metre(std::size_t cell) const {
+    if (cost_ && filled_[cell] == 0) fill(*cost_, cell);
+    return per_metre_.get() + cell * static_cast<std::size_t>(kGridSteps);
+  }
 
   const TraverseMap& map_;
-  std::vector<float> per_metre_;  // per cell and direction
+  const MotionCost* cost_ = nullptr;  // of a map of blocks
+  std::unique_ptr<float[]> per_metre_;
+  mutable std::vector<std::uint8_t> filled_;
 };
-
-constexpr int kGridSteps = 16;
 
 }  // namespace slipway::planner

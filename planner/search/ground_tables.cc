@@ -24,11 +24,14 @@ std::vector<bool> soils_in_use(const PlanProblem& problem) {
   std::vector<bool> used(problem.beliefs.known.size(), false);
   if (!problem.soil_map) return used;
   const dem::GridGeometry& g = problem.soil_map->geometry();
-  for (int row = 0; row < g.rows; ++row) {
+  std::size_t missing = used.size();
+  for (int row = 0; row < g.rows && missing > 0; ++row) {
     for (int column = 0; column < g.columns; ++column) {
       const Eigen::Vector2d centre = g.centre_m({row, column});
       const std::optional<std::size_t> soil = problem.soil_map->soil_at(centre.x(), centre.y());
-      if (soil) used.at(*soil) = true;
+      if (!soil || used.at(*soil)) continue;
+      used[*soil] = true;
+      --missing;
     }
   }
   return used;

@@ -47,6 +47,13 @@ MotionCost::MotionCost(const PlanProblem& problem, const TraverseMap& map, const
   set_turn_cost(tables, weights);
 }
 
+MotionCost MotionCost::on(const TraverseMap& map) const {
+  MotionCost cost = *this;
+  cost.map_ = &map;
+  cost.penalty_.clear();
+  return cost;
+}
+
 // A turn in place draws what driving on the level draws, for as long as it takes.
 void MotionCost::set_turn_cost(const GroundTables& tables, const Weights& weights) {
   const double level_w = tables.unknown->mean.at(0.0, 0.0)->energy_j_m * limits_.cruise_speed_m_s;

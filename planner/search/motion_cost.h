@@ -32,6 +32,10 @@ class MotionCost {
   double per_metre(const Pose2& pose) const;
   // The same in a cell, in the direction (c, s), without regard to the cell's passage.
   double per_metre_in_cell(std::size_t cell, double c, double s) const;
+  // The same on ground of a soil with this gradient, without a penalty.
+  double per_metre_on(std::uint8_t soil, const Eigen::Vector2d& gradient, double c, double s) const {
+    return on_slope(soil, c * gradient.x() + s * gradient.y(), -s * gradient.x() + c * gradient.y());
+  }
   // Midpoint rule over steps of at most `step_m` (0: a search cell). Infinite where the body meets a keep-out
   // anywhere along the motion, which is exact whatever the step.
   double of(const Motion& motion, double step_m = 0.0) const;
@@ -42,6 +46,8 @@ class MotionCost {
 
   // Makes each metre in a cell cost (1 + factor[cell]) times as much; empty takes it back.
   void penalise(std::vector<float> factor) { penalty_ = std::move(factor); }
+  // The same cost on another map of the problem, without a penalty.
+  MotionCost on(const TraverseMap& map) const;
   bool penalised() const { return !penalty_.empty(); }
 
  private:

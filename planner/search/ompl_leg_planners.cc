@@ -71,6 +71,11 @@ class OmplLegPlanner final : public LegPlanner {
   }
 
   std::vector<Pose2> search(const LegSearch& leg) const override {
+    // OMPL waits for a goal to become possible, a millisecond for each time that it asks whether to end.
+    const auto may_arrive = [&](double heading_rad) {
+      return leg.cost->map().may_stand({leg.to_x_m, leg.to_y_m, heading_rad});
+    };
+    if (std::none_of(leg.arrival_rad.begin(), leg.arrival_rad.end(), may_arrive)) return {};
     const auto space = std::make_shared<MotionSpace>(leg);
     const auto information = std::make_shared<ob::SpaceInformation>(space);
     information->setStateValidityChecker(

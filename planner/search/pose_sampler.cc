@@ -20,10 +20,15 @@ constexpr double kAcrossSpread_m = 1.5;
 
 }  // namespace
 
-PoseSampler::PoseSampler(const GridSearch& grid, const TraverseMap& map, const CostField& to_come,
-                         const CostField& to_go, double start_x_m, double start_y_m)
+PoseSampler::PoseSampler(const GridSearch& grid, const TraverseMap& map, const CostField& to_go,
+                         double start_x_m, double start_y_m)
     : map_(map), way_(grid.way(to_go, start_x_m, start_y_m)), flow_step_(to_go.step) {
   optimum_ = way_.empty() ? std::numeric_limits<double>::infinity() : to_go.cost[way_.front()];
+}
+
+PoseSampler::PoseSampler(const GridSearch& grid, const TraverseMap& map, const CostField& to_come,
+                         const CostField& to_go, double start_x_m, double start_y_m)
+    : PoseSampler(grid, map, to_go, start_x_m, start_y_m) {
   if (way_.empty()) return;
   double sum = 0.0;
   for (std::size_t i = 0; i < map.cells(); ++i) {
@@ -57,6 +62,11 @@ Pose2 PoseSampler::draw(std::uint64_t seed, std::uint64_t counter) const {
     place = map_.centre_m(way_[k]);
     place.x() += kAcrossSpread_m * random_normal(key, 2);
     place.y() += kAcrossSpread_m * random_normal(key, 3);
+  } else if (map_.holds_blocks()) {
+    const auto k = static_cast<std::size_t>(random_uniform(key, 1) * static_cast<double>(map_.cells()));
+    place = map_.centre_m(std::min(k, map_.cells() - 1));
+    place.x() += (random_uniform(key, 2) - 0.5) * g.cell_x_m;
+    place.y() += (random_uniform(key, 3) - 0.5) * g.cell_y_m;
   } else {
     place = {g.west_m + random_uniform(key, 1) * g.columns * g.cell_x_m,
              g.north_m - random_uniform(key, 2) * g.rows * g.cell_y_m};

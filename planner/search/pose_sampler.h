@@ -14,6 +14,10 @@ class PoseSampler {
   PoseSampler(const GridSearch& grid, const TraverseMap& map, const CostField& to_come,
               const CostField& to_go, double start_x_m, double start_y_m);
 
+  // Along the way alone, of which only the cost to go is known.
+  PoseSampler(const GridSearch& grid, const TraverseMap& map, const CostField& to_go, double start_x_m,
+              double start_y_m);
+
   Pose2 draw(std::uint64_t seed, std::uint64_t counter) const;
   double optimum() const { return optimum_; }  // of the way on the grid; infinite where there is none
   // The cells of that way, start and goal included; empty where there is none.

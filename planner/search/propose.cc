@@ -15,20 +15,21 @@
 #include "planner/search/bottleneck.h"
 #include "planner/search/grid_search.h"
 #include "planner/search/leg_search.h"
+#include "planner/search/leg_setting.h"
 #include "planner/search/overlap.h"
 #include "planner/search/planner_catalogue.h"
 #include "planner/search/pose_sampler.h"
 #include "planner/search/profile.h"
 #include "planner/search/smooth_route.h"
+#include "planner/search/tell_found.h"
 
 namespace slipway::planner {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMaxRounds = 4;
-constexpr double kBandWidths = 2.0;   // half width of the band around a route, in rover widths
-constexpr double kBandFactor = 1.0;   // the first round's extra cost in the band; doubles each round
-constexpr double kSharedEnds = 0.12;  // of a leg, at both ends, where no band is
+constexpr double kBandWidths = 2.0;  // half width of the band around a route, in rover widths
+constexpr double kBandFactor = 1.0;  // the first round's extra cost in the band; doubles each round
 constexpr double kLineSpacing_m = 0.25;
 
 // One objective with what guides the searches under it.
@@ -51,23 +52,6 @@ struct Draft {
   std::vector<Motion> motions;
   bool found = true;
 };
-
-// Three times as many gain some 0.3 % of the cost on a 300 m leg (bench/plan_bench).
-int iterations_for(double length_m) {
-  return static_cast<int>(std::clamp(800.0 + 4.0 * length_m, 1000.0, 4000.0));
-}
-
-// Poses that begin and end where the leg does: others would make a route with a leap in it.
-bool joins(const std::vector<Pose2>& poses, const LegSearch& leg) {
-  constexpr double kSameEnd_m = 1e-6;
-  return poses.size() >= 2 &&
-         std::hypot(poses.front().x_m - leg.from.x_m, poses.front().y_m - leg.from.y_m) < kSameEnd_m &&
-         std::hypot(poses.back().x_m - leg.to_x_m, poses.back().y_m - leg.to_y_m) < kSameEnd_m;
-}
-
-double range_for(double length_m) {
-  return std::clamp(length_m / 15.0, 4.0, 16.0);
-}
 
 class Proposer {
  public:
@@ -152,18 +136,9 @@ class Proposer {
       const auto cell = static_cast<std::size_t>(map_.index_at(from.x_m, from.y_m));
       draft.at = {from.x_m, from.y_m, wrapped_rad(from.yaw_rad.value_or(guide.sampler->flow_rad(cell)))};
     }
-    const double length = std::hypot(to.x_m - from.x_m, to.y_m - from.y_m);
-    LegSearch search;
-    search.cost = &guide.cost;
-    search.sampler = &*guide.sampler;
-    search.from = draft.at;
-    search.to_x_m = to.x_m;
-    search.to_y_m = to.y_m;
-    search.arrival_rad = arrivals(from, to);
-    search.seed =
-        random_key(random_key(random_key(problem_.seed, leg), static_cast<std::uint64_t>(round)), number);
-    search.iterations = iterations_for(length);
-    search.range_m = range_for(length);
+    LegSearch search = leg_between(
+        guide.cost, *guide.sampler, draft.at, from, to,
+        random_key(random_key(random_key(problem_.seed, leg), static_cast<std::uint64_t>(round)), number));
     search.cancelled = [this] { return progress_.cancelled(); };
     const std::vector<Pose2> poses = draft.by->planner->search(search);
     if (!joins(poses, search)) return false;
@@ -173,23 +148,8 @@ class Proposer {
     return true;
   }
 
-  // With a free heading: the straight line's, and to both sides of it.
-  static std::vector<double> arrivals(const Waypoint& from, const Waypoint& to) {
-    if (to.yaw_rad) return {wrapped_rad(*to.yaw_rad)};
-    const double direct = std::atan2(to.y_m - from.y_m, to.x_m - from.x_m);
-    std::vector<double> headings;
-    for (const double aside : {0.0, 30.0, -30.0, 60.0, -60.0, 100.0, -100.0, 180.0})
-      headings.push_back(wrapped_rad(direct + rad_from_deg(aside)));
-    return headings;
-  }
-
   void keep(const std::string& profile, Draft& draft) {
-    if (!problem_.start.yaw_rad) {
-      // Nothing holds the start's heading: the rover is set down in the direction it leaves.
-      Motion& first = draft.motions.front();
-      first.from.yaw_rad = wrapped_rad(first.departure_rad());
-      first.first_turn_rad = 0.0;
-    }
+    set_down_as_it_leaves(problem_.start, draft.motions);
     const double cost = fine_cost(asked_cost_, draft.motions);
     if (!std::isfinite(cost)) {
       if (const auto pose = first_hit(map_.keep_out(), draft.motions)) {
@@ -200,6 +160,9 @@ class Proposer {
       return;
     }
     proposal_.differences.add(centreline(draft.motions, kLineSpacing_m));
+    if (std::none_of(proposal_.candidates.begin(), proposal_.candidates.end(),
+                     [&](const Candidate& other) { return other.cost <= cost; }))
+      tell_found(progress_, draft.motions, cost);
     proposal_.candidates.push_back({std::move(draft.motions), draft.by->name, profile, cost});
   }
 
@@ -215,25 +178,14 @@ class Proposer {
         for (int dr = -rows; dr <= rows; ++dr) {
           for (int dc = -columns; dc <= columns; ++dc) {
             const long long i = map_.index_at(place.x() + dc * g.cell_x_m, place.y() + dr * g.cell_y_m);
-            if (i >= 0 && std::hypot(dc * g.cell_x_m, dr * g.cell_y_m) <= reach && !near_place(place, reach))
+            if (i >= 0 && std::hypot(dc * g.cell_x_m, dr * g.cell_y_m) <= reach &&
+                !is_near_place(places_, place, reach))
               penalty[static_cast<std::size_t>(i)] = static_cast<float>(factor);
           }
         }
       }
     }
     return penalty;
-  }
-
-  // All routes share the ground at the places they join: to be driven off it would only make a hook there.
-  bool near_place(const Eigen::Vector2d& p, double reach_m) const {
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-      const Waypoint& other = places_[i == 0 ? 1 : i - 1];
-      const double leg = std::hypot(other.x_m - places_[i].x_m, other.y_m - places_[i].y_m);
-      if (std::hypot(p.x() - places_[i].x_m, p.y() - places_[i].y_m) <
-          std::max(2.0 * reach_m, kSharedEnds * leg))
-        return true;
-    }
-    return false;
   }
 
   const PlanProblem& problem_;

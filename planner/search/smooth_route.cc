@@ -228,7 +228,7 @@ double fine_cost(const MotionCost& cost, const std::vector<Motion>& motions) {
 }
 
 std::vector<Motion> smooth_leg(const MotionCost& cost, const std::vector<Pose2>& poses,
-                               bool keep_last_heading) {
+                               bool keep_last_heading, const std::function<bool()>& cancelled) {
   const std::vector<Pose2> kept = shortcut(cost, poses);
   std::vector<Motion> arcs = chain(cost, kept);
   if (!keep_last_heading && !arcs.empty()) {
@@ -239,11 +239,13 @@ std::vector<Motion> smooth_leg(const MotionCost& cost, const std::vector<Pose2>&
   if (corners.size() < 2) return arcs;
   corners.back() = {poses.back().x_m, poses.back().y_m};
   Polyline line(cost, poses.front().yaw_rad, std::move(corners));
-  for (int k = 0; k < kSweeps && line.sweep(); ++k) {
-  }
+  const auto sweep = [&] {
+    for (int k = 0; k < kSweeps && !(cancelled && cancelled()) && line.sweep(); ++k) {
+    }
+  };
+  sweep();
   line.leave_out();
-  for (int k = 0; k < kSweeps && line.sweep(); ++k) {
-  }
+  sweep();
   line.leave_out();
   std::vector<Motion> motions = round_corners(cost, straights(poses.front(), line.corners()));
   if (keep_last_heading) arrive(cost, motions, poses.back().yaw_rad);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "planner/search/motion_cost.h"
@@ -10,8 +11,9 @@ namespace slipway::planner {
 // the direct motion is cheaper, moves the corners of the polyline downhill in cost, and rounds them with
 // arcs. (OMPL's own simplifier looks at length only.) The leg begins and ends where `poses` does; with
 // keep_last_heading also in its heading, otherwise as the last motion arrives. Without random numbers.
+// Where it is cancelled the leg is of no use.
 std::vector<Motion> smooth_leg(const MotionCost& cost, const std::vector<Pose2>& poses,
-                               bool keep_last_heading);
+                               bool keep_last_heading, const std::function<bool()>& cancelled = {});
 
 // A straight, the arc that rounds the corner to the next one, and what is left of that one: both are cut by
 // the same length. Empty where one of them is too short for the radius.

@@ -18,6 +18,7 @@ class StageProgress final : public Progress {
     whole_.report(stage_, from_ + (to_ - from_) * fraction);
   }
   bool cancelled() const override { return whole_.cancelled(); }
+  void found(const RouteSoFar& route) override { whole_.found(route); }
 
  private:
   Progress& whole_;

@@ -85,6 +85,9 @@ void add_assumptions(CLI::App& command, DriveOptions& drive) {
   command.add_option("--beliefs", drive.beliefs,
                      "file of soils (soils/1) that stand in for those of the same names, or beside them");
   command.add_option("--unknown-soil", drive.unknown_soil, "what unmapped ground is believed to be");
+  command.add_option("--segment-m", drive.segment_m,
+                     "decide the drive in segments of this length, as sols or stages; of a plan over a "
+                     "kilometre and more 250 where it is not given");
   command.add_option("--confidence", drive.confidence,
                      "that a mapped class is the soil that the legend gives");
   command.add_option("--legend", drive.legend, "which of the terrain's legends says what its classes are");

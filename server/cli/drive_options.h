@@ -28,6 +28,7 @@ struct DriveOptions {
   std::string beliefs;       // file with soils that stand in for the catalogue's; empty: none
   std::string legend, unknown_soil;
   std::optional<double> confidence;
+  std::optional<double> segment_m;
   bool relief = false;
   std::optional<double> elevation_error_m, roughness_m, rock_share;
   std::optional<int> draws;

@@ -124,6 +124,7 @@ Result<void> write_drive(Writer& w, const DriveOptions& drive) {
                {"rock_share", drive.rock_share}},
               drive.relief);
   if (!drive.unknown_soil.empty()) w.text("unknown_soil", drive.unknown_soil);
+  if (drive.segment_m) w.exact("segment_m", *drive.segment_m);
   if (drive.confidence) w.exact("confidence", *drive.confidence);
   if (!drive.legend.empty()) w.text("legend", drive.legend);
   if (drive.as_of_sol) w.whole("as_of_sol", *drive.as_of_sol);

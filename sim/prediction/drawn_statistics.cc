@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -152,6 +153,66 @@ void locate(const std::vector<DrawnDrive>& drives, const std::vector<PreparedSta
   for (const auto& [soil, ground] : grounds) out.grounds.push_back(ground);
 }
 
+// The same by segments. What comes behind an embedding is not driven.
+std::vector<SegmentRisk> segments_of(const std::vector<DrawnDrive>& drives,
+                                     const std::vector<PreparedStation>& stations, double segment_m) {
+  const double length = stations.back().distance_m;
+  const auto count = static_cast<std::size_t>(std::max(1.0, std::floor(length / segment_m + 0.5)));
+  const auto segment_at = [&](double at_m) {
+    return std::min(count - 1, static_cast<std::size_t>(at_m / segment_m));
+  };
+  struct Sums {
+    double weight = 0.0, squares = 0.0, stops = 0.0, stops_squared = 0.0, stopped = 0.0, embedded = 0.0;
+  };
+  std::vector<Sums> sums(count);
+  double all = 0.0;
+  for (const DrawnDrive& drive : drives) {
+    all += drive.weight;
+    std::vector<int> stops(count, 0);
+    std::size_t last = count;
+    for (const OutcomeEvent& event : drive.outcome.events) {
+      const std::size_t segment = segment_at(stations[event.station].distance_m);
+      if (event.rule == Rule::kEmbedding)
+        last = segment;
+      else
+        ++stops[segment];
+    }
+    for (std::size_t k = 0; k < std::min(count, last + 1); ++k) {
+      Sums& sum = sums[k];
+      sum.weight += drive.weight;
+      sum.squares += drive.weight * drive.weight;
+      sum.stops += drive.weight * stops[k];
+      sum.stops_squared += drive.weight * stops[k] * stops[k];
+      sum.stopped += stops[k] > 0 ? drive.weight : 0.0;
+      sum.embedded += k == last ? drive.weight : 0.0;
+    }
+  }
+  std::vector<SegmentRisk> segments;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Sums& sum = sums[k];
+    SegmentRisk segment;
+    segment.from_m = segment_m * static_cast<double>(k);
+    segment.to_m = k + 1 == count ? length : segment_m * static_cast<double>(k + 1);
+    segment.reached = sum.weight / all;
+    if (sum.weight > 0.0) {
+      const double n = sum.weight * sum.weight / sum.squares;
+      DriveOutcomes figures;
+      figures.stop = share_of_draws(sum.stopped / sum.weight, n);
+      fill_expected_stops(sum.stops / sum.weight, sum.stops_squared / sum.weight, n, figures);
+      segment.stop = figures.stop;
+      segment.embedding = share_of_draws(sum.embedded / sum.weight, n);
+      segment.expected_stops = figures.expected_stops;
+      segment.expected_stops_low = figures.expected_stops_low;
+      segment.expected_stops_high = figures.expected_stops_high;
+    } else {
+      segment.stop.high = segment.embedding.high = 1.0;  // nobody knows
+      segment.expected_stops_high = std::numeric_limits<double>::infinity();
+    }
+    segments.push_back(segment);
+  }
+  return segments;
+}
+
 DriveOutcomes outcomes_of(const std::vector<DrawnDrive>& drives, const Weighted& weighted,
                           const std::vector<PreparedStation>& stations, const DriveLimits& limits) {
   DriveOutcomes out;
@@ -265,7 +326,7 @@ void fill_station(const std::vector<DrawnDrive>& drives, std::size_t s, StationP
 }
 
 void summarise(const std::vector<DrawnDrive>& drives, const std::vector<PreparedStation>& stations,
-               const DriveLimits& limits, DrivePrediction& prediction) {
+               const DriveLimits& limits, double segment_m, DrivePrediction& prediction) {
   const Weighted weighted(drives);
   const DrawnShare risk = weighted.share([](const DrawnDrive& d) { return d.breaks_a_limit; });
   prediction.draws = static_cast<int>(drives.size());
@@ -276,6 +337,8 @@ void summarise(const std::vector<DrawnDrive>& drives, const std::vector<Prepared
   prediction.risk_high = risk.high;
   prediction.risk_immobilised = weighted.mean([](const DrawnDrive& d) { return d.immobilised; });
   prediction.outcomes = outcomes_of(drives, weighted, stations, limits);
+  if (segment_m > 0.0 && !stations.empty())
+    prediction.outcomes.segments = segments_of(drives, stations, segment_m);
   std::vector<std::pair<double, double>> duration, energy;
   for (const DrawnDrive& drive : drives) {
     if (drive.immobilised || drive.weight <= 0.0) continue;

@@ -24,7 +24,7 @@ std::optional<std::size_t> ground_of(const PreparedStation& station);
 // Fills the prediction's shares, intervals and percentiles of the whole drive from its draws; there must be
 // one.
 void summarise(const std::vector<DrawnDrive>& drives, const std::vector<PreparedStation>& stations,
-               const DriveLimits& limits, DrivePrediction& prediction);
+               const DriveLimits& limits, double segment_m, DrivePrediction& prediction);
 
 // Fills the percentiles and the risk of station `s` from the draws that reached it.
 void fill_station(const std::vector<DrawnDrive>& drives, std::size_t s, StationPrediction& station);

@@ -230,11 +230,25 @@ Result<PreparedDrive> prepare(const RoverModel& rover, double gravity_m_s2, cons
 
 }  // namespace
 
+bool OutcomeBars::are_kept(const SegmentRisk& segment) const {
+  return segment.embedding.high < max_embedding && segment.expected_stops_high < max_expected_stops;
+}
+
+bool OutcomeBars::are_passed(const SegmentRisk& segment) const {
+  return segment.embedding.low > max_embedding || segment.expected_stops_low > max_expected_stops;
+}
+
 bool OutcomeBars::are_kept(const DriveOutcomes& outcomes) const {
+  if (!outcomes.segments.empty())
+    return std::all_of(outcomes.segments.begin(), outcomes.segments.end(),
+                       [this](const SegmentRisk& segment) { return are_kept(segment); });
   return outcomes.embedding.high < max_embedding && outcomes.expected_stops_high < max_expected_stops;
 }
 
 bool OutcomeBars::are_passed(const DriveOutcomes& outcomes) const {
+  if (!outcomes.segments.empty())
+    return std::any_of(outcomes.segments.begin(), outcomes.segments.end(),
+                       [this](const SegmentRisk& segment) { return are_passed(segment); });
   return outcomes.embedding.low > max_embedding || outcomes.expected_stops_low > max_expected_stops;
 }
 

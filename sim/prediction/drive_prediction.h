@@ -105,6 +105,16 @@ struct StretchRisk {
   DrawnSpread shortfall_m = {};  // behind to_m when the wheels have rolled that far, see ShortfallFollower
 };
 
+// A part of a long drive that is decided by itself: a sol's drive. Stops and embeddings on it, of the draws
+// in which the rover comes to it.
+struct SegmentRisk {
+  double from_m = 0.0, to_m = 0.0;
+  DrawnShare stop;       // draws with at least one stop on it
+  DrawnShare embedding;  // draws that are embedded on it
+  double expected_stops = 0.0, expected_stops_low = 0.0, expected_stops_high = 0.0;
+  double reached = 0.0;  // share of the draws that come to it
+};
+
 // Stops, which cost a sol each, and embeddings, which may cost the rover; see OutcomeFollower.
 struct DriveOutcomes {
   DrawnShare stop;       // drives with at least one stop
@@ -116,6 +126,7 @@ struct DriveOutcomes {
   std::vector<GroundRisk>
       grounds;  // those that the path meets; with a wheel on unknown ground the rover is there
   std::vector<StretchRisk> stretches;  // of equal length, 10 m or more, at most 100
+  std::vector<SegmentRisk> segments;   // of RiskOptions::segment_m; empty where that is 0
   // What is left where nothing ever went wrong on unknown ground.
   DrawnShare embedding_on_known;
   double expected_stops_on_known = 0.0;
@@ -212,9 +223,12 @@ struct OutcomeBars {
   double max_embedding = 0.01;  // probability
   double max_expected_stops = 0.5;
 
-  // Both intervals are under their bars, or one of them is over its bar.
+  // Both intervals are under their bars, or one of them is over its bar. Of a drive in segments: on each of
+  // them, or on any.
   bool are_kept(const DriveOutcomes& outcomes) const;
   bool are_passed(const DriveOutcomes& outcomes) const;
+  bool are_kept(const SegmentRisk& segment) const;
+  bool are_passed(const SegmentRisk& segment) const;
   bool decide(const DriveOutcomes& outcomes) const { return are_kept(outcomes) || are_passed(outcomes); }
 };
 
@@ -239,6 +253,9 @@ struct RiskOptions {
   int max_draws = 0;
   OutcomeBars bars = {};
   SlipChecks checks = {};
+  // Where it is over 0 the drive is decided in segments of this length, of which the last may be half as long
+  // again.
+  double segment_m = 0.0;
   std::uint64_t seed = 1;
   // What earlier drives make of the draws; those beyond the last have no weight. Where it is empty all weigh
   // the same, as they were drawn.

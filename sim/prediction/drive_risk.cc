@@ -112,7 +112,7 @@ bool assess_risk(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs
       drives.clear();  // some were cut short
       return false;
     }
-    summarise(drives, drive.stations, limits, prediction);
+    summarise(drives, drive.stations, limits, options.segment_m, prediction);
   } while (drives.size() < most && !options.bars.decide(prediction.outcomes));
 
   prediction.scout = scout_drive(drives, drive.stations, beliefs, prediction.outcomes, options.bars);

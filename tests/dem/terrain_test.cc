@@ -199,5 +199,73 @@ TEST(Terrain, WrongSizesAndHeightsThatAreNotFiniteThrow) {
   EXPECT_THROW(Terrain(two, {1.0F, std::nanf("")}, {1, 1}), std::invalid_argument);
 }
 
+// Counts what is asked for. Rows from 900 on can't be read.
+class WavyCells final : public CellReader {
+ public:
+  static float height(int row, int column) {
+    return static_cast<float>(std::sin(0.01 * row) + 0.02 * column);
+  }
+  static bool is_missing(int row, int column) { return row == 300 && column == 700; }
+  Result<void> read(const CellWindow& window, float* heights_m, std::uint8_t* valid) const override {
+    read_ += static_cast<long long>(window.rows) * window.columns;
+    if (window.row >= 896) return fail(ErrorCode::kUnreadableRaster, "made so");
+    for (int r = 0; r < window.rows; ++r) {
+      for (int c = 0; c < window.columns; ++c) {
+        const bool missing = is_missing(window.row + r, window.column + c);
+        *valid++ = missing ? 0 : 1;
+        *heights_m++ = missing ? 0.0F : height(window.row + r, window.column + c);
+      }
+    }
+    return {};
+  }
+  mutable long long read_ = 0;
+};
+
+TEST(TerrainReadByTiles, IsTheSameAsOneThatIsHeldAndReadsWhatIsLookedAt) {
+  const GridGeometry g{1000, 1400, 0.0, 1000.0, 1.0, 1.0};
+  const auto cells = std::make_shared<const WavyCells>();
+  const Terrain tiles(g, cells);
+  EXPECT_TRUE(tiles.is_read_by_tiles());
+  EXPECT_EQ(cells->read_, 0);
+  std::vector<float> heights(1000 * 1400);
+  std::vector<std::uint8_t> valid(heights.size());
+  ASSERT_TRUE(cells->read({0, 0, 896, 1400}, heights.data(), valid.data()));
+  cells->read_ = 0;
+  const Terrain held(g, heights, valid);
+  int compared = 0;
+  for (double y = 880.0; y > 560.0; y -= 13.7) {
+    for (double x = 505.0; x < 1020.0; x += 11.3) {
+      EXPECT_EQ(tiles.height_m(x, y), held.height_m(x, y));
+      const auto a = tiles.surface(x, y), b = held.surface(x, y);
+      ASSERT_EQ(a.has_value(), b.has_value());
+      if (a) {
+        EXPECT_EQ(a->normal, b->normal);
+      }
+      EXPECT_EQ(tiles.roughness_m(x, y, 3.0), held.roughness_m(x, y, 3.0));
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 500);
+  EXPECT_FALSE(tiles.has_data({300, 700}));
+  EXPECT_EQ(tiles.heights_in({299, 699, 3, 3}), nullptr);
+  ASSERT_NE(tiles.heights_in({400, 500, 3, 3}), nullptr);
+  EXPECT_EQ(*tiles.heights_in({400, 500, 3, 3}), WavyCells::height(400, 500));
+  EXPECT_LT(cells->read_, 1000 * 1400 / 2);
+  const long long before = cells->read_;
+  const auto part = tiles.part({100, 100, 20, 30});
+  ASSERT_TRUE(part);
+  EXPECT_EQ(part->height_m(Cell{3, 4}), held.height_m(Cell{103, 104}));
+  EXPECT_EQ(cells->read_, before + 20 * 30) << "a part is read without being kept";
+}
+
+TEST(TerrainReadByTiles, SaysThatATileCouldNotBeReadAndHasNoDataThere) {
+  const Terrain tiles({1000, 1400, 0.0, 1000.0, 1.0, 1.0}, std::make_shared<const WavyCells>());
+  EXPECT_FALSE(tiles.damage());
+  EXPECT_FALSE(tiles.has_data({950, 10}));
+  ASSERT_TRUE(tiles.damage());
+  EXPECT_EQ(tiles.damage()->code, ErrorCode::kUnreadableRaster);
+  EXPECT_EQ(tiles.part({950, 0, 2, 2}), nullptr);
+}
+
 }  // namespace
 }  // namespace slipway::dem
