@@ -131,7 +131,7 @@ Result<Service::Setting> Service::set_up(const std::string& terrain, const std::
   Setting setting;
   planner::PlanProblem& problem = setting.problem;
   problem.terrain = ground->terrain;
-  problem.terrain_is_whole_map = problem.terrain->geometry() == map;
+  problem.terrain_is_whole_map = problem.terrain->geometry() == site.info().geometry;
   RegionalSoils soils = soils_in_regions(ground->soil_map, sim::effect_regions(effects));
   problem.soil_map = soils.map;
   problem.beliefs = beliefs_of(*catalogue, drive, soils.soils, legend.confidence, effects);
