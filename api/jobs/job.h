@@ -25,16 +25,16 @@ struct Job {
   std::string id;    // 32 hexadecimal digits: 128 random bits, so that nobody guesses another's job
   std::string kind;  // the name of a JobKind: "plan"
   JobState state = JobState::kAccepted;
-  std::string stage;            // what the work is at, a short noun phrase
-  double progress = 0.0;        // of the whole, in [0, 1]
-  std::int64_t version = 1;     // grows with every change: the ETag
-  int attempt = 0;              // how often it was claimed
-  int deaths = 0;               // how often a worker left it without handing it back
-  std::string last_death = {};  // why the last of them did, in words for a person; empty: none has
-  std::string owner = {};       // who asked for it
+  std::string stage;             // what the work is at, a short noun phrase
+  double progress = 0.0;         // of the whole, in [0, 1]
+  std::int64_t version = 1;      // grows with every change: the ETag
+  int attempt = 0;               // how often it was claimed
+  int deaths = 0;                // how often a worker left it without handing it back
+  std::string last_death = {};   // why the last of them did, in words for a person; empty: none has
+  std::string owner = {};        // who asked for it
   std::string best_so_far = {};  // what this attempt has found until now, a JSON object; empty: nothing
-  int urgency = kUsualUrgency;  // which of those that wait begins first
-  std::int64_t created_ms = 0;  // since 1970, as the times below
+  int urgency = kUsualUrgency;   // which of those that wait begins first
+  std::int64_t created_ms = 0;   // since 1970, as the times below
   std::optional<std::int64_t> started_ms;
   std::optional<std::int64_t> ended_ms;
 };

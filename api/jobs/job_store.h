@@ -111,8 +111,8 @@ class JobStore {
   virtual Result<std::optional<ClaimedJob>> claim(std::string_view worker,
                                                   const std::vector<std::string>& kinds, std::int64_t now,
                                                   std::int64_t lease_until) = 0;
-  // Writes progress, and what was found where that is not empty, and renews the lease. False: the lease is lost (dismissed, or claimed by another); stop
-  // working.
+  // Writes progress, and what was found where that is not empty, and renews the lease. False: the lease is
+  // lost (dismissed, or claimed by another); stop working.
   virtual Result<bool> report(const Lease& lease, std::string_view stage, double progress,
                               std::int64_t lease_until, std::string_view best_so_far = {}) = 0;
   // successful with its answer, or failed with its problem document. False: the lease is lost, nothing was

@@ -120,7 +120,8 @@ int BlockMap::label(const GroundCell* cells, const dem::CellWindow& window, Part
       for (int dr = -1; dr <= 1; ++dr) {
         for (int dc = -1; dc <= 1; ++dc) {
           const int row = at / kBlockCells + dr, column = at % kBlockCells + dc;
-          if (row < 0 || column < 0 || row >= kBlockCells || column >= kBlockCells) continue;
+          if ((dr != 0) == (dc != 0) || row < 0 || column < 0 || row >= kBlockCells || column >= kBlockCells)
+            continue;
           const int next = row * kBlockCells + column;
           if (parts[next] != kOpen) continue;
           parts[next] = part;
@@ -144,7 +145,7 @@ void BlockMap::number_nodes() {
   sizes_ = {};
 }
 
-// The nodes across one side of the node's block that its cells touch, over edges or corners.
+// The nodes across one side of the node's block that its cells touch.
 void BlockMap::touching(std::size_t node, int side, std::vector<std::uint32_t>& to) const {
   to.clear();
   const std::uint32_t block = block_of_[node];
@@ -162,8 +163,8 @@ void BlockMap::touching(std::size_t node, int side, std::vector<std::uint32_t>& 
   std::uint8_t last = 0;
   for (int k = 0; k < kBlockCells; ++k) {
     if (ours[static_cast<std::size_t>(k)] != part) continue;
-    for (int j = std::max(0, k - 1); j <= std::min(kBlockCells - 1, k + 1); ++j) {
-      const std::uint8_t other = theirs[static_cast<std::size_t>(j)];
+    {
+      const std::uint8_t other = theirs[static_cast<std::size_t>(k)];
       if (other == 0 || other == last) continue;
       last = other;
       const std::uint32_t found = node_of(beside, other);
@@ -207,18 +208,6 @@ void BlockMap::join(std::size_t threads, const Progress& progress) {
             }
           }
         }
-      }
-      // Cells of neighbours across a corner.
-      const std::uint32_t block = block_of_[node];
-      const std::size_t part = node - first_node_[block] + 1;
-      const long long r = block / block_columns_, c = block % block_columns_;
-      constexpr int kLast = kBlockCells - 1;
-      for (const auto& [dr, dc, step] : {std::array{-1, 1, 2}, {-1, -1, 6}, {1, -1, 10}, {1, 1, 14}}) {
-        if (r + dr < 0 || c + dc < 0 || r + dr >= block_rows_ || c + dc >= block_columns_) continue;
-        const auto beside = static_cast<std::uint32_t>((r + dr) * block_columns_ + c + dc);
-        const auto ours = blocks_[block].edges[dr < 0 ? kNorth : kSouth][dc > 0 ? kLast : 0];
-        const auto theirs = blocks_[beside].edges[dr < 0 ? kSouth : kNorth][dc > 0 ? 0 : kLast];
-        if (ours == part && theirs != 0) add(node_of(beside, theirs), step);
       }
       counts[node + 1] = static_cast<std::uint32_t>(found[row].size() - begun);
     }

@@ -14,7 +14,7 @@
 namespace slipway::planner {
 
 // The whole terrain in blocks of kBlockCells x kBlockCells of a search's finest cells. The cells of a block
-// that the rover may stand in fall into parts that hang together, over edges or corners; a part is a node,
+// that the rover may stand in fall into parts that hang together over their edges; a part is a node,
 // and two nodes are joined where cells of theirs touch. So the blocks know every wall and every gap that the
 // cells have, a gap of one cell too; what they know roughly is cost, from a sample of 16 cells of each block.
 //

@@ -119,6 +119,7 @@ Reach reach_of(const BlockMap& blocks, std::uint32_t from, std::uint32_t to) {
   const std::vector<std::uint8_t> here = reached_from(from), there = reached_from(to);
   const dem::GridGeometry& g = blocks.geometry();
   Reach reach;
+  reach.leads = here[to] != 0;
   long long cells = 0;
   for (std::size_t node = 0; node < here.size(); ++node)
     if (here[node] != 0) cells += blocks.cells(node);

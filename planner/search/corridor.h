@@ -40,8 +40,9 @@ class Corridor {
 
 // How much of the ground can be reached from a node, and how near it comes to another.
 struct Reach {
+  bool leads = false;  // to the other
   double area_m2 = 0.0;
-  double gap_m = 0.0;           // between the nearest two blocks
+  double gap_m = 0.0;           // between the nearest two blocks; 0 within one
   Eigen::Vector2d here, there;  // their middles
 };
 Reach reach_of(const BlockMap& blocks, std::uint32_t from, std::uint32_t to);

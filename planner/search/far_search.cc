@@ -400,7 +400,7 @@ class FarProposer {
       const Reach reach = reach_of(blocks_, nodes_[leg], nodes_[leg + 1]);
       std::string words =
           fmt::format("from ({:.1f}, {:.1f}) to ({:.1f}, {:.1f})", from.x_m, from.y_m, to.x_m, to.y_m);
-      if (reach.gap_m > 0.0)
+      if (!reach.leads)
         out_.no_way.push_back(fmt::format(
             "no way {} on the whole map: from the start {:.0f} m2 can be reached, and the ground from which "
             "the goal can be is nearest {:.0f} m away, between ({:.1f}, {:.1f}) and ({:.1f}, {:.1f})",

@@ -64,13 +64,19 @@ void GridSearch::fill(const MotionCost& cost, std::size_t cell) const {
 bool GridSearch::passes_corners(const dem::Cell& from, int step, int driven) const {
   // A knight's move runs between two cells: both must be open in the direction that is driven.
   const GridStep& s = kGridDirections[static_cast<std::size_t>(step)];
+  const auto is_open = [&](long long row, long long column) {
+    const long long cell = map_.index_of(row, column);
+    return cell >= 0 && per_metre(static_cast<std::size_t>(cell))[driven] < kInfinity;
+  };
+  // On a map of blocks a diagonal may not touch the corner of a closed cell: a long way has many corners, and
+  // a motion is judged on both sides of each.
+  if (map_.holds_blocks() && std::abs(s.right) == 1 && std::abs(s.up) == 1)
+    return is_open(from.row - s.up, from.column) && is_open(from.row, from.column + s.right);
   if (std::abs(s.right) + std::abs(s.up) != 3) return true;
   const int half_right = s.right / 2;
   const int half_up = s.up / 2;
-  const long long first = map_.index_of(from.row - half_up, from.column + half_right);
-  const long long second = map_.index_of(from.row - (s.up - half_up), from.column + (s.right - half_right));
-  return first >= 0 && second >= 0 && per_metre(static_cast<std::size_t>(first))[driven] < kInfinity &&
-         per_metre(static_cast<std::size_t>(second))[driven] < kInfinity;
+  return is_open(from.row - half_up, from.column + half_right) &&
+         is_open(from.row - (s.up - half_up), from.column + (s.right - half_right));
 }
 
 bool GridSearch::clear_of_keep_outs(const dem::Cell& from, int step) const {
