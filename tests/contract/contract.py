@@ -43,6 +43,8 @@ class Contract(WithServer):
         description = json.loads(self.server.ask("GET", "/openapi.json")[2])
         replayed = 0
         for path, methods in description["paths"].items():
+            if path in ("/v1/terrains", "/v1/drive-campaigns"):
+                continue  # of files that must be sent first: see uploads_test.py
             content = methods.get("post", {}).get("requestBody", {}).get("content", {})
             for example in content.get("application/json", {}).get("examples", {}).values():
                 if "value" not in example:
