@@ -181,10 +181,10 @@ TEST(JobKinds, NoneWaitsBehindLongerWork) {
   const auto workers = api::worker_kinds();
   ASSERT_EQ(workers.size(), 3U);
   EXPECT_EQ(workers[0], (std::vector<std::string>{"plan", "prediction", "check", "diagnosis", "watch",
-                                                  "soil_estimate", "map"}));
-  EXPECT_EQ(workers[1],
-            (std::vector<std::string>{"plan", "prediction", "check", "watch", "soil_estimate", "map"}));
-  EXPECT_EQ(workers[2], (std::vector<std::string>{"prediction", "check", "soil_estimate"}));
+                                                  "soil_estimate", "drive_campaign", "terrain", "map"}));
+  EXPECT_EQ(workers[1], (std::vector<std::string>{"plan", "prediction", "check", "watch", "soil_estimate",
+                                                  "drive_campaign", "terrain", "map"}));
+  EXPECT_EQ(workers[2], (std::vector<std::string>{"prediction", "check", "soil_estimate", "drive_campaign"}));
 }
 
 }  // namespace
