@@ -50,8 +50,6 @@ sim::SoilBeliefs world_beliefs() {
     beliefs.unknown.alternatives.push_back(
         {soil.name, std::make_shared<const sim::SoilDistribution>(soil), 1.0, 1.0});
   beliefs.unknown.alternatives_by = sim::AlternativesBy::kUnit;
-  // All ten classes are as common as each other here: what rovers have driven on Mars says nothing of them.
-  beliefs.unknown.drawn_apart = false;
   return beliefs;
 }
 
