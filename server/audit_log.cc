@@ -32,7 +32,7 @@ void AuditLog::record(const AnsweredRequest& answered) {
   body.add(request.body);
   api::json::Writer w;
   w.begin_object()
-      .text("time", utc_text(api::now_ms()))
+      .text("time", utc_text(now_ms()))
       .text("who", request.principal)
       .text("address", request.remote_address);
   w.text("method", request.method).text("path", request.path).text("body_sha256", body.digest());

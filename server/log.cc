@@ -36,7 +36,7 @@ spdlog::logger& logger() {
 std::string as_json(LogLevel level, std::string_view event, std::initializer_list<LogField> fields) {
   api::json::Writer w;
   w.begin_object()
-      .text("time", utc_text(api::now_ms()))
+      .text("time", utc_text(now_ms()))
       .text("level", kNames[static_cast<std::size_t>(level)])
       .text("event", event);
   for (const LogField& field : fields) {
@@ -58,7 +58,7 @@ std::string quoted(const std::string& text) {
 
 std::string as_text(LogLevel level, std::string_view event, std::initializer_list<LogField> fields) {
   std::string line =
-      fmt::format("{} {} {}", utc_text(api::now_ms()), kNames[static_cast<std::size_t>(level)], event);
+      fmt::format("{} {} {}", utc_text(now_ms()), kNames[static_cast<std::size_t>(level)], event);
   for (const LogField& field : fields) {
     if (const auto* const number = std::get_if<double>(&field.value))
       line += fmt::format(" {}={:g}", field.name, *number);

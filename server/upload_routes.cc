@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "api/documents/catalogue_documents.h"
 #include "api/uploads/upload_documents.h"
+#include "core/utc.h"
 #include "server/query.h"
 #include "server/responses.h"
 
@@ -16,12 +16,6 @@ namespace slipway::server {
 namespace {
 
 constexpr bool kHeavy = true;  // of a Route
-
-std::int64_t now_ms() {
-  return std::chrono::duration_cast<std::chrono::milliseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
 
 HttpResponse current(std::string body, const HttpRequest& request) {
   HttpResponse response = document(std::move(body));

@@ -1,7 +1,6 @@
 #include "api/files/terrain_import.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -20,23 +19,6 @@ namespace slipway::api {
 namespace {
 
 namespace fs = std::filesystem;
-
-// A folder that goes away unless it is kept. Its name is that of an unfinished file: see is_unfinished().
-class WorkingFolder {
- public:
-  WorkingFolder(const fs::path& terrains, const std::string& name)
-      : path_(terrains / fmt::format(".{}.{}-0.slipway-part", name, ::getpid())) {}
-  ~WorkingFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  WorkingFolder(const WorkingFolder&) = delete;
-  WorkingFolder& operator=(const WorkingFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 std::string name_of_file(const fs::path& path) {
   std::string name;
@@ -204,7 +186,7 @@ Result<TerrainImportReport> import_terrain(const TerrainImport& order, const Cat
   const fs::path terrains = order.data / "terrains";
   if (const auto folder = make_folder(terrains); !folder) return fail(folder.error());
   remove_abandoned(terrains, made.name);
-  const WorkingFolder working(terrains, made.name);
+  const WorkingFolder working(terrains / made.name);
   if (const auto folder = make_folder(working.path()); !folder) return fail(folder.error());
   const auto told = run_confined(
       order.limits, [&](Progress& inner) { return make_folder_of(order, made, working.path(), inner); },
@@ -213,7 +195,7 @@ Result<TerrainImportReport> import_terrain(const TerrainImport& order, const Cat
   if (progress.cancelled()) return fail(ErrorCode::kCancelled, "The import was given up.");
   TerrainImportReport report;
   report.folder = terrains / made.name;
-  const fs::path aside = terrains / fmt::format(".{}.{}-1.slipway-part", made.name, ::getpid());
+  const fs::path aside = unfinished_name(terrains / made.name);
   if (const auto placed = put_in_place(working, report.folder, aside, order.replace); !placed)
     return fail(placed.error());
   report.text = told->substr(0, told->find('\0'));

@@ -70,6 +70,11 @@ fs::path unfinished_name(const fs::path& path) {
          fmt::format(".{}.{}-{}{}", path.filename().string(), ::getpid(), ++calls, kUnfinished);
 }
 
+WorkingFolder::~WorkingFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
 void remove_abandoned(const fs::path& folder, const std::string& name) {
   std::error_code error;
   std::vector<fs::path> abandoned;

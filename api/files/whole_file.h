@@ -18,6 +18,19 @@ bool is_unfinished(const std::filesystem::path& path);
 // A name for an unfinished file or folder beside the one that it is to become: is_unfinished(), and of this
 // process and call alone.
 std::filesystem::path unfinished_name(const std::filesystem::path& path);
+// The path of a folder in the making, beside the one that it is to become: unfinished_name(). What is still
+// under that name when this ends is removed.
+class WorkingFolder {
+ public:
+  explicit WorkingFolder(const std::filesystem::path& place) : path_(unfinished_name(place)) {}
+  ~WorkingFolder();
+  WorkingFolder(const WorkingFolder&) = delete;
+  WorkingFolder& operator=(const WorkingFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
 // Removes what processes that are no more left unfinished of this name.
 void remove_abandoned(const std::filesystem::path& folder, const std::string& name);
 

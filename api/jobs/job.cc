@@ -42,10 +42,4 @@ bool is_job_id(std::string_view text) {
          });
 }
 
-std::int64_t now_ms() {
-  using std::chrono::system_clock;
-  return std::chrono::duration_cast<std::chrono::milliseconds>(system_clock::now().time_since_epoch())
-      .count();
-}
-
 }  // namespace slipway::api

@@ -43,6 +43,4 @@ struct Job {
 std::string new_job_id();
 bool is_job_id(std::string_view text);
 
-std::int64_t now_ms();
-
 }  // namespace slipway::api

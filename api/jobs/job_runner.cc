@@ -10,6 +10,7 @@
 
 #include "api/json/problem_document.h"
 #include "api/json/writer.h"
+#include "core/utc.h"
 
 namespace slipway::api {
 

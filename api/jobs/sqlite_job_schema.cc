@@ -11,6 +11,7 @@
 #include "api/files/whole_file.h"
 #include "api/jobs/job.h"
 #include "core/sha256.h"
+#include "core/utc.h"
 
 namespace slipway::api {
 namespace {

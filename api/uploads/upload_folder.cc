@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
@@ -114,12 +113,6 @@ std::optional<UploadOrigin> read_origin(const fs::path& folder, std::string* nam
   return origin;
 }
 
-fs::path working_name(const fs::path& place) {
-  static std::atomic<unsigned> calls{0};
-  return place.parent_path() /
-         fmt::format(".{}.{}-u{}.slipway-part", place.filename().string(), ::getpid(), ++calls);
-}
-
 Result<bool> put_in_place(const fs::path& finished, const fs::path& place) {
   for (const auto& entry : fs::recursive_directory_iterator(finished)) sync(entry.path());
   sync(finished);
@@ -133,7 +126,7 @@ Result<bool> put_in_place(const fs::path& finished, const fs::path& place) {
 }
 
 Result<bool> take_away(const fs::path& place) {
-  const fs::path gone = working_name(place);
+  const fs::path gone = unfinished_name(place);
   if (::rename(place.c_str(), gone.c_str()) != 0) {
     if (errno == ENOENT) return false;
     return unstored(errno, "it could not be removed");
@@ -166,18 +159,15 @@ Result<Upload> UploadFolder::keep(int fd, const std::string& name, const UploadO
   if (!id) return fail(id.error());
   if (auto known = find(*id)) return *known;
   const fs::path place = files() / *id;
-  const fs::path working = working_name(place);
-  if (const auto made = make_folder(working); !made) return fail(ErrorCode::kStorage, made.error().detail);
+  const WorkingFolder working(place);
+  if (const auto made = make_folder(working.path()); !made)
+    return fail(ErrorCode::kStorage, made.error().detail);
   const std::string open_file = fmt::format("/proc/self/fd/{}", fd);
-  std::error_code ignored;
-  if (::linkat(AT_FDCWD, open_file.c_str(), AT_FDCWD, (working / name).c_str(), AT_SYMLINK_FOLLOW) != 0) {
-    const int error = errno;
-    fs::remove_all(working, ignored);
-    return unstored(error, "what was sent could not be kept");
-  }
-  const auto written = write_origin(working, origin, name);
-  auto placed = written ? put_in_place(working, place) : Result<bool>(fail(written.error()));
-  if (!placed || !*placed) fs::remove_all(working, ignored);
+  if (::linkat(AT_FDCWD, open_file.c_str(), AT_FDCWD, (working.path() / name).c_str(), AT_SYMLINK_FOLLOW) !=
+      0)
+    return unstored(errno, "what was sent could not be kept");
+  const auto written = write_origin(working.path(), origin, name);
+  auto placed = written ? put_in_place(working.path(), place) : Result<bool>(fail(written.error()));
   if (!placed) return fail(ErrorCode::kStorage, placed.error().detail);
   if (auto kept = find(*id)) return *kept;
   return fail(ErrorCode::kStorage, "what was sent is not there any more");

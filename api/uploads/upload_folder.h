@@ -85,7 +85,4 @@ Result<bool> put_in_place(const std::filesystem::path& finished, const std::file
 // Takes a folder away: it is gone under its name at once, then its bytes are. False: there was none.
 Result<bool> take_away(const std::filesystem::path& place);
 
-// A name beside `place` that no reader takes for a finished one, see is_unfinished().
-std::filesystem::path working_name(const std::filesystem::path& place);
-
 }  // namespace slipway::api

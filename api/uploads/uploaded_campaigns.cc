@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <fstream>
 #include <iterator>
 #include <system_error>
@@ -19,6 +18,7 @@
 #include "api/uploads/unpack.h"
 #include "core/confined_child.h"
 #include "core/sha256.h"
+#include "core/utc.h"
 
 namespace slipway::api {
 namespace {
@@ -33,12 +33,6 @@ constexpr std::size_t kMaxAppended = 2000;
 constexpr std::size_t kMaxCsvBytes = std::size_t{4} << 20U;
 constexpr std::size_t kMaxDocumentBytes = std::size_t{16} << 20U;
 constexpr ChildLimits kLimits{.max_memory_bytes = 3LL << 30U, .max_time_s = 600.0};
-
-std::int64_t now_ms() {
-  return std::chrono::duration_cast<std::chrono::milliseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
 
 bool is_campaign_name(std::string_view name) {
   return name.starts_with(kPrefix) && name.size() == kPrefix.size() + kNameDigits &&
@@ -183,13 +177,11 @@ Result<CampaignTaken> take_campaign(UploadFolder& uploads, const CampaignOrder& 
     source = *file;
     if (const auto known = uploads.find(order.upload)) origin.owner = known->origin.owner;
   }
-  const fs::path working = working_name(uploads.campaigns() / "new");
+  const std::string unnamed = "new";
+  remove_abandoned(uploads.campaigns(), unnamed);
+  const WorkingFolder folder(uploads.campaigns() / unnamed);
+  const fs::path& working = folder.path();
   if (const auto made = make_folder(working); !made) return fail(made.error());
-  const auto give_up = [&](const Error& error) -> tl::unexpected<Error> {
-    std::error_code ignored;
-    fs::remove_all(working, ignored);
-    return fail(error);
-  };
   progress.report("reading the drives", 0.1);
   const auto notes = run_confined(
       kLimits,
@@ -204,17 +196,13 @@ Result<CampaignTaken> take_campaign(UploadFolder& uploads, const CampaignOrder& 
         return w.take();
       },
       progress);
-  if (!notes) return give_up(notes.error());
+  if (!notes) return fail(notes.error());
   const auto name = name_of(working / kFiles);
-  if (!name) return give_up(name.error());
-  if (const auto room = uploads.check_room(0); !room) return give_up(room.error());
-  if (const auto written = write_origin(working, origin, *name); !written) return give_up(written.error());
+  if (!name) return fail(name.error());
+  if (const auto room = uploads.check_room(0); !room) return fail(room.error());
+  if (const auto written = write_origin(working, origin, *name); !written) return fail(written.error());
   const auto placed = put_in_place(working, uploads.campaigns() / *name);
-  if (!placed) return give_up(placed.error());
-  if (!*placed) {  // the same files were taken before
-    std::error_code ignored;
-    fs::remove_all(working, ignored);
-  }
+  if (!placed) return fail(placed.error());
   const fs::path place = uploads.campaigns() / *name;
   CampaignTaken taken{described_campaign(place / kFiles, *name, catalogue), origin, {}};
   if (auto known = read_origin(place)) taken.origin = *std::move(known);

@@ -1,8 +1,9 @@
 #include "api/uploads/uploaded_terrains.h"
 
-#include <chrono>
 #include <filesystem>
 #include <utility>
+
+#include "core/utc.h"
 
 namespace slipway::api {
 namespace {
@@ -35,10 +36,7 @@ Result<TerrainImportReport> take_terrain(UploadFolder& uploads, const TerrainOrd
   // What is written is about as large as what was sent, with its overviews half as large again.
   if (const auto room = uploads.check_room(elevation->bytes + elevation->bytes / 2); !room)
     return fail(room.error());
-  UploadOrigin origin{.owner = elevation->origin.owner, .from = order.elevation};
-  origin.at_ms = std::chrono::duration_cast<std::chrono::milliseconds>(
-                     std::chrono::system_clock::now().time_since_epoch())
-                     .count();
+  const UploadOrigin origin{.owner = elevation->origin.owner, .at_ms = now_ms(), .from = order.elevation};
   // A worker that died after the terrain was in its place does it again.
   const auto before = read_origin(uploads.terrains() / import.name);
   import.replace = before && before->from == origin.from;

@@ -9,6 +9,7 @@
 #include "api/jobs/memory_job_store.h"
 #include "api/jobs/sqlite_job_store.h"
 #include "api/json/problem_document.h"
+#include "core/utc.h"
 #include "small_world.h"
 
 namespace slipway::api {
