@@ -97,6 +97,29 @@ void BM_WheelForcesOverDraws(benchmark::State& state) {
 }
 BENCHMARK(BM_WheelForcesOverDraws)->ArgName("effects")->Arg(0)->Arg(1);
 
+// The same as the balance of a rover asks for it, again and again: the soils' numbers are made once, and each
+// time the wheels have another entry angle.
+void BM_WheelNumbersOverDraws(benchmark::State& state) {
+  constexpr int kDraws = 1024;
+  const bool all = state.range(0) != 0;
+  Soil soil = all ? every_effect() : sandy_loam();
+  std::vector<WheelNumbers> wheels;
+  for (int k = 0; k < kDraws; ++k) {
+    soil.pressure.n *= 1.0 + 1e-4;
+    wheels.push_back(numbers_of(all ? kGrouserWheel : kWheel, soil, 0.4, {0.85, 0.05}));
+  }
+  std::vector<WheelForces> forces(kDraws);
+  for (auto _ : state) {
+    for (WheelNumbers& wheel : wheels) wheel.theta_f = wheel.theta_f > 0.45 ? 0.35 : wheel.theta_f + 1e-6;
+    wheel_forces(wheels, forces);
+    benchmark::DoNotOptimize(forces.data());
+  }
+  state.counters["per_sample"] =
+      benchmark::Counter(kDraws, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.SetLabel(wheel_kernel().instruction_set);
+}
+BENCHMARK(BM_WheelNumbersOverDraws)->ArgName("effects")->Arg(0)->Arg(1);
+
 // The machine's limit for the above: the exponentials and logarithms alone that one wheel needs, packed by
 // the same library over the same number of wheels: arg 0 eight powers and two shears at sixteen nodes (40
 // exp, 8 log), arg 1 with the crust besides and one shear in place of two (32 exp, 8 log).

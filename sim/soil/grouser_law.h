@@ -42,9 +42,20 @@ V grouser_arm_m(const V& radius_m, const V& height_m) {
 // 24 cleats of 5 mm on a rim of 58 mm have 0.5 (fitted there: between 0 and 1 the forces hardly differ), 30
 // of 10 mm on a rim of 157 mm 0.5 (Ding's choice). Properties: 0 without cleats, 1 where the wedges meet;
 // rises with height and count.
-inline double shear_share_by_spacing(double radius_m, double height_m, double count, double tan_phi) {
-  const double wedge = height_m * (tan_phi + std::sqrt(1.0 + tan_phi * tan_phi));
-  return std::min(1.0, wedge * count / (2.0 * M_PI * (radius_m + height_m)));
+template <class V>
+V shear_share_by_spacing(const V& radius_m, const V& height_m, const V& count, const V& tan_phi) {
+  using std::min, std::sqrt;
+  const V wedge = height_m * (tan_phi + sqrt(V(1.0) + tan_phi * tan_phi));
+  return min(V(1.0), wedge * count / (V(2.0 * M_PI) * (radius_m + height_m)));
+}
+
+// That radius, with a share that is given and a factor of the one by spacing.
+template <class V>
+V shear_radius_m(const V& radius_m, const V& height_m, const V& count, const V& share, const V& by_spacing,
+                 const V& tan_phi) {
+  using std::min;
+  const V spaced = shear_share_by_spacing(radius_m, height_m, count, tan_phi);
+  return radius_m + min(V(1.0), share + by_spacing * spaced) * height_m;
 }
 
 }  // namespace slipway::sim

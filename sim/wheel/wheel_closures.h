@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sim/soil/digging_law.h"
+#include "sim/soil/grouser_law.h"
 #include "sim/soil/inclined_load_law.h"
 #include "sim/soil/ploughing_law.h"
 #include "sim/wheel/wheel_law.h"
@@ -21,6 +22,7 @@ struct ClosedContact {
   V sin_f, cos_f;           // of the entry angle in `in`
   V depth_m, dug_m;
   V speed;  // |v| over the shearing radius' speed
+  V tan_phi;
 };
 
 // z = r (1 - cos theta_f) is the depth of the wheel's lowest point, whose radius is the shearing one.
@@ -28,16 +30,20 @@ template <class V>
 ClosedContact<V> closed_contact(const WheelValues<V>& in, const ClosureValues<V>& by) {
   ClosedContact<V> out;
   out.in = in;
-  out.in.forward = in.forward * by.radius_ratio;
-  out.in.leftward = in.leftward * by.radius_ratio;
+  out.tan_phi = tan(in.phi);
+  out.in.radius = shear_radius_m(in.radius, in.grouser_height, by.cleats, by.shear_share, by.shear_by_spacing,
+                                 out.tan_phi);
+  const V radius_ratio = in.radius / out.in.radius;
+  out.in.forward = in.forward * radius_ratio;
+  out.in.leftward = in.leftward * radius_ratio;
   out.speed = sqrt(out.in.forward * out.in.forward + out.in.leftward * out.in.leftward);
   out.dug_m = dug_depth_m(by.rim_dug, by.rim_slip, by.cleat_dug, by.per_cleat_limit, by.dug_sideways,
                           out.in.forward, out.speed);
-  out.cos_e = V(1.0) - by.radius_ratio * (V(1.0) - cos(in.theta_f));
+  out.cos_e = V(1.0) - radius_ratio * (V(1.0) - cos(in.theta_f));
   out.theta_e = acos(out.cos_e);
   out.sin_e = sqrt(max(V(0.0), V(1.0) - out.cos_e * out.cos_e));
-  out.depth_m = in.radius * (V(1.0) - out.cos_e);
-  out.cos_f = min(V(1.0), out.cos_e + out.dug_m / in.radius);
+  out.depth_m = out.in.radius * (V(1.0) - out.cos_e);
+  out.cos_f = min(V(1.0), out.cos_e + out.dug_m / out.in.radius);
   out.sin_f = sqrt(max(V(0.0), V(1.0) - out.cos_f * out.cos_f));
   out.in.theta_f = acos(out.cos_f);
   out.in.stiffness = in.stiffness * inclined_load_share(by.softening, out.in.forward, out.speed);

@@ -36,10 +36,12 @@ void choose_laws(const WheelGeometry& wheel, const Soil& soil, WheelNumbers& num
 
 namespace {
 
-ClosureValues<double> closures_of(const WheelGeometry& wheel, const Soil& soil, double shear_radius) {
+ClosureValues<double> closures_of(const WheelGeometry& wheel, const Soil& soil) {
   const Digging& digging = soil.digging;
   const Ploughing& ploughing = soil.ploughing;
-  return {.radius_ratio = wheel.radius_m / shear_radius,
+  return {.shear_share = wheel.grousers.shear_share,
+          .shear_by_spacing = wheel.grousers.shear_by_spacing,
+          .cleats = wheel.grousers.count,
           .cleat_braking = wheel.grousers.braking,
           .slip_directed = soil.slip_directed,
           .softening = soil.inclined_softening,
@@ -61,11 +63,8 @@ ClosureValues<double> closures_of(const WheelGeometry& wheel, const Soil& soil, 
 
 double shear_radius_m(const WheelGeometry& wheel, const Soil& soil) {
   const Grousers& cleats = wheel.grousers;
-  double share = cleats.shear_share;
-  if (cleats.shear_by_spacing > 0.0 && cleats.height_m > 0.0)
-    share += cleats.shear_by_spacing * shear_share_by_spacing(wheel.radius_m, cleats.height_m, cleats.count,
-                                                              std::tan(soil.friction_angle_rad));
-  return wheel.radius_m + std::min(1.0, share) * cleats.height_m;
+  return shear_radius_m(wheel.radius_m, cleats.height_m, cleats.count, cleats.shear_share,
+                        cleats.shear_by_spacing, std::tan(soil.friction_angle_rad));
 }
 
 double max_entry_angle_rad(const Soil& soil) {
@@ -74,8 +73,10 @@ double max_entry_angle_rad(const Soil& soil) {
 
 WheelNumbers numbers_of(const WheelGeometry& wheel, const Soil& soil, double entry_angle_rad,
                         const WheelMotion& motion) {
-  const double radius = shear_radius_m(wheel, soil);
-  WheelNumbers numbers{{.radius = radius,
+  const Grousers& cleats = wheel.grousers;
+  const bool sheared_beyond_rim =
+      cleats.height_m > 0.0 && (cleats.shear_share > 0.0 || cleats.shear_by_spacing > 0.0);
+  WheelNumbers numbers{{.radius = wheel.radius_m,
                         .width = wheel.width_m,
                         .rim_friction = wheel.rim_friction,
                         .grouser_height = wheel.grousers.height_m,
@@ -111,8 +112,8 @@ WheelNumbers numbers_of(const WheelGeometry& wheel, const Soil& soil, double ent
                         .pressure_numbers = {},
                         .shear_form = {1.0, 0.0},
                         .shear_parameters = {}},
-                       closures_of(wheel, soil, radius),
-                       soil.has_closures() || radius != wheel.radius_m || wheel.grousers.braking != 1.0};
+                       closures_of(wheel, soil),
+                       soil.has_closures() || sheared_beyond_rim || wheel.grousers.braking != 1.0};
   if (soil.pressure_law.row != nullptr || soil.shear_law.row != nullptr) choose_laws(wheel, soil, numbers);
   return numbers;
 }
@@ -138,7 +139,8 @@ void wheel_forces(const WheelGeometry& wheel, std::span<const Soil> soils,
   for (std::size_t first = 0; first < count; first += kChunk) {
     const std::size_t here = std::min(kChunk, count - first);
     for (std::size_t k = 0; k < here; ++k)
-      numbers[k] = numbers_of(wheel, soils[first + k], entry_angles_rad[first + k], motions[first + k]);
+      ::new (&numbers[k])  // in its place: it is large
+          WheelNumbers(numbers_of(wheel, soils[first + k], entry_angles_rad[first + k], motions[first + k]));
     wheel_forces({numbers.data(), here}, forces.subspan(first, here));
   }
 }

@@ -128,7 +128,7 @@ template <class Forces>
 LaneForces<Pack> with_closures(const WheelValues<Pack>& in, const ClosureValues<Pack>& by,
                                const Forces& forces) {
   const ClosedContact<Pack> closed = closed_contact(in, by);
-  ContactAngles<Pack> at = contact_angles(closed.in, closed.sin_f, closed.cos_f);
+  ContactAngles<Pack> at = contact_angles(closed.in, closed.sin_f, closed.cos_f, closed.tan_phi);
   close_angles(by, closed, at);
   LaneForces<Pack> f = forces(closed.in, at);
   add_ploughing(closed, by, f);
