@@ -76,7 +76,10 @@ std::optional<Metre> expected_metre(const PlanProblem& problem, const GroundTabl
                   .digging = slip_over(problem.risk.checks.embedding_slip_ratio),
                   .too_deep = probability_over(embedding_sinkage_m(problem), mean.sinkage_m, weak.sinkage_m)};
   mishaps.immobile = std::min(mishaps.immobile, mishaps.over_limit);
-  const double tilt = Attitude{.roll_rad = roll_rad, .pitch_rad = pitch_rad, .yaw_rad = 0.0}.tilt_rad();
+  const double tilt = Attitude{.roll_rad = roll_rad + entry.roll_lean_rad,
+                               .pitch_rad = pitch_rad + entry.pitch_lean_rad,
+                               .yaw_rad = 0.0}
+                          .tilt_rad();
   return Metre{figures_with(problem, table, unknown, entry, mishaps),
                share_of_limits(problem.limits, entry, tilt)};
 }

@@ -22,7 +22,8 @@ const double kBeyond_rad = rad_from_deg(8.0);
 // Near the steepest side slope that holds the rover its limit of climbing turns up ever faster. Columns whose
 // limits are further apart than this say nothing of each other.
 const double kLimitJump_rad = rad_from_deg(3.0);
-constexpr int kMotionFields = 3;  // speed ratios along and across, power; then sinkages, then currents
+// Speed ratios along and across, power, lean in pitch and roll; then sinkages, then currents.
+constexpr int kMotionFields = 5;
 
 }  // namespace
 
@@ -122,6 +123,8 @@ void SlipTable::fill(Column& column, double lowest_d_rad, double highest_d_rad, 
     *value++ = state.along_m_s / speed_m_s_;
     *value++ = state.leftward_m_s / speed_m_s_;
     *value++ = state.electric_power_w;
+    *value++ = state.attitude.pitch_rad - attitude.pitch_rad;
+    *value++ = state.attitude.roll_rad - attitude.roll_rad;
     for (const WheelState& wheel : state.wheels) *value++ = wheel.sinkage_m;
     for (const WheelState& wheel : state.wheels) *value++ = wheel.current_a;
   }
@@ -158,6 +161,8 @@ TableEntry SlipTable::entry_of(const double* values, double pitch_rad) const {
   entry.slip_ratio = bounded_slip(slip_from_speed_ratio(along));
   entry.side_slip_rad = std::atan2(across, std::abs(along));
   entry.energy_j_m = power_w / (along * speed_m_s_ * std::cos(pitch_rad));
+  entry.pitch_lean_rad = values[3];
+  entry.roll_lean_rad = values[4];
   for (int k = 0; k < wheels_; ++k) {
     entry.sinkage_m = std::max(entry.sinkage_m, values[kMotionFields + k]);
     entry.current_a = std::max(entry.current_a, std::abs(values[kMotionFields + wheels_ + k]));

@@ -14,7 +14,9 @@ struct TableEntry {
   double sinkage_m = 0.0;   // deepest wheel
   double current_a = 0.0;   // largest of the wheels
   double energy_j_m = 0.0;  // per metre made good
-  bool immobile = false;    // then slip is 1, energy 0 and the rest as at the limit
+  // What the wheels' unequal sinkages add to the plane's pitch and roll. 0 on a soil with a slip curve.
+  double pitch_lean_rad = 0.0, roll_lean_rad = 0.0;
+  bool immobile = false;  // then slip is 1, energy 0 and the rest as at the limit
   bool by_slip_curve =
       false;  // the soil has a slip curve: sinkage, current and energy are not known, and 0 here
 };
@@ -29,8 +31,9 @@ struct TableEntry {
 //   xi(d) = (d + (b - a) ln(1 + d / a)) / step     dd/dxi = step (d + a) / (d + b)
 //
 // Tabulated are quantities that stay smooth where slip and side slip do not: the speed ratios along and
-// across, the power, and each wheel's sinkage and current, whose largest is taken after. Cubic between nodes
-// (Lagrange's polynomial through four each way), one-sided at the table's edges and at the limit.
+// across, the power, the lean, and each wheel's sinkage and current, whose largest is taken after. Cubic
+// between nodes (Lagrange's polynomial through four each way), one-sided at the table's edges and at the
+// limit.
 //
 // A soil with a slip curve needs no nodes: its curve is asked at every attitude.
 class SlipTable {

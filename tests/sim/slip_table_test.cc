@@ -25,6 +25,8 @@ class SlipTableOnLoam : public testing::Test {
 };
 
 TEST_F(SlipTableOnLoam, BetweenNodesItIsTheQuasiStaticLevelToAThousandthOfSlip) {
+  const double lean_rad = rad_from_deg(0.02);
+  double largest_lean = 0.0;
   int moving = 0;
   for (double pitch = -23.0; pitch < 23.0; pitch += 1.7)
     for (double roll = -19.0; roll < 19.0; roll += 3.1) {
@@ -38,9 +40,13 @@ TEST_F(SlipTableOnLoam, BetweenNodesItIsTheQuasiStaticLevelToAThousandthOfSlip) 
       EXPECT_NEAR(entry->side_slip_rad, state.side_slip_rad, rad_from_deg(0.2)) << pitch << " " << roll;
       EXPECT_NEAR(entry->sinkage_m, sinkage, 0.01 * sinkage) << pitch << " " << roll;
       EXPECT_NEAR(entry->current_a, current, std::max(0.002, 0.01 * current)) << pitch << " " << roll;
+      EXPECT_NEAR(rad_from_deg(pitch) + entry->pitch_lean_rad, state.attitude.pitch_rad, lean_rad);
+      EXPECT_NEAR(rad_from_deg(roll) + entry->roll_lean_rad, state.attitude.roll_rad, lean_rad);
+      largest_lean = std::max(largest_lean, std::abs(entry->pitch_lean_rad));
       ++moving;
     }
   EXPECT_GT(moving, 300);
+  EXPECT_GT(largest_lean, rad_from_deg(0.1));
 }
 
 TEST_F(SlipTableOnLoam, UpToTheTractionLimitEnergyIsThePowerPerMetreOfProgress) {

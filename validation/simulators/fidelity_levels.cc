@@ -22,6 +22,7 @@ const double kTableLimit_rad = rad_from_deg(30.0), kTableStep_rad = rad_from_deg
 struct Attempt {
   sim::StationState exact;
   sim::TableEntry entry;
+  double pitch_rad = 0.0;  // of the plane
   double energy_j_m = 0.0;
 
   // Whether the table covers the attitude: the rover is not stuck and does not slide down across its heading
@@ -44,6 +45,7 @@ std::vector<Attempt> attempts_on(const sim::RoverModel& rover, double gravity_m_
       attempt.exact =
           solver.solve(sim::stance_on_plane(rover, attitude), soil, {.speed_m_s = rover.cruise_speed_m_s});
       attempt.entry = *table.at(attitude.pitch_rad, attitude.roll_rad);
+      attempt.pitch_rad = attitude.pitch_rad;
       attempt.energy_j_m =
           attempt.exact.electric_power_w / (attempt.exact.forward_m_s * std::cos(attitude.pitch_rad));
       attempts.push_back(attempt);
@@ -56,6 +58,7 @@ std::vector<Attempt> attempts_on(const sim::RoverModel& rover, double gravity_m_
 struct Differences {
   int attitudes = 0;
   double slip = 0.0, slip_rms = 0.0, side_slip_deg = 0.0, sinkage = 0.0, current = 0.0, energy = 0.0;
+  double pitch_deg = 0.0;
 };
 
 Differences differences(const std::vector<Attempt>& attempts, double low, double high) {
@@ -77,6 +80,8 @@ Differences differences(const std::vector<Attempt>& attempts, double low, double
     d.slip_rms += slip * slip;
     d.side_slip_deg =
         std::max(d.side_slip_deg, deg_from_rad(std::abs(a.entry.side_slip_rad - a.exact.side_slip_rad)));
+    const double pitch_rad = a.pitch_rad + a.entry.pitch_lean_rad;
+    d.pitch_deg = std::max(d.pitch_deg, deg_from_rad(std::abs(pitch_rad - a.exact.attitude.pitch_rad)));
     d.sinkage = std::max(d.sinkage, relative(a.entry.sinkage_m, sim::deepest_sinkage_m(a.exact), 0.0));
     d.current =
         std::max(d.current, relative(a.entry.current_a, sim::largest_current_a(a.exact), largest_current));
@@ -93,12 +98,14 @@ void compare(const std::string& name, const std::vector<Attempt>& attempts, doub
   const auto percent = [](double share) { return fmt::format("{:.2f}", 100.0 * share); };
   report.rows.push_back({name, slips, fmt::format("{}", d.attitudes), fmt::format("{:.4f}", d.slip),
                          fmt::format("{:.5f}", d.slip_rms), fmt::format("{:.2f}", d.side_slip_deg),
-                         percent(d.sinkage), percent(d.current), percent(d.energy)});
+                         fmt::format("{:.3f}", d.pitch_deg), percent(d.sinkage), percent(d.current),
+                         percent(d.energy)});
   const auto band = [&](const char* what, double value, double highest) {
     report.bands.push_back({fmt::format("{}, {}, slip {}", what, name, slips), value, 0.0, highest});
   };
   band("largest difference of slip", d.slip, 0.01);
   band("largest difference of side slip, deg", d.side_slip_deg, 1.0);
+  band("largest difference of the body's pitch, deg", d.pitch_deg, 0.05);
   band("largest difference of sinkage, share", d.sinkage, 0.01);
   band("largest difference of current, share", d.current, kCurrentBand);
   band("largest difference of energy per metre, share", d.energy, kEnergyBand);
@@ -150,8 +157,8 @@ Result<Report> table_level(const std::filesystem::path& data) {
       "this project's own quasi-static solver, at attitudes between the table's nodes (2.5 deg apart in "
       "roll)";
   report.columns = {"rover on soil", "slips compared",   "attitudes",    "largest difference of slip",
-                    "rms",           "of side slip deg", "of sinkage %", "of current %",
-                    "of energy %"};
+                    "rms",           "of side slip deg", "of pitch deg", "of sinkage %",
+                    "of current %",  "of energy %"};
   struct Vehicle {
     const char* name;
     double gravity_m_s2;
