@@ -7,6 +7,7 @@
 #include "api/documents/catalogue_documents.h"
 #include "api/documents/check_answer.h"
 #include "api/documents/diagnosis_document.h"
+#include "api/documents/model_check_document.h"
 #include "api/documents/plan_answer.h"
 #include "api/documents/prediction_answer.h"
 #include "api/documents/soil_estimate_document.h"
@@ -92,6 +93,14 @@ std::vector<JobKind> all_kinds() {
                                                                  },
                                                              .report = &diagnosis_page,
                                                              .lane = Lane::kLong}),
+      job_kind(JobKindRow<ModelCheckRequest, ModelCheckAnswer>{.name = "model_check",
+                                                               .path = "/v1/model-checks",
+                                                               .read = &Service::read_model_check,
+                                                               .run = &Service::check_model,
+                                                               .write = &json::model_check_document,
+                                                               .usual_wait = std::chrono::seconds(10),
+                                                               .lane = Lane::kShort,
+                                                               .may_name_model = true}),
       job_kind(JobKindRow<WatchRequest, WatchAnswer>{
           .name = "watch",
           .path = "/v1/watches",

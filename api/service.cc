@@ -140,6 +140,15 @@ Result<DiagnosisRequest> Service::read_diagnosis(std::string_view json) const {
   return std::move(reading->request);
 }
 
+Result<ModelCheckRequest> Service::read_model_check(std::string_view json) const {
+  auto reading = json::read_model_check_request(json);
+  if (!reading) return fail(reading.error());
+  std::vector<Fault>& faults = reading->faults;
+  if (!has_fault_under(faults, "/campaign")) check_campaign(reading->request.campaign, "/campaign", faults);
+  if (!faults.empty()) return fail(ErrorCode::kInvalidRequest, summary_of(faults), faults);
+  return std::move(reading->request);
+}
+
 Result<WatchRequest> Service::read_watch(std::string_view json) const {
   auto reading = json::read_watch_request(json, [this](const std::string& name) { return drives_of(name); });
   if (!reading) return fail(reading.error());
@@ -280,6 +289,16 @@ Result<DiagnosisAnswer> Service::diagnose(const DiagnosisRequest& request, Progr
   auto diagnosis = gap::diagnose(*campaign, options, progress);
   if (!diagnosis) return fail(diagnosis.error());
   return DiagnosisAnswer{request, std::move(*campaign), std::move(*diagnosis)};
+}
+
+Result<ModelCheckAnswer> Service::check_model(const ModelCheckRequest& request, Progress& progress) const {
+  progress.report("reading the drives", 0.0);
+  const auto campaign = drives_of(request.campaign);
+  if (!campaign) return fail(campaign.error());
+  gap::ModelCheckOptions options;
+  options.threads = options_.threads;
+  options.seed = request.seed;
+  return api::check_model(*campaign, *request.model->corrected, request.model->ground, options, progress);
 }
 
 Result<WatchAnswer> Service::watch(const WatchRequest& request, Progress& progress) const {

@@ -14,6 +14,7 @@
 #include "api/ground_evidence.h"
 #include "api/requests/answers.h"
 #include "api/requests/map_request.h"
+#include "api/requests/model_check.h"
 #include "api/requests/soil_estimate.h"
 #include "api/uploads/upload_folder.h"
 #include "api/uploads/uploaded_campaigns.h"
@@ -66,6 +67,7 @@ class Service {
   Result<PredictionRequest> read_prediction(std::string_view json) const;
   Result<CheckRequest> read_check(std::string_view json) const;
   Result<DiagnosisRequest> read_diagnosis(std::string_view json) const;
+  Result<ModelCheckRequest> read_model_check(std::string_view json) const;
   Result<WatchRequest> read_watch(std::string_view json) const;
   Result<SoilEstimateRequest> read_soil_estimate(std::string_view json) const;
   // These need uploads(). Errors also: invalid_request where there are none.
@@ -78,6 +80,7 @@ class Service {
   Result<PredictionAnswer> predict(const PredictionRequest& request, Progress& progress) const;
   Result<CheckAnswer> check(const CheckRequest& request, Progress& progress) const;
   Result<DiagnosisAnswer> diagnose(const DiagnosisRequest& request, Progress& progress) const;
+  Result<ModelCheckAnswer> check_model(const ModelCheckRequest& request, Progress& progress) const;
   Result<WatchAnswer> watch(const WatchRequest& request, Progress& progress) const;
   Result<SoilEstimateAnswer> estimate_soil(const SoilEstimateRequest& request, Progress& progress) const;
   Result<CampaignTaken> take_campaign(const CampaignOrder& order, Progress& progress) const;

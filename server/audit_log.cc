@@ -38,7 +38,9 @@ void AuditLog::record(const AnsweredRequest& answered) {
   w.text("method", request.method).text("path", request.path).text("body_sha256", body.digest());
   w.whole("status", answered.response.status);
   w.text("location", answered.response.header("Location").value_or(""));
-  w.text("id", request.id).end_object();
+  w.text("id", request.id);
+  if (!answered.response.audit.empty()) w.key("what").raw(answered.response.audit);
+  w.end_object();
   const std::string line = w.take() + "\n";
   // One write to a file that only grows: lines of several threads do not mix.
   if (::write(file_.fd(), line.data(), line.size()) != static_cast<ssize_t>(line.size()))

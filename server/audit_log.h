@@ -17,7 +17,7 @@ class AuditLog {
   static Result<AuditLog> open(const std::string& path);
 
   // Time, who, from where, method, address, the body's SHA-256, status, what was made (Location), the
-  // request's id.
+  // request's id, and what the answer has for the log (HttpResponse::audit).
   void record(const AnsweredRequest& answered);
 
  private:

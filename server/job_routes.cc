@@ -80,11 +80,18 @@ class JobRoutes {
 
   HttpResponse list(const HttpRequest& request) {
     constexpr std::size_t kUsuallyListed = 50;
-    Query query(request, {"limit"});
+    Query query(request, {"limit", "kind", "state"});
     const std::size_t limit = query.count("limit", kUsuallyListed, options_.most_listed);
+    const std::string kind = query.text("kind"), state = query.text("state");
+    if (!state.empty() && !api::job_state(state)) query.fault("state", "is no state of jobs");
     if (const auto error = query.error()) return problem_response(*error, &request);
-    const auto jobs = runner_.store().list(limit);
+    const bool all = kind.empty() && state.empty();
+    auto jobs = runner_.store().list(all ? limit : options_.most_listed);
     if (!jobs) return problem_response(jobs.error(), &request);
+    std::erase_if(*jobs, [&](const api::Job& job) {
+      return (!kind.empty() && job.kind != kind) || (!state.empty() && api::describe(job.state) != state);
+    });
+    if (jobs->size() > limit) jobs->resize(limit);
     HttpResponse response = document(api::json::write_jobs(*jobs));
     const std::string tag = tag_of(response.body);
     return tagged(std::move(response), tag, request);

@@ -9,7 +9,9 @@
 #include "api/documents/wheel_sweep_answer.h"
 #include "api/openapi.h"
 #include "api/wheel_sweep.h"
+#include "server/comparison_routes.h"
 #include "server/job_routes.h"
+#include "server/override_routes.h"
 #include "server/query.h"
 #include "server/request_headers.h"
 #include "server/responses.h"
@@ -66,7 +68,8 @@ std::vector<Route> api_routes(const api::Service& service, api::JobRunner& runne
        /*heavy=*/true},
   };
   for (std::vector<Route> more :
-       {job_routes(service, runner, options, kinds), upload_routes(service), terrain_routes(service)})
+       {job_routes(service, runner, options, kinds), comparison_routes(runner.store()),
+        override_routes(runner.store()), upload_routes(service), terrain_routes(service)})
     std::move(more.begin(), more.end(), std::back_inserter(routes));
   return routes;
 }

@@ -1,5 +1,6 @@
 #include "api/documents/diagnosis_request.h"
 
+#include "api/documents/model_object.h"
 #include "api/json/faults.h"
 #include "api/json/parse.h"
 #include "api/json/strict_reader.h"
@@ -36,6 +37,22 @@ Result<Reading<DiagnosisRequest>> read_diagnosis_request(std::string_view bytes)
   reader.refuse_unknown();
   if (!request.reference.empty() && request.reference == request.campaign)
     reading.faults.push_back({"/reference", "must be other drives than those that are diagnosed"});
+  return reading;
+}
+
+Result<Reading<ModelCheckRequest>> read_model_check_request(std::string_view bytes) {
+  const auto document = parse(bytes, {.bytes = RequestLimits::kBodyBytes});
+  if (!document) return fail(document.error());
+  Reading<ModelCheckRequest> reading;
+  ModelCheckRequest& request = reading.request;
+  ObjectReader reader(*document, "", reading.faults);
+  if (!reader.is_object()) return reading;
+  reader.text("campaign", kRequired, {.most = 64, .is_name = true}, request.campaign);
+  read_whole_model(reader, request.model);
+  if (!request.model && !has_fault_under(reading.faults, "/model"))
+    reading.faults.push_back({"/model", "is missing"});
+  reader.whole("seed", kOptional, std::uint64_t{0}, kMaxExactWhole, request.seed);
+  reader.refuse_unknown();
   return reading;
 }
 

@@ -19,4 +19,7 @@ void read_search_keys(ObjectReader& reader, std::vector<std::string>& without, s
 // is such a campaign is the service's to say.
 Result<Reading<DiagnosisRequest>> read_diagnosis_request(std::string_view bytes);
 
+// The same of a request as it is recorded, with the model in it: see model_reference.h.
+Result<Reading<ModelCheckRequest>> read_model_check_request(std::string_view bytes);
+
 }  // namespace slipway::api::json

@@ -52,6 +52,7 @@ struct HttpResponse {
   // An answer without a body that goes on: it ends with the connection. Called once with what to write into
   // when the head is on its way; not for HEAD.
   std::function<void(std::shared_ptr<AnswerStream>)> stream = {};
+  std::string audit = {};  // a JSON object for the audit log, which is not sent
 
   std::optional<std::string> header(std::string_view name) const;
 };
