@@ -12,7 +12,7 @@
 
 #include "api/job_kinds.h"
 #include "api/jobs/job_runner.h"
-#include "api/jobs/sqlite_job_store.h"
+#include "api/jobs/open_job_store.h"
 #include "api/service.h"
 #include "core/file_descriptor.h"
 #include "core/process_limits.h"
@@ -33,7 +33,7 @@ std::optional<Error> fault_of(const WorkerOptions& options) {
     if (api::find_kind(api::job_kinds(), kind) == nullptr)
       faults.push_back({"/kind", fmt::format("\"{}\" is no kind of job", kind)});
   if (options.jobs.empty())
-    faults.push_back({"/jobs", "a worker needs a store on disk that it shares with a service"});
+    faults.push_back({"/jobs", "a worker needs a store that it shares with a service: a file or a database"});
   if (faults.empty()) return std::nullopt;
   return Error{ErrorCode::kInvalidRequest, "the worker can't be started so", std::move(faults)};
 }
@@ -86,13 +86,15 @@ int work(const WorkerOptions& options) {
   }
   const auto service = api::Service::open({.data = *data, .uploads = uploads});
   if (!service) return refuse(service.error());
-  auto store = api::open_sqlite_job_store(options.jobs, api::StoreCheck::kSchema);
+  auto store = api::open_job_store(options.jobs, api::StoreCheck::kSchema);
   if (!store) return refuse(store.error());
   api::JobRunnerOptions how;
   how.workers = {options.kinds};
   how.worker = options.name.empty() ? "worker " + api::new_job_id() : options.name;
   how.max_time = options.of_job.max_time();
   how.kept = std::nullopt;
+  how.lease = options.lease.time();
+  if (api::is_database(options.jobs)) how.progress_interval = milliseconds(1000);  // many share it
   const milliseconds lease = how.lease;
   api::JobRunner runner(std::move(*store), api::service_work(**service), how);
   if (options.bell) runner.on_change(ring_at_the_output);

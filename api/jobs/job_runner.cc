@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <exception>
 #include <new>
+#include <random>
 #include <ratio>
 #include <utility>
 
@@ -115,7 +116,18 @@ Result<void> JobRunner::start() {
                                             : store_->release(options_.worker, HandBack::kStopped);
   if (!released) return fail(released.error());
   trim();
-  if (!options_.works_here) return {};
+  if (!options_.works_here) {
+    store_->listen(StoreNews::kEnded, [this] {
+      const std::scoped_lock lock(mutex_);
+      ended_.notify_all();
+    });
+    return {};
+  }
+  store_->listen(StoreNews::kAccepted, [this] {
+    const std::scoped_lock lock(mutex_);
+    ++work_rings_;
+    submitted_.notify_all();
+  });
   for (const std::vector<std::string>& kinds : options_.workers) {
     threads_.emplace_back([this, &kinds] { serve(kinds); });
   }
@@ -123,6 +135,7 @@ Result<void> JobRunner::start() {
 }
 
 void JobRunner::stop() {
+  for (const StoreNews news : {StoreNews::kAccepted, StoreNews::kEnded}) store_->listen(news, {});
   {
     const std::scoped_lock lock(mutex_);
     stopping_ = true;
@@ -157,6 +170,7 @@ void JobRunner::trim() {
 void JobRunner::ring() {
   const std::scoped_lock lock(mutex_);
   ++rings_;
+  ++work_rings_;
   submitted_.notify_all();  // not every worker takes every kind
   ended_.notify_all();
 }
@@ -215,8 +229,11 @@ Result<std::optional<Job>> JobRunner::wait(std::string_view id, std::chrono::mil
 }
 
 void JobRunner::serve(const std::vector<std::string>& kinds) {
+  std::minstd_rand chance{std::random_device{}()};
+  // Workers that all became idle at once do not all look at once.
+  std::uniform_real_distribution<double> share(0.5, 1.0);
   while (!stopping_) {
-    const int seen = rings_;
+    const int seen = work_rings_;
     const std::int64_t now = now_ms();
     const auto claimed = store_->claim(options_.worker, kinds, now, now + options_.lease.count());
     if (claimed && *claimed) {
@@ -224,7 +241,8 @@ void JobRunner::serve(const std::vector<std::string>& kinds) {
       continue;
     }
     std::unique_lock lock(mutex_);
-    submitted_.wait_for(lock, options_.idle_poll, [&] { return stopping_ || rings_ != seen; });
+    submitted_.wait_for(lock, options_.idle_poll * share(chance),
+                        [&] { return stopping_ || work_rings_ != seen; });
   }
 }
 
@@ -280,8 +298,17 @@ Result<JobAnswer> JobRunner::answer_of(const ClaimedJob& claimed, JobProgress& p
 void JobRunner::conclude(const ClaimedJob& claimed, const Result<JobAnswer>& answer) {
   const JobState state = answer ? JobState::kSuccessful : JobState::kFailed;
   const JobAnswer outcome = answer ? *answer : JobAnswer(json::write_problem(answer.error()));
-  // The store refuses it when the job was dismissed meanwhile: then nobody ever sees this outcome.
-  static_cast<void>(store_->finish(claimed.lease(), state, outcome, now_ms()));
+  // The store refuses it when the job was dismissed meanwhile: then nobody ever sees this outcome. A store
+  // that can't be reached for a moment is no reason to throw the work away; after the lease somebody else
+  // does it.
+  const auto until = std::chrono::steady_clock::now() + options_.lease;
+  constexpr std::chrono::milliseconds kBetweenTries{200};
+  for (;;) {
+    const auto kept = store_->finish(claimed.lease(), state, outcome, now_ms());
+    const bool may_pass = !kept && kept.error().code == ErrorCode::kStorage;
+    if (!may_pass || stopping_ || std::chrono::steady_clock::now() >= until) break;
+    std::this_thread::sleep_for(kBetweenTries);
+  }
   trim();
 }
 

@@ -110,7 +110,8 @@ class JobRunner {
   std::condition_variable ended_;
   std::map<std::string, JobProgress*, std::less<>> active_;  // by job id
   std::function<void()> on_change_;
-  std::atomic<int> rings_{0};  // so that none is missed between a claim and the wait for the next
+  std::atomic<int> rings_{0};
+  std::atomic<int> work_rings_{0};  // so that none is missed between a claim and the wait for the next
   std::atomic<bool> stopping_{false};
   std::atomic<int> running_{0};
   std::vector<std::thread> threads_;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -46,18 +47,21 @@ struct QueuePlace {
   std::optional<double> work_ahead_s;
 };
 
-// The right to work on a job until the lease ends or is renewed. The attempt is the fence: a worker that was
-// taken for dead and comes back holds an old attempt, and nothing that it writes is kept.
+// The right to work on a job until the lease ends or is renewed. Attempt and worker are the fence: a worker
+// that was taken for dead and comes back holds an old attempt, and nothing that it writes is kept. A store
+// that may lose a claim in a crash gives an attempt's number again, but to a worker of another name.
 struct Lease {
   std::string id;
   int attempt = 0;
+  std::string worker = {};
 };
 
 struct ClaimedJob {
   Job job;
   std::string request;
-  bool damaged = false;  // the stored request is not what was accepted, and must not be run
-  Lease lease() const { return {job.id, job.attempt}; }
+  bool damaged = false;     // the stored request is not what was accepted, and must not be run
+  std::string worker = {};  // who claimed it
+  Lease lease() const { return {job.id, job.attempt, worker}; }
 };
 
 // What is kept of a job that ended well.
@@ -89,13 +93,21 @@ struct Retention {
   std::int64_t most_bytes = std::int64_t{4} << 30;  // of requests and outcomes
 };
 
-// Where jobs are kept: the one thing that machines would have to share. Every call stands alone and holds
-// nothing open afterwards, so that a database server or a service can implement it: append, claim, report,
-// finish and dismiss each are one atomic statement or transaction, and a claim does not keep its transaction
-// while the job runs (PostgreSQL: SELECT ... FOR UPDATE SKIP LOCKED, then a lease). Times come from the
-// caller; machines that share a store keep their clocks within a fraction of the lease.
+// What happens to a store that somebody may wait for.
+enum class StoreNews {
+  kAccepted,  // there is work
+  kEnded,     // a job has ended or was dismissed
+};
+
+// Where jobs are kept: the one thing that processes and machines share. Every call stands alone and holds
+// nothing open afterwards: append, claim, report, finish and dismiss each are one atomic statement or
+// transaction, and a claim does not keep its transaction while the job runs. Times come from the caller;
+// machines that share a store keep their clocks within a fraction of the lease. Names of workers are new at
+// each start of a process.
 //
-// Errors are always `storage`, or `storage_full` where the disk is full, except where said. Thread-safe.
+// Errors are always `storage`, or `storage_full` where the disk is full, except where said. After `storage`
+// the change may have been made all the same: who asks again with the same key, id or lease finds it made
+// once. Thread-safe.
 class JobStore {
  public:
   virtual ~JobStore() = default;
@@ -144,6 +156,11 @@ class JobStore {
   virtual Result<std::vector<Job>> list(std::size_t most) = 0;
   // Forgets the ended jobs that are not to be kept, and gives their place back. Returns how many.
   virtual Result<int> forget_ended(const Retention& kept, std::int64_t now) = 0;
+
+  // Has `call` called, from a thread of the store's, soon after another process has made such news; an empty
+  // one ends that. A store that does not hear of others never calls, and news may be missed: who waits looks
+  // from time to time too.
+  virtual void listen(StoreNews /*news*/, std::function<void()> /*call*/) {}
 };
 
 }  // namespace slipway::api

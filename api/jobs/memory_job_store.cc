@@ -67,7 +67,7 @@ class MemoryJobStore final : public JobStore {
     ++job.version;
     next->worker = worker;
     next->lease_until = lease_until;
-    return ClaimedJob{job, next->asked.request};
+    return ClaimedJob{.job = job, .request = next->asked.request, .worker = std::string(worker)};
   }
 
   Result<bool> report(const Lease& lease, std::string_view stage, double progress, std::int64_t lease_until,

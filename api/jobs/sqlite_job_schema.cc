@@ -10,7 +10,7 @@
 
 #include "api/files/whole_file.h"
 #include "api/jobs/job.h"
-#include "core/sha256.h"
+#include "api/jobs/job_digest.h"
 #include "core/utc.h"
 
 namespace slipway::api {
@@ -129,16 +129,6 @@ void make_tables_where_empty(SqliteConnection& connection) {
   transaction.commit();
 }
 
-// With the length of each part before it, so that only the same parts have the same digest.
-std::string digest_of_parts(std::initializer_list<std::string_view> parts) {
-  Sha256 hash;
-  for (const std::string_view part : parts) {
-    hash.add(fmt::format("{}:", part.size()));
-    hash.add(part);
-  }
-  return hash.digest();
-}
-
 void check_columns(SqliteConnection& connection, const fs::path& store) {
   std::vector<std::string> found;
   auto row = connection.prepare("SELECT name FROM pragma_table_info('jobs') ORDER BY cid");
@@ -198,18 +188,6 @@ void bring_up_from_2(SqliteConnection& connection) {
 }
 
 }  // namespace
-
-std::string request_digest(std::string_view id, std::string_view kind, std::string_view request) {
-  return digest_of_parts({id, kind, request});
-}
-
-std::string outcome_digest(std::string_view id, std::string_view state, std::string_view outcome) {
-  return digest_of_parts({id, state, outcome});
-}
-
-std::string series_digest(std::string_view id, std::int64_t page, std::string_view bytes) {
-  return digest_of_parts({id, fmt::format("series {}", page), bytes});
-}
 
 void check_marker(const fs::path& store) {
   std::error_code ignored;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "api/jobs/job_admission.h"
+#include "api/jobs/job_digest.h"
 #include "api/jobs/sqlite_connection.h"
 #include "api/jobs/sqlite_job_schema.h"
 
@@ -136,6 +137,7 @@ class SqliteJobStore final : public JobStore {
       const std::optional<Job> job = get_from(quick_, id);
       if (!job) throw SqliteDamage("a job is not found under its id");
       claimed.job = *job;
+      claimed.worker = worker;
       transaction.commit();
       return claimed;
     });

@@ -25,11 +25,25 @@ void add_job_limits(CLI::App& command, JobLimits& limits) {
       ->check(CLI::Range(0.01, 1e6));
 }
 
+void add_store(CLI::App& command, std::string& jobs, LeaseOption& lease, const char* when_empty) {
+  command
+      .add_option("--jobs", jobs,
+                  fmt::format("SQLite file of the jobs, or the PostgreSQL database "
+                              "postgresql://USER@HOST:PORT/DATABASE that several machines share{}",
+                              when_empty))
+      ->capture_default_str();
+  command
+      .add_option("--lease-s", lease.seconds,
+                  "seconds for which a worker may be silent before its job is given to another")
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 3600.0));
+}
+
 void add_upload_place(CLI::App& command, UploadPlace& place) {
-  command.add_option(
-      "--uploads", place.given,
-      "folder of maps and drives that clients send, else the folder uploads beside the jobs; \"\" "
-      "takes none, nor does a service with its jobs in memory");
+  command.add_option("--uploads", place.given,
+                     "folder of maps and drives that clients send, else the folder uploads beside the file "
+                     "of the jobs; \"\" "
+                     "takes none, nor does a service with its jobs in memory");
   command.add_option("--keep-uploads-mb", place.keep_mb, "megabytes of that folder at most")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1e9));
@@ -39,7 +53,7 @@ void add_worker_command(CLI::App& app, std::function<int()>& run) {
   const auto options = std::make_shared<WorkerOptions>();
   CLI::App* command = app.add_subcommand("worker", "work on the jobs of a store until interrupted");
   add_data_option(*command, options->data, "rovers, soils and terrains");
-  command->add_option("--jobs", options->jobs, "SQLite file of the jobs")->capture_default_str();
+  add_store(*command, options->jobs, options->lease, "");
   add_upload_place(*command, options->uploads);
   command->add_option("--kind", options->kinds, "work on jobs of this kind only; may be repeated")
       ->allow_extra_args(false);
@@ -123,8 +137,9 @@ void add_serve_command(CLI::App& app, std::function<int()>& run) {
   command->add_option("--port", options->port, "port; 0 takes a free one")
       ->capture_default_str()
       ->check(CLI::Range(0, 65535));
-  command->add_option("--jobs", options->jobs, "SQLite file of the jobs; \"\" keeps them in memory")
-      ->capture_default_str();
+  add_store(*command, options->jobs, options->lease, "; \"\" keeps them in memory");
+  command->add_flag("--no-workers", options->no_workers,
+                    "start no workers: others, on this machine or elsewhere, work on the store");
   add_upload_place(*command, options->uploads);
   command->add_option("--upload-mb", options->upload_mb, "megabytes of one file that is sent")
       ->capture_default_str()

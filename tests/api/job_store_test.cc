@@ -7,7 +7,9 @@
 #include <thread>
 
 #include "api/jobs/memory_job_store.h"
+#include "api/jobs/postgres_job_store.h"
 #include "api/jobs/sqlite_job_store.h"
+#include "postgres_schema.h"
 #include "small_world.h"
 
 namespace slipway::api {
@@ -18,12 +20,18 @@ using testing::ScratchFolder;
 const std::vector<std::string> kBoth{"plan", "prediction"};
 constexpr std::size_t kMany = 1000;
 
-// Both implementations keep the same promises.
+// All implementations keep the same promises.
 class JobStores : public ::testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
     if (GetParam() == "memory") {
       store_ = make_memory_job_store();
+    } else if (GetParam() == "postgresql") {
+      schema_ = testing::PostgresSchema::make();
+      if (!schema_) GTEST_SKIP() << testing::kNoPostgres;
+      auto opened = open_postgres_job_store(schema_->address());
+      ASSERT_TRUE(opened) << opened.error().detail;
+      store_ = std::move(*opened);
     } else {
       auto opened = open_sqlite_job_store(folder_.path() / "jobs.sqlite");
       ASSERT_TRUE(opened) << opened.error().detail;
@@ -43,12 +51,15 @@ class JobStores : public ::testing::TestWithParam<std::string> {
   }
   Job get(const std::string& id) { return store_->get(id).value().value(); }
 
+  void TearDown() override { store_.reset(); }
+
   ScratchFolder folder_;
+  std::unique_ptr<testing::PostgresSchema> schema_;
   std::unique_ptr<JobStore> store_;
   std::int64_t now_ = 1'700'000'000'000;
 };
 
-INSTANTIATE_TEST_SUITE_P(Each, JobStores, ::testing::Values("memory", "sqlite"),
+INSTANTIATE_TEST_SUITE_P(Each, JobStores, ::testing::Values("memory", "sqlite", "postgresql"),
                          [](const auto& instance) { return instance.param; });
 
 TEST_P(JobStores, AJobGoesFromAcceptedOverRunningToSuccessful) {
@@ -216,8 +227,8 @@ TEST_P(JobStores, TheMostUrgentIsClaimedFirst) {
 
 TEST_P(JobStores, APlaceInTheQueueCountsWhatBeginsBefore) {
   const std::string ended = accept();
-  claim();
-  ASSERT_TRUE(store_->finish({ended, 1}, JobState::kSuccessful, std::string("answer"), now_ + 4000).value());
+  ASSERT_TRUE(
+      store_->finish(claim().lease(), JobState::kSuccessful, std::string("answer"), now_ + 4000).value());
   accept();
   claim();
   accept("prediction");
