@@ -215,7 +215,8 @@ int serve(const ServeOptions& given) {
   std::cerr << left_out_text(*(*service)->catalogue());
   const auto jobs = open_jobs(options);
   if (!jobs) return refuse(jobs.error());
-  api::JobRunner runner(jobs->store, api::service_work(**service), jobs->runner);
+  api::JobRunner runner(jobs->store, api::service_work(**service), jobs->runner,
+                        api::service_work_in_parts(**service));
   std::optional<WorkerProcesses> workers;
   if (!jobs->runner.works_here && !options.no_workers) {
     workers.emplace(

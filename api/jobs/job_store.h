@@ -54,6 +54,7 @@ struct Lease {
   std::string id;
   int attempt = 0;
   std::string worker = {};
+  std::string whole = {};  // the job that it is a part of; empty: of none
 };
 
 struct ClaimedJob {
@@ -61,7 +62,7 @@ struct ClaimedJob {
   std::string request;
   bool damaged = false;     // the stored request is not what was accepted, and must not be run
   std::string worker = {};  // who claimed it
-  Lease lease() const { return {job.id, job.attempt, worker}; }
+  Lease lease() const { return {job.id, job.attempt, worker, job.whole}; }
 };
 
 // What is kept of a job that ended well.
@@ -72,6 +73,7 @@ struct JobAnswer {
 
   std::string bytes;
   std::vector<std::string> series;  // a long table in pages, which are kept and read one by one
+  double cpu_s = 0.0;               // processor time that it took
 };
 
 // A page of such a table.
@@ -131,6 +133,15 @@ class JobStore {
   // kept.
   virtual Result<bool> finish(const Lease& lease, JobState state, const JobAnswer& outcome,
                               std::int64_t now) = 0;
+  // Divides the job into parts, which are jobs of its kind, owner and urgency with these requests, and gives
+  // the lease back. Until the last part has ended the job is running and nobody's; in the transaction of that
+  // end it is accepted again, to be put together from its parts' answers. Parts are dismissed and forgotten
+  // with their job and count for no Admission. Of an answer, only that of the whole is waited for: a part of
+  // which a crash has lost the end is done again. False: the lease is lost, nothing was kept.
+  virtual Result<bool> split(const Lease& lease, const std::vector<std::string>& requests,
+                             std::int64_t now) = 0;
+  // In their order; none of a job without parts, or of an unknown one.
+  virtual Result<std::vector<Job>> parts(std::string_view id) = 0;
   // Gives back what `worker`, or one named after it ("worker/..."), holds, as accepted. A death is counted,
   // and its reason kept with the job.
   virtual Result<int> release(std::string_view worker, HandBack why, std::string_view reason = {}) = 0;
@@ -152,7 +163,7 @@ class JobStore {
                                                            const std::vector<std::string>& kinds) = 0;
   // Of those that are kept, by kind and state.
   virtual Result<std::vector<JobCount>> counts() = 0;
-  // Newest first.
+  // Newest first, without parts.
   virtual Result<std::vector<Job>> list(std::size_t most) = 0;
   // Forgets the ended jobs that are not to be kept, and gives their place back. Returns how many.
   virtual Result<int> forget_ended(const Retention& kept, std::int64_t now) = 0;

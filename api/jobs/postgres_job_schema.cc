@@ -35,13 +35,21 @@ constexpr std::array kTables{
   best_so_far text NOT NULL DEFAULT '',
   owner text NOT NULL DEFAULT '',
   idempotency_key text,
-  urgency bigint NOT NULL
+  urgency bigint NOT NULL,
+  cpu_s double precision NOT NULL DEFAULT 0,
+  whole text REFERENCES slipway_jobs (id) ON DELETE CASCADE,
+  part bigint NOT NULL DEFAULT 0,
+  parts bigint NOT NULL DEFAULT 0,
+  parts_ended bigint NOT NULL DEFAULT 0,
+  parts_failed bigint NOT NULL DEFAULT 0,
+  parts_cpu_s double precision NOT NULL DEFAULT 0
 ) WITH (fillfactor = 70, autovacuum_vacuum_scale_factor = 0.02, autovacuum_vacuum_threshold = 200))",
     "CREATE UNIQUE INDEX slipway_jobs_keys ON slipway_jobs (owner, idempotency_key) "
     "WHERE idempotency_key IS NOT NULL",
     "CREATE INDEX slipway_jobs_waiting ON slipway_jobs (urgency, sequence) WHERE state = 'accepted'",
     "CREATE INDEX slipway_jobs_leased ON slipway_jobs (lease_until_ms) WHERE state = 'running'",
     "CREATE INDEX slipway_jobs_ended ON slipway_jobs (sequence) WHERE state NOT IN ('accepted', 'running')",
+    "CREATE INDEX slipway_jobs_parts ON slipway_jobs (whole, part) WHERE whole IS NOT NULL",
     R"(CREATE TABLE slipway_series (
   job_id text NOT NULL REFERENCES slipway_jobs (id) ON DELETE CASCADE,
   page bigint NOT NULL,

@@ -9,55 +9,16 @@
 #include "api/jobs/job_admission.h"
 #include "api/jobs/job_digest.h"
 #include "api/jobs/postgres_bell.h"
+#include "api/jobs/postgres_job_rows.h"
 #include "api/jobs/postgres_job_schema.h"
 #include "api/jobs/postgres_pool.h"
 
 namespace slipway::api {
 namespace {
 
-constexpr std::string_view kJobColumns =
-    "id, kind, state, stage, progress, version, attempt, created_ms, started_ms, ended_ms, deaths, "
-    "last_death, "
-    "urgency, owner, best_so_far";
-constexpr int kJobColumnCount = 15;
-// What a lease still holds; $1 to $3 are its.
-constexpr std::string_view kHeld = "id = $1 AND attempt = $2 AND worker = $3 AND state = 'running'";
-
-Job job_of(const PostgresRows& rows, int row) {
-  const auto state = job_state(rows.text(row, 2));
-  if (!state) throw PostgresFailure("a job has a state that is none");
-  Job job;
-  job.id = rows.text(row, 0);
-  job.kind = rows.text(row, 1);
-  job.state = *state;
-  job.stage = rows.text(row, 3);
-  job.progress = rows.real(row, 4);
-  job.version = rows.number(row, 5);
-  job.attempt = static_cast<int>(rows.number(row, 6));
-  job.created_ms = rows.number(row, 7);
-  job.started_ms = rows.optional_number(row, 8);
-  job.ended_ms = rows.optional_number(row, 9);
-  job.deaths = static_cast<int>(rows.number(row, 10));
-  job.last_death = rows.text(row, 11);
-  job.urgency = static_cast<int>(rows.number(row, 12));
-  job.owner = rows.text(row, 13);
-  job.best_so_far = rows.text(row, 14);
-  return job;
-}
-
-std::optional<Job> get_from(PostgresConnection& connection, std::string_view id) {
-  const PostgresRows rows = connection.run(
-      fmt::format("SELECT {} FROM slipway_jobs WHERE id = $1", kJobColumns), PostgresValues().text(id));
-  return rows.count() == 1 ? std::optional(job_of(rows, 0)) : std::nullopt;
-}
-
 // "AND kind = ANY($n)"; nothing where any kind will do. The list is bound by the caller then.
 std::string among(const std::vector<std::string>& kinds, int n) {
   return kinds.empty() ? "" : fmt::format("AND kind = ANY(${}::text[])", n);
-}
-
-PostgresValues held(const Lease& lease) {
-  return PostgresValues().text(lease.id).number(lease.attempt).text(lease.worker);
 }
 
 // What stands in the store before a job is appended, and whether it was.
@@ -123,7 +84,7 @@ class PostgresJobStore final : public JobStore {
         "last_death = CASE state WHEN 'running' THEN $2 ELSE last_death END, state = 'running', "
         "best_so_far = '', started_ms = $1, attempt = attempt + 1, version = version + 1, worker = $3, "
         "lease_until_ms = $4 FROM next WHERE sequence = chosen RETURNING {1}, request, request_sha256",
-        among(kinds, 5), kJobColumns);
+        among(kinds, 5), kJobRow);
     return quick_.run([&](PostgresConnection& connection) -> std::optional<ClaimedJob> {
       PostgresValues values;
       values.number(now).text(kLeaseEnded).text(worker).number(lease_until);
@@ -132,9 +93,9 @@ class PostgresJobStore final : public JobStore {
       if (rows.count() == 0) return std::nullopt;
       ClaimedJob claimed;
       claimed.job = job_of(rows, 0);
-      claimed.request = rows.text(0, kJobColumnCount);
+      claimed.request = rows.text(0, kJobRowColumns);
       claimed.worker = worker;
-      claimed.damaged = rows.text(0, kJobColumnCount + 1) !=
+      claimed.damaged = rows.text(0, kJobRowColumns + 1) !=
                         request_digest(claimed.job.id, claimed.job.kind, claimed.request);
       return claimed;
     });
@@ -148,7 +109,7 @@ class PostgresJobStore final : public JobStore {
               "UPDATE slipway_jobs SET version = version + CASE WHEN stage <> $4 OR progress <> $5 OR "
               "$7 <> '' THEN 1 ELSE 0 END, stage = $4, progress = $5, lease_until_ms = $6, "
               "best_so_far = CASE $7 WHEN '' THEN best_so_far ELSE $7 END WHERE {}",
-              kHeld),
+              kHeldRow),
           held(lease).text(stage).real(progress).number(lease_until).text(best_so_far));
       return rows.changed() == 1;
     });
@@ -156,31 +117,38 @@ class PostgresJobStore final : public JobStore {
 
   Result<bool> finish(const Lease& lease, JobState state, const JobAnswer& outcome,
                       std::int64_t now) override {
-    const std::string digest = outcome_digest(lease.id, describe(state), outcome.bytes);
-    auto kept = durable_.run([&](PostgresConnection& connection) {
+    // The end of a part is nobody's answer yet.
+    PostgresPool& pool = lease.whole.empty() ? durable_ : quick_;
+    bool to_put_together = false;
+    auto kept = pool.run([&](PostgresConnection& connection) {
       PostgresTransaction transaction(connection);
-      const PostgresRows rows = connection.run(
-          fmt::format(
-              "UPDATE slipway_jobs SET state = $4, outcome = $5, outcome_sha256 = $6, ended_ms = $7, "
-              "version = version + 1, progress = CASE $4 WHEN 'successful' THEN 1.0 ELSE progress END "
-              "WHERE {}",
-              kHeld),
-          held(lease).text(describe(state)).text(outcome.bytes).text(digest).number(now));
-      if (rows.changed() != 1) return was_finished(connection, transaction, lease, digest);
-      for (std::size_t k = 0; k < outcome.series.size(); ++k) {
-        const auto page = static_cast<std::int64_t>(k + 1);
-        connection.run("INSERT INTO slipway_series (job_id, page, bytes, sha256) VALUES ($1, $2, $3, $4)",
-                       PostgresValues()
-                           .text(lease.id)
-                           .number(page)
-                           .text(outcome.series[k])
-                           .text(series_digest(lease.id, page, outcome.series[k])));
-      }
+      const bool held = end_job(connection, lease, state, outcome, now, to_put_together);
       transaction.commit();
-      return true;
+      return held;
     });
-    if (kept && *kept) bell_.ring(StoreNews::kEnded);
+    if (to_put_together) bell_.ring(StoreNews::kAccepted);
+    if (kept && *kept && lease.whole.empty()) bell_.ring(StoreNews::kEnded);
     return kept;
+  }
+
+  Result<bool> split(const Lease& lease, const std::vector<std::string>& requests,
+                     std::int64_t now) override {
+    auto kept = quick_.run([&](PostgresConnection& connection) {
+      PostgresTransaction transaction(connection);
+      const bool held = split_job(connection, lease, requests, now);
+      transaction.commit();
+      return held;
+    });
+    if (kept && *kept) bell_.ring(StoreNews::kAccepted);
+    return kept;
+  }
+
+  Result<std::vector<Job>> parts(std::string_view id) override {
+    return quick_.run([&](PostgresConnection& connection) {
+      return jobs_of(
+          connection.run(fmt::format("SELECT {} FROM slipway_jobs WHERE whole = $1 ORDER BY part", kJobRow),
+                         PostgresValues().text(id)));
+    });
   }
 
   Result<int> release(std::string_view worker, HandBack why, std::string_view reason) override {
@@ -202,13 +170,13 @@ class PostgresJobStore final : public JobStore {
 
   Result<std::optional<Job>> dismiss(std::string_view id, std::int64_t now) override {
     auto job = durable_.run([&](PostgresConnection& connection) {
-      connection.run(
-          "UPDATE slipway_jobs SET state = 'dismissed', ended_ms = $2, version = version + 1, worker = NULL "
-          "WHERE id = $1 AND state IN ('accepted', 'running')",
-          PostgresValues().text(id).number(now));
-      return get_from(connection, id);
+      PostgresTransaction transaction(connection);
+      dismiss_job(connection, id, now);
+      std::optional<Job> dismissed = get_from(connection, id);
+      transaction.commit();
+      return dismissed;
     });
-    if (job && *job) bell_.ring(StoreNews::kEnded);
+    if (job && *job) bell_.ring((*job)->whole.empty() ? StoreNews::kEnded : StoreNews::kAccepted);
     return job;
   }
 
@@ -302,12 +270,10 @@ class PostgresJobStore final : public JobStore {
 
   Result<std::vector<Job>> list(std::size_t most) override {
     return quick_.run([&](PostgresConnection& connection) {
-      const PostgresRows rows = connection.run(
-          fmt::format("SELECT {} FROM slipway_jobs ORDER BY sequence DESC LIMIT $1", kJobColumns),
-          PostgresValues().number(static_cast<std::int64_t>(most)));
-      std::vector<Job> jobs;
-      for (int row = 0; row < rows.count(); ++row) jobs.push_back(job_of(rows, row));
-      return jobs;
+      return jobs_of(connection.run(
+          fmt::format("SELECT {} FROM slipway_jobs WHERE whole IS NULL ORDER BY sequence DESC LIMIT $1",
+                      kJobRow),
+          PostgresValues().number(static_cast<std::int64_t>(most))));
     });
   }
 
@@ -317,9 +283,12 @@ class PostgresJobStore final : public JobStore {
           "DELETE FROM slipway_jobs WHERE sequence IN (SELECT sequence FROM ("
           "SELECT sequence, ended_ms, row_number() OVER newest AS number, "
           "sum(octet_length(request) + coalesce(octet_length(outcome), 0) + coalesce((SELECT "
-          "sum(octet_length(bytes)) FROM slipway_series WHERE job_id = slipway_jobs.id), 0)) OVER newest AS "
-          "bytes "
-          "FROM slipway_jobs WHERE state NOT IN ('accepted', 'running') WINDOW newest AS "
+          "sum(octet_length(bytes)) FROM slipway_series WHERE job_id = slipway_jobs.id), 0) + "
+          "CASE parts WHEN 0 THEN 0 ELSE (SELECT sum(octet_length(request) + coalesce(octet_length(outcome), "
+          "0) + "
+          "coalesce((SELECT sum(octet_length(bytes)) FROM slipway_series WHERE job_id = of_it.id), 0)) "
+          "FROM slipway_jobs AS of_it WHERE of_it.whole = slipway_jobs.id) END) OVER newest AS bytes "
+          "FROM slipway_jobs WHERE state NOT IN ('accepted', 'running') AND whole IS NULL WINDOW newest AS "
           "(ORDER BY sequence DESC)) AS ended WHERE number > $1 OR bytes > $2 OR $3 - ended_ms > $4)",
           PostgresValues()
               .number(static_cast<std::int64_t>(kept.most))
@@ -340,7 +309,7 @@ class PostgresJobStore final : public JobStore {
         "WITH known AS MATERIALIZED (SELECT id, kind = $2 AND request = $3 AS same FROM slipway_jobs "
         "WHERE id = $1 OR (owner = $4 AND idempotency_key = $5)), "
         "unfinished AS MATERIALIZED (SELECT count(*) AS n, count(*) FILTER (WHERE owner = $4) AS mine "
-        "FROM slipway_jobs WHERE state IN ('accepted', 'running')), "
+        "FROM slipway_jobs WHERE state IN ('accepted', 'running') AND whole IS NULL), "
         "made AS (INSERT INTO slipway_jobs (id, kind, state, created_ms, request, request_sha256, owner, "
         "idempotency_key, urgency) SELECT $1, $2, 'accepted', $6::bigint, $3, $7::text, $4, $5, $8::bigint "
         "FROM unfinished "
@@ -378,18 +347,6 @@ class PostgresJobStore final : public JobStore {
     std::optional<Job> job = get_from(connection, id);
     if (!job) return fail(ErrorCode::kStorage, "the job was forgotten meanwhile");
     return *std::move(job);
-  }
-
-  // Whether this lease has ended the job with this outcome before, of which the answer was lost.
-  static bool was_finished(PostgresConnection& connection, PostgresTransaction& transaction,
-                           const Lease& lease, const std::string& digest) {
-    const PostgresRows rows = connection.run(
-        "UPDATE slipway_jobs SET outcome_sha256 = outcome_sha256 WHERE id = $1 AND attempt = $2 AND worker = "
-        "$3 "
-        "AND outcome_sha256 = $4",
-        held(lease).text(digest));
-    transaction.commit();
-    return rows.changed() == 1;
   }
 
   [[noreturn]] static void throw_altered(std::string_view id) {

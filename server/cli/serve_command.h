@@ -88,20 +88,31 @@ struct WorkerOptions {
   std::string name;                // under which jobs are claimed; empty: one that no other worker has
   JobLimits of_job = {};
   LeaseOption lease = {};
+  bool until_empty = false;  // ends when no job of its kinds waits or is worked on
   bool bell = false;  // bytes at the standard input mean that there may be work; its end ends the worker
 };
 
 // Serves until a signal ends it. The exit status: 0 ended by a signal, 1 not started, 2 options with faults.
 int serve(const ServeOptions& options);
 
-// Works until a signal ends it, or the bell's end. The exit status: 0 ended so, 1 not started, or its
-// work gave no sign of life any more, 2 options with faults.
+// What a store holds.
+struct JobsOptions {
+  std::string jobs = "var/jobs.sqlite";
+  bool open = false;  // only how many jobs wait or are worked on
+};
+
+// Works until a signal ends it, or the bell's end, or, where it is to, until nothing is left. The exit
+// status: 0 ended so, 1 not started, or its work gave no sign of life any more, 2 options with faults.
 int work(const WorkerOptions& options);
+
+// Prints how many jobs of each kind and state there are. The exit status: 0, 1 the store does not answer, 2
+// there is none.
+int print_jobs(const JobsOptions& options);
 
 // Prints a new token and what stands in the file of tokens for it. The exit status: 0, 2 options with faults.
 int print_new_token(const std::string& name, const std::string& role);
 
-// Adds the subcommands serve, worker and token; `run` then runs it where it is given.
+// Adds the subcommands serve, worker, jobs and token; `run` then runs it where it is given.
 void add_serve_command(CLI::App& app, std::function<int()>& run);
 
 }  // namespace slipway::server
