@@ -60,6 +60,15 @@ struct JobKindRow {
   // The bytes of a file that belongs to the answer, kept beside it in pieces: a raster (GeoTIFF). Empty:
   // there is none.
   std::function<std::string(const Answer&)> raster = nullptr;
+  // Of kinds that answer several requests: all answers, one a line, kept in pieces too. Empty: none.
+  std::function<std::string(const Answer&)> lines = nullptr;
+  // Work that several workers may share, see WorkInParts: the requests of its parts, the answer to one of
+  // them, and that of the whole. Empty: it is done in one go.
+  std::function<std::vector<std::string>(const Service&, const Request&, std::string_view recorded)> split =
+      nullptr;
+  std::function<Result<JobAnswer>(const Service&, std::string_view part, Progress&)> part = nullptr;
+  std::function<Result<Answer>(const Service&, const Request&, const PartAnswer&, Progress&)> put_together =
+      nullptr;
   std::chrono::seconds usual_wait{
       0};                       // how long the client's POST waits for the answer unless it says otherwise
   Lane lane = Lane::kUsual;     // see worker_kinds()
@@ -82,6 +91,14 @@ struct JobKind {
       nullptr;              // may be empty
   bool has_report = false;  // made when it is asked for, where there is `page`, or else kept with the answer
   bool has_raster = false;  // its pieces are the job's series
+  bool has_lines = false;   // their pieces are
+  // The first fault of a body that `accept` would refuse, where it names no other job.
+  std::function<std::optional<Error>(const Service&, std::string_view body)> fault = nullptr;
+  // May be empty, see JobKindRow.
+  std::function<Result<std::vector<std::string>>(const Service&, std::string_view recorded)> split = nullptr;
+  std::function<Result<JobAnswer>(const Service&, std::string_view part, Progress&)> part = nullptr;
+  std::function<Result<JobAnswer>(const Service&, std::string_view recorded, const PartAnswer&, Progress&)>
+      put_together = nullptr;
   std::chrono::seconds usual_wait{0};
   Lane lane = Lane::kUsual;
 };
@@ -92,6 +109,20 @@ Result<std::string> recorded_request(std::string_view body, std::string_view kin
                                      NamesJob names,
                                      const std::function<std::optional<Error>(std::string_view)>& fault_of);
 
+// What is to be kept of an answer.
+template <class Request, class Answer>
+Result<JobAnswer> kept_of(const JobKindRow<Request, Answer>& row, const Result<Answer>& answer) {
+  if (!answer) return fail(answer.error());
+  std::string document = row.write(*answer);
+  if (row.raster) return JobAnswer(std::move(document), in_pieces(row.raster(*answer)));
+  if (row.lines) return JobAnswer(std::move(document), in_pieces(row.lines(*answer)));
+  if (row.report) return JobAnswer(kept_answer(document, row.report(*answer)));
+  if (!row.write_whole || !json::is_thinned(document)) return JobAnswer(std::move(document));
+  auto series = series_of(row.write_whole(*answer));
+  if (!series) return fail(series.error());
+  return JobAnswer(std::move(document), *std::move(series));
+}
+
 template <class Request, class Answer>
 JobKind job_kind(JobKindRow<Request, Answer> of) {
   const auto row = std::make_shared<const JobKindRow<Request, Answer>>(std::move(of));
@@ -99,6 +130,7 @@ JobKind job_kind(JobKindRow<Request, Answer> of) {
   kind.page = row->page;
   kind.has_report = row->report != nullptr || row->page != nullptr;
   kind.has_raster = row->raster != nullptr;
+  kind.has_lines = row->lines != nullptr;
   kind.usual_wait = row->usual_wait;
   kind.lane = row->lane;
   kind.accept = [row](const Service& service, JobStore& store, std::string_view body) {
@@ -116,15 +148,24 @@ JobKind job_kind(JobKindRow<Request, Answer> of) {
     // Read again from the bytes that were accepted: after a restart there is nothing else.
     const auto request = row->read(service, recorded);
     if (!request) return fail(request.error());
-    const auto answer = row->run(service, *request, progress);
-    if (!answer) return fail(answer.error());
-    std::string document = row->write(*answer);
-    if (row->raster) return JobAnswer(std::move(document), in_pieces(row->raster(*answer)));
-    if (row->report) return JobAnswer(kept_answer(document, row->report(*answer)));
-    if (!row->write_whole || !json::is_thinned(document)) return JobAnswer(std::move(document));
-    auto series = series_of(row->write_whole(*answer));
-    if (!series) return fail(series.error());
-    return JobAnswer(std::move(document), *std::move(series));
+    return kept_of(*row, row->run(service, *request, progress));
+  };
+  kind.fault = [row](const Service& service, std::string_view body) -> std::optional<Error> {
+    const auto read = row->read(service, body);
+    return read ? std::nullopt : std::optional<Error>(read.error());
+  };
+  if (!row->split) return kind;
+  kind.split = [row](const Service& service, std::string_view recorded) -> Result<std::vector<std::string>> {
+    const auto request = row->read(service, recorded);
+    if (!request) return fail(request.error());
+    return row->split(service, *request, recorded);
+  };
+  kind.part = row->part;
+  kind.put_together = [row](const Service& service, std::string_view recorded, const PartAnswer& parts,
+                            Progress& progress) -> Result<JobAnswer> {
+    const auto request = row->read(service, recorded);
+    if (!request) return fail(request.error());
+    return kept_of(*row, row->put_together(service, *request, parts, progress));
   };
   return kind;
 }

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <sstream>
 
+#include "api/batch.h"
+#include "api/documents/batch_document.h"
 #include "api/documents/catalogue_documents.h"
 #include "api/documents/check_answer.h"
 #include "api/documents/diagnosis_document.h"
@@ -41,6 +44,39 @@ Result<MapRequest> read_served_map(const Service& service, std::string_view body
   if (!request) return request;
   if (auto size = service.check_map_size(*request, kMaxServedMapCells); !size) return fail(size.error());
   return request;
+}
+
+// Each part of a map is a square of tiles: its first row and column, then the map's own request.
+std::vector<std::string> map_parts(const Service& service, const MapRequest& request,
+                                   std::string_view recorded) {
+  std::vector<std::string> parts;
+  const auto pieces = service.map_pieces(request);
+  if (!pieces) return parts;
+  for (const auto& [row, column] : *pieces) parts.push_back(fmt::format("{} {}\n{}", row, column, recorded));
+  return parts;
+}
+
+Result<JobAnswer> map_part(const Service& service, std::string_view part, Progress& progress) {
+  const std::size_t head = part.find('\n');
+  MapPieceIndex piece;
+  std::istringstream(std::string(part.substr(0, head))) >> piece.row >> piece.column;
+  const auto request = service.read_map(part.substr(head + 1));
+  if (!request) return fail(request.error());
+  auto tiles = service.map_piece(*request, served_map(), piece, progress);
+  if (!tiles) return fail(tiles.error());
+  return JobAnswer("tiles", *std::move(tiles));
+}
+
+Result<MapAnswer> put_map_together(const Service& service, const MapRequest& request, const PartAnswer& parts,
+                                   Progress& progress) {
+  return service.map_of_pieces(
+      request, served_map(),
+      [&](int piece) -> Result<std::vector<std::string>> {
+        auto answer = parts(piece);
+        if (!answer) return fail(answer.error());
+        return std::move(answer->series);
+      },
+      progress);
 }
 
 template <class Answer, std::string (*Write)(const Answer&, json::StationDetail), json::StationDetail Detail>
@@ -137,7 +173,19 @@ std::vector<JobKind> all_kinds() {
           .run = [](const Service& service, const MapRequest& request,
                     Progress& progress) { return service.map(request, served_map(), progress); },
           .write = &json::write_map_answer,
-          .raster = [](const MapAnswer& answer) { return answer.cog; }}),
+          .raster = [](const MapAnswer& answer) { return answer.cog; },
+          .split = &map_parts,
+          .part = &map_part,
+          .put_together = &put_map_together}),
+      job_kind(JobKindRow<BatchRequest, BatchAnswer>{.name = "batch",
+                                                     .path = "/v1/batches",
+                                                     .read = &read_batch,
+                                                     .run = &run_batch,
+                                                     .write = &json::write_batch_answer,
+                                                     .lines = &batch_lines,
+                                                     .split = &batch_parts,
+                                                     .part = &batch_part,
+                                                     .put_together = &put_batch_together}),
   };
 }
 
@@ -162,6 +210,33 @@ JobWork service_work(const Service& service, const std::vector<JobKind>& kinds) 
       return fail(ErrorCode::kInternal, fmt::format("no work is known for jobs of kind {}", kind));
     return known->work(service, request, progress);
   };
+}
+
+WorkInParts service_work_in_parts(const Service& service, const std::vector<JobKind>& kinds) {
+  const auto unknown = [](const std::string& kind) {
+    return fail(ErrorCode::kInternal, fmt::format("jobs of kind {} are not done in parts", kind));
+  };
+  WorkInParts work;
+  work.split = [&service, &kinds](const std::string& kind,
+                                  const std::string& request) -> Result<std::vector<std::string>> {
+    const JobKind* const known = find_kind(kinds, kind);
+    if (known == nullptr || !known->split) return std::vector<std::string>();
+    return known->split(service, request);
+  };
+  work.part = [&service, &kinds, unknown](const std::string& kind, const std::string& part,
+                                          Progress& progress) -> Result<JobAnswer> {
+    const JobKind* const known = find_kind(kinds, kind);
+    if (known == nullptr || !known->part) return unknown(kind);
+    return known->part(service, part, progress);
+  };
+  work.put_together = [&service, &kinds, unknown](const std::string& kind, const std::string& request,
+                                                  const PartAnswer& parts,
+                                                  Progress& progress) -> Result<JobAnswer> {
+    const JobKind* const known = find_kind(kinds, kind);
+    if (known == nullptr || !known->put_together) return unknown(kind);
+    return known->put_together(service, request, parts, progress);
+  };
+  return work;
 }
 
 std::vector<std::vector<std::string>> worker_kinds(const std::vector<JobKind>& kinds) {

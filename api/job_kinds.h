@@ -27,6 +27,9 @@ const JobKind* find_kind(const std::vector<JobKind>& kinds, std::string_view nam
 // and the kinds must outlive it.
 JobWork service_work(const Service& service, const std::vector<JobKind>& kinds = job_kinds());
 
+// How it divides the work on those jobs that several workers may share.
+WorkInParts service_work_in_parts(const Service& service, const std::vector<JobKind>& kinds = job_kinds());
+
 // The kinds that each worker of a runner claims: the first takes all, the second those that do not take long,
 // the third short work alone, so that none waits behind longer work.
 std::vector<std::vector<std::string>> worker_kinds(const std::vector<JobKind>& kinds = job_kinds());

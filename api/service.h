@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -92,6 +93,17 @@ class Service {
   // Errors: off_map, payload_too_large at /extent (0 cells: no limit).
   Result<void> check_map_size(const MapRequest& request, long long max_cells) const;
   Result<MapAnswer> map(const MapRequest& request, const MapTarget& target, Progress& progress) const;
+  // The same map from pieces that may be made anywhere: squares of its tiles, which are read as one piece of
+  // ground in map() too, so that the bytes are the same. None of maps of ways, whose cells hang together.
+  // Errors: off_map, not_found.
+  Result<std::vector<MapPieceIndex>> map_pieces(const MapRequest& request) const;
+  // The tiles of a piece, row by row, as they are kept.
+  Result<std::vector<std::string>> map_piece(const MapRequest& request, const MapTarget& target,
+                                             const MapPieceIndex& piece, Progress& progress) const;
+  // `tiles_of` gives those of the piece of that number.
+  Result<MapAnswer> map_of_pieces(const MapRequest& request, const MapTarget& target,
+                                  const std::function<Result<std::vector<std::string>>(int)>& tiles_of,
+                                  Progress& progress) const;
 
   // Errors: not_found (unknown terrain), off_map, no_data.
   Result<GroundAt> ground_at(std::string_view terrain, double x_m, double y_m) const;
@@ -124,6 +136,11 @@ class Service {
   // drives finds a fault.
   template <class Request, class Rest>
   Result<Request> checked(Result<Reading<Request>> reading, const Rest& rest) const;
+
+  // A map before its cells are made.
+  struct MapWork;
+  Result<MapWork> prepare_map(const MapRequest& request, const MapTarget& target, Progress& progress) const;
+  Result<void> fill_map(const MapWork& work, dem::TileStore& store, Progress& progress) const;
 
   // A campaign of this name ships or was sent.
   bool has_campaign(const std::string& name) const;

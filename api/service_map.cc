@@ -1,6 +1,7 @@
 // Maps of the ground as rasters.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -90,6 +91,50 @@ Result<planner::WayMap> ways_of(const MapRequest& request, const planner::PlanPr
                                 "/from", progress);
 }
 
+std::vector<MapPieceIndex> pieces_of_map(const dem::GridGeometry& geometry) {
+  const dem::LevelSize size = dem::size_of_level(geometry, 0);
+  std::vector<MapPieceIndex> pieces;
+  for (int row = 0; row < size.tile_rows(); row += kTilesOfPiece)
+    for (int column = 0; column < size.tile_columns(); column += kTilesOfPiece)
+      pieces.push_back({row, column});
+  return pieces;
+}
+
+// The tiles of one piece, where all others count as made.
+class PieceTiles final : public dem::TileStore {
+ public:
+  explicit PieceTiles(const MapPieceIndex& piece) : piece_(piece) {}
+
+  bool has(const dem::TileIndex& tile) const override { return !is_mine(tile) || tiles_.has(tile); }
+  Result<void> write(const dem::TileIndex& tile, const std::vector<std::uint8_t>& bytes) override {
+    return tiles_.write(tile, bytes);
+  }
+  Result<std::vector<std::uint8_t>> read(const dem::TileIndex& tile) const override {
+    return tiles_.read(tile);
+  }
+
+  Result<std::vector<std::string>> in_order() const {
+    std::vector<std::string> all;
+    for (int r = piece_.row; r < piece_.row + kTilesOfPiece; ++r)
+      for (int c = piece_.column; c < piece_.column + kTilesOfPiece; ++c) {
+        if (!tiles_.has({0, r, c})) continue;  // beyond the edge
+        const auto bytes = tiles_.read({0, r, c});
+        if (!bytes) return fail(bytes.error());
+        all.emplace_back(bytes->begin(), bytes->end());
+      }
+    return all;
+  }
+
+ private:
+  bool is_mine(const dem::TileIndex& tile) const {
+    return tile.level == 0 && tile.row / kTilesOfPiece == piece_.row / kTilesOfPiece &&
+           tile.column / kTilesOfPiece == piece_.column / kTilesOfPiece;
+  }
+
+  const MapPieceIndex piece_;
+  dem::MemoryTiles tiles_;
+};
+
 // Coarser levels, figures and the file.
 Result<void> finish_map(const MapTarget& target, dem::TileStore& store, std::size_t threads,
                         Progress& progress, MapAnswer& answer) {
@@ -118,7 +163,16 @@ Result<void> Service::check_map_size(const MapRequest& request, long long max_ce
   return check_cells(geometry.sub(*window), max_cells);
 }
 
-Result<MapAnswer> Service::map(const MapRequest& request, const MapTarget& target, Progress& progress) const {
+struct Service::MapWork {
+  std::shared_ptr<const Catalogue> all;
+  const TerrainSite* site = nullptr;
+  Setting setting;
+  MapSources sources;
+  MapAnswer answer;  // with its layer, but without cells; of maps of ways not even that
+};
+
+Result<Service::MapWork> Service::prepare_map(const MapRequest& request, const MapTarget& target,
+                                              Progress& progress) const {
   progress.report("reading the terrain", 0.0);
   const std::shared_ptr<const Catalogue> all = catalogue();
   const auto found = all->terrains.find(request.terrain);
@@ -138,42 +192,102 @@ Result<MapAnswer> Service::map(const MapRequest& request, const MapTarget& targe
   problem.keep_out = request.keep_out;
   problem.keep_in = request.keep_in;
   if (const auto fault = fault_of_places(request, problem)) return fail(*fault);
-  const auto sources = map_sources_of(site);
+  auto sources = map_sources_of(site);
   if (!sources) return fail(sources.error());
   MapAnswer answer{request, setting->provenance, {}, {}, 0, {}};
-  const std::string& wkt = site.info().crs_wkt;
+  if (!by_search)
+    answer.layer = map_layer(request, answer.provenance, problem, *sources, geometry, site.info().crs_wkt);
+  return MapWork{all, &site, *std::move(setting), *std::move(sources), std::move(answer)};
+}
+
+// Computes the tiles that the store does not have.
+Result<void> Service::fill_map(const MapWork& work, dem::TileStore& store, Progress& progress) const {
+  const MapRequest& request = work.answer.request;
+  const planner::CellMap cells({.drive = work.setting.problem,
+                                .kind = request.kind,
+                                .heading_rad = request.heading_rad,
+                                .distance_m = request.distance_m,
+                                .price_unknown = request.price_unknown});
+  const Legend& legend = *work.site->description().legend(request.drive.legend);
+  return fill_tiles(cells, *work.site, legend, work.answer.layer, store, options_.threads, progress);
+}
+
+Result<MapAnswer> Service::map(const MapRequest& request, const MapTarget& target, Progress& progress) const {
+  auto work = prepare_map(request, target, progress);
+  if (!work) return fail(work.error());
+  MapAnswer& answer = work->answer;
   dem::MemoryTiles in_memory;
-  if (by_search) {
-    const auto ways = ways_of(request, problem, progress);
+  if (planner::row_of(request.kind).by_search) {
+    const auto ways = ways_of(request, work->setting.problem, progress);
     if (!ways) return fail(ways.error());
-    answer.layer = map_layer(request, answer.provenance, problem, *sources, ways->geometry, wkt);
+    answer.layer = map_layer(request, answer.provenance, work->setting.problem, work->sources, ways->geometry,
+                             work->site->info().crs_wkt);
     if (auto filled = fill_tiles(ways->values, answer.layer, in_memory); !filled) return fail(filled.error());
     if (auto done = finish_map(target, in_memory, options_.threads, progress, answer); !done)
       return fail(done.error());
-    return answer;
+    return std::move(answer);
   }
-  answer.layer = map_layer(request, answer.provenance, problem, *sources, geometry, wkt);
   std::unique_ptr<dem::TileFile> file;
   if (!target.part.empty()) {
     const std::size_t bytes = answer.layer.cell_bytes() * dem::kTileSide * dem::kTileSide;
-    auto opened = dem::TileFile::open(target.part, map_key_of(request, *sources, *all), bytes);
+    auto opened = dem::TileFile::open(target.part, map_key_of(request, work->sources, *work->all), bytes);
     if (!opened) return fail(opened.error());
     file = *std::move(opened);
     answer.tiles_kept = file->tiles();
   }
   dem::TileStore& store = file ? static_cast<dem::TileStore&>(*file) : in_memory;
-  const planner::CellMap cells({.drive = problem,
-                                .kind = request.kind,
-                                .heading_rad = request.heading_rad,
-                                .distance_m = request.distance_m,
-                                .price_unknown = request.price_unknown});
   planner::StageProgress stage(progress, "computing tiles", 0.0, kTilesComputed);
-  const Legend& legend = *site.description().legend(request.drive.legend);
-  if (auto filled = fill_tiles(cells, site, legend, answer.layer, store, options_.threads, stage); !filled)
-    return fail(filled.error());
+  if (auto filled = fill_map(*work, store, stage); !filled) return fail(filled.error());
   if (auto done = finish_map(target, store, options_.threads, progress, answer); !done)
     return fail(done.error());
-  return answer;
+  return std::move(answer);
+}
+
+Result<std::vector<MapPieceIndex>> Service::map_pieces(const MapRequest& request) const {
+  if (planner::row_of(request.kind).by_search) return std::vector<MapPieceIndex>();
+  const std::shared_ptr<const Catalogue> all = catalogue();
+  const auto found = all->terrains.find(request.terrain);
+  if (found == all->terrains.end()) return fail(ErrorCode::kNotFound, unknown_terrain(*all, request.terrain));
+  const dem::GridGeometry& geometry = found->second->info().geometry;
+  const auto window = map_window_of(request, geometry);
+  if (!window) return fail(window.error());
+  return pieces_of_map(geometry.sub(*window));
+}
+
+Result<std::vector<std::string>> Service::map_piece(const MapRequest& request, const MapTarget& target,
+                                                    const MapPieceIndex& piece, Progress& progress) const {
+  const auto work = prepare_map(request, target, progress);
+  if (!work) return fail(work.error());
+  PieceTiles tiles(piece);
+  if (auto filled = fill_map(*work, tiles, progress); !filled) return fail(filled.error());
+  return tiles.in_order();
+}
+
+Result<MapAnswer> Service::map_of_pieces(const MapRequest& request, const MapTarget& target,
+                                         const std::function<Result<std::vector<std::string>>(int)>& tiles_of,
+                                         Progress& progress) const {
+  auto work = prepare_map(request, target, progress);
+  if (!work) return fail(work.error());
+  MapAnswer& answer = work->answer;
+  const dem::LevelSize size = dem::size_of_level(answer.layer.geometry, 0);
+  dem::MemoryTiles store;
+  int number = 0;
+  for (const MapPieceIndex& piece : pieces_of_map(answer.layer.geometry)) {
+    const auto tiles = tiles_of(number++);
+    if (!tiles) return fail(tiles.error());
+    std::size_t next = 0;
+    for (int r = piece.row; r < std::min(piece.row + kTilesOfPiece, size.tile_rows()); ++r)
+      for (int c = piece.column; c < std::min(piece.column + kTilesOfPiece, size.tile_columns()); ++c) {
+        if (next == tiles->size())
+          return fail(ErrorCode::kInternal, fmt::format("piece {} of the map lacks tiles", number - 1));
+        const std::string& bytes = (*tiles)[next++];
+        if (auto written = store.write({0, r, c}, {bytes.begin(), bytes.end()}); !written)
+          return fail(written.error());
+      }
+  }
+  if (auto done = finish_map(target, store, options_.threads, progress, answer); !done)
+    return fail(done.error());
+  return std::move(answer);
 }
 
 }  // namespace slipway::api

@@ -7,10 +7,11 @@ set -eu
 packages="g++ cmake ninja-build pkg-config ccache
   libeigen3-dev libxsimd-dev libfmt-dev libexpected-dev
   libgdal-dev libompl-dev libboost-dev libceres-dev libsundials-dev
-  libcpp-httplib-dev nlohmann-json3-dev libsqlite3-dev libssl-dev zlib1g-dev libcli11-dev libtoml11-dev
+  libcpp-httplib-dev nlohmann-json3-dev libsqlite3-dev libpq-dev libssl-dev zlib1g-dev libcli11-dev libtoml11-dev
   prometheus-cpp-dev libspdlog-dev libarchive-dev"
 if [ "${1:-}" = "--test" ]; then
-  packages="$packages libgtest-dev libbenchmark-dev libsimbody-dev clang-format curl python3 python3-jsonschema nginx-light openssl chromium"
+  packages="$packages libgtest-dev libbenchmark-dev libsimbody-dev clang-format curl python3 python3-jsonschema nginx-light openssl chromium
+    postgresql"
   # Another Node with an npm of its own does as well, and Debian's npm conflicts with it.
   command -v npm >/dev/null || packages="$packages nodejs npm"
 fi

@@ -31,6 +31,7 @@ constexpr std::string_view kCsv = "text/csv";
 constexpr std::string_view kGeoJson = "application/geo+json";
 constexpr std::string_view kGeoPackage = "application/geopackage+sqlite3";
 constexpr std::string_view kCloudOptimised = "image/tiff; application=geotiff; profile=cloud-optimized";
+constexpr std::string_view kJsonLines = "application/jsonl";
 constexpr std::string_view kHtml = "text/html; charset=utf-8";
 constexpr std::string_view kSvg = "image/svg+xml";
 constexpr int kPollSeconds = 1;
@@ -111,7 +112,7 @@ class JobRoutes {
     if (const auto error = query.error()) return problem_response(*error, &request);
     const auto job = find(request);
     if (!job) return problem_response(job.error(), &request);
-    if (has_raster(*job))
+    if (has_file(*job))
       return problem(ErrorCode::kNotFound, fmt::format("jobs of kind {} have no stations", job->kind),
                      request);
     if (job->state != api::JobState::kSuccessful) return outcome_response(*job, request);
@@ -126,11 +127,39 @@ class JobRoutes {
     return tagged(std::move(response), tag, request);
   }
 
+  // What the job consists of.
+  HttpResponse parts(const HttpRequest& request) {
+    const auto job = find(request);
+    if (!job) return problem_response(job.error(), &request);
+    const auto all = runner_.store().parts(job->id);
+    if (!all) return problem_response(all.error(), &request);
+    HttpResponse response = document(api::json::write_jobs(*all));
+    const std::string tag = tag_of(response.body);
+    return tagged(std::move(response), tag, request);
+  }
+
+  // The answers of a successful batch, one a line.
+  HttpResponse answers(const HttpRequest& request) {
+    const auto job = find(request);
+    if (!job) return problem_response(job.error(), &request);
+    const api::JobKind* const kind = api::find_kind(kinds_, job->kind);
+    if (kind == nullptr || !kind->has_lines || !job->whole.empty())
+      return problem(ErrorCode::kNotFound, fmt::format("jobs of kind {} have one answer", job->kind),
+                     request);
+    if (job->state != api::JobState::kSuccessful) return outcome_response(*job, request);
+    auto lines = whole_series(*job);
+    if (!lines) return problem_response(lines.error(), &request);
+    HttpResponse response = document(*std::move(lines));
+    response.content_type = kJsonLines;
+    return tagged(std::move(response), fmt::format("\"{}\"", job->id), request);
+  }
+
   // The raster of a successful job, whole.
   HttpResponse raster(const HttpRequest& request) {
     const auto job = find(request);
     if (!job) return problem_response(job.error(), &request);
-    if (!has_raster(*job))
+    const api::JobKind* const kind = api::find_kind(kinds_, job->kind);
+    if (kind == nullptr || !kind->has_raster || !job->whole.empty())
       return problem(ErrorCode::kNotFound, fmt::format("jobs of kind {} have no raster", job->kind), request);
     if (job->state != api::JobState::kSuccessful) return outcome_response(*job, request);
     auto bytes = whole_series(*job);
@@ -228,9 +257,10 @@ class JobRoutes {
   }
 
  private:
-  bool has_raster(const api::Job& job) const {
+  // Its series is no table of stations.
+  bool has_file(const api::Job& job) const {
     const api::JobKind* const kind = api::find_kind(kinds_, job.kind);
-    return kind != nullptr && kind->has_raster;
+    return kind != nullptr && (kind->has_raster || kind->has_lines);
   }
 
   // All pages of what is kept apart, put together.
@@ -402,6 +432,8 @@ std::vector<Route> job_routes(const api::Service& service, api::JobRunner& runne
       {"GET", "/v1/jobs", [jobs](const HttpRequest& r) { return jobs->list(r); }},
       {"GET", "/v1/jobs/{id}", [jobs](const HttpRequest& r) { return jobs->get(r); }},
       {"GET", "/v1/jobs/{id}/events", [jobs](const HttpRequest& r) { return jobs->events(r); }},
+      {"GET", "/v1/jobs/{id}/parts", [jobs](const HttpRequest& r) { return jobs->parts(r); }},
+      {"GET", "/v1/jobs/{id}/answers", [jobs](const HttpRequest& r) { return jobs->answers(r); }, kHeavy},
       {"GET", "/v1/jobs/{id}/result", [jobs](const HttpRequest& r) { return jobs->result(r); }, kHeavy},
       {"GET", "/v1/jobs/{id}/stations", [jobs](const HttpRequest& r) { return jobs->stations(r); }, kHeavy},
       {"GET", "/v1/jobs/{id}/map", [jobs](const HttpRequest& r) { return jobs->map(r); }, kHeavy},

@@ -10,8 +10,7 @@
 #include "api/files/file_lock.h"
 #include "api/job_kinds.h"
 #include "api/jobs/job_runner.h"
-#include "api/jobs/memory_job_store.h"
-#include "api/jobs/sqlite_job_store.h"
+#include "api/jobs/open_job_store.h"
 #include "api/service.h"
 #include "core/version.h"
 #include "server/access.h"
@@ -54,7 +53,8 @@ WorkerProcessOptions worker_processes(const ServeOptions& options, const std::st
                                    fmt::format("{}", options.uploads.keep_mb)});
     for (const std::string& kind : kinds) command.insert(command.end(), {"--kind", kind});
     command.insert(command.end(), {"--job-memory-mb", fmt::format("{}", options.of_job.memory_mb),
-                                   "--job-minutes", fmt::format("{}", options.of_job.minutes)});
+                                   "--job-minutes", fmt::format("{}", options.of_job.minutes), "--lease-s",
+                                   fmt::format("{}", options.lease.seconds)});
     workers.commands.push_back(std::move(command));
   }
   return workers;
@@ -71,25 +71,26 @@ Result<Jobs> open_jobs(const ServeOptions& options) {
   jobs.runner.admission = {.most_unfinished = static_cast<std::size_t>(options.most_jobs),
                            .most_of_owner = static_cast<std::size_t>(options.most_jobs_per_address)};
   jobs.runner.max_time = options.of_job.max_time();
+  jobs.runner.lease = options.lease.time();
   jobs.runner.works_here = path.empty();  // what is in this process's memory only its threads can work on
-  if (path.empty()) {
-    jobs.store = api::make_memory_job_store();
-    return jobs;
-  }
+  const bool is_file = !path.empty() && !api::is_database(path);
   std::error_code failed;
-  if (const auto folder = std::filesystem::path(path).parent_path(); !folder.empty())
+  if (const auto folder = std::filesystem::path(path).parent_path(); is_file && !folder.empty())
     std::filesystem::create_directories(folder, failed);
-  auto store = api::open_sqlite_job_store(path);
+  auto store = api::open_job_store(path);
   if (!store) return fail(store.error());
   jobs.store = std::move(*store);
+  if (path.empty()) return jobs;
   // A process takes back at its start what one of its name left running when it died. One name for all would
   // take the jobs of a service that lives: only the holder of the lock works under the shared name.
-  auto lock = api::FileLock::take(path + ".lock");
-  if (lock) {
-    jobs.lock = *std::move(lock);
-  } else {
-    jobs.runner.worker = fmt::format("{} {}", jobs.runner.worker, api::new_job_id());
+  // What workers of a database left running is taken up when its leases end.
+  if (is_file) {
+    if (auto lock = api::FileLock::take(path + ".lock")) {
+      jobs.lock = *std::move(lock);
+      return jobs;
+    }
   }
+  jobs.runner.worker = fmt::format("{} {}", jobs.runner.worker, api::new_job_id());
   return jobs;
 }
 
@@ -103,6 +104,8 @@ std::optional<Error> fault_of(const ServeOptions& options) {
         {"/address", fmt::format("{} can be reached from other machines: give --tokens FILE, or --no-tokens "
                                  "where a proxy before it knows who asks",
                                  options.address)});
+  if (options.no_workers && options.jobs.empty())
+    faults.push_back({"/no-workers", "only this process could work on jobs in its memory: give --jobs"});
   if (faults.empty()) return std::nullopt;
   return Error{ErrorCode::kInvalidRequest, "the service can't be started so", std::move(faults)};
 }
@@ -172,7 +175,11 @@ void log_answer(const AnsweredRequest& answered) {
 
 }  // namespace
 
-int serve(const ServeOptions& options) {
+int serve(const ServeOptions& given) {
+  ServeOptions options = given;
+  const auto place = api::without_secrets(given.jobs);
+  if (!place) return refuse(place.error());
+  options.jobs = *place;
   const sigset_t signals = block_ending_signals();
   set_log(options.log_json ? LogForm::kJson : LogForm::kText, LogLevel::kInfo);
   if (const auto fault = fault_of(options)) return refuse(*fault);
@@ -208,9 +215,10 @@ int serve(const ServeOptions& options) {
   std::cerr << left_out_text(*(*service)->catalogue());
   const auto jobs = open_jobs(options);
   if (!jobs) return refuse(jobs.error());
-  api::JobRunner runner(jobs->store, api::service_work(**service), jobs->runner);
+  api::JobRunner runner(jobs->store, api::service_work(**service), jobs->runner,
+                        api::service_work_in_parts(**service));
   std::optional<WorkerProcesses> workers;
-  if (!jobs->runner.works_here) {
+  if (!jobs->runner.works_here && !options.no_workers) {
     workers.emplace(
         worker_processes(options, *data, jobs->runner),
         [&] {

@@ -4,15 +4,17 @@
 #include <sys/signalfd.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <utility>
 
 #include "api/job_kinds.h"
 #include "api/jobs/job_runner.h"
-#include "api/jobs/sqlite_job_store.h"
+#include "api/jobs/open_job_store.h"
 #include "api/service.h"
 #include "core/file_descriptor.h"
 #include "core/process_limits.h"
@@ -33,7 +35,7 @@ std::optional<Error> fault_of(const WorkerOptions& options) {
     if (api::find_kind(api::job_kinds(), kind) == nullptr)
       faults.push_back({"/kind", fmt::format("\"{}\" is no kind of job", kind)});
   if (options.jobs.empty())
-    faults.push_back({"/jobs", "a worker needs a store on disk that it shares with a service"});
+    faults.push_back({"/jobs", "a worker needs a store that it shares with a service: a file or a database"});
   if (faults.empty()) return std::nullopt;
   return Error{ErrorCode::kInvalidRequest, "the worker can't be started so", std::move(faults)};
 }
@@ -48,12 +50,23 @@ void ring_at_the_output() {
   static_cast<void>(::write(STDOUT_FILENO, "\n", 1));  // full: it rings already
 }
 
-// Until a signal, or with a bell the end of the standard input, says that it is enough. False: the work has
+// Whether no job of these kinds waits or is worked on by anybody.
+bool is_empty(api::JobStore& store, const std::vector<std::string>& kinds) {
+  const auto counts = store.counts();
+  return counts && std::none_of(counts->begin(), counts->end(), [&](const api::JobCount& count) {
+           const bool mine =
+               kinds.empty() || std::find(kinds.begin(), kinds.end(), count.kind) != kinds.end();
+           return mine && !api::has_ended(count.state) && count.count > 0;
+         });
+}
+
+// Until a signal, or with a bell the end of the standard input, says that it is enough, or nothing is left
+// where that is the end. False: the work has
 // given no sign of life for so long that it never will.
-bool wait_for_the_end(api::JobRunner& runner, const FileDescriptor& signals, bool bell,
+bool wait_for_the_end(api::JobRunner& runner, const FileDescriptor& signals, const WorkerOptions& options,
                       milliseconds patience) {
   for (;;) {
-    std::array<pollfd, 2> polled{{{signals.fd(), POLLIN, 0}, {bell ? STDIN_FILENO : -1, POLLIN, 0}}};
+    std::array<pollfd, 2> polled{{{signals.fd(), POLLIN, 0}, {options.bell ? STDIN_FILENO : -1, POLLIN, 0}}};
     constexpr int kLook_ms = 1000;
     ::poll(polled.data(), polled.size(), kLook_ms);
     if (polled[0].revents != 0) return true;
@@ -63,12 +76,17 @@ bool wait_for_the_end(api::JobRunner& runner, const FileDescriptor& signals, boo
       runner.ring();
     }
     if (runner.longest_silence() > patience) return false;
+    if (options.until_empty && runner.running() == 0 && is_empty(runner.store(), options.kinds)) return true;
   }
 }
 
 }  // namespace
 
-int work(const WorkerOptions& options) {
+int work(const WorkerOptions& given) {
+  WorkerOptions options = given;
+  const auto place = api::without_secrets(given.jobs);
+  if (!place) return refuse(place.error());
+  options.jobs = *place;
   const sigset_t ending = block_ending_signals();
   const FileDescriptor signals(::signalfd(-1, &ending, SFD_CLOEXEC));
   if (const auto fault = fault_of(options)) return refuse(*fault);
@@ -86,24 +104,47 @@ int work(const WorkerOptions& options) {
   }
   const auto service = api::Service::open({.data = *data, .uploads = uploads});
   if (!service) return refuse(service.error());
-  auto store = api::open_sqlite_job_store(options.jobs, api::StoreCheck::kSchema);
+  auto store = api::open_job_store(options.jobs, api::StoreCheck::kSchema);
   if (!store) return refuse(store.error());
   api::JobRunnerOptions how;
   how.workers = {options.kinds};
   how.worker = options.name.empty() ? "worker " + api::new_job_id() : options.name;
   how.max_time = options.of_job.max_time();
   how.kept = std::nullopt;
+  how.lease = options.lease.time();
+  if (api::is_database(options.jobs)) how.progress_interval = milliseconds(1000);  // many share it
   const milliseconds lease = how.lease;
-  api::JobRunner runner(std::move(*store), api::service_work(**service), how);
+  api::JobRunner runner(std::move(*store), api::service_work(**service), how,
+                        api::service_work_in_parts(**service));
   if (options.bell) runner.on_change(ring_at_the_output);
   if (const auto started = runner.start(); !started) return refuse(started.error());
-  if (!wait_for_the_end(runner, signals, options.bell, lease)) {
+  if (!wait_for_the_end(runner, signals, options, lease)) {
     // Its thread can't be stopped, but its process can: the lease ends, and another attempt is made.
     std::cerr << fmt::format("the work gave no sign of life for {} s: this worker ends\n",
                              lease.count() / 1000);
     ::_exit(kFailed);
   }
   runner.stop();
+  return kDone;
+}
+
+int print_jobs(const JobsOptions& options) {
+  const auto place = api::without_secrets(options.jobs);
+  if (!place) return refuse(place.error());
+  if (place->empty() || (!api::is_database(*place) && !std::filesystem::exists(*place)))
+    return refuse(
+        {ErrorCode::kInvalidRequest, "there is no job store", {{"/jobs", "names none that is there"}}});
+  const auto store = api::open_job_store(*place, api::StoreCheck::kSchema);
+  if (!store) return refuse(store.error());
+  const auto counts = (*store)->counts();
+  if (!counts) return refuse(counts.error());
+  std::int64_t open = 0;
+  for (const api::JobCount& count : *counts) {
+    if (!api::has_ended(count.state)) open += count.count;
+    if (!options.open)
+      std::cout << fmt::format("{:16} {:10} {:8}\n", count.kind, api::describe(count.state), count.count);
+  }
+  if (options.open) std::cout << open << "\n";
   return kDone;
 }
 

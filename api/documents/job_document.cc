@@ -15,8 +15,15 @@ void write_members(Writer& w, const Job& job) {
   if (!job.last_death.empty()) w.text("interrupted", job.last_death);
   if (job.started_ms) w.text("started", utc_text(*job.started_ms));
   if (job.ended_ms) w.text("ended", utc_text(*job.ended_ms));
+  if (!job.whole.empty()) w.text("whole", job.whole).whole("part", job.part);
+  if (job.parts.count > 0) {
+    w.key("parts").begin_object().whole("count", job.parts.count).whole("ended", job.parts.ended);
+    w.whole("failed", job.parts.failed).end_object();
+  }
+  if (!job.whole.empty() || job.parts.count > 0) w.significant("cpu_s", job.cpu_s + job.parts.cpu_s);
   w.key("links").begin_object().text("self", "/v1/jobs/" + job.id);
   if (job.state == JobState::kSuccessful) w.text("result", "/v1/jobs/" + job.id + "/result");
+  if (job.parts.count > 0) w.text("parts", "/v1/jobs/" + job.id + "/parts");
   w.end_object();
 }
 

@@ -20,6 +20,14 @@ bool has_ended(JobState state);
 inline constexpr int kUsualUrgency = 3;
 inline constexpr int kLeastUrgency = 7;
 
+// How far the parts of a job are.
+struct JobParts {
+  int count = 0;       // 0: the job is done in one go
+  int ended = 0;       // of them, in whatever way
+  int failed = 0;      // of those that ended: without an answer
+  double cpu_s = 0.0;  // processor time of those that ended
+};
+
 // What is known of a job, without the bytes of its request and outcome.
 struct Job {
   std::string id;    // 32 hexadecimal digits: 128 random bits, so that nobody guesses another's job
@@ -37,6 +45,10 @@ struct Job {
   std::int64_t created_ms = 0;   // since 1970, as the times below
   std::optional<std::int64_t> started_ms;
   std::optional<std::int64_t> ended_ms;
+  double cpu_s = 0.0;      // processor time of the attempt that ended it
+  std::string whole = {};  // the job that this one is a part of; empty: of none
+  int part = 0;            // which part of it, from 0 on
+  JobParts parts = {};     // of which this one consists
 };
 
 // 128 bits from the machine's entropy.

@@ -33,6 +33,22 @@ Job accepted_job(const NewJob& wanted, std::int64_t now) {
   return job;
 }
 
+NewJob new_part(const Job& whole, const std::string& request) {
+  return {.id = new_job_id(),
+          .kind = whole.kind,
+          .request = request,
+          .owner = whole.owner,
+          .urgency = whole.urgency};
+}
+
+std::string stage_of_parts(int ended, int count) {
+  return fmt::format("{} of {} parts are done", ended, count);
+}
+
+double progress_of_parts(int ended, int count) {
+  return kShareOfParts * ended / count;
+}
+
 void QueueSum::add(bool running, int count, std::optional<double> each_s) {
   constexpr double kLeftOfRunning = 0.5;
   if (!running) ahead_ += count;

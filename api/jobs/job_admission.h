@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "api/jobs/job_store.h"
@@ -12,6 +13,9 @@ namespace slipway::api {
 // Why a job died whose worker let its lease end.
 inline constexpr std::string_view kLeaseEnded = "its worker no longer renewed its lease";
 
+// The share of a job's work that its parts are.
+inline constexpr double kShareOfParts = 0.9;
+
 // The refusal of one more job; nothing where it may come in.
 std::optional<Error> refused_by(const Admission& admission, std::int64_t unfinished,
                                 std::int64_t unfinished_of_owner);
@@ -21,6 +25,14 @@ Error another_request();
 
 // What a job is as it is accepted.
 Job accepted_job(const NewJob& wanted, std::int64_t now);
+
+// What a job is that becomes a part of another.
+NewJob new_part(const Job& whole, const std::string& request);
+
+// How a job in parts stands after `ended` of them: its stage, and its progress, of which putting the parts
+// together has a share too.
+std::string stage_of_parts(int ended, int count);
+double progress_of_parts(int ended, int count);
 
 // The place of a job in the queue, from what is before it.
 class QueueSum {

@@ -3,16 +3,54 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ctime>
 #include <exception>
 #include <new>
+#include <random>
 #include <ratio>
 #include <utility>
 
+#include "api/jobs/job_admission.h"
 #include "api/json/problem_document.h"
 #include "api/json/writer.h"
 #include "core/utc.h"
 
 namespace slipway::api {
+namespace {
+
+// Processor time of this thread, or of the whole process, from here on.
+class ProcessorTime {
+ public:
+  explicit ProcessorTime(bool of_thread)
+      : clock_(of_thread ? CLOCK_THREAD_CPUTIME_ID : CLOCK_PROCESS_CPUTIME_ID), begun_s_(now_s()) {}
+  double spent_s() const { return now_s() - begun_s_; }
+
+ private:
+  double now_s() const {
+    timespec time{};
+    ::clock_gettime(clock_, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  }
+
+  clockid_t clock_;
+  double begun_s_;
+};
+
+// What is left of a work of which a share is done.
+class RestOfProgress final : public Progress {
+ public:
+  RestOfProgress(Progress& all, double done) : all_(all), done_(done) {}
+  void report(std::string_view stage, double fraction) override {
+    all_.report(stage, done_ + (1.0 - done_) * fraction);
+  }
+  bool cancelled() const override { return all_.cancelled(); }
+
+ private:
+  Progress& all_;
+  const double done_;
+};
+
+}  // namespace
 
 // Passes progress on to the store, not more often than the options say, and renews the lease. Learns from the
 // store, the runner and the clock that nobody wants the work any more.
@@ -101,8 +139,12 @@ class JobRunner::JobProgress final : public Progress {
   mutable std::string best_so_far_;  // that is not written yet
 };
 
-JobRunner::JobRunner(std::shared_ptr<JobStore> store, JobWork work, JobRunnerOptions options)
-    : store_(std::move(store)), work_(std::move(work)), options_(std::move(options)) {}
+JobRunner::JobRunner(std::shared_ptr<JobStore> store, JobWork work, JobRunnerOptions options,
+                     WorkInParts in_parts)
+    : store_(std::move(store)),
+      work_(std::move(work)),
+      options_(std::move(options)),
+      in_parts_(std::move(in_parts)) {}
 
 JobRunner::~JobRunner() {
   stop();
@@ -115,7 +157,18 @@ Result<void> JobRunner::start() {
                                             : store_->release(options_.worker, HandBack::kStopped);
   if (!released) return fail(released.error());
   trim();
-  if (!options_.works_here) return {};
+  if (!options_.works_here) {
+    store_->listen(StoreNews::kEnded, [this] {
+      const std::scoped_lock lock(mutex_);
+      ended_.notify_all();
+    });
+    return {};
+  }
+  store_->listen(StoreNews::kAccepted, [this] {
+    const std::scoped_lock lock(mutex_);
+    ++work_rings_;
+    submitted_.notify_all();
+  });
   for (const std::vector<std::string>& kinds : options_.workers) {
     threads_.emplace_back([this, &kinds] { serve(kinds); });
   }
@@ -123,6 +176,7 @@ Result<void> JobRunner::start() {
 }
 
 void JobRunner::stop() {
+  for (const StoreNews news : {StoreNews::kAccepted, StoreNews::kEnded}) store_->listen(news, {});
   {
     const std::scoped_lock lock(mutex_);
     stopping_ = true;
@@ -157,6 +211,7 @@ void JobRunner::trim() {
 void JobRunner::ring() {
   const std::scoped_lock lock(mutex_);
   ++rings_;
+  ++work_rings_;
   submitted_.notify_all();  // not every worker takes every kind
   ended_.notify_all();
 }
@@ -215,16 +270,20 @@ Result<std::optional<Job>> JobRunner::wait(std::string_view id, std::chrono::mil
 }
 
 void JobRunner::serve(const std::vector<std::string>& kinds) {
+  std::minstd_rand chance{std::random_device{}()};
+  // Workers that all became idle at once do not all look at once.
+  std::uniform_real_distribution<double> share(0.5, 1.0);
   while (!stopping_) {
-    const int seen = rings_;
+    const int seen = work_rings_;
     const std::int64_t now = now_ms();
     const auto claimed = store_->claim(options_.worker, kinds, now, now + options_.lease.count());
     if (claimed && *claimed) {
-      run(**claimed);
+      if (!divided(**claimed)) run(**claimed);
       continue;
     }
     std::unique_lock lock(mutex_);
-    submitted_.wait_for(lock, options_.idle_poll, [&] { return stopping_ || rings_ != seen; });
+    submitted_.wait_for(lock, options_.idle_poll * share(chance),
+                        [&] { return stopping_ || work_rings_ != seen; });
   }
 }
 
@@ -236,9 +295,12 @@ void JobRunner::run(const ClaimedJob& claimed) {
     ++running_;
   }
   // A dismissal between the claim and the line above reached the store but not us: the first report tells.
-  progress.report("starting", 0.0);
+  progress.report("starting", claimed.job.parts.count > 0 ? kShareOfParts : 0.0);
   const bool gives_up = claimed.damaged || claimed.job.deaths >= options_.most_deaths;
+  // What other threads of the process do is not this job's, and what a planner's threads do is.
+  const ProcessorTime time(options_.workers.size() > 1);
   Result<JobAnswer> answer = answer_of(claimed, progress);
+  const double cpu_s = time.spent_s();
   const bool over_time = !answer && !stopping_ && progress.is_over_time();
   if (over_time)
     answer = fail(ErrorCode::kJobTooLarge,
@@ -249,7 +311,7 @@ void JobRunner::run(const ClaimedJob& claimed) {
     const std::scoped_lock lock(mutex_);
     active_.erase(claimed.job.id);
   }
-  if (wanted || answer) conclude(claimed, answer);
+  if (wanted || answer) conclude(claimed, answer, cpu_s);
   {
     const std::scoped_lock lock(mutex_);
     --running_;
@@ -269,7 +331,7 @@ Result<JobAnswer> JobRunner::answer_of(const ClaimedJob& claimed, JobProgress& p
                     claimed.job.last_death.empty() ? "" : "; the last time: ", claimed.job.last_death));
   if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the work was dismissed before it began");
   try {
-    return work_(claimed.job.kind, claimed.request, progress);
+    return work_on(claimed, progress);
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::kJobTooLarge, "the work needs more memory than one job may use");
   } catch (const std::exception& broken) {
@@ -277,11 +339,78 @@ Result<JobAnswer> JobRunner::answer_of(const ClaimedJob& claimed, JobProgress& p
   }
 }
 
-void JobRunner::conclude(const ClaimedJob& claimed, const Result<JobAnswer>& answer) {
+// The job is others' then, or nobody's: work that can't be divided now is done in one go.
+bool JobRunner::divided(const ClaimedJob& claimed) {
+  const Job& job = claimed.job;
+  const bool is_whole = job.whole.empty() && job.parts.count == 0;
+  if (!in_parts_.split || !is_whole || claimed.damaged || job.deaths >= options_.most_deaths) return false;
+  const auto requests = in_parts_.split(job.kind, claimed.request);
+  if (!requests || requests->size() < 2) return false;
+  const auto kept = store_->split(claimed.lease(), *requests, now_ms());
+  if (!kept) return false;
+  ring();
+  if (on_change_) on_change_();
+  return true;
+}
+
+Result<JobAnswer> JobRunner::work_on(const ClaimedJob& claimed, Progress& progress) {
+  if (!claimed.job.whole.empty()) return in_parts_.part(claimed.job.kind, claimed.request, progress);
+  if (claimed.job.parts.count == 0) return work_(claimed.job.kind, claimed.request, progress);
+  RestOfProgress rest(progress, kShareOfParts);
+  return put_together(claimed, rest);
+}
+
+Result<JobAnswer> JobRunner::put_together(const ClaimedJob& claimed, Progress& progress) {
+  progress.report("putting the parts together", 0.0);
+  const auto parts = store_->parts(claimed.job.id);
+  if (!parts) return fail(parts.error());
+  std::optional<Error> missing;
+  for (const Job& part : *parts) {
+    if (part.state == JobState::kSuccessful) continue;
+    const auto answer = answer_of_part(part);
+    if (!missing)
+      missing = Error{answer.error().code,
+                      fmt::format("{} of {} parts of the work are missing: {}", claimed.job.parts.failed,
+                                  parts->size(), answer.error().detail),
+                      {}};
+    missing->faults.push_back({fmt::format("/parts/{}", part.part), answer.error().detail});
+  }
+  if (missing) return fail(*std::move(missing));
+  return in_parts_.put_together(
+      claimed.job.kind, claimed.request,
+      [&](int part) { return answer_of_part(parts->at(static_cast<std::size_t>(part))); }, progress);
+}
+
+Result<JobAnswer> JobRunner::answer_of_part(const Job& part) {
+  if (part.state == JobState::kDismissed) return fail(ErrorCode::kCancelled, "the part was dismissed");
+  auto outcome = store_->outcome(part.id);
+  if (!outcome) return fail(outcome.error());
+  if (!*outcome) return fail(ErrorCode::kInternal, "the part has no answer");
+  if (part.state == JobState::kFailed) return fail(json::read_problem(**outcome));
+  JobAnswer answer(**std::move(outcome));
+  for (std::int64_t page = 1;; ++page) {
+    auto read = store_->series(part.id, page);
+    if (!read) return fail(read.error());
+    if (!*read) return answer;
+    answer.series.push_back(std::move((*read)->bytes));
+  }
+}
+
+void JobRunner::conclude(const ClaimedJob& claimed, const Result<JobAnswer>& answer, double cpu_s) {
   const JobState state = answer ? JobState::kSuccessful : JobState::kFailed;
-  const JobAnswer outcome = answer ? *answer : JobAnswer(json::write_problem(answer.error()));
-  // The store refuses it when the job was dismissed meanwhile: then nobody ever sees this outcome.
-  static_cast<void>(store_->finish(claimed.lease(), state, outcome, now_ms()));
+  JobAnswer outcome = answer ? *answer : JobAnswer(json::write_problem(answer.error()));
+  outcome.cpu_s = cpu_s;
+  // The store refuses it when the job was dismissed meanwhile: then nobody ever sees this outcome. A store
+  // that can't be reached for a moment is no reason to throw the work away; after the lease somebody else
+  // does it.
+  const auto until = std::chrono::steady_clock::now() + options_.lease;
+  constexpr std::chrono::milliseconds kBetweenTries{200};
+  for (;;) {
+    const auto kept = store_->finish(claimed.lease(), state, outcome, now_ms());
+    const bool may_pass = !kept && kept.error().code == ErrorCode::kStorage;
+    if (!may_pass || stopping_ || std::chrono::steady_clock::now() >= until) break;
+    std::this_thread::sleep_for(kBetweenTries);
+  }
   trim();
 }
 

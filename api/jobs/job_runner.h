@@ -22,6 +22,21 @@ namespace slipway::api {
 using JobWork =
     std::function<Result<JobAnswer>(const std::string& kind, const std::string& request, Progress&)>;
 
+// The answer of the job's part of this number.
+using PartAnswer = std::function<Result<JobAnswer>(int part)>;
+
+// Work that several workers may share. The same bytes come of it however many of them there are, and of the
+// same work done in one go.
+struct WorkInParts {
+  // The requests of the parts, in the order in which they are put together. Fewer than two: it is done in one
+  // go. Quick, as it is done before the job is divided.
+  std::function<Result<std::vector<std::string>>(const std::string& kind, const std::string& request)> split;
+  JobWork part;
+  std::function<Result<JobAnswer>(const std::string& kind, const std::string& request, const PartAnswer&,
+                                  Progress&)>
+      put_together;
+};
+
 struct JobRunnerOptions {
   // One list of kinds per worker: that worker claims only these; an empty list claims every kind. Short work
   // has a worker of its own, so that it does not wait behind long work: see worker_kinds().
@@ -57,7 +72,8 @@ struct QueueEstimate {
 // process died run again. Thread-safe.
 class JobRunner {
  public:
-  JobRunner(std::shared_ptr<JobStore> store, JobWork work, JobRunnerOptions options = {});
+  JobRunner(std::shared_ptr<JobStore> store, JobWork work, JobRunnerOptions options = {},
+            WorkInParts in_parts = {});
   ~JobRunner();  // stop()
   JobRunner(const JobRunner&) = delete;
   JobRunner& operator=(const JobRunner&) = delete;
@@ -98,19 +114,25 @@ class JobRunner {
 
   void serve(const std::vector<std::string>& kinds);
   void run(const ClaimedJob& claimed);
+  bool divided(const ClaimedJob& claimed);
   Result<JobAnswer> answer_of(const ClaimedJob& claimed, JobProgress& progress);
-  void conclude(const ClaimedJob& claimed, const Result<JobAnswer>& answer);
+  Result<JobAnswer> work_on(const ClaimedJob& claimed, Progress& progress);
+  Result<JobAnswer> put_together(const ClaimedJob& claimed, Progress& progress);
+  Result<JobAnswer> answer_of_part(const Job& part);
+  void conclude(const ClaimedJob& claimed, const Result<JobAnswer>& answer, double cpu_s);
 
   std::shared_ptr<JobStore> store_;
   JobWork work_;
   JobRunnerOptions options_;
+  WorkInParts in_parts_;
 
   mutable std::mutex mutex_;
   std::condition_variable submitted_;
   std::condition_variable ended_;
   std::map<std::string, JobProgress*, std::less<>> active_;  // by job id
   std::function<void()> on_change_;
-  std::atomic<int> rings_{0};  // so that none is missed between a claim and the wait for the next
+  std::atomic<int> rings_{0};
+  std::atomic<int> work_rings_{0};  // so that none is missed between a claim and the wait for the next
   std::atomic<bool> stopping_{false};
   std::atomic<int> running_{0};
   std::vector<std::thread> threads_;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -46,18 +47,22 @@ struct QueuePlace {
   std::optional<double> work_ahead_s;
 };
 
-// The right to work on a job until the lease ends or is renewed. The attempt is the fence: a worker that was
-// taken for dead and comes back holds an old attempt, and nothing that it writes is kept.
+// The right to work on a job until the lease ends or is renewed. Attempt and worker are the fence: a worker
+// that was taken for dead and comes back holds an old attempt, and nothing that it writes is kept. A store
+// that may lose a claim in a crash gives an attempt's number again, but to a worker of another name.
 struct Lease {
   std::string id;
   int attempt = 0;
+  std::string worker = {};
+  std::string whole = {};  // the job that it is a part of; empty: of none
 };
 
 struct ClaimedJob {
   Job job;
   std::string request;
-  bool damaged = false;  // the stored request is not what was accepted, and must not be run
-  Lease lease() const { return {job.id, job.attempt}; }
+  bool damaged = false;     // the stored request is not what was accepted, and must not be run
+  std::string worker = {};  // who claimed it
+  Lease lease() const { return {job.id, job.attempt, worker, job.whole}; }
 };
 
 // What is kept of a job that ended well.
@@ -68,6 +73,7 @@ struct JobAnswer {
 
   std::string bytes;
   std::vector<std::string> series;  // a long table in pages, which are kept and read one by one
+  double cpu_s = 0.0;               // processor time that it took
 };
 
 // A page of such a table.
@@ -89,13 +95,21 @@ struct Retention {
   std::int64_t most_bytes = std::int64_t{4} << 30;  // of requests and outcomes
 };
 
-// Where jobs are kept: the one thing that machines would have to share. Every call stands alone and holds
-// nothing open afterwards, so that a database server or a service can implement it: append, claim, report,
-// finish and dismiss each are one atomic statement or transaction, and a claim does not keep its transaction
-// while the job runs (PostgreSQL: SELECT ... FOR UPDATE SKIP LOCKED, then a lease). Times come from the
-// caller; machines that share a store keep their clocks within a fraction of the lease.
+// What happens to a store that somebody may wait for.
+enum class StoreNews {
+  kAccepted,  // there is work
+  kEnded,     // a job has ended or was dismissed
+};
+
+// Where jobs are kept: the one thing that processes and machines share. Every call stands alone and holds
+// nothing open afterwards: append, claim, report, finish and dismiss each are one atomic statement or
+// transaction, and a claim does not keep its transaction while the job runs. Times come from the caller;
+// machines that share a store keep their clocks within a fraction of the lease. Names of workers are new at
+// each start of a process.
 //
-// Errors are always `storage`, or `storage_full` where the disk is full, except where said. Thread-safe.
+// Errors are always `storage`, or `storage_full` where the disk is full, except where said. After `storage`
+// the change may have been made all the same: who asks again with the same key, id or lease finds it made
+// once. Thread-safe.
 class JobStore {
  public:
   virtual ~JobStore() = default;
@@ -119,6 +133,15 @@ class JobStore {
   // kept.
   virtual Result<bool> finish(const Lease& lease, JobState state, const JobAnswer& outcome,
                               std::int64_t now) = 0;
+  // Divides the job into parts, which are jobs of its kind, owner and urgency with these requests, and gives
+  // the lease back. Until the last part has ended the job is running and nobody's; in the transaction of that
+  // end it is accepted again, to be put together from its parts' answers. Parts are dismissed and forgotten
+  // with their job and count for no Admission. Of an answer, only that of the whole is waited for: a part of
+  // which a crash has lost the end is done again. False: the lease is lost, nothing was kept.
+  virtual Result<bool> split(const Lease& lease, const std::vector<std::string>& requests,
+                             std::int64_t now) = 0;
+  // In their order; none of a job without parts, or of an unknown one.
+  virtual Result<std::vector<Job>> parts(std::string_view id) = 0;
   // Gives back what `worker`, or one named after it ("worker/..."), holds, as accepted. A death is counted,
   // and its reason kept with the job.
   virtual Result<int> release(std::string_view worker, HandBack why, std::string_view reason = {}) = 0;
@@ -140,10 +163,15 @@ class JobStore {
                                                            const std::vector<std::string>& kinds) = 0;
   // Of those that are kept, by kind and state.
   virtual Result<std::vector<JobCount>> counts() = 0;
-  // Newest first.
+  // Newest first, without parts.
   virtual Result<std::vector<Job>> list(std::size_t most) = 0;
   // Forgets the ended jobs that are not to be kept, and gives their place back. Returns how many.
   virtual Result<int> forget_ended(const Retention& kept, std::int64_t now) = 0;
+
+  // Has `call` called, from a thread of the store's, soon after another process has made such news; an empty
+  // one ends that. A store that does not hear of others never calls, and news may be missed: who waits looks
+  // from time to time too.
+  virtual void listen(StoreNews /*news*/, std::function<void()> /*call*/) {}
 };
 
 }  // namespace slipway::api

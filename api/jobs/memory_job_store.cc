@@ -4,6 +4,7 @@
 #include <deque>
 #include <map>
 #include <mutex>
+#include <set>
 #include <utility>
 
 #include "api/jobs/job_admission.h"
@@ -16,8 +17,9 @@ struct Entry {
   NewJob asked;
   std::string outcome;
   std::vector<std::string> series = {};
-  std::string worker;
+  std::string worker = {};
   std::int64_t lease_until = 0;
+  bool waits = false;  // for its parts, running and nobody's
 };
 
 class MemoryJobStore final : public JobStore {
@@ -32,7 +34,7 @@ class MemoryJobStore final : public JobStore {
           return fail(another_request());
         return entry.job;
       }
-      if (has_ended(entry.job.state)) continue;
+      if (has_ended(entry.job.state) || !entry.job.whole.empty()) continue;
       ++unfinished;
       of_owner += same_owner ? 1 : 0;
     }
@@ -49,8 +51,8 @@ class MemoryJobStore final : public JobStore {
     const std::scoped_lock lock(mutex_);
     Entry* next = nullptr;
     for (Entry& entry : entries_) {
-      const bool free = entry.job.state == JobState::kAccepted ||
-                        (entry.job.state == JobState::kRunning && entry.lease_until < now);
+      const bool late = entry.job.state == JobState::kRunning && !entry.waits && entry.lease_until < now;
+      const bool free = entry.job.state == JobState::kAccepted || late;
       if (free && is_among(kinds, entry) && (next == nullptr || entry.job.urgency < next->job.urgency))
         next = &entry;
     }
@@ -67,7 +69,7 @@ class MemoryJobStore final : public JobStore {
     ++job.version;
     next->worker = worker;
     next->lease_until = lease_until;
-    return ClaimedJob{job, next->asked.request};
+    return ClaimedJob{.job = job, .request = next->asked.request, .worker = std::string(worker)};
   }
 
   Result<bool> report(const Lease& lease, std::string_view stage, double progress, std::int64_t lease_until,
@@ -89,10 +91,43 @@ class MemoryJobStore final : public JobStore {
     const std::scoped_lock lock(mutex_);
     Entry* const entry = held(lease);
     if (entry == nullptr) return false;
-    end(*entry, state, now);
+    entry->job.cpu_s = outcome.cpu_s;
     entry->outcome = outcome.bytes;
     entry->series = outcome.series;
+    end(*entry, state, now);
     return true;
+  }
+
+  Result<bool> split(const Lease& lease, const std::vector<std::string>& requests,
+                     std::int64_t now) override {
+    const std::scoped_lock lock(mutex_);
+    Entry* const entry = held(lease);
+    if (entry == nullptr) return false;
+    const int count = static_cast<int>(requests.size());
+    entry->waits = true;
+    entry->worker.clear();
+    Job& whole = entry->job;
+    whole.parts = {.count = count};
+    whole.stage = stage_of_parts(0, count);
+    ++whole.version;
+    const std::string id = whole.id;
+    for (int k = 0; k < count; ++k) {
+      const NewJob asked = new_part(find(id)->job, requests[static_cast<std::size_t>(k)]);
+      Entry& part = entries_.emplace_back();
+      part.job = accepted_job(asked, now);
+      part.job.whole = id;
+      part.job.part = k;
+      part.asked = asked;
+    }
+    return true;
+  }
+
+  Result<std::vector<Job>> parts(std::string_view id) override {
+    const std::scoped_lock lock(mutex_);
+    std::vector<Job> jobs;  // the entries of a job's parts are in their order
+    for (const Entry& entry : entries_)
+      if (!id.empty() && entry.job.whole == id) jobs.push_back(entry.job);
+    return jobs;
   }
 
   Result<int> release(std::string_view worker, HandBack why, std::string_view reason) override {
@@ -101,7 +136,7 @@ class MemoryJobStore final : public JobStore {
     int released = 0;
     for (Entry& entry : entries_) {
       const bool holds = entry.worker == worker || entry.worker.starts_with(family);
-      if (entry.job.state != JobState::kRunning || !holds) continue;
+      if (entry.job.state != JobState::kRunning || entry.waits || !holds) continue;
       entry.job.state = JobState::kAccepted;
       if (why == HandBack::kDied) {
         ++entry.job.deaths;
@@ -117,8 +152,11 @@ class MemoryJobStore final : public JobStore {
     const std::scoped_lock lock(mutex_);
     Entry* const entry = find(id);
     if (entry == nullptr) return std::nullopt;
-    if (!has_ended(entry->job.state)) end(*entry, JobState::kDismissed, now);
-    return entry->job;
+    if (has_ended(entry->job.state)) return entry->job;
+    end(*entry, JobState::kDismissed, now);
+    for (Entry& part : entries_)
+      if (part.job.whole == id && !has_ended(part.job.state)) end(part, JobState::kDismissed, now);
+    return find(id)->job;
   }
 
   Result<std::optional<Job>> get(std::string_view id) override {
@@ -192,29 +230,28 @@ class MemoryJobStore final : public JobStore {
   Result<std::vector<Job>> list(std::size_t most) override {
     const std::scoped_lock lock(mutex_);
     std::vector<Job> jobs;
-    for (auto entry = entries_.rbegin(); entry != entries_.rend() && jobs.size() < most; ++entry) {
-      jobs.push_back(entry->job);
-    }
+    for (auto entry = entries_.rbegin(); entry != entries_.rend() && jobs.size() < most; ++entry)
+      if (entry->job.whole.empty()) jobs.push_back(entry->job);
     return jobs;
   }
 
   Result<int> forget_ended(const Retention& kept, std::int64_t now) override {
     const std::scoped_lock lock(mutex_);
+    std::map<std::string, std::int64_t, std::less<>> of_parts;  // bytes, by the job's id
+    for (const Entry& entry : entries_)
+      if (!entry.job.whole.empty()) of_parts[entry.job.whole] += bytes_of(entry);
     std::size_t ended = 0;
     std::int64_t bytes = 0;
-    const std::size_t before = entries_.size();
-    std::deque<Entry> left;
+    std::set<std::string> gone;
     for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry) {
-      if (has_ended(entry->job.state)) {
-        bytes += static_cast<std::int64_t>(entry->asked.request.size() + entry->outcome.size());
-        for (const std::string& page : entry->series) bytes += static_cast<std::int64_t>(page.size());
-        const bool old = now - entry->job.ended_ms.value_or(now) > kept.most_age_ms;
-        if (++ended > kept.most || bytes > kept.most_bytes || old) continue;
-      }
-      left.push_front(std::move(*entry));
+      if (!has_ended(entry->job.state) || !entry->job.whole.empty()) continue;
+      bytes += bytes_of(*entry) + of_parts[entry->job.id];
+      const bool old = now - entry->job.ended_ms.value_or(now) > kept.most_age_ms;
+      if (++ended > kept.most || bytes > kept.most_bytes || old) gone.insert(entry->job.id);
     }
-    entries_ = std::move(left);
-    return static_cast<int>(before - entries_.size());
+    std::erase_if(entries_,
+                  [&](const Entry& e) { return gone.contains(e.job.id) || gone.contains(e.job.whole); });
+    return static_cast<int>(gone.size());
   }
 
  private:
@@ -231,16 +268,34 @@ class MemoryJobStore final : public JobStore {
   // The entry that the lease still holds.
   Entry* held(const Lease& lease) {
     Entry* const entry = find(lease.id);
-    const bool holds =
-        entry != nullptr && entry->job.state == JobState::kRunning && entry->job.attempt == lease.attempt;
+    const bool holds = entry != nullptr && entry->job.state == JobState::kRunning && !entry->waits &&
+                       entry->job.attempt == lease.attempt;
     return holds ? entry : nullptr;
   }
 
-  static void end(Entry& entry, JobState state, std::int64_t now) {
+  static std::int64_t bytes_of(const Entry& entry) {
+    std::size_t bytes = entry.asked.request.size() + entry.outcome.size();
+    for (const std::string& page : entry.series) bytes += page.size();
+    return static_cast<std::int64_t>(bytes);
+  }
+
+  void end(Entry& entry, JobState state, std::int64_t now) {
     entry.job.state = state;
     entry.job.ended_ms = now;
     if (state == JobState::kSuccessful) entry.job.progress = 1.0;
     ++entry.job.version;
+    Entry* const whole = entry.job.whole.empty() ? nullptr : find(entry.job.whole);
+    if (whole == nullptr || !whole->waits || has_ended(whole->job.state)) return;
+    Job& job = whole->job;
+    ++job.parts.ended;
+    job.parts.failed += state == JobState::kSuccessful ? 0 : 1;
+    job.parts.cpu_s += entry.job.cpu_s;
+    job.stage = stage_of_parts(job.parts.ended, job.parts.count);
+    job.progress = progress_of_parts(job.parts.ended, job.parts.count);
+    ++job.version;
+    if (job.parts.ended < job.parts.count) return;
+    whole->waits = false;
+    job.state = JobState::kAccepted;
   }
 
   std::mutex mutex_;

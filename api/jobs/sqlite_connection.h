@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "api/jobs/commit_kind.h"
+
 struct sqlite3;
 struct sqlite3_stmt;
 
@@ -30,10 +32,6 @@ class SqliteDamage : public SqliteFailure {
  public:
   using SqliteFailure::SqliteFailure;
 };
-
-// What a commit survives: kQuick the death of the process, kDurable a loss of power too (it waits for the
-// disk).
-enum class CommitKind { kQuick, kDurable };
 
 // One statement, prepared and bound. Text is copied when bound.
 class SqliteStatement {

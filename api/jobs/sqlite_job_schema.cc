@@ -10,7 +10,7 @@
 
 #include "api/files/whole_file.h"
 #include "api/jobs/job.h"
-#include "core/sha256.h"
+#include "api/jobs/job_digest.h"
 #include "core/utc.h"
 
 namespace slipway::api {
@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kSchemaVersion = 3;
+constexpr std::int64_t kSchemaVersion = 4;
 
 // What is too long for an answer, in pages, and goes with its job.
 constexpr const char* kSeries = R"(
@@ -55,12 +55,26 @@ CREATE TABLE jobs (
   last_death TEXT NOT NULL DEFAULT '',
   owner TEXT NOT NULL DEFAULT '',
   idempotency_key TEXT,
-  urgency INTEGER NOT NULL DEFAULT 3
+  urgency INTEGER NOT NULL DEFAULT 3,
+  cpu_s REAL NOT NULL DEFAULT 0,
+  whole TEXT,
+  part INTEGER NOT NULL DEFAULT 0,
+  parts INTEGER NOT NULL DEFAULT 0,
+  parts_ended INTEGER NOT NULL DEFAULT 0,
+  parts_failed INTEGER NOT NULL DEFAULT 0,
+  parts_cpu_s REAL NOT NULL DEFAULT 0
 );
 CREATE UNIQUE INDEX jobs_keys ON jobs (owner, idempotency_key) WHERE idempotency_key IS NOT NULL;
 CREATE INDEX jobs_unfinished ON jobs (sequence) WHERE state IN ('accepted', 'running');
 CREATE INDEX jobs_ended ON jobs (sequence) WHERE state NOT IN ('accepted', 'running');
-PRAGMA user_version = 3;
+PRAGMA user_version = 4;
+)";
+// A job's parts, which go with it.
+constexpr const char* kParts = R"(
+CREATE INDEX jobs_parts ON jobs (whole, part) WHERE whole IS NOT NULL;
+CREATE TRIGGER parts_go AFTER DELETE ON jobs WHEN OLD.parts > 0 BEGIN
+  DELETE FROM jobs WHERE whole = OLD.id;
+END;
 )";
 // What running jobs have found until now, beside the versions: a program that does not know it does without.
 constexpr const char* kBestSoFar = R"(
@@ -95,7 +109,14 @@ const std::vector<std::string> kColumns{"sequence",
                                         "last_death",
                                         "owner",
                                         "idempotency_key",
-                                        "urgency"};
+                                        "urgency",
+                                        "cpu_s",
+                                        "whole",
+                                        "part",
+                                        "parts",
+                                        "parts_ended",
+                                        "parts_failed",
+                                        "parts_cpu_s"};
 
 constexpr std::string_view kMoveAway = "move it away to begin an empty store, or name another with --jobs";
 
@@ -125,18 +146,9 @@ void make_tables_where_empty(SqliteConnection& connection) {
       number_of(connection, "SELECT count(*) FROM sqlite_schema") == 0) {
     connection.execute(kSchema);
     connection.execute(kSeries);
+    connection.execute(kParts);
   }
   transaction.commit();
-}
-
-// With the length of each part before it, so that only the same parts have the same digest.
-std::string digest_of_parts(std::initializer_list<std::string_view> parts) {
-  Sha256 hash;
-  for (const std::string_view part : parts) {
-    hash.add(fmt::format("{}:", part.size()));
-    hash.add(part);
-  }
-  return hash.digest();
 }
 
 void check_columns(SqliteConnection& connection, const fs::path& store) {
@@ -197,19 +209,20 @@ void bring_up_from_2(SqliteConnection& connection) {
   transaction.commit();
 }
 
+// Version 3 knew no parts of jobs.
+void bring_up_from_3(SqliteConnection& connection) {
+  SqliteTransaction transaction(connection);
+  for (const char* const column :
+       {"cpu_s REAL NOT NULL DEFAULT 0", "whole TEXT", "part INTEGER NOT NULL DEFAULT 0",
+        "parts INTEGER NOT NULL DEFAULT 0", "parts_ended INTEGER NOT NULL DEFAULT 0",
+        "parts_failed INTEGER NOT NULL DEFAULT 0", "parts_cpu_s REAL NOT NULL DEFAULT 0"})
+    connection.execute(fmt::format("ALTER TABLE jobs ADD COLUMN {}", column).c_str());
+  connection.execute(kParts);
+  connection.execute("PRAGMA user_version = 4");
+  transaction.commit();
+}
+
 }  // namespace
-
-std::string request_digest(std::string_view id, std::string_view kind, std::string_view request) {
-  return digest_of_parts({id, kind, request});
-}
-
-std::string outcome_digest(std::string_view id, std::string_view state, std::string_view outcome) {
-  return digest_of_parts({id, state, outcome});
-}
-
-std::string series_digest(std::string_view id, std::int64_t page, std::string_view bytes) {
-  return digest_of_parts({id, fmt::format("series {}", page), bytes});
-}
 
 void check_marker(const fs::path& store) {
   std::error_code ignored;
@@ -238,7 +251,8 @@ void settle_schema(SqliteConnection& connection, const fs::path& store, StoreChe
     } else if (version < kSchemaVersion) {
       copy_of_version(connection, store, version);
       if (version < 2) bring_up_from_1(connection);
-      bring_up_from_2(connection);
+      if (version < 3) bring_up_from_2(connection);
+      bring_up_from_3(connection);
     }
     check_columns(connection, store);
     connection.execute(kBestSoFar);

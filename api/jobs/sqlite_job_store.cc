@@ -7,45 +7,13 @@
 #include <utility>
 
 #include "api/jobs/job_admission.h"
+#include "api/jobs/job_digest.h"
 #include "api/jobs/sqlite_connection.h"
+#include "api/jobs/sqlite_job_rows.h"
 #include "api/jobs/sqlite_job_schema.h"
 
 namespace slipway::api {
 namespace {
-
-constexpr std::string_view kJobColumns =
-    "id, kind, state, stage, progress, version, attempt, created_ms, started_ms, ended_ms, deaths, "
-    "last_death, "
-    "urgency, owner, (SELECT document FROM best_so_far WHERE job_id = jobs.id AND attempt = jobs.attempt)";
-constexpr std::string_view kHeld = "id = ? AND attempt = ? AND state = 'running'";
-
-Job job_of(const SqliteStatement& row) {
-  const auto state = job_state(row.text(2));
-  if (!state) throw SqliteFailure("a job has a state that is none");
-  Job job;
-  job.id = row.text(0);
-  job.kind = row.text(1);
-  job.state = *state;
-  job.stage = row.text(3);
-  job.progress = row.real(4);
-  job.version = row.number(5);
-  job.attempt = static_cast<int>(row.number(6));
-  job.created_ms = row.number(7);
-  job.started_ms = row.optional_number(8);
-  job.ended_ms = row.optional_number(9);
-  job.deaths = static_cast<int>(row.number(10));
-  job.last_death = row.text(11);
-  job.urgency = static_cast<int>(row.number(12));
-  job.owner = row.text(13);
-  job.best_so_far = row.text(14);
-  return job;
-}
-
-std::optional<Job> get_from(SqliteConnection& connection, std::string_view id) {
-  auto row = connection.prepare(fmt::format("SELECT {} FROM jobs WHERE id = ?", kJobColumns));
-  row.bind(id);
-  return row.step() ? std::optional(job_of(row)) : std::nullopt;
-}
 
 // "AND kind IN (?, ?)"; nothing where any kind will do.
 std::string among(const std::vector<std::string>& kinds) {
@@ -136,6 +104,7 @@ class SqliteJobStore final : public JobStore {
       const std::optional<Job> job = get_from(quick_, id);
       if (!job) throw SqliteDamage("a job is not found under its id");
       claimed.job = *job;
+      claimed.worker = worker;
       transaction.commit();
       return claimed;
     });
@@ -166,25 +135,35 @@ class SqliteJobStore final : public JobStore {
   Result<bool> finish(const Lease& lease, JobState state, const JobAnswer& outcome,
                       std::int64_t now) override {
     return guarded(write_mutex_, [&] {
-      SqliteTransaction transaction(durable_);
-      auto update = durable_.prepare(fmt::format(
-          "UPDATE jobs SET state = ?, outcome = ?, outcome_sha256 = ?, ended_ms = ?, version = version + 1, "
-          "progress = CASE WHEN ? THEN 1.0 ELSE progress END, worker = NULL WHERE {}",
-          kHeld));
-      update.bind(describe(state)).bind(outcome.bytes);
-      update.bind(outcome_digest(lease.id, describe(state), outcome.bytes));
-      update.bind(now).bind(std::int64_t{state == JobState::kSuccessful});
-      update.bind(lease.id).bind(std::int64_t{lease.attempt}).step();
-      const bool held = durable_.changes() == 1;
-      for (std::size_t k = 0; held && k < outcome.series.size(); ++k) {
-        const std::string& bytes = outcome.series[k];
-        auto insert =
-            durable_.prepare("INSERT INTO series (job_id, page, bytes, sha256) VALUES (?, ?, ?, ?)");
-        insert.bind(lease.id).bind(static_cast<std::int64_t>(k + 1)).bind(bytes);
-        insert.bind(series_digest(lease.id, static_cast<std::int64_t>(k + 1), bytes)).step();
-      }
+      // The end of a part is nobody's answer yet.
+      SqliteConnection& connection = lease.whole.empty() ? durable_ : quick_;
+      SqliteTransaction transaction(connection);
+      const bool held = end_job(connection, lease, state, outcome, now);
+      if (held && !lease.whole.empty())
+        count_ended_part(connection, lease.whole, state == JobState::kSuccessful, outcome.cpu_s);
       transaction.commit();
       return held;
+    });
+  }
+
+  Result<bool> split(const Lease& lease, const std::vector<std::string>& requests,
+                     std::int64_t now) override {
+    return guarded(write_mutex_, [&] {
+      SqliteTransaction transaction(quick_);
+      const bool held = split_job(quick_, lease, requests, now);
+      transaction.commit();
+      return held;
+    });
+  }
+
+  Result<std::vector<Job>> parts(std::string_view id) override {
+    return guarded(read_mutex_, [&] {
+      std::vector<Job> jobs;
+      auto row =
+          reader_.prepare(fmt::format("SELECT {} FROM jobs WHERE whole = ? ORDER BY part", kJobColumns));
+      row.bind(id);
+      while (row.step()) jobs.push_back(job_of(row));
+      return jobs;
     });
   }
 
@@ -204,11 +183,11 @@ class SqliteJobStore final : public JobStore {
 
   Result<std::optional<Job>> dismiss(std::string_view id, std::int64_t now) override {
     return guarded(write_mutex_, [&] {
-      auto update = durable_.prepare(
-          "UPDATE jobs SET state = 'dismissed', ended_ms = ?, version = version + 1, worker = NULL "
-          "WHERE id = ? AND state IN ('accepted', 'running')");
-      update.bind(now).bind(id).step();
-      return get_from(durable_, id);
+      SqliteTransaction transaction(durable_);
+      dismiss_job(durable_, id, now);
+      const std::optional<Job> job = get_from(durable_, id);
+      transaction.commit();
+      return job;
     });
   }
 
@@ -297,8 +276,8 @@ class SqliteJobStore final : public JobStore {
   Result<std::vector<Job>> list(std::size_t most) override {
     return guarded(read_mutex_, [&] {
       std::vector<Job> jobs;
-      auto row =
-          reader_.prepare(fmt::format("SELECT {} FROM jobs ORDER BY sequence DESC LIMIT ?", kJobColumns));
+      auto row = reader_.prepare(
+          fmt::format("SELECT {} FROM jobs WHERE whole IS NULL ORDER BY sequence DESC LIMIT ?", kJobColumns));
       row.bind(static_cast<std::int64_t>(most));
       while (row.step()) jobs.push_back(job_of(row));
       return jobs;
@@ -312,8 +291,13 @@ class SqliteJobStore final : public JobStore {
           "SELECT sequence, ended_ms, row_number() OVER newest AS number, "
           "sum(length(request) + coalesce(length(outcome), 0) + coalesce((SELECT sum(length(bytes)) FROM "
           "series "
-          "WHERE job_id = jobs.id), 0)) OVER newest AS bytes "
-          "FROM jobs WHERE state NOT IN ('accepted', 'running') WINDOW newest AS (ORDER BY sequence DESC)) "
+          "WHERE job_id = jobs.id), 0) + CASE parts WHEN 0 THEN 0 ELSE (SELECT "
+          "sum(length(request) + coalesce(length(outcome), 0) + coalesce((SELECT sum(length(bytes)) FROM "
+          "series "
+          "WHERE job_id = part_of_it.id), 0)) FROM jobs AS part_of_it WHERE whole = jobs.id) END) OVER "
+          "newest AS bytes "
+          "FROM jobs WHERE state NOT IN ('accepted', 'running') AND whole IS NULL WINDOW newest AS (ORDER BY "
+          "sequence DESC)) "
           "WHERE number > ? OR bytes > ? OR ? - ended_ms > ?)");
       erase.bind(static_cast<std::int64_t>(kept.most)).bind(kept.most_bytes).bind(now).bind(kept.most_age_ms);
       erase.step();
@@ -359,7 +343,8 @@ class SqliteJobStore final : public JobStore {
       }
     }
     auto count = durable_.prepare(
-        "SELECT count(*), coalesce(sum(owner = ?), 0) FROM jobs WHERE state IN ('accepted', 'running')");
+        "SELECT count(*), coalesce(sum(owner = ?), 0) FROM jobs WHERE state IN ('accepted', 'running') "
+        "AND whole IS NULL");
     count.bind(wanted.owner).step();
     if (auto refusal = refused_by(pending.admission, count.number(0), count.number(1)))
       return fail(*std::move(refusal));

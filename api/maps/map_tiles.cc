@@ -16,8 +16,6 @@ namespace {
 using dem::kTileSide;
 using dem::TileIndex;
 
-constexpr int kTilesAtOnce = 2;  // to each side: read as one piece of ground
-
 tl::unexpected<Error> map_given_up() {
   return fail(ErrorCode::kCancelled, "the map was given up");
 }
@@ -68,14 +66,14 @@ struct MapPiece {
 std::vector<MapPiece> pieces_of(const dem::RasterLayer& layer, const dem::TileStore& store) {
   const dem::LevelSize size = dem::size_of_level(layer.geometry, 0);
   std::vector<MapPiece> pieces;
-  for (int row = 0; row < size.tile_rows(); row += kTilesAtOnce) {
-    for (int column = 0; column < size.tile_columns(); column += kTilesAtOnce) {
+  for (int row = 0; row < size.tile_rows(); row += kTilesOfPiece) {
+    for (int column = 0; column < size.tile_columns(); column += kTilesOfPiece) {
       MapPiece piece;
       piece.cells = {row * kTileSide, column * kTileSide,
-                     std::min(kTilesAtOnce * kTileSide, size.rows - row * kTileSide),
-                     std::min(kTilesAtOnce * kTileSide, size.columns - column * kTileSide)};
-      for (int r = row; r < std::min(row + kTilesAtOnce, size.tile_rows()); ++r)
-        for (int c = column; c < std::min(column + kTilesAtOnce, size.tile_columns()); ++c)
+                     std::min(kTilesOfPiece * kTileSide, size.rows - row * kTileSide),
+                     std::min(kTilesOfPiece * kTileSide, size.columns - column * kTileSide)};
+      for (int r = row; r < std::min(row + kTilesOfPiece, size.tile_rows()); ++r)
+        for (int c = column; c < std::min(column + kTilesOfPiece, size.tile_columns()); ++c)
           if (!store.has({0, r, c})) piece.tiles.push_back({0, r, c});
       if (!piece.tiles.empty()) pieces.push_back(std::move(piece));
     }

@@ -8,6 +8,8 @@
 
 namespace slipway::api {
 
+inline constexpr int kTilesOfPiece = 2;  // to each side of a piece of ground that is read as one
+
 // Computes the tiles that the store does not have yet, in parallel, from ground that is read piece by piece:
 // memory is bounded whatever the map's size. Errors: those of reading the terrain; unwritable_file;
 // cancelled.

@@ -34,6 +34,11 @@ struct MapRequest {
 // The most cells of a map that a service makes, and of one that is of ways, whose ground is in memory whole.
 inline constexpr long long kMaxServedMapCells = 4'194'304;
 
+// A square of a map's tiles: the row and column of its first tile.
+struct MapPieceIndex {
+  int row = 0, column = 0;
+};
+
 // Where a map is written.
 struct MapTarget {
   std::filesystem::path out;   // the GeoTIFF; empty: its bytes are in the answer

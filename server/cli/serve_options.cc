@@ -25,49 +25,28 @@ void add_job_limits(CLI::App& command, JobLimits& limits) {
       ->check(CLI::Range(0.01, 1e6));
 }
 
+void add_store(CLI::App& command, std::string& jobs, LeaseOption& lease, const char* when_empty) {
+  command
+      .add_option("--jobs", jobs,
+                  fmt::format("SQLite file of the jobs, or the PostgreSQL database "
+                              "postgresql://USER@HOST:PORT/DATABASE that several machines share{}",
+                              when_empty))
+      ->capture_default_str();
+  command
+      .add_option("--lease-s", lease.seconds,
+                  "seconds for which a worker may be silent before its job is given to another")
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 3600.0));
+}
+
 void add_upload_place(CLI::App& command, UploadPlace& place) {
-  command.add_option(
-      "--uploads", place.given,
-      "folder of maps and drives that clients send, else the folder uploads beside the jobs; \"\" "
-      "takes none, nor does a service with its jobs in memory");
+  command.add_option("--uploads", place.given,
+                     "folder of maps and drives that clients send, else the folder uploads beside the file "
+                     "of the jobs; \"\" "
+                     "takes none, nor does a service with its jobs in memory");
   command.add_option("--keep-uploads-mb", place.keep_mb, "megabytes of that folder at most")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1e9));
-}
-
-void add_worker_command(CLI::App& app, std::function<int()>& run) {
-  const auto options = std::make_shared<WorkerOptions>();
-  CLI::App* command = app.add_subcommand("worker", "work on the jobs of a store until interrupted");
-  add_data_option(*command, options->data, "rovers, soils and terrains");
-  command->add_option("--jobs", options->jobs, "SQLite file of the jobs")->capture_default_str();
-  add_upload_place(*command, options->uploads);
-  command->add_option("--kind", options->kinds, "work on jobs of this kind only; may be repeated")
-      ->allow_extra_args(false);
-  command->add_option("--name", options->name,
-                      "name under which jobs are claimed; no two workers may share one");
-  add_job_limits(*command, options->of_job);
-  command->add_flag(
-      "--bell", options->bell,
-      "the standard input rings for new work, the standard output after each job; the worker ends "
-      "with the former");
-  command->footer(
-      "\"slipway serve\" starts workers of its own. Example of one more beside them:\n"
-      "  slipway worker --jobs var/jobs.sqlite --kind plan");
-  command->callback([options, &run] { run = [options] { return work(*options); }; });
-}
-
-void add_token_command(CLI::App& app, std::function<int()>& run) {
-  struct Wanted {
-    std::string name, role = "operator";
-  };
-  const auto wanted = std::make_shared<Wanted>();
-  CLI::App* command =
-      app.add_subcommand("token", "make a token, and what stands for it in the service's file");
-  command->add_option("name", wanted->name, "who is to hold it")->required();
-  command->add_option("--role", wanted->role, "viewer, operator or admin")->capture_default_str();
-  command->footer("Example:\n  slipway token dashboard --role viewer");
-  command->callback(
-      [wanted, &run] { run = [wanted] { return print_new_token(wanted->name, wanted->role); }; });
 }
 
 // A value of the file in the words of a flag.
@@ -99,7 +78,7 @@ void take_settings(CLI::App& command, const std::string& path) {
     const std::string& name = document->keys[k];
     CLI::Option* const option = command.get_option_no_throw("--" + name);
     if (option == nullptr || name == "config" || name == "help") {
-      fault(fmt::format("{} has {}, which is no option of serve", path, name));
+      fault(fmt::format("{} has {}, which is no option of {}", path, name, command.get_name()));
       continue;
     }
     if (option->count() > 0) continue;
@@ -113,6 +92,65 @@ void take_settings(CLI::App& command, const std::string& path) {
   if (!faults.empty()) throw CLI::ValidationError("--config", faults);
 }
 
+void add_settings(CLI::App& command, std::string& path) {
+  command.add_option("--config", path,
+                     "TOML file with any of these options by name, as in port = 8080; flags go before it");
+}
+
+void add_worker_command(CLI::App& app, std::function<int()>& run) {
+  const auto options = std::make_shared<WorkerOptions>();
+  CLI::App* command = app.add_subcommand("worker", "work on the jobs of a store until interrupted");
+  add_data_option(*command, options->data, "rovers, soils and terrains");
+  add_store(*command, options->jobs, options->lease, "");
+  add_upload_place(*command, options->uploads);
+  command->add_option("--kind", options->kinds, "work on jobs of this kind only; may be repeated")
+      ->allow_extra_args(false);
+  command->add_option("--name", options->name,
+                      "name under which jobs are claimed; no two workers may share one");
+  add_job_limits(*command, options->of_job);
+  command->add_flag("--until-empty", options->until_empty,
+                    "end when no job of these kinds waits or is worked on, as a pilot in a cluster does");
+  command->add_flag(
+      "--bell", options->bell,
+      "the standard input rings for new work, the standard output after each job; the worker ends "
+      "with the former");
+  const auto settings = std::make_shared<std::string>();
+  add_settings(*command, *settings);
+  command->footer(
+      "\"slipway serve\" starts workers of its own. Examples of one more, beside them and on another "
+      "machine:\n"
+      "  slipway worker --jobs var/jobs.sqlite --kind plan\n"
+      "  slipway worker --jobs postgresql://slipway@db/slipway --until-empty");
+  command->callback([options, settings, command, &run] {
+    if (!settings->empty()) take_settings(*command, *settings);
+    run = [options] { return work(*options); };
+  });
+}
+
+void add_jobs_command(CLI::App& app, std::function<int()>& run) {
+  const auto options = std::make_shared<JobsOptions>();
+  CLI::App* command = app.add_subcommand("jobs", "how many jobs of each kind and state a store holds");
+  command->add_option("--jobs", options->jobs, "SQLite file or PostgreSQL database of the jobs")
+      ->capture_default_str();
+  command->add_flag("--open", options->open, "print only how many wait or are worked on");
+  command->footer("Example:\n  slipway jobs --jobs postgresql://slipway@db/slipway");
+  command->callback([options, &run] { run = [options] { return print_jobs(*options); }; });
+}
+
+void add_token_command(CLI::App& app, std::function<int()>& run) {
+  struct Wanted {
+    std::string name, role = "operator";
+  };
+  const auto wanted = std::make_shared<Wanted>();
+  CLI::App* command =
+      app.add_subcommand("token", "make a token, and what stands for it in the service's file");
+  command->add_option("name", wanted->name, "who is to hold it")->required();
+  command->add_option("--role", wanted->role, "viewer, operator or admin")->capture_default_str();
+  command->footer("Example:\n  slipway token dashboard --role viewer");
+  command->callback(
+      [wanted, &run] { run = [wanted] { return print_new_token(wanted->name, wanted->role); }; });
+}
+
 }  // namespace
 
 void add_serve_command(CLI::App& app, std::function<int()>& run) {
@@ -123,8 +161,9 @@ void add_serve_command(CLI::App& app, std::function<int()>& run) {
   command->add_option("--port", options->port, "port; 0 takes a free one")
       ->capture_default_str()
       ->check(CLI::Range(0, 65535));
-  command->add_option("--jobs", options->jobs, "SQLite file of the jobs; \"\" keeps them in memory")
-      ->capture_default_str();
+  add_store(*command, options->jobs, options->lease, "; \"\" keeps them in memory");
+  command->add_flag("--no-workers", options->no_workers,
+                    "start no workers: others, on this machine or elsewhere, work on the store");
   add_upload_place(*command, options->uploads);
   command->add_option("--upload-mb", options->upload_mb, "megabytes of one file that is sent")
       ->capture_default_str()
@@ -178,14 +217,14 @@ void add_serve_command(CLI::App& app, std::function<int()>& run) {
                     "write events to standard error as JSON, an object a line");
   command->add_flag("--access-log", options->access_log, "write every request as an event");
   const auto settings = std::make_shared<std::string>();
-  command->add_option("--config", *settings,
-                      "TOML file with any of these options by name, as in port = 8080; flags go before it");
+  add_settings(*command, *settings);
   command->footer("Example:\n  slipway serve --port 8080\n  curl http://127.0.0.1:8080/v1/terrains");
   command->callback([options, settings, command, &run] {
     if (!settings->empty()) take_settings(*command, *settings);
     run = [options] { return serve(*options); };
   });
   add_worker_command(app, run);
+  add_jobs_command(app, run);
   add_token_command(app, run);
 }
 

@@ -149,7 +149,16 @@ TEST(JobStoreDamage, WhatIsNoStoreOfThisProgramIsRefusedWithWhatToDo) {
   expect_refusal(altered, {altered.string(), "other columns", "move it away"});
 }
 
+const std::vector<std::string> kOfVersion4{"cpu_s",       "whole",        "part",       "parts",
+                                           "parts_ended", "parts_failed", "parts_cpu_s"};
 const std::vector<std::string> kOfVersion3{"last_death", "owner", "idempotency_key", "urgency"};
+
+void drop_parts(SqliteConnection& connection) {
+  connection.execute("DROP INDEX jobs_parts");
+  connection.execute("DROP TRIGGER parts_go");
+  for (const std::string& column : kOfVersion4)
+    connection.execute(("ALTER TABLE jobs DROP COLUMN " + column).c_str());
+}
 
 void drop_columns(SqliteConnection& connection, const std::vector<std::string>& columns) {
   connection.execute("DROP INDEX IF EXISTS jobs_keys");
@@ -169,12 +178,30 @@ std::unique_ptr<JobStore> brought_up(const fs::path& path, const std::vector<std
   return std::move(*store);
 }
 
+TEST(JobStoreDamage, AStoreOfVersionThreeIsCopiedAndGoesOn) {
+  const ScratchFolder folder;
+  const fs::path path = folder.path() / "jobs.sqlite";
+  const std::vector<std::string> ids = fill(path);
+  {
+    SqliteConnection connection(path, CommitKind::kQuick);
+    drop_parts(connection);
+    connection.execute("PRAGMA user_version = 3");
+  }
+  const std::unique_ptr<JobStore> store = brought_up(path, ids);
+  ASSERT_TRUE(store);
+  const Lease whole = store->claim("a", {}, 5, 6).value()->lease();
+  EXPECT_TRUE(store->split(whole, {"{}", "{}"}, 6).value());
+  EXPECT_EQ(store->parts(whole.id).value().size(), 2U);
+  EXPECT_TRUE(fs::exists(path.string() + ".version-3"));
+}
+
 TEST(JobStoreDamage, AStoreOfVersionTwoIsCopiedAndGoesOn) {
   const ScratchFolder folder;
   const fs::path path = folder.path() / "jobs.sqlite";
   const std::vector<std::string> ids = fill(path);
   {
     SqliteConnection connection(path, CommitKind::kQuick);
+    drop_parts(connection);
     drop_columns(connection, kOfVersion3);
     connection.execute("PRAGMA user_version = 2");
   }
@@ -190,6 +217,7 @@ TEST(JobStoreDamage, AStoreOfVersionOneIsCopiedAndGoesOn) {
   const std::vector<std::string> ids = fill(path);
   {
     SqliteConnection connection(path, CommitKind::kQuick);
+    drop_parts(connection);
     drop_columns(connection, kOfVersion3);
     drop_columns(connection, {"deaths", "request_sha256", "outcome_sha256"});
     connection.execute("PRAGMA user_version = 1");

@@ -7,7 +7,9 @@
 #include <thread>
 
 #include "api/jobs/memory_job_store.h"
+#include "api/jobs/postgres_job_store.h"
 #include "api/jobs/sqlite_job_store.h"
+#include "postgres_schema.h"
 #include "small_world.h"
 
 namespace slipway::api {
@@ -18,12 +20,24 @@ using testing::ScratchFolder;
 const std::vector<std::string> kBoth{"plan", "prediction"};
 constexpr std::size_t kMany = 1000;
 
-// Both implementations keep the same promises.
+// A job divided into three parts, and their claims in their order.
+struct Divided {
+  std::string id;
+  std::vector<ClaimedJob> parts;
+};
+
+// All implementations keep the same promises.
 class JobStores : public ::testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
     if (GetParam() == "memory") {
       store_ = make_memory_job_store();
+    } else if (GetParam() == "postgresql") {
+      schema_ = testing::PostgresSchema::make();
+      if (!schema_) GTEST_SKIP() << testing::kNoPostgres;
+      auto opened = open_postgres_job_store(schema_->address());
+      ASSERT_TRUE(opened) << opened.error().detail;
+      store_ = std::move(*opened);
     } else {
       auto opened = open_sqlite_job_store(folder_.path() / "jobs.sqlite");
       ASSERT_TRUE(opened) << opened.error().detail;
@@ -41,14 +55,28 @@ class JobStores : public ::testing::TestWithParam<std::string> {
     EXPECT_TRUE(claimed && *claimed);
     return **claimed;
   }
+  Divided divide() {
+    Divided job{accept("plan", "whole"), {}};
+    EXPECT_TRUE(store_->split(claim().lease(), {"part 0", "part 1", "part 2"}, now_).value());
+    for (int k = 0; k < 3; ++k) job.parts.push_back(claim(1'000'000));
+    return job;
+  }
+  static JobAnswer answer_of_part(int part) {
+    JobAnswer answer("answer " + std::to_string(part));
+    answer.cpu_s = 0.5 + part;
+    return answer;
+  }
   Job get(const std::string& id) { return store_->get(id).value().value(); }
 
+  void TearDown() override { store_.reset(); }
+
   ScratchFolder folder_;
+  std::unique_ptr<testing::PostgresSchema> schema_;
   std::unique_ptr<JobStore> store_;
   std::int64_t now_ = 1'700'000'000'000;
 };
 
-INSTANTIATE_TEST_SUITE_P(Each, JobStores, ::testing::Values("memory", "sqlite"),
+INSTANTIATE_TEST_SUITE_P(Each, JobStores, ::testing::Values("memory", "sqlite", "postgresql"),
                          [](const auto& instance) { return instance.param; });
 
 TEST_P(JobStores, AJobGoesFromAcceptedOverRunningToSuccessful) {
@@ -216,8 +244,8 @@ TEST_P(JobStores, TheMostUrgentIsClaimedFirst) {
 
 TEST_P(JobStores, APlaceInTheQueueCountsWhatBeginsBefore) {
   const std::string ended = accept();
-  claim();
-  ASSERT_TRUE(store_->finish({ended, 1}, JobState::kSuccessful, std::string("answer"), now_ + 4000).value());
+  ASSERT_TRUE(
+      store_->finish(claim().lease(), JobState::kSuccessful, std::string("answer"), now_ + 4000).value());
   accept();
   claim();
   accept("prediction");
@@ -301,6 +329,122 @@ TEST_P(JobStores, NoSeriesOfALostLeaseIsKept) {
   claim();
   EXPECT_FALSE(store_->finish(old, JobState::kSuccessful, {"late", {"page"}}, now_).value());
   EXPECT_FALSE(store_->series(id, 1).value());
+}
+
+TEST_P(JobStores, AJobInPartsIsAcceptedAgainWithTheEndOfTheLast) {
+  const Divided job = divide();
+  EXPECT_EQ(get(job.id).state, JobState::kRunning);
+  EXPECT_EQ(get(job.id).parts.count, 3);
+  for (int k : {2, 0, 1}) {
+    const ClaimedJob& part = job.parts[static_cast<std::size_t>(k)];
+    EXPECT_EQ(part.job.whole, job.id);
+    EXPECT_EQ(part.job.part, k);
+    EXPECT_EQ(part.request, "part " + std::to_string(k));
+    EXPECT_EQ(store_->claim("b", {}, now_ + 500'000, now_ + 500'001).value(), std::nullopt)
+        << "who waits for parts can't be late";
+    const std::int64_t version = get(job.id).version;
+    ASSERT_TRUE(store_->finish(part.lease(), JobState::kSuccessful, answer_of_part(k), now_).value());
+    EXPECT_GT(get(job.id).version, version);
+  }
+  EXPECT_EQ(get(job.id).state, JobState::kAccepted);
+  EXPECT_EQ(get(job.id).parts.ended, 3);
+  EXPECT_DOUBLE_EQ(get(job.id).parts.cpu_s, 0.5 + 1.5 + 2.5);
+  const ClaimedJob whole = claim();
+  EXPECT_EQ(whole.job.id, job.id);
+  EXPECT_EQ(whole.request, "whole");
+  EXPECT_EQ(whole.job.deaths, 0);
+  const std::vector<Job> parts = store_->parts(job.id).value();
+  ASSERT_EQ(parts.size(), 3U);
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_EQ(parts[static_cast<std::size_t>(k)].part, k);
+    EXPECT_EQ(store_->outcome(parts[static_cast<std::size_t>(k)].id).value(), answer_of_part(k).bytes);
+  }
+  ASSERT_TRUE(store_->finish(whole.lease(), JobState::kSuccessful, std::string("all"), now_).value());
+  EXPECT_EQ(store_->outcome(job.id).value(), "all");
+}
+
+TEST_P(JobStores, AJobInPartsIsNobodysAndPartsAreNobodyElsesBusiness) {
+  const Divided job = divide();
+  EXPECT_EQ(store_->list(10).value().size(), 1U) << "parts are not listed";
+  EXPECT_TRUE(store_->append({new_job_id(), "plan", "{}"}, now_, {2})) << "nor do they fill the queue";
+  EXPECT_EQ(store_->release("a", HandBack::kDied, "no").value(), 3) << "the parts that a holds";
+  EXPECT_EQ(get(job.id).deaths, 0);
+  EXPECT_EQ(store_->parts(new_job_id()).value().size(), 0U);
+  EXPECT_EQ(store_->parts("").value().size(), 0U);
+}
+
+TEST_P(JobStores, TheLeaseOfADividedJobIsGone) {
+  accept("plan", "whole");
+  const Lease lease = claim().lease();
+  ASSERT_TRUE(store_->split(lease, {"part 0", "part 1"}, now_).value());
+  EXPECT_FALSE(store_->report(lease, "late", 0.5, now_ + 10).value());
+  EXPECT_FALSE(store_->finish(lease, JobState::kSuccessful, std::string("late"), now_).value());
+  ASSERT_TRUE(store_->dismiss(lease.id, now_));
+  EXPECT_FALSE(store_->finish(lease, JobState::kSuccessful, std::string("late"), now_).value());
+  accept();
+  const Lease old = claim(10).lease();
+  now_ += 11;
+  claim();
+  EXPECT_FALSE(store_->split(old, {"part 0", "part 1"}, now_).value());
+  EXPECT_EQ(store_->parts(old.id).value().size(), 0U);
+}
+
+TEST_P(JobStores, ADismissalStopsTheParts) {
+  const Divided job = divide();
+  ASSERT_TRUE(store_->finish(job.parts[0].lease(), JobState::kSuccessful, answer_of_part(0), now_).value());
+  EXPECT_EQ(store_->dismiss(job.id, now_).value()->state, JobState::kDismissed);
+  EXPECT_FALSE(store_->report(job.parts[1].lease(), "s", 0.5, now_ + 10).value());
+  EXPECT_FALSE(store_->finish(job.parts[2].lease(), JobState::kSuccessful, answer_of_part(2), now_).value());
+  EXPECT_EQ(get(job.parts[0].job.id).state, JobState::kSuccessful);
+  EXPECT_EQ(get(job.parts[1].job.id).state, JobState::kDismissed);
+  EXPECT_EQ(store_->claim("b", {}, now_ + 500'000, now_ + 500'001).value(), std::nullopt);
+}
+
+TEST_P(JobStores, AFailedAndADismissedPartAreCounted) {
+  const Divided job = divide();
+  ASSERT_TRUE(store_->finish(job.parts[0].lease(), JobState::kFailed, std::string("{}"), now_).value());
+  ASSERT_TRUE(store_->dismiss(job.parts[1].job.id, now_));
+  ASSERT_TRUE(store_->dismiss(job.parts[1].job.id, now_));
+  EXPECT_EQ(get(job.id).state, JobState::kRunning);
+  ASSERT_TRUE(store_->finish(job.parts[2].lease(), JobState::kSuccessful, answer_of_part(2), now_).value());
+  EXPECT_EQ(get(job.id).state, JobState::kAccepted);
+  EXPECT_EQ(get(job.id).parts.failed, 2);
+}
+
+TEST_P(JobStores, PartsGoWithTheirJobAndCountForItsBytes) {
+  const Divided job = divide();
+  for (int k = 0; k < 3; ++k) {
+    const JobAnswer large(std::string(1000, 'x'), {std::string(1000, 'y')});
+    ASSERT_TRUE(
+        store_->finish(job.parts[static_cast<std::size_t>(k)].lease(), JobState::kSuccessful, large, now_)
+            .value());
+  }
+  EXPECT_EQ(store_->forget_ended({.most = 0}, now_).value(), 0) << "their job has not ended";
+  ASSERT_TRUE(store_->finish(claim().lease(), JobState::kSuccessful, std::string("all"), now_).value());
+  EXPECT_EQ(store_->forget_ended({.most = 1, .most_bytes = 6100}, now_).value(), 0);
+  EXPECT_EQ(store_->forget_ended({.most_bytes = 5900}, now_).value(), 1);
+  EXPECT_EQ(store_->parts(job.id).value().size(), 0U);
+  EXPECT_EQ(store_->get(job.parts[0].job.id).value(), std::nullopt);
+  EXPECT_FALSE(store_->series(job.parts[0].job.id, 1).value());
+}
+
+TEST_P(JobStores, OfPartsThatEndTogetherOneIsTheLast) {
+  constexpr int kParts = 24;
+  const std::string id = accept("plan", "whole");
+  ASSERT_TRUE(store_->split(claim().lease(), std::vector<std::string>(kParts, "part"), now_).value());
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 4; ++t)
+    threads.emplace_back([this, t] {
+      for (;;) {
+        const auto part = store_->claim(std::to_string(t), {}, now_, now_ + 100'000).value();
+        if (!part || part->job.whole.empty()) return;
+        EXPECT_TRUE(
+            store_->finish(part->lease(), JobState::kSuccessful, std::string("answer"), now_).value());
+      }
+    });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(get(id).parts.ended, kParts);
+  EXPECT_EQ(get(id).attempt, 2) << "one of the threads has found the whole again";
 }
 
 TEST_P(JobStores, ManyThreadsClaimEveryJobExactlyOnce) {

@@ -45,8 +45,9 @@ class Server:
 
     def __init__(self, folder, *options):
         self.folder = folder
+        jobs = [] if "--jobs" in options else ["--jobs", str(folder / "jobs.sqlite")]
         self.process = subprocess.Popen(
-            [SLIPWAY, "serve", "--data", DATA, "--port", "0", "--jobs", str(folder / "jobs.sqlite"), *options],
+            [SLIPWAY, "serve", "--data", DATA, "--port", "0", *jobs, *options],
             stdout=subprocess.PIPE, text=True)
         line = self.process.stdout.readline()
         match = re.search(r"http://127\.0\.0\.1:(\d+)", line)

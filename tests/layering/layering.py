@@ -46,6 +46,7 @@ FENCES = [
     (r"nlohmann/.*", r"api/json/\w+\.cc"),
     (r"toml\.hpp", r"api/json/toml_\w+\.cc"),
     (r"sqlite3\.h", r"api/jobs/sqlite_\w+\.cc"),
+    (r"libpq-fe\.h", r"api/jobs/postgres_\w+\.cc"),
     (r"archive(_entry)?\.h", r"api/uploads/libarchive_\w+\.cc"),
     (r"openssl/.*", r"core/openssl_\w+\.cc"),
     (r"httplib\.h", r"server/http/\w+\.cc"),

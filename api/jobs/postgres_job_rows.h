@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "api/jobs/job_store.h"
+#include "api/jobs/postgres_connection.h"
+
+// Single rows of the table of jobs, within a transaction of the caller's.
+namespace slipway::api {
+
+inline constexpr std::string_view kJobRow =
+    "id, kind, state, stage, progress, version, attempt, created_ms, started_ms, ended_ms, deaths, "
+    "last_death, "
+    "urgency, owner, best_so_far, cpu_s, whole, part, parts, parts_ended, parts_failed, parts_cpu_s";
+inline constexpr int kJobRowColumns = 22;
+// What a lease still holds; $1 to $3 are its. A job that waits for its parts is nobody's.
+inline constexpr std::string_view kHeldRow = "id = $1 AND attempt = $2 AND worker = $3 AND state = 'running'";
+PostgresValues held(const Lease& lease);
+
+// Of a row of kJobRow.
+Job job_of(const PostgresRows& rows, int row);
+std::vector<Job> jobs_of(const PostgresRows& rows);
+std::optional<Job> get_from(PostgresConnection& connection, std::string_view id);
+
+// False: the lease is lost. True also where this lease has ended the job with this outcome before, of which
+// the answer was lost. `to_put_together`: it was the last part of its whole.
+bool end_job(PostgresConnection& connection, const Lease& lease, JobState state, const JobAnswer& outcome,
+             std::int64_t now, bool& to_put_together);
+// False: the lease is lost. True also where it was divided before.
+bool split_job(PostgresConnection& connection, const Lease& lease, const std::vector<std::string>& requests,
+               std::int64_t now);
+// What has not ended, with its parts; of a part its whole hears.
+void dismiss_job(PostgresConnection& connection, std::string_view id, std::int64_t now);
+
+}  // namespace slipway::api

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "api/jobs/job_store.h"
+#include "api/jobs/sqlite_connection.h"
+
+// Single rows of the table of jobs, within a transaction of the caller's.
+namespace slipway::api {
+
+inline constexpr std::string_view kJobColumns =
+    "id, kind, state, stage, progress, version, attempt, created_ms, started_ms, ended_ms, deaths, "
+    "last_death, "
+    "urgency, owner, (SELECT document FROM best_so_far WHERE job_id = jobs.id AND attempt = jobs.attempt), "
+    "cpu_s, "
+    "whole, part, parts, parts_ended, parts_failed, parts_cpu_s";
+// What a lease, bound as id and attempt, still holds; a job that waits for its parts is nobody's.
+inline constexpr std::string_view kHeld =
+    "id = ? AND attempt = ? AND state = 'running' AND lease_until_ms IS NOT NULL";
+
+// Of a row of kJobColumns.
+Job job_of(const SqliteStatement& row);
+std::optional<Job> get_from(SqliteConnection& connection, std::string_view id);
+
+// False: the lease is lost.
+bool end_job(SqliteConnection& connection, const Lease& lease, JobState state, const JobAnswer& outcome,
+             std::int64_t now);
+bool split_job(SqliteConnection& connection, const Lease& lease, const std::vector<std::string>& requests,
+               std::int64_t now);
+// What has not ended, with its parts; of a part its whole hears.
+void dismiss_job(SqliteConnection& connection, std::string_view id, std::int64_t now);
+// One more part of the job has ended; after the last one it is accepted again.
+void count_ended_part(SqliteConnection& connection, std::string_view whole, bool well, double cpu_s);
+
+}  // namespace slipway::api
