@@ -284,6 +284,7 @@ Result<DiagnosisAnswer> Service::diagnose(const DiagnosisRequest& request, Progr
 
 Result<WatchAnswer> Service::watch(const WatchRequest& request, Progress& progress) const {
   gap::WatchOptions watch;
+  watch.learn = request.learn;
   watch.change.alpha = request.alpha;
   watch.diagnose = request.diagnose;
   gap::DiagnosisOptions options;
