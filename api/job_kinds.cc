@@ -93,7 +93,7 @@ std::vector<JobKind> all_kinds() {
                                                              .report = &diagnosis_page,
                                                              .lane = Lane::kLong}),
       job_kind(JobKindRow<WatchRequest, WatchAnswer>{
-          .name = "watch",
+          .name = std::string(kWatchKind),
           .path = "/v1/watches",
           .read = &Service::read_watch,
           .run = &Service::watch,
