@@ -3,13 +3,13 @@ import { fill, h } from "./dom";
 import { number, share, words } from "./format";
 import type { TerrainMap } from "./map/terrain_map";
 import { figures, provenance, unit } from "./panels/verdict";
-import { blocks } from "./panels/advice";
 import { ruleWords, verdictWords, type Result, type Route } from "./result";
 import { palettes, store } from "./state";
 
 const paper = h("section", { class: "paper", "aria-hidden": "true" });
+const kindWords: Record<string, string> = { plan: "Plan of a drive", check: "Check of a drive", prediction: "Prediction of a drive" };
 const charts_shown = 4;
-const reasons_shown = 7;
+const reasons_shown = 9;
 
 export function reportPage(map: TerrainMap, redraw: () => void): () => Promise<void> {
   document.body.append(paper);
@@ -47,10 +47,10 @@ function page(map: TerrainMap): HTMLElement[] {
   if (!result || !route) return [h("p", {}, "There is no route to print: plan a drive or check one.")];
   const title = terrain?.terrain?.title ?? result.terrain;
   return [
-    h("header", {}, h("div", {}, h("h1", {}, `${words(result.kind)}: ${title}`), h("p", {}, asked(result))), h("div", { class: `paper-verdict ${route.verdict}` }, verdictWords[route.verdict], h("small", {}, route.title))),
+    h("header", {}, h("div", {}, h("h1", {}, `${kindWords[result.kind] ?? words(result.kind)}: ${title}`), h("p", {}, asked(result))), h("div", { class: `paper-verdict ${route.verdict}` }, verdictWords[route.verdict], h("small", {}, route.title))),
     mapPicture(map),
     h("div", { class: "paper-columns" },
-      h("div", {}, h("h2", {}, "Why"), h("ul", {}, [...(route.verdict === "go" ? [] : blocks(route, result.limits)), ...route.reasons].slice(0, reasons_shown).map((reason) => h("li", {}, reason)))),
+      h("div", {}, h("h2", {}, "Why"), h("ul", {}, route.reasons.slice(0, reasons_shown).map((reason) => h("li", {}, reason)))),
       h("div", {}, h("h2", {}, "Figures"), figureTable(result))),
     h("h2", {}, "Rules: limit, nearest value (5 to 95 % of the draws), share of the draws in which it trips, where, why"),
     ruleTable(route),
@@ -77,10 +77,9 @@ function asked(result: Result): string {
 /** The map as it is on the screen, with a scale of its own. */
 function mapPicture(map: TerrainMap): HTMLElement {
   const picture = map.picture();
-  const bar = h("span", { class: "paper-scale" }, `${picture.scale_m} m, north is up. Darker: more risk; dashes: unknown ground; triangles: a rule trips.`);
-  const line = h("span", { class: "paper-scale-line" });
+  const line = h("div", { class: "paper-scale" });
   line.style.width = `${picture.scale_share * 100}%`;
-  return h("figure", {}, h("img", { src: picture.url, alt: "Map of the routes" }), h("figcaption", {}, line, bar));
+  return h("figure", {}, h("div", { class: "paper-map" }, h("img", { src: picture.url, alt: "Map of the routes" }), line), h("figcaption", {}, `The bar is ${picture.scale_m} m; north is up. Routes: darker is more risk, dashes are unknown ground, at triangles a rule trips.`));
 }
 
 function figureTable(result: Result): HTMLElement {

@@ -16,7 +16,8 @@ let service;
 let browser;
 
 before(async () => {
-  [service, browser] = await Promise.all([serve(), launch()]);
+  browser = await launch();
+  service = await serve();
 });
 after(async () => {
   await browser?.close();

@@ -9,7 +9,8 @@ let service;
 let browser;
 
 before(async () => {
-  [service, browser] = await Promise.all([serve(), launch()]);
+  browser = await launch();
+  service = await serve();
 });
 after(async () => {
   await browser?.close();
@@ -30,11 +31,14 @@ const mapColour = (p, { x, y }) =>
   }, [x, y]);
 
 test("slip and verdict are layers over the ground, and the unknown never looks safe", async () => {
-  const p = await page("start=8142640,-276640&goal=8142675,-276650&layers=slope:0,soil:0,unknown:0");
+  // What is read back from the canvas here is the test's own doing.
+  const p = await page("start=8142640,-276640&goal=8142675,-276650&layers=slope:0,soil:0,unknown:0", { expected: /readback/ });
   await p.waitForSelector(".map canvas");
   await p.click("[data-risks] summary");
   await p.check('[data-risk="slip_worst"]');
   await p.waitForSelector('[data-risk-legend="slip_worst"]:has-text("unknown ground")');
+  await pause(500);
+  await p.fill('[aria-label="Opacity of slip, worst heading"]', "1");
   await pause(500);
   await p.look("23_slip_map");
   await p.accessible("risk layers");
@@ -98,7 +102,7 @@ const counted = (p) => {
 };
 
 test("work is followed by its events, and by asking where these do not come through", async (t) => {
-  const p = await page("start=8142640,-276640&goal=8142700,-276665&routes=6");
+  const p = await page("start=8142640,-276640&goal=8142675,-276650&routes=4");
   await p.waitForSelector(".terrain select");
   await p.until(() => !document.querySelector('[data-do="plan"]').disabled);
   const asked = counted(p);
@@ -135,20 +139,18 @@ test("work is followed by its events, and by asking where these do not come thro
 });
 
 test("a stranger finds out why a drive is no GO, changes one thing and gets a GO", async () => {
-  const p = await page("rover=mer-class&start=8142640,-276640&goal=8142655,-276650&routes=1");
+  const p = await page("start=8142579.7,-276648.7&goal=8142560,-276672&routes=1");
   await p.waitForSelector(".terrain select");
   await p.until(() => !document.querySelector('[data-do="plan"]').disabled);
   await p.click('[data-do="plan"]');
-  const first = await p.verdict();
-  assert.notEqual(first, "go");
+  assert.notEqual(await p.verdict(), "go");
   assert.match(await p.textContent("[data-blocks]"), /A GO needs less than/);
-  const offered = await p.$$eval(".advice button", (buttons) => buttons.map((b) => b.dataset.do));
-  assert.ok(offered.includes("other-rules"), offered.join());
   await p.look("27_why_no_go");
   await p.accessible("why it is no go");
-  await p.click('[data-do="other-rules"]');
+  await p.click('.advice [data-do="nearer-goal"]');
   await p.waitForSelector('[data-verdict="go"]');
   await p.look("28_go_after_one_change");
+  assert.match(await p.textContent(".advice"), /It stays a GO as long as/);
   await p.done();
 });
 
@@ -178,13 +180,13 @@ test("an answer is taken along as files and as one page of paper", async () => {
   });
   await p.click('[data-do="print"]');
   await p.until(() => window.printed);
-  const pdf = await p.pdf({ preferCSSPageSize: true });
-  assert.equal((pdf.toString("latin1").match(/\/Type\s*\/Page\b/g) ?? []).length, 1, "one page");
   await p.emulateMedia({ media: "print" });
   await p.setViewportSize({ width: 760, height: 1080 });
   const text = await p.innerText(".paper");
   for (const words of ["NO-GO", "Marias Pass", "msl-class", "slip at a check", "fingerprint"]) assert.ok(text.includes(words), words);
   assert.ok((await p.$$eval(".paper img", (images) => images.every((i) => i.naturalWidth > 100 && i.clientWidth > 100))), "every picture is there");
   await p.look("29_paper");
+  const pdf = await p.pdf({ preferCSSPageSize: true });
+  assert.equal((pdf.toString("latin1").match(/\/Type\s*\/Page\b/g) ?? []).length, 1, "one page");
   await p.done();
 });

@@ -282,7 +282,7 @@ export class TerrainMap {
   /** Room around what is brought into sight; at the right lie the layers. */
   private margins(px: number): number[] {
     const wide = (this.map.getSize()?.[0] ?? 0) > 700;
-    return [px, wide ? px + 270 : px, px, px];
+    return [px, wide ? px + 310 : px, px, px];
   }
 
   centre(): number[] | null {

@@ -2,7 +2,7 @@
 import { button, h } from "../dom";
 import { metres, number, share, words } from "../format";
 import type { TerrainMap } from "../map/terrain_map";
-import { ruleWords, verdictWords, type Result, type Route, type Stretch } from "../result";
+import { ruleWords, stationAt, verdictWords, type Result, type Route, type Stretch } from "../result";
 import { store, type Ring } from "../state";
 import { start } from "../work";
 import { planRequest } from "./request";
@@ -22,7 +22,7 @@ export function blocks(route: Route, limits: Record<string, number>): string[] {
   if (embedding && embedding.high >= limits.max_embedding!) found.push(`The rover may be embedded: in ${share(embedding.value)} of the draws, and up to ${share(embedding.high)} can't be excluded. A GO needs less than ${share(limits.max_embedding)}.`);
   if (stops && stops.high >= limits.max_expected_stops!) found.push(`${number(stops.value)} stops are expected, and up to ${number(stops.high)} can't be excluded. A GO needs less than ${number(limits.max_expected_stops)}.`);
   if (figures.immobilised) found.push("On the mean soils the rover finds no way forward.");
-  if ((figures.broken_limits ?? []).length > 0) found.push(`On the mean soils it is beyond the limit of ${figures.broken_limits!.map((l) => ruleWords[l] ?? words(l.replace(/^(max|min)_/, "").replace(/_(deg|a|m)$/, ""))).join(", ")}.`);
+  if ((figures.broken_limits ?? []).length > 0) found.push(`On the mean soils it is beyond a limit: ${figures.broken_limits!.join("; ")}.`);
   return found;
 }
 
@@ -84,13 +84,52 @@ const planAgain = () => void start("v1/plans", planRequest());
 function avoiding(result: Result, route: Route): Advice[] {
   const stretches = toAvoid(route, result.limits);
   if (stretches.length === 0) return [];
-  const places = stretches.map((s) => `${s.from_m.toFixed(0)} to ${s.to_m.toFixed(0)} m`).join(", ");
+  const joined: { from_m: number; to_m: number }[] = [];
+  for (const { from_m, to_m } of stretches) {
+    const last = joined.at(-1);
+    if (last && from_m - last.to_m < 0.5) last.to_m = to_m;
+    else joined.push({ from_m, to_m });
+  }
+  const places = joined.map((s) => `${s.from_m.toFixed(0)} to ${s.to_m.toFixed(0)} m`).join(", ");
+  const all_along = stretches.reduce((sum, s) => sum + s.to_m - s.from_m, 0) > 0.6 * (route.figures.length_m ?? 0);
+  if (all_along) return [{ text: `It goes wrong nearly all along, from ${places}: other ground is needed, by another start or goal, or by a way point far from this route.` }];
   const left = Math.max(0, (route.outcomes.expected_stops?.value ?? 0) - stretches.reduce((s, t) => s + t.expected_stops, 0));
   const rings = stretches.map((s) => zoneAround(route, s)).filter((r): r is Ring => r !== null);
-  const text = `Most goes wrong from ${places}: a way without ${stretches.length > 1 ? "these stretches" : "this stretch"} would have ${number(left, 2)} expected stops left.`;
+  const text = `Most goes wrong from ${places}: a way without ${joined.length > 1 ? "these stretches" : "this stretch"} would have ${number(left, 2)} expected stops left.`;
   if (result.kind !== "plan" || rings.length === 0) return [{ text }];
   return [{ text, act: { label: "Keep out of it and plan again", name: "keep-out-and-plan", run: () => {
     store.draw({ keep_out: [...store.state.drawn.keep_out, ...rings] });
+    planAgain();
+  } } }];
+}
+
+const least_part_m = 4;
+
+/** How far the bars hold: a drive to there, a look, and a plan from there. */
+export function partThatHolds(route: Route, limits: Record<string, number>): number | null {
+  const { embedding, expected_stops: stops } = route.outcomes;
+  if (!embedding || !stops) return null;
+  const margin = 0.8;
+  // The interval of a part, as that of a count: as wide as the root of what is counted.
+  const upper = (part: number, whole: { value: number; high: number }) => part + (whole.high - whole.value) * Math.sqrt(whole.value > 0 ? Math.min(1, part / whole.value) : 1);
+  const { distance_m, expected_stops, embedding: embedded, on_unknown_ground: unknown } = route.stations;
+  let [stops_so_far, embedded_so_far] = [0, 0];
+  let holds = 0;
+  for (let i = 0; i < distance_m.length; ++i) {
+    stops_so_far += expected_stops[i] ?? 0;
+    embedded_so_far += embedded[i] ?? 0;
+    if (unknown[i] || upper(stops_so_far, stops) > margin * limits.max_expected_stops! || embedded_so_far > 0) break;
+    holds = distance_m[i]!;
+  }
+  return holds >= least_part_m && holds < (distance_m.at(-1) ?? 0) ? holds : null;
+}
+
+function shorter(result: Result, route: Route): Advice[] {
+  const holds = result.kind === "plan" ? partThatHolds(route, result.limits) : null;
+  if (holds === null) return [];
+  const at = stationAt(route.stations, holds);
+  return [{ text: `The first ${holds.toFixed(0)} m are expected to hold: drive to there, look, and plan on from there.`, act: { label: "Make it the goal and plan again", name: "nearer-goal", run: () => {
+    store.draw({ goal: { x_m: route.stations.x_m[at]!, y_m: route.stations.y_m[at]! }, waypoints: [] });
     planAgain();
   } } }];
 }
@@ -102,13 +141,13 @@ function otherRoutes(result: Result, route: Route): Advice[] {
 
 /** The rule that trips most, and which limit it would hold in 95 % of the draws. */
 function limits(result: Result, route: Route): Advice[] {
-  const rule = route.rules.filter((r) => r.trips?.value > 0.02 && r.value && r.rule !== "embedding").sort((a, b) => b.trips.value - a.trips.value)[0];
+  const rule = route.rules.filter((r) => r.trips?.value > 0.05 && r.value && r.rule !== "embedding").sort((a, b) => b.trips.value - a.trips.value)[0];
   if (!rule) return [];
   const lower = rule.rule === "clearance";
   const needed = lower ? rule.value!.p05 : rule.value!.p95;
   const unit = rule.unit === "1" || rule.unit === "" ? "" : ` ${rule.unit}`;
   const key = { slip_check: "max_slip", tilt: "max_tilt_deg", current: "max_current_a", sinkage: "max_sinkage_m", clearance: "min_clearance_m" }[rule.rule];
-  const set = store.state.rules.find((s) => key && s.name !== store.state.options.rules && Number((s.limits as Record<string, number>)[key]) > rule.limit && !lower);
+  const set = store.state.rules.find((s) => key && s.name !== store.state.options.rules && !lower && Number((s.limits as Record<string, number>)[key]) >= Math.max(needed, rule.limit * 1.01));
   const text = `${ruleWords[rule.rule] ?? words(rule.rule)} trips in ${share(rule.trips.value)} of the draws${rule.cause ? `, by ${words(rule.cause)}` : ""}; ${(lower ? needed > 0 : needed < 1 || rule.unit !== "1") ? `with a limit of ${number(needed)}${unit} in place of ${number(rule.limit)}${unit} it would in 5 %` : "no limit would hold"}.`;
   return [{ text, ...(set && result.kind === "plan" ? { act: { label: `Plan with the rules ${words(set.name!)}`, name: "other-rules", run: () => {
     store.option({ rules: set.name! });
@@ -144,7 +183,7 @@ export function adviceOf(result: Result, route: Route): Advice[] {
     const where: Advice[] = worst && worst.expected_stops + worst.embedding > 0 ? [{ text: `Most of what may go wrong lies from ${worst.from_m.toFixed(0)} to ${worst.to_m.toFixed(0)} m.` }] : [];
     return [...room, ...where, ...always];
   }
-  return [...otherRoutes(result, route), ...avoiding(result, route), ...limits(result, route), ...unsure(result, route), ...always];
+  return [...otherRoutes(result, route), ...avoiding(result, route), ...shorter(result, route), ...limits(result, route), ...unsure(result, route), ...always];
 }
 
 export function adviceView(result: Result, route: Route, map: TerrainMap): HTMLElement[] {

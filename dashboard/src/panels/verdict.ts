@@ -132,9 +132,9 @@ export function verdictPanel(target: HTMLElement, map: TerrainMap, print: () => 
       result.fewer.length > 0 && h("ul", {}, result.fewer.map((why) => h("li", {}, why))),
       route && [
         h("div", { class: `banner ${route.verdict}`, "data-verdict": route.verdict }, verdictWords[route.verdict], h("small", {}, `${route.title}, ${words(result.rover)}`)),
-        h("h3", {}, "Why"),
-        h("ul", { class: "reasons" }, route.reasons.map((reason) => h("li", {}, reason))),
         ...adviceView(result, route, map),
+        h("h3", {}, "Why, in full"),
+        h("ul", { class: "reasons" }, route.reasons.map((reason) => h("li", {}, reason))),
         result.driven.length > 0 && driven(result),
         comparison(result, other),
         other && other !== result ? askedDifferently(result, other) : null,

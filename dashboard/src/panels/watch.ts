@@ -16,10 +16,11 @@ export function watchForm(campaigns: Campaign[], campaign: Campaign): HTMLElemen
     reference = value;
     learnField.hidden = value !== "";
   });
-  const ask = () => void start("v1/watches", { campaign: campaign.name, ...(reference ? { reference } : { learn: Number(learn.value) || usual }) });
+  const diagnose = h("input", { type: "checkbox", checked: true, "data-watch": "diagnose" });
+  const ask = () => void start("v1/watches", { campaign: campaign.name, ...(reference ? { reference } : { learn: Number(learn.value) || usual }), ...(diagnose.checked ? {} : { diagnose: false }) });
   return h("details", {}, h("summary", {}, "Watch these drives for a change"),
     field("Healthy drives", choice, "The watch says, drive after drive, whether something has changed since these, and diagnoses what has."),
-    learnField, button("Watch", ask, { "data-do": "watch" }));
+    learnField, h("label", { class: "check" }, diagnose, "after an alarm, diagnose what has changed"), button("Watch", ask, { "data-do": "watch" }));
 }
 
 export function watchView(target: HTMLElement): void {
@@ -42,6 +43,9 @@ export function watchView(target: HTMLElement): void {
         h("div", { class: "wide short", tabindex: 0, role: "region", "aria-label": "Evidence drive by drive" },
           h("table", {}, h("thead", {}, h("tr", {}, ["Drive", "log10 of the evidence", "Alarm"].map((t) => h("th", { scope: "col" }, t)))),
             h("tbody", {}, w.drives.map((d) => h("tr", { class: d.alarm ? "trips" : "" }, h("th", { scope: "row" }, d.id), h("td", {}, number(d.log10_evidence)), h("td", {}, d.alarm ? "yes" : ""))))))),
+      w.alarm && !w.diagnosis && w.reference.campaign !== w.campaign
+        ? button("Diagnose what has changed", () => void start("v1/diagnoses", { campaign: w.campaign, reference: w.reference.campaign }), { "data-do": "diagnose-change" })
+        : null,
       button("JSON of the watch", () => void keep(`v1/jobs/${job}/result`, "watch.json"), { class: "quiet" }));
   });
 }

@@ -80,51 +80,78 @@ interface Painted {
   trips: Rule[];
 }
 
-/** Shades what lies on unknown ground and where a rule trips, and draws the limits with their values. */
-function paint(u: uPlot, stations: Stations, { limits, trips }: Painted): void {
+/** Calls `draw` with the plot's area as the clip. */
+function inside(u: uPlot, draw: (ctx: CanvasRenderingContext2D, px: number) => void): void {
   const { ctx } = u;
   const { left, top, width, height } = u.bbox;
-  const px = devicePixelRatio;
   ctx.save();
   ctx.beginPath();
   ctx.rect(left, top, width, height);
   ctx.clip();
-  const shade = (from_m: number, to_m: number) => {
-    const [from, to] = [u.valToPos(from_m, "x", true), u.valToPos(to_m, "x", true)];
-    ctx.fillRect(from, top, Math.max(to - from, px), height);
-    return from;
-  };
-  ctx.fillStyle = token("--unknown");
-  const unknown = stations.on_unknown_ground;
-  for (let i = 0; i < unknown.length; ++i) {
-    if (!unknown[i]) continue;
-    let end = i;
-    while (end + 1 < unknown.length && unknown[end + 1]) ++end;
-    shade(stations.distance_m[i]!, stations.distance_m[Math.min(end + 1, unknown.length - 1)]!);
-    i = end;
-  }
-  ctx.font = `${11 * px}px system-ui, sans-serif`;
-  for (const trip of trips) {
-    ctx.fillStyle = token("--trip");
-    const from = shade(trip.from_m!, trip.to_m ?? trip.from_m!);
-    ctx.fillStyle = token("--limit");
-    ctx.fillRect(from, top, 2 * px, height);
-    const text = `${share(trip.trips.value)}${trip.cause ? `, ${words(trip.cause)}` : ""}${trip.wheel ? `, ${trip.wheel}` : ""}`;
-    ctx.fillText(text, Math.min(from + 5 * px, left + width - ctx.measureText(text).width - 4 * px), top + height - 5 * px);
-  }
-  ctx.strokeStyle = ctx.fillStyle = token("--limit");
-  ctx.lineWidth = 2 * px;
-  for (const limit of limits) {
-    const y = u.valToPos(limit.at, "y", true);
-    if (y < top || y > top + height) continue;
-    ctx.setLineDash([8 * px, 5 * px]);
-    ctx.beginPath();
-    ctx.moveTo(left, y);
-    ctx.lineTo(left + width, y);
-    ctx.stroke();
-    ctx.fillText(limit.words, left + width - ctx.measureText(limit.words).width - 4 * px, y + (y - top > 16 * px ? -4 : 12) * px);
-  }
+  draw(ctx, devicePixelRatio);
   ctx.restore();
+}
+
+/** Below the lines: shades what lies on unknown ground and where a rule trips. */
+function paintGround(u: uPlot, stations: Stations, { trips }: Painted): void {
+  inside(u, (ctx, px) => {
+    const { top, height } = u.bbox;
+    const shade = (from_m: number, to_m: number) => {
+      const [from, to] = [u.valToPos(from_m, "x", true), u.valToPos(to_m, "x", true)];
+      ctx.fillRect(from, top, Math.max(to - from, px), height);
+      return from;
+    };
+    ctx.fillStyle = token("--unknown");
+    const unknown = stations.on_unknown_ground;
+    for (let i = 0; i < unknown.length; ++i) {
+      if (!unknown[i]) continue;
+      let end = i;
+      while (end + 1 < unknown.length && unknown[end + 1]) ++end;
+      shade(stations.distance_m[i]!, stations.distance_m[Math.min(end + 1, unknown.length - 1)]!);
+      i = end;
+    }
+    for (const trip of trips) {
+      ctx.fillStyle = token("--trip");
+      const from = shade(trip.from_m!, trip.to_m ?? trip.from_m!);
+      ctx.fillStyle = token("--limit");
+      ctx.fillRect(from, top, 2 * px, height);
+    }
+  });
+}
+
+/** Above the lines: the limits with their values, and with which probability and why a rule trips. */
+function paintLimits(u: uPlot, { limits, trips }: Painted): void {
+  inside(u, (ctx, px) => {
+    const { left, top, width, height } = u.bbox;
+    ctx.font = `${11 * px}px system-ui, sans-serif`;
+    ctx.textAlign = "left"; // the axes leave their own
+    ctx.textBaseline = "alphabetic";
+    const write = (text: string, x: number, y: number) => {
+      ctx.setLineDash([]);
+      ctx.lineWidth = 4 * px;
+      ctx.strokeStyle = token("--paper");
+      ctx.strokeText(text, x, y);
+      ctx.fillStyle = token("--limit");
+      ctx.fillText(text, x, y);
+    };
+    for (const limit of limits) {
+      const y = u.valToPos(limit.at, "y", true);
+      if (y < top - px || y > top + height + px) continue;
+      ctx.strokeStyle = token("--limit");
+      ctx.lineWidth = 2 * px;
+      ctx.setLineDash([8 * px, 5 * px]);
+      ctx.beginPath();
+      ctx.moveTo(left, y);
+      ctx.lineTo(left + width, y);
+      ctx.stroke();
+      write(limit.words, left + width - ctx.measureText(limit.words).width - 4 * px, y + (y - top > 16 * px ? -4 : 12) * px);
+    }
+    trips.forEach((trip, k) => {
+      const text = `${share(trip.trips.value)}${trip.cause ? `, ${words(trip.cause)}` : ""}${trip.wheel ? `, ${trip.wheel}` : ""}`;
+      const from = u.valToPos(trip.from_m!, "x", true);
+      write(text, Math.min(from + 5 * px, left + width - ctx.measureText(text).width - 4 * px), top + (k + 1) * 13 * px);
+    });
+  });
 }
 
 export class ProfileCharts {
@@ -229,7 +256,8 @@ export class ProfileCharts {
           { stroke: token("--other"), width: 2, dash: [3, 3], show: !!second },
         ],
         hooks: {
-          drawClear: [(u) => paint(u, s, painted)],
+          drawClear: [(u) => paintGround(u, s, painted)],
+          draw: [(u) => paintLimits(u, painted)],
           setCursor: [(u) => this.moved(u)],
         },
       },
@@ -256,7 +284,7 @@ export class ProfileCharts {
         scales: { x: { time: false } },
         axes: [{ ...axis, size: 26, values: (_u, ticks) => ticks.map((t) => `${t} m`) }, { ...axis, size: 58 }],
         series: [{}, ...wheels.map((_, k) => ({ stroke: wheelColours[k % wheelColours.length]!, width: 1.5 }))],
-        hooks: { drawClear: [(u) => paint(u, s, { limits: [], trips: [] })], setCursor: [(u) => this.moved(u)] },
+        hooks: { drawClear: [(u) => paintGround(u, s, { limits: [], trips: [] })], setCursor: [(u) => this.moved(u)] },
       },
       [s.distance_m, ...wheels.map(([, columns]) => columns[key]!)] as uPlot.AlignedData,
       box,
