@@ -80,7 +80,7 @@ test("slip and verdict are layers over the ground, and the unknown never looks s
   assert.equal(asked.postDataJSON().limits.max_slip, 0.7);
   await p.waitForSelector('[data-risk-legend="verdict"]:has-text("UNKNOWN")');
   await p.selectOption("#plan-rules", "every_5_m");
-  await p.waitForSelector('[aria-label="Make verdict on a short drive anew"]');
+  await p.waitForSelector('[aria-label="Make verdict anew"]');
   await p.check('[data-risk="reachable"]');
   await p.waitForSelector('[data-risk-legend="reachable"]:has-text("only by a way over unknown ground")');
   await pause(500);

@@ -18,7 +18,7 @@ export interface RiskMap {
 }
 
 export const riskTitles: Record<RiskKind, string> = {
-  verdict: "Verdict on a short drive",
+  verdict: "Verdict",
   slip_worst: "Slip, worst heading",
   slip_best: "Slip, best heading",
   slip: "Slip at a heading",

@@ -191,7 +191,7 @@ export function adviceView(result: Result, route: Route, map: TerrainMap): HTMLE
   const advice = adviceOf(result, route);
   return [
     ...(against.length > 0 ? [h("h3", {}, "What keeps it from a GO"), h("ul", { class: "reasons", "data-blocks": true }, against.map((line) => h("li", {}, line)))] : []),
-    h("h3", {}, "What would change it"),
+    h("h3", {}, route.verdict === "go" ? "How much room there is" : "What would change it"),
     h("ul", { class: "advice" }, advice.map(({ text, act }) => h("li", {}, text, act ? button(act.label, () => {
       act.run();
       if (act.name === "scout" && store.state.hover_m !== null) map.showStretch(store.state.hover_m, store.state.hover_m + 5);

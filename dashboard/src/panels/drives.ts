@@ -33,7 +33,7 @@ export function drivesPanel(target: HTMLElement): void {
     let name = campaigns.find((c) => c.name === chosen)?.name ?? campaigns[0]!.name;
     const about = h("div");
     const describe = () => fill(about, describeCampaign(campaigns, campaigns.find((c) => c.name === name)!));
-    fill(list, field("Campaign", select(campaigns.map((c) => ({ value: c.name, text: words(c.name) })), name, (value) => { name = value; describe(); })), about);
+    fill(list, field("Campaign", select(campaigns.map((c) => ({ value: c.name, text: campaignTitle(c) })), name, (value) => { name = value; describe(); })), about);
     describe();
   }
   store.on(["tab"], ({ tab, campaigns }) => {
@@ -42,6 +42,11 @@ export function drivesPanel(target: HTMLElement): void {
   watchView(watch);
   diagnosisView(diagnosis);
   fill(target, h("h2", {}, "Recorded drives"), list, sending, watch, diagnosis);
+}
+
+/** One that was sent has a name of the service's making. */
+export function campaignTitle(c: Campaign): string {
+  return c.sent_at ? `sent ${c.sent_at.slice(0, 16).replace("T", " ")}: ${c.rover}, ${c.drives.length} drives` : words(c.name);
 }
 
 function describeCampaign(campaigns: Campaign[], campaign: Campaign): HTMLElement[] {
