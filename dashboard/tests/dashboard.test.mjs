@@ -33,7 +33,7 @@ const readouts = (p) => p.locator(".readout").allTextContents();
 test("a drive is placed by clicks, planned, understood and cut off from a slope", async () => {
   const p = await page();
   await p.waitForSelector(".map canvas");
-  await p.until(() => document.querySelector(".hint")?.textContent.includes("start and a goal"));
+  await p.until(() => document.querySelector("#plan-hint")?.textContent.includes("start and a goal"));
   await p.look("01_empty");
   await p.accessible("empty");
 

@@ -93,12 +93,15 @@ function trips(route: Route): Feature[] {
     const k = stationAt(route.stations, rule.from_m!);
     at.set(k, [...(at.get(k) ?? []), `${ruleWords[rule.rule] ?? words(rule.rule)} ${share(rule.trips.value)}${rule.cause ? `, ${words(rule.cause)}` : ""}`]);
   }
+  const xs = route.stations.x_m;
+  const middle = (Math.min(...xs) + Math.max(...xs)) / 2;
   return [...at].map(([k, texts]) => {
+    const east = xs[k]! > middle; // there the label lies to the left, inwards
     const feature = new Feature(new Point([route.stations.x_m[k]!, route.stations.y_m[k]!]));
     feature.setStyle(
       new Style({
         image: new RegularShape({ points: 3, radius: 9, fill: new Fill({ color: "#ffd400" }), stroke: new Stroke({ color: "#111", width: 2 }) }),
-        text: new Text({ text: texts.join("\n"), font: "12px system-ui, sans-serif", textAlign: "left", offsetX: 14, fill: new Fill({ color: "#111" }), stroke: new Stroke({ color: "#fff", width: 4 }) }),
+        text: new Text({ text: texts.join("\n"), font: "12px system-ui, sans-serif", textAlign: east ? "right" : "left", offsetX: east ? -14 : 14, fill: new Fill({ color: "#111" }), stroke: new Stroke({ color: "#fff", width: 4 }) }),
         zIndex: 18,
       }),
     );

@@ -58,6 +58,7 @@ function limitsOf(chart: Chart, limits: Record<string, number>): Painted["limits
   return [...of(chart.limit, chart.limit?.startsWith("min") ? "at least" : "limit"), ...of(chart.beyond, "wheels dig from")];
 }
 
+const points = { show: false };
 const usuallyShown = ["height", "slip", "stops", "embedding", "sinkage", "current"];
 
 const token = (name: string): string => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
@@ -149,7 +150,7 @@ function paintLimits(u: uPlot, { limits, trips }: Painted): void {
     trips.forEach((trip, k) => {
       const text = `${share(trip.trips.value)}${trip.cause ? `, ${words(trip.cause)}` : ""}${trip.wheel ? `, ${trip.wheel}` : ""}`;
       const from = u.valToPos(trip.from_m!, "x", true);
-      write(text, Math.min(from + 5 * px, left + width - ctx.measureText(text).width - 4 * px), top + (k + 1) * 13 * px);
+      write(text, Math.min(from + 5 * px, left + width - ctx.measureText(text).width - 4 * px), top + height - (5 + 13 * k) * px);
     });
   });
 }
@@ -245,15 +246,15 @@ export class ProfileCharts {
           x: { time: false },
           y: { range: (_u, min, max) => uPlot.rangeNum(Math.min(min, limit ?? min), Math.max(max, limit ?? max), 0.08, true) },
         },
-        axes: [{ ...axis, size: 26, values: (_u, ticks) => ticks.map((t) => `${t} m`) }, { ...axis, size: 58, values: (_u, ticks) => ticks.map((t) => (t === null ? "" : number(t, 6))) }],
+        axes: [{ ...axis, size: 26, values: (_u, ticks) => ticks.map((t) => `${t} m`) }, { ...axis, size: 66, values: (_u, ticks) => ticks.map((t) => (t === null ? "" : number(t, 6))) }],
         bands: chart.low ? [{ series: [3, 2], fill: token("--band") }] : [],
         series: [
           {},
-          { stroke: token("--series"), width: 2 },
-          { stroke: chart.low ? token("--series") : "transparent", width: chart.low ? 0.5 : 0, show: !!chart.low },
-          { stroke: chart.high ? token("--series") : "transparent", width: chart.high ? 0.5 : 0, show: !!chart.high },
-          { stroke: token("--series"), width: 2, dash: [6, 4], show: !!chart.second },
-          { stroke: token("--other"), width: 2, dash: [3, 3], show: !!second },
+          { stroke: token("--series"), width: 2, points },
+          { stroke: chart.low ? token("--series") : "transparent", width: chart.low ? 0.5 : 0, show: !!chart.low, points },
+          { stroke: chart.high ? token("--series") : "transparent", width: chart.high ? 0.5 : 0, show: !!chart.high, points },
+          { stroke: token("--series"), width: 2, dash: [6, 4], show: !!chart.second, points },
+          { stroke: token("--other"), width: 2, dash: [3, 3], show: !!second, points },
         ],
         hooks: {
           drawClear: [(u) => paintGround(u, s, painted)],
@@ -283,7 +284,7 @@ export class ProfileCharts {
         cursor: { y: false, sync: { key: "route" } },
         scales: { x: { time: false } },
         axes: [{ ...axis, size: 26, values: (_u, ticks) => ticks.map((t) => `${t} m`) }, { ...axis, size: 58 }],
-        series: [{}, ...wheels.map((_, k) => ({ stroke: wheelColours[k % wheelColours.length]!, width: 1.5 }))],
+        series: [{}, ...wheels.map((_, k) => ({ stroke: wheelColours[k % wheelColours.length]!, width: 1.5, points }))],
         hooks: { drawClear: [(u) => paintGround(u, s, { limits: [], trips: [] })], setCursor: [(u) => this.moved(u)] },
       },
       [s.distance_m, ...wheels.map(([, columns]) => columns[key]!)] as uPlot.AlignedData,
