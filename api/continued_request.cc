@@ -93,6 +93,10 @@ Result<std::string> continued_request(std::string_view request, std::string_view
   if (!faults.empty()) return fail(ErrorCode::kInvalidRequest, summary_of(faults), faults);
   const auto before_it = json::parse(*earlier, {.bytes = json::kMaxWatchBytes});
   if (!before_it) return fail(ErrorCode::kInternal, "a request that was kept can't be read");
+  if (before_it->find(kDrives) == nullptr)
+    faults.push_back({json::child_pointer("", kContinues),
+                      fmt::format("the {} is of a campaign: append the drives to this one", kind)});
+  if (!faults.empty()) return fail(ErrorCode::kInvalidRequest, summary_of(faults), faults);
   std::size_t before = 0;
   auto recorded = checked(with_drives(*before_it, document->find(kDrives), before));
   if (recorded) return recorded;

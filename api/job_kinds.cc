@@ -138,7 +138,7 @@ std::vector<JobKind> all_kinds() {
                                                                .lane = Lane::kShort,
                                                                .may_name_model = true}),
       job_kind(JobKindRow<WatchRequest, WatchAnswer>{
-          .name = "watch",
+          .name = std::string(kWatchKind),
           .path = "/v1/watches",
           .read = &Service::read_watch,
           .run = &Service::watch,

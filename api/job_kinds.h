@@ -16,6 +16,7 @@ inline constexpr std::string_view kPlanKind = "plan";
 inline constexpr std::string_view kPredictionKind = "prediction";
 inline constexpr std::string_view kCheckKind = "check";
 inline constexpr std::string_view kDiagnosisKind = "diagnosis";
+inline constexpr std::string_view kWatchKind = "watch";  // which has a diagnosis after an alarm
 
 // The catalogue: every kind of job that the service does, one row each.
 const std::vector<JobKind>& job_kinds();

@@ -22,15 +22,16 @@ Result<std::string> document_of(const std::string& id, JobStore& jobs) {
   if (!job) return fail(job.error());
   if (!*job) return refused("there is no job of this id");
   const Job& found = **job;
-  if (found.kind != kDiagnosisKind)
-    return refused(fmt::format("the job is a {}: only a diagnosis offers a model", found.kind));
+  if (found.kind != kDiagnosisKind && found.kind != kWatchKind)
+    return refused(fmt::format("the job is a {}: only a diagnosis, or a watch that made one, offers a model",
+                               found.kind));
   if (!has_ended(found.state))
-    return refused(fmt::format("the diagnosis is {}: it offers no model yet", describe(found.state)));
+    return refused(fmt::format("the {} is {}: it offers no model yet", found.kind, describe(found.state)));
   if (found.state != JobState::kSuccessful)
-    return refused(fmt::format("the diagnosis ended as {}: it offers no model", describe(found.state)));
+    return refused(fmt::format("the {} ended as {}: it offers no model", found.kind, describe(found.state)));
   const auto outcome = jobs.outcome(id);
   if (!outcome) return fail(outcome.error());
-  if (!*outcome) return refused("the diagnosis' result is no longer kept");
+  if (!*outcome) return refused(fmt::format("the result of the {} is no longer kept", found.kind));
   return std::string(parts_of(**outcome).document);
 }
 

@@ -303,6 +303,7 @@ Result<ModelCheckAnswer> Service::check_model(const ModelCheckRequest& request, 
 
 Result<WatchAnswer> Service::watch(const WatchRequest& request, Progress& progress) const {
   gap::WatchOptions watch;
+  watch.learn = request.learn;
   watch.change.alpha = request.alpha;
   watch.diagnose = request.diagnose;
   gap::DiagnosisOptions options;

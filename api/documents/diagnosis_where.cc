@@ -1,9 +1,12 @@
 #include "api/documents/diagnosis_where.h"
 
 #include <cmath>
+#include <cstddef>
+#include <map>
 #include <numbers>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include "api/documents/interval_keys.h"
 
@@ -76,7 +79,43 @@ void write_places(Writer& w, const Diagnosis& d) {
   w.end_array().end_object();
 }
 
+// What was measured in a window and predicted of it; of a wheel's channel the mean over wheels.
+struct WindowValues {
+  double count = 0.0, measured = 0.0, nominal = 0.0, retuned = 0.0, with_effects = 0.0;
+
+  void add(const gap::HeldOutPoint& point) {
+    count += 1.0;
+    measured += point.measured;
+    nominal += point.nominal;
+    retuned += point.retuned;
+    with_effects += point.with_effects;
+  }
+};
+using ValuesOfWindows = std::map<std::pair<std::size_t, double>, std::map<gap::Channel, WindowValues>>;
+
+ValuesOfWindows values_of_windows(const Diagnosis& d) {
+  ValuesOfWindows values;
+  for (const gap::HeldOutPoint& point : d.held_out)
+    values[{point.drive, point.start_s}][point.channel].add(point);
+  return values;
+}
+
+void write_window_values(Writer& w, const std::map<gap::Channel, WindowValues>& values) {
+  w.key("values").begin_array();
+  for (const auto& [channel, sums] : values) {
+    const double unit = gap::boundary_unit(channel) / sums.count;
+    w.begin_object().text("channel", gap::name_of(channel)).text("unit", gap::unit_of(channel));
+    write_finite(w, "measured", unit * sums.measured);
+    write_finite(w, "nominal", unit * sums.nominal);
+    write_finite(w, "retuned", unit * sums.retuned);
+    write_finite(w, "with_effects", unit * sums.with_effects);
+    w.end_object();
+  }
+  w.end_array();
+}
+
 void write_windows(Writer& w, const gap::DriveCampaign& campaign, const Diagnosis& d) {
+  const ValuesOfWindows values = values_of_windows(d);
   w.key("windows").begin_array();
   for (const gap::WindowGap& window : d.window_gaps) {
     if (window.stations.empty()) continue;
@@ -87,6 +126,8 @@ void write_windows(Writer& w, const gap::DriveCampaign& campaign, const Diagnosi
     write_finite(w, "nominal", window.nominal);
     write_finite(w, "retuned", window.retuned);
     write_finite(w, "with_effects", window.with_effects);
+    if (const auto of_window = values.find({window.drive, window.start_s}); of_window != values.end())
+      write_window_values(w, of_window->second);
     w.end_object();
   }
   w.end_array();

@@ -62,9 +62,16 @@ Result<std::string> whole_model(const RequestedModel& reference, std::string_vie
   const auto document =
       parse(diagnosis_document, {.bytes = diagnosis_document.size(), .values = diagnosis_document.size()});
   if (!document) return fail(ErrorCode::kInternal, "a diagnosis that was kept can't be read");
-  const JsonValue* const offered = document->find("model");
+  const JsonValue* diagnosis = &*document;
+  if (const JsonValue* const format = document->find("format");
+      format != nullptr && format->text == "watch/1") {
+    diagnosis = document->find("diagnosis");
+    if (diagnosis == nullptr)
+      return fail(ErrorCode::kInvalidRequest, "the watch made no diagnosis, so that it offers no model");
+  }
+  const JsonValue* const offered = diagnosis->find("model");
   if (offered == nullptr) {
-    const JsonValue* const verdict = document->find("verdict");
+    const JsonValue* const verdict = diagnosis->find("verdict");
     return fail(ErrorCode::kInvalidRequest, fmt::format("the diagnosis offers no model: its verdict is {}",
                                                         verdict == nullptr ? "not given" : verdict->text));
   }

@@ -17,8 +17,8 @@ namespace slipway::api::json {
 std::optional<RequestedModel> read_model_reference(const JsonValue& value, std::vector<Fault>& faults);
 void write_model_reference(Writer& w, const RequestedModel& model);
 
-// The same with what a "diagnosis/1" offers in it, as a request is recorded. Errors: invalid_request where
-// the document offers no model.
+// The same with what a "diagnosis/1", or that of a "watch/1", offers in it, as a request is recorded. Errors:
+// invalid_request where the document offers no model.
 Result<std::string> whole_model(const RequestedModel& reference, std::string_view diagnosis_document);
 // "model" of a recorded request. One that names a job and does not hold its model is a fault.
 void read_whole_model(ObjectReader& reader, std::optional<RequestedModel>& model);

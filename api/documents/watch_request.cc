@@ -1,5 +1,7 @@
 #include "api/documents/watch_request.h"
 
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "api/documents/diagnosis_request.h"
@@ -9,6 +11,35 @@
 #include "api/json/strict_reader.h"
 
 namespace slipway::api::json {
+namespace {
+
+// Nothing where there are none of this name, which is a fault of the reader's at `key`.
+Result<std::optional<gap::DriveCampaign>> drives_of(const std::string& name, std::string_view key,
+                                                    const ShippedDrives& shipped, ObjectReader& reader) {
+  auto drives = shipped(name);
+  if (drives) return std::optional(*std::move(drives));
+  if (drives.error().code != ErrorCode::kInvalidRequest) return fail(drives.error());
+  reader.fault(key, drives.error().detail);
+  return std::optional<gap::DriveCampaign>();
+}
+
+// The drives of a campaign in the place of those of a request.
+Result<void> read_campaign(ObjectReader& reader, const ShippedDrives& shipped, WatchRequest& request) {
+  auto watched = drives_of(request.campaign, "campaign", shipped, reader);
+  if (!watched) return fail(watched.error());
+  if (*watched) request.watched = **std::move(watched);
+  if (reader.member("drives", kOptional) != nullptr)
+    reader.fault("drives", "are those of the campaign: leave out the one or the other");
+  constexpr int kMaxLearnt = 2000;
+  if (reader.whole("learn", kOptional, 1, kMaxLearnt, request.learn) && !request.reference.empty())
+    reader.fault("learn", "is of a watch without a reference");
+  if (request.reference == request.campaign)
+    reader.fault("reference",
+                 "must be other drives than those that are watched; without it the first are learnt");
+  return {};
+}
+
+}  // namespace
 
 Result<Reading<WatchRequest>> read_watch_request(std::string_view bytes, const ShippedDrives& shipped) {
   const auto document = parse(bytes, {.bytes = kMaxWatchBytes});
@@ -22,17 +53,24 @@ Result<Reading<WatchRequest>> read_watch_request(std::string_view bytes, const S
   reader.number("alpha", kOptional, {"1", 1e-9, 0.5}, request.alpha);
   reader.boolean("diagnose", kOptional, request.diagnose);
   read_search_keys(reader, request.without, request.seed);
-  if (reader.text("reference", kRequired, {.most = 64, .is_name = true}, request.reference)) {
-    auto healthy = shipped(request.reference);
-    if (!healthy && healthy.error().code != ErrorCode::kInvalidRequest) return fail(healthy.error());
-    if (healthy) {
-      request.healthy = std::make_shared<const gap::DriveCampaign>(*std::move(healthy));
-      request.watched = read_appended_drives(reader, *request.healthy);
-    } else {
-      reader.fault("reference", healthy.error().detail);
-    }
+  const bool of_campaign =
+      reader.text("campaign", kOptional, {.most = 64, .is_name = true}, request.campaign);
+  const auto need = of_campaign ? kOptional : kRequired;
+  if (reader.text("reference", need, {.most = 64, .is_name = true}, request.reference)) {
+    auto healthy = drives_of(request.reference, "reference", shipped, reader);
+    if (!healthy) return fail(healthy.error());
+    if (*healthy) request.healthy = std::make_shared<const gap::DriveCampaign>(**std::move(healthy));
   }
-  if (!request.healthy) reader.member("drives", kRequired);
+  if (of_campaign) {
+    if (auto read = read_campaign(reader, shipped, request); !read) return fail(read.error());
+  } else {
+    if (request.healthy)
+      request.watched = read_appended_drives(reader, *request.healthy);
+    else
+      reader.member("drives", kRequired);
+    if (reader.member("learn", kOptional) != nullptr)
+      reader.fault("learn", "is of the first drives of a campaign: name it");
+  }
   reader.refuse_unknown();
   return reading;
 }

@@ -59,8 +59,8 @@ export function select(
 }
 
 /** A coloured square beside a word of a legend. A colour set from script is what the page's policy allows. */
-export function swatch(colour: string | null): HTMLElement {
-  const square = h("span", { class: colour ? "swatch" : "swatch hatched", "aria-hidden": "true" });
+export function swatch(colour: string | null, shape = ""): HTMLElement {
+  const square = h("span", { class: colour ? `swatch ${shape}` : "swatch hatched", "aria-hidden": "true" });
   if (colour) square.style.backgroundColor = colour;
   return square;
 }

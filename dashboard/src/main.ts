@@ -2,7 +2,7 @@
 import "ol/ol.css";
 import "uplot/dist/uPlot.min.css";
 import "./styles/page.css";
-import { get, ServiceError, type CostTerm, type Rover, type RuleSet, type Terrain, type TerrainDocument } from "./api/client";
+import { get, ServiceError, type CostTerm, type Effect, type Rover, type RuleSet, type Terrain, type TerrainDocument } from "./api/client";
 import { button, fill, h, select } from "./dom";
 import { keyboard } from "./keyboard";
 import { TerrainMap } from "./map/terrain_map";
@@ -15,6 +15,8 @@ import { planPanel } from "./panels/plan";
 import { takesUploads, terrainUpload } from "./panels/uploads";
 import { verdictPanel } from "./panels/verdict";
 import { readLink, writeLink, type Link } from "./permalink";
+import { reportPage } from "./report";
+import { reopenRiskMap } from "./map/risk_map";
 import { loading, problemView } from "./problem";
 import { ProfileCharts } from "./profile/charts";
 import { readout } from "./map/readout";
@@ -56,8 +58,9 @@ checkPanel(panels.check, map);
 jobsPanel(panels.jobs);
 drivesPanel(panels.drives);
 jobView(work);
-verdictPanel(verdict, map);
-layersPanel(layerBox);
+const print = reportPage(map, redraw);
+verdictPanel(verdict, map, () => void print());
+layersPanel(layerBox, map);
 keyboard(map, mapElement, charts, keyHelp.open);
 
 for (const [tab, words] of tabs) {
@@ -96,10 +99,15 @@ function keepLink(): void {
     if (store.state.terrain) history.replaceState(null, "", `#${writeLink(store.state, map.view)}`);
   }, 200);
 }
-store.on(["tab", "terrain", "drawn", "options", "layers", "routeColour", "result", "job", "route"], keepLink);
+store.on(["tab", "terrain", "drawn", "options", "layers", "routeColour", "result", "job", "route", "risk", "followed"], keepLink);
 map.map.on("moveend", keepLink);
 window.addEventListener("hashchange", () => {
   if (location.hash.slice(1) !== writeLink(store.state, map.view)) location.reload();
+});
+
+// The drives' own ground, where the service has its map.
+store.on(["followed"], ({ followed, terrains, terrain, tab }) => {
+  if (tab === "drives" && followed.terrain && followed.terrain !== terrain?.terrain?.name && terrains.some((t) => t.name === followed.terrain)) void openTerrain(followed.terrain);
 });
 
 async function openTerrain(name: string): Promise<void> {
@@ -114,14 +122,15 @@ async function openTerrain(name: string): Promise<void> {
 async function load(): Promise<void> {
   fill(note, loading("Asking the service what there is"));
   try {
-    const [{ terrains }, { rovers }, { rules }, { cost_terms }] = await Promise.all([
+    const [{ terrains }, { rovers }, { rules }, { cost_terms }, { effects }] = await Promise.all([
       get<{ terrains: Terrain[] }>("v1/terrains"),
       get<{ rovers: Rover[] }>("v1/rovers"),
       get<{ rules: RuleSet[] }>("v1/rules"),
       get<{ cost_terms: CostTerm[] }>("v1/planners"),
+      get<{ effects: Effect[] }>("v1/effects"),
     ]);
     const rover = rovers.find((r) => r.name === store.state.options.rover)?.name ?? rovers.find((r) => r.name === "msl-class")?.name ?? rovers[0]?.name ?? "";
-    store.set({ terrains, rovers, rules, costTerms: cost_terms, options: { ...store.state.options, rover } });
+    store.set({ terrains, rovers, rules, costTerms: cost_terms, effects, options: { ...store.state.options, rover } });
     fill(note);
     if (terrainMore.childElementCount === 0 && (await takesUploads())) fill(terrainMore, button("Add a terrain", ownTerrain.open, { class: "quiet", "data-do": "add-terrain" }));
     if (terrains.length === 0) {
@@ -133,7 +142,9 @@ async function load(): Promise<void> {
     if (link.view) map.view = link.view;
     if (link.job) await reopen(link.job);
     if (link.job && link.view) map.view = link.view;
+    for (const { kind, opacity, job } of link.risk) void reopenRiskMap(kind, opacity, job);
     link.job = "";
+    link.risk = [];
     link.view = null;
   } catch (error) {
     fill(note, problemView(error, () => void load()));

@@ -1,9 +1,11 @@
 // What is shown, in the address: a link to it shows it again, and a reload loses nothing.
-import { nothingDrawn, store, type Drawn, type Options, type Place, type Ring, type RouteColour, type State, type Tab } from "./state";
+import { riskTitles, type RiskKind } from "./map/risk_map";
+import { nothingDrawn, store, type Drawn, type Model, type Options, type Place, type Ring, type RouteColour, type State, type Tab } from "./state";
 
 export interface Link {
   terrain: string;
   job: string;
+  risk: { kind: RiskKind; opacity: number; job: string }[];
   view: [number, number, number] | null; // centre and metres per pixel
 }
 
@@ -43,13 +45,43 @@ export function writeLink(state: State, view: Link["view"]): string {
   put("weights", Object.entries(options.weights).map(([k, v]) => `${k}:${v}`).join(","));
   put("routes", options.routes === 3 ? "" : options.routes);
   put("seed", options.seed === 1 ? "" : options.seed);
+  const { model } = options;
+  put("model", model && [model.diagnosis, model.rover, model.campaign, ...model.ground].join(","));
+  put("effects", options.effects.map((e) => [e.on ? e.name : `-${e.name}`, ...Object.entries(e.parameters).map(([k, v]) => `${k}:${v}`)].join(",")).join(";"));
+  put("failed", Object.entries(options.failedWheels).map(([k, v]) => `${k}:${v}`).join(","));
+  put("confidence", options.confidence);
+  put("unknown", options.unknownSoil);
+  put("draws", options.draws);
+  put("risk", state.risk.filter((m) => m.document).map((m) => [m.kind, m.opacity, m.job].join(":")).join(","));
   put("layers", Object.entries(state.layers).map(([k, v]) => `${k}:${v}`).join(","));
   put("colour", state.routeColour === "risk" ? "" : state.routeColour);
-  put("job", state.result?.job ?? state.job?.id);
+  put("job", jobShown(state));
   put("route", state.route || "");
   put("view", view && view.map((v) => Number(v.toFixed(3))).join(","));
   return q.toString();
 }
+
+/** What a reader of the link is to see. */
+function jobShown({ tab, followed, result, job }: State): string | undefined {
+  const of_drives = followed.watch?.job ?? followed.diagnosis?.job;
+  return tab === "drives" && of_drives ? of_drives : (result?.job ?? job?.id);
+}
+
+const isJob = (text: string | null | undefined): boolean => /^[0-9a-f]{32}$/.test(text ?? "");
+
+function readModel(text: string | null): Model | null {
+  const [diagnosis = "", rover = "", campaign = "", ...ground] = (text ?? "").split(",");
+  return isJob(diagnosis) && rover ? { diagnosis, rover, campaign, ground } : null;
+}
+
+const readEffects = (text: string | null): Options["effects"] =>
+  (text ?? "")
+    .split(";")
+    .filter(Boolean)
+    .map((one) => {
+      const [name = "", ...parameters] = one.split(",");
+      return { name: name.replace(/^-/, ""), on: !name.startsWith("-"), parameters: Object.fromEntries(pairs(parameters.join(","))) };
+    });
 
 const pairs = (text: string | null): [string, number][] =>
   (text ?? "")
@@ -76,6 +108,12 @@ export function readLink(hash: string): Link {
     weights: Object.fromEntries(pairs(q.get("weights"))),
     routes: Number(q.get("routes")) || 3,
     seed: Number(q.get("seed")) || 1,
+    model: readModel(q.get("model")),
+    effects: readEffects(q.get("effects")),
+    failedWheels: Object.fromEntries((q.get("failed") ?? "").split(",").map((pair) => pair.split(":")).filter((pair) => pair.length === 2)),
+    confidence: Number(q.get("confidence")) || null,
+    unknownSoil: q.get("unknown") ?? "",
+    draws: Number(q.get("draws")) || null,
   };
   const tab = (["plan", "check", "jobs", "drives"] as Tab[]).find((t) => t === q.get("tab")) ?? "plan";
   const colour = (["risk", "slip", "plain"] as RouteColour[]).find((c) => c === q.get("colour")) ?? "risk";
@@ -84,7 +122,8 @@ export function readLink(hash: string): Link {
   const view = (q.get("view") ?? "").split(",").map(Number);
   return {
     terrain: q.get("terrain") ?? "",
-    job: /^[0-9a-f]{32}$/.test(q.get("job") ?? "") ? q.get("job")! : "",
+    job: isJob(q.get("job")) ? q.get("job")! : "",
+    risk: (q.get("risk") ?? "").split(",").map((one) => one.split(":")).filter(([kind, , job]) => kind! in riskTitles && isJob(job)).map(([kind, opacity, job]) => ({ kind: kind as RiskKind, opacity: Number(opacity) || 0.65, job: job! })),
     view: view.length === 3 && view.every(Number.isFinite) ? (view as [number, number, number]) : null,
   };
 }

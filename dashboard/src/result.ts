@@ -16,6 +16,9 @@ export interface Stations {
   tilt_deg: Column;
   tilt_deg_p05: Column;
   tilt_deg_p95: Column;
+  clearance_m: Column;
+  clearance_m_p05: Column;
+  clearance_m_p95: Column;
   slip: Column;
   slip_p05: Column;
   slip_p50: Column;
@@ -58,6 +61,17 @@ export interface Share {
 
 export type Verdict = "go" | "no_go" | "unknown";
 
+export interface Outcomes {
+  stop?: Share;
+  embedding?: Share;
+  expected_stops?: Share;
+  completed?: Share;
+  draws?: number;
+  recommended?: { max_tilt_deg?: number | null; slip_checks_before_m?: number[] };
+  scout?: { soil: string | null; from_m: number; to_m: number; verdict_afterwards: { go: number } } | null;
+  segments?: { from_m: number; to_m: number; verdict: Verdict; expected_stops?: { value: number }; embedding?: Share; reached?: number }[];
+}
+
 export interface Route {
   title: string;
   verdict: Verdict;
@@ -66,7 +80,7 @@ export interface Route {
   stations: Stations;
   rules: Rule[];
   stretches: Stretch[];
-  outcomes: { stop?: Share; embedding?: Share; expected_stops?: Share; completed?: Share; draws?: number; recommended?: { max_tilt_deg?: number | null; slip_checks_before_m?: number[] } };
+  outcomes: Outcomes;
   notes: string[]; // what made a plan rank it as it did
 }
 
@@ -123,7 +137,7 @@ export async function readResult(job: Job): Promise<Result> {
     rover: document.rover?.name ?? document.request?.rover ?? "",
     terrain: document.terrain?.name ?? document.request?.terrain ?? "",
     request: document.request ?? {},
-    limits: { ...document.request?.limits, ...document.request?.bars },
+    limits: { ...document.request?.limits, ...document.request?.bars, ...document.request?.checks },
     provenance: document.provenance ?? {},
     fewer: document.fewer_because ?? [],
     driven: document.drive_so_far?.stretches ?? [],
@@ -150,9 +164,8 @@ export function stationAt(stations: Stations, at_m: number): number {
 }
 
 /** The class of each station, 0 to 4, by what is expected to go wrong on its stretch or by slip; null: unknown ground. */
-export function classesOf(route: Route, by: "risk" | "slip"): (number | null)[] {
+export function classesOf(route: Route, by: "risk" | "slip", bounds: number[]): (number | null)[] {
   const { stations, stretches } = route;
-  const bounds = classBounds[by];
   const classOf = (value: number) => bounds.filter((bound) => value >= bound).length;
   let k = 0;
   return stations.distance_m.map((at, i) => {
@@ -164,15 +177,24 @@ export function classesOf(route: Route, by: "risk" | "slip"): (number | null)[] 
   });
 }
 
-export const classBounds = { risk: [0.001, 0.01, 0.1, 0.5], slip: [0.1, 0.2, 0.4, 0.6] };
 export const classTitles = {
   risk: "Stops and embeddings expected on a stretch",
   slip: "Slip (95 % of the draws are below)",
 };
 
-export function classLabels(by: "risk" | "slip"): string[] {
-  const bounds = classBounds[by];
-  return [`below ${bounds[0]}`, ...bounds.slice(1).map((b, i) => `${bounds[i]} to ${b}`), `above ${bounds.at(-1)}`];
-}
+export const classLabels = (bounds: number[]): string[] => [`below ${bounds[0]}`, ...bounds.slice(1).map((b, i) => `${bounds[i]} to ${b}`), `above ${bounds.at(-1)}`];
+
+export const ruleWords: Record<string, string> = {
+  slip_check: "slip at a check",
+  tilt: "tilt",
+  current: "current",
+  sinkage: "sinkage",
+  clearance: "clearance",
+  immobilised: "no way forward",
+  embedding: "embedding",
+};
+
+/** The rules that trip somewhere in some of the draws, those that trip most first. */
+export const tripsOf = (route: Route): Rule[] => route.rules.filter((r) => (r.trips?.value ?? 0) > 0 && r.from_m !== null).sort((a, b) => b.trips.value - a.trips.value);
 
 export const verdictWords: Record<Verdict, string> = { go: "GO", no_go: "NO-GO", unknown: "UNKNOWN" };

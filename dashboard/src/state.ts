@@ -1,5 +1,6 @@
 // What the page shows, in one place; parts of the page listen to the keys that they draw.
-import type { CostTerm, Campaign, Job, Rover, RuleSet, Terrain, TerrainDocument } from "./api/client";
+import type { CostTerm, Campaign, Diagnosis, Effect, Job, Rover, RuleSet, Terrain, TerrainDocument, Watch } from "./api/client";
+import type { RiskMap } from "./map/risk_map";
 import type { Result } from "./result";
 
 export interface Place {
@@ -30,7 +31,34 @@ export interface Options {
   weights: Record<string, number>; // those that differ from the service's
   routes: number;
   seed: number;
+  model: Model | null; // that a diagnosis has corrected
+  effects: { name: string; on: boolean; parameters: Record<string, number> }[]; // that differ from the rover's own
+  failedWheels: Record<string, string>;
+  confidence: number | null; // that a mapped class is the soil that the legend gives; null: the terrain's own
+  unknownSoil: string; // "": the belief about unknown ground
+  draws: number | null; // of the ground; null: as many as the verdict needs
 }
+
+export interface Model {
+  diagnosis: string; // job
+  campaign: string;
+  rover: string; // in whose place the corrected one drives
+  ground: string[]; // soils of the terrain that are the campaign's
+}
+
+/** How a gap was left: by the model as it was, re-tuned, with the effects that were found. */
+export type Rung = "nominal" | "retuned" | "with_effects";
+
+/** Recorded drives and what they showed. */
+export interface Followed {
+  diagnosis: { job: string; document: Diagnosis } | null;
+  watch: { job: string; document: Watch } | null;
+  rung: Rung;
+  terrain: string; // of the campaign, that is shown
+  drive: string; // chosen; "": all
+  window: number | null; // of the diagnosis, that the pointer is at
+}
+export const nothingFollowed: Followed = { diagnosis: null, watch: null, rung: "nominal", terrain: "", drive: "", window: null };
 
 export interface State {
   tab: Tab;
@@ -38,7 +66,9 @@ export interface State {
   rovers: Rover[];
   rules: RuleSet[];
   costTerms: CostTerm[];
+  effects: Effect[];
   campaigns: Campaign[];
+  followed: Followed;
   terrain: TerrainDocument | null;
   drawn: Drawn;
   options: Options;
@@ -47,6 +77,8 @@ export interface State {
   swipe: number | null; // share of the map's width up to which the layers are shown
   routeColour: RouteColour;
   palette: string[]; // of the classes of risk and slip
+  bounds: Record<"risk" | "slip", number[]>; // between the classes
+  risk: RiskMap[]; // maps of risk that are shown or under way
   jobs: Job[] | null;
   job: Job | null; // that is followed
   result: Result | null;
@@ -60,6 +92,13 @@ export interface State {
 export const nothingDrawn: Drawn = { start: null, goal: null, waypoints: [], keep_out: [], keep_in: [], path: [] };
 /** Blue to dark red: apart by lightness and hue for colour-blind eyes too [ColorBrewer RdYlBu]. */
 export const usualPalette = ["#2c7bb6", "#abd9e9", "#fdae61", "#d7191c", "#67001f"];
+export const palettes: Record<string, string[]> = {
+  "blue to red": usualPalette,
+  viridis: ["#fde725", "#5ec962", "#21918c", "#3b528b", "#440154"],
+  cividis: ["#fee838", "#bcae6c", "#7d7c78", "#414d6b", "#00224e"],
+  "grey, for paper": ["#f2f2f2", "#c4c4c4", "#8c8c8c", "#525252", "#111111"],
+};
+export const usualBounds = { risk: [0.001, 0.01, 0.1, 0.5], slip: [0.1, 0.2, 0.4, 0.6] };
 
 type Listener = (state: State) => void;
 
@@ -72,15 +111,19 @@ class Store {
     rovers: [],
     rules: [],
     costTerms: [],
+    effects: [],
     campaigns: [],
+    followed: nothingFollowed,
     terrain: null,
     drawn: nothingDrawn,
-    options: { rover: "", rules: "", legend: "", weights: {}, routes: 3, seed: 1 },
+    options: { rover: "", rules: "", legend: "", weights: {}, routes: 3, seed: 1, model: null, effects: [], failedWheels: {}, confidence: null, unknownSoil: "", draws: null },
     tool: "look",
     layers: { slope: 0, soil: 0, unknown: 0.6 },
     swipe: null,
     routeColour: "risk",
     palette: usualPalette,
+    bounds: usualBounds,
+    risk: [],
     jobs: null,
     job: null,
     result: null,
@@ -114,6 +157,10 @@ class Store {
     const before = this.past.pop();
     if (before) this.set({ drawn: before });
     return before !== undefined;
+  }
+
+  follow(change: Partial<Followed>): void {
+    this.set({ followed: { ...this.state.followed, ...change } });
   }
 
   option(change: Partial<Options>): void {

@@ -1,16 +1,47 @@
 // One piece of work at a time: asked for, followed, shown.
-import { ask, follow, get, hasEnded, ServiceError, submit, type Job } from "./api/client";
+import { ask, get, hasEnded, ServiceError, submit, type Job } from "./api/client";
+import { follow } from "./api/events";
+import { openDiagnosis, openWatch } from "./followed";
 import { isAboutRoutes, readResult, type Result } from "./result";
 import { store, type Place, type Ring } from "./state";
 
-/** What was asked for becomes what is drawn. */
-function takeRequest({ request, rover }: Result): void {
-  const asked = request as { start?: Place; goal?: Place; waypoints?: Place[]; path?: Place[]; keep_out?: Ring[]; keep_in?: Ring[] };
+interface Asked {
+  start?: Place;
+  goal?: Place;
+  waypoints?: Place[];
+  path?: Place[];
+  keep_out?: Ring[];
+  keep_in?: Ring[];
+  rover?: string;
+  effects?: { name: string; on?: boolean; parameters?: Record<string, number> }[];
+  failed_wheels?: Record<string, string>;
+  confidence?: number;
+  unknown_soil?: string;
+  draws?: number;
+  legend?: string;
+  model?: { diagnosis: string; ground?: string[] };
+}
+
+/** What was asked for becomes what is drawn and what the form has. */
+function takeRequest({ request, rover: driven }: Result): void {
+  const asked = request as Asked;
   const place = (p: Place | undefined): Place | null => (p ? { x_m: p.x_m, y_m: p.y_m } : null);
-  const { drawn, options } = store.state;
+  const { drawn, options, rovers } = store.state;
+  // A corrected rover has the name of the one that it was made of before its own.
+  const rover = rovers.find((r) => r.name === driven)?.name ?? rovers.find((r) => driven.startsWith(`${r.name}-`))?.name ?? options.rover;
   store.set({
     drawn: { ...drawn, start: place(asked.start) ?? drawn.start, goal: place(asked.goal) ?? drawn.goal, waypoints: asked.waypoints ?? drawn.waypoints, path: asked.path ?? drawn.path, keep_out: asked.keep_out ?? [], keep_in: asked.keep_in ?? [] },
-    options: { ...options, rover: rover || options.rover },
+    options: {
+      ...options,
+      rover,
+      effects: (asked.effects ?? []).map((e) => ({ name: e.name, on: e.on ?? true, parameters: e.parameters ?? {} })),
+      failedWheels: asked.failed_wheels ?? {},
+      confidence: asked.confidence ?? null,
+      unknownSoil: asked.unknown_soil ?? "",
+      draws: asked.draws ?? null,
+      legend: asked.legend ?? options.legend,
+      model: asked.model ? { diagnosis: asked.model.diagnosis, campaign: options.model?.diagnosis === asked.model.diagnosis ? options.model.campaign : "", rover, ground: asked.model.ground ?? [] } : null,
+    },
   });
 }
 
@@ -18,7 +49,10 @@ let following: AbortController | null = null;
 
 /** Asks for work and follows it; what goes wrong is in the state. */
 export async function start(path: string, request: unknown): Promise<void> {
-  store.set({ error: null });
+  const { result, other, options } = store.state;
+  // A plan with a corrected model stands beside the one that was made without it.
+  const beside = path === "v1/plans" && options.model !== null && result?.kind === "plan" && !("model" in result.request) && result.terrain === store.state.terrain?.terrain?.name;
+  store.set({ error: null, other: beside ? result : other });
   try {
     const { job } = await submit(path, request);
     await watch(job);
@@ -42,6 +76,8 @@ export async function watch(job: Job): Promise<void> {
       const route = store.state.route < result.routes.length ? store.state.route : 0;
       store.set({ result, route, compared: null, hover_m: null });
     }
+    if (end.state === "successful" && end.kind === "diagnosis") await openDiagnosis(end);
+    if (end.state === "successful" && end.kind === "watch") await openWatch(end);
   } catch (error) {
     report(error);
   }
@@ -51,7 +87,8 @@ export async function watch(job: Job): Promise<void> {
 export async function reopen(id: string): Promise<void> {
   try {
     const job = await get<Job>(`v1/jobs/${id}`);
-    if (isAboutRoutes(job.kind ?? "")) store.set({ tab: job.kind === "plan" ? "plan" : "check" });
+    if (isAboutRoutes(job.kind)) store.set({ tab: job.kind === "plan" ? "plan" : "check" });
+    else if (job.kind === "diagnosis" || job.kind === "watch") store.set({ tab: "drives" });
     await watch(job);
     const result = store.state.result;
     if (result?.job === id) takeRequest(result);
@@ -77,16 +114,35 @@ export function report(error: unknown): void {
   store.set({ error });
 }
 
+/** All stations of an answer as one table, however many pages the service keeps them in. */
+export async function keepStations(job: string, name: string): Promise<void> {
+  try {
+    let text = "";
+    for (let page = 1, more = true; more; ++page) {
+      const response = await ask(`v1/jobs/${job}/stations?page=${page}`);
+      text += await response.text();
+      more = /rel="next"/.test(response.headers.get("Link") ?? "");
+    }
+    keepBlob(new Blob([text], { type: "text/csv" }), name);
+  } catch (error) {
+    report(error);
+  }
+}
+
+function keepBlob(blob: Blob, name: string): void {
+  const url = URL.createObjectURL(blob);
+  const link = document.createElement("a");
+  link.href = url;
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(url), 10_000);
+}
+
 /** A page or a table of a job's, opened or kept as a file: a token can't go with a link. */
 export async function keep(path: string, name: string, accept?: string): Promise<void> {
   try {
     const response = await ask(path, accept ? { headers: { Accept: accept } } : {});
-    const url = URL.createObjectURL(await response.blob());
-    const link = document.createElement("a");
-    link.href = url;
-    link.download = name;
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(url), 10_000);
+    keepBlob(await response.blob(), name);
   } catch (error) {
     report(error);
   }

@@ -10,7 +10,7 @@ const data = process.env.SLIPWAY_SOURCE + "/data";
 
 export async function serve(...options) {
   const folder = mkdtempSync(join(tmpdir(), "slipway-dashboard-"));
-  const child = spawn(slipway, ["serve", "--data", data, "--port", "0", "--jobs", join(folder, "jobs.sqlite"), ...options]);
+  const child = spawn(slipway, ["serve", ...(options.includes("--data") ? [] : ["--data", data]), "--port", "0", "--jobs", join(folder, "jobs.sqlite"), ...options]);
   const line = await new Promise((resolve, reject) => {
     let text = "";
     child.stdout.on("data", (bytes) => {
@@ -40,8 +40,8 @@ export function tokens() {
   return { file: join(folder, "tokens.toml"), token: made.stderr.trim().split("\n").at(-1) };
 }
 
-/** What stands before the service and strips a prefix from the paths. */
-export async function proxy(port, prefix) {
+/** What stands before the service and strips a prefix from the paths; answers to paths that it swallows never come. */
+export async function proxy(port, prefix, { swallows = /(?!)/ } = {}) {
   const paths = [];
   const server = http.createServer((request, response) => {
     paths.push(request.url);
@@ -49,6 +49,7 @@ export async function proxy(port, prefix) {
       response.writeHead(404).end();
       return;
     }
+    if (swallows.test(request.url)) return;
     const asked = http.request({ host: "127.0.0.1", port, method: request.method, path: request.url.slice(prefix.length), headers: request.headers }, (answer) => {
       response.writeHead(answer.statusCode, answer.headers);
       answer.pipe(response);

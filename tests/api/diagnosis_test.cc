@@ -297,6 +297,14 @@ TEST_F(ADiagnosis, IsMappedWithItsWindowsOverTheGround) {
   EXPECT_EQ(window.find("x_m")->number, 3.5);
   EXPECT_EQ(window.find("nominal")->number, 4.5);
   EXPECT_EQ(window.find("with_effects"), nullptr);
+  ASSERT_EQ(window.find("values")->elements.size(), 1U);
+  const JsonValue& slip = window.find("values")->elements[0];
+  EXPECT_EQ(slip.find("channel")->text, "slip");
+  EXPECT_EQ(slip.find("unit")->text, "1");
+  EXPECT_EQ(slip.find("measured")->number, 0.1);
+  EXPECT_EQ(slip.find("nominal")->number, 0.2);
+  EXPECT_EQ(slip.find("retuned")->number, 0.15);
+  EXPECT_EQ(slip.find("with_effects"), nullptr) << "no effect was fitted";
 }
 
 TEST(KeptAnswer, IsADocumentAndAPage) {

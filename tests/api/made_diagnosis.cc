@@ -53,7 +53,7 @@ gap::Diagnosis full_diagnosis(const gap::DriveCampaign& campaign) {
             gap::Interval{0.0095, 0.0, 0.015}}};
   d.reference = gap::ReferenceSummary{"last_year", "0a1b", 20, 80, {{gap::Channel::kPitch, 0.012, 0.002}}};
   d.closed_fraction = gap::Interval{0.9, 0.7, 1.1};
-  d.held_out = {{gap::Channel::kSlip, -1, 0, 0.0, 0.1, 0.2, 0.15, kNan}};
+  d.held_out = {{gap::Channel::kSlip, -1, 0, 2.0, 0.1, 0.2, 0.15, kNan}};
   d.window_gaps = {{0, 0, 2.0, {{3.0, -2.0, 0.0}, {3.5, -2.0, 0.0}}, 4.5, 2.0, kNan}};
   d.residual = {{"wheel_load", "temperature", 0.6, {{-1.0, {0.2, 0.1, 0.3}}, {1.0, {kNan, 0.0, 0.0}}}}};
   d.next_drives = {{15.0, 90.0, 0.04, 0.3, -20.0, 1.2}};

@@ -104,6 +104,17 @@ TEST_F(ANamedModel, IsRecordedWithTheRequestAndNeedsItsJobNoMore) {
   EXPECT_EQ(answer, expected);
 }
 
+TEST_F(ANamedModel, MayBeOfAWatchWhoseAlarmWasDiagnosed) {
+  const gap::Diagnosis diagnosis = testing::full_diagnosis(campaign());
+  add("d1", kDiagnosisKind, document(diagnosis));
+  add("w1", kWatchKind,
+      R"({"format":"watch/1","changed":true,"diagnosis":)" + json::diagnosis_document(campaign(), diagnosis) +
+          "}");
+  std::string of_diagnosis = recorded(request_with(naming("d1"))).value();
+  of_diagnosis.replace(of_diagnosis.find("\"d1\""), 4, "\"w1\"");
+  EXPECT_EQ(recorded(request_with(naming("w1"))).value(), of_diagnosis);
+}
+
 TEST_F(ANamedModel, LeavesRequestsWithoutOneAsTheyCame) {
   const std::string request = " " + request_with("");
   const auto same = recorded(request);
@@ -120,10 +131,12 @@ TEST_F(ANamedModel, ThatThereIsNotIsRefusedWithItsPlaceAndTheReason) {
   add("old", kDiagnosisKind,
       R"({"format":"diagnosis/1","verdict":"effects","model":{"rover":{},"soils":{}}})");
   add("plan", kPlanKind, "{}");
+  add("calm", kWatchKind, R"({"format":"watch/1","changed":false})");
   add("waits", kDiagnosisKind, std::nullopt);
   const std::vector<std::pair<std::string, std::string>> reasons{
       {"nobody", "there is no job of this id"},
-      {"plan", "the job is a plan: only a diagnosis offers a model"},
+      {"plan", "the job is a plan: only a diagnosis, or a watch that made one, offers a model"},
+      {"calm", "the watch made no diagnosis, so that it offers no model"},
       {"waits", "the diagnosis is accepted: it offers no model yet"},
       {"ended", "the diagnosis offers no model: its verdict is no_gap"},
       {"old",

@@ -69,6 +69,22 @@ TEST_F(AWatchRequest, TellsEveryFaultAtItsPlace) {
       << "a path of the service's files is no key";
 }
 
+TEST_F(AWatchRequest, TakesTheDrivesOfACampaignAndLearnsFromItsFirstOrFromAReference) {
+  const auto first = read(R"({"campaign":"small","learn":1})");
+  ASSERT_TRUE(first);
+  ASSERT_TRUE(first->faults.empty()) << first->faults.front().message;
+  EXPECT_EQ(first->request.healthy, nullptr);
+  EXPECT_EQ(first->request.learn, 1);
+  EXPECT_EQ(first->request.watched.drives.size(), 2U);
+  EXPECT_EQ(first->request.watched.fingerprint, load()->fingerprint);
+  EXPECT_EQ(faults(R"({"campaign":"small","reference":"small","learn":2,"drives":[]})"),
+            (std::vector<std::string>{"/drives", "/learn", "/reference"}));
+  EXPECT_EQ(faults(R"({"campaign":"large","reference":"large","learn":0})"),
+            (std::vector<std::string>{"/reference", "/campaign", "/learn", "/reference"}));
+  EXPECT_EQ(faults(R"({"reference":"small","learn":2,"drives":[)" + drive("a") + "]}"),
+            std::vector<std::string>{"/learn"});
+}
+
 class AContinuedRequest : public ::testing::Test {
  protected:
   std::string job(const std::string& kind, const std::string& request) {
@@ -114,6 +130,7 @@ TEST_F(AContinuedRequest, IsRefusedWhereThereIsNothingToContinue) {
   const std::vector<std::string> at{"/continues"};
   EXPECT_EQ(refused(continues(new_job_id())), at);
   EXPECT_EQ(refused(continues(job("plan", "{}"))), at);
+  EXPECT_EQ(refused(continues(job("watch", R"({"campaign":"p05"})"))), at) << "it has no drives of its own";
   const std::string gone = job("watch", R"({"drives":[]})");
   ASSERT_TRUE(store_->dismiss(gone, 2));
   EXPECT_EQ(refused(continues(gone)), at);

@@ -11,6 +11,10 @@ export type Campaign = NonNullable<Schemas["DriveCampaigns"]["campaigns"]>[numbe
 export type Job = Schemas["Job"];
 export type Problem = Schemas["Problem"];
 export type Ground = Schemas["Ground"];
+export type Effect = NonNullable<Schemas["Effects"]["effects"]>[number];
+export type Diagnosis = Schemas["Diagnosis"];
+export type Watch = Schemas["Watch"];
+export type MapDocument = Schemas["Map"];
 
 /** What the service refused, as it said it; status 0: it was not reached. */
 export class ServiceError extends Error {
@@ -76,6 +80,19 @@ export async function get<T>(path: string, signal?: AbortSignal): Promise<T> {
   return (await (await ask(path, signal ? { signal } : {})).json()) as T;
 }
 
+const kept = new Map<string, { tag: string; document: unknown }>();
+
+/** What is asked for again and again: read anew only where it has changed. */
+export async function getAgain<T>(path: string): Promise<T> {
+  const known = kept.get(path);
+  const response = await ask(path, known ? { headers: { "If-None-Match": known.tag } } : {});
+  if (response.status === 304 && known) return known.document as T;
+  const document = (await response.json()) as T;
+  const tag = response.headers.get("ETag");
+  if (tag) kept.set(path, { tag, document });
+  return document;
+}
+
 export interface Submitted {
   id: string;
   job: Job;
@@ -94,38 +111,6 @@ export async function submit(path: string, request: unknown): Promise<Submitted>
 
 const ended = ["successful", "failed", "dismissed"];
 export const hasEnded = (job: Job): boolean => ended.includes(job.state);
-
-/** Follows a job to its end, a request a second, most of them answered by "not changed". */
-export async function follow(id: string, seen: (job: Job) => void, signal: AbortSignal): Promise<Job> {
-  let tag = "";
-  let job: Job | null = null;
-  for (;;) {
-    try {
-      const response = await ask(`v1/jobs/${id}`, { signal, headers: tag ? { "If-None-Match": tag } : {} });
-      if (response.status === 304) await response.arrayBuffer();
-      else {
-        tag = response.headers.get("ETag") ?? "";
-        job = (await response.json()) as Job;
-        seen(job);
-        if (hasEnded(job)) return job;
-      }
-    } catch (error) {
-      // A restart of the service loses no job.
-      if (!(error instanceof ServiceError) || (error.status !== 0 && error.status < 500)) throw error;
-    }
-    await pause(document.hidden ? 3000 : 1000, signal);
-  }
-}
-
-function pause(ms: number, signal: AbortSignal): Promise<void> {
-  return new Promise((resolve, reject) => {
-    const timer = setTimeout(resolve, ms);
-    signal.addEventListener("abort", () => {
-      clearTimeout(timer);
-      reject(new DOMException("stopped", "AbortError"));
-    });
-  });
-}
 
 /** The request as a command that gives the same job. */
 export function asCurl(path: string, request: unknown): string {

@@ -458,7 +458,7 @@ export interface paths {
         put?: never;
         /**
          * Drives appended to a watch: has something changed since healthy ones?
-         * @description A job of a few seconds, and after an alarm of a diagnosis besides. The first request names the drives that are taken as healthy; each later one continues the job before it with more drives, and its answer is of all drives so far. What was accepted is recorded whole: a watch goes on when earlier jobs are forgotten. Two jobs may continue the same one: then there are two watches.
+         * @description A job of a few seconds, and after an alarm of a diagnosis besides. The first request names the drives that are taken as healthy; each later one continues the job before it with more drives, and its answer is of all drives so far. Or it names a campaign, whose drives are watched in their order. What was accepted is recorded whole: a watch goes on when earlier jobs are forgotten. Two jobs may continue the same one: then there are two watches.
          */
         post: operations["create_watch"];
         delete?: never;
@@ -537,6 +537,26 @@ export interface paths {
         post?: never;
         /** Dismiss a job: its work stops within two seconds and its result is never shown */
         delete: operations["dismiss_job"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/jobs/{id}/events": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * A job's status now and whenever it changes, until it has ended
+         * @description Server-sent events (the HTML standard, 9.2). Each has the event name "job", a job (schema Job) as its data, and as its id the version of the job: who connects again with Last-Event-ID hears only what is new. A comment comes every 15 s where nothing changes. The stream ends after the job has.
+         */
+        get: operations["job_events"];
+        put?: never;
+        post?: never;
+        delete?: never;
         options?: never;
         head?: never;
         patch?: never;
@@ -654,6 +674,86 @@ export interface paths {
          * @description With Accept: application/geo+json the routes alone. A failed job answers with its problem and that problem's status.
          */
         get: operations["job_result"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/maps": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * A map of a terrain as a cloud-optimised GeoTIFF
+         * @description A job. Its result describes the map; the file itself is at /v1/jobs/{id}/map.tif. Cells without elevation, and of slip and risk those of unknown ground unless its belief is asked for, are nodata: the unknown never looks safe. A map of more than 4,194,304 cells is refused; the command slipway map makes larger ones.
+         */
+        post: operations["create_map"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/jobs/{id}/map.tif": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * The raster of a map, as a cloud-optimised GeoTIFF
+         * @description Whole: ranges are not served.
+         */
+        get: operations["job_raster"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/jobs/{id}/vectors.gpkg": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Routes, stations, rules and checks of a plan, a prediction or a check as a GeoPackage
+         * @description In map metres and the terrain's system, with styles that QGIS takes by itself (table layer_styles). The layers rules and checks are of checks and predictions.
+         */
+        get: operations["job_geopackage"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/jobs/{id}/vectors.geojson": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * The same as GeoJSON
+         * @description The member coordinates says in words what the numbers are.
+         */
+        get: operations["job_geojson"];
         put?: never;
         post?: never;
         delete?: never;
@@ -814,6 +914,8 @@ export interface components {
             relief?: components["schemas"]["Relief"];
             /** @description Which of the terrain's legends says what its classes are; the first where it is left out */
             legend?: string;
+            /** @description Length of the segments by which the drive is decided, as sols or stages [m]. Where it is left out, a plan over 1000 m and more has segments of 250 m, and no other drive has any */
+            segment_m?: number;
             /** @description The probability that a mapped class is the soil that the legend gives; otherwise it is another draw of unknown ground, unit by unit. Of soils that have no alternatives of their own */
             confidence?: number;
             /** @description The soil of the catalogue that unmapped ground is believed to be; unknown_ground where it is left out */
@@ -941,6 +1043,8 @@ export interface components {
             relief?: components["schemas"]["Relief"];
             /** @description Which of the terrain's legends says what its classes are; the first where it is left out */
             legend?: string;
+            /** @description Length of the segments by which the drive is decided, as sols or stages [m]. Where it is left out, a plan over 1000 m and more has segments of 250 m, and no other drive has any */
+            segment_m?: number;
             /** @description The probability that a mapped class is the soil that the legend gives; otherwise it is another draw of unknown ground, unit by unit. Of soils that have no alternatives of their own */
             confidence?: number;
             /** @description The soil of the catalogue that unmapped ground is believed to be; unknown_ground where it is left out */
@@ -1084,13 +1188,26 @@ export interface components {
         Job: {
             id: string;
             /** @enum {unknown} */
-            kind: "plan" | "prediction" | "check" | "diagnosis" | "watch" | "soil_estimate" | "drive_campaign" | "terrain";
+            kind: "plan" | "prediction" | "check" | "diagnosis" | "watch" | "soil_estimate" | "drive_campaign" | "terrain" | "map";
             /** @enum {unknown} */
             state: "accepted" | "running" | "successful" | "failed" | "dismissed";
             /** @description What the work is at */
             stage: string;
             /** @description Share of the work that is done [1] */
             progress: number;
+            /** @description Of a running plan: the best route that it has found until now */
+            best_so_far?: {
+                /** @description The search's own sum; once the route was simulated, the cost by which it is ranked */
+                cost?: number;
+                length_m?: number;
+                /**
+                 * @description Not there before the route was simulated
+                 * @enum {unknown}
+                 */
+                verdict?: "go" | "caution" | "no_go";
+                /** @description Places in map metres, some 200 */
+                line?: number[][];
+            };
             /** @description How often the work was begun: after a restart it begins again */
             attempt: number;
             /** @description Which of those that wait begins first: 0 before 7, as the request's Priority has it */
@@ -1147,6 +1264,8 @@ export interface components {
             /** @description The name of the legend by which the map was read */
             legend?: string;
             soil_assumption?: string;
+            /** @description Of a map with cells of 10 m and more: the relief that they can't show */
+            unseen_relief?: string;
             seed?: number;
             /** @description Drives of the past that condition the draws; only with as_of_sol */
             past_drives?: number;
@@ -1889,12 +2008,19 @@ export interface components {
             seed: number;
         };
         WatchRequest: {
-            /** @description Drives that the service ships and that are taken as healthy; the new drives are of its rover, on its terrains and soils, measured as its were. Not together with continues */
+            /** @description Recorded drives that the service ships or was sent, to be watched in their order, in the place of drives. Not together with continues */
+            campaign?: string;
+            /** @description Drives that the service ships or was sent and that are taken as healthy; the new drives are of its rover, on its terrains and soils, measured as its were. Where it is left out, which only a watch of a campaign may, the campaign's first drives are. Not together with continues */
             reference?: string;
-            /** @description An earlier watch job of which these are the next drives; then there is no other key but drives */
+            /**
+             * @description How many first drives of the campaign are taken as healthy, where no reference is given
+             * @default 12
+             */
+            learn: number;
+            /** @description An earlier watch job, not of a campaign, of which these are the next drives; then there is no other key but drives */
             continues?: string;
             /** @description In the order in which they were driven */
-            drives: {
+            drives?: {
                 /** @description Unique among the drives of a watch */
                 id: string;
                 /** @description One of the reference's terrains */
@@ -1939,7 +2065,7 @@ export interface components {
              * @default 1
              */
             seed: number;
-        };
+        } & (unknown | unknown);
         Diagnosis: {
             /** @constant */
             format: "diagnosis/1";
@@ -2148,6 +2274,17 @@ export interface components {
                     nominal?: number;
                     retuned?: number;
                     with_effects?: number;
+                    /** @description What was measured in the window and what was predicted of it; of a wheel's channel the mean over the wheels. The last two by fits that had not seen the drive */
+                    values?: {
+                        /** @enum {unknown} */
+                        channel: "slip" | "side_slip" | "yaw_rate" | "roll" | "pitch" | "current" | "sinkage";
+                        /** @enum {unknown} */
+                        unit: "1" | "deg/s" | "deg" | "A" | "m";
+                        measured?: number;
+                        nominal?: number;
+                        retuned?: number;
+                        with_effects?: number;
+                    }[];
                 }[];
             };
             gap: {
@@ -2914,6 +3051,23 @@ export interface components {
                 expected_stops?: number;
                 embedding?: number;
             }[];
+            /** @description Of a drive that is decided in segments, see segment_m of the request: each with its own verdict by the bars of a GO. The whole is a go where all are, and a no-go where one is */
+            segments?: {
+                from_m?: number;
+                to_m?: number;
+                /** @enum {unknown} */
+                verdict?: "go" | "no_go" | "unknown";
+                /** @description On the segment, of the draws that come to it, with a 90 % interval; high is left out where no draw does */
+                expected_stops?: {
+                    value?: number;
+                    low?: number;
+                    high?: number;
+                };
+                stop?: components["schemas"]["DrawnShare"];
+                embedding?: components["schemas"]["DrawnShare"];
+                /** @description Share of the draws that come to it */
+                reached?: number;
+            }[];
             recommended?: {
                 /** @description The greatest tilt that is predicted, and 2 deg */
                 max_tilt_deg?: number;
@@ -3077,6 +3231,8 @@ export interface components {
             relief?: components["schemas"]["Relief"];
             /** @description Which of the terrain's legends says what its classes are; the first where it is left out */
             legend?: string;
+            /** @description Length of the segments by which the drive is decided, as sols or stages [m]. Where it is left out, a plan over 1000 m and more has segments of 250 m, and no other drive has any */
+            segment_m?: number;
             /** @description The probability that a mapped class is the soil that the legend gives; otherwise it is another draw of unknown ground, unit by unit. Of soils that have no alternatives of their own */
             confidence?: number;
             /** @description The soil of the catalogue that unmapped ground is believed to be; unknown_ground where it is left out */
@@ -3570,6 +3726,210 @@ export interface components {
                     [key: string]: number | string;
                 };
             }[];
+        };
+        MapRequest: {
+            terrain: string;
+            rover: string;
+            /**
+             * @description What the map shows
+             * @enum {unknown}
+             */
+            kind: "slip_best" | "slip_worst" | "slip" | "stop_risk" | "embedding_risk" | "verdict" | "belief" | "unknown" | "cost_to_go" | "reachable";
+            /** @description Direction of travel, counter-clockwise from east; of slip, which needs it, and of risks and the verdict, which are of the worst heading without it [deg] */
+            heading_deg?: number;
+            /**
+             * @description Length of the drive that risks and the verdict are of [m]
+             * @default 10
+             */
+            distance_m: number;
+            /** @description Map metres; the whole terrain where it is left out. The map has at most 4,194,304 cells */
+            extent?: {
+                west_m: number;
+                south_m: number;
+                east_m: number;
+                north_m: number;
+            };
+            /**
+             * @description What slip and risk are where no map names the soil: nothing, or by the belief about unknown ground, slip on its weak soil
+             * @default nodata
+             * @enum {unknown}
+             */
+            unknown_ground: "nodata" | "belief";
+            to?: components["schemas"]["Waypoint"];
+            from?: components["schemas"]["Waypoint"];
+            /** @description Of reachable: what may be used up */
+            budget?: {
+                /** @description Energy of the drive motors [J] */
+                energy_j?: number;
+                /** @description A stop costs the rest of its sol */
+                sols?: number;
+            };
+            /** @default 4 */
+            driving_hours_per_sol: number;
+            /** @description Weights of the cost terms; keys, units, ranges and initial values are the cost_terms of GET /v1/planners */
+            weights?: {
+                [key: string]: number;
+            };
+            /** @description Polygons as rings of [x_m, y_m] in map metres; closed implicitly. A drive that enters one is a no_go */
+            keep_out?: [
+                number,
+                number
+            ][][];
+            /** @description Polygons as keep_out: a drive that leaves one of them is a no_go */
+            keep_in?: [
+                number,
+                number
+            ][][];
+            /** @description What must hold along a drive. A prediction does not stop at a limit: it says where it is broken. */
+            limits?: {
+                /**
+                 * @description Largest slip of the rover [1]
+                 * @default 0.4
+                 */
+                max_slip: number;
+                /**
+                 * @description Largest tilt of the body [deg]
+                 * @default 25
+                 */
+                max_tilt_deg: number;
+                /**
+                 * @description Largest current of any wheel's motor [A]
+                 * @default 10
+                 */
+                max_current_a: number;
+                /**
+                 * @description Largest sinkage of any wheel [m]
+                 * @default 0.08
+                 */
+                max_sinkage_m: number;
+                /**
+                 * @description Least height of the belly above the ground [m]
+                 * @default 0
+                 */
+                min_clearance_m: number;
+            };
+            /** @description How the rover watches itself on the way */
+            checks?: {
+                /**
+                 * @description Way that the wheels roll between two checks of the slip [m]
+                 * @default 5
+                 */
+                slip_check_every_m: number;
+                /**
+                 * @description Over this slip the wheels dig rather than drive [1]
+                 * @default 0.9
+                 */
+                embedding_slip: number;
+                /**
+                 * @description Turns of the wheels at such a slip, without a check between them, that embed the rover
+                 * @default 10
+                 */
+                embedding_turns: number;
+                /**
+                 * @description Share of a wheel's radius: a wheel that sinks deeper embeds the rover
+                 * @default 0.75
+                 */
+                embedding_sinkage_share: number;
+            };
+            /** @description What decides between GO, NO-GO and UNKNOWN */
+            bars?: {
+                /**
+                 * @description A GO needs the upper end of the interval of embedding below this
+                 * @default 0.01
+                 */
+                max_embedding: number;
+                /**
+                 * @description A GO needs the upper end of the interval of expected stops below this
+                 * @default 0.5
+                 */
+                max_expected_stops: number;
+            };
+            effects?: {
+                /** @description Of GET /v1/effects */
+                name: string;
+                /** @description Those that differ from the initial values; names, units and ranges are in GET /v1/effects */
+                parameters?: {
+                    [key: string]: number;
+                };
+                /**
+                 * @description false takes out an effect that the rover's file has
+                 * @default true
+                 */
+                on: boolean;
+            }[];
+            /** @description Wheels whose drive has failed, by the wheel's name in GET /v1/rovers. locked: it does not turn; free: uncoupled, it turns as the ground turns it; off: its motor has no power, the ground turns gear and motor too */
+            failed_wheels?: {
+                [key: string]: "locked" | "free" | "off";
+            };
+            /** @description What is believed of soils, as a file of soils has it (GET /v1/soils): each stands in for the soil of its name, or beside the others. unknown_ground is what is believed of unmapped ground */
+            beliefs?: components["schemas"]["Soil"][];
+            /** @description Which of the terrain's legends says what its classes are; the first where it is left out */
+            legend?: string;
+            /** @description The probability that a mapped class is the soil that the legend gives; otherwise it is another draw of unknown ground, unit by unit. Of soils that have no alternatives of their own */
+            confidence?: number;
+            /** @description The soil of the catalogue that unmapped ground is believed to be; unknown_ground where it is left out */
+            unknown_soil?: string;
+            /**
+             * @description The same request with the same seed has the same answer, byte by byte
+             * @default 1
+             */
+            seed: number;
+            /** @description Commanded speed; the rover's cruise speed when absent, at most what its motors turn [m/s] */
+            speed_m_s?: number;
+            /** @description Temperature of the drive motors, for the effect motor_temperature, which must be on; what they are given at when absent [degC] */
+            motor_temp_c?: number;
+            /** @description A corrected model, named by the job of the finished diagnosis that offers it. Its rover drives where the one that it was made of is asked for, and ground that was the campaign's nominal soil by name is the corrected one. It is recorded with the request: the diagnosis may be forgotten afterwards. */
+            model?: {
+                /** @description Id of the diagnosis' job */
+                diagnosis: string;
+                /** @description Soils of the terrain that are the model's, where the campaign called it otherwise; only where the model has one soil */
+                ground?: string[];
+            };
+        };
+        Map: {
+            /** @constant */
+            format: "map/1";
+            kind: string;
+            terrain: string;
+            rover: string;
+            description: string;
+            unit?: string;
+            crs_name?: string;
+            body?: string;
+            rows: number;
+            columns: number;
+            cell_x_m?: number;
+            cell_y_m?: number;
+            extent: {
+                west_m: number;
+                south_m: number;
+                east_m: number;
+                north_m: number;
+            };
+            /** @enum {unknown} */
+            data_type: "Byte" | "Float32";
+            nodata: number;
+            /** @description Of the file: the raster and its overviews */
+            levels?: number;
+            statistics: {
+                cells: number;
+                nodata_cells: number;
+                lowest?: number;
+                highest?: number;
+                mean?: number;
+            };
+            classes?: {
+                value: number;
+                name: string;
+                cells?: number;
+            }[];
+            /** @description Of the file, as gdalinfo prints it */
+            metadata: {
+                [key: string]: string;
+            };
+            /** @description A style for QGIS */
+            style_qml: string;
+            request: components["schemas"]["MapRequest"];
         };
     };
     responses: never;
@@ -5917,6 +6277,65 @@ export interface operations {
             };
         };
     };
+    job_events: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Id of the last event that was heard */
+                "Last-Event-ID"?: string;
+            };
+            path: {
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The events */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/event-stream": string;
+                };
+            };
+            /** @description The job has ended, and that has been heard */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description not_found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description not_ready: too many streams are open */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Any other refusal: see /errors */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     job_stations: {
         parameters: {
             query?: {
@@ -6265,6 +6684,283 @@ export interface operations {
             };
             /** @description Any other refusal: see /errors */
             default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    create_map: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description The client's own name for this request: sent again under it, the same request is answered with the job of the first time, for as long as that is kept. Another request under it is refused */
+                "Idempotency-Key"?: components["parameters"]["IdempotencyKey"];
+                /** @description u=N: of the jobs that wait those of the lowest N, 0 to 7, begin first; 3 where nothing is said (RFC 9218) */
+                Priority?: components["parameters"]["Priority"];
+                /** @description wait=N: the answer itself if it comes within N seconds (at most 30); respond-async: do not wait (RFC 7240) */
+                Prefer?: string;
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["MapRequest"];
+            };
+        };
+        responses: {
+            /** @description The answer: it came within the time that was waited */
+            200: {
+                headers: {
+                    "Preference-Applied"?: string;
+                    "Content-Location"?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Map"];
+                };
+            };
+            /** @description Recorded: the job survives whatever happens to the service */
+            201: {
+                headers: {
+                    /** @description The job */
+                    Location?: string;
+                    "Retry-After"?: number;
+                    "Preference-Applied"?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Job"];
+                };
+            };
+            /** @description No JSON document: malformed_json */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Dismissed while waiting: cancelled */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description payload_too_large: above 1 MiB */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description unsupported_media_type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Read but refused, with every fault: invalid_request */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description over_quota: as many of this address's jobs wait or run as one may have; see Retry-After */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description too_many_jobs or storage: nothing was accepted; see Retry-After */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description storage_full: the disk of the job store is full, nothing was accepted */
+            507: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Any other refusal: see /errors */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    job_raster: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The file */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "image/tiff": string;
+                };
+            };
+            /** @description not_found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description conflict: not ended yet; cancelled: dismissed */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The job failed so */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    job_geopackage: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The file */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/geopackage+sqlite3": string;
+                };
+            };
+            /** @description not_found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description conflict: not ended yet; cancelled: dismissed */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The job failed so */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    job_geojson: {
+        parameters: {
+            query?: {
+                /** @description map: metres of the terrain's system, which the member crs names; lonlat: degrees of the body */
+                coordinates?: "map" | "lonlat";
+            };
+            header?: never;
+            path: {
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The file */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/geo+json": Record<string, never>;
+                };
+            };
+            /** @description not_found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description conflict: not ended yet; cancelled: dismissed */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description The job failed so; invalid_request: no such coordinates */
+            422: {
                 headers: {
                     [name: string]: unknown;
                 };

@@ -1,7 +1,8 @@
 // What lies under the pointer: place, height, slope, soil, as the service says.
 import { get, type Ground } from "../api/client";
-import { number, words } from "../format";
+import { number, share, words } from "../format";
 import { store } from "../state";
+import { riskTitles, valueAt, type RiskMap } from "./risk_map";
 import type { TerrainMap } from "./terrain_map";
 
 let timer = 0;
@@ -16,19 +17,29 @@ export function readout(target: HTMLElement, map: TerrainMap, at: number[] | nul
     return;
   }
   const [x, y] = at as [number, number];
+  const risks = store.state.risk.map((m) => riskText(m, x, y)).join("");
   const degrees = map.body?.degrees(x, y);
   const place = `x ${x.toFixed(1)} m, y ${y.toFixed(1)} m${degrees ? ` · ${degrees[0].toFixed(5)}° E, ${degrees[1].toFixed(5)}° N` : ""}`;
-  target.textContent = place;
+  target.textContent = place + risks;
   const name = store.state.terrain?.terrain?.name;
-  if (!name || document.hidden) return;
+  if (!name || document.hidden || !map.isTerrain) return;
   timer = window.setTimeout(() => {
     asked = new AbortController();
     get<Ground>(`v1/terrains/${name}/point?x_m=${x}&y_m=${y}`, asked.signal)
       .then((g) => {
-        target.textContent = `${place} · height ${number(g.height_m, 6)} m · slope ${number(g.slope_deg)}° · ${g.soil ? words(g.soil) : "unknown ground"}${g.label ? ` (${g.label})` : ""}`;
+        target.textContent = `${place} · height ${number(g.height_m, 6)} m · slope ${number(g.slope_deg)}° · ${g.soil ? words(g.soil) : "unknown ground"}${g.label ? ` (${g.label})` : ""}${risks}`;
       })
       .catch(() => {
         // Off the map, or no elevation there: the place alone is shown.
       });
   }, 250);
+}
+
+function riskText(map: RiskMap, x_m: number, y_m: number): string {
+  const value = valueAt(map, x_m, y_m);
+  if (value === undefined) return "";
+  const title = riskTitles[map.kind].toLowerCase();
+  if (value === null) return ` · ${title}: unknown`;
+  const name = map.document?.classes?.find((c) => c.value === value)?.name;
+  return ` · ${title}: ${name ?? (map.kind.endsWith("risk") ? share(value) : number(value))}`;
 }

@@ -5,7 +5,8 @@ import Point from "ol/geom/Point.js";
 import VectorLayer from "ol/layer/Vector.js";
 import VectorSource from "ol/source/Vector.js";
 import { Circle, Fill, RegularShape, Stroke, Style, Text } from "ol/style.js";
-import { classesOf, stationAt, surprises, type DrivenStretch, type Route } from "../result";
+import { classesOf, ruleWords, stationAt, surprises, tripsOf, type DrivenStretch, type Route } from "../result";
+import { share, words } from "../format";
 import type { State } from "../state";
 
 export class RoutesLayer {
@@ -30,6 +31,9 @@ export class RoutesLayer {
       if (routes.length > 1) this.source.addFeature(label(route, index, routes.length, chosen));
     });
     state.other?.routes.slice(0, 1).forEach((route) => this.source.addFeatures(plain(route, "#cc79a7", 3, [2, 6])));
+    const chosen = routes[state.route];
+    if (chosen) this.source.addFeatures(trips(chosen));
+    if (state.job?.state === "running" && state.job.best_so_far?.line) this.source.addFeature(styled(state.job.best_so_far.line as number[][], [stroke("#fff", 6), stroke("#111", 3, [2, 7], 1)]));
     for (const stretch of state.result?.driven ?? []) this.source.addFeature(residual(stretch));
     this.point(state);
   }
@@ -69,7 +73,7 @@ function lines(route: Route, state: State, strong: boolean): Feature[] {
   const width = strong ? 6 : 3;
   const above = strong ? 4 : 0;
   if (state.routeColour === "plain") return plain(route, strong ? "#0050a0" : "#555", width);
-  const classes = classesOf(route, state.routeColour);
+  const classes = classesOf(route, state.routeColour, state.bounds[state.routeColour]);
   const features = [styled(coordinates(route), stroke("#000000", width + 4, undefined, above)), styled(coordinates(route), stroke("#fff", width + 2.5, undefined, above + 1))];
   for (let from = 0; from + 1 < classes.length; ) {
     let to = from + 1;
@@ -80,6 +84,29 @@ function lines(route: Route, state: State, strong: boolean): Feature[] {
     from = to;
   }
   return features;
+}
+
+/** Where a rule trips in some of the draws: with its probability and cause. Labels that would lie on each other share a place. */
+function trips(route: Route): Feature[] {
+  const at = new Map<number, string[]>();
+  for (const rule of tripsOf(route)) {
+    const k = stationAt(route.stations, rule.from_m!);
+    at.set(k, [...(at.get(k) ?? []), `${ruleWords[rule.rule] ?? words(rule.rule)} ${share(rule.trips.value)}${rule.cause ? `, ${words(rule.cause)}` : ""}`]);
+  }
+  const xs = route.stations.x_m;
+  const middle = (Math.min(...xs) + Math.max(...xs)) / 2;
+  return [...at].map(([k, texts]) => {
+    const east = xs[k]! > middle; // there the label lies to the left, inwards
+    const feature = new Feature(new Point([route.stations.x_m[k]!, route.stations.y_m[k]!]));
+    feature.setStyle(
+      new Style({
+        image: new RegularShape({ points: 3, radius: 9, fill: new Fill({ color: "#ffd400" }), stroke: new Stroke({ color: "#111", width: 2 }) }),
+        text: new Text({ text: texts.join("\n"), font: "12px system-ui, sans-serif", textAlign: east ? "right" : "left", offsetX: east ? -14 : 14, fill: new Fill({ color: "#111" }), stroke: new Stroke({ color: "#fff", width: 4 }) }),
+        zIndex: 18,
+      }),
+    );
+    return feature;
+  });
 }
 
 /** Where a stretch of the drive so far ended: a circle where the prediction held, a square where it did not. */

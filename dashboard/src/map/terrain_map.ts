@@ -1,6 +1,8 @@
 // The map of one terrain: its layers as tiles in its own grid, with what is drawn and the routes above.
 import OlMap from "ol/Map.js";
 import View from "ol/View.js";
+import type BaseLayer from "ol/layer/Layer.js";
+import Projection from "ol/proj/Projection.js";
 import ScaleLine from "ol/control/ScaleLine.js";
 import { defaults as defaultControls } from "ol/control/defaults.js";
 import TileLayer from "ol/layer/Tile.js";
@@ -14,6 +16,9 @@ import { stationAt } from "../result";
 import { store, type LayerName, type State } from "../state";
 import { bodyOf, type Body } from "./body";
 import { DrawnLayer, putAt } from "./drawn_layer";
+import { GapLayer } from "./gap_layer";
+import { riskLayer, type RiskLayer } from "./risk_layer";
+import type { RiskKind, RiskMap } from "./risk_map";
 import { RoutesLayer } from "./routes_layer";
 
 const overlays: LayerName[] = ["slope", "soil", "unknown"];
@@ -23,7 +28,10 @@ export class TerrainMap {
   readonly map: OlMap;
   private readonly routes = new RoutesLayer();
   private readonly drawn: DrawnLayer;
+  private readonly gap = new GapLayer();
   private layers = new Map<string, TileLayer<TileImage>>();
+  private risk = new Map<RiskKind, { of: RiskMap["raster"]; layer: RiskLayer }>();
+  private bare = ""; // a campaign's own ground that is shown, of which there is no map
   private shown: TerrainDocument | null = null;
   private legend = "";
   body: Body | null = null;
@@ -33,7 +41,7 @@ export class TerrainMap {
     this.map = new OlMap({
       target,
       controls: defaultControls({ attribution: false, rotate: false }).extend([new ScaleLine({ units: "metric", minWidth: 90 })]),
-      layers: [this.routes.layer, this.routes.markerLayer],
+      layers: [this.routes.layer, this.routes.markerLayer, this.gap.layer, this.gap.ringLayer],
     });
     this.drawn = new DrawnLayer(this.map);
     this.map.addLayer(this.drawn.layer);
@@ -41,7 +49,11 @@ export class TerrainMap {
     this.map.on("pointermove", (event) => {
       this.pointer = event.coordinate;
       this.told(event.coordinate);
-      if (!event.dragging) this.hover(event.coordinate);
+      if (event.dragging) return;
+      if (store.state.tab === "drives" && store.state.followed.diagnosis) {
+        const window = this.windowAt(event.pixel) ?? null;
+        if (window !== store.state.followed.window) store.follow({ window });
+      } else this.hover(event.coordinate);
     });
     target.addEventListener("pointerleave", () => {
       this.pointer = null;
@@ -54,7 +66,16 @@ export class TerrainMap {
     });
     store.on(["layers"], (s) => this.blend(s));
     store.on(["swipe"], () => this.map.render());
-    store.on(["result", "other", "route", "compared", "routeColour", "palette"], (s) => this.routes.draw(s));
+    let classes = [store.state.palette, store.state.bounds];
+    store.on(["risk", "palette", "bounds", "terrain"], (s) => {
+      this.showRisk(s, classes[0] !== s.palette || classes[1] !== s.bounds);
+      classes = [s.palette, s.bounds];
+    });
+    store.on(["followed", "tab", "palette"], (s) => {
+      this.showGround(s);
+      this.gap.draw(s);
+    });
+    store.on(["result", "other", "route", "compared", "routeColour", "palette", "bounds", "job"], (s) => this.routes.draw(s));
     store.on(["hover_m"], (s) => this.routes.point(s));
     store.on(["drawn", "tab", "result"], (s) => this.drawn.draw(s));
     store.on(["tool"], (s) => {
@@ -113,18 +134,102 @@ export class TerrainMap {
       this.map.getView().fit(extent, { padding: this.margins(20) });
     }
     this.blend(store.state);
+    if (this.bare) this.map.getLayers().forEach((layer) => layer !== this.gap.layer && layer !== this.gap.ringLayer && layer.setVisible(false));
   }
 
   private blend(state: State): void {
     for (const name of overlays) {
       const layer = this.layers.get(name);
-      layer?.setVisible(state.layers[name] > 0);
+      layer?.setVisible(state.layers[name] > 0 && this.isTerrain);
       layer?.setOpacity(state.layers[name]);
     }
   }
 
+  private showRisk(state: State, anew: boolean): void {
+    const there = state.risk.filter((m) => m.raster && m.document?.terrain === state.terrain?.terrain?.name);
+    for (const [kind, { of, layer }] of this.risk) {
+      if (!anew && there.some((m) => m.kind === kind && m.raster === of)) continue;
+      this.map.removeLayer(layer);
+      this.risk.delete(kind);
+    }
+    for (const map of there) {
+      const shown = this.risk.get(map.kind);
+      if (shown) shown.layer.setOpacity(map.opacity);
+      else if (this.body) {
+        const layer = riskLayer(map, state, this.body.projection);
+        this.swipeable(layer);
+        this.risk.set(map.kind, { of: map.raster, layer });
+        this.map.addLayer(layer);
+      }
+    }
+  }
+
+  /** The campaign's ground where no terrain of the service is shown for it: an empty one, with the scale alone. */
+  private showGround(state: State): void {
+    const { followed, tab, terrains } = state;
+    const windows = followed.diagnosis?.document.where.windows.filter((w) => w.terrain === followed.terrain) ?? [];
+    const bare = tab === "drives" && windows.length > 0 && !terrains.some((t) => t.name === followed.terrain) ? followed.terrain : "";
+    if (bare === this.bare) return;
+    this.bare = bare;
+    for (const layer of this.map.getLayers().getArray()) if (layer !== this.gap.layer && layer !== this.gap.ringLayer) layer.setVisible(bare === "");
+    if (bare) {
+      const [xs, ys] = [windows.map((w) => w.x_m), windows.map((w) => w.y_m)];
+      const margin = 2;
+      const extent: [number, number, number, number] = [Math.min(...xs) - margin, Math.min(...ys) - margin, Math.max(...xs) + margin, Math.max(...ys) + margin];
+      const projection = new Projection({ code: `slipway:drives-on:${bare}`, units: "m", metersPerUnit: 1, axisOrientation: "enu", extent, getPointResolution: (resolution) => resolution });
+      this.map.setView(new View({ projection, extent: grown(extent), constrainOnlyCenter: true, showFullExtent: true, minResolution: 0.001 }));
+      this.map.getView().fit(extent, { padding: this.margins(20) });
+    } else {
+      const shown = this.shown;
+      this.shown = null;
+      this.show(shown);
+    }
+  }
+
+  /** Once all that is asked for has been drawn. */
+  whenDrawn(): Promise<void> {
+    return new Promise((resolve) => {
+      this.map.once("rendercomplete", () => resolve());
+      this.map.render();
+    });
+  }
+
+  /** The map as a picture, and a length that a bar beside it can show. */
+  picture(): { url: string; scale_m: number; scale_share: number } {
+    const [width, height] = this.map.getSize() ?? [1, 1];
+    const canvas = document.createElement("canvas");
+    canvas.width = width!;
+    canvas.height = height!;
+    const context = canvas.getContext("2d")!;
+    context.fillStyle = "#fff";
+    context.fillRect(0, 0, width!, height!);
+    for (const layer of this.map.getViewport().querySelectorAll<HTMLCanvasElement>(".ol-layer canvas, canvas.ol-layer")) {
+      if (layer.width === 0) continue;
+      context.globalAlpha = Number(layer.style.opacity || (layer.parentNode as HTMLElement).style.opacity || 1);
+      const matrix = /matrix\(([^)]+)\)/.exec(layer.style.transform)?.[1]?.split(",").map(Number);
+      if (matrix?.length === 6) context.setTransform(...(matrix as [number, number, number, number, number, number]));
+      else context.setTransform(width! / layer.width, 0, 0, height! / layer.height, 0, 0);
+      context.drawImage(layer, 0, 0);
+    }
+    const view = this.map.getView();
+    const shown_m = width! * (view.getProjection().getPointResolutionFunc()?.(view.getResolution()!, view.getCenter()!) ?? view.getResolution()!);
+    const power = 10 ** Math.floor(Math.log10(shown_m / 4));
+    const scale_m = [5, 2, 1].map((k) => k * power).find((length) => length <= shown_m / 4) ?? power;
+    return { url: canvas.toDataURL("image/jpeg", 0.85), scale_m, scale_share: scale_m / shown_m };
+  }
+
+  /** What the map shows: west  /** What the map shows: west, south, east, north. */
+  extent(): number[] {
+    return this.map.getView().calculateExtent(this.map.getSize());
+  }
+
+  /** Whether what is shown is the terrain's map, and not a campaign's ground. */
+  get isTerrain(): boolean {
+    return this.bare === "";
+  }
+
   /** Shows a layer to the left of the swipe alone. */
-  private swipeable(layer: TileLayer<TileImage>): void {
+  private swipeable(layer: BaseLayer): void {
     layer.on("prerender", (event: RenderEvent) => {
       const context = event.context as CanvasRenderingContext2D;
       const { swipe } = store.state;
@@ -141,10 +246,22 @@ export class TerrainMap {
   }
 
   private clicked(coordinate: number[], pixel: number[]): void {
-    if (putAt(store.state.tool, coordinate)) return;
+    if (this.isTerrain && putAt(store.state.tool, coordinate)) return;
     if (store.state.tool !== "look") return;
+    const window = this.windowAt(pixel);
+    if (window !== undefined) {
+      const drive = store.state.followed.diagnosis!.document.where.windows[window]!.drive;
+      store.follow({ drive: store.state.followed.drive === drive ? "" : drive });
+      return;
+    }
     const route = this.map.forEachFeatureAtPixel(pixel, (feature) => feature.get("route") as number | undefined, { hitTolerance: 6, layerFilter: (l) => l === this.routes.layer });
     if (route !== undefined) store.set({ route });
+  }
+
+  /** The window of a recorded drive that is there. */
+  private windowAt(pixel: number[]): number | undefined {
+    if (store.state.tab !== "drives" || !store.state.followed.diagnosis) return undefined;
+    return this.map.forEachFeatureAtPixel(pixel, (feature) => feature.get("window") as number | undefined, { hitTolerance: 4, layerFilter: (l) => l === this.gap.layer });
   }
 
   /** The place along the chosen route that the pointer is at. */
@@ -165,7 +282,7 @@ export class TerrainMap {
   /** Room around what is brought into sight; at the right lie the layers. */
   private margins(px: number): number[] {
     const wide = (this.map.getSize()?.[0] ?? 0) > 700;
-    return [px, wide ? px + 270 : px, px, px];
+    return [px, wide ? px + 310 : px, px, px];
   }
 
   centre(): number[] | null {

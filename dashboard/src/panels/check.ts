@@ -13,7 +13,7 @@ import { checkRequest, type Command } from "./request";
 
 export function checkPanel(target: HTMLElement, map: TerrainMap): void {
   const common = h("div");
-  options(common);
+  options(common, "check");
   const fault = h("div");
   const text = h("textarea", { rows: 6, oninput: () => peek(), onchange: () => void (text.value.trim() !== "" && read()), spellcheck: "false", placeholder: "8142579.7, -276648.7\n8142578, -276680\n\nor: drive=10 turn=30 arc=6,8" });
   const file = h("input", { type: "file", accept: ".csv,.json,.geojson,.txt", onchange: () => void take() });

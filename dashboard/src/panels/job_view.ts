@@ -2,7 +2,7 @@
 import type { Job } from "../api/client";
 import { hasEnded } from "../api/client";
 import { button, fill, h } from "../dom";
-import { duration, words } from "../format";
+import { duration, metres, number, words } from "../format";
 import { problemView } from "../problem";
 import { store } from "../state";
 import { cancel } from "../work";
@@ -18,6 +18,12 @@ export function jobLine(job: Job): string {
   return { successful: "done", failed: "failed", dismissed: "cancelled" }[job.state as string] ?? String(job.state);
 }
 
+/** The best route that a running plan has found until now: dotted on the map. */
+function bestSoFar(best: NonNullable<Job["best_so_far"]>): string {
+  const verdict = best.verdict && { go: "within every limit on the mean soils", caution: "near a limit on the mean soils", no_go: "beyond a limit on the mean soils" }[best.verdict];
+  return `Best so far (dotted): ${metres(best.length_m)}, cost ${number(best.cost)}${verdict ? `, ${verdict}` : ""}`;
+}
+
 export function jobView(target: HTMLElement): void {
   store.on(["job", "error"], ({ job, error }) => {
     const parts: HTMLElement[] = [];
@@ -30,6 +36,7 @@ export function jobView(target: HTMLElement): void {
           h("div", { class: "job-head" }, h("strong", {}, `${words(job.kind ?? "")}: `), h("span", { role: "status", "data-stage": job.stage }, jobLine(job))),
           running && h("progress", { max: 1, value: job.progress ?? 0, "aria-label": "Share of the work that is done" }),
           running && h("div", { class: "row" }, h("span", {}, `${Math.round(100 * (job.progress ?? 0))} %`), button("Cancel", () => void cancel(job.id!), { class: "quiet", "data-do": "cancel" })),
+          running && job.best_so_far ? h("p", { class: "hint", "data-best": true }, bestSoFar(job.best_so_far)) : null,
           job.interrupted && h("p", {}, `The last attempt ended before its time: ${job.interrupted}`),
         ),
       );

@@ -1,5 +1,5 @@
 // All work that the service knows: reopened, cancelled.
-import { get, hasEnded, type Job } from "../api/client";
+import { getAgain, hasEnded, type Job } from "../api/client";
 import { button, fill, h } from "../dom";
 import { words } from "../format";
 import { empty, loading, problemView } from "../problem";
@@ -16,7 +16,7 @@ export function jobsPanel(target: HTMLElement): void {
   async function load(): Promise<void> {
     clearTimeout(timer);
     try {
-      const { jobs } = await get<{ jobs: Job[] }>("v1/jobs?limit=100");
+      const { jobs } = await getAgain<{ jobs: Job[] }>("v1/jobs?limit=100");
       store.set({ jobs });
     } catch (error) {
       fill(list, problemView(error, () => void load()));
@@ -49,8 +49,9 @@ function jobRow(job: Job, again: () => void): HTMLElement {
     h(
       "div",
       { class: "row" },
-      (isAboutRoutes(job.kind ?? "") || running) && job.state !== "failed" && job.state !== "dismissed" && button(running ? "Follow" : "Open", () => void reopen(job.id!), { class: "quiet", "data-do": "open" }),
+      (isAboutRoutes(job.kind) || ["diagnosis", "watch"].includes(job.kind) || running) && job.state !== "failed" && job.state !== "dismissed" && button(running ? "Follow" : "Open", () => void reopen(job.id!), { class: "quiet", "data-do": "open" }),
       job.state === "successful" && job.kind === "diagnosis" && button("Report", () => void keep(`v1/jobs/${job.id}/report`, "diagnosis.html"), { class: "quiet" }),
+      job.state === "successful" && job.kind === "map" && button("GeoTIFF", () => void keep(`v1/jobs/${job.id}/map.tif`, "map.tif"), { class: "quiet" }),
       running && button("Cancel", () => void cancel(job.id!).then(again), { class: "quiet" }),
     ),
   );

@@ -1,31 +1,112 @@
-// What plans and checks have in common: rover, rules, the reading of the map.
-import { field, fill, h, select } from "../dom";
-import { words } from "../format";
-import { store } from "../state";
+// What plans, checks and maps have in common: rover, rules, the belief about the ground, effects, a corrected model.
+import { button, field, fill, h, select } from "../dom";
+import { number, words } from "../format";
+import { store, type State } from "../state";
 
-export function options(target: HTMLElement): void {
-  store.on(["rovers", "rules", "terrain", "options"], (state) => {
-    const { options: chosen, rovers, rules, terrain } = state;
+export function options(target: HTMLElement, id: string): void {
+  const common = h("div");
+  const belief = h("details");
+  const rover = h("details");
+  fill(target, common, belief, rover);
+  const keepFocus = (element: HTMLElement, draw: () => void) => {
     const active = document.activeElement?.id;
-    const soil = terrain?.terrain?.soil;
-    const legends = [soil?.legend_name ?? "", ...(soil?.other_legends ?? []).map((l) => l.name ?? "")].filter(Boolean);
-    const rover = select(rovers.map((r) => ({ value: r.name!, text: r.name! })), chosen.rover, (value) => store.option({ rover: value }));
-    const rule = select(
-      [{ value: "", text: "the service's own" }, ...rules.map((r) => ({ value: r.name!, text: words(r.name!) }))],
-      chosen.rules,
-      (value) => store.option({ rules: value }),
-    );
-    const legend = select(legends.map((name, i) => ({ value: i === 0 ? "" : name, text: words(name) })), chosen.legend, (value) => store.option({ legend: value }));
-    rover.id = "option-rover";
-    rule.id = "option-rules";
-    legend.id = "option-legend";
-    const assumption = chosen.legend ? soil?.other_legends?.find((l) => l.name === chosen.legend)?.assumption : soil?.assumption;
-    fill(
-      target,
-      h("div", { class: "columns" }, field("Rover", rover), field("Rules", rule)),
-      legends.length > 1 ? field("Soils of the map", legend) : null,
-      assumption ? h("details", {}, h("summary", {}, "What is assumed of the ground"), h("p", {}, assumption)) : null,
-    );
-    if (active?.startsWith("option-")) document.getElementById(active)?.focus();
+    draw();
+    if (active && element.querySelector(`#${CSS.escape(active)}`)) document.getElementById(active)?.focus();
+  };
+  store.on(["rovers", "rules", "terrain", "options"], (state) => keepFocus(common, () => fill(common, commonFields(state, id))));
+  store.on(["terrain", "options"], (state) => keepFocus(belief, () => fill(belief, ...beliefFields(state, id))));
+  store.on(["effects", "rovers", "options"], (state) => keepFocus(rover, () => fill(rover, ...roverFields(state, id))));
+}
+
+function commonFields(state: State, id: string): (HTMLElement | null)[] {
+  const { options: chosen, rovers, rules } = state;
+  const rover = select(rovers.map((r) => ({ value: r.name!, text: r.name! })), chosen.rover, (value) => store.option({ rover: value, failedWheels: {}, ...(chosen.model && chosen.model.rover !== value ? { model: null } : {}) }));
+  const rule = select([{ value: "", text: "the service's own" }, ...rules.map((r) => ({ value: r.name!, text: words(r.name!) }))], chosen.rules, (value) => store.option({ rules: value }));
+  rover.id = `${id}-rover`;
+  rule.id = `${id}-rules`;
+  const set = rules.find((r) => r.name === chosen.rules);
+  return [
+    h("div", { class: "columns" }, field("Rover", rover), field("Rules", rule)),
+    set ? h("p", { class: "hint" }, set.summary ?? "") : null,
+    modelNote(state),
+  ];
+}
+
+function modelNote({ options: { model } }: State): HTMLElement | null {
+  if (!model) return null;
+  return h("div", { class: "model-note", "data-model": model.diagnosis },
+    h("span", {}, `With the model that the drives${model.campaign ? ` of ${words(model.campaign)}` : ""} corrected${model.ground.length > 0 ? `; ${model.ground.map(words).join(", ")} as their ground` : ""}.`),
+    button("Without it", () => store.option({ model: null }), { class: "quiet", "data-do": "no-model" }));
+}
+
+/** How the map's soils are read, how sure that is, and what unknown ground is taken for. */
+function beliefFields({ terrain, options: chosen }: State, id: string): (HTMLElement | null)[] {
+  const soil = terrain?.terrain?.soil;
+  const legends = [soil?.legend_name ?? "", ...(soil?.other_legends ?? []).map((l) => l.name ?? "")].filter(Boolean);
+  const legend = select(legends.map((name, i) => ({ value: i === 0 ? "" : name, text: words(name) })), chosen.legend === soil?.legend_name ? "" : chosen.legend, (value) => store.option({ legend: value }));
+  legend.id = `${id}-legend`;
+  const other = soil?.other_legends?.find((l) => l.name === chosen.legend);
+  const assumption = other?.assumption ?? soil?.assumption;
+  const confidence = h("input", { id: `${id}-confidence`, type: "number", min: 0.01, max: 0.99, step: 0.01, value: chosen.confidence ?? "", placeholder: String(other?.confidence ?? soil?.confidence ?? 1), onchange: () => {
+    const value = Number(confidence.value);
+    store.option({ confidence: confidence.value !== "" && value > 0 && value < 1 ? value : null });
+  } });
+  const draws = h("input", { id: `${id}-draws`, type: "number", min: 1, max: 2000, step: 1, value: chosen.draws ?? "", onchange: () => {
+    const value = Math.round(Number(draws.value));
+    store.option({ draws: draws.value !== "" && value >= 1 && value <= 2000 ? value : null });
+  } });
+  const known = [...new Set((other?.legend ?? soil?.legend ?? []).map((entry) => entry.soil).filter((s): s is string => !!s))];
+  const unknown = select([{ value: "", text: words(soil?.unknown_soil ?? "unknown ground") }, ...known.map((s) => ({ value: s, text: words(s) }))], chosen.unknownSoil, (value) => store.option({ unknownSoil: value }));
+  unknown.id = `${id}-unknown`;
+  return [
+    h("summary", {}, "What is believed of the ground"),
+    legends.length > 1 ? field("Soils of the map", legend) : null,
+    assumption ? h("p", { class: "hint" }, assumption) : null,
+    h("div", { class: "columns" }, field("Map is right with probability", confidence), field("Unknown ground is taken for", unknown)),
+    field("Draws of the ground", draws, "As many as the verdict needs, unless you say how many."),
+  ];
+}
+
+/** Effects beyond the basic model, and wheels whose drive has failed. */
+function roverFields({ effects, rovers, options: chosen }: State, id: string): (HTMLElement | null)[] {
+  const rover = rovers.find((r) => r.name === chosen.rover);
+  const own = (rover as { effects?: { name: string }[] } | undefined)?.effects ?? [];
+  const set = (name: string, change: Partial<State["options"]["effects"][number]> | null) => {
+    const others = chosen.effects.filter((e) => e.name !== name);
+    const now = chosen.effects.find((e) => e.name === name) ?? { name, on: true, parameters: {} };
+    store.option({ effects: change === null ? others : [...others, { ...now, ...change }].sort((a, b) => a.name.localeCompare(b.name)) });
+  };
+  const rows = effects.map((effect) => {
+    const name = effect.name!;
+    const has = own.some((e) => e.name === name);
+    const asked = chosen.effects.find((e) => e.name === name);
+    const on = asked ? asked.on : has;
+    const box = h("input", { type: "checkbox", id: `${id}-effect-${name}`, checked: on, onchange: () => set(name, box.checked === has ? null : { on: box.checked }) });
+    return h("div", { class: "effect" },
+      h("label", { class: "check", title: effect.summary }, box, words(name), has ? h("small", {}, "the rover's") : null),
+      on && !has ? h("div", { class: "columns" }, (effect.parameters ?? []).map((p) => {
+        const input = h("input", { id: `${id}-effect-${name}-${p.name}`, type: "number", step: "any", min: p.lowest, max: p.highest, value: asked?.parameters[p.name!] ?? p.initial, onchange: () => {
+          const { [p.name!]: _, ...rest } = asked?.parameters ?? {};
+          const value = Number(input.value);
+          set(name, { parameters: input.value === "" || value === p.initial ? rest : { ...rest, [p.name!]: value } });
+        } });
+        return field(`${words(p.name!)}${p.unit && p.unit !== "1" ? ` (${p.unit})` : ""}`, input, `${number(p.lowest)} to ${number(p.highest)}`);
+      })) : null);
   });
+  const wheels = (rover?.wheels ?? []).map((wheel) => {
+    const name = wheel.name!;
+    const choice = select(["", "locked", "free", "off"].map((value) => ({ value, text: value || "drives" })), chosen.failedWheels[name] ?? "", (value) => {
+      const { [name]: _, ...rest } = chosen.failedWheels;
+      store.option({ failedWheels: value ? { ...rest, [name]: value } : rest });
+    });
+    choice.id = `${id}-wheel-${name}`;
+    return field(`Wheel ${name}`, choice);
+  });
+  const differ = chosen.effects.length + Object.keys(chosen.failedWheels).length;
+  return [
+    h("summary", {}, `Effects and failed wheels${differ > 0 ? ` (${differ} changed)` : ""}`),
+    h("p", { class: "hint" }, "What the simulator has besides wheels in soil: off unless the rover or you say so."),
+    ...rows,
+    wheels.length > 0 ? h("div", { class: "columns" }, wheels) : null,
+  ];
 }

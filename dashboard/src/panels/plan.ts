@@ -84,7 +84,7 @@ export function planPanel(target: HTMLElement): void {
   const go = button("Plan the drive", () => void start("v1/plans", planRequest()), { class: "primary", "data-do": "plan" });
   const hint = h("p", { class: "hint", id: "plan-hint" });
   go.setAttribute("aria-describedby", "plan-hint");
-  options(common);
+  options(common, "plan");
   store.on(["drawn"], ({ drawn }) => {
     from.show(drawn.start);
     goal.show(drawn.goal);

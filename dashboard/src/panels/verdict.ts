@@ -2,20 +2,10 @@
 import { button, fill, h } from "../dom";
 import { duration, metres, number, share, words } from "../format";
 import type { TerrainMap } from "../map/terrain_map";
-import { surprises, verdictWords, type Result, type Route, type Rule } from "../result";
+import { ruleWords, surprises, verdictWords, type Result, type Route, type Rule } from "../result";
 import { store } from "../state";
-import { keep } from "../work";
-import { token, address } from "../api/client";
-
-const ruleWords: Record<string, string> = {
-  slip_check: "slip at a check",
-  tilt: "tilt",
-  current: "current",
-  sinkage: "sinkage",
-  clearance: "clearance",
-  immobilised: "no way forward",
-  embedding: "embedding",
-};
+import { adviceView } from "./advice";
+import { exportsView } from "./exports";
 
 function rulesTable(route: Route, map: TerrainMap): HTMLElement {
   const row = (rule: Rule) => {
@@ -48,23 +38,9 @@ function rulesTable(route: Route, map: TerrainMap): HTMLElement {
   );
 }
 
-const unit = (u: string): string => (u === "1" || u === "" ? "" : ` ${u}`);
+export const unit = (u: string): string => (u === "1" || u === "" ? "" : ` ${u}`);
 
-function change(route: Route): string[] {
-  const advice: string[] = [];
-  const worst = [...route.stretches].sort((a, b) => b.expected_stops + b.embedding - a.expected_stops - a.embedding)[0];
-  if (worst && worst.expected_stops + worst.embedding > 0)
-    advice.push(`Most is expected to go wrong from ${worst.from_m.toFixed(1)} to ${worst.to_m.toFixed(1)} m: a keep-out there, or another way, changes most.`);
-  const tripping = route.rules.filter((r) => r.trips?.value > 0.05).sort((a, b) => b.trips.value - a.trips.value)[0];
-  if (tripping) advice.push(`The rule that trips most is ${ruleWords[tripping.rule] ?? words(tripping.rule)}, in ${share(tripping.trips.value)} of the draws.`);
-  const { unknown_length_m } = route.figures;
-  if ((unknown_length_m ?? 0) > 0) advice.push(`${metres(unknown_length_m)} lie on ground that no map names: nothing there can be called safe before it has been seen.`);
-  const checks = route.outcomes.recommended?.slip_checks_before_m ?? [];
-  if (checks.length > 0) advice.push(`Checks of the slip belong before ${checks.slice(0, 6).map((m) => m.toFixed(1)).join(", ")}${checks.length > 6 ? " …" : ""} m.`);
-  return advice;
-}
-
-const figures: [string, (r: Route) => number | null | undefined, (v: number | null | undefined) => string][] = [
+export const figures: [string, (r: Route) => number | null | undefined, (v: number | null | undefined) => string][] = [
   ["Length", (r) => r.figures.length_m, metres],
   ["Time under way", (r) => r.figures.duration_s, duration],
   ["Energy, Wh", (r) => r.figures.energy_wh, (v) => number(v)],
@@ -122,23 +98,27 @@ function driven(result: Result): HTMLElement {
   );
 }
 
-function exports(result: Result): HTMLElement {
-  const at = `v1/jobs/${result.job}/result`;
-  const report = `v1/jobs/${result.job}/report`;
-  return h(
-    "div",
-    { class: "row wrap" },
-    button("GeoJSON", () => void keep(at, `${result.kind}.geojson`, "application/geo+json"), { class: "quiet" }),
-    button("CSV", () => void keep(at, `${result.kind}.csv`, "text/csv"), { class: "quiet" }),
-    button("JSON", () => void keep(at, `${result.kind}.json`), { class: "quiet" }),
-    result.kind !== "prediction" && button("Picture", () => void keep(`v1/jobs/${result.job}/map`, `${result.kind}.svg`), { class: "quiet" }),
-    result.kind === "check" && (token() ? button("Report", () => void keep(report, "check.html"), { class: "quiet" }) : h("a", { href: address(report), target: "_blank", rel: "noopener" }, "Report for the meeting")),
-    button("Keep for comparison", () => store.set({ other: result }), { class: "quiet", "data-do": "keep" }),
-    store.state.other && button("Forget the kept one", () => store.set({ other: null }), { class: "quiet" }),
-  );
+/** What was asked differently of two answers. */
+function askedDifferently(result: Result, other: Result): HTMLElement | null {
+  const left_out = new Set(["start", "goal", "format"]);
+  const flat = (value: unknown, prefix = ""): [string, string][] =>
+    value !== null && typeof value === "object" && !Array.isArray(value) ? Object.entries(value).flatMap(([k, v]) => flat(v, prefix ? `${prefix}, ${words(k)}` : words(k))) : [[prefix, Array.isArray(value) ? (value.length === 0 ? "none" : typeof value[0] === "string" ? value.join(", ") : `${value.length}`) : String(value)]];
+  const [here, there] = [result, other].map((r) => new Map(flat(Object.fromEntries(Object.entries({ ...r.request, terrain: r.terrain }).filter(([k]) => !left_out.has(k))))));
+  const differ = [...new Set([...here!.keys(), ...there!.keys()])].filter((k) => here!.get(k) !== there!.get(k));
+  return h("p", { class: "hint", "data-differences": true }, differ.length === 0 ? "Both were asked alike." : `Asked differently: ${differ.map((k) => `${k} ${here!.get(k) ?? "–"} (kept: ${there!.get(k) ?? "–"})`).join("; ")}.`);
 }
 
-export function verdictPanel(target: HTMLElement, map: TerrainMap): void {
+/** Of a long drive, its segments with a verdict each. */
+function segments(route: Route, map: TerrainMap): HTMLElement | null {
+  const list = route.outcomes.segments ?? [];
+  if (list.length === 0) return null;
+  return h("div", { class: "wide short", tabindex: 0, role: "region", "aria-label": "Segments" },
+    h("h3", {}, "Segment by segment"),
+    h("table", {}, h("thead", {}, h("tr", {}, ["Segment", "Verdict", "Stops expected", "Embedding", "Reached in"].map((t) => h("th", { scope: "col" }, t)))),
+      h("tbody", {}, list.map((s) => h("tr", {}, h("th", { scope: "row" }, button(`${s.from_m.toFixed(0)} to ${s.to_m.toFixed(0)} m`, () => map.showStretch(s.from_m, s.to_m), { class: "link" })), h("td", {}, h("span", { class: `badge ${s.verdict}` }, verdictWords[s.verdict])), h("td", {}, number(s.expected_stops?.value)), h("td", {}, share(s.embedding?.value)), h("td", {}, share(s.reached)))))));
+}
+
+export function verdictPanel(target: HTMLElement, map: TerrainMap, print: () => void): void {
   store.on(["result", "route", "compared", "other", "tab"], ({ result, other, tab }) => {
     // A plan's verdict does not stand beside the form of a check.
     if (!result || tab === "drives" || (tab === "plan" && result.kind !== "plan") || (tab === "check" && result.kind === "plan")) {
@@ -152,24 +132,25 @@ export function verdictPanel(target: HTMLElement, map: TerrainMap): void {
       result.fewer.length > 0 && h("ul", {}, result.fewer.map((why) => h("li", {}, why))),
       route && [
         h("div", { class: `banner ${route.verdict}`, "data-verdict": route.verdict }, verdictWords[route.verdict], h("small", {}, `${route.title}, ${words(result.rover)}`)),
-        h("h3", {}, "Why"),
+        ...adviceView(result, route, map),
+        h("h3", {}, "Why, in full"),
         h("ul", { class: "reasons" }, route.reasons.map((reason) => h("li", {}, reason))),
-        h("h3", {}, "What would change it"),
-        h("ul", {}, change(route).map((line) => h("li", {}, line))),
         result.driven.length > 0 && driven(result),
         comparison(result, other),
+        other && other !== result ? askedDifferently(result, other) : null,
+        segments(route, map),
         h("h3", {}, "Rules"),
         h("p", { class: "hint" }, "The value that comes nearest to the limit: median of the draws of the ground (5 to 95 %)."),
         route.rules.length > 0 ? rulesTable(route, map) : h("p", {}, "There were no draws of the ground to judge by."),
         route.notes.length > 0 && h("details", {}, h("summary", {}, "How the plan ranked it"), h("ul", {}, route.notes.map((note) => h("li", {}, note)))),
-        exports(result),
+        exportsView(result, print),
         h("details", {}, h("summary", {}, "Where it comes from"), h("dl", {}, provenance(result).flatMap(([k, v]) => [h("dt", {}, k), h("dd", {}, v)]))),
       ],
     );
   });
 }
 
-function provenance(result: Result): [string, string][] {
+export function provenance(result: Result): [string, string][] {
   const p = result.provenance;
   return [
     ["Job", `${result.kind} ${result.job}`],

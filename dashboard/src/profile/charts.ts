@@ -1,10 +1,11 @@
 // Series against metres driven, under each other with one cursor, which is also a place on the map.
 import uPlot from "uplot";
 import { fill, h, swatch } from "../dom";
-import { number } from "../format";
+import { number, share, words } from "../format";
 import { empty } from "../problem";
-import type { DrivenStretch, Route, Stations } from "../result";
+import { ruleWords, tripsOf, type DrivenStretch, type Route, type Rule, type Stations } from "../result";
 import { store, type State } from "../state";
+import { FollowedCharts } from "./followed_charts";
 
 type Values = (number | null)[];
 interface Chart {
@@ -16,6 +17,8 @@ interface Chart {
   high?: (s: Stations) => Values;
   second?: { title: string; line: (s: Stations) => Values };
   limit?: string; // key in the request's limits
+  beyond?: string; // and of a second one, behind which it is worse
+  rule?: string; // that trips at it
 }
 
 function summed(values: Values): Values {
@@ -30,12 +33,13 @@ function energy(s: Stations): Values {
 
 export const charts: Chart[] = [
   { key: "height", title: "Elevation, m", line: (s) => s.height_m, digits: 6 },
-  { key: "slip", title: "Slip, 1 (band: 5 to 95 % of the draws)", line: (s) => s.slip_p50, low: (s) => s.slip_p05, high: (s) => s.slip_p95, limit: "max_slip" },
+  { key: "slip", title: "Slip, 1 (band: 5 to 95 % of the draws)", line: (s) => s.slip_p50, low: (s) => s.slip_p05, high: (s) => s.slip_p95, limit: "max_slip", beyond: "embedding_slip", rule: "slip_check" },
   { key: "stops", title: "Stops expected up to here, 1", line: (s) => summed(s.expected_stops), limit: "max_expected_stops" },
-  { key: "embedding", title: "Embedded up to here, share of the draws", line: (s) => summed(s.embedding), limit: "max_embedding" },
-  { key: "sinkage", title: "Sinkage, deepest wheel, 95 % of the draws are below, m", line: (s) => s.sinkage_m_p95, limit: "max_sinkage_m" },
-  { key: "current", title: "Current, hottest motor, 95 % of the draws are below, A", line: (s) => s.current_a_p95, limit: "max_current_a" },
-  { key: "tilt", title: "Tilt, deg (band: 5 to 95 % of the draws)", line: (s) => s.tilt_deg, low: (s) => s.tilt_deg_p05, high: (s) => s.tilt_deg_p95, limit: "max_tilt_deg" },
+  { key: "embedding", title: "Embedded up to here, share of the draws", line: (s) => summed(s.embedding), limit: "max_embedding", rule: "embedding" },
+  { key: "sinkage", title: "Sinkage, deepest wheel, 95 % of the draws are below, m", line: (s) => s.sinkage_m_p95, limit: "max_sinkage_m", rule: "sinkage" },
+  { key: "current", title: "Current, hottest motor, 95 % of the draws are below, A", line: (s) => s.current_a_p95, limit: "max_current_a", rule: "current" },
+  { key: "tilt", title: "Tilt, deg (band: 5 to 95 % of the draws)", line: (s) => s.tilt_deg, low: (s) => s.tilt_deg_p05, high: (s) => s.tilt_deg_p95, limit: "max_tilt_deg", rule: "tilt" },
+  { key: "clearance", title: "Clearance of the belly, m (band: 5 to 95 % of the draws)", line: (s) => s.clearance_m, low: (s) => s.clearance_m_p05, high: (s) => s.clearance_m_p95, limit: "min_clearance_m", rule: "clearance" },
   { key: "attitude", title: "Pitch (solid) and roll (dashed), deg", line: (s) => s.pitch_deg, second: { title: "roll", line: (s) => s.roll_deg } },
   { key: "energy", title: "Energy up to here, Wh", line: energy },
   { key: "power", title: "Power of the drive motors, W", line: (s) => s.power_w },
@@ -49,6 +53,12 @@ const wheelCharts = [
 /** Apart for colour-blind eyes [Okabe and Ito 2008]. */
 const wheelColours = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#56b4e9"];
 
+function limitsOf(chart: Chart, limits: Record<string, number>): Painted["limits"] {
+  const of = (key: string | undefined, words: string) => (key !== undefined && limits[key] !== undefined ? [{ at: limits[key], words: `${words} ${number(limits[key])}` }] : []);
+  return [...of(chart.limit, chart.limit?.startsWith("min") ? "at least" : "limit"), ...of(chart.beyond, "wheels dig from")];
+}
+
+const points = { show: false };
 const usuallyShown = ["height", "slip", "stops", "embedding", "sinkage", "current"];
 
 const token = (name: string): string => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
@@ -66,36 +76,83 @@ export function resampled(values: Values, from: number[], at: number[]): Values 
   });
 }
 
-/** Shades what lies on unknown ground, and draws the limit. */
-function paint(u: uPlot, stations: Stations, limit: number | undefined): void {
+interface Painted {
+  limits: { at: number; words: string }[];
+  trips: Rule[];
+}
+
+/** Calls `draw` with the plot's area as the clip. */
+function inside(u: uPlot, draw: (ctx: CanvasRenderingContext2D, px: number) => void): void {
   const { ctx } = u;
   const { left, top, width, height } = u.bbox;
   ctx.save();
   ctx.beginPath();
   ctx.rect(left, top, width, height);
   ctx.clip();
-  ctx.fillStyle = token("--unknown");
-  const unknown = stations.on_unknown_ground;
-  for (let i = 0; i < unknown.length; ++i) {
-    if (!unknown[i]) continue;
-    let end = i;
-    while (end + 1 < unknown.length && unknown[end + 1]) ++end;
-    const from = u.valToPos(stations.distance_m[i]!, "x", true);
-    const to = u.valToPos(stations.distance_m[Math.min(end + 1, unknown.length - 1)]!, "x", true);
-    ctx.fillRect(from, top, Math.max(to - from, 1), height);
-    i = end;
-  }
-  if (limit !== undefined) {
-    const y = u.valToPos(limit, "y", true);
-    ctx.strokeStyle = token("--limit");
-    ctx.lineWidth = 2 * devicePixelRatio;
-    ctx.setLineDash([8 * devicePixelRatio, 5 * devicePixelRatio]);
-    ctx.beginPath();
-    ctx.moveTo(left, y);
-    ctx.lineTo(left + width, y);
-    ctx.stroke();
-  }
+  draw(ctx, devicePixelRatio);
   ctx.restore();
+}
+
+/** Below the lines: shades what lies on unknown ground and where a rule trips. */
+function paintGround(u: uPlot, stations: Stations, { trips }: Painted): void {
+  inside(u, (ctx, px) => {
+    const { top, height } = u.bbox;
+    const shade = (from_m: number, to_m: number) => {
+      const [from, to] = [u.valToPos(from_m, "x", true), u.valToPos(to_m, "x", true)];
+      ctx.fillRect(from, top, Math.max(to - from, px), height);
+      return from;
+    };
+    ctx.fillStyle = token("--unknown");
+    const unknown = stations.on_unknown_ground;
+    for (let i = 0; i < unknown.length; ++i) {
+      if (!unknown[i]) continue;
+      let end = i;
+      while (end + 1 < unknown.length && unknown[end + 1]) ++end;
+      shade(stations.distance_m[i]!, stations.distance_m[Math.min(end + 1, unknown.length - 1)]!);
+      i = end;
+    }
+    for (const trip of trips) {
+      ctx.fillStyle = token("--trip");
+      const from = shade(trip.from_m!, trip.to_m ?? trip.from_m!);
+      ctx.fillStyle = token("--limit");
+      ctx.fillRect(from, top, 2 * px, height);
+    }
+  });
+}
+
+/** Above the lines: the limits with their values, and with which probability and why a rule trips. */
+function paintLimits(u: uPlot, { limits, trips }: Painted): void {
+  inside(u, (ctx, px) => {
+    const { left, top, width, height } = u.bbox;
+    ctx.font = `${11 * px}px system-ui, sans-serif`;
+    ctx.textAlign = "left"; // the axes leave their own
+    ctx.textBaseline = "alphabetic";
+    const write = (text: string, x: number, y: number) => {
+      ctx.setLineDash([]);
+      ctx.lineWidth = 4 * px;
+      ctx.strokeStyle = token("--paper");
+      ctx.strokeText(text, x, y);
+      ctx.fillStyle = token("--limit");
+      ctx.fillText(text, x, y);
+    };
+    for (const limit of limits) {
+      const y = u.valToPos(limit.at, "y", true);
+      if (y < top - px || y > top + height + px) continue;
+      ctx.strokeStyle = token("--limit");
+      ctx.lineWidth = 2 * px;
+      ctx.setLineDash([8 * px, 5 * px]);
+      ctx.beginPath();
+      ctx.moveTo(left, y);
+      ctx.lineTo(left + width, y);
+      ctx.stroke();
+      write(limit.words, left + width - ctx.measureText(limit.words).width - 4 * px, y + (y - top > 16 * px ? -4 : 12) * px);
+    }
+    trips.forEach((trip, k) => {
+      const text = `${share(trip.trips.value)}${trip.cause ? `, ${words(trip.cause)}` : ""}${trip.wheel ? `, ${trip.wheel}` : ""}`;
+      const from = u.valToPos(trip.from_m!, "x", true);
+      write(text, Math.min(from + 5 * px, left + width - ctx.measureText(text).width - 4 * px), top + height - (5 + 13 * k) * px);
+    });
+  });
 }
 
 export class ProfileCharts {
@@ -104,11 +161,20 @@ export class ProfileCharts {
   private readonly list = h("div", { class: "charts", tabindex: 0, role: "region", "aria-label": "Charts along the route" });
   private measured: uPlot | null = null; // of a drive so far
   private drawnRoute: Route | null = null;
+  private readonly followed = new FollowedCharts(this.list);
   private setting = false; // the cursor is being set from the state
 
   constructor(private readonly target: HTMLElement) {
     new ResizeObserver(() => this.resize()).observe(this.list);
     store.on(["result", "route", "compared", "other"], (s) => this.draw(s));
+    let shown = this.followed.shows(store.state);
+    store.on(["tab", "followed"], (s) => {
+      const next = this.followed.shows(s);
+      if (next !== shown) {
+        shown = next;
+        this.draw(s);
+      } else if (next) this.followed.point(s);
+    });
     store.on(["hover_m"], (s) => this.point(s));
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw(store.state));
   }
@@ -118,6 +184,13 @@ export class ProfileCharts {
     this.plots = [];
     this.measured?.destroy();
     this.measured = null;
+    this.followed.clear();
+    if (this.followed.shows(state)) {
+      this.drawnRoute = null;
+      fill(this.target, this.list);
+      this.followed.draw(state);
+      return;
+    }
     const route = state.result?.routes[state.route] ?? null;
     this.drawnRoute = route;
     if (!route) {
@@ -129,7 +202,8 @@ export class ProfileCharts {
     this.list.replaceChildren();
     for (const { key, title } of wheelCharts) if (this.shown.has(title)) this.addWheels(key, title, route.stations);
     if (state.result!.driven.length > 0) this.addDriven(state.result!.driven);
-    for (const chart of charts) if (this.shown.has(chart.key)) this.add(chart, route, second ?? null, state.result!.limits);
+    const tripped = new Set(tripsOf(route).map((rule) => rule.rule));
+    for (const chart of charts) if (this.shown.has(chart.key) || tripped.has(chart.rule ?? "")) this.add(chart, route, second ?? null, state.result!.limits);
     this.point(state);
   }
 
@@ -145,19 +219,21 @@ export class ProfileCharts {
           this.draw(store.state);
         } }, title.split(",")[0]!.replace(/ \(.*/, ""));
       }),
-      h("span", { class: "key" }, h("span", { class: "swatch shaded" }), "unknown ground", h("span", { class: "swatch limit" }), "limit"),
+      h("span", { class: "key" }, h("span", { class: "swatch shaded" }), "unknown ground", h("span", { class: "swatch limit" }), "limit", h("span", { class: "swatch trip" }), "a rule trips in some draws"),
     );
   }
 
   private add(chart: Chart, route: Route, second: Route | null, limits: Record<string, number>): void {
     const s = route.stations;
-    const limit = chart.limit ? limits[chart.limit] : undefined;
+    const painted = { limits: limitsOf(chart, limits), trips: tripsOf(route).filter((r) => r.rule === chart.rule) };
+    const limit = painted.limits[0]?.at;
     const columns: (Values | null)[] = [chart.line(s), chart.low?.(s) ?? null, chart.high?.(s) ?? null, chart.second?.line(s) ?? null];
     columns.push(second ? resampled(chart.line(second.stations), second.stations.distance_m, s.distance_m) : null);
     const given = columns.map((c) => c ?? s.distance_m.map(() => null));
     const readout = h("span", { class: "readout" });
     const box = h("div", { class: "chart" });
     this.list.append(h("section", { class: "chart-box", "aria-label": chart.title }, h("div", { class: "chart-head" }, h("h3", {}, chart.title), readout), box));
+    if (painted.trips.length > 0) box.parentElement!.append(h("p", { class: "visually-hidden" }, painted.trips.map((r) => `${ruleWords[r.rule] ?? words(r.rule)} trips in ${share(r.trips.value)} of the draws from ${number(r.from_m)} to ${number(r.to_m)} m. `).join("")));
     const ink = token("--ink");
     const axis = { stroke: ink, grid: { stroke: token("--line"), width: 1 }, ticks: { stroke: token("--line"), width: 1 }, font: "11px system-ui, sans-serif" };
     const plot = new uPlot(
@@ -170,18 +246,19 @@ export class ProfileCharts {
           x: { time: false },
           y: { range: (_u, min, max) => uPlot.rangeNum(Math.min(min, limit ?? min), Math.max(max, limit ?? max), 0.08, true) },
         },
-        axes: [{ ...axis, size: 26, values: (_u, ticks) => ticks.map((t) => `${t} m`) }, { ...axis, size: 58, values: (_u, ticks) => ticks.map((t) => (t === null ? "" : number(t, 6))) }],
+        axes: [{ ...axis, size: 26, values: (_u, ticks) => ticks.map((t) => `${t} m`) }, { ...axis, size: 66, values: (_u, ticks) => ticks.map((t) => (t === null ? "" : number(t, 6))) }],
         bands: chart.low ? [{ series: [3, 2], fill: token("--band") }] : [],
         series: [
           {},
-          { stroke: token("--series"), width: 2 },
-          { stroke: chart.low ? token("--series") : "transparent", width: chart.low ? 0.5 : 0, show: !!chart.low },
-          { stroke: chart.high ? token("--series") : "transparent", width: chart.high ? 0.5 : 0, show: !!chart.high },
-          { stroke: token("--series"), width: 2, dash: [6, 4], show: !!chart.second },
-          { stroke: token("--other"), width: 2, dash: [3, 3], show: !!second },
+          { stroke: token("--series"), width: 2, points },
+          { stroke: chart.low ? token("--series") : "transparent", width: chart.low ? 0.5 : 0, show: !!chart.low, points },
+          { stroke: chart.high ? token("--series") : "transparent", width: chart.high ? 0.5 : 0, show: !!chart.high, points },
+          { stroke: token("--series"), width: 2, dash: [6, 4], show: !!chart.second, points },
+          { stroke: token("--other"), width: 2, dash: [3, 3], show: !!second, points },
         ],
         hooks: {
-          drawClear: [(u) => paint(u, s, limit)],
+          drawClear: [(u) => paintGround(u, s, painted)],
+          draw: [(u) => paintLimits(u, painted)],
           setCursor: [(u) => this.moved(u)],
         },
       },
@@ -207,8 +284,8 @@ export class ProfileCharts {
         cursor: { y: false, sync: { key: "route" } },
         scales: { x: { time: false } },
         axes: [{ ...axis, size: 26, values: (_u, ticks) => ticks.map((t) => `${t} m`) }, { ...axis, size: 58 }],
-        series: [{}, ...wheels.map((_, k) => ({ stroke: wheelColours[k % wheelColours.length]!, width: 1.5 }))],
-        hooks: { drawClear: [(u) => paint(u, s, undefined)], setCursor: [(u) => this.moved(u)] },
+        series: [{}, ...wheels.map((_, k) => ({ stroke: wheelColours[k % wheelColours.length]!, width: 1.5, points }))],
+        hooks: { drawClear: [(u) => paintGround(u, s, { limits: [], trips: [] })], setCursor: [(u) => this.moved(u)] },
       },
       [s.distance_m, ...wheels.map(([, columns]) => columns[key]!)] as uPlot.AlignedData,
       box,
@@ -287,7 +364,7 @@ export class ProfileCharts {
   }
 
   private resize(): void {
-    for (const plot of [...this.plots.map((p) => p.plot), ...(this.measured ? [this.measured] : [])]) {
+    for (const plot of [...this.plots.map((p) => p.plot), ...(this.measured ? [this.measured] : []), ...this.followed.plots]) {
       const width = plot.root.parentElement!.clientWidth;
       if (width > 0 && Math.abs(width - plot.width) > 1) plot.setSize({ width, height: plot.height });
     }
