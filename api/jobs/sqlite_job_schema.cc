@@ -88,35 +88,35 @@ CREATE TRIGGER IF NOT EXISTS best_so_far_goes AFTER DELETE ON jobs BEGIN
 END;
 )";
 
-const std::vector<std::string> kJobColumns{"sequence",
-                                           "id",
-                                           "kind",
-                                           "state",
-                                           "stage",
-                                           "progress",
-                                           "version",
-                                           "attempt",
-                                           "created_ms",
-                                           "started_ms",
-                                           "ended_ms",
-                                           "worker",
-                                           "lease_until_ms",
-                                           "request",
-                                           "outcome",
-                                           "deaths",
-                                           "request_sha256",
-                                           "outcome_sha256",
-                                           "last_death",
-                                           "owner",
-                                           "idempotency_key",
-                                           "urgency",
-                                           "cpu_s",
-                                           "whole",
-                                           "part",
-                                           "parts",
-                                           "parts_ended",
-                                           "parts_failed",
-                                           "parts_cpu_s"};
+const std::vector<std::string> kTableColumns{"sequence",
+                                             "id",
+                                             "kind",
+                                             "state",
+                                             "stage",
+                                             "progress",
+                                             "version",
+                                             "attempt",
+                                             "created_ms",
+                                             "started_ms",
+                                             "ended_ms",
+                                             "worker",
+                                             "lease_until_ms",
+                                             "request",
+                                             "outcome",
+                                             "deaths",
+                                             "request_sha256",
+                                             "outcome_sha256",
+                                             "last_death",
+                                             "owner",
+                                             "idempotency_key",
+                                             "urgency",
+                                             "cpu_s",
+                                             "whole",
+                                             "part",
+                                             "parts",
+                                             "parts_ended",
+                                             "parts_failed",
+                                             "parts_cpu_s"};
 
 constexpr std::string_view kMoveAway = "move it away to begin an empty store, or name another with --jobs";
 
@@ -155,7 +155,7 @@ void check_columns(SqliteConnection& connection, const fs::path& store) {
   std::vector<std::string> found;
   auto row = connection.prepare("SELECT name FROM pragma_table_info('jobs') ORDER BY cid");
   while (row.step()) found.push_back(row.text(0));
-  if (found != kJobColumns)
+  if (found != kTableColumns)
     refuse(store, fmt::format("has a table of jobs with other columns ({})", fmt::join(found, ", ")),
            kMoveAway);
 }

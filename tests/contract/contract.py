@@ -329,7 +329,7 @@ class Contract(WithServer):
         self.assertEqual(status, 201)
         self.assertEqual(self.server.end_of(headers["Location"])["state"], "successful")
         planned = headers["Location"].rsplit("/", 1)[1]
-        for job, reason in (("0" * 32, "no job of this id"), (planned, "only a diagnosis offers a model")):
+        for job, reason in (("0" * 32, "no job of this id"), (planned, "offers a model")):
             problem = self.refused("/v1/plans", plan(rover="mer", model={"diagnosis": job}), 422, "/rover", "/model/diagnosis")
             self.assertIn(reason, problem["faults"][1]["message"])
 
