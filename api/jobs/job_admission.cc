@@ -1,6 +1,7 @@
 #include "api/jobs/job_admission.h"
 
 #include <fmt/format.h>
+#include <fmt/printf.h>
 
 namespace slipway::api {
 
@@ -42,7 +43,7 @@ NewJob new_part(const Job& whole, const std::string& request) {
 }
 
 std::string stage_of_parts(int ended, int count) {
-  return fmt::format("{} of {} parts are done", ended, count);
+  return fmt::sprintf(kStageOfParts, std::to_string(ended), std::to_string(count));
 }
 
 double progress_of_parts(int ended, int count) {

@@ -31,6 +31,7 @@ NewJob new_part(const Job& whole, const std::string& request);
 
 // How a job in parts stands after `ended` of them: its stage, and its progress, of which putting the parts
 // together has a share too.
+inline constexpr const char* kStageOfParts = "%s of %s parts are done";
 std::string stage_of_parts(int ended, int count);
 double progress_of_parts(int ended, int count);
 

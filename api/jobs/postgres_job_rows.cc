@@ -8,29 +8,14 @@
 namespace slipway::api {
 namespace {
 
-// Parts that end at once queue up for their whole's row, so that one of them sees that it is the last. Taken
-// before any row of a part: who dismisses the whole takes them in the same order.
-void lock_row(PostgresConnection& connection, const std::string& id) {
-  connection.run("SELECT id FROM slipway_jobs WHERE id = $1 FOR NO KEY UPDATE", PostgresValues().text(id));
-}
-
-// One more part of the job has ended. True: it was the last, and the job is accepted again.
-bool count_ended_part(PostgresConnection& connection, const std::string& whole, bool well, double cpu_s) {
-  const PostgresRows rows = connection.run(
-      "UPDATE slipway_jobs SET parts_ended = parts_ended + 1, parts_failed = parts_failed + $2, "
-      "parts_cpu_s = parts_cpu_s + $3, version = version + 1 WHERE id = $1 AND state = 'running' "
-      "RETURNING parts_ended, parts",
-      PostgresValues().text(whole).number(well ? 0 : 1).real(cpu_s));
-  if (rows.count() == 0) return false;
-  const int ended = static_cast<int>(rows.number(0, 0)), count = static_cast<int>(rows.number(0, 1));
-  connection.run("UPDATE slipway_jobs SET stage = $2, progress = $3, state = $4 WHERE id = $1",
-                 PostgresValues()
-                     .text(whole)
-                     .text(stage_of_parts(ended, count))
-                     .real(progress_of_parts(ended, count))
-                     .text(describe(ended < count ? JobState::kRunning : JobState::kAccepted)));
-  return ended == count;
-}
+// Of the whole, 1 where the part has no answer, its cost [s], the stage, the share of parts.
+// Parts that end together queue up for this row, and one of them sees that it is the last.
+constexpr std::string_view kCountEndedPart =
+    "UPDATE slipway_jobs SET parts_ended = parts_ended + 1, parts_failed = parts_failed + {1}, "
+    "parts_cpu_s = parts_cpu_s + {2}, version = version + 1, stage = format({3}, parts_ended + 1, parts), "
+    "progress = {4}::float8 * (parts_ended + 1) / parts, "
+    "state = CASE WHEN parts_ended + 1 = parts THEN 'accepted' ELSE state END "
+    "WHERE id = {0} AND state = 'running' RETURNING (parts_ended = parts)::int::bigint AS is_last";
 
 bool was_ended(PostgresConnection& connection, const Lease& lease, const std::string& digest) {
   // Changed too, so that the commit waits for what the first one may not have waited for.
@@ -90,26 +75,35 @@ std::optional<Job> get_from(PostgresConnection& connection, std::string_view id)
 bool end_job(PostgresConnection& connection, const Lease& lease, JobState state, const JobAnswer& outcome,
              std::int64_t now, bool& to_put_together) {
   const std::string digest = outcome_digest(lease.id, describe(state), outcome.bytes);
-  if (!lease.whole.empty()) lock_row(connection, lease.whole);
-  const PostgresRows rows = connection.run(
-      fmt::format("UPDATE slipway_jobs SET state = $4, outcome = $5, outcome_sha256 = $6, ended_ms = $7, "
-                  "cpu_s = $8, version = version + 1, "
-                  "progress = CASE $4 WHEN 'successful' THEN 1.0 ELSE progress END WHERE {}",
-                  kHeldRow),
-      held(lease).text(describe(state)).text(outcome.bytes).text(digest).number(now).real(outcome.cpu_s));
-  if (rows.changed() != 1) return was_ended(connection, lease, digest);
   for (std::size_t k = 0; k < outcome.series.size(); ++k) {
     const auto page = static_cast<std::int64_t>(k + 1);
-    connection.run("INSERT INTO slipway_series (job_id, page, bytes, sha256) VALUES ($1, $2, $3, $4)",
-                   PostgresValues()
-                       .text(lease.id)
-                       .number(page)
-                       .text(outcome.series[k])
-                       .text(series_digest(lease.id, page, outcome.series[k])));
+    connection.run(
+        "INSERT INTO slipway_series (job_id, page, bytes, sha256) SELECT id, $4, $5, $6 FROM slipway_jobs "
+        "WHERE id = $1 AND attempt = $2 AND worker = $3 AND state = 'running'",
+        held(lease)
+            .number(page)
+            .text(outcome.series[k])
+            .text(series_digest(lease.id, page, outcome.series[k])));
   }
-  if (!lease.whole.empty())
-    to_put_together =
-        count_ended_part(connection, lease.whole, state == JobState::kSuccessful, outcome.cpu_s);
+  // One statement, so that nobody waits for the whole's row longer than it takes.
+  static const std::string kEnd = fmt::format(
+      "WITH ended AS (UPDATE slipway_jobs SET state = $4, outcome = $5, outcome_sha256 = $6, ended_ms = $7, "
+      "cpu_s = $8, version = version + 1, progress = CASE $4 WHEN 'successful' THEN 1.0 ELSE progress END "
+      "WHERE {} RETURNING whole), counted AS ({}) "
+      "SELECT (SELECT count(*) FROM ended), (SELECT is_last FROM counted)",
+      kHeldRow,
+      fmt::format(kCountEndedPart, "(SELECT whole FROM ended)", "CASE $4 WHEN 'successful' THEN 0 ELSE 1 END",
+                  "$8", "$9", "$10"));
+  const PostgresRows rows = connection.run(kEnd, held(lease)
+                                                     .text(describe(state))
+                                                     .text(outcome.bytes)
+                                                     .text(digest)
+                                                     .number(now)
+                                                     .real(outcome.cpu_s)
+                                                     .text(kStageOfParts)
+                                                     .real(kShareOfParts));
+  if (rows.number(0, 0) != 1) return was_ended(connection, lease, digest);
+  to_put_together = rows.optional_number(0, 1).value_or(0) == 1;
   return true;
 }
 
@@ -149,11 +143,12 @@ void dismiss_job(PostgresConnection& connection, std::string_view id, std::int64
       "UPDATE slipway_jobs SET state = 'dismissed', ended_ms = $2, version = version + 1, worker = NULL "
       "WHERE {} = $1 AND state IN ('accepted', 'running')";
   const std::optional<Job> job = get_from(connection, id);
-  if (job && !job->whole.empty()) lock_row(connection, job->whole);
   const PostgresValues values = PostgresValues().text(id).number(now);
   if (connection.run(fmt::format(kDismiss, "id"), values).changed() != 1) return;
   connection.run(fmt::format(kDismiss, "whole"), values);
-  if (!job->whole.empty()) count_ended_part(connection, job->whole, false, 0.0);
+  if (!job || job->whole.empty()) return;
+  connection.run(fmt::format(kCountEndedPart, "$1", "1", "$2", "$3", "$4"),
+                 PostgresValues().text(job->whole).real(0.0).text(kStageOfParts).real(kShareOfParts));
 }
 
 }  // namespace slipway::api

@@ -121,10 +121,11 @@ class PostgresJobStore final : public JobStore {
     PostgresPool& pool = lease.whole.empty() ? durable_ : quick_;
     bool to_put_together = false;
     auto kept = pool.run([&](PostgresConnection& connection) {
+      if (outcome.series.empty()) return end_job(connection, lease, state, outcome, now, to_put_together);
       PostgresTransaction transaction(connection);
-      const bool held = end_job(connection, lease, state, outcome, now, to_put_together);
+      const bool ended = end_job(connection, lease, state, outcome, now, to_put_together);
       transaction.commit();
-      return held;
+      return ended;
     });
     if (to_put_together) bell_.ring(StoreNews::kAccepted);
     if (kept && *kept && lease.whole.empty()) bell_.ring(StoreNews::kEnded);
