@@ -15,6 +15,7 @@ export const keys: [string, string][] = [
   ["Ctrl+Enter", "plan or check"],
   ["Ctrl+Z", "take back what was drawn last"],
   ["Escape", "stop drawing"],
+  ["Ctrl+P", "a page of paper of the route that is shown"],
   ["?", "this list"],
 ];
 

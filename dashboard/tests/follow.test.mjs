@@ -47,7 +47,16 @@ test("drives are sent, diagnosed to the end, and the next plan is made with the 
   await p.setInputFiles('[data-upload="campaign"]', archive);
   await p.click("text=Send the drives");
   await p.until(() => document.querySelector("#panel-drives select")?.value.startsWith("dc-"));
-  await p.waitForSelector(`#panel-drives :text("${drives.length} drives")`);
+  await p.waitForSelector(`#panel-drives p:text("${drives.length} drives")`);
+  // A drive that followed is appended: the campaign has one more.
+  await p.click("text=Append a drive");
+  await p.fill('[data-append="id"]', "D002");
+  await p.selectOption('details:has-text("Append a drive") select >> nth=0', "tilt_00");
+  await p.fill('[data-append="speed"]', "0.05");
+  await p.fill('[data-append="duration"]', "60");
+  await p.setInputFiles('[data-append="csv"]', join(data, "gap-practice/p05/D002.csv"));
+  await p.click('[data-do="append"]');
+  await p.waitForSelector(`#panel-drives p:text("${drives.length + 1} drives")`);
   await p.click('[data-do="diagnose"]');
   await p.waitForSelector('.work:has-text("diagnosis") progress');
   await p.look("15_drives_sent");

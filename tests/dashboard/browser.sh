@@ -7,4 +7,4 @@ CHROMIUM="${CHROMIUM:-/usr/bin/chromium}"
 [ -x "$CHROMIUM" ] || { echo "there is no Chromium"; exit 77; }
 cd "$2"
 export CHROMIUM SLIPWAY="$3" SLIPWAY_SOURCE="$1" SCREENSHOTS="$2/screenshots"
-exec node --test --test-timeout=240000 tests/
+exec node --test --test-timeout=400000 tests/

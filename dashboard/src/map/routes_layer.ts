@@ -30,7 +30,7 @@ export class RoutesLayer {
       this.source.addFeatures(features);
       if (routes.length > 1) this.source.addFeature(label(route, index, routes.length, chosen));
     });
-    state.other?.routes.slice(0, 1).forEach((route) => this.source.addFeatures(plain(route, "#cc79a7", 3, [2, 6])));
+    state.other?.routes.slice(0, 1).forEach((route) => this.source.addFeatures(plain(route, "#8a2c6b", 4, [9, 6])));
     const chosen = routes[state.route];
     if (chosen) this.source.addFeatures(trips(chosen));
     if (state.job?.state === "running" && state.job.best_so_far?.line) this.source.addFeature(styled(state.job.best_so_far.line as number[][], [stroke("#fff", 6), stroke("#111", 3, [2, 7], 1)]));
@@ -89,8 +89,11 @@ function lines(route: Route, state: State, strong: boolean): Feature[] {
 /** Where a rule trips in some of the draws: with its probability and cause. Labels that would lie on each other share a place. */
 function trips(route: Route): Feature[] {
   const at = new Map<number, string[]>();
+  const { distance_m } = route.stations;
+  const near_m = 0.06 * (distance_m.at(-1) ?? 0);
   for (const rule of tripsOf(route)) {
-    const k = stationAt(route.stations, rule.from_m!);
+    const own = stationAt(route.stations, rule.from_m!);
+    const k = [...at.keys()].find((other) => Math.abs(distance_m[other]! - distance_m[own]!) < near_m) ?? own;
     at.set(k, [...(at.get(k) ?? []), `${ruleWords[rule.rule] ?? words(rule.rule)} ${share(rule.trips.value)}${rule.cause ? `, ${words(rule.cause)}` : ""}`]);
   }
   const xs = route.stations.x_m;
@@ -114,7 +117,7 @@ function residual(stretch: DrivenStretch): Feature {
   const feature = new Feature(new Point([stretch.x_m, stretch.y_m]));
   const fill = new Fill({ color: surprises(stretch) ? "#d7191c" : "#2c7bb6" });
   const border = new Stroke({ color: "#fff", width: 2 });
-  feature.setStyle(new Style({ image: surprises(stretch) ? new RegularShape({ points: 4, radius: 8, angle: Math.PI / 4, fill, stroke: border }) : new Circle({ radius: 6, fill, stroke: border }), zIndex: 15 }));
+  feature.setStyle(new Style({ image: surprises(stretch) ? new RegularShape({ points: 4, radius: 8, angle: Math.PI / 4, fill, stroke: border }) : new Circle({ radius: 6, fill, stroke: border }), zIndex: 19 }));
   return feature;
 }
 

@@ -169,7 +169,11 @@ function unsure(result: Result, route: Route): Advice[] {
     found.push({ text: `A scout drive of 5 m onto the ${ground} at ${scout.from_m.toFixed(0)} m, with its slip measured, would make it a ${verdictWords.go} with probability ${share(scout.verdict_afterwards.go)}.`, act: { label: "Show where", name: "scout", run: () => store.set({ hover_m: scout.from_m }) } });
   }
   const { unknown_length_m } = route.figures;
-  if ((unknown_length_m ?? 0) > 0) found.push({ text: `${metres(unknown_length_m)} lie on ground that no map names: nothing there can be called safe before it has been seen. A higher cost of unknown ground makes plans go round it.` });
+  if ((unknown_length_m ?? 0) > 0) found.push({ text: `${metres(unknown_length_m)} lie on ground that no map names: nothing there can be called safe before it has been seen.`, ...(result.kind === "plan" ? { act: { label: "Plan round unknown ground", name: "round-unknown", run: () => {
+    const term = store.state.costTerms.find((t) => t.name === "unknown")?.weight;
+    store.option({ weights: { ...store.state.options.weights, unknown: Math.min(term?.highest ?? 1000, 50 * Math.max(1, store.state.options.weights.unknown ?? term?.initial ?? 2)) } });
+    planAgain();
+  } } } : {}) });
   return found;
 }
 

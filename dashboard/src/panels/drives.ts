@@ -60,5 +60,34 @@ function describeCampaign(campaigns: Campaign[], campaign: Campaign): HTMLElemen
     button("Diagnose these drives", () => void start("v1/diagnoses", { campaign: campaign.name }), { class: "primary", "data-do": "diagnose" }),
     h("p", { class: "hint" }, "A diagnosis asks which effects the simulator lacks, and how far off it is. It takes up to a minute or so; other work goes on beside it."),
     watchForm(campaigns, campaign),
+    ...(campaign.sent_at ? [appendForm(campaign)] : []),
   ];
+}
+
+/** What the rover has driven since: a drive with its telemetry, behind those that were sent. */
+function appendForm({ name, drives, terrains }: Campaign): HTMLElement {
+  const note = h("div");
+  const last = drives.at(-1);
+  const id = h("input", { autocomplete: "off", "data-append": "id" });
+  const number_of = (value: number | undefined, key: string) => h("input", { type: "number", step: "any", value: value ?? "", "data-append": key });
+  const [speed, curvature, duration] = [number_of(last?.speed_m_s, "speed"), number_of(0, "curvature"), number_of(last?.duration_s, "duration")];
+  let terrain = last?.terrain ?? terrains[0] ?? "";
+  const ground = select(terrains.map((t) => ({ value: t, text: words(t) })), terrain, (value) => (terrain = value));
+  const file = h("input", { type: "file", accept: ".csv", "data-append": "csv" });
+  const append = async (): Promise<void> => {
+    const csv = await file.files?.[0]?.text();
+    if (!csv || id.value.trim() === "") {
+      fill(note, problemView("A drive needs a name and the file of its telemetry."));
+      return;
+    }
+    fill(note);
+    const commanded = { speed_m_s: Number(speed.value), curvature_1_m: Number(curvature.value), turn_in_place: false, duration_s: Number(duration.value) };
+    await start("v1/drive-campaigns", { follows: name, drives: [{ id: id.value.trim(), terrain, commanded, csv }] });
+  };
+  return h("details", {}, h("summary", {}, "Append a drive"),
+    h("div", { class: "columns" }, field("Name", id), field("Ground", ground)),
+    h("div", { class: "columns" }, field("Commanded speed, m/s", speed), field("Curvature, 1/m", curvature)),
+    field("Commanded time, s", duration),
+    field("Telemetry (CSV)", file, "Its columns are those of the campaign's other files."),
+    note, button("Append", () => void append(), { "data-do": "append" }));
 }
