@@ -104,7 +104,7 @@ TEST_F(PostgresJobStoreTest, LostConnectionsAreMadeAgain) {
     ASSERT_TRUE(store_->append(new_job(), 1, {}));
     schema_->run(
         "SELECT pg_terminate_backend(pid) FROM pg_stat_activity "
-        "WHERE pid <> pg_backend_pid() AND datname = 'slipway' AND query LIKE '%slipway_jobs%'");
+        "WHERE pid <> pg_backend_pid() AND application_name = current_setting('application_name')");
   }
   EXPECT_EQ(store_->list(10).value().size(), 3U);
 }

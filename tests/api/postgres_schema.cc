@@ -65,7 +65,8 @@ PostgresSchema::~PostgresSchema() {
 }
 
 std::string PostgresSchema::address() const {
-  return server_address() + "?options=-csearch_path%3D" + name_ + "%20-cclient_min_messages%3Dwarning";
+  return server_address() + "?options=-csearch_path%3D" + name_ +
+         "%20-cclient_min_messages%3Dwarning&application_name=" + name_;
 }
 
 void PostgresSchema::run(const std::string& sql) const {
