@@ -94,7 +94,7 @@ TEST(DriveEndings, GivesUpWhereItMakesNoProgress) {
 // A leg may end before give_up_s is over.
 TEST(DriveEndings, IsNotFinishedWhereALegMadeNoProgress) {
   const std::vector<DriveLeg> legs{straight(1.0), straight(1.0, -0.04)};
-  const Driven stuck = drive(six_wheeler(), plane(rad_from_deg(28.0)), loose_sand(), 0.0, legs);
+  const Driven stuck = drive(six_wheeler(), plane(rad_from_deg(27.0)), loose_sand(), 0.0, legs);
   EXPECT_LT(stuck.drive.duration_s, 60.0);
   EXPECT_LT(stuck.drive.progress_m, 0.0);
   EXPECT_EQ(stuck.drive.end, DriveEnd::kImmobilised);
