@@ -51,6 +51,10 @@ WorkerProcessOptions worker_processes(const ServeOptions& options, const std::st
                                      "--jobs",         options.jobs, "--name", "{name}"};
     command.insert(command.end(), {"--uploads", options.uploads.folder(options.jobs), "--keep-uploads-mb",
                                    fmt::format("{}", options.uploads.keep_mb)});
+    if (!options.artefacts.folder.empty())
+      command.insert(command.end(),
+                     {"--artefacts", options.artefacts.folder, "--artefact-cache", options.artefacts.cache,
+                      "--artefact-cache-mb", fmt::format("{}", options.artefacts.cache_mb)});
     for (const std::string& kind : kinds) command.insert(command.end(), {"--kind", kind});
     command.insert(command.end(), {"--job-memory-mb", fmt::format("{}", options.of_job.memory_mb),
                                    "--job-minutes", fmt::format("{}", options.of_job.minutes), "--lease-s",
@@ -77,7 +81,7 @@ Result<Jobs> open_jobs(const ServeOptions& options) {
   std::error_code failed;
   if (const auto folder = std::filesystem::path(path).parent_path(); is_file && !folder.empty())
     std::filesystem::create_directories(folder, failed);
-  auto store = api::open_job_store(path);
+  auto store = open_store(path, options.artefacts, api::StoreCheck::kWhole);
   if (!store) return fail(store.error());
   jobs.store = std::move(*store);
   if (path.empty()) return jobs;

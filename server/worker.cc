@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "api/job_kinds.h"
+#include "api/jobs/artefact_job_store.h"
 #include "api/jobs/job_runner.h"
 #include "api/jobs/open_job_store.h"
 #include "api/service.h"
@@ -82,6 +83,18 @@ bool wait_for_the_end(api::JobRunner& runner, const FileDescriptor& signals, con
 
 }  // namespace
 
+Result<std::unique_ptr<api::JobStore>> open_store(const std::string& jobs, const ArtefactPlace& artefacts,
+                                                  api::StoreCheck how_far) {
+  auto store = api::open_job_store(jobs, how_far);
+  if (!store || jobs.empty()) return store;
+  if (artefacts.folder.empty()) return api::with_artefacts(*std::move(store), nullptr);
+  auto folder = api::ArtefactFolder::open(
+      artefacts.folder,
+      {.folder = artefacts.cache, .max_bytes = static_cast<std::int64_t>(1e6 * artefacts.cache_mb)});
+  if (!folder) return fail(folder.error());
+  return api::with_artefacts(*std::move(store), *std::move(folder));
+}
+
 int work(const WorkerOptions& given) {
   WorkerOptions options = given;
   const auto place = api::without_secrets(given.jobs);
@@ -104,7 +117,7 @@ int work(const WorkerOptions& given) {
   }
   const auto service = api::Service::open({.data = *data, .uploads = uploads});
   if (!service) return refuse(service.error());
-  auto store = api::open_job_store(options.jobs, api::StoreCheck::kSchema);
+  auto store = open_store(options.jobs, options.artefacts, api::StoreCheck::kSchema);
   if (!store) return refuse(store.error());
   api::JobRunnerOptions how;
   how.workers = {options.kinds};

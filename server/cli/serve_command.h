@@ -51,6 +51,13 @@ struct UploadPlace {
   std::int64_t max_bytes() const { return static_cast<std::int64_t>(1e6 * keep_mb); }
 };
 
+// Where large artefacts of jobs are that several machines work on.
+struct ArtefactPlace {
+  std::string folder;        // that they share; empty: with the jobs
+  std::string cache;         // of this machine alone; empty: none
+  double cache_mb = 2048.0;  // megabytes of it at most
+};
+
 struct ServeOptions {
   std::string data;
   std::string address = "127.0.0.1";
@@ -61,6 +68,7 @@ struct ServeOptions {
   int max_connections = 4096,
       max_connections_per_address = 2048;  // the latter 0: as many as there are in all
   UploadPlace uploads = {};
+  ArtefactPlace artefacts = {};
   double upload_mb = 4096.0;                 // ... and of one file
   int keep_jobs = 1000;                      // ended jobs that are kept at most, ...
   double keep_days = 90.0;                   // ... and for how long
@@ -84,6 +92,7 @@ struct WorkerOptions {
   std::string data;
   std::string jobs = "var/jobs.sqlite";
   UploadPlace uploads = {};
+  ArtefactPlace artefacts = {};
   std::vector<std::string> kinds;  // of jobs; empty: all
   std::string name;                // under which jobs are claimed; empty: one that no other worker has
   JobLimits of_job = {};
@@ -91,6 +100,10 @@ struct WorkerOptions {
   bool until_empty = false;  // ends when no job of its kinds waits or is worked on
   bool bell = false;  // bytes at the standard input mean that there may be work; its end ends the worker
 };
+
+// The store at the place, with its artefacts where they are to be.
+Result<std::unique_ptr<api::JobStore>> open_store(const std::string& jobs, const ArtefactPlace& artefacts,
+                                                  api::StoreCheck how_far);
 
 // Serves until a signal ends it. The exit status: 0 ended by a signal, 1 not started, 2 options with faults.
 int serve(const ServeOptions& options);

@@ -39,6 +39,19 @@ void add_store(CLI::App& command, std::string& jobs, LeaseOption& lease, const c
       ->check(CLI::Range(1.0, 3600.0));
 }
 
+void add_artefact_place(CLI::App& command, ArtefactPlace& place) {
+  command.add_option(
+      "--artefacts", place.folder,
+      "folder that all machines share for the large files of jobs; without it they are kept with "
+      "the jobs");
+  command.add_option(
+      "--artefact-cache", place.cache,
+      "folder of this machine for copies of what it has read there; without it there are none");
+  command.add_option("--artefact-cache-mb", place.cache_mb, "megabytes of those copies at most")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1e9));
+}
+
 void add_upload_place(CLI::App& command, UploadPlace& place) {
   command.add_option("--uploads", place.given,
                      "folder of maps and drives that clients send, else the folder uploads beside the file "
@@ -103,6 +116,7 @@ void add_worker_command(CLI::App& app, std::function<int()>& run) {
   add_data_option(*command, options->data, "rovers, soils and terrains");
   add_store(*command, options->jobs, options->lease, "");
   add_upload_place(*command, options->uploads);
+  add_artefact_place(*command, options->artefacts);
   command->add_option("--kind", options->kinds, "work on jobs of this kind only; may be repeated")
       ->allow_extra_args(false);
   command->add_option("--name", options->name,
@@ -165,6 +179,7 @@ void add_serve_command(CLI::App& app, std::function<int()>& run) {
   command->add_flag("--no-workers", options->no_workers,
                     "start no workers: others, on this machine or elsewhere, work on the store");
   add_upload_place(*command, options->uploads);
+  add_artefact_place(*command, options->artefacts);
   command->add_option("--upload-mb", options->upload_mb, "megabytes of one file that is sent")
       ->capture_default_str()
       ->check(CLI::Range(0.001, 1e6));

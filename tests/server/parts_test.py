@@ -6,6 +6,7 @@ usage: parts_test.py SLIPWAY SOURCE_DIR [--both]
 """
 import array
 import contextlib
+import hashlib
 import json
 import pathlib
 import shutil
@@ -24,7 +25,6 @@ from postgres_server import SCRIPT, PostgresServer  # noqa: E402
 
 ASYNC = {"Prefer": "respond-async"}
 SIDE = 1200  # cells of the map: four pieces
-LEASE_S = "10"
 
 
 def make_data(folder):
@@ -56,7 +56,8 @@ class Parts:
         cls.data = make_data(cls.folder)
         running_service.DATA = str(cls.data)
         cls.store = cls.open_store()
-        cls.server = Server(cls.folder, "--jobs", cls.store, "--no-workers", "--lease-s", LEASE_S)
+        cls.shared = ["--jobs", cls.store, "--artefacts", str(cls.folder / "artefacts")]
+        cls.server = Server(cls.folder, *cls.shared, "--no-workers")
 
     @classmethod
     def tearDownClass(cls):
@@ -65,7 +66,7 @@ class Parts:
         assert status == 0, f"the server ended with {status}"
 
     def worker(self, *options):
-        process = subprocess.Popen([SLIPWAY, "worker", "--data", str(self.data), "--jobs", self.store, "--lease-s", LEASE_S, *options],
+        process = subprocess.Popen([SLIPWAY, "worker", "--data", str(self.data), *self.shared, "--artefact-cache", str(self.folder / "cache"), *options],
                                    stderr=subprocess.PIPE, text=True)
         self.addCleanup(process.stderr.close)
         self.addCleanup(process.wait)
@@ -74,7 +75,7 @@ class Parts:
 
     def pilots_end(self, *pilots):
         for pilot in pilots:
-            self.assertEqual(pilot.wait(timeout=120), 0)
+            self.assertEqual(pilot.wait(timeout=240), 0, pilot.stderr.read())
 
     def submit(self, path, request):
         status, headers, body = self.server.ask("POST", path, request, ASYNC)
@@ -109,6 +110,9 @@ class Parts:
             self.assertEqual([part["part"] for part in parts], [0, 1, 2, 3])
             self.assertGreater(job["cpu_s"], 0.99 * sum(part["cpu_s"] for part in parts))
             self.assertEqual(self.server.ask("GET", location + "/map.tif")[2], alone.read_bytes())
+        kept = [path for path in (self.folder / "artefacts").rglob("*") if path.is_file()]
+        self.assertTrue(kept and all(hashlib.sha256(path.read_bytes()).hexdigest() == path.name for path in kept))
+        self.assertTrue(any((self.folder / "cache").iterdir()), "who puts the parts together has read them")
         self.assertEqual(subprocess.run([SLIPWAY, "jobs", "--jobs", self.store, "--open"], capture_output=True, text=True).stdout, "0\n")
 
     def test_a_batch_answers_as_its_requests_do_though_workers_die(self):
@@ -117,7 +121,7 @@ class Parts:
         self.pilots_end(self.worker("--until-empty"))
         expected = b"".join(self.server.ask("GET", location + "/result")[2] + b"\n" for location in single)
         location = self.submit("/v1/batches", {"kind": "prediction", "requests": requests, "seeds": {"first": 5, "count": 2}})
-        victim = self.worker()
+        victim = self.worker("--lease-s", "5")
         self.becomes(lambda: self.job(location).get("parts", {}).get("ended", 0) >= 1)
         victim.kill()
         self.pilots_end(self.worker("--until-empty"), self.worker("--until-empty"))

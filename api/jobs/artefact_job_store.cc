@@ -1,0 +1,97 @@
+#include "api/jobs/artefact_job_store.h"
+
+#include <atomic>
+#include <utility>
+
+namespace slipway::api {
+namespace {
+
+// What stands in a row for a page: this and its name. A page that begins so itself is kept in the folder too.
+constexpr std::string_view kMark("\0slipway artefact\0", 18);
+
+constexpr std::int64_t kHour_ms = 3'600'000, kDay_ms = 24 * kHour_ms;
+
+class ArtefactJobStore final : public JobStore {
+ public:
+  ArtefactJobStore(std::unique_ptr<JobStore> store, std::shared_ptr<ArtefactFolder> folder)
+      : store_(std::move(store)), folder_(std::move(folder)) {}
+
+  Result<Job> append(const NewJob& job, std::int64_t now, const Admission& admission) override {
+    return store_->append(job, now, admission);
+  }
+  Result<std::optional<ClaimedJob>> claim(std::string_view worker, const std::vector<std::string>& kinds,
+                                          std::int64_t now, std::int64_t lease_until) override {
+    return store_->claim(worker, kinds, now, lease_until);
+  }
+  Result<bool> report(const Lease& lease, std::string_view stage, double progress, std::int64_t lease_until,
+                      std::string_view best_so_far) override {
+    return store_->report(lease, stage, progress, lease_until, best_so_far);
+  }
+
+  Result<bool> finish(const Lease& lease, JobState state, const JobAnswer& outcome,
+                      std::int64_t now) override {
+    if (folder_ == nullptr) return store_->finish(lease, state, outcome, now);
+    JobAnswer named = outcome;
+    for (std::string& page : named.series) {
+      if (page.size() < kMinArtefactBytes && !page.starts_with(kMark)) continue;
+      const auto name = folder_->put(page);
+      if (!name) return fail(name.error());
+      page = std::string(kMark) + *name;
+    }
+    return store_->finish(lease, state, named, now);
+  }
+
+  Result<std::optional<SeriesPage>> series(std::string_view id, std::int64_t page) override {
+    auto kept = store_->series(id, page);
+    if (!kept || !*kept || !(*kept)->bytes.starts_with(kMark)) return kept;
+    if (folder_ == nullptr)
+      return fail(ErrorCode::kStorage, "the page is in a folder of artefacts: name it with --artefacts");
+    auto bytes = folder_->get((*kept)->bytes.substr(kMark.size()));
+    if (!bytes) return fail(bytes.error());
+    (*kept)->bytes = *std::move(bytes);
+    return kept;
+  }
+
+  Result<int> forget_ended(const Retention& kept, std::int64_t now) override {
+    std::int64_t last = cleaned_ms_;
+    if (folder_ != nullptr && now - last > kHour_ms && cleaned_ms_.compare_exchange_strong(last, now))
+      folder_->forget_before(now - kept.most_age_ms - kDay_ms);
+    return store_->forget_ended(kept, now);
+  }
+
+  Result<bool> split(const Lease& lease, const std::vector<std::string>& requests,
+                     std::int64_t now) override {
+    return store_->split(lease, requests, now);
+  }
+  Result<std::vector<Job>> parts(std::string_view id) override { return store_->parts(id); }
+  Result<int> release(std::string_view worker, HandBack why, std::string_view reason) override {
+    return store_->release(worker, why, reason);
+  }
+  Result<std::optional<Job>> dismiss(std::string_view id, std::int64_t now) override {
+    return store_->dismiss(id, now);
+  }
+  Result<std::optional<Job>> get(std::string_view id) override { return store_->get(id); }
+  Result<std::optional<std::string>> request(std::string_view id) override { return store_->request(id); }
+  Result<std::optional<std::string>> outcome(std::string_view id) override { return store_->outcome(id); }
+  Result<std::optional<QueuePlace>> place_in_queue(std::string_view id,
+                                                   const std::vector<std::string>& kinds) override {
+    return store_->place_in_queue(id, kinds);
+  }
+  Result<std::vector<JobCount>> counts() override { return store_->counts(); }
+  Result<std::vector<Job>> list(std::size_t most) override { return store_->list(most); }
+  void listen(StoreNews news, std::function<void()> call) override { store_->listen(news, std::move(call)); }
+
+ private:
+  const std::unique_ptr<JobStore> store_;
+  const std::shared_ptr<ArtefactFolder> folder_;
+  std::atomic<std::int64_t> cleaned_ms_{0};
+};
+
+}  // namespace
+
+std::unique_ptr<JobStore> with_artefacts(std::unique_ptr<JobStore> store,
+                                         std::shared_ptr<ArtefactFolder> folder) {
+  return std::make_unique<ArtefactJobStore>(std::move(store), std::move(folder));
+}
+
+}  // namespace slipway::api
