@@ -87,9 +87,11 @@ class GdalElevation final : public ElevationSource, public std::enable_shared_fr
     return std::make_shared<const Terrain>(info_.geometry.sub(window), std::move(heights), std::move(valid));
   }
 
-  Result<std::shared_ptr<const Terrain>> read_samples(const Extent& extent, int step) const override {
+  Result<std::shared_ptr<const Terrain>> read_samples(const Extent& extent, int wanted_step) const override {
     const auto met = window_of(extent);
     if (!met) return fail(met.error());
+    const Overview overview = overview_of(wanted_step);
+    const int step = overview.band != nullptr ? overview.factor : wanted_step;
     const CellWindow window = whole_steps(with_margin(*met, info_.geometry, step), info_.geometry, step);
     GridGeometry coarse = info_.geometry.sub(window);
     coarse.rows = (window.rows - 1) / step + 1;
@@ -97,10 +99,46 @@ class GdalElevation final : public ElevationSource, public std::enable_shared_fr
     coarse.cell_x_m *= step;
     coarse.cell_y_m *= step;
     if (const auto few = check_cells(coarse.rows, coarse.columns); !few) return fail(few.error());
-    return read_rows(window, step, coarse);
+    return overview.band != nullptr ? read_overview(*overview.band, window, step, coarse)
+                                    : read_rows(window, step, coarse);
   }
 
  private:
+  // The same raster from farther away: a cell of it stands for so many of the raster's along each side.
+  struct Overview {
+    GDALRasterBand* band = nullptr;
+    int factor = 1;
+  };
+
+  // The coarsest overview with cells no larger than the steps, for pictures of wide ground: reading every row
+  // of a large raster for a few of its samples takes seconds. None where the file has none.
+  Overview overview_of(int step) const {
+    const std::lock_guard lock(mutex_);
+    Overview found;
+    for (int k = 0; k < band_.GetOverviewCount(); ++k) {
+      GDALRasterBand* const band = band_.GetOverview(k);
+      const int factor = (info_.geometry.columns + band->GetXSize() / 2) / std::max(1, band->GetXSize());
+      const bool is_whole = (info_.geometry.columns + factor - 1) / factor == band->GetXSize() &&
+                            (info_.geometry.rows + factor - 1) / factor == band->GetYSize();
+      if (is_whole && factor <= step && factor > found.factor) found = {band, factor};
+    }
+    return found;
+  }
+
+  // The window's cells in an overview. Its corner lies on whole steps.
+  Result<std::shared_ptr<const Terrain>> read_overview(GDALRasterBand& overview, const CellWindow& window,
+                                                       int step, const GridGeometry& coarse) const {
+    const std::lock_guard lock(mutex_);
+    const GdalSession session(path_);
+    std::vector<float> heights(static_cast<std::size_t>(coarse.rows) *
+                               static_cast<std::size_t>(coarse.columns));
+    std::vector<std::uint8_t> valid(heights.size());
+    const CellWindow cells{window.row / step, window.column / step, coarse.rows, coarse.columns};
+    if (!read_heights(overview, encoding_, cells, heights.data(), valid.data()))
+      return damaged(window, session);
+    return std::make_shared<const Terrain>(coarse, std::move(heights), std::move(valid));
+  }
+
   Result<CellWindow> window_of(const Extent& extent) const {
     if (const std::optional<CellWindow> met = info_.geometry.window(extent)) return *met;
     const Extent map = info_.geometry.extent();

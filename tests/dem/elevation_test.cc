@@ -88,6 +88,31 @@ TEST(Elevation, SamplesAreTheSameWhateverTheWindowAndTheMissingStayMissing) {
   EXPECT_EQ(source->read_samples({0.0, 0.0, 1.0, 1.0}, 3).error().code, ErrorCode::kOffMap);
 }
 
+// Reading every row of a large raster for a few samples would take seconds.
+TEST(Elevation, SamplesAreCellsOfTheOverviewsWhereTheFileHasThem) {
+  const TemporaryFolder folder;
+  RasterOptions options{.rows = 64, .columns = 72};
+  options.cells = ramp_cells(options);
+  options.overviews = {2, 4};
+  write_geotiff(folder / "grid.tif", options);
+  const auto source = open_elevation(folder / "grid.tif").value();
+  const GridGeometry& whole = source->info().geometry;
+  const auto fine = source->read(whole.extent()).value();
+  const auto samples = source->read_samples(whole.extent(), 7).value();
+  EXPECT_EQ(samples->geometry().cell_x_m, 4.0 * whole.cell_x_m) << "the coarsest that is no coarser than 7";
+  EXPECT_EQ(samples->geometry().rows, 16);
+  EXPECT_EQ(samples->geometry().columns, 18);
+  double sum = 0.0;
+  for (int row = 8; row < 12; ++row)
+    for (int column = 20; column < 24; ++column) sum += *fine->height_m({row, column});
+  EXPECT_NEAR(*samples->height_m({2, 5}), sum / 16.0, 1e-4);
+  const Eigen::Vector2d place = whole.centre_m({33, 41});
+  const auto window =
+      source->read_samples({place.x(), place.y(), place.x() + 1.0, place.y() + 1.0}, 7).value();
+  EXPECT_LT(window->geometry().columns, 18);
+  EXPECT_EQ(window->height_m(place.x(), place.y()), samples->height_m(place.x(), place.y()));
+}
+
 TEST(Elevation, ItsInfoNamesTheSystemTheBodyAndTheType) {
   const TemporaryFolder folder;
   write_geotiff(folder / "mars.tif", {});

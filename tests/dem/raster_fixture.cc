@@ -69,6 +69,11 @@ void write_geotiff(const std::filesystem::path& path, const RasterOptions& optio
                                                nullptr) == CE_None,
             "the fixture's cells could not be written");
   }
+  if (!options.overviews.empty())
+    require(raster->BuildOverviews("AVERAGE", static_cast<int>(options.overviews.size()),
+                                   options.overviews.data(), 0, nullptr, GDALDummyProgress, nullptr,
+                                   nullptr) == CE_None,
+            "the fixture's overviews could not be made");
   raster.reset();
   vsi_l_offset size = 0;
   GByte* bytes = VSIGetMemFileBuffer(kInMemory, &size, TRUE);

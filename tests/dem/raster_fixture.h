@@ -40,6 +40,7 @@ struct RasterOptions {
   std::vector<std::string> creation{};
   std::vector<float> cells{};  // the first band, row by row; empty: not written
   std::function<void(GDALDataset&)> also{};
+  std::vector<int> overviews{};  // factors; their cells are means
 };
 
 // Makes it in memory (the library fences GDAL off from writing files) and copies its bytes to the path.
