@@ -1,13 +1,14 @@
 # cmake --install: the program, its data, and the libraries with their headers as the CMake package "slipway".
+# Components: tools (the program and its data), development (the libraries), service (see packages.cmake).
 include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/slipway)
 set(rooms core dem sim planner gap campaign benchmark api)
 
-install(TARGETS slipway RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(DIRECTORY data/ DESTINATION ${CMAKE_INSTALL_DATADIR}/slipway/data)
-install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(TARGETS slipway RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tools)
+install(DIRECTORY data/ DESTINATION ${CMAKE_INSTALL_DATADIR}/slipway/data COMPONENT tools)
+install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT tools)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT tools)
 
 # slipway::sim and its neighbours. A header is included as here: #include "sim/soil/soil.h".
 add_library(slipway::options ALIAS slipway_options)
@@ -17,12 +18,12 @@ foreach(room IN LISTS rooms)
   add_library(slipway::${room} ALIAS slipway_${room})
   set_target_properties(slipway_${room} PROPERTIES EXPORT_NAME ${room})
   list(APPEND targets slipway_${room})
-  install(DIRECTORY ${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/slipway FILES_MATCHING PATTERN "*.h")
+  install(DIRECTORY ${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/slipway COMPONENT development FILES_MATCHING PATTERN "*.h")
 endforeach()
-install(TARGETS ${targets} EXPORT slipway-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(EXPORT slipway-targets NAMESPACE slipway:: DESTINATION ${package_folder})
+install(TARGETS ${targets} EXPORT slipway-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+install(EXPORT slipway-targets NAMESPACE slipway:: DESTINATION ${package_folder} COMPONENT development)
 configure_package_config_file(cmake/slipway-config.cmake.in ${PROJECT_BINARY_DIR}/slipway-config.cmake
   INSTALL_DESTINATION ${package_folder} PATH_VARS CMAKE_INSTALL_DATADIR)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/slipway-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/slipway-config.cmake ${PROJECT_BINARY_DIR}/slipway-config-version.cmake
-  cmake/slipway_ompl.cmake DESTINATION ${package_folder})
+  cmake/slipway_ompl.cmake DESTINATION ${package_folder} COMPONENT development)

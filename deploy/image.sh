@@ -1,0 +1,14 @@
+#!/bin/sh
+# Makes the content of a container: a root file system (tar) with Debian 12 and the packages of build/packages in it.
+# Needs root and mmdebstrap. `slipway serve --config /etc/slipway/slipway.toml`, run in it as the user slipway, is the service.
+#   sh deploy/image.sh IMAGE.tar
+set -eu
+image="$1"
+cd "$(dirname "$0")/.."
+command -v mmdebstrap >/dev/null || apt-get install -q -y --no-install-recommends mmdebstrap
+tools=$(ls -t "$PWD"/build/packages/slipway_*.deb | head -n 1)
+service=$(ls -t "$PWD"/build/packages/slipway-service_*.deb | head -n 1)
+# This machine's package sources: they are known to be reached.
+sources=$(ls /etc/apt/sources.list.d/debian.sources /etc/apt/sources.list 2>/dev/null | head -n 1)
+mmdebstrap --variant=apt --hook-dir=/usr/share/mmdebstrap/hooks/file-mirror-automount \
+  --include="$tools,$service,ca-certificates" bookworm "$image" "$sources"
