@@ -48,8 +48,8 @@ class Contract(WithServer):
                 continue  # of files that must be sent first: see uploads_test.py
             content = methods.get("post", {}).get("requestBody", {}).get("content", {})
             for example in content.get("application/json", {}).get("examples", {}).values():
-                if "value" not in example:
-                    continue
+                if "value" not in example or (path, example["value"]) == ("/v1/diagnoses", {"campaign": "p05"}):
+                    continue  # that one is asked by the test of the shipped campaigns
                 if "201" in methods["post"]["responses"]:  # a job
                     answer = self.server.answer(path, example["value"])
                 else:
