@@ -8,6 +8,7 @@ import json
 import os
 import pathlib
 import shutil
+import socket
 import sqlite3
 import subprocess
 import sys
@@ -18,7 +19,9 @@ import urllib.error
 import urllib.request
 
 SOURCE, BUILD = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
-PORT = 18080
+with socket.socket() as free:
+    free.bind(("127.0.0.1", 0))
+    PORT = free.getsockname()[1]
 SKIPPED = 77
 STORE = "var/lib/slipway/jobs.sqlite"
 # What the schema of version 4 has and that of version 3 had not.
@@ -40,6 +43,8 @@ def sources():
 
 
 class Packages(unittest.TestCase):
+    service = None
+
     @classmethod
     def setUpClass(cls):
         cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="slipway-package-"))
@@ -87,6 +92,10 @@ class Packages(unittest.TestCase):
             self.assertIsNone(self.service.poll(), (self.folder / "service.log").read_text()[-3000:])
             time.sleep(0.1)
         self.fail("the service does not answer")
+
+    def tearDown(self):
+        if self.service is not None and self.service.poll() is None:
+            self.service.kill()
 
     def stop(self):
         self.service.terminate()
