@@ -155,7 +155,7 @@ class Packages(unittest.TestCase):
         self.assertFalse((self.root / "var/lib/slipway").exists())
         self.assertFalse((self.root / "etc/slipway").exists())
         self.assertEqual(self.inside("sh", "-c", "getent passwd slipway || true"), "")
-        left = [path for path in run("find", self.root, "-xdev", "-path", "*slipway*", "-not", "-path", f"{self.root}/tmp/*").split()]
+        left = run("find", ".", "-xdev", "-path", "./*slipway*", "-not", "-path", "./tmp/*", cwd=self.root).split()
         self.assertEqual(left, [], "nothing is left")
 
 
