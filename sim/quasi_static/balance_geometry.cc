@@ -1,5 +1,6 @@
 #include "sim/quasi_static/balance_geometry.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -59,6 +60,30 @@ BalanceGeometry::BalanceGeometry(const RoverModel& rover_model, double g_m_s2, c
     place_slices(k);
   }
   set_gravity();
+  set_gaps();
+}
+
+void BalanceGeometry::set_gaps() {
+  const auto count = static_cast<Eigen::Index>(wheels.size());
+  gap_gradient.resize(count, 3 + joints);
+  gap_m.resize(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const auto wheel = static_cast<std::size_t>(k);
+    const Eigen::Vector3d& normal = stance->normal_B[wheel];
+    const Eigen::Vector3d& p = stance->p_B_wheel[wheel];
+    gap_m[k] = stance->gap_m[wheel] - wheels[wheel].highest_m;
+    gap_gradient(k, 0) = normal.z();
+    gap_gradient(k, 1) = normal.dot(Eigen::Vector3d::UnitX().cross(p)) / half_wheelbase_m;
+    gap_gradient(k, 2) = normal.dot(Eigen::Vector3d::UnitY().cross(p)) / half_wheelbase_m;
+    for (int j = 0; j < joints; ++j)
+      gap_gradient(k, 3 + j) = normal.dot(wheels[wheel].joint[j].shift) / half_wheelbase_m;
+  }
+  using Normal = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxFreedoms, kMaxFreedoms>;
+  using Turns = Eigen::Matrix<double, Eigen::Dynamic, 2, 0, kMaxFreedoms, 2>;
+  const Normal normal = gap_gradient.transpose() * gap_gradient;
+  Turns turns = Turns::Zero(normal.rows(), 2);
+  turns(1, 0) = turns(2, 1) = 1.0 / half_wheelbase_m;
+  lean_by_height = normal.ldlt().solve(turns).transpose() * gap_gradient.transpose();
 }
 
 // The body's weight acts at the rocker pivots, and the differential passes equal moments to both sides. On
@@ -78,7 +103,7 @@ void BalanceGeometry::set_gravity() {
   if (own == 0.0) return;
   for (int j = 0; j < joints; ++j)
     for (std::size_t k = 0; k < wheels.size(); ++k)
-      gravity[6 + j] += own * g.dot(joint_motion(*rover, *stance, k, j).shift) / half_wheelbase_m;
+      gravity[6 + j] += own * g.dot(wheels[k].joint[j].shift) / half_wheelbase_m;
 }
 
 void BalanceGeometry::add(const OutsideWrench& wrench) {
@@ -93,8 +118,7 @@ void BalanceGeometry::add(const OutsideWrench& wrench) {
     const Eigen::Vector3d& force_n = wrench.at_wheel_n[k];
     add_force(force_n, stance->p_B_wheel[k].cross(force_n));
     for (int j = 0; j < joints; ++j)
-      gravity[6 + j] +=
-          force_n.dot(joint_motion(*rover, *stance, k, j).shift) / (half_wheelbase_m * weight_n);
+      gravity[6 + j] += force_n.dot(wheels[k].joint[j].shift) / (half_wheelbase_m * weight_n);
   }
 }
 
@@ -114,8 +138,7 @@ void BalanceGeometry::place_wheel(std::size_t k, const WheelCommand& commanded) 
   const Eigen::Vector3d x = axle.cross(normal).normalized();
   const Eigen::Vector3d y = normal.cross(x);
   const Eigen::Vector3d& p = stance->p_B_wheel[k];
-  std::array<JointMotion, kMaxJoints> joint;
-  for (int j = 0; j < joints; ++j) joint[j] = joint_motion(*rover, *stance, k, j);
+  for (int j = 0; j < joints; ++j) place.joint[j] = joint_motion(*rover, *stance, k, j);
 
   // The columns are for drawbar pull, lateral and vertical force, torque, and overturning moment. The pull
   // and the torque of a wheel that turns backwards point backwards. The lateral force acts at the rim's
@@ -134,7 +157,7 @@ void BalanceGeometry::place_wheel(std::size_t k, const WheelCommand& commanded) 
     e[2] = w.force.z();
     e.segment<3>(3) = (p.cross(w.force) + w.moment) / half_wheelbase_m;
     for (int j = 0; j < joints; ++j)
-      e[6 + j] = (w.force.dot(joint[j].shift) + w.moment.y() * joint[j].turn) / half_wheelbase_m;
+      e[6 + j] = (w.force.dot(place.joint[j].shift) + w.moment.y() * place.joint[j].turn) / half_wheelbase_m;
   }
   place.effect /= weight_n;
 

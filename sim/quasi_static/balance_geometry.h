@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "sim/quasi_static/outside_wrench.h"
@@ -23,6 +24,9 @@ struct BalanceGeometry {
   // its slip would be infinite otherwise. All shear is mobilised at much lower slip.
   static constexpr double kMinRateRatio = 1e-3;
   using Equilibrium = Eigen::Matrix<double, kPaddedEquilibrium, 1>;
+  static constexpr int kMaxFreedoms = 3 + kMaxJoints;
+  using GapGradient = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxWheels, kMaxFreedoms>;
+  using Loads = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxWheels, 1>;
 
   struct Wheel {
     WheelGeometry geometry;
@@ -35,7 +39,8 @@ struct BalanceGeometry {
     // For a sliced wheel, the ground under each slice relative to the highest. The wheel's entry angle is
     // that of the slice on the highest ground, so that the wheel touches the ground at any entry angle.
     SliceHeights slice_height_m{};
-    double highest_m = 0.0;  // height of that ground over the wheel's contact plane
+    double highest_m = 0.0;                     // height of that ground over the wheel's contact plane
+    std::array<JointMotion, kMaxJoints> joint;  // what each joint moves it by
     Eigen::RowVector3d forward_ratio,
         leftward_ratio;  // derivatives of u and v_y / (r |w|) by the three motions
   };
@@ -65,10 +70,18 @@ struct BalanceGeometry {
   std::vector<Wheel> wheels;
   Equilibrium gravity =
       Equilibrium::Zero();  // its part in the equations of equilibrium, with all that is added
+  // Of each wheel to the ground, and their derivatives by heave, roll, pitch (times half the wheelbase) and
+  // joints.
+  Loads gap_m;
+  GapGradient gap_gradient;
+  // Roll (first row) and pitch of the body for a unit of height of each wheel, all being in contact, by least
+  // squares over heave, roll, pitch and joints [rad / m].
+  Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kMaxWheels> lean_by_height;
 
  private:
   void place_wheel(std::size_t wheel, const WheelCommand& commanded);
   void place_slices(std::size_t wheel);
+  void set_gaps();
   void set_gravity();
 };
 

@@ -185,11 +185,12 @@ StationState QuasiStaticSolver::solve(const Stance& stance, const PerWheel<Soil>
   return solve(balance, command, start, thoroughness);
 }
 
-StationState QuasiStaticSolver::solve(const BalanceGeometry& geometry, const PerWheel<Soil>& soils) {
+StationState QuasiStaticSolver::solve(const BalanceGeometry& geometry, const PerWheel<Soil>& soils,
+                                      const Start* start, Thoroughness thoroughness) {
   if (any_slip_curve(soils))
-    return solve_with_slip_curves(*geometry.stance, soils, geometry.command, Thoroughness::kSure);
+    return solve_with_slip_curves(*geometry.stance, soils, geometry.command, thoroughness);
   RoverBalance balance(geometry, soils);
-  return solve(balance, geometry.command, nullptr, Thoroughness::kSure);
+  return solve(balance, geometry.command, start, thoroughness);
 }
 
 StationState QuasiStaticSolver::solve(RoverBalance& balance, const DriveCommand& command, const Start* start,

@@ -106,8 +106,10 @@ class QuasiStaticSolver {
   StationState solve(const Stance& stance, const PerWheel<Soil>& soils, const DriveCommand& command,
                      const Start* start = nullptr, Thoroughness thoroughness = Thoroughness::kSure);
   StationState solve(const Stance& stance, const Soil& soil, const DriveCommand& command);
-  // On a geometry that was made of this solver's rover and gravity, for a station that is solved often.
-  StationState solve(const BalanceGeometry& geometry, const PerWheel<Soil>& soils);
+  // On a geometry that was made of this solver's rover and gravity, for a station that is solved often. What
+  // acts from outside is what was added to the geometry.
+  StationState solve(const BalanceGeometry& geometry, const PerWheel<Soil>& soils,
+                     const Start* start = nullptr, Thoroughness thoroughness = Thoroughness::kSure);
   // The unknowns of the last solve (see RoverBalance); empty where the rover did not move.
   std::optional<RoverBalance::Vector> unknowns_of_last() const {
     return warm_ ? std::optional(last_) : std::nullopt;

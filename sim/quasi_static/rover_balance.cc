@@ -52,7 +52,7 @@ void RoverBalance::set_soils(const PerWheel<Soil>& soils) {
     numbers_[k] = numbers_of(geometry_.wheels[k].geometry, soils_[k], 0.0, {});
   }
   if (geometry_.undetermined == 0) return;
-  set_gap_gradient();
+  set_sinkage_scale();
   set_compatibility();
 }
 

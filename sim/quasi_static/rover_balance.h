@@ -39,7 +39,7 @@ class RoverBalance {
   static constexpr int kMaxEquations = kMotions + kMaxWheels;
   using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxEquations, 1>;
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxEquations, kMaxEquations>;
-  using Loads = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxWheels, 1>;
+  using Loads = BalanceGeometry::Loads;
 
   // The forces of the ground on one wheel, and the wheel's motion over it.
   struct WheelContact {
@@ -124,20 +124,20 @@ class RoverBalance {
   struct Lean {
     double roll_rad = 0.0, pitch_rad = 0.0;
   };
-  Lean lean(const Vector& unknowns);
+  Lean lean(const Vector& unknowns) const;
   // The height of a wheel in the air over the ground under it; negative where it cuts into the ground.
   double height_in_air_m(int wheel, const Vector& unknowns) const;
 
  private:
-  static constexpr int kMaxFreedoms = 3 + kMaxJoints;
-  using GapGradient = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxWheels, kMaxFreedoms>;
+  static constexpr int kMaxFreedoms = BalanceGeometry::kMaxFreedoms;
+  using GapGradient = BalanceGeometry::GapGradient;
   using Freedoms = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxFreedoms, 1>;
 
   const BalanceGeometry::Wheel& place(int wheel) const {
     return geometry_.wheels[static_cast<std::size_t>(wheel)];
   }
   void set_soils(const PerWheel<Soil>& soils);
-  void set_gap_gradient();
+  void set_sinkage_scale();
   void set_compatibility();
   // A wheel at an entry angle and in a motion at which its contact is to be evaluated.
   struct Trial {
@@ -171,8 +171,6 @@ class RoverBalance {
   int in_contact_;
   double sinkage_scale_m_ = 1.0;  // z_ref; without meaning where all loads are determined
   Vector at_, residual_at_;       // unknowns and values of the last residual; empty once the contacts change
-  GapGradient gap_gradient_;      // by heave, roll, pitch (times half the wheelbase) and joints
-  Loads gap_;
   // The compatibility equations as rows over the wheels' own sinkages.
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxWheels, kMaxWheels> compatibility_;
   Loads compatibility_of_gap_;

@@ -17,27 +17,14 @@ constexpr double kMinSinkageRatio = 0.01;
 
 }  // namespace
 
-void RoverBalance::set_gap_gradient() {
+void RoverBalance::set_sinkage_scale() {
   const int n = wheel_count();
-  gap_gradient_.resize(n, 3 + geometry_.joints);
-  gap_.resize(n);
   double sinkage = 0.0, radius = 0.0;
   for (int k = 0; k < n; ++k) {
-    const Eigen::Vector3d& normal = stance().normal_B[k];
-    const Eigen::Vector3d& p = stance().p_B_wheel[k];
-    gap_[k] = stance().gap_m[k] - place(k).highest_m;
-    gap_gradient_(k, 0) = normal.z();
-    gap_gradient_(k, 1) = normal.dot(Eigen::Vector3d::UnitX().cross(p)) / geometry_.half_wheelbase_m;
-    gap_gradient_(k, 2) = normal.dot(Eigen::Vector3d::UnitY().cross(p)) / geometry_.half_wheelbase_m;
-    for (int j = 0; j < geometry_.joints; ++j)
-      gap_gradient_(k, 3 + j) =
-          normal.dot(joint_motion(rover(), stance(), k, j).shift) / geometry_.half_wheelbase_m;
-    if (geometry_.undetermined == 0) continue;
     sinkage += bekker_sinkage_m(place(k).geometry, soils_[k], geometry_.weight_n / n) / n;
     radius += place(k).geometry.radius_m / n;
   }
-  if (geometry_.undetermined > 0)
-    sinkage_scale_m_ = std::max(kMinSinkageRatio * radius, std::min(radius, sinkage));
+  sinkage_scale_m_ = std::max(kMinSinkageRatio * radius, std::min(radius, sinkage));
 }
 
 void RoverBalance::set_compatibility() {
@@ -50,8 +37,8 @@ void RoverBalance::set_compatibility() {
   PerWheel<int> wheel(in_contact_);
   for (int k = 0, row = 0; k < wheel_count(); ++k) {
     if (in_air_[k]) continue;
-    a.row(row) = gap_gradient_.row(k);
-    gap[row] = gap_[k];
+    a.row(row) = geometry_.gap_gradient.row(k);
+    gap[row] = geometry_.gap_m[k];
     wheel[row++] = k;
   }
   // The last columns of Q in A = Q R span the null space of A^T.
@@ -85,16 +72,14 @@ RoverBalance::Freedoms RoverBalance::body_motion(const Loads& height_m, const Fr
   Freedoms right = push;
   for (int k = 0; k < wheel_count(); ++k) {
     if (in_air_[k]) continue;
-    normal += gap_gradient_.row(k).transpose() * gap_gradient_.row(k);
-    right += gap_gradient_.row(k).transpose() * height_m[k];
+    normal += geometry_.gap_gradient.row(k).transpose() * geometry_.gap_gradient.row(k);
+    right += geometry_.gap_gradient.row(k).transpose() * height_m[k];
   }
   return normal.ldlt().solve(right);
 }
 
 // A spring's load is -stiffness (gap + A q), and A^T load + gravity = 0.
 RoverBalance::Loads RoverBalance::resting_loads_n() {
-  // Where every load is determined, only this function needs the gradient.
-  if (geometry_.undetermined == 0) set_gap_gradient();
   const int n = wheel_count();
   const double stiffness = 1.0 / (n * sinkage_scale_m_);  // per unit of weight
   Freedoms pull(3 + geometry_.joints);
@@ -102,10 +87,10 @@ RoverBalance::Loads RoverBalance::resting_loads_n() {
   pull.tail(geometry_.joints) = geometry_.gravity.segment(6, geometry_.joints);
   Loads load = Loads::Zero(n);
   for (int round = 0; round < 2 * n; ++round) {
-    const Freedoms q = body_motion(-gap_, pull / stiffness);
+    const Freedoms q = body_motion(-geometry_.gap_m, pull / stiffness);
     int lightest = -1, deepest = -1;
     for (int k = 0; k < n; ++k) {
-      load[k] = -stiffness * (gap_[k] + gap_gradient_.row(k).dot(q));
+      load[k] = -stiffness * (geometry_.gap_m[k] + geometry_.gap_gradient.row(k).dot(q));
       if (!in_air_[k] && load[k] < 0.0 && (lightest < 0 || load[k] < load[lightest])) lightest = k;
       if (in_air_[k] && load[k] > 0.0 && (deepest < 0 || load[k] > load[deepest])) deepest = k;
     }
@@ -131,12 +116,15 @@ PerWheel<double> RoverBalance::total_sinkages_m(const Vector& unknowns) const {
 
 // Where every load is determined the suspension closed the stance's gaps, as far as the ground's kinks let
 // it.
-RoverBalance::Lean RoverBalance::lean(const Vector& unknowns) {
-  if (geometry_.undetermined == 0) set_gap_gradient();
+RoverBalance::Lean RoverBalance::lean(const Vector& unknowns) const {
   const PerWheel<double> depth = total_sinkages_m(unknowns);
   Loads height(wheel_count());
   for (int k = 0; k < wheel_count(); ++k)
-    height[k] = -depth[k] - (geometry_.undetermined > 0 ? gap_[k] : -place(k).highest_m);
+    height[k] = -depth[k] - (geometry_.undetermined > 0 ? geometry_.gap_m[k] : -place(k).highest_m);
+  if (all_in_contact()) {
+    const Eigen::Vector2d turned = geometry_.lean_by_height * height;
+    return {turned[0], turned[1]};
+  }
   const Freedoms q = body_motion(height, Freedoms::Zero(3 + geometry_.joints));
   return {q[1] / geometry_.half_wheelbase_m, q[2] / geometry_.half_wheelbase_m};
 }
@@ -144,9 +132,9 @@ RoverBalance::Lean RoverBalance::lean(const Vector& unknowns) {
 double RoverBalance::height_in_air_m(int wheel, const Vector& unknowns) const {
   const PerWheel<double> depth = total_sinkages_m(unknowns);
   Loads height(wheel_count());
-  for (int k = 0; k < wheel_count(); ++k) height[k] = -(gap_[k] + depth[k]);
+  for (int k = 0; k < wheel_count(); ++k) height[k] = -(geometry_.gap_m[k] + depth[k]);
   const Freedoms q = body_motion(height, Freedoms::Zero(3 + geometry_.joints));
-  return gap_gradient_.row(wheel).dot(q) - height[wheel];
+  return geometry_.gap_gradient.row(wheel).dot(q) - height[wheel];
 }
 
 }  // namespace slipway::sim

@@ -267,24 +267,42 @@ double Hypothesis::step(std::size_t parameter) const {
 
 Eigen::MatrixXd Hypothesis::scaled_jacobian(const WindowModel& model, std::span<const double> x,
                                             std::size_t threads, std::span<const double> predicted) const {
+  // Of each parameter above and below, where that is not x, whose predictions are given.
+  struct Point {
+    std::vector<double> x;
+    std::optional<std::size_t> near;  // index into `states`
+  };
+  std::vector<Point> above, below;
+  std::vector<WindowModel::NearState> states;
+  for (std::size_t p = 0; p < parameters_.size(); ++p) {
+    const Parameter& parameter = parameters_[p];
+    double high = std::min(parameter.highest, x[p] + step(p));
+    double low = std::max(parameter.lowest, x[p] - step(p));
+    if (!predicted.empty()) (high - x[p] >= x[p] - low ? low : high) = x[p];
+    const bool same_rover = p < nuisances_ && places_[p].row->on_rover == nullptr;
+    const auto at = [&](double value) {
+      Point point{{x.begin(), x.end()}, {}};
+      point.x[p] = value;
+      if (value == x[p] && !predicted.empty()) return point;
+      point.near = states.size();
+      states.push_back({state(point.x), same_rover});
+      return point;
+    };
+    above.push_back(at(high));
+    below.push_back(at(low));
+  }
+  std::vector<std::vector<double>> found = model.predict_near(state(x), states, threads);
   const auto rows = static_cast<Eigen::Index>(model.observation_count());
   Eigen::MatrixXd jacobian(rows, static_cast<Eigen::Index>(parameters_.size()));
-  const WindowModel::Starts starts = model.starts_at(state(x), threads);
   parallel_for(parameters_.size(), threads, [&](std::size_t p) {
-    const Parameter& parameter = parameters_[p];
-    std::vector<double> low(x.begin(), x.end()), high = low;
-    high[p] = std::min(parameter.highest, x[p] + step(p));
-    low[p] = std::max(parameter.lowest, x[p] - step(p));
-    if (!predicted.empty()) (high[p] - x[p] >= x[p] - low[p] ? low[p] : high[p]) = x[p];
-    const auto at = [&](const std::vector<double>& there) {
-      return there[p] == x[p] && !predicted.empty()
-                 ? std::vector<double>(predicted.begin(), predicted.end())
-                 : as_shown(model, there, model.predict_near(starts, state(there)));
+    const auto shown = [&](const Point& point) {
+      return point.near ? as_shown(model, point.x, std::move(found[*point.near]))
+                        : std::vector<double>(predicted.begin(), predicted.end());
     };
-    const std::vector<double> above = at(high), below = at(low);
-    const double scale = parameter.std / (high[p] - low[p]);
+    const std::vector<double> high = shown(above[p]), low = shown(below[p]);
+    const double scale = parameters_[p].std / (above[p].x[p] - below[p].x[p]);
     for (Eigen::Index i = 0; i < rows; ++i) {
-      const double slope = scale * (above[static_cast<std::size_t>(i)] - below[static_cast<std::size_t>(i)]);
+      const double slope = scale * (high[static_cast<std::size_t>(i)] - low[static_cast<std::size_t>(i)]);
       jacobian(i, static_cast<Eigen::Index>(p)) = std::isfinite(slope) ? slope : 0.0;
     }
   });

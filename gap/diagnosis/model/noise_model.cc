@@ -125,16 +125,15 @@ double log_marginal(double residual_square, const Eigen::VectorXd& products, Eig
   return -0.5 * (residual_square - explained) - llt.matrixLLT().diagonal().array().log().sum();
 }
 
-double NoiseModel::log_marginal_of(std::span<const Eigen::MatrixXd> own, std::size_t threads) const {
-  std::vector<Eigen::MatrixXd> squares(own.size());
-  parallel_for(own.size(), threads, [&](std::size_t b) {
-    const Eigen::MatrixXd white = blocks_[b].factor.solve(own[b]);
-    squares[b] = Eigen::MatrixXd::Zero(white.cols(), white.cols());
-    squares[b].selfadjointView<Eigen::Lower>().rankUpdate(white.transpose());
+double NoiseModel::log_marginal_of(std::span<const Eigen::MatrixXd> own,
+                                   std::vector<Eigen::MatrixXd>& squares, std::size_t threads) const {
+  parallel_for(squares.size(), threads, [&](std::size_t part) {
+    squares[part].setZero(own.front().cols(), own.front().cols());
+    for (std::size_t b = part; b < own.size(); b += squares.size())
+      squares[part].selfadjointView<Eigen::Lower>().rankUpdate(blocks_[b].factor.solve(own[b]).transpose());
   });
-  // In the blocks' order, whatever the number of threads.
-  Eigen::MatrixXd sum = squares.front();
-  for (std::size_t b = 1; b < squares.size(); ++b) sum += squares[b];
+  for (std::size_t part = 1; part < squares.size(); ++part) squares.front() += squares[part];
+  const Eigen::MatrixXd& sum = squares.front();
   const Eigen::Index columns = sum.cols() - 1;
   return log_marginal(sum(0, 0), sum.col(0).tail(columns), sum.bottomRightCorner(columns, columns));
 }
@@ -151,6 +150,9 @@ void NoiseModel::estimate(const Eigen::VectorXd& residuals, const Eigen::MatrixX
     own.emplace_back(static_cast<Eigen::Index>(rows.size()), systematic.cols() + 1);
     own.back() << residuals(rows), systematic(rows, Eigen::all);
   }
+  // As many sums as this whatever the number of threads, so that there is one order of summing.
+  constexpr std::size_t kSums = 8;
+  std::vector<Eigen::MatrixXd> squares(std::min(kSums, blocks_.size()));
   const auto score = [&](const NoiseScales& scales) {
     set(scales, threads);
     NoiseScales copy = scales;
@@ -158,7 +160,7 @@ void NoiseModel::estimate(const Eigen::VectorXd& residuals, const Eigen::MatrixX
     double prior = 0.0;
     for (int k = 0; k < kNoiseScales; ++k)
       prior += std::pow(std::log(*numbers[k] / *believed[k]) / options_.prior_std, 2);
-    return log_marginal_of(own, threads) - 0.5 * log_determinant_ - 0.5 * prior;
+    return log_marginal_of(own, squares, threads) - 0.5 * log_determinant_ - 0.5 * prior;
   };
   double value = score(best);
   for (const double step : {1.0, 0.5, 0.25}) {

@@ -77,8 +77,10 @@ class NoiseModel {
   };
   static std::vector<Eigen::Index> rows_of(const Block& block);
   void factor(Block& block);  // by the scales
-  // log_marginal of residuals (the first column) beside the other columns, of each block's rows.
-  double log_marginal_of(std::span<const Eigen::MatrixXd> own, std::size_t threads) const;
+  // log_marginal of residuals (the first column) beside the other columns, of each block's rows. `squares`
+  // holds the sums of the columns' products, one at least, and is kept from call to call for its memory.
+  double log_marginal_of(std::span<const Eigen::MatrixXd> own, std::vector<Eigen::MatrixXd>& squares,
+                         std::size_t threads) const;
   // Of sensors and of what is left over.
   Eigen::VectorXd variances_of(const WindowRows& part, const NoiseScales& scales) const;
 

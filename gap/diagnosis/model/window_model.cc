@@ -217,15 +217,19 @@ void WindowModel::predict_window(std::size_t w, const ModelState& state, std::sp
         std::abs(before->stance.bogie_rad[0] - place.stance.bogie_rad[0]) < kSameAttitude_rad &&
         std::abs(before->stance.bogie_rad[1] - place.stance.bogie_rad[1]) < kSameAttitude_rad;
     if (!as_before) {
-      const StationStart* start = from.starts[w].empty() ? nullptr : &from.starts[w][i];
+      const StationStart* start = from.starts.empty() ? nullptr : &from.starts[i];
+      const sim::QuasiStaticSolver::Start* const balance =
+          start != nullptr && start->balance ? &*start->balance : nullptr;
+      const auto thoroughness =
+          start == nullptr || start->moving ? sim::Thoroughness::kSure : sim::Thoroughness::kQuick;
       const bool stuck = from.near && start != nullptr && !start->moving;
       sim::StationState at;
-      set_outside(solver, state, place.stance, window.command);
-      if (!stuck)
-        at = solver.solve(
-            place.stance, soils_at(place, state), window.command,
-            start != nullptr && start->balance ? &*start->balance : nullptr,
-            start == nullptr || start->moving ? sim::Thoroughness::kSure : sim::Thoroughness::kQuick);
+      if (!stuck && !from.geometries.empty()) {
+        at = solver.solve(from.geometries[i], soils_at(place, state), balance, thoroughness);
+      } else if (!stuck) {
+        set_outside(solver, state, place.stance, window.command);
+        at = solver.solve(place.stance, soils_at(place, state), window.command, balance, thoroughness);
+      }
       const bool moves = !stuck && gets_on(at);
       if (!moves) {
         moving = false;
@@ -243,58 +247,100 @@ void WindowModel::predict_window(std::size_t w, const ModelState& state, std::sp
   }
 }
 
-WindowModel::Starts WindowModel::starts_at(const ModelState& state, std::size_t threads) const {
-  Starts starts(windows_.size());
-  const bool same_shape = same_shape_as(state.rover, *campaign_.rover);
-  parallel_for(windows_.size(), threads, [&](std::size_t w) {
-    sim::QuasiStaticSolver solver(state.rover, campaign_.gravity_m_s2);
-    std::vector<Place> own;
-    const std::span<const Place> places = places_in(w, state, same_shape, own);
-    starts[w].resize(places.size());
-    for (std::size_t i = 0; i < places.size() && !cancelled(); ++i) {
-      const sim::PerWheel<sim::Soil> soils = soils_at(places[i], state);
-      set_outside(solver, state, places[i].stance, windows_[w].command);
-      const bool known = !starts_[w].empty() && starts_[w][i].balance;
-      starts[w][i].moving = gets_on(solver.solve(places[i].stance, soils, windows_[w].command,
-                                                 known ? &*starts_[w][i].balance : nullptr));
-      starts[w][i].balance = solver.start_of_last(places[i].stance, soils, windows_[w].command);
-      if (!starts[w][i].moving) solver.reset();
-    }
-  });
+std::vector<WindowModel::StationStart> WindowModel::starts_of(std::size_t w, const ModelState& state,
+                                                              std::span<const Place> places) const {
+  sim::QuasiStaticSolver solver(state.rover, campaign_.gravity_m_s2);
+  std::vector<StationStart> starts(places.size());
+  for (std::size_t i = 0; i < places.size() && !cancelled(); ++i) {
+    const sim::PerWheel<sim::Soil> soils = soils_at(places[i], state);
+    set_outside(solver, state, places[i].stance, windows_[w].command);
+    const bool known = !starts_[w].empty() && starts_[w][i].balance;
+    starts[i].moving = gets_on(solver.solve(places[i].stance, soils, windows_[w].command,
+                                            known ? &*starts_[w][i].balance : nullptr));
+    starts[i].balance = solver.start_of_last(places[i].stance, soils, windows_[w].command);
+    if (!starts[i].moving) solver.reset();
+  }
   return starts;
 }
 
+std::vector<sim::BalanceGeometry> WindowModel::geometries_of(std::size_t w, const ModelState& state,
+                                                             std::span<const Place> places) const {
+  const sim::DriveCommand& command = windows_[w].command;
+  std::vector<sim::BalanceGeometry> geometries;
+  for (const Place& place : places) {
+    geometries.emplace_back(state.rover, campaign_.gravity_m_s2, place.stance, command);
+    if (state.outside.any())
+      geometries.back().add(wrench_of(state.outside, state.rover, place.stance, command));
+  }
+  return geometries;
+}
+
 void WindowModel::start_from(const ModelState& state, std::size_t threads) {
-  starts_ = starts_at(state, threads);
+  std::vector<std::vector<StationStart>> starts(windows_.size());
+  const bool same_shape = same_shape_as(state.rover, *campaign_.rover);
+  parallel_for(windows_.size(), threads, [&](std::size_t w) {
+    std::vector<Place> own;
+    starts[w] = starts_of(w, state, places_in(w, state, same_shape, own));
+  });
+  starts_ = std::move(starts);
 }
 
+std::vector<std::size_t> WindowModel::first_windows() const {
+  std::vector<std::size_t> first;
+  for (std::size_t w = 0; w < windows_.size(); ++w)
+    if (w == 0 || windows_[w].drive != windows_[w - 1].drive) first.push_back(w);
+  first.push_back(windows_.size());
+  return first;
+}
+
+// A drive's windows follow each other on one thread, each drive with a solver of its own: numbers do not
+// depend on how drives are spread.
 std::vector<double> WindowModel::predict(const ModelState& state, std::size_t threads) const {
-  return predict(state, threads, From{starts_});
-}
-
-std::vector<double> WindowModel::predict_near(const Starts& starts, const ModelState& state) const {
-  return predict(state, 1, From{starts, true});
-}
-
-std::vector<double> WindowModel::predict(const ModelState& state, std::size_t threads,
-                                         const From& from) const {
   std::vector<double> out(observation_count(), kNotMeasured);
   const bool same_shape = same_shape_as(state.rover, *campaign_.rover);
-  // A drive's windows follow each other on one thread, each from a solver of its own: numbers do not depend
-  // on how drives are spread.
-  std::vector<std::size_t> first{0};
-  for (std::size_t w = 1; w < windows_.size(); ++w)
-    if (windows_[w].drive != windows_[w - 1].drive) first.push_back(w);
-  if (windows_.empty()) return out;
-  parallel_for(first.size(), threads, [&](std::size_t d) {
+  const std::vector<std::size_t> first = first_windows();
+  parallel_for(first.size() - 1, threads, [&](std::size_t d) {
     sim::QuasiStaticSolver solver(state.rover, campaign_.gravity_m_s2);
-    const std::size_t end = d + 1 < first.size() ? first[d + 1] : windows_.size();
-    for (std::size_t w = first[d]; w < end; ++w) {
+    for (std::size_t w = first[d]; w < first[d + 1]; ++w) {
       if (cancelled()) return;
       if (!used(w)) continue;
       std::vector<Place> own;
-      predict_window(w, state, places_in(w, state, same_shape, own), from, solver,
+      predict_window(w, state, places_in(w, state, same_shape, own), {starts_[w]}, solver,
                      std::span(out).subspan(offsets_[w], windows_[w].observations.size()));
+    }
+  });
+  return out;
+}
+
+std::vector<std::vector<double>> WindowModel::predict_near(const ModelState& centre,
+                                                           std::span<const NearState> near,
+                                                           std::size_t threads) const {
+  std::vector<std::vector<double>> out(near.size(), std::vector<double>(observation_count(), kNotMeasured));
+  const bool centre_has_shape = same_shape_as(centre.rover, *campaign_.rover);
+  std::vector<bool> has_shape;
+  for (const NearState& n : near) has_shape.push_back(same_shape_as(n.state.rover, *campaign_.rover));
+  const std::vector<std::size_t> first = first_windows();
+  parallel_for(first.size() - 1, threads, [&](std::size_t d) {
+    std::vector<sim::QuasiStaticSolver> solvers;
+    for (const NearState& n : near) solvers.emplace_back(n.state.rover, campaign_.gravity_m_s2);
+    for (std::size_t w = first[d]; w < first[d + 1]; ++w) {
+      if (cancelled()) return;
+      if (!used(w)) continue;
+      std::vector<Place> own_centre;
+      const std::span<const Place> places = places_in(w, centre, centre_has_shape, own_centre);
+      const std::vector<StationStart> starts = starts_of(w, centre, places);
+      const std::vector<sim::BalanceGeometry> geometries = geometries_of(w, centre, places);
+      for (std::size_t n = 0; n < near.size(); ++n) {
+        const ModelState& state = near[n].state;
+        const std::span<double> values =
+            std::span(out[n]).subspan(offsets_[w], windows_[w].observations.size());
+        std::vector<Place> own;
+        if (near[n].same_rover)
+          predict_window(w, state, places, {starts, true, geometries}, solvers[n], values);
+        else
+          predict_window(w, state, places_in(w, state, has_shape[n], own), {starts, true}, solvers[n],
+                         values);
+      }
     }
   });
   return out;

@@ -53,22 +53,20 @@ class WindowModel {
   WindowModel(const DriveCampaign& campaign, std::span<const DriveWindow> windows,
               Footing footing = Footing::kSuspension);
 
-  // The balances of a state at every station: what predictions of states near it start from.
-  struct StationStart {
-    bool moving = false;
-    std::optional<sim::QuasiStaticSolver::Start> balance;  // where all wheels carry
-  };
-  using Starts = std::vector<std::vector<StationStart>>;  // by window
-  Starts starts_at(const ModelState& state, std::size_t threads = 1) const;
   // Predictions start from the balances at this state, and are the faster the nearer theirs is to it. Their
   // numbers do not change by more than the solver's tolerance.
   void start_from(const ModelState& state, std::size_t threads = 1);
   // One number for each observation of each window, in their order. NaN where the rover would not move, but
   // for slip, which is 1 there, and what depends on the stance alone. Same numbers for any number of threads.
   std::vector<double> predict(const ModelState& state, std::size_t threads = 1) const;
-  // Of a state so near that of the starts that the rover moves where it moved there, and only there: for
-  // derivatives.
-  std::vector<double> predict_near(const Starts& starts, const ModelState& state) const;
+  // The same of many states so near one of them that the rover moves where it moves there, and only there:
+  // for derivatives.
+  struct NearState {
+    ModelState state;
+    bool same_rover = false;  // only the soils differ
+  };
+  std::vector<std::vector<double>> predict_near(const ModelState& centre, std::span<const NearState> near,
+                                                std::size_t threads = 1) const;
 
   // Predictions of hypotheses have the difference added: see Hypothesis::predict.
   void learn(LearntDifference difference) { learnt_ = std::move(difference); }
@@ -107,13 +105,27 @@ class WindowModel {
     sim::PerWheel<std::size_t> soil;  // index under each wheel
   };
 
-  // Where a start of each station is known; `near`: the state is near theirs, see predict_near.
+  // The balance of a state at a station: what those of states near it start from.
+  struct StationStart {
+    bool moving = false;
+    std::optional<sim::QuasiStaticSolver::Start> balance;  // where all wheels carry
+  };
+  // The starts of a window's stations, if they are known. `near`: the state is so near theirs that the rover
+  // moves where it moved there; `geometries`, if any, are those of its rover at the stations.
   struct From {
-    const Starts& starts;
+    std::span<const StationStart> starts;
     bool near = false;
+    std::span<const sim::BalanceGeometry> geometries = {};
   };
   sim::PerWheel<sim::Soil> soils_at(const Place& place, const ModelState& state) const;
-  std::vector<double> predict(const ModelState& state, std::size_t threads, const From& from) const;
+  std::vector<StationStart> starts_of(std::size_t window, const ModelState& state,
+                                      std::span<const Place> places) const;
+  // What a rover and all that acts on it from outside bring to the balances at a window's stations; both
+  // arguments must outlive it.
+  std::vector<sim::BalanceGeometry> geometries_of(std::size_t window, const ModelState& state,
+                                                  std::span<const Place> places) const;
+  // Index of every drive's first window, and behind them the number of windows.
+  std::vector<std::size_t> first_windows() const;
   void predict_window(std::size_t window, const ModelState& state, std::span<const Place> places,
                       const From& from, sim::QuasiStaticSolver& solver, std::span<double> out) const;
   // Where the state's rover stands in a window: `own` holds it where its shape is not the nominal one's.
@@ -127,7 +139,7 @@ class WindowModel {
   std::span<const DriveWindow> windows_;
   Footing footing_;
   std::vector<std::vector<Place>> stances_;
-  Starts starts_;  // of stances_; or none
+  std::vector<std::vector<StationStart>> starts_;  // of stances_; or none
   std::vector<Conditions> conditions_;
   std::vector<std::size_t> offsets_;
   std::optional<LearntDifference> learnt_;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/parallel_for.h"
+#include "gap/diagnosis/search/linear_gain.h"
 
 namespace slipway::gap {
 namespace {
@@ -13,23 +14,14 @@ namespace {
 // Of an effect that is in the fit already: below every gain.
 constexpr double kInTheFit = -1e9;
 
-bool is_one_sided(const Parameter& p) {
-  return p.lowest == p.neutral || p.highest == p.neutral;
-}
-
-bool on_its_side(const Parameter& p, double value) {
-  return !((p.lowest == p.neutral && value < p.neutral) || (p.highest == p.neutral && value > p.neutral));
-}
-
 Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns) {
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
   return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
 }
 
-// What screening knows of a fit: its columns with those of the discrepancy term, and the directions that
-// re-tuning takes.
+// What screening knows of a fit: the directions that re-tuning takes, and what the fit predicts.
 struct Known {
-  Eigen::MatrixXd columns, basis;
+  Eigen::MatrixXd basis;
   std::vector<double> predicted;
   // With a reference, which told how far each direction can be re-tuned: the fit's columns, and the factor of
   // their squares with the prior.
@@ -67,13 +59,14 @@ std::vector<std::size_t> largest_parts(const Eigen::MatrixXd& columns, const Eig
 
 // A variant that is not in the fit.
 ScreenedEffect screened(std::size_t variant, const Hypothesis& with, const WindowModel& model,
-                        const NoiseModel& noise, const FittedExplanation& fit, const Known& known) {
+                        const NoiseModel& noise, const FittedExplanation& fit, const Known& known,
+                        const KnownColumns& fitted) {
   ScreenedEffect effect;
   effect.variant = variant;
   effect.columns = added_derivatives(with, model, fit, effect.start, known.predicted);
   const Eigen::MatrixXd columns = fit.row_weights.asDiagonal() * noise.whiten(effect.columns);
   const auto added = with.parameters().subspan(fit.x.size());
-  const LinearGain found = linear_gain(fit.white_linear, known.columns, columns, added);
+  const LinearGain found = linear_gain(fitted, columns, added);
   effect.gain = found.gain;
   for (std::size_t p = 0; p < added.size(); ++p)
     effect.start[fit.x.size() + p] =
@@ -93,40 +86,6 @@ ScreenedEffect screened(std::size_t variant, const Hypothesis& with, const Windo
 
 }  // namespace
 
-LinearGain linear_gain(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& known,
-                       const Eigen::MatrixXd& columns, std::span<const Parameter> parameters) {
-  std::vector<Eigen::Index> kept;
-  for (Eigen::Index c = 0; c < columns.cols(); ++c) kept.push_back(c);
-  LinearGain found{0.0, Eigen::VectorXd::Zero(columns.cols())};
-  const double without = log_marginal(residuals, known);
-  while (!kept.empty()) {
-    Eigen::MatrixXd all(columns.rows(), known.cols() + static_cast<Eigen::Index>(kept.size()));
-    all << known, columns(Eigen::all, kept);
-    Eigen::MatrixXd hessian = all.transpose() * all;
-    hessian.diagonal().array() += 1.0;
-    const Eigen::VectorXd solved = hessian.llt().solve(all.transpose() * residuals).tail(kept.size());
-    std::vector<Eigen::Index> allowed;
-    for (std::size_t i = 0; i < kept.size(); ++i) {
-      const Parameter& p = parameters[static_cast<std::size_t>(kept[i])];
-      if (on_its_side(p, p.neutral + p.std * solved[static_cast<Eigen::Index>(i)]))
-        allowed.push_back(kept[i]);
-    }
-    if (allowed.size() < kept.size()) {
-      kept = std::move(allowed);
-      continue;
-    }
-    found.gain = log_marginal(residuals, all) - without;
-    for (std::size_t i = 0; i < kept.size(); ++i) {
-      const Parameter& p = parameters[static_cast<std::size_t>(kept[i])];
-      found.estimate[kept[i]] = std::clamp(solved[static_cast<Eigen::Index>(i)],
-                                           (p.lowest - p.neutral) / p.std, (p.highest - p.neutral) / p.std);
-      if (is_one_sided(p)) found.gain += std::log(2.0);
-    }
-    break;
-  }
-  return found;
-}
-
 std::vector<ScreenedEffect> screen_effects(const DriveCampaign& campaign, const WindowModel& model,
                                            const NoiseModel& noise, const FittedExplanation& fit,
                                            const DiscrepancyTerm& discrepancy,
@@ -140,9 +99,11 @@ std::vector<ScreenedEffect> screen_effects(const DriveCampaign& campaign, const 
     squares.diagonal().array() += 1.0;
     known.factor.compute(squares);
   }
-  known.columns.resize(fit.white_jacobian.rows(), fit.white_jacobian.cols() + discrepancy.values.cols());
   known.predicted = fit.hypothesis.predict(model, fit.x, threads);
-  known.columns << fit.white_jacobian, options.imprecision * whitened(fit, noise, discrepancy);
+  // The fit's columns with those of the discrepancy term.
+  Eigen::MatrixXd columns(fit.white_jacobian.rows(), fit.white_jacobian.cols() + discrepancy.values.cols());
+  columns << fit.white_jacobian, options.imprecision * whitened(fit, noise, discrepancy);
+  const KnownColumns fitted(fit.white_linear, columns);
   std::vector<ScreenedEffect> all(variants.size());
   parallel_for(variants.size(), threads, [&](std::size_t v) {
     if (model.cancelled()) return;
@@ -153,7 +114,7 @@ std::vector<ScreenedEffect> screen_effects(const DriveCampaign& campaign, const 
       return;
     }
     effects.push_back(variants[v]);
-    all[v] = screened(v, Hypothesis(campaign, effects), model, noise, fit, known);
+    all[v] = screened(v, Hypothesis(campaign, effects), model, noise, fit, known, fitted);
   });
   std::stable_sort(all.begin(), all.end(),
                    [](const ScreenedEffect& a, const ScreenedEffect& b) { return a.gain > b.gain; });

@@ -34,15 +34,4 @@ std::vector<ScreenedEffect> screen_effects(const DriveCampaign& campaign, const 
                                            std::span<const EffectVariant> variants,
                                            const DiscrepancyOptions& options, std::size_t threads);
 
-// What columns of prior deviation 1 each would add to the logarithm of the evidence of whitened residuals
-// beside `known` ones, all being linear: log_marginal with them less without, and log 2 of each parameter
-// whose prior lies on one side of its neutral value. Those whose estimate lies on the other side are left
-// out, their estimate being 0; estimates are held within the bounds.
-struct LinearGain {
-  double gain = 0.0;
-  Eigen::VectorXd estimate;  // in prior deviations
-};
-LinearGain linear_gain(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& known,
-                       const Eigen::MatrixXd& columns, std::span<const Parameter> parameters);
-
 }  // namespace slipway::gap

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+
+#include "gap/diagnosis/search/linear_gain.h"
 
 namespace slipway::gap {
 namespace {
@@ -78,27 +81,6 @@ sim::Disc neighbour(sim::Disc disc, int which, double move) {
 
 }  // namespace
 
-ColumnBeside::ColumnBeside(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& known) : known_(known) {
-  Eigen::MatrixXd hessian = known.transpose() * known;
-  hessian.diagonal().array() += 1.0;
-  factor_.compute(hessian);
-  const Eigen::VectorXd solved = factor_.solve(known.transpose() * residuals);
-  left_ = residuals - known * solved;
-}
-
-std::optional<double> ColumnBeside::gain(const Eigen::VectorXd& column) const {
-  // A disc is met by a few drives: all other rows are 0.
-  Eigen::Index first = 0, end = column.size();
-  while (first < end && column[first] == 0.0) ++first;
-  while (end > first && column[end - 1] == 0.0) --end;
-  const auto own = column.segment(first, end - first);
-  const Eigen::VectorXd crossed = known_.middleRows(first, own.size()).transpose() * own;
-  const double information = own.squaredNorm() - crossed.dot(factor_.solve(crossed));
-  const double score = own.dot(left_.segment(first, own.size()));
-  if (score <= 0.0) return std::nullopt;
-  return 0.5 * score * score / (1.0 + information) - 0.5 * std::log1p(information);
-}
-
 std::vector<sim::Disc> best_apart(std::vector<ScoredDisc> discs, std::size_t most) {
   std::stable_sort(discs.begin(), discs.end(),
                    [](const ScoredDisc& a, const ScoredDisc& b) { return a.gain > b.gain; });
@@ -120,7 +102,7 @@ PatchSearch search_soft_patches(const sim::Effect& effect, const DriveCampaign& 
   const std::optional<sim::Disc> all = whole_map(windows);
   if (!all) return search;
   const Eigen::VectorXd response = weaker_everywhere(campaign, model, fit, effect, *all);
-  const ColumnBeside beside(fit.white_linear, fit.white_jacobian);
+  const KnownColumns fitted(fit.white_linear, fit.white_jacobian);
   std::vector<ScoredDisc> discs;
   for (std::size_t w = 0; w < windows.size(); ++w) {
     if (model.cancelled()) return search;
@@ -130,7 +112,9 @@ PatchSearch search_soft_patches(const sim::Effect& effect, const DriveCampaign& 
       const sim::Disc disc{centre.x_m, centre.y_m, radius_m};
       const Eigen::VectorXd white =
           fit.row_weights.asDiagonal() * noise.whiten(inside(response, model, disc));
-      if (const auto gain = beside.gain(white)) discs.push_back({disc, *gain});
+      const KnownColumns::Equations weaker = fitted.beside(white);
+      // Soil can only be weaker.
+      if (weaker.products[0] > 0.0) discs.push_back({disc, gain_of(weaker)});
     }
   }
   for (const sim::Disc& disc : best_apart(std::move(discs), static_cast<std::size_t>(options.max_patches)))

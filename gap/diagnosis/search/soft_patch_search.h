@@ -1,8 +1,6 @@
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,20 +25,6 @@ PatchSearch search_soft_patches(const sim::Effect& effect, const DriveCampaign& 
 FittedExplanation refine_soft_patch(const DriveCampaign& campaign, const WindowModel& model,
                                     const NoiseModel& noise, FittedExplanation fit, const FitOptions& options,
                                     const SoftPatchOptions& patch_options, std::size_t threads);
-
-// What is left of a linear fit of prior deviation 1, and what one more column would bring beside it.
-class ColumnBeside {
- public:
-  ColumnBeside(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& known);
-  // The gain of log evidence, by Schur's complement: log_marginal with the column less without it. Nothing
-  // where the column's estimate is not positive, since soil can only be weaker.
-  std::optional<double> gain(const Eigen::VectorXd& column) const;
-
- private:
-  const Eigen::MatrixXd& known_;
-  Eigen::LLT<Eigen::MatrixXd> factor_;
-  Eigen::VectorXd left_;
-};
 
 // The best discs, none overlapping a better one by more than half of their radii's sum; `most` at most.
 struct ScoredDisc {
