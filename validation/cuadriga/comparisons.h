@@ -13,6 +13,7 @@ namespace slipway::validation {
 Result<Report> cuadriga_data(const std::filesystem::path& data);
 Result<Report> cuadriga_drives(const std::filesystem::path& data);
 Result<Report> cuadriga_campaign(const std::filesystem::path& data);
+Result<Report> cuadriga_days(const std::filesystem::path& data);
 Result<Report> cuadriga_intervals(const std::filesystem::path& data);
 
 }  // namespace slipway::validation

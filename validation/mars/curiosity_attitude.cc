@@ -106,13 +106,13 @@ struct MeasuredStop {
 // A note for each spread; returns the share of pitches and rolls that the last one holds.
 double add_coverage(const sim::RoverModel& rover, const sim::Ground& ground, const sim::ReliefSpread& relief,
                     const std::vector<MeasuredStop>& stops, Report& report) {
-  constexpr std::uint64_t kDraws = 400;
+  constexpr std::uint64_t kReliefDraws = 400;
   double share = 0.0;
   for (const NamedSpread& each : parts_of(relief)) {
     Coverage tilt, pitch, roll;
     for (const MeasuredStop& stop : stops) {
       std::vector<double> tilts, pitches, rolls;
-      for (std::uint64_t draw = 0; draw < kDraws; ++draw) {
+      for (std::uint64_t draw = 0; draw < kReliefDraws; ++draw) {
         const sim::DrawnRelief drawn(ground, each.spread, random_key(1, draw));
         const auto stance = sim::settle(rover, drawn, stop.pose);
         if (!stance) continue;

@@ -58,13 +58,13 @@ Result<std::vector<std::string>> withheld_notes(const std::filesystem::path& dat
                       .numbers_or_empty = {},
                       .texts = {"set", "campaign", "withheld", "fidelity", "verdict", "found"}});
   if (!table) return fail(table.error());
-  struct Tally {
+  struct WithheldTally {
     std::size_t of = 0, unknown = 0, look_alike = 0;
     std::string absorbed, named;
   };
-  std::map<std::string, Tally> sets;
+  std::map<std::string, WithheldTally> sets;
   for (std::size_t row = 0; row < table->rows(); ++row) {
-    Tally& tally = sets[table->text(row, "set")];
+    WithheldTally& tally = sets[table->text(row, "set")];
     const auto add = [](std::string& list, const std::string& words) {
       list += (list.empty() ? "" : ", ") + words;
     };
