@@ -245,6 +245,7 @@ class Diagnoser {
     d_.held_out = std::move(closure->points);
     d_.window_gaps = std::move(closure->windows);
     d_.candidates[best_].held_out_score = closure->log_density_gain;
+    withdraw_what_tells_no_better(closure->log_density_gain, d_);
     doubt_what_leaves_a_gap(reported_fit(), options_.verdict, d_);
     if (explains()) {
       auto extrapolated =

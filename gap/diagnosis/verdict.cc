@@ -173,14 +173,14 @@ double unknown_probability(const Diagnosis& d) {
   return sum;
 }
 
-// No effect is named: what drives look like with the effects is what they look like re-tuned.
-void withdraw_effects(Diagnosis& d) {
+std::vector<std::string> named(const Diagnosis& d) {
   std::vector<std::string> names;
   for (const FoundEffect& effect : d.effects) names.push_back(effect.name);
-  if (names.empty()) return;
-  d.notes.push_back(
-      fmt::format("{} would explain a part, and may be the unknown cause's shadow: nothing is named",
-                  fmt::join(names, " and ")));
+  return names;
+}
+
+// No effect is named: what drives look like with the effects is what they look like re-tuned.
+void withdraw_effects(Diagnosis& d) {
   d.effects.clear();
   for (ChannelClosure& c : d.gap) c.with_effects = c.retuned;
   for (HeldOutPoint& point : d.held_out) point.with_effects = point.retuned;
@@ -359,6 +359,19 @@ void doubt_what_does_not_extrapolate(const VerdictOptions& options, Diagnosis& d
   }
 }
 
+void withdraw_what_tells_no_better(double log_density_gain, Diagnosis& d) {
+  const bool names_effects = d.verdict == Verdict::kEffects || d.verdict == Verdict::kEffectSet;
+  if (!names_effects || d.partial || log_density_gain > 0.0) return;
+  const std::vector<std::string> names = named(d);
+  d.verdict = Verdict::kParameters;
+  d.reason = fmt::format(
+      "re-tuned soil and motor parameters tell drives held out of the fit as well as they do with {}, whose "
+      "probability is {:.2f}: nothing is named (log density with it {:+.2g})",
+      fmt::join(names, " and "), d.effects.front().probability, log_density_gain);
+  d.overturned_by = kSameLook;
+  withdraw_effects(d);
+}
+
 void doubt_what_leaves_a_gap(const FittedExplanation& reported, const VerdictOptions& options, Diagnosis& d) {
   const double unknown = unknown_probability(d);
   if (d.verdict == Verdict::kUnknown || d.verdict == Verdict::kInsufficient || d.partial || unknown <= 0.0)
@@ -373,9 +386,8 @@ void doubt_what_leaves_a_gap(const FittedExplanation& reported, const VerdictOpt
   std::stable_sort(d.candidates.begin(), d.candidates.end(),
                    [](const ComparedSet& a, const ComparedSet& b) { return a.probability > b.probability; });
   take_marginals_anew(d);
+  const std::vector<std::string> names = named(d);
   if (all_stand(d, options)) {
-    std::vector<std::string> names;
-    for (const FoundEffect& effect : d.effects) names.push_back(effect.name);
     d.partial = true;
     d.verdict = Verdict::kEffects;
     d.reason =
@@ -383,6 +395,10 @@ void doubt_what_leaves_a_gap(const FittedExplanation& reported, const VerdictOpt
     d.overturned_by = kSameLook;
     return;
   }
+  if (!names.empty())
+    d.notes.push_back(
+        fmt::format("{} would explain a part, and may be the unknown cause's shadow: nothing is named",
+                    fmt::join(names, " and ")));
   withdraw_effects(d);
   d.least_detectable.clear();
   d.verdict = Verdict::kUnknown;

@@ -30,6 +30,10 @@ std::optional<OutsideFinding> outside_finding(const ExplanationSearch& search, s
 // Not certain of effects that predicted harsh drives worse than re-tuned parameters did, by more than chance.
 void doubt_what_does_not_extrapolate(const VerdictOptions& options, Diagnosis& d);
 
+// Effects with which drives held out of the fit are told no better than re-tuned (their log density gains
+// nothing) are not named, however probable they are on the drives that they were fitted to.
+void withdraw_what_tells_no_better(double log_density_gain, Diagnosis& d);
+
 // An answer that leaves far more than the floor on drives held out of the fit, or that needs a parameter at
 // the end of what it may be, is none: the cause is unknown, and nothing is named unless it may stand beside
 // something unknown (see naming.h); then the answer is a partial one. `reported`: the fit that the answer

@@ -124,6 +124,27 @@ TEST(Verdict, IsUnknownWhereAnAnswerLeavesMoreThanItsFloor) {
   EXPECT_EQ(doubted(answer_with(Verdict::kParameters, 1.0)).verdict, Verdict::kUnknown) << "at its end";
 }
 
+// A patch of soft soil on hills came as motors that change with the temperature: probable on the drives that
+// they were fitted to, and worth nothing on others.
+TEST(Verdict, DoesNotNameWhatTellsHeldOutDrivesNoBetter) {
+  const auto told = [](double log_density_gain, bool partial) {
+    Diagnosis d = answer_with(Verdict::kEffects, 1.0);
+    d.partial = partial;
+    withdraw_what_tells_no_better(log_density_gain, d);
+    return d;
+  };
+  EXPECT_EQ(told(8.0, false).effects.size(), 1U);
+  const Diagnosis withdrawn = told(-0.5, false);
+  EXPECT_EQ(withdrawn.verdict, Verdict::kParameters);
+  EXPECT_TRUE(withdrawn.effects.empty());
+  EXPECT_NE(withdrawn.reason.find("hardpan"), std::string::npos) << withdrawn.reason;
+  EXPECT_EQ(withdrawn.gap.front().with_effects.value, withdrawn.gap.front().retuned.value);
+  EXPECT_EQ(told(-0.5, true).effects.size(), 1U) << "beside something unknown the shares have decided";
+  Diagnosis nothing = answer_with(Verdict::kNoGap, 1.0);
+  withdraw_what_tells_no_better(0.0, nothing);
+  EXPECT_EQ(nothing.verdict, Verdict::kNoGap);
+}
+
 TEST(Verdict, IsInDoubtWhereHarshDrivesArePredictedWorseThanByChance) {
   Diagnosis d;
   d.verdict = Verdict::kEffects;
