@@ -1,14 +1,14 @@
-// How many jobs a second a store hands out and takes back, and whether workers that only sleep are kept busy.
+// How many parts of a job a second a store hands out and takes back, and whether workers that only sleep are
+// kept busy.
 //
-//   queue_bench STORE WORKERS SLEEP_MS JOBS
+//   queue_bench STORE WORKERS SLEEP_MS PARTS
 //
-// STORE is what --jobs takes. One job is divided into JOBS parts, and WORKERS threads claim, sleep and finish
-// until none is left; 16 of them share connections as little as as many processes would. Prints one JSON
-// line.
+// STORE is what --jobs takes. One job is divided into PARTS parts, on which WORKERS threads work as the
+// workers of `slipway worker` do; 16 of them share connections as little as as many processes would. Prints
+// one JSON line; `repeated` counts attempts beyond one for each part.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
@@ -17,85 +17,103 @@
 #include <thread>
 #include <vector>
 
+#include "api/jobs/job_runner.h"
 #include "api/jobs/open_job_store.h"
 #include "core/utc.h"
 
 namespace {
 
-using slipway::now_ms;
-using slipway::api::JobStore;
+namespace api = slipway::api;
+using slipway::Progress;
+using slipway::Result;
+using std::chrono::milliseconds;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::int64_t kLease_ms = 600'000;
+constexpr milliseconds kLease{600'000};
 
-struct Outcome {
-  std::atomic<int> done{0}, refused{0};
-};
-
-// Until no part is left.
-void work(JobStore& store, const std::string& name, std::chrono::milliseconds sleep, int jobs,
-          Outcome& outcome) {
-  while (outcome.done < jobs) {
-    const auto claimed = store.claim(name, {"sleep"}, now_ms(), now_ms() + kLease_ms);
-    if (!claimed) {
-      std::cerr << claimed.error().detail << '\n';
-      continue;
-    }
-    if (!*claimed) return;
-    const bool is_part = !(*claimed)->job.whole.empty();
-    if (is_part && sleep.count() > 0) std::this_thread::sleep_for(sleep);
-    const auto kept =
-        store.finish((*claimed)->lease(), slipway::api::JobState::kSuccessful, std::string("{}"), now_ms());
-    if (is_part) ++(kept && *kept ? outcome.done : outcome.refused);
-  }
+// The work that sleeps in each of its parts.
+api::WorkInParts sleep_in_parts(milliseconds sleep) {
+  return {.split = nullptr,
+          .part = [sleep](const std::string&, const std::string&, Progress&) -> Result<api::JobAnswer> {
+            if (sleep.count() > 0) std::this_thread::sleep_for(sleep);
+            return api::JobAnswer("{}");
+          },
+          .put_together = [](const std::string&, const std::string&, const api::PartAnswer&,
+                             Progress&) -> Result<api::JobAnswer> { return api::JobAnswer("{}"); }};
 }
 
-// The parts of one job of this store.
-bool divide(JobStore& store, int jobs) {
-  const auto job = store.append({slipway::api::new_job_id(), "sleep", "{}"}, now_ms(), {1000});
-  if (!job) std::cerr << job.error().detail << '\n';
-  const auto claimed = store.claim("divider", {"sleep"}, now_ms(), now_ms() + kLease_ms);
-  return job && claimed && *claimed &&
-         store
-             .split((*claimed)->lease(), std::vector<std::string>(static_cast<std::size_t>(jobs), "{}"),
-                    now_ms())
-             .value_or(false);
+// Runners on the store, which share the workers among them.
+std::vector<std::unique_ptr<api::JobRunner>> open_runners(const std::string& address, int workers,
+                                                          const api::WorkInParts& work) {
+  constexpr int kMaxStores = 4;
+  std::vector<std::unique_ptr<api::JobRunner>> runners;
+  const int stores = std::min(workers, kMaxStores);
+  for (int k = 0; k < stores; ++k) {
+    auto store = api::open_job_store(address);
+    if (!store) {
+      std::cerr << store.error().detail << '\n';
+      return {};
+    }
+    api::JobRunnerOptions options;
+    options.workers.assign(static_cast<std::size_t>((workers + k) / stores), {"sleep"});
+    options.worker = "sleeper " + api::new_job_id();
+    options.lease = kLease;
+    options.progress_interval = milliseconds(1000);  // as of workers on a database
+    options.kept = std::nullopt;
+    runners.push_back(std::make_unique<api::JobRunner>(std::move(*store), nullptr, options, work));
+  }
+  return runners;
+}
+
+// The job that is divided, before anybody works; empty where the store refuses it.
+std::string divide(api::JobStore& store, int parts) {
+  const auto job = store.append({api::new_job_id(), "sleep", "{}"}, slipway::now_ms(), {1000});
+  if (!job) return {};
+  const auto claimed =
+      store.claim("divider", {"sleep"}, slipway::now_ms(), slipway::now_ms() + kLease.count());
+  const std::vector<std::string> requests(static_cast<std::size_t>(parts), "{}");
+  const bool divided = claimed && *claimed && (*claimed)->job.id == job->id &&
+                       store.split((*claimed)->lease(), requests, slipway::now_ms()).value_or(false);
+  return divided ? job->id : "";
+}
+
+// Until all parts have ended.
+void wait_for(api::JobStore& store, const std::string& id, int parts) {
+  for (;; std::this_thread::sleep_for(milliseconds(10)))
+    if (const auto job = store.get(id); job && *job && (*job)->parts.ended == parts) return;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   if (argc != 5) {
-    std::cerr << "usage: queue_bench STORE WORKERS SLEEP_MS JOBS\n";
+    std::cerr << "usage: queue_bench STORE WORKERS SLEEP_MS PARTS\n";
     return 2;
   }
-  const int workers = std::atoi(argv[2]), jobs = std::atoi(argv[4]);
-  const std::chrono::milliseconds sleep(std::atoi(argv[3]));
-  constexpr int kMaxStores = 4;
-  std::vector<std::unique_ptr<JobStore>> stores;
-  for (int k = 0; k < std::min(workers, kMaxStores); ++k) {
-    auto opened = slipway::api::open_job_store(argv[1]);
-    if (!opened) {
-      std::cerr << opened.error().detail << '\n';
-      return 1;
-    }
-    stores.push_back(std::move(*opened));
+  const int workers = std::atoi(argv[2]), parts = std::atoi(argv[4]);
+  const milliseconds sleep(std::atoi(argv[3]));
+  const auto runners = open_runners(argv[1], workers, sleep_in_parts(sleep));
+  if (runners.empty()) return 1;
+  api::JobStore& store = runners.front()->store();
+  const std::string job = divide(store, parts);
+  if (job.empty()) {
+    std::cerr << "the store took no job in parts: has it others?\n";
+    return 1;
   }
-  if (!divide(*stores.front(), jobs)) return 1;
-  Outcome outcome;
   const auto begun = Clock::now();
-  std::vector<std::thread> threads;
-  for (int k = 0; k < workers; ++k)
-    threads.emplace_back([&, k] {
-      work(*stores[static_cast<std::size_t>(k) % stores.size()], fmt::format("worker {}", k), sleep, jobs,
-           outcome);
-    });
-  for (std::thread& thread : threads) thread.join();
+  for (const auto& runner : runners)
+    if (!runner->start()) return 1;
+  wait_for(store, job, parts);
   const double seconds = std::chrono::duration<double>(Clock::now() - begun).count();
+  const auto done = store.parts(job);
+  int repeated = 0;
+  for (const api::Job& part : *done) repeated += part.attempt - 1;
+  for (const auto& runner : runners) runner->stop();
   std::cout << fmt::format(
-      "{{\"workers\":{},\"sleep_ms\":{},\"jobs\":{},\"refused\":{},\"seconds\":{:.2f},\"jobs_per_s\":{:.0f},"
+      "{{\"workers\":{},\"sleep_ms\":{},\"parts\":{},\"repeated\":{},\"seconds\":{:.2f},\"parts_per_s\":{:."
+      "0f},"
       "\"busy\":{:.3f}}}\n",
-      workers, sleep.count(), outcome.done.load(), outcome.refused.load(), seconds, outcome.done / seconds,
-      1e-3 * static_cast<double>(sleep.count()) * outcome.done / (workers * seconds));
-  return outcome.done == jobs ? 0 : 1;
+      workers, sleep.count(), parts, repeated, seconds, parts / seconds,
+      1e-3 * static_cast<double>(sleep.count()) * parts / (workers * seconds));
+  return repeated == 0 ? 0 : 1;
 }

@@ -36,13 +36,12 @@ std::string hash_of(std::string_view token) {
 }
 
 // "Bearer TOKEN" [RFC 6750, 2.1].
-std::optional<std::string> token_in(const HttpRequest& request) {
-  const auto header = request.header("Authorization");
+std::optional<std::string_view> token_in(const std::optional<std::string>& authorization) {
   constexpr std::string_view kBearer = "Bearer ";
-  if (!header || header->size() <= kBearer.size() ||
-      !equal_ignoring_case(std::string_view(*header).substr(0, kBearer.size()), kBearer))
+  if (!authorization || authorization->size() <= kBearer.size() ||
+      !equal_ignoring_case(std::string_view(*authorization).substr(0, kBearer.size()), kBearer))
     return std::nullopt;
-  return header->substr(kBearer.size());
+  return std::string_view(*authorization).substr(kBearer.size());
 }
 
 bool is_hash(std::string_view text) {
@@ -107,20 +106,33 @@ Result<std::unique_ptr<Access>> Access::open(const AccessOptions& options) {
   return access;
 }
 
+Result<const Access::Holder*> Access::holder_of(std::string_view method, std::string_view path,
+                                                const std::optional<std::string>& authorization) const {
+  const bool open =
+      path.starts_with(kOpenFolder) || std::find(kOpen.begin(), kOpen.end(), path) != kOpen.end();
+  if (options_.tokens.empty() || open || method == "OPTIONS") return nullptr;
+  const auto token = token_in(authorization);
+  const auto holder = token ? holders_.find(hash_of(*token)) : holders_.end();
+  if (holder == holders_.end())
+    return fail(ErrorCode::kUnauthorized, token ? "the token is not known here" : "a token is needed here");
+  if (holder->second.role == Role::kViewer && !only_reads(method))
+    return fail(ErrorCode::kForbidden,
+                fmt::format("{} is a viewer, who changes nothing", holder->second.name));
+  return &holder->second;
+}
+
+bool Access::refuses(std::string_view method, std::string_view path,
+                     const std::optional<std::string>& authorization) const {
+  return !holder_of(method, path, authorization);
+}
+
 Result<void> Access::admit(HttpRequest& request) {
-  const bool open = request.path.starts_with(kOpenFolder) ||
-                    std::find(kOpen.begin(), kOpen.end(), request.path) != kOpen.end();
+  const auto holder = holder_of(request.method, request.path, request.header("Authorization"));
   request.principal = is_loopback(request.remote_address) ? "loopback" : request.remote_address;
-  if (!options_.tokens.empty() && !open && request.method != "OPTIONS") {
-    const auto token = token_in(request);
-    const auto holder = token ? holders_.find(hash_of(*token)) : holders_.end();
-    if (holder == holders_.end())
-      return fail(ErrorCode::kUnauthorized, token ? "the token is not known here" : "a token is needed here");
-    if (holder->second.role == Role::kViewer && !only_reads(request.method))
-      return fail(ErrorCode::kForbidden,
-                  fmt::format("{} is a viewer, who changes nothing", holder->second.name));
-    request.principal = holder->second.name;
-    request.is_admin = holder->second.role == Role::kAdmin;
+  if (!holder) return fail(holder.error());
+  if (*holder != nullptr) {
+    request.principal = (*holder)->name;
+    request.is_admin = (*holder)->role == Role::kAdmin;
   }
   if (!is_within_rate(request.principal))
     return fail(ErrorCode::kTooManyRequests,

@@ -45,6 +45,11 @@ class Access {
   // is not known), forbidden (the role does not allow it), too_many_requests.
   Result<void> admit(HttpRequest& request);
 
+  // Whether admit() will refuse a request of this method, path and Authorization header for the sake of its
+  // token: then nobody needs its body.
+  bool refuses(std::string_view method, std::string_view path,
+               const std::optional<std::string>& authorization) const;
+
  private:
   using Clock = std::chrono::steady_clock;
   struct Holder {
@@ -58,6 +63,9 @@ class Access {
   };
 
   explicit Access(AccessOptions options) : options_(std::move(options)) {}
+  // Who asks; nullptr where nobody needs a token. Errors: unauthorized, forbidden.
+  Result<const Holder*> holder_of(std::string_view method, std::string_view path,
+                                  const std::optional<std::string>& authorization) const;
   bool is_within_rate(const std::string& who);
 
   AccessOptions options_;

@@ -53,6 +53,7 @@ HttpResponse tagged(HttpResponse response, const std::string& tag, const HttpReq
   if (is_known_to_client(request, tag)) {
     response.status = 304;
     response.body.clear();
+    response.pieces = nullptr;
     response.content_type.clear();
   }
   return response;

@@ -21,6 +21,7 @@
 #include "server/cli/terminal/tables.h"
 #include "server/dashboard_routes.h"
 #include "server/http/http_cross_origin.h"
+#include "server/http/http_host.h"
 #include "server/http/http_listener.h"
 #include "server/http/http_server.h"
 #include "server/log.h"
@@ -128,8 +129,7 @@ Result<std::shared_ptr<api::UploadFolder>> open_uploads(const ServeOptions& opti
   large.max_total_bytes = 2 * large.max_bytes;
   if (const auto file = BodyFile::make(large.folder, large.under_way); !file)
     return fail(ErrorCode::kUnwritableFile,
-                fmt::format("the folder of --uploads, {}, can't be used: {}; its file system must have files "
-                            "without a name (O_TMPFILE); --uploads \"\" takes none",
+                fmt::format("the folder of --uploads, {}, can't be used: {}; --uploads \"\" takes none",
                             folder, file.error().detail));
   return uploads;
 }
@@ -198,6 +198,10 @@ int serve(const ServeOptions& given) {
     if (admitted) return std::nullopt;
     return problem_response(admitted.error(), &request);
   };
+  http.wants_body = [&access](std::string_view method, std::string_view path,
+                              const std::optional<std::string>& authorization) {
+    return !(*access)->refuses(method, path, authorization);
+  };
   std::optional<AuditLog> audit;
   if (!options.audit.empty()) {
     auto opened = AuditLog::open(options.audit);
@@ -251,7 +255,8 @@ int serve(const ServeOptions& given) {
   const auto port = server->start(*std::move(listener));
   if (!port) return refuse(port.error());
   std::cout << fmt::format("slipway {} serves {} on http://{}:{}, jobs in {}\n", version(), *data,
-                           options.address, *port, options.jobs.empty() ? "memory" : options.jobs)
+                           host_in_url(options.address), *port,
+                           options.jobs.empty() ? "memory" : options.jobs)
             << std::flush;
   int signal = 0;
   sigwait(&signals, &signal);

@@ -1,13 +1,14 @@
 #include "api/jobs/artefact_job_store.h"
 
+#include <fmt/format.h>
+
 #include <atomic>
 #include <utility>
 
+#include "api/jobs/artefact_row.h"
+
 namespace slipway::api {
 namespace {
-
-// What stands in a row for a page: this and its name. A page that begins so itself is kept in the folder too.
-constexpr std::string_view kMark("\0slipway artefact\0", 18);
 
 constexpr std::int64_t kHour_ms = 3'600'000, kDay_ms = 24 * kHour_ms;
 
@@ -19,34 +20,35 @@ class ArtefactJobStore final : public JobStore {
   Result<Job> append(const NewJob& job, std::int64_t now, const Admission& admission) override {
     return store_->append(job, now, admission);
   }
-  Result<std::optional<ClaimedJob>> claim(std::string_view worker, const std::vector<std::string>& kinds,
-                                          std::int64_t now, std::int64_t lease_until) override {
-    return store_->claim(worker, kinds, now, lease_until);
+  Result<std::vector<ClaimedJob>> claim_some(std::string_view worker, const std::vector<std::string>& kinds,
+                                             std::int64_t now, std::int64_t lease_until, int most) override {
+    return store_->claim_some(worker, kinds, now, lease_until, most);
   }
+  Result<int> give_back(const std::vector<Lease>& leases) override { return store_->give_back(leases); }
   Result<bool> report(const Lease& lease, std::string_view stage, double progress, std::int64_t lease_until,
                       std::string_view best_so_far) override {
     return store_->report(lease, stage, progress, lease_until, best_so_far);
   }
 
-  Result<bool> finish(const Lease& lease, JobState state, const JobAnswer& outcome,
-                      std::int64_t now) override {
-    if (folder_ == nullptr) return store_->finish(lease, state, outcome, now);
-    JobAnswer named = outcome;
-    for (std::string& page : named.series) {
-      if (page.size() < kMinArtefactBytes && !page.starts_with(kMark)) continue;
-      const auto name = folder_->put(page);
-      if (!name) return fail(name.error());
-      page = std::string(kMark) + *name;
-    }
-    return store_->finish(lease, state, named, now);
+  Result<std::vector<bool>> finish_all(const std::vector<JobEnd>& ends, std::int64_t now) override {
+    if (folder_ == nullptr) return store_->finish_all(ends, now);
+    std::vector<JobEnd> named = ends;
+    for (JobEnd& end : named)
+      for (std::string& page : end.outcome.series) {
+        if (page.size() < kMinArtefactBytes && !page.starts_with(kArtefactMark)) continue;
+        const auto name = folder_->put(page);
+        if (!name) return fail(name.error());
+        page = fmt::format("{}{}{:016}", kArtefactMark, *name, page.size());
+      }
+    return store_->finish_all(named, now);
   }
 
   Result<std::optional<SeriesPage>> series(std::string_view id, std::int64_t page) override {
     auto kept = store_->series(id, page);
-    if (!kept || !*kept || !(*kept)->bytes.starts_with(kMark)) return kept;
+    if (!kept || !*kept || !(*kept)->bytes.starts_with(kArtefactMark)) return kept;
     if (folder_ == nullptr)
       return fail(ErrorCode::kStorage, "the page is in a folder of artefacts: name it with --artefacts");
-    auto bytes = folder_->get((*kept)->bytes.substr(kMark.size()));
+    auto bytes = folder_->get((*kept)->bytes.substr(kArtefactMark.size(), kArtefactNameDigits));
     if (!bytes) return fail(bytes.error());
     (*kept)->bytes = *std::move(bytes);
     return kept;

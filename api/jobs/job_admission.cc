@@ -50,6 +50,10 @@ double progress_of_parts(int ended, int count) {
   return kShareOfParts * ended / count;
 }
 
+int parts_at_once(const JobParts& parts, int most) {
+  return std::max(1, std::min(most, (parts.count - parts.ended) / kShareAtOnce));
+}
+
 void QueueSum::add(bool running, int count, std::optional<double> each_s) {
   constexpr double kLeftOfRunning = 0.5;
   if (!running) ahead_ += count;

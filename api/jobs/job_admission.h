@@ -35,6 +35,11 @@ inline constexpr const char* kStageOfParts = "%s of %s parts are done";
 std::string stage_of_parts(int ended, int count);
 double progress_of_parts(int ended, int count);
 
+// How many parts may be claimed at once of those that a job still waits for, if `most` are wanted: at most
+// one in kShareAtOnce, so that many workers end at about the same time.
+inline constexpr int kShareAtOnce = 16;
+int parts_at_once(const JobParts& parts, int most);
+
 // The place of a job in the queue, from what is before it.
 class QueueSum {
  public:

@@ -12,7 +12,6 @@
 
 #include "api/jobs/job_admission.h"
 #include "api/json/problem_document.h"
-#include "api/json/writer.h"
 #include "core/utc.h"
 
 namespace slipway::api {
@@ -36,108 +35,7 @@ class ProcessorTime {
   double begun_s_;
 };
 
-// What is left of a work of which a share is done.
-class RestOfProgress final : public Progress {
- public:
-  RestOfProgress(Progress& all, double done) : all_(all), done_(done) {}
-  void report(std::string_view stage, double fraction) override {
-    all_.report(stage, done_ + (1.0 - done_) * fraction);
-  }
-  bool cancelled() const override { return all_.cancelled(); }
-
- private:
-  Progress& all_;
-  const double done_;
-};
-
 }  // namespace
-
-// Passes progress on to the store, not more often than the options say, and renews the lease. Learns from the
-// store, the runner and the clock that nobody wants the work any more.
-class JobRunner::JobProgress final : public Progress {
- public:
-  JobProgress(JobRunner& runner, Lease lease)
-      : runner_(runner),
-        lease_(std::move(lease)),
-        begun_(Clock::now()),
-        written_(begun_),
-        rings_(runner.rings_),
-        heard_(begun_.time_since_epoch()) {}
-
-  void report(std::string_view stage, double fraction) override {
-    heard_ = Clock::now().time_since_epoch();
-    const std::scoped_lock lock(mutex_);
-    const bool is_new_stage = stage != stage_;
-    stage_ = stage;
-    fraction_ = fraction;
-    if (is_new_stage || Clock::now() - written_ >= runner_.options_.progress_interval) write();
-  }
-
-  bool cancelled() const override {
-    const Clock::time_point now = Clock::now();
-    heard_ = now.time_since_epoch();
-    if (cancelled_ || runner_.stopping_ || is_over_time()) return true;
-    const std::unique_lock lock(mutex_, std::try_to_lock);
-    // Work that asks but has nothing to report is alive too, and may be wanted no more.
-    constexpr int kRenewalsPerLease = 3;
-    const auto renewal = std::min(runner_.options_.renewal, runner_.options_.lease / kRenewalsPerLease);
-    constexpr std::chrono::milliseconds kBetweenLooks{20};  // others' jobs ring too
-    const bool rung = rings_ != runner_.rings_ && now - written_ >= kBetweenLooks;
-    if (lock && (rung || now - written_ >= renewal)) write();
-    return cancelled_;
-  }
-
-  void found(const RouteSoFar& route) override {
-    json::Writer w;
-    w.begin_object().significant("cost", route.cost).metres("length_m", route.length_m);
-    if (!route.verdict.empty()) w.text("verdict", route.verdict);
-    w.key("line").begin_array();
-    for (const auto& [x_m, y_m] : route.line_m) {
-      w.begin_array().metres(x_m).metres(y_m);
-      w.end_array();
-    }
-    w.end_array().end_object();
-    const std::scoped_lock lock(mutex_);
-    best_so_far_ = w.take();
-    write();
-  }
-
-  void cancel() { cancelled_ = true; }
-
-  bool is_over_time() const {
-    return runner_.options_.max_time && Clock::now() - begun_ > *runner_.options_.max_time;
-  }
-
-  std::chrono::milliseconds silence() const {
-    return std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now().time_since_epoch() -
-                                                                 heard_.load());
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-
-  void write() const {
-    written_ = Clock::now();
-    rings_ = runner_.rings_;
-    const auto held =
-        runner_.store_->report(lease_, stage_, fraction_, now_ms() + runner_.options_.lease.count(),
-                               std::exchange(best_so_far_, {}));
-    // A store that can't be written for a moment is no reason to throw the work away.
-    if (held && !*held) cancelled_ = true;
-  }
-
-  JobRunner& runner_;
-  const Lease lease_;
-  const Clock::time_point begun_;
-  mutable std::mutex mutex_;
-  mutable Clock::time_point written_;
-  mutable int rings_;  // of the runner, as of the last writing
-  mutable std::atomic<Clock::duration> heard_;
-  mutable std::atomic<bool> cancelled_{false};
-  std::string stage_;
-  double fraction_ = 0.0;
-  mutable std::string best_so_far_;  // that is not written yet
-};
 
 JobRunner::JobRunner(std::shared_ptr<JobStore> store, JobWork work, JobRunnerOptions options,
                      WorkInParts in_parts)
@@ -273,22 +171,44 @@ void JobRunner::serve(const std::vector<std::string>& kinds) {
   std::minstd_rand chance{std::random_device{}()};
   // Workers that all became idle at once do not all look at once.
   std::uniform_real_distribution<double> share(0.5, 1.0);
+  BatchSize size(options_.batch_time);
   while (!stopping_) {
     const int seen = work_rings_;
     const std::int64_t now = now_ms();
-    const auto claimed = store_->claim(options_.worker, kinds, now, now + options_.lease.count());
-    if (claimed && *claimed) {
-      if (!divided(**claimed)) run(**claimed);
+    auto claimed = store_->claim_some(options_.worker, kinds, now, now + options_.lease.count(), size.next());
+    if (claimed && !claimed->empty()) {
+      const bool of_parts = !claimed->front().job.whole.empty();
+      JobBatch batch(*store_, *std::move(claimed), 2 * options_.batch_time);
+      work_through(batch);
+      if (of_parts) size.learn(batch.ended(), batch.age());
       continue;
     }
+    size = BatchSize(options_.batch_time);  // what comes next may be of another kind
     std::unique_lock lock(mutex_);
     submitted_.wait_for(lock, options_.idle_poll * share(chance),
                         [&] { return stopping_ || work_rings_ != seen; });
   }
 }
 
-void JobRunner::run(const ClaimedJob& claimed) {
-  JobProgress progress(*this, claimed.lease());
+// What is left when the process stops is given back with all that it holds.
+void JobRunner::work_through(JobBatch& batch) {
+  while (!stopping_)
+    if (const auto job = batch.next(); !job)
+      break;
+    else if (!divided(*job))
+      run(*job, batch);
+  write(batch);
+}
+
+void JobRunner::run(const ClaimedJob& claimed, JobBatch& batch) {
+  JobProgress progress({.store = *store_,
+                        .lease = options_.lease,
+                        .progress_interval = options_.progress_interval,
+                        .renewal = options_.renewal,
+                        .max_time = options_.max_time,
+                        .stopping = stopping_,
+                        .rings = rings_},
+                       claimed.lease(), [&batch] { batch.settle_if_late(); });
   {
     const std::scoped_lock lock(mutex_);
     active_[claimed.job.id] = &progress;
@@ -311,13 +231,16 @@ void JobRunner::run(const ClaimedJob& claimed) {
     const std::scoped_lock lock(mutex_);
     active_.erase(claimed.job.id);
   }
-  if (wanted || answer) conclude(claimed, answer, cpu_s);
-  {
-    const std::scoped_lock lock(mutex_);
-    --running_;
-    ended_.notify_all();
+  if (wanted || answer) {
+    // The store refuses it when the job was dismissed meanwhile: then nobody ever sees this outcome.
+    JobAnswer outcome = answer ? *std::move(answer) : JobAnswer(json::write_problem(answer.error()));
+    outcome.cpu_s = cpu_s;
+    batch.end({claimed.lease(), answer ? JobState::kSuccessful : JobState::kFailed, std::move(outcome)});
   }
-  if (on_change_) on_change_();
+  if (!batch.has_more() || batch.is_late()) write(batch);
+  const std::scoped_lock lock(mutex_);
+  --running_;
+  ended_.notify_all();
 }
 
 Result<JobAnswer> JobRunner::answer_of(const ClaimedJob& claimed, JobProgress& progress) {
@@ -357,61 +280,13 @@ Result<JobAnswer> JobRunner::work_on(const ClaimedJob& claimed, Progress& progre
   if (!claimed.job.whole.empty()) return in_parts_.part(claimed.job.kind, claimed.request, progress);
   if (claimed.job.parts.count == 0) return work_(claimed.job.kind, claimed.request, progress);
   RestOfProgress rest(progress, kShareOfParts);
-  return put_together(claimed, rest);
+  return put_together(*store_, in_parts_, claimed, rest);
 }
 
-Result<JobAnswer> JobRunner::put_together(const ClaimedJob& claimed, Progress& progress) {
-  progress.report("putting the parts together", 0.0);
-  const auto parts = store_->parts(claimed.job.id);
-  if (!parts) return fail(parts.error());
-  std::optional<Error> missing;
-  for (const Job& part : *parts) {
-    if (part.state == JobState::kSuccessful) continue;
-    const auto answer = answer_of_part(part);
-    if (!missing)
-      missing = Error{answer.error().code,
-                      fmt::format("{} of {} parts of the work are missing: {}", claimed.job.parts.failed,
-                                  parts->size(), answer.error().detail),
-                      {}};
-    missing->faults.push_back({fmt::format("/parts/{}", part.part), answer.error().detail});
-  }
-  if (missing) return fail(*std::move(missing));
-  return in_parts_.put_together(
-      claimed.job.kind, claimed.request,
-      [&](int part) { return answer_of_part(parts->at(static_cast<std::size_t>(part))); }, progress);
-}
-
-Result<JobAnswer> JobRunner::answer_of_part(const Job& part) {
-  if (part.state == JobState::kDismissed) return fail(ErrorCode::kCancelled, "the part was dismissed");
-  auto outcome = store_->outcome(part.id);
-  if (!outcome) return fail(outcome.error());
-  if (!*outcome) return fail(ErrorCode::kInternal, "the part has no answer");
-  if (part.state == JobState::kFailed) return fail(json::read_problem(**outcome));
-  JobAnswer answer(**std::move(outcome));
-  for (std::int64_t page = 1;; ++page) {
-    auto read = store_->series(part.id, page);
-    if (!read) return fail(read.error());
-    if (!*read) return answer;
-    answer.series.push_back(std::move((*read)->bytes));
-  }
-}
-
-void JobRunner::conclude(const ClaimedJob& claimed, const Result<JobAnswer>& answer, double cpu_s) {
-  const JobState state = answer ? JobState::kSuccessful : JobState::kFailed;
-  JobAnswer outcome = answer ? *answer : JobAnswer(json::write_problem(answer.error()));
-  outcome.cpu_s = cpu_s;
-  // The store refuses it when the job was dismissed meanwhile: then nobody ever sees this outcome. A store
-  // that can't be reached for a moment is no reason to throw the work away; after the lease somebody else
-  // does it.
-  const auto until = std::chrono::steady_clock::now() + options_.lease;
-  constexpr std::chrono::milliseconds kBetweenTries{200};
-  for (;;) {
-    const auto kept = store_->finish(claimed.lease(), state, outcome, now_ms());
-    const bool may_pass = !kept && kept.error().code == ErrorCode::kStorage;
-    if (!may_pass || stopping_ || std::chrono::steady_clock::now() >= until) break;
-    std::this_thread::sleep_for(kBetweenTries);
-  }
+void JobRunner::write(JobBatch& batch) {
+  if (!batch.write(options_.lease, stopping_)) return;
   trim();
+  if (on_change_) on_change_();
 }
 
 }  // namespace slipway::api

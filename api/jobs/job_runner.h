@@ -12,30 +12,12 @@
 #include <thread>
 #include <vector>
 
+#include "api/jobs/job_batch.h"
+#include "api/jobs/job_progress.h"
 #include "api/jobs/job_store.h"
-#include "core/progress.h"
+#include "api/jobs/work_in_parts.h"
 
 namespace slipway::api {
-
-// What a job of some kind does with its request: the answer's bytes. It asks progress.cancelled() at least
-// every 100 ms.
-using JobWork =
-    std::function<Result<JobAnswer>(const std::string& kind, const std::string& request, Progress&)>;
-
-// The answer of the job's part of this number.
-using PartAnswer = std::function<Result<JobAnswer>(int part)>;
-
-// Work that several workers may share. The same bytes come of it however many of them there are, and of the
-// same work done in one go.
-struct WorkInParts {
-  // The requests of the parts, in the order in which they are put together. Fewer than two: it is done in one
-  // go. Quick, as it is done before the job is divided.
-  std::function<Result<std::vector<std::string>>(const std::string& kind, const std::string& request)> split;
-  JobWork part;
-  std::function<Result<JobAnswer>(const std::string& kind, const std::string& request, const PartAnswer&,
-                                  Progress&)>
-      put_together;
-};
 
 struct JobRunnerOptions {
   // One list of kinds per worker: that worker claims only these; an empty list claims every kind. Short work
@@ -53,6 +35,9 @@ struct JobRunnerOptions {
   // How often an idle worker looks for jobs that others left, and who waits for an end whether it has come.
   std::chrono::milliseconds idle_poll{1000};
   std::optional<std::chrono::milliseconds> max_time = {};  // of one attempt
+  // A worker claims as many short parts at once as take so long. Others wait for what it holds, and what it
+  // has done of it is lost if it dies; what it has not begun after twice the time it gives back.
+  std::chrono::milliseconds batch_time{2000};
 };
 
 // Who asks for a job, and how.
@@ -68,7 +53,8 @@ struct QueueEstimate {
   std::optional<double> wait_s;  // by what the last jobs took; nothing where that is not known
 };
 
-// Claims jobs from a store and runs them on its own threads. Jobs that were accepted or running when the
+// Claims jobs from a store and runs them on its own threads; of short parts of one job each takes several at
+// once. Jobs that were accepted or running when the
 // process died run again. Thread-safe.
 class JobRunner {
  public:
@@ -110,16 +96,13 @@ class JobRunner {
   std::chrono::milliseconds longest_silence() const;
 
  private:
-  class JobProgress;
-
   void serve(const std::vector<std::string>& kinds);
-  void run(const ClaimedJob& claimed);
+  void work_through(JobBatch& batch);
+  void run(const ClaimedJob& claimed, JobBatch& batch);
   bool divided(const ClaimedJob& claimed);
   Result<JobAnswer> answer_of(const ClaimedJob& claimed, JobProgress& progress);
   Result<JobAnswer> work_on(const ClaimedJob& claimed, Progress& progress);
-  Result<JobAnswer> put_together(const ClaimedJob& claimed, Progress& progress);
-  Result<JobAnswer> answer_of_part(const Job& part);
-  void conclude(const ClaimedJob& claimed, const Result<JobAnswer>& answer, double cpu_s);
+  void write(JobBatch& batch);
 
   std::shared_ptr<JobStore> store_;
   JobWork work_;

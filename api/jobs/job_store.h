@@ -76,6 +76,13 @@ struct JobAnswer {
   double cpu_s = 0.0;               // processor time that it took
 };
 
+// How a claimed job has ended: successful with its answer, or failed with its problem document.
+struct JobEnd {
+  Lease lease;
+  JobState state = JobState::kSuccessful;
+  JobAnswer outcome;
+};
+
 // A page of such a table.
 struct SeriesPage {
   std::string bytes;
@@ -122,17 +129,25 @@ class JobStore {
   // The most urgent, and of these the oldest, job of these kinds (of any kind where none is named) that is
   // accepted, or running under a lease that has ended, which is a death. It is running afterwards, its
   // attempt one higher. Nothing where there is none.
-  virtual Result<std::optional<ClaimedJob>> claim(std::string_view worker,
-                                                  const std::vector<std::string>& kinds, std::int64_t now,
-                                                  std::int64_t lease_until) = 0;
+  //
+  // Behind a part come the parts of the same job that follow it in the queue: `most` jobs in all, but not
+  // more than parts_at_once() says. Parts with a death behind them are claimed alone, so that the one that
+  // kills its worker brings at most one death upon others.
+  virtual Result<std::vector<ClaimedJob>> claim_some(std::string_view worker,
+                                                     const std::vector<std::string>& kinds, std::int64_t now,
+                                                     std::int64_t lease_until, int most) = 0;
+  // The first of them alone.
+  Result<std::optional<ClaimedJob>> claim(std::string_view worker, const std::vector<std::string>& kinds,
+                                          std::int64_t now, std::int64_t lease_until);
+  // Accepts again what has not been begun under these leases; no death is counted. Lost ones are passed over.
+  virtual Result<int> give_back(const std::vector<Lease>& leases) = 0;
   // Writes progress, and what was found where that is not empty, and renews the lease. False: the lease is
   // lost (dismissed, or claimed by another); stop working.
   virtual Result<bool> report(const Lease& lease, std::string_view stage, double progress,
                               std::int64_t lease_until, std::string_view best_so_far = {}) = 0;
-  // successful with its answer, or failed with its problem document. False: the lease is lost, nothing was
-  // kept.
-  virtual Result<bool> finish(const Lease& lease, JobState state, const JobAnswer& outcome,
-                              std::int64_t now) = 0;
+  // All in one transaction. Of each, false: its lease is lost, nothing of it was kept.
+  virtual Result<std::vector<bool>> finish_all(const std::vector<JobEnd>& ends, std::int64_t now) = 0;
+  Result<bool> finish(const Lease& lease, JobState state, const JobAnswer& outcome, std::int64_t now);
   // Divides the job into parts, which are jobs of its kind, owner and urgency with these requests, and gives
   // the lease back. Until the last part has ended the job is running and nobody's; in the transaction of that
   // end it is accepted again, to be put together from its parts' answers. Parts are dismissed and forgotten

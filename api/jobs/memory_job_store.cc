@@ -46,30 +46,45 @@ class MemoryJobStore final : public JobStore {
     return entry.job;
   }
 
-  Result<std::optional<ClaimedJob>> claim(std::string_view worker, const std::vector<std::string>& kinds,
-                                          std::int64_t now, std::int64_t lease_until) override {
+  Result<std::vector<ClaimedJob>> claim_some(std::string_view worker, const std::vector<std::string>& kinds,
+                                             std::int64_t now, std::int64_t lease_until, int most) override {
     const std::scoped_lock lock(mutex_);
-    Entry* next = nullptr;
+    std::vector<ClaimedJob> claimed;
+    Entry* first = nullptr;
     for (Entry& entry : entries_) {
       const bool late = entry.job.state == JobState::kRunning && !entry.waits && entry.lease_until < now;
       const bool free = entry.job.state == JobState::kAccepted || late;
-      if (free && is_among(kinds, entry) && (next == nullptr || entry.job.urgency < next->job.urgency))
-        next = &entry;
+      if (free && is_among(kinds, entry) && (first == nullptr || entry.job.urgency < first->job.urgency))
+        first = &entry;
     }
-    if (next == nullptr) return std::nullopt;
-    Job& job = next->job;
-    if (job.state == JobState::kRunning) {
-      ++job.deaths;
-      job.last_death = kLeaseEnded;
+    if (first == nullptr) return claimed;
+    if (first->job.state == JobState::kRunning) {
+      ++first->job.deaths;
+      first->job.last_death = kLeaseEnded;
     }
-    job.state = JobState::kRunning;
-    job.best_so_far.clear();
-    job.started_ms = now;
-    ++job.attempt;
-    ++job.version;
-    next->worker = worker;
-    next->lease_until = lease_until;
-    return ClaimedJob{.job = job, .request = next->asked.request, .worker = std::string(worker)};
+    claimed.push_back(give(*first, worker, now, lease_until));
+    if (first->job.whole.empty() || first->job.deaths > 0) return claimed;
+    const int at_once = parts_at_once(find(first->job.whole)->job.parts, most);
+    for (Entry& entry : entries_) {  // the first part is before the others
+      if (static_cast<int>(claimed.size()) >= at_once) break;
+      const bool is_beside = entry.job.whole == first->job.whole && entry.job.deaths == 0;
+      if (is_beside && entry.job.state == JobState::kAccepted)
+        claimed.push_back(give(entry, worker, now, lease_until));
+    }
+    return claimed;
+  }
+
+  Result<int> give_back(const std::vector<Lease>& leases) override {
+    const std::scoped_lock lock(mutex_);
+    int count = 0;
+    for (const Lease& lease : leases) {
+      Entry* const entry = held(lease);
+      if (entry == nullptr) continue;
+      entry->job.state = JobState::kAccepted;
+      ++entry->job.version;
+      ++count;
+    }
+    return count;
   }
 
   Result<bool> report(const Lease& lease, std::string_view stage, double progress, std::int64_t lease_until,
@@ -86,16 +101,19 @@ class MemoryJobStore final : public JobStore {
     return true;
   }
 
-  Result<bool> finish(const Lease& lease, JobState state, const JobAnswer& outcome,
-                      std::int64_t now) override {
+  Result<std::vector<bool>> finish_all(const std::vector<JobEnd>& ends, std::int64_t now) override {
     const std::scoped_lock lock(mutex_);
-    Entry* const entry = held(lease);
-    if (entry == nullptr) return false;
-    entry->job.cpu_s = outcome.cpu_s;
-    entry->outcome = outcome.bytes;
-    entry->series = outcome.series;
-    end(*entry, state, now);
-    return true;
+    std::vector<bool> kept;
+    for (const JobEnd& its : ends) {
+      Entry* const entry = held(its.lease);
+      kept.push_back(entry != nullptr);
+      if (entry == nullptr) continue;
+      entry->job.cpu_s = its.outcome.cpu_s;
+      entry->outcome = its.outcome.bytes;
+      entry->series = its.outcome.series;
+      end(*entry, its.state, now);
+    }
+    return kept;
   }
 
   Result<bool> split(const Lease& lease, const std::vector<std::string>& requests,
@@ -271,6 +289,18 @@ class MemoryJobStore final : public JobStore {
     const bool holds = entry != nullptr && entry->job.state == JobState::kRunning && !entry->waits &&
                        entry->job.attempt == lease.attempt;
     return holds ? entry : nullptr;
+  }
+
+  static ClaimedJob give(Entry& entry, std::string_view worker, std::int64_t now, std::int64_t lease_until) {
+    Job& job = entry.job;
+    job.state = JobState::kRunning;
+    job.best_so_far.clear();
+    job.started_ms = now;
+    ++job.attempt;
+    ++job.version;
+    entry.worker = worker;
+    entry.lease_until = lease_until;
+    return ClaimedJob{.job = job, .request = entry.asked.request, .worker = std::string(worker)};
   }
 
   static std::int64_t bytes_of(const Entry& entry) {

@@ -109,6 +109,26 @@ PostgresValues& PostgresValues::list(const std::vector<std::string>& values) {
   return *this;
 }
 
+PostgresValues& PostgresValues::bytes_list(const std::vector<std::string_view>& values) {
+  // The binary form of an array [PostgreSQL 15, array_recv()]: dimensions, whether any is NULL, the type of
+  // its elements; then the size and the first index of the one dimension; then each with its length.
+  constexpr std::uint32_t kBytea = 17;
+  std::string array;
+  const auto append = [&array](std::uint32_t number) {
+    const std::uint32_t big_endian = htobe32(number);
+    array.append(reinterpret_cast<const char*>(&big_endian),
+                 sizeof big_endian);  // NOLINT(*-reinterpret-cast)
+  };
+  for (const std::uint32_t number : {1U, 0U, kBytea, static_cast<std::uint32_t>(values.size()), 1U})
+    append(number);
+  for (const std::string_view value : values) {
+    append(static_cast<std::uint32_t>(value.size()));
+    array += value;
+  }
+  values_.push_back({std::move(array), true, false});
+  return *this;
+}
+
 PostgresValues& PostgresValues::nothing() {
   values_.push_back({.bytes = {}, .binary = false, .null = true});
   return *this;
@@ -174,13 +194,18 @@ PostgresConnection::PostgresConnection(const PostgresAddress& address, CommitKin
   if (PQstatus(connection_.get()) != CONNECTION_OK) throw_lost();
   PQsetNoticeReceiver(connection_.get(), note_warning, &warned_);
   PQsetnonblocking(connection_.get(), 1);
-  // Who has turned durable commits off for the whole server does not mean the jobs.
-  run(kind == CommitKind::kQuick
-          ? "SELECT set_config('synchronous_commit', 'off', false), "
-            "set_config('default_transaction_isolation', 'read committed', false)"
-          : "SELECT set_config('synchronous_commit', CASE current_setting('synchronous_commit') "
-            "WHEN 'off' THEN 'on' ELSE current_setting('synchronous_commit') END, false), "
-            "set_config('default_transaction_isolation', 'read committed', false)");
+  // Who has turned durable commits off for the whole server does not mean the jobs. Queues change faster than
+  // what the planner knows of them: a job of thousands of parts that was just divided would be sorted by each
+  // claim, where the index has the order; and what no longer can be sorted is no reason to compile it.
+  constexpr std::string_view kAlways =
+      "set_config('default_transaction_isolation', 'read committed', false), "
+      "set_config('enable_sort', 'off', false), set_config('enable_bitmapscan', 'off', false), "
+      "set_config('jit', 'off', false)";
+  run(fmt::format("SELECT set_config('synchronous_commit', {}, false), {}",
+                  kind == CommitKind::kQuick ? "'off'"
+                                             : "CASE current_setting('synchronous_commit') WHEN 'off' THEN "
+                                               "'on' ELSE current_setting('synchronous_commit') END",
+                  kAlways));
 }
 
 void PostgresConnection::Closer::operator()(pg_conn* connection) const {

@@ -67,8 +67,9 @@ class PostgresValues {
   PostgresValues& text(std::string_view value);  // of a column of text or bytes
   PostgresValues& number(std::int64_t value);
   PostgresValues& real(double value);
-  PostgresValues& list(const std::vector<std::string>& values);  // text[]
-  PostgresValues& nothing();                                     // NULL
+  PostgresValues& list(const std::vector<std::string>& values);             // text[]
+  PostgresValues& bytes_list(const std::vector<std::string_view>& values);  // bytea[]
+  PostgresValues& nothing();                                                // NULL
 
  private:
   friend class PostgresConnection;

@@ -2,20 +2,26 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
+#include "api/jobs/artefact_row.h"
 #include "api/jobs/job_admission.h"
 #include "api/jobs/job_digest.h"
 
 namespace slipway::api {
 namespace {
 
-// Of the whole, 1 where the part has no answer, its cost [s], the stage, the share of parts.
-// Parts that end together queue up for this row, and one of them sees that it is the last.
-constexpr std::string_view kCountEndedPart =
-    "UPDATE slipway_jobs SET parts_ended = parts_ended + 1, parts_failed = parts_failed + {1}, "
-    "parts_cpu_s = parts_cpu_s + {2}, version = version + 1, stage = format({3}, parts_ended + 1, parts), "
-    "progress = {4}::float8 * (parts_ended + 1) / parts, "
-    "state = CASE WHEN parts_ended + 1 = parts THEN 'accepted' ELSE state END "
-    "WHERE id = {0} AND state = 'running' RETURNING (parts_ended = parts)::int::bigint AS is_last";
+// Of jobs, how many parts have ended: the table of {0} says of which `whole` how many (`parts`), how many
+// without an answer (`failed`), and their cost (`cpu_s` [s]); then the stage, and the share of parts.
+// Workers queue up for the whole's row, and one of them sees that its part is the last.
+constexpr std::string_view kCountEndedParts =
+    "UPDATE slipway_jobs AS job SET parts_ended = job.parts_ended + ended.parts, "
+    "parts_failed = job.parts_failed + ended.failed, parts_cpu_s = job.parts_cpu_s + ended.cpu_s, "
+    "version = job.version + 1, stage = format({1}, job.parts_ended + ended.parts, job.parts), "
+    "progress = {2}::float8 * (job.parts_ended + ended.parts) / job.parts, "
+    "state = CASE WHEN job.parts_ended + ended.parts = job.parts THEN 'accepted' ELSE job.state END "
+    "FROM ({0}) AS ended WHERE job.id = ended.whole AND job.state = 'running' "
+    "RETURNING (job.parts_ended = job.parts)::int::bigint AS is_last";
 
 bool was_ended(PostgresConnection& connection, const Lease& lease, const std::string& digest) {
   // Changed too, so that the commit waits for what the first one may not have waited for.
@@ -25,6 +31,18 @@ bool was_ended(PostgresConnection& connection, const Lease& lease, const std::st
                  "worker = $3 AND outcome_sha256 = $4",
                  held(lease).text(digest))
              .changed() == 1;
+}
+
+void insert_series(PostgresConnection& connection, const Lease& lease,
+                   const std::vector<std::string>& series) {
+  for (std::size_t k = 0; k < series.size(); ++k) {
+    const auto page = static_cast<std::int64_t>(k + 1);
+    connection.run(
+        fmt::format("INSERT INTO slipway_series (job_id, page, bytes, sha256) SELECT id, $4, $5, $6 "
+                    "FROM slipway_jobs WHERE {}",
+                    kHeldRow),
+        held(lease).number(page).text(series[k]).text(series_digest(lease.id, page, series[k])));
+  }
 }
 
 }  // namespace
@@ -72,39 +90,52 @@ std::optional<Job> get_from(PostgresConnection& connection, std::string_view id)
   return rows.count() == 1 ? std::optional(job_of(rows, 0)) : std::nullopt;
 }
 
-bool end_job(PostgresConnection& connection, const Lease& lease, JobState state, const JobAnswer& outcome,
-             std::int64_t now, bool& to_put_together) {
-  const std::string digest = outcome_digest(lease.id, describe(state), outcome.bytes);
-  for (std::size_t k = 0; k < outcome.series.size(); ++k) {
-    const auto page = static_cast<std::int64_t>(k + 1);
-    connection.run(
-        "INSERT INTO slipway_series (job_id, page, bytes, sha256) SELECT id, $4, $5, $6 FROM slipway_jobs "
-        "WHERE id = $1 AND attempt = $2 AND worker = $3 AND state = 'running'",
-        held(lease)
-            .number(page)
-            .text(outcome.series[k])
-            .text(series_digest(lease.id, page, outcome.series[k])));
+std::vector<bool> end_jobs(PostgresConnection& connection, const std::vector<JobEnd>& ends, std::int64_t now,
+                           bool& to_put_together) {
+  std::vector<std::string> ids, attempts, workers, states, digests, costs;
+  std::vector<std::string_view> outcomes;
+  for (const auto& [lease, state, outcome] : ends) {
+    insert_series(connection, lease, outcome.series);
+    ids.push_back(lease.id);
+    attempts.push_back(fmt::format("{}", lease.attempt));
+    workers.push_back(lease.worker);
+    states.emplace_back(describe(state));
+    outcomes.emplace_back(outcome.bytes);
+    digests.push_back(outcome_digest(lease.id, describe(state), outcome.bytes));
+    costs.push_back(fmt::format("{}", outcome.cpu_s));
   }
-  // One statement, so that nobody waits for the whole's row longer than it takes.
+  // One statement, so that nobody waits for a whole's row longer than it takes.
   static const std::string kEnd = fmt::format(
-      "WITH ended AS (UPDATE slipway_jobs SET state = $4, outcome = $5, outcome_sha256 = $6, ended_ms = $7, "
-      "cpu_s = $8, version = version + 1, progress = CASE $4 WHEN 'successful' THEN 1.0 ELSE progress END "
-      "WHERE {} RETURNING whole), counted AS ({}) "
-      "SELECT (SELECT count(*) FROM ended), (SELECT is_last FROM counted)",
-      kHeldRow,
-      fmt::format(kCountEndedPart, "(SELECT whole FROM ended)", "CASE $4 WHEN 'successful' THEN 0 ELSE 1 END",
-                  "$8", "$9", "$10"));
-  const PostgresRows rows = connection.run(kEnd, held(lease)
-                                                     .text(describe(state))
-                                                     .text(outcome.bytes)
-                                                     .text(digest)
+      "WITH ended AS (UPDATE slipway_jobs AS job SET state = new.state, outcome = new.outcome, "
+      "outcome_sha256 = new.sha256, ended_ms = $8, cpu_s = new.cpu_s, version = version + 1, "
+      "progress = CASE new.state WHEN 'successful' THEN 1.0 ELSE progress END "
+      "FROM unnest($1::text[], $2::bigint[], $3::text[], $4::text[], $5::bytea[], $6::text[], $7::float8[]) "
+      "AS new (id, attempt, worker, state, outcome, sha256, cpu_s) WHERE job.id = new.id AND "
+      "job.attempt = new.attempt AND job.worker = new.worker AND job.state = 'running' "
+      "RETURNING job.id, job.whole, job.state, job.cpu_s), "
+      "counted AS ({}) SELECT id, (SELECT max(is_last) FROM counted) FROM ended",
+      fmt::format(kCountEndedParts,
+                  "SELECT whole, count(*) AS parts, count(*) FILTER (WHERE state <> 'successful') AS failed, "
+                  "sum(cpu_s) AS cpu_s FROM ended WHERE whole IS NOT NULL GROUP BY whole",
+                  "$9", "$10"));
+  const PostgresRows rows = connection.run(kEnd, PostgresValues()
+                                                     .list(ids)
+                                                     .list(attempts)
+                                                     .list(workers)
+                                                     .list(states)
+                                                     .bytes_list(outcomes)
+                                                     .list(digests)
+                                                     .list(costs)
                                                      .number(now)
-                                                     .real(outcome.cpu_s)
                                                      .text(kStageOfParts)
                                                      .real(kShareOfParts));
-  if (rows.number(0, 0) != 1) return was_ended(connection, lease, digest);
-  to_put_together = rows.optional_number(0, 1).value_or(0) == 1;
-  return true;
+  std::set<std::string> now_ended;
+  for (int row = 0; row < rows.count(); ++row) now_ended.insert(rows.text(row, 0));
+  to_put_together = rows.count() > 0 && rows.optional_number(0, 1).value_or(0) == 1;
+  std::vector<bool> kept;
+  for (std::size_t k = 0; k < ends.size(); ++k)
+    kept.push_back(now_ended.contains(ids[k]) || was_ended(connection, ends[k].lease, digests[k]));
+  return kept;
 }
 
 bool split_job(PostgresConnection& connection, const Lease& lease, const std::vector<std::string>& requests,
@@ -147,8 +178,38 @@ void dismiss_job(PostgresConnection& connection, std::string_view id, std::int64
   if (connection.run(fmt::format(kDismiss, "id"), values).changed() != 1) return;
   connection.run(fmt::format(kDismiss, "whole"), values);
   if (!job || job->whole.empty()) return;
-  connection.run(fmt::format(kCountEndedPart, "$1", "1", "$2", "$3", "$4"),
-                 PostgresValues().text(job->whole).real(0.0).text(kStageOfParts).real(kShareOfParts));
+  connection.run(
+      fmt::format(kCountEndedParts, "SELECT $1 AS whole, 1 AS parts, 1 AS failed, 0.0 AS cpu_s", "$2", "$3"),
+      PostgresValues().text(job->whole).text(kStageOfParts).real(kShareOfParts));
+}
+
+int forget_jobs(PostgresConnection& connection, const Retention& kept, std::int64_t now) {
+  // Those of a row's pages count wherever they are.
+  const auto own = [](std::string_view job) {
+    return fmt::format(
+        "octet_length({0}.request) + coalesce(octet_length({0}.outcome), 0) + "
+        "coalesce((SELECT sum(CASE WHEN octet_length(bytes) = {1} AND substring(bytes FROM 1 FOR {2}) = "
+        "$5::bytea THEN convert_from(substring(bytes FROM {3}), 'UTF8')::bigint ELSE octet_length(bytes) "
+        "END) "
+        "FROM slipway_series WHERE job_id = {0}.id), 0)",
+        job, kArtefactRowBytes, kArtefactMark.size(), kArtefactMark.size() + kArtefactNameDigits + 1);
+  };
+  return connection
+      .run(fmt::format("DELETE FROM slipway_jobs WHERE sequence IN (SELECT sequence FROM ("
+                       "SELECT sequence, ended_ms, row_number() OVER newest AS number, "
+                       "sum({} + CASE parts WHEN 0 THEN 0 ELSE (SELECT sum({}) FROM slipway_jobs AS of_it "
+                       "WHERE of_it.whole = slipway_jobs.id) END) OVER newest AS bytes "
+                       "FROM slipway_jobs WHERE state NOT IN ('accepted', 'running') AND whole IS NULL "
+                       "WINDOW newest AS (ORDER BY sequence DESC)) AS ended "
+                       "WHERE number > $1 OR bytes > $2 OR $3 - ended_ms > $4)",
+                       own("slipway_jobs"), own("of_it")),
+           PostgresValues()
+               .number(static_cast<std::int64_t>(kept.most))
+               .number(kept.most_bytes)
+               .number(now)
+               .number(kept.most_age_ms)
+               .text(kArtefactMark))
+      .changed();
 }
 
 }  // namespace slipway::api

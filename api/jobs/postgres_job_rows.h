@@ -26,14 +26,17 @@ Job job_of(const PostgresRows& rows, int row);
 std::vector<Job> jobs_of(const PostgresRows& rows);
 std::optional<Job> get_from(PostgresConnection& connection, std::string_view id);
 
-// False: the lease is lost. True also where this lease has ended the job with this outcome before, of which
-// the answer was lost. `to_put_together`: it was the last part of its whole.
-bool end_job(PostgresConnection& connection, const Lease& lease, JobState state, const JobAnswer& outcome,
-             std::int64_t now, bool& to_put_together);
+// Of each, false: its lease is lost. True also where this lease has ended the job with this outcome before,
+// of which the answer was lost. `to_put_together`: a job's last part was among them.
+std::vector<bool> end_jobs(PostgresConnection& connection, const std::vector<JobEnd>& ends, std::int64_t now,
+                           bool& to_put_together);
 // False: the lease is lost. True also where it was divided before.
 bool split_job(PostgresConnection& connection, const Lease& lease, const std::vector<std::string>& requests,
                std::int64_t now);
 // What has not ended, with its parts; of a part its whole hears.
 void dismiss_job(PostgresConnection& connection, std::string_view id, std::int64_t now);
+
+// The ended jobs that are not to be kept go; how many.
+int forget_jobs(PostgresConnection& connection, const Retention& kept, std::int64_t now);
 
 }  // namespace slipway::api

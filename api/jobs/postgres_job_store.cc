@@ -16,11 +16,6 @@
 namespace slipway::api {
 namespace {
 
-// "AND kind = ANY($n)"; nothing where any kind will do. The list is bound by the caller then.
-std::string among(const std::vector<std::string>& kinds, int n) {
-  return kinds.empty() ? "" : fmt::format("AND kind = ANY(${}::text[])", n);
-}
-
 // What stands in the store before a job is appended, and whether it was.
 struct Appended {
   std::int64_t unfinished = 0, of_owner = 0;
@@ -68,37 +63,19 @@ class PostgresJobStore final : public JobStore {
     return *std::move(accepted);
   }
 
-  Result<std::optional<ClaimedJob>> claim(std::string_view worker, const std::vector<std::string>& kinds,
-                                          std::int64_t now, std::int64_t lease_until) override {
-    // Each of the two is found by an index of its own. LIMIT holds within each, as they are materialised.
-    const std::string sql = fmt::format(
-        "WITH waiting AS MATERIALIZED (SELECT sequence, urgency FROM slipway_jobs "
-        "WHERE state = 'accepted' {0} ORDER BY urgency, sequence LIMIT 1 FOR UPDATE SKIP LOCKED), "
-        "late AS MATERIALIZED (SELECT sequence, urgency FROM slipway_jobs "
-        "WHERE state = 'running' AND lease_until_ms < $1 {0} ORDER BY urgency, sequence LIMIT 1 "
-        "FOR UPDATE SKIP LOCKED), "
-        "next AS MATERIALIZED (SELECT sequence AS chosen FROM (TABLE waiting UNION ALL TABLE late) AS "
-        "both_kinds "
-        "ORDER BY urgency, sequence LIMIT 1) "
-        "UPDATE slipway_jobs SET deaths = deaths + CASE state WHEN 'running' THEN 1 ELSE 0 END, "
-        "last_death = CASE state WHEN 'running' THEN $2 ELSE last_death END, state = 'running', "
-        "best_so_far = '', started_ms = $1, attempt = attempt + 1, version = version + 1, worker = $3, "
-        "lease_until_ms = $4 FROM next WHERE sequence = chosen RETURNING {1}, request, request_sha256",
-        among(kinds, 5), kJobRow);
-    return quick_.run([&](PostgresConnection& connection) -> std::optional<ClaimedJob> {
-      PostgresValues values;
-      values.number(now).text(kLeaseEnded).text(worker).number(lease_until);
-      if (!kinds.empty()) values.list(kinds);
-      const PostgresRows rows = connection.run(sql, values);
-      if (rows.count() == 0) return std::nullopt;
-      ClaimedJob claimed;
-      claimed.job = job_of(rows, 0);
-      claimed.request = rows.text(0, kJobRowColumns);
-      claimed.worker = worker;
-      claimed.damaged = rows.text(0, kJobRowColumns + 1) !=
-                        request_digest(claimed.job.id, claimed.job.kind, claimed.request);
-      return claimed;
+  Result<std::vector<ClaimedJob>> claim_some(std::string_view worker, const std::vector<std::string>& kinds,
+                                             std::int64_t now, std::int64_t lease_until, int most) override {
+    auto claimed = quick_.run([&](PostgresConnection& connection) {
+      return claim_jobs(connection, worker, kinds, now, lease_until, most);
     });
+    return claimed;
+  }
+
+  Result<int> give_back(const std::vector<Lease>& leases) override {
+    auto given =
+        quick_.run([&](PostgresConnection& connection) { return give_back_jobs(connection, leases); });
+    if (given && *given > 0) bell_.ring(StoreNews::kAccepted);
+    return given;
   }
 
   Result<bool> report(const Lease& lease, std::string_view stage, double progress, std::int64_t lease_until,
@@ -115,20 +92,22 @@ class PostgresJobStore final : public JobStore {
     });
   }
 
-  Result<bool> finish(const Lease& lease, JobState state, const JobAnswer& outcome,
-                      std::int64_t now) override {
+  Result<std::vector<bool>> finish_all(const std::vector<JobEnd>& ends, std::int64_t now) override {
     // The end of a part is nobody's answer yet.
-    PostgresPool& pool = lease.whole.empty() ? durable_ : quick_;
+    const bool parts_only =
+        std::all_of(ends.begin(), ends.end(), [](const JobEnd& end) { return !end.lease.whole.empty(); });
+    const bool one_statement =
+        std::all_of(ends.begin(), ends.end(), [](const JobEnd& end) { return end.outcome.series.empty(); });
     bool to_put_together = false;
-    auto kept = pool.run([&](PostgresConnection& connection) {
-      if (outcome.series.empty()) return end_job(connection, lease, state, outcome, now, to_put_together);
+    auto kept = (parts_only ? quick_ : durable_).run([&](PostgresConnection& connection) {
+      if (one_statement) return end_jobs(connection, ends, now, to_put_together);
       PostgresTransaction transaction(connection);
-      const bool ended = end_job(connection, lease, state, outcome, now, to_put_together);
+      std::vector<bool> ended = end_jobs(connection, ends, now, to_put_together);
       transaction.commit();
       return ended;
     });
     if (to_put_together) bell_.ring(StoreNews::kAccepted);
-    if (kept && *kept && lease.whole.empty()) bell_.ring(StoreNews::kEnded);
+    if (kept && !parts_only) bell_.ring(StoreNews::kEnded);
     return kept;
   }
 
@@ -279,25 +258,7 @@ class PostgresJobStore final : public JobStore {
   }
 
   Result<int> forget_ended(const Retention& kept, std::int64_t now) override {
-    return quick_.run([&](PostgresConnection& connection) {
-      const PostgresRows rows = connection.run(
-          "DELETE FROM slipway_jobs WHERE sequence IN (SELECT sequence FROM ("
-          "SELECT sequence, ended_ms, row_number() OVER newest AS number, "
-          "sum(octet_length(request) + coalesce(octet_length(outcome), 0) + coalesce((SELECT "
-          "sum(octet_length(bytes)) FROM slipway_series WHERE job_id = slipway_jobs.id), 0) + "
-          "CASE parts WHEN 0 THEN 0 ELSE (SELECT sum(octet_length(request) + coalesce(octet_length(outcome), "
-          "0) + "
-          "coalesce((SELECT sum(octet_length(bytes)) FROM slipway_series WHERE job_id = of_it.id), 0)) "
-          "FROM slipway_jobs AS of_it WHERE of_it.whole = slipway_jobs.id) END) OVER newest AS bytes "
-          "FROM slipway_jobs WHERE state NOT IN ('accepted', 'running') AND whole IS NULL WINDOW newest AS "
-          "(ORDER BY sequence DESC)) AS ended WHERE number > $1 OR bytes > $2 OR $3 - ended_ms > $4)",
-          PostgresValues()
-              .number(static_cast<std::int64_t>(kept.most))
-              .number(kept.most_bytes)
-              .number(now)
-              .number(kept.most_age_ms));
-      return rows.changed();
-    });
+    return quick_.run([&](PostgresConnection& connection) { return forget_jobs(connection, kept, now); });
   }
 
   void listen(StoreNews news, std::function<void()> call) override { bell_.listen(news, std::move(call)); }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "api/jobs/artefact_row.h"
 #include "api/jobs/job_admission.h"
 #include "api/jobs/job_digest.h"
 
@@ -40,8 +41,42 @@ std::optional<Job> get_from(SqliteConnection& connection, std::string_view id) {
   return row.step() ? std::optional(job_of(row)) : std::nullopt;
 }
 
-bool end_job(SqliteConnection& connection, const Lease& lease, JobState state, const JobAnswer& outcome,
-             std::int64_t now) {
+ClaimedJob claim_one(SqliteConnection& connection, const std::string& id, std::string_view worker,
+                     std::int64_t now, std::int64_t lease_until) {
+  auto update = connection.prepare(
+      "UPDATE jobs SET deaths = deaths + (state = 'running'), "
+      "last_death = CASE WHEN state = 'running' THEN ? ELSE last_death END, state = 'running', "
+      "started_ms = ?, attempt = attempt + 1, version = version + 1, worker = ?, lease_until_ms = ? "
+      "WHERE id = ?");
+  update.bind(kLeaseEnded).bind(now).bind(worker).bind(lease_until).bind(id).step();
+  auto asked = connection.prepare("SELECT request, request_sha256 FROM jobs WHERE id = ?");
+  asked.bind(id);
+  std::optional<Job> job = get_from(connection, id);
+  if (!job || !asked.step()) throw SqliteDamage("a job is not found under its id");
+  ClaimedJob claimed;
+  claimed.job = *std::move(job);
+  claimed.request = asked.text(0);
+  claimed.worker = worker;
+  claimed.damaged = asked.text(1) != request_digest(id, claimed.job.kind, claimed.request);
+  return claimed;
+}
+
+std::vector<std::string> parts_beside(SqliteConnection& connection, const Job& first, int most) {
+  std::vector<std::string> ids;
+  if (most < 2 || first.whole.empty() || first.deaths > 0) return ids;
+  const std::optional<Job> whole = get_from(connection, first.whole);
+  if (!whole) throw SqliteDamage("a part's job is not found under its id");
+  auto row = connection.prepare(
+      "SELECT id FROM jobs WHERE whole = ? AND part > ? AND state = 'accepted' AND deaths = 0 ORDER BY part "
+      "LIMIT ?");
+  row.bind(first.whole).bind(std::int64_t{first.part});
+  row.bind(std::int64_t{parts_at_once(whole->parts, most) - 1});
+  while (row.step()) ids.push_back(row.text(0));
+  return ids;
+}
+
+bool end_job(SqliteConnection& connection, const JobEnd& end, std::int64_t now) {
+  const auto& [lease, state, outcome] = end;
   auto update = connection.prepare(fmt::format(
       "UPDATE jobs SET state = ?, outcome = ?, outcome_sha256 = ?, ended_ms = ?, version = version + 1, "
       "cpu_s = ?, progress = CASE WHEN ? THEN 1.0 ELSE progress END, worker = NULL WHERE {}",
@@ -111,6 +146,30 @@ void count_ended_part(SqliteConnection& connection, std::string_view whole, bool
   told.bind(progress_of_parts(job->parts.ended, job->parts.count));
   told.bind(describe(job->parts.ended < job->parts.count ? JobState::kRunning : JobState::kAccepted));
   told.bind(whole).step();
+}
+
+int forget_jobs(SqliteConnection& connection, const Retention& kept, std::int64_t now) {
+  // Bytes are counted in blobs: of a text length() counts characters, and none behind a zero. Those of a
+  // row's pages count wherever they are.
+  const auto own = [](std::string_view job) {
+    return fmt::format(
+        "length(CAST({0}.request AS BLOB)) + coalesce(length(CAST({0}.outcome AS BLOB)), 0) + "
+        "coalesce((SELECT sum(CASE WHEN length(page) = {1} AND substr(page, 1, {2}) = CAST(?1 AS BLOB) THEN "
+        "CAST(CAST(substr(page, {3}) AS TEXT) AS INTEGER) ELSE length(page) END) FROM "
+        "(SELECT CAST(bytes AS BLOB) AS page FROM series WHERE job_id = {0}.id)), 0)",
+        job, kArtefactRowBytes, kArtefactMark.size(), kArtefactMark.size() + kArtefactNameDigits + 1);
+  };
+  auto erase = connection.prepare(fmt::format(
+      "DELETE FROM jobs WHERE sequence IN (SELECT sequence FROM ("
+      "SELECT sequence, ended_ms, row_number() OVER newest AS number, sum({} + CASE parts WHEN 0 THEN 0 ELSE "
+      "(SELECT sum({}) FROM jobs AS part_of_it WHERE part_of_it.whole = jobs.id) END) OVER newest AS bytes "
+      "FROM jobs WHERE state NOT IN ('accepted', 'running') AND whole IS NULL "
+      "WINDOW newest AS (ORDER BY sequence DESC)) "
+      "WHERE number > ?2 OR bytes > ?3 OR ?4 - ended_ms > ?5)",
+      own("jobs"), own("part_of_it")));
+  erase.bind(kArtefactMark).bind(static_cast<std::int64_t>(kept.most)).bind(kept.most_bytes);
+  erase.bind(now).bind(kept.most_age_ms).step();
+  return connection.changes();
 }
 
 }  // namespace slipway::api

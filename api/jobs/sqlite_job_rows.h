@@ -26,14 +26,22 @@ inline constexpr std::string_view kHeld =
 Job job_of(const SqliteStatement& row);
 std::optional<Job> get_from(SqliteConnection& connection, std::string_view id);
 
+// What JobStore::claim_some() does with a job that may be claimed.
+ClaimedJob claim_one(SqliteConnection& connection, const std::string& id, std::string_view worker,
+                     std::int64_t now, std::int64_t lease_until);
+// The parts that are claimed behind the first, `most` jobs in all.
+std::vector<std::string> parts_beside(SqliteConnection& connection, const Job& first, int most);
+
 // False: the lease is lost.
-bool end_job(SqliteConnection& connection, const Lease& lease, JobState state, const JobAnswer& outcome,
-             std::int64_t now);
+bool end_job(SqliteConnection& connection, const JobEnd& end, std::int64_t now);
 bool split_job(SqliteConnection& connection, const Lease& lease, const std::vector<std::string>& requests,
                std::int64_t now);
 // What has not ended, with its parts; of a part its whole hears.
 void dismiss_job(SqliteConnection& connection, std::string_view id, std::int64_t now);
 // One more part of the job has ended; after the last one it is accepted again.
 void count_ended_part(SqliteConnection& connection, std::string_view whole, bool well, double cpu_s);
+
+// The ended jobs that are not to be kept go; how many.
+int forget_jobs(SqliteConnection& connection, const Retention& kept, std::int64_t now);
 
 }  // namespace slipway::api

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <condition_variable>
 #include <mutex>
 #include <utility>
@@ -68,45 +69,47 @@ class SqliteJobStore final : public JobStore {
     return *mine.answer;
   }
 
-  Result<std::optional<ClaimedJob>> claim(std::string_view worker, const std::vector<std::string>& kinds,
-                                          std::int64_t now, std::int64_t lease_until) override {
-    const std::string free = fmt::format(
-        "FROM jobs WHERE state IN ('accepted', 'running') AND (state = 'accepted' OR lease_until_ms < ?) {} "
-        "ORDER BY urgency, sequence LIMIT 1",
+  Result<std::vector<ClaimedJob>> claim_some(std::string_view worker, const std::vector<std::string>& kinds,
+                                             std::int64_t now, std::int64_t lease_until, int most) override {
+    const std::string next = fmt::format(
+        "SELECT id FROM jobs WHERE state IN ('accepted', 'running') AND (state = 'accepted' OR "
+        "lease_until_ms < ?) {} ORDER BY urgency, sequence LIMIT 1",
         among(kinds));
-    // Idle workers of several processes ask all the time: who finds nothing has locked nothing.
-    const auto any = guarded(read_mutex_, [&] {
-      auto row = reader_.prepare("SELECT 1 " + free);
+    const auto found_by = [&](SqliteConnection& connection) -> std::optional<std::string> {
+      auto row = connection.prepare(next);
       row.bind(now);
       for (const std::string& kind : kinds) row.bind(kind);
-      return row.step();
-    });
+      return row.step() ? std::optional(row.text(0)) : std::nullopt;
+    };
+    // Idle workers of several processes ask all the time: who finds nothing has locked nothing.
+    const auto any = guarded(read_mutex_, [&] { return found_by(reader_).has_value(); });
     if (!any) return fail(any.error());
-    if (!*any) return std::nullopt;
-    return guarded(write_mutex_, [&]() -> std::optional<ClaimedJob> {
+    if (!*any) return std::vector<ClaimedJob>{};
+    return guarded(write_mutex_, [&] {
+      std::vector<ClaimedJob> claimed;
       SqliteTransaction transaction(quick_);
-      auto next = quick_.prepare("SELECT id, request, request_sha256, kind " + free);
-      next.bind(now);
-      for (const std::string& kind : kinds) next.bind(kind);
-      if (!next.step()) return std::nullopt;
-      ClaimedJob claimed;
-      const std::string id = next.text(0);
-      claimed.request = next.text(1);
-      claimed.damaged = next.text(2) != request_digest(id, next.text(3), claimed.request);
-      auto update = quick_.prepare(
-          "UPDATE jobs SET deaths = deaths + (state = 'running'), "
-          "last_death = CASE WHEN state = 'running' THEN ? ELSE last_death END, state = 'running', "
-          "started_ms = "
-          "?, "
-          "attempt = attempt + 1, version = version + 1, "
-          "worker = ?, lease_until_ms = ? WHERE id = ?");
-      update.bind(kLeaseEnded).bind(now).bind(worker).bind(lease_until).bind(id).step();
-      const std::optional<Job> job = get_from(quick_, id);
-      if (!job) throw SqliteDamage("a job is not found under its id");
-      claimed.job = *job;
-      claimed.worker = worker;
+      const std::optional<std::string> id = found_by(quick_);
+      if (!id) return claimed;
+      claimed.push_back(claim_one(quick_, *id, worker, now, lease_until));
+      for (const std::string& part : parts_beside(quick_, claimed.front().job, most))
+        claimed.push_back(claim_one(quick_, part, worker, now, lease_until));
       transaction.commit();
       return claimed;
+    });
+  }
+
+  Result<int> give_back(const std::vector<Lease>& leases) override {
+    return guarded(write_mutex_, [&] {
+      SqliteTransaction transaction(quick_);
+      int count = 0;
+      for (const Lease& lease : leases) {
+        auto update = quick_.prepare(fmt::format(
+            "UPDATE jobs SET state = 'accepted', version = version + 1, worker = NULL WHERE {}", kHeld));
+        update.bind(lease.id).bind(std::int64_t{lease.attempt}).step();
+        count += quick_.changes();
+      }
+      transaction.commit();
+      return count;
     });
   }
 
@@ -132,17 +135,22 @@ class SqliteJobStore final : public JobStore {
     });
   }
 
-  Result<bool> finish(const Lease& lease, JobState state, const JobAnswer& outcome,
-                      std::int64_t now) override {
+  Result<std::vector<bool>> finish_all(const std::vector<JobEnd>& ends, std::int64_t now) override {
     return guarded(write_mutex_, [&] {
       // The end of a part is nobody's answer yet.
-      SqliteConnection& connection = lease.whole.empty() ? durable_ : quick_;
+      const bool parts_only =
+          std::all_of(ends.begin(), ends.end(), [](const JobEnd& end) { return !end.lease.whole.empty(); });
+      SqliteConnection& connection = parts_only ? quick_ : durable_;
       SqliteTransaction transaction(connection);
-      const bool held = end_job(connection, lease, state, outcome, now);
-      if (held && !lease.whole.empty())
-        count_ended_part(connection, lease.whole, state == JobState::kSuccessful, outcome.cpu_s);
+      std::vector<bool> kept;
+      for (const JobEnd& end : ends) {
+        kept.push_back(end_job(connection, end, now));
+        if (kept.back() && !end.lease.whole.empty())
+          count_ended_part(connection, end.lease.whole, end.state == JobState::kSuccessful,
+                           end.outcome.cpu_s);
+      }
       transaction.commit();
-      return held;
+      return kept;
     });
   }
 
@@ -286,22 +294,7 @@ class SqliteJobStore final : public JobStore {
 
   Result<int> forget_ended(const Retention& kept, std::int64_t now) override {
     return guarded(write_mutex_, [&] {
-      auto erase = quick_.prepare(
-          "DELETE FROM jobs WHERE sequence IN (SELECT sequence FROM ("
-          "SELECT sequence, ended_ms, row_number() OVER newest AS number, "
-          "sum(length(request) + coalesce(length(outcome), 0) + coalesce((SELECT sum(length(bytes)) FROM "
-          "series "
-          "WHERE job_id = jobs.id), 0) + CASE parts WHEN 0 THEN 0 ELSE (SELECT "
-          "sum(length(request) + coalesce(length(outcome), 0) + coalesce((SELECT sum(length(bytes)) FROM "
-          "series "
-          "WHERE job_id = part_of_it.id), 0)) FROM jobs AS part_of_it WHERE whole = jobs.id) END) OVER "
-          "newest AS bytes "
-          "FROM jobs WHERE state NOT IN ('accepted', 'running') AND whole IS NULL WINDOW newest AS (ORDER BY "
-          "sequence DESC)) "
-          "WHERE number > ? OR bytes > ? OR ? - ended_ms > ?)");
-      erase.bind(static_cast<std::int64_t>(kept.most)).bind(kept.most_bytes).bind(now).bind(kept.most_age_ms);
-      erase.step();
-      const int forgotten = quick_.changes();
+      const int forgotten = forget_jobs(quick_, kept, now);
       if (forgotten > 0) quick_.execute("PRAGMA incremental_vacuum");
       return forgotten;
     });

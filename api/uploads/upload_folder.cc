@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cstring>
 #include <fstream>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -204,12 +205,15 @@ Result<bool> UploadFolder::remove(const std::string& id) {
 
 std::int64_t UploadFolder::bytes() const {
   std::int64_t sum = 0;
-  std::error_code error, gone;
-  for (fs::recursive_directory_iterator it(root_, error), end; !error && it != end; it.increment(error))
-    if (it->is_regular_file(gone) && !gone) {
-      const auto size = it->file_size(gone);
-      if (!gone) sum += static_cast<std::int64_t>(size);
-    }
+  std::set<std::pair<dev_t, ino_t>> counted;  // of files with several names
+  std::error_code error;
+  for (fs::recursive_directory_iterator it(root_, error), end; !error && it != end; it.increment(error)) {
+    struct ::stat status {};
+    if (::lstat(it->path().c_str(), &status) != 0 || !S_ISREG(status.st_mode)) continue;
+    const bool is_coming = it->path().parent_path() == files();  // an upload is a folder there
+    const bool is_known = status.st_nlink > 1 && !counted.emplace(status.st_dev, status.st_ino).second;
+    if (!is_coming && !is_known) sum += status.st_size;
+  }
   return sum;
 }
 
@@ -224,6 +228,14 @@ Result<void> UploadFolder::check_room(std::int64_t more) const {
 void UploadFolder::remove_old(std::int64_t now_ms) {
   for (const Upload& upload : list())
     if (now_ms - upload.origin.at_ms > limits_.max_age_ms) static_cast<void>(remove(upload.id));
+  // What a service that died has left of bodies under way.
+  constexpr auto kDay = std::chrono::hours(24);
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(files(), error)) {
+    std::error_code gone;
+    const bool is_old = fs::file_time_type::clock::now() - entry.last_write_time(gone) > kDay;
+    if (!gone && is_old && entry.is_regular_file(gone)) fs::remove(entry.path(), gone);
+  }
 }
 
 }  // namespace slipway::api

@@ -47,7 +47,7 @@ class UploadFolder {
   std::filesystem::path campaigns() const { return root_ / "drive-campaigns"; }
   std::filesystem::path terrains() const { return root_ / "terrains"; }
 
-  // Keeps the bytes of an open file that has no name yet (O_TMPFILE) in this folder's file system. The same
+  // Keeps the bytes of an open file in files(), without a name or with one that begins with a dot. The same
   // bytes a second time are the upload of the first. Files that are too old go. Errors: invalid_request at
   // /name; storage, storage_full.
   Result<Upload> keep(int fd, const std::string& name, const UploadOrigin& origin);
@@ -59,7 +59,8 @@ class UploadFolder {
   // Whether it was there. Errors: storage.
   Result<bool> remove(const std::string& id);
 
-  // Bytes of all that is in the folder.
+  // Bytes of all that is in the folder, of a file with several names once. Bodies that are still coming are
+  // not in it.
   std::int64_t bytes() const;
   // Errors: storage_full where so many more are not allowed.
   Result<void> check_room(std::int64_t more) const;

@@ -63,7 +63,7 @@ HttpEngine::Outgoing Answers::to_request(HttpEngine& engine, HttpEngine::Exchang
     return engine.respond(std::move(exchange), [this](HttpRequest& request) { return routed(request); });
   } catch (...) {
     log(fmt::format("a request could not be answered: {}", text_of(std::current_exception())));
-    return {to_refused(engine, {head.substr(0, head.find(' ')), origin_in(head)},
+    return {to_refused(engine, {head.substr(0, head.find(' ')), header_in(head, "Origin")},
                        {ErrorCode::kInternal, "the request could not be answered", {}}),
             {}};
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <utility>
 
@@ -26,11 +27,18 @@ bool LargeBodies::take(std::string_view method, std::string_view path) const {
 Result<std::unique_ptr<BodyFile>> BodyFile::make(const std::filesystem::path& folder,
                                                  std::shared_ptr<std::atomic<std::int64_t>> total) {
   FileDescriptor file(::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
+  std::string name;
+  // What file systems say that have none: their own, or as if the flag's other half, O_DIRECTORY, were all.
+  if (!file.is_open() && (errno == EOPNOTSUPP || errno == EISDIR || errno == EINVAL)) {
+    name = (folder / ".body-XXXXXX").string();
+    file = FileDescriptor(::mkostemp(name.data(), O_CLOEXEC));
+  }
   if (!file.is_open()) return unwritten(errno);
-  return std::unique_ptr<BodyFile>(new BodyFile(std::move(file), std::move(total)));
+  return std::unique_ptr<BodyFile>(new BodyFile(std::move(file), std::move(name), std::move(total)));
 }
 
 BodyFile::~BodyFile() {
+  if (!name_.empty()) static_cast<void>(::unlink(name_.c_str()));
   *total_ -= bytes_;
 }
 

@@ -5,6 +5,8 @@
 
 #include <utility>
 
+#include "server/http/http_host.h"
+
 namespace slipway::server {
 namespace {
 
@@ -40,6 +42,7 @@ Result<HttpResponse> http_request(const HttpCall& call) {
   httplib::Request request;
   request.method = call.method;
   request.path = call.path;
+  request.set_header("Host", fmt::format("{}:{}", host_in_url(call.host), call.port));
   for (const auto& [name, value] : call.headers) request.set_header(name, value);
   if (!call.body.empty()) {
     request.body = call.body;

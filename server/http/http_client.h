@@ -10,7 +10,7 @@ namespace slipway::server {
 
 struct HttpCall {
   std::string method = "GET";
-  std::string host = "127.0.0.1";
+  std::string host = "127.0.0.1";  // a name or an address, that of IPv6 without brackets
   int port = 80;
   std::string path = "/";  // with its query, percent-encoded
   NamedValues headers;

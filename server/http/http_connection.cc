@@ -32,7 +32,10 @@ bool HttpLoop::proceed(Connection& connection, HttpWorkers& workers) {
       case Phase::kWorking:
         return true;
       case Phase::kSending:
-        if (!send_rest(connection, blocked)) return false;
+        if (connection.pieces && connection.unsent.empty())
+          ask_for_piece(connection, workers);
+        else if (!send_rest(connection, blocked))
+          return false;
         break;
       case Phase::kStreaming:
         if (!watch_streaming(connection, blocked)) return false;
@@ -102,6 +105,17 @@ void HttpLoop::dispatch(Connection& connection, HttpWorkers& workers) {
   workers.submit(std::move(work));
 }
 
+void HttpLoop::ask_for_piece(Connection& connection, HttpWorkers& workers) {
+  recount(connection);
+  Work work;
+  work.connection = connection.id;
+  work.fd = connection.socket.fd();
+  work.close = connection.close_after;
+  work.pieces = std::exchange(connection.pieces, {});
+  connection.phase = Phase::kWorking;
+  workers.submit(std::move(work));
+}
+
 void HttpLoop::refuse(Connection& connection, const Error& error) {
   counters_.requests_refused.fetch_add(1, std::memory_order_relaxed);
   connection.unsent =
@@ -124,6 +138,7 @@ bool HttpLoop::send_rest(Connection& connection, bool& blocked) {
   }
   connection.unsent = {};
   connection.sent = 0;
+  if (connection.pieces) return true;
   if (!connection.close_after) {
     connection.phase = connection.stream ? Phase::kStreaming : Phase::kReceiving;
     return true;

@@ -95,12 +95,27 @@ HttpRequest request_from(const httplib::Request& in, HttpEngine::Exchange& excha
   return out;
 }
 
+// The same body in chunks [RFC 9112, 7.1]; the last one is empty.
+BodyPieces in_chunks(BodyPieces pieces) {
+  return [pieces = std::move(pieces), ended = false]() mutable -> Result<std::optional<std::string>> {
+    for (;;) {
+      if (ended) return std::nullopt;
+      auto piece = pieces();
+      if (!piece) return fail(piece.error());
+      if (*piece && (*piece)->empty()) continue;
+      ended = !*piece;
+      const std::string_view bytes = ended ? std::string_view() : std::string_view(**piece);
+      return fmt::format("{:x}\r\n{}\r\n", bytes.size(), bytes);
+    }
+  };
+}
+
 void fill(httplib::Response& out, HttpResponse in) {
   out.status = in.status;
   for (const auto& [name, value] : in.headers) {
     if (!is_among(kFramingNames, name)) out.set_header(name, value);
   }
-  if ((!in.body.empty() || in.stream) && !in.content_type.empty())
+  if ((!in.body.empty() || in.stream || in.pieces) && !in.content_type.empty())
     out.set_header("Content-Type", in.content_type);
   out.body = std::move(in.body);
   // "Sun, 06 Nov 1994 08:49:37 GMT" [RFC 9110, 5.6.7]; in the program's locale, which nobody sets.
@@ -120,7 +135,9 @@ class HttpEngine::Adapter final : public httplib::Server {
       reached_ = true;
       HttpRequest request = request_from(in, *exchange_);
       HttpResponse response = (*answer_)(request);
+      goes_on_ = response.stream || response.pieces;
       stream_ = in.method == "HEAD" ? nullptr : response.stream;
+      pieces_ = in.method == "HEAD" ? nullptr : response.pieces;
       fill(out, std::move(response));
       return HandlerResponse::Handled;
     });
@@ -130,7 +147,11 @@ class HttpEngine::Adapter final : public httplib::Server {
       out.body.clear();
       // cpp-httplib offers ranges with every HEAD, and a length where there must be none [RFC 9110, 8.6].
       out.headers.erase("Accept-Ranges");
-      if (out.status == 204 || out.status < 200 || stream_) out.headers.erase("Content-Length");
+      if (out.status == 204 || out.status < 200 || goes_on_) out.headers.erase("Content-Length");
+      if (pieces_ && in.version == "HTTP/1.1") {
+        out.set_header("Transfer-Encoding", "chunked");
+        pieces_ = in_chunks(std::move(pieces_));
+      }
       if (!stream_) return;
       out.headers.erase("Keep-Alive");
       out.headers.erase("Connection");
@@ -153,7 +174,8 @@ class HttpEngine::Adapter final : public httplib::Server {
     if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
     // The head was checked by stricter rules than cpp-httplib's.
     if (!reached_) throw std::logic_error("cpp-httplib refused a head that was found to be sound");
-    Outgoing out{stream.take(), std::exchange(body_, {}), std::exchange(stream_, {})};
+    Outgoing out{stream.take(), std::exchange(body_, {}), std::exchange(stream_, {}),
+                 std::exchange(pieces_, {})};
     if (out.body.size() <= kJoinedBody) out.front += std::exchange(out.body, {});
     return out;
   }
@@ -164,6 +186,8 @@ class HttpEngine::Adapter final : public httplib::Server {
   bool reached_ = false;
   std::string body_;
   std::function<void(std::shared_ptr<AnswerStream>)> stream_;
+  BodyPieces pieces_;
+  bool goes_on_ = false;  // after the head, by one of the two
   std::exception_ptr thrown_;
 };
 

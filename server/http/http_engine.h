@@ -37,6 +37,7 @@ class HttpEngine {
     std::string front;  // the head, and a small body
     std::string body;
     std::function<void(std::shared_ptr<AnswerStream>)> stream = {};
+    BodyPieces pieces = {};  // already as they are sent: in chunks, where the client knows them
   };
 
   // `answer` may throw: it is not caught here.

@@ -87,11 +87,18 @@ void RequestGatherer::advance_head() {
   if (!whole) return;
 
   const std::string_view text = std::string_view(input_).substr(0, scan.size);
-  origin_ = origin_in(text);
+  origin_ = header_in(text, "Origin");
   auto head = read_head(text, *options_);
   if (!head) return refuse(std::move(head.error()));
   head_ = std::move(*head);
+  const bool unwanted = head_.framing != BodyFraming::kNone && options_->wants_body &&
+                        !options_->wants_body(head_.method, head_.path, header_in(text, "Authorization"));
   input_.erase(0, scan.size);
+  if (unwanted) {
+    // Answered as it is, and nothing that follows on the connection is understood any more.
+    head_.framing = BodyFraming::kNone;
+    head_.expects_continue = head_.keep_alive = false;
+  }
   state_ = head_.framing == BodyFraming::kNone ? State::kReady : State::kBody;
   if (head_.framing == BodyFraming::kChunked) chunked_.emplace(max_body_bytes(head_, *options_));
   if (head_.large && state_ == State::kBody) open_body_file();

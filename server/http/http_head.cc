@@ -224,13 +224,13 @@ Result<RequestHead> read_head(std::string_view head, const HttpOptions& options)
   return HeadReader(options).read(head);
 }
 
-std::optional<std::string> origin_in(std::string_view head) {
+std::optional<std::string> header_in(std::string_view head, std::string_view name) {
   while (!head.empty()) {
     const std::size_t end = std::min(head.find("\r\n"), head.size());
     const std::string_view line = head.substr(0, end);
     head.remove_prefix(std::min(end + 2, head.size()));
     const std::size_t colon = line.find(':');
-    if (colon == std::string_view::npos || !equal_ignoring_case(line.substr(0, colon), "Origin")) continue;
+    if (colon == std::string_view::npos || !equal_ignoring_case(line.substr(0, colon), name)) continue;
     return std::string(trimmed(line.substr(colon + 1)));
   }
   return std::nullopt;

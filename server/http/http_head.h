@@ -36,9 +36,8 @@ Result<RequestHead> read_head(std::string_view head, const HttpOptions& options)
 std::uint64_t max_body_bytes(const RequestHead& head, const HttpOptions& options);
 Error body_too_large(std::uint64_t max_bytes);
 
-// The value of the Origin header in a whole head, sound or not, so that a refusal can be read by the page
-// that asked; nothing where the head has none.
-std::optional<std::string> origin_in(std::string_view head);
+// The value of the first header of this name in a whole head, sound or not; nothing where the head has none.
+std::optional<std::string> header_in(std::string_view head, std::string_view name);
 
 // What is known of a head of which only the beginning is there.
 struct HeadScan {

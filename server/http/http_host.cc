@@ -23,6 +23,10 @@ bool is_address(const std::string& name) {
 
 }  // namespace
 
+std::string host_in_url(const std::string& host) {
+  return host.find(':') == std::string::npos ? host : "[" + host + "]";
+}
+
 bool names_this_server(std::string_view host_header, const std::vector<std::string>& names) {
   const std::string name = name_in(host_header);
   return is_address(name) || equal_ignoring_case(name, "localhost") ||

@@ -182,6 +182,7 @@ void HttpLoop::take_back(HttpWorkers& workers) {
     connection.unsent = std::move(work.unsent);
     connection.sent = work.sent;
     connection.counted += work.counted;
+    connection.pieces = std::move(work.pieces);
     if (work.broken) {
       close(connection);
       continue;

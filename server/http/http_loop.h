@@ -75,6 +75,7 @@ class HttpLoop {
     std::size_t counted = 0;               // its share of buffered_bytes
     std::size_t discarded = 0;             // while lingering
     std::shared_ptr<AnswerStream> stream;  // of an answer that goes on
+    BodyPieces pieces;                     // of the answer, which follow what is unsent
   };
 
   void turn(HttpWorkers& workers);
@@ -99,6 +100,7 @@ class HttpLoop {
   bool linger(Connection& connection, bool& blocked);
   void go_on(Connection& connection, HttpWorkers& workers);
   void dispatch(Connection& connection, HttpWorkers& workers);
+  void ask_for_piece(Connection& connection, HttpWorkers& workers);
   void refuse(Connection& connection, const Error& error);
   bool keep_to_budget(Connection& connection);
   void recount(Connection& connection);

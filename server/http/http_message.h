@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/result.h"
 #include "server/http/http_body_file.h"
 #include "server/http/http_stream.h"
 
@@ -42,6 +43,10 @@ struct HttpRequest {
   std::string_view parameter(std::string_view name) const;
 };
 
+// Gives the pieces of a long body one after the other, nothing after the last. An error ends the connection
+// in the middle of the body, which the client sees.
+using BodyPieces = std::function<Result<std::optional<std::string>>()>;
+
 struct HttpResponse {
   int status = 200;
   std::string content_type;  // ignored when the body is empty
@@ -52,6 +57,9 @@ struct HttpResponse {
   // An answer without a body that goes on: it ends with the connection. Called once with what to write into
   // when the head is on its way; not for HEAD.
   std::function<void(std::shared_ptr<AnswerStream>)> stream = {};
+  // A body that is made while it is sent, so that a slow client holds one piece of it: called from any
+  // thread, one call at a time, when the client has taken what came before. Not for HEAD.
+  BodyPieces pieces = {};
   std::string audit = {};  // a JSON object for the audit log, which is not sent
 
   std::optional<std::string> header(std::string_view name) const;

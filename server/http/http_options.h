@@ -101,6 +101,12 @@ struct HttpOptions {
   // Turns an error into the response to send, a problem document (RFC 9457). The request is null when its
   // head could not be read. Called from several threads at once.
   std::function<HttpResponse(const Error&, const HttpRequest*)> problem;
+  // Whether the body of a request is worth reading, by its method, its path as sent and its Authorization
+  // header. One that is not is answered without its body, and its connection ends: admit refuses it. Called
+  // from the thread of all sockets. Empty: all are.
+  std::function<bool(std::string_view method, std::string_view path,
+                     const std::optional<std::string>& authorization)>
+      wants_body;
   // Asked before the routes are; what it gives is the answer, nothing lets the request through. Empty: all
   // may.
   std::function<std::optional<HttpResponse>(HttpRequest&)> admit;

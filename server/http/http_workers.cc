@@ -1,6 +1,7 @@
 #include "server/http/http_workers.h"
 
 #include <algorithm>
+#include <exception>
 #include <utility>
 
 #include "server/http/http_socket.h"
@@ -23,7 +24,7 @@ HttpWorkers::~HttpWorkers() {
 }
 
 void HttpWorkers::submit(Work work) {
-  Queue& queue = answers_.is_heavy(work.gathered.head) ? heavy_ : light_;
+  Queue& queue = work.pieces || answers_.is_heavy(work.gathered.head) ? heavy_ : light_;
   {
     const std::lock_guard lock(mutex_);
     queue.waiting.push_back(std::move(work));
@@ -53,8 +54,33 @@ void HttpWorkers::run(Queue& queue) {
       work = std::move(queue.waiting.front());
       queue.waiting.pop_front();
     }
-    answer(engine, std::move(work));
+    if (work.pieces)
+      go_on(std::move(work));
+    else
+      answer(engine, std::move(work));
   }
+}
+
+void HttpWorkers::go_on(Work work) {
+  WorkDone done{.connection = work.connection, .unsent = {}, .close = work.close};
+  try {
+    auto piece = work.pieces();
+    done.broken = !piece;
+    if (!piece) {
+      answers_.log("an answer was broken off: " + piece.error().detail);
+    } else if (*piece) {
+      std::string_view rest = **piece;
+      const Transfer outcome = send_some(work.fd, rest);
+      const std::size_t sent = (*piece)->size() - rest.size();
+      if (outcome == Transfer::kBlocked) keep(done, **std::move(piece), sent);
+      done.broken = done.broken || outcome == Transfer::kBroken;
+      done.pieces = std::move(work.pieces);
+    }
+  } catch (const std::exception& thrown) {
+    answers_.log(std::string("an answer was broken off: ") + thrown.what());
+    done.broken = true;
+  }
+  done_(std::move(done));
 }
 
 void HttpWorkers::answer(HttpEngine& engine, Work work) {
@@ -76,6 +102,7 @@ void HttpWorkers::answer(HttpEngine& engine, Work work) {
   }
   done.broken = done.broken || outcome == Transfer::kBroken;
   done.stream = std::move(out.stream);
+  done.pieces = std::move(out.pieces);
   out = {};  // before the loop hears of it and there is more work
   done_(std::move(done));
 }

@@ -25,13 +25,15 @@ struct LiveCounters {
   std::atomic<std::size_t> buffered_bytes = 0;
 };
 
-// A whole request, and the socket that is the worker's to send on until it gives the work back.
+// A whole request, or an answer to go on with, and the socket that is the worker's to send on until it gives
+// the work back.
 struct Work {
   std::uint64_t connection = 0;
   int fd = -1;
   RequestGatherer::Gathered gathered;
   std::string remote_address;
   bool close = false;
+  BodyPieces pieces = {};  // of the answer to go on with; empty: there is a request
 };
 
 struct WorkDone {
@@ -42,6 +44,7 @@ struct WorkDone {
   bool close = false;
   bool broken = false;  // the client has gone
   std::function<void(std::shared_ptr<AnswerStream>)> stream = {};
+  BodyPieces pieces = {};  // which are to follow
 };
 
 // The threads in which handlers run, those of heavy routes in threads of their own. They never wait for a
@@ -69,6 +72,7 @@ class HttpWorkers {
 
   void run(Queue& queue);
   void answer(HttpEngine& engine, Work work);
+  void go_on(Work work);
   void keep(WorkDone& done, std::string unsent, std::size_t sent);
 
   const HttpOptions& options_;

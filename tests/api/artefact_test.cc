@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "api/jobs/artefact_job_store.h"
+#include "api/jobs/postgres_job_store.h"
 #include "api/jobs/sqlite_job_store.h"
 #include "api/uploads/artefact_folder.h"
 #include "core/utc.h"
+#include "postgres_schema.h"
 #include "small_world.h"
 
 namespace slipway::api {
@@ -109,6 +111,33 @@ TEST(ArtefactJobStore, LargePagesAreInTheFolderAndSmallOnesInTheRow) {
   EXPECT_EQ(without->series(id, 2).value()->bytes, "small");
   for (const fs::path& file : files_of(shared)) testing::write_file(file, "altered");
   EXPECT_EQ(store->series(id, 1).error().code, ErrorCode::kDamagedStore);
+}
+
+// Of two jobs with a page of a megabyte each.
+void expect_pages_to_count(std::unique_ptr<JobStore> rows, const fs::path& shared) {
+  const auto store = with_artefacts(std::move(rows), ArtefactFolder::open(shared).value());
+  for (int k = 0; k < 2; ++k) {
+    ASSERT_TRUE(store->append({new_job_id(), "map", "{}"}, 1, {}));
+    const Lease lease = store->claim("a", {}, 2, 3).value()->lease();
+    const std::string page = "\0" + std::string(1'000'000, k == 0 ? 'x' : 'y');
+    ASSERT_TRUE(store->finish(lease, JobState::kSuccessful, {"answer", {page}}, 4).value());
+  }
+  ASSERT_EQ(files_of(shared).size(), 2U);
+  EXPECT_EQ(store->forget_ended({.most_bytes = 2'100'000}, 5).value(), 0);
+  EXPECT_EQ(store->forget_ended({.most_bytes = 1'900'000}, 5).value(), 1);
+}
+
+TEST(ArtefactJobStore, PagesInTheFolderCountForTheBytesThatAreKept) {
+  const ScratchFolder scratch;
+  expect_pages_to_count(open_sqlite_job_store(scratch.path() / "jobs.sqlite").value(),
+                        scratch.path() / "shared");
+}
+
+TEST(ArtefactJobStore, PagesInTheFolderCountInPostgresTables) {
+  const auto schema = testing::PostgresSchema::make();
+  if (!schema) GTEST_SKIP() << testing::kNoPostgres;
+  const ScratchFolder scratch;
+  expect_pages_to_count(open_postgres_job_store(schema->address()).value(), scratch.path() / "shared");
 }
 
 TEST(ArtefactJobStore, PagesGoAfterTheirJobs) {

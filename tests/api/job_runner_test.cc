@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <future>
+#include <mutex>
 #include <new>
 
 #include "api/jobs/memory_job_store.h"
@@ -248,6 +250,97 @@ TEST(JobRunner, SilentWorkIsSeen) {
   wait_until([&] { return runner.longest_silence() > milliseconds(200); });
   enough = true;
   EXPECT_EQ(runner.wait(id, seconds(5)).value()->state, JobState::kSuccessful);
+}
+
+// Work in parts, of which `part` is told the number. The answer is that of the last part.
+WorkInParts in_parts(int count, std::function<Result<JobAnswer>(int, Progress&)> part) {
+  return {.split = [count](const std::string&, const std::string&) -> Result<std::vector<std::string>> {
+            std::vector<std::string> requests;
+            for (int k = 0; k < count; ++k) requests.push_back(std::to_string(k));
+            return requests;
+          },
+          .part = [part = std::move(part)](const std::string&, const std::string& request,
+                                           Progress& progress) { return part(std::stoi(request), progress); },
+          .put_together = [count](const std::string&, const std::string&, const PartAnswer& answer,
+                                  Progress&) { return answer(count - 1); }};
+}
+
+TEST(JobRunner, ShortPartsAreTakenTogetherAndWhatIsNotBegunIsGivenBack) {
+  constexpr int kParts = 200, kSlow = 150;
+  const std::shared_ptr<JobStore> store = make_memory_job_store();
+  JobRunnerOptions options;
+  options.batch_time = milliseconds(200);
+  std::atomic<int> most_held{0};
+  std::atomic<bool> others_free{false};
+  const auto running = [&store](const std::string& id) {
+    const std::vector<Job> parts = store->parts(id).value();
+    return static_cast<int>(std::count_if(parts.begin(), parts.end(),
+                                          [](const Job& p) { return p.state == JobState::kRunning; }));
+  };
+  std::string id;
+  std::mutex mutex;
+  const auto work = [&](int part, Progress& progress) -> Result<JobAnswer> {
+    const std::scoped_lock lock(mutex);
+    most_held = std::max(most_held.load(), running(id));
+    const auto until = std::chrono::steady_clock::now() + seconds(10);
+    while (part == kSlow && !others_free && std::chrono::steady_clock::now() < until) {
+      EXPECT_FALSE(progress.cancelled());
+      others_free = running(id) == 1;
+      std::this_thread::sleep_for(milliseconds(20));
+    }
+    return JobAnswer(std::to_string(part));
+  };
+  options.renewal = milliseconds(50);
+  JobRunner runner(store, nullptr, options, in_parts(kParts, work));
+  {
+    const std::scoped_lock lock(mutex);
+    ASSERT_TRUE(runner.start());
+    id = runner.submit("plan", "{}")->id;
+  }
+  EXPECT_EQ(runner.wait(id, seconds(20)).value()->state, JobState::kSuccessful);
+  EXPECT_EQ(store->outcome(id).value(), "199");
+  EXPECT_GT(most_held, 4);
+  EXPECT_LE(most_held, kParts / 16);
+  EXPECT_TRUE(others_free) << "nobody waits for what is behind a long part";
+}
+
+TEST(JobRunner, APartThatKillsItsWorkerFailsWithItsReasonAndNoOtherDoes) {
+  constexpr int kParts = 64, kPoison = 17;
+  const std::shared_ptr<JobStore> store = make_memory_job_store();
+  std::string id;
+  // The work stops there for ever, as the process does; the next one finds what it held.
+  for (int life = 1; life <= 20; ++life) {
+    std::atomic<bool> dead{false};
+    JobRunnerOptions options;
+    options.worker = "worker " + std::to_string(life);
+    JobRunner runner(store, nullptr, options, in_parts(kParts, [&](int part, Progress&) -> Result<JobAnswer> {
+                       if (part == kPoison) {
+                         store->release(options.worker, HandBack::kDied, "signal 11").value();
+                         dead = true;
+                       }
+                       return JobAnswer(std::to_string(part));
+                     }));
+    ASSERT_TRUE(runner.start());
+    if (id.empty()) id = runner.submit("plan", "{}")->id;
+    wait_until([&] { return dead || has_ended(store->get(id).value()->state); });
+    runner.stop();
+    if (has_ended(store->get(id).value()->state)) break;
+  }
+  const Job job = store->get(id).value().value();
+  EXPECT_EQ(job.state, JobState::kFailed);
+  EXPECT_EQ(job.parts.failed, 1);
+  const std::vector<Job> parts = store->parts(id).value();
+  for (const Job& part : parts) {
+    EXPECT_EQ(part.state, part.part == kPoison ? JobState::kFailed : JobState::kSuccessful) << part.part;
+    EXPECT_LE(part.deaths, part.part == kPoison ? JobRunnerOptions{}.most_deaths : 1) << part.part;
+  }
+  EXPECT_EQ(parts[kPoison].deaths, JobRunnerOptions{}.most_deaths);
+  const Error problem = json::read_problem(store->outcome(id).value().value());
+  ASSERT_EQ(problem.faults.size(), 1U);
+  EXPECT_EQ(problem.faults.front().pointer, "/parts/17");
+  EXPECT_NE(problem.detail.find("1 of 64 parts of the work are missing"), std::string::npos);
+  EXPECT_NE(problem.faults.front().message.find("died 5 times"), std::string::npos);
+  EXPECT_NE(problem.faults.front().message.find("signal 11"), std::string::npos);
 }
 
 // Two runners on one store, as a service and its worker process are.

@@ -61,6 +61,22 @@ class JobStores : public ::testing::TestWithParam<std::string> {
     for (int k = 0; k < 3; ++k) job.parts.push_back(claim(1'000'000));
     return job;
   }
+  // The id of a job that was divided into so many parts.
+  std::string split_into(int parts) {
+    const std::string id = accept("plan", "whole");
+    for (;;) {
+      const ClaimedJob claimed = claim();
+      if (claimed.job.id != id) continue;
+      EXPECT_TRUE(store_
+                      ->split(claimed.lease(),
+                              std::vector<std::string>(static_cast<std::size_t>(parts), "part"), now_)
+                      .value());
+      return id;
+    }
+  }
+  std::vector<ClaimedJob> claim_some(const std::string& worker, int most) {
+    return store_->claim_some(worker, {}, now_, now_ + 1000, most).value();
+  }
   static JobAnswer answer_of_part(int part) {
     JobAnswer answer("answer " + std::to_string(part));
     answer.cpu_s = 0.5 + part;
@@ -308,6 +324,14 @@ TEST_P(JobStores, ForgetsWhatIsTooOldOrTooLarge) {
   EXPECT_TRUE(store_->get(ids[2]).value().has_value());
 }
 
+TEST_P(JobStores, BytesBehindAZeroCountToo) {
+  accept();
+  const std::string file = std::string(1, '\0') + std::string(5000, 'x');
+  ASSERT_TRUE(store_->finish(claim().lease(), JobState::kSuccessful, {"answer", {file}}, now_).value());
+  EXPECT_EQ(store_->forget_ended({.most_bytes = 5100}, now_).value(), 0);
+  EXPECT_EQ(store_->forget_ended({.most_bytes = 4900}, now_).value(), 1);
+}
+
 TEST_P(JobStores, ASeriesIsReadPageByPageAndGoesWithItsJob) {
   const std::string id = accept();
   const std::vector<std::string> pages{"a,b\n1,2\n", "3,4\n"};
@@ -445,6 +469,112 @@ TEST_P(JobStores, OfPartsThatEndTogetherOneIsTheLast) {
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(get(id).parts.ended, kParts);
   EXPECT_EQ(get(id).attempt, 2) << "one of the threads has found the whole again";
+}
+
+TEST_P(JobStores, PartsOfOneJobAreClaimedTogetherAndOthersAlone) {
+  const std::string id = split_into(64);
+  const std::string other = accept(), another = accept();
+  const std::vector<ClaimedJob> first = claim_some("a", 10), second = claim_some("b", 3);
+  ASSERT_EQ(first.size(), 4U) << "a sixteenth of what is left";
+  for (int k = 0; k < 4; ++k) {
+    EXPECT_EQ(first[static_cast<std::size_t>(k)].job.part, k);
+    EXPECT_EQ(first[static_cast<std::size_t>(k)].job.attempt, 1);
+    EXPECT_EQ(first[static_cast<std::size_t>(k)].job.whole, id);
+    EXPECT_EQ(first[static_cast<std::size_t>(k)].request, "part");
+  }
+  ASSERT_EQ(second.size(), 3U) << "as many as were asked for";
+  EXPECT_EQ(second.front().job.part, 4);
+  ASSERT_TRUE(store_->dismiss(id, now_));
+  const std::vector<ClaimedJob> alone = claim_some("a", 10);
+  ASSERT_EQ(alone.size(), 1U);
+  EXPECT_EQ(alone.front().job.id, other);
+  EXPECT_EQ(claim_some("a", 10).front().job.id, another);
+  EXPECT_TRUE(claim_some("a", 10).empty());
+}
+
+TEST_P(JobStores, NoPartIsClaimedTogetherWithOnesOfAnotherJobOrUrgency) {
+  const std::string id = split_into(32);
+  const std::string urgent =
+      store_->append({.id = new_job_id(), .kind = "plan", .request = "{}", .urgency = 0}, now_, {})->id;
+  EXPECT_EQ(claim_some("a", 10).front().job.id, urgent);
+  const std::vector<ClaimedJob> two = claim_some("a", 10);
+  ASSERT_EQ(two.size(), 2U);
+  for (const ClaimedJob& part : two) EXPECT_EQ(part.job.whole, id);
+  const std::string other = split_into(32);  // claims all parts before it on its way
+  EXPECT_EQ(claim_some("a", 10).front().job.whole, other);
+}
+
+TEST_P(JobStores, EndsAreKeptTogetherAndEachHearsWhetherItsLeaseHeld) {
+  const std::string id = split_into(64);
+  const std::vector<ClaimedJob> parts = claim_some("a", 4);
+  ASSERT_EQ(parts.size(), 4U);
+  ASSERT_TRUE(store_->dismiss(parts[2].job.id, now_));
+  std::vector<JobEnd> ends;
+  for (int k = 0; k < 4; ++k)
+    ends.push_back({parts[static_cast<std::size_t>(k)].lease(),
+                    k == 1 ? JobState::kFailed : JobState::kSuccessful, answer_of_part(k)});
+  ends[3].outcome.series = {"page"};
+  const std::vector<bool> kept = store_->finish_all(ends, now_).value();
+  EXPECT_EQ(kept, (std::vector<bool>{true, true, false, true}));
+  EXPECT_EQ(get(id).parts.ended, 4);
+  EXPECT_EQ(get(id).parts.failed, 2);
+  EXPECT_DOUBLE_EQ(get(id).parts.cpu_s, 0.5 + 1.5 + 3.5);
+  EXPECT_EQ(store_->outcome(parts[0].job.id).value(), answer_of_part(0).bytes);
+  EXPECT_EQ(get(parts[1].job.id).state, JobState::kFailed);
+  EXPECT_EQ(store_->series(parts[3].job.id, 1).value()->bytes, "page");
+}
+
+TEST_P(JobStores, WhatIsGivenBackCountsNoDeathAndALostLeaseIsPassedOver) {
+  split_into(64);
+  const std::vector<ClaimedJob> parts = claim_some("a", 4);
+  ASSERT_EQ(parts.size(), 4U);
+  ASSERT_TRUE(store_->finish(parts[1].lease(), JobState::kSuccessful, std::string("answer"), now_).value());
+  EXPECT_EQ(store_->give_back({parts[1].lease(), parts[2].lease(), parts[3].lease()}).value(), 2);
+  EXPECT_EQ(get(parts[1].job.id).state, JobState::kSuccessful);
+  EXPECT_EQ(get(parts[0].job.id).state, JobState::kRunning);
+  EXPECT_FALSE(store_->finish(parts[2].lease(), JobState::kSuccessful, std::string("late"), now_).value());
+  const std::vector<ClaimedJob> again = claim_some("b", 4);
+  ASSERT_EQ(again.size(), 3U) << "a sixteenth of 63 parts";
+  EXPECT_EQ(again[0].job.part, 2);
+  EXPECT_EQ(again[0].job.attempt, 2);
+  EXPECT_EQ(again[0].job.deaths, 0);
+}
+
+TEST_P(JobStores, APartWithADeathBehindItIsClaimedAlone) {
+  split_into(64);
+  ASSERT_EQ(claim_some("a", 4).size(), 4U);
+  ASSERT_EQ(store_->release("a", HandBack::kDied, "signal 9").value(), 4);
+  for (int k = 0; k < 4; ++k) {
+    const std::vector<ClaimedJob> alone = claim_some("a", 4);
+    ASSERT_EQ(alone.size(), 1U) << "one of them may be what killed the worker";
+    EXPECT_EQ(alone.front().job.part, k);
+    EXPECT_EQ(alone.front().job.deaths, 1);
+  }
+  EXPECT_EQ(claim_some("a", 4).size(), 4U) << "of those that nobody died of";
+  now_ += 2000;
+  EXPECT_EQ(claim_some("b", 4).size(), 1U) << "a lease that has ended is a death too";
+}
+
+TEST_P(JobStores, ThreadsThatClaimInBatchesDoEveryPartOnce) {
+  constexpr int kParts = 400;
+  const std::string id = split_into(kParts);
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 4; ++t)
+    threads.emplace_back([this, t] {
+      for (;;) {
+        const auto parts = store_->claim_some(std::to_string(t), {}, now_, now_ + 100'000, 8).value();
+        if (parts.empty() || parts.front().job.whole.empty()) return;
+        std::vector<JobEnd> ends;
+        for (const ClaimedJob& part : parts)
+          ends.push_back({part.lease(), JobState::kSuccessful, std::string("answer")});
+        const std::vector<bool> kept = store_->finish_all(ends, now_).value();
+        EXPECT_EQ(kept, std::vector<bool>(ends.size(), true));
+      }
+    });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(get(id).parts.ended, kParts);
+  const std::vector<Job> parts = store_->parts(id).value();
+  for (const Job& part : parts) EXPECT_EQ(part.attempt, 1) << part.part;
 }
 
 TEST_P(JobStores, ManyThreadsClaimEveryJobExactlyOnce) {

@@ -1,5 +1,6 @@
 #include "server/routes.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cctype>
@@ -227,6 +228,38 @@ TEST_F(Routes, WaitingClientsNeverTakeAllHandlers) {
       ask("POST", "/v1/plans", {{"Prefer", "wait=20"}}, example("plan_shortest.json"));
   EXPECT_EQ(response.status, 201);
   EXPECT_EQ(response.header("Preference-Applied"), std::nullopt);
+}
+
+TEST_F(Routes, ATableOfAThinnedAnswerHasAllItsRows) {
+  run(api::service_work(small_world()));
+  std::string path;  // to and fro over the yard, some kilometres
+  for (int k = 0; k < 160; ++k)
+    path +=
+        fmt::format(R"({}{{"x_m":{},"y_m":{}}})", k == 0 ? "" : ",", k % 2 == 0 ? 20 : 40, 20.0 + 0.1 * k);
+  const HttpResponse asked = ask("POST", "/v1/predictions", {},
+                                 R"({"terrain":"yard","rover":"mer-class","draws":2,"path":[)" + path + "]}");
+  ASSERT_EQ(asked.status, 201) << asked.body;
+  const std::string location = *asked.header("Location");
+  ASSERT_EQ(runner_->wait(location.substr(location.rfind('/') + 1), seconds(100)).value()->state,
+            api::JobState::kSuccessful);
+  const HttpResponse shown = ask("GET", location + "/result");
+  ASSERT_NE(shown.body.find("thinned_from"), std::string::npos);
+  const HttpResponse table = ask("GET", location + "/result", {{"Accept", "text/csv"}});
+  EXPECT_EQ(table.content_type, "text/csv");
+  ASSERT_TRUE(table.pieces);
+  std::string all, pages;
+  while (const auto piece = table.pieces().value()) all += *piece;
+  for (int page = 1;; ++page) {
+    const HttpResponse one = ask("GET", location + "/stations", {}, "", {{"page", std::to_string(page)}});
+    pages += one.body;
+    if (!one.header("Link")) break;
+  }
+  EXPECT_EQ(all, pages);
+  EXPECT_EQ(
+      ask("GET", location + "/result", {{"Accept", "text/csv"}, {"If-None-Match", *table.header("ETag")}})
+          .status,
+      304);
+  EXPECT_NE(table.header("ETag"), shown.header("ETag"));
 }
 
 TEST_F(Routes, APollerHears304UntilSomethingChanges) {

@@ -139,5 +139,18 @@ TEST(UploadFolder, HoldsNoMoreThanItMay) {
   EXPECT_EQ(uploads->list().size(), 1U);
 }
 
+TEST(UploadFolder, AFileWithTwoNamesCountsOnceAndABodyThatIsComingNotAtAll) {
+  const ScratchFolder scratch;
+  const auto folder = UploadFolder::open(scratch.path()).value();
+  const auto kept = folder->keep(body(folder->files(), std::string(1000, 'x')).fd(), "a.bin", {.at_ms = 1});
+  ASSERT_TRUE(kept) << kept.error().detail;
+  const std::int64_t before = folder->bytes();
+  fs::create_directories(folder->terrains() / "site");
+  fs::create_hard_link(folder->verified(kept->id).value(), folder->terrains() / "site" / "b.bin");
+  testing::write_file(folder->files() / ".body-AbCdEf", std::string(500, 'y'));
+  EXPECT_EQ(folder->bytes(), before);
+  EXPECT_EQ(folder->list().size(), 1U);
+}
+
 }  // namespace
 }  // namespace slipway::api

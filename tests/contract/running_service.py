@@ -40,6 +40,12 @@ def command_line(pid):
     return pathlib.Path(f"/proc/{pid}/cmdline").read_bytes().split(b"\0")
 
 
+def with_preload():
+    """This environment, with the library loaded first that a test names in SLIPWAY_PRELOAD."""
+    preload = os.environ.get("SLIPWAY_PRELOAD")
+    return {**os.environ, "LD_PRELOAD": preload} if preload else None
+
+
 class Server:
     """`slipway serve` on a free port, in a folder of its own."""
 
@@ -48,7 +54,7 @@ class Server:
         jobs = [] if "--jobs" in options else ["--jobs", str(folder / "jobs.sqlite")]
         self.process = subprocess.Popen(
             [SLIPWAY, "serve", "--data", DATA, "--port", "0", *jobs, *options],
-            stdout=subprocess.PIPE, text=True)
+            stdout=subprocess.PIPE, text=True, env=with_preload())
         line = self.process.stdout.readline()
         match = re.search(r"http://127\.0\.0\.1:(\d+)", line)
         if not match:

@@ -63,6 +63,19 @@ TEST(Access, RolesMayDoWhatTheyMay) {
   EXPECT_EQ(refusal_of(**access, asked("GET", "", "/dashboards")), ErrorCode::kUnauthorized);
 }
 
+TEST(Access, WhomItRefusesIsKnownFromTheHead) {
+  const NewToken viewer = new_token("wall", Role::kViewer), worker = new_token("ops", Role::kOperator);
+  const TokenFile file(viewer.entry + worker.entry);
+  const auto access = Access::open({.tokens = file.path(), .max_requests_per_s = 1.0});
+  ASSERT_TRUE(access) << access.error().detail;
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_TRUE((*access)->refuses("POST", "/v1/uploads", std::nullopt));
+    EXPECT_TRUE((*access)->refuses("POST", "/v1/uploads", "Bearer " + viewer.token));
+    EXPECT_TRUE((*access)->refuses("POST", "/v1/uploads", "Bearer nonsense"));
+    EXPECT_FALSE((*access)->refuses("POST", "/v1/uploads", "bearer " + worker.token)) << "no rate is counted";
+  }
+}
+
 TEST(Access, NoTokenIsInTheFile) {
   const NewToken made = new_token("ops", Role::kOperator);
   EXPECT_EQ(made.token.size(), 64u);

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+#include <stdexcept>
+
 #include "raw_client.h"
 
 namespace slipway::server {
@@ -42,6 +45,22 @@ TEST(HttpClient, HeadersOfTheCallAreSent) {
   HttpCall call = call_to(s.port, "GET", "/header/x-name");
   call.headers = {{"X-Name", "value"}};
   EXPECT_EQ(http_request(call)->body, "value");
+}
+
+TEST(HttpClient, AServerIsAskedOverIpv6) {
+  HttpOptions options;
+  options.address = "::1";
+  std::optional<TestServer> s;
+  try {
+    s.emplace(options);
+  } catch (const std::runtime_error& failed) {
+    GTEST_SKIP() << "this machine has no ::1: " << failed.what();
+  }
+  HttpCall call = call_to(s->port, "GET", "/header/host");
+  call.host = "::1";
+  const auto answer = http_request(call);
+  ASSERT_TRUE(answer) << answer.error().detail;
+  EXPECT_EQ(answer->body, "[::1]:" + std::to_string(s->port));
 }
 
 TEST(HttpClient, NoServerIsAnErrorThatNamesThePlace) {

@@ -85,6 +85,30 @@ TEST(HttpLimits, ContinueIsSentBeforeTheBodyAndNotWhenTheBodyIsRefused) {
   EXPECT_EQ(client.read_answer().status, 413);
 }
 
+TEST(HttpLimits, ABodyThatNobodyWantsIsNotWaitedFor) {
+  HttpOptions options;
+  options.wants_body = [](std::string_view method, std::string_view path,
+                          const std::optional<std::string>& authorization) {
+    return method != "POST" || path != "/echo" || authorization == "Bearer good";
+  };
+  options.admit = [](HttpRequest& request) -> std::optional<HttpResponse> {
+    if (request.header("Authorization") == "Bearer good") return std::nullopt;
+    return test_problem({ErrorCode::kUnauthorized, "a token is needed", {}}, &request);
+  };
+  const TestServer s(options);
+  const std::string head =
+      "POST /echo HTTP/1.1\r\nHost: t\r\nContent-Type: application/json\r\nContent-Length: 1000000\r\n";
+  for (const std::string& rest :
+       {std::string("\r\n"), std::string("\r\nGET /healthz HTTP/1.1\r\nHost: t\r\n\r\n"),
+        std::string("Expect: 100-continue\r\n\r\n"), std::string("Authorization: Bearer bad\r\n\r\n{")}) {
+    RawClient client(s.port);
+    client.send(head + rest);
+    EXPECT_EQ(client.read_answer().status, 401) << rest;
+    EXPECT_EQ(client.read_answer().status, 0) << "the body is no request";
+  }
+  EXPECT_EQ(ask_once(s.port, post("/echo", "{}", "Authorization: Bearer good\r\n")).body, "{}");
+}
+
 TEST(HttpLimits, AHeadThatIsNotThereInTimeGets408) {
   const TestServer s(quick());
   RawClient client(s.port);

@@ -7,6 +7,7 @@
 #include <future>
 #include <mutex>
 #include <thread>
+#include <vector>
 
 #include "raw_client.h"
 
@@ -59,6 +60,62 @@ TEST(HttpServer, OptionsIsAnsweredWithTheMethodsAllowedAndNoLength) {
   EXPECT_EQ(answer.header("Content-Length"), "");
   EXPECT_EQ(ask_once(s.port, "OPTIONS * HTTP/1.1\r\nHost: t\r\n\r\n").header("Allow"),
             "DELETE, GET, HEAD, OPTIONS, POST");
+}
+
+// What /pieces/{count} sends.
+std::string all_pieces(int count) {
+  std::string all;
+  for (int k = 0; k < count; ++k)
+    all += std::string(k % 3 == 1 ? 0 : 100'000, static_cast<char>('a' + k % 26));
+  return all;
+}
+
+TEST(HttpServer, ABodyInPiecesIsWholeAndTheConnectionGoesOn) {
+  const TestServer s;
+  RawClient client(s.port);
+  for (const int count : {0, 1, 2, 60}) {
+    const auto answer = client.ask(get("/pieces/" + std::to_string(count)));
+    EXPECT_EQ(answer.status, 200) << count;
+    EXPECT_EQ(answer.header("Transfer-Encoding"), "chunked");
+    EXPECT_EQ(answer.header("Content-Length"), "");
+    EXPECT_EQ(answer.body, all_pieces(count)) << count;
+  }
+  const auto head = client.ask("HEAD /pieces/3 HTTP/1.1\r\nHost: t\r\n\r\n");
+  EXPECT_EQ(head.status, 200);
+  EXPECT_EQ(head.header("Content-Length"), "");
+  EXPECT_EQ(client.ask(get("/healthz")).body, "well");
+}
+
+TEST(HttpServer, AClientOfHttp10GetsThePiecesWithoutChunks) {
+  const TestServer s;
+  RawClient client(s.port);
+  client.send("GET /pieces/3 HTTP/1.0\r\n\r\n");
+  const auto answer = client.read_answer(true);
+  EXPECT_EQ(answer.status, 200);
+  EXPECT_EQ(answer.header("Transfer-Encoding"), "");
+  EXPECT_EQ(client.read_rest(), all_pieces(3));
+}
+
+TEST(HttpServer, ABodyThatBreaksOffIsNeverTakenForWhole) {
+  const TestServer s;
+  RawClient client(s.port);
+  EXPECT_EQ(client.ask(get("/pieces/2000")).status, 0);
+  EXPECT_TRUE(client.closed_within(milliseconds(1000)));
+}
+
+TEST(HttpServer, SlowReadersOfALongBodyHoldLittleMemoryAndNoThread) {
+  const TestServer s;
+  std::vector<RawClient> readers;
+  const std::size_t before = resident_kib();
+  for (int k = 0; k < 32; ++k) {
+    readers.emplace_back(s.port);
+    readers.back().send(get("/pieces/900"));  // 60 MB, of which nobody reads any
+  }
+  std::this_thread::sleep_for(milliseconds(300));
+  EXPECT_EQ(ask_once(s.port, get("/pieces/60")).body, all_pieces(60)) << "its threads are free for others";
+  if (kMeasuring) {
+    EXPECT_LT(resident_kib() - before, 40'000U);
+  }
 }
 
 TEST(HttpServer, HeadHasTheLengthOfGetAndNoBody) {

@@ -46,6 +46,11 @@ def prediction(number):
             "path": [STOP_967, {"x_m": STOP_967["x_m"] + 4.0 + number, "y_m": STOP_967["y_m"] - 3.0}]}
 
 
+# Many times to and fro, which takes minutes of processor time.
+LONG = {**prediction(1), "draws": 1000,
+        "path": [{"x_m": STOP_967["x_m"] - 13.0 * (k % 2), "y_m": STOP_967["y_m"] - 60.0 * (k % 2)} for k in range(40)]}
+
+
 class Parts:
     """The tests; what is kept is in `store`."""
 
@@ -65,8 +70,8 @@ class Parts:
         cls.held.close()
         assert status == 0, f"the server ended with {status}"
 
-    def worker(self, *options):
-        process = subprocess.Popen([SLIPWAY, "worker", "--data", str(self.data), *self.shared, "--artefact-cache", str(self.folder / "cache"), *options],
+    def worker(self, *options, before=()):
+        process = subprocess.Popen([*before, SLIPWAY, "worker", "--data", str(self.data), *self.shared, "--artefact-cache", str(self.folder / "cache"), *options],
                                    stderr=subprocess.PIPE, text=True)
         self.addCleanup(process.stderr.close)
         self.addCleanup(process.wait)
@@ -145,9 +150,7 @@ class Parts:
         self.pilots_end(worker)
 
     def test_a_part_that_cannot_be_done_is_named(self):
-        there = [{"x_m": STOP_967["x_m"] - 13.0 * (k % 2), "y_m": STOP_967["y_m"] - 60.0 * (k % 2)} for k in range(40)]
-        long_one = {**prediction(1), "path": there, "draws": 1000}
-        location = self.submit("/v1/batches", {"kind": "prediction", "requests": [prediction(0), long_one, prediction(2)]})
+        location = self.submit("/v1/batches", {"kind": "prediction", "requests": [prediction(0), LONG, prediction(2)]})
         self.pilots_end(self.worker("--until-empty", "--job-minutes", "0.1"))
         job = self.job(location)
         self.assertEqual((job["state"], job["parts"]["failed"]), ("failed", 1), job)
@@ -155,6 +158,22 @@ class Parts:
         self.assertEqual(problem["type"], "/errors#job_too_large")
         self.assertIn("1 of 3 parts of the work are missing", problem["detail"])
         self.assertEqual([fault["pointer"] for fault in problem["faults"]], ["/parts/1"])
+
+    def test_a_part_that_kills_its_worker_each_time_fails_with_its_reason_and_no_other_does(self):
+        # The system ends each worker that spends a second of processor time, which the long part alone takes.
+        location = self.submit("/v1/batches", {"kind": "prediction", "requests": [prediction(0), LONG, prediction(2)]})
+        limit = ["sh", "-c", 'ulimit -t 1; exec "$@"', "sh"]
+        deadline = time.time() + 200
+        while self.job(location)["state"] in ("accepted", "running"):
+            self.assertLess(time.time(), deadline, self.job(location))
+            self.worker("--until-empty", "--lease-s", "5", before=limit).wait()
+        job = self.job(location)
+        self.assertEqual((job["state"], job["parts"]), ("failed", {"count": 3, "ended": 3, "failed": 1}), job)
+        problem = job["problem"]
+        self.assertIn("1 of 3 parts of the work are missing", problem["detail"])
+        self.assertEqual([fault["pointer"] for fault in problem["faults"]], ["/parts/1"])
+        self.assertIn("the worker died 5 times", problem["faults"][0]["message"])
+        self.assertEqual([part["state"] for part in self.parts(location)], ["successful", "failed", "successful"])
 
     def test_a_worker_that_is_asked_to_end_hands_its_job_back(self):
         location = self.submit("/v1/plans", plan(draws=1000))

@@ -15,6 +15,8 @@
 #include <thread>
 #include <utility>
 
+#include "server/http/http_chunked.h"
+
 namespace slipway::server {
 
 using Clock = std::chrono::steady_clock;
@@ -82,6 +84,15 @@ RawClient::Answer RawClient::read_answer(bool to_head_request, std::chrono::mill
     }
     answer.body = input_.substr(0, size);
     input_.erase(0, size);
+  } else if (!to_head_request && answer.header("Transfer-Encoding") == "chunked") {
+    ChunkedBody chunks(std::size_t{64} << 20);
+    for (auto state = ChunkedBody::State::kMore; state != ChunkedBody::State::kDone;) {
+      std::string_view bytes = input_;
+      state = chunks.feed(bytes, answer.body);
+      input_.erase(0, input_.size() - bytes.size());
+      if (state == ChunkedBody::State::kDone) break;
+      if (state != ChunkedBody::State::kMore || !receive(until)) return {};
+    }
   }
   answer.status = status;
   return answer;
@@ -90,6 +101,12 @@ RawClient::Answer RawClient::read_answer(bool to_head_request, std::chrono::mill
 RawClient::Answer RawClient::ask(std::string_view request) {
   send(request);
   return read_answer(request.starts_with("HEAD "));
+}
+
+std::string RawClient::read_rest(std::chrono::milliseconds patience) {
+  for (const auto until = Clock::now() + patience; receive(until);) {
+  }
+  return std::exchange(input_, {});
 }
 
 bool RawClient::closed_within(std::chrono::milliseconds patience) {
@@ -164,6 +181,18 @@ std::vector<Route> test_routes() {
       {"GET", "/header/{name}",
        [](const HttpRequest& r) { return text(r.header(r.parameter("name")).value_or("none")); }},
       {"GET", "/large", [](const HttpRequest&) { return text(std::string(std::size_t{8} << 20, 'x')); }},
+      {"GET", "/pieces/{count}",
+       [](const HttpRequest& r) {
+         HttpResponse response = text("");
+         response.pieces = [next = 0, count = std::stoi(std::string(r.parameter(
+                                          "count")))]() mutable -> Result<std::optional<std::string>> {
+           if (next == count) return std::nullopt;
+           if (next == 1000) return fail(ErrorCode::kStorage, "it can't be read any more");
+           const std::size_t size = next % 3 == 1 ? 0 : 100'000;
+           return std::string(size, static_cast<char>('a' + next++ % 26));
+         };
+         return response;
+       }},
       {"GET", "/megabyte", [](const HttpRequest&) { return text(std::string(std::size_t{1} << 20, 'x')); }},
       {"GET", "/slow",
        [](const HttpRequest&) {

@@ -34,6 +34,8 @@ class RawClient {
   Answer read_answer(bool to_head_request = false,
                      std::chrono::milliseconds patience = std::chrono::seconds(5));
   Answer ask(std::string_view request);
+  // All that comes until the server closes.
+  std::string read_rest(std::chrono::milliseconds patience = std::chrono::seconds(5));
 
   // True when the server closes within this time; what it sends until then is dropped.
   bool closed_within(std::chrono::milliseconds patience);

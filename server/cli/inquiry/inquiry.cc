@@ -194,10 +194,15 @@ Result<std::unique_ptr<Inquiry>> remote_inquiry(const std::string& url) {
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), port);
     if (error != std::errc() || end != digits.data() + digits.size()) port = 0;
   }
+  std::string host = port > 0 ? url.substr(kScheme.size(), colon - kScheme.size()) : "";
+  const bool bracketed = host.starts_with('[') && host.ends_with(']');
+  if (bracketed) host = host.substr(1, host.size() - 2);
+  if (!bracketed && host.find(':') != std::string::npos) port = 0;
   if (port < 1 || port > 65535)
-    return fail(ErrorCode::kInvalidRequest, "--url must be http://HOST:PORT",
+    return fail(ErrorCode::kInvalidRequest,
+                "--url must be http://HOST:PORT, with an IPv6 address in brackets",
                 {{"/url", fmt::format("url = \"{}\"", url)}});
-  return std::make_unique<RemoteInquiry>(url.substr(kScheme.size(), colon - kScheme.size()), port);
+  return std::make_unique<RemoteInquiry>(std::move(host), port);
 }
 
 }  // namespace slipway::server

@@ -34,7 +34,7 @@ class Inquiry {
 
 // Errors: unreadable_data with the faults of all files under the folders; those of api::with_model().
 Result<std::unique_ptr<Inquiry>> local_inquiry(api::ServiceOptions options);
-// url: "http://HOST:PORT".
+// url: "http://HOST:PORT", "http://[::1]:PORT".
 Result<std::unique_ptr<Inquiry>> remote_inquiry(const std::string& url);
 
 }  // namespace slipway::server
