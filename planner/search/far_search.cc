@@ -48,8 +48,7 @@ constexpr int kPieceReach = 3;
 struct Guide {
   std::string profile;
   MotionCost cost;
-  std::vector<std::array<float, 8>> costs = {};  // of the nodes
-  std::vector<float> penalty = {};               // of the blocks
+  std::vector<float> penalty = {};  // of the blocks
   double width = kOtherWidth;
   int widenings = 0;  // of a corridor that has a way
 };
@@ -156,10 +155,10 @@ class FarProposer {
     std::vector<Draft> drafts(guides.size() * (others_.size() + 1));
     parallel_for(guides.size(), problem_.threads, [&](std::size_t g) {
       if (progress_.cancelled()) return;
-      guides[g].costs = blocks_.costs(guides[g].cost, problem_.threads);
+      NodeCosts costs(blocks_, guides[g].cost);
       Draft* const of_guide = &drafts[g * (others_.size() + 1)];
       for (std::size_t leg = 0; leg + 1 < places_.size() && of_guide[0].optimum < kInfinity; ++leg)
-        drive_leg(guides[g], leg, g, of_guide);
+        drive_leg(guides[g], costs, leg, g, of_guide);
       // The request's own objective: what there is if nothing better comes.
       if (is_first && g == 0 && by_grid_ && of_guide[0].found && !of_guide[0].motions.empty())
         tell_found(progress_, of_guide[0].motions, of_guide[0].optimum);
@@ -180,13 +179,14 @@ class FarProposer {
   }
 
   // The way on the grid, and along it all planners.
-  void drive_leg(const Guide& guide, std::size_t leg, std::size_t number, Draft* drafts) const {
+  void drive_leg(const Guide& guide, NodeCosts& costs, std::size_t leg, std::size_t number,
+                 Draft* drafts) const {
     const Waypoint &from = places_[leg], &to = places_[leg + 1];
     const auto fail = [&] {
       for (std::size_t d = 0; d <= others_.size(); ++d) drafts[d].found = false;
       drafts[0].optimum = kInfinity;
     };
-    const Corridor corridor(blocks_, guide.costs, guide.penalty, nodes_[leg], nodes_[leg + 1], cancelled_);
+    const Corridor corridor(blocks_, costs, guide.penalty, nodes_[leg], nodes_[leg + 1], cancelled_);
     if (!corridor.leads() || progress_.cancelled()) return fail();
     const dem::GridGeometry& g = blocks_.geometry();
     const double across = std::hypot((to.x_m - from.x_m) / g.cell_x_m, (to.y_m - from.y_m) / g.cell_y_m);
