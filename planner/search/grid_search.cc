@@ -32,7 +32,7 @@ double GridSearch::heading_rad(int step) {
 }
 
 GridSearch::GridSearch(const MotionCost& cost) : map_(cost.map()) {
-  if (map_.holds_blocks()) {
+  if (map_.holds_blocks() || map_.cells() > static_cast<std::size_t>(kMaxSearchCells)) {
     cost_ = &cost;
     return;
   }

@@ -52,8 +52,9 @@ struct SpreadEnd {
 // planners find, and its fields show their samplers where good routes run.
 class GridSearch {
  public:
-  // On a map of blocks it keeps a reference to `cost`, which it asks anew for every step: their cells are
-  // many, and keeping 16 costs of each would take three times the memory of the rest and no less time.
+  // On a map of blocks, or of more than kMaxSearchCells, it keeps a reference to `cost`, which it asks anew
+  // for every step: their cells are many, and keeping 16 costs of each would take three times the memory of
+  // the rest and no less time.
   explicit GridSearch(const MotionCost& cost);
 
   // Driving to the place from every cell.
@@ -82,7 +83,7 @@ class GridSearch {
   }
 
   const TraverseMap& map_;
-  const MotionCost* cost_ = nullptr;    // of a map of blocks
+  const MotionCost* cost_ = nullptr;    // of a map of many cells
   std::unique_ptr<float[]> per_metre_;  // of any other: of each cell and direction
 };
 
