@@ -30,14 +30,14 @@ using planner::MapKind;
 
 constexpr double kTilesComputed = 0.75;  // share of the work when all tiles are there
 
-Result<MapSources> map_sources_of(const TerrainSite& site) {
+Result<MapSources> map_sources_of(const TerrainSite& site, const Progress& progress) {
   MapSources sources;
   const TerrainDescription& terrain = site.description();
-  auto elevation = sha256_of_file(site.folder() / terrain.elevation_file);
+  auto elevation = sha256_of_file(site.folder() / terrain.elevation_file, progress);
   if (!elevation) return fail(elevation.error());
   sources.elevation_sha256 = *std::move(elevation);
   if (terrain.soil_source == SoilSource::kNone) return sources;
-  auto soil = sha256_of_file(site.folder() / terrain.soil_file);
+  auto soil = sha256_of_file(site.folder() / terrain.soil_file, progress);
   if (!soil) return fail(soil.error());
   sources.soil_sha256 = *std::move(soil);
   return sources;
@@ -139,7 +139,7 @@ class PieceTiles final : public dem::TileStore {
 Result<void> finish_map(const MapTarget& target, dem::TileStore& store, std::size_t threads,
                         Progress& progress, MapAnswer& answer) {
   if (auto coarser = fill_coarser_levels(answer.layer, store, threads, progress); !coarser) return coarser;
-  auto statistics = statistics_of(answer.layer, store);
+  auto statistics = statistics_of(answer.layer, store, threads, progress);
   if (!statistics) return fail(statistics.error());
   answer.statistics = *std::move(statistics);
   add_statistics(answer.statistics, answer.layer);
@@ -192,7 +192,7 @@ Result<Service::MapWork> Service::prepare_map(const MapRequest& request, const M
   problem.keep_out = request.keep_out;
   problem.keep_in = request.keep_in;
   if (const auto fault = fault_of_places(request, problem)) return fail(*fault);
-  auto sources = map_sources_of(site);
+  auto sources = map_sources_of(site, progress);
   if (!sources) return fail(sources.error());
   MapAnswer answer{request, setting->provenance, {}, {}, 0, {}};
   if (!by_search)
@@ -220,6 +220,7 @@ Result<MapAnswer> Service::map(const MapRequest& request, const MapTarget& targe
   if (planner::row_of(request.kind).by_search) {
     const auto ways = ways_of(request, work->setting.problem, progress);
     if (!ways) return fail(ways.error());
+    if (const auto damage = work->setting.problem.terrain->damage()) return fail(*damage);
     answer.layer = map_layer(request, answer.provenance, work->setting.problem, work->sources, ways->geometry,
                              work->site->info().crs_wkt);
     if (auto filled = fill_tiles(ways->values, answer.layer, in_memory); !filled) return fail(filled.error());
@@ -230,7 +231,8 @@ Result<MapAnswer> Service::map(const MapRequest& request, const MapTarget& targe
   std::unique_ptr<dem::TileFile> file;
   if (!target.part.empty()) {
     const std::size_t bytes = answer.layer.cell_bytes() * dem::kTileSide * dem::kTileSide;
-    auto opened = dem::TileFile::open(target.part, map_key_of(request, work->sources, *work->all), bytes);
+    auto opened =
+        dem::TileFile::open(target.part, map_key_of(request, work->sources, *work->all), bytes, progress);
     if (!opened) return fail(opened.error());
     file = *std::move(opened);
     answer.tiles_kept = file->tiles();

@@ -61,7 +61,8 @@ class Lines final : public OGRLayer {
   long long points_ = 0;
 };
 
-GDALDatasetUniquePtr raster_of(const Terrain& terrain) {
+// Nothing where there is no memory for it, or it was cancelled.
+GDALDatasetUniquePtr raster_of(const Terrain& terrain, const Progress& progress) {
   const GridGeometry& g = terrain.geometry();
   GDALDatasetUniquePtr raster(
       GetGDALDriverManager()->GetDriverByName("MEM")->Create("", g.columns, g.rows, 1, GDT_Float32, nullptr));
@@ -72,6 +73,7 @@ GDALDatasetUniquePtr raster_of(const Terrain& terrain) {
   band.SetNoDataValue(kNoHeight);
   std::vector<float> row(static_cast<std::size_t>(g.columns));
   for (int r = 0; r < g.rows; ++r) {
+    if (progress.cancelled()) return nullptr;
     for (int c = 0; c < g.columns; ++c)
       row[static_cast<std::size_t>(c)] = static_cast<float>(terrain.height_m(Cell{r, c}).value_or(kNoHeight));
     if (band.RasterIO(GF_Write, 0, r, g.columns, 1, row.data(), g.columns, 1, GDT_Float32, 0, 0, nullptr) !=
@@ -85,7 +87,8 @@ GDALDatasetUniquePtr raster_of(const Terrain& terrain) {
 
 Result<VectorLayer> contours_of(const Terrain& terrain, double every_m, double base_m, Progress& progress) {
   const GdalSession session;
-  const GDALDatasetUniquePtr raster = raster_of(terrain);
+  const GDALDatasetUniquePtr raster = raster_of(terrain, progress);
+  if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the map was given up");
   if (!raster) return fail(ErrorCode::kInternal, "The heights could not be held: " + session.complaints());
   CPLStringList options;
   options.AddNameValue("LEVEL_INTERVAL", fmt::format("{}", every_m).c_str());

@@ -108,7 +108,7 @@ std::shared_ptr<const Terrain> Terrain::part(const CellWindow& window) const {
   std::vector<float> heights(cells);
   std::vector<std::uint8_t> valid(cells);
   if (tiles_) {
-    if (!tiles_->cells().read(window, heights.data(), valid.data())) return nullptr;
+    if (!tiles_->read_part(window, heights.data(), valid.data())) return nullptr;
   } else {
     for (int row = 0; row < window.rows; ++row) {
       const std::size_t from = index_of({window.row + row, window.column});

@@ -95,6 +95,14 @@ bool TerrainTiles::need(int first_row, int first_column, int last_row, int last_
   return whole;
 }
 
+bool TerrainTiles::read_part(const CellWindow& window, float* heights_m, std::uint8_t* valid) const {
+  const Result<void> read = cells_->read(window, heights_m, valid);
+  if (read) return true;
+  const std::lock_guard lock(reading_);
+  if (!damage_) damage_ = read.error();
+  return false;
+}
+
 std::optional<Error> TerrainTiles::damage() const {
   const std::lock_guard lock(reading_);
   return damage_;

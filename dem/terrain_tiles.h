@@ -36,7 +36,8 @@ class TerrainTiles {
 
   const float* heights_m() const { return heights_m_.data(); }
   const std::uint8_t* valid() const { return valid_.data(); }
-  const CellReader& cells() const { return *cells_; }
+  // The cells of a window, which are not kept here. False where they can't be read, which damage() says too.
+  bool read_part(const CellWindow& window, float* heights_m, std::uint8_t* valid) const;
 
   // Reads the tiles of these cells, clipped to the terrain. True where every cell of these tiles has data.
   bool need(int first_row, int first_column, int last_row, int last_column) const;

@@ -67,9 +67,10 @@ bool TileFile::get(std::uint64_t place, void* bytes, std::size_t count) const {
   return true;
 }
 
-void TileFile::find_tiles(std::uint64_t from, std::uint64_t size) {
+void TileFile::find_tiles(std::uint64_t from, std::uint64_t size, const Progress& progress) {
   std::vector<std::uint8_t> bytes(tile_bytes_);
   for (end_ = from; end_ + sizeof(TileHead) + tile_bytes_ <= size; end_ += sizeof(TileHead) + tile_bytes_) {
+    if (progress.cancelled()) return;
     TileHead head;
     const std::uint64_t place = end_ + sizeof head;
     if (!get(end_, &head, sizeof head) || !get(place, bytes.data(), bytes.size()) ||
@@ -80,7 +81,7 @@ void TileFile::find_tiles(std::uint64_t from, std::uint64_t size) {
 }
 
 Result<std::unique_ptr<TileFile>> TileFile::open(const std::filesystem::path& path, const std::string& key,
-                                                 std::size_t tile_bytes) {
+                                                 std::size_t tile_bytes, const Progress& progress) {
   FileDescriptor descriptor(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644));
   if (!descriptor.is_open()) return unwritable(path, "cannot open");
   struct stat status {};
@@ -90,7 +91,8 @@ Result<std::unique_ptr<TileFile>> TileFile::open(const std::filesystem::path& pa
   const std::string head = head_of(key, tile_bytes);
   std::string found(head.size(), '\0');
   if (file->get(0, found.data(), found.size()) && found == head) {
-    file->find_tiles(head.size(), static_cast<std::uint64_t>(status.st_size));
+    file->find_tiles(head.size(), static_cast<std::uint64_t>(status.st_size), progress);
+    if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the map was given up");
   } else {
     if (const auto written = file->put(0, head.data(), head.size()); !written) return fail(written.error());
     file->end_ = head.size();

@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "planner/judge/fewer_routes.h"
 #include "planner/judge/plan_scout.h"
 #include "planner/judge/rank.h"
 #include "planner/judge/route_stations.h"
@@ -61,38 +62,6 @@ std::vector<std::size_t> shortlist(const Proposal& proposal, std::size_t wanted,
     if (!copy && list.size() < spare) list.push_back(i);
   }
   return list;
-}
-
-std::string too_alike(const PlanProblem& problem, std::size_t candidates, std::size_t kept) {
-  return fmt::format(
-      "{} of {} candidates share more than {:.0f} % of their length, within {:.1f} m (the rover's width), "
-      "with "
-      "one of the routes given",
-      candidates - kept, candidates, 100.0 * kMaxOverlap, problem.rover->body_width_m);
-}
-
-std::string dropped_for_keep_outs(const PlanProblem& problem, const std::vector<Pose2>& poses) {
-  return fmt::format("{} that a planner found {} dropped: the rover's body would {}{} at ({:.2f}, {:.2f})",
-                     poses.size() == 1 ? "a route" : fmt::format("{} routes", poses.size()),
-                     poses.size() == 1 ? "is" : "are", trespass_in_words(problem),
-                     poses.size() == 1 ? "" : ", the first", poses.front().x_m, poses.front().y_m);
-}
-
-// What kept candidates from being predicted: missing elevation is counted, any other error is given as it is,
-// once.
-std::vector<std::string> unpredicted_in_words(const std::vector<Error>& errors, std::size_t candidates) {
-  std::vector<std::string> words;
-  const auto without_ground = std::count_if(errors.begin(), errors.end(),
-                                            [](const Error& e) { return e.code == ErrorCode::kNoData; });
-  if (without_ground > 0)
-    words.push_back(
-        fmt::format("{} of {} candidates lead a wheel over missing elevation", without_ground, candidates));
-  for (const Error& error : errors) {
-    if (error.code == ErrorCode::kNoData) continue;
-    std::string line = "a candidate could not be predicted: " + error.detail;
-    if (std::find(words.begin(), words.end(), line) == words.end()) words.push_back(std::move(line));
-  }
-  return words;
 }
 
 class Planning {

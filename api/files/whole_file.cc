@@ -88,11 +88,12 @@ void remove_abandoned(const fs::path& folder, const std::string& name) {
   for (const fs::path& path : abandoned) fs::remove_all(path, error);
 }
 
-Result<std::string> sha256_of_file(const fs::path& path) {
+Result<std::string> sha256_of_file(const fs::path& path, const Progress& progress) {
   std::ifstream stream(path, std::ios::binary);
   Sha256 hash;
   std::vector<char> piece(1U << 20U);
   while (stream) {
+    if (progress.cancelled()) return fail(ErrorCode::kCancelled, "reading was given up");
     stream.read(piece.data(), static_cast<std::streamsize>(piece.size()));
     hash.add({piece.data(), static_cast<std::size_t>(stream.gcount())});
   }

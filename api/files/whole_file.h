@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "core/progress.h"
 #include "core/result.h"
 
 namespace slipway::api {
@@ -34,8 +35,9 @@ class WorkingFolder {
 // Removes what processes that are no more left unfinished of this name.
 void remove_abandoned(const std::filesystem::path& folder, const std::string& name);
 
-// The SHA-256 of a file's bytes, which are read piece by piece. Errors: unreadable_data.
-Result<std::string> sha256_of_file(const std::filesystem::path& path);
+// The SHA-256 of a file's bytes, which are read piece by piece. Errors: unreadable_data; cancelled.
+Result<std::string> sha256_of_file(const std::filesystem::path& path,
+                                   const Progress& progress = NoProgress());
 
 // Makes a folder, and those above it, where there is none. Errors: unwritable_file.
 Result<void> make_folder(const std::filesystem::path& path);

@@ -108,6 +108,47 @@ Result<void> fill_piece(const planner::CellMap& map, const TerrainSite& site, co
   return {};
 }
 
+// Of some cells.
+struct CellFigures {
+  std::array<long long, 256> of_class{};
+  long long values = 0;  // of a layer that has no classes
+  double lowest = 0.0, highest = 0.0, sum = 0.0;
+
+  void add(const CellFigures& other) {
+    for (std::size_t k = 0; k < of_class.size(); ++k) of_class[k] += other.of_class[k];
+    if (other.values == 0) return;
+    lowest = values == 0 ? other.lowest : std::min(lowest, other.lowest);
+    highest = values == 0 ? other.highest : std::max(highest, other.highest);
+    values += other.values;
+    sum += other.sum;
+  }
+};
+
+CellFigures figures_of(const dem::RasterLayer& layer, const TileIndex& tile,
+                       const std::vector<std::uint8_t>& bytes) {
+  const int rows = std::min(kTileSide, layer.geometry.rows - tile.row * kTileSide);
+  const int columns = std::min(kTileSide, layer.geometry.columns - tile.column * kTileSide);
+  const auto nodata = static_cast<float>(layer.nodata);
+  CellFigures found;
+  for (int r = 0; r < rows; ++r) {
+    for (int c = 0; c < columns; ++c) {
+      const std::size_t at = static_cast<std::size_t>(r) * kTileSide + static_cast<std::size_t>(c);
+      if (layer.of_classes) {
+        ++found.of_class[bytes[at]];
+        continue;
+      }
+      float value = 0.0F;
+      std::memcpy(&value, bytes.data() + at * sizeof value, sizeof value);
+      if (value == nodata) continue;
+      found.lowest = found.values == 0 ? value : std::min<double>(found.lowest, value);
+      found.highest = found.values == 0 ? value : std::max<double>(found.highest, value);
+      ++found.values;
+      found.sum += value;
+    }
+  }
+  return found;
+}
+
 }  // namespace
 
 Result<void> fill_tiles(const planner::CellMap& map, const TerrainSite& site, const Legend& legend,
@@ -172,44 +213,34 @@ Result<void> fill_coarser_levels(const dem::RasterLayer& layer, dem::TileStore& 
   return {};
 }
 
-Result<MapStatistics> statistics_of(const dem::RasterLayer& layer, const dem::TileStore& store) {
-  const dem::GridGeometry& g = layer.geometry;
-  const dem::LevelSize size = dem::size_of_level(g, 0);
+Result<MapStatistics> statistics_of(const dem::RasterLayer& layer, const dem::TileStore& store,
+                                    std::size_t threads, const Progress& progress) {
+  const dem::LevelSize size = dem::size_of_level(layer.geometry, 0);
+  const auto columns = static_cast<std::size_t>(size.tile_columns());
+  std::vector<CellFigures> tiles(columns * static_cast<std::size_t>(size.tile_rows()));
+  FirstError first;
+  parallel_for(tiles.size(), threads, [&](std::size_t i) {
+    if (progress.cancelled() || first.failed()) return;
+    const TileIndex tile{0, static_cast<int>(i / columns), static_cast<int>(i % columns)};
+    const auto bytes = store.read(tile);
+    if (bytes)
+      tiles[i] = figures_of(layer, tile, *bytes);
+    else
+      first.note(bytes.error());
+  });
+  if (progress.cancelled()) return map_given_up();
+  if (const auto read = first.result(); !read) return fail(read.error());
+  CellFigures all;
+  for (const CellFigures& tile : tiles) all.add(tile);
   MapStatistics found;
-  found.cells = static_cast<long long>(g.rows) * g.columns;
-  std::array<long long, 256> of_class{};
-  double sum = 0.0;
-  long long values = 0;
-  const auto nodata = static_cast<float>(layer.nodata);
-  for (int row = 0; row < size.tile_rows(); ++row) {
-    for (int column = 0; column < size.tile_columns(); ++column) {
-      const auto bytes = store.read({0, row, column});
-      if (!bytes) return fail(bytes.error());
-      const int rows = std::min(kTileSide, g.rows - row * kTileSide);
-      const int columns = std::min(kTileSide, g.columns - column * kTileSide);
-      double of_tile = 0.0;
-      for (int r = 0; r < rows; ++r) {
-        for (int c = 0; c < columns; ++c) {
-          const std::size_t at = static_cast<std::size_t>(r) * kTileSide + static_cast<std::size_t>(c);
-          float value = 0.0F;
-          if (layer.of_classes)
-            ++of_class[(*bytes)[at]];
-          else
-            std::memcpy(&value, bytes->data() + at * sizeof value, sizeof value);
-          if (layer.of_classes || value == nodata) continue;
-          found.lowest = values == 0 ? value : std::min<double>(found.lowest, value);
-          found.highest = values == 0 ? value : std::max<double>(found.highest, value);
-          ++values;
-          of_tile += value;
-        }
-      }
-      sum += of_tile;
-    }
-  }
-  if (values > 0) found.mean = sum / static_cast<double>(values);
+  found.cells = static_cast<long long>(layer.geometry.rows) * layer.geometry.columns;
+  found.lowest = all.lowest;
+  found.highest = all.highest;
+  if (all.values > 0) found.mean = all.sum / static_cast<double>(all.values);
+  long long values = all.values;
   for (const dem::RasterClass& each : layer.classes) {
-    found.classes.emplace_back(each.name, of_class[each.value]);
-    values += of_class[each.value];
+    found.classes.emplace_back(each.name, all.of_class[each.value]);
+    values += all.of_class[each.value];
   }
   found.nodata = found.cells - values;
   return found;

@@ -23,7 +23,8 @@ Result<void> fill_tiles(const std::vector<float>& values, const dem::RasterLayer
 // The coarser levels, from the tiles of level 0.
 Result<void> fill_coarser_levels(const dem::RasterLayer& layer, dem::TileStore& store, std::size_t threads,
                                  Progress& progress);
-// Of the cells of level 0.
-Result<MapStatistics> statistics_of(const dem::RasterLayer& layer, const dem::TileStore& store);
+// Of the cells of level 0, whatever the threads. Errors: those of the store; cancelled.
+Result<MapStatistics> statistics_of(const dem::RasterLayer& layer, const dem::TileStore& store,
+                                    std::size_t threads, const Progress& progress);
 
 }  // namespace slipway::api

@@ -49,8 +49,11 @@ class Ways {
         tables_(build_ground_tables(problem_, progress)),
         place_(place) {
     if (progress.cancelled()) return;
-    progress.report("reading the ground", 0.3);
-    map_ = std::make_unique<TraverseMap>(problem_, keep_out_, problem_.terrain->geometry().extent());
+    progress.report("reading the ground", 0.1);
+    const dem::GridGeometry& terrain = problem_.terrain->geometry();
+    map_ = in_finest_cells(terrain, terrain.extent())
+               ? std::make_unique<TraverseMap>(problem_, keep_out_, terrain.extent())
+               : std::make_unique<TraverseMap>(problem_, keep_out_, kMaxWayCells, progress);
   }
 
   // Nothing where the rover may stand there.
@@ -64,36 +67,37 @@ class Ways {
                                         in_words(passage))}}};
   }
 
-  CostField field(const Weights& weights, bool to_go) const {
-    const GridSearch grid(MotionCost(problem_, *map_, tables_, weights));
-    return to_go ? grid.cost_to_go(place_.x_m, place_.y_m) : grid.cost_to_come(place_.x_m, place_.y_m);
+  CostField field(const Weights& weights, bool to_go, const Progress& progress) const {
+    const MotionCost cost(problem_, *map_, tables_, weights);
+    const GridSearch grid(cost);
+    const SpreadEnd end{-1, [&progress] { return progress.cancelled(); }};
+    return to_go ? grid.cost_to_go(place_.x_m, place_.y_m, end)
+                 : grid.cost_to_come(place_.x_m, place_.y_m, end);
   }
 
-  // What the ways of a field that leads from the place use up, to each cell that has one.
-  std::vector<UsedUp> used_up(const CostField& field) const {
-    std::vector<UsedUp> edges(map_->cells());
-    std::vector<long long> before(map_->cells(), -1);
-    parallel_for(map_->cells(), problem_.threads, [&](std::size_t i) {
-      if (field.step[i] < 0) return;
-      before[i] = cell_before(i, field.step[i]);
-      edges[i] = edge(static_cast<std::size_t>(before[i]), i, field.step[i]);
-    });
+  // What the ways of a field that leads from the place use up, to each cell that has one. Of no use where it
+  // was cancelled.
+  std::vector<UsedUp> used_up(const CostField& field, const Progress& progress) const {
+    // First of each cell's last step, then of its whole way.
     std::vector<UsedUp> sums(map_->cells());
+    const auto columns = static_cast<std::size_t>(geometry().columns);
+    parallel_for(static_cast<std::size_t>(geometry().rows), problem_.threads, [&](std::size_t row) {
+      if (progress.cancelled()) return;
+      for (std::size_t i = row * columns; i < (row + 1) * columns; ++i)
+        sums[i] = field.step[i] < 0 ? UsedUp{.over_unknown = map_->cell(i).soil == kUnknownSoil}
+                                    : edge(cell_before(i, field.step[i]), i, field.step[i]);
+    });
     std::vector<char> done(map_->cells(), 0);
     std::vector<std::size_t> chain;
-    for (std::size_t i = 0; i < map_->cells(); ++i) {
+    for (std::size_t i = 0; i < map_->cells() && !progress.cancelled(); ++i) {
       std::size_t at = i;
-      while (done[at] == 0 && before[at] >= 0) {
-        chain.push_back(at);
-        at = static_cast<std::size_t>(before[at]);
-      }
-      if (done[at] == 0) sums[at].over_unknown = map_->cell(at).soil == kUnknownSoil;
+      for (; done[at] == 0 && field.step[at] >= 0; at = cell_before(at, field.step[at])) chain.push_back(at);
       done[at] = 1;
       for (; !chain.empty(); chain.pop_back()) {
-        const UsedUp& from = sums[static_cast<std::size_t>(before[chain.back()])];
-        const UsedUp& way = edges[chain.back()];
-        sums[chain.back()] = {from.energy_j + way.energy_j, from.hours + way.hours, from.stops + way.stops,
-                              from.over_unknown || way.over_unknown};
+        const UsedUp& from = sums[cell_before(chain.back(), field.step[chain.back()])];
+        UsedUp& way = sums[chain.back()];
+        way = {from.energy_j + way.energy_j, from.hours + way.hours, from.stops + way.stops,
+               from.over_unknown || way.over_unknown};
         done[chain.back()] = 1;
       }
     }
@@ -109,20 +113,10 @@ class Ways {
     return problem;
   }
 
-  // The step's columns to the right and rows up, as GridSearch has them.
-  static std::pair<int, int> step_of(int step) {
-    const double heading = GridSearch::heading_rad(step);
-    const double longer = std::max(std::abs(std::cos(heading)), std::abs(std::sin(heading)));
-    // Of a knight's move the shorter side is half of the longer one.
-    const double ratio = std::min(std::abs(std::cos(heading)), std::abs(std::sin(heading))) / longer;
-    const double scale = ratio > 0.25 && ratio < 0.75 ? 2.0 : 1.0;
-    return {static_cast<int>(std::lround(scale * std::cos(heading) / longer)),
-            static_cast<int>(std::lround(scale * std::sin(heading) / longer))};
-  }
-
-  long long cell_before(std::size_t cell, int step) const {
-    const auto [right, up] = step_of(step);
-    return static_cast<long long>(cell) + static_cast<long long>(up) * geometry().columns - right;
+  std::size_t cell_before(std::size_t cell, int step) const {
+    const GridStep& s = kGridDirections[static_cast<std::size_t>(step)];
+    return static_cast<std::size_t>(static_cast<long long>(cell) +
+                                    static_cast<long long>(s.up) * geometry().columns - s.right);
   }
 
   UsedUp metre_in(std::size_t cell, int step) const {
@@ -144,8 +138,8 @@ class Ways {
   }
 
   UsedUp edge(std::size_t from, std::size_t to, int step) const {
-    const auto [right, up] = step_of(step);
-    const double half = 0.5 * std::hypot(right * geometry().cell_x_m, up * geometry().cell_y_m);
+    const GridStep& s = kGridDirections[static_cast<std::size_t>(step)];
+    const double half = 0.5 * std::hypot(s.right * geometry().cell_x_m, s.up * geometry().cell_y_m);
     const UsedUp a = metre_in(from, step), b = metre_in(to, step);
     return {half * (a.energy_j + b.energy_j), half * (a.hours + b.hours), half * (a.stops + b.stops),
             a.over_unknown || b.over_unknown};
@@ -187,7 +181,7 @@ Result<WayMap> cost_to_go_map(const PlanProblem& problem, const Waypoint& place,
   if (progress.cancelled()) return cancelled();
   if (auto fault = ways.fault_of_place(pointer)) return fail(*std::move(fault));
   progress.report("searching ways", 0.5);
-  WayMap map{ways.geometry(), ways.field(problem.weights, true).cost};
+  WayMap map{ways.geometry(), ways.field(problem.weights, true, progress).cost};
   for (float& value : map.values)
     if (!std::isfinite(value)) value = kNoMapValue;
   if (progress.cancelled()) return cancelled();
@@ -200,9 +194,10 @@ Result<WayMap> reachable_map(const PlanProblem& problem, const Waypoint& place, 
   if (progress.cancelled()) return cancelled();
   if (auto fault = ways.fault_of_place(pointer)) return fail(*std::move(fault));
   progress.report("searching ways", 0.5);
-  const CostField field = ways.field(weights_of(problem, budget), false);
+  const CostField field = ways.field(weights_of(problem, budget), false, progress);
+  if (progress.cancelled()) return cancelled();
   progress.report("adding up ways", 0.7);
-  const std::vector<UsedUp> used = ways.used_up(field);
+  const std::vector<UsedUp> used = ways.used_up(field, progress);
   if (progress.cancelled()) return cancelled();
   WayMap map{ways.geometry(), std::vector<float>(used.size(), map_class::kNotReachable)};
   for (std::size_t i = 0; i < used.size(); ++i) {

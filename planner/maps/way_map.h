@@ -24,10 +24,14 @@ struct WayMap {
   std::vector<float> values;
 };
 
+// More cells than this no map of ways has: a terrain with more of the finest cells gets larger ones, in whole
+// numbers of the terrain's, which allow what the worst of the ground in them does. At some 70 bytes each,
+// searched by one thread.
+constexpr long long kMaxWayCells = 16'000'000;
+
 // The cost of the cheapest way on the search's grid from each of its cells to the place, under the problem's
-// weights; kNoMapValue where there is none. The cells are the search's, which are larger than the terrain's
-// where it has more than kMaxSearchCells. Errors: invalid_request at `pointer` where the rover may not stand
-// at the place; cancelled.
+// weights; kNoMapValue where there is none. Errors: invalid_request at `pointer` where the rover may not
+// stand at the place; cancelled.
 Result<WayMap> cost_to_go_map(const PlanProblem& problem, const Waypoint& place, const char* pointer,
                               Progress& progress);
 

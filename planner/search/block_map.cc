@@ -247,45 +247,41 @@ std::optional<std::uint32_t> BlockMap::node_at(double x_m, double y_m) const {
   return node_of(block, part);
 }
 
-std::vector<std::array<float, 8>> BlockMap::costs(const MotionCost& cost, std::size_t threads) const {
-  std::array<Eigen::Vector2d, 8> direction;
-  for (int k = 0; k < 8; ++k)
-    direction[static_cast<std::size_t>(k)] = {std::cos(GridSearch::heading_rad(2 * k)),
-                                              std::sin(GridSearch::heading_rad(2 * k))};
-  std::vector<std::array<float, 8>> all(nodes());
-  parallel_for(static_cast<std::size_t>(block_rows_), threads, [&](std::size_t row) {
-    const auto first = row * static_cast<std::size_t>(block_columns_);
-    for (std::size_t b = first; b < first + static_cast<std::size_t>(block_columns_); ++b) {
-      const Block& block = blocks_[b];
-      for (std::uint32_t node = first_node_[b]; node < first_node_[b + 1]; ++node) {
-        const std::size_t part = node - first_node_[b] + 1;
-        const float closed = 1.0F - static_cast<float>(cells_[node]) / (kBlockCells * kBlockCells);
-        for (std::size_t k = 0; k < 8; ++k) {
-          float sum = 0.0F;
-          int driven = 0, sampled = 0;
-          std::uint8_t soil = kUnknownSoil;
-          for (const Sample& sample : block.samples) {
-            if (sample.part != part) continue;
-            ++sampled;
-            soil = sample.soil;
-            const auto metre = static_cast<float>(cost.per_metre_on(
-                sample.soil, {sample.gradient_x, sample.gradient_y}, direction[k].x(), direction[k].y()));
-            if (!std::isfinite(metre)) continue;
-            sum += metre;
-            ++driven;
-          }
-          const auto level = static_cast<float>(cost.per_metre_on(
-              sampled > 0 ? soil : kUnknownSoil, {0.0, 0.0}, direction[k].x(), direction[k].y()));
-          float metre = level * (sampled > 0 ? kClosedFactor : kUnknownFactor);
-          if (driven > 0) {
-            const float held = 1.0F - static_cast<float>(driven) / static_cast<float>(sampled);
-            metre = sum / static_cast<float>(driven) * (1.0F + kDetour * (closed + 3.0F * held));
-          }
-          all[node][k] = std::isfinite(metre) ? metre : 1e6F;
-        }
-      }
+std::array<float, 8> BlockMap::costs(std::size_t node, const MotionCost& cost) const {
+  static const std::array<Eigen::Vector2d, 8> direction = [] {
+    std::array<Eigen::Vector2d, 8> all;
+    for (int k = 0; k < 8; ++k)
+      all[static_cast<std::size_t>(k)] = {std::cos(GridSearch::heading_rad(2 * k)),
+                                          std::sin(GridSearch::heading_rad(2 * k))};
+    return all;
+  }();
+  const Block& block = blocks_[block_of_[node]];
+  const std::size_t part = node - first_node_[block_of_[node]] + 1;
+  const float closed = 1.0F - static_cast<float>(cells_[node]) / (kBlockCells * kBlockCells);
+  std::array<float, 8> all{};
+  for (std::size_t k = 0; k < 8; ++k) {
+    float sum = 0.0F;
+    int driven = 0, sampled = 0;
+    std::uint8_t soil = kUnknownSoil;
+    for (const Sample& sample : block.samples) {
+      if (sample.part != part) continue;
+      ++sampled;
+      soil = sample.soil;
+      const auto metre = static_cast<float>(cost.per_metre_on(
+          sample.soil, {sample.gradient_x, sample.gradient_y}, direction[k].x(), direction[k].y()));
+      if (!std::isfinite(metre)) continue;
+      sum += metre;
+      ++driven;
     }
-  });
+    const auto level = static_cast<float>(
+        cost.per_metre_on(sampled > 0 ? soil : kUnknownSoil, {0.0, 0.0}, direction[k].x(), direction[k].y()));
+    float metre = level * (sampled > 0 ? kClosedFactor : kUnknownFactor);
+    if (driven > 0) {
+      const float held = 1.0F - static_cast<float>(driven) / static_cast<float>(sampled);
+      metre = sum / static_cast<float>(driven) * (1.0F + kDetour * (closed + 3.0F * held));
+    }
+    all[k] = std::isfinite(metre) ? metre : 1e6F;
+  }
   return all;
 }
 

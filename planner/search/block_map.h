@@ -46,9 +46,10 @@ class BlockMap {
   const Edge* begin(std::size_t node) const { return edges_.data() + first_edge_[node]; }
   const Edge* end(std::size_t node) const { return edges_.data() + first_edge_[node + 1]; }
 
-  // What a metre costs in each node, driven in eight directions counter-clockwise from east: the mean over
-  // its sample, more where a share of it can't be driven so. Nowhere infinite.
-  std::vector<std::array<float, 8>> costs(const MotionCost& cost, std::size_t threads) const;
+  // What a metre costs in a node, driven in eight directions counter-clockwise from east: the mean over its
+  // sample, more where a share of it can't be driven so. Nowhere infinite, and nowhere less than
+  // MotionCost::least_per_metre().
+  std::array<float, 8> costs(std::size_t node, const MotionCost& cost) const;
 
  private:
   static constexpr int kSamples = 16;

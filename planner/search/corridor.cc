@@ -5,8 +5,6 @@
 #include <limits>
 #include <queue>
 
-#include "planner/search/grid_search.h"
-
 namespace slipway::planner {
 namespace {
 
@@ -15,11 +13,14 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kWorst = 1.5F;
 constexpr std::size_t kBetweenAsking = 1U << 13U;
 
+// Sums are in floats: a little above the bound none is left out that rounding put there.
+constexpr float kRounding = 1.0001F;
+
 struct Reached {
-  float cost;
+  float whole, cost;  // of a way through the node at the least; so far
   std::uint32_t node;
   bool operator>(const Reached& other) const {
-    return cost > other.cost || (cost == other.cost && node > other.node);
+    return whole > other.whole || (whole == other.whole && node > other.node);
   }
 };
 
@@ -31,14 +32,25 @@ float per_metre(const std::array<float, 8>& costs, int step) {
 
 }  // namespace
 
-Corridor::Corridor(const BlockMap& blocks, const std::vector<std::array<float, 8>>& costs,
-                   const std::vector<float>& penalty, std::uint32_t from, std::uint32_t to,
-                   const std::function<bool()>& cancelled)
+Corridor::Corridor(const BlockMap& blocks, NodeCosts& costs, const std::vector<float>& penalty,
+                   std::uint32_t from, std::uint32_t to, const std::function<bool()>& cancelled)
     : blocks_(blocks), costs_(costs), penalty_(penalty), cancelled_(cancelled) {
-  const std::vector<float> to_go = spread(to, from, true);
+  const dem::GridGeometry& g = blocks.geometry();
+  for (std::size_t k = 0; k < kGridSteps; ++k)
+    half_length_m_[k] = 0.5F * kBlockCells *
+                        static_cast<float>(std::hypot(kGridDirections[k].right * g.cell_x_m,
+                                                      kGridDirections[k].up * g.cell_y_m));
+  // First with the straight line at the least cost of a metre as what is left, then with what is left indeed.
+  const long long columns = block_columns(g), start = blocks.block_of(from);
+  const std::vector<float> to_go = spread(to, from, true, [&](std::uint32_t node) {
+    const long long block = blocks.block_of(node);
+    const double up = static_cast<double>(block / columns - start / columns) * g.cell_y_m,
+                 right = static_cast<double>(block % columns - start % columns) * g.cell_x_m;
+    return static_cast<float>(costs.least() * kBlockCells * std::sqrt(up * up + right * right));
+  });
   leads_ = to_go[from] < kInfinity;
   if (!leads_ || cancelled_()) return;
-  const std::vector<float> to_come = spread(from, to, false);
+  const std::vector<float> to_come = spread(from, to, false, [&](std::uint32_t node) { return to_go[node]; });
   std::vector<float> sum(blocks.nodes());
   for (std::uint32_t node = 0; node < sum.size(); ++node) {
     sum[node] = to_come[node] + to_go[node];
@@ -48,35 +60,34 @@ Corridor::Corridor(const BlockMap& blocks, const std::vector<std::array<float, 8
             [&](std::uint32_t a, std::uint32_t b) { return sum[a] < sum[b] || (sum[a] == sum[b] && a < b); });
 }
 
-std::vector<float> Corridor::spread(std::uint32_t origin, std::uint32_t end, bool to_go) const {
-  const dem::GridGeometry& g = blocks_.geometry();
-  std::array<float, kGridSteps> half_length;
-  for (std::size_t k = 0; k < kGridSteps; ++k)
-    half_length[k] = 0.5F * kBlockCells *
-                     static_cast<float>(std::hypot(kGridDirections[k].right * g.cell_x_m,
-                                                   kGridDirections[k].up * g.cell_y_m));
+float Corridor::cost_of(std::uint32_t node, const BlockMap::Edge& edge, int driven) const {
+  const float here = per_metre(costs_.of(node), driven), there = per_metre(costs_.of(edge.to), driven);
+  float metre = here + there;
+  if (!penalty_.empty())
+    metre += here * penalty_[blocks_.block_of(node)] + there * penalty_[blocks_.block_of(edge.to)];
+  return half_length_m_[edge.step] * metre;
+}
+
+template <class AtLeast>
+std::vector<float> Corridor::spread(std::uint32_t origin, std::uint32_t end, bool to_go,
+                                    const AtLeast& at_least) const {
   std::vector<float> cost(blocks_.nodes(), kInfinity);
   std::priority_queue<Reached, std::vector<Reached>, std::greater<>> open;
   cost[origin] = 0.0F;
-  open.push({0.0F, origin});
+  open.push({at_least(origin), 0.0F, origin});
   std::size_t looked_at = 0;
   while (!open.empty()) {
     const Reached here = open.top();
     open.pop();
     if (here.cost > cost[here.node]) continue;
-    if (here.cost > kWorst * cost[end]) break;
+    if (here.whole > kRounding * kWorst * cost[end]) break;
     if (++looked_at % kBetweenAsking == 0 && cancelled_()) break;
     for (const BlockMap::Edge* edge = blocks_.begin(here.node); edge != blocks_.end(here.node); ++edge) {
       const int driven = to_go ? (edge->step + kGridSteps / 2) % kGridSteps : edge->step;
-      float metre = per_metre(costs_[here.node], driven) + per_metre(costs_[edge->to], driven);
-      if (!penalty_.empty()) {
-        metre += per_metre(costs_[here.node], driven) * penalty_[blocks_.block_of(here.node)] +
-                 per_metre(costs_[edge->to], driven) * penalty_[blocks_.block_of(edge->to)];
-      }
-      const float sum = here.cost + half_length[edge->step] * metre;
+      const float sum = here.cost + cost_of(here.node, *edge, driven);
       if (!(sum < cost[edge->to])) continue;
       cost[edge->to] = sum;
-      open.push({sum, edge->to});
+      open.push({sum + at_least(edge->to), sum, edge->to});
     }
   }
   return cost;

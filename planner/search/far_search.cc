@@ -13,6 +13,7 @@
 #include "core/random.h"
 #include "planner/search/bottleneck.h"
 #include "planner/search/corridor.h"
+#include "planner/search/corridor_cells.h"
 #include "planner/search/grid_leg_planner.h"
 #include "planner/search/grid_search.h"
 #include "planner/search/leg_setting.h"
@@ -39,8 +40,6 @@ constexpr int kOwnWidenings = 2;
 constexpr double kBandOfLeg = 0.01, kMinBand_blocks = 2.0;
 constexpr double kBandFactor = 0.5;  // the first round's extra cost in the band; doubles each round
 constexpr double kLineSpacing_m = 0.25;
-// What a metre beside closed ground costs more.
-constexpr float kBesideClosed = 0.3F;
 // Planners that sample go so far at once, and see so many blocks to each side of the way.
 constexpr double kPiece_m = 200.0;
 constexpr int kPieceReach = 3;
@@ -48,8 +47,7 @@ constexpr int kPieceReach = 3;
 struct Guide {
   std::string profile;
   MotionCost cost;
-  std::vector<std::array<float, 8>> costs = {};  // of the nodes
-  std::vector<float> penalty = {};               // of the blocks
+  std::vector<float> penalty = {};  // of the blocks
   double width = kOtherWidth;
   int widenings = 0;  // of a corridor that has a way
 };
@@ -63,27 +61,6 @@ struct Draft {
   bool found = true;
   std::string planner;
 };
-
-// The blocks within so many of any of these places, in their order.
-std::vector<std::uint32_t> blocks_around(const dem::GridGeometry& g,
-                                         const std::vector<Eigen::Vector2d>& places, int reach) {
-  const long long columns = block_columns(g), rows = (g.rows + kBlockCells - 1) / kBlockCells;
-  std::vector<std::uint32_t> blocks;
-  long long last = -1;
-  for (const Eigen::Vector2d& p : places) {
-    const long long cell = grid_index(g, p.x(), p.y());
-    if (cell < 0) continue;
-    const long long row = cell / g.columns / kBlockCells, column = cell % g.columns / kBlockCells;
-    if (row * columns + column == last) continue;
-    last = row * columns + column;
-    for (long long r = std::max(0LL, row - reach); r <= std::min(rows - 1, row + reach); ++r)
-      for (long long c = std::max(0LL, column - reach); c <= std::min(columns - 1, column + reach); ++c)
-        blocks.push_back(static_cast<std::uint32_t>(r * columns + c));
-  }
-  std::sort(blocks.begin(), blocks.end());
-  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
-  return blocks;
-}
 
 class FarProposer {
  public:
@@ -156,10 +133,10 @@ class FarProposer {
     std::vector<Draft> drafts(guides.size() * (others_.size() + 1));
     parallel_for(guides.size(), problem_.threads, [&](std::size_t g) {
       if (progress_.cancelled()) return;
-      guides[g].costs = blocks_.costs(guides[g].cost, problem_.threads);
+      NodeCosts costs(blocks_, guides[g].cost);
       Draft* const of_guide = &drafts[g * (others_.size() + 1)];
       for (std::size_t leg = 0; leg + 1 < places_.size() && of_guide[0].optimum < kInfinity; ++leg)
-        drive_leg(guides[g], leg, g, of_guide);
+        drive_leg(guides[g], costs, leg, g, of_guide);
       // The request's own objective: what there is if nothing better comes.
       if (is_first && g == 0 && by_grid_ && of_guide[0].found && !of_guide[0].motions.empty())
         tell_found(progress_, of_guide[0].motions, of_guide[0].optimum);
@@ -180,13 +157,14 @@ class FarProposer {
   }
 
   // The way on the grid, and along it all planners.
-  void drive_leg(const Guide& guide, std::size_t leg, std::size_t number, Draft* drafts) const {
+  void drive_leg(const Guide& guide, NodeCosts& costs, std::size_t leg, std::size_t number,
+                 Draft* drafts) const {
     const Waypoint &from = places_[leg], &to = places_[leg + 1];
     const auto fail = [&] {
       for (std::size_t d = 0; d <= others_.size(); ++d) drafts[d].found = false;
       drafts[0].optimum = kInfinity;
     };
-    const Corridor corridor(blocks_, guide.costs, guide.penalty, nodes_[leg], nodes_[leg + 1], cancelled_);
+    const Corridor corridor(blocks_, costs, guide.penalty, nodes_[leg], nodes_[leg + 1], cancelled_);
     if (!corridor.leads() || progress_.cancelled()) return fail();
     const dem::GridGeometry& g = blocks_.geometry();
     const double across = std::hypot((to.x_m - from.x_m) / g.cell_x_m, (to.y_m - from.y_m) / g.cell_y_m);
@@ -195,13 +173,14 @@ class FarProposer {
       least = std::min(least, kMaxCorridorCells / kBlockArea);
       const TraverseMap map(problem_, keep_out_, corridor.blocks(least), progress_);
       MotionCost cost = guide.cost.on(map);
-      cost.penalise(of_cells(map, guide.penalty));
+      cost.penalise(cell_penalties(map, guide.penalty));
       const GridSearch grid(cost);
       const CostField to_go = grid.cost_to_go(to.x_m, to.y_m, {map.index_at(from.x_m, from.y_m), cancelled_});
       const PoseSampler sampler(grid, map, to_go, from.x_m, from.y_m);
       if (progress_.cancelled()) return fail();
       const bool is_last = least >= corridor.most() || least >= kMaxCorridorCells / kBlockArea;
-      if (!is_last && (sampler.way().empty() || (widened < guide.widenings && at_edge(map, sampler.way())))) {
+      if (!is_last && (sampler.way().empty() ||
+                       (widened < guide.widenings && comes_to_edge(blocks_, map, sampler.way())))) {
         least *= 2;
         ++widened;
         continue;
@@ -263,7 +242,7 @@ class FarProposer {
       const TraverseMap map(problem_, keep_out_, blocks_around(blocks_.geometry(), part, kPieceReach),
                             progress_);
       MotionCost cost = guide.cost.on(map);
-      cost.penalise(of_cells(map, guide.penalty));
+      cost.penalise(cell_penalties(map, guide.penalty));
       const GridSearch grid(cost);
       const PoseSampler sampler(grid, map, grid.cost_to_come(from.x_m, from.y_m, {-1, cancelled_}),
                                 grid.cost_to_go(to.x_m, to.y_m, {-1, cancelled_}), from.x_m, from.y_m);
@@ -279,53 +258,6 @@ class FarProposer {
       begin = end;
     }
     add(smooth_long_leg(whole, poses, last.yaw_rad.has_value(), cancelled_), draft);
-  }
-
-  // The way comes to the last cells that the map holds, and there are cells to stand in beyond.
-  bool at_edge(const TraverseMap& map, const std::vector<std::size_t>& way) const {
-    const dem::GridGeometry& g = map.geometry();
-    const long long columns = block_columns(g);
-    for (const std::size_t cell : way) {
-      const dem::Cell at = map.place_of(cell);
-      for (const auto& [down, right] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
-        const long long row = at.row + down, column = at.column + right;
-        if (row < 0 || column < 0 || row >= g.rows || column >= g.columns || map.index_of(row, column) >= 0)
-          continue;
-        if (blocks_.has_nodes(static_cast<std::uint32_t>(row / kBlockCells * columns + column / kBlockCells)))
-          return true;
-      }
-    }
-    return false;
-  }
-
-  // The factors of the blocks, and of cells beside closed ones: a way through a gap keeps to its middle.
-  static std::vector<float> of_cells(const TraverseMap& map, const std::vector<float>& of_blocks) {
-    std::vector<float> factors(map.cells(), 0.0F);
-    const long long columns = block_columns(map.geometry());
-    const auto is_closed = [&](std::size_t cell) {
-      const Passage passage = map.cell(cell).passage;
-      return passage != Passage::kFree && passage != Passage::kNearKeepOut;
-    };
-    for (std::size_t first = 0; first < factors.size(); first += kBlockArea) {
-      if (!of_blocks.empty()) {
-        const dem::Cell at = map.place_of(first);
-        std::fill_n(
-            factors.begin() + static_cast<std::ptrdiff_t>(first), kBlockArea,
-            of_blocks[static_cast<std::size_t>(at.row / kBlockCells * columns + at.column / kBlockCells)]);
-      }
-    }
-    for (std::size_t cell = 0; cell < factors.size(); ++cell) {
-      if (!is_closed(cell)) continue;
-      const dem::Cell at = map.place_of(cell);
-      for (int row = at.row - 1; row <= at.row + 1; ++row) {
-        for (int column = at.column - 1; column <= at.column + 1; ++column) {
-          const long long beside = map.index_of(row, column);
-          if (beside >= 0 && factors[static_cast<std::size_t>(beside)] < kBesideClosed)
-            factors[static_cast<std::size_t>(beside)] = kBesideClosed;
-        }
-      }
-    }
-    return factors;
   }
 
   // The extra cost factor of every block that is near a route that differs so far.

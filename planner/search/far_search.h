@@ -23,7 +23,7 @@ struct FarProposal {
 // Corridor) are searched in the terrain's finest cells by GridSearch, wider where its way comes to the
 // corridor's edge, and the way is pulled straight and smoothed; planners that the problem names, other than
 // "grid", go from place to place on that way. Then in rounds with bands around the routes so far made dear.
-// A search holds kMaxCorridorCells at the most, at some 100 bytes each.
+// A search holds kMaxCorridorCells at the most, at some 40 bytes each.
 FarProposal propose_far_routes(const PlanProblem& problem, std::span<const PlannerRow> planners,
                                const KeepOut& keep_out, const GroundTables& tables, Progress& progress);
 

@@ -31,34 +31,32 @@ double GridSearch::heading_rad(int step) {
                     kGridDirections[static_cast<std::size_t>(step)].right);
 }
 
-GridSearch::GridSearch(const MotionCost& cost)
-    : map_(cost.map()), per_metre_(new float[map_.cells() * static_cast<std::size_t>(kGridSteps)]) {
-  if (map_.holds_blocks()) {
+GridSearch::GridSearch(const MotionCost& cost) : map_(cost.map()) {
+  if (map_.holds_blocks() || map_.cells() > static_cast<std::size_t>(kMaxSearchCells)) {
     cost_ = &cost;
-    filled_.assign(map_.cells(), 0);
     return;
   }
-  for (std::size_t i = 0; i < map_.cells(); ++i) fill(cost, i);
+  per_metre_.reset(new float[map_.cells() * static_cast<std::size_t>(kGridSteps)]);
+  for (std::size_t i = 0; i < map_.cells(); ++i)
+    for (int k = 0; k < kGridSteps; ++k)
+      per_metre_[i * static_cast<std::size_t>(kGridSteps) + static_cast<std::size_t>(k)] =
+          found_per_metre(cost, i, k);
 }
 
-void GridSearch::fill(const MotionCost& cost, std::size_t cell) const {
+float GridSearch::found_per_metre(const MotionCost& cost, std::size_t cell, int step) const {
   static const std::array<Eigen::Vector2d, kGridSteps> direction = [] {
     std::array<Eigen::Vector2d, kGridSteps> all;
     for (int k = 0; k < kGridSteps; ++k) all[k] = {std::cos(heading_rad(k)), std::sin(heading_rad(k))};
     return all;
   }();
   const Passage passage = map_.cell(cell).passage;
-  float* const to = per_metre_.get() + cell * static_cast<std::size_t>(kGridSteps);
-  for (int k = 0; k < kGridSteps; ++k) {
-    bool open = passage == Passage::kFree;
-    if (passage == Passage::kNearKeepOut) {
-      const Eigen::Vector2d centre = map_.centre_m(cell);
-      open = map_.may_stand({centre.x(), centre.y(), heading_rad(k)});
-    }
-    to[k] = open ? static_cast<float>(cost.per_metre_in_cell(cell, direction[k].x(), direction[k].y()))
-                 : kInfinity;
+  bool open = passage == Passage::kFree;
+  if (passage == Passage::kNearKeepOut) {
+    const Eigen::Vector2d centre = map_.centre_m(cell);
+    open = map_.may_stand({centre.x(), centre.y(), heading_rad(step)});
   }
-  if (cost_) filled_[cell] = 1;
+  return open ? static_cast<float>(cost.per_metre_in_cell(cell, direction[step].x(), direction[step].y()))
+              : kInfinity;
 }
 
 bool GridSearch::passes_corners(const dem::Cell& from, int step, int driven) const {
@@ -66,7 +64,7 @@ bool GridSearch::passes_corners(const dem::Cell& from, int step, int driven) con
   const GridStep& s = kGridDirections[static_cast<std::size_t>(step)];
   const auto is_open = [&](long long row, long long column) {
     const long long cell = map_.index_of(row, column);
-    return cell >= 0 && per_metre(static_cast<std::size_t>(cell))[driven] < kInfinity;
+    return cell >= 0 && per_metre(static_cast<std::size_t>(cell), driven) < kInfinity;
   };
   // On a map of blocks a diagonal may not touch the corner of a closed cell: a long way has many corners, and
   // a motion is judged on both sides of each.
@@ -120,11 +118,10 @@ CostField GridSearch::spread(double x_m, double y_m, bool to_go, const SpreadEnd
     if (static_cast<long long>(here.cell) == end.at_cell) break;
     if (++looked_at % kBetweenAsking == 0 && end.cancelled && end.cancelled()) break;
     const dem::Cell from = map_.place_of(here.cell);
-    const float* const metre_here = per_metre(here.cell);
     for (int k = 0; k < kGridSteps; ++k) {
       // k is the direction away from the origin; the rover drives it, or its opposite on the way to a goal.
       const int driven = to_go ? opposite(k) : k;
-      const float half = metre_here[driven];
+      const float half = per_metre(here.cell, driven);
       if (!(half < kInfinity)) continue;
       const long long beside =
           map_.index_of(from.row - kGridDirections[k].up, from.column + kGridDirections[k].right);
@@ -132,7 +129,7 @@ CostField GridSearch::spread(double x_m, double y_m, bool to_go, const SpreadEnd
       const auto next = static_cast<std::size_t>(beside);
       // Cheaper than this it can't be: most are known at less.
       if (!(cost_here + half_length[k] * half < field.cost[next])) continue;
-      const float cost = cost_here + half_length[k] * (half + per_metre(next)[driven]);
+      const float cost = cost_here + half_length[k] * (half + per_metre(next, driven));
       if (!(cost < field.cost[next]) || !passes_corners(from, k, driven) || !clear_of_keep_outs(from, k))
         continue;
       field.cost[next] = cost;

@@ -52,7 +52,9 @@ struct SpreadEnd {
 // planners find, and its fields show their samplers where good routes run.
 class GridSearch {
  public:
-  // On a map of blocks it keeps `cost`, and is for one thread.
+  // On a map of blocks, or of more than kMaxSearchCells, it keeps a reference to `cost`, which it asks anew
+  // for every step: their cells are many, and keeping 16 costs of each would take three times the memory of
+  // the rest and no less time.
   explicit GridSearch(const MotionCost& cost);
 
   // Driving to the place from every cell.
@@ -74,17 +76,15 @@ class GridSearch {
   // Of the body driven straight from the cell's centre by the step, or back: it covers the same ground.
   bool clear_of_keep_outs(const dem::Cell& from, int step) const;
 
-  void fill(const MotionCost& cost, std::size_t cell) const;
-  // Per direction. Of a map of blocks a cell is filled when it is first looked at.
-  const float* per_metre(std::size_t cell) const {
-    if (cost_ && filled_[cell] == 0) fill(*cost_, cell);
-    return per_metre_.get() + cell * static_cast<std::size_t>(kGridSteps);
+  float found_per_metre(const MotionCost& cost, std::size_t cell, int step) const;
+  float per_metre(std::size_t cell, int step) const {
+    return cost_ ? found_per_metre(*cost_, cell, step)
+                 : per_metre_[cell * static_cast<std::size_t>(kGridSteps) + static_cast<std::size_t>(step)];
   }
 
   const TraverseMap& map_;
-  const MotionCost* cost_ = nullptr;  // of a map of blocks
-  std::unique_ptr<float[]> per_metre_;
-  mutable std::vector<std::uint8_t> filled_;
+  const MotionCost* cost_ = nullptr;    // of a map of many cells
+  std::unique_ptr<float[]> per_metre_;  // of any other: of each cell and direction
 };
 
 }  // namespace slipway::planner

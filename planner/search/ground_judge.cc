@@ -89,28 +89,32 @@ Passage passage_near(const KeepOut& keep_out, const Eigen::Vector2d& centre, dou
 
 }  // namespace
 
+std::vector<int> GroundJudge::judged_cells(int along, int reach) {
+  const int pieces = (along - 2 + reach) / reach;
+  std::vector<int> cells;
+  for (int k = 0; k <= pieces; ++k) cells.push_back(pieces == 0 ? 0 : (along - 1) * k / pieces);
+  return cells;
+}
+
 std::vector<Eigen::Vector2d> GroundJudge::judged_places(const Eigen::Vector2d& centre) const {
-  if (std::max(geometry_.cell_x_m, geometry_.cell_y_m) <= kFinestCell_m + 1e-9) return {centre};
+  if (judges_centres_) return {centre};
   const dem::GridGeometry& terrain = problem_.terrain->geometry();
-  // Cells so far apart that their footprints still cover all between them, the outermost ones included.
-  const auto offsets_m = [&](double side_m, double cell_m) {
-    const auto cells = static_cast<int>(std::lround(side_m / cell_m));
-    const int pieces =
-        (cells - 2 + footprint_reach(*problem_.rover, cell_m)) / footprint_reach(*problem_.rover, cell_m);
-    std::vector<double> offsets;
-    for (int k = 0; k <= pieces; ++k)
-      offsets.push_back(((pieces == 0 ? 0 : (cells - 1) * k / pieces) - 0.5 * (cells - 1)) * cell_m);
-    return offsets;
-  };
   std::vector<Eigen::Vector2d> places;
-  for (const double dy : offsets_m(geometry_.cell_y_m, terrain.cell_y_m)) {
-    for (const double dx : offsets_m(geometry_.cell_x_m, terrain.cell_x_m)) {
+  for (const int up : judged_up_) {
+    for (const int right : judged_right_) {
+      const double dx = (right - 0.5 * (step_x_ - 1)) * terrain.cell_x_m;
+      const double dy = (up - 0.5 * (step_y_ - 1)) * terrain.cell_y_m;
       // The last row and column of search cells may reach beyond the terrain.
       if (terrain.cell_at(centre.x() + dx, centre.y() + dy))
         places.emplace_back(centre.x() + dx, centre.y() + dy);
     }
   }
   return places;
+}
+
+bool GroundJudge::holds_a_place(const Eigen::Vector2d& centre) const {
+  const long long cell = grid_index(geometry_, centre.x(), centre.y());
+  return std::find(cells_of_places_.begin(), cells_of_places_.end(), cell) != cells_of_places_.end();
 }
 
 GroundJudge::GroundJudge(const PlanProblem& problem, const KeepOut& keep_out,
@@ -130,7 +134,13 @@ GroundJudge::GroundJudge(const PlanProblem& problem, const KeepOut& keep_out,
   const dem::GridGeometry& terrain = problem.terrain->geometry();
   const double cell = std::min(terrain.cell_x_m, terrain.cell_y_m);
   margin_ = std::max({reach_x_, reach_y_, static_cast<int>(std::ceil(circumscribed_m_ / cell)) + 2});
-  as_the_terrain_ = geometry.cell_x_m == terrain.cell_x_m && geometry.cell_y_m == terrain.cell_y_m;
+  step_x_ = static_cast<int>(std::lround(geometry.cell_x_m / terrain.cell_x_m));
+  step_y_ = static_cast<int>(std::lround(geometry.cell_y_m / terrain.cell_y_m));
+  for (const Waypoint& place : problem.places())
+    cells_of_places_.push_back(grid_index(geometry_, place.x_m, place.y_m));
+  judges_centres_ = std::max(geometry.cell_x_m, geometry.cell_y_m) <= kFinestCell_m + 1e-9;
+  judged_right_ = judges_centres_ ? std::vector<int>{step_x_ / 2} : judged_cells(step_x_, reach_x_);
+  judged_up_ = judges_centres_ ? std::vector<int>{(step_y_ - 1) / 2} : judged_cells(step_y_, reach_y_);
 }
 
 // The same as judge_figures() up to rounding, for very many cells.
@@ -226,18 +236,39 @@ void GroundJudge::judge_plane(const float* height, std::ptrdiff_t stride, Ground
   judge_quickly(step_x / g.cell_x_m, step_y / g.cell_y_m, rise, cell);
 }
 
+void GroundJudge::judge_planes(const float* height, std::ptrdiff_t stride, GroundCell& cell) const {
+  const std::size_t middle = judged_up_.size() * judged_right_.size() / 2;
+  std::size_t place = 0;
+  for (const int up : judged_up_) {
+    const float* const row = height + (step_y_ - 1 - up) * stride;
+    for (const int right : judged_right_) {
+      GroundCell at;
+      judge_plane(row + right, stride, at);
+      if (place++ == middle) {
+        cell.gradient_x = at.gradient_x;
+        cell.gradient_y = at.gradient_y;
+      }
+      cell.tilt_rad = std::max(cell.tilt_rad, at.tilt_rad);
+      cell.rise_m = std::max(cell.rise_m, at.rise_m);
+      if (at.passage != Passage::kFree) cell.passage = at.passage;
+    }
+  }
+}
+
 void GroundJudge::cells(const dem::Terrain& terrain, const dem::Cell& first, const dem::CellWindow& window,
                         GroundCell* out, std::size_t stride) const {
-  const dem::CellWindow with_margin{window.row - first.row - margin_, window.column - first.column - margin_,
-                                    window.rows + 2 * margin_, window.columns + 2 * margin_};
-  const float* const heights = as_the_terrain_ ? terrain.heights_in(with_margin) : nullptr;
+  // In the terrain's cells.
+  const int north = window.row * step_y_ - first.row, west = window.column * step_x_ - first.column;
+  const float* const heights =
+      terrain.heights_in({north - margin_, west - margin_, window.rows * step_y_ + 2 * margin_,
+                          window.columns * step_x_ + 2 * margin_});
+  const std::ptrdiff_t columns = terrain.geometry().columns;
   const Eigen::Vector2d middle =
       0.5 * (geometry_.centre_m({window.row, window.column}) +
              geometry_.centre_m({window.row + window.rows - 1, window.column + window.columns - 1}));
   const double reach =
       0.5 * std::hypot(window.rows * geometry_.cell_y_m, window.columns * geometry_.cell_x_m);
   const bool clear = keep_out_.empty() || keep_out_.clear_at_any_heading(middle.x(), middle.y(), reach);
-  const std::ptrdiff_t columns = terrain.geometry().columns;
   // Of a soil map of one cell.
   const bool one_soil = !problem_.soil_map || (problem_.soil_map->geometry().rows == 1 &&
                                                problem_.soil_map->geometry().columns == 1);
@@ -245,11 +276,12 @@ void GroundJudge::cells(const dem::Terrain& terrain, const dem::Cell& first, con
   if (problem_.soil_map)
     if (const auto there = problem_.soil_map->soil_at(middle.x(), middle.y()))
       soil = static_cast<std::uint8_t>(*there);
+  const bool of_many = judged_right_.size() * judged_up_.size() > 1;
   for (int row = 0; row < window.rows; ++row) {
     for (int column = 0; column < window.columns; ++column) {
       GroundCell& to = out[static_cast<std::size_t>(row) * stride + static_cast<std::size_t>(column)];
       const Eigen::Vector2d centre = geometry_.centre_m({window.row + row, window.column + column});
-      if (!heights || !clear) {
+      if (!heights || !clear || (of_many && holds_a_place(centre))) {
         to = cell(terrain, centre);
         continue;
       }
@@ -257,7 +289,12 @@ void GroundJudge::cells(const dem::Terrain& terrain, const dem::Cell& first, con
       if (!one_soil)
         if (const auto there = problem_.soil_map->soil_at(centre.x(), centre.y()))
           to.soil = static_cast<std::uint8_t>(*there);
-      judge_plane(heights + (row + margin_) * columns + column + margin_, columns, to);
+      const float* const height = heights + (margin_ + row * step_y_) * columns + margin_ + column * step_x_;
+      if (of_many)
+        judge_planes(height, columns, to);
+      else
+        judge_plane(height + (step_y_ - 1 - judged_up_.front()) * columns + judged_right_.front(), columns,
+                    to);
     }
   }
 }

@@ -56,8 +56,8 @@ class GroundJudge {
 
   // The cell about a centre. `terrain`: the problem's, or a part of it that reaches margin() cells beyond.
   GroundCell cell(const dem::Terrain& terrain, const Eigen::Vector2d& centre) const;
-  // The same of a window of the search's cells, into rows that are `stride` apart; quick where no elevation
-  // is missing. `first`: which cell of the whole terrain is the first of `terrain`.
+  // The same, up to rounding, of a window of the search's cells, into rows that are `stride` apart; quick
+  // where no elevation is missing. `first`: which cell of the whole terrain is the first of `terrain`.
   void cells(const dem::Terrain& terrain, const dem::Cell& first, const dem::CellWindow& window,
              GroundCell* out, std::size_t stride) const;
   // How many of the terrain's cells beyond its own a cell's judgement needs.
@@ -68,6 +68,13 @@ class GroundJudge {
                     GroundCell& cell) const;
   // Of the terrain's cells in the search cell about a place, or the place itself where they are as large.
   std::vector<Eigen::Vector2d> judged_places(const Eigen::Vector2d& centre) const;
+  // Which of the terrain's cells along a side of a search's cell are judged: so far apart that their
+  // footprints still cover all between them, the outermost ones included.
+  static std::vector<int> judged_cells(int along, int reach);
+  // A place of the problem is in the search's cell about this centre.
+  bool holds_a_place(const Eigen::Vector2d& centre) const;
+  // The worst of the judged cells of a search's cell, of whose first one the height is given.
+  void judge_planes(const float* height, std::ptrdiff_t stride, GroundCell& cell) const;
   // Of a cell with elevation all around, whose height is given; rows are `stride` heights apart.
   void judge_plane(const float* height, std::ptrdiff_t stride, GroundCell& cell) const;
   void judge_quickly(double gradient_x, double gradient_y, double rise_m, GroundCell& cell) const;
@@ -80,7 +87,10 @@ class GroundJudge {
   double max_tilt_rad_, steepest_squared_, most_rise_m_;
   int reach_x_, reach_y_;  // of a footprint to each side, in the terrain's cells
   int margin_;
-  bool as_the_terrain_;  // the search's cells are the terrain's
+  int step_x_, step_y_;                        // of a search's cell, in the terrain's
+  std::vector<long long> cells_of_places_;     // of the problem, in the search's cells
+  bool judges_centres_;                        // and nothing else, since they are so small
+  std::vector<int> judged_right_, judged_up_;  // of these from its south-west corner, see judged_cells()
 };
 
 }  // namespace slipway::planner

@@ -20,12 +20,12 @@ constexpr double kLikelyNodesToLimit = 4.0;
 
 // The soils that lie anywhere on the map: a legend may name many more, and a table costs hundreds of
 // balances.
-std::vector<bool> soils_in_use(const PlanProblem& problem) {
+std::vector<bool> soils_in_use(const PlanProblem& problem, const Progress& progress) {
   std::vector<bool> used(problem.beliefs.known.size(), false);
   if (!problem.soil_map) return used;
   const dem::GridGeometry& g = problem.soil_map->geometry();
   std::size_t missing = used.size();
-  for (int row = 0; row < g.rows && missing > 0; ++row) {
+  for (int row = 0; row < g.rows && missing > 0 && !progress.cancelled(); ++row) {
     for (int column = 0; column < g.columns; ++column) {
       const Eigen::Vector2d centre = g.centre_m({row, column});
       const std::optional<std::size_t> soil = problem.soil_map->soil_at(centre.x(), centre.y());
@@ -82,7 +82,7 @@ GroundTables build_ground_tables(const PlanProblem& problem, const Progress& pro
   std::vector<const sim::SoilDistribution*> beliefs;
   for (const sim::SoilDistribution& known : problem.beliefs.known) beliefs.push_back(&known);
   beliefs.push_back(&problem.beliefs.unknown);
-  std::vector<bool> used = soils_in_use(problem);
+  std::vector<bool> used = soils_in_use(problem, progress);
   used.push_back(true);  // unknown ground
   parallel_for(tables.size(), problem.threads, [&](std::size_t i) {
     if (!used[i / 2] || progress.cancelled()) return;

@@ -44,6 +44,7 @@ MotionCost::MotionCost(const PlanProblem& problem, const TraverseMap& map, const
     }
   }
   tabulate(problem, *tables.unknown, true, weights);
+  least_per_metre_ = *std::min_element(per_slope_.begin(), per_slope_.end());
   set_turn_cost(tables, weights);
 }
 

@@ -36,6 +36,8 @@ class MotionCost {
   double per_metre_on(std::uint8_t soil, const Eigen::Vector2d& gradient, double c, double s) const {
     return on_slope(soil, c * gradient.x() + s * gradient.y(), -s * gradient.x() + c * gradient.y());
   }
+  // No metre on any ground costs less, in any direction.
+  double least_per_metre() const { return least_per_metre_; }
   // Midpoint rule over steps of at most `step_m` (0: a search cell). Infinite where the body meets a keep-out
   // anywhere along the motion, which is exact whatever the step.
   double of(const Motion& motion, double step_m = 0.0) const;
@@ -68,6 +70,7 @@ class MotionCost {
   std::vector<float>
       per_slope_;  // ground kind, rise ahead, rise to the left; the last kind is unknown ground
   std::size_t kinds_ = 0;
+  double least_per_metre_ = 0.0;
   std::vector<float> penalty_;
 };
 

@@ -8,6 +8,9 @@
 namespace slipway::planner {
 namespace {
 
+// Of the terrain, where all of it is judged by stripes.
+constexpr long long kRowsAtOnce = 64;
+
 // Of the terrain's cells, in whole numbers of which a search's cell is as wide.
 int finest_step(double cell_m) {
   return std::max(1, static_cast<int>(std::floor(kFinestCell_m / cell_m + 1e-9)));
@@ -15,14 +18,15 @@ int finest_step(double cell_m) {
 
 }  // namespace
 
-dem::GridGeometry search_geometry(const dem::GridGeometry& terrain, const dem::Extent& extent) {
+dem::GridGeometry search_geometry(const dem::GridGeometry& terrain, const dem::Extent& extent,
+                                  long long max_cells) {
   const dem::CellWindow window =
       terrain.window(extent).value_or(dem::CellWindow{0, 0, terrain.rows, terrain.columns});
   dem::GridGeometry geometry = terrain.sub(window);
   int step_x = finest_step(geometry.cell_x_m), step_y = finest_step(geometry.cell_y_m);
   const auto rows = [&] { return (window.rows + step_y - 1) / step_y; };
   const auto columns = [&] { return (window.columns + step_x - 1) / step_x; };
-  while (static_cast<long long>(rows()) * columns() > kMaxSearchCells) {
+  while (static_cast<long long>(rows()) * columns() > max_cells) {
     // The shorter side grows, both where they are equal.
     const double x_m = step_x * geometry.cell_x_m, y_m = step_y * geometry.cell_y_m;
     if (x_m <= y_m) ++step_x;
@@ -76,6 +80,37 @@ TraverseMap::TraverseMap(const PlanProblem& problem, const KeepOut& keep_out, co
     for (int column = 0; column < geometry_.columns; ++column) {
       const std::size_t i = row * static_cast<std::size_t>(geometry_.columns) + column;
       cells_[i] = judge.cell(*problem.terrain, centre_m(i));
+    }
+  });
+}
+
+TraverseMap::TraverseMap(const PlanProblem& problem, const KeepOut& keep_out, long long max_cells,
+                         const Progress& progress)
+    : geometry_(
+          search_geometry(problem.terrain->geometry(), problem.terrain->geometry().extent(), max_cells)),
+      keep_out_(keep_out) {
+  const dem::GridGeometry& terrain = problem.terrain->geometry();
+  const auto columns = static_cast<std::size_t>(geometry_.columns);
+  cells_.resize(static_cast<std::size_t>(geometry_.rows) * columns, GroundCell{.passage = Passage::kNoData});
+  const GroundJudge judge(problem, keep_out_, geometry_);
+  const auto step = static_cast<long long>(std::lround(geometry_.cell_y_m / terrain.cell_y_m));
+  const auto rows_at_once = static_cast<int>(std::max(1LL, kRowsAtOnce / step));
+  const int stripes = (geometry_.rows + rows_at_once - 1) / rows_at_once;
+  parallel_for(static_cast<std::size_t>(stripes), problem.threads, [&](std::size_t stripe) {
+    if (progress.cancelled()) return;
+    const int row = static_cast<int>(stripe) * rows_at_once;
+    const int rows = std::min(rows_at_once, geometry_.rows - row);
+    const long long first = std::max(0LL, row * step - judge.margin());
+    const long long last = std::min<long long>(terrain.rows, (row + rows) * step + judge.margin());
+    const auto part =
+        problem.terrain->part({static_cast<int>(first), 0, static_cast<int>(last - first), terrain.columns});
+    if (!part) return;
+    // In squares: cells whose neighbours all have a height are judged quickly.
+    for (int column = 0; column < geometry_.columns; column += kBlockCells) {
+      const dem::CellWindow square{row, column, rows, std::min(kBlockCells, geometry_.columns - column)};
+      judge.cells(*part, {static_cast<int>(first), 0}, square,
+                  &cells_[static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column)],
+                  columns);
     }
   });
 }

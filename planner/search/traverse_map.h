@@ -21,8 +21,9 @@ constexpr long long kMaxSearchCells = 500'000;
 // times `rooms`.
 dem::Extent search_extent(const PlanProblem& problem, double rooms = 1.0);
 
-// The cells of the terrain that meet `extent` as a search sees them: no more than kMaxSearchCells.
-dem::GridGeometry search_geometry(const dem::GridGeometry& terrain, const dem::Extent& extent);
+// The cells of the terrain that meet `extent` as a search sees them: no more than `max_cells`.
+dem::GridGeometry search_geometry(const dem::GridGeometry& terrain, const dem::Extent& extent,
+                                  long long max_cells = kMaxSearchCells);
 // These are the finest that there are.
 bool in_finest_cells(const dem::GridGeometry& terrain, const dem::Extent& extent);
 // All of the terrain in the finest cells of a search, however many these are.
@@ -48,6 +49,11 @@ class TraverseMap {
  public:
   // The cells of the terrain that meet `extent`.
   TraverseMap(const PlanProblem& problem, const KeepOut& keep_out, const dem::Extent& extent);
+  // All of the terrain in no more than `max_cells` cells, for maps of it: the same up to rounding, in a
+  // fraction of the time, and of a terrain that is read by tiles no tile is kept. Cells that were not judged
+  // when it was cancelled, or could not be read, have no data.
+  TraverseMap(const PlanProblem& problem, const KeepOut& keep_out, long long max_cells,
+              const Progress& progress);
   // Of the finest cells those in these blocks, which are numbered row by row from the north-west. Cells that
   // were not judged when it was cancelled have no data.
   TraverseMap(const PlanProblem& problem, const KeepOut& keep_out, std::vector<std::uint32_t> blocks,

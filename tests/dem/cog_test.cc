@@ -170,14 +170,15 @@ TEST(Cog, SaysWhyItCanNotBeWrittenAndLeavesNothing) {
 TEST(TileFile, HasItsTilesAgainButNotTheOneThatWasCutOff) {
   const test::TemporaryFolder folder;
   const std::vector<std::uint8_t> one(4096, 7), two(4096, 9);
+  NoProgress progress;
   {
-    auto file = TileFile::open(folder / "map.part", "key", 4096);
+    auto file = TileFile::open(folder / "map.part", "key", 4096, progress);
     ASSERT_TRUE(file);
     ASSERT_TRUE((*file)->write({0, 0, 0}, one));
     ASSERT_TRUE((*file)->write({0, 0, 1}, two));
   }
   std::filesystem::resize_file(folder / "map.part", std::filesystem::file_size(folder / "map.part") - 100);
-  auto again = TileFile::open(folder / "map.part", "key", 4096);
+  auto again = TileFile::open(folder / "map.part", "key", 4096, progress);
   ASSERT_TRUE(again);
   EXPECT_TRUE((*again)->has({0, 0, 0}));
   EXPECT_FALSE((*again)->has({0, 0, 1}));
@@ -185,7 +186,7 @@ TEST(TileFile, HasItsTilesAgainButNotTheOneThatWasCutOff) {
   ASSERT_TRUE((*again)->write({0, 0, 1}, two));
   EXPECT_EQ(*(*again)->read({0, 0, 1}), two);
   // Tiles of another map are not taken.
-  auto other = TileFile::open(folder / "map.part", "other", 4096);
+  auto other = TileFile::open(folder / "map.part", "other", 4096, progress);
   ASSERT_TRUE(other);
   EXPECT_FALSE((*other)->has({0, 0, 0}));
 }

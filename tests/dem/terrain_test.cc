@@ -267,5 +267,15 @@ TEST(TerrainReadByTiles, SaysThatATileCouldNotBeReadAndHasNoDataThere) {
   EXPECT_EQ(tiles.part({950, 0, 2, 2}), nullptr);
 }
 
+// A search over any distance reads parts alone where it looks over the whole map.
+TEST(TerrainReadByTiles, SaysThatAPartCouldNotBeRead) {
+  const Terrain tiles({1000, 1400, 0.0, 1000.0, 1.0, 1.0}, std::make_shared<const WavyCells>());
+  EXPECT_TRUE(tiles.part({100, 0, 2, 2}));
+  EXPECT_FALSE(tiles.damage());
+  EXPECT_EQ(tiles.part({950, 0, 2, 2}), nullptr);
+  ASSERT_TRUE(tiles.damage());
+  EXPECT_EQ(tiles.damage()->code, ErrorCode::kUnreadableRaster);
+}
+
 }  // namespace
 }  // namespace slipway::dem

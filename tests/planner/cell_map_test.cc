@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
+#include <string_view>
 
 #include "core/angle.h"
 #include "planner/maps/cell_ground.h"
@@ -171,6 +175,58 @@ TEST(WayMap, CostToGoIsNothingAtThePlaceAndGrowsAwayFromIt) {
   EXPECT_EQ(at(map->values, problem, 20.5, 30.5), 0.0F);
   EXPECT_GT(at(map->values, problem, 30.5, 30.5), at(map->values, problem, 25.5, 30.5));
   EXPECT_EQ(at(map->values, problem, 41.0, 21.0), kNoMapValue);
+}
+
+// Above what a plan's window may have, and still in the terrain's own cells.
+TEST(WayMap, OfALargeTerrainIsThatOfASmallOneWhereBothReach) {
+  const auto waves = [](double x, double y) { return 1.5 * std::sin(x / 15.0) * std::cos(y / 11.0); };
+  const PlanProblem large = problem_on(760, 760, 1.0, 1.0, waves),
+                    small = problem_on(300, 300, 1.0, 1.0, waves);
+  ASSERT_FALSE(in_finest_cells(large.terrain->geometry(), large.terrain->geometry().extent()));
+  NoProgress progress;
+  const Waypoint place{150.5, 150.5, std::nullopt};
+  const auto of_large = cost_to_go_map(large, place, "/to", progress);
+  const auto of_small = cost_to_go_map(small, place, "/to", progress);
+  ASSERT_TRUE(of_large && of_small);
+  EXPECT_EQ(of_large->geometry, large.terrain->geometry());
+  for (const double x : {110.5, 150.5, 181.5})
+    for (const double y : {120.5, 149.5, 190.5}) {
+      const float cost = at(of_small->values, small, x, y);
+      EXPECT_NEAR(at(of_large->values, large, x, y), cost, 1e-4F * cost);
+    }
+  const auto reached = reachable_map(large, place, {.energy_j = 8'000.0}, "/from", progress);
+  const auto reached_of_small = reachable_map(small, place, {.energy_j = 8'000.0}, "/from", progress);
+  ASSERT_TRUE(reached && reached_of_small);
+  const auto count = [](const WayMap& map) {
+    return std::count(map.values.begin(), map.values.end(), static_cast<float>(map_class::kReachable));
+  };
+  EXPECT_GT(count(*reached_of_small), 100);
+  EXPECT_NEAR(static_cast<double>(count(*reached)), static_cast<double>(count(*reached_of_small)), 3.0);
+}
+
+// Given up when a stage begins.
+class GivesUpAt final : public Progress {
+ public:
+  explicit GivesUpAt(std::string_view stage) : stage_(stage) {}
+  void report(std::string_view stage, double /*fraction*/) override {
+    given_up_ = given_up_ || stage == stage_;
+  }
+  bool cancelled() const override { return given_up_; }
+
+ private:
+  std::string stage_;
+  std::atomic<bool> given_up_{false};
+};
+
+TEST(WayMap, IsGivenUpInAnyStage) {
+  const PlanProblem problem = problem_on(760, 760, 1.0, 1.0, [](double x, double) { return 0.02 * x; });
+  const Waypoint place{150.5, 150.5, std::nullopt};
+  for (const char* const stage : {"reading the ground", "searching ways", "adding up ways"}) {
+    GivesUpAt progress(stage);
+    const auto map = reachable_map(problem, place, {.energy_j = 8'000.0}, "/from", progress);
+    ASSERT_FALSE(map) << stage;
+    EXPECT_EQ(map.error().code, ErrorCode::kCancelled) << stage;
+  }
 }
 
 }  // namespace

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <ctime>
 #include <mutex>
 #include <numeric>
+#include <string>
 
 #include "planner/search/block_map.h"
 #include "planner/search/corridor.h"
@@ -210,6 +212,48 @@ TEST(FarPlan, TellsTheBestSoFarAndItsProgress) {
     EXPECT_NEAR(route.line_m.back()[0], 940.5, 1e-6);
   }
   EXPECT_FALSE(listens.backwards_);
+}
+
+// How long the work goes on at most between two questions whether it was cancelled, in time of the processor.
+class AskedOften final : public Progress {
+ public:
+  void report(std::string_view stage, double /*fraction*/) override {
+    const std::scoped_lock lock(mutex_);
+    stage_ = stage;
+  }
+  bool cancelled() const override {
+    const std::scoped_lock lock(mutex_);
+    const std::clock_t now = std::clock();
+    const double silent_s = static_cast<double>(now - last_) / CLOCKS_PER_SEC;
+    last_ = now;
+    if (silent_s > longest_s_) {
+      longest_s_ = silent_s;
+      where_ = stage_;
+    }
+    return false;
+  }
+  double longest_s() const { return longest_s_; }
+  const std::string& where() const { return where_; }
+
+ private:
+  mutable std::mutex mutex_;
+  mutable std::clock_t last_ = std::clock();
+  mutable double longest_s_ = 0.0;
+  mutable std::string where_;
+  std::string stage_;
+};
+
+TEST(FarPlan, AsksAllTheTimeWhetherItWasCancelled) {
+  PlanProblem problem = hills(900, 1100);
+  problem.start = {60.5, 80.5, std::nullopt};
+  problem.goal = {1040.5, 820.5, std::nullopt};
+  problem.routes = 3;
+  problem.risk.draws = 16;
+  AskedOften progress;
+  const Result<Plan> plan = make_plan(problem, progress);
+  ASSERT_TRUE(plan);
+  EXPECT_FALSE(plan->routes.empty());
+  EXPECT_LT(progress.longest_s(), 0.5) << "while " << progress.where();
 }
 
 }  // namespace

@@ -85,6 +85,48 @@ TEST(TraverseMap, OfATransposedTerrainIsTheTransposedMapAlsoWhereCellsAreNotSqua
 }
 
 // Many slopes that the rover gets down and not up.
+// Rocks, slopes, a gap in the elevation and an area to keep out of.
+PlanProblem varied_ground(double cell_m) {
+  PlanProblem problem = problem_on(150, 210, cell_m, cell_m, [&](double x, double y) {
+    if (std::hypot(x - 60.0 * cell_m, y - 50.0 * cell_m) < 5.0 * cell_m)
+      return std::numeric_limits<double>::quiet_NaN();
+    return 3.0 * std::sin(x / 11.0) * std::cos(y / 8.0) + rock_m(x, y, cell_m, cell_m, 0.01);
+  });
+  const double u = 100.0 * cell_m;
+  problem.keep_out = {{{u, u}, {u + 9.0, u}, {u + 4.0, u + 7.0}}};
+  problem.start = {20.3 * cell_m, 30.1 * cell_m, std::nullopt};
+  problem.goal = {180.3 * cell_m, 120.1 * cell_m, std::nullopt};
+  return problem;
+}
+
+TEST(TraverseMap, OfAllTheTerrainInStripesIsTheSame) {
+  NoProgress progress;
+  for (const double cell_m : {0.1, 0.5, 1.0}) {
+    const PlanProblem problem = varied_ground(cell_m);
+    const KeepOut keep_out(problem.keep_out, *problem.rover);
+    for (const long long most : {kMaxSearchCells, 3'000LL}) {
+      const TraverseMap map(problem, keep_out, most, progress);
+      const GroundJudge judge(problem, keep_out, map.geometry());
+      ASSERT_LE(static_cast<long long>(map.cells()), most);
+      int open = 0;
+      for (std::size_t i = 0; i < map.cells(); ++i) {
+        const GroundCell& cell = map.cell(i);
+        const GroundCell alone = judge.cell(*problem.terrain, map.centre_m(i));
+        ASSERT_EQ(cell.passage, alone.passage) << i;
+        ASSERT_EQ(cell.soil, alone.soil) << i;
+        if (cell.passage != Passage::kFree && cell.passage != Passage::kNearKeepOut) continue;
+        ++open;
+        ASSERT_NEAR(cell.gradient_x, alone.gradient_x, 1e-4) << i;
+        ASSERT_NEAR(cell.gradient_y, alone.gradient_y, 1e-4) << i;
+        ASSERT_NEAR(cell.tilt_rad, alone.tilt_rad, 1e-4) << i;
+        ASSERT_NEAR(cell.rise_m, alone.rise_m, 1e-4) << i;
+      }
+      EXPECT_GT(open, 100) << cell_m << " m, at most " << most << " cells";
+      EXPECT_LT(open, static_cast<int>(map.cells()) - 10);
+    }
+  }
+}
+
 TEST(GridSearch, CostToGoAndCostToComeAreTheSameWayOverOneWaySlopes) {
   PlanProblem problem = problem_on(60, 60, 1.0, 1.0, [](double x, double y) {
     return 0.42 * std::sin(0.35 * x) * std::sin(0.3 * y) + 0.16 * std::sin(0.9 * x + 0.7 * y);

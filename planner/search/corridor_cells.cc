@@ -1,0 +1,80 @@
+#include "planner/search/corridor_cells.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace slipway::planner {
+namespace {
+
+constexpr std::size_t kCellsOfBlock = static_cast<std::size_t>(kBlockCells) * kBlockCells;
+// What a metre beside closed ground costs more.
+constexpr float kBesideClosed = 0.3F;
+
+}  // namespace
+
+std::vector<std::uint32_t> blocks_around(const dem::GridGeometry& g,
+                                         const std::vector<Eigen::Vector2d>& places, int reach) {
+  const long long columns = block_columns(g), rows = (g.rows + kBlockCells - 1) / kBlockCells;
+  std::vector<std::uint32_t> blocks;
+  long long last = -1;
+  for (const Eigen::Vector2d& p : places) {
+    const long long cell = grid_index(g, p.x(), p.y());
+    if (cell < 0) continue;
+    const long long row = cell / g.columns / kBlockCells, column = cell % g.columns / kBlockCells;
+    if (row * columns + column == last) continue;
+    last = row * columns + column;
+    for (long long r = std::max(0LL, row - reach); r <= std::min(rows - 1, row + reach); ++r)
+      for (long long c = std::max(0LL, column - reach); c <= std::min(columns - 1, column + reach); ++c)
+        blocks.push_back(static_cast<std::uint32_t>(r * columns + c));
+  }
+  std::sort(blocks.begin(), blocks.end());
+  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+  return blocks;
+}
+
+bool comes_to_edge(const BlockMap& blocks, const TraverseMap& map, const std::vector<std::size_t>& way) {
+  const dem::GridGeometry& g = map.geometry();
+  const long long columns = block_columns(g);
+  for (const std::size_t cell : way) {
+    const dem::Cell at = map.place_of(cell);
+    for (const auto& [down, right] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+      const long long row = at.row + down, column = at.column + right;
+      if (row < 0 || column < 0 || row >= g.rows || column >= g.columns || map.index_of(row, column) >= 0)
+        continue;
+      if (blocks.has_nodes(static_cast<std::uint32_t>(row / kBlockCells * columns + column / kBlockCells)))
+        return true;
+    }
+  }
+  return false;
+}
+
+std::vector<float> cell_penalties(const TraverseMap& map, const std::vector<float>& of_blocks) {
+  std::vector<float> factors(map.cells(), 0.0F);
+  const long long columns = block_columns(map.geometry());
+  const auto is_closed = [&](std::size_t cell) {
+    const Passage passage = map.cell(cell).passage;
+    return passage != Passage::kFree && passage != Passage::kNearKeepOut;
+  };
+  for (std::size_t first = 0; first < factors.size(); first += kCellsOfBlock) {
+    if (!of_blocks.empty()) {
+      const dem::Cell at = map.place_of(first);
+      std::fill_n(
+          factors.begin() + static_cast<std::ptrdiff_t>(first), kCellsOfBlock,
+          of_blocks[static_cast<std::size_t>(at.row / kBlockCells * columns + at.column / kBlockCells)]);
+    }
+  }
+  for (std::size_t cell = 0; cell < factors.size(); ++cell) {
+    if (!is_closed(cell)) continue;
+    const dem::Cell at = map.place_of(cell);
+    for (int row = at.row - 1; row <= at.row + 1; ++row) {
+      for (int column = at.column - 1; column <= at.column + 1; ++column) {
+        const long long beside = map.index_of(row, column);
+        if (beside >= 0 && factors[static_cast<std::size_t>(beside)] < kBesideClosed)
+          factors[static_cast<std::size_t>(beside)] = kBesideClosed;
+      }
+    }
+  }
+  return factors;
+}
+
+}  // namespace slipway::planner
