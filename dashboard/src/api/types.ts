@@ -174,7 +174,7 @@ export interface paths {
         };
         /**
          * A layer of a terrain as a picture
-         * @description Slopes and soils have the colours of the terrain's legends. What is not known is hatched or transparent, never like a value. Where a pixel is larger than a cell, up to nine samples in it are looked at: shading is their mean, slope the steepest, and ground is unknown where that of any is; slopes are those between the samples. What lies beyond the map is transparent.
+         * @description Slopes and soils have the colours of the terrain's legends. What is not known is hatched or transparent, never like a value. Where a pixel is larger than a cell, samples in it are looked at: shading is the mean of up to four, slope the steepest of up to nine, and ground is unknown where that of any of up to nine is; slopes are those between the samples. What lies beyond the map is transparent.
          */
         get: operations["terrain_picture"];
         put?: never;
@@ -194,7 +194,7 @@ export interface paths {
         };
         /**
          * A layer of a terrain as tiles of 256 pixels
-         * @description The tiles lie in the terrain's own grid: at z = 0 one tile holds all of it, with its north-west corner in the terrain's; each step of z halves the side of a tile; x counts tiles to the east, y to the south. Slopes and soils have the colours of the terrain's legends. What is not known is hatched or transparent, never like a value. Where a pixel is larger than a cell, up to nine samples in it are looked at: shading is their mean, slope the steepest, and ground is unknown where that of any is; slopes are those between the samples. What lies beyond the map is transparent.
+         * @description The tiles lie in the terrain's own grid: at z = 0 one tile holds all of it, with its north-west corner in the terrain's; each step of z halves the side of a tile; x counts tiles to the east, y to the south. Slopes and soils have the colours of the terrain's legends. What is not known is hatched or transparent, never like a value. Where a pixel is larger than a cell, samples in it are looked at: shading is the mean of up to four, slope the steepest of up to nine, and ground is unknown where that of any of up to nine is; slopes are those between the samples. What lies beyond the map is transparent.
          */
         get: operations["terrain_tile"];
         put?: never;
@@ -447,6 +447,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/v1/model-checks": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * How well a corrected model predicts drives that it was not made of
+         * @description A job of some seconds. The model is that of a diagnosis, by its job's id; the drives are a campaign's that ships or was sent. The same as `slipway test-model`.
+         */
+        post: operations["create_model_check"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/v1/watches": {
         parameters: {
             query?: never;
@@ -516,6 +536,26 @@ export interface paths {
         };
         /** The jobs, newest first */
         get: operations["jobs"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/comparisons": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Two plans, checks or predictions side by side
+         * @description The same as `slipway compare-plans`.
+         */
+        get: operations["comparison"];
         put?: never;
         post?: never;
         delete?: never;
@@ -662,6 +702,27 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/v1/checks/{id}/override": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Who lets a drive go whose check says otherwise, and why */
+        get: operations["override"];
+        put?: never;
+        /**
+         * Let a drive go whose check says NO-GO or UNKNOWN
+         * @description Asked twice: the first answer gives a confirmation, and the override stands when the same reason comes again with it. The check's verdict stays as it is. The audit log has both requests, who sent them and the reason.
+         */
+        post: operations["override_check"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/v1/jobs/{id}/result": {
         parameters: {
             query?: never;
@@ -756,6 +817,60 @@ export interface paths {
         get: operations["job_geojson"];
         put?: never;
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/jobs/{id}/parts": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The parts of a job, in the order in which they are put together */
+        get: operations["job_parts"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/jobs/{id}/answers": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** All answers of a batch, one JSON document a line, in the order of its requests */
+        get: operations["job_answers"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/v1/batches": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * The answers to many requests of one kind
+         * @description A job whose requests are its parts: any number of workers share them, and the answers are the same as if each had been asked for by itself, in the order of the requests. With seeds each request is asked with each of them. The result counts the answers and their verdicts; the answers themselves are at /v1/jobs/{id}/answers. Where a part fails, the batch fails and names each that is missing.
+         */
+        post: operations["create_batch"];
         delete?: never;
         options?: never;
         head?: never;
@@ -931,7 +1046,7 @@ export interface components {
             motor_temp_c?: number;
             /** @description A corrected model, named by the job of the finished diagnosis that offers it. Its rover drives where the one that it was made of is asked for, and ground that was the campaign's nominal soil by name is the corrected one. It is recorded with the request: the diagnosis may be forgotten afterwards. */
             model?: {
-                /** @description Id of the diagnosis' job */
+                /** @description Id of the job of the diagnosis, or of the watch whose alarm it followed */
                 diagnosis: string;
                 /** @description Soils of the terrain that are the model's, where the campaign called it otherwise; only where the model has one soil */
                 ground?: string[];
@@ -1060,7 +1175,7 @@ export interface components {
             motor_temp_c?: number;
             /** @description A corrected model, named by the job of the finished diagnosis that offers it. Its rover drives where the one that it was made of is asked for, and ground that was the campaign's nominal soil by name is the corrected one. It is recorded with the request: the diagnosis may be forgotten afterwards. */
             model?: {
-                /** @description Id of the diagnosis' job */
+                /** @description Id of the job of the diagnosis, or of the watch whose alarm it followed */
                 diagnosis: string;
                 /** @description Soils of the terrain that are the model's, where the campaign called it otherwise; only where the model has one soil */
                 ground?: string[];
@@ -1188,7 +1303,7 @@ export interface components {
         Job: {
             id: string;
             /** @enum {unknown} */
-            kind: "plan" | "prediction" | "check" | "diagnosis" | "watch" | "soil_estimate" | "drive_campaign" | "terrain" | "map";
+            kind: "plan" | "prediction" | "check" | "diagnosis" | "watch" | "soil_estimate" | "drive_campaign" | "terrain" | "map" | "batch";
             /** @enum {unknown} */
             state: "accepted" | "running" | "successful" | "failed" | "dismissed";
             /** @description What the work is at */
@@ -1221,6 +1336,19 @@ export interface components {
                 /** @description Until it begins, by what the last jobs of each kind took [s]; not there where a kind has none */
                 estimated_wait_s?: number;
             };
+            /** @description Of a part: the job that it is a part of */
+            whole?: string;
+            /** @description Of a part: its number, from 0 on */
+            part?: number;
+            /** @description Of a job whose work was divided: its parts, which are jobs of its kind. It is running while they are worked on, and accepted again when the last has ended, to be put together */
+            parts?: {
+                count: number;
+                ended: number;
+                /** @description Of those that ended: without an answer. The job then fails and names each */
+                failed: number;
+            };
+            /** @description Of a part and of a job in parts: processor time of what has ended of it, all parts together [s] */
+            cpu_s?: number;
             /** Format: date-time */
             created: string;
             /** Format: date-time */
@@ -1230,6 +1358,7 @@ export interface components {
             links: {
                 self: string;
                 result?: string;
+                parts?: string;
             };
             problem?: components["schemas"]["Problem"];
         };
@@ -3248,7 +3377,7 @@ export interface components {
             motor_temp_c?: number;
             /** @description A corrected model, named by the job of the finished diagnosis that offers it. Its rover drives where the one that it was made of is asked for, and ground that was the campaign's nominal soil by name is the corrected one. It is recorded with the request: the diagnosis may be forgotten afterwards. */
             model?: {
-                /** @description Id of the diagnosis' job */
+                /** @description Id of the job of the diagnosis, or of the watch whose alarm it followed */
                 diagnosis: string;
                 /** @description Soils of the terrain that are the model's, where the campaign called it otherwise; only where the model has one soil */
                 ground?: string[];
@@ -3880,7 +4009,7 @@ export interface components {
             motor_temp_c?: number;
             /** @description A corrected model, named by the job of the finished diagnosis that offers it. Its rover drives where the one that it was made of is asked for, and ground that was the campaign's nominal soil by name is the corrected one. It is recorded with the request: the diagnosis may be forgotten afterwards. */
             model?: {
-                /** @description Id of the diagnosis' job */
+                /** @description Id of the job of the diagnosis, or of the watch whose alarm it followed */
                 diagnosis: string;
                 /** @description Soils of the terrain that are the model's, where the campaign called it otherwise; only where the model has one soil */
                 ground?: string[];
@@ -3930,6 +4059,121 @@ export interface components {
             /** @description A style for QGIS */
             style_qml: string;
             request: components["schemas"]["MapRequest"];
+        };
+        ModelCheckRequest: {
+            /** @description Of the drives that are predicted */
+            campaign: string;
+            model: {
+                /** @description The job of the diagnosis whose model it is */
+                diagnosis: string;
+                /** @description Soils of this campaign that are the model's, where the diagnosed one called them otherwise */
+                ground?: string[];
+            };
+            /**
+             * @description Of the resampling of drives
+             * @default 1
+             */
+            seed: number;
+        };
+        ModelCheck: {
+            /** @constant */
+            format: "model-check/1";
+            campaign: string;
+            fingerprint?: string;
+            model: {
+                campaign?: string;
+                rover?: string;
+                soils?: string[];
+            };
+            seed?: number;
+            drives: number;
+            windows: number;
+            unanswered?: {
+                nominal?: number;
+                corrected?: number;
+            };
+            level_within_deg?: number;
+            channels: {
+                channel: string;
+                unit: string;
+                slope: string;
+                values: number;
+                drives: number;
+                rms: {
+                    nominal: number;
+                    corrected: number;
+                    down_percent: {
+                        value: number;
+                        interval_90?: number[];
+                    };
+                };
+                median_abs: {
+                    nominal: number;
+                    corrected: number;
+                    down_percent: {
+                        value: number;
+                        interval_90?: number[];
+                    };
+                };
+                within_50: number;
+                within_90: number;
+            }[];
+            notes: string[];
+        };
+        /** @description What differs in the requests, and for each pair of routes the figures of both and their differences, b less a */
+        Comparison: {
+            /** @constant */
+            format: "answer-comparison/1";
+        };
+        OverrideRequest: {
+            /** @description Why the drive goes all the same */
+            reason: string;
+            /** @description What the first request's answer gave; within ten minutes, with the same reason */
+            confirmation?: string;
+        };
+        Override: {
+            /** @constant */
+            format: "override/1";
+            /** @enum {unknown} */
+            state: "to_be_confirmed" | "overridden";
+            check: string;
+            /**
+             * @description Of the check, which stays as it is
+             * @enum {unknown}
+             */
+            verdict: "no_go" | "unknown";
+            reason: string;
+            /** @description The token's name, or the address where the service has no tokens */
+            asked_by: string;
+            asked?: string;
+            confirmation?: string;
+            confirm_until?: string;
+            confirmed_by?: string;
+            confirmed?: string;
+        };
+        BatchRequest: {
+            /**
+             * @description What each request is: as POST /v1/predictions, /v1/checks or /v1/plans take it
+             * @enum {unknown}
+             */
+            kind: "prediction" | "check" | "plan";
+            requests: Record<string, never>[];
+            /** @description Each request is asked with each of these seeds, which then stand in none of them; 10,000 answers at the most */
+            seeds?: {
+                first: number;
+                count: number;
+            };
+        };
+        Batch: {
+            /** @constant */
+            format: "batch/1";
+            /** @enum {unknown} */
+            kind: "prediction" | "check" | "plan";
+            answers: number;
+            /** @description How many answers have each verdict, of kinds whose answers have one */
+            verdicts: {
+                [key: string]: number;
+            };
         };
     };
     responses: never;
@@ -5800,6 +6044,133 @@ export interface operations {
             };
         };
     };
+    create_model_check: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description The client's own name for this request: sent again under it, the same request is answered with the job of the first time, for as long as that is kept. Another request under it is refused */
+                "Idempotency-Key"?: components["parameters"]["IdempotencyKey"];
+                /** @description u=N: of the jobs that wait those of the lowest N, 0 to 7, begin first; 3 where nothing is said (RFC 9218) */
+                Priority?: components["parameters"]["Priority"];
+                /** @description wait=N: the answer itself if it comes within N seconds (at most 30); respond-async: do not wait (RFC 7240) */
+                Prefer?: string;
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ModelCheckRequest"];
+            };
+        };
+        responses: {
+            /** @description The answer: it came within the time that was waited */
+            200: {
+                headers: {
+                    "Preference-Applied"?: string;
+                    "Content-Location"?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ModelCheck"];
+                };
+            };
+            /** @description Recorded: the job survives whatever happens to the service */
+            201: {
+                headers: {
+                    /** @description The job */
+                    Location?: string;
+                    "Retry-After"?: number;
+                    "Preference-Applied"?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Job"];
+                };
+            };
+            /** @description No JSON document: malformed_json */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Dismissed while waiting: cancelled */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description payload_too_large: above 1 MiB */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description unsupported_media_type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Read but refused, with every fault: invalid_request */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description over_quota: as many of this address's jobs wait or run as one may have; see Retry-After */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description too_many_jobs or storage: nothing was accepted; see Retry-After */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description storage_full: the disk of the job store is full, nothing was accepted */
+            507: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Any other refusal: see /errors */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     create_watch: {
         parameters: {
             query?: never;
@@ -6129,6 +6500,10 @@ export interface operations {
         parameters: {
             query?: {
                 limit?: number;
+                /** @description Of this kind alone, among the newest 500: diagnosis, to see which models there are */
+                kind?: string;
+                /** @description In this state alone, among the newest 500 */
+                state?: "accepted" | "running" | "successful" | "failed" | "dismissed";
             };
             header?: {
                 "If-None-Match"?: string;
@@ -6157,6 +6532,59 @@ export interface operations {
                 content?: never;
             };
             /** @description invalid_request */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Any other refusal: see /errors */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    comparison: {
+        parameters: {
+            query: {
+                /** @description The id of a successful job */
+                a: string;
+                /** @description That of another of the same kind; of two routes of one plan the same */
+                b: string;
+                /** @description Two ranks, one of a's routes and one of b's: 1,2. Without it the routes that lie nearest to each other */
+                routes?: string;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The comparison */
+            200: {
+                headers: {
+                    ETag?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Comparison"];
+                };
+            };
+            /** @description Not changed */
+            304: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description invalid_request: no such job, route or kind of answer */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -6613,6 +7041,135 @@ export interface operations {
             };
         };
     };
+    override: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The override */
+            200: {
+                headers: {
+                    ETag?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Override"];
+                };
+            };
+            /** @description Not changed */
+            304: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description not_found: nobody has overridden this check */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Any other refusal: see /errors */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    override_check: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["OverrideRequest"];
+            };
+        };
+        responses: {
+            /** @description To be confirmed */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Override"];
+                };
+            };
+            /** @description It stands */
+            201: {
+                headers: {
+                    Location?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Override"];
+                };
+            };
+            /** @description malformed_json */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description not_found: there is no check of this id */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description conflict: the check says go, has no verdict, or has been overridden already */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description invalid_request */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Any other refusal: see /errors */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     job_result: {
         parameters: {
             query?: never;
@@ -6961,6 +7518,244 @@ export interface operations {
             };
             /** @description The job failed so; invalid_request: no such coordinates */
             422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    job_parts: {
+        parameters: {
+            query?: never;
+            header?: {
+                "If-None-Match"?: string;
+            };
+            path: {
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The parts of a job, in the order in which they are put together */
+            200: {
+                headers: {
+                    /** @description Send it back in If-None-Match: 304 where nothing has changed */
+                    ETag?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Jobs"];
+                };
+            };
+            /** @description Not changed */
+            304: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description not_found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Any other refusal: see /errors */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    job_answers: {
+        parameters: {
+            query?: never;
+            header?: {
+                "If-None-Match"?: string;
+            };
+            path: {
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description All answers of a batch, one JSON document a line, in the order of its requests */
+            200: {
+                headers: {
+                    /** @description Send it back in If-None-Match: 304 where nothing has changed */
+                    ETag?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/jsonl": string;
+                };
+            };
+            /** @description Not changed */
+            304: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description not_found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description conflict: not ended yet; cancelled: dismissed */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Any other refusal: see /errors */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    create_batch: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description The client's own name for this request: sent again under it, the same request is answered with the job of the first time, for as long as that is kept. Another request under it is refused */
+                "Idempotency-Key"?: components["parameters"]["IdempotencyKey"];
+                /** @description u=N: of the jobs that wait those of the lowest N, 0 to 7, begin first; 3 where nothing is said (RFC 9218) */
+                Priority?: components["parameters"]["Priority"];
+                /** @description wait=N: the answer itself if it comes within N seconds (at most 30); respond-async: do not wait (RFC 7240) */
+                Prefer?: string;
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["BatchRequest"];
+            };
+        };
+        responses: {
+            /** @description The answer: it came within the time that was waited */
+            200: {
+                headers: {
+                    "Preference-Applied"?: string;
+                    "Content-Location"?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Batch"];
+                };
+            };
+            /** @description Recorded: the job survives whatever happens to the service */
+            201: {
+                headers: {
+                    /** @description The job */
+                    Location?: string;
+                    "Retry-After"?: number;
+                    "Preference-Applied"?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Job"];
+                };
+            };
+            /** @description No JSON document: malformed_json */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Dismissed while waiting: cancelled */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description payload_too_large: above 1 MiB */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description unsupported_media_type */
+            415: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Read but refused, with every fault: invalid_request */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description over_quota: as many of this address's jobs wait or run as one may have; see Retry-After */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description too_many_jobs or storage: nothing was accepted; see Retry-After */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description storage_full: the disk of the job store is full, nothing was accepted */
+            507: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Any other refusal: see /errors */
+            default: {
                 headers: {
                     [name: string]: unknown;
                 };
