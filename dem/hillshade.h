@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -18,6 +20,13 @@ std::vector<std::uint8_t> hillshade(const Terrain& terrain, double sun_azimuth_r
 // The unit vector towards a sun, and the light on a surface with this normal, in [0, 1].
 Eigen::Vector3d towards_sun(double azimuth_rad, double elevation_rad);
 double light_on(const Eigen::Vector3d& normal, const Eigen::Vector3d& sun, double vertical_exaggeration);
+// The same of a surface by how it rises to the east and to the north, m/m.
+inline float light_on_gradient(const Eigen::Vector2f& rise, const Eigen::Vector3d& sun,
+                               float vertical_exaggeration) {
+  const Eigen::Vector2f stretched = vertical_exaggeration * rise;
+  const float towards = static_cast<float>(sun.z()) - stretched.dot(sun.head<2>().cast<float>());
+  return std::clamp(towards / std::sqrt(1.0F + stretched.squaredNorm()), 0.0F, 1.0F);
+}
 
 // An 8-bit grey image as a PNG file in memory. pixels: rows * columns values.
 Result<std::string> encode_png(const std::vector<std::uint8_t>& grey, int rows, int columns);

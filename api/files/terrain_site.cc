@@ -17,6 +17,7 @@
 namespace slipway::api {
 namespace {
 
+constexpr long long kMostKeptSoilCells = 1'000'000;  // three bytes each
 constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{64} << 20U;
 
 dem::Extent clipped(const dem::Extent& wanted, const dem::Extent& map) {
@@ -131,35 +132,57 @@ Result<std::shared_ptr<const TerrainSite>> TerrainSite::open(const std::filesyst
 Result<GroundWindow> TerrainSite::read(const dem::Extent& extent, const Legend& legend) const {
   auto terrain = elevation_->read(clipped(extent, info().geometry.extent()));
   if (!terrain) return fail(terrain.error());
-  const dem::GridGeometry& geometry = (*terrain)->geometry();
-  Result<std::shared_ptr<const dem::SoilMap>> soil_map;
-  switch (description_.soil_source) {
-    case SoilSource::kRaster:
-      soil_map =
-          dem::read_soil_raster(folder_ / description_.soil_file, info(), geometry.extent(), legend.classes);
-      break;
-    case SoilSource::kPolygons:
-      soil_map =
-          dem::read_soil_polygons(folder_ / description_.soil_file, info(), geometry.extent(),
-                                  description_.soil_property, description_.soil_coordinates, legend.classes);
-      break;
-    case SoilSource::kNone: {
-      // One cell says as much as all.
-      dem::GridGeometry one = geometry;
-      if ((*terrain)->is_read_by_tiles()) {
-        one.cell_x_m *= one.columns;
-        one.cell_y_m *= one.rows;
-        one.rows = one.columns = 1;
-      }
-      const auto cells = static_cast<std::size_t>(one.rows) * static_cast<std::size_t>(one.columns);
-      soil_map = std::make_shared<const dem::SoilMap>(one, std::vector<std::int16_t>(cells, 0),
-                                                      std::vector<std::uint8_t>(cells, 0),
-                                                      std::vector<dem::SoilClass>{});
-      break;
-    }
-  }
+  auto soil_map = soils_over((*terrain)->geometry(), legend, (*terrain)->is_read_by_tiles());
   if (!soil_map) return fail(soil_map.error());
   return GroundWindow{*terrain, *soil_map};
+}
+
+Result<std::shared_ptr<const dem::SoilMap>> TerrainSite::read_soils(const dem::Extent& extent,
+                                                                    const Legend& legend) const {
+  const dem::GridGeometry& all = info().geometry;
+  const auto window = all.window(clipped(extent, all.extent()));
+  if (!window) return fail(ErrorCode::kOffMap, "The extent does not meet the terrain.");
+  return soils_over(all.sub(*window), legend, true);
+}
+
+Result<std::shared_ptr<const dem::SoilMap>> TerrainSite::soils_for_pictures(const dem::Extent& extent,
+                                                                            const Legend& legend) const {
+  const dem::GridGeometry& all = info().geometry;
+  if (static_cast<long long>(all.rows) * all.columns > kMostKeptSoilCells) return read_soils(extent, legend);
+  const std::scoped_lock lock(kept_mutex_);
+  std::shared_ptr<const dem::SoilMap>& kept = kept_soils_[legend.name];
+  if (!kept) {
+    auto read = read_soils(all.extent(), legend);
+    if (!read) return read;
+    kept = *read;
+  }
+  return kept;
+}
+
+Result<std::shared_ptr<const dem::SoilMap>> TerrainSite::soils_over(const dem::GridGeometry& geometry,
+                                                                    const Legend& legend,
+                                                                    bool one_cell_if_unknown) const {
+  switch (description_.soil_source) {
+    case SoilSource::kRaster:
+      return dem::read_soil_raster(folder_ / description_.soil_file, info(), geometry.extent(),
+                                   legend.classes);
+    case SoilSource::kPolygons:
+      return dem::read_soil_polygons(folder_ / description_.soil_file, info(), geometry.extent(),
+                                     description_.soil_property, description_.soil_coordinates,
+                                     legend.classes);
+    case SoilSource::kNone:
+      break;
+  }
+  dem::GridGeometry unknown = geometry;
+  if (one_cell_if_unknown) {
+    unknown.cell_x_m *= unknown.columns;
+    unknown.cell_y_m *= unknown.rows;
+    unknown.rows = unknown.columns = 1;
+  }
+  const auto cells = static_cast<std::size_t>(unknown.rows) * static_cast<std::size_t>(unknown.columns);
+  return std::make_shared<const dem::SoilMap>(unknown, std::vector<std::int16_t>(cells, 0),
+                                              std::vector<std::uint8_t>(cells, 0),
+                                              std::vector<dem::SoilClass>{});
 }
 
 Result<std::shared_ptr<const dem::Terrain>> TerrainSite::read_samples(const dem::Extent& extent,

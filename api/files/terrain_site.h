@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -50,6 +52,13 @@ class TerrainSite {
   Result<GroundWindow> read(const dem::Extent& extent) const {
     return read(extent, description_.legends.front());
   }
+  // Its soils only, by one of its legends: no height is read. Errors as dem::read_soil_raster and
+  // dem::read_soil_polygons, off_map.
+  Result<std::shared_ptr<const dem::SoilMap>> read_soils(const dem::Extent& extent,
+                                                         const Legend& legend) const;
+  // Of all of a small terrain, read once and kept; of a larger one, those over the extent.
+  Result<std::shared_ptr<const dem::SoilMap>> soils_for_pictures(const dem::Extent& extent,
+                                                                 const Legend& legend) const;
   // Elevation only, thinned for pictures: see dem::ElevationSource::read_samples.
   Result<std::shared_ptr<const dem::Terrain>> read_samples(const dem::Extent& extent, int step) const;
   // The files that terrain.json names, with itself first, and LICENSE where there is one. Reads them through.
@@ -64,11 +73,18 @@ class TerrainSite {
  private:
   TerrainSite() = default;
 
+  // Over the cells of the terrain that the geometry has. Unknown ground all over may be a single cell.
+  Result<std::shared_ptr<const dem::SoilMap>> soils_over(const dem::GridGeometry& geometry,
+                                                         const Legend& legend,
+                                                         bool one_cell_if_unknown) const;
+
   std::filesystem::path folder_;
   TerrainDescription description_;
   std::shared_ptr<const dem::ElevationSource> elevation_;
   std::vector<Stop> stops_;
   DriveOutcomeTable outcomes_;
+  mutable std::mutex kept_mutex_;
+  mutable std::map<std::string, std::shared_ptr<const dem::SoilMap>> kept_soils_;  // by the legend's name
 };
 
 inline constexpr const char* kLicenceFile = "LICENSE";

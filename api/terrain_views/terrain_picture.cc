@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/angle.h"
+#include "dem/gradient_field.h"
 #include "dem/hillshade.h"
 
 namespace slipway::api {
@@ -17,6 +18,7 @@ constexpr double kSunAzimuth_rad = rad_from_deg(315.0);
 constexpr double kSunElevation_rad = rad_from_deg(40.0);
 constexpr double kExaggeration = 1.5;
 constexpr int kMostSamples = 3;                  // of a pixel along each side
+constexpr int kMostSamplesOfLight = 2;           // which is a mean: those of the worst need more
 constexpr double kSoilCells = 6'000'000;         // that one picture reads
 constexpr long long kSampleBudget = 10'000'000;  // of a picture
 
@@ -30,8 +32,9 @@ class PixelPlaces {
         cells_(std::max(pixel_x_m_ / geometry.cell_x_m, pixel_y_m_ / geometry.cell_y_m)) {
     const long long pixels = static_cast<long long>(wanted.width_px) * wanted.height_px;
     const int affordable = static_cast<int>(std::sqrt(static_cast<double>(kSampleBudget / pixels)));
-    samples_ = std::clamp(static_cast<int>(std::ceil(std::min<double>(cells_, kMostSamples))), 1,
-                          std::max(1, std::min(kMostSamples, affordable)));
+    const int most = wanted.layer == TerrainLayer::kHillshade ? kMostSamplesOfLight : kMostSamples;
+    samples_ = std::clamp(static_cast<int>(std::ceil(std::min<double>(cells_, most))), 1,
+                          std::max(1, std::min(most, affordable)));
   }
 
   // Every so many cells of the raster one is enough for the samples.
@@ -40,15 +43,17 @@ class PixelPlaces {
     return std::max(1, static_cast<int>(std::min(cells_ / samples_, kMostStep)));
   }
 
+  int samples() const { return samples_; }  // of a pixel along a side
+  // Of the k-th sample of a column of the picture, and of one of its rows.
+  double x_m(int column, int k) const {
+    return extent_.west_m + (column + (k + 0.5) / samples_) * pixel_x_m_;
+  }
+  double y_m(int row, int k) const { return extent_.north_m - (row + (k + 0.5) / samples_) * pixel_y_m_; }
+
   template <class Visit>
   void visit(int row, int column, const Visit& look) const {
-    for (int i = 0; i < samples_; ++i) {
-      for (int j = 0; j < samples_; ++j) {
-        const double right = column + (j + 0.5) / samples_;
-        const double down = row + (i + 0.5) / samples_;
-        look(extent_.west_m + right * pixel_x_m_, extent_.north_m - down * pixel_y_m_);
-      }
-    }
+    for (int i = 0; i < samples_; ++i)
+      for (int j = 0; j < samples_; ++j) look(x_m(column, j), y_m(row, i));
   }
 
  private:
@@ -58,33 +63,80 @@ class PixelPlaces {
   int samples_ = 1;
 };
 
-dem::Rgba hillshade_at(const dem::Terrain& terrain, const Eigen::Vector3d& sun, const PixelPlaces& places,
-                       int row, int column) {
-  double light = 0.0;
-  int lit = 0;
-  places.visit(row, column, [&](double x_m, double y_m) {
-    const auto surface = terrain.surface(x_m, y_m);
-    if (!surface) return;
-    light += dem::light_on(surface->normal, sun, kExaggeration);
-    ++lit;
-  });
-  if (lit == 0) return dem::kTransparent;
-  const auto grey = static_cast<std::uint8_t>(std::lround(255.0 * light / lit));
+// What the samples of a pixel saw of the relief.
+struct SeenRelief {
+  double light = 0.0;     // of those that lie on ground, the sum
+  double steepest = 0.0;  // tangent of the slope, of these
+  int on_ground = 0;
+};
+
+dem::Rgba shade_of(const SeenRelief& seen) {
+  if (seen.on_ground == 0) return dem::kTransparent;
+  const auto grey = static_cast<std::uint8_t>(std::lround(255.0 * seen.light / seen.on_ground));
   return {grey, grey, grey, 0xff};
 }
 
-dem::Rgba slope_at(const dem::Terrain& terrain, const dem::Extent& map, const PixelPlaces& places, int row,
-                   int column) {
-  std::optional<double> steepest;
-  bool on_map = false;
-  places.visit(row, column, [&](double x_m, double y_m) {
-    on_map = on_map || map.contains(x_m, y_m);
-    if (const auto surface = terrain.surface(x_m, y_m))
-      steepest = std::max(steepest.value_or(0.0), surface->slope_rad());
-  });
-  if (steepest) return slope_colour(deg_from_rad(*steepest));
-  return on_map ? hatch(row, column) : dem::kTransparent;
+const Eigen::Vector3d& sun() {
+  static const Eigen::Vector3d direction = dem::towards_sun(kSunAzimuth_rad, kSunElevation_rad);
+  return direction;
 }
+
+// At every sample the terrain itself is asked: where some of its cells have no data.
+class SurfaceLooks {
+ public:
+  SurfaceLooks(const dem::Terrain& terrain, const PixelPlaces& places) : terrain_(terrain), places_(places) {}
+
+  SeenRelief at(int row, int column) const {
+    SeenRelief seen;
+    places_.visit(row, column, [&](double x_m, double y_m) {
+      const auto surface = terrain_.surface(x_m, y_m);
+      if (!surface) return;
+      seen.light += dem::light_on(surface->normal, sun(), kExaggeration);
+      seen.steepest = std::max(seen.steepest, std::tan(surface->slope_rad()));
+      ++seen.on_ground;
+    });
+    return seen;
+  }
+
+ private:
+  const dem::Terrain& terrain_;
+  const PixelPlaces& places_;
+};
+
+// The same where every cell has data, by far quicker: a tile has 600,000 samples.
+class GradientLooks {
+ public:
+  GradientLooks(const dem::GradientField& field, const PixelPlaces& places, const TerrainPicture& wanted)
+      : field_(field), samples_(places.samples()) {
+    for (int row = 0; row < wanted.height_px; ++row)
+      for (int k = 0; k < samples_; ++k) rows_.push_back(field.row_at(places.y_m(row, k)));
+    for (int column = 0; column < wanted.width_px; ++column)
+      for (int k = 0; k < samples_; ++k) columns_.push_back(field.column_at(places.x_m(column, k)));
+  }
+
+  SeenRelief at(int row, int column) const {
+    SeenRelief seen;
+    float steepest = 0.0F;
+    for (int i = 0; i < samples_; ++i) {
+      const dem::BetweenCentres& down = rows_[static_cast<std::size_t>(row * samples_ + i)];
+      for (int j = 0; j < samples_; ++j) {
+        const dem::BetweenCentres& right = columns_[static_cast<std::size_t>(column * samples_ + j)];
+        if (!down.inside || !right.inside) continue;
+        const Eigen::Vector2f gradient = field_.at(down, right);
+        seen.light += dem::light_on_gradient(gradient, sun(), kExaggeration);
+        steepest = std::max(steepest, gradient.squaredNorm());
+        ++seen.on_ground;
+      }
+    }
+    seen.steepest = std::sqrt(steepest);
+    return seen;
+  }
+
+ private:
+  const dem::GradientField& field_;
+  int samples_;
+  std::vector<dem::BetweenCentres> rows_, columns_;
+};
 
 dem::Rgba soil_at(const dem::SoilMap& soils, const std::vector<dem::Rgba>& colours, const dem::Extent& map,
                   const PixelPlaces& places, int row, int column) {
@@ -109,6 +161,20 @@ dem::RgbaImage painted(const TerrainPicture& wanted, const Colour& colour) {
   return image;
 }
 
+template <class Looks>
+dem::RgbaImage draw_relief(const Looks& looks, const TerrainPicture& wanted, const dem::Extent& map,
+                           const PixelPlaces& places) {
+  if (wanted.layer == TerrainLayer::kHillshade)
+    return painted(wanted, [&](int row, int column) { return shade_of(looks.at(row, column)); });
+  return painted(wanted, [&](int row, int column) {
+    const SeenRelief seen = looks.at(row, column);
+    if (seen.on_ground > 0) return slope_colour(deg_from_rad(std::atan(seen.steepest)));
+    bool on_map = false;
+    places.visit(row, column, [&](double x_m, double y_m) { on_map = on_map || map.contains(x_m, y_m); });
+    return on_map ? hatch(row, column) : dem::kTransparent;
+  });
+}
+
 double cells_of(const dem::Extent& extent, const dem::GridGeometry& geometry) {
   return (extent.east_m - extent.west_m) / geometry.cell_x_m * (extent.north_m - extent.south_m) /
          geometry.cell_y_m;
@@ -125,9 +191,9 @@ Result<dem::RgbaImage> draw_soils(const TerrainSite& site, const TerrainPicture&
                 fmt::format("the soils of {:.0f} cells are asked for, at most {:.0f} are drawn; choose a "
                             "smaller extent",
                             cells_of(seen, geometry), kSoilCells));
-  const auto ground = site.read(seen, *legend);
-  if (!ground) return fail(ground.error());
-  const dem::SoilMap& soils = *ground->soil_map;
+  const auto read = site.soils_for_pictures(seen, *legend);
+  if (!read) return fail(read.error());
+  const dem::SoilMap& soils = **read;
   const std::vector<std::string> order = soils_of(*legend);
   std::vector<dem::Rgba> colours;
   for (const std::string& soil : soils.soils())
@@ -154,10 +220,9 @@ Result<dem::RgbaImage> draw_terrain(const TerrainSite& site, const TerrainPictur
   const PixelPlaces places(wanted, geometry);
   const auto terrain = site.read_samples(seen, places.step());
   if (!terrain) return fail(terrain.error());
-  if (wanted.layer == TerrainLayer::kSlope)
-    return painted(wanted, [&](int r, int c) { return slope_at(**terrain, map, places, r, c); });
-  const Eigen::Vector3d sun = dem::towards_sun(kSunAzimuth_rad, kSunElevation_rad);
-  return painted(wanted, [&](int r, int c) { return hillshade_at(**terrain, sun, places, r, c); });
+  const auto field = dem::GradientField::of(**terrain);
+  return field ? draw_relief(GradientLooks(*field, places, wanted), wanted, map, places)
+               : draw_relief(SurfaceLooks(**terrain, places), wanted, map, places);
 }
 
 TerrainTiles::TerrainTiles(const dem::GridGeometry& geometry) : map_(geometry.extent()) {

@@ -31,6 +31,19 @@ export function fill(element: HTMLElement, ...children: (Child | Child[])[]): vo
   append(element, children);
 }
 
+/** What a closed part of the page holds is made when it is opened, and kept up to date as long as it is. */
+export function folded(element: HTMLDetailsElement, summary: () => string, content: () => Child[]): () => void {
+  const head = h("summary"); // which stays, so that the keyboard's focus does
+  const body = h("div");
+  element.append(head, body);
+  const draw = () => {
+    head.textContent = summary();
+    fill(body, element.open ? content() : null);
+  };
+  element.addEventListener("toggle", draw);
+  return draw;
+}
+
 let labels = 0;
 
 /** A label with its field; the field's name for screen readers is the label's text. */

@@ -2,7 +2,7 @@
 
 export function number(value: number | null | undefined, digits = 3): string {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
-  if (value !== 0 && Math.abs(value) < 0.001) return value.toExponential(1);
+  if (value !== 0 && Math.abs(value) < 1e-5) return value.toExponential(1);
   return String(Number(value.toPrecision(digits)));
 }
 
@@ -21,6 +21,9 @@ export function duration(seconds: number | null | undefined): string {
   const minutes = Math.round(seconds / 60);
   return minutes < 90 ? `${minutes} min` : `${Math.floor(minutes / 60)} h ${minutes % 60} min`;
 }
+
+/** The first letter of a sentence. */
+export const sentence = (text: string): string => text.slice(0, 1).toUpperCase() + text.slice(1);
 
 export function words(name: string): string {
   return name.replaceAll("_", " ");

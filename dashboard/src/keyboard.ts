@@ -10,7 +10,7 @@ export const keys: [string, string][] = [
   ["C", "the next clicks are corners of the path to check"],
   ["Enter (on the map)", "put it at the centre of the map"],
   ["Arrows, + and − (on the map)", "move and zoom the map"],
-  [", and .", "move the cursor along the route; with Shift by ten"],
+  [", and .", "move the cursor along the route or through recorded drives; with Shift by ten. In the charts ← and → do so too"],
   ["1 to 8", "choose a route"],
   ["Ctrl+Enter", "plan or check"],
   ["Ctrl+Z", "take back what was drawn last"],
@@ -42,6 +42,7 @@ export function keyboard(map: TerrainMap, mapElement: HTMLElement, charts: Profi
       map.stopDrawing();
       store.set({ tool: "look", hover_m: null });
     } else if (event.key === "?") help();
+    else if (target.closest(".charts") && (event.key === "ArrowLeft" || event.key === "ArrowRight")) charts.step((event.shiftKey ? 10 : 1) * (event.key === "ArrowLeft" ? -1 : 1));
     else if (event.key === "," || event.key === "<") charts.step(event.shiftKey ? -10 : -1);
     else if (event.key === "." || event.key === ">") charts.step(event.shiftKey ? 10 : 1);
     else if (count >= 1 && count <= (store.state.result?.routes.length ?? 0)) store.set({ route: count - 1 });

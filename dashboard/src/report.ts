@@ -1,8 +1,9 @@
 // A page of paper: what the meeting needs of a route, legible in black and white.
 import { fill, h } from "./dom";
 import { number, share, words } from "./format";
+import { lengthText } from "./map/scale_bar";
 import type { TerrainMap } from "./map/terrain_map";
-import { figures, provenance, unit } from "./panels/verdict";
+import { figures, provenance, reasonText, unit } from "./panels/verdict";
 import { ruleWords, verdictWords, type Result, type Route } from "./result";
 import { palettes, store } from "./state";
 
@@ -50,7 +51,7 @@ function page(map: TerrainMap): HTMLElement[] {
     h("header", {}, h("div", {}, h("h1", {}, `${kindWords[result.kind] ?? words(result.kind)}: ${title}`), h("p", {}, asked(result))), h("div", { class: `paper-verdict ${route.verdict}` }, verdictWords[route.verdict], h("small", {}, route.title))),
     mapPicture(map),
     h("div", { class: "paper-columns" },
-      h("div", {}, h("h2", {}, "Why"), h("ul", {}, route.reasons.slice(0, reasons_shown).map((reason) => h("li", {}, reason)))),
+      h("div", {}, h("h2", {}, "Why"), h("ul", {}, route.reasons.slice(0, reasons_shown).map((reason) => h("li", {}, reasonText(reason))))),
       h("div", {}, h("h2", {}, "Figures"), figureTable(result))),
     h("h2", {}, "Rules: limit, nearest value (5 to 95 % of the draws), share of the draws in which it trips, where, why"),
     ruleTable(route),
@@ -79,7 +80,7 @@ function mapPicture(map: TerrainMap): HTMLElement {
   const picture = map.picture();
   const line = h("div", { class: "paper-scale" });
   line.style.width = `${picture.scale_share * 100}%`;
-  return h("figure", {}, h("div", { class: "paper-map" }, h("img", { src: picture.url, alt: "Map of the routes" }), line), h("figcaption", {}, `The bar is ${picture.scale_m} m; north is up. Routes: darker is more risk, dashes are unknown ground, at triangles a rule trips.`));
+  return h("figure", {}, h("div", { class: "paper-map" }, h("img", { src: picture.url, alt: "Map of the routes" }), line), h("figcaption", {}, `The bar is ${lengthText(picture.scale_m)}; north is up. Routes: darker is more risk, dashes are unknown ground, at triangles a rule trips.`));
 }
 
 function figureTable(result: Result): HTMLElement {

@@ -36,9 +36,18 @@ export function signIn(retry: () => void): { open: () => void; button: HTMLEleme
       retry();
     } else open();
   }, { class: "quiet" });
-  const name = () => (press.textContent = token() ? "Sign out" : "Sign in");
+  // A service without tokens asks for none: then there is nothing to sign in to.
+  const name = () => {
+    press.textContent = token() ? "Sign out" : "Sign in";
+    press.hidden = !asked && !token();
+  };
+  let asked = false;
   name();
-  onUnauthorized(open);
+  onUnauthorized(() => {
+    asked = true;
+    name();
+    open();
+  });
   return { open, button: press };
 }
 

@@ -89,6 +89,9 @@ export interface State {
   error: unknown;
 }
 
+/** What a click on the map does where nobody has said it: it places what a plan lacks. */
+export const firstTool = ({ tab, terrain, drawn }: State): Tool => (tab !== "plan" || !terrain ? "look" : !drawn.start ? "start" : !drawn.goal ? "goal" : "look");
+
 export const nothingDrawn: Drawn = { start: null, goal: null, waypoints: [], keep_out: [], keep_in: [], path: [] };
 /** Blue to dark red: apart by lightness and hue for colour-blind eyes too [ColorBrewer RdYlBu]. */
 export const usualPalette = ["#2c7bb6", "#abd9e9", "#fdae61", "#d7191c", "#67001f"];
@@ -155,7 +158,7 @@ class Store {
 
   undo(): boolean {
     const before = this.past.pop();
-    if (before) this.set({ drawn: before });
+    if (before) this.set({ drawn: before, tool: firstTool({ ...this.state, drawn: before }) });
     return before !== undefined;
   }
 

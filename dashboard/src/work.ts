@@ -30,6 +30,7 @@ function takeRequest({ request, rover: driven }: Result): void {
   // A corrected rover has the name of the one that it was made of before its own.
   const rover = rovers.find((r) => r.name === driven)?.name ?? rovers.find((r) => driven.startsWith(`${r.name}-`))?.name ?? options.rover;
   store.set({
+    tool: "look",
     drawn: { ...drawn, start: place(asked.start) ?? drawn.start, goal: place(asked.goal) ?? drawn.goal, waypoints: asked.waypoints ?? drawn.waypoints, path: asked.path ?? drawn.path, keep_out: asked.keep_out ?? [], keep_in: asked.keep_in ?? [] },
     options: {
       ...options,

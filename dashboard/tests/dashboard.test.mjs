@@ -37,7 +37,15 @@ test("a drive is placed by clicks, planned, understood and cut off from a slope"
   await p.look("01_empty");
   await p.accessible("empty");
 
-  await p.click('[data-tool="start"]');
+  // Nobody has to press a button first: the next click is what the plan lacks.
+  assert.equal(await p.getAttribute('[data-tool="start"]', "aria-pressed"), "true");
+  assert.equal(await p.textContent(".map-aim"), "Click where the drive starts");
+  assert.equal(await p.locator('header button:text-is("Sign in")').isVisible(), false, "a service without tokens asks nobody to sign in");
+  const beyond = await p.pixel(8142400, -276700);
+  await p.mouse.click(beyond.x, beyond.y);
+  await p.until(() => document.querySelector(".map-readout").textContent === "beyond the map");
+  assert.equal(await p.inputValue("#plan-start"), "", "nothing is placed beyond the map");
+  await pause(320); // two clicks that follow fast are a double click
   const from = await p.pixel(start.x_m, start.y_m);
   await p.mouse.click(from.x, from.y);
   await p.until(() => document.querySelector("#plan-start").value !== "");
@@ -121,7 +129,7 @@ test("a drive is placed by clicks, planned, understood and cut off from a slope"
   for (const [cx, cy] of corners.slice(0, 3)) {
     const c = await p.pixel(cx, cy);
     await p.mouse.click(c.x, c.y);
-    await pause(320); // two clicks that follow fast are a double click
+    await pause(320);
   }
   const last = await p.pixel(...corners[3]);
   await p.mouse.dblclick(last.x, last.y);
@@ -178,6 +186,7 @@ test("a path is checked and found NO-GO, with the rules and where", async () => 
   await p.fill("#panel-check textarea >> nth=0", "drive=4 turn=30 drive=3");
   await p.fill("#check-start", "8142579.7,-276648.7");
   await p.click('[data-do="check"]');
+  await p.click('#panel-check summary:has-text("The request as a command")');
   await p.until(() => document.querySelector("#panel-check pre")?.textContent.includes('"turn_deg":30'));
   await p.waitForSelector(".work .job", { state: "detached" });
   await p.click("text=A drive under way");
@@ -279,6 +288,10 @@ test("a service with tokens is signed in to, under a proxy's path", async (t) =>
   await p.done();
 });
 
+const metresOf = (text) => {
+  const [value, unit] = text.split(" ");
+  return Number(value) * { cm: 0.01, m: 1, km: 1000 }[unit];
+};
 for (const [body, radius_m] of [["Mars", 3396190], ["Moon", 1737400]]) {
   test(`the scale bar is true on ${body}`, async () => {
     const context = await browser.newContext({ viewport: { width: 1440, height: 1000 } });
@@ -289,16 +302,27 @@ for (const [body, radius_m] of [["Mars", 3396190], ["Moon", 1737400]]) {
       await route.fulfill({ response: answer, body: (await answer.text()).replaceAll("3396190", String(radius_m)).replaceAll('"body":"Mars"', `"body":"${body}"`) });
     });
     await p.goto(`${service.url}/dashboard/#terrain=gale`);
-    await until(p, () => location.hash.includes("view=") && document.querySelector(".ol-scale-line-inner")?.textContent);
+    await until(p, () => location.hash.includes("view=") && document.querySelector(".scale-bar-inner")?.textContent);
     const [, y, resolution] = new URLSearchParams(p.url().split("#")[1]).get("view").split(",").map(Number);
-    const bar = p.locator(".ol-scale-line-inner");
-    const told_m = Number(/([\d.]+) m/.exec(await bar.textContent())[1]);
+    const bar = p.locator(".scale-bar-inner");
+    const told_m = metresOf(await bar.textContent());
     const width_px = await bar.evaluate((element) => parseFloat(element.style.width));
     // Equidistant cylindrical: true to the north, narrower to the east by the cosine of the latitude.
     const latitude = y / radius_m;
     const true_m = width_px * resolution * ((1 + Math.cos(latitude)) / 2);
     assert.ok(Math.abs(told_m / true_m - 1) < 0.01, `${told_m} m on the bar, ${true_m} m on the ground`);
     await p.screenshot({ path: `${process.env.SCREENSHOTS ?? "screenshots"}/13_scale_${body}.png` });
+    // From all of the ground to a wheel's width: a round length each time, and a metre is "1 m".
+    await p.locator(".map").focus();
+    for (let zoom = 0; zoom < 8 && body === "Mars"; ++zoom) {
+      const text = await bar.textContent();
+      assert.match(text, /^(1|2|5)0* (cm|m|km)$/);
+      const px = parseFloat(await bar.evaluate((element) => element.style.width));
+      assert.ok(px > 55 && px <= 150, `${text} is ${px} px wide`);
+      await p.keyboard.press("+");
+      await pause(350); // the map glides there
+    }
+    if (body === "Mars") assert.equal(await bar.textContent(), "1 m");
     await context.close();
   });
 }

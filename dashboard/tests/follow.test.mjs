@@ -25,12 +25,12 @@ after(async () => {
   rmSync(folder, { recursive: true, force: true });
 });
 
-/** Every third drive of a practice campaign, with the motors cold in some: enough to find what they lack, few enough to be quick. */
+/** Every sixth drive of a practice campaign, with the motors cold in some: enough to find what they lack, few enough to be quick. */
 function smallCampaign() {
   const from = join(data, "gap-practice/p05");
   const campaign = JSON.parse(readFileSync(join(from, "campaign.json"), "utf8"));
   campaign.name = "cold_drives";
-  campaign.drives = campaign.drives.filter((_, i) => i % 3 === 0);
+  campaign.drives = campaign.drives.filter((_, i) => i % 6 === 0);
   const into = join(folder, "cold_drives");
   mkdirSync(into, { recursive: true });
   for (const { file } of campaign.drives) cpSync(join(from, file), join(into, file));
@@ -77,6 +77,8 @@ test("drives are sent, diagnosed to the end, and the next plan is made with the 
   const windows = answer.where.windows.filter((w) => w.terrain === shown);
   assert.ok(windows.length > 0 && windows[0].values.length > 3);
   assert.ok((await p.locator(".charts canvas").count()) >= 5, "a chart of each channel");
+  assert.match(await p.textContent(".scale-bar-inner"), /^[125]0* (cm|m)$/);
+  assert.match(await p.textContent(".map-aim"), new RegExp(shown.replaceAll("_", " ")));
   await p.look("17_diagnosis");
   await p.accessible("diagnosis");
   const map = () => p.locator(".map").screenshot();
@@ -124,30 +126,54 @@ test("drives are sent, diagnosed to the end, and the next plan is made with the 
   await p.done();
 });
 
-test("a watch raises its alarm and says since when", async () => {
+test("a watch raises its alarm, says since when, and diagnoses what has changed", async () => {
   const p = await open(browser, `${service.url}/dashboard/#tab=drives&terrain=gale`);
   await p.waitForSelector('[data-do="diagnose"]');
-  await p.selectOption("#panel-drives select >> nth=0", "p03");
-  await p.click("text=Watch these drives for a change");
-  await p.selectOption("#panel-drives details select", "p01");
-  await p.uncheck('[data-watch="diagnose"]'); // the test before this has a diagnosis
-  const [request] = await Promise.all([p.waitForRequest((r) => r.method() === "POST" && r.url().endsWith("/v1/watches")), p.click('[data-do="watch"]')]);
-  assert.deepEqual(request.postDataJSON(), { campaign: "p03", reference: "p01", diagnose: false });
-  await p.waitForSelector("[data-alarm]");
-  const job = new URLSearchParams(p.url().split("#")[1]).get("job");
-  const watch = await (await p.request.get(`${service.url}/v1/jobs/${job}/result`)).json();
+  // The drives that the test before this one has sent.
+  const sent = await p.$eval("#panel-drives select", (s) => [...s.options].map((o) => o.value).filter((v) => v.startsWith("dc-")).at(-1));
+  const ask = async (diagnose) => {
+    await p.selectOption("#panel-drives select >> nth=0", sent);
+    await p.click("text=Watch these drives for a change");
+    await p.selectOption("#panel-drives details select", "p01");
+    if (!diagnose) await p.uncheck('[data-watch="diagnose"]');
+    const [request] = await Promise.all([p.waitForRequest((r) => r.method() === "POST" && r.url().endsWith("/v1/watches")), p.click('[data-do="watch"]')]);
+    assert.deepEqual(request.postDataJSON(), { campaign: sent, reference: "p01", ...(diagnose ? {} : { diagnose: false }) });
+    const before = new URLSearchParams(p.url().split("#")[1]).get("job");
+    await p.until((old) => document.querySelector("[data-alarm]") && new URLSearchParams(location.hash.slice(1)).get("job") !== old && !document.querySelector(".work progress"), before);
+    return (await p.request.get(`${service.url}/v1/jobs/${new URLSearchParams(p.url().split("#")[1]).get("job")}/result`)).json();
+  };
+  const watch = await ask(false);
   assert.equal(await p.getAttribute("[data-alarm]", "data-alarm"), watch.alarm.drive);
   assert.match(await p.textContent("[data-alarm]"), new RegExp(`since ${watch.alarm.since}`));
   assert.equal(await p.locator('[aria-label="Evidence drive by drive"] tbody tr').count(), watch.drives.length);
   await p.waitForSelector(".wide-chart canvas");
   await p.waitForSelector('[data-do="diagnose-change"]');
-  await p.evaluate(() => document.querySelector("[data-alarm]").scrollIntoView());
+  assert.equal(await p.locator("[data-diagnosis]").count(), 0);
   await p.look("22_watch");
   await p.accessible("watch");
+
+  const diagnosed = await ask(true);
+  await p.waitForSelector(`[data-diagnosis="${diagnosed.diagnosis.verdict}"]`);
+  assert.equal(diagnosed.diagnosis.effects[0].name, "motor_temperature");
+  assert.match(await p.textContent('[aria-label="Effects and their probabilities"] tbody tr >> nth=0'), /motor temperature/);
+  assert.equal(await p.locator("[data-alarm]").count(), 1, "the alarm stands above its diagnosis");
+  await p.waitForSelector(".wide-chart canvas");
+  assert.ok((await p.locator(".charts canvas").count()) > 5, "the evidence, and every channel against its prediction");
+  // From the keyboard: window after window, in the charts and on the map.
+  await p.locator(".charts").focus();
+  await p.keyboard.press("ArrowRight");
+  await p.until(() => /^driven -?\d/.test(document.querySelector(".charts .readout").textContent));
+  const first = await p.textContent(".layers");
+  assert.match(first, /Drive \w+, .* deviations/);
+  await p.keyboard.press("ArrowRight");
+  await p.until((old) => document.querySelector(".layers").textContent !== old, first);
+  await p.look("30_watch_with_its_diagnosis");
+  await p.accessible("watch with its diagnosis");
   // The list of jobs opens it again.
   await p.goto("about:blank");
   await p.goto(`${service.url}/dashboard/#tab=jobs&terrain=gale`);
   await p.click('.jobs .job:has-text("watch") [data-do="open"] >> nth=0');
-  await p.waitForSelector(`[data-alarm="${watch.alarm.drive}"]`);
+  await p.waitForSelector(`[data-alarm="${diagnosed.alarm.drive}"]`);
+  await p.waitForSelector("[data-diagnosis]");
   await p.done();
 });

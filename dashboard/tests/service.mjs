@@ -1,6 +1,6 @@
 // A running `slipway serve`, and a proxy that puts it under a path.
 import { spawn, spawnSync } from "node:child_process";
-import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import http from "node:http";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -24,6 +24,11 @@ export async function serve(...options) {
   return {
     port,
     url: `http://127.0.0.1:${port}`,
+    /** Seconds of the processor that it has used until now. */
+    cpu_s() {
+      const fields = readFileSync(`/proc/${child.pid}/stat`, "utf8").split(") ").at(-1).split(" ");
+      return (Number(fields[11]) + Number(fields[12])) / 100; // user and system, in hundredths
+    },
     async stop() {
       child.kill("SIGTERM");
       await ended;

@@ -78,6 +78,31 @@ TEST(EncodePng, ColoursAndOpacityComeBackAsTheyWere) {
   EXPECT_FALSE(encode_png(RgbaImage(0, 4)));
 }
 
+TEST(EncodePng, OpaqueGreyTakesOneBand) {
+  RgbaImage image(2, 3);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    const auto grey = static_cast<std::uint8_t>(40 * i);
+    image.pixels[i] = {grey, grey, grey, 0xff};
+  }
+  const auto bands_of = [](const RgbaImage& drawn) {
+    const auto png = encode_png(drawn);
+    if (!png) return 0;
+    const test::TemporaryFolder folder;
+    int bands = 0;
+    test::with_gdal(folder.write("image.png", *png), [&](GDALDataset& raster) {
+      bands = raster.GetRasterCount();
+      std::uint8_t last = 0;
+      EXPECT_EQ(raster.GetRasterBand(1)->RasterIO(GF_Read, 2, 1, 1, 1, &last, 1, 1, GDT_Byte, 0, 0, nullptr),
+                CE_None);
+      EXPECT_EQ(last, drawn.at(1, 2)[0]);
+    });
+    return bands;
+  };
+  EXPECT_EQ(bands_of(image), 1);
+  image.at(0, 0)[3] = 0;  // what is transparent stays so
+  EXPECT_EQ(bands_of(image), 4);
+}
+
 TEST(EncodePng, AnotherNumberOfPixelsIsRefused) {
   EXPECT_FALSE(encode_png({1, 2, 3}, 2, 2));
   EXPECT_FALSE(encode_png({}, 0, 0));

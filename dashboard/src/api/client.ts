@@ -59,7 +59,7 @@ export async function ask(path: string, init: RequestInit = {}): Promise<Respons
     response = await fetch(address(path), { ...init, headers });
   } catch (error) {
     if (error instanceof DOMException && error.name === "AbortError") throw error;
-    throw new ServiceError(0, { title: "not reached", status: 0, detail: "The service can't be reached. It may be restarting." } as Problem);
+    throw new ServiceError(0, { title: "not reached", status: 0, detail: "It may be restarting. What is shown stays, and jobs that it has accepted are kept." } as Problem);
   }
   if (response.ok || response.status === 304) return response;
   const retry = Number(response.headers.get("Retry-After") ?? NaN);

@@ -174,7 +174,7 @@ export interface paths {
         };
         /**
          * A layer of a terrain as a picture
-         * @description Slopes and soils have the colours of the terrain's legends. What is not known is hatched or transparent, never like a value. Where a pixel is larger than a cell, up to nine samples in it are looked at: shading is their mean, slope the steepest, and ground is unknown where that of any is; slopes are those between the samples. What lies beyond the map is transparent.
+         * @description Slopes and soils have the colours of the terrain's legends. What is not known is hatched or transparent, never like a value. Where a pixel is larger than a cell, samples in it are looked at: shading is the mean of up to four, slope the steepest of up to nine, and ground is unknown where that of any of up to nine is; slopes are those between the samples. What lies beyond the map is transparent.
          */
         get: operations["terrain_picture"];
         put?: never;
@@ -194,7 +194,7 @@ export interface paths {
         };
         /**
          * A layer of a terrain as tiles of 256 pixels
-         * @description The tiles lie in the terrain's own grid: at z = 0 one tile holds all of it, with its north-west corner in the terrain's; each step of z halves the side of a tile; x counts tiles to the east, y to the south. Slopes and soils have the colours of the terrain's legends. What is not known is hatched or transparent, never like a value. Where a pixel is larger than a cell, up to nine samples in it are looked at: shading is their mean, slope the steepest, and ground is unknown where that of any is; slopes are those between the samples. What lies beyond the map is transparent.
+         * @description The tiles lie in the terrain's own grid: at z = 0 one tile holds all of it, with its north-west corner in the terrain's; each step of z halves the side of a tile; x counts tiles to the east, y to the south. Slopes and soils have the colours of the terrain's legends. What is not known is hatched or transparent, never like a value. Where a pixel is larger than a cell, samples in it are looked at: shading is the mean of up to four, slope the steepest of up to nine, and ground is unknown where that of any of up to nine is; slopes are those between the samples. What lies beyond the map is transparent.
          */
         get: operations["terrain_tile"];
         put?: never;

@@ -9,7 +9,7 @@ import Modify from "ol/interaction/Modify.js";
 import VectorLayer from "ol/layer/Vector.js";
 import VectorSource from "ol/source/Vector.js";
 import { Circle, Fill, RegularShape, Stroke, Style, Text } from "ol/style.js";
-import { store, type Place, type Ring, type State, type Tool } from "../state";
+import { firstTool, store, type Place, type Ring, type State, type Tool } from "../state";
 
 const mark = (text: string, colour: string): Style =>
   new Style({
@@ -18,6 +18,8 @@ const mark = (text: string, colour: string): Style =>
     zIndex: 30,
   });
 const styles = {
+  // Around what the pointer could drag: its letter stays legible.
+  held: new Style({ image: new Circle({ radius: 14, stroke: new Stroke({ color: "#0090ff", width: 3 }) }) }),
   keep_out: new Style({ fill: new Fill({ color: "#d7191c55" }), stroke: new Stroke({ color: "#67001f", width: 2 }) }),
   keep_in: new Style({ fill: new Fill({ color: "#0050a010" }), stroke: new Stroke({ color: "#0050a0", width: 3, lineDash: [10, 6] }) }),
   corner: new Style({ image: new RegularShape({ points: 4, radius: 7, angle: Math.PI / 4, fill: new Fill({ color: "#fff" }), stroke: new Stroke({ color: "#111", width: 2 }) }) }),
@@ -35,7 +37,7 @@ export class DrawnLayer {
   private corners: number[][] = []; // that the keyboard has placed
 
   constructor(private readonly map: OlMap) {
-    const modify = new Modify({ source: this.source, insertVertexCondition: (event) => event.originalEvent.shiftKey });
+    const modify = new Modify({ source: this.source, style: styles.held, insertVertexCondition: (event) => event.originalEvent.shiftKey });
     modify.on("modifyend", () => this.takeOver());
     map.addInteraction(modify);
   }
@@ -127,8 +129,7 @@ export function putAt(tool: Tool, at: number[]): boolean {
   else if (tool === "waypoint") store.draw({ waypoints: [...drawn.waypoints, here] });
   else if (tool === "corner") store.draw({ path: [...drawn.path, here] });
   else return false;
-  // One start and one goal: the next click is for the other that is missing.
-  if (tool === "start") store.set({ tool: store.state.drawn.goal ? "look" : "goal" });
-  if (tool === "goal") store.set({ tool: store.state.drawn.start ? "look" : "start" });
+  // One start and one goal: the next click is for the other where that is missing.
+  if (tool === "start" || tool === "goal") store.set({ tool: firstTool(store.state) });
   return true;
 }

@@ -17,9 +17,13 @@ export function readout(target: HTMLElement, map: TerrainMap, at: number[] | nul
     return;
   }
   const [x, y] = at as [number, number];
+  if (map.isTerrain && !map.isOnMap(at)) {
+    target.textContent = "beyond the map";
+    return;
+  }
   const risks = store.state.risk.map((m) => riskText(m, x, y)).join("");
   const degrees = map.body?.degrees(x, y);
-  const place = `x ${x.toFixed(1)} m, y ${y.toFixed(1)} m${degrees ? ` · ${degrees[0].toFixed(5)}° E, ${degrees[1].toFixed(5)}° N` : ""}`;
+  const place = `x ${x.toFixed(1)} m, y ${y.toFixed(1)} m${degrees ? ` · ${degreesText(degrees[0], "E", "W")}, ${degreesText(degrees[1], "N", "S")}` : ""}`;
   target.textContent = place + risks;
   const name = store.state.terrain?.terrain?.name;
   if (!name || document.hidden || !map.isTerrain) return;
@@ -34,6 +38,8 @@ export function readout(target: HTMLElement, map: TerrainMap, at: number[] | nul
       });
   }, 250);
 }
+
+const degreesText = (value: number, positive: string, negative: string): string => `${Math.abs(value).toFixed(5)}° ${value < 0 ? negative : positive}`;
 
 function riskText(map: RiskMap, x_m: number, y_m: number): string {
   const value = valueAt(map, x_m, y_m);

@@ -5,13 +5,14 @@ import Point from "ol/geom/Point.js";
 import VectorLayer from "ol/layer/Vector.js";
 import VectorSource from "ol/source/Vector.js";
 import { Circle, Fill, RegularShape, Stroke, Style, Text } from "ol/style.js";
-import { classesOf, ruleWords, stationAt, surprises, tripsOf, type DrivenStretch, type Route } from "../result";
-import { share, words } from "../format";
+import { classesOf, stationAt, surprises, type DrivenStretch, type Route } from "../result";
 import type { State } from "../state";
+import { TripLabels } from "./trip_labels";
 
 export class RoutesLayer {
   readonly source = new VectorSource();
   readonly layer = new VectorLayer({ source: this.source, zIndex: 20, updateWhileInteracting: true });
+  readonly labels = new TripLabels();
   private readonly marker = new Feature<Point>();
   private readonly markers = new VectorSource({ features: [this.marker] });
   readonly markerLayer = new VectorLayer({
@@ -23,16 +24,21 @@ export class RoutesLayer {
   draw(state: State): void {
     this.source.clear();
     const routes = state.result?.routes ?? [];
+    const marks = [state.drawn.start, state.drawn.goal, ...state.drawn.waypoints].flatMap((p) => (p ? [[p.x_m, p.y_m]] : []));
     routes.forEach((route, index) => {
       const chosen = index === state.route;
       const features = lines(route, state, chosen || index === state.compared);
       for (const feature of features) feature.set("route", index);
       this.source.addFeatures(features);
-      if (routes.length > 1) this.source.addFeature(label(route, index, routes.length, chosen));
+      if (routes.length > 1) {
+        const number = label(route, index, routes.length, chosen);
+        marks.push(number.getGeometry()!.getCoordinates());
+        this.source.addFeature(number);
+      }
     });
     state.other?.routes.slice(0, 1).forEach((route) => this.source.addFeatures(plain(route, "#8a2c6b", 4, [9, 6])));
     const chosen = routes[state.route];
-    if (chosen) this.source.addFeatures(trips(chosen));
+    this.labels.draw(chosen, marks);
     if (state.job?.state === "running" && state.job.best_so_far?.line) this.source.addFeature(styled(state.job.best_so_far.line as number[][], [stroke("#fff", 6), stroke("#111", 3, [2, 7], 1)]));
     for (const stretch of state.result?.driven ?? []) this.source.addFeature(residual(stretch));
     this.point(state);
@@ -86,32 +92,6 @@ function lines(route: Route, state: State, strong: boolean): Feature[] {
   return features;
 }
 
-/** Where a rule trips in some of the draws: with its probability and cause. Labels that would lie on each other share a place. */
-function trips(route: Route): Feature[] {
-  const at = new Map<number, string[]>();
-  const { distance_m } = route.stations;
-  const near_m = 0.06 * (distance_m.at(-1) ?? 0);
-  for (const rule of tripsOf(route)) {
-    const own = stationAt(route.stations, rule.from_m!);
-    const k = [...at.keys()].find((other) => Math.abs(distance_m[other]! - distance_m[own]!) < near_m) ?? own;
-    at.set(k, [...(at.get(k) ?? []), `${ruleWords[rule.rule] ?? words(rule.rule)} ${share(rule.trips.value)}${rule.cause ? `, ${words(rule.cause)}` : ""}`]);
-  }
-  const xs = route.stations.x_m;
-  const middle = (Math.min(...xs) + Math.max(...xs)) / 2;
-  return [...at].map(([k, texts]) => {
-    const east = xs[k]! > middle; // there the label lies to the left, inwards
-    const feature = new Feature(new Point([route.stations.x_m[k]!, route.stations.y_m[k]!]));
-    feature.setStyle(
-      new Style({
-        image: new RegularShape({ points: 3, radius: 9, fill: new Fill({ color: "#ffd400" }), stroke: new Stroke({ color: "#111", width: 2 }) }),
-        text: new Text({ text: texts.join("\n"), font: "12px system-ui, sans-serif", textAlign: east ? "right" : "left", offsetX: east ? -14 : 14, fill: new Fill({ color: "#111" }), stroke: new Stroke({ color: "#fff", width: 4 }) }),
-        zIndex: 18,
-      }),
-    );
-    return feature;
-  });
-}
-
 /** Where a stretch of the drive so far ended: a circle where the prediction held, a square where it did not. */
 function residual(stretch: DrivenStretch): Feature {
   const feature = new Feature(new Point([stretch.x_m, stretch.y_m]));
@@ -122,7 +102,7 @@ function residual(stretch: DrivenStretch): Feature {
 }
 
 /** The number stands where the routes are apart. */
-function label(route: Route, index: number, of: number, chosen: boolean): Feature {
+function label(route: Route, index: number, of: number, chosen: boolean): Feature<Point> {
   const i = Math.floor((route.stations.count * (index + 1)) / (of + 1));
   const feature = new Feature(new Point([route.stations.x_m[i]!, route.stations.y_m[i]!]));
   feature.setStyle(

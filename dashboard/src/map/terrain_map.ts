@@ -3,7 +3,6 @@ import OlMap from "ol/Map.js";
 import View from "ol/View.js";
 import type BaseLayer from "ol/layer/Layer.js";
 import Projection from "ol/proj/Projection.js";
-import ScaleLine from "ol/control/ScaleLine.js";
 import { defaults as defaultControls } from "ol/control/defaults.js";
 import TileLayer from "ol/layer/Tile.js";
 import { getRenderPixel } from "ol/render.js";
@@ -20,6 +19,7 @@ import { GapLayer } from "./gap_layer";
 import { riskLayer, type RiskLayer } from "./risk_layer";
 import type { RiskKind, RiskMap } from "./risk_map";
 import { RoutesLayer } from "./routes_layer";
+import { groundResolution, roundLength, ScaleBar } from "./scale_bar";
 
 const overlays: LayerName[] = ["slope", "soil", "unknown"];
 const reach_px = 14; // of the pointer to a route
@@ -40,8 +40,8 @@ export class TerrainMap {
   constructor(target: HTMLElement, private readonly told: (coordinate: number[] | null) => void) {
     this.map = new OlMap({
       target,
-      controls: defaultControls({ attribution: false, rotate: false }).extend([new ScaleLine({ units: "metric", minWidth: 90 })]),
-      layers: [this.routes.layer, this.routes.markerLayer, this.gap.layer, this.gap.ringLayer],
+      controls: defaultControls({ attribution: false, rotate: false }).extend([new ScaleBar()]),
+      layers: [this.routes.layer, this.routes.labels.layer, this.routes.markerLayer, this.gap.layer, this.gap.ringLayer],
     });
     this.drawn = new DrawnLayer(this.map);
     this.map.addLayer(this.drawn.layer);
@@ -211,14 +211,12 @@ export class TerrainMap {
       else context.setTransform(width! / layer.width, 0, 0, height! / layer.height, 0, 0);
       context.drawImage(layer, 0, 0);
     }
-    const view = this.map.getView();
-    const shown_m = width! * (view.getProjection().getPointResolutionFunc()?.(view.getResolution()!, view.getCenter()!) ?? view.getResolution()!);
-    const power = 10 ** Math.floor(Math.log10(shown_m / 4));
-    const scale_m = [5, 2, 1].map((k) => k * power).find((length) => length <= shown_m / 4) ?? power;
+    const shown_m = width! * (groundResolution(this.map) ?? 1);
+    const scale_m = roundLength(shown_m / 4);
     return { url: canvas.toDataURL("image/jpeg", 0.85), scale_m, scale_share: scale_m / shown_m };
   }
 
-  /** What the map shows: west  /** What the map shows: west, south, east, north. */
+  /** What the map shows: west, south, east, north. */
   extent(): number[] {
     return this.map.getView().calculateExtent(this.map.getSize());
   }
@@ -246,6 +244,10 @@ export class TerrainMap {
   }
 
   private clicked(coordinate: number[], pixel: number[]): void {
+    if (this.isTerrain && store.state.tool !== "look" && !this.isOnMap(coordinate)) {
+      this.told(coordinate);
+      return;
+    }
     if (this.isTerrain && putAt(store.state.tool, coordinate)) return;
     if (store.state.tool !== "look") return;
     const window = this.windowAt(pixel);
@@ -256,6 +258,11 @@ export class TerrainMap {
     }
     const route = this.map.forEachFeatureAtPixel(pixel, (feature) => feature.get("route") as number | undefined, { hitTolerance: 6, layerFilter: (l) => l === this.routes.layer });
     if (route !== undefined) store.set({ route });
+  }
+
+  isOnMap([x, y]: number[]): boolean {
+    const [west, south, east, north] = this.body?.projection.getExtent() ?? [0, 0, 0, 0];
+    return x! >= west! && x! <= east! && y! >= south! && y! <= north!;
   }
 
   /** The window of a recorded drive that is there. */

@@ -13,14 +13,16 @@ export interface Advice {
 }
 
 const enough_draws = 1000;
+const least_hope = 0.01; // of a GO: less is not worth a drive
 
 /** What does not hold of what a GO needs. */
 export function blocks(route: Route, limits: Record<string, number>): string[] {
   const { outcomes, figures } = route;
   const found: string[] = [];
   const { embedding, expected_stops: stops } = outcomes;
-  if (embedding && embedding.high >= limits.max_embedding!) found.push(`The rover may be embedded: in ${share(embedding.value)} of the draws, and up to ${share(embedding.high)} can't be excluded. A GO needs less than ${share(limits.max_embedding)}.`);
-  if (stops && stops.high >= limits.max_expected_stops!) found.push(`${number(stops.value)} stops are expected, and up to ${number(stops.high)} can't be excluded. A GO needs less than ${number(limits.max_expected_stops)}.`);
+  if (embedding && embedding.high >= limits.max_embedding!)
+    found.push(`${embedding.value > 0 ? `The rover is embedded in ${share(embedding.value)} of the draws of the ground, and up to ${share(embedding.high)} can't be excluded.` : `The rover is embedded in none of the ${outcomes.draws ?? ""} draws of the ground, which leaves up to ${share(embedding.high)} possible.`} A GO needs less than ${share(limits.max_embedding)}.`);
+  if (stops && stops.high >= limits.max_expected_stops!) found.push(`${number(stops.value)} stops, where a rule halts the rover, are expected, and up to ${number(stops.high)} can't be excluded. A GO needs less than ${number(limits.max_expected_stops)}.`);
   if (figures.immobilised) found.push("On the mean soils the rover finds no way forward.");
   if ((figures.broken_limits ?? []).length > 0) found.push(`On the mean soils it is beyond a limit: ${figures.broken_limits!.join("; ")}.`);
   return found;
@@ -148,11 +150,19 @@ function limits(result: Result, route: Route): Advice[] {
   const unit = rule.unit === "1" || rule.unit === "" ? "" : ` ${rule.unit}`;
   const key = { slip_check: "max_slip", tilt: "max_tilt_deg", current: "max_current_a", sinkage: "max_sinkage_m", clearance: "min_clearance_m" }[rule.rule];
   const set = store.state.rules.find((s) => key && s.name !== store.state.options.rules && !lower && Number((s.limits as Record<string, number>)[key]) >= Math.max(needed, rule.limit * 1.01));
-  const text = `${ruleWords[rule.rule] ?? words(rule.rule)} trips in ${share(rule.trips.value)} of the draws${rule.cause ? `, by ${words(rule.cause)}` : ""}; ${(lower ? needed > 0 : needed < 1 || rule.unit !== "1") ? `with a limit of ${number(needed)}${unit} in place of ${number(rule.limit)}${unit} it would in 5 %` : "no limit would hold"}.`;
+  const text = `The rule on ${ruleWords[rule.rule] ?? words(rule.rule)} trips in ${share(rule.trips.value)} of the draws${rule.cause ? ` (cause: ${words(rule.cause)})` : ""}; ${(lower ? needed > 0 : needed < 1 || rule.unit !== "1") ? `with a limit of ${number(needed)}${unit} in place of ${number(rule.limit)}${unit} it would in 5 %` : "no limit would hold"}.`;
   return [{ text, ...(set && result.kind === "plan" ? { act: { label: `Plan with the rules ${words(set.name!)}`, name: "other-rules", run: () => {
     store.option({ rules: set.name! });
     planAgain();
   } } } : {}) }];
+}
+
+/** Nothing that starts or ends on unknown ground becomes a GO by going another way. */
+function endsUnknown({ kind }: Result, { stations, verdict }: Route): Advice[] {
+  const ends = [stations.on_unknown_ground[0] ? "start" : "", stations.on_unknown_ground.at(-1) ? "goal" : ""].filter(Boolean) as ("start" | "goal")[];
+  if (verdict === "go" || ends.length === 0) return [];
+  const text = `The ${ends.join(" and the ")} ${ends.length > 1 ? "lie" : "lies"} on unknown ground, hatched on the map: a GO needs ${ends.length > 1 ? "both" : "it"} on ground that the map names.`;
+  return [{ text, ...(kind === "plan" ? { act: { label: `Click another ${ends[0]}`, name: "other-end", run: () => store.set({ tool: ends[0]! }) } } : {}) }];
 }
 
 function unsure(result: Result, route: Route): Advice[] {
@@ -164,7 +174,7 @@ function unsure(result: Result, route: Route): Advice[] {
       store.option({ draws: enough_draws });
       planAgain();
     } } } : {}) });
-  if (scout && route.verdict !== "go") {
+  if (scout && route.verdict !== "go" && scout.verdict_afterwards.go >= least_hope) {
     const ground = scout.soil ? words(scout.soil) : "unknown ground";
     found.push({ text: `A scout drive of 5 m onto the ${ground} at ${scout.from_m.toFixed(0)} m, with its slip measured, would make it a ${verdictWords.go} with probability ${share(scout.verdict_afterwards.go)}.`, act: { label: "Show where", name: "scout", run: () => store.set({ hover_m: scout.from_m }) } });
   }
@@ -187,7 +197,7 @@ export function adviceOf(result: Result, route: Route): Advice[] {
     const where: Advice[] = worst && worst.expected_stops + worst.embedding > 0 ? [{ text: `Most of what may go wrong lies from ${worst.from_m.toFixed(0)} to ${worst.to_m.toFixed(0)} m.` }] : [];
     return [...room, ...where, ...always];
   }
-  return [...otherRoutes(result, route), ...avoiding(result, route), ...shorter(result, route), ...limits(result, route), ...unsure(result, route), ...always];
+  return [...otherRoutes(result, route), ...endsUnknown(result, route), ...avoiding(result, route), ...shorter(result, route), ...limits(result, route), ...unsure(result, route), ...always];
 }
 
 export function adviceView(result: Result, route: Route, map: TerrainMap): HTMLElement[] {

@@ -1,6 +1,6 @@
 // May this be commanded? A path or a command sequence, drawn, pasted or read from a file.
 import { asCurl } from "../api/client";
-import { button, field, fill, h } from "../dom";
+import { button, field, fill, folded, h } from "../dom";
 import { readPlace } from "../format";
 import type { TerrainMap } from "../map/terrain_map";
 import { problemView } from "../problem";
@@ -23,6 +23,7 @@ export function checkPanel(target: HTMLElement, map: TerrainMap): void {
   const telemetry = h("textarea", { rows: 5, spellcheck: "false", placeholder: "driven_m,x_m,y_m,current_a\n0,8142640,-276640,\n2.4,8142638,-276640.3,6.1" });
   const telemetryFile = h("input", { type: "file", accept: ".csv", onchange: () => void telemetryFile.files?.[0]?.text().then((t) => (telemetry.value = t.slice(0, 1_000_000))) });
   const curl = h("details");
+  const drawCurl = folded(curl, () => "The request as a command", () => [h("pre", { tabindex: 0 }, asCurl("v1/checks", request()))]);
   let commands: Command[] | null = null;
   let soFar: Record<string, unknown>[] = [];
 
@@ -68,9 +69,7 @@ export function checkPanel(target: HTMLElement, map: TerrainMap): void {
 
   function show(): void {
     startFields.hidden = commands === null;
-    const open = curl.open;
-    fill(curl, h("summary", {}, "The request as a command"), h("pre", { tabindex: 0 }, asCurl("v1/checks", request())));
-    curl.open = open;
+    drawCurl();
   }
 
   function check(): void {

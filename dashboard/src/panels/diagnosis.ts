@@ -1,7 +1,7 @@
 // What recorded drives show that the simulator lacks: verdict, ladder, effects, where, and the way back to planning.
 import { address, token, type Diagnosis, type TerrainDocument } from "../api/client";
 import { button, field, fill, h, select, swatch } from "../dom";
-import { number, share, words } from "../format";
+import { number, sentence, share, words } from "../format";
 import { gapLabels } from "../map/gap_layer";
 import { store, type Rung, type State } from "../state";
 import { keep } from "../work";
@@ -155,7 +155,12 @@ function replan(job: string, d: Diagnosis): HTMLElement {
 }
 
 function details(d: Diagnosis): HTMLElement[] {
-  const found = d.effects.map((e) => h("li", {}, `${words(e.name)} (${probability(e.probability)}): `, Object.entries(e.parameters).map(([name, v]) => `${words(name)} ${interval(v)}`).join(", ")));
+  const fields = (effect: string) => store.state.effects.find((e) => e.name === effect)?.parameters ?? [];
+  const found = d.effects.map((e) => h("li", {}, `${words(e.name)} (probability ${probability(e.probability)})`,
+    h("ul", {}, Object.entries(e.parameters).map(([name, v]) => {
+      const field = fields(e.name).find((p) => p.name === name);
+      return h("li", {}, `${field?.summary ?? words(name)}: ${interval(v)}${field?.unit && field.unit !== "1" ? ` ${field.unit}` : ""}`);
+    }))));
   return [
     ...(found.length > 0 ? [h("ul", { class: "found" }, found)] : []),
     ...(d.residual.length > 0 ? [h("p", {}, `Left over: ${d.residual.map((r) => r.text ?? `${words(r.entry)} that depends on ${words(r.variable)}`).join("; ")}.`)] : []),
@@ -190,7 +195,7 @@ export function diagnosisView(target: HTMLElement): void {
     fill(target,
       h("h2", {}, `Diagnosis of ${words(d.campaign)}`),
       h("p", { class: "banner small unknown", "data-diagnosis": d.verdict }, verdictText[d.verdict]),
-      h("p", {}, `${d.reason}.`), h("p", { class: "hint" }, `What would change it: ${d.overturned_by}.`),
+      h("p", {}, `${sentence(words(d.reason))}.`), h("p", { class: "hint" }, `What would change it: ${words(d.overturned_by)}.`),
       ...details(d),
       h("h3", {}, "How far the gap closes"), h("p", { class: "hint" }, "On drives that no fit had seen: shorter is better, and no bar can be shorter than the floor."), ladder(d),
       h("h3", {}, "Which effects"), marginals(d),

@@ -41,7 +41,7 @@ export function drivesPanel(target: HTMLElement): void {
   });
   watchView(watch);
   diagnosisView(diagnosis);
-  fill(target, h("h2", {}, "Recorded drives"), list, sending, watch, diagnosis);
+  fill(target, h("h2", {}, "Recorded drives"), list, sending, h("div", { class: "answers" }, watch, diagnosis));
 }
 
 /** One that was sent has a name of the service's making. */

@@ -2,7 +2,7 @@
 import type { Job } from "../api/client";
 import { hasEnded } from "../api/client";
 import { button, fill, h } from "../dom";
-import { duration, metres, number, words } from "../format";
+import { duration, metres, number, sentence, words } from "../format";
 import { problemView } from "../problem";
 import { store } from "../state";
 import { cancel } from "../work";
@@ -25,15 +25,16 @@ function bestSoFar(best: NonNullable<Job["best_so_far"]>): string {
 }
 
 export function jobView(target: HTMLElement): void {
-  store.on(["job", "error"], ({ job, error }) => {
+  store.on(["job", "error", "tab"], ({ job, error, tab }) => {
     const parts: HTMLElement[] = [];
-    if (job && !(job.state === "successful")) {
+    // The list of jobs has it already.
+    if (job && job.state !== "successful" && tab !== "jobs") {
       const running = !hasEnded(job);
       parts.push(
         h(
           "div",
           { class: `job ${job.state}` },
-          h("div", { class: "job-head" }, h("strong", {}, `${words(job.kind ?? "")}: `), h("span", { role: "status", "data-stage": job.stage }, jobLine(job))),
+          h("div", { class: "job-head" }, h("strong", {}, sentence(words(job.kind ?? ""))), h("span", { role: "status", "data-stage": job.stage }, jobLine(job))),
           running && h("progress", { max: 1, value: job.progress ?? 0, "aria-label": "Share of the work that is done" }),
           running && h("div", { class: "row" }, h("span", {}, `${Math.round(100 * (job.progress ?? 0))} %`), button("Cancel", () => void cancel(job.id!), { class: "quiet", "data-do": "cancel" })),
           running && job.best_so_far ? h("p", { class: "hint", "data-best": true }, bestSoFar(job.best_so_far)) : null,

@@ -1,7 +1,7 @@
 // All work that the service knows: reopened, cancelled.
 import { getAgain, hasEnded, type Job } from "../api/client";
 import { button, fill, h } from "../dom";
-import { words } from "../format";
+import { sentence, words } from "../format";
 import { empty, loading, problemView } from "../problem";
 import { isAboutRoutes } from "../result";
 import { store } from "../state";
@@ -42,7 +42,7 @@ function jobRow(job: Job, again: () => void): HTMLElement {
   return h(
     "li",
     { class: `job ${job.state}`, "data-job": job.id },
-    h("div", { class: "job-head" }, h("strong", {}, words(job.kind ?? "")), h("span", { class: `badge ${job.state}` }, jobLine(job))),
+    h("div", { class: "job-head" }, h("strong", {}, sentence(words(job.kind ?? ""))), h("span", { class: `badge ${job.state}` }, jobLine(job))),
     running && h("progress", { max: 1, value: job.progress ?? 0, "aria-label": "Share of the work that is done" }),
     h("small", {}, Number.isNaN(when.getTime()) ? "" : when.toLocaleString("en-GB")),
     job.problem && problemView(`${job.problem.title}: ${job.problem.detail}`),

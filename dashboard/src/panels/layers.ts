@@ -22,8 +22,9 @@ export function layersPanel(target: HTMLElement, map: TerrainMap): void {
   const legends = h("div");
   const riskLegends = h("div");
   const gap = h("div");
+  const isWide = matchMedia("(min-width: 80rem)").matches; // elsewhere the map is what there is room for
   const ofTerrain = h("div", {},
-    h("details", { open: true }, h("summary", {}, "Layers"), switches, swipe),
+    h("details", { open: isWide }, h("summary", {}, "Layers"), switches, swipe),
     h("details", { "data-risks": true }, h("summary", {}, "Risk of the ground"), risks),
     h("details", { open: true }, h("summary", {}, "Legend"), riskLegends, legends, routes));
   fill(target, gap, ofTerrain, h("details", {}, h("summary", {}, "Colours and classes"), classes));
@@ -36,7 +37,8 @@ export function layersPanel(target: HTMLElement, map: TerrainMap): void {
   riskLayers(risks, riskLegends, map);
   const line = h("input", { type: "range", min: 0, max: 1, step: 0.01, value: 1, "aria-label": "Swipe: layers are shown to the left of it", oninput: () => store.set({ swipe: Number(line.value) >= 1 ? null : Number(line.value) }) });
   fill(swipe, h("div", { class: "layer" }, h("span", {}, "Swipe"), line));
-  store.on(["routeColour", "palette", "bounds"], (state) => fill(routes, routeLegend(state)));
+  // Where no route is, its colours mean nothing.
+  store.on(["routeColour", "palette", "bounds", "result"], (state) => fill(routes, state.result && routeLegend(state)));
   store.on(["palette", "bounds"], (state) => {
     if (!classes.contains(document.activeElement)) fill(classes, classEditor(state));
   });
@@ -126,7 +128,7 @@ function layerLegends(state: State): HTMLElement[] {
     return h(
       "div",
       {},
-      h("p", { class: "hint" }, layer.unit ? `${layer.title}, ${layer.unit}` : layer.title),
+      (legend?.entries ?? []).length !== 1 && h("p", { class: "hint" }, layer.unit ? `${layer.title}, ${layer.unit}` : layer.title),
       h("ul", { class: "legend" }, (legend?.entries ?? []).map((entry) => h("li", {}, swatch(entry.colour ?? null), words(entry.label ?? "")))),
     );
   });

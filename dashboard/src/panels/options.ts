@@ -1,5 +1,5 @@
 // What plans, checks and maps have in common: rover, rules, the belief about the ground, effects, a corrected model.
-import { button, field, fill, h, select } from "../dom";
+import { button, field, fill, folded, h, select } from "../dom";
 import { number, words } from "../format";
 import { store, type State } from "../state";
 
@@ -14,20 +14,23 @@ export function options(target: HTMLElement, id: string): void {
     if (active && element.querySelector(`#${CSS.escape(active)}`)) document.getElementById(active)?.focus();
   };
   store.on(["rovers", "rules", "terrain", "options"], (state) => keepFocus(common, () => fill(common, commonFields(state, id))));
-  store.on(["terrain", "options"], (state) => keepFocus(belief, () => fill(belief, ...beliefFields(state, id))));
-  store.on(["effects", "rovers", "options"], (state) => keepFocus(rover, () => fill(rover, ...roverFields(state, id))));
+  const drawBelief = folded(belief, () => "What is believed of the ground", () => beliefFields(store.state, id));
+  store.on(["terrain", "options"], () => keepFocus(belief, drawBelief));
+  const drawRover = folded(rover, () => `Effects and failed wheels${changed(store.state)}`, () => roverFields(store.state, id));
+  store.on(["effects", "rovers", "options"], () => keepFocus(rover, drawRover));
 }
 
 function commonFields(state: State, id: string): (HTMLElement | null)[] {
   const { options: chosen, rovers, rules } = state;
   const rover = select(rovers.map((r) => ({ value: r.name!, text: r.name! })), chosen.rover, (value) => store.option({ rover: value, failedWheels: {}, ...(chosen.model && chosen.model.rover !== value ? { model: null } : {}) }));
-  const rule = select([{ value: "", text: "the service's own" }, ...rules.map((r) => ({ value: r.name!, text: words(r.name!) }))], chosen.rules, (value) => store.option({ rules: value }));
+  const rule = select([{ value: "", text: "the usual limits" }, ...rules.map((r) => ({ value: r.name!, text: words(r.name!) }))], chosen.rules, (value) => store.option({ rules: value }));
   rover.id = `${id}-rover`;
   rule.id = `${id}-rules`;
   const set = rules.find((r) => r.name === chosen.rules);
   return [
     h("div", { class: "columns" }, field("Rover", rover), field("Rules", rule)),
     set ? h("p", { class: "hint" }, set.summary ?? "") : null,
+    state.terrain?.terrain?.soil?.source === "none" ? h("p", { class: "hint", "data-no-soils": true }, "No map names the soils of this terrain: all of it is unknown ground, and no drive on it can be called a GO before some of it has been seen.") : null,
     modelNote(state),
   ];
 }
@@ -59,12 +62,16 @@ function beliefFields({ terrain, options: chosen }: State, id: string): (HTMLEle
   const unknown = select([{ value: "", text: words(soil?.unknown_soil ?? "unknown ground") }, ...known.map((s) => ({ value: s, text: words(s) }))], chosen.unknownSoil, (value) => store.option({ unknownSoil: value }));
   unknown.id = `${id}-unknown`;
   return [
-    h("summary", {}, "What is believed of the ground"),
     legends.length > 1 ? field("Soils of the map", legend) : null,
     assumption ? h("p", { class: "hint" }, assumption) : null,
     h("div", { class: "columns" }, field("Map is right with probability", confidence), field("Unknown ground is taken for", unknown)),
     field("Draws of the ground", draws, "As many as the verdict needs, unless you say how many."),
   ];
+}
+
+function changed({ options: chosen }: State): string {
+  const differ = chosen.effects.length + Object.keys(chosen.failedWheels).length;
+  return differ > 0 ? ` (${differ} changed)` : "";
 }
 
 /** Effects beyond the basic model, and wheels whose drive has failed. */
@@ -102,9 +109,7 @@ function roverFields({ effects, rovers, options: chosen }: State, id: string): (
     choice.id = `${id}-wheel-${name}`;
     return field(`Wheel ${name}`, choice);
   });
-  const differ = chosen.effects.length + Object.keys(chosen.failedWheels).length;
   return [
-    h("summary", {}, `Effects and failed wheels${differ > 0 ? ` (${differ} changed)` : ""}`),
     h("p", { class: "hint" }, "What the simulator has besides wheels in soil: off unless the rover or you say so."),
     ...rows,
     wheels.length > 0 ? h("div", { class: "columns" }, wheels) : null,

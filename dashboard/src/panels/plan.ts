@@ -1,8 +1,8 @@
 // The form of a plan: by clicks on the map, by typing, by keyboard.
 import { asCurl } from "../api/client";
-import { button, field, fill, h } from "../dom";
+import { button, field, fill, folded, h } from "../dom";
 import { readPlace, writePlace } from "../format";
-import { store, type Place, type Tool } from "../state";
+import { firstTool, store, type Drawn, type Place, type Tool } from "../state";
 import { start } from "../work";
 import { options } from "./options";
 import { planRequest } from "./request";
@@ -75,8 +75,13 @@ export function zones(): HTMLElement {
 
 export function planPanel(target: HTMLElement): void {
   const common = h("div");
-  const from = placeField("Start", "plan-start", (place) => store.draw({ start: place }));
-  const goal = placeField("Goal", "plan-goal", (place) => store.draw({ goal: place }));
+  // What has been typed needs no click any more.
+  const put = (change: Partial<Drawn>) => {
+    store.draw(change);
+    if (["start", "goal"].includes(store.state.tool)) store.set({ tool: firstTool(store.state) });
+  };
+  const from = placeField("Start", "plan-start", (place) => put({ start: place }));
+  const goal = placeField("Goal", "plan-goal", (place) => put({ goal: place }));
   const via = h("div");
   let waypoints: PlaceField[] = [];
   const weights = h("details", { class: "weights" });
@@ -98,14 +103,12 @@ export function planPanel(target: HTMLElement): void {
     go.disabled = missing !== "";
     hint.textContent = missing ? `Click ${missing} on the map, or type ${drawn.start || drawn.goal ? "it" : "them"}.` : "Ctrl+Enter plans, Ctrl+Z takes back what was drawn.";
   });
-  store.on(["costTerms", "options"], ({ costTerms, options: chosen }) => {
-    if (weights.contains(document.activeElement) && document.activeElement instanceof HTMLInputElement) return;
+  const drawWeights = folded(weights, () => "What a route costs", () => {
+    const { costTerms, options: chosen } = store.state;
     const routes = h("input", { type: "number", min: 1, max: 8, value: chosen.routes, onchange: () => store.option({ routes: Math.min(8, Math.max(1, Math.round(Number(routes.value)) || 3)) }) });
-    fill(
-      weights,
-      h("summary", {}, "What a route costs"),
+    return [
       field("Routes wanted", routes),
-      costTerms.map((term) => {
+      ...costTerms.map((term) => {
         const weight = term.weight!;
         const input = h("input", {
           type: "number", step: "any", min: weight.lowest, max: weight.highest, value: chosen.weights[term.name!] ?? weight.initial,
@@ -117,12 +120,12 @@ export function planPanel(target: HTMLElement): void {
         });
         return field(`${term.name} (${weight.unit})`, input, term.summary);
       }),
-    );
+    ];
   });
-  store.on(["drawn", "options", "terrain", "rules"], (state) => {
-    const open = curl.open;
-    fill(curl, h("summary", {}, "The request as a command"), h("pre", { tabindex: 0, "data-curl": true }, asCurl("v1/plans", planRequest(state))));
-    curl.open = open;
+  store.on(["costTerms", "options"], () => {
+    if (!(weights.contains(document.activeElement) && document.activeElement instanceof HTMLInputElement)) drawWeights();
   });
+  const drawCurl = folded(curl, () => "The request as a command", () => [h("pre", { tabindex: 0, "data-curl": true }, asCurl("v1/plans", planRequest()))]);
+  store.on(["drawn", "options", "terrain", "rules"], drawCurl);
   fill(target, common, h("h2", {}, "Places"), toolBar(tools.map((t) => t.tool)), from.element, via, goal.element, zones(), weights, go, hint, curl);
 }

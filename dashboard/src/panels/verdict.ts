@@ -1,8 +1,9 @@
 // The verdict with its reasons, the rules that decide, the routes beside each other.
+import { hasEnded } from "../api/client";
 import { button, fill, h } from "../dom";
-import { duration, metres, number, share, words } from "../format";
+import { duration, metres, number, sentence, share, words } from "../format";
 import type { TerrainMap } from "../map/terrain_map";
-import { ruleWords, surprises, verdictWords, type Result, type Route, type Rule } from "../result";
+import { isAboutRoutes, ruleWords, surprises, verdictWords, type Result, type Route, type Rule } from "../result";
 import { store } from "../state";
 import { adviceView } from "./advice";
 import { exportsView } from "./exports";
@@ -18,7 +19,7 @@ function rulesTable(route: Route, map: TerrainMap): HTMLElement {
     return h(
       "tr",
       { class: trips > 0 ? "trips" : "" },
-      h("th", { scope: "row" }, ruleWords[rule.rule] ?? words(rule.rule)),
+      h("th", { scope: "row" }, sentence(ruleWords[rule.rule] ?? words(rule.rule))),
       h("td", {}, `${number(rule.limit)}${unit(rule.unit)}`),
       h("td", {}, rule.value ? `${number(rule.value.p50)} (${number(rule.value.p05)} to ${number(rule.value.p95)})` : "–"),
       h("td", {}, share(trips)),
@@ -37,6 +38,9 @@ function rulesTable(route: Route, map: TerrainMap): HTMLElement {
     ),
   );
 }
+
+/** A reason as the service says it, with the names of rules as the page has them. */
+export const reasonText = (reason: string): string => sentence(Object.entries(ruleWords).reduce((text, [name, said]) => text.replaceAll(name, said), reason).replaceAll("_", " "));
 
 export const unit = (u: string): string => (u === "1" || u === "" ? "" : ` ${u}`);
 
@@ -98,11 +102,13 @@ function driven(result: Result): HTMLElement {
   );
 }
 
+const shortId = (text: string): string => (/^[0-9a-f]{32}$/.test(text) ? `${text.slice(0, 8)}…` : words(text));
+
 /** What was asked differently of two answers. */
 function askedDifferently(result: Result, other: Result): HTMLElement | null {
   const left_out = new Set(["start", "goal", "format"]);
   const flat = (value: unknown, prefix = ""): [string, string][] =>
-    value !== null && typeof value === "object" && !Array.isArray(value) ? Object.entries(value).flatMap(([k, v]) => flat(v, prefix ? `${prefix}, ${words(k)}` : words(k))) : [[prefix, Array.isArray(value) ? (value.length === 0 ? "none" : typeof value[0] === "string" ? value.join(", ") : `${value.length}`) : String(value)]];
+    value !== null && typeof value === "object" && !Array.isArray(value) ? Object.entries(value).flatMap(([k, v]) => flat(v, prefix ? `${prefix}, ${words(k)}` : words(k))) : [[prefix, Array.isArray(value) ? (value.length === 0 ? "none" : typeof value[0] === "string" ? value.join(", ") : `${value.length}`) : shortId(String(value))]];
   const [here, there] = [result, other].map((r) => new Map(flat(Object.fromEntries(Object.entries({ ...r.request, terrain: r.terrain }).filter(([k]) => !left_out.has(k))))));
   const differ = [...new Set([...here!.keys(), ...there!.keys()])].filter((k) => here!.get(k) !== there!.get(k));
   return h("p", { class: "hint", "data-differences": true }, differ.length === 0 ? "Both were asked alike." : `Asked differently: ${differ.map((k) => `${k} ${here!.get(k) ?? "–"} (kept: ${there!.get(k) ?? "–"})`).join("; ")}.`);
@@ -118,7 +124,13 @@ function segments(route: Route, map: TerrainMap): HTMLElement | null {
       h("tbody", {}, list.map((s) => h("tr", {}, h("th", { scope: "row" }, button(`${s.from_m.toFixed(0)} to ${s.to_m.toFixed(0)} m`, () => map.showStretch(s.from_m, s.to_m), { class: "link" })), h("td", {}, h("span", { class: `badge ${s.verdict}` }, verdictWords[s.verdict])), h("td", {}, number(s.expected_stops?.value)), h("td", {}, share(s.embedding?.value)), h("td", {}, share(s.reached)))))));
 }
 
+/** Why there are not as many routes as were asked for. */
+const fewer = ({ fewer: reasons }: Result): HTMLElement | null =>
+  reasons.length > 0 ? h("div", {}, h("p", {}, "There are fewer routes than were asked for:"), h("ul", {}, reasons.map((why) => h("li", {}, reasonText(why))))) : null;
+
 export function verdictPanel(target: HTMLElement, map: TerrainMap, print: () => void): void {
+  // While another question is asked, what stands here answers the one before.
+  store.on(["job"], ({ job }) => target.classList.toggle("of-before", job !== null && isAboutRoutes(job.kind) && !hasEnded(job)));
   store.on(["result", "route", "compared", "other", "tab"], ({ result, other, tab }) => {
     // A plan's verdict does not stand beside the form of a check.
     if (!result || tab === "drives" || (tab === "plan" && result.kind !== "plan") || (tab === "check" && result.kind === "plan")) {
@@ -129,14 +141,15 @@ export function verdictPanel(target: HTMLElement, map: TerrainMap, print: () => 
     fill(
       target,
       !route && h("div", { class: "banner no_go" }, "NO ROUTE"),
-      result.fewer.length > 0 && h("ul", {}, result.fewer.map((why) => h("li", {}, why))),
+      !route && fewer(result),
       route && [
         h("div", { class: `banner ${route.verdict}`, "data-verdict": route.verdict }, verdictWords[route.verdict], h("small", {}, `${route.title}, ${words(result.rover)}`)),
         ...adviceView(result, route, map),
         h("h3", {}, "Why, in full"),
-        h("ul", { class: "reasons" }, route.reasons.map((reason) => h("li", {}, reason))),
+        h("ul", { class: "reasons" }, route.reasons.map((reason) => h("li", {}, reasonText(reason)))),
         result.driven.length > 0 && driven(result),
         comparison(result, other),
+        fewer(result),
         other && other !== result ? askedDifferently(result, other) : null,
         segments(route, map),
         h("h3", {}, "Rules"),

@@ -3,9 +3,10 @@ import uPlot from "uplot";
 import { fill, h, swatch } from "../dom";
 import { number, share, words } from "../format";
 import { empty } from "../problem";
-import { ruleWords, tripsOf, type DrivenStretch, type Route, type Rule, type Stations } from "../result";
+import { ruleWords, tripsOf, type DrivenStretch, type Route, type Stations } from "../result";
 import { store, type State } from "../state";
 import { FollowedCharts } from "./followed_charts";
+import { lineSwatch, paintGround, paintLimits, token, type Painted } from "./painting";
 
 type Values = (number | null)[];
 interface Chart {
@@ -33,35 +34,37 @@ function energy(s: Stations): Values {
 
 export const charts: Chart[] = [
   { key: "height", title: "Elevation, m", line: (s) => s.height_m, digits: 6 },
-  { key: "slip", title: "Slip, 1 (band: 5 to 95 % of the draws)", line: (s) => s.slip_p50, low: (s) => s.slip_p05, high: (s) => s.slip_p95, limit: "max_slip", beyond: "embedding_slip", rule: "slip_check" },
-  { key: "stops", title: "Stops expected up to here, 1", line: (s) => summed(s.expected_stops), limit: "max_expected_stops" },
+  { key: "slip", title: "Slip, ratio (band: 5 to 95 % of the draws)", line: (s) => s.slip_p50, low: (s) => s.slip_p05, high: (s) => s.slip_p95, limit: "max_slip", beyond: "embedding_slip", rule: "slip_check" },
+  { key: "stops", title: "Stops expected up to here, count", line: (s) => summed(s.expected_stops), limit: "max_expected_stops" },
   { key: "embedding", title: "Embedded up to here, share of the draws", line: (s) => summed(s.embedding), limit: "max_embedding", rule: "embedding" },
   { key: "sinkage", title: "Sinkage, deepest wheel, 95 % of the draws are below, m", line: (s) => s.sinkage_m_p95, limit: "max_sinkage_m", rule: "sinkage" },
   { key: "current", title: "Current, hottest motor, 95 % of the draws are below, A", line: (s) => s.current_a_p95, limit: "max_current_a", rule: "current" },
   { key: "tilt", title: "Tilt, deg (band: 5 to 95 % of the draws)", line: (s) => s.tilt_deg, low: (s) => s.tilt_deg_p05, high: (s) => s.tilt_deg_p95, limit: "max_tilt_deg", rule: "tilt" },
   { key: "clearance", title: "Clearance of the belly, m (band: 5 to 95 % of the draws)", line: (s) => s.clearance_m, low: (s) => s.clearance_m_p05, high: (s) => s.clearance_m_p95, limit: "min_clearance_m", rule: "clearance" },
-  { key: "attitude", title: "Pitch (solid) and roll (dashed), deg", line: (s) => s.pitch_deg, second: { title: "roll", line: (s) => s.roll_deg } },
+  { key: "attitude", title: "Pitch and roll (dashed), deg", line: (s) => s.pitch_deg, second: { title: "roll", line: (s) => s.roll_deg } },
   { key: "energy", title: "Energy up to here, Wh", line: energy },
   { key: "power", title: "Power of the drive motors, W", line: (s) => s.power_w },
 ];
 /** Each wheel's own, with the mean soils. */
 const wheelCharts = [
-  { key: "slip", title: "Wheels: slip, 1" },
-  { key: "sinkage_m", title: "Wheels: sinkage, m" },
-  { key: "current_a", title: "Wheels: current, A" },
+  { key: "slip", title: "Wheels: slip, ratio" },
+  { key: "sinkage_m", title: "Wheels: sinkage, m", limit: "max_sinkage_m" },
+  { key: "current_a", title: "Wheels: current, A", limit: "max_current_a" },
 ];
 /** Apart for colour-blind eyes [Okabe and Ito 2008]. */
 const wheelColours = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#56b4e9"];
 
-function limitsOf(chart: Chart, limits: Record<string, number>): Painted["limits"] {
+function limitsOf(chart: Pick<Chart, "limit" | "beyond">, limits: Record<string, number>): Painted["limits"] {
   const of = (key: string | undefined, words: string) => (key !== undefined && limits[key] !== undefined ? [{ at: limits[key], words: `${words} ${number(limits[key])}` }] : []);
   return [...of(chart.limit, chart.limit?.startsWith("min") ? "at least" : "limit"), ...of(chart.beyond, "wheels dig from")];
 }
 
 const points = { show: false };
+const axes = (): uPlot.Axis[] => {
+  const axis = { stroke: token("--ink"), grid: { stroke: token("--line"), width: 1 }, ticks: { stroke: token("--line"), width: 1 }, font: "11px system-ui, sans-serif" };
+  return [{ ...axis, size: 26, values: (_u, ticks) => ticks.map((t) => `${t} m`) }, { ...axis, size: 66, space: 18, values: (_u, ticks) => ticks.map((t) => (t === null ? "" : number(t, 6))) }];
+};
 const usuallyShown = ["height", "slip", "stops", "embedding", "sinkage", "current"];
-
-const token = (name: string): string => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
 /** Values of another route at the distances of the first, so that both are on one axis. */
 export function resampled(values: Values, from: number[], at: number[]): Values {
@@ -76,87 +79,17 @@ export function resampled(values: Values, from: number[], at: number[]): Values 
   });
 }
 
-interface Painted {
-  limits: { at: number; words: string }[];
-  trips: Rule[];
-}
-
-/** Calls `draw` with the plot's area as the clip. */
-function inside(u: uPlot, draw: (ctx: CanvasRenderingContext2D, px: number) => void): void {
-  const { ctx } = u;
-  const { left, top, width, height } = u.bbox;
-  ctx.save();
-  ctx.beginPath();
-  ctx.rect(left, top, width, height);
-  ctx.clip();
-  draw(ctx, devicePixelRatio);
-  ctx.restore();
-}
-
-/** Below the lines: shades what lies on unknown ground and where a rule trips. */
-function paintGround(u: uPlot, stations: Stations, { trips }: Painted): void {
-  inside(u, (ctx, px) => {
-    const { top, height } = u.bbox;
-    const shade = (from_m: number, to_m: number) => {
-      const [from, to] = [u.valToPos(from_m, "x", true), u.valToPos(to_m, "x", true)];
-      ctx.fillRect(from, top, Math.max(to - from, px), height);
-      return from;
-    };
-    ctx.fillStyle = token("--unknown");
-    const unknown = stations.on_unknown_ground;
-    for (let i = 0; i < unknown.length; ++i) {
-      if (!unknown[i]) continue;
-      let end = i;
-      while (end + 1 < unknown.length && unknown[end + 1]) ++end;
-      shade(stations.distance_m[i]!, stations.distance_m[Math.min(end + 1, unknown.length - 1)]!);
-      i = end;
-    }
-    for (const trip of trips) {
-      ctx.fillStyle = token("--trip");
-      const from = shade(trip.from_m!, trip.to_m ?? trip.from_m!);
-      ctx.fillStyle = token("--limit");
-      ctx.fillRect(from, top, 2 * px, height);
-    }
-  });
-}
-
-/** Above the lines: the limits with their values, and with which probability and why a rule trips. */
-function paintLimits(u: uPlot, { limits, trips }: Painted): void {
-  inside(u, (ctx, px) => {
-    const { left, top, width, height } = u.bbox;
-    ctx.font = `${11 * px}px system-ui, sans-serif`;
-    ctx.textAlign = "left"; // the axes leave their own
-    ctx.textBaseline = "alphabetic";
-    const write = (text: string, x: number, y: number) => {
-      ctx.setLineDash([]);
-      ctx.lineWidth = 4 * px;
-      ctx.strokeStyle = token("--paper");
-      ctx.strokeText(text, x, y);
-      ctx.fillStyle = token("--limit");
-      ctx.fillText(text, x, y);
-    };
-    for (const limit of limits) {
-      const y = u.valToPos(limit.at, "y", true);
-      if (y < top - px || y > top + height + px) continue;
-      ctx.strokeStyle = token("--limit");
-      ctx.lineWidth = 2 * px;
-      ctx.setLineDash([8 * px, 5 * px]);
-      ctx.beginPath();
-      ctx.moveTo(left, y);
-      ctx.lineTo(left + width, y);
-      ctx.stroke();
-      write(limit.words, left + width - ctx.measureText(limit.words).width - 4 * px, y + (y - top > 16 * px ? -4 : 12) * px);
-    }
-    trips.forEach((trip, k) => {
-      const text = `${share(trip.trips.value)}${trip.cause ? `, ${words(trip.cause)}` : ""}${trip.wheel ? `, ${trip.wheel}` : ""}`;
-      const from = u.valToPos(trip.from_m!, "x", true);
-      write(text, Math.min(from + 5 * px, left + width - ctx.measureText(text).width - 4 * px), top + height - (5 + 13 * k) * px);
-    });
-  });
+type Read = number | null | undefined;
+function readoutOf([line, low, high, second, other]: Read[], digits: number, at_m: number): string {
+  const parts = [number(line, digits)];
+  if (low !== undefined) parts.push(`(${number(low)} to ${number(high)})`);
+  if (second !== undefined) parts.push(`/ ${number(second)}`);
+  if (other !== undefined) parts.push(`· compared ${number(other, digits)}`);
+  return `${parts.join(" ")} at ${at_m.toFixed(1)} m`;
 }
 
 export class ProfileCharts {
-  private plots: { plot: uPlot; digits: number; readout: HTMLElement; values: (Values | null)[] }[] = [];
+  private plots: { plot: uPlot; read: (i: number | null) => void }[] = [];
   private shown = new Set(usuallyShown);
   private readonly list = h("div", { class: "charts", tabindex: 0, role: "region", "aria-label": "Charts along the route" });
   private measured: uPlot | null = null; // of a drive so far
@@ -198,16 +131,16 @@ export class ProfileCharts {
       return;
     }
     const second = state.compared !== null ? state.result?.routes[state.compared] : state.other?.routes[0];
-    fill(this.target, this.choice(), this.list);
+    fill(this.target, this.choice(second ? (state.compared !== null ? second.title : `kept ${second.title.toLowerCase()}`) : ""), this.list);
     this.list.replaceChildren();
-    for (const { key, title } of wheelCharts) if (this.shown.has(title)) this.addWheels(key, title, route.stations);
+    for (const chart of wheelCharts) if (this.shown.has(chart.title)) this.addWheels(chart, route.stations, limitsOf(chart, state.result!.limits));
     if (state.result!.driven.length > 0) this.addDriven(state.result!.driven);
     const tripped = new Set(tripsOf(route).map((rule) => rule.rule));
     for (const chart of charts) if (this.shown.has(chart.key) || tripped.has(chart.rule ?? "")) this.add(chart, route, second ?? null, state.result!.limits);
     this.point(state);
   }
 
-  private choice(): HTMLElement {
+  private choice(second: string): HTMLElement {
     return h(
       "div",
       { class: "chips", role: "group", "aria-label": "Which series are shown" },
@@ -219,7 +152,7 @@ export class ProfileCharts {
           this.draw(store.state);
         } }, title.split(",")[0]!.replace(/ \(.*/, ""));
       }),
-      h("span", { class: "key" }, h("span", { class: "swatch shaded" }), "unknown ground", h("span", { class: "swatch limit" }), "limit", h("span", { class: "swatch trip" }), "a rule trips in some draws"),
+      h("span", { class: "key" }, second && [lineSwatch("--other", [3, 3]), second], h("span", { class: "swatch shaded" }), "unknown ground", h("span", { class: "swatch limit" }), "limit", h("span", { class: "swatch trip" }), "a rule trips in some draws"),
     );
   }
 
@@ -234,8 +167,6 @@ export class ProfileCharts {
     const box = h("div", { class: "chart" });
     this.list.append(h("section", { class: "chart-box", "aria-label": chart.title }, h("div", { class: "chart-head" }, h("h3", {}, chart.title), readout), box));
     if (painted.trips.length > 0) box.parentElement!.append(h("p", { class: "visually-hidden" }, painted.trips.map((r) => `${ruleWords[r.rule] ?? words(r.rule)} trips in ${share(r.trips.value)} of the draws from ${number(r.from_m)} to ${number(r.to_m)} m. `).join("")));
-    const ink = token("--ink");
-    const axis = { stroke: ink, grid: { stroke: token("--line"), width: 1 }, ticks: { stroke: token("--line"), width: 1 }, font: "11px system-ui, sans-serif" };
     const plot = new uPlot(
       {
         width: Math.max(box.clientWidth, 200),
@@ -246,7 +177,7 @@ export class ProfileCharts {
           x: { time: false },
           y: { range: (_u, min, max) => uPlot.rangeNum(Math.min(min, limit ?? min), Math.max(max, limit ?? max), 0.08, true) },
         },
-        axes: [{ ...axis, size: 26, values: (_u, ticks) => ticks.map((t) => `${t} m`) }, { ...axis, size: 66, values: (_u, ticks) => ticks.map((t) => (t === null ? "" : number(t, 6))) }],
+        axes: axes(),
         bands: chart.low ? [{ series: [3, 2], fill: token("--band") }] : [],
         series: [
           {},
@@ -265,32 +196,33 @@ export class ProfileCharts {
       [s.distance_m, ...given] as uPlot.AlignedData,
       box,
     );
-    this.plots.push({ plot, digits: chart.digits ?? 3, readout, values: columns });
+    const digits = chart.digits ?? 3;
+    this.plots.push({ plot, read: (i) => (readout.textContent = i === null ? "" : readoutOf(columns.map((v) => v?.[i]), digits, s.distance_m[i]!)) });
   }
 
-  private addWheels(key: string, title: string, s: Stations): void {
+  private addWheels({ key, title }: (typeof wheelCharts)[number], s: Stations, limits: Painted["limits"]): void {
     const wheels = Object.entries(s.wheels ?? {}).filter(([, columns]) => columns[key]);
     if (wheels.length === 0) return;
     const box = h("div", { class: "chart" });
-    const names = wheels.map(([name], k) => [swatch(wheelColours[k % wheelColours.length]!), name, " "]);
-    const readout = h("span", { class: "readout" });
+    const readouts = wheels.map(() => h("span", { class: "wheel-value" }));
+    const names = wheels.map(([name], k) => [swatch(wheelColours[k % wheelColours.length]!), name, " ", readouts[k]!]);
     this.list.append(h("section", { class: "chart-box", "aria-label": title }, h("div", { class: "chart-head" }, h("h3", {}, title), h("span", { class: "wheel-names" }, names.flat())), box));
-    const axis = { stroke: token("--ink"), grid: { stroke: token("--line"), width: 1 }, font: "11px system-ui, sans-serif" };
+    const painted = { limits, trips: [] };
     const plot = new uPlot(
       {
         width: Math.max(box.clientWidth, 200),
         height: 112,
         legend: { show: false },
         cursor: { y: false, sync: { key: "route" } },
-        scales: { x: { time: false } },
-        axes: [{ ...axis, size: 26, values: (_u, ticks) => ticks.map((t) => `${t} m`) }, { ...axis, size: 58 }],
+        scales: { x: { time: false }, y: { range: (_u, min, max) => uPlot.rangeNum(min, Math.max(max, limits[0]?.at ?? max), 0.08, true) } },
+        axes: axes(),
         series: [{}, ...wheels.map((_, k) => ({ stroke: wheelColours[k % wheelColours.length]!, width: 1.5, points }))],
-        hooks: { drawClear: [(u) => paintGround(u, s, { limits: [], trips: [] })], setCursor: [(u) => this.moved(u)] },
+        hooks: { drawClear: [(u) => paintGround(u, s, painted)], draw: [(u) => paintLimits(u, painted)], setCursor: [(u) => this.moved(u)] },
       },
       [s.distance_m, ...wheels.map(([, columns]) => columns[key]!)] as uPlot.AlignedData,
       box,
     );
-    this.plots.push({ plot, digits: 3, readout, values: [] });
+    this.plots.push({ plot, read: (i) => readouts.forEach((cell, k) => (cell.textContent = i === null ? "" : number(wheels[k]![1][key]![i], 2))) });
   }
 
   /** What was measured so far and what had been predicted, on one axis: the way by odometry, apart from the route ahead. */
@@ -299,7 +231,6 @@ export class ProfileCharts {
     const title = "Slip driven so far: measured (dashed) against predicted (band: 5 to 95 %)";
     this.list.append(h("section", { class: "chart-box", "aria-label": title }, h("div", { class: "chart-head" }, h("h3", {}, title)), box));
     const of = (value: (s: DrivenStretch) => number): Values => [value(driven[0]!), ...driven.map(value)];
-    const axis = { stroke: token("--ink"), grid: { stroke: token("--line"), width: 1 }, font: "11px system-ui, sans-serif" };
     const step = uPlot.paths.stepped!({ align: -1 });
     const plot = new uPlot(
       {
@@ -308,7 +239,7 @@ export class ProfileCharts {
         legend: { show: false },
         cursor: { y: false },
         scales: { x: { time: false } },
-        axes: [{ ...axis, size: 26, values: (_u, ticks) => ticks.map((t) => `${t} m`) }, { ...axis, size: 58 }],
+        axes: axes(),
         bands: [{ series: [4, 3], fill: token("--band") }],
         series: [
           {},
@@ -349,18 +280,7 @@ export class ProfileCharts {
   }
 
   private read(i: number | null): void {
-    for (const { digits, readout, values } of this.plots) {
-      if (i === null || i < 0) {
-        readout.textContent = "";
-        continue;
-      }
-      const [line, low, high, second, other] = values.map((v) => v?.[i]);
-      const parts = [number(line, digits)];
-      if (low !== undefined) parts.push(`(${number(low)} to ${number(high)})`);
-      if (second !== undefined) parts.push(`/ ${number(second)}`);
-      if (other !== undefined) parts.push(`· compared ${number(other, digits)}`);
-      readout.textContent = `${parts.join(" ")} at ${this.drawnRoute!.stations.distance_m[i]!.toFixed(1)} m`;
-    }
+    for (const { read } of this.plots) read(i === null || i < 0 ? null : i);
   }
 
   private resize(): void {
@@ -370,8 +290,12 @@ export class ProfileCharts {
     }
   }
 
-  /** Moves the cursor by so many stations: for the keyboard. */
+  /** Moves the cursor by so many stations, or windows of recorded drives: for the keyboard. */
   step(stations: number): void {
+    if (this.followed.shows(store.state)) {
+      this.followed.step(stations);
+      return;
+    }
     const route = this.drawnRoute;
     if (!route) return;
     const d = route.stations.distance_m;

@@ -1,13 +1,12 @@
 // Recorded drives: what was predicted against what was driven, and a watch's evidence drive after drive.
 import uPlot from "uplot";
-import { h, swatch } from "../dom";
+import { h } from "../dom";
 import { number, words } from "../format";
 import { empty } from "../problem";
 import { store, type State } from "../state";
+import { lineSwatch, token } from "./painting";
 
 type Values = (number | null)[];
-const token = (name: string): string => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-
 const series = [
   { key: "measured", title: "driven", colour: "--ink", width: 2.5, dash: [] as number[] },
   { key: "nominal", title: "predicted as believed before", colour: "--limit", width: 1.5, dash: [2, 4] },
@@ -17,6 +16,7 @@ const series = [
 
 export class FollowedCharts {
   plots: uPlot[] = [];
+  private readouts: { element: HTMLElement; at: (k: number) => string }[] = [];
   private windows: number[] = []; // of the diagnosis, in the order of the charts
   private setting = false;
 
@@ -31,6 +31,7 @@ export class FollowedCharts {
   clear(): void {
     for (const plot of this.plots) plot.destroy();
     this.plots = [];
+    this.readouts = [];
   }
 
   draw(state: State): void {
@@ -47,6 +48,18 @@ export class FollowedCharts {
     const k = followed.window === null ? -1 : this.windows.indexOf(followed.window);
     for (const plot of this.plots) if (plot.root.dataset.windows) plot.setCursor({ left: k < 0 ? -10 : plot.valToPos(k, "x"), top: k < 0 ? -10 : 10 });
     this.setting = false;
+    this.read(k);
+  }
+
+  /** Moves the cursor by so many windows. */
+  step(windows: number): void {
+    if (this.windows.length === 0) return;
+    const now = store.state.followed.window === null ? -1 : this.windows.indexOf(store.state.followed.window);
+    store.follow({ window: this.windows[Math.min(Math.max(now + windows, 0), this.windows.length - 1)]! });
+  }
+
+  private read(k: number): void {
+    for (const { element, at } of this.readouts) element.textContent = k < 0 ? "" : at(k);
   }
 
   private box(title: string, ...more: (Node | string)[]): HTMLElement {
@@ -68,16 +81,19 @@ export class FollowedCharts {
     this.list.append(key);
     for (const [channel, unit] of channels) {
       const value = (name: string): Values => shown.map((w) => (w.values?.find((v) => v.channel === channel) as Record<string, number> | undefined)?.[name] ?? null);
-      const box = this.box(`${words(channel)}${unit === "1" ? "" : `, ${unit}`}: predicted against driven`);
+      const lines = series.map((s) => value(s.key));
+      const readout = h("span", { class: "readout" });
+      this.readouts.push({ element: readout, at: (k) => `driven ${number(lines[0]![k], 2)}, believed ${number(lines[1]![k], 2)}, with effects ${number(lines[3]![k], 2)}` });
+      const box = this.box(`${words(channel)}${unit === "1" ? "" : `, ${unit}`}`, readout);
       const plot = new uPlot(
         {
           ...frame(box),
           cursor: { y: false, sync: { key: "windows" } },
-          axes: [{ ...axis(), size: 26, values: (_u, ticks) => ticks.map((t) => (Number.isInteger(t) ? (shown[t]?.drive ?? "") : "")) }, { ...axis(), size: 58, values: (_u, ticks) => ticks.map((t) => number(t, 6)) }],
+          axes: [{ ...axis(), size: 26, values: (_u, ticks) => ticks.map((t) => (Number.isInteger(t) ? (shown[t]?.drive ?? "") : "")) }, { ...axis(), size: 58, space: 18, values: (_u, ticks) => ticks.map((t) => number(t, 6)) }],
           series: [{}, ...series.map((s) => ({ stroke: token(s.colour), width: s.width, dash: [...s.dash], points: { show: shown.length < 60, size: 5, stroke: token(s.colour), fill: token(s.colour) } }))],
           hooks: { setCursor: [(u) => this.moved(u)] },
         },
-        [shown.map((_, i) => i), ...series.map((s) => value(s.key))] as uPlot.AlignedData,
+        [shown.map((_, i) => i), ...lines] as uPlot.AlignedData,
         box,
       );
       plot.root.dataset.windows = "yes";
@@ -93,6 +109,7 @@ export class FollowedCharts {
     this.setting = true;
     store.follow({ window });
     this.setting = false;
+    this.read(window === null ? -1 : idx!);
   }
 
   /** The decimal logarithm of the evidence that something has changed, up to each drive; the line is where an alarm is raised. */
@@ -139,14 +156,6 @@ function paintAlarm(u: uPlot, bar: number, since: number, alarm: number): void {
   ctx.lineTo(left + width, y);
   ctx.stroke();
   ctx.restore();
-}
-
-function lineSwatch(colour: string, dash: readonly number[]): HTMLElement {
-  const line = swatch(token(colour));
-  line.className = `swatch line ${dash.length === 0 ? "" : dash[0]! < 4 ? "dotted" : "dashed-line"}`;
-  line.style.backgroundColor = "transparent";
-  line.style.borderTopColor = token(colour);
-  return line;
 }
 
 const axis = () => ({ stroke: token("--ink"), grid: { stroke: token("--line"), width: 1 }, ticks: { stroke: token("--line"), width: 1 }, font: "11px system-ui, sans-serif" });
