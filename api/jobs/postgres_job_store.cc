@@ -9,6 +9,7 @@
 #include "api/jobs/job_admission.h"
 #include "api/jobs/job_digest.h"
 #include "api/jobs/postgres_bell.h"
+#include "api/jobs/postgres_job_claims.h"
 #include "api/jobs/postgres_job_rows.h"
 #include "api/jobs/postgres_job_schema.h"
 #include "api/jobs/postgres_pool.h"
