@@ -114,12 +114,15 @@ class PostgresJobStore final : public JobStore {
 
   Result<bool> split(const Lease& lease, const std::vector<std::string>& requests,
                      std::int64_t now) override {
-    auto kept = quick_.run([&](PostgresConnection& connection) {
-      PostgresTransaction transaction(connection);
-      const bool held = split_job(connection, lease, requests, now);
-      transaction.commit();
-      return held;
-    });
+    constexpr int kDeadlinesOfSplit = 4;  // thousands of rows, for which no client waits
+    auto kept = quick_.run(
+        [&](PostgresConnection& connection) {
+          PostgresTransaction transaction(connection);
+          const bool held = split_job(connection, lease, requests, now);
+          transaction.commit();
+          return held;
+        },
+        kDeadlinesOfSplit);
     if (kept && *kept) bell_.ring(StoreNews::kAccepted);
     return kept;
   }

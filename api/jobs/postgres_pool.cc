@@ -31,8 +31,9 @@ Error error_of(const PostgresFailure& failure) {
 
 }  // namespace
 
-std::optional<Error> PostgresPool::repeat(const std::function<void(PostgresConnection&)>& work) {
-  const Clock::time_point until = Clock::now() + deadline_;
+std::optional<Error> PostgresPool::repeat(const std::function<void(PostgresConnection&)>& work,
+                                          milliseconds deadline) {
+  const Clock::time_point until = Clock::now() + deadline;
   for (;;) {
     Error error;
     try {

@@ -17,7 +17,7 @@ namespace slipway::api {
 // Connections of one kind, each used by one thread at a time. Thread-safe.
 class PostgresPool {
  public:
-  // A call ends within `deadline`, whatever the server does.
+  // A call ends within `deadline`, or as many of them as it asks for, whatever the server does.
   PostgresPool(PostgresAddress address, CommitKind kind, std::chrono::milliseconds deadline)
       : address_(std::move(address)), kind_(kind), deadline_(deadline) {}
 
@@ -25,9 +25,11 @@ class PostgresPool {
   // again with another: it must look whether it took place already. Errors: storage, also where the deadline
   // is over; storage_full; damaged_store.
   template <class Work>
-  auto run(const Work& work) -> Result<decltype(work(std::declval<PostgresConnection&>()))> {
+  auto run(const Work& work, int deadlines = 1)
+      -> Result<decltype(work(std::declval<PostgresConnection&>()))> {
     std::optional<decltype(work(std::declval<PostgresConnection&>()))> answer;
-    if (auto error = repeat([&](PostgresConnection& connection) { answer.emplace(work(connection)); }))
+    if (auto error = repeat([&](PostgresConnection& connection) { answer.emplace(work(connection)); },
+                            deadlines * deadline_))
       return fail(*std::move(error));
     return *std::move(answer);
   }
@@ -51,7 +53,8 @@ class PostgresPool {
     std::unique_ptr<PostgresConnection> connection_;
   };
 
-  std::optional<Error> repeat(const std::function<void(PostgresConnection&)>& work);
+  std::optional<Error> repeat(const std::function<void(PostgresConnection&)>& work,
+                              std::chrono::milliseconds deadline);
 
   const PostgresAddress address_;
   const CommitKind kind_;

@@ -129,6 +129,21 @@ TEST_F(PostgresJobStoreTest, WhatTheServerHoldsUpIsRefusedInTimeAndOneJobWhenAsk
   EXPECT_EQ(store_->list(10).value().size(), 1U);
 }
 
+TEST_F(PostgresJobStoreTest, ADivisionHasMoreTimeThanWhatClientsWaitFor) {
+  const auto impatient = open(milliseconds(500));
+  ASSERT_TRUE(store_->append(new_job(), 1, {}));
+  const Lease lease = claim().lease();
+  PostgresConnection other(PostgresAddress(schema_->address()), CommitKind::kQuick);
+  other.run("BEGIN");
+  other.run("LOCK TABLE slipway_jobs IN EXCLUSIVE MODE");
+  auto division = std::async(std::launch::async, [&] { return impatient->split(lease, {"a", "b"}, 2); });
+  std::this_thread::sleep_for(milliseconds(1000));
+  other.run("COMMIT");
+  const auto divided = division.get();
+  ASSERT_TRUE(divided) << divided.error().detail;
+  EXPECT_TRUE(*divided);
+}
+
 TEST_F(PostgresJobStoreTest, OtherProcessesHearOfWorkAndOfEnds) {
   const auto service = open();
   std::atomic<int> accepted{0}, ended{0};
