@@ -82,12 +82,12 @@ class Planning {
     open_window(tables);
     if (progress_.cancelled()) return cancelled();
     Plan plan;
-    if (needs_wider_terrain_) {
-      plan.needs_wider_terrain = true;
-      return plan;
-    }
+    plan.needs_wider_terrain = needs_wider_terrain_;
+    if (needs_wider_terrain_) return plan;
     std::optional<Proposal> proposal = propose(tables);
     if (progress_.cancelled()) return cancelled();
+    plan.needs_wider_terrain = needs_wider_terrain_;
+    if (needs_wider_terrain_) return plan;
     plan.candidates = static_cast<int>(proposal->candidates.size());
     if (proposal->candidates.empty()) {
       say_why_none(*proposal, tables, plan);
@@ -133,6 +133,10 @@ class Planning {
     StageProgress stage(progress_, "proposing routes", 0.1, 0.5);
     if (!is_far_) return propose_routes(problem_, planners_, *map_, tables, stage);
     FarProposal far = propose_far_routes(problem_, planners_, keep_out_, tables, stage);
+    // What the map has beyond the terrain decides where there is no way, or the best comes to its edge.
+    needs_wider_terrain_ = !problem_.terrain_is_whole_map &&
+                           (!std::isfinite(far.proposal.grid_optimum) ||
+                            (far.map && come_to_edge(problem_, *far.map, far.proposal.grid_ways)));
     map_ = std::move(far.map);
     no_way_ = std::move(far.no_way);
     return std::move(far.proposal);

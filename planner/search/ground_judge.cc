@@ -139,8 +139,8 @@ GroundJudge::GroundJudge(const PlanProblem& problem, const KeepOut& keep_out,
   for (const Waypoint& place : problem.places())
     cells_of_places_.push_back(grid_index(geometry_, place.x_m, place.y_m));
   judges_centres_ = std::max(geometry.cell_x_m, geometry.cell_y_m) <= kFinestCell_m + 1e-9;
-  judged_right_ = judges_centres_ ? std::vector<int>{step_x_ / 2} : judged_cells(step_x_, reach_x_);
-  judged_up_ = judges_centres_ ? std::vector<int>{(step_y_ - 1) / 2} : judged_cells(step_y_, reach_y_);
+  judged_right_ = judged_cells(step_x_, reach_x_);
+  judged_up_ = judged_cells(step_y_, reach_y_);
 }
 
 // The same as judge_figures() up to rounding, for very many cells.
@@ -259,9 +259,14 @@ void GroundJudge::cells(const dem::Terrain& terrain, const dem::Cell& first, con
                         GroundCell* out, std::size_t stride) const {
   // In the terrain's cells.
   const int north = window.row * step_y_ - first.row, west = window.column * step_x_ - first.column;
+  // Centres that lie between the terrain's cells are left to cell(): rounding decides which of these they are
+  // in.
+  const bool of_many = judged_right_.size() * judged_up_.size() > 1;
   const float* const heights =
-      terrain.heights_in({north - margin_, west - margin_, window.rows * step_y_ + 2 * margin_,
-                          window.columns * step_x_ + 2 * margin_});
+      of_many && judges_centres_
+          ? nullptr
+          : terrain.heights_in({north - margin_, west - margin_, window.rows * step_y_ + 2 * margin_,
+                                window.columns * step_x_ + 2 * margin_});
   const std::ptrdiff_t columns = terrain.geometry().columns;
   const Eigen::Vector2d middle =
       0.5 * (geometry_.centre_m({window.row, window.column}) +
@@ -276,7 +281,6 @@ void GroundJudge::cells(const dem::Terrain& terrain, const dem::Cell& first, con
   if (problem_.soil_map)
     if (const auto there = problem_.soil_map->soil_at(middle.x(), middle.y()))
       soil = static_cast<std::uint8_t>(*there);
-  const bool of_many = judged_right_.size() * judged_up_.size() > 1;
   for (int row = 0; row < window.rows; ++row) {
     for (int column = 0; column < window.columns; ++column) {
       GroundCell& to = out[static_cast<std::size_t>(row) * stride + static_cast<std::size_t>(column)];
@@ -293,8 +297,7 @@ void GroundJudge::cells(const dem::Terrain& terrain, const dem::Cell& first, con
       if (of_many)
         judge_planes(height, columns, to);
       else
-        judge_plane(height + (step_y_ - 1 - judged_up_.front()) * columns + judged_right_.front(), columns,
-                    to);
+        judge_plane(height, columns, to);
     }
   }
 }

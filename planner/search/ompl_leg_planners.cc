@@ -31,7 +31,7 @@ class RepeatableRrtStar final : public og::RRTstar {
   RepeatableRrtStar(const ob::SpaceInformationPtr& space, const LegSearch& search) : RRTstar(space) {
     // Not 0: OMPL reads that as "none".
     rng_.setLocalSeed(static_cast<std::uint_fast32_t>(random_bits(search.seed, 0) >> 33) + 1U);
-    nn_ = std::make_shared<BucketNearestNeighbors<Motion*>>();
+    nn_ = std::make_shared<BucketNearestNeighbors<Motion*>>(search.cost->map().cell_m());
     setRange(search.range_m);
     setGoalBias(0.05);
     setRewireFactor(kRewireFactor);

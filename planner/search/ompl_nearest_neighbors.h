@@ -19,6 +19,10 @@ namespace slipway::planner {
 template <class T>
 class BucketNearestNeighbors final : public ompl::NearestNeighbors<T> {
  public:
+  // Buckets as wide as the ground's cells, where these are large: on cells of 463 m a search looked at more
+  // than ten thousand empty buckets of 5 m for every neighbour.
+  explicit BucketNearestNeighbors(double cell_m) : bucket_m_(std::max(kLeastBucket_m, cell_m)) {}
+
   bool reportsSortedResults() const override { return true; }
   void clear() override {
     buckets_.clear();
@@ -58,13 +62,13 @@ class BucketNearestNeighbors final : public ompl::NearestNeighbors<T> {
   void list(std::vector<T>& items) const override { items = all_; }
 
  private:
-  static constexpr double kBucket_m = 5.0;
+  static constexpr double kLeastBucket_m = 5.0;
   using Near = std::pair<double, T>;
 
-  static int column(const T& item) { return index(state_of(item)->template as<State>()->getX()); }
-  static int row(const T& item) { return index(state_of(item)->template as<State>()->getY()); }
+  int column(const T& item) const { return index(state_of(item)->template as<State>()->getX()); }
+  int row(const T& item) const { return index(state_of(item)->template as<State>()->getY()); }
   static const ompl::base::State* state_of(const T& item) { return item->state; }
-  static int index(double metres) { return static_cast<int>(std::floor(metres / kBucket_m)); }
+  int index(double metres) const { return static_cast<int>(std::floor(metres / bucket_m_)); }
   static std::uint64_t key(int column, int row) {
     return static_cast<std::uint64_t>(static_cast<std::uint32_t>(column)) << 32 |
            static_cast<std::uint32_t>(row);
@@ -78,7 +82,7 @@ class BucketNearestNeighbors final : public ompl::NearestNeighbors<T> {
     const int r = row(item);
     const int rings = std::max({c - low_column_, high_column_ - c, r - low_row_, high_row_ - r, 0});
     for (int ring = 0; ring <= rings; ++ring) {
-      const double closest = (ring - 1) * kBucket_m;
+      const double closest = (ring - 1) * bucket_m_;
       if (closest > radius || (near.size() >= k && k_th(near, k) <= closest)) break;
       for (int dc = -ring; dc <= ring; ++dc) {
         const int stride = std::abs(dc) == ring ? 1 : std::max(1, 2 * ring);
@@ -108,6 +112,7 @@ class BucketNearestNeighbors final : public ompl::NearestNeighbors<T> {
     return away[k - 1];
   }
 
+  double bucket_m_;
   std::unordered_map<std::uint64_t, std::vector<T>> buckets_;
   std::vector<T> all_;
   int low_column_ = std::numeric_limits<int>::max() / 2, high_column_ = std::numeric_limits<int>::min() / 2;

@@ -1,6 +1,8 @@
 #include "planner/search/search_window.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "planner/search/grid_search.h"
 
@@ -34,6 +36,23 @@ bool covers(const TraverseMap& map, const dem::Terrain& terrain) {
   for (const bool open : open_edges(map, terrain))
     if (open) return false;
   return true;
+}
+
+bool come_to_edge(const PlanProblem& problem, const TraverseMap& map,
+                  const std::vector<std::vector<std::size_t>>& ways) {
+  constexpr double kNear_cells = 4.0;
+  const dem::Extent edge = problem.terrain->geometry().extent();
+  const double near_m = 0.5 * std::hypot(problem.rover->body_length_m, problem.rover->body_width_m) +
+                        kNear_cells * std::max(map.geometry().cell_x_m, map.geometry().cell_y_m);
+  for (const std::vector<std::size_t>& way : ways) {
+    for (const std::size_t cell : way) {
+      const Eigen::Vector2d at = map.centre_m(cell);
+      if (at.x() < edge.west_m + near_m || at.x() > edge.east_m - near_m || at.y() < edge.south_m + near_m ||
+          at.y() > edge.north_m - near_m)
+        return true;
+    }
+  }
+  return false;
 }
 
 WindowFit window_fit(const PlanProblem& problem, const TraverseMap& map, const GroundTables& tables) {

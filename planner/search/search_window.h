@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "planner/problem/problem.h"
 #include "planner/search/ground_tables.h"
 #include "planner/search/traverse_map.h"
@@ -14,6 +16,11 @@ enum class WindowFit {
 };
 
 WindowFit window_fit(const PlanProblem& problem, const TraverseMap& map, const GroundTables& tables);
+
+// One of these ways on the map's cells comes so near to the terrain's edge that a better one may lie beyond:
+// within a few cells of where the rover may stand no more.
+bool come_to_edge(const PlanProblem& problem, const TraverseMap& map,
+                  const std::vector<std::vector<std::size_t>>& ways);
 
 // The map's window holds the whole terrain.
 bool covers(const TraverseMap& map, const dem::Terrain& terrain);

@@ -114,6 +114,25 @@ TEST(FarPlan, FindsTheOnlyGapFarAside) {
   EXPECT_FALSE(plan.routes.front().prediction.immobilised);
 }
 
+// What was read of a map around the places is not the map: a wall may have its gap beyond.
+TEST(FarPlan, AsksForMoreTerrainWhereThereIsNoWayOrTheBestComesToItsEdge) {
+  const auto needs_more = [](double gap_at_m, bool is_whole_map) {
+    PlanProblem problem = problem_on(800, 900, 1.0, 1.0, [&](double x, double y) {
+      return std::abs(x - 450.5) < 2.0 && std::abs(y - gap_at_m) > 4.0 ? 25.0 : 0.0;
+    });
+    problem.start = {60.5, 400.5, std::nullopt};
+    problem.goal = {840.5, 400.5, std::nullopt};
+    problem.terrain_is_whole_map = is_whole_map;
+    problem.routes = 1;
+    problem.risk.draws = 1;
+    return plan_on(problem).needs_wider_terrain;
+  };
+  EXPECT_TRUE(needs_more(2'000.0, false)) << "no gap in sight";
+  EXPECT_TRUE(needs_more(797.5, false)) << "the only one is at the edge";
+  EXPECT_FALSE(needs_more(600.5, false));
+  EXPECT_FALSE(needs_more(2'000.0, true)) << "there is no more";
+}
+
 TEST(FarPlan, SaysHowNearTheReachableGroundComesWhereThereIsNoWay) {
   PlanProblem problem = problem_on(
       800, 900, 1.0, 1.0, [](double x, double) { return std::abs(x - 500.5) < 6.0 ? kNothing : 0.0; });

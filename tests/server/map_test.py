@@ -19,6 +19,7 @@ import unittest
 SLIPWAY, DATA = sys.argv[1:3]
 GALE = ["--terrain", "gale", "--rover", "msl-class"]
 AT = "8142579.73,-276648.74"
+COG_VALIDATOR = ["/usr/bin/python3", "-m", "osgeo_utils.samples.validate_cloud_optimized_geotiff", "-q", "--full-check=yes"]
 DEGREE_M = 3396190.0 * math.pi / 180.0  # of the terrain's equidistant cylindrical map of Mars
 
 
@@ -65,6 +66,11 @@ class Maps(unittest.TestCase):
         told = subprocess.run(["gdalinfo", str(self.here / "verdict.tif")], capture_output=True, text=True).stdout
         for words in ("LAYOUT=COG", "Block=512x512", "Color Table", "NoData Value=0", "SLIPWAY_DISTANCE_M=20", "NO-GO"):
             self.assertIn(words, told)
+        self.made("slip_worst", "slip.tif")
+        self.made("cost_to_go", "cost.tif", "--to", AT)
+        for name in ("verdict.tif", "slip.tif", "cost.tif"):
+            judged = subprocess.run([*COG_VALIDATOR, str(self.here / name)], capture_output=True, text=True)
+            self.assertEqual((judged.returncode, judged.stdout), (0, ""), judged.stderr)
         self.assertEqual(run("map", "contours", *GALE, "--out", str(self.here / "c.gpkg")).returncode, 0)
         told = subprocess.run(["ogrinfo", "-so", str(self.here / "c.gpkg"), "contours"], capture_output=True, text=True).stdout
         self.assertIn("height_m: Real", told)
