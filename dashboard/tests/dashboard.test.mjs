@@ -182,6 +182,12 @@ test("a path is checked and found NO-GO, with the rules and where", async () => 
   await pause(400);
   await p.look("14_go");
 
+  // One that starts on unknown ground can't become one by another way.
+  await p.fill("#panel-check textarea >> nth=0", "8142582,-276581\n8142588,-276585");
+  await p.click('[data-do="check"]');
+  await p.waitForSelector('.advice li:has-text("lie on unknown ground")');
+  assert.notEqual(await p.verdict(), "go");
+
   // Commands, and a drive under way.
   await p.fill("#panel-check textarea >> nth=0", "drive=4 turn=30 drive=3");
   await p.fill("#check-start", "8142579.7,-276648.7");
@@ -227,7 +233,7 @@ test("a map of one's own is sent", async (t) => {
   t.after(() => rmSync(folder, { recursive: true, force: true }));
   const data = `${process.env.SLIPWAY_SOURCE}/data`;
   writeFileSync(join(folder, "no map.tif"), "this is no map");
-  const p = await page();
+  const p = await page(planned);
   await p.waitForSelector('[data-do="add-terrain"]');
 
   await p.click('[data-do="add-terrain"]');
@@ -242,6 +248,16 @@ test("a map of one's own is sent", async (t) => {
   await p.click('dialog[open] button:text-is("Send")');
   await p.until(() => document.querySelector(".terrain select").value === "own");
   await p.until(() => location.hash.includes("terrain=own"));
+  const placed = `${start.x_m.toFixed(2)}, ${start.y_m.toFixed(2)}`;
+  assert.equal(await p.inputValue("#plan-start"), placed, "the same ground keeps what was placed on it");
+  // On other ground it would lie beyond the map; undo brings it back.
+  await p.selectOption(".terrain select", "ames_yard");
+  await p.waitForSelector("[data-no-soils]");
+  await p.until(() => document.querySelector("#plan-start").value === "");
+  assert.equal(await p.textContent(".map-aim"), "Click where the drive starts");
+  await p.locator(".map").focus();
+  await p.keyboard.press("Control+z");
+  await p.until((text) => document.querySelector("#plan-start").value === text, placed);
   await p.done();
 });
 

@@ -13,7 +13,7 @@ export const launch = () => chromium.launch({ executablePath: process.env.CHROMI
 
 /** Waits until it is true in the page; playwright's own way is an eval(), which the page's policy forbids. */
 export async function until(page, condition, argument) {
-  const deadline = Date.now() + 150_000;
+  const deadline = Date.now() + 300_000;
   while (!(await page.evaluate(condition, argument))) {
     if (Date.now() > deadline) throw new Error(`never came true: ${condition}`);
     await new Promise((resolve) => setTimeout(resolve, 40));
@@ -24,7 +24,7 @@ export async function until(page, condition, argument) {
 export async function open(browser, url, { expected = /(?!)/, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1440, height: 1000 }, reducedMotion: "reduce", ...options });
   const page = await context.newPage();
-  page.setDefaultTimeout(150_000);
+  page.setDefaultTimeout(300_000);
   const complaints = [];
   const host = new URL(url).host;
   page.on("console", (message) => {

@@ -139,8 +139,10 @@ test("work is followed by its events, and by asking where these do not come thro
 });
 
 test("a stranger finds out why a drive is no GO, changes one thing and gets a GO", async () => {
-  const p = await page("start=8142579.7,-276648.7&goal=8142560,-276672&routes=1");
+  // Whoever names no terrain gets one on which a drive can be a GO.
+  const p = await open(browser, `${service.url}/dashboard/#start=8142579.7,-276648.7&goal=8142560,-276672&routes=1`);
   await p.waitForSelector(".terrain select");
+  await p.until(() => document.querySelector(".terrain select").value === "gale");
   await p.until(() => !document.querySelector('[data-do="plan"]').disabled);
   await p.click('[data-do="plan"]');
   assert.notEqual(await p.verdict(), "go");
