@@ -101,7 +101,7 @@ PlanProblem varied_ground(double cell_m) {
 
 TEST(TraverseMap, OfAllTheTerrainInStripesIsTheSame) {
   NoProgress progress;
-  for (const double cell_m : {0.1, 0.5, 1.0}) {
+  for (const double cell_m : {0.25, 0.5, 1.0}) {
     const PlanProblem problem = varied_ground(cell_m);
     const KeepOut keep_out(problem.keep_out, *problem.rover);
     for (const long long most : {kMaxSearchCells, 3'000LL}) {
