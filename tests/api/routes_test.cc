@@ -236,7 +236,7 @@ TEST_F(Routes, ATableOfAThinnedAnswerHasAllItsRows) {
   for (int k = 0; k < 160; ++k)
     path +=
         fmt::format(R"({}{{"x_m":{},"y_m":{}}})", k == 0 ? "" : ",", k % 2 == 0 ? 20 : 40, 20.0 + 0.1 * k);
-  const HttpResponse asked = ask("POST", "/v1/predictions", {},
+  const HttpResponse asked = ask("POST", "/v1/predictions", {{"Prefer", "respond-async"}},
                                  R"({"terrain":"yard","rover":"mer-class","draws":2,"path":[)" + path + "]}");
   ASSERT_EQ(asked.status, 201) << asked.body;
   const std::string location = *asked.header("Location");
