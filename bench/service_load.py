@@ -49,12 +49,6 @@ def prediction(seed=1):
     return {"terrain": "gale", "rover": "msl-class", "path": path, "draws": 2, "seed": seed}
 
 
-def cpu_s(server):
-    """Processor time of the service without its workers."""
-    fields = pathlib.Path(f"/proc/{server.process.pid}/stat").read_text().rsplit(")", 1)[1].split()
-    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
-
-
 def descriptors(server):
     return len(os.listdir(f"/proc/{server.process.pid}/fd"))
 
@@ -196,9 +190,9 @@ def streams(server):
     before = descriptors(server)
     asyncio.run(vanish())
     time.sleep(2.0)
-    began, spent = time.time(), cpu_s(server)
+    began, spent = time.time(), server.service_s()
     time.sleep(5.0)
-    share = (cpu_s(server) - spent) / (time.time() - began)
+    share = (server.service_s() - spent) / (time.time() - began)
     state = json.loads(server.ask("GET", location)[2])["state"]
     server.ask("DELETE", location)
     result = {"part": "streams", "streams": 100, "job": state, "cpu_percent": round(100 * share, 1), "descriptors_left": descriptors(server) - before}
@@ -257,10 +251,10 @@ def closed_loop(server):
     location = server.ask("POST", "/v1/predictions", prediction(), ASYNC)[1]["Location"]
     server.end_of(location)
     tag = server.ask("GET", location)[1]["ETag"]
-    spent = cpu_s(server)
+    spent = server.service_s()
     done = subprocess.run([options.closed_loop, str(server.port), location, tag, "64", "10"], capture_output=True, text=True)
     result = {"part": "closed_loop", **json.loads(done.stdout)}
-    result["service_us_each"] = round(1e6 * (cpu_s(server) - spent) / result["answered"], 1)
+    result["service_us_each"] = round(1e6 * (server.service_s() - spent) / result["answered"], 1)
     yield result, done.returncode == 0 and result["per_s"] >= 20_000
 
 

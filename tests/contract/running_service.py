@@ -46,6 +46,11 @@ def with_preload():
     return {**os.environ, "LD_PRELOAD": preload} if preload else None
 
 
+def processor_s_of(pid):
+    stat = pathlib.Path(f"/proc/{pid}/stat").read_text()
+    return sum(map(int, stat.rsplit(")", 1)[1].split()[11:13])) / os.sysconf("SC_CLK_TCK")
+
+
 class Server:
     """`slipway serve` on a free port, in a folder of its own."""
 
@@ -103,11 +108,11 @@ class Server:
 
     def processor_s(self):
         """Processor time that the service and its workers have used."""
-        ticks = 0
-        for pid in (self.process.pid, *self.worker_pids()):
-            stat = pathlib.Path(f"/proc/{pid}/stat").read_text()
-            ticks += sum(map(int, stat.rsplit(")", 1)[1].split()[11:13]))
-        return ticks / os.sysconf("SC_CLK_TCK")
+        return self.service_s() + sum(map(processor_s_of, self.worker_pids()))
+
+    def service_s(self):
+        """The same of the service alone."""
+        return processor_s_of(self.process.pid)
 
     def rss_mb(self, key):
         text = pathlib.Path(f"/proc/{self.process.pid}/status").read_text()
