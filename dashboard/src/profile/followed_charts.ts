@@ -4,7 +4,7 @@ import { h } from "../dom";
 import { number, words } from "../format";
 import { empty } from "../problem";
 import { store, type State } from "../state";
-import { lineSwatch, token } from "./painting";
+import { lineSwatch, strokeLimit, token } from "./painting";
 
 type Values = (number | null)[];
 const series = [
@@ -137,7 +137,7 @@ export class FollowedCharts {
 
 function paintAlarm(u: uPlot, bar: number, since: number, alarm: number): void {
   const { ctx } = u;
-  const { left, top, width, height } = u.bbox;
+  const { top, height } = u.bbox;
   const px = devicePixelRatio;
   ctx.save();
   if (alarm >= 0) {
@@ -147,14 +147,7 @@ function paintAlarm(u: uPlot, bar: number, since: number, alarm: number): void {
     ctx.fillStyle = token("--limit");
     ctx.fillRect(to, top, 2 * px, height);
   }
-  const y = u.valToPos(bar, "y", true);
-  ctx.strokeStyle = token("--limit");
-  ctx.lineWidth = 2 * px;
-  ctx.setLineDash([8 * px, 5 * px]);
-  ctx.beginPath();
-  ctx.moveTo(left, y);
-  ctx.lineTo(left + width, y);
-  ctx.stroke();
+  strokeLimit(u, u.valToPos(bar, "y", true));
   ctx.restore();
 }
 

@@ -23,6 +23,20 @@ function inside(u: uPlot, draw: (ctx: CanvasRenderingContext2D, px: number) => v
   ctx.restore();
 }
 
+/** The line of a limit over the whole plot, at this height of the canvas. */
+export function strokeLimit(u: uPlot, y: number): void {
+  const { ctx } = u;
+  const { left, width } = u.bbox;
+  const px = devicePixelRatio;
+  ctx.strokeStyle = token("--limit");
+  ctx.lineWidth = 2 * px;
+  ctx.setLineDash([8 * px, 5 * px]);
+  ctx.beginPath();
+  ctx.moveTo(left, y);
+  ctx.lineTo(left + width, y);
+  ctx.stroke();
+}
+
 /** Below the lines: shades what lies on unknown ground and where a rule trips. */
 export function paintGround(u: uPlot, stations: Stations, { trips }: Painted): void {
   inside(u, (ctx, px) => {
@@ -70,13 +84,7 @@ export function paintLimits(u: uPlot, { limits, trips }: Painted): void {
     for (const limit of limits) {
       const y = u.valToPos(limit.at, "y", true);
       if (y < top - px || y > top + height + px) continue;
-      ctx.strokeStyle = token("--limit");
-      ctx.lineWidth = 2 * px;
-      ctx.setLineDash([8 * px, 5 * px]);
-      ctx.beginPath();
-      ctx.moveTo(left, y);
-      ctx.lineTo(left + width, y);
-      ctx.stroke();
+      strokeLimit(u, y);
       const places = [y - 4 * px, y + 12 * px].filter((at) => at > top + 10 * px && at < top + height);
       const at = places.find((place) => written.every((other) => Math.abs(other - place) >= least)) ?? places[0] ?? y;
       written.push(at);
