@@ -127,6 +127,7 @@ class Diagnoser {
   // fitted again.
   Result<void> search_again() {
     if (best().effects.empty()) return {};
+    prepared_.noise->set(best().scatter, options_.search.threads);
     prepare_around(prepared_, campaign_, best_fit(), options_);
     d_.noise = prepared_.noise->scales();
     const SecondSearchOptions& second = options_.second_search;

@@ -149,23 +149,28 @@ TEST(FindMode, StopsAtABoundWithTheOthersAtTheirBest) {
   EXPECT_TRUE(mode.converged);
 }
 
-TEST(FindMode, TakesAnObservationWithoutAnAnswerForOneThatIsFarOff) {
-  class Stuck : public LinearModel {
-   public:
-    using LinearModel::LinearModel;
-    std::vector<double> predict(std::span<const double> x) const override {
-      std::vector<double> f = LinearModel::predict(x);
-      f[1] = std::numeric_limits<double>::quiet_NaN();
-      return f;
-    }
-  };
+// Without an answer for its second and third observation; in the window of the third the rover stood too.
+class Stuck : public LinearModel {
+ public:
+  using LinearModel::LinearModel;
+  std::vector<double> predict(std::span<const double> x) const override {
+    std::vector<double> f = LinearModel::predict(x);
+    f[1] = f[2] = std::numeric_limits<double>::quiet_NaN();
+    return f;
+  }
+  bool stood(Eigen::Index row) const override { return row == 2; }
+};
+
+TEST(FindMode, TakesAnObservationWithoutAnAnswerForOneThatIsFarOffUnlessTheRoverStoodToo) {
   FitOptions options;
   options.no_answer = 3.0;
-  const PosteriorMode mode = find_mode(Stuck(Eigen::MatrixXd::Zero(2, 1), Eigen::Vector2d(0.0, 7.0),
-                                             Eigen::Vector2d(1.0, 0.5), {parameter(1.0)}),
+  options.both_stuck = 1.0;
+  const PosteriorMode mode = find_mode(Stuck(Eigen::MatrixXd::Zero(3, 1), Eigen::Vector3d(0.0, 7.0, 7.0),
+                                             Eigen::Vector3d(1.0, 0.5, 0.25), {parameter(1.0)}),
                                        std::vector<double>{0.0}, options);
-  EXPECT_DOUBLE_EQ(mode.residuals[1], 1.5);
-  EXPECT_DOUBLE_EQ(mode.log_evidence, -4.5);
+  EXPECT_DOUBLE_EQ(mode.residuals[1], 3.0 * 0.5);
+  EXPECT_DOUBLE_EQ(mode.residuals[2], 1.0 * 0.25);
+  EXPECT_DOUBLE_EQ(mode.log_evidence, -0.5 * (3.0 * 3.0 + 1.0));
 }
 
 // A prior of one side only holds its probability on half the room.

@@ -138,11 +138,17 @@ double NoiseModel::log_marginal_of(std::span<const Eigen::MatrixXd> own,
   return log_marginal(sum(0, 0), sum.col(0).tail(columns), sum.bottomRightCorner(columns, columns));
 }
 
+double NoiseModel::log_prior() const {
+  NoiseScales believed = options_.initial, now = scales_;
+  const Scales from = numbers_of(believed), to = numbers_of(now);
+  double sum = 0.0;
+  for (int k = 0; k < kNoiseScales; ++k) sum += std::pow(std::log(*to[k] / *from[k]) / options_.prior_std, 2);
+  return -0.5 * sum;
+}
+
 void NoiseModel::estimate(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& systematic,
                           std::size_t threads) {
   if (blocks_.empty()) return;
-  NoiseScales initial = options_.initial;
-  const Scales believed = numbers_of(initial);
   NoiseScales best = scales_;
   std::vector<Eigen::MatrixXd> own;
   for (const Block& block : blocks_) {
@@ -155,12 +161,7 @@ void NoiseModel::estimate(const Eigen::VectorXd& residuals, const Eigen::MatrixX
   std::vector<Eigen::MatrixXd> squares(std::min(kSums, blocks_.size()));
   const auto score = [&](const NoiseScales& scales) {
     set(scales, threads);
-    NoiseScales copy = scales;
-    const Scales numbers = numbers_of(copy);
-    double prior = 0.0;
-    for (int k = 0; k < kNoiseScales; ++k)
-      prior += std::pow(std::log(*numbers[k] / *believed[k]) / options_.prior_std, 2);
-    return log_marginal_of(own, squares, threads) - 0.5 * log_determinant_ - 0.5 * prior;
+    return log_marginal_of(own, squares, threads) + log_normalisation();
   };
   double value = score(best);
   for (const double step : {1.0, 0.5, 0.25}) {

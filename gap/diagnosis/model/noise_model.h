@@ -55,6 +55,11 @@ class NoiseModel {
 
   // L^-1 r with V = L L^T. Rows not used are 0.
   Eigen::MatrixXd whiten(const Eigen::MatrixXd& columns) const;
+  // What the scales were believed to be before the drives, and how probable that makes those of now.
+  const NoiseScales& believed() const { return options_.initial; }
+  double log_prior() const;
+  // What has to be added to log N(r; 0, V) without its determinant to compare residuals under other scales.
+  double log_normalisation() const { return log_prior() - 0.5 * log_determinant_; }
   double log_determinant() const { return log_determinant_; }
   // What L takes: it grows with the drives' lengths and not with their squares, since the windows of a drive
   // share three numbers only.

@@ -76,9 +76,10 @@ void list_preparation(const PreparationOptions& options, Lister& list) {
 
 void list_fit(const FitOptions& options, Lister& list) {
   list.step("fit");
-  const auto& [huber, no_answer, tolerance, min_fall, max_iterations] = options;
+  const auto& [huber, no_answer, both_stuck, tolerance, min_fall, max_iterations] = options;
   SLIPWAY_FIELD(huber);
   SLIPWAY_FIELD(no_answer);
+  SLIPWAY_FIELD(both_stuck);
   SLIPWAY_FIELD(tolerance);
   SLIPWAY_FIELD(min_fall);
   SLIPWAY_FIELD(max_iterations);
@@ -121,7 +122,8 @@ void list_soft_patch(const SoftPatchOptions& options, Lister& list) {
 void list_search(const SearchOptions& options, Lister& list) {
   list.step("search");
   const auto& [withheld, max_refitted, max_variants, max_paired, max_seconds, min_pair_gain, max_linear_shift,
-               min_named_size, something_else, outside, max_outside, max_outside_seconds, threads] = options;
+               min_named_size, something_else, outside, max_outside, max_outside_seconds, max_scattered,
+               threads] = options;
   static_cast<void>(withheld);
   static_cast<void>(threads);
   SLIPWAY_FIELD(max_refitted);
@@ -135,6 +137,7 @@ void list_search(const SearchOptions& options, Lister& list) {
   SLIPWAY_FIELD(outside);
   SLIPWAY_FIELD(max_outside);
   SLIPWAY_FIELD(max_outside_seconds);
+  SLIPWAY_FIELD(max_scattered);
 }
 
 void list_second_search(const SecondSearchOptions& options, Lister& list) {

@@ -29,6 +29,7 @@ struct FitOptions {
   // Deviations by which an observation is off where the model has no answer because the rover would not move:
   // as much as the loss still takes in full.
   double no_answer = 4.0;
+  double both_stuck = 1.0;  // the same where the rover hardly moved either: as much as noise does
   double tolerance = 1e-3;  // of a step, in the parameters' own standard errors
   double min_fall = 0.02;   // of the cost in an iteration: evidences that differ by less are not told apart
   int max_iterations = 12;
@@ -99,6 +100,7 @@ struct SearchOptions {
   bool outside = true;          // causes from outside compete (outside_cause.h); without them for ablations
   int max_outside = 4;          // causes from outside that are fitted in full
   int max_outside_seconds = 1;  // of them, beside each effect whose pairs are looked for
+  int max_scattered = 6;  // explanations that are compared with the drives' own scatter beside each of them
   std::size_t threads = 0;
 };
 

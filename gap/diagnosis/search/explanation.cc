@@ -16,7 +16,10 @@ class SimulatedDrives : public FittedModel {
         model_(model),
         noise_(noise),
         threads_(threads),
-        measured_(slipway::gap::measured(model)) {}
+        measured_(slipway::gap::measured(model)) {
+    for (const DriveWindow& window : model.windows())
+      stood_.insert(stood_.end(), window.observations.size(), window.censored);
+  }
 
   std::span<const Parameter> parameters() const override { return hypothesis_.parameters(); }
   const Eigen::VectorXd& measured() const override { return measured_; }
@@ -30,6 +33,7 @@ class SimulatedDrives : public FittedModel {
   Eigen::MatrixXd whiten(const Eigen::MatrixXd& columns) const override { return noise_.whiten(columns); }
   const Eigen::VectorXd& deviation() const override { return noise_.deviation(); }
   bool cancelled() const override { return model_.cancelled(); }
+  bool stood(Eigen::Index row) const override { return stood_[static_cast<std::size_t>(row)]; }
   Eigen::MatrixXd prior_precision() const override { return hypothesis_.prior_precision(); }
 
  private:
@@ -38,6 +42,7 @@ class SimulatedDrives : public FittedModel {
   const NoiseModel& noise_;
   std::size_t threads_;
   Eigen::VectorXd measured_;
+  std::vector<bool> stood_;  // of each observation: its window is censored
 };
 
 // The null's parameters with an effect's neutral ones behind.

@@ -9,6 +9,7 @@
 
 #include "gap/diagnosis/model/outside_cause.h"
 #include "gap/diagnosis/search/effect_screening.h"
+#include "gap/diagnosis/search/own_scatter.h"
 #include "gap/diagnosis/search/soft_patch_search.h"
 #include "sim/effects/effect_catalogue.h"
 
@@ -249,6 +250,7 @@ class Searcher {
       prior.with_something_else += std::log(options_.priors.twin_share);
     }
     c.fit = index;
+    c.scatter = noise_.scales();
     const DiscrepancyGain gain = discrepancy_gain(
         fit, whitened(fit, noise_, discrepancy_),
         form_columns(campaign_, model_, noise_, fit, options_.discrepancy, options_.search.threads),
@@ -264,6 +266,7 @@ class Searcher {
   }
 
   Result<ExplanationSearch> weighed() && {
+    compare_with_own_scatter(campaign_, model_, noise_, discrepancy_, options_, progress_, search_);
     if (progress_.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
     weigh(search_.candidates, options_.evidence);
     std::stable_sort(search_.candidates.begin(), search_.candidates.end(),

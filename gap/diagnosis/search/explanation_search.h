@@ -20,6 +20,7 @@ struct Candidate {
   bool outside = false;       // a cause from outside is among the effects
   std::size_t fit = 0;
   double log_evidence = 0.0;  // the discrepancy term's part among it
+  NoiseScales scatter;        // of the drives beside its fit
   double log_prior = 0.0;
   double probability = 0.0;
 

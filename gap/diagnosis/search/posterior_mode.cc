@@ -55,12 +55,17 @@ class ModeSearch {
     trial.residuals.resize(y.size());
     for (Eigen::Index i = 0; i < y.size(); ++i) {
       const double f = trial.predicted[static_cast<std::size_t>(i)];
-      trial.residuals[i] = std::isfinite(f) ? y[i] - f : options_.no_answer * model_.deviation()[i];
+      trial.residuals[i] = std::isfinite(f) ? y[i] - f : without_answer(i) * model_.deviation()[i];
     }
     trial.white = model_.whiten(trial.residuals);
     trial.u = in_prior_units(model_.parameters(), trial.x);
     trial.cost = negative_log_posterior(trial.white, trial.u, loss_, fitted_rows_, precision_);
     return trial;
+  }
+
+  // Deviations by which a row is off where the model has no answer.
+  double without_answer(Eigen::Index row) const {
+    return model_.stood(row) ? options_.both_stuck : options_.no_answer;
   }
 
   // Near the answer by central differences, once: from there on they hardly change.

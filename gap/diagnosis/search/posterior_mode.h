@@ -36,13 +36,15 @@ class FittedModel {
   virtual Eigen::MatrixXd whiten(const Eigen::MatrixXd& columns) const = 0;  // L^-1 columns
   virtual const Eigen::VectorXd& deviation() const = 0;                      // of each observation's noise
   virtual bool cancelled() const = 0;
+  // Whether a row was measured where the rover hardly moved, as a model says that has no answer there.
+  virtual bool stood(Eigen::Index) const { return false; }
   // Of the prior of u; empty: the unit matrix.
   virtual Eigen::MatrixXd prior_precision() const { return {}; }
 };
 
 struct PosteriorMode {
   std::vector<double> x;
-  Eigen::VectorXd residuals;  // measured less predicted at x; where there is no answer, FitOptions::no_answer
+  Eigen::VectorXd residuals;  // measured less predicted at x; where there is no answer, see FitOptions
   // Whitened, rows of outliers weighed down: residuals with what the parameters explain put back, and columns
   // of prior deviation 1; behind them those of what reference drives left open.
   Eigen::VectorXd white_linear;

@@ -134,18 +134,28 @@ FittedExplanation refine_soft_patch(const DriveCampaign& campaign, const WindowM
   const auto which = static_cast<std::size_t>(found - effects.begin());
   FitOptions quick = options;
   quick.max_iterations = kMaxIterations;
+  const auto disc = [&] { return *place_of(fit.hypothesis.effects()[which]); };
+  // Whether it is better there.
+  const auto taken = [&](const sim::Disc& there) {
+    std::vector<EffectVariant> moved(fit.hypothesis.effects().begin(), fit.hypothesis.effects().end());
+    moved[which] = variant_at(effect, there);
+    FittedExplanation trial =
+        fit_explanation(Hypothesis(campaign, moved), model, noise, fit.x, quick, threads);
+    if (trial.log_evidence <= fit.log_evidence + patch_options.min_rise) return false;
+    fit = std::move(trial);
+    return true;
+  };
+  // By derivatives a small disc of much weaker soil and a large one of a little weaker soil look alike.
+  for (const double radius_m : patch_options.radii_m) {
+    if (model.cancelled()) return fit;
+    if (radius_m != disc().radius_m) taken({disc().x_m, disc().y_m, radius_m});
+  }
   for (const double move : kMoves) {
     for (int sweep = 0; sweep < kMaxSweeps; ++sweep) {
       bool better = false;
       for (int k = 0; k < 6; ++k) {
         if (model.cancelled()) return fit;
-        std::vector<EffectVariant> moved(fit.hypothesis.effects().begin(), fit.hypothesis.effects().end());
-        moved[which] = variant_at(effect, neighbour(*place_of(moved[which]), k, move));
-        FittedExplanation trial =
-            fit_explanation(Hypothesis(campaign, moved), model, noise, fit.x, quick, threads);
-        if (trial.log_evidence <= fit.log_evidence + patch_options.min_rise) continue;
-        fit = std::move(trial);
-        better = true;
+        better = taken(neighbour(disc(), k, move)) || better;
       }
       if (!better) break;
     }

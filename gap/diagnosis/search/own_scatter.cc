@@ -1,0 +1,121 @@
+#include "gap/diagnosis/search/own_scatter.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "gap/diagnosis/search/soft_patch_search.h"
+
+namespace slipway::gap {
+namespace {
+
+struct ScatteredExplanation {
+  FittedExplanation fit;  // under these scales
+  NoiseScales scales;
+  // Logarithms of the evidence: with no more than the imprecision of any simulator, and with something else
+  // besides, which has scales of its own.
+  double alone = 0.0, with_something_else = 0.0;
+};
+
+// One explanation's scatter, searched from what was believed before the drives.
+class ScatterSearch {
+ public:
+  ScatterSearch(const DriveCampaign& campaign, const WindowModel& model, const NoiseModel& noise,
+                const DiscrepancyTerm& discrepancy, const DiagnosisOptions& options)
+      : campaign_(campaign),
+        model_(model),
+        discrepancy_(discrepancy),
+        options_(options),
+        compared_with_(noise.log_normalisation()),
+        own_(noise) {
+    own_.set(own_.believed(), options.search.threads);
+  }
+
+  ScatteredExplanation beside(const FittedExplanation& fit) && {
+    ScatteredExplanation found{refine_soft_patch(campaign_, model_, own_, fitted_again(fit), options_.fit,
+                                                 options_.soft_patch, options_.search.threads),
+                               {}};
+    for (int round = 0; round < options_.preparation.scatter_rounds && !model_.cancelled(); ++round) {
+      estimate_beside(found.fit, options_.discrepancy.imprecision);
+      found.fit = fitted_again(found.fit);
+    }
+    found.scales = own_.scales();
+    found.alone = evidence_of(found.fit, &DiscrepancyGain::imprecision);
+    if (!options_.search.something_else || model_.cancelled()) return found;
+    estimate_beside(found.fit, 1.0);
+    found.with_something_else = evidence_of(fitted_again(found.fit), &DiscrepancyGain::something_else);
+    return found;
+  }
+
+ private:
+  FittedExplanation fitted_again(const FittedExplanation& fit) const {
+    return fit_explanation(fit.hypothesis, model_, own_, fit.x, options_.fit, options_.search.threads);
+  }
+
+  void estimate_beside(const FittedExplanation& fit, double discrepancy_size) {
+    Eigen::MatrixXd systematic(fit.jacobian.rows(), fit.jacobian.cols() + discrepancy_.values.cols());
+    systematic << fit.jacobian, discrepancy_size * discrepancy_.values;
+    own_.estimate(fit.residuals + fit.jacobian * in_prior_units(fit.hypothesis.parameters(), fit.x),
+                  systematic, options_.search.threads);
+  }
+
+  double evidence_of(const FittedExplanation& fit, double DiscrepancyGain::*part) const {
+    const DiscrepancyGain gain = discrepancy_gain(
+        fit, whitened(fit, own_, discrepancy_),
+        form_columns(campaign_, model_, own_, fit, options_.discrepancy, options_.search.threads),
+        options_.discrepancy, [this] { return model_.cancelled(); });
+    return fit.log_evidence + gain.*part + own_.log_normalisation() - compared_with_;
+  }
+
+  const DriveCampaign& campaign_;
+  const WindowModel& model_;
+  const DiscrepancyTerm& discrepancy_;
+  const DiagnosisOptions& options_;
+  double compared_with_;
+  NoiseModel own_;
+};
+
+// The fits of nothing and of the most probable candidates, `most` in all.
+std::vector<std::size_t> foremost(std::vector<Candidate> candidates, const EvidenceOptions& evidence,
+                                  std::size_t most) {
+  weigh(candidates, evidence);
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.probability > b.probability; });
+  std::vector<std::size_t> fits{0};
+  for (const Candidate& c : candidates)
+    if (fits.size() < most && std::find(fits.begin(), fits.end(), c.fit) == fits.end()) fits.push_back(c.fit);
+  return fits;
+}
+
+bool has_place(const FittedExplanation& fit) {
+  const auto effects = fit.hypothesis.effects();
+  return std::any_of(effects.begin(), effects.end(),
+                     [](const EffectVariant& v) { return place_of(v).has_value(); });
+}
+
+}  // namespace
+
+void compare_with_own_scatter(const DriveCampaign& campaign, const WindowModel& model,
+                              const NoiseModel& noise, const DiscrepancyTerm& discrepancy,
+                              const DiagnosisOptions& options, Progress& progress,
+                              ExplanationSearch& search) {
+  if (campaign.reference) return;
+  const auto most = static_cast<std::size_t>(options.search.max_scattered);
+  for (const std::size_t index : foremost(search.candidates, options.evidence, most)) {
+    if (progress.cancelled()) return;
+    progress.report("estimating the scatter beside explanations", 0.74);
+    const ScatteredExplanation own =
+        ScatterSearch(campaign, model, noise, discrepancy, options).beside(search.fits[index]);
+    for (Candidate& c : search.candidates) {
+      const double evidence = c.with_unknown ? own.with_something_else : own.alone;
+      if (c.fit != index || evidence <= c.log_evidence) continue;
+      c.log_evidence = evidence;
+      c.scatter = own.scales;
+    }
+    if (has_place(own.fit))
+      search.fits[index] =
+          fit_explanation(own.fit.hypothesis, model, noise, own.fit.x, options.fit, options.search.threads);
+  }
+}
+
+}  // namespace slipway::gap
