@@ -139,12 +139,14 @@ class JobRoutes {
 
   HttpResponse job_response(const api::Job& job, const HttpRequest& request) {
     const std::optional<api::QueueEstimate> queue = queue_of(job);
-    HttpResponse response = document(status_of(job, queue));
-    if (!api::has_ended(job.state))
-      response.headers.emplace_back("Retry-After", std::to_string(kPollSeconds));
     // What is before it changes without the job.
     const std::string place = queue ? fmt::format("-{}", queue->ahead) : "";
-    return tagged(std::move(response), fmt::format("\"{}-{}{}\"", job.id, job.version, place), request);
+    const std::string tag = fmt::format("\"{}-{}{}\"", job.id, job.version, place);
+    // Most polls find nothing new: then nothing is written.
+    HttpResponse response = document(is_known_to_client(request, tag) ? "" : status_of(job, queue));
+    if (!api::has_ended(job.state))
+      response.headers.emplace_back("Retry-After", std::to_string(kPollSeconds));
+    return tagged(std::move(response), tag, request);
   }
 
   std::string status_of(const api::Job& job) { return status_of(job, queue_of(job)); }

@@ -25,12 +25,12 @@ namespace {
 
 }  // namespace
 
-SqliteStatement::SqliteStatement(sqlite3* database, std::string_view sql) : database_(database) {
-  sqlite3_stmt* statement = nullptr;
-  const int code =
-      sqlite3_prepare_v2(database, sql.data(), static_cast<int>(sql.size()), &statement, nullptr);
-  statement_.reset(statement);
-  check(code);
+// What it holds is let go of here: a read that is not reset keeps the log from being emptied, and bound text
+// may be a whole answer.
+SqliteStatement::~SqliteStatement() {
+  sqlite3_reset(statement_.get());
+  sqlite3_clear_bindings(statement_.get());
+  idle_ = std::move(statement_);
 }
 
 void SqliteStatement::Finaliser::operator()(sqlite3_stmt* statement) const {
@@ -102,6 +102,21 @@ SqliteConnection::SqliteConnection(const std::filesystem::path& path, CommitKind
 
 void SqliteConnection::Closer::operator()(sqlite3* database) const {
   sqlite3_close_v2(database);
+}
+
+SqliteStatement SqliteConnection::prepare(std::string_view sql) {
+  auto found = idle_.find(sql);
+  if (found == idle_.end()) found = idle_.emplace(sql, nullptr).first;
+  SqliteStatement::Prepared& idle = found->second;
+  SqliteStatement::Prepared statement = std::move(idle);
+  if (!statement) {
+    sqlite3_stmt* compiled = nullptr;
+    const int code = sqlite3_prepare_v3(database_.get(), sql.data(), static_cast<int>(sql.size()),
+                                        SQLITE_PREPARE_PERSISTENT, &compiled, nullptr);
+    statement.reset(compiled);
+    if (code != SQLITE_OK) throw_last_failure(database_.get());
+  }
+  return {database_.get(), std::move(statement), idle};
 }
 
 void SqliteConnection::execute(const char* sql) {

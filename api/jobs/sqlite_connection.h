@@ -2,11 +2,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "api/jobs/commit_kind.h"
 
@@ -33,9 +36,13 @@ class SqliteDamage : public SqliteFailure {
   using SqliteFailure::SqliteFailure;
 };
 
-// One statement, prepared and bound. Text is copied when bound.
+// One statement, bound. Text is copied when bound. It does not outlive its connection.
 class SqliteStatement {
  public:
+  ~SqliteStatement();
+  SqliteStatement(const SqliteStatement&) = delete;
+  SqliteStatement& operator=(const SqliteStatement&) = delete;
+
   SqliteStatement& bind(std::string_view text);  // the next "?"
   SqliteStatement& bind(std::int64_t number);
   SqliteStatement& bind(double number);
@@ -49,15 +56,19 @@ class SqliteStatement {
 
  private:
   friend class SqliteConnection;
-  SqliteStatement(sqlite3* database, std::string_view sql);
-
   struct Finaliser {
     void operator()(sqlite3_stmt* statement) const;
   };
+  using Prepared = std::unique_ptr<sqlite3_stmt, Finaliser>;
+  // `idle` is where the statement waits for its next use.
+  SqliteStatement(sqlite3* database, Prepared statement, Prepared& idle)
+      : database_(database), statement_(std::move(statement)), idle_(idle) {}
+
   void check(int code) const;
 
   sqlite3* database_;
-  std::unique_ptr<sqlite3_stmt, Finaliser> statement_;
+  Prepared statement_;
+  Prepared& idle_;
   int bound_ = 0;
 };
 
@@ -67,7 +78,9 @@ class SqliteConnection {
  public:
   SqliteConnection(const std::filesystem::path& path, CommitKind kind);
 
-  SqliteStatement prepare(std::string_view sql) { return {database_.get(), sql}; }
+  // A statement is compiled once and kept, for compiling takes longer than most of them run: its text is the
+  // program's own, and values are bound.
+  SqliteStatement prepare(std::string_view sql);
   void execute(const char* sql);
   // Rows that the last statement changed.
   int changes() const;
@@ -77,6 +90,7 @@ class SqliteConnection {
     void operator()(sqlite3* database) const;
   };
   std::unique_ptr<sqlite3, Closer> database_;
+  std::map<std::string, SqliteStatement::Prepared, std::less<>> idle_;  // by text; null while it is used
 };
 
 // A transaction that is undone unless committed.
