@@ -21,8 +21,9 @@ struct ElevationInfo {
   bool scaled = false;    // heights are scale * stored + offset
 };
 
-// An elevation raster on disk, which opens fast and is read by windows. It is thread-safe: reads are
-// serialised, since GDAL datasets are not thread-safe.
+// An elevation raster on disk, which opens fast and is read by windows. It is thread-safe. Reads of
+// cells are serialised, since GDAL datasets are not thread-safe; of samples several threads read at once
+// where the file is tiled as the import makes it.
 class ElevationSource {
  public:
   virtual ~ElevationSource() = default;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "dem/elevation_source.h"
+#include "dem/gdal_block_reader.h"
 #include "dem/gdal_crs.h"
 #include "dem/gdal_heights.h"
 #include "dem/gdal_raster.h"
@@ -65,7 +66,8 @@ class GdalElevation final : public ElevationSource, public std::enable_shared_fr
         encoding_(encoding),
         lengths_are_true_(info_.crs_wkt.empty() ||
                           check_true_lengths(*dataset_->GetSpatialRef(), info_.geometry.extent(),
-                                             path_.filename().string())) {}
+                                             path_.filename().string())),
+        blocks_(GdalBlockReader::of(path_, *dataset_, encoding)) {}
 
   const ElevationInfo& info() const override { return info_; }
 
@@ -99,6 +101,9 @@ class GdalElevation final : public ElevationSource, public std::enable_shared_fr
     coarse.cell_x_m *= step;
     coarse.cell_y_m *= step;
     if (const auto few = check_cells(coarse.rows, coarse.columns); !few) return fail(few.error());
+    if (overview.band != nullptr || step == 1) {
+      if (auto read = read_blocks(overview.number, window, step, coarse)) return read;
+    }
     return overview.band != nullptr ? read_overview(*overview.band, window, step, coarse)
                                     : read_rows(window, step, coarse);
   }
@@ -107,6 +112,7 @@ class GdalElevation final : public ElevationSource, public std::enable_shared_fr
   // The same raster from farther away: a cell of it stands for so many of the raster's along each side.
   struct Overview {
     GDALRasterBand* band = nullptr;
+    int number = GdalBlockReader::kItself;
     int factor = 1;
   };
 
@@ -120,9 +126,21 @@ class GdalElevation final : public ElevationSource, public std::enable_shared_fr
       const int factor = (info_.geometry.columns + band->GetXSize() / 2) / std::max(1, band->GetXSize());
       const bool is_whole = (info_.geometry.columns + factor - 1) / factor == band->GetXSize() &&
                             (info_.geometry.rows + factor - 1) / factor == band->GetYSize();
-      if (is_whole && factor <= step && factor > found.factor) found = {band, factor};
+      if (is_whole && factor <= step && factor > found.factor) found = {band, k, factor};
     }
     return found;
+  }
+
+  // The same as read_overview and read_rows by several threads at once; nothing where it can't be done.
+  std::shared_ptr<const Terrain> read_blocks(int overview, const CellWindow& window, int step,
+                                             const GridGeometry& coarse) const {
+    if (!blocks_) return nullptr;
+    std::vector<float> heights(static_cast<std::size_t>(coarse.rows) *
+                               static_cast<std::size_t>(coarse.columns));
+    std::vector<std::uint8_t> valid(heights.size());
+    const CellWindow cells{window.row / step, window.column / step, coarse.rows, coarse.columns};
+    if (!blocks_->read(overview, cells, heights.data(), valid.data())) return nullptr;
+    return std::make_shared<const Terrain>(coarse, std::move(heights), std::move(valid));
   }
 
   // The window's cells in an overview. Its corner lies on whole steps.
@@ -235,7 +253,8 @@ class GdalElevation final : public ElevationSource, public std::enable_shared_fr
   GDALRasterBand& band_;  // of dataset_
   ElevationInfo info_;
   HeightEncoding encoding_;
-  bool lengths_are_true_;     // over the whole map; a map without a system is taken at its word
+  bool lengths_are_true_;  // over the whole map; a map without a system is taken at its word
+  std::unique_ptr<GdalBlockReader> blocks_;
   mutable std::mutex mutex_;  // a GDAL dataset is for one thread at a time
 };
 

@@ -63,7 +63,7 @@ class PixelPlaces {
   int samples_ = 1;
 };
 
-// What the samples of a pixel saw of the relief.
+// What the samples of a pixel saw of the relief: what its layer needs of it.
 struct SeenRelief {
   double light = 0.0;     // of those that lie on ground, the sum
   double steepest = 0.0;  // tangent of the slope, of these
@@ -107,7 +107,7 @@ class SurfaceLooks {
 class GradientLooks {
  public:
   GradientLooks(const dem::GradientField& field, const PixelPlaces& places, const TerrainPicture& wanted)
-      : field_(field), samples_(places.samples()) {
+      : field_(field), samples_(places.samples()), lit_(wanted.layer == TerrainLayer::kHillshade) {
     for (int row = 0; row < wanted.height_px; ++row)
       for (int k = 0; k < samples_; ++k) rows_.push_back(field.row_at(places.y_m(row, k)));
     for (int column = 0; column < wanted.width_px; ++column)
@@ -123,8 +123,10 @@ class GradientLooks {
         const dem::BetweenCentres& right = columns_[static_cast<std::size_t>(column * samples_ + j)];
         if (!down.inside || !right.inside) continue;
         const Eigen::Vector2f gradient = field_.at(down, right);
-        seen.light += dem::light_on_gradient(gradient, sun(), kExaggeration);
-        steepest = std::max(steepest, gradient.squaredNorm());
+        if (lit_)
+          seen.light += dem::light_on_gradient(gradient, sun(), kExaggeration);
+        else
+          steepest = std::max(steepest, gradient.squaredNorm());
         ++seen.on_ground;
       }
     }
@@ -135,6 +137,7 @@ class GradientLooks {
  private:
   const dem::GradientField& field_;
   int samples_;
+  bool lit_;  // the light is asked for, else the steepest
   std::vector<dem::BetweenCentres> rows_, columns_;
 };
 
