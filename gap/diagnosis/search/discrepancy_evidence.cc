@@ -83,6 +83,15 @@ DiscrepancyGain discrepancy_gain(const PosteriorMode& fit, const Eigen::MatrixXd
   return {log_mean_exp(imprecise) - without, log_mean_exp(other) - without};
 }
 
+DiscrepancyGain discrepancy_gain(const DriveCampaign& campaign, const WindowModel& model,
+                                 const NoiseModel& noise, const FittedExplanation& fit,
+                                 const DiscrepancyTerm& discrepancy, const DiagnosisOptions& options) {
+  return discrepancy_gain(
+      fit, whitened(fit, noise, discrepancy),
+      form_columns(campaign, model, noise, fit, options.discrepancy, options.search.threads),
+      options.discrepancy, [&model] { return model.cancelled(); });
+}
+
 Eigen::MatrixXd columns_beside(const PosteriorMode& fit, const Eigen::MatrixXd& term,
                                const Eigen::MatrixXd& form, bool something_else,
                                const DiscrepancyOptions& options, const Cancelled& cancelled) {

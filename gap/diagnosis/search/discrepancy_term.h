@@ -107,6 +107,10 @@ struct DiscrepancyGain {
 DiscrepancyGain discrepancy_gain(const PosteriorMode& fit, const Eigen::MatrixXd& term,
                                  const Eigen::MatrixXd& form, const DiscrepancyOptions& options,
                                  const Cancelled& cancelled);
+// The same with the columns made of a fit and its noise.
+DiscrepancyGain discrepancy_gain(const DriveCampaign& campaign, const WindowModel& model,
+                                 const NoiseModel& noise, const FittedExplanation& fit,
+                                 const DiscrepancyTerm& discrepancy, const DiagnosisOptions& options);
 
 // The fit's whitened columns with the form's and the term's behind, these at their most probable sizes among
 // those that discrepancy_gain averages over.

@@ -251,10 +251,7 @@ class Searcher {
     }
     c.fit = index;
     c.scatter = noise_.scales();
-    const DiscrepancyGain gain = discrepancy_gain(
-        fit, whitened(fit, noise_, discrepancy_),
-        form_columns(campaign_, model_, noise_, fit, options_.discrepancy, options_.search.threads),
-        options_.discrepancy, [this] { return model_.cancelled(); });
+    const DiscrepancyGain gain = discrepancy_gain(campaign_, model_, noise_, fit, discrepancy_, options_);
     c.log_evidence = fit.log_evidence + gain.imprecision;
     c.log_prior = prior.alone;
     search_.candidates.push_back(c);
@@ -268,9 +265,7 @@ class Searcher {
   Result<ExplanationSearch> weighed() && {
     compare_with_own_scatter(campaign_, model_, noise_, discrepancy_, options_, progress_, search_);
     if (progress_.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");
-    weigh(search_.candidates, options_.evidence);
-    std::stable_sort(search_.candidates.begin(), search_.candidates.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.probability > b.probability; });
+    rank(search_.candidates, options_.evidence);
     return std::move(search_);
   }
 
@@ -380,6 +375,12 @@ void weigh(std::span<Candidate> candidates, const EvidenceOptions& options) {
     for (std::size_t i = 0; i < weights.size(); ++i)
       candidates[i].probability += belief.weight * std::exp(weights[i] - all);
   }
+}
+
+void rank(std::span<Candidate> candidates, const EvidenceOptions& options) {
+  weigh(candidates, options);
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.probability > b.probability; });
 }
 
 std::vector<FittedExplanation> most_probable_fits(const ExplanationSearch& search, std::size_t most) {

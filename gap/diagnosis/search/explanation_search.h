@@ -69,6 +69,8 @@ Result<ExplanationSearch> fit_given_explanation(const DriveCampaign& campaign, c
 // The candidates' probabilities from evidence and prior: P = sum_k weight_k exp(share_k E + log prior) / Z_k,
 // each share of the log evidence E normalised over the candidates by itself.
 void weigh(std::span<Candidate> candidates, const EvidenceOptions& options);
+// Weighs them and puts the most probable first.
+void rank(std::span<Candidate> candidates, const EvidenceOptions& options);
 
 // What a set of effects is believed by before the drives (natural logarithms): alone, and with something else
 // besides. A set's share of its prior is divided by the number of effects in the library, or of their pairs.

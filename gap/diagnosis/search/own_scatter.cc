@@ -60,10 +60,7 @@ class ScatterSearch {
   }
 
   double evidence_of(const FittedExplanation& fit, double DiscrepancyGain::*part) const {
-    const DiscrepancyGain gain = discrepancy_gain(
-        fit, whitened(fit, own_, discrepancy_),
-        form_columns(campaign_, model_, own_, fit, options_.discrepancy, options_.search.threads),
-        options_.discrepancy, [this] { return model_.cancelled(); });
+    const DiscrepancyGain gain = discrepancy_gain(campaign_, model_, own_, fit, discrepancy_, options_);
     return fit.log_evidence + gain.*part + own_.log_normalisation() - compared_with_;
   }
 
@@ -78,9 +75,7 @@ class ScatterSearch {
 // The fits of nothing and of the most probable candidates, `most` in all.
 std::vector<std::size_t> foremost(std::vector<Candidate> candidates, const EvidenceOptions& evidence,
                                   std::size_t most) {
-  weigh(candidates, evidence);
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.probability > b.probability; });
+  rank(candidates, evidence);
   std::vector<std::size_t> fits{0};
   for (const Candidate& c : candidates)
     if (fits.size() < most && std::find(fits.begin(), fits.end(), c.fit) == fits.end()) fits.push_back(c.fit);
