@@ -47,8 +47,8 @@ Result<MapSources> map_sources_of(const TerrainSite& site, const Progress& progr
 std::string map_key_of(const MapRequest& request, const MapSources& sources, const Catalogue& catalogue) {
   Sha256 hash;
   for (const std::string& part :
-       {std::string(version()), json::write_map_request(request), sources.elevation_sha256,
-        sources.soil_sha256, json::write_rovers(catalogue), json::write_soils(catalogue)})
+       {build_id(), json::write_map_request(request), sources.elevation_sha256, sources.soil_sha256,
+        json::write_rovers(catalogue), json::write_soils(catalogue)})
     hash.add(part + "\n");
   return hash.digest();
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <limits>
 #include <map>
 #include <memory>
@@ -173,22 +174,25 @@ class Overrides {
 
   // As a job that is done at once. It stands once it is accepted; what a process that died left accepted is
   // ended by the next one that comes here.
-  Result<void> keep(const std::string& check, const std::string& record, const std::string& owner,
+  Result<void> keep(const std::string& check, const std::string& text, const std::string& owner,
                     std::int64_t now) {
     const api::NewJob job{.id = override_id(check),
                           .kind = std::string(kOverrideKind),
-                          .request = record,
+                          .request = text,
                           .owner = owner,
                           .key = "override of " + check};
     const auto accepted = store_.append(job, now, {.most_unfinished = std::numeric_limits<int>::max()});
     if (!accepted) return fail(accepted.error());
-    constexpr std::int64_t kLease_ms = 60'000;
+    constexpr std::chrono::minutes kLease(1);
     for (;;) {
+      const auto term = store_.lease_term(kLease);
+      if (!term) return {};
       const auto claimed =
-          store_.claim("overrides/" + api::new_job_id(), {std::string(kOverrideKind)}, now, now + kLease_ms);
-      if (!claimed || !*claimed) return {};
-      const auto ended = store_.finish((*claimed)->lease(), api::JobState::kSuccessful,
-                                       api::JobAnswer((*claimed)->request), now);
+          store_.claim_some("overrides/" + api::new_job_id(), {std::string(kOverrideKind)}, now, *term, 1);
+      if (!claimed || claimed->empty()) return {};
+      const api::ClaimedJob& record = claimed->front();
+      const auto ended =
+          store_.finish(record.lease(), api::JobState::kSuccessful, api::JobAnswer(record.request), now);
       if (!ended) return {};
     }
   }

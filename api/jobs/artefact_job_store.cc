@@ -20,9 +20,10 @@ class ArtefactJobStore final : public JobStore {
   Result<Job> append(const NewJob& job, std::int64_t now, const Admission& admission) override {
     return store_->append(job, now, admission);
   }
+  Result<std::int64_t> lease_clock() override { return store_->lease_clock(); }
   Result<std::vector<ClaimedJob>> claim_some(std::string_view worker, const std::vector<std::string>& kinds,
-                                             std::int64_t now, std::int64_t lease_until, int most) override {
-    return store_->claim_some(worker, kinds, now, lease_until, most);
+                                             std::int64_t now, LeaseTerm term, int most) override {
+    return store_->claim_some(worker, kinds, now, term, most);
   }
   Result<int> give_back(const std::vector<Lease>& leases) override { return store_->give_back(leases); }
   Result<bool> report(const Lease& lease, std::string_view stage, double progress, std::int64_t lease_until,

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "api/json/writer.h"
-#include "core/utc.h"
 
 namespace slipway::api {
 
@@ -70,9 +69,11 @@ void JobProgress::write() const {
   written_ = Clock::now();
   rings_ = place_.rings;
   on_writing_();
-  const auto held = place_.store.report(lease_, stage_, fraction_, now_ms() + place_.lease.count(),
-                                        std::exchange(best_so_far_, {}));
-  // A store that can't be written for a moment is no reason to throw the work away.
+  const auto term = place_.store.lease_term(place_.lease);
+  if (!term) return;
+  const auto held =
+      place_.store.report(lease_, stage_, fraction_, term->until, std::exchange(best_so_far_, {}));
+  // A store that can't be read or written for a moment is no reason to throw the work away.
   if (held && !*held) cancelled_ = true;
 }
 

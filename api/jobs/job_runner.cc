@@ -174,8 +174,9 @@ void JobRunner::serve(const std::vector<std::string>& kinds) {
   BatchSize size(options_.batch_time);
   while (!stopping_) {
     const int seen = work_rings_;
-    const std::int64_t now = now_ms();
-    auto claimed = store_->claim_some(options_.worker, kinds, now, now + options_.lease.count(), size.next());
+    const auto term = store_->lease_term(options_.lease);
+    auto claimed = term ? store_->claim_some(options_.worker, kinds, now_ms(), *term, size.next())
+                        : Result<std::vector<ClaimedJob>>(fail(term.error()));
     if (claimed && !claimed->empty()) {
       const bool of_parts = !claimed->front().job.whole.empty();
       JobBatch batch(*store_, *std::move(claimed), 2 * options_.batch_time);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -57,6 +58,12 @@ struct Lease {
   std::string whole = {};  // the job that it is a part of; empty: of none
 };
 
+// Two times by JobStore::lease_clock(): leases that end before `now` have ended, a new one ends at `until`.
+struct LeaseTerm {
+  std::int64_t now = 0;
+  std::int64_t until = 0;
+};
+
 struct ClaimedJob {
   Job job;
   std::string request;
@@ -110,9 +117,9 @@ enum class StoreNews {
 
 // Where jobs are kept: the one thing that processes and machines share. Every call stands alone and holds
 // nothing open afterwards: append, claim, report, finish and dismiss each are one atomic statement or
-// transaction, and a claim does not keep its transaction while the job runs. Times come from the caller;
-// machines that share a store keep their clocks within a fraction of the lease. Names of workers are new at
-// each start of a process.
+// transaction, and a claim does not keep its transaction while the job runs. Times of a day come from the
+// caller and are for people; leases are counted by a clock that all who share the store read alike, which
+// nobody sets. Names of workers are new at each start of a process.
 //
 // Errors are always `storage`, or `storage_full` where the disk is full, except where said. After `storage`
 // the change may have been made all the same: who asks again with the same key, id or lease finds it made
@@ -126,6 +133,12 @@ class JobStore {
   // invalid_request at /Idempotency-Key where the key names another request.
   virtual Result<Job> append(const NewJob& job, std::int64_t now, const Admission& admission) = 0;
 
+  // The clock by which leases are counted, in milliseconds since some beginning: the machine's start for a
+  // store on one machine, the server's time where a database is shared by several.
+  virtual Result<std::int64_t> lease_clock() = 0;
+  // Of a lease of that length that begins now.
+  Result<LeaseTerm> lease_term(std::chrono::milliseconds length);
+
   // The most urgent, and of these the oldest, job of these kinds (of any kind where none is named) that is
   // accepted, or running under a lease that has ended, which is a death. It is running afterwards, its
   // attempt one higher. Nothing where there is none.
@@ -135,8 +148,8 @@ class JobStore {
   // kills its worker brings at most one death upon others.
   virtual Result<std::vector<ClaimedJob>> claim_some(std::string_view worker,
                                                      const std::vector<std::string>& kinds, std::int64_t now,
-                                                     std::int64_t lease_until, int most) = 0;
-  // The first of them alone.
+                                                     LeaseTerm term, int most) = 0;
+  // The first of them alone, where one clock serves for both times.
   Result<std::optional<ClaimedJob>> claim(std::string_view worker, const std::vector<std::string>& kinds,
                                           std::int64_t now, std::int64_t lease_until);
   // Accepts again what has not been begun under these leases; no death is counted. Lost ones are passed over.

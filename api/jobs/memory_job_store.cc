@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "api/jobs/job_admission.h"
+#include "core/boot_clock.h"
 
 namespace slipway::api {
 namespace {
@@ -46,13 +47,15 @@ class MemoryJobStore final : public JobStore {
     return entry.job;
   }
 
+  Result<std::int64_t> lease_clock() override { return boot_ms(); }
+
   Result<std::vector<ClaimedJob>> claim_some(std::string_view worker, const std::vector<std::string>& kinds,
-                                             std::int64_t now, std::int64_t lease_until, int most) override {
+                                             std::int64_t now, LeaseTerm term, int most) override {
     const std::scoped_lock lock(mutex_);
     std::vector<ClaimedJob> claimed;
     Entry* first = nullptr;
     for (Entry& entry : entries_) {
-      const bool late = entry.job.state == JobState::kRunning && !entry.waits && entry.lease_until < now;
+      const bool late = entry.job.state == JobState::kRunning && !entry.waits && entry.lease_until < term.now;
       const bool free = entry.job.state == JobState::kAccepted || late;
       if (free && is_among(kinds, entry) && (first == nullptr || entry.job.urgency < first->job.urgency))
         first = &entry;
@@ -62,14 +65,14 @@ class MemoryJobStore final : public JobStore {
       ++first->job.deaths;
       first->job.last_death = kLeaseEnded;
     }
-    claimed.push_back(give(*first, worker, now, lease_until));
+    claimed.push_back(give(*first, worker, now, term.until));
     if (first->job.whole.empty() || first->job.deaths > 0) return claimed;
     const int at_once = parts_at_once(find(first->job.whole)->job.parts, most);
     for (Entry& entry : entries_) {  // the first part is before the others
       if (static_cast<int>(claimed.size()) >= at_once) break;
       const bool is_beside = entry.job.whole == first->job.whole && entry.job.deaths == 0;
       if (is_beside && entry.job.state == JobState::kAccepted)
-        claimed.push_back(give(entry, worker, now, lease_until));
+        claimed.push_back(give(entry, worker, now, term.until));
     }
     return claimed;
   }

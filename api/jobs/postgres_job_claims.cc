@@ -17,7 +17,7 @@ constexpr std::string_view kFirst =
     "waiting AS MATERIALIZED (SELECT sequence, urgency, whole, deaths, false AS is_late FROM slipway_jobs "
     "WHERE state = 'accepted' {0} ORDER BY urgency, sequence LIMIT 1 FOR UPDATE SKIP LOCKED), "
     "late AS MATERIALIZED (SELECT sequence, urgency, whole, deaths, true AS is_late FROM slipway_jobs "
-    "WHERE state = 'running' AND lease_until_ms < $1 {0} ORDER BY urgency, sequence LIMIT 1 "
+    "WHERE state = 'running' AND lease_until_ms < $5 {0} ORDER BY urgency, sequence LIMIT 1 "
     "FOR UPDATE SKIP LOCKED), "
     "first AS MATERIALIZED (SELECT * FROM (TABLE waiting UNION ALL TABLE late) AS either "
     "ORDER BY urgency, sequence LIMIT 1)";
@@ -30,7 +30,7 @@ constexpr std::string_view kBeside =
     "urgency = (SELECT urgency FROM first) AND sequence > (SELECT sequence FROM first) AND "
     "sequence < (SELECT sequence FROM first) + {0} AND "
     "whole = (SELECT whole FROM first WHERE NOT is_late AND deaths = 0) AND deaths = 0 "
-    "ORDER BY urgency, sequence LIMIT greatest(0, least($5::bigint, (SELECT (parts - parts_ended) / {1} "
+    "ORDER BY urgency, sequence LIMIT greatest(0, least($6::bigint, (SELECT (parts - parts_ended) / {1} "
     "FROM slipway_jobs WHERE id = (SELECT whole FROM first))) - 1) FOR UPDATE SKIP LOCKED)";
 
 constexpr std::string_view kClaim =
@@ -44,8 +44,8 @@ std::string claim_statement(bool of_some_kinds, bool several) {
   constexpr int kReachPerJob = 4;
   std::string sql =
       "WITH " +
-      fmt::format(kFirst, of_some_kinds ? fmt::format("AND kind = ANY(${}::text[])", several ? 6 : 5) : "");
-  if (several) sql += fmt::format(kBeside, fmt::format("{} * $5::bigint", kReachPerJob), kShareAtOnce);
+      fmt::format(kFirst, of_some_kinds ? fmt::format("AND kind = ANY(${}::text[])", several ? 7 : 6) : "");
+  if (several) sql += fmt::format(kBeside, fmt::format("{} * $6::bigint", kReachPerJob), kShareAtOnce);
   return sql + " " +
          fmt::format(kClaim,
                      several ? "SELECT sequence FROM first UNION ALL SELECT sequence FROM beside"
@@ -56,10 +56,10 @@ std::string claim_statement(bool of_some_kinds, bool several) {
 }  // namespace
 
 std::vector<ClaimedJob> claim_jobs(PostgresConnection& connection, std::string_view worker,
-                                   const std::vector<std::string>& kinds, std::int64_t now,
-                                   std::int64_t lease_until, int most) {
+                                   const std::vector<std::string>& kinds, std::int64_t now, LeaseTerm term,
+                                   int most) {
   PostgresValues values;
-  values.number(now).text(kLeaseEnded).text(worker).number(lease_until);
+  values.number(now).text(kLeaseEnded).text(worker).number(term.until).number(term.now);
   if (most > 1) values.number(most);
   if (!kinds.empty()) values.list(kinds);
   const PostgresRows rows = connection.run(claim_statement(!kinds.empty(), most > 1), values);

@@ -13,8 +13,8 @@ namespace slipway::api {
 
 // As JobStore::claim_some().
 std::vector<ClaimedJob> claim_jobs(PostgresConnection& connection, std::string_view worker,
-                                   const std::vector<std::string>& kinds, std::int64_t now,
-                                   std::int64_t lease_until, int most);
+                                   const std::vector<std::string>& kinds, std::int64_t now, LeaseTerm term,
+                                   int most);
 // As JobStore::give_back().
 int give_back_jobs(PostgresConnection& connection, const std::vector<Lease>& leases);
 

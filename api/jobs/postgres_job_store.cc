@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <mutex>
+#include <string>
 #include <utility>
 
 #include "api/jobs/job_admission.h"
@@ -13,6 +15,7 @@
 #include "api/jobs/postgres_job_rows.h"
 #include "api/jobs/postgres_job_schema.h"
 #include "api/jobs/postgres_pool.h"
+#include "core/boot_clock.h"
 
 namespace slipway::api {
 namespace {
@@ -64,10 +67,28 @@ class PostgresJobStore final : public JobStore {
     return *std::move(accepted);
   }
 
+  // The server's clock, read every few seconds and counted on by this machine's in between.
+  Result<std::int64_t> lease_clock() override {
+    constexpr std::int64_t kReadAgain_ms = 10'000;
+    const std::scoped_lock lock(clock_mutex_);
+    if (!clock_read_at_ || boot_ms() - *clock_read_at_ > kReadAgain_ms) {
+      const auto ahead = quick_.run([](PostgresConnection& connection) {
+        const std::int64_t before = boot_ms();
+        const PostgresRows rows = connection.run(
+            "SELECT (extract(epoch FROM clock_timestamp()) * 1000)::bigint::text", PostgresValues());
+        return std::stoll(rows.text(0, 0)) - (before + boot_ms()) / 2;
+      });
+      if (!ahead) return fail(ahead.error());
+      clock_ahead_ms_ = *ahead;
+      clock_read_at_ = boot_ms();
+    }
+    return boot_ms() + clock_ahead_ms_;
+  }
+
   Result<std::vector<ClaimedJob>> claim_some(std::string_view worker, const std::vector<std::string>& kinds,
-                                             std::int64_t now, std::int64_t lease_until, int most) override {
+                                             std::int64_t now, LeaseTerm term, int most) override {
     auto claimed = quick_.run([&](PostgresConnection& connection) {
-      return claim_jobs(connection, worker, kinds, now, lease_until, most);
+      return claim_jobs(connection, worker, kinds, now, term, most);
     });
     return claimed;
   }
@@ -322,6 +343,9 @@ class PostgresJobStore final : public JobStore {
 
   PostgresPool durable_, quick_;
   PostgresBell bell_;
+  std::mutex clock_mutex_;  // guards the server's clock: when it was read, and how far before boot_ms() it is
+  std::optional<std::int64_t> clock_read_at_;
+  std::int64_t clock_ahead_ms_ = 0;
 };
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "api/files/whole_file.h"
 #include "api/jobs/job.h"
 #include "api/jobs/job_digest.h"
+#include "core/boot_clock.h"
 #include "core/utc.h"
 
 namespace slipway::api {
@@ -222,6 +223,22 @@ void bring_up_from_3(SqliteConnection& connection) {
   transaction.commit();
 }
 
+// Leases are counted by a clock that starts with the machine: whoever held one before that is gone, and so is
+// the program of an older version that wrote them by the time of day.
+void end_leases_of_other_boots(SqliteConnection& connection) {
+  const std::string boot = boot_id();
+  connection.execute("CREATE TABLE IF NOT EXISTS lease_clock (boot TEXT NOT NULL)");
+  SqliteTransaction transaction(connection);
+  const bool known = number_of(connection, "SELECT count(*) FROM lease_clock") == 1;
+  if (!known || first_text(connection, "SELECT boot FROM lease_clock") != boot) {
+    connection.execute("DELETE FROM lease_clock");
+    connection.prepare("INSERT INTO lease_clock (boot) VALUES (?)").bind(boot).step();
+    connection.execute(
+        "UPDATE jobs SET lease_until_ms = 0 WHERE state = 'running' AND lease_until_ms IS NOT NULL");
+  }
+  transaction.commit();
+}
+
 }  // namespace
 
 void check_marker(const fs::path& store) {
@@ -256,6 +273,7 @@ void settle_schema(SqliteConnection& connection, const fs::path& store, StoreChe
     }
     check_columns(connection, store);
     connection.execute(kBestSoFar);
+    end_leases_of_other_boots(connection);
   } catch (const SqliteFull&) {
     throw;
   } catch (const SqliteDamage& damage) {

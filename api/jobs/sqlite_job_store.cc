@@ -12,6 +12,7 @@
 #include "api/jobs/sqlite_connection.h"
 #include "api/jobs/sqlite_job_rows.h"
 #include "api/jobs/sqlite_job_schema.h"
+#include "core/boot_clock.h"
 
 namespace slipway::api {
 namespace {
@@ -69,15 +70,17 @@ class SqliteJobStore final : public JobStore {
     return *mine.answer;
   }
 
+  Result<std::int64_t> lease_clock() override { return boot_ms(); }
+
   Result<std::vector<ClaimedJob>> claim_some(std::string_view worker, const std::vector<std::string>& kinds,
-                                             std::int64_t now, std::int64_t lease_until, int most) override {
+                                             std::int64_t now, LeaseTerm term, int most) override {
     const std::string next = fmt::format(
         "SELECT id FROM jobs WHERE state IN ('accepted', 'running') AND (state = 'accepted' OR "
         "lease_until_ms < ?) {} ORDER BY urgency, sequence LIMIT 1",
         among(kinds));
     const auto found_by = [&](SqliteConnection& connection) -> std::optional<std::string> {
       auto row = connection.prepare(next);
-      row.bind(now);
+      row.bind(term.now);
       for (const std::string& kind : kinds) row.bind(kind);
       return row.step() ? std::optional(row.text(0)) : std::nullopt;
     };
@@ -90,9 +93,9 @@ class SqliteJobStore final : public JobStore {
       SqliteTransaction transaction(quick_);
       const std::optional<std::string> id = found_by(quick_);
       if (!id) return claimed;
-      claimed.push_back(claim_one(quick_, *id, worker, now, lease_until));
+      claimed.push_back(claim_one(quick_, *id, worker, now, term.until));
       for (const std::string& part : parts_beside(quick_, claimed.front().job, most))
-        claimed.push_back(claim_one(quick_, part, worker, now, lease_until));
+        claimed.push_back(claim_one(quick_, part, worker, now, term.until));
       transaction.commit();
       return claimed;
     });

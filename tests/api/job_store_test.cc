@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <mutex>
 #include <set>
 #include <thread>
@@ -75,7 +76,7 @@ class JobStores : public ::testing::TestWithParam<std::string> {
     }
   }
   std::vector<ClaimedJob> claim_some(const std::string& worker, int most) {
-    return store_->claim_some(worker, {}, now_, now_ + 1000, most).value();
+    return store_->claim_some(worker, {}, now_, {now_, now_ + 1000}, most).value();
   }
   static JobAnswer answer_of_part(int part) {
     JobAnswer answer("answer " + std::to_string(part));
@@ -94,6 +95,27 @@ class JobStores : public ::testing::TestWithParam<std::string> {
 
 INSTANTIATE_TEST_SUITE_P(Each, JobStores, ::testing::Values("memory", "sqlite", "postgresql"),
                          [](const auto& instance) { return instance.param; });
+
+// Before, an hour that somebody set the clock forward gave a running job to a second worker.
+TEST_P(JobStores, ALeaseHoldsWhateverTheTimeOfDayIsSetTo) {
+  constexpr std::chrono::hours kHour(1);
+  const std::string id = accept();
+  const LeaseTerm term = store_->lease_term(std::chrono::minutes(1)).value();
+  EXPECT_EQ(term.until - term.now, 60'000);
+  const auto held = store_->claim_some("a", kBoth, now_, term, 1).value();
+  ASSERT_EQ(held.size(), 1U);
+  for (const std::int64_t day :
+       {now_ + std::chrono::milliseconds(kHour).count(), now_ - std::chrono::milliseconds(kHour).count()}) {
+    const LeaseTerm later = store_->lease_term(std::chrono::minutes(1)).value();
+    EXPECT_GE(later.now, term.now);
+    EXPECT_TRUE(store_->claim_some("b", kBoth, day, later, 1).value().empty()) << day;
+  }
+  EXPECT_TRUE(store_->report(held.front().lease(), "", 0.5, term.now - 1).value());
+  const auto again = store_->claim_some("b", kBoth, now_, term, 1).value();
+  ASSERT_EQ(again.size(), 1U) << "its lease has ended by the store's clock";
+  EXPECT_EQ(again.front().job.id, id);
+  EXPECT_EQ(again.front().job.started_ms, now_);
+}
 
 TEST_P(JobStores, AJobGoesFromAcceptedOverRunningToSuccessful) {
   const std::string request("{\"a\": \"\xc3\xa9\"}\0more", 16);
@@ -562,7 +584,7 @@ TEST_P(JobStores, ThreadsThatClaimInBatchesDoEveryPartOnce) {
   for (int t = 0; t < 4; ++t)
     threads.emplace_back([this, t] {
       for (;;) {
-        const auto parts = store_->claim_some(std::to_string(t), {}, now_, now_ + 100'000, 8).value();
+        const auto parts = store_->claim_some(std::to_string(t), {}, now_, {now_, now_ + 100'000}, 8).value();
         if (parts.empty() || parts.front().job.whole.empty()) return;
         std::vector<JobEnd> ends;
         for (const ClaimedJob& part : parts)

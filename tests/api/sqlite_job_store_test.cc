@@ -11,6 +11,7 @@
 #include <set>
 #include <thread>
 
+#include "api/jobs/sqlite_connection.h"
 #include "small_world.h"
 
 namespace slipway::api {
@@ -56,6 +57,25 @@ TEST(SqliteJobStore, AKilledProcessLosesNoAcknowledgedJob) {
   ASSERT_TRUE(store) << store.error().detail;
   for (const std::string& known : acknowledged)
     EXPECT_TRUE((*store)->get(known).value().has_value()) << known;
+}
+
+TEST(SqliteJobStore, LeasesHoldThroughAReopeningButNotThroughAStartOfTheMachine) {
+  const ScratchFolder folder;
+  const auto path = folder.path() / "jobs.sqlite";
+  const auto claimed_anew = [&] {
+    const auto store = open_sqlite_job_store(path).value();
+    const LeaseTerm term = store->lease_term(std::chrono::hours(1)).value();
+    return store->claim_some("b", kBoth, 3, term, 1).value();
+  };
+  ASSERT_TRUE(open_sqlite_job_store(path).value()->append({new_job_id(), "plan", "{}"}, 1, {10}));
+  ASSERT_EQ(claimed_anew().size(), 1U);
+  EXPECT_TRUE(claimed_anew().empty()) << "the lease still runs";
+  SqliteConnection(path, CommitKind::kDurable).execute("UPDATE lease_clock SET boot = 'an earlier one'");
+  const auto again = claimed_anew();
+  ASSERT_EQ(again.size(), 1U);
+  EXPECT_EQ(again.front().job.attempt, 2);
+  EXPECT_EQ(again.front().job.deaths, 1);
+  EXPECT_TRUE(claimed_anew().empty());
 }
 
 TEST(SqliteJobStore, KeepsEverythingThroughAReopening) {

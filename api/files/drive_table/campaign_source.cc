@@ -27,7 +27,7 @@ Result<std::string> digest_of(const std::string& bytes, const campaign::DriveTab
                               const fs::path& data) {
   const auto rover = read_data_file(data / "rovers" / (table.rover->name + ".json"));
   if (!rover) return fail(rover.error());
-  std::uint64_t digest = campaign::digest_of(version());
+  std::uint64_t digest = campaign::digest_of(build_id());
   digest = campaign::digest_of(bytes, digest);
   digest = campaign::digest_of(*rover, digest);
   std::set<std::string> soils;
