@@ -13,17 +13,26 @@ constexpr std::array kFields{
     Field{"by_slip", "1",
           "share of a grouser's shear displacement that follows from slip alone instead of the rim's path",
           0.0, 1.0, 0.0, 0.0},
+    Field{"shear_share", "1", "where the soil is sheared, from the rim (0) to the grousers' tips (1)", 0.0,
+          1.0, 0.0, 0.0},
 };
 
 void change(std::span<const double> values, RoverModel& rover) {
-  for (WheelModel& wheel : rover.wheels)
-    wheel.grousers = Grousers{values[0], values[1], values[2], values[3]};
+  for (WheelModel& wheel : rover.wheels) {
+    Grousers own = wheel.grousers.value_or(Grousers{});
+    own.height_m = values[0];
+    own.count = values[1];
+    own.mobilisation = values[2];
+    own.by_slip = values[3];
+    own.shear_share = values[4];
+    wheel.grousers = own;
+  }
 }
 
 bool same(const std::optional<Grousers>& a, const std::optional<Grousers>& b) {
   if (!a || !b) return a.has_value() == b.has_value();
   return a->height_m == b->height_m && a->count == b->count && a->mobilisation == b->mobilisation &&
-         a->by_slip == b->by_slip;
+         a->by_slip == b->by_slip && a->shear_share == b->shear_share;
 }
 
 // Grousers that the rover file gives are where the estimate starts from. Wheels that differ in them are not
@@ -34,20 +43,24 @@ std::vector<EffectVariant> variants(const RoverModel& rover) {
     if (!same(wheel.grousers, own)) return {};
   EffectVariant::Free height = free_field(kFields, "height_m", 0.01);
   EffectVariant::Free mobilisation = free_field(kFields, "mobilisation", 0.5);
+  // Soil between grousers is sheared a little beyond the rim, so that the rover gets farther, as on larger
+  // wheels. A little: what goes far beyond is a larger wheel (the effect wheel_radius) rather than this.
+  EffectVariant::Free share = free_field(kFields, "shear_share", 0.02);
   if (own) {
     height.neutral = own->height_m;
     mobilisation.neutral = own->mobilisation;
+    share.neutral = own->shear_share;
     return {{.label = "of another height",
-             .free = {height, mobilisation},
+             .free = {height, mobilisation, share},
              .fixed = {{"count", own->count}, {"by_slip", own->by_slip}}}};
   }
   // The neutral count, none, would leave nothing to estimate.
   return {{.label = "mobilised along the rim",
-           .free = {height, mobilisation},
+           .free = {height, mobilisation, share},
            .fixed = {{"by_slip", 0.0}},
            .at_initial = {"count"}},
           {.label = "mobilised by slip",
-           .free = {height, mobilisation},
+           .free = {height, mobilisation, share},
            .fixed = {{"by_slip", 1.0}},
            .at_initial = {"count"}}};
 }
