@@ -85,14 +85,13 @@ HttpResponse JobAnswers::raster(const HttpRequest& request) {
   if (kind == nullptr || !kind->has_raster || !job->whole.empty())
     return problem(ErrorCode::kNotFound, fmt::format("jobs of kind {} have no raster", job->kind), request);
   if (job->state != api::JobState::kSuccessful) return of(*job, request);
-  auto bytes = pieces_of(*job);
-  if (!bytes) return problem_response(bytes.error(), &request);
+  auto pages = pages_of(*job);
+  if (!pages) return problem_response(pages.error(), &request);
   HttpResponse response = document({});
-  response.pieces = *std::move(bytes);
   response.content_type = kCloudOptimised;
   response.headers.emplace_back("Content-Disposition",
                                 fmt::format("attachment; filename=\"{}.tif\"", job->id));
-  return tagged(std::move(response), fmt::format("\"{}\"", job->id), request);
+  return ranged(std::move(response), *std::move(pages), request);
 }
 
 HttpResponse JobAnswers::vectors(const HttpRequest& request, bool geopackage) {
@@ -108,12 +107,18 @@ HttpResponse JobAnswers::vectors(const HttpRequest& request, bool geopackage) {
   const auto job = find_job(store_, request);
   if (!job) return problem_response(job.error(), &request);
   if (job->state != api::JobState::kSuccessful) return of(*job, request);
-  auto bytes = vectors_of(*job, geopackage, coordinates == "lonlat");
+  const bool lonlat = coordinates == "lonlat";
+  // SQLite opens a GeoPackage in place page by page: it is not made anew for each.
+  const std::string form = geopackage ? "gpkg" : "geojson " + coordinates;
+  const auto bytes =
+      drawn_.get(fmt::format("{}/{}", job->id, form), [&] { return vectors_of(*job, geopackage, lonlat); });
   if (!bytes) return problem_response(bytes.error(), &request);
-  HttpResponse response = document(*std::move(bytes));
+  HttpResponse response = document({});
   response.content_type = geopackage ? kGeoPackage : kGeoJson;
-  const std::string tag = tag_of(response.body);
-  return tagged(std::move(response), tag, request);
+  PagedBody whole{{(*bytes)->size()},
+                  [kept = *bytes](std::size_t /*page*/) -> Result<std::string> { return *kept; },
+                  tag_of(**bytes)};
+  return ranged(std::move(response), std::move(whole), request);
 }
 
 HttpResponse JobAnswers::map(const HttpRequest& request) {
@@ -182,6 +187,36 @@ Result<BodyPieces> JobAnswers::pieces_of(const api::Job& job) {
     }
     return bytes;
   };
+}
+
+Result<PagedBody> JobAnswers::pages_of(const api::Job& job) {
+  PagedBody body;
+  body.tag = fmt::format("\"{}\"", job.id);
+  body.read = [this, id = job.id](std::size_t page) -> Result<std::string> {
+    auto kept = store_.series(id, static_cast<std::int64_t>(page) + 1);
+    if (!kept) return fail(kept.error());
+    if (!*kept) return fail(ErrorCode::kNotFound, "the job's result is no longer kept");
+    return (*kept)->bytes;
+  };
+  {
+    const std::scoped_lock lock(page_bytes_mutex_);
+    if (const auto known = page_bytes_.find(job.id); known != page_bytes_.end()) {
+      body.page_bytes = known->second;
+      return body;
+    }
+  }
+  const auto pieces = pieces_of(job);
+  if (!pieces) return fail(pieces.error());
+  for (;;) {
+    const auto piece = (*pieces)();
+    if (!piece) return fail(piece.error());
+    if (!*piece) break;
+    body.page_bytes.push_back((*piece)->size());
+  }
+  const std::scoped_lock lock(page_bytes_mutex_);
+  if (page_bytes_.size() >= kMostJobsPaged) page_bytes_.clear();
+  page_bytes_[job.id] = body.page_bytes;
+  return body;
 }
 
 Result<std::string> JobAnswers::whole_series(const api::Job& job) {

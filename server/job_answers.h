@@ -1,13 +1,16 @@
 #pragma once
 
 #include <cstdint>
+#include <mutex>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "api/job_kind.h"
 #include "api/jobs/job_store.h"
 #include "api/service.h"
+#include "server/byte_range.h"
 #include "server/drawn_cache.h"
 #include "server/http/http_message.h"
 
@@ -32,9 +35,9 @@ class JobAnswers {
   HttpResponse stations(const HttpRequest& request);
   // The answers of a successful batch, one a line.
   HttpResponse answers(const HttpRequest& request);
-  // The raster of a successful job, whole.
+  // The raster of a successful job, or the range of its bytes that is asked for.
   HttpResponse raster(const HttpRequest& request);
-  // Routes, stations, rules and checks of a successful job for GIS tools.
+  // Routes, stations, rules and checks of a successful job for GIS tools; ranges likewise.
   HttpResponse vectors(const HttpRequest& request, bool geopackage);
   // The picture of a successful job's answer.
   HttpResponse map(const HttpRequest& request);
@@ -46,6 +49,8 @@ class JobAnswers {
   bool has_file(const api::Job& job) const;
   // All pages of what is kept apart, one after the other.
   Result<BodyPieces> pieces_of(const api::Job& job);
+  // The same as pages of which any can be read. All are read once to learn how long they are.
+  Result<PagedBody> pages_of(const api::Job& job);
   // The same put together.
   Result<std::string> whole_series(const api::Job& job);
   Result<std::string> vectors_of(const api::Job& job, bool geopackage, bool lonlat);
@@ -56,12 +61,16 @@ class JobAnswers {
   HttpResponse answer(const api::Job& job, const std::string& bytes, const HttpRequest& request);
   HttpResponse csv_answer(const api::Job& job, const std::string& bytes, const HttpRequest& request);
 
+  static constexpr std::size_t kMostJobsPaged = 1000;     // of so many jobs, then it begins anew
   static constexpr std::size_t kDrawnBytes = 16'000'000;  // of pictures and pages that are kept in memory
 
   const api::Service& service_;
   api::JobStore& store_;
   const std::vector<api::JobKind>& kinds_;
   DrawnCache drawn_{kDrawnBytes};
+  std::mutex page_bytes_mutex_;
+  std::unordered_map<std::string, std::vector<std::uint64_t>>
+      page_bytes_;  // of jobs' pages, which never change
 };
 
 }  // namespace slipway::server

@@ -54,6 +54,7 @@ HttpResponse tagged(HttpResponse response, const std::string& tag, const HttpReq
     response.status = 304;
     response.body.clear();
     response.pieces = nullptr;
+    response.pieces_bytes.reset();
     response.content_type.clear();
   }
   return response;

@@ -148,10 +148,10 @@ HttpOptions http_options(const ServeOptions& options) {
                                          ? static_cast<std::size_t>(options.max_connections_per_address)
                                          : http.max_connections;
   http.cross_origin.origins = options.allowed_origins;
-  http.cross_origin.request_headers = {"Authorization", "Content-Type", "Idempotency-Key",
-                                       "If-None-Match", "Prefer",       "Priority"};
-  http.cross_origin.response_headers = {"Allow",    "Content-Location",   "ETag",
-                                        "Location", "Preference-Applied", "Retry-After"};
+  http.cross_origin.request_headers = {"Authorization", "Content-Type", "Idempotency-Key", "If-None-Match",
+                                       "If-Range",      "Prefer",       "Priority",        "Range"};
+  http.cross_origin.response_headers = {"Accept-Ranges", "Allow",    "Content-Location",   "Content-Range",
+                                        "ETag",          "Location", "Preference-Applied", "Retry-After"};
   return http;
 }
 

@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <cstring>
 #include <ctime>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -60,6 +62,14 @@ class MemoryStream final : public httplib::Stream {
   std::string written_;
 };
 
+std::string name_before_withholding(const std::string& name) {
+  const auto known =
+      std::find_if(kWithheldNames.begin(), kWithheldNames.end(), [&](std::string_view withheld) {
+        return equal_ignoring_case(name, fmt::format("{}{}", kWithheld, withheld));
+      });
+  return known == kWithheldNames.end() ? name : std::string(*known);
+}
+
 NamedValues decoded_query(std::string_view text) {
   // cpp-httplib's own reading drops the second of two equal pairs and forgets their order.
   NamedValues out;
@@ -86,8 +96,7 @@ HttpRequest request_from(const httplib::Request& in, HttpEngine::Exchange& excha
     out.query = decoded_query(std::string_view(in.target).substr(question + 1));
   for (const auto& [name, value] : in.headers) {
     if (is_among(kAddressNames, name)) continue;
-    const bool withheld = equal_ignoring_case(name, kWithheldAcceptEncoding);
-    out.headers.emplace_back(withheld ? "Accept-Encoding" : name, value);
+    out.headers.emplace_back(name_before_withholding(name), value);
   }
   out.body = std::move(exchange.body);
   out.body_file = std::move(exchange.body_file);
@@ -136,6 +145,8 @@ class HttpEngine::Adapter final : public httplib::Server {
       HttpRequest request = request_from(in, *exchange_);
       HttpResponse response = (*answer_)(request);
       goes_on_ = response.stream || response.pieces;
+      pieces_bytes_ = response.pieces_bytes;
+      offers_ranges_ = response.header("Accept-Ranges").has_value();
       stream_ = in.method == "HEAD" ? nullptr : response.stream;
       pieces_ = in.method == "HEAD" ? nullptr : response.pieces;
       fill(out, std::move(response));
@@ -146,9 +157,11 @@ class HttpEngine::Adapter final : public httplib::Server {
       body_ = in.method == "HEAD" ? std::string() : std::move(out.body);
       out.body.clear();
       // cpp-httplib offers ranges with every HEAD, and a length where there must be none [RFC 9110, 8.6].
-      out.headers.erase("Accept-Ranges");
+      if (!offers_ranges_) out.headers.erase("Accept-Ranges");
       if (out.status == 204 || out.status < 200 || goes_on_) out.headers.erase("Content-Length");
-      if (pieces_ && in.version == "HTTP/1.1") {
+      if (goes_on_ && pieces_bytes_) {
+        out.set_header("Content-Length", fmt::to_string(*pieces_bytes_));
+      } else if (pieces_ && in.version == "HTTP/1.1") {
         out.set_header("Transfer-Encoding", "chunked");
         pieces_ = in_chunks(std::move(pieces_));
       }
@@ -188,6 +201,8 @@ class HttpEngine::Adapter final : public httplib::Server {
   std::function<void(std::shared_ptr<AnswerStream>)> stream_;
   BodyPieces pieces_;
   bool goes_on_ = false;  // after the head, by one of the two
+  std::optional<std::uint64_t> pieces_bytes_;
+  bool offers_ranges_ = false;
   std::exception_ptr thrown_;
 };
 

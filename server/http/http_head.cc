@@ -17,12 +17,11 @@ namespace {
 constexpr std::array<std::string_view, 7> kMethods{"GET",   "HEAD",   "POST",   "PUT",
                                                    "PATCH", "DELETE", "OPTIONS"};
 
-// Never passed on. cpp-httplib would gather ranges without bound and compress whole answers in memory;
-// framing and connection are dealt with here; and the last four are names under which it puts the socket's
-// own addresses, beside any that a client sent.
-constexpr std::array<std::string_view, 12> kNotForwarded{
-    "range",      "if-range", "accept-encoding", "content-length", "transfer-encoding", "connection",
-    "keep-alive", "expect",   "remote_addr",     "remote_port",    "local_addr",        "local_port"};
+// Never passed on: framing and connection are dealt with here; and the last four are names under which
+// cpp-httplib puts the socket's own addresses, beside any that a client sent.
+constexpr std::array<std::string_view, 9> kNotForwarded{
+    "content-length", "transfer-encoding", "connection", "keep-alive", "expect",
+    "remote_addr",    "remote_port",       "local_addr", "local_port"};
 
 bool is_token(std::string_view text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
@@ -118,12 +117,11 @@ class HeadReader {
     const std::string_view value = trimmed(line.substr(colon + 1));
     if (!is_field_value(value)) return bad("a header's value contains a control character");
     if (auto fault = framing_field(name, value)) return fault;
-    const bool forwarded =
-        std::none_of(kNotForwarded.begin(), kNotForwarded.end(),
-                     [&](std::string_view other) { return equal_ignoring_case(name, other); });
-    if (forwarded) fmt::format_to(std::back_inserter(out_.forwarded), "{}: {}\r\n", name, value);
-    if (equal_ignoring_case(name, "accept-encoding"))
-      fmt::format_to(std::back_inserter(out_.forwarded), "{}: {}\r\n", kWithheldAcceptEncoding, value);
+    const auto is_name = [&](std::string_view other) { return equal_ignoring_case(name, other); };
+    if (std::any_of(kNotForwarded.begin(), kNotForwarded.end(), is_name)) return std::nullopt;
+    const bool withheld = std::any_of(kWithheldNames.begin(), kWithheldNames.end(), is_name);
+    fmt::format_to(std::back_inserter(out_.forwarded), "{}{}: {}\r\n", withheld ? kWithheld : "", name,
+                   value);
     return std::nullopt;
   }
 

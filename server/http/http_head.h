@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -11,8 +12,10 @@
 
 namespace slipway::server {
 
-// Under this name Accept-Encoding passes cpp-httplib, which would compress whole answers in memory.
-inline constexpr std::string_view kWithheldAcceptEncoding = "Withheld-Accept-Encoding";
+// Under names that begin so pass the headers which cpp-httplib must not see and handlers may: of
+// Accept-Encoding it would compress whole answers in memory, of Range cut them up there.
+inline constexpr std::string_view kWithheld = "Withheld-";
+inline constexpr std::array<std::string_view, 3> kWithheldNames{"Accept-Encoding", "Range", "If-Range"};
 
 enum class BodyFraming { kNone, kLength, kChunked };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -60,6 +61,9 @@ struct HttpResponse {
   // A body that is made while it is sent, so that a slow client holds one piece of it: called from any
   // thread, one call at a time, when the client has taken what came before. Not for HEAD.
   BodyPieces pieces = {};
+  // How many bytes the pieces have together, which is then said as Content-Length; nothing: that is not known
+  // before the last, and they go in chunks.
+  std::optional<std::uint64_t> pieces_bytes = {};
   std::string audit = {};  // a JSON object for the audit log, which is not sent
 
   std::optional<std::string> header(std::string_view name) const;

@@ -5,6 +5,7 @@ usage: map_contract.py SLIPWAY SOURCE_DIR
 """
 import json
 import pathlib
+import shutil
 import sqlite3
 import subprocess
 import sys
@@ -42,6 +43,36 @@ class Maps(WithServer):
         self.assertEqual(again[0], 304)
         self.assertEqual(self.server.ask("GET", location + "/stations")[0], 404)
         self.assertEqual(self.server.ask("GET", location + "/vectors.gpkg")[0], 404)
+
+    def test_ranges_of_a_map_are_its_bytes(self):
+        location = self.job("/v1/maps", {**SLIP, "kind": "cost_to_go", "to": STOP_967})
+        place = location + "/map.tif"
+        _, headers, whole = self.server.ask("GET", place)
+        size = len(whole)
+        self.assertEqual((headers["Accept-Ranges"], int(headers["Content-Length"])), ("bytes", size))
+        status, headers, body = self.server.ask("HEAD", place)
+        self.assertEqual((status, int(headers["Content-Length"]), body), (200, size, b""))
+        for asked, first, last in [("0-0", 0, 0), ("100-299", 100, 299), ("-8", size - 8, size - 1), (f"{size - 5}-", size - 5, size - 1),
+                                   (f"0-{size}", 0, size - 1)]:
+            status, headers, body = self.server.ask("GET", place, headers={"Range": f"bytes={asked}", "If-Range": headers["ETag"]})
+            self.assertEqual((status, headers["Content-Range"]), (206, f"bytes {first}-{last}/{size}"), asked)
+            self.assertEqual(body, whole[first:last + 1], asked)
+        status, headers, body = self.server.ask("GET", place, headers={"Range": f"bytes={size}-"})
+        self.assertEqual((status, headers["Content-Range"], json.loads(body)["status"]), (416, f"bytes */{size}", 416))
+        for several in ({"Range": "bytes=0-1,4-5"}, {"Range": "bytes=0-1", "If-Range": '"another"'}):
+            status, _, body = self.server.ask("GET", place, headers=several)
+            self.assertEqual((status, body), (200, whole))
+
+    @unittest.skipUnless(shutil.which("gdalinfo") and shutil.which("ogrinfo"), "GDAL's tools are not installed")
+    def test_gdal_opens_answers_in_place(self):
+        raster = self.job("/v1/maps", SLIP)
+        told = subprocess.run(["gdalinfo", "-stats", f"/vsicurl/{self.server.url}{raster}/map.tif"], capture_output=True, text=True)
+        for words in ("Size is 348, 337", "LAYOUT=COG", "STATISTICS_MAXIMUM=1"):
+            self.assertIn(words, told.stdout, told.stderr)
+        lines = self.job("/v1/predictions", {"terrain": "gale", "rover": "msl-class", "path": PATH, "draws": 16})
+        told = subprocess.run(["ogrinfo", "-so", f"/vsicurl/{self.server.url}{lines}/vectors.gpkg", "stations"],
+                              capture_output=True, text=True)
+        self.assertRegex(told.stdout, r"Feature Count: [1-9]", told.stderr)
 
     def test_what_can_not_be_is_refused_before_it_is_a_job(self):
         for change, pointer in [({"kind": "slip"}, "/heading_deg"), ({"kind": "height"}, "/kind"), ({"draws": 3}, "/draws"),

@@ -147,7 +147,8 @@ TEST(RequestHead, HeadersThatMustNotBeActedOnAreNotPassedOn) {
       "Connection: close\r\nKeep: 1\r\n\r\n");
   ASSERT_TRUE(head);
   EXPECT_EQ(head->forwarded,
-            "GET / HTTP/1.1\r\nHost: t\r\nWithheld-Accept-Encoding: gzip\r\nKeep: 1\r\n\r\n");
+            "GET / HTTP/1.1\r\nHost: t\r\nWithheld-Range: bytes=0-1,2-3\r\nWithheld-Accept-Encoding: gzip\r\n"
+            "Keep: 1\r\n\r\n");
   EXPECT_FALSE(head->keep_alive);
 }
 

@@ -86,6 +86,26 @@ TEST(HttpServer, ABodyInPiecesIsWholeAndTheConnectionGoesOn) {
   EXPECT_EQ(client.ask(get("/healthz")).body, "well");
 }
 
+TEST(HttpServer, ABodyInPiecesOfKnownLengthNeedsNoChunks) {
+  const TestServer s;
+  RawClient client(s.port);
+  for (const char* method : {"GET", "HEAD"}) {
+    const auto answer = client.ask(std::string(method) + " /counted HTTP/1.1\r\nHost: t\r\n\r\n");
+    EXPECT_EQ(answer.status, 200);
+    EXPECT_EQ(answer.header("Transfer-Encoding"), "");
+    EXPECT_EQ(answer.header("Content-Length"), "300000");
+    EXPECT_EQ(answer.header("Accept-Ranges"), "bytes");
+    EXPECT_EQ(answer.body.size(), std::string_view(method) == "GET" ? 300'000U : 0U);
+  }
+  EXPECT_EQ(client.ask("HEAD /megabyte HTTP/1.1\r\nHost: t\r\n\r\n").header("Accept-Ranges"), "");
+}
+
+TEST(HttpServer, AHandlerSeesTheRangeThatIsAskedFor) {
+  const TestServer s;
+  EXPECT_EQ(ask_once(s.port, get("/header/Range", "Range: bytes=1-2\r\n")).body, "bytes=1-2");
+  EXPECT_EQ(ask_once(s.port, get("/header/If-Range", "If-Range: \"a\"\r\n")).body, "\"a\"");
+}
+
 TEST(HttpServer, AClientOfHttp10GetsThePiecesWithoutChunks) {
   const TestServer s;
   RawClient client(s.port);

@@ -193,6 +193,17 @@ std::vector<Route> test_routes() {
          };
          return response;
        }},
+      {"GET", "/counted",  // three pieces, whose length is known before
+       [](const HttpRequest&) {
+         HttpResponse response = text("");
+         response.headers.emplace_back("Accept-Ranges", "bytes");
+         response.pieces_bytes = 300'000;
+         response.pieces = [next = 0]() mutable -> Result<std::optional<std::string>> {
+           if (next == 3) return std::nullopt;
+           return std::string(100'000, static_cast<char>('a' + next++));
+         };
+         return response;
+       }},
       {"GET", "/megabyte", [](const HttpRequest&) { return text(std::string(std::size_t{1} << 20, 'x')); }},
       {"GET", "/slow",
        [](const HttpRequest&) {
