@@ -7,8 +7,9 @@ namespace slipway::planner {
 namespace {
 
 constexpr std::size_t kCellsOfBlock = static_cast<std::size_t>(kBlockCells) * kBlockCells;
-// What a metre beside closed ground costs more.
-constexpr float kBesideClosed = 0.3F;
+// What a metre beside closed ground costs more, and beside ground that is closed because it rises under the
+// body: heights run on between cells, so that a wheel may come to stand on the foot of a wall there.
+constexpr float kBesideClosed = 0.3F, kBesideRise = 3.0F;
 
 }  // namespace
 
@@ -65,12 +66,13 @@ std::vector<float> cell_penalties(const TraverseMap& map, const std::vector<floa
   }
   for (std::size_t cell = 0; cell < factors.size(); ++cell) {
     if (!is_closed(cell)) continue;
+    const float dearer = map.cell(cell).passage == Passage::kRough ? kBesideRise : kBesideClosed;
     const dem::Cell at = map.place_of(cell);
     for (int row = at.row - 1; row <= at.row + 1; ++row) {
       for (int column = at.column - 1; column <= at.column + 1; ++column) {
         const long long beside = map.index_of(row, column);
-        if (beside >= 0 && factors[static_cast<std::size_t>(beside)] < kBesideClosed)
-          factors[static_cast<std::size_t>(beside)] = kBesideClosed;
+        if (beside >= 0 && factors[static_cast<std::size_t>(beside)] < dearer)
+          factors[static_cast<std::size_t>(beside)] = dearer;
       }
     }
   }

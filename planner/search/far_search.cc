@@ -186,7 +186,7 @@ class FarProposer {
         continue;
       }
       if (sampler.way().empty()) return fail();
-      drafts[0].optimum += sampler.optimum();
+      drafts[0].optimum += cost_of_way(guide.cost.on(map), sampler.way());
       drafts[0].ways.emplace_back();
       for (const std::size_t cell : sampler.way()) drafts[0].ways.back().push_back(map.centre_m(cell));
       if (leg == 0) {

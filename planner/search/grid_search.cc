@@ -140,6 +140,18 @@ CostField GridSearch::spread(double x_m, double y_m, bool to_go, const SpreadEnd
   return field;
 }
 
+double cost_of_way(const MotionCost& cost, const std::vector<std::size_t>& way) {
+  double sum = 0.0;
+  for (std::size_t k = 1; k < way.size(); ++k) {
+    const Eigen::Vector2d step = cost.map().centre_m(way[k]) - cost.map().centre_m(way[k - 1]);
+    const Eigen::Vector2d heading = step.normalized();
+    sum += 0.5 * step.norm() *
+           (cost.per_metre_in_cell(way[k - 1], heading.x(), heading.y()) +
+            cost.per_metre_in_cell(way[k], heading.x(), heading.y()));
+  }
+  return sum;
+}
+
 std::vector<std::size_t> GridSearch::way(const CostField& to_go, double x_m, double y_m) const {
   std::vector<std::size_t> cells;
   const long long start = map_.index_at(x_m, y_m);

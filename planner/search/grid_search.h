@@ -87,4 +87,7 @@ class GridSearch {
   std::unique_ptr<float[]> per_metre_;  // of any other: of each cell and direction
 };
 
+// What a way from cell to cell costs, step by step as the grid's steps do.
+double cost_of_way(const MotionCost& cost, const std::vector<std::size_t>& way);
+
 }  // namespace slipway::planner

@@ -75,6 +75,51 @@ TEST(FarPlan, CostsHardlyMoreThanTheGridOfAllCells) {
   EXPECT_GE(pairs, 2);
 }
 
+// Walls of rooms of 64 m, each with one gap of 4 m, over gentle waves.
+double rooms_m(double x, double y) {
+  const auto stands = [](double across, double along, double salt) {
+    const double room = std::floor(along / 64.0), wall = std::round(across / 64.0);
+    const double gap_at = 10.0 + std::fmod(17.0 * room + 29.0 * wall + salt, 44.0);
+    return std::abs(across - 64.0 * wall) < 1.5 && std::abs(along - 64.0 * room - gap_at) > 2.0;
+  };
+  return 0.15 * hills_m(x, y) + (stands(x, y, 3.0) || stands(y, x, 11.0) ? 4.0 : 0.0);
+}
+
+TEST(FarPlan, CostsHardlyMoreThanTheGridOfAllCellsBetweenWallsEither) {
+  PlanProblem problem = problem_on(900, 1100, 1.0, 1.0, rooms_m);
+  problem.routes = 1;
+  problem.start = {30.5, 40.5, std::nullopt};
+  problem.goal = {1050.5, 850.5, std::nullopt};
+  const KeepOut none({}, *problem.rover);
+  const GroundTables tables = build_ground_tables(problem);
+  NoProgress progress;
+  const double all = optimum_on_all_cells(problem, none, tables);
+  ASSERT_TRUE(std::isfinite(all));
+  const FarProposal far = propose_far_routes(problem, {}, none, tables, progress);
+  EXPECT_GE(far.proposal.grid_optimum, all * 0.9999);
+  EXPECT_LE(far.proposal.grid_optimum, all * 1.02);
+}
+
+// Heights run on between cells: a wheel beside a wall's last open cell stands on its foot.
+TEST(FarPlan, KeepsItsWheelsOffTheFootOfAWall) {
+  for (const double gap_at : {1200.0, 1350.0, 1449.0}) {
+    PlanProblem problem = problem_on(1500, 1500, 1.0, 1.0, [&](double x, double y) {
+      return 0.5 * hills_m(x, y) + (std::abs(x - 700.5) < 2.0 && std::abs(y - gap_at) > 3.0 ? 30.0 : 0.0);
+    });
+    const auto rover = std::make_shared<sim::RoverModel>(*test_rover());
+    rover->body_width_m = 2.9;
+    for (sim::WheelModel& wheel : rover->wheels) wheel.position_m.y() *= 2.0;
+    problem.rover = rover;
+    problem.start = {450.5, 400.5, std::nullopt};
+    problem.goal = {950.5, 400.5, std::nullopt};
+    problem.routes = 1;
+    problem.risk.draws = 1;
+    const Plan plan = plan_on(problem);
+    ASSERT_FALSE(plan.routes.empty()) << plan.fewer_because.at(0);
+    EXPECT_FALSE(plan.routes.front().prediction.immobilised) << "gap at " << gap_at;
+  }
+}
+
 // The block map's joints are those of the cells, walls and gaps alike.
 TEST(BlockMap, JoinsWhatTheCellsJoin) {
   const auto walls = [](double x, double y, double gap_at_m, double gap_m) {
