@@ -84,12 +84,11 @@ std::vector<Fault> move_to_map(std::vector<LabelledPolygon>& polygons, const Bod
   return faults;
 }
 
-Result<GridGeometry> grid_over(const ElevationInfo& ground, const Extent& extent) {
+Result<GridGeometry> grid_over(const ElevationInfo& ground, const Extent& extent, int step) {
   const std::optional<CellWindow> window = ground.geometry.window(extent);
   if (!window) return fail(ErrorCode::kOffMap, "The extent does not meet the elevation's.");
   // A large window has larger cells, in whole numbers of the elevation's.
   GridGeometry grid = ground.geometry.sub(*window);
-  int step = 1;
   const auto across = [&](int cells) { return (cells + step - 1) / step; };
   while (static_cast<long long>(across(window->rows)) * across(window->columns) > kMaxWindowCells) ++step;
   grid.rows = across(window->rows);
@@ -117,13 +116,13 @@ Result<std::shared_ptr<const SoilMap>> read_soil_polygons(const std::filesystem:
                                                           const ElevationInfo& ground, const Extent& extent,
                                                           const std::string& property,
                                                           PolygonCoordinates coordinates,
-                                                          std::vector<SoilClass> legend) {
+                                                          std::vector<SoilClass> legend, int step) {
   std::vector<Fault> repeats = repeated_labels(legend);
   if (!repeats.empty())
     return fail(ErrorCode::kUnreadableData, "The soil legend repeats itself.", std::move(repeats));
   if (legend.size() >= kUnlisted)
     return fail(ErrorCode::kUnreadableData, "The soil legend has too many rows.");
-  const Result<GridGeometry> grid = grid_over(ground, extent);
+  const Result<GridGeometry> grid = grid_over(ground, extent, step);
   if (!grid) return fail(grid.error());
   const GdalSession session(path);
   Result<std::vector<LabelledPolygon>> polygons = read_geojson_polygons(path, property, coordinates, session);

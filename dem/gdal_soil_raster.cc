@@ -53,25 +53,30 @@ struct Classes {
   std::optional<std::int32_t> beyond;  // a class that is no 16-bit number
 };
 
+// As so many rows of so many cells, which are those of the window or fewer: then GDAL takes one cell in each.
 // By stripes, so that a large window costs its three bytes a cell. Nothing where the file is damaged.
-std::optional<Classes> read_classes(GDALRasterBand& band, const CellWindow& window) {
-  const auto columns = static_cast<std::size_t>(window.columns);
-  const std::size_t cells = static_cast<std::size_t>(window.rows) * columns;
+std::optional<Classes> read_classes(GDALRasterBand& band, const CellWindow& window, int all_rows,
+                                    int in_row) {
+  const auto columns = static_cast<std::size_t>(in_row);
+  const std::size_t cells = static_cast<std::size_t>(all_rows) * columns;
   Classes classes{std::vector<std::int16_t>(cells), std::vector<std::uint8_t>(cells, 1), std::nullopt};
   const bool has_mask = (band.GetMaskFlags() & GMF_PER_DATASET) != 0;
   int has_nodata = 0;
   const double nodata = band.GetNoDataValue(&has_nodata);
-  const int stripe = std::clamp(4'000'000 / window.columns, 1, window.rows);
+  const bool thinned = all_rows < window.rows || in_row < window.columns;
+  const int stripe = thinned ? all_rows : std::clamp(4'000'000 / in_row, 1, all_rows);
   std::vector<std::int32_t> values;
-  for (int row = 0; row < window.rows; row += stripe) {
-    const int rows = std::min(stripe, window.rows - row);
+  for (int row = 0; row < all_rows; row += stripe) {
+    const int rows = std::min(stripe, all_rows - row);
+    const int of_file = thinned ? window.rows : rows;
     const std::size_t first = static_cast<std::size_t>(row) * columns;
     values.resize(static_cast<std::size_t>(rows) * columns);
-    if (band.RasterIO(GF_Read, window.column, window.row + row, window.columns, rows, values.data(),
-                      window.columns, rows, GDT_Int32, 0, 0, nullptr) != CE_None ||
-        (has_mask && band.GetMaskBand()->RasterIO(GF_Read, window.column, window.row + row, window.columns,
-                                                  rows, classes.known.data() + first, window.columns, rows,
-                                                  GDT_Byte, 0, 0, nullptr) != CE_None))
+    const auto read = [&](GDALRasterBand& from, void* to, GDALDataType type) {
+      return from.RasterIO(GF_Read, window.column, window.row + row, window.columns, of_file, to, in_row,
+                           rows, type, 0, 0, nullptr) == CE_None;
+    };
+    if (!read(band, values.data(), GDT_Int32) ||
+        (has_mask && !read(*band.GetMaskBand(), classes.known.data() + first, GDT_Byte)))
       return std::nullopt;
     for (std::size_t i = 0; i < values.size(); ++i) {
       std::uint8_t& known = classes.known[first + i];
@@ -124,7 +129,7 @@ Result<void> check_class_raster(const CheckedRaster& raster, const ElevationInfo
 
 Result<std::shared_ptr<const SoilMap>> read_soil_raster(const std::filesystem::path& path,
                                                         const ElevationInfo& ground, const Extent& extent,
-                                                        std::vector<SoilClass> legend) {
+                                                        std::vector<SoilClass> legend, int step) {
   const std::string file = path.filename().string();
   std::vector<Fault> repeats = repeated_values(legend);
   if (!repeats.empty())
@@ -137,7 +142,18 @@ Result<std::shared_ptr<const SoilMap>> read_soil_raster(const std::filesystem::p
   if (!usable) return fail(usable.error());
   const std::optional<CellWindow> window = raster->info.geometry.window(extent);
   if (!window) return fail(ErrorCode::kOffMap, fmt::format("{} does not meet the extent asked for.", file));
-  std::optional<Classes> read = read_classes(*raster->dataset->GetRasterBand(1), *window);
+  GridGeometry grid = raster->info.geometry.sub(*window);
+  // Its cells may be larger than the elevation's, or smaller.
+  const auto thinned = [&](int cells, double ratio) {
+    const int every = step == 1 ? 1 : std::max(1, static_cast<int>(step * ratio));
+    return (cells + every - 1) / every;
+  };
+  grid.rows = thinned(window->rows, ground.geometry.cell_y_m / grid.cell_y_m);
+  grid.columns = thinned(window->columns, ground.geometry.cell_x_m / grid.cell_x_m);
+  grid.cell_x_m *= static_cast<double>(window->columns) / grid.columns;
+  grid.cell_y_m *= static_cast<double>(window->rows) / grid.rows;
+  std::optional<Classes> read =
+      read_classes(*raster->dataset->GetRasterBand(1), *window, grid.rows, grid.columns);
   if (!read) {
     return fail(ErrorCode::kUnreadableRaster, fmt::format("{} is damaged: {} could not be read ({}).", file,
                                                           describe(*window), session.complaints()));
@@ -145,8 +161,8 @@ Result<std::shared_ptr<const SoilMap>> read_soil_raster(const std::filesystem::p
   if (read->beyond)
     return fail(ErrorCode::kUnreadableRaster,
                 fmt::format("{} holds class = {}, must be in [-32768, 32767].", file, *read->beyond));
-  return std::make_shared<const SoilMap>(raster->info.geometry.sub(*window), std::move(read->values),
-                                         std::move(read->known), std::move(legend));
+  return std::make_shared<const SoilMap>(grid, std::move(read->values), std::move(read->known),
+                                         std::move(legend));
 }
 
 }  // namespace slipway::dem

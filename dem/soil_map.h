@@ -61,10 +61,11 @@ class SoilMap {
 
 // Reads a class raster (integer, one band) on the cells that meet the extent. Its geometry may differ from
 // the elevation's, but its CRS must be the same (errors as open_elevation); where the elevation lies in a
-// local frame, it must have none. Cells at nodata have no class.
+// local frame, it must have none. Cells at nodata have no class. With a `step` above 1 it has about one cell
+// for so many of the elevation's along each side, with the class that is at one place in it.
 Result<std::shared_ptr<const SoilMap>> read_soil_raster(const std::filesystem::path& path,
                                                         const ElevationInfo& ground, const Extent& extent,
-                                                        std::vector<SoilClass> legend);
+                                                        std::vector<SoilClass> legend, int step = 1);
 
 enum class PolygonCoordinates {
   kLongitudeLatitude,  // degrees, east-positive planetocentric, on the elevation's own datum (RFC 7946 on
@@ -72,14 +73,14 @@ enum class PolygonCoordinates {
   kMap,                // metres in the elevation's CRS
 };
 
-// Burns polygons of a GeoJSON file onto a grid like the elevation's over the extent, or one of whole numbers
-// of its cells that has at most kMaxWindowCells; a cell takes the class of the last polygon that holds its
-// centre. property names the label that the legend is matched by. A label that the legend does not have is
-// unknown ground. Faults name the feature: "/features/12/geometry".
+// Burns polygons of a GeoJSON file onto a grid of the elevation's cells over the extent, or one of whole
+// numbers of them, at least `step`, that has at most kMaxWindowCells; a cell takes the class of the last
+// polygon that holds its centre. property names the label that the legend is matched by. A label that the
+// legend does not have is unknown ground. Faults name the feature: "/features/12/geometry".
 Result<std::shared_ptr<const SoilMap>> read_soil_polygons(const std::filesystem::path& path,
                                                           const ElevationInfo& ground, const Extent& extent,
                                                           const std::string& property,
                                                           PolygonCoordinates coordinates,
-                                                          std::vector<SoilClass> legend);
+                                                          std::vector<SoilClass> legend, int step = 1);
 
 }  // namespace slipway::dem

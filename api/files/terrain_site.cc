@@ -138,17 +138,19 @@ Result<GroundWindow> TerrainSite::read(const dem::Extent& extent, const Legend& 
 }
 
 Result<std::shared_ptr<const dem::SoilMap>> TerrainSite::read_soils(const dem::Extent& extent,
-                                                                    const Legend& legend) const {
+                                                                    const Legend& legend, int step) const {
   const dem::GridGeometry& all = info().geometry;
   const auto window = all.window(clipped(extent, all.extent()));
   if (!window) return fail(ErrorCode::kOffMap, "The extent does not meet the terrain.");
-  return soils_over(all.sub(*window), legend, true);
+  return soils_over(all.sub(*window), legend, true, step);
 }
 
 Result<std::shared_ptr<const dem::SoilMap>> TerrainSite::soils_for_pictures(const dem::Extent& extent,
-                                                                            const Legend& legend) const {
+                                                                            const Legend& legend,
+                                                                            int step) const {
   const dem::GridGeometry& all = info().geometry;
-  if (static_cast<long long>(all.rows) * all.columns > kMostKeptSoilCells) return read_soils(extent, legend);
+  if (static_cast<long long>(all.rows) * all.columns > kMostKeptSoilCells)
+    return read_soils(extent, legend, step);
   const std::scoped_lock lock(kept_mutex_);
   std::shared_ptr<const dem::SoilMap>& kept = kept_soils_[legend.name];
   if (!kept) {
@@ -161,15 +163,16 @@ Result<std::shared_ptr<const dem::SoilMap>> TerrainSite::soils_for_pictures(cons
 
 Result<std::shared_ptr<const dem::SoilMap>> TerrainSite::soils_over(const dem::GridGeometry& geometry,
                                                                     const Legend& legend,
-                                                                    bool one_cell_if_unknown) const {
+                                                                    bool one_cell_if_unknown,
+                                                                    int step) const {
   switch (description_.soil_source) {
     case SoilSource::kRaster:
       return dem::read_soil_raster(folder_ / description_.soil_file, info(), geometry.extent(),
-                                   legend.classes);
+                                   legend.classes, step);
     case SoilSource::kPolygons:
       return dem::read_soil_polygons(folder_ / description_.soil_file, info(), geometry.extent(),
                                      description_.soil_property, description_.soil_coordinates,
-                                     legend.classes);
+                                     legend.classes, step);
     case SoilSource::kNone:
       break;
   }

@@ -54,11 +54,12 @@ class TerrainSite {
   }
   // Its soils only, by one of its legends: no height is read. Errors as dem::read_soil_raster and
   // dem::read_soil_polygons, off_map.
-  Result<std::shared_ptr<const dem::SoilMap>> read_soils(const dem::Extent& extent,
-                                                         const Legend& legend) const;
-  // Of all of a small terrain, read once and kept; of a larger one, those over the extent.
+  Result<std::shared_ptr<const dem::SoilMap>> read_soils(const dem::Extent& extent, const Legend& legend,
+                                                         int step = 1) const;
+  // Of all of a small terrain, read once and kept; of a larger one those over the extent, of about one cell
+  // for every `step` along each side.
   Result<std::shared_ptr<const dem::SoilMap>> soils_for_pictures(const dem::Extent& extent,
-                                                                 const Legend& legend) const;
+                                                                 const Legend& legend, int step) const;
   // Elevation only, thinned for pictures: see dem::ElevationSource::read_samples.
   Result<std::shared_ptr<const dem::Terrain>> read_samples(const dem::Extent& extent, int step) const;
   // The files that terrain.json names, with itself first, and LICENSE where there is one. Reads them through.
@@ -75,8 +76,8 @@ class TerrainSite {
 
   // Over the cells of the terrain that the geometry has. Unknown ground all over may be a single cell.
   Result<std::shared_ptr<const dem::SoilMap>> soils_over(const dem::GridGeometry& geometry,
-                                                         const Legend& legend,
-                                                         bool one_cell_if_unknown) const;
+                                                         const Legend& legend, bool one_cell_if_unknown,
+                                                         int step = 1) const;
 
   std::filesystem::path folder_;
   TerrainDescription description_;

@@ -40,9 +40,9 @@ void write_layer_legend(Writer& w, const TerrainLayerRow& row, const Legend& leg
 }
 
 // With the colours of every legend of the terrain's where they differ.
-void write_layer(Writer& w, const TerrainLayerRow& row, const TerrainSite& site, int least_z) {
+void write_layer(Writer& w, const TerrainLayerRow& row, const TerrainSite& site) {
   w.begin_object().text("name", row.name).text("title", row.title).text("unit", row.unit);
-  w.whole("min_z", row.of_soil ? least_z : 0).key("legends").begin_array();
+  w.whole("min_z", 0).key("legends").begin_array();
   for (const Legend& legend : site.description().legends) {
     w.begin_object().text("legend", legend.name).key("entries");
     write_layer_legend(w, row, legend);
@@ -80,7 +80,7 @@ Result<std::string> write_terrain_document(const TerrainSite& site, const std::v
   write_text(w, "licence", *licence);
   const TerrainTiles tiles(site.info().geometry);
   w.key("layers").begin_array();
-  for (const TerrainLayerRow& row : kTerrainLayers) write_layer(w, row, site, tiles.least_z_of_soil());
+  for (const TerrainLayerRow& row : kTerrainLayers) write_layer(w, row, site);
   w.end_array();
   const dem::Extent map = site.info().geometry.extent();
   w.key("tiles").begin_object();

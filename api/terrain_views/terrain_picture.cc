@@ -19,7 +19,6 @@ constexpr double kSunElevation_rad = rad_from_deg(40.0);
 constexpr double kExaggeration = 1.5;
 constexpr int kMostSamples = 3;                  // of a pixel along each side
 constexpr int kMostSamplesOfLight = 2;           // which is a mean: those of the worst need more
-constexpr double kSoilCells = 6'000'000;         // that one picture reads
 constexpr long long kSampleBudget = 10'000'000;  // of a picture
 
 // The places that are looked at in a pixel.
@@ -178,23 +177,14 @@ dem::RgbaImage draw_relief(const Looks& looks, const TerrainPicture& wanted, con
   });
 }
 
-double cells_of(const dem::Extent& extent, const dem::GridGeometry& geometry) {
-  return (extent.east_m - extent.west_m) / geometry.cell_x_m * (extent.north_m - extent.south_m) /
-         geometry.cell_y_m;
-}
-
 Result<dem::RgbaImage> draw_soils(const TerrainSite& site, const TerrainPicture& wanted,
                                   const dem::Extent& seen) {
   const Legend* const legend = site.description().legend(wanted.legend);
   if (legend == nullptr)
     return fail(ErrorCode::kNotFound, fmt::format("the terrain has no legend of the name {}", wanted.legend));
   const dem::GridGeometry& geometry = site.info().geometry;
-  if (cells_of(seen, geometry) > kSoilCells)
-    return fail(ErrorCode::kInvalidRequest,
-                fmt::format("the soils of {:.0f} cells are asked for, at most {:.0f} are drawn; choose a "
-                            "smaller extent",
-                            cells_of(seen, geometry), kSoilCells));
-  const auto read = site.soils_for_pictures(seen, *legend);
+  const PixelPlaces places(wanted, geometry);
+  const auto read = site.soils_for_pictures(seen, *legend, places.step());
   if (!read) return fail(read.error());
   const dem::SoilMap& soils = **read;
   const std::vector<std::string> order = soils_of(*legend);
@@ -203,7 +193,6 @@ Result<dem::RgbaImage> draw_soils(const TerrainSite& site, const TerrainPicture&
     colours.push_back(
         soil_colour(static_cast<std::size_t>(std::find(order.begin(), order.end(), soil) - order.begin())));
   if (wanted.layer == TerrainLayer::kUnknown) colours.assign(colours.size(), dem::kTransparent);
-  const PixelPlaces places(wanted, geometry);
   const dem::Extent map = geometry.extent();
   return painted(wanted, [&](int r, int c) { return soil_at(soils, colours, map, places, r, c); });
 }
@@ -233,11 +222,6 @@ TerrainTiles::TerrainTiles(const dem::GridGeometry& geometry) : map_(geometry.ex
   const double cell_m = std::min(geometry.cell_x_m, geometry.cell_y_m);
   constexpr double kPixelsOfCell = 8.0;
   while (metres_per_px(most_z_) > cell_m / kPixelsOfCell) ++most_z_;
-  const auto cells = [&](int z) {
-    const double side = std::ldexp(side_m_, -z);
-    return side / geometry.cell_x_m * side / geometry.cell_y_m;
-  };
-  while (least_z_of_soil_ < most_z_ && cells(least_z_of_soil_) > kSoilCells) ++least_z_of_soil_;
 }
 
 double TerrainTiles::metres_per_px(int z) const {

@@ -15,8 +15,8 @@ constexpr int kMaxPicturePx = 2048;  // along each side
 // A layer of a terrain over an extent, which may reach beyond the map. Where a pixel is larger than a cell,
 // up to nine samples in it are looked at: shading is their mean, slope the steepest, and ground is unknown
 // where that of any is. What lies beyond the map is transparent, and so is what has no elevation on the
-// hillshade. Errors: not_found (the legend), invalid_request where the soils of too many cells are wanted,
-// and those of dem::ElevationSource.
+// hillshade. Errors: not_found (the legend), and those of dem::ElevationSource and
+// TerrainSite::read_soils().
 struct TerrainPicture {
   TerrainLayer layer = TerrainLayer::kHillshade;
   dem::Extent extent;
@@ -34,8 +34,6 @@ class TerrainTiles {
   explicit TerrainTiles(const dem::GridGeometry& geometry);
 
   int most_z() const { return most_z_; }  // a cell then has eight pixels or more along a side
-  // The first z whose tiles have few enough cells for their soils to be read.
-  int least_z_of_soil() const { return least_z_of_soil_; }
   double metres_per_px(int z) const;
   // Whether the tile meets the terrain.
   bool has(int z, long long x, long long y) const;
@@ -44,7 +42,7 @@ class TerrainTiles {
  private:
   dem::Extent map_;
   double side_m_ = 0.0;  // of the tile of z = 0
-  int most_z_ = 0, least_z_of_soil_ = 0;
+  int most_z_ = 0;
 };
 
 }  // namespace slipway::api

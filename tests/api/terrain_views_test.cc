@@ -110,10 +110,6 @@ TEST(TerrainPicture, TilesOfNeighboursFitTogetherAndCoverTheTerrain) {
   EXPECT_FALSE(tiles.has(tiles.most_z() + 1, 0, 0));
   EXPECT_DOUBLE_EQ(tiles.extent(2, 1, 0).east_m, tiles.extent(2, 2, 0).west_m);
   EXPECT_DOUBLE_EQ(tiles.extent(2, 1, 0).south_m, tiles.extent(2, 1, 1).north_m);
-  EXPECT_EQ(tiles.least_z_of_soil(), 0);
-  // 16,000 cells a side: the soils of 4,000 x 4,000 are too many for one tile.
-  const TerrainTiles wide({.rows = 16'000, .columns = 16'000});
-  EXPECT_EQ(wide.least_z_of_soil(), 3);
 }
 
 TEST(TerrainProfile, HasTheGroundAtEveryPlaceOfTheLine) {

@@ -51,6 +51,27 @@ class SoilRaster : public testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(SoilRaster, ThinnedItHasTheClassOfOnePlaceForEachStep) {
+  // 8 x 10 cells of 1 m like the elevation's: the west half sand, the east half rock.
+  RasterOptions options{.rows = 8, .columns = 10, .type = GDT_Byte, .transform = {100, 1, 0, 200, 0, -1}};
+  for (int i = 0; i < 80; ++i) options.cells.push_back(i % 10 < 5 ? 1.0F : 3.0F);
+  write_geotiff(folder_ / "classes.tif", options);
+  const Extent all = ground().geometry.extent();
+  const auto map = read_soil_raster(folder_ / "classes.tif", ground(), all, kLegend, 3);
+  ASSERT_TRUE(map) << map.error().detail;
+  EXPECT_EQ((*map)->geometry().rows, 3);
+  EXPECT_EQ((*map)->geometry().columns, 4);
+  EXPECT_DOUBLE_EQ((*map)->geometry().extent().east_m, all.east_m);
+  EXPECT_DOUBLE_EQ((*map)->geometry().extent().south_m, all.south_m);
+  EXPECT_EQ((*map)->class_at(101.0, 199.0), 1);
+  EXPECT_EQ((*map)->class_at(109.0, 193.0), 3);
+  // Cells five times as large as the elevation's are not thinned by three of these.
+  RasterOptions coarse{.rows = 2, .columns = 2, .type = GDT_Byte, .transform = {100, 5, 0, 200, 0, -4}};
+  coarse.cells = {1, 3, 2, 4};
+  write_geotiff(folder_ / "coarse.tif", coarse);
+  EXPECT_EQ(read_soil_raster(folder_ / "coarse.tif", ground(), all, kLegend, 3).value()->geometry().rows, 2);
+}
+
 TEST_F(SoilRaster, ItsGridNeedNotBeTheElevationsAndNodataHasNoClass) {
   RasterOptions options{.rows = 2, .columns = 2, .type = GDT_Byte, .transform = {100, 5, 0, 200, 0, -4}};
   options.cells = {1, 3, 255, 2};

@@ -772,7 +772,7 @@ export interface paths {
         };
         /**
          * The raster of a map, as a cloud-optimised GeoTIFF
-         * @description Whole: ranges are not served.
+         * @description GIS tools open it in place by ranges of its bytes: gdalinfo /vsicurl/http://HOST:PORT/v1/jobs/ID/map.tif.
          */
         get: operations["job_raster"];
         put?: never;
@@ -3691,7 +3691,7 @@ export interface components {
                 name?: string;
                 title?: string;
                 unit?: string;
-                /** @description The first z whose tiles are drawn */
+                /** @description The first z whose tiles are drawn: 0 */
                 min_z?: number;
                 /** @description One; of layers of soils, one for each legend of the terrain */
                 legends?: {
@@ -4182,6 +4182,10 @@ export interface components {
         IdempotencyKey: string;
         /** @description u=N: of the jobs that wait those of the lowest N, 0 to 7, begin first; 3 where nothing is said (RFC 9218) */
         Priority: string;
+        /** @description bytes=FIRST-LAST, bytes=FIRST- or bytes=-COUNT: that part of the file alone. Several ranges, and what is none, are answered with the whole (RFC 9110) */
+        Range: string;
+        /** @description The ETag of the file that the range is to be of; the whole where the file has another */
+        IfRange: string;
     };
     requestBodies: never;
     headers: never;
@@ -4803,7 +4807,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description invalid_request: faults by parameter, or soils of too many cells */
+            /** @description invalid_request: faults by parameter */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -4870,7 +4874,7 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
-            /** @description invalid_request: soils of too many cells: below the layer's min_z */
+            /** @description invalid_request: faults by parameter */
             422: {
                 headers: {
                     [name: string]: unknown;
@@ -7380,7 +7384,12 @@ export interface operations {
     job_raster: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description bytes=FIRST-LAST, bytes=FIRST- or bytes=-COUNT: that part of the file alone. Several ranges, and what is none, are answered with the whole (RFC 9110) */
+                Range?: components["parameters"]["Range"];
+                /** @description The ETag of the file that the range is to be of; the whole where the file has another */
+                "If-Range"?: components["parameters"]["IfRange"];
+            };
             path: {
                 id: string;
             };
@@ -7390,6 +7399,15 @@ export interface operations {
         responses: {
             /** @description The file */
             200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "image/tiff": string;
+                };
+            };
+            /** @description The range of the file that was asked for; Content-Range says which of how many bytes */
+            206: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -7415,6 +7433,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description range_not_satisfiable: no byte of the file is in the range; Content-Range says how many there are */
+            416: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description The job failed so */
             422: {
                 headers: {
@@ -7429,7 +7456,12 @@ export interface operations {
     job_geopackage: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description bytes=FIRST-LAST, bytes=FIRST- or bytes=-COUNT: that part of the file alone. Several ranges, and what is none, are answered with the whole (RFC 9110) */
+                Range?: components["parameters"]["Range"];
+                /** @description The ETag of the file that the range is to be of; the whole where the file has another */
+                "If-Range"?: components["parameters"]["IfRange"];
+            };
             path: {
                 id: string;
             };
@@ -7439,6 +7471,15 @@ export interface operations {
         responses: {
             /** @description The file */
             200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/geopackage+sqlite3": string;
+                };
+            };
+            /** @description The range of the file that was asked for; Content-Range says which of how many bytes */
+            206: {
                 headers: {
                     [name: string]: unknown;
                 };
@@ -7464,6 +7505,15 @@ export interface operations {
                     "application/problem+json": components["schemas"]["Problem"];
                 };
             };
+            /** @description range_not_satisfiable: no byte of the file is in the range; Content-Range says how many there are */
+            416: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
             /** @description The job failed so */
             422: {
                 headers: {
@@ -7481,7 +7531,12 @@ export interface operations {
                 /** @description map: metres of the terrain's system, which the member crs names; lonlat: degrees of the body */
                 coordinates?: "map" | "lonlat";
             };
-            header?: never;
+            header?: {
+                /** @description bytes=FIRST-LAST, bytes=FIRST- or bytes=-COUNT: that part of the file alone. Several ranges, and what is none, are answered with the whole (RFC 9110) */
+                Range?: components["parameters"]["Range"];
+                /** @description The ETag of the file that the range is to be of; the whole where the file has another */
+                "If-Range"?: components["parameters"]["IfRange"];
+            };
             path: {
                 id: string;
             };
@@ -7498,6 +7553,15 @@ export interface operations {
                     "application/geo+json": Record<string, never>;
                 };
             };
+            /** @description The range of the file that was asked for; Content-Range says which of how many bytes */
+            206: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/geo+json": string;
+                };
+            };
             /** @description not_found */
             404: {
                 headers: {
@@ -7509,6 +7573,15 @@ export interface operations {
             };
             /** @description conflict: not ended yet; cancelled: dismissed */
             409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description range_not_satisfiable: no byte of the file is in the range; Content-Range says how many there are */
+            416: {
                 headers: {
                     [name: string]: unknown;
                 };
