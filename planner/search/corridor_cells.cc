@@ -8,8 +8,19 @@ namespace {
 
 constexpr std::size_t kCellsOfBlock = static_cast<std::size_t>(kBlockCells) * kBlockCells;
 // What a metre beside closed ground costs more, and beside ground that is closed because it rises under the
-// body: heights run on between cells, so that a wheel may come to stand on the foot of a wall there.
+// body.
 constexpr float kBesideClosed = 0.3F, kBesideRise = 3.0F;
+
+void charge_beside(const TraverseMap& map, const dem::Cell& at, float charge, std::vector<float>& factors) {
+  for (int row = at.row - 1; row <= at.row + 1; ++row) {
+    for (int column = at.column - 1; column <= at.column + 1; ++column) {
+      const long long beside = map.index_of(row, column);
+      if (beside < 0) continue;
+      float& factor = factors[static_cast<std::size_t>(beside)];
+      factor = std::max(factor, charge);
+    }
+  }
+}
 
 }  // namespace
 
@@ -52,10 +63,6 @@ bool comes_to_edge(const BlockMap& blocks, const TraverseMap& map, const std::ve
 std::vector<float> cell_penalties(const TraverseMap& map, const std::vector<float>& of_blocks) {
   std::vector<float> factors(map.cells(), 0.0F);
   const long long columns = block_columns(map.geometry());
-  const auto is_closed = [&](std::size_t cell) {
-    const Passage passage = map.cell(cell).passage;
-    return passage != Passage::kFree && passage != Passage::kNearKeepOut;
-  };
   for (std::size_t first = 0; first < factors.size(); first += kCellsOfBlock) {
     if (!of_blocks.empty()) {
       const dem::Cell at = map.place_of(first);
@@ -65,18 +72,18 @@ std::vector<float> cell_penalties(const TraverseMap& map, const std::vector<floa
     }
   }
   for (std::size_t cell = 0; cell < factors.size(); ++cell) {
-    if (!is_closed(cell)) continue;
-    const float dearer = map.cell(cell).passage == Passage::kRough ? kBesideRise : kBesideClosed;
-    const dem::Cell at = map.place_of(cell);
-    for (int row = at.row - 1; row <= at.row + 1; ++row) {
-      for (int column = at.column - 1; column <= at.column + 1; ++column) {
-        const long long beside = map.index_of(row, column);
-        if (beside >= 0 && factors[static_cast<std::size_t>(beside)] < dearer)
-          factors[static_cast<std::size_t>(beside)] = dearer;
-      }
-    }
+    const Passage passage = map.cell(cell).passage;
+    if (passage != Passage::kFree && passage != Passage::kNearKeepOut)
+      charge_beside(map, map.place_of(cell), kBesideClosed, factors);
   }
+  keep_off_rises(map, factors);
   return factors;
+}
+
+void keep_off_rises(const TraverseMap& map, std::vector<float>& factors) {
+  for (std::size_t cell = 0; cell < factors.size(); ++cell)
+    if (map.cell(cell).passage == Passage::kRough)
+      charge_beside(map, map.place_of(cell), kBesideRise, factors);
 }
 
 }  // namespace slipway::planner

@@ -20,4 +20,8 @@ bool comes_to_edge(const BlockMap& blocks, const TraverseMap& map, const std::ve
 // beside closed cells, so that a way through a gap keeps to its middle.
 std::vector<float> cell_penalties(const TraverseMap& map, const std::vector<float>& of_blocks);
 
+// Makes the cells beside ground that rises under the body dearer: heights run on between cells, so that a
+// wheel may come to stand on the foot of a wall in the last open cell.
+void keep_off_rises(const TraverseMap& map, std::vector<float>& factors);
+
 }  // namespace slipway::planner

@@ -50,7 +50,6 @@ class MotionCost {
   void penalise(std::vector<float> factor) { penalty_ = std::move(factor); }
   // The same cost on another map of the problem, without a penalty.
   MotionCost on(const TraverseMap& map) const;
-  bool penalised() const { return !penalty_.empty(); }
 
  private:
   double on_slope(std::uint8_t soil, double uphill, double leftward_rise) const;

@@ -13,6 +13,7 @@
 #include "core/parallel_for.h"
 #include "core/random.h"
 #include "planner/search/bottleneck.h"
+#include "planner/search/corridor_cells.h"
 #include "planner/search/grid_search.h"
 #include "planner/search/leg_search.h"
 #include "planner/search/leg_setting.h"
@@ -78,6 +79,7 @@ class Proposer {
                         MotionCost(problem_, map_, tables_, profile.weights(problem_.weights), tail),
                         std::nullopt});
     }
+    for (Guide& guide : guides) guide.cost.penalise(off_rises());
     search(guides, 0);
     if (proposal_.candidates.empty()) return std::move(proposal_);
     for (int round = 1; round <= kMaxRounds && !enough() && !progress_.cancelled(); ++round) {
@@ -107,8 +109,9 @@ class Proposer {
       parallel_for(guides.size(), problem_.threads, [&](std::size_t g) { look_ahead(guides[g], leg); });
       if (progress_.cancelled()) return;
       if (round == 0) {
-        proposal_.grid_optimum += guides.front().sampler->optimum();
-        proposal_.grid_ways.push_back(guides.front().sampler->way());
+        const std::vector<std::size_t>& way = guides.front().sampler->way();
+        proposal_.grid_optimum += way.empty() ? kInfinity : cost_of_way(asked_cost_, way);
+        proposal_.grid_ways.push_back(way);
       }
       parallel_for(drafts.size(), problem_.threads, [&](std::size_t d) {
         Draft& draft = drafts[d];
@@ -166,9 +169,15 @@ class Proposer {
     proposal_.candidates.push_back({std::move(draft.motions), draft.by->name, profile, cost});
   }
 
-  // The extra cost factor of every cell that is near a route that differs so far.
-  std::vector<float> bands(double factor) const {
+  std::vector<float> off_rises() const {
     std::vector<float> penalty(map_.cells(), 0.0F);
+    keep_off_rises(map_, penalty);
+    return penalty;
+  }
+
+  // The extra cost factor of every cell, with those near a route that differs so far.
+  std::vector<float> bands(double factor) const {
+    std::vector<float> penalty = off_rises();
     const double reach = kBandWidths * problem_.rover->body_width_m;
     const dem::GridGeometry& g = map_.geometry();
     const int columns = static_cast<int>(std::ceil(reach / g.cell_x_m));
@@ -180,7 +189,8 @@ class Proposer {
             const long long i = map_.index_at(place.x() + dc * g.cell_x_m, place.y() + dr * g.cell_y_m);
             if (i >= 0 && std::hypot(dc * g.cell_x_m, dr * g.cell_y_m) <= reach &&
                 !is_near_place(places_, place, reach))
-              penalty[static_cast<std::size_t>(i)] = static_cast<float>(factor);
+              penalty[static_cast<std::size_t>(i)] =
+                  std::max(penalty[static_cast<std::size_t>(i)], static_cast<float>(factor));
           }
         }
       }

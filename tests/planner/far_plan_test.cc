@@ -100,24 +100,39 @@ TEST(FarPlan, CostsHardlyMoreThanTheGridOfAllCellsBetweenWallsEither) {
   EXPECT_LE(far.proposal.grid_optimum, all * 1.02);
 }
 
+// Of the best route around a wall of 30 m on cells of 1 m, whose one gap is 6 m wide and off the straight
+// line.
+bool stops_beside_wall(int side, double from_wall_m, double start_y_m, double gap_at_m) {
+  const double wall_at_m = 0.5 * side + 0.5;
+  PlanProblem problem = problem_on(side, side, 1.0, 1.0, [&](double x, double y) {
+    const bool is_wall = std::abs(x - wall_at_m) < 2.0 && std::abs(y - gap_at_m) > 3.0;
+    return 0.5 * hills_m(x, y) + (is_wall ? 30.0 : 0.0);
+  });
+  const auto rover = std::make_shared<sim::RoverModel>(*test_rover());
+  rover->body_width_m = 2.9;
+  for (sim::WheelModel& wheel : rover->wheels) wheel.position_m.y() *= 2.0;
+  problem.rover = rover;
+  problem.start = {wall_at_m - from_wall_m, start_y_m, std::nullopt};
+  problem.goal = {wall_at_m + from_wall_m, start_y_m, std::nullopt};
+  problem.routes = 1;
+  problem.risk.draws = 1;
+  const Plan plan = plan_on(problem);
+  if (plan.routes.empty()) {
+    ADD_FAILURE() << plan.fewer_because.at(0);
+    return true;
+  }
+  return plan.routes.front().prediction.immobilised.has_value();
+}
+
 // Heights run on between cells: a wheel beside a wall's last open cell stands on its foot.
 TEST(FarPlan, KeepsItsWheelsOffTheFootOfAWall) {
-  for (const double gap_at : {1200.0, 1350.0, 1449.0}) {
-    PlanProblem problem = problem_on(1500, 1500, 1.0, 1.0, [&](double x, double y) {
-      return 0.5 * hills_m(x, y) + (std::abs(x - 700.5) < 2.0 && std::abs(y - gap_at) > 3.0 ? 30.0 : 0.0);
-    });
-    const auto rover = std::make_shared<sim::RoverModel>(*test_rover());
-    rover->body_width_m = 2.9;
-    for (sim::WheelModel& wheel : rover->wheels) wheel.position_m.y() *= 2.0;
-    problem.rover = rover;
-    problem.start = {450.5, 400.5, std::nullopt};
-    problem.goal = {950.5, 400.5, std::nullopt};
-    problem.routes = 1;
-    problem.risk.draws = 1;
-    const Plan plan = plan_on(problem);
-    ASSERT_FALSE(plan.routes.empty()) << plan.fewer_because.at(0);
-    EXPECT_FALSE(plan.routes.front().prediction.immobilised) << "gap at " << gap_at;
-  }
+  for (const double gap_at : {1200.0, 1350.0, 1449.0})
+    EXPECT_FALSE(stops_beside_wall(1500, 250.0, 400.5, gap_at)) << "gap at " << gap_at;
+}
+
+TEST(ShortPlan, KeepsItsWheelsOffTheFootOfAWall) {
+  for (const double gap_at : {60.0, 90.3, 120.7, 149.0})
+    EXPECT_FALSE(stops_beside_wall(200, 40.0, 50.5, gap_at)) << "gap at " << gap_at;
 }
 
 // The block map's joints are those of the cells, walls and gaps alike.
