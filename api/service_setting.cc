@@ -80,8 +80,8 @@ Provenance provenance_of(const TerrainSite& site, const Legend& legend, const pl
   if (const double cell_m = std::max(cells.cell_x_m, cells.cell_y_m); cell_m >= kLargeCell_m)
     provenance.unseen_relief = fmt::format(
         "between heights {:g} m apart the ground is taken as a plane: rocks, ripples, steps and slopes "
-        "shorter "
-        "than {:g} m are not in the map, and no limit of tilt, clearance or slip is held against them",
+        "shorter than {:g} m are not in the map, and no limit of tilt, clearance or slip is held against "
+        "them",
         cell_m, 3.0 * cell_m);
   // By what is believed of them: a corrected soil's name is another than the map's.
   for (const sim::SoilDistribution& belief : problem.beliefs.known) provenance.soils.push_back(belief.name);

@@ -34,9 +34,13 @@ bool is_plain_file(const std::filesystem::path& path) {
 void check_files(const std::filesystem::path& folder, const TerrainDescription& terrain,
                  std::vector<Fault>& faults) {
   const auto check = [&](std::string_view pointer, const std::string& file) {
-    if (!is_plain_file(folder / file)) {
-      faults.push_back({std::string(pointer), fmt::format("there is no file {} beside terrain.json", file)});
-    }
+    if (is_plain_file(folder / file)) return;
+    std::error_code error;
+    const std::string why =
+        std::filesystem::is_symlink(folder / file, error)
+            ? fmt::format("{} is a symbolic link, which is not followed: put the file itself there", file)
+            : fmt::format("there is no file {} beside terrain.json", file);
+    faults.push_back({std::string(pointer), why});
   };
   check("/elevation", terrain.elevation_file);
   if (terrain.soil_source == SoilSource::kRaster) check("/soil/raster", terrain.soil_file);

@@ -54,11 +54,11 @@ def processor_s_of(pid):
 class Server:
     """`slipway serve` on a free port, in a folder of its own."""
 
-    def __init__(self, folder, *options):
+    def __init__(self, folder, *options, data=DATA):
         self.folder = folder
         jobs = [] if "--jobs" in options else ["--jobs", str(folder / "jobs.sqlite")]
         self.process = subprocess.Popen(
-            [SLIPWAY, "serve", "--data", DATA, "--port", "0", *jobs, *options],
+            [SLIPWAY, "serve", "--data", str(data), "--port", "0", *jobs, *options],
             stdout=subprocess.PIPE, text=True, env=with_preload())
         line = self.process.stdout.readline()
         match = re.search(r"http://127\.0\.0\.1:(\d+)", line)

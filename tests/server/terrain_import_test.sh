@@ -59,6 +59,22 @@ expect 2 $import "$folder/Site 1.asc" --name both --soil "$folder/classes.tif"
 holds 'no coordinate reference system' "$folder/err"
 holds 'classes.tif is not a readable raster' "$folder/err"
 
+# Cells that mark a missing height, where the file does not say that they do: a wall or a pit of thousands of metres.
+for mark in -9999 -32768 65535; do
+  grid "$folder/holes.asc" 80 0 0 1
+  awk -v mark="$mark" 'NR == 40 { $7 = mark; $8 = mark } { print }' "$folder/holes.asc" >"$folder/marked.asc"
+  expect 2 $import "$folder/marked.asc" --crs "$mars" --name holes
+  holds "has 2 cells whose height no ground has" "$folder/err"
+  remedy="$(sed -n 's/.*say so in the file: \(gdal_translate .*marked_m.tif\)\..*/\1/p' "$folder/err")"
+  (cd "$folder" && $remedy -q)
+  expect 0 $import "$folder/marked_m.tif" --crs "$mars" --name holes
+  holds '0.03 % unknown' "$folder/out"
+  rm -r "$folder/data/terrains/holes"
+done
+awk 'NR > 5 { for (k = 1; k <= NF; ++k) $k += 3396000 } { print }' "$folder/holes.asc" >"$folder/radii.asc"
+expect 2 $import "$folder/radii.asc" --crs "$mars" --name holes
+holds "distances from the body's centre" "$folder/err"
+
 # Degrees are refused with the remedy, and mended by --fix.
 grid "$folder/deg.asc" 80 137 -4 0.00002
 expect 2 $import "$folder/deg.asc" --crs "$degrees"
@@ -90,6 +106,22 @@ holds 'jlu_mars_2_dense' "$folder/out"
 # And a plan on it.
 expect verdict "$slipway" plan --data "$folder/data" --terrain soils --start 15,15 --goal 30,35 --routes 1 --draws 32 --json
 holds '"terrain":"soils"' "$folder/out"
+
+# Of large cells it is said what they can't show; small ones need no such word.
+grid "$folder/coarse.asc" 40 0 0 463
+expect 0 $import "$folder/coarse.asc" --crs "$mars"
+expect verdict "$slipway" plan --data "$folder/data" --terrain coarse --start 5000,5000 --goal 7000,9000 --routes 1 --draws 8
+holds 'Beyond this map: between heights 463 m apart the ground is taken as a plane' "$folder/out"
+expect verdict "$slipway" plan --data "$folder/data" --terrain soils --start 15,15 --goal 30,35 --routes 1 --draws 8
+if grep -q 'Beyond this map' "$folder/out"; then echo "cells of 1 m are not large"; exit 1; fi
+
+# A link could lead out of the folder: it is not followed, and that is said.
+mv "$folder/data/terrains/coarse/elevation.tif" "$folder/coarse.tif"
+ln -s "$folder/coarse.tif" "$folder/data/terrains/coarse/elevation.tif"
+"$slipway" data check --data "$folder/data" >"$folder/out" 2>"$folder/err" || true
+cat "$folder/err" >>"$folder/out"
+holds 'elevation.tif is a symbolic link, which is not followed' "$folder/out"
+rm -r "$folder/data/terrains/coarse"
 
 # Interrupted, by Ctrl-C and by the system: nothing is left, and the name is free.
 grid "$folder/large.asc" 1500 0 0 1

@@ -114,6 +114,12 @@ std::string learnt_lines(const JsonValue& document) {
                      number(learnt, "effective_draws"), number(learnt, "draws"));
 }
 
+// What cells of the map's size can't show, where they are large.
+std::string unseen_line(const JsonValue& document) {
+  const JsonValue* const unseen = at(document, "provenance").find("unseen_relief");
+  return unseen == nullptr ? std::string() : fmt::format("Beyond this map: {}\n", unseen->text);
+}
+
 // What a scout drive onto the ground that decides the best route would be worth.
 std::string scout_lines(const JsonValue& plan) {
   const JsonValue& scout = at(plan, "scout");
@@ -147,7 +153,7 @@ Result<std::string> plan_table(std::string_view answer) {
     if (at(route, "pareto").boolean && summary.elements.size() > 1)
       out += "  - no other route is at least as good in duration, energy, expected stops and embedding\n";
   }
-  out += scout_lines(*document) + learnt_lines(*document);
+  out += unseen_line(*document) + scout_lines(*document) + learnt_lines(*document);
   for (const JsonValue& route : summary.elements) {
     const std::string shown =
         dynamic_lines(route, fmt::format("Route {:.0f} verified by dynamics", number(route, "rank")));
@@ -242,7 +248,7 @@ Result<std::string> check_table(std::string_view answer) {
       number(behind, "p50"), number(uncertainty, "commanded_m"), number(behind, "p05"),
       number(behind, "p95"));
   for (const std::string& advice : api::check_advice(*document)) out += fmt::format("  - {}\n", advice);
-  return out;
+  return out + unseen_line(*document);
 }
 
 Result<std::string> prediction_table(std::string_view answer) {
@@ -258,7 +264,8 @@ Result<std::string> prediction_table(std::string_view answer) {
   const std::string shown = dynamic_lines(figures, "Verified by dynamics");
   if (!shown.empty()) out += "\n" + shown;
   const JsonValue& decision = at(*document, "decision");
-  return out + "\n" + decision_lines(text(decision, "verdict"), at(decision, "reasons"));
+  return out + "\n" + decision_lines(text(decision, "verdict"), at(decision, "reasons")) +
+         unseen_line(*document);
 }
 
 Result<std::string> wheel_table(std::string_view answer) {
