@@ -13,6 +13,7 @@
 #include "dem/gdal_crs.h"
 #include "dem/gdal_heights.h"
 #include "dem/gdal_import.h"
+#include "dem/gdal_impossible_heights.h"
 #include "dem/terrain_import.h"
 
 namespace slipway::dem {
@@ -23,10 +24,6 @@ using GeoTransform = std::array<double, 6>;
 
 constexpr float kNoHeight = std::numeric_limits<float>::lowest();  // as planetary maps have it
 constexpr int kRowsAtOnce = 256;                                   // a row of tiles
-// No ground of a planet or moon that rovers drive on is deeper or higher than this over its datum.
-constexpr float kDeepest_m = -12'000.0F, kHighest_m = 30'000.0F;
-constexpr float kUsualMark = -9999.0F;  // of cells without a height; some files forget to say so
-constexpr float kLeastRadius_m = 1e6F;  // heights as large as this are distances from a body's centre
 
 // A raster whose cells are turned north-up and whose coordinates are metres, as far as that needs no new
 // cells.
@@ -42,30 +39,8 @@ struct Arrangement {
 struct Scan {
   double lowest_m = std::numeric_limits<double>::infinity(), highest_m = -lowest_m;
   long long heights = 0;
-  long long beyond = 0;       // cells whose height no ground has
-  float beyond_value = 0.0F;  // of the first of them, as the file has it
+  ImpossibleHeights impossible;
 };
-
-bool no_ground_has(double height_m, float value) {
-  return height_m < kDeepest_m || height_m > kHighest_m || value == kUsualMark;
-}
-
-std::string fault_of_beyond(const Scan& scan, const std::string& file) {
-  const std::string mended = converted_name(file);
-  const std::string radius =
-      scan.beyond_value < kLeastRadius_m
-          ? ""
-          : fmt::format(
-                " If these are distances from the body's centre, take the radius of the map's sphere off "
-                "them "
-                "instead: gdal_calc.py -A {} --calc='A.astype(float)-RADIUS' --type=Float32 --outfile={}",
-                file, mended);
-  return fmt::format(
-      "{} has {} cells whose height no ground has, the first with {:g}. If that marks a missing height, say "
-      "so "
-      "in the file: gdal_translate -a_nodata {:g} {} {}.{}",
-      file, scan.beyond, scan.beyond_value, scan.beyond_value, file, mended, radius);
-}
 
 std::unique_ptr<OGRSpatialReference> named_system(const std::string& name) {
   auto crs = std::make_unique<OGRSpatialReference>();
@@ -182,6 +157,12 @@ std::vector<RasterFault> examine(GDALDataset& dataset, const OGRSpatialReference
   Arrangement arranged = arrange(dataset, *crs);
   arranged.changes.insert(arranged.changes.begin(), a.changes.begin(), a.changes.end());
   a = std::move(arranged);
+  if (a.crs->IsProjected() != 0 && crs->GetLinearUnits() != 1.0 && dataset.GetRasterCount() > 0 &&
+      *dataset.GetRasterBand(1)->GetUnitType() == '\0')
+    a.changes.push_back(fmt::format(
+        "heights carry no unit and were taken as metres, though coordinates were not in metres; if heights "
+        "are in feet too, say so and import again: gdal_edit.py -units ft {}",
+        file));
   const Extent extent = extent_of(a, dataset.GetRasterYSize(), dataset.GetRasterXSize());
   if (a.crs->IsProjected() != 0) {
     const auto lengths = check_true_lengths(*a.crs, extent, file);
@@ -221,7 +202,7 @@ class ArrangedHeights {
       }
       const float value = heights[i];
       heights[i] = static_cast<float>(value * a_.metres_per_height);
-      if (no_ground_has(heights[i], value) && scan.beyond++ == 0) scan.beyond_value = value;
+      scan.impossible.look_at(heights[i], value);
       scan.lowest_m = std::min<double>(scan.lowest_m, heights[i]);
       scan.highest_m = std::max<double>(scan.highest_m, heights[i]);
       ++scan.heights;
@@ -285,7 +266,7 @@ Result<Scan> pass_through(GDALRasterBand& band, const Arrangement& a, const std:
   }
   if (scan.heights == 0)
     return fail(ErrorCode::kUnreadableRaster, file + " has no cell with a height: nothing can drive there.");
-  if (scan.beyond > 0) return fail(ErrorCode::kUnreadableRaster, fault_of_beyond(scan, file));
+  if (scan.impossible.cells > 0) return fail(ErrorCode::kUnreadableRaster, scan.impossible.fault(file));
   return scan;
 }
 

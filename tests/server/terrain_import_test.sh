@@ -83,6 +83,17 @@ holds '--fix mends' "$folder/err"
 expect 0 $import "$folder/deg.asc" --crs "$degrees" --fix
 holds 'reprojected' "$folder/out"
 
+# Coordinates in feet say nothing about heights: what these were taken for is told, with what mends it.
+grid "$folder/feet.asc" 80 0 0 3.280839895
+gdal_translate -q -a_srs "$(echo "$mars" | sed 's/units=m/units=ft/')" "$folder/feet.asc" "$folder/feet.tif"
+expect 0 $import "$folder/feet.tif" --fix
+holds 'heights 0.05 to 4.00 m' "$folder/out"
+holds 'taken as metres, though' "$folder/out"
+(cd "$folder" && gdal_edit.py -units ft feet.tif)
+expect 0 $import "$folder/feet.tif" --fix --replace
+holds 'heights 0.02 to 1.22 m' "$folder/out"
+rm -r "$folder/data/terrains/feet"
+
 # A soil map: its classes are told where there is no legend, and a legend's faults all at once.
 awk 'BEGIN { print "ncols 80\nnrows 80\nxllcorner 0\nyllcorner 0\ncellsize 1"
   for (r = 0; r < 80; ++r) { for (k = 0; k < 80; ++k) printf "%d ", k < 40 ? 1 : 2; printf "\n" } }' >"$folder/classes.asc"
