@@ -200,9 +200,8 @@ class ArrangedHeights {
         heights[i] = kNoHeight;
         continue;
       }
-      const float value = heights[i];
-      heights[i] = static_cast<float>(value * a_.metres_per_height);
-      scan.impossible.look_at(heights[i], value);
+      scan.impossible.look_at(heights[i] * a_.metres_per_height, stored(heights[i]), is_scaled());
+      heights[i] = static_cast<float>(heights[i] * a_.metres_per_height);
       scan.lowest_m = std::min<double>(scan.lowest_m, heights[i]);
       scan.highest_m = std::max<double>(scan.highest_m, heights[i]);
       ++scan.heights;
@@ -212,6 +211,12 @@ class ArrangedHeights {
   }
 
  private:
+  // What the file has for a height; bands that are scaled hold whole numbers.
+  double stored(float height_m) const {
+    return is_scaled() ? std::round((height_m - encoding_.offset_m) / encoding_.scale) : height_m;
+  }
+  bool is_scaled() const { return encoding_.scale != 1.0 || encoding_.offset_m != 0.0; }
+
   void turn(std::vector<float>& heights, int count) const {
     const auto width = static_cast<std::ptrdiff_t>(columns());
     const auto row = [&](int r) { return heights.begin() + r * width; };

@@ -59,18 +59,32 @@ expect 2 $import "$folder/Site 1.asc" --name both --soil "$folder/classes.tif"
 holds 'no coordinate reference system' "$folder/err"
 holds 'classes.tif is not a readable raster' "$folder/err"
 
+# marked FILE: it has two cells that mark a missing height; the command that is told mends it.
+marked() {
+  expect 2 $import "$1" --crs "$mars" --name holes
+  holds "has 2 cells whose height no ground has" "$folder/err"
+  remedy="$(sed -n 's/.*say so in the file: \(gdal_translate .*tif.\{0,1\}\)\.$/\1/p' "$folder/err")"
+  (cd "$folder" && eval "$remedy -q" && mv *_m.tif mended.tif)
+  expect 0 $import "$folder/mended.tif" --crs "$mars" --name holes --replace
+  holds '0.03 % unknown' "$folder/out"
+  rm -r "$folder/data/terrains/holes"
+}
+
 # Cells that mark a missing height, where the file does not say that they do: a wall or a pit of thousands of metres.
 for mark in -9999 -32768 65535; do
   grid "$folder/holes.asc" 80 0 0 1
   awk -v mark="$mark" 'NR == 40 { $7 = mark; $8 = mark } { print }' "$folder/holes.asc" >"$folder/marked.asc"
-  expect 2 $import "$folder/marked.asc" --crs "$mars" --name holes
-  holds "has 2 cells whose height no ground has" "$folder/err"
-  remedy="$(sed -n 's/.*say so in the file: \(gdal_translate .*marked_m.tif\)\..*/\1/p' "$folder/err")"
-  (cd "$folder" && $remedy -q)
-  expect 0 $import "$folder/marked_m.tif" --crs "$mars" --name holes
-  holds '0.03 % unknown' "$folder/out"
-  rm -r "$folder/data/terrains/holes"
+  marked "$folder/marked.asc"
 done
+# The mark of a scaled band is what is stored, not the height that it makes.
+for scale in 0.1 0.5; do
+  gdal_translate -q -ot Int16 -a_scale $scale -a_offset -200 "$folder/holes.asc" "$folder/plain.tif"
+  awk 'NR == 40 { $7 = -32768; $8 = -32768 } { print }' "$folder/holes.asc" >"$folder/marked.asc"
+  gdal_translate -q -ot Int16 -a_scale $scale -a_offset -200 "$folder/marked.asc" "$folder/with a mark.tif"
+  marked "$folder/with a mark.tif"
+done
+expect 0 $import "$folder/plain.tif" --crs "$mars" --name holes --replace
+rm -r "$folder/data/terrains/holes"
 awk 'NR > 5 { for (k = 1; k <= NF; ++k) $k += 3396000 } { print }' "$folder/holes.asc" >"$folder/radii.asc"
 expect 2 $import "$folder/radii.asc" --crs "$mars" --name holes
 holds "distances from the body's centre" "$folder/err"
