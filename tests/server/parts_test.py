@@ -19,7 +19,6 @@ import unittest
 
 for beside in ("contract", "postgres"):
     sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / beside))
-import running_service  # noqa: E402
 from running_service import SLIPWAY, SOURCE, STOP_967, Server, plan  # noqa: E402
 from postgres_server import SCRIPT, PostgresServer  # noqa: E402
 
@@ -59,10 +58,9 @@ class Parts:
         cls.held = contextlib.ExitStack()
         cls.folder = pathlib.Path(cls.held.enter_context(tempfile.TemporaryDirectory()))
         cls.data = make_data(cls.folder)
-        running_service.DATA = str(cls.data)
         cls.store = cls.open_store()
         cls.shared = ["--jobs", cls.store, "--artefacts", str(cls.folder / "artefacts")]
-        cls.server = Server(cls.folder, *cls.shared, "--no-workers")
+        cls.server = Server(cls.folder, *cls.shared, "--no-workers", data=cls.data)
 
     @classmethod
     def tearDownClass(cls):
