@@ -81,12 +81,30 @@ void write_marginals(Writer& w, const Diagnosis& d) {
   w.end_array();
 }
 
+void write_measurements(Writer& w, const Diagnosis& d) {
+  w.key("measurements").begin_array();
+  for (const gap::MeasurementProposal& proposal : d.measurements) {
+    std::vector<std::string> kinds, parameters;
+    for (const gap::NuisanceKind kind : proposal.kinds) {
+      kinds.emplace_back(gap::measurement_of(kind));
+      for (const gap::Nuisance& row : gap::nuisance_catalogue())
+        if (row.kind == kind) parameters.emplace_back(row.name);
+    }
+    w.begin_object().text("effect", proposal.effect).texts("measure", kinds).texts("parameters", parameters);
+    w.significant("deviations_now", proposal.deviations_now)
+        .significant("deviations_then", proposal.deviations_then)
+        .end_object();
+  }
+  w.end_array();
+}
+
 void write_candidates(Writer& w, const Diagnosis& d) {
   w.key("candidates").begin_array();
   for (const gap::ComparedSet& set : compared_sets(d)) {
     w.begin_object().texts("effects", gap::names_of(set)).exact("probability", set.probability);
     if (set.held_out_score) write_finite(w, "held_out_score", *set.held_out_score);
     w.whole("complexity", set.complexity);
+    w.significant("log_evidence", set.log_evidence).significant("log_prior", set.log_prior);
     w.significant("chosen_share", set.chosen_share).end_object();
   }
   w.end_array().key("confusable").begin_array();
@@ -99,6 +117,7 @@ void write_candidates(Writer& w, const Diagnosis& d) {
     w.significant("angle_deg", alike.angle_deg).end_object();
   }
   w.end_array();
+  write_measurements(w, d);
 }
 
 void write_planners_view(Writer& w, const Diagnosis& d) {

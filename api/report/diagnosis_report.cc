@@ -135,11 +135,29 @@ class Report {
         "repeats drawn with replacement.");
     add_picture(page_, charts_, "explanations", "Probability of each explanation");
     write_marginals();
-    if (d_.confusable.empty()) return;
-    page_.paragraph("Pairs that these drives hardly tell apart:");
-    page_.table({"one", "other", "angle between their signatures, deg"});
-    for (const gap::ConfusablePair& pair : d_.confusable)
-      page_.row({pair.a, pair.b, fmt::format("{:.0f}", pair.angle_deg)});
+    if (!d_.confusable.empty()) {
+      page_.paragraph("Pairs that these drives hardly tell apart:");
+      page_.table({"one", "other", "angle between their signatures, deg"});
+      for (const gap::ConfusablePair& pair : d_.confusable)
+        page_.row({pair.a, pair.b, fmt::format("{:.0f}", pair.angle_deg)});
+    }
+    write_measurements();
+  }
+
+  void write_measurements() {
+    if (d_.measurements.empty()) return;
+    page_.paragraph(
+        "Effects that these drives would hide behind re-tuned parameters, at their usual size, and what "
+        "would "
+        "uncover them: those parameters measured apart from drives (parameter_std of the campaign says so). "
+        "Deviations are those by which the effect shows.");
+    page_.table({"effect", "shows now by", "would show by", "once known from"});
+    for (const gap::MeasurementProposal& proposal : d_.measurements) {
+      std::vector<std::string_view> ways;
+      for (const gap::NuisanceKind kind : proposal.kinds) ways.push_back(gap::measurement_of(kind));
+      page_.row({proposal.effect, fmt::format("{:.1f}", proposal.deviations_now),
+                 fmt::format("{:.1f}", proposal.deviations_then), fmt::format("{}", fmt::join(ways, "; "))});
+    }
   }
 
   void write_marginals() {

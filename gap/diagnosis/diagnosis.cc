@@ -11,6 +11,7 @@
 #include "core/angle.h"
 #include "gap/diagnosis/describe/localise.h"
 #include "gap/diagnosis/describe/look_alikes.h"
+#include "gap/diagnosis/describe/measurement_proposals.h"
 #include "gap/diagnosis/describe/next_drives.h"
 #include "gap/diagnosis/describe/reference_summary.h"
 #include "gap/diagnosis/describe/unexplained.h"
@@ -140,7 +141,7 @@ class Diagnoser {
 
   void name_and_judge(const DriveResampling& drives) {
     progress_.report("weighing single effects", 0.79);
-    const LinearHeldOut held_out(prepared_, drives.groups, options_.folds);
+    const LinearHeldOut held_out(prepared_, drives.groups, options_.folds, options_.fit);
     const ClosedShares shares(std::cref(held_out), search_);
     d_.marginals = effect_marginals(d_.library, search_, shares);
     chosen_ = best_;
@@ -179,6 +180,13 @@ class Diagnoser {
   void compare_look_alikes() {
     d_.confusable = confusable_pairs(search_, options_.verdict);
     d_.look_alikes = look_alikes(search_, options_.verdict);
+    if (campaign_.reference) return;  // which told of the parameters already
+    d_.measurements = measurement_proposals(
+        search_,
+        [&](const Eigen::VectorXd& change) -> Eigen::VectorXd {
+          return search_.fits[0].row_weights.asDiagonal() * prepared_.noise->whiten(change);
+        },
+        options_.verdict);
   }
 
   void localise() {
@@ -259,7 +267,7 @@ class Diagnoser {
     for (ChannelClosure& channel : d_.gap)
       if (!explains()) channel.closed_fraction.reset();
     offer_model(closure->log_density_gain);
-    add_discrepancy_rung(prepared_, LinearHeldOut(prepared_, drives.groups, options_.folds),
+    add_discrepancy_rung(prepared_, LinearHeldOut(prepared_, drives.groups, options_.folds, options_.fit),
                          fit_beside_rest(), drives, options_.discrepancy, d_.gap);
     return {};
   }

@@ -49,6 +49,7 @@ constexpr Effect kDraggingWheel{.name = "dragging_wheel",
                                 .fields = kFields,
                                 .on_rover = &change,
                                 .wheel_field = "wheel",
+                                .rate_field = "rate_share",
                                 .variants = &variants,
                                 .hidden = &hidden};
 

@@ -81,6 +81,9 @@ struct Effect {
   // The field that holds the number of the wheel that it acts on (-1: all of them), "wheel" in answers of the
   // benchmark; empty where it acts on all.
   std::string_view wheel_field = {};
+  // The field that holds the share of the commanded rate at which that wheel turns, which is measured where
+  // wheels' rates are; empty where it changes no rate.
+  std::string_view rate_field = {};
   // Whether the motors' temperatures change predictions through it, and through nothing else.
   bool reads_motor_temperature = false;
 

@@ -15,6 +15,8 @@ constexpr std::array kFields{
           0.0, 1.0, 0.0, 0.0},
     Field{"shear_share", "1", "where the soil is sheared, from the rim (0) to the grousers' tips (1)", 0.0,
           1.0, 0.0, 0.0},
+    Field{"surcharge", "1", "share of the rim's pressure that presses on the soil before a grouser", 0.0, 1.0,
+          0.0, 0.0},
 };
 
 void change(std::span<const double> values, RoverModel& rover) {
@@ -25,6 +27,7 @@ void change(std::span<const double> values, RoverModel& rover) {
     own.mobilisation = values[2];
     own.by_slip = values[3];
     own.shear_share = values[4];
+    own.surcharge = values[5];
     wheel.grousers = own;
   }
 }
@@ -32,7 +35,7 @@ void change(std::span<const double> values, RoverModel& rover) {
 bool same(const std::optional<Grousers>& a, const std::optional<Grousers>& b) {
   if (!a || !b) return a.has_value() == b.has_value();
   return a->height_m == b->height_m && a->count == b->count && a->mobilisation == b->mobilisation &&
-         a->by_slip == b->by_slip && a->shear_share == b->shear_share;
+         a->by_slip == b->by_slip && a->shear_share == b->shear_share && a->surcharge == b->surcharge;
 }
 
 // Grousers that the rover file gives are where the estimate starts from. Wheels that differ in them are not
@@ -45,22 +48,24 @@ std::vector<EffectVariant> variants(const RoverModel& rover) {
   EffectVariant::Free mobilisation = free_field(kFields, "mobilisation", 0.5);
   // Soil between grousers is sheared a little beyond the rim, so that the rover gets farther, as on larger
   // wheels. A little: what goes far beyond is a larger wheel (the effect wheel_radius) rather than this.
-  EffectVariant::Free share = free_field(kFields, "shear_share", 0.02);
+  EffectVariant::Free share = free_field(kFields, "shear_share", 0.03);
+  EffectVariant::Free surcharge = free_field(kFields, "surcharge", 0.2);
   if (own) {
     height.neutral = own->height_m;
     mobilisation.neutral = own->mobilisation;
     share.neutral = own->shear_share;
+    surcharge.neutral = own->surcharge;
     return {{.label = "of another height",
-             .free = {height, mobilisation, share},
+             .free = {height, mobilisation, share, surcharge},
              .fixed = {{"count", own->count}, {"by_slip", own->by_slip}}}};
   }
   // The neutral count, none, would leave nothing to estimate.
   return {{.label = "mobilised along the rim",
-           .free = {height, mobilisation, share},
+           .free = {height, mobilisation, share, surcharge},
            .fixed = {{"by_slip", 0.0}},
            .at_initial = {"count"}},
           {.label = "mobilised by slip",
-           .free = {height, mobilisation, share},
+           .free = {height, mobilisation, share, surcharge},
            .fixed = {{"by_slip", 1.0}},
            .at_initial = {"count"}}};
 }

@@ -55,6 +55,12 @@ constexpr std::array kGrousers{
                          .number = [](Grousers& g) -> double& { return g.braking; },
                          .presence = kOptional,
                          .writing = FieldWriting::kUnlessInitial},
+    ModelField<Grousers>{
+        .field = {"surcharge", "1", "share of the rim's pressure that presses on the soil before a grouser",
+                  0.0, 1.0, 0.0},
+        .number = [](Grousers& g) -> double& { return g.surcharge; },
+        .presence = kOptional,
+        .writing = FieldWriting::kUnlessInitial},
     ModelField<Grousers>{.field = {"shear_share", "1",
                                    "where the soil is sheared: 0 at the rim, 1 at the tips", 0.0, 1.0, 0.0},
                          .number = [](Grousers& g) -> double& { return g.shear_share; },

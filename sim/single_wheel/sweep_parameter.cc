@@ -131,7 +131,7 @@ bool acts_on_single_wheel(std::string_view effect) {
   };
   return a.radius_m != b.radius_m || a.width_m != b.width_m || a.rim_friction != b.rim_friction ||
          a.grousers.height_m != b.grousers.height_m || a.grousers.count != b.grousers.count ||
-         a.grousers.shear_share != b.grousers.shear_share ||
+         a.grousers.shear_share != b.grousers.shear_share || a.grousers.surcharge != b.grousers.surcharge ||
          a.grousers.shear_by_spacing != b.grousers.shear_by_spacing || currents(before) != currents(after);
 }
 

@@ -25,6 +25,23 @@ V grouser_force_n(const V& width_m, const V& height_m, const V& unit_weight_n_m3
   return passive_pressure_n(width_m, height_m, unit_weight_n_m3, cohesion_pa, tan_phi);
 }
 
+// The pressure q of the rim beside a cleat presses on the wedge that the cleat pushes: passive pressure has a
+// third term [Terzaghi 1943; Wong 2010 section 2.4],
+//
+//   F_g = b (gamma h^2 N_phi / 2 + q h N_phi + 2 c h sqrt(N_phi)),
+//
+// with q = surcharge sigma here, since some of the rim's pressure is borne by the wedge under the rim: 1 is
+// the textbook's. Per Pa of q, over the two terms without it: N_phi / (gamma h N_phi / 2 + 2 c sqrt(N_phi)).
+// Property: falls with cohesion and with height; a cleat in soil that bears nothing by itself has none.
+template <class V>
+V grouser_surcharge_per_pa(const V& height_m, const V& unit_weight_n_m3, const V& cohesion_pa,
+                           const V& tan_phi) {
+  using std::max, std::sqrt;
+  const V root = tan_phi + sqrt(V(1.0) + tan_phi * tan_phi);
+  const V by_itself = passive_pressure_n(V(1.0), height_m, unit_weight_n_m3, cohesion_pa, tan_phi);
+  return height_m * root * root / max(by_itself, V(1e-9));
+}
+
 // The arm of a grouser's thrust about the axle.
 template <class V>
 V grouser_arm_m(const V& radius_m, const V& height_m) {

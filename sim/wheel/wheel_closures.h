@@ -58,6 +58,9 @@ void close_angles(const ClosureValues<V>& by, const ClosedContact<V>& closed, Co
   at.theta_m = max(at.theta_r, min(at.theta_m, V(0.99) * at.top));
   at.slip_directed = by.slip_directed;
   at.cleat_braking = by.cleat_braking;
+  at.cleat_per_pa =
+      by.cleat_surcharge * grouser_surcharge_per_pa(closed.in.grouser_height, closed.in.unit_weight,
+                                                    closed.in.cohesion, closed.tan_phi);
 }
 
 // Adds what is pushed before the front and the wall, and the wall's friction, which acts at a third of the

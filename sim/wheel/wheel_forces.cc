@@ -43,6 +43,7 @@ ClosureValues<double> closures_of(const WheelGeometry& wheel, const Soil& soil) 
           .shear_by_spacing = wheel.grousers.shear_by_spacing,
           .cleats = wheel.grousers.count,
           .cleat_braking = wheel.grousers.braking,
+          .cleat_surcharge = wheel.grousers.surcharge,
           .slip_directed = soil.slip_directed,
           .softening = soil.inclined_softening,
           .rim_dug = digging.rim_share * wheel.radius_m,
@@ -113,7 +114,8 @@ WheelNumbers numbers_of(const WheelGeometry& wheel, const Soil& soil, double ent
                         .shear_form = {1.0, 0.0},
                         .shear_parameters = {}},
                        closures_of(wheel, soil),
-                       soil.has_closures() || sheared_beyond_rim || wheel.grousers.braking != 1.0};
+                       soil.has_closures() || sheared_beyond_rim || wheel.grousers.braking != 1.0 ||
+                           wheel.grousers.surcharge > 0.0};
   if (soil.pressure_law.row != nullptr || soil.shear_law.row != nullptr) choose_laws(wheel, soil, numbers);
   return numbers;
 }

@@ -15,6 +15,9 @@ struct Grousers {
   // Share of that displacement that is made by slip alone, r s (theta_f - theta): 1 leaves out the way that
   // the rim's own path into the ground makes, so that cleats brake as they drive.
   double by_slip = 0.0;
+  // Share of the rim's pressure beside a cleat that presses on the soil which the cleat pushes
+  // (grouser_law.h).
+  double surcharge = 0.0;
   double thrust = 1.0;   // share of the passive thrust that cleats have besides the shear at their radius
   double braking = 1.0;  // share of that thrust that brakes where the shear brakes
   // Where soil stands between the cleats and turns with them it is sheared at r + share h: the share as it is

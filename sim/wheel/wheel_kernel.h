@@ -26,6 +26,7 @@ template <class V>
 struct ClosureValues {
   V shear_share, shear_by_spacing, cleats;  // where the soil is sheared: shear_radius_m()
   V cleat_braking;
+  V cleat_surcharge;  // the share of the rim's pressure beside a cleat that presses on what it pushes
   V slip_directed, softening;
   V rim_dug, rim_slip, cleat_dug, per_cleat_limit, dug_sideways;
   // Factors of gamma z^2 b / 2 and of gamma / 2 times the wall's integral of depth squared.
@@ -35,15 +36,13 @@ struct ClosureValues {
 
 template <class V>
 inline constexpr std::array kClosureMembers{
-    &ClosureValues<V>::shear_share,   &ClosureValues<V>::shear_by_spacing,
-    &ClosureValues<V>::cleats,        &ClosureValues<V>::cleat_braking,
-    &ClosureValues<V>::slip_directed, &ClosureValues<V>::softening,
-    &ClosureValues<V>::rim_dug,       &ClosureValues<V>::rim_slip,
-    &ClosureValues<V>::cleat_dug,     &ClosureValues<V>::per_cleat_limit,
-    &ClosureValues<V>::dug_sideways,  &ClosureValues<V>::plough_front,
-    &ClosureValues<V>::plough_wall,   &ClosureValues<V>::heap,
-    &ClosureValues<V>::per_heap_slip, &ClosureValues<V>::wall_friction,
-    &ClosureValues<V>::wall_turn,     &ClosureValues<V>::wall_yield};
+    &ClosureValues<V>::shear_share,   &ClosureValues<V>::shear_by_spacing, &ClosureValues<V>::cleats,
+    &ClosureValues<V>::cleat_braking, &ClosureValues<V>::cleat_surcharge,  &ClosureValues<V>::slip_directed,
+    &ClosureValues<V>::softening,     &ClosureValues<V>::rim_dug,          &ClosureValues<V>::rim_slip,
+    &ClosureValues<V>::cleat_dug,     &ClosureValues<V>::per_cleat_limit,  &ClosureValues<V>::dug_sideways,
+    &ClosureValues<V>::plough_front,  &ClosureValues<V>::plough_wall,      &ClosureValues<V>::heap,
+    &ClosureValues<V>::per_heap_slip, &ClosureValues<V>::wall_friction,    &ClosureValues<V>::wall_turn,
+    &ClosureValues<V>::wall_yield};
 static_assert(sizeof(ClosureValues<double>) == kClosureMembers<double>.size() * sizeof(double),
               "a number of the closures is missing in the list that spreads them");
 

@@ -40,7 +40,7 @@ struct ContactAngles {
   V tan_phi;
   V top;  // where the contact ends in front: the entry angle, or where the rim is upright
   // Of the closures (wheel_closures.h); read where LawParts says that any is at work.
-  V slip_directed = V(0.0), cleat_braking = V(1.0);
+  V slip_directed = V(0.0), cleat_braking = V(1.0), cleat_per_pa = V(0.0);
 };
 
 template <class V>
@@ -186,7 +186,7 @@ void add_nodes(const Laws& laws, const WheelValues<V>& in, const ContactAngles<V
       share = select(as_rim, m_x, mobilised(laws, j_cleat, in.per_cleat_shear));
     }
     V m = weight * share;
-    if (parts.closures) m = select(m < V(0.0), at.cleat_braking * m, m);
+    if (parts.closures) m = select(m < V(0.0), at.cleat_braking * m, m) * (V(1.0) + at.cleat_per_pa * sigma);
     sum.m += m;
     sum.m_cos += m * cosine;
     sum.m_sin += m * sine;

@@ -47,6 +47,28 @@ TEST(LinearHeldOutRms, IsThatOfFoldsFittedAnew) {
               linear_held_out_rms(all, model.parameters(), {}, {}, rows, kFolds), 1e-6);
 }
 
+// One window of a nearly stuck rover, far off whatever explains the others, must not decide what is closed.
+TEST(LinearHeldOutRms, ByTheFitsLossIsNotThatOfOneWildRow) {
+  constexpr Eigen::Index kRows = 40;
+  const Eigen::MatrixXd a = random_matrix(kRows, 1, 5);
+  Eigen::VectorXd y = 3.0 * a + 0.3 * random_matrix(kRows, 1, 9);
+  y[7] += 300.0;
+  const Eigen::VectorXd deviation = Eigen::VectorXd::Constant(kRows, 0.3);
+  FoldedRows rows{{}, std::vector<bool>(kRows, true), deviation};
+  for (Eigen::Index i = 0; i < kRows; ++i) rows.fold.push_back(static_cast<int>(i) % 4);
+  const LinearModel with(a, y, deviation, {parameter(5.0)}), without(0.0 * a, y, deviation, {parameter(5.0)});
+  const std::vector<double> start{0.0};
+  const PosteriorMode told = find_mode(with, start, testing::to_the_end()),
+                      nothing = find_mode(without, start, testing::to_the_end());
+  const auto closed = [&] {
+    const double left = linear_held_out_rms(told, with.parameters(), {}, {}, rows, 4);
+    return 1.0 - left / linear_held_out_rms(nothing, without.parameters(), {}, {}, rows, 4);
+  };
+  EXPECT_LT(closed(), 0.01) << "by squares";
+  rows.loss = HuberLoss{4.0};
+  EXPECT_GT(closed(), 0.15) << "by the loss";
+}
+
 Candidate candidate(std::vector<std::string> effects, std::size_t fit, double probability) {
   Candidate c;
   c.effects = std::move(effects);

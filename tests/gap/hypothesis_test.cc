@@ -108,6 +108,7 @@ TEST(Hypothesis, AtItsNeutralValuesEveryEffectLeavesASinkingSoilAndARoverWithGro
                                    .count = 20.0,
                                    .mobilisation = 0.7,
                                    .by_slip = 0.4,
+                                   .surcharge = 0.3,
                                    .thrust = 0.6,
                                    .braking = 0.5,
                                    .shear_share = 0.3,
@@ -255,14 +256,17 @@ TEST(Hypothesis, SettingsHaveTheEstimateTheFixedFieldsAndNeutralOnesBesides) {
   const Hypothesis hypothesis(campaign, {variant_named(*campaign.rover, "grousers", "mobilised by slip"),
                                          variant_named(*campaign.rover, "slip_sinkage")});
   std::vector<double> x = hypothesis.neutral();
-  x[x.size() - 4] = 0.012;
-  x[x.size() - 2] = 0.1;
+  x[x.size() - 5] = 0.012;
+  x[x.size() - 3] = 0.1;
+  x[x.size() - 2] = 0.2;
   x.back() = 0.4;
   const std::vector<sim::EffectSetting> settings = hypothesis.settings(x);
   ASSERT_EQ(settings.size(), 2U);
-  EXPECT_EQ(settings[0].parameters,
-            (std::map<std::string, double>{
-                {"by_slip", 1.0}, {"height_m", 0.012}, {"mobilisation", 1.0}, {"shear_share", 0.1}}))
+  EXPECT_EQ(settings[0].parameters, (std::map<std::string, double>{{"by_slip", 1.0},
+                                                                   {"height_m", 0.012},
+                                                                   {"mobilisation", 1.0},
+                                                                   {"shear_share", 0.1},
+                                                                   {"surcharge", 0.2}}))
       << "the count stays at its initial value: none would leave no grousers";
   EXPECT_EQ(settings[1].parameters,
             (std::map<std::string, double>{{"n1", 0.4}, {"n1_skid", 0.0}, {"n1_lateral", 0.0}}));

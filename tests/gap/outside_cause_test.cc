@@ -85,6 +85,60 @@ TEST(WrenchOf, APushOnTheMapKeepsItsDirectionThereAndALoadIsUpright) {
   EXPECT_NEAR(wrench_of(forces, rover, climbing, {.speed_m_s = 0.04}).force_n.x(), -8.0, 1e-9) << "at 10 deg";
 }
 
+TEST(SoilDrift, IsAParabolaOverTheDrives) {
+  const SoilDrift drift{.last = -0.1, .middle = 0.2};
+  EXPECT_NEAR(drift.factor(0, 9), 1.0, 1e-12);
+  EXPECT_NEAR(drift.factor(4, 9), 1.0 - 0.05 + 0.2, 1e-12);
+  EXPECT_NEAR(drift.factor(8, 9), 0.9, 1e-12);
+  EXPECT_EQ(drift.factor(0, 1), 1.0) << "of one drive it is the soil's own strength";
+  EXPECT_GT((SoilDrift{.last = -3.0, .middle = 0.0}.factor(8, 9)), 0.0);
+}
+
+sim::EffectVariant first_variant(std::string_view cause, const DriveCampaign& campaign) {
+  sim::EffectVariant variant = find_outside(cause)->variants(campaign).front();
+  variant.effect = cause;
+  return variant;
+}
+
+TEST(Hypothesis, ARimThatSlipsOnItsHubTurnsSlowerThanItsWheelIsMeasuredTo) {
+  DriveCampaign campaign = campaign_of_one_soil();
+  EXPECT_TRUE(find_outside("rim_slip")->variants(campaign).empty())
+      << "without measured rates it is a wheel that drags";
+  MeasuredDriveSeries drive;
+  drive.command = {.speed_m_s = 0.04};
+  for (int i = 0; i < 20; ++i) {
+    DriveSample sample;
+    for (const sim::WheelCommand& wheel : sim::wheel_commands(*campaign.rover, drive.command))
+      sample.wheels.push_back({.rate_rad_s = wheel.rate_rad_s});
+    drive.samples.push_back(sample);
+  }
+  campaign.drives.push_back(drive);
+  const Hypothesis hypothesis(campaign, {first_variant("rim_slip", campaign)});
+  std::vector<double> x = hypothesis.neutral();
+  EXPECT_EQ(hypothesis.state(x).rover.wheels[0].rate_share, 1.0);
+  x.back() = 0.3;
+  const ModelState state = hypothesis.state(x);
+  EXPECT_NEAR(state.rover.wheels[0].rate_share, 0.7, 1e-12);
+  EXPECT_EQ(state.rover.wheels[1].rate_share, 1.0);
+  EXPECT_TRUE(state.effects.empty());
+}
+
+TEST(Hypothesis, SoilsThatDriftAreLeftAloneByOneDriveAndByNoDrift) {
+  DriveCampaign campaign = campaign_of_one_soil();
+  campaign.drives.resize(2);
+  EXPECT_TRUE(find_outside("soil_drift")->variants(campaign).empty());
+  campaign.drives.resize(5);
+  const Hypothesis hypothesis(campaign, {first_variant("soil_drift", campaign)});
+  std::vector<double> x = hypothesis.neutral();
+  EXPECT_FALSE(hypothesis.state(x).soil_drift.any());
+  x.back() = -0.12;
+  EXPECT_EQ(hypothesis.state(x).soil_drift.middle, -0.12);
+  EXPECT_EQ(
+      find_outside("soil_drift")->words(hypothesis.outside_values("soil_drift", x), campaign),
+      "the soils' strength changes from drive to drive: 12.0 % weaker in the middle and 0.0 % stronger at "
+      "the end than at the first");
+}
+
 TEST(Hypothesis, FitsACauseFromOutsideAsItFitsAnEffect) {
   const DriveCampaign campaign = campaign_of_one_soil();
   const OutsideCause& pull = *find_outside("pull_along_travel");

@@ -18,7 +18,8 @@ enum class Fidelity {
 };
 std::string name_of(Fidelity fidelity);
 
-enum class NominalSoil { kTrue, kNear, kUsual, kFar };
+// How far the soil that operators assume is off; of a measured one, by what plate and shear tests leave open.
+enum class NominalSoil { kTrue, kNear, kMeasured, kUsual, kFar };
 
 // One campaign to be made.
 struct CampaignCase {
@@ -26,6 +27,7 @@ struct CampaignCase {
   std::vector<std::string> causes;
   double size = 1.0;
   NominalSoil nominal = NominalSoil::kUsual;
+  bool measured_closures = false;  // campaign.json says that tests of a single wheel told them
   Fidelity fidelity = Fidelity::kOtherEffects;
   std::optional<std::string> soil;  // drawn where it is empty
   std::size_t max_drives = 0;       // 0 for all drives

@@ -61,6 +61,19 @@ Json rover_json(const RoverOnFile& rover) {
             {"bus_voltage_v", 28.0}}}};
 }
 
+// What was measured apart from the drives, one standard deviation each; null where nothing was.
+Json parameter_std(const CampaignCase& made_of) {
+  Json std;
+  if (made_of.nominal == NominalSoil::kMeasured)
+    std = {{"stiffness", 0.03}, {"n", 0.01}, {"cohesion", 0.03}, {"friction", 0.01}, {"shear_modulus", 0.03}};
+  if (made_of.measured_closures)
+    for (const auto& [name, value] :
+         {std::pair{"lateral_shear_modulus", 0.03}, std::pair{"c1", 0.01}, std::pair{"c2", 0.02},
+          std::pair{"exit_angle", 0.02}, std::pair{"shear_coupling", 0.05}})
+      std[name] = value;
+  return std;
+}
+
 Json campaign_json(const SealedCampaign& campaign, const std::string& name) {
   Json terrains = Json::object();
   for (const NamedTerrain& terrain : campaign.terrains)
@@ -77,19 +90,21 @@ Json campaign_json(const SealedCampaign& campaign, const std::string& name) {
                         {"turn_in_place", order.turn_in_place},
                         {"duration_s", order.duration_s}}}});
   }
-  return {{"format", "drive-campaign/1"},
-          {"name", name},
-          {"gravity_m_s2", campaign.world.gravity_m_s2},
-          {"rover", rover_json(campaign.world.rover)},
-          {"soils", {{"nominal", soil_json(campaign.nominal)}}},
-          {"terrains", std::move(terrains)},
-          {"measurement_std",
-           {{"position_m", kPositionStd_m},
-            {"attitude_deg", kAttitudeStd_deg},
-            {"current_rel", kCurrentRel},
-            {"current_a", kCurrentStd_a},
-            {"sinkage_m", kSinkageStd_m}}},
-          {"drives", std::move(drives)}};
+  Json file{{"format", "drive-campaign/1"},
+            {"name", name},
+            {"gravity_m_s2", campaign.world.gravity_m_s2},
+            {"rover", rover_json(campaign.world.rover)},
+            {"soils", {{"nominal", soil_json(campaign.nominal)}}},
+            {"terrains", std::move(terrains)},
+            {"measurement_std",
+             {{"position_m", kPositionStd_m},
+              {"attitude_deg", kAttitudeStd_deg},
+              {"current_rel", kCurrentRel},
+              {"current_a", kCurrentStd_a},
+              {"sinkage_m", kSinkageStd_m}}},
+            {"drives", std::move(drives)}};
+  if (Json std = parameter_std(campaign.made_of); !std.is_null()) file["parameter_std"] = std::move(std);
+  return file;
 }
 
 class CsvLine {
@@ -179,10 +194,11 @@ std::string write_campaign(const SealedCampaign& campaign, const std::string& na
 
 std::string answer_of(const SealedCampaign& campaign) {
   const CampaignCase& made_of = campaign.made_of;
-  const char* nominal = made_of.nominal == NominalSoil::kTrue   ? "true"
-                        : made_of.nominal == NominalSoil::kNear ? "near"
-                        : made_of.nominal == NominalSoil::kFar  ? "far"
-                                                                : "usual";
+  const char* nominal = made_of.nominal == NominalSoil::kTrue ? "true"
+                        : made_of.nominal == NominalSoil::kNear || made_of.nominal == NominalSoil::kMeasured
+                            ? "near"
+                        : made_of.nominal == NominalSoil::kFar ? "far"
+                                                               : "usual";
   Json effects = Json::object();
   for (const auto& [name, parameters] : campaign.effects) effects[name] = parameters;
   Json answer{{"soil", campaign.world.soil.name},

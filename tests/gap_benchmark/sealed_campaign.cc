@@ -93,6 +93,8 @@ double spread_of(NominalSoil nominal) {
       return 0.0;
     case NominalSoil::kNear:
       return 0.15;
+    case NominalSoil::kMeasured:
+      return 0.3;
     case NominalSoil::kUsual:
       return 1.0;
     case NominalSoil::kFar:

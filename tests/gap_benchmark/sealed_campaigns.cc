@@ -1,7 +1,9 @@
 // sealed_campaigns OUT [--seed N] [--set blind|full|each|smoke|nothing|other_physics|outside] [--only
 // CAUSE,...]
 // [--fidelity L1|L2|L2c|L3] [--size X] [--references yes|no] [--since DRIVE] [--drives N] [--more FILE]
+// [--measured soil|soil,closures]
 //
+// Measured: campaign.json says how well soil (and closures) were measured apart from the drives.
 // With --drives only so many of a campaign's drives are made, of all kinds; --more adds those of a file,
 // whose lines are campaign,tilt_deg,heading_deg,speed_m_s,curvature_1_m,motor_temp_c (of tables alone; the
 // heading from straight uphill, positive to the left). The others stay as they are. Since a drive: so many
@@ -35,7 +37,8 @@ using namespace slipway::gap_benchmark;
 constexpr const char* kUsage =
     "usage: sealed_campaigns OUT [--seed N] [--set blind|full|each|smoke|nothing|other_physics|outside]\n"
     "                        [--only CAUSE,...] [--fidelity L1|L2|L2c|L3] [--size X]\n"
-    "                        [--references yes|no] [--since DRIVE] [--drives N] [--more FILE]\n";
+    "                        [--references yes|no] [--since DRIVE] [--drives N] [--more FILE]\n"
+    "                        [--measured soil|soil,closures]\n";
 
 constexpr std::uint64_t kReferenceSeed = 0x5eed;  // of a reference, over its campaign's
 constexpr std::uint64_t kMoreSeed = 0xadd;        // of drives that are added
@@ -46,7 +49,7 @@ struct Wish {
   std::vector<std::string> only;
   std::optional<Fidelity> fidelity;
   std::optional<double> size;
-  bool references = false;
+  bool references = false, measured_soil = false, measured_closures = false;
   std::size_t since = 0, drives = 0;
   std::map<std::string, std::vector<DriveOrder>> more;  // by campaign
 };
@@ -107,6 +110,10 @@ std::optional<Wish> wish_of(int count, char** words) {
       const auto more = more_drives(value);
       if (!more) return std::nullopt;
       wish.more = *more;
+    } else if (word == "--measured") {
+      wish.measured_soil = value == "soil" || value == "soil,closures";
+      wish.measured_closures = value == "soil,closures";
+      if (!wish.measured_soil) return std::nullopt;
     } else if (word == "--references")
       wish.references = value == "yes";
     else if (word == "--fidelity") {
@@ -159,6 +166,8 @@ int main(int count, char** words) {
     made_of.since_drive = wish->since;
     if (wish->drives > 0) made_of.max_drives = wish->drives;
     if (!wish->more.empty()) made_of.on_hills = false;
+    if (wish->measured_soil) made_of.nominal = NominalSoil::kMeasured;
+    made_of.measured_closures = wish->measured_closures;
   }
   for (const CampaignCase& made_of : *cases)
     if (const std::optional<std::string> cause = impossible_cause(made_of)) {

@@ -68,6 +68,10 @@ TEST(WheelClosures, EveryKernelAndEveryLaneHasTheSameForces) {
     for (const double u : {0.1, 0.8, 1.6, 20.0})
       for (const double across : {0.0, -0.3, 1.2})
         wheels.push_back(numbers_of(cleated(), closed_sand(), theta, {u, across}));
+  WheelGeometry pressed = cleated();
+  pressed.grousers.thrust = 0.6;
+  pressed.grousers.surcharge = 0.4;
+  wheels.push_back(numbers_of(pressed, closed_sand(), 0.9, {0.7, 0.1}));
   wheels.push_back(numbers_of(kWheel, sandy_loam(), 0.6, {0.7, 0.1}));  // one without closures in a pack
   LawParts parts;
   for (const WheelNumbers& wheel : wheels) parts.include(wheel);
@@ -141,6 +145,31 @@ TEST(Cleats, TheirThrustNeedNotBrakeInSkid) {
   };
   EXPECT_LT(pull(skid, 1.0), pull(skid, 0.0));
   EXPECT_NEAR(pull(slip, 1.0), pull(slip, 0.0), 1e-9);
+}
+
+TEST(Cleats, ThePressureBesideThemAddsPassivePressureInTheSharesTheTextbookHas) {
+  const double tan_phi = std::tan(0.6), h = 0.01, gamma = 5500.0, c = 700.0;
+  const double n_phi = std::pow(tan_phi + std::sqrt(1.0 + tan_phi * tan_phi), 2);
+  const double q = 9000.0;
+  const double whole = 0.5 * gamma * h * h * n_phi + q * h * n_phi + 2.0 * c * h * std::sqrt(n_phi);
+  EXPECT_NEAR(passive_pressure_n(1.0, h, gamma, c, tan_phi) *
+                  (1.0 + q * grouser_surcharge_per_pa(h, gamma, c, tan_phi)),
+              whole, 1e-9 * whole);
+  EXPECT_EQ(grouser_surcharge_per_pa(0.0, gamma, 0.0, tan_phi), 0.0) << "no cleat";
+
+  // On a wheel: more pull and more torque, the more of the pressure presses.
+  WheelGeometry cleats;
+  cleats.grousers = {.height_m = h, .count = 24.0};
+  const Soil soil = loose_sand();
+  const WheelMotion motion{.forward = 0.8, .leftward = 0.0};
+  WheelForces before = wheel_forces(cleats, soil, 0.6, motion);
+  for (const double share : {0.1, 0.5, 1.0}) {
+    cleats.grousers.surcharge = share;
+    const WheelForces more = wheel_forces(cleats, soil, 0.6, motion);
+    EXPECT_GT(more.drawbar_pull_n, before.drawbar_pull_n) << share;
+    EXPECT_GT(more.torque_nm, before.torque_nm) << share;
+    before = more;
+  }
 }
 
 TEST(DugDepth, IsNothingWithoutSlipRisesWithSlipAndCleatsAndIsBounded) {

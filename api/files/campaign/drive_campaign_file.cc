@@ -15,6 +15,7 @@
 #include "api/json/faults.h"
 #include "api/json/parse.h"
 #include "core/angle.h"
+#include "gap/diagnosis/model/nuisance_catalogue.h"
 
 namespace slipway::api::json {
 namespace {
@@ -172,6 +173,23 @@ void read_measurement_std(ObjectReader& reader, gap::MeasurementStd& std) {
   object->refuse_unknown();
 }
 
+// A key that campaigns made here have besides those of the format.
+void read_parameter_std(ObjectReader& reader, DriveCampaignFile& file) {
+  auto object = reader.object("parameter_std", kOptional);
+  if (!object) return;
+  std::vector<std::string> names;
+  for (const gap::Nuisance& row : gap::nuisance_catalogue()) {
+    names.emplace_back(row.name);
+    std::optional<double> std;
+    object->number(row.name, kOptional, {"1", 0.0, row.highest, true}, std);
+    if (std) file.parameter_std.emplace(row.name, *std);
+  }
+  // A name that is misspelt must not leave a parameter as unknown as before.
+  for (const std::string& key : reader.member("parameter_std", kOptional)->keys)
+    if (std::find(names.begin(), names.end(), key) == names.end())
+      object->fault(key, unknown_name("parameter", key, names));
+}
+
 // Of a turn in place: the fastest wheels' rims have the commanded speed.
 double turn_rate_of(const sim::RoverModel* rover, double speed_m_s) {
   double farthest_m = 0.0;
@@ -318,6 +336,7 @@ Result<DriveCampaignFile> read_drive_campaign_file(std::string_view bytes, const
   read_soils(reader, file);
   read_terrains(reader, file);
   read_measurement_std(reader, file.measurement_std);
+  read_parameter_std(reader, file);
   read_drives(reader, file);
   reader.refuse_unknown();
   note_passed_over(passed_over, file.notes);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,6 +40,7 @@ struct DriveCampaignFile {
   std::vector<gap::NominalSoil> soils;
   std::vector<CampaignTerrainEntry> terrains;
   gap::MeasurementStd measurement_std;
+  std::map<std::string, double, std::less<>> parameter_std;  // as in gap::DriveCampaign
   std::vector<CampaignDriveEntry> drives;
   std::vector<std::string> notes;  // keys that were passed over, what was taken for granted
   std::vector<Fault> faults;

@@ -89,6 +89,7 @@ class Loader {
     campaign_.rover = file_.rover;
     campaign_.soils = file_.soils;
     campaign_.measurement_std = file_.measurement_std;
+    campaign_.parameter_std = file_.parameter_std;
     campaign_.notes = file_.notes;
     for (const json::CampaignTerrainEntry& entry : file_.terrains) read_terrain(entry);
     for (json::CampaignDriveEntry& entry : file_.drives) read_drive(entry);

@@ -43,11 +43,11 @@ FoldEquations equations_of(const Eigen::MatrixXd& columns, const Eigen::VectorXd
 }
 
 // In deviations of the noise, of those that there are.
-double rms_of(const Eigen::VectorXd& residuals, const Eigen::VectorXd& deviation) {
+double rms_of(const Eigen::VectorXd& residuals, const FoldedRows& rows) {
   double squares = 0.0, count = 0.0;
   for (Eigen::Index row = 0; row < residuals.size(); ++row)
     if (std::isfinite(residuals[row])) {
-      squares += std::pow(residuals[row] / deviation[row], 2);
+      squares += 2.0 * rows.loss(residuals[row] / rows.deviation[row]);
       count += 1.0;
     }
   return count > 0.0 ? std::sqrt(squares / count) : 0.0;
@@ -103,11 +103,13 @@ Eigen::VectorXd linear_held_out(const PosteriorMode& fit, std::span<const Parame
 double linear_held_out_rms(const PosteriorMode& fit, std::span<const Parameter> parameters,
                            const Eigen::MatrixXd& more, const Eigen::MatrixXd& white_more,
                            const FoldedRows& rows, int folds, const Eigen::MatrixXd& precision) {
-  return rms_of(linear_held_out(fit, parameters, more, white_more, rows, folds, precision), rows.deviation);
+  return rms_of(linear_held_out(fit, parameters, more, white_more, rows, folds, precision), rows);
 }
 
-LinearHeldOut::LinearHeldOut(const PreparedCampaign& prepared, std::span<const std::size_t> groups, int folds)
+LinearHeldOut::LinearHeldOut(const PreparedCampaign& prepared, std::span<const std::size_t> groups, int folds,
+                             const FitOptions& fit)
     : prepared_(prepared), folds_(folds) {
+  rows_.loss = HuberLoss{fit.huber};
   const WindowModel& model = *prepared.model;
   rows_.fold.assign(model.observation_count(), -1);
   rows_.compared.assign(model.observation_count(), false);
@@ -136,7 +138,7 @@ Eigen::VectorXd LinearHeldOut::residuals(const FittedExplanation& fit, const Eig
 }
 
 double LinearHeldOut::operator()(const FittedExplanation& fit, const Eigen::MatrixXd& more) const {
-  return rms_of(residuals(fit, more), rows_.deviation);
+  return rms_of(residuals(fit, more), rows_);
 }
 
 }  // namespace slipway::gap

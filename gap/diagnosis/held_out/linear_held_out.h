@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
+#include "gap/diagnosis/search/huber_loss.h"
 #include "gap/diagnosis/search/prepared_campaign.h"
 
 namespace slipway::gap {
@@ -14,6 +16,9 @@ struct FoldedRows {
   std::vector<int> fold;
   std::vector<bool> compared;
   Eigen::VectorXd deviation;
+  // Of residuals in deviations, as in the fits: a few windows of a nearly stuck rover would otherwise hold
+  // most of the squares, whatever explains the others.
+  HuberLoss loss{std::numeric_limits<double>::infinity()};
 };
 
 // Measurement less prediction on drives that an explanation has not seen, its derivatives being taken for
@@ -26,7 +31,7 @@ struct FoldedRows {
 Eigen::VectorXd linear_held_out(const PosteriorMode& fit, std::span<const Parameter> parameters,
                                 const Eigen::MatrixXd& more, const Eigen::MatrixXd& white_more,
                                 const FoldedRows& rows, int folds, const Eigen::MatrixXd& precision = {});
-// Their root mean square in deviations of the noise.
+// Their root mean square in deviations of the noise, with twice the loss in the place of the square.
 double linear_held_out_rms(const PosteriorMode& fit, std::span<const Parameter> parameters,
                            const Eigen::MatrixXd& more, const Eigen::MatrixXd& white_more,
                            const FoldedRows& rows, int folds, const Eigen::MatrixXd& precision = {});
@@ -35,9 +40,10 @@ double linear_held_out_rms(const PosteriorMode& fit, std::span<const Parameter> 
 class LinearHeldOut {
  public:
   // `groups`: of each drive, see learnt_from_in. What is given must outlive it.
-  LinearHeldOut(const PreparedCampaign& prepared, std::span<const std::size_t> groups, int folds);
+  LinearHeldOut(const PreparedCampaign& prepared, std::span<const std::size_t> groups, int folds,
+                const FitOptions& fit);
 
-  // The root mean square.
+  // The root mean square, by the loss of the campaign's fits.
   double operator()(const FittedExplanation& fit, const Eigen::MatrixXd& more = {}) const;
   Eigen::VectorXd residuals(const FittedExplanation& fit, const Eigen::MatrixXd& more = {}) const;
 

@@ -66,6 +66,7 @@ DriveCampaign subset_of(const DriveCampaign& campaign, std::span<const std::size
   subset.soils = campaign.soils;
   subset.terrains = campaign.terrains;
   subset.measurement_std = campaign.measurement_std;
+  subset.parameter_std = campaign.parameter_std;
   subset.notes = campaign.notes;
   subset.fingerprint = campaign.fingerprint;
   subset.retuning = campaign.retuning;

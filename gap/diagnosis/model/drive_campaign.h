@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -84,6 +86,10 @@ struct DriveCampaign {
   std::vector<NominalSoil> soils;
   std::vector<CampaignTerrain> terrains;
   MeasurementStd measurement_std;
+  // How well nominal parameters are known, by the names of nuisance_catalogue(): one standard deviation of
+  // each that was measured apart from these drives. Those that are not in it are known as well as they
+  // usually are.
+  std::map<std::string, double, std::less<>> parameter_std;
   std::vector<MeasuredDriveSeries> drives;
   std::vector<std::string> notes;  // columns that were not read, repairs: for people
   std::string fingerprint;         // of every byte that was read

@@ -105,7 +105,10 @@ Hypothesis::Hypothesis(const DriveCampaign& campaign, std::vector<EffectVariant>
         name += "/" + campaign.soils[static_cast<std::size_t>(soil)].name;
       const bool held = campaign.retuning == Retuning::kNone ||
                         (campaign.retuning == Retuning::kNoClosures && row.kind == NuisanceKind::kClosure);
-      const double std = wide ? kTotalTorqueStd : row.std;
+      const auto stated = campaign.parameter_std.find(row.name);
+      const double std = stated != campaign.parameter_std.end() ? stated->second
+                         : wide                                 ? kTotalTorqueStd
+                                                                : row.std;
       const double farthest = wide ? 3.0 * kTotalTorqueStd : 0.0;
       parameters_.push_back({name, "", 0.0, held ? kHeld * std : std, std::min(row.lowest, -farthest),
                              std::max(row.highest, farthest), quantity_of(row),
@@ -208,7 +211,7 @@ ModelState Hypothesis::state(std::span<const double> x) const {
     }
   for (const sim::EffectSetting& setting : state.effects)
     if (const OutsideCause* const cause = find_outside(setting.name); cause != nullptr && cause->act)
-      cause->act({setting.parameters.begin(), setting.parameters.end()}, state.outside);
+      cause->act({setting.parameters.begin(), setting.parameters.end()}, state);
   std::erase_if(state.effects,
                 [](const sim::EffectSetting& s) { return sim::find_effect(s.name) == nullptr; });
   // The rover file's own effects stay at work beside them.

@@ -54,6 +54,13 @@ bool OutsideForces::any() const {
          !on_map_n.isZero(0.0) || load_n != 0.0 || turning_nm != 0.0 || !along_at_wheel_n.empty();
 }
 
+double SoilDrift::factor(std::size_t drive, std::size_t drives) const {
+  constexpr double kLeast = 0.05;  // of the strength: a fit may try what leaves nothing
+  if (drives < 2) return 1.0;
+  const double t = 2.0 * static_cast<double>(drive) / (static_cast<double>(drives) - 1.0) - 1.0;
+  return std::max(kLeast, 1.0 + 0.5 * last * (t + 1.0) + middle * (1.0 - t * t));
+}
+
 sim::OutsideWrench wrench_of(const OutsideForces& forces, const sim::RoverModel& rover,
                              const sim::Stance& stance, const sim::DriveCommand& command) {
   const double sense = command.turn_in_place ? 0.0 : command.speed_m_s < 0.0 ? -1.0 : 1.0;
@@ -78,7 +85,8 @@ sim::OutsideWrench wrench_of(const OutsideForces& forces, const sim::RoverModel&
 std::span<const OutsideCause> outside_catalogue() {
   static const std::vector<OutsideCause> rows = [] {
     std::vector<OutsideCause> all;
-    for (const auto some : {outside_force_rows(), outside_sensor_rows()})
+    for (const auto some :
+         {outside_force_rows(), outside_rover_rows(), outside_soil_rows(), outside_sensor_rows()})
       all.insert(all.end(), some.begin(), some.end());
     return all;
   }();

@@ -15,6 +15,7 @@
 namespace slipway::gap {
 
 class WindowModel;
+struct ModelState;
 
 // What an unmodelled world does to a vehicle, all at once; every window makes it a wrench of its own. N and
 // N m. "Along" is the direction of travel, so that a force along of less than 0 holds the rover back either
@@ -33,15 +34,26 @@ struct OutsideForces {
   bool any() const;
 };
 
+// How the strength of all soils differs from drive to drive, as by the sun or by moisture: cohesion and
+// tan(friction angle) times 1 + last (t + 1) / 2 + middle (1 - t^2), t = -1 of the first drive to 1 of the
+// last.
+struct SoilDrift {
+  double last = 0.0, middle = 0.0;
+
+  bool any() const { return last != 0.0 || middle != 0.0; }
+  double factor(std::size_t drive, std::size_t drives) const;
+};
+
 // Forces on the body act in its vertical through the centre of mass, those at wheels at the axles.
 sim::OutsideWrench wrench_of(const OutsideForces& forces, const sim::RoverModel& rover,
                              const sim::Stance& stance, const sim::DriveCommand& command);
 
 using OutsideValues = std::map<std::string, double>;  // of a cause's fields, by name
 
-// A cause outside the simulator and its library: a force that the world puts on the vehicle, or a sensor that
-// reads in another scale or from another zero. In a diagnosis it competes as the library's effects do, with
-// parameters of its own that are fitted in full, and is told as the form of something unknown.
+// A cause outside the simulator and its library: a force that the world puts on the vehicle, soil that
+// changes from drive to drive, a part that does not do what is measured of it, or a sensor that reads in
+// another scale or from another zero. In a diagnosis it competes as the library's effects do, with parameters
+// of its own that are fitted in full, and is told as the form of something unknown.
 struct OutsideCause {
   std::string_view name;     // "pull_along_travel"
   std::string_view form;     // "force_on_body", "moment_on_body", "force_at_wheel", "sensor"
@@ -50,8 +62,8 @@ struct OutsideCause {
   std::string_view unit;     // of its fields
   // The ways in which it could be at work. Their prior deviations are shares of the rover's weight.
   std::vector<sim::EffectVariant> (*variants)(const DriveCampaign& campaign);
-  // Exactly one of these two.
-  void (*act)(const OutsideValues& values, OutsideForces& forces) = nullptr;
+  // Exactly one of these two. The first changes what the model predicts from: forces, rover or soils.
+  void (*act)(const OutsideValues& values, ModelState& state) = nullptr;
   // Turns predictions into what the wrong sensor would show.
   void (*show)(const OutsideValues& values, const WindowModel& model,
                std::vector<double>& predicted) = nullptr;

@@ -10,8 +10,10 @@
 
 namespace slipway::gap {
 
-// The rows of outside_catalogue, which has the forces first.
+// The rows of outside_catalogue, in this order.
 std::span<const OutsideCause> outside_force_rows();
+std::span<const OutsideCause> outside_rover_rows();
+std::span<const OutsideCause> outside_soil_rows();
 std::span<const OutsideCause> outside_sensor_rows();
 
 // What rows are made of.

@@ -7,6 +7,7 @@
 
 #include "core/angle.h"
 #include "gap/diagnosis/model/outside_cause_rows.h"
+#include "gap/diagnosis/model/window_model.h"
 
 namespace slipway::gap {
 namespace {
@@ -78,8 +79,8 @@ std::vector<sim::EffectVariant> wheel_forces(const DriveCampaign& campaign) {
   return all;
 }
 
-void pull_at_wheels(const Values& values, OutsideForces& forces) {
-  for (const std::size_t k : wheels_in(values)) forces.along_at_wheel_n[k] += values.at("force_n");
+void pull_at_wheels(const Values& values, ModelState& state) {
+  for (const std::size_t k : wheels_in(values)) state.outside.along_at_wheel_n[k] += values.at("force_n");
 }
 
 std::string along_words(double force_n) {
@@ -139,9 +140,9 @@ constexpr std::array kForceRows{
                  .unit = "N",
                  .variants = &forces<kForce>,
                  .act =
-                     [](const Values& v, OutsideForces& f) {
-                       f.along_n += v.at("force_n");
-                       f.height_m = v.at(kHeight);
+                     [](const Values& v, ModelState& s) {
+                       s.outside.along_n += v.at("force_n");
+                       s.outside.height_m = v.at(kHeight);
                      },
                  .words = &pull_words},
     OutsideCause{.name = "push_on_map",
@@ -151,9 +152,9 @@ constexpr std::array kForceRows{
                  .unit = "N",
                  .variants = &forces<kMapXY>,
                  .act =
-                     [](const Values& v, OutsideForces& f) {
-                       f.on_map_n += Eigen::Vector2d(v.at("x_n"), v.at("y_n"));
-                       f.height_m = v.at(kHeight);
+                     [](const Values& v, ModelState& s) {
+                       s.outside.on_map_n += Eigen::Vector2d(v.at("x_n"), v.at("y_n"));
+                       s.outside.height_m = v.at(kHeight);
                      },
                  .words = &push_words},
     OutsideCause{.name = "push_in_body",
@@ -163,9 +164,9 @@ constexpr std::array kForceRows{
                  .unit = "N",
                  .variants = &forces<kForwardLeft>,
                  .act =
-                     [](const Values& v, OutsideForces& f) {
-                       f.in_body_n += Eigen::Vector2d(v.at("forward_n"), v.at("left_n"));
-                       f.height_m = v.at(kHeight);
+                     [](const Values& v, ModelState& s) {
+                       s.outside.in_body_n += Eigen::Vector2d(v.at("forward_n"), v.at("left_n"));
+                       s.outside.height_m = v.at(kHeight);
                      },
                  .words = &body_words,
                  .twin_of_an_effect = true},
@@ -176,9 +177,9 @@ constexpr std::array kForceRows{
                  .unit = "N",
                  .variants = &forces<kForce>,
                  .act =
-                     [](const Values& v, OutsideForces& f) {
-                       f.along_by_speed_n += v.at("force_n");
-                       f.height_m = v.at(kHeight);
+                     [](const Values& v, ModelState& s) {
+                       s.outside.along_by_speed_n += v.at("force_n");
+                       s.outside.height_m = v.at(kHeight);
                      },
                  .words = &speed_words},
     OutsideCause{.name = "pull_with_slope",
@@ -188,9 +189,9 @@ constexpr std::array kForceRows{
                  .unit = "N",
                  .variants = &forces<kForce>,
                  .act =
-                     [](const Values& v, OutsideForces& f) {
-                       f.along_by_slope_n += v.at("force_n");
-                       f.height_m = v.at(kHeight);
+                     [](const Values& v, ModelState& s) {
+                       s.outside.along_by_slope_n += v.at("force_n");
+                       s.outside.height_m = v.at(kHeight);
                      },
                  .words = &slope_words},
     OutsideCause{.name = "load",
@@ -199,7 +200,7 @@ constexpr std::array kForceRows{
                  .depends = "constant",
                  .unit = "N",
                  .variants = &load,
-                 .act = [](const Values& v, OutsideForces& f) { f.load_n += v.at("force_n"); },
+                 .act = [](const Values& v, ModelState& s) { s.outside.load_n += v.at("force_n"); },
                  .words = &load_words},
     OutsideCause{.name = "turning_moment",
                  .form = "moment_on_body",
@@ -207,7 +208,7 @@ constexpr std::array kForceRows{
                  .depends = "constant",
                  .unit = "N m",
                  .variants = &turning,
-                 .act = [](const Values& v, OutsideForces& f) { f.turning_nm += v.at("moment_nm"); },
+                 .act = [](const Values& v, ModelState& s) { s.outside.turning_nm += v.at("moment_nm"); },
                  .words = &turning_words},
     OutsideCause{.name = "pull_at_axle",
                  .form = "force_at_axle",

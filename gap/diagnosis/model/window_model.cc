@@ -176,11 +176,18 @@ std::vector<WindowModel::Place> WindowModel::places_of(const sim::RoverModel& ro
   return {mean};
 }
 
-sim::PerWheel<sim::Soil> WindowModel::soils_at(const Place& place, const ModelState& state) const {
+sim::PerWheel<sim::Soil> WindowModel::soils_at(std::size_t w, const Place& place,
+                                               const ModelState& state) const {
   const std::vector<sim::Disc> regions = sim::effect_regions(state.effects);
+  const double strength =
+      state.soil_drift.any() ? state.soil_drift.factor(windows_[w].drive, campaign_.drives.size()) : 1.0;
   sim::PerWheel<sim::Soil> soils(place.soil.size());
   for (std::size_t k = 0; k < soils.size(); ++k) {
     soils[k] = state.soils[place.soil[k]];
+    if (strength != 1.0) {
+      soils[k].cohesion_pa *= strength;
+      soils[k].friction_angle_rad = std::atan(strength * std::tan(soils[k].friction_angle_rad));
+    }
     if (regions.empty()) continue;
     const Eigen::Vector3d p = place.stance.p_MB + place.stance.R_MB * place.stance.p_B_wheel[k];
     for (std::size_t r = 0; r < regions.size(); ++r)
@@ -225,10 +232,10 @@ void WindowModel::predict_window(std::size_t w, const ModelState& state, std::sp
       const bool stuck = from.near && start != nullptr && !start->moving;
       sim::StationState at;
       if (!stuck && !from.geometries.empty()) {
-        at = solver.solve(from.geometries[i], soils_at(place, state), balance, thoroughness);
+        at = solver.solve(from.geometries[i], soils_at(w, place, state), balance, thoroughness);
       } else if (!stuck) {
         set_outside(solver, state, place.stance, window.command);
-        at = solver.solve(place.stance, soils_at(place, state), window.command, balance, thoroughness);
+        at = solver.solve(place.stance, soils_at(w, place, state), window.command, balance, thoroughness);
       }
       const bool moves = !stuck && gets_on(at);
       if (!moves) {
@@ -252,7 +259,7 @@ std::vector<WindowModel::StationStart> WindowModel::starts_of(std::size_t w, con
   sim::QuasiStaticSolver solver(state.rover, campaign_.gravity_m_s2);
   std::vector<StationStart> starts(places.size());
   for (std::size_t i = 0; i < places.size() && !cancelled(); ++i) {
-    const sim::PerWheel<sim::Soil> soils = soils_at(places[i], state);
+    const sim::PerWheel<sim::Soil> soils = soils_at(w, places[i], state);
     set_outside(solver, state, places[i].stance, windows_[w].command);
     const bool known = !starts_[w].empty() && starts_[w][i].balance;
     starts[i].moving = gets_on(solver.solve(places[i].stance, soils, windows_[w].command,

@@ -25,6 +25,7 @@ struct ModelState {
   std::vector<sim::EffectSetting> effects;  // that are at work on both already; kept for their regions
   double track_left_out = 0.0;              // see kTrackLeftOut
   OutsideForces outside = {};
+  SoilDrift soil_drift = {};
 };
 
 // How the rover stands where it was: as its suspension does on the map, leant by its wheels' unequal
@@ -117,7 +118,8 @@ class WindowModel {
     bool near = false;
     std::span<const sim::BalanceGeometry> geometries = {};
   };
-  sim::PerWheel<sim::Soil> soils_at(const Place& place, const ModelState& state) const;
+  // Of a window's drive, at one of its stations.
+  sim::PerWheel<sim::Soil> soils_at(std::size_t window, const Place& place, const ModelState& state) const;
   std::vector<StationStart> starts_of(std::size_t window, const ModelState& state,
                                       std::span<const Place> places) const;
   // What a rover and all that acts on it from outside bring to the balances at a window's stations; both

@@ -11,6 +11,7 @@
 #include "gap/diagnosis/model/drive_campaign.h"
 #include "gap/diagnosis/model/drive_window.h"
 #include "gap/diagnosis/model/noise_model.h"
+#include "gap/diagnosis/model/nuisance_catalogue.h"
 #include "gap/diagnosis/model/window_model.h"
 #include "gap/diagnosis/model/window_variables.h"
 #include "gap/diagnosis/search/diagnosis_options.h"
@@ -40,9 +41,12 @@ struct ComparedSet {
   double probability = 0.0;
   std::optional<double> held_out_score;  // mean log density a drive, over the null's; of what was refitted
   int complexity = 0;                    // estimated parameters besides the nuisances
-  double chosen_share = 0.0;             // of resamples of the drives, those that would have led to this set
-  bool with_unknown = false;             // something besides them that the library has no name for
-  std::string outside = {};  // that something's form, a row of outside_catalogue; empty: of no known form
+  // Logarithms: of the evidence over that of nothing missing, as it stands before a share of it is believed,
+  // and of the prior probability.
+  double log_evidence = 0.0, log_prior = 0.0;
+  double chosen_share = 0.0;  // of resamples of the drives, those that would have led to this set
+  bool with_unknown = false;  // something besides them that the library has no name for
+  std::string outside = {};   // that something's form, a row of outside_catalogue; empty: of no known form
 };
 // Its effects, and "unknown" behind them where something else is: for documents and people.
 std::vector<std::string> names_of(const ComparedSet& set);
@@ -71,6 +75,17 @@ struct LookAlike {
   std::vector<std::string> which;  // of the parameters, those that take most of it
   double angle_deg = 0.0;  // between the traces, re-tuning projected out of both; to all that re-tuning does
 };
+
+// What would uncover an effect that these drives hide behind re-tuned parameters: those of these kinds,
+// measured apart from drives.
+struct MeasurementProposal {
+  std::string effect;
+  std::vector<NuisanceKind> kinds;
+  // By how many deviations the effect shows at its usual size, as it is and with them known.
+  double deviations_now = 0.0, deviations_then = 0.0;
+};
+// "plate and shear tests of the soil", of each kind.
+std::string_view measurement_of(NuisanceKind kind);
 
 // A channel (of a wheel) before any re-tuning.
 struct ChannelGap {
@@ -225,7 +240,8 @@ struct Diagnosis {
   std::vector<EffectMarginal> marginals;  // of all of the library, the most probable first
   std::vector<ComparedSet> candidates;
   std::vector<ConfusablePair> confusable;
-  std::vector<LookAlike> look_alikes;  // the nearest first
+  std::vector<LookAlike> look_alikes;             // the nearest first
+  std::vector<MeasurementProposal> measurements;  // of effects that these drives can't show, by name
   std::vector<ChannelGap> channels;
   std::vector<Regime> regimes, regimes_retuned, regimes_of_effect;
   std::vector<ChannelShare> channels_of_effects;  // of what the named effects do; the largest first

@@ -32,7 +32,8 @@ constexpr std::array<std::string_view, kCircumstances> kCircumstanceNames{
     "curvature", "turning", "temperature", "east", "north",     "order"};
 
 // What an effect's law may depend on otherwise than the library's does.
-constexpr std::array kFormCircumstances{Circumstance::kPitch, Circumstance::kSlip};
+constexpr std::array kFormCircumstances{Circumstance::kPitch, Circumstance::kSlip,
+                                        Circumstance::kTemperature};
 
 constexpr std::array<Entry, kLevers> kLeverEntries{Entry::kTangentialForce, Entry::kLateralForce,
                                                    Entry::kWheelLoadForeAft, Entry::kWheelLoadLeftRight,

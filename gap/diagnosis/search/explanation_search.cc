@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "gap/diagnosis/model/measured_rates.h"
 #include "gap/diagnosis/model/outside_cause.h"
 #include "gap/diagnosis/search/effect_screening.h"
 #include "gap/diagnosis/search/own_scatter.h"
@@ -55,6 +56,7 @@ class Searcher {
       const std::vector<EffectVariant> outside = outside_variants(campaign);
       variants_.insert(variants_.end(), outside.begin(), outside.end());
     }
+    bound_by_measured_rates(campaign, variants_);
     for (const EffectVariant& v : variants_) ++variants_of_[v.effect];
     for (const sim::Effect& effect : sim::effect_catalogue()) {
       const auto& withheld = options.search.withheld;

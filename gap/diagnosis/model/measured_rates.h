@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "gap/diagnosis/model/drive_campaign.h"
+#include "sim/effects/effect.h"
+
+namespace slipway::gap {
+
+// Of each wheel, the median over all rows in which the wheels turned, of its measured rate over its commanded
+// one, over the same of the wheel in the middle: 0.85 of a wheel that turned 15 % slower than the others.
+// Nothing where rates were not measured for each wheel.
+std::optional<std::vector<double>> measured_rate_shares(const DriveCampaign& campaign);
+
+// A wheel can't have turned slower than it was measured to: of variants that act on one wheel's rate, that
+// field's lower bound is raised to the measured share, less an error of it. Without measured rates they stay
+// as they are.
+void bound_by_measured_rates(const DriveCampaign& campaign, std::vector<sim::EffectVariant>& variants);
+
+}  // namespace slipway::gap

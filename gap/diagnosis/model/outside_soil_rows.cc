@@ -1,0 +1,58 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "gap/diagnosis/model/outside_cause_rows.h"
+#include "gap/diagnosis/model/window_model.h"
+
+namespace slipway::gap {
+namespace {
+
+using Values = OutsideValues;
+
+// Prior deviation: a tenth is what a few per cent of water or a warm day do to the strength of a soil.
+constexpr double kStrengthShare = 0.1;
+
+// Of one drive alone it is the soil's own strength, and of two a difference in it.
+std::vector<sim::EffectVariant> drifts(const DriveCampaign& campaign) {
+  constexpr std::size_t kMinDrives = 3;
+  if (campaign.drives.size() < kMinDrives) return {};
+  std::vector<sim::EffectVariant::Free> free;
+  for (const char* field : {"last_share", "middle_share"})
+    free.push_back({.field = field, .std = kStrengthShare, .lowest = -0.6, .highest = 0.6});
+  return {outside_variant(std::move(free))};
+}
+
+void drift(const Values& values, ModelState& state) {
+  state.soil_drift.last += values.at("last_share");
+  state.soil_drift.middle += values.at("middle_share");
+}
+
+std::string percent(double share) {
+  return fmt::format("{:.1f} % {}", 100.0 * std::abs(share), share < 0.0 ? "weaker" : "stronger");
+}
+
+std::string drift_words(const Values& v, const DriveCampaign& /*campaign*/) {
+  const double last = v.at("last_share"), middle = 0.5 * last + v.at("middle_share");
+  return fmt::format(
+      "the soils' strength changes from drive to drive: {} in the middle and {} at the end than at the first",
+      percent(middle), percent(last));
+}
+
+constexpr std::array kSoilRows{OutsideCause{.name = "soil_drift",
+                                            .form = "smooth_function",
+                                            .entry = "soil_strength",
+                                            .depends = "order",
+                                            .unit = "1",
+                                            .variants = &drifts,
+                                            .act = &drift,
+                                            .words = &drift_words}};
+
+}  // namespace
+
+std::span<const OutsideCause> outside_soil_rows() {
+  return kSoilRows;
+}
+
+}  // namespace slipway::gap
