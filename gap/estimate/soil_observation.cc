@@ -12,17 +12,17 @@
 namespace slipway::gap {
 namespace {
 
-struct ChannelRow {
+struct SoilChannelRow {
   SoilChannel channel;
   std::string_view name, unit;
 };
-constexpr std::array<ChannelRow, kSoilChannels> kRows{{{SoilChannel::kTorque, "torque", "N m"},
-                                                       {SoilChannel::kDrawbarPull, "drawbar_pull", "N"},
-                                                       {SoilChannel::kThrust, "thrust", "N"},
-                                                       {SoilChannel::kSinkage, "sinkage", "m"},
-                                                       {SoilChannel::kCurrent, "current", "A"},
-                                                       {SoilChannel::kLateralForce, "lateral_force", "N"},
-                                                       {SoilChannel::kPressure, "pressure", "Pa"}}};
+constexpr std::array<SoilChannelRow, kSoilChannels> kRows{{{SoilChannel::kTorque, "torque", "N m"},
+                                                           {SoilChannel::kDrawbarPull, "drawbar_pull", "N"},
+                                                           {SoilChannel::kThrust, "thrust", "N"},
+                                                           {SoilChannel::kSinkage, "sinkage", "m"},
+                                                           {SoilChannel::kCurrent, "current", "A"},
+                                                           {SoilChannel::kLateralForce, "lateral_force", "N"},
+                                                           {SoilChannel::kPressure, "pressure", "Pa"}}};
 
 constexpr double kMinAngle = 1e-4;
 constexpr double kOfLoad = 1e-10;  // how far off the load a wheel may be left, well below a step's change
@@ -36,7 +36,7 @@ std::string_view unit_of(SoilChannel channel) {
   return kRows[static_cast<std::size_t>(channel)].unit;
 }
 std::optional<SoilChannel> soil_channel(std::string_view name) {
-  for (const ChannelRow& row : kRows)
+  for (const SoilChannelRow& row : kRows)
     if (row.name == name) return row.channel;
   return std::nullopt;
 }

@@ -26,7 +26,7 @@ V grouser_force_n(const V& width_m, const V& height_m, const V& unit_weight_n_m3
 }
 
 // The pressure q of the rim beside a cleat presses on the wedge that the cleat pushes: passive pressure has a
-// third term [Terzaghi 1943; Wong 2010 section 2.4],
+// third term [Terzaghi 1943; Wong 2010],
 //
 //   F_g = b (gamma h^2 N_phi / 2 + q h N_phi + 2 c h sqrt(N_phi)),
 //

@@ -50,6 +50,17 @@ TEST_F(DriveCampaignFolder, ATurnRateThatIsGivenCountsAndIsOurOwnKey) {
   EXPECT_EQ(campaign->drives[1].command.turn_rate_rad_s, rad_from_deg(3.0));
 }
 
+TEST_F(DriveCampaignFolder, WhatWasMeasuredOfParametersIsReadByItsNamesAlone) {
+  edit("\"drives\": [\n", "\"parameter_std\": {\"n\": 0.01, \"torque_constant\": 0.002}, \"drives\": [\n");
+  const auto campaign = load();
+  ASSERT_TRUE(campaign) << campaign.error().detail;
+  EXPECT_EQ(campaign->parameter_std,
+            (std::map<std::string, double, std::less<>>{{"n", 0.01}, {"torque_constant", 0.002}}));
+  edit("\"drives\": [\n", "\"parameter_std\": {\"stifness\": 0.01, \"n\": 0}, \"drives\": [\n");
+  expect_fault("campaign.json#/parameter_std/stifness", "did you mean \"stiffness\"");
+  expect_fault("campaign.json#/parameter_std/n", "n = 0");
+}
+
 TEST_F(DriveCampaignFolder, UnknownKeysAreNotedOnceAndSlipsOfRequiredOnesRefused) {
   edit("\"drives\": [\n  {", "\"weather\": 1, \"drives\": [\n  {\"driver\": \"me\", ");
   const auto campaign = load();

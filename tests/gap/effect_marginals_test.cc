@@ -49,10 +49,10 @@ TEST(LinearHeldOutRms, IsThatOfFoldsFittedAnew) {
 
 // One window of a nearly stuck rover, far off whatever explains the others, must not decide what is closed.
 TEST(LinearHeldOutRms, ByTheFitsLossIsNotThatOfOneWildRow) {
-  constexpr Eigen::Index kRows = 40;
+  constexpr Eigen::Index kRows = 400;
   const Eigen::MatrixXd a = random_matrix(kRows, 1, 5);
   Eigen::VectorXd y = 3.0 * a + 0.3 * random_matrix(kRows, 1, 9);
-  y[7] += 300.0;
+  y[7] += 90.0;
   const Eigen::VectorXd deviation = Eigen::VectorXd::Constant(kRows, 0.3);
   FoldedRows rows{{}, std::vector<bool>(kRows, true), deviation};
   for (Eigen::Index i = 0; i < kRows; ++i) rows.fold.push_back(static_cast<int>(i) % 4);
@@ -64,9 +64,9 @@ TEST(LinearHeldOutRms, ByTheFitsLossIsNotThatOfOneWildRow) {
     const double left = linear_held_out_rms(told, with.parameters(), {}, {}, rows, 4);
     return 1.0 - left / linear_held_out_rms(nothing, without.parameters(), {}, {}, rows, 4);
   };
-  EXPECT_LT(closed(), 0.01) << "by squares";
+  EXPECT_LT(closed(), 0.15) << "by squares";
   rows.loss = HuberLoss{4.0};
-  EXPECT_GT(closed(), 0.15) << "by the loss";
+  EXPECT_GT(closed(), 0.4) << "by the loss";
 }
 
 Candidate candidate(std::vector<std::string> effects, std::size_t fit, double probability) {

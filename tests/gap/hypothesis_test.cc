@@ -167,6 +167,27 @@ TEST(Hypothesis, TheDerivativeBySlipSinkageOnASinkingSoilIsThatOfTheSoilsOwnExpo
   EXPECT_GT(largest, 0.01) << "slip sinkage matters on this slope";
 }
 
+TEST(Hypothesis, BelievesAParameterAsWellAsItWasMeasuredAndTheOthersAsUsual) {
+  DriveCampaign campaign = campaign_on({sim::sandy_loam(), sim::loose_sand()});
+  const Hypothesis usual(campaign, {});
+  campaign.parameter_std = {{"n", 0.01}, {"torque_constant", 0.002}};
+  const Hypothesis measured(campaign, {});
+  ASSERT_EQ(usual.parameters().size(), measured.parameters().size());
+  int changed = 0;
+  for (std::size_t p = 0; p < usual.parameters().size(); ++p) {
+    const Parameter &before = usual.parameters()[p], &after = measured.parameters()[p];
+    if (after.name.starts_with("n/")) {
+      EXPECT_EQ(after.std, 0.01) << "of every soil";
+    } else if (after.name == "torque_constant") {
+      EXPECT_EQ(after.std, 0.002);
+    } else {
+      EXPECT_EQ(after.std, before.std) << after.name;
+    }
+    changed += after.std != before.std ? 1 : 0;
+  }
+  EXPECT_EQ(changed, 3);
+}
+
 TEST(Hypothesis, PredictionsAreContinuousWhereAnEffectSetsIn) {
   const Predicted predicted(campaign_on({sinking_sand()}));
   const std::vector<double> nominal = predicted.of({});

@@ -108,8 +108,9 @@ TEST(Hypothesis, ARimThatSlipsOnItsHubTurnsSlowerThanItsWheelIsMeasuredTo) {
   drive.command = {.speed_m_s = 0.04};
   for (int i = 0; i < 20; ++i) {
     DriveSample sample;
-    for (const sim::WheelCommand& wheel : sim::wheel_commands(*campaign.rover, drive.command))
-      sample.wheels.push_back({.rate_rad_s = wheel.rate_rad_s});
+    const auto commanded = sim::wheel_commands(*campaign.rover, drive.command);
+    sample.wheels = sim::PerWheel<WheelReading>(commanded.size());
+    for (std::size_t k = 0; k < commanded.size(); ++k) sample.wheels[k].rate_rad_s = commanded[k].rate_rad_s;
     drive.samples.push_back(sample);
   }
   campaign.drives.push_back(drive);

@@ -2262,6 +2262,10 @@ export interface components {
                 held_out_score?: number;
                 /** @description Estimated parameters besides those that are always re-tuned */
                 complexity: number;
+                /** @description Logarithm of the evidence over that of nothing missing, before a share of it is believed */
+                log_evidence: number;
+                /** @description Logarithm of the prior probability */
+                log_prior: number;
                 /** @description [1] Of resamples of the drives, repeats together, those that would have led to this set */
                 chosen_share: number;
             }[];
@@ -2274,6 +2278,18 @@ export interface components {
                 parameters?: string[];
                 /** @description Between the traces, re-tuning projected out; of "parameters" between the effect's and all that re-tuning does [deg] */
                 angle_deg: number;
+            }[];
+            /** @description Effects that these drives would hide behind re-tuned parameters, each with the fewest kinds of measurements that would uncover it; none of an effect that no such measurement uncovers */
+            measurements: {
+                effect: string;
+                /** @description Ways to measure the parameters apart from drives */
+                measure: string[];
+                /** @description Those to be measured, as in the campaign's parameter_std */
+                parameters: string[];
+                /** @description By how many deviations the effect shows on these drives at its usual size, re-tuning projected out [1] */
+                deviations_now: number;
+                /** @description The same, were those parameters known [1] */
+                deviations_then: number;
             }[];
             /** @description With a reference: what healthy drives told. Gaps are then those to the model as they left it */
             reference?: {
@@ -2679,6 +2695,8 @@ export interface components {
                     count?: number;
                     /** @description Share of their passive thrust */
                     thrust?: number;
+                    /** @description Share of the rim's pressure that presses on the soil before a grouser [1] */
+                    surcharge?: number;
                     /** @description Share of their thrust that brakes */
                     braking?: number;
                     /** @description Where the soil is sheared: 0 at the rim, 1 at the tips */

@@ -41,12 +41,12 @@ struct ComparedSet {
   double probability = 0.0;
   std::optional<double> held_out_score;  // mean log density a drive, over the null's; of what was refitted
   int complexity = 0;                    // estimated parameters besides the nuisances
+  double chosen_share = 0.0;             // of resamples of the drives, those that would have led to this set
+  bool with_unknown = false;             // something besides them that the library has no name for
+  std::string outside = {};  // that something's form, a row of outside_catalogue; empty: of no known form
   // Logarithms: of the evidence over that of nothing missing, as it stands before a share of it is believed,
   // and of the prior probability.
   double log_evidence = 0.0, log_prior = 0.0;
-  double chosen_share = 0.0;  // of resamples of the drives, those that would have led to this set
-  bool with_unknown = false;  // something besides them that the library has no name for
-  std::string outside = {};   // that something's form, a row of outside_catalogue; empty: of no known form
 };
 // Its effects, and "unknown" behind them where something else is: for documents and people.
 std::vector<std::string> names_of(const ComparedSet& set);
