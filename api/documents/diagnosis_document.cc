@@ -84,13 +84,10 @@ void write_marginals(Writer& w, const Diagnosis& d) {
 void write_measurements(Writer& w, const Diagnosis& d) {
   w.key("measurements").begin_array();
   for (const gap::MeasurementProposal& proposal : d.measurements) {
-    std::vector<std::string> kinds, parameters;
-    for (const gap::NuisanceKind kind : proposal.kinds) {
-      kinds.emplace_back(gap::measurement_of(kind));
-      for (const gap::Nuisance& row : gap::nuisance_catalogue())
-        if (row.kind == kind) parameters.emplace_back(row.name);
-    }
-    w.begin_object().text("effect", proposal.effect).texts("measure", kinds).texts("parameters", parameters);
+    std::vector<std::string> kinds;
+    for (const gap::NuisanceKind kind : proposal.kinds) kinds.emplace_back(gap::measurement_of(kind));
+    w.begin_object().text("effect", proposal.effect).texts("measure", kinds);
+    w.texts("parameters", proposal.parameters);
     w.significant("deviations_now", proposal.deviations_now)
         .significant("deviations_then", proposal.deviations_then)
         .end_object();
@@ -104,7 +101,8 @@ void write_candidates(Writer& w, const Diagnosis& d) {
     w.begin_object().texts("effects", gap::names_of(set)).exact("probability", set.probability);
     if (set.held_out_score) write_finite(w, "held_out_score", *set.held_out_score);
     w.whole("complexity", set.complexity);
-    w.significant("log_evidence", set.log_evidence).significant("log_prior", set.log_prior);
+    if (set.log_evidence) w.significant("log_evidence", *set.log_evidence);
+    if (set.log_prior) w.significant("log_prior", *set.log_prior);
     w.significant("chosen_share", set.chosen_share).end_object();
   }
   w.end_array().key("confusable").begin_array();

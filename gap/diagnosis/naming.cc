@@ -13,6 +13,14 @@ Names set_of(const std::vector<std::string>& names) {
   return {names.begin(), names.end()};
 }
 
+// The same beside a cause from outside of a known form.
+bool stands_beside_form(const EffectMarginal& marginal, const VerdictOptions& options) {
+  return (marginal.probability >= options.min_probability_beside_form &&
+          marginal.closed_share >= options.min_share_beside_form) ||
+         (marginal.probability >= options.min_probability_closing_most &&
+          marginal.closed_share >= options.min_partial_share);
+}
+
 // The most probable candidate with exactly these effects of the library, among those that `may` be taken.
 template <class May>
 std::optional<std::size_t> candidate_with(const ExplanationSearch& search, const Names& effects,
@@ -59,9 +67,7 @@ Naming name_effects(const ExplanationSearch& search, std::size_t chosen,
   const bool known_form = first.outside && !first.with_unknown;
   Names names;
   for (const EffectMarginal& m : marginals)
-    if (stands_beside_unknown(m, options) ||
-        (known_form && m.probability >= options.min_probability_beside_form &&
-         m.closed_share >= options.min_share_beside_form))
+    if (stands_beside_unknown(m, options) || (known_form && stands_beside_form(m, options)))
       names.insert(m.name);
   if (names.empty()) return as_chosen(search, chosen);
   const auto any = candidate_with(search, names, [](const Candidate& c) { return c.unknown(); });

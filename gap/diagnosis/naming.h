@@ -27,7 +27,8 @@ struct Naming {
 // VerdictOptions::min_closed_share. Where something unknown was, an effect is named all the same whose
 // marginal probability and share reach min_partial_probability and min_partial_share; of several these must
 // stand together in an explanation that was compared. Where what was chosen is a cause from outside, so that
-// the unknown has a known form, the lower min_probability_beside_form and min_share_beside_form do.
+// the unknown has a known form, the lower min_probability_beside_form and min_share_beside_form do, or
+// min_probability_closing_most of an effect that closes min_partial_share.
 Naming name_effects(const ExplanationSearch& search, std::size_t chosen,
                     std::span<const EffectMarginal> marginals, const VerdictOptions& options);
 

@@ -32,6 +32,7 @@ void adopt_nominal(const DriveCampaign& reference, DriveCampaign& campaign) {
   rover->drive.max_wheel_rate_rad_s =
       std::max(rover->drive.max_wheel_rate_rad_s, campaign.rover->drive.max_wheel_rate_rad_s);
   campaign.rover = std::move(rover);
+  campaign.parameter_std = reference.parameter_std;
   for (NominalSoil& soil : campaign.soils)
     for (const NominalSoil& known : reference.soils)
       if (known.name == soil.name) soil.soil = known.soil;

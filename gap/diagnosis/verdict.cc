@@ -327,14 +327,13 @@ void judge(const DriveCampaign& campaign, const PreparedCampaign& prepared, cons
   double unknown = 0.0;
   const auto nothing = std::find_if(search.candidates.begin(), search.candidates.end(),
                                     [](const Candidate& c) { return c.effects.empty() && !c.with_unknown; });
-  const double log_evidence_of_nothing = nothing == search.candidates.end() ? 0.0 : nothing->log_evidence;
   for (const Candidate& c : search.candidates) {
     sets[key_of(c)] += c.probability;
     for (const std::string& name : c.effects) single[name] += c.probability;
     if (c.unknown()) unknown += c.probability;
     ComparedSet set = compared(c);
     set.probability = c.probability;
-    set.log_evidence = c.log_evidence - log_evidence_of_nothing;
+    if (nothing != search.candidates.end()) set.log_evidence = c.log_evidence - nothing->log_evidence;
     set.log_prior = c.log_prior;
     set.complexity = static_cast<int>(search.fits[c.fit].x.size() - search.fits[0].x.size());
     d.candidates.push_back(std::move(set));

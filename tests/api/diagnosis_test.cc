@@ -45,9 +45,9 @@ class ADiagnosis : public ::testing::Test {
 
 TEST_F(ADiagnosis, HasEveryKeyOfItsContract) {
   const JsonValue d = document(diagnosis());
-  for (const char* key :
-       {"format", "campaign", "provenance", "verdict", "effects", "marginals", "candidates", "confusable",
-        "look_alikes", "where", "gap", "residual", "next_drives", "model", "notes", "least_detectable"})
+  for (const char* key : {"format", "campaign", "provenance", "verdict", "effects", "marginals", "candidates",
+                          "confusable", "look_alikes", "measurements", "where", "gap", "residual",
+                          "next_drives", "model", "notes", "least_detectable"})
     EXPECT_NE(d.find(key), nullptr) << key;
   for (const char* key : {"channels", "regimes", "places", "windows"})
     EXPECT_NE(d.find("where")->find(key), nullptr) << key;
@@ -101,6 +101,13 @@ TEST_F(ADiagnosis, TellsTheFormOfWhatIsLeftAndEachEffectsMarginal) {
   EXPECT_EQ(pull.find("form")->text, "force_on_body");
   EXPECT_EQ(pull.find("text")->text, "a steady pull of 25 N against the travel, at the body");
   EXPECT_EQ(pull.find("parameters")->find("force_n")->find("interval_90")->elements.at(1).number, -23.0);
+  const JsonValue& measurement = d.find("measurements")->elements.at(0);
+  EXPECT_EQ(measurement.find("effect")->text, "hardpan");
+  EXPECT_EQ(measurement.find("measure")->elements.at(0).text, "plate and shear tests of the soil");
+  EXPECT_EQ(measurement.find("parameters")->elements.at(2).text, "c1");
+  EXPECT_EQ(measurement.find("deviations_then")->number, 7.5);
+  EXPECT_EQ(d.find("candidates")->elements.at(0).find("log_evidence")->number, 12.5);
+  EXPECT_EQ(d.find("candidates")->elements.at(1).find("log_evidence"), nullptr) << "it was not compared";
   EXPECT_EQ(d.find("look_alikes")->elements.at(0).find("like")->text, "parameters");
   const std::string report = diagnosis_report(campaign(), diagnosis(), {}).markdown();
   EXPECT_NE(report.find("| grousers | 0.970 | 80 % |"), std::string::npos) << "its marginal";

@@ -38,6 +38,13 @@ gap::Diagnosis full_diagnosis(const gap::DriveCampaign& campaign) {
   d.marginals = {{"grousers", 0.97, 0.8}, {"bulldozing", 0.2, 0.0}};
   d.confusable = {{"bulldozing", "grousers", 12.0}};
   d.look_alikes = {{"bulldozing", "parameters", {"exit_angle"}, 4.0}, {"bulldozing", "grousers", {}, 12.0}};
+  d.candidates[0].log_evidence = 12.5;
+  d.candidates[0].log_prior = -3.0;
+  d.measurements = {{"hardpan",
+                     {gap::NuisanceKind::kSoil, gap::NuisanceKind::kClosure},
+                     {"stiffness", "n", "c1"},
+                     1.2,
+                     7.5}};
   d.channels = {{gap::Channel::kYawRate, std::nullopt, 0.01, 0.005, -0.001, 0.01},
                 {gap::Channel::kCurrent, "lf", 0.04, kNan, 0.03, 0.002}};
   d.regimes = {{{{gap::WindowVariable::kSlope, 5.0, kInfinite}}, gap::Channel::kSlip, 0.7, 0.2, 0.01}};

@@ -61,6 +61,19 @@ TEST(Weigh, IsTheMixtureOfSharesEachNormalisedByItself) {
   EXPECT_NEAR(c[1].probability, 0.75 * (1.0 - first) + 0.25 * 0.8, 1e-12);
 }
 
+TEST(Weigh, SumsOverTheWaysInWhichAnEffectCouldBeAtWork) {
+  std::vector<Candidate> c(2);
+  c[0].log_evidence = 10.0;
+  c[0].log_prior = std::log(0.1);
+  c[0].other_variants = {0.0, -4.0};
+  c[1].log_prior = std::log(0.7);
+  EvidenceOptions options;
+  options.shares = {EvidenceShare{0.5, 1.0}};
+  weigh(c, options);
+  const double effect = 0.1 * (std::exp(5.0) + std::exp(5.0) + std::exp(3.0));
+  EXPECT_NEAR(c[0].probability, effect / (effect + 0.7), 1e-12);
+}
+
 TEST(WorthNaming, AsksEachEffectForAGoodPartOfItsUsualSize) {
   const DriveCampaign campaign = campaign_of_one_soil();
   FittedExplanation fit{

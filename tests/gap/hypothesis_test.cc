@@ -167,6 +167,35 @@ TEST(Hypothesis, TheDerivativeBySlipSinkageOnASinkingSoilIsThatOfTheSoilsOwnExpo
   EXPECT_GT(largest, 0.01) << "slip sinkage matters on this slope";
 }
 
+// Three drives alike: the first on the soil as it is, the last on one of nine tenths of its strength.
+TEST(Hypothesis, SoilThatDriftsIsWeakerUnderTheLastDriveAloneByAllOfIt) {
+  DriveCampaign campaign = campaign_on({sim::loose_sand()});
+  for (const char* id : {"b", "c"}) {
+    campaign.drives.push_back(campaign.drives.front());
+    campaign.drives.back().id = id;
+  }
+  sim::Soil weaker = sim::loose_sand();
+  strengthen(weaker, 0.9);
+  const std::vector<double> whole = Predicted(campaign).of({});
+  const std::vector<double> weak = Predicted(campaign_on({weaker})).of({});
+  ASSERT_EQ(whole.size(), 3 * weak.size());
+
+  const Predicted predicted(campaign);
+  EffectVariant drift = find_outside("soil_drift")->variants(campaign).front();
+  drift.effect = "soil_drift";
+  const Hypothesis hypothesis(campaign, {drift});
+  std::vector<double> x = hypothesis.neutral();
+  x[x.size() - 2] = -0.1;
+  const std::vector<double> drifted = hypothesis.predict(predicted.model, x);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < weak.size(); ++i) {
+    EXPECT_NEAR(drifted[i], whole[i], 1e-9) << "the first drive";
+    EXPECT_NEAR(drifted[2 * weak.size() + i], weak[i], 1e-6) << "the last drive";
+    largest = std::max(largest, std::abs(weak[i] - whole[i]));
+  }
+  EXPECT_GT(largest, 0.01) << "strength matters on this slope";
+}
+
 TEST(Hypothesis, BelievesAParameterAsWellAsItWasMeasuredAndTheOthersAsUsual) {
   DriveCampaign campaign = campaign_on({sim::sandy_loam(), sim::loose_sand()});
   const Hypothesis usual(campaign, {});

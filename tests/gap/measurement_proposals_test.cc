@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <map>
 #include <memory>
 
 #include "tests/sim/reference_models.h"
@@ -11,10 +13,12 @@ namespace {
 
 // A fit in which every re-tuned parameter has an observation of its own, one deviation a prior deviation;
 // behind them one observation that no parameter touches.
-ExplanationSearch search_of_unit_parameters() {
+ExplanationSearch search_of_unit_parameters(
+    const std::map<std::string, double, std::less<>>& parameter_std = {}) {
   DriveCampaign campaign;
   campaign.rover = std::make_shared<sim::RoverModel>(sim::six_wheeler());
   campaign.soils.resize(1);
+  campaign.parameter_std = parameter_std;
   ExplanationSearch search;
   search.fits.push_back({{}, Hypothesis(campaign, {})});
   const auto count = static_cast<Eigen::Index>(search.fits[0].hypothesis.nuisance_count());
@@ -50,7 +54,6 @@ TEST(MeasurementProposals, AskForTheFewestKindsThatUncoverAnEffect) {
                      hidden_behind(search, "bulldozing", {{"n", 5.0}, {"c1", 5.0}}),
                      hidden_behind(search, "gearbox_friction", {{"torque_constant", 20.0}}),
                      hidden_behind(search, "duricrust", {{"n", 2.0}})};
-  search.screened[0].visibility = 1.5;
   const std::vector<MeasurementProposal> proposals = proposals_of(search);
   ASSERT_EQ(proposals.size(), 3U) << "what is too small in all cannot be uncovered";
   EXPECT_EQ(proposals[0].effect, "bulldozing");
@@ -61,7 +64,9 @@ TEST(MeasurementProposals, AskForTheFewestKindsThatUncoverAnEffect) {
   EXPECT_EQ(proposals[2].effect, "hardpan");
   EXPECT_EQ(proposals[2].kinds, std::vector{NuisanceKind::kSoil});
   EXPECT_NEAR(proposals[2].deviations_then, 8.0, 1e-12);
-  EXPECT_EQ(proposals[2].deviations_now, 1.5);
+  EXPECT_NEAR(proposals[2].deviations_now, 0.0, 1e-12);
+  EXPECT_EQ(proposals[2].parameters,
+            (std::vector<std::string>{"stiffness", "n", "cohesion", "friction", "shear_modulus"}));
 }
 
 TEST(MeasurementProposals, AskForNothingWhereOneWayWouldHaveShown) {
@@ -70,6 +75,17 @@ TEST(MeasurementProposals, AskForNothingWhereOneWayWouldHaveShown) {
                      hidden_behind(search, "hardpan", {{"n", 8.0}})};
   search.screened[1].visibility = 6.5;
   EXPECT_TRUE(proposals_of(search).empty());
+}
+
+TEST(MeasurementProposals, DoNotAskForWhatWasMeasured) {
+  ExplanationSearch search = search_of_unit_parameters({{"n", 0.01}});
+  search.screened = {hidden_behind(search, "hardpan", {{"n", 8.0}}),
+                     hidden_behind(search, "bulldozing", {{"stiffness", 8.0}})};
+  const std::vector<MeasurementProposal> proposals = proposals_of(search);
+  ASSERT_EQ(proposals.size(), 1U) << "the hard layer would have shown";
+  EXPECT_EQ(proposals[0].effect, "bulldozing");
+  EXPECT_EQ(proposals[0].parameters,
+            (std::vector<std::string>{"stiffness", "cohesion", "friction", "shear_modulus"}));
 }
 
 }  // namespace

@@ -88,6 +88,14 @@ TEST(Naming, AsksLessBesideACauseOfKnownForm) {
   EXPECT_TRUE(named(unknown, marginals).effects.empty());
 }
 
+TEST(Naming, BesideACauseOfKnownFormNamesWhatIsMoreProbableThanNotAndClosesMost) {
+  const ExplanationSearch search = search_of({candidate({"pull_with_slope", "bulldozing"}, 0.55, false, true),
+                                              candidate({"pull_with_slope"}, 0.45, false, true)});
+  EXPECT_EQ(named(search, {{"bulldozing", 0.55, 0.8}}).effects, std::vector<std::string>{"bulldozing"});
+  EXPECT_TRUE(named(search, {{"bulldozing", 0.55, 0.4}}).effects.empty()) << "it closes less than half";
+  EXPECT_TRUE(named(search, {{"bulldozing", 0.45, 0.8}}).effects.empty()) << "it is less probable than not";
+}
+
 TEST(Naming, OfACauseFromOutsideAloneIsNone) {
   const ExplanationSearch search = search_of(
       {candidate({"pull_along_travel"}, 0.7, false, true), candidate({"com_offset", "grousers"}, 0.3)});

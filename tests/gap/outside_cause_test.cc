@@ -137,7 +137,7 @@ TEST(Hypothesis, SoilsThatDriftAreLeftAloneByOneDriveAndByNoDrift) {
   EXPECT_EQ(
       find_outside("soil_drift")->words(hypothesis.outside_values("soil_drift", x), campaign),
       "the soils' strength changes from drive to drive: 12.0 % weaker in the middle and 0.0 % stronger at "
-      "the end than at the first");
+      "the end than in the first drive");
 }
 
 TEST(Hypothesis, FitsACauseFromOutsideAsItFitsAnEffect) {

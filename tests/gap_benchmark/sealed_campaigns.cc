@@ -170,6 +170,13 @@ int main(int count, char** words) {
     made_of.measured_closures = wish->measured_closures;
   }
   for (const CampaignCase& made_of : *cases)
+    if (made_of.measured_closures &&
+        (made_of.fidelity == Fidelity::kOtherClosures || made_of.fidelity == Fidelity::kOtherPhysics)) {
+      std::cerr << "the closures of " << name_of(made_of.fidelity)
+                << " are not the nominal ones: none measured them\n";
+      return 2;
+    }
+  for (const CampaignCase& made_of : *cases)
     if (const std::optional<std::string> cause = impossible_cause(made_of)) {
       std::cerr << *cause << " is a term of the wheel law of L1 and L2; " << name_of(made_of.fidelity)
                 << " has another law, without it\n";

@@ -175,19 +175,17 @@ void read_measurement_std(ObjectReader& reader, gap::MeasurementStd& std) {
 
 // A key that campaigns made here have besides those of the format.
 void read_parameter_std(ObjectReader& reader, DriveCampaignFile& file) {
-  auto object = reader.object("parameter_std", kOptional);
-  if (!object) return;
-  std::vector<std::string> names;
+  const JsonValue* const value = reader.member("parameter_std", kOptional);
+  if (value == nullptr) return;
+  // A name that is misspelt is refused: its parameter would stay as unknown as before.
+  ObjectReader object(*value, child_pointer(reader.pointer(), "parameter_std"), reader.faults());
+  constexpr double kLeast = 1e-3;  // of the usual deviation: derivatives are taken by shares of it
   for (const gap::Nuisance& row : gap::nuisance_catalogue()) {
-    names.emplace_back(row.name);
     std::optional<double> std;
-    object->number(row.name, kOptional, {"1", 0.0, row.highest, true}, std);
+    object.number(row.name, kOptional, {"1", kLeast * row.std, row.highest}, std);
     if (std) file.parameter_std.emplace(row.name, *std);
   }
-  // A name that is misspelt must not leave a parameter as unknown as before.
-  for (const std::string& key : reader.member("parameter_std", kOptional)->keys)
-    if (std::find(names.begin(), names.end(), key) == names.end())
-      object->fault(key, unknown_name("parameter", key, names));
+  object.refuse_unknown();
 }
 
 // Of a turn in place: the fastest wheels' rims have the commanded speed.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 #include <string>
 
 #include "gap/diagnosis/model/nuisance_catalogue.h"
@@ -25,32 +26,21 @@ const std::array<Kinds, 6>& measurements() {
   return all;
 }
 
-// "stiffness/sand" is a copy of the row "stiffness".
-NuisanceKind kind_of(const std::string& parameter) {
-  const std::string row = parameter.substr(0, parameter.find('/'));
-  for (const Nuisance& nuisance : nuisance_catalogue())
-    if (nuisance.name == row) return nuisance.kind;
-  return NuisanceKind::kClosure;
-}
-
 bool among(const Kinds& kinds, NuisanceKind kind) {
   return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
 
-// Directions that re-tuning takes where parameters of these kinds are known.
+// Directions that re-tuning takes where parameters of these kinds are known, as those that were measured are.
 Eigen::MatrixXd taken_beside(const FittedExplanation& null, const Kinds& known) {
   std::vector<Eigen::Index> left;
   const auto parameters = null.hypothesis.parameters();
   for (std::size_t p = 0; p < null.hypothesis.nuisance_count(); ++p)
-    if (!among(known, kind_of(parameters[p].name))) left.push_back(static_cast<Eigen::Index>(p));
+    if (!parameters[p].measured && !among(known, *parameters[p].kind))
+      left.push_back(static_cast<Eigen::Index>(p));
   const Eigen::MatrixXd columns = null.white_jacobian(Eigen::all, left);
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
   const Eigen::MatrixXd all = qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
   return all.leftCols(qr.rank());
-}
-
-double visible(const Eigen::VectorXd& response, const Eigen::MatrixXd& taken) {
-  return (response - taken * (taken.transpose() * response)).norm();
 }
 
 // An effect that was not surely seen in any of its ways, with the whitened response of each at its usual
@@ -60,18 +50,37 @@ struct Unseen {
   std::vector<Eigen::VectorXd> responses;
 };
 
+double most_visible(const Unseen& effect, const Eigen::MatrixXd& taken) {
+  double most = 0.0;
+  for (const Eigen::VectorXd& response : effect.responses)
+    most = std::max(most, (response - taken * (taken.transpose() * response)).norm());
+  return most;
+}
+
 std::map<std::string, Unseen> unseen_effects(const ExplanationSearch& search, const Whitening& whitened,
                                              const VerdictOptions& options) {
   std::map<std::string, Unseen> effects;
-  for (const ScreenedVariant& s : search.screened) {
-    Unseen& of = effects[s.variant.effect];
-    of.deviations = std::max(of.deviations, s.visibility);
-  }
-  std::erase_if(effects, [&](const auto& e) { return e.second.deviations >= options.surely_seen; });
+  std::set<std::string> seen;
   for (const ScreenedVariant& s : search.screened)
-    if (const auto of = effects.find(s.variant.effect); of != effects.end() && s.columns.cols() > 0)
-      of->second.responses.push_back(whitened(s.columns.col(0)));
+    if (s.visibility >= options.surely_seen) seen.insert(s.variant.effect);
+  for (const ScreenedVariant& s : search.screened)
+    if (!seen.contains(s.variant.effect) && s.columns.cols() > 0)
+      effects[s.variant.effect].responses.push_back(whitened(s.columns.col(0)));
+  const Eigen::MatrixXd taken = taken_beside(search.fits[0], {});
+  for (auto& [name, effect] : effects) effect.deviations = most_visible(effect, taken);
+  std::erase_if(effects, [&](const auto& e) { return e.second.deviations >= options.surely_seen; });
   return effects;
+}
+
+// The names of re-tuned parameters of these kinds that nobody measured, without their soils'.
+std::vector<std::string> names_of(const FittedExplanation& null, const Kinds& kinds) {
+  std::vector<std::string> names;
+  for (const Parameter& parameter : null.hypothesis.parameters()) {
+    if (parameter.measured || !parameter.kind || !among(kinds, *parameter.kind)) continue;
+    std::string name = parameter.name.substr(0, parameter.name.find('/'));
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
+  }
+  return names;
 }
 
 }  // namespace
@@ -85,11 +94,10 @@ std::vector<MeasurementProposal> measurement_proposals(const ExplanationSearch& 
     if (unseen.empty()) break;
     const Eigen::MatrixXd taken = taken_beside(search.fits[0], kinds);
     std::erase_if(unseen, [&](const auto& entry) {
-      double most = 0.0;
-      for (const Eigen::VectorXd& response : entry.second.responses)
-        most = std::max(most, visible(response, taken));
-      if (most < options.surely_seen) return false;
-      proposals.push_back({entry.first, kinds, entry.second.deviations, most});
+      const double then = most_visible(entry.second, taken);
+      if (then < options.surely_seen) return false;
+      proposals.push_back(
+          {entry.first, kinds, names_of(search.fits[0], kinds), entry.second.deviations, then});
       return true;
     });
   }

@@ -10,12 +10,14 @@
 
 namespace slipway::gap {
 
-// Of each effect that these drives would not surely have shown at its usual size
-// (VerdictOptions::surely_seen): the fewest kinds of re-tuned parameters that, known from elsewhere, would
-// leave enough of its trace. Nothing of an effect that no such measurement uncovers: then it is of one class
-// with what can't be measured. `whitened`: of a change of every observation, rows weighed as in the fit of
-// nothing.
+// A change of every observation, whitened, with rows weighed as in the fit of nothing.
 using Whitening = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
+
+// Of each effect that these drives would not surely have shown at its usual size
+// (VerdictOptions::surely_seen): the first of these kinds of re-tuned parameters that, known from elsewhere,
+// would leave enough of its trace: motors; sensors; soil; motors and soil; soil and closures; motors, soil
+// and closures. An effect without a proposal is too weak on these drives at its usual size, or hidden behind
+// what none of these measures.
 std::vector<MeasurementProposal> measurement_proposals(const ExplanationSearch& search,
                                                        const Whitening& whitened,
                                                        const VerdictOptions& options);

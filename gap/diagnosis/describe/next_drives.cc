@@ -26,7 +26,9 @@ std::vector<ExpectedReading> outcome(const DriveCampaign& campaign, const ModelS
   const sim::Stance stance = sim::stance_on_plane(state.rover, attitude);
   sim::QuasiStaticSolver solver(state.rover, campaign.gravity_m_s2);
   if (state.outside.any()) solver.set_outside(wrench_of(state.outside, state.rover, stance, command));
-  const sim::StationState at = solver.solve(stance, state.soils.front(), command);
+  sim::Soil soil = state.soils.front();
+  if (state.soil_drift.any()) strengthen(soil, state.soil_drift.factor(1, 2));  // as the last drive met it
+  const sim::StationState at = solver.solve(stance, soil, command);
   const double speed = std::abs(drive.speed_m_s);
   const bool moves = at.moving();
   std::vector<ExpectedReading> readings{

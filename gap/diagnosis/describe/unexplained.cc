@@ -30,6 +30,7 @@ ResidualShape shape_of(const OutsideFinding& outside, double share) {
   shape.probability = outside.probability;
   shape.closed_share = outside.closed_share;
   shape.parameters = outside.parameters;
+  if (!cause.has_shape) return shape;
   const Interval& size = outside.parameters.front().value;
   for (const double at : {-1.0, 0.0, 1.0}) {
     const double times = cause.depends == "constant" ? 1.0 : at;

@@ -112,7 +112,8 @@ Hypothesis::Hypothesis(const DriveCampaign& campaign, std::vector<EffectVariant>
       const double farthest = wide ? 3.0 * kTotalTorqueStd : 0.0;
       parameters_.push_back({name, "", 0.0, held ? kHeld * std : std, std::min(row.lowest, -farthest),
                              std::max(row.highest, farthest), quantity_of(row),
-                             row.kind == NuisanceKind::kSoil ? soil : -1});
+                             row.kind == NuisanceKind::kSoil ? soil : -1, row.kind,
+                             stated != campaign.parameter_std.end()});
       places_.push_back({&row, row.kind == NuisanceKind::kSoil ? soil : -1});
     }
   }

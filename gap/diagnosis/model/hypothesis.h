@@ -35,6 +35,8 @@ struct Parameter {
   double lowest = 0.0, highest = 0.0;
   std::optional<SoilQuantity> quantity = {};  // of a soil's nuisance that is one of these
   int soil = -1;                              // of a soil's nuisance: index into DriveCampaign::soils
+  std::optional<NuisanceKind> kind = {};      // of a nuisance
+  bool measured = false;                      // its deviation is one of DriveCampaign::parameter_std
 };
 
 // Which nuisances are free. kClosures: soils and motors are held at their nominal values.

@@ -60,7 +60,8 @@ void bound_by_measured_rates(const DriveCampaign& campaign, std::vector<sim::Eff
     const auto k = static_cast<std::size_t>(std::lround(wheel->second));
     for (sim::EffectVariant::Free& free : variant.free)
       if (free.field == effect->rate_field && k < measured->size())
-        free.lowest = std::clamp((*measured)[k] - kRateError, free.lowest, free.highest);
+        free.lowest = std::clamp((*measured)[k] / campaign.rover->wheels[k].rate_share - kRateError,
+                                 free.lowest, free.highest - kRateError);
   }
 }
 

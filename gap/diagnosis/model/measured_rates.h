@@ -8,9 +8,9 @@
 
 namespace slipway::gap {
 
-// Of each wheel, the median over all rows in which the wheels turned, of its measured rate over its commanded
-// one, over the same of the wheel in the middle: 0.85 of a wheel that turned 15 % slower than the others.
-// Nothing where rates were not measured for each wheel.
+// For each wheel: the median, over all rows in which the wheels turn, of its measured rate divided by its
+// commanded rate; these medians are then divided by the median over all wheels. 0.85: the wheel turned 15 %
+// slower than the others. Nothing where rates were not measured for each wheel.
 std::optional<std::vector<double>> measured_rate_shares(const DriveCampaign& campaign);
 
 // A wheel can't have turned slower than it was measured to: of variants that act on one wheel's rate, that

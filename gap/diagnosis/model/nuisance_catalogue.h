@@ -18,8 +18,8 @@ struct Nuisance {
   std::string_view name;
   std::string_view summary;
   NuisanceKind kind = NuisanceKind::kSoil;
-  // The model is unchanged at 0, and 0 is believed with this deviation, unless the nominal soil says
-  // otherwise.
+  // The model is unchanged at 0, and 0 is believed with this deviation, unless DriveCampaign::parameter_std
+  // says otherwise.
   double std = 0.1;
   double lowest = -1.0, highest = 1.0;
   // Of kSoil, once for each soil; of the others, once in all.

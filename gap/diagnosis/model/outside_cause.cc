@@ -61,6 +61,11 @@ double SoilDrift::factor(std::size_t drive, std::size_t drives) const {
   return std::max(kLeast, 1.0 + 0.5 * last * (t + 1.0) + middle * (1.0 - t * t));
 }
 
+void strengthen(sim::Soil& soil, double factor) {
+  soil.cohesion_pa *= factor;
+  soil.friction_angle_rad = std::atan(factor * std::tan(soil.friction_angle_rad));
+}
+
 sim::OutsideWrench wrench_of(const OutsideForces& forces, const sim::RoverModel& rover,
                              const sim::Stance& stance, const sim::DriveCommand& command) {
   const double sense = command.turn_in_place ? 0.0 : command.speed_m_s < 0.0 ? -1.0 : 1.0;

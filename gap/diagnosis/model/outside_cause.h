@@ -11,6 +11,7 @@
 #include "sim/effects/effect.h"
 #include "sim/quasi_static/outside_wrench.h"
 #include "sim/rover/stance.h"
+#include "sim/soil/soil.h"
 
 namespace slipway::gap {
 
@@ -43,6 +44,8 @@ struct SoilDrift {
   bool any() const { return last != 0.0 || middle != 0.0; }
   double factor(std::size_t drive, std::size_t drives) const;
 };
+// Cohesion and tan(friction angle) of a soil times this.
+void strengthen(sim::Soil& soil, double factor);
 
 // Forces on the body act in its vertical through the centre of mass, those at wheels at the axles.
 sim::OutsideWrench wrench_of(const OutsideForces& forces, const sim::RoverModel& rover,
@@ -56,11 +59,11 @@ using OutsideValues = std::map<std::string, double>;  // of a cause's fields, by
 // of its own that are fitted in full, and is told as the form of something unknown.
 struct OutsideCause {
   std::string_view name;     // "pull_along_travel"
-  std::string_view form;     // "force_on_body", "moment_on_body", "force_at_wheel", "sensor"
-  std::string_view entry;    // where it enters, as the discrepancy term's entries are called
+  std::string_view form;     // one of those of a residual in api/openapi.json: "force_on_body", "sensor", ...
+  std::string_view entry;    // where it enters: "tangential_force", "wheel_rate", "soil_strength", ...
   std::string_view depends;  // on which circumstance
   std::string_view unit;     // of its fields
-  // The ways in which it could be at work. Their prior deviations are shares of the rover's weight.
+  // The ways in which it could be at work. Prior deviations of forces are shares of the rover's weight.
   std::vector<sim::EffectVariant> (*variants)(const DriveCampaign& campaign);
   // Exactly one of these two. The first changes what the model predicts from: forces, rover or soils.
   void (*act)(const OutsideValues& values, ModelState& state) = nullptr;
@@ -69,6 +72,9 @@ struct OutsideCause {
                std::vector<double>& predicted) = nullptr;
   // "a steady pull of 25 N against the travel, at the body"
   std::string (*words)(const OutsideValues& values, const DriveCampaign& campaign);
+  // Whether what it does is its first field times the circumstance it depends on: then that is told as a
+  // shape.
+  bool has_shape = true;
   // Whether the library holds an effect that is the same in every drive, so that this one gets a small part
   // of the prior only.
   bool twin_of_an_effect = false;

@@ -14,7 +14,7 @@ using Values = OutsideValues;
 // Prior deviation: a tenth is what a few per cent of water or a warm day do to the strength of a soil.
 constexpr double kStrengthShare = 0.1;
 
-// Of one drive alone it is the soil's own strength, and of two a difference in it.
+// One drive can't tell a drift from the soil's own strength, two not from a difference between them.
 std::vector<sim::EffectVariant> drifts(const DriveCampaign& campaign) {
   constexpr std::size_t kMinDrives = 3;
   if (campaign.drives.size() < kMinDrives) return {};
@@ -36,7 +36,8 @@ std::string percent(double share) {
 std::string drift_words(const Values& v, const DriveCampaign& /*campaign*/) {
   const double last = v.at("last_share"), middle = 0.5 * last + v.at("middle_share");
   return fmt::format(
-      "the soils' strength changes from drive to drive: {} in the middle and {} at the end than at the first",
+      "the soils' strength changes from drive to drive: {} in the middle and {} at the end than in the first "
+      "drive",
       percent(middle), percent(last));
 }
 
@@ -47,7 +48,8 @@ constexpr std::array kSoilRows{OutsideCause{.name = "soil_drift",
                                             .unit = "1",
                                             .variants = &drifts,
                                             .act = &drift,
-                                            .words = &drift_words}};
+                                            .words = &drift_words,
+                                            .has_shape = false}};
 
 }  // namespace
 

@@ -184,10 +184,7 @@ sim::PerWheel<sim::Soil> WindowModel::soils_at(std::size_t w, const Place& place
   sim::PerWheel<sim::Soil> soils(place.soil.size());
   for (std::size_t k = 0; k < soils.size(); ++k) {
     soils[k] = state.soils[place.soil[k]];
-    if (strength != 1.0) {
-      soils[k].cohesion_pa *= strength;
-      soils[k].friction_angle_rad = std::atan(strength * std::tan(soils[k].friction_angle_rad));
-    }
+    if (strength != 1.0) strengthen(soils[k], strength);
     if (regions.empty()) continue;
     const Eigen::Vector3d p = place.stance.p_MB + place.stance.R_MB * place.stance.p_B_wheel[k];
     for (std::size_t r = 0; r < regions.size(); ++r)

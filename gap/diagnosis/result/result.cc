@@ -9,7 +9,8 @@ constexpr std::array<std::string_view, 7> kVerdicts{"no_gap",     "not_detected"
                                                     "effect_set", "unknown",      "insufficient"};
 // In the order of NuisanceKind.
 constexpr std::array<std::string_view, 4> kMeasurements{
-    "plate and shear tests of the soil", "tests of a single wheel on this soil",
+    "plate and shear tests of the soil",
+    "tests of a single wheel on this soil, and the rover weighed (centre of mass, wheels)",
     "a wheel spun in the air, with its current", "surveyed positions, headings and sinkages"};
 
 }  // namespace

@@ -46,7 +46,8 @@ struct ComparedSet {
   std::string outside = {};  // that something's form, a row of outside_catalogue; empty: of no known form
   // Logarithms: of the evidence over that of nothing missing, as it stands before a share of it is believed,
   // and of the prior probability.
-  double log_evidence = 0.0, log_prior = 0.0;
+  // Nothing of a set that was not compared, and where nothing missing was not.
+  std::optional<double> log_evidence = {}, log_prior = {};
 };
 // Its effects, and "unknown" behind them where something else is: for documents and people.
 std::vector<std::string> names_of(const ComparedSet& set);
@@ -81,6 +82,8 @@ struct LookAlike {
 struct MeasurementProposal {
   std::string effect;
   std::vector<NuisanceKind> kinds;
+  std::vector<std::string>
+      parameters;  // rows of the nuisance catalogue, of these kinds, that are re-tuned here
   // By how many deviations the effect shows at its usual size, as it is and with them known.
   double deviations_now = 0.0, deviations_then = 0.0;
 };

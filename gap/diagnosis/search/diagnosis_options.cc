@@ -193,7 +193,7 @@ void list_verdict(const VerdictOptions& options, Lister& list) {
                beyond_chance, max_left_of_nothing, max_left_beside_effects, forgiven_closure, rival_share,
                min_doubt, determined_share, max_angle_deg, min_signature, max_unexplained_shapes,
                name_by_marginals, min_closed_share, min_partial_probability, min_partial_share,
-               min_probability_beside_form, min_share_beside_form] = options;
+               min_probability_beside_form, min_share_beside_form, min_probability_closing_most] = options;
   SLIPWAY_FIELD(min_drives);
   SLIPWAY_FIELD(min_windows);
   SLIPWAY_FIELD(min_parameters_gain);
@@ -216,6 +216,7 @@ void list_verdict(const VerdictOptions& options, Lister& list) {
   SLIPWAY_FIELD(min_partial_share);
   SLIPWAY_FIELD(min_probability_beside_form);
   SLIPWAY_FIELD(min_share_beside_form);
+  SLIPWAY_FIELD(min_probability_closing_most);
 }
 
 void list_held_out(const HeldOutOptions& options, Lister& list) {

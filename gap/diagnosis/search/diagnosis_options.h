@@ -180,6 +180,9 @@ struct VerdictOptions {
   // The same where what is beside it has a known form, which leaves less to be mistaken for the effect.
   double min_probability_beside_form = 0.7;
   double min_share_beside_form = 0.1;
+  // Of an effect there that closes min_partial_share: what is more probable than not, and closes most, is
+  // named.
+  double min_probability_closing_most = 0.5;
 };
 
 // Predictions of drives that a fit has not seen: see gap_closure.h.

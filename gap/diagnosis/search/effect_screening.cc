@@ -19,6 +19,15 @@ Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns) {
   return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
 }
 
+// Of a fit's parameters those that drives have to tell, as nobody measured them otherwise.
+std::vector<Eigen::Index> retuned_columns(const FittedExplanation& fit) {
+  std::vector<Eigen::Index> columns;
+  const auto parameters = fit.hypothesis.parameters();
+  for (std::size_t p = 0; p < parameters.size(); ++p)
+    if (!parameters[p].measured) columns.push_back(static_cast<Eigen::Index>(p));
+  return columns;
+}
+
 // What screening knows of a fit: the directions that re-tuning takes, and what the fit predicts.
 struct Known {
   Eigen::MatrixXd basis;
@@ -92,7 +101,7 @@ std::vector<ScreenedEffect> screen_effects(const DriveCampaign& campaign, const 
                                            std::span<const EffectVariant> variants,
                                            const DiscrepancyOptions& options, std::size_t threads) {
   Known known;
-  known.basis = orthonormal_basis(fit.white_jacobian.leftCols(static_cast<Eigen::Index>(fit.x.size())));
+  known.basis = orthonormal_basis(fit.white_jacobian(Eigen::all, retuned_columns(fit)));
   if (fit.hypothesis.prior_precision().size() > 0) {
     known.believed = fit.white_jacobian;
     Eigen::MatrixXd squares = known.believed.transpose() * known.believed;

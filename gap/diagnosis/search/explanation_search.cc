@@ -113,6 +113,7 @@ class Searcher {
       if (place_of(v) && tried_[v.effect] == 1)
         fit = refine_soft_patch(campaign_, model_, noise_, std::move(fit), options_.fit, options_.soft_patch,
                                 options_.search.threads);
+      evidence_of_[s.variant] = fit.log_evidence;
       const auto best = best_fit_.find(v.effect);
       if (best == best_fit_.end() || fit.log_evidence > search_.fits[best->second].log_evidence)
         best_fit_[v.effect] = index;
@@ -236,6 +237,26 @@ class Searcher {
     return search_.fits.size() - 1;
   }
 
+  // By how much less evidence an effect that is fitted alone has in its other ways: by their fits where they
+  // were fitted, otherwise by screening. Places are no ways but looks, of which each is another effect.
+  std::vector<double> other_variants(const FittedExplanation& fit) const {
+    const auto effects = fit.hypothesis.effects();
+    if (effects.size() != 1 || place_of(effects.front())) return {};
+    const auto own = std::find_if(screened_.begin(), screened_.end(), [&](const ScreenedEffect& s) {
+      return variants_[s.variant].effect == effects.front().effect &&
+             variants_[s.variant].label == effects.front().label;
+    });
+    if (own == screened_.end()) return {};
+    std::vector<double> less;
+    for (const ScreenedEffect& s : screened_) {
+      if (s.variant == own->variant || variants_[s.variant].effect != effects.front().effect) continue;
+      const auto fitted = evidence_of_.find(s.variant);
+      less.push_back(std::min(
+          0.0, fitted != evidence_of_.end() ? fitted->second - fit.log_evidence : s.gain - own->gain));
+    }
+    return less;
+  }
+
   // A set, alone and with something else besides.
   void add_candidates(std::size_t index, LogPrior prior) {
     if (model_.cancelled()) return;
@@ -252,6 +273,7 @@ class Searcher {
       prior.with_something_else += std::log(options_.priors.twin_share);
     }
     c.fit = index;
+    c.other_variants = other_variants(fit);
     c.scatter = noise_.scales();
     const DiscrepancyGain gain = discrepancy_gain(campaign_, model_, noise_, fit, discrepancy_, options_);
     c.log_evidence = fit.log_evidence + gain.imprecision;
@@ -282,6 +304,7 @@ class Searcher {
   std::vector<ScreenedEffect> screened_;
   std::map<std::size_t, std::vector<double>> other_start_;  // of a variant
   std::map<std::string, int> tried_;
+  std::map<std::size_t, double> evidence_of_;                 // of a variant that was fitted alone
   std::map<std::string, std::size_t> best_fit_;               // of an effect alone
   std::vector<std::pair<std::string, std::size_t>> singles_;  // the same, best first
   std::map<std::set<std::string>, std::size_t> pairs_;
@@ -372,7 +395,11 @@ void weigh(std::span<Candidate> candidates, const EvidenceOptions& options) {
       options.whole ? std::span<const EvidenceShare>(kWholeEvidence) : options.shares;
   for (const EvidenceShare& belief : shares) {
     std::vector<double> weights;
-    for (const Candidate& c : candidates) weights.push_back(belief.share * c.log_evidence + c.log_prior);
+    for (const Candidate& c : candidates) {
+      double variants = 1.0;
+      for (const double less : c.other_variants) variants += std::exp(belief.share * less);
+      weights.push_back(belief.share * c.log_evidence + c.log_prior + std::log(variants));
+    }
     const double all = log_sum_exp(weights);
     for (std::size_t i = 0; i < weights.size(); ++i)
       candidates[i].probability += belief.weight * std::exp(weights[i] - all);

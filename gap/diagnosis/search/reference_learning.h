@@ -20,7 +20,7 @@ namespace slipway::gap {
 struct LearntReference {
   PreparedCampaign prepared;        // of the reference drives; refers to the campaign that was learnt from
   std::vector<std::string> names;   // of its nuisances; a soil's has the soil's name behind
-  Eigen::VectorXd mean, deviation;  // x, and the catalogue's prior deviations
+  Eigen::VectorXd mean, deviation;  // x, and the prior deviations of its campaign
   Eigen::VectorXd coefficients;
   Eigen::MatrixXd covariance;  // of (u, b)
   SmoothScale scale;
