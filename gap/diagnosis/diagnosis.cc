@@ -145,7 +145,10 @@ class Diagnoser {
     const ClosedShares shares(std::cref(held_out), search_);
     d_.marginals = effect_marginals(d_.library, search_, shares);
     chosen_ = best_;
-    naming_ = name_effects(search_, chosen_, d_.marginals, options_.verdict);
+    VerdictOptions verdict = options_.verdict;
+    if (campaign_.reference)
+      verdict.min_closed_share = std::max(verdict.min_closed_share, options_.reference.min_closed_share);
+    naming_ = name_effects(search_, chosen_, d_.marginals, verdict);
     best_ = naming_.correction;
     judge(campaign_, prepared_, search_, chosen_, naming_, options_, d_);
     if (d_.outside) d_.outside->closed_share = shares.of(d_.outside->cause);

@@ -293,8 +293,8 @@ void list_next_drives(const NextDriveOptions& options, Lister& list) {
 
 void list_reference(const ReferenceOptions& options, Lister& list) {
   list.step("reference");
-  const auto& [sizes, beyond, drift, noise_std, min_drives, min_windows, rounds, max_open, min_open] =
-      options;
+  const auto& [sizes, beyond, drift, noise_std, min_drives, min_windows, rounds, max_open, min_open,
+               min_closed_share] = options;
   SLIPWAY_FIELD(sizes);
   SLIPWAY_FIELD(beyond);
   SLIPWAY_FIELD(drift);
@@ -304,6 +304,7 @@ void list_reference(const ReferenceOptions& options, Lister& list) {
   SLIPWAY_FIELD(rounds);
   SLIPWAY_FIELD(max_open);
   SLIPWAY_FIELD(min_open);
+  SLIPWAY_FIELD(min_closed_share);
 }
 
 #undef SLIPWAY_FIELD

@@ -272,6 +272,9 @@ struct ReferenceOptions {
   int rounds = 2;          // parameters and difference need each other
   int max_open = 120;      // directions in which the difference is left open: those of most effect
   double min_open = 0.01;  // squared deviations in all, below which a direction is none
+  // Of the held-out gap: VerdictOptions::min_closed_share with a reference. What other physics leaves of a
+  // difference beyond what the reference met has closed a tenth at most, what has changed a third and more.
+  double min_closed_share = 0.15;
 };
 
 struct DiagnosisOptions {
