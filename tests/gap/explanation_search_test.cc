@@ -65,12 +65,12 @@ TEST(Weigh, SumsOverTheWaysInWhichAnEffectCouldBeAtWork) {
   std::vector<Candidate> c(2);
   c[0].log_evidence = 10.0;
   c[0].log_prior = std::log(0.1);
-  c[0].other_variants = {0.0, -4.0};
+  c[0].other_variants = {{0.0, -4.0}, {}, {-2.0}};  // of three effects
   c[1].log_prior = std::log(0.7);
   EvidenceOptions options;
   options.shares = {EvidenceShare{0.5, 1.0}};
   weigh(c, options);
-  const double effect = 0.1 * (std::exp(5.0) + std::exp(5.0) + std::exp(3.0));
+  const double effect = 0.1 * (std::exp(5.0) + std::exp(5.0) + std::exp(3.0)) * (1.0 + std::exp(-1.0));
   EXPECT_NEAR(c[0].probability, effect / (effect + 0.7), 1e-12);
 }
 

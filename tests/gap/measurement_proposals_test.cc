@@ -69,6 +69,15 @@ TEST(MeasurementProposals, AskForTheFewestKindsThatUncoverAnEffect) {
             (std::vector<std::string>{"stiffness", "n", "cohesion", "friction", "shear_modulus"}));
 }
 
+TEST(MeasurementProposals, AskForNothingWhereAllWasMeasured) {
+  std::map<std::string, double, std::less<>> all;
+  for (const Nuisance& row : nuisance_catalogue()) all.emplace(row.name, row.std);
+  ExplanationSearch search = search_of_unit_parameters(all);
+  search.screened = {hidden_behind(search, "hardpan", {{"n", 8.0}}),
+                     hidden_behind(search, "duricrust", {{"n", 2.0}})};
+  EXPECT_TRUE(proposals_of(search).empty());
+}
+
 TEST(MeasurementProposals, AskForNothingWhereOneWayWouldHaveShown) {
   ExplanationSearch search = search_of_unit_parameters();
   search.screened = {hidden_behind(search, "hardpan", {{"n", 8.0}}),

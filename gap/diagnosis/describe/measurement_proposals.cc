@@ -38,6 +38,7 @@ Eigen::MatrixXd taken_beside(const FittedExplanation& null, const Kinds& known) 
     if (!parameters[p].measured && !among(known, *parameters[p].kind))
       left.push_back(static_cast<Eigen::Index>(p));
   const Eigen::MatrixXd columns = null.white_jacobian(Eigen::all, left);
+  if (left.empty()) return columns;  // all was measured
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
   const Eigen::MatrixXd all = qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
   return all.leftCols(qr.rank());

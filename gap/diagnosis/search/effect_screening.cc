@@ -15,6 +15,7 @@ namespace {
 constexpr double kInTheFit = -1e9;
 
 Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns) {
+  if (columns.cols() == 0) return columns;
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
   return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
 }

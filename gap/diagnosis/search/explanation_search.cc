@@ -237,22 +237,21 @@ class Searcher {
     return search_.fits.size() - 1;
   }
 
-  // By how much less evidence an effect that is fitted alone has in its other ways: by their fits where they
-  // were fitted, otherwise by screening. Places are no ways but looks, of which each is another effect.
-  std::vector<double> other_variants(const FittedExplanation& fit) const {
-    const auto effects = fit.hypothesis.effects();
-    if (effects.size() != 1 || place_of(effects.front())) return {};
-    const auto own = std::find_if(screened_.begin(), screened_.end(), [&](const ScreenedEffect& s) {
-      return variants_[s.variant].effect == effects.front().effect &&
-             variants_[s.variant].label == effects.front().label;
+  // By how much less evidence an effect has in its other ways, alone: by fits where both were fitted,
+  // otherwise by screening. Places are no ways but looks, of which each is another effect.
+  std::vector<double> other_variants(const EffectVariant& own) const {
+    if (place_of(own)) return {};
+    const auto at = std::find_if(screened_.begin(), screened_.end(), [&](const ScreenedEffect& s) {
+      return variants_[s.variant].effect == own.effect && variants_[s.variant].label == own.label;
     });
-    if (own == screened_.end()) return {};
+    if (at == screened_.end()) return {};
+    const auto own_evidence = evidence_of_.find(at->variant);
     std::vector<double> less;
     for (const ScreenedEffect& s : screened_) {
-      if (s.variant == own->variant || variants_[s.variant].effect != effects.front().effect) continue;
-      const auto fitted = evidence_of_.find(s.variant);
-      less.push_back(std::min(
-          0.0, fitted != evidence_of_.end() ? fitted->second - fit.log_evidence : s.gain - own->gain));
+      if (s.variant == at->variant || variants_[s.variant].effect != own.effect) continue;
+      const auto evidence = evidence_of_.find(s.variant);
+      const bool fitted = evidence != evidence_of_.end() && own_evidence != evidence_of_.end();
+      less.push_back(std::min(0.0, fitted ? evidence->second - own_evidence->second : s.gain - at->gain));
     }
     return less;
   }
@@ -273,7 +272,7 @@ class Searcher {
       prior.with_something_else += std::log(options_.priors.twin_share);
     }
     c.fit = index;
-    c.other_variants = other_variants(fit);
+    for (const EffectVariant& v : fit.hypothesis.effects()) c.other_variants.push_back(other_variants(v));
     c.scatter = noise_.scales();
     const DiscrepancyGain gain = discrepancy_gain(campaign_, model_, noise_, fit, discrepancy_, options_);
     c.log_evidence = fit.log_evidence + gain.imprecision;
@@ -396,9 +395,13 @@ void weigh(std::span<Candidate> candidates, const EvidenceOptions& options) {
   for (const EvidenceShare& belief : shares) {
     std::vector<double> weights;
     for (const Candidate& c : candidates) {
-      double variants = 1.0;
-      for (const double less : c.other_variants) variants += std::exp(belief.share * less);
-      weights.push_back(belief.share * c.log_evidence + c.log_prior + std::log(variants));
+      double weight = belief.share * c.log_evidence + c.log_prior;
+      for (const std::vector<double>& of_effect : c.other_variants) {
+        double variants = 1.0;
+        for (const double less : of_effect) variants += std::exp(belief.share * less);
+        weight += std::log(variants);
+      }
+      weights.push_back(weight);
     }
     const double all = log_sum_exp(weights);
     for (std::size_t i = 0; i < weights.size(); ++i)

@@ -22,9 +22,9 @@ struct Candidate {
   double log_evidence = 0.0;  // the discrepancy term's part among it
   NoiseScales scatter;        // of the drives beside its fit
   double log_prior = 0.0;
-  // Of a single effect: logarithms of the evidence of its other variants over that of the fitted one, 0 at
-  // most. Each variant has the same prior, log_prior.
-  std::vector<double> other_variants;
+  // Of each of its effects: logarithms of the evidence that its other variants have over the fitted one's, 0
+  // at most. Each variant has the same prior, log_prior.
+  std::vector<std::vector<double>> other_variants;
   double probability = 0.0;
 
   // Whether it says that something is at work that the library has no name for.
