@@ -144,10 +144,11 @@ class Diagnoser {
     const LinearHeldOut held_out(prepared_, drives.groups, options_.folds, options_.fit);
     const ClosedShares shares(std::cref(held_out), search_);
     d_.marginals = effect_marginals(d_.library, search_, shares);
-    chosen_ = best_;
     VerdictOptions verdict = options_.verdict;
     if (campaign_.reference)
       verdict.min_closed_share = std::max(verdict.min_closed_share, options_.reference.min_closed_share);
+    chosen_ = without_weightless_outside(
+        search_, best_, [&](const std::string& cause) { return shares.of(cause); }, verdict);
     naming_ = name_effects(search_, chosen_, d_.marginals, verdict);
     best_ = naming_.correction;
     judge(campaign_, prepared_, search_, chosen_, naming_, options_, d_);

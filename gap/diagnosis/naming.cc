@@ -77,4 +77,15 @@ Naming name_effects(const ExplanationSearch& search, std::size_t chosen,
   return naming;
 }
 
+std::size_t without_weightless_outside(const ExplanationSearch& search, std::size_t chosen,
+                                       const std::function<double(const std::string&)>& closed_share,
+                                       const VerdictOptions& options) {
+  const Candidate& first = search.candidates[chosen];
+  const std::vector<std::string> effects = library_effects_of(first);
+  if (!options.name_by_marginals || !first.outside || first.with_unknown || effects.empty()) return chosen;
+  if (closed_share(outside_causes_of(first).front()) >= options.min_closed_share) return chosen;
+  return candidate_with(search, set_of(effects), [](const Candidate& c) { return !c.unknown(); })
+      .value_or(chosen);
+}
+
 }  // namespace slipway::gap

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,5 +35,11 @@ Naming name_effects(const ExplanationSearch& search, std::size_t chosen,
 
 // Whether an effect may be named beside something unknown.
 bool stands_beside_unknown(const EffectMarginal& marginal, const VerdictOptions& options);
+
+// The candidate to name by in the place of `chosen`: the same effects without the cause from outside beside
+// them, if that closes less than min_closed_share of the held-out gap and they were compared alone.
+std::size_t without_weightless_outside(const ExplanationSearch& search, std::size_t chosen,
+                                       const std::function<double(const std::string&)>& closed_share,
+                                       const VerdictOptions& options);
 
 }  // namespace slipway::gap

@@ -96,6 +96,19 @@ TEST(Naming, BesideACauseOfKnownFormNamesWhatIsMoreProbableThanNotAndClosesMost)
   EXPECT_TRUE(named(search, {{"bulldozing", 0.45, 0.8}}).effects.empty()) << "it is less probable than not";
 }
 
+TEST(Naming, LeavesOutACauseFromOutsideThatClosesNextToNothingBesideEffects) {
+  const ExplanationSearch search = search_of({candidate({"soft_patch", "soil_drift"}, 0.52, false, true),
+                                              candidate({"soft_patch"}, 0.41), candidate({}, 0.07)});
+  const auto chosen = [&](double share) {
+    return without_weightless_outside(search, 0, [&](const std::string&) { return share; }, {});
+  };
+  EXPECT_EQ(chosen(0.04), 1U);
+  EXPECT_EQ(chosen(0.06), 0U);
+  const ExplanationSearch alone =
+      search_of({candidate({"soil_drift"}, 0.9, false, true), candidate({}, 0.1)});
+  EXPECT_EQ(without_weightless_outside(alone, 0, [](const std::string&) { return 0.0; }, {}), 0U);
+}
+
 TEST(Naming, OfACauseFromOutsideAloneIsNone) {
   const ExplanationSearch search = search_of(
       {candidate({"pull_along_travel"}, 0.7, false, true), candidate({"com_offset", "grousers"}, 0.3)});
