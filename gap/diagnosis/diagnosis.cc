@@ -145,13 +145,14 @@ class Diagnoser {
     const ClosedShares shares(std::cref(held_out), search_);
     d_.marginals = effect_marginals(d_.library, search_, shares);
     VerdictOptions verdict = options_.verdict;
-    if (campaign_.reference)
+    if (campaign_.reference) {
       verdict.min_closed_share = std::max(verdict.min_closed_share, options_.reference.min_closed_share);
-    chosen_ = without_weightless_outside(
-        search_, best_, [&](const std::string& cause) { return shares.of(cause); }, verdict);
-    naming_ = name_effects(search_, chosen_, d_.marginals, verdict);
+      verdict.min_probability_closing_little = 1.0;  // what other physics leaves over is no effect
+    }
+    naming_ = name_effects(
+        search_, best_, d_.marginals, [&](const std::string& cause) { return shares.of(cause); }, verdict);
     best_ = naming_.correction;
-    judge(campaign_, prepared_, search_, chosen_, naming_, options_, d_);
+    judge(campaign_, prepared_, search_, naming_, options_, d_);
     if (d_.outside) d_.outside->closed_share = shares.of(d_.outside->cause);
   }
 
@@ -166,7 +167,7 @@ class Diagnoser {
   const FittedExplanation& reported_fit() const { return explains() ? best_fit() : search_.fits[0]; }
   // Beside which something is left: with a cause from outside where one was found.
   const FittedExplanation& fit_beside_rest() const {
-    return d_.outside ? search_.fits[search_.candidates[chosen_].fit] : reported_fit();
+    return d_.outside ? search_.fits[search_.candidates[naming_.chosen].fit] : reported_fit();
   }
   bool explains() const { return d_.verdict == Verdict::kEffects || d_.verdict == Verdict::kEffectSet; }
 
@@ -335,8 +336,7 @@ class Diagnoser {
   Progress& progress_;
   PreparedCampaign prepared_;
   ExplanationSearch search_;
-  std::size_t best_ = 0;    // of its candidates: what is reported
-  std::size_t chosen_ = 0;  // what selection chose
+  std::size_t best_ = 0;  // of its candidates: what is reported
   Naming naming_;
   Diagnosis d_;
 };

@@ -30,26 +30,29 @@ std::optional<std::size_t> candidate_with(const ExplanationSearch& search, const
   return std::nullopt;
 }
 
-Naming as_chosen(const ExplanationSearch& search, std::size_t chosen) {
-  const Candidate& c = search.candidates[chosen];
-  return {c.unknown() ? std::vector<std::string>{} : c.effects, false, chosen, chosen};
+// Of known causes, all of them with some weight; of others what was chosen. A cause from outside that stands
+// alone stays: nothing else says what is there.
+std::size_t of_weight(const ExplanationSearch& search, std::size_t chosen,
+                      std::span<const EffectMarginal> marginals, const ClosedShare& closed_share,
+                      const VerdictOptions& options) {
+  const Candidate& first = search.candidates[chosen];
+  if (first.with_unknown || (first.outside && library_effects_of(first).empty())) return chosen;
+  Names kept;
+  for (const std::string& cause : first.effects)
+    if (closed_share(cause) >= options.min_closed_share) kept.insert(cause);
+  const bool beside_one_of_weight = !kept.empty();
+  for (const EffectMarginal& m : marginals)
+    if (beside_one_of_weight && m.probability > options.min_probability_closing_little &&
+        std::find(first.effects.begin(), first.effects.end(), m.name) != first.effects.end())
+      kept.insert(m.name);
+  for (std::size_t c = 0; c < search.candidates.size(); ++c)
+    if (!search.candidates[c].with_unknown && set_of(search.candidates[c].effects) == kept) return c;
+  return chosen;  // their sum was not compared without the others
 }
 
-// What was chosen without what closes next to nothing.
-Naming of_weight(const ExplanationSearch& search, std::size_t chosen,
-                 std::span<const EffectMarginal> marginals, const VerdictOptions& options) {
-  Naming naming = as_chosen(search, chosen);
-  std::erase_if(naming.effects, [&](const std::string& effect) {
-    return std::any_of(marginals.begin(), marginals.end(), [&](const EffectMarginal& m) {
-      return m.name == effect && m.closed_share < options.min_closed_share;
-    });
-  });
-  const auto alone =
-      candidate_with(search, set_of(naming.effects), [](const Candidate& c) { return !c.unknown(); });
-  if (!alone) return as_chosen(search, chosen);  // their sum was not compared without the others
-  naming.candidate = naming.correction = *alone;
-  naming.effects = search.candidates[*alone].effects;
-  return naming;
+Naming as_chosen(const ExplanationSearch& search, std::size_t chosen) {
+  const Candidate& c = search.candidates[chosen];
+  return {c.unknown() ? std::vector<std::string>{} : c.effects, false, chosen, chosen, chosen};
 }
 
 }  // namespace
@@ -60,10 +63,12 @@ bool stands_beside_unknown(const EffectMarginal& marginal, const VerdictOptions&
 }
 
 Naming name_effects(const ExplanationSearch& search, std::size_t chosen,
-                    std::span<const EffectMarginal> marginals, const VerdictOptions& options) {
+                    std::span<const EffectMarginal> marginals, const ClosedShare& closed_share,
+                    const VerdictOptions& options) {
   if (!options.name_by_marginals) return as_chosen(search, chosen);
-  if (!search.candidates[chosen].unknown()) return of_weight(search, chosen, marginals, options);
+  chosen = of_weight(search, chosen, marginals, closed_share, options);
   const Candidate& first = search.candidates[chosen];
+  if (!first.unknown()) return as_chosen(search, chosen);
   const bool known_form = first.outside && !first.with_unknown;
   Names names;
   for (const EffectMarginal& m : marginals)
@@ -73,19 +78,7 @@ Naming name_effects(const ExplanationSearch& search, std::size_t chosen,
   const auto any = candidate_with(search, names, [](const Candidate& c) { return c.unknown(); });
   const auto alone = candidate_with(search, names, [](const Candidate& c) { return !c.outside; });
   if (!any) return as_chosen(search, chosen);
-  Naming naming{library_effects_of(search.candidates[*any]), true, *any, alone.value_or(*any)};
-  return naming;
-}
-
-std::size_t without_weightless_outside(const ExplanationSearch& search, std::size_t chosen,
-                                       const std::function<double(const std::string&)>& closed_share,
-                                       const VerdictOptions& options) {
-  const Candidate& first = search.candidates[chosen];
-  const std::vector<std::string> effects = library_effects_of(first);
-  if (!options.name_by_marginals || !first.outside || first.with_unknown || effects.empty()) return chosen;
-  if (closed_share(outside_causes_of(first).front()) >= options.min_closed_share) return chosen;
-  return candidate_with(search, set_of(effects), [](const Candidate& c) { return !c.unknown(); })
-      .value_or(chosen);
+  return {library_effects_of(search.candidates[*any]), true, chosen, *any, alone.value_or(*any)};
 }
 
 }  // namespace slipway::gap

@@ -17,29 +17,29 @@ struct Naming {
   std::vector<std::string> effects;
   // Something unexplained stays beside them: a partial answer.
   bool partial = false;
+  // The candidate that was chosen, without what closes too little.
+  std::size_t chosen = 0;
   // The candidate whose fit has the effects' parameters, and the one of these effects alone, by which the
-  // drives are corrected; the same unless a cause from outside stands beside them. Without effects: what was
-  // chosen, or the candidate in which nothing is missing where all that was chosen closes too little.
+  // drives are corrected; the same unless a cause from outside stands beside them. Without effects: `chosen`.
   std::size_t candidate = 0, correction = 0;
 };
 
-// Names by the marginal probabilities and the shares of the gap that go with the effects. Where nothing
-// unknown was chosen, the effects that were chosen are named as far as they close
-// VerdictOptions::min_closed_share. Where something unknown was, an effect is named all the same whose
-// marginal probability and share reach min_partial_probability and min_partial_share; of several these must
-// stand together in an explanation that was compared. Where what was chosen is a cause from outside, so that
-// the unknown has a known form, the lower min_probability_beside_form and min_share_beside_form do, or
+// The share of the held-out gap that goes with an effect or with a cause from outside: ClosedShares::of.
+using ClosedShare = std::function<double(const std::string& cause)>;
+
+// Names by the marginal probabilities and the shares of the gap that go with the causes. A cause that closes
+// less than VerdictOptions::min_closed_share is left out of what was chosen, if the rest was compared; but not
+// an effect beside one that closes more, if its marginal probability is above min_probability_closing_little.
+// Where nothing unknown is among the rest, it is named. Where something unknown is, an effect is named all the same
+// whose marginal probability and share reach min_partial_probability and min_partial_share; of several these
+// must stand together in an explanation that was compared. Where what was chosen is a cause from outside, so
+// that the unknown has a known form, the lower min_probability_beside_form and min_share_beside_form do, or
 // min_probability_closing_most of an effect that closes min_partial_share.
 Naming name_effects(const ExplanationSearch& search, std::size_t chosen,
-                    std::span<const EffectMarginal> marginals, const VerdictOptions& options);
+                    std::span<const EffectMarginal> marginals, const ClosedShare& closed_share,
+                    const VerdictOptions& options);
 
 // Whether an effect may be named beside something unknown.
 bool stands_beside_unknown(const EffectMarginal& marginal, const VerdictOptions& options);
-
-// The candidate to name by in the place of `chosen`: the same effects without the cause from outside beside
-// them, if that closes less than min_closed_share of the held-out gap and they were compared alone.
-std::size_t without_weightless_outside(const ExplanationSearch& search, std::size_t chosen,
-                                       const std::function<double(const std::string&)>& closed_share,
-                                       const VerdictOptions& options);
 
 }  // namespace slipway::gap

@@ -320,7 +320,7 @@ std::optional<OutsideFinding> outside_finding(const ExplanationSearch& search, s
 }
 
 void judge(const DriveCampaign& campaign, const PreparedCampaign& prepared, const ExplanationSearch& search,
-           std::size_t best, const Naming& naming, const DiagnosisOptions& options, Diagnosis& d) {
+           const Naming& naming, const DiagnosisOptions& options, Diagnosis& d) {
   const Candidate& chosen = search.candidates[naming.candidate];
   std::map<SetKey, double> sets;
   std::map<std::string, double> single;
@@ -339,9 +339,10 @@ void judge(const DriveCampaign& campaign, const PreparedCampaign& prepared, cons
     d.candidates.push_back(std::move(set));
   }
   const double probability = sets[key_of(chosen)];
-  if (search.candidates[best].unknown()) d.outside = outside_finding(search, best, campaign);
+  if (search.candidates[naming.chosen].unknown())
+    d.outside = outside_finding(search, naming.chosen, campaign);
   if (chosen.unknown() && !naming.partial) {
-    judge_unknown(search, best, unknown, d);
+    judge_unknown(search, naming.chosen, unknown, d);
   } else if (naming.effects.empty()) {
     judge_without_effects(campaign, prepared, search, chosen, probability, options, d);
   } else {

@@ -18,10 +18,10 @@ Interval parameter_interval(const FittedExplanation& fit, std::size_t parameter)
 // of their usual size; 1 where none was screened.
 double hidden_share(std::span<const ScreenedVariant> screened, const VerdictOptions& options);
 
-// What the candidate chosen and the effects named mean: the verdict, its reason and what would overturn it,
+// What the chosen candidate and the named effects mean: the verdict, its reason and what would overturn it,
 // the effects found, or how small ones could have hidden. d has its `marginals`.
 void judge(const DriveCampaign& campaign, const PreparedCampaign& prepared, const ExplanationSearch& search,
-           std::size_t chosen, const Naming& naming, const DiagnosisOptions& options, Diagnosis& d);
+           const Naming& naming, const DiagnosisOptions& options, Diagnosis& d);
 
 // The cause from outside that a candidate has, with its parameters; nothing, where it has none.
 std::optional<OutsideFinding> outside_finding(const ExplanationSearch& search, std::size_t candidate,

@@ -73,6 +73,30 @@ TEST(BoundedStep, FindsBoundsOneAfterTheOther) {
   EXPECT_DOUBLE_EQ(step[1], 0.2) << "free, it would be 0.9 - 0.9 * 0.5";
 }
 
+// What a held parameter would explain beyond its bound stays in the residuals, for an effect to explain.
+TEST(LinearProblem, LeavesHeldParametersWhereTheyAre) {
+  const Eigen::MatrixXd a = random_matrix(9, 2, 3);
+  const Eigen::VectorXd y = a * Eigen::Vector2d(5.0, 0.3), deviation = Eigen::VectorXd::Ones(9);
+  const LinearModel model(a, y, deviation, {parameter(1.0, -2.0, 2.0), parameter(1.0, -2.0, 2.0)});
+  const PosteriorMode mode = find_mode(model, std::vector{0.0, 0.0}, to_the_end());
+  ASSERT_DOUBLE_EQ(mode.x[0], 2.0);
+  const LinearProblem problem = linear_problem(mode);
+  EXPECT_TRUE(problem.columns.col(0).isZero(0.0));
+  EXPECT_EQ(problem.columns.col(1), mode.white_jacobian.col(1));
+  EXPECT_LT((problem.residuals - (y - 2.0 * a.col(0))).norm(), 1e-9);
+}
+
+TEST(LinearProblem, FreesWhatIsAtItsBoundButDrawnInwards) {
+  const Eigen::MatrixXd a = random_matrix(9, 1, 3);
+  const Eigen::VectorXd y = 1.0 * a, deviation = Eigen::VectorXd::Ones(9);
+  const LinearModel model(a, y, deviation, {parameter(1.0, -2.0, 2.0)});
+  FitOptions not_moved = to_the_end();
+  not_moved.max_iterations = 0;
+  const PosteriorMode mode = find_mode(model, std::vector{2.0}, not_moved);
+  EXPECT_TRUE(mode.held.empty());
+  EXPECT_LT((linear_problem(mode).residuals - y).norm(), 1e-9) << "its part is put back";
+}
+
 TEST(BoundedStep, StaysWhereEverythingIsAtItsBound) {
   const Eigen::Matrix2d h = Eigen::Matrix2d::Identity();
   const Eigen::VectorXd step =

@@ -55,10 +55,10 @@ class Hypothesis {
   std::span<const EffectVariant> effects() const { return effects_; }
   std::size_t nuisance_count() const { return nuisances_; }
   std::vector<double> neutral() const;
-  // Of the library's effects; causes from outside have none.
   // The prior's precision in deviations from the neutral values; empty: all parameters are independent, of
   // deviation 1. It is not where reference drives have told of the nuisances.
   const Eigen::MatrixXd& prior_precision() const { return prior_precision_; }
+  // Of the library's effects; causes from outside have none.
   std::vector<sim::EffectSetting> settings(std::span<const double> x) const;
   // The values of all fields of a cause from outside that is among the effects.
   OutsideValues outside_values(std::string_view cause, std::span<const double> x) const;

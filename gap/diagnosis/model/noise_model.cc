@@ -45,6 +45,11 @@ std::size_t NoiseModel::used_count() const {
   return static_cast<std::size_t>(std::count(used_.begin(), used_.end(), true));
 }
 
+void NoiseModel::respond(const Eigen::MatrixXd& to_soil, std::vector<double> expected) {
+  response_.leftCols(to_soil.cols()) = to_soil;
+  expected_ = std::move(expected);
+}
+
 void NoiseModel::set(const NoiseScales& scales, std::size_t threads) {
   scales_ = scales;
   deviation_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(used_.size()));

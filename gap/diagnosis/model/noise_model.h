@@ -46,6 +46,10 @@ class NoiseModel {
   NoiseModel(const WindowModel& model, Eigen::MatrixXd response, std::vector<double> expected,
              std::vector<bool> used, const NoiseOptions& options = {});
 
+  // Takes the derivatives by the soil's three logarithms (observations x 3) and the values of another fit:
+  // what a soil's scatter does to a rover whose wheel drags, or on another soil, is not what it does to the
+  // nominal rover. Counts from the next set() on.
+  void respond(const Eigen::MatrixXd& to_soil, std::vector<double> expected);
   void set(const NoiseScales& scales, std::size_t threads = 1);
   const NoiseScales& scales() const { return scales_; }
   // Finds the scales that make the residuals most likely, everything that `systematic` columns (prior

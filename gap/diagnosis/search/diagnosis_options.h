@@ -174,6 +174,9 @@ struct VerdictOptions {
   int max_unexplained_shapes = 5;  // parts of what is unexplained that are described
   bool name_by_marginals = true;   // see naming.h; without it an unknown cause hides all names
   double min_closed_share = 0.05;  // of the held-out gap: an effect with less is not named
+  // But beside one that closes more, which leaves little to close, from this marginal probability on: what is
+  // more probable than not.
+  double min_probability_closing_little = 0.5;
   // Beside something unknown an effect is named from this marginal probability and this share on.
   double min_partial_probability = 0.9;
   double min_partial_share = 0.5;

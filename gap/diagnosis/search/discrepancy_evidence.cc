@@ -18,15 +18,13 @@ Eigen::MatrixXd both(const Eigen::MatrixXd& known, const Eigen::MatrixXd& white,
 // of the latter two: products of columns are taken once for all sizes.
 class SizedMarginal {
  public:
-  SizedMarginal(const PosteriorMode& fit, const Eigen::MatrixXd& form, const Eigen::MatrixXd& term)
-      : known_(fit.white_jacobian.cols()),
-        form_(form.cols()),
-        residual_square_(fit.white_linear.squaredNorm()) {
-    Eigen::MatrixXd all(fit.white_jacobian.rows(), known_ + form_ + term.cols());
-    all << fit.white_jacobian, form, term;
+  SizedMarginal(const LinearProblem& fit, const Eigen::MatrixXd& form, const Eigen::MatrixXd& term)
+      : known_(fit.columns.cols()), form_(form.cols()), residual_square_(fit.residuals.squaredNorm()) {
+    Eigen::MatrixXd all(fit.columns.rows(), known_ + form_ + term.cols());
+    all << fit.columns, form, term;
     squares_ = Eigen::MatrixXd::Zero(all.cols(), all.cols());
     squares_.selfadjointView<Eigen::Lower>().rankUpdate(all.transpose());
-    products_ = all.transpose() * fit.white_linear;
+    products_ = all.transpose() * fit.residuals;
   }
 
   double operator()(double form_size, double term_size) const {
@@ -71,7 +69,7 @@ DiscrepancyGain discrepancy_gain(const PosteriorMode& fit, const Eigen::MatrixXd
                                  const Eigen::MatrixXd& form, const DiscrepancyOptions& options,
                                  const Cancelled& cancelled) {
   if (cancelled()) return {};
-  const SizedMarginal marginal(fit, form, term);
+  const SizedMarginal marginal(linear_problem(fit), form, term);
   const double without = marginal(0.0, 0.0);
   std::vector<double> imprecise, other;
   for_sizes(form.cols() > 0, options, [&](bool something_else, double exact, double size) {
@@ -96,7 +94,8 @@ Eigen::MatrixXd columns_beside(const PosteriorMode& fit, const Eigen::MatrixXd& 
                                const Eigen::MatrixXd& form, bool something_else,
                                const DiscrepancyOptions& options, const Cancelled& cancelled) {
   if (cancelled()) return fit.white_jacobian;
-  const SizedMarginal marginal(fit, form, term);
+  const LinearProblem linear = linear_problem(fit);
+  const SizedMarginal marginal(linear, form, term);
   double most = -std::numeric_limits<double>::infinity(), best_exact = 0.0, best_size = 0.0;
   for_sizes(form.cols() > 0, options, [&](bool else_too, double exact, double size) {
     if (cancelled()) return false;
@@ -108,13 +107,13 @@ Eigen::MatrixXd columns_beside(const PosteriorMode& fit, const Eigen::MatrixXd& 
     }
     return true;
   });
-  return both(both(fit.white_jacobian, form, best_exact), term, best_size);
+  return both(both(linear.columns, form, best_exact), term, best_size);
 }
 
 double most_probable_size(const PosteriorMode& fit, const Eigen::MatrixXd& term,
                           std::span<const double> sizes, const Cancelled& cancelled) {
   if (cancelled()) return sizes.front();
-  const SizedMarginal marginal(fit, Eigen::MatrixXd(term.rows(), 0), term);
+  const SizedMarginal marginal(linear_problem(fit), Eigen::MatrixXd(term.rows(), 0), term);
   double best = -std::numeric_limits<double>::infinity();
   double size = sizes.front();
   for (const double s : sizes) {
@@ -130,11 +129,12 @@ double most_probable_size(const PosteriorMode& fit, const Eigen::MatrixXd& term,
 DiscrepancyEstimate estimate_discrepancy(const PosteriorMode& fit, const Eigen::MatrixXd& term,
                                          const DiscrepancyOptions& options, const Cancelled& cancelled) {
   const double size = most_probable_size(fit, term, options.sizes, cancelled);
-  const Eigen::MatrixXd columns = both(fit.white_jacobian, term, size);
+  const LinearProblem linear = linear_problem(fit);
+  const Eigen::MatrixXd columns = both(linear.columns, term, size);
   Eigen::MatrixXd hessian = columns.transpose() * columns;
   hessian.diagonal().array() += 1.0;
   const Eigen::LLT<Eigen::MatrixXd> factor(hessian);
-  const Eigen::VectorXd all = factor.solve(columns.transpose() * fit.white_linear);
+  const Eigen::VectorXd all = factor.solve(columns.transpose() * linear.residuals);
   const Eigen::MatrixXd covariance = factor.solve(Eigen::MatrixXd::Identity(columns.cols(), columns.cols()));
   return {size * all.tail(term.cols()), size * covariance.diagonal().tail(term.cols()).cwiseSqrt()};
 }

@@ -117,14 +117,14 @@ struct EntryResponse {
   Eigen::VectorXd response;
 };
 
-// Of forces, loads and the ground: by the columns of a hypothesis with the levers behind its nuisances.
+// Of forces, loads and the ground: by the columns of a hypothesis with the levers as its last effects.
 std::vector<EntryResponse> force_responses(const Hypothesis& probe, const Eigen::MatrixXd& jacobian) {
-  const auto nuisances = static_cast<Eigen::Index>(probe.nuisance_count());
   std::vector<EntryResponse> responses;
   for (std::size_t k = 0; k < kLeverEntries.size(); ++k)
-    responses.push_back({kLeverEntries[k], -1, jacobian.col(nuisances + static_cast<Eigen::Index>(k))});
+    responses.push_back(
+        {kLeverEntries[k], -1, jacobian.rightCols(kLevers).col(static_cast<Eigen::Index>(k))});
   Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(jacobian.rows());
-  for (Eigen::Index p = 0; p < nuisances; ++p)
+  for (Eigen::Index p = 0; p < static_cast<Eigen::Index>(probe.nuisance_count()); ++p)
     if (probe.parameters()[static_cast<std::size_t>(p)].quantity == SoilQuantity::kStiffness)
       stiffness += jacobian.col(p);
   responses.push_back({Entry::kPressureSinkage, -1, std::move(stiffness)});
@@ -234,8 +234,11 @@ Eigen::MatrixXd lever_responses(const DriveCampaign& campaign, const WindowModel
 DiscrepancyTerm make_discrepancy_term(const DriveCampaign& campaign, const WindowModel& model,
                                       const FittedExplanation& fit, const DiscrepancyOptions& options,
                                       std::size_t threads) {
-  const Hypothesis probe(campaign, levers(options));
-  std::vector<double> x(fit.x.begin(), fit.x.begin() + static_cast<std::ptrdiff_t>(probe.nuisance_count()));
+  // A force does something else to a rover whose wheel drags than to the nominal one.
+  std::vector<EffectVariant> effects(fit.hypothesis.effects().begin(), fit.hypothesis.effects().end());
+  for (EffectVariant& lever : levers(options)) effects.push_back(std::move(lever));
+  const Hypothesis probe(campaign, std::move(effects));
+  std::vector<double> x = fit.x;
   const std::vector<double> neutral = probe.neutral();
   x.insert(x.end(), neutral.begin() + static_cast<std::ptrdiff_t>(x.size()), neutral.end());
   const Eigen::MatrixXd jacobian = probe.scaled_jacobian(model, x, threads);
@@ -293,9 +296,11 @@ Eigen::MatrixXd form_columns(const DriveCampaign& campaign, const WindowModel& m
         return o.channel == static_cast<Channel>(c) ? 1.0 : 0.0;
       });
     for (int a = 0; a <= *std::max_element(axle_of.begin(), axle_of.end()); ++a)
-      add([&](std::size_t, const Observation& o) {
-        return o.wheel >= 0 && axle_of[static_cast<std::size_t>(o.wheel)] == a ? 1.0 : 0.0;
-      });
+      for (std::size_t c = 0; c < channel_count(); ++c)
+        add([&](std::size_t, const Observation& o) {
+          const bool there = o.wheel >= 0 && axle_of[static_cast<std::size_t>(o.wheel)] == a;
+          return there && o.channel == static_cast<Channel>(c) ? 1.0 : 0.0;
+        });
   }
   return fit.row_weights.asDiagonal() *
          noise.whiten(side_by_side(static_cast<Eigen::Index>(with.size()), columns));

@@ -102,6 +102,7 @@ std::vector<ScreenedEffect> screen_effects(const DriveCampaign& campaign, const 
                                            std::span<const EffectVariant> variants,
                                            const DiscrepancyOptions& options, std::size_t threads) {
   Known known;
+  const LinearProblem linear = linear_problem(fit);
   known.basis = orthonormal_basis(fit.white_jacobian(Eigen::all, retuned_columns(fit)));
   if (fit.hypothesis.prior_precision().size() > 0) {
     known.believed = fit.white_jacobian;
@@ -111,9 +112,9 @@ std::vector<ScreenedEffect> screen_effects(const DriveCampaign& campaign, const 
   }
   known.predicted = fit.hypothesis.predict(model, fit.x, threads);
   // The fit's columns with those of the discrepancy term.
-  Eigen::MatrixXd columns(fit.white_jacobian.rows(), fit.white_jacobian.cols() + discrepancy.values.cols());
-  columns << fit.white_jacobian, options.imprecision * whitened(fit, noise, discrepancy);
-  const KnownColumns fitted(fit.white_linear, columns);
+  Eigen::MatrixXd columns(linear.columns.rows(), linear.columns.cols() + discrepancy.values.cols());
+  columns << linear.columns, options.imprecision * whitened(fit, noise, discrepancy);
+  const KnownColumns fitted(linear.residuals, columns);
   std::vector<ScreenedEffect> all(variants.size());
   parallel_for(variants.size(), threads, [&](std::size_t v) {
     if (model.cancelled()) return;

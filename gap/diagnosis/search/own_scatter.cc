@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "gap/diagnosis/search/prepared_campaign.h"
 #include "gap/diagnosis/search/soft_patch_search.h"
 
 namespace slipway::gap {
@@ -53,6 +54,7 @@ class ScatterSearch {
   }
 
   void estimate_beside(const FittedExplanation& fit, double discrepancy_size) {
+    scatter_around(fit, model_, own_);
     Eigen::MatrixXd systematic(fit.jacobian.rows(), fit.jacobian.cols() + discrepancy_.values.cols());
     systematic << fit.jacobian, discrepancy_size * discrepancy_.values;
     own_.estimate(fit.residuals + fit.jacobian * in_prior_units(fit.hypothesis.parameters(), fit.x),

@@ -127,7 +127,10 @@ class ModeSearch {
     mode.row_weights = weights_.cwiseSqrt();
     mode.white_jacobian = mode.row_weights.asDiagonal() * columns_;
     mode.white_linear = mode.row_weights.asDiagonal() * (at_.white + columns_ * at_.u);
-    if (precision_.size() > 0) mode.white_jacobian *= prior_root(precision_);
+    if (precision_.size() > 0)
+      mode.white_jacobian *= prior_root(precision_);
+    else
+      mode.held = held();
     mode.log_evidence = laplace_log_evidence(at_.cost, covariance_, model_.parameters(), precision_);
     mode.x = std::move(at_.x);
     mode.residuals = std::move(at_.residuals);
@@ -135,6 +138,19 @@ class ModeSearch {
     mode.covariance = std::move(covariance_);
     mode.converged = converged_;
     return mode;
+  }
+
+  std::vector<std::pair<Eigen::Index, double>> held() const {
+    const auto parameters = model_.parameters();
+    const Eigen::VectorXd towards = columns_.transpose() * weights_.cwiseProduct(at_.white) - at_.u;
+    std::vector<std::pair<Eigen::Index, double>> found;
+    for (std::size_t p = 0; p < parameters.size(); ++p) {
+      const auto i = static_cast<Eigen::Index>(p);
+      if ((at_.x[p] <= parameters[p].lowest && towards[i] < 0.0) ||
+          (at_.x[p] >= parameters[p].highest && towards[i] > 0.0))
+        found.emplace_back(i, at_.u[i]);
+    }
+    return found;
   }
 
   const FittedModel& model_;
@@ -235,6 +251,15 @@ double laplace_log_evidence(double cost, const Eigen::MatrixXd& covariance,
         (parameter.lowest == parameter.neutral || parameter.highest == parameter.neutral))
       log_evidence += std::log(2.0);
   return log_evidence;
+}
+
+LinearProblem linear_problem(const PosteriorMode& mode) {
+  LinearProblem problem{mode.white_linear, mode.white_jacobian};
+  for (const auto& [parameter, u] : mode.held) {
+    problem.residuals -= u * mode.white_jacobian.col(parameter);
+    problem.columns.col(parameter).setZero();
+  }
+  return problem;
 }
 
 PosteriorMode find_mode(const FittedModel& model, std::span<const double> start, const FitOptions& options,

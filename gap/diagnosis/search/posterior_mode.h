@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "gap/diagnosis/model/hypothesis.h"
@@ -54,7 +55,19 @@ struct PosteriorMode {
   Eigen::MatrixXd covariance;   // of (x - neutral) over the prior deviations
   double log_evidence = 0.0;    // of the drives, up to a constant common to all explanations
   bool converged = false;
+  // Parameters that a bound holds where the drives would move them beyond it, with their u. None with a prior
+  // precision, whose directions have no bounds of their own.
+  std::vector<std::pair<Eigen::Index, double>> held;
 };
+
+// The whitened linear problem around a mode in which held parameters stay where they are: their part of the
+// predictions is not put back into the residuals, and their columns are 0. A linear problem in which they
+// could go on would explain by them what only an effect can.
+struct LinearProblem {
+  Eigen::VectorXd residuals;
+  Eigen::MatrixXd columns;
+};
+LinearProblem linear_problem(const PosteriorMode& mode);
 
 // The mode nearest to `start`. Rows of `fitted_rows` alone weigh (empty: all).
 PosteriorMode find_mode(const FittedModel& model, std::span<const double> start, const FitOptions& options,

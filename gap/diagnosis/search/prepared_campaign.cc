@@ -87,6 +87,20 @@ std::optional<Fault> too_many(std::span<const DriveWindow> windows, const Diagno
                   observations, windows.size(), most, 0.5 * times * options.windows.length_m, times)};
 }
 
+// Derivatives by the three logarithms that scatter, of all soils together.
+Eigen::MatrixXd soil_response(const Hypothesis& hypothesis, const Eigen::MatrixXd& jacobian) {
+  constexpr std::array kScattered{SoilQuantity::kStiffness, SoilQuantity::kFriction,
+                                  SoilQuantity::kShearModulus};
+  Eigen::MatrixXd response = Eigen::MatrixXd::Zero(jacobian.rows(), kScattered.size());
+  const auto parameters = hypothesis.parameters();
+  for (std::size_t p = 0; p < parameters.size(); ++p)
+    for (std::size_t k = 0; k < kScattered.size(); ++k)
+      if (parameters[p].quantity == kScattered[k])
+        response.col(static_cast<Eigen::Index>(k)) +=
+            jacobian.col(static_cast<Eigen::Index>(p)) / parameters[p].std;
+  return response;
+}
+
 NoiseOptions noise_options_of(const DriveCampaign& campaign, const DiagnosisOptions& options) {
   NoiseOptions noise = options.noise;
   if (!campaign.reference) return noise;
@@ -113,17 +127,14 @@ std::unique_ptr<WindowModel> window_model_of(const DriveCampaign& campaign,
 
 Eigen::MatrixXd scatter_response(const Hypothesis& hypothesis, const Eigen::MatrixXd& jacobian,
                                  const Eigen::MatrixXd& levers) {
-  constexpr std::array kScattered{SoilQuantity::kStiffness, SoilQuantity::kFriction,
-                                  SoilQuantity::kShearModulus};
-  Eigen::MatrixXd response = Eigen::MatrixXd::Zero(jacobian.rows(), kScattered.size() + 4);
-  response.rightCols(4) = levers.leftCols(4);
-  const auto parameters = hypothesis.parameters();
-  for (std::size_t p = 0; p < parameters.size(); ++p)
-    for (std::size_t k = 0; k < kScattered.size(); ++k)
-      if (parameters[p].quantity == kScattered[k])
-        response.col(static_cast<Eigen::Index>(k)) +=
-            jacobian.col(static_cast<Eigen::Index>(p)) / parameters[p].std;
+  Eigen::MatrixXd response(jacobian.rows(), 7);
+  response << soil_response(hypothesis, jacobian), levers.leftCols(4);
   return response;
+}
+
+void scatter_around(const FittedExplanation& fit, const WindowModel& model, NoiseModel& noise) {
+  const Eigen::VectorXd expected = measured(model) - fit.residuals;
+  noise.respond(soil_response(fit.hypothesis, fit.jacobian), {expected.begin(), expected.end()});
 }
 
 std::size_t PreparedCampaign::used_windows() const {
@@ -146,6 +157,7 @@ void prepare_around(PreparedCampaign& prepared, const DriveCampaign& campaign, c
   Eigen::MatrixXd systematic(retuned.rows(),
                              retuned.cols() + left.cols() + prepared.discrepancy.values.cols());
   systematic << retuned, left, prepared.discrepancy.values;
+  scatter_around(found, *prepared.model, *prepared.noise);
   prepared.noise->estimate(
       found.residuals + found.jacobian * in_prior_units(found.hypothesis.parameters(), found.x), systematic,
       threads);

@@ -25,6 +25,10 @@ std::unique_ptr<WindowModel> window_model_of(const DriveCampaign& campaign,
 Eigen::MatrixXd scatter_response(const Hypothesis& hypothesis, const Eigen::MatrixXd& jacobian,
                                  const Eigen::MatrixXd& levers);
 
+// Lets soils scatter as they do around a fit, with its effects at work. Takes effect with the noise's next
+// scales.
+void scatter_around(const FittedExplanation& fit, const WindowModel& model, NoiseModel& noise);
+
 // A campaign cut into windows, the null fitted to it, and what its drives scatter by.
 struct PreparedCampaign {
   std::vector<DriveWindow> windows;

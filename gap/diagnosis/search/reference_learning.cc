@@ -208,11 +208,7 @@ Result<LearntReference> learn_reference(const DriveCampaign& reference, const Di
   if (!prepared) return fail(prepared.error());
   LearntReference learnt;
   learnt.prepared = std::move(*prepared);
-  const Hypothesis& hypothesis = learnt.prepared.null->hypothesis;
-  learnt.names = names_with_soils(hypothesis, reference);
-  learnt.deviation.resize(static_cast<Eigen::Index>(hypothesis.nuisance_count()));
-  for (std::size_t p = 0; p < hypothesis.nuisance_count(); ++p)
-    learnt.deviation[static_cast<Eigen::Index>(p)] = hypothesis.parameters()[p].std;
+  learnt.names = names_with_soils(learnt.prepared.null->hypothesis, reference);
   Learner learner(reference, options, learnt);
   for (int round = 0; round < options.reference.rounds; ++round) {
     if (progress.cancelled()) return fail(ErrorCode::kCancelled, "the diagnosis was cancelled");

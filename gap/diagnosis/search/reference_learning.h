@@ -18,9 +18,9 @@ namespace slipway::gap {
 // deviations and B those of the coefficients, both whitened, the belief of (u, b) given the drives is normal
 // with precision [A B]^T [A B] + 1.
 struct LearntReference {
-  PreparedCampaign prepared;        // of the reference drives; refers to the campaign that was learnt from
-  std::vector<std::string> names;   // of its nuisances; a soil's has the soil's name behind
-  Eigen::VectorXd mean, deviation;  // x, and the prior deviations of its campaign
+  PreparedCampaign prepared;       // of the reference drives; refers to the campaign that was learnt from
+  std::vector<std::string> names;  // of its nuisances; a soil's has the soil's name behind
+  Eigen::VectorXd mean;            // x
   Eigen::VectorXd coefficients;
   Eigen::MatrixXd covariance;  // of (u, b)
   SmoothScale scale;

@@ -53,7 +53,7 @@ Running running_of(const ExplanationSearch& search, const PreparedCampaign& prep
         form_columns(campaign, model, *prepared.noise, fit, options.discrepancy, options.search.threads);
     running.candidates.push_back(c);
     running.evidence.emplace_back(
-        fit.white_linear,
+        linear_problem(fit).residuals,
         columns_beside(fit, whitened(fit, *prepared.noise, prepared.discrepancy), form, c.with_unknown,
                        options.discrepancy, [&] { return model.cancelled(); }),
         group_of_row, drives.group_count);

@@ -102,7 +102,8 @@ PatchSearch search_soft_patches(const sim::Effect& effect, const DriveCampaign& 
   const std::optional<sim::Disc> all = whole_map(windows);
   if (!all) return search;
   const Eigen::VectorXd response = weaker_everywhere(campaign, model, fit, effect, *all);
-  const KnownColumns fitted(fit.white_linear, fit.white_jacobian);
+  const LinearProblem linear = linear_problem(fit);
+  const KnownColumns fitted(linear.residuals, linear.columns);
   std::vector<ScoredDisc> discs;
   for (std::size_t w = 0; w < windows.size(); ++w) {
     if (model.cancelled()) return search;
