@@ -226,7 +226,7 @@ WithheldScore score_withheld(const HiddenAnswer& answer, const std::string& with
   // A partial answer names the others that are hidden, if any, and says that something is beside them.
   score.unknown = d.verdict == Verdict::kUnknown ||
                   (d.partial && std::includes(others.begin(), others.end(), named.begin(), named.end()));
-  score.absorbed = names_nothing(d.verdict);
+  score.absorbed = names_nothing(d.verdict) || (names_effects(d.verdict) && !d.partial && named == others);
   score.look_alike = names_effects(d.verdict) && exchanged(open, found, answer.effects);
   score.declared = score.absorbed && all_like_parameters(open, {withheld});
   return score;

@@ -80,7 +80,7 @@ struct WithheldScore {
   std::string campaign, withheld, verdict, found, fidelity;
   // unknown: something is said to be unexplained, and no effect is named that is not hidden too.
   bool unknown = false, look_alike = false,
-       absorbed = false;  // absorbed: "parameters", "no_gap", "not_detected"
+       absorbed = false;  // absorbed: nothing is said to be missing, or only what is hidden besides
   // Absorbed by parameters of which the diagnosis with the whole library says that these drives do not tell
   // them from the effect.
   bool declared = false;

@@ -42,9 +42,10 @@ std::size_t of_weight(const ExplanationSearch& search, std::size_t chosen,
     if (closed_share(cause) >= options.min_closed_share) kept.insert(cause);
   const bool beside_one_of_weight = !kept.empty();
   for (const EffectMarginal& m : marginals)
-    if (beside_one_of_weight && m.probability > options.min_probability_closing_little &&
-        std::find(first.effects.begin(), first.effects.end(), m.name) != first.effects.end())
-      kept.insert(m.name);
+    if (beside_one_of_weight && (m.closed_share >= options.min_share_beside_effect ||
+                                 m.probability >= options.min_probability_closing_little))
+      if (std::find(first.effects.begin(), first.effects.end(), m.name) != first.effects.end())
+        kept.insert(m.name);
   for (std::size_t c = 0; c < search.candidates.size(); ++c)
     if (!search.candidates[c].with_unknown && set_of(search.candidates[c].effects) == kept) return c;
   return chosen;  // their sum was not compared without the others

@@ -14,6 +14,7 @@ ScreenedVariant screened(const std::string& effect, const Eigen::Vector3d& signa
   ScreenedVariant s;
   s.variant.effect = effect;
   s.signature = signature;
+  s.reach = signature.normalized();
   s.kept_share = kept_share;
   s.visibility = visibility;
   s.taken_by = {1};
@@ -35,7 +36,7 @@ TEST(LookAlikes, ArePairsWithNearlyParallelTracesOfEffectsAndOfCausesFromOutside
   const ExplanationSearch search = search_of({screened("grousers", {10.0, 0.0, 0.0}, 0.9, 20.0),
                                               screened("wheel_radius", {10.0, 1.0, 0.0}, 0.9, 20.0),
                                               screened("attitude_bias", {0.0, 0.0, 5.0}, 0.9, 20.0)},
-                                             {screened("pull_along_travel", {0.0, 0.5, -5.0}, 0.9, 20.0)});
+                                             {screened("pull_along_travel", {0.0, 0.6, -5.0}, 0.9, 20.0)});
   ASSERT_EQ(confusable_pairs(search, {}).size(), 1U);
   EXPECT_NEAR(confusable_pairs(search, {}).front().angle_deg, 5.71, 0.01);
   const std::vector<LookAlike> alike = look_alikes(search, {});
@@ -45,6 +46,23 @@ TEST(LookAlikes, ArePairsWithNearlyParallelTracesOfEffectsAndOfCausesFromOutside
   EXPECT_EQ(alike[1].like, "grousers");
   EXPECT_EQ(alike[2].effect, "attitude_bias");
   EXPECT_EQ(alike[2].like, "pull_along_travel");
+}
+
+// One field alone is 45 deg away from the other effect's trace; both together are that trace.
+TEST(LookAlikes, CountAllFieldsOfTheOtherEffectAndAllItsVariants) {
+  ScreenedVariant steering = screened("steering_offset", {0.0, 0.0, 9.0}, 0.9, 20.0);
+  ScreenedVariant grousers = screened("grousers", {10.0, 0.0, 0.0}, 0.9, 20.0);
+  grousers.reach = Eigen::MatrixXd::Identity(3, 2);
+  ScreenedVariant other_way = screened("steering_offset", {1.0, 1.0, 0.0}, 0.9, 20.0);
+  const ScreenedVariant radius = screened("wheel_radius", {7.0, 7.0, 0.0}, 0.9, 20.0);
+  const std::vector<LookAlike> alike =
+      look_alikes(search_of({radius, grousers, steering, other_way}, {}), {});
+  ASSERT_EQ(alike.size(), 2U) << "neither looks grousers like a radius, nor steering";
+  for (const LookAlike& of : alike) {
+    EXPECT_EQ(of.effect, "wheel_radius");
+    EXPECT_NEAR(of.angle_deg, 0.0, 1e-4);
+  }
+  EXPECT_EQ(confusable_pairs(search_of({radius, grousers}, {}), {}).size(), 1U);
 }
 
 TEST(LookAlikes, AreParametersWhereTheseDrivesWouldNotHaveShownTheEffectBesideThem) {

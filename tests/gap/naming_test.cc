@@ -64,7 +64,7 @@ TEST(Naming, NamesNothingBesideAnUnknownCauseThatIsUncertainOrClosesLittle) {
 TEST(Naming, LeavesOutWhatClosesNextToNothing) {
   const ExplanationSearch search = search_of(
       {candidate({"grousers", "hardpan"}, 0.48), candidate({}, 0.30), candidate({"grousers"}, 0.22)});
-  const Naming naming = named(search, {{"grousers", 0.70, 0.9}, {"hardpan", 0.48, 0.02}});
+  const Naming naming = named(search, {{"grousers", 0.70, 0.9}, {"hardpan", 0.48, 0.002}});
   EXPECT_EQ(naming.effects, std::vector<std::string>{"grousers"});
   EXPECT_FALSE(naming.partial);
   EXPECT_EQ(naming.candidate, 2U) << "fitted without it";
@@ -76,11 +76,14 @@ TEST(Naming, LeavesOutWhatClosesNextToNothing) {
 // A sunk centre of mass is most of a gap; the slip sinkage beside it is sure all the same.
 TEST(Naming, KeepsWhatIsSureBesideAnEffectThatClosesNearlyAll) {
   const ExplanationSearch search =
-      search_of({candidate({"com_offset", "slip_sinkage"}, 0.6), candidate({"com_offset"}, 0.4)});
-  EXPECT_EQ(named(search, {{"com_offset", 1.0, 0.98}, {"slip_sinkage", 0.6, 0.01}}).effects,
-            (std::vector<std::string>{"com_offset", "slip_sinkage"}));
-  EXPECT_EQ(named(search, {{"com_offset", 1.0, 0.98}, {"slip_sinkage", 0.45, 0.01}}).effects,
-            std::vector<std::string>{"com_offset"});
+      search_of({candidate({"com_offset", "slip_sinkage"}, 0.7), candidate({"com_offset"}, 0.3)});
+  const std::vector<std::string> one{"com_offset"}, both{"com_offset", "slip_sinkage"};
+  const auto beside = [&](double probability, double share) {
+    return named(search, {{"com_offset", 1.0, 0.98}, {"slip_sinkage", probability, share}}).effects;
+  };
+  EXPECT_EQ(beside(0.7, 0.001), both) << "it is sure";
+  EXPECT_EQ(beside(0.6, 0.02), both) << "it closes a part of what little is left";
+  EXPECT_EQ(beside(0.6, 0.001), one);
 }
 
 TEST(Naming, TakesTheParametersFromTheExplanationWithTheForceAndCorrectsByTheEffectAlone) {

@@ -24,8 +24,14 @@ std::vector<const ScreenedVariant*> first_of_each(std::span<const ScreenedVarian
   return first;
 }
 
-double angle_deg(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-  return kDegPerRad * std::acos(std::min(1.0, std::abs(a.dot(b)) / (a.norm() * b.norm())));
+// The least angle from a trace to what `cause` could look like, in any of its variants.
+double angle_deg(const Eigen::VectorXd& trace, std::span<const ScreenedVariant> screened,
+                 const std::string& cause) {
+  double most = 0.0;
+  for (const ScreenedVariant& s : screened)
+    if (s.variant.effect == cause && s.reach.size() > 0)
+      most = std::max(most, (s.reach.transpose() * trace).norm() / trace.norm());
+  return kDegPerRad * std::acos(std::min(1.0, most));
 }
 
 }  // namespace
@@ -35,9 +41,10 @@ std::vector<ConfusablePair> confusable_pairs(const ExplanationSearch& search, co
   std::vector<ConfusablePair> pairs;
   for (std::size_t a = 0; a < first.size(); ++a)
     for (std::size_t b = a + 1; b < first.size(); ++b) {
-      const double angle = angle_deg(first[a]->signature, first[b]->signature);
-      if (angle < options.max_angle_deg)
-        pairs.push_back({first[a]->variant.effect, first[b]->variant.effect, angle});
+      const std::string &one = first[a]->variant.effect, &other = first[b]->variant.effect;
+      const double angle = std::min(angle_deg(first[a]->signature, search.screened, other),
+                                    angle_deg(first[b]->signature, search.screened, one));
+      if (angle < options.max_angle_deg) pairs.push_back({one, other, angle});
     }
   std::stable_sort(pairs.begin(), pairs.end(), [](const ConfusablePair& a, const ConfusablePair& b) {
     return a.angle_deg < b.angle_deg;
@@ -47,16 +54,19 @@ std::vector<ConfusablePair> confusable_pairs(const ExplanationSearch& search, co
 
 std::vector<LookAlike> look_alikes(const ExplanationSearch& search, const VerdictOptions& options) {
   std::vector<LookAlike> alike;
-  for (const ConfusablePair& pair : confusable_pairs(search, options)) {
-    alike.push_back({pair.a, pair.b, {}, pair.angle_deg});
-    alike.push_back({pair.b, pair.a, {}, pair.angle_deg});
+  const std::vector<const ScreenedVariant*> effects = first_of_each(search.screened, options);
+  const auto compare = [&](const ScreenedVariant& effect, const ScreenedVariant& other,
+                           std::span<const ScreenedVariant> among) {
+    const double angle = angle_deg(effect.signature, among, other.variant.effect);
+    if (angle < options.max_angle_deg)
+      alike.push_back({effect.variant.effect, other.variant.effect, {}, angle});
+  };
+  for (const ScreenedVariant* effect : effects) {
+    for (const ScreenedVariant* other : effects)
+      if (other != effect) compare(*effect, *other, search.screened);
+    for (const ScreenedVariant* outside : first_of_each(search.screened_outside, options))
+      compare(*effect, *outside, search.screened_outside);
   }
-  for (const ScreenedVariant* effect : first_of_each(search.screened, options))
-    for (const ScreenedVariant* outside : first_of_each(search.screened_outside, options)) {
-      const double angle = angle_deg(effect->signature, outside->signature);
-      if (angle < options.max_angle_deg)
-        alike.push_back({effect->variant.effect, outside->variant.effect, {}, angle});
-    }
   std::vector<std::string> seen;  // effects of which one variant would surely have shown
   for (const ScreenedVariant& s : search.screened)
     if (s.visibility >= options.surely_seen) seen.push_back(s.variant.effect);

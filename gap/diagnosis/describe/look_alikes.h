@@ -8,12 +8,13 @@
 
 namespace slipway::gap {
 
-// Effects of the library whose traces lie within VerdictOptions::max_angle_deg of each other, re-tuning
-// projected out, the nearest first.
+// Effects of the library that these drives hardly tell apart, the nearest first: the trace of one lies within
+// VerdictOptions::max_angle_deg of what the other could look like, by all of its fields and in any of its
+// variants, re-tuning projected out.
 std::vector<ConfusablePair> confusable_pairs(const ExplanationSearch& search, const VerdictOptions& options);
 
-// The class of each effect: what it can't be told from by these drives. A pair of effects is of one class
-// where it is confusable, an effect and a cause from outside by the same angle. An effect is of the class of
+// The class of each effect: what it can't be told from by these drives, as the other effect or a cause from
+// outside could look like its trace, by the same angle. An effect is of the class of
 // the re-tuned parameters where these drives would not surely have shown it at its usual size beside them
 // (VerdictOptions::surely_seen), the parameters taking most of its trace.
 std::vector<LookAlike> look_alikes(const ExplanationSearch& search, const VerdictOptions& options);

@@ -85,7 +85,7 @@ struct SoftPatchOptions {
 // Which effects are fitted, and which of their sets compete: see explanation_search.h.
 struct SearchOptions {
   std::vector<std::string> withheld;  // effects that are not looked for
-  int max_refitted = 8;               // effects that are fitted in full, which costs most
+  int max_refitted = 16;              // effects that are fitted in full, which costs most
   int max_variants = 2;               // of each of them
   int max_paired = 4;                 // of those, whose pairs are looked for
   int max_seconds = 3;                // of each of those
@@ -174,9 +174,10 @@ struct VerdictOptions {
   int max_unexplained_shapes = 5;  // parts of what is unexplained that are described
   bool name_by_marginals = true;   // see naming.h; without it an unknown cause hides all names
   double min_closed_share = 0.05;  // of the held-out gap: an effect with less is not named
-  // But beside one that closes more, which leaves little to close, from this marginal probability on: what is
-  // more probable than not.
-  double min_probability_closing_little = 0.5;
+  // Beside one that closes more, which leaves little to close: this share, or with less this marginal
+  // probability.
+  double min_share_beside_effect = 0.01;
+  double min_probability_closing_little = 0.65;
   // Beside something unknown an effect is named from this marginal probability and this share on.
   double min_partial_probability = 0.9;
   double min_partial_share = 0.5;

@@ -38,10 +38,15 @@ struct Known {
   Eigen::MatrixXd believed;
   Eigen::LLT<Eigen::MatrixXd> factor;
 
+  // What is left of responses when what re-tuning takes is taken out.
+  Eigen::MatrixXd beside_retuning(const Eigen::MatrixXd& responses) const {
+    return responses - basis * (basis.transpose() * responses);
+  }
+
   // Length of what is left of a response when what re-tuning takes is taken out; in every direction wholly
   // where nobody told how far it may go.
   double visibility(const Eigen::VectorXd& response) const {
-    if (believed.size() == 0) return (response - basis * (basis.transpose() * response)).norm();
+    if (believed.size() == 0) return beside_retuning(response).norm();
     const Eigen::VectorXd crossed = believed.transpose() * response;
     return std::sqrt(std::max(0.0, response.squaredNorm() - crossed.dot(factor.solve(crossed))));
   }
@@ -67,6 +72,14 @@ std::vector<std::size_t> largest_parts(const Eigen::MatrixXd& columns, const Eig
   return order;
 }
 
+// Fields that show by less than one deviation look like nothing.
+Eigen::MatrixXd reach_of(const Eigen::MatrixXd& columns) {
+  std::vector<Eigen::Index> shown;
+  for (Eigen::Index c = 0; c < columns.cols(); ++c)
+    if (columns.col(c).norm() >= 1.0) shown.push_back(c);
+  return orthonormal_basis(columns(Eigen::all, shown));
+}
+
 // A variant that is not in the fit.
 ScreenedEffect screened(std::size_t variant, const Hypothesis& with, const WindowModel& model,
                         const NoiseModel& noise, const FittedExplanation& fit, const Known& known,
@@ -85,7 +98,8 @@ ScreenedEffect screened(std::size_t variant, const Hypothesis& with, const Windo
   // What the found combination does; of one that is not there, the first field.
   Eigen::VectorXd direction = columns * found.estimate;
   if (found.estimate.squaredNorm() == 0.0) direction = columns.col(0);
-  effect.signature = direction - known.basis * (known.basis.transpose() * direction);
+  effect.signature = known.beside_retuning(direction);
+  effect.reach = reach_of(known.beside_retuning(columns));
   const double length = direction.norm();
   effect.taken_by =
       largest_parts(fit.white_jacobian.leftCols(static_cast<Eigen::Index>(fit.x.size())), direction);
@@ -121,7 +135,7 @@ std::vector<ScreenedEffect> screen_effects(const DriveCampaign& campaign, const 
     std::vector<EffectVariant> effects(fit.hypothesis.effects().begin(), fit.hypothesis.effects().end());
     if (std::any_of(effects.begin(), effects.end(),
                     [&](const EffectVariant& there) { return there.effect == variants[v].effect; })) {
-      all[v] = {v, kInTheFit, {}, {}, 0.0, 0.0, {}, {}};
+      all[v] = {v, kInTheFit, {}, {}, 0.0, 0.0, {}, {}, {}};
       return;
     }
     effects.push_back(variants[v]);

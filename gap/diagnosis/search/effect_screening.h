@@ -21,6 +21,7 @@ struct ScreenedEffect {
   Eigen::VectorXd signature;  // whitened response of the estimate, the fit's own directions projected out
   double kept_share = 0.0;    // of the response's length that is left then
   double visibility = 0.0;    // length of what its first field's prior deviation does, likewise
+  Eigen::MatrixXd reach;      // orthonormal: what its fields together could look like, whitened, likewise
   Eigen::MatrixXd columns;    // derivatives of every observation, by prior deviations
   // Of the fit's parameters, those whose own responses make up most of what the fit takes of the response,
   // the largest first.

@@ -197,8 +197,8 @@ class Searcher {
     }
     for (const ScreenedEffect& s : screened_)
       (is_outside(variants_[s.variant].effect) ? search_.screened_outside : search_.screened)
-          .push_back(
-              {variants_[s.variant], s.gain, s.signature, s.kept_share, s.visibility, s.columns, s.taken_by});
+          .push_back({variants_[s.variant], s.gain, s.signature, s.kept_share, s.visibility, s.reach,
+                      s.columns, s.taken_by});
   }
 
   // Variants that pairs are looked for among: all of the library, and of the causes from outside the best of

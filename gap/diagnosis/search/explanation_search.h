@@ -41,6 +41,7 @@ struct ScreenedVariant {
   Eigen::VectorXd signature;  // whitened response of its strongest field, nuisances projected out
   double kept_share = 0.0;    // of the signature's length that nuisances don't take
   double visibility = 0.0;  // length of what its first field's prior deviation does, nuisances projected out
+  Eigen::MatrixXd reach;    // see ScreenedEffect
   Eigen::MatrixXd columns;  // derivatives of every observation at the null, by prior deviations
   std::vector<std::size_t> taken_by;  // see ScreenedEffect
 };
