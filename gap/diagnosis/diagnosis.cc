@@ -147,9 +147,7 @@ class Diagnoser {
     VerdictOptions verdict = options_.verdict;
     if (campaign_.reference) {
       verdict.min_closed_share = std::max(verdict.min_closed_share, options_.reference.min_closed_share);
-      // What other physics leaves over beside an effect is none.
       verdict.min_share_beside_effect = verdict.min_closed_share;
-      verdict.min_probability_closing_little = 2.0;
     }
     naming_ = name_effects(
         search_, best_, d_.marginals, [&](const std::string& cause) { return shares.of(cause); }, verdict);

@@ -28,14 +28,13 @@ struct Naming {
 using ClosedShare = std::function<double(const std::string& cause)>;
 
 // Names by the marginal probabilities and the shares of the gap that go with the causes. A cause that closes
-// less than VerdictOptions::min_closed_share is left out of what was chosen, if the rest was compared; but
-// not an effect beside one that closes more, if it closes min_share_beside_effect or its marginal probability
-// is min_probability_closing_little at least. Where nothing unknown is among the rest, it is named. Where
-// something unknown is, an effect is named all the same whose marginal probability and share reach
-// min_partial_probability and min_partial_share; of several these must stand together in an explanation that
-// was compared. Where what was chosen is a cause from outside, so that the unknown has a known form, the
-// lower min_probability_beside_form and min_share_beside_form do, or min_probability_closing_most of an
-// effect that closes min_partial_share.
+// less than VerdictOptions::min_closed_share is left out of what was chosen, if the rest was compared; an
+// effect of the rover's geometry beside one that closes more only if it closes less than
+// min_share_beside_effect. Where nothing unknown is among the rest, it is named. Where something unknown is,
+// an effect is named all the same whose marginal probability and share reach min_partial_probability and
+// min_partial_share; of several these must stand together in an explanation that was compared. Where what was
+// chosen is a cause from outside, so that the unknown has a known form, the lower min_probability_beside_form
+// and min_share_beside_form do, or min_probability_closing_most of an effect that closes min_partial_share.
 Naming name_effects(const ExplanationSearch& search, std::size_t chosen,
                     std::span<const EffectMarginal> marginals, const ClosedShare& closed_share,
                     const VerdictOptions& options);

@@ -73,17 +73,20 @@ TEST(Naming, LeavesOutWhatClosesNextToNothing) {
   EXPECT_EQ(none.candidate, 1U) << "the explanation in which nothing is missing";
 }
 
-// A sunk centre of mass is most of a gap; the slip sinkage beside it is sure all the same.
-TEST(Naming, KeepsWhatIsSureBesideAnEffectThatClosesNearlyAll) {
-  const ExplanationSearch search =
-      search_of({candidate({"com_offset", "slip_sinkage"}, 0.7), candidate({"com_offset"}, 0.3)});
-  const std::vector<std::string> one{"com_offset"}, both{"com_offset", "slip_sinkage"};
-  const auto beside = [&](double probability, double share) {
-    return named(search, {{"com_offset", 1.0, 0.98}, {"slip_sinkage", probability, share}}).effects;
+// Grousers may be written in another way, which leaves something that another soil law may mimic, but no
+// larger radius.
+TEST(Naming, KeepsAnEffectOfOneFormBesideOneThatClosesNearlyAll) {
+  const auto named_beside_grousers = [](const std::string& second, double share) {
+    const ExplanationSearch search =
+        search_of({candidate({"grousers", second}, 0.7), candidate({"grousers"}, 0.3)});
+    return named(search, {{"grousers", 1.0, 0.9}, {second, 0.7, share}}).effects;
   };
-  EXPECT_EQ(beside(0.7, 0.001), both) << "it is sure";
-  EXPECT_EQ(beside(0.6, 0.02), both) << "it closes a part of what little is left";
-  EXPECT_EQ(beside(0.6, 0.001), one);
+  const std::vector<std::string> alone{"grousers"};
+  EXPECT_EQ(named_beside_grousers("wheel_radius", 0.02),
+            (std::vector<std::string>{"grousers", "wheel_radius"}));
+  EXPECT_EQ(named_beside_grousers("wheel_radius", 0.005), alone);
+  EXPECT_EQ(named_beside_grousers("duricrust", 0.02), alone);
+  EXPECT_EQ(named_beside_grousers("duricrust", 0.06), (std::vector<std::string>{"grousers", "duricrust"}));
 }
 
 TEST(Naming, TakesTheParametersFromTheExplanationWithTheForceAndCorrectsByTheEffectAlone) {

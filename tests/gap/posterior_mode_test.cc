@@ -84,6 +84,20 @@ TEST(LinearProblem, LeavesHeldParametersWhereTheyAre) {
   EXPECT_TRUE(problem.columns.col(0).isZero(0.0));
   EXPECT_EQ(problem.columns.col(1), mode.white_jacobian.col(1));
   EXPECT_LT((problem.residuals - (y - 2.0 * a.col(0))).norm(), 1e-9);
+  const LinearProblem unwhitened = unwhitened_problem(mode, model.parameters());
+  EXPECT_TRUE(unwhitened.columns.col(0).isZero(0.0));
+  EXPECT_LT((unwhitened.residuals - problem.residuals).norm(), 1e-9) << "of deviation 1 they are the same";
+}
+
+// Where a step ends is rounded.
+TEST(LinearProblem, HoldsWhatIsAtItsBoundButForRounding) {
+  const Eigen::MatrixXd a = random_matrix(9, 1, 3);
+  const Eigen::VectorXd y = 5.0 * a, deviation = Eigen::VectorXd::Ones(9);
+  const LinearModel model(a, y, deviation, {parameter(0.15, 0.1, 0.7)});
+  FitOptions not_moved = to_the_end();
+  not_moved.max_iterations = 0;
+  EXPECT_EQ(find_mode(model, std::vector{std::nextafter(0.7, 0.0)}, not_moved).held.size(), 1U);
+  EXPECT_TRUE(find_mode(model, std::vector{0.69}, not_moved).held.empty());
 }
 
 TEST(LinearProblem, FreesWhatIsAtItsBoundButDrawnInwards) {

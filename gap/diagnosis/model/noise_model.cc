@@ -23,6 +23,8 @@ NoiseModel::NoiseModel(const WindowModel& model, Eigen::MatrixXd response, std::
     : model_(model),
       response_(std::move(response)),
       expected_(std::move(expected)),
+      made_with_to_soil_(response_.leftCols(3)),
+      made_with_expected_(expected_),
       used_(std::move(used)),
       options_(options),
       scales_(options.initial) {
@@ -45,9 +47,14 @@ std::size_t NoiseModel::used_count() const {
   return static_cast<std::size_t>(std::count(used_.begin(), used_.end(), true));
 }
 
-void NoiseModel::respond(const Eigen::MatrixXd& to_soil, std::vector<double> expected) {
-  response_.leftCols(to_soil.cols()) = to_soil;
-  expected_ = std::move(expected);
+void NoiseModel::respond(const Eigen::MatrixXd& to_soil, std::span<const double> expected) {
+  for (Eigen::Index row = 0; row < to_soil.rows(); ++row) {
+    const auto i = static_cast<std::size_t>(row);
+    const bool answered = !to_soil.row(row).isZero(0.0);
+    const Eigen::MatrixXd& from = answered ? to_soil : made_with_to_soil_;
+    response_.row(row).head(from.cols()) = from.row(row);
+    expected_[i] = answered ? expected[i] : made_with_expected_[i];
+  }
 }
 
 void NoiseModel::set(const NoiseScales& scales, std::size_t threads) {

@@ -48,8 +48,9 @@ class NoiseModel {
 
   // Takes the derivatives by the soil's three logarithms (observations x 3) and the values of another fit:
   // what a soil's scatter does to a rover whose wheel drags, or on another soil, is not what it does to the
-  // nominal rover. Counts from the next set() on.
-  void respond(const Eigen::MatrixXd& to_soil, std::vector<double> expected);
+  // nominal rover. Rows of zeros, which the fit does not answer, keep what the model was made with, as do the
+  // other four derivatives. Counts from the next set() on.
+  void respond(const Eigen::MatrixXd& to_soil, std::span<const double> expected);
   void set(const NoiseScales& scales, std::size_t threads = 1);
   const NoiseScales& scales() const { return scales_; }
   // Finds the scales that make the residuals most likely, everything that `systematic` columns (prior
@@ -96,6 +97,8 @@ class NoiseModel {
   const WindowModel& model_;
   Eigen::MatrixXd response_;
   std::vector<double> expected_;
+  Eigen::MatrixXd made_with_to_soil_;  // the first three columns, and the values, before any respond()
+  std::vector<double> made_with_expected_;
   std::vector<bool> used_;
   std::vector<Block> blocks_;
   NoiseOptions options_;

@@ -54,7 +54,7 @@ struct DiscrepancyOptions {
   double imprecision = 0.1;
   std::array<double, 3> imprecision_shares{0.1, 0.3, 1.0};  // of `imprecision` that are averaged over
   // That an effect is at work does not say that its equation is the library's: what it does may be off by
-  // this share, differently by circumstance, axle and channel.
+  // this share, differently by circumstance, by channel, and by channel at each axle.
   double form_imprecision = 0.3;
   std::array<double, 3> form_sizes{0.0, 0.3, 1.0};  // of `form_imprecision` that are averaged over
   // What one unit of each column is: an error of that entry that would matter to a planner.
@@ -174,10 +174,9 @@ struct VerdictOptions {
   int max_unexplained_shapes = 5;  // parts of what is unexplained that are described
   bool name_by_marginals = true;   // see naming.h; without it an unknown cause hides all names
   double min_closed_share = 0.05;  // of the held-out gap: an effect with less is not named
-  // Beside one that closes more, which leaves little to close: this share, or with less this marginal
-  // probability.
+  // Beside one that closes more, which leaves little to close, of an effect that has one form: no other
+  // equation of the first can have left what it closes.
   double min_share_beside_effect = 0.01;
-  double min_probability_closing_little = 0.65;
   // Beside something unknown an effect is named from this marginal probability and this share on.
   double min_partial_probability = 0.9;
   double min_partial_share = 0.5;

@@ -28,11 +28,11 @@ class ScatterSearch {
         discrepancy_(discrepancy),
         options_(options),
         compared_with_(noise.log_normalisation()),
-        own_(noise) {
-    own_.set(own_.believed(), options.search.threads);
-  }
+        own_(noise) {}
 
   ScatteredExplanation beside(const FittedExplanation& fit) && {
+    scatter_around(fit, model_, own_);
+    own_.set(own_.believed(), options_.search.threads);
     ScatteredExplanation found{refine_soft_patch(campaign_, model_, own_, fitted_again(fit), options_.fit,
                                                  options_.soft_patch, options_.search.threads),
                                {}};
@@ -55,10 +55,10 @@ class ScatterSearch {
 
   void estimate_beside(const FittedExplanation& fit, double discrepancy_size) {
     scatter_around(fit, model_, own_);
-    Eigen::MatrixXd systematic(fit.jacobian.rows(), fit.jacobian.cols() + discrepancy_.values.cols());
-    systematic << fit.jacobian, discrepancy_size * discrepancy_.values;
-    own_.estimate(fit.residuals + fit.jacobian * in_prior_units(fit.hypothesis.parameters(), fit.x),
-                  systematic, options_.search.threads);
+    const LinearProblem problem = unwhitened_problem(fit, fit.hypothesis.parameters());
+    Eigen::MatrixXd systematic(problem.columns.rows(), problem.columns.cols() + discrepancy_.values.cols());
+    systematic << problem.columns, discrepancy_size * discrepancy_.values;
+    own_.estimate(problem.residuals, systematic, options_.search.threads);
   }
 
   double evidence_of(const FittedExplanation& fit, double DiscrepancyGain::*part) const {

@@ -146,8 +146,9 @@ class ModeSearch {
     std::vector<std::pair<Eigen::Index, double>> found;
     for (std::size_t p = 0; p < parameters.size(); ++p) {
       const auto i = static_cast<Eigen::Index>(p);
-      if ((at_.x[p] <= parameters[p].lowest && towards[i] < 0.0) ||
-          (at_.x[p] >= parameters[p].highest && towards[i] > 0.0))
+      const double rounding = 1e-9 * parameters[p].std;
+      if ((at_.x[p] <= parameters[p].lowest + rounding && towards[i] < 0.0) ||
+          (at_.x[p] >= parameters[p].highest - rounding && towards[i] > 0.0))
         found.emplace_back(i, at_.u[i]);
     }
     return found;
@@ -257,6 +258,15 @@ LinearProblem linear_problem(const PosteriorMode& mode) {
   LinearProblem problem{mode.white_linear, mode.white_jacobian};
   for (const auto& [parameter, u] : mode.held) {
     problem.residuals -= u * mode.white_jacobian.col(parameter);
+    problem.columns.col(parameter).setZero();
+  }
+  return problem;
+}
+
+LinearProblem unwhitened_problem(const PosteriorMode& mode, std::span<const Parameter> parameters) {
+  LinearProblem problem{mode.residuals + mode.jacobian * in_prior_units(parameters, mode.x), mode.jacobian};
+  for (const auto& [parameter, u] : mode.held) {
+    problem.residuals -= u * mode.jacobian.col(parameter);
     problem.columns.col(parameter).setZero();
   }
   return problem;

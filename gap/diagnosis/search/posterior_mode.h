@@ -55,8 +55,8 @@ struct PosteriorMode {
   Eigen::MatrixXd covariance;   // of (x - neutral) over the prior deviations
   double log_evidence = 0.0;    // of the drives, up to a constant common to all explanations
   bool converged = false;
-  // Parameters that a bound holds where the drives would move them beyond it, with their u. None with a prior
-  // precision, whose directions have no bounds of their own.
+  // Parameters that a bound holds where the drives would move them beyond it, with their u. Not told with a
+  // prior precision, whose directions mix what is re-tuned.
   std::vector<std::pair<Eigen::Index, double>> held;
 };
 
@@ -68,6 +68,8 @@ struct LinearProblem {
   Eigen::MatrixXd columns;
 };
 LinearProblem linear_problem(const PosteriorMode& mode);
+// The same in the observations' own units, rows not weighed, without what reference drives left open.
+LinearProblem unwhitened_problem(const PosteriorMode& mode, std::span<const Parameter> parameters);
 
 // The mode nearest to `start`. Rows of `fitted_rows` alone weigh (empty: all).
 PosteriorMode find_mode(const FittedModel& model, std::span<const double> start, const FitOptions& options,

@@ -134,7 +134,8 @@ Eigen::MatrixXd scatter_response(const Hypothesis& hypothesis, const Eigen::Matr
 
 void scatter_around(const FittedExplanation& fit, const WindowModel& model, NoiseModel& noise) {
   const Eigen::VectorXd expected = measured(model) - fit.residuals;
-  noise.respond(soil_response(fit.hypothesis, fit.jacobian), {expected.begin(), expected.end()});
+  noise.respond(soil_response(fit.hypothesis, fit.jacobian),
+                {expected.data(), static_cast<std::size_t>(expected.size())});
 }
 
 std::size_t PreparedCampaign::used_windows() const {
@@ -150,17 +151,15 @@ void prepare_around(PreparedCampaign& prepared, const DriveCampaign& campaign, c
   prepared.discrepancy =
       make_discrepancy_term(campaign, *prepared.model, found, options.discrepancy, threads);
   const Eigen::MatrixXd& precision = found.hypothesis.prior_precision();
-  const Eigen::MatrixXd retuned =
-      precision.size() > 0 ? Eigen::MatrixXd(found.jacobian * prior_root(precision)) : found.jacobian;
+  LinearProblem problem = unwhitened_problem(found, found.hypothesis.parameters());
+  if (precision.size() > 0) problem.columns *= prior_root(precision);
   const LearntDifference* const learnt = prepared.model->learnt();
   const Eigen::MatrixXd left = learnt != nullptr ? learnt->left : Eigen::MatrixXd(found.jacobian.rows(), 0);
-  Eigen::MatrixXd systematic(retuned.rows(),
-                             retuned.cols() + left.cols() + prepared.discrepancy.values.cols());
-  systematic << retuned, left, prepared.discrepancy.values;
+  Eigen::MatrixXd systematic(problem.columns.rows(),
+                             problem.columns.cols() + left.cols() + prepared.discrepancy.values.cols());
+  systematic << problem.columns, left, prepared.discrepancy.values;
   scatter_around(found, *prepared.model, *prepared.noise);
-  prepared.noise->estimate(
-      found.residuals + found.jacobian * in_prior_units(found.hypothesis.parameters(), found.x), systematic,
-      threads);
+  prepared.noise->estimate(problem.residuals, systematic, threads);
   const std::vector<double> start = prepared.null->x;
   prepared.null = fit_explanation(prepared.null->hypothesis, *prepared.model, *prepared.noise, start,
                                   options.fit, threads);
