@@ -120,7 +120,8 @@ class Diagnoser {
                       options, progress_, found_before);
     if (!found) return fail(found.error());
     search_ = std::move(*found);
-    best_ = chosen_among(search_.candidates, options_.selection);
+    best_ = best_form(search_, chosen_among(search_.candidates, options_.selection),
+                      options_.verdict.rival_share);
     return {};
   }
 

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+
 #include "core/random.h"
 #include "gap/diagnosis/model/noise_model.h"
 #include "gap/diagnosis/verdict.h"
+#include "tests/sim/reference_models.h"
 
 namespace slipway::gap {
 namespace {
@@ -29,6 +32,32 @@ TEST(ChosenAmong, IsSomethingUnknownWhereThatHasMoreThanHalfInAll) {
                 std::vector{candidate({"a"}, 0.4), candidate({"b"}, 0.35, true), candidate({}, 0.25, true)}),
             1U);
   EXPECT_EQ(chosen_among(std::vector{candidate({"a"}, 0.6), candidate({}, 0.4, true)}), 0U);
+}
+
+// A pull along the travel, and one that grows with speed and leans on the imprecision of any simulator.
+TEST(BestForm, IsTheCauseFromOutsideThatTheFitAloneSpeaksFor) {
+  DriveCampaign campaign;
+  campaign.rover = std::make_shared<sim::RoverModel>(sim::six_wheeler());
+  campaign.soils.resize(1);
+  ExplanationSearch search;
+  for (const double evidence : {-1000.0, -2640.0, -1967.0, -1500.0}) {
+    search.fits.push_back({{}, Hypothesis(campaign, {})});
+    search.fits.back().log_evidence = evidence;
+  }
+  const auto add = [&](std::vector<std::string> effects, double probability, std::size_t fit) {
+    search.candidates.push_back(candidate(std::move(effects), probability));
+    search.candidates.back().outside = true;
+    search.candidates.back().fit = fit;
+  };
+  add({"pull_with_speed"}, 0.41, 1);
+  add({"pull_along_travel"}, 0.40, 2);
+  add({"pull_along_travel", "grousers"}, 0.35, 3);
+  EXPECT_EQ(best_form(search, 0, 0.75), 1U) << "not the one with another effect beside it";
+  EXPECT_EQ(best_form(search, 1, 0.75), 1U);
+  search.candidates[1].probability = 0.2;
+  EXPECT_EQ(best_form(search, 0, 0.75), 0U);
+  search.candidates.push_back(candidate({}, 0.5, true));
+  EXPECT_EQ(best_form(search, 3, 0.75), 3U) << "of no known form";
 }
 
 TEST(Weigh, BelievesAShareOfTheEvidenceAndNowAndThenATenthOfIt) {
