@@ -57,7 +57,7 @@ TEST(LookAlikes, CountAllFieldsOfTheOtherEffectAndAllItsVariants) {
   const ScreenedVariant radius = screened("wheel_radius", {7.0, 7.0, 0.0}, 0.9, 20.0);
   const std::vector<LookAlike> alike =
       look_alikes(search_of({radius, grousers, steering, other_way}, {}), {});
-  ASSERT_EQ(alike.size(), 2U) << "neither looks grousers like a radius, nor steering";
+  ASSERT_EQ(alike.size(), 2U) << "grousers do not look like a radius, and steering looks like neither";
   for (const LookAlike& of : alike) {
     EXPECT_EQ(of.effect, "wheel_radius");
     EXPECT_NEAR(of.angle_deg, 0.0, 1e-4);

@@ -63,14 +63,14 @@ TEST(Naming, NamesNothingBesideAnUnknownCauseThatIsUncertainOrClosesLittle) {
 
 TEST(Naming, LeavesOutWhatClosesNextToNothing) {
   const ExplanationSearch search = search_of(
-      {candidate({"grousers", "hardpan"}, 0.48), candidate({}, 0.30), candidate({"grousers"}, 0.22)});
-  const Naming naming = named(search, {{"grousers", 0.70, 0.9}, {"hardpan", 0.48, 0.002}});
+      {candidate({"grousers", "hardpan"}, 0.8), candidate({"grousers"}, 0.15), candidate({}, 0.05)});
+  const Naming naming = named(search, {{"grousers", 0.95, 0.9}, {"hardpan", 0.8, 0.02}});
   EXPECT_EQ(naming.effects, std::vector<std::string>{"grousers"});
   EXPECT_FALSE(naming.partial);
-  EXPECT_EQ(naming.candidate, 2U) << "fitted without it";
-  const Naming none = named(search, {{"grousers", 0.70, 0.01}, {"hardpan", 0.48, 0.02}});
+  EXPECT_EQ(naming.candidate, 1U) << "fitted without it";
+  const Naming none = named(search, {{"grousers", 0.95, 0.01}, {"hardpan", 0.8, 0.02}});
   EXPECT_TRUE(none.effects.empty());
-  EXPECT_EQ(none.candidate, 1U) << "the explanation in which nothing is missing";
+  EXPECT_EQ(none.candidate, 2U) << "the explanation in which nothing is missing";
 }
 
 // Grousers may be written in another way, which leaves something that another soil law may mimic, but no

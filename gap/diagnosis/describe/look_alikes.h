@@ -14,8 +14,8 @@ namespace slipway::gap {
 std::vector<ConfusablePair> confusable_pairs(const ExplanationSearch& search, const VerdictOptions& options);
 
 // The class of each effect: what it can't be told from by these drives, as the other effect or a cause from
-// outside could look like its trace, by the same angle. An effect is of the class of
-// the re-tuned parameters where these drives would not surely have shown it at its usual size beside them
+// outside could look like its trace, by the same angle. An effect is of the class of the re-tuned parameters
+// where these drives would not surely have shown it at its usual size beside them
 // (VerdictOptions::surely_seen), the parameters taking most of its trace.
 std::vector<LookAlike> look_alikes(const ExplanationSearch& search, const VerdictOptions& options);
 

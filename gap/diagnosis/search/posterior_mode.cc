@@ -168,6 +168,14 @@ class ModeSearch {
   bool near_ = false, central_ = false, fresh_ = false, converged_ = false;
 };
 
+LinearProblem without_held(LinearProblem problem, const PosteriorMode& mode) {
+  for (const auto& [parameter, u] : mode.held) {
+    problem.residuals -= u * problem.columns.col(parameter);
+    problem.columns.col(parameter).setZero();
+  }
+  return problem;
+}
+
 }  // namespace
 
 Eigen::VectorXd in_prior_units(std::span<const Parameter> parameters, std::span<const double> x) {
@@ -255,21 +263,12 @@ double laplace_log_evidence(double cost, const Eigen::MatrixXd& covariance,
 }
 
 LinearProblem linear_problem(const PosteriorMode& mode) {
-  LinearProblem problem{mode.white_linear, mode.white_jacobian};
-  for (const auto& [parameter, u] : mode.held) {
-    problem.residuals -= u * mode.white_jacobian.col(parameter);
-    problem.columns.col(parameter).setZero();
-  }
-  return problem;
+  return without_held({mode.white_linear, mode.white_jacobian}, mode);
 }
 
 LinearProblem unwhitened_problem(const PosteriorMode& mode, std::span<const Parameter> parameters) {
-  LinearProblem problem{mode.residuals + mode.jacobian * in_prior_units(parameters, mode.x), mode.jacobian};
-  for (const auto& [parameter, u] : mode.held) {
-    problem.residuals -= u * mode.jacobian.col(parameter);
-    problem.columns.col(parameter).setZero();
-  }
-  return problem;
+  return without_held({mode.residuals + mode.jacobian * in_prior_units(parameters, mode.x), mode.jacobian},
+                      mode);
 }
 
 PosteriorMode find_mode(const FittedModel& model, std::span<const double> start, const FitOptions& options,
