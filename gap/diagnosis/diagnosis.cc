@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "core/angle.h"
@@ -148,10 +149,12 @@ class Diagnoser {
     VerdictOptions verdict = options_.verdict;
     if (campaign_.reference) {
       verdict.min_closed_share = std::max(verdict.min_closed_share, options_.reference.min_closed_share);
-      verdict.min_share_beside_effect = verdict.min_closed_share;
+      verdict.min_share_of_rest = std::numeric_limits<double>::infinity();
     }
-    naming_ = name_effects(
-        search_, best_, d_.marginals, [&](const std::string& cause) { return shares.of(cause); }, verdict);
+    const CauseShares cause_shares{
+        .of_gap = [&](const std::string& cause) { return shares.of(cause); },
+        .beside_others = [&](const std::string& cause) { return shares.beside_others(cause); }};
+    naming_ = name_effects(search_, best_, d_.marginals, cause_shares, verdict);
     best_ = naming_.correction;
     judge(campaign_, prepared_, search_, naming_, options_, d_);
     if (d_.outside) d_.outside->closed_share = shares.of(d_.outside->cause);

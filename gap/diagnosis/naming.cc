@@ -32,8 +32,12 @@ std::optional<std::size_t> candidate_with(const ExplanationSearch& search, const
   return std::nullopt;
 }
 
+bool is_effect(const std::string& cause) {
+  return sim::find_effect(cause) != nullptr;
+}
+
 // An effect of the rover alone that all authors write alike: a larger wheel, a shifted load.
-bool is_geometry(const std::string& cause) {
+bool has_one_form(const std::string& cause) {
   const sim::Effect* const effect = sim::find_effect(cause);
   return effect != nullptr && effect->on_rover != nullptr && effect->on_soil == nullptr &&
          !effect->has_many_forms;
@@ -41,18 +45,20 @@ bool is_geometry(const std::string& cause) {
 
 // Of known causes, all of them with some weight; of others what was chosen. A cause from outside that stands
 // alone stays: nothing else says what is there.
-std::size_t of_weight(const ExplanationSearch& search, std::size_t chosen, const ClosedShare& closed_share,
+std::size_t of_weight(const ExplanationSearch& search, std::size_t chosen, const CauseShares& shares,
                       const VerdictOptions& options) {
   const Candidate& first = search.candidates[chosen];
   if (first.with_unknown || (first.outside && library_effects_of(first).empty())) return chosen;
   Names kept;
   for (const std::string& cause : first.effects)
-    if (closed_share(cause) >= options.min_closed_share) kept.insert(cause);
-  const bool beside_an_effect = std::any_of(
-      kept.begin(), kept.end(), [](const std::string& cause) { return sim::find_effect(cause) != nullptr; });
-  if (beside_an_effect)
+    if (shares.of_gap(cause) >= options.min_closed_share) kept.insert(cause);
+  if (std::any_of(kept.begin(), kept.end(), is_effect)) {
+    const bool beside_one_form = std::all_of(kept.begin(), kept.end(), has_one_form);
     for (const std::string& cause : first.effects)
-      if (is_geometry(cause) && closed_share(cause) >= options.min_share_beside_effect) kept.insert(cause);
+      if (is_effect(cause) && (beside_one_form || has_one_form(cause)) &&
+          shares.beside_others(cause) >= options.min_share_of_rest)
+        kept.insert(cause);
+  }
   for (std::size_t c = 0; c < search.candidates.size(); ++c)
     if (!search.candidates[c].with_unknown && set_of(search.candidates[c].effects) == kept) return c;
   return chosen;  // their sum was not compared without the others
@@ -71,10 +77,10 @@ bool stands_beside_unknown(const EffectMarginal& marginal, const VerdictOptions&
 }
 
 Naming name_effects(const ExplanationSearch& search, std::size_t chosen,
-                    std::span<const EffectMarginal> marginals, const ClosedShare& closed_share,
+                    std::span<const EffectMarginal> marginals, const CauseShares& shares,
                     const VerdictOptions& options) {
   if (!options.name_by_marginals) return as_chosen(search, chosen);
-  chosen = of_weight(search, chosen, closed_share, options);
+  chosen = of_weight(search, chosen, shares, options);
   const Candidate& first = search.candidates[chosen];
   if (!first.unknown()) return as_chosen(search, chosen);
   const bool known_form = first.outside && !first.with_unknown;

@@ -6,13 +6,12 @@ namespace slipway::gap {
 
 ClosedShares::ClosedShares(Rms rms, const ExplanationSearch& search)
     : rms_(std::move(rms)), search_(search), nothing_(rms_(search.fits[0], {})) {
-  double least = nothing_;
   for (const Candidate& c : search.candidates) {
     const auto [place, is_new] = rms_with_.try_emplace(Names(c.effects.begin(), c.effects.end()), 0.0);
     if (is_new) place->second = rms_(search.fits[c.fit], {});
-    least = std::min(least, place->second);
+    floor_ = std::min(floor_, place->second);
   }
-  gap_ = nothing_ - std::min(1.0, least);
+  gap_ = nothing_ - floor_;
 }
 
 double ClosedShares::rms_of(const Names& names) const {
@@ -20,14 +19,17 @@ double ClosedShares::rms_of(const Names& names) const {
   return known == rms_with_.end() ? nothing_ : known->second;
 }
 
+ClosedShares::Names ClosedShares::explanation_with(const std::string& cause) const {
+  for (const Candidate& c : search_.candidates)
+    if (std::find(c.effects.begin(), c.effects.end(), cause) != c.effects.end())
+      return {c.effects.begin(), c.effects.end()};
+  return {};
+}
+
 double ClosedShares::of(const std::string& cause) const {
   if (!(gap_ > 0.0)) return 0.0;
-  const auto in = std::find_if(search_.candidates.begin(), search_.candidates.end(), [&](const Candidate& c) {
-    return std::find(c.effects.begin(), c.effects.end(), cause) != c.effects.end();
-  });
   double closed = 0.0;
-  if (in != search_.candidates.end()) {
-    const Names all(in->effects.begin(), in->effects.end());
+  if (const Names all = explanation_with(cause); !all.empty()) {
     Names others = all;
     others.erase(cause);
     closed = std::max(0.0, rms_of(others) - rms_of(all));
@@ -39,6 +41,15 @@ double ClosedShares::of(const std::string& cause) const {
     closed = nothing_ - rms_(search_.fits[0], screened->columns);
   }
   return std::clamp(closed / gap_, 0.0, 1.0);
+}
+
+double ClosedShares::beside_others(const std::string& cause) const {
+  const Names all = explanation_with(cause);
+  if (all.empty()) return 0.0;
+  Names others = all;
+  others.erase(cause);
+  const double left = rms_of(others) - floor_;
+  return left > 0.0 ? std::clamp((rms_of(others) - rms_of(all)) / left, 0.0, 1.0) : 0.0;
 }
 
 double marginal_probability(std::span<const ComparedSet> sets, const std::string& effect) {

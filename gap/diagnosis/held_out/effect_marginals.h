@@ -24,15 +24,20 @@ class ClosedShares {
   // Of a cause in the most probable explanation that has it; of one that was not fitted by its derivatives
   // beside the re-tuned parameters. Within 0 and 1.
   double of(const std::string& cause) const;
+  // In the same explanation, of what the other causes leave above the floor: of a weak cause beside one that
+  // closes nearly all. 0 of a cause that was not fitted. Within 0 and 1.
+  double beside_others(const std::string& cause) const;
 
  private:
   using Names = std::set<std::string>;
   double rms_of(const Names& names) const;  // where it was not fitted, that of nothing
+  // The most probable explanation that has the cause; empty where it was not fitted.
+  Names explanation_with(const std::string& cause) const;
 
   Rms rms_;
   const ExplanationSearch& search_;
   std::map<Names, double> rms_with_;
-  double nothing_ = 0.0, gap_ = 0.0;
+  double nothing_ = 0.0, floor_ = 1.0, gap_ = 0.0;
 };
 
 // The sum of the probabilities of all sets that have the effect.

@@ -174,9 +174,9 @@ struct VerdictOptions {
   int max_unexplained_shapes = 5;  // parts of what is unexplained that are described
   bool name_by_marginals = true;   // see naming.h; without it an unknown cause hides all names
   double min_closed_share = 0.05;  // of the held-out gap: an effect with less is not named
-  // Beside one that closes more, which leaves little to close, of an effect that has one form: no other
-  // equation of the first can have left what it closes.
-  double min_share_beside_effect = 0.01;
+  // The same of what another effect leaves, where one of the two has one form; see naming.h. An effect that
+  // closes nearly all leaves little of the whole to close.
+  double min_share_of_rest = 0.05;
   // Beside something unknown an effect is named from this marginal probability and this share on.
   double min_partial_probability = 0.9;
   double min_partial_share = 0.5;
