@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "sim/wheel/slip_ratio.h"
 
 namespace slipway::sim {
 namespace {
@@ -91,7 +92,7 @@ DrawnStretch StretchDriver::run(std::uint64_t key, const RedrawnCells& redrawn,
     last_slip = state.moving() ? std::min(state.slip_ratio, 1.0) : 1.0;
     constexpr double kMaxSlip = 0.999;
     come_m += station.drive_m;
-    rolled_m += station.drive_m / (1.0 - std::min(last_slip, kMaxSlip));
+    rolled_m += station.drive_m / speed_ratio_from_slip(std::min(last_slip, kMaxSlip));
     if (state.by_slip_curve) continue;
     ++with_current;
     for (std::size_t k = 0; k < currents.size(); ++k) currents[k] += std::abs(state.wheels[k].current_a);

@@ -7,6 +7,7 @@
 #include "sim/prediction/drawn_ground.h"
 #include "sim/prediction/drawn_relief.h"
 #include "sim/prediction/odometry_shortfall.h"
+#include "sim/wheel/slip_ratio.h"
 
 namespace slipway::sim {
 namespace {
@@ -24,9 +25,10 @@ double slip_scale(const DrawnGround& ground, const PreparedStation& station) {
 
 void scale_slip(double scale, StationState& state) {
   if (!state.moving() || state.slip_ratio >= 1.0 || scale == 1.0) return;
-  const double travel = std::pow(1.0 - state.slip_ratio, scale);
-  state.along_m_s *= travel / (1.0 - state.slip_ratio);
-  state.slip_ratio = 1.0 - travel;
+  const double travel = speed_ratio_from_slip(state.slip_ratio);
+  const double scaled = std::pow(travel, scale);
+  state.along_m_s *= scaled / travel;
+  state.slip_ratio = slip_from_speed_ratio(scaled);
 }
 
 DrawnDriver::DrawnDriver(const RoverModel& rover, double gravity_m_s2, const SoilBeliefs& beliefs,

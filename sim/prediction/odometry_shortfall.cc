@@ -2,12 +2,14 @@
 
 #include <algorithm>
 
+#include "sim/wheel/slip_ratio.h"
+
 namespace slipway::sim {
 
 void ShortfallFollower::add(double way_m, double slip_ratio) {
   if (way_m <= 0.0) return;  // a turn in place
   constexpr double kMaxSlip = 0.999;
-  roll_per_way_ = 1.0 / (1.0 - std::min(slip_ratio, kMaxSlip));
+  roll_per_way_ = 1.0 / speed_ratio_from_slip(std::min(slip_ratio, kMaxSlip));
   const double rolled_m = rolled_m_ + way_m * roll_per_way_;
   while (shortfall_m_.size() < wanted_m_.size() && wanted_m_[shortfall_m_.size()] <= rolled_m) {
     const double wanted_m = wanted_m_[shortfall_m_.size()];

@@ -6,9 +6,9 @@ namespace slipway::sim {
 
 // How far behind a rover is that is commanded by the way its wheels roll, without a look at where it is.
 //
-// With the slip i(x) at the place x of the path the wheels roll dr = dx / (1 - i). A drive commanded to r
-// ends at the x with r = integral from 0 to x of dx' / (1 - i(x')); its shortfall is r - x, below 0 where the
-// rover skids downhill. Behind the last station its slip goes on. Heading errors and side slip are not in it.
+// With u(x) = v / (r w) at the place x of the path, 1 - i of a slip i and 1 / (1 + i) of a skid (slip_ratio.h),
+// the wheels roll dr = dx / u. A drive commanded to r ends at the x with r = integral from 0 to x of
+// dx' / u(x'); its shortfall is r - x, below 0 where the rover skids downhill. Behind the last station its slip goes on. Heading errors and side slip are not in it.
 class ShortfallFollower {
  public:
   // The rolled distances at which it is asked for, rising, in metres.
@@ -24,7 +24,7 @@ class ShortfallFollower {
   const std::vector<double>& wanted_m_;
   std::vector<float> shortfall_m_;
   double rolled_m_ = 0.0, come_m_ = 0.0;
-  double roll_per_way_ = 1.0;  // 1 / (1 - slip) of the last part
+  double roll_per_way_ = 1.0;  // 1 / u of the last part
 };
 
 }  // namespace slipway::sim

@@ -50,7 +50,8 @@ struct StationState {
   double forward_m_s = 0.0;   // of B along its x axis
   double leftward_m_s = 0.0;  // of B along its y axis; without crab, the speed of side slip
   double yaw_rate_rad_s = 0.0;
-  // Slip of the rover, 1 - along / commanded speed; when turning in place, of the yaw rate.
+  // Slip of the rover, by the ratio of `along` and the speed it would have without slip (slip_ratio.h): where
+  // it skids downhill, that speed over `along` less 1. When turning in place, of the yaw rate. [-1, 1]
   double slip_ratio = 0.0;
   double side_slip_rad = 0.0;  // direction of B's velocity to the commanded direction, positive to the left
   // Of the body on its sunk wheels: the stance's, leant by what the wheels' unequal sinkages turn body and

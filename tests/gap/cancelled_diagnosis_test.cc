@@ -8,14 +8,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
-#include <filesystem>
 #include <mutex>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
-#include "api/files/campaign/drive_campaign_source.h"
 #include "gap/diagnosis/diagnosis.h"
+#include "tests/gap/practice_drives.h"
 
 namespace slipway::gap {
 namespace {
@@ -26,17 +24,6 @@ double processor_s() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-// Every third drive of a practice campaign: of every tilt and direction.
-DriveCampaign some_drives(std::size_t every) {
-  auto campaign = api::load_drive_campaign(std::filesystem::path(SLIPWAY_DATA_FOLDER) / "gap-practice/p05",
-                                           api::Catalogue{});
-  if (!campaign) throw std::runtime_error(campaign.error().detail);
-  std::vector<MeasuredDriveSeries> kept;
-  for (std::size_t d = 0; d < campaign->drives.size(); d += every) kept.push_back(campaign->drives[d]);
-  campaign->drives = std::move(kept);
-  return std::move(*campaign);
 }
 
 // Is cancelled some processor time after a stage began; remembers the longest time in which nobody asked.

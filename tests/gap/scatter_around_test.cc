@@ -3,28 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <stdexcept>
 #include <vector>
 
-#include "api/files/campaign/drive_campaign_source.h"
 #include "gap/diagnosis/search/discrepancy_term.h"
 #include "gap/diagnosis/search/explanation.h"
 #include "gap/diagnosis/search/prepared_campaign.h"
+#include "tests/gap/practice_drives.h"
 
 namespace slipway::gap {
 namespace {
-
-// Every sixth drive of a practice campaign.
-DriveCampaign some_drives() {
-  auto campaign = api::load_drive_campaign(std::filesystem::path(SLIPWAY_DATA_FOLDER) / "gap-practice/p05",
-                                           api::Catalogue{});
-  if (!campaign) throw std::runtime_error(campaign.error().detail);
-  std::vector<MeasuredDriveSeries> kept;
-  for (std::size_t d = 0; d < campaign->drives.size(); d += 6) kept.push_back(campaign->drives[d]);
-  campaign->drives = std::move(kept);
-  return std::move(*campaign);
-}
 
 // A wheel that turns at two fifths of its rate, not fitted to anything.
 FittedExplanation slow_wheel(const DriveCampaign& campaign, const PreparedCampaign& prepared,
@@ -42,7 +29,7 @@ FittedExplanation slow_wheel(const DriveCampaign& campaign, const PreparedCampai
 }
 
 TEST(ScatterAround, AFitIsThatOfItsOwnModelAndNotOfTheNominalRover) {
-  const DriveCampaign campaign = some_drives();
+  const DriveCampaign campaign = some_drives(6);
   const DiagnosisOptions options;
   NoProgress progress;
   const auto prepared = prepare_as_believed(campaign, options, progress);

@@ -32,7 +32,9 @@ TEST(ShortfallFollower, TheSlipIsThatOfThePlaceWhereTheRoverIsAndNotWhereItShoul
 }
 
 TEST(ShortfallFollower, ARoverThatSkidsIsAheadAndGoesOnAtItsLastSlip) {
-  EXPECT_NEAR(shortfall({10.0}, {{10.0, -0.25}})[0], -2.5, 1e-5);
+  // A skid of -0.25 is r w / v - 1: the wheels roll 7.5 m on the 10 m that the rover comes.
+  EXPECT_NEAR(shortfall({7.5}, {{10.0, -0.25}})[0], -2.5, 1e-5);
+  EXPECT_NEAR(shortfall({15.0}, {{10.0, -0.25}})[0], -5.0, 1e-5);
 }
 
 TEST(ShortfallFollower, AStuckRoverStaysWhereItIsWhileItsWheelsRollOn) {
