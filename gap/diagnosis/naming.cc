@@ -43,15 +43,25 @@ bool has_one_form(const std::string& cause) {
          !effect->has_many_forms;
 }
 
+// An effect of the ground or of the motors that authors write differently, wherever the rover drives.
+bool is_law(const std::string& cause) {
+  return is_effect(cause) && !has_one_form(cause) && sim::find_effect(cause)->variant_at == nullptr;
+}
+
 // Of known causes, all of them with some weight; of others what was chosen. A cause from outside that stands
 // alone stays: nothing else says what is there.
 std::size_t of_weight(const ExplanationSearch& search, std::size_t chosen, const CauseShares& shares,
                       const VerdictOptions& options) {
   const Candidate& first = search.candidates[chosen];
   if (first.with_unknown || (first.outside && library_effects_of(first).empty())) return chosen;
-  Names kept;
+  double most_of_laws = 0.0;
   for (const std::string& cause : first.effects)
-    if (shares.of_gap(cause) >= options.min_closed_share) kept.insert(cause);
+    if (is_law(cause)) most_of_laws = std::max(most_of_laws, shares.of_gap(cause));
+  Names kept;
+  for (const std::string& cause : first.effects) {
+    const double least = is_law(cause) ? options.min_share_of_law * most_of_laws : 0.0;
+    if (shares.of_gap(cause) >= std::max(options.min_closed_share, least)) kept.insert(cause);
+  }
   if (std::any_of(kept.begin(), kept.end(), is_effect)) {
     const bool beside_one_form = std::all_of(kept.begin(), kept.end(), has_one_form);
     for (const std::string& cause : first.effects)

@@ -48,7 +48,7 @@ std::vector<EffectVariant> variants(const RoverModel& rover) {
   EffectVariant::Free mobilisation = free_field(kFields, "mobilisation", 0.5);
   // Soil between grousers is sheared a little beyond the rim, so that the rover gets farther, as on larger
   // wheels. A little: what goes far beyond is a larger wheel (the effect wheel_radius) rather than this.
-  EffectVariant::Free share = free_field(kFields, "shear_share", 0.03);
+  EffectVariant::Free share = free_field(kFields, "shear_share", 0.05);
   EffectVariant::Free surcharge = free_field(kFields, "surcharge", 0.2);
   if (own) {
     height.neutral = own->height_m;

@@ -79,8 +79,7 @@ TEST(Naming, LeavesOutWhatClosesNextToNothing) {
 TEST(Naming, KeepsAWeakEffectWhereEitherOfTheTwoHasOneForm) {
   const auto names_both = [](const std::string& first, const std::string& second, double of_gap,
                              double of_rest) {
-    const ExplanationSearch search =
-        search_of({candidate({first, second}, 0.7), candidate({first}, 0.3)});
+    const ExplanationSearch search = search_of({candidate({first, second}, 0.7), candidate({first}, 0.3)});
     return named(search, {{first, 1.0, 0.9}, {second, 0.7, of_gap}}, {}, 1.0, of_rest).effects.size() == 2;
   };
   EXPECT_TRUE(names_both("grousers", "wheel_radius", 0.02, 0.2));
@@ -88,7 +87,10 @@ TEST(Naming, KeepsAWeakEffectWhereEitherOfTheTwoHasOneForm) {
   EXPECT_TRUE(names_both("com_offset", "slip_sinkage", 0.0001, 0.1));
   EXPECT_FALSE(names_both("com_offset", "slip_sinkage", 0.0001, 0.04));
   EXPECT_FALSE(names_both("multipass", "duricrust", 0.04, 0.3));
-  EXPECT_TRUE(names_both("multipass", "duricrust", 0.06, 0.0));
+  EXPECT_FALSE(names_both("multipass", "duricrust", 0.07, 0.3))
+      << "of the 0.9 of multipass, 0.08 may be its form";
+  EXPECT_TRUE(names_both("multipass", "duricrust", 0.09, 0.0));
+  EXPECT_TRUE(names_both("multipass", "soft_patch", 0.07, 0.0)) << "a place is no form of a law";
   EXPECT_FALSE(names_both("com_offset", "pull_along_travel", 0.02, 0.3)) << "not a cause from outside";
 }
 

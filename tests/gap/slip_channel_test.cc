@@ -1,5 +1,6 @@
-// Slip is predicted as it is measured: 1 less the speed over the commanded one, uphill and downhill. A wheel's
-// law has another slip where it skids (sim/wheel/slip_ratio.h), which is smaller by a tenth at 15 deg downhill.
+// Slip is predicted as it is measured: 1 less the speed over the commanded one, uphill and downhill. A
+// wheel's law has another slip where it skids (sim/wheel/slip_ratio.h), which is smaller by a tenth at 15 deg
+// downhill.
 #include <gtest/gtest.h>
 
 #include <cmath>

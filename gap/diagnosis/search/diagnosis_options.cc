@@ -192,8 +192,8 @@ void list_verdict(const VerdictOptions& options, Lister& list) {
   const auto& [min_drives, min_windows, min_parameters_gain, surely_seen, small_effect, max_hidden_share,
                beyond_chance, max_left_of_nothing, max_left_beside_effects, forgiven_closure, rival_share,
                min_doubt, determined_share, max_angle_deg, min_signature, max_unexplained_shapes,
-               name_by_marginals, min_closed_share, min_share_of_rest, min_partial_probability,
-               min_partial_share, min_probability_beside_form, min_share_beside_form,
+               name_by_marginals, min_closed_share, min_share_of_law, min_share_of_rest,
+               min_partial_probability, min_partial_share, min_probability_beside_form, min_share_beside_form,
                min_probability_closing_most] = options;
   SLIPWAY_FIELD(min_drives);
   SLIPWAY_FIELD(min_windows);
@@ -213,6 +213,7 @@ void list_verdict(const VerdictOptions& options, Lister& list) {
   SLIPWAY_FIELD(max_unexplained_shapes);
   SLIPWAY_FIELD(name_by_marginals);
   SLIPWAY_FIELD(min_closed_share);
+  SLIPWAY_FIELD(min_share_of_law);
   SLIPWAY_FIELD(min_share_of_rest);
   SLIPWAY_FIELD(min_partial_probability);
   SLIPWAY_FIELD(min_partial_share);

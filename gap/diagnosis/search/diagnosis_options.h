@@ -137,7 +137,7 @@ struct EvidenceShare {
   double share, weight;
 };
 struct EvidenceOptions {
-  std::array<EvidenceShare, 2> shares{EvidenceShare{0.12, 0.7}, EvidenceShare{0.012, 0.3}};
+  std::array<EvidenceShare, 2> shares{EvidenceShare{0.3, 0.85}, EvidenceShare{0.03, 0.15}};
   bool whole = false;  // believed as it stands, for ablations
 };
 
@@ -174,6 +174,9 @@ struct VerdictOptions {
   int max_unexplained_shapes = 5;  // parts of what is unexplained that are described
   bool name_by_marginals = true;   // see naming.h; without it an unknown cause hides all names
   double min_closed_share = 0.05;  // of the held-out gap: an effect with less is not named
+  // Of what another law of ground or motors closes, the same of a second law: the square of
+  // DiscrepancyOptions::form_imprecision, by which the first one's equation may be off.
+  double min_share_of_law = 0.09;
   // The same of what another effect leaves, where one of the two has one form; see naming.h. An effect that
   // closes nearly all leaves little of the whole to close.
   double min_share_of_rest = 0.05;

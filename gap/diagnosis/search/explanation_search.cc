@@ -146,7 +146,10 @@ class Searcher {
         std::vector<EffectVariant> effects(search_.fits[base].hypothesis.effects().begin(),
                                            search_.fits[base].hypothesis.effects().end());
         effects.push_back(v);
-        pairs_[names] = add_fit(Hypothesis(campaign_, effects), second.start);
+        const std::size_t pair = pairs_[names] = add_fit(Hypothesis(campaign_, effects), second.start);
+        if (went_far(search_.fits[base], options_.search.max_linear_shift) ||
+            went_far(search_.fits[pair], options_.search.max_linear_shift))
+          fit_from_neutral(search_.fits[pair]);
         ++(from_outside ? outside : fitted);
       }
     }
@@ -235,6 +238,21 @@ class Searcher {
   std::size_t add_fit(const Hypothesis& hypothesis, std::span<const double> start) {
     search_.fits.push_back(fitted(hypothesis, start));
     return search_.fits.size() - 1;
+  }
+
+  // A pair starts where the fit of one of its effects has re-tuned soils and closures in the other's place,
+  // which may be a dead end. So it is fitted again from what was believed of them, with the effects at half
+  // of their usual sizes at least.
+  void fit_from_neutral(FittedExplanation& fit) const {
+    std::vector<double> start = fit.hypothesis.neutral();
+    for (std::size_t p = fit.hypothesis.nuisance_count(); p < start.size(); ++p) {
+      const Parameter& parameter = fit.hypothesis.parameters()[p];
+      const double off = fit.x[p] - parameter.neutral, half = 0.5 * parameter.std;
+      const double sense = off < 0.0 || parameter.highest <= parameter.neutral ? -1.0 : 1.0;
+      start[p] += std::abs(off) < half ? sense * half : off;
+    }
+    FittedExplanation second = fitted(fit.hypothesis, start);
+    if (second.log_evidence > fit.log_evidence) fit = std::move(second);
   }
 
   // By how much less evidence an effect has in its other ways, alone: by fits where both were fitted,
@@ -351,10 +369,10 @@ std::vector<std::string> outside_causes_of(const Candidate& candidate) {
   return names;
 }
 
-bool went_far(const FittedExplanation& null, double max_shift) {
-  const auto parameters = null.hypothesis.parameters();
-  for (std::size_t p = 0; p < parameters.size(); ++p)
-    if (std::abs(null.x[p] - parameters[p].neutral) > max_shift * parameters[p].std) return true;
+bool went_far(const FittedExplanation& fit, double max_shift) {
+  const auto parameters = fit.hypothesis.parameters();
+  for (std::size_t p = 0; p < fit.hypothesis.nuisance_count(); ++p)
+    if (std::abs(fit.x[p] - parameters[p].neutral) > max_shift * parameters[p].std) return true;
   return false;
 }
 

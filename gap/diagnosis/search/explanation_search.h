@@ -91,8 +91,8 @@ LogPrior log_prior_of_one_and_outside(const PriorOptions& options, double effect
 // Whether each effect of a fit is at work by a good part of its usual size.
 bool worth_naming(const FittedExplanation& fit, double min_size);
 
-// Whether a re-tuned null had to go so far from what was believed, in prior deviations.
-bool went_far(const FittedExplanation& null, double max_shift);
+// Whether what a fit re-tunes had to go so far from what was believed, in prior deviations.
+bool went_far(const FittedExplanation& fit, double max_shift);
 
 // The fits of the most probable sets of effects, at most so many.
 std::vector<FittedExplanation> most_probable_fits(const ExplanationSearch& search, std::size_t most);
