@@ -122,7 +122,7 @@ class Diagnoser {
     if (!found) return fail(found.error());
     search_ = std::move(*found);
     best_ = best_form(search_, chosen_among(search_.candidates, options_.selection),
-                      options_.verdict.rival_share);
+                      options_.selection.alike_form_share);
     return {};
   }
 

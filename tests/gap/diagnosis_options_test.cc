@@ -47,7 +47,7 @@ TEST(DiagnosisOptions, AreListedWithTheirOwnValues) {
   const std::vector<ListedOption> options = listed_options(changed);
   EXPECT_EQ(value_of(options, "fit", "huber"), std::vector{3.25});
   EXPECT_EQ(value_of(options, "search", "something_else"), std::vector{0.0});
-  EXPECT_EQ(value_of(options, "evidence", "weights"), (std::vector{0.7, 0.125}));
+  EXPECT_EQ(value_of(options, "evidence", "weights"), (std::vector{0.85, 0.125}));
   EXPECT_EQ(value_of(options, "location", "place_radii_m"), (std::vector{7.0, 9.0}));
   EXPECT_EQ(value_of(options, "run", "resamples"), std::vector{17.0});
   EXPECT_EQ(value_of(options, "noise", "friction"), std::vector{0.5});

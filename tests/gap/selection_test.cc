@@ -62,7 +62,7 @@ TEST(BestForm, IsTheCauseFromOutsideThatTheFitAloneSpeaksFor) {
 
 TEST(Weigh, BelievesAShareOfTheEvidenceAndNowAndThenATenthOfIt) {
   std::vector<Candidate> c{candidate({"a"}, 0.0), candidate({}, 0.0)};
-  c[0].log_evidence = 500.0;  // a tenth of the share leaves a few percent to the other
+  c[0].log_evidence = 200.0;  // a tenth of the share leaves a little to the other
   c[0].log_prior = c[1].log_prior = std::log(0.5);
   weigh(c, EvidenceOptions{});
   EXPECT_NEAR(c[0].probability + c[1].probability, 1.0, 1e-12);

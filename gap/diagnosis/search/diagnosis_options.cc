@@ -179,10 +179,12 @@ void list_evidence(const EvidenceOptions& options, Lister& list) {
 
 void list_selection(const SelectionOptions& options, Lister& list) {
   list.step("selection");
-  const auto& [certain, unknown_majority, simpler_share, min_running, max_running] = options;
+  const auto& [certain, unknown_majority, simpler_share, alike_form_share, min_running, max_running] =
+      options;
   SLIPWAY_FIELD(certain);
   SLIPWAY_FIELD(unknown_majority);
   SLIPWAY_FIELD(simpler_share);
+  SLIPWAY_FIELD(alike_form_share);
   SLIPWAY_FIELD(min_running);
   SLIPWAY_FIELD(max_running);
 }

@@ -146,8 +146,10 @@ struct SelectionOptions {
   double certain = 0.5;           // probability from which the first set is the answer whatever follows
   double unknown_majority = 0.5;  // of all sets with something else, beyond which one of them is the answer
   double simpler_share = 0.5;  // of the first set's probability, for which a smaller one of the same is taken
-  double min_running = 0.01;   // probability of sets that resamples choose among
-  int max_running = 6;         // of them, at most
+  // Of the probability of a cause from outside, with which another one is as probable: see best_form.
+  double alike_form_share = 0.5;
+  double min_running = 0.01;  // probability of sets that resamples choose among
+  int max_running = 6;        // of them, at most
 };
 
 // What the chosen set means: see verdict.h.

@@ -73,13 +73,13 @@ std::size_t chosen_among(std::span<const Candidate> candidates, const SelectionO
   return static_cast<std::size_t>(first - candidates.begin());
 }
 
-std::size_t best_form(const ExplanationSearch& search, std::size_t chosen, double rival_share) {
+std::size_t best_form(const ExplanationSearch& search, std::size_t chosen, double alike_share) {
   const Candidate& first = search.candidates[chosen];
   if (!first.outside || first.with_unknown) return chosen;
   std::size_t best = chosen;
   for (std::size_t c = 0; c < search.candidates.size(); ++c) {
     const Candidate& other = search.candidates[c];
-    if (other.outside && !other.with_unknown && other.probability >= rival_share * first.probability &&
+    if (other.outside && !other.with_unknown && other.probability >= alike_share * first.probability &&
         library_effects_of(other) == library_effects_of(first) &&
         search.fits[other.fit].log_evidence > search.fits[search.candidates[best].fit].log_evidence)
       best = c;

@@ -16,10 +16,10 @@ namespace slipway::gap {
 // with fewer effects of the same that is not much less probable. What adds little is not worth a name.
 std::size_t chosen_among(std::span<const Candidate> candidates, const SelectionOptions& options = {});
 
-// Of explanations with a cause from outside and the same effects that have `rival_share` of the chosen one's
+// Of explanations with a cause from outside and the same effects that have `alike_share` of the chosen one's
 // probability at least, the one whose fit alone has the most evidence; the others lean on what any simulator
 // may be off by. What has no known form is returned as it was chosen.
-std::size_t best_form(const ExplanationSearch& search, std::size_t chosen, double rival_share);
+std::size_t best_form(const ExplanationSearch& search, std::size_t chosen, double alike_share);
 
 // The evidence of a linearised explanation, made of its parts by groups of drives: whitened residuals and
 // columns of prior deviation 1.
