@@ -148,6 +148,11 @@ std::string_view describe(Outcome outcome) {
   return "unknown outcome";
 }
 
+double measured_slip(const StationState& state, const DriveCommand& command) {
+  return command.turn_in_place ? 1.0 - state.yaw_rate_rad_s / command.turn_rate_rad_s
+                               : 1.0 - state.along_m_s / command.speed_m_s;
+}
+
 QuasiStaticSolver::QuasiStaticSolver(const RoverModel& rover, double gravity_m_s2, Precision precision)
     : rover_(rover), gravity_m_s2_(gravity_m_s2), precision_(precision) {}
 

@@ -68,6 +68,10 @@ struct StationState {
   bool moving() const { return outcome == Outcome::kMoving; }
 };
 
+// Slip as drives are measured: 1 less the speed along the commanded direction over the commanded one; when
+// turning in place, of the yaw rate. Below StationState::slip_ratio where the rover skids, and unbounded.
+double measured_slip(const StationState& state, const DriveCommand& command);
+
 // How much is tried before the solver reports that there is no balance.
 enum class Thoroughness {
   kSure,   // every method, bracketing included

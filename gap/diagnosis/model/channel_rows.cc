@@ -19,12 +19,8 @@ std::optional<Measured> motion(const WindowReadings& readings, std::size_t /*whe
   return readings.motion().*member;
 }
 
-// As it is measured: of the commanded motion, downhill as uphill. StationState::slip_ratio has another
-// denominator where the rover skids, and bounds.
 double predicted_slip(const StationPrediction& at, std::size_t /*wheel*/) {
-  if (at.state == nullptr) return 1.0;
-  return at.command.turn_in_place ? 1.0 - at.state->yaw_rate_rad_s / at.command.turn_rate_rad_s
-                                  : 1.0 - at.state->along_m_s / at.command.speed_m_s;
+  return at.state != nullptr ? sim::measured_slip(*at.state, at.command) : 1.0;
 }
 
 double predicted_side_slip(const StationPrediction& at, std::size_t /*wheel*/) {
