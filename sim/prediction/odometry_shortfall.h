@@ -6,9 +6,10 @@ namespace slipway::sim {
 
 // How far behind a rover is that is commanded by the way its wheels roll, without a look at where it is.
 //
-// With u(x) = v / (r w) at the place x of the path, 1 - i of a slip i and 1 / (1 + i) of a skid (slip_ratio.h),
-// the wheels roll dr = dx / u. A drive commanded to r ends at the x with r = integral from 0 to x of
-// dx' / u(x'); its shortfall is r - x, below 0 where the rover skids downhill. Behind the last station its slip goes on. Heading errors and side slip are not in it.
+// With u(x) = v / (r w) at the place x of the path, 1 - i of a slip i and 1 / (1 + i) of a skid
+// (slip_ratio.h), the wheels roll dr = dx / u. A drive commanded to r ends at the x with r = integral from 0
+// to x of dx' / u(x'); its shortfall is r - x, below 0 where the rover skids downhill. Behind the last
+// station its slip goes on. Heading errors and side slip are not in it.
 class ShortfallFollower {
  public:
   // The rolled distances at which it is asked for, rising, in metres.

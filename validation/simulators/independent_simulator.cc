@@ -68,11 +68,10 @@ Result<Report> independent_simulator(const std::filesystem::path& data) {
     const Attitude attitude{.roll_rad = rad_from_deg(number("roll_deg")),
                             .pitch_rad = rad_from_deg(number("pitch_deg")),
                             .yaw_rad = 0.0};
-    const sim::DriveCommand command{.speed_m_s = number("speed_m_s")};
-    const sim::StationState state =
-        solver.solve(sim::stance_on_plane(rover, attitude), practice_soil(), command);
+    const sim::StationState state = solver.solve(sim::stance_on_plane(rover, attitude), practice_soil(),
+                                                 {.speed_m_s = number("speed_m_s")});
     const double backwards = number("speed_m_s") < 0.0 ? -1.0 : 1.0;
-    slip.add(number("slip"), sim::measured_slip(state, command));
+    slip.add(number("slip"), state.slip_ratio);
     side.add(number("side_slip_deg"), deg_from_rad(state.side_slip_rad));
     worst = std::max(worst, std::abs(slip.predicted.back() - slip.measured.back()));
     for (std::size_t k = 0; k < kWheelNames.size(); ++k) {

@@ -119,9 +119,13 @@ class Searcher {
         best_fit_[v.effect] = index;
     }
     singles_.assign(best_fit_.begin(), best_fit_.end());
-    std::stable_sort(singles_.begin(), singles_.end(), [&](const auto& a, const auto& b) {
-      return search_.fits[a.second].log_evidence > search_.fits[b.second].log_evidence;
-    });
+    sort_singles();
+    for (std::size_t s = 0; s < singles_.size() && s < static_cast<std::size_t>(options_.search.max_paired);
+         ++s) {
+      FittedExplanation& fit = search_.fits[singles_[s].second];
+      if (went_far(fit, options_.search.max_linear_shift)) fit_from_neutral(fit);
+    }
+    sort_singles();
   }
 
   // They grow from the best single effects, by seconds that promise a gain of so much at least.
@@ -152,6 +156,28 @@ class Searcher {
           fit_from_neutral(search_.fits[pair]);
         ++(from_outside ? outside : fitted);
       }
+    }
+  }
+
+  // What a pair found of soils and closures may be better without its second effect, too.
+  void fit_without_seconds() {
+    for (const auto& [effect, single] : singles_) {
+      FittedExplanation& fit = search_.fits[single];
+      if (progress_.cancelled() || !went_far(fit, options_.search.max_linear_shift)) continue;
+      const FittedExplanation* best = &fit;
+      for (const auto& [names, pair] : pairs_)
+        if (names.contains(effect) && search_.fits[pair].log_evidence > best->log_evidence)
+          best = &search_.fits[pair];
+      if (best == &fit) continue;
+      const auto effects = best->hypothesis.effects();
+      const auto own = std::find_if(effects.begin(), effects.end(),
+                                    [&](const EffectVariant& v) { return v.effect == effect; });
+      std::vector<double> start;
+      for (std::size_t p = 0; p < best->x.size(); ++p)
+        if (const std::string& of = best->hypothesis.parameters()[p].effect; of.empty() || of == effect)
+          start.push_back(best->x[p]);
+      FittedExplanation second = fitted(Hypothesis(campaign_, {*own}), start);
+      if (second.log_evidence > fit.log_evidence) fit = std::move(second);
     }
   }
 
@@ -240,9 +266,15 @@ class Searcher {
     return search_.fits.size() - 1;
   }
 
-  // A pair starts where the fit of one of its effects has re-tuned soils and closures in the other's place,
-  // which may be a dead end. So it is fitted again from what was believed of them, with the effects at half
-  // of their usual sizes at least.
+  void sort_singles() {
+    std::stable_sort(singles_.begin(), singles_.end(), [&](const auto& a, const auto& b) {
+      return search_.fits[a.second].log_evidence > search_.fits[b.second].log_evidence;
+    });
+  }
+
+  // An effect starts where soils and closures were re-tuned in its place, and the second of a pair where they
+  // were beside the first alone, which may be a dead end. So what matters most is fitted again from what was
+  // believed of them, with the effects at half of their usual sizes at least.
   void fit_from_neutral(FittedExplanation& fit) const {
     std::vector<double> start = fit.hypothesis.neutral();
     for (std::size_t p = fit.hypothesis.nuisance_count(); p < start.size(); ++p) {
@@ -339,6 +371,7 @@ Result<ExplanationSearch> search_explanations(const DriveCampaign& campaign, con
   searcher.fit_again(found_before);
   searcher.fit_singles();
   searcher.fit_pairs(options.search.min_pair_gain);
+  searcher.fit_without_seconds();
   return std::move(searcher).compete();
 }
 
