@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "sim/wheel/slip_ratio.h"
+#include "sim/prediction/odometry_shortfall.h"
 
 namespace slipway::sim {
 namespace {
@@ -90,9 +90,8 @@ DrawnStretch StretchDriver::run(std::uint64_t key, const RedrawnCells& redrawn,
     StationState state = solver.solve(station.stance, under, station.command);
     scale_slip(slip_scale(ground, station), state);
     last_slip = state.moving() ? std::min(state.slip_ratio, 1.0) : 1.0;
-    constexpr double kMostSlip = 0.999;
     come_m += station.drive_m;
-    rolled_m += station.drive_m / speed_ratio_from_slip(std::clamp(last_slip, -kMostSlip, kMostSlip));
+    rolled_m += station.drive_m * roll_per_way(last_slip);
     if (state.by_slip_curve) continue;
     ++with_current;
     for (std::size_t k = 0; k < currents.size(); ++k) currents[k] += std::abs(state.wheels[k].current_a);

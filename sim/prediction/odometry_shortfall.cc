@@ -6,10 +6,14 @@
 
 namespace slipway::sim {
 
+double roll_per_way(double slip_ratio) {
+  constexpr double kMostSlip = 0.999;
+  return 1.0 / speed_ratio_from_slip(std::clamp(slip_ratio, -kMostSlip, kMostSlip));
+}
+
 void ShortfallFollower::add(double way_m, double slip_ratio) {
-  if (way_m <= 0.0) return;            // a turn in place
-  constexpr double kMostSlip = 0.999;  // either way: neither the rover nor its wheels stand still
-  roll_per_way_ = 1.0 / speed_ratio_from_slip(std::clamp(slip_ratio, -kMostSlip, kMostSlip));
+  if (way_m <= 0.0) return;  // a turn in place
+  roll_per_way_ = roll_per_way(slip_ratio);
   const double rolled_m = rolled_m_ + way_m * roll_per_way_;
   while (shortfall_m_.size() < wanted_m_.size() && wanted_m_[shortfall_m_.size()] <= rolled_m) {
     const double wanted_m = wanted_m_[shortfall_m_.size()];

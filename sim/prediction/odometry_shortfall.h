@@ -4,6 +4,10 @@
 
 namespace slipway::sim {
 
+// The way that wheels roll for each metre that the rover comes, 1 / u of slip_ratio.h. Slips beyond 0.999
+// either way count as 0.999, so that neither the rover nor its wheels stand still.
+double roll_per_way(double slip_ratio);
+
 // How far behind a rover is that is commanded by the way its wheels roll, without a look at where it is.
 //
 // With u(x) = v / (r w) at the place x of the path, 1 - i of a slip i and 1 / (1 + i) of a skid
@@ -25,7 +29,7 @@ class ShortfallFollower {
   const std::vector<double>& wanted_m_;
   std::vector<float> shortfall_m_;
   double rolled_m_ = 0.0, come_m_ = 0.0;
-  double roll_per_way_ = 1.0;  // 1 / u of the last part
+  double roll_per_way_ = 1.0;  // of the last part
 };
 
 }  // namespace slipway::sim

@@ -3,9 +3,11 @@
 // downhill.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
+#include <utility>
+#include <vector>
 
 #include "core/angle.h"
 #include "gap/diagnosis/model/hypothesis.h"
