@@ -70,6 +70,8 @@ std::span<const Comparison> comparison_catalogue() {
                  "two other simulators", &sealed_levels},
       Comparison{"sealed_marginals", "whether an effect of so much probability is hidden so often",
                  "two other simulators", &sealed_marginals},
+      Comparison{"sealed_detectability", "how much the best diagnosis could see of a hidden cause",
+                 "two other simulators", &sealed_detectability},
       Comparison{"worlds", "planners in worlds whose truth is known: embeddings, stops, length",
                  "this project's seeded worlds", &worlds},
       Comparison{"worlds_slip", "whether the 90 % interval of a route's mean slip holds it there",

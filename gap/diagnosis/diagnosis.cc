@@ -16,6 +16,7 @@
 #include "gap/diagnosis/describe/next_drives.h"
 #include "gap/diagnosis/describe/reference_summary.h"
 #include "gap/diagnosis/describe/unexplained.h"
+#include "gap/diagnosis/doubts.h"
 #include "gap/diagnosis/held_out/effect_marginals.h"
 #include "gap/diagnosis/held_out/extrapolation.h"
 #include "gap/diagnosis/held_out/gap_closure.h"
@@ -32,10 +33,23 @@
 namespace slipway::gap {
 namespace {
 
+// What holds of the evidence and of names where a reference told what is healthy.
+DiagnosisOptions with_reference(DiagnosisOptions options) {
+  for (EvidenceShare& belief : options.evidence.shares) belief.share *= options.reference.evidence_share;
+  VerdictOptions& verdict = options.verdict;
+  verdict.min_closed_share = std::max(verdict.min_closed_share, options.reference.min_closed_share);
+  verdict.min_share_of_rest = std::numeric_limits<double>::infinity();
+  return options;
+}
+
 class Diagnoser {
  public:
   Diagnoser(const DriveCampaign& campaign, const DiagnosisOptions& options, Progress& progress)
-      : campaign_(campaign), options_(options), progress_(progress) {}
+      : campaign_(campaign),
+        options_(campaign.reference ? with_reference(options) : options),
+        progress_(progress) {
+    d_.options = listed_options(options);
+  }
 
   Result<Diagnosis> run() {
     say_what_was_asked();
@@ -64,7 +78,6 @@ class Diagnoser {
     d_.campaign = campaign_.name;
     d_.campaign_fingerprint = campaign_.fingerprint;
     d_.seed = options_.seed;
-    d_.options = listed_options(options_);
     d_.drives = campaign_.drives.size();
     d_.notes = campaign_.notes;
     for (const sim::Effect& effect : sim::effect_catalogue())
@@ -146,15 +159,10 @@ class Diagnoser {
     const LinearHeldOut held_out(prepared_, drives.groups, options_.folds, options_.fit);
     const ClosedShares shares(std::cref(held_out), search_);
     d_.marginals = effect_marginals(d_.library, search_, shares);
-    VerdictOptions verdict = options_.verdict;
-    if (campaign_.reference) {
-      verdict.min_closed_share = std::max(verdict.min_closed_share, options_.reference.min_closed_share);
-      verdict.min_share_of_rest = std::numeric_limits<double>::infinity();
-    }
     const CauseShares cause_shares{
         .of_gap = [&](const std::string& cause) { return shares.of(cause); },
         .beside_others = [&](const std::string& cause) { return shares.beside_others(cause); }};
-    naming_ = name_effects(search_, best_, d_.marginals, cause_shares, verdict);
+    naming_ = name_effects(search_, best_, d_.marginals, cause_shares, options_.verdict);
     best_ = naming_.correction;
     judge(campaign_, prepared_, search_, naming_, options_, d_);
     if (d_.outside) d_.outside->closed_share = shares.of(d_.outside->cause);
@@ -264,7 +272,10 @@ class Diagnoser {
     d_.window_gaps = std::move(closure->windows);
     d_.candidates[best_].held_out_score = closure->log_density_gain;
     withdraw_what_tells_no_better(closure->log_density_gain, d_);
-    doubt_what_leaves_a_gap(reported_fit(), options_.verdict, d_);
+    doubt_what_leaves_a_gap(
+        reported_fit(),
+        campaign_.reference ? std::nullopt : std::optional(prepared_.noise->furthest_above_belief()),
+        options_.verdict, d_);
     if (explains()) {
       auto extrapolated =
           extrapolate(prepared_, campaign_, choice.corrections.front(), drives, options_, progress_);
@@ -336,7 +347,7 @@ class Diagnoser {
   }
 
   const DriveCampaign& campaign_;
-  const DiagnosisOptions& options_;
+  const DiagnosisOptions options_;
   Progress& progress_;
   PreparedCampaign prepared_;
   ExplanationSearch search_;

@@ -19,9 +19,6 @@
 namespace slipway::gap {
 namespace {
 
-constexpr std::string_view kSameLook =
-    "an effect of the library with another equation than the library's would look the same";
-
 // How much more probable the drives are when soils and motors may differ from the nominal ones, closures
 // being free in either case.
 double gain_of_parameters(const PreparedCampaign& prepared, const DriveCampaign& campaign,
@@ -131,63 +128,6 @@ void judge_without_effects(const DriveCampaign& campaign, const PreparedCampaign
   }
 }
 
-// The channel of which most is left over its floor, where that is too much; nothing else. Attitudes do not
-// count: how a rover leans as its wheels sink is in no model here.
-std::optional<std::string> gap_left(const Diagnosis& d, const VerdictOptions& options) {
-  double most = d.effects.empty() ? options.max_left_of_nothing : options.max_left_beside_effects;
-  std::optional<std::string> words;
-  for (const ChannelClosure& c : d.gap) {
-    if (row_of(c.channel).of_the_stance) continue;
-    const double floor = c.noise_floor.value;
-    if (c.with_effects.low <= most * floor) continue;
-    if (!d.effects.empty() &&
-        c.retuned.value - c.with_effects.value >= options.forgiven_closure * (c.retuned.value - floor))
-      continue;
-    most = c.with_effects.low / floor;
-    words = fmt::format("on drives held out of the fit {} is {:.1f} times its floor off (at least {:.1f})",
-                        name_of(c.channel), c.with_effects.value / floor, most);
-  }
-  return words;
-}
-
-// A parameter that the answer needs at one of its two ends. An end near what was believed says nothing: with
-// a reference it may lie there.
-std::optional<std::string> parameter_at_its_end(const FittedExplanation& reported) {
-  for (std::size_t p = 0; p < reported.hypothesis.nuisance_count(); ++p) {
-    const Parameter& parameter = reported.hypothesis.parameters()[p];
-    constexpr double kFarEnd = 2.0;  // deviations
-    const bool two_sided = parameter.lowest < parameter.neutral - kFarEnd * parameter.std &&
-                           parameter.neutral + kFarEnd * parameter.std < parameter.highest;
-    if (two_sided && (reported.x[p] <= parameter.lowest || reported.x[p] >= parameter.highest))
-      return fmt::format(
-          "{} would have to be further from what was believed than it may be ({:.1f} deviations)",
-          parameter.name, std::abs(reported.x[p] - parameter.neutral) / parameter.std);
-  }
-  return std::nullopt;
-}
-
-double unknown_probability(const Diagnosis& d) {
-  double sum = 0.0;
-  for (const ComparedSet& c : d.candidates)
-    if (c.with_unknown) sum += c.probability;
-  return sum;
-}
-
-std::vector<std::string> named(const Diagnosis& d) {
-  std::vector<std::string> names;
-  for (const FoundEffect& effect : d.effects) names.push_back(effect.name);
-  return names;
-}
-
-// No effect is named: what drives look like with the effects is what they look like re-tuned.
-void withdraw_effects(Diagnosis& d) {
-  d.effects.clear();
-  for (ChannelClosure& c : d.gap) c.with_effects = c.retuned;
-  for (HeldOutPoint& point : d.held_out) point.with_effects = point.retuned;
-  for (WindowGap& window : d.window_gaps) window.with_effects = window.retuned;
-  d.planners_view.with_effects = d.planners_view.retuned;
-}
-
 // The parameters of one of a fit's causes: what was estimated, and what was held.
 std::vector<FoundParameter> parameters_of(const FittedExplanation& fit, std::size_t which, bool with_held) {
   const EffectVariant& variant = fit.hypothesis.effects()[which];
@@ -211,17 +151,6 @@ std::vector<FoundEffect> found_effects(const FittedExplanation& fit,
       all.push_back({effects[e].effect, effects[e].label, probability_of.at(effects[e].effect),
                      parameters_of(fit, e, true)});
   return all;
-}
-
-// "dragging_wheel (0.999) closes 93 % of the gap"
-std::string closing_words(const Diagnosis& d, std::span<const std::string> effects) {
-  std::vector<std::string> each;
-  for (const std::string& effect : effects)
-    for (const EffectMarginal& m : d.marginals)
-      if (m.name == effect)
-        each.push_back(fmt::format("{} (probability {:.3f}) closes {:.0f} % of the gap", effect,
-                                   m.probability, 100.0 * m.closed_share));
-  return fmt::format("{}", fmt::join(each, ", "));
 }
 
 std::string remaining_words(const Diagnosis& d) {
@@ -265,25 +194,6 @@ void judge_unknown(const ExplanationSearch& search, std::size_t best, double unk
                     fmt::join(beside, " and ")));
 }
 
-// Marginal probabilities after those of the sets have changed.
-void take_marginals_anew(Diagnosis& d) {
-  for (EffectMarginal& m : d.marginals) m.probability = marginal_probability(d.candidates, m.name);
-  std::stable_sort(
-      d.marginals.begin(), d.marginals.end(),
-      [](const EffectMarginal& a, const EffectMarginal& b) { return a.probability > b.probability; });
-  for (FoundEffect& effect : d.effects) effect.probability = marginal_probability(d.candidates, effect.name);
-}
-
-// Whether each named effect may stand beside something unknown.
-bool all_stand(const Diagnosis& d, const VerdictOptions& options) {
-  return options.name_by_marginals && !d.effects.empty() &&
-         std::all_of(d.effects.begin(), d.effects.end(), [&](const FoundEffect& effect) {
-           return std::any_of(d.marginals.begin(), d.marginals.end(), [&](const EffectMarginal& m) {
-             return m.name == effect.name && stands_beside_unknown(m, options);
-           });
-         });
-}
-
 }  // namespace
 
 Interval parameter_interval(const FittedExplanation& fit, std::size_t parameter) {
@@ -319,6 +229,16 @@ std::optional<OutsideFinding> outside_finding(const ExplanationSearch& search, s
   return std::nullopt;
 }
 
+std::string closing_words(const Diagnosis& d, std::span<const std::string> effects) {
+  std::vector<std::string> each;
+  for (const std::string& effect : effects)
+    for (const EffectMarginal& m : d.marginals)
+      if (m.name == effect)
+        each.push_back(fmt::format("{} (probability {:.3f}) closes {:.0f} % of the gap", effect,
+                                   m.probability, 100.0 * m.closed_share));
+  return fmt::format("{}", fmt::join(each, ", "));
+}
+
 void judge(const DriveCampaign& campaign, const PreparedCampaign& prepared, const ExplanationSearch& search,
            const Naming& naming, const DiagnosisOptions& options, Diagnosis& d) {
   const Candidate& chosen = search.candidates[naming.candidate];
@@ -349,66 +269,6 @@ void judge(const DriveCampaign& campaign, const PreparedCampaign& prepared, cons
     judge_effects(search, naming, probability, options, d);
     d.effects = found_effects(search.fits[chosen.fit], single);
   }
-}
-
-void doubt_what_does_not_extrapolate(const VerdictOptions& options, Diagnosis& d) {
-  if (d.verdict != Verdict::kEffects) return;
-  for (const Extrapolation& e : d.extrapolations) {
-    if (e.log_density_gain + options.beyond_chance * e.error >= 0.0) continue;
-    d.verdict = Verdict::kEffectSet;
-    d.reason += fmt::format(
-        "; but learnt from the other drives it predicts those of {} {} {:.3g} worse than re-tuned "
-        "parameters alone",
-        e.variable, e.above ? "above" : "below", e.limit);
-    return;
-  }
-}
-
-void withdraw_what_tells_no_better(double log_density_gain, Diagnosis& d) {
-  const bool names_effects = d.verdict == Verdict::kEffects || d.verdict == Verdict::kEffectSet;
-  if (!names_effects || d.partial || log_density_gain > 0.0) return;
-  const std::vector<std::string> names = named(d);
-  d.verdict = Verdict::kParameters;
-  d.reason = fmt::format(
-      "re-tuned soil and motor parameters tell drives held out of the fit as well as they do with {}, whose "
-      "probability is {:.2f}: nothing is named (log density with it {:+.2g})",
-      fmt::join(names, " and "), d.effects.front().probability, log_density_gain);
-  d.overturned_by = kSameLook;
-  withdraw_effects(d);
-}
-
-void doubt_what_leaves_a_gap(const FittedExplanation& reported, const VerdictOptions& options, Diagnosis& d) {
-  const double unknown = unknown_probability(d);
-  if (d.verdict == Verdict::kUnknown || d.verdict == Verdict::kInsufficient || d.partial || unknown <= 0.0)
-    return;
-  std::optional<std::string> why = gap_left(d, options);
-  if (!why) why = parameter_at_its_end(reported);
-  if (!why) return;
-  const double doubt = options.min_doubt;
-  if (unknown < doubt)
-    for (ComparedSet& c : d.candidates)
-      c.probability *= c.with_unknown ? doubt / unknown : (1.0 - doubt) / (1.0 - unknown);
-  std::stable_sort(d.candidates.begin(), d.candidates.end(),
-                   [](const ComparedSet& a, const ComparedSet& b) { return a.probability > b.probability; });
-  take_marginals_anew(d);
-  const std::vector<std::string> names = named(d);
-  if (all_stand(d, options)) {
-    d.partial = true;
-    d.verdict = Verdict::kEffects;
-    d.reason =
-        fmt::format("{}, and something unexplained remains beside it: {}", closing_words(d, names), *why);
-    d.overturned_by = kSameLook;
-    return;
-  }
-  if (!names.empty())
-    d.notes.push_back(
-        fmt::format("{} would explain a part, and may be the unknown cause's shadow: nothing is named",
-                    fmt::join(names, " and ")));
-  withdraw_effects(d);
-  d.least_detectable.clear();
-  d.verdict = Verdict::kUnknown;
-  d.reason = fmt::format("a gap remains that no effect of the library explains: {}", *why);
-  d.overturned_by = kSameLook;
 }
 
 }  // namespace slipway::gap

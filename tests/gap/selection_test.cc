@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "core/random.h"
+#include "gap/diagnosis/doubts.h"
 #include "gap/diagnosis/model/noise_model.h"
 #include "gap/diagnosis/verdict.h"
 #include "tests/sim/reference_models.h"
@@ -121,7 +122,7 @@ TEST(Verdict, IsUnknownWhereAnAnswerLeavesMoreThanItsFloor) {
   FittedExplanation reported{{}, Hypothesis(campaign, {})};
   reported.x = reported.hypothesis.neutral();
   const auto doubted = [&](Diagnosis d) {
-    doubt_what_leaves_a_gap(reported, VerdictOptions{}, d);
+    doubt_what_leaves_a_gap(reported, std::nullopt, VerdictOptions{}, d);
     return d;
   };
   EXPECT_EQ(doubted(answer_with(Verdict::kNoGap, 1.2)).verdict, Verdict::kNoGap);
@@ -151,6 +152,33 @@ TEST(Verdict, IsUnknownWhereAnAnswerLeavesMoreThanItsFloor) {
 
   reported.x.front() = reported.hypothesis.parameters().front().highest;
   EXPECT_EQ(doubted(answer_with(Verdict::kParameters, 1.0)).verdict, Verdict::kUnknown) << "at its end";
+}
+
+// Currents that scattered by half of themselves from drive to drive hid a wheel that dragged: without its
+// name the answer was that re-tuned parameters explain the drives.
+TEST(Verdict, IsUnknownWhereDrivesWouldScatterByMoreThanAnyoneBelieved) {
+  DriveCampaign campaign;
+  campaign.soils.resize(1);
+  FittedExplanation reported{{}, Hypothesis(campaign, {})};
+  reported.x = reported.hypothesis.neutral();
+  const auto doubted = [&](Verdict verdict, double deviations, double closed_share) {
+    Diagnosis d = answer_with(verdict, 1.0);
+    d.marginals.push_back({.name = "hardpan", .probability = 0.8, .closed_share = closed_share});
+    const ScaleOffBelief scatter{.of = "currents", .times = 55.0, .deviations = deviations};
+    doubt_what_leaves_a_gap(reported, scatter, VerdictOptions{}, d);
+    return d;
+  };
+  EXPECT_EQ(doubted(Verdict::kParameters, 1.5, 0.0).verdict, Verdict::kParameters);
+  const Diagnosis scattered = doubted(Verdict::kParameters, 3.3, 0.0);
+  EXPECT_EQ(scattered.verdict, Verdict::kUnknown);
+  EXPECT_NE(scattered.reason.find("currents would scatter by 55 times"), std::string::npos)
+      << scattered.reason;
+  const Diagnosis most = doubted(Verdict::kEffects, 3.3, 0.6);
+  EXPECT_TRUE(most.partial) << "it closes most of the gap";
+  EXPECT_EQ(most.effects.size(), 1U);
+  const Diagnosis little = doubted(Verdict::kEffects, 3.3, 0.1);
+  EXPECT_EQ(little.verdict, Verdict::kUnknown);
+  EXPECT_TRUE(little.effects.empty());
 }
 
 // A patch of soft soil on hills came as motors that change with the temperature: probable on the drives that

@@ -6,99 +6,10 @@
 #include <numbers>
 #include <span>
 
-#include "sensor_errors.h"
-
 namespace slipway::gap_benchmark {
 namespace {
 
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
-constexpr double kStretch_m = 1.5, kStretch_rad = 0.8;
-constexpr double kStuckSlip = 0.9;  // a reading above it only says that the slip was high
-
-struct Stretch {
-  std::size_t from = 0, to = 0;  // rows, both in it
-  std::size_t middle() const { return (from + to) / 2; }
-};
-
-// Stretches of nearly equal time; neighbours share a row.
-std::vector<Stretch> stretches_of(const MadeDrive& drive) {
-  const std::vector<DriveRow>& rows = drive.rows;
-  const double start_s = rows.front().time_s, duration_s = rows.back().time_s - start_s;
-  const double step_s = rows[1].time_s - start_s;
-  const double asked_s = drive.order.turn_in_place ? kStretch_rad / std::abs(drive.order.turn_rate_rad_s())
-                                                   : kStretch_m / std::abs(drive.order.speed_m_s);
-  const long count = std::max(1L, std::lround(duration_s / std::max(asked_s, 2.0 * step_s)));
-  std::vector<Stretch> stretches;
-  std::size_t from = 0;
-  for (long i = 1; i <= count; ++i) {
-    const double end_s = start_s + duration_s * static_cast<double>(i) / static_cast<double>(count);
-    std::size_t to = from;
-    while (to + 1 < rows.size() && rows[to].time_s < end_s - 1e-9) ++to;
-    if (to > from) stretches.push_back({from, to});
-    from = to;
-  }
-  return stretches;
-}
-
-// One value for each wheel in a channel of the wheels, otherwise a single one.
-using Reading = std::array<std::vector<double>, kTraceChannels.size()>;
-
-// The readings of sensors without noise. The motion is computed as from a log, with the recorded heading and
-// attitude.
-Reading reading_of(const DriveOrder& order, const DriveRow& row) {
-  const RoverMotion& m = row.motion;
-  const double ahead = m.forward_m_s * std::cos(m.pitch_rad) +
-                       m.left_m_s * std::sin(m.pitch_rad) * std::sin(m.roll_rad),
-               aside = m.left_m_s * std::cos(m.roll_rad);
-  const double off = m.heading_rad - row.yaw_rad;
-  const double level_ahead = std::cos(off) * ahead - std::sin(off) * aside,
-               level_aside = std::sin(off) * ahead + std::cos(off) * aside;
-  const double left = level_aside / std::cos(row.roll_rad);
-  const double forward =
-      (level_ahead - left * std::sin(row.pitch_rad) * std::sin(row.roll_rad)) / std::cos(row.pitch_rad);
-  const double turned = m.recorded_turn_rad_s * std::cos(row.pitch_rad) / std::cos(row.roll_rad);
-  Reading reading;
-  if (order.turn_in_place) {
-    reading[kSlip] = {1.0 - turned / order.turn_rate_rad_s()};
-  } else {
-    reading[kSlip] = {1.0 - forward / order.speed_m_s};
-    reading[kSideSlip] = {left / std::abs(order.speed_m_s)};
-    reading[kYawRate] = {turned - order.turn_rate_rad_s()};
-  }
-  reading[kRoll] = {row.roll_rad};
-  reading[kPitch] = {row.pitch_rad};
-  for (const WheelRow& wheel : row.wheels) {
-    reading[kCurrent].push_back(wheel.current_a);
-    reading[kSinkage].push_back(wheel.sinkage_m);
-  }
-  return reading;
-}
-
-// The standard deviation of the mean of a stretch's readings due to its sensors alone; for speeds and rates
-// that of the line through positions or headings.
-double sensor_deviation(std::size_t channel, const DriveOrder& order, std::span<const DriveRow> rows,
-                        std::size_t surveyed, double mean) {
-  double middle_s = 0.0, spread = 0.0;
-  const auto n = static_cast<double>(rows.size());
-  for (const DriveRow& row : rows) middle_s += row.time_s / n;
-  for (const DriveRow& row : rows) spread += std::pow(row.time_s - middle_s, 2);
-  const double attitude = kAttitudeStd_deg / kDegPerRad;
-  const double speed = kPositionStd_m / std::sqrt(spread) / std::abs(order.speed_m_s);
-  switch (channel) {
-    case kSlip:
-      return order.turn_in_place ? attitude / std::sqrt(spread) / std::abs(order.turn_rate_rad_s()) : speed;
-    case kSideSlip:
-      return std::hypot(speed, attitude / std::sqrt(n));
-    case kYawRate:
-      return attitude / std::sqrt(spread);
-    case kCurrent:
-      return std::hypot(kCurrentStd_a, kCurrentRel * mean) / std::sqrt(n);
-    case kSinkage:
-      return kSinkageStd_m / std::sqrt(static_cast<double>(surveyed));
-    default:
-      return attitude / std::sqrt(n);
-  }
-}
 
 // The world without the hidden causes, and worlds whose stiffness, friction or shear modulus is off by one
 // standard deviation of the scatter from drive to drive.
@@ -107,12 +18,9 @@ struct Worlds {
   std::array<World, 3> scattered;
 };
 Worlds worlds_of(const World& world) {
-  // Drawn within two deviations from drive to drive, and along a drive on top.
-  constexpr double kBoundedVariance = 0.774;
+  // Along a drive it scatters on top.
   const double share = std::sqrt(kBoundedVariance + world.scatter.along * world.scatter.along);
-  Worlds worlds{world, {}};
-  worlds.bare.hidden = {};
-  worlds.bare.hidden.other_equations = world.hidden.other_equations;
+  Worlds worlds{without_hidden_causes(world), {}};
   worlds.scattered.fill(worlds.bare);
   worlds.scattered[0].soil.k_c *= std::exp(share * world.scatter.stiffness);
   worlds.scattered[0].soil.k_phi *= std::exp(share * world.scatter.stiffness);
@@ -125,11 +33,11 @@ class DriveTraces {
  public:
   DriveTraces(const SealedCampaign& campaign, const Worlds& worlds, const MadeDrive& drive)
       : campaign_(campaign), drive_(drive), stretches_(stretches_of(drive)) {
-    without_ = replayed(worlds.bare, drive.rows);
+    without_ = replayed(campaign, worlds.bare, drive, drive.rows);
     std::vector<DriveRow> middles;
     for (const Stretch& stretch : stretches_) middles.push_back(drive.rows[stretch.middle()]);
     for (std::size_t i = 0; i < scattered_.size(); ++i)
-      scattered_[i] = replayed(worlds.scattered[i], middles);
+      scattered_[i] = replayed(campaign, worlds.scattered[i], drive, middles);
   }
 
   std::vector<EffectTrace> traces() const {
@@ -142,15 +50,6 @@ class DriveTraces {
   }
 
  private:
-  std::vector<std::optional<DriveRow>> replayed(const World& world, std::span<const DriveRow> rows) const {
-    for (const NamedTerrain& terrain : campaign_.terrains) {
-      if (terrain.name != drive_.order.terrain) continue;
-      RandomStream random(drive_.soil_seed);
-      return replay_drive(world, terrain.grid, drive_.order, random, rows);
-    }
-    return std::vector<std::optional<DriveRow>>(rows.size());
-  }
-
   bool fill(std::size_t s, EffectTrace& trace) const {
     const Stretch& stretch = stretches_[s];
     std::vector<std::pair<DriveRow, DriveRow>> pairs;  // with and without

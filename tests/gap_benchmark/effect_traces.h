@@ -6,20 +6,16 @@
 #include <vector>
 
 #include "sealed_campaign.h"
+#include "stretch_reading.h"
 
 namespace slipway::gap_benchmark {
 
-// The variables on which observations of a stretch may depend, and the observed channels, by the diagnosis's
-// names.
+// The variables on which observations of a stretch may depend, by the diagnosis's names.
 constexpr std::array<const char*, 8> kTraceVariables{"slope_deg", "cross_slope_deg", "slip",
                                                      "speed_m_s", "curvature_1_m",   "temperature_c",
                                                      "turning",   "time_s"};
-enum TraceChannel { kSlip, kSideSlip, kYawRate, kRoll, kPitch, kCurrent, kSinkage };
-constexpr std::array<const char*, 7> kTraceChannels{"slip",  "side_slip", "yaw_rate", "roll",
-                                                    "pitch", "current",   "sinkage"};
 
-// The action of the hidden causes in a stretch of a drive (1.5 m of commanded distance, or 0.8 rad of a
-// turn).
+// The action of the hidden causes in a stretch of a drive.
 struct EffectTrace {
   std::string drive;
   std::array<double, kTraceVariables.size()> variables{};

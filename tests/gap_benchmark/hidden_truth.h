@@ -20,6 +20,7 @@ struct TrueSoil {
 struct Closure {
   bool parabolic_stress = false;  // instead of Wong and Reece's two branches of Bekker's power
   bool coupled_shear = false;     // one vector of shear displacement instead of one along and one across
+  double lateral_modulus = 1.0;   // shear modulus across over that along; no campaign varies it
   double exit_share = 0.0;        // exit angle over entry angle, behind the lowest point
   double rise_share = 0.0;  // soil heaped before the rim, over the sinkage: the arc of contact starts higher
   double pull_below_axle = 1.0;  // 1: pulls act on the ground below the axle; 0: torque reacts on the carrier

@@ -26,6 +26,7 @@
 #include <string>
 #include <vector>
 
+#include "detectability.h"
 #include "effect_traces.h"
 #include "hidden_causes.h"
 #include "sealed_campaign.h"
@@ -183,7 +184,7 @@ int main(int count, char** words) {
       return 2;
     }
 
-  std::string answers, traces = traces_header();
+  std::string answers, traces = traces_header(), limits = detectability_header();
   for (std::size_t i = 0; i < cases->size(); ++i) {
     char name[16];
     std::snprintf(name, sizeof name, "s%02u", static_cast<unsigned>(i + 1));
@@ -213,6 +214,7 @@ int main(int count, char** words) {
     }
     answers += (answers.empty() ? " \"" : ",\n \"") + std::string(name) + "\": " + answer_of(campaign);
     traces += traces_rows(name, effect_traces(campaign));
+    limits += detectability_row(name, detectability(campaign));
     std::cerr << "\rmade " << i + 1 << " of " << cases->size() << std::flush;
   }
   std::cerr << '\n';
@@ -220,5 +222,7 @@ int main(int count, char** words) {
   out << "{\n" << answers << "\n}\n";
   std::ofstream beside(std::filesystem::path(wish->out) / "traces.csv", std::ios::binary);
   beside << traces;
-  return out.good() && beside.good() ? 0 : 1;
+  std::ofstream limit(std::filesystem::path(wish->out) / "detectability.csv", std::ios::binary);
+  limit << limits;
+  return out.good() && beside.good() && limit.good() ? 0 : 1;
 }

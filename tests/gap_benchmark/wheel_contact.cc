@@ -107,16 +107,16 @@ WheelLoads wheel_loads(double radius_m, double width_m, double depth_m, const Wh
     const double strength = soil.cohesion_pa + sigma * soil.tan_phi;
     const double swept = theta_1 - theta;
     const double j_x = shear_radius * swept - radius_m * travel * (sine_1 - std::sin(theta));
-    const double j_y = radius_m * sideways * swept;
+    const double j_y = radius_m * sideways * swept, as_along = j_y / closure.lateral_modulus;
     double tau_x, tau_y;
     if (closure.coupled_shear) {
-      const double j = std::sqrt(j_x * j_x + j_y * j_y) + 1e-15;
+      const double j = std::sqrt(j_x * j_x + as_along * as_along) + 1e-15;
       const double tau = strength * (1.0 - std::exp(-j / soil.shear_modulus_m));
       tau_x = tau * j_x / j;
-      tau_y = tau * j_y / j;
+      tau_y = tau * as_along / j;
     } else {
       tau_x = std::copysign(strength * (1.0 - std::exp(-std::abs(j_x) / soil.shear_modulus_m)), j_x);
-      tau_y = std::copysign(strength * (1.0 - std::exp(-std::abs(j_y) / soil.shear_modulus_m)), j_y);
+      tau_y = std::copysign(strength * (1.0 - std::exp(-std::abs(as_along) / soil.shear_modulus_m)), j_y);
     }
     const double cosine = std::cos(theta), sine = std::sin(theta);
     normal += weight * (sigma * cosine + tau_x * sine);

@@ -17,5 +17,6 @@ Result<Report> dynamic_level(const std::filesystem::path& data);
 Result<Report> sealed_campaigns(const std::filesystem::path& data);
 Result<Report> sealed_levels(const std::filesystem::path& data);
 Result<Report> sealed_marginals(const std::filesystem::path& data);
+Result<Report> sealed_detectability(const std::filesystem::path& data);
 
 }  // namespace slipway::validation

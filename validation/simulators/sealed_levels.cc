@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <tuple>
 
@@ -133,6 +134,57 @@ Result<Report> sealed_marginals(const std::filesystem::path& data) {
                                        gap::brier_score(of).value_or(0.0), of.size()));
   }
   report.notes.emplace_back("Written by slipway gap-benchmark --marginals-csv.");
+  return report;
+}
+
+Result<Report> sealed_detectability(const std::filesystem::path& data) {
+  constexpr std::array kBounds{0.0, 50.0, 100.0, 300.0, 1000.0, 1e300};
+  const std::filesystem::path folder = data / "validation";
+  const auto scores = read_sealed_scores(folder / "sealed_levels_scores.csv");
+  if (!scores) return fail(scores.error());
+  const auto table =
+      CsvTable::read(folder / "sealed_detectability.csv",
+                     {.numbers = {"parameters_known", "retuned_as_drawn", "retuned_as_believed"},
+                      .numbers_or_empty = {},
+                      .texts = {"set", "campaign"}});
+  if (!table) return fail(table.error());
+  struct Bin {
+    Rate one, several;
+    std::vector<std::string> misses;
+  };
+  std::array<Bin, kBounds.size() - 1> bins;
+  for (std::size_t row = 0; row < table->rows(); ++row)
+    for (const SealedScore& s : *scores) {
+      if (s.variant != kAsIs || s.set != table->text(row, "set") ||
+          s.score.campaign != table->text(row, "campaign"))
+        continue;
+      const double left = table->number(row, "retuned_as_believed");
+      const auto above = std::upper_bound(kBounds.begin() + 1, kBounds.end() - 1, left);
+      Bin& bin = bins[static_cast<std::size_t>(above - kBounds.begin()) - 1];
+      const bool several = s.score.truth.find(" + ") != std::string::npos;
+      count(several ? bin.several : bin.one, is_right(s.score));
+      if (!is_right(s.score))
+        bin.misses.push_back(fmt::format("{}: {:.3g} left of {:.3g}", miss_words(s), left,
+                                         table->number(row, "parameters_known")));
+    }
+  Report report;
+  report.title = "What of a hidden cause is left to see beside re-tuned parameters, and how often it is told";
+  report.source = "tests/gap_benchmark; squared deviations of all readings; 90 % intervals";
+  report.columns = {"squared deviations left", "one cause, right", "two causes, right"};
+  for (std::size_t b = 0; b < bins.size(); ++b) {
+    report.rows.push_back({b + 1 == bins.size() ? fmt::format("over {:g}", kBounds[b])
+                                                : fmt::format("{:g} to {:g}", kBounds[b], kBounds[b + 1]),
+                           rate_words(bins[b].one), rate_words(bins[b].several)});
+    if (!bins[b].misses.empty())
+      report.notes.push_back(fmt::format("Misses there: {}.", joined(bins[b].misses)));
+  }
+  report.notes.emplace_back(
+      "A diagnosis that knew laws, sizes and places of the causes could expect a log evidence of half of "
+      "what "
+      "is left, and believes a third of it. Of two causes what is left is that of both: the weaker one can "
+      "be "
+      "invisible. Written by sealed_campaigns (detectability.csv), of sets that were blind when they were "
+      "diagnosed.");
   return report;
 }
 

@@ -16,6 +16,19 @@ Scales numbers_of(NoiseScales& s) {
           &s.slip,      &s.side_slip, &s.yaw_rate_rad_s, &s.attitude_rad,  &s.current_share, &s.sinkage_m};
 }
 
+constexpr std::array<std::string_view, kNoiseScales> kScaleNames{"the soil's stiffness",
+                                                                 "the soil's friction",
+                                                                 "the soil's shear modulus",
+                                                                 "the soil along a drive",
+                                                                 "the attitude of the ground",
+                                                                 "the centre of load",
+                                                                 "slip",
+                                                                 "side slip",
+                                                                 "yaw rate",
+                                                                 "attitude",
+                                                                 "currents",
+                                                                 "sinkage"};
+
 }  // namespace
 
 NoiseModel::NoiseModel(const WindowModel& model, Eigen::MatrixXd response, std::vector<double> expected,
@@ -156,6 +169,16 @@ double NoiseModel::log_prior() const {
   double sum = 0.0;
   for (int k = 0; k < kNoiseScales; ++k) sum += std::pow(std::log(*to[k] / *from[k]) / options_.prior_std, 2);
   return -0.5 * sum;
+}
+
+ScaleOffBelief NoiseModel::furthest_above_belief() const {
+  NoiseScales believed = options_.initial, now = scales_;
+  const Scales from = numbers_of(believed), to = numbers_of(now);
+  std::size_t furthest = 0;
+  for (std::size_t k = 1; k < from.size(); ++k)
+    if (*to[k] / *from[k] > *to[furthest] / *from[furthest]) furthest = k;
+  const double times = *to[furthest] / *from[furthest];
+  return {kScaleNames[furthest], times, std::log(times) / options_.prior_std};
 }
 
 void NoiseModel::estimate(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& systematic,

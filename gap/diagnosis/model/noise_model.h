@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "core/progress.h"
@@ -26,6 +27,13 @@ struct NoiseScales {
   double sinkage_m = 0.0005;
 };
 constexpr int kNoiseScales = 12;
+
+// A scale that drives asked for, beside what was believed of it.
+struct ScaleOffBelief {
+  std::string_view of;      // "the soil's stiffness", "currents"
+  double times = 1.0;       // what was believed
+  double deviations = 0.0;  // of the prior, of the logarithm
+};
 
 struct NoiseOptions {
   NoiseScales initial;     // what the scales are believed to be before the drives
@@ -63,6 +71,8 @@ class NoiseModel {
   // What the scales were believed to be before the drives, and how probable that makes those of now.
   const NoiseScales& believed() const { return options_.initial; }
   double log_prior() const;
+  // The scale that lies furthest above what was believed.
+  ScaleOffBelief furthest_above_belief() const;
   // What has to be added to log N(r; 0, V) without its determinant to compare residuals under other scales.
   double log_normalisation() const { return log_prior() - 0.5 * log_determinant_; }
   double log_determinant() const { return log_determinant_; }

@@ -192,8 +192,8 @@ void list_selection(const SelectionOptions& options, Lister& list) {
 void list_verdict(const VerdictOptions& options, Lister& list) {
   list.step("verdict");
   const auto& [min_drives, min_windows, min_parameters_gain, surely_seen, small_effect, max_hidden_share,
-               beyond_chance, max_left_of_nothing, max_left_beside_effects, forgiven_closure, rival_share,
-               min_doubt, determined_share, max_angle_deg, min_signature, max_unexplained_shapes,
+               beyond_chance, max_left_of_nothing, max_left_beside_effects, forgiven_closure, max_scatter,
+               rival_share, min_doubt, determined_share, max_angle_deg, min_signature, max_unexplained_shapes,
                name_by_marginals, min_closed_share, min_share_of_law, min_share_of_rest,
                min_partial_probability, min_partial_share, min_probability_beside_form, min_share_beside_form,
                min_probability_closing_most] = options;
@@ -207,6 +207,7 @@ void list_verdict(const VerdictOptions& options, Lister& list) {
   SLIPWAY_FIELD(max_left_of_nothing);
   SLIPWAY_FIELD(max_left_beside_effects);
   SLIPWAY_FIELD(forgiven_closure);
+  SLIPWAY_FIELD(max_scatter);
   SLIPWAY_FIELD(rival_share);
   SLIPWAY_FIELD(min_doubt);
   SLIPWAY_FIELD(determined_share);
@@ -299,7 +300,7 @@ void list_next_drives(const NextDriveOptions& options, Lister& list) {
 void list_reference(const ReferenceOptions& options, Lister& list) {
   list.step("reference");
   const auto& [sizes, beyond, drift, noise_std, min_drives, min_windows, rounds, max_open, min_open,
-               min_closed_share] = options;
+               min_closed_share, evidence_share] = options;
   SLIPWAY_FIELD(sizes);
   SLIPWAY_FIELD(beyond);
   SLIPWAY_FIELD(drift);
@@ -310,6 +311,7 @@ void list_reference(const ReferenceOptions& options, Lister& list) {
   SLIPWAY_FIELD(max_open);
   SLIPWAY_FIELD(min_open);
   SLIPWAY_FIELD(min_closed_share);
+  SLIPWAY_FIELD(evidence_share);
 }
 
 #undef SLIPWAY_FIELD

@@ -168,11 +168,14 @@ struct VerdictOptions {
   double max_left_of_nothing = 1.25;
   double max_left_beside_effects = 1.5;
   double forgiven_closure = 0.5;  // share of the channel's gap: effects that close so much may leave the rest
-  double rival_share = 0.75;      // of the answer's probability: a rival with as much is alike
-  double min_doubt = 0.9;         // probability of something unknown where an answer left a gap
-  double determined_share = 0.7;  // of a prior deviation, below which drives determine a parameter
-  double max_angle_deg = 30.0;    // between signatures of effects that are hard to tell apart
-  double min_signature = 1.0;     // deviations, of signatures that are compared
+  // Prior deviations by which the drives' own scatter may be above what was believed of it, without a
+  // reference; beyond them (by chance one scale in 18) it hides something.
+  double max_scatter = 1.6;
+  double rival_share = 0.75;       // of the answer's probability: a rival with as much is alike
+  double min_doubt = 0.9;          // probability of something unknown where an answer left a gap
+  double determined_share = 0.7;   // of a prior deviation, below which drives determine a parameter
+  double max_angle_deg = 30.0;     // between signatures of effects that are hard to tell apart
+  double min_signature = 1.0;      // deviations, of signatures that are compared
   int max_unexplained_shapes = 5;  // parts of what is unexplained that are described
   bool name_by_marginals = true;   // see naming.h; without it an unknown cause hides all names
   double min_closed_share = 0.05;  // of the held-out gap: an effect with less is not named
@@ -283,6 +286,9 @@ struct ReferenceOptions {
   // Of the held-out gap: VerdictOptions::min_closed_share with a reference. What other physics leaves of a
   // difference beyond what the reference met has closed a tenth at most, what has changed a third and more.
   double min_closed_share = 0.15;
+  // Of EvidenceOptions::shares, with a reference: what it taught on its own drives counts as evidence on
+  // others, and is less to be believed there.
+  double evidence_share = 0.4;
 };
 
 struct DiagnosisOptions {

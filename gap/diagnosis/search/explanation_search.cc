@@ -1,11 +1,11 @@
 #include "gap/diagnosis/search/explanation_search.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "gap/diagnosis/model/measured_rates.h"
 #include "gap/diagnosis/model/outside_cause.h"
@@ -16,8 +16,6 @@
 
 namespace slipway::gap {
 namespace {
-
-constexpr std::array kWholeEvidence{EvidenceShare{1.0, 1.0}};
 
 // The fit that no iteration has moved from the nominal parameters.
 FittedExplanation at_nominal(const FittedExplanation& null, const WindowModel& model, const NoiseModel& noise,
@@ -32,11 +30,8 @@ bool is_outside(const std::string& cause) {
   return find_outside(cause) != nullptr;
 }
 
-double log_sum_exp(const std::vector<double>& values) {
-  const double most = *std::max_element(values.begin(), values.end());
-  double sum = 0.0;
-  for (const double v : values) sum += std::exp(v - most);
-  return most + std::log(sum);
+void keep_better(FittedExplanation& fit, FittedExplanation other) {
+  if (other.log_evidence > fit.log_evidence) fit = std::move(other);
 }
 
 // Collects fits of sets of effects, and lets them compete.
@@ -106,10 +101,8 @@ class Searcher {
                                                      (2.0 * options_.search.max_refitted));
       const std::size_t index = add_fit(Hypothesis(campaign_, {v}), s.start);
       FittedExplanation& fit = search_.fits[index];
-      if (const auto other = other_start_.find(s.variant); other != other_start_.end()) {
-        FittedExplanation second = fitted(fit.hypothesis, other->second);
-        if (second.log_evidence > fit.log_evidence) fit = std::move(second);
-      }
+      if (const auto other = other_start_.find(s.variant); other != other_start_.end())
+        keep_better(fit, fitted(fit.hypothesis, other->second));
       if (place_of(v) && tried_[v.effect] == 1)
         fit = refine_soft_patch(campaign_, model_, noise_, std::move(fit), options_.fit, options_.soft_patch,
                                 options_.search.threads);
@@ -176,8 +169,7 @@ class Searcher {
       for (std::size_t p = 0; p < best->x.size(); ++p)
         if (const std::string& of = best->hypothesis.parameters()[p].effect; of.empty() || of == effect)
           start.push_back(best->x[p]);
-      FittedExplanation second = fitted(Hypothesis(campaign_, {*own}), start);
-      if (second.log_evidence > fit.log_evidence) fit = std::move(second);
+      keep_better(fit, fitted(Hypothesis(campaign_, {*own}), start));
     }
   }
 
@@ -283,8 +275,7 @@ class Searcher {
       const double sense = off < 0.0 || parameter.highest <= parameter.neutral ? -1.0 : 1.0;
       start[p] += std::abs(off) < half ? sense * half : off;
     }
-    FittedExplanation second = fitted(fit.hypothesis, start);
-    if (second.log_evidence > fit.log_evidence) fit = std::move(second);
+    keep_better(fit, fitted(fit.hypothesis, start));
   }
 
   // By how much less evidence an effect has in its other ways, alone: by fits where both were fitted,
@@ -389,19 +380,6 @@ Result<ExplanationSearch> fit_given_explanation(const DriveCampaign& campaign, c
   return std::move(searcher).given();
 }
 
-std::vector<std::string> library_effects_of(const Candidate& candidate) {
-  std::vector<std::string> names;
-  std::copy_if(candidate.effects.begin(), candidate.effects.end(), std::back_inserter(names),
-               [](const std::string& name) { return !is_outside(name); });
-  return names;
-}
-
-std::vector<std::string> outside_causes_of(const Candidate& candidate) {
-  std::vector<std::string> names;
-  std::copy_if(candidate.effects.begin(), candidate.effects.end(), std::back_inserter(names), is_outside);
-  return names;
-}
-
 bool went_far(const FittedExplanation& fit, double max_shift) {
   const auto parameters = fit.hypothesis.parameters();
   for (std::size_t p = 0; p < fit.hypothesis.nuisance_count(); ++p)
@@ -413,57 +391,6 @@ bool worth_naming(const FittedExplanation& fit, double min_size) {
   const auto effects = fit.hypothesis.effects();
   return std::all_of(effects.begin(), effects.end(),
                      [&](const EffectVariant& v) { return size_of(fit, v.effect) >= min_size; });
-}
-
-LogPrior log_prior_of_nothing(const PriorOptions& options) {
-  return {std::log(options.nothing), std::log(options.something_else)};
-}
-
-LogPrior log_prior_of_one(const PriorOptions& options, double effects) {
-  return {std::log(options.one_effect / effects), std::log(options.one_and_something_else / effects)};
-}
-
-LogPrior log_prior_of_two(const PriorOptions& options, double effects) {
-  const double pairs = std::max(1.0, 0.5 * effects * (effects - 1.0));
-  const double alone = std::log(options.two_effects / pairs);
-  return {alone, alone + options.pair_beside_something_else_log};
-}
-
-LogPrior log_prior_of_outside(const PriorOptions& options, double causes) {
-  const double alone = std::log(options.one_outside / causes);
-  return {alone, alone + options.pair_beside_something_else_log};
-}
-
-LogPrior log_prior_of_one_and_outside(const PriorOptions& options, double effects, double causes) {
-  const double alone = std::log(options.one_and_one_outside / (effects * causes));
-  return {alone, alone + options.pair_beside_something_else_log};
-}
-
-void weigh(std::span<Candidate> candidates, const EvidenceOptions& options) {
-  for (Candidate& c : candidates) c.probability = 0.0;
-  const std::span<const EvidenceShare> shares =
-      options.whole ? std::span<const EvidenceShare>(kWholeEvidence) : options.shares;
-  for (const EvidenceShare& belief : shares) {
-    std::vector<double> weights;
-    for (const Candidate& c : candidates) {
-      double weight = belief.share * c.log_evidence + c.log_prior;
-      for (const std::vector<double>& of_effect : c.other_variants) {
-        double variants = 1.0;
-        for (const double less : of_effect) variants += std::exp(belief.share * less);
-        weight += std::log(variants);
-      }
-      weights.push_back(weight);
-    }
-    const double all = log_sum_exp(weights);
-    for (std::size_t i = 0; i < weights.size(); ++i)
-      candidates[i].probability += belief.weight * std::exp(weights[i] - all);
-  }
-}
-
-void rank(std::span<Candidate> candidates, const EvidenceOptions& options) {
-  weigh(candidates, options);
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.probability > b.probability; });
 }
 
 std::vector<FittedExplanation> most_probable_fits(const ExplanationSearch& search, std::size_t most) {

@@ -7,32 +7,11 @@
 #include "core/progress.h"
 #include "core/result.h"
 #include "gap/diagnosis/model/noise_model.h"
+#include "gap/diagnosis/search/candidate.h"
 #include "gap/diagnosis/search/discrepancy_term.h"
 #include "gap/diagnosis/search/explanation.h"
 
 namespace slipway::gap {
-
-// A set of effects that was compared. Its fit is one of ExplanationSearch::fits.
-struct Candidate {
-  // In the order of its hypothesis; empty: none. A cause from outside is among them.
-  std::vector<std::string> effects;
-  bool with_unknown = false;  // something else besides
-  bool outside = false;       // a cause from outside is among the effects
-  std::size_t fit = 0;
-  double log_evidence = 0.0;  // the discrepancy term's part among it
-  NoiseScales scatter;        // of the drives beside its fit
-  double log_prior = 0.0;
-  // Of each of its effects: logarithms of the evidence that its other variants have over the fitted one's, 0
-  // at most. Each variant has the same prior, log_prior.
-  std::vector<std::vector<double>> other_variants;
-  double probability = 0.0;
-
-  // Whether it says that something is at work that the library has no name for.
-  bool unknown() const { return with_unknown || outside; }
-};
-// Its effects that are of the library, and its causes from outside.
-std::vector<std::string> library_effects_of(const Candidate& candidate);
-std::vector<std::string> outside_causes_of(const Candidate& candidate);
 
 // An effect's linear score at the null: how much the logarithm of the evidence would rise, by variant.
 struct ScreenedVariant {
@@ -69,24 +48,6 @@ Result<ExplanationSearch> fit_given_explanation(const DriveCampaign& campaign, c
                                                 const DiscrepancyTerm& discrepancy,
                                                 const DiagnosisOptions& options, Progress& progress,
                                                 std::span<const FittedExplanation> found_before = {});
-
-// The candidates' probabilities from evidence and prior: P = sum_k weight_k exp(share_k E + log prior) / Z_k,
-// each share of the log evidence E normalised over the candidates by itself.
-void weigh(std::span<Candidate> candidates, const EvidenceOptions& options);
-// Weighs them and puts the most probable first.
-void rank(std::span<Candidate> candidates, const EvidenceOptions& options);
-
-// What a set of effects is believed by before the drives (natural logarithms): alone, and with something else
-// besides. A set's share of its prior is divided by the number of effects in the library, or of their pairs.
-struct LogPrior {
-  double alone = 0.0, with_something_else = 0.0;
-};
-LogPrior log_prior_of_nothing(const PriorOptions& options);
-LogPrior log_prior_of_one(const PriorOptions& options, double effects);
-LogPrior log_prior_of_two(const PriorOptions& options, double effects);
-// One of so many causes from outside; the same beside an effect of the library.
-LogPrior log_prior_of_outside(const PriorOptions& options, double causes);
-LogPrior log_prior_of_one_and_outside(const PriorOptions& options, double effects, double causes);
 
 // Whether each effect of a fit is at work by a good part of its usual size.
 bool worth_naming(const FittedExplanation& fit, double min_size);
