@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -33,7 +32,8 @@
 namespace slipway::gap {
 namespace {
 
-// What holds of the evidence and of names where a reference told what is healthy.
+// The options where a reference told what is healthy: less of the evidence is believed, and an effect must
+// close more of the gap to be named.
 DiagnosisOptions with_reference(DiagnosisOptions options) {
   for (EvidenceShare& belief : options.evidence.shares) belief.share *= options.reference.evidence_share;
   VerdictOptions& verdict = options.verdict;

@@ -53,8 +53,7 @@ std::optional<std::string> parameter_at_its_end(const FittedExplanation& reporte
 std::optional<std::string> scatter_beyond_belief(const std::optional<ScaleOffBelief>& scatter,
                                                  const VerdictOptions& options) {
   if (!scatter || scatter->deviations <= options.max_scatter) return std::nullopt;
-  return fmt::format("from drive to drive {} would scatter by {:.0f} times what was believed", scatter->of,
-                     scatter->times);
+  return fmt::format("{} would scatter by {:.0f} times what was believed", scatter->of, scatter->times);
 }
 
 double unknown_probability(const Diagnosis& d) {
@@ -98,12 +97,15 @@ bool all_stand(const Diagnosis& d, const VerdictOptions& options) {
          });
 }
 
-// Whether the named effects close most of the gap together.
+// Whether the named effects are each more probable than not, and close most of the gap together.
 bool close_most(const Diagnosis& d, const VerdictOptions& options) {
   double closed = 0.0;
   for (const FoundEffect& effect : d.effects)
-    for (const EffectMarginal& m : d.marginals)
-      if (m.name == effect.name) closed += m.closed_share;
+    for (const EffectMarginal& m : d.marginals) {
+      if (m.name != effect.name) continue;
+      if (m.probability < options.min_probability_closing_most) return false;
+      closed += m.closed_share;
+    }
   return options.name_by_marginals && !d.effects.empty() && closed >= options.min_partial_share;
 }
 
@@ -145,15 +147,17 @@ void doubt_what_leaves_a_gap(const FittedExplanation& reported, const std::optio
   const bool scattered = !why;
   if (!why) why = scatter_beyond_belief(scatter, options);
   if (!why) return;
+  // Names that scatter alone is against keep their probability, if they close most of the gap.
+  const bool stands_beside_scatter = scattered && close_most(d, options);
   const double doubt = options.min_doubt;
-  if (unknown < doubt)
+  if (unknown < doubt && !stands_beside_scatter)
     for (ComparedSet& c : d.candidates)
       c.probability *= c.with_unknown ? doubt / unknown : (1.0 - doubt) / (1.0 - unknown);
   std::stable_sort(d.candidates.begin(), d.candidates.end(),
                    [](const ComparedSet& a, const ComparedSet& b) { return a.probability > b.probability; });
   take_marginals_anew(d);
   const std::vector<std::string> names = named(d);
-  if (all_stand(d, options) || (scattered && close_most(d, options))) {
+  if (stands_beside_scatter || all_stand(d, options)) {
     d.partial = true;
     d.verdict = Verdict::kEffects;
     d.reason =

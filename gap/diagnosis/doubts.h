@@ -16,12 +16,12 @@ void doubt_what_does_not_extrapolate(const VerdictOptions& options, Diagnosis& d
 // nothing) are not named, however probable they are on the drives that they were fitted to.
 void withdraw_what_tells_no_better(double log_density_gain, Diagnosis& d);
 
-// An answer that leaves far more than the floor on drives held out of the fit, or that needs a parameter at
-// the end of what it may be, is none: the cause is unknown, and nothing is named unless it may stand beside
-// something unknown (see naming.h); then the answer is a partial one. So is an answer beside which drives
-// would scatter by more than anyone believed: there what is named stands if it closes
-// VerdictOptions::min_partial_share together. `reported`: the fit that the answer stands for; `scatter`: the
-// scale furthest above belief, where no reference told of it; d has its `gap`.
+// Takes an answer back to `unknown` where (1) far more than the floor is left on drives held out of the fit,
+// (2) a parameter lies at the end of what it may be, or (3) a scale of the drives' scatter is beyond
+// VerdictOptions::max_scatter. Effects that may stand beside something unknown (naming.h) keep their names in
+// a partial answer; in case (3) so do effects that close VerdictOptions::min_partial_share of the gap
+// together. `reported`: the fit that the answer stands for; `scatter`: the scale furthest above belief,
+// nothing where a reference told of it; d has its `gap`.
 void doubt_what_leaves_a_gap(const FittedExplanation& reported, const std::optional<ScaleOffBelief>& scatter,
                              const VerdictOptions& options, Diagnosis& d);
 

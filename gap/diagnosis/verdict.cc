@@ -12,9 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "gap/diagnosis/held_out/effect_marginals.h"
 #include "gap/diagnosis/model/outside_cause.h"
-#include "gap/diagnosis/search/selection.h"
 
 namespace slipway::gap {
 namespace {

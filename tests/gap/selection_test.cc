@@ -176,6 +176,7 @@ TEST(Verdict, IsUnknownWhereDrivesWouldScatterByMoreThanAnyoneBelieved) {
   const Diagnosis most = doubted(Verdict::kEffects, 3.3, 0.6);
   EXPECT_TRUE(most.partial) << "it closes most of the gap";
   EXPECT_EQ(most.effects.size(), 1U);
+  EXPECT_NEAR(most.candidates.front().probability, 0.95, 1e-12) << "what it states for itself";
   const Diagnosis little = doubted(Verdict::kEffects, 3.3, 0.1);
   EXPECT_EQ(little.verdict, Verdict::kUnknown);
   EXPECT_TRUE(little.effects.empty());

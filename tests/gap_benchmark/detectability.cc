@@ -4,8 +4,12 @@
 #include <Eigen/Core>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <functional>
+#include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "stretch_reading.h"
@@ -14,8 +18,9 @@ namespace slipway::gap_benchmark {
 namespace {
 
 // What a diagnosis may re-tune: its change in a world, and the deviations of two priors: by which the
-// campaigns' nominal soils and closures are off (`believed` and `closure_of` in sealed_campaign.cc), and of
-// the diagnosis (docs/method/estimator.md), of the same quantity. 0 where one of them does not vary it.
+// campaigns' usual nominal soils and the closures of L2c are off (`believed` and `closure_of` in
+// sealed_campaign.cc), and of the diagnosis (docs/method/estimator.md), of the same quantity. 0 where one of
+// them does not vary it.
 struct Retuned {
   std::function<void(World&, double)> change;
   double drawn = 0.0, believed = 0.0;
@@ -24,19 +29,21 @@ struct Retuned {
 
 const std::vector<Retuned>& retuned_parameters() {
   static const std::vector<Retuned> parameters{
-      {[](World& w, double d) { w.soil.k_c *= std::exp(d), w.soil.k_phi *= std::exp(d); }, 0.08, 0.15, 0.02},
-      {[](World& w, double d) { w.soil.n *= std::exp(d); }, 0.025, 0.06, 0.01},
-      {[](World& w, double d) { w.soil.cohesion_pa *= std::exp(d); }, 0.08, 0.15, 0.02},
-      {[](World& w, double d) { w.soil.friction_rad *= std::exp(d); }, 0.022, 0.046, 0.005},
-      {[](World& w, double d) { w.soil.shear_modulus_m *= std::exp(d); }, 0.09, 0.15, 0.02},
-      {[](World& w, double d) { w.soil.c1 += d; }, 0.02, 0.05, 0.005},
-      {[](World& w, double d) { w.soil.c2 += d; }, 0.04, 0.05, 0.01},
-      {[](World& w, double d) { w.closure.exit_share += d; }, 0.1, 0.1, 0.02},
-      {[](World& w, double d) { w.closure.rise_share += d; }, 0.03, 0.0, 0.01},
-      {[](World& w, double d) { w.closure.pull_below_axle -= d; }, 0.25, 0.5, 0.05},
+      {[](World& w, double d) { w.soil.k_c *= std::exp(d), w.soil.k_phi *= std::exp(d); }, 0.070, 0.15, 0.02},
+      {[](World& w, double d) { w.soil.n *= std::exp(d); }, 0.022, 0.06, 0.01},
+      {[](World& w, double d) { w.soil.cohesion_pa *= std::exp(d); }, 0.070, 0.15, 0.02},
+      {[](World& w, double d) { w.soil.friction_rad *= std::exp(d); }, 0.019, 0.046, 0.005},
+      {[](World& w, double d) { w.soil.shear_modulus_m *= std::exp(d); }, 0.079, 0.15, 0.02},
+      {[](World& w, double d) { w.soil.c1 += d; }, 0.023, 0.05, 0.005},
+      {[](World& w, double d) { w.soil.c2 += d; }, 0.042, 0.05, 0.01},
+      {[](World& w, double d) { w.closure.exit_share += d; }, 0.058, 0.1, 0.02},
+      {[](World& w, double d) { w.closure.rise_share += d; }, 0.023, 0.0, 0.01},
+      {[](World& w, double d) { w.closure.pull_below_axle -= d; }, 0.144, 0.5, 0.05},
       {[](World& w, double d) { w.closure.lateral_modulus *= std::exp(d); }, 0.0, 0.15, 0.03},
-      {[](World& w, double) { w.closure.coupled_shear = !w.closure.coupled_shear; }, 0.5, 0.5, 1.0},
-      {[](World& w, double) { w.closure.parabolic_stress = !w.closure.parabolic_stress; }, 0.5, 0.0, 1.0}};
+      {[](World& w, double) { w.closure.coupled_shear = !w.closure.coupled_shear; }, 0.46, 0.5, 1.0},
+      {[](World& w, double) { w.closure.parabolic_stress = !w.closure.parabolic_stress; }, 0.5, 0.0, 1.0},
+      {[](World& w, double d) { w.rover.com_m.z() += d; }, 0.0, 0.05, 0.01},
+      {[](World& w, double d) { w.rover.torque_constant_nm_a *= std::exp(d); }, 0.0, 0.01, 0.005}};
   return parameters;
 }
 
@@ -64,6 +71,8 @@ std::vector<Observation> observations_of(const SealedCampaign& campaign, const M
   const auto without = replayed(campaign, bare, drive, drive.rows);
   std::vector<DriveRow> middles;
   for (const Stretch& stretch : stretches) middles.push_back(drive.rows[stretch.middle()]);
+  // Of the same rows as the changed worlds, so that wheels meet the same tracks.
+  const auto nominal = replayed(campaign, bare, drive, middles);
   std::vector<std::vector<std::optional<DriveRow>>> changed;
   for (const Retuned& parameter : parameters) {
     World world = bare;
@@ -73,11 +82,10 @@ std::vector<Observation> observations_of(const SealedCampaign& campaign, const M
   std::vector<Observation> observations;
   for (std::size_t s = 0; s < stretches.size(); ++s) {
     const Stretch& stretch = stretches[s];
-    const std::optional<DriveRow>& middle = without[stretch.middle()];
-    bool found = middle.has_value();
+    bool found = nominal[s].has_value();
     for (const auto& rows : changed) found = found && rows[s].has_value();
     if (!found) continue;
-    const Reading here = reading_of(drive.order, *middle);
+    const Reading here = reading_of(drive.order, *nominal[s]);
     const std::span<const DriveRow> rows =
         std::span(drive.rows).subspan(stretch.from, stretch.to - stretch.from + 1);
     for (std::size_t c = 0; c < kTraceChannels.size(); ++c) {

@@ -7,14 +7,18 @@
 namespace slipway::gap_benchmark {
 
 // How far the mean readings with the hidden causes are from those without, as squared Mahalanobis distances
-// over all stretches of all drives. The covariance is that of the sensors and of the soil's scatter from
-// drive to drive and along a drive. Half of a distance is the log evidence that a diagnosis can expect at
-// most, if it knows laws, sizes and places of the causes beforehand. What may be re-tuned takes a part of it.
-// To first order in the parameters.
+// over all stretches of all drives in which every changed world has a balance. The covariance is that of the
+// sensors and of the soil's scatter; what scatters from drive to drive is shared by a drive's stretches, what
+// scatters along a drive counts as independent from stretch to stretch. A diagnosis that knew the causes'
+// laws, sizes and places beforehand could expect half of a distance as its log evidence. What may be re-tuned
+// takes a part of it, to first order in the parameters: soil, closures, height of the centre of mass and the
+// motors' torque constant. Late headings and sinkages read from a track's bottom are not among them.
 struct Detectability {
   double parameters_known = 0.0;
-  double retuned_as_drawn = 0.0;     // within the widths by which the campaigns' soils and closures vary
-  double retuned_as_believed = 0.0;  // within the diagnosis's prior, which is wider
+  double retuned_as_drawn = 0.0;  // within the widths by which the campaigns' soils and closures vary
+  // Within the diagnosis's prior: wider for the soil, with the shear modulus across apart from that along,
+  // without a heap before the rim and another shape of the stress.
+  double retuned_as_believed = 0.0;
 };
 Detectability detectability(const SealedCampaign& campaign);
 

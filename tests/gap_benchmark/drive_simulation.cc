@@ -380,6 +380,13 @@ class Drive {
 
 }  // namespace
 
+World without_hidden_causes(const World& world) {
+  World bare = world;
+  bare.hidden = {};
+  bare.hidden.other_equations = world.hidden.other_equations;
+  return bare;
+}
+
 std::array<WheelRow, kWheels> commanded_wheels(const RoverOnFile& rover, const DriveOrder& order) {
   std::array<WheelRow, kWheels> commands;
   for (int k = 0; k < kWheels; ++k) {

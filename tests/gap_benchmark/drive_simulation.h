@@ -67,6 +67,8 @@ struct World {
   HiddenTruth hidden;
 };
 
+World without_hidden_causes(const World& world);
+
 // Commanded rates and steering angles of the six wheels.
 std::array<WheelRow, kWheels> commanded_wheels(const RoverOnFile& rover, const DriveOrder& order);
 

@@ -162,9 +162,7 @@ void place_patch(const std::vector<MadeDrive>& drives, RandomStream& random, Hid
 std::vector<MadeDrive> drive_all(const World& changed, const std::vector<NamedTerrain>& terrains,
                                  const std::vector<DriveOrder>& orders, std::uint64_t seed,
                                  std::size_t since = 0) {
-  World healthy = changed;
-  healthy.hidden = {};
-  healthy.hidden.other_equations = changed.hidden.other_equations;
+  const World healthy = without_hidden_causes(changed);
   std::vector<MadeDrive> drives;
   for (std::size_t i = 0; i < orders.size(); ++i)
     for (const NamedTerrain& terrain : terrains) {
@@ -276,9 +274,7 @@ SealedCampaign healthy_reference(const SealedCampaign& campaign, RandomStream& r
   SealedCampaign made;
   made.made_of = campaign.made_of;
   made.made_of.causes.clear();
-  made.world = campaign.world;
-  made.world.hidden = {};
-  made.world.hidden.other_equations = campaign.world.hidden.other_equations;
+  made.world = without_hidden_causes(campaign.world);
   made.nominal = campaign.nominal;
   made.terrains = campaign.terrains;
   std::vector<DriveOrder> orders = made.made_of.on_hills

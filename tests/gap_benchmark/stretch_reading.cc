@@ -95,11 +95,4 @@ std::vector<std::optional<DriveRow>> replayed(const SealedCampaign& campaign, co
   return std::vector<std::optional<DriveRow>>(at.size());
 }
 
-World without_hidden_causes(const World& world) {
-  World bare = world;
-  bare.hidden = {};
-  bare.hidden.other_equations = world.hidden.other_equations;
-  return bare;
-}
-
 }  // namespace slipway::gap_benchmark

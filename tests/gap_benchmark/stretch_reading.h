@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
@@ -42,8 +43,6 @@ double sensor_deviation(std::size_t channel, const DriveOrder& order, std::span<
 // The drive's rows `at` as they would be in another world.
 std::vector<std::optional<DriveRow>> replayed(const SealedCampaign& campaign, const World& world,
                                               const MadeDrive& drive, std::span<const DriveRow> at);
-
-World without_hidden_causes(const World& world);
 
 // The variance of a value that is drawn from the unit normal within two deviations, as the scatter from drive
 // to drive is.

@@ -158,6 +158,7 @@ Result<Report> sealed_detectability(const std::filesystem::path& data) {
       if (s.variant != kAsIs || s.set != table->text(row, "set") ||
           s.score.campaign != table->text(row, "campaign"))
         continue;
+      if (s.score.truth_kind == TruthKind::kNothing || s.score.truth_kind == TruthKind::kParameters) continue;
       const double left = table->number(row, "retuned_as_believed");
       const auto above = std::upper_bound(kBounds.begin() + 1, kBounds.end() - 1, left);
       Bin& bin = bins[static_cast<std::size_t>(above - kBounds.begin()) - 1];
@@ -172,11 +173,11 @@ Result<Report> sealed_detectability(const std::filesystem::path& data) {
   report.source = "tests/gap_benchmark; squared deviations of all readings; 90 % intervals";
   report.columns = {"squared deviations left", "one cause, right", "two causes, right"};
   for (std::size_t b = 0; b < bins.size(); ++b) {
-    report.rows.push_back({b + 1 == bins.size() ? fmt::format("over {:g}", kBounds[b])
-                                                : fmt::format("{:g} to {:g}", kBounds[b], kBounds[b + 1]),
-                           rate_words(bins[b].one), rate_words(bins[b].several)});
+    const std::string range = b + 1 == bins.size() ? fmt::format("over {:g}", kBounds[b])
+                                                   : fmt::format("{:g} to {:g}", kBounds[b], kBounds[b + 1]);
+    report.rows.push_back({range, rate_words(bins[b].one), rate_words(bins[b].several)});
     if (!bins[b].misses.empty())
-      report.notes.push_back(fmt::format("Misses there: {}.", joined(bins[b].misses)));
+      report.notes.push_back(fmt::format("Misses with {} left: {}.", range, joined(bins[b].misses)));
   }
   report.notes.emplace_back(
       "A diagnosis that knew laws, sizes and places of the causes could expect a log evidence of half of "

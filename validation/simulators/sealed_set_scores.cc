@@ -52,14 +52,14 @@ std::vector<std::string> row_of(const std::string& set, const std::string& varia
 
 // A sentence for each set of campaigns on the diagnoses with effects withheld from the library.
 Result<std::vector<std::string>> withheld_notes(const std::filesystem::path& data) {
-  const auto table =
-      CsvTable::read(data / "validation" / "sealed_campaigns_withheld.csv",
-                     {.numbers = {"unknown", "look_alike", "absorbed"},
-                      .numbers_or_empty = {},
-                      .texts = {"set", "campaign", "withheld", "fidelity", "verdict", "found"}});
+  const auto table = CsvTable::read(data / "validation" / "sealed_campaigns_withheld.csv",
+                                    {.numbers = {"unknown", "look_alike", "absorbed"},
+                                     .numbers_or_empty = {},
+                                     .texts = {"set", "campaign", "withheld", "fidelity", "verdict", "found"},
+                                     .numbers_if_there = {"declared"}});
   if (!table) return fail(table.error());
   struct WithheldTally {
-    std::size_t of = 0, unknown = 0, look_alike = 0;
+    std::size_t of = 0, unknown = 0, look_alike = 0, declared = 0;
     std::string absorbed, named;
   };
   std::map<std::string, WithheldTally> sets;
@@ -75,6 +75,8 @@ Result<std::vector<std::string>> withheld_notes(const std::filesystem::path& dat
       ++tally.unknown;
     else if (table->number(row, "look_alike") != 0.0)
       ++tally.look_alike;
+    else if (!table->empty(row, "declared") && table->number(row, "declared") != 0.0)
+      ++tally.declared;
     else if (table->number(row, "absorbed") != 0.0)
       add(tally.absorbed, where);
     else
@@ -84,10 +86,10 @@ Result<std::vector<std::string>> withheld_notes(const std::filesystem::path& dat
   for (const auto& [set, tally] : sets)
     notes.push_back(fmt::format(
         "Each hidden effect of {} was withheld from the library in its turn ({}): {} became "
-        "unknown, {} a look-alike by the diagnosis's own angles; absorbed by parameters or "
-        "nothing: {}; given another name: {}.",
-        set, tally.of, tally.unknown, tally.look_alike, tally.absorbed.empty() ? "none" : tally.absorbed,
-        tally.named.empty() ? "none" : tally.named));
+        "unknown, {} a look-alike by the diagnosis's own angles, {} absorbed by parameters that were "
+        "declared to look like it; otherwise absorbed by parameters or nothing: {}; given another name: {}.",
+        set, tally.of, tally.unknown, tally.look_alike, tally.declared,
+        tally.absorbed.empty() ? "none" : tally.absorbed, tally.named.empty() ? "none" : tally.named));
   return notes;
 }
 

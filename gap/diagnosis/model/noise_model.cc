@@ -19,8 +19,8 @@ Scales numbers_of(NoiseScales& s) {
 constexpr std::array<std::string_view, kNoiseScales> kScaleNames{"the soil's stiffness",
                                                                  "the soil's friction",
                                                                  "the soil's shear modulus",
-                                                                 "the soil along a drive",
-                                                                 "the attitude of the ground",
+                                                                 "the soil within a drive",
+                                                                 "the ground's attitude",
                                                                  "the centre of load",
                                                                  "slip",
                                                                  "side slip",
@@ -175,8 +175,10 @@ ScaleOffBelief NoiseModel::furthest_above_belief() const {
   NoiseScales believed = options_.initial, now = scales_;
   const Scales from = numbers_of(believed), to = numbers_of(now);
   std::size_t furthest = 0;
-  for (std::size_t k = 1; k < from.size(); ++k)
+  for (std::size_t k = 1; k < from.size(); ++k) {
+    if (from[k] == &believed.within_drives) continue;  // of the three before it, no scatter of its own
     if (*to[k] / *from[k] > *to[furthest] / *from[furthest]) furthest = k;
+  }
   const double times = *to[furthest] / *from[furthest];
   return {kScaleNames[furthest], times, std::log(times) / options_.prior_std};
 }

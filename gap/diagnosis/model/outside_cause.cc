@@ -98,6 +98,10 @@ std::span<const OutsideCause> outside_catalogue() {
   return rows;
 }
 
+bool is_outside(std::string_view name) {
+  return find_outside(name) != nullptr;
+}
+
 const OutsideCause* find_outside(std::string_view name) {
   const auto rows = outside_catalogue();
   const auto row =

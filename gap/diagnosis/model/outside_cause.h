@@ -82,6 +82,7 @@ struct OutsideCause {
 
 std::span<const OutsideCause> outside_catalogue();
 const OutsideCause* find_outside(std::string_view name);  // null where there is none of this name
+bool is_outside(std::string_view name);
 
 // All variants of all causes on a campaign's rover.
 std::vector<sim::EffectVariant> outside_variants(const DriveCampaign& campaign);

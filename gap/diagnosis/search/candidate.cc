@@ -12,10 +12,6 @@ namespace {
 
 constexpr std::array kWholeEvidence{EvidenceShare{1.0, 1.0}};
 
-bool is_outside(const std::string& cause) {
-  return find_outside(cause) != nullptr;
-}
-
 double log_sum_exp(const std::vector<double>& values) {
   const double most = *std::max_element(values.begin(), values.end());
   double sum = 0.0;

@@ -168,8 +168,8 @@ struct VerdictOptions {
   double max_left_of_nothing = 1.25;
   double max_left_beside_effects = 1.5;
   double forgiven_closure = 0.5;  // share of the channel's gap: effects that close so much may leave the rest
-  // Prior deviations by which the drives' own scatter may be above what was believed of it, without a
-  // reference; beyond them (by chance one scale in 18) it hides something.
+  // Prior deviations by which a scale of the drives' own scatter may be above what was believed of it,
+  // without a reference (6.8 times); beyond them it hides something. Healthy campaigns came to 0.6 at most.
   double max_scatter = 1.6;
   double rival_share = 0.75;       // of the answer's probability: a rival with as much is alike
   double min_doubt = 0.9;          // probability of something unknown where an answer left a gap
@@ -188,8 +188,9 @@ struct VerdictOptions {
   // Beside something unknown an effect is named from this marginal probability and this share on.
   double min_partial_probability = 0.9;
   double min_partial_share = 0.5;
-  // The same where what is beside it has a known form, which leaves less to be mistaken for the effect.
-  double min_probability_beside_form = 0.7;
+  // What closes less where the rest has a known form, which leaves less to be mistaken for the effect, must
+  // be as good as certain: a cause that the library lacks looks like an effect and a force beside it.
+  double min_probability_beside_form = 0.99;
   double min_share_beside_form = 0.1;
   // Of an effect there that closes min_partial_share: what is more probable than not, and closes most, is
   // named.

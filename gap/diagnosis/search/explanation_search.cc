@@ -26,10 +26,6 @@ FittedExplanation at_nominal(const FittedExplanation& null, const WindowModel& m
                          options.search.threads);
 }
 
-bool is_outside(const std::string& cause) {
-  return find_outside(cause) != nullptr;
-}
-
 void keep_better(FittedExplanation& fit, FittedExplanation other) {
   if (other.log_evidence > fit.log_evidence) fit = std::move(other);
 }
