@@ -97,16 +97,22 @@ bool all_stand(const Diagnosis& d, const VerdictOptions& options) {
          });
 }
 
-// Whether the named effects are each more probable than not, and close most of the gap together.
-bool close_most(const Diagnosis& d, const VerdictOptions& options) {
+// Whether the named effects stand beside drives that scatter beyond belief: each is more probable than not,
+// and they close most of the gap together; or each is as good as certain and closes more than a little, as a
+// patch does that stops the rover.
+bool stand_beside_scatter(const Diagnosis& d, const VerdictOptions& options) {
   double closed = 0.0;
+  bool probable = true, as_good_as_certain = true;
   for (const FoundEffect& effect : d.effects)
     for (const EffectMarginal& m : d.marginals) {
       if (m.name != effect.name) continue;
-      if (m.probability < options.min_probability_closing_most) return false;
       closed += m.closed_share;
+      probable = probable && m.probability >= options.min_probability_closing_most;
+      as_good_as_certain = as_good_as_certain && m.probability >= options.min_probability_beside_form &&
+                           m.closed_share >= options.min_share_beside_form;
     }
-  return options.name_by_marginals && !d.effects.empty() && closed >= options.min_partial_share;
+  return options.name_by_marginals && !d.effects.empty() &&
+         (as_good_as_certain || (probable && closed >= options.min_partial_share));
 }
 
 }  // namespace
@@ -147,8 +153,8 @@ void doubt_what_leaves_a_gap(const FittedExplanation& reported, const std::optio
   const bool scattered = !why;
   if (!why) why = scatter_beyond_belief(scatter, options);
   if (!why) return;
-  // Names that scatter alone is against keep their probability, if they close most of the gap.
-  const bool stands_beside_scatter = scattered && close_most(d, options);
+  // Names that scatter alone is against keep their probability, if they stand.
+  const bool stands_beside_scatter = scattered && stand_beside_scatter(d, options);
   const double doubt = options.min_doubt;
   if (unknown < doubt && !stands_beside_scatter)
     for (ComparedSet& c : d.candidates)

@@ -20,8 +20,9 @@ void withdraw_what_tells_no_better(double log_density_gain, Diagnosis& d);
 // (2) a parameter lies at the end of what it may be, or (3) a scale of the drives' scatter is beyond
 // VerdictOptions::max_scatter. Effects that may stand beside something unknown (naming.h) keep their names in
 // a partial answer; in case (3) so do effects that close VerdictOptions::min_partial_share of the gap
-// together. `reported`: the fit that the answer stands for; `scatter`: the scale furthest above belief,
-// nothing where a reference told of it; d has its `gap`.
+// together or are as good as certain (min_probability_beside_form and min_share_beside_form). `reported`: the
+// fit that the answer stands for; `scatter`: the scale furthest above belief, nothing where a reference told
+// of it; d has its `gap`.
 void doubt_what_leaves_a_gap(const FittedExplanation& reported, const std::optional<ScaleOffBelief>& scatter,
                              const VerdictOptions& options, Diagnosis& d);
 

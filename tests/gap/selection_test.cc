@@ -161,9 +161,10 @@ TEST(Verdict, IsUnknownWhereDrivesWouldScatterByMoreThanAnyoneBelieved) {
   campaign.soils.resize(1);
   FittedExplanation reported{{}, Hypothesis(campaign, {})};
   reported.x = reported.hypothesis.neutral();
-  const auto doubted = [&](Verdict verdict, double deviations, double closed_share) {
+  const auto doubted = [&](Verdict verdict, double deviations, double closed_share,
+                           double probability = 0.8) {
     Diagnosis d = answer_with(verdict, 1.0);
-    d.marginals.push_back({.name = "hardpan", .probability = 0.8, .closed_share = closed_share});
+    d.marginals.push_back({.name = "hardpan", .probability = probability, .closed_share = closed_share});
     const ScaleOffBelief scatter{.of = "currents", .times = 55.0, .deviations = deviations};
     doubt_what_leaves_a_gap(reported, scatter, VerdictOptions{}, d);
     return d;
@@ -180,6 +181,8 @@ TEST(Verdict, IsUnknownWhereDrivesWouldScatterByMoreThanAnyoneBelieved) {
   const Diagnosis little = doubted(Verdict::kEffects, 3.3, 0.1);
   EXPECT_EQ(little.verdict, Verdict::kUnknown);
   EXPECT_TRUE(little.effects.empty());
+  EXPECT_TRUE(doubted(Verdict::kEffects, 3.3, 0.2, 0.999).partial) << "it is as good as certain";
+  EXPECT_EQ(doubted(Verdict::kEffects, 3.3, 0.05, 0.999).verdict, Verdict::kUnknown);
 }
 
 // A patch of soft soil on hills came as motors that change with the temperature: probable on the drives that

@@ -1,7 +1,7 @@
 #!/bin/sh
 # One cause, hidden by another simulator with another equation, is told as it should be.
 #   gap_benchmark_one_cause.sh SEALED_CAMPAIGNS SLIPWAY SOURCE_FOLDER FOUND REASON SET...
-# FOUND: what the diagnosis names, or unknown; REASON: a part of its sentence; SET: what sealed_campaigns makes.
+# FOUND: what the diagnosis names, with " + unknown" where something is left over, or unknown; REASON: a part of its sentence; SET: what sealed_campaigns makes.
 set -eu
 sealed_campaigns="$1" slipway="$2" source="$3" found="$4" reason="$5"
 shift 5
@@ -14,7 +14,7 @@ python3 - "$folder" "$found" "$reason" <<'CHECK'
 import csv, json, sys
 folder, found, reason = sys.argv[1:]
 (row,) = csv.DictReader(open(folder + "/scores.csv"))
-assert (row["found"], row["exact"], row["wrong_name"]) == (found, "1", "0"), row
+assert (row["found"], row["names_right"], row["wrong_name"]) == (found, "1", "0"), row
 said = json.load(open(folder + "/found/s01.json"))["reason"]
 assert reason in said, said
 CHECK
