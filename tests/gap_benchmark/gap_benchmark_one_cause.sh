@@ -14,7 +14,8 @@ python3 - "$folder" "$found" "$reason" <<'CHECK'
 import csv, json, sys
 folder, found, reason = sys.argv[1:]
 (row,) = csv.DictReader(open(folder + "/scores.csv"))
-assert (row["found"], row["names_right"], row["wrong_name"]) == (found, "1", "0"), row
+right = "partial" if found.endswith(" + unknown") else "exact"
+assert (row["found"], row[right], row["names_right"], row["wrong_name"]) == (found, "1", "1", "0"), row
 said = json.load(open(folder + "/found/s01.json"))["reason"]
 assert reason in said, said
 CHECK

@@ -181,10 +181,9 @@ Result<Report> sealed_detectability(const std::filesystem::path& data) {
   }
   report.notes.emplace_back(
       "A diagnosis that knew laws, sizes and places of the causes could expect a log evidence of half of "
-      "what "
-      "is left, and believes a third of it. Of two causes what is left is that of both: the weaker one can "
-      "be "
-      "invisible. Written by sealed_campaigns (detectability.csv), of sets that were blind when they were "
+      "what is left, and believes a third of it. Of two causes what is left is that of both: the weaker one "
+      "can "
+      "be invisible. Written by sealed_campaigns (detectability.csv), of sets that were blind when they were "
       "diagnosed.");
   return report;
 }
