@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "core/angle.h"
 #include "gap/diagnosis/model/window_readings.h"
 
 namespace slipway::gap {
@@ -26,6 +27,26 @@ std::vector<Observation> observations_of(const WindowReadings& readings) {
   observe(false, 0);
   for (std::size_t k = 0; k < readings.campaign().rover->wheels.size(); ++k) observe(true, k);
   return observations;
+}
+
+// Of every row, how far the recorded heading has turned since the first that has one; of rows without a
+// heading, as of the last before them.
+std::vector<double> turned_rad(const MeasuredDriveSeries& drive) {
+  std::vector<double> turned;
+  double so_far = 0.0, last = kNotMeasured;
+  for (const DriveSample& sample : drive.samples) {
+    const double yaw = sample.attitude.yaw_rad;
+    if (std::isfinite(yaw) && std::isfinite(last)) so_far += wrapped_rad(yaw - last);
+    if (std::isfinite(yaw)) last = yaw;
+    turned.push_back(so_far);
+  }
+  return turned;
+}
+
+// As DriveWindow's, of a window that begins with this row.
+double first_yaw_rad(const MeasuredDriveSeries& drive, std::span<const double> turned, std::size_t from) {
+  while (from + 1 < drive.samples.size() && !std::isfinite(drive.samples[from].attitude.yaw_rad)) ++from;
+  return drive.samples[from].attitude.yaw_rad - turned[from];
 }
 
 DriveWindow window_of(const WindowReadings& readings, std::size_t drive, double start_s, double end_s) {
@@ -144,6 +165,7 @@ std::vector<DriveWindow> cut_windows(const DriveCampaign& campaign, const Window
   for (std::size_t d = 0; d < campaign.drives.size(); ++d) {
     const MeasuredDriveSeries& drive = campaign.drives[d];
     const double lasting_s = window_s(drive, options);
+    const std::vector<double> turned = turned_rad(drive);
     for (const Stretch& stretch : stretches_of(drive, driven_rows(campaign, drive), lasting_s, options)) {
       const int count = windows_in(drive, stretch, lasting_s);
       const double start_s = drive.samples[stretch.from].time_s;
@@ -156,6 +178,7 @@ std::vector<DriveWindow> cut_windows(const DriveCampaign& campaign, const Window
         if (to <= from) continue;
         DriveWindow window = window_of(WindowReadings(campaign, drive, from, to, options), d,
                                        drive.samples[from].time_s, drive.samples[to].time_s);
+        window.first_yaw_rad = first_yaw_rad(drive, turned, from);
         if (!window.stations.empty() && !window.observations.empty()) windows.push_back(std::move(window));
         from = to;
       }

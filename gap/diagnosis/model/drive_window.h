@@ -16,13 +16,17 @@ struct DriveWindow {
   std::size_t drive = 0;  // index into DriveCampaign::drives
   double start_s = 0.0, end_s = 0.0;
   std::vector<Pose2> stations;  // measured, smoothed, evenly spaced over the window's time
-  sim::DriveCommand command;    // with the motors' mean temperature where it was measured
-  double distance_m = 0.0;      // commanded
+  // The first heading that was recorded in the drive, plus or minus whole turns so that stations' headings
+  // less this are what they have turned since.
+  double first_yaw_rad = 0.0;
+  sim::DriveCommand command;  // with the motors' mean temperature where it was measured
+  double distance_m = 0.0;    // commanded
   std::vector<Observation> observations;
   // Slip above kCensoredSlip: only that it was so great is said, by a wide error.
   bool censored = false;
 
   double mid_s() const { return 0.5 * (start_s + end_s); }
+  double middle_yaw_rad() const { return stations[stations.size() / 2].yaw_rad; }
 };
 constexpr double kCensoredSlip = 0.9;
 

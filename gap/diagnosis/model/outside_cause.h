@@ -47,6 +47,17 @@ struct SoilDrift {
 // Cohesion and tan(friction angle) of a soil times this.
 void strengthen(sim::Soil& soil, double factor);
 
+// How recorded headings err: changes since a drive began times 1 + gain, and all too far to the left by an
+// offset.
+struct HeadingError {
+  double gain = 0.0, offset_rad = 0.0;
+
+  bool any() const { return gain != 0.0 || offset_rad != 0.0; }
+  // What is recorded less what is true, where the recorded heading has turned this far since the drive began.
+  double off_rad(double turned_rad) const { return gain / (1.0 + gain) * turned_rad + offset_rad; }
+  bool operator==(const HeadingError&) const = default;
+};
+
 // Forces on the body act in its vertical through the centre of mass, those at wheels at the axles.
 sim::OutsideWrench wrench_of(const OutsideForces& forces, const sim::RoverModel& rover,
                              const sim::Stance& stance, const sim::DriveCommand& command);
@@ -65,7 +76,8 @@ struct OutsideCause {
   std::string_view unit;     // of its fields
   // The ways in which it could be at work. Prior deviations of forces are shares of the rover's weight.
   std::vector<sim::EffectVariant> (*variants)(const DriveCampaign& campaign);
-  // Exactly one of these two. The first changes what the model predicts from: forces, rover or soils.
+  // One of these two, or both. The first changes what the model predicts from: forces, rover, soils or where
+  // the rover stands.
   void (*act)(const OutsideValues& values, ModelState& state) = nullptr;
   // Turns predictions into what the wrong sensor would show.
   void (*show)(const OutsideValues& values, const WindowModel& model,

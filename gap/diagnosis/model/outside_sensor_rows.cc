@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "core/angle.h"
 #include "gap/diagnosis/model/outside_cause_rows.h"
@@ -80,44 +79,38 @@ void show_sinkage(const Values& values, const WindowModel& model, std::vector<do
   });
 }
 
-double middle_yaw(const DriveWindow& window) {
-  return window.stations[window.stations.size() / 2].yaw_rad;
+HeadingError heading_gain_error(const Values& values) {
+  return {.gain = values.at("gain")};
 }
 
-// How far the recorded heading has turned since each window's drive began.
-std::vector<double> turned_since_start(const WindowModel& model) {
-  std::vector<double> turned(model.windows().size(), 0.0);
-  for (std::size_t w = 1; w < turned.size(); ++w) {
-    const DriveWindow &before = model.windows()[w - 1], &now = model.windows()[w];
-    if (before.drive != now.drive) continue;
-    turned[w] = turned[w - 1] + std::remainder(middle_yaw(now) - middle_yaw(before), 2.0 * std::numbers::pi);
-  }
-  return turned;
+HeadingError heading_offset_error(const Values& values) {
+  return {.offset_rad = values.at("offset_rad")};
 }
 
-// Motion seen along a heading that is `off_rad` too far to the left.
-void turn_side_slip(const DriveWindow& window, double off_rad, double& side_slip) {
-  side_slip -= std::copysign(off_rad, window.command.speed_m_s);
+// The rover stands along the true headings ...
+template <HeadingError (*error_of)(const Values&)>
+void turn_back(const Values& values, ModelState& state) {
+  const HeadingError error = error_of(values);
+  state.heading_error.gain += error.gain;
+  state.heading_error.offset_rad += error.offset_rad;
 }
 
-void show_heading_gain(const Values& values, const WindowModel& model, std::vector<double>& predicted) {
-  const double gain = values.at("gain");
-  const std::vector<double> turned = turned_since_start(model);
+// ... and motion is read along the recorded ones.
+template <HeadingError (*error_of)(const Values&)>
+void show_headings(const Values& values, const WindowModel& model, std::vector<double>& predicted) {
+  const HeadingError error = error_of(values);
   for_each_reading(model, predicted, [&](std::size_t w, const Observation& o, double& value) {
     const DriveWindow& window = model.windows()[w];
     const sim::DriveCommand& command = window.command;
     if (command.turn_in_place) {
-      if (o.channel == Channel::kSlip) value -= gain * (1.0 - value);
+      if (o.channel == Channel::kSlip) value -= error.gain * (1.0 - value);
       return;
     }
-    if (o.channel == Channel::kYawRate) value += gain * (value + command.speed_m_s * command.curvature_1_m);
-    if (o.channel == Channel::kSideSlip) turn_side_slip(window, gain / (1.0 + gain) * turned[w], value);
-  });
-}
-
-void show_heading_offset(const Values& values, const WindowModel& model, std::vector<double>& predicted) {
-  for_each_reading(model, predicted, [&](std::size_t w, const Observation& o, double& value) {
-    if (o.channel == Channel::kSideSlip) turn_side_slip(model.windows()[w], values.at("offset_rad"), value);
+    if (o.channel == Channel::kYawRate)
+      value += error.gain * (value + command.speed_m_s * command.curvature_1_m);
+    if (o.channel == Channel::kSideSlip)
+      value -=
+          std::copysign(error.off_rad(window.middle_yaw_rad() - window.first_yaw_rad), command.speed_m_s);
   });
 }
 
@@ -182,7 +175,8 @@ constexpr std::array kSensorRows{
                  .depends = "turning",
                  .unit = "1",
                  .variants = &gains<kGain, 3>,
-                 .show = &show_heading_gain,
+                 .act = &turn_back<&heading_gain_error>,
+                 .show = &show_headings<&heading_gain_error>,
                  .words = &heading_words},
     OutsideCause{.name = "heading_offset",
                  .form = "sensor",
@@ -190,7 +184,8 @@ constexpr std::array kSensorRows{
                  .depends = "direction",
                  .unit = "rad",
                  .variants = &heading_offset,
-                 .show = &show_heading_offset,
+                 .act = &turn_back<&heading_offset_error>,
+                 .show = &show_headings<&heading_offset_error>,
                  .words = &offset_words},
     OutsideCause{.name = "sinkage_sensor",
                  .form = "sensor",

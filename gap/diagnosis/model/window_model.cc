@@ -54,6 +54,10 @@ bool same_shape_as(const sim::RoverModel& a, const sim::RoverModel& b) {
   return true;
 }
 
+bool stand_alike(const ModelState& a, const ModelState& b) {
+  return same_shape_as(a.rover, b.rover) && a.heading_error == b.heading_error;
+}
+
 // No motor stalled in drives that were made, whatever re-tuned constants imply of voltages.
 bool gets_on(const sim::StationState& at) {
   return at.moving() || at.outcome == sim::Outcome::kStalled;
@@ -83,7 +87,7 @@ WindowModel::WindowModel(const DriveCampaign& campaign, std::span<const DriveWin
   offsets_.push_back(0);
   for (std::size_t w = 0; w < windows.size(); ++w) {
     offsets_.push_back(offsets_.back() + windows[w].observations.size());
-    std::vector<Place> places = places_of(*campaign.rover, w);
+    std::vector<Place> places = places_of(*campaign.rover, {}, w);
     if (places.empty()) continue;
     const sim::DriveCommand& command = windows[w].command;
     const double sense = command.speed_m_s < 0.0 && !command.turn_in_place ? -1.0 : 1.0;
@@ -155,9 +159,11 @@ std::optional<WindowModel::Place> WindowModel::place_at(const sim::RoverModel& r
 }
 
 std::vector<WindowModel::Place> WindowModel::places_of(const sim::RoverModel& rover,
+                                                       const HeadingError& heading_error,
                                                        std::size_t window) const {
   std::vector<Place> places;
-  for (const Pose2& pose : windows_[window].stations) {
+  for (Pose2 pose : windows_[window].stations) {
+    pose.yaw_rad -= heading_error.off_rad(pose.yaw_rad - windows_[window].first_yaw_rad);
     std::optional<Place> place = place_at(rover, window, pose);
     if (!place) return {};
     places.push_back(*std::move(place));
@@ -194,8 +200,8 @@ sim::PerWheel<sim::Soil> WindowModel::soils_at(std::size_t w, const Place& place
 }
 
 std::span<const WindowModel::Place> WindowModel::places_in(std::size_t w, const ModelState& state,
-                                                           bool same_shape, std::vector<Place>& own) const {
-  if (!same_shape) own = places_of(state.rover, w);
+                                                           bool as_nominal, std::vector<Place>& own) const {
+  if (!as_nominal) own = places_of(state.rover, state.heading_error, w);
   return own.empty() ? stances_[w] : own;
 }
 
@@ -279,12 +285,16 @@ std::vector<sim::BalanceGeometry> WindowModel::geometries_of(std::size_t w, cons
   return geometries;
 }
 
+bool WindowModel::as_nominal(const ModelState& state) const {
+  return same_shape_as(state.rover, *campaign_.rover) && !state.heading_error.any();
+}
+
 void WindowModel::start_from(const ModelState& state, std::size_t threads) {
   std::vector<std::vector<StationStart>> starts(windows_.size());
-  const bool same_shape = same_shape_as(state.rover, *campaign_.rover);
+  const bool nominal = as_nominal(state);
   parallel_for(windows_.size(), threads, [&](std::size_t w) {
     std::vector<Place> own;
-    starts[w] = starts_of(w, state, places_in(w, state, same_shape, own));
+    starts[w] = starts_of(w, state, places_in(w, state, nominal, own));
   });
   starts_ = std::move(starts);
 }
@@ -301,7 +311,7 @@ std::vector<std::size_t> WindowModel::first_windows() const {
 // depend on how drives are spread.
 std::vector<double> WindowModel::predict(const ModelState& state, std::size_t threads) const {
   std::vector<double> out(observation_count(), kNotMeasured);
-  const bool same_shape = same_shape_as(state.rover, *campaign_.rover);
+  const bool nominal = as_nominal(state);
   const std::vector<std::size_t> first = first_windows();
   parallel_for(first.size() - 1, threads, [&](std::size_t d) {
     sim::QuasiStaticSolver solver(state.rover, campaign_.gravity_m_s2);
@@ -309,7 +319,7 @@ std::vector<double> WindowModel::predict(const ModelState& state, std::size_t th
       if (cancelled()) return;
       if (!used(w)) continue;
       std::vector<Place> own;
-      predict_window(w, state, places_in(w, state, same_shape, own), {starts_[w]}, solver,
+      predict_window(w, state, places_in(w, state, nominal, own), {starts_[w]}, solver,
                      std::span(out).subspan(offsets_[w], windows_[w].observations.size()));
     }
   });
@@ -320,9 +330,9 @@ std::vector<std::vector<double>> WindowModel::predict_near(const ModelState& cen
                                                            std::span<const NearState> near,
                                                            std::size_t threads) const {
   std::vector<std::vector<double>> out(near.size(), std::vector<double>(observation_count(), kNotMeasured));
-  const bool centre_has_shape = same_shape_as(centre.rover, *campaign_.rover);
-  std::vector<bool> has_shape;
-  for (const NearState& n : near) has_shape.push_back(same_shape_as(n.state.rover, *campaign_.rover));
+  const bool centre_nominal = as_nominal(centre);
+  std::vector<bool> as_centre;
+  for (const NearState& n : near) as_centre.push_back(stand_alike(n.state, centre));
   const std::vector<std::size_t> first = first_windows();
   parallel_for(first.size() - 1, threads, [&](std::size_t d) {
     std::vector<sim::QuasiStaticSolver> solvers;
@@ -331,7 +341,7 @@ std::vector<std::vector<double>> WindowModel::predict_near(const ModelState& cen
       if (cancelled()) return;
       if (!used(w)) continue;
       std::vector<Place> own_centre;
-      const std::span<const Place> places = places_in(w, centre, centre_has_shape, own_centre);
+      const std::span<const Place> places = places_in(w, centre, centre_nominal, own_centre);
       const std::vector<StationStart> starts = starts_of(w, centre, places);
       const std::vector<sim::BalanceGeometry> geometries = geometries_of(w, centre, places);
       for (std::size_t n = 0; n < near.size(); ++n) {
@@ -339,11 +349,10 @@ std::vector<std::vector<double>> WindowModel::predict_near(const ModelState& cen
         const std::span<double> values =
             std::span(out[n]).subspan(offsets_[w], windows_[w].observations.size());
         std::vector<Place> own;
-        if (near[n].same_rover)
-          predict_window(w, state, places, {starts, true, geometries}, solvers[n], values);
-        else
-          predict_window(w, state, places_in(w, state, has_shape[n], own), {starts, true}, solvers[n],
-                         values);
+        const From from{starts, true,
+                        near[n].same_rover ? geometries : std::span<const sim::BalanceGeometry>{}};
+        const std::span<const Place> at = as_centre[n] ? places : places_in(w, state, as_nominal(state), own);
+        predict_window(w, state, at, from, solvers[n], values);
       }
     }
   });

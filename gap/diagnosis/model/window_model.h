@@ -26,6 +26,7 @@ struct ModelState {
   double track_left_out = 0.0;              // see kTrackLeftOut
   OutsideForces outside = {};
   SoilDrift soil_drift = {};
+  HeadingError heading_error = {};  // the rover stands along its headings without it
 };
 
 // How the rover stands where it was: as its suspension does on the map, leant by its wheels' unequal
@@ -46,7 +47,8 @@ struct LearntDifference {
 };
 
 // Predicts every observation of a campaign's windows at the quasi-static fidelity level: the rover stands
-// at the window's measured stations on the map and is commanded what the drive was.
+// at the window's measured stations on the map, along the measured headings or along what the state says
+// of them, and is commanded what the drive was.
 class WindowModel {
  public:
   // Stances of the nominal rover are found here, once. Windows with a station where there is no ground are
@@ -130,12 +132,14 @@ class WindowModel {
   std::vector<std::size_t> first_windows() const;
   void predict_window(std::size_t window, const ModelState& state, std::span<const Place> places,
                       const From& from, sim::QuasiStaticSolver& solver, std::span<double> out) const;
-  // Where the state's rover stands in a window: `own` holds it where its shape is not the nominal one's.
-  std::span<const Place> places_in(std::size_t window, const ModelState& state, bool same_shape,
+  // Where the state's rover stands in a window: `own` holds it where it does not stand as the nominal one.
+  std::span<const Place> places_in(std::size_t window, const ModelState& state, bool as_nominal,
                                    std::vector<Place>& own) const;
   std::optional<Place> place_at(const sim::RoverModel& rover, std::size_t window, const Pose2& pose) const;
   // Of a window's stations, one or as many as it has; empty where one of them has no ground.
-  std::vector<Place> places_of(const sim::RoverModel& rover, std::size_t window) const;
+  std::vector<Place> places_of(const sim::RoverModel& rover, const HeadingError& heading_error,
+                               std::size_t window) const;
+  bool as_nominal(const ModelState& state) const;
 
   const DriveCampaign& campaign_;
   std::span<const DriveWindow> windows_;
