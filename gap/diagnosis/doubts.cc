@@ -5,10 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "gap/diagnosis/held_out/effect_marginals.h"
+#include "gap/diagnosis/model/nuisance_catalogue.h"
 #include "gap/diagnosis/naming.h"
 #include "gap/diagnosis/verdict.h"
 
@@ -56,6 +60,47 @@ std::optional<std::string> scatter_beyond_belief(const std::optional<ScaleOffBel
   return fmt::format("{} would scatter by {:.0f} times what was believed", scatter->of, scatter->times);
 }
 
+// The soil that lies furthest from what was believed of it, where that is too far to name effects beside it.
+// With a reference, which ties the parameters to each other, nothing.
+std::optional<std::string> soil_beyond_belief(const FittedExplanation& reported, const Diagnosis& d,
+                                              const VerdictOptions& options) {
+  const Hypothesis& hypothesis = reported.hypothesis;
+  if (d.effects.empty() || hypothesis.prior_precision().size() > 0) return std::nullopt;
+  std::map<int, double> squares;  // by soil; the ratio of the moduli is that of all
+  std::map<int, std::pair<double, std::string_view>> furthest;
+  double of_all = 0.0;
+  for (std::size_t p = 0; p < hypothesis.nuisance_count(); ++p) {
+    const Parameter& parameter = hypothesis.parameters()[p];
+    const double deviations = (reported.x[p] - parameter.neutral) / parameter.std;
+    if (parameter.name == kLateralShearModulus) of_all = deviations * deviations;
+    if (parameter.soil < 0) continue;
+    squares[parameter.soil] += deviations * deviations;
+    auto& most = furthest[parameter.soil];
+    if (std::abs(deviations) > std::abs(most.first)) most = {deviations, parameter.name};
+  }
+  for (const auto& [soil, sum] : squares) {
+    const double shift = std::sqrt(sum + of_all);
+    if (shift <= options.max_soil_shift) continue;
+    const auto& [deviations, name] = furthest.at(soil);
+    return fmt::format("the soil would be {:.1f} deviations from what was believed of it ({} alone {:+.1f})",
+                       shift, name, deviations);
+  }
+  return std::nullopt;
+}
+
+double closed_together(const Diagnosis& d) {
+  double closed = 0.0;
+  for (const FoundEffect& effect : d.effects) closed += marginal_of(d.marginals, effect.name).closed_share;
+  return closed;
+}
+
+std::optional<std::string> little_closed(const Diagnosis& d, const VerdictOptions& options) {
+  const double closed = closed_together(d);
+  if (d.effects.empty() || closed >= options.min_share_beside_form) return std::nullopt;
+  return fmt::format("what fits them best closes {:.0f} % of the gap on drives held out of the fit",
+                     100.0 * closed);
+}
+
 double unknown_probability(const Diagnosis& d) {
   double sum = 0.0;
   for (const ComparedSet& c : d.candidates)
@@ -87,32 +132,35 @@ void take_marginals_anew(Diagnosis& d) {
   for (FoundEffect& effect : d.effects) effect.probability = marginal_probability(d.candidates, effect.name);
 }
 
-// Whether each named effect may stand beside something unknown.
-bool all_stand(const Diagnosis& d, const VerdictOptions& options) {
+// Whether effects are named and this holds of each.
+template <class Holds>
+bool of_each_named(const Diagnosis& d, const VerdictOptions& options, const Holds& holds) {
   return options.name_by_marginals && !d.effects.empty() &&
-         std::all_of(d.effects.begin(), d.effects.end(), [&](const FoundEffect& effect) {
-           return std::any_of(d.marginals.begin(), d.marginals.end(), [&](const EffectMarginal& m) {
-             return m.name == effect.name && stands_beside_unknown(m, options);
-           });
-         });
+         std::all_of(d.effects.begin(), d.effects.end(),
+                     [&](const FoundEffect& effect) { return holds(marginal_of(d.marginals, effect.name)); });
 }
 
-// Whether the named effects stand beside drives that scatter beyond belief: each is more probable than not,
-// and they close most of the gap together; or each is as good as certain and closes more than a little, as a
-// patch does that stops the rover.
-bool stand_beside_scatter(const Diagnosis& d, const VerdictOptions& options) {
-  double closed = 0.0;
-  bool probable = true, as_good_as_certain = true;
-  for (const FoundEffect& effect : d.effects)
-    for (const EffectMarginal& m : d.marginals) {
-      if (m.name != effect.name) continue;
-      closed += m.closed_share;
-      probable = probable && m.probability >= options.min_probability_closing_most;
-      as_good_as_certain = as_good_as_certain && m.probability >= options.min_probability_beside_form &&
-                           m.closed_share >= options.min_share_beside_form;
-    }
-  return options.name_by_marginals && !d.effects.empty() &&
-         (as_good_as_certain || (probable && closed >= options.min_partial_share));
+// Whether each named effect may stand beside something unknown.
+bool all_stand(const Diagnosis& d, const VerdictOptions& options) {
+  return of_each_named(d, options,
+                       [&](const EffectMarginal& m) { return stands_beside_unknown(m, options); });
+}
+
+// Whether each named effect is as good as certain and closes more than a little, as a patch does that stops
+// the rover.
+bool all_certain(const Diagnosis& d, const VerdictOptions& options) {
+  return of_each_named(d, options, [&](const EffectMarginal& m) {
+    return m.probability >= options.min_probability_beside_form &&
+           m.closed_share >= options.min_share_beside_form;
+  });
+}
+
+// Whether the named effects are each more probable than not and close most of the gap together.
+bool close_most(const Diagnosis& d, const VerdictOptions& options) {
+  return closed_together(d) >= options.min_partial_share &&
+         of_each_named(d, options, [&](const EffectMarginal& m) {
+           return m.probability >= options.min_probability_closing_most;
+         });
 }
 
 }  // namespace
@@ -150,20 +198,24 @@ void doubt_what_leaves_a_gap(const FittedExplanation& reported, const std::optio
     return;
   std::optional<std::string> why = gap_left(d, options);
   if (!why) why = parameter_at_its_end(reported);
-  const bool scattered = !why;
-  if (!why) why = scatter_beyond_belief(scatter, options);
+  // Names that nothing but belief is against keep their probability, if they stand.
+  bool stand = !why && all_certain(d, options);
+  if (!why) why = soil_beyond_belief(reported, d, options);
+  if (!why) why = little_closed(d, options);
+  if (!why) {
+    stand = stand || close_most(d, options);
+    why = scatter_beyond_belief(scatter, options);
+  }
   if (!why) return;
-  // Names that scatter alone is against keep their probability, if they stand.
-  const bool stands_beside_scatter = scattered && stand_beside_scatter(d, options);
   const double doubt = options.min_doubt;
-  if (unknown < doubt && !stands_beside_scatter)
+  if (unknown < doubt && !stand)
     for (ComparedSet& c : d.candidates)
       c.probability *= c.with_unknown ? doubt / unknown : (1.0 - doubt) / (1.0 - unknown);
   std::stable_sort(d.candidates.begin(), d.candidates.end(),
                    [](const ComparedSet& a, const ComparedSet& b) { return a.probability > b.probability; });
   take_marginals_anew(d);
   const std::vector<std::string> names = named(d);
-  if (stands_beside_scatter || all_stand(d, options)) {
+  if (stand || all_stand(d, options)) {
     d.partial = true;
     d.verdict = Verdict::kEffects;
     d.reason =

@@ -16,11 +16,15 @@ void doubt_what_does_not_extrapolate(const VerdictOptions& options, Diagnosis& d
 // nothing) are not named, however probable they are on the drives that they were fitted to.
 void withdraw_what_tells_no_better(double log_density_gain, Diagnosis& d);
 
-// Takes an answer back to `unknown` where (1) far more than the floor is left on drives held out of the fit,
-// (2) a parameter lies at the end of what it may be, or (3) a scale of the drives' scatter is beyond
-// VerdictOptions::max_scatter. Effects that may stand beside something unknown (naming.h) keep their names in
-// a partial answer; in case (3) so do effects that close VerdictOptions::min_partial_share of the gap
-// together or are as good as certain (min_probability_beside_form and min_share_beside_form). `reported`: the
+// Takes an answer back to `unknown` where
+//   1. far more than the floor is left on drives held out of the fit,
+//   2. a parameter lies at the end of what it may be,
+//   3. a soil beside named effects is beyond VerdictOptions::max_soil_shift,
+//   4. named effects close less than min_share_beside_form of the gap together, or
+//   5. a scale of the drives' scatter is beyond max_scatter.
+// Effects keep their names in a partial answer where they may stand beside something unknown (naming.h). In
+// cases 3 to 5 they do so if they are as good as certain (min_probability_beside_form and
+// min_share_beside_form), and in case 5 if they close min_partial_share of the gap together. `reported`: the
 // fit that the answer stands for; `scatter`: the scale furthest above belief, nothing where a reference told
 // of it; d has its `gap`.
 void doubt_what_leaves_a_gap(const FittedExplanation& reported, const std::optional<ScaleOffBelief>& scatter,

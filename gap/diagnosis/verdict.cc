@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gap/diagnosis/held_out/effect_marginals.h"
 #include "gap/diagnosis/model/outside_cause.h"
 
 namespace slipway::gap {
@@ -229,11 +230,11 @@ std::optional<OutsideFinding> outside_finding(const ExplanationSearch& search, s
 
 std::string closing_words(const Diagnosis& d, std::span<const std::string> effects) {
   std::vector<std::string> each;
-  for (const std::string& effect : effects)
-    for (const EffectMarginal& m : d.marginals)
-      if (m.name == effect)
-        each.push_back(fmt::format("{} (probability {:.3f}) closes {:.0f} % of the gap", effect,
-                                   m.probability, 100.0 * m.closed_share));
+  for (const std::string& effect : effects) {
+    const EffectMarginal m = marginal_of(d.marginals, effect);
+    each.push_back(fmt::format("{} (probability {:.3f}) closes {:.0f} % of the gap", effect, m.probability,
+                               100.0 * m.closed_share));
+  }
   return fmt::format("{}", fmt::join(each, ", "));
 }
 

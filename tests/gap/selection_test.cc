@@ -102,6 +102,7 @@ Diagnosis answer_with(Verdict verdict, double least_left) {
   Diagnosis d;
   d.verdict = verdict;
   if (verdict == Verdict::kEffects) d.effects.push_back({"hardpan", "", 0.95, {}});
+  d.marginals.push_back({.name = "hardpan", .probability = 0.95, .closed_share = 0.4});
   d.candidates.resize(2);
   if (verdict == Verdict::kEffects) d.candidates[0].effects = {"hardpan"};
   d.candidates[0].probability = 0.95;
@@ -164,7 +165,7 @@ TEST(Verdict, IsUnknownWhereDrivesWouldScatterByMoreThanAnyoneBelieved) {
   const auto doubted = [&](Verdict verdict, double deviations, double closed_share,
                            double probability = 0.8) {
     Diagnosis d = answer_with(verdict, 1.0);
-    d.marginals.push_back({.name = "hardpan", .probability = probability, .closed_share = closed_share});
+    d.marginals.front() = {.name = "hardpan", .probability = probability, .closed_share = closed_share};
     const ScaleOffBelief scatter{.of = "currents", .times = 55.0, .deviations = deviations};
     doubt_what_leaves_a_gap(reported, scatter, VerdictOptions{}, d);
     return d;
@@ -183,6 +184,53 @@ TEST(Verdict, IsUnknownWhereDrivesWouldScatterByMoreThanAnyoneBelieved) {
   EXPECT_TRUE(little.effects.empty());
   EXPECT_TRUE(doubted(Verdict::kEffects, 3.3, 0.2, 0.999).partial) << "it is as good as certain";
   EXPECT_EQ(doubted(Verdict::kEffects, 3.3, 0.05, 0.999).verdict, Verdict::kUnknown);
+}
+
+// With grousers withheld, a larger wheel "explained" them on soil 4.7 deviations more cohesive than believed.
+TEST(Verdict, IsUnknownBesideASoilFartherFromBeliefThanChanceAllows) {
+  DriveCampaign campaign;
+  campaign.soils.resize(2);
+  FittedExplanation reported{{}, Hypothesis(campaign, {})};
+  const auto shifted = [&](double cohesion, double ratio) {
+    reported.x = reported.hypothesis.neutral();
+    for (std::size_t p = 0; p < reported.x.size(); ++p) {
+      const Parameter& parameter = reported.hypothesis.parameters()[p];
+      if (parameter.name == "cohesion/" && parameter.soil == 1) reported.x[p] = cohesion * parameter.std;
+      if (parameter.name == kLateralShearModulus) reported.x[p] = ratio * parameter.std;
+    }
+  };
+  const auto doubted = [&](Verdict verdict, double probability) {
+    Diagnosis d = answer_with(verdict, 1.0);
+    d.marginals.front().probability = probability;
+    doubt_what_leaves_a_gap(reported, std::nullopt, VerdictOptions{}, d);
+    return d;
+  };
+  shifted(4.4, 2.0);
+  EXPECT_FALSE(doubted(Verdict::kEffects, 0.9).partial) << "4.8 deviations";
+  EXPECT_EQ(doubted(Verdict::kEffects, 0.9).verdict, Verdict::kEffects);
+  shifted(-4.7, 2.8);
+  const Diagnosis bent = doubted(Verdict::kEffects, 0.9);
+  EXPECT_EQ(bent.verdict, Verdict::kUnknown);
+  EXPECT_TRUE(bent.effects.empty());
+  EXPECT_NE(bent.reason.find("5.5 deviations"), std::string::npos) << bent.reason;
+  EXPECT_NE(bent.reason.find("cohesion/ alone -4.7"), std::string::npos) << bent.reason;
+  EXPECT_TRUE(doubted(Verdict::kEffects, 0.999).partial) << "it is as good as certain";
+  EXPECT_EQ(doubted(Verdict::kParameters, 0.9).verdict, Verdict::kParameters)
+      << "mis-set parameters are an answer";
+}
+
+// With multipass withheld, a hard layer of probability 0.94 closed 9 % of the gap.
+TEST(Verdict, IsUnknownWhereWhatIsNamedClosesLittle) {
+  DriveCampaign campaign;
+  campaign.soils.resize(1);
+  FittedExplanation reported{{}, Hypothesis(campaign, {})};
+  reported.x = reported.hypothesis.neutral();
+  for (const double share : {0.09, 0.11}) {
+    Diagnosis d = answer_with(Verdict::kEffects, 1.0);
+    d.marginals.front().closed_share = share;
+    doubt_what_leaves_a_gap(reported, std::nullopt, VerdictOptions{}, d);
+    EXPECT_EQ(d.verdict, share < 0.1 ? Verdict::kUnknown : Verdict::kEffects) << share;
+  }
 }
 
 // A patch of soft soil on hills came as motors that change with the temperature: probable on the drives that

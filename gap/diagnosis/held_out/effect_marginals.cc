@@ -60,6 +60,12 @@ double marginal_probability(std::span<const ComparedSet> sets, const std::string
   return sum;
 }
 
+EffectMarginal marginal_of(std::span<const EffectMarginal> marginals, const std::string& effect) {
+  const auto own = std::find_if(marginals.begin(), marginals.end(),
+                                [&](const EffectMarginal& m) { return m.name == effect; });
+  return own != marginals.end() ? *own : EffectMarginal{.name = effect};
+}
+
 std::vector<EffectMarginal> effect_marginals(std::span<const std::string> library,
                                              const ExplanationSearch& search, const ClosedShares& shares) {
   std::vector<EffectMarginal> marginals;

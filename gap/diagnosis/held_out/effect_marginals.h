@@ -43,6 +43,9 @@ class ClosedShares {
 // The sum of the probabilities of all sets that have the effect.
 double marginal_probability(std::span<const ComparedSet> sets, const std::string& effect);
 
+// The effect's own among them; probability and share are 0 where it is not.
+EffectMarginal marginal_of(std::span<const EffectMarginal> marginals, const std::string& effect);
+
 // Of every effect in the library, the most probable first.
 std::vector<EffectMarginal> effect_marginals(std::span<const std::string> library,
                                              const ExplanationSearch& search, const ClosedShares& shares);

@@ -32,7 +32,7 @@ constexpr std::array kRows{
                s.shear_modulus_x_m *= std::exp(v);
                s.shear_modulus_y_m *= std::exp(v);
              }},
-    Nuisance{"lateral_shear_modulus", "logarithm of Janosi's modulus across over that along", kClosure, 0.15,
+    Nuisance{kLateralShearModulus, "logarithm of Janosi's modulus across over that along", kClosure, 0.15,
              -1.5, 1.5, [](double v, Soil& s) { s.shear_modulus_y_m *= std::exp(v); }},
     Nuisance{"c1", "angle of greatest stress without slip", kClosure, 0.05, -0.4, 0.4,
              [](double v, Soil& s) { s.c1 = std::clamp(s.c1 + v, 0.0, 0.9); }},

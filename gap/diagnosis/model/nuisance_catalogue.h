@@ -34,6 +34,9 @@ inline constexpr std::array<std::string_view, sim::kSoilDims> kSoilNuisances{"st
                                                                              "friction", "shear_modulus"};
 std::optional<SoilQuantity> quantity_of(const Nuisance& row);
 
+// A row of kClosure that acts on soils: how unlike they shear across and along.
+inline constexpr std::string_view kLateralShearModulus = "lateral_shear_modulus";
+
 // A row of kSensor that neither soil nor rover feels: seconds by which headings are recorded later than
 // positions, which turns the way that a turning rover seems to go.
 inline constexpr std::string_view kPoseLag = "pose_lag_s";
