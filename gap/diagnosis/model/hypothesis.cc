@@ -6,6 +6,7 @@
 
 #include "core/parallel_for.h"
 #include "gap/diagnosis/model/reference_belief.h"
+#include "gap/diagnosis/model/turned_motion.h"
 
 namespace slipway::gap {
 namespace {
@@ -42,18 +43,12 @@ EffectVariant of_another_size(const sim::Effect& effect, const sim::EffectSettin
 void turn_by_lag(const WindowModel& model, double lag_s, std::vector<double>& predicted) {
   for (std::size_t w = 0; w < model.windows().size(); ++w) {
     const DriveWindow& window = model.windows()[w];
-    const sim::DriveCommand& command = window.command;
-    if (command.turn_in_place) continue;
-    double along = 1.0, yaw_rate = command.speed_m_s * command.curvature_1_m;
-    std::optional<std::size_t> side;
+    double yaw_rate = window.command.speed_m_s * window.command.curvature_1_m;
     for (std::size_t i = 0; i < window.observations.size(); ++i) {
-      const std::size_t row = model.offset(w) + i;
-      if (!std::isfinite(predicted[row])) continue;
-      if (window.observations[i].channel == Channel::kSlip) along = 1.0 - predicted[row];
-      if (window.observations[i].channel == Channel::kYawRate) yaw_rate += predicted[row];
-      if (window.observations[i].channel == Channel::kSideSlip) side = row;
+      const double value = predicted[model.offset(w) + i];
+      if (window.observations[i].channel == Channel::kYawRate && std::isfinite(value)) yaw_rate += value;
     }
-    if (side) predicted[*side] -= std::copysign(along, command.speed_m_s) * yaw_rate * lag_s;
+    read_along_turned_heading(model, w, yaw_rate * lag_s, predicted);
   }
 }
 

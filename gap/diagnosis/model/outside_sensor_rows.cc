@@ -6,6 +6,7 @@
 
 #include "core/angle.h"
 #include "gap/diagnosis/model/outside_cause_rows.h"
+#include "gap/diagnosis/model/turned_motion.h"
 #include "gap/diagnosis/model/window_model.h"
 
 namespace slipway::gap {
@@ -100,18 +101,16 @@ template <HeadingError (*error_of)(const Values&)>
 void show_headings(const Values& values, const WindowModel& model, std::vector<double>& predicted) {
   const HeadingError error = error_of(values);
   for_each_reading(model, predicted, [&](std::size_t w, const Observation& o, double& value) {
-    const DriveWindow& window = model.windows()[w];
-    const sim::DriveCommand& command = window.command;
-    if (command.turn_in_place) {
-      if (o.channel == Channel::kSlip) value -= error.gain * (1.0 - value);
-      return;
-    }
+    const sim::DriveCommand& command = model.windows()[w].command;
+    if (command.turn_in_place && o.channel == Channel::kSlip) value -= error.gain * (1.0 - value);
     if (o.channel == Channel::kYawRate)
       value += error.gain * (value + command.speed_m_s * command.curvature_1_m);
-    if (o.channel == Channel::kSideSlip)
-      value -=
-          std::copysign(error.off_rad(window.middle_yaw_rad() - window.first_yaw_rad), command.speed_m_s);
   });
+  for (std::size_t w = 0; w < model.windows().size(); ++w) {
+    const DriveWindow& window = model.windows()[w];
+    read_along_turned_heading(model, w, error.off_rad(window.middle_yaw_rad() - window.first_yaw_rad),
+                              predicted);
+  }
 }
 
 std::string percent(double share) {
