@@ -38,6 +38,7 @@ DiagnosisOptions with_reference(DiagnosisOptions options) {
   for (EvidenceShare& belief : options.evidence.shares) belief.share *= options.reference.evidence_share;
   VerdictOptions& verdict = options.verdict;
   verdict.min_closed_share = std::max(verdict.min_closed_share, options.reference.min_closed_share);
+  verdict.max_left_of_nothing = std::max(verdict.max_left_of_nothing, options.reference.max_left_of_nothing);
   verdict.min_share_of_rest = std::numeric_limits<double>::infinity();
   return options;
 }

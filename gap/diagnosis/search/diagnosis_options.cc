@@ -301,7 +301,7 @@ void list_next_drives(const NextDriveOptions& options, Lister& list) {
 void list_reference(const ReferenceOptions& options, Lister& list) {
   list.step("reference");
   const auto& [sizes, beyond, drift, noise_std, min_drives, min_windows, rounds, max_open, min_open,
-               min_closed_share, evidence_share] = options;
+               min_closed_share, max_left_of_nothing, evidence_share] = options;
   SLIPWAY_FIELD(sizes);
   SLIPWAY_FIELD(beyond);
   SLIPWAY_FIELD(drift);
@@ -312,6 +312,7 @@ void list_reference(const ReferenceOptions& options, Lister& list) {
   SLIPWAY_FIELD(max_open);
   SLIPWAY_FIELD(min_open);
   SLIPWAY_FIELD(min_closed_share);
+  SLIPWAY_FIELD(max_left_of_nothing);
   SLIPWAY_FIELD(evidence_share);
 }
 

@@ -291,6 +291,9 @@ struct ReferenceOptions {
   // Of the held-out gap: VerdictOptions::min_closed_share with a reference. What other physics leaves of a
   // difference beyond what the reference met has closed a tenth at most, what has changed a third and more.
   double min_closed_share = 0.15;
+  // VerdictOptions::max_left_of_nothing with a reference: drives elsewhere meet what it was not taught on, and
+  // healthy ones on hills left 1.5 times their floor.
+  double max_left_of_nothing = 2.0;
   // Of EvidenceOptions::shares, with a reference: what it taught on its own drives counts as evidence on
   // others, and is less to be believed there.
   double evidence_share = 0.4;
