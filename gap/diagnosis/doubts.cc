@@ -146,13 +146,9 @@ bool all_stand(const Diagnosis& d, const VerdictOptions& options) {
                        [&](const EffectMarginal& m) { return stands_beside_unknown(m, options); });
 }
 
-// Whether each named effect is as good as certain and closes more than a little, as a patch does that stops
-// the rover.
-bool all_certain(const Diagnosis& d, const VerdictOptions& options) {
-  return of_each_named(d, options, [&](const EffectMarginal& m) {
-    return m.probability >= options.min_probability_beside_form &&
-           m.closed_share >= options.min_share_beside_form;
-  });
+bool as_good_as_certain(const EffectMarginal& m, const VerdictOptions& options) {
+  return m.probability >= options.min_probability_beside_form &&
+         m.closed_share >= options.min_share_beside_form;
 }
 
 // Whether the named effects are each more probable than not and close most of the gap together.
@@ -161,6 +157,20 @@ bool close_most(const Diagnosis& d, const VerdictOptions& options) {
          of_each_named(d, options, [&](const EffectMarginal& m) {
            return m.probability >= options.min_probability_closing_most;
          });
+}
+
+// Whether the named effects stand against belief: each is as good as certain and closes more than a little,
+// as a patch does that stops the rover; or one of them is and closes most, and the others are more probable
+// than not.
+bool stand_against_belief(const Diagnosis& d, const VerdictOptions& options) {
+  const bool certain =
+      of_each_named(d, options, [&](const EffectMarginal& m) { return as_good_as_certain(m, options); });
+  const bool foremost_certain =
+      std::any_of(d.effects.begin(), d.effects.end(), [&](const FoundEffect& effect) {
+        const EffectMarginal m = marginal_of(d.marginals, effect.name);
+        return as_good_as_certain(m, options) && m.closed_share >= options.min_partial_share;
+      });
+  return certain || (foremost_certain && close_most(d, options));
 }
 
 }  // namespace
@@ -199,7 +209,7 @@ void doubt_what_leaves_a_gap(const FittedExplanation& reported, const std::optio
   std::optional<std::string> why = gap_left(d, options);
   if (!why) why = parameter_at_its_end(reported);
   // Names that nothing but belief is against keep their probability, if they stand.
-  bool stand = !why && all_certain(d, options);
+  bool stand = !why && stand_against_belief(d, options);
   if (!why) why = soil_beyond_belief(reported, d, options);
   if (!why) why = little_closed(d, options);
   if (!why) {

@@ -24,7 +24,8 @@ void withdraw_what_tells_no_better(double log_density_gain, Diagnosis& d);
 //   5. a scale of the drives' scatter is beyond max_scatter.
 // Effects keep their names in a partial answer where they may stand beside something unknown (naming.h). In
 // cases 3 to 5 they do so if they are as good as certain (min_probability_beside_form and
-// min_share_beside_form), and in case 5 if they close min_partial_share of the gap together. `reported`: the
+// min_share_beside_form), or one of them is and closes min_partial_share by itself; and in case 5 if they
+// close min_partial_share together. `reported`: the
 // fit that the answer stands for; `scatter`: the scale furthest above belief, nothing where a reference told
 // of it; d has its `gap`.
 void doubt_what_leaves_a_gap(const FittedExplanation& reported, const std::optional<ScaleOffBelief>& scatter,

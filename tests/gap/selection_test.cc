@@ -215,6 +215,15 @@ TEST(Verdict, IsUnknownBesideASoilFartherFromBeliefThanChanceAllows) {
   EXPECT_NE(bent.reason.find("5.5 deviations"), std::string::npos) << bent.reason;
   EXPECT_NE(bent.reason.find("cohesion/ alone -4.7"), std::string::npos) << bent.reason;
   EXPECT_TRUE(doubted(Verdict::kEffects, 0.999).partial) << "it is as good as certain";
+  for (const double foremost : {0.4, 0.8}) {
+    Diagnosis pair = answer_with(Verdict::kEffects, 1.0);
+    pair.effects.push_back({"motor_temperature", "", 1.0, {}});
+    pair.marginals.push_back({.name = "motor_temperature", .probability = 1.0, .closed_share = foremost});
+    pair.marginals.front().closed_share = 0.15;
+    doubt_what_leaves_a_gap(reported, std::nullopt, VerdictOptions{}, pair);
+    EXPECT_EQ(pair.partial, foremost > 0.5) << "one that is certain and closes most takes the other along";
+    EXPECT_EQ(pair.effects.size(), pair.partial ? 2U : 0U);
+  }
   EXPECT_EQ(doubted(Verdict::kParameters, 0.9).verdict, Verdict::kParameters)
       << "mis-set parameters are an answer";
 }
