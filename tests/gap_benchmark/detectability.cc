@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "random_stream.h"
 #include "stretch_reading.h"
 
 namespace slipway::gap_benchmark {
@@ -86,29 +87,21 @@ std::vector<Observation> observations_of(const SealedCampaign& campaign, const M
     for (const auto& rows : changed) found = found && rows[s].has_value();
     if (!found) continue;
     const Reading here = reading_of(drive.order, *nominal[s]);
+    std::vector<Reading> there;
+    for (const auto& rows : changed) there.push_back(reading_of(drive.order, *rows[s]));
+    const MeanReading means = mean_reading_of(drive, stretch, without);
     const std::span<const DriveRow> rows =
         std::span(drive.rows).subspan(stretch.from, stretch.to - stretch.from + 1);
     for (std::size_t c = 0; c < kTraceChannels.size(); ++c) {
-      if (c == kSinkage && !campaign.made_of.sinkage) continue;
+      if (means.rows[c] == 0 || (c == kSinkage && !campaign.made_of.sinkage)) continue;
       for (std::size_t k = 0; k < here[c].size(); ++k) {
-        Observation observation{s, 0.0, 0.0, Eigen::VectorXd(parameters.size())};
-        double mean = 0.0;
-        std::size_t count = 0;
-        for (std::size_t i = stretch.from; i <= stretch.to; ++i) {
-          if (!without[i] || (c == kSinkage && !drive.rows[i].surveyed)) continue;
-          const double value = reading_of(drive.order, drive.rows[i])[c][k];
-          observation.change += value - reading_of(drive.order, *without[i])[c][k];
-          mean += value;
-          ++count;
-        }
-        if (count == 0) continue;
-        mean /= static_cast<double>(count);
-        observation.change /= static_cast<double>(count);
+        const double mean = means.mean[c][k];
         if (c == kSlip && mean > kStuckSlip) continue;
-        observation.variance = std::pow(sensor_deviation(c, drive.order, rows, count, mean), 2);
+        Observation observation{s, 0.0, means.change[c][k], Eigen::VectorXd(parameters.size())};
+        observation.variance = std::pow(sensor_deviation(c, drive.order, rows, means.rows[c], mean), 2);
         for (std::size_t p = 0; p < parameters.size(); ++p)
           observation.slope[static_cast<Eigen::Index>(p)] =
-              (reading_of(drive.order, *changed[p][s])[c][k] - here[c][k]) / parameters[p].step;
+              (there[p][c][k] - here[c][k]) / parameters[p].step;
         observations.push_back(std::move(observation));
       }
     }
@@ -139,8 +132,8 @@ void add_drive(const std::vector<Observation>& observations, const SoilScatter& 
       const double along = one.stretch == other.stretch ? scatter.along * scatter.along : 0.0;
       for (const Scattered& scattered : scattered_parameters(scatter)) {
         const auto p = static_cast<Eigen::Index>(scattered.parameter);
-        covariance(i, j) +=
-            (kBoundedVariance + along) * std::pow(scattered.deviation, 2) * one.slope[p] * other.slope[p];
+        covariance(i, j) += (RandomStream::kBoundedVariance + along) * std::pow(scattered.deviation, 2) *
+                            one.slope[p] * other.slope[p];
       }
     }
   }

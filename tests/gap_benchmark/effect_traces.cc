@@ -1,10 +1,11 @@
 #include "effect_traces.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 #include <span>
+
+#include "random_stream.h"
 
 namespace slipway::gap_benchmark {
 namespace {
@@ -19,7 +20,7 @@ struct Worlds {
 };
 Worlds worlds_of(const World& world) {
   // Along a drive it scatters on top.
-  const double share = std::sqrt(kBoundedVariance + world.scatter.along * world.scatter.along);
+  const double share = std::sqrt(RandomStream::kBoundedVariance + world.scatter.along * world.scatter.along);
   Worlds worlds{without_hidden_causes(world), {}};
   worlds.scattered.fill(worlds.bare);
   worlds.scattered[0].soil.k_c *= std::exp(share * world.scatter.stiffness);
@@ -52,55 +53,47 @@ class DriveTraces {
  private:
   bool fill(std::size_t s, EffectTrace& trace) const {
     const Stretch& stretch = stretches_[s];
-    std::vector<std::pair<DriveRow, DriveRow>> pairs;  // with and without
-    for (std::size_t i = stretch.from; i <= stretch.to; ++i)
-      if (without_[i]) pairs.emplace_back(drive_.rows[i], *without_[i]);
+    const MeanReading means = mean_reading_of(drive_, stretch, without_);
     const std::optional<DriveRow>& middle = without_[stretch.middle()];
-    if (pairs.empty() || !middle) return false;
-    for (const auto& scattered : scattered_)
+    if (means.rows[kSlip] == 0 || !middle) return false;
+    const Reading here = reading_of(drive_.order, *middle);
+    std::vector<Reading> there;
+    for (const auto& scattered : scattered_) {
       if (!scattered[s]) return false;
-    fill_variables(stretch, pairs, trace);
+      there.push_back(reading_of(drive_.order, *scattered[s]));
+    }
+    fill_variables(stretch, means, trace);
     const std::span<const DriveRow> rows =
         std::span(drive_.rows).subspan(stretch.from, stretch.to - stretch.from + 1);
     for (std::size_t c = 0; c < kTraceChannels.size(); ++c) {
       if (c == kSinkage && !campaign_.made_of.sinkage) continue;
       if (c == kSlip && trace.variables[2] > kStuckSlip) continue;
-      const auto is_read = [c](const DriveRow& row) { return c != kSinkage || row.surveyed; };
-      const auto count = static_cast<std::size_t>(
-          std::count_if(pairs.begin(), pairs.end(), [&](const auto& pair) { return is_read(pair.first); }));
-      const Reading here = reading_of(drive_.order, *middle);
-      if (count == 0 || here[c].empty()) continue;
+      if (means.rows[c] == 0 || here[c].empty()) continue;
       double squares = 0.0;
       for (std::size_t k = 0; k < here[c].size(); ++k) {
-        double change = 0.0, mean = 0.0;
-        for (const auto& [with, without] : pairs) {
-          if (!is_read(with)) continue;
-          const double value = reading_of(drive_.order, with)[c][k];
-          change += (value - reading_of(drive_.order, without)[c][k]) / static_cast<double>(count);
-          mean += value / static_cast<double>(count);
-        }
-        double variance = std::pow(sensor_deviation(c, drive_.order, rows, count, mean), 2);
-        for (const auto& scattered : scattered_)
-          variance += std::pow(reading_of(drive_.order, *scattered[s])[c][k] - here[c][k], 2);
-        squares += change * change / variance;
+        double variance =
+            std::pow(sensor_deviation(c, drive_.order, rows, means.rows[c], means.mean[c][k]), 2);
+        for (const Reading& scattered : there) variance += std::pow(scattered[c][k] - here[c][k], 2);
+        squares += means.change[c][k] * means.change[c][k] / variance;
       }
       trace.mean_square[c] = squares / static_cast<double>(here[c].size());
     }
     return true;
   }
 
-  void fill_variables(const Stretch& stretch, std::span<const std::pair<DriveRow, DriveRow>> pairs,
-                      EffectTrace& trace) const {
+  void fill_variables(const Stretch& stretch, const MeanReading& means, EffectTrace& trace) const {
     const DriveOrder& order = drive_.order;
     const double sense = order.speed_m_s < 0.0 && !order.turn_in_place ? -1.0 : 1.0;
-    const auto n = static_cast<double>(pairs.size());
+    const auto n = static_cast<double>(means.rows[kSlip]);
     auto& v = trace.variables;
-    for (const auto& [with, without] : pairs) {
+    for (std::size_t i = stretch.from; i <= stretch.to; ++i) {
+      if (!without_[i]) continue;
+      const DriveRow& with = drive_.rows[i];
       v[0] -= sense * with.motion.pitch_rad * kDegPerRad / n;
       v[1] += with.motion.roll_rad * kDegPerRad / n;
-      v[2] += reading_of(order, with)[kSlip][0] / n;
       v[5] += with.motor_temp_c / n;
     }
+    v[2] = means.mean[kSlip][0];
     v[3] = order.turn_in_place ? 0.0 : order.speed_m_s;
     v[4] = order.turn_in_place ? 0.0 : order.curvature_1_m;
     v[6] = order.turn_in_place ? 1.0 : 0.0;

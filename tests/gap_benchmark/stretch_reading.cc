@@ -95,4 +95,29 @@ std::vector<std::optional<DriveRow>> replayed(const SealedCampaign& campaign, co
   return std::vector<std::optional<DriveRow>>(at.size());
 }
 
+MeanReading mean_reading_of(const MadeDrive& drive, const Stretch& stretch,
+                            std::span<const std::optional<DriveRow>> without) {
+  MeanReading of;
+  for (std::size_t i = stretch.from; i <= stretch.to; ++i) {
+    if (!without[i]) continue;
+    const Reading with = reading_of(drive.order, drive.rows[i]), bare = reading_of(drive.order, *without[i]);
+    for (std::size_t c = 0; c < with.size(); ++c) {
+      if (c == kSinkage && !drive.rows[i].surveyed) continue;
+      ++of.rows[c];
+      of.mean[c].resize(with[c].size());
+      of.change[c].resize(with[c].size());
+      for (std::size_t k = 0; k < with[c].size(); ++k) {
+        of.mean[c][k] += with[c][k];
+        of.change[c][k] += with[c][k] - bare[c][k];
+      }
+    }
+  }
+  for (std::size_t c = 0; c < of.rows.size(); ++c)
+    for (std::size_t k = 0; k < of.mean[c].size(); ++k) {
+      of.mean[c][k] /= static_cast<double>(of.rows[c]);
+      of.change[c][k] /= static_cast<double>(of.rows[c]);
+    }
+  return of;
+}
+
 }  // namespace slipway::gap_benchmark

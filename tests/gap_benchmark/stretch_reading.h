@@ -44,8 +44,14 @@ double sensor_deviation(std::size_t channel, const DriveOrder& order, std::span<
 std::vector<std::optional<DriveRow>> replayed(const SealedCampaign& campaign, const World& world,
                                               const MadeDrive& drive, std::span<const DriveRow> at);
 
-// The variance of a value that is drawn from the unit normal within two deviations, as the scatter from drive
-// to drive is.
-constexpr double kBoundedVariance = 0.774;
+// The means of a stretch's readings, and what the hidden causes change of them. Sinkage is read in surveyed
+// rows alone.
+struct MeanReading {
+  Reading mean, change;
+  std::array<std::size_t, kTraceChannels.size()> rows{};  // that were read
+};
+// `without`: every row of the drive as it would be without the hidden causes; rows without one do not count.
+MeanReading mean_reading_of(const MadeDrive& drive, const Stretch& stretch,
+                            std::span<const std::optional<DriveRow>> without);
 
 }  // namespace slipway::gap_benchmark
