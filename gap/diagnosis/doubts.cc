@@ -38,18 +38,41 @@ std::optional<std::string> gap_left(const Diagnosis& d, const VerdictOptions& op
   return words;
 }
 
-// A parameter that the answer needs at one of its two ends. An end near what was believed says nothing: with
-// a reference it may lie there.
+// Whether both ends of what a parameter may be are far from what was believed of it. An end near that says
+// nothing: with a reference the parameter may lie there.
+bool has_far_ends(const Parameter& parameter) {
+  constexpr double kFarEnd = 2.0;  // deviations
+  return parameter.lowest < parameter.neutral - kFarEnd * parameter.std &&
+         parameter.neutral + kFarEnd * parameter.std < parameter.highest;
+}
+
+double deviations_of(const FittedExplanation& reported, std::size_t p) {
+  const Parameter& parameter = reported.hypothesis.parameters()[p];
+  return (reported.x[p] - parameter.neutral) / parameter.std;
+}
+
+// A parameter that the answer needs at one of its two ends.
 std::optional<std::string> parameter_at_its_end(const FittedExplanation& reported) {
   for (std::size_t p = 0; p < reported.hypothesis.nuisance_count(); ++p) {
     const Parameter& parameter = reported.hypothesis.parameters()[p];
-    constexpr double kFarEnd = 2.0;  // deviations
-    const bool two_sided = parameter.lowest < parameter.neutral - kFarEnd * parameter.std &&
-                           parameter.neutral + kFarEnd * parameter.std < parameter.highest;
-    if (two_sided && (reported.x[p] <= parameter.lowest || reported.x[p] >= parameter.highest))
+    if (has_far_ends(parameter) && (reported.x[p] <= parameter.lowest || reported.x[p] >= parameter.highest))
       return fmt::format(
           "{} would have to be further from what was believed than it may be ({:.1f} deviations)",
-          parameter.name, std::abs(reported.x[p] - parameter.neutral) / parameter.std);
+          parameter.name, std::abs(deviations_of(reported, p)));
+  }
+  return std::nullopt;
+}
+
+// What only another wheel law would ask for.
+std::optional<std::string> closure_beyond_belief(const FittedExplanation& reported,
+                                                 const VerdictOptions& options) {
+  for (std::size_t p = 0; p < reported.hypothesis.nuisance_count(); ++p) {
+    const Parameter& parameter = reported.hypothesis.parameters()[p];
+    const double deviations = deviations_of(reported, p);
+    if (parameter.kind == NuisanceKind::kClosure && has_far_ends(parameter) &&
+        std::abs(deviations) > options.max_closure_shift)
+      return fmt::format("{} would be {:+.1f} deviations from what was believed of it", parameter.name,
+                         deviations);
   }
   return std::nullopt;
 }
@@ -71,7 +94,7 @@ std::optional<std::string> soil_beyond_belief(const FittedExplanation& reported,
   double of_all = 0.0;
   for (std::size_t p = 0; p < hypothesis.nuisance_count(); ++p) {
     const Parameter& parameter = hypothesis.parameters()[p];
-    const double deviations = (reported.x[p] - parameter.neutral) / parameter.std;
+    const double deviations = deviations_of(reported, p);
     if (parameter.name == kLateralShearModulus) of_all = deviations * deviations;
     if (parameter.soil < 0) continue;
     squares[parameter.soil] += deviations * deviations;
@@ -210,6 +233,7 @@ void doubt_what_leaves_a_gap(const FittedExplanation& reported, const std::optio
   if (!why) why = parameter_at_its_end(reported);
   // Names that nothing but belief is against keep their probability, if they stand.
   bool stand = !why && stand_against_belief(d, options);
+  if (!why) why = closure_beyond_belief(reported, options);
   if (!why) why = soil_beyond_belief(reported, d, options);
   if (!why) why = little_closed(d, options);
   if (!why) {

@@ -19,7 +19,8 @@ void withdraw_what_tells_no_better(double log_density_gain, Diagnosis& d);
 // Takes an answer back to `unknown` where
 //   1. far more than the floor is left on drives held out of the fit,
 //   2. a parameter lies at the end of what it may be,
-//   3. a soil beside named effects is beyond VerdictOptions::max_soil_shift,
+//   3. a closure is beyond VerdictOptions::max_closure_shift, or a soil beside named effects beyond
+//      max_soil_shift,
 //   4. named effects close less than min_share_beside_form of the gap together, or
 //   5. a scale of the drives' scatter is beyond max_scatter.
 // Effects keep their names in a partial answer where they may stand beside something unknown (naming.h). In

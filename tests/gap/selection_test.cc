@@ -37,6 +37,7 @@ TEST(ChosenAmong, IsSomethingUnknownWhereThatHasMoreThanHalfInAll) {
 
 // A pull along the travel, and one that grows with speed and leans on the imprecision of any simulator.
 TEST(BestForm, IsTheCauseFromOutsideThatTheFitAloneSpeaksFor) {
+  const double alike_share = SelectionOptions{}.alike_form_share;
   DriveCampaign campaign;
   campaign.rover = std::make_shared<sim::RoverModel>(sim::six_wheeler());
   campaign.soils.resize(1);
@@ -53,12 +54,12 @@ TEST(BestForm, IsTheCauseFromOutsideThatTheFitAloneSpeaksFor) {
   add({"pull_with_speed"}, 0.41, 1);
   add({"pull_along_travel"}, 0.40, 2);
   add({"pull_along_travel", "grousers"}, 0.35, 3);
-  EXPECT_EQ(best_form(search, 0, 0.75), 1U) << "not the one with another effect beside it";
-  EXPECT_EQ(best_form(search, 1, 0.75), 1U);
+  EXPECT_EQ(best_form(search, 0, alike_share), 1U) << "not the one with another effect beside it";
+  EXPECT_EQ(best_form(search, 1, alike_share), 1U);
   search.candidates[1].probability = 0.2;
-  EXPECT_EQ(best_form(search, 0, 0.75), 0U);
+  EXPECT_EQ(best_form(search, 0, alike_share), 0U);
   search.candidates.push_back(candidate({}, 0.5, true));
-  EXPECT_EQ(best_form(search, 3, 0.75), 3U) << "of no known form";
+  EXPECT_EQ(best_form(search, 3, alike_share), 3U) << "of no known form";
 }
 
 TEST(Weigh, BelievesAShareOfTheEvidenceAndNowAndThenATenthOfIt) {
@@ -226,6 +227,31 @@ TEST(Verdict, IsUnknownBesideASoilFartherFromBeliefThanChanceAllows) {
   }
   EXPECT_EQ(doubted(Verdict::kParameters, 0.9).verdict, Verdict::kParameters)
       << "mis-set parameters are an answer";
+}
+
+// With slip_sinkage withheld, the answer was that nothing is missing, with c1 7.7 deviations off.
+TEST(Verdict, IsUnknownBesideAClosureThatOnlyAnotherWheelLawHas) {
+  DriveCampaign campaign;
+  campaign.soils.resize(1);
+  FittedExplanation reported{{}, Hypothesis(campaign, {})};
+  const auto doubted = [&](double deviations, Verdict verdict, double probability) {
+    reported.x = reported.hypothesis.neutral();
+    for (std::size_t p = 0; p < reported.x.size(); ++p)
+      if (reported.hypothesis.parameters()[p].name == "c1")
+        reported.x[p] = deviations * reported.hypothesis.parameters()[p].std;
+    Diagnosis d = answer_with(verdict, 1.0);
+    d.marginals.front().probability = probability;
+    doubt_what_leaves_a_gap(reported, std::nullopt, VerdictOptions{}, d);
+    return d;
+  };
+  for (const double sense : {-1.0, 1.0}) {
+    EXPECT_EQ(doubted(5.0 * sense, Verdict::kParameters, 0.0).verdict, Verdict::kParameters);
+    const Diagnosis bent = doubted(7.7 * sense, Verdict::kNoGap, 0.0);
+    EXPECT_EQ(bent.verdict, Verdict::kUnknown);
+    EXPECT_NE(bent.reason.find("c1 would be"), std::string::npos) << bent.reason;
+  }
+  EXPECT_EQ(doubted(7.0, Verdict::kEffects, 0.9).verdict, Verdict::kUnknown);
+  EXPECT_TRUE(doubted(7.0, Verdict::kEffects, 1.0).partial) << "it is as good as certain";
 }
 
 // With multipass withheld, a hard layer of probability 0.94 closed 9 % of the gap.
