@@ -38,7 +38,8 @@ DiagnosisOptions with_reference(DiagnosisOptions options) {
   for (EvidenceShare& belief : options.evidence.shares) belief.share *= options.reference.evidence_share;
   VerdictOptions& verdict = options.verdict;
   verdict.min_closed_share = std::max(verdict.min_closed_share, options.reference.min_closed_share);
-  verdict.max_left_of_nothing = std::max(verdict.max_left_of_nothing, options.reference.max_left_of_nothing);
+  for (double* const left : {&verdict.max_left_of_nothing, &verdict.max_left_beside_effects})
+    *left = std::max(*left, options.reference.max_left);
   verdict.min_share_of_rest = std::numeric_limits<double>::infinity();
   return options;
 }
@@ -164,6 +165,7 @@ class Diagnoser {
         .of_gap = [&](const std::string& cause) { return shares.of(cause); },
         .beside_others = [&](const std::string& cause) { return shares.beside_others(cause); }};
     naming_ = name_effects(search_, best_, d_.marginals, cause_shares, options_.verdict);
+    named_share_ = shares.of_all(naming_.effects);
     best_ = naming_.correction;
     judge(campaign_, prepared_, search_, naming_, options_, d_);
     if (d_.outside) d_.outside->closed_share = shares.of(d_.outside->cause);
@@ -273,10 +275,9 @@ class Diagnoser {
     d_.window_gaps = std::move(closure->windows);
     d_.candidates[best_].held_out_score = closure->log_density_gain;
     withdraw_what_tells_no_better(closure->log_density_gain, d_);
-    doubt_what_leaves_a_gap(
-        reported_fit(),
-        campaign_.reference ? std::nullopt : std::optional(prepared_.noise->furthest_above_belief()),
-        options_.verdict, d_);
+    ReportedAnswer answer{reported_fit(), named_share_, {}};
+    if (!campaign_.reference) answer.scatter = prepared_.noise->furthest_above_belief();
+    doubt_answer(answer, options_.verdict, d_);
     if (explains()) {
       auto extrapolated =
           extrapolate(prepared_, campaign_, choice.corrections.front(), drives, options_, progress_);
@@ -354,6 +355,7 @@ class Diagnoser {
   ExplanationSearch search_;
   std::size_t best_ = 0;  // of its candidates: what is reported
   Naming naming_;
+  double named_share_ = 0.0;  // of the held-out gap
   Diagnosis d_;
 };
 

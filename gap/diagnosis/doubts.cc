@@ -41,14 +41,15 @@ std::optional<std::string> gap_left(const Diagnosis& d, const VerdictOptions& op
 // Whether both ends of what a parameter may be are far from what was believed of it. An end near that says
 // nothing: with a reference the parameter may lie there.
 bool has_far_ends(const Parameter& parameter) {
-  constexpr double kFarEnd = 2.0;  // deviations
+  constexpr double kFarEnd = 4.0;  // deviations
   return parameter.lowest < parameter.neutral - kFarEnd * parameter.std &&
          parameter.neutral + kFarEnd * parameter.std < parameter.highest;
 }
 
+// In usual ones: soil that was measured well is bent by another equation as far as any.
 double deviations_of(const FittedExplanation& reported, std::size_t p) {
   const Parameter& parameter = reported.hypothesis.parameters()[p];
-  return (reported.x[p] - parameter.neutral) / parameter.std;
+  return (reported.x[p] - parameter.neutral) / parameter.usual_std;
 }
 
 // A parameter that the answer needs at one of its two ends.
@@ -89,39 +90,37 @@ std::optional<std::string> soil_beyond_belief(const FittedExplanation& reported,
                                               const VerdictOptions& options) {
   const Hypothesis& hypothesis = reported.hypothesis;
   if (d.effects.empty() || hypothesis.prior_precision().size() > 0) return std::nullopt;
-  std::map<int, double> squares;  // by soil; the ratio of the moduli is that of all
-  std::map<int, std::pair<double, std::string_view>> furthest;
-  double of_all = 0.0;
+  struct Shift {
+    double square = 0.0, most = 0.0;
+    std::string of;  // the parameter that is furthest off
+  };
+  std::map<int, Shift> shift_of;  // by soil; -1: the ratio of the moduli, which is that of all
   for (std::size_t p = 0; p < hypothesis.nuisance_count(); ++p) {
     const Parameter& parameter = hypothesis.parameters()[p];
+    if (parameter.soil < 0 && parameter.name != kLateralShearModulus) continue;
     const double deviations = deviations_of(reported, p);
-    if (parameter.name == kLateralShearModulus) of_all = deviations * deviations;
-    if (parameter.soil < 0) continue;
-    squares[parameter.soil] += deviations * deviations;
-    auto& most = furthest[parameter.soil];
-    if (std::abs(deviations) > std::abs(most.first)) most = {deviations, parameter.name};
+    Shift& shift = shift_of[parameter.soil];
+    shift.square += deviations * deviations;
+    if (std::abs(deviations) >= std::abs(shift.most)) shift.most = deviations, shift.of = parameter.name;
   }
-  for (const auto& [soil, sum] : squares) {
-    const double shift = std::sqrt(sum + of_all);
-    if (shift <= options.max_soil_shift) continue;
-    const auto& [deviations, name] = furthest.at(soil);
-    return fmt::format("the soil would be {:.1f} deviations from what was believed of it ({} alone {:+.1f})",
-                       shift, name, deviations);
-  }
-  return std::nullopt;
+  const Shift ratio = shift_of[-1];
+  shift_of.erase(-1);
+  Shift furthest;
+  for (const auto& [soil, shift] : shift_of)
+    if (shift.square >= furthest.square) furthest = shift;
+  const double deviations = std::sqrt(furthest.square + ratio.square);
+  if (deviations <= options.max_soil_shift) return std::nullopt;
+  const Shift& most = std::abs(ratio.most) > std::abs(furthest.most) ? ratio : furthest;
+  return fmt::format("the soil would be {:.1f} deviations from what was believed of it ({} alone {:+.1f})",
+                     deviations, most.of, most.most);
 }
 
-double closed_together(const Diagnosis& d) {
-  double closed = 0.0;
-  for (const FoundEffect& effect : d.effects) closed += marginal_of(d.marginals, effect.name).closed_share;
-  return closed;
-}
-
-std::optional<std::string> little_closed(const Diagnosis& d, const VerdictOptions& options) {
-  const double closed = closed_together(d);
-  if (d.effects.empty() || closed >= options.min_share_beside_form) return std::nullopt;
+std::optional<std::string> little_closed(const ReportedAnswer& answer, const Diagnosis& d,
+                                         const VerdictOptions& options) {
+  if (!options.name_by_marginals || d.effects.empty() || answer.closed_share >= options.min_named_share)
+    return std::nullopt;
   return fmt::format("what fits them best closes {:.0f} % of the gap on drives held out of the fit",
-                     100.0 * closed);
+                     100.0 * answer.closed_share);
 }
 
 double unknown_probability(const Diagnosis& d) {
@@ -174,26 +173,46 @@ bool as_good_as_certain(const EffectMarginal& m, const VerdictOptions& options) 
          m.closed_share >= options.min_share_beside_form;
 }
 
-// Whether the named effects are each more probable than not and close most of the gap together.
-bool close_most(const Diagnosis& d, const VerdictOptions& options) {
-  return closed_together(d) >= options.min_partial_share &&
-         of_each_named(d, options, [&](const EffectMarginal& m) {
+bool all_certain(const Diagnosis& d, const VerdictOptions& options) {
+  return of_each_named(d, options, [&](const EffectMarginal& m) { return as_good_as_certain(m, options); });
+}
+
+// Whether nothing is alike and each is more probable than not.
+bool all_probable(const Diagnosis& d, const VerdictOptions& options) {
+  return d.verdict == Verdict::kEffects && of_each_named(d, options, [&](const EffectMarginal& m) {
            return m.probability >= options.min_probability_closing_most;
          });
 }
 
-// Whether the named effects stand against belief: each is as good as certain and closes more than a little,
-// as a patch does that stops the rover; or one of them is and closes most, and the others are more probable
-// than not.
-bool stand_against_belief(const Diagnosis& d, const VerdictOptions& options) {
-  const bool certain =
-      of_each_named(d, options, [&](const EffectMarginal& m) { return as_good_as_certain(m, options); });
-  const bool foremost_certain =
-      std::any_of(d.effects.begin(), d.effects.end(), [&](const FoundEffect& effect) {
-        const EffectMarginal m = marginal_of(d.marginals, effect.name);
-        return as_good_as_certain(m, options) && m.closed_share >= options.min_partial_share;
-      });
-  return certain || (foremost_certain && close_most(d, options));
+bool one_is_certain_and_closes_most(const Diagnosis& d, const VerdictOptions& options) {
+  return std::any_of(d.effects.begin(), d.effects.end(), [&](const FoundEffect& effect) {
+    const EffectMarginal m = marginal_of(d.marginals, effect.name);
+    return as_good_as_certain(m, options) && m.closed_share >= options.min_partial_share;
+  });
+}
+
+// What is held against an answer, and whether its names stand all the same.
+struct Doubt {
+  std::string why;
+  bool of_a_gap = false;  // and not of belief
+  bool names_stand = false;
+};
+
+std::optional<Doubt> doubt_of(const ReportedAnswer& answer, const VerdictOptions& options,
+                              const Diagnosis& d) {
+  std::optional<std::string> why = gap_left(d, options);
+  if (!why) why = parameter_at_its_end(answer.fit);
+  if (why) return Doubt{*why, true, false};
+  const bool certain = all_certain(d, options), probable = all_probable(d, options);
+  why = closure_beyond_belief(answer.fit, options);
+  if (!why) why = soil_beyond_belief(answer.fit, d, options);
+  if (why) return Doubt{*why, false, certain || (probable && one_is_certain_and_closes_most(d, options))};
+  why = little_closed(answer, d, options);
+  if (why) return Doubt{*why, false, false};
+  why = scatter_beyond_belief(answer.scatter, options);
+  if (why)
+    return Doubt{*why, false, certain || (probable && answer.closed_share >= options.min_partial_share)};
+  return std::nullopt;
 }
 
 }  // namespace
@@ -224,36 +243,26 @@ void withdraw_what_tells_no_better(double log_density_gain, Diagnosis& d) {
   withdraw_effects(d);
 }
 
-void doubt_what_leaves_a_gap(const FittedExplanation& reported, const std::optional<ScaleOffBelief>& scatter,
-                             const VerdictOptions& options, Diagnosis& d) {
+void doubt_answer(const ReportedAnswer& answer, const VerdictOptions& options, Diagnosis& d) {
   const double unknown = unknown_probability(d);
   if (d.verdict == Verdict::kUnknown || d.verdict == Verdict::kInsufficient || d.partial || unknown <= 0.0)
     return;
-  std::optional<std::string> why = gap_left(d, options);
-  if (!why) why = parameter_at_its_end(reported);
-  // Names that nothing but belief is against keep their probability, if they stand.
-  bool stand = !why && stand_against_belief(d, options);
-  if (!why) why = closure_beyond_belief(reported, options);
-  if (!why) why = soil_beyond_belief(reported, d, options);
-  if (!why) why = little_closed(d, options);
-  if (!why) {
-    stand = stand || close_most(d, options);
-    why = scatter_beyond_belief(scatter, options);
-  }
-  if (!why) return;
-  const double doubt = options.min_doubt;
-  if (unknown < doubt && !stand)
+  const std::optional<Doubt> doubt = doubt_of(answer, options, d);
+  if (!doubt) return;
+  // Names that stand keep their probability.
+  if (unknown < options.min_doubt && !doubt->names_stand)
     for (ComparedSet& c : d.candidates)
-      c.probability *= c.with_unknown ? doubt / unknown : (1.0 - doubt) / (1.0 - unknown);
+      c.probability *=
+          c.with_unknown ? options.min_doubt / unknown : (1.0 - options.min_doubt) / (1.0 - unknown);
   std::stable_sort(d.candidates.begin(), d.candidates.end(),
                    [](const ComparedSet& a, const ComparedSet& b) { return a.probability > b.probability; });
   take_marginals_anew(d);
   const std::vector<std::string> names = named(d);
-  if (stand || all_stand(d, options)) {
+  if (doubt->names_stand || all_stand(d, options)) {
     d.partial = true;
     d.verdict = Verdict::kEffects;
-    d.reason =
-        fmt::format("{}, and something unexplained remains beside it: {}", closing_words(d, names), *why);
+    d.reason = fmt::format("{}, and something unexplained remains beside it: {}", closing_words(d, names),
+                           doubt->why);
     d.overturned_by = kSameLook;
     return;
   }
@@ -264,7 +273,10 @@ void doubt_what_leaves_a_gap(const FittedExplanation& reported, const std::optio
   withdraw_effects(d);
   d.least_detectable.clear();
   d.verdict = Verdict::kUnknown;
-  d.reason = fmt::format("a gap remains that no effect of the library explains: {}", *why);
+  d.reason = fmt::format("{}: {}",
+                         doubt->of_a_gap ? "a gap remains that no effect of the library explains"
+                                         : "nothing in the library explains these drives believably",
+                         doubt->why);
   d.overturned_by = kSameLook;
 }
 

@@ -16,20 +16,26 @@ void doubt_what_does_not_extrapolate(const VerdictOptions& options, Diagnosis& d
 // nothing) are not named, however probable they are on the drives that they were fitted to.
 void withdraw_what_tells_no_better(double log_density_gain, Diagnosis& d);
 
+// What is held against an answer besides its probability.
+struct ReportedAnswer {
+  const FittedExplanation& fit;  // that it stands for
+  double closed_share = 0.0;     // of the held-out gap, by all that it names
+  std::optional<ScaleOffBelief>
+      scatter;  // the scale furthest above belief; none where a reference told of it
+};
+
 // Takes an answer back to `unknown` where
 //   1. far more than the floor is left on drives held out of the fit,
 //   2. a parameter lies at the end of what it may be,
 //   3. a closure is beyond VerdictOptions::max_closure_shift, or a soil beside named effects beyond
 //      max_soil_shift,
-//   4. named effects close less than min_share_beside_form of the gap together, or
+//   4. what is named closes less than min_named_share of the gap, or
 //   5. a scale of the drives' scatter is beyond max_scatter.
 // Effects keep their names in a partial answer where they may stand beside something unknown (naming.h). In
-// cases 3 to 5 they do so if they are as good as certain (min_probability_beside_form and
-// min_share_beside_form), or one of them is and closes min_partial_share by itself; and in case 5 if they
-// close min_partial_share together. `reported`: the
-// fit that the answer stands for; `scatter`: the scale furthest above belief, nothing where a reference told
-// of it; d has its `gap`.
-void doubt_what_leaves_a_gap(const FittedExplanation& reported, const std::optional<ScaleOffBelief>& scatter,
-                             const VerdictOptions& options, Diagnosis& d);
+// cases 3 and 5 they do so if each is as good as certain (min_probability_beside_form and
+// min_share_beside_form). So do effects that no others were alike, in case 3 if one of them is as good as
+// certain and closes min_partial_share by itself, in case 5 if they close that together, the others being
+// more probable than not. d has its `gap`.
+void doubt_answer(const ReportedAnswer& answer, const VerdictOptions& options, Diagnosis& d);
 
 }  // namespace slipway::gap

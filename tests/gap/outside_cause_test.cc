@@ -33,6 +33,7 @@ TEST(OutsideCatalogue, HasNamesOfItsOwnAndActsOrShows) {
     EXPECT_TRUE(names.insert(cause.name).second) << cause.name;
     EXPECT_EQ(sim::find_effect(cause.name), nullptr) << cause.name << " is an effect's name";
     EXPECT_TRUE(cause.act != nullptr || cause.show != nullptr) << cause.name;
+    EXPECT_TRUE(cause.show == nullptr || cause.form == "sensor") << cause.name;
     EXPECT_EQ(find_outside(cause.name), &cause);
     for (const sim::EffectVariant& variant : cause.variants(campaign)) {
       ASSERT_FALSE(variant.free.empty());

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <string>
 
 #include "core/random.h"
 #include "gap/diagnosis/doubts.h"
@@ -124,7 +125,7 @@ TEST(Verdict, IsUnknownWhereAnAnswerLeavesMoreThanItsFloor) {
   FittedExplanation reported{{}, Hypothesis(campaign, {})};
   reported.x = reported.hypothesis.neutral();
   const auto doubted = [&](Diagnosis d) {
-    doubt_what_leaves_a_gap(reported, std::nullopt, VerdictOptions{}, d);
+    doubt_answer({reported, 0.4, {}}, VerdictOptions{}, d);
     return d;
   };
   EXPECT_EQ(doubted(answer_with(Verdict::kNoGap, 1.2)).verdict, Verdict::kNoGap);
@@ -168,7 +169,7 @@ TEST(Verdict, IsUnknownWhereDrivesWouldScatterByMoreThanAnyoneBelieved) {
     Diagnosis d = answer_with(verdict, 1.0);
     d.marginals.front() = {.name = "hardpan", .probability = probability, .closed_share = closed_share};
     const ScaleOffBelief scatter{.of = "currents", .times = 55.0, .deviations = deviations};
-    doubt_what_leaves_a_gap(reported, scatter, VerdictOptions{}, d);
+    doubt_answer({reported, closed_share, scatter}, VerdictOptions{}, d);
     return d;
   };
   EXPECT_EQ(doubted(Verdict::kParameters, 1.5, 0.0).verdict, Verdict::kParameters);
@@ -184,49 +185,79 @@ TEST(Verdict, IsUnknownWhereDrivesWouldScatterByMoreThanAnyoneBelieved) {
   EXPECT_EQ(little.verdict, Verdict::kUnknown);
   EXPECT_TRUE(little.effects.empty());
   EXPECT_TRUE(doubted(Verdict::kEffects, 3.3, 0.2, 0.999).partial) << "it is as good as certain";
-  EXPECT_EQ(doubted(Verdict::kEffects, 3.3, 0.05, 0.999).verdict, Verdict::kUnknown);
+  const Diagnosis nothing = doubted(Verdict::kEffects, 3.3, 0.05, 0.999);
+  EXPECT_EQ(nothing.verdict, Verdict::kUnknown);
+  EXPECT_NE(nothing.reason.find("closes 5 %"), std::string::npos) << nothing.reason;
+  EXPECT_EQ(doubted(Verdict::kEffectSet, 3.3, 0.6).verdict, Verdict::kUnknown) << "others were alike";
 }
 
 // With grousers withheld, a larger wheel "explained" them on soil 4.7 deviations more cohesive than believed.
-TEST(Verdict, IsUnknownBesideASoilFartherFromBeliefThanChanceAllows) {
-  DriveCampaign campaign;
-  campaign.soils.resize(2);
-  FittedExplanation reported{{}, Hypothesis(campaign, {})};
-  const auto shifted = [&](double cohesion, double ratio) {
-    reported.x = reported.hypothesis.neutral();
-    for (std::size_t p = 0; p < reported.x.size(); ++p) {
-      const Parameter& parameter = reported.hypothesis.parameters()[p];
-      if (parameter.name == "cohesion/" && parameter.soil == 1) reported.x[p] = cohesion * parameter.std;
-      if (parameter.name == kLateralShearModulus) reported.x[p] = ratio * parameter.std;
-    }
+class SoilBeyondBelief : public ::testing::Test {
+ protected:
+  SoilBeyondBelief() { campaign_.soils = {{"drift", {}}, {"bedrock", {}}}; }
+  struct Shift {
+    double cohesion_of_first = 0.0, cohesion_of_second = 0.0, ratio = 0.0;  // usual deviations
   };
-  const auto doubted = [&](Verdict verdict, double probability) {
+  FittedExplanation fit_with(const Shift& shift) const {
+    FittedExplanation fit{{}, Hypothesis(campaign_, {})};
+    fit.x = fit.hypothesis.neutral();
+    for (std::size_t p = 0; p < fit.x.size(); ++p) {
+      const std::string& name = fit.hypothesis.parameters()[p].name;
+      if (name == "cohesion/drift") fit.x[p] = 0.15 * shift.cohesion_of_first;
+      if (name == "cohesion/bedrock") fit.x[p] = 0.15 * shift.cohesion_of_second;
+      if (name == kLateralShearModulus) fit.x[p] = 0.15 * shift.ratio;
+    }
+    return fit;
+  }
+  Diagnosis doubted(const Shift& shift, Verdict verdict = Verdict::kEffects, double probability = 0.9) const {
     Diagnosis d = answer_with(verdict, 1.0);
     d.marginals.front().probability = probability;
-    doubt_what_leaves_a_gap(reported, std::nullopt, VerdictOptions{}, d);
+    doubt_answer({fit_with(shift), 0.4, {}}, VerdictOptions{}, d);
     return d;
-  };
-  shifted(4.4, 2.0);
-  EXPECT_FALSE(doubted(Verdict::kEffects, 0.9).partial) << "4.8 deviations";
-  EXPECT_EQ(doubted(Verdict::kEffects, 0.9).verdict, Verdict::kEffects);
-  shifted(-4.7, 2.8);
-  const Diagnosis bent = doubted(Verdict::kEffects, 0.9);
+  }
+  DriveCampaign campaign_;
+};
+
+TEST_F(SoilBeyondBelief, TakesNamesBackThatAreNotAsGoodAsCertain) {
+  const Diagnosis near = doubted({0.0, 4.4, 2.0});
+  EXPECT_EQ(near.verdict, Verdict::kEffects) << "4.8 deviations";
+  EXPECT_FALSE(near.partial);
+  const Diagnosis bent = doubted({0.0, -4.7, 2.8});
   EXPECT_EQ(bent.verdict, Verdict::kUnknown);
   EXPECT_TRUE(bent.effects.empty());
   EXPECT_NE(bent.reason.find("5.5 deviations"), std::string::npos) << bent.reason;
-  EXPECT_NE(bent.reason.find("cohesion/ alone -4.7"), std::string::npos) << bent.reason;
-  EXPECT_TRUE(doubted(Verdict::kEffects, 0.999).partial) << "it is as good as certain";
-  for (const double foremost : {0.4, 0.8}) {
-    Diagnosis pair = answer_with(Verdict::kEffects, 1.0);
-    pair.effects.push_back({"motor_temperature", "", 1.0, {}});
-    pair.marginals.push_back({.name = "motor_temperature", .probability = 1.0, .closed_share = foremost});
-    pair.marginals.front().closed_share = 0.15;
-    doubt_what_leaves_a_gap(reported, std::nullopt, VerdictOptions{}, pair);
-    EXPECT_EQ(pair.partial, foremost > 0.5) << "one that is certain and closes most takes the other along";
-    EXPECT_EQ(pair.effects.size(), pair.partial ? 2U : 0U);
-  }
-  EXPECT_EQ(doubted(Verdict::kParameters, 0.9).verdict, Verdict::kParameters)
+  EXPECT_NE(bent.reason.find("cohesion/bedrock alone -4.7"), std::string::npos) << bent.reason;
+  EXPECT_TRUE(doubted({0.0, -4.7, 2.8}, Verdict::kEffects, 0.999).partial) << "it is as good as certain";
+  EXPECT_EQ(doubted({0.0, -4.7, 2.8}, Verdict::kParameters).verdict, Verdict::kParameters)
       << "mis-set parameters are an answer";
+}
+
+TEST_F(SoilBeyondBelief, IsTheFurthestOfSeveralAndNamesWhatIsFurthestOff) {
+  const Diagnosis both = doubted({5.5, 9.0, 0.0});
+  EXPECT_NE(both.reason.find("9.0 deviations"), std::string::npos) << both.reason;
+  const Diagnosis ratio = doubted({0.1, 0.0, 6.0});
+  EXPECT_NE(ratio.reason.find("lateral_shear_modulus alone +6.0"), std::string::npos) << ratio.reason;
+}
+
+TEST_F(SoilBeyondBelief, IsMeasuredInUsualDeviations) {
+  campaign_.parameter_std["cohesion"] = 0.03;
+  EXPECT_EQ(doubted({0.0, 2.0, 0.0}).verdict, Verdict::kEffects)
+      << "another equation bends measured soil too";
+  campaign_.retuning = Retuning::kNone;
+  EXPECT_EQ(doubted({0.0, 0.1, 0.0}).verdict, Verdict::kEffects) << "held, a hundred deviations of its own";
+}
+
+TEST_F(SoilBeyondBelief, LeavesACertainCauseThatClosesMostAndWhatIsProbableBesideIt) {
+  for (const bool alike : {false, true})
+    for (const double foremost : {0.4, 0.8}) {
+      Diagnosis pair = answer_with(alike ? Verdict::kEffectSet : Verdict::kEffects, 1.0);
+      pair.effects = {{"hardpan", "", 0.95, {}}, {"motor_temperature", "", 1.0, {}}};
+      pair.marginals = {{.name = "motor_temperature", .probability = 1.0, .closed_share = foremost},
+                        {.name = "hardpan", .probability = 0.95, .closed_share = 0.15}};
+      doubt_answer({fit_with({0.0, 5.5, 0.0}), foremost + 0.15, {}}, VerdictOptions{}, pair);
+      EXPECT_EQ(pair.partial, foremost > 0.5 && !alike) << foremost << " " << alike;
+      EXPECT_EQ(pair.effects.size(), pair.partial ? 2U : 0U);
+    }
 }
 
 // With slip_sinkage withheld, the answer was that nothing is missing, with c1 7.7 deviations off.
@@ -241,7 +272,7 @@ TEST(Verdict, IsUnknownBesideAClosureThatOnlyAnotherWheelLawHas) {
         reported.x[p] = deviations * reported.hypothesis.parameters()[p].std;
     Diagnosis d = answer_with(verdict, 1.0);
     d.marginals.front().probability = probability;
-    doubt_what_leaves_a_gap(reported, std::nullopt, VerdictOptions{}, d);
+    doubt_answer({reported, 0.4, {}}, VerdictOptions{}, d);
     return d;
   };
   for (const double sense : {-1.0, 1.0}) {
@@ -261,10 +292,14 @@ TEST(Verdict, IsUnknownWhereWhatIsNamedClosesLittle) {
   FittedExplanation reported{{}, Hypothesis(campaign, {})};
   reported.x = reported.hypothesis.neutral();
   for (const double share : {0.09, 0.11}) {
-    Diagnosis d = answer_with(Verdict::kEffects, 1.0);
-    d.marginals.front().closed_share = share;
-    doubt_what_leaves_a_gap(reported, std::nullopt, VerdictOptions{}, d);
-    EXPECT_EQ(d.verdict, share < 0.1 ? Verdict::kUnknown : Verdict::kEffects) << share;
+    Diagnosis d = answer_with(Verdict::kEffects, 1.0), old = d;
+    d.marginals.front().probability = 1.0;
+    doubt_answer({reported, share, {}}, VerdictOptions{}, d);
+    EXPECT_EQ(d.verdict, share < 0.1 ? Verdict::kUnknown : Verdict::kEffects) << share << ", certain or not";
+    VerdictOptions old_naming;
+    old_naming.name_by_marginals = false;
+    doubt_answer({reported, share, {}}, old_naming, old);
+    EXPECT_EQ(old.verdict, Verdict::kEffects) << "names did not follow shares";
   }
 }
 

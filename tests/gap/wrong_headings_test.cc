@@ -20,11 +20,11 @@ namespace {
 
 constexpr double kSpeed_m_s = 0.05, kCurvature_1_m = 0.25, kFirstYaw_rad = 2.5;
 
-// An arc on a plane of 12 deg, as the balance has the rover move there, recorded along `heading_of` what it
+// An arc on a plane, as the balance has the rover move there, recorded along `heading_of` what it
 // has turned.
 template <class Heading>
-DriveCampaign arc_recorded_along(const Heading& heading_of, double speed_m_s) {
-  const double slope = std::tan(rad_from_deg(12.0));
+DriveCampaign arc_recorded_along(const Heading& heading_of, double speed_m_s, double slope_deg = 12.0) {
+  const double slope = std::tan(rad_from_deg(slope_deg));
   const auto ground =
       std::make_shared<sim::FunctionGround>([slope](double x, double /*y*/) { return slope * x; });
   DriveCampaign campaign;
@@ -119,6 +119,77 @@ TEST(WrongHeadings, OfAnotherScaleAreTurnedBackOnASlopeForwardAndBackward) {
 TEST(WrongHeadings, FromAnotherZeroAreTurnedBackOnASlope) {
   expect_told(arc_recorded_along([](double turned) { return kFirstYaw_rad + turned + 0.1; }, kSpeed_m_s),
               "heading_offset", 0.1);
+  // On a steep one only level motion may be turned: the body's own is 0.01 off.
+  expect_told(
+      arc_recorded_along([](double turned) { return kFirstYaw_rad + turned - 0.2; }, kSpeed_m_s, 20.0),
+      "heading_offset", -0.2);
+}
+
+TEST(WrongHeadings, ATurnInPlaceReadsSlower) {
+  DriveCampaign campaign =
+      arc_recorded_along([](double turned) { return kFirstYaw_rad + turned; }, kSpeed_m_s);
+  MeasuredDriveSeries& drive = campaign.drives.front();
+  drive.command = {.speed_m_s = 0.0, .turn_in_place = true, .turn_rate_rad_s = 0.05};
+  const DriveSample first = drive.samples.front();
+  for (std::size_t i = 0; i < drive.samples.size(); ++i) {
+    drive.samples[i] = first;
+    drive.samples[i].time_s = static_cast<double>(i);
+    drive.samples[i].attitude.yaw_rad = wrapped_rad(kFirstYaw_rad + 0.045 * static_cast<double>(i));
+  }
+  const auto slip_of = [&](const std::string& cause, double value) {
+    for (const Row& row : rows_of(campaign, cause, value))
+      if (row.channel == Channel::kSlip) return row.predicted;
+    return kNotMeasured;
+  };
+  const double right = slip_of("", 0.0);
+  EXPECT_NEAR(1.0 - slip_of("heading_gain", -0.12), 0.88 * (1.0 - right), 0.01)
+      << "a rate that reads 12 % less";
+  EXPECT_NEAR(slip_of("heading_offset", 0.1), right, 0.01) << "rates have no zero";
+}
+
+// Turning is counted from the line through the first window's headings: a first row without a heading, or
+// with one that nobody would believe, changes nothing.
+TEST(WrongHeadings, AreCountedFromTheFirstWindowWhateverItsFirstRowSays) {
+  const auto slow = [](double turned) { return kFirstYaw_rad + 0.88 * turned; };
+  const std::vector<Row> whole = rows_of(arc_recorded_along(slow, kSpeed_m_s), "heading_gain", -0.12);
+  for (const double first : {0.0, kNotMeasured}) {
+    DriveCampaign campaign = arc_recorded_along(slow, kSpeed_m_s);
+    campaign.drives.front().samples.front().attitude.yaw_rad = first;
+    const std::vector<Row> rows = rows_of(campaign, "heading_gain", -0.12);
+    ASSERT_EQ(rows.size(), whole.size());
+    for (std::size_t i = rows.size() / 2; i < rows.size(); ++i)
+      EXPECT_NEAR(rows[i].predicted, whole[i].predicted, 2e-3)
+          << name_of(rows[i].channel) << " after " << first;
+  }
+}
+
+// Derivatives near a state whose headings are turned, from balances at another, are those of predictions.
+TEST(WrongHeadings, HaveTheDerivativesOfTheirPredictions) {
+  const DriveCampaign campaign =
+      arc_recorded_along([](double turned) { return kFirstYaw_rad + 0.88 * turned; }, kSpeed_m_s);
+  const std::vector<DriveWindow> windows = cut_windows(campaign);
+  WindowModel model(campaign, windows);
+  std::vector<EffectVariant> causes{find_outside("heading_gain")->variants(campaign).front()};
+  causes.back().effect = "heading_gain";
+  const Hypothesis hypothesis(campaign, causes);
+  std::vector<double> x = hypothesis.neutral();
+  model.start_from(hypothesis.state(x));
+  x.back() = -0.12;
+  const Eigen::MatrixXd jacobian = hypothesis.scaled_jacobian(model, x, 1);
+  const double step = 1e-3, std = hypothesis.parameters().back().std;
+  std::vector<double> above = x, below = x;
+  above.back() += step;
+  below.back() -= step;
+  const std::vector<double> high = hypothesis.predict(model, above), low = hypothesis.predict(model, below);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < high.size(); ++i) {
+    const double slope = std * (high[i] - low[i]) / (2.0 * step);
+    largest = std::max(largest, std::abs(slope));
+    EXPECT_NEAR(jacobian(static_cast<Eigen::Index>(i), jacobian.cols() - 1), slope,
+                1e-3 + 0.05 * std::abs(slope))
+        << i;
+  }
+  EXPECT_GT(largest, 0.01);
 }
 
 }  // namespace

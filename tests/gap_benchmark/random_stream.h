@@ -18,8 +18,8 @@ class RandomStream {
     const double radius = std::sqrt(-2.0 * std::log(uniform()));
     return radius * std::cos(2.0 * std::numbers::pi * uniform());
   }
-  // A normal one no further out than two deviations, and its variance.
-  static constexpr double kBoundedVariance = 0.774;
+  static constexpr double kBoundedVariance = 0.774;  // of the following
+  // A normal one no further out than two deviations.
   double bounded() {
     double x = normal();
     while (std::abs(x) > 2.0) x = normal();

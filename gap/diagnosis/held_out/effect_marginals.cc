@@ -43,6 +43,11 @@ double ClosedShares::of(const std::string& cause) const {
   return std::clamp(closed / gap_, 0.0, 1.0);
 }
 
+double ClosedShares::of_all(std::span<const std::string> causes) const {
+  if (!(gap_ > 0.0)) return 0.0;
+  return std::clamp((nothing_ - rms_of({causes.begin(), causes.end()})) / gap_, 0.0, 1.0);
+}
+
 double ClosedShares::beside_others(const std::string& cause) const {
   const Names all = explanation_with(cause);
   if (all.empty()) return 0.0;

@@ -24,6 +24,8 @@ class ClosedShares {
   // Of a cause in the most probable explanation that has it; of one that was not fitted by its derivatives
   // beside the re-tuned parameters. Within 0 and 1.
   double of(const std::string& cause) const;
+  // Of all these causes together, as they were fitted; 0 where that set was not. Within 0 and 1.
+  double of_all(std::span<const std::string> causes) const;
   // In the same explanation, of what the other causes leave above the floor: of a weak cause beside one that
   // closes nearly all. 0 of a cause that was not fitted. Within 0 and 1.
   double beside_others(const std::string& cause) const;

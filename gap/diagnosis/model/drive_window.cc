@@ -29,26 +29,6 @@ std::vector<Observation> observations_of(const WindowReadings& readings) {
   return observations;
 }
 
-// Of every row, how far the recorded heading has turned since the first that has one; of rows without a
-// heading, as of the last before them.
-std::vector<double> turned_rad(const MeasuredDriveSeries& drive) {
-  std::vector<double> turned;
-  double so_far = 0.0, last = kNotMeasured;
-  for (const DriveSample& sample : drive.samples) {
-    const double yaw = sample.attitude.yaw_rad;
-    if (std::isfinite(yaw) && std::isfinite(last)) so_far += wrapped_rad(yaw - last);
-    if (std::isfinite(yaw)) last = yaw;
-    turned.push_back(so_far);
-  }
-  return turned;
-}
-
-// As DriveWindow's, of a window that begins with this row.
-double first_yaw_rad(const MeasuredDriveSeries& drive, std::span<const double> turned, std::size_t from) {
-  while (from + 1 < drive.samples.size() && !std::isfinite(drive.samples[from].attitude.yaw_rad)) ++from;
-  return drive.samples[from].attitude.yaw_rad - turned[from];
-}
-
 DriveWindow window_of(const WindowReadings& readings, std::size_t drive, double start_s, double end_s) {
   DriveWindow window;
   window.drive = drive;
@@ -58,6 +38,7 @@ DriveWindow window_of(const WindowReadings& readings, std::size_t drive, double 
   if (const auto temp_c = readings.motor_temp_c()) window.command.motor_temp_c = temp_c;
   window.distance_m = std::abs(window.command.speed_m_s) * (end_s - start_s);
   window.stations = readings.motion().stations;
+  window.first_yaw_rad = readings.motion().first_yaw_rad;
   window.censored = readings.motion().censored;
   window.observations = observations_of(readings);
   return window;
@@ -120,6 +101,19 @@ std::vector<Stretch> stretches_of(const MeasuredDriveSeries& drive, const Stretc
   return stretches;
 }
 
+// Windows begin with their own first headings; then all of a drive have that of its first window. From one
+// window's middle to the next the rover turns by less than half a turn.
+void share_first_headings(std::vector<DriveWindow>& windows) {
+  for (std::size_t w = 1; w < windows.size(); ++w) {
+    const DriveWindow& before = windows[w - 1];
+    DriveWindow& now = windows[w];
+    if (before.drive != now.drive) continue;
+    const double turned = before.middle_yaw_rad() - before.first_yaw_rad +
+                          wrapped_rad(now.middle_yaw_rad() - before.middle_yaw_rad());
+    now.first_yaw_rad = now.middle_yaw_rad() - turned;
+  }
+}
+
 int windows_in(const MeasuredDriveSeries& drive, const Stretch& stretch, double lasting_s) {
   if (drive.final_only) return 1;
   const double duration_s = drive.samples[stretch.to].time_s - drive.samples[stretch.from].time_s;
@@ -165,7 +159,6 @@ std::vector<DriveWindow> cut_windows(const DriveCampaign& campaign, const Window
   for (std::size_t d = 0; d < campaign.drives.size(); ++d) {
     const MeasuredDriveSeries& drive = campaign.drives[d];
     const double lasting_s = window_s(drive, options);
-    const std::vector<double> turned = turned_rad(drive);
     for (const Stretch& stretch : stretches_of(drive, driven_rows(campaign, drive), lasting_s, options)) {
       const int count = windows_in(drive, stretch, lasting_s);
       const double start_s = drive.samples[stretch.from].time_s;
@@ -178,12 +171,12 @@ std::vector<DriveWindow> cut_windows(const DriveCampaign& campaign, const Window
         if (to <= from) continue;
         DriveWindow window = window_of(WindowReadings(campaign, drive, from, to, options), d,
                                        drive.samples[from].time_s, drive.samples[to].time_s);
-        window.first_yaw_rad = first_yaw_rad(drive, turned, from);
         if (!window.stations.empty() && !window.observations.empty()) windows.push_back(std::move(window));
         from = to;
       }
     }
   }
+  share_first_headings(windows);
   return windows;
 }
 

@@ -16,8 +16,8 @@ struct DriveWindow {
   std::size_t drive = 0;  // index into DriveCampaign::drives
   double start_s = 0.0, end_s = 0.0;
   std::vector<Pose2> stations;  // measured, smoothed, evenly spaced over the window's time
-  // The first heading that was recorded in the drive, plus or minus whole turns so that stations' headings
-  // less this are what they have turned since.
+  // The heading at the start of the drive's first window, plus or minus whole turns so that stations'
+  // headings less this are what they have turned since.
   double first_yaw_rad = 0.0;
   sim::DriveCommand command;  // with the motors' mean temperature where it was measured
   double distance_m = 0.0;    // commanded

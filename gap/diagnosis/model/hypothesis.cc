@@ -105,9 +105,9 @@ Hypothesis::Hypothesis(const DriveCampaign& campaign, std::vector<EffectVariant>
                          : wide                                 ? kTotalTorqueStd
                                                                 : row.std;
       const double farthest = wide ? 3.0 * kTotalTorqueStd : 0.0;
-      parameters_.push_back({name, "", 0.0, held ? kHeld * std : std, std::min(row.lowest, -farthest),
-                             std::max(row.highest, farthest), quantity_of(row),
-                             row.kind == NuisanceKind::kSoil ? soil : -1, row.kind,
+      parameters_.push_back({name, "", 0.0, held ? kHeld * std : std, wide ? kTotalTorqueStd : row.std,
+                             std::min(row.lowest, -farthest), std::max(row.highest, farthest),
+                             quantity_of(row), row.kind == NuisanceKind::kSoil ? soil : -1, row.kind,
                              stated != campaign.parameter_std.end()});
       places_.push_back({&row, row.kind == NuisanceKind::kSoil ? soil : -1});
     }
@@ -121,7 +121,7 @@ Hypothesis::Hypothesis(const DriveCampaign& campaign, std::vector<EffectVariant>
         for (const Field& field : effect->fields)
           if (field.name == free.field) neutral = neutral_of(v, field);
       parameters_.push_back(
-          {v.effect + "." + free.field, v.effect, neutral, free.std, free.lowest, free.highest});
+          {v.effect + "." + free.field, v.effect, neutral, free.std, free.std, free.lowest, free.highest});
     }
   if (prior_precision_.size() == 0) return;
   const Eigen::MatrixXd of_nuisances = std::move(prior_precision_);

@@ -28,10 +28,11 @@ EffectVariant variant_at(const sim::Effect& effect, const sim::Disc& place);
 std::optional<sim::Disc> place_of(const EffectVariant& variant);
 
 struct Parameter {
-  std::string name;      // "friction/nominal", "grousers.height_m"
-  std::string effect;    // empty: a nuisance
-  double neutral = 0.0;  // where the model is the nominal one
-  double std = 1.0;      // of the prior around neutral
+  std::string name;        // "friction/nominal", "grousers.height_m"
+  std::string effect;      // empty: a nuisance
+  double neutral = 0.0;    // where the model is the nominal one
+  double std = 1.0;        // of the prior around neutral
+  double usual_std = 1.0;  // the same where nothing was measured of it and nothing is held
   double lowest = 0.0, highest = 0.0;
   std::optional<SoilQuantity> quantity = {};  // of a soil's nuisance that is one of these
   int soil = -1;                              // of a soil's nuisance: index into DriveCampaign::soils

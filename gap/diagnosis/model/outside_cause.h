@@ -47,8 +47,8 @@ struct SoilDrift {
 // Cohesion and tan(friction angle) of a soil times this.
 void strengthen(sim::Soil& soil, double factor);
 
-// How recorded headings err: changes since a drive began times 1 + gain, and all too far to the left by an
-// offset.
+// How recorded headings err, by a scale factor and a bias: changes since a drive began are recorded as
+// 1 + gain of what they are, and all headings too far to the left by an offset.
 struct HeadingError {
   double gain = 0.0, offset_rad = 0.0;
 

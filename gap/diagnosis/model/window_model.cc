@@ -285,13 +285,13 @@ std::vector<sim::BalanceGeometry> WindowModel::geometries_of(std::size_t w, cons
   return geometries;
 }
 
-bool WindowModel::as_nominal(const ModelState& state) const {
+bool WindowModel::stands_as_nominal(const ModelState& state) const {
   return same_shape_as(state.rover, *campaign_.rover) && !state.heading_error.any();
 }
 
 void WindowModel::start_from(const ModelState& state, std::size_t threads) {
   std::vector<std::vector<StationStart>> starts(windows_.size());
-  const bool nominal = as_nominal(state);
+  const bool nominal = stands_as_nominal(state);
   parallel_for(windows_.size(), threads, [&](std::size_t w) {
     std::vector<Place> own;
     starts[w] = starts_of(w, state, places_in(w, state, nominal, own));
@@ -311,7 +311,7 @@ std::vector<std::size_t> WindowModel::first_windows() const {
 // depend on how drives are spread.
 std::vector<double> WindowModel::predict(const ModelState& state, std::size_t threads) const {
   std::vector<double> out(observation_count(), kNotMeasured);
-  const bool nominal = as_nominal(state);
+  const bool nominal = stands_as_nominal(state);
   const std::vector<std::size_t> first = first_windows();
   parallel_for(first.size() - 1, threads, [&](std::size_t d) {
     sim::QuasiStaticSolver solver(state.rover, campaign_.gravity_m_s2);
@@ -330,7 +330,7 @@ std::vector<std::vector<double>> WindowModel::predict_near(const ModelState& cen
                                                            std::span<const NearState> near,
                                                            std::size_t threads) const {
   std::vector<std::vector<double>> out(near.size(), std::vector<double>(observation_count(), kNotMeasured));
-  const bool centre_nominal = as_nominal(centre);
+  const bool centre_nominal = stands_as_nominal(centre);
   std::vector<bool> as_centre;
   for (const NearState& n : near) as_centre.push_back(stand_alike(n.state, centre));
   const std::vector<std::size_t> first = first_windows();
@@ -351,7 +351,8 @@ std::vector<std::vector<double>> WindowModel::predict_near(const ModelState& cen
         std::vector<Place> own;
         const From from{starts, true,
                         near[n].same_rover ? geometries : std::span<const sim::BalanceGeometry>{}};
-        const std::span<const Place> at = as_centre[n] ? places : places_in(w, state, as_nominal(state), own);
+        const std::span<const Place> at =
+            as_centre[n] ? places : places_in(w, state, stands_as_nominal(state), own);
         predict_window(w, state, at, from, solvers[n], values);
       }
     }

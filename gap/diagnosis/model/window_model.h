@@ -26,7 +26,7 @@ struct ModelState {
   double track_left_out = 0.0;              // see kTrackLeftOut
   OutsideForces outside = {};
   SoilDrift soil_drift = {};
-  HeadingError heading_error = {};  // the rover stands along its headings without it
+  HeadingError heading_error = {};  // recorded headings are off by it; the rover stands along the right ones
 };
 
 // How the rover stands where it was: as its suspension does on the map, leant by its wheels' unequal
@@ -139,7 +139,7 @@ class WindowModel {
   // Of a window's stations, one or as many as it has; empty where one of them has no ground.
   std::vector<Place> places_of(const sim::RoverModel& rover, const HeadingError& heading_error,
                                std::size_t window) const;
-  bool as_nominal(const ModelState& state) const;
+  bool stands_as_nominal(const ModelState& state) const;
 
   const DriveCampaign& campaign_;
   std::span<const DriveWindow> windows_;

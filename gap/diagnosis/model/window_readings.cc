@@ -171,6 +171,7 @@ void WindowReadings::read_motion(const Readings& x, const Readings& y, const Rea
   const Eigen::Matrix4d inverse = (design.transpose() * design).inverse();
   if (!inverse.allFinite()) return;
   const Eigen::Vector4d found = inverse * (design.transpose() * places);
+  motion_.first_yaw_rad = heading.at(start_s);
   for (int k = 0; k < options_.stations; ++k) {
     const double share = (k + 0.5) / options_.stations;
     const double at_s = start_s + share * (end_s - start_s);

@@ -36,6 +36,7 @@ class WindowReadings {
   struct Motion {
     std::optional<Measured> slip, side_slip, yaw_rate, roll, pitch;
     std::vector<Pose2> stations;  // evenly spaced over the window's time
+    double first_yaw_rad = 0.0;   // of the line through the headings, at the window's start
     bool censored = false;        // slip above kCensoredSlip
   };
   const Motion& motion() const { return motion_; }

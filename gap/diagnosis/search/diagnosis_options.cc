@@ -194,9 +194,9 @@ void list_verdict(const VerdictOptions& options, Lister& list) {
   const auto& [min_drives, min_windows, min_parameters_gain, surely_seen, small_effect, max_hidden_share,
                beyond_chance, max_left_of_nothing, max_left_beside_effects, forgiven_closure, max_scatter,
                max_soil_shift, max_closure_shift, rival_share, min_doubt, determined_share, max_angle_deg,
-               min_signature, max_unexplained_shapes, name_by_marginals, min_closed_share, min_share_of_law,
-               min_share_of_rest, min_partial_probability, min_partial_share, min_probability_beside_form,
-               min_share_beside_form, min_probability_closing_most] = options;
+               min_signature, max_unexplained_shapes, name_by_marginals, min_closed_share, min_named_share,
+               min_share_of_law, min_share_of_rest, min_partial_probability, min_partial_share,
+               min_probability_beside_form, min_share_beside_form, min_probability_closing_most] = options;
   SLIPWAY_FIELD(min_drives);
   SLIPWAY_FIELD(min_windows);
   SLIPWAY_FIELD(min_parameters_gain);
@@ -218,6 +218,7 @@ void list_verdict(const VerdictOptions& options, Lister& list) {
   SLIPWAY_FIELD(max_unexplained_shapes);
   SLIPWAY_FIELD(name_by_marginals);
   SLIPWAY_FIELD(min_closed_share);
+  SLIPWAY_FIELD(min_named_share);
   SLIPWAY_FIELD(min_share_of_law);
   SLIPWAY_FIELD(min_share_of_rest);
   SLIPWAY_FIELD(min_partial_probability);
@@ -302,7 +303,7 @@ void list_next_drives(const NextDriveOptions& options, Lister& list) {
 void list_reference(const ReferenceOptions& options, Lister& list) {
   list.step("reference");
   const auto& [sizes, beyond, drift, noise_std, min_drives, min_windows, rounds, max_open, min_open,
-               min_closed_share, max_left_of_nothing, evidence_share] = options;
+               min_closed_share, max_left, evidence_share] = options;
   SLIPWAY_FIELD(sizes);
   SLIPWAY_FIELD(beyond);
   SLIPWAY_FIELD(drift);
@@ -313,7 +314,7 @@ void list_reference(const ReferenceOptions& options, Lister& list) {
   SLIPWAY_FIELD(max_open);
   SLIPWAY_FIELD(min_open);
   SLIPWAY_FIELD(min_closed_share);
-  SLIPWAY_FIELD(max_left_of_nothing);
+  SLIPWAY_FIELD(max_left);
   SLIPWAY_FIELD(evidence_share);
 }
 

@@ -171,8 +171,8 @@ struct VerdictOptions {
   // Prior deviations by which a scale of the drives' own scatter may be above what was believed of it,
   // without a reference (6.8 times); beyond them it hides something. Healthy campaigns came to 0.6 at most.
   double max_scatter = 1.6;
-  // Prior deviations by which a soil may be off what was believed of it beside named effects, all of its
-  // parameters and the ratio of its shear moduli together, without a reference. A cause that the library
+  // Usual prior deviations by which a soil may be off what was believed of it beside named effects, all of
+  // its parameters and the ratio of its shear moduli together, without a reference. A cause that the library
   // lacks bends soils to a name that is not its own; of 115 right answers 4 came to more.
   double max_soil_shift = 5.0;
   // The same of a closure, whatever the answer: of c1 0.3, so that loose sand's 0.18 may be compact sand's
@@ -186,6 +186,7 @@ struct VerdictOptions {
   int max_unexplained_shapes = 5;  // parts of what is unexplained that are described
   bool name_by_marginals = true;   // see naming.h; without it an unknown cause hides all names
   double min_closed_share = 0.05;  // of the held-out gap: an effect with less is not named
+  double min_named_share = 0.1;    // the same of all that is named: with less, something else is missing
   // Of what another law of ground or motors closes, the same of a second law: the square of
   // DiscrepancyOptions::form_imprecision, by which the first one's equation may be off.
   double min_share_of_law = 0.09;
@@ -294,9 +295,9 @@ struct ReferenceOptions {
   // Of the held-out gap: VerdictOptions::min_closed_share with a reference. What other physics leaves of a
   // difference beyond what the reference met has closed a tenth at most, what has changed a third and more.
   double min_closed_share = 0.15;
-  // VerdictOptions::max_left_of_nothing with a reference: drives elsewhere meet what it was not taught on,
-  // and healthy ones on hills left 1.5 times their floor.
-  double max_left_of_nothing = 2.0;
+  // At least this are VerdictOptions::max_left_of_nothing and max_left_beside_effects with a reference:
+  // drives elsewhere meet what it was not taught on, and healthy ones on hills left 1.5 times their floor.
+  double max_left = 2.0;
   // Of EvidenceOptions::shares, with a reference: what it taught on its own drives counts as evidence on
   // others, and is less to be believed there.
   double evidence_share = 0.4;
