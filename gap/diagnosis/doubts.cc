@@ -15,6 +15,7 @@
 #include "gap/diagnosis/model/nuisance_catalogue.h"
 #include "gap/diagnosis/naming.h"
 #include "gap/diagnosis/verdict.h"
+#include "sim/effects/effect_catalogue.h"
 
 namespace slipway::gap {
 namespace {
@@ -84,12 +85,21 @@ std::optional<std::string> scatter_beyond_belief(const std::optional<ScaleOffBel
   return fmt::format("{} would scatter by {:.0f} times what was believed", scatter->of, scatter->times);
 }
 
+// Whether an effect that acts at a place is named: a patch is told from other causes by its place, and its
+// rim bends the soil around it.
+bool names_a_place(const Diagnosis& d) {
+  return std::any_of(d.effects.begin(), d.effects.end(), [](const FoundEffect& effect) {
+    const sim::Effect* const of = sim::find_effect(effect.name);
+    return of != nullptr && of->variant_at != nullptr;
+  });
+}
+
 // The soil that lies furthest from what was believed of it, where that is too far to name effects beside it.
 // With a reference, which ties the parameters to each other, nothing.
 std::optional<std::string> soil_beyond_belief(const FittedExplanation& reported, const Diagnosis& d,
                                               const VerdictOptions& options) {
   const Hypothesis& hypothesis = reported.hypothesis;
-  if (d.effects.empty() || hypothesis.prior_precision().size() > 0) return std::nullopt;
+  if (d.effects.empty() || names_a_place(d) || hypothesis.prior_precision().size() > 0) return std::nullopt;
   struct Shift {
     double square = 0.0, most = 0.0;
     std::string of;  // the parameter that is furthest off
@@ -184,13 +194,6 @@ bool all_probable(const Diagnosis& d, const VerdictOptions& options) {
          });
 }
 
-bool one_is_certain_and_closes_most(const Diagnosis& d, const VerdictOptions& options) {
-  return std::any_of(d.effects.begin(), d.effects.end(), [&](const FoundEffect& effect) {
-    const EffectMarginal m = marginal_of(d.marginals, effect.name);
-    return as_good_as_certain(m, options) && m.closed_share >= options.min_partial_share;
-  });
-}
-
 // What is held against an answer, and whether its names stand all the same.
 struct Doubt {
   std::string why;
@@ -206,7 +209,7 @@ std::optional<Doubt> doubt_of(const ReportedAnswer& answer, const VerdictOptions
   const bool certain = all_certain(d, options), probable = all_probable(d, options);
   why = closure_beyond_belief(answer.fit, options);
   if (!why) why = soil_beyond_belief(answer.fit, d, options);
-  if (why) return Doubt{*why, false, certain || (probable && one_is_certain_and_closes_most(d, options))};
+  if (why) return Doubt{*why, false, certain};
   why = little_closed(answer, d, options);
   if (why) return Doubt{*why, false, false};
   why = scatter_beyond_belief(answer.scatter, options);

@@ -27,15 +27,14 @@ struct ReportedAnswer {
 // Takes an answer back to `unknown` where
 //   1. far more than the floor is left on drives held out of the fit,
 //   2. a parameter lies at the end of what it may be,
-//   3. a closure is beyond VerdictOptions::max_closure_shift, or a soil beside named effects beyond
-//      max_soil_shift,
+//   3. a closure is beyond VerdictOptions::max_closure_shift, or a soil beside named effects, none of which
+//      acts at a place, beyond max_soil_shift,
 //   4. what is named closes less than min_named_share of the gap, or
 //   5. a scale of the drives' scatter is beyond max_scatter.
 // Effects keep their names in a partial answer where they may stand beside something unknown (naming.h). In
 // cases 3 and 5 they do so if each is as good as certain (min_probability_beside_form and
-// min_share_beside_form). So do effects that no others were alike, in case 3 if one of them is as good as
-// certain and closes min_partial_share by itself, in case 5 if they close that together, the others being
-// more probable than not. d has its `gap`.
+// min_share_beside_form), in case 5 also if they close min_partial_share together, each is more probable than
+// not and no others were alike. d has its `gap`.
 void doubt_answer(const ReportedAnswer& answer, const VerdictOptions& options, Diagnosis& d);
 
 }  // namespace slipway::gap

@@ -247,17 +247,12 @@ TEST_F(SoilBeyondBelief, IsMeasuredInUsualDeviations) {
   EXPECT_EQ(doubted({0.0, 0.1, 0.0}).verdict, Verdict::kEffects) << "held, a hundred deviations of its own";
 }
 
-TEST_F(SoilBeyondBelief, LeavesACertainCauseThatClosesMostAndWhatIsProbableBesideIt) {
-  for (const bool alike : {false, true})
-    for (const double foremost : {0.4, 0.8}) {
-      Diagnosis pair = answer_with(alike ? Verdict::kEffectSet : Verdict::kEffects, 1.0);
-      pair.effects = {{"hardpan", "", 0.95, {}}, {"motor_temperature", "", 1.0, {}}};
-      pair.marginals = {{.name = "motor_temperature", .probability = 1.0, .closed_share = foremost},
-                        {.name = "hardpan", .probability = 0.95, .closed_share = 0.15}};
-      doubt_answer({fit_with({0.0, 5.5, 0.0}), foremost + 0.15, {}}, VerdictOptions{}, pair);
-      EXPECT_EQ(pair.partial, foremost > 0.5 && !alike) << foremost << " " << alike;
-      EXPECT_EQ(pair.effects.size(), pair.partial ? 2U : 0U);
-    }
+TEST_F(SoilBeyondBelief, LeavesWhatIsToldByItsPlace) {
+  Diagnosis patch = answer_with(Verdict::kEffects, 1.0);
+  patch.effects.front().name = "soft_patch";
+  doubt_answer({fit_with({0.0, 5.5, 0.0}), 0.4, {}}, VerdictOptions{}, patch);
+  EXPECT_EQ(patch.verdict, Verdict::kEffects);
+  EXPECT_FALSE(patch.partial);
 }
 
 // With slip_sinkage withheld, the answer was that nothing is missing, with c1 7.7 deviations off.
